@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <variant>
+
+#include "obvid/geom/vec2.h"
+
+namespace obvid {
+
+/// Straight piece.
+struct LinePiece {
+  Vec2 start;
+  Vec2 end;
+};
+
+/// Circle arc: from `start` with heading `theta0` along `length` at constant `kappa` (not 0).
+/// `end` is kept beside it so that neighbouring pieces share their joint exactly.
+struct ArcPiece {
+  Vec2 start;
+  Vec2 end;
+  double theta0 = 0.0;
+  double kappa = 0.0;
+  double length = 0.0;
+};
+
+/// Largest degree of a Bezier piece.
+inline constexpr int kMaxBezierDegree = 7;
+
+/// Rational Bezier piece, t in [0, 1]. Control point j is exactly `origin + offset[j]`.
+///
+/// With `origin` = (0, 0) the offsets are the coordinates themselves. A piece that is small
+/// against its coordinates keeps its start as origin, because coordinates rounded to doubles
+/// would lose its curvature (docs/methods/curve.md).
+struct RationalBezier {
+  Vec2 origin;
+  int degree = 0;
+  std::array<Vec2, kMaxBezierDegree + 1> offset{};
+  std::array<double, kMaxBezierDegree + 1> weight{};
+};
+
+using Piece = std::variant<LinePiece, ArcPiece, RationalBezier>;
+
+/// Point, first three derivatives by the native parameter t in [0, 1].
+struct Jet {
+  Vec2 point;
+  Vec2 d1;
+  Vec2 d2;
+  Vec2 d3;
+};
+
+[[nodiscard]] Jet evaluate(const LinePiece& piece, double t);
+[[nodiscard]] Jet evaluate(const ArcPiece& piece, double t);
+[[nodiscard]] Jet evaluate(const RationalBezier& piece, double t);
+[[nodiscard]] Jet evaluate(const Piece& piece, double t);
+
+/// Signed curvature of a jet, 1/unit.
+[[nodiscard]] double curvature(const Jet& jet);
+/// Derivative of the curvature by arc length, 1/unit^2.
+[[nodiscard]] double curvature_rate(const Jet& jet);
+
+[[nodiscard]] Vec2 start_point(const Piece& piece);
+[[nodiscard]] Vec2 end_point(const Piece& piece);
+
+/// Arc length of t in [0, 1] by Gauss-Legendre quadrature refined until `tolerance` (model units).
+[[nodiscard]] double arc_length(const Piece& piece, double tolerance);
+
+/// The two halves [0, t] and [t, 1] of a rational Bezier (de Casteljau), 0 < t < 1.
+[[nodiscard]] std::array<RationalBezier, 2> split(const RationalBezier& piece, double t);
+
+}  // namespace obvid
