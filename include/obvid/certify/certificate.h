@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <vector>
+
+namespace obvid {
+
+/// What is proved about the curvature of one piece.
+enum class Verdict { kIncreasing, kDecreasing, kConstant, kHasVertex, kUndecided };
+
+[[nodiscard]] const char* to_string(Verdict verdict);
+
+/// Verdict with its evidence.
+struct PieceProof {
+  Verdict verdict = Verdict::kUndecided;
+  bool exact_arithmetic = false;  ///< the fast floating-point bound could not decide
+  double t0 = 0.0;  ///< has-vertex, undecided: parameter interval in question
+  double t1 = 1.0;
+};
+
+/// Largest gaps at the joints. Position relative to the contour's size, heading in radians,
+/// curvature relative to the larger of the two.
+struct JointGaps {
+  double position = 0.0;
+  double heading = 0.0;
+  double curvature = 0.0;
+};
+
+/// Everything that was proved about a contour (docs/methods/certify.md).
+struct Certificate {
+  std::vector<PieceProof> pieces;
+  JointGaps gaps;
+  bool gaps_within_bounds = false;  ///< each gap is below what its coordinates' rounding explains
+  bool inside_region = false;
+  bool through_points = false;      ///< every input point is met within rounding
+  int vertices = 0;
+  int inflections = 0;
+  int self_intersections = 0;
+  bool proved = false;
+  std::string reason;               ///< empty when proved, else the first claim that failed
+};
+
+}  // namespace obvid

@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <vector>
+
+#include "obvid/certify/certificate.h"
+#include "obvid/curve/contour.h"
+
+namespace obvid {
+
+/// One row of the report: the chord from point i to i + 1.
+struct SegmentReport {
+  double chord = 0.0;
+  double points_only_error = 0.0;  ///< NaN on the first and last chord
+  double width = 0.0;              ///< largest width of the region after refinement
+  double width_unrefined = 0.0;    ///< width between the two elements alone
+  double deviation = 0.0;          ///< contour to the farther boundary of the refined region
+  std::size_t inserted = 0;        ///< elements that the bound needed inside this segment
+};
+
+/// How the headings and curvatures were found.
+struct ChainReport {
+  int newton_steps = 0;
+  double smallest_margin = 0.0;     ///< smallest relative distance of a segment from its cone, > 0
+  std::size_t free_elements = 0;    ///< joints inserted between points where one piece cannot do
+};
+
+/// Figures about the whole contour, as they stand in the contour file.
+struct FitReport {
+  std::vector<SegmentReport> segments;
+  double tolerance = 0.0;
+  double largest_width = 0.0;
+  double largest_move = 0.0;   ///< how far a point was moved; 0 when interpolated exactly
+  int vertices = 0;
+  int vertices_lower_bound = 0;
+  int inflections = 0;
+  std::size_t inserted_points = 0;
+  double seconds = 0.0;
+  ChainReport chain;
+};
+
+/// A stored contour with the claims that stand beside it in the file.
+struct StoredContour {
+  Contour contour;
+  std::optional<FitReport> report;
+  std::optional<Certificate> certificate;
+};
+
+}  // namespace obvid

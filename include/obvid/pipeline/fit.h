@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "obvid/certify/certificate.h"
+#include "obvid/core/progress.h"
+#include "obvid/core/result.h"
+#include "obvid/curve/contour.h"
+#include "obvid/io/stored_contour.h"
+#include "obvid/series/point_series.h"
+
+namespace obvid {
+
+/// What to form. Unset values take the defaults named here.
+struct FitJob {
+  Carrier carrier = Carrier::kSpiral;
+  std::optional<double> tolerance;      ///< largest region width, units; default 3e-6 of the size
+  bool convex = false;                  ///< refuse inflections
+  std::optional<double> start_heading;  ///< rad
+  std::optional<double> end_heading;    ///< rad
+  std::optional<double> start_kappa;    ///< 1/unit
+  std::optional<double> end_kappa;      ///< 1/unit
+};
+
+/// A contour with its report and its proof.
+struct Fit {
+  Contour contour;
+  FitReport report;
+  Certificate certificate;
+  std::vector<std::string> warnings;
+};
+
+/// Forms and proves a contour through the points: analyse, choose headings and curvatures, bound
+/// the region, form the pieces, prove them. Same input, same result, bit for bit (apart from
+/// `seconds`). Cost O(n).
+/// Errors: E304, E309, E402 for the data; E401, E403, E404, E405 when no such contour exists;
+/// E504 when the solver stopped early. A contour that was formed but not proved is returned with
+/// `certificate.proved == false` and its reason: never hidden.
+[[nodiscard]] Result<Fit> fit(const PointSeries& series, const FitJob& job,
+                              const Progress& progress = {});
+
+/// What `verify` found: the new proof, and the first claim of the file that is false (if any).
+struct Verification {
+  Certificate certificate;
+  std::optional<Error> false_claim;
+};
+
+/// Proves a stored contour again from its own numbers and compares every claim of its report.
+[[nodiscard]] Verification verify(const StoredContour& stored);
+
+}  // namespace obvid

@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <limits>
+#include <vector>
+
+#include "obvid/core/result.h"
+#include "obvid/series/point_series.h"
+
+namespace obvid {
+
+/// A chord of the series, from point i to point i + 1.
+struct Chord {
+  double length = 0.0;
+  double omega = 0.0;  ///< heading, rad, unwrapped along the series
+};
+
+/// Circle through point i and both neighbours (000_...: adjacent circle). At the two ends the
+/// circle of the inner neighbour is taken over.
+struct AdjacentCircle {
+  double kappa = 0.0;     ///< signed curvature, 1/unit; 0 for three points in line
+  double eta_in = 0.0;    ///< angle from the chord before to the circle's tangent at the point, rad
+  double eta_out = 0.0;   ///< angle from the circle's tangent at the point to the chord after, rad
+  double rounding = 0.0;  ///< how far half an ulp in each coordinate can move `kappa`
+};
+
+/// Points first..last (both included, at least 4, or the whole series of 3 or 2) that lie on one
+/// circle or line within the rounding of their coordinates.
+struct CircularStretch {
+  std::size_t first = 0;
+  std::size_t last = 0;
+  double kappa = 0.0;  ///< 0 for a line
+};
+
+/// Maximal part of the series whose adjacent circles change one way.
+struct SeriesRun {
+  std::size_t first_chord = 0;
+  std::size_t last_chord = 0;
+  int direction = 0;  ///< +1 curvature increases, -1 decreases, 0 constant (one circle or line)
+};
+
+/// What the points alone say about any fair curve through them (docs/methods/series.md).
+struct Analysis {
+  std::vector<Chord> chords;             ///< n - 1
+  std::vector<AdjacentCircle> circles;   ///< n
+  std::vector<std::int8_t> direction;    ///< n - 1: +1, -1, or 0 inside a circular stretch
+  std::vector<double> points_only_error; ///< n - 1; NaN where it is not defined (first, last chord)
+  std::vector<SeriesRun> runs;
+  std::vector<CircularStretch> stretches;
+  int vertices = 0;                ///< changes of direction: what the contour will have
+  int vertices_lower_bound = 0;    ///< what any smooth curve through the points must have
+  int inflections = 0;             ///< sign changes of the adjacent curvatures
+  int inflections_lower_bound = 0;
+  std::size_t rounding_decided = 0;  ///< chords whose direction lies within coordinate rounding
+  std::size_t first_rounding_decided = 0;
+  double size = 0.0;               ///< diagonal of the bounding box
+  double largest_turning = 0.0;    ///< between neighbouring chords, rad
+};
+
+/// Analyses distinct points (no two neighbours equal, at least 2).
+/// Errors: E309 when the size leaves [1e-100, 1e100]; E402 where the series turns back by 170
+/// degrees or more, naming the point. Cost O(n).
+[[nodiscard]] Result<Analysis> analyse(const std::vector<Vec2>& points);
+
+/// Height of a circle of curvature `kappa` above its chord of length `h` (theory: sag).
+[[nodiscard]] double sagitta(double kappa, double h);
+
+}  // namespace obvid
