@@ -1,0 +1,21 @@
+# SPDX-License-Identifier: Apache-2.0
+# What `find_package(obvid)` finds: obvid::<module> for each module, obvid::obvid for all.
+include(CMakePackageConfigHelpers)
+
+get_property(obvid_modules GLOBAL PROPERTY OBVID_MODULES)
+list(TRANSFORM obvid_modules PREPEND obvid_ OUTPUT_VARIABLE obvid_targets)
+install(TARGETS ${obvid_targets} obvid_all EXPORT obvidTargets
+        ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR})
+
+set(obvid_config_dir "${CMAKE_INSTALL_LIBDIR}/cmake/obvid")
+install(EXPORT obvidTargets NAMESPACE obvid:: DESTINATION ${obvid_config_dir})
+install(DIRECTORY include/obvid DESTINATION ${CMAKE_INSTALL_INCLUDEDIR} FILES_MATCHING PATTERN "*.h")
+install(DIRECTORY "${PROJECT_BINARY_DIR}/generated/obvid" DESTINATION ${CMAKE_INSTALL_INCLUDEDIR})
+
+configure_package_config_file(cmake/obvidConfig.cmake.in "${PROJECT_BINARY_DIR}/obvidConfig.cmake"
+                              INSTALL_DESTINATION ${obvid_config_dir})
+write_basic_package_version_file("${PROJECT_BINARY_DIR}/obvidConfigVersion.cmake"
+                                 COMPATIBILITY SameMinorVersion)
+install(FILES "${PROJECT_BINARY_DIR}/obvidConfig.cmake"
+              "${PROJECT_BINARY_DIR}/obvidConfigVersion.cmake"
+        DESTINATION ${obvid_config_dir})

@@ -1,0 +1,73 @@
+# SPDX-License-Identifier: Apache-2.0
+# obvid_module, obvid_umbrella, obvid_program: targets made from what lies in the folders.
+
+configure_file("${PROJECT_SOURCE_DIR}/cmake/version.h.in"
+               "${PROJECT_BINARY_DIR}/generated/obvid/core/version.h" @ONLY)
+
+# obvid_module(NAME x [FOLDER src-folder] [DEPENDS module...] [LIBRARIES target...]
+#              [PRIVATE_HEADERS_OF target...])
+# Target obvid_x with alias obvid::x from all src/<folder>/**.cpp. A module without sources is a
+# header-only one. LIBRARIES appear in its public headers, PRIVATE_HEADERS_OF only in its sources.
+function(obvid_module)
+  cmake_parse_arguments(M "" "NAME;FOLDER" "DEPENDS;LIBRARIES;PRIVATE_HEADERS_OF" ${ARGN})
+  if(NOT M_FOLDER)
+    set(M_FOLDER ${M_NAME})
+  endif()
+  file(GLOB_RECURSE sources CONFIGURE_DEPENDS "${PROJECT_SOURCE_DIR}/src/${M_FOLDER}/*.cpp")
+  set(target obvid_${M_NAME})
+  if(sources)
+    add_library(${target} STATIC ${sources})
+    set(scope PUBLIC)
+    target_link_libraries(${target} PRIVATE fmt::fmt $<BUILD_INTERFACE:obvid_flags>)
+    target_include_directories(${target} PRIVATE "${PROJECT_SOURCE_DIR}/src/${M_FOLDER}")
+    foreach(library IN LISTS M_PRIVATE_HEADERS_OF)
+      target_link_libraries(${target} PRIVATE $<BUILD_INTERFACE:${library}>)
+    endforeach()
+    set_target_properties(${target} PROPERTIES POSITION_INDEPENDENT_CODE ON)
+  else()
+    add_library(${target} INTERFACE)
+    set(scope INTERFACE)
+  endif()
+  target_include_directories(${target} ${scope}
+    $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}/include>
+    $<BUILD_INTERFACE:${PROJECT_BINARY_DIR}/generated>
+    $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}>)
+  target_compile_features(${target} ${scope} cxx_std_20)
+  target_link_libraries(${target} ${scope} tl::expected ${M_LIBRARIES})
+  foreach(dependency IN LISTS M_DEPENDS)
+    target_link_libraries(${target} ${scope} obvid::${dependency})
+  endforeach()
+  add_library(obvid::${M_NAME} ALIAS ${target})
+  set_target_properties(${target} PROPERTIES EXPORT_NAME ${M_NAME})
+  set_property(GLOBAL APPEND PROPERTY OBVID_MODULES ${M_NAME})
+endfunction()
+
+# obvid::obvid is every module at once.
+function(obvid_umbrella)
+  get_property(modules GLOBAL PROPERTY OBVID_MODULES)
+  add_library(obvid_all INTERFACE)
+  list(TRANSFORM modules PREPEND obvid:: OUTPUT_VARIABLE targets)
+  target_link_libraries(obvid_all INTERFACE ${targets})
+  add_library(obvid::obvid ALIAS obvid_all)
+  set_target_properties(obvid_all PROPERTIES EXPORT_NAME obvid)
+endfunction()
+
+# obvid_program(NAME x FOLDER dir DEPENDS module...): the program x in the build folder itself.
+function(obvid_program)
+  cmake_parse_arguments(P "" "NAME;FOLDER" "DEPENDS" ${ARGN})
+  file(GLOB_RECURSE sources CONFIGURE_DEPENDS "${PROJECT_SOURCE_DIR}/${P_FOLDER}/*.cpp")
+  if(NOT sources)
+    message(STATUS "no sources in ${P_FOLDER}: program ${P_NAME} left out")
+    return()
+  endif()
+  add_executable(${P_NAME}_cli ${sources})
+  set_target_properties(${P_NAME}_cli PROPERTIES
+    OUTPUT_NAME ${P_NAME} RUNTIME_OUTPUT_DIRECTORY "${PROJECT_BINARY_DIR}")
+  target_include_directories(${P_NAME}_cli PRIVATE "${PROJECT_SOURCE_DIR}/${P_FOLDER}")
+  target_link_libraries(${P_NAME}_cli PRIVATE obvid_flags fmt::fmt CLI11::CLI11
+                        nlohmann_json::nlohmann_json)
+  foreach(dependency IN LISTS P_DEPENDS)
+    target_link_libraries(${P_NAME}_cli PRIVATE obvid::${dependency})
+  endforeach()
+  install(TARGETS ${P_NAME}_cli RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
+endfunction()

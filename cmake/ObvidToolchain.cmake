@@ -1,0 +1,39 @@
+# SPDX-License-Identifier: Apache-2.0
+# Language, warnings, sanitizers and build helpers for every target of the project.
+set(CMAKE_CXX_STANDARD 20)
+set(CMAKE_CXX_STANDARD_REQUIRED ON)
+set(CMAKE_CXX_EXTENSIONS OFF)
+set(CMAKE_EXPORT_COMPILE_COMMANDS ON)
+if(NOT CMAKE_BUILD_TYPE AND NOT CMAKE_CONFIGURATION_TYPES)
+  set(CMAKE_BUILD_TYPE Release CACHE STRING "" FORCE)
+endif()
+set(CMAKE_CXX_FLAGS_RELEASE "-O3 -DNDEBUG")
+set(CMAKE_CXX_FLAGS_DEBUG "-O1 -g")
+
+find_program(OBVID_CCACHE ccache)
+if(OBVID_CCACHE AND NOT CMAKE_CXX_COMPILER_LAUNCHER)
+  set(CMAKE_CXX_COMPILER_LAUNCHER "${OBVID_CCACHE}")
+endif()
+
+find_program(OBVID_MOLD mold)
+if(OBVID_MOLD)
+  add_link_options(-fuse-ld=mold)
+endif()
+
+add_library(obvid_flags INTERFACE)
+target_compile_options(obvid_flags INTERFACE
+  -Wall -Wextra -Wpedantic -Wconversion -Wshadow
+  # The same input must give the same bytes in every build: no fused multiply-add.
+  -ffp-contract=off)
+if(OBVID_WERROR)
+  target_compile_options(obvid_flags INTERFACE -Werror)
+endif()
+if(OBVID_SANITIZE)
+  set(obvid_sanitize -fsanitize=${OBVID_SANITIZE} -fno-sanitize-recover=all -fno-omit-frame-pointer)
+  target_compile_options(obvid_flags INTERFACE ${obvid_sanitize})
+  target_link_options(obvid_flags INTERFACE ${obvid_sanitize})
+endif()
+if(OBVID_COVERAGE)
+  target_compile_options(obvid_flags INTERFACE --coverage -O0)
+  target_link_options(obvid_flags INTERFACE --coverage)
+endif()

@@ -1,0 +1,128 @@
+// SPDX-License-Identifier: Apache-2.0
+// The long texts of `obvid explain`. They speak to the user who met the error, not to programmers.
+#include <array>
+
+#include "obvid/core/error.h"
+
+namespace obvid {
+namespace {
+
+constexpr std::array kTexts{
+    ErrorText{ErrorCode::kInternal, "Internal error",
+              "The program met a state that its authors held to be impossible. Your data are not "
+              "to blame.",
+              "Report it together with the input file and the command, so that it can be repeated "
+              "and mended."},
+    ErrorText{ErrorCode::kWriteFailed, "Output could not be written",
+              "A file could not be created or written whole. Files are written beside their place "
+              "and then renamed, so what stood there before is untouched.",
+              "Check that the folder exists, that you may write to it and that the disk has room."},
+    ErrorText{ErrorCode::kUsage, "Wrong use of the command line",
+              "The command, an option or the number of arguments is not one that this program "
+              "knows.",
+              "See `obvid --help` or `obvid COMMAND --help` for what is possible."},
+    ErrorText{ErrorCode::kUnknownFormat, "Unknown output format",
+              "The format of an output file is told by the ending of its name, and this ending "
+              "stands for no format that the program writes.",
+              "Use one of the endings that the error lists, for example .json or .svg."},
+    ErrorText{ErrorCode::kBadOption, "Option not possible",
+              "An option has a value outside its range, contradicts another one, or asks for "
+              "something that this version cannot do. It is refused instead of ignored, because a "
+              "contour formed without it would be a wrong answer.",
+              "Correct or leave out the option; `obvid COMMAND --help` shows units and ranges."},
+    ErrorText{ErrorCode::kCannotOpen, "Input could not be opened",
+              "The input file does not exist or may not be read.",
+              "Check the path and the permissions. A single - reads standard input."},
+    ErrorText{ErrorCode::kBadNumber, "Not a number",
+              "A place where a coordinate was expected holds something else. The error names file, "
+              "line and column.",
+              "Correct that line. Comments start with #, !, // or ; and one header line is allowed "
+              "before the numbers; a decimal comma needs a separator other than the comma."},
+    ErrorText{ErrorCode::kNotFinite, "NaN or infinity in the input",
+              "A coordinate is not a finite number, so the point lies nowhere. Such values usually "
+              "come from a failed measurement or a division by zero in the program that wrote the "
+              "file.",
+              "Remove the point or repair its coordinates."},
+    ErrorText{ErrorCode::kTooFewPoints, "Too few points",
+              "A contour needs at least three distinct points; consecutive points with equal "
+              "coordinates count once.",
+              "Give more points, and check that the right columns and the right file were read."},
+    ErrorText{ErrorCode::kTooFewColumns, "Too few columns",
+              "A line holds a single number, but a point needs at least x and y.",
+              "Put both coordinates on one line, separated by blanks, tabs, commas or semicolons."},
+    ErrorText{ErrorCode::kNotText, "Not a text file",
+              "The input holds bytes that do not occur in text. It is probably a binary drawing, a "
+              "spreadsheet or an archive.",
+              "Export the points as text (x and y per line) and read that file."},
+    ErrorText{ErrorCode::kBadCount, "A stated count does not match",
+              "The file says how many points it holds, and it holds a different number. It may be "
+              "cut off, or two files may have been joined.",
+              "Get the file again, or correct the count if you know the points to be complete."},
+    ErrorText{ErrorCode::kBadJson, "Contour file malformed",
+              "The file is not valid JSON, or a field is missing, has the wrong type or contradicts "
+              "another field. The error names line and column, or the path of the field.",
+              "Form the contour again with `obvid fit`, or correct the named field."},
+    ErrorText{ErrorCode::kSizeOutOfRange, "Size out of range",
+              "The coordinates are so large or so small that their squares and ratios leave the "
+              "range of double precision numbers.",
+              "Change the unit, for example to millimetres, so that the drawing's size is a usual "
+              "number."},
+    ErrorText{ErrorCode::kUnsupported, "Kind of file or content not supported",
+              "The file was recognised, but its kind, its version or one of its parts cannot be "
+              "read by this version of the program.",
+              "Export the points as text, or update the program if a newer one wrote the file."},
+    ErrorText{ErrorCode::kNoSpiral, "No contour with monotone curvature exists here",
+              "The named points cannot be joined by a curve whose curvature changes in the "
+              "direction that the data ask for: every smooth curve through them has a further "
+              "vertex. This is a property of the points, proved for them, not a failure of the "
+              "search.",
+              "Check the named points for a typing or measuring error; the error says how far they "
+              "would have to move. Otherwise add points where the shape turns quickly, or allow "
+              "one more vertex."},
+    ErrorText{ErrorCode::kChordReversal, "The series turns back on itself",
+              "Two neighbouring chords point in nearly opposite directions. The points are too few "
+              "there to say which way the contour turns.",
+              "Put more points around the named one, or split the series at a corner. Neighbouring "
+              "chords should turn by less than 90 degrees."},
+    ErrorText{ErrorCode::kFixedDataContradict, "Fixed headings or curvatures contradict the points",
+              "A contour exists through the points, but none that also has the headings, radii or "
+              "curvatures that were fixed.",
+              "Free the named values one after another, or compare them with the ranges that "
+              "`obvid region` prints."},
+    ErrorText{ErrorCode::kNoRoomForTransition, "No room for a curvature-continuous transition",
+              "A contour with monotone curvature passes through the points, but only with jumps of "
+              "curvature: the data leave it a single way, which is a chain of arcs.",
+              "Use `--carrier arcs`, which needs no continuous curvature, or move or leave out the "
+              "named points."},
+    ErrorText{ErrorCode::kRoundingDecides, "Rounding of the coordinates decides",
+              "The points are so close together, compared with the size of their coordinates, that "
+              "the last digit of the numbers determines the curvature. Another rounding of the "
+              "same shape would give another answer.",
+              "Move the origin to the part, give more digits, or leave out points that are too "
+              "close to each other."},
+    ErrorText{ErrorCode::kNotProved, "Formed, but not proved",
+              "A contour was formed, but the proof of one of its properties did not succeed. It may "
+              "still be good; the program does not claim it.",
+              "See the reason in the report. Report the data if you believe the contour to be "
+              "right."},
+    ErrorText{ErrorCode::kToleranceNotReached, "Tolerance not reached",
+              "The region in which the contour is known to lie could not be made as narrow as the "
+              "tolerance asks for, usually because the tolerance is near the rounding of the "
+              "coordinates.",
+              "Use a larger `--tolerance`."},
+    ErrorText{ErrorCode::kFalseClaim, "The contour file claims something false",
+              "A figure or a verdict in the file does not agree with what its curve really is. The "
+              "file was changed after it was written, or written by a faulty program.",
+              "Do not use the file. Form the contour again from its points with `obvid fit`."},
+    ErrorText{ErrorCode::kNotConverged, "The solver stopped early",
+              "Choosing headings and curvatures took more steps than are ever needed for sound "
+              "data, so the outcome is unknown: neither a contour nor the proof that none exists.",
+              "Check the data for nearly coincident points or extreme ratios of distances, and "
+              "report the series."},
+};
+
+}  // namespace
+
+std::span<const ErrorText> error_texts() { return kTexts; }
+
+}  // namespace obvid
