@@ -1,0 +1,107 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "obvid/io/picture_svg.h"
+
+#include <algorithm>
+
+#include "picture_axis.h"
+#include "picture_panels.h"
+
+namespace obvid {
+namespace {
+
+/// Colours told apart by colour-blind eyes too, one set for light and one for dark viewers.
+/// Each colour stands in the light set first, so that viewers without CSS queries show that.
+constexpr const char* kStyle = R"(<style>
+text{font-family:"Helvetica Neue",Arial,"Liberation Sans","DejaVu Sans",sans-serif;fill:#1c2733}
+.title{font-size:20px;font-weight:600}.verdict{font-size:14px;font-weight:600}
+.small,.note{font-size:12px}.note,.fact{fill:#5b6773}.fact{font-size:13px}.axis-title{font-size:13px;font-weight:600}
+.paper{fill:#fff}path{fill:none}
+.good{fill:#1a7f37}.bad{fill:#c62828}.open{fill:#5b6773}
+.curve{stroke-width:2.6;stroke-linejoin:round;stroke-linecap:round}.graph{stroke-width:1.9;stroke-linejoin:round}
+.envelope{stroke-width:1;stroke-opacity:.75;stroke-linejoin:round}.teeth{stroke:#8a96a3;stroke-width:.7}
+.up{stroke:#1b6ec2}.down{stroke:#cf5a12}.even{stroke:#3f8a3a}.plain{stroke:#1c2733}
+.dot{stroke:#1c2733;stroke-linecap:round}.hole{stroke:#fff;stroke-linecap:round}
+.vertex{fill:#a3209b;stroke:#fff;stroke-width:1}.inflection{fill:#e0b400;stroke:#1c2733;stroke-width:1}
+.arrow{fill:#5b6773}.bar{stroke:#1c2733;stroke-width:1.4}
+.grid{stroke:#e1e6eb;stroke-width:1}.faint{stroke:#eff2f5;stroke-width:1}.axis{stroke:#7b8794;stroke-width:1}
+.joint{stroke:#1c2733;stroke-width:1}
+@media (prefers-color-scheme:dark){
+text{fill:#e6eaee}.note,.fact,.open{fill:#9aa6b2}.paper{fill:#14191f}
+.good{fill:#57d27a}.bad{fill:#ff7b72}.teeth{stroke:#5d6874}
+.up{stroke:#6cb2ff}.down{stroke:#ff9d57}.even{stroke:#8fd07a}.plain{stroke:#e6eaee}
+.dot{stroke:#e6eaee}.hole{stroke:#14191f}.vertex{fill:#f08be8;stroke:#14191f}
+.inflection{fill:#ffd84a;stroke:#14191f}.arrow{fill:#9aa6b2}.bar{stroke:#e6eaee}
+.grid{stroke:#29323b}.faint{stroke:#1e252c}.axis{stroke:#6b7783}.joint{stroke:#e6eaee}}
+</style>
+)";
+
+/// Verdicts longer than this are cut: the file tells the whole reason.
+constexpr std::size_t kLongestReason = 105;
+
+std::string counted(std::size_t count, const char* one, const char* many) {
+  return std::to_string(count) + " " + (count == 1 ? one : many);
+}
+
+std::string title_of(const Contour& contour) {
+  const bool arcs = contour.carrier == Carrier::kArcs;
+  return std::string(arcs ? "Arc contour" : "Spiral contour") + " · " +
+         counted(contour.points.size(), "point", "points") + " · " +
+         counted(contour.pieces.size(), "piece", "pieces");
+}
+
+struct VerdictLine {
+  const char* css = "open";
+  std::string text;
+};
+
+VerdictLine verdict_of(const StoredContour& stored) {
+  if (!stored.certificate) return {"open", "no certificate: nothing is claimed about this contour"};
+  if (stored.certificate->proved) {
+    return {"good", stored.contour.carrier == Carrier::kArcs
+                        ? "✓ monotone radii and G1 joints proved"
+                        : "✓ monotone curvature and G2 joints proved"};
+  }
+  std::string reason = stored.certificate->reason;
+  if (reason.size() > kLongestReason) {
+    std::size_t cut = kLongestReason;
+    while (cut > 0 && (static_cast<unsigned char>(reason[cut]) & 0xC0U) == 0x80U) --cut;
+    reason = reason.substr(0, cut) + " …";
+  }
+  return {"bad", "✗ NOT proved" + (reason.empty() ? std::string{} : ": " + reason)};
+}
+
+std::string facts_of(const StoredContour& stored) {
+  if (!stored.report) return {};
+  const FitReport& report = *stored.report;
+  std::string text = counted(static_cast<std::size_t>(std::max(report.vertices, 0)), "vertex", "vertices");
+  text += " (at least " + std::to_string(report.vertices_lower_bound) + ")";
+  text += " · " + counted(static_cast<std::size_t>(std::max(report.inflections, 0)), "inflection",
+                          "inflections");
+  text += " · error bound " + readable_number(report.largest_width, 2) + " " + stored.contour.units;
+  return text;
+}
+
+}  // namespace
+
+std::string picture_svg(const StoredContour& stored) {
+  const Contour& contour = stored.contour;
+  const PictureTrack track = make_track(contour);
+  const bool coloured = contour.runs.size() <= kMostColouredRuns;
+  const VerdictLine verdict = verdict_of(stored);
+  PictureCanvas body;
+  body.label({kPictureMargin, 40.0}, "start", "title", title_of(contour));
+  body.label({kPictureWidth - kPictureMargin, 40.0}, "end", "fact", facts_of(stored));
+  body.label({kPictureMargin, 64.0}, "start", std::string("verdict ") + verdict.css, verdict.text);
+  const double below = shape_panel(body, track, contour, coloured, 78.0);
+  const double height = plot_panels(body, track, contour.units, coloured, below);
+
+  PictureCanvas picture;
+  picture.add("<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 {0} {1}\" width=\"{0}\" "
+              "height=\"{1}\" role=\"img\">\n<title>{2}</title>\n<desc>{3}</desc>\n{4}"
+              "<rect class=\"paper\" width=\"{0}\" height=\"{1}\"/>\n{5}</svg>\n",
+              px(kPictureWidth), px(height), xml_text(title_of(contour)), xml_text(verdict.text),
+              kStyle, body.take());
+  return picture.take();
+}
+
+}  // namespace obvid

@@ -1,0 +1,210 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "picture_track.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace obvid {
+namespace {
+
+/// Samples aimed at over the whole contour when it has few pieces.
+constexpr std::size_t kSampleBudget = 20000;
+constexpr std::size_t kFewestSteps = 2;
+constexpr std::size_t kUsualSteps = 64;
+constexpr std::size_t kMostSteps = 400;
+/// Steps per box diagonal of chord: a step is then about 2 px wide.
+constexpr double kStepsPerDiagonal = 400.0;
+/// Curvatures below this part of the largest are straight to the eye and to the sign test.
+constexpr double kStraightPart = 1e-9;
+/// Curvatures below this, times the size, bend a line by less than coordinates can say.
+constexpr double kStraightAngle = 1e-12;
+constexpr int kBisections = 48;
+
+struct Mover {
+  Vec2 reference;
+
+  Piece operator()(LinePiece p) const {
+    p.start = p.start - reference;
+    p.end = p.end - reference;
+    return p;
+  }
+  Piece operator()(ArcPiece p) const {
+    p.start = p.start - reference;
+    p.end = p.end - reference;
+    return p;
+  }
+  /// Moves the origin where the piece has one, so that small offsets keep their digits.
+  Piece operator()(RationalBezier p) const {
+    if (p.origin == Vec2{}) {
+      for (int j = 0; j <= p.degree; ++j) {
+        auto& offset = p.offset[static_cast<std::size_t>(j)];
+        offset = offset - reference;
+      }
+    } else {
+      p.origin = p.origin - reference;
+    }
+    return p;
+  }
+};
+
+PictureSample sample_at(const Piece& piece, double t) {
+  const Jet jet = evaluate(piece, t);
+  const double speed = norm(jet.d1);
+  const Vec2 tangent = speed > 0.0 ? jet.d1 / speed : Vec2{1.0, 0.0};
+  const bool straight = std::holds_alternative<LinePiece>(piece);
+  const double kappa = straight ? 0.0 : curvature(jet);
+  return {jet.point, tangent, 0.0, std::isfinite(kappa) ? kappa : 0.0, t};
+}
+
+/// Arc length between two samples from their chord and mean curvature; the error is of fourth
+/// order in the turning between them, far below a pixel.
+double step_length(const PictureSample& a, const PictureSample& b) {
+  const double chord = norm(b.point - a.point);
+  const double half_turn = 0.5 * (a.kappa + b.kappa) * chord;
+  return chord * (1.0 + std::min(half_turn * half_turn, 1.0) / 24.0);
+}
+
+std::size_t steps_for(const Piece& piece, std::size_t pieces, double diagonal) {
+  const std::size_t usual = std::clamp(kSampleBudget / pieces, kFewestSteps, kUsualSteps);
+  const double chord = norm(end_point(piece) - start_point(piece));
+  const double wanted = diagonal > 0.0 ? kStepsPerDiagonal * chord / diagonal : 0.0;
+  const auto long_piece = static_cast<std::size_t>(std::min(wanted, double(kMostSteps)));
+  return std::max(usual, long_piece);
+}
+
+void sample_pieces(PictureTrack& track) {
+  const double diagonal = track.box.diagonal();
+  for (const Piece& piece : track.pieces) {
+    track.first.push_back(track.samples.size());
+    const std::size_t steps = steps_for(piece, track.pieces.size(), diagonal);
+    for (std::size_t j = 0; j <= steps; ++j) {
+      PictureSample next = sample_at(piece, static_cast<double>(j) / static_cast<double>(steps));
+      if (j > 0) track.length += step_length(track.samples.back(), next);
+      next.s = track.length;
+      track.samples.push_back(next);
+      track.box.add(next.point);
+      track.largest_kappa = std::max(track.largest_kappa, std::fabs(next.kappa));
+    }
+  }
+  track.first.push_back(track.samples.size());
+}
+
+void set_directions(PictureTrack& track, const std::vector<Run>& runs) {
+  track.direction.assign(track.pieces.size(), kNoRun);
+  for (const Run& run : runs) {
+    const std::size_t last = std::min(run.last_piece + 1, track.pieces.size());
+    for (std::size_t i = run.first_piece; i < last; ++i) track.direction[i] = run.direction;
+  }
+}
+
+/// Vertices stand where the direction of change turns round; a circle between two opposite runs
+/// is one vertex, marked in its middle.
+void find_vertices(PictureTrack& track) {
+  int before = 0;
+  std::size_t turn = 0;
+  for (std::size_t i = 0; i < track.pieces.size(); ++i) {
+    const int now = track.direction[i];
+    if (now != 1 && now != -1) continue;
+    if (before != 0 && now != before) {
+      const std::size_t middle = (track.first[turn] + track.first[i]) / 2;
+      track.features.push_back({PictureFeature::Kind::kVertex, track.samples[middle]});
+    }
+    before = now;
+    turn = i + 1;
+  }
+}
+
+PictureSample refine_inflection(const Piece& piece, PictureSample a, PictureSample b) {
+  for (int j = 0; j < kBisections && a.t < b.t; ++j) {
+    const double t = 0.5 * (a.t + b.t);
+    if (t <= a.t || t >= b.t) break;
+    PictureSample middle = sample_at(piece, t);
+    middle.s = 0.5 * (a.s + b.s);
+    ((middle.kappa < 0.0) == (a.kappa < 0.0) ? a : b) = middle;
+  }
+  return a;
+}
+
+void find_inflections(PictureTrack& track) {
+  const double diagonal = track.box.diagonal();
+  const double straight = std::max(kStraightPart * track.largest_kappa,
+                                   diagonal > 0.0 ? kStraightAngle / diagonal : 0.0);
+  std::size_t last = track.samples.size();  // last sample with a sign
+  std::size_t last_piece = 0;
+  for (std::size_t i = 0; i < track.pieces.size(); ++i) {
+    for (std::size_t j = track.first[i]; j < track.first[i + 1]; ++j) {
+      const PictureSample& now = track.samples[j];
+      if (std::fabs(now.kappa) <= straight) continue;
+      if (last < track.samples.size() && (track.samples[last].kappa < 0.0) != (now.kappa < 0.0)) {
+        const bool inside = last_piece == i && j == last + 1;
+        const PictureSample at = inside
+                                     ? refine_inflection(track.pieces[i], track.samples[last], now)
+                                     : track.samples[(last + j) / 2];
+        track.features.push_back({PictureFeature::Kind::kInflection, at});
+      }
+      last = j;
+      last_piece = i;
+    }
+  }
+}
+
+}  // namespace
+
+void PictureBox::add(Vec2 p) {
+  low = {std::min(low.x, p.x), std::min(low.y, p.y)};
+  high = {std::max(high.x, p.x), std::max(high.y, p.y)};
+}
+
+PictureTrack make_track(const Contour& contour) {
+  PictureTrack track;
+  if (!contour.pieces.empty()) {
+    track.reference = start_point(contour.pieces.front());
+  } else if (!contour.points.empty()) {
+    track.reference = contour.points.front();
+  }
+  track.pieces.reserve(contour.pieces.size());
+  for (const Piece& piece : contour.pieces) {
+    track.pieces.push_back(std::visit(Mover{track.reference}, piece));
+    track.box.add(start_point(track.pieces.back()));
+    track.box.add(end_point(track.pieces.back()));
+  }
+  for (const Vec2 p : contour.points) {
+    track.points.push_back(p - track.reference);
+    track.box.add(track.points.back());
+  }
+  sample_pieces(track);
+  set_directions(track, contour.runs);
+  find_vertices(track);
+  find_inflections(track);
+  return track;
+}
+
+std::vector<PictureTooth> comb_teeth(const PictureTrack& track, int count) {
+  double variation = 0.0;
+  for (std::size_t j = 1; j < track.samples.size(); ++j) {
+    variation += std::fabs(track.samples[j].kappa - track.samples[j - 1].kappa);
+  }
+  std::vector<PictureTooth> teeth;
+  if (track.length <= 0.0 || count < 1) return teeth;
+  const double even = variation > 0.0 ? 0.5 : 1.0;
+  double done = 0.0;
+  double next = 0.0;  // measure at which the next tooth stands
+  for (std::size_t i = 0; i < track.pieces.size(); ++i) {
+    for (std::size_t j = track.first[i] + 1; j < track.first[i + 1]; ++j) {
+      const PictureSample& a = track.samples[j - 1];
+      const PictureSample& b = track.samples[j];
+      const double bend = variation > 0.0 ? std::fabs(b.kappa - a.kappa) / variation : 0.0;
+      const double part = even * (b.s - a.s) / track.length + (1.0 - even) * bend;
+      for (; part > 0.0 && next <= done + part; next += 1.0 / count) {
+        const double f = std::clamp((next - done) / part, 0.0, 1.0);
+        PictureTooth tooth = sample_at(track.pieces[i], a.t + f * (b.t - a.t));
+        tooth.s = a.s + f * (b.s - a.s);
+        teeth.push_back(tooth);
+      }
+      done += part;
+    }
+  }
+  return teeth;
+}
+
+}  // namespace obvid

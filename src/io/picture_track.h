@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+#include "obvid/curve/contour.h"
+
+namespace obvid {
+
+/// One sampled point of the contour, in coordinates relative to `PictureTrack::reference`.
+struct PictureSample {
+  Vec2 point;
+  Vec2 tangent;        ///< unit vector
+  double s = 0.0;      ///< arc length from the start, units
+  double kappa = 0.0;  ///< 1/unit
+  double t = 0.0;      ///< native parameter inside its piece
+};
+
+/// Vertex or inflection.
+struct PictureFeature {
+  enum class Kind { kVertex, kInflection } kind = Kind::kVertex;
+  PictureSample at;
+};
+
+/// Tooth of the curvature comb.
+using PictureTooth = PictureSample;
+
+/// Box of the drawing, relative coordinates.
+struct PictureBox {
+  Vec2 low;
+  Vec2 high;
+  void add(Vec2 p);
+  [[nodiscard]] double diagonal() const { return norm(high - low); }
+};
+
+/// The contour sampled densely enough for a picture.
+struct PictureTrack {
+  Vec2 reference;                      ///< subtracted from all coordinates before any arithmetic
+  std::vector<Piece> pieces;           ///< moved by -reference
+  std::vector<Vec2> points;            ///< input points, moved by -reference
+  std::vector<PictureSample> samples;  ///< piece after piece, both ends of each included
+  std::vector<std::size_t> first;      ///< index of each piece's first sample, plus the end
+  std::vector<int> direction;          ///< per piece, of its run; 2 when no run covers it
+  std::vector<PictureFeature> features;
+  PictureBox box;                      ///< curve and points, without the comb
+  double length = 0.0;
+  double largest_kappa = 0.0;          ///< absolute
+};
+
+/// Direction of a piece that stands in no run.
+inline constexpr int kNoRun = 2;
+
+/// Samples the contour. Cost O(pieces).
+[[nodiscard]] PictureTrack make_track(const Contour& contour);
+
+/// About `count` teeth, half of them even in arc length, half even in curvature change.
+[[nodiscard]] std::vector<PictureTooth> comb_teeth(const PictureTrack& track, int count);
+
+}  // namespace obvid
