@@ -41,6 +41,8 @@ class CheckLayers(unittest.TestCase):
         self.accepts("src/chain/solve.cpp", "region/width.h")
         self.accepts("src/contour/arcs/biarc.cpp", "contour/arcs/biarc.h")
         self.accepts("src/pipeline/fit.cpp", "contour/spirals/spiral.h")
+        self.accepts("src/pipeline/fit.cpp", "contour/spirals.h")
+        self.accepts("include/obvid/contour/arcs.h", "curve/contour.h")
         self.accepts("apps/cli/main.cpp", "pipeline/fit.h")
 
     def test_an_include_of_a_higher_level_fails(self):
@@ -55,6 +57,8 @@ class CheckLayers(unittest.TestCase):
     def test_siblings_do_not_include_each_other(self):
         self.refuses("src/geom/line.cpp", "numeric/roots.h", "geom (level 1) includes numeric")
         self.refuses("src/contour/arcs/arc.cpp", "contour/spirals/spiral.h", "contour/arcs")
+        self.refuses("include/obvid/contour/arcs.h", "contour/spirals.h", "contour/arcs")
+        self.refuses("src/contour/arcs/arc.cpp", "contour/shared.h", "no known module")
 
     def test_builders_and_proofs_share_nothing(self):
         self.refuses("src/contour/spirals/s.cpp", "certify/certificate.h", "share nothing")
