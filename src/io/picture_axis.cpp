@@ -13,7 +13,10 @@ namespace {
 /// A tick within this part of a step beyond the range still counts as inside (rounding only).
 constexpr double kTickSlack = 1e-9;
 /// Decades up to which a logarithmic axis also labels 2 and 5.
-constexpr double kFewDecades = 2.2;
+constexpr double kFewDecades = 3.2;
+/// Numbers between these are written without a power of ten.
+constexpr double kPlainFrom = 0.999e-4;
+constexpr double kPlainTo = 1e6;
 /// Most decades with a label each.
 constexpr double kManyDecades = 7.0;
 
@@ -96,7 +99,7 @@ PictureAxis log_axis(double low, double high) {
   const int first = static_cast<int>(std::floor(std::log10(low)));
   const int last = static_cast<int>(std::floor(std::log10(high)));
   const bool plain = low >= 0.9e-3 && high <= 1e6;
-  axis.exponent = plain ? 0 : 3 * static_cast<int>(std::floor(std::log10(low) / 3.0));
+  axis.exponent = plain ? 0 : 3 * static_cast<int>(std::floor(std::log10(std::sqrt(low) * std::sqrt(high)) / 3.0));
   for (int d = first; d <= last; ++d) {
     for (const double factor : {1.0, 2.0, 5.0}) {
       const double value = factor * std::pow(10.0, d);
@@ -122,7 +125,7 @@ std::string readable_number(double value, int digits) {
   if (!std::isfinite(value)) return std::isnan(value) ? "–" : "∞";
   const std::string sign = value < 0.0 ? "−" : "";
   const double size = std::fabs(value);
-  if (size >= 0.999e-3 && size < 1e6) {
+  if (size >= kPlainFrom && size < kPlainTo) {
     const int decimals = std::max(0, digits - 1 - static_cast<int>(std::floor(std::log10(size))));
     std::string text = fmt::format("{:.{}f}", size, decimals);
     if (text.find('.') != std::string::npos) {

@@ -35,7 +35,7 @@ struct PictureAxis {
 [[nodiscard]] double round_down(double value);
 
 /// Number for reading: `digits` significant digits, no trailing zeros, powers of ten as 10^n with
-/// raised figures outside 1e-3 .. 1e6.
+/// raised figures outside 1e-4 .. 1e6.
 [[nodiscard]] std::string readable_number(double value, int digits);
 
 /// "", "10^-3 " with raised figures: what stands before the unit in an axis title.

@@ -15,6 +15,10 @@ inline constexpr double kPictureMargin = 40.0;
 /// Beyond this many runs colours would be noise, and the file large: one neutral colour then.
 inline constexpr std::size_t kMostColouredRuns = 2000;
 
+/// Beyond this many vertices and inflections symbols would hide the curve: none is drawn, and the
+/// legend says how many there are.
+inline constexpr std::size_t kMostSymbols = 400;
+
 /// CSS name of a run's colour: up, down, even or plain.
 [[nodiscard]] const char* run_css(int direction);
 

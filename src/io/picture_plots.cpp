@@ -25,6 +25,8 @@ constexpr double kLogRoom = 1.15;
 constexpr double kColumn = 0.5;
 /// Ticks of joints stand at least this far apart, px.
 constexpr double kJointApart = 2.5;
+/// Symbols nearer than this, px, would cover each other.
+constexpr double kSymbolApart = 4.0;
 
 struct Frame {
   double left = kLeft;
@@ -104,7 +106,14 @@ void draw_grid(PictureCanvas& canvas, const Frame& frame, bool x_labels) {
   canvas.line({frame.left, frame.top}, {frame.left, frame.bottom}, "axis");
 }
 
+/// Whether joints stand far enough apart, on the average, to be told apart.
+bool joints_visible(const PictureTrack& track) {
+  constexpr double kRoom = kPictureWidth - kPictureMargin - kLeft;
+  return static_cast<double>(track.pieces.size()) * kJointApart < kRoom;
+}
+
 void draw_joints(PictureCanvas& canvas, const Frame& frame, const PictureTrack& track) {
+  if (!joints_visible(track)) return;
   PicturePath ticks;
   double last = -HUGE_VAL;
   for (std::size_t i = 0; i <= track.pieces.size() && !track.samples.empty(); ++i) {
@@ -177,17 +186,20 @@ void draw_curvature(PictureCanvas& canvas, const PictureTrack& track, Frame fram
              false);
   const double zero = frame.px_y(0.0);
   if (zero < frame.bottom - 1.0) canvas.line({frame.left, zero}, {frame.right, zero}, "axis");
-  double last = -HUGE_VAL;
+  if (track.features.size() > kMostSymbols) return;
+  Vec2 last{-HUGE_VAL, 0.0};
   for (const PictureFeature& feature : track.features) {
     const Vec2 at{frame.px_x(feature.at.s), frame.px_y(feature.at.kappa)};
-    if (at.x - last >= kJointApart) add_feature(canvas, feature.kind, at);
-    last = std::max(last, at.x);
+    if (std::fabs(at.x - last.x) + std::fabs(at.y - last.y) < kSymbolApart) continue;
+    add_feature(canvas, feature.kind, at);
+    last = at;
   }
 }
 
 /// Radius that ends the axis: what is beyond looks straight.
 double straight_radius(const PictureTrack& track) {
-  return std::max(kStraightSizes * track.box.diagonal(), kRadiusSpan / track.largest_kappa);
+  return round_down(
+      std::max(kStraightSizes * track.box.diagonal(), kRadiusSpan / track.largest_kappa));
 }
 
 PictureAxis radius_axis(const PictureTrack& track, double straight) {
@@ -242,7 +254,7 @@ double plot_panels(PictureCanvas& canvas, const PictureTrack& track, const std::
   draw_radius(canvas, track, frame, units, coloured);
   canvas.label({0.5 * (frame.left + frame.right), frame.bottom + 38.0}, "middle", "axis-title",
                "Arc length, " + power_prefix(frame.x.exponent) + units +
-                   "  (short ticks: joints of pieces)");
+                   (joints_visible(track) ? " (short ticks: joints of pieces)" : ""));
   return frame.bottom + 56.0;
 }
 

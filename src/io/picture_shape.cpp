@@ -169,11 +169,22 @@ void draw_comb(PictureCanvas& canvas, const PictureTrack& track, const Comb& com
   }
 }
 
+/// Radius of the dots, px: smaller where points are dense, 0 where dots would hide the curve.
+double dot_radius(const PictureTrack& track, const View& view) {
+  constexpr double kLargest = 3.4;
+  constexpr double kSmallest = 0.8;
+  constexpr double kOfSpacing = 0.28;
+  if (track.points.empty()) return 0.0;
+  if (track.pieces.empty()) return kLargest;
+  const double spacing = track.length * view.scale / static_cast<double>(track.points.size());
+  const double radius = std::min(kOfSpacing * spacing, kLargest);
+  return radius < kSmallest ? 0.0 : radius;
+}
+
 /// Dots by round line ends: one path for all, far smaller than one element each.
 void draw_points(PictureCanvas& canvas, const PictureTrack& track, const View& view) {
-  if (track.points.empty()) return;
-  const double spacing = track.length * view.scale / static_cast<double>(track.points.size());
-  const double radius = std::clamp(0.28 * spacing, 0.8, 3.4);
+  const double radius = dot_radius(track, view);
+  if (radius == 0.0) return;
   std::string dots;
   Vec2 last{HUGE_VAL, HUGE_VAL};
   for (const Vec2 p : track.points) {
@@ -191,6 +202,7 @@ void draw_points(PictureCanvas& canvas, const PictureTrack& track, const View& v
 
 void draw_features(PictureCanvas& canvas, const PictureTrack& track, const View& view) {
   constexpr double kApart = 4.0;  // px; nearer symbols would cover each other
+  if (track.features.size() > kMostSymbols) return;
   for (const auto kind : {PictureFeature::Kind::kInflection, PictureFeature::Kind::kVertex}) {
     Vec2 last{HUGE_VAL, HUGE_VAL};
     for (const PictureFeature& feature : track.features) {
@@ -272,8 +284,9 @@ void legend_lines(PictureCanvas& canvas, Legend& legend, const PictureTrack& tra
   }
 }
 
-void legend_points(PictureCanvas& canvas, Legend& legend) {
-  const std::string text = "given point";
+void legend_points(PictureCanvas& canvas, Legend& legend, std::size_t unmarked) {
+  const std::string text =
+      unmarked == 0 ? "given point" : std::to_string(unmarked) + " given points, too dense to mark";
   const Vec2 at = legend.entry(text, text.size(), 8.0);
   canvas.add("<path class=\"dot\" stroke-width=\"6.8\" d=\"M{0} {1}h.01\"/>\n", px(at.x), px(at.y));
   canvas.add("<path class=\"hole\" stroke-width=\"4.2\" d=\"M{0} {1}h.01\"/>\n", px(at.x),
@@ -283,17 +296,24 @@ void legend_points(PictureCanvas& canvas, Legend& legend) {
 void legend_features(PictureCanvas& canvas, Legend& legend, const PictureTrack& track) {
   for (const auto kind : {PictureFeature::Kind::kVertex, PictureFeature::Kind::kInflection}) {
     const auto same = [kind](const PictureFeature& f) { return f.kind == kind; };
-    if (std::none_of(track.features.begin(), track.features.end(), same)) continue;
-    const std::string text = kind == PictureFeature::Kind::kVertex ? "vertex" : "inflection";
+    const auto count = std::count_if(track.features.begin(), track.features.end(), same);
+    if (count == 0) continue;
+    const bool vertex = kind == PictureFeature::Kind::kVertex;
+    std::string text = vertex ? "vertex" : "inflection";
+    if (track.features.size() > kMostSymbols) {
+      text = std::to_string(count) + (vertex ? " vertices" : " inflections") + ", not marked";
+    }
     add_feature(canvas, kind, legend.entry(text, text.size(), 10.0));
   }
 }
 
 double draw_legend(PictureCanvas& canvas, const PictureTrack& track, const Comb& comb,
-                   const std::string& units, bool coloured, double y) {
+                   const View& view, const std::string& units, bool coloured, double y) {
   Legend legend(canvas, kPictureMargin + kScaleBar + 90.0, y);
   legend_lines(canvas, legend, track, coloured);
-  if (!track.points.empty()) legend_points(canvas, legend);
+  if (!track.points.empty()) {
+    legend_points(canvas, legend, dot_radius(track, view) > 0.0 ? 0 : track.points.size());
+  }
   legend_features(canvas, legend, track);
   if (comb.per_kappa != 0.0) {
     const std::string text = "curvature comb, longest tooth " +
@@ -342,7 +362,7 @@ double shape_panel(PictureCanvas& canvas, const PictureTrack& track, const Conto
   draw_start(canvas, track, view);
   const double strip = bottom + 22.0;
   draw_scale_bar(canvas, view, contour.units, strip);
-  return draw_legend(canvas, track, comb, contour.units, coloured, strip) + 16.0;
+  return draw_legend(canvas, track, comb, view, contour.units, coloured, strip) + 16.0;
 }
 
 }  // namespace obvid

@@ -176,24 +176,31 @@ PictureTrack make_track(const Contour& contour) {
   set_directions(track, contour.runs);
   find_vertices(track);
   find_inflections(track);
+  const auto earlier = [](const PictureFeature& a, const PictureFeature& b) {
+    return a.at.s < b.at.s;
+  };
+  std::stable_sort(track.features.begin(), track.features.end(), earlier);
   return track;
 }
 
 std::vector<PictureTooth> comb_teeth(const PictureTrack& track, int count) {
-  double variation = 0.0;
-  for (std::size_t j = 1; j < track.samples.size(); ++j) {
-    variation += std::fabs(track.samples[j].kappa - track.samples[j - 1].kappa);
+  double variation = 0.0;  // inside pieces: jumps at joints take no room
+  for (std::size_t i = 0; i < track.pieces.size(); ++i) {
+    for (std::size_t j = track.first[i] + 1; j < track.first[i + 1]; ++j) {
+      variation += std::fabs(track.samples[j].kappa - track.samples[j - 1].kappa);
+    }
   }
   std::vector<PictureTooth> teeth;
   if (track.length <= 0.0 || count < 1) return teeth;
-  const double even = variation > 0.0 ? 0.5 : 1.0;
+  const bool varies = variation > kStraightPart * track.largest_kappa;
+  const double even = varies ? 0.5 : 1.0;
   double done = 0.0;
   double next = 0.0;  // measure at which the next tooth stands
   for (std::size_t i = 0; i < track.pieces.size(); ++i) {
     for (std::size_t j = track.first[i] + 1; j < track.first[i + 1]; ++j) {
       const PictureSample& a = track.samples[j - 1];
       const PictureSample& b = track.samples[j];
-      const double bend = variation > 0.0 ? std::fabs(b.kappa - a.kappa) / variation : 0.0;
+      const double bend = varies ? std::fabs(b.kappa - a.kappa) / variation : 0.0;
       const double part = even * (b.s - a.s) / track.length + (1.0 - even) * bend;
       for (; part > 0.0 && next <= done + part; next += 1.0 / count) {
         const double f = std::clamp((next - done) / part, 0.0, 1.0);
@@ -204,6 +211,7 @@ std::vector<PictureTooth> comb_teeth(const PictureTrack& track, int count) {
       done += part;
     }
   }
+  teeth.push_back(track.samples.back());
   return teeth;
 }
 
