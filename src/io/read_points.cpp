@@ -1,0 +1,144 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "obvid/io/read_points.h"
+
+#include <algorithm>
+#include <cerrno>
+#include <cstdio>
+#include <cstring>
+#include <memory>
+#include <utility>
+
+#include "read_points_raw.h"
+#include "text_kind.h"
+#include "text_lines.h"
+
+namespace obvid {
+namespace {
+
+using std::string_view;
+
+// Bytes asked for at a time; large enough that the number of calls does not count.
+constexpr std::size_t kReadBlock = std::size_t{1} << 20U;
+
+constexpr std::size_t kMinDistinctPoints = 3;
+
+Error cannot_open(const std::string& path, int reason) {
+  Error error;
+  error.code = ErrorCode::kCannotOpen;
+  error.what = std::string("cannot read the file: ") + std::strerror(reason);
+  error.where = path;
+  error.hint = "check the path and the permissions";
+  return error;
+}
+
+Result<std::string> read_stream(std::FILE* stream, const std::string& path) {
+  std::string text;
+  std::size_t used = 0;
+  for (;;) {
+    text.resize(used + kReadBlock);
+    const std::size_t got = std::fread(text.data() + used, 1, kReadBlock, stream);
+    used += got;
+    if (got < kReadBlock) break;
+  }
+  if (std::ferror(stream) != 0) return fail(cannot_open(path, errno));
+  text.resize(used);
+  return text;
+}
+
+Result<std::string> read_text(const std::string& path) {
+  if (path == "-") return read_stream(stdin, "standard input");
+  errno = 0;
+  const std::unique_ptr<std::FILE, int (*)(std::FILE*)> file(std::fopen(path.c_str(), "rb"),
+                                                             &std::fclose);
+  if (!file) return fail(cannot_open(path, errno));
+  return read_stream(file.get(), path);
+}
+
+string_view base_name(string_view path) {
+  const std::size_t slash = path.find_last_of('/');
+  return slash == string_view::npos ? path : path.substr(slash + 1);
+}
+
+void fill_missing(FixedData& kept, const FixedData& other) {
+  if (!kept.theta) kept.theta = other.theta;
+  if (!kept.kappa) kept.kappa = other.kappa;
+  if (!kept.tolerance) kept.tolerance = other.tolerance;
+}
+
+// Keeps the first of equal neighbours; data fixed at either of them hold for the one kept.
+void merge_duplicates(RawPoints& raw) {
+  std::size_t merged = 0;
+  std::uint32_t first_line = 0;
+  std::size_t kept = 0;
+  for (std::size_t i = 1; i < raw.points.size(); ++i) {
+    if (raw.points[i] == raw.points[kept]) {
+      if (!raw.fixed.empty()) fill_missing(raw.fixed[kept], raw.fixed[i]);
+      if (merged++ == 0) first_line = raw.lines[i];
+      continue;
+    }
+    ++kept;
+    raw.points[kept] = raw.points[i];
+    if (!raw.fixed.empty()) raw.fixed[kept] = raw.fixed[i];
+  }
+  if (merged == 0) return;
+  raw.points.resize(kept + 1);
+  if (!raw.fixed.empty()) raw.fixed.resize(kept + 1);
+  raw.warnings.push_back(
+      std::to_string(merged) + (merged == 1 ? " point that repeats" : " points that repeat") +
+      " the point before merged into it, first in line " + std::to_string(first_line) + ".");
+}
+
+void warn_about_blank_lines(RawPoints& raw) {
+  if (raw.breaks.empty()) return;
+  raw.warnings.push_back("Blank line inside the points, before line " +
+                         std::to_string(raw.lines[raw.breaks.front()]) +
+                         ": the points on both sides are one series.");
+}
+
+bool has_enough_distinct(const std::vector<Vec2>& points) {
+  // Neighbours differ, so only an endless to and fro between two points is still too few.
+  for (std::size_t i = kMinDistinctPoints - 1; i < points.size(); ++i) {
+    if (points[i] != points[0] && points[i] != points[1]) return true;
+  }
+  return false;
+}
+
+Error too_few(const RawPoints& raw, string_view name) {
+  Error error;
+  error.code = ErrorCode::kTooFewPoints;
+  error.what = "a contour needs 3 distinct points, the file holds " +
+               std::to_string(std::min<std::size_t>(raw.points.size(), 2));
+  error.where = std::string(name);
+  error.value = static_cast<double>(raw.points.size());
+  return error;
+}
+
+}  // namespace
+
+Result<PointSeries> parse_points(string_view text, string_view name) {
+  constexpr string_view kUtf8Mark = "\xEF\xBB\xBF";
+  if (text.substr(0, kUtf8Mark.size()) == kUtf8Mark) text.remove_prefix(kUtf8Mark.size());
+  if (auto kind = text::check_text_kind(text, name); !kind) return fail(std::move(kind.error()));
+  // DOS ends a text with this mark; nothing behind it counts.
+  text = text.substr(0, text.find('\x1A'));
+  Result<RawPoints> raw = read_rows(text, name);
+  if (!raw) return fail(std::move(raw.error()));
+  if (auto done = resolve_layout(*raw, name); !done) return fail(std::move(done.error()));
+  warn_about_blank_lines(*raw);
+  merge_duplicates(*raw);
+  if (!has_enough_distinct(raw->points)) return fail(too_few(*raw, name));
+  PointSeries series;
+  series.name = raw->title.empty() ? text::to_utf8(base_name(name)) : std::move(raw->title);
+  series.points = std::move(raw->points);
+  series.fixed = std::move(raw->fixed);
+  series.warnings = std::move(raw->warnings);
+  return series;
+}
+
+Result<PointSeries> read_points(const std::string& path) {
+  const Result<std::string> text = read_text(path);
+  if (!text) return fail(text.error());
+  return parse_points(*text, path == "-" ? string_view("standard input") : string_view(path));
+}
+
+}  // namespace obvid
