@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "obvid/certify/certificate.h"
+#include "obvid/curve/pieces.h"
+
+namespace obvid {
+
+/// What the proof of one piece yields beyond its verdict.
+struct PieceFacts {
+  PieceProof proof;
+  bool turns_below_pi = false;  ///< the hodograph stays within a half plane: no winding
+  int first_change = 0;         ///< sign of d kappa before a vertex (kHasVertex), else its sign
+  int last_change = 0;
+};
+
+[[nodiscard]] PieceFacts examine_piece(const Piece& piece);
+
+/// The same in exact integers, for the pieces that floating point cannot decide (or hides: the
+/// tests call it to cross-check). Slow, about a millisecond.
+[[nodiscard]] PieceFacts examine_exactly(const RationalBezier& piece);
+
+/// In double-double numbers only; undecided where those do not suffice.
+[[nodiscard]] PieceFacts examine_in_double_double(const RationalBezier& piece);
+
+/// In doubles only; undecided where those do not suffice.
+[[nodiscard]] PieceFacts examine_in_doubles(const RationalBezier& piece);
+
+}  // namespace obvid

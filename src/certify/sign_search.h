@@ -1,0 +1,174 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cmath>
+#include <cstddef>
+#include <vector>
+
+#include "obvid/numeric/bernstein.h"
+#include "obvid/numeric/double_double.h"
+
+namespace obvid {
+
+/// What is proved about the sign of a polynomial on the open interval (0, 1).
+enum class SignVerdict { kPositive, kNegative, kZero, kBoth, kOpen };
+
+struct SignProof {
+  SignVerdict verdict = SignVerdict::kOpen;
+  double t0 = 0.0;  ///< kBoth: opposite strict signs at t0 and t1; kOpen: first part left open
+  double t1 = 1.0;
+  int first_sign = 0;  ///< kBoth: sign at t0
+};
+
+/// Arithmetic of one kind of coefficient. `kRoundoff` bounds the relative error of one operation.
+template <class S>
+struct Arithmetic;
+
+template <>
+struct Arithmetic<double> {
+  static constexpr double kRoundoff = kUnitRoundoff;
+  static constexpr int kDepth = 16;  ///< halvings; what is closer is left to the next arithmetic
+  static constexpr bool kExact = false;
+  static int sign(double value, double bound) {
+    return value > bound ? 1 : (value < -bound ? -1 : 0);
+  }
+  static double magnitude(double value) { return std::abs(value); }
+  static double divided(double value, double by) { return value / by; }
+  static double middle(double a, double b) { return 0.5 * (a + b); }
+};
+
+template <>
+struct Arithmetic<DoubleDouble> {
+  static constexpr double kRoundoff = kDoubleDoubleRoundoff;
+  static constexpr int kDepth = 32;
+  static constexpr bool kExact = false;
+  static int sign(const DoubleDouble& value, double bound) {
+    // |lo| <= u |hi|, so hi alone understates the size by less than 2 u.
+    constexpr double kLow = 1.0 - 4.0 * kUnitRoundoff;
+    return kLow * value.hi > bound ? 1 : (kLow * value.hi < -bound ? -1 : 0);
+  }
+  static double magnitude(const DoubleDouble& value) {
+    return std::abs(value.hi) * (1.0 + 4.0 * kUnitRoundoff);
+  }
+  static DoubleDouble divided(const DoubleDouble& value, double by) {
+    // One Newton correction of the leading quotient: relative error below 8 u^2.
+    const double q = value.hi / by;
+    const DoubleDouble rest = value + (-two_product(q, by));
+    return quick_two_sum(q, rest.hi / by);
+  }
+  static DoubleDouble middle(const DoubleDouble& a, const DoubleDouble& b) {
+    const DoubleDouble sum = a + b;
+    return {0.5 * sum.hi, 0.5 * sum.lo};
+  }
+};
+
+/// Proves the sign of a polynomial from its Bernstein coefficients, each known up to a bound, by
+/// halving the interval where they disagree (docs/methods/certify.md).
+template <class S>
+class SignSearch {
+ public:
+  struct Coefficients {
+    std::vector<S> value;       ///< Bernstein coefficients, not scaled
+    std::vector<double> bound;  ///< absolute errors; all 0 in exact arithmetic
+  };
+
+  [[nodiscard]] SignProof run(const Coefficients& whole) {
+    if (!Arithmetic<S>::kExact && (sign_of(whole, 0) == 0 || sign_of(whole, last(whole)) == 0)) {
+      return {};  // no halving sharpens the value at an end
+    }
+    visit(whole, 0.0, 1.0, Arithmetic<S>::kDepth);
+    if (both_) return {SignVerdict::kBoth, seen_at_, other_at_, seen_};
+    if (open_) return {SignVerdict::kOpen, open0_, open1_, 0};
+    if (seen_ == 0) return {SignVerdict::kZero, 0.0, 1.0, 0};
+    return {seen_ > 0 ? SignVerdict::kPositive : SignVerdict::kNegative, 0.0, 1.0, 0};
+  }
+
+ private:
+  static std::size_t last(const Coefficients& c) { return c.value.size() - 1; }
+  static int sign_of(const Coefficients& c, std::size_t j) {
+    return Arithmetic<S>::sign(c.value[j], c.bound[j]);
+  }
+
+  void visit(const Coefficients& c, double t0, double t1, int depth) {
+    int positive = 0;
+    int negative = 0;
+    int unknown = 0;
+    for (std::size_t j = 0; j < c.value.size(); ++j) {
+      const int sign = sign_of(c, j);
+      positive += sign > 0;
+      negative += sign < 0;
+      unknown += sign == 0 && c.bound[j] > 0.0;
+    }
+    if (unknown == 0 && (positive == 0 || negative == 0)) {
+      if (positive + negative > 0) note(positive > 0 ? 1 : -1, c, t0, t1);
+      return;
+    }
+    if (depth == 0 || positive + negative == 0) {
+      leave_open(t0, t1);
+      return;
+    }
+    const auto [left, right] = halves(c);
+    const double middle = 0.5 * (t0 + t1);
+    visit(left, t0, middle, depth - 1);
+    if (!both_) visit(right, middle, t1, depth - 1);
+  }
+
+  /// The polynomial has a strict sign inside (t0, t1); at an end only if its coefficient has.
+  void note(int sign, const Coefficients& c, double t0, double t1) {
+    const double inside = 0.5 * (t0 + t1);
+    if (seen_ != 0 && sign != seen_) {
+      both_ = true;
+      other_at_ = sign_of(c, 0) != 0 ? t0 : inside;
+      return;
+    }
+    seen_ = sign;
+    seen_at_ = sign_of(c, last(c)) != 0 ? t1 : inside;
+  }
+
+  void leave_open(double t0, double t1) {
+    if (!open_) open0_ = t0;
+    open1_ = t1;
+    open_ = true;
+  }
+
+  /// de Casteljau at 1/2. Exact integers are kept as multiples of 2^-degree instead of halved.
+  static std::array<Coefficients, 2> halves(Coefficients c) {
+    const std::size_t n = last(c);
+    std::array<Coefficients, 2> half = {c, c};
+    for (std::size_t step = 0; step <= n; ++step) {
+      store(half[0], step, c, 0, n - step);
+      store(half[1], n - step, c, n - step, n - step);
+      for (std::size_t j = 0; j + step < n; ++j) {
+        c.value[j] = Arithmetic<S>::middle(c.value[j], c.value[j + 1]);
+        c.bound[j] = (0.5 * (c.bound[j] + c.bound[j + 1]) +
+                      Arithmetic<S>::kRoundoff * Arithmetic<S>::magnitude(c.value[j])) *
+                     kBoundRounding;
+      }
+    }
+    return half;
+  }
+
+  static void store(Coefficients& target, std::size_t j, const Coefficients& from, std::size_t k,
+                    std::size_t doublings) {
+    target.bound[j] = from.bound[k];
+    if constexpr (Arithmetic<S>::kExact) {
+      target.value[j] = Arithmetic<S>::doubled(from.value[k], doublings);
+    } else {
+      target.value[j] = from.value[k];
+      static_cast<void>(doublings);
+    }
+  }
+
+  /// Covers the roundings of the bound's own evaluation (four, each 2^-53).
+  static constexpr double kBoundRounding = 1.0 + 0x1p-48;
+
+  bool both_ = false;
+  bool open_ = false;
+  int seen_ = 0;
+  double seen_at_ = 0.0;
+  double other_at_ = 1.0;
+  double open0_ = 0.0;
+  double open1_ = 1.0;
+};
+
+}  // namespace obvid
