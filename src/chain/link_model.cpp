@@ -1,0 +1,380 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "link_model.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+namespace obvid::chain_detail {
+namespace {
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+/// The closed form needs -A B > sin^2(sigma)/(2 cos sigma); the cone keeps this much more.
+constexpr double kClosedFormReserve = 1.1;
+/// Mere existence needs -A B > sin^2(sigma/2); the cone keeps this much more.
+constexpr double kExistenceReserve = 1.05;
+/// Beyond this sigma the closed form's cone is continued by its tangent: it has no finite value
+/// at a right angle, and phase 1 may start there. Solutions are judged by the true cone.
+constexpr double kStraightenedSigma = 1.3;
+/// Barrier weights of sigma > 0 and of the curvature's sign, relative to the cone's.
+constexpr double kSigmaWeight = 0.5;
+constexpr double kSignWeight = 0.1;
+
+/// S(sigma) with the cone written as (B-A)^2 - (A+B)^2 > S^2, and its derivative.
+struct ConeWidth {
+  double value, slope;
+};
+
+ConeWidth closed_form_width(double sigma) {
+  const double k = std::sqrt(2.0 * kClosedFormReserve);
+  const double s = std::min(std::abs(sigma), kStraightenedSigma);
+  const double sine = std::sin(s), cosine = std::cos(s), root = std::sqrt(cosine);
+  const double slope = k * (cosine * cosine + 0.5 * sine * sine) / (cosine * root);
+  const double value = k * sine / root + slope * (std::abs(sigma) - s);
+  return sigma < 0.0 ? ConeWidth{-value, slope} : ConeWidth{value, slope};
+}
+
+ConeWidth existence_width(double sigma) {
+  const double k = 2.0 * std::sqrt(kExistenceReserve);
+  return {k * std::sin(0.5 * sigma), 0.5 * k * std::cos(0.5 * sigma)};
+}
+
+ConeWidth cone_width(Cone cone, double sigma) {
+  return cone == Cone::kClosedForm ? closed_form_width(sigma) : existence_width(sigma);
+}
+
+/// Energy weights of a link, in units of its expected size: departure from the clothoid's
+/// B - A = 2 sigma, skewness A + B, and size. The size weight balances the final barrier, so that
+/// the clothoid which the data predict is stationary (docs/methods/chain.md: statistics of 1,200
+/// random spirals decided).
+constexpr double kDepartureWeight = 24.0;
+constexpr double kSkewWeight = 6.0;
+constexpr double kSizeWeight = 5.0 * kFinalBarrier;
+
+/// Fairness energy of a link; zero for a circle, since m, q and sigma are zero there.
+double link_energy(double m, double q, double sigma) {
+  const double departure = m - 2.0 * sigma;
+  return kDepartureWeight * departure * departure + kSkewWeight * q * q +
+         kSizeWeight * sigma * sigma;
+}
+
+double wrapped(double angle) { return std::remainder(angle, 2.0 * std::numbers::pi); }
+
+}  // namespace
+
+LinkModel::LinkModel(const ChainProblem& problem)
+    : links_(problem.chords.size()), nodes_(problem.circles.size()) {
+  set_lengths(problem);
+  for (std::size_t i = 0; i < links_.size(); ++i) {
+    Link& l = links_[i];
+    l.h = problem.chords[i].length;
+    l.omega = problem.chords[i].omega;
+    l.alpha = -problem.circles[i].eta_out;
+    l.beta = problem.circles[i + 1].eta_in;
+    l.sa = std::sin(l.alpha);
+    l.ca = std::cos(l.alpha);
+    l.sb = std::sin(l.beta);
+    l.cb = std::cos(l.beta);
+    l.ka = 0.5 * l.h / nodes_[i].length;
+    l.kb = 0.5 * l.h / nodes_[i + 1].length;
+    l.sigma = l.alpha + l.beta;
+    l.direction = problem.direction[i];
+    l.cone = problem.cone[i];
+  }
+  set_sizes(problem);
+  set_fixed(problem);
+}
+
+void LinkModel::set_lengths(const ChainProblem& problem) {
+  const std::size_t n = nodes_.size();
+  for (std::size_t i = 0; i < n; ++i) {
+    const double before = problem.chords[i > 0 ? i - 1 : 0].length;
+    const double after = problem.chords[i + 1 < n ? i : n - 2].length;
+    nodes_[i].length = 0.5 * (before + after);
+    nodes_[i].kappa = problem.circles[i].kappa;
+  }
+}
+
+/// Expected rates of curvature from differences of the adjacent circles, and from them the size
+/// and weight of every link.
+void LinkModel::set_sizes(const ChainProblem& problem) {
+  const std::size_t m = links_.size();
+  std::vector<double> rate(m, 0.0);
+  for (std::size_t i = 1; i + 1 < m; ++i) {
+    const double reach = (links_[i - 1].h + links_[i].h + links_[i + 1].h) / 3.0;
+    rate[i] = (nodes_[i + 1].kappa - nodes_[i].kappa) / reach;
+  }
+  if (m >= 3) {
+    rate[0] = rate[1];
+    rate[m - 1] = rate[m - 2];
+  }
+  const auto magnitude = [&](std::size_t i) { return std::abs(rate[i]); };
+  double largest_rate = 0.0;
+  for (std::size_t i = 0; i < m; ++i) largest_rate = std::max(largest_rate, magnitude(i));
+  for (std::size_t i = 0; i < m; ++i) {
+    Link& l = links_[i];
+    const double around = 0.5 * (magnitude(i > 0 ? i - 1 : i) + magnitude(i + 1 < m ? i + 1 : i));
+    // a vertex inside the link can make its own difference vanish by accident
+    double typical = std::max(magnitude(i), 0.25 * around);
+    if (typical == 0.0) typical = largest_rate > 0.0 ? largest_rate : 1.0 / (l.h * l.h);
+    l.size = typical * l.h * l.h / 3.0;
+    l.weight = l.cone == Cone::kNone ? 0.0 : 1.0;
+    l.energy = l.weight / (l.size * l.size);
+    total_weight_ += l.weight;
+  }
+  for (std::size_t i = 0; i < nodes_.size(); ++i) {
+    Node& n = nodes_[i];
+    const bool first = i == 0, last = i == m;
+    const bool monotone = first || last || problem.direction[i - 1] == problem.direction[i];
+    const double before = rate[first ? 0 : i - 1], after = rate[last ? m - 1 : i];
+    // harmonic mean: never steeper than the gentler side
+    n.rate = monotone && before * after > 0.0 ? 2.0 * before * after / (before + after) : 0.0;
+    const double wa = links_[first ? 0 : i - 1].weight, wb = links_[last ? m - 1 : i].weight;
+    n.sign = problem.nodes[i].curvature_sign;
+    n.sign_weight = n.sign != 0.0 ? kSignWeight * 0.5 * (wa + wb) : 0.0;
+    n.sign_size = links_[first ? 0 : i - 1].size + links_[last ? m - 1 : i].size;
+    if (n.sign != 0.0 && n.sign_weight > 0.0) total_weight_ += n.sign_weight;
+  }
+}
+
+void LinkModel::set_fixed(const ChainProblem& problem) {
+  for (std::size_t i = 0; i < nodes_.size(); ++i) {
+    Node& n = nodes_[i];
+    const NodeData& data = problem.nodes[i];
+    const double tangent = i < links_.size() ? links_[i].omega + links_[i].alpha
+                                             : links_[i - 1].omega + links_[i - 1].beta;
+    if (data.theta) {
+      n.fix_phi = true;
+      n.phi = wrapped(*data.theta - tangent);
+    }
+    if (data.kappa) {
+      n.fix_p = true;
+      n.p = (*data.kappa - n.kappa) * n.length;
+      n.sign = n.sign_weight = 0.0;
+    }
+  }
+}
+
+/// A cubic with constant rate of curvature through the neighbours: its curvature and heading
+/// against the circle through the three points (docs/methods/chain.md).
+std::vector<double> LinkModel::starting_guess() const {
+  const std::size_t n = nodes_.size();
+  std::vector<double> x(2 * n, 0.0);
+  for (std::size_t i = 0; i < n; ++i) {
+    const Node& node = nodes_[i];
+    const double a = links_[i > 0 ? i - 1 : 0].h, b = links_[i + 1 < n ? i : n - 2].h;
+    double phi = -node.rate * a * b / 6.0;
+    double change = -node.rate * (b - a) / 3.0;
+    if (i == 0 && n > 2) {
+      const double b1 = links_[1].h;
+      phi = node.rate * a * (a + b1) / 6.0;
+      change = -node.rate * (2.0 * a + b1) / 3.0;
+    } else if (i + 1 == n && n > 2) {
+      const double a1 = links_[n - 3].h;
+      phi = node.rate * b * (a1 + b) / 6.0;
+      change = node.rate * (2.0 * b + a1) / 3.0;
+    }
+    if (node.sign != 0.0 && node.sign * (node.kappa + change) <= 0.0) {
+      const double kept = -0.8 * node.kappa / change;  // four fifths of the way to zero curvature
+      phi *= kept;
+      change *= kept;
+    }
+    x[2 * i] = node.fix_phi ? node.phi : phi;
+    x[2 * i + 1] = node.fix_p ? node.p : change * node.length;
+  }
+  return x;
+}
+
+LinkModel::Trig LinkModel::trig(double phi) {
+  const double s = std::sin(0.5 * phi), c = std::cos(0.5 * phi);
+  return {2.0 * s * c, 2.0 * s * s, 1.0 - 2.0 * s * s};
+}
+
+LinkModel::State LinkModel::state(const Link& l, const Trig& a, const Trig& b, double phi_a,
+                                  double p_a, double phi_b, double p_b) {
+  State s{};
+  s.A = l.ka * p_a + l.ca * a.sin - l.sa * a.versin;
+  s.B = l.kb * p_b - l.cb * b.sin + l.sb * b.versin;
+  s.sigma = l.sigma + phi_a + phi_b;
+  s.dA = l.ca * a.cos - l.sa * a.sin;
+  s.dB = l.cb * b.cos - l.sb * b.sin;
+  return s;
+}
+
+double LinkModel::assemble(const std::vector<double>& x, double slack, double energy,
+                           double barrier, NewtonSystem& system, bool with_slack) const {
+  const std::size_t n = nodes_.size();
+  system.reset(n);
+  double value = 0.0;
+  Trig ta = trig(x[0]);
+  for (std::size_t i = 0; i + 1 < n; ++i) {
+    const Link& l = links_[i];
+    const Trig tb = trig(x[2 * i + 2]);
+    const State s = state(l, ta, tb, x[2 * i], x[2 * i + 1], x[2 * i + 2], x[2 * i + 3]);
+    ta = tb;
+    if (l.cone == Cone::kNone) continue;
+    const double m = s.B - s.A, q = s.A + s.B;
+    const double e = energy * l.energy;
+    const double departure = 2.0 * e * kDepartureWeight * (m - 2.0 * s.sigma);
+    double gm = departure, gq = 2.0 * e * kSkewWeight * q;
+    double gs = 2.0 * e * kSizeWeight * s.sigma - 2.0 * departure;
+    double hmm = 2.0 * e * kDepartureWeight, hqq = 2.0 * e * kSkewWeight;
+    double hss = 2.0 * e * (kSizeWeight + 4.0 * kDepartureWeight), hms = -2.0 * hmm;
+    double hmq = 0.0, hqs = 0.0;
+    value += e * link_energy(m, q, s.sigma);
+
+    const ConeWidth width = cone_width(l.cone, s.sigma);
+    const double t = l.direction * m + slack * l.size;
+    const double f = t * t - q * q - width.value * width.value;
+    const double u = l.direction * s.sigma + slack * l.size;
+    const double w = barrier * l.weight, r = 1.0 / f;
+    value -= w * (std::log(f / (l.size * l.size)) + kSigmaWeight * std::log(u / l.size));
+    // derivatives of f by m, q, sigma and the slack
+    const double fm = 2.0 * t * l.direction, fq = -2.0 * q;
+    const double fs = -2.0 * width.value * width.slope, fz = 2.0 * t * l.size;
+    const double wr = w * r, wrr = w * r * r;
+    const double us = kSigmaWeight * w / u;
+    gm -= wr * fm;
+    gq -= wr * fq;
+    gs -= wr * fs + us * l.direction;
+    hmm += wrr * fm * fm - 2.0 * wr;
+    hqq += wrr * fq * fq + 2.0 * wr;
+    hss += wrr * fs * fs + 2.0 * wr * width.slope * width.slope + us / u;
+    hmq += wrr * fm * fq;
+    hms += wrr * fm * fs;
+    hqs += wrr * fq * fs;
+
+    // from (m, q, sigma) to (A, B, sigma)
+    const double gA = gq - gm, gB = gq + gm;
+    const double hAA = hmm - 2.0 * hmq + hqq, hBB = hmm + 2.0 * hmq + hqq, hAB = hqq - hmm;
+    const double hAs = hqs - hms, hBs = hqs + hms;
+    // and to heading and curvature at both ends
+    NewtonSystem::Block& a = system[i];
+    NewtonSystem::Block& b = system[i + 1];
+    const double ca = s.dA, cb = s.dB, ka = l.ka, kb = l.kb;
+    a.g0 += ca * gA + gs;
+    a.g1 += ka * gA;
+    b.g0 += -cb * gB + gs;
+    b.g1 += kb * gB;
+    a.a00 += ca * ca * hAA + 2.0 * ca * hAs + hss;
+    a.a10 += ka * (ca * hAA + hAs);
+    a.a11 += ka * ka * hAA;
+    b.a00 += cb * cb * hBB - 2.0 * cb * hBs + hss;
+    b.a10 += kb * (hBs - cb * hBB);
+    b.a11 += kb * kb * hBB;
+    a.o00 += -ca * cb * hAB + ca * hAs - cb * hBs + hss;
+    a.o01 += kb * (ca * hAB + hBs);
+    a.o10 += ka * (hAs - cb * hAB);
+    a.o11 += ka * kb * hAB;
+    if (!with_slack) continue;
+    const double zm = wrr * fz * fm - 2.0 * wr * l.size * l.direction;
+    const double zq = wrr * fz * fq;
+    const double zs = wrr * fz * fs + us / u * l.size * l.direction;
+    const double zA = zq - zm, zB = zq + zm;
+    a.c0 += ca * zA + zs;
+    a.c1 += ka * zA;
+    b.c0 += -cb * zB + zs;
+    b.c1 += kb * zB;
+    system.slack_gradient -= wr * fz + us * l.size;
+    system.slack_hessian += wrr * fz * fz - 2.0 * wr * l.size * l.size + us / u * l.size * l.size;
+  }
+  for (std::size_t i = 0; i < n; ++i) {
+    const Node& node = nodes_[i];
+    if (node.sign_weight > 0.0) {
+      const double v = node.sign * (node.kappa * node.length + x[2 * i + 1]) + slack * node.sign_size;
+      const double w = barrier * node.sign_weight;
+      value -= w * std::log(v / node.sign_size);
+      system[i].g1 -= w * node.sign / v;
+      system[i].a11 += w / (v * v);
+      if (with_slack) {
+        system[i].c1 += w * node.sign * node.sign_size / (v * v);
+        system.slack_gradient -= w * node.sign_size / v;
+        system.slack_hessian += w * node.sign_size * node.sign_size / (v * v);
+      }
+    }
+    // a node between links without cones takes part in nothing: keep its block regular
+    if (node.fix_phi || system[i].a00 <= 0.0) system.fix(i, 0);
+    if (node.fix_p || system[i].a11 <= 0.0) system.fix(i, 1);
+  }
+  return value;
+}
+
+double LinkModel::merit(const std::vector<double>& x, double slack, double energy,
+                        double barrier) const {
+  const std::size_t n = nodes_.size();
+  double value = 0.0;
+  Trig ta = trig(x[0]);
+  for (std::size_t i = 0; i + 1 < n; ++i) {
+    const Link& l = links_[i];
+    const Trig tb = trig(x[2 * i + 2]);
+    const State s = state(l, ta, tb, x[2 * i], x[2 * i + 1], x[2 * i + 2], x[2 * i + 3]);
+    ta = tb;
+    if (l.cone == Cone::kNone) continue;
+    const double m = s.B - s.A, q = s.A + s.B;
+    const double width = cone_width(l.cone, s.sigma).value;
+    const double t = l.direction * m + slack * l.size;
+    const double f = t * t - q * q - width * width;
+    const double u = l.direction * s.sigma + slack * l.size;
+    if (!(t > 0.0 && f > 0.0 && u > 0.0)) return kInfinity;
+    value += energy * l.energy * link_energy(m, q, s.sigma) -
+             barrier * l.weight *
+                 (std::log(f / (l.size * l.size)) + kSigmaWeight * std::log(u / l.size));
+  }
+  for (std::size_t i = 0; i < n; ++i) {
+    const Node& node = nodes_[i];
+    if (node.sign_weight <= 0.0) continue;
+    const double v = node.sign * (node.kappa * node.length + x[2 * i + 1]) + slack * node.sign_size;
+    if (!(v > 0.0)) return kInfinity;
+    value -= barrier * node.sign_weight * std::log(v / node.sign_size);
+  }
+  return value;
+}
+
+bool LinkModel::inside(const std::vector<double>& x, double slack) const {
+  return std::isfinite(merit(x, slack, 0.0, 1.0));
+}
+
+std::vector<Element> LinkModel::elements(const std::vector<Vec2>& points,
+                                         const std::vector<double>& x) const {
+  std::vector<Element> out(nodes_.size());
+  for (std::size_t i = 0; i < out.size(); ++i) {
+    const double tangent = i < links_.size() ? links_[i].omega + links_[i].alpha
+                                             : links_[i - 1].omega + links_[i - 1].beta;
+    const Node& n = nodes_[i];
+    out[i] = {points[i], tangent + x[2 * i], n.kappa + x[2 * i + 1] / n.length};
+  }
+  return out;
+}
+
+std::vector<LinkState> LinkModel::links(const std::vector<double>& x) const {
+  std::vector<LinkState> out(links_.size());
+  for (std::size_t i = 0; i < out.size(); ++i) {
+    const Link& l = links_[i];
+    const double pa = x[2 * i], pb = x[2 * i + 2];
+    const State s = state(l, trig(pa), trig(pb), pa, x[2 * i + 1], pb, x[2 * i + 3]);
+    out[i] = {l.h, l.omega, l.alpha + pa, l.beta + pb, s.A, s.B, s.sigma};
+  }
+  return out;
+}
+
+std::vector<double> LinkModel::link_forces(const std::vector<double>& x, double slack) const {
+  std::vector<double> force(links_.size(), 0.0);
+  for (std::size_t i = 0; i < links_.size(); ++i) {
+    const Link& l = links_[i];
+    if (l.cone == Cone::kNone) continue;
+    const double pa = x[2 * i], pb = x[2 * i + 2];
+    const State s = state(l, trig(pa), trig(pb), pa, x[2 * i + 1], pb, x[2 * i + 3]);
+    const double m = s.B - s.A, q = s.A + s.B, width = cone_width(l.cone, s.sigma).value;
+    const double t = l.direction * m + slack * l.size;
+    force[i] = l.weight * 2.0 * t * l.size / (t * t - q * q - width * width);
+  }
+  return force;
+}
+
+double LinkModel::point_move(std::size_t link) const {
+  const Link& l = links_[link];
+  return 0.25 * l.h * l.size;
+}
+
+}  // namespace obvid::chain_detail

@@ -1,0 +1,86 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <vector>
+
+#include "newton_system.h"
+#include "obvid/chain/chain.h"
+
+namespace obvid::chain_detail {
+
+/// Weight of the barrier in the final problem, against the energy of a link of expected size.
+inline constexpr double kFinalBarrier = 0.3;
+
+/// Energy and barriers of a chain as functions of the deviations from the adjacent circles.
+///
+/// Unknowns per node: phi, the heading minus that of the adjacent circle's tangent, and
+/// p = (kappa - kappa of the adjacent circle) * local length. For points of one circle all of them
+/// and all A, B, sigma are zero, so nearly circular data lose no digits (docs/methods/chain.md).
+class LinkModel {
+ public:
+  explicit LinkModel(const ChainProblem& problem);
+
+  [[nodiscard]] std::vector<double> starting_guess() const;
+
+  /// energy * E + barrier * B at x, with gradient and Gauss-Newton Hessian in `system`.
+  double assemble(const std::vector<double>& x, double slack, double energy, double barrier,
+                  NewtonSystem& system, bool with_slack) const;
+
+  /// The same value alone; infinity outside the cones.
+  [[nodiscard]] double merit(const std::vector<double>& x, double slack, double energy,
+                             double barrier) const;
+  [[nodiscard]] bool inside(const std::vector<double>& x, double slack) const;
+  /// Sum of the weights of all links: the scale of the merit function.
+  [[nodiscard]] double total_weight() const { return total_weight_; }
+
+  [[nodiscard]] std::vector<Element> elements(const std::vector<Vec2>& points,
+                                              const std::vector<double>& x) const;
+  [[nodiscard]] std::vector<LinkState> links(const std::vector<double>& x) const;
+  /// Force of each link's barrier against the common slack: who keeps it from closing.
+  [[nodiscard]] std::vector<double> link_forces(const std::vector<double>& x, double slack) const;
+  /// Move of a point, in units, that changes a link's cone by its own size.
+  [[nodiscard]] double point_move(std::size_t link) const;
+
+ private:
+  struct Link {
+    double h = 0.0, omega = 0.0;
+    double alpha = 0.0, beta = 0.0;  // of the adjacent circles
+    double sa = 0.0, ca = 1.0, sb = 0.0, cb = 1.0;
+    double ka = 0.0, kb = 0.0;  // dA/dp at the start, dB/dp at the end
+    double sigma = 0.0;         // alpha + beta
+    double size = 0.0;          // expected B - A
+    double weight = 0.0;        // of the barrier; the energy's is weight / size^2
+    double energy = 0.0;
+    double direction = 0.0;
+    Cone cone = Cone::kNone;
+  };
+  struct Node {
+    double length = 0.0;       // local scale
+    double kappa = 0.0;        // of the adjacent circle
+    double sign = 0.0;         // wanted sign of the curvature, 0 = free
+    double sign_size = 0.0;    // of the slack, in units of p
+    double sign_weight = 0.0;
+    double rate = 0.0;         // estimate of d kappa / d s, for the start
+    bool fix_phi = false, fix_p = false;
+    double phi = 0.0, p = 0.0;  // values of the fixed variables
+  };
+  struct Trig {
+    double sin = 0.0, versin = 0.0, cos = 1.0;  // of phi; versin = 1 - cos without cancellation
+  };
+  struct State {
+    double A, B, sigma, dA, dB;  // dA = dA/dphi at the start, dB = -dB/dphi at the end
+  };
+
+  [[nodiscard]] static Trig trig(double phi);
+  [[nodiscard]] static State state(const Link& link, const Trig& a, const Trig& b, double phi_a,
+                                   double p_a, double phi_b, double p_b);
+  void set_lengths(const ChainProblem& problem);
+  void set_sizes(const ChainProblem& problem);
+  void set_fixed(const ChainProblem& problem);
+
+  std::vector<Link> links_;
+  std::vector<Node> nodes_;
+  double total_weight_ = 0.0;
+};
+
+}  // namespace obvid::chain_detail

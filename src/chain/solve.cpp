@@ -1,0 +1,184 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+#include "link_model.h"
+#include "obvid/chain/chain.h"
+
+namespace obvid {
+namespace {
+
+using namespace chain_detail;
+
+constexpr double kEpsilon = std::numeric_limits<double>::epsilon();
+/// Newton stops when the predicted decrease falls below this part of the barrier's own scale:
+/// one more quadratic step would change nothing that doubles can hold.
+constexpr double kConverged = 1e-18;
+/// Sufficient-decrease constant of the line search (Nocedal & Wright 2006, eq. 3.4).
+constexpr double kArmijo = 1e-4;
+constexpr double kSmallestStep = 1e-9;
+constexpr double kStartingSlack = 1e-3;  ///< in units of each link's own size
+constexpr double kStartingSlackGrowth = 2.0;
+constexpr double kLargestStartingSlack = 1e12;
+constexpr double kSlackBarrier = 0.02;    ///< starting barrier of phase 1, relative to the slack
+constexpr double kSlackBarrierFall = 0.2;
+constexpr double kPhaseOneEnergy = 0.05;  ///< damper of phase 1
+constexpr int kPhaseOneRounds = 16;
+constexpr int kPhaseOneSteps = 15;
+constexpr double kStalled = 0.97;
+constexpr double kNegligibleBarrier = 1e-3;
+constexpr double kPhaseOneDone = 1e-10;   ///< decrement at which a round of phase 1 ends
+constexpr double kSlackPull = 0.1;        ///< cost of the slack against the sum of all barriers
+
+class Solver {
+ public:
+  Solver(const std::vector<Vec2>& points, const ChainProblem& problem, const ChainOptions& options)
+      : points_(points), problem_(problem), options_(options), model_(problem) {}
+
+  ChainSolution run() {
+    x_ = model_.starting_guess();
+    ChainSolution out;
+    if (!phase_one()) {
+      out.newton_steps = steps_;
+      describe_infeasibility(out);
+      return out;
+    }
+    phase_two();
+    out.feasible = true;
+    out.converged = converged_;
+    out.newton_steps = steps_;
+    fill(out);
+    return out;
+  }
+
+ private:
+  /// One damped Newton step for weight `barrier` and energy weight `energy`; the slack takes part
+  /// when `slack_cost` > 0. Returns Newton's decrement, or a negative number when no step helps.
+  double step(double energy, double barrier, double slack_cost) {
+    const bool with_slack = slack_cost > 0.0;
+    const double value = model_.assemble(x_, slack_, energy, barrier, system_, with_slack) +
+                         slack_cost * slack_;
+    system_.slack_gradient += slack_cost;
+    ++steps_;
+    system_.solve(direction_, slack_direction_, with_slack);
+    const double decrement = system_.decrement(direction_, slack_direction_);
+    if (!(decrement > 0.0)) return -1.0;
+    double t = 1.0;
+    trial_.resize(x_.size());
+    while (t > kSmallestStep) {
+      for (std::size_t i = 0; i < x_.size(); ++i) trial_[i] = x_[i] + t * direction_[i];
+      const double s = slack_ + t * slack_direction_;
+      const double v = model_.merit(trial_, s, energy, barrier) + slack_cost * s;
+      // the comparison is written so that NaN counts as too large
+      if (v <= value - kArmijo * t * decrement + rounding_of(value)) {
+        x_.swap(trial_);
+        slack_ = s;
+        return decrement;
+      }
+      t *= t == 1.0 ? 0.5 : 0.4;
+    }
+    return -1.0;
+  }
+
+  /// Changes of the merit function below its own rounding are no reason to refuse a step.
+  static double rounding_of(double value) { return 8.0 * kEpsilon * std::abs(value); }
+
+  bool phase_one() {
+    slack_ = 0.0;
+    if (model_.inside(x_, 0.0)) return true;
+    slack_ = kStartingSlack;
+    while (!model_.inside(x_, slack_)) {
+      slack_ *= kStartingSlackGrowth;
+      if (slack_ > kLargestStartingSlack) return false;
+    }
+    double mu = kSlackBarrier * slack_;
+    for (int round = 0; round < kPhaseOneRounds; ++round) {
+      const double before = slack_;
+      for (int k = 0; k < kPhaseOneSteps; ++k) {
+        const double decrement = step(kPhaseOneEnergy, 1.0, kSlackPull * model_.total_weight() / mu);
+        if (slack_ <= 0.0) {
+          slack_ = 0.0;
+          return model_.inside(x_, 0.0);
+        }
+        if (decrement < kPhaseOneDone * model_.total_weight()) break;
+        if (steps_ >= options_.largest_steps) return false;
+      }
+      if (slack_ > kStalled * before && mu < kNegligibleBarrier * slack_) break;
+      mu *= kSlackBarrierFall;
+    }
+    return false;
+  }
+
+  void phase_two() {
+    const double done = kConverged * model_.total_weight();
+    converged_ = true;
+    while (steps_ < options_.largest_steps) {
+      if (step(1.0, kFinalBarrier, 0.0) < done) return;  // negative: no step helps any more
+    }
+    converged_ = false;
+  }
+
+  void fill(ChainSolution& out) const {
+    out.elements = model_.elements(points_, x_);
+    out.links = model_.links(x_);
+    out.smallest_margin = 1.0;
+    for (std::size_t i = 0; i < out.links.size(); ++i) {
+      if (problem_.cone[i] == Cone::kNone) continue;
+      out.smallest_margin = std::min(
+          out.smallest_margin, cone_margin(out.links[i], problem_.direction[i], problem_.cone[i]));
+    }
+  }
+
+  void describe_infeasibility(ChainSolution& out) const {
+    const std::vector<double> force = model_.link_forces(x_, slack_);
+    double largest = 0.0;
+    std::size_t worst = 0;
+    for (std::size_t i = 0; i < force.size(); ++i) {
+      if (force[i] > largest) {
+        largest = force[i];
+        worst = i;
+      }
+    }
+    constexpr double kShare = 0.1;  // links that carry at least this part of the largest force
+    std::size_t first = worst, last = worst;
+    while (first > 0 && force[first - 1] >= kShare * largest) --first;
+    while (last + 1 < force.size() && force[last + 1] >= kShare * largest) ++last;
+    out.infeasibility = {first, last + 1, slack_, slack_ * model_.point_move(worst)};
+  }
+
+  const std::vector<Vec2>& points_;
+  const ChainProblem& problem_;
+  const ChainOptions& options_;
+  LinkModel model_;
+  NewtonSystem system_;
+  std::vector<double> x_, trial_, direction_;
+  double slack_ = 0.0, slack_direction_ = 0.0;
+  int steps_ = 0;
+  bool converged_ = true;
+};
+
+}  // namespace
+
+double cone_margin(const LinkState& link, int direction, Cone cone) {
+  if (cone == Cone::kNone) return 1.0;
+  const double d = direction;
+  const double product = -link.A * link.B;
+  const bool signs = d * link.A < 0.0 && d * link.B > 0.0 && d * link.sigma > 0.0;
+  if (!signs) return -std::numeric_limits<double>::infinity();
+  const double half = std::sin(0.5 * link.sigma);
+  if (cone == Cone::kSpiral) return 1.0 - half * half / product;
+  if (std::abs(link.sigma) >= 0.5 * std::numbers::pi) {
+    return -std::numeric_limits<double>::infinity();
+  }
+  const double s = std::sin(link.sigma);
+  return 1.0 - s * s / (2.0 * std::cos(link.sigma) * product);
+}
+
+ChainSolution solve_chain(const std::vector<Vec2>& points, const ChainProblem& problem,
+                          const ChainOptions& options) {
+  return Solver(points, problem, options).run();
+}
+
+}  // namespace obvid

@@ -1,0 +1,297 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "obvid/series/analysis.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <optional>
+
+namespace obvid {
+namespace {
+
+constexpr double kUnitRoundoff = 0x1p-53;
+/// Neighbouring chords that turn by more than this say nothing about the curve between them.
+constexpr double kLargestTurning = 170.0 * std::numbers::pi / 180.0;
+/// Squares and cubes of lengths outside this range would leave the range of doubles.
+constexpr double kSmallestSize = 1e-100;
+constexpr double kLargestSize = 1e100;
+/// A circle through three rounded points misses the points between by a small multiple of the
+/// rounding of one point (the interpolation factors of a quadratic sum to at most 3).
+constexpr double kStretchRoundings = 4.0;
+
+/// How far the rounding of its coordinates can have moved a point.
+double point_rounding(Vec2 p) { return kUnitRoundoff * (std::abs(p.x) + std::abs(p.y)); }
+
+double bounding_diagonal(const std::vector<Vec2>& points) {
+  Vec2 low = points.front(), high = points.front();
+  for (const Vec2 p : points) {
+    low = {std::min(low.x, p.x), std::min(low.y, p.y)};
+    high = {std::max(high.x, p.x), std::max(high.y, p.y)};
+  }
+  return std::hypot(high.x - low.x, high.y - low.y);
+}
+
+std::vector<Chord> measure_chords(const std::vector<Vec2>& points) {
+  std::vector<Chord> chords(points.size() - 1);
+  Vec2 before{};
+  for (std::size_t i = 0; i < chords.size(); ++i) {
+    const Vec2 e = points[i + 1] - points[i];
+    const double principal = heading(e);
+    double omega = principal;
+    if (i > 0) {
+      const double expected = chords[i - 1].omega + turning(before, e);
+      const double turns = std::round((expected - principal) / (2.0 * std::numbers::pi));
+      omega = principal + turns * 2.0 * std::numbers::pi;
+    }
+    chords[i] = {norm(e), omega};
+    before = e;
+  }
+  return chords;
+}
+
+AdjacentCircle circle_through(Vec2 p, Vec2 q, Vec2 r, double pq, double qr) {
+  const Vec2 a = q - p, b = r - q, c = r - p;
+  const double pr = norm(c);
+  const double k = 2.0 * cross(a, b) / (pq * qr * pr);
+  const double ep = point_rounding(p), eq = point_rounding(q), er = point_rounding(r);
+  // first-order effect of moving each point across the circle, and along it, and of computing
+  const double across = 2.0 * (eq / (pq * qr) + er / (qr * pr) + ep / (pq * pr));
+  const double along = std::abs(k) * ((ep + eq) / pq + (eq + er) / qr + (ep + er) / pr);
+  const double computing = kUnitRoundoff * (6.0 / pr + 8.0 * std::abs(k));
+  return {k, turning(c, b), turning(a, c), across + along + computing};
+}
+
+std::vector<AdjacentCircle> measure_circles(const std::vector<Vec2>& points,
+                                            const std::vector<Chord>& chords) {
+  const std::size_t n = points.size();
+  std::vector<AdjacentCircle> circles(n);
+  for (std::size_t i = 1; i + 1 < n; ++i) {
+    circles[i] = circle_through(points[i - 1], points[i], points[i + 1], chords[i - 1].length,
+                                chords[i].length);
+  }
+  if (n < 3) return circles;
+  circles[0] = circles[1];
+  circles[0].eta_out = circles[0].eta_in;  // the same chord of the same circle
+  circles[n - 1] = circles[n - 2];
+  circles[n - 1].eta_in = circles[n - 1].eta_out;
+  return circles;
+}
+
+/// Largest distance of the points first..last from the circle (or line) through the first, the
+/// middle and the last of them.
+double distance_from_circle(const std::vector<Vec2>& points, std::size_t first, std::size_t last) {
+  const Vec2 p = points[first], q = points[(first + last) / 2], r = points[last];
+  const Vec2 a = q - p, c = r - p;
+  const double scale = norm(a) * norm(r - q) * norm(c);
+  const double kappa = 2.0 * cross(a, r - q) / scale;
+  // tangent at p: the chord turned back by the inscribed angle over it; then the power of a point
+  const Vec2 tangent = unit_at(heading(a) - turning(c, r - q));
+  double worst = 0.0;
+  for (std::size_t i = first; i <= last; ++i) {
+    const Vec2 v = points[i] - p;
+    const double miss = cross(tangent, v) - 0.5 * kappa * dot(v, v);
+    worst = std::max(worst, std::abs(miss));
+  }
+  return worst;
+}
+
+/// Longest stretches of at least four points whose adjacent circles agree within rounding.
+std::vector<CircularStretch> find_stretches(const std::vector<Vec2>& points,
+                                            const std::vector<AdjacentCircle>& circles) {
+  const std::size_t n = points.size();
+  std::vector<CircularStretch> stretches;
+  if (n == 2) return {{0, 1, 0.0}};
+  if (n == 3) return {{0, 2, circles[1].kappa}};
+  for (std::size_t i = 1; i + 2 < n;) {
+    double low = circles[i].kappa - circles[i].rounding;
+    double high = circles[i].kappa + circles[i].rounding;
+    double rounding = std::max(point_rounding(points[i - 1]), point_rounding(points[i]));
+    std::size_t j = i;
+    while (j + 2 < n) {
+      const AdjacentCircle& next = circles[j + 1];
+      const double l = std::max(low, next.kappa - next.rounding);
+      const double h = std::min(high, next.kappa + next.rounding);
+      if (l > h) break;
+      low = l;
+      high = h;
+      ++j;
+    }
+    for (std::size_t k = i; k <= j + 1; ++k) rounding = std::max(rounding, point_rounding(points[k]));
+    const bool fits =
+        j > i && distance_from_circle(points, i - 1, j + 1) <= kStretchRoundings * rounding;
+    if (fits) {
+      const double kappa = low <= 0.0 && high >= 0.0 ? 0.0 : 0.5 * (low + high);
+      stretches.push_back({i - 1, j + 1, kappa});
+      i = j + 1;
+    } else {
+      ++i;
+    }
+  }
+  return stretches;
+}
+
+std::int8_t sign_of(double value) { return value >= 0.0 ? std::int8_t{1} : std::int8_t{-1}; }
+
+/// +1, -1 or 0 for every chord; chords without two circles of their own take the neighbour's.
+std::vector<std::int8_t> choose_directions(const Analysis& a) {
+  const std::size_t m = a.chords.size();
+  std::vector<std::int8_t> direction(m, 0);
+  std::int8_t before = 0;
+  for (std::size_t i = 1; i + 1 < m; ++i) {
+    const double change = a.circles[i + 1].kappa - a.circles[i].kappa;
+    direction[i] = change > 0.0 ? std::int8_t{1} : change < 0.0 ? std::int8_t{-1} : before;
+    before = direction[i];
+  }
+  if (m >= 3) {
+    direction[0] = direction[1];
+    direction[m - 1] = direction[m - 2];
+  }
+  for (const CircularStretch& s : a.stretches) {
+    for (std::size_t i = s.first; i < s.last; ++i) direction[i] = 0;
+    // the curve must arrive at, and leave, the stretch with the curvature of the stretch
+    if (s.first > 0) direction[s.first - 1] = sign_of(s.kappa - a.circles[s.first].kappa);
+    if (s.last < m) direction[s.last] = sign_of(a.circles[s.last].kappa - s.kappa);
+  }
+  return direction;
+}
+
+bool direction_is_certain(const Analysis& a, std::size_t chord) {
+  if (chord == 0 || chord + 1 >= a.chords.size()) return false;
+  const AdjacentCircle& p = a.circles[chord];
+  const AdjacentCircle& q = a.circles[chord + 1];
+  return std::abs(q.kappa - p.kappa) > p.rounding + q.rounding;
+}
+
+void count_undecided(Analysis& a) {
+  for (std::size_t i = 1; i + 1 < a.chords.size(); ++i) {
+    if (a.direction[i] == 0 || direction_is_certain(a, i)) continue;
+    if (a.rounding_decided++ == 0) a.first_rounding_decided = i;
+  }
+}
+
+void collect_runs(Analysis& a) {
+  for (std::size_t i = 0; i < a.direction.size(); ++i) {
+    const int d = a.direction[i];
+    if (!a.runs.empty() && a.runs.back().direction == d) {
+      a.runs.back().last_chord = i;
+    } else {
+      a.runs.push_back({i, i, d});
+    }
+  }
+  int before = 0;
+  for (const SeriesRun& run : a.runs) {
+    if (run.direction == 0) continue;
+    if (before != 0 && run.direction != before) ++a.vertices;
+    before = run.direction;
+  }
+}
+
+/// Greatest number of disjoint windows, each of which holds two opposite certain signs.
+/// `sign(i)` is +1, -1 or 0 (uncertain); window of signs j < k covers points first(j)..last(k).
+template <class Sign, class First, class Last>
+int disjoint_sign_changes(std::size_t count, Sign sign, First first, Last last) {
+  int changes = 0;
+  std::size_t cut = 0;
+  std::optional<std::size_t> newest[2];  // newest certain index of either sign since the cut
+  for (std::size_t k = 0; k < count; ++k) {
+    const int s = sign(k);
+    if (s == 0 || first(k) < cut) continue;
+    const std::size_t own = s > 0 ? 1 : 0;
+    if (newest[1 - own]) {
+      ++changes;
+      cut = last(k);
+      newest[0].reset();
+      newest[1].reset();
+    } else {
+      newest[own] = k;
+    }
+  }
+  return changes;
+}
+
+void bound_singular_points(Analysis& a) {
+  const std::size_t n = a.circles.size();
+  if (n < 4) return;
+  a.vertices_lower_bound = disjoint_sign_changes(
+      a.chords.size(),
+      [&](std::size_t i) {
+        if (!direction_is_certain(a, i)) return 0;
+        return a.circles[i + 1].kappa > a.circles[i].kappa ? 1 : -1;
+      },
+      [](std::size_t i) { return i - 1; }, [](std::size_t i) { return i + 2; });
+  int before = 0;
+  for (std::size_t i = 1; i + 1 < n; ++i) {
+    const double k = a.circles[i].kappa;
+    const int s = k > 0.0 ? 1 : k < 0.0 ? -1 : 0;
+    if (s == 0) continue;
+    if (before != 0 && s != before) ++a.inflections;
+    before = s;
+  }
+  a.inflections_lower_bound = disjoint_sign_changes(
+      n,
+      [&](std::size_t i) {
+        if (i == 0 || i + 1 == n) return 0;
+        const AdjacentCircle& c = a.circles[i];
+        return std::abs(c.kappa) <= c.rounding ? 0 : c.kappa > 0.0 ? 1 : -1;
+      },
+      [](std::size_t i) { return i - 1; }, [](std::size_t i) { return i + 1; });
+}
+
+void bound_error(Analysis& a) {
+  a.points_only_error.assign(a.chords.size(), std::numeric_limits<double>::quiet_NaN());
+  for (std::size_t i = 1; i + 1 < a.chords.size(); ++i) {
+    const double sag_before = std::tan(0.5 * a.circles[i].eta_out);
+    const double sag_after = std::tan(0.5 * a.circles[i + 1].eta_in);
+    a.points_only_error[i] = 0.5 * a.chords[i].length * std::abs(sag_after - sag_before);
+  }
+  for (const CircularStretch& s : a.stretches) {
+    for (std::size_t i = s.first; i < s.last; ++i) a.points_only_error[i] = 0.0;
+  }
+}
+
+Result<void> check_turning(Analysis& a) {
+  for (std::size_t i = 1; i < a.chords.size(); ++i) {
+    const double turn = std::abs(a.chords[i].omega - a.chords[i - 1].omega);
+    a.largest_turning = std::max(a.largest_turning, turn);
+    if (turn < kLargestTurning) continue;
+    return fail({ErrorCode::kChordReversal, "the series turns back on itself",
+                 "point " + std::to_string(i + 1),
+                 "add points around the bend, or remove the point that steps back",
+                 static_cast<std::ptrdiff_t>(i), turn});
+  }
+  return {};
+}
+
+}  // namespace
+
+double sagitta(double kappa, double h) {
+  const double x = 0.5 * kappa * h;
+  return 0.5 * x * h / (1.0 + std::sqrt(std::max(0.0, 1.0 - x * x)));
+}
+
+Result<Analysis> analyse(const std::vector<Vec2>& points) {
+  if (points.size() < 2) {
+    return fail({ErrorCode::kTooFewPoints, "a contour needs at least two distinct points", "", "",
+                 -1, static_cast<double>(points.size())});
+  }
+  Analysis a;
+  a.size = bounding_diagonal(points);
+  if (!(a.size >= kSmallestSize && a.size <= kLargestSize)) {
+    return fail({ErrorCode::kSizeOutOfRange, "the size of the series is outside 1e-100 to 1e100",
+                 "", "choose another unit", -1, a.size});
+  }
+  a.chords = measure_chords(points);
+  if (const auto turning_ok = check_turning(a); !turning_ok) {
+    return tl::unexpected(turning_ok.error());
+  }
+  a.circles = measure_circles(points, a.chords);
+  a.stretches = find_stretches(points, a.circles);
+  a.direction = choose_directions(a);
+  count_undecided(a);
+  collect_runs(a);
+  bound_singular_points(a);
+  bound_error(a);
+  return a;
+}
+
+}  // namespace obvid
