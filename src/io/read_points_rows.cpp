@@ -19,9 +19,7 @@ using std::string_view;
 using text::NumberKind;
 using text::ParsedNumber;
 using text::Separator;
-
-// Longest piece of a bad field that an error shows, in bytes.
-constexpr std::size_t kShownLength = 24;
+using text::shown;
 
 // Largest count that a line before the points may state.
 constexpr double kMaxStatedCount = 1e9;
@@ -32,11 +30,6 @@ constexpr double kTrailingEdgePart = 0.1;
 
 // Fewest points of an airfoil behind which free text may stand.
 constexpr std::size_t kMinAirfoilPoints = 10;
-
-std::string shown(string_view cell) {
-  const bool cut = cell.size() > kShownLength;
-  return '"' + text::to_utf8(cell.substr(0, kShownLength)) + (cut ? "...\"" : "\"");
-}
 
 bool starts_like_number(string_view cell) {
   return !cell.empty() && string_view("+-.0123456789").find(cell.front()) != string_view::npos;

@@ -162,4 +162,11 @@ std::string to_utf8(std::string_view text) {
   return out;
 }
 
+std::string shown(std::string_view cell) {
+  // Longest piece that an error shows, in bytes.
+  constexpr std::size_t kShownLength = 24;
+  const bool cut = cell.size() > kShownLength;
+  return '"' + to_utf8(cell.substr(0, kShownLength)) + (cut ? "...\"" : "\"");
+}
+
 }  // namespace obvid::text

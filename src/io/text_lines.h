@@ -57,5 +57,7 @@ void split(std::string_view line, Separator separator, Fields& fields);
 [[nodiscard]] std::string position(std::string_view name, std::size_t line, std::size_t column);
 /// The text as valid UTF-8: bytes that are not are taken as Latin-1; control characters go.
 [[nodiscard]] std::string to_utf8(std::string_view text);
+/// The beginning of a field, in quotes, for an error on one line.
+[[nodiscard]] std::string shown(std::string_view cell);
 
 }  // namespace obvid::text

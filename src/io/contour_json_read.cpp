@@ -1,0 +1,518 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <nlohmann/json.hpp>
+#include <utility>
+
+#include "contour_json_names.h"
+#include "obvid/io/contour_json.h"
+#include "text_lines.h"
+
+namespace obvid {
+namespace {
+
+using nlohmann::json;
+using std::string_view;
+
+// Deepest nesting of a contour file is 6; the rest is room for fields of other programs.
+constexpr int kMaxDepth = 64;
+
+// Longest message taken over from the JSON parser, in bytes (it quotes whole tokens).
+constexpr std::size_t kMaxDetail = 160;
+
+Error bad_json(std::string what, std::string where) {
+  Error error;
+  error.code = ErrorCode::kBadJson;
+  error.what = std::move(what);
+  error.where = std::move(where);
+  return error;
+}
+
+std::string place_of_byte(string_view text, string_view name, std::size_t byte) {
+  const string_view before = text.substr(0, byte);
+  const auto line = 1 + std::count(before.begin(), before.end(), '\n');
+  const std::size_t start = before.find_last_of('\n') + 1;
+  const string_view last = before.substr(start);
+  return text::position(name, static_cast<std::size_t>(line),
+                        text::column_of(last, last.data() + last.size()));
+}
+
+// Refuses brackets nested deeper than any contour file: what walks over the values may recurse.
+Result<void> check_depth(string_view text, string_view name) {
+  int depth = 0;
+  bool in_string = false;
+  for (std::size_t i = 0; i < text.size(); ++i) {
+    const char c = text[i];
+    if (in_string) {
+      if (c == '\\') ++i;
+      if (c == '"') in_string = false;
+    } else if (c == '"') {
+      in_string = true;
+    } else if (c == '[' || c == '{') {
+      if (++depth > kMaxDepth) {
+        return fail(bad_json("brackets are nested more than " + std::to_string(kMaxDepth) + " deep",
+                             place_of_byte(text, name, i)));
+      }
+    } else if (c == ']' || c == '}') {
+      --depth;
+    }
+  }
+  return {};
+}
+
+// The parser's message without the position, which stands in `where`.
+std::string detail_of(string_view message) {
+  const std::size_t column = message.find("column ");
+  const std::size_t colon = column == string_view::npos ? column : message.find(": ", column);
+  if (colon != string_view::npos) message.remove_prefix(colon + 2);
+  return text::to_utf8(message.substr(0, kMaxDetail));
+}
+
+Result<json> parse(string_view text, string_view name) {
+  if (auto depth = check_depth(text, name); !depth) return fail(std::move(depth.error()));
+  try {
+    return json::parse(text.begin(), text.end());
+  } catch (const json::parse_error& error) {
+    // The parser counts from 1 and names the last byte that it read.
+    const std::size_t byte = error.byte > 0 ? error.byte - 1 : 0;
+    return fail(bad_json("the file is not valid JSON: " + detail_of(error.what()),
+                         place_of_byte(text, name, std::min(byte, text.size()))));
+  } catch (const json::exception& error) {
+    return fail(
+        bad_json("the file is not valid JSON: " + detail_of(error.what()), std::string(name)));
+  }
+}
+
+/// A value with the way to it, so that errors can name it ("/pieces/3/weights/2").
+struct Node {
+  const json* value = nullptr;
+  const Node* parent = nullptr;
+  string_view key;  ///< empty inside an array
+  std::size_t index = 0;
+
+  [[nodiscard]] std::string path() const {
+    if (parent == nullptr) return {};
+    return parent->path() + "/" + (key.empty() ? std::to_string(index) : std::string(key));
+  }
+};
+
+/// Turns the parsed values into a contour. The first error stays and makes all further steps
+/// return at once, so that each step reads like the format.
+class Reader {
+ public:
+  explicit Reader(string_view name) : name_(name) {}
+
+  Result<StoredContour> read(const json& document);
+
+ private:
+  void refuse(const Node& node, ErrorCode code, std::string what);
+  void refuse(const Node& node, std::string what) {
+    refuse(node, ErrorCode::kBadJson, std::move(what));
+  }
+  [[nodiscard]] bool failed() const { return error_.has_value(); }
+
+  Node field(const Node& object, string_view key);
+  std::optional<Node> optional_field(const Node& object, string_view key);
+  double number(const Node& node);
+  double number_or_nan(const Node& node);
+  long long integer(const Node& node, long long least, long long most);
+  std::size_t index(const Node& node, std::size_t size, string_view what);
+  bool flag(const Node& node);
+  std::string word(const Node& node);
+  Vec2 point(const Node& node);
+  double figure(const Node& object, string_view key);
+  double optional_figure(const Node& object, string_view key, double otherwise);
+  int small_count(const Node& object, string_view key);
+  std::size_t optional_count(const Node& object, string_view key);
+  bool optional_flag(const Node& object, string_view key, bool otherwise);
+
+  template <class Read>
+  void each(const Node& array, Read read);
+
+  void read_head(const Node& root);
+  void read_contour(const Node& root);
+  Joint joint(const Node& node);
+  Piece piece(const Node& node);
+  ArcPiece arc(const Node& node);
+  RationalBezier bezier(const Node& node);
+  void exact_points(const Node& exact, const Node& points, RationalBezier& bezier);
+  Run run(const Node& node);
+  FitReport report(const Node& node);
+  SegmentReport segment(const Node& node);
+  Certificate certificate(const Node& node);
+  PieceProof proof(const Node& node, std::size_t expected);
+
+  string_view name_;
+  std::optional<Error> error_;
+  StoredContour stored_;
+};
+
+void Reader::refuse(const Node& node, ErrorCode code, std::string what) {
+  if (error_) return;
+  error_ = bad_json(std::move(what),
+                    std::string(name_) + ": " + (node.parent == nullptr ? "/" : node.path()));
+  error_->code = code;
+}
+
+// ---- values ----------------------------------------------------------------------------------
+
+Node Reader::field(const Node& object, string_view key) {
+  // Stands for a missing value: every reader refuses it after the first error.
+  static const json kNothing;
+  if (const auto found = optional_field(object, key)) return *found;
+  const Node missing{&kNothing, &object, key};
+  refuse(missing, "the field is missing");
+  return missing;
+}
+
+std::optional<Node> Reader::optional_field(const Node& object, string_view key) {
+  if (failed()) return std::nullopt;
+  if (!object.value->is_object()) {
+    refuse(object, "an object is expected");
+    return std::nullopt;
+  }
+  const auto found = object.value->find(key);
+  if (found == object.value->end()) return std::nullopt;
+  return Node{&*found, &object, key};
+}
+
+double Reader::number(const Node& node) {
+  if (failed()) return 0.0;
+  const double value = node.value->is_number() ? node.value->get<double>() : 0.0;
+  if (!node.value->is_number()) {
+    refuse(node, "a number is expected");
+  } else if (!std::isfinite(value)) {
+    refuse(node, "the number is out of range");
+  }
+  return value;
+}
+
+double Reader::number_or_nan(const Node& node) {
+  if (!failed() && node.value->is_null()) return std::numeric_limits<double>::quiet_NaN();
+  return number(node);
+}
+
+long long Reader::integer(const Node& node, long long least, long long most) {
+  const double value = number(node);
+  const bool whole = value == std::floor(value) && value >= static_cast<double>(least) &&
+                     value <= static_cast<double>(most);
+  if (!whole) refuse(node, "a whole number from " + std::to_string(least) + " on is expected");
+  return failed() ? least : static_cast<long long>(value);
+}
+
+// Whole numbers up to here have an exact double.
+constexpr long long kMaxInteger = 1LL << 53;
+constexpr int kMaxInt = std::numeric_limits<int>::max();
+
+std::size_t Reader::index(const Node& node, std::size_t size, string_view what) {
+  const auto value = static_cast<std::size_t>(integer(node, 0, kMaxInteger));
+  if (!failed() && value >= size) {
+    refuse(node, "there are only " + std::to_string(size) + " " + std::string(what));
+  }
+  return value;
+}
+
+bool Reader::flag(const Node& node) {
+  if (failed()) return false;
+  if (!node.value->is_boolean()) refuse(node, "true or false is expected");
+  return !failed() && node.value->get<bool>();
+}
+
+std::string Reader::word(const Node& node) {
+  if (failed()) return {};
+  if (!node.value->is_string()) refuse(node, "a string is expected");
+  return failed() ? std::string() : node.value->get<std::string>();
+}
+
+template <class Read>
+void Reader::each(const Node& array, Read read) {
+  if (failed()) return;
+  if (!array.value->is_array()) return refuse(array, "an array is expected");
+  for (std::size_t i = 0; i < array.value->size() && !failed(); ++i) {
+    read(Node{&(*array.value)[i], &array, {}, i});
+  }
+}
+
+Vec2 Reader::point(const Node& node) {
+  if (failed()) return {};
+  if (!node.value->is_array() || node.value->size() != 2) {
+    refuse(node, "a point [x, y] is expected");
+    return {};
+  }
+  return {number({&(*node.value)[0], &node, {}, 0}), number({&(*node.value)[1], &node, {}, 1})};
+}
+
+double Reader::figure(const Node& object, string_view key) {
+  return number_or_nan(field(object, key));
+}
+
+double Reader::optional_figure(const Node& object, string_view key, double otherwise) {
+  const auto found = optional_field(object, key);
+  return found ? number_or_nan(*found) : otherwise;
+}
+
+int Reader::small_count(const Node& object, string_view key) {
+  return static_cast<int>(integer(field(object, key), 0, kMaxInt));
+}
+
+std::size_t Reader::optional_count(const Node& object, string_view key) {
+  const auto found = optional_field(object, key);
+  return found ? static_cast<std::size_t>(integer(*found, 0, kMaxInteger)) : 0;
+}
+
+bool Reader::optional_flag(const Node& object, string_view key, bool otherwise) {
+  const auto found = optional_field(object, key);
+  return found ? flag(*found) : otherwise;
+}
+
+// ---- contour ---------------------------------------------------------------------------------
+
+void Reader::read_head(const Node& root) {
+  const Node format = field(root, "format");
+  if (word(format) != contour_json::kFormat) refuse(format, "this is no contour file");
+  const Node version = field(root, "version");
+  if (integer(version, 1, kMaxInt) != contour_json::kVersion) {
+    refuse(version, ErrorCode::kUnsupported, "this program reads version 1 only");
+  }
+  Contour& contour = stored_.contour;
+  contour.units = word(field(root, "units"));
+  contour.closed = flag(field(root, "closed"));
+  const Node carrier = field(root, "carrier");
+  const std::string kind = word(carrier);
+  contour.carrier = kind == to_string(Carrier::kArcs) ? Carrier::kArcs : Carrier::kSpiral;
+  if (kind != to_string(contour.carrier)) {
+    refuse(carrier, ErrorCode::kUnsupported,
+           "carrier " + text::shown(kind) + " is not supported yet");
+  }
+}
+
+void Reader::read_contour(const Node& root) {
+  Contour& contour = stored_.contour;
+  each(field(root, "points"), [&](const Node& node) { contour.points.push_back(point(node)); });
+  const Node elements = field(root, "elements");
+  each(elements, [&](const Node& node) { contour.joints.push_back(joint(node)); });
+  const Node pieces = field(root, "pieces");
+  each(pieces, [&](const Node& node) { contour.pieces.push_back(piece(node)); });
+  if (contour.pieces.empty()) refuse(pieces, "a contour has at least one piece");
+  const std::size_t joints = contour.joints.size();
+  const std::size_t around = contour.pieces.size();
+  const bool fits = joints == around + 1 || (contour.closed && joints == around);
+  if (!fits) {
+    refuse(elements,
+           std::to_string(joints) + " elements do not fit " + std::to_string(around) + " pieces");
+  }
+  each(field(root, "runs"), [&](const Node& node) { contour.runs.push_back(run(node)); });
+}
+
+Joint Reader::joint(const Node& node) {
+  Joint joint;
+  joint.element.point = point(field(node, "point"));
+  joint.element.theta = number(field(node, "heading"));
+  joint.element.kappa = number(field(node, "kappa"));
+  const auto source = optional_field(node, "source");
+  if (source && !source->value->is_null()) {
+    joint.source = index(*source, stored_.contour.points.size(), "points");
+  }
+  return joint;
+}
+
+Piece Reader::piece(const Node& node) {
+  const Node type = field(node, "type");
+  const std::string kind = word(type);
+  if (kind == "bezier") return bezier(node);
+  if (kind == "arc") return arc(node);
+  LinePiece line;
+  if (kind == "line") {
+    line.start = point(field(node, "start"));
+    line.end = point(field(node, "end"));
+  } else {
+    refuse(type, ErrorCode::kUnsupported,
+           "pieces of type " + text::shown(kind) + " are not supported yet");
+  }
+  return line;
+}
+
+ArcPiece Reader::arc(const Node& node) {
+  ArcPiece arc;
+  arc.start = point(field(node, "start"));
+  arc.end = point(field(node, "end"));
+  arc.theta0 = number(field(node, "theta0"));
+  const Node kappa = field(node, "kappa");
+  arc.kappa = number(kappa);
+  if (arc.kappa == 0.0) refuse(kappa, "the curvature of an arc is not 0");
+  const Node length = field(node, "length");
+  arc.length = number(length);
+  if (!(arc.length > 0.0)) refuse(length, "the length of an arc is above 0");
+  return arc;
+}
+
+RationalBezier Reader::bezier(const Node& node) {
+  RationalBezier bezier;
+  const Node points = field(node, "points");
+  const std::size_t size = !failed() && points.value->is_array() ? points.value->size() : 0;
+  if (size < 2 || size > bezier.offset.size()) {
+    refuse(points, "a piece has 2 to " + std::to_string(bezier.offset.size()) + " points");
+    return bezier;
+  }
+  bezier.degree = static_cast<int>(size) - 1;
+  each(points, [&](const Node& one) { bezier.offset[one.index] = point(one); });
+  std::fill_n(bezier.weight.begin(), size, 1.0);
+  if (const auto weights = optional_field(node, "weights")) {
+    if (!weights->value->is_array() || weights->value->size() != size) {
+      refuse(*weights, "one weight for each point is expected");
+      return bezier;
+    }
+    each(*weights, [&](const Node& one) {
+      bezier.weight[one.index] = number(one);
+      if (!(bezier.weight[one.index] > 0.0)) refuse(one, "a weight is above 0");
+    });
+  }
+  if (const auto exact = optional_field(node, "exact")) exact_points(*exact, points, bezier);
+  return bezier;
+}
+
+// "exact" holds the points without rounding; "points" must be what they round to, so that both
+// readers of one and of the other see the same curve.
+void Reader::exact_points(const Node& exact, const Node& points, RationalBezier& bezier) {
+  bezier.origin = point(field(exact, "origin"));
+  const Node offsets = field(exact, "offsets");
+  if (failed()) return;
+  const auto size = static_cast<std::size_t>(bezier.degree) + 1;
+  if (!offsets.value->is_array() || offsets.value->size() != size) {
+    return refuse(offsets, "one offset for each point is expected");
+  }
+  each(offsets, [&](const Node& one) {
+    const Vec2 offset = point(one);
+    const bool same = bezier.origin + offset == bezier.offset[one.index];
+    if (!failed() && !same) {
+      refuse({&(*points.value)[one.index], &points, {}, one.index},
+             "the point is not the rounded sum of origin and offset in \"exact\"");
+    }
+    bezier.offset[one.index] = offset;
+  });
+}
+
+Run Reader::run(const Node& node) {
+  const std::size_t pieces = stored_.contour.pieces.size();
+  Run run;
+  const Node last = field(node, "last_piece");
+  run.first_piece = index(field(node, "first_piece"), pieces, "pieces");
+  run.last_piece = index(last, pieces, "pieces");
+  if (!failed() && run.last_piece < run.first_piece) refuse(last, "the run ends before it begins");
+  run.direction = static_cast<int>(integer(field(node, "direction"), -1, 1));
+  return run;
+}
+
+// ---- claims ----------------------------------------------------------------------------------
+
+SegmentReport Reader::segment(const Node& node) {
+  SegmentReport row;
+  row.chord = figure(node, "chord");
+  row.points_only_error = figure(node, "points_only_error");
+  row.width = figure(node, "width");
+  row.width_unrefined = optional_figure(node, "width_unrefined", row.width);
+  row.deviation = figure(node, "deviation");
+  row.inserted = optional_count(node, "inserted");
+  return row;
+}
+
+FitReport Reader::report(const Node& node) {
+  FitReport report;
+  const Node segments = field(node, "segments");
+  each(segments, [&](const Node& one) { report.segments.push_back(segment(one)); });
+  const std::size_t points = stored_.contour.points.size();
+  const std::size_t chords = stored_.contour.closed || points == 0 ? points : points - 1;
+  // A closed series may repeat its first point at the end or not.
+  const bool fits = report.segments.size() == chords ||
+                    (stored_.contour.closed && report.segments.size() + 1 == chords);
+  if (!fits) {
+    refuse(segments, std::to_string(report.segments.size()) + " segments do not fit " +
+                         std::to_string(points) + " points");
+  }
+  report.tolerance = figure(node, "tolerance");
+  report.largest_width = figure(node, "largest_width");
+  report.largest_move = figure(node, "largest_move");
+  report.vertices = small_count(node, "vertices");
+  report.vertices_lower_bound = small_count(node, "vertices_lower_bound");
+  report.inflections = small_count(node, "inflections");
+  report.inserted_points =
+      static_cast<std::size_t>(integer(field(node, "inserted_points"), 0, kMaxInteger));
+  report.seconds = figure(node, "seconds");
+  if (const auto chain = optional_field(node, "chain")) {
+    report.chain.newton_steps = small_count(*chain, "newton_steps");
+    report.chain.smallest_margin = figure(*chain, "smallest_margin");
+    report.chain.free_elements = optional_count(*chain, "free_elements");
+  }
+  return report;
+}
+
+PieceProof Reader::proof(const Node& node, std::size_t expected) {
+  PieceProof proof;
+  const Node piece = field(node, "piece");
+  if (index(piece, stored_.contour.pieces.size(), "pieces") != expected) {
+    refuse(piece, "the verdicts stand in the order of the pieces");
+  }
+  const Node verdict = field(node, "verdict");
+  const std::string said = word(verdict);
+  bool known = false;
+  for (const Verdict one : {Verdict::kIncreasing, Verdict::kDecreasing, Verdict::kConstant,
+                            Verdict::kHasVertex, Verdict::kUndecided}) {
+    if (said != to_string(one)) continue;
+    proof.verdict = one;
+    known = true;
+  }
+  if (!known) refuse(verdict, text::shown(said) + " is no verdict");
+  proof.exact_arithmetic = optional_flag(node, "exact_arithmetic", false);
+  proof.t0 = optional_figure(node, "t0", proof.t0);
+  proof.t1 = optional_figure(node, "t1", proof.t1);
+  return proof;
+}
+
+// Fields that other programs may leave out stand for what "proved" and the report imply.
+Certificate Reader::certificate(const Node& node) {
+  Certificate claims;
+  const Node monotone = field(node, "monotone");
+  each(monotone, [&](const Node& one) { claims.pieces.push_back(proof(one, one.index)); });
+  if (claims.pieces.size() != stored_.contour.pieces.size()) {
+    refuse(monotone, "one verdict for each piece is expected");
+  }
+  const Node gaps = field(node, "joint_gaps");
+  claims.gaps.position = figure(gaps, "position");
+  claims.gaps.heading = figure(gaps, "heading");
+  claims.gaps.curvature = figure(gaps, "curvature");
+  claims.inside_region = flag(field(node, "inside_region"));
+  claims.proved = flag(field(node, "proved"));
+  claims.gaps_within_bounds = optional_flag(node, "gaps_within_bounds", claims.proved);
+  claims.through_points = optional_flag(node, "through_points", claims.proved);
+  const auto count = [&](string_view key, int otherwise) {
+    return optional_field(node, key) ? small_count(node, key) : otherwise;
+  };
+  claims.vertices = count("vertices", stored_.report ? stored_.report->vertices : 0);
+  claims.inflections = count("inflections", stored_.report ? stored_.report->inflections : 0);
+  claims.self_intersections = count("self_intersections", 0);
+  if (const auto reason = optional_field(node, "reason")) claims.reason = word(*reason);
+  return claims;
+}
+
+Result<StoredContour> Reader::read(const json& document) {
+  const Node root{&document, nullptr, {}, 0};
+  read_head(root);
+  read_contour(root);
+  if (const auto node = optional_field(root, "report")) stored_.report = report(*node);
+  if (const auto node = optional_field(root, "certificate")) {
+    stored_.certificate = certificate(*node);
+  }
+  if (error_) return fail(std::move(*error_));
+  return std::move(stored_);
+}
+
+}  // namespace
+
+Result<StoredContour> contour_from_json(std::string_view text, std::string_view name) {
+  const Result<json> document = parse(text, name);
+  if (!document) return fail(document.error());
+  return Reader(name).read(*document);
+}
+
+}  // namespace obvid

@@ -1,0 +1,291 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+#include <span>
+
+#include "contour_json_names.h"
+#include "obvid/io/contour_json.h"
+#include "text_lines.h"
+
+namespace obvid {
+namespace {
+
+/// Writes the file front to back into one buffer: one point, element, piece or segment a line, so
+/// that people can read and compare files.
+class Writer {
+ public:
+  std::string write(const StoredContour& stored);
+
+ private:
+  void raw(std::string_view text) { buffer_.append(text); }
+  void number(double value);
+  void text(std::string_view value);
+  void point(Vec2 p);
+  void flag(bool value) { raw(value ? "true" : "false"); }
+  void figure(std::string_view name, double value);
+  void count(std::string_view name, long long value);
+  void claim(std::string_view name, bool value);
+
+  template <class List, class Write>
+  void inline_list(const List& list, Write write);
+  template <class List, class Write>
+  void line_list(std::string_view name, const List& list, std::string_view indent, Write write);
+
+  void element(const Joint& joint);
+  void piece(const LinePiece& line);
+  void piece(const ArcPiece& arc);
+  void piece(const RationalBezier& bezier);
+  void segment(const SegmentReport& row);
+  void proof(std::size_t index, const PieceProof& proof);
+  void report(const FitReport& report);
+  void certificate(const Certificate& certificate);
+
+  fmt::memory_buffer buffer_;
+};
+
+void Writer::number(double value) {
+  if (!std::isfinite(value)) return raw("null");
+  // "-0" would be read as the integer 0.
+  if (value == 0.0) return raw(std::signbit(value) ? "-0.0" : "0");
+  fmt::format_to(std::back_inserter(buffer_), "{}", value);
+}
+
+void Writer::text(std::string_view value) {
+  buffer_.push_back('"');
+  for (const char c : text::to_utf8(value)) {
+    if (c == '"' || c == '\\') buffer_.push_back('\\');
+    buffer_.push_back(c);
+  }
+  buffer_.push_back('"');
+}
+
+void Writer::point(Vec2 p) {
+  buffer_.push_back('[');
+  number(p.x);
+  raw(", ");
+  number(p.y);
+  buffer_.push_back(']');
+}
+
+void Writer::figure(std::string_view name, double value) {
+  fmt::format_to(std::back_inserter(buffer_), "\"{}\": ", name);
+  number(value);
+}
+
+void Writer::count(std::string_view name, long long value) {
+  fmt::format_to(std::back_inserter(buffer_), "\"{}\": {}", name, value);
+}
+
+void Writer::claim(std::string_view name, bool value) {
+  fmt::format_to(std::back_inserter(buffer_), "\"{}\": {}", name, value);
+}
+
+template <class List, class Write>
+void Writer::inline_list(const List& list, Write write) {
+  buffer_.push_back('[');
+  bool first = true;
+  for (const auto& item : list) {
+    if (!first) raw(", ");
+    first = false;
+    write(item);
+  }
+  buffer_.push_back(']');
+}
+
+template <class List, class Write>
+void Writer::line_list(std::string_view name, const List& list, std::string_view indent,
+                       Write write) {
+  fmt::format_to(std::back_inserter(buffer_), "{}\"{}\": [", indent, name);
+  bool first = true;
+  for (const auto& item : list) {
+    fmt::format_to(std::back_inserter(buffer_), "{}\n{}  ", first ? "" : ",", indent);
+    first = false;
+    write(item);
+  }
+  if (!first) fmt::format_to(std::back_inserter(buffer_), "\n{}", indent);
+  buffer_.push_back(']');
+}
+
+void Writer::element(const Joint& joint) {
+  raw("{\"point\": ");
+  point(joint.element.point);
+  raw(", ");
+  figure("heading", joint.element.theta);
+  raw(", ");
+  figure("kappa", joint.element.kappa);
+  raw(", \"source\": ");
+  if (joint.source) {
+    fmt::format_to(std::back_inserter(buffer_), "{}", *joint.source);
+  } else {
+    raw("null");
+  }
+  raw("}");
+}
+
+void Writer::piece(const LinePiece& line) {
+  raw("{\"type\": \"line\", \"start\": ");
+  point(line.start);
+  raw(", \"end\": ");
+  point(line.end);
+  raw("}");
+}
+
+void Writer::piece(const ArcPiece& arc) {
+  raw("{\"type\": \"arc\", \"start\": ");
+  point(arc.start);
+  raw(", \"end\": ");
+  point(arc.end);
+  raw(", ");
+  figure("theta0", arc.theta0);
+  raw(", ");
+  figure("kappa", arc.kappa);
+  raw(", ");
+  figure("length", arc.length);
+  raw("}");
+}
+
+void Writer::piece(const RationalBezier& bezier) {
+  const auto size = static_cast<std::size_t>(bezier.degree) + 1;
+  const std::span<const Vec2> offsets(bezier.offset.data(), size);
+  const std::span<const double> weights(bezier.weight.data(), size);
+  const bool absolute = bezier.origin == Vec2{};
+  raw("{\"type\": \"bezier\", \"points\": ");
+  inline_list(offsets, [&](Vec2 offset) { point(absolute ? offset : bezier.origin + offset); });
+  if (std::any_of(weights.begin(), weights.end(), [](double w) { return w != 1.0; })) {
+    raw(", \"weights\": ");
+    inline_list(weights, [&](double weight) { number(weight); });
+  }
+  if (!absolute) {
+    raw(", \"exact\": {\"origin\": ");
+    point(bezier.origin);
+    raw(", \"offsets\": ");
+    inline_list(offsets, [&](Vec2 offset) { point(offset); });
+    raw("}");
+  }
+  raw("}");
+}
+
+void Writer::segment(const SegmentReport& row) {
+  raw("{");
+  figure("chord", row.chord);
+  raw(", ");
+  figure("points_only_error", row.points_only_error);
+  raw(", ");
+  figure("width", row.width);
+  raw(", ");
+  figure("width_unrefined", row.width_unrefined);
+  raw(", ");
+  figure("deviation", row.deviation);
+  raw(", ");
+  count("inserted", static_cast<long long>(row.inserted));
+  raw("}");
+}
+
+void Writer::report(const FitReport& report) {
+  raw(",\n  \"report\": {\n");
+  line_list("segments", report.segments, "    ", [&](const SegmentReport& row) { segment(row); });
+  raw(",\n    ");
+  figure("tolerance", report.tolerance);
+  raw(",\n    ");
+  figure("largest_width", report.largest_width);
+  raw(",\n    ");
+  figure("largest_move", report.largest_move);
+  raw(",\n    ");
+  count("vertices", report.vertices);
+  raw(",\n    ");
+  count("vertices_lower_bound", report.vertices_lower_bound);
+  raw(",\n    ");
+  count("inflections", report.inflections);
+  raw(",\n    ");
+  count("inserted_points", static_cast<long long>(report.inserted_points));
+  raw(",\n    ");
+  figure("seconds", report.seconds);
+  raw(",\n    \"chain\": {");
+  count("newton_steps", report.chain.newton_steps);
+  raw(", ");
+  figure("smallest_margin", report.chain.smallest_margin);
+  raw(", ");
+  count("free_elements", static_cast<long long>(report.chain.free_elements));
+  raw("}\n  }");
+}
+
+void Writer::proof(std::size_t index, const PieceProof& proof) {
+  raw("{");
+  count("piece", static_cast<long long>(index));
+  fmt::format_to(std::back_inserter(buffer_), ", \"verdict\": \"{}\"", to_string(proof.verdict));
+  if (proof.exact_arithmetic) raw(", \"exact_arithmetic\": true");
+  if (proof.t0 != 0.0 || proof.t1 != 1.0) {
+    raw(", ");
+    figure("t0", proof.t0);
+    raw(", ");
+    figure("t1", proof.t1);
+  }
+  raw("}");
+}
+
+void Writer::certificate(const Certificate& certificate) {
+  raw(",\n  \"certificate\": {\n");
+  std::size_t index = 0;
+  line_list("monotone", certificate.pieces, "    ",
+            [&](const PieceProof& one) { proof(index++, one); });
+  raw(",\n    \"joint_gaps\": {");
+  figure("position", certificate.gaps.position);
+  raw(", ");
+  figure("heading", certificate.gaps.heading);
+  raw(", ");
+  figure("curvature", certificate.gaps.curvature);
+  raw("},\n    ");
+  claim("gaps_within_bounds", certificate.gaps_within_bounds);
+  raw(",\n    ");
+  claim("inside_region", certificate.inside_region);
+  raw(",\n    ");
+  claim("through_points", certificate.through_points);
+  raw(",\n    ");
+  count("vertices", certificate.vertices);
+  raw(",\n    ");
+  count("inflections", certificate.inflections);
+  raw(",\n    ");
+  count("self_intersections", certificate.self_intersections);
+  raw(",\n    ");
+  claim("proved", certificate.proved);
+  raw(",\n    \"reason\": ");
+  text(certificate.reason);
+  raw("\n  }");
+}
+
+std::string Writer::write(const StoredContour& stored) {
+  const Contour& contour = stored.contour;
+  fmt::format_to(std::back_inserter(buffer_), "{{\n  \"format\": \"{}\",\n  \"version\": {},\n",
+                 contour_json::kFormat, contour_json::kVersion);
+  raw("  \"units\": ");
+  text(contour.units);
+  raw(",\n  \"closed\": ");
+  flag(contour.closed);
+  fmt::format_to(std::back_inserter(buffer_), ",\n  \"carrier\": \"{}\",\n",
+                 to_string(contour.carrier));
+  line_list("points", contour.points, "  ", [&](Vec2 p) { point(p); });
+  raw(",\n");
+  line_list("elements", contour.joints, "  ", [&](const Joint& joint) { element(joint); });
+  raw(",\n");
+  line_list("pieces", contour.pieces, "  ",
+            [&](const Piece& one) { std::visit([&](const auto& kind) { piece(kind); }, one); });
+  raw(",\n");
+  line_list("runs", contour.runs, "  ", [&](const Run& run) {
+    fmt::format_to(std::back_inserter(buffer_),
+                   "{{\"first_piece\": {}, \"last_piece\": {}, \"direction\": {}}}",
+                   run.first_piece, run.last_piece, run.direction);
+  });
+  if (stored.report) report(*stored.report);
+  if (stored.certificate) certificate(*stored.certificate);
+  raw("\n}\n");
+  return fmt::to_string(buffer_);
+}
+
+}  // namespace
+
+std::string contour_to_json(const StoredContour& stored) { return Writer().write(stored); }
+
+}  // namespace obvid
