@@ -1,0 +1,182 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "obvid/certify/certify.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "crossings.h"
+#include "joints.h"
+#include "piece_facts.h"
+
+namespace obvid {
+namespace {
+
+const char* word(int direction) {
+  return direction > 0 ? "increasing" : (direction < 0 ? "decreasing" : "constant");
+}
+
+/// Counts changes of direction along a sequence of signs; zeros are passed over.
+class DirectionChanges {
+ public:
+  void add(int sign) {
+    if (sign == 0) return;
+    if (last_ != 0 && sign != last_) ++count_;
+    if (first_ == 0) first_ = sign;
+    last_ = sign;
+  }
+  /// Along a closed contour the end meets the start.
+  void close() { add(first_); }
+  [[nodiscard]] int count() const { return count_; }
+
+ private:
+  int first_ = 0;
+  int last_ = 0;
+  int count_ = 0;
+};
+
+/// Collects the claims of a contour one after the other; the first that fails is the reason.
+class Notary {
+ public:
+  explicit Notary(const Contour& contour) : contour_(contour) {}
+
+  Certificate run() {
+    if (contour_.pieces.empty()) {
+      certificate_.reason = "the contour has no pieces";
+      return std::move(certificate_);
+    }
+    examine_pieces();
+    joints_ = survey_joints(contour_);
+    check_joints();
+    check_points();
+    check_runs();
+    count_singular_points();
+    certificate_.inside_region = monotone_ && forward_ && joints_.within_bounds;
+    certificate_.proved = monotone_ && forward_ && certificate_.gaps_within_bounds &&
+                          certificate_.through_points && certificate_.inside_region;
+    if (contour_.runs.size() > 1) certificate_.self_intersections = count_crossings(contour_);
+    return std::move(certificate_);
+  }
+
+ private:
+  void fail(std::string reason) {
+    if (certificate_.reason.empty()) certificate_.reason = std::move(reason);
+  }
+
+  void examine_pieces() {
+    const std::size_t n = contour_.pieces.size();
+    certificate_.pieces.reserve(n);
+    for (std::size_t i = 0; i < n; ++i) {
+      const PieceFacts facts = examine_piece(contour_.pieces[i]);
+      certificate_.pieces.push_back(facts.proof);
+      before_.push_back(static_cast<std::int8_t>(facts.first_change));
+      after_.push_back(static_cast<std::int8_t>(facts.last_change));
+      report_verdict(i, facts.proof);
+      if (!facts.turns_below_pi) {
+        forward_ = false;
+        fail(fmt::format("piece {} is not proved to turn by less than half a turn", i));
+      }
+    }
+  }
+
+  void report_verdict(std::size_t i, const PieceProof& proof) {
+    const bool vertex = proof.verdict == Verdict::kHasVertex;
+    if (!vertex && proof.verdict != Verdict::kUndecided) return;
+    monotone_ = false;
+    fail(vertex ? fmt::format("piece {} has a vertex between t = {:.6g} and {:.6g}", i, proof.t0,
+                              proof.t1)
+                : fmt::format("the curvature of piece {} could not be decided", i));
+  }
+
+  void check_joints() {
+    const std::size_t n = contour_.pieces.size();
+    const std::size_t expected = contour_.closed ? n : n + 1;
+    certificate_.gaps = joints_.gaps;
+    certificate_.inflections = joints_.inflections;
+    certificate_.gaps_within_bounds = joints_.within_bounds;
+    if (contour_.joints.size() != expected) {
+      certificate_.gaps_within_bounds = joints_.within_bounds = false;
+      fail(fmt::format("{} pieces need {} joints, not {}", n, expected, contour_.joints.size()));
+    }
+    if (!joints_.within_bounds) fail(joints_.reason);
+  }
+
+  void check_points() {
+    const std::string missed = missed_point(contour_);
+    certificate_.through_points = missed.empty() && joints_.within_bounds;
+    if (!missed.empty()) fail(missed);
+  }
+
+  void check_runs() {
+    std::size_t next = 0;
+    for (std::size_t r = 0; r < contour_.runs.size(); ++r) {
+      const Run& run = contour_.runs[r];
+      if (run.first_piece != next || run.last_piece < run.first_piece ||
+          run.last_piece >= contour_.pieces.size()) {
+        return refuse_runs(fmt::format("run {} does not continue the run before it", r));
+      }
+      for (std::size_t i = run.first_piece; i <= run.last_piece; ++i) check_piece_in_run(r, i);
+      check_jump_before_run(r);
+      next = run.last_piece + 1;
+    }
+    if (next != contour_.pieces.size()) {
+      refuse_runs(fmt::format("no run covers piece {}", next));
+    }
+  }
+
+  void refuse_runs(std::string reason) {
+    monotone_ = false;
+    fail(std::move(reason));
+  }
+
+  void check_piece_in_run(std::size_t r, std::size_t i) {
+    const Run& run = contour_.runs[r];
+    const auto against = [&run](int sign) { return sign != 0 && sign != run.direction; };
+    if (against(before_[i]) || against(after_[i])) {
+      refuse_runs(fmt::format("run {} claims {} curvature, piece {} is {}", r,
+                              word(run.direction), i, to_string(certificate_.pieces[i].verdict)));
+    }
+    if (i > run.first_piece && against(joints_.jump[i])) {
+      refuse_runs(fmt::format("run {} claims {} curvature, which jumps the other way before piece {}",
+                              r, word(run.direction), i));
+    }
+  }
+
+  /// A jump between two runs (arcs) may belong to either, not to a third direction.
+  void check_jump_before_run(std::size_t r) {
+    const Run& run = contour_.runs[r];
+    if (r == 0 && !contour_.closed) return;
+    const Run& before = contour_.runs[r == 0 ? contour_.runs.size() - 1 : r - 1];
+    const int jump = joints_.jump[run.first_piece];
+    if (jump != 0 && jump != run.direction && jump != before.direction) {
+      refuse_runs(fmt::format("curvature jumps before piece {} against both its runs",
+                              run.first_piece));
+    }
+  }
+
+  void count_singular_points() {
+    DirectionChanges changes;
+    for (std::size_t i = 0; i < contour_.pieces.size(); ++i) {
+      changes.add(joints_.jump[i]);
+      changes.add(before_[i]);
+      changes.add(after_[i]);
+    }
+    if (contour_.closed) changes.close();
+    certificate_.vertices = changes.count();
+  }
+
+  const Contour& contour_;
+  Certificate certificate_;
+  JointSurvey joints_;
+  std::vector<std::int8_t> before_;  ///< sign of d kappa at the start of each piece
+  std::vector<std::int8_t> after_;   ///< and at its end; they differ around a vertex
+  bool monotone_ = true;
+  bool forward_ = true;
+};
+
+}  // namespace
+
+Certificate certify(const Contour& contour) { return Notary(contour).run(); }
+
+}  // namespace obvid

@@ -1,0 +1,294 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "crossings.h"
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cmath>
+#include <limits>
+#include <vector>
+
+namespace obvid {
+namespace {
+
+constexpr double kFlatness = 1e-9;      // of the contour's size: a part this flat is its chord
+constexpr int kDeepest = 60;            // halvings of a pair: beyond the digits of a double
+constexpr std::size_t kWorkPerPiece = 400;  // pairs looked at, before a tangle is given up
+constexpr double kLargestArcTurn = 1.0;     // rad, per conic that stands in for an arc
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
+struct Box {
+  Vec2 low{kInfinity, kInfinity};
+  Vec2 high{-kInfinity, -kInfinity};
+
+  void grow(Vec2 p) {
+    low = {std::min(low.x, p.x), std::min(low.y, p.y)};
+    high = {std::max(high.x, p.x), std::max(high.y, p.y)};
+  }
+  void grow(const Box& b) {
+    low = {std::min(low.x, b.low.x), std::min(low.y, b.low.y)};
+    high = {std::max(high.x, b.high.x), std::max(high.y, b.high.y)};
+  }
+  [[nodiscard]] bool misses(const Box& b) const {
+    return low.x > b.high.x || b.low.x > high.x || low.y > b.high.y || b.low.y > high.y;
+  }
+};
+
+Vec2 control_point(const RationalBezier& b, std::size_t j) { return b.origin + b.offset[j]; }
+std::size_t last(const RationalBezier& b) { return static_cast<std::size_t>(b.degree); }
+
+/// Holds the curve when the weights are positive.
+Box box_of(const RationalBezier& b) {
+  Box box;
+  for (std::size_t j = 0; j <= last(b); ++j) box.grow(control_point(b, j));
+  return box;
+}
+
+/// A Bezier curve that stands in for part of a piece.
+struct Part {
+  RationalBezier curve;
+  Box box;
+
+  explicit Part(const RationalBezier& b) : curve(b), box(box_of(b)) {}
+  [[nodiscard]] Vec2 from() const { return control_point(curve, 0); }
+  [[nodiscard]] Vec2 to() const { return control_point(curve, last(curve)); }
+  [[nodiscard]] double extent() const {
+    return std::max(box.high.x - box.low.x, box.high.y - box.low.y);
+  }
+  [[nodiscard]] std::array<Part, 2> halves() const {
+    const auto half = split(curve, 0.5);
+    return {Part(half[0]), Part(half[1])};
+  }
+};
+
+RationalBezier segment(Vec2 from, Vec2 to) {
+  return {from, 1, {Vec2{}, to - from}, {1.0, 1.0}};
+}
+
+/// Conic that is the arc exactly, up to rounding.
+RationalBezier conic(const ArcPiece& arc, double s0, double s1) {
+  const auto along = [&](double s) {
+    const double half = 0.5 * arc.kappa * s;
+    const double chord = half != 0.0 ? std::sin(half) / half : 1.0;
+    return s * chord * unit_at(arc.theta0 + half);
+  };
+  const Vec2 p0 = along(s0);
+  const Vec2 p2 = along(s1);
+  const double half_turn = 0.5 * arc.kappa * (s1 - s0);
+  const double leg = 0.5 * norm(p2 - p0) / std::cos(half_turn);
+  const Vec2 p1 = p0 + leg * unit_at(arc.theta0 + arc.kappa * s0);
+  return {arc.start, 2, {p0, p1, p2}, {1.0, std::cos(half_turn), 1.0}};
+}
+
+/// Curves with positive weights that trace the piece.
+std::vector<Part> parts_of(const Piece& piece) {
+  std::vector<Part> parts;
+  if (const auto* bezier = std::get_if<RationalBezier>(&piece)) {
+    parts.emplace_back(*bezier);
+  } else if (const auto* line = std::get_if<LinePiece>(&piece)) {
+    parts.emplace_back(segment(line->start, line->end));
+  } else {
+    const auto& arc = std::get<ArcPiece>(piece);
+    constexpr double kMostConics = 64.0;  // ten full turns; an arc of a contour has less than half
+    const double turn = std::min(std::abs(arc.kappa) * arc.length / kLargestArcTurn, kMostConics);
+    const int count = std::max(1, static_cast<int>(std::ceil(turn)));
+    for (int j = 0; j < count; ++j) {
+      parts.emplace_back(conic(arc, arc.length * j / count, arc.length * (j + 1) / count));
+    }
+  }
+  return parts;
+}
+
+/// Both polygons lie on different sides of a line parallel to the chord of `a`.
+bool chord_separates(const Part& a, const Part& b) {
+  const Vec2 normal = left_normal(a.to() - a.from());
+  double a_low = 0.0, a_high = 0.0, b_low = kInfinity, b_high = -kInfinity;
+  for (std::size_t j = 0; j <= last(a.curve); ++j) {
+    const double h = dot(control_point(a.curve, j) - a.from(), normal);
+    a_low = std::min(a_low, h);
+    a_high = std::max(a_high, h);
+  }
+  for (std::size_t j = 0; j <= last(b.curve); ++j) {
+    const double h = dot(control_point(b.curve, j) - a.from(), normal);
+    b_low = std::min(b_low, h);
+    b_high = std::max(b_high, h);
+  }
+  return b_low > a_high || b_high < a_low;
+}
+
+bool is_flat(const Part& part, double tolerance) {
+  const Vec2 chord = part.to() - part.from();
+  const double length = norm(chord);
+  if (length <= tolerance) return part.extent() <= tolerance;
+  for (std::size_t j = 1; j < last(part.curve); ++j) {
+    const Vec2 q = control_point(part.curve, j) - part.from();
+    if (std::abs(cross(chord, q)) > tolerance * length) return false;
+  }
+  return true;
+}
+
+/// Half-open on both sides, so that a crossing at a cut counts once.
+bool chords_cross(const Part& a, const Part& b) {
+  const Vec2 d = a.to() - a.from();
+  const Vec2 e = b.to() - b.from();
+  const bool b_apart =
+      (cross(d, b.from() - a.from()) > 0.0) != (cross(d, b.to() - a.from()) > 0.0);
+  const bool a_apart =
+      (cross(e, a.from() - b.from()) > 0.0) != (cross(e, a.to() - b.from()) > 0.0);
+  return a_apart && b_apart;
+}
+
+/// Two ends lie on each other: the parts touch there (a contour that returns to its start point).
+bool ends_touch(const Part& a, const Part& b, double tolerance) {
+  const auto near = [tolerance](Vec2 p, Vec2 q) { return norm(p - q) <= tolerance; };
+  return near(a.from(), b.from()) || near(a.from(), b.to()) || near(a.to(), b.from()) ||
+         near(a.to(), b.to());
+}
+
+/// Every leg of both polygons advances along the direction at the shared end: `a` ends before `b`
+/// begins, so they meet only there.
+bool advance_together(const Part& a, const Part& b) {
+  const Vec2 direction = b.curve.offset[1] - b.curve.offset[0];
+  for (const Part* part : {&a, &b}) {
+    for (std::size_t j = 0; j < last(part->curve); ++j) {
+      if (!(dot(part->curve.offset[j + 1] - part->curve.offset[j], direction) > 0.0)) return false;
+    }
+  }
+  return true;
+}
+
+class CrossingCount {
+ public:
+  explicit CrossingCount(const Contour& contour) : contour_(contour) {
+    const std::size_t n = contour.pieces.size();
+    leaves_ = std::bit_ceil(n);
+    boxes_.resize(2 * leaves_);
+    run_.assign(leaves_, 0);
+    for (std::size_t i = 0; i < n; ++i) {
+      for (const Part& part : parts_of(contour.pieces[i])) boxes_[leaves_ + i].grow(part.box);
+    }
+    for (std::size_t k = leaves_ - 1; k > 0; --k) {
+      boxes_[k] = boxes_[2 * k];
+      boxes_[k].grow(boxes_[2 * k + 1]);
+    }
+    for (std::size_t r = 0; r < contour.runs.size(); ++r) {
+      for (std::size_t i = contour.runs[r].first_piece;
+           i <= contour.runs[r].last_piece && i < n; ++i) {
+        run_[i] = r;
+      }
+    }
+    tolerance_ = kFlatness * std::max(boxes_[1].high.x - boxes_[1].low.x,
+                                      boxes_[1].high.y - boxes_[1].low.y);
+    work_left_ = kWorkPerPiece * (n + 16);
+  }
+
+  int run() {
+    within(1, 0, leaves_);
+    return count_;
+  }
+
+ private:
+  /// Node of the tree of boxes over pieces [first, first + width).
+  struct Node {
+    std::size_t id, first, width;
+    [[nodiscard]] std::array<Node, 2> children() const {
+      const std::size_t half = width / 2;
+      return {Node{2 * id, first, half}, Node{2 * id + 1, first + half, half}};
+    }
+  };
+
+  [[nodiscard]] std::size_t last_piece(const Node& node) const {
+    return std::min(node.first + node.width, contour_.pieces.size()) - 1;
+  }
+  [[nodiscard]] bool beyond(const Node& node) const {
+    return node.first >= contour_.pieces.size();
+  }
+
+  void within(std::size_t id, std::size_t first, std::size_t width) {
+    const Node node{id, first, width};
+    if (width < 2 || beyond(node) || run_[first] == run_[last_piece(node)]) return;
+    const auto [left, right] = node.children();
+    within(left.id, left.first, left.width);
+    within(right.id, right.first, right.width);
+    between(left, right);
+  }
+
+  void between(const Node& a, const Node& b) {
+    if (beyond(a) || beyond(b) || boxes_[a.id].misses(boxes_[b.id])) return;
+    if (run_[a.first] == run_[last_piece(b)]) return;  // one run holds all from a to b
+    if (work_left_ == 0) return;
+    --work_left_;
+    if (a.width == 1 && b.width == 1) {
+      pieces(a.first, b.first);
+      return;
+    }
+    const bool split_a = a.width >= b.width;
+    for (const Node& child : (split_a ? a : b).children()) {
+      split_a ? between(child, b) : between(a, child);
+    }
+  }
+
+  void pieces(std::size_t i, std::size_t j) {
+    const auto a = parts_of(contour_.pieces[i]);
+    const auto b = parts_of(contour_.pieces[j]);
+    const bool next = j == i + 1;
+    const bool around = contour_.closed && i == 0 && j + 1 == contour_.pieces.size();
+    for (std::size_t k = 0; k < a.size(); ++k) {
+      for (std::size_t l = 0; l < b.size(); ++l) {
+        if (next && k + 1 == a.size() && l == 0) {
+          adjacent(a[k], b[l], kDeepest);
+        } else if (around && k == 0 && l + 1 == b.size()) {
+          adjacent(b[l], a[k], kDeepest);
+        } else {
+          apart(a[k], b[l], kDeepest);
+        }
+      }
+    }
+  }
+
+  /// `a` ends where `b` begins; that joint is no crossing.
+  void adjacent(const Part& a, const Part& b, int depth) {
+    if (work_left_ == 0 || depth == 0 || advance_together(a, b)) return;
+    --work_left_;
+    const auto ha = a.halves();
+    const auto hb = b.halves();
+    apart(ha[0], hb[0], depth - 1);
+    apart(ha[0], hb[1], depth - 1);
+    apart(ha[1], hb[1], depth - 1);
+    adjacent(ha[1], hb[0], depth - 1);
+  }
+
+  void apart(const Part& a, const Part& b, int depth) {
+    if (work_left_ == 0 || a.box.misses(b.box)) return;
+    --work_left_;
+    if (chord_separates(a, b) || chord_separates(b, a)) return;
+    const bool a_flat = is_flat(a, tolerance_);
+    const bool b_flat = is_flat(b, tolerance_);
+    if ((a_flat && b_flat) || depth == 0) {
+      if (!ends_touch(a, b, tolerance_) && chords_cross(a, b)) ++count_;
+      return;
+    }
+    if (b_flat || (!a_flat && a.extent() >= b.extent())) {
+      for (const Part& half : a.halves()) apart(half, b, depth - 1);
+    } else {
+      for (const Part& half : b.halves()) apart(a, half, depth - 1);
+    }
+  }
+
+  const Contour& contour_;
+  std::size_t leaves_ = 0;
+  std::vector<Box> boxes_;
+  std::vector<std::size_t> run_;
+  double tolerance_ = 0.0;
+  std::size_t work_left_ = 0;
+  int count_ = 0;
+};
+
+}  // namespace
+
+int count_crossings(const Contour& contour) {
+  if (contour.pieces.size() < 2) return 0;
+  return CrossingCount(contour).run();
+}
+
+}  // namespace obvid

@@ -1,0 +1,209 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "joints.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "end_data.h"
+
+namespace obvid {
+namespace {
+
+// Upper limits of what is called continuous, where rounding alone would not explain a gap. A
+// machine tool or a CAD kernel sees nothing below them.
+constexpr double kPositionBase = 1e-12;   // of the contour's size
+constexpr double kHeadingBase = 1e-9;     // rad
+constexpr double kCurvatureBase = 1e-9;   // of the larger curvature
+
+/// Curvature that counts as flat, against the largest one at the four ends of both neighbours:
+/// where a contour inflects at a joint, "relative to the larger of the two" would divide by zero.
+constexpr double kFlat = 1e-6;
+
+/// Beyond any contour that a proof makes sense for; also stands in for NaN.
+constexpr double kBroken = std::numeric_limits<double>::max();
+
+double known(double gap) { return std::isnan(gap) ? kBroken : gap; }
+
+double size_of_box(const Contour& contour) {
+  double low_x = kBroken, low_y = kBroken, high_x = -kBroken, high_y = -kBroken;
+  const auto grow = [&](Vec2 p) {
+    low_x = std::min(low_x, p.x);
+    low_y = std::min(low_y, p.y);
+    high_x = std::max(high_x, p.x);
+    high_y = std::max(high_y, p.y);
+  };
+  for (const Piece& piece : contour.pieces) {
+    grow(start_point(piece));
+    grow(end_point(piece));
+    grow(evaluate(piece, 0.5).point);  // a single closed arc has no other extent
+  }
+  return std::hypot(high_x - low_x, high_y - low_y);
+}
+
+double heading_gap(Vec2 a, Vec2 b) { return std::abs(turning(a, b)); }
+
+/// Walks along the contour, comparing neighbours with each other and with the joint's element.
+class JointWalk {
+ public:
+  explicit JointWalk(const Contour& contour) : contour_(contour), size_(size_of_box(contour)) {}
+
+  JointSurvey run() {
+    const std::size_t n = contour_.pieces.size();
+    survey_.jump.assign(n, 0);
+    EndData before{};
+    double before_start_kappa = 0.0;
+    for (std::size_t i = 0; i < n; ++i) {
+      const EndData start = start_data(contour_.pieces[i]);
+      const EndData end = end_data(contour_.pieces[i]);
+      local_kappa_ = std::max({std::abs(start.kappa), std::abs(end.kappa),
+                               std::abs(before.kappa), std::abs(before_start_kappa)});
+      if (i > 0) survey_.jump[i] = compare(i, before, start);
+      if (!compare_with_element(i, i > 0 ? &before : nullptr, &start)) break;
+      compare_stored_ends(i);
+      follow_sign(start);
+      follow_sign(end);
+      before = end;
+      before_start_kappa = start.kappa;
+    }
+    finish(before);
+    return std::move(survey_);
+  }
+
+ private:
+  void finish(const EndData& last) {
+    if (contour_.pieces.empty()) return;
+    const std::size_t n = contour_.pieces.size();
+    if (!contour_.closed) {
+      compare_with_element(n, &last, nullptr);
+      return;
+    }
+    const EndData first = start_data(contour_.pieces.front());
+    survey_.jump[0] = compare(0, last, first);
+    compare_with_element(0, &last, &first);
+    follow_sign(first);
+  }
+
+  void check(double gap, double bound, std::size_t joint, const char* what) {
+    if ((gap <= bound && gap < kBroken) || !survey_.within_bounds) return;
+    survey_.within_bounds = false;
+    survey_.reason =
+        fmt::format("{} at joint {} is {:.3g}, its bound {:.3g}", what, joint, gap, bound);
+  }
+
+  void check_position(Vec2 a, Vec2 b, double rounding, std::size_t joint) {
+    const double gap = known(norm(a - b) / size_);
+    survey_.gaps.position = std::max(survey_.gaps.position, gap);
+    check(gap, std::max(kPositionBase, rounding / size_), joint, "the position gap");
+  }
+
+  double relative(double difference, double a, double b) const {
+    const double scale = std::max({std::abs(a), std::abs(b), kFlat * local_kappa_});
+    return difference == 0.0 ? 0.0 : known(difference / scale);
+  }
+
+  /// Two neighbouring pieces; returns the sign of the curvature's jump if it is one.
+  std::int8_t compare(std::size_t joint, const EndData& left, const EndData& right) {
+    check_position(left.point, right.point, left.point_rounding + right.point_rounding, joint);
+    const double turn = known(heading_gap(left.direction, right.direction));
+    survey_.gaps.heading = std::max(survey_.gaps.heading, turn);
+    check(turn, std::max(kHeadingBase, left.heading_rounding + right.heading_rounding), joint,
+          "the heading gap");
+    const double jump = right.kappa - left.kappa;
+    const double gap = relative(std::abs(jump), left.kappa, right.kappa);
+    const double bound =
+        std::max(kCurvatureBase,
+                 relative(left.kappa_rounding + right.kappa_rounding, left.kappa, right.kappa));
+    survey_.gaps.curvature = std::max(survey_.gaps.curvature, gap);
+    // Arcs promise a common tangent only; their jumps are judged as changes of curvature.
+    if (contour_.carrier != Carrier::kArcs) check(gap, bound, joint, "the curvature gap");
+    return static_cast<std::int8_t>(gap <= bound ? 0 : (jump > 0.0 ? 1 : -1));
+  }
+
+  /// The joint's own element against the ends that meet there. False where there is no element.
+  bool compare_with_element(std::size_t joint, const EndData* left, const EndData* right) {
+    if (joint >= contour_.joints.size()) {
+      check(kBroken, 0.0, joint, "the number of joints");
+      return false;
+    }
+    const Element& element = contour_.joints[joint].element;
+    const Vec2 direction = unit_at(element.theta);
+    // Reducing an unwrapped heading costs a rounding of its own size.
+    const double wrapped = kUnwrapped * std::abs(element.theta);
+    for (const EndData* end : {left, right}) {
+      if (end == nullptr) continue;
+      check_position(end->point, element.point, end->point_rounding, joint);
+      check(known(heading_gap(direction, end->direction)),
+            std::max(kHeadingBase, end->heading_rounding + wrapped), joint,
+            "the difference of headings between element and piece");
+    }
+    check_element_kappa(joint, element.kappa, left != nullptr ? left : right,
+                        right != nullptr ? right : left);
+    return true;
+  }
+
+  void check_element_kappa(std::size_t joint, double kappa, const EndData* left,
+                           const EndData* right) {
+    const double rounding = std::max(left->kappa_rounding, right->kappa_rounding);
+    double difference = std::max(std::abs(kappa - left->kappa), std::abs(kappa - right->kappa));
+    if (contour_.carrier == Carrier::kArcs) {
+      // Any curvature between both arcs belongs to their common point; an end has one arc only.
+      const double low = std::min(left->kappa, right->kappa);
+      const double high = std::max(left->kappa, right->kappa);
+      difference = std::max({0.0, low - kappa, kappa - high, std::isnan(kappa) ? kappa : 0.0});
+    }
+    const double gap = relative(known(difference), left->kappa, right->kappa);
+    check(gap,
+          std::max(kCurvatureBase, relative(rounding, left->kappa, right->kappa)), joint,
+          "the difference of curvatures between element and piece");
+  }
+
+  /// The stored end of an arc is a number of its own, beside the end that its arc leads to.
+  void compare_stored_ends(std::size_t i) {
+    const auto* arc = std::get_if<ArcPiece>(&contour_.pieces[i]);
+    if (arc == nullptr) return;
+    const EndData end = end_data(contour_.pieces[i]);
+    check_position(end.point, arc->end, end.point_rounding, i + 1);
+  }
+
+  /// Curvature is monotone on each proved piece, so signs at the ends tell all its sign changes.
+  void follow_sign(const EndData& end) {
+    const int sign = end.kappa > end.kappa_rounding ? 1 : (end.kappa < -end.kappa_rounding ? -1 : 0);
+    if (sign == 0) return;
+    if (last_sign_ != 0 && sign != last_sign_) ++survey_.inflections;
+    last_sign_ = sign;
+  }
+
+  static constexpr double kUnwrapped = 0x1p-52;
+
+  const Contour& contour_;
+  double size_;
+  double local_kappa_ = 0.0;
+  int last_sign_ = 0;
+  JointSurvey survey_;
+};
+
+}  // namespace
+
+JointSurvey survey_joints(const Contour& contour) { return JointWalk(contour).run(); }
+
+std::string missed_point(const Contour& contour) {
+  std::size_t next = 0;
+  for (std::size_t j = 0; j < contour.joints.size(); ++j) {
+    const Joint& joint = contour.joints[j];
+    if (!joint.source) continue;
+    if (*joint.source != next) {
+      return fmt::format("joint {} claims point {} where point {} is due", j, *joint.source, next);
+    }
+    if (next >= contour.points.size() || !(joint.element.point == contour.points[next])) {
+      return fmt::format("joint {} does not stand on point {}", j, next);
+    }
+    ++next;
+  }
+  if (next < contour.points.size()) return fmt::format("no joint stands on point {}", next);
+  return {};
+}
+
+}  // namespace obvid

@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "obvid/certify/certificate.h"
+#include "obvid/curve/contour.h"
+
+namespace obvid {
+
+/// What the ends of the pieces say: gaps, jumps of curvature, inflections.
+struct JointSurvey {
+  JointGaps gaps;
+  bool within_bounds = true;
+  std::string reason;              ///< first gap beyond its bound
+  std::vector<std::int8_t> jump;   ///< sign of the curvature's jump at the start of each piece
+  int inflections = 0;
+};
+
+[[nodiscard]] JointSurvey survey_joints(const Contour& contour);
+
+/// Every input point is the source of one joint, in order, and that joint stands exactly on it.
+/// Empty when so, else the first that is not.
+[[nodiscard]] std::string missed_point(const Contour& contour);
+
+}  // namespace obvid
