@@ -1,0 +1,15 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "options.h"
+
+namespace obvid {
+
+/// Each runs one subcommand and returns the exit code.
+int run(const FitOptions& options);
+int run(const AnalyseOptions& options);
+int run(const RegionOptions& options);
+int run(const VerifyOptions& options);
+int run(const ExplainOptions& options);
+
+}  // namespace obvid

@@ -1,0 +1,93 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cctype>
+#include <string>
+#include <vector>
+
+#include "commands.h"
+#include "json_text.h"
+#include "near_name.h"
+#include "terminal.h"
+
+namespace obvid {
+namespace {
+
+std::string name_of(ErrorCode code) { return fmt::format("E{}", static_cast<int>(code)); }
+
+/// Whole sentences broken into lines that fit a terminal.
+std::string wrapped(std::string_view text, std::string_view indent) {
+  constexpr std::size_t kWidth = 78;
+  std::string out;
+  std::string line(indent);
+  for (std::size_t at = 0; at < text.size();) {
+    const std::size_t end = std::min(text.find(' ', at), text.size());
+    const std::string_view word = text.substr(at, end - at);
+    if (line.size() + 1 + word.size() > kWidth && line.size() > indent.size()) {
+      out += line + "\n";
+      line = indent;
+    }
+    if (line.size() > indent.size()) line += ' ';
+    line += word;
+    at = end + 1;
+  }
+  return out + line + "\n";
+}
+
+void add_json(JsonText& json, const ErrorText& text) {
+  json.begin_object();
+  json.pair("code", name_of(text.code)).pair("exit_code", exit_code(text.code));
+  json.pair("title", text.title).pair("meaning", text.meaning).pair("remedy", text.remedy);
+  json.end_object();
+}
+
+std::string list_of_codes(bool as_json) {
+  JsonText json;
+  json.begin_array();
+  std::string lines;
+  for (const ErrorText& text : error_texts()) {
+    add_json(json, text);
+    lines += fmt::format("{}  {}\n", name_of(text.code), text.title);
+  }
+  json.end_array();
+  return as_json ? json.take() : lines;
+}
+
+Error unknown_code(const std::string& typed) {
+  std::vector<std::string> names;
+  for (const ErrorText& text : error_texts()) names.push_back(name_of(text.code));
+  const std::string near = nearest_name(typed, names);
+  return {ErrorCode::kUsage, "there is no error code '" + typed + "'", "",
+          near.empty() ? "`obvid explain` lists all codes" : "did you mean " + near + "?"};
+}
+
+}  // namespace
+
+int run(const ExplainOptions& options) {
+  std::string text;
+  if (options.code.empty()) {
+    text = list_of_codes(options.json);
+  } else {
+    std::string typed = options.code;
+    if (std::isdigit(static_cast<unsigned char>(typed[0])) != 0) typed.insert(0, "E");
+    typed[0] = static_cast<char>(std::toupper(static_cast<unsigned char>(typed[0])));
+    const auto all = error_texts();
+    const auto same = [&typed](const ErrorText& t) { return name_of(t.code) == typed; };
+    const auto found = std::find_if(all.begin(), all.end(), same);
+    if (found == all.end()) return report(unknown_code(typed));
+    if (options.json) {
+      JsonText json;
+      add_json(json, *found);
+      text = json.take();
+    } else {
+      text = bold(fmt::format("{}: {}", typed, found->title)) + "\n\n" +
+             wrapped(found->meaning, "") + "\n" + wrapped(found->remedy, "") + "\n" +
+             fmt::format("Exit code {}.\n", exit_code(found->code));
+    }
+  }
+  if (auto done = put(text); !done) return report(done.error());
+  return 0;
+}
+
+}  // namespace obvid

@@ -1,0 +1,165 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "fit_report.h"
+
+#include <fmt/format.h>
+
+#include <limits>
+
+#include "json_text.h"
+#include "obvid/io/contour_json.h"
+#include "table.h"
+#include "terminal.h"
+#include "text.h"
+
+namespace obvid {
+namespace {
+
+constexpr std::size_t kNone = std::numeric_limits<std::size_t>::max();
+
+/// Joint that stands on each input point.
+std::vector<std::size_t> joints_of_points(const Contour& contour) {
+  std::vector<std::size_t> joint(contour.points.size(), kNone);
+  for (std::size_t j = 0; j < contour.joints.size(); ++j) {
+    const auto source = contour.joints[j].source;
+    if (source && *source < joint.size() && joint[*source] == kNone) joint[*source] = j;
+  }
+  return joint;
+}
+
+std::string radius_at(const Contour& contour, std::size_t joint) {
+  return joint == kNone ? "-" : radius_text(contour.joints[joint].element.kappa);
+}
+
+Table segment_table(const Fit& fit) {
+  const Contour& contour = fit.contour;
+  const std::vector<std::size_t> joint = joints_of_points(contour);
+  Table table;
+  table.column("points");
+  table.column("chord");
+  table.column("points-only\nerror");
+  table.column("region\nwidth");
+  table.column("inserted\nelements");
+  table.column("pieces");
+  table.column("radius\nat start");
+  table.column("radius\nat end");
+  std::vector<double> width;
+  for (const SegmentReport& segment : fit.report.segments) width.push_back(segment.width);
+  std::size_t before = 0;
+  for (const std::size_t i : rows_worth_showing(width)) {
+    if (i > before) table.gap();
+    before = i + 1;
+    const SegmentReport& segment = fit.report.segments[i];
+    const std::size_t from = i < joint.size() ? joint[i] : kNone;
+    const std::size_t to = i + 1 < joint.size() ? joint[i + 1] : kNone;
+    const bool known = from != kNone && to != kNone && to >= from;
+    table.row({fmt::format("{}-{}", i + 1, i + 2), significant(segment.chord),
+               significant(segment.points_only_error, 4), significant(segment.width, 4),
+               std::to_string(segment.inserted), known ? std::to_string(to - from) : "-",
+               radius_at(contour, from), radius_at(contour, to)});
+  }
+  return table;
+}
+
+std::string fairness_text(const FitReport& report) {
+  return fmt::format("{} (the points force at least {}), {}",
+                     counted(static_cast<std::size_t>(report.vertices), "vertex", "vertices"),
+                     report.vertices_lower_bound,
+                     counted(static_cast<std::size_t>(report.inflections), "inflection",
+                             "inflections"));
+}
+
+std::string time_text(double seconds) {
+  if (seconds < 1e-3) return fmt::format("{:.0f} us", seconds * 1e6);
+  if (seconds < 1.0) return fmt::format("{:.1f} ms", seconds * 1e3);
+  return fmt::format("{:.2f} s", seconds);
+}
+
+Facts summary(const Fit& fit, const std::vector<std::string>& written) {
+  const Contour& contour = fit.contour;
+  const FitReport& report = fit.report;
+  Facts facts;
+  std::string pieces = counted(contour.pieces.size(), "piece", "pieces") + " through " +
+                       counted(contour.points.size(), "point", "points");
+  if (report.chain.free_elements > 0) {
+    pieces += fmt::format(", {} free between them",
+                          counted(report.chain.free_elements, "joint", "joints"));
+  }
+  facts.add("contour", fmt::format("{} in {}", pieces, counted(contour.runs.size(), "run", "runs")));
+  facts.add("fairness", fairness_text(report));
+  facts.add("largest width", fmt::format("{} {} (tolerance {})", significant(report.largest_width, 4),
+                                         contour.units, significant(report.tolerance, 4)));
+  facts.add("bound needed", counted(report.inserted_points, "inserted element", "inserted elements"));
+  if (report.largest_move > 0.0) {
+    facts.add("largest move", significant(report.largest_move, 4) + " " + contour.units);
+  }
+  add_gaps(facts, fit.certificate, contour.carrier);
+  facts.add("time", time_text(report.seconds));
+  if (!written.empty()) {
+    std::string names;
+    for (const std::string& name : written) names += (names.empty() ? "" : ", ") + name;
+    facts.add("written", names);
+  }
+  return facts;
+}
+
+}  // namespace
+
+void add_gaps(Facts& facts, const Certificate& certificate, Carrier carrier) {
+  const JointGaps& gaps = certificate.gaps;
+  std::string text = fmt::format("position {} of the size, heading {} rad",
+                                 significant(gaps.position, 2), significant(gaps.heading, 2));
+  text += carrier == Carrier::kArcs
+              ? fmt::format("; curvature steps up to {} (arcs)", significant(gaps.curvature, 2))
+              : fmt::format(", curvature {} of the larger", significant(gaps.curvature, 2));
+  facts.add("joint gaps", text);
+}
+
+std::string verdict_line(Carrier carrier, const Certificate& certificate) {
+  if (!certificate.proved) {
+    return "NOT proved: " +
+           (certificate.reason.empty() ? std::string("no reason recorded") : certificate.reason);
+  }
+  return carrier == Carrier::kArcs
+             ? "proved: monotone radii on every run, G1 joints, inside the region"
+             : "proved: monotone curvature on every run, G2 joints, inside the region";
+}
+
+std::string fit_report_text(const std::string& name, const Fit& fit,
+                            const std::vector<std::string>& written) {
+  const FitReport& report = fit.report;
+  std::vector<double> width;
+  for (const SegmentReport& segment : report.segments) width.push_back(segment.width);
+  std::string out;
+  if (!name.empty()) out += bold(name) + "\n";
+  out += fmt::format("lengths in {}; radius positive where the contour turns left\n\n",
+                     fit.contour.units);
+  out += segment_table(fit).text();
+  out += shown_note(rows_worth_showing(width).size(), width.size(), "widest", "segments");
+  out += "\n" + summary(fit, written).text();
+  const std::string verdict = verdict_line(fit.contour.carrier, fit.certificate);
+  return out + (fit.certificate.proved ? good(verdict) : bad(verdict)) + "\n";
+}
+
+std::string fit_report_json(const Fit& fit, const std::vector<std::string>& written) {
+  // The writer of the contour file decides how report and certificate look; pieces are left out.
+  StoredContour bare;
+  bare.contour.units = fit.contour.units;
+  bare.contour.carrier = fit.contour.carrier;
+  bare.report = fit.report;
+  bare.certificate = fit.certificate;
+  const std::string stored = contour_to_json(bare);
+  JsonText json;
+  json.begin_object();
+  json.pair("units", fit.contour.units).pair("carrier", to_string(fit.contour.carrier));
+  json.pair("points", fit.contour.points.size()).pair("pieces", fit.contour.pieces.size());
+  json.key("report").raw(top_level_value(stored, "report"));
+  json.key("certificate").raw(top_level_value(stored, "certificate"));
+  json.key("warnings").begin_array();
+  for (const std::string& warning : fit.warnings) json.value(warning);
+  json.end_array().key("written").begin_array();
+  for (const std::string& file : written) json.value(file);
+  json.end_array().end_object();
+  return json.take();
+}
+
+}  // namespace obvid

@@ -1,0 +1,330 @@
+// SPDX-License-Identifier: Apache-2.0
+// The only unit that includes CLI11: it is slow to compile.
+#include "options.h"
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "near_name.h"
+#include "obvid/core/version.h"
+
+namespace obvid {
+namespace {
+
+constexpr const char* kShortHelp =
+    R"(obvid: points in, a curvature-continuous, monotone and proved contour out
+
+  obvid fit POINTS -o contour.svg -o contour.json    form and prove a contour
+  obvid analyse POINTS                               what the points alone say
+  obvid region POINTS                                where every such contour must lie
+  obvid verify contour.json                          prove a stored contour again
+  obvid explain E401                                 what an error means, what to do
+
+`obvid COMMAND --help` shows options, units and defaults. POINTS is a text file with x and y per
+line, an airfoil file, ... or - for standard input.
+)";
+
+constexpr const char* kExitCodes =
+    "Exit codes: 0 done and proved, 2 wrong usage, 3 input unreadable or malformed, 4 no such\n"
+    "contour exists, 5 formed but not proved or tolerance not reached, 1 anything else.";
+
+/// Announced for later; refused with a word of their own so that nobody searches for a typing error.
+const std::vector<std::string> kLaterCommands = {"compare", "convert", "surface"};
+const std::vector<std::string> kLaterCarriers = {"conics", "beziers", "clothoids", "bspline"};
+
+/// What the command line said, before it is checked.
+struct Raw {
+  FitOptions fit;
+  AnalyseOptions analyse;
+  RegionOptions region;
+  VerifyOptions verify;
+  ExplainOptions explain;
+  std::string carrier = "spiral";
+  std::string noise;
+  bool closed = false;
+  bool no_progress = false;
+  std::optional<double> tolerance, start_heading_deg, end_heading_deg, start_radius, end_radius;
+};
+
+Error usage(std::string what, std::string hint) {
+  return {ErrorCode::kUsage, std::move(what), {}, std::move(hint)};
+}
+
+Error bad_option(std::string what, std::string where, std::string hint) {
+  return {ErrorCode::kBadOption, std::move(what), std::move(where), std::move(hint)};
+}
+
+constexpr const char* kInputHelp = "File with the points, or - for standard input";
+constexpr const char* kUnitsHelp = "Name of the length unit, printed only: mm, m, in, ... "
+                                   "[as the file says, else mm]";
+
+void add_fit_direction(CLI::App& fit, Raw& raw) {
+  const char* group = "Given at the ends";
+  fit.add_option("--start-heading", raw.start_heading_deg,
+                 "Heading at the first point, degrees counter-clockwise from +x [free]")
+      ->type_name("DEG")->group(group);
+  fit.add_option("--end-heading", raw.end_heading_deg, "Heading at the last point, degrees [free]")
+      ->type_name("DEG")->group(group);
+  fit.add_option("--start-radius", raw.start_radius,
+                 "Radius at the first point, input units, positive turning left, inf straight "
+                 "[free]")
+      ->type_name("R")->group(group);
+  fit.add_option("--end-radius", raw.end_radius, "Radius at the last point, likewise [free]")
+      ->type_name("R")->group(group);
+}
+
+void add_fit(CLI::App& app, Raw& raw) {
+  CLI::App& fit = *app.add_subcommand("fit", "Form a contour through points and prove it");
+  fit.add_option("INPUT", raw.fit.input, kInputHelp);
+  fit.add_option("-o,--output", raw.fit.outputs,
+                 "File to write, format by ending: .json contour, .svg picture; may be repeated")
+      ->type_name("OUT")->allow_extra_args(false);
+  fit.add_option("--carrier", raw.carrier,
+                 "Curve family: spiral (G2, monotone curvature) or arcs (G1, monotone radii) "
+                 "[spiral]")
+      ->type_name("NAME");
+  fit.add_option("--tolerance", raw.tolerance,
+                 "Largest width of the region, input units [3e-6 of the size]")
+      ->type_name("T");
+  fit.add_flag("--convex", raw.fit.job.convex, "Refuse a contour with inflections");
+  add_fit_direction(fit, raw);
+  fit.add_option("--units", raw.fit.units, kUnitsHelp)->type_name("NAME");
+  fit.add_flag("--json", raw.fit.json, "Report and certificate as JSON on standard output");
+  fit.add_flag("--quiet", raw.fit.quiet, "No table");
+  fit.add_flag("--no-progress", raw.no_progress, "No progress bar");
+  fit.add_option("--noise", raw.noise, "Not available in this version")->group("");
+  fit.add_flag("--closed", raw.closed, "Not available in this version")->group("");
+  fit.footer(std::string("Examples:\n"
+                         "  obvid fit points.csv -o contour.svg -o contour.json\n"
+                         "  obvid fit points.csv --tolerance 0.01 --carrier arcs -o arcs.json\n"
+                         "  cat points.txt | obvid fit - --start-heading 90 --json\n\n") +
+             kExitCodes);
+}
+
+void add_readers(CLI::App& app, Raw& raw) {
+  CLI::App& analyse = *app.add_subcommand(
+      "analyse", "Adjacent circles, runs, vertices and inflections that the points force");
+  analyse.add_option("INPUT", raw.analyse.input, kInputHelp);
+  analyse.add_option("--units", raw.analyse.units, kUnitsHelp)->type_name("NAME");
+  analyse.add_flag("--json", raw.analyse.json, "JSON on standard output instead of the table");
+  CLI::App& region = *app.add_subcommand(
+      "region", "Tangents, radius ranges, heights and widths of the region, per segment");
+  region.add_option("INPUT", raw.region.input, kInputHelp);
+  region.add_option("--units", raw.region.units, kUnitsHelp)->type_name("NAME");
+  region.add_flag("--json", raw.region.json, "JSON on standard output instead of the table");
+}
+
+void add_checkers(CLI::App& app, Raw& raw) {
+  CLI::App& verify =
+      *app.add_subcommand("verify", "Prove a stored contour again, from its file alone");
+  verify.add_option("CONTOUR", raw.verify.input, "Contour file (.json), or - for standard input");
+  verify.add_flag("--json", raw.verify.json, "JSON on standard output instead of the table");
+  verify.add_flag("--quiet", raw.verify.quiet, "Exit code only");
+  verify.footer(kExitCodes);
+  CLI::App& explain =
+      *app.add_subcommand("explain", "What an error code means and what to do; all without a code");
+  explain.add_option("CODE", raw.explain.code, "For example E401 or 401");
+  explain.add_flag("--json", raw.explain.json, "JSON on standard output");
+}
+
+std::vector<std::string> option_names(const CLI::App& app) {
+  std::vector<std::string> names;
+  for (const CLI::Option* option : app.get_options()) {
+    for (const std::string& name : option->get_lnames()) names.push_back("--" + name);
+  }
+  return names;
+}
+
+std::string did_you_mean(const std::string& typed, const std::vector<std::string>& names,
+                         const std::string& otherwise) {
+  const std::string near = nearest_name(typed, names);
+  return near.empty() ? otherwise : "did you mean " + near + "?";
+}
+
+bool listed(const std::vector<std::string>& names, const std::string& name) {
+  return std::find(names.begin(), names.end(), name) != names.end();
+}
+
+std::string not_available(const std::string& what) {
+  return what + " is not available in this version";
+}
+
+Result<void> check_command(const CLI::App& app) {
+  if (!app.get_subcommands().empty()) return {};
+  const std::vector<std::string> extras = app.remaining();
+  const std::string typed = extras.empty() ? "" : extras.front();
+  if (listed(kLaterCommands, typed)) {
+    return fail(bad_option(not_available("the command " + typed), "",
+                           "available are fit, analyse, region, verify, explain"));
+  }
+  std::vector<std::string> names = option_names(app);
+  for (const CLI::App* command : app.get_subcommands(nullptr)) names.push_back(command->get_name());
+  const std::string kind = typed.starts_with("-") ? "option" : "command";
+  return fail(usage("unknown " + kind + " '" + typed + "'",
+                    did_you_mean(typed, names, "see obvid --help")));
+}
+
+Result<void> check_extras(const CLI::App& app) {
+  const CLI::App& command = *app.get_subcommands().front();
+  std::vector<std::string> extras = command.remaining();
+  for (const std::string& extra : app.remaining()) extras.push_back(extra);
+  if (extras.empty()) return {};
+  const std::string see = "see obvid " + command.get_name() + " --help";
+  for (const std::string& extra : extras) {
+    if (!extra.starts_with("-")) continue;
+    const std::string name = extra.substr(0, extra.find('='));
+    return fail(usage("unknown option '" + name + "' of " + command.get_name(),
+                      did_you_mean(name, option_names(command), see)));
+  }
+  return fail(usage("one argument too many: '" + extras.front() + "'", see));
+}
+
+Result<void> need(const std::string& input, const char* command, const char* what) {
+  if (!input.empty()) return {};
+  return fail(usage(std::string(command) + " needs " + what,
+                    std::string("see obvid ") + command + " --help"));
+}
+
+Result<void> check_units(const std::optional<std::string>& units) {
+  constexpr std::size_t kLongest = 16;
+  if (!units) return {};
+  bool bad = units->empty() || units->size() > kLongest;
+  for (const char c : *units) bad = bad || static_cast<unsigned char>(c) < 0x20;
+  if (!bad) return {};
+  return fail(bad_option("the unit's name must have 1 to 16 letters", "--units",
+                         "for example mm, m or in"));
+}
+
+Result<void> set_carrier(Raw& raw) {
+  if (raw.carrier == "spiral") {
+    raw.fit.job.carrier = Carrier::kSpiral;
+  } else if (raw.carrier == "arcs") {
+    raw.fit.job.carrier = Carrier::kArcs;
+  } else if (listed(kLaterCarriers, raw.carrier)) {
+    return fail(bad_option(not_available("the carrier " + raw.carrier), "--carrier",
+                           "available are spiral and arcs"));
+  } else {
+    return fail(bad_option("unknown carrier '" + raw.carrier + "'", "--carrier",
+                           did_you_mean(raw.carrier, {"spiral", "arcs"},
+                                        "available are spiral and arcs")));
+  }
+  return {};
+}
+
+Result<void> set_heading(const std::optional<double>& deg, const char* name,
+                         std::optional<double>& theta) {
+  if (!deg) return {};
+  if (!std::isfinite(*deg)) return fail(bad_option("the heading must be finite", name, ""));
+  theta = *deg * std::numbers::pi / 180.0;
+  return {};
+}
+
+Result<void> set_radius(const std::optional<double>& radius, const char* name,
+                        std::optional<double>& kappa) {
+  if (!radius) return {};
+  if (!(*radius != 0.0) || std::isnan(*radius)) {
+    return fail(bad_option("the radius must not be 0", name,
+                           "positive turns left, negative right, inf is straight"));
+  }
+  kappa = 1.0 / *radius;
+  return {};
+}
+
+Result<Command> checked_fit(Raw& raw) {
+  if (raw.closed) return fail(bad_option(not_available("--closed"), "", "leave the option out"));
+  if (!raw.noise.empty()) {
+    return fail(bad_option(not_available("--noise"), "",
+                           "leave it out: the contour meets the points exactly"));
+  }
+  if (raw.tolerance && !(*raw.tolerance > 0.0 && std::isfinite(*raw.tolerance))) {
+    return fail(bad_option("the tolerance must be a positive length", "--tolerance",
+                           "give it in the units of the input"));
+  }
+  raw.fit.job.tolerance = raw.tolerance;
+  raw.fit.progress = !raw.no_progress;
+  FitJob& job = raw.fit.job;
+  const Result<void> done =
+      need(raw.fit.input, "fit", "a file with points")
+          .and_then([&] { return check_units(raw.fit.units); })
+          .and_then([&] { return set_carrier(raw); })
+          .and_then([&] {
+            return set_heading(raw.start_heading_deg, "--start-heading", job.start_heading);
+          })
+          .and_then([&] { return set_heading(raw.end_heading_deg, "--end-heading", job.end_heading); })
+          .and_then([&] { return set_radius(raw.start_radius, "--start-radius", job.start_kappa); })
+          .and_then([&] { return set_radius(raw.end_radius, "--end-radius", job.end_kappa); });
+  if (!done) return fail(done.error());
+  return Command{raw.fit};
+}
+
+template <class Options>
+Result<Command> checked_points(const Options& options, const char* name) {
+  const Result<void> done = need(options.input, name, "a file with points").and_then([&] {
+    return check_units(options.units);
+  });
+  if (!done) return fail(done.error());
+  return Command{options};
+}
+
+Result<Command> checked(const CLI::App& app, Raw& raw) {
+  if (auto done = check_command(app); !done) return fail(done.error());
+  if (auto done = check_extras(app); !done) return fail(done.error());
+  const std::string& name = app.get_subcommands().front()->get_name();
+  if (name == "fit") return checked_fit(raw);
+  if (name == "analyse") return checked_points(raw.analyse, "analyse");
+  if (name == "region") return checked_points(raw.region, "region");
+  if (name == "explain") return Command{raw.explain};
+  if (auto done = need(raw.verify.input, "verify", "a contour file"); !done) {
+    return fail(done.error());
+  }
+  return Command{raw.verify};
+}
+
+Error from_cli(const CLI::ParseError& error) {
+  std::string what = error.what();
+  while (!what.empty() && (what.back() == '\n' || what.back() == '.')) what.pop_back();
+  const bool value = dynamic_cast<const CLI::ConversionError*>(&error) != nullptr ||
+                     dynamic_cast<const CLI::ValidationError*>(&error) != nullptr;
+  if (value) return bad_option(what, "", "`obvid COMMAND --help` shows units and defaults");
+  return usage(what, "see obvid --help");
+}
+
+void allow_extras(CLI::App& app) {
+  // They are reported by this program, with a guess at what was meant.
+  app.allow_extras();
+  for (CLI::App* command : app.get_subcommands(nullptr)) command->allow_extras();
+}
+
+}  // namespace
+
+Result<Command> parse_command_line(int argc, const char* const* argv) {
+  if (argc < 2) return Command{ShowText{kShortHelp}};
+  try {
+    CLI::App app("Points in, a curvature-continuous, monotone and proved contour out", "obvid");
+    app.set_version_flag("--version", std::string("obvid ") + kVersion);
+    app.require_subcommand(0, 1);
+    app.get_formatter()->column_width(28);
+    app.footer(kExitCodes);
+    Raw raw;
+    add_fit(app, raw);
+    add_readers(app, raw);
+    add_checkers(app, raw);
+    allow_extras(app);
+    try {
+      app.parse(argc, argv);
+    } catch (const CLI::CallForVersion& version) {
+      return Command{ShowText{std::string(version.what()) + "\n"}};
+    } catch (const CLI::CallForHelp&) {
+      return Command{ShowText{app.help()}};
+    } catch (const CLI::ParseError& error) {
+      return fail(from_cli(error));
+    }
+    return checked(app, raw);
+  } catch (const CLI::Error& error) {
+    return fail({ErrorCode::kInternal, error.what(), "command line", ""});
+  }
+}
+
+}  // namespace obvid

@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <optional>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "obvid/core/result.h"
+#include "obvid/pipeline/fit.h"
+
+namespace obvid {
+
+struct FitOptions {
+  std::string input;
+  std::vector<std::string> outputs;
+  FitJob job;
+  std::optional<std::string> units;
+  bool json = false;
+  bool quiet = false;
+  bool progress = true;
+};
+
+struct AnalyseOptions {
+  std::string input;
+  std::optional<std::string> units;
+  bool json = false;
+};
+
+struct RegionOptions {
+  std::string input;
+  std::optional<std::string> units;
+  bool json = false;
+};
+
+struct VerifyOptions {
+  std::string input;
+  bool json = false;
+  bool quiet = false;
+};
+
+struct ExplainOptions {
+  std::string code;  ///< empty: list all
+  bool json = false;
+};
+
+/// Text that was asked for instead of work: help or version.
+struct ShowText {
+  std::string text;
+};
+
+using Command = std::variant<ShowText, FitOptions, AnalyseOptions, RegionOptions, VerifyOptions,
+                             ExplainOptions>;
+
+/// Understands the command line. Errors: E201 wrong usage, E203 option not possible.
+[[nodiscard]] Result<Command> parse_command_line(int argc, const char* const* argv);
+
+}  // namespace obvid

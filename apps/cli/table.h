@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <vector>
+
+namespace obvid {
+
+/// Table for the eye: columns right-aligned, numbers by their decimal points.
+class Table {
+ public:
+  enum class Align { kLeft, kDecimal };
+
+  /// `head` may have several lines, parted by '\n'; the lowest stands on the column.
+  void column(std::string head, Align align = Align::kDecimal);
+  void row(std::vector<std::string> cells);
+  /// A line of dots where rows were left out.
+  void gap();
+  [[nodiscard]] std::string text() const;
+
+ private:
+  struct Column {
+    std::vector<std::string> head;
+    Align align = Align::kDecimal;
+  };
+  std::vector<Column> columns_;
+  std::vector<std::vector<std::string>> rows_;  // an empty row is a gap
+};
+
+/// Which rows of a long list are shown: all of a short one, else the first and last few and those
+/// of greatest `value` (NaN counts as least). Ascending.
+[[nodiscard]] std::vector<std::size_t> rows_worth_showing(const std::vector<double>& value);
+
+/// "shown: the first 6, the last 6 and the 6 widest of 200 segments", or "" when all are shown.
+[[nodiscard]] std::string shown_note(std::size_t shown, std::size_t all, const char* greatest,
+                                     const char* what);
+
+}  // namespace obvid

@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "obvid/core/result.h"
+
+namespace obvid {
+
+/// Number for a table: `digits` significant digits, plain between 1e-4 and 1e7, else with an
+/// exponent; "-" for NaN, "inf" for infinity.
+[[nodiscard]] std::string significant(double value, int digits = 5);
+
+/// Radius of a signed curvature for a table; "straight" for 0.
+[[nodiscard]] std::string radius_text(double kappa);
+
+/// "1 vertex", "2 vertices".
+[[nodiscard]] std::string counted(std::size_t count, const char* one, const char* many);
+
+/// Direction of curvature along the way: increasing, decreasing, constant.
+[[nodiscard]] const char* direction_text(int direction);
+
+/// Whole text of a file, or of standard input for "-". Error: E301.
+[[nodiscard]] Result<std::string> read_text(const std::string& path);
+
+/// Lines "label   value", values aligned.
+class Facts {
+ public:
+  void add(std::string label, std::string value);
+  [[nodiscard]] std::string text() const;
+
+ private:
+  std::vector<std::pair<std::string, std::string>> lines_;
+};
+
+}  // namespace obvid

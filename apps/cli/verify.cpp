@@ -1,0 +1,160 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <fmt/format.h>
+
+#include <array>
+
+#include "commands.h"
+#include "fit_report.h"
+#include "json_text.h"
+#include "obvid/io/contour_json.h"
+#include "table.h"
+#include "terminal.h"
+#include "text.h"
+
+namespace obvid {
+namespace {
+
+const char* type_of(const Piece& piece) {
+  struct Names {
+    const char* operator()(const LinePiece&) const { return "line"; }
+    const char* operator()(const ArcPiece&) const { return "arc"; }
+    const char* operator()(const RationalBezier&) const { return "bezier"; }
+  };
+  return std::visit(Names{}, piece);
+}
+
+/// What is wrong with a piece, as a figure for choosing rows: the undecided come first.
+double trouble(const PieceProof& proof) {
+  if (proof.verdict == Verdict::kUndecided) return 3.0;
+  if (proof.verdict == Verdict::kHasVertex) return 2.0;
+  return proof.exact_arithmetic ? 1.0 : 0.0;
+}
+
+std::string piece_table(const Contour& contour, const Certificate& certificate) {
+  Table table;
+  table.column("piece");
+  table.column("type", Table::Align::kLeft);
+  table.column("curvature", Table::Align::kLeft);
+  table.column("arithmetic", Table::Align::kLeft);
+  table.column("parameters in question", Table::Align::kLeft);
+  std::vector<double> troubles;
+  for (const PieceProof& proof : certificate.pieces) troubles.push_back(trouble(proof));
+  const std::vector<std::size_t> shown = rows_worth_showing(troubles);
+  std::size_t before = 0;
+  for (const std::size_t i : shown) {
+    if (i > before) table.gap();
+    before = i + 1;
+    const PieceProof& proof = certificate.pieces[i];
+    const bool open = trouble(proof) >= 2.0;
+    table.row({std::to_string(i + 1), i < contour.pieces.size() ? type_of(contour.pieces[i]) : "-",
+               to_string(proof.verdict), proof.exact_arithmetic ? "exact" : "fast",
+               open ? fmt::format("{}..{}", significant(proof.t0), significant(proof.t1)) : ""});
+  }
+  return table.text() +
+         shown_note(shown.size(), certificate.pieces.size(), "most difficult", "pieces");
+}
+
+std::string counts_text(const Certificate& certificate) {
+  std::array<std::size_t, 5> counts{};
+  for (const PieceProof& proof : certificate.pieces) ++counts[static_cast<std::size_t>(proof.verdict)];
+  std::string text;
+  for (std::size_t v = 0; v < counts.size(); ++v) {
+    if (counts[v] == 0) continue;
+    text += fmt::format("{}{} {}", text.empty() ? "" : ", ", counts[v],
+                        to_string(static_cast<Verdict>(v)));
+  }
+  return text;
+}
+
+const char* yes_no(bool flag) { return flag ? "yes" : "no"; }
+
+/// The claims of the file beside what was found now.
+void add_claims(Facts& facts, const StoredContour& stored, const Certificate& found) {
+  if (stored.report) {
+    facts.add("report claims",
+              fmt::format("{} vertices, {} inflections, largest width {} {}",
+                          stored.report->vertices, stored.report->inflections,
+                          significant(stored.report->largest_width, 4), stored.contour.units));
+  } else {
+    facts.add("report claims", "the file holds no report");
+  }
+  if (stored.certificate) {
+    facts.add("file claims", verdict_line(stored.contour.carrier, *stored.certificate));
+  } else {
+    facts.add("file claims", "the file holds no certificate");
+  }
+  facts.add("curvature", counts_text(found));
+  add_gaps(facts, found, stored.contour.carrier);
+  facts.add("gaps within bounds", yes_no(found.gaps_within_bounds));
+  facts.add("through all points", yes_no(found.through_points));
+  facts.add("inside the region", yes_no(found.inside_region));
+  facts.add("vertices", std::to_string(found.vertices));
+  facts.add("inflections", std::to_string(found.inflections));
+  facts.add("self-intersections", std::to_string(found.self_intersections));
+}
+
+std::string report_text(const StoredContour& stored, const Verification& found) {
+  Facts facts;
+  add_claims(facts, stored, found.certificate);
+  const bool holds = found.certificate.proved && !found.false_claim;
+  const std::string verdict = found.false_claim && found.certificate.proved
+                                  ? "NOT as claimed: " + found.false_claim->what
+                                  : verdict_line(stored.contour.carrier, found.certificate);
+  return piece_table(stored.contour, found.certificate) + "\n" + facts.text() +
+         (holds ? good(verdict) : bad(verdict)) + "\n";
+}
+
+std::string report_json(const StoredContour& stored, const Verification& found) {
+  StoredContour bare;
+  bare.contour.units = stored.contour.units;
+  bare.contour.carrier = stored.contour.carrier;
+  bare.certificate = found.certificate;
+  const std::string text = contour_to_json(bare);
+  JsonText json;
+  json.begin_object().pair("holds", found.certificate.proved && !found.false_claim);
+  json.key("false_claim");
+  if (found.false_claim) {
+    json.begin_object();
+    json.pair("code", fmt::format("E{}", static_cast<int>(found.false_claim->code)));
+    json.pair("what", found.false_claim->what).pair("where", found.false_claim->where).end_object();
+  } else {
+    json.null();
+  }
+  json.key("certificate").raw(top_level_value(text, "certificate")).end_object();
+  return json.take();
+}
+
+/// What the file says wrongly comes before what could not be proved.
+int judge(const Verification& found, const std::string& input) {
+  if (found.false_claim) {
+    Error error = *found.false_claim;
+    if (error.where.empty()) error.where = input;
+    return report(error);
+  }
+  if (!found.certificate.proved) {
+    return report({ErrorCode::kNotProved, "the contour is not proved: " + found.certificate.reason,
+                   input, ""});
+  }
+  return 0;
+}
+
+}  // namespace
+
+int run(const VerifyOptions& options) {
+  const Result<std::string> text = read_text(options.input);
+  if (!text) return report(text.error());
+  const std::string name = options.input == "-" ? "standard input" : options.input;
+  const Result<StoredContour> stored = contour_from_json(*text, name);
+  if (!stored) return report(stored.error());
+  const Verification found = verify(*stored);
+  std::string shown;
+  if (options.json) {
+    shown = report_json(*stored, found);
+  } else if (!options.quiet) {
+    shown = report_text(*stored, found);
+  }
+  if (auto done = put(shown); !done) return report(done.error());
+  return judge(found, name);
+}
+
+}  // namespace obvid
