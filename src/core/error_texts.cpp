@@ -58,10 +58,11 @@ constexpr std::array kTexts{
               "The file says how many points it holds, and it holds a different number. It may be "
               "cut off, or two files may have been joined.",
               "Get the file again, or correct the count if you know the points to be complete."},
-    ErrorText{ErrorCode::kBadJson, "Contour file malformed",
-              "The file is not valid JSON, or a field is missing, has the wrong type or contradicts "
-              "another field. The error names line and column, or the path of the field.",
-              "Form the contour again with `obvid fit`, or correct the named field."},
+    ErrorText{
+        ErrorCode::kBadJson, "Contour file malformed",
+        "The file is not valid JSON, or a field is missing, has the wrong type or contradicts "
+        "another field. The error names line and column, or the path of the field.",
+        "Form the contour again with `obvid fit`, or correct the named field."},
     ErrorText{ErrorCode::kSizeOutOfRange, "Size out of range",
               "The coordinates are so large or so small that their squares and ratios leave the "
               "range of double precision numbers.",
@@ -100,11 +101,12 @@ constexpr std::array kTexts{
               "same shape would give another answer.",
               "Move the origin to the part, give more digits, or leave out points that are too "
               "close to each other."},
-    ErrorText{ErrorCode::kNotProved, "Formed, but not proved",
-              "A contour was formed, but the proof of one of its properties did not succeed. It may "
-              "still be good; the program does not claim it.",
-              "See the reason in the report. Report the data if you believe the contour to be "
-              "right."},
+    ErrorText{
+        ErrorCode::kNotProved, "Formed, but not proved",
+        "A contour was formed, but the proof of one of its properties did not succeed. It may "
+        "still be good; the program does not claim it.",
+        "See the reason in the report. Report the data if you believe the contour to be "
+        "right."},
     ErrorText{ErrorCode::kToleranceNotReached, "Tolerance not reached",
               "The region in which the contour is known to lie could not be made as narrow as the "
               "tolerance asks for, usually because the tolerance is near the rounding of the "
