@@ -45,10 +45,13 @@ bool is_dxf(string_view head) {
   return false;
 }
 
-// Fixed 80-column lines with the section letter S in column 73 and the sequence number 1.
+// Fixed 80-column lines with the section letter S in column 73 and the sequence number 1, padded
+// with blanks or zeros.
 bool is_iges(string_view head) {
   const string_view line = LineCursor(head).peek();
-  return line.size() == 80 && line[72] == 'S' && trim(line.substr(73)) == "1";
+  if (line.size() != 80 || line[72] != 'S') return false;
+  const string_view sequence = line.substr(73);
+  return sequence.substr(std::min(sequence.find_first_not_of(" 0"), sequence.size())) == "1";
 }
 
 std::optional<string_view> xml_kind(string_view head) {
@@ -79,11 +82,11 @@ std::optional<string_view> json_kind(string_view head) {
 
 std::optional<string_view> foreign_kind(string_view head) {
   if (starts(head, "AutoCAD Binary DXF")) return "binary DXF";
+  if (is_iges(head)) return "IGES";
   head = skip_space(head);
   if (starts(head, "ISO-10303-21")) return "STEP";
   if (starts(head, "DBRep_DrawableShape") || starts(head, "CASCADE Topology")) return "BREP";
   if (is_dxf(head)) return "DXF";
-  if (is_iges(head)) return "IGES";
   if (const auto kind = json_kind(head)) return kind;
   return xml_kind(head);
 }

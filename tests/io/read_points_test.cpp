@@ -1,0 +1,364 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "obvid/io/read_points.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstdio>
+#include <numbers>
+#include <string>
+
+namespace obvid {
+namespace {
+
+using Points = std::vector<Vec2>;
+
+Points points_of(std::string_view text) {
+  const auto series = parse_points(text, "f");
+  EXPECT_TRUE(series.has_value()) << (series ? "" : to_line(series.error()));
+  return series ? series->points : Points{};
+}
+
+void expect_error(std::string_view text, ErrorCode code, std::string_view where) {
+  const auto series = parse_points(text, "f");
+  ASSERT_FALSE(series.has_value()) << text;
+  EXPECT_EQ(series.error().code, code) << to_line(series.error());
+  EXPECT_EQ(series.error().where, where) << to_line(series.error());
+}
+
+const Points kThree{{1.5, 2.5}, {3, -4}, {0.5, 600}};
+
+TEST(ReadPoints, EachSeparatorGivesTheSamePoints) {
+  EXPECT_EQ(points_of("1.5 2.5\n3 -4\n0.5 600\n"), kThree);
+  EXPECT_EQ(points_of("1.5,2.5\n3,-4\n0.5,600\n"), kThree);
+  EXPECT_EQ(points_of("1.5;2.5\n3;-4\n0.5;600\n"), kThree);
+  EXPECT_EQ(points_of("1.5\t2.5\n3\t-4\n0.5\t600\n"), kThree);
+  EXPECT_EQ(points_of("  1.5 ,\t2.5 \n 3, -4\n0.5  ,600  \n"), kThree);
+  EXPECT_EQ(points_of("1.5\t 2.5\t\t\n3\t-4\t\n0.5 600\n"), kThree);
+}
+
+TEST(ReadPoints, EachLineEndGivesTheSamePoints) {
+  EXPECT_EQ(points_of("1.5 2.5\r\n3 -4\r\n0.5 600\r\n"), kThree);
+  EXPECT_EQ(points_of("1.5 2.5\r3 -4\r0.5 600\r"), kThree);
+  EXPECT_EQ(points_of("1.5 2.5\n3 -4\r\n0.5 600"), kThree);
+  EXPECT_EQ(points_of("1.5 2.5\n3 -4\n0.5 600\n\x1A"), kThree);
+}
+
+TEST(ReadPoints, AByteOrderMarkIsNoPartOfTheData) {
+  EXPECT_EQ(points_of("\xEF\xBB\xBFx,y\n1.5,2.5\n3,-4\n0.5,600\n"), kThree);
+  expect_error(
+      "\xEF\xBB\xBF"
+      "1,2\n3,x\n",
+      ErrorCode::kBadNumber, "f:2:3");
+}
+
+TEST(ReadPoints, CommentsMayStandAnywhere) {
+  EXPECT_EQ(points_of("# a\n; b\n! c\n// d\n1.5 2.5 # e\n\n3 -4 ! f\n0.5 600 // g\n# end"), kThree);
+  EXPECT_EQ(points_of("# x_m,y_m\n1.5,2.5\n3,-4\n0.5,600\n"), kThree);
+}
+
+TEST(ReadPoints, ExponentsAreReadInEachNotation) {
+  const Points expected{{15, 0.025}, {300, -4}, {0.5, 6}};
+  EXPECT_EQ(points_of("1.5e1 2.5E-2\n3d2 -4D0\n5.0D-01 +6\n"), expected);
+  EXPECT_EQ(points_of("3.2080000e-001 .5\n1. -.25\n+1.5E+0 0\n"),
+            (Points{{0.3208, 0.5}, {1, -0.25}, {1.5, 0}}));
+}
+
+TEST(ReadPoints, DecimalCommasAreReadWhereTheyCannotSeparate) {
+  EXPECT_EQ(points_of("1,5;2,5\n3;-4\n0,5;600\n"), kThree);
+  EXPECT_EQ(points_of("1,5\t2,5\n3\t-4\n0,5\t600\n"), kThree);
+  EXPECT_EQ(points_of("1,5 2,5\n3 -4\n0,5 6,0e2\n"), kThree);
+  EXPECT_EQ(points_of("3 -4\n1,5 2,5\n0,5 6,0D2\n"), (Points{{3, -4}, {1.5, 2.5}, {0.5, 600}}));
+  // Between two numbers without blanks the comma separates.
+  EXPECT_EQ(points_of("1,5\n2,5\n3,7\n"), (Points{{1, 5}, {2, 5}, {3, 7}}));
+  EXPECT_EQ(points_of("1, 5\n2 ,6\n3,7\n"), (Points{{1, 5}, {2, 6}, {3, 7}}));
+}
+
+TEST(ReadPoints, OneFileHasOneDecimalSign) {
+  expect_error("1,5 2,5\n3.5 4\n1 1\n", ErrorCode::kBadNumber, "f:2:1");
+  expect_error("1.5 2.5\n3 4,5\n1 1\n", ErrorCode::kBadNumber, "f:2:3");
+  expect_error("1.234,5;2\n1;2\n3;4\n", ErrorCode::kBadNumber, "f:1:1");
+}
+
+TEST(ReadPoints, NumbersAreReadToTheNearestDouble) {
+  const Points points = points_of("0.1 0.2\n0.30000000000000004 1e23\n4.9e-324 9007199254740993\n");
+  EXPECT_EQ(points, (Points{{0.1, 0.2}, {0.1 + 0.2, 1e23}, {5e-324, 9007199254740992.0}}));
+}
+
+TEST(ReadPoints, NegativeZeroBecomesZeroSoThatHeadingsDoNotJump) {
+  for (const Vec2 p : points_of("-0 -0.0\n-1 -0.0\n-2 1\n")) EXPECT_FALSE(std::signbit(p.y));
+}
+
+TEST(ReadPoints, FurtherColumnsAreAllowedAndAChangingThirdIsSaid) {
+  EXPECT_EQ(points_of("1.5 2.5 0\n3 -4 0\n0.5 600 0\n"), kThree);
+  EXPECT_EQ(points_of("1.5,2.5,a b\n3,-4,c\n0.5,600,d\n"), kThree);
+  const auto flat = parse_points("1 2 0\n3 4 0\n5 7 0\n", "curve.sldcrv");
+  ASSERT_TRUE(flat.has_value());
+  EXPECT_TRUE(flat->warnings.empty());
+  const auto space = parse_points("1 2 0\n3 4 1\n5 7 2\n", "curve.sldcrv");
+  ASSERT_TRUE(space.has_value());
+  ASSERT_EQ(space->warnings.size(), 1U);
+  EXPECT_NE(space->warnings[0].find("line 2"), std::string::npos);
+}
+
+TEST(ReadPoints, ATitleNamesTheSeries) {
+  const auto titled = parse_points("NACA 0012\n1 0\n0 0.1\n-1 0\n", "dir/f.dat");
+  ASSERT_TRUE(titled.has_value());
+  EXPECT_EQ(titled->name, "NACA 0012");
+  const auto plain = parse_points("1 0\n0 0.1\n-1 0\n", "dir/f.dat");
+  ASSERT_TRUE(plain.has_value());
+  EXPECT_EQ(plain->name, "f.dat");
+  const auto latin = parse_points("mod\xE8le\n1 0\n0 0.1\n-1 0\n", "f");
+  ASSERT_TRUE(latin.has_value());
+  EXPECT_EQ(latin->name, "mod\xC3\xA8le");
+}
+
+TEST(ReadPoints, AHeaderSaysWhichColumnsAreXAndY) {
+  EXPECT_EQ(points_of("id;y;x\n7;2.5;1.5\n8;-4;3\n9;600;0.5\n"), kThree);
+  EXPECT_EQ(points_of("X [mm]\tY [mm]\n1.5\t2.5\n3\t-4\n0.5\t600\n"), kThree);
+  EXPECT_EQ(points_of("x [mm] y [mm]\n1.5 2.5\n3 -4\n0.5 600\n"), kThree);
+  EXPECT_EQ(points_of("\"x\",\"y\"\n\"1.5\",\"2.5\"\n3,-4\n0.5,600\n"), kThree);
+  EXPECT_EQ(points_of("some title\n[Curve Length]  [X-Coordinate]  [Y-Coordinate]\n"
+                      "0\t1.5\t2.5\n1\t3\t-4\n2\t0.5\t600\n"),
+            kThree);
+  const auto other = parse_points("station,half\n1,2\n3,4\n5,7\n", "f");
+  ASSERT_TRUE(other.has_value());
+  ASSERT_EQ(other->warnings.size(), 1U);
+  EXPECT_NE(other->warnings[0].find("station"), std::string::npos);
+}
+
+TEST(ReadPoints, NamedColumnsFixDataAtTheirPoints) {
+  const auto series = parse_points(
+      "x,y,heading_deg,radius,kappa,tol\n0,0,90,,,\n1,1,,4,,0.01\n2,1,,,-0.5\n3,0,,inf,,\n4,0\n",
+      "f");
+  ASSERT_TRUE(series.has_value()) << to_line(series.error());
+  const auto& fixed = series->fixed;
+  ASSERT_EQ(fixed.size(), 5U);
+  EXPECT_DOUBLE_EQ(fixed[0].theta.value(), std::numbers::pi / 2);
+  EXPECT_FALSE(fixed[0].kappa || fixed[0].tolerance);
+  EXPECT_EQ(fixed[1].kappa.value(), 0.25);
+  EXPECT_EQ(fixed[1].tolerance.value(), 0.01);
+  EXPECT_EQ(fixed[2].kappa.value(), -0.5);
+  EXPECT_EQ(fixed[3].kappa.value(), 0.0);
+  EXPECT_FALSE(fixed[4].theta || fixed[4].kappa || fixed[4].tolerance);
+  EXPECT_TRUE(parse_points("x,y\n0,0\n1,1\n2,1\n", "f")->fixed.empty());
+}
+
+TEST(ReadPoints, EmptyCellsBetweenTabsAreNotFixed) {
+  const auto series =
+      parse_points("x\ty\theading_deg\tkappa\n0\t0\t\t2\n1\t1\t45\t\n2\t1\t\t\n", "f");
+  ASSERT_TRUE(series.has_value()) << to_line(series.error());
+  EXPECT_EQ(series->fixed[0].kappa.value(), 2.0);
+  EXPECT_FALSE(series->fixed[0].theta);
+  EXPECT_DOUBLE_EQ(series->fixed[1].theta.value(), std::numbers::pi / 4);
+}
+
+TEST(ReadPoints, ImpossibleFixedDataAreRefused) {
+  expect_error("x,y,radius\n0,0,0\n1,1,\n", ErrorCode::kNotFinite, "f:2:5");
+  expect_error("x,y,kappa\n0,0,inf\n1,1,\n", ErrorCode::kNotFinite, "f:2:5");
+  expect_error("x,y,radius,kappa\n0,0,2,0.5\n1,1,\n", ErrorCode::kBadNumber, "f:2:7");
+  expect_error("x,y,tol\n0,0,-1\n1,1,\n", ErrorCode::kBadNumber, "f:2:5");
+  expect_error("x,y,heading_deg\n0,0,north\n1,1,\n", ErrorCode::kBadNumber, "f:2:5");
+}
+
+TEST(ReadPoints, ConsecutiveDuplicatesMergeWithAWarning) {
+  const auto series = parse_points("x,y\n0,0\n1,1\n1,1\n1.0,1\n2,0\n0,0\n0,0\n", "f");
+  ASSERT_TRUE(series.has_value());
+  EXPECT_EQ(series->points, (Points{{0, 0}, {1, 1}, {2, 0}, {0, 0}}));
+  ASSERT_EQ(series->warnings.size(), 1U);
+  EXPECT_EQ(series->warnings[0].substr(0, 2), "3 ");
+  EXPECT_NE(series->warnings[0].find("line 4"), std::string::npos);
+}
+
+TEST(ReadPoints, DataFixedAtADuplicateStayWithThePoint) {
+  const auto series = parse_points("x,y,kappa\n0,0,\n1,1,\n1,1,2\n2,0,\n", "f");
+  ASSERT_TRUE(series.has_value());
+  ASSERT_EQ(series->fixed.size(), 3U);
+  EXPECT_EQ(series->fixed[1].kappa.value(), 2.0);
+}
+
+TEST(ReadPoints, BadNumbersAreNamedWithLineAndColumn) {
+  expect_error("1 2\n3 4x\n5 6\n", ErrorCode::kBadNumber, "f:2:3");
+  expect_error("1,2\n3,\n5,6\n", ErrorCode::kTooFewColumns, "f:2:1");
+  expect_error("1,2\n,3\n5,6\n", ErrorCode::kBadNumber, "f:2:1");
+  expect_error("# c\r\n\r\n1,2\r\n  abc,4\r\n", ErrorCode::kBadNumber, "f:4:3");
+  expect_error("1 2\n3 4\n5 6\nremark\n", ErrorCode::kBadNumber, "f:4:1");
+  expect_error("1.0, 2.x0\n3,4\n5,6\n", ErrorCode::kBadNumber, "f:1:6");
+  expect_error("title\nanother\n1 2\n3 4\n", ErrorCode::kBadNumber, "f:2:1");
+  expect_error("1 0x10\n3 4\n5 6\n", ErrorCode::kBadNumber, "f:1:3");
+  expect_error("1,2,3;4,5,6\n1,2,3;4,5,6\n", ErrorCode::kBadNumber, "f:1:1");
+  expect_error("x y\n\xC3\xA9\xC3\xA9 1\n", ErrorCode::kBadNumber, "f:2:1");
+}
+
+TEST(ReadPoints, NumbersThatAreNotFiniteAreRefused) {
+  expect_error("1 2\nnan 4\n5 6\n", ErrorCode::kNotFinite, "f:2:1");
+  expect_error("nan,4\n1,2\n5,6\n", ErrorCode::kNotFinite, "f:1:1");
+  expect_error("1 2\n3 -Inf\n5 6\n", ErrorCode::kNotFinite, "f:2:3");
+  expect_error("1 2\n3 1e999\n5 6\n", ErrorCode::kNotFinite, "f:2:3");
+}
+
+TEST(ReadPoints, TooFewPointsOrColumnsAreRefused) {
+  expect_error("", ErrorCode::kTooFewPoints, "f");
+  expect_error("x,y\n", ErrorCode::kTooFewPoints, "f");
+  expect_error("1 2\n3 4\n", ErrorCode::kTooFewPoints, "f");
+  expect_error("1 2\n3 4\n1 2\n3 4\n3 4\n", ErrorCode::kTooFewPoints, "f");
+  expect_error("1 2\n3 4\n5\n", ErrorCode::kTooFewColumns, "f:3:1");
+  expect_error("1\n2\n3\n", ErrorCode::kTooFewColumns, "f:2:1");
+  expect_error("1.5\n2.5\n3.5\n", ErrorCode::kTooFewColumns, "f:1:1");
+  expect_error("x,y,z\n1\n2\n3\n", ErrorCode::kTooFewColumns, "f:2:1");
+}
+
+TEST(ReadPoints, RowsOfDifferentLengthAreNoPointList) {
+  expect_error("1 2 3\n4 5 6\n7 8\n", ErrorCode::kTooFewColumns, "f:3:1");
+  expect_error("1 2\n4 5\n7 8 9\n", ErrorCode::kBadNumber, "f:3:5");
+}
+
+TEST(ReadPoints, BinaryDataAreNotText) {
+  expect_error(std::string_view("1 2\n3 4\n5\0 6\n", 13), ErrorCode::kNotText, "f");
+  expect_error("\x89PNG\r\n\x1A\n\x01", ErrorCode::kNotText, "f");
+  expect_error(std::string_view("\xFF\xFE"
+                                "1\0 \0",
+                                6),
+               ErrorCode::kNotText, "f");
+}
+
+TEST(ReadPoints, KnownFormatsThatAreNotReadAreCalledByName) {
+  const auto kind = [](std::string_view text) {
+    const auto series = parse_points(text, "f");
+    return series || series.error().code != ErrorCode::kUnsupported ? std::string()
+                                                                    : series.error().what;
+  };
+  EXPECT_EQ(kind("  0\r\nSECTION\r\n  2\r\nHEADER\r\n"), "DXF is not read yet");
+  EXPECT_EQ(kind("999\nby hand\n0\nSECTION\n"), "DXF is not read yet");
+  EXPECT_EQ(kind(std::string_view("AutoCAD Binary DXF\r\n\x1A\0", 22)),
+            "binary DXF is not read yet");
+  EXPECT_EQ(kind("ISO-10303-21;\nHEADER;\n"), "STEP is not read yet");
+  EXPECT_EQ(kind(std::string(72, ' ') + "S      1\n"), "IGES is not read yet");
+  EXPECT_EQ(kind("{\"type\": \"FeatureCollection\"}"), "GeoJSON is not read yet");
+  EXPECT_EQ(kind("[[1, 2], [3, 4]]"), "JSON is not read yet");
+  EXPECT_EQ(kind("<?xml version='1.0'?>\n<gpx>"), "GPX is not read yet");
+  EXPECT_EQ(kind("<svg/>"), "SVG is not read yet");
+  EXPECT_EQ(kind("<?xml?><a/>"), "XML is not read yet");
+  EXPECT_EQ(kind("{\n \"format\": \"obvid-contour\"}"),
+            "this is a contour file, not a list of points");
+}
+
+TEST(ReadPoints, MissingFilesAndFoldersAreNamed) {
+  for (const std::string path : {"/no/such/file.csv", "/"}) {
+    const auto series = read_points(path);
+    ASSERT_FALSE(series.has_value());
+    EXPECT_EQ(series.error().code, ErrorCode::kCannotOpen);
+    EXPECT_EQ(series.error().where, path);
+  }
+}
+
+// ---- airfoils ------------------------------------------------------------------------------
+
+const Points kFoil{{1, 0.01}, {0.5, 0.06}, {0.1, 0.05}, {0, 0}, {0.1, -0.03}, {0.5, -0.04}, {1, 0}};
+constexpr std::string_view kSides =
+    "0 0\n0.1 0.05\n0.5 0.06\n1 0.01\n\n0 0\n0.1 -0.03\n0.5 -0.04\n1 0\n";
+
+TEST(ReadAirfoil, LednicerBecomesOneSeriesFromTheUpperTrailingEdge) {
+  EXPECT_EQ(points_of("FOIL\n 4. 4.\n\n" + std::string(kSides)), kFoil);
+  EXPECT_EQ(points_of("4 4\n\n" + std::string(kSides)), kFoil);
+  EXPECT_EQ(points_of("FOIL\n4. 4.\n0 0\n0.1 0.05\n0.5 0.06\n1 0.01\n0 0\n0.1 -0.03\n"
+                      "0.5 -0.04\n1 0\n"),
+            kFoil);
+}
+
+TEST(ReadAirfoil, ALeadingEdgeThatDiffersOnBothSidesStaysTwoPoints) {
+  const Points points =
+      points_of("F\n3. 4.\n\n0 .01\n.5 .1\n1 .01\n\n0 -.01\n.2 -.1\n.5 -.1\n1 0\n");
+  EXPECT_EQ(points,
+            (Points{{1, .01}, {.5, .1}, {0, .01}, {0, -.01}, {.2, -.1}, {.5, -.1}, {1, 0}}));
+}
+
+TEST(ReadAirfoil, LednicerCountsMustMatch) {
+  expect_error("FOIL\n 5. 4.\n\n" + std::string(kSides), ErrorCode::kBadCount, "f:2:1");
+  expect_error("FOIL\n 3. 5.\n\n" + std::string(kSides), ErrorCode::kBadCount, "f:2:1");
+}
+
+TEST(ReadAirfoil, APointThatLooksLikeCountsIsAPoint) {
+  const Points points = points_of("3 3\n4 5\n6 5\n9 4\n8 3\n7 2\n6 1\n");
+  ASSERT_EQ(points.size(), 7U);
+  EXPECT_EQ(points[0], (Vec2{3, 3}));
+}
+
+TEST(ReadAirfoil, OpenVspFilesAreReadWithAndWithoutSymmetry) {
+  const std::string head = "DEMO GEOM AIRFOIL FILE\nFOIL\n";
+  const std::string counts = "4\tNum Pnts Upper\n4\tNum Pnts Lower\n";
+  EXPECT_EQ(points_of(head + "0\tSym Flag (0 - No, 1 - Yes)\n" + counts + std::string(kSides)),
+            kFoil);
+  const auto mirrored = parse_points(head +
+                                         "1\tSym Flag (0 - No, 1 - Yes)\n3\tNum Pnts Upper\n"
+                                         "0 0\n0.5 0.06\n1 0.01\n",
+                                     "f");
+  ASSERT_TRUE(mirrored.has_value()) << to_line(mirrored.error());
+  EXPECT_EQ(mirrored->name, "FOIL");
+  EXPECT_EQ(mirrored->points, (Points{{1, 0.01}, {0.5, 0.06}, {0, 0}, {0.5, -0.06}, {1, -0.01}}));
+  expect_error(head + "0\tSym Flag (0 - No, 1 - Yes)\n5\tNum Pnts Upper\n4\tNum Pnts Lower\n" +
+                   std::string(kSides),
+               ErrorCode::kBadCount, "f:4:1");
+}
+
+TEST(ReadAirfoil, MsesGridBoundsAreNoPoint) {
+  EXPECT_EQ(points_of("FOIL\n -2.0 3.0 -2.5 3.5\n1.5 2.5\n3 -4\n0.5 600\n"), kThree);
+  expect_error("FOIL\n -2.0 3.0 2.5 -3.5\n1 2\n3 4\n", ErrorCode::kTooFewColumns, "f:3:1");
+}
+
+TEST(ReadAirfoil, OpenFastCoordinatesLoseTheirReferencePoint) {
+  const std::string head = "   %d   NumCoords   ! number, with one more\n! ...\n0.25 0 \n! shape\n";
+  const auto with = [&](const std::string& count) {
+    return count + head.substr(5) + "1.5 2.5\n3 -4\n0.5 600\n";
+  };
+  EXPECT_EQ(points_of(with("4")), kThree);
+  expect_error(with("5"), ErrorCode::kBadCount, "f:1:1");
+}
+
+TEST(ReadAirfoil, ACountBeforeThePointsIsChecked) {
+  EXPECT_EQ(points_of("3\n1.5 2.5\n3 -4\n0.5 600\n"), kThree);
+  expect_error("4\n1.5 2.5\n3 -4\n0.5 600\n", ErrorCode::kBadCount, "f:1:1");
+}
+
+std::string selig_loop() {
+  std::string text = "FOIL 7%\n";
+  for (int i = 0; i <= 24; ++i) {
+    const double angle = 2 * std::numbers::pi * i / 24;
+    char line[64];
+    std::snprintf(line, sizeof line, "%.6f %.6f\n", 0.5 + 0.5 * std::cos(angle),
+                  0.1 * std::sin(angle));
+    text += line;
+  }
+  return text;
+}
+
+TEST(ReadAirfoil, RemarksBehindAWholeAirfoilArePassedOverWithAWarning) {
+  for (const std::string remark :
+       {"http://example.org/x.htm\n", "\n26/10/2001 http://example.org\n", "Profil:\t8.07\t%\n\n",
+        "\n\"name\" <mail>\n1.35 at 10 degrees\n\n20 nov 2005\n"}) {
+    const auto series = parse_points(selig_loop() + remark, "f");
+    ASSERT_TRUE(series.has_value()) << remark << to_line(series.error());
+    EXPECT_EQ(series->points.size(), 25U);
+    ASSERT_EQ(series->warnings.size(), 1U);
+    EXPECT_NE(series->warnings[0].find(remark[0] == '\n' ? "line 28" : "line 27"),
+              std::string::npos);
+  }
+}
+
+TEST(ReadAirfoil, DamagedRowsAreNoRemarks) {
+  const std::string loop = selig_loop();
+  expect_error(loop + "0.99.5 0.001\n", ErrorCode::kBadNumber, "f:27:1");
+  expect_error(loop + "remark\n0.5 0.001\n", ErrorCode::kBadNumber, "f:27:1");
+  expect_error(loop + "\n1.0 0.x01\n", ErrorCode::kBadNumber, "f:28:5");
+  expect_error(loop + "nan 0\n", ErrorCode::kNotFinite, "f:27:1");
+}
+
+TEST(ReadAirfoil, ABlankLineInsideThePointsIsSaid) {
+  const auto series = parse_points("1 2\n3 4\n\n5 7\n", "f");
+  ASSERT_TRUE(series.has_value());
+  ASSERT_EQ(series->warnings.size(), 1U);
+  EXPECT_NE(series->warnings[0].find("line 4"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace obvid
