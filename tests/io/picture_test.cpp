@@ -1,0 +1,264 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstdlib>
+#include <numbers>
+#include <string>
+#include <vector>
+
+#include "obvid/io/picture_svg.h"
+#include "picture_axis.h"
+#include "picture_canvas.h"
+#include "picture_track.h"
+
+namespace obvid {
+namespace {
+
+constexpr double kPi = std::numbers::pi;
+
+/// Arc that starts at `start` with heading `theta`.
+ArcPiece arc_from(Vec2 start, double theta, double kappa, double length) {
+  const double half = 0.5 * kappa * length;
+  const Vec2 end = start + (2.0 / kappa) * std::sin(half) * unit_at(theta + half);
+  return {start, end, theta, kappa, length};
+}
+
+StoredContour semicircle(double radius, Vec2 centre) {
+  StoredContour stored;
+  const Vec2 start = centre + Vec2{radius, 0.0};
+  stored.contour.pieces = {arc_from(start, 0.5 * kPi, 1.0 / radius, kPi * radius)};
+  stored.contour.points = {start, centre + Vec2{0.0, radius}, centre - Vec2{radius, 0.0}};
+  stored.contour.runs = {{0, 0, 0}};
+  return stored;
+}
+
+/// Arcs that follow each other with the given curvatures, each turning by `turn` one way or other.
+StoredContour arc_chain(const std::vector<double>& kappas, double turn) {
+  StoredContour stored;
+  stored.contour.carrier = Carrier::kArcs;
+  Vec2 at;
+  double theta = 0.0;
+  for (const double kappa : kappas) {
+    const ArcPiece arc = arc_from(at, theta, kappa, turn / std::fabs(kappa));
+    stored.contour.points.push_back(at);
+    stored.contour.pieces.emplace_back(arc);
+    at = arc.end;
+    theta += kappa * arc.length;
+  }
+  stored.contour.points.push_back(at);
+  return stored;
+}
+
+/// Parabola branch y = x^2 as quadratic Bezier from x = 0 to `width`, moved by `origin`.
+RationalBezier parabola(double width, Vec2 origin) {
+  RationalBezier piece;
+  piece.origin = origin;
+  piece.degree = 2;
+  piece.offset[1] = {0.5 * width, 0.0};
+  piece.offset[2] = {width, width * width};
+  piece.weight[0] = piece.weight[1] = piece.weight[2] = 1.0;
+  return piece;
+}
+
+/// Data of the path with this class.
+std::string path_of(const std::string& svg, const std::string& css) {
+  const std::size_t at = svg.find("<path class=\"" + css + "\" d=\"");
+  if (at == std::string::npos) return {};
+  const std::size_t from = svg.find("d=\"", at) + 3;
+  return svg.substr(from, svg.find('"', from) - from);
+}
+
+std::vector<double> numbers_of(const std::string& path) {
+  std::vector<double> numbers;
+  const char* at = path.c_str();
+  while (*at != '\0') {
+    char* end = nullptr;
+    const double value = std::strtod(at, &end);
+    if (end == at) {
+      ++at;
+    } else {
+      numbers.push_back(value);
+      at = end;
+    }
+  }
+  return numbers;
+}
+
+TEST(Picture, DrawsACircleWithinOneTwentiethOfAPixel) {
+  const std::string path = path_of(picture_svg(semicircle(5.0, {3.0, 2.0})), "curve even");
+  const std::vector<double> n = numbers_of(path);
+  ASSERT_GE(n.size(), 8U);
+  const Vec2 first{n[0], n[1]};
+  const Vec2 last{n[n.size() - 2], n[n.size() - 1]};
+  const Vec2 centre = 0.5 * (first + last);
+  const double radius = 0.5 * norm(last - first);
+  double worst = 0.0;
+  Vec2 p0 = first;
+  for (std::size_t i = 2; i + 5 < n.size(); i += 6) {
+    const Vec2 p1{n[i], n[i + 1]}, p2{n[i + 2], n[i + 3]}, p3{n[i + 4], n[i + 5]};
+    for (double t = 0.0; t <= 1.0; t += 0.0625) {
+      const double s = 1.0 - t;
+      const Vec2 p = s * s * s * p0 + 3 * s * s * t * p1 + 3 * s * t * t * p2 + t * t * t * p3;
+      worst = std::max(worst, std::fabs(norm(p - centre) - radius));
+    }
+    p0 = p3;
+  }
+  EXPECT_GT(radius, 100.0) << "the drawing should fill the panel";
+  EXPECT_LT(worst, 0.05);
+}
+
+TEST(Picture, HasTheYAxisUp) {
+  // A semicircle above its ends: on the screen, smaller y.
+  const std::vector<double> n =
+      numbers_of(path_of(picture_svg(semicircle(5.0, {0.0, 0.0})), "curve even"));
+  ASSERT_GE(n.size(), 8U);
+  EXPECT_LT(n[n.size() / 2 / 2 * 2 + 1], n[1] - 50.0);
+}
+
+TEST(Picture, DoesNotChangeWhenTheContourMovesFarAway) {
+  // Offsets keep all digits, so not a byte may differ even where coordinates lose 12 digits.
+  StoredContour near;
+  near.contour.pieces = {parabola(1.0, {1.0, 1.0})};
+  near.contour.runs = {{0, 0, -1}};
+  StoredContour far = near;
+  far.contour.pieces = {parabola(1.0, {0x1p40, -0x1p40})};
+  EXPECT_EQ(picture_svg(near), picture_svg(far));
+}
+
+TEST(Picture, DrawsTheSameShapeAtEverySize) {
+  const std::string unit = path_of(picture_svg(semicircle(1.0, {0.0, 0.0})), "curve even");
+  ASSERT_FALSE(unit.empty());
+  for (const double size : {0x1p-30, 0x1p-300, 0x1p30, 0x1p300}) {
+    const std::string svg = picture_svg(semicircle(size, {0.0, 0.0}));
+    EXPECT_EQ(path_of(svg, "curve even"), unit) << size;
+    EXPECT_EQ(svg.find("nan"), std::string::npos) << size;
+    EXPECT_EQ(svg.find("\"inf"), std::string::npos) << size;
+  }
+}
+
+TEST(Picture, CopesWithNothingALineAndAPoint) {
+  StoredContour stored;
+  EXPECT_NE(picture_svg(stored).find("</svg>"), std::string::npos);
+  stored.contour.points = {{7.0, 7.0}};
+  EXPECT_NE(picture_svg(stored).find("</svg>"), std::string::npos);
+  stored.contour.pieces = {LinePiece{{0.0, 0.0}, {3.0, 0.0}}};
+  stored.contour.runs = {{0, 0, 0}};
+  const std::string svg = picture_svg(stored);
+  EXPECT_NE(svg.find("infinite radius everywhere"), std::string::npos);
+  EXPECT_EQ(svg.find("curvature comb"), std::string::npos);
+  EXPECT_EQ(svg.find("nan"), std::string::npos);
+}
+
+TEST(Picture, SaysWhatIsProvedAndWhatIsNot) {
+  StoredContour stored = semicircle(1.0, {0.0, 0.0});
+  EXPECT_NE(picture_svg(stored).find("no certificate"), std::string::npos);
+  stored.certificate = Certificate{};
+  stored.certificate->proved = true;
+  EXPECT_NE(picture_svg(stored).find("monotone curvature and G2 joints proved"),
+            std::string::npos);
+  stored.contour.carrier = Carrier::kArcs;
+  EXPECT_NE(picture_svg(stored).find("G1 joints proved"), std::string::npos);
+  EXPECT_EQ(picture_svg(stored).find("G2"), std::string::npos);
+  stored.certificate->proved = false;
+  stored.certificate->reason = "gap <3> & more";
+  EXPECT_NE(picture_svg(stored).find("NOT proved: gap &lt;3&gt; &amp; more"), std::string::npos);
+}
+
+TEST(Picture, StaysSmallForAHundredThousandWildPieces) {
+  std::vector<double> kappas;
+  for (int i = 0; i < 100000; ++i) {
+    kappas.push_back((1.0 + (i * 7919) % 1000) / 500.0 * (i % 3 == 0 ? -1.0 : 1.0));
+  }
+  StoredContour stored = arc_chain(kappas, 0.3);
+  for (std::size_t i = 0; i < kappas.size(); ++i) {
+    stored.contour.runs.push_back({i, i, i % 2 == 0 ? 1 : -1});
+  }
+  EXPECT_LT(picture_svg(stored).size(), 3000000U);
+}
+
+TEST(PictureTrack, MeasuresTheLengthOfACircle) {
+  const PictureTrack track = make_track(semicircle(5.0, {1e3, 0.0}).contour);
+  EXPECT_NEAR(track.length, kPi * 5.0, 1e-6 * kPi * 5.0);
+  EXPECT_NEAR(track.largest_kappa, 0.2, 1e-12);
+}
+
+TEST(PictureTrack, SpreadsTeethEvenlyOnACircle) {
+  const PictureTrack track = make_track(semicircle(5.0, {0.0, 0.0}).contour);
+  const std::vector<PictureTooth> teeth = comb_teeth(track, 100);
+  ASSERT_GE(teeth.size(), 100U);
+  for (std::size_t i = 1; i + 2 < teeth.size(); ++i) {
+    EXPECT_NEAR(teeth[i].s - teeth[i - 1].s, track.length / 100.0, 1e-6 * track.length);
+  }
+}
+
+TEST(PictureTrack, FindsTheInflectionBetweenOppositeArcsAndAVertexWhereRunsMeet) {
+  StoredContour stored = arc_chain({-0.5, 0.25, 1.0, 0.5}, 0.4);
+  stored.contour.runs = {{0, 2, 1}, {3, 3, -1}};
+  const PictureTrack track = make_track(stored.contour);
+  ASSERT_EQ(track.features.size(), 2U);
+  EXPECT_EQ(track.features[0].kind, PictureFeature::Kind::kInflection);
+  EXPECT_NEAR(track.features[0].at.s, 0.8, 1e-5);  // the first arc is 0.4 / 0.5 long
+  EXPECT_EQ(track.features[1].kind, PictureFeature::Kind::kVertex);
+  EXPECT_NEAR(track.features[1].at.s, 0.8 + 1.6 + 0.4, 1e-5);
+}
+
+TEST(PictureTrack, MarksOneVertexInTheMiddleOfACircleBetweenOppositeRuns) {
+  StoredContour stored = arc_chain({0.5, 1.0, 0.5}, 0.4);
+  stored.contour.runs = {{0, 0, 1}, {1, 1, 0}, {2, 2, -1}};
+  const PictureTrack track = make_track(stored.contour);
+  ASSERT_EQ(track.features.size(), 1U);
+  EXPECT_NEAR(track.features[0].at.s, 0.8 + 0.2, 0.01);
+}
+
+TEST(PictureAxis, HasRoundTicks) {
+  const PictureAxis axis = round_axis(-0.165, 0.0, 5);
+  EXPECT_DOUBLE_EQ(axis.low, -0.2);
+  EXPECT_DOUBLE_EQ(axis.high, 0.0);
+  ASSERT_EQ(axis.ticks.size(), 5U);
+  EXPECT_EQ(axis.ticks.front().label, "−0.20");
+  EXPECT_EQ(axis.ticks.back().label, "0.00");
+}
+
+TEST(PictureAxis, TakesAPowerOfTenOutOfLabelsThatWouldBeLong) {
+  const PictureAxis axis = tight_axis(0.0, 5e-9, 8);
+  EXPECT_EQ(axis.exponent, -9);
+  EXPECT_EQ(axis.ticks.back().label, "5");
+  EXPECT_EQ(power_prefix(axis.exponent), "10⁻⁹ ");
+}
+
+TEST(PictureAxis, LabelsOneTwoAndFiveOfAFewDecades) {
+  const PictureAxis axis = log_axis(6.0, 520.0);
+  std::string labels;
+  for (const PictureTick& tick : axis.ticks) labels += tick.label + " ";
+  EXPECT_EQ(labels, "10 20 50 100 200 500 ");
+  EXPECT_NEAR(axis.place(6.0), 0.0, 1e-12);
+  EXPECT_NEAR(axis.place(520.0), 1.0, 1e-12);
+}
+
+TEST(PictureAxis, RoundsScaleBarsDownToOneTwoFive) {
+  EXPECT_DOUBLE_EQ(round_down(0.99), 0.5);
+  EXPECT_DOUBLE_EQ(round_down(1.0), 1.0);
+  EXPECT_DOUBLE_EQ(round_down(499.0), 200.0);
+  EXPECT_DOUBLE_EQ(round_down(5e-10), 5e-10);
+}
+
+TEST(PictureAxis, WritesNumbersForReading) {
+  EXPECT_EQ(readable_number(0.00087, 2), "0.00087");
+  EXPECT_EQ(readable_number(1500.0, 3), "1500");
+  EXPECT_EQ(readable_number(-0.5, 3), "−0.5");
+  EXPECT_EQ(readable_number(2e9, 3), "2·10⁹");
+  EXPECT_EQ(readable_number(1e-9, 3), "10⁻⁹");
+  EXPECT_EQ(readable_number(0.0, 3), "0");
+}
+
+TEST(PictureCanvas, WritesPixelsShortly) {
+  EXPECT_EQ(px(1.5), "1.5");
+  EXPECT_EQ(px(-0.004), "0");
+  EXPECT_EQ(px(12.0), "12");
+  EXPECT_EQ(px(-3.456), "-3.46");
+  EXPECT_EQ(px(std::nan("")), "0");
+}
+
+}  // namespace
+}  // namespace obvid
