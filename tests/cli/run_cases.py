@@ -1,0 +1,186 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
+"""Runs the program on cases that stand as data in a TOML file (Python's standard library only).
+
+usage: run_cases.py PROGRAM EXAMPLES CASES.toml
+
+Every case runs in a folder of its own that holds copies of the examples. Keys of a [[case]]:
+  name          sentence that says what holds
+  args          arguments
+  before        lists of arguments of runs that must end with 0 first
+  edit          [file, old, new]: doctors a file after `before`; old must occur
+  stdin         text for standard input
+  files         table of files to write first
+  exit          exit code (default 0)
+  stdout        whole standard output
+  stdout_has    texts that standard output holds
+  stdout_last   its last line
+  stderr        whole standard error, or
+  stderr_has    texts that standard error holds (in any order)
+  json          table of paths "a.b.0" to values in standard output read as JSON; "" asks nothing
+  svg           files that must be well-formed SVG
+  contour       files that must be contour files
+  untouched     files that must exist before and after, with the same bytes
+  absent        files that must not exist afterwards
+  terminal      true: standard output and error are a terminal (then stdout holds both)
+  env           table of environment variables
+Besides, always: the error line has the form of the contract when the exit code is not 0, there is
+no error line when it is 0, and no file is left that the case does not name.
+"""
+import json
+import os
+import pathlib
+import pty
+import re
+import shutil
+import subprocess
+import sys
+import tempfile
+import tomllib
+import xml.etree.ElementTree
+
+ERROR_LINE = re.compile(r"^obvid: error E([1-5]\d\d): \S.*$")
+KEYS = set("name args before edit stdin files exit stdout stdout_has stdout_last stderr stderr_has "
+           "json svg contour untouched absent terminal env".split())
+TIMEOUT_S = 60
+
+
+def run(program, args, folder, stdin="", env=None, terminal=False):
+    full_env = {k: v for k, v in os.environ.items() if k != "NO_COLOR"} | {"TERM": "xterm"}
+    full_env |= env or {}
+    if not terminal:
+        done = subprocess.run([program, *args], cwd=folder, input=stdin.encode(),
+                              capture_output=True, env=full_env, timeout=TIMEOUT_S)
+        return done.returncode, done.stdout.decode(), done.stderr.decode()
+    master, slave = pty.openpty()
+    child = subprocess.Popen([program, *args], cwd=folder, stdin=subprocess.DEVNULL,
+                             stdout=slave, stderr=slave, env=full_env)
+    os.close(slave)
+    text = b""
+    while True:
+        try:
+            block = os.read(master, 65536)
+        except OSError:  # the terminal is closed: the program has ended
+            break
+        if not block:
+            break
+        text += block
+    os.close(master)
+    return child.wait(TIMEOUT_S), text.decode().replace("\r\n", "\n"), ""
+
+
+def at_path(value, path):
+    for key in filter(None, path.split(".")):
+        value = value[int(key)] if isinstance(value, list) else value[key]
+    return value
+
+
+class Case:
+    def __init__(self, data, program, examples):
+        self.data, self.program, self.examples = data, program, examples
+        self.faults = []
+
+    def check(self, holds, text):
+        if not holds:
+            self.faults.append(text)
+
+    def prepare(self, folder):
+        for example in self.examples.glob("*.csv"):
+            shutil.copy(example, folder)
+        for name, text in self.data.get("files", {}).items():
+            (folder / name).write_text(text)
+        for args in self.data.get("before", []):
+            code, _, err = run(self.program, args, folder)
+            self.check(code == 0, f"the run before, {args}, ended with {code}: {err}")
+        if "edit" in self.data:
+            name, old, new = self.data["edit"]
+            text = (folder / name).read_text()
+            self.check(old in text, f"{name} does not hold {old!r}")
+            (folder / name).write_text(text.replace(old, new, 1))
+
+    def check_streams(self, code, out, err):
+        data = self.data
+        self.check(code == data.get("exit", 0), f"exit code {code}, not {data.get('exit', 0)}")
+        for stream, text in (("stdout", out), ("stderr", err)):
+            if stream in data:
+                self.check(text == data[stream], f"{stream} is not {data[stream]!r}")
+            for part in data.get(stream + "_has", []):
+                self.check(part in text, f"{stream} does not hold {part!r}")
+        if "stdout_last" in data:
+            last = out.rstrip("\n").split("\n")[-1]
+            self.check(last == data["stdout_last"], f"last line is {last!r}")
+        lines = [line for line in (err or out).splitlines() if line.startswith("obvid: error")]
+        if data.get("exit", 0) == 0:
+            self.check(not lines, f"exit code 0 with an error line: {lines}")
+        else:
+            self.check(len(lines) == 1, f"{len(lines)} error lines")
+            match = lines and ERROR_LINE.match(lines[0])
+            self.check(match, "the error line has not the form of the contract")
+            self.check(match and int(match[1]) // 100 == code, "code and exit code disagree")
+
+    def check_json(self, out):
+        if "json" not in self.data:
+            return
+        try:
+            value = json.loads(out)
+        except ValueError as error:
+            self.check(False, f"stdout is no JSON: {error}")
+            return
+        for path, expected in self.data["json"].items():
+            if path:
+                found = at_path(value, path)
+                self.check(found == expected, f"{path} is {found!r}, not {expected!r}")
+
+    def check_files(self, folder, before):
+        data = self.data
+        for name in data.get("svg", []):
+            root = xml.etree.ElementTree.parse(folder / name).getroot()
+            self.check(root.tag == "{http://www.w3.org/2000/svg}svg", f"{name} is no SVG")
+        for name in data.get("contour", []):
+            contour = json.loads((folder / name).read_text())
+            self.check(contour["format"] == "obvid-contour", f"{name} is no contour")
+        for name in data.get("untouched", []):
+            self.check(name in before, f"{name} did not exist before")
+            self.check((folder / name).read_bytes() == before.get(name), f"{name} was changed")
+        for name in data.get("absent", []):
+            self.check(not (folder / name).exists(), f"{name} exists")
+        named = set(data.get("svg", [])) | set(data.get("contour", [])) | set(before)
+        left = {p.name for p in folder.iterdir()} - named
+        self.check(not left, f"files left behind: {sorted(left)}")
+
+    def run(self):
+        with tempfile.TemporaryDirectory() as name:
+            folder = pathlib.Path(name)
+            self.prepare(folder)
+            before = {p.name: p.read_bytes() for p in folder.iterdir() if p.is_file()}
+            code, out, err = run(self.program, self.data["args"], folder,
+                                 self.data.get("stdin", ""), self.data.get("env"),
+                                 self.data.get("terminal", False))
+            self.check_streams(code, out, err)
+            self.check_json(out)
+            self.check_files(folder, before)
+            if self.faults:
+                print(f"--- stdout\n{out[-2000:]}\n--- stderr\n{err[-2000:]}\n---")
+        return self.faults
+
+
+def main():
+    program, examples, case_file = sys.argv[1:4]
+    with open(case_file, "rb") as file:
+        cases = tomllib.load(file)["case"]
+    assert cases, "a file of cases must hold a case"
+    failed = 0
+    for data in cases:
+        unknown = set(data) - KEYS
+        assert not unknown, f"unknown keys {unknown} in {data['name']!r}"
+        faults = Case(data, str(pathlib.Path(program).resolve()), pathlib.Path(examples)).run()
+        print(("FAILED: " if faults else "passed: ") + data["name"])
+        for fault in faults:
+            print("    " + fault)
+        failed += bool(faults)
+    print(f"{len(cases) - failed} of {len(cases)} cases passed")
+    return 1 if failed else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
