@@ -142,11 +142,9 @@ void LinkModel::set_fixed(const ChainProblem& problem) {
   for (std::size_t i = 0; i < nodes_.size(); ++i) {
     Node& n = nodes_[i];
     const NodeData& data = problem.nodes[i];
-    const double tangent = i < links_.size() ? links_[i].omega + links_[i].alpha
-                                             : links_[i - 1].omega + links_[i - 1].beta;
     if (data.theta) {
       n.fix_phi = true;
-      n.phi = wrapped(*data.theta - tangent);
+      n.phi = wrapped(*data.theta - tangent(i));
     }
     if (data.kappa) {
       n.fix_p = true;
@@ -184,6 +182,21 @@ std::vector<double> LinkModel::starting_guess() const {
     x[2 * i + 1] = node.fix_p ? node.p : change * node.length;
   }
   return x;
+}
+
+std::vector<double> LinkModel::from_elements(const std::vector<Element>& elements) const {
+  std::vector<double> x(2 * nodes_.size());
+  for (std::size_t i = 0; i < nodes_.size(); ++i) {
+    const Node& node = nodes_[i];
+    x[2 * i] = node.fix_phi ? node.phi : wrapped(elements[i].theta - tangent(i));
+    x[2 * i + 1] = node.fix_p ? node.p : (elements[i].kappa - node.kappa) * node.length;
+  }
+  return x;
+}
+
+double LinkModel::tangent(std::size_t node) const {
+  return node < links_.size() ? links_[node].omega + links_[node].alpha
+                              : links_[node - 1].omega + links_[node - 1].beta;
 }
 
 LinkModel::Trig LinkModel::trig(double phi) {
@@ -339,10 +352,8 @@ std::vector<Element> LinkModel::elements(const std::vector<Vec2>& points,
                                          const std::vector<double>& x) const {
   std::vector<Element> out(nodes_.size());
   for (std::size_t i = 0; i < out.size(); ++i) {
-    const double tangent = i < links_.size() ? links_[i].omega + links_[i].alpha
-                                             : links_[i - 1].omega + links_[i - 1].beta;
     const Node& n = nodes_[i];
-    out[i] = {points[i], tangent + x[2 * i], n.kappa + x[2 * i + 1] / n.length};
+    out[i] = {points[i], tangent(i) + x[2 * i], n.kappa + x[2 * i + 1] / n.length};
   }
   return out;
 }

@@ -21,6 +21,7 @@ class LinkModel {
   explicit LinkModel(const ChainProblem& problem);
 
   [[nodiscard]] std::vector<double> starting_guess() const;
+  [[nodiscard]] std::vector<double> from_elements(const std::vector<Element>& elements) const;
 
   /// energy * E + barrier * B at x, with gradient and Gauss-Newton Hessian in `system`.
   double assemble(const std::vector<double>& x, double slack, double energy, double barrier,
@@ -71,6 +72,7 @@ class LinkModel {
     double A, B, sigma, dA, dB;  // dA = dA/dphi at the start, dB = -dB/dphi at the end
   };
 
+  [[nodiscard]] double tangent(std::size_t node) const;  ///< heading of the adjacent circle
   [[nodiscard]] static Trig trig(double phi);
   [[nodiscard]] static State state(const Link& link, const Trig& a, const Trig& b, double phi_a,
                                    double p_a, double phi_b, double p_b);

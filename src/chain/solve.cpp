@@ -37,8 +37,8 @@ class Solver {
   Solver(const std::vector<Vec2>& points, const ChainProblem& problem, const ChainOptions& options)
       : points_(points), problem_(problem), options_(options), model_(problem) {}
 
-  ChainSolution run() {
-    x_ = model_.starting_guess();
+  ChainSolution run(const std::vector<Element>* start) {
+    x_ = start != nullptr ? model_.from_elements(*start) : model_.starting_guess();
     ChainSolution out;
     if (!phase_one()) {
       out.newton_steps = steps_;
@@ -177,8 +177,8 @@ double cone_margin(const LinkState& link, int direction, Cone cone) {
 }
 
 ChainSolution solve_chain(const std::vector<Vec2>& points, const ChainProblem& problem,
-                          const ChainOptions& options) {
-  return Solver(points, problem, options).run();
+                          const ChainOptions& options, const std::vector<Element>* start) {
+  return Solver(points, problem, options).run(start);
 }
 
 }  // namespace obvid

@@ -31,24 +31,6 @@ double bounding_diagonal(const std::vector<Vec2>& points) {
   return std::hypot(high.x - low.x, high.y - low.y);
 }
 
-std::vector<Chord> measure_chords(const std::vector<Vec2>& points) {
-  std::vector<Chord> chords(points.size() - 1);
-  Vec2 before{};
-  for (std::size_t i = 0; i < chords.size(); ++i) {
-    const Vec2 e = points[i + 1] - points[i];
-    const double principal = heading(e);
-    double omega = principal;
-    if (i > 0) {
-      const double expected = chords[i - 1].omega + turning(before, e);
-      const double turns = std::round((expected - principal) / (2.0 * std::numbers::pi));
-      omega = principal + turns * 2.0 * std::numbers::pi;
-    }
-    chords[i] = {norm(e), omega};
-    before = e;
-  }
-  return chords;
-}
-
 AdjacentCircle circle_through(Vec2 p, Vec2 q, Vec2 r, double pq, double qr) {
   const Vec2 a = q - p, b = r - q, c = r - p;
   const double pr = norm(c);
@@ -59,22 +41,6 @@ AdjacentCircle circle_through(Vec2 p, Vec2 q, Vec2 r, double pq, double qr) {
   const double along = std::abs(k) * ((ep + eq) / pq + (eq + er) / qr + (ep + er) / pr);
   const double computing = kUnitRoundoff * (6.0 / pr + 8.0 * std::abs(k));
   return {k, turning(c, b), turning(a, c), across + along + computing};
-}
-
-std::vector<AdjacentCircle> measure_circles(const std::vector<Vec2>& points,
-                                            const std::vector<Chord>& chords) {
-  const std::size_t n = points.size();
-  std::vector<AdjacentCircle> circles(n);
-  for (std::size_t i = 1; i + 1 < n; ++i) {
-    circles[i] = circle_through(points[i - 1], points[i], points[i + 1], chords[i - 1].length,
-                                chords[i].length);
-  }
-  if (n < 3) return circles;
-  circles[0] = circles[1];
-  circles[0].eta_out = circles[0].eta_in;  // the same chord of the same circle
-  circles[n - 1] = circles[n - 2];
-  circles[n - 1].eta_in = circles[n - 1].eta_out;
-  return circles;
 }
 
 /// Largest distance of the points first..last from the circle (or line) through the first, the
@@ -263,6 +229,40 @@ Result<void> check_turning(Analysis& a) {
 }
 
 }  // namespace
+
+std::vector<Chord> measure_chords(const std::vector<Vec2>& points) {
+  std::vector<Chord> chords(points.size() - 1);
+  Vec2 before{};
+  for (std::size_t i = 0; i < chords.size(); ++i) {
+    const Vec2 e = points[i + 1] - points[i];
+    const double principal = heading(e);
+    double omega = principal;
+    if (i > 0) {
+      const double expected = chords[i - 1].omega + turning(before, e);
+      const double turns = std::round((expected - principal) / (2.0 * std::numbers::pi));
+      omega = principal + turns * 2.0 * std::numbers::pi;
+    }
+    chords[i] = {norm(e), omega};
+    before = e;
+  }
+  return chords;
+}
+
+std::vector<AdjacentCircle> measure_circles(const std::vector<Vec2>& points,
+                                            const std::vector<Chord>& chords) {
+  const std::size_t n = points.size();
+  std::vector<AdjacentCircle> circles(n);
+  for (std::size_t i = 1; i + 1 < n; ++i) {
+    circles[i] = circle_through(points[i - 1], points[i], points[i + 1], chords[i - 1].length,
+                                chords[i].length);
+  }
+  if (n < 3) return circles;
+  circles[0] = circles[1];
+  circles[0].eta_out = circles[0].eta_in;  // the same chord of the same circle
+  circles[n - 1] = circles[n - 2];
+  circles[n - 1].eta_in = circles[n - 1].eta_out;
+  return circles;
+}
 
 double sagitta(double kappa, double h) {
   const double x = 0.5 * kappa * h;

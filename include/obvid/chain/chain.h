@@ -78,7 +78,9 @@ struct ChainOptions {
 /// Solves the chain: the fairest headings and curvatures inside all cones, by a barrier method
 /// with exact angles; block-tridiagonal Newton, O(n) per step (docs/methods/chain.md).
 /// `points` gives positions of the nodes. Deterministic; scale- and motion-invariant.
+/// `start`, when given, holds headings and curvatures to begin with (they may be infeasible).
 [[nodiscard]] ChainSolution solve_chain(const std::vector<Vec2>& points, const ChainProblem& problem,
-                                        const ChainOptions& options = {});
+                                        const ChainOptions& options = {},
+                                        const std::vector<Element>* start = nullptr);
 
 }  // namespace obvid

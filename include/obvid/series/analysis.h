@@ -63,6 +63,11 @@ struct Analysis {
 /// degrees or more, naming the point. Cost O(n).
 [[nodiscard]] Result<Analysis> analyse(const std::vector<Vec2>& points);
 
+/// Chords and adjacent circles alone, for distinct points (at least 2). Cost O(n).
+[[nodiscard]] std::vector<Chord> measure_chords(const std::vector<Vec2>& points);
+[[nodiscard]] std::vector<AdjacentCircle> measure_circles(const std::vector<Vec2>& points,
+                                                          const std::vector<Chord>& chords);
+
 /// Height of a circle of curvature `kappa` above its chord of length `h` (theory: sag).
 [[nodiscard]] double sagitta(double kappa, double h);
 

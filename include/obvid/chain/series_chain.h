@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "obvid/chain/chain.h"
+#include "obvid/series/point_series.h"
+
+namespace obvid {
+
+/// What the designer asks of the whole chain, beyond the data at single points.
+struct ChainWishes {
+  std::vector<FixedData> fixed;  ///< empty, or one entry per point
+  bool convex = false;           ///< no inflection anywhere
+};
+
+/// Elements of a whole series, with free elements between its points where one closed-form
+/// piece cannot carry a link.
+struct SeriesChain {
+  std::vector<Element> elements;
+  std::vector<std::optional<std::size_t>> source;  ///< point index, or nothing for free elements
+  std::vector<LinkState> links;
+  std::vector<std::int8_t> direction;
+  std::vector<Cone> cone;           ///< kClosedForm, or kNone inside circular stretches
+  std::size_t free_elements = 0;
+  int newton_steps = 0;
+  double smallest_margin = 0.0;
+  bool converged = false;
+  bool unforced_inflection = false; ///< an inflection was needed that the adjacent circles hide
+};
+
+/// Chooses headings and curvatures for a series of at least 4 points (fewer are one circle):
+/// first with the closed form's cones; where those have no solution, with the cones of mere
+/// existence and a free element in every link that one piece cannot carry.
+/// Errors: E401 no such spiral runs through the points; E403 fixed data contradict the points or
+/// each other; E404 a straight or circular stretch leaves no room for a transition; E405 the
+/// rounding of the coordinates decides.
+[[nodiscard]] Result<SeriesChain> choose_elements(const std::vector<Vec2>& points,
+                                                  const Analysis& analysis,
+                                                  const ChainWishes& wishes);
+
+/// The free element of a link for which a spiral exists but one closed-form piece does not: close
+/// to the joint of the middle biarc, such that both halves lie inside the closed form's cone.
+[[nodiscard]] Element free_element(const LinkState& link, int direction, Vec2 start);
+
+}  // namespace obvid

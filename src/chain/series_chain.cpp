@@ -1,0 +1,224 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "obvid/chain/series_chain.h"
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+
+namespace obvid {
+namespace {
+
+/// A link whose closed-form margin is below this gets a free element: two pieces carry it with
+/// room to spare instead of one at its limit.
+constexpr double kThinMargin = 0.02;
+/// Rounds of inserting free elements; each starts inside all cones, so one normally suffices.
+constexpr int kInsertionRounds = 4;
+/// Infeasible by less than this many roundings of the coordinates: the rounding decides.
+constexpr double kRoundingsThatDecide = 64.0;
+
+double heading_on_stretch(const Analysis& a, const CircularStretch& s, std::size_t i) {
+  // next to the stretch's ends the adjacent circle is another one: go by the chord inside
+  if (i < s.last) {
+    const std::size_t inner = i == s.first ? i + 1 : i;
+    const double angle = i == s.first ? a.circles[inner].eta_in : a.circles[inner].eta_out;
+    return a.chords[i].omega - (s.kappa == 0.0 ? 0.0 : angle);
+  }
+  return a.chords[i - 1].omega + (s.kappa == 0.0 ? 0.0 : a.circles[i - 1].eta_out);
+}
+
+/// Sign that the curvature must keep at a point: that of its circle, unless the series changes
+/// sign right beside it.
+int forced_sign(const Analysis& a, std::size_t i) {
+  const auto sign = [&a](std::size_t j) {
+    const AdjacentCircle& c = a.circles[j];
+    return std::abs(c.kappa) <= c.rounding ? 0 : c.kappa > 0.0 ? 1 : -1;
+  };
+  const int own = sign(i);
+  const int before = i > 0 ? sign(i - 1) : own, after = i + 1 < a.circles.size() ? sign(i + 1) : own;
+  return before == -own || after == -own ? 0 : own;
+}
+
+Result<ChainProblem> set_up(const Analysis& a, const ChainWishes& wishes) {
+  ChainProblem p{a.chords, a.circles, a.direction, {}, std::vector<NodeData>(a.circles.size())};
+  for (const std::int8_t d : a.direction) p.cone.push_back(d == 0 ? Cone::kNone : Cone::kClosedForm);
+  int turns = 0;
+  for (std::size_t i = 0; i < p.nodes.size(); ++i) {
+    p.nodes[i].curvature_sign = forced_sign(a, i);
+    if (i < wishes.fixed.size()) {
+      p.nodes[i].theta = wishes.fixed[i].theta;
+      p.nodes[i].kappa = wishes.fixed[i].kappa;
+    }
+    turns += a.circles[i].kappa > 0.0 ? 1 : a.circles[i].kappa < 0.0 ? -1 : 0;
+  }
+  if (wishes.convex) {
+    for (std::size_t i = 0; i < p.nodes.size(); ++i) {
+      const AdjacentCircle& c = a.circles[i];
+      if (turns * c.kappa < 0.0 && std::abs(c.kappa) > c.rounding) {
+        return fail({ErrorCode::kFixedDataContradict,
+                     "a convex contour was asked for, but the points turn the other way here",
+                     "point " + std::to_string(i + 1), "drop the wish for a convex contour",
+                     static_cast<std::ptrdiff_t>(i), c.kappa});
+      }
+      p.nodes[i].curvature_sign = turns > 0 ? 1 : -1;
+    }
+  }
+  for (const CircularStretch& s : a.stretches) {
+    for (std::size_t i = s.first; i <= s.last; ++i) {
+      p.nodes[i].theta = heading_on_stretch(a, s, i);
+      p.nodes[i].kappa = s.kappa;
+      p.nodes[i].curvature_sign = 0;
+    }
+  }
+  return p;
+}
+
+std::string point_range(const Infeasibility& why) {
+  return "points " + std::to_string(why.first_point + 1) + " to " +
+         std::to_string(why.last_point + 1);
+}
+
+bool touches_stretch(const Analysis& a, const Infeasibility& why) {
+  return std::any_of(a.stretches.begin(), a.stretches.end(), [&](const CircularStretch& s) {
+    return s.first <= why.last_point && why.first_point <= s.last;
+  });
+}
+
+/// Largest move of a point by rounding, among the points of the infeasible part and its neighbours.
+double rounding_move(const std::vector<Vec2>& points, const Infeasibility& why) {
+  double largest = 0.0;
+  const std::size_t first = why.first_point >= 2 ? why.first_point - 2 : 0;
+  for (std::size_t i = first; i < std::min(points.size(), why.last_point + 3); ++i) {
+    largest = std::max(largest, 0x1p-53 * (std::abs(points[i].x) + std::abs(points[i].y)));
+  }
+  return largest;
+}
+
+Error explain(const std::vector<Vec2>& points, const Analysis& a, const ChainWishes& wishes,
+              const Infeasibility& why) {
+  const auto index = static_cast<std::ptrdiff_t>(why.first_point);
+  const std::string where = point_range(why);
+  if (why.move <= kRoundingsThatDecide * rounding_move(points, why)) {
+    return {ErrorCode::kRoundingDecides,
+            "the rounding of the coordinates, not the curve, decides how the curvature changes",
+            where, "give coordinates relative to a nearer origin, or leave out points that lie "
+            "closer together than their digits can tell", index, why.move};
+  }
+  if (touches_stretch(a, why)) {
+    return {ErrorCode::kNoRoomForTransition,
+            "a straight or circular stretch leaves no room for a change of curvature beside it",
+            where, "remove a point at the end of the stretch, or form the contour of arcs", index,
+            why.move};
+  }
+  const bool fixed = std::any_of(wishes.fixed.begin(), wishes.fixed.end(), [](const FixedData& f) {
+    return f.theta.has_value() || f.kappa.has_value();
+  });
+  if (fixed || wishes.convex) {
+    return {ErrorCode::kFixedDataContradict,
+            "the fixed headings, curvatures or convexity cannot be met by a monotone contour",
+            where, "free the data there", index, why.move};
+  }
+  return {ErrorCode::kNoSpiral,
+          "no curve with curvature changing as the points demand runs through them", where,
+          "move points there by about the value given, or add points", index, why.move};
+}
+
+/// Puts a free element into every link that one closed-form piece cannot carry well.
+struct Extended {
+  std::vector<Vec2> points;
+  std::vector<Element> start;
+  std::vector<std::optional<std::size_t>> source;
+  ChainProblem problem;
+  std::size_t inserted = 0;
+};
+
+Extended with_free_elements(const Extended& before, const ChainSolution& solution) {
+  Extended out;
+  const std::size_t n = before.points.size();
+  for (std::size_t i = 0; i < n; ++i) {
+    out.points.push_back(before.points[i]);
+    out.start.push_back(solution.elements[i]);
+    out.source.push_back(before.source[i]);
+    out.problem.nodes.push_back(before.problem.nodes[i]);
+    if (i + 1 == n) break;
+    const std::int8_t direction = before.problem.direction[i];
+    const Cone cone = direction == 0 ? Cone::kNone : Cone::kClosedForm;
+    out.problem.direction.push_back(direction);
+    out.problem.cone.push_back(cone);
+    const LinkState& link = solution.links[i];
+    if (cone == Cone::kNone || cone_margin(link, direction, cone) >= kThinMargin) continue;
+    const Element e = free_element(link, direction, before.points[i]);
+    out.points.push_back(e.point);
+    out.start.push_back(e);
+    out.source.emplace_back(std::nullopt);
+    out.problem.nodes.emplace_back();
+    out.problem.direction.push_back(direction);
+    out.problem.cone.push_back(cone);
+    ++out.inserted;
+  }
+  out.problem.chords = measure_chords(out.points);
+  out.problem.circles = measure_circles(out.points, out.problem.chords);
+  return out;
+}
+
+SeriesChain collect(const Extended& e, ChainSolution solution, int steps) {
+  SeriesChain out;
+  out.elements = std::move(solution.elements);
+  out.links = std::move(solution.links);
+  out.source = e.source;
+  out.direction = e.problem.direction;
+  out.cone = e.problem.cone;
+  out.newton_steps = steps;
+  out.smallest_margin = solution.smallest_margin;
+  out.converged = solution.converged;
+  for (const auto& s : out.source) out.free_elements += s ? 0U : 1U;
+  return out;
+}
+
+/// All cones with room, by the true cone of the closed form.
+bool carried(const ChainSolution& s) { return s.feasible && s.smallest_margin > 0.0; }
+
+}  // namespace
+
+Result<SeriesChain> choose_elements(const std::vector<Vec2>& points, const Analysis& analysis,
+                                    const ChainWishes& wishes) {
+  auto problem = set_up(analysis, wishes);
+  if (!problem) return tl::unexpected(problem.error());
+  Extended current;
+  current.points = points;
+  current.problem = std::move(*problem);
+  for (std::size_t i = 0; i < points.size(); ++i) current.source.emplace_back(i);
+
+  ChainSolution solution = solve_chain(current.points, current.problem);
+  int steps = solution.newton_steps;
+  if (carried(solution)) return collect(current, std::move(solution), steps);
+
+  for (Cone& c : current.problem.cone) c = c == Cone::kNone ? c : Cone::kSpiral;
+  solution = solve_chain(current.points, current.problem);
+  steps += solution.newton_steps;
+  bool unforced_inflection = false;
+  if (!solution.feasible && !wishes.convex) {
+    const Infeasibility with_signs = solution.infeasibility;
+    for (NodeData& node : current.problem.nodes) node.curvature_sign = 0;
+    solution = solve_chain(current.points, current.problem);
+    steps += solution.newton_steps;
+    unforced_inflection = solution.feasible;
+    if (!solution.feasible) solution.infeasibility = with_signs;
+  }
+  if (!solution.feasible) return fail(explain(points, analysis, wishes, solution.infeasibility));
+
+  for (int round = 0; round < kInsertionRounds; ++round) {
+    current = with_free_elements(current, solution);
+    solution = solve_chain(current.points, current.problem, {}, &current.start);
+    steps += solution.newton_steps;
+    if (carried(solution)) {
+      SeriesChain out = collect(current, std::move(solution), steps);
+      out.unforced_inflection = unforced_inflection;
+      return out;
+    }
+    if (!solution.feasible) return fail(explain(current.points, analysis, wishes, solution.infeasibility));
+  }
+  return fail({ErrorCode::kNotConverged, "free elements did not make every piece monotone", "",
+               "report this series", -1, solution.smallest_margin});
+}
+
+}  // namespace obvid

@@ -1,0 +1,119 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "obvid/contour/arcs.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace obvid {
+namespace {
+
+/// Range of the first arc's curvature between the two boundaries of the region.
+BiarcCurvatures middle_biarc(const ChordFrame& f, const SegmentRegion& r) {
+  const double sa = f.start_tangent.y, half = 0.5 * f.h;
+  const double from = half * r.from_start.kappa_first + sa;
+  const double to = half * r.to_end.kappa_first + sa;
+  const double middle = std::copysign(std::sqrt(std::max(0.0, from * to)), from);
+  const double first = (middle - sa) / half;
+  return {first, second_curvature(f, first)};
+}
+
+/// Ordinate of a boundary's arc over abscissa x, both relative to the start of the chord.
+double ordinate(const ChordFrame& f, const Boundary& b, double x) {
+  const auto arc = [](double s, double k, double dx) {
+    const double e = s + k * dx;
+    return dx * (s + e) /
+           (std::sqrt(std::max(0.0, 1.0 - s * s)) + std::sqrt(std::max(0.0, 1.0 - e * e)));
+  };
+  const bool first_bends_more = std::abs(b.kappa_first) >= std::abs(b.kappa_second);
+  const double joint = first_bends_more
+                           ? (b.joint_tangent.y - f.start_tangent.y) / b.kappa_first
+                           : f.h - (f.end_tangent.y - b.joint_tangent.y) / b.kappa_second;
+  return x <= joint ? arc(f.start_tangent.y, b.kappa_first, x)
+                    : -arc(-f.end_tangent.y, b.kappa_second, f.h - x);
+}
+
+/// Where the median from the middle of the chord to the apex meets a boundary.
+Vec2 on_median(const ChordFrame& f, const Boundary& b, Vec2 apex) {
+  const Vec2 foot = {0.5 * f.h, 0.0};
+  double low = 0.0, high = 1.0;
+  constexpr int kBisections = 60;  // to the last bit
+  for (int i = 0; i < kBisections; ++i) {
+    const double s = 0.5 * (low + high);
+    const Vec2 p = foot + s * (apex - foot);
+    const bool beyond = std::abs(p.y) > std::abs(ordinate(f, b, p.x));
+    (beyond ? high : low) = s;
+  }
+  return foot + 0.5 * (low + high) * (apex - foot);
+}
+
+bool has_triangle(const ChordFrame& f, const SegmentRegion& r) {
+  const double least = std::min({f.start_tangent.x, f.end_tangent.x, r.from_start.joint_tangent.x,
+                                 r.to_end.joint_tangent.x});
+  return least > 0.0 && f.start_tangent.y * f.end_tangent.y < 0.0;
+}
+
+double arc_angle(Vec2 chord, double theta) { return turning(unit_at(theta), chord); }
+
+}  // namespace
+
+double second_curvature(const ChordFrame& f, double first) {
+  const Vec2 turn = complex_product(f.start_tangent, f.end_tangent);
+  const double q =
+      turn.x > 0.0 ? turn.y * turn.y / (2.0 * (1.0 + turn.x)) : 0.5 * (1.0 - turn.x);
+  const double A = 0.5 * first * f.h + f.start_tangent.y;
+  return 2.0 / f.h * (f.end_tangent.y - q / A);
+}
+
+std::optional<BiarcCurvatures> choose_biarc(const ChordFrame& f, int direction) {
+  const auto region = segment_region(f, direction);
+  if (!region) return std::nullopt;
+  if (!has_triangle(f, *region)) return middle_biarc(f, *region);
+  const double apex_x = f.h * f.end_tangent.y * f.start_tangent.x /
+                        (f.end_tangent.y * f.start_tangent.x - f.start_tangent.y * f.end_tangent.x);
+  const Vec2 apex = {apex_x, apex_x * f.start_tangent.y / f.start_tangent.x};
+  const Vec2 p = 0.5 * (on_median(f, region->from_start, apex) + on_median(f, region->to_end, apex));
+  const double first = 2.0 * cross(f.start_tangent, p) / dot(p, p);
+  const double low = std::min(region->from_start.kappa_first, region->to_end.kappa_first);
+  const double high = std::max(region->from_start.kappa_first, region->to_end.kappa_first);
+  // in a region narrower than rounding the median point says nothing
+  if (!(first > low && first < high)) return middle_biarc(f, *region);
+  return BiarcCurvatures{first, second_curvature(f, first)};
+}
+
+Piece arc_piece(Vec2 start, Vec2 end, double theta, double kappa) {
+  if (kappa == 0.0) return LinePiece{start, end};
+  const Vec2 chord = end - start;
+  const double half_turn = arc_angle(chord, theta);
+  const double length = half_turn == 0.0 ? norm(chord) : 2.0 * half_turn / kappa;
+  return ArcPiece{start, end, theta, kappa, length};
+}
+
+std::array<Piece, 2> biarc(const Element& start, const Element& end, const BiarcCurvatures& k) {
+  const Vec2 chord = end.point - start.point;
+  const double half = 0.5 * norm(chord);
+  const Vec2 u = chord / (2.0 * half);
+  const double a = k.first * half, b = k.second * half;
+  const Vec2 t0 = unit_at(start.theta), t1 = unit_at(end.theta);
+  const Vec2 local0 = {dot(u, t0), cross(u, t0)}, local1 = {dot(u, t1), cross(u, t1)};
+  // (b - a) e^{i theta} = 2 i a b + b e^{i alpha} - a e^{i beta} in the chord's frame
+  Vec2 v = Vec2{0.0, 2.0 * a * b} + b * local0 - a * local1;
+  if (b < a) v = -v;
+  const Vec2 tangent = complex_product(v / norm(v), u);
+  const double turn0 = turning(t0, tangent), turn1 = turning(tangent, t1);
+  const double theta = start.theta + turn0;
+  // the joint from the arc that bends more: its turning is known best
+  Vec2 joint;
+  if (std::abs(a) >= std::abs(b)) {
+    joint = start.point + 2.0 * std::sin(0.5 * turn0) / k.first * unit_at(start.theta + 0.5 * turn0);
+  } else {
+    joint = end.point - 2.0 * std::sin(0.5 * turn1) / k.second * unit_at(theta + 0.5 * turn1);
+  }
+  const auto piece = [](Vec2 from, Vec2 to, double heading_from, double kappa, double turn) -> Piece {
+    if (kappa == 0.0) return LinePiece{from, to};
+    return ArcPiece{from, to, heading_from, kappa, turn / kappa};
+  };
+  return {piece(start.point, joint, start.theta, k.first, turn0),
+          piece(joint, end.point, theta, k.second, turn1)};
+}
+
+}  // namespace obvid

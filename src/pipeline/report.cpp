@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "report.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "form.h"
+#include "obvid/region/refine.h"
+
+namespace obvid::pipeline_detail {
+namespace {
+
+constexpr double kDefaultTolerance = 3e-6;  // of the diagonal of the series
+
+/// Distance of a spiral that is carried by two arcs from the farther boundary of their region.
+PieceBound bound_arc_pair(const Contour& contour, std::size_t piece, int direction) {
+  PieceBound bound;
+  const Element& from = contour.joints[piece].element;
+  const Element& to = contour.joints[piece + 2].element;
+  const auto* first = std::get_if<ArcPiece>(&contour.pieces[piece]);
+  const auto* second = std::get_if<ArcPiece>(&contour.pieces[piece + 1]);
+  ChordFrame frame = chord_frame(from, to);
+  // the arcs' own curvatures bound every other pair between them
+  frame.kappa_start = direction * std::min(direction * frame.kappa_start,
+                                           direction * (first != nullptr ? first->kappa : 0.0));
+  frame.kappa_end = direction * std::max(direction * frame.kappa_end,
+                                         direction * (second != nullptr ? second->kappa : 0.0));
+  const auto region = segment_region(frame, direction);
+  if (!region) return bound;
+  bound.width = bound.width_unrefined = bound.deviation = region->width;
+  return bound;
+}
+
+void add(SegmentReport& segment, const PieceBound& bound) {
+  segment.width = std::max(segment.width, bound.width);
+  segment.width_unrefined = std::max(segment.width_unrefined, bound.width_unrefined);
+  segment.deviation = std::max(segment.deviation, bound.deviation);
+  segment.inserted += bound.inserted;
+}
+
+void measure_pieces(const Contour& contour, double tolerance, FitReport& report) {
+  const std::vector<int> direction = piece_directions(contour);
+  std::size_t segment = 0;
+  for (std::size_t i = 0; i < contour.pieces.size(); ++i) {
+    if (i > 0 && contour.joints[i].source) ++segment;
+    if (segment >= report.segments.size()) return;
+    SegmentReport& row = report.segments[segment];
+    if (contour.carrier == Carrier::kSpiral) {
+      add(row, bound_piece(contour.pieces[i], direction[i], tolerance));
+      if (i > 0 && !contour.joints[i].source) ++row.inserted;
+    } else if (direction[i] != 0 && i + 1 < contour.pieces.size()) {
+      if (i > 0 && !contour.joints[i].source) ++row.inserted;
+      add(row, bound_arc_pair(contour, i, direction[i]));
+      ++i;  // a pair of arcs
+    }
+  }
+}
+
+}  // namespace
+
+double default_tolerance(const Analysis& analysis) { return kDefaultTolerance * analysis.size; }
+
+FitReport measure(const Contour& contour, const Analysis& analysis, double tolerance) {
+  FitReport report;
+  report.tolerance = tolerance;
+  report.segments.resize(analysis.chords.size());
+  for (std::size_t i = 0; i < report.segments.size(); ++i) {
+    report.segments[i].chord = analysis.chords[i].length;
+    report.segments[i].points_only_error = analysis.points_only_error[i];
+  }
+  measure_pieces(contour, tolerance, report);
+  for (const SegmentReport& s : report.segments) {
+    report.largest_width = std::max(report.largest_width, s.width);
+    report.inserted_points += s.inserted;
+  }
+  report.vertices_lower_bound = analysis.vertices_lower_bound;
+  return report;
+}
+
+}  // namespace obvid::pipeline_detail

@@ -1,0 +1,114 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <cmath>
+#include <string>
+
+#include "obvid/certify/certify.h"
+#include "obvid/pipeline/fit.h"
+#include "obvid/series/analysis.h"
+#include "report.h"
+
+namespace obvid {
+namespace {
+
+/// Figures of a report are computed again from the same numbers; they may differ in the last
+/// digits when another compiler orders the same operations differently.
+constexpr double kSameFigure = 1e-6;
+/// Widths far below the contour's size are differences of its coordinates.
+constexpr double kNegligible = 1e-13;
+
+class Comparison {
+ public:
+  explicit Comparison(double size) : size_(size) {}
+
+  void length(const std::string& name, double claimed, double found) {
+    if (std::isnan(claimed) && std::isnan(found)) return;
+    const double allowed = kSameFigure * std::abs(found) + kNegligible * size_;
+    if (!(std::abs(claimed - found) <= allowed)) refuse(name, claimed, found);
+  }
+  void count(const std::string& name, double claimed, double found) {
+    if (claimed != found) refuse(name, claimed, found);
+  }
+  [[nodiscard]] const std::optional<Error>& refused() const { return refused_; }
+  void refuse(const std::string& name, double claimed, double found) {
+    if (refused_) return;
+    refused_ = Error{ErrorCode::kFalseClaim,
+                     "the file claims " + name + " = " + std::to_string(claimed) + ", found " +
+                         std::to_string(found),
+                     "report", "form the contour again", -1, found};
+  }
+
+ private:
+  double size_;
+  std::optional<Error> refused_;
+};
+
+void compare_report(const FitReport& claimed, const FitReport& found, Comparison& c) {
+  c.count("the number of segments", static_cast<double>(claimed.segments.size()),
+          static_cast<double>(found.segments.size()));
+  if (claimed.segments.size() != found.segments.size()) return;
+  for (std::size_t i = 0; i < found.segments.size(); ++i) {
+    const std::string at = " of segment " + std::to_string(i);
+    const SegmentReport &a = claimed.segments[i], &b = found.segments[i];
+    c.length("chord" + at, a.chord, b.chord);
+    c.length("points_only_error" + at, a.points_only_error, b.points_only_error);
+    c.length("width" + at, a.width, b.width);
+    c.length("width_unrefined" + at, a.width_unrefined, b.width_unrefined);
+    c.length("deviation" + at, a.deviation, b.deviation);
+    c.count("inserted" + at, static_cast<double>(a.inserted), static_cast<double>(b.inserted));
+  }
+  c.length("largest_width", claimed.largest_width, found.largest_width);
+  c.length("largest_move", claimed.largest_move, found.largest_move);
+  c.count("vertices", claimed.vertices, found.vertices);
+  c.count("vertices_lower_bound", claimed.vertices_lower_bound, found.vertices_lower_bound);
+  c.count("inflections", claimed.inflections, found.inflections);
+  c.count("inserted_points", static_cast<double>(claimed.inserted_points),
+          static_cast<double>(found.inserted_points));
+}
+
+/// Gaps are rounding noise near zero: a claim is false only when it hides a larger gap.
+void compare_certificate(const Certificate& claimed, const Certificate& found, Comparison& c) {
+  constexpr double kGapNoise = 2.0;
+  constexpr double kSmallestGap = 1e-15;
+  const auto gap = [&](const char* name, double a, double b) {
+    if (!(b <= kGapNoise * a + kSmallestGap)) c.refuse(name, a, b);
+  };
+  gap("joint gap position", claimed.gaps.position, found.gaps.position);
+  gap("joint gap heading", claimed.gaps.heading, found.gaps.heading);
+  gap("joint gap curvature", claimed.gaps.curvature, found.gaps.curvature);
+  c.count("the number of verdicts", static_cast<double>(claimed.pieces.size()),
+          static_cast<double>(found.pieces.size()));
+  for (std::size_t i = 0; i < std::min(claimed.pieces.size(), found.pieces.size()); ++i) {
+    c.count("verdict of piece " + std::to_string(i), static_cast<double>(claimed.pieces[i].verdict),
+            static_cast<double>(found.pieces[i].verdict));
+  }
+  c.count("inside_region", claimed.inside_region, found.inside_region);
+  c.count("proved", claimed.proved, found.proved);
+}
+
+}  // namespace
+
+Verification verify(const StoredContour& stored) {
+  Verification out;
+  out.certificate = certify(stored.contour);
+  const auto analysis = analyse(stored.contour.points);
+  if (!analysis) {
+    out.false_claim = analysis.error();
+    return out;
+  }
+  Comparison comparison(analysis->size);
+  if (stored.report) {
+    FitReport found = pipeline_detail::measure(stored.contour, *analysis, stored.report->tolerance);
+    found.vertices = out.certificate.vertices;
+    found.inflections = out.certificate.inflections;
+    compare_report(*stored.report, found, comparison);
+    if (!(found.largest_width <= stored.report->tolerance)) {
+      comparison.refuse("a tolerance above the largest width", stored.report->tolerance,
+                        found.largest_width);
+    }
+  }
+  if (stored.certificate) compare_certificate(*stored.certificate, out.certificate, comparison);
+  out.false_claim = comparison.refused();
+  return out;
+}
+
+}  // namespace obvid

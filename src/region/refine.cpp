@@ -1,0 +1,129 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "obvid/region/refine.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace obvid {
+namespace {
+
+/// Elements that one piece may take; widths fall with the third power, so this is 15 decades.
+constexpr std::size_t kMostElements = 100000;
+/// Steps of the search for the point that is parallel to the chord; Newton converges faster.
+constexpr int kParallelSteps = 4;
+/// Bisection steps for a step that uses the tolerance up: to a thousandth of the parameter step.
+constexpr int kStepBisections = 10;
+
+struct Sample {
+  Vec2 point;
+  Vec2 tangent;
+  double kappa = 0.0;
+};
+
+Sample sample(const Piece& piece, double t) {
+  const Jet jet = evaluate(piece, t);
+  return {jet.point, jet.d1, curvature(jet)};
+}
+
+/// Width of the region between two samples; 0 where they are one circle to within rounding.
+double width_between(const Sample& a, const Sample& b, int direction) {
+  const ChordFrame frame = chord_frame(a.point, a.tangent, a.kappa, b.point, b.tangent, b.kappa);
+  const auto region = segment_region(frame, direction);
+  return region ? region->width : 0.0;
+}
+
+/// Ordinate over the chord of the point whose tangent is parallel to the chord.
+double parallel_height(const Piece& piece, Vec2 start, Vec2 u) {
+  double t = 0.5;
+  Vec2 p = start;
+  for (int i = 0; i < kParallelSteps; ++i) {
+    const Jet jet = evaluate(piece, t);
+    p = jet.point;
+    const double slope = cross(u, jet.d1), bend = cross(u, jet.d2);
+    if (bend == 0.0) break;
+    t = std::clamp(t - slope / bend, 0.0, 1.0);
+  }
+  return cross(u, p - start);
+}
+
+double deviation_from(const SegmentRegion& r, const Piece& piece, const Sample& a, const Sample& b) {
+  const Vec2 u = (b.point - a.point) / norm(b.point - a.point);
+  const double y = parallel_height(piece, a.point, u);
+  const bool above = y >= 0.0;
+  const double y0 = above ? r.from_start.highest : r.from_start.lowest;
+  const double y1 = above ? r.to_end.highest : r.to_end.lowest;
+  return std::min(r.width, std::max(std::abs(y - y0), std::abs(y - y1)));
+}
+
+}  // namespace
+
+Element element_at(const Piece& piece, double t) {
+  const Sample s = sample(piece, t);
+  return {s.point, heading(s.tangent), s.kappa};
+}
+
+PieceBound bound_piece(const Piece& piece, int direction, double tolerance) {
+  PieceBound bound;
+  if (direction == 0 || !std::holds_alternative<RationalBezier>(piece)) return bound;
+  const Sample first = sample(piece, 0.0), last = sample(piece, 1.0);
+  const ChordFrame frame =
+      chord_frame(first.point, first.tangent, first.kappa, last.point, last.tangent, last.kappa);
+  const auto region = segment_region(frame, direction);
+  if (!region) return bound;
+  bound.width = bound.width_unrefined = region->width;
+  bound.deviation = deviation_from(*region, piece, first, last);
+  double expected = bound.width;
+  std::size_t count = 1;
+  while (bound.width > tolerance) {
+    const auto factor = std::cbrt(expected / tolerance);
+    const auto wanted = static_cast<std::size_t>(std::ceil(factor * static_cast<double>(count)));
+    if (wanted > kMostElements) {
+      bound.reached = false;
+      return bound;
+    }
+    count = std::max(count + 1, wanted);
+    bound.width = 0.0;
+    Sample before = first;
+    for (std::size_t j = 1; j <= count; ++j) {
+      const double t = static_cast<double>(j) / static_cast<double>(count);
+      const Sample here = j == count ? last : sample(piece, t);
+      bound.width = std::max(bound.width, width_between(before, here, direction));
+      before = here;
+      if (bound.width > tolerance) break;  // this count does not do: no need to see the rest
+    }
+    expected = bound.width;
+    bound.inserted = count - 1;
+  }
+  return bound;
+}
+
+std::vector<double> fewest_elements(const Piece& piece, int direction, double tolerance) {
+  std::vector<double> parameters = {0.0};
+  if (direction == 0) return {0.0, 1.0};
+  double step = 1.0;
+  while (parameters.back() < 1.0 && parameters.size() < kMostElements) {
+    const double t = parameters.back();
+    const Sample here = sample(piece, t);
+    const auto fits = [&](double to) {
+      return width_between(here, sample(piece, to), direction) <= tolerance;
+    };
+    if (fits(1.0)) {
+      parameters.push_back(1.0);
+      break;
+    }
+    double good = std::min(step, 1.0 - t);
+    while (!fits(t + good)) good *= 0.5;
+    double bad = 1.0 - t;
+    while (2.0 * good < bad && fits(t + 2.0 * good)) good *= 2.0;
+    bad = std::min(bad, 2.0 * good);
+    for (int i = 0; i < kStepBisections; ++i) {
+      const double middle = 0.5 * (good + bad);
+      (fits(t + middle) ? good : bad) = middle;
+    }
+    step = good;
+    parameters.push_back(t + good);
+  }
+  return parameters;
+}
+
+}  // namespace obvid

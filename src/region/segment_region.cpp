@@ -1,0 +1,163 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "obvid/region/segment_region.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+
+namespace obvid {
+namespace {
+
+constexpr double kUnitRoundoff = 0x1p-53;
+/// Rounding of A and B relative to the terms that cancel in them.
+constexpr double kCancellation = 16.0 * kUnitRoundoff;
+
+Vec2 rotated_back(Vec2 v, Vec2 u) { return {dot(u, v), cross(u, v)}; }
+
+/// (1 - cos)/kappa for a unit tangent, 0 on a straight arc; without cancellation.
+double rise_to_parallel(Vec2 tangent, double kappa) {
+  if (kappa == 0.0 || std::isinf(kappa)) return 0.0;
+  if (tangent.x <= 0.0) return (1.0 - tangent.x) / kappa;
+  return tangent.y * tangent.y / ((1.0 + tangent.x) * kappa);
+}
+
+/// Whether an arc that turns the tangent from a to b becomes parallel to the chord on the way.
+bool passes_parallel(Vec2 a, Vec2 b) { return (a.y < 0.0) != (b.y < 0.0) && a.x + b.x > 0.0; }
+
+/// Tangent at the joint of the two arcs, by closing the chord (theory 4).
+Vec2 joint_tangent(const ChordFrame& f, double k0, double k1) {
+  const double a = 0.5 * k0 * f.h, b = 0.5 * k1 * f.h;
+  if (std::isinf(a)) return b == 0.0 ? f.end_tangent : Vec2{f.end_tangent.x, -f.end_tangent.y};
+  if (std::isinf(b)) return Vec2{f.start_tangent.x, -f.start_tangent.y};
+  // (b - a) e^{i theta} = 2 i a b + b e^{i alpha} - a e^{i beta}
+  const Vec2 v = Vec2{0.0, 2.0 * a * b} + b * f.start_tangent - a * f.end_tangent;
+  const Vec2 w = b > a ? v : -v;
+  const double length = norm(w);
+  return length > 0.0 ? w / length : f.start_tangent;
+}
+
+Boundary make_boundary(const ChordFrame& f, double k0, double k1) {
+  Boundary b{k0, k1, joint_tangent(f, k0, k1), 0.0, 0.0};
+  const auto reach = [&b](double y) {
+    b.highest = std::max(b.highest, y);
+    b.lowest = std::min(b.lowest, y);
+  };
+  if (!std::isinf(k0)) {
+    if (passes_parallel(f.start_tangent, b.joint_tangent)) {
+      reach(-rise_to_parallel(f.start_tangent, k0));
+    }
+  }
+  if (!std::isinf(k1)) {
+    if (passes_parallel(b.joint_tangent, f.end_tangent)) reach(-rise_to_parallel(f.end_tangent, k1));
+  }
+  return b;
+}
+
+/// A boundary as a function y(x) over the chord, with its slope's sine; arcs within a right angle.
+struct Graph {
+  double h, x_joint, k0, k1, s0, s1, y0;
+
+  static std::optional<Graph> of(const ChordFrame& f, const Boundary& b) {
+    if (std::isinf(b.kappa_first) || std::isinf(b.kappa_second)) return std::nullopt;
+    const double least = std::min({f.start_tangent.x, f.end_tangent.x, b.joint_tangent.x});
+    if (!(least > 0.0)) return std::nullopt;
+    Graph g{f.h, 0.0, b.kappa_first, b.kappa_second, f.start_tangent.y, f.end_tangent.y, 0.0};
+    const bool first_bends_more = std::abs(g.k0) >= std::abs(g.k1);
+    g.x_joint = first_bends_more ? (b.joint_tangent.y - g.s0) / g.k0
+                                 : f.h - (g.s1 - b.joint_tangent.y) / g.k1;
+    if (!(g.x_joint >= 0.0 && g.x_joint <= f.h)) g.x_joint = std::clamp(g.x_joint, 0.0, f.h);
+    return g;
+  }
+
+  /// y of an arc through (0, 0) with sine of heading s and curvature k, at distance x.
+  static double arc(double s, double k, double x) {
+    const double e = s + k * x;
+    const double c0 = std::sqrt(std::max(0.0, 1.0 - s * s)), c1 = std::sqrt(std::max(0.0, 1.0 - e * e));
+    return x * (s + e) / (c0 + c1);
+  }
+  [[nodiscard]] double y(double x) const {
+    return x <= x_joint ? arc(s0, k0, x) : -arc(-s1, k1, h - x);
+  }
+};
+
+/// Largest gap |y_a - y_b| over the chord: at a joint, or where both arcs are equally steep.
+double largest_gap(const Graph& a, const Graph& b) {
+  double gap = 0.0;
+  const auto look = [&](double x) {
+    if (x > 0.0 && x < a.h) gap = std::max(gap, std::abs(a.y(x) - b.y(x)));
+  };
+  look(a.x_joint);
+  look(b.x_joint);
+  // heading sines: first arc s0 + k0 x, second arc s1 - k1 (h - x)
+  const std::array<std::array<double, 2>, 2> sa = {{{a.s0, a.k0}, {a.s1 - a.k1 * a.h, a.k1}}};
+  const std::array<std::array<double, 2>, 2> sb = {{{b.s0, b.k0}, {b.s1 - b.k1 * b.h, b.k1}}};
+  for (const auto& p : sa) {
+    for (const auto& q : sb) {
+      const double slope = p[1] - q[1];
+      if (slope != 0.0) look((q[0] - p[0]) / slope);
+    }
+  }
+  return gap;
+}
+
+}  // namespace
+
+ChordFrame chord_frame(Vec2 start, Vec2 start_tangent, double kappa_start, Vec2 end,
+                       Vec2 end_tangent, double kappa_end) {
+  const Vec2 chord = end - start;
+  const double h = norm(chord);
+  const Vec2 u = chord / h;
+  return {h, rotated_back(start_tangent / norm(start_tangent), u),
+          rotated_back(end_tangent / norm(end_tangent), u), kappa_start, kappa_end};
+}
+
+ChordFrame chord_frame(const Element& start, const Element& end) {
+  return chord_frame(start.point, unit_at(start.theta), start.kappa, end.point, unit_at(end.theta),
+                     end.kappa);
+}
+
+std::optional<SegmentRegion> segment_region(const ChordFrame& f, int direction) {
+  const double d = direction;
+  const Vec2 turn = complex_product(f.start_tangent, f.end_tangent);  // e^{i sigma}
+  const double half_sine_squared =
+      turn.x > 0.0 ? turn.y * turn.y / (2.0 * (1.0 + turn.x)) : 0.5 * (1.0 - turn.x);
+  const double a = d * 0.5 * f.kappa_start * f.h, b = d * 0.5 * f.kappa_end * f.h;
+  const double sa = d * f.start_tangent.y, sb = d * f.end_tangent.y;
+  const double A = std::min(a + sa, -kCancellation * (std::abs(a) + std::abs(sa)));
+  const double B = std::max(b - sb, kCancellation * (std::abs(b) + std::abs(sb)));
+  if (a + sa > kCancellation * (1.0 + std::abs(a)) || b - sb < -kCancellation * (1.0 + std::abs(b))) {
+    return std::nullopt;
+  }
+  const double to = 2.0 * d / f.h;
+  const double end_of_first = A == 0.0 ? f.kappa_end : to * (sb + half_sine_squared / -A);
+  const double start_of_second = B == 0.0 ? f.kappa_start : to * (-sa - half_sine_squared / B);
+
+  SegmentRegion r;
+  r.from_start = make_boundary(f, f.kappa_start, end_of_first);
+  r.to_end = make_boundary(f, start_of_second, f.kappa_end);
+  const double high = std::abs(r.from_start.highest - r.to_end.highest);
+  const double low = std::abs(r.from_start.lowest - r.to_end.lowest);
+  r.parallel_width = std::max(high, low);
+  const bool above = r.from_start.highest + r.to_end.highest >= -r.from_start.lowest - r.to_end.lowest;
+  r.lower_height = above ? std::min(r.from_start.highest, r.to_end.highest)
+                         : std::min(-r.from_start.lowest, -r.to_end.lowest);
+  r.width = r.parallel_width;
+  const auto g0 = Graph::of(f, r.from_start), g1 = Graph::of(f, r.to_end);
+  if (g0 && g1) r.width = std::max(r.width, largest_gap(*g0, *g1));
+  return r;
+}
+
+bool contains(const SegmentRegion& region, const ChordFrame& f, Vec2 p, double slack) {
+  const double top = std::max(region.from_start.highest, region.to_end.highest);
+  const double bottom = std::min(region.from_start.lowest, region.to_end.lowest);
+  if (p.y > top + slack || p.y < bottom - slack) return false;
+  const auto g0 = Graph::of(f, region.from_start), g1 = Graph::of(f, region.to_end);
+  if (!g0 || !g1) return true;
+  if (p.x < -slack || p.x > f.h + slack) return false;
+  const double x = std::clamp(p.x, 0.0, f.h);
+  const double y0 = g0->y(x), y1 = g1->y(x);
+  return p.y >= std::min(y0, y1) - slack && p.y <= std::max(y0, y1) + slack;
+}
+
+}  // namespace obvid
