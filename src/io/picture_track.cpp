@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 namespace obvid {
 namespace {
@@ -148,6 +149,31 @@ void find_inflections(PictureTrack& track) {
   }
 }
 
+/// Jump of the curvature at the start of a piece; 0 at both ends of the contour.
+double jump_before(const PictureTrack& track, std::size_t piece) {
+  if (piece == 0 || piece >= track.pieces.size()) return 0.0;
+  const std::size_t j = track.first[piece];
+  return std::fabs(track.samples[j].kappa - track.samples[j - 1].kappa);
+}
+
+/// Change of curvature that stands for the step to each sample from the one before. Jumps at
+/// joints (arcs) are shared by both neighbours and spread over their whole length.
+std::vector<double> curvature_change(const PictureTrack& track) {
+  std::vector<double> change(track.samples.size(), 0.0);
+  for (std::size_t i = 0; i < track.pieces.size(); ++i) {
+    const std::size_t last = track.first[i + 1] - 1;
+    const double length = track.samples[last].s - track.samples[track.first[i]].s;
+    const double jumps = 0.5 * (jump_before(track, i) + jump_before(track, i + 1));
+    for (std::size_t j = track.first[i] + 1; j <= last; ++j) {
+      const PictureSample& a = track.samples[j - 1];
+      const PictureSample& b = track.samples[j];
+      change[j] = std::fabs(b.kappa - a.kappa);
+      if (length > 0.0) change[j] += jumps * (b.s - a.s) / length;
+    }
+  }
+  return change;
+}
+
 }  // namespace
 
 void PictureBox::add(Vec2 p) {
@@ -184,14 +210,10 @@ PictureTrack make_track(const Contour& contour) {
 }
 
 std::vector<PictureTooth> comb_teeth(const PictureTrack& track, int count) {
-  double variation = 0.0;  // inside pieces: jumps at joints take no room
-  for (std::size_t i = 0; i < track.pieces.size(); ++i) {
-    for (std::size_t j = track.first[i] + 1; j < track.first[i + 1]; ++j) {
-      variation += std::fabs(track.samples[j].kappa - track.samples[j - 1].kappa);
-    }
-  }
   std::vector<PictureTooth> teeth;
   if (track.length <= 0.0 || count < 1) return teeth;
+  const std::vector<double> change = curvature_change(track);
+  const double variation = std::accumulate(change.begin(), change.end(), 0.0);
   const bool varies = variation > kStraightPart * track.largest_kappa;
   const double even = varies ? 0.5 : 1.0;
   double done = 0.0;
@@ -200,7 +222,7 @@ std::vector<PictureTooth> comb_teeth(const PictureTrack& track, int count) {
     for (std::size_t j = track.first[i] + 1; j < track.first[i + 1]; ++j) {
       const PictureSample& a = track.samples[j - 1];
       const PictureSample& b = track.samples[j];
-      const double bend = varies ? std::fabs(b.kappa - a.kappa) / variation : 0.0;
+      const double bend = varies ? change[j] / variation : 0.0;
       const double part = even * (b.s - a.s) / track.length + (1.0 - even) * bend;
       for (; part > 0.0 && next <= done + part; next += 1.0 / count) {
         const double f = std::clamp((next - done) / part, 0.0, 1.0);

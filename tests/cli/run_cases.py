@@ -20,6 +20,7 @@ Every case runs in a folder of its own that holds copies of the examples. Keys o
   json          table of paths "a.b.0" to values in standard output read as JSON; "" asks nothing
   svg           files that must be well-formed SVG
   contour       files that must be contour files
+  contour_values  table of paths to numbers in the first of them (within 1e-12)
   untouched     files that must exist before and after, with the same bytes
   absent        files that must not exist afterwards
   terminal      true: standard output and error are a terminal (then stdout holds both)
@@ -41,7 +42,7 @@ import xml.etree.ElementTree
 
 ERROR_LINE = re.compile(r"^obvid: error E([1-5]\d\d): \S.*$")
 KEYS = set("name args before edit stdin files exit stdout stdout_has stdout_last stderr stderr_has "
-           "json svg contour untouched absent terminal env".split())
+           "json svg contour contour_values untouched absent terminal env".split())
 TIMEOUT_S = 60
 
 
@@ -139,6 +140,9 @@ class Case:
         for name in data.get("contour", []):
             contour = json.loads((folder / name).read_text())
             self.check(contour["format"] == "obvid-contour", f"{name} is no contour")
+        for path, expected in data.get("contour_values", {}).items():
+            found = at_path(json.loads((folder / data["contour"][0]).read_text()), path)
+            self.check(abs(found - expected) < 1e-12, f"{path} is {found!r}, not {expected!r}")
         for name in data.get("untouched", []):
             self.check(name in before, f"{name} did not exist before")
             self.check((folder / name).read_bytes() == before.get(name), f"{name} was changed")
