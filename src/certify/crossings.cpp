@@ -145,10 +145,14 @@ bool ends_touch(const Part& a, const Part& b, double tolerance) {
          near(a.to(), b.to());
 }
 
+Vec2 unit(Vec2 v) { return v / norm(v); }
+
 /// Every leg of both polygons advances along the direction at the shared end: `a` ends before `b`
-/// begins, so they meet only there.
+/// begins, so they meet only there. (Where a leg has no length, this says no.)
 bool advance_together(const Part& a, const Part& b) {
-  const Vec2 direction = b.curve.offset[1] - b.curve.offset[0];
+  const std::size_t n = last(a.curve);
+  const Vec2 direction = unit(a.curve.offset[n] - a.curve.offset[n - 1]) +
+                         unit(b.curve.offset[1] - b.curve.offset[0]);
   for (const Part* part : {&a, &b}) {
     for (std::size_t j = 0; j < last(part->curve); ++j) {
       if (!(dot(part->curve.offset[j + 1] - part->curve.offset[j], direction) > 0.0)) return false;

@@ -147,14 +147,24 @@ template <std::size_t W, std::size_t D, class S>
   return e;
 }
 
+/// target += a * a
+template <std::size_t A, class S>
+void add_square(std::array<S, 2 * A - 1>& target, const std::array<S, A>& a) {
+  for (std::size_t i = 0; i < A; ++i) {
+    target[2 * i] = target[2 * i] + a[i] * a[i];
+    const S twice = a[i] + a[i];
+    for (std::size_t j = i + 1; j < A; ++j) target[i + j] = target[i + j] + twice * a[j];
+  }
+}
+
 /// Evaluates all polynomials; with `Magnitude`, their majorants: every rounding error of the plain
 /// evaluation is at most (number of roundings) * (unit roundoff) * majorant.
 template <bool Magnitude, int N, class S>
 [[nodiscard]] CurvatureForm<N, S> curvature_form(const ControlDifferences<N, S>& p) {
   CurvatureForm<N, S> f;
   add_hodograph(p, f);
-  add_product(f.speed, f.u, f.u);
-  add_product(f.speed, f.v, f.v);
+  add_square(f.speed, f.u);
+  add_square(f.speed, f.v);
 
   std::array<S, N + 1> w{};
   for (std::size_t j = 0; j <= N; ++j) w[j] = p.weight[j] * form::kFactors<N>.weight[j];
@@ -168,6 +178,29 @@ template <bool Magnitude, int N, class S>
     subtract_product(f.test, e_s, partial_t(f.speed));
   }
   return f;
+}
+
+/// 1 / binomial(Count - 1, j), rounded up or down by half an ulp.
+template <std::size_t Count>
+[[nodiscard]] constexpr std::array<double, Count> inverse_binomials() {
+  std::array<double, Count> result{};
+  for (std::size_t j = 0; j < Count; ++j) {
+    result[j] = 1.0 / binomial(static_cast<int>(Count) - 1, static_cast<int>(j));
+  }
+  return result;
+}
+
+/// Largest coefficient of a majorant in plain (not scaled) Bernstein form. Plain coefficients of a
+/// product are averages of products, so these norms multiply.
+template <std::size_t Count>
+[[nodiscard]] double largest(const std::array<double, Count>& scaled_majorant) {
+  static constexpr auto kInverse = inverse_binomials<Count>();
+  double result = 0.0;
+  for (std::size_t j = 0; j < Count; ++j) {
+    const double c = scaled_majorant[j] * kInverse[j];
+    result = c > result ? c : result;
+  }
+  return result;
 }
 
 /// Absolute values, for the majorants.

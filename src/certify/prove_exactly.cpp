@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
 #include <boost/multiprecision/cpp_int.hpp>
 #include <cmath>
 #include <cstdint>
@@ -17,7 +18,8 @@ using Integer = boost::multiprecision::cpp_int;
 template <>
 struct Arithmetic<Integer> {
   static constexpr double kRoundoff = 0.0;
-  static constexpr int kDepth = 24;  // a double zero inside stays open below 2^-24 of the piece
+  static constexpr int kDepth = 64;  // beyond any end that rounding moved by an ulp; a double zero
+                                    // inside stays open
   static constexpr bool kExact = true;
   static int sign(const Integer& value, double) { return value.sign(); }
   static double magnitude(const Integer&) { return 0.0; }

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cmath>
 #include <cstdint>
 #include <optional>
@@ -34,7 +35,10 @@ inline constexpr double kLargestSize = 0x1p900;
 /// Power of two that brings `size` near 1; nothing for sizes beyond what can be scaled.
 [[nodiscard]] inline std::optional<double> unit_scale(double size) {
   if (!(size > kSmallestSize && size < kLargestSize)) return std::nullopt;
-  return std::ldexp(1.0, -std::ilogb(size));
+  constexpr int kExponentAt = 52;
+  constexpr std::uint64_t kTwiceBias = 2046;
+  const std::uint64_t biased = std::bit_cast<std::uint64_t>(size) >> kExponentAt;
+  return std::bit_cast<double>((kTwiceBias - biased) << kExponentAt);
 }
 
 /// A copy of the piece with size and weights near 1 (scaled by powers of two: no rounding).
@@ -79,7 +83,8 @@ inline constexpr double kLattice = 1 << 20;  // resolution of test directions; a
 [[nodiscard]] inline LatticeDirection on_lattice(Vec2 v) {
   const double size = std::max(std::abs(v.x), std::abs(v.y));
   if (!(size > 0.0)) return {};
-  return {static_cast<int>(v.x / size * kLattice), static_cast<int>(v.y / size * kLattice)};
+  const double scale = kLattice / size;
+  return {static_cast<int>(v.x * scale), static_cast<int>(v.y * scale)};
 }
 
 [[nodiscard]] inline Vec2 unit_or_zero(Vec2 v) {
@@ -87,11 +92,18 @@ inline constexpr double kLattice = 1 << 20;  // resolution of test directions; a
   return size > 0.0 ? v / size : Vec2{};
 }
 
+[[nodiscard]] inline Vec2 leg(const RationalBezier& piece, std::size_t k, std::size_t l) {
+  return piece.offset[l] - piece.offset[k];
+}
+
+[[nodiscard]] inline LatticeDirection chord_direction(const RationalBezier& piece) {
+  return on_lattice(leg(piece, 0, static_cast<std::size_t>(piece.degree)));
+}
+
 [[nodiscard]] inline TestDirections test_directions(const RationalBezier& piece) {
   const auto n = static_cast<std::size_t>(piece.degree);
-  const auto leg = [&](std::size_t k, std::size_t l) { return piece.offset[l] - piece.offset[k]; };
-  return {on_lattice(leg(0, n)),
-          on_lattice(unit_or_zero(leg(0, 1)) + unit_or_zero(leg(n - 1, n)))};
+  return {chord_direction(piece),
+          on_lattice(unit_or_zero(leg(piece, 0, 1)) + unit_or_zero(leg(piece, n - 1, n)))};
 }
 
 }  // namespace obvid
