@@ -36,8 +36,8 @@ Result<Output> output_of(const std::string& path, const std::string& input) {
                  [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
   std::error_code ignored;
   if (path == input || fs::equivalent(path, input, ignored)) {
-    return fail({ErrorCode::kBadOption, "the output would replace the input", path,
-                 "choose another name"});
+    return fail(
+        {ErrorCode::kBadOption, "the output would replace the input", path, "choose another name"});
   }
   if (ending == ".json") return Output{path, Format::kJson, {}};
   if (ending == ".svg") return Output{path, Format::kSvg, {}};
@@ -71,18 +71,16 @@ Result<std::vector<std::string>> write_outputs(std::vector<Output>& outputs,
   return written;
 }
 
-Result<Fit> read_and_fit(const FitOptions& options, std::string& name) {
+Result<Fit> read_and_fit(const FitOptions& options, std::string& name, ProgressBar& bar) {
+  bar.tell("reading", 0.0);
   Result<PointSeries> series = read_points(options.input);
   if (!series) return fail(series.error());
   if (options.units) series->units = *options.units;
-  warn(series->warnings);
   name = series->name;
-  ProgressBar bar(options.progress && !options.quiet);
   Result<Fit> made = fit(*series, options.job, bar.progress());
+  if (made) return made;
   bar.clear();
-  if (made) warn(made->warnings);
-  if (made) made->warnings.insert(made->warnings.begin(), series->warnings.begin(),
-                                  series->warnings.end());
+  warn(series->warnings);  // a formed contour carries them itself
   return made;
 }
 
@@ -90,8 +88,8 @@ Result<Fit> read_and_fit(const FitOptions& options, std::string& name) {
 int judge(const Fit& made, bool files) {
   const std::string hint = files ? "the files were written, with this verdict in them" : "";
   if (!made.certificate.proved) {
-    return report({ErrorCode::kNotProved, "the contour was formed but not proved: " +
-                   made.certificate.reason, "", hint});
+    return report({ErrorCode::kNotProved,
+                   "the contour was formed but not proved: " + made.certificate.reason, "", hint});
   }
   if (made.report.largest_width > made.report.tolerance) {
     return report({ErrorCode::kToleranceNotReached,
@@ -109,17 +107,27 @@ int run(const FitOptions& options) {
   Result<std::vector<Output>> outputs = outputs_of(options);
   if (!outputs) return report(outputs.error());
   std::string name;
-  Result<Fit> made = read_and_fit(options, name);
-  if (!made) return report(made.error());
+  ProgressBar bar(options.progress && !options.quiet);
+  Result<Fit> made = read_and_fit(options, name, bar);
+  if (!made) {
+    bar.clear();
+    return report(made.error());
+  }
 
   std::vector<std::string> written;
   if (!outputs->empty()) {
+    bar.tell("writing", 1.0);
     StoredContour stored{std::move(made->contour), made->report, made->certificate};
     Result<std::vector<std::string>> done = write_outputs(*outputs, stored);
-    if (!done) return report(done.error());
+    if (!done) {
+      bar.clear();
+      return report(done.error());
+    }
     written = std::move(*done);
     made->contour = std::move(stored.contour);
   }
+  bar.clear();
+  warn(made->warnings);
   std::string text;
   if (options.json) {
     text = fit_report_json(*made, written);

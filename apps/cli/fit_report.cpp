@@ -61,11 +61,11 @@ Table segment_table(const Fit& fit) {
 }
 
 std::string fairness_text(const FitReport& report) {
-  return fmt::format("{} (the points force at least {}), {}",
-                     counted(static_cast<std::size_t>(report.vertices), "vertex", "vertices"),
-                     report.vertices_lower_bound,
-                     counted(static_cast<std::size_t>(report.inflections), "inflection",
-                             "inflections"));
+  return fmt::format(
+      "{} (the points force at least {}), {}",
+      counted(static_cast<std::size_t>(report.vertices), "vertex", "vertices"),
+      report.vertices_lower_bound,
+      counted(static_cast<std::size_t>(report.inflections), "inflection", "inflections"));
 }
 
 std::string time_text(double seconds) {
@@ -84,11 +84,14 @@ Facts summary(const Fit& fit, const std::vector<std::string>& written) {
     pieces += fmt::format(", {} free between them",
                           counted(report.chain.free_elements, "joint", "joints"));
   }
-  facts.add("contour", fmt::format("{} in {}", pieces, counted(contour.runs.size(), "run", "runs")));
+  facts.add("contour",
+            fmt::format("{} in {}", pieces, counted(contour.runs.size(), "run", "runs")));
   facts.add("fairness", fairness_text(report));
-  facts.add("largest width", fmt::format("{} {} (tolerance {})", significant(report.largest_width, 4),
-                                         contour.units, significant(report.tolerance, 4)));
-  facts.add("bound needed", counted(report.inserted_points, "inserted element", "inserted elements"));
+  facts.add("largest width",
+            fmt::format("{} {} (tolerance {})", significant(report.largest_width, 4), contour.units,
+                        significant(report.tolerance, 4)));
+  facts.add("bound needed",
+            counted(report.inserted_points, "inserted element", "inserted elements"));
   if (report.largest_move > 0.0) {
     facts.add("largest move", significant(report.largest_move, 4) + " " + contour.units);
   }

@@ -30,7 +30,8 @@ constexpr const char* kExitCodes =
     "Exit codes: 0 done and proved, 2 wrong usage, 3 input unreadable or malformed, 4 no such\n"
     "contour exists, 5 formed but not proved or tolerance not reached, 1 anything else.";
 
-/// Announced for later; refused with a word of their own so that nobody searches for a typing error.
+/// Announced for later; refused with a word of their own so that nobody searches for a typing
+/// error.
 const std::vector<std::string> kLaterCommands = {"compare", "convert", "surface"};
 const std::vector<std::string> kLaterCarriers = {"conics", "beziers", "clothoids", "bspline"};
 
@@ -57,22 +58,27 @@ Error bad_option(std::string what, std::string where, std::string hint) {
 }
 
 constexpr const char* kInputHelp = "File with the points, or - for standard input";
-constexpr const char* kUnitsHelp = "Name of the length unit, printed only: mm, m, in, ... "
-                                   "[as the file says, else mm]";
+constexpr const char* kUnitsHelp =
+    "Name of the length unit, printed only: mm, m, in, ... "
+    "[as the file says, else mm]";
 
 void add_fit_direction(CLI::App& fit, Raw& raw) {
   const char* group = "Given at the ends";
   fit.add_option("--start-heading", raw.start_heading_deg,
                  "Heading at the first point, degrees counter-clockwise from +x [free]")
-      ->type_name("DEG")->group(group);
+      ->type_name("DEG")
+      ->group(group);
   fit.add_option("--end-heading", raw.end_heading_deg, "Heading at the last point, degrees [free]")
-      ->type_name("DEG")->group(group);
+      ->type_name("DEG")
+      ->group(group);
   fit.add_option("--start-radius", raw.start_radius,
                  "Radius at the first point, input units, positive turning left, inf straight "
                  "[free]")
-      ->type_name("R")->group(group);
+      ->type_name("R")
+      ->group(group);
   fit.add_option("--end-radius", raw.end_radius, "Radius at the last point, likewise [free]")
-      ->type_name("R")->group(group);
+      ->type_name("R")
+      ->group(group);
 }
 
 void add_fit(CLI::App& app, Raw& raw) {
@@ -80,7 +86,8 @@ void add_fit(CLI::App& app, Raw& raw) {
   fit.add_option("INPUT", raw.fit.input, kInputHelp);
   fit.add_option("-o,--output", raw.fit.outputs,
                  "File to write, format by ending: .json contour, .svg picture; may be repeated")
-      ->type_name("OUT")->allow_extra_args(false);
+      ->type_name("OUT")
+      ->allow_extra_args(false);
   fit.add_option("--carrier", raw.carrier,
                  "Curve family: spiral (G2, monotone curvature) or arcs (G1, monotone radii) "
                  "[spiral]")
@@ -92,7 +99,7 @@ void add_fit(CLI::App& app, Raw& raw) {
   add_fit_direction(fit, raw);
   fit.add_option("--units", raw.fit.units, kUnitsHelp)->type_name("NAME");
   fit.add_flag("--json", raw.fit.json, "Report and certificate as JSON on standard output");
-  fit.add_flag("--quiet", raw.fit.quiet, "No table");
+  fit.add_flag("--quiet", raw.fit.quiet, "No table and no progress bar");
   fit.add_flag("--no-progress", raw.no_progress, "No progress bar");
   fit.add_option("--noise", raw.noise, "Not available in this version")->group("");
   fit.add_flag("--closed", raw.closed, "Not available in this version")->group("");
@@ -206,9 +213,9 @@ Result<void> set_carrier(Raw& raw) {
     return fail(bad_option(not_available("the carrier " + raw.carrier), "--carrier",
                            "available are spiral and arcs"));
   } else {
-    return fail(bad_option("unknown carrier '" + raw.carrier + "'", "--carrier",
-                           did_you_mean(raw.carrier, {"spiral", "arcs"},
-                                        "available are spiral and arcs")));
+    return fail(
+        bad_option("unknown carrier '" + raw.carrier + "'", "--carrier",
+                   did_you_mean(raw.carrier, {"spiral", "arcs"}, "available are spiral and arcs")));
   }
   return {};
 }
@@ -252,7 +259,8 @@ Result<Command> checked_fit(Raw& raw) {
           .and_then([&] {
             return set_heading(raw.start_heading_deg, "--start-heading", job.start_heading);
           })
-          .and_then([&] { return set_heading(raw.end_heading_deg, "--end-heading", job.end_heading); })
+          .and_then(
+              [&] { return set_heading(raw.end_heading_deg, "--end-heading", job.end_heading); })
           .and_then([&] { return set_radius(raw.start_radius, "--start-radius", job.start_kappa); })
           .and_then([&] { return set_radius(raw.end_radius, "--end-radius", job.end_kappa); });
   if (!done) return fail(done.error());

@@ -26,7 +26,8 @@ RadiusRange radius_range(double kappa_low, double kappa_high) {
   const double larger = low_is_larger ? kappa_low : kappa_high;
   const double smaller = low_is_larger ? kappa_high : kappa_low;
   const bool crosses = kappa_low < 0.0 && kappa_high > 0.0;
-  return {std::isinf(larger) ? "0" : radius_text(larger), crosses ? "straight" : radius_text(smaller)};
+  return {std::isinf(larger) ? "0" : radius_text(larger),
+          crosses ? "straight" : radius_text(smaller)};
 }
 
 Table segment_table(const RegionTable& region) {
@@ -65,10 +66,11 @@ std::string report_text(const PointSeries& series, const RegionTable& region) {
     if (row.width > largest) largest = row.width;
   }
   std::string out = series.name.empty() ? "" : bold(series.name) + "\n";
-  out += fmt::format("lengths in {}; radius positive where the contour turns left\n"
-                     "T: where the tangents at points i and i+1 meet; h: height of the lower "
-                     "boundary above the chord\n\n",
-                     series.units);
+  out += fmt::format(
+      "lengths in {}; radius positive where the contour turns left\n"
+      "T: where the tangents at points i and i+1 meet; h: height of the lower "
+      "boundary above the chord\n\n",
+      series.units);
   out += segment_table(region).text();
   out += shown_note(rows_worth_showing(width).size(), width.size(), "widest", "segments");
   return out + fmt::format("\nlargest width  {} {}\n", significant(largest, 4), series.units);

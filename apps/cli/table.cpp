@@ -24,19 +24,6 @@ bool is_number(const std::string& cell) {
   return cell.find_first_of("0123456789") != std::string::npos;
 }
 
-struct Width {
-  std::size_t before = 0;
-  std::size_t after = 0;
-  std::size_t total = 0;
-};
-
-std::string padded(const std::string& cell, const Width& width, Table::Align align) {
-  if (align == Table::Align::kLeft) return fmt::format("{:<{}}", cell, width.total);
-  if (!is_number(cell)) return fmt::format("{:>{}}", cell, width.total);
-  const std::size_t after = cell.size() - before_point(cell);
-  return fmt::format("{:>{}}", cell + std::string(width.after - after, ' '), width.total);
-}
-
 void end_line(std::string& out) {
   while (!out.empty() && out.back() == ' ') out.pop_back();
   out += '\n';
@@ -62,27 +49,35 @@ void Table::row(std::vector<std::string> cells) {
 
 void Table::gap() { rows_.emplace_back(); }
 
-std::string Table::text() const {
-  std::vector<Width> widths(columns_.size());
-  std::size_t head_lines = 0;
-  for (std::size_t c = 0; c < columns_.size(); ++c) {
-    Width& width = widths[c];
-    for (const auto& line : columns_[c].head) width.total = std::max(width.total, line.size());
-    head_lines = std::max(head_lines, columns_[c].head.size());
-    for (const auto& row : rows_) {
-      if (row.empty()) continue;
-      width.total = std::max(width.total, row[c].size());
-      if (columns_[c].align == Align::kLeft || !is_number(row[c])) continue;
-      width.before = std::max(width.before, before_point(row[c]));
-      width.after = std::max(width.after, row[c].size() - before_point(row[c]));
-    }
-    width.total = std::max(width.total, width.before + width.after);
+Table::Width Table::width_of(std::size_t c) const {
+  Width width;
+  for (const auto& line : columns_[c].head) width.total = std::max(width.total, line.size());
+  for (const auto& row : rows_) {
+    if (row.empty()) continue;
+    width.total = std::max(width.total, row[c].size());
+    if (columns_[c].align == Align::kLeft || !is_number(row[c])) continue;
+    width.before = std::max(width.before, before_point(row[c]));
+    width.after = std::max(width.after, row[c].size() - before_point(row[c]));
   }
+  width.total = std::max(width.total, width.before + width.after);
+  return width;
+}
+
+std::string Table::padded(const std::string& cell, const Width& width, Align align) {
+  if (align == Align::kLeft) return fmt::format("{:<{}}", cell, width.total);
+  if (!is_number(cell)) return fmt::format("{:>{}}", cell, width.total);
+  const std::size_t after = cell.size() - before_point(cell);
+  return fmt::format("{:>{}}", cell + std::string(width.after - after, ' '), width.total);
+}
+
+std::string Table::head_text(const std::vector<Width>& widths) const {
+  std::size_t lines = 0;
+  for (const Column& column : columns_) lines = std::max(lines, column.head.size());
   std::string out;
-  for (std::size_t line = 0; line < head_lines; ++line) {
+  for (std::size_t line = 0; line < lines; ++line) {
     for (std::size_t c = 0; c < columns_.size(); ++c) {
       const auto& head = columns_[c].head;
-      const std::size_t skipped = head_lines - head.size();
+      const std::size_t skipped = lines - head.size();
       const std::string word = line < skipped ? "" : head[line - skipped];
       if (c > 0) out += kBetween;
       out += columns_[c].align == Align::kLeft ? fmt::format("{:<{}}", word, widths[c].total)
@@ -90,6 +85,13 @@ std::string Table::text() const {
     }
     end_line(out);
   }
+  return out;
+}
+
+std::string Table::text() const {
+  std::vector<Width> widths;
+  for (std::size_t c = 0; c < columns_.size(); ++c) widths.push_back(width_of(c));
+  std::string out = head_text(widths);
   for (const auto& row : rows_) {
     for (std::size_t c = 0; c < columns_.size(); ++c) {
       if (c > 0) out += kBetween;
@@ -116,8 +118,7 @@ std::vector<std::size_t> rows_worth_showing(const std::vector<double>& value) {
   return {shown.begin(), shown.end()};
 }
 
-std::string shown_note(std::size_t shown, std::size_t all, const char* greatest,
-                       const char* what) {
+std::string shown_note(std::size_t shown, std::size_t all, const char* greatest, const char* what) {
   if (shown == all) return {};
   return fmt::format("shown: the first {0}, the last {0} and the {0} {1} of {2} {3}\n", kEach,
                      greatest, all, what);

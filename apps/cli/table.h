@@ -24,6 +24,16 @@ class Table {
     std::vector<std::string> head;
     Align align = Align::kDecimal;
   };
+  /// Widest head and cells of a column, and the widest parts before and from the decimal point.
+  struct Width {
+    std::size_t before = 0;
+    std::size_t after = 0;
+    std::size_t total = 0;
+  };
+  [[nodiscard]] Width width_of(std::size_t column) const;
+  [[nodiscard]] std::string head_text(const std::vector<Width>& widths) const;
+  [[nodiscard]] static std::string padded(const std::string& cell, const Width& width, Align align);
+
   std::vector<Column> columns_;
   std::vector<std::vector<std::string>> rows_;  // an empty row is a gap
 };

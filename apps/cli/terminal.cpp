@@ -15,21 +15,23 @@
 namespace obvid {
 namespace {
 
-constexpr double kFirstDraw_s = 0.5;
-constexpr double kRedraw_s = 0.1;
+constexpr std::chrono::milliseconds kFirstDraw{500};
+constexpr std::chrono::milliseconds kRedraw{100};
 constexpr int kBarWidth = 30;
 
-double now_s() {
-  using Clock = std::chrono::steady_clock;
-  return std::chrono::duration<double>(Clock::now().time_since_epoch()).count();
+void draw_bar(const std::string& stage, double part) {
+  const auto full = static_cast<std::size_t>(std::lround(part * kBarWidth));
+  const std::string line = fmt::format("\r\033[K[{}{}] {:3.0f} %  {}", std::string(full, '#'),
+                                       std::string(kBarWidth - full, '.'), 100.0 * part, stage);
+  std::fputs(line.c_str(), stderr);
+  std::fflush(stderr);
 }
 
 bool colours(int descriptor) {
   const char* no_color = std::getenv("NO_COLOR");
   const char* term = std::getenv("TERM");
   const bool refused = no_color != nullptr && *no_color != '\0';
-  return !refused && term != nullptr && std::strcmp(term, "dumb") != 0 &&
-         isatty(descriptor) == 1;
+  return !refused && term != nullptr && std::strcmp(term, "dumb") != 0 && isatty(descriptor) == 1;
 }
 
 std::string painted(std::string_view text, const char* code) {
@@ -64,34 +66,43 @@ void warn(const std::vector<std::string>& warnings) {
   }
 }
 
-ProgressBar::ProgressBar(bool wanted) : wanted_(wanted && isatty(STDERR_FILENO) == 1) {
-  next_s_ = now_s() + kFirstDraw_s;
+ProgressBar::ProgressBar(bool wanted) {
+  if (wanted && isatty(STDERR_FILENO) == 1) thread_ = std::thread([this] { watch(); });
 }
 
 ProgressBar::~ProgressBar() { clear(); }
 
-Progress ProgressBar::progress() {
-  if (!wanted_) return {};
-  return [this](std::string_view stage, double fraction) { draw(stage, fraction); };
+void ProgressBar::tell(std::string_view stage, double fraction) {
+  if (!thread_.joinable()) return;
+  const std::lock_guard lock(mutex_);
+  stage_ = stage;
+  fraction_ = std::isfinite(fraction) ? std::clamp(fraction, 0.0, 1.0) : 0.0;
 }
 
-void ProgressBar::draw(std::string_view stage, double fraction) {
-  const double now = now_s();
-  if (now < next_s_) return;
-  next_s_ = now + kRedraw_s;
-  drawn_ = true;
-  const double part = std::isfinite(fraction) ? std::clamp(fraction, 0.0, 1.0) : 0.0;
-  const auto full = static_cast<std::size_t>(std::lround(part * kBarWidth));
-  const std::string line =
-      fmt::format("\r\033[K{:<12} [{}{}] {:3.0f} %", stage, std::string(full, '#'),
-                  std::string(kBarWidth - full, '.'), 100.0 * part);
-  std::fputs(line.c_str(), stderr);
-  std::fflush(stderr);
+Progress ProgressBar::progress() {
+  if (!thread_.joinable()) return {};
+  return [this](std::string_view stage, double fraction) { tell(stage, fraction); };
+}
+
+void ProgressBar::watch() {
+  std::unique_lock lock(mutex_);
+  const auto ended = [this] { return ended_; };
+  bool drawn = false;
+  for (auto wait = kFirstDraw; !changed_.wait_for(lock, wait, ended); wait = kRedraw) {
+    draw_bar(stage_, fraction_);
+    drawn = true;
+  }
+  if (drawn) std::fputs("\r\033[K", stderr);
 }
 
 void ProgressBar::clear() {
-  if (drawn_) std::fputs("\r\033[K", stderr);
-  drawn_ = false;
+  if (!thread_.joinable()) return;
+  {
+    const std::lock_guard lock(mutex_);
+    ended_ = true;
+  }
+  changed_.notify_one();
+  thread_.join();
 }
 
 }  // namespace obvid

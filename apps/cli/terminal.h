@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <condition_variable>
+#include <mutex>
 #include <string>
 #include <string_view>
+#include <thread>
 #include <vector>
 
 #include "obvid/core/error.h"
@@ -26,23 +29,29 @@ int report(const Error& error);
 void warn(const std::vector<std::string>& warnings);
 
 /// Bar on stderr, drawn when stderr is a terminal, once work takes longer than half a second.
+/// A thread of its own draws it, so that it appears even inside a long stage.
 class ProgressBar {
  public:
   explicit ProgressBar(bool wanted);
   ~ProgressBar();
   ProgressBar(const ProgressBar&) = delete;
   ProgressBar& operator=(const ProgressBar&) = delete;
+  /// Says what is being done, and how much of it in [0, 1].
+  void tell(std::string_view stage, double fraction);
   /// What the library calls; empty when there is nobody to watch.
   [[nodiscard]] Progress progress();
-  /// Removes the bar from the screen.
+  /// Removes the bar from the screen for good.
   void clear();
 
  private:
-  void draw(std::string_view stage, double fraction);
+  void watch();
 
-  bool wanted_ = false;
-  bool drawn_ = false;
-  double next_s_ = 0.0;
+  std::mutex mutex_;
+  std::condition_variable changed_;
+  std::string stage_;
+  double fraction_ = 0.0;
+  bool ended_ = false;
+  std::thread thread_;
 };
 
 }  // namespace obvid

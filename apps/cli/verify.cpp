@@ -56,7 +56,8 @@ std::string piece_table(const Contour& contour, const Certificate& certificate) 
 
 std::string counts_text(const Certificate& certificate) {
   std::array<std::size_t, 5> counts{};
-  for (const PieceProof& proof : certificate.pieces) ++counts[static_cast<std::size_t>(proof.verdict)];
+  for (const PieceProof& proof : certificate.pieces)
+    ++counts[static_cast<std::size_t>(proof.verdict)];
   std::string text;
   for (std::size_t v = 0; v < counts.size(); ++v) {
     if (counts[v] == 0) continue;

@@ -99,7 +99,9 @@ PictureAxis log_axis(double low, double high) {
   const int first = static_cast<int>(std::floor(std::log10(low)));
   const int last = static_cast<int>(std::floor(std::log10(high)));
   const bool plain = low >= 0.9e-3 && high <= 1e6;
-  axis.exponent = plain ? 0 : 3 * static_cast<int>(std::floor(std::log10(std::sqrt(low) * std::sqrt(high)) / 3.0));
+  axis.exponent =
+      plain ? 0
+            : 3 * static_cast<int>(std::floor(std::log10(std::sqrt(low) * std::sqrt(high)) / 3.0));
   for (int d = first; d <= last; ++d) {
     for (const double factor : {1.0, 2.0, 5.0}) {
       const double value = factor * std::pow(10.0, d);

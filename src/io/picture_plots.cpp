@@ -10,7 +10,7 @@
 namespace obvid {
 namespace {
 
-constexpr double kLeft = 92.0;   // px, room for tick labels
+constexpr double kLeft = 92.0;  // px, room for tick labels
 constexpr double kHeight = 150.0;
 constexpr double kTitleRoom = 30.0;
 /// Radii beyond this many sizes look straight; the axis ends there.
@@ -152,10 +152,11 @@ void draw_panel(PictureCanvas& canvas, const Frame& frame, const PictureTrack& t
   canvas.label({kPictureMargin, frame.top - 11.0}, "start", "axis-title", title);
   draw_grid(canvas, frame, x_labels);
   draw_joints(canvas, frame, track);
-  canvas.add("<clipPath id=\"plot{0}\"><rect x=\"{1}\" y=\"{2}\" width=\"{3}\" height=\"{4}\"/>"
-             "</clipPath>\n<g clip-path=\"url(#plot{0})\">\n",
-             x_labels ? 2 : 1, px(frame.left), px(frame.top - 1.0), px(frame.right - frame.left + 1.0),
-             px(frame.bottom - frame.top + 2.0));
+  canvas.add(
+      "<clipPath id=\"plot{0}\"><rect x=\"{1}\" y=\"{2}\" width=\"{3}\" height=\"{4}\"/>"
+      "</clipPath>\n<g clip-path=\"url(#plot{0})\">\n",
+      x_labels ? 2 : 1, px(frame.left), px(frame.top - 1.0), px(frame.right - frame.left + 1.0),
+      px(frame.bottom - frame.top + 2.0));
   draw_graph(canvas, frame, track, value, coloured);
   canvas.add("</g>\n");
 }
@@ -236,7 +237,8 @@ void draw_radius(PictureCanvas& canvas, const PictureTrack& track, Frame frame,
   };
   std::string title = "Radius, " + power_prefix(frame.y.exponent) + units;
   if (frame.y.logarithmic) title += ", logarithmic";
-  if (clipped) title += ", cut off at " + readable_number(straight, 2) + " " + units + " (straight)";
+  if (clipped)
+    title += ", cut off at " + readable_number(straight, 2) + " " + units + " (straight)";
   draw_panel(canvas, frame, track, value, coloured, title, true);
 }
 

@@ -34,8 +34,8 @@ constexpr double kLetter = 6.4;
 
 /// Model coordinates (relative) to px, y up.
 struct View {
-  Vec2 centre;    // model
-  Vec2 middle;    // px
+  Vec2 centre;         // model
+  Vec2 middle;         // px
   double scale = 1.0;  // px per unit
 
   [[nodiscard]] Vec2 operator()(Vec2 p) const {
@@ -114,8 +114,7 @@ void add_piece(PicturePath& path, const Piece& piece, const View& view, double s
 
 constexpr std::array<int, 4> kColours = {1, -1, 0, kNoRun};
 
-void draw_curve(PictureCanvas& canvas, const PictureTrack& track, const View& view,
-                bool coloured) {
+void draw_curve(PictureCanvas& canvas, const PictureTrack& track, const View& view, bool coloured) {
   const double step = std::max(kThinStep, track.length * view.scale / kMostVertices);
   for (const int colour : kColours) {
     PicturePath path;
@@ -137,8 +136,8 @@ void draw_curve(PictureCanvas& canvas, const PictureTrack& track, const View& vi
   }
 }
 
-void draw_comb(PictureCanvas& canvas, const PictureTrack& track, const Comb& comb,
-               const View& view, bool coloured) {
+void draw_comb(PictureCanvas& canvas, const PictureTrack& track, const Comb& comb, const View& view,
+               bool coloured) {
   if (comb.per_kappa == 0.0) return;
   PicturePath teeth;
   for (const PictureTooth& tooth : comb_teeth(track, kTeeth)) {
@@ -244,7 +243,8 @@ void draw_scale_bar(PictureCanvas& canvas, const View& view, const std::string& 
 /// Entries of the legend from left to right, broken into rows.
 class Legend {
  public:
-  Legend(PictureCanvas& canvas, double left, double y) : canvas_(canvas), left_(left), x_(left), y_(y) {}
+  Legend(PictureCanvas& canvas, double left, double y)
+      : canvas_(canvas), left_(left), x_(left), y_(y) {}
 
   /// Reserves room for a symbol and a text, returns where the symbol's centre stands.
   Vec2 entry(const std::string& text, std::size_t letters, double symbol_width) {
@@ -267,8 +267,7 @@ class Legend {
   double y_;
 };
 
-void legend_lines(PictureCanvas& canvas, Legend& legend, const PictureTrack& track,
-                  bool coloured) {
+void legend_lines(PictureCanvas& canvas, Legend& legend, const PictureTrack& track, bool coloured) {
   static constexpr std::array<const char*, 4> kNames = {
       "curvature increasing", "curvature decreasing", "constant curvature", "contour"};
   for (std::size_t c = 0; c < kColours.size(); ++c) {
@@ -316,8 +315,8 @@ double draw_legend(PictureCanvas& canvas, const PictureTrack& track, const Comb&
   }
   legend_features(canvas, legend, track);
   if (comb.per_kappa != 0.0) {
-    const std::string text = "curvature comb, longest tooth " +
-                             readable_number(track.largest_kappa, 3) + " /" + units;
+    const std::string text =
+        "curvature comb, longest tooth " + readable_number(track.largest_kappa, 3) + " /" + units;
     const Vec2 at = legend.entry(text, 38 + units.size(), 18.0);
     canvas.add("<path class=\"teeth\" d=\"M{0} {1}v-9m4.5 9v-8m4.5 8v-7m4.5 7v-6m4.5 6v-5\"/>\n",
                px(at.x - 9.0), px(at.y + 5.0));
@@ -329,10 +328,14 @@ double draw_legend(PictureCanvas& canvas, const PictureTrack& track, const Comb&
 
 const char* run_css(int direction) {
   switch (direction) {
-    case 1: return "up";
-    case -1: return "down";
-    case 0: return "even";
-    default: return "plain";
+    case 1:
+      return "up";
+    case -1:
+      return "down";
+    case 0:
+      return "even";
+    default:
+      return "plain";
   }
 }
 

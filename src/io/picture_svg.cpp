@@ -73,7 +73,8 @@ VerdictLine verdict_of(const StoredContour& stored) {
 std::string facts_of(const StoredContour& stored) {
   if (!stored.report) return {};
   const FitReport& report = *stored.report;
-  std::string text = counted(static_cast<std::size_t>(std::max(report.vertices, 0)), "vertex", "vertices");
+  std::string text =
+      counted(static_cast<std::size_t>(std::max(report.vertices, 0)), "vertex", "vertices");
   text += " (at least " + std::to_string(report.vertices_lower_bound) + ")";
   text += " · " + counted(static_cast<std::size_t>(std::max(report.inflections, 0)), "inflection",
                           "inflections");
@@ -96,11 +97,12 @@ std::string picture_svg(const StoredContour& stored) {
   const double height = plot_panels(body, track, contour.units, coloured, below);
 
   PictureCanvas picture;
-  picture.add("<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 {0} {1}\" width=\"{0}\" "
-              "height=\"{1}\" role=\"img\">\n<title>{2}</title>\n<desc>{3}</desc>\n{4}"
-              "<rect class=\"paper\" width=\"{0}\" height=\"{1}\"/>\n{5}</svg>\n",
-              px(kPictureWidth), px(height), xml_text(title_of(contour)), xml_text(verdict.text),
-              kStyle, body.take());
+  picture.add(
+      "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 {0} {1}\" width=\"{0}\" "
+      "height=\"{1}\" role=\"img\">\n<title>{2}</title>\n<desc>{3}</desc>\n{4}"
+      "<rect class=\"paper\" width=\"{0}\" height=\"{1}\"/>\n{5}</svg>\n",
+      px(kPictureWidth), px(height), xml_text(title_of(contour)), xml_text(verdict.text), kStyle,
+      body.take());
   return picture.take();
 }
 

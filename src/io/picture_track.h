@@ -43,9 +43,9 @@ struct PictureTrack {
   std::vector<std::size_t> first;      ///< index of each piece's first sample, plus the end
   std::vector<int> direction;          ///< per piece, of its run; 2 when no run covers it
   std::vector<PictureFeature> features;
-  PictureBox box;                      ///< curve and points, without the comb
+  PictureBox box;  ///< curve and points, without the comb
   double length = 0.0;
-  double largest_kappa = 0.0;          ///< absolute
+  double largest_kappa = 0.0;  ///< absolute
 };
 
 /// Direction of a piece that stands in no run.

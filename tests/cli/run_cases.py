@@ -17,6 +17,7 @@ Every case runs in a folder of its own that holds copies of the examples. Keys o
   stdout_last   its last line
   stderr        whole standard error, or
   stderr_has    texts that standard error holds (in any order)
+  stderr_count  table of texts to how often standard error holds them
   json          table of paths "a.b.0" to values in standard output read as JSON; "" asks nothing
   svg           files that must be well-formed SVG
   contour       files that must be contour files
@@ -42,7 +43,7 @@ import xml.etree.ElementTree
 
 ERROR_LINE = re.compile(r"^obvid: error E([1-5]\d\d): \S.*$")
 KEYS = set("name args before edit stdin files exit stdout stdout_has stdout_last stderr stderr_has "
-           "json svg contour contour_values untouched absent terminal env".split())
+           "stderr_count json svg contour contour_values untouched absent terminal env".split())
 TIMEOUT_S = 60
 
 
@@ -107,6 +108,8 @@ class Case:
                 self.check(text == data[stream], f"{stream} is not {data[stream]!r}")
             for part in data.get(stream + "_has", []):
                 self.check(part in text, f"{stream} does not hold {part!r}")
+        for part, times in data.get("stderr_count", {}).items():
+            self.check(err.count(part) == times, f"stderr holds {part!r} {err.count(part)} times")
         if "stdout_last" in data:
             last = out.rstrip("\n").split("\n")[-1]
             self.check(last == data["stdout_last"], f"last line is {last!r}")

@@ -155,8 +155,7 @@ TEST(Picture, SaysWhatIsProvedAndWhatIsNot) {
   EXPECT_NE(picture_svg(stored).find("no certificate"), std::string::npos);
   stored.certificate = Certificate{};
   stored.certificate->proved = true;
-  EXPECT_NE(picture_svg(stored).find("monotone curvature and G2 joints proved"),
-            std::string::npos);
+  EXPECT_NE(picture_svg(stored).find("monotone curvature and G2 joints proved"), std::string::npos);
   stored.contour.carrier = Carrier::kArcs;
   EXPECT_NE(picture_svg(stored).find("G1 joints proved"), std::string::npos);
   EXPECT_EQ(picture_svg(stored).find("G2"), std::string::npos);
