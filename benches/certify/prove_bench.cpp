@@ -51,12 +51,12 @@ void prove_flat_quartic(benchmark::State& state) {
 }
 BENCHMARK(prove_flat_quartic);
 
-/// Parabola (x, x^2 / 2) on [0, 1] in equal steps of x: quadratic pieces raised to degree 4.
+/// Parabola (x, x^2 / 2) on [0.5, 1.5] in equal steps of x: quadratic pieces raised to degree 4.
 Contour parabola(std::size_t n) {
   Contour contour;
   const double h = 1.0 / static_cast<double>(n);
   for (std::size_t i = 0; i <= n; ++i) {
-    const double x = static_cast<double>(i) * h;
+    const double x = 0.5 + static_cast<double>(i) * h;
     const Vec2 p{x, 0.5 * x * x};
     contour.points.push_back(p);
     contour.joints.push_back({{p, std::atan(x), std::pow(1 + x * x, -1.5)}, i});

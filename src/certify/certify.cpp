@@ -134,12 +134,13 @@ class Notary {
     const Run& run = contour_.runs[r];
     const auto against = [&run](int sign) { return sign != 0 && sign != run.direction; };
     if (against(before_[i]) || against(after_[i])) {
-      refuse_runs(fmt::format("run {} claims {} curvature, piece {} is {}", r,
-                              word(run.direction), i, to_string(certificate_.pieces[i].verdict)));
+      refuse_runs(fmt::format("run {} claims {} curvature, piece {} is {}", r, word(run.direction),
+                              i, to_string(certificate_.pieces[i].verdict)));
     }
     if (i > run.first_piece && against(joints_.jump[i])) {
-      refuse_runs(fmt::format("run {} claims {} curvature, which jumps the other way before piece {}",
-                              r, word(run.direction), i));
+      refuse_runs(
+          fmt::format("run {} claims {} curvature, which jumps the other way before piece {}", r,
+                      word(run.direction), i));
     }
   }
 
@@ -150,8 +151,8 @@ class Notary {
     const Run& before = contour_.runs[r == 0 ? contour_.runs.size() - 1 : r - 1];
     const int jump = joints_.jump[run.first_piece];
     if (jump != 0 && jump != run.direction && jump != before.direction) {
-      refuse_runs(fmt::format("curvature jumps before piece {} against both its runs",
-                              run.first_piece));
+      refuse_runs(
+          fmt::format("curvature jumps before piece {} against both its runs", run.first_piece));
     }
   }
 

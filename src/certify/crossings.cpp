@@ -11,8 +11,8 @@
 namespace obvid {
 namespace {
 
-constexpr double kFlatness = 1e-9;      // of the contour's size: a part this flat is its chord
-constexpr int kDeepest = 60;            // halvings of a pair: beyond the digits of a double
+constexpr double kFlatness = 1e-9;          // of the contour's size: a part this flat is its chord
+constexpr int kDeepest = 60;                // halvings of a pair: beyond the digits of a double
 constexpr std::size_t kWorkPerPiece = 400;  // pairs looked at, before a tangle is given up
 constexpr double kLargestArcTurn = 1.0;     // rad, per conic that stands in for an arc
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
@@ -61,9 +61,7 @@ struct Part {
   }
 };
 
-RationalBezier segment(Vec2 from, Vec2 to) {
-  return {from, 1, {Vec2{}, to - from}, {1.0, 1.0}};
-}
+RationalBezier segment(Vec2 from, Vec2 to) { return {from, 1, {Vec2{}, to - from}, {1.0, 1.0}}; }
 
 /// Conic that is the arc exactly, up to rounding.
 RationalBezier conic(const ArcPiece& arc, double s0, double s1) {
@@ -131,10 +129,8 @@ bool is_flat(const Part& part, double tolerance) {
 bool chords_cross(const Part& a, const Part& b) {
   const Vec2 d = a.to() - a.from();
   const Vec2 e = b.to() - b.from();
-  const bool b_apart =
-      (cross(d, b.from() - a.from()) > 0.0) != (cross(d, b.to() - a.from()) > 0.0);
-  const bool a_apart =
-      (cross(e, a.from() - b.from()) > 0.0) != (cross(e, a.to() - b.from()) > 0.0);
+  const bool b_apart = (cross(d, b.from() - a.from()) > 0.0) != (cross(d, b.to() - a.from()) > 0.0);
+  const bool a_apart = (cross(e, a.from() - b.from()) > 0.0) != (cross(e, a.to() - b.from()) > 0.0);
   return a_apart && b_apart;
 }
 
@@ -151,8 +147,8 @@ Vec2 unit(Vec2 v) { return v / norm(v); }
 /// begins, so they meet only there. (Where a leg has no length, this says no.)
 bool advance_together(const Part& a, const Part& b) {
   const std::size_t n = last(a.curve);
-  const Vec2 direction = unit(a.curve.offset[n] - a.curve.offset[n - 1]) +
-                         unit(b.curve.offset[1] - b.curve.offset[0]);
+  const Vec2 direction =
+      unit(a.curve.offset[n] - a.curve.offset[n - 1]) + unit(b.curve.offset[1] - b.curve.offset[0]);
   for (const Part* part : {&a, &b}) {
     for (std::size_t j = 0; j < last(part->curve); ++j) {
       if (!(dot(part->curve.offset[j + 1] - part->curve.offset[j], direction) > 0.0)) return false;
@@ -176,13 +172,13 @@ class CrossingCount {
       boxes_[k].grow(boxes_[2 * k + 1]);
     }
     for (std::size_t r = 0; r < contour.runs.size(); ++r) {
-      for (std::size_t i = contour.runs[r].first_piece;
-           i <= contour.runs[r].last_piece && i < n; ++i) {
+      for (std::size_t i = contour.runs[r].first_piece; i <= contour.runs[r].last_piece && i < n;
+           ++i) {
         run_[i] = r;
       }
     }
-    tolerance_ = kFlatness * std::max(boxes_[1].high.x - boxes_[1].low.x,
-                                      boxes_[1].high.y - boxes_[1].low.y);
+    tolerance_ = kFlatness *
+                 std::max(boxes_[1].high.x - boxes_[1].low.x, boxes_[1].high.y - boxes_[1].low.y);
     work_left_ = kWorkPerPiece * (n + 16);
   }
 
@@ -204,9 +200,7 @@ class CrossingCount {
   [[nodiscard]] std::size_t last_piece(const Node& node) const {
     return std::min(node.first + node.width, contour_.pieces.size()) - 1;
   }
-  [[nodiscard]] bool beyond(const Node& node) const {
-    return node.first >= contour_.pieces.size();
-  }
+  [[nodiscard]] bool beyond(const Node& node) const { return node.first >= contour_.pieces.size(); }
 
   void within(std::size_t id, std::size_t first, std::size_t width) {
     const Node node{id, first, width};

@@ -28,7 +28,8 @@ namespace form {
 /// Factor of w_k w_l (P_l - P_k) in coefficient k + l - 1 of the hodograph.
 [[nodiscard]] constexpr int hodograph_factor(int n, int k, int l) {
   const int m = n - 1;
-  return static_cast<int>(binomial(m, k) * binomial(m, l - 1) - binomial(m, l) * binomial(m, k - 1));
+  return static_cast<int>(binomial(m, k) * binomial(m, l - 1) -
+                          binomial(m, l) * binomial(m, k - 1));
 }
 
 /// Factor of w_k w_l w_m area(P_k, P_l, P_m) in coefficient k + l + m - 3 of det(C, C', C'').
@@ -137,8 +138,7 @@ template <bool Magnitude, int N, class S>
 
 /// 3 W_x D + W D_x, the slope of W^3 D by x over W^2.
 template <std::size_t W, std::size_t D, class S>
-[[nodiscard]] std::array<S, W + D - 2> slope(const std::array<S, W>& w,
-                                             const std::array<S, D>& d,
+[[nodiscard]] std::array<S, W + D - 2> slope(const std::array<S, W>& w, const std::array<S, D>& d,
                                              const std::array<S, W - 1>& w_slope_times_three,
                                              const std::array<S, D - 1>& d_slope) {
   std::array<S, W + D - 2> e{};

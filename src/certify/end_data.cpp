@@ -34,13 +34,12 @@ EndData arc_end(const ArcPiece& arc, double t) {
   const double half = 0.5 * arc.kappa * arc.length;
   const double chord = std::abs(half) > kUnitRoundoff ? std::sin(half) / half : 1.0;
   EndData end;
-  end.point = t == 0.0 ? arc.start
-                       : arc.start + arc.length * chord * unit_at(arc.theta0 + half);
+  end.point = t == 0.0 ? arc.start : arc.start + arc.length * chord * unit_at(arc.theta0 + half);
   end.direction = unit_at(theta);
   end.kappa = arc.kappa;
   end.heading_rounding = kStored * (1.0 + std::abs(arc.theta0) + std::abs(theta));
-  end.point_rounding = kStored * (size_of(arc.start) + size_of(arc.end)) +
-                       end.heading_rounding * arc.length;
+  end.point_rounding =
+      kStored * (size_of(arc.start) + size_of(arc.end)) + end.heading_rounding * arc.length;
   end.kappa_rounding = kStored * std::abs(arc.kappa);
   return end;
 }

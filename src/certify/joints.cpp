@@ -14,9 +14,9 @@ namespace {
 
 // Upper limits of what is called continuous, where rounding alone would not explain a gap. A
 // machine tool or a CAD kernel sees nothing below them.
-constexpr double kPositionBase = 1e-12;   // of the contour's size
-constexpr double kHeadingBase = 1e-9;     // rad
-constexpr double kCurvatureBase = 1e-9;   // of the larger curvature
+constexpr double kPositionBase = 1e-12;  // of the contour's size
+constexpr double kHeadingBase = 1e-9;    // rad
+constexpr double kCurvatureBase = 1e-9;  // of the larger curvature
 
 /// Curvature that counts as flat, against the largest one at the four ends of both neighbours:
 /// where a contour inflects at a joint, "relative to the larger of the two" would divide by zero.
@@ -58,8 +58,8 @@ class JointWalk {
     for (std::size_t i = 0; i < n; ++i) {
       const EndData start = start_data(contour_.pieces[i]);
       const EndData end = end_data(contour_.pieces[i]);
-      local_kappa_ = std::max({std::abs(start.kappa), std::abs(end.kappa),
-                               std::abs(before.kappa), std::abs(before_start_kappa)});
+      local_kappa_ = std::max({std::abs(start.kappa), std::abs(end.kappa), std::abs(before.kappa),
+                               std::abs(before_start_kappa)});
       if (i > 0) survey_.jump[i] = compare(i, before, start);
       if (!compare_with_element(i, i > 0 ? &before : nullptr, &start)) break;
       compare_stored_ends(i);
@@ -155,8 +155,7 @@ class JointWalk {
       difference = std::max({0.0, low - kappa, kappa - high, std::isnan(kappa) ? kappa : 0.0});
     }
     const double gap = relative(known(difference), left->kappa, right->kappa);
-    check(gap,
-          std::max(kCurvatureBase, relative(rounding, left->kappa, right->kappa)), joint,
+    check(gap, std::max(kCurvatureBase, relative(rounding, left->kappa, right->kappa)), joint,
           "the difference of curvatures between element and piece");
   }
 
@@ -170,7 +169,8 @@ class JointWalk {
 
   /// Curvature is monotone on each proved piece, so signs at the ends tell all its sign changes.
   void follow_sign(const EndData& end) {
-    const int sign = end.kappa > end.kappa_rounding ? 1 : (end.kappa < -end.kappa_rounding ? -1 : 0);
+    const int sign =
+        end.kappa > end.kappa_rounding ? 1 : (end.kappa < -end.kappa_rounding ? -1 : 0);
     if (sign == 0) return;
     if (last_sign_ != 0 && sign != last_sign_) ++survey_.inflections;
     last_sign_ = sign;

@@ -15,8 +15,8 @@ namespace obvid {
 struct JointSurvey {
   JointGaps gaps;
   bool within_bounds = true;
-  std::string reason;              ///< first gap beyond its bound
-  std::vector<std::int8_t> jump;   ///< sign of the curvature's jump at the start of each piece
+  std::string reason;             ///< first gap beyond its bound
+  std::vector<std::int8_t> jump;  ///< sign of the curvature's jump at the start of each piece
   int inflections = 0;
 };
 

@@ -4,9 +4,9 @@
 #include <cmath>
 
 #include "decide.h"
+#include "obvid/certify/certify.h"
 #include "piece_facts.h"
 #include "scaled_piece.h"
-#include "obvid/certify/certify.h"
 
 namespace obvid {
 namespace {

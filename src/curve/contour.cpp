@@ -3,8 +3,6 @@
 
 namespace obvid {
 
-const char* to_string(Carrier carrier) {
-  return carrier == Carrier::kSpiral ? "spiral" : "arcs";
-}
+const char* to_string(Carrier carrier) { return carrier == Carrier::kSpiral ? "spiral" : "arcs"; }
 
 }  // namespace obvid

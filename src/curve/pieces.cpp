@@ -83,7 +83,7 @@ double speed_integral(const RationalBezier& piece, double a, double b) {
   return half * sum;
 }
 
-constexpr int kMaxHalvings = 40;             // a speed that is smooth converges in less than ten
+constexpr int kMaxHalvings = 40;               // a speed that is smooth converges in less than ten
 constexpr double kQuadratureRounding = 1e-14;  // relative; two such sums agree no better
 
 double refined_length(const RationalBezier& piece, double a, double b, double whole,
@@ -120,15 +120,14 @@ Jet evaluate(const ArcPiece& piece, double t) {
 Jet evaluate(const RationalBezier& piece, double t) {
   assert(piece.degree >= 1 && piece.degree <= kMaxBezierDegree);
   // The nearer end is the reference: the end itself is then met exactly.
-  const Vec2 reference =
-      piece.offset[t <= 0.5 ? 0 : static_cast<std::size_t>(piece.degree)];
+  const Vec2 reference = piece.offset[t <= 0.5 ? 0 : static_cast<std::size_t>(piece.degree)];
   const auto h = homogeneous_jet(control_net(piece, reference), piece.degree, t);
   const double inverse = 1.0 / h[0].w;
   const Vec2 q = inverse * Vec2{h[0].x, h[0].y};
   const Vec2 d1 = inverse * (Vec2{h[1].x, h[1].y} - h[1].w * q);
   const Vec2 d2 = inverse * (Vec2{h[2].x, h[2].y} - 2.0 * h[1].w * d1 - h[2].w * q);
-  const Vec2 d3 = inverse * (Vec2{h[3].x, h[3].y} - 3.0 * h[1].w * d2 - 3.0 * h[2].w * d1 -
-                             h[3].w * q);
+  const Vec2 d3 =
+      inverse * (Vec2{h[3].x, h[3].y} - 3.0 * h[1].w * d2 - 3.0 * h[2].w * d1 - h[3].w * q);
   return {piece.origin + (reference + q), d1, d2, d3};
 }
 

@@ -154,11 +154,10 @@ TEST(Certify, VerticesComeFromTheProofsNotFromTheRuns) {
 }
 
 TEST(Certify, EllipseOfFourQuartersIsClosedWithFourVertices) {
-  const Contour ellipse = closed_contour({quarter_ellipse({3, 0}, {3, 1}, {0, 1}),
-                                          quarter_ellipse({0, 1}, {-3, 1}, {-3, 0}),
-                                          quarter_ellipse({-3, 0}, {-3, -1}, {0, -1}),
-                                          quarter_ellipse({0, -1}, {3, -1}, {3, 0})},
-                                         {{0, 0, -1}, {1, 1, 1}, {2, 2, -1}, {3, 3, 1}});
+  const Contour ellipse = closed_contour(
+      {quarter_ellipse({3, 0}, {3, 1}, {0, 1}), quarter_ellipse({0, 1}, {-3, 1}, {-3, 0}),
+       quarter_ellipse({-3, 0}, {-3, -1}, {0, -1}), quarter_ellipse({0, -1}, {3, -1}, {3, 0})},
+      {{0, 0, -1}, {1, 1, 1}, {2, 2, -1}, {3, 3, 1}});
   const Certificate certificate = certify(ellipse);
   EXPECT_TRUE(certificate.proved) << certificate.reason;
   EXPECT_EQ(certificate.vertices, 4);
@@ -283,9 +282,7 @@ TEST(Certify, ArcWhoseStoredEndIsElsewhereIsRefused) {
   expect_refused(contour, "end");
 }
 
-TEST(Certify, ArcOfMoreThanHalfATurnIsRefused) {
-  expect_refused(arcs_of({3.2}, 0), "winding");
-}
+TEST(Certify, ArcOfMoreThanHalfATurnIsRefused) { expect_refused(arcs_of({3.2}, 0), "winding"); }
 
 TEST(Certify, SmallContourFarAwayIsProvedByItsOwnOffsets) {
   const Vec2 far{1e6, -2e6};

@@ -19,21 +19,21 @@ Contour each_its_own_run(std::vector<Piece> pieces) {
 }
 
 TEST(CountCrossings, LinesThatCrossOnce) {
-  EXPECT_EQ(count_crossings(each_its_own_run({LinePiece{{0, 0}, {1, 1}}, LinePiece{{1, 1}, {1, 0}},
-                                              LinePiece{{1, 0}, {0, 1}}})),
+  EXPECT_EQ(count_crossings(each_its_own_run(
+                {LinePiece{{0, 0}, {1, 1}}, LinePiece{{1, 1}, {1, 0}}, LinePiece{{1, 0}, {0, 1}}})),
             1);
 }
 
 TEST(CountCrossings, PiecesOfOneRunAreNotCompared) {
-  Contour contour = each_its_own_run({LinePiece{{0, 0}, {1, 1}}, LinePiece{{1, 1}, {1, 0}},
-                                      LinePiece{{1, 0}, {0, 1}}});
+  Contour contour = each_its_own_run(
+      {LinePiece{{0, 0}, {1, 1}}, LinePiece{{1, 1}, {1, 0}}, LinePiece{{1, 0}, {0, 1}}});
   contour.runs = {{0, 2, 0}};
   EXPECT_EQ(count_crossings(contour), 0);
 }
 
 TEST(CountCrossings, SharedJointIsNoCrossing) {
-  EXPECT_EQ(count_crossings(each_its_own_run({LinePiece{{0, 0}, {1, 0}}, LinePiece{{1, 0}, {2, 1}}})),
-            0);
+  EXPECT_EQ(
+      count_crossings(each_its_own_run({LinePiece{{0, 0}, {1, 0}}, LinePiece{{1, 0}, {2, 1}}})), 0);
   // A sharp turn back: both legs leave the joint side by side.
   EXPECT_EQ(
       count_crossings(each_its_own_run({LinePiece{{0, 0}, {1, 0}}, LinePiece{{1, 0}, {0, 0.1}}})),
@@ -66,15 +66,17 @@ TEST(CountCrossings, WaveOverALineCrossesAtEachRoot) {
   const double y1 = y0 + slope / 3.0;
   const RationalBezier wave{
       {}, 3, {Vec2{0, y0}, {1.0 / 3, y1}, {2.0 / 3, -y1}, {1, -y0}}, {1, 1, 1, 1}};
-  EXPECT_EQ(count_crossings(each_its_own_run({LinePiece{{-1, 0}, {2, 0}}, LinePiece{{2, 0}, {2, -5}},
-                                              LinePiece{{2, -5}, {0, y0}}, wave})),
-            3);
+  EXPECT_EQ(
+      count_crossings(each_its_own_run({LinePiece{{-1, 0}, {2, 0}}, LinePiece{{2, 0}, {2, -5}},
+                                        LinePiece{{2, -5}, {0, y0}}, wave})),
+      3);
 }
 
 TEST(CountCrossings, ManySeparateRunsCostLittle) {
   std::vector<Piece> pieces;
   for (int i = 0; i < 100000; ++i) {
-    pieces.emplace_back(LinePiece{{double(i), double(i % 2)}, {double(i + 1), double((i + 1) % 2)}});
+    pieces.emplace_back(
+        LinePiece{{double(i), double(i % 2)}, {double(i + 1), double((i + 1) % 2)}});
   }
   EXPECT_EQ(count_crossings(each_its_own_run(std::move(pieces))), 0);
 }

@@ -52,8 +52,8 @@ Polynomial from_bernstein(const std::vector<Rational>& c) {
   Polynomial r(c.size());
   for (int j = 0; j <= n; ++j) {
     for (int i = 0; i + j <= n; ++i) {
-      r[static_cast<std::size_t>(i + j)] += c[static_cast<std::size_t>(j)] * choose(n, j) *
-                                            choose(n - j, i) * (i % 2 == 0 ? 1 : -1);
+      r[static_cast<std::size_t>(i + j)] +=
+          c[static_cast<std::size_t>(j)] * choose(n, j) * choose(n - j, i) * (i % 2 == 0 ? 1 : -1);
     }
   }
   return r;
@@ -151,13 +151,12 @@ WorstRatio worst_error_over_bound(int count, double bend, double noise, std::uin
     for (std::size_t j = 0; j < f.test.size(); ++j) {
       const Rational& c = truth.coefficients[j];
       const double e = std::abs(static_cast<double>(Rational(Rational(f.test[j]) - c)));
-      const double ee = std::abs(static_cast<double>(
-          Rational(Rational(ff.test[j].hi) + Rational(ff.test[j].lo) - c)));
+      const double ee = std::abs(
+          static_cast<double>(Rational(Rational(ff.test[j].hi) + Rational(ff.test[j].lo) - c)));
       constexpr int k = form::Roundings<N>::kTest;
-      worst.in_doubles =
-          std::max(worst.in_doubles, e / error_bound<double>(k, majorant.test[j]));
-      worst.in_double_doubles = std::max(
-          worst.in_double_doubles, ee / error_bound<DoubleDouble>(k, majorant.test[j]));
+      worst.in_doubles = std::max(worst.in_doubles, e / error_bound<double>(k, majorant.test[j]));
+      worst.in_double_doubles =
+          std::max(worst.in_double_doubles, ee / error_bound<DoubleDouble>(k, majorant.test[j]));
     }
   }
   return worst;

@@ -111,8 +111,7 @@ TEST(ProvePiece, VertexJustInsideIsFoundAndJustOutsideIsNot) {
   for (const int digits : {10, 20, 25}) {
     const double e = std::ldexp(1.0, -digits);
     EXPECT_EQ(verdict(conic({e, e * e}, {(1 + e) / 2, e}, {1, 1}, 1, 1, 1)), Verdict::kDecreasing);
-    EXPECT_EQ(verdict(conic({-e, e * e}, {(1 - e) / 2, -e}, {1, 1}, 1, 1, 1)),
-              Verdict::kHasVertex);
+    EXPECT_EQ(verdict(conic({-e, e * e}, {(1 - e) / 2, -e}, {1, 1}, 1, 1, 1)), Verdict::kHasVertex);
   }
 }
 
@@ -198,10 +197,9 @@ TEST(ProvePiece, RationalQuadraticsAgreeWithTheFiveCoefficientTest) {
     const double turn = cross(a, b);
     if (turn == 0.0) continue;
     const double A = dot(a, a), B = dot(b, b), D = dot(a, b);
-    const std::array<double, 5> c = {2 * w * (A + D - 2 * w * w * A),
-                                     (A + 2 * D + B - 4 * w * w * A) / 2, w * (B - A),
-                                     (4 * w * w * B - A - 2 * D - B) / 2,
-                                     2 * w * (2 * w * w * B - B - D)};
+    const std::array<double, 5> c = {
+        2 * w * (A + D - 2 * w * w * A), (A + 2 * D + B - 4 * w * w * A) / 2, w * (B - A),
+        (4 * w * w * B - A - 2 * D - B) / 2, 2 * w * (2 * w * w * B - B - D)};
     const bool falls = std::all_of(c.begin(), c.end(), [](double x) { return x >= 0.0; });
     const bool rises = std::all_of(c.begin(), c.end(), [](double x) { return x <= 0.0; });
     const Verdict found = verdict(conic({0, 0}, a, a + b, 1, w, 1));

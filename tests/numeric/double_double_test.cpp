@@ -41,7 +41,8 @@ TEST_F(DoubleDoubleTest, SumsAndProductsOfDoublesAreExact) {
     const double a = wide(), b = wide();
     EXPECT_EQ(exactly(two_sum(a, b)), exactly(a) + exactly(b));
     EXPECT_EQ(exactly(two_product(a, b)), exactly(a) * exactly(b));
-    const DoubleDouble ordered = std::abs(a) >= std::abs(b) ? quick_two_sum(a, b) : quick_two_sum(b, a);
+    const DoubleDouble ordered =
+        std::abs(a) >= std::abs(b) ? quick_two_sum(a, b) : quick_two_sum(b, a);
     EXPECT_EQ(exactly(ordered), exactly(a) + exactly(b));
   }
 }
