@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <string>
 
 #include "obvid/contour/arcs.h"
@@ -19,9 +20,10 @@ constexpr double kLargestBlur = 1e-3;
 constexpr double kCurvaturePerRounding = 48.0;
 
 bool fits_global_coordinates(const RationalBezier& piece, double change_of_kappa) {
-  const Vec2 a = piece.origin, b = piece.origin + piece.offset[4];
+  const Vec2 a = piece.origin + piece.offset[0], b = piece.origin + piece.offset[4];
   const double extent = std::max(std::abs(a.x) + std::abs(a.y), std::abs(b.x) + std::abs(b.y));
-  const double chord2 = dot(piece.offset[4], piece.offset[4]);
+  const Vec2 chord = piece.offset[4] - piece.offset[0];
+  const double chord2 = dot(chord, chord);
   const double blur = kCurvaturePerRounding * 0x1p-53 * extent / chord2;
   return blur <= kLargestBlur * std::abs(change_of_kappa);
 }
@@ -59,6 +61,24 @@ SeriesChain one_circle(const std::vector<Vec2>& points, const Analysis& a) {
   return out;
 }
 
+/// Circle or line over a chord: heading from chord and curvature, so that the arc ends on its end.
+Piece arc_over_chord(const LinkState& link, const Element& a, const Element& b) {
+  if (a.kappa == 0.0) return LinePiece{a.point, b.point};
+  const double sine = std::clamp(0.5 * a.kappa * link.h, -1.0, 1.0);
+  const bool beyond_half = std::abs(link.alpha) > 0.5 * std::numbers::pi;
+  const double half_turn = beyond_half ? std::copysign(std::numbers::pi, sine) - std::asin(sine)
+                                       : std::asin(sine);
+  return ArcPiece{a.point, b.point, link.omega - half_turn, a.kappa, 2.0 * half_turn / a.kappa};
+}
+
+/// Element at the start of a part inside a link, its heading unwrapped between both ends'.
+Element element_between(const RationalBezier& part, double theta_before, double theta_after) {
+  Element e = element_at(Piece{part}, 0.0);
+  const double middle = 0.5 * (theta_before + theta_after);
+  e.theta = middle + std::remainder(e.theta - middle, 2.0 * std::numbers::pi);
+  return e;
+}
+
 bool wholly_circular(const std::vector<Vec2>& points, const Analysis& a) {
   return !a.stretches.empty() && a.stretches.front().first == 0 &&
          a.stretches.front().last + 1 == points.size();
@@ -91,26 +111,32 @@ Result<Contour> form_spirals(const std::vector<Vec2>& points, const Analysis& an
   contour.joints.reserve(chain.elements.size());
   std::vector<int> direction;
   direction.reserve(chain.links.size());
-  for (std::size_t i = 0; i < chain.elements.size(); ++i) {
-    contour.joints.push_back({chain.elements[i], chain.source[i]});
-  }
+  std::vector<RationalBezier> parts;
   for (std::size_t i = 0; i < chain.links.size(); ++i) {
     const Element& a = chain.elements[i];
     const Element& b = chain.elements[i + 1];
+    contour.joints.push_back({a, chain.source[i]});
     direction.push_back(chain.direction[i]);
     if (chain.cone[i] == Cone::kNone) {
-      contour.pieces.push_back(arc_piece(a.point, b.point, a.theta, a.kappa));
+      contour.pieces.push_back(arc_over_chord(chain.links[i], a, b));
       continue;
     }
-    const auto piece = spiral_piece(chain.links[i], chain.direction[i], a.point, b.point);
-    if (!piece) {
-      return fail({ErrorCode::kNotProved, "a piece turns too far for one rational quartic",
-                   "piece " + std::to_string(i), "add points where the curve turns most",
+    parts.clear();
+    if (!append_spiral(chain.links[i], chain.direction[i], a.point, b.point, parts)) {
+      return fail({ErrorCode::kInternal, "a link of the chain left its cone",
+                   "piece " + std::to_string(i), "report this series",
                    static_cast<std::ptrdiff_t>(i), chain.links[i].sigma});
     }
-    const bool global = fits_global_coordinates(*piece, b.kappa - a.kappa);
-    contour.pieces.push_back(global ? in_global_coordinates(*piece) : *piece);
+    for (std::size_t j = 0; j < parts.size(); ++j) {
+      if (j > 0) {  // a piece that turns far came out in parts
+        contour.joints.push_back({element_between(parts[j], a.theta, b.theta), std::nullopt});
+        direction.push_back(chain.direction[i]);
+      }
+      const bool global = fits_global_coordinates(parts[j], b.kappa - a.kappa);
+      contour.pieces.emplace_back(global ? in_global_coordinates(parts[j]) : parts[j]);
+    }
   }
+  contour.joints.push_back({chain.elements.back(), chain.source.back()});
   contour.runs = collect_runs(direction);
   return contour;
 }
@@ -163,7 +189,7 @@ Result<Contour> form_arcs(const Contour& spirals, double tolerance) {
     for (std::size_t j = 1; j < steps.size(); ++j) {
       const bool last = j + 1 == steps.size();
       Element to = last ? spirals.joints[i + 1].element : element_at(piece, steps[j]);
-      to.theta = from.theta + std::remainder(to.theta - from.theta, 2.0 * 3.14159265358979323846);
+      to.theta = from.theta + std::remainder(to.theta - from.theta, 2.0 * std::numbers::pi);
       const auto k = choose_biarc(chord_frame(from, to), d);
       if (!k) {
         return fail({ErrorCode::kNotProved, "no pair of arcs joins two elements of the contour",

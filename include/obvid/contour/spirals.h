@@ -1,23 +1,24 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <optional>
+#include <vector>
 
 #include "obvid/chain/chain.h"
 #include "obvid/curve/pieces.h"
 
 namespace obvid {
 
-/// The spiral with given end points, headings and curvatures in closed form (theory 6.1): the
-/// Moebius image of a hyperbola arc, as a rational quartic Bezier with end weights scaled to 1 at
-/// the end. `direction` is +1 when the signed curvature increases from start to end, -1 when it
-/// decreases.
+/// Appends the spiral with given end points, headings and curvatures in closed form (theory 6.1):
+/// the Moebius image of a hyperbola arc, as a rational quartic Bezier with both end weights 1.
+/// `direction` is +1 when the signed curvature increases from start to end, -1 when it decreases.
+/// Where the piece turns so far that a weight is not positive, or by more than about 140 degrees,
+/// the same curve is appended as several Bezier pieces.
 ///
-/// Nothing when the closed form does not apply: `cone_margin(link, direction, kClosedForm)` must be
-/// positive, and the weights come out positive only for pieces that do not turn too far.
+/// Returns false, appending nothing, when the closed form does not apply: it needs
+/// `cone_margin(link, direction, kClosedForm) > 0`.
 /// End points are met exactly, headings and curvatures to rounding relative to the chord. Strict
 /// monotonicity holds in exact arithmetic; it is for `certify` to prove it of the rounded numbers.
-[[nodiscard]] std::optional<RationalBezier> spiral_piece(const LinkState& link, int direction,
-                                                         Vec2 start, Vec2 end);
+[[nodiscard]] bool append_spiral(const LinkState& link, int direction, Vec2 start, Vec2 end,
+                                 std::vector<RationalBezier>& pieces);
 
 }  // namespace obvid

@@ -17,21 +17,6 @@ BiarcCurvatures middle_biarc(const ChordFrame& f, const SegmentRegion& r) {
   return {first, second_curvature(f, first)};
 }
 
-/// Ordinate of a boundary's arc over abscissa x, both relative to the start of the chord.
-double ordinate(const ChordFrame& f, const Boundary& b, double x) {
-  const auto arc = [](double s, double k, double dx) {
-    const double e = s + k * dx;
-    return dx * (s + e) /
-           (std::sqrt(std::max(0.0, 1.0 - s * s)) + std::sqrt(std::max(0.0, 1.0 - e * e)));
-  };
-  const bool first_bends_more = std::abs(b.kappa_first) >= std::abs(b.kappa_second);
-  const double joint = first_bends_more
-                           ? (b.joint_tangent.y - f.start_tangent.y) / b.kappa_first
-                           : f.h - (f.end_tangent.y - b.joint_tangent.y) / b.kappa_second;
-  return x <= joint ? arc(f.start_tangent.y, b.kappa_first, x)
-                    : -arc(-f.end_tangent.y, b.kappa_second, f.h - x);
-}
-
 /// Where the median from the middle of the chord to the apex meets a boundary.
 Vec2 on_median(const ChordFrame& f, const Boundary& b, Vec2 apex) {
   const Vec2 foot = {0.5 * f.h, 0.0};
@@ -40,7 +25,7 @@ Vec2 on_median(const ChordFrame& f, const Boundary& b, Vec2 apex) {
   for (int i = 0; i < kBisections; ++i) {
     const double s = 0.5 * (low + high);
     const Vec2 p = foot + s * (apex - foot);
-    const bool beyond = std::abs(p.y) > std::abs(ordinate(f, b, p.x));
+    const bool beyond = std::abs(p.y) > std::abs(boundary_ordinate(f, b, p.x).value_or(0.0));
     (beyond ? high : low) = s;
   }
   return foot + 0.5 * (low + high) * (apex - foot);

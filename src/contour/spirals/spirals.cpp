@@ -23,42 +23,99 @@ std::array<Vec2, 5> product_with_conjugate(const ComplexQuadratic& a, const Comp
           times(2, 2)};
 }
 
+/// A rational quartic before division: weights and weighted points, relative to the start of the
+/// chord, in half chords of the chord's frame.
+struct Homogeneous {
+  std::array<double, 5> weight;
+  std::array<Vec2, 5> point;
+};
+
+/// Pieces that turn farther are split: the region's theorem and every CAD kernel want short ones.
+constexpr double kLargestTurn = 2.4;
+/// Splits that make every weight positive: the weight function is positive, so its Bernstein
+/// coefficients become so after a few halvings.
+constexpr int kMostSplits = 8;
+
+Homogeneous homogeneous_piece(double rho, double sine, double sigma, double beta, double B) {
+  const Vec2 one_minus_b = rho * unit_at(sigma);
+  const Vec2 delta = (-rho * sine / B) * unit_at(beta);
+  // z = N / D on the chord from -1 to 1; offsets from the start come from N + D
+  const ComplexQuadratic denominator = {-delta, 0.5 * (one_minus_b - delta), Vec2{1.0, 0.0}};
+  const ComplexQuadratic from_start = {Vec2{0.0, 0.0}, one_minus_b, Vec2{2.0, 0.0}};
+  const std::array<Vec2, 5> weights = product_with_conjugate(denominator, denominator);
+  Homogeneous h{{}, product_with_conjugate(from_start, denominator)};
+  for (std::size_t j = 0; j < 5; ++j) h.weight[j] = weights[j].x;
+  return h;
+}
+
+/// de Casteljau at t: the first part is returned, `h` becomes the second.
+Homogeneous cut_off_first(Homogeneous& h, double t) {
+  Homogeneous first = h;
+  for (std::size_t level = 1; level < 5; ++level) {
+    for (std::size_t j = 0; j + level < 5; ++j) {
+      h.weight[j] += t * (h.weight[j + 1] - h.weight[j]);
+      h.point[j] = h.point[j] + t * (h.point[j + 1] - h.point[j]);
+    }
+    first.weight[level] = h.weight[0];
+    first.point[level] = h.point[0];
+  }
+  return first;
+}
+
+/// Parameter at which both halves weigh alike; the middle of the curve rather than of t.
+double balanced_middle(const Homogeneous& h) {
+  const double r = std::sqrt(std::sqrt(h.weight[0] / h.weight[4]));
+  return r / (1.0 + r);
+}
+
+bool weights_positive(const Homogeneous& h) {
+  return *std::min_element(h.weight.begin(), h.weight.end()) > 0.0;
+}
+
+/// Scales the end weights to 1 (a Moebius change of parameter leaves the curve as it is) and
+/// places the piece. The origin is the start of the whole chord.
+RationalBezier placed(const Homogeneous& h, double d, Vec2 origin, Vec2 half_chord) {
+  RationalBezier piece;
+  piece.origin = origin;
+  piece.degree = 4;
+  const double ratio = std::sqrt(std::sqrt(h.weight[4] / h.weight[0]));
+  double scale = 1.0 / h.weight[4];
+  for (std::size_t j = 5; j-- > 0; scale *= ratio) {
+    const Vec2 z = h.point[j] / h.weight[j];
+    piece.offset[j] = complex_product({z.x, d * z.y}, half_chord);
+    piece.weight[j] = h.weight[j] * scale;
+  }
+  piece.weight[0] = piece.weight[4] = 1.0;
+  return piece;
+}
+
+void append_parts(Homogeneous h, int splits_left, bool must_split, double d, Vec2 origin,
+                  Vec2 half_chord, std::vector<RationalBezier>& pieces) {
+  if (splits_left > 0 && (must_split || !weights_positive(h))) {
+    const Homogeneous first = cut_off_first(h, balanced_middle(h));
+    append_parts(first, splits_left - 1, false, d, origin, half_chord, pieces);
+    append_parts(h, splits_left - 1, false, d, origin, half_chord, pieces);
+    return;
+  }
+  pieces.push_back(placed(h, d, origin, half_chord));
+}
+
 }  // namespace
 
-std::optional<RationalBezier> spiral_piece(const LinkState& link, int direction, Vec2 start,
-                                           Vec2 end) {
-  if (!(cone_margin(link, direction, Cone::kClosedForm) > 0.0)) return std::nullopt;
+bool append_spiral(const LinkState& link, int direction, Vec2 start, Vec2 end,
+                   std::vector<RationalBezier>& pieces) {
+  if (!(cone_margin(link, direction, Cone::kClosedForm) > 0.0)) return false;
   const double d = direction;
   const double sigma = d * link.sigma, beta = d * link.beta;
   const double A = d * link.A, B = d * link.B;
   const double sine = std::sin(sigma);
-  const double rho = sine * sine / (-A * B);
-  const Vec2 one_minus_b = rho * unit_at(sigma);
-  const Vec2 delta = (-rho * sine / B) * unit_at(beta);
-  // z = N / D on the chord from -1 to 1; the offsets from the start come from N + D
-  const ComplexQuadratic denominator = {-delta, 0.5 * (one_minus_b - delta), Vec2{1.0, 0.0}};
-  const ComplexQuadratic from_start = {Vec2{0.0, 0.0}, one_minus_b, Vec2{2.0, 0.0}};
-  const std::array<Vec2, 5> weights = product_with_conjugate(denominator, denominator);
-  const std::array<Vec2, 5> numerators = product_with_conjugate(from_start, denominator);
-
-  RationalBezier piece;
-  piece.origin = start;
-  piece.degree = 4;
-  const Vec2 half_chord = 0.5 * (end - start);
-  // a Moebius change of the parameter makes both end weights 1 and leaves the curve as it is
-  const double ratio = std::sqrt(std::sqrt(weights[4].x / weights[0].x));
-  double scale = 1.0 / weights[4].x;
-  for (std::size_t j = 5; j-- > 0; scale *= ratio) {
-    const double w = weights[j].x;
-    if (!(w > 0.0)) return std::nullopt;
-    const Vec2 z = numerators[j] / w;
-    piece.offset[j] = complex_product({z.x, d * z.y}, half_chord);
-    piece.weight[j] = w * scale;
-  }
-  piece.offset[0] = {0.0, 0.0};
-  piece.offset[4] = end - start;
-  piece.weight[0] = piece.weight[4] = 1.0;
-  return piece;
+  const Homogeneous whole = homogeneous_piece(sine * sine / (-A * B), sine, sigma, beta, B);
+  const std::size_t before = pieces.size();
+  const bool turns_far = std::abs(link.beta - link.alpha) > kLargestTurn;
+  append_parts(whole, kMostSplits, turns_far, d, start, 0.5 * (end - start), pieces);
+  pieces[before].offset[0] = {0.0, 0.0};
+  pieces.back().offset[4] = end - start;
+  return true;
 }
 
 }  // namespace obvid
