@@ -160,7 +160,8 @@ void add_square(std::array<S, 2 * A - 1>& target, const std::array<S, A>& a) {
 /// Evaluates all polynomials; with `Magnitude`, their majorants: every rounding error of the plain
 /// evaluation is at most (number of roundings) * (unit roundoff) * majorant.
 template <bool Magnitude, int N, class S>
-[[nodiscard]] CurvatureForm<N, S> curvature_form(const ControlDifferences<N, S>& p) {
+[[nodiscard]] CurvatureForm<N, S> curvature_form(const ControlDifferences<N, S>& p,
+                                                 const std::array<S, 3 * N - 5>& d) {
   CurvatureForm<N, S> f;
   add_hodograph(p, f);
   add_square(f.speed, f.u);
@@ -168,7 +169,6 @@ template <bool Magnitude, int N, class S>
 
   std::array<S, N + 1> w{};
   for (std::size_t j = 0; j <= N; ++j) w[j] = p.weight[j] * form::kFactors<N>.weight[j];
-  const auto d = determinant<Magnitude>(p);
   const auto e_t = slope(w, d, partial_t(w, 3), partial_t(d));
   const auto e_s = slope(w, d, partial_s(w, 3), partial_s(d));
   add_product(f.test, e_t, partial_s(f.speed));
@@ -178,6 +178,11 @@ template <bool Magnitude, int N, class S>
     subtract_product(f.test, e_s, partial_t(f.speed));
   }
   return f;
+}
+
+template <bool Magnitude, int N, class S>
+[[nodiscard]] CurvatureForm<N, S> curvature_form(const ControlDifferences<N, S>& p) {
+  return curvature_form<Magnitude>(p, determinant<Magnitude>(p));
 }
 
 /// 1 / binomial(Count - 1, j), rounded up or down by half an ulp.

@@ -68,6 +68,9 @@ int common_sign(const std::array<double, Count>& c, double plain_bound) {
   return low > plain_bound ? 1 : (high < -plain_bound ? -1 : 0);
 }
 
+template <int N>
+using Determinant = std::array<double, 3 * N - 5>;
+
 /// Norms of the majorants, in plain Bernstein form; see `largest`.
 template <int N>
 struct MajorantNorms {
@@ -75,13 +78,13 @@ struct MajorantNorms {
   double v = 0.0;
   double test = 0.0;
 
-  explicit MajorantNorms(const ControlDifferences<N, double>& p) {
-    const auto a = absolute(p);
+  /// `a`: absolute differences and weights; `d`: majorant of the determinant.
+  MajorantNorms(const ControlDifferences<N, double>& a, const Determinant<N>& d) {
     CurvatureForm<N, double> f;
     add_hodograph(a, f);
     u = largest(f.u);
     v = largest(f.v);
-    const double det = largest(determinant<true>(a));
+    const double det = largest(d);
     const double weight = *std::max_element(a.weight.begin(), a.weight.end());
     // |partial derivative of a form of degree m| <= m |form|: 3 W_x D + W D_x has 3 N + (3 N - 6).
     constexpr double kSlopes = 2.0 * (6.0 * N - 6.0) * (4.0 * N - 4.0);
@@ -90,15 +93,15 @@ struct MajorantNorms {
 };
 
 /// Doubles with one bound for all coefficients: decides nearly every piece, at half the cost of a
-/// bound per coefficient.
+/// bound per coefficient. `d` is the determinant, wrong by at most its share of `d_majorant`.
 template <int N>
-PieceFacts decide_at_a_glance(const ControlDifferences<N, double>& p, LatticeDirection direction) {
-  if (!std::all_of(p.weight.begin(), p.weight.end(), [](double w) { return w > 0.0; })) return {};
+PieceFacts decide_by_norms(const ControlDifferences<N, double>& p, const Determinant<N>& d,
+                           const Determinant<N>& d_majorant, LatticeDirection direction) {
   using Count = form::Roundings<N>;
   constexpr int kScaling = 2;  // into plain form, by an inverse that is itself rounded
   constexpr int kAlong = 2;
-  const MajorantNorms<N> norms(p);
-  const auto f = curvature_form<false>(p);
+  const MajorantNorms<N> norms(absolute(p), d_majorant);
+  const auto f = curvature_form<false>(p, d);
   const double along_norm = norms.u * std::abs(direction.x) + norms.v * std::abs(direction.y);
   std::array<double, 2 * N - 1> along{};
   for (std::size_t j = 0; j < along.size(); ++j) {
@@ -111,6 +114,53 @@ PieceFacts decide_at_a_glance(const ControlDifferences<N, double>& p, LatticeDir
   return facts_of({sign > 0 ? SignVerdict::kPositive : SignVerdict::kNegative}, true);
 }
 
+/// The determinant with areas right to three roundings of their own size, however flat the
+/// triangles, and its majorant. False where even double-double does not give that.
+template <int N>
+bool sharp_determinant(const RationalBezier& piece, Determinant<N>& d, Determinant<N>& d_majorant) {
+  // Six operations of relative error 8 u^2 at most, against one rounding u of the result.
+  constexpr double kSharpest = 6.0 * kDoubleDoubleRoundoff / kUnitRoundoff;
+  d = d_majorant = {};
+  for (std::size_t k = 0; k <= N; ++k) {
+    for (std::size_t l = k + 1; l <= N; ++l) {
+      const Vec2 a = piece.offset[k], b = piece.offset[l];
+      const DoubleDouble x = two_sum(b.x, -a.x), y = two_sum(b.y, -a.y);
+      for (std::size_t m = l + 1; m <= N; ++m) {
+        const Vec2 c = piece.offset[m];
+        const DoubleDouble first = x * two_sum(c.y, -b.y), second = y * two_sum(c.x, -b.x);
+        const double area = (first - second).hi;
+        if (!(std::abs(area) > kSharpest * (std::abs(first.hi) + std::abs(second.hi)))) {
+          return false;
+        }
+        const double w =
+            piece.weight[k] * piece.weight[l] * piece.weight[m] * form::kFactors<N>.triple[k][l][m];
+        d[k + l + m - 3] += w * area;
+        d_majorant[k + l + m - 3] += w * std::abs(area);
+      }
+    }
+  }
+  return true;
+}
+
+/// Doubles, for pieces so flat that their areas cancel: only these are computed sharper.
+template <int N>
+[[gnu::noinline]] PieceFacts decide_flat(const RationalBezier& piece,
+                                         const ControlDifferences<N, double>& p) {
+  Determinant<N> d;
+  Determinant<N> d_majorant;
+  if (!sharp_determinant<N>(piece, d, d_majorant)) return {};
+  return decide_by_norms<N>(p, d, d_majorant, chord_direction(piece));
+}
+
+/// The quick tiers.
+template <int N>
+PieceFacts decide_quickly(const RationalBezier& piece, const ControlDifferences<N, double>& p) {
+  if (!std::all_of(p.weight.begin(), p.weight.end(), [](double w) { return w > 0.0; })) return {};
+  const PieceFacts facts = decide_by_norms<N>(
+      p, determinant<false>(p), determinant<true>(absolute(p)), chord_direction(piece));
+  return undecided(facts) ? decide_flat<N>(piece, p) : facts;
+}
+
 /// The tiers: doubles with a coarse bound, doubles with a bound per coefficient, double-doubles
 /// likewise, exact integers.
 PieceFacts examine_bezier(const RationalBezier& piece) {
@@ -120,7 +170,7 @@ PieceFacts examine_bezier(const RationalBezier& piece) {
   if (piece.degree == 1) return straight(piece.weight[0] > 0.0 && piece.weight[1] > 0.0);
   return with_degree(piece.degree, [&]<int N>() -> PieceFacts {
     const auto p = differences_in_doubles<N>(*unit);
-    PieceFacts facts = decide_at_a_glance(p, chord_direction(*unit));
+    PieceFacts facts = decide_quickly<N>(*unit, p);
     if (!undecided(facts)) return facts;
     const auto majorant = majorant_of(p);
     const TestDirections directions = test_directions(*unit);
