@@ -16,7 +16,7 @@ enum class Verdict { kIncreasing, kDecreasing, kConstant, kHasVertex, kUndecided
 struct PieceProof {
   Verdict verdict = Verdict::kUndecided;
   bool exact_arithmetic = false;  ///< the fast floating-point bound could not decide
-  double t0 = 0.0;  ///< has-vertex, undecided: parameter interval in question
+  double t0 = 0.0;                ///< has-vertex, undecided: parameter interval in question
   double t1 = 1.0;
 };
 
@@ -34,12 +34,12 @@ struct Certificate {
   JointGaps gaps;
   bool gaps_within_bounds = false;  ///< each gap is below what its coordinates' rounding explains
   bool inside_region = false;
-  bool through_points = false;      ///< every input point is met within rounding
+  bool through_points = false;  ///< every input point is met within rounding
   int vertices = 0;
   int inflections = 0;
   int self_intersections = 0;
   bool proved = false;
-  std::string reason;               ///< empty when proved, else the first claim that failed
+  std::string reason;  ///< empty when proved, else the first claim that failed
 };
 
 }  // namespace obvid
