@@ -43,7 +43,8 @@ Element free_element(const LinkState& link, int direction, Vec2 start) {
   const double k0 = A_arc - std::sin(alpha), k1 = B_arc + std::sin(beta);
   const BiarcJoint joint = biarc_joint(alpha, beta, k0, k1);
   const double kappa = 0.5 * (k0 + k1);
-  const double r0 = 0.5 * norm(joint.z - Vec2{-1.0, 0.0}), r1 = 0.5 * norm(Vec2{1.0, 0.0} - joint.z);
+  const double r0 = 0.5 * norm(joint.z - Vec2{-1.0, 0.0}),
+               r1 = 0.5 * norm(Vec2{1.0, 0.0} - joint.z);
   // distances of both halves from their circles
   const double a0 = (A_arc - A) * r0, b0 = (kappa - k0) * r0;
   const double a1 = (k1 - kappa) * r1, b1 = (B - B_arc) * r1;

@@ -17,32 +17,56 @@ constexpr double kExistenceReserve = 1.05;
 /// Beyond this sigma the closed form's cone is continued by its tangent: it has no finite value
 /// at a right angle, and phase 1 may start there. Solutions are judged by the true cone.
 constexpr double kStraightenedSigma = 1.3;
+/// Up to this angle the Taylor polynomials below are exact to rounding (0.2^13/13! < 2^-60); most
+/// headings differ less from the adjacent circle's, and the library's sine costs three times more.
+constexpr double kTaylorReach = 0.2;
 /// Barrier weights of sigma > 0 and of the curvature's sign, relative to the cone's.
 constexpr double kSigmaWeight = 0.5;
-constexpr double kSignWeight = 0.1;
+constexpr double kSignWeight = 0.5;
 
 /// S(sigma) with the cone written as (B-A)^2 - (A+B)^2 > S^2, and its derivative.
 struct ConeWidth {
   double value, slope;
 };
 
-ConeWidth closed_form_width(double sigma) {
+/// Closed form, sigma beyond kStraightenedSigma: continued by the tangent.
+ConeWidth straightened_width(double sigma) {
   const double k = std::sqrt(2.0 * kClosedFormReserve);
-  const double s = std::min(std::abs(sigma), kStraightenedSigma);
-  const double sine = std::sin(s), cosine = std::cos(s), root = std::sqrt(cosine);
+  const double sine = std::sin(kStraightenedSigma), cosine = std::cos(kStraightenedSigma);
+  const double root = std::sqrt(cosine);
   const double slope = k * (cosine * cosine + 0.5 * sine * sine) / (cosine * root);
-  const double value = k * sine / root + slope * (std::abs(sigma) - s);
-  return sigma < 0.0 ? ConeWidth{-value, slope} : ConeWidth{value, slope};
+  const double value = k * sine / root + slope * (std::abs(sigma) - kStraightenedSigma);
+  return {std::copysign(value, sigma), slope};
 }
 
-ConeWidth existence_width(double sigma) {
-  const double k = 2.0 * std::sqrt(kExistenceReserve);
-  return {k * std::sin(0.5 * sigma), 0.5 * k * std::cos(0.5 * sigma)};
+ConeWidth cone_width(Cone cone, double sigma, double sine, double cosine) {
+  if (cone == Cone::kSpiral) {
+    const double k = 2.0 * std::sqrt(kExistenceReserve);
+    return {k * std::sin(0.5 * sigma), 0.5 * k * std::cos(0.5 * sigma)};
+  }
+  if (std::abs(sigma) > kStraightenedSigma) return straightened_width(sigma);
+  const double k = std::sqrt(2.0 * kClosedFormReserve);
+  const double scale = k / std::sqrt(cosine);
+  return {scale * sine, scale * (cosine + 0.5 * sine * sine / cosine)};
 }
 
-ConeWidth cone_width(Cone cone, double sigma) {
-  return cone == Cone::kClosedForm ? closed_form_width(sigma) : existence_width(sigma);
-}
+/// Sum of logarithms with one call of log for many factors.
+class LogSum {
+ public:
+  void add(double factor) {
+    product_ *= factor;
+    constexpr double kLarge = 1e150, kSmall = 1e-150;  // the next factor cannot leave the range
+    if (product_ > kLarge || product_ < kSmall) flush();
+  }
+  [[nodiscard]] double value() const { return sum_ + std::log(product_); }
+
+ private:
+  void flush() {
+    sum_ += std::log(product_);
+    product_ = 1.0;
+  }
+  double product_ = 1.0, sum_ = 0.0;
+};
 
 /// Energy weights of a link, in units of its expected size: departure from the clothoid's
 /// B - A = 2 sigma, skewness A + B, and size. The size weight balances the final barrier, so that
@@ -79,6 +103,8 @@ LinkModel::LinkModel(const ChainProblem& problem)
     l.ka = 0.5 * l.h / nodes_[i].length;
     l.kb = 0.5 * l.h / nodes_[i + 1].length;
     l.sigma = l.alpha + l.beta;
+    l.sin_sigma = std::sin(l.sigma);
+    l.cos_sigma = std::cos(l.sigma);
     l.direction = problem.direction[i];
     l.cone = problem.cone[i];
   }
@@ -119,9 +145,9 @@ void LinkModel::set_sizes(const ChainProblem& problem) {
     double typical = std::max(magnitude(i), 0.25 * around);
     if (typical == 0.0) typical = largest_rate > 0.0 ? largest_rate : 1.0 / (l.h * l.h);
     l.size = typical * l.h * l.h / 3.0;
-    l.weight = l.cone == Cone::kNone ? 0.0 : 1.0;
-    l.energy = l.weight / (l.size * l.size);
-    total_weight_ += l.weight;
+    l.inverse_size = 1.0 / l.size;
+    l.energy = l.inverse_size * l.inverse_size;
+    total_weight_ += l.cone == Cone::kNone ? 0.0 : 1.0;
   }
   for (std::size_t i = 0; i < nodes_.size(); ++i) {
     Node& n = nodes_[i];
@@ -130,11 +156,9 @@ void LinkModel::set_sizes(const ChainProblem& problem) {
     const double before = rate[first ? 0 : i - 1], after = rate[last ? m - 1 : i];
     // harmonic mean: never steeper than the gentler side
     n.rate = monotone && before * after > 0.0 ? 2.0 * before * after / (before + after) : 0.0;
-    const double wa = links_[first ? 0 : i - 1].weight, wb = links_[last ? m - 1 : i].weight;
     n.sign = problem.nodes[i].curvature_sign;
-    n.sign_weight = n.sign != 0.0 ? kSignWeight * 0.5 * (wa + wb) : 0.0;
     n.sign_size = links_[first ? 0 : i - 1].size + links_[last ? m - 1 : i].size;
-    if (n.sign != 0.0 && n.sign_weight > 0.0) total_weight_ += n.sign_weight;
+    if (n.sign != 0.0) total_weight_ += kSignWeight;
   }
 }
 
@@ -149,7 +173,7 @@ void LinkModel::set_fixed(const ChainProblem& problem) {
     if (data.kappa) {
       n.fix_p = true;
       n.p = (*data.kappa - n.kappa) * n.length;
-      n.sign = n.sign_weight = 0.0;
+      n.sign = 0.0;
     }
   }
 }
@@ -200,7 +224,18 @@ double LinkModel::tangent(std::size_t node) const {
 }
 
 LinkModel::Trig LinkModel::trig(double phi) {
-  const double s = std::sin(0.5 * phi), c = std::cos(0.5 * phi);
+  const double x = 0.5 * phi, y = x * x;
+  double s = 0.0, c = 1.0;
+  if (std::abs(x) < kTaylorReach) {
+    s = x * (1.0 + y * (-1.0 / 6 +
+                        y * (1.0 / 120 + y * (-1.0 / 5040 + y * (1.0 / 362880 - y / 39916800)))));
+    c = 1.0 +
+        y * (-0.5 + y * (1.0 / 24 + y * (-1.0 / 720 + y * (1.0 / 40320 +
+                                                           y * (-1.0 / 3628800 + y / 479001600)))));
+  } else {
+    s = std::sin(x);
+    c = std::cos(x);
+  }
   return {2.0 * s * c, 2.0 * s * s, 1.0 - 2.0 * s * s};
 }
 
@@ -210,6 +245,9 @@ LinkModel::State LinkModel::state(const Link& l, const Trig& a, const Trig& b, d
   s.A = l.ka * p_a + l.ca * a.sin - l.sa * a.versin;
   s.B = l.kb * p_b - l.cb * b.sin + l.sb * b.versin;
   s.sigma = l.sigma + phi_a + phi_b;
+  const double sine = a.sin * b.cos + a.cos * b.sin, cosine = a.cos * b.cos - a.sin * b.sin;
+  s.sin_sigma = l.sin_sigma * cosine + l.cos_sigma * sine;
+  s.cos_sigma = l.cos_sigma * cosine - l.sin_sigma * sine;
   s.dA = l.ca * a.cos - l.sa * a.sin;
   s.dB = l.cb * b.cos - l.sb * b.sin;
   return s;
@@ -220,6 +258,7 @@ double LinkModel::assemble(const std::vector<double>& x, double slack, double en
   const std::size_t n = nodes_.size();
   system.reset(n);
   double value = 0.0;
+  LogSum cones, sigmas, signs;
   Trig ta = trig(x[0]);
   for (std::size_t i = 0; i + 1 < n; ++i) {
     const Link& l = links_[i];
@@ -237,12 +276,13 @@ double LinkModel::assemble(const std::vector<double>& x, double slack, double en
     double hmq = 0.0, hqs = 0.0;
     value += e * link_energy(m, q, s.sigma);
 
-    const ConeWidth width = cone_width(l.cone, s.sigma);
+    const ConeWidth width = cone_width(l.cone, s.sigma, s.sin_sigma, s.cos_sigma);
     const double t = l.direction * m + slack * l.size;
     const double f = t * t - q * q - width.value * width.value;
     const double u = l.direction * s.sigma + slack * l.size;
-    const double w = barrier * l.weight, r = 1.0 / f;
-    value -= w * (std::log(f / (l.size * l.size)) + kSigmaWeight * std::log(u / l.size));
+    const double w = barrier, r = 1.0 / f;
+    cones.add(f * l.inverse_size * l.inverse_size);
+    sigmas.add(u * l.inverse_size);
     // derivatives of f by m, q, sigma and the slack
     const double fm = 2.0 * t * l.direction, fq = -2.0 * q;
     const double fs = -2.0 * width.value * width.slope, fz = 2.0 * t * l.size;
@@ -294,10 +334,11 @@ double LinkModel::assemble(const std::vector<double>& x, double slack, double en
   }
   for (std::size_t i = 0; i < n; ++i) {
     const Node& node = nodes_[i];
-    if (node.sign_weight > 0.0) {
-      const double v = node.sign * (node.kappa * node.length + x[2 * i + 1]) + slack * node.sign_size;
-      const double w = barrier * node.sign_weight;
-      value -= w * std::log(v / node.sign_size);
+    if (node.sign != 0.0) {
+      const double v =
+          node.sign * (node.kappa * node.length + x[2 * i + 1]) + slack * node.sign_size;
+      const double w = barrier * kSignWeight;
+      signs.add(v / node.sign_size);
       system[i].g1 -= w * node.sign / v;
       system[i].a11 += w / (v * v);
       if (with_slack) {
@@ -310,13 +351,15 @@ double LinkModel::assemble(const std::vector<double>& x, double slack, double en
     if (node.fix_phi || system[i].a00 <= 0.0) system.fix(i, 0);
     if (node.fix_p || system[i].a11 <= 0.0) system.fix(i, 1);
   }
-  return value;
+  return value -
+         barrier * (cones.value() + kSigmaWeight * sigmas.value() + kSignWeight * signs.value());
 }
 
 double LinkModel::merit(const std::vector<double>& x, double slack, double energy,
                         double barrier) const {
   const std::size_t n = nodes_.size();
   double value = 0.0;
+  LogSum cones, sigmas, signs;
   Trig ta = trig(x[0]);
   for (std::size_t i = 0; i + 1 < n; ++i) {
     const Link& l = links_[i];
@@ -325,23 +368,24 @@ double LinkModel::merit(const std::vector<double>& x, double slack, double energ
     ta = tb;
     if (l.cone == Cone::kNone) continue;
     const double m = s.B - s.A, q = s.A + s.B;
-    const double width = cone_width(l.cone, s.sigma).value;
+    const double width = cone_width(l.cone, s.sigma, s.sin_sigma, s.cos_sigma).value;
     const double t = l.direction * m + slack * l.size;
     const double f = t * t - q * q - width * width;
     const double u = l.direction * s.sigma + slack * l.size;
     if (!(t > 0.0 && f > 0.0 && u > 0.0)) return kInfinity;
-    value += energy * l.energy * link_energy(m, q, s.sigma) -
-             barrier * l.weight *
-                 (std::log(f / (l.size * l.size)) + kSigmaWeight * std::log(u / l.size));
+    value += energy * l.energy * link_energy(m, q, s.sigma);
+    cones.add(f * l.inverse_size * l.inverse_size);
+    sigmas.add(u * l.inverse_size);
   }
   for (std::size_t i = 0; i < n; ++i) {
     const Node& node = nodes_[i];
-    if (node.sign_weight <= 0.0) continue;
+    if (node.sign == 0.0) continue;
     const double v = node.sign * (node.kappa * node.length + x[2 * i + 1]) + slack * node.sign_size;
     if (!(v > 0.0)) return kInfinity;
-    value -= barrier * node.sign_weight * std::log(v / node.sign_size);
+    signs.add(v / node.sign_size);
   }
-  return value;
+  return value -
+         barrier * (cones.value() + kSigmaWeight * sigmas.value() + kSignWeight * signs.value());
 }
 
 bool LinkModel::inside(const std::vector<double>& x, double slack) const {
@@ -376,9 +420,10 @@ std::vector<double> LinkModel::link_forces(const std::vector<double>& x, double 
     if (l.cone == Cone::kNone) continue;
     const double pa = x[2 * i], pb = x[2 * i + 2];
     const State s = state(l, trig(pa), trig(pb), pa, x[2 * i + 1], pb, x[2 * i + 3]);
-    const double m = s.B - s.A, q = s.A + s.B, width = cone_width(l.cone, s.sigma).value;
+    const double m = s.B - s.A, q = s.A + s.B;
+    const double width = cone_width(l.cone, s.sigma, s.sin_sigma, s.cos_sigma).value;
     const double t = l.direction * m + slack * l.size;
-    force[i] = l.weight * 2.0 * t * l.size / (t * t - q * q - width * width);
+    force[i] = 2.0 * t * l.size / (t * t - q * q - width * width);
   }
   return force;
 }

@@ -49,19 +49,19 @@ class LinkModel {
     double sa = 0.0, ca = 1.0, sb = 0.0, cb = 1.0;
     double ka = 0.0, kb = 0.0;  // dA/dp at the start, dB/dp at the end
     double sigma = 0.0;         // alpha + beta
-    double size = 0.0;          // expected B - A
-    double weight = 0.0;        // of the barrier; the energy's is weight / size^2
-    double energy = 0.0;
+    double sin_sigma = 0.0, cos_sigma = 1.0;
+    double size = 0.0;  // expected B - A
+    double inverse_size = 0.0;
+    double energy = 0.0;  // weight of the energy: 1 / size^2
     double direction = 0.0;
     Cone cone = Cone::kNone;
   };
   struct Node {
-    double length = 0.0;       // local scale
-    double kappa = 0.0;        // of the adjacent circle
-    double sign = 0.0;         // wanted sign of the curvature, 0 = free
-    double sign_size = 0.0;    // of the slack, in units of p
-    double sign_weight = 0.0;
-    double rate = 0.0;         // estimate of d kappa / d s, for the start
+    double length = 0.0;     // local scale
+    double kappa = 0.0;      // of the adjacent circle
+    double sign = 0.0;       // wanted sign of the curvature, 0 = free
+    double sign_size = 0.0;  // of the slack, in units of p
+    double rate = 0.0;       // estimate of d kappa / d s, for the start
     bool fix_phi = false, fix_p = false;
     double phi = 0.0, p = 0.0;  // values of the fixed variables
   };
@@ -69,7 +69,8 @@ class LinkModel {
     double sin = 0.0, versin = 0.0, cos = 1.0;  // of phi; versin = 1 - cos without cancellation
   };
   struct State {
-    double A, B, sigma, dA, dB;  // dA = dA/dphi at the start, dB = -dB/dphi at the end
+    double A, B, sigma, sin_sigma, cos_sigma, dA,
+        dB;  // dA = dA/dphi at the start, dB = -dB/dphi at the end
   };
 
   [[nodiscard]] double tangent(std::size_t node) const;  ///< heading of the adjacent circle

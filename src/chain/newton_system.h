@@ -13,10 +13,10 @@ namespace obvid::chain_detail {
 class NewtonSystem {
  public:
   struct Block {
-    double a00 = 0.0, a10 = 0.0, a11 = 0.0;        ///< diagonal block, lower part
+    double a00 = 0.0, a10 = 0.0, a11 = 0.0;             ///< diagonal block, lower part
     double o00 = 0.0, o01 = 0.0, o10 = 0.0, o11 = 0.0;  ///< coupling of this node to the next
-    double g0 = 0.0, g1 = 0.0;                     ///< gradient
-    double c0 = 0.0, c1 = 0.0;                     ///< column of the slack
+    double g0 = 0.0, g1 = 0.0;                          ///< gradient
+    double c0 = 0.0, c1 = 0.0;                          ///< column of the slack
   };
 
   void reset(std::size_t nodes) {
@@ -34,15 +34,16 @@ class NewtonSystem {
   void solve(std::vector<double>& direction, double& slack_direction, bool with_slack);
 
   /// Predicted decrease: minus gradient times direction.
-  [[nodiscard]] double decrement(const std::vector<double>& direction, double slack_direction) const;
+  [[nodiscard]] double decrement(const std::vector<double>& direction,
+                                 double slack_direction) const;
 
   double slack_hessian = 0.0;
   double slack_gradient = 0.0;
 
  private:
   struct Factor {
-    double l00, l10, l11;          // Cholesky factor of the eliminated diagonal block
-    double m00, m01, m10, m11;     // L^-1 times the coupling
+    double l00, l10, l11;       // Cholesky factor of the eliminated diagonal block
+    double m00, m01, m10, m11;  // L^-1 times the coupling
   };
   void factorise();
   void substitute(std::vector<double>& r) const;

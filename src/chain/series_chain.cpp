@@ -34,13 +34,15 @@ int forced_sign(const Analysis& a, std::size_t i) {
     return std::abs(c.kappa) <= c.rounding ? 0 : c.kappa > 0.0 ? 1 : -1;
   };
   const int own = sign(i);
-  const int before = i > 0 ? sign(i - 1) : own, after = i + 1 < a.circles.size() ? sign(i + 1) : own;
+  const int before = i > 0 ? sign(i - 1) : own,
+            after = i + 1 < a.circles.size() ? sign(i + 1) : own;
   return before == -own || after == -own ? 0 : own;
 }
 
 Result<ChainProblem> set_up(const Analysis& a, const ChainWishes& wishes) {
   ChainProblem p{a.chords, a.circles, a.direction, {}, std::vector<NodeData>(a.circles.size())};
-  for (const std::int8_t d : a.direction) p.cone.push_back(d == 0 ? Cone::kNone : Cone::kClosedForm);
+  for (const std::int8_t d : a.direction)
+    p.cone.push_back(d == 0 ? Cone::kNone : Cone::kClosedForm);
   int turns = 0;
   for (std::size_t i = 0; i < p.nodes.size(); ++i) {
     p.nodes[i].curvature_sign = forced_sign(a, i);
@@ -100,13 +102,18 @@ Error explain(const std::vector<Vec2>& points, const Analysis& a, const ChainWis
   if (why.move <= kRoundingsThatDecide * rounding_move(points, why)) {
     return {ErrorCode::kRoundingDecides,
             "the rounding of the coordinates, not the curve, decides how the curvature changes",
-            where, "give coordinates relative to a nearer origin, or leave out points that lie "
-            "closer together than their digits can tell", index, why.move};
+            where,
+            "give coordinates relative to a nearer origin, or leave out points that lie "
+            "closer together than their digits can tell",
+            index,
+            why.move};
   }
   if (touches_stretch(a, why)) {
     return {ErrorCode::kNoRoomForTransition,
             "a straight or circular stretch leaves no room for a change of curvature beside it",
-            where, "remove a point at the end of the stretch, or form the contour of arcs", index,
+            where,
+            "remove a point at the end of the stretch, or form the contour of arcs",
+            index,
             why.move};
   }
   const bool fixed = std::any_of(wishes.fixed.begin(), wishes.fixed.end(), [](const FixedData& f) {
@@ -115,11 +122,17 @@ Error explain(const std::vector<Vec2>& points, const Analysis& a, const ChainWis
   if (fixed || wishes.convex) {
     return {ErrorCode::kFixedDataContradict,
             "the fixed headings, curvatures or convexity cannot be met by a monotone contour",
-            where, "free the data there", index, why.move};
+            where,
+            "free the data there",
+            index,
+            why.move};
   }
   return {ErrorCode::kNoSpiral,
-          "no curve with curvature changing as the points demand runs through them", where,
-          "move points there by about the value given, or add points", index, why.move};
+          "no curve with curvature changing as the points demand runs through them",
+          where,
+          "move points there by about the value given, or add points",
+          index,
+          why.move};
 }
 
 /// Puts a free element into every link that one closed-form piece cannot carry well.
@@ -215,7 +228,8 @@ Result<SeriesChain> choose_elements(const std::vector<Vec2>& points, const Analy
       out.unforced_inflection = unforced_inflection;
       return out;
     }
-    if (!solution.feasible) return fail(explain(current.points, analysis, wishes, solution.infeasibility));
+    if (!solution.feasible)
+      return fail(explain(current.points, analysis, wishes, solution.infeasibility));
   }
   return fail({ErrorCode::kNotConverged, "free elements did not make every piece monotone", "",
                "report this series", -1, solution.smallest_margin});

@@ -13,24 +13,24 @@ namespace {
 using namespace chain_detail;
 
 constexpr double kEpsilon = std::numeric_limits<double>::epsilon();
-/// Newton stops when the predicted decrease falls below this part of the barrier's own scale:
-/// one more quadratic step would change nothing that doubles can hold.
-constexpr double kConverged = 1e-18;
+/// Newton stops after a step whose predicted decrease is below this part of the barrier's own
+/// scale: convergence is quadratic, so what is left is of the order of its square.
+constexpr double kConverged = 1e-13;
 /// Sufficient-decrease constant of the line search (Nocedal & Wright 2006, eq. 3.4).
 constexpr double kArmijo = 1e-4;
 constexpr double kSmallestStep = 1e-9;
 constexpr double kStartingSlack = 1e-3;  ///< in units of each link's own size
 constexpr double kStartingSlackGrowth = 2.0;
 constexpr double kLargestStartingSlack = 1e12;
-constexpr double kSlackBarrier = 0.02;    ///< starting barrier of phase 1, relative to the slack
+constexpr double kSlackBarrier = 0.02;  ///< starting barrier of phase 1, relative to the slack
 constexpr double kSlackBarrierFall = 0.2;
 constexpr double kPhaseOneEnergy = 0.05;  ///< damper of phase 1
 constexpr int kPhaseOneRounds = 16;
 constexpr int kPhaseOneSteps = 15;
 constexpr double kStalled = 0.97;
 constexpr double kNegligibleBarrier = 1e-3;
-constexpr double kPhaseOneDone = 1e-10;   ///< decrement at which a round of phase 1 ends
-constexpr double kSlackPull = 0.1;        ///< cost of the slack against the sum of all barriers
+constexpr double kPhaseOneDone = 0.05;  ///< decrement at which a round of phase 1 ends
+constexpr double kSlackPull = 0.3;      ///< cost of the slack against the sum of all barriers
 
 class Solver {
  public:
@@ -58,8 +58,8 @@ class Solver {
   /// when `slack_cost` > 0. Returns Newton's decrement, or a negative number when no step helps.
   double step(double energy, double barrier, double slack_cost) {
     const bool with_slack = slack_cost > 0.0;
-    const double value = model_.assemble(x_, slack_, energy, barrier, system_, with_slack) +
-                         slack_cost * slack_;
+    const double value =
+        model_.assemble(x_, slack_, energy, barrier, system_, with_slack) + slack_cost * slack_;
     system_.slack_gradient += slack_cost;
     ++steps_;
     system_.solve(direction_, slack_direction_, with_slack);
@@ -97,7 +97,8 @@ class Solver {
     for (int round = 0; round < kPhaseOneRounds; ++round) {
       const double before = slack_;
       for (int k = 0; k < kPhaseOneSteps; ++k) {
-        const double decrement = step(kPhaseOneEnergy, 1.0, kSlackPull * model_.total_weight() / mu);
+        const double decrement =
+            step(kPhaseOneEnergy, 1.0, kSlackPull * model_.total_weight() / mu);
         if (slack_ <= 0.0) {
           slack_ = 0.0;
           return model_.inside(x_, 0.0);

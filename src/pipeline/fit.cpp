@@ -59,18 +59,20 @@ std::vector<std::string> warn(const Cleaned& cleaned, const Analysis& a, const S
     out.push_back(std::to_string(cleaned.merged) + " points equal to the one before were merged");
   }
   if (a.rounding_decided > 0) {
-    out.push_back("the rounding of the coordinates decides whether the curvature grows or falls on " +
-                  std::to_string(a.rounding_decided) + " segments, first between points " +
-                  std::to_string(a.first_rounding_decided + 1) + " and " +
-                  std::to_string(a.first_rounding_decided + 2) +
-                  "; vertices there come from the rounding, not from the curve");
+    out.push_back(
+        "the rounding of the coordinates decides whether the curvature grows or falls on " +
+        std::to_string(a.rounding_decided) + " segments, first between points " +
+        std::to_string(a.first_rounding_decided + 1) + " and " +
+        std::to_string(a.first_rounding_decided + 2) +
+        "; vertices there come from the rounding, not from the curve");
   }
   if (chain.unforced_inflection) {
     out.push_back("the contour needs an inflection that the adjacent circles do not show");
   }
   if (!chain.converged) {
-    out.push_back("the headings and curvatures are valid but not quite the fairest: the solver "
-                  "stopped at its limit of steps");
+    out.push_back(
+        "the headings and curvatures are valid but not quite the fairest: the solver "
+        "stopped at its limit of steps");
   }
   return out;
 }

@@ -66,8 +66,8 @@ Piece arc_over_chord(const LinkState& link, const Element& a, const Element& b) 
   if (a.kappa == 0.0) return LinePiece{a.point, b.point};
   const double sine = std::clamp(0.5 * a.kappa * link.h, -1.0, 1.0);
   const bool beyond_half = std::abs(link.alpha) > 0.5 * std::numbers::pi;
-  const double half_turn = beyond_half ? std::copysign(std::numbers::pi, sine) - std::asin(sine)
-                                       : std::asin(sine);
+  const double half_turn =
+      beyond_half ? std::copysign(std::numbers::pi, sine) - std::asin(sine) : std::asin(sine);
   return ArcPiece{a.point, b.point, link.omega - half_turn, a.kappa, 2.0 * half_turn / a.kappa};
 }
 
@@ -95,9 +95,10 @@ Result<SeriesChain> form_elements(const std::vector<Vec2>& points, const Analysi
                                   const ChainWishes& wishes) {
   if (!wholly_circular(points, analysis)) return choose_elements(points, analysis, wishes);
   if (anything_fixed(wishes)) {
-    return fail({ErrorCode::kFixedDataContradict,
-                 "the points lie on one circle or line, which leaves no heading or radius to choose",
-                 "", "drop the fixed data, or add points", 0, analysis.stretches.front().kappa});
+    return fail(
+        {ErrorCode::kFixedDataContradict,
+         "the points lie on one circle or line, which leaves no heading or radius to choose", "",
+         "drop the fixed data, or add points", 0, analysis.stretches.front().kappa});
   }
   return one_circle(points, analysis);
 }

@@ -61,7 +61,8 @@ RegionRow make_row(const Element& a, const Element& b, CurvatureRange ka, Curvat
 Result<RegionTable> region_table(const PointSeries& series) {
   const auto analysis = analyse(series.points);
   if (!analysis) return tl::unexpected(analysis.error());
-  const auto chain = pipeline_detail::form_elements(series.points, *analysis, {series.fixed, false});
+  const auto chain =
+      pipeline_detail::form_elements(series.points, *analysis, {series.fixed, false});
   if (!chain) return tl::unexpected(chain.error());
   RegionTable table;
   table.elements = chain->elements;
@@ -74,7 +75,8 @@ Result<RegionTable> region_table(const PointSeries& series) {
     const auto ranges = curvature_chains(part, span.direction == 0 ? 1 : span.direction, convex,
                                          first > 0.0 ? 1 : -1);
     for (std::size_t i = 0; i + 1 < part.size(); ++i) {
-      table.rows.push_back(make_row(part[i], part[i + 1], ranges[i], ranges[i + 1], span.direction));
+      table.rows.push_back(
+          make_row(part[i], part[i + 1], ranges[i], ranges[i + 1], span.direction));
     }
   }
   return table;

@@ -34,7 +34,10 @@ class Comparison {
     refused_ = Error{ErrorCode::kFalseClaim,
                      "the file claims " + name + " = " + std::to_string(claimed) + ", found " +
                          std::to_string(found),
-                     "report", "form the contour again", -1, found};
+                     "report",
+                     "form the contour again",
+                     -1,
+                     found};
   }
 
  private:

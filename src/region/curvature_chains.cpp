@@ -51,7 +51,8 @@ std::vector<CurvatureRange> curvature_chains(const std::vector<Element>& element
     ranges[i + 1].low = next_low(link_between(elements[i], elements[i + 1], d), ranges[i].low);
   }
   for (std::size_t i = n - 1; i-- > 0;) {
-    ranges[i].high = previous_high(link_between(elements[i], elements[i + 1], d), ranges[i + 1].high);
+    ranges[i].high =
+        previous_high(link_between(elements[i], elements[i + 1], d), ranges[i + 1].high);
   }
   if (d < 0.0) {
     for (CurvatureRange& r : ranges) r = {-r.high, -r.low};

@@ -10,7 +10,7 @@ namespace {
 /// Elements that one piece may take; widths fall with the third power, so this is 15 decades.
 constexpr std::size_t kMostElements = 100000;
 /// Steps of the search for the point that is parallel to the chord; Newton converges faster.
-constexpr int kParallelSteps = 4;
+constexpr int kParallelSteps = 3;
 /// Bisection steps for a step that uses the tolerance up: to a thousandth of the parameter step.
 constexpr int kStepBisections = 10;
 
@@ -46,7 +46,8 @@ double parallel_height(const Piece& piece, Vec2 start, Vec2 u) {
   return cross(u, p - start);
 }
 
-double deviation_from(const SegmentRegion& r, const Piece& piece, const Sample& a, const Sample& b) {
+double deviation_from(const SegmentRegion& r, const Piece& piece, const Sample& a,
+                      const Sample& b) {
   const Vec2 u = (b.point - a.point) / norm(b.point - a.point);
   const double y = parallel_height(piece, a.point, u);
   const bool above = y >= 0.0;

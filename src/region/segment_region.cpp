@@ -2,7 +2,6 @@
 #include "obvid/region/segment_region.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <limits>
 
@@ -49,7 +48,8 @@ Boundary make_boundary(const ChordFrame& f, double k0, double k1) {
     }
   }
   if (!std::isinf(k1)) {
-    if (passes_parallel(b.joint_tangent, f.end_tangent)) reach(-rise_to_parallel(f.end_tangent, k1));
+    if (passes_parallel(b.joint_tangent, f.end_tangent))
+      reach(-rise_to_parallel(f.end_tangent, k1));
   }
   return b;
 }
@@ -73,31 +73,34 @@ struct Graph {
   /// y of an arc through (0, 0) with sine of heading s and curvature k, at distance x.
   static double arc(double s, double k, double x) {
     const double e = s + k * x;
-    const double c0 = std::sqrt(std::max(0.0, 1.0 - s * s)), c1 = std::sqrt(std::max(0.0, 1.0 - e * e));
+    const double c0 = std::sqrt(std::max(0.0, 1.0 - s * s)),
+                 c1 = std::sqrt(std::max(0.0, 1.0 - e * e));
     return x * (s + e) / (c0 + c1);
   }
   [[nodiscard]] double y(double x) const {
-    return x <= x_joint ? arc(s0, k0, x) : -arc(-s1, k1, h - x);
+    return x <= x_joint ? arc(s0, k0, x) : -arc(s1, -k1, h - x);
   }
 };
 
 /// Largest gap |y_a - y_b| over the chord: at a joint, or where both arcs are equally steep.
 double largest_gap(const Graph& a, const Graph& b) {
   double gap = 0.0;
-  const auto look = [&](double x) {
-    if (x > 0.0 && x < a.h) gap = std::max(gap, std::abs(a.y(x) - b.y(x)));
+  const auto look = [&](double x, double from, double to) {
+    if (x > from && x < to) gap = std::max(gap, std::abs(a.y(x) - b.y(x)));
   };
-  look(a.x_joint);
-  look(b.x_joint);
-  // heading sines: first arc s0 + k0 x, second arc s1 - k1 (h - x)
-  const std::array<std::array<double, 2>, 2> sa = {{{a.s0, a.k0}, {a.s1 - a.k1 * a.h, a.k1}}};
-  const std::array<std::array<double, 2>, 2> sb = {{{b.s0, b.k0}, {b.s1 - b.k1 * b.h, b.k1}}};
-  for (const auto& p : sa) {
-    for (const auto& q : sb) {
-      const double slope = p[1] - q[1];
-      if (slope != 0.0) look((q[0] - p[0]) / slope);
-    }
-  }
+  look(a.x_joint, 0.0, a.h);
+  look(b.x_joint, 0.0, a.h);
+  // heading sines are s0 + k0 x on first arcs and s1 - k1 (h - x) on second ones
+  const double a1 = a.s1 - a.k1 * a.h, b1 = b.s1 - b.k1 * b.h;
+  const double near = std::min(a.x_joint, b.x_joint), far = std::max(a.x_joint, b.x_joint);
+  const auto equally_steep = [&](double sa, double ka, double sb, double kb, double from,
+                                 double to) {
+    if (ka != kb) look((sb - sa) / (ka - kb), from, to);
+  };
+  equally_steep(a.s0, a.k0, b.s0, b.k0, 0.0, near);
+  if (a.x_joint < b.x_joint) equally_steep(a1, a.k1, b.s0, b.k0, near, far);
+  if (b.x_joint < a.x_joint) equally_steep(a.s0, a.k0, b1, b.k1, near, far);
+  equally_steep(a1, a.k1, b1, b.k1, far, a.h);
   return gap;
 }
 
@@ -126,7 +129,8 @@ std::optional<SegmentRegion> segment_region(const ChordFrame& f, int direction) 
   const double sa = d * f.start_tangent.y, sb = d * f.end_tangent.y;
   const double A = std::min(a + sa, -kCancellation * (std::abs(a) + std::abs(sa)));
   const double B = std::max(b - sb, kCancellation * (std::abs(b) + std::abs(sb)));
-  if (a + sa > kCancellation * (1.0 + std::abs(a)) || b - sb < -kCancellation * (1.0 + std::abs(b))) {
+  if (a + sa > kCancellation * (1.0 + std::abs(a)) ||
+      b - sb < -kCancellation * (1.0 + std::abs(b))) {
     return std::nullopt;
   }
   const double to = 2.0 * d / f.h;
@@ -139,13 +143,21 @@ std::optional<SegmentRegion> segment_region(const ChordFrame& f, int direction) 
   const double high = std::abs(r.from_start.highest - r.to_end.highest);
   const double low = std::abs(r.from_start.lowest - r.to_end.lowest);
   r.parallel_width = std::max(high, low);
-  const bool above = r.from_start.highest + r.to_end.highest >= -r.from_start.lowest - r.to_end.lowest;
+  const bool above =
+      r.from_start.highest + r.to_end.highest >= -r.from_start.lowest - r.to_end.lowest;
   r.lower_height = above ? std::min(r.from_start.highest, r.to_end.highest)
                          : std::min(-r.from_start.lowest, -r.to_end.lowest);
   r.width = r.parallel_width;
   const auto g0 = Graph::of(f, r.from_start), g1 = Graph::of(f, r.to_end);
   if (g0 && g1) r.width = std::max(r.width, largest_gap(*g0, *g1));
   return r;
+}
+
+std::optional<double> boundary_ordinate(const ChordFrame& frame, const Boundary& boundary,
+                                        double x) {
+  const auto graph = Graph::of(frame, boundary);
+  if (!graph) return std::nullopt;
+  return graph->y(x);
 }
 
 bool contains(const SegmentRegion& region, const ChordFrame& f, Vec2 p, double slack) {

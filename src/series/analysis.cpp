@@ -82,7 +82,8 @@ std::vector<CircularStretch> find_stretches(const std::vector<Vec2>& points,
       high = h;
       ++j;
     }
-    for (std::size_t k = i; k <= j + 1; ++k) rounding = std::max(rounding, point_rounding(points[k]));
+    for (std::size_t k = i; k <= j + 1; ++k)
+      rounding = std::max(rounding, point_rounding(points[k]));
     const bool fits =
         j > i && distance_from_circle(points, i - 1, j + 1) <= kStretchRoundings * rounding;
     if (fits) {

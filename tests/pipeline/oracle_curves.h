@@ -35,15 +35,18 @@ struct OracleCurve {
   [[nodiscard]] LongVec2 at(long double t) const {
     switch (kind) {
       case Oracle::kClothoid:
-      case Oracle::kInflectedClothoid: return clothoid(t);
+      case Oracle::kInflectedClothoid:
+        return clothoid(t);
       case Oracle::kLogSpiral: {
         const long double r = std::exp(p * t);
         return {r * std::cos(t), r * std::sin(t)};
       }
       case Oracle::kInvolute:
         return {std::cos(t) + t * std::sin(t), std::sin(t) - t * std::cos(t)};
-      case Oracle::kParabola: return {t, t * t / 2.0L};
-      case Oracle::kEllipse: return {p * std::cos(t), std::sin(t)};
+      case Oracle::kParabola:
+        return {t, t * t / 2.0L};
+      case Oracle::kEllipse:
+        return {p * std::cos(t), std::sin(t)};
     }
     return {};
   }
@@ -52,11 +55,15 @@ struct OracleCurve {
   [[nodiscard]] long double heading_at(long double t) const {
     switch (kind) {
       case Oracle::kClothoid:
-      case Oracle::kInflectedClothoid: return p * t + q * t * t / 2.0L;
+      case Oracle::kInflectedClothoid:
+        return p * t + q * t * t / 2.0L;
       case Oracle::kLogSpiral:
-      case Oracle::kInvolute: return t;
-      case Oracle::kParabola: return std::atan(t);
-      case Oracle::kEllipse: return std::atan2(std::cos(t), -p * std::sin(t));
+      case Oracle::kInvolute:
+        return t;
+      case Oracle::kParabola:
+        return std::atan(t);
+      case Oracle::kEllipse:
+        return std::atan2(std::cos(t), -p * std::sin(t));
     }
     return 0.0L;
   }
@@ -64,14 +71,12 @@ struct OracleCurve {
  private:
   /// theta = p s + q s^2/2 by composite 8-point Gauss-Legendre, far below double rounding.
   [[nodiscard]] LongVec2 clothoid(long double s) const {
-    static const long double x[4] = {0.18343464249564980493947614236018398L,
-                                     0.52553240991632898581773904918924635L,
-                                     0.79666647741362673959155393647583043L,
-                                     0.96028985649753623168356086856947299L};
-    static const long double w[4] = {0.36268378337836198296515044927719561L,
-                                     0.31370664587788728733796220198660132L,
-                                     0.22238103445337447054435599442624088L,
-                                     0.10122853629037625915253135430996219L};
+    static const long double x[4] = {
+        0.18343464249564980493947614236018398L, 0.52553240991632898581773904918924635L,
+        0.79666647741362673959155393647583043L, 0.96028985649753623168356086856947299L};
+    static const long double w[4] = {
+        0.36268378337836198296515044927719561L, 0.31370664587788728733796220198660132L,
+        0.22238103445337447054435599442624088L, 0.10122853629037625915253135430996219L};
     const int n = static_cast<int>(8.0L * (std::abs(p * s) + std::abs(q) * s * s)) + 4;
     const long double h = s / n;
     LongVec2 z;
@@ -169,7 +174,8 @@ inline std::vector<long double> random_parameters(const OracleCurve& c, int n, b
 inline double largest_turning(const std::vector<Vec2>& points) {
   double largest = 0.0;
   for (std::size_t i = 1; i + 1 < points.size(); ++i) {
-    largest = std::max(largest, std::abs(turning(points[i] - points[i - 1], points[i + 1] - points[i])));
+    largest =
+        std::max(largest, std::abs(turning(points[i] - points[i - 1], points[i + 1] - points[i])));
   }
   return largest;
 }
@@ -189,7 +195,8 @@ inline Sampled random_series(Oracle kind, std::mt19937_64& rng, double turning_l
   for (;;) {
     Sampled s;
     s.curve = random_curve(kind, rng);
-    const int n = static_cast<int>(std::lround(std::exp(uniform(rng, std::log(5.0), std::log(200.0)))));
+    const int n =
+        static_cast<int>(std::lround(std::exp(uniform(rng, std::log(5.0), std::log(200.0)))));
     s.uneven = (rng() & 1U) != 0;
     s.parameters = random_parameters(s.curve, n, s.uneven, rng);
     s.placement.scale = std::pow(10.0, uniform(rng, -6.0, 6.0));

@@ -27,11 +27,11 @@ struct NodeData {
 
 /// Headings and curvatures wanted at every point, with one direction and one cone per link.
 struct ChainProblem {
-  std::vector<Chord> chords;             ///< n - 1
-  std::vector<AdjacentCircle> circles;   ///< n
-  std::vector<std::int8_t> direction;    ///< n - 1; 0 exactly where the cone is kNone
-  std::vector<Cone> cone;                ///< n - 1
-  std::vector<NodeData> nodes;           ///< n
+  std::vector<Chord> chords;            ///< n - 1
+  std::vector<AdjacentCircle> circles;  ///< n
+  std::vector<std::int8_t> direction;   ///< n - 1; 0 exactly where the cone is kNone
+  std::vector<Cone> cone;               ///< n - 1
+  std::vector<NodeData> nodes;          ///< n
 };
 
 /// A link between two elements, seen from its chord. `A`, `B` are the distances of the end
@@ -62,12 +62,12 @@ struct Infeasibility {
 /// Headings and curvatures with their evidence.
 struct ChainSolution {
   bool feasible = false;
-  std::vector<Element> elements;    ///< n; meaningful when feasible
-  std::vector<LinkState> links;     ///< n - 1
-  double smallest_margin = 0.0;     ///< over all links, by their own cones
+  std::vector<Element> elements;  ///< n; meaningful when feasible
+  std::vector<LinkState> links;   ///< n - 1
+  double smallest_margin = 0.0;   ///< over all links, by their own cones
   int newton_steps = 0;
-  bool converged = false;           ///< Newton's decrement fell below rounding
-  Infeasibility infeasibility;      ///< when not feasible
+  bool converged = false;       ///< Newton's decrement fell below rounding
+  Infeasibility infeasibility;  ///< when not feasible
 };
 
 /// Limits of the interior-point method.
@@ -79,7 +79,8 @@ struct ChainOptions {
 /// with exact angles; block-tridiagonal Newton, O(n) per step (docs/methods/chain.md).
 /// `points` gives positions of the nodes. Deterministic; scale- and motion-invariant.
 /// `start`, when given, holds headings and curvatures to begin with (they may be infeasible).
-[[nodiscard]] ChainSolution solve_chain(const std::vector<Vec2>& points, const ChainProblem& problem,
+[[nodiscard]] ChainSolution solve_chain(const std::vector<Vec2>& points,
+                                        const ChainProblem& problem,
                                         const ChainOptions& options = {},
                                         const std::vector<Element>* start = nullptr);
 

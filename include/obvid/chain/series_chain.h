@@ -22,12 +22,12 @@ struct SeriesChain {
   std::vector<std::optional<std::size_t>> source;  ///< point index, or nothing for free elements
   std::vector<LinkState> links;
   std::vector<std::int8_t> direction;
-  std::vector<Cone> cone;           ///< kClosedForm, or kNone inside circular stretches
+  std::vector<Cone> cone;  ///< kClosedForm, or kNone inside circular stretches
   std::size_t free_elements = 0;
   int newton_steps = 0;
   double smallest_margin = 0.0;
   bool converged = false;
-  bool unforced_inflection = false; ///< an inflection was needed that the adjacent circles hide
+  bool unforced_inflection = false;  ///< an inflection was needed that the adjacent circles hide
 };
 
 /// Chooses headings and curvatures for a series of at least 4 points (fewer are one circle):

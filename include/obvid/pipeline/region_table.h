@@ -13,10 +13,10 @@ namespace obvid {
 /// (the tables of 000_...). Lengths in units, radii signed like the curvature.
 struct RegionRow {
   double chord = 0.0;
-  double theta_start = 0.0;   ///< heading at the first point, rad
+  double theta_start = 0.0;  ///< heading at the first point, rad
   double theta_end = 0.0;
-  double to_apex = 0.0;       ///< |i,T|: from point i to the meeting of both tangents
-  double from_apex = 0.0;     ///< |T,i+1|
+  double to_apex = 0.0;    ///< |i,T|: from point i to the meeting of both tangents
+  double from_apex = 0.0;  ///< |T,i+1|
   double kappa_start_low = 0.0, kappa_start_high = 0.0;  ///< range of the curvature at point i
   double kappa_end_low = 0.0, kappa_end_high = 0.0;
   double lower_height = 0.0;  ///< of the lower boundary above the chord

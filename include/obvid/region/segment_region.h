@@ -10,9 +10,9 @@ namespace obvid {
 /// Two elements seen from their chord, without any angle: unit tangents in the frame whose x axis
 /// is the chord.
 struct ChordFrame {
-  double h = 0.0;       ///< chord
-  Vec2 start_tangent;   ///< (cos alpha, sin alpha)
-  Vec2 end_tangent;     ///< (cos beta, sin beta)
+  double h = 0.0;      ///< chord
+  Vec2 start_tangent;  ///< (cos alpha, sin alpha)
+  Vec2 end_tangent;    ///< (cos beta, sin beta)
   double kappa_start = 0.0;
   double kappa_end = 0.0;
 };
@@ -37,16 +37,21 @@ struct Boundary {
 struct SegmentRegion {
   Boundary from_start;  ///< osculating circle at the start, then the arc tangent to it and the end
   Boundary to_end;      ///< arc tangent to the start, then the osculating circle at the end
-  double lower_height = 0.0;  ///< height above the chord of the boundary that is nearer to it
+  double lower_height = 0.0;    ///< height above the chord of the boundary that is nearer to it
   double parallel_width = 0.0;  ///< between lines parallel to the chord that touch the boundaries
-  double width = 0.0;   ///< bound of the distance between any two curves of the region: the larger
-                        ///< of `parallel_width` and of the largest gap across the chord
+  double width = 0.0;  ///< bound of the distance between any two curves of the region: the larger
+                       ///< of `parallel_width` and of the largest gap across the chord
 };
 
 /// Region of two elements of a spiral of this direction (+1 curvature increases). Nothing when no
 /// such spiral exists (theory 4, existence) beyond rounding. Infinite curvatures are allowed at
 /// one end each: they stand for "unknown" and give the region of the tangents alone.
 [[nodiscard]] std::optional<SegmentRegion> segment_region(const ChordFrame& frame, int direction);
+
+/// Ordinate of a boundary over abscissa x of the chord's frame, 0 <= x <= h. Nothing when a heading
+/// on it is a right angle or more from the chord, or a curvature is infinite.
+[[nodiscard]] std::optional<double> boundary_ordinate(const ChordFrame& frame,
+                                                      const Boundary& boundary, double x);
 
 /// Whether a point, given relative to the start of the chord in the chord's frame, lies in the
 /// region, with `slack` (units) on either side. Guaranteed for segments whose headings stay within

@@ -42,20 +42,21 @@ struct SeriesRun {
 
 /// What the points alone say about any fair curve through them (docs/methods/series.md).
 struct Analysis {
-  std::vector<Chord> chords;             ///< n - 1
-  std::vector<AdjacentCircle> circles;   ///< n
-  std::vector<std::int8_t> direction;    ///< n - 1: +1, -1, or 0 inside a circular stretch
-  std::vector<double> points_only_error; ///< n - 1; NaN where it is not defined (first, last chord)
+  std::vector<Chord> chords;            ///< n - 1
+  std::vector<AdjacentCircle> circles;  ///< n
+  std::vector<std::int8_t> direction;   ///< n - 1: +1, -1, or 0 inside a circular stretch
+  std::vector<double>
+      points_only_error;  ///< n - 1; NaN where it is not defined (first, last chord)
   std::vector<SeriesRun> runs;
   std::vector<CircularStretch> stretches;
-  int vertices = 0;                ///< changes of direction: what the contour will have
-  int vertices_lower_bound = 0;    ///< what any smooth curve through the points must have
-  int inflections = 0;             ///< sign changes of the adjacent curvatures
+  int vertices = 0;              ///< changes of direction: what the contour will have
+  int vertices_lower_bound = 0;  ///< what any smooth curve through the points must have
+  int inflections = 0;           ///< sign changes of the adjacent curvatures
   int inflections_lower_bound = 0;
   std::size_t rounding_decided = 0;  ///< chords whose direction lies within coordinate rounding
   std::size_t first_rounding_decided = 0;
-  double size = 0.0;               ///< diagonal of the bounding box
-  double largest_turning = 0.0;    ///< between neighbouring chords, rad
+  double size = 0.0;             ///< diagonal of the bounding box
+  double largest_turning = 0.0;  ///< between neighbouring chords, rad
 };
 
 /// Analyses distinct points (no two neighbours equal, at least 2).

@@ -18,7 +18,7 @@ struct FixedData {
 
 /// Points in the order in which they were read.
 struct PointSeries {
-  std::string name;                   ///< title of the file, or its name
+  std::string name;  ///< title of the file, or its name
   std::string units = "mm";
   std::vector<Vec2> points;
   std::vector<FixedData> fixed;       ///< empty, or one entry per point

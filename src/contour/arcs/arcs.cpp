@@ -32,9 +32,19 @@ Vec2 on_median(const ChordFrame& f, const Boundary& b, Vec2 apex) {
 }
 
 bool has_triangle(const ChordFrame& f, const SegmentRegion& r) {
-  const double least = std::min({f.start_tangent.x, f.end_tangent.x, r.from_start.joint_tangent.x,
-                                 r.to_end.joint_tangent.x});
+  const double least = std::min(
+      {f.start_tangent.x, f.end_tangent.x, r.from_start.joint_tangent.x, r.to_end.joint_tangent.x});
   return least > 0.0 && f.start_tangent.y * f.end_tangent.y < 0.0;
+}
+
+/// How far an arc turns, with the tangent of half of it.
+struct ArcTurn {
+  double angle, half_tangent;
+};
+
+ArcTurn arc_turn(Vec2 from, Vec2 to) {
+  const double half_tangent = cross(from, to) / (1.0 + dot(from, to));
+  return {2.0 * std::atan(half_tangent), half_tangent};
 }
 
 double arc_angle(Vec2 chord, double theta) { return turning(unit_at(theta), chord); }
@@ -43,8 +53,7 @@ double arc_angle(Vec2 chord, double theta) { return turning(unit_at(theta), chor
 
 double second_curvature(const ChordFrame& f, double first) {
   const Vec2 turn = complex_product(f.start_tangent, f.end_tangent);
-  const double q =
-      turn.x > 0.0 ? turn.y * turn.y / (2.0 * (1.0 + turn.x)) : 0.5 * (1.0 - turn.x);
+  const double q = turn.x > 0.0 ? turn.y * turn.y / (2.0 * (1.0 + turn.x)) : 0.5 * (1.0 - turn.x);
   const double A = 0.5 * first * f.h + f.start_tangent.y;
   return 2.0 / f.h * (f.end_tangent.y - q / A);
 }
@@ -56,7 +65,8 @@ std::optional<BiarcCurvatures> choose_biarc(const ChordFrame& f, int direction) 
   const double apex_x = f.h * f.end_tangent.y * f.start_tangent.x /
                         (f.end_tangent.y * f.start_tangent.x - f.start_tangent.y * f.end_tangent.x);
   const Vec2 apex = {apex_x, apex_x * f.start_tangent.y / f.start_tangent.x};
-  const Vec2 p = 0.5 * (on_median(f, region->from_start, apex) + on_median(f, region->to_end, apex));
+  const Vec2 p =
+      0.5 * (on_median(f, region->from_start, apex) + on_median(f, region->to_end, apex));
   const double first = 2.0 * cross(f.start_tangent, p) / dot(p, p);
   const double low = std::min(region->from_start.kappa_first, region->to_end.kappa_first);
   const double high = std::max(region->from_start.kappa_first, region->to_end.kappa_first);
@@ -75,30 +85,25 @@ Piece arc_piece(Vec2 start, Vec2 end, double theta, double kappa) {
 
 std::array<Piece, 2> biarc(const Element& start, const Element& end, const BiarcCurvatures& k) {
   const Vec2 chord = end.point - start.point;
-  const double half = 0.5 * norm(chord);
-  const Vec2 u = chord / (2.0 * half);
-  const double a = k.first * half, b = k.second * half;
+  const double h = norm(chord);
+  const double a = 0.5 * k.first * h, b = 0.5 * k.second * h;
   const Vec2 t0 = unit_at(start.theta), t1 = unit_at(end.theta);
-  const Vec2 local0 = {dot(u, t0), cross(u, t0)}, local1 = {dot(u, t1), cross(u, t1)};
-  // (b - a) e^{i theta} = 2 i a b + b e^{i alpha} - a e^{i beta} in the chord's frame
-  Vec2 v = Vec2{0.0, 2.0 * a * b} + b * local0 - a * local1;
-  if (b < a) v = -v;
-  const Vec2 tangent = complex_product(v / norm(v), u);
-  const double turn0 = turning(t0, tangent), turn1 = turning(tangent, t1);
-  const double theta = start.theta + turn0;
+  // closing the chord: (b - a) e^{i theta} = 2 i a b u + b t0 - a t1, u along the chord
+  const Vec2 v = (2.0 * a * b / h) * left_normal(chord) + b * t0 - a * t1;
+  const double length = norm(v);
+  const Vec2 middle = t0 + t1;  // one circle: its tangent half way
+  const Vec2 tangent = length > 0.0 ? v / std::copysign(length, b - a) : middle / norm(middle);
+  const ArcTurn first = arc_turn(t0, tangent), second = arc_turn(tangent, t1);
   // the joint from the arc that bends more: its turning is known best
-  Vec2 joint;
-  if (std::abs(a) >= std::abs(b)) {
-    joint = start.point + 2.0 * std::sin(0.5 * turn0) / k.first * unit_at(start.theta + 0.5 * turn0);
-  } else {
-    joint = end.point - 2.0 * std::sin(0.5 * turn1) / k.second * unit_at(theta + 0.5 * turn1);
-  }
-  const auto piece = [](Vec2 from, Vec2 to, double heading_from, double kappa, double turn) -> Piece {
+  const Vec2 joint = std::abs(a) >= std::abs(b)
+                         ? start.point + (first.half_tangent / k.first) * (t0 + tangent)
+                         : end.point - (second.half_tangent / k.second) * (tangent + t1);
+  const auto piece = [](Vec2 from, Vec2 to, double theta, double kappa, double turn) -> Piece {
     if (kappa == 0.0) return LinePiece{from, to};
-    return ArcPiece{from, to, heading_from, kappa, turn / kappa};
+    return ArcPiece{from, to, theta, kappa, turn / kappa};
   };
-  return {piece(start.point, joint, start.theta, k.first, turn0),
-          piece(joint, end.point, theta, k.second, turn1)};
+  return {piece(start.point, joint, start.theta, k.first, first.angle),
+          piece(joint, end.point, start.theta + first.angle, k.second, second.angle)};
 }
 
 }  // namespace obvid

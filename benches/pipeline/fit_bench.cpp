@@ -1,0 +1,117 @@
+// SPDX-License-Identifier: Apache-2.0
+// Whole fit in memory, proof included, over the number of points; and its stages.
+#include <benchmark/benchmark.h>
+
+#include <cmath>
+#include <vector>
+
+#include "obvid/certify/certify.h"
+#include "obvid/contour/arcs.h"
+#include "obvid/contour/spirals.h"
+#include "obvid/pipeline/fit.h"
+#include "obvid/series/analysis.h"
+
+namespace {
+
+using namespace obvid;
+
+/// Logarithmic spiral with a fixed turn per chord: any number of points, curvature that doubles
+/// over the same part of the series, never decided by rounding.
+std::vector<Vec2> spiral_points(std::size_t n) {
+  constexpr double kGrowth = 8.0;  // of the radius over the whole series
+  const double turn_per_chord = n <= 100 ? 3.0 / static_cast<double>(n) : 0.03;
+  const double total = turn_per_chord * static_cast<double>(n - 1);
+  const double b = std::log(kGrowth) / total;
+  std::vector<Vec2> points(n);
+  for (std::size_t i = 0; i < n; ++i) {
+    const double t = total * static_cast<double>(i) / static_cast<double>(n - 1);
+    const double r = std::exp(b * t);
+    points[i] = {r * std::cos(t), r * std::sin(t)};
+  }
+  return points;
+}
+
+void fit_of_a_spiral(benchmark::State& state) {
+  PointSeries series;
+  series.points = spiral_points(static_cast<std::size_t>(state.range(0)));
+  bool proved = true;
+  int steps = 0;
+  double inserted = 0;
+  for (auto _ : state) {
+    const auto result = fit(series, FitJob{});
+    proved = proved && result && result->certificate.proved && result->report.vertices == 0;
+    if (result) {
+      steps = result->report.chain.newton_steps;
+      inserted = static_cast<double>(result->report.inserted_points);
+    }
+  }
+  if (!proved) state.SkipWithError("not proved");
+  state.counters["newton_steps"] = steps;
+  state.counters["inserted"] = inserted;
+  state.counters["us_per_point"] = benchmark::Counter(
+      static_cast<double>(state.range(0)) * 1e-6,
+      benchmark::Counter::kIsIterationInvariantRate | benchmark::Counter::kInvert);
+}
+BENCHMARK(fit_of_a_spiral)->RangeMultiplier(10)->Range(10, 1000000)->Unit(benchmark::kMicrosecond);
+
+void fit_of_the_reference_series(benchmark::State& state) {
+  PointSeries series;
+  series.points = {{0, 0},          {0.21, -5.28},   {-5.11, -10.13}, {-20.48, -7.65},
+                   {-28.68, 16.23}, {-13.87, 40.95}, {17.95, 55.28},  {54.24, 53.04},
+                   {100.94, 36.19}, {230.38, -50.82}};
+  for (auto _ : state) {
+    auto result = fit(series, FitJob{});
+    benchmark::DoNotOptimize(result);
+  }
+}
+BENCHMARK(fit_of_the_reference_series)->Unit(benchmark::kMicrosecond);
+
+LinkState clothoid_like_link() {
+  const double h = 1.0, alpha = -0.24, beta = 0.30, sigma = alpha + beta;
+  const double A = -sigma, B = sigma;
+  return {h, 0.1, alpha, beta, A, B, sigma};
+}
+
+void one_closed_form_spiral(benchmark::State& state) {
+  const LinkState link = clothoid_like_link();
+  const Vec2 start{1.0, 2.0}, end = start + unit_at(0.1);
+  std::vector<RationalBezier> pieces;
+  pieces.reserve(4);
+  for (auto _ : state) {
+    pieces.clear();
+    bool formed = append_spiral(link, 1, start, end, pieces);
+    benchmark::DoNotOptimize(formed);
+    benchmark::DoNotOptimize(pieces.data());
+    benchmark::ClobberMemory();
+  }
+}
+BENCHMARK(one_closed_form_spiral);
+
+void one_biarc(benchmark::State& state) {
+  const Element a{{0.0, 0.0}, 0.34, -0.3}, b{{1.0, 0.1}, -0.10, -0.9};
+  const ChordFrame frame = chord_frame(a, b);
+  double first = -0.4;
+  for (auto _ : state) {
+    benchmark::DoNotOptimize(first);
+    const auto arcs = biarc(a, b, {first, second_curvature(frame, first)});
+    benchmark::DoNotOptimize(&arcs);
+    benchmark::ClobberMemory();
+  }
+}
+BENCHMARK(one_biarc);
+
+void analysis_of_a_spiral(benchmark::State& state) {
+  const auto points = spiral_points(static_cast<std::size_t>(state.range(0)));
+  for (auto _ : state) benchmark::DoNotOptimize(analyse(points));
+}
+BENCHMARK(analysis_of_a_spiral)->Arg(10)->Arg(1000)->Unit(benchmark::kMicrosecond);
+
+void certificate_of_a_spiral(benchmark::State& state) {
+  PointSeries series;
+  series.points = spiral_points(static_cast<std::size_t>(state.range(0)));
+  const auto result = fit(series, FitJob{});
+  for (auto _ : state) benchmark::DoNotOptimize(certify(result->contour));
+}
+BENCHMARK(certificate_of_a_spiral)->Arg(10)->Arg(1000)->Unit(benchmark::kMicrosecond);
+
+}  // namespace
