@@ -71,6 +71,12 @@ inline double largest(const std::vector<double>& r) {
   return worst;
 }
 
+inline double sum_of_squares(const std::vector<double>& r) {
+  double sum = 0.0;
+  for (const double v : r) sum = std::isfinite(v) ? sum + v * v : HUGE_VAL;
+  return sum;
+}
+
 /// Columns: change of the misses per step of each unknown (central differences).
 inline Matrix slopes(const Model& model, const std::vector<Figure>& figures, const Unknowns& x,
                      const Unknowns& step) {
@@ -139,20 +145,22 @@ inline std::vector<double> minimax_step(const Matrix& columns, const std::vector
 inline RoundingFit fewest_roundings(const Model& model, const std::vector<Figure>& figures,
                                     const Unknowns& start, const Unknowns& step) {
   using namespace fit_detail;
-  constexpr int kLinearisations = 8;
+  constexpr int kApproach = 6;  // steps of plain least squares: they only have to come near
+  constexpr int kLinearisations = 12;
   constexpr int kLawsonRounds = 60;
   constexpr int kHalvings = 6;
   Unknowns x = start;
   for (int k = 0; k < kLinearisations; ++k) {
     const auto r = misses(model(x), figures);
     const Matrix columns = slopes(model, figures, x, step);
-    // one round of Lawson is plain least squares: the first steps only have to come near
-    const auto d = minimax_step(columns, r, k < 2 ? 1 : kLawsonRounds);
+    const bool approach = k < kApproach;
+    const auto measure = approach ? sum_of_squares : largest;
+    const auto d = minimax_step(columns, r, approach ? 1 : kLawsonRounds);
     double part = 1.0;
     for (int h = 0; h < kHalvings; ++h, part *= 0.5) {
       Unknowns next = x;
       for (std::size_t j = 0; j < x.size(); ++j) next[j] += part * d[j] * step[j];
-      if (k >= 2 && largest(misses(model(next), figures)) >= largest(r)) continue;
+      if (!(measure(misses(model(next), figures)) < measure(r))) continue;
       x = next;
       break;
     }

@@ -20,9 +20,10 @@ struct BiarcCurvatures {
 /// end tangent (theory 4, Q = 0). Infinite first curvature gives the circle through the start.
 [[nodiscard]] double second_curvature(const ChordFrame& frame, double first);
 
-/// Choice of 000_...: the first arc passes through the middle of the piece that the region cuts
-/// out of the median of the triangle of chord and tangents (radii then stay inside the region's
-/// ranges, so they grow along the whole contour). Where there is no such triangle (headings a right
+/// Choice of 000_...: the arcs pass, with whichever of them gets there, through the middle of the
+/// piece that the region cuts out of the median of the triangle of chord and tangents. Both
+/// curvatures stay between those of the frame, so they are monotone along a whole contour whose
+/// segments share one curvature at each point. Where there is no such triangle (headings a right
 /// angle or more from the chord, or an inflection inside) both arcs take the geometric middle of
 /// their ranges instead. `direction` +1: signed curvature increases. Nothing when no spiral exists.
 [[nodiscard]] std::optional<BiarcCurvatures> choose_biarc(const ChordFrame& frame, int direction);

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace obvid {
 namespace {
@@ -47,13 +48,38 @@ ArcTurn arc_turn(Vec2 from, Vec2 to) {
   return {2.0 * std::atan(half_tangent), half_tangent};
 }
 
+/// sin^2(sigma/2) without cancellation.
+double half_turn_sine_squared(const ChordFrame& f) {
+  const Vec2 turn = complex_product(f.start_tangent, f.end_tangent);
+  return turn.x > 0.0 ? turn.y * turn.y / (2.0 * (1.0 + turn.x)) : 0.5 * (1.0 - turn.x);
+}
+
+/// How far the biarc with this first curvature passes the point p, across the chord.
+double miss(const ChordFrame& f, int direction, double first, Vec2 p) {
+  ChordFrame own = f;
+  own.kappa_start = first;
+  own.kappa_end = second_curvature(f, first);
+  const auto region = segment_region(own, direction);
+  const auto y = region ? boundary_ordinate(own, region->from_start, p.x) : std::nullopt;
+  return y ? std::abs(*y - p.y) : std::numeric_limits<double>::infinity();
+}
+
+/// First curvature of the biarc through p: p may lie on its first arc or on its second.
+double first_through(const ChordFrame& f, int direction, Vec2 p) {
+  const double on_first = 2.0 * cross(f.start_tangent, p) / dot(p, p);
+  const Vec2 rest = Vec2{f.h, 0.0} - p;
+  const double second = 2.0 * cross(rest, f.end_tangent) / dot(rest, rest);
+  const double B = 0.5 * second * f.h - f.end_tangent.y;
+  const double on_second = 2.0 / f.h * (-f.start_tangent.y - half_turn_sine_squared(f) / B);
+  return miss(f, direction, on_first, p) <= miss(f, direction, on_second, p) ? on_first : on_second;
+}
+
 double arc_angle(Vec2 chord, double theta) { return turning(unit_at(theta), chord); }
 
 }  // namespace
 
 double second_curvature(const ChordFrame& f, double first) {
-  const Vec2 turn = complex_product(f.start_tangent, f.end_tangent);
-  const double q = turn.x > 0.0 ? turn.y * turn.y / (2.0 * (1.0 + turn.x)) : 0.5 * (1.0 - turn.x);
+  const double q = half_turn_sine_squared(f);
   const double A = 0.5 * first * f.h + f.start_tangent.y;
   return 2.0 / f.h * (f.end_tangent.y - q / A);
 }
@@ -67,7 +93,7 @@ std::optional<BiarcCurvatures> choose_biarc(const ChordFrame& f, int direction) 
   const Vec2 apex = {apex_x, apex_x * f.start_tangent.y / f.start_tangent.x};
   const Vec2 p =
       0.5 * (on_median(f, region->from_start, apex) + on_median(f, region->to_end, apex));
-  const double first = 2.0 * cross(f.start_tangent, p) / dot(p, p);
+  const double first = first_through(f, direction, p);
   const double low = std::min(region->from_start.kappa_first, region->to_end.kappa_first);
   const double high = std::max(region->from_start.kappa_first, region->to_end.kappa_first);
   // in a region narrower than rounding the median point says nothing
