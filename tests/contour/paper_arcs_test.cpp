@@ -42,7 +42,8 @@ Tables with_radii(const std::vector<std::vector<double>>& arcs) {
   const auto rough = segments_of(Hidden::elements(t.fit().data));
   for (std::size_t i = 0; i < arcs[0].size(); ++i) {
     const double r = arcs[0][i], d = kHalfOfFourDecimals;
-    const double carried = std::abs(second_radius(rough[i], r + d) - second_radius(rough[i], r - d));
+    const double carried =
+        std::abs(second_radius(rough[i], r + d) - second_radius(rough[i], r - d));
     t.add(3, i, "second radius", arcs[1][i], kHalfOfFourDecimals + 0.5 * carried,
           [r](const Segment& s) { return second_radius(s, r); });
   }
@@ -95,8 +96,8 @@ TEST(PaperTable4, PrintedRadiiStayInsideTheRegionAroundItsMiddle) {
   const auto segments = segments_of(Hidden::elements(with_radii(arcs).fit().data));
   for (std::size_t i = 0; i < segments.size(); ++i) {
     const Segment& s = segments[i];
-    const double part = (arcs_above_middle(s, arcs[0][i]) - s.lower_middle) /
-                        (s.upper_middle - s.lower_middle);
+    const double part =
+        (arcs_above_middle(s, arcs[0][i]) - s.lower_middle) / (s.upper_middle - s.lower_middle);
     EXPECT_GT(part, 0.44) << i + 1;
     EXPECT_LT(part, 0.64) << i + 1;
   }

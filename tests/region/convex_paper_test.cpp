@@ -36,8 +36,7 @@ TEST(InvoluteTable, ChordsComeOutToEveryPrintedDigit) {
 TEST(InvoluteTable, HeightsOfTheChordTrianglesComeOutToEveryPrintedDigit) {
   const auto table = read_columns("involute.txt");
   for (int i = 1; i <= 10; ++i) {
-    const auto t =
-        chord_triangle(involute(i - 1), involute(i), involute(i + 1), involute(i + 2));
+    const auto t = chord_triangle(involute(i - 1), involute(i), involute(i + 1), involute(i + 2));
     ASSERT_TRUE(t) << i;
     const auto row = static_cast<std::size_t>(i) - 1;
     EXPECT_DOUBLE_EQ(rounded(1e4 * t->height, static_cast<int>(table[2][row])), table[1][row]) << i;
@@ -48,10 +47,9 @@ TEST(InvoluteTable, HeightsOfTheTangentTrianglesAreAboutHalfAsLarge) {
   // so the table can only mean the chords: involute tangents point along their parameter
   for (int i = 1; i <= 10; ++i) {
     const double step = std::numbers::pi / 180.0;
-    const auto t = tangent_triangle(involute(i), unit_at(i * step), involute(i + 1),
-                                    unit_at((i + 1) * step));
-    const auto c =
-        chord_triangle(involute(i - 1), involute(i), involute(i + 1), involute(i + 2));
+    const auto t =
+        tangent_triangle(involute(i), unit_at(i * step), involute(i + 1), unit_at((i + 1) * step));
+    const auto c = chord_triangle(involute(i - 1), involute(i), involute(i + 1), involute(i + 2));
     ASSERT_TRUE(t && c);
     EXPECT_NEAR(t->height / c->height, 0.5, 0.035) << i;
   }
@@ -74,9 +72,8 @@ TEST(ConvexTable, HeightsOfTheTangentTrianglesAddNoContradiction) {
   // row 1 belongs to another tangent at the first point: H - error prints 0.7333 there, where the
   // other paper has 0.7327 of the same arc
   for (std::size_t i = 1; i < printed[2].size(); ++i) {
-    t.add(2, i, "Ht", printed[2][i], kHalfOfFourDecimals, [](const Segment& s) {
-      return s.to_apex * std::abs(s.frame.start_tangent.y);
-    });
+    t.add(2, i, "Ht", printed[2][i], kHalfOfFourDecimals,
+          [](const Segment& s) { return s.to_apex * std::abs(s.frame.start_tangent.y); });
   }
   const auto fit = t.fit();
   EXPECT_LE(fit.roundings, 1.0) << fit.worst;

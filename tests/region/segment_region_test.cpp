@@ -1,0 +1,182 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "obvid/region/segment_region.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+#include <random>
+
+#include "known_spirals.h"
+
+namespace obvid {
+namespace {
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+/// Rounding of sampled ordinates, relative to the chord.
+constexpr double kSlack = 1e-13;
+
+/// Clothoid pieces with headings within a right angle of their chord.
+struct Clothoid {
+  double k0, rate, length;
+};
+
+std::vector<Clothoid> clothoids() {
+  std::vector<Clothoid> all;
+  std::mt19937 random(7);
+  std::uniform_real_distribution<double> unit(-1.0, 1.0);
+  while (all.size() < 200) {
+    const double k0 = 1.2 * unit(random), change = std::exp(3.0 * unit(random) - 2.0);
+    if (std::abs(k0) + std::abs(change) < 1.4) all.push_back({k0, change, 1.0});
+  }
+  return all;
+}
+
+ChordFrame frame_of(const Clothoid& c) {
+  return chord_frame(known::clothoid(c.k0, c.rate, 0.0), known::clothoid(c.k0, c.rate, c.length));
+}
+
+TEST(SegmentRegion, CircleArcHasNoWidth) {
+  for (const double turn : {0.01, 0.5, 1.5}) {
+    for (const int direction : {-1, 1}) {
+      const Element a{{0.0, 0.0}, -turn, 2.0}, b{{std::sin(turn), 0.0}, turn, 2.0};
+      const auto region = segment_region(chord_frame(a, b), direction);
+      ASSERT_TRUE(region) << turn;
+      EXPECT_LE(region->width, 1e-15);
+      EXPECT_NEAR(region->lower_height, 0.5 * (1.0 - std::cos(turn)), 1e-15);
+    }
+  }
+}
+
+TEST(SegmentRegion, StraightSegmentHasNoWidth) {
+  const auto region = segment_region(chord_frame({{0, 0}, 0, 0}, {{5, 0}, 0, 0}), 1);
+  ASSERT_TRUE(region);
+  EXPECT_EQ(region->width, 0.0);
+  EXPECT_EQ(region->lower_height, 0.0);
+}
+
+TEST(SegmentRegion, ClothoidLiesInsideAndItsNeighboursAcrossTheWidthDoNot) {
+  for (const Clothoid& c : clothoids()) {
+    const ChordFrame frame = frame_of(c);
+    const auto region = segment_region(frame, 1);
+    ASSERT_TRUE(region);
+    const Element end = known::clothoid(c.k0, c.rate, c.length);
+    for (int j = 1; j < 20; ++j) {
+      const Vec2 p = known::clothoid(c.k0, c.rate, c.length * j / 20.0).point;
+      const Vec2 local = known::in_frame(p, {}, end.point);
+      EXPECT_TRUE(contains(*region, frame, local, kSlack)) << c.k0 << " " << c.rate;
+      const double off = region->width + 2.0 * kSlack;
+      EXPECT_FALSE(contains(*region, frame, {local.x, local.y + off}, kSlack));
+      EXPECT_FALSE(contains(*region, frame, {local.x, local.y - off}, kSlack));
+    }
+  }
+}
+
+TEST(SegmentRegion, WidthBoundsTheDistanceOfTwoSpiralsWithTheSameData) {
+  double closest = 0.0;
+  for (const Clothoid& c : clothoids()) {
+    const ChordFrame f = frame_of(c);
+    const auto region = segment_region(f, 1);
+    ASSERT_TRUE(region);
+    const double alpha = heading(f.start_tangent), beta = heading(f.end_tangent);
+    const Element end = known::clothoid(c.k0, c.rate, c.length);
+    for (int j = 1; j < 20; ++j) {
+      const Vec2 q = known::hyperbola_image(f.h, alpha, beta, f.kappa_start, f.kappa_end, j / 20.0);
+      EXPECT_TRUE(contains(*region, f, q, 1e-10)) << c.k0 << " " << c.rate;
+      double nearest = kInfinity;
+      for (int k = 0; k <= 400; ++k) {
+        const Vec2 p = known::clothoid(c.k0, c.rate, c.length * k / 400.0).point;
+        const Vec2 v = known::in_frame(p, {}, end.point) - q;
+        const Vec2 t = unit_at(alpha + c.k0 * k / 400.0 + 0.5 * c.rate * (k / 400.0) * (k / 400.0));
+        if (std::abs(dot(v, t)) < 0.002) nearest = std::min(nearest, std::abs(cross(v, t)));
+      }
+      EXPECT_LE(nearest, region->width + 1e-10);
+      closest = std::max(closest, nearest / region->width);
+    }
+  }
+  EXPECT_GT(closest, 0.0);  // the two curves are not the same
+}
+
+TEST(SegmentRegion, WidthFallsByAboutEightPerHalving) {
+  double before = 0.0;
+  for (const double length : {0.8, 0.4, 0.2, 0.1, 0.05}) {
+    const auto region = segment_region(frame_of({0.6, 1.0, length}), 1);
+    ASSERT_TRUE(region);
+    const double ratio = before > 0.0 ? before / region->width : 8.0;
+    EXPECT_NEAR(ratio, 8.0, 0.8) << length;
+    before = region->width;
+  }
+}
+
+TEST(SegmentRegion, UnknownEndCurvaturesGiveAWiderRegion) {
+  for (const Clothoid& c : clothoids()) {
+    ChordFrame frame = frame_of(c);
+    const auto known_ends = segment_region(frame, 1);
+    frame.kappa_start = -kInfinity;
+    const auto open_start = segment_region(frame, 1);
+    ASSERT_TRUE(known_ends && open_start);
+    EXPECT_GE(open_start->parallel_width, known_ends->parallel_width * (1.0 - 1e-9));
+  }
+}
+
+TEST(SegmentRegion, MirrorImageAndReversalHaveTheSameSize) {
+  for (const Clothoid& c : clothoids()) {
+    const Element a = known::clothoid(c.k0, c.rate, 0.0), b = known::clothoid(c.k0, c.rate, 1.0);
+    const auto region = segment_region(chord_frame(a, b), 1);
+    const auto flip = [](Element e) {
+      return Element{{e.point.x, -e.point.y}, -e.theta, -e.kappa};
+    };
+    const auto back = [](Element e) {
+      return Element{e.point, e.theta + std::acos(-1.0), -e.kappa};
+    };
+    const auto mirrored = segment_region(chord_frame(flip(a), flip(b)), -1);
+    // walked backwards, curvature changes its sign and its order: it still increases
+    const auto reversed = segment_region(chord_frame(back(b), back(a)), 1);
+    ASSERT_TRUE(region && mirrored && reversed);
+    EXPECT_NEAR(mirrored->width, region->width, 1e-15);
+    EXPECT_NEAR(reversed->width, region->width, 1e-14);
+  }
+}
+
+TEST(SegmentRegion, WrongDirectionHasNoRegion) {
+  for (const Clothoid& c : clothoids()) {
+    EXPECT_FALSE(segment_region(frame_of(c), -1)) << c.rate;
+  }
+}
+
+TEST(SegmentRegion, EndCirclesOnTheWrongSideOfTheChordCirclesHaveNoRegion) {
+  // chord 2: the circle through both ends that is tangent at the start has curvature -sin(alpha)
+  const double alpha = -0.2, beta = 0.4;
+  const auto frame = [&](double k0, double k1) {
+    return chord_frame({{0, 0}, alpha, k0}, {{2, 0}, beta, k1});
+  };
+  const double start = std::sin(0.2), end = std::sin(0.4);
+  EXPECT_TRUE(segment_region(frame(start - 0.1, end + 0.11), 1));
+  EXPECT_FALSE(segment_region(frame(start + 1e-9, end + 0.11), 1));
+  EXPECT_FALSE(segment_region(frame(start - 0.1, end - 1e-9), 1));
+}
+
+TEST(SegmentRegion, OnTheBiarcBothBoundariesAgree) {
+  const double alpha = -0.2, beta = 0.4, k0 = 0.1, q = std::pow(std::sin(0.1), 2);
+  const double k1 = std::sin(beta) + q / -(k0 + std::sin(alpha));
+  const auto region = segment_region(chord_frame({{0, 0}, alpha, k0}, {{2, 0}, beta, k1}), 1);
+  ASSERT_TRUE(region);
+  EXPECT_NEAR(region->width, 0.0, 1e-15);
+}
+
+TEST(SegmentRegion, BoundariesMeetTheEndsOfTheChord) {
+  for (const Clothoid& c : clothoids()) {
+    const ChordFrame frame = frame_of(c);
+    const auto region = segment_region(frame, 1);
+    ASSERT_TRUE(region);
+    for (const Boundary& b : {region->from_start, region->to_end}) {
+      EXPECT_NEAR(boundary_ordinate(frame, b, 0.0).value(), 0.0, 1e-15);
+      EXPECT_NEAR(boundary_ordinate(frame, b, frame.h).value(), 0.0, 1e-15);
+      EXPECT_GE(b.highest, 0.0);
+      EXPECT_LE(b.lowest, 0.0);
+    }
+  }
+}
+
+}  // namespace
+}  // namespace obvid
