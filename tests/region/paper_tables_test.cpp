@@ -99,6 +99,21 @@ TEST(PaperTable2, OneSeriesWithinTheRoundingGivesEveryPrintedFigureAtOnce) {
   RecordProperty("roundings", fmt::format("{:.3f}", fit.roundings));
 }
 
+TEST(PaperTable2, LinesParallelToTheChordInsteadOfItsMiddleDoNotGiveTheTable) {
+  Tables t;
+  t.add_triangles(2);
+  for (std::size_t i = 0; i < t.printed2()[0].size(); ++i) {
+    t.add(2, i, "h", t.printed2()[3][i], kHalfOfFourDecimals,
+          [](const Segment& s) { return s.lower_parallel; });
+    if (i == kMisprintedWidth) continue;
+    t.add(2, i, "width", t.printed2()[4][i], kHalfOfFourDecimals,
+          [](const Segment& s) { return s.width_parallel; });
+  }
+  const auto fit = t.fit();
+  EXPECT_GT(fit.roundings, 5.0);
+  RecordProperty("roundings", fmt::format("{:.3f}", fit.roundings));
+}
+
 TEST(PaperTable2, MisprintedWidthOfSegmentEightIsRefused) {
   Tables t;
   t.add_triangles(2);
