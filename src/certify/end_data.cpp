@@ -37,7 +37,9 @@ EndData arc_end(const ArcPiece& arc, double t) {
   end.point = t == 0.0 ? arc.start : arc.start + arc.length * chord * unit_at(arc.theta0 + half);
   end.direction = unit_at(theta);
   end.kappa = arc.kappa;
-  end.heading_rounding = kStored * (1.0 + std::abs(arc.theta0) + std::abs(theta));
+  // a short arc far from the origin: its points cannot say its heading better than this
+  const double lever = (size_of(arc.start) + size_of(arc.end)) / norm(arc.end - arc.start);
+  end.heading_rounding = kStored * (1.0 + std::abs(arc.theta0) + std::abs(theta) + lever);
   end.point_rounding =
       kStored * (size_of(arc.start) + size_of(arc.end)) + end.heading_rounding * arc.length;
   end.kappa_rounding = kStored * std::abs(arc.kappa);

@@ -11,8 +11,8 @@ namespace {
 /// A pivot that rounding pushed to zero or below is lifted to this part of its diagonal entry.
 constexpr double kPivotFloor = 16.0 * std::numeric_limits<double>::epsilon();
 
-double pivot_root(double value, double diagonal) {
-  return std::sqrt(std::max(value, kPivotFloor * diagonal));
+double inverse_root(double value, double diagonal) {
+  return 1.0 / std::sqrt(std::max(value, kPivotFloor * diagonal));
 }
 
 }  // namespace
@@ -38,13 +38,13 @@ void NewtonSystem::factorise() {
   for (std::size_t i = 0; i < blocks_.size(); ++i) {
     const Block& b = blocks_[i];
     Factor& f = factors_[i];
-    f.l00 = pivot_root(b.a00 - d00, b.a00);
-    f.l10 = (b.a10 - d10) / f.l00;
-    f.l11 = pivot_root(b.a11 - d11 - f.l10 * f.l10, b.a11);
-    f.m00 = b.o00 / f.l00;
-    f.m01 = b.o01 / f.l00;
-    f.m10 = (b.o10 - f.l10 * f.m00) / f.l11;
-    f.m11 = (b.o11 - f.l10 * f.m01) / f.l11;
+    f.i00 = inverse_root(b.a00 - d00, b.a00);
+    f.l10 = (b.a10 - d10) * f.i00;
+    f.i11 = inverse_root(b.a11 - d11 - f.l10 * f.l10, b.a11);
+    f.m00 = b.o00 * f.i00;
+    f.m01 = b.o01 * f.i00;
+    f.m10 = (b.o10 - f.l10 * f.m00) * f.i11;
+    f.m11 = (b.o11 - f.l10 * f.m01) * f.i11;
     d00 = f.m00 * f.m00 + f.m10 * f.m10;
     d10 = f.m00 * f.m01 + f.m10 * f.m11;
     d11 = f.m01 * f.m01 + f.m11 * f.m11;
@@ -55,8 +55,8 @@ void NewtonSystem::substitute(std::vector<double>& r) const {
   const std::size_t n = factors_.size();
   for (std::size_t i = 0; i < n; ++i) {
     const Factor& f = factors_[i];
-    const double y0 = r[2 * i] / f.l00;
-    const double y1 = (r[2 * i + 1] - f.l10 * y0) / f.l11;
+    const double y0 = r[2 * i] * f.i00;
+    const double y1 = (r[2 * i + 1] - f.l10 * y0) * f.i11;
     r[2 * i] = y0;
     r[2 * i + 1] = y1;
     if (i + 1 == n) break;
@@ -68,8 +68,8 @@ void NewtonSystem::substitute(std::vector<double>& r) const {
     const Factor& f = factors_[i];
     const double z0 = r[2 * i] - f.m00 * x0 - f.m01 * x1;
     const double z1 = r[2 * i + 1] - f.m10 * x0 - f.m11 * x1;
-    x1 = z1 / f.l11;
-    x0 = (z0 - f.l10 * x1) / f.l00;
+    x1 = z1 * f.i11;
+    x0 = (z0 - f.l10 * x1) * f.i00;
     r[2 * i] = x0;
     r[2 * i + 1] = x1;
   }

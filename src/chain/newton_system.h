@@ -42,7 +42,7 @@ class NewtonSystem {
 
  private:
   struct Factor {
-    double l00, l10, l11;       // Cholesky factor of the eliminated diagonal block
+    double i00, l10, i11;       // Cholesky factor of the diagonal block, pivots inverted
     double m00, m01, m10, m11;  // L^-1 times the coupling
   };
   void factorise();

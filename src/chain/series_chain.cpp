@@ -187,8 +187,136 @@ SeriesChain collect(const Extended& e, ChainSolution solution, int steps) {
   return out;
 }
 
-/// All cones with room, by the true cone of the closed form.
-bool carried(const ChainSolution& s) { return s.feasible && s.smallest_margin > 0.0; }
+/// Below this part of B - A a link's sigma says that the curvature leaps at both its ends and
+/// stays put between them: formally monotone, of no use to anybody, and beyond proof.
+constexpr double kLeapingSigma = 1e-3;
+
+/// Index of the worst link whose curvature leaps, or nothing.
+std::optional<std::size_t> leaping_link(const ChainProblem& problem, const ChainSolution& s) {
+  std::optional<std::size_t> worst;
+  double least = kLeapingSigma;
+  for (std::size_t i = 0; i < s.links.size(); ++i) {
+    if (problem.cone[i] == Cone::kNone) continue;
+    const double ratio = s.links[i].sigma / (s.links[i].B - s.links[i].A);
+    if (ratio >= least) continue;
+    least = ratio;
+    worst = i;
+  }
+  return worst;
+}
+
+/// All cones with room, by the true cone of the closed form, and no leaps.
+bool carried(const ChainProblem& problem, const ChainSolution& s) {
+  return s.feasible && s.smallest_margin > 0.0 && !leaping_link(problem, s);
+}
+
+/// Elements for given directions, or why there are none.
+struct Attempt {
+  std::optional<SeriesChain> chain;
+  Infeasibility why;
+  int steps = 0;
+};
+
+Attempt refuse(Infeasibility why, int steps) { return {std::nullopt, why, steps}; }
+
+Infeasibility blame(std::size_t link) { return {link, link + 1, 0.0, 0.0}; }
+
+Attempt insert_and_solve(Extended current, ChainSolution solution, int steps) {
+  for (int round = 0; round < kInsertionRounds; ++round) {
+    current = with_free_elements(current, solution);
+    solution = solve_chain(current.points, current.problem, {}, &current.start);
+    steps += solution.newton_steps;
+    if (carried(current.problem, solution)) {
+      return {collect(current, std::move(solution), steps), {}, steps};
+    }
+    if (!solution.feasible) return refuse(solution.infeasibility, steps);
+    if (const auto link = leaping_link(current.problem, solution)) {
+      std::size_t point = 0;  // of the series, before the link
+      for (std::size_t i = 0; i <= *link; ++i) point = current.source[i].value_or(point);
+      return refuse(blame(point), steps);
+    }
+  }
+  return refuse(blame(0), steps);
+}
+
+/// Closed-form cones first; then mere existence and free elements; then without the wish that the
+/// curvature keep its sign, which can turn out to be impossible.
+Attempt attempt(Extended current, bool convex) {
+  ChainSolution solution = solve_chain(current.points, current.problem);
+  int steps = solution.newton_steps;
+  if (carried(current.problem, solution)) {
+    return {collect(current, std::move(solution), steps), {}, steps};
+  }
+  if (solution.feasible) {
+    if (const auto link = leaping_link(current.problem, solution))
+      return refuse(blame(*link), steps);
+  }
+  for (Cone& c : current.problem.cone) c = c == Cone::kNone ? c : Cone::kSpiral;
+  solution = solve_chain(current.points, current.problem);
+  steps += solution.newton_steps;
+  bool unforced_inflection = false;
+  if (!solution.feasible && !convex) {
+    const Infeasibility with_signs = solution.infeasibility;
+    for (NodeData& node : current.problem.nodes) node.curvature_sign = 0;
+    solution = solve_chain(current.points, current.problem);
+    steps += solution.newton_steps;
+    unforced_inflection = solution.feasible;
+    if (!solution.feasible) solution.infeasibility = with_signs;
+  }
+  if (!solution.feasible) return refuse(solution.infeasibility, steps);
+  Attempt out = insert_and_solve(std::move(current), std::move(solution), steps);
+  if (out.chain) out.chain->unforced_inflection = unforced_inflection;
+  return out;
+}
+
+/// Turns directions where no monotone curve exists although the adjacent circles allow one.
+class DirectionRepair {
+ public:
+  explicit DirectionRepair(const Analysis& a) : analysis_(a), turned_(a.direction.size(), false) {}
+
+  /// The link to turn for this infeasibility: the one whose circles differ least, and rather one
+  /// beside a vertex, which then only moves. Nothing when all near ones were turned before.
+  [[nodiscard]] std::optional<std::size_t> choose(const std::vector<std::int8_t>& direction,
+                                                  const Infeasibility& why) const {
+    const std::size_t first = why.first_point >= kReach ? why.first_point - kReach : 0;
+    const std::size_t last = std::min(direction.size(), why.last_point + kReach);
+    std::optional<std::size_t> best;
+    double least = 0.0;
+    for (std::size_t i = first; i < last; ++i) {
+      if (direction[i] == 0 || turned_[i]) continue;
+      const double score = flatness(i) * (beside_vertex(direction, i) ? kVertexMoves : 1.0);
+      if (best && score >= least) continue;
+      best = i;
+      least = score;
+    }
+    return best;
+  }
+  void mark(std::size_t link) { turned_[link] = true; }
+
+ private:
+  static constexpr std::size_t kReach = 2;     // links beyond the infeasible ones
+  static constexpr double kVertexMoves = 0.1;  // preference for moving a vertex over adding two
+
+  [[nodiscard]] double flatness(std::size_t i) const {
+    const std::size_t m = analysis_.chords.size();
+    const std::size_t j = std::clamp<std::size_t>(i, 1, m - 2);  // ends have no two circles
+    const double reach = analysis_.chords[j - 1].length + analysis_.chords[j].length +
+                         analysis_.chords[j + 1].length;
+    return std::abs(analysis_.circles[j + 1].kappa - analysis_.circles[j].kappa) / reach;
+  }
+  static bool beside_vertex(const std::vector<std::int8_t>& d, std::size_t i) {
+    return (i > 0 && d[i - 1] == -d[i]) || (i + 1 < d.size() && d[i + 1] == -d[i]) || i == 0 ||
+           i + 1 == d.size();
+  }
+
+  const Analysis& analysis_;
+  std::vector<bool> turned_;
+};
+
+/// Directions that may be turned, and the longest series for which that is tried: every turn costs
+/// a solution of the whole chain.
+constexpr int kMostTurns = 100;
+constexpr std::size_t kLongestRepair = 5000;
 
 }  // namespace
 
@@ -201,38 +329,25 @@ Result<SeriesChain> choose_elements(const std::vector<Vec2>& points, const Analy
   current.problem = std::move(*problem);
   for (std::size_t i = 0; i < points.size(); ++i) current.source.emplace_back(i);
 
-  ChainSolution solution = solve_chain(current.points, current.problem);
-  int steps = solution.newton_steps;
-  if (carried(solution)) return collect(current, std::move(solution), steps);
-
-  for (Cone& c : current.problem.cone) c = c == Cone::kNone ? c : Cone::kSpiral;
-  solution = solve_chain(current.points, current.problem);
-  steps += solution.newton_steps;
-  bool unforced_inflection = false;
-  if (!solution.feasible && !wishes.convex) {
-    const Infeasibility with_signs = solution.infeasibility;
-    for (NodeData& node : current.problem.nodes) node.curvature_sign = 0;
-    solution = solve_chain(current.points, current.problem);
-    steps += solution.newton_steps;
-    unforced_inflection = solution.feasible;
-    if (!solution.feasible) solution.infeasibility = with_signs;
+  DirectionRepair repair(analysis);
+  Attempt tried = attempt(current, wishes.convex);
+  const Infeasibility first_reason = tried.why;
+  int steps = tried.steps;
+  std::size_t turned = 0;
+  while (!tried.chain && turned < kMostTurns && points.size() <= kLongestRepair) {
+    const auto link = repair.choose(current.problem.direction, tried.why);
+    if (!link) break;
+    repair.mark(*link);
+    std::int8_t& direction = current.problem.direction[*link];
+    direction = static_cast<std::int8_t>(-direction);
+    ++turned;
+    tried = attempt(current, wishes.convex);
+    steps += tried.steps;
   }
-  if (!solution.feasible) return fail(explain(points, analysis, wishes, solution.infeasibility));
-
-  for (int round = 0; round < kInsertionRounds; ++round) {
-    current = with_free_elements(current, solution);
-    solution = solve_chain(current.points, current.problem, {}, &current.start);
-    steps += solution.newton_steps;
-    if (carried(solution)) {
-      SeriesChain out = collect(current, std::move(solution), steps);
-      out.unforced_inflection = unforced_inflection;
-      return out;
-    }
-    if (!solution.feasible)
-      return fail(explain(current.points, analysis, wishes, solution.infeasibility));
-  }
-  return fail({ErrorCode::kNotConverged, "free elements did not make every piece monotone", "",
-               "report this series", -1, solution.smallest_margin});
+  if (!tried.chain) return fail(explain(points, analysis, wishes, first_reason));
+  tried.chain->newton_steps = steps;
+  tried.chain->turned_directions = turned;
+  return std::move(*tried.chain);
 }
 
 }  // namespace obvid

@@ -27,10 +27,12 @@ constexpr double kSlackBarrierFall = 0.2;
 constexpr double kPhaseOneEnergy = 0.05;  ///< damper of phase 1
 constexpr int kPhaseOneRounds = 16;
 constexpr int kPhaseOneSteps = 15;
-constexpr double kStalled = 0.97;
-constexpr double kNegligibleBarrier = 1e-3;
-constexpr double kPhaseOneDone = 0.05;  ///< decrement at which a round of phase 1 ends
-constexpr double kSlackPull = 0.3;      ///< cost of the slack against the sum of all barriers
+constexpr double kSlackPull = 0.3;  ///< cost of the slack against the sum of all barriers
+constexpr double kCentred = 0.1;    ///< Newton's decrement at which a round of phase 1 ends
+/// Gap between the slack on the central path and the least one, in units of mu: barriers per link
+/// (cone 2, sigma 1/2, sign 1/2) over kSlackPull (Boyd & Vandenberghe 2004, section 11.2.2).
+constexpr double kDualityGap = 3.0 / kSlackPull;
+constexpr double kNegligibleBarrier = 0.02;  ///< mu against the slack: the energy no longer counts
 
 class Solver {
  public:
@@ -95,18 +97,19 @@ class Solver {
     }
     double mu = kSlackBarrier * slack_;
     for (int round = 0; round < kPhaseOneRounds; ++round) {
-      const double before = slack_;
-      for (int k = 0; k < kPhaseOneSteps; ++k) {
+      bool centred = false;
+      for (int k = 0; k < kPhaseOneSteps && !centred; ++k) {
         const double decrement =
             step(kPhaseOneEnergy, 1.0, kSlackPull * model_.total_weight() / mu);
         if (slack_ <= 0.0) {
           slack_ = 0.0;
           return model_.inside(x_, 0.0);
         }
-        if (decrement < kPhaseOneDone * model_.total_weight()) break;
+        centred = decrement < kCentred;
         if (steps_ >= options_.largest_steps) return false;
       }
-      if (slack_ > kStalled * before && mu < kNegligibleBarrier * slack_) break;
+      // the least slack cannot be below this by more than the barrier's duality gap
+      if (centred && slack_ > kDualityGap * mu && mu < kNegligibleBarrier * slack_) return false;
       mu *= kSlackBarrierFall;
     }
     return false;

@@ -66,6 +66,12 @@ std::vector<std::string> warn(const Cleaned& cleaned, const Analysis& a, const S
         std::to_string(a.first_rounding_decided + 2) +
         "; vertices there come from the rounding, not from the curve");
   }
+  if (chain.turned_directions > 0) {
+    out.push_back(
+        "no curve with the vertices of the adjacent circles runs through the points: the "
+        "curvature was let turn back on " +
+        std::to_string(chain.turned_directions) + " segments");
+  }
   if (chain.unforced_inflection) {
     out.push_back("the contour needs an inflection that the adjacent circles do not show");
   }

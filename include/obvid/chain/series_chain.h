@@ -27,12 +27,15 @@ struct SeriesChain {
   int newton_steps = 0;
   double smallest_margin = 0.0;
   bool converged = false;
+  std::size_t turned_directions = 0;  ///< links that run against their adjacent circles
   bool unforced_inflection = false;  ///< an inflection was needed that the adjacent circles hide
 };
 
 /// Chooses headings and curvatures for a series of at least 4 points (fewer are one circle):
 /// first with the closed form's cones; where those have no solution, with the cones of mere
-/// existence and a free element in every link that one piece cannot carry.
+/// existence and a free element in every link that one piece cannot carry. Monotone adjacent
+/// circles do not suffice for a spiral: where none exists, directions of single links are turned
+/// (series of up to 5,000 points), which moves a vertex or adds two, and is reported.
 /// Errors: E401 no such spiral runs through the points; E403 fixed data contradict the points or
 /// each other; E404 a straight or circular stretch leaves no room for a transition; E405 the
 /// rounding of the coordinates decides.
