@@ -142,7 +142,7 @@ void LinkModel::set_sizes(const ChainProblem& problem) {
     Link& l = links_[i];
     const double around = 0.5 * (magnitude(i > 0 ? i - 1 : i) + magnitude(i + 1 < m ? i + 1 : i));
     // a vertex inside the link can make its own difference vanish by accident
-    double typical = std::max(magnitude(i), 0.25 * around);
+    double typical = std::max(magnitude(i), around);
     if (typical == 0.0) typical = largest_rate > 0.0 ? largest_rate : 1.0 / (l.h * l.h);
     l.size = typical * l.h * l.h / 3.0;
     l.inverse_size = 1.0 / l.size;

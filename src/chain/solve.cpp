@@ -26,7 +26,7 @@ constexpr double kSlackBarrier = 0.02;  ///< starting barrier of phase 1, relati
 constexpr double kSlackBarrierFall = 0.2;
 constexpr double kPhaseOneEnergy = 0.05;  ///< damper of phase 1
 constexpr int kPhaseOneRounds = 16;
-constexpr int kPhaseOneSteps = 15;
+constexpr int kPhaseOneSteps = 40;
 constexpr double kSlackPull = 0.3;  ///< cost of the slack against the sum of all barriers
 constexpr double kCentred = 0.1;    ///< Newton's decrement at which a round of phase 1 ends
 /// Gap between the slack on the central path and the least one, in units of mu: barriers per link
