@@ -173,6 +173,7 @@ void LinkModel::set_fixed(const ChainProblem& problem) {
     if (data.kappa) {
       n.fix_p = true;
       n.p = (*data.kappa - n.kappa) * n.length;
+      n.fixed_kappa = *data.kappa;
       n.sign = 0.0;
     }
   }
@@ -397,7 +398,8 @@ std::vector<Element> LinkModel::elements(const std::vector<Vec2>& points,
   std::vector<Element> out(nodes_.size());
   for (std::size_t i = 0; i < out.size(); ++i) {
     const Node& n = nodes_[i];
-    out[i] = {points[i], tangent(i) + x[2 * i], n.kappa + x[2 * i + 1] / n.length};
+    out[i] = {points[i], tangent(i) + x[2 * i],
+              n.fix_p ? n.fixed_kappa : n.kappa + x[2 * i + 1] / n.length};
   }
   return out;
 }

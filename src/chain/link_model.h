@@ -64,6 +64,7 @@ class LinkModel {
     double rate = 0.0;       // estimate of d kappa / d s, for the start
     bool fix_phi = false, fix_p = false;
     double phi = 0.0, p = 0.0;  // values of the fixed variables
+    double fixed_kappa = 0.0;   // as given, to the last bit
   };
   struct Trig {
     double sin = 0.0, versin = 0.0, cos = 1.0;  // of phi; versin = 1 - cos without cancellation

@@ -272,44 +272,67 @@ Attempt attempt(Extended current, bool convex) {
 /// Turns directions where no monotone curve exists although the adjacent circles allow one.
 class DirectionRepair {
  public:
-  explicit DirectionRepair(const Analysis& a) : analysis_(a), turned_(a.direction.size(), false) {}
+  explicit DirectionRepair(const Extended& series)
+      : series_(series), turned_(series.problem.direction.size(), false) {}
 
-  /// The link to turn for this infeasibility: the one whose circles differ least, and rather one
-  /// beside a vertex, which then only moves. Nothing when all near ones were turned before.
-  [[nodiscard]] std::optional<std::size_t> choose(const std::vector<std::int8_t>& direction,
+  /// The link to turn for this infeasibility: one that makes its neighbourhood feasible, with as
+  /// few vertices as possible; else the one that comes closest. Nothing when all were turned.
+  [[nodiscard]] std::optional<std::size_t> choose(const ChainProblem& problem,
                                                   const Infeasibility& why) const {
+    const std::size_t links = problem.direction.size();
     const std::size_t first = why.first_point >= kReach ? why.first_point - kReach : 0;
-    const std::size_t last = std::min(direction.size(), why.last_point + kReach);
+    const std::size_t last = std::min({links, why.last_point + kReach, first + kMostCandidates});
     std::optional<std::size_t> best;
-    double least = 0.0;
+    Outcome least;
     for (std::size_t i = first; i < last; ++i) {
-      if (direction[i] == 0 || turned_[i]) continue;
-      const double score = flatness(i) * (beside_vertex(direction, i) ? kVertexMoves : 1.0);
-      if (best && score >= least) continue;
+      if (problem.direction[i] == 0 || turned_[i]) continue;
+      const Outcome outcome = try_turn(problem, i, first, last);
+      if (best && !outcome.better_than(least)) continue;
       best = i;
-      least = score;
+      least = outcome;
     }
     return best;
   }
   void mark(std::size_t link) { turned_[link] = true; }
 
  private:
-  static constexpr std::size_t kReach = 2;     // links beyond the infeasible ones
-  static constexpr double kVertexMoves = 0.1;  // preference for moving a vertex over adding two
+  static constexpr std::size_t kReach = 2;            // links beyond the infeasible ones
+  static constexpr std::size_t kMostCandidates = 24;  // links looked at for one turn
+  static constexpr std::size_t kWindow = 4;           // links solved beyond the candidates
 
-  [[nodiscard]] double flatness(std::size_t i) const {
-    const std::size_t m = analysis_.chords.size();
-    const std::size_t j = std::clamp<std::size_t>(i, 1, m - 2);  // ends have no two circles
-    const double reach = analysis_.chords[j - 1].length + analysis_.chords[j].length +
-                         analysis_.chords[j + 1].length;
-    return std::abs(analysis_.circles[j + 1].kappa - analysis_.circles[j].kappa) / reach;
-  }
-  static bool beside_vertex(const std::vector<std::int8_t>& d, std::size_t i) {
-    return (i > 0 && d[i - 1] == -d[i]) || (i + 1 < d.size() && d[i + 1] == -d[i]) || i == 0 ||
-           i + 1 == d.size();
+  struct Outcome {
+    double slack = 0.0;  // 0: feasible
+    int vertices = 0;
+    [[nodiscard]] bool better_than(const Outcome& o) const {
+      if ((slack == 0.0) != (o.slack == 0.0)) return slack == 0.0;
+      if (slack == 0.0) return vertices < o.vertices;
+      return slack < o.slack;
+    }
+  };
+
+  /// Solves the neighbourhood alone with one direction turned.
+  [[nodiscard]] Outcome try_turn(const ChainProblem& problem, std::size_t link, std::size_t first,
+                                 std::size_t last) const {
+    const std::size_t from = first >= kWindow ? first - kWindow : 0;
+    const std::size_t to = std::min(problem.direction.size(), last + kWindow);
+    const auto part = [&](const auto& all, std::size_t extra) {
+      return std::vector(all.begin() + static_cast<std::ptrdiff_t>(from),
+                         all.begin() + static_cast<std::ptrdiff_t>(to + extra));
+    };
+    ChainProblem window{part(problem.chords, 0), part(problem.circles, 1),
+                        part(problem.direction, 0), part(problem.cone, 0), part(problem.nodes, 1)};
+    window.direction[link - from] = static_cast<std::int8_t>(-window.direction[link - from]);
+    for (Cone& c : window.cone) c = c == Cone::kNone ? c : Cone::kSpiral;
+    const std::vector<Vec2> points = part(series_.points, 1);
+    const ChainSolution s = solve_chain(points, window);
+    int vertices = 0;
+    for (std::size_t i = 0; i + 1 < window.direction.size(); ++i) {
+      vertices += window.direction[i] * window.direction[i + 1] < 0 ? 1 : 0;
+    }
+    return {s.feasible ? 0.0 : s.infeasibility.slack, vertices};
   }
 
-  const Analysis& analysis_;
+  const Extended& series_;
   std::vector<bool> turned_;
 };
 
@@ -329,13 +352,13 @@ Result<SeriesChain> choose_elements(const std::vector<Vec2>& points, const Analy
   current.problem = std::move(*problem);
   for (std::size_t i = 0; i < points.size(); ++i) current.source.emplace_back(i);
 
-  DirectionRepair repair(analysis);
+  DirectionRepair repair(current);
   Attempt tried = attempt(current, wishes.convex);
   const Infeasibility first_reason = tried.why;
   int steps = tried.steps;
   std::size_t turned = 0;
   while (!tried.chain && turned < kMostTurns && points.size() <= kLongestRepair) {
-    const auto link = repair.choose(current.problem.direction, tried.why);
+    const auto link = repair.choose(current.problem, tried.why);
     if (!link) break;
     repair.mark(*link);
     std::int8_t& direction = current.problem.direction[*link];
