@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "form.h"
 #include "obvid/region/curvature_chains.h"
@@ -29,6 +30,14 @@ std::vector<Span> spans_of(const SeriesChain& chain) {
   return spans;
 }
 
+/// Ordinate over the middle of the chord, where 000_... measures (docs/methods/region.md).
+std::optional<double> middle_ordinate(const ChordFrame& frame, const Boundary& boundary) {
+  // an infinite curvature shrinks its arc to a point: the other one spans the whole chord
+  if (std::isinf(boundary.kappa_first)) return -sagitta(boundary.kappa_second, frame.h);
+  if (std::isinf(boundary.kappa_second)) return -sagitta(boundary.kappa_first, frame.h);
+  return boundary_ordinate(frame, boundary, 0.5 * frame.h);
+}
+
 RegionRow make_row(const Element& a, const Element& b, CurvatureRange ka, CurvatureRange kb,
                    int direction) {
   RegionRow row;
@@ -49,7 +58,14 @@ RegionRow make_row(const Element& a, const Element& b, CurvatureRange ka, Curvat
   ChordFrame frame = chord_frame(a, b);
   frame.kappa_start = direction > 0 ? ka.low : ka.high;
   frame.kappa_end = direction > 0 ? kb.high : kb.low;
-  if (const auto region = segment_region(frame, direction)) {
+  const auto region = segment_region(frame, direction);
+  if (!region) return row;
+  const auto start = middle_ordinate(frame, region->from_start);
+  const auto end = middle_ordinate(frame, region->to_end);
+  if (start && end) {
+    row.lower_height = std::min(std::abs(*start), std::abs(*end));
+    row.width = std::abs(*start - *end);
+  } else {  // a heading a right angle or more from the chord: nothing stands over its middle
     row.lower_height = region->lower_height;
     row.width = region->parallel_width;
   }

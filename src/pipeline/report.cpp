@@ -26,8 +26,8 @@ PieceBound bound_arc_pair(const Contour& contour, std::size_t piece, int directi
   frame.kappa_end = direction * std::max(direction * frame.kappa_end,
                                          direction * (second != nullptr ? second->kappa : 0.0));
   const auto region = segment_region(frame, direction);
-  if (!region) return bound;
-  bound.width = bound.width_unrefined = bound.deviation = region->width;
+  bound.width = region ? region->width : bilens_width(frame);
+  bound.width_unrefined = bound.deviation = bound.width;
   return bound;
 }
 

@@ -25,11 +25,11 @@ Sample sample(const Piece& piece, double t) {
   return {jet.point, jet.d1, curvature(jet)};
 }
 
-/// Width of the region between two samples; 0 where they are one circle to within rounding.
+/// Width of the region between two samples; the bilens where rounding hides the region.
 double width_between(const Sample& a, const Sample& b, int direction) {
   const ChordFrame frame = chord_frame(a.point, a.tangent, a.kappa, b.point, b.tangent, b.kappa);
   const auto region = segment_region(frame, direction);
-  return region ? region->width : 0.0;
+  return region ? region->width : bilens_width(frame);
 }
 
 /// Ordinate over the chord of the point whose tangent is parallel to the chord.
@@ -70,9 +70,8 @@ PieceBound bound_piece(const Piece& piece, int direction, double tolerance) {
   const ChordFrame frame =
       chord_frame(first.point, first.tangent, first.kappa, last.point, last.tangent, last.kappa);
   const auto region = segment_region(frame, direction);
-  if (!region) return bound;
-  bound.width = bound.width_unrefined = region->width;
-  bound.deviation = deviation_from(*region, piece, first, last);
+  bound.width = bound.width_unrefined = region ? region->width : bilens_width(frame);
+  bound.deviation = region ? deviation_from(*region, piece, first, last) : bound.width;
   double expected = bound.width;
   std::size_t count = 1;
   while (bound.width > tolerance) {

@@ -127,12 +127,15 @@ std::optional<SegmentRegion> segment_region(const ChordFrame& f, int direction) 
       turn.x > 0.0 ? turn.y * turn.y / (2.0 * (1.0 + turn.x)) : 0.5 * (1.0 - turn.x);
   const double a = d * 0.5 * f.kappa_start * f.h, b = d * 0.5 * f.kappa_end * f.h;
   const double sa = d * f.start_tangent.y, sb = d * f.end_tangent.y;
-  const double A = std::min(a + sa, -kCancellation * (std::abs(a) + std::abs(sa)));
-  const double B = std::max(b - sb, kCancellation * (std::abs(b) + std::abs(sb)));
-  if (a + sa > kCancellation * (1.0 + std::abs(a)) ||
-      b - sb < -kCancellation * (1.0 + std::abs(b))) {
+  const double noise_a = kCancellation * (std::abs(a) + std::abs(sa));
+  const double noise_b = kCancellation * (std::abs(b) + std::abs(sb));
+  const double half_sine = std::max(0.0, std::sqrt(half_sine_squared) - kCancellation);
+  const double room_a = -(a + sa) + noise_a, room_b = (b - sb) + noise_b;
+  // existence (theory 4): A < 0 < B and -A B > sin^2(sigma/2), each within its own rounding
+  if (!(room_a >= 0.0 && room_b >= 0.0 && room_a * room_b >= half_sine * half_sine)) {
     return std::nullopt;
   }
+  const double A = std::min(a + sa, -noise_a), B = std::max(b - sb, noise_b);
   const double to = 2.0 * d / f.h;
   const double end_of_first = A == 0.0 ? f.kappa_end : to * (sb + half_sine_squared / -A);
   const double start_of_second = B == 0.0 ? f.kappa_start : to * (-sa - half_sine_squared / B);
@@ -151,6 +154,13 @@ std::optional<SegmentRegion> segment_region(const ChordFrame& f, int direction) 
   const auto g0 = Graph::of(f, r.from_start), g1 = Graph::of(f, r.to_end);
   if (g0 && g1) r.width = std::max(r.width, largest_gap(*g0, *g1));
   return r;
+}
+
+double bilens_width(const ChordFrame& f) {
+  const auto half_tangent = [](Vec2 t) {
+    return t.y / (1.0 + std::max(t.x, -1.0 + kCancellation));
+  };
+  return 0.5 * f.h * std::abs(half_tangent(f.start_tangent) + half_tangent(f.end_tangent));
 }
 
 std::optional<double> boundary_ordinate(const ChordFrame& frame, const Boundary& boundary,

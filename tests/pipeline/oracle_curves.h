@@ -77,7 +77,7 @@ struct OracleCurve {
     static const long double w[4] = {
         0.36268378337836198296515044927719561L, 0.31370664587788728733796220198660132L,
         0.22238103445337447054435599442624088L, 0.10122853629037625915253135430996219L};
-    const int n = static_cast<int>(8.0L * (std::abs(p * s) + std::abs(q) * s * s)) + 4;
+    const int n = static_cast<int>(2.0L * (std::abs(p * s) + std::abs(q) * s * s)) + 1;
     const long double h = s / n;
     LongVec2 z;
     for (int j = 0; j < n; ++j) {

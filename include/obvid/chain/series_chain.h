@@ -28,7 +28,7 @@ struct SeriesChain {
   double smallest_margin = 0.0;
   bool converged = false;
   std::size_t turned_directions = 0;  ///< links that run against their adjacent circles
-  bool unforced_inflection = false;  ///< an inflection was needed that the adjacent circles hide
+  bool unforced_inflection = false;   ///< an inflection was needed that the adjacent circles hide
 };
 
 /// Chooses headings and curvatures for a series of at least 4 points (fewer are one circle):

@@ -23,8 +23,8 @@ struct SegmentReport {
 /// How the headings and curvatures were found.
 struct ChainReport {
   int newton_steps = 0;
-  double smallest_margin = 0.0;     ///< smallest relative distance of a segment from its cone, > 0
-  std::size_t free_elements = 0;    ///< joints inserted between points where one piece cannot do
+  double smallest_margin = 0.0;   ///< smallest relative distance of a segment from its cone, > 0
+  std::size_t free_elements = 0;  ///< joints inserted between points where one piece cannot do
 };
 
 /// Figures about the whole contour, as they stand in the contour file.
@@ -32,7 +32,7 @@ struct FitReport {
   std::vector<SegmentReport> segments;
   double tolerance = 0.0;
   double largest_width = 0.0;
-  double largest_move = 0.0;   ///< how far a point was moved; 0 when interpolated exactly
+  double largest_move = 0.0;  ///< how far a point was moved; 0 when interpolated exactly
   int vertices = 0;
   int vertices_lower_bound = 0;
   int inflections = 0;

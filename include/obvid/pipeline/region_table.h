@@ -19,8 +19,8 @@ struct RegionRow {
   double from_apex = 0.0;  ///< |T,i+1|
   double kappa_start_low = 0.0, kappa_start_high = 0.0;  ///< range of the curvature at point i
   double kappa_end_low = 0.0, kappa_end_high = 0.0;
-  double lower_height = 0.0;  ///< of the lower boundary above the chord
-  double width = 0.0;         ///< between the lines parallel to the chord that touch the boundaries
+  double lower_height = 0.0;  ///< of the lower boundary above the middle of the chord
+  double width = 0.0;         ///< between both boundaries over the middle of the chord
 };
 
 /// Region per segment from the points and the tangents that the engine assigns.

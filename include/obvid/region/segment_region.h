@@ -48,6 +48,11 @@ struct SegmentRegion {
 /// one end each: they stand for "unknown" and give the region of the tangents alone.
 [[nodiscard]] std::optional<SegmentRegion> segment_region(const ChordFrame& frame, int direction);
 
+/// Height difference of the two circle arcs over the chord that keep one end tangent each. Every
+/// spiral with these tangents lies between them, whatever its curvatures (Kurnosenko's bilens):
+/// the weaker bound where rounding hides the region.
+[[nodiscard]] double bilens_width(const ChordFrame& frame);
+
 /// Ordinate of a boundary over abscissa x of the chord's frame, 0 <= x <= h. Nothing when a heading
 /// on it is a right angle or more from the chord, or a curvature is infinite.
 [[nodiscard]] std::optional<double> boundary_ordinate(const ChordFrame& frame,
