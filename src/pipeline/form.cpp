@@ -164,64 +164,130 @@ std::vector<int> piece_directions(const Contour& contour) {
   return direction;
 }
 
-Result<Contour> form_arcs(const Contour& spirals, double tolerance) {
-  Contour contour;
-  contour.units = spirals.units;
-  contour.carrier = Carrier::kArcs;
-  contour.points = spirals.points;
-  const std::vector<int> spiral_direction = piece_directions(spirals);
-  std::vector<int> direction;
-  for (std::size_t i = 0; i < spirals.pieces.size(); ++i) {
-    const Piece& piece = spirals.pieces[i];
-    contour.joints.push_back(spirals.joints[i]);
-    if (!std::holds_alternative<RationalBezier>(piece)) {
-      contour.pieces.push_back(piece);
-      direction.push_back(0);
-      continue;
+namespace {
+
+/// The piece seen from its own start, so that arcs are computed with all digits of its shape.
+Piece seen_from(const RationalBezier& piece, Vec2 anchor) {
+  RationalBezier local = piece;
+  local.origin = piece.origin - anchor;
+  if (piece.origin == Vec2{}) {
+    local.origin = {};
+    for (int j = 0; j <= piece.degree; ++j) {
+      const auto k = static_cast<std::size_t>(j);
+      local.offset[k] = piece.offset[k] - anchor;
     }
-    const int d = spiral_direction[i];
-    const std::vector<double> steps = fewest_elements(piece, d, tolerance);
+  }
+  return local;
+}
+
+Piece moved(const Piece& piece, Vec2 by) {
+  if (const auto* arc = std::get_if<ArcPiece>(&piece)) {
+    return ArcPiece{arc->start + by, arc->end + by, arc->theta0, arc->kappa, arc->length};
+  }
+  const auto& line = std::get<LinePiece>(piece);
+  return LinePiece{line.start + by, line.end + by};
+}
+
+/// Arcs in place of spirals, piece by piece.
+class ArcBuilder {
+ public:
+  ArcBuilder(const Contour& spirals, double tolerance) : spirals_(spirals), tolerance_(tolerance) {
+    contour_.units = spirals.units;
+    contour_.carrier = Carrier::kArcs;
+    contour_.points = spirals.points;
+  }
+
+  Result<Contour> run() {
+    const std::vector<int> directions = piece_directions(spirals_);
+    for (std::size_t i = 0; i < spirals_.pieces.size(); ++i) {
+      contour_.joints.push_back(spirals_.joints[i]);
+      const auto* spiral = std::get_if<RationalBezier>(&spirals_.pieces[i]);
+      if (spiral == nullptr) {
+        contour_.pieces.push_back(spirals_.pieces[i]);
+        direction_.push_back(0);
+        continue;
+      }
+      if (const auto added = add(i, *spiral, directions[i]); !added) {
+        return tl::unexpected(added.error());
+      }
+    }
+    contour_.joints.push_back(spirals_.joints.back());
+    settle_joint_curvatures();
+    contour_.runs = collect_runs(direction_);
+    return std::move(contour_);
+  }
+
+ private:
+  Result<void> add(std::size_t i, const RationalBezier& spiral, int direction) {
+    const Vec2 anchor = spirals_.joints[i].element.point;
+    const Piece local = seen_from(spiral, anchor);
+    const std::vector<double> steps = fewest_elements(local, direction, tolerance_);
     if (steps.back() < 1.0) {
       return fail({ErrorCode::kToleranceNotReached, "the tolerance asks for too many arcs",
                    "piece " + std::to_string(i), "choose a larger --tolerance",
-                   static_cast<std::ptrdiff_t>(i), tolerance});
+                   static_cast<std::ptrdiff_t>(i), tolerance_});
     }
-    Element from = spirals.joints[i].element;
+    Element from = spirals_.joints[i].element, last = spirals_.joints[i + 1].element;
+    from.point = {0.0, 0.0};
+    last.point = last.point - anchor;
     for (std::size_t j = 1; j < steps.size(); ++j) {
-      const bool last = j + 1 == steps.size();
-      Element to = last ? spirals.joints[i + 1].element : element_at(piece, steps[j]);
+      Element to = j + 1 == steps.size() ? last : element_at(local, steps[j]);
       to.theta = from.theta + std::remainder(to.theta - from.theta, 2.0 * std::numbers::pi);
-      const auto k = choose_biarc(chord_frame(from, to), d);
+      const auto k = choose_biarc(chord_frame(from, to), direction);
       if (!k) {
-        return fail({ErrorCode::kNotProved, "no pair of arcs joins two elements of the contour",
-                     "piece " + std::to_string(i), "report this series",
-                     static_cast<std::ptrdiff_t>(i), 0.0});
+        return fail({ErrorCode::kRoundingDecides,
+                     "the rounding of the coordinates decides which arcs join two elements",
+                     "piece " + std::to_string(i),
+                     "give coordinates relative to a nearer origin, or fewer points",
+                     static_cast<std::ptrdiff_t>(i), norm(to.point - from.point)});
       }
-      const auto arcs = biarc(from, to, *k);
-      const Vec2 joint = end_point(arcs[0]);
-      const double theta = std::holds_alternative<ArcPiece>(arcs[1])
-                               ? std::get<ArcPiece>(arcs[1]).theta0
-                               : from.theta;
-      if (contour.pieces.empty() || j == 1) {
-        if (contour.joints.size() == 1) contour.joints.back().element.kappa = k->first;
+      add_pair(from, to, *k, anchor, direction);
+      if (j + 1 < steps.size()) {
+        contour_.joints.push_back({{to.point + anchor, to.theta, to.kappa}, std::nullopt});
       }
-      contour.pieces.push_back(arcs[0]);
-      contour.pieces.push_back(arcs[1]);
-      direction.push_back(d);
-      direction.push_back(d);
-      contour.joints.push_back({{joint, theta, 0.5 * (k->first + k->second)}, std::nullopt});
-      if (!last) contour.joints.push_back({to, std::nullopt});
       from = to;
     }
+    return {};
   }
-  contour.joints.push_back(spirals.joints.back());
-  if (!contour.pieces.empty()) {
-    if (const auto* arc = std::get_if<ArcPiece>(&contour.pieces.back())) {
-      contour.joints.back().element.kappa = arc->kappa;
+
+  void add_pair(const Element& from, const Element& to, const BiarcCurvatures& k, Vec2 anchor,
+                int direction) {
+    const auto arcs = biarc(from, to, k);
+    const auto* second = std::get_if<ArcPiece>(&arcs[1]);
+    const double theta = second != nullptr ? second->theta0 : to.theta;
+    contour_.pieces.push_back(moved(arcs[0], anchor));
+    contour_.pieces.push_back(moved(arcs[1], anchor));
+    direction_.insert(direction_.end(), 2, direction);
+    contour_.joints.push_back(
+        {{end_point(arcs[0]) + anchor, theta, 0.5 * (k.first + k.second)}, std::nullopt});
+  }
+
+  /// The curvature at a joint lies between those of its arcs; an end has one arc only. A vertex of
+  /// the spirals is sharper than both its arcs.
+  void settle_joint_curvatures() {
+    const auto kappa_of = [](const Piece& piece) {
+      const auto* arc = std::get_if<ArcPiece>(&piece);
+      return arc != nullptr ? arc->kappa : 0.0;
+    };
+    const std::size_t n = contour_.pieces.size();
+    for (std::size_t j = 0; j <= n; ++j) {
+      const double before = kappa_of(contour_.pieces[j > 0 ? j - 1 : 0]);
+      const double after = kappa_of(contour_.pieces[j < n ? j : n - 1]);
+      double& kappa = contour_.joints[j].element.kappa;
+      kappa = std::clamp(kappa, std::min(before, after), std::max(before, after));
     }
   }
-  contour.runs = collect_runs(direction);
-  return contour;
+
+  const Contour& spirals_;
+  double tolerance_;
+  Contour contour_;
+  std::vector<int> direction_;
+};
+
+}  // namespace
+
+Result<Contour> form_arcs(const Contour& spirals, double tolerance) {
+  return ArcBuilder(spirals, tolerance).run();
 }
 
 }  // namespace obvid::pipeline_detail
