@@ -1,0 +1,259 @@
+// SPDX-License-Identifier: Apache-2.0
+// What must not matter does not matter: where the drawing lies, how large it is, which way round
+// and in which mirror it is read, and whether a point of the contour is named once more.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <cstdlib>
+#include <functional>
+#include <numbers>
+#include <string>
+#include <vector>
+
+#include "obvid/io/contour_json.h"
+#include "obvid/pipeline/fit.h"
+#include "oracle_curves.h"
+
+namespace obvid {
+namespace {
+
+using namespace test;
+
+constexpr double kRightAngle = 0.5 * std::numbers::pi;
+constexpr int kSeries = 120;
+
+/// Point of a piece relative to an anchor, without rounding to the anchor's coordinates.
+Vec2 relative_point(const Piece& piece, double t, Vec2 anchor) {
+  const auto* bezier = std::get_if<RationalBezier>(&piece);
+  if (bezier == nullptr) return evaluate(piece, t).point - anchor;
+  RationalBezier local = *bezier;
+  local.origin = {};
+  for (std::size_t j = 0; j <= static_cast<std::size_t>(local.degree); ++j) {
+    local.offset[j] = (bezier->origin - anchor) + bezier->offset[j];
+  }
+  return evaluate(local, t).point;
+}
+
+/// A contour with its pieces sorted by the chord that they stand on.
+class ByChord {
+ public:
+  explicit ByChord(const Contour& contour) : contour_(contour) {
+    for (std::size_t k = 0; k < contour.pieces.size(); ++k) {
+      if (k == 0 || contour.joints[k].source) first_.push_back(k);
+    }
+    first_.push_back(contour.pieces.size());
+  }
+  [[nodiscard]] std::size_t chords() const { return first_.size() - 1; }
+  [[nodiscard]] std::size_t first(std::size_t chord) const { return first_[chord]; }
+  [[nodiscard]] std::size_t end(std::size_t chord) const { return first_[chord + 1]; }
+  [[nodiscard]] const Contour& contour() const { return contour_; }
+
+  /// Ordinate of the contour over the abscissa x of a chord's frame (chord = 1).
+  [[nodiscard]] double ordinate(std::size_t chord, double x) const {
+    const Vec2 p = contour_.points[chord], d = contour_.points[chord + 1] - p;
+    const auto local = [&](std::size_t k, double t) {
+      const Vec2 v = relative_point(contour_.pieces[k], t, p);
+      return Vec2{dot(d, v) / dot(d, d), cross(d, v) / dot(d, d)};
+    };
+    std::size_t k = first(chord);
+    while (k + 1 < end(chord) && local(k, 1.0).x < x) ++k;
+    double low = 0.0, high = 1.0;
+    constexpr int kBisections = 54;
+    for (int i = 0; i < kBisections; ++i) {
+      const double t = 0.5 * (low + high);
+      (local(k, t).x < x ? low : high) = t;
+    }
+    return local(k, 0.5 * (low + high)).y;
+  }
+
+ private:
+  const Contour& contour_;
+  std::vector<std::size_t> first_;
+};
+
+/// How another contour relates to the first one.
+struct Relation {
+  std::function<std::size_t(std::size_t)> chord;  ///< of the first contour, for one of the other
+  std::function<std::size_t(std::size_t)> point;  ///< of the other contour, for one of the first
+  std::function<Vec2(Vec2)> back;                 ///< turns differences of points back
+};
+
+struct Difference {
+  double of_chord = 0.0;        ///< largest distance over the chord
+  double of_points_only = 0.0;  ///< largest distance over the points-only error, where defined
+  double of_width = 0.0;        ///< largest distance over the width between the elements
+};
+
+Difference difference(const Fit& a, const Fit& b, const Relation& r) {
+  const ByChord first(a.contour), other(b.contour);
+  Difference out;
+  for (std::size_t c = 0; c < other.chords(); ++c) {
+    const std::size_t chord = r.chord(c);
+    const Vec2 p = a.contour.points[chord], d = a.contour.points[chord + 1] - p;
+    const Vec2 anchor = b.contour.points[r.point(chord)];
+    const double h = norm(d);
+    const double rounding = 8.0 * 0x1p-53 * (std::abs(p.x) + std::abs(p.y) + h);
+    for (std::size_t k = other.first(c); k < other.end(c); ++k) {
+      for (const double t : {0.2, 0.5, 0.8}) {
+        const Vec2 v = r.back(relative_point(b.contour.pieces[k], t, anchor));
+        const double x = dot(d, v) / (h * h), y = cross(d, v) / (h * h);
+        const double gap = std::max(0.0, std::abs(y - first.ordinate(chord, x)) * h - rounding);
+        const SegmentReport& s = a.report.segments[chord];
+        out.of_chord = std::max(out.of_chord, gap / h);
+        out.of_width = std::max(out.of_width, gap / s.width_unrefined);
+        if (std::isnan(s.points_only_error)) continue;
+        out.of_points_only = std::max(out.of_points_only, gap / s.points_only_error);
+      }
+    }
+  }
+  return out;
+}
+
+Result<Fit> fit_points(const std::vector<Vec2>& points) {
+  PointSeries series;
+  series.points = points;
+  return fit(series, FitJob{});
+}
+
+Relation same_order(std::function<Vec2(Vec2)> back) {
+  const auto same = [](std::size_t i) { return i; };
+  return {same, same, std::move(back)};
+}
+
+/// Runs a transformation over random series. It returns the other points and the relation.
+struct Changed {
+  std::vector<Vec2> points;
+  Relation relation;
+};
+using Change = std::function<Changed(const Sampled&, const Fit&, std::mt19937_64&)>;
+
+/// Series whose coordinates hold the curve well: near the origin.
+Sampled near_series(int i, std::mt19937_64& rng) {
+  for (;;) {
+    Sampled s = random_series(static_cast<Oracle>(i % kOracleCount), rng, kRightAngle);
+    if (s.offset_sizes == 0.0) return s;
+  }
+}
+
+std::vector<Difference> differences(unsigned seed, const Change& change) {
+  std::mt19937_64 rng(seed);
+  std::vector<Difference> out;
+  for (int i = 0; i < kSeries; ++i) {
+    const Sampled s = near_series(i, rng);
+    const auto a = fit_points(s.points);
+    if (!a || !a->certificate.proved || a->certificate.vertices != 0) continue;
+    const Changed changed = change(s, *a, rng);
+    const auto b = fit_points(changed.points);
+    const std::string what = std::to_string(i) + ": " + name_of(s.curve.kind) + ", " +
+                             std::to_string(s.points.size()) + " points";
+    if (!b) {
+      ADD_FAILURE() << what << ": " << to_line(b.error());
+      continue;
+    }
+    EXPECT_TRUE(b->certificate.proved) << what << ": " << b->certificate.reason;
+    EXPECT_EQ(b->certificate.vertices, 0) << what;
+    out.push_back(difference(*a, *b, changed.relation));
+    if (std::getenv("OBVID_SHOW") != nullptr)
+      std::printf("%s uneven %d: %.2e %.2e %.2e\n", what.c_str(), s.uneven, out.back().of_chord, out.back().of_points_only, out.back().of_width);
+  }
+  return out;
+}
+
+Difference largest(const char* name, const std::vector<Difference>& all) {
+  Difference out;
+  for (const Difference& d : all) {
+    out.of_chord = std::max(out.of_chord, d.of_chord);
+    out.of_points_only = std::max(out.of_points_only, d.of_points_only);
+    out.of_width = std::max(out.of_width, d.of_width);
+  }
+  std::printf("%s: %zu series, largest change %.2e of the chord, %.2e of the points-only error, %.2e of the width\n",
+              name, all.size(), out.of_chord, out.of_points_only, out.of_width);
+  return out;
+}
+
+Vec2 rounded(long double x, long double y) {
+  return {static_cast<double>(x), static_cast<double>(y)};
+}
+
+/// Similarity z -> scale e^{i angle} z + shift of every point, rounded once.
+Changed similarity(const Sampled& s, double scale, double angle, Vec2 shift) {
+  const long double c = std::cos(static_cast<long double>(angle));
+  const long double n = std::sin(static_cast<long double>(angle));
+  Changed out;
+  for (const Vec2 p : s.points) {
+    out.points.push_back(rounded(scale * (c * p.x - n * p.y) + shift.x,
+                                 scale * (n * p.x + c * p.y) + shift.y));
+  }
+  out.relation = same_order([=](Vec2 v) {
+    return rounded((c * v.x + n * v.y) / scale, (c * v.y - n * v.x) / scale);
+  });
+  return out;
+}
+
+TEST(Properties, ARigidMotionLeavesTheContourTheSame) {
+  const auto all = differences(101, [](const Sampled& s, const Fit&, std::mt19937_64& rng) {
+    const Vec2 shift = {s.size * uniform(rng, -1.0, 1.0), s.size * uniform(rng, -1.0, 1.0)};
+    return similarity(s, 1.0, uniform(rng, 0.0, 6.28), shift);
+  });
+  const Difference d = largest("rigid motion", all);
+  (void)d;
+}
+
+TEST(Properties, AScaleLeavesTheContourTheSame) {
+  const auto all = differences(102, [](const Sampled& s, const Fit&, std::mt19937_64& rng) {
+    return similarity(s, std::pow(10.0, uniform(rng, -6.0, 6.0)), 0.0, {});
+  });
+  const Difference d = largest("scale", all);
+  (void)d;
+}
+
+TEST(Properties, AMirrorLeavesTheContourTheSame) {
+  const auto all = differences(103, [](const Sampled& s, const Fit&, std::mt19937_64&) {
+    Changed out;
+    for (const Vec2 p : s.points) out.points.push_back({p.x, -p.y});
+    out.relation = same_order([](Vec2 v) { return Vec2{v.x, -v.y}; });
+    return out;
+  });
+  const Difference d = largest("mirror", all);
+  (void)d;
+}
+
+TEST(Properties, TheOtherWayRoundTheContourIsTheSame) {
+  const auto all = differences(104, [](const Sampled& s, const Fit&, std::mt19937_64&) {
+    Changed out;
+    out.points.assign(s.points.rbegin(), s.points.rend());
+    const std::size_t last = s.points.size() - 1;
+    out.relation = {[=](std::size_t c) { return last - 1 - c; },
+                    [=](std::size_t p) { return last - p; }, [](Vec2 v) { return v; }};
+    return out;
+  });
+  const Difference d = largest("reversal", all);
+  (void)d;
+}
+
+/// The middle of a piece inside the contour, inserted between the points beside it.
+Changed with_inserted(const Fit& f, std::size_t chord) {
+  const ByChord pieces(f.contour);
+  const std::size_t k = (pieces.first(chord) + pieces.end(chord)) / 2;
+  const Vec2 point = evaluate(f.contour.pieces[k], 0.5).point;
+  Changed out;
+  out.points = f.contour.points;
+  out.points.insert(out.points.begin() + static_cast<std::ptrdiff_t>(chord) + 1, point);
+  out.relation = {[=](std::size_t c) { return c <= chord ? c : c - 1; },
+                  [=](std::size_t p) { return p <= chord ? p : p + 1; }, [](Vec2 v) { return v; }};
+  return out;
+}
+
+TEST(Properties, APointOfTheContourInsertedChangesLittle) {
+  const auto all = differences(105, [](const Sampled& s, const Fit& f, std::mt19937_64& rng) {
+    const std::size_t interior = s.points.size() - 3;
+    return with_inserted(f, 1 + rng() % interior);
+  });
+  const Difference d = largest("insertion", all);
+  (void)d;
+}
+
+}  // namespace
+}  // namespace obvid

@@ -1,0 +1,352 @@
+// SPDX-License-Identifier: Apache-2.0
+// A stored contour is proved again from its file alone, and every doctored file is refused.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstdio>
+#include <functional>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+#include "obvid/io/contour_json.h"
+#include "obvid/pipeline/fit.h"
+#include "obvid/series/analysis.h"
+
+namespace obvid {
+namespace {
+
+using nlohmann::json;
+
+/// How far a doctored number is moved, relative to its own size or the contour's.
+constexpr double kDoctored = 1e-6;
+/// How far a claimed figure is moved.
+constexpr double kClaimed = 1e-3;
+
+std::vector<Vec2> ten_points() {  // 000_..., Table 1
+  return {{0, 0},         {0.21, -5.28},  {-5.11, -10.13}, {-20.48, -7.65},  {-28.68, 16.23},
+          {-13.87, 40.95}, {17.95, 55.28}, {54.24, 53.04},  {100.94, 36.19}, {230.38, -50.82}};
+}
+
+std::vector<Vec2> moved(std::vector<Vec2> points, Vec2 by) {
+  for (Vec2& p : points) p = p + by;
+  return points;
+}
+
+/// One period and a half of a sine: several runs, inflections and vertices.
+std::vector<Vec2> waves() {
+  std::vector<Vec2> points;
+  for (int i = 0; i <= 30; ++i) points.push_back({0.3 * i, std::sin(0.3 * i)});
+  return points;
+}
+
+/// A line, a clothoid-like cubic beginning on it, a circle: stretches beside spirals.
+std::vector<Vec2> line_spiral_arc() {
+  std::vector<Vec2> points;
+  for (int i = -6; i <= 0; ++i) points.push_back({static_cast<double>(i), 0.0});
+  // theta = s^2/20, by the midpoint rule: any smooth transition will do
+  double x = 0.0, y = 0.0;
+  constexpr int kSteps = 1000;
+  for (int i = 0; i < 5 * kSteps; ++i) {
+    const double s = (i + 0.5) / kSteps;
+    x += std::cos(s * s / 20.0) / kSteps;
+    y += std::sin(s * s / 20.0) / kSteps;
+    if ((i + 1) % kSteps == 0) points.push_back({x, y});
+  }
+  const double theta = 25.0 / 20.0, radius = 2.0;  // kappa = s/10 = 1/2 at s = 5
+  const Vec2 centre = {x - radius * std::sin(theta), y + radius * std::cos(theta)};
+  for (int i = 1; i <= 6; ++i) {
+    const double a = theta + 0.3 * i;
+    points.push_back({centre.x + radius * std::sin(a), centre.y - radius * std::cos(a)});
+  }
+  return points;
+}
+
+struct Case {
+  const char* name;
+  std::vector<Vec2> points;
+  Carrier carrier;
+};
+
+std::vector<Case> cases() {
+  return {{"ten points", ten_points(), Carrier::kSpiral},
+          {"ten points of arcs", ten_points(), Carrier::kArcs},
+          {"ten points far away", moved(ten_points(), {1e6, -3e6}), Carrier::kSpiral},
+          {"waves", waves(), Carrier::kSpiral},
+          {"waves of arcs", waves(), Carrier::kArcs},
+          {"line, spiral, arc", line_spiral_arc(), Carrier::kSpiral}};
+}
+
+StoredContour form(const Case& c) {
+  PointSeries series;
+  series.points = c.points;
+  FitJob job;
+  job.carrier = c.carrier;
+  auto f = fit(series, job);
+  if (!f) {
+    ADD_FAILURE() << c.name << ": " << to_line(f.error());
+    return {};
+  }
+  EXPECT_TRUE(f->certificate.proved) << c.name << ": " << f->certificate.reason;
+  return {f->contour, f->report, f->certificate};
+}
+
+/// Empty when the file is accepted, else why not. A file that cannot be read is refused too.
+std::string refusal(const std::string& text) {
+  const auto stored = contour_from_json(text, "doctored");
+  if (!stored) return "not read: " + stored.error().what;
+  const Verification v = verify(*stored);
+  if (v.false_claim) return v.false_claim->what;
+  return v.certificate.proved ? std::string() : "not proved: " + v.certificate.reason;
+}
+
+std::string refusal(const StoredContour& stored) { return refusal(contour_to_json(stored)); }
+
+double size_of(const Contour& contour) { return analyse(contour.points)->size; }
+
+TEST(Verify, AcceptsWhatFitWrote) {
+  for (const Case& c : cases()) EXPECT_EQ(refusal(form(c)), "") << c.name;
+}
+
+TEST(Verify, RefusesAMovedControlPoint) {
+  int doctored = 0;
+  for (const Case& c : cases()) {
+    const StoredContour good = form(c);
+    const double step = kDoctored * size_of(good.contour);
+    for (std::size_t i = 0; i < good.contour.pieces.size(); ++i) {
+      const auto* piece = std::get_if<RationalBezier>(&good.contour.pieces[i]);
+      if (piece == nullptr) continue;
+      for (std::size_t j = 0; j <= static_cast<std::size_t>(piece->degree); ++j) {
+        for (const Vec2 by : {Vec2{step, 0.0}, Vec2{0.0, step}, Vec2{-step, step}}) {
+          StoredContour bad = good;
+          Vec2& p = std::get<RationalBezier>(bad.contour.pieces[i]).offset[j];
+          p = p + by;
+          EXPECT_NE(refusal(bad), "") << c.name << ": piece " << i << ", point " << j;
+          ++doctored;
+        }
+      }
+    }
+  }
+  std::printf("%d control points moved\n", doctored);
+  EXPECT_GT(doctored, 500);
+}
+
+TEST(Verify, RefusesAChangedWeight) {
+  int doctored = 0;
+  for (const Case& c : cases()) {
+    const StoredContour good = form(c);
+    for (std::size_t i = 0; i < good.contour.pieces.size(); ++i) {
+      const auto* piece = std::get_if<RationalBezier>(&good.contour.pieces[i]);
+      if (piece == nullptr) continue;
+      for (std::size_t j = 0; j <= static_cast<std::size_t>(piece->degree); ++j) {
+        StoredContour bad = good;
+        std::get<RationalBezier>(bad.contour.pieces[i]).weight[j] *= 1.0 + kDoctored;
+        EXPECT_NE(refusal(bad), "") << c.name << ": piece " << i << ", weight " << j;
+        ++doctored;
+      }
+    }
+  }
+  std::printf("%d weights changed\n", doctored);
+  EXPECT_GT(doctored, 200);
+}
+
+TEST(Verify, RefusesAChangedArc) {
+  using Change = std::function<void(ArcPiece&, double)>;  // arc, size
+  const std::vector<std::pair<const char*, Change>> changes = {
+      {"kappa", [](ArcPiece& a, double) { a.kappa *= 1.0 + kDoctored; }},
+      {"length", [](ArcPiece& a, double) { a.length *= 1.0 + kDoctored; }},
+      {"theta0", [](ArcPiece& a, double) { a.theta0 += kDoctored; }},
+      {"start", [](ArcPiece& a, double size) { a.start.x += kDoctored * size; }},
+      {"end", [](ArcPiece& a, double size) { a.end.y += kDoctored * size; }}};
+  int doctored = 0;
+  for (const Case& c : cases()) {
+    const StoredContour good = form(c);
+    const double size = size_of(good.contour);
+    for (std::size_t i = 0; i < good.contour.pieces.size(); ++i) {
+      if (!std::holds_alternative<ArcPiece>(good.contour.pieces[i])) continue;
+      for (const auto& [name, change] : changes) {
+        StoredContour bad = good;
+        change(std::get<ArcPiece>(bad.contour.pieces[i]), size);
+        EXPECT_NE(refusal(bad), "") << c.name << ": " << name << " of piece " << i;
+        ++doctored;
+      }
+    }
+  }
+  std::printf("%d numbers of arcs changed\n", doctored);
+  EXPECT_GT(doctored, 100);
+}
+
+TEST(Verify, RefusesAMovedLine) {
+  const StoredContour good = form(cases().back());
+  const double step = kDoctored * size_of(good.contour);
+  int doctored = 0;
+  for (std::size_t i = 0; i < good.contour.pieces.size(); ++i) {
+    if (!std::holds_alternative<LinePiece>(good.contour.pieces[i])) continue;
+    for (const Vec2 by : {Vec2{step, 0.0}, Vec2{0.0, step}}) {
+      StoredContour bad = good;
+      auto& line = std::get<LinePiece>(bad.contour.pieces[i]);
+      line.end = line.end + by;
+      EXPECT_NE(refusal(bad), "") << "piece " << i;
+      ++doctored;
+    }
+  }
+  EXPECT_GE(doctored, 12);
+}
+
+/// The arcs that meet at a joint have two curvatures; the element's may be any one between them.
+bool between_two_arcs(const Contour& contour, std::size_t joint) {
+  return contour.carrier == Carrier::kArcs && joint > 0 && joint < contour.pieces.size();
+}
+
+TEST(Verify, RefusesAChangedElement) {
+  int doctored = 0;
+  for (const Case& c : cases()) {
+    const StoredContour good = form(c);
+    const double size = size_of(good.contour);
+    for (std::size_t i = 0; i < good.contour.joints.size(); ++i) {
+      const auto refused = [&](const char* name, auto change) {
+        StoredContour bad = good;
+        change(bad.contour.joints[i]);
+        EXPECT_NE(refusal(bad), "") << c.name << ": " << name << " of element " << i;
+        ++doctored;
+      };
+      refused("heading", [](Joint& j) { j.element.theta += kDoctored; });
+      refused("point", [&](Joint& j) { j.element.point.x += kDoctored * size; });
+      refused("curvature", [&](Joint& j) {
+        const double change = between_two_arcs(good.contour, i) ? 2.0 : kDoctored;
+        j.element.kappa = j.element.kappa * (1.0 + change) + (j.element.kappa == 0.0 ? 1.0 / size : 0.0);
+      });
+      if (good.contour.joints[i].source) {
+        refused("source", [](Joint& j) { j.source.reset(); });
+      }
+    }
+    for (std::size_t i = 0; i < good.contour.points.size(); ++i) {
+      StoredContour bad = good;
+      bad.contour.points[i].y += kDoctored * size;
+      EXPECT_NE(refusal(bad), "") << c.name << ": point " << i;
+      ++doctored;
+    }
+  }
+  std::printf("%d elements and points changed\n", doctored);
+  EXPECT_GT(doctored, 200);
+}
+
+/// Every number and every boolean below a place of the file.
+void collect(const json& value, const std::string& path, std::vector<std::string>& out) {
+  if (value.is_number() || value.is_boolean()) out.push_back(path);
+  if (value.is_object()) {
+    for (const auto& [key, inner] : value.items()) collect(inner, path + "/" + key, out);
+  }
+  if (value.is_array()) {
+    for (std::size_t i = 0; i < value.size(); ++i)
+      collect(value[i], path + "/" + std::to_string(i), out);
+  }
+}
+
+/// Numbers that say nothing about the contour, or whose change makes a weaker claim that is still
+/// true:
+/// - how long the computation took, and how the chain was solved: the file cannot show it;
+/// - the tolerance made a little larger: the widths still keep it;
+/// - gaps of the joints made larger: a gap is claimed to be *at most* this;
+/// - whether exact arithmetic was needed: how a verdict was found, not what it says.
+bool no_claim(const std::string& path) {
+  return path == "/report/seconds" || path == "/report/tolerance" ||
+         path.rfind("/report/chain/", 0) == 0 || path.rfind("/certificate/joint_gaps/", 0) == 0 ||
+         (path.size() > 17 && path.find("exact_arithmetic") != std::string::npos);
+}
+
+json doctored_value(const json& value, double size) {
+  if (value.is_boolean()) return !value.get<bool>();
+  // The writer marks counts: they have no fraction and are parsed as integers. A figure of 0 is
+  // written like a count; moving it by 1 is a doctored figure too.
+  if (value.is_number_integer()) return value.get<long long>() + 1;
+  const double number = value.get<double>();
+  return number == 0.0 ? kClaimed * size : number * (1.0 + kClaimed);
+}
+
+TEST(Verify, RefusesEveryChangedNumberOfReportAndCertificate) {
+  int doctored = 0;
+  for (const Case& c : cases()) {
+    const StoredContour good = form(c);
+    const double size = size_of(good.contour);
+    const json document = json::parse(contour_to_json(good));
+    ASSERT_EQ(refusal(document.dump()), "") << c.name;
+    std::vector<std::string> paths;
+    for (const char* part : {"/report", "/certificate", "/runs"})
+      collect(document[json::json_pointer(part)], part, paths);
+    for (const std::string& path : paths) {
+      if (no_claim(path)) continue;
+      json bad = document;
+      json& value = bad[json::json_pointer(path)];
+      value = doctored_value(value, size);
+      EXPECT_NE(refusal(bad.dump()), "") << c.name << ": " << path << " = " << value;
+      ++doctored;
+    }
+  }
+  std::printf("%d claims changed\n", doctored);
+  EXPECT_GT(doctored, 400);
+}
+
+TEST(Verify, RefusesFiguresMadeSmallerOrLeftOut) {
+  const StoredContour good = form(cases().front());
+  const json document = json::parse(contour_to_json(good));
+  std::vector<std::string> paths;
+  collect(document["report"]["segments"], "/report/segments", paths);
+  for (const std::string& path : paths) {
+    for (const json& other : {json(nullptr), json(0)}) {
+      json bad = document;
+      json& value = bad[json::json_pointer(path)];
+      if (value == other) continue;
+      value = other;
+      EXPECT_NE(refusal(bad.dump()), "") << path << " = " << other;
+    }
+  }
+  json narrow = document;
+  narrow["report"]["tolerance"] = 0.5 * good.report->largest_width;
+  EXPECT_NE(refusal(narrow.dump()), "") << "a tolerance below the widths";
+}
+
+TEST(Verify, RefusesVerdictsThatTheCurveDoesNotHave) {
+  const StoredContour good = form(cases().front());
+  const json document = json::parse(contour_to_json(good));
+  for (std::size_t i = 0; i < good.contour.pieces.size(); ++i) {
+    for (const char* verdict : {"increasing", "decreasing", "constant", "has-vertex", "undecided"}) {
+      json bad = document;
+      json& value = bad["certificate"]["monotone"][i]["verdict"];
+      if (value == verdict) continue;
+      value = verdict;
+      EXPECT_NE(refusal(bad.dump()), "") << "piece " << i << " " << verdict;
+    }
+  }
+}
+
+TEST(Verify, RefusesAGapThatTheFileHides) {
+  // a heading gap of 1e-10 rad is below the bound of what is called continuous, but not zero
+  StoredContour stored = form(cases().front());
+  auto& piece = std::get<RationalBezier>(stored.contour.pieces[4]);
+  const Vec2 leg = piece.offset[1] - piece.offset[0];
+  piece.offset[1] = piece.offset[1] + 1e-10 * left_normal(leg);
+  const Verification v = verify(stored);
+  EXPECT_GT(v.certificate.gaps.heading, 0.9e-10);
+  EXPECT_TRUE(v.false_claim.has_value());
+}
+
+TEST(Verify, RefusesAnotherSeriesReport) {
+  StoredContour stored = form(cases().front());
+  const StoredContour other = form(cases()[3]);
+  stored.report = other.report;
+  EXPECT_NE(refusal(stored), "");
+  stored = form(cases().front());
+  stored.certificate = other.certificate;
+  EXPECT_NE(refusal(stored), "");
+}
+
+TEST(Verify, WithoutClaimsProvesTheCurveAlone) {
+  StoredContour stored = form(cases().front());
+  stored.report.reset();
+  stored.certificate.reset();
+  EXPECT_EQ(refusal(stored), "");
+}
+
+}  // namespace
+}  // namespace obvid
