@@ -99,7 +99,8 @@ Error explain(const std::vector<Vec2>& points, const Analysis& a, const ChainWis
               const Infeasibility& why) {
   const auto index = static_cast<std::ptrdiff_t>(why.first_point);
   const std::string where = point_range(why);
-  if (why.move <= kRoundingsThatDecide * rounding_move(points, why)) {
+  const bool leaps = why.slack == 0.0;
+  if (!leaps && why.move <= kRoundingsThatDecide * rounding_move(points, why)) {
     return {ErrorCode::kRoundingDecides,
             "the rounding of the coordinates, not the curve, decides how the curvature changes",
             where,
@@ -127,6 +128,14 @@ Error explain(const std::vector<Vec2>& points, const Analysis& a, const ChainWis
             index,
             why.move};
   }
+  if (leaps) {
+    return {ErrorCode::kNoSpiral,
+            "a curve with curvature changing as the points demand would have to leap at them",
+            where,
+            "move points there, or add points",
+            index,
+            why.move};
+  }
   return {ErrorCode::kNoSpiral,
           "no curve with curvature changing as the points demand runs through them",
           where,
@@ -141,6 +150,7 @@ struct Extended {
   std::vector<Element> start;
   std::vector<std::optional<std::size_t>> source;
   ChainProblem problem;
+  std::vector<bool> turned;  ///< links whose direction was turned
   std::size_t inserted = 0;
 };
 
@@ -168,6 +178,7 @@ Extended with_free_elements(const Extended& before, const ChainSolution& solutio
     out.problem.cone.push_back(cone);
     ++out.inserted;
   }
+  out.turned.assign(out.problem.direction.size(), false);
   out.problem.chords = measure_chords(out.points);
   out.problem.circles = measure_circles(out.points, out.problem.chords);
   return out;
@@ -272,20 +283,19 @@ Attempt attempt(Extended current, bool convex) {
 /// Turns directions where no monotone curve exists although the adjacent circles allow one.
 class DirectionRepair {
  public:
-  explicit DirectionRepair(const Extended& series)
-      : series_(series), turned_(series.problem.direction.size(), false) {}
+  explicit DirectionRepair(const Extended& series) : series_(series) {}
 
   /// The link to turn for this infeasibility: one that makes its neighbourhood feasible, with as
   /// few vertices as possible; else the one that comes closest. Nothing when all were turned.
-  [[nodiscard]] std::optional<std::size_t> choose(const ChainProblem& problem,
-                                                  const Infeasibility& why) const {
+  [[nodiscard]] std::optional<std::size_t> choose(const Infeasibility& why) const {
+    const ChainProblem& problem = series_.problem;
     const std::size_t links = problem.direction.size();
     const std::size_t first = why.first_point >= kReach ? why.first_point - kReach : 0;
     const std::size_t last = std::min({links, why.last_point + kReach, first + kMostCandidates});
     std::optional<std::size_t> best;
     Outcome least;
     for (std::size_t i = first; i < last; ++i) {
-      if (problem.direction[i] == 0 || turned_[i]) continue;
+      if (problem.direction[i] == 0 || series_.turned[i]) continue;
       const Outcome outcome = try_turn(problem, i, first, last);
       if (best && !outcome.better_than(least)) continue;
       best = i;
@@ -293,7 +303,6 @@ class DirectionRepair {
     }
     return best;
   }
-  void mark(std::size_t link) { turned_[link] = true; }
 
  private:
   static constexpr std::size_t kReach = 2;            // links beyond the infeasible ones
@@ -333,7 +342,66 @@ class DirectionRepair {
   }
 
   const Extended& series_;
-  std::vector<bool> turned_;
+};
+
+/// A vertex between a circular stretch and its neighbour: where the neighbour cannot lead into the
+/// stretch monotonically, the curvature is let pass it and come back inside the link.
+class TransitionVertex {
+ public:
+  /// Inserts one beside the first stretch that the infeasibility touches and that has none yet on
+  /// that side. False when there is no such place.
+  static bool insert(Extended& series, const Infeasibility& why) {
+    const std::vector<Cone>& cone = series.problem.cone;
+    const std::size_t first = why.first_point >= kReach ? why.first_point - kReach : 0;
+    const std::size_t last = std::min(cone.size() - 1, why.last_point + kReach);
+    for (std::size_t i = first; i < last; ++i) {
+      const bool enters = cone[i] != Cone::kNone && cone[i + 1] == Cone::kNone;
+      const bool leaves = cone[i] == Cone::kNone && cone[i + 1] != Cone::kNone;
+      if (enters && series.source[i] && series.source[i + 1]) return insert_into(series, i, true);
+      if (leaves && series.source[i + 1] && series.source[i + 2]) {
+        return insert_into(series, i + 1, false);
+      }
+    }
+    return false;
+  }
+
+ private:
+  static constexpr std::size_t kReach = 3;  // links between the infeasible ones and the stretch
+
+  /// Middle of the cubic whose ends have the tangents of the stretch and of the adjacent circle.
+  static Vec2 middle(const Extended& s, std::size_t link) {
+    const Chord& chord = s.problem.chords[link];
+    const auto tangent = [&](std::size_t node, double of_circle) {
+      const double theta = s.problem.nodes[node].theta.value_or(chord.omega + of_circle);
+      return (chord.length * unit_at(theta));
+    };
+    const Vec2 t0 = tangent(link, -s.problem.circles[link].eta_out);
+    const Vec2 t1 = tangent(link + 1, s.problem.circles[link + 1].eta_in);
+    return 0.5 * (s.points[link] + s.points[link + 1]) + 0.125 * (t0 - t1);
+  }
+
+  static bool insert_into(Extended& s, std::size_t link, bool before_stretch) {
+    const auto at = [](auto& v, std::size_t i) {
+      return v.begin() + static_cast<std::ptrdiff_t>(i);
+    };
+    const Vec2 point = middle(s, link);
+    const std::size_t fixed = before_stretch ? link + 1 : link;
+    const double kappa = *s.problem.nodes[fixed].kappa;
+    s.points.insert(at(s.points, link + 1), point);
+    s.source.insert(at(s.source, link + 1), std::nullopt);
+    s.problem.nodes.insert(at(s.problem.nodes, link + 1), NodeData{});
+    s.problem.cone.insert(at(s.problem.cone, link), s.problem.cone[link]);
+    s.turned.insert(at(s.turned, link), false);
+    s.problem.chords = measure_chords(s.points);
+    s.problem.circles = measure_circles(s.points, s.problem.chords);
+    // the half beside the stretch leads to its curvature, the other half the way back
+    const double over = s.problem.circles[link + 1].kappa - kappa;
+    const auto beside = static_cast<std::int8_t>((over > 0.0) == before_stretch ? -1 : 1);
+    const auto away = static_cast<std::int8_t>(-beside);
+    s.problem.direction[link] = before_stretch ? away : beside;
+    s.problem.direction.insert(at(s.problem.direction, link + 1), before_stretch ? beside : away);
+    return true;
+  }
 };
 
 /// Directions that may be turned, and the longest series for which that is tried: every turn costs
@@ -352,17 +420,20 @@ Result<SeriesChain> choose_elements(const std::vector<Vec2>& points, const Analy
   current.problem = std::move(*problem);
   for (std::size_t i = 0; i < points.size(); ++i) current.source.emplace_back(i);
 
-  DirectionRepair repair(current);
+  current.turned.assign(current.problem.direction.size(), false);
   Attempt tried = attempt(current, wishes.convex);
   const Infeasibility first_reason = tried.why;
   int steps = tried.steps;
   std::size_t turned = 0;
-  while (!tried.chain && turned < kMostTurns && points.size() <= kLongestRepair) {
-    const auto link = repair.choose(current.problem, tried.why);
-    if (!link) break;
-    repair.mark(*link);
-    std::int8_t& direction = current.problem.direction[*link];
-    direction = static_cast<std::int8_t>(-direction);
+  for (int round = 0; !tried.chain && round < kMostTurns && points.size() <= kLongestRepair;
+       ++round) {
+    if (!TransitionVertex::insert(current, tried.why)) {
+      const auto link = DirectionRepair(current).choose(tried.why);
+      if (!link) break;
+      current.turned[*link] = true;
+      std::int8_t& direction = current.problem.direction[*link];
+      direction = static_cast<std::int8_t>(-direction);
+    }
     ++turned;
     tried = attempt(current, wishes.convex);
     steps += tried.steps;

@@ -22,7 +22,7 @@ namespace {
 using namespace test;
 
 constexpr double kRightAngle = 0.5 * std::numbers::pi;
-constexpr int kSeries = 120;
+constexpr int kSeries = 300;
 
 /// Point of a piece relative to an anchor, without rounding to the anchor's coordinates.
 Vec2 relative_point(const Piece& piece, double t, Vec2 anchor) {
@@ -193,7 +193,7 @@ Changed similarity(const Sampled& s, double scale, double angle, Vec2 shift) {
 }
 
 TEST(Properties, ARigidMotionLeavesTheContourTheSame) {
-  const auto all = differences(101, [](const Sampled& s, const Fit&, std::mt19937_64& rng) {
+  const auto all = differences(401, [](const Sampled& s, const Fit&, std::mt19937_64& rng) {
     const Vec2 shift = {s.size * uniform(rng, -1.0, 1.0), s.size * uniform(rng, -1.0, 1.0)};
     return similarity(s, 1.0, uniform(rng, 0.0, 6.28), shift);
   });
@@ -202,7 +202,7 @@ TEST(Properties, ARigidMotionLeavesTheContourTheSame) {
 }
 
 TEST(Properties, AScaleLeavesTheContourTheSame) {
-  const auto all = differences(102, [](const Sampled& s, const Fit&, std::mt19937_64& rng) {
+  const auto all = differences(402, [](const Sampled& s, const Fit&, std::mt19937_64& rng) {
     return similarity(s, std::pow(10.0, uniform(rng, -6.0, 6.0)), 0.0, {});
   });
   const Difference d = largest("scale", all);
@@ -210,7 +210,7 @@ TEST(Properties, AScaleLeavesTheContourTheSame) {
 }
 
 TEST(Properties, AMirrorLeavesTheContourTheSame) {
-  const auto all = differences(103, [](const Sampled& s, const Fit&, std::mt19937_64&) {
+  const auto all = differences(403, [](const Sampled& s, const Fit&, std::mt19937_64&) {
     Changed out;
     for (const Vec2 p : s.points) out.points.push_back({p.x, -p.y});
     out.relation = same_order([](Vec2 v) { return Vec2{v.x, -v.y}; });
@@ -221,7 +221,7 @@ TEST(Properties, AMirrorLeavesTheContourTheSame) {
 }
 
 TEST(Properties, TheOtherWayRoundTheContourIsTheSame) {
-  const auto all = differences(104, [](const Sampled& s, const Fit&, std::mt19937_64&) {
+  const auto all = differences(404, [](const Sampled& s, const Fit&, std::mt19937_64&) {
     Changed out;
     out.points.assign(s.points.rbegin(), s.points.rend());
     const std::size_t last = s.points.size() - 1;
@@ -247,7 +247,7 @@ Changed with_inserted(const Fit& f, std::size_t chord) {
 }
 
 TEST(Properties, APointOfTheContourInsertedChangesLittle) {
-  const auto all = differences(105, [](const Sampled& s, const Fit& f, std::mt19937_64& rng) {
+  const auto all = differences(405, [](const Sampled& s, const Fit& f, std::mt19937_64& rng) {
     const std::size_t interior = s.points.size() - 3;
     return with_inserted(f, 1 + rng() % interior);
   });
