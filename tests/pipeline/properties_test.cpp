@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
-#include <cstdlib>
 #include <functional>
 #include <numbers>
 #include <string>
@@ -23,6 +22,27 @@ using namespace test;
 
 constexpr double kRightAngle = 0.5 * std::numbers::pi;
 constexpr int kSeries = 300;
+
+// Any two spirals through the same points stay within the points-only error of each other. That is
+// the bound which theory gives; those below are what the engine keeps beyond it. Each is at least
+// twice the largest change found on 1,200 random series.
+
+/// Where the points are only rounded differently: Newton's last step and the rounding itself, over
+/// chords down to a thousandth of the series (largest 2.3e-10 and 3.9e-5).
+constexpr double kRoundedOfChord = 1e-9;
+constexpr double kRoundedOfPointsOnly = 1e-4;
+/// Headings and curvatures do not depend on the way round, but the closed form does: its hyperbola
+/// begins at a finite point and ends at infinity, so between the same elements it is another
+/// spiral the other way round (largest 1.1e-2 and 4.4e-2).
+constexpr double kReversedOfChord = 0.025;
+constexpr double kReversedOfPointsOnly = 0.1;
+/// Another point changes the fairness energy, which then prefers other headings and curvatures
+/// (largest 6.9e-3 and 0.11).
+constexpr double kInsertedOfChord = 0.02;
+constexpr double kInsertedOfPointsOnly = 0.25;
+/// Headings, and curvatures relative to the largest of both neighbours: Newton's last step.
+constexpr double kSameHeading = 1e-9;
+constexpr double kSameCurvature = 1e-8;
 
 /// Point of a piece relative to an anchor, without rounding to the anchor's coordinates.
 Vec2 relative_point(const Piece& piece, double t, Vec2 anchor) {
@@ -83,7 +103,6 @@ struct Relation {
 struct Difference {
   double of_chord = 0.0;        ///< largest distance over the chord
   double of_points_only = 0.0;  ///< largest distance over the points-only error, where defined
-  double of_width = 0.0;        ///< largest distance over the width between the elements
 };
 
 Difference difference(const Fit& a, const Fit& b, const Relation& r) {
@@ -100,11 +119,10 @@ Difference difference(const Fit& a, const Fit& b, const Relation& r) {
         const Vec2 v = r.back(relative_point(b.contour.pieces[k], t, anchor));
         const double x = dot(d, v) / (h * h), y = cross(d, v) / (h * h);
         const double gap = std::max(0.0, std::abs(y - first.ordinate(chord, x)) * h - rounding);
-        const SegmentReport& s = a.report.segments[chord];
+        const double bound = a.report.segments[chord].points_only_error;
         out.of_chord = std::max(out.of_chord, gap / h);
-        out.of_width = std::max(out.of_width, gap / s.width_unrefined);
-        if (std::isnan(s.points_only_error)) continue;
-        out.of_points_only = std::max(out.of_points_only, gap / s.points_only_error);
+        if (std::isnan(bound)) continue;
+        out.of_points_only = std::max(out.of_points_only, gap / bound);
       }
     }
   }
@@ -155,8 +173,6 @@ std::vector<Difference> differences(unsigned seed, const Change& change) {
     EXPECT_TRUE(b->certificate.proved) << what << ": " << b->certificate.reason;
     EXPECT_EQ(b->certificate.vertices, 0) << what;
     out.push_back(difference(*a, *b, changed.relation));
-    if (std::getenv("OBVID_SHOW") != nullptr)
-      std::printf("%s uneven %d: %.2e %.2e %.2e\n", what.c_str(), s.uneven, out.back().of_chord, out.back().of_points_only, out.back().of_width);
   }
   return out;
 }
@@ -166,10 +182,10 @@ Difference largest(const char* name, const std::vector<Difference>& all) {
   for (const Difference& d : all) {
     out.of_chord = std::max(out.of_chord, d.of_chord);
     out.of_points_only = std::max(out.of_points_only, d.of_points_only);
-    out.of_width = std::max(out.of_width, d.of_width);
   }
-  std::printf("%s: %zu series, largest change %.2e of the chord, %.2e of the points-only error, %.2e of the width\n",
-              name, all.size(), out.of_chord, out.of_points_only, out.of_width);
+  std::printf("%s: %zu series, largest change %.2e of the chord, %.2e of the points-only error\n",
+              name, all.size(), out.of_chord, out.of_points_only);
+  EXPECT_GE(all.size(), static_cast<std::size_t>(kSeries) * 95 / 100) << name;
   return out;
 }
 
@@ -198,7 +214,8 @@ TEST(Properties, ARigidMotionLeavesTheContourTheSame) {
     return similarity(s, 1.0, uniform(rng, 0.0, 6.28), shift);
   });
   const Difference d = largest("rigid motion", all);
-  (void)d;
+  EXPECT_LE(d.of_chord, kRoundedOfChord);
+  EXPECT_LE(d.of_points_only, kRoundedOfPointsOnly);
 }
 
 TEST(Properties, AScaleLeavesTheContourTheSame) {
@@ -206,7 +223,8 @@ TEST(Properties, AScaleLeavesTheContourTheSame) {
     return similarity(s, std::pow(10.0, uniform(rng, -6.0, 6.0)), 0.0, {});
   });
   const Difference d = largest("scale", all);
-  (void)d;
+  EXPECT_LE(d.of_chord, kRoundedOfChord);
+  EXPECT_LE(d.of_points_only, kRoundedOfPointsOnly);
 }
 
 TEST(Properties, AMirrorLeavesTheContourTheSame) {
@@ -217,7 +235,7 @@ TEST(Properties, AMirrorLeavesTheContourTheSame) {
     return out;
   });
   const Difference d = largest("mirror", all);
-  (void)d;
+  EXPECT_EQ(d.of_chord, 0.0);  // only signs change, so not one bit may
 }
 
 TEST(Properties, TheOtherWayRoundTheContourIsTheSame) {
@@ -230,7 +248,8 @@ TEST(Properties, TheOtherWayRoundTheContourIsTheSame) {
     return out;
   });
   const Difference d = largest("reversal", all);
-  (void)d;
+  EXPECT_LE(d.of_chord, kReversedOfChord);
+  EXPECT_LE(d.of_points_only, kReversedOfPointsOnly);
 }
 
 /// The middle of a piece inside the contour, inserted between the points beside it.
@@ -252,7 +271,123 @@ TEST(Properties, APointOfTheContourInsertedChangesLittle) {
     return with_inserted(f, 1 + rng() % interior);
   });
   const Difference d = largest("insertion", all);
-  (void)d;
+  EXPECT_LE(d.of_chord, kInsertedOfChord);
+  EXPECT_LE(d.of_points_only, kInsertedOfPointsOnly);
+}
+
+TEST(Properties, ElementsDoNotDependOnTheWayRound) {
+  std::mt19937_64 rng(6);
+  int compared = 0;
+  for (int i = 0; i < kSeries; ++i) {
+    const Sampled s = near_series(i, rng);
+    const auto a = fit_points(s.points);
+    const auto b = fit_points({s.points.rbegin(), s.points.rend()});
+    if (!a || !b || a->report.chain.free_elements != 0) continue;
+    const auto of_points = [](const Contour& contour) {
+      std::vector<Element> out;
+      for (const Joint& j : contour.joints) {
+        if (j.source) out.push_back(j.element);
+      }
+      return out;
+    };
+    const auto there = of_points(a->contour), back = of_points(b->contour);
+    ASSERT_EQ(there.size(), back.size());
+    const std::size_t last = there.size() - 1;
+    for (std::size_t j = 0; j <= last; ++j) {
+      const Element &e = there[j], &f = back[last - j];
+      const double turn = e.theta - f.theta - std::numbers::pi;
+      EXPECT_NEAR(std::remainder(turn, 2.0 * std::numbers::pi), 0.0, kSameHeading) << i << ", " << j;
+      const double scale = std::max({std::abs(e.kappa), std::abs(there[j > 0 ? j - 1 : 1].kappa),
+                                     std::abs(there[j < last ? j + 1 : last - 1].kappa)});
+      EXPECT_NEAR(e.kappa, -f.kappa, kSameCurvature * scale) << i << ", " << j;
+    }
+    ++compared;
+  }
+  EXPECT_GE(compared, kSeries * 9 / 10);
+}
+
+TEST(Properties, AScaleByAPowerOfTwoChangesNothingButExponents) {
+  std::mt19937_64 rng(7);
+  int compared = 0;
+  for (int i = 0; i < kSeries / 3; ++i) {
+    const Sampled s = near_series(i, rng);
+    const int power = static_cast<int>(rng() % 81) - 40;
+    std::vector<Vec2> scaled;
+    for (const Vec2 p : s.points) scaled.push_back({std::ldexp(p.x, power), std::ldexp(p.y, power)});
+    const auto a = fit_points(s.points), b = fit_points(scaled);
+    ASSERT_EQ(a.has_value(), b.has_value()) << i;
+    if (!a) continue;
+    ASSERT_EQ(a->contour.pieces.size(), b->contour.pieces.size()) << i;
+    for (std::size_t k = 0; k < a->contour.pieces.size(); ++k) {
+      const auto* p = std::get_if<RationalBezier>(&a->contour.pieces[k]);
+      const auto* q = std::get_if<RationalBezier>(&b->contour.pieces[k]);
+      if (p == nullptr || q == nullptr) continue;
+      for (std::size_t j = 0; j <= static_cast<std::size_t>(p->degree); ++j) {
+        EXPECT_EQ(std::ldexp(p->offset[j].x, power), q->offset[j].x) << i << ", piece " << k;
+        EXPECT_EQ(std::ldexp(p->offset[j].y, power), q->offset[j].y) << i << ", piece " << k;
+        EXPECT_EQ(p->weight[j], q->weight[j]) << i << ", piece " << k;
+      }
+      ++compared;
+    }
+    for (std::size_t j = 0; j < a->contour.joints.size(); ++j) {
+      const Element &e = a->contour.joints[j].element, &f = b->contour.joints[j].element;
+      EXPECT_EQ(e.theta, f.theta) << i << ", joint " << j;
+      EXPECT_EQ(std::ldexp(e.kappa, -power), f.kappa) << i << ", joint " << j;
+    }
+    EXPECT_EQ(std::ldexp(a->report.largest_width, power), b->report.largest_width) << i;
+    EXPECT_EQ(a->report.inserted_points, b->report.inserted_points) << i;
+  }
+  EXPECT_GT(compared, 1000);
+}
+
+TEST(Properties, FarFromTheOriginTheContourStaysWithinThePointsOnlyError) {
+  std::mt19937_64 rng(8);
+  int compared = 0;
+  double worst = 0.0;
+  for (int i = 0; i < kSeries; ++i) {
+    const Sampled s = near_series(i, rng);
+    const double far = s.size * std::pow(10.0, uniform(rng, 0.0, 3.0));
+    const Changed changed = similarity(s, 1.0, 0.0, {far, -far});
+    const auto a = fit_points(s.points), b = fit_points(changed.points);
+    if (!a || !b || a->certificate.vertices != 0 || b->certificate.vertices != 0) continue;
+    // only where the moved coordinates still hold the curve
+    const double moved = 0x1p-52 * far;
+    bool wide = true;
+    for (const SegmentReport& seg : a->report.segments) {
+      wide = wide && !(seg.points_only_error < 1e3 * moved);
+    }
+    if (!wide) continue;
+    worst = std::max(worst, difference(*a, *b, changed.relation).of_points_only);
+    ++compared;
+  }
+  std::printf("far away: %d series, largest change %.2e of the points-only error\n", compared, worst);
+  EXPECT_GT(compared, kSeries / 4);
+  EXPECT_LE(worst, 1.0);
+}
+
+/// The file without the line that says how long the computation took.
+std::string without_time(const Fit& f) {
+  Fit timeless = f;
+  timeless.report.seconds = 0.0;
+  return contour_to_json({timeless.contour, timeless.report, timeless.certificate});
+}
+
+TEST(Properties, TheSameInputGivesTheSameBytes) {
+  std::mt19937_64 rng(9);
+  for (int i = 0; i < 40; ++i) {
+    const Sampled s = random_series(static_cast<Oracle>(i % kOracleCount), rng, kRightAngle);
+    PointSeries series;
+    series.points = s.points;
+    FitJob job;
+    job.carrier = i % 2 == 0 ? Carrier::kSpiral : Carrier::kArcs;
+    const auto a = fit(series, job), b = fit(series, job);
+    ASSERT_EQ(a.has_value(), b.has_value());
+    if (a) {
+      EXPECT_EQ(without_time(*a), without_time(*b)) << i;
+    } else {
+      EXPECT_EQ(to_line(a.error()), to_line(b.error())) << i;
+    }
+  }
 }
 
 }  // namespace
