@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <string>
 
 namespace obvid {
@@ -280,6 +281,26 @@ Attempt attempt(Extended current, bool convex) {
   return out;
 }
 
+/// Links from..to of a series as a series of their own, with the cones of mere existence.
+Extended slice(const Extended& series, std::size_t from, std::size_t to) {
+  const auto part = [&](const auto& all, std::size_t extra) {
+    return std::vector(all.begin() + static_cast<std::ptrdiff_t>(from),
+                       all.begin() + static_cast<std::ptrdiff_t>(to + extra));
+  };
+  const ChainProblem& p = series.problem;
+  Extended out;
+  out.points = part(series.points, 1);
+  out.source = part(series.source, 1);
+  out.problem = {part(p.chords, 0), part(p.circles, 1), part(p.direction, 0), part(p.cone, 0),
+                 part(p.nodes, 1)};
+  out.turned = part(series.turned, 0);
+  for (Cone& c : out.problem.cone) c = c == Cone::kNone ? c : Cone::kSpiral;
+  return out;
+}
+
+/// Links solved beyond the ones in question, when only a neighbourhood is looked at.
+constexpr std::size_t kWindow = 4;
+
 /// Turns directions where no monotone curve exists although the adjacent circles allow one.
 class DirectionRepair {
  public:
@@ -307,7 +328,6 @@ class DirectionRepair {
  private:
   static constexpr std::size_t kReach = 2;            // links beyond the infeasible ones
   static constexpr std::size_t kMostCandidates = 24;  // links looked at for one turn
-  static constexpr std::size_t kWindow = 4;           // links solved beyond the candidates
 
   struct Outcome {
     double slack = 0.0;  // 0: feasible
@@ -324,16 +344,10 @@ class DirectionRepair {
                                  std::size_t last) const {
     const std::size_t from = first >= kWindow ? first - kWindow : 0;
     const std::size_t to = std::min(problem.direction.size(), last + kWindow);
-    const auto part = [&](const auto& all, std::size_t extra) {
-      return std::vector(all.begin() + static_cast<std::ptrdiff_t>(from),
-                         all.begin() + static_cast<std::ptrdiff_t>(to + extra));
-    };
-    ChainProblem window{part(problem.chords, 0), part(problem.circles, 1),
-                        part(problem.direction, 0), part(problem.cone, 0), part(problem.nodes, 1)};
+    Extended part = slice(series_, from, to);
+    ChainProblem& window = part.problem;
     window.direction[link - from] = static_cast<std::int8_t>(-window.direction[link - from]);
-    for (Cone& c : window.cone) c = c == Cone::kNone ? c : Cone::kSpiral;
-    const std::vector<Vec2> points = part(series_.points, 1);
-    const ChainSolution s = solve_chain(points, window);
+    const ChainSolution s = solve_chain(part.points, window);
     int vertices = 0;
     for (std::size_t i = 0; i + 1 < window.direction.size(); ++i) {
       vertices += window.direction[i] * window.direction[i + 1] < 0 ? 1 : 0;
@@ -368,23 +382,52 @@ class TransitionVertex {
  private:
   static constexpr std::size_t kReach = 3;  // links between the infeasible ones and the stretch
 
-  /// Middle of the cubic whose ends have the tangents of the stretch and of the adjacent circle.
-  static Vec2 middle(const Extended& s, std::size_t link) {
+  /// Place for the vertex: over part `along` of the chord, at part `height` of the cubic whose ends
+  /// have the tangents of the stretch and of the adjacent circle.
+  static Vec2 place(const Extended& s, std::size_t link, double along, double height) {
     const Chord& chord = s.problem.chords[link];
     const auto tangent = [&](std::size_t node, double of_circle) {
       const double theta = s.problem.nodes[node].theta.value_or(chord.omega + of_circle);
-      return (chord.length * unit_at(theta));
+      return chord.length * unit_at(theta - chord.omega);
     };
     const Vec2 t0 = tangent(link, -s.problem.circles[link].eta_out);
     const Vec2 t1 = tangent(link + 1, s.problem.circles[link + 1].eta_in);
-    return 0.5 * (s.points[link] + s.points[link + 1]) + 0.125 * (t0 - t1);
+    const double u = along, v = 1.0 - along;
+    const double y = u * v * v * t0.y - u * u * v * t1.y;  // Hermite cubic over the chord
+    return s.points[link] + complex_product({u * chord.length, height * y}, unit_at(chord.omega));
+  }
+
+  /// The place whose neighbourhood is feasible with the widest margin, else comes closest.
+  static Vec2 best_place(const Extended& series, std::size_t link, bool before_stretch) {
+    const std::size_t from = link >= kWindow ? link - kWindow : 0;
+    const std::size_t to = std::min(series.problem.direction.size(), link + 1 + kWindow);
+    const Extended window = slice(series, from, to);
+    Vec2 best{};
+    double best_score = -std::numeric_limits<double>::infinity();
+    for (const double along : {0.25, 0.5, 0.75}) {
+      for (const double height : {0.3, 0.5, 0.7, 0.85, 1.0, 1.15}) {
+        const Vec2 point = place(series, link, along, height);
+        Extended candidate = window;
+        insert_at(candidate, link - from, before_stretch, point);
+        const ChainSolution s = solve_chain(candidate.points, candidate.problem);
+        const double score = s.feasible ? s.smallest_margin : -s.infeasibility.slack;
+        if (score <= best_score) continue;
+        best_score = score;
+        best = point;
+      }
+    }
+    return best;
   }
 
   static bool insert_into(Extended& s, std::size_t link, bool before_stretch) {
+    insert_at(s, link, before_stretch, best_place(s, link, before_stretch));
+    return true;
+  }
+
+  static void insert_at(Extended& s, std::size_t link, bool before_stretch, Vec2 point) {
     const auto at = [](auto& v, std::size_t i) {
       return v.begin() + static_cast<std::ptrdiff_t>(i);
     };
-    const Vec2 point = middle(s, link);
     const std::size_t fixed = before_stretch ? link + 1 : link;
     const double kappa = *s.problem.nodes[fixed].kappa;
     s.points.insert(at(s.points, link + 1), point);
@@ -400,7 +443,6 @@ class TransitionVertex {
     const auto away = static_cast<std::int8_t>(-beside);
     s.problem.direction[link] = before_stretch ? away : beside;
     s.problem.direction.insert(at(s.problem.direction, link + 1), before_stretch ? beside : away);
-    return true;
   }
 };
 
