@@ -96,6 +96,13 @@ double rounding_move(const std::vector<Vec2>& points, const Infeasibility& why) 
   return largest;
 }
 
+bool anything_wished(const ChainWishes& wishes) {
+  return wishes.convex ||
+         std::any_of(wishes.fixed.begin(), wishes.fixed.end(), [](const FixedData& f) {
+           return f.theta.has_value() || f.kappa.has_value();
+         });
+}
+
 Error explain(const std::vector<Vec2>& points, const Analysis& a, const ChainWishes& wishes,
               const Infeasibility& why) {
   const auto index = static_cast<std::ptrdiff_t>(why.first_point);
@@ -118,10 +125,7 @@ Error explain(const std::vector<Vec2>& points, const Analysis& a, const ChainWis
             index,
             why.move};
   }
-  const bool fixed = std::any_of(wishes.fixed.begin(), wishes.fixed.end(), [](const FixedData& f) {
-    return f.theta.has_value() || f.kappa.has_value();
-  });
-  if (fixed || wishes.convex) {
+  if (anything_wished(wishes)) {
     return {ErrorCode::kFixedDataContradict,
             "the fixed headings, curvatures or convexity cannot be met by a monotone contour",
             where,
@@ -446,6 +450,16 @@ class TransitionVertex {
   }
 };
 
+/// Whether the points alone have a solution, so that it is the wishes which have none. Then no
+/// direction is turned: further vertices are not what somebody who fixes a radius asks for.
+bool fulfilled_without(const ChainWishes& wishes, const Analysis& analysis, Extended series) {
+  if (!anything_wished(wishes)) return false;
+  auto problem = set_up(analysis, {});
+  if (!problem) return false;
+  series.problem = std::move(*problem);
+  return attempt(std::move(series), false).chain.has_value();
+}
+
 /// Directions that may be turned, and the longest series for which that is tried: every turn costs
 /// a solution of the whole chain.
 constexpr int kMostTurns = 100;
@@ -464,6 +478,9 @@ Result<SeriesChain> choose_elements(const std::vector<Vec2>& points, const Analy
 
   current.turned.assign(current.problem.direction.size(), false);
   Attempt tried = attempt(current, wishes.convex);
+  if (!tried.chain && fulfilled_without(wishes, analysis, current)) {
+    return fail(explain(points, analysis, wishes, tried.why));
+  }
   const Infeasibility first_reason = tried.why;
   int steps = tried.steps;
   std::size_t turned = 0;
