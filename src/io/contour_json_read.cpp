@@ -413,6 +413,7 @@ SegmentReport Reader::segment(const Node& node) {
   row.width = figure(node, "width");
   row.width_unrefined = optional_figure(node, "width_unrefined", row.width);
   row.deviation = figure(node, "deviation");
+  if (const auto place = optional_field(node, "deviation_at")) row.deviation_at = point(*place);
   row.inserted = optional_count(node, "inserted");
   return row;
 }

@@ -179,6 +179,8 @@ void Writer::segment(const SegmentReport& row) {
   figure("width_unrefined", row.width_unrefined);
   raw(", ");
   figure("deviation", row.deviation);
+  raw(", \"deviation_at\": ");
+  point(row.deviation_at);
   raw(", ");
   count("inserted", static_cast<long long>(row.inserted));
   raw("}");

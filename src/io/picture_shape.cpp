@@ -5,6 +5,8 @@
 
 #include "picture_axis.h"
 #include "picture_panels.h"
+#include "picture_region.h"
+#include "picture_view.h"
 
 namespace obvid {
 namespace {
@@ -29,19 +31,10 @@ constexpr double kThinStep = 0.6;
 constexpr double kMostVertices = 30000.0;
 /// Widest scale bar, px.
 constexpr double kScaleBar = 150.0;
+/// Narrower parts of the region, px, cannot be told from the curve.
+constexpr double kLeastRegion = 1.0;
 /// Average width of a letter in the legend, px (12 px sans-serif).
 constexpr double kLetter = 6.4;
-
-/// Model coordinates (relative) to px, y up.
-struct View {
-  Vec2 centre;         // model
-  Vec2 middle;         // px
-  double scale = 1.0;  // px per unit
-
-  [[nodiscard]] Vec2 operator()(Vec2 p) const {
-    return {middle.x + (p.x - centre.x) * scale, middle.y - (p.y - centre.y) * scale};
-  }
-};
 
 /// Comb in model units.
 struct Comb {
@@ -58,12 +51,12 @@ Comb make_comb(const PictureTrack& track) {
   return {kCombPart * diagonal / track.largest_kappa};
 }
 
-View make_view(const PictureTrack& track, const Comb& comb, double top, double& bottom) {
+PictureView make_view(const PictureTrack& track, const Comb& comb, double top, double& bottom) {
   PictureBox box = track.box;
   for (const PictureSample& sample : track.samples) box.add(comb.tip(sample));
   const Vec2 extent = box.high - box.low;
   const double room = kPictureWidth - 2.0 * (kPictureMargin + kPadding);
-  View view;
+  PictureView view;
   view.scale = 1.0;
   if (extent.x > 0.0 || extent.y > 0.0) {
     view.scale = std::min(extent.x > 0.0 ? room / extent.x : HUGE_VAL,
@@ -77,8 +70,8 @@ View make_view(const PictureTrack& track, const Comb& comb, double top, double& 
 }
 
 /// Cubic with the derivatives of the piece at both ends; split until it is close enough.
-void add_cubics(PicturePath& path, const Piece& piece, const View& view, const Jet& a, double ta,
-                const Jet& b, double tb, int depth) {
+void add_cubics(PicturePath& path, const Piece& piece, const PictureView& view, const Jet& a,
+                double ta, const Jet& b, double tb, int depth) {
   const double third = (tb - ta) / 3.0;
   const Vec2 p0 = view(a.point);
   const Vec2 p1 = view(a.point + third * a.d1);
@@ -101,7 +94,7 @@ void add_cubics(PicturePath& path, const Piece& piece, const View& view, const J
   add_cubics(path, piece, view, middle, t, b, tb, depth - 1);
 }
 
-void add_piece(PicturePath& path, const Piece& piece, const View& view, double step) {
+void add_piece(PicturePath& path, const Piece& piece, const PictureView& view, double step) {
   const Vec2 end = view(end_point(piece));
   if (std::holds_alternative<LinePiece>(piece)) return path.thin_line(end, step);
   const Vec2 start = view(start_point(piece));
@@ -114,7 +107,8 @@ void add_piece(PicturePath& path, const Piece& piece, const View& view, double s
 
 constexpr std::array<int, 4> kColours = {1, -1, 0, kNoRun};
 
-void draw_curve(PictureCanvas& canvas, const PictureTrack& track, const View& view, bool coloured) {
+void draw_curve(PictureCanvas& canvas, const PictureTrack& track, const PictureView& view,
+                bool coloured) {
   const double step = std::max(kThinStep, track.length * view.scale / kMostVertices);
   for (const int colour : kColours) {
     PicturePath path;
@@ -136,8 +130,8 @@ void draw_curve(PictureCanvas& canvas, const PictureTrack& track, const View& vi
   }
 }
 
-void draw_comb(PictureCanvas& canvas, const PictureTrack& track, const Comb& comb, const View& view,
-               bool coloured) {
+void draw_comb(PictureCanvas& canvas, const PictureTrack& track, const Comb& comb,
+               const PictureView& view, bool coloured) {
   if (comb.per_kappa == 0.0) return;
   PicturePath teeth;
   for (const PictureTooth& tooth : comb_teeth(track, kTeeth)) {
@@ -168,8 +162,28 @@ void draw_comb(PictureCanvas& canvas, const PictureTrack& track, const Comb& com
   }
 }
 
+/// Points-only region where it is wide enough to be seen, under everything else. Returns its
+/// largest width in units, 0 when nothing was drawn.
+double draw_region(PictureCanvas& canvas, const PictureTrack& track, const Contour& contour,
+                   const PictureView& view, double top, double bottom) {
+  PicturePath path;
+  double widest = 0.0;
+  for (const PictureLens& lens : points_only_region(track, contour)) {
+    if (!(lens.width * view.scale >= kLeastRegion)) continue;
+    add_lens(path, lens, view);
+    widest = std::max(widest, lens.width);
+  }
+  if (path.empty()) return 0.0;
+  // Wild points have lenses larger than the drawing: they end at the edges of the panel.
+  canvas.add(
+      "<clipPath id=\"shape\"><rect y=\"{}\" width=\"{}\" height=\"{}\"/></clipPath>\n"
+      "<path class=\"region\" clip-path=\"url(#shape)\" d=\"{}\"/>\n",
+      px(top), px(kPictureWidth), px(bottom - top), path.text());
+  return widest;
+}
+
 /// Radius of the dots, px: smaller where points are dense, 0 where dots would hide the curve.
-double dot_radius(const PictureTrack& track, const View& view) {
+double dot_radius(const PictureTrack& track, const PictureView& view) {
   constexpr double kLargest = 3.4;
   constexpr double kSmallest = 0.8;
   constexpr double kOfSpacing = 0.28;
@@ -181,7 +195,7 @@ double dot_radius(const PictureTrack& track, const View& view) {
 }
 
 /// Dots by round line ends: one path for all, far smaller than one element each.
-void draw_points(PictureCanvas& canvas, const PictureTrack& track, const View& view) {
+void draw_points(PictureCanvas& canvas, const PictureTrack& track, const PictureView& view) {
   const double radius = dot_radius(track, view);
   if (radius == 0.0) return;
   std::string dots;
@@ -199,7 +213,7 @@ void draw_points(PictureCanvas& canvas, const PictureTrack& track, const View& v
   }
 }
 
-void draw_features(PictureCanvas& canvas, const PictureTrack& track, const View& view) {
+void draw_features(PictureCanvas& canvas, const PictureTrack& track, const PictureView& view) {
   constexpr double kApart = 4.0;  // px; nearer symbols would cover each other
   if (track.features.size() > kMostSymbols) return;
   for (const auto kind : {PictureFeature::Kind::kInflection, PictureFeature::Kind::kVertex}) {
@@ -214,7 +228,7 @@ void draw_features(PictureCanvas& canvas, const PictureTrack& track, const View&
 }
 
 /// Arrow along the start tangent and the word "start" behind the first point.
-void draw_start(PictureCanvas& canvas, const PictureTrack& track, const View& view) {
+void draw_start(PictureCanvas& canvas, const PictureTrack& track, const PictureView& view) {
   if (track.samples.empty()) return;
   const PictureSample& start = track.samples.front();
   const Vec2 at = view(start.point);
@@ -231,7 +245,8 @@ void draw_start(PictureCanvas& canvas, const PictureTrack& track, const View& vi
   canvas.label(word, !sideways ? "middle" : ahead.x > 0.0 ? "end" : "start", "note", "start");
 }
 
-void draw_scale_bar(PictureCanvas& canvas, const View& view, const std::string& units, double y) {
+void draw_scale_bar(PictureCanvas& canvas, const PictureView& view, const std::string& units,
+                    double y) {
   const double length = round_down(kScaleBar / view.scale);
   const double left = kPictureMargin;
   const double right = left + length * view.scale;
@@ -306,8 +321,17 @@ void legend_features(PictureCanvas& canvas, Legend& legend, const PictureTrack& 
   }
 }
 
+void legend_region(PictureCanvas& canvas, Legend& legend, double widest, const std::string& units) {
+  const std::string text = "region: every monotone curve through the points, widest " +
+                           readable_number(widest, 3) + " " + units;
+  const Vec2 at = legend.entry(text, text.size(), 22.0);
+  canvas.add("<path class=\"region\" d=\"M{} {}q11 -12 22 0q-11 6 -22 0\"/>\n", px(at.x - 11.0),
+             px(at.y + 2.0));
+}
+
 double draw_legend(PictureCanvas& canvas, const PictureTrack& track, const Comb& comb,
-                   const View& view, const std::string& units, bool coloured, double y) {
+                   const PictureView& view, const std::string& units, bool coloured, double widest,
+                   double y) {
   Legend legend(canvas, kPictureMargin + kScaleBar + 90.0, y);
   legend_lines(canvas, legend, track, coloured);
   if (!track.points.empty()) {
@@ -321,6 +345,7 @@ double draw_legend(PictureCanvas& canvas, const PictureTrack& track, const Comb&
     canvas.add("<path class=\"teeth\" d=\"M{0} {1}v-9m4.5 9v-8m4.5 8v-7m4.5 7v-6m4.5 6v-5\"/>\n",
                px(at.x - 9.0), px(at.y + 5.0));
   }
+  if (widest > 0.0) legend_region(canvas, legend, widest, units);
   return legend.y();
 }
 
@@ -357,7 +382,8 @@ double shape_panel(PictureCanvas& canvas, const PictureTrack& track, const Conto
                    bool coloured, double top) {
   const Comb comb = make_comb(track);
   double bottom = top;
-  const View view = make_view(track, comb, top, bottom);
+  const PictureView view = make_view(track, comb, top, bottom);
+  const double widest = draw_region(canvas, track, contour, view, top, bottom);
   draw_comb(canvas, track, comb, view, coloured);
   draw_curve(canvas, track, view, coloured);
   draw_points(canvas, track, view);
@@ -365,7 +391,7 @@ double shape_panel(PictureCanvas& canvas, const PictureTrack& track, const Conto
   draw_start(canvas, track, view);
   const double strip = bottom + 22.0;
   draw_scale_bar(canvas, view, contour.units, strip);
-  return draw_legend(canvas, track, comb, view, contour.units, coloured, strip) + 16.0;
+  return draw_legend(canvas, track, comb, view, contour.units, coloured, widest, strip) + 16.0;
 }
 
 }  // namespace obvid

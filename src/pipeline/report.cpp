@@ -28,13 +28,17 @@ PieceBound bound_arc_pair(const Contour& contour, std::size_t piece, int directi
   const auto region = segment_region(frame, direction);
   bound.width = region ? region->width : bilens_width(frame);
   bound.width_unrefined = bound.deviation = bound.width;
+  bound.deviation_at = end_point(contour.pieces[piece]);
   return bound;
 }
 
 void add(SegmentReport& segment, const PieceBound& bound) {
   segment.width = std::max(segment.width, bound.width);
   segment.width_unrefined = std::max(segment.width_unrefined, bound.width_unrefined);
-  segment.deviation = std::max(segment.deviation, bound.deviation);
+  if (bound.deviation > segment.deviation) {
+    segment.deviation = bound.deviation;
+    segment.deviation_at = bound.deviation_at;
+  }
   segment.inserted += bound.inserted;
 }
 
@@ -67,6 +71,7 @@ FitReport measure(const Contour& contour, const Analysis& analysis, double toler
   for (std::size_t i = 0; i < report.segments.size(); ++i) {
     report.segments[i].chord = analysis.chords[i].length;
     report.segments[i].points_only_error = analysis.points_only_error[i];
+    report.segments[i].deviation_at = contour.points[i];
   }
   measure_pieces(contour, tolerance, report);
   for (const SegmentReport& s : report.segments) {

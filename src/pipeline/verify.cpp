@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <fmt/format.h>
+
 #include <cmath>
 #include <string>
 
@@ -33,8 +35,7 @@ class Comparison {
   void refuse(const std::string& name, double claimed, double found) {
     if (refused_) return;
     refused_ = Error{ErrorCode::kFalseClaim,
-                     "the file claims " + name + " = " + std::to_string(claimed) + ", found " +
-                         std::to_string(found),
+                     fmt::format("the file claims {} = {:.9g}, found {:.9g}", name, claimed, found),
                      "report",
                      "form the contour again",
                      -1,
@@ -58,6 +59,8 @@ void compare_report(const FitReport& claimed, const FitReport& found, Comparison
     c.length("width" + at, a.width, b.width);
     c.length("width_unrefined" + at, a.width_unrefined, b.width_unrefined);
     c.length("deviation" + at, a.deviation, b.deviation);
+    c.length("deviation_at[0]" + at, a.deviation_at.x, b.deviation_at.x);
+    c.length("deviation_at[1]" + at, a.deviation_at.y, b.deviation_at.y);
     c.count("inserted" + at, static_cast<double>(a.inserted), static_cast<double>(b.inserted));
   }
   c.length("largest_width", claimed.largest_width, found.largest_width);

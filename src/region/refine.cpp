@@ -32,8 +32,8 @@ double width_between(const Sample& a, const Sample& b, int direction) {
   return region ? region->width : bilens_width(frame);
 }
 
-/// Ordinate over the chord of the point whose tangent is parallel to the chord.
-double parallel_height(const Piece& piece, Vec2 start, Vec2 u) {
+/// The point whose tangent is parallel to the chord along the unit vector u.
+Vec2 parallel_point(const Piece& piece, Vec2 start, Vec2 u) {
   double t = 0.5;
   Vec2 p = start;
   for (int i = 0; i < kParallelSteps; ++i) {
@@ -43,13 +43,14 @@ double parallel_height(const Piece& piece, Vec2 start, Vec2 u) {
     if (bend == 0.0) break;
     t = std::clamp(t - slope / bend, 0.0, 1.0);
   }
-  return cross(u, p - start);
+  return p;
 }
 
-double deviation_from(const SegmentRegion& r, const Piece& piece, const Sample& a,
-                      const Sample& b) {
+double deviation_from(const SegmentRegion& r, const Piece& piece, const Sample& a, const Sample& b,
+                      Vec2& at) {
   const Vec2 u = (b.point - a.point) / norm(b.point - a.point);
-  const double y = parallel_height(piece, a.point, u);
+  at = parallel_point(piece, a.point, u);
+  const double y = cross(u, at - a.point);
   const bool above = y >= 0.0;
   const double y0 = above ? r.from_start.highest : r.from_start.lowest;
   const double y1 = above ? r.to_end.highest : r.to_end.lowest;
@@ -71,7 +72,9 @@ PieceBound bound_piece(const Piece& piece, int direction, double tolerance) {
       chord_frame(first.point, first.tangent, first.kappa, last.point, last.tangent, last.kappa);
   const auto region = segment_region(frame, direction);
   bound.width = bound.width_unrefined = region ? region->width : bilens_width(frame);
-  bound.deviation = region ? deviation_from(*region, piece, first, last) : bound.width;
+  bound.deviation_at = first.point;
+  bound.deviation =
+      region ? deviation_from(*region, piece, first, last, bound.deviation_at) : bound.width;
   double expected = bound.width;
   std::size_t count = 1;
   while (bound.width > tolerance) {

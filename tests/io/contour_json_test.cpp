@@ -81,6 +81,8 @@ void expect_same(const FitReport& a, const FitReport& b) {
     EXPECT_TRUE(same_bits(p.points_only_error, q.points_only_error));
     EXPECT_TRUE(same_bits(p.width_unrefined, q.width_unrefined));
     EXPECT_TRUE(same_bits(p.deviation, q.deviation));
+    EXPECT_TRUE(same_bits(p.deviation_at.x, q.deviation_at.x));
+    EXPECT_TRUE(same_bits(p.deviation_at.y, q.deviation_at.y));
     EXPECT_EQ(p.inserted, q.inserted);
   }
   EXPECT_TRUE(same_bits(a.tolerance, b.tolerance) && same_bits(a.largest_width, b.largest_width));
@@ -194,7 +196,8 @@ FitReport random_report(Numbers& numbers, std::size_t segments) {
   FitReport report;
   for (std::size_t i = 0; i < segments; ++i) {
     report.segments.push_back({numbers.positive(), numbers.coin() ? kNan : numbers.any(),
-                               numbers.any(), numbers.any(), numbers.any(), numbers.below(9)});
+                               numbers.any(), numbers.any(), numbers.any(),
+                               {numbers.any(), numbers.any()}, numbers.below(9)});
   }
   report.tolerance = numbers.positive();
   report.largest_width = numbers.any();

@@ -16,7 +16,8 @@ struct SegmentReport {
   double points_only_error = 0.0;  ///< NaN on the first and last chord
   double width = 0.0;              ///< largest width of the region after refinement
   double width_unrefined = 0.0;    ///< width between the two elements alone
-  double deviation = 0.0;          ///< contour to the farther boundary of the refined region
+  double deviation = 0.0;          ///< contour to the farther boundary of the unrefined region
+  Vec2 deviation_at;               ///< point of the contour where that occurs
   std::size_t inserted = 0;        ///< elements that the bound needed inside this segment
 };
 

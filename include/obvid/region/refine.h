@@ -18,6 +18,7 @@ struct PieceBound {
   double width = 0.0;            ///< largest region width after refinement
   double width_unrefined = 0.0;  ///< region width between the piece's own ends
   double deviation = 0.0;        ///< piece to the farther boundary of the unrefined region
+  Vec2 deviation_at;             ///< point of the piece where that occurs
   std::size_t inserted = 0;  ///< elements taken on the piece so that every width is small enough
   bool reached = true;  ///< false: the tolerance was not reached with the most elements allowed
 };
