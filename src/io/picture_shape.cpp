@@ -385,7 +385,9 @@ double shape_panel(PictureCanvas& canvas, const PictureTrack& track, const Conto
   const PictureView view = make_view(track, comb, top, bottom);
   const double widest = draw_region(canvas, track, contour, view, top, bottom);
   draw_comb(canvas, track, comb, view, coloured);
+  if (widest > 0.0) canvas.add("<g class=\"fine\">\n");  // a thick curve would hide the region
   draw_curve(canvas, track, view, coloured);
+  if (widest > 0.0) canvas.add("</g>\n");
   draw_points(canvas, track, view);
   draw_features(canvas, track, view);
   draw_start(canvas, track, view);

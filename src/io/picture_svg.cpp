@@ -25,7 +25,7 @@ text{font-family:"Helvetica Neue",Arial,"Liberation Sans","DejaVu Sans",sans-ser
 .arrow{fill:#5b6773}.bar{stroke:#1c2733;stroke-width:1.4}
 .grid{stroke:#e1e6eb;stroke-width:1}.faint{stroke:#eff2f5;stroke-width:1}.axis{stroke:#7b8794;stroke-width:1}
 .joint{stroke:#1c2733;stroke-width:1}
-.region{fill:#12a594;fill-opacity:.26;stroke:#0b7d70;stroke-opacity:.7;stroke-width:.6}
+.region{fill:#ffb300;fill-opacity:.42;stroke:#b07900;stroke-opacity:.85;stroke-width:.6}.fine .curve{stroke-width:1.7}
 @media (prefers-color-scheme:dark){
 text{fill:#e6eaee}.note,.fact,.open{fill:#9aa6b2}.paper{fill:#14191f}
 .good{fill:#57d27a}.bad{fill:#ff7b72}.teeth{stroke:#5d6874}
@@ -33,7 +33,7 @@ text{fill:#e6eaee}.note,.fact,.open{fill:#9aa6b2}.paper{fill:#14191f}
 .dot{stroke:#e6eaee}.hole{stroke:#14191f}.vertex{fill:#f08be8;stroke:#14191f}
 .inflection{fill:#ffd84a;stroke:#14191f}.arrow{fill:#9aa6b2}.bar{stroke:#e6eaee}
 .grid{stroke:#29323b}.faint{stroke:#1e252c}.axis{stroke:#6b7783}.joint{stroke:#e6eaee}
-.region{fill:#2ed3bd;fill-opacity:.3;stroke:#6fe5d5}}
+.region{fill:#ffca4a;fill-opacity:.34;stroke:#ffd97a}}
 </style>
 )";
 
