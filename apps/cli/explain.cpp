@@ -58,8 +58,8 @@ Error unknown_code(const std::string& typed) {
   std::vector<std::string> names;
   for (const ErrorText& text : error_texts()) names.push_back(name_of(text.code));
   const std::string near = nearest_name(typed, names);
-  return {ErrorCode::kUsage, "there is no error code '" + typed + "'", "",
-          near.empty() ? "`obvid explain` lists all codes" : "did you mean " + near + "?"};
+  return {ErrorCode::kUsage, fmt::format("there is no error code '{}'", typed), "",
+          near.empty() ? "`obvid explain` lists all codes" : fmt::format("did you mean {}?", near)};
 }
 
 }  // namespace
@@ -70,7 +70,7 @@ int run(const ExplainOptions& options) {
     text = list_of_codes(options.json);
   } else {
     std::string typed = options.code;
-    if (std::isdigit(static_cast<unsigned char>(typed[0])) != 0) typed.insert(0, "E");
+    if (std::isdigit(static_cast<unsigned char>(typed[0])) != 0) typed = fmt::format("E{}", typed);
     typed[0] = static_cast<char>(std::toupper(static_cast<unsigned char>(typed[0])));
     const auto all = error_texts();
     const auto same = [&typed](const ErrorText& t) { return name_of(t.code) == typed; };
@@ -81,9 +81,9 @@ int run(const ExplainOptions& options) {
       add_json(json, *found);
       text = json.take();
     } else {
-      text = bold(fmt::format("{}: {}", typed, found->title)) + "\n\n" +
-             wrapped(found->meaning, "") + "\n" + wrapped(found->remedy, "") + "\n" +
-             fmt::format("Exit code {}.\n", exit_code(found->code));
+      text = fmt::format(
+          "{}\n\n{}\n{}\nExit code {}.\n", bold(fmt::format("{}: {}", typed, found->title)),
+          wrapped(found->meaning, ""), wrapped(found->remedy, ""), exit_code(found->code));
     }
   }
   if (auto done = put(text); !done) return report(done.error());

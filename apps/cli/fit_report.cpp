@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
 #include <limits>
 
 #include "json_text.h"
@@ -74,6 +75,46 @@ std::string time_text(double seconds) {
   return fmt::format("{:.2f} s", seconds);
 }
 
+struct LargestError {
+  double value = 0.0;
+  std::size_t segment = kNone;  // none: not defined on any segment, or 0 on all
+
+  void meet(double other, std::size_t at) {
+    if (!(other > value)) return;  // undefined ones are not met
+    value = other;
+    segment = at;
+  }
+  [[nodiscard]] std::string points() const {
+    return fmt::format("points {}-{}", segment + 1, segment + 2);
+  }
+};
+
+/// What the points alone leave open, and what is left once tangents and curvatures are chosen.
+std::string error_text(const FitReport& report, const std::string& units) {
+  LargestError points_only;
+  LargestError chosen;
+  bool defined = false;
+  for (std::size_t i = 0; i < report.segments.size(); ++i) {
+    const SegmentReport& segment = report.segments[i];
+    defined = defined || !std::isnan(segment.points_only_error);
+    points_only.meet(segment.points_only_error, i);
+    chosen.meet(segment.deviation, i);
+  }
+  std::string text;
+  if (defined) {
+    text = fmt::format("{} {} from the points alone", significant(points_only.value, 4), units);
+    if (points_only.segment != kNone) text += fmt::format(" ({})", points_only.points());
+    text += "; ";
+  }
+  text +=
+      fmt::format("{} {} with these tangents and curvatures", significant(chosen.value, 4), units);
+  if (chosen.segment != kNone) {
+    const Vec2 at = report.segments[chosen.segment].deviation_at;
+    text += fmt::format(" ({}, at {}, {})", chosen.points(), significant(at.x), significant(at.y));
+  }
+  return text;
+}
+
 Facts summary(const Fit& fit, const std::vector<std::string>& written) {
   const Contour& contour = fit.contour;
   const FitReport& report = fit.report;
@@ -87,6 +128,7 @@ Facts summary(const Fit& fit, const std::vector<std::string>& written) {
   facts.add("contour",
             fmt::format("{} in {}", pieces, counted(contour.runs.size(), "run", "runs")));
   facts.add("fairness", fairness_text(report));
+  facts.add("largest error", error_text(report, contour.units));
   facts.add("largest width",
             fmt::format("{} {} (tolerance {})", significant(report.largest_width, 4), contour.units,
                         significant(report.tolerance, 4)));
@@ -99,7 +141,10 @@ Facts summary(const Fit& fit, const std::vector<std::string>& written) {
   facts.add("time", time_text(report.seconds));
   if (!written.empty()) {
     std::string names;
-    for (const std::string& name : written) names += (names.empty() ? "" : ", ") + name;
+    for (const std::string& name : written) {
+      if (!names.empty()) names += ", ";
+      names += name;
+    }
     facts.add("written", names);
   }
   return facts;
@@ -119,8 +164,8 @@ void add_gaps(Facts& facts, const Certificate& certificate, Carrier carrier) {
 
 std::string verdict_line(Carrier carrier, const Certificate& certificate) {
   if (!certificate.proved) {
-    return "NOT proved: " +
-           (certificate.reason.empty() ? std::string("no reason recorded") : certificate.reason);
+    const std::string& reason = certificate.reason;
+    return fmt::format("NOT proved: {}", reason.empty() ? "no reason recorded" : reason);
   }
   return carrier == Carrier::kArcs
              ? "proved: monotone radii on every run, G1 joints, inside the region"
