@@ -199,12 +199,11 @@ Changed similarity(const Sampled& s, double scale, double angle, Vec2 shift) {
   const long double n = std::sin(static_cast<long double>(angle));
   Changed out;
   for (const Vec2 p : s.points) {
-    out.points.push_back(rounded(scale * (c * p.x - n * p.y) + shift.x,
-                                 scale * (n * p.x + c * p.y) + shift.y));
+    out.points.push_back(
+        rounded(scale * (c * p.x - n * p.y) + shift.x, scale * (n * p.x + c * p.y) + shift.y));
   }
-  out.relation = same_order([=](Vec2 v) {
-    return rounded((c * v.x + n * v.y) / scale, (c * v.y - n * v.x) / scale);
-  });
+  out.relation = same_order(
+      [=](Vec2 v) { return rounded((c * v.x + n * v.y) / scale, (c * v.y - n * v.x) / scale); });
   return out;
 }
 
@@ -296,7 +295,8 @@ TEST(Properties, ElementsDoNotDependOnTheWayRound) {
     for (std::size_t j = 0; j <= last; ++j) {
       const Element &e = there[j], &f = back[last - j];
       const double turn = e.theta - f.theta - std::numbers::pi;
-      EXPECT_NEAR(std::remainder(turn, 2.0 * std::numbers::pi), 0.0, kSameHeading) << i << ", " << j;
+      EXPECT_NEAR(std::remainder(turn, 2.0 * std::numbers::pi), 0.0, kSameHeading)
+          << i << ", " << j;
       const double scale = std::max({std::abs(e.kappa), std::abs(there[j > 0 ? j - 1 : 1].kappa),
                                      std::abs(there[j < last ? j + 1 : last - 1].kappa)});
       EXPECT_NEAR(e.kappa, -f.kappa, kSameCurvature * scale) << i << ", " << j;
@@ -313,7 +313,8 @@ TEST(Properties, AScaleByAPowerOfTwoChangesNothingButExponents) {
     const Sampled s = near_series(i, rng);
     const int power = static_cast<int>(rng() % 81) - 40;
     std::vector<Vec2> scaled;
-    for (const Vec2 p : s.points) scaled.push_back({std::ldexp(p.x, power), std::ldexp(p.y, power)});
+    for (const Vec2 p : s.points)
+      scaled.push_back({std::ldexp(p.x, power), std::ldexp(p.y, power)});
     const auto a = fit_points(s.points), b = fit_points(scaled);
     ASSERT_EQ(a.has_value(), b.has_value()) << i;
     if (!a) continue;
@@ -360,7 +361,8 @@ TEST(Properties, FarFromTheOriginTheContourStaysWithinThePointsOnlyError) {
     worst = std::max(worst, difference(*a, *b, changed.relation).of_points_only);
     ++compared;
   }
-  std::printf("far away: %d series, largest change %.2e of the points-only error\n", compared, worst);
+  std::printf("far away: %d series, largest change %.2e of the points-only error\n", compared,
+              worst);
   EXPECT_GT(compared, kSeries / 4);
   EXPECT_LE(worst, 1.0);
 }
