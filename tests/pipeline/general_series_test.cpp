@@ -36,12 +36,16 @@ fs::path shared_data() {
 /// Curvature of a rational quartic in extended precision, by de Casteljau on the homogeneous curve.
 long double sampled_curvature(const RationalBezier& piece, long double t) {
   EXPECT_EQ(piece.degree, 4);
+  // relative to the nearer end, which loses no digits: legs can be 1e-5 of a coordinate
+  const Vec2 base = piece.offset[t < 0.5L ? 0 : 4];
   long double value[3], d1[3], d2[3];  // x, y, w
   for (int c = 0; c < 3; ++c) {
     long double p[5];
     for (std::size_t j = 0; j < 5; ++j) {
       const long double w = piece.weight[j];
-      p[j] = c == 0 ? w * piece.offset[j].x : c == 1 ? w * piece.offset[j].y : w;
+      const long double x = static_cast<long double>(piece.offset[j].x) - base.x;
+      const long double y = static_cast<long double>(piece.offset[j].y) - base.y;
+      p[j] = c == 0 ? w * x : (c == 1 ? w * y : w);
     }
     for (int level = 0; level < 2; ++level) {
       for (int j = 0; j < 4 - level; ++j) p[j] += t * (p[j + 1] - p[j]);
@@ -59,6 +63,34 @@ long double sampled_curvature(const RationalBezier& piece, long double t) {
   const long double speed = std::sqrt(ux * ux + uy * uy);
   return det * w * w * w / (speed * speed * speed);
 }
+
+/// Counts turns of a sequence that exceed a floor: from the lowest value since the last turn down,
+/// or from the highest since the last turn up.
+class TurnCounter {
+ public:
+  void add(long double value, long double floor) {
+    if (!started_) low_ = high_ = value;
+    started_ = true;
+    low_ = std::min(low_, value);
+    high_ = std::max(high_, value);
+    if (direction_ <= 0 && value > low_ + floor) {
+      turn(1, value);
+    } else if (direction_ >= 0 && value < high_ - floor) {
+      turn(-1, value);
+    }
+  }
+  [[nodiscard]] int turns() const { return turns_; }
+
+ private:
+  void turn(int direction, long double value) {
+    turns_ += direction_ != 0 ? 1 : 0;
+    direction_ = direction;
+    low_ = high_ = value;
+  }
+  bool started_ = false;
+  int direction_ = 0, turns_ = 0;
+  long double low_ = 0.0L, high_ = 0.0L;
+};
 
 long double curvature_at(const Piece& piece, long double t) {
   if (const auto* bezier = std::get_if<RationalBezier>(&piece))
