@@ -5,7 +5,9 @@
 
 #include <algorithm>
 #include <cctype>
+#include <cmath>
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -71,6 +73,34 @@ Result<std::vector<std::string>> write_outputs(std::vector<Output>& outputs,
   return written;
 }
 
+/// An error about points that no monotone curve meets names how far they would have to move.
+Error with_move(Error error, const std::string& units) {
+  if (error.code != ErrorCode::kNoSpiral || !(error.value > 0.0) || std::isinf(error.value)) {
+    return error;
+  }
+  error.where +=
+      fmt::format("{}{} {}", error.where.empty() ? "" : ", ", significant(error.value, 2), units);
+  return error;
+}
+
+/// Arcs have radii between those that a smooth contour has: a given one is aimed at, not met.
+void warn_of_radius(const char* end, const std::optional<double>& asked, double kappa,
+                    const std::string& units, std::vector<std::string>& warnings) {
+  if (!asked || *asked == kappa) return;
+  warnings.push_back(
+      fmt::format("the arc at the {} has radius {} {}, not {}: arcs meet the given heading, and a "
+                  "given radius only in the limit",
+                  end, radius_text(kappa), units, radius_text(*asked)));
+}
+
+void warn_of_radii(const FitJob& job, Fit& made) {
+  if (job.carrier != Carrier::kArcs || made.contour.joints.empty()) return;
+  const std::vector<Joint>& joints = made.contour.joints;
+  const std::string& units = made.contour.units;
+  warn_of_radius("start", job.start_kappa, joints.front().element.kappa, units, made.warnings);
+  warn_of_radius("end", job.end_kappa, joints.back().element.kappa, units, made.warnings);
+}
+
 Result<Fit> read_and_fit(const FitOptions& options, std::string& name, ProgressBar& bar) {
   bar.tell("reading", 0.0);
   Result<PointSeries> series = read_points(options.input);
@@ -78,10 +108,13 @@ Result<Fit> read_and_fit(const FitOptions& options, std::string& name, ProgressB
   if (options.units) series->units = *options.units;
   name = series->name;
   Result<Fit> made = fit(*series, options.job, bar.progress());
-  if (made) return made;
+  if (made) {
+    warn_of_radii(options.job, *made);
+    return made;
+  }
   bar.clear();
   warn(series->warnings);  // a formed contour carries them itself
-  return made;
+  return fail(with_move(made.error(), series->units));
 }
 
 /// Exit code 5 for what was formed but does not keep its promise.

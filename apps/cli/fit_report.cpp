@@ -183,7 +183,7 @@ std::string fit_report_text(const std::string& name, const Fit& fit,
                      fit.contour.units);
   out += segment_table(fit).text();
   out += shown_note(rows_worth_showing(width).size(), width.size(), "widest", "segments");
-  out += "\n" + summary(fit, written).text();
+  out += fmt::format("\n{}", summary(fit, written).text());
   const std::string verdict = verdict_line(fit.contour.carrier, fit.certificate);
   return out + (fit.certificate.proved ? good(verdict) : bad(verdict)) + "\n";
 }

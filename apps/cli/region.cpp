@@ -68,12 +68,12 @@ std::string report_text(const PointSeries& series, const RegionTable& region) {
   std::string out = series.name.empty() ? "" : bold(series.name) + "\n";
   out += fmt::format(
       "lengths in {}; radius positive where the contour turns left\n"
-      "T: where the tangents at points i and i+1 meet; h: height of the lower "
-      "boundary above the chord\n\n",
+      "T: where the tangents at points i and i+1 meet; h: height of the lower boundary above the\n"
+      "chord, delta: width of the region, both over the middle of the chord\n\n",
       series.units);
   out += segment_table(region).text();
   out += shown_note(rows_worth_showing(width).size(), width.size(), "widest", "segments");
-  return out + fmt::format("\nlargest width  {} {}\n", significant(largest, 4), series.units);
+  return out + fmt::format("\nlargest delta  {} {}\n", significant(largest, 4), series.units);
 }
 
 std::string report_json(const PointSeries& series, const RegionTable& region) {

@@ -10,6 +10,7 @@
 #include "obvid/io/picture_svg.h"
 #include "picture_axis.h"
 #include "picture_canvas.h"
+#include "picture_region.h"
 #include "picture_track.h"
 
 namespace obvid {
@@ -208,6 +209,118 @@ TEST(PictureTrack, MarksOneVertexInTheMiddleOfACircleBetweenOppositeRuns) {
   const PictureTrack track = make_track(stored.contour);
   ASSERT_EQ(track.features.size(), 1U);
   EXPECT_NEAR(track.features[0].at.s, 0.8 + 0.2, 0.01);
+}
+
+/// Contour of chords that stands on its points; the region looks at joints and runs only.
+StoredContour on_points(const std::vector<Vec2>& points, const std::vector<obvid::Run>& runs) {
+  StoredContour stored;
+  stored.contour.points = points;
+  stored.contour.runs = runs;
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    stored.contour.joints.push_back({{points[i], 0.0, 0.0}, i});
+    if (i > 0) stored.contour.pieces.emplace_back(LinePiece{points[i - 1], points[i]});
+  }
+  return stored;
+}
+
+/// On y = x^2 curvature falls from x = 0 on.
+std::vector<Vec2> parabola_points() {
+  return {{0.0, 0.0}, {0.4, 0.16}, {1.0, 1.0}, {1.5, 2.25}, {2.5, 6.25}, {3.0, 9.0}};
+}
+
+/// Centre from the perpendicular bisectors.
+Vec2 circumcentre(Vec2 a, Vec2 b, Vec2 c) {
+  const Vec2 p = b - a, q = c - a;
+  const double d = 2.0 * cross(p, q);
+  return a + Vec2{q.y * dot(p, p) - p.y * dot(q, q), p.x * dot(q, q) - q.x * dot(p, p)} / d;
+}
+
+TEST(PictureRegion, RunsBetweenTheCirclesThroughEachThreePoints) {
+  const std::vector<Vec2> points = parabola_points();
+  const StoredContour stored = on_points(points, {{0, 4, -1}});
+  const std::vector<PictureLens> region =
+      points_only_region(make_track(stored.contour), stored.contour);
+  ASSERT_EQ(region.size(), 3U) << "first and last chord have no region";
+  PictureView view;
+  view.scale = 1e4;
+  for (std::size_t k = 0; k < region.size(); ++k) {
+    PicturePath path;
+    add_lens(path, region[k], view);
+    const std::vector<double> n = numbers_of(path.text());
+    ASSERT_GE(n.size(), 14U);
+    const auto at = [&](std::size_t j) { return Vec2{n[j], -n[j + 1]} / 1e4; };
+    const std::size_t i = k + 1;  // first point of the chord
+    const Vec2 centres[2] = {circumcentre(points[i - 1], points[i], points[i + 1]),
+                             circumcentre(points[i], points[i + 1], points[i + 2])};
+    EXPECT_LT(norm(at(0) - points[i]), 1e-6);
+    EXPECT_LT(norm(at(n.size() - 2) - points[i]), 1e-6) << "the outline closes";
+    std::size_t arc = 0;
+    for (std::size_t j = 0; j + 7 < n.size(); j += 6) {
+      const Vec2 end = at(j + 6);
+      const Vec2 middle = (at(j) + 3.0 * at(j + 2) + 3.0 * at(j + 4) + end) / 8.0;
+      const double radius = norm(points[i] - centres[arc]);
+      EXPECT_NEAR(norm(middle - centres[arc]), radius, 1e-5 * radius) << i << ' ' << j;
+      EXPECT_NEAR(norm(end - centres[arc]), radius, 1e-5 * radius) << i << ' ' << j;
+      if (norm(end - points[i + 1]) < 1e-6) arc = 1;
+    }
+    EXPECT_EQ(arc, 1U);
+  }
+}
+
+TEST(PictureRegion, HoldsTheCurveThatThePointsWereTakenFrom) {
+  const std::vector<Vec2> points = parabola_points();
+  const StoredContour stored = on_points(points, {{0, 4, -1}});
+  const auto region = points_only_region(make_track(stored.contour), stored.contour);
+  ASSERT_EQ(region.size(), 3U);
+  for (std::size_t i = 1; i <= 3; ++i) {
+    const Vec2 chord = points[i + 1] - points[i];
+    const double h = norm(chord);
+    // The tangent of the parabola is parallel to the chord above the middle abscissa.
+    const double x = 0.5 * (points[i].x + points[i + 1].x);
+    const double height = -cross(chord, Vec2{x, x * x} - points[i]) / h;
+    const auto sag = [h](double e) { return 0.5 * h * std::tan(0.5 * e); };
+    const PictureLens& lens = region[i - 1];
+    EXPECT_GT(height, std::min(sag(lens.half_turn[0]), sag(lens.half_turn[1])));
+    EXPECT_LT(height, std::max(sag(lens.half_turn[0]), sag(lens.half_turn[1])));
+    EXPECT_NEAR(lens.width, std::fabs(sag(lens.half_turn[0]) - sag(lens.half_turn[1])), 1e-12);
+  }
+}
+
+TEST(PictureRegion, EndsWhereTheContourHasAVertexOrTurnsTheOtherWay) {
+  const auto count = [](const std::vector<obvid::Run>& runs) {
+    const StoredContour stored = on_points(parabola_points(), runs);
+    return points_only_region(make_track(stored.contour), stored.contour).size();
+  };
+  EXPECT_EQ(count({{0, 4, -1}}), 3U);
+  EXPECT_EQ(count({{0, 0, 0}, {1, 4, -1}}), 3U) << "a circle is monotone either way";
+  EXPECT_EQ(count({{0, 3, -1}, {4, 4, 1}}), 2U);
+  EXPECT_EQ(count({{0, 1, -1}, {2, 4, 1}}), 0U);
+  EXPECT_EQ(count({{0, 4, 1}}), 0U) << "not what the circles say";
+  EXPECT_EQ(count({}), 0U);
+}
+
+TEST(PictureRegion, IsSilentlyMissingWherePointsCannotBeAnalysed) {
+  StoredContour twice = on_points({{0, 0}, {1, 0}, {1, 0}, {2, 1}, {2, 2}}, {{0, 3, 1}});
+  EXPECT_TRUE(points_only_region(make_track(twice.contour), twice.contour).empty());
+  StoredContour back = on_points({{0, 0}, {1, 0}, {0, 0}, {2, 1}, {2, 2}}, {{0, 3, 1}});
+  EXPECT_TRUE(points_only_region(make_track(back.contour), back.contour).empty());
+  StoredContour bare = on_points(parabola_points(), {{0, 4, -1}});
+  bare.contour.joints.clear();
+  EXPECT_TRUE(points_only_region(make_track(bare.contour), bare.contour).empty());
+  EXPECT_NE(picture_svg(back).find("</svg>"), std::string::npos);
+}
+
+TEST(PictureRegion, IsDrawnWhereItCanBeSeenAndThenStandsInTheLegend) {
+  const std::string wide = picture_svg(on_points(parabola_points(), {{0, 4, -1}}));
+  EXPECT_NE(wide.find("<path class=\"region\""), std::string::npos);
+  EXPECT_NE(wide.find("region: every monotone curve through the points, widest "),
+            std::string::npos);
+  std::vector<Vec2> dense;
+  for (int i = 0; i <= 200; ++i) dense.push_back({0.01 * i, 1e-4 * i * i});
+  const StoredContour fine = on_points(dense, {{0, 199, -1}});
+  EXPECT_EQ(points_only_region(make_track(fine.contour), fine.contour).size(), 198U);
+  EXPECT_EQ(picture_svg(fine).find("<path class=\"region\""), std::string::npos);
+  EXPECT_EQ(picture_svg(fine).find("every monotone curve"), std::string::npos);
 }
 
 TEST(PictureAxis, HasRoundTicks) {
