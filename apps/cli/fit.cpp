@@ -78,8 +78,8 @@ Error with_move(Error error, const std::string& units) {
   if (error.code != ErrorCode::kNoSpiral || !(error.value > 0.0) || std::isinf(error.value)) {
     return error;
   }
-  error.where +=
-      fmt::format("{}{} {}", error.where.empty() ? "" : ", ", significant(error.value, 2), units);
+  error.where += fmt::format("{}about {} {}", error.where.empty() ? "" : ", ",
+                             significant(error.value, 2), units);
   return error;
 }
 
