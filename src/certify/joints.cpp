@@ -48,7 +48,12 @@ double heading_gap(Vec2 a, Vec2 b) { return std::abs(turning(a, b)); }
 /// Walks along the contour, comparing neighbours with each other and with the joint's element.
 class JointWalk {
  public:
-  explicit JointWalk(const Contour& contour) : contour_(contour), size_(size_of_box(contour)) {}
+  explicit JointWalk(const Contour& contour) : contour_(contour), size_(size_of_box(contour)) {
+    for (const Piece& piece : contour.pieces) {
+      largest_kappa_ = std::max(
+          {largest_kappa_, std::abs(start_data(piece).kappa), std::abs(end_data(piece).kappa)});
+    }
+  }
 
   JointSurvey run() {
     const std::size_t n = contour_.pieces.size();
@@ -116,7 +121,13 @@ class JointWalk {
     const double bound =
         std::max(kCurvatureBase,
                  relative(left.kappa_rounding + right.kappa_rounding, left.kappa, right.kappa));
-    survey_.gaps.curvature = std::max(survey_.gaps.curvature, gap);
+    // reported against the contour's largest curvature, as an onlooker would: where a spiral runs
+    // into a line, rounding beside an exact zero is no gap
+    const double seen =
+        std::max({std::abs(left.kappa), std::abs(right.kappa), kFlat * largest_kappa_});
+    if (jump != 0.0) {
+      survey_.gaps.curvature = std::max(survey_.gaps.curvature, known(std::abs(jump) / seen));
+    }
     // Arcs promise a common tangent only; their jumps are judged as changes of curvature.
     if (contour_.carrier != Carrier::kArcs) check(gap, bound, joint, "the curvature gap");
     return static_cast<std::int8_t>(gap <= bound ? 0 : (jump > 0.0 ? 1 : -1));
@@ -181,6 +192,7 @@ class JointWalk {
   const Contour& contour_;
   double size_;
   double local_kappa_ = 0.0;
+  double largest_kappa_ = 0.0;
   int last_sign_ = 0;
   JointSurvey survey_;
 };

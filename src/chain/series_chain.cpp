@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "obvid/chain/series_chain.h"
 
+#include <fmt/format.h>
 #include <algorithm>
+
 #include <cmath>
 #include <limits>
+#include <numbers>
 #include <string>
 
 namespace obvid {
@@ -40,6 +43,17 @@ int forced_sign(const Analysis& a, std::size_t i) {
   return before == -own || after == -own ? 0 : own;
 }
 
+/// Whether data fixed at a point of a stretch are others than the stretch's own.
+bool contradicts(const NodeData& node, double theta, double kappa, double rounding) {
+  constexpr double kSameHeading = 1e-9;    // rad: far below what a user can give
+  constexpr double kSameCurvature = 1e-6;  // of the stretch's curvature
+  const bool turned = node.theta && std::abs(std::remainder(*node.theta - theta,
+                                                            2.0 * std::numbers::pi)) > kSameHeading;
+  const bool bent = node.kappa && std::abs(*node.kappa - kappa) >
+                                      std::max(kSameCurvature * std::abs(kappa), rounding);
+  return turned || bent;
+}
+
 Result<ChainProblem> set_up(const Analysis& a, const ChainWishes& wishes) {
   ChainProblem p{a.chords, a.circles, a.direction, {}, std::vector<NodeData>(a.circles.size())};
   for (const std::int8_t d : a.direction)
@@ -67,6 +81,13 @@ Result<ChainProblem> set_up(const Analysis& a, const ChainWishes& wishes) {
   }
   for (const CircularStretch& s : a.stretches) {
     for (std::size_t i = s.first; i <= s.last; ++i) {
+      if (contradicts(p.nodes[i], heading_on_stretch(a, s, i), s.kappa, a.circles[i].rounding)) {
+        return fail({ErrorCode::kFixedDataContradict,
+                     "the points lie on one circle or line here, with another heading or radius "
+                     "than the fixed one",
+                     fmt::format("point {}", i + 1), "free the heading and radius there",
+                     static_cast<std::ptrdiff_t>(i), s.kappa});
+      }
       p.nodes[i].theta = heading_on_stretch(a, s, i);
       p.nodes[i].kappa = s.kappa;
       p.nodes[i].curvature_sign = 0;
@@ -98,9 +119,8 @@ double rounding_move(const std::vector<Vec2>& points, const Infeasibility& why) 
 
 bool anything_wished(const ChainWishes& wishes) {
   return wishes.convex ||
-         std::any_of(wishes.fixed.begin(), wishes.fixed.end(), [](const FixedData& f) {
-           return f.theta.has_value() || f.kappa.has_value();
-         });
+         std::any_of(wishes.fixed.begin(), wishes.fixed.end(),
+                     [](const FixedData& f) { return f.theta.has_value() || f.kappa.has_value(); });
 }
 
 Error explain(const std::vector<Vec2>& points, const Analysis& a, const ChainWishes& wishes,
@@ -121,7 +141,7 @@ Error explain(const std::vector<Vec2>& points, const Analysis& a, const ChainWis
     return {ErrorCode::kNoRoomForTransition,
             "a straight or circular stretch leaves no room for a change of curvature beside it",
             where,
-            "remove a point at the end of the stretch, or form the contour of arcs",
+            "remove a point at the end of the stretch, or move one off it",
             index,
             why.move};
   }
@@ -144,7 +164,7 @@ Error explain(const std::vector<Vec2>& points, const Analysis& a, const ChainWis
   return {ErrorCode::kNoSpiral,
           "no curve with curvature changing as the points demand runs through them",
           where,
-          "move points there by about the value given, or add points",
+          "move points there, or add points",
           index,
           why.move};
 }

@@ -91,10 +91,10 @@ constexpr std::array kTexts{
               "Free the named values one after another, or compare them with the ranges that "
               "`obvid region` prints."},
     ErrorText{ErrorCode::kNoRoomForTransition, "No room for a curvature-continuous transition",
-              "A contour with monotone curvature passes through the points, but only with jumps of "
-              "curvature: the data leave it a single way, which is a chain of arcs.",
-              "Use `--carrier arcs`, which needs no continuous curvature, or move or leave out the "
-              "named points."},
+              "Four or more points lie exactly on one line or circle, and the points beside them are "
+              "so close to it that the curvature would have to jump at its end.",
+              "Move or leave out the named points, or one point at the end of the straight or "
+              "circular stretch."},
     ErrorText{ErrorCode::kRoundingDecides, "Rounding of the coordinates decides",
               "The points are so close together, compared with the size of their coordinates, that "
               "the last digit of the numbers determines the curvature. Another rounding of the "
@@ -116,11 +116,6 @@ constexpr std::array kTexts{
               "A figure or a verdict in the file does not agree with what its curve really is. The "
               "file was changed after it was written, or written by a faulty program.",
               "Do not use the file. Form the contour again from its points with `obvid fit`."},
-    ErrorText{ErrorCode::kNotConverged, "The solver stopped early",
-              "Choosing headings and curvatures took more steps than are ever needed for sound "
-              "data, so the outcome is unknown: neither a contour nor the proof that none exists.",
-              "Check the data for nearly coincident points or extreme ratios of distances, and "
-              "report the series."},
 };
 
 }  // namespace

@@ -12,6 +12,9 @@
 namespace obvid {
 namespace {
 
+/// A figure that the contract does not ask for and the file does not give.
+constexpr double kNoClaim = std::numeric_limits<double>::quiet_NaN();
+
 using nlohmann::json;
 using std::string_view;
 
@@ -411,8 +414,12 @@ SegmentReport Reader::segment(const Node& node) {
   row.chord = figure(node, "chord");
   row.points_only_error = figure(node, "points_only_error");
   row.width = figure(node, "width");
-  row.width_unrefined = optional_figure(node, "width_unrefined", row.width);
+  row.width_unrefined = kNoClaim;
+  if (const auto width = optional_field(node, "width_unrefined")) {
+    row.width_unrefined = number(*width);
+  }
   row.deviation = figure(node, "deviation");
+  row.deviation_at = {kNoClaim, kNoClaim};
   if (const auto place = optional_field(node, "deviation_at")) row.deviation_at = point(*place);
   row.inserted = optional_count(node, "inserted");
   return row;

@@ -176,11 +176,15 @@ void Writer::segment(const SegmentReport& row) {
   raw(", ");
   figure("width", row.width);
   raw(", ");
-  figure("width_unrefined", row.width_unrefined);
-  raw(", ");
+  if (!std::isnan(row.width_unrefined)) {  // a file read without it claims nothing
+    figure("width_unrefined", row.width_unrefined);
+    raw(", ");
+  }
   figure("deviation", row.deviation);
-  raw(", \"deviation_at\": ");
-  point(row.deviation_at);
+  if (!std::isnan(row.deviation_at.x)) {
+    raw(", \"deviation_at\": ");
+    point(row.deviation_at);
+  }
   raw(", ");
   count("inserted", static_cast<long long>(row.inserted));
   raw("}");

@@ -80,7 +80,7 @@ std::string facts_of(const StoredContour& stored) {
   text += " (at least " + std::to_string(report.vertices_lower_bound) + ")";
   text += " · " + counted(static_cast<std::size_t>(std::max(report.inflections, 0)), "inflection",
                           "inflections");
-  text += " · error bound " + readable_number(report.largest_width, 2) + " " + stored.contour.units;
+  text += " · region width " + readable_number(report.largest_width, 2) + " " + stored.contour.units;
   return text;
 }
 

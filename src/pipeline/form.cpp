@@ -13,19 +13,23 @@
 namespace obvid::pipeline_detail {
 namespace {
 
-/// Rounding of the coordinates may blur at most this part of a piece's change of curvature;
-/// where it blurs more, the piece keeps its start as origin and its offsets their own digits.
-constexpr double kLargestBlur = 1e-3;
-/// Curvature error of a quartic Bezier per rounding of a control point, over (chord)^2.
-constexpr double kCurvaturePerRounding = 48.0;
+/// Rounding of the coordinates may blur at most this part of a piece's change of curvature, and
+/// this part of its curvature (a quarter of what is called continuous); where it blurs more, the
+/// piece keeps its start as origin and its offsets their own digits.
+constexpr double kLargestBlurOfChange = 1e-3;
+constexpr double kLargestBlur = 2.5e-10;
+/// Curvature error at an end per rounding of a control point, over the square of the end's leg.
+constexpr double kCurvaturePerRounding = 8.0;
 
-bool fits_global_coordinates(const RationalBezier& piece, double change_of_kappa) {
+bool fits_global_coordinates(const RationalBezier& piece, double kappa_start, double kappa_end) {
   const Vec2 a = piece.origin + piece.offset[0], b = piece.origin + piece.offset[4];
   const double extent = std::max(std::abs(a.x) + std::abs(a.y), std::abs(b.x) + std::abs(b.y));
-  const Vec2 chord = piece.offset[4] - piece.offset[0];
-  const double chord2 = dot(chord, chord);
-  const double blur = kCurvaturePerRounding * 0x1p-53 * extent / chord2;
-  return blur <= kLargestBlur * std::abs(change_of_kappa);
+  const Vec2 first = piece.offset[1] - piece.offset[0], last = piece.offset[4] - piece.offset[3];
+  const double leg2 = std::min(dot(first, first), dot(last, last));
+  const double blur = kCurvaturePerRounding * 0x1p-53 * extent / leg2;
+  const double kappa = std::max(std::abs(kappa_start), std::abs(kappa_end));
+  return blur <= kLargestBlurOfChange * std::abs(kappa_end - kappa_start) &&
+         blur <= kLargestBlur * kappa;
 }
 
 RationalBezier in_global_coordinates(RationalBezier piece) {
@@ -133,7 +137,7 @@ Result<Contour> form_spirals(const std::vector<Vec2>& points, const Analysis& an
         contour.joints.push_back({element_between(parts[j], a.theta, b.theta), std::nullopt});
         direction.push_back(chain.direction[i]);
       }
-      const bool global = fits_global_coordinates(parts[j], b.kappa - a.kappa);
+      const bool global = fits_global_coordinates(parts[j], a.kappa, b.kappa);
       contour.pieces.emplace_back(global ? in_global_coordinates(parts[j]) : parts[j]);
     }
   }

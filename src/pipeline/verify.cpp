@@ -57,10 +57,15 @@ void compare_report(const FitReport& claimed, const FitReport& found, Comparison
     c.length("chord" + at, a.chord, b.chord);
     c.length("points_only_error" + at, a.points_only_error, b.points_only_error);
     c.length("width" + at, a.width, b.width);
-    c.length("width_unrefined" + at, a.width_unrefined, b.width_unrefined);
+    // beyond the contract's fields: a file need not claim them
+    if (!std::isnan(a.width_unrefined)) {
+      c.length("width_unrefined" + at, a.width_unrefined, b.width_unrefined);
+    }
     c.length("deviation" + at, a.deviation, b.deviation);
-    c.length("deviation_at[0]" + at, a.deviation_at.x, b.deviation_at.x);
-    c.length("deviation_at[1]" + at, a.deviation_at.y, b.deviation_at.y);
+    if (!std::isnan(a.deviation_at.x) || !std::isnan(a.deviation_at.y)) {
+      c.length("deviation_at[0]" + at, a.deviation_at.x, b.deviation_at.x);
+      c.length("deviation_at[1]" + at, a.deviation_at.y, b.deviation_at.y);
+    }
     c.count("inserted" + at, static_cast<double>(a.inserted), static_cast<double>(b.inserted));
   }
   c.length("largest_width", claimed.largest_width, found.largest_width);

@@ -207,6 +207,9 @@ void bound_singular_points(Analysis& a) {
 void bound_error(Analysis& a) {
   a.points_only_error.assign(a.chords.size(), std::numeric_limits<double>::quiet_NaN());
   for (std::size_t i = 1; i + 1 < a.chords.size(); ++i) {
+    // both circles reach over three points: they bound a curve that is monotone over three chords
+    const int d = a.direction[i];
+    if (d == 0 || a.direction[i - 1] != d || a.direction[i + 1] != d) continue;
     const double sag_before = std::tan(0.5 * a.circles[i].eta_out);
     const double sag_after = std::tan(0.5 * a.circles[i + 1].eta_in);
     a.points_only_error[i] = 0.5 * a.chords[i].length * std::abs(sag_after - sag_before);

@@ -36,7 +36,7 @@ struct Fit {
 /// the region, form the pieces, prove them. Same input, same result, bit for bit (apart from
 /// `seconds`). Cost O(n).
 /// Errors: E304, E309, E402 for the data; E401, E403, E404, E405 when no such contour exists;
-/// E504 when the solver stopped early. A contour that was formed but not proved is returned with
+/// A contour that was formed but not proved is returned with
 /// `certificate.proved == false` and its reason: never hidden.
 [[nodiscard]] Result<Fit> fit(const PointSeries& series, const FitJob& job,
                               const Progress& progress = {});

@@ -42,11 +42,11 @@ struct SeriesRun {
 
 /// What the points alone say about any fair curve through them (docs/methods/series.md).
 struct Analysis {
-  std::vector<Chord> chords;            ///< n - 1
-  std::vector<AdjacentCircle> circles;  ///< n
-  std::vector<std::int8_t> direction;   ///< n - 1: +1, -1, or 0 inside a circular stretch
-  std::vector<double>
-      points_only_error;  ///< n - 1; NaN where it is not defined (first, last chord)
+  std::vector<Chord> chords;              ///< n - 1
+  std::vector<AdjacentCircle> circles;    ///< n
+  std::vector<std::int8_t> direction;     ///< n - 1: +1, -1, or 0 inside a circular stretch
+  std::vector<double> points_only_error;  ///< n - 1; NaN where it is not defined: on the first
+                                          ///< and last chord and beside a vertex
   std::vector<SeriesRun> runs;
   std::vector<CircularStretch> stretches;
   int vertices = 0;              ///< changes of direction: what the contour will have

@@ -74,6 +74,16 @@ double first_through(const ChordFrame& f, int direction, Vec2 p) {
   return miss(f, direction, on_first, p) <= miss(f, direction, on_second, p) ? on_first : on_second;
 }
 
+/// Length of an arc. An arc that hardly turns has it from its chord: its angle, a difference of
+/// headings, has lost too many digits. With x the tangent of half the turn, half / sin(half) is
+/// 1 + x^2/6 - 11 x^4/120 to rounding.
+double arc_length_of(Vec2 chord, double kappa, ArcTurn turn) {
+  constexpr double kHardlyTurns = 1e-3;  // x^6 is below rounding
+  const double x = turn.half_tangent;
+  if (std::abs(x) > kHardlyTurns) return turn.angle / kappa;
+  return norm(chord) * (1.0 + x * x * (1.0 / 6.0 - 11.0 / 120.0 * x * x));
+}
+
 double arc_angle(Vec2 chord, double theta) { return turning(unit_at(theta), chord); }
 
 }  // namespace
@@ -124,12 +134,12 @@ std::array<Piece, 2> biarc(const Element& start, const Element& end, const Biarc
   const Vec2 joint = std::abs(a) >= std::abs(b)
                          ? start.point + (first.half_tangent / k.first) * (t0 + tangent)
                          : end.point - (second.half_tangent / k.second) * (tangent + t1);
-  const auto piece = [](Vec2 from, Vec2 to, double theta, double kappa, double turn) -> Piece {
+  const auto piece = [](Vec2 from, Vec2 to, double theta, double kappa, ArcTurn turn) -> Piece {
     if (kappa == 0.0) return LinePiece{from, to};
-    return ArcPiece{from, to, theta, kappa, turn / kappa};
+    return ArcPiece{from, to, theta, kappa, arc_length_of(to - from, kappa, turn)};
   };
-  return {piece(start.point, joint, start.theta, k.first, first.angle),
-          piece(joint, end.point, start.theta + first.angle, k.second, second.angle)};
+  return {piece(start.point, joint, start.theta, k.first, first),
+          piece(joint, end.point, start.theta + first.angle, k.second, second)};
 }
 
 }  // namespace obvid
