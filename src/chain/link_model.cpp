@@ -254,12 +254,117 @@ LinkModel::State LinkModel::state(const Link& l, const Trig& a, const Trig& b, d
   return s;
 }
 
+LinkModel::ConeState LinkModel::cone_state(const Link& l, const State& s, double slack) {
+  ConeState c{};
+  c.m = s.B - s.A;
+  c.q = s.A + s.B;
+  const ConeWidth width = cone_width(l.cone, s.sigma, s.sin_sigma, s.cos_sigma);
+  c.width = width.value;
+  c.width_slope = width.slope;
+  c.t = l.direction * c.m + slack * l.size;
+  c.f = c.t * c.t - c.q * c.q - c.width * c.width;
+  c.u = l.direction * s.sigma + slack * l.size;
+  return c;
+}
+
+/// Gradient and Gauss-Newton Hessian of one link by A, B, sigma and the slack.
+LinkModel::Terms LinkModel::link_terms(const Link& l, const State& s, const ConeState& c,
+                                       double energy, double barrier) {
+  const double e = energy * l.energy;
+  const double departure = 2.0 * e * kDepartureWeight * (c.m - 2.0 * s.sigma);
+  double hmm = 2.0 * e * kDepartureWeight, hms = -2.0 * hmm;
+  double hqq = 2.0 * e * kSkewWeight;
+  double hss = 2.0 * e * (kSizeWeight + 4.0 * kDepartureWeight);
+  // derivatives of f by m, q, sigma and the slack
+  const double fm = 2.0 * c.t * l.direction, fq = -2.0 * c.q;
+  const double fs = -2.0 * c.width * c.width_slope, fz = 2.0 * c.t * l.size;
+  const double r = 1.0 / c.f, wr = barrier * r, wrr = wr * r;
+  const double us = kSigmaWeight * barrier / c.u, uss = us / c.u;
+  const double gm = departure - wr * fm, gq = 2.0 * e * kSkewWeight * c.q - wr * fq;
+  hmm += wrr * fm * fm - 2.0 * wr;
+  hqq += wrr * fq * fq + 2.0 * wr;
+  hss += wrr * fs * fs + 2.0 * wr * c.width_slope * c.width_slope + uss;
+  hms += wrr * fm * fs;
+  const double hmq = wrr * fm * fq, hqs = wrr * fq * fs;
+  const double zm = wrr * fz * fm - 2.0 * wr * l.size * l.direction, zq = wrr * fz * fq;
+
+  Terms out{};  // from (m, q, sigma) to (A, B, sigma)
+  out.gA = gq - gm;
+  out.gB = gq + gm;
+  out.gs = 2.0 * e * kSizeWeight * s.sigma - 2.0 * departure - wr * fs - us * l.direction;
+  out.hAA = hmm - 2.0 * hmq + hqq;
+  out.hBB = hmm + 2.0 * hmq + hqq;
+  out.hAB = hqq - hmm;
+  out.hAs = hqs - hms;
+  out.hBs = hqs + hms;
+  out.hss = hss;
+  out.zA = zq - zm;
+  out.zB = zq + zm;
+  out.zs = wrr * fz * fs + uss * l.size * l.direction;
+  out.slack_gradient = -wr * fz - us * l.size;
+  out.slack_hessian = wrr * fz * fz - 2.0 * wr * l.size * l.size + uss * l.size * l.size;
+  return out;
+}
+
+/// From A, B, sigma to heading and curvature at both ends of a link.
+void LinkModel::scatter(const Terms& v, const Link& l, const State& s, NewtonSystem::Block& a,
+                        NewtonSystem::Block& b) {
+  const double ca = s.dA, cb = s.dB, ka = l.ka, kb = l.kb;
+  a.g0 += ca * v.gA + v.gs;
+  a.g1 += ka * v.gA;
+  b.g0 += -cb * v.gB + v.gs;
+  b.g1 += kb * v.gB;
+  a.a00 += ca * ca * v.hAA + 2.0 * ca * v.hAs + v.hss;
+  a.a10 += ka * (ca * v.hAA + v.hAs);
+  a.a11 += ka * ka * v.hAA;
+  b.a00 += cb * cb * v.hBB - 2.0 * cb * v.hBs + v.hss;
+  b.a10 += kb * (v.hBs - cb * v.hBB);
+  b.a11 += kb * kb * v.hBB;
+  a.o00 += -ca * cb * v.hAB + ca * v.hAs - cb * v.hBs + v.hss;
+  a.o01 += kb * (ca * v.hAB + v.hBs);
+  a.o10 += ka * (v.hAs - cb * v.hAB);
+  a.o11 += ka * kb * v.hAB;
+  a.c0 += ca * v.zA + v.zs;
+  a.c1 += ka * v.zA;
+  b.c0 += -cb * v.zB + v.zs;
+  b.c1 += kb * v.zB;
+}
+
+/// Barrier of the curvature's sign at the nodes; returns its sum of logarithms. Fixed variables are
+/// taken out of the system.
+double LinkModel::add_nodes(const std::vector<double>& x, double slack, double barrier,
+                            NewtonSystem& system) const {
+  LogSum signs;
+  const double w = barrier * kSignWeight;
+  for (std::size_t i = 0; i < nodes_.size(); ++i) {
+    const Node& node = nodes_[i];
+    if (node.sign != 0.0) {
+      const double v = signed_curvature(node, x[2 * i + 1], slack);
+      const double rv = w / v, rvv = rv / v;
+      signs.add(v / node.sign_size);
+      system[i].g1 -= rv * node.sign;
+      system[i].a11 += rvv;
+      system[i].c1 += rvv * node.sign * node.sign_size;
+      system.slack_gradient -= rv * node.sign_size;
+      system.slack_hessian += rvv * node.sign_size * node.sign_size;
+    }
+    // a node between links without cones takes part in nothing: keep its block regular
+    if (node.fix_phi || system[i].a00 <= 0.0) system.fix(i, 0);
+    if (node.fix_p || system[i].a11 <= 0.0) system.fix(i, 1);
+  }
+  return signs.value();
+}
+
+double LinkModel::signed_curvature(const Node& node, double p, double slack) {
+  return node.sign * (node.kappa * node.length + p) + slack * node.sign_size;
+}
+
 double LinkModel::assemble(const std::vector<double>& x, double slack, double energy,
-                           double barrier, NewtonSystem& system, bool with_slack) const {
+                           double barrier, NewtonSystem& system) const {
   const std::size_t n = nodes_.size();
   system.reset(n);
   double value = 0.0;
-  LogSum cones, sigmas, signs;
+  LogSum cones, sigmas;
   Trig ta = trig(x[0]);
   for (std::size_t i = 0; i + 1 < n; ++i) {
     const Link& l = links_[i];
@@ -267,93 +372,17 @@ double LinkModel::assemble(const std::vector<double>& x, double slack, double en
     const State s = state(l, ta, tb, x[2 * i], x[2 * i + 1], x[2 * i + 2], x[2 * i + 3]);
     ta = tb;
     if (l.cone == Cone::kNone) continue;
-    const double m = s.B - s.A, q = s.A + s.B;
-    const double e = energy * l.energy;
-    const double departure = 2.0 * e * kDepartureWeight * (m - 2.0 * s.sigma);
-    double gm = departure, gq = 2.0 * e * kSkewWeight * q;
-    double gs = 2.0 * e * kSizeWeight * s.sigma - 2.0 * departure;
-    double hmm = 2.0 * e * kDepartureWeight, hqq = 2.0 * e * kSkewWeight;
-    double hss = 2.0 * e * (kSizeWeight + 4.0 * kDepartureWeight), hms = -2.0 * hmm;
-    double hmq = 0.0, hqs = 0.0;
-    value += e * link_energy(m, q, s.sigma);
-
-    const ConeWidth width = cone_width(l.cone, s.sigma, s.sin_sigma, s.cos_sigma);
-    const double t = l.direction * m + slack * l.size;
-    const double f = t * t - q * q - width.value * width.value;
-    const double u = l.direction * s.sigma + slack * l.size;
-    const double w = barrier, r = 1.0 / f;
-    cones.add(f * l.inverse_size * l.inverse_size);
-    sigmas.add(u * l.inverse_size);
-    // derivatives of f by m, q, sigma and the slack
-    const double fm = 2.0 * t * l.direction, fq = -2.0 * q;
-    const double fs = -2.0 * width.value * width.slope, fz = 2.0 * t * l.size;
-    const double wr = w * r, wrr = w * r * r;
-    const double us = kSigmaWeight * w / u;
-    gm -= wr * fm;
-    gq -= wr * fq;
-    gs -= wr * fs + us * l.direction;
-    hmm += wrr * fm * fm - 2.0 * wr;
-    hqq += wrr * fq * fq + 2.0 * wr;
-    hss += wrr * fs * fs + 2.0 * wr * width.slope * width.slope + us / u;
-    hmq += wrr * fm * fq;
-    hms += wrr * fm * fs;
-    hqs += wrr * fq * fs;
-
-    // from (m, q, sigma) to (A, B, sigma)
-    const double gA = gq - gm, gB = gq + gm;
-    const double hAA = hmm - 2.0 * hmq + hqq, hBB = hmm + 2.0 * hmq + hqq, hAB = hqq - hmm;
-    const double hAs = hqs - hms, hBs = hqs + hms;
-    // and to heading and curvature at both ends
-    NewtonSystem::Block& a = system[i];
-    NewtonSystem::Block& b = system[i + 1];
-    const double ca = s.dA, cb = s.dB, ka = l.ka, kb = l.kb;
-    a.g0 += ca * gA + gs;
-    a.g1 += ka * gA;
-    b.g0 += -cb * gB + gs;
-    b.g1 += kb * gB;
-    a.a00 += ca * ca * hAA + 2.0 * ca * hAs + hss;
-    a.a10 += ka * (ca * hAA + hAs);
-    a.a11 += ka * ka * hAA;
-    b.a00 += cb * cb * hBB - 2.0 * cb * hBs + hss;
-    b.a10 += kb * (hBs - cb * hBB);
-    b.a11 += kb * kb * hBB;
-    a.o00 += -ca * cb * hAB + ca * hAs - cb * hBs + hss;
-    a.o01 += kb * (ca * hAB + hBs);
-    a.o10 += ka * (hAs - cb * hAB);
-    a.o11 += ka * kb * hAB;
-    if (!with_slack) continue;
-    const double zm = wrr * fz * fm - 2.0 * wr * l.size * l.direction;
-    const double zq = wrr * fz * fq;
-    const double zs = wrr * fz * fs + us / u * l.size * l.direction;
-    const double zA = zq - zm, zB = zq + zm;
-    a.c0 += ca * zA + zs;
-    a.c1 += ka * zA;
-    b.c0 += -cb * zB + zs;
-    b.c1 += kb * zB;
-    system.slack_gradient -= wr * fz + us * l.size;
-    system.slack_hessian += wrr * fz * fz - 2.0 * wr * l.size * l.size + us / u * l.size * l.size;
+    const ConeState c = cone_state(l, s, slack);
+    value += energy * l.energy * link_energy(c.m, c.q, s.sigma);
+    cones.add(c.f * l.inverse_size * l.inverse_size);
+    sigmas.add(c.u * l.inverse_size);
+    const Terms terms = link_terms(l, s, c, energy, barrier);
+    scatter(terms, l, s, system[i], system[i + 1]);
+    system.slack_gradient += terms.slack_gradient;
+    system.slack_hessian += terms.slack_hessian;
   }
-  for (std::size_t i = 0; i < n; ++i) {
-    const Node& node = nodes_[i];
-    if (node.sign != 0.0) {
-      const double v =
-          node.sign * (node.kappa * node.length + x[2 * i + 1]) + slack * node.sign_size;
-      const double w = barrier * kSignWeight;
-      signs.add(v / node.sign_size);
-      system[i].g1 -= w * node.sign / v;
-      system[i].a11 += w / (v * v);
-      if (with_slack) {
-        system[i].c1 += w * node.sign * node.sign_size / (v * v);
-        system.slack_gradient -= w * node.sign_size / v;
-        system.slack_hessian += w * node.sign_size * node.sign_size / (v * v);
-      }
-    }
-    // a node between links without cones takes part in nothing: keep its block regular
-    if (node.fix_phi || system[i].a00 <= 0.0) system.fix(i, 0);
-    if (node.fix_p || system[i].a11 <= 0.0) system.fix(i, 1);
-  }
-  return value -
-         barrier * (cones.value() + kSigmaWeight * sigmas.value() + kSignWeight * signs.value());
+  const double signs = add_nodes(x, slack, barrier, system);
+  return value - barrier * (cones.value() + kSigmaWeight * sigmas.value() + kSignWeight * signs);
 }
 
 double LinkModel::merit(const std::vector<double>& x, double slack, double energy,
@@ -368,20 +397,16 @@ double LinkModel::merit(const std::vector<double>& x, double slack, double energ
     const State s = state(l, ta, tb, x[2 * i], x[2 * i + 1], x[2 * i + 2], x[2 * i + 3]);
     ta = tb;
     if (l.cone == Cone::kNone) continue;
-    const double m = s.B - s.A, q = s.A + s.B;
-    const double width = cone_width(l.cone, s.sigma, s.sin_sigma, s.cos_sigma).value;
-    const double t = l.direction * m + slack * l.size;
-    const double f = t * t - q * q - width * width;
-    const double u = l.direction * s.sigma + slack * l.size;
-    if (!(t > 0.0 && f > 0.0 && u > 0.0)) return kInfinity;
-    value += energy * l.energy * link_energy(m, q, s.sigma);
-    cones.add(f * l.inverse_size * l.inverse_size);
-    sigmas.add(u * l.inverse_size);
+    const ConeState c = cone_state(l, s, slack);
+    if (!(c.t > 0.0 && c.f > 0.0 && c.u > 0.0)) return kInfinity;
+    value += energy * l.energy * link_energy(c.m, c.q, s.sigma);
+    cones.add(c.f * l.inverse_size * l.inverse_size);
+    sigmas.add(c.u * l.inverse_size);
   }
   for (std::size_t i = 0; i < n; ++i) {
     const Node& node = nodes_[i];
     if (node.sign == 0.0) continue;
-    const double v = node.sign * (node.kappa * node.length + x[2 * i + 1]) + slack * node.sign_size;
+    const double v = signed_curvature(node, x[2 * i + 1], slack);
     if (!(v > 0.0)) return kInfinity;
     signs.add(v / node.sign_size);
   }
@@ -422,10 +447,8 @@ std::vector<double> LinkModel::link_forces(const std::vector<double>& x, double 
     if (l.cone == Cone::kNone) continue;
     const double pa = x[2 * i], pb = x[2 * i + 2];
     const State s = state(l, trig(pa), trig(pb), pa, x[2 * i + 1], pb, x[2 * i + 3]);
-    const double m = s.B - s.A, q = s.A + s.B;
-    const double width = cone_width(l.cone, s.sigma, s.sin_sigma, s.cos_sigma).value;
-    const double t = l.direction * m + slack * l.size;
-    force[i] = 2.0 * t * l.size / (t * t - q * q - width * width);
+    const ConeState c = cone_state(l, s, slack);
+    force[i] = 2.0 * c.t * l.size / c.f;
   }
   return force;
 }

@@ -25,7 +25,7 @@ class LinkModel {
 
   /// energy * E + barrier * B at x, with gradient and Gauss-Newton Hessian in `system`.
   double assemble(const std::vector<double>& x, double slack, double energy, double barrier,
-                  NewtonSystem& system, bool with_slack) const;
+                  NewtonSystem& system) const;
 
   /// The same value alone; infinity outside the cones.
   [[nodiscard]] double merit(const std::vector<double>& x, double slack, double energy,
@@ -74,6 +74,23 @@ class LinkModel {
         dB;  // dA = dA/dphi at the start, dB = -dB/dphi at the end
   };
 
+  struct ConeState {
+    double m, q, width, width_slope;
+    double t, f, u;  // the barriers' arguments: f, t > 0 for the cone, u > 0 for sigma
+  };
+  struct Terms {
+    double gA, gB, gs, hAA, hBB, hAB, hAs, hBs, hss;
+    double zA, zB, zs, slack_gradient, slack_hessian;
+  };
+
+  [[nodiscard]] static ConeState cone_state(const Link& link, const State& state, double slack);
+  [[nodiscard]] static Terms link_terms(const Link& link, const State& state, const ConeState& cone,
+                                        double energy, double barrier);
+  static void scatter(const Terms& terms, const Link& link, const State& state,
+                      NewtonSystem::Block& a, NewtonSystem::Block& b);
+  double add_nodes(const std::vector<double>& x, double slack, double barrier,
+                   NewtonSystem& system) const;
+  [[nodiscard]] static double signed_curvature(const Node& node, double p, double slack);
   [[nodiscard]] double tangent(std::size_t node) const;  ///< heading of the adjacent circle
   [[nodiscard]] static Trig trig(double phi);
   [[nodiscard]] static State state(const Link& link, const Trig& a, const Trig& b, double phi_a,

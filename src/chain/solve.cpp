@@ -61,8 +61,8 @@ class Solver {
   double step(double energy, double barrier, double slack_cost) {
     const bool with_slack = slack_cost > 0.0;
     const double value =
-        model_.assemble(x_, slack_, energy, barrier, system_, with_slack) + slack_cost * slack_;
-    system_.slack_gradient += slack_cost;
+        model_.assemble(x_, slack_, energy, barrier, system_) + slack_cost * slack_;
+    system_.slack_gradient = with_slack ? system_.slack_gradient + slack_cost : 0.0;
     ++steps_;
     system_.solve(direction_, slack_direction_, with_slack);
     const double decrement = system_.decrement(direction_, slack_direction_);

@@ -1,0 +1,168 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "set_up.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <string>
+
+namespace obvid::chain_detail {
+namespace {
+
+/// Infeasible by less than this many roundings of the coordinates: the rounding decides.
+constexpr double kRoundingsThatDecide = 64.0;
+
+double heading_on_stretch(const Analysis& a, const CircularStretch& s, std::size_t i) {
+  // next to the stretch's ends the adjacent circle is another one: go by the chord inside
+  if (i < s.last) {
+    const std::size_t inner = i == s.first ? i + 1 : i;
+    const double angle = i == s.first ? a.circles[inner].eta_in : a.circles[inner].eta_out;
+    return a.chords[i].omega - (s.kappa == 0.0 ? 0.0 : angle);
+  }
+  return a.chords[i - 1].omega + (s.kappa == 0.0 ? 0.0 : a.circles[i - 1].eta_out);
+}
+
+/// Sign that the curvature must keep at a point: that of its circle, unless the series changes
+/// sign right beside it.
+int forced_sign(const Analysis& a, std::size_t i) {
+  const auto sign = [&a](std::size_t j) {
+    const AdjacentCircle& c = a.circles[j];
+    return std::abs(c.kappa) <= c.rounding ? 0 : c.kappa > 0.0 ? 1 : -1;
+  };
+  const int own = sign(i);
+  const int before = i > 0 ? sign(i - 1) : own,
+            after = i + 1 < a.circles.size() ? sign(i + 1) : own;
+  return before == -own || after == -own ? 0 : own;
+}
+
+/// Whether data fixed at a point of a stretch are others than the stretch's own.
+bool contradicts(const NodeData& node, double theta, double kappa, double rounding) {
+  constexpr double kSameHeading = 1e-9;    // rad: far below what a user can give
+  constexpr double kSameCurvature = 1e-6;  // of the stretch's curvature
+  const bool turned = node.theta && std::abs(std::remainder(*node.theta - theta,
+                                                            2.0 * std::numbers::pi)) > kSameHeading;
+  const bool bent = node.kappa && std::abs(*node.kappa - kappa) >
+                                      std::max(kSameCurvature * std::abs(kappa), rounding);
+  return turned || bent;
+}
+
+std::string point_range(const Infeasibility& why) {
+  return "points " + std::to_string(why.first_point + 1) + " to " +
+         std::to_string(why.last_point + 1);
+}
+
+bool touches_stretch(const Analysis& a, const Infeasibility& why) {
+  return std::any_of(a.stretches.begin(), a.stretches.end(), [&](const CircularStretch& s) {
+    return s.first <= why.last_point && why.first_point <= s.last;
+  });
+}
+
+/// Largest move of a point by rounding, among the points of the infeasible part and its neighbours.
+double rounding_move(const std::vector<Vec2>& points, const Infeasibility& why) {
+  double largest = 0.0;
+  const std::size_t first = why.first_point >= 2 ? why.first_point - 2 : 0;
+  for (std::size_t i = first; i < std::min(points.size(), why.last_point + 3); ++i) {
+    largest = std::max(largest, 0x1p-53 * (std::abs(points[i].x) + std::abs(points[i].y)));
+  }
+  return largest;
+}
+
+}  // namespace
+
+Result<ChainProblem> set_up(const Analysis& a, const ChainWishes& wishes) {
+  ChainProblem p{a.chords, a.circles, a.direction, {}, std::vector<NodeData>(a.circles.size())};
+  for (const std::int8_t d : a.direction)
+    p.cone.push_back(d == 0 ? Cone::kNone : Cone::kClosedForm);
+  int turns = 0;
+  for (std::size_t i = 0; i < p.nodes.size(); ++i) {
+    p.nodes[i].curvature_sign = forced_sign(a, i);
+    if (i < wishes.fixed.size()) {
+      p.nodes[i].theta = wishes.fixed[i].theta;
+      p.nodes[i].kappa = wishes.fixed[i].kappa;
+    }
+    turns += a.circles[i].kappa > 0.0 ? 1 : a.circles[i].kappa < 0.0 ? -1 : 0;
+  }
+  if (wishes.convex) {
+    for (std::size_t i = 0; i < p.nodes.size(); ++i) {
+      const AdjacentCircle& c = a.circles[i];
+      if (turns * c.kappa < 0.0 && std::abs(c.kappa) > c.rounding) {
+        return fail({ErrorCode::kFixedDataContradict,
+                     "a convex contour was asked for, but the points turn the other way here",
+                     "point " + std::to_string(i + 1), "drop the wish for a convex contour",
+                     static_cast<std::ptrdiff_t>(i), c.kappa});
+      }
+      p.nodes[i].curvature_sign = turns > 0 ? 1 : -1;
+    }
+  }
+  for (const CircularStretch& s : a.stretches) {
+    for (std::size_t i = s.first; i <= s.last; ++i) {
+      if (contradicts(p.nodes[i], heading_on_stretch(a, s, i), s.kappa, a.circles[i].rounding)) {
+        return fail({ErrorCode::kFixedDataContradict,
+                     "the points lie on one circle or line here, with another heading or radius "
+                     "than the fixed one",
+                     fmt::format("point {}", i + 1), "free the heading and radius there",
+                     static_cast<std::ptrdiff_t>(i), s.kappa});
+      }
+      p.nodes[i].theta = heading_on_stretch(a, s, i);
+      p.nodes[i].kappa = s.kappa;
+      p.nodes[i].curvature_sign = 0;
+    }
+  }
+  return p;
+}
+
+bool anything_wished(const ChainWishes& wishes) {
+  return wishes.convex ||
+         std::any_of(wishes.fixed.begin(), wishes.fixed.end(),
+                     [](const FixedData& f) { return f.theta.has_value() || f.kappa.has_value(); });
+}
+
+Error explain(const std::vector<Vec2>& points, const Analysis& a, const ChainWishes& wishes,
+              const Infeasibility& why) {
+  const auto index = static_cast<std::ptrdiff_t>(why.first_point);
+  const std::string where = point_range(why);
+  const bool leaps = why.slack == 0.0;
+  if (!leaps && why.move <= kRoundingsThatDecide * rounding_move(points, why)) {
+    return {ErrorCode::kRoundingDecides,
+            "the rounding of the coordinates, not the curve, decides how the curvature changes",
+            where,
+            "give coordinates relative to a nearer origin, or leave out points that lie "
+            "closer together than their digits can tell",
+            index,
+            why.move};
+  }
+  if (touches_stretch(a, why)) {
+    return {ErrorCode::kNoRoomForTransition,
+            "a straight or circular stretch leaves no room for a change of curvature beside it",
+            where,
+            "remove a point at the end of the stretch, or move one off it",
+            index,
+            why.move};
+  }
+  if (anything_wished(wishes)) {
+    return {ErrorCode::kFixedDataContradict,
+            "the fixed headings, curvatures or convexity cannot be met by a monotone contour",
+            where,
+            "free the data there",
+            index,
+            why.move};
+  }
+  if (leaps) {
+    return {ErrorCode::kNoSpiral,
+            "a curve with curvature changing as the points demand would have to leap at them",
+            where,
+            "move points there, or add points",
+            index,
+            why.move};
+  }
+  return {ErrorCode::kNoSpiral,
+          "no curve with curvature changing as the points demand runs through them",
+          where,
+          "move points there, or add points",
+          index,
+          why.move};
+}
+
+}  // namespace obvid::chain_detail
