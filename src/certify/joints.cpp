@@ -18,8 +18,19 @@ constexpr double kPositionBase = 1e-12;  // of the contour's size
 constexpr double kHeadingBase = 1e-9;    // rad
 constexpr double kCurvatureBase = 1e-9;  // of the larger curvature
 
-/// Curvature that counts as flat, against the largest one at the four ends of both neighbours:
-/// where a contour inflects at a joint, "relative to the larger of the two" would divide by zero.
+// What rounding may explain at the most: beyond these nobody would call a joint continuous, and the
+// coordinates must be given from a nearer origin.
+constexpr double kPositionCeiling = 1e-6;   // of the contour's size
+constexpr double kHeadingCeiling = 1e-4;    // rad
+constexpr double kCurvatureCeiling = 1e-2;  // of the larger curvature
+
+/// The bound of a gap: what is called continuous, or what rounding explains up to the ceiling.
+double allowed(double base, double rounding, double ceiling) {
+  return std::max(base, std::min(rounding, ceiling));
+}
+
+/// Curvature that counts as flat, against the contour's largest one: where a contour inflects at a
+/// joint or runs into a line, "relative to the larger of the two" would divide rounding by zero.
 constexpr double kFlat = 1e-6;
 
 /// Beyond any contour that a proof makes sense for; also stands in for NaN.
@@ -59,19 +70,15 @@ class JointWalk {
     const std::size_t n = contour_.pieces.size();
     survey_.jump.assign(n, 0);
     EndData before{};
-    double before_start_kappa = 0.0;
     for (std::size_t i = 0; i < n; ++i) {
       const EndData start = start_data(contour_.pieces[i]);
       const EndData end = end_data(contour_.pieces[i]);
-      local_kappa_ = std::max({std::abs(start.kappa), std::abs(end.kappa), std::abs(before.kappa),
-                               std::abs(before_start_kappa)});
       if (i > 0) survey_.jump[i] = compare(i, before, start);
       if (!compare_with_element(i, i > 0 ? &before : nullptr, &start)) break;
       compare_stored_ends(i);
       follow_sign(start);
       follow_sign(end);
       before = end;
-      before_start_kappa = start.kappa;
     }
     finish(before);
     return std::move(survey_);
@@ -101,11 +108,12 @@ class JointWalk {
   void check_position(Vec2 a, Vec2 b, double rounding, std::size_t joint) {
     const double gap = known(norm(a - b) / size_);
     survey_.gaps.position = std::max(survey_.gaps.position, gap);
-    check(gap, std::max(kPositionBase, rounding / size_), joint, "the position gap");
+    check(gap, allowed(kPositionBase, rounding / size_, kPositionCeiling), joint,
+          "the position gap");
   }
 
   double relative(double difference, double a, double b) const {
-    const double scale = std::max({std::abs(a), std::abs(b), kFlat * local_kappa_});
+    const double scale = std::max({std::abs(a), std::abs(b), kFlat * largest_kappa_});
     return difference == 0.0 ? 0.0 : known(difference / scale);
   }
 
@@ -114,20 +122,16 @@ class JointWalk {
     check_position(left.point, right.point, left.point_rounding + right.point_rounding, joint);
     const double turn = known(heading_gap(left.direction, right.direction));
     survey_.gaps.heading = std::max(survey_.gaps.heading, turn);
-    check(turn, std::max(kHeadingBase, left.heading_rounding + right.heading_rounding), joint,
-          "the heading gap");
+    check(turn,
+          allowed(kHeadingBase, left.heading_rounding + right.heading_rounding, kHeadingCeiling),
+          joint, "the heading gap");
     const double jump = right.kappa - left.kappa;
     const double gap = relative(std::abs(jump), left.kappa, right.kappa);
     const double bound =
-        std::max(kCurvatureBase,
-                 relative(left.kappa_rounding + right.kappa_rounding, left.kappa, right.kappa));
-    // reported against the contour's largest curvature, as an onlooker would: where a spiral runs
-    // into a line, rounding beside an exact zero is no gap
-    const double seen =
-        std::max({std::abs(left.kappa), std::abs(right.kappa), kFlat * largest_kappa_});
-    if (jump != 0.0) {
-      survey_.gaps.curvature = std::max(survey_.gaps.curvature, known(std::abs(jump) / seen));
-    }
+        allowed(kCurvatureBase,
+                relative(left.kappa_rounding + right.kappa_rounding, left.kappa, right.kappa),
+                kCurvatureCeiling);
+    survey_.gaps.curvature = std::max(survey_.gaps.curvature, gap);
     // Arcs promise a common tangent only; their jumps are judged as changes of curvature.
     if (contour_.carrier != Carrier::kArcs) check(gap, bound, joint, "the curvature gap");
     return static_cast<std::int8_t>(gap <= bound ? 0 : (jump > 0.0 ? 1 : -1));
@@ -147,7 +151,7 @@ class JointWalk {
       if (end == nullptr) continue;
       check_position(end->point, element.point, end->point_rounding, joint);
       check(known(heading_gap(direction, end->direction)),
-            std::max(kHeadingBase, end->heading_rounding + wrapped), joint,
+            allowed(kHeadingBase, end->heading_rounding + wrapped, kHeadingCeiling), joint,
             "the difference of headings between element and piece");
     }
     check_element_kappa(joint, element.kappa, left != nullptr ? left : right,
@@ -166,8 +170,9 @@ class JointWalk {
       difference = std::max({0.0, low - kappa, kappa - high, std::isnan(kappa) ? kappa : 0.0});
     }
     const double gap = relative(known(difference), left->kappa, right->kappa);
-    check(gap, std::max(kCurvatureBase, relative(rounding, left->kappa, right->kappa)), joint,
-          "the difference of curvatures between element and piece");
+    check(gap,
+          allowed(kCurvatureBase, relative(rounding, left->kappa, right->kappa), kCurvatureCeiling),
+          joint, "the difference of curvatures between element and piece");
   }
 
   /// The stored end of an arc is a number of its own, beside the end that its arc leads to.
@@ -191,7 +196,6 @@ class JointWalk {
 
   const Contour& contour_;
   double size_;
-  double local_kappa_ = 0.0;
   double largest_kappa_ = 0.0;
   int last_sign_ = 0;
   JointSurvey survey_;

@@ -93,11 +93,27 @@ bool anything_fixed(const ChainWishes& wishes) {
                      [](const FixedData& f) { return f.theta || f.kappa; });
 }
 
+/// Three points lie on one circle, but fixed data ask for another curve through them: it may
+/// increase or decrease its curvature.
+Result<SeriesChain> three_points_with_fixed_data(const std::vector<Vec2>& points, Analysis analysis,
+                                                 const ChainWishes& wishes) {
+  analysis.stretches.clear();
+  analysis.direction.assign(2, std::int8_t{1});
+  auto increasing = choose_elements(points, analysis, wishes);
+  if (increasing) return increasing;
+  analysis.direction.assign(2, std::int8_t{-1});
+  auto decreasing = choose_elements(points, analysis, wishes);
+  return decreasing ? decreasing : increasing;
+}
+
 }  // namespace
 
 Result<SeriesChain> form_elements(const std::vector<Vec2>& points, const Analysis& analysis,
                                   const ChainWishes& wishes) {
   if (!wholly_circular(points, analysis)) return choose_elements(points, analysis, wishes);
+  if (anything_fixed(wishes) && points.size() == 3) {
+    return three_points_with_fixed_data(points, analysis, wishes);
+  }
   if (anything_fixed(wishes)) {
     return fail(
         {ErrorCode::kFixedDataContradict,
@@ -245,7 +261,12 @@ class ArcBuilder {
                      "give coordinates relative to a nearer origin, or fewer points",
                      static_cast<std::ptrdiff_t>(i), norm(to.point - from.point)});
       }
-      add_pair(from, to, *k, anchor, direction);
+      if (!add_pair(from, to, *k, anchor, direction)) {
+        return fail({ErrorCode::kRoundingDecides,
+                     "two elements of the contour are too close for arcs between them",
+                     "piece " + std::to_string(i), "choose a larger --tolerance",
+                     static_cast<std::ptrdiff_t>(i), norm(to.point - from.point)});
+      }
       if (j + 1 < steps.size()) {
         contour_.joints.push_back({{to.point + anchor, to.theta, to.kappa}, std::nullopt});
       }
@@ -254,16 +275,23 @@ class ArcBuilder {
     return {};
   }
 
-  void add_pair(const Element& from, const Element& to, const BiarcCurvatures& k, Vec2 anchor,
+  /// False when an arc would run backwards.
+  bool add_pair(const Element& from, const Element& to, const BiarcCurvatures& k, Vec2 anchor,
                 int direction) {
     const auto arcs = biarc(from, to, k);
+    const auto* first = std::get_if<ArcPiece>(&arcs[0]);
     const auto* second = std::get_if<ArcPiece>(&arcs[1]);
+    if ((first != nullptr && !(first->length > 0.0)) ||
+        (second != nullptr && !(second->length > 0.0))) {
+      return false;
+    }
     const double theta = second != nullptr ? second->theta0 : to.theta;
     contour_.pieces.push_back(moved(arcs[0], anchor));
     contour_.pieces.push_back(moved(arcs[1], anchor));
     direction_.insert(direction_.end(), 2, direction);
     contour_.joints.push_back(
         {{end_point(arcs[0]) + anchor, theta, 0.5 * (k.first + k.second)}, std::nullopt});
+    return true;
   }
 
   /// The curvature at a joint lies between those of its arcs; an end has one arc only. A vertex of

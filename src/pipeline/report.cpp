@@ -27,9 +27,23 @@ PieceBound bound_arc_pair(const Contour& contour, std::size_t piece, int directi
                                          direction * (second != nullptr ? second->kappa : 0.0));
   const auto region = segment_region(frame, direction);
   bound.width = region ? region->width : bilens_width(frame);
-  bound.width_unrefined = bound.deviation = bound.width;
   bound.deviation_at = end_point(contour.pieces[piece]);
   return bound;
+}
+
+/// Region between the elements at two neighbouring points of the series alone.
+double width_between_points(const Contour& contour, std::size_t first, std::size_t last,
+                            int direction) {
+  const ChordFrame frame = chord_frame(contour.joints[first].element, contour.joints[last].element);
+  const auto region = segment_region(frame, direction);
+  return region ? region->width : bilens_width(frame);
+}
+
+/// The joint on the next point of the series after joint `from`.
+std::size_t next_point(const Contour& contour, std::size_t from) {
+  std::size_t joint = from + 1;
+  while (joint + 1 < contour.joints.size() && !contour.joints[joint].source) ++joint;
+  return joint;
 }
 
 void add(SegmentReport& segment, const PieceBound& bound) {
@@ -53,8 +67,15 @@ void measure_pieces(const Contour& contour, double tolerance, FitReport& report)
       add(row, bound_piece(contour.pieces[i], direction[i], tolerance));
       if (i > 0 && !contour.joints[i].source) ++row.inserted;
     } else if (direction[i] != 0 && i + 1 < contour.pieces.size()) {
-      if (i > 0 && !contour.joints[i].source) ++row.inserted;
-      add(row, bound_arc_pair(contour, i, direction[i]));
+      PieceBound bound = bound_arc_pair(contour, i, direction[i]);
+      if (i > 0 && !contour.joints[i].source) {
+        ++row.inserted;
+      } else {
+        bound.width_unrefined =
+            width_between_points(contour, i, next_point(contour, i), direction[i]);
+        bound.deviation = bound.width_unrefined;
+      }
+      add(row, bound);
       ++i;  // a pair of arcs
     }
   }

@@ -77,12 +77,14 @@ void compare_report(const FitReport& claimed, const FitReport& found, Comparison
           static_cast<double>(found.inserted_points));
 }
 
-/// Gaps are rounding noise near zero: a claim is false only when it hides a larger gap.
+/// Gaps are rounding noise near zero: only a claim that is off by more than that is false.
 void compare_certificate(const Certificate& claimed, const Certificate& found, Comparison& c) {
   constexpr double kGapNoise = 2.0;
   constexpr double kSmallestGap = 1e-15;
   const auto gap = [&](const char* name, double a, double b) {
-    if (!(b <= kGapNoise * a + kSmallestGap)) c.refuse(name, a, b);
+    if (!(b <= kGapNoise * a + kSmallestGap && a <= kGapNoise * b + kSmallestGap)) {
+      c.refuse(name, a, b);
+    }
   };
   gap("joint gap position", claimed.gaps.position, found.gaps.position);
   gap("joint gap heading", claimed.gaps.heading, found.gaps.heading);

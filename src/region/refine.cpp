@@ -126,6 +126,14 @@ std::vector<double> fewest_elements(const Piece& piece, int direction, double to
     step = good;
     parameters.push_back(t + good);
   }
+  // the last step takes what is left: a sliver shares with the step before, which leaves both well
+  // within the tolerance
+  constexpr double kSliver = 0.1;
+  const std::size_t n = parameters.size();
+  if (n > 2 &&
+      parameters[n - 1] - parameters[n - 2] < kSliver * (parameters[n - 2] - parameters[n - 3])) {
+    parameters[n - 2] = 0.5 * (parameters[n - 3] + parameters[n - 1]);
+  }
   return parameters;
 }
 

@@ -84,8 +84,10 @@ std::vector<CircularStretch> find_stretches(const std::vector<Vec2>& points,
     }
     for (std::size_t k = i; k <= j + 1; ++k)
       rounding = std::max(rounding, point_rounding(points[k]));
-    const bool fits =
-        j > i && distance_from_circle(points, i - 1, j + 1) <= kStretchRoundings * rounding;
+    // a point has one heading and one curvature: stretches do not share it
+    const bool apart = stretches.empty() || i - 1 > stretches.back().last;
+    const bool fits = apart && j > i &&
+                      distance_from_circle(points, i - 1, j + 1) <= kStretchRoundings * rounding;
     if (fits) {
       const double kappa = low <= 0.0 && high >= 0.0 ? 0.0 : 0.5 * (low + high);
       stretches.push_back({i - 1, j + 1, kappa});
