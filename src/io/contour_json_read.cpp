@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "contour_json_names.h"
+#include "obvid/curve/nurbs.h"
 #include "obvid/io/contour_json.h"
 #include "text_lines.h"
 
@@ -123,6 +124,7 @@ class Reader {
   std::size_t index(const Node& node, std::size_t size, string_view what);
   bool flag(const Node& node);
   std::string word(const Node& node);
+  void one_nurbs(const Node& node);
   Vec2 point(const Node& node);
   double figure(const Node& object, string_view key);
   double optional_figure(const Node& object, string_view key, double otherwise);
@@ -305,6 +307,7 @@ void Reader::read_contour(const Node& root) {
     refuse(elements,
            std::to_string(joints) + " elements do not fit " + std::to_string(around) + " pieces");
   }
+  if (const auto node = optional_field(root, "bspline")) one_nurbs(*node);
   each(field(root, "runs"), [&](const Node& node) { contour.runs.push_back(run(node)); });
 }
 
@@ -394,6 +397,23 @@ void Reader::exact_points(const Node& exact, const Node& points, RationalBezier&
     }
     bezier.offset[one.index] = offset;
   });
+}
+
+/// The one curve must be the one that the pieces make: nothing else would prove it.
+void Reader::one_nurbs(const Node& node) {
+  NurbsCurve curve;
+  curve.degree = static_cast<int>(integer(field(node, "degree"), 1, kMaxBezierDegree));
+  each(field(node, "knots"), [&](const Node& one) { curve.knots.push_back(number(one)); });
+  each(field(node, "points"), [&](const Node& one) { curve.points.push_back(point(one)); });
+  const auto weights = optional_field(node, "weights");
+  if (weights) {
+    each(*weights, [&](const Node& one) { curve.weights.push_back(number(one)); });
+  } else {
+    curve.weights.assign(curve.points.size(), 1.0);
+  }
+  if (!failed() && as_one_nurbs(stored_.contour) != curve) {
+    refuse(node, "the bspline is not the curve of the pieces, piece by piece");
+  }
 }
 
 Run Reader::run(const Node& node) {

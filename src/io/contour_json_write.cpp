@@ -7,6 +7,7 @@
 #include <span>
 
 #include "contour_json_names.h"
+#include "obvid/curve/nurbs.h"
 #include "obvid/io/contour_json.h"
 #include "text_lines.h"
 
@@ -40,6 +41,7 @@ class Writer {
   void piece(const RationalBezier& bezier);
   void segment(const SegmentReport& row);
   void proof(std::size_t index, const PieceProof& proof);
+  void one_nurbs(const NurbsCurve& curve);
   void report(const FitReport& report);
   void certificate(const Certificate& certificate);
 
@@ -262,6 +264,18 @@ void Writer::certificate(const Certificate& certificate) {
   raw("\n  }");
 }
 
+void Writer::one_nurbs(const NurbsCurve& curve) {
+  raw(",\n  \"bspline\": {\"degree\": ");
+  number(curve.degree);
+  raw(",\n    \"knots\": ");
+  inline_list(curve.knots, [&](double knot) { number(knot); });
+  raw(",\n    \"points\": ");
+  inline_list(curve.points, [&](Vec2 p) { point(p); });
+  raw(",\n    \"weights\": ");
+  inline_list(curve.weights, [&](double weight) { number(weight); });
+  raw("}");
+}
+
 std::string Writer::write(const StoredContour& stored) {
   const Contour& contour = stored.contour;
   fmt::format_to(std::back_inserter(buffer_), "{{\n  \"format\": \"{}\",\n  \"version\": {},\n",
@@ -278,6 +292,7 @@ std::string Writer::write(const StoredContour& stored) {
   raw(",\n");
   line_list("pieces", contour.pieces, "  ",
             [&](const Piece& one) { std::visit([&](const auto& kind) { piece(kind); }, one); });
+  if (const auto curve = as_one_nurbs(contour)) one_nurbs(*curve);
   raw(",\n");
   line_list("runs", contour.runs, "  ", [&](const Run& run) {
     fmt::format_to(std::back_inserter(buffer_),

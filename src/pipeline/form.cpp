@@ -32,12 +32,14 @@ bool fits_global_coordinates(const RationalBezier& piece, double kappa_start, do
          blur <= kLargestBlur * kappa;
 }
 
-RationalBezier in_global_coordinates(RationalBezier piece) {
+RationalBezier in_global_coordinates(RationalBezier piece, Vec2 end) {
   for (int j = 0; j <= piece.degree; ++j) {
     const auto k = static_cast<std::size_t>(j);
     piece.offset[k] = piece.origin + piece.offset[k];
   }
   piece.origin = {0.0, 0.0};
+  piece.offset[static_cast<std::size_t>(piece.degree)] =
+      end;  // neighbours share it to the last bit
   return piece;
 }
 
@@ -154,7 +156,9 @@ Result<Contour> form_spirals(const std::vector<Vec2>& points, const Analysis& an
         direction.push_back(chain.direction[i]);
       }
       const bool global = fits_global_coordinates(parts[j], a.kappa, b.kappa);
-      contour.pieces.emplace_back(global ? in_global_coordinates(parts[j]) : parts[j]);
+      const bool last = j + 1 == parts.size();
+      const Vec2 to = last ? b.point : parts[j].origin + parts[j].offset[4];
+      contour.pieces.emplace_back(global ? in_global_coordinates(parts[j], to) : parts[j]);
     }
   }
   contour.joints.push_back({chain.elements.back(), chain.source.back()});

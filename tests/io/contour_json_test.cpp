@@ -195,9 +195,13 @@ Contour random_contour(Numbers& numbers) {
 FitReport random_report(Numbers& numbers, std::size_t segments) {
   FitReport report;
   for (std::size_t i = 0; i < segments; ++i) {
-    report.segments.push_back({numbers.positive(), numbers.coin() ? kNan : numbers.any(),
-                               numbers.any(), numbers.any(), numbers.any(),
-                               {numbers.any(), numbers.any()}, numbers.below(9)});
+    report.segments.push_back({numbers.positive(),
+                               numbers.coin() ? kNan : numbers.any(),
+                               numbers.any(),
+                               numbers.any(),
+                               numbers.any(),
+                               {numbers.any(), numbers.any()},
+                               numbers.below(9)});
   }
   report.tolerance = numbers.positive();
   report.largest_width = numbers.any();
@@ -264,7 +268,7 @@ const std::string kSmall = R"({ "format": "obvid-contour", "version": 1, "units"
             {"type": "arc", "start": [1, 0], "end": [2, 1], "theta0": 0, "kappa": 1, "length": 1.5},
             {"type": "bezier", "points": [[2, 1], [2, 1.5], [2, 2]]}],
  "runs": [{"first_piece": 0, "last_piece": 2, "direction": 1}],
- "bspline": {"degree": 2}, "anything": [null],
+ "anything": [null],
  "report": {"segments": [{"chord": 1, "points_only_error": null, "width": 0, "deviation": 0},
                          {"chord": 1, "points_only_error": null, "width": 0, "deviation": 0}],
             "tolerance": 1e-3, "largest_width": 0, "largest_move": 0, "vertices": 2,
@@ -362,6 +366,38 @@ TEST(ContourJson, WhatThisVersionDoesNotKnowIsCalledUnsupported) {
   expect_refused(with("\"version\": 1", "\"version\": 2"), unknown, "f: /version");
   expect_refused(with("\"spiral\"", "\"clothoids\""), unknown, "f: /carrier");
   expect_refused(with("\"line\"", "\"clothoid\""), unknown, "f: /pieces/0/type");
+}
+
+StoredContour two_parabolas() {
+  StoredContour stored;
+  Contour& contour = stored.contour;
+  contour.points = {{0, 0}, {2, 1}, {3, 4}};
+  for (std::size_t i = 0; i < 3; ++i) {
+    contour.joints.push_back({{contour.points[i], 0.0, 0.0}, i});
+  }
+  for (const auto& control : {std::array<Vec2, 3>{Vec2{0, 0}, Vec2{1, 0}, Vec2{2, 1}},
+                              std::array<Vec2, 3>{Vec2{2, 1}, Vec2{3, 2}, Vec2{3, 4}}}) {
+    RationalBezier piece;
+    piece.degree = 2;
+    std::copy(control.begin(), control.end(), piece.offset.begin());
+    piece.weight = {1.0, 0.75, 1.0};
+    contour.pieces.emplace_back(piece);
+  }
+  contour.runs = {{0, 1, 1}};
+  return stored;
+}
+
+TEST(ContourJson, TheOneCurveIsWrittenAndMustBeThatOfThePieces) {
+  const std::string text = contour_to_json(two_parabolas());
+  const std::string knots = "\"knots\": [0, 0, 0, 1, 1, 2, 2, 2]";
+  ASSERT_NE(text.find(knots), std::string::npos) << text;
+  EXPECT_TRUE(contour_from_json(text, "f").has_value());
+  std::string other_knots = text;
+  other_knots.replace(text.find(knots), knots.size(), "\"knots\": [0, 0, 0, 1, 1, 3, 3, 3]");
+  expect_refused(other_knots, ErrorCode::kBadJson, "f: /bspline");
+  std::string other_weight = text;
+  other_weight.replace(text.rfind("0.75"), 4, "0.76");
+  expect_refused(other_weight, ErrorCode::kBadJson, "f: /bspline");
 }
 
 TEST(ContourJson, ExactPointsMustRoundToThePointsBesideThem) {
