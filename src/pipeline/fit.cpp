@@ -83,9 +83,9 @@ std::vector<std::string> warn(const Cleaned& cleaned, const Analysis& a, const S
   return out;
 }
 
-Result<Contour> form(const Cleaned& cleaned, const Analysis& a, const SeriesChain& chain,
-                     const PointSeries& series, const FitJob& job, double tolerance) {
-  auto spirals = form_spirals(cleaned.points, a, chain);
+Result<Contour> form(const Cleaned& cleaned, const SeriesChain& chain, const PointSeries& series,
+                     const FitJob& job, double tolerance) {
+  auto spirals = form_spirals(cleaned.points, chain);
   if (!spirals) return spirals;
   spirals->units = series.units;
   if (job.carrier == Carrier::kSpiral) return spirals;
@@ -113,7 +113,7 @@ Result<Fit> fit(const PointSeries& series, const FitJob& job, const Progress& pr
   if (!chain) return tl::unexpected(chain.error());
   tell("forming pieces", 0.6);
   const double tolerance = job.tolerance.value_or(default_tolerance(*analysis));
-  auto contour = form(*cleaned, *analysis, *chain, series, job, tolerance);
+  auto contour = form(*cleaned, *chain, series, job, tolerance);
   if (!contour) return tl::unexpected(contour.error());
   tell("proving", 0.7);
   Fit out;

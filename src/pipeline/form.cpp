@@ -125,9 +125,7 @@ Result<SeriesChain> form_elements(const std::vector<Vec2>& points, const Analysi
   return one_circle(points, analysis);
 }
 
-Result<Contour> form_spirals(const std::vector<Vec2>& points, const Analysis& analysis,
-                             const SeriesChain& chain) {
-  (void)analysis;
+Result<Contour> form_spirals(const std::vector<Vec2>& points, const SeriesChain& chain) {
   Contour contour;
   contour.points = points;
   contour.pieces.reserve(chain.links.size());

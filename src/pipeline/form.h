@@ -19,7 +19,7 @@ namespace obvid::pipeline_detail {
 /// Pieces over the elements: closed-form spirals, and arcs or lines over circular stretches.
 /// Error E501 when a piece came out with a weight that is not positive.
 [[nodiscard]] Result<Contour> form_spirals(const std::vector<Vec2>& points,
-                                           const Analysis& analysis, const SeriesChain& chain);
+                                           const SeriesChain& chain);
 
 /// Arcs in place of spirals: elements on each spiral piece as far apart as the tolerance allows,
 /// two arcs between neighbours. Error E502 when the tolerance asks for too many arcs.
