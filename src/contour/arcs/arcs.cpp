@@ -74,6 +74,19 @@ double first_through(const ChordFrame& f, int direction, Vec2 p) {
   return miss(f, direction, on_first, p) <= miss(f, direction, on_second, p) ? on_first : on_second;
 }
 
+/// The second turn of a biarc: what the first one leaves of the whole, where that loses no digits
+/// (an arctangent saved), else from its own tangents. Headings may be a full turn apart.
+ArcTurn remaining_turn(Vec2 from, Vec2 to, double whole, double first) {
+  constexpr double kTurnsWell = 0.05;  // tangent of half the turn
+  constexpr double kFewTurns = 64.0;   // rad: the whole keeps 14 digits
+  constexpr double kSameBranch = 1.0;  // rad: far below a full turn, far above 2 x - 2 arctan x
+  const double x = cross(from, to) / (1.0 + dot(from, to));
+  const double rest = whole - first;
+  const bool good = std::abs(x) > kTurnsWell && std::abs(whole) < kFewTurns &&
+                    std::abs(rest - 2.0 * x) < kSameBranch;
+  return {good ? rest : 2.0 * std::atan(x), x};
+}
+
 /// Length of an arc. An arc that hardly turns has it from its chord: its angle, a difference of
 /// headings, has lost too many digits. With x the tangent of half the turn, half / sin(half) is
 /// 1 + x^2/6 - 11 x^4/120 to rounding.
@@ -129,7 +142,8 @@ std::array<Piece, 2> biarc(const Element& start, const Element& end, const Biarc
   const double length = norm(v);
   const Vec2 middle = t0 + t1;  // one circle: its tangent half way
   const Vec2 tangent = length > 0.0 ? v / std::copysign(length, b - a) : middle / norm(middle);
-  const ArcTurn first = arc_turn(t0, tangent), second = arc_turn(tangent, t1);
+  const ArcTurn first = arc_turn(t0, tangent);
+  const ArcTurn second = remaining_turn(tangent, t1, end.theta - start.theta, first.angle);
   // the joint from the arc that bends more: its turning is known best
   const Vec2 joint = std::abs(a) >= std::abs(b)
                          ? start.point + (first.half_tangent / k.first) * (t0 + tangent)
