@@ -34,7 +34,6 @@ Extended with_free_elements(const Extended& before, const ChainSolution& solutio
     out.problem.nodes.emplace_back();
     out.problem.direction.push_back(direction);
     out.problem.cone.push_back(cone);
-    ++out.inserted;
   }
   out.turned.assign(out.problem.direction.size(), false);
   out.problem.chords = measure_chords(out.points);

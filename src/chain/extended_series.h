@@ -15,7 +15,6 @@ struct Extended {
   std::vector<std::optional<std::size_t>> source;
   ChainProblem problem;
   std::vector<bool> turned;  ///< links whose direction was turned
-  std::size_t inserted = 0;
 };
 
 /// Links solved beyond the ones in question, when only a neighbourhood is looked at.

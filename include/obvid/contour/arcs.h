@@ -33,7 +33,4 @@ struct BiarcCurvatures {
 [[nodiscard]] std::array<Piece, 2> biarc(const Element& start, const Element& end,
                                          const BiarcCurvatures& curvatures);
 
-/// Arc (or line, when kappa is 0) from `start` at heading `theta` to `end`.
-[[nodiscard]] Piece arc_piece(Vec2 start, Vec2 end, double theta, double kappa);
-
 }  // namespace obvid

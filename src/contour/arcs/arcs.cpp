@@ -97,8 +97,6 @@ double arc_length_of(Vec2 chord, double kappa, ArcTurn turn) {
   return norm(chord) * (1.0 + x * x * (1.0 / 6.0 - 11.0 / 120.0 * x * x));
 }
 
-double arc_angle(Vec2 chord, double theta) { return turning(unit_at(theta), chord); }
-
 }  // namespace
 
 double second_curvature(const ChordFrame& f, double first) {
@@ -122,14 +120,6 @@ std::optional<BiarcCurvatures> choose_biarc(const ChordFrame& f, int direction) 
   // in a region narrower than rounding the median point says nothing
   if (!(first > low && first < high)) return middle_biarc(f, *region);
   return BiarcCurvatures{first, second_curvature(f, first)};
-}
-
-Piece arc_piece(Vec2 start, Vec2 end, double theta, double kappa) {
-  if (kappa == 0.0) return LinePiece{start, end};
-  const Vec2 chord = end - start;
-  const double half_turn = arc_angle(chord, theta);
-  const double length = half_turn == 0.0 ? norm(chord) : 2.0 * half_turn / kappa;
-  return ArcPiece{start, end, theta, kappa, length};
 }
 
 std::array<Piece, 2> biarc(const Element& start, const Element& end, const BiarcCurvatures& k) {
