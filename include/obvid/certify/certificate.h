@@ -34,7 +34,10 @@ struct Certificate {
   JointGaps gaps;
   bool gaps_within_bounds = false;  ///< each gap is below what its coordinates' rounding explains
   bool inside_region = false;
-  bool through_points = false;  ///< every input point is met within rounding
+  bool through_points = false;  ///< every input point is met within rounding, or within its
+                                ///< tolerance where it has one
+  double largest_move = 0.0;    ///< proved bound of the distance of a point with a tolerance, units
+  int corners = 0;              ///< joints that are continuous in position only
   int vertices = 0;
   int inflections = 0;
   int self_intersections = 0;

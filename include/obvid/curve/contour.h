@@ -19,6 +19,8 @@ enum class Carrier { kSpiral, kArcs };
 struct Joint {
   Element element;
   std::optional<std::size_t> source;  ///< index into `Contour::points`
+  std::optional<Element> leaving;     ///< at a corner: heading and curvature after it; the contour
+                                      ///< is continuous in position only
 };
 
 /// Maximal part with curvature changing one way; pieces are counted from 0, both ends included.
@@ -29,12 +31,15 @@ struct Run {
 };
 
 /// A whole contour: pieces in order, each starting where the one before ends.
-/// `joints.size() == pieces.size() + 1` for an open contour.
+/// `joints.size()` is `pieces.size() + 1` for an open contour, `pieces.size()` for a closed one,
+/// whose first joint is its last one too.
 struct Contour {
   std::string units = "mm";
   bool closed = false;
   Carrier carrier = Carrier::kSpiral;
   std::vector<Vec2> points;  ///< input points as read (consecutive duplicates merged)
+  std::vector<double> point_tolerance;  ///< per point: how far from it the contour may pass, units;
+                                        ///< empty: it passes through all of them
   std::vector<Joint> joints;
   std::vector<Piece> pieces;
   std::vector<Run> runs;

@@ -34,6 +34,8 @@ struct FitReport {
   double tolerance = 0.0;
   double largest_width = 0.0;
   double largest_move = 0.0;  ///< how far a point was moved; 0 when interpolated exactly
+  std::vector<double> moves;  ///< per point, an upper bound of its distance from the contour, units;
+                              ///< empty when interpolated exactly
   int vertices = 0;
   int vertices_lower_bound = 0;
   int inflections = 0;

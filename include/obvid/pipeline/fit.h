@@ -13,6 +13,13 @@
 
 namespace obvid {
 
+/// Whether the contour returns to its first point.
+enum class Closing {
+  kAutomatic,  ///< when the last point is the first one again (within its tolerance)
+  kClosed,     ///< always; the last point is followed by the first one
+  kOpen,
+};
+
 /// What to form. Unset values take the defaults named here.
 struct FitJob {
   Carrier carrier = Carrier::kSpiral;
@@ -22,6 +29,12 @@ struct FitJob {
   std::optional<double> end_heading;    ///< rad
   std::optional<double> start_kappa;    ///< 1/unit
   std::optional<double> end_kappa;      ///< 1/unit
+  std::optional<double> noise;          ///< how far every point may move, units; default: not at all
+  bool noise_from_rounding = false;     ///< as far as half a unit of the last printed digit
+  Closing closing = Closing::kAutomatic;
+  bool find_corners = true;             ///< where the series turns at once; else only marked ones
+  std::optional<double> corner_angle;   ///< rad, what counts as a corner at least
+  bool primitives = false;              ///< exact lines and arcs where the points allow them
 };
 
 /// A contour with its report and its proof.

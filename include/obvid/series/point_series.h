@@ -14,6 +14,7 @@ struct FixedData {
   std::optional<double> theta;      ///< heading, rad
   std::optional<double> kappa;      ///< signed curvature, 1/unit
   std::optional<double> tolerance;  ///< how far the point may move, units
+  bool corner = false;              ///< the contour may turn here at once (G0)
 };
 
 /// Points in the order in which they were read.
@@ -22,6 +23,7 @@ struct PointSeries {
   std::string units = "mm";
   std::vector<Vec2> points;
   std::vector<FixedData> fixed;       ///< empty, or one entry per point
+  Vec2 rounding;  ///< half a unit of the last printed digit of x and of y; 0 when not from text
   std::vector<std::string> warnings;  ///< sentences for the user, e.g. merged duplicates
 };
 
