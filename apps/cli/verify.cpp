@@ -19,6 +19,7 @@ const char* type_of(const Piece& piece) {
     const char* operator()(const LinePiece&) const { return "line"; }
     const char* operator()(const ArcPiece&) const { return "arc"; }
     const char* operator()(const RationalBezier&) const { return "bezier"; }
+    const char* operator()(const ClothoidPiece&) const { return "clothoid"; }
   };
   return std::visit(Names{}, piece);
 }

@@ -78,8 +78,41 @@ RationalBezier conic(const ArcPiece& arc, double s0, double s1) {
   return {arc.start, 2, {p0, p1, p2}, {1.0, std::cos(half_turn), 1.0}};
 }
 
+/// Septic with the point and three derivatives of the clothoid at both parameters.
+RationalBezier septic(const ClothoidPiece& piece, double t0, double t1) {
+  const Jet a = evaluate(piece, t0), b = evaluate(piece, t1);
+  const double h = t1 - t0;
+  const auto leg = [h](const Jet& j, double sign) {
+    const Vec2 first = (sign * h / 7.0) * j.d1, second = (h * h / 42.0) * j.d2;
+    const Vec2 third = (sign * h * h * h / 210.0) * j.d3;
+    return std::array<Vec2, 3>{first, 2.0 * first + second, 3.0 * first + 3.0 * second + third};
+  };
+  const auto p = leg(a, 1.0), q = leg(b, -1.0);
+  const Vec2 end = b.point - a.point;
+  return {a.point,
+          7,
+          {Vec2{}, p[0], p[1], p[2], end + q[2], end + q[1], end + q[0], end},
+          {1.0, 1.0, 1.0, 1.0, 1.0, 1.0, 1.0, 1.0}};
+}
+
+std::vector<Part> parts_of_clothoid(const ClothoidPiece& piece) {
+  constexpr double kTurn = 0.3;  // rad; the septic is then within 1e-10 of its length
+  constexpr double kMostParts =
+      64.0;  // three full turns; a clothoid of a contour has less than half
+  const double turn = std::max(std::abs(piece.kappa0), std::abs(piece.kappa1)) * piece.length;
+  const int count = std::max(1, static_cast<int>(std::ceil(std::min(turn / kTurn, kMostParts))));
+  std::vector<Part> parts;
+  for (int j = 0; j < count; ++j) {
+    parts.emplace_back(
+        septic(piece, static_cast<double>(j) / count, static_cast<double>(j + 1) / count));
+  }
+  return parts;
+}
+
 /// Curves with positive weights that trace the piece.
 std::vector<Part> parts_of(const Piece& piece) {
+  if (const auto* clothoid = std::get_if<ClothoidPiece>(&piece))
+    return parts_of_clothoid(*clothoid);
   std::vector<Part> parts;
   if (const auto* bezier = std::get_if<RationalBezier>(&piece)) {
     parts.emplace_back(*bezier);

@@ -2,6 +2,7 @@
 #include "end_data.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "obvid/numeric/double_double.h"
@@ -43,6 +44,49 @@ EndData arc_end(const ArcPiece& arc, double t) {
   end.point_rounding =
       kStored * (size_of(arc.start) + size_of(arc.end)) + end.heading_rounding * arc.length;
   end.kappa_rounding = kStored * std::abs(arc.kappa);
+  return end;
+}
+
+// Gauss-Legendre nodes and weights on [-1, 1], 8 points (Abramowitz and Stegun, table 25.4).
+constexpr std::array<double, 4> kGaussNode = {0.1834346424956498, 0.5255324099163290,
+                                              0.7966664774136267, 0.9602898564975363};
+constexpr std::array<double, 4> kGaussWeight = {0.3626837833783620, 0.3137066458778873,
+                                                0.2223810344533745, 0.1012285362903763};
+constexpr double kPanelTurn = 1.0;   // rad: 8 points are exact to rounding up to here
+constexpr double kMostPanels = 1e4;  // more turns than any contour has
+
+/// Where a clothoid leads, by quadrature: the proof does not use the formulas that built the piece.
+Vec2 clothoid_chord(const ClothoidPiece& piece) {
+  const double sharpness = (piece.kappa1 - piece.kappa0) / piece.length;
+  const double turn = std::max(std::abs(piece.kappa0), std::abs(piece.kappa1)) * piece.length;
+  const int panels = 1 + static_cast<int>(std::min(turn / kPanelTurn, kMostPanels));
+  const double half = 0.5 * piece.length / panels;
+  Vec2 chord;
+  for (int panel = 0; panel < panels; ++panel) {
+    const double middle = (2 * panel + 1) * half;
+    for (std::size_t j = 0; j < kGaussNode.size(); ++j) {
+      for (const double s : {middle - half * kGaussNode[j], middle + half * kGaussNode[j]}) {
+        const double theta = piece.theta0 + s * (piece.kappa0 + 0.5 * sharpness * s);
+        chord = chord + half * kGaussWeight[j] * unit_at(theta);
+      }
+    }
+  }
+  return chord;
+}
+
+/// As for an arc, the stored `end` is compared with where the other numbers lead.
+EndData clothoid_end(const ClothoidPiece& piece, double t) {
+  const double turn = 0.5 * (piece.kappa0 + piece.kappa1) * piece.length;
+  const double theta = t == 0.0 ? piece.theta0 : piece.theta0 + turn;
+  EndData end;
+  end.point = t == 0.0 ? piece.start : piece.start + clothoid_chord(piece);
+  end.direction = unit_at(theta);
+  end.kappa = t == 0.0 ? piece.kappa0 : piece.kappa1;
+  const double lever = (size_of(piece.start) + size_of(piece.end)) / norm(piece.end - piece.start);
+  end.heading_rounding = kStored * (1.0 + std::abs(piece.theta0) + std::abs(theta) + lever);
+  end.point_rounding =
+      kStored * (size_of(piece.start) + size_of(piece.end)) + end.heading_rounding * piece.length;
+  end.kappa_rounding = kStored * std::abs(end.kappa);
   return end;
 }
 
@@ -97,6 +141,7 @@ EndData start_data(const Piece& piece) {
     return bezier_end(polygon_at(*bezier, true), 1.0);
   }
   if (const auto* arc = std::get_if<ArcPiece>(&piece)) return arc_end(*arc, 0.0);
+  if (const auto* one = std::get_if<ClothoidPiece>(&piece)) return clothoid_end(*one, 0.0);
   const auto& line = std::get<LinePiece>(piece);
   return line_end(line, line.start);
 }
@@ -106,6 +151,7 @@ EndData end_data(const Piece& piece) {
     return bezier_end(polygon_at(*bezier, false), -1.0);
   }
   if (const auto* arc = std::get_if<ArcPiece>(&piece)) return arc_end(*arc, 1.0);
+  if (const auto* one = std::get_if<ClothoidPiece>(&piece)) return clothoid_end(*one, 1.0);
   const auto& line = std::get<LinePiece>(piece);
   return line_end(line, line.end);
 }

@@ -175,12 +175,14 @@ class JointWalk {
           joint, "the difference of curvatures between element and piece");
   }
 
-  /// The stored end of an arc is a number of its own, beside the end that its arc leads to.
+  /// The stored end of an arc or clothoid is a number of its own, beside the end it leads to.
   void compare_stored_ends(std::size_t i) {
-    const auto* arc = std::get_if<ArcPiece>(&contour_.pieces[i]);
-    if (arc == nullptr) return;
-    const EndData end = end_data(contour_.pieces[i]);
-    check_position(end.point, arc->end, end.point_rounding, i + 1);
+    const Piece& piece = contour_.pieces[i];
+    if (!std::holds_alternative<ArcPiece>(piece) && !std::holds_alternative<ClothoidPiece>(piece)) {
+      return;
+    }
+    const EndData end = end_data(piece);
+    check_position(end.point, end_point(piece), end.point_rounding, i + 1);
   }
 
   /// Curvature is monotone on each proved piece, so signs at the ends tell all its sign changes.

@@ -43,12 +43,38 @@ PieceFacts examine_line(const LinePiece& line) {
   return straight(finite(line.start) && finite(line.end) && !(line.start == line.end));
 }
 
+constexpr double kHalfTurn = 3.141592653589793;  // the double below pi
+
 PieceFacts examine_arc(const ArcPiece& arc) {
-  constexpr double kHalfTurn = 3.141592653589793;  // the double below pi
   const bool valid = finite(arc.start) && finite(arc.end) && std::isfinite(arc.theta0) &&
                      std::isfinite(arc.kappa) && std::isfinite(arc.length) && arc.length > 0.0;
   PieceFacts facts = straight(valid);
   facts.turns_below_pi = valid && std::abs(arc.kappa * arc.length) < kHalfTurn;
+  return facts;
+}
+
+/// Two lobes that turn opposite ways count with half their curvature times the whole length, which
+/// is more than either turns.
+bool turns_below_pi(const ClothoidPiece& piece) {
+  const double k0 = piece.kappa0, k1 = piece.kappa1;
+  const bool one_way = (k0 >= 0.0) == (k1 >= 0.0);
+  const double kappa =
+      one_way ? 0.5 * std::abs(k0 + k1) : 0.5 * std::max(std::abs(k0), std::abs(k1));
+  return kappa * piece.length < kHalfTurn;
+}
+
+/// Curvature is linear along a clothoid: comparing its ends decides without any rounding.
+PieceFacts examine_clothoid(const ClothoidPiece& piece) {
+  const bool valid = finite(piece.start) && finite(piece.end) && std::isfinite(piece.theta0) &&
+                     std::isfinite(piece.kappa0) && std::isfinite(piece.kappa1) &&
+                     std::isfinite(piece.length) && piece.length > 0.0;
+  PieceFacts facts = straight(valid);
+  if (!valid) return facts;
+  facts.turns_below_pi = turns_below_pi(piece);
+  if (piece.kappa0 == piece.kappa1) return facts;
+  const bool rises = piece.kappa0 < piece.kappa1;
+  facts.proof.verdict = rises ? Verdict::kIncreasing : Verdict::kDecreasing;
+  facts.first_change = facts.last_change = rises ? 1 : -1;
   return facts;
 }
 
@@ -188,6 +214,7 @@ PieceFacts examine_bezier(const RationalBezier& piece) {
 PieceFacts examine_piece(const Piece& piece) {
   if (const auto* bezier = std::get_if<RationalBezier>(&piece)) return examine_bezier(*bezier);
   if (const auto* arc = std::get_if<ArcPiece>(&piece)) return examine_arc(*arc);
+  if (const auto* one = std::get_if<ClothoidPiece>(&piece)) return examine_clothoid(*one);
   return examine_line(std::get<LinePiece>(piece));
 }
 

@@ -3,6 +3,16 @@
 
 namespace obvid {
 
-const char* to_string(Carrier carrier) { return carrier == Carrier::kSpiral ? "spiral" : "arcs"; }
+const char* to_string(Carrier carrier) {
+  switch (carrier) {
+    case Carrier::kArcs:
+      return "arcs";
+    case Carrier::kClothoids:
+      return "clothoids";
+    case Carrier::kSpiral:
+      break;
+  }
+  return "spiral";
+}
 
 }  // namespace obvid

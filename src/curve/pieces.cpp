@@ -5,6 +5,8 @@
 #include <cassert>
 #include <cmath>
 
+#include "obvid/curve/clothoid.h"
+
 namespace obvid {
 namespace {
 
@@ -131,6 +133,22 @@ Jet evaluate(const RationalBezier& piece, double t) {
   return {piece.origin + (reference + q), d1, d2, d3};
 }
 
+Jet evaluate(const ClothoidPiece& piece, double t) {
+  const double change = piece.kappa1 - piece.kappa0;
+  // Each half is measured from its own end, so both ends come out exactly.
+  const bool first_half = t <= 0.5;
+  const double kappa = first_half ? piece.kappa0 + t * change : piece.kappa1 - (1.0 - t) * change;
+  const double heading_here = piece.theta0 + 0.5 * (piece.kappa0 + kappa) * piece.length * t;
+  const Vec2 point =
+      first_half
+          ? piece.start + clothoid_step(piece.theta0, piece.kappa0, kappa, piece.length * t)
+          : piece.end - clothoid_step(heading_here, kappa, piece.kappa1, piece.length * (1.0 - t));
+  const Vec2 d1 = piece.length * unit_at(heading_here);
+  const double turn = piece.length * kappa;
+  const Vec2 normal = left_normal(d1);
+  return {point, d1, turn * normal, (piece.length * change) * normal - (turn * turn) * d1};
+}
+
 Jet evaluate(const Piece& piece, double t) {
   return std::visit([t](const auto& p) { return evaluate(p, t); }, piece);
 }
@@ -154,6 +172,7 @@ Vec2 start_point(const Piece& piece) {
     return bezier->origin + bezier->offset[0];
   }
   if (const auto* arc = std::get_if<ArcPiece>(&piece)) return arc->start;
+  if (const auto* clothoid = std::get_if<ClothoidPiece>(&piece)) return clothoid->start;
   return std::get<LinePiece>(piece).start;
 }
 
@@ -162,12 +181,14 @@ Vec2 end_point(const Piece& piece) {
     return bezier->origin + bezier->offset[static_cast<std::size_t>(bezier->degree)];
   }
   if (const auto* arc = std::get_if<ArcPiece>(&piece)) return arc->end;
+  if (const auto* clothoid = std::get_if<ClothoidPiece>(&piece)) return clothoid->end;
   return std::get<LinePiece>(piece).end;
 }
 
 double arc_length(const Piece& piece, double tolerance) {
   if (const auto* line = std::get_if<LinePiece>(&piece)) return norm(line->end - line->start);
   if (const auto* arc = std::get_if<ArcPiece>(&piece)) return arc->length;
+  if (const auto* clothoid = std::get_if<ClothoidPiece>(&piece)) return clothoid->length;
   const auto& bezier = std::get<RationalBezier>(piece);
   const double whole = speed_integral(bezier, 0.0, 1.0);
   return refined_length(bezier, 0.0, 1.0, whole, tolerance, kMaxHalvings);

@@ -140,6 +140,7 @@ class Reader {
   Joint joint(const Node& node);
   Piece piece(const Node& node);
   ArcPiece arc(const Node& node);
+  ClothoidPiece clothoid(const Node& node);
   RationalBezier bezier(const Node& node);
   void exact_points(const Node& exact, const Node& points, RationalBezier& bezier);
   Run run(const Node& node);
@@ -285,7 +286,9 @@ void Reader::read_head(const Node& root) {
   contour.closed = flag(field(root, "closed"));
   const Node carrier = field(root, "carrier");
   const std::string kind = word(carrier);
-  contour.carrier = kind == to_string(Carrier::kArcs) ? Carrier::kArcs : Carrier::kSpiral;
+  for (const Carrier one : {Carrier::kArcs, Carrier::kClothoids}) {
+    if (kind == to_string(one)) contour.carrier = one;
+  }
   if (kind != to_string(contour.carrier)) {
     refuse(carrier, ErrorCode::kUnsupported,
            "carrier " + text::shown(kind) + " is not supported yet");
@@ -328,6 +331,7 @@ Piece Reader::piece(const Node& node) {
   const std::string kind = word(type);
   if (kind == "bezier") return bezier(node);
   if (kind == "arc") return arc(node);
+  if (kind == "clothoid") return clothoid(node);
   LinePiece line;
   if (kind == "line") {
     line.start = point(field(node, "start"));
@@ -351,6 +355,19 @@ ArcPiece Reader::arc(const Node& node) {
   arc.length = number(length);
   if (!(arc.length > 0.0)) refuse(length, "the length of an arc is above 0");
   return arc;
+}
+
+ClothoidPiece Reader::clothoid(const Node& node) {
+  ClothoidPiece clothoid;
+  clothoid.start = point(field(node, "start"));
+  clothoid.end = point(field(node, "end"));
+  clothoid.theta0 = number(field(node, "theta0"));
+  clothoid.kappa0 = number(field(node, "kappa0"));
+  clothoid.kappa1 = number(field(node, "kappa1"));
+  const Node length = field(node, "length");
+  clothoid.length = number(length);
+  if (!(clothoid.length > 0.0)) refuse(length, "the length of a clothoid is above 0");
+  return clothoid;
 }
 
 RationalBezier Reader::bezier(const Node& node) {

@@ -38,6 +38,7 @@ class Writer {
   void element(const Joint& joint);
   void piece(const LinePiece& line);
   void piece(const ArcPiece& arc);
+  void piece(const ClothoidPiece& clothoid);
   void piece(const RationalBezier& bezier);
   void segment(const SegmentReport& row);
   void proof(std::size_t index, const PieceProof& proof);
@@ -146,6 +147,22 @@ void Writer::piece(const ArcPiece& arc) {
   figure("kappa", arc.kappa);
   raw(", ");
   figure("length", arc.length);
+  raw("}");
+}
+
+void Writer::piece(const ClothoidPiece& clothoid) {
+  raw("{\"type\": \"clothoid\", \"start\": ");
+  point(clothoid.start);
+  raw(", \"end\": ");
+  point(clothoid.end);
+  raw(", ");
+  figure("theta0", clothoid.theta0);
+  raw(", ");
+  figure("kappa0", clothoid.kappa0);
+  raw(", ");
+  figure("kappa1", clothoid.kappa1);
+  raw(", ");
+  figure("length", clothoid.length);
   raw("}");
 }
 

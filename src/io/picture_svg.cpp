@@ -45,8 +45,8 @@ std::string counted(std::size_t count, const char* one, const char* many) {
 }
 
 std::string title_of(const Contour& contour) {
-  const bool arcs = contour.carrier == Carrier::kArcs;
-  return std::string(arcs ? "Arc contour" : "Spiral contour") + " · " +
+  const char* const kinds[] = {"Spiral contour", "Arc contour", "Clothoid contour"};
+  return std::string(kinds[static_cast<int>(contour.carrier)]) + " · " +
          counted(contour.points.size(), "point", "points") + " · " +
          counted(contour.pieces.size(), "piece", "pieces");
 }
@@ -80,7 +80,8 @@ std::string facts_of(const StoredContour& stored) {
   text += " (at least " + std::to_string(report.vertices_lower_bound) + ")";
   text += " · " + counted(static_cast<std::size_t>(std::max(report.inflections, 0)), "inflection",
                           "inflections");
-  text += " · region width " + readable_number(report.largest_width, 2) + " " + stored.contour.units;
+  text +=
+      " · region width " + readable_number(report.largest_width, 2) + " " + stored.contour.units;
   return text;
 }
 

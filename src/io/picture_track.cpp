@@ -34,6 +34,11 @@ struct Mover {
     p.end = p.end - reference;
     return p;
   }
+  Piece operator()(ClothoidPiece p) const {
+    p.start = p.start - reference;
+    p.end = p.end - reference;
+    return p;
+  }
   /// Moves the origin where the piece has one, so that small offsets keep their digits.
   Piece operator()(RationalBezier p) const {
     if (p.origin == Vec2{}) {

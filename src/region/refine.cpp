@@ -66,7 +66,10 @@ Element element_at(const Piece& piece, double t) {
 
 PieceBound bound_piece(const Piece& piece, int direction, double tolerance) {
   PieceBound bound;
-  if (direction == 0 || !std::holds_alternative<RationalBezier>(piece)) return bound;
+  if (direction == 0 || std::holds_alternative<LinePiece>(piece) ||
+      std::holds_alternative<ArcPiece>(piece)) {
+    return bound;
+  }
   const Sample first = sample(piece, 0.0), last = sample(piece, 1.0);
   const ChordFrame frame =
       chord_frame(first.point, first.tangent, first.kappa, last.point, last.tangent, last.kappa);

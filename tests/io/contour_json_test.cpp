@@ -31,6 +31,12 @@ void expect_same(const ArcPiece& a, const ArcPiece& b) {
   EXPECT_TRUE(same_bits(a.length, b.length));
 }
 
+void expect_same(const ClothoidPiece& a, const ClothoidPiece& b) {
+  EXPECT_TRUE(same_bits(a.start, b.start) && same_bits(a.end, b.end));
+  EXPECT_TRUE(same_bits(a.theta0, b.theta0) && same_bits(a.length, b.length));
+  EXPECT_TRUE(same_bits(a.kappa0, b.kappa0) && same_bits(a.kappa1, b.kappa1));
+}
+
 void expect_same(const RationalBezier& a, const RationalBezier& b) {
   ASSERT_EQ(a.degree, b.degree);
   EXPECT_TRUE(same_bits(a.origin, b.origin));
@@ -165,12 +171,15 @@ RationalBezier random_bezier(Numbers& numbers) {
 }
 
 Piece random_piece(Numbers& numbers) {
-  switch (numbers.below(3)) {
+  switch (numbers.below(4)) {
     case 0:
       return LinePiece{numbers.point(), numbers.point()};
     case 1:
       return ArcPiece{numbers.point(), numbers.point(), numbers.any(), numbers.positive(),
                       numbers.positive()};
+    case 2:
+      return ClothoidPiece{numbers.point(), numbers.point(), numbers.any(),
+                           numbers.any(),   numbers.any(),   numbers.positive()};
     default:
       return random_bezier(numbers);
   }
@@ -179,7 +188,8 @@ Piece random_piece(Numbers& numbers) {
 Contour random_contour(Numbers& numbers) {
   Contour contour;
   contour.units = numbers.coin() ? "mm" : "\xC2\xB5m \"quoted\" \\";
-  contour.carrier = numbers.coin() ? Carrier::kSpiral : Carrier::kArcs;
+  constexpr Carrier kCarriers[] = {Carrier::kSpiral, Carrier::kArcs, Carrier::kClothoids};
+  contour.carrier = kCarriers[numbers.below(3)];
   const std::size_t pieces = 1 + numbers.below(6);
   for (std::size_t i = 0; i < pieces; ++i) contour.pieces.push_back(random_piece(numbers));
   for (std::size_t i = 0; i < 2 + numbers.below(6); ++i) contour.points.push_back(numbers.point());
@@ -337,6 +347,9 @@ TEST(ContourJson, MeaningErrorsNameTheField) {
   expect_refused(with("\"length\": 1.5", "\"length\": 0"), bad, "f: /pieces/1/length");
   expect_refused(with("\"theta0\": 0, \"kappa\": 1", "\"theta0\": 0, \"kappa\": 0"), bad,
                  "f: /pieces/1/kappa");
+  expect_refused(with("\"arc\"", "\"clothoid\""), bad, "f: /pieces/1/kappa0");
+  const std::string clothoid = "\"clothoid\", \"kappa0\": 1, \"kappa1\": 2, \"length\": 0";
+  expect_refused(with("\"line\"", clothoid + ", \"theta0\": 0"), bad, "f: /pieces/0/length");
   expect_refused(with("[[2, 1], [2, 1.5], [2, 2]]", "[[2, 1]]"), bad, "f: /pieces/2/points");
   expect_refused(
       with("[[2, 1], [2, 1.5], [2, 2]]", "[[0,0],[0,0],[0,0],[0,0],[0,0],[0,0],[0,0],[0,0],[0,0]]"),
@@ -364,8 +377,8 @@ TEST(ContourJson, NumbersBeyondDoublesAreRefused) {
 TEST(ContourJson, WhatThisVersionDoesNotKnowIsCalledUnsupported) {
   const ErrorCode unknown = ErrorCode::kUnsupported;
   expect_refused(with("\"version\": 1", "\"version\": 2"), unknown, "f: /version");
-  expect_refused(with("\"spiral\"", "\"clothoids\""), unknown, "f: /carrier");
-  expect_refused(with("\"line\"", "\"clothoid\""), unknown, "f: /pieces/0/type");
+  expect_refused(with("\"spiral\"", "\"conics\""), unknown, "f: /carrier");
+  expect_refused(with("\"line\"", "\"conic\""), unknown, "f: /pieces/0/type");
 }
 
 StoredContour two_parabolas() {

@@ -11,7 +11,7 @@
 namespace obvid {
 
 /// Family of curves that carries the contour.
-enum class Carrier { kSpiral, kArcs };
+enum class Carrier { kSpiral, kArcs, kClothoids };
 
 [[nodiscard]] const char* to_string(Carrier carrier);
 
@@ -37,7 +37,7 @@ struct Contour {
   std::string units = "mm";
   bool closed = false;
   Carrier carrier = Carrier::kSpiral;
-  std::vector<Vec2> points;  ///< input points as read (consecutive duplicates merged)
+  std::vector<Vec2> points;             ///< input points as read (consecutive duplicates merged)
   std::vector<double> point_tolerance;  ///< per point: how far from it the contour may pass, units;
                                         ///< empty: it passes through all of them
   std::vector<Joint> joints;

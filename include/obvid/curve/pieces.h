@@ -24,6 +24,17 @@ struct ArcPiece {
   double length = 0.0;
 };
 
+/// Clothoid: from `start` with heading `theta0` along `length`, curvature changing linearly from
+/// `kappa0` to `kappa1` (equal ones: an arc or a line). `end` is kept beside it like an arc's.
+struct ClothoidPiece {
+  Vec2 start;
+  Vec2 end;
+  double theta0 = 0.0;
+  double kappa0 = 0.0;
+  double kappa1 = 0.0;
+  double length = 0.0;
+};
+
 /// Largest degree of a Bezier piece.
 inline constexpr int kMaxBezierDegree = 7;
 
@@ -39,7 +50,7 @@ struct RationalBezier {
   std::array<double, kMaxBezierDegree + 1> weight{};
 };
 
-using Piece = std::variant<LinePiece, ArcPiece, RationalBezier>;
+using Piece = std::variant<LinePiece, ArcPiece, RationalBezier, ClothoidPiece>;
 
 /// Point, first three derivatives by the native parameter t in [0, 1].
 struct Jet {
@@ -52,6 +63,7 @@ struct Jet {
 [[nodiscard]] Jet evaluate(const LinePiece& piece, double t);
 [[nodiscard]] Jet evaluate(const ArcPiece& piece, double t);
 [[nodiscard]] Jet evaluate(const RationalBezier& piece, double t);
+[[nodiscard]] Jet evaluate(const ClothoidPiece& piece, double t);
 [[nodiscard]] Jet evaluate(const Piece& piece, double t);
 
 /// Signed curvature of a jet, 1/unit.
