@@ -5,10 +5,10 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 #include "near_name.h"
 #include "obvid/core/version.h"
+#include "option_values.h"
 
 namespace obvid {
 namespace {
@@ -43,18 +43,13 @@ struct Raw {
   VerifyOptions verify;
   ExplainOptions explain;
   std::string carrier = "spiral";
-  std::string noise;
-  bool closed = false;
+  TypedValues typed;
   bool no_progress = false;
-  std::optional<double> tolerance, start_heading_deg, end_heading_deg, start_radius, end_radius;
+  std::optional<double> tolerance;
 };
 
 Error usage(std::string what, std::string hint) {
   return {ErrorCode::kUsage, std::move(what), {}, std::move(hint)};
-}
-
-Error bad_option(std::string what, std::string where, std::string hint) {
-  return {ErrorCode::kBadOption, std::move(what), std::move(where), std::move(hint)};
 }
 
 constexpr const char* kInputHelp = "File with the points, or - for standard input";
@@ -62,22 +57,52 @@ constexpr const char* kUnitsHelp =
     "Name of the length unit, printed only: mm, m, in, ... "
     "[as the file says, else mm]";
 
-void add_fit_direction(CLI::App& fit, Raw& raw) {
-  const char* group = "Given at the ends";
-  fit.add_option("--start-heading", raw.start_heading_deg,
-                 "Heading at the first point, degrees counter-clockwise from +x [free]")
+void add_fixed_data(CLI::App& fit, TypedValues& typed) {
+  const char* group = "Fixed data";
+  const auto add = [&](const char* name, auto& value, const char* type, const char* help) {
+    return fit.add_option(name, value, help)->type_name(type)->group(group);
+  };
+  add("--start-heading", typed.start_heading, "DEG",
+      "Heading at the first point, degrees counter-clockwise from +x, or natural [natural: free]");
+  add("--end-heading", typed.end_heading, "DEG", "Heading at the last point, likewise [natural]");
+  add("--start-radius", typed.start_radius, "R",
+      "Radius at the first point, input units, positive turning left, inf straight [free]");
+  add("--end-radius", typed.end_radius, "R", "Radius at the last point, likewise [free]");
+  const auto add_at = [&](const char* name, auto& value, const char* type, const char* help) {
+    add(name, value, type, help)->allow_extra_args(false);
+  };
+  add_at("--heading-at", typed.heading_at, "I=DEG",
+         "Heading at point I, degrees; points count from 1; may be repeated");
+  add_at("--radius-at", typed.radius_at, "I=R", "Radius at point I, likewise");
+  add_at("--kappa-at", typed.kappa_at, "I=K",
+         "Curvature at point I, 1/input unit, positive turning left, likewise");
+  add_at("--corner-at", typed.corner_at, "I", "Corner at point I; may be repeated");
+}
+
+void add_real_points(CLI::App& fit, Raw& raw) {
+  const char* group = "Measured points";
+  fit.add_option("--noise", raw.typed.noise,
+                 "How far each point may move, input units, or rounding: half a unit of the last "
+                 "printed digit [0: points are met]")
+      ->type_name("EPS")
+      ->group(group);
+  fit.add_flag("--suggest", raw.fit.suggest,
+               "Table of tolerances and the vertices that each of them needs")
+      ->group(group);
+  fit.add_flag("--primitives", raw.fit.job.primitives,
+               "Exact lines and arcs where the points allow them")
+      ->group(group);
+  fit.add_flag("--closed", raw.typed.closed,
+               "The contour returns to its first point [when the last point is the first again]")
+      ->group(group);
+  fit.add_flag("--open", raw.typed.open, "It does not, even if the last point is the first again")
+      ->group(group);
+  fit.add_option("--corner-angle", raw.typed.corner_angle_deg,
+                 "Least turn of a corner, degrees [30]")
       ->type_name("DEG")
       ->group(group);
-  fit.add_option("--end-heading", raw.end_heading_deg, "Heading at the last point, degrees [free]")
-      ->type_name("DEG")
-      ->group(group);
-  fit.add_option("--start-radius", raw.start_radius,
-                 "Radius at the first point, input units, positive turning left, inf straight "
-                 "[free]")
-      ->type_name("R")
-      ->group(group);
-  fit.add_option("--end-radius", raw.end_radius, "Radius at the last point, likewise [free]")
-      ->type_name("R")
+  fit.add_flag("--no-corners", raw.typed.no_corners,
+               "Search no corners; marked ones stay (--corner-at, column corner)")
       ->group(group);
 }
 
@@ -96,16 +121,17 @@ void add_fit(CLI::App& app, Raw& raw) {
                  "Largest width of the region, input units [3e-6 of the size]")
       ->type_name("T");
   fit.add_flag("--convex", raw.fit.job.convex, "Refuse a contour with inflections");
-  add_fit_direction(fit, raw);
+  add_real_points(fit, raw);
+  add_fixed_data(fit, raw.typed);
   fit.add_option("--units", raw.fit.units, kUnitsHelp)->type_name("NAME");
   fit.add_flag("--json", raw.fit.json, "Report and certificate as JSON on standard output");
   fit.add_flag("--quiet", raw.fit.quiet, "No table and no progress bar");
   fit.add_flag("--no-progress", raw.no_progress, "No progress bar");
-  fit.add_option("--noise", raw.noise, "Not available in this version")->group("");
-  fit.add_flag("--closed", raw.closed, "Not available in this version")->group("");
   fit.footer(std::string("Examples:\n"
                          "  obvid fit points.csv -o contour.svg -o contour.json\n"
                          "  obvid fit points.csv --tolerance 0.01 --carrier arcs -o arcs.json\n"
+                         "  obvid fit airfoil.dat --noise rounding -o airfoil.json\n"
+                         "  obvid fit outline.csv --closed --noise 0.5 --heading-at 1=90\n"
                          "  cat points.txt | obvid fit - --start-heading 90 --json\n\n") +
              kExitCodes);
 }
@@ -220,49 +246,17 @@ Result<void> set_carrier(Raw& raw) {
   return {};
 }
 
-Result<void> set_heading(const std::optional<double>& deg, const char* name,
-                         std::optional<double>& theta) {
-  if (!deg) return {};
-  if (!std::isfinite(*deg)) return fail(bad_option("the heading must be finite", name, ""));
-  theta = *deg * std::numbers::pi / 180.0;
-  return {};
-}
-
-Result<void> set_radius(const std::optional<double>& radius, const char* name,
-                        std::optional<double>& kappa) {
-  if (!radius) return {};
-  if (!(*radius != 0.0) || std::isnan(*radius)) {
-    return fail(bad_option("the radius must not be 0", name,
-                           "positive turns left, negative right, inf is straight"));
-  }
-  kappa = 1.0 / *radius;
-  return {};
-}
-
 Result<Command> checked_fit(Raw& raw) {
-  if (raw.closed) return fail(bad_option(not_available("--closed"), "", "leave the option out"));
-  if (!raw.noise.empty()) {
-    return fail(bad_option(not_available("--noise"), "",
-                           "leave it out: the contour meets the points exactly"));
-  }
   if (raw.tolerance && !(*raw.tolerance > 0.0 && std::isfinite(*raw.tolerance))) {
     return fail(bad_option("the tolerance must be a positive length", "--tolerance",
                            "give it in the units of the input"));
   }
   raw.fit.job.tolerance = raw.tolerance;
   raw.fit.progress = !raw.no_progress;
-  FitJob& job = raw.fit.job;
-  const Result<void> done =
-      need(raw.fit.input, "fit", "a file with points")
-          .and_then([&] { return check_units(raw.fit.units); })
-          .and_then([&] { return set_carrier(raw); })
-          .and_then([&] {
-            return set_heading(raw.start_heading_deg, "--start-heading", job.start_heading);
-          })
-          .and_then(
-              [&] { return set_heading(raw.end_heading_deg, "--end-heading", job.end_heading); })
-          .and_then([&] { return set_radius(raw.start_radius, "--start-radius", job.start_kappa); })
-          .and_then([&] { return set_radius(raw.end_radius, "--end-radius", job.end_kappa); });
+  const Result<void> done = need(raw.fit.input, "fit", "a file with points")
+                                .and_then([&] { return check_units(raw.fit.units); })
+                                .and_then([&] { return set_carrier(raw); })
+                                .and_then([&] { return set_values(raw.typed, raw.fit.job); });
   if (!done) return fail(done.error());
   return Command{raw.fit};
 }

@@ -16,6 +16,7 @@ struct FitOptions {
   std::vector<std::string> outputs;
   FitJob job;
   std::optional<std::string> units;
+  bool suggest = false;  ///< how many vertices which tolerance would need
   bool json = false;
   bool quiet = false;
   bool progress = true;

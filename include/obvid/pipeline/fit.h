@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstddef>
 #include <optional>
 #include <vector>
 
@@ -20,6 +21,14 @@ enum class Closing {
   kOpen,
 };
 
+/// What is wished at one point beyond what the series itself fixes.
+struct PointWish {
+  std::size_t index = 0;        ///< of the point as it was read, from 0
+  std::optional<double> theta;  ///< heading, rad
+  std::optional<double> kappa;  ///< signed curvature, 1/unit
+  bool corner = false;          ///< the contour may turn here at once (G0)
+};
+
 /// What to form. Unset values take the defaults named here.
 struct FitJob {
   Carrier carrier = Carrier::kSpiral;
@@ -29,12 +38,13 @@ struct FitJob {
   std::optional<double> end_heading;    ///< rad
   std::optional<double> start_kappa;    ///< 1/unit
   std::optional<double> end_kappa;      ///< 1/unit
-  std::optional<double> noise;          ///< how far every point may move, units; default: not at all
-  bool noise_from_rounding = false;     ///< as far as half a unit of the last printed digit
+  std::optional<double> noise;       ///< how far every point may move, units; default: not at all
+  bool noise_from_rounding = false;  ///< as far as half a unit of the last printed digit
   Closing closing = Closing::kAutomatic;
-  bool find_corners = true;             ///< where the series turns at once; else only marked ones
-  std::optional<double> corner_angle;   ///< rad, what counts as a corner at least
-  bool primitives = false;              ///< exact lines and arcs where the points allow them
+  bool find_corners = true;            ///< where the series turns at once; else only marked ones
+  std::optional<double> corner_angle;  ///< rad, what counts as a corner at least
+  bool primitives = false;             ///< exact lines and arcs where the points allow them
+  std::vector<PointWish> wishes;       ///< ascending, at most one per point; range not checked
 };
 
 /// A contour with its report and its proof.
