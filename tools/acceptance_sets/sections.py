@@ -69,9 +69,7 @@ def series60_table(path):
 
 
 def series60(data, work):
-    """Waterlines and stations. A 0 or 1 beyond the first and last other value is a dummy: the
-    waterline has ended there (or runs along the flat side), so one such value is kept at each end at
-    most, the place where the curve meets its end."""
+    """Waterlines and stations, the dummies left out."""
     path = data / "hulls_offset_tables" / "series60_4214W-B4_table7.csv"
     if not path.exists():
         return
@@ -94,12 +92,13 @@ def series60(data, work):
 
 
 def without_dummies(row):
-    """Leading and trailing zeros but the inner ones next to the curve; repeated zeros carry nothing."""
-    first = next((i for i, (_, v) in enumerate(row) if v != 0.0), len(row))
-    last = next((i for i in range(len(row) - 1, -1, -1) if row[i][1] != 0.0), -1)
-    # Between the last value and the zero after it the waterline ends at an unknown place: only at the
-    # forward perpendicular, where the stem stands, is the zero a point of it.
-    return row[max(0, first - 1) if first == 1 else first:last + 1]
+    """From the first to the last value that is not 0, and the 0 at the forward perpendicular, where
+    the stem stands. Aft, the waterline ends at an unknown place before the 0."""
+    values = [v != 0.0 for _, v in row]
+    if not any(values):
+        return []
+    first, last = values.index(True), len(values) - 1 - values[::-1].index(True)
+    return row[0 if first == 1 else first:last + 1]
 
 
 def grids(data, work):

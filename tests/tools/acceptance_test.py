@@ -1,0 +1,310 @@
+# SPDX-License-Identifier: Apache-2.0
+"""The acceptance sweeps must find what they are there for: figures against closed forms, sound
+contours accepted, doctored ones refused, and the whole tool with a program that answers as told."""
+import json
+import math
+import os
+import pathlib
+import subprocess
+import sys
+import tempfile
+import unittest
+import xml.etree.ElementTree
+
+TOOLS = pathlib.Path(__file__).resolve().parent.parent.parent / "tools"
+sys.dont_write_bytecode = True
+sys.path.insert(0, str(TOOLS))
+
+from acceptance_sets import (cases, geometry, judging, matching, profiles, roads,  # noqa: E402
+                             rounding, running, sections, tracks, transitions)
+
+# Fresnel integrals at 1: C and S of a clothoid with curvature pi s.
+FRESNEL = complex(0.7798934003768228, 0.4382591473903548)
+QUARTER = {"type": "bezier", "points": [[1, 0], [1, 1], [0, 1]],
+           "weights": [1, math.sqrt(0.5), 1]}
+
+
+def chain(*shapes):
+    """Pieces (length, kappa0, kappa1), each starting where the one before ends."""
+    pieces, start = [], (0j, 0.3)
+    for length, kappa0, kappa1 in shapes:
+        pieces.append(matching.TruePiece(len(pieces), *start, length, kappa0, kappa1))
+        start = pieces[-1].end()
+    return pieces
+
+
+def contour_of(pieces, points=(), closed=False):
+    """The contour file of a chain as a perfect program would write it."""
+    rows = []
+    for p in pieces:
+        a, b = p.start, p.end()[0]
+        row = {"type": {"spiral": "clothoid"}.get(p.kind(), p.kind()), "start": [a.real, a.imag],
+               "end": [b.real, b.imag], "theta0": p.theta, "length": p.length,
+               "kappa": p.kappa0, "kappa0": p.kappa0, "kappa1": p.kappa1}
+        rows.append(row)
+    return {"points": [list(p) for p in points], "pieces": rows, "closed": closed, "runs": [],
+            "elements": [], "certificate": {"proved": True},
+            "report": {"vertices": 0, "vertices_lower_bound": 0, "largest_move": 0.0,
+                       "moves": [0.0] * len(points), "seconds": 0.001}}
+
+
+ROAD = ((60.0, 0, 0), (40.0, 0, 0.01), (50.0, 0.01, 0.01), (40.0, 0.01, 0), (60.0, 0, 0))
+
+
+class Geometry(unittest.TestCase):
+    def test_an_ellipse_has_four_extrema_and_half_of_it_the_inner_one(self):
+        n = 40
+        ring = [(3 * math.cos(2 * math.pi * (i + 0.3) / n), math.sin(2 * math.pi * (i + 0.3) / n))
+                for i in range(n)]
+        self.assertEqual(geometry.raw_extrema(ring, closed=True), 4)
+        self.assertEqual(geometry.raw_extrema(ring + ring[:1], closed=True), 4)
+        self.assertEqual(geometry.raw_extrema(ring[2:n // 2 - 2]), 1)
+
+    def test_pieces_are_evaluated_as_their_closed_forms(self):
+        for t in (0.0, 0.25, 0.5, 1.0):
+            z, kappa = geometry.bezier_point(QUARTER, t)
+            self.assertAlmostEqual(abs(z), 1.0, 14)
+            self.assertAlmostEqual(kappa, 1.0, 13)
+        self.assertLess(abs(geometry.move(0j, 0.0, 0.0, math.pi, 1.0) - FRESNEL), 1e-14)
+        arc = {"type": "arc", "start": [0, 0], "theta0": 0.0, "kappa": 0.5, "length": 2 * math.pi}
+        self.assertLess(abs(geometry.piece_point(arc, 0.5)[0] - (2 + 2j)), 1e-14)
+
+    def test_a_piece_with_exact_offsets_stands_at_its_origin(self):
+        piece = {**QUARTER, "points": [[0, 0]] * 3,
+                 "exact": {"origin": [1e6, 2e6], "offsets": QUARTER["points"]}}
+        z, kappa = geometry.bezier_point(piece, 0.0)
+        self.assertEqual(z, complex(1e6 + 1, 2e6))
+        self.assertAlmostEqual(kappa, 1.0, 14)
+
+    def test_circles_and_lines_are_fitted_exactly(self):
+        arc = [(300 * math.sin(a / 90), -300 * math.cos(a / 90)) for a in range(12)]
+        self.assertAlmostEqual(geometry.fit_circle(arc)[0] * 300, 1.0, 9)
+        self.assertLess(geometry.fit_circle(arc)[1], 1e-9)
+        self.assertAlmostEqual(geometry.fit_circle([(x, 2 * x + 1) for x in range(5)])[0], 0, 14)
+        bent = arc[:6] + [(arc[6][0], arc[6][1] + 0.5)] + arc[7:]
+        self.assertGreater(geometry.fit_circle(bent)[1], 0.2)
+
+
+class PrintedDigits(unittest.TestCase):
+    def half(self, text, points):
+        return rounding.printed_rounding(text, points)
+
+    def test_half_a_unit_of_the_last_digit_counts_titles_and_counts_do_not(self):
+        text = "NACA 0012 1.5\n 61. 61.\n 1.0 0.00126\n0.95000  .5\n"
+        self.assertAlmostEqual(self.half(text, [(1.0, 0.00126), (0.95, 0.5)]),
+                               math.hypot(5e-6, 5e-6), 12)
+
+    def test_the_coarsest_full_mantissa_decides_with_exponents(self):
+        text = "1.000E+00 2.50D-01\n9.95E-01 1.00D-03\n"
+        self.assertAlmostEqual(self.half(text, [(1.0, 0.25), (0.995, 0.001)]),
+                               math.hypot(5e-4, 5e-4), 12)
+
+    def test_whole_numbers_are_known_to_half(self):
+        self.assertAlmostEqual(self.half("x,y\n37,561\n40,540\n", [(37, 561), (40, 540)]),
+                               math.sqrt(0.5), 12)
+
+
+class Roads(unittest.TestCase):
+    def truth(self, *shapes, tolerance=1e-3):
+        return matching.sampled_truth(chain(*shapes), 5.0, tolerance)
+
+    def test_points_lie_every_step_and_at_the_end(self):
+        points, places = matching.sampled(chain((12.0, 0, 0), (10.0, 0, 0)), 5.0)
+        self.assertEqual(places, [0.0, 5.0, 10.0, 15.0, 22.0])
+        for (x, y), s in zip(points, places):
+            self.assertAlmostEqual(x, s * math.cos(0.3), 12)
+            self.assertAlmostEqual(y, s * math.sin(0.3), 12)
+
+    def test_a_contour_of_the_true_pieces_matches_all_of_them(self):
+        truth = self.truth(*ROAD)
+        found = matching.matched(truth, contour_of(chain(*ROAD), truth["points"]))
+        self.assertEqual(found["matched"], {"line": 2, "spiral": 2, "arc": 1})
+        self.assertEqual(found["missed"], [])
+
+    def test_a_radius_three_percent_off_a_wrong_kind_and_a_wrong_spiral_are_missed(self):
+        truth = self.truth(*ROAD)
+        for number, change, why in ((2, {"kappa": 0.0103}, "radius off"),
+                                    (2, {"type": "clothoid", "kappa1": 0.0102}, "found as spiral"),
+                                    (0, {"type": "arc", "kappa": 1e-9}, "found as arc"),
+                                    (1, {"kappa1": 0.007}, "curvature off")):
+            contour = contour_of(chain(*ROAD), truth["points"])
+            contour["pieces"][number].update(change)
+            missed = matching.matched(truth, contour)["missed"]
+            self.assertEqual([m["why"] for m in missed], [why])
+        self.assertEqual({m["why"] for m in matching.matched(truth, None)["missed"]}, {"not fitted"})
+
+    def test_what_the_points_cannot_show_is_not_asked_for(self):
+        seen = [row["seen"] for row in self.truth((60, 0, 0), (9, 0.02, 0.02), (60, 0, 0))["pieces"]]
+        self.assertEqual(seen, [True, False, True])  # at most two points on the arc
+        # 30 m of radius 200 km rise by 0.6 mm: with 1 mm a line, with 0.1 mm an arc.
+        flat = ((30.0, 5e-6, 5e-6),)
+        self.assertFalse(self.truth(*flat)["pieces"][0]["seen"])
+        self.assertTrue(self.truth(*flat, tolerance=1e-4)["pieces"][0]["seen"])
+
+    def test_pieces_cut_for_other_reasons_are_one(self):
+        rows = self.truth((30, 0, 0), (30, 0, 0), (20, 0, 0.01), (20, 0.01, 0.02), (9, 0.02, 0.02),
+                          (30, 0.02, 0.02))["pieces"]
+        self.assertEqual([(r["kind"], r["length"]) for r in rows],
+                         [("line", 60), ("spiral", 40), ("arc", 39)])
+
+    def test_a_gap_of_the_file_is_found(self):
+        pieces = chain(*ROAD)
+        self.assertLess(roads.largest_gap(pieces), 1e-12)
+        pieces[2].start += 0.02j
+        self.assertAlmostEqual(roads.largest_gap(pieces), 0.02, 2)
+
+    def test_public_roads_start_each_piece_where_the_one_before_ends(self):
+        data = os.environ.get("OBVID_SHARED_DATA", "")
+        folder = pathlib.Path(data) / "roads_opendrive"
+        if not data or not folder.exists():
+            self.skipTest("the public data sets are missing (OBVID_SHARED_DATA)")
+        gaps = [roads.largest_gap(pieces) for file in sorted(folder.glob("*.xodr"))
+                for road in xml.etree.ElementTree.parse(file).getroot().iter("road")
+                if (pieces := roads.plan_view(road))]
+        self.assertGreater(len(gaps), 300)
+        self.assertLess(max(gaps), 2e-3)  # the largest that the files are known to have: 1.5e-3
+
+
+class Truths(unittest.TestCase):
+    def test_the_transition_formula_ends_where_fresnel_says(self):
+        # Curvature 0 to 1/300 over 100 m, scaled from the integrals at sqrt(2 A), series of theta = 1/6.
+        end = transitions.formula(("Clothoid", 100.0, 0.0, 1 / 300))[-1]
+        theta = 100.0 / 300 / 2
+        x = 100 * (1 - theta**2 / 10 + theta**4 / 216 - theta**6 / 9360)
+        y = 100 * (theta / 3 - theta**3 / 42 + theta**5 / 1320)
+        self.assertLess(abs(end - complex(x, y)), 1e-6)
+
+    def test_a_contour_off_the_formula_by_a_millimetre_is_seen(self):
+        truth = ("Clothoid", 100.0, 0.0, 1 / 300)
+        sound = contour_of([matching.TruePiece(0, 0j, 0.0, 100.0, 0.0, 1 / 300)])
+        moved = contour_of([matching.TruePiece(0, 1e-3j, 0.0, 100.0, 0.0, 1 / 300)])
+        self.assertLess(transitions.against_formula(truth, sound)["deviation"], 1e-5)
+        self.assertAlmostEqual(transitions.against_formula(truth, moved)["deviation"], 1e-3, 5)
+
+    def test_radii_are_read_from_the_arc_that_fills_the_interval(self):
+        arcs = [matching.TruePiece(0, 0j, 0.0, 2.0, -1 / 13, -1 / 13),
+                matching.TruePiece(1, 2 - 0.1j, -0.1, 20.0, -1 / 300, -1 / 300)]
+        rows = profiles.found_radii([(-300, 3, 20), (-80, 40, 50)], contour_of(arcs))["radii"]
+        self.assertAlmostEqual(rows[0]["found"], -300, 9)
+        self.assertIsNone(rows[1]["found"])
+        self.assertEqual([profiles.close(row) for row in rows], [True, False])
+        self.assertFalse(profiles.close({"published": 300, "found": 304}))
+
+    def test_a_degree_of_latitude_at_45_degrees_has_its_tabulated_length(self):
+        points = tracks.to_metres([(10.0, 44.5), (10.0, 45.5), (11.0, 45.0)])
+        self.assertAlmostEqual(points[1][1] - points[0][1], 111131.8, 0)  # NIMA TR8350.2: 111.13 km
+        self.assertAlmostEqual(points[2][0] - points[1][0], 78846.8, 0)
+
+    def test_dummies_of_an_offset_table_are_left_out(self):
+        row = [(0, 0.0), (1, 0.3), (2, 1.0), (3, 0.4), (4, 0.0)]
+        self.assertEqual(sections.without_dummies(row), row[:4])
+        self.assertEqual(sections.without_dummies([(0, 0.0), *((i + 1, v) for i, v in row[:3])]),
+                         [(2, 0.3), (3, 1.0)])
+        self.assertEqual(sections.without_dummies([(0, 0.0), (1, 0.0)]), [])
+
+
+class Moves(unittest.TestCase):
+    def contour(self, moves, tolerances):
+        contour = contour_of([], [(0, 0), (1, 0), (2, 1)])
+        contour["report"]["moves"], contour["point_tolerance"] = moves, tolerances
+        return contour
+
+    def test_each_point_has_its_own_tolerance(self):
+        found = running.moves_of(self.contour([0.1, 0.02, 0.0], [0.2, 0.02, 0.0]), 0.2)
+        self.assertEqual(found, {"move": 1.0, "moves_within": True})
+        self.assertFalse(running.moves_of(self.contour([0.0, 0.03, 0], [0.2, 0.02, 0]),
+                                          0.2)["moves_within"])
+
+    def test_tolerances_above_the_asked_one_and_missing_moves_are_refused(self):
+        self.assertFalse(running.moves_of(self.contour([0, 0, 0], [0.3, 0, 0]), 0.2)["moves_within"])
+        self.assertFalse(running.moves_of(self.contour([0, 0], [0.1] * 3), 0.2)["moves_within"])
+
+
+class Judging(unittest.TestCase):
+    def test_a_step_of_the_size_of_rounding_is_settled_and_a_larger_one_is_not(self):
+        leg = {"type": "bezier", "points": [[1, 0], [1.0001, 0], [1.1, 0.001], [1.2, 0.01]],
+               "weights": [1, 1, 1, 1]}
+        allowed = judging.curvature_rounding(leg, at_end=False)
+        # curvature 2/3 u x v / u^3, and v turned by an ulp of 1 (2.2e-16) over its length
+        self.assertGreater(allowed, 2 / 3 * 2.2e-16 * 0.1 / 1e-4**3 / 10)
+        self.assertLess(allowed, 1e-2)
+        self.assertLess(judging.curvature_rounding(leg, at_end=True), 1e-11)
+
+
+FAKE = '''import sys
+out = sys.argv[sys.argv.index("-o") + 1]
+answer = {answer!r}
+if answer is None:
+    print("obvid: error E401: no curve (points 1 to 3); move them", file=sys.stderr)
+    sys.exit(4)
+with open(out, "w") as file:
+    file.write(answer)
+'''
+ROAD_XML = """<OpenDRIVE><road id="7"><planView>{}</planView></road></OpenDRIVE>"""
+SHAPES = {"line": "<line/>", "arc": '<arc curvature="{k0}"/>',
+          "spiral": '<spiral curvStart="{k0}" curvEnd="{k1}"/>'}
+
+
+def road_file(pieces):
+    return ROAD_XML.format("".join(
+        f'<geometry x="{p.start.real!r}" y="{p.start.imag!r}" hdg="{p.theta!r}" '
+        f'length="{p.length!r}">{SHAPES[p.kind()].format(k0=p.kappa0, k1=p.kappa1)}</geometry>'
+        for p in pieces))
+
+
+class WholeTool(unittest.TestCase):
+    def sweep(self, contour):
+        """Exit code, tables and figures for one road and a program that answers with this contour."""
+        with tempfile.TemporaryDirectory() as folder:
+            folder = pathlib.Path(folder)
+            (folder / "roads_opendrive").mkdir()
+            (folder / "roads_opendrive" / "own.xodr").write_text(road_file(chain(*ROAD)))
+            program = folder / "obvid"
+            answer = contour and json.dumps(contour)
+            program.write_text(f"#!{sys.executable}\n" + FAKE.format(answer=answer))
+            program.chmod(0o755)
+            done = subprocess.run(
+                [sys.executable, "-B", str(TOOLS / "acceptance"), "roads", str(folder), "--program",
+                 str(program), "--json", str(folder / "out.json")], capture_output=True, text=True)
+            return done.returncode, done.stdout, json.loads((folder / "out.json").read_text())
+
+    def contour(self):
+        truth = matching.sampled_truth(chain(*ROAD), roads.STEP, roads.TOLERANCE)
+        return contour_of(chain(*ROAD), truth["points"])
+
+    def test_a_perfect_program_meets_every_criterion(self):
+        code, text, figures = self.sweep(self.contour())
+        self.assertEqual(code, 0, text)
+        self.assertIn("| own | 5 | 5 | 2 of 2 | 1 of 1 | 2 of 2 | 100.0 % |", text)
+        self.assertTrue(figures["roads"]["met"])
+
+    def test_a_wrong_radius_a_move_too_far_and_a_refusal_fail(self):
+        wrong = self.contour()
+        wrong["pieces"][2]["kappa"] *= 1.03
+        far = self.contour()
+        far["report"]["moves"][3] = 1.01 * roads.TOLERANCE
+        for contour, words in ((wrong, "arc radius off"), (far, "| moves within the tolerance | 0 of"),
+                               (None, "spiral not fitted")):
+            code, text, figures = self.sweep(contour)
+            self.assertEqual(code, 1, text)
+            self.assertIn(words, text)
+            self.assertFalse(figures["roads"]["met"])
+
+    def test_no_file_at_all_fails(self):
+        with tempfile.TemporaryDirectory() as folder:
+            done = subprocess.run([sys.executable, "-B", str(TOOLS / "acceptance"), "all", folder],
+                                  capture_output=True, text=True, check=False)
+            self.assertEqual(done.returncode, 1)
+            self.assertIn("airfoils: no file", done.stderr)
+
+
+class Points(unittest.TestCase):
+    def test_written_points_read_back_to_the_same_doubles(self):
+        with tempfile.TemporaryDirectory() as folder:
+            points = [(0.1, 1 / 3), (1e-17, -2e8), (3.0, 4.0)]
+            path = cases.write_points(pathlib.Path(folder) / "a.csv", points, "one\ntwo", [1, 2, 3])
+            self.assertEqual([tuple(r[:2]) for r in cases.number_rows(path, 3)], points)
+
+
+if __name__ == "__main__":
+    unittest.main()
