@@ -1,0 +1,286 @@
+// SPDX-License-Identifier: Apache-2.0
+// Three clothoids over a link (docs/methods/clothoids.md, section 4). Lengths in chords, curvature
+// increasing; the other direction is the mirror image.
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <optional>
+
+#include "obvid/contour/clothoids.h"
+#include "obvid/curve/clothoid.h"
+
+namespace obvid {
+namespace {
+
+constexpr std::size_t kCells = 3;
+using Cells = std::array<double, kCells>;
+
+/// A cell's sharpness is at least this part of the mean one.
+constexpr double kLeastSharpness = 1e-3;
+/// At least this much of the mean on every cell of equal length, or unequal ones are tried first.
+constexpr double kEvenSharpness = 0.2;
+constexpr int kMostSteps = 12;       // four or five do it
+constexpr double kRounding = 4e-16;  // of the chord and of a radian: no step betters this
+constexpr double kClose = 1e-14;     // what counts as met
+
+struct Link {
+  double alpha, beta;       ///< headings against the chord
+  double kappa;             ///< at the start, times the chord
+  double rise;              ///< of the curvature over the whole link
+  double moment0, moment1;  ///< of the rise: about the start and about the end, chords squared
+};
+
+Link mirrored(const LinkState& link, int direction, double kappa_start) {
+  const double d = direction;
+  const double A = d * link.A, B = d * link.B;
+  const double half_sum = 0.5 * d * link.sigma;
+  const double sines = 2.0 * std::sin(half_sum) * std::cos(0.5 * (link.alpha - link.beta));
+  return {d * link.alpha,        d * link.beta, d * kappa_start * link.h,
+          2.0 * (B - A + sines), 2.0 * B,       -2.0 * A};
+}
+
+/// Where the cells end, as fractions of the length, and how much curvature rises on each.
+struct Profile {
+  Cells width{};
+  Cells rise{};
+  double length = 0.0;
+};
+
+/// Solves two equations for the rises of the outer cells; the middle one takes the rest.
+struct TwoByTwo {
+  double a11, a12, a21, a22;
+  [[nodiscard]] std::optional<Vec2> solve(double b1, double b2) const {
+    const double det = a11 * a22 - a12 * a21;
+    if (det == 0.0 || !std::isfinite(det)) return std::nullopt;
+    return Vec2{(b1 * a22 - b2 * a12) / det, (a11 * b2 - a21 * b1) / det};
+  }
+};
+
+/// The rises whose moments are the link's, as if the link were a circle arc: exact up to the part
+/// that curvature changes, with all digits of that small part.
+std::optional<Profile> first_profile(const Link& link, const Cells& width) {
+  const double half_turn = 0.5 * (link.beta - link.alpha);
+  const double sine = std::sin(half_turn);
+  constexpr double kStraight = 1e-6;  // rad: squares are as good as sines
+  const bool straight = std::abs(half_turn) < kStraight;
+  const auto square_distance = [&](double f) {
+    const double r = straight ? f : std::sin(half_turn * f) / sine;
+    return r * r;
+  };
+  Cells about_start{}, about_end{};
+  double from = 0.0;
+  for (std::size_t j = 0; j < kCells; ++j) {
+    const double to = from + width[j], middle = from + 0.5 * width[j];
+    const auto mean = [&](double a, double m, double b) {
+      return (square_distance(a) + 4.0 * square_distance(m) + square_distance(b)) / 6.0;
+    };
+    about_start[j] = mean(from, middle, to);
+    about_end[j] = mean(1.0 - from, 1.0 - middle, 1.0 - to);
+    from = to;
+  }
+  const TwoByTwo system = {about_start[0] - about_start[1], about_start[2] - about_start[1],
+                           about_end[0] - about_end[1], about_end[2] - about_end[1]};
+  const auto outer = system.solve(link.moment0 - about_start[1] * link.rise,
+                                  link.moment1 - about_end[1] * link.rise);
+  if (!outer) return std::nullopt;
+  return Profile{width,
+                 {outer->x, link.rise - outer->x - outer->y, outer->y},
+                 straight ? 1.0 : half_turn / sine};
+}
+
+bool positive(const Profile& p, double rise, double least) {
+  for (std::size_t j = 0; j < kCells; ++j) {
+    if (!(p.rise[j] >= least * p.width[j] * rise)) return false;
+  }
+  return true;
+}
+
+/// The curve of a profile at the ends of its cells, in the frame of the chord.
+struct Trace {
+  std::array<Vec2, kCells + 1> point{};
+  std::array<Vec2, kCells + 1> tangent{};
+  std::array<double, kCells + 1> theta{};
+  std::array<double, kCells + 1> kappa{};
+};
+
+Trace trace(const Link& link, const Profile& p) {
+  Trace t;
+  t.theta[0] = link.alpha;
+  t.kappa[0] = link.kappa;
+  t.tangent[0] = unit_at(link.alpha);
+  for (std::size_t j = 0; j < kCells; ++j) {
+    const double s = p.length * p.width[j];
+    t.kappa[j + 1] = t.kappa[j] + p.rise[j];
+    t.theta[j + 1] = t.theta[j] + 0.5 * (t.kappa[j] + t.kappa[j + 1]) * s;
+    t.point[j + 1] = t.point[j] + clothoid_step(t.theta[j], t.kappa[j], t.kappa[j + 1], s);
+    t.tangent[j + 1] = unit_at(t.theta[j + 1]);
+  }
+  return t;
+}
+
+/// How the end answers when the curvature rises by one more on each cell: the integrals over the
+/// length of what is left to the end, weighted with the added curvature; cubics stand in for the
+/// clothoids.
+struct Answer {
+  Vec2 point;
+  double theta = 0.0;
+};
+
+std::array<Answer, kCells> answers(const Trace& t, const Profile& p) {
+  std::array<Answer, kCells> out;
+  const Vec2 end = t.point[kCells];
+  Vec2 behind{};  // integral of (end - z) over the cells behind, and their length
+  double length_behind = 0.0;
+  for (std::size_t j = kCells; j-- > 0;) {
+    const double s = p.length * p.width[j];
+    const Vec2 a = end - t.point[j], b = end - t.point[j + 1];
+    const Vec2 da = -s * t.tangent[j], db = -s * t.tangent[j + 1];
+    const Vec2 whole = s * (0.5 * (a + b) + (1.0 / 12.0) * (da - db));
+    const Vec2 ramp = s * (0.15 * a + 0.35 * b + (1.0 / 30.0) * da - 0.05 * db);
+    out[j] = {left_normal(ramp + behind), 0.5 * s + length_behind};
+    behind = behind + whole;
+    length_behind += s;
+  }
+  return out;
+}
+
+/// One Newton step for the rises of the outer cells and the length.
+bool improve(const Trace& t, const Link& link, Profile& p) {
+  const auto by = answers(t, p);
+  const Vec2 by_first = by[0].point - by[1].point, by_last = by[2].point - by[1].point;
+  const double turn_first = by[0].theta - by[1].theta, turn_last = by[2].theta - by[1].theta;
+  // a longer link: turned and scaled
+  const double turn = t.theta[kCells] - t.theta[0];
+  Vec2 by_length = t.point[kCells];
+  for (std::size_t j = 0; j < kCells; ++j) {
+    const double s = p.length * p.width[j];
+    const Vec2 a = t.point[kCells] - t.point[j], b = t.point[kCells] - t.point[j + 1];
+    const Vec2 da = -s * t.tangent[j], db = -s * t.tangent[j + 1];
+    const Vec2 whole = s * (0.5 * (a + b) + (1.0 / 12.0) * (da - db));
+    const Vec2 ramp = s * (0.15 * a + 0.35 * b + (1.0 / 30.0) * da - 0.05 * db);
+    by_length = by_length + left_normal(t.kappa[j] * whole + p.rise[j] * ramp);
+  }
+  by_length = by_length / p.length;
+  const double turn_length = turn / p.length;
+  const Vec2 miss = Vec2{1.0, 0.0} - t.point[kCells];
+  const double turn_miss = link.beta - t.theta[kCells];
+  const double det = by_first.x * (by_last.y * turn_length - by_length.y * turn_last) -
+                     by_last.x * (by_first.y * turn_length - by_length.y * turn_first) +
+                     by_length.x * (by_first.y * turn_last - by_last.y * turn_first);
+  if (det == 0.0 || !std::isfinite(det)) return false;
+  const auto cramer = [&](double x1, double x2, double x3, double y1, double y2, double y3,
+                          double z1, double z2, double z3) {
+    return (x1 * (y2 * z3 - y3 * z2) - x2 * (y1 * z3 - y3 * z1) + x3 * (y1 * z2 - y2 * z1)) / det;
+  };
+  const double first = cramer(miss.x, by_last.x, by_length.x, miss.y, by_last.y, by_length.y,
+                              turn_miss, turn_last, turn_length);
+  const double last = cramer(by_first.x, miss.x, by_length.x, by_first.y, miss.y, by_length.y,
+                             turn_first, turn_miss, turn_length);
+  const double longer = cramer(by_first.x, by_last.x, miss.x, by_first.y, by_last.y, miss.y,
+                               turn_first, turn_last, turn_miss);
+  p.rise[0] += first;
+  p.rise[2] += last;
+  p.rise[1] -= first + last;
+  p.length += longer;
+  return p.length > 0.0;
+}
+
+double largest_miss(const Trace& t, const Link& link) {
+  const Vec2 miss = Vec2{1.0, 0.0} - t.point[kCells];
+  return std::max({std::abs(miss.x), std::abs(miss.y), std::abs(link.beta - t.theta[kCells])});
+}
+
+/// Newton's method until the end is met as well as rounding lets it.
+std::optional<Trace> meet_end(const Link& link, Profile& p) {
+  std::optional<Trace> best;
+  Profile best_profile = p;
+  double best_miss = HUGE_VAL;
+  for (int i = 0; i < kMostSteps; ++i) {
+    const Trace t = trace(link, p);
+    const double miss = largest_miss(t, link);
+    if (!(miss < best_miss) && best_miss <= kClose) break;
+    if (miss < best_miss) {
+      best = t;
+      best_profile = p;
+      best_miss = miss;
+    }
+    if (miss <= kRounding || !improve(t, link, p)) break;
+  }
+  p = best_profile;
+  const bool met = best_miss <= kClose * (1.0 + std::abs(link.alpha) + std::abs(link.beta));
+  return met ? best : std::nullopt;
+}
+
+/// Where the curvature rises: mean and mean square of the place, with the link from -1 to 1 and as
+/// if its headings were small.
+struct Place {
+  double mean, square;
+};
+
+Place place_of_rise(const Link& link) {
+  return {(link.moment0 - link.moment1) / link.rise,
+          2.0 * (link.moment0 + link.moment1) / link.rise - 1.0};
+}
+
+/// A middle cell around the mean, so narrow that its even rise alone would spread too little.
+Cells cells_about_mean(const Place& place) {
+  constexpr double kRoom = 0.9;    // of the room to the nearer end
+  constexpr double kNarrow = 0.6;  // of the half width with the whole rise in the middle cell
+  const double spread = std::max(0.0, place.square - place.mean * place.mean);
+  const double half =
+      std::min(kNarrow * std::sqrt(3.0 * spread), kRoom * (1.0 - std::abs(place.mean)));
+  return {0.5 * (1.0 + place.mean - half), half, 0.5 * (1.0 - place.mean - half)};
+}
+
+/// Cells at both ends, so narrow that even rises on them alone would spread too far: their mean
+/// square is 1 - e + e^2/3 with e their width.
+Cells cells_at_ends(const Place& place) {
+  const double width = 0.25 * (1.0 - place.square);
+  return {width, 1.0 - 2.0 * width, width};
+}
+
+std::optional<Trace> with_cells(const Link& link, const Cells& width, double least, Profile& p) {
+  if (!(*std::min_element(width.begin(), width.end()) > 0.0)) return std::nullopt;
+  const auto first = first_profile(link, width);
+  if (!first || !positive(*first, link.rise, 0.0)) return std::nullopt;
+  p = *first;
+  const auto t = meet_end(link, p);
+  return t && positive(p, link.rise, least) ? t : std::nullopt;
+}
+
+}  // namespace
+
+bool append_clothoids(const LinkState& link, int direction, const Element& start,
+                      const Element& end, std::vector<ClothoidPiece>& pieces) {
+  const Link own = mirrored(link, direction, start.kappa);
+  if (!(own.rise > 0.0 && own.moment0 > 0.0 && own.moment1 > 0.0)) return false;
+  constexpr double kThird = 1.0 / 3.0;
+  constexpr Cells kEven = {kThird, kThird, kThird};
+  Profile p;
+  auto t = with_cells(own, kEven, kEvenSharpness, p);
+  if (!t) {
+    const Place place = place_of_rise(own);
+    t = with_cells(own, cells_about_mean(place), kLeastSharpness, p);
+    if (!t) t = with_cells(own, cells_at_ends(place), kLeastSharpness, p);
+  }
+  if (!t) return false;
+  const double d = direction;
+  const Vec2 chord = end.point - start.point;
+  Element from = start;
+  for (std::size_t j = 0; j < kCells; ++j) {
+    const Vec2 z = t->point[j + 1];
+    const bool last = j + 1 == kCells;
+    Element to = end;
+    if (!last) {
+      to = {start.point + complex_product({z.x, d * z.y}, chord),
+            start.theta + d * (t->theta[j + 1] - own.alpha),
+            j == 0 ? start.kappa + d * p.rise[0] / link.h : end.kappa - d * p.rise[2] / link.h};
+    }
+    pieces.push_back(
+        {from.point, to.point, from.theta, from.kappa, to.kappa, p.length * p.width[j] * link.h});
+    from = to;
+  }
+  return true;
+}
+
+}  // namespace obvid
