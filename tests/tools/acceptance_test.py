@@ -220,6 +220,24 @@ class Moves(unittest.TestCase):
         self.assertFalse(running.moves_of(self.contour([0, 0], [0.1] * 3), 0.2)["moves_within"])
 
 
+PICKY = """import sys
+sys.exit(0 if float(sys.argv[sys.argv.index("--noise") + 1]) >= 0.5 and "--closed" in sys.argv else 4)
+"""
+
+
+class Refusals(unittest.TestCase):
+    def test_a_refusal_holds_when_the_tolerance_that_it_names_is_enough(self):
+        with tempfile.TemporaryDirectory() as folder:
+            program = pathlib.Path(folder) / "obvid"
+            program.write_text(f"#!{sys.executable}\n" + PICKY)
+            program.chmod(0o755)
+            case = cases.Case("a", program, ["--noise", "0.1", "--closed"], 0.1)
+            for text, holds in (("possible with a tolerance of 0.49", True),
+                                ("points 3 to 5, about 3.0e-01 mm; move them", False),
+                                ("a stretch leaves no room; remove a point", None)):
+                self.assertIs(running.explanation_holds(case, str(program), text), holds)
+
+
 class Judging(unittest.TestCase):
     def test_a_step_of_the_size_of_rounding_is_settled_and_a_larger_one_is_not(self):
         leg = {"type": "bezier", "points": [[1, 0], [1.0001, 0], [1.1, 0.001], [1.2, 0.01]],

@@ -13,6 +13,9 @@ from . import geometry, judging, rounding
 DOCUMENTED_CODES = (0, 3, 4, 5)
 # Longest wait for one file; a file that takes longer counts as a hang.
 SECONDS_AT_MOST = 300
+# "a tolerance of 1.9e-06" or "about 1.9e-06 mm": what a refusal says the points would have to move.
+NAMED_TOLERANCE = re.compile(r"(?:tolerance of|about) ([0-9.]+(?:e[-+]?\d+)?)")
+SPARE = 1.05  # the number is printed with two digits
 ERROR = re.compile(r"^obvid: error (E\d{3}): (.*)", re.M)
 
 
@@ -72,6 +75,8 @@ def run_case(case, program, judge_folder, samples, work):
     found = ERROR.search(done.stderr.decode(errors="replace"))
     if found:
         outcome["error"], outcome["text"] = found.groups()
+    if done.returncode == 4:
+        outcome["explanation_holds"] = explanation_holds(case, program, outcome["text"])
     contour = None
     if done.returncode in (0, 5) and output.exists():
         contour = json.loads(output.read_text(encoding="utf-8"))
@@ -79,6 +84,25 @@ def run_case(case, program, judge_folder, samples, work):
     if case.compare:
         outcome.update(case.compare(case.truth, contour))
     return outcome
+
+
+def explanation_holds(case, program, text):
+    """Whether a contour exists at the smallest tolerance that a refusal names, with a little to spare.
+    None when it names no number. A series is refused truly when this is so."""
+    named = NAMED_TOLERANCE.search(text)
+    if not named:
+        return None
+    tolerance = float(named.group(1)) * SPARE
+    arguments = list(case.arguments)
+    if "--noise" in arguments:
+        at = arguments.index("--noise")
+        del arguments[at:at + 2]
+    command = [program, "fit", str(case.path), *arguments, "--noise", repr(tolerance), "--quiet"]
+    try:
+        done = subprocess.run(command, capture_output=True, timeout=SECONDS_AT_MOST, check=False)
+    except subprocess.TimeoutExpired:
+        return False
+    return done.returncode == 0
 
 
 def run_cases(cases, options):

@@ -115,13 +115,12 @@ def grids(data, work):
             if len(set(points)) >= FEWEST_POINTS:
                 yield noise_case(work, f"{name}_{i:02d}", points, GRID_TOLERANCE_OF_SIZE * size,
                                  "hull grid, one station: y, z", group="hull stations")
-    for name, size_share in (("wpb_data_station_11", GRID_TOLERANCE_OF_SIZE), ("hand", 2e-3)):
-        path = data / "hulls_grids" / (name + ".dat")
-        if path.exists():  # hand.dat is digitised by hand: 1e-2 on a drawing of 5 units
-            points = [tuple(row[:2]) for row in number_rows(path, 2)]
-            size = max(max(v) - min(v) for v in zip(*points))
-            yield noise_case(work, name, points, size_share * size, "hull grids: " + name,
-                             group="hull stations")
+    path = data / "hulls_grids" / "wpb_data_station_11.dat"
+    if path.exists():
+        points = [tuple(row[:2]) for row in number_rows(path, 2)]
+        size = max(max(v) - min(v) for v in zip(*points))
+        yield noise_case(work, path.stem, points, GRID_TOLERANCE_OF_SIZE * size,
+                         "station of a patrol boat", group="hull stations")
 
 
 def criteria(outcomes):

@@ -66,6 +66,13 @@ def common_criteria(outcomes):
     fitted = [o for o in outcomes if "vertices" in o]
     found = [("moves within the tolerance", f"{sum(o['moves_within'] for o in fitted)} of "
               f"{len(fitted)}", all(o["moves_within"] for o in fitted))]
+    refused = [o for o in outcomes if o["exit"] == 4]
+    if refused:
+        named = [o for o in refused if o["explanation_holds"] is not None]
+        found.append(("refused: a contour exists at the tolerance that the refusal names",
+                      f"{sum(o['explanation_holds'] for o in named)} of {len(named)} "
+                      f"({len(refused) - len(named)} name none)",
+                      all(o["explanation_holds"] for o in named)))
     judged = [o for o in fitted if "judge_agrees" in o]
     if judged:
         found.append(("independent judge agrees (without asking for rounding at joints)",
