@@ -131,10 +131,12 @@ class Roads(unittest.TestCase):
             contour["pieces"][number].update(change)
             missed = matching.matched(truth, contour)["missed"]
             self.assertEqual([m["why"] for m in missed], [why])
-        self.assertEqual({m["why"] for m in matching.matched(truth, None)["missed"]}, {"not fitted"})
+        missed = matching.matched(truth, None)["missed"]
+        self.assertEqual({m["why"] for m in missed}, {"not fitted"})
 
     def test_what_the_points_cannot_show_is_not_asked_for(self):
-        seen = [row["seen"] for row in self.truth((60, 0, 0), (9, 0.02, 0.02), (60, 0, 0))["pieces"]]
+        rows = self.truth((60, 0, 0), (9, 0.02, 0.02), (60, 0, 0))["pieces"]
+        seen = [row["seen"] for row in rows]
         self.assertEqual(seen, [True, False, True])  # at most two points on the arc
         # 30 m of radius 200 km rise by 0.6 mm: with 1 mm a line, with 0.1 mm an arc.
         flat = ((30.0, 5e-6, 5e-6),)
@@ -167,7 +169,8 @@ class Roads(unittest.TestCase):
 
 class Truths(unittest.TestCase):
     def test_the_transition_formula_ends_where_fresnel_says(self):
-        # Curvature 0 to 1/300 over 100 m, scaled from the integrals at sqrt(2 A), series of theta = 1/6.
+        # Curvature 0 to 1/300 over 100 m, scaled from the integrals at sqrt(2 A), series of theta =
+        # 1/6.
         end = transitions.formula(("Clothoid", 100.0, 0.0, 1 / 300))[-1]
         theta = 100.0 / 300 / 2
         x = 100 * (1 - theta**2 / 10 + theta**4 / 216 - theta**6 / 9360)
@@ -216,12 +219,14 @@ class Moves(unittest.TestCase):
                                           0.2)["moves_within"])
 
     def test_tolerances_above_the_asked_one_and_missing_moves_are_refused(self):
-        self.assertFalse(running.moves_of(self.contour([0, 0, 0], [0.3, 0, 0]), 0.2)["moves_within"])
+        self.assertFalse(running.moves_of(self.contour([0, 0, 0], [0.3, 0, 0]),
+                                          0.2)["moves_within"])
         self.assertFalse(running.moves_of(self.contour([0, 0], [0.1] * 3), 0.2)["moves_within"])
 
 
 PICKY = """import sys
-sys.exit(0 if float(sys.argv[sys.argv.index("--noise") + 1]) >= 0.5 and "--closed" in sys.argv else 4)
+noise = float(sys.argv[sys.argv.index("--noise") + 1])
+sys.exit(0 if noise >= 0.5 and "--closed" in sys.argv else 4)
 """
 
 
@@ -272,7 +277,8 @@ def road_file(pieces):
 
 class WholeTool(unittest.TestCase):
     def sweep(self, contour):
-        """Exit code, tables and figures for one road and a program that answers with this contour."""
+        """Exit code, tables and figures for one road and a program that answers with this
+        contour."""
         with tempfile.TemporaryDirectory() as folder:
             folder = pathlib.Path(folder)
             (folder / "roads_opendrive").mkdir()
@@ -301,8 +307,8 @@ class WholeTool(unittest.TestCase):
         wrong["pieces"][2]["kappa"] *= 1.03
         far = self.contour()
         far["report"]["moves"][3] = 1.01 * roads.TOLERANCE
-        for contour, words in ((wrong, "arc radius off"), (far, "| moves within the tolerance | 0 of"),
-                               (None, "spiral not fitted")):
+        for contour, words in ((wrong, "arc radius off"), (None, "spiral not fitted"),
+                               (far, "| moves within the tolerance | 0 of")):
             code, text, figures = self.sweep(contour)
             self.assertEqual(code, 1, text)
             self.assertIn(words, text)

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
-"""What is run: a case is one call of `obvid fit`, with the truth that its result is held against."""
+"""What is run: a case is one call of `obvid fit`, with the truth that its result is held
+against."""
 import dataclasses
 import pathlib
 

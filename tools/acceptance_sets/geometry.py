@@ -8,8 +8,8 @@ import math
 GAUSS = [(0.1834346424956498, 0.3626837833783620), (0.5255324099163290, 0.3137066458778873),
          (0.7966664774136267, 0.2223810344533745), (0.9602898564975363, 0.1012285362903763)]
 TURN_PER_STEP = 0.5  # rad; 8 nodes integrate exp(i theta) over such a step to the last bits
-# A proved bound of a distance may exceed the tolerance by the rounding of the coordinates themselves:
-# a few units in their last place, relative to the largest of them.
+# A proved bound of a distance may exceed the tolerance by the rounding of the coordinates
+# themselves: a few units in their last place, relative to the largest of them.
 COORDINATE_ROUNDING = 16 * 2.0**-53
 
 
@@ -34,7 +34,8 @@ def circle_curvature(a, b, c):
 
 
 def raw_extrema(points, closed=False):
-    """Changes of sign of the differences of adjacent curvatures of the points as they are printed."""
+    """Changes of sign of the differences of adjacent curvatures of the points as they are
+    printed."""
     p = distinct(points)
     if closed and len(p) > 1 and p[0] == p[-1]:
         p.pop()
@@ -61,7 +62,8 @@ def move(z, theta, kappa0, kappa1, length):
 
 
 def bezier_point(piece, t):
-    """Point and signed curvature of a rational Bézier piece, from its points in homogeneous form."""
+    """Point and signed curvature of a rational Bézier piece, from its points in homogeneous
+    form."""
     weights = piece.get("weights") or [1.0] * len(piece["points"])
     exact = piece.get("exact")
     points = exact["offsets"] if exact else piece["points"]
@@ -76,7 +78,8 @@ def bezier_point(piece, t):
     d1 = [n * (first[1][i] - first[0][i]) for i in (0, 1)]
     d2 = [0.0, 0.0]
     if n > 1:
-        d2 = [n * (n - 1) * (levels[2][2][i] - 2 * levels[2][1][i] + levels[2][0][i]) for i in (0, 1)]
+        second = levels[2]
+        d2 = [n * (n - 1) * (second[2][i] - 2 * second[1][i] + second[0][i]) for i in (0, 1)]
     place = z / w
     speed = (d1[0] - place * d1[1]) / w
     bend = (d2[0] - 2 * speed * d1[1] - place * d2[1]) / w

@@ -30,8 +30,8 @@ def load_judge(folder):
 
 
 def sampling_error(judge, contour, samples):
-    """How far the polygon that the judge measures distances from can be from the curve: the height of
-    the arc over each of its sides. Twice that, since curvature may change along a side."""
+    """How far the polygon that the judge measures distances from can be from the curve: the height
+    of the arc over each of its sides. Twice that, since curvature may change along a side."""
     worst = 0.0
     for piece in contour["pieces"]:
         row = [judge.sample(piece, j / samples) for j in range(samples + 1)]

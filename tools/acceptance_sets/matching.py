@@ -2,14 +2,14 @@
 """Lines, arcs and spirals of a known chain, sampled, and how many of them a contour gives back.
 
 What counts. Neighbouring pieces of the truth that are one curve (two lines in line, two arcs of one
-circle, cut for other reasons) are joined first. A piece is *seen* when at least FEWEST_SAMPLES points
-lie on it and no simpler kind fits these within the tolerance: four points of an arc so flat that a
-line passes within the tolerance of them all cannot be told from one, nor a spiral from an arc. Pieces
-not seen are counted apart. A seen piece is *matched* when more than half of its length between the
-first and the last of its points is made of pieces of its kind, and the curvature is right within
-RADIUS_OFF: an arc's radius that of the longest such arc; a spiral's curvature along its points, in
-parts of the largest curvature of the spiral (its ends' radii would be those of its neighbours).
-"""
+circle, cut for other reasons) are joined first. A piece is *seen* when at least FEWEST_SAMPLES
+points lie on it and no simpler kind fits these within the tolerance: four points of an arc so flat
+that a line passes within the tolerance of them all cannot be told from one, nor a spiral from an
+arc. Pieces not seen are counted apart. A seen piece is *matched* when more than half of its length
+between the first and the last of its points is made of pieces of its kind, and the curvature is
+right within RADIUS_OFF: an arc's radius that of the longest such arc; a spiral's curvature along
+its points, in parts of the largest curvature of the spiral (its ends' radii would be those of its
+neighbours). """
 import bisect
 import cmath
 import dataclasses
@@ -23,6 +23,7 @@ RADIUS_OFF = 0.02  # relative, as the issue asks
 # print about as many digits.
 SAME_HEADING, SAME_CURVATURE = 1e-7, 1e-9  # rad, relative to the larger curvature
 LEAST_LENGTH = 1e-6  # m; shorter pieces are leftovers of an editor, without a heading of their own
+PARAMETER_STEP = 1e-4  # of a piece: curvature changes by less than a tenth of a percent over it
 SAMPLES_A_PIECE = 8  # places of a contour piece that are looked at
 
 
@@ -117,12 +118,13 @@ def line_distance(points):
 
 
 def sampled_truth(pieces, step, tolerance):
-    """Truth to be sent to `matched`: points, and per joined piece what it is and whether it is seen.
-    """
+    """Truth to be sent to `matched`: points, and per joined piece what it is and whether it is
+    seen. """
     points, places = sampled(pieces, step)
     rows, start = [], 0.0
     for piece in joined(pieces):
-        low, high = bisect.bisect_left(places, start), bisect.bisect_right(places, start + piece.length)
+        low = bisect.bisect_left(places, start)
+        high = bisect.bisect_right(places, start + piece.length)
         own = points[low:high]
         seen = len(own) >= FEWEST_SAMPLES and not simpler_fits(piece.kind(), own, tolerance)
         rows.append({"kind": piece.kind(), "start": start, "length": piece.length,
@@ -154,25 +156,36 @@ def nearest_places(contour, points):
     return found
 
 
+def curvature_near(contour, place, point):
+    """Curvature of the contour beside a point, near the sample that was found for it: the nearest
+    place between the neighbouring samples, by thirds."""
+    piece, t = contour["pieces"][place[0]], place[1]
+    low, high = max(0.0, t - 1 / SAMPLES_A_PIECE), min(1.0, t + 1 / SAMPLES_A_PIECE)
+    away = lambda u: abs(geometry.piece_point(piece, u)[0] - complex(*point))  # noqa: E731
+    while high - low > PARAMETER_STEP:
+        a, b = low + (high - low) / 3, high - (high - low) / 3
+        low, high = (low, b) if away(a) < away(b) else (a, high)
+    return geometry.piece_point(piece, (low + high) / 2)[1]
+
+
 def kind_of(piece):
     return piece["type"] if piece["type"] in ("line", "arc") else "spiral"
 
 
-def curvature_match(row, contour, nearest):
+def curvature_match(row, points, contour, nearest):
     """Whether the curvature of the spiral is that of the truth at its inner points."""
     largest = max(abs(row["kappa0"]), abs(row["kappa1"]))
     good = 0
     inner = range(row["first"] + 1, row["last"])
     for i in inner:
-        piece, t = nearest[i]
         share = (row["places"][i - row["first"]] - row["start"]) / row["length"]
         true = row["kappa0"] + share * (row["kappa1"] - row["kappa0"])
-        found = geometry.piece_point(contour["pieces"][piece], t)[1]
+        found = curvature_near(contour, nearest[i], points[i])
         good += abs(found - true) <= RADIUS_OFF * largest
     return 2 * good > len(inner)
 
 
-def piece_result(row, contour, nearest):
+def piece_result(row, points, contour, nearest):
     """'matched', or what is wrong with the contour along one piece of the truth."""
     length, longest = {"line": 0.0, "arc": 0.0, "spiral": 0.0}, {}
     first, last = nearest[row["first"]], nearest[row["last"]]
@@ -189,19 +202,20 @@ def piece_result(row, contour, nearest):
         return "found as " + kind
     if kind == "arc" and abs(row["kappa0"] / longest["arc"][1]["kappa"] - 1) > RADIUS_OFF:
         return "radius off"
-    if kind == "spiral" and not curvature_match(row, contour, nearest):
+    if kind == "spiral" and not curvature_match(row, points, contour, nearest):
         return "curvature off"
     return "matched"
 
 
 def matched(truth, contour):
-    """Figures per kind: seen and matched pieces, and why others failed. Without a contour all did."""
+    """Figures per kind: seen and matched pieces, and why others failed. Without a contour all
+    did."""
     nearest = nearest_places(contour, truth["points"]) if contour else None
     found = {"truth": len(truth["pieces"]), "seen": {}, "matched": {}, "missed": []}
     for row in truth["pieces"]:
         if not row["seen"]:
             continue
-        result = piece_result(row, contour, nearest) if contour else "not fitted"
+        result = piece_result(row, truth["points"], contour, nearest) if contour else "not fitted"
         found["seen"][row["kind"]] = found["seen"].get(row["kind"], 0) + 1
         if result == "matched":
             found["matched"][row["kind"]] = found["matched"].get(row["kind"], 0) + 1

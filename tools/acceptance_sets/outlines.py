@@ -24,8 +24,8 @@ def cases(data, work, _options):
     hand = data / "hulls_grids" / "hand.dat"
     if hand.exists():  # open at the wrist
         points = [tuple(row[:2]) for row in number_rows(hand, 2)]
-        found.append(noise_case(work, "hand", points, PIXEL_TOLERANCE * HAND_GRID, "outline of a hand",
-                                ["--open"], group="hand"))
+        found.append(noise_case(work, "hand", points, PIXEL_TOLERANCE * HAND_GRID,
+                                "outline of a hand", ["--open"], group="hand"))
     return found, []
 
 

@@ -4,15 +4,15 @@ from . import tables
 from .cases import Case
 
 GROUP = "rail and wheel profile"
-# The files print 5 to 9 decimals of mm, but are exact only to this: the points were interpolated, and
-# ripple about the arcs of the drawing (80 and 300 mm: least-squares circles through 294 points leave
-# 0.0004 mm, the arcs of 12 and 20 mm of the flange up to 0.0009 mm).
+# The files print 5 to 9 decimals of mm, but are exact only to this: the points were interpolated,
+# and ripple about the arcs of the drawing (80 and 300 mm: least-squares circles through 294 points
+# leave 0.0004 mm, the arcs of 12 and 20 mm of the flange up to 0.0009 mm).
 TOLERANCE = 1e-3  # mm
 # Published arcs: radius (mm, signed as the points turn) and the abscissas between which it must be
 # found. Rail head of UIC 60 (UIC 861-3), inclined by 1:40: 13, 80, 300, 80, 13. Flange of the wheel
 # (UIC 510-2, zones F and G): 12 over the tip, 20 on the flank. The radius of 20.5 (zone H) turns
-# through the vertical, where points spaced evenly in x do not show it, and is not asked for; root and
-# tread are polynomials in the drawing, without radii.
+# through the vertical, where points spaced evenly in x do not show it, and is not asked for; root
+# and tread are polynomials in the drawing, without radii.
 PUBLISHED = {
     "SUIC519A": [(-13, -28, -24), (-80, -21, -12), (-300, -6, 12), (-80, 15, 26), (-13, 30, 35)],
     "RUIC519A": [(12, -60, -51), (20, -48, -41)],

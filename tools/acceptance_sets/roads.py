@@ -7,16 +7,17 @@ from . import matching, tables
 from .cases import Case, write_points
 
 STEP = 5.0  # m, as the issue asks
-# m. Real joints of these files are off by up to 1.5e-3 m and 1e-4 rad, and most arcs join lines without
-# a spiral between them (the transition has to fit between the points): a centimetre is what lane
-# markings are drawn to.
+# m. Real joints of these files are off by up to 1.5e-3 m and 1e-4 rad, and most arcs join lines
+# without a spiral between them (the transition has to fit between the points): a centimetre is what
+# lane markings are drawn to.
 TOLERANCE = 0.01
 FEWEST_POINTS = 4
 
 
 def plan_view(road):
-    """Pieces of a road's reference line, or None where one is a parametric cubic: its kind is none of
-    those that are looked for. Each piece starts where the file says, not where the one before ends."""
+    """Pieces of a road's reference line, or None where one is a parametric cubic: its kind is none
+    of those that are looked for. Each piece starts where the file says, not where the one before
+    ends."""
     pieces = []
     for geometry in road.find("planView").findall("geometry"):
         value = lambda key, of=geometry: float(of.get(key))  # noqa: E731
@@ -68,8 +69,8 @@ def cases(data, work, options):
     unseen = collections.Counter(
         "fewer than 4 points" if row["samples"] < matching.FEWEST_SAMPLES else "like a simpler one"
         for case in found for row in case.truth["pieces"] if not row["seen"])
-    notes = [f"Every {STEP:g} m, tolerance {options.tolerance or TOLERANCE:g} m, `--primitives`. Roads "
-             "left out: " + ", ".join(f"{n} {why}" for why, n in left_out.items()) + ".",
+    notes = [f"Every {STEP:g} m, tolerance {options.tolerance or TOLERANCE:g} m, `--primitives`. "
+             "Roads left out: " + ", ".join(f"{n} {why}" for why, n in left_out.items()) + ".",
              "Pieces not seen: " + ", ".join(f"{n} {why}" for why, n in unseen.items()) + ".\n"]
     return found, notes
 

@@ -23,8 +23,8 @@ def half_unit(words):
 
 
 def printed_rounding(text, points):
-    """Largest distance between a point and what was rounded to it. Rows count when their two numbers
-    are a point of the series, so titles, counts and grid bounds do not."""
+    """Largest distance between a point and what was rounded to it. Rows count when their two
+    numbers are a point of the series, so titles, counts and grid bounds do not."""
     wanted, columns = {tuple(p) for p in points}, ([], [])
     for line in text.splitlines():
         words = [w for w in SEPARATORS.split(line.strip()) if w]

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Runs cases with `obvid fit`, one process each, and holds every contour file against its points."""
+"""Runs cases with `obvid fit`, one process each, and holds every contour file against its
+points."""
 import concurrent.futures
 import json
 import pathlib
@@ -27,7 +28,8 @@ def moves_of(contour, tolerance):
     moves = report.get("moves") or []
     honest = all(t <= tolerance * (1 + 1e-9) for t in tolerances)  # 1e-9: decimal text of both
     if not moves:  # interpolated exactly
-        return {"move": 0.0, "moves_within": honest and report["largest_move"] <= tolerance + rounding}
+        within = report["largest_move"] <= tolerance + rounding
+        return {"move": 0.0, "moves_within": honest and within}
     ratios = [m / t for m, t in zip(moves, tolerances) if t > 0]
     return {"move": max(ratios, default=0.0),
             "moves_within": honest and len(moves) == len(tolerances) == len(points)
@@ -87,8 +89,8 @@ def run_case(case, program, judge_folder, samples, work):
 
 
 def explanation_holds(case, program, text):
-    """Whether a contour exists at the smallest tolerance that a refusal names, with a little to spare.
-    None when it names no number. A series is refused truly when this is so."""
+    """Whether a contour exists at the smallest tolerance that a refusal names, with a little to
+    spare. None when it names no number. A series is refused truly when this is so."""
     named = NAMED_TOLERANCE.search(text)
     if not named:
         return None

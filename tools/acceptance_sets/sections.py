@@ -7,16 +7,16 @@ from .cases import Case, noise_case, number_rows, write_points
 
 THETA_HALF_UNIT = 0.5e-7  # rad: rotor 37 prints angles with 7 decimals
 LENGTH_HALF_UNIT = 0.5e-7  # cm: likewise radii and axial places
-# The IEA coordinates print 15 digits of an interpolation to 200 points between coordinates that were
-# published with fewer; 1e-5 chord is 0.05 mm on the largest chord (5.8 m).
+# The IEA coordinates print 15 digits of an interpolation to 200 points between coordinates that
+# were published with fewer; 1e-5 chord is 0.05 mm on the largest chord (5.8 m).
 IEA_TOLERANCE = 1e-5
 SERIES60_HALF_UNIT = 0.0005  # of the largest half-breadth of a waterline: 3 decimals
-# Series 60, parent of block coefficient 0.80: length to beam 6.5, beam to draft 2.5. Lengths here are
-# in half-beams.
+# Series 60, parent of block coefficient 0.80: length to beam 6.5, beam to draft 2.5. Lengths here
+# are in half-beams.
 SERIES60_LENGTH, SERIES60_DRAFT = 13.0, 0.8
 GRIDS = ["Series60Offset", "TrawlerOffset", "wpb_offset_bottom", "wpb_offset_mid", "wpb_offset_top"]
-# Grids come from a surface program, with 8 digits; 1e-5 of a half-breadth of metres is 0.01 to 0.1 mm,
-# which no yard measures.
+# Grids come from a surface program, with 8 digits; 1e-5 of a half-breadth of metres is 0.01 to 0.1
+# mm, which no yard measures.
 GRID_TOLERANCE_OF_SIZE = 1e-5
 FEWEST_POINTS = 4  # fewer leave nothing to choose
 
@@ -79,14 +79,15 @@ def series60(data, work):
         points = [(s * SERIES60_LENGTH, v * breadth) for s, v in kept]
         if len(points) >= FEWEST_POINTS:
             yield noise_case(work, f"series60_waterline_{height:g}", points,
-                             SERIES60_HALF_UNIT * breadth, "Series 60 4214W-B4 waterline, half-beams",
+                             SERIES60_HALF_UNIT * breadth, "Series 60 4214W-B4 waterline",
                              group="Series 60 table")
     for j, station in enumerate(stations):
         if 0.0 < station < 1.0:  # stem and stern are not sections of the table
-            points = [(values[k][j] * largest[k], h * SERIES60_DRAFT) for k, h in enumerate(heights)]
+            points = [(values[k][j] * largest[k], height * SERIES60_DRAFT)
+                      for k, height in enumerate(heights)]
             tolerances = [SERIES60_HALF_UNIT * b for b in largest]
             name = f"series60_station_{20 * station:g}"
-            write_points(work / (name + ".csv"), points, "Series 60 4214W-B4 station, half-beams",
+            write_points(work / (name + ".csv"), points, "Series 60 4214W-B4 station",
                          tolerances)
             yield Case(name, work / (name + ".csv"), [], max(tolerances), "Series 60 table")
 

@@ -33,8 +33,8 @@ def groups_of(outcomes):
     return groups
 
 
-SUMMARY = ["set", "files", "proved (0)", "not proved (5)", "no contour (4)", "points", "raw extrema",
-           "vertices", "lower bound", "vertices = bound", "largest move / tolerance", "ms",
+SUMMARY = ["set", "files", "proved (0)", "not proved (5)", "no contour (4)", "points",
+           "raw extrema", "vertices", "lower bound", "vertices = bound", "largest move / tolerance", "ms",
            "longest ms", "process ms"]
 
 
@@ -89,7 +89,8 @@ def all_proved(outcomes):
 
 def criteria_table(criteria):
     return markdown(["criterion", "measured", "met"],
-                    [(text, measured, "yes" if ok else "**no**") for text, measured, ok in criteria])
+                    [(text, measured, "yes" if ok else "**no**")
+                     for text, measured, ok in criteria])
 
 
 # Columns of the table of single files: heading, key of the outcome, how to print it.

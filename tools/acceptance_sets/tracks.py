@@ -33,8 +33,8 @@ def tum(data, work):
 
 
 def to_metres(coordinates):
-    """Local plane: degrees times the radii of curvature of the ellipsoid at the middle latitude. Over
-    the 3 km of a circuit the meridians' convergence changes lengths by less than 1e-4."""
+    """Local plane: degrees times the radii of curvature of the ellipsoid at the middle latitude.
+    Over the 3 km of a circuit the meridians' convergence changes lengths by less than 1e-4."""
     lon0 = sum(c[0] for c in coordinates) / len(coordinates)
     lat0 = sum(c[1] for c in coordinates) / len(coordinates)
     e2, sine = WGS84_F * (2 - WGS84_F), math.sin(math.radians(lat0))
