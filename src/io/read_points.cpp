@@ -63,6 +63,7 @@ void fill_missing(FixedData& kept, const FixedData& other) {
   if (!kept.theta) kept.theta = other.theta;
   if (!kept.kappa) kept.kappa = other.kappa;
   if (!kept.tolerance) kept.tolerance = other.tolerance;
+  kept.corner = kept.corner || other.corner;
 }
 
 // Keeps the first of equal neighbours; data fixed at either of them hold for the one kept.
@@ -103,6 +104,14 @@ bool has_enough_distinct(const std::vector<Vec2>& points) {
   return false;
 }
 
+Vec2 rounding_of(RawPoints& raw) {
+  for (std::size_t i = 0; i < 2; ++i) {
+    if (raw.first_is_point) raw.digits[i].add(raw.first_digits[i]);
+  }
+  const text::HalfUnits half = text::half_units(raw.digits[0], raw.digits[1]);
+  return {half.x, half.y};
+}
+
 Error too_few(const RawPoints& raw, string_view name) {
   Error error;
   error.code = ErrorCode::kTooFewPoints;
@@ -131,6 +140,7 @@ Result<PointSeries> parse_points(string_view text, string_view name) {
   series.name = raw->title.empty() ? text::to_utf8(base_name(name)) : std::move(raw->title);
   series.points = std::move(raw->points);
   series.fixed = std::move(raw->fixed);
+  series.rounding = rounding_of(*raw);
   series.warnings = std::move(raw->warnings);
   return series;
 }

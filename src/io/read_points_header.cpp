@@ -14,6 +14,11 @@ namespace {
 
 using std::string_view;
 
+// How far a point may move, said outright or as the 95 % interval of a measurement; the first of
+// these that a file has.
+constexpr std::array<string_view, 9> kToleranceNames{
+    "tol", "tolerance", "u95", "ci95", "uncertainty", "unc", "+-", "+/-", "\xC2\xB1"};
+
 // Lower case, without quotes, brackets, unit and the words that programs put around x and y:
 // "X [mm]", "x_m", "[X-Coordinate]", "x/c" all give "x".
 std::string plain_name(string_view cell) {
@@ -88,7 +93,10 @@ std::optional<Columns> read_header(string_view line) {
   columns.heading_deg = find("heading_deg");
   columns.radius = find("radius");
   columns.kappa = find("kappa");
-  columns.tolerance = find("tol");
+  for (const string_view name : kToleranceNames) {
+    if (!columns.tolerance) columns.tolerance = find(name);
+  }
+  columns.corner = find("corner");
   columns.tab_separated = separator == text::Separator::kTab;
   return columns;
 }

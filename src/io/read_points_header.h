@@ -11,10 +11,12 @@ namespace obvid {
 struct Columns {
   std::size_t x = 0;
   std::size_t y = 1;
-  std::optional<std::size_t> z, heading_deg, radius, kappa, tolerance;
+  std::optional<std::size_t> z, heading_deg, radius, kappa, tolerance, corner;
   bool tab_separated = false;  ///< header with tabs: a tab ends a cell, cells may be empty
 
-  [[nodiscard]] bool has_fixed_data() const { return heading_deg || radius || kappa || tolerance; }
+  [[nodiscard]] bool has_fixed_data() const {
+    return heading_deg || radius || kappa || tolerance || corner;
+  }
 };
 
 /// Reads a line that names the columns; nothing when it names no x and y.

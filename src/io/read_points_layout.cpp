@@ -74,6 +74,7 @@ Result<void> resolve_count(RawPoints& raw, std::string_view name) {
   }
   if (raw.reference_first && !raw.points.empty()) {
     raw.points.erase(raw.points.begin());
+    raw.first_is_point = false;
     raw.lines.erase(raw.lines.begin());
     raw.breaks.clear();
   }
@@ -116,6 +117,7 @@ Result<void> resolve_lednicer(RawPoints& raw, std::string_view name) {
                           "the file states sides of " + std::to_string(upper) + " and " +
                               std::to_string(lower) + " points and holds " + found));
   }
+  raw.first_is_point = false;
   join_sides(raw, {1, middle}, {middle, n}, false);
   return {};
 }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <optional>
@@ -9,6 +10,7 @@
 
 #include "obvid/core/result.h"
 #include "obvid/series/point_series.h"
+#include "text_digits.h"
 
 namespace obvid {
 
@@ -26,8 +28,11 @@ struct RawPoints {
   bool white = false;       ///< blanks or tabs separate the fields
   std::size_t columns = 2;  ///< numbers per row
   std::vector<Vec2> points;
-  std::vector<std::uint32_t> lines;         ///< line of each point, from 1
-  std::vector<FixedData> fixed;             ///< empty, or one per point
+  std::vector<std::uint32_t> lines;                 ///< line of each point, from 1
+  std::vector<FixedData> fixed;                     ///< empty, or one per point
+  std::array<text::ColumnDigits, 2> digits;         ///< of x and y, without the first row
+  std::array<text::PrintedDigits, 2> first_digits;  ///< first row: it may turn out to be no point
+  bool first_is_point = true;
   std::vector<std::size_t> breaks;          ///< points before which a blank line stands
   std::optional<std::size_t> stated_count;  ///< a count that stands before the points
   std::uint32_t stated_line = 0;

@@ -85,6 +85,8 @@ std::optional<string_view> foreign_kind(string_view head) {
   if (is_iges(head)) return "IGES";
   head = skip_space(head);
   if (starts(head, "ISO-10303-21")) return "STEP";
+  // Laser surveys of NASA: tables of one scan after the other, each with its own head.
+  if (has(head, "CONF. LEVEL") && has(head, "WINDOW")) return "a survey of several scans";
   if (starts(head, "DBRep_DrawableShape") || starts(head, "CASCADE Topology")) return "BREP";
   if (is_dxf(head)) return "DXF";
   if (const auto kind = json_kind(head)) return kind;
@@ -109,7 +111,9 @@ Error unsupported(string_view name, string_view kind) {
     error.hint = "use `obvid verify` or `obvid convert` on it";
   } else {
     error.what = std::string(kind) + " is not read yet";
-    error.hint = "save the points as text with two columns x,y";
+    error.hint = kind == "a survey of several scans"
+                     ? "save one scan as text with columns x,y,u95"
+                     : "save the points as text with two columns x,y";
   }
   return error;
 }

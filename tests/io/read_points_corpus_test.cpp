@@ -175,6 +175,36 @@ TEST(PublicData, NamedCoordinatesOfRailCurvesAreTheirPoints) {
   EXPECT_NEAR(series->points.back().y, 5.5446, 1e-3);
 }
 
+TEST(PublicData, ASurveyOfSeveralScansIsRefusedAndOneOfItsScansIsReadWithItsIntervals) {
+  SKIP_WITHOUT_DATA();
+  const fs::path file = shared_data() / "turbomachinery_nasa" / "ns10_scan_data.dat";
+  const auto whole = read_points(file.string());
+  ASSERT_FALSE(whole.has_value());
+  EXPECT_EQ(whole.error().code, ErrorCode::kUnsupported);
+  EXPECT_NE(whole.error().hint.find("x,y,u95"), std::string::npos);
+  // First scan: window number, mean axial velocity, and its 95 % interval (columns 1, 3 and 5).
+  std::istringstream lines(content_of(file));
+  std::string text = "x,y,u95\n";
+  for (std::string line; std::getline(lines, line);) {
+    std::istringstream row(line);
+    std::vector<double> cells;
+    for (double cell = 0.0; row >> cell;) cells.push_back(cell);
+    if (cells.size() < 6) {
+      if (text.size() > 100) break;
+      continue;
+    }
+    std::ostringstream out;
+    out << cells[0] << ',' << cells[2] << ',' << cells[4] << '\n';
+    text += out.str();
+  }
+  const auto scan = parse_points(text, "scan");
+  ASSERT_TRUE(scan.has_value()) << to_line(scan.error());
+  ASSERT_GE(scan->points.size(), 24U);
+  EXPECT_EQ(scan->points[1], (Vec2{2.0, 175.43}));
+  EXPECT_EQ(scan->fixed[1].tolerance.value(), 0.6);
+  EXPECT_EQ(scan->fixed[11].tolerance.value(), 0.7);
+}
+
 TEST(PublicData, DrawingsAreRefusedByTheirName) {
   SKIP_WITHOUT_DATA();
   const std::vector<std::string> sets{"cad_dxf",           "cad_svg",  "cad_iges_step",

@@ -161,6 +161,51 @@ TEST(ReadPoints, ImpossibleFixedDataAreRefused) {
   expect_error("x,y,heading_deg\n0,0,north\n1,1,\n", ErrorCode::kBadNumber, "f:2:5");
 }
 
+TEST(ReadPoints, IntervalsOfMeasuredDataAreTolerances) {
+  for (const std::string name : {"tol", "tolerance", "u95", "U95 [mm]", "ci95", "uncertainty",
+                                 "uncertainty (95 %)", "unc", "+-", "+/-", "\xC2\xB1"}) {
+    const auto series = parse_points("x,y," + name + "\n0,0,0.5\n1,1,\n2,1,0\n", "f");
+    ASSERT_TRUE(series.has_value()) << name << to_line(series.error());
+    ASSERT_EQ(series->fixed.size(), 3U) << name;
+    EXPECT_EQ(series->fixed[0].tolerance.value(), 0.5) << name;
+    EXPECT_FALSE(series->fixed[1].tolerance) << name;
+    EXPECT_EQ(series->fixed[2].tolerance.value(), 0.0) << name;
+  }
+  // What is said outright goes before what was measured, wherever it stands.
+  EXPECT_EQ(
+      parse_points("x,y,u95,tol\n0,0,5,0.1\n1,1,5,\n2,1,5,\n", "f")->fixed[0].tolerance.value(),
+      0.1);
+}
+
+TEST(ReadPoints, CornersAreMarkedByAColumn) {
+  const auto series = parse_points(
+      "x;y;Corner\n0;0;1\n1;0;0\n2;0;\n2;1;yes\n2;2;No\n1;2;TRUE\n0;2;false\n0;1\n", "f");
+  ASSERT_TRUE(series.has_value()) << to_line(series.error());
+  std::vector<bool> corners;
+  for (const FixedData& fixed : series->fixed) corners.push_back(fixed.corner);
+  EXPECT_EQ(corners, (std::vector<bool>{true, false, false, true, false, true, false, false}));
+  expect_error("x,y,corner\n0,0,0\n1,1,2\n2,1,1\n", ErrorCode::kBadNumber, "f:3:5");
+  expect_error("x,y,corner\n0,0,maybe\n1,1,\n", ErrorCode::kBadNumber, "f:2:5");
+}
+
+TEST(ReadPoints, AHyphenStandsForAnEmptyCellBetweenBlanks) {
+  const auto series = parse_points(
+      "x y heading_deg radius tol corner\n0 0 - inf - -\n1 1 45 - 0.1 1\n2 1 - - - 0\n", "f");
+  ASSERT_TRUE(series.has_value()) << to_line(series.error());
+  EXPECT_EQ(series->fixed[0].kappa.value(), 0.0);
+  EXPECT_FALSE(series->fixed[0].theta || series->fixed[0].tolerance || series->fixed[0].corner);
+  EXPECT_DOUBLE_EQ(series->fixed[1].theta.value(), std::numbers::pi / 4);
+  EXPECT_FALSE(series->fixed[1].kappa);
+  EXPECT_TRUE(series->fixed[1].corner);
+  expect_error("x y tol\n0 - -\n1 1 -\n", ErrorCode::kBadNumber, "f:2:3");
+}
+
+TEST(ReadPoints, ACornerAtADuplicateStaysACorner) {
+  const auto series = parse_points("x,y,corner\n0,0,\n1,1,\n1,1,1\n2,0,\n", "f");
+  ASSERT_TRUE(series.has_value());
+  EXPECT_TRUE(series->fixed[1].corner);
+}
+
 TEST(ReadPoints, ConsecutiveDuplicatesMergeWithAWarning) {
   const auto series = parse_points("x,y\n0,0\n1,1\n1,1\n1.0,1\n2,0\n0,0\n0,0\n", "f");
   ASSERT_TRUE(series.has_value());

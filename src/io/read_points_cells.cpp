@@ -1,0 +1,119 @@
+// SPDX-License-Identifier: Apache-2.0
+// The cells of a row: coordinates, and data fixed at a point.
+#include <algorithm>
+#include <array>
+#include <cctype>
+#include <cmath>
+#include <numbers>
+
+#include "read_points_reader.h"
+
+namespace obvid {
+
+using std::string_view;
+using text::NumberKind;
+using text::ParsedNumber;
+using text::Separator;
+using text::shown;
+
+namespace {
+
+// Stands for an empty cell where blanks separate.
+constexpr string_view kNothing = "-";
+
+}  // namespace
+
+Result<double> RowReader::number_at(string_view line, std::size_t column) {
+  const string_view cell = fields_.cell[column];
+  const Place place{line, cell.data()};
+  const ParsedNumber number = text::parse_number(cell, separator_ != Separator::kComma);
+  if (number.kind == NumberKind::kNotNumber) {
+    const std::string what =
+        cell.empty() ? "a number is missing" : shown(cell) + " is not a number";
+    return fail(error(ErrorCode::kBadNumber, what, place));
+  }
+  if (number.kind == NumberKind::kNotFinite) {
+    return fail(error(ErrorCode::kNotFinite, shown(cell) + " is not a finite number", place));
+  }
+  decimal_comma_seen_ = decimal_comma_seen_ || number.decimal_comma;
+  decimal_point_seen_ = decimal_point_seen_ || number.decimal_point;
+  if (decimal_comma_seen_ && decimal_point_seen_) {
+    return fail(error(ErrorCode::kBadNumber,
+                      shown(cell) + ": decimal comma and decimal point in one file", place));
+  }
+  return number.value;
+}
+
+bool RowReader::is_given(std::optional<std::size_t> column) const {
+  return column && *column < fields_.count && !fields_.cell[*column].empty() &&
+         fields_.cell[*column] != kNothing;
+}
+
+Result<std::optional<double>> RowReader::optional_cell(string_view line,
+                                                       std::optional<std::size_t> column,
+                                                       bool infinite_allowed) {
+  if (!is_given(column)) return std::optional<double>();
+  if (infinite_allowed) {
+    const ParsedNumber number = text::parse_number(fields_.cell[*column], true);
+    if (number.kind == NumberKind::kNotFinite && std::isinf(number.value)) return number.value;
+  }
+  const Result<double> value = number_at(line, *column);
+  if (!value) return fail(value.error());
+  return std::optional<double>(*value);
+}
+
+Result<std::optional<double>> RowReader::read_curvature(string_view line) {
+  const auto radius = optional_cell(line, layout_.radius, true);
+  if (!radius) return fail(radius.error());
+  auto kappa = optional_cell(line, layout_.kappa, false);
+  if (!kappa || !*radius) return kappa;
+  if (*kappa) {
+    return fail(error(ErrorCode::kBadNumber, "radius and kappa are both given",
+                      {line, fields_.cell[*layout_.kappa].data()}));
+  }
+  if (!std::isfinite(1.0 / **radius)) {
+    const string_view cell = fields_.cell[*layout_.radius];
+    return fail(error(ErrorCode::kNotFinite,
+                      "a radius of " + shown(cell) + " has no finite curvature; inf is straight",
+                      {line, cell.data()}));
+  }
+  return std::optional<double>(1.0 / **radius);
+}
+
+Result<bool> RowReader::read_corner(string_view line) {
+  static constexpr std::array<string_view, 3> kYes{"1", "yes", "true"};
+  static constexpr std::array<string_view, 3> kNo{"0", "no", "false"};
+  if (!is_given(layout_.corner)) return false;
+  const string_view cell = fields_.cell[*layout_.corner];
+  std::string word;
+  for (const char c : cell) {
+    if (c != '"') word += static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  }
+  if (std::find(kYes.begin(), kYes.end(), word) != kYes.end()) return true;
+  if (std::find(kNo.begin(), kNo.end(), word) != kNo.end()) return false;
+  return fail(error(ErrorCode::kBadNumber, "corner is 0 or 1, yes or no, not " + shown(cell),
+                    {line, cell.data()}));
+}
+
+Result<FixedData> RowReader::read_fixed(string_view line) {
+  const auto heading = optional_cell(line, layout_.heading_deg, false);
+  if (!heading) return fail(heading.error());
+  const auto kappa = read_curvature(line);
+  if (!kappa) return fail(kappa.error());
+  const auto tolerance = optional_cell(line, layout_.tolerance, false);
+  if (!tolerance) return fail(tolerance.error());
+  if (*tolerance && **tolerance < 0.0) {
+    return fail(error(ErrorCode::kBadNumber, "a tolerance is never negative",
+                      {line, fields_.cell[*layout_.tolerance].data()}));
+  }
+  const auto corner = read_corner(line);
+  if (!corner) return fail(corner.error());
+  FixedData fixed;
+  if (*heading) fixed.theta = **heading * (std::numbers::pi / 180.0);
+  fixed.kappa = *kappa;
+  fixed.tolerance = *tolerance;
+  fixed.corner = *corner;
+  return fixed;
+}
+
+}  // namespace obvid
