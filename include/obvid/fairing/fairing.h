@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "obvid/chain/chain.h"
+#include "obvid/core/progress.h"
+#include "obvid/geom/element.h"
+
+namespace obvid {
+
+/// Measured points with the ellipses in which the true points may lie.
+struct MeasuredSeries {
+  std::vector<Vec2> points;  ///< no two neighbours equal
+  std::vector<Vec2> reach;  ///< semi-axes along x and y of each point's tolerance, units; 0 = exact
+  std::vector<NodeData> nodes;  ///< empty, or what is given at each point
+  bool closed = false;          ///< the last point is followed by the first
+};
+
+/// A series of moved points with headings and curvatures that spirals can join, one direction per
+/// link. Where points lie closer together than their tolerances let them tell anything, only some
+/// of them are nodes; the others are passed within their tolerance.
+struct FairedSeries {
+  std::vector<Element> elements;  ///< per node; a closed series does not repeat its first
+  std::vector<std::optional<std::size_t>> source;  ///< per node: its measured point; nothing at a
+                                                   ///< node inside a link, where a vertex lies
+  std::vector<std::int8_t> direction;              ///< per link: +1 curvature grows, -1 falls
+  bool feasible = false;  ///< false: the points are moved and smooth, but no runs were found;
+                          ///< headings and curvatures are those of the smooth curve
+  int vertices = 0;              ///< changes of direction
+  int vertices_lower_bound = 0;  ///< every smooth curve within the tolerances has so many
+  std::size_t trouble = 0;       ///< when not feasible: measured point near which it failed
+  int newton_steps = 0;
+};
+
+/// Finds few alternating runs of monotone curvature within the tolerances, and the fairest such
+/// series (docs/methods/fairing.md): a smooth curve through the tube of tolerances, from its runs
+/// the weakest are taken away as long as the problem stays feasible, then one solve of the whole.
+///
+/// Guarantees: every node lies within its point's ellipse, by construction. The lower bound is the
+/// variation-diminishing property of B-splines (Schoenberg), to first order in tolerance over chord
+/// and exact for graphs of small slope. Not guaranteed: that fewer vertices are impossible when the
+/// lower bound is smaller; that points between nodes keep their tolerance to the last bit (they are
+/// held to a quintic Hermite model of the link: measure the finished contour).
+/// Cost O(n) per Newton step, some 20 steps and a few hundred short windows.
+/// Requires at least 4 points (3 when closed), no two neighbours equal.
+[[nodiscard]] FairedSeries fair(const MeasuredSeries& series, const Progress& progress = {});
+
+/// The lower bound alone: vertices that every smooth curve through the tolerances has. O(n).
+[[nodiscard]] int forced_vertices(const MeasuredSeries& series);
+
+}  // namespace obvid

@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <vector>
+
+#include "obvid/fairing/fairing.h"
+#include "tube.h"
+
+namespace obvid::fairing_detail {
+
+/// A tube with a smooth curve inside it: the reference of its nodes, and offsets in `state`.
+struct SmoothTube {
+  Tube tube;
+  State state;
+  std::vector<std::size_t> source;  ///< per node: index of its measured point
+  int newton_steps = 0;
+};
+
+/// Chooses nodes among the points and lays a smooth curve through the tube, without regard to
+/// directions.
+[[nodiscard]] SmoothTube build_tube(const MeasuredSeries& series);
+
+/// Expected sizes of all links from the curvatures at x: the largest mean rate of curvature over
+/// three links before, after and around, but not less than what the tolerance can hide.
+void set_sizes(Tube& tube, const State& x);
+
+}  // namespace obvid::fairing_detail

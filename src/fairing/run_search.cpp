@@ -1,0 +1,205 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "run_search.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "obvid/series/analysis.h"
+#include "tube_solver.h"
+
+namespace obvid::fairing_detail {
+namespace {
+
+constexpr std::size_t kContext = 8;  ///< links beside a change that are looked at, at least
+constexpr int kRunsBeside = 2;       ///< and whole runs
+/// Runs stronger than this cannot be flattened by moves of one reach: a bump of curvature K over a
+/// length L leaves the nearest monotone curve by K L^2 / 500 or more.
+constexpr double kHopeless = 2000.0;
+constexpr int kMostAtOnce = 3;  ///< pairs of runs that are swallowed at once
+constexpr int kMostMends = 60;
+
+void fill(Layout& layout, std::size_t from, std::size_t to, std::int8_t sign) {
+  std::fill(layout.begin() + static_cast<std::ptrdiff_t>(from),
+            layout.begin() + static_cast<std::ptrdiff_t>(to), course(sign));
+}
+
+}  // namespace
+
+/// Courses of the circles through neighbouring nodes of the smooth curve.
+Layout RunSearch::smooth_layout() const {
+  const std::size_t n = tube_.nodes.size(), links = tube_.links(), extra = tube_.closed ? 1 : 0;
+  std::vector<Vec2> points;
+  for (std::size_t k = 0; k < n + 3 * extra; ++k) {
+    const std::size_t i = (k + n - extra) % n;
+    const TubeNode& node = tube_.nodes[i];
+    points.push_back(node.point + smooth_[kPerNode * i] * node.reach * node.normal);
+  }
+  const std::vector<AdjacentCircle> circles = measure_circles(points, measure_chords(points));
+  Layout layout(links);
+  for (std::size_t i = 0; i < links; ++i) {
+    const double change = circles[i + 1 + extra].kappa - circles[i + extra].kappa;
+    layout[i] = course(change >= 0.0 ? 1 : -1);
+  }
+  if (!tube_.closed && links > 2) {  // the circles at the ends are their neighbours'
+    layout.front() = layout[1];
+    layout.back() = layout[links - 2];
+  }
+  return layout;
+}
+
+std::vector<RunSearch::Run> RunSearch::runs_of(const Layout& layout) const {
+  std::vector<Run> out;
+  const std::size_t n = tube_.nodes.size();
+  const auto kappa = [&](std::size_t i) {
+    return tube_.nodes[i % n].kappa + smooth_[kPerNode * (i % n) + 2] / tube_.nodes[i % n].length;
+  };
+  for (std::size_t i = 0; i < layout.size();) {
+    std::size_t j = i;
+    double reach = 0.0;
+    while (j < layout.size() && layout[j] == layout[i]) {
+      reach = std::max(reach, tube_.nodes[j++].reach);
+    }
+    const Vec2 span = tube_.nodes[j % n].point - tube_.nodes[i].point;
+    out.push_back({i, j, std::abs(kappa(j) - kappa(i)) * dot(span, span) / reach});
+    i = j;
+  }
+  return out;
+}
+
+/// The links around a change, with whole runs on both sides.
+Window RunSearch::neighbourhood(const Layout& layout, std::size_t from, std::size_t to) const {
+  std::size_t lo = from > kContext ? from - kContext : 0;
+  std::size_t hi = std::min(layout.size(), to + kContext);
+  for (int left = kRunsBeside; lo > 0 && (layout[lo - 1] == layout[lo] || --left > 0);) --lo;
+  for (int right = kRunsBeside;
+       hi < layout.size() && (layout[hi] == layout[hi - 1] || --right > 0);) {
+    ++hi;
+  }
+  return {lo, hi};
+}
+
+/// Slack that a window needs; 0 when it is feasible.
+double RunSearch::slack_of(Window window, const Layout& layout) {
+  LaidTube laid = lay_out(tube_, smooth_, window, layout);
+  TubeModel model(laid.tube, laid.direction, kSearchCone, kFairEnergy);
+  TubeSolver solver(model);
+  const Feasibility f = solver.find_inside(laid.start);
+  steps_ += solver.steps();
+  ++solves_;
+  return f.feasible ? 0.0 : f.slack;
+}
+
+bool RunSearch::accept(Layout& layout, const Layout& trial, std::size_t from, std::size_t to) {
+  if (slack_of(neighbourhood(trial, from, to), trial) > 0.0) return false;
+  layout = trial;
+  return true;
+}
+
+/// One pass over all runs, weakest first: each takes the direction of its neighbours if it can.
+bool RunSearch::drop_weakest(Layout& layout, int enough) {
+  std::vector<Run> runs = runs_of(layout);
+  std::sort(runs.begin(), runs.end(),
+            [](const Run& a, const Run& b) { return a.strength < b.strength; });
+  int vertices = count_vertices(layout, tube_.closed);
+  bool changed = false;
+  for (const Run& run : runs) {
+    if (vertices <= enough || run.strength > kHopeless) break;
+    const bool begins = run.first == 0 || layout[run.first - 1] != layout[run.first];
+    const bool ends = run.last == layout.size() || layout[run.last] != layout[run.last - 1];
+    if (!begins || !ends) continue;  // it has grown together with a neighbour
+    Layout trial = layout;
+    fill(trial, run.first, run.last, static_cast<std::int8_t>(-first_direction(layout[run.first])));
+    if (!accept(layout, trial, run.first, run.last)) continue;
+    vertices = count_vertices(layout, tube_.closed);
+    changed = true;
+  }
+  return changed;
+}
+
+/// Every run takes in several of the following ones at once: what cannot vanish alone can together.
+bool RunSearch::swallow(Layout& layout, int enough) {
+  bool changed = false;
+  for (std::size_t k = 0; count_vertices(layout, tube_.closed) > enough; ++k) {
+    const std::vector<Run> runs = runs_of(layout);
+    if (k >= runs.size()) break;
+    for (int many = 2; many <= kMostAtOnce; ++many) {
+      const std::size_t last = k + 2 * static_cast<std::size_t>(many);
+      if (last >= runs.size()) break;
+      Layout trial = layout;
+      fill(trial, runs[k].last, runs[last].last, first_direction(layout[runs[k].first]));
+      if (!accept(layout, trial, runs[k].last, runs[last].last)) continue;
+      changed = true;
+      break;
+    }
+  }
+  return changed;
+}
+
+void RunSearch::solve_whole(Runs& runs) {
+  LaidTube laid = lay_out(tube_, smooth_, {0, tube_.links()}, runs.layout);
+  TubeModel model(laid.tube, laid.direction, kSearchCone, kFairEnergy);
+  TubeSolver solver(model);
+  const Feasibility f = solver.find_inside(laid.start);
+  steps_ += solver.steps();
+  ++solves_;
+  runs.vertices = count_vertices(runs.layout, tube_.closed);
+  runs.feasible = f.feasible;
+  runs.slack = f.slack;
+  if (f.feasible) return;
+  const std::vector<double> force = model.link_forces(laid.start, f.slack);
+  const auto worst =
+      static_cast<std::size_t>(std::max_element(force.begin(), force.end()) - force.begin());
+  for (std::size_t i = 0; i <= worst; ++i) runs.trouble = laid.node[i].value_or(runs.trouble);
+}
+
+/// Changes the courses around the link that keeps the whole from being feasible: moves a switch,
+/// puts a vertex inside a link, or turns a link; the change that needs the fewest vertices, then
+/// the least slack. False when none of them helps the neighbourhood.
+bool RunSearch::mend(Runs& runs) {
+  constexpr std::size_t kAround = 4;  // links on each side of the trouble
+  const std::size_t links = tube_.links();
+  const std::size_t first = runs.trouble > kAround ? runs.trouble - kAround : 0;
+  const std::size_t last = std::min(links, runs.trouble + kAround + 1);
+  const Window window = neighbourhood(runs.layout, first, last);
+  double least = slack_of(window, runs.layout);
+  int fewest = count_vertices(runs.layout, tube_.closed);
+  const double needed = least;
+  Layout best;
+  for (std::size_t i = first; i < last; ++i) {
+    for (const Course c :
+         {Course::kFalls, Course::kRises, Course::kFallsThenRises, Course::kRisesThenFalls}) {
+      if (c == runs.layout[i]) continue;
+      Layout trial = runs.layout;
+      trial[i] = c;
+      const int vertices = count_vertices(trial, tube_.closed);
+      const bool solved = !best.empty() && least == 0.0;
+      if (solved && vertices >= fewest) continue;
+      const double slack = slack_of(window, trial);
+      const bool better = slack == 0.0 || (!solved && slack < least);
+      if (!better) continue;
+      least = slack;
+      fewest = vertices;
+      best = trial;
+    }
+  }
+  if (best.empty() || (needed > 0.0 && least >= needed)) return false;
+  runs.layout = best;
+  return true;
+}
+
+Runs RunSearch::search(int enough) {
+  Runs runs;
+  runs.layout = smooth_layout();
+  while (count_vertices(runs.layout, tube_.closed) > enough) {
+    if (drop_weakest(runs.layout, enough)) continue;
+    if (!swallow(runs.layout, enough)) break;
+  }
+  solve_whole(runs);
+  for (int k = 0; k < kMostMends && !runs.feasible; ++k) {
+    if (!mend(runs)) break;
+    solve_whole(runs);
+  }
+  return runs;
+}
+
+}  // namespace obvid::fairing_detail

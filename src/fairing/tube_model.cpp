@@ -1,0 +1,387 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "tube_model.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace obvid::fairing_detail {
+namespace {
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+/// The cones keep this much more than the bare conditions, as in the chain of exact points.
+constexpr double kClosedFormReserve = 1.1;
+constexpr double kExistenceReserve = 1.0001;
+/// Beyond this sigma the closed form's cone is continued by its tangent.
+constexpr double kStraightenedSigma = 1.3;
+constexpr double kSigmaWeight = 0.5;  ///< of the barrier of sigma > 0, against the cone's
+constexpr double kSignWeight = 0.5;   ///< of the barrier of the curvature's sign
+
+/// Sum of logarithms with one call of log for many factors.
+class LogSum {
+ public:
+  void add(double factor) {
+    product_ *= factor;
+    constexpr double kLarge = 1e150, kSmall = 1e-150;  // the next factor cannot leave the range
+    if (product_ > kLarge || product_ < kSmall) {
+      sum_ += std::log(product_);
+      product_ = 1.0;
+    }
+  }
+  [[nodiscard]] double value() const { return sum_ + std::log(product_); }
+
+ private:
+  double product_ = 1.0, sum_ = 0.0;
+};
+
+struct ConeWidth {
+  double value, slope;
+};
+
+ConeWidth straightened_width(double sigma) {
+  const double k = std::sqrt(2.0 * kClosedFormReserve);
+  const double sine = std::sin(kStraightenedSigma), cosine = std::cos(kStraightenedSigma);
+  const double root = std::sqrt(cosine);
+  const double slope = k * (cosine * cosine + 0.5 * sine * sine) / (cosine * root);
+  const double value = k * sine / root + slope * (std::abs(sigma) - kStraightenedSigma);
+  return {std::copysign(value, sigma), std::copysign(slope, sigma)};
+}
+
+ConeWidth cone_width(Cone cone, double sigma, double sine, double cosine) {
+  if (cone == Cone::kSpiral) {
+    const double k = 2.0 * std::sqrt(kExistenceReserve);
+    return {k * std::sin(0.5 * sigma), 0.5 * k * std::cos(0.5 * sigma)};
+  }
+  if (std::abs(sigma) > kStraightenedSigma) return straightened_width(sigma);
+  const double k = std::sqrt(2.0 * kClosedFormReserve);
+  const double scale = k / std::sqrt(cosine);
+  return {scale * sine, scale * (cosine + 0.5 * sine * sine / cosine)};
+}
+
+/// atan2(sine, cosine) for a unit vector, by its series where the angle is small.
+double angle_of(double sine, double cosine) {
+  constexpr double kSmall = 0.1;  // rad: the first term left out is below 1e-16
+  if (cosine > 0.0 && std::abs(sine) < kSmall) {
+    const double y = sine * sine;
+    return sine *
+           (1.0 + y * (1.0 / 6 +
+                       y * (3.0 / 40 +
+                            y * (15.0 / 336 + y * (105.0 / 3456 +
+                                                   y * (945.0 / 42240 + y * 10395.0 / 599040))))));
+  }
+  return std::atan2(sine, cosine);
+}
+
+}  // namespace
+
+TubeModel::TubeModel(const Tube& tube, const std::vector<std::int8_t>& direction, Cone cone,
+                     const LinkEnergy& energy)
+    : tube_(tube), direction_(direction), cone_(cone), energy_(energy), nodes_(tube.nodes.size()) {
+  state_.resize(nodes_);
+}
+
+void TubeModel::place_nodes(const State& x) {
+  for (std::size_t i = 0; i < nodes_; ++i) {
+    const TubeNode& n = node(i);
+    const double* v = &x[kPerNode * i];
+    const double theta = n.theta + v[1];
+    state_[i] = {n.point + v[0] * n.reach * n.normal,
+                 {std::cos(theta), std::sin(theta)},
+                 n.kappa + v[2] / n.length};
+  }
+}
+
+TubeModel::LinkState TubeModel::link_state(std::size_t i) const {
+  const NodeState& a = state_[i];
+  const NodeState& b = state_[i + 1 == nodes_ ? 0 : i + 1];
+  LinkState s;
+  const Vec2 chord = b.position - a.position;
+  s.h = norm(chord);
+  s.along = (1.0 / s.h) * chord;
+  s.sin_alpha = cross(s.along, a.tangent);
+  s.cos_alpha = dot(s.along, a.tangent);
+  s.sin_beta = cross(s.along, b.tangent);
+  s.cos_beta = dot(s.along, b.tangent);
+  const double A = 0.5 * s.h * a.kappa + s.sin_alpha;
+  const double B = 0.5 * s.h * b.kappa - s.sin_beta;
+  s.m = B - A;
+  s.q = A + B;
+  s.sin_sigma = s.sin_alpha * s.cos_beta + s.cos_alpha * s.sin_beta;
+  s.cos_sigma = s.cos_alpha * s.cos_beta - s.sin_alpha * s.sin_beta;
+  s.sigma = angle_of(s.sin_sigma, s.cos_sigma);
+  return s;
+}
+
+TubeModel::ConeState TubeModel::cone_state(std::size_t i, const LinkState& s, double slack) const {
+  const double d = direction_[i], z = tube_.size[i];
+  const ConeWidth w = cone_width(cone_, s.sigma, s.sin_sigma, s.cos_sigma);
+  const double t = d * s.m + slack * z;
+  return {t, t * t - s.q * s.q - w.value * w.value, d * s.sigma + slack * z, w.value, w.slope};
+}
+
+/// Headings farther from the chord than this are no spirals' any more; between nodes with points to
+/// pass the curve must be a graph over its chord.
+double TubeModel::least_cosine(std::size_t link) const {
+  constexpr double kFarthest = -0.95;
+  return tube_.first_row[link] == tube_.first_row[link + 1] ? kFarthest : 0.0;
+}
+
+double TubeModel::row_weight(std::size_t link) const {
+  return 1.0 / static_cast<double>(tube_.first_row[link + 1] - tube_.first_row[link]);
+}
+
+double TubeModel::barrier_parameter() const {
+  constexpr double kCone = 2.0, kTube = 2.0;
+  return static_cast<double>(link_count()) * (kCone + kSigmaWeight) +
+         kTube * static_cast<double>(nodes_ + link_count()) + kSignWeight;
+}
+
+void TubeModel::add_cone(std::size_t i, const LinkState& s, const ConeState& c, const Weights& w,
+                         LinkTerms& out) const {
+  const double z = tube_.size[i], d = direction_[i];
+  const double e = w.energy / (z * z);
+  double gm = e * (2.0 * energy_.mm * s.m + energy_.ms * s.sigma), gq = 2.0 * e * energy_.qq * s.q;
+  double gs = e * (2.0 * energy_.ss * s.sigma + energy_.ms * s.m);
+  double hmm = 2.0 * e * energy_.mm, hqq = 2.0 * e * energy_.qq, hss = 2.0 * e * energy_.ss;
+  double hms = e * energy_.ms, hmq = 0.0, hqs = 0.0, zm = 0.0, zq = 0.0, zs = 0.0;
+  if (w.cone > 0.0) {
+    const double fm = 2.0 * c.t * d, fq = -2.0 * s.q, fs = -2.0 * c.width * c.slope;
+    const double fz = 2.0 * c.t * z;
+    const double r = 1.0 / c.f, wr = w.cone * r, wrr = wr * r;
+    const double us = kSigmaWeight * w.cone / c.u, uss = us / c.u;
+    gm -= wr * fm;
+    gq -= wr * fq;
+    gs -= wr * fs + us * d;
+    hmm += wrr * fm * fm - 2.0 * wr;
+    hqq += wrr * fq * fq + 2.0 * wr;
+    hss += wrr * fs * fs + 2.0 * wr * c.slope * c.slope + uss;
+    hms += wrr * fm * fs;
+    hmq = wrr * fm * fq;
+    hqs = wrr * fq * fs;
+    zm = wrr * fz * fm - 2.0 * wr * z * d;
+    zq = wrr * fz * fq;
+    zs = wrr * fz * fs + uss * z * d;
+    out.slack_gradient = -wr * fz - us * z;
+    out.slack_hessian = wrr * fz * fz - 2.0 * wr * z * z + uss * z * z;
+  }
+  const TubeNode& na = node(i);
+  const std::size_t j = i + 1 == nodes_ ? 0 : i + 1;
+  const TubeNode& nb = node(j);
+  const Vec2 normal{-s.along.y, s.along.x};
+  const double ka = state_[i].kappa, kb = state_[j].kappa;
+  const double wa = -na.reach * dot(na.normal, normal) / s.h;  // of the chord's heading
+  const double wb = nb.reach * dot(nb.normal, normal) / s.h;
+  const double ha = -na.reach * dot(na.normal, s.along), hb = nb.reach * dot(nb.normal, s.along);
+  const double A[6] = {0.5 * ka * ha - s.cos_alpha * wa, s.cos_alpha, 0.5 * s.h / na.length,
+                       0.5 * ka * hb - s.cos_alpha * wb, 0.0,         0.0};
+  const double B[6] = {0.5 * kb * ha + s.cos_beta * wa, 0.0,         0.0,
+                       0.5 * kb * hb + s.cos_beta * wb, -s.cos_beta, 0.5 * s.h / nb.length};
+  const double S[6] = {-2.0 * wa, 1.0, 0.0, -2.0 * wb, 1.0, 0.0};
+  double wm[6], wq[6], ws[6], M[6], Q[6];
+  for (int k = 0; k < 6; ++k) {
+    M[k] = B[k] - A[k];
+    Q[k] = B[k] + A[k];
+    wm[k] = hmm * M[k] + hmq * Q[k] + hms * S[k];
+    wq[k] = hmq * M[k] + hqq * Q[k] + hqs * S[k];
+    ws[k] = hms * M[k] + hqs * Q[k] + hss * S[k];
+  }
+  for (std::size_t k = 0; k < 6; ++k) {
+    out.gradient[k] += gm * M[k] + gq * Q[k] + gs * S[k];
+    out.slack_column[k] += zm * M[k] + zq * Q[k] + zs * S[k];
+    for (std::size_t l = 0; l <= k; ++l) {
+      out.hessian[k][l] += M[k] * wm[l] + Q[k] * wq[l] + S[k] * ws[l];
+    }
+  }
+}
+
+/// Lateral distance of a measured point from the quintic Hermite curve with the link's data.
+TubeModel::RowValue TubeModel::row_value(const TubeRow& row, const LinkState& s, const NodeState& a,
+                                         const NodeState& b) const {
+  const Vec2 from_start = row.point - a.position;
+  const double x = dot(s.along, from_start), y = cross(s.along, from_start);
+  const double u = std::clamp(x / s.h, 0.0, 1.0), v = u * u, c = v * u;
+  RowValue out{};
+  out.u = u;
+  out.h1 = u + c * (-6.0 + u * (8.0 - 3.0 * u));
+  out.h4 = c * (-4.0 + u * (7.0 - 3.0 * u));
+  out.h2 = 0.5 * v * (1.0 + u * (-3.0 + u * (3.0 - u)));
+  out.h5 = 0.5 * c * (1.0 + u * (-2.0 + u));
+  const double ca = 1.0 / s.cos_alpha, cb = 1.0 / s.cos_beta;
+  const double curve =
+      s.h * (out.h1 * s.sin_alpha * ca + out.h4 * s.sin_beta * cb) +
+      s.h * s.h * (out.h2 * a.kappa * ca * ca * ca + out.h5 * b.kappa * cb * cb * cb);
+  out.residual = (y - curve) / (row.reach * reach_scale_);
+  return out;
+}
+
+void TubeModel::add_rows(std::size_t i, const LinkState& s, double weight, LinkTerms& out) const {
+  const std::size_t first = tube_.first_row[i], last = tube_.first_row[i + 1];
+  if (first == last) return;
+  const std::size_t j = i + 1 == nodes_ ? 0 : i + 1;
+  const TubeNode& na = node(i);
+  const TubeNode& nb = node(j);
+  const Vec2 normal{-s.along.y, s.along.x};
+  const double la = na.reach * dot(na.normal, normal), lb = nb.reach * dot(nb.normal, normal);
+  const double ca = 1.0 / s.cos_alpha, cb = 1.0 / s.cos_beta;
+  const double w = weight * row_weight(i);
+  for (std::size_t k = first; k < last; ++k) {
+    const TubeRow& row = tube_.rows[k];
+    const RowValue v = row_value(row, s, state_[i], state_[j]);
+    // by alpha, beta (chord turns with the offsets), curvatures and the chord itself
+    const double da = s.h * v.h1 * ca * ca, db = s.h * v.h4 * cb * cb;
+    const double scale = -1.0 / (row.reach * reach_scale_);
+    const double turn = (da + db) / s.h;  // of both angles with the chord's heading
+    const double J[6] = {scale * ((1.0 - v.u) * la + turn * la),
+                         scale * da,
+                         scale * s.h * s.h * v.h2 * ca * ca * ca / na.length,
+                         scale * (v.u * lb - turn * lb),
+                         scale * db,
+                         scale * s.h * s.h * v.h5 * cb * cb * cb / nb.length};
+    const double r = v.residual, room = 1.0 / (1.0 - r * r);
+    const double g = w * 2.0 * r * room, h = w * (2.0 * room + 4.0 * r * r * room * room);
+    for (std::size_t p = 0; p < 6; ++p) {
+      out.gradient[p] += g * J[p];
+      const double hp = h * J[p];
+      for (std::size_t q = 0; q <= p; ++q) out.hessian[p][q] += hp * J[q];
+    }
+  }
+}
+
+void TubeModel::add_nodes(const State& x, double slack, const Weights& w, bool with_slack,
+                          BorderedSystem& system) const {
+  for (std::size_t i = 0; i < nodes_; ++i) {
+    const TubeNode& n = node(i);
+    const double e = x[kPerNode * i] / reach_scale_;
+    const double room = 1.0 / (1.0 - e * e);
+    system.add(i, 0, w.tube * 2.0 * e * room / reach_scale_,
+               w.tube * (2.0 * room + 4.0 * e * e * room * room) / (reach_scale_ * reach_scale_));
+    if (n.sign != 0.0 && w.cone > 0.0) {
+      const double v = n.sign * (n.kappa * n.length + x[kPerNode * i + 2]) + slack;
+      system.add(i, 2, -kSignWeight * w.cone * n.sign / v, kSignWeight * w.cone / (v * v));
+      if (with_slack) system.add_slack(-kSignWeight * w.cone / v, kSignWeight * w.cone / (v * v));
+    }
+    if (n.reach == 0.0) system.fix(i, 0);
+    if (n.fix_theta) system.fix(i, 1);
+    if (n.fix_kappa || !(system.diagonal(i, 2) > 0.0)) system.fix(i, 2);
+  }
+}
+
+void TubeModel::assemble(const State& x, double slack, const Weights& w, bool with_slack,
+                         BorderedSystem& system) {
+  system.reset(nodes_, tube_.closed, with_slack);
+  place_nodes(x);
+  for (std::size_t i = 0; i < link_count(); ++i) {
+    const LinkState s = link_state(i);
+    const ConeState c = w.cone > 0.0 ? cone_state(i, s, slack) : ConeState{};
+    LinkTerms terms;
+    add_cone(i, s, c, w, terms);
+    add_rows(i, s, w.tube, terms);
+    system.add(i, terms);
+  }
+  add_nodes(x, slack, w, with_slack, system);
+}
+
+double TubeModel::merit(const State& x, double slack, const Weights& w) {
+  place_nodes(x);
+  double value = 0.0;
+  LogSum cones, sigmas, signs, nodes;
+  for (std::size_t i = 0; i < nodes_; ++i) {
+    const TubeNode& n = node(i);
+    const double e = x[kPerNode * i] / reach_scale_;
+    const double room = 1.0 - e * e;
+    if (!(room > 0.0)) return kInfinity;
+    nodes.add(room);
+    if (n.sign != 0.0 && w.cone > 0.0) {
+      const double v = n.sign * (n.kappa * n.length + x[kPerNode * i + 2]) + slack;
+      if (!(v > 0.0)) return kInfinity;
+      signs.add(v);
+    }
+  }
+  double rows = 0.0;
+  for (std::size_t i = 0; i < link_count(); ++i) {
+    const LinkState s = link_state(i);
+    if (!(std::min(s.cos_alpha, s.cos_beta) > least_cosine(i))) return kInfinity;
+    const double z = tube_.size[i];
+    value += w.energy / (z * z) *
+             (energy_.mm * s.m * s.m + energy_.ms * s.m * s.sigma + energy_.ss * s.sigma * s.sigma +
+              energy_.qq * s.q * s.q);
+    if (w.cone > 0.0) {
+      const ConeState c = cone_state(i, s, slack);
+      if (!(c.t > 0.0 && c.f > 0.0 && c.u > 0.0)) return kInfinity;
+      cones.add(c.f / (z * z));
+      sigmas.add(c.u / z);
+    }
+    const std::size_t first = tube_.first_row[i];
+    const std::size_t last = tube_.first_row[i + 1];
+    if (first == last) continue;
+    LogSum link_rows;
+    const NodeState& a = state_[i];
+    const NodeState& b = state_[i + 1 == nodes_ ? 0 : i + 1];
+    for (std::size_t k = first; k < last; ++k) {
+      const double r = row_value(tube_.rows[k], s, a, b).residual;
+      const double room = 1.0 - r * r;
+      if (!(room > 0.0)) return kInfinity;
+      link_rows.add(room);
+    }
+    rows += row_weight(i) * link_rows.value();
+  }
+  return value -
+         w.cone * (cones.value() + kSigmaWeight * sigmas.value() + kSignWeight * signs.value()) -
+         w.tube * (nodes.value() + rows);
+}
+
+double TubeModel::needed_slack(const State& x) {
+  place_nodes(x);
+  double slack = 0.0;
+  for (std::size_t i = 0; i < link_count(); ++i) {
+    const LinkState s = link_state(i);
+    const double d = direction_[i], z = tube_.size[i];
+    const ConeWidth w = cone_width(cone_, s.sigma, s.sin_sigma, s.cos_sigma);
+    slack = std::max({slack, (std::hypot(s.q, w.value) - d * s.m) / z, -d * s.sigma / z});
+  }
+  for (std::size_t i = 0; i < nodes_; ++i) {
+    const TubeNode& n = node(i);
+    if (n.sign != 0.0) {
+      slack = std::max(slack, -n.sign * (n.kappa * n.length + x[kPerNode * i + 2]));
+    }
+  }
+  return slack;
+}
+
+double TubeModel::tube_use(const State& x) {
+  place_nodes(x);
+  double use = 0.0;
+  for (std::size_t i = 0; i < nodes_; ++i) {
+    use = std::max(use, std::abs(x[kPerNode * i]) / reach_scale_);
+  }
+  for (std::size_t i = 0; i < link_count(); ++i) {
+    const LinkState s = link_state(i);
+    for (std::size_t k = tube_.first_row[i]; k < tube_.first_row[i + 1]; ++k) {
+      const NodeState& b = state_[i + 1 == nodes_ ? 0 : i + 1];
+      use = std::max(use, std::abs(row_value(tube_.rows[k], s, state_[i], b).residual));
+    }
+  }
+  return use;
+}
+
+std::vector<double> TubeModel::link_forces(const State& x, double slack) {
+  place_nodes(x);
+  std::vector<double> force(link_count());
+  for (std::size_t i = 0; i < force.size(); ++i) {
+    const ConeState c = cone_state(i, link_state(i), slack);
+    force[i] = 2.0 * c.t * tube_.size[i] / c.f;
+  }
+  return force;
+}
+
+std::vector<TubeModel::LinkValue> TubeModel::link_values(const State& x) {
+  place_nodes(x);
+  std::vector<LinkValue> out(link_count());
+  for (std::size_t i = 0; i < out.size(); ++i) {
+    const LinkState s = link_state(i);
+    out[i] = {s.m, s.q, s.sigma};
+  }
+  return out;
+}
+
+}  // namespace obvid::fairing_detail

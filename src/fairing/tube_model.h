@@ -1,0 +1,96 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "bordered_system.h"
+#include "obvid/chain/chain.h"
+#include "tube.h"
+
+namespace obvid::fairing_detail {
+
+/// Quadratic form of a link in m = B - A, q = A + B and sigma.
+struct LinkEnergy {
+  double mm = 0.0, ms = 0.0, ss = 0.0, qq = 0.0;
+};
+
+/// What the merit function is made of.
+struct Weights {
+  double energy = 0.0;
+  double cone = 0.0;  ///< 0: no cones at all
+  double tube = 0.0;
+};
+
+/// Energy and barriers of a tube, as functions of its nodes' unknowns
+/// (docs/methods/fairing.md).
+class TubeModel {
+ public:
+  TubeModel(const Tube& tube, const std::vector<std::int8_t>& direction, Cone cone,
+            const LinkEnergy& energy);
+
+  [[nodiscard]] std::size_t node_count() const { return nodes_; }
+  [[nodiscard]] std::size_t link_count() const { return tube_.links(); }
+
+  /// Gradient and Gauss-Newton Hessian of the merit at x (3 per node).
+  void assemble(const State& x, double slack, const Weights& weights, bool with_slack,
+                BorderedSystem& system);
+  /// The same value alone; infinity outside the cones or the tube.
+  double merit(const State& x, double slack, const Weights& weights);
+  /// Least slack (at least 0) with which all cones hold at x, and the link that needs it.
+  double needed_slack(const State& x);
+  /// Barrier force of each link's cone.
+  std::vector<double> link_forces(const State& x, double slack);
+  /// Values of (m, q, sigma) per link.
+  struct LinkValue {
+    double m, q, sigma;
+  };
+  std::vector<LinkValue> link_values(const State& x);
+  [[nodiscard]] double barrier_parameter() const;
+  /// Largest |residual| / reach over rows and nodes.
+  double tube_use(const State& x);
+  /// Scales all tolerances (1: as they are).
+  void set_reach_scale(double scale) { reach_scale_ = scale; }
+
+ private:
+  struct NodeState {
+    Vec2 position, tangent;
+    double kappa = 0.0;
+  };
+  struct LinkState {
+    double h = 0.0, m = 0.0, q = 0.0, sigma = 0.0, sin_sigma = 0.0, cos_sigma = 1.0;
+    double cos_alpha = 1.0, cos_beta = 1.0, sin_alpha = 0.0, sin_beta = 0.0;
+    Vec2 along;
+  };
+  struct ConeState {
+    double t, f, u, width, slope;
+  };
+
+  [[nodiscard]] const TubeNode& node(std::size_t i) const { return tube_.nodes[i]; }
+  void place_nodes(const State& x);
+  [[nodiscard]] LinkState link_state(std::size_t i) const;
+  [[nodiscard]] ConeState cone_state(std::size_t i, const LinkState& s, double slack) const;
+  [[nodiscard]] double least_cosine(std::size_t link) const;
+  [[nodiscard]] double row_weight(std::size_t link) const;
+  void add_cone(std::size_t i, const LinkState& s, const ConeState& c, const Weights& w,
+                LinkTerms& terms) const;
+  void add_rows(std::size_t i, const LinkState& s, double weight, LinkTerms& terms) const;
+  struct RowValue {
+    double residual;  // over reach
+    double h1, h2, h4, h5, u;
+  };
+  [[nodiscard]] RowValue row_value(const TubeRow& row, const LinkState& s, const NodeState& a,
+                                   const NodeState& b) const;
+  void add_nodes(const State& x, double slack, const Weights& w, bool with_slack,
+                 BorderedSystem& system) const;
+
+  const Tube& tube_;
+  const std::vector<std::int8_t>& direction_;
+  Cone cone_;
+  LinkEnergy energy_;
+  std::size_t nodes_ = 0;
+  double reach_scale_ = 1.0;
+  std::vector<NodeState> state_;
+};
+
+}  // namespace obvid::fairing_detail
