@@ -12,9 +12,10 @@ import pathlib
 
 from . import geometry
 
-# Half units in the last place by which control points may be off: each coordinate is rounded once
-# when the piece is formed and once when it is moved to its joints.
-ROUNDED_TIMES = 4 * 2.0**-53
+# Half units in the last place by which control points may be off: each coordinate is rounded when the
+# piece is formed, when it is moved to its joints, and in each of the judge's own steps (products with
+# the weights, differences, quotients: about ten).
+ROUNDED_TIMES = 16 * 2.0**-53
 
 
 def load_judge(folder):
