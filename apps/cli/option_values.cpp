@@ -109,7 +109,7 @@ Result<void> set_corners(const TypedValues& typed, FitJob& job) {
   }
   if (!(*typed.corner_angle_deg > 0.0 && *typed.corner_angle_deg < 180.0)) {
     return fail(bad_option("the angle must lie between 0 and 180 degrees", "--corner-angle",
-                           "30 degrees is usual"));
+                           "20 degrees is usual"));
   }
   job.corner_angle = *typed.corner_angle_deg * kDegree;
   return {};

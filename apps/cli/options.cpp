@@ -33,7 +33,7 @@ constexpr const char* kExitCodes =
 /// Announced for later; refused with a word of their own so that nobody searches for a typing
 /// error.
 const std::vector<std::string> kLaterCommands = {"compare", "convert", "surface"};
-const std::vector<std::string> kLaterCarriers = {"conics", "beziers", "clothoids", "bspline"};
+const std::vector<std::string> kLaterCarriers = {"conics", "beziers", "bspline"};
 
 /// What the command line said, before it is checked.
 struct Raw {
@@ -98,7 +98,7 @@ void add_real_points(CLI::App& fit, Raw& raw) {
   fit.add_flag("--open", raw.typed.open, "It does not, even if the last point is the first again")
       ->group(group);
   fit.add_option("--corner-angle", raw.typed.corner_angle_deg,
-                 "Least turn of a corner, degrees [30]")
+                 "Least turn of a corner, degrees [20]")
       ->type_name("DEG")
       ->group(group);
   fit.add_flag("--no-corners", raw.typed.no_corners,
@@ -114,8 +114,8 @@ void add_fit(CLI::App& app, Raw& raw) {
       ->type_name("OUT")
       ->allow_extra_args(false);
   fit.add_option("--carrier", raw.carrier,
-                 "Curve family: spiral (G2, monotone curvature) or arcs (G1, monotone radii) "
-                 "[spiral]")
+                 "Curve family: spiral (G2, monotone curvature), arcs (G1, monotone radii) or "
+                 "clothoids (G2, curvature monotone and piecewise linear) [spiral]")
       ->type_name("NAME");
   fit.add_option("--tolerance", raw.tolerance,
                  "Largest width of the region, input units [3e-6 of the size]")
@@ -231,17 +231,18 @@ Result<void> check_units(const std::optional<std::string>& units) {
 }
 
 Result<void> set_carrier(Raw& raw) {
+  constexpr const char* kAvailable = "available are spiral, arcs and clothoids";
   if (raw.carrier == "spiral") {
     raw.fit.job.carrier = Carrier::kSpiral;
   } else if (raw.carrier == "arcs") {
     raw.fit.job.carrier = Carrier::kArcs;
+  } else if (raw.carrier == "clothoids") {
+    raw.fit.job.carrier = Carrier::kClothoids;
   } else if (listed(kLaterCarriers, raw.carrier)) {
-    return fail(bad_option(not_available("the carrier " + raw.carrier), "--carrier",
-                           "available are spiral and arcs"));
+    return fail(bad_option(not_available("the carrier " + raw.carrier), "--carrier", kAvailable));
   } else {
-    return fail(
-        bad_option("unknown carrier '" + raw.carrier + "'", "--carrier",
-                   did_you_mean(raw.carrier, {"spiral", "arcs"}, "available are spiral and arcs")));
+    return fail(bad_option("unknown carrier '" + raw.carrier + "'", "--carrier",
+                           did_you_mean(raw.carrier, {"spiral", "arcs", "clothoids"}, kAvailable)));
   }
   return {};
 }

@@ -25,6 +25,8 @@ constexpr double kGradedSpacing = 0.75;
 /// public airfoils turns by more than 156 degrees at one point, no closed sharp trailing edge by
 /// less than 162.
 constexpr double kSharpTurn = 160.0 * kDegree;
+/// A neighbour that turns by this much, or half the wanted angle, is no calm flank.
+constexpr double kRoughTurn = 15.0 * kDegree;
 /// Two corners joined by one chord, as at a blunt trailing edge, lie between calm sides; the chord
 /// is this part of those beside it at most, ...
 constexpr double kCalmTurn = 3.0 * kDegree;
@@ -73,7 +75,12 @@ class CornerSearch {
  public:
   CornerSearch(const std::vector<Vec2>& points, const std::vector<double>& tolerance, bool closed,
                double angle)
-      : points_(points), tolerance_(tolerance), closed_(closed), angle_(angle), size_(diagonal()) {}
+      : points_(points),
+        tolerance_(tolerance),
+        closed_(closed),
+        angle_(angle),
+        rough_(std::max(kRoughTurn, 0.5 * angle)),
+        size_(diagonal()) {}
 
   [[nodiscard]] std::vector<Candidate> candidates() const;
 
@@ -93,6 +100,7 @@ class CornerSearch {
   const std::vector<double>& tolerance_;
   bool closed_;
   double angle_;
+  double rough_;
   double size_;
 };
 
@@ -166,7 +174,7 @@ std::optional<Forecast> CornerSearch::forecast(const Arm& arm, std::size_t skip)
     const double here = std::abs(turn) / (h0 + h1), there = outer / (h1 + h2);
     result.turn *= std::clamp(there > 0.0 ? here / there : kLargestGrowth, 1.0, kLargestGrowth);
     result.unrest = std::max(result.unrest, outer);
-    if (outer < angle_) far = std::max(far, h2);  // behind a corner other spacings hold
+    if (outer < 2.0 * rough_) far = std::max(far, h2);  // behind a corner other spacings hold
   }
   result.spacing = h0 / far;
   return result;
@@ -199,7 +207,7 @@ bool CornerSearch::is_corner(std::size_t i, double turn, double noise, double ch
   std::array<bool, 2> rough{};
   for (std::size_t side = 0; side < 2; ++side) {
     if (!arms[side].has_turn(0)) return false;
-    rough[side] = std::abs(arms[side].turn[0]) >= 0.5 * angle_;
+    rough[side] = std::abs(arms[side].turn[0]) >= rough_;
   }
   if (rough[0] && rough[1]) return false;  // no calm side at all: scatter, or a few points
   double total = std::abs(turn), foretold = 0.0, spacing = 1.0, unrest = 0.0;
@@ -208,7 +216,7 @@ bool CornerSearch::is_corner(std::size_t i, double turn, double noise, double ch
     const Arm& a = arms[side];
     std::size_t skip = 0;
     if (rough[side]) {
-      if (!a.has_turn(1) || std::abs(a.turn[1]) >= 0.5 * angle_) return false;
+      if (!a.has_turn(1) || std::abs(a.turn[1]) >= rough_) return false;
       const double both = std::abs(turn) + (a.turn[0] * turn > 0.0 ? std::abs(a.turn[0]) : 0.0);
       if (is_base(a, arms[1 - side], both)) {
         skip = 1;

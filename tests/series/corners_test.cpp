@@ -17,7 +17,7 @@ using Indices = std::vector<std::size_t>;
 constexpr double kPi = std::numbers::pi;
 constexpr double kDeg = kPi / 180.0;
 
-Indices corners_of(const Points& points, bool closed, double noise = 0.0, double angle_deg = 30.0) {
+Indices corners_of(const Points& points, bool closed, double noise = 0.0, double angle_deg = 20.0) {
   const std::vector<double> tolerance(noise > 0.0 ? points.size() : 0, noise);
   return find_corners(points, tolerance, closed, {}, {true, angle_deg * kDeg});
 }
@@ -135,10 +135,12 @@ TEST(Corners, AKinkBetweenTwoArcsIsFoundWhenItStandsOut) {
   for (const double each : {0.0, 1.0, 3.0}) {
     EXPECT_EQ(corners_of(bent_row(each, 45.0), false), Indices{8}) << each;
     EXPECT_EQ(corners_of(bent_row(-each, 45.0), false), Indices{8}) << each;
-    EXPECT_EQ(corners_of(bent_row(each, 25.0), false), Indices{}) << each;
+    EXPECT_EQ(corners_of(bent_row(each, 19.0), false), Indices{}) << each;
+    // Chines of hulls: 25 degrees where the flanks turn by less than one.
+    EXPECT_EQ(corners_of(bent_row(0.2 * each, 25.0), false), Indices{8}) << each;
     EXPECT_EQ(corners_of(bent_row(each, -120.0), false), Indices{8}) << each;
   }
-  EXPECT_EQ(corners_of(bent_row(1.0, 25.0), false, 0.0, 15.0), Indices{8});
+  EXPECT_EQ(corners_of(bent_row(1.0, 19.0), false, 0.0, 12.0), Indices{8});
   EXPECT_EQ(corners_of(bent_row(1.0, 45.0), false, 0.0, 60.0), Indices{});
   EXPECT_EQ(corners_of(bent_row(15.0, 45.0), false), Indices{});
 }
@@ -222,9 +224,9 @@ TEST(Corners, TheyAreFoundUnderNoiseNearWhereTheyAre) {
         const Indices found = corners_of(noisy, true, noise);
         ASSERT_EQ(found.size(), 4U) << radius << " " << noise;
         for (const std::size_t i : found) {
-          // Half the chord at which a right angle is looked for: 24 noise / (4 * 30 degrees).
+          // Half the chord at which a right angle is looked for: 24 noise / (4 * 20 degrees).
           const std::size_t k = (i + step / 2) / step * step % sharp.size();
-          EXPECT_LE(norm(sharp[i] - sharp[k]), 0.5 * 24.0 * noise / (kPi / 3.0)) << i;
+          EXPECT_LE(norm(sharp[i] - sharp[k]), 0.5 * 24.0 * noise / (80.0 * kDeg)) << i;
         }
       }
     }

@@ -10,7 +10,7 @@
 namespace obvid {
 
 /// What counts as a corner when nobody says otherwise, rad (docs/methods/series.md).
-inline constexpr double kDefaultCornerAngle = std::numbers::pi / 6.0;
+inline constexpr double kDefaultCornerAngle = std::numbers::pi / 9.0;
 
 /// Which corners are asked for.
 struct CornerWishes {
