@@ -85,6 +85,11 @@ std::vector<std::string> warn(const Cleaned& cleaned, const Analysis& a, const S
 
 Result<Contour> form(const Cleaned& cleaned, const SeriesChain& chain, const PointSeries& series,
                      const FitJob& job, double tolerance) {
+  if (job.carrier == Carrier::kClothoids) {
+    auto clothoids = form_clothoids(cleaned.points, chain);
+    if (clothoids) clothoids->units = series.units;
+    return clothoids;
+  }
   auto spirals = form_spirals(cleaned.points, chain);
   if (!spirals) return spirals;
   spirals->units = series.units;

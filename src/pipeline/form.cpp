@@ -67,7 +67,8 @@ SeriesChain one_circle(const std::vector<Vec2>& points, const Analysis& a) {
   return out;
 }
 
-/// Circle or line over a chord: heading from chord and curvature, so that the arc ends on its end.
+}  // namespace
+
 Piece arc_over_chord(const LinkState& link, const Element& a, const Element& b) {
   if (a.kappa == 0.0) return LinePiece{a.point, b.point};
   const double sine = std::clamp(0.5 * a.kappa * link.h, -1.0, 1.0);
@@ -76,6 +77,8 @@ Piece arc_over_chord(const LinkState& link, const Element& a, const Element& b) 
       beyond_half ? std::copysign(std::numbers::pi, sine) - std::asin(sine) : std::asin(sine);
   return ArcPiece{a.point, b.point, link.omega - half_turn, a.kappa, 2.0 * half_turn / a.kappa};
 }
+
+namespace {
 
 /// Element at the start of a part inside a link, its heading unwrapped between both ends'.
 Element element_between(const RationalBezier& part, double theta_before, double theta_after) {

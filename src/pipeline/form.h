@@ -25,6 +25,14 @@ namespace obvid::pipeline_detail {
 /// two arcs between neighbours. Error E502 when the tolerance asks for too many arcs.
 [[nodiscard]] Result<Contour> form_arcs(const Contour& spirals, double tolerance);
 
+/// Clothoids over the elements, three to a link, and arcs or lines over circular stretches. Error
+/// E501 when a link is carried by no such three.
+[[nodiscard]] Result<Contour> form_clothoids(const std::vector<Vec2>& points,
+                                             const SeriesChain& chain);
+
+/// Circle or line over a chord: heading from chord and curvature, so that the arc ends on its end.
+[[nodiscard]] Piece arc_over_chord(const LinkState& link, const Element& a, const Element& b);
+
 /// Runs of a contour from the direction of each piece.
 [[nodiscard]] std::vector<Run> collect_runs(const std::vector<int>& direction);
 

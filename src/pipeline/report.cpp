@@ -63,7 +63,7 @@ void measure_pieces(const Contour& contour, double tolerance, FitReport& report)
     if (i > 0 && contour.joints[i].source) ++segment;
     if (segment >= report.segments.size()) return;
     SegmentReport& row = report.segments[segment];
-    if (contour.carrier == Carrier::kSpiral) {
+    if (contour.carrier != Carrier::kArcs) {
       add(row, bound_piece(contour.pieces[i], direction[i], tolerance));
       if (i > 0 && !contour.joints[i].source) ++row.inserted;
     } else if (direction[i] != 0 && i + 1 < contour.pieces.size()) {
