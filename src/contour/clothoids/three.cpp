@@ -118,70 +118,71 @@ Trace trace(const Link& link, const Profile& p) {
   return t;
 }
 
-/// How the end answers when the curvature rises by one more on each cell: the integrals over the
-/// length of what is left to the end, weighted with the added curvature; cubics stand in for the
-/// clothoids.
-struct Answer {
-  Vec2 point;
-  double theta = 0.0;
+/// What is left to the end, integrated over a cell; and weighted with a ramp from 0 to 1 on it.
+/// Cubics stand in for the clothoids.
+struct CellIntegrals {
+  Vec2 whole, ramp;
 };
 
-std::array<Answer, kCells> answers(const Trace& t, const Profile& p) {
-  std::array<Answer, kCells> out;
-  const Vec2 end = t.point[kCells];
-  Vec2 behind{};  // integral of (end - z) over the cells behind, and their length
+CellIntegrals left_to_end(const Trace& t, const Profile& p, std::size_t j) {
+  const double s = p.length * p.width[j];
+  const Vec2 a = t.point[kCells] - t.point[j], b = t.point[kCells] - t.point[j + 1];
+  const Vec2 da = -s * t.tangent[j], db = -s * t.tangent[j + 1];
+  return {s * (0.5 * (a + b) + (1.0 / 12.0) * (da - db)),
+          s * (0.15 * a + 0.35 * b + (1.0 / 30.0) * da - 0.05 * db)};
+}
+
+/// How the end's place and heading answer to one number of the profile.
+struct Answer {
+  Vec2 point;
+  double turn = 0.0;
+
+  friend Answer operator-(const Answer& a, const Answer& b) {
+    return {a.point - b.point, a.turn - b.turn};
+  }
+};
+
+struct Answers {
+  std::array<Answer, kCells> rise;
+  Answer length;
+};
+
+/// A curvature that is larger by one from s on turns what is left of the curve by what is left of
+/// its length; a longer curve is scaled, and turned by its own curvature.
+Answers answers(const Trace& t, const Profile& p) {
+  Answers out;
+  Vec2 behind, by_length = t.point[kCells];
   double length_behind = 0.0;
   for (std::size_t j = kCells; j-- > 0;) {
+    const CellIntegrals left = left_to_end(t, p, j);
     const double s = p.length * p.width[j];
-    const Vec2 a = end - t.point[j], b = end - t.point[j + 1];
-    const Vec2 da = -s * t.tangent[j], db = -s * t.tangent[j + 1];
-    const Vec2 whole = s * (0.5 * (a + b) + (1.0 / 12.0) * (da - db));
-    const Vec2 ramp = s * (0.15 * a + 0.35 * b + (1.0 / 30.0) * da - 0.05 * db);
-    out[j] = {left_normal(ramp + behind), 0.5 * s + length_behind};
-    behind = behind + whole;
+    out.rise[j] = {left_normal(left.ramp + behind), 0.5 * s + length_behind};
+    by_length = by_length + left_normal(t.kappa[j] * left.whole + p.rise[j] * left.ramp);
+    behind = behind + left.whole;
     length_behind += s;
   }
+  out.length = {by_length / p.length, (t.theta[kCells] - t.theta[0]) / p.length};
   return out;
 }
 
-/// One Newton step for the rises of the outer cells and the length.
+double determinant(const Answer& a, const Answer& b, const Answer& c) {
+  return a.turn * cross(b.point, c.point) + b.turn * cross(c.point, a.point) +
+         c.turn * cross(a.point, b.point);
+}
+
+/// One Newton step for the rises of the outer cells and the length; the middle cell takes the rest.
 bool improve(const Trace& t, const Link& link, Profile& p) {
-  const auto by = answers(t, p);
-  const Vec2 by_first = by[0].point - by[1].point, by_last = by[2].point - by[1].point;
-  const double turn_first = by[0].theta - by[1].theta, turn_last = by[2].theta - by[1].theta;
-  // a longer link: turned and scaled
-  const double turn = t.theta[kCells] - t.theta[0];
-  Vec2 by_length = t.point[kCells];
-  for (std::size_t j = 0; j < kCells; ++j) {
-    const double s = p.length * p.width[j];
-    const Vec2 a = t.point[kCells] - t.point[j], b = t.point[kCells] - t.point[j + 1];
-    const Vec2 da = -s * t.tangent[j], db = -s * t.tangent[j + 1];
-    const Vec2 whole = s * (0.5 * (a + b) + (1.0 / 12.0) * (da - db));
-    const Vec2 ramp = s * (0.15 * a + 0.35 * b + (1.0 / 30.0) * da - 0.05 * db);
-    by_length = by_length + left_normal(t.kappa[j] * whole + p.rise[j] * ramp);
-  }
-  by_length = by_length / p.length;
-  const double turn_length = turn / p.length;
-  const Vec2 miss = Vec2{1.0, 0.0} - t.point[kCells];
-  const double turn_miss = link.beta - t.theta[kCells];
-  const double det = by_first.x * (by_last.y * turn_length - by_length.y * turn_last) -
-                     by_last.x * (by_first.y * turn_length - by_length.y * turn_first) +
-                     by_length.x * (by_first.y * turn_last - by_last.y * turn_first);
-  if (det == 0.0 || !std::isfinite(det)) return false;
-  const auto cramer = [&](double x1, double x2, double x3, double y1, double y2, double y3,
-                          double z1, double z2, double z3) {
-    return (x1 * (y2 * z3 - y3 * z2) - x2 * (y1 * z3 - y3 * z1) + x3 * (y1 * z2 - y2 * z1)) / det;
-  };
-  const double first = cramer(miss.x, by_last.x, by_length.x, miss.y, by_last.y, by_length.y,
-                              turn_miss, turn_last, turn_length);
-  const double last = cramer(by_first.x, miss.x, by_length.x, by_first.y, miss.y, by_length.y,
-                             turn_first, turn_miss, turn_length);
-  const double longer = cramer(by_first.x, by_last.x, miss.x, by_first.y, by_last.y, miss.y,
-                               turn_first, turn_last, turn_miss);
-  p.rise[0] += first;
-  p.rise[2] += last;
-  p.rise[1] -= first + last;
-  p.length += longer;
+  const Answers by = answers(t, p);
+  const Answer first = by.rise[0] - by.rise[1], last = by.rise[2] - by.rise[1];
+  const Answer miss = {Vec2{1.0, 0.0} - t.point[kCells], link.beta - t.theta[kCells]};
+  const double whole = determinant(first, last, by.length);
+  if (whole == 0.0 || !std::isfinite(whole)) return false;
+  const double more_first = determinant(miss, last, by.length) / whole;
+  const double more_last = determinant(first, miss, by.length) / whole;
+  p.rise[0] += more_first;
+  p.rise[1] -= more_first + more_last;
+  p.rise[2] += more_last;
+  p.length += determinant(first, last, miss) / whole;
   return p.length > 0.0;
 }
 
@@ -248,37 +249,37 @@ std::optional<Trace> with_cells(const Link& link, const Cells& width, double lea
   return t && positive(p, link.rise, least) ? t : std::nullopt;
 }
 
+/// Even cells where they do, else cells that suit where the curvature rises.
+std::optional<Trace> three_cells(const Link& link, Profile& p) {
+  constexpr double kThird = 1.0 / 3.0;
+  if (auto t = with_cells(link, {kThird, kThird, kThird}, kEvenSharpness, p)) return t;
+  const Place place = place_of_rise(link);
+  if (auto t = with_cells(link, cells_about_mean(place), kLeastSharpness, p)) return t;
+  return with_cells(link, cells_at_ends(place), kLeastSharpness, p);
+}
+
 }  // namespace
 
 bool append_clothoids(const LinkState& link, int direction, const Element& start,
                       const Element& end, std::vector<ClothoidPiece>& pieces) {
   const Link own = mirrored(link, direction, start.kappa);
   if (!(own.rise > 0.0 && own.moment0 > 0.0 && own.moment1 > 0.0)) return false;
-  constexpr double kThird = 1.0 / 3.0;
-  constexpr Cells kEven = {kThird, kThird, kThird};
   Profile p;
-  auto t = with_cells(own, kEven, kEvenSharpness, p);
-  if (!t) {
-    const Place place = place_of_rise(own);
-    t = with_cells(own, cells_about_mean(place), kLeastSharpness, p);
-    if (!t) t = with_cells(own, cells_at_ends(place), kLeastSharpness, p);
-  }
+  const auto t = three_cells(own, p);
   if (!t) return false;
   const double d = direction;
   const Vec2 chord = end.point - start.point;
-  Element from = start;
+  const auto inner = [&](std::size_t j, double kappa) -> Element {
+    const Vec2 z = t->point[j];
+    return {start.point + complex_product({z.x, d * z.y}, chord),
+            start.theta + d * (t->theta[j] - own.alpha), kappa};
+  };
+  const std::array<Element, kCells + 1> joint = {start,
+                                                 inner(1, start.kappa + d * p.rise[0] / link.h),
+                                                 inner(2, end.kappa - d * p.rise[2] / link.h), end};
   for (std::size_t j = 0; j < kCells; ++j) {
-    const Vec2 z = t->point[j + 1];
-    const bool last = j + 1 == kCells;
-    Element to = end;
-    if (!last) {
-      to = {start.point + complex_product({z.x, d * z.y}, chord),
-            start.theta + d * (t->theta[j + 1] - own.alpha),
-            j == 0 ? start.kappa + d * p.rise[0] / link.h : end.kappa - d * p.rise[2] / link.h};
-    }
-    pieces.push_back(
-        {from.point, to.point, from.theta, from.kappa, to.kappa, p.length * p.width[j] * link.h});
-    from = to;
+    pieces.push_back({joint[j].point, joint[j + 1].point, joint[j].theta, joint[j].kappa,
+                      joint[j + 1].kappa, p.length * p.width[j] * link.h});
   }
   return true;
 }
