@@ -100,7 +100,7 @@ std::vector<Part> parts_of_clothoid(const ClothoidPiece& piece) {
   constexpr double kMostParts =
       64.0;  // three full turns; a clothoid of a contour has less than half
   const double turn = std::max(std::abs(piece.kappa0), std::abs(piece.kappa1)) * piece.length;
-  const int count = std::max(1, static_cast<int>(std::ceil(std::min(turn / kTurn, kMostParts))));
+  const int count = std::max(1, static_cast<int>(std::ceil(std::min(kMostParts, turn / kTurn))));
   std::vector<Part> parts;
   for (int j = 0; j < count; ++j) {
     parts.emplace_back(

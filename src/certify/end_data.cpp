@@ -52,14 +52,14 @@ constexpr std::array<double, 4> kGaussNode = {0.1834346424956498, 0.525532409916
                                               0.7966664774136267, 0.9602898564975363};
 constexpr std::array<double, 4> kGaussWeight = {0.3626837833783620, 0.3137066458778873,
                                                 0.2223810344533745, 0.1012285362903763};
-constexpr double kPanelTurn = 1.0;   // rad: 8 points are exact to rounding up to here
-constexpr double kMostPanels = 1e4;  // more turns than any contour has
+constexpr double kPanelTurn = 1.0;    // rad: 8 points are exact to rounding up to here
+constexpr double kMostPanels = 64.0;  // ten full turns; a piece that is proved has less than half
 
 /// Where a clothoid leads, by quadrature: the proof does not use the formulas that built the piece.
 Vec2 clothoid_chord(const ClothoidPiece& piece) {
   const double sharpness = (piece.kappa1 - piece.kappa0) / piece.length;
   const double turn = std::max(std::abs(piece.kappa0), std::abs(piece.kappa1)) * piece.length;
-  const int panels = 1 + static_cast<int>(std::min(turn / kPanelTurn, kMostPanels));
+  const int panels = 1 + static_cast<int>(std::min(kMostPanels, turn / kPanelTurn));
   const double half = 0.5 * piece.length / panels;
   Vec2 chord;
   for (int panel = 0; panel < panels; ++panel) {

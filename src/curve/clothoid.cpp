@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "obvid/curve/clothoid.h"
 
-#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstddef>
@@ -83,7 +82,8 @@ Vec2 tail(double kappa, double root) {
   const double stretched = kStretch * root;
   const double inverse = 1.0 / (stretched + kappa);
   const double place = kIntervals * (stretched * inverse);
-  const auto interval = std::min(static_cast<int>(place), kIntervals - 1);
+  // the last interval takes its end too, and what is no number
+  const int interval = place < kIntervals ? static_cast<int>(place) : kIntervals - 1;
   const double u = 2.0 * (place - interval) - 1.0, u2 = u * u;
   const auto& c = kTable[interval];
   const auto part = [&](std::size_t p) {

@@ -83,6 +83,13 @@ TEST(Clothoid, TwoPartsAreTheWhole) {
   }
 }
 
+TEST(Clothoid, WhatIsNoNumberStaysNone) {
+  constexpr double kHuge = 1e300;
+  EXPECT_FALSE(std::isfinite(clothoid_step(0.0, kHuge, -kHuge, kHuge).x));
+  EXPECT_TRUE(std::isnan(clothoid_step(0.0, std::nan(""), 1.0, 1.0).x));
+  EXPECT_TRUE(std::isnan(clothoid_step(std::nan(""), 1.0, 1.0, 5.0).y));
+}
+
 ClothoidPiece some_piece(double kappa0, double kappa1, double length) {
   const Vec2 start = {1.0, 2.0};
   return {start, start + clothoid_step(0.4, kappa0, kappa1, length), 0.4, kappa0, kappa1, length};
