@@ -73,7 +73,9 @@ Attempt insert_and_solve(Extended current, ChainSolution solution, int steps) {
 /// Closed-form cones first; then mere existence and free elements; then without the wish that the
 /// curvature keep its sign, which can turn out to be impossible.
 Attempt attempt(Extended current, bool convex) {
-  ChainSolution solution = solve_chain(current.points, current.problem);
+  const std::vector<Element> given = current.start;
+  const std::vector<Element>* start = given.empty() ? nullptr : &given;
+  ChainSolution solution = solve_chain(current.points, current.problem, {}, start);
   int steps = solution.newton_steps;
   if (carried(current.problem, solution)) {
     return {collect(current, std::move(solution), steps), {}, steps};
@@ -83,7 +85,7 @@ Attempt attempt(Extended current, bool convex) {
       return refuse(blame(*link), steps);
   }
   for (Cone& c : current.problem.cone) c = c == Cone::kNone ? c : Cone::kSpiral;
-  solution = solve_chain(current.points, current.problem);
+  solution = solve_chain(current.points, current.problem, {}, start);
   steps += solution.newton_steps;
   bool unforced_inflection = false;
   if (!solution.feasible && !convex) {
@@ -151,6 +153,28 @@ Result<SeriesChain> choose_elements(const std::vector<Vec2>& points, const Analy
   tried.chain->newton_steps = steps;
   tried.chain->turned_directions = turned;
   return std::move(*tried.chain);
+}
+
+Result<SeriesChain> follow_directions(DirectedSeries series) {
+  Extended e;
+  e.problem.chords = measure_chords(series.points);
+  e.problem.circles = measure_circles(series.points, e.problem.chords);
+  for (const std::int8_t d : series.direction) {
+    e.problem.cone.push_back(d == 0 ? Cone::kNone : Cone::kClosedForm);
+  }
+  e.problem.direction = std::move(series.direction);
+  e.problem.nodes = std::move(series.nodes);
+  e.points = std::move(series.points);
+  e.start = std::move(series.start);
+  e.source = std::move(series.source);
+  e.turned.assign(e.problem.direction.size(), false);
+  Attempt tried = attempt(std::move(e), true);
+  if (tried.chain) return std::move(*tried.chain);
+  return fail({ErrorCode::kNoSpiral,
+               "no curve with curvature changing as wanted runs through the nodes",
+               "nodes " + std::to_string(tried.why.first_point + 1) + " to " +
+                   std::to_string(tried.why.last_point + 1),
+               "", static_cast<std::ptrdiff_t>(tried.why.first_point), tried.why.slack});
 }
 
 }  // namespace obvid

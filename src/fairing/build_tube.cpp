@@ -35,12 +35,6 @@ constexpr int kStepsPerPass = 5;
 constexpr double kSmoothEnough = 1e-2;  ///< Newton's decrement
 constexpr double kRoom = 1.15;          ///< of a widened tube around its contents
 
-/// Reach along a unit direction of the ellipse with these semi-axes.
-double reach_along(Vec2 axes, Vec2 n) {
-  if (axes.x <= 0.0 || axes.y <= 0.0) return 0.0;
-  return 1.0 / std::hypot(n.x / axes.x, n.y / axes.y);
-}
-
 class Builder {
  public:
   explicit Builder(const MeasuredSeries& series) : series_(series) {
@@ -72,13 +66,10 @@ class Builder {
 
  private:
   [[nodiscard]] Vec2 local(std::size_t i) const { return series_.points[i] - tube_.origin; }
-  [[nodiscard]] double widest(std::size_t i) const {
-    return std::max(series_.reach[i].x, series_.reach[i].y);
-  }
   [[nodiscard]] bool given(std::size_t i) const {
     if (series_.nodes.empty()) return false;
     const NodeData& d = series_.nodes[i];
-    return d.theta || d.kappa || series_.reach[i] == Vec2{};
+    return d.theta || d.kappa || series_.reach[i] == 0.0;
   }
 
   /// Points at least `least` (per point) apart, first and last (when open) and given ones included.
@@ -104,7 +95,7 @@ class Builder {
   std::vector<std::size_t> spaced_points(double spacing) const {
     std::vector<std::size_t> all(series_.points.size());
     for (std::size_t i = 0; i < all.size(); ++i) all[i] = i;
-    return pick(all, [&](std::size_t i) { return spacing * widest(i); });
+    return pick(all, [&](std::size_t i) { return spacing * series_.reach[i]; });
   }
 
   /// Nodes that the smoothed curvature says are enough.
@@ -190,7 +181,7 @@ class Builder {
       if (d.kappa) node.kappa = *d.kappa;
     }
     node.normal = left_normal(unit_at(node.theta));
-    node.reach = reach_along(series_.reach[i], node.normal);
+    node.reach = series_.reach[i];
   }
 
   void lay_rows() {
@@ -201,10 +192,8 @@ class Builder {
       tube_.first_row.push_back(tube_.rows.size());
       const std::size_t next = source_[(i + 1) % source_.size()];
       const std::size_t to = next > source_[i] ? next : next + n;
-      const Vec2 chord = local(to % n) - local(source_[i]);
-      const Vec2 normal = left_normal((1.0 / norm(chord)) * chord);
       for (std::size_t k = source_[i] + 1; k < to; ++k) {
-        tube_.rows.push_back({local(k % n), reach_along(series_.reach[k % n], normal)});
+        tube_.rows.push_back({local(k % n), series_.reach[k % n]});
       }
     }
     tube_.first_row.push_back(tube_.rows.size());
@@ -220,9 +209,9 @@ class Builder {
       node.kappa += x[2] / node.length;
       x[1] = x[2] = 0.0;
       node.normal = left_normal(unit_at(node.theta));
-      node.reach = reach_along(series_.reach[source_[i]], node.normal);
+      node.reach = series_.reach[source_[i]];
       if (node.reach > 0.0) {
-        constexpr double kInside = 0.99;  // a turned normal may leave the ellipse by a hair
+        constexpr double kInside = 0.99;  // a turned normal may leave the circle by a hair
         x[0] = std::clamp(dot(moved, node.normal) / node.reach, -kInside, kInside);
       }
     }

@@ -20,8 +20,6 @@ constexpr double kFinalTube = 0.02;
 constexpr double kFairEnough = 1e-6;  ///< Newton's decrement
 constexpr int kFairSteps = 60;
 
-double widest(Vec2 reach) { return std::max(reach.x, reach.y); }
-
 Element element_at(const Tube& tube, const State& x, std::size_t i) {
   const TubeNode& n = tube.nodes[i];
   const double* v = &x[kPerNode * i];
@@ -52,8 +50,7 @@ bool make_fair(LaidTube& laid, int& steps) {
 
 int forced_vertices(const MeasuredSeries& series) {
   std::vector<Vec2> points = series.points;
-  std::vector<double> reach;
-  for (const Vec2 r : series.reach) reach.push_back(widest(r));
+  std::vector<double> reach = series.reach;
   if (series.closed) {  // windows across the seam
     constexpr std::size_t kOverlap = 3;
     for (std::size_t i = 0; i < kOverlap; ++i) {

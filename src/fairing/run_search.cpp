@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "obvid/series/analysis.h"
 #include "tube_solver.h"
@@ -60,7 +61,8 @@ std::vector<RunSearch::Run> RunSearch::runs_of(const Layout& layout) const {
       reach = std::max(reach, tube_.nodes[j++].reach);
     }
     const Vec2 span = tube_.nodes[j % n].point - tube_.nodes[i].point;
-    out.push_back({i, j, std::abs(kappa(j) - kappa(i)) * dot(span, span) / reach});
+    const double bump = std::abs(kappa(j) - kappa(i)) * dot(span, span);
+    out.push_back({i, j, reach > 0.0 ? bump / reach : std::numeric_limits<double>::infinity()});
     i = j;
   }
   return out;

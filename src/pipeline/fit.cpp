@@ -1,100 +1,93 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "obvid/pipeline/fit.h"
 
+#include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <string>
 
+#include "assemble.h"
 #include "form.h"
 #include "obvid/certify/certify.h"
-#include "obvid/series/analysis.h"
+#include "prepare.h"
 #include "report.h"
+#include "section_chain.h"
+#include "tmp_pd.h"
 
 namespace obvid {
 namespace {
 
 using namespace pipeline_detail;
 
-struct Cleaned {
-  std::vector<Vec2> points;
-  ChainWishes wishes;
-  std::size_t merged = 0;
+/// Rounds in which the tolerance of points that the finished contour misses is narrowed: between
+/// nodes the search knows the contour only to first order.
+constexpr int kNarrowings = 4;
+constexpr double kNarrowed = 0.95;  ///< of what would just do
+
+Result<Contour> form(const std::vector<Vec2>& points, const SeriesChain& chain, Carrier carrier,
+                     double tolerance) {
+  if (carrier == Carrier::kClothoids) return form_clothoids(points, chain);
+  auto spirals = form_spirals(points, chain);
+  if (!spirals || carrier == Carrier::kSpiral) return spirals;
+  return form_arcs(*spirals, tolerance);
+}
+
+/// One attempt at the whole contour, with how it was found.
+struct Formed {
+  Contour contour;
+  ChainReport chain;
+  std::vector<std::string> warnings;
 };
 
-/// Merges equal neighbours and gathers everything that is fixed.
-Result<Cleaned> clean(const PointSeries& series, const FitJob& job) {
-  Cleaned out;
-  out.points.reserve(series.points.size());
-  for (std::size_t i = 0; i < series.points.size(); ++i) {
-    const Vec2 p = series.points[i];
-    if (!std::isfinite(p.x) || !std::isfinite(p.y)) {
-      return fail({ErrorCode::kNotFinite, "a coordinate is not a finite number",
-                   "point " + std::to_string(i + 1), "remove the point",
-                   static_cast<std::ptrdiff_t>(i), 0.0});
-    }
-    if (!out.points.empty() && out.points.back() == p) {
-      ++out.merged;
-      continue;
-    }
-    out.points.push_back(p);
-    if (!series.fixed.empty()) out.wishes.fixed.push_back(series.fixed[i]);
+void add(const SectionChain& section, Formed& formed) {
+  ChainReport& sum = formed.chain;
+  const SeriesChain& one = section.chain;
+  sum.smallest_margin = sum.newton_steps == 0 ? one.smallest_margin
+                                              : std::min(sum.smallest_margin, one.smallest_margin);
+  sum.newton_steps += one.newton_steps;
+  sum.free_elements += one.free_elements;
+  formed.warnings.insert(formed.warnings.end(), section.warnings.begin(), section.warnings.end());
+}
+
+Result<Formed> form_sections(const Prepared& series, const FitJob& job, double tolerance,
+                             const Progress& progress) {
+  Formed out;
+  Assembly assembly;
+  const std::vector<Section>& sections = series.split.sections;
+  for (std::size_t k = 0; k < sections.size(); ++k) {
+    const auto inner = [&](std::string_view stage, double done) {
+      if (progress) {
+        const double part = (static_cast<double>(k) + done) / static_cast<double>(sections.size());
+        constexpr double kUntilHere = 0.6;  // of the whole work
+        progress(stage, kUntilHere * part);
+      }
+    };
+    const auto chain = chain_section(series, sections[k], inner);
+    if (!chain) return tl::unexpected(chain.error());
+    auto contour = form(series.points, chain->chain, job.carrier, tolerance);
+    if (!contour) return tl::unexpected(contour.error());
+    assembly.append(std::move(*contour));
+    add(*chain, out);
   }
-  if (out.points.size() < 2) {
-    return fail({ErrorCode::kTooFewPoints, "a contour needs at least two distinct points", "",
-                 "add points", -1, static_cast<double>(out.points.size())});
-  }
-  out.wishes.convex = job.convex;
-  const bool ends = job.start_heading || job.end_heading || job.start_kappa || job.end_kappa;
-  if (ends && out.wishes.fixed.empty()) out.wishes.fixed.resize(out.points.size());
-  if (job.start_heading) out.wishes.fixed.front().theta = job.start_heading;
-  if (job.start_kappa) out.wishes.fixed.front().kappa = job.start_kappa;
-  if (job.end_heading) out.wishes.fixed.back().theta = job.end_heading;
-  if (job.end_kappa) out.wishes.fixed.back().kappa = job.end_kappa;
+  if (series.closed) assembly.close(series.split.smooth_loop);
+  out.contour = assembly.take();
+  out.contour.points = series.points;
+  out.contour.point_tolerance = series.tolerance;
   return out;
 }
 
-std::vector<std::string> warn(const Cleaned& cleaned, const Analysis& a, const SeriesChain& chain) {
-  std::vector<std::string> out;
-  if (cleaned.merged > 0) {
-    out.push_back(std::to_string(cleaned.merged) + " points equal to the one before were merged");
+/// Narrows the reach of points that the contour passes too far. False when there are none.
+bool narrow(const Contour& contour, Prepared& series) {
+  if (series.exact()) return false;
+  const std::vector<double> distance = point_distances(contour);
+  bool any = false;
+  for (std::size_t i = 0; i < distance.size(); ++i) {
+    const double allowed = series.tolerance[i];
+    if (!(distance[i] > allowed) || series.reach[i] == 0.0) continue;
+    series.reach[i] *= kNarrowed * allowed / distance[i];
+    any = true;
   }
-  if (a.rounding_decided > 0) {
-    out.push_back(
-        "the rounding of the coordinates decides whether the curvature grows or falls on " +
-        std::to_string(a.rounding_decided) + " segments, first between points " +
-        std::to_string(a.first_rounding_decided + 1) + " and " +
-        std::to_string(a.first_rounding_decided + 2) +
-        "; vertices there come from the rounding, not from the curve");
-  }
-  if (chain.turned_directions > 0) {
-    out.push_back(
-        "no curve with the vertices of the adjacent circles runs through the points: the "
-        "curvature was let turn back on " +
-        std::to_string(chain.turned_directions) + " segments");
-  }
-  if (chain.unforced_inflection) {
-    out.push_back("the contour needs an inflection that the adjacent circles do not show");
-  }
-  if (!chain.converged) {
-    out.push_back(
-        "the headings and curvatures are valid but not quite the fairest: the solver "
-        "stopped at its limit of steps");
-  }
-  return out;
-}
-
-Result<Contour> form(const Cleaned& cleaned, const SeriesChain& chain, const PointSeries& series,
-                     const FitJob& job, double tolerance) {
-  if (job.carrier == Carrier::kClothoids) {
-    auto clothoids = form_clothoids(cleaned.points, chain);
-    if (clothoids) clothoids->units = series.units;
-    return clothoids;
-  }
-  auto spirals = form_spirals(cleaned.points, chain);
-  if (!spirals) return spirals;
-  spirals->units = series.units;
-  if (job.carrier == Carrier::kSpiral) return spirals;
-  return form_arcs(*spirals, tolerance);
+  return any;
 }
 
 }  // namespace
@@ -108,29 +101,33 @@ Result<Fit> fit(const PointSeries& series, const FitJob& job, const Progress& pr
     return fail({ErrorCode::kBadOption, "the tolerance must be greater than 0", "", "", -1,
                  *job.tolerance});
   }
-  auto cleaned = clean(series, job);
-  if (!cleaned) return tl::unexpected(cleaned.error());
   tell("analysing", 0.0);
-  const auto analysis = analyse(cleaned->points);
-  if (!analysis) return tl::unexpected(analysis.error());
-  tell("choosing headings and curvatures", 0.1);
-  const auto chain = form_elements(cleaned->points, *analysis, cleaned->wishes);
-  if (!chain) return tl::unexpected(chain.error());
-  tell("forming pieces", 0.6);
-  const double tolerance = job.tolerance.value_or(default_tolerance(*analysis));
-  auto contour = form(*cleaned, *chain, series, job, tolerance);
-  if (!contour) return tl::unexpected(contour.error());
-  tell("proving", 0.7);
+  auto prepared = prepare(series, job);
+  if (!prepared) return tl::unexpected(prepared.error());
+  const double tolerance = job.tolerance.value_or(default_tolerance(prepared->points));
+  auto formed = form_sections(*prepared, job, tolerance, progress);
+  for (int k = 0; k < kNarrowings && formed && narrow(formed->contour, *prepared); ++k) {
+    formed = form_sections(*prepared, job, tolerance, progress);
+  }
+  if (!formed) return tl::unexpected(formed.error());
   Fit out;
-  out.certificate = certify(*contour);
+  out.contour = std::move(formed->contour);
+  out.contour.units = series.units;
+  tell("proving", 0.7);
+  out.certificate = certify(out.contour);
   tell("bounding the error", 0.9);
-  out.report = measure(*contour, *analysis, tolerance);
+  auto report = measure(out.contour, tolerance);
+  if (!report) return tl::unexpected(report.error());
+  out.report = std::move(*report);
   out.report.vertices = out.certificate.vertices;
   out.report.inflections = out.certificate.inflections;
-  out.report.chain = {chain->newton_steps, chain->smallest_margin, chain->free_elements};
-  out.contour = std::move(*contour);
+  out.report.largest_move = out.certificate.largest_move;
+  if (!prepared->exact()) out.report.moves = point_distances(out.contour);
+  out.report.chain = formed->chain;
   out.warnings = series.warnings;
-  for (std::string& w : warn(*cleaned, *analysis, *chain)) out.warnings.push_back(std::move(w));
+  for (const auto* more : {&prepared->warnings, &formed->warnings}) {
+    out.warnings.insert(out.warnings.end(), more->begin(), more->end());
+  }
   out.report.seconds =
       std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
   tell("done", 1.0);

@@ -1,16 +1,24 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <vector>
+
+#include "obvid/core/result.h"
 #include "obvid/curve/contour.h"
 #include "obvid/io/stored_contour.h"
-#include "obvid/series/analysis.h"
 
 namespace obvid::pipeline_detail {
 
-/// Every figure of the report that follows from the contour and its points alone.
-[[nodiscard]] FitReport measure(const Contour& contour, const Analysis& analysis, double tolerance);
+/// Every figure of the report that follows from the contour and its points alone. Vertices that the
+/// points force: exact points, from their adjacent circles; points with tolerances, from averages
+/// of the curvature's rate (docs/methods/fairing.md). Errors as those of `analyse`.
+[[nodiscard]] Result<FitReport> measure(const Contour& contour, double tolerance);
 
-/// Default of the tolerance: the seeds' 0.001 mm, near enough, on their series of 280 mm across.
-[[nodiscard]] double default_tolerance(const Analysis& analysis);
+/// Default of the tolerance: the seeds' 0.001 mm, near enough, on their series of 280 mm
+/// across.
+[[nodiscard]] double default_tolerance(const std::vector<Vec2>& points);
+
+/// Diagonal of the points' bounding box.
+[[nodiscard]] double size_of(const std::vector<Vec2>& points);
 
 }  // namespace obvid::pipeline_detail

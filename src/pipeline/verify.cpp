@@ -123,14 +123,14 @@ void compare_runs(const Contour& contour, const Certificate& found, Comparison& 
 Verification verify(const StoredContour& stored) {
   Verification out;
   out.certificate = certify(stored.contour);
-  const auto analysis = analyse(stored.contour.points);
-  if (!analysis) {
-    out.false_claim = analysis.error();
-    return out;
-  }
-  Comparison comparison(analysis->size);
+  Comparison comparison(pipeline_detail::size_of(stored.contour.points));
   if (stored.report) {
-    FitReport found = pipeline_detail::measure(stored.contour, *analysis, stored.report->tolerance);
+    auto measured = pipeline_detail::measure(stored.contour, stored.report->tolerance);
+    if (!measured) {
+      out.false_claim = measured.error();
+      return out;
+    }
+    FitReport found = std::move(*measured);
     found.vertices = out.certificate.vertices;
     found.inflections = out.certificate.inflections;
     compare_report(*stored.report, found, comparison);

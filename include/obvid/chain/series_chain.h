@@ -43,6 +43,19 @@ struct SeriesChain {
                                                   const Analysis& analysis,
                                                   const ChainWishes& wishes);
 
+/// Nodes with the direction of every link already chosen.
+struct DirectedSeries {
+  std::vector<Vec2> points;                        ///< n nodes
+  std::vector<std::optional<std::size_t>> source;  ///< n
+  std::vector<std::int8_t> direction;              ///< n - 1; 0: arc or line, its ends given
+  std::vector<NodeData> nodes;                     ///< n
+  std::vector<Element> start;                      ///< n: headings and curvatures to begin with
+};
+
+/// Elements for nodes whose directions are known (from a fairing, or one turn of a closed series).
+/// No direction is turned. Errors: E401, naming nodes.
+[[nodiscard]] Result<SeriesChain> follow_directions(DirectedSeries series);
+
 /// The free element of a link for which a spiral exists but one closed-form piece does not: close
 /// to the joint of the middle biarc, such that both halves lie inside the closed form's cone.
 [[nodiscard]] Element free_element(const LinkState& link, int direction, Vec2 start);

@@ -11,10 +11,10 @@
 
 namespace obvid {
 
-/// Measured points with the ellipses in which the true points may lie.
+/// Measured points with the circles in which the true points may lie.
 struct MeasuredSeries {
   std::vector<Vec2> points;  ///< no two neighbours equal
-  std::vector<Vec2> reach;  ///< semi-axes along x and y of each point's tolerance, units; 0 = exact
+  std::vector<double> reach;    ///< how far each point may be moved, units; 0: not at all
   std::vector<NodeData> nodes;  ///< empty, or what is given at each point
   bool closed = false;          ///< the last point is followed by the first
 };
@@ -39,7 +39,7 @@ struct FairedSeries {
 /// series (docs/methods/fairing.md): a smooth curve through the tube of tolerances, from its runs
 /// the weakest are taken away as long as the problem stays feasible, then one solve of the whole.
 ///
-/// Guarantees: every node lies within its point's ellipse, by construction. The lower bound is the
+/// Guarantees: every node lies within its point's reach, by construction. The lower bound is the
 /// variation-diminishing property of B-splines (Schoenberg), to first order in tolerance over chord
 /// and exact for graphs of small slope. Not guaranteed: that fewer vertices are impossible when the
 /// lower bound is smaller; that points between nodes keep their tolerance to the last bit (they are

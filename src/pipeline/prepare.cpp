@@ -1,0 +1,177 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "prepare.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace obvid::pipeline_detail {
+namespace {
+
+FixedData merged(FixedData a, const FixedData& b) {
+  if (!a.theta) a.theta = b.theta;
+  if (!a.kappa) a.kappa = b.kappa;
+  if (b.tolerance) a.tolerance = a.tolerance ? std::min(*a.tolerance, *b.tolerance) : b.tolerance;
+  a.corner = a.corner || b.corner;
+  return a;
+}
+
+/// Moves below this cannot be told from the rounding of the coordinates.
+double least_move(Vec2 p) {
+  constexpr double kRoundings = 16.0;
+  return kRoundings * 0x1p-53 * (std::abs(p.x) + std::abs(p.y));
+}
+
+class Preparation {
+ public:
+  Preparation(const PointSeries& series, const FitJob& job) : series_(series), job_(job) {}
+
+  Result<Prepared> run() {
+    out_.convex = job_.convex;
+    if (auto done = gather(); !done) return fail(done.error());
+    give_ends();
+    set_tolerances();
+    close();
+    cut();
+    if (out_.points.size() < 2) {
+      return fail({ErrorCode::kTooFewPoints, "a contour needs at least two distinct points", "",
+                   "add points", -1, static_cast<double>(out_.points.size())});
+    }
+    return std::move(out_);
+  }
+
+ private:
+  [[nodiscard]] Result<std::vector<FixedData>> all_fixed() const {
+    std::vector<FixedData> fixed = series_.fixed;
+    fixed.resize(series_.points.size());
+    for (const PointWish& wish : job_.wishes) {
+      if (wish.index >= fixed.size()) {
+        return fail({ErrorCode::kBadOption, "there is no such point",
+                     fmt::format("point {}", wish.index + 1),
+                     fmt::format("the series has {} points", fixed.size()),
+                     static_cast<std::ptrdiff_t>(wish.index), 0.0});
+      }
+      FixedData& data = fixed[wish.index];
+      if (wish.theta) data.theta = wish.theta;
+      if (wish.kappa) data.kappa = wish.kappa;
+      data.corner = data.corner || wish.corner;
+    }
+    return fixed;
+  }
+
+  Result<void> gather() {
+    const auto fixed = all_fixed();
+    if (!fixed) return fail(fixed.error());
+    std::size_t merges = 0;
+    for (std::size_t i = 0; i < series_.points.size(); ++i) {
+      const Vec2 p = series_.points[i];
+      if (!std::isfinite(p.x) || !std::isfinite(p.y)) {
+        return fail({ErrorCode::kNotFinite, "a coordinate is not a finite number",
+                     "point " + std::to_string(i + 1), "remove the point",
+                     static_cast<std::ptrdiff_t>(i), 0.0});
+      }
+      if (!out_.points.empty() && out_.points.back() == p) {
+        ++merges;
+        out_.fixed.back() = merged(out_.fixed.back(), (*fixed)[i]);
+        continue;
+      }
+      out_.points.push_back(p);
+      out_.fixed.push_back((*fixed)[i]);
+    }
+    if (merges > 0) {
+      out_.warnings.push_back(std::to_string(merges) +
+                              " points equal to the one before were merged");
+    }
+    if (out_.points.size() < 2) {
+      return fail({ErrorCode::kTooFewPoints, "a contour needs at least two distinct points", "",
+                   "add points", -1, static_cast<double>(out_.points.size())});
+    }
+    return {};
+  }
+
+  void give_ends() {
+    FixedData &first = out_.fixed.front(), &last = out_.fixed.back();
+    if (job_.start_heading) first.theta = job_.start_heading;
+    if (job_.start_kappa) first.kappa = job_.start_kappa;
+    if (job_.end_heading) last.theta = job_.end_heading;
+    if (job_.end_kappa) last.kappa = job_.end_kappa;
+  }
+
+  void set_tolerances() {
+    const double noise = job_.noise.value_or(0.0);
+    const Vec2 common = job_.noise_from_rounding ? series_.rounding : Vec2{noise, noise};
+    for (std::size_t i = 0; i < out_.points.size(); ++i) {
+      const FixedData& f = out_.fixed[i];
+      const double reach = f.tolerance ? *f.tolerance : across(i, common);
+      out_.tolerance.push_back(reach < least_move(out_.points[i]) ? 0.0 : reach);
+    }
+  }
+
+  /// How far the ellipse with these semi-axes reaches across the series at a point.
+  [[nodiscard]] double across(std::size_t i, Vec2 axes) const {
+    if (axes.x == axes.y) return axes.x;
+    if (!(std::min(axes.x, axes.y) > 0.0)) return 0.0;
+    const std::size_t last = out_.points.size() - 1;
+    const Vec2 along = out_.points[std::min(i + 1, last)] - out_.points[i > 0 ? i - 1 : 0];
+    const Vec2 normal = left_normal(along);
+    return norm(normal) / std::hypot(normal.x / axes.x, normal.y / axes.y);
+  }
+
+  void close() {
+    const std::size_t n = out_.points.size();
+    const bool returns =
+        n > 2 && returns_to_start(out_.points, out_.tolerance.front(), out_.tolerance.back());
+    out_.closed =
+        job_.closing == Closing::kClosed || (job_.closing == Closing::kAutomatic && returns);
+    if (!out_.closed || !returns) return;
+    const JoinedPoint joined = join_points(out_.points.front(), out_.tolerance.front(),
+                                           out_.points.back(), out_.tolerance.back());
+    if (out_.points.front() != out_.points.back()) {
+      out_.points.front() = joined.point;
+      out_.tolerance.front() = joined.tolerance;
+      out_.warnings.emplace_back(
+          "the last point lies within its tolerance of the first one: both became one");
+    }
+    out_.fixed.front() = merged(out_.fixed.front(), out_.fixed.back());
+    out_.points.pop_back();
+    out_.tolerance.pop_back();
+    out_.fixed.pop_back();
+  }
+
+  void cut() {
+    CornerWishes wishes;
+    wishes.find = job_.find_corners;
+    if (job_.corner_angle) wishes.angle = *job_.corner_angle;
+    // points that are met exactly were rounded all the same, in print and as doubles
+    std::vector<double> blur = out_.tolerance;
+    for (std::size_t i = 0; i < blur.size(); ++i) {
+      blur[i] =
+          std::max({blur[i], series_.rounding.x, series_.rounding.y, least_move(out_.points[i])});
+    }
+    const std::vector<std::size_t> corners =
+        find_corners(out_.points, blur, out_.closed, out_.fixed, wishes);
+    for (const double t : out_.tolerance) out_.reach.push_back(t);
+    for (const std::size_t i : corners) out_.reach[i] = 0.0;  // both sides meet in the point itself
+    out_.split = split_sections(out_.points.size(), corners, out_.closed);
+    if (std::all_of(out_.tolerance.begin(), out_.tolerance.end(),
+                    [](double t) { return t == 0.0; })) {
+      out_.tolerance.clear();
+    }
+    const bool nothing = std::all_of(out_.fixed.begin(), out_.fixed.end(),
+                                     [](const FixedData& f) { return !f.theta && !f.kappa; });
+    if (nothing) out_.fixed.clear();
+  }
+
+  const PointSeries& series_;
+  const FitJob& job_;
+  Prepared out_;
+};
+
+}  // namespace
+
+Result<Prepared> prepare(const PointSeries& series, const FitJob& job) {
+  return Preparation(series, job).run();
+}
+
+}  // namespace obvid::pipeline_detail

@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "obvid/core/result.h"
+#include "obvid/pipeline/fit.h"
+#include "obvid/series/sections.h"
+
+namespace obvid::pipeline_detail {
+
+/// A series ready to be formed: cleaned, its tolerances known, cut at its corners.
+struct Prepared {
+  std::vector<Vec2> points;
+  std::vector<double> reach;  ///< how far each point may be moved; 0: not at all
+  std::vector<double>
+      tolerance;  ///< how far the contour may pass it; empty when all are met exactly
+  std::vector<FixedData> fixed;  ///< empty, or one entry per point
+  bool convex = false;
+  bool closed = false;
+  SplitSeries split;
+  std::vector<std::string> warnings;
+
+  [[nodiscard]] bool exact() const { return tolerance.empty(); }
+};
+
+/// Merges equal neighbours, gathers fixed data and tolerances from series and job, decides whether
+/// the series is closed, and finds its corners.
+/// Errors: E203 for wishes at points that do not exist; E303, E304.
+[[nodiscard]] Result<Prepared> prepare(const PointSeries& series, const FitJob& job);
+
+}  // namespace obvid::pipeline_detail
