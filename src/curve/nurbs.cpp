@@ -27,6 +27,7 @@ std::optional<NurbsCurve> as_one_nurbs(const Contour& contour) {
     curve.knots.insert(curve.knots.end(), i == 0 ? p + 1 : p, static_cast<double>(i));
   }
   if (curve.points.empty()) return std::nullopt;
+  if (contour.closed && curve.points.back() != curve.points.front()) return std::nullopt;
   curve.knots.insert(curve.knots.end(), static_cast<std::size_t>(curve.degree) + 1,
                      static_cast<double>(contour.pieces.size()));
   return curve;

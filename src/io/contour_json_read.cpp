@@ -4,6 +4,7 @@
 #include <limits>
 #include <nlohmann/json.hpp>
 #include <utility>
+#include <vector>
 
 #include "contour_json_names.h"
 #include "obvid/curve/nurbs.h"
@@ -137,13 +138,18 @@ class Reader {
 
   void read_head(const Node& root);
   void read_contour(const Node& root);
+  std::vector<double> point_tolerance(const Node& node);
   Joint joint(const Node& node);
+  void corner(const Node& node, Joint& joint);
+  void check_ends(const Node& elements);
   Piece piece(const Node& node);
   ArcPiece arc(const Node& node);
   ClothoidPiece clothoid(const Node& node);
   RationalBezier bezier(const Node& node);
   void exact_points(const Node& exact, const Node& points, RationalBezier& bezier);
   Run run(const Node& node);
+  [[nodiscard]] bool rows_fit(std::size_t rows) const;
+  std::vector<double> moves(const Node& node);
   FitReport report(const Node& node);
   SegmentReport segment(const Node& node);
   Certificate certificate(const Node& node);
@@ -298,6 +304,9 @@ void Reader::read_head(const Node& root) {
 void Reader::read_contour(const Node& root) {
   Contour& contour = stored_.contour;
   each(field(root, "points"), [&](const Node& node) { contour.points.push_back(point(node)); });
+  if (const auto node = optional_field(root, "point_tolerance")) {
+    contour.point_tolerance = point_tolerance(*node);
+  }
   const Node elements = field(root, "elements");
   each(elements, [&](const Node& node) { contour.joints.push_back(joint(node)); });
   const Node pieces = field(root, "pieces");
@@ -310,8 +319,24 @@ void Reader::read_contour(const Node& root) {
     refuse(elements,
            std::to_string(joints) + " elements do not fit " + std::to_string(around) + " pieces");
   }
+  check_ends(elements);
   if (const auto node = optional_field(root, "bspline")) one_nurbs(*node);
   each(field(root, "runs"), [&](const Node& node) { contour.runs.push_back(run(node)); });
+}
+
+/// One for each point, or none at all.
+std::vector<double> Reader::point_tolerance(const Node& node) {
+  std::vector<double> tolerance;
+  each(node, [&](const Node& one) {
+    tolerance.push_back(number(one));
+    if (tolerance.back() < 0.0) refuse(one, "a tolerance is not negative");
+  });
+  const std::size_t points = stored_.contour.points.size();
+  if (!tolerance.empty() && tolerance.size() != points) {
+    refuse(node, std::to_string(tolerance.size()) + " tolerances do not fit " +
+                     std::to_string(points) + " points");
+  }
+  return tolerance;
 }
 
 Joint Reader::joint(const Node& node) {
@@ -323,7 +348,33 @@ Joint Reader::joint(const Node& node) {
   if (source && !source->value->is_null()) {
     joint.source = index(*source, stored_.contour.points.size(), "points");
   }
+  corner(node, joint);
   return joint;
+}
+
+/// Heading and curvature behind a corner stand there and nowhere else: where the mark is taken
+/// away, what is left must not look like a smooth joint.
+void Reader::corner(const Node& node, Joint& joint) {
+  if (optional_flag(node, "corner", false)) {
+    joint.leaving = Element{joint.element.point, number(field(node, "heading_out")),
+                            number(field(node, "kappa_out"))};
+    return;
+  }
+  for (const string_view key : {"heading_out", "kappa_out"}) {
+    if (const auto given = optional_field(node, key)) {
+      refuse(*given, "the field stands at corners only");
+    }
+  }
+}
+
+/// Nothing leaves the end of an open contour and nothing arrives at its start.
+void Reader::check_ends(const Node& elements) {
+  const std::vector<Joint>& joints = stored_.contour.joints;
+  if (failed() || stored_.contour.closed) return;
+  for (const std::size_t i : {std::size_t{0}, joints.size() - 1}) {
+    if (!joints[i].leaving) continue;
+    refuse({&(*elements.value)[i], &elements, {}, i}, "an open contour has no corner at its ends");
+  }
 }
 
 Piece Reader::piece(const Node& node) {
@@ -462,22 +513,45 @@ SegmentReport Reader::segment(const Node& node) {
   return row;
 }
 
+/// One row for each chord of the points. Points with tolerances need not be joints: rows are then
+/// the parts between two joints that stand for points.
+bool Reader::rows_fit(std::size_t rows) const {
+  const Contour& contour = stored_.contour;
+  const std::size_t points = contour.points.size();
+  const std::size_t chords = contour.closed || points == 0 ? points : points - 1;
+  // A closed series may repeat its first point at the end or not.
+  if (rows == chords || (contour.closed && rows + 1 == chords)) return true;
+  if (contour.point_tolerance.empty()) return false;
+  std::size_t parts = 1;
+  for (std::size_t i = 1; i < contour.pieces.size(); ++i) {
+    if (contour.joints[i].source) ++parts;
+  }
+  return rows == parts;
+}
+
+std::vector<double> Reader::moves(const Node& node) {
+  std::vector<double> moves;
+  each(node, [&](const Node& one) { moves.push_back(number_or_nan(one)); });
+  const std::size_t points = stored_.contour.points.size();
+  if (!moves.empty() && moves.size() != points) {
+    refuse(node, std::to_string(moves.size()) + " moves do not fit " + std::to_string(points) +
+                     " points");
+  }
+  return moves;
+}
+
 FitReport Reader::report(const Node& node) {
   FitReport report;
   const Node segments = field(node, "segments");
   each(segments, [&](const Node& one) { report.segments.push_back(segment(one)); });
-  const std::size_t points = stored_.contour.points.size();
-  const std::size_t chords = stored_.contour.closed || points == 0 ? points : points - 1;
-  // A closed series may repeat its first point at the end or not.
-  const bool fits = report.segments.size() == chords ||
-                    (stored_.contour.closed && report.segments.size() + 1 == chords);
-  if (!fits) {
+  if (!failed() && !rows_fit(report.segments.size())) {
     refuse(segments, std::to_string(report.segments.size()) + " segments do not fit " +
-                         std::to_string(points) + " points");
+                         std::to_string(stored_.contour.points.size()) + " points");
   }
   report.tolerance = figure(node, "tolerance");
   report.largest_width = figure(node, "largest_width");
   report.largest_move = figure(node, "largest_move");
+  if (const auto list = optional_field(node, "moves")) report.moves = moves(*list);
   report.vertices = small_count(node, "vertices");
   report.vertices_lower_bound = small_count(node, "vertices_lower_bound");
   report.inflections = small_count(node, "inflections");
@@ -530,9 +604,16 @@ Certificate Reader::certificate(const Node& node) {
   claims.proved = flag(field(node, "proved"));
   claims.gaps_within_bounds = optional_flag(node, "gaps_within_bounds", claims.proved);
   claims.through_points = optional_flag(node, "through_points", claims.proved);
+  const bool exact = stored_.contour.point_tolerance.empty();
+  const double move = stored_.report ? stored_.report->largest_move : exact ? 0.0 : kNoClaim;
+  claims.largest_move = optional_figure(node, "largest_move", move);
   const auto count = [&](string_view key, int otherwise) {
     return optional_field(node, key) ? small_count(node, key) : otherwise;
   };
+  const std::vector<Joint>& joints = stored_.contour.joints;
+  const auto corners = std::count_if(joints.begin(), joints.end(),
+                                     [](const Joint& joint) { return joint.leaving.has_value(); });
+  claims.corners = count("corners", static_cast<int>(corners));
   claims.vertices = count("vertices", stored_.report ? stored_.report->vertices : 0);
   claims.inflections = count("inflections", stored_.report ? stored_.report->inflections : 0);
   claims.self_intersections = count("self_intersections", 0);

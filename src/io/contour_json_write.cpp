@@ -5,6 +5,7 @@
 #include <cmath>
 #include <iterator>
 #include <span>
+#include <vector>
 
 #include "contour_json_names.h"
 #include "obvid/curve/nurbs.h"
@@ -29,6 +30,7 @@ class Writer {
   void figure(std::string_view name, double value);
   void count(std::string_view name, long long value);
   void claim(std::string_view name, bool value);
+  void figures(std::string_view name, const std::vector<double>& values);
 
   template <class List, class Write>
   void inline_list(const List& list, Write write);
@@ -86,6 +88,11 @@ void Writer::claim(std::string_view name, bool value) {
   fmt::format_to(std::back_inserter(buffer_), "\"{}\": {}", name, value);
 }
 
+void Writer::figures(std::string_view name, const std::vector<double>& values) {
+  fmt::format_to(std::back_inserter(buffer_), "\"{}\": ", name);
+  inline_list(values, [&](double value) { number(value); });
+}
+
 template <class List, class Write>
 void Writer::inline_list(const List& list, Write write) {
   buffer_.push_back('[');
@@ -124,6 +131,12 @@ void Writer::element(const Joint& joint) {
     fmt::format_to(std::back_inserter(buffer_), "{}", *joint.source);
   } else {
     raw("null");
+  }
+  if (joint.leaving) {
+    raw(", \"corner\": true, ");
+    figure("heading_out", joint.leaving->theta);
+    raw(", ");
+    figure("kappa_out", joint.leaving->kappa);
   }
   raw("}");
 }
@@ -219,6 +232,10 @@ void Writer::report(const FitReport& report) {
   raw(",\n    ");
   figure("largest_move", report.largest_move);
   raw(",\n    ");
+  if (!report.moves.empty()) {
+    figures("moves", report.moves);
+    raw(",\n    ");
+  }
   count("vertices", report.vertices);
   raw(",\n    ");
   count("vertices_lower_bound", report.vertices_lower_bound);
@@ -269,6 +286,10 @@ void Writer::certificate(const Certificate& certificate) {
   raw(",\n    ");
   claim("through_points", certificate.through_points);
   raw(",\n    ");
+  figure("largest_move", certificate.largest_move);
+  raw(",\n    ");
+  count("corners", certificate.corners);
+  raw(",\n    ");
   count("vertices", certificate.vertices);
   raw(",\n    ");
   count("inflections", certificate.inflections);
@@ -305,6 +326,11 @@ std::string Writer::write(const StoredContour& stored) {
                  to_string(contour.carrier));
   line_list("points", contour.points, "  ", [&](Vec2 p) { point(p); });
   raw(",\n");
+  if (!contour.point_tolerance.empty()) {
+    raw("  ");
+    figures("point_tolerance", contour.point_tolerance);
+    raw(",\n");
+  }
   line_list("elements", contour.joints, "  ", [&](const Joint& joint) { element(joint); });
   raw(",\n");
   line_list("pieces", contour.pieces, "  ",

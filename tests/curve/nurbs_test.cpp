@@ -56,6 +56,26 @@ TEST(OneNurbs, RunsThroughThePiecesOfTheContour) {
   }
 }
 
+TEST(OneNurbs, TurnsAtCornersAndEndsWhereAClosedContourBegan) {
+  Contour contour;
+  contour.closed = true;
+  contour.pieces = {quadratic({0, 0}, {2, -1}, {4, 0}, 0.7),
+                    quadratic({4, 0}, {2, 3}, {0, 0}, 1.3)};
+  const auto curve = as_one_nurbs(contour);
+  ASSERT_TRUE(curve);
+  EXPECT_EQ(curve->points.front(), curve->points.back());
+  // Left and right of the corner the curve follows the legs of the control polygon.
+  constexpr double kStep = 1e-6;
+  const Vec2 corner = evaluate_by_basis(*curve, 1.0);
+  EXPECT_EQ(corner, (Vec2{4, 0}));
+  const Vec2 in = corner - evaluate_by_basis(*curve, 1.0 - kStep);
+  const Vec2 out = evaluate_by_basis(*curve, 1.0 + kStep) - corner;
+  EXPECT_NEAR(std::atan2(in.y, in.x), std::atan2(1.0, 2.0), 1e-5);
+  EXPECT_NEAR(std::atan2(out.y, out.x), std::atan2(3.0, -2.0), 1e-5);
+  contour.pieces[1] = quadratic({4, 0}, {2, 3}, {0, 0.001}, 1.3);
+  EXPECT_FALSE(as_one_nurbs(contour)) << "a closed contour with an open seam";
+}
+
 TEST(OneNurbs, NothingIsPromisedForArcsLooseEndsOrOtherWeights) {
   Contour contour;
   EXPECT_FALSE(as_one_nurbs(contour));

@@ -3,12 +3,15 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <bit>
 #include <cmath>
 #include <cstdint>
 #include <limits>
+#include <optional>
 #include <random>
 #include <string>
+#include <vector>
 
 namespace obvid {
 namespace {
@@ -54,12 +57,21 @@ void expect_same(const Contour& a, const Contour& b) {
   for (std::size_t i = 0; i < a.points.size(); ++i) {
     EXPECT_TRUE(same_bits(a.points[i], b.points[i]));
   }
+  ASSERT_EQ(a.point_tolerance.size(), b.point_tolerance.size());
+  for (std::size_t i = 0; i < a.point_tolerance.size(); ++i) {
+    EXPECT_TRUE(same_bits(a.point_tolerance[i], b.point_tolerance[i]));
+  }
   ASSERT_EQ(a.joints.size(), b.joints.size());
   for (std::size_t i = 0; i < a.joints.size(); ++i) {
     EXPECT_TRUE(same_bits(a.joints[i].element.point, b.joints[i].element.point));
     EXPECT_TRUE(same_bits(a.joints[i].element.theta, b.joints[i].element.theta));
     EXPECT_TRUE(same_bits(a.joints[i].element.kappa, b.joints[i].element.kappa));
     EXPECT_EQ(a.joints[i].source, b.joints[i].source);
+    ASSERT_EQ(a.joints[i].leaving.has_value(), b.joints[i].leaving.has_value());
+    if (!a.joints[i].leaving) continue;
+    EXPECT_TRUE(same_bits(a.joints[i].leaving->point, b.joints[i].leaving->point));
+    EXPECT_TRUE(same_bits(a.joints[i].leaving->theta, b.joints[i].leaving->theta));
+    EXPECT_TRUE(same_bits(a.joints[i].leaving->kappa, b.joints[i].leaving->kappa));
   }
   ASSERT_EQ(a.pieces.size(), b.pieces.size());
   for (std::size_t i = 0; i < a.pieces.size(); ++i) {
@@ -93,6 +105,10 @@ void expect_same(const FitReport& a, const FitReport& b) {
   }
   EXPECT_TRUE(same_bits(a.tolerance, b.tolerance) && same_bits(a.largest_width, b.largest_width));
   EXPECT_TRUE(same_bits(a.largest_move, b.largest_move) && same_bits(a.seconds, b.seconds));
+  ASSERT_EQ(a.moves.size(), b.moves.size());
+  for (std::size_t i = 0; i < a.moves.size(); ++i) {
+    EXPECT_TRUE(same_bits(a.moves[i], b.moves[i]));
+  }
   EXPECT_EQ(a.vertices, b.vertices);
   EXPECT_EQ(a.vertices_lower_bound, b.vertices_lower_bound);
   EXPECT_EQ(a.inflections, b.inflections);
@@ -116,6 +132,8 @@ void expect_same(const Certificate& a, const Certificate& b) {
   EXPECT_EQ(a.gaps_within_bounds, b.gaps_within_bounds);
   EXPECT_EQ(a.inside_region, b.inside_region);
   EXPECT_EQ(a.through_points, b.through_points);
+  EXPECT_TRUE(same_bits(a.largest_move, b.largest_move));
+  EXPECT_EQ(a.corners, b.corners);
   EXPECT_EQ(a.vertices, b.vertices);
   EXPECT_EQ(a.inflections, b.inflections);
   EXPECT_EQ(a.self_intersections, b.self_intersections);
@@ -193,17 +211,29 @@ Contour random_contour(Numbers& numbers) {
   const std::size_t pieces = 1 + numbers.below(6);
   for (std::size_t i = 0; i < pieces; ++i) contour.pieces.push_back(random_piece(numbers));
   for (std::size_t i = 0; i < 2 + numbers.below(6); ++i) contour.points.push_back(numbers.point());
-  for (std::size_t i = 0; i <= pieces; ++i) {
-    Joint joint{{numbers.point(), numbers.any(), numbers.any()}, std::nullopt};
+  if (numbers.coin()) {
+    for (std::size_t i = 0; i < contour.points.size(); ++i) {
+      contour.point_tolerance.push_back(numbers.coin() ? 0.0 : numbers.positive());
+    }
+  }
+  contour.closed = numbers.coin();
+  const std::size_t joints = contour.closed && numbers.coin() ? pieces : pieces + 1;
+  for (std::size_t i = 0; i < joints; ++i) {
+    Joint joint{{numbers.point(), numbers.any(), numbers.any()}, std::nullopt, std::nullopt};
     if (numbers.coin()) joint.source = numbers.below(contour.points.size());
+    const bool inner = contour.closed || (i > 0 && i < pieces);
+    if (inner && numbers.below(4) == 0) {
+      joint.leaving = Element{joint.element.point, numbers.any(), numbers.any()};
+    }
     contour.joints.push_back(joint);
   }
   contour.runs.push_back({0, pieces - 1, static_cast<int>(numbers.below(3)) - 1});
   return contour;
 }
 
-FitReport random_report(Numbers& numbers, std::size_t segments) {
+FitReport random_report(Numbers& numbers, std::size_t segments, std::size_t moves) {
   FitReport report;
+  for (std::size_t i = 0; i < moves; ++i) report.moves.push_back(numbers.positive());
   for (std::size_t i = 0; i < segments; ++i) {
     report.segments.push_back({numbers.positive(),
                                numbers.coin() ? kNan : numbers.any(),
@@ -237,6 +267,8 @@ Certificate random_certificate(Numbers& numbers, std::size_t pieces) {
   claims.gaps_within_bounds = numbers.coin();
   claims.inside_region = numbers.coin();
   claims.through_points = numbers.coin();
+  claims.largest_move = numbers.positive();
+  claims.corners = static_cast<int>(numbers.below(5));
   claims.vertices = static_cast<int>(numbers.below(5));
   claims.inflections = static_cast<int>(numbers.below(5));
   claims.self_intersections = static_cast<int>(numbers.below(5));
@@ -250,7 +282,10 @@ TEST(ContourJson, EveryContourReadsBackToTheSameBits) {
     SCOPED_TRACE(seed);
     Numbers numbers(seed);
     StoredContour stored{random_contour(numbers), std::nullopt, std::nullopt};
-    if (numbers.coin()) stored.report = random_report(numbers, stored.contour.points.size() - 1);
+    const std::size_t points = stored.contour.points.size();
+    if (numbers.coin()) {
+      stored.report = random_report(numbers, points - 1, numbers.coin() ? points : 0);
+    }
     if (numbers.coin()) {
       stored.certificate = random_certificate(numbers, stored.contour.pieces.size());
     }
@@ -307,6 +342,19 @@ TEST(ContourJson, FilesOfOtherProgramsMayLeaveOutWhatTheFormatLetsThem) {
   EXPECT_TRUE(read->certificate->through_points);
   EXPECT_EQ(read->certificate->vertices, 2);
   EXPECT_TRUE(std::isnan(read->report->segments[0].points_only_error));
+}
+
+TEST(ContourJson, AFileWithoutTolerancesAndCornersHasNone) {
+  const auto read = contour_from_json(kSmall, "f");
+  ASSERT_TRUE(read.has_value());
+  EXPECT_TRUE(read->contour.point_tolerance.empty());
+  EXPECT_TRUE(read->report->moves.empty());
+  EXPECT_EQ(read->certificate->corners, 0);
+  EXPECT_EQ(read->certificate->largest_move, 0.0);
+  const std::string text = contour_to_json(*read);
+  EXPECT_EQ(text.find("point_tolerance"), std::string::npos);
+  EXPECT_EQ(text.find("\"moves\""), std::string::npos);
+  EXPECT_EQ(text.find("\"corner\""), std::string::npos);
 }
 
 void expect_refused(const std::string& text, ErrorCode code, const std::string& where) {
@@ -381,12 +429,76 @@ TEST(ContourJson, WhatThisVersionDoesNotKnowIsCalledUnsupported) {
   expect_refused(with("\"line\"", "\"conic\""), unknown, "f: /pieces/0/type");
 }
 
+TEST(ContourJson, CornersSayHowTheContourLeavesThem) {
+  const std::string smooth = "\"heading\": 0, \"kappa\": 0, \"source\": null";
+  const std::string corner = smooth + ", \"corner\": true, \"heading_out\": 1.5, \"kappa_out\": -2";
+  const auto read = contour_from_json(with(smooth, corner), "f");
+  ASSERT_TRUE(read.has_value()) << to_line(read.error());
+  ASSERT_TRUE(read->contour.joints[1].leaving);
+  EXPECT_EQ(read->contour.joints[1].leaving->point, (Vec2{1, 0}));
+  EXPECT_EQ(read->contour.joints[1].leaving->theta, 1.5);
+  EXPECT_EQ(read->contour.joints[1].leaving->kappa, -2.0);
+  EXPECT_FALSE(read->contour.joints[0].leaving || read->contour.joints[2].leaving);
+  EXPECT_EQ(read->certificate->corners, 1) << "what the elements say, unless it is claimed";
+  EXPECT_NE(contour_to_json(*read).find(corner), std::string::npos);
+}
+
+TEST(ContourJson, HalfACornerIsRefused) {
+  const ErrorCode bad = ErrorCode::kBadJson;
+  const std::string smooth = "\"kappa\": 0, \"source\": null";
+  const std::string out = ", \"heading_out\": 1.5, \"kappa_out\": -2";
+  expect_refused(with(smooth, smooth + ", \"corner\": true, \"heading_out\": 1"), bad,
+                 "f: /elements/1/kappa_out");
+  expect_refused(with(smooth, smooth + out), bad, "f: /elements/1/heading_out");
+  expect_refused(with(smooth, smooth + ", \"corner\": false" + out), bad,
+                 "f: /elements/1/heading_out");
+  const std::string first = "\"source\": 0";
+  const std::string at_start = with(first, first + ", \"corner\": true" + out);
+  expect_refused(at_start, bad, "f: /elements/0");
+  expect_refused(with("1.5, \"kappa\": 0", "1.5, \"kappa\": 0, \"corner\": true" + out), bad,
+                 "f: /elements/3");
+  std::string closed = at_start;
+  closed.replace(closed.find("false"), 5, "true");
+  EXPECT_TRUE(contour_from_json(closed, "f").has_value()) << "a seam may be a corner";
+}
+
+TEST(ContourJson, TolerancesAndMovesAreOneForEachPoint) {
+  const ErrorCode bad = ErrorCode::kBadJson;
+  const std::string elements = "\"elements\"";
+  const auto tolerance = [&](const std::string& list) {
+    return with(elements, "\"point_tolerance\": " + list + ", " + elements);
+  };
+  const auto read = contour_from_json(tolerance("[0, 0.5, 1e-3]"), "f");
+  ASSERT_TRUE(read.has_value()) << to_line(read.error());
+  EXPECT_EQ(read->contour.point_tolerance, (std::vector<double>{0.0, 0.5, 1e-3}));
+  expect_refused(tolerance("0.5"), bad, "f: /point_tolerance");
+  expect_refused(tolerance("[0.5, 0.5]"), bad, "f: /point_tolerance");
+  expect_refused(tolerance("[0.5, 0.5, -1]"), bad, "f: /point_tolerance/2");
+  expect_refused(tolerance("[0.5, null, 1]"), bad, "f: /point_tolerance/1");
+  const std::string move = "\"largest_move\": 0";
+  const auto moves = contour_from_json(with(move, move + ", \"moves\": [0, 0.25, 1]"), "f");
+  ASSERT_TRUE(moves.has_value()) << to_line(moves.error());
+  EXPECT_EQ(moves->report->moves, (std::vector<double>{0.0, 0.25, 1.0}));
+  expect_refused(with(move, move + ", \"moves\": [0, 0.25]"), bad, "f: /report/moves");
+}
+
+TEST(ContourJson, PointsWithTolerancesNeedNoRowOfTheirOwn) {
+  // The only joint on a point is the first: one part, hence one row.
+  const std::string row =
+      "{\"chord\": 1, \"points_only_error\": null, \"width\": 0, \"deviation\": 0},";
+  std::string text = with(row, "");
+  expect_refused(text, ErrorCode::kBadJson, "f: /report/segments");
+  text.replace(text.find("\"elements\""), 0, "\"point_tolerance\": [1, 1, 1], ");
+  const auto read = contour_from_json(text, "f");
+  EXPECT_TRUE(read.has_value()) << to_line(read.error());
+}
+
 StoredContour two_parabolas() {
   StoredContour stored;
   Contour& contour = stored.contour;
   contour.points = {{0, 0}, {2, 1}, {3, 4}};
   for (std::size_t i = 0; i < 3; ++i) {
-    contour.joints.push_back({{contour.points[i], 0.0, 0.0}, i});
+    contour.joints.push_back({{contour.points[i], 0.0, 0.0}, i, std::nullopt});
   }
   for (const auto& control : {std::array<Vec2, 3>{Vec2{0, 0}, Vec2{1, 0}, Vec2{2, 1}},
                               std::array<Vec2, 3>{Vec2{2, 1}, Vec2{3, 2}, Vec2{3, 4}}}) {

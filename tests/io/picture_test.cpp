@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstdlib>
 #include <numbers>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -217,7 +218,7 @@ StoredContour on_points(const std::vector<Vec2>& points, const std::vector<obvid
   stored.contour.points = points;
   stored.contour.runs = runs;
   for (std::size_t i = 0; i < points.size(); ++i) {
-    stored.contour.joints.push_back({{points[i], 0.0, 0.0}, i});
+    stored.contour.joints.push_back({{points[i], 0.0, 0.0}, i, std::nullopt});
     if (i > 0) stored.contour.pieces.emplace_back(LinePiece{points[i - 1], points[i]});
   }
   return stored;
