@@ -89,6 +89,23 @@ void BorderedSystem::add(std::size_t node, std::size_t which, double gradient, d
   blocks_[node].diagonal[which][which] += hessian;
 }
 
+void BorderedSystem::add(std::size_t node, const Vec3& gradient, const Mat3& hessian) {
+  for (std::size_t r = 0; r < kPerNode; ++r) {
+    (in_border(node) ? border_gradient_[r] : blocks_[node].gradient[r]) += gradient[r];
+    for (std::size_t c = 0; c <= r; ++c) {
+      (in_border(node) ? border_hessian_[r][c] : blocks_[node].diagonal[r][c]) += hessian[r][c];
+    }
+  }
+}
+
+void BorderedSystem::add_to_slack_column(std::size_t node, std::size_t which, double value) {
+  if (in_border(node)) {
+    border_hessian_[slack_index()][which] += value;
+  } else {
+    column_[slack_index()][kPerNode * node + which] += value;
+  }
+}
+
 void BorderedSystem::add_slack(double gradient, double hessian) {
   border_gradient_[slack_index()] += gradient;
   border_hessian_[slack_index()][slack_index()] += hessian;

@@ -34,6 +34,10 @@ class BorderedSystem {
   void add(std::size_t link, const LinkTerms& terms);
   /// Adds to the gradient and the diagonal of one unknown.
   void add(std::size_t node, std::size_t which, double gradient, double hessian);
+  /// Adds to the gradient and the diagonal block (lower triangle) of a node.
+  void add(std::size_t node, const Vec3& gradient, const Mat3& hessian);
+  /// Adds to the coupling of an unknown to the slack.
+  void add_to_slack_column(std::size_t node, std::size_t which, double value);
   /// Takes an unknown out of the system. Call after everything was added.
   void fix(std::size_t node, std::size_t which);
   [[nodiscard]] double diagonal(std::size_t node, std::size_t which) const;

@@ -3,7 +3,7 @@
 
 #include <cmath>
 
-#include "bordered_system.h"
+#include "node_ends.h"
 
 namespace obvid::fairing_detail {
 namespace {
@@ -11,21 +11,11 @@ namespace {
 /// A free node may move by this part of its link to either side.
 constexpr double kFreeReach = 0.1;
 
-struct Placed {
-  Vec2 position;
-  double theta = 0.0, kappa = 0.0;
-};
-
-Placed place(const TubeNode& n, const double* x) {
-  return {n.point + x[0] * n.reach * n.normal, n.theta + x[1], n.kappa + x[2] / n.length};
-}
-
 /// Middle of the quintic Hermite curve over a link.
-TubeNode middle_node(const Placed& a, const Placed& b) {
+TubeNode middle_node(const NodeEnd& a, const NodeEnd& b) {
   const Vec2 chord = b.position - a.position;
   const double h = norm(chord), omega = heading(chord);
-  const double ta = std::tan(std::remainder(a.theta - omega, 2.0 * M_PI));
-  const double tb = std::tan(std::remainder(b.theta - omega, 2.0 * M_PI));
+  const double ta = std::tan(turning(chord, a.tangent)), tb = std::tan(turning(chord, b.tangent));
   const double sum = a.kappa + b.kappa;
   const double y = 5.0 / 32.0 * h * (ta - tb) + h * h * sum / 64.0;
   const double slope = -7.0 / 16.0 * (ta + tb) + h * (b.kappa - a.kappa) / 32.0;
@@ -34,7 +24,7 @@ TubeNode middle_node(const Placed& a, const Placed& b) {
   TubeNode n;
   const Vec2 along = (1.0 / h) * chord;
   n.point = a.position + 0.5 * chord + y * left_normal(along);
-  n.theta = a.theta + std::remainder(omega + std::atan(slope) - a.theta, 2.0 * M_PI);
+  n.theta = omega + std::atan(slope);
   n.normal = left_normal(unit_at(n.theta));
   n.kappa = bend / (run * run * run);
   n.length = 0.5 * h;
@@ -47,6 +37,7 @@ class Layer {
   Layer(const Tube& tube, const State& state, Window window, const Layout& layout)
       : tube_(tube), state_(state), window_(window), layout_(layout) {
     out_.tube.origin = tube.origin;
+    out_.tube.on_primitives = tube.on_primitives;
     out_.tube.closed = tube.closed && window.first == 0 && window.last == tube.links();
   }
 
@@ -83,8 +74,8 @@ class Layer {
       out_.tube.rows.insert(out_.tube.rows.end(), first, last);
       return;
     }
-    const Placed a = place(tube_.nodes[i], &state_[kPerNode * i]);
-    const Placed b = place(tube_.nodes[next], &state_[kPerNode * next]);
+    const NodeEnd a = place(tube_.nodes[i], &state_[kPerNode * i]).out;
+    const NodeEnd b = place(tube_.nodes[next], &state_[kPerNode * next]).in;
     const TubeNode middle = middle_node(a, b);
     constexpr double kQuarter = 0.25;  // half the chord, and the size goes with its square
     open_link(kQuarter * tube_.size[i], first_direction(c));

@@ -20,6 +20,12 @@ struct TubeNode {
   double length = 1.0;  ///< local scale, units
   double sign = 0.0;    ///< the curvature must keep this sign; 0 = free
   bool fix_theta = false, fix_kappa = false;
+  /// A primitive: the arc or line from `before` ahead of the anchor to `after` behind it, arc
+  /// lengths; it passes the points first_on .. last_on - 1 of `Tube::on_primitives`.
+  double before = 0.0, after = 0.0;
+  std::size_t first_on = 0, last_on = 0;
+
+  [[nodiscard]] bool is_primitive() const { return before + after > 0.0; }
 };
 
 /// A measured point between two nodes: the contour must pass it within `reach`.
@@ -36,6 +42,7 @@ struct Tube {
   std::vector<TubeNode> nodes;
   std::vector<TubeRow> rows;
   std::vector<std::size_t> first_row;
+  std::vector<TubeRow> on_primitives;
   std::vector<double> size;  ///< per link: expected B - A, the unit of its cone
   bool closed = false;
 

@@ -81,19 +81,29 @@ TubeModel::TubeModel(const Tube& tube, const std::vector<std::int8_t>& direction
 }
 
 void TubeModel::place_nodes(const State& x) {
-  for (std::size_t i = 0; i < nodes_; ++i) {
-    const TubeNode& n = node(i);
-    const double* v = &x[kPerNode * i];
-    const double theta = n.theta + v[1];
-    state_[i] = {n.point + v[0] * n.reach * n.normal,
-                 {std::cos(theta), std::sin(theta)},
-                 n.kappa + v[2] / n.length};
+  for (std::size_t i = 0; i < nodes_; ++i) state_[i] = place(node(i), &x[kPerNode * i]);
+}
+
+TubeModel::LinkJet TubeModel::link_jet(std::size_t i) const {
+  const std::size_t j = next(i);
+  const EndJet a = end_jet(node(i), state_[i], node(i).after);
+  const EndJet b = end_jet(node(j), state_[j], -node(j).before);
+  LinkJet out;
+  for (std::size_t k = 0; k < kPerNode; ++k) {
+    out.start[k] = a.position[k];
+    out.chord[k] = -a.position[k];
+    out.chord[kPerNode + k] = b.position[k];
+    out.theta_a[k] = a.theta[k];
+    out.kappa_a[k] = a.kappa[k];
+    out.theta_b[kPerNode + k] = b.theta[k];
+    out.kappa_b[kPerNode + k] = b.kappa[k];
   }
+  return out;
 }
 
 TubeModel::LinkState TubeModel::link_state(std::size_t i) const {
-  const NodeState& a = state_[i];
-  const NodeState& b = state_[i + 1 == nodes_ ? 0 : i + 1];
+  const NodeEnd& a = state_[i].out;
+  const NodeEnd& b = state_[next(i)].in;
   LinkState s;
   const Vec2 chord = b.position - a.position;
   s.h = norm(chord);
@@ -164,23 +174,18 @@ void TubeModel::add_cone(std::size_t i, const LinkState& s, const ConeState& c, 
     out.slack_gradient = -wr * fz - us * z;
     out.slack_hessian = wrr * fz * fz - 2.0 * wr * z * z + uss * z * z;
   }
-  const TubeNode& na = node(i);
-  const std::size_t j = i + 1 == nodes_ ? 0 : i + 1;
-  const TubeNode& nb = node(j);
-  const Vec2 normal{-s.along.y, s.along.x};
-  const double ka = state_[i].kappa, kb = state_[j].kappa;
-  const double wa = -na.reach * dot(na.normal, normal) / s.h;  // of the chord's heading
-  const double wb = nb.reach * dot(nb.normal, normal) / s.h;
-  const double ha = -na.reach * dot(na.normal, s.along), hb = nb.reach * dot(nb.normal, s.along);
-  const double A[6] = {0.5 * ka * ha - s.cos_alpha * wa, s.cos_alpha, 0.5 * s.h / na.length,
-                       0.5 * ka * hb - s.cos_alpha * wb, 0.0,         0.0};
-  const double B[6] = {0.5 * kb * ha + s.cos_beta * wa, 0.0,         0.0,
-                       0.5 * kb * hb + s.cos_beta * wb, -s.cos_beta, 0.5 * s.h / nb.length};
-  const double S[6] = {-2.0 * wa, 1.0, 0.0, -2.0 * wb, 1.0, 0.0};
-  double wm[6], wq[6], ws[6], M[6], Q[6];
-  for (int k = 0; k < 6; ++k) {
-    M[k] = B[k] - A[k];
-    Q[k] = B[k] + A[k];
+  const LinkJet jet = link_jet(i);
+  const Vec2 normal = left_normal(s.along);
+  const double ka = state_[i].out.kappa, kb = state_[next(i)].in.kappa;
+  double M[6], Q[6], S[6], wm[6], wq[6], ws[6];
+  for (std::size_t k = 0; k < 6; ++k) {
+    const double turn = dot(jet.chord[k], normal) / s.h;   // of the chord's heading
+    const double half = 0.5 * dot(jet.chord[k], s.along);  // of half its length
+    const double A = ka * half + 0.5 * s.h * jet.kappa_a[k] + s.cos_alpha * (jet.theta_a[k] - turn);
+    const double B = kb * half + 0.5 * s.h * jet.kappa_b[k] - s.cos_beta * (jet.theta_b[k] - turn);
+    M[k] = B - A;
+    Q[k] = A + B;
+    S[k] = jet.theta_a[k] + jet.theta_b[k] - 2.0 * turn;
     wm[k] = hmm * M[k] + hmq * Q[k] + hms * S[k];
     wq[k] = hmq * M[k] + hqq * Q[k] + hqs * S[k];
     ws[k] = hms * M[k] + hqs * Q[k] + hss * S[k];
@@ -195,8 +200,8 @@ void TubeModel::add_cone(std::size_t i, const LinkState& s, const ConeState& c, 
 }
 
 /// Lateral distance of a measured point from the quintic Hermite curve with the link's data.
-TubeModel::RowValue TubeModel::row_value(const TubeRow& row, const LinkState& s, const NodeState& a,
-                                         const NodeState& b) const {
+TubeModel::RowValue TubeModel::row_value(const TubeRow& row, const LinkState& s, const NodeEnd& a,
+                                         const NodeEnd& b) const {
   const Vec2 from_start = row.point - a.position;
   const double x = dot(s.along, from_start), y = cross(s.along, from_start);
   const double u = std::clamp(x / s.h, 0.0, 1.0), v = u * u, c = v * u;
@@ -217,26 +222,24 @@ TubeModel::RowValue TubeModel::row_value(const TubeRow& row, const LinkState& s,
 void TubeModel::add_rows(std::size_t i, const LinkState& s, double weight, LinkTerms& out) const {
   const std::size_t first = tube_.first_row[i], last = tube_.first_row[i + 1];
   if (first == last) return;
-  const std::size_t j = i + 1 == nodes_ ? 0 : i + 1;
-  const TubeNode& na = node(i);
-  const TubeNode& nb = node(j);
-  const Vec2 normal{-s.along.y, s.along.x};
-  const double la = na.reach * dot(na.normal, normal), lb = nb.reach * dot(nb.normal, normal);
+  const LinkJet jet = link_jet(i);
+  const Vec2 normal = left_normal(s.along);
   const double ca = 1.0 / s.cos_alpha, cb = 1.0 / s.cos_beta;
   const double w = weight * row_weight(i);
   for (std::size_t k = first; k < last; ++k) {
     const TubeRow& row = tube_.rows[k];
-    const RowValue v = row_value(row, s, state_[i], state_[j]);
-    // by alpha, beta (chord turns with the offsets), curvatures and the chord itself
+    const RowValue v = row_value(row, s, state_[i].out, state_[next(i)].in);
+    // by both angles to the chord, both curvatures and the chord itself
     const double da = s.h * v.h1 * ca * ca, db = s.h * v.h4 * cb * cb;
+    const double ka = s.h * s.h * v.h2 * ca * ca * ca, kb = s.h * s.h * v.h5 * cb * cb * cb;
     const double scale = -1.0 / (row.reach * reach_scale_);
-    const double turn = (da + db) / s.h;  // of both angles with the chord's heading
-    const double J[6] = {scale * ((1.0 - v.u) * la + turn * la),
-                         scale * da,
-                         scale * s.h * s.h * v.h2 * ca * ca * ca / na.length,
-                         scale * (v.u * lb - turn * lb),
-                         scale * db,
-                         scale * s.h * s.h * v.h5 * cb * cb * cb / nb.length};
+    double J[6];
+    for (std::size_t p = 0; p < 6; ++p) {
+      const double turn = dot(jet.chord[p], normal) / s.h;
+      const double lift = dot(jet.start[p] + v.u * jet.chord[p], normal);
+      J[p] = scale * (lift + da * (jet.theta_a[p] - turn) + db * (jet.theta_b[p] - turn) +
+                      ka * jet.kappa_a[p] + kb * jet.kappa_b[p]);
+    }
     const double r = v.residual, room = 1.0 / (1.0 - r * r);
     const double g = w * 2.0 * r * room, h = w * (2.0 * room + 4.0 * r * r * room * room);
     for (std::size_t p = 0; p < 6; ++p) {
@@ -245,6 +248,40 @@ void TubeModel::add_rows(std::size_t i, const LinkState& s, double weight, LinkT
       for (std::size_t q = 0; q <= p; ++q) out.hessian[p][q] += hp * J[q];
     }
   }
+}
+
+/// Points on a primitive: their distances from its circle.
+void TubeModel::add_primitive(std::size_t i, double weight, BorderedSystem& system) const {
+  const TubeNode& n = node(i);
+  const double w = weight / static_cast<double>(n.last_on - n.first_on);
+  Vec3 gradient{};
+  Mat3 hessian{};
+  for (std::size_t k = n.first_on; k < n.last_on; ++k) {
+    const TubeRow& row = tube_.on_primitives[k];
+    const CircleDistance d = circle_distance(n, state_[i], row.point);
+    const double unit = 1.0 / (row.reach * reach_scale_), r = d.value * unit;
+    const double room = 1.0 / (1.0 - r * r);
+    const double g = w * 2.0 * r * room * unit;
+    const double h = w * (2.0 * room + 4.0 * r * r * room * room) * unit * unit;
+    for (std::size_t p = 0; p < kPerNode; ++p) {
+      gradient[p] += g * d.slope[p];
+      for (std::size_t q = 0; q <= p; ++q) hessian[p][q] += h * d.slope[p] * d.slope[q];
+    }
+  }
+  system.add(i, gradient, hessian);
+}
+
+/// Sum of the logarithms of the room that points on a primitive have; -infinity outside.
+double TubeModel::primitive_room(std::size_t i) const {
+  const TubeNode& n = node(i);
+  LogSum sum;
+  for (std::size_t k = n.first_on; k < n.last_on; ++k) {
+    const TubeRow& row = tube_.on_primitives[k];
+    const double r = circle_distance(n, state_[i], row.point).value / (row.reach * reach_scale_);
+    if (!(std::abs(r) < 1.0)) return -kInfinity;
+    sum.add(1.0 - r * r);
+  }
+  return sum.value() / static_cast<double>(n.last_on - n.first_on);
 }
 
 void TubeModel::add_nodes(const State& x, double slack, const Weights& w, bool with_slack,
@@ -258,8 +295,12 @@ void TubeModel::add_nodes(const State& x, double slack, const Weights& w, bool w
     if (n.sign != 0.0 && w.cone > 0.0) {
       const double v = n.sign * (n.kappa * n.length + x[kPerNode * i + 2]) + slack;
       system.add(i, 2, -kSignWeight * w.cone * n.sign / v, kSignWeight * w.cone / (v * v));
-      if (with_slack) system.add_slack(-kSignWeight * w.cone / v, kSignWeight * w.cone / (v * v));
+      if (with_slack) {
+        system.add_slack(-kSignWeight * w.cone / v, kSignWeight * w.cone / (v * v));
+        system.add_to_slack_column(i, 2, kSignWeight * w.cone * n.sign / (v * v));
+      }
     }
+    if (n.is_primitive()) add_primitive(i, w.tube, system);
     if (n.reach == 0.0) system.fix(i, 0);
     if (n.fix_theta) system.fix(i, 1);
     if (n.fix_kappa || !(system.diagonal(i, 2) > 0.0)) system.fix(i, 2);
@@ -283,7 +324,7 @@ void TubeModel::assemble(const State& x, double slack, const Weights& w, bool wi
 
 double TubeModel::merit(const State& x, double slack, const Weights& w) {
   place_nodes(x);
-  double value = 0.0;
+  double value = 0.0, primitives = 0.0;
   LogSum cones, sigmas, signs, nodes;
   for (std::size_t i = 0; i < nodes_; ++i) {
     const TubeNode& n = node(i);
@@ -291,6 +332,10 @@ double TubeModel::merit(const State& x, double slack, const Weights& w) {
     const double room = 1.0 - e * e;
     if (!(room > 0.0)) return kInfinity;
     nodes.add(room);
+    if (n.is_primitive()) {
+      primitives += primitive_room(i);
+      if (!(primitives > -kInfinity)) return kInfinity;
+    }
     if (n.sign != 0.0 && w.cone > 0.0) {
       const double v = n.sign * (n.kappa * n.length + x[kPerNode * i + 2]) + slack;
       if (!(v > 0.0)) return kInfinity;
@@ -315,8 +360,8 @@ double TubeModel::merit(const State& x, double slack, const Weights& w) {
     const std::size_t last = tube_.first_row[i + 1];
     if (first == last) continue;
     LogSum link_rows;
-    const NodeState& a = state_[i];
-    const NodeState& b = state_[i + 1 == nodes_ ? 0 : i + 1];
+    const NodeEnd& a = state_[i].out;
+    const NodeEnd& b = state_[next(i)].in;
     for (std::size_t k = first; k < last; ++k) {
       const double r = row_value(tube_.rows[k], s, a, b).residual;
       const double room = 1.0 - r * r;
@@ -327,7 +372,7 @@ double TubeModel::merit(const State& x, double slack, const Weights& w) {
   }
   return value -
          w.cone * (cones.value() + kSigmaWeight * sigmas.value() + kSignWeight * signs.value()) -
-         w.tube * (nodes.value() + rows);
+         w.tube * (nodes.value() + rows + primitives);
 }
 
 double TubeModel::needed_slack(const State& x) {
@@ -353,12 +398,17 @@ double TubeModel::tube_use(const State& x) {
   double use = 0.0;
   for (std::size_t i = 0; i < nodes_; ++i) {
     use = std::max(use, std::abs(x[kPerNode * i]) / reach_scale_);
+    for (std::size_t k = node(i).first_on; k < node(i).last_on; ++k) {
+      const TubeRow& row = tube_.on_primitives[k];
+      const double d = circle_distance(node(i), state_[i], row.point).value;
+      use = std::max(use, std::abs(d) / (row.reach * reach_scale_));
+    }
   }
   for (std::size_t i = 0; i < link_count(); ++i) {
     const LinkState s = link_state(i);
     for (std::size_t k = tube_.first_row[i]; k < tube_.first_row[i + 1]; ++k) {
-      const NodeState& b = state_[i + 1 == nodes_ ? 0 : i + 1];
-      use = std::max(use, std::abs(row_value(tube_.rows[k], s, state_[i], b).residual));
+      const double r = row_value(tube_.rows[k], s, state_[i].out, state_[next(i)].in).residual;
+      use = std::max(use, std::abs(r));
     }
   }
   return use;

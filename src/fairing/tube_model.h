@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "bordered_system.h"
+#include "node_ends.h"
 #include "obvid/chain/chain.h"
 #include "tube.h"
 
@@ -53,10 +54,6 @@ class TubeModel {
   void set_reach_scale(double scale) { reach_scale_ = scale; }
 
  private:
-  struct NodeState {
-    Vec2 position, tangent;
-    double kappa = 0.0;
-  };
   struct LinkState {
     double h = 0.0, m = 0.0, q = 0.0, sigma = 0.0, sin_sigma = 0.0, cos_sigma = 1.0;
     double cos_alpha = 1.0, cos_beta = 1.0, sin_alpha = 0.0, sin_beta = 0.0;
@@ -79,8 +76,19 @@ class TubeModel {
     double residual;  // over reach
     double h1, h2, h4, h5, u;
   };
-  [[nodiscard]] RowValue row_value(const TubeRow& row, const LinkState& s, const NodeState& a,
-                                   const NodeState& b) const;
+  [[nodiscard]] RowValue row_value(const TubeRow& row, const LinkState& s, const NodeEnd& a,
+                                   const NodeEnd& b) const;
+  /// Derivatives of both ends of a link, first by the unknowns of its first node, then of its
+  /// second.
+  struct LinkJet {
+    std::array<Vec2, 6> chord;  ///< position of the end minus that of the start
+    std::array<Vec2, 6> start;
+    std::array<double, 6> theta_a{}, theta_b{}, kappa_a{}, kappa_b{};
+  };
+  [[nodiscard]] LinkJet link_jet(std::size_t i) const;
+  [[nodiscard]] double primitive_room(std::size_t i) const;
+  void add_primitive(std::size_t i, double weight, BorderedSystem& system) const;
+  [[nodiscard]] std::size_t next(std::size_t i) const { return i + 1 == nodes_ ? 0 : i + 1; }
   void add_nodes(const State& x, double slack, const Weights& w, bool with_slack,
                  BorderedSystem& system) const;
 
@@ -90,7 +98,7 @@ class TubeModel {
   LinkEnergy energy_;
   std::size_t nodes_ = 0;
   double reach_scale_ = 1.0;
-  std::vector<NodeState> state_;
+  std::vector<PlacedNode> state_;
 };
 
 }  // namespace obvid::fairing_detail
