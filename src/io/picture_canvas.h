@@ -34,6 +34,8 @@ class PicturePath {
   void move(Vec2 p);
   void line(Vec2 p);
   void cubic(Vec2 a, Vec2 b, Vec2 end);
+  /// Back to the last move.
+  void close() { text_ += 'Z'; }
   /// A line, left out while it is shorter than `step` px: keeps dense curves small.
   void thin_line(Vec2 p, double step);
   [[nodiscard]] bool empty() const { return text_.empty(); }

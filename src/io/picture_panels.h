@@ -19,21 +19,8 @@ inline constexpr std::size_t kMostColouredRuns = 2000;
 /// legend says how many there are.
 inline constexpr std::size_t kMostSymbols = 400;
 
-/// CSS name of a run's colour: up, down, even or plain.
-[[nodiscard]] const char* run_css(int direction);
-
-/// Direction that decides the colour of a piece.
-[[nodiscard]] int colour_of(const PictureTrack& track, std::size_t piece, bool coloured);
-
-/// Symbol of a vertex or an inflection.
-void add_feature(PictureCanvas& canvas, PictureFeature::Kind kind, Vec2 at);
-
 /// Upper panel: shape, comb, points, symbols, scale bar, legend. Returns the y of its lower end.
 double shape_panel(PictureCanvas& canvas, const PictureTrack& track, const Contour& contour,
-                   bool coloured, double top);
-
-/// Lower panels: curvature and radius over arc length. Returns the y of their lower end.
-double plot_panels(PictureCanvas& canvas, const PictureTrack& track, const std::string& units,
                    bool coloured, double top);
 
 }  // namespace obvid

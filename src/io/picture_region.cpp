@@ -25,7 +25,10 @@ int merged(int a, int b) {
 /// Direction of the contour from each point to the next; kNoRun where it changes or is not known.
 std::vector<int> chord_directions(const PictureTrack& track, const Contour& contour) {
   std::vector<int> direction(contour.points.size() - 1, kNoRun);
-  if (contour.joints.size() != track.pieces.size() + 1) return direction;
+  const std::size_t joints = contour.joints.size();
+  if (joints != track.pieces.size() + 1 && !(contour.closed && joints == track.pieces.size())) {
+    return direction;
+  }
   std::optional<std::size_t> chord;
   int common = 0;
   for (std::size_t j = 0; j < track.pieces.size(); ++j) {
@@ -34,12 +37,23 @@ std::vector<int> chord_directions(const PictureTrack& track, const Contour& cont
       common = 0;
     }
     common = merged(common, track.direction[j]);
-    const auto next = contour.joints[j + 1].source;
+    const auto next = contour.joints[(j + 1) % joints].source;
     if (chord && next && *next == *chord + 1 && *chord < direction.size()) {
       direction[*chord] = common;
     }
   }
   return direction;
+}
+
+/// Per point, whether the contour turns there at once: three points around it lie on no circle that
+/// says anything.
+std::vector<bool> corners_of(const Contour& contour) {
+  std::vector<bool> corner(contour.points.size(), false);
+  for (const Joint& joint : contour.joints) {
+    if (joint.leaving && joint.source && *joint.source < corner.size())
+      corner[*joint.source] = true;
+  }
+  return corner;
 }
 
 /// Point at the part `f` of an arc; exact for a straight one too.
@@ -71,12 +85,15 @@ void add_arc(PicturePath& path, Vec2 start, Vec2 chord, double half_turn, const 
 std::vector<PictureLens> points_only_region(const PictureTrack& track, const Contour& contour) {
   std::vector<PictureLens> region;
   const std::vector<Vec2>& points = track.points;
+  if (!contour.point_tolerance.empty()) return region;  // the contour need not meet the points
   if (points.size() < 4 || points.size() > kMostRegionPoints) return region;
   if (std::adjacent_find(points.begin(), points.end()) != points.end()) return region;
   const Result<Analysis> analysis = analyse(points);
   if (!analysis) return region;
   const std::vector<int> direction = chord_directions(track, contour);
+  const std::vector<bool> corner = corners_of(contour);
   for (std::size_t i = 1; i + 1 < direction.size(); ++i) {
+    if (corner[i] || corner[i + 1]) continue;
     // The circles of both points bound a curve only where it is monotone as far as these circles
     // reach, which is one chord further on either side.
     const int common = merged(merged(direction[i - 1], direction[i]), direction[i + 1]);

@@ -20,7 +20,8 @@ struct PictureLens {
 
 /// Lenses in which every monotone curve through the points lies, as far as the contour itself is
 /// monotone over a chord and both its neighbours; none when the points cannot be analysed or are
-/// too many for a lens to be seen. Cost O(points).
+/// too many for a lens to be seen, nor where points have tolerances or chords end at corners. Cost
+/// O(points).
 [[nodiscard]] std::vector<PictureLens> points_only_region(const PictureTrack& track,
                                                           const Contour& contour);
 

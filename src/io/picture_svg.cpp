@@ -4,38 +4,13 @@
 #include <algorithm>
 
 #include "picture_axis.h"
+#include "picture_moves.h"
 #include "picture_panels.h"
+#include "picture_plots.h"
+#include "picture_sheet.h"
 
 namespace obvid {
 namespace {
-
-/// Colours told apart by colour-blind eyes too, one set for light and one for dark viewers.
-/// Each colour stands in the light set first, so that viewers without CSS queries show that.
-constexpr const char* kStyle = R"(<style>
-text{font-family:"Helvetica Neue",Arial,"Liberation Sans","DejaVu Sans",sans-serif;fill:#1c2733}
-.title{font-size:20px;font-weight:600}.verdict{font-size:14px;font-weight:600}
-.small,.note{font-size:12px}.note,.fact{fill:#5b6773}.fact{font-size:13px}.axis-title{font-size:13px;font-weight:600}
-.paper{fill:#fff}path{fill:none}
-.good{fill:#1a7f37}.bad{fill:#c62828}.open{fill:#5b6773}
-.curve{stroke-width:2.6;stroke-linejoin:round;stroke-linecap:round}.graph{stroke-width:1.9;stroke-linejoin:round}
-.envelope{stroke-width:1;stroke-opacity:.75;stroke-linejoin:round}.teeth{stroke:#8a96a3;stroke-width:.7}
-.up{stroke:#1b6ec2}.down{stroke:#cf5a12}.even{stroke:#3f8a3a}.plain{stroke:#1c2733}
-.dot{stroke:#1c2733;stroke-linecap:round}.hole{stroke:#fff;stroke-linecap:round}
-.vertex{fill:#a3209b;stroke:#fff;stroke-width:1}.inflection{fill:#e0b400;stroke:#1c2733;stroke-width:1}
-.arrow{fill:#5b6773}.bar{stroke:#1c2733;stroke-width:1.4}
-.grid{stroke:#e1e6eb;stroke-width:1}.faint{stroke:#eff2f5;stroke-width:1}.axis{stroke:#7b8794;stroke-width:1}
-.joint{stroke:#1c2733;stroke-width:1}
-.region{fill:#ffb300;fill-opacity:.42;stroke:#b07900;stroke-opacity:.85;stroke-width:.6}.fine .curve{stroke-width:1.7}
-@media (prefers-color-scheme:dark){
-text{fill:#e6eaee}.note,.fact,.open{fill:#9aa6b2}.paper{fill:#14191f}
-.good{fill:#57d27a}.bad{fill:#ff7b72}.teeth{stroke:#5d6874}
-.up{stroke:#6cb2ff}.down{stroke:#ff9d57}.even{stroke:#8fd07a}.plain{stroke:#e6eaee}
-.dot{stroke:#e6eaee}.hole{stroke:#14191f}.vertex{fill:#f08be8;stroke:#14191f}
-.inflection{fill:#ffd84a;stroke:#14191f}.arrow{fill:#9aa6b2}.bar{stroke:#e6eaee}
-.grid{stroke:#29323b}.faint{stroke:#1e252c}.axis{stroke:#6b7783}.joint{stroke:#e6eaee}
-.region{fill:#ffca4a;fill-opacity:.34;stroke:#ffd97a}}
-</style>
-)";
 
 /// Verdicts longer than this are cut: the file tells the whole reason.
 constexpr std::size_t kLongestReason = 105;
@@ -46,8 +21,10 @@ std::string counted(std::size_t count, const char* one, const char* many) {
 
 std::string title_of(const Contour& contour) {
   const char* const kinds[] = {"Spiral contour", "Arc contour", "Clothoid contour"};
-  return std::string(kinds[static_cast<int>(contour.carrier)]) + " · " +
-         counted(contour.points.size(), "point", "points") + " · " +
+  std::string kind = kinds[static_cast<int>(contour.carrier)];
+  if (contour.closed)
+    kind = "Closed " + std::string(1, static_cast<char>(kind[0] - 'A' + 'a')) + kind.substr(1);
+  return kind + " · " + counted(contour.points.size(), "point", "points") + " · " +
          counted(contour.pieces.size(), "piece", "pieces");
 }
 
@@ -59,9 +36,12 @@ struct VerdictLine {
 VerdictLine verdict_of(const StoredContour& stored) {
   if (!stored.certificate) return {"open", "no certificate: nothing is claimed about this contour"};
   if (stored.certificate->proved) {
-    return {"good", stored.contour.carrier == Carrier::kArcs
-                        ? "✓ monotone radii and G1 joints proved"
-                        : "✓ monotone curvature and G2 joints proved"};
+    std::string text = stored.contour.carrier == Carrier::kArcs
+                           ? "✓ monotone radii and G1 joints"
+                           : "✓ monotone curvature and G2 joints";
+    if (stored.certificate->corners > 0) text += " between corners";
+    if (!stored.contour.point_tolerance.empty()) text += ", every point within its tolerance";
+    return {"good", text + (stored.contour.point_tolerance.empty() ? " proved" : ": proved")};
   }
   std::string reason = stored.certificate->reason;
   if (reason.size() > kLongestReason) {
@@ -85,6 +65,21 @@ std::string facts_of(const StoredContour& stored) {
   return text;
 }
 
+/// A second line where points have tolerances or the contour has corners.
+std::string measured_facts(const StoredContour& stored) {
+  if (!stored.certificate) return {};
+  std::string text;
+  if (!stored.contour.point_tolerance.empty()) {
+    text = "Points at most " + readable_number(stored.certificate->largest_move, 2) + " " +
+           stored.contour.units + " from the contour";
+  }
+  if (stored.certificate->corners > 0) {
+    text += (text.empty() ? "" : " · ") +
+            counted(static_cast<std::size_t>(stored.certificate->corners), "corner", "corners");
+  }
+  return text;
+}
+
 }  // namespace
 
 std::string picture_svg(const StoredContour& stored) {
@@ -92,21 +87,18 @@ std::string picture_svg(const StoredContour& stored) {
   const PictureTrack track = make_track(contour);
   const bool coloured = contour.runs.size() <= kMostColouredRuns;
   const VerdictLine verdict = verdict_of(stored);
+  const std::string title = title_of(contour);
   PictureCanvas body;
-  body.label({kPictureMargin, 40.0}, "start", "title", title_of(contour));
+  body.label({kPictureMargin, 40.0}, "start", "title", title);
   body.label({kPictureWidth - kPictureMargin, 40.0}, "end", "fact", facts_of(stored));
   body.label({kPictureMargin, 64.0}, "start", std::string("verdict ") + verdict.css, verdict.text);
-  const double below = shape_panel(body, track, contour, coloured, 78.0);
-  const double height = plot_panels(body, track, contour.units, coloured, below);
-
-  PictureCanvas picture;
-  picture.add(
-      "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 {0} {1}\" width=\"{0}\" "
-      "height=\"{1}\" role=\"img\">\n<title>{2}</title>\n<desc>{3}</desc>\n{4}"
-      "<rect class=\"paper\" width=\"{0}\" height=\"{1}\"/>\n{5}</svg>\n",
-      px(kPictureWidth), px(height), xml_text(title_of(contour)), xml_text(verdict.text), kStyle,
-      body.take());
-  return picture.take();
+  const std::string more = measured_facts(stored);
+  if (!more.empty()) body.label({kPictureMargin, 85.0}, "start", "fact", more);
+  const double top = more.empty() ? 78.0 : 99.0;
+  const double below = shape_panel(body, track, contour, coloured, top);
+  const PictureMoves moves = make_moves(track, stored);
+  const double height = plot_panels(body, track, moves, contour.units, coloured, below);
+  return picture_sheet(title, verdict.text, body.take(), height);
 }
 
 }  // namespace obvid

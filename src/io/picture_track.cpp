@@ -19,6 +19,8 @@ constexpr double kStepsPerDiagonal = 400.0;
 constexpr double kStraightPart = 1e-9;
 /// Curvatures below this, times the size, bend a line by less than coordinates can say.
 constexpr double kStraightAngle = 1e-12;
+/// Curvatures that differ by less, relatively, are the same on both sides of a corner.
+constexpr double kSameCurvature = 1e-7;
 constexpr int kBisections = 48;
 
 struct Mover {
@@ -103,21 +105,62 @@ void set_directions(PictureTrack& track, const std::vector<Run>& runs) {
   }
 }
 
-/// Vertices stand where the direction of change turns round; a circle between two opposite runs
-/// is one vertex, marked in its middle.
-void find_vertices(PictureTrack& track) {
-  int before = 0;
-  std::size_t turn = 0;
-  for (std::size_t i = 0; i < track.pieces.size(); ++i) {
-    const int now = track.direction[i];
-    if (now != 1 && now != -1) continue;
-    if (before != 0 && now != before) {
-      const std::size_t middle = (track.first[turn] + track.first[i]) / 2;
-      track.features.push_back({PictureFeature::Kind::kVertex, track.samples[middle]});
-    }
-    before = now;
-    turn = i + 1;
+void set_corners(PictureTrack& track, const Contour& contour) {
+  track.closed = contour.closed;
+  track.corner.assign(track.pieces.size(), false);
+  for (std::size_t i = contour.closed ? 0 : 1; i < track.pieces.size(); ++i) {
+    if (i >= contour.joints.size() || !contour.joints[i].leaving) continue;
+    track.corner[i] = true;
+    track.features.push_back({PictureFeature::Kind::kCorner, track.samples[track.first[i]]});
   }
+}
+
+/// Sign of the curvature's jump at the corner before a piece; 0 elsewhere.
+int corner_jump(const PictureTrack& track, std::size_t piece) {
+  if (!track.corner[piece]) return 0;
+  const std::size_t after = track.first[piece];
+  const double in = (after == 0 ? track.samples.back() : track.samples[after - 1]).kappa;
+  const double out = track.samples[after].kappa;
+  const double level =
+      std::max({std::fabs(in), std::fabs(out), track.largest_kappa * kStraightPart});
+  if (std::fabs(out - in) <= kSameCurvature * level) return 0;
+  return out > in ? 1 : -1;
+}
+
+/// One step of the way of change along a contour: a piece, or the jump at a corner.
+struct Change {
+  int sign = 0;
+  std::size_t first = 0;  // samples
+  std::size_t last = 0;
+};
+
+std::vector<Change> changes_of(const PictureTrack& track) {
+  std::vector<Change> changes;
+  for (std::size_t i = 0; i < track.pieces.size(); ++i) {
+    const std::size_t start = track.first[i];
+    if (const int jump = corner_jump(track, i)) changes.push_back({jump, start, start});
+    const int now = track.direction[i];
+    if (now == 1 || now == -1) changes.push_back({now, start, track.first[i + 1] - 1});
+  }
+  return changes;
+}
+
+/// Vertices stand where the direction of change turns round, jumps at corners included; a circle
+/// between two opposite runs is one vertex, marked in its middle.
+void find_vertices(PictureTrack& track) {
+  const std::vector<Change> changes = changes_of(track);
+  const auto mark = [&track](std::size_t sample) {
+    track.features.push_back({PictureFeature::Kind::kVertex, track.samples[sample]});
+  };
+  for (std::size_t j = 1; j < changes.size(); ++j) {
+    if (changes[j].sign == changes[j - 1].sign) continue;
+    mark((changes[j - 1].last + 1 + changes[j].first) / 2);
+  }
+  if (!track.closed || changes.size() < 2 || changes.front().sign == changes.back().sign) return;
+  // Across the seam: the circle in the middle may lie on both its sides.
+  const std::size_t count = track.samples.size();
+  const std::size_t between = count - changes.back().last - 1 + changes.front().first;
+  mark((changes.back().last + 1 + between / 2) % count);
 }
 
 PictureSample refine_inflection(const Piece& piece, PictureSample a, PictureSample b) {
@@ -135,7 +178,8 @@ void find_inflections(PictureTrack& track) {
   const double diagonal = track.box.diagonal();
   const double straight = std::max(kStraightPart * track.largest_kappa,
                                    diagonal > 0.0 ? kStraightAngle / diagonal : 0.0);
-  std::size_t last = track.samples.size();  // last sample with a sign
+  std::size_t last = track.samples.size();   // last sample with a sign
+  std::size_t first = track.samples.size();  // first one
   std::size_t last_piece = 0;
   for (std::size_t i = 0; i < track.pieces.size(); ++i) {
     for (std::size_t j = track.first[i]; j < track.first[i + 1]; ++j) {
@@ -148,10 +192,14 @@ void find_inflections(PictureTrack& track) {
                                      : track.samples[(last + j) / 2];
         track.features.push_back({PictureFeature::Kind::kInflection, at});
       }
+      if (last == track.samples.size()) first = j;
       last = j;
       last_piece = i;
     }
   }
+  if (!track.closed || last == track.samples.size()) return;
+  if ((track.samples[last].kappa < 0.0) == (track.samples[first].kappa < 0.0)) return;
+  track.features.push_back({PictureFeature::Kind::kInflection, track.samples.front()});
 }
 
 /// Jump of the curvature at the start of a piece; 0 at both ends of the contour.
@@ -205,6 +253,7 @@ PictureTrack make_track(const Contour& contour) {
   }
   sample_pieces(track);
   set_directions(track, contour.runs);
+  set_corners(track, contour);
   find_vertices(track);
   find_inflections(track);
   const auto earlier = [](const PictureFeature& a, const PictureFeature& b) {
@@ -212,6 +261,12 @@ PictureTrack make_track(const Contour& contour) {
   };
   std::stable_sort(track.features.begin(), track.features.end(), earlier);
   return track;
+}
+
+std::size_t count_features(const PictureTrack& track, PictureFeature::Kind kind) {
+  const auto same = [kind](const PictureFeature& f) { return f.kind == kind; };
+  return static_cast<std::size_t>(
+      std::count_if(track.features.begin(), track.features.end(), same));
 }
 
 std::vector<PictureTooth> comb_teeth(const PictureTrack& track, int count) {

@@ -17,9 +17,9 @@ struct PictureSample {
   double t = 0.0;      ///< native parameter inside its piece
 };
 
-/// Vertex or inflection.
+/// Vertex, inflection or corner.
 struct PictureFeature {
-  enum class Kind { kVertex, kInflection } kind = Kind::kVertex;
+  enum class Kind { kVertex, kInflection, kCorner } kind = Kind::kVertex;
   PictureSample at;
 };
 
@@ -42,6 +42,8 @@ struct PictureTrack {
   std::vector<PictureSample> samples;  ///< piece after piece, both ends of each included
   std::vector<std::size_t> first;      ///< index of each piece's first sample, plus the end
   std::vector<int> direction;          ///< per piece, of its run; 2 when no run covers it
+  std::vector<bool> corner;            ///< per piece, whether it starts at a corner
+  bool closed = false;
   std::vector<PictureFeature> features;
   PictureBox box;  ///< curve and points, without the comb
   double length = 0.0;
@@ -53,6 +55,8 @@ inline constexpr int kNoRun = 2;
 
 /// Samples the contour. Cost O(pieces).
 [[nodiscard]] PictureTrack make_track(const Contour& contour);
+
+[[nodiscard]] std::size_t count_features(const PictureTrack& track, PictureFeature::Kind kind);
 
 /// About `count` teeth, half of them even in arc length, half even in curvature change.
 [[nodiscard]] std::vector<PictureTooth> comb_teeth(const PictureTrack& track, int count);

@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string>
+
+#include "picture_axis.h"
+#include "picture_canvas.h"
+#include "picture_moves.h"
+#include "picture_track.h"
+
+namespace obvid {
+
+struct PictureRange {
+  double low = 0.0;
+  double high = 0.0;
+};
+
+/// Curvatures of a contour, and 0.
+[[nodiscard]] PictureRange curvature_range(const PictureTrack& track);
+/// Axis for these curvatures of a contour of this size.
+[[nodiscard]] PictureAxis curvature_axis(PictureRange range, double diagonal);
+[[nodiscard]] std::string curvature_title(const PictureAxis& axis, const std::string& units);
+[[nodiscard]] double curvature_of(const PictureSample& sample);
+
+/// Lower panels: curvature, moves where points have tolerances, and radius over arc length. Returns
+/// the y of their lower end.
+double plot_panels(PictureCanvas& canvas, const PictureTrack& track, const PictureMoves& moves,
+                   const std::string& units, bool coloured, double top);
+
+}  // namespace obvid
