@@ -3,7 +3,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
+#include <optional>
 
+#include "find_primitives.h"
 #include "obvid/series/analysis.h"
 #include "tube_solver.h"
 
@@ -37,7 +40,8 @@ constexpr double kRoom = 1.15;          ///< of a widened tube around its conten
 
 class Builder {
  public:
-  explicit Builder(const MeasuredSeries& series) : series_(series) {
+  Builder(const MeasuredSeries& series, const std::vector<std::size_t>& unwanted)
+      : series_(series), unwanted_(unwanted) {
     tube_.closed = series.closed;
     tube_.origin = series.points.front();
   }
@@ -60,8 +64,14 @@ class Builder {
       }
     }
     if (series_.closed) begin_in_a_run();
+    if (series_.primitives) set_primitives();
     set_sizes(tube_, x_);
-    return {std::move(tube_), std::move(x_), std::move(source_), steps_};
+    SmoothTube out{std::move(tube_), std::move(x_), {}, {}, steps_};
+    for (const Knot& k : knots_) {
+      out.source.push_back(k.first);
+      out.last_source.push_back(k.last);
+    }
+    return out;
   }
 
  private:
@@ -147,18 +157,88 @@ class Builder {
     smooth();
   }
 
+  /// A node to be: one point, or all points of a primitive.
+  struct Knot {
+    std::size_t first = 0, last = 0;  ///< indices into the series
+    std::optional<Primitive> primitive;
+  };
+
+  /// Lines and arcs that the points mean become nodes; the points between stay as they are.
+  void set_primitives() {
+    const std::vector<std::size_t> order = points_in_order();
+    SmoothPoints smooth = smooth_points(order);
+    std::vector<Primitive> found = find_primitives(smooth);
+    std::erase_if(found, [&](const Primitive& p) {
+      return std::any_of(unwanted_.begin(), unwanted_.end(), [&](std::size_t i) {
+        return std::find(order.begin() + static_cast<std::ptrdiff_t>(p.first),
+                         order.begin() + static_cast<std::ptrdiff_t>(p.last) + 1,
+                         i) != order.begin() + static_cast<std::ptrdiff_t>(p.last) + 1;
+      });
+    });
+    if (found.empty()) return;
+    std::vector<bool> is_node(series_.points.size(), false);
+    for (const std::size_t i : source_) is_node[i] = true;
+    knots_.clear();
+    auto next = found.begin();
+    for (std::size_t k = 0; k < order.size(); ++k) {
+      if (next != found.end() && next->first == k) {
+        knots_.push_back({order[next->first], order[next->last], *next});
+        k = next->last;
+        ++next;
+      } else if (is_node[order[k]]) {
+        knots_.push_back({order[k], order[k], std::nullopt});
+      }
+    }
+    smooth_knots();
+  }
+
+  [[nodiscard]] std::vector<std::size_t> points_in_order() const {
+    std::vector<std::size_t> order(series_.points.size());
+    for (std::size_t k = 0; k < order.size(); ++k) {
+      order[k] = (source_.front() + k) % order.size();
+    }
+    return order;
+  }
+
+  /// Points with the arc length and curvature of the smooth curve, linear between its nodes.
+  [[nodiscard]] SmoothPoints smooth_points(const std::vector<std::size_t>& order) const {
+    SmoothPoints out;
+    std::vector<std::size_t> node_of(series_.points.size(), series_.points.size());
+    for (std::size_t i = 0; i < source_.size(); ++i) node_of[source_[i]] = i;
+    std::size_t node = 0;
+    for (const std::size_t i : order) {
+      const Vec2 p = local(i);
+      if (node_of[i] < source_.size()) node = node_of[i];
+      const TubeNode& n = tube_.nodes[node];
+      out.at.push_back(out.points.empty() ? 0.0 : out.at.back() + norm(p - out.points.back()));
+      out.points.push_back(p);
+      out.reach.push_back(series_.reach[i]);
+      out.kappa.push_back(n.kappa + x_[kPerNode * node + 2] / n.length);
+      out.free.push_back(!given(i));
+    }
+    return out;
+  }
+
   void lay_nodes() {
-    const std::size_t n = source_.size();
     std::vector<Vec2> points;
-    if (series_.closed) points.push_back(local(source_.back()));
-    for (const std::size_t i : source_) points.push_back(local(i));
-    if (series_.closed) points.push_back(local(source_.front()));
+    std::vector<std::size_t> place_of;  // of each knot, its first point
+    if (series_.closed) points.push_back(local(knots_.back().last));
+    for (const Knot& k : knots_) {
+      place_of.push_back(points.size());
+      points.push_back(local(k.first));
+      if (k.primitive) points.push_back(local(k.last));
+    }
+    if (series_.closed) points.push_back(local(knots_.front().first));
     const std::vector<Chord> chords = measure_chords(points);
     const std::vector<AdjacentCircle> circles = measure_circles(points, chords);
-    const std::size_t shift = series_.closed ? 1 : 0;
-    tube_.nodes.assign(n, {});
-    for (std::size_t i = 0; i < n; ++i) {
-      const std::size_t k = i + shift;
+    tube_.nodes.assign(knots_.size(), {});
+    tube_.on_primitives.clear();
+    for (std::size_t i = 0; i < knots_.size(); ++i) {
+      if (knots_[i].primitive) {
+        tube_.nodes[i] = primitive_node(knots_[i]);
+        continue;
+      }
+      const std::size_t k = place_of[i];
       const bool last = k >= chords.size();
       TubeNode& node = tube_.nodes[i];
       node.point = points[k];
@@ -166,9 +246,31 @@ class Builder {
           last ? chords[k - 1].omega + circles[k].eta_in : chords[k].omega - circles[k].eta_out;
       node.kappa = circles[k].kappa;
       node.length = 0.5 * (chords[k > 0 ? k - 1 : 0].length + chords[last ? k - 1 : k].length);
-      give(node, source_[i]);
+      give(node, knots_[i].first);
     }
-    x_.assign(kPerNode * n, 0.0);
+    x_.assign(kPerNode * knots_.size(), 0.0);
+  }
+
+  TubeNode primitive_node(const Knot& knot) {
+    const Primitive& p = *knot.primitive;
+    TubeNode node;
+    node.point = p.anchor;
+    node.theta = p.theta;
+    node.kappa = p.kappa;
+    node.fix_kappa = p.kappa == 0.0;
+    node.before = p.before;
+    node.after = p.after;
+    node.length = p.before + p.after;
+    node.normal = left_normal(unit_at(node.theta));
+    node.first_on = tube_.on_primitives.size();
+    const std::size_t n = series_.points.size();
+    const std::size_t to = knot.last >= knot.first ? knot.last : knot.last + n;
+    for (std::size_t i = knot.first; i <= to; ++i) {
+      tube_.on_primitives.push_back({local(i % n), series_.reach[i % n]});
+      node.reach = std::max(node.reach, series_.reach[i % n]);
+    }
+    node.last_on = tube_.on_primitives.size();
+    return node;
   }
 
   void give(TubeNode& node, std::size_t i) const {
@@ -177,7 +279,7 @@ class Builder {
       node.sign = d.curvature_sign;
       node.fix_theta = d.theta.has_value();
       node.fix_kappa = d.kappa.has_value();
-      if (d.theta) node.theta += std::remainder(*d.theta - node.theta, 2.0 * M_PI);
+      if (d.theta) node.theta += std::remainder(*d.theta - node.theta, 2.0 * std::numbers::pi);
       if (d.kappa) node.kappa = *d.kappa;
     }
     node.normal = left_normal(unit_at(node.theta));
@@ -190,9 +292,9 @@ class Builder {
     const std::size_t links = tube_.links(), n = series_.points.size();
     for (std::size_t i = 0; i < links; ++i) {
       tube_.first_row.push_back(tube_.rows.size());
-      const std::size_t next = source_[(i + 1) % source_.size()];
-      const std::size_t to = next > source_[i] ? next : next + n;
-      for (std::size_t k = source_[i] + 1; k < to; ++k) {
+      const std::size_t from = knots_[i].last, next = knots_[(i + 1) % knots_.size()].first;
+      const std::size_t to = next > from ? next : next + n;
+      for (std::size_t k = from + 1; k < to; ++k) {
         tube_.rows.push_back({local(k % n), series_.reach[k % n]});
       }
     }
@@ -209,7 +311,7 @@ class Builder {
       node.kappa += x[2] / node.length;
       x[1] = x[2] = 0.0;
       node.normal = left_normal(unit_at(node.theta));
-      node.reach = series_.reach[source_[i]];
+      if (!node.is_primitive()) node.reach = series_.reach[knots_[i].first];
       if (node.reach > 0.0) {
         constexpr double kInside = 0.99;  // a turned normal may leave the circle by a hair
         x[0] = std::clamp(dot(moved, node.normal) / node.reach, -kInside, kInside);
@@ -219,6 +321,12 @@ class Builder {
 
   /// Lays the tube and a smooth curve in it. False when the curve would not go through it.
   bool smooth() {
+    knots_.clear();
+    for (const std::size_t i : source_) knots_.push_back({i, i, std::nullopt});
+    return smooth_knots();
+  }
+
+  bool smooth_knots() {
     lay_nodes();
     lay_rows();
     const std::vector<std::int8_t> no_direction(tube_.links(), 1);
@@ -240,27 +348,29 @@ class Builder {
   const MeasuredSeries& series_;
   Tube tube_;
   State x_;
+  const std::vector<std::size_t>& unwanted_;
   std::vector<std::size_t> source_;
+  std::vector<Knot> knots_;
   int steps_ = 0;
 };
 
 }  // namespace
 
-SmoothTube build_tube(const MeasuredSeries& series) { return Builder(series).run(); }
+SmoothTube build_tube(const MeasuredSeries& series, const std::vector<std::size_t>& unwanted) {
+  return Builder(series, unwanted).run();
+}
 
 void set_sizes(Tube& tube, const State& x) {
   const std::size_t n = tube.nodes.size(), links = tube.links();
-  const auto position = [&](std::size_t i) {
-    const TubeNode& node = tube.nodes[i];
-    return node.point + x[kPerNode * i] * node.reach * node.normal;
-  };
-  std::vector<double> at(links + 1, 0.0), kappa(links + 1);  // arc length by chords, curvature
+  std::vector<double> at(links + 1, 0.0), kappa(links + 1);  // length of the links, curvature
   std::vector<double> gap(links);
   for (std::size_t i = 0; i <= links; ++i) {
     const std::size_t k = i % n;
     kappa[i] = tube.nodes[k].kappa + x[kPerNode * k + 2] / tube.nodes[k].length;
     if (i == links) break;
-    gap[i] = norm(position((i + 1) % n) - position(k));
+    const std::size_t next = (i + 1) % n;
+    gap[i] = norm(place(tube.nodes[next], &x[kPerNode * next]).in.position -
+                  place(tube.nodes[k], &x[kPerNode * k]).out.position);
     at[i + 1] = at[i] + gap[i];
   }
   tube.size.assign(links, 0.0);

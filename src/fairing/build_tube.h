@@ -12,13 +12,16 @@ namespace obvid::fairing_detail {
 struct SmoothTube {
   Tube tube;
   State state;
-  std::vector<std::size_t> source;  ///< per node: index of its measured point
+  std::vector<std::size_t> source;       ///< per node: index of its measured point, of a primitive
+  std::vector<std::size_t> last_source;  ///< its first one, and its last one
   int newton_steps = 0;
 };
 
 /// Chooses nodes among the points and lays a smooth curve through the tube, without regard to
-/// directions.
-[[nodiscard]] SmoothTube build_tube(const MeasuredSeries& series);
+/// directions. Where primitives are wanted, stretches that mean a line or circle become one node
+/// each, except those with an `unwanted` point.
+[[nodiscard]] SmoothTube build_tube(const MeasuredSeries& series,
+                                    const std::vector<std::size_t>& unwanted = {});
 
 /// Expected sizes of all links from the curvatures at x: the largest mean rate of curvature over
 /// three links before, after and around, but not less than what the tolerance can hide.

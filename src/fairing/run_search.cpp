@@ -26,24 +26,46 @@ void fill(Layout& layout, std::size_t from, std::size_t to, std::int8_t sign) {
 
 }  // namespace
 
-/// Courses of the circles through neighbouring nodes of the smooth curve.
-Layout RunSearch::smooth_layout() const {
-  const std::size_t n = tube_.nodes.size(), links = tube_.links(), extra = tube_.closed ? 1 : 0;
+/// Curvature along the smooth curve: of the circles through neighbouring nodes, and of primitives.
+std::vector<double> RunSearch::smooth_curvatures() const {
+  const std::size_t n = tube_.nodes.size();
   std::vector<Vec2> points;
-  for (std::size_t k = 0; k < n + 3 * extra; ++k) {
-    const std::size_t i = (k + n - extra) % n;
-    const TubeNode& node = tube_.nodes[i];
-    points.push_back(node.point + smooth_[kPerNode * i] * node.reach * node.normal);
+  std::vector<std::size_t> place_of(n);
+  const auto add = [&](std::size_t i) {
+    const PlacedNode p = place(tube_.nodes[i], &smooth_[kPerNode * i]);
+    place_of[i] = points.size();
+    points.push_back(p.in.position);
+    if (tube_.nodes[i].is_primitive()) points.push_back(p.out.position);
+  };
+  if (tube_.closed) add(n - 1);
+  for (std::size_t i = 0; i < n; ++i) add(i);
+  if (tube_.closed) {
+    const std::size_t first = place_of.front();
+    add(0);
+    place_of.front() = first;
   }
   const std::vector<AdjacentCircle> circles = measure_circles(points, measure_chords(points));
+  std::vector<double> kappa(n);
+  for (std::size_t i = 0; i < n; ++i) {
+    const TubeNode& node = tube_.nodes[i];
+    kappa[i] = node.is_primitive() ? node.kappa + smooth_[kPerNode * i + 2] / node.length
+                                   : circles[place_of[i]].kappa;
+  }
+  return kappa;
+}
+
+Layout RunSearch::smooth_layout() const {
+  const std::size_t n = tube_.nodes.size(), links = tube_.links();
+  const std::vector<double> kappa = smooth_curvatures();
   Layout layout(links);
   for (std::size_t i = 0; i < links; ++i) {
-    const double change = circles[i + 1 + extra].kappa - circles[i + extra].kappa;
-    layout[i] = course(change >= 0.0 ? 1 : -1);
+    layout[i] = course(kappa[(i + 1) % n] >= kappa[i] ? 1 : -1);
   }
-  if (!tube_.closed && links > 2) {  // the circles at the ends are their neighbours'
-    layout.front() = layout[1];
-    layout.back() = layout[links - 2];
+  if (tube_.closed || links < 3) return layout;
+  // the circles at the ends are their neighbours'
+  if (!tube_.nodes.front().is_primitive() && !tube_.nodes[1].is_primitive()) layout[0] = layout[1];
+  if (!tube_.nodes.back().is_primitive() && !tube_.nodes[n - 2].is_primitive()) {
+    layout[links - 1] = layout[links - 2];
   }
   return layout;
 }

@@ -46,6 +46,7 @@ class RunSearch {
     double strength = 0.0;            ///< change of curvature times length^2, in reaches
   };
 
+  [[nodiscard]] std::vector<double> smooth_curvatures() const;
   [[nodiscard]] Layout smooth_layout() const;
   [[nodiscard]] std::vector<Run> runs_of(const Layout& layout) const;
   [[nodiscard]] Window neighbourhood(const Layout& layout, std::size_t from, std::size_t to) const;

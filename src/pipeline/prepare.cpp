@@ -29,6 +29,7 @@ class Preparation {
 
   Result<Prepared> run() {
     out_.convex = job_.convex;
+    out_.primitives = job_.primitives;
     if (auto done = gather(); !done) return fail(done.error());
     give_ends();
     set_tolerances();

@@ -18,6 +18,7 @@ struct Prepared {
       tolerance;  ///< how far the contour may pass it; empty when all are met exactly
   std::vector<FixedData> fixed;  ///< empty, or one entry per point
   bool convex = false;
+  bool primitives = false;
   bool closed = false;
   SplitSeries split;
   std::vector<std::string> warnings;

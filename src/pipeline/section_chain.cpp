@@ -146,6 +146,7 @@ class SectionChooser {
     MeasuredSeries measured;
     measured.points = points_;
     measured.closed = loop_;
+    measured.primitives = series_.primitives;
     for (const std::size_t i : index_) measured.reach.push_back(series_.reach[i]);
     give_nodes(measured);
     const FairedSeries faired = fair(measured, progress_);
@@ -198,6 +199,11 @@ class SectionChooser {
       const auto source = nodes.source[k];
       nodes.nodes.push_back(source && !measured.nodes.empty() ? measured.nodes[*source]
                                                               : NodeData{});
+      const bool arc_before = k > 0 && nodes.direction[k - 1] == 0;
+      const bool arc_after = k < nodes.direction.size() && nodes.direction[k] == 0;
+      if (!arc_before && !arc_after) continue;
+      nodes.nodes.back().theta = nodes.start[k].theta;
+      nodes.nodes.back().kappa = nodes.start[k].kappa;
     }
     return loop_ ? close_at_seam(std::move(nodes)) : follow_directions(std::move(nodes));
   }

@@ -13,10 +13,11 @@ namespace obvid {
 
 /// Measured points with the circles in which the true points may lie.
 struct MeasuredSeries {
-  std::vector<Vec2> points;  ///< no two neighbours equal
+  std::vector<Vec2> points;     ///< no two neighbours equal
   std::vector<double> reach;    ///< how far each point may be moved, units; 0: not at all
   std::vector<NodeData> nodes;  ///< empty, or what is given at each point
   bool closed = false;          ///< the last point is followed by the first
+  bool primitives = false;      ///< stretches that mean a line or circle become exactly that
 };
 
 /// A series of moved points with headings and curvatures that spirals can join, one direction per
@@ -26,12 +27,14 @@ struct FairedSeries {
   std::vector<Element> elements;  ///< per node; a closed series does not repeat its first
   std::vector<std::optional<std::size_t>> source;  ///< per node: its measured point; nothing at a
                                                    ///< node inside a link, where a vertex lies
-  std::vector<std::int8_t> direction;              ///< per link: +1 curvature grows, -1 falls
+  std::vector<std::int8_t> direction;              ///< per link: +1 curvature grows, -1 falls, 0 an
+                                                   ///< exact arc or line
   bool feasible = false;  ///< false: the points are moved and smooth, but no runs were found;
                           ///< headings and curvatures are those of the smooth curve
-  int vertices = 0;              ///< changes of direction
+  int vertices = 0;       ///< changes of direction
   int vertices_lower_bound = 0;  ///< every smooth curve within the tolerances has so many
   std::size_t trouble = 0;       ///< when not feasible: measured point near which it failed
+  int primitives = 0;            ///< exact lines and arcs
   int newton_steps = 0;
 };
 

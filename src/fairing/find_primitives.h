@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <vector>
+
+#include "obvid/geom/vec2.h"
+
+namespace obvid::fairing_detail {
+
+/// Points in order with their tolerances and the curvature of a smooth curve along them.
+struct SmoothPoints {
+  std::vector<Vec2> points;
+  std::vector<double> reach;
+  std::vector<double> at;     ///< arc length
+  std::vector<double> kappa;  ///< of the smooth curve
+  std::vector<bool> free;     ///< nothing is given at the point
+};
+
+/// Points first .. last that mean one circle or line.
+struct Primitive {
+  std::size_t first = 0, last = 0;
+  Vec2 anchor;           ///< a point of it, near the middle
+  double theta = 0.0;    ///< heading at the anchor
+  double kappa = 0.0;    ///< 0: a line
+  double before = 0.0;   ///< arc length from the first point's foot to the anchor
+  double after = 0.0;    ///< and from the anchor to the last one's
+  double quality = 0.0;  ///< change of curvature beside it over the one that the tolerance hides
+};
+
+/// Stretches that fit one circle or line with half their tolerance to spare and that are far longer
+/// than a stretch of a spiral could be that fits as well (docs/methods/fairing.md). In order,
+/// without common points. Cost O(n) fits.
+[[nodiscard]] std::vector<Primitive> find_primitives(const SmoothPoints& series);
+
+}  // namespace obvid::fairing_detail
