@@ -122,6 +122,32 @@ TEST(ThreeClothoids, AreFoundWhereTheCurvatureChangesOnAThirdOfTheLink) {
   }
 }
 
+TEST(ThreeClothoids, ThatTurnByHalfATurnComeInPartsOfTheSameClothoid) {
+  // curvature rises soon, then hardly: the last clothoid takes nearly the whole turn
+  const Element a = {{0.0, 0.0}, -1.6, 0.5};
+  const double first = 0.3, rest = 2.6, knee = 1.0, last = 1.001;
+  const Vec2 at_knee = end_by_quadrature(a.theta, a.kappa, knee, first);
+  const double theta_knee = a.theta + 0.5 * (a.kappa + knee) * first;
+  const Element b = {at_knee + end_by_quadrature(theta_knee, knee, last, rest),
+                     theta_knee + 0.5 * (knee + last) * rest, last};
+  std::vector<ClothoidPiece> pieces;
+  ASSERT_TRUE(append_clothoids(link_between(a, b), 1, a, b, pieces));
+  ASSERT_GT(pieces.size(), 3U);
+  for (std::size_t j = 0; j < pieces.size(); ++j) {
+    const ClothoidPiece& p = pieces[j];
+    EXPECT_LT(0.5 * (p.kappa0 + p.kappa1) * p.length, 2.41) << j;
+    EXPECT_GT(p.kappa1, p.kappa0) << j;
+    EXPECT_LE(end_miss(p), 1e-14) << j;
+    if (j == 0) continue;
+    EXPECT_EQ(p.start, pieces[j - 1].end);
+    EXPECT_EQ(p.kappa0, pieces[j - 1].kappa1);
+    EXPECT_NEAR(p.theta0, end_heading(pieces[j - 1]), 1e-14);
+  }
+  const ClothoidPiece &p = pieces[pieces.size() - 2], &q = pieces.back();
+  EXPECT_NEAR((p.kappa1 - p.kappa0) / p.length, (q.kappa1 - q.kappa0) / q.length, 1e-12);
+  EXPECT_EQ(q.end, b.point);
+}
+
 TEST(ThreeClothoids, AreRefusedWhereNoSpiralExists) {
   std::vector<ClothoidPiece> pieces;
   const Element a = {{0.0, 0.0}, -0.2, 0.1};

@@ -57,13 +57,12 @@ struct ClothoidSpline {
                                                      const EndHeadings& ends = {});
 
 /// Appends three clothoids over a link with given end elements: curvature piecewise linear,
-/// strictly monotone, equal to that of the elements at the ends (G2). `direction` +1 when it
-/// increases. End points are met exactly by construction of the pieces' ends, and to 1e-14 of the
-/// chord by their headings, curvatures and lengths.
+/// monotone, equal to that of the elements at the ends (G2). `direction` +1 when it increases. One
+/// that turns by more than about 140 degrees is appended in parts of equal length. End points are
+/// stored exactly and met to 1e-14 of the chord. Curvature is strictly monotone as long as doubles
+/// can tell the curvatures apart.
 ///
-/// Returns false, appending nothing, when no such three clothoids were found: the link then needs
-/// an element inside. Near a clothoid (data of a curve whose sharpness hardly changes) they always
-/// exist.
+/// Returns false, appending nothing, when no such three clothoids were found.
 [[nodiscard]] bool append_clothoids(const LinkState& link, int direction, const Element& start,
                                     const Element& end, std::vector<ClothoidPiece>& pieces);
 

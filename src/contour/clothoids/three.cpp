@@ -16,7 +16,7 @@ constexpr std::size_t kCells = 3;
 using Cells = std::array<double, kCells>;
 
 /// A cell's sharpness is at least this part of the mean one.
-constexpr double kLeastSharpness = 1e-3;
+constexpr double kLeastSharpness = 1e-6;
 /// At least this much of the mean on every cell of equal length, or unequal ones are tried first.
 constexpr double kEvenSharpness = 0.2;
 constexpr int kMostSteps = 12;       // four or five do it
@@ -24,19 +24,26 @@ constexpr double kRounding = 4e-16;  // of the chord and of a radian: no step be
 constexpr double kClose = 1e-14;     // what counts as met
 
 struct Link {
-  double alpha, beta;       ///< headings against the chord
-  double kappa;             ///< at the start, times the chord
-  double rise;              ///< of the curvature over the whole link
-  double moment0, moment1;  ///< of the rise: about the start and about the end, chords squared
+  double alpha, beta;  ///< headings against the chord
+  double kappa;        ///< at the start, times the chord
+  double rise;         ///< of the curvature over the whole link, times the chord
+  double shift;        ///< 2 (A + B): moment of the rise about the middle of the chord
+  double sines;        ///< 2 sin(sigma/2): moment of the rise that is away from both ends
+  double half_turn;
 };
 
 Link mirrored(const LinkState& link, int direction, double kappa_start) {
   const double d = direction;
   const double A = d * link.A, B = d * link.B;
-  const double half_sum = 0.5 * d * link.sigma;
-  const double sines = 2.0 * std::sin(half_sum) * std::cos(0.5 * (link.alpha - link.beta));
-  return {d * link.alpha,        d * link.beta, d * kappa_start * link.h,
-          2.0 * (B - A + sines), 2.0 * B,       -2.0 * A};
+  const double sines = 2.0 * std::sin(0.5 * d * link.sigma);
+  const double half_turn = 0.5 * d * (link.beta - link.alpha);
+  return {d * link.alpha,
+          d * link.beta,
+          d * kappa_start * link.h,
+          2.0 * (B - A + sines * std::cos(half_turn)),
+          2.0 * (A + B),
+          sines,
+          half_turn};
 }
 
 /// Where the cells end, as fractions of the length, and how much curvature rises on each.
@@ -56,36 +63,47 @@ struct TwoByTwo {
   }
 };
 
+/// What a rise at fraction f of a circle arc counts in both moments.
+class ArcWeights {
+ public:
+  explicit ArcWeights(double half_turn)
+      : half_turn_(half_turn),
+        sine_(std::sin(half_turn)),
+        straight_(std::abs(half_turn) < kStraight) {}
+
+  [[nodiscard]] double shift(double f) const { return ratio(2.0 * f - 1.0); }
+  [[nodiscard]] double sines(double f) const { return ratio(f) * ratio(1.0 - f); }
+  [[nodiscard]] double length() const { return straight_ ? 1.0 : half_turn_ / sine_; }
+
+ private:
+  static constexpr double kStraight = 1e-6;  // rad: fractions are as good as sines
+
+  [[nodiscard]] double ratio(double f) const {
+    return straight_ ? f : std::sin(half_turn_ * f) / sine_;
+  }
+
+  double half_turn_, sine_;
+  bool straight_;
+};
+
 /// The rises whose moments are the link's, as if the link were a circle arc: exact up to the part
 /// that curvature changes, with all digits of that small part.
 std::optional<Profile> first_profile(const Link& link, const Cells& width) {
-  const double half_turn = 0.5 * (link.beta - link.alpha);
-  const double sine = std::sin(half_turn);
-  constexpr double kStraight = 1e-6;  // rad: squares are as good as sines
-  const bool straight = std::abs(half_turn) < kStraight;
-  const auto square_distance = [&](double f) {
-    const double r = straight ? f : std::sin(half_turn * f) / sine;
-    return r * r;
-  };
-  Cells about_start{}, about_end{};
+  const ArcWeights weights(link.half_turn);
+  Cells shift{}, sines{};
   double from = 0.0;
-  for (std::size_t j = 0; j < kCells; ++j) {
+  for (std::size_t j = 0; j < kCells; ++j) {  // means over the cell by Simpson's rule
     const double to = from + width[j], middle = from + 0.5 * width[j];
-    const auto mean = [&](double a, double m, double b) {
-      return (square_distance(a) + 4.0 * square_distance(m) + square_distance(b)) / 6.0;
-    };
-    about_start[j] = mean(from, middle, to);
-    about_end[j] = mean(1.0 - from, 1.0 - middle, 1.0 - to);
+    shift[j] = (weights.shift(from) + 4.0 * weights.shift(middle) + weights.shift(to)) / 6.0;
+    sines[j] = (weights.sines(from) + 4.0 * weights.sines(middle) + weights.sines(to)) / 6.0;
     from = to;
   }
-  const TwoByTwo system = {about_start[0] - about_start[1], about_start[2] - about_start[1],
-                           about_end[0] - about_end[1], about_end[2] - about_end[1]};
-  const auto outer = system.solve(link.moment0 - about_start[1] * link.rise,
-                                  link.moment1 - about_end[1] * link.rise);
+  const TwoByTwo system = {shift[0] - shift[1], shift[2] - shift[1], sines[0] - sines[1],
+                           sines[2] - sines[1]};
+  const auto outer =
+      system.solve(link.shift - shift[1] * link.rise, link.sines - sines[1] * link.rise);
   if (!outer) return std::nullopt;
-  return Profile{width,
-                 {outer->x, link.rise - outer->x - outer->y, outer->y},
-                 straight ? 1.0 : half_turn / sine};
+  return Profile{width, {outer->x, link.rise - outer->x - outer->y, outer->y}, weights.length()};
 }
 
 bool positive(const Profile& p, double rise, double least) {
@@ -213,14 +231,27 @@ std::optional<Trace> meet_end(const Link& link, Profile& p) {
 }
 
 /// Where the curvature rises: mean and mean square of the place, with the link from -1 to 1 and as
-/// if its headings were small.
+/// if it were an arc.
 struct Place {
   double mean, square;
 };
 
 Place place_of_rise(const Link& link) {
-  return {(link.moment0 - link.moment1) / link.rise,
-          2.0 * (link.moment0 + link.moment1) / link.rise - 1.0};
+  constexpr double kHardlyTurns = 1e-3;  // rad: squares say as much as cosines, with more digits
+  const double shift = link.shift / link.rise, sines = link.sines / link.rise;
+  const double half = link.half_turn;
+  if (std::abs(half) < kHardlyTurns) return {shift, 1.0 - 4.0 * sines};
+  // mean of e^{i angle}, the angle from the arc's middle: its heading and how much it lacks of 1
+  const double sine = std::sin(half);
+  const Vec2 mean = {std::cos(half) + 2.0 * sines * sine * sine, shift * sine};
+  const double angle = heading(mean) / half;
+  return {angle, angle * angle + 2.0 * (1.0 - norm(mean)) / (half * half)};
+}
+
+/// The same from rises on three even cells, of any sign: it holds however far the link turns.
+Place place_of_rise(const Profile& even, double rise) {
+  const double outer = (even.rise[0] + even.rise[2]) / rise;
+  return {2.0 / 3.0 * (even.rise[2] - even.rise[0]) / rise, 4.0 / 9.0 * outer + 1.0 / 27.0};
 }
 
 /// A middle cell around the mean, so narrow that its even rise alone would spread too little.
@@ -240,22 +271,46 @@ Cells cells_at_ends(const Place& place) {
   return {width, 1.0 - 2.0 * width, width};
 }
 
-std::optional<Trace> with_cells(const Link& link, const Cells& width, double least, Profile& p) {
-  if (!(*std::min_element(width.begin(), width.end()) > 0.0)) return std::nullopt;
-  const auto first = first_profile(link, width);
-  if (!first || !positive(*first, link.rise, 0.0)) return std::nullopt;
+/// Newton from `first`; the profile comes back in `p`.
+std::optional<Trace> solve_from(const Link& link, const std::optional<Profile>& first, double least,
+                                Profile& p) {
+  if (!first || !(*std::min_element(first->width.begin(), first->width.end()) > 0.0)) {
+    return std::nullopt;
+  }
   p = *first;
   const auto t = meet_end(link, p);
   return t && positive(p, link.rise, least) ? t : std::nullopt;
 }
 
+/// Pieces that turn farther are cut: the proof and every CAD kernel want less than half a turn.
+constexpr double kLargestTurn = 2.4;
+constexpr double kMostParts = 64.0;  // far beyond what two headings allow
+
+/// The clothoid in equal lengths, none of which turns far.
+void append_parts(const Element& from, const Element& to, double length,
+                  std::vector<ClothoidPiece>& pieces) {
+  const double turn = 0.5 * (std::abs(from.kappa) + std::abs(to.kappa)) * length;
+  const int count = 1 + static_cast<int>(std::min(kMostParts, turn / kLargestTurn));
+  const double sharpness = (to.kappa - from.kappa) / length;
+  Element here = from;
+  for (int j = 1; j <= count; ++j) {
+    const Element next = j == count ? to : clothoid_at(from, sharpness, j * length / count);
+    pieces.push_back({here.point, next.point, here.theta, here.kappa, next.kappa, length / count});
+    here = next;
+  }
+}
+
 /// Even cells where they do, else cells that suit where the curvature rises.
 std::optional<Trace> three_cells(const Link& link, Profile& p) {
-  constexpr double kThird = 1.0 / 3.0;
-  if (auto t = with_cells(link, {kThird, kThird, kThird}, kEvenSharpness, p)) return t;
-  const Place place = place_of_rise(link);
-  if (auto t = with_cells(link, cells_about_mean(place), kLeastSharpness, p)) return t;
-  return with_cells(link, cells_at_ends(place), kLeastSharpness, p);
+  constexpr Cells kEven = {1.0 / 3.0, 1.0 / 3.0, 1.0 / 3.0};
+  if (auto t = solve_from(link, first_profile(link, kEven), kEvenSharpness, p)) return t;
+  const Profile even = p;
+  for (const Place& place : {place_of_rise(link), place_of_rise(even, link.rise)}) {
+    for (const Cells& cells : {cells_about_mean(place), cells_at_ends(place)}) {
+      if (auto t = solve_from(link, first_profile(link, cells), kLeastSharpness, p)) return t;
+    }
+  }
+  return std::nullopt;
 }
 
 }  // namespace
@@ -263,7 +318,7 @@ std::optional<Trace> three_cells(const Link& link, Profile& p) {
 bool append_clothoids(const LinkState& link, int direction, const Element& start,
                       const Element& end, std::vector<ClothoidPiece>& pieces) {
   const Link own = mirrored(link, direction, start.kappa);
-  if (!(own.rise > 0.0 && own.moment0 > 0.0 && own.moment1 > 0.0)) return false;
+  if (!(own.rise > 0.0 && own.sines > 0.0 && std::abs(own.shift) < own.rise)) return false;
   Profile p;
   const auto t = three_cells(own, p);
   if (!t) return false;
@@ -278,8 +333,7 @@ bool append_clothoids(const LinkState& link, int direction, const Element& start
                                                  inner(1, start.kappa + d * p.rise[0] / link.h),
                                                  inner(2, end.kappa - d * p.rise[2] / link.h), end};
   for (std::size_t j = 0; j < kCells; ++j) {
-    pieces.push_back({joint[j].point, joint[j + 1].point, joint[j].theta, joint[j].kappa,
-                      joint[j + 1].kappa, p.length * p.width[j] * link.h});
+    append_parts(joint[j], joint[j + 1], p.length * p.width[j] * link.h, pieces);
   }
   return true;
 }
