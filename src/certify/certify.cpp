@@ -94,6 +94,7 @@ class Notary {
     const std::size_t expected = contour_.closed ? n : n + 1;
     certificate_.gaps = joints_.gaps;
     certificate_.inflections = joints_.inflections;
+    certificate_.corners = joints_.corners;
     certificate_.gaps_within_bounds = joints_.within_bounds;
     if (contour_.joints.size() != expected) {
       certificate_.gaps_within_bounds = joints_.within_bounds = false;
@@ -102,8 +103,31 @@ class Notary {
     if (!joints_.within_bounds) fail(joints_.reason);
   }
 
+  /// Points with tolerances: the contour passes each of them near enough.
+  [[nodiscard]] std::string too_far() {
+    if (contour_.point_tolerance.empty()) return {};
+    if (contour_.point_tolerance.size() != contour_.points.size()) {
+      return "there is not one tolerance for every point";
+    }
+    // what the coordinates of point and contour do not tell
+    constexpr double kRoundings = 32.0 * 0x1p-53;
+    const std::vector<double> distance = point_distances(contour_);
+    std::string reason;
+    for (std::size_t i = 0; i < distance.size(); ++i) {
+      certificate_.largest_move = std::max(certificate_.largest_move, distance[i]);
+      const Vec2 p = contour_.points[i];
+      const double allowed =
+          contour_.point_tolerance[i] + kRoundings * (std::abs(p.x) + std::abs(p.y));
+      if (distance[i] <= allowed || !reason.empty()) continue;
+      reason = fmt::format("the contour passes point {} at {:.9g}, its tolerance is {:.9g}", i,
+                           distance[i], contour_.point_tolerance[i]);
+    }
+    return reason;
+  }
+
   void check_points() {
-    const std::string missed = missed_point(contour_);
+    std::string missed = missed_point(contour_);
+    if (missed.empty()) missed = too_far();
     certificate_.through_points = missed.empty() && joints_.within_bounds;
     if (!missed.empty()) fail(missed);
   }
@@ -150,7 +174,8 @@ class Notary {
     if (r == 0 && !contour_.closed) return;
     const Run& before = contour_.runs[r == 0 ? contour_.runs.size() - 1 : r - 1];
     const int jump = joints_.jump[run.first_piece];
-    if (jump != 0 && jump != run.direction && jump != before.direction) {
+    const bool corner = contour_.joints[run.first_piece].leaving.has_value();
+    if (!corner && jump != 0 && jump != run.direction && jump != before.direction) {
       refuse_runs(
           fmt::format("curvature jumps before piece {} against both its runs", run.first_piece));
     }

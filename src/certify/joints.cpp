@@ -120,6 +120,7 @@ class JointWalk {
   /// Two neighbouring pieces; returns the sign of the curvature's jump if it is one.
   std::int8_t compare(std::size_t joint, const EndData& left, const EndData& right) {
     check_position(left.point, right.point, left.point_rounding + right.point_rounding, joint);
+    if (is_corner(joint)) return jump_at_corner(left, right);
     const double turn = known(heading_gap(left.direction, right.direction));
     survey_.gaps.heading = std::max(survey_.gaps.heading, turn);
     check(turn,
@@ -137,13 +138,36 @@ class JointWalk {
     return static_cast<std::int8_t>(gap <= bound ? 0 : (jump > 0.0 ? 1 : -1));
   }
 
+  [[nodiscard]] bool is_corner(std::size_t joint) const {
+    return joint < contour_.joints.size() && contour_.joints[joint].leaving.has_value();
+  }
+
+  /// At a corner only the position is continuous; which way the curvature leaps counts like a leap
+  /// between arcs.
+  [[nodiscard]] std::int8_t jump_at_corner(const EndData& left, const EndData& right) {
+    ++survey_.corners;
+    const double jump = right.kappa - left.kappa;
+    const double rounding = left.kappa_rounding + right.kappa_rounding;
+    return static_cast<std::int8_t>(std::abs(jump) <= rounding ? 0 : (jump > 0.0 ? 1 : -1));
+  }
+
   /// The joint's own element against the ends that meet there. False where there is no element.
   bool compare_with_element(std::size_t joint, const EndData* left, const EndData* right) {
     if (joint >= contour_.joints.size()) {
       check(kBroken, 0.0, joint, "the number of joints");
       return false;
     }
-    const Element& element = contour_.joints[joint].element;
+    if (is_corner(joint)) {
+      if (left != nullptr) compare_end(joint, contour_.joints[joint].element, left, left);
+      if (right != nullptr) compare_end(joint, *contour_.joints[joint].leaving, right, right);
+      return true;
+    }
+    compare_end(joint, contour_.joints[joint].element, left, right);
+    return true;
+  }
+
+  void compare_end(std::size_t joint, const Element& element, const EndData* left,
+                   const EndData* right) {
     const Vec2 direction = unit_at(element.theta);
     // Reducing an unwrapped heading costs a rounding of its own size.
     const double wrapped = kUnwrapped * std::abs(element.theta);
@@ -156,7 +180,6 @@ class JointWalk {
     }
     check_element_kappa(joint, element.kappa, left != nullptr ? left : right,
                         right != nullptr ? right : left);
-    return true;
   }
 
   void check_element_kappa(std::size_t joint, double kappa, const EndData* left,
@@ -208,19 +231,26 @@ class JointWalk {
 JointSurvey survey_joints(const Contour& contour) { return JointWalk(contour).run(); }
 
 std::string missed_point(const Contour& contour) {
-  std::size_t next = 0;
+  const std::size_t n = contour.points.size();
+  const bool exact = contour.point_tolerance.empty();
+  std::size_t met = 0, first = 0, due = 0;  // due: counted from the first source on
   for (std::size_t j = 0; j < contour.joints.size(); ++j) {
     const Joint& joint = contour.joints[j];
     if (!joint.source) continue;
-    if (*joint.source != next) {
-      return fmt::format("joint {} claims point {} where point {} is due", j, *joint.source, next);
+    if (*joint.source >= n) return fmt::format("joint {} claims a point that is not there", j);
+    if (met == 0 && contour.closed) first = *joint.source;
+    const std::size_t place = (*joint.source + n - first) % n;
+    if (exact ? place != due : place < due) {
+      return fmt::format("joint {} claims point {} where point {} is due", j, *joint.source,
+                         (due + first) % n);
     }
-    if (next >= contour.points.size() || !(joint.element.point == contour.points[next])) {
-      return fmt::format("joint {} does not stand on point {}", j, next);
+    if (exact && !(joint.element.point == contour.points[*joint.source])) {
+      return fmt::format("joint {} does not stand on point {}", j, *joint.source);
     }
-    ++next;
+    due = place + 1;
+    ++met;
   }
-  if (next < contour.points.size()) return fmt::format("no joint stands on point {}", next);
+  if (exact && met < n) return fmt::format("no joint stands on point {}", (met + first) % n);
   return {};
 }
 

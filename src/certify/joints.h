@@ -18,11 +18,13 @@ struct JointSurvey {
   std::string reason;             ///< first gap beyond its bound
   std::vector<std::int8_t> jump;  ///< sign of the curvature's jump at the start of each piece
   int inflections = 0;
+  int corners = 0;
 };
 
 [[nodiscard]] JointSurvey survey_joints(const Contour& contour);
 
-/// Every input point is the source of one joint, in order, and that joint stands exactly on it.
+/// Joints stand on their points in the order of the points, around the end of the list in a closed
+/// contour. Without tolerances every point is the source of one joint, which stands exactly on it.
 /// Empty when so, else the first that is not.
 [[nodiscard]] std::string missed_point(const Contour& contour);
 

@@ -12,7 +12,6 @@
 #include "prepare.h"
 #include "report.h"
 #include "section_chain.h"
-#include "tmp_pd.h"
 
 namespace obvid {
 namespace {

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <vector>
+
 #include "obvid/certify/certificate.h"
 #include "obvid/curve/contour.h"
 
@@ -19,5 +21,10 @@ namespace obvid {
 /// `self_intersections` are counted, not proved, and do not make a contour unproved.
 /// Cost O(n log n), about a microsecond per piece.
 [[nodiscard]] Certificate certify(const Contour& contour);
+
+/// Proved upper bound of every input point's distance from the contour, units: the distance to some
+/// point of the contour near it, with the rounding of its evaluation. Infinite without pieces.
+/// Not guaranteed to be the smallest distance. Cost O(n) for points in the order of the contour.
+[[nodiscard]] std::vector<double> point_distances(const Contour& contour);
 
 }  // namespace obvid
