@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "picture_frame.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "picture_drawing.h"
@@ -152,8 +153,8 @@ void draw_plot_features(PictureCanvas& canvas, const PictureFrame& frame,
   Vec2 last{-HUGE_VAL, 0.0};
   for (const PictureFeature& feature : track.features) {
     if (feature.kind == PictureFeature::Kind::kCorner) continue;  // a line over the whole plot
-    const Vec2 at{frame.px_x(feature.at.s), frame.px_y(feature.at.kappa)};
-    if (at.y < frame.top || at.y > frame.bottom + 1.0) continue;
+    const double y = std::clamp(frame.px_y(feature.at.kappa), frame.top, frame.bottom);
+    const Vec2 at{frame.px_x(feature.at.s), y};
     if (std::fabs(at.x - last.x) + std::fabs(at.y - last.y) < kSymbolApart) continue;
     add_feature(canvas, feature.kind, at);
     last = at;

@@ -42,7 +42,7 @@ void draw_joints(PictureCanvas& canvas, const PictureFrame& frame, const Picture
 void draw_graph(PictureCanvas& canvas, const PictureFrame& frame, const PictureTrack& track,
                 const PictureValue& value, bool coloured, int id);
 
-/// Symbols at their curvature.
+/// Symbols at their curvature, at the edge of the frame where the axis does not reach it.
 void draw_plot_features(PictureCanvas& canvas, const PictureFrame& frame,
                         const PictureTrack& track);
 

@@ -97,10 +97,11 @@ void legend_region(PictureCanvas& canvas, Row& legend, double widest, const std:
              px(at.y + 2.0));
 }
 
-void legend_comb(PictureCanvas& canvas, Row& legend, double longest, const std::string& units) {
+void legend_comb(PictureCanvas& canvas, Row& legend, const PictureLegend& told) {
+  const std::string number = readable_number(told.longest_tooth, 3) + " /" + told.units;
   const std::string text =
-      "curvature comb, longest tooth " + readable_number(longest, 3) + " /" + units;
-  const Vec2 at = legend.entry(text, 38 + units.size(), 18.0);
+      std::string("curvature comb, ") + (told.comb_cut ? "cut off at " : "longest tooth ") + number;
+  const Vec2 at = legend.entry(text, 38 + told.units.size(), 18.0);
   canvas.add("<path class=\"teeth\" d=\"M{0} {1}v-9m4.5 9v-8m4.5 8v-7m4.5 7v-6m4.5 6v-5\"/>\n",
              px(at.x - 9.0), px(at.y + 5.0));
 }
@@ -123,7 +124,7 @@ double draw_legend(PictureCanvas& canvas, const PictureLegend& legend, double le
   legend_lines(canvas, row, track, legend.coloured);
   if (!track.points.empty()) legend_points(canvas, row, legend.dots ? 0 : track.points.size());
   legend_features(canvas, row, track);
-  if (legend.longest_tooth != 0.0) legend_comb(canvas, row, legend.longest_tooth, legend.units);
+  if (legend.longest_tooth != 0.0) legend_comb(canvas, row, legend);
   if (legend.region_width > 0.0) legend_region(canvas, row, legend.region_width, legend.units);
   return row.y();
 }

@@ -24,6 +24,7 @@ struct PictureLegend {
   double region_width = 0.0;   ///< of the drawn region, units; 0: none was drawn
   bool dots = true;            ///< whether points were marked
   double longest_tooth = 0.0;  ///< curvature of the comb's longest tooth, 1/unit; 0: no comb
+  bool comb_cut = false;       ///< whether larger curvatures have that tooth too
 };
 
 /// Entries from `left` on, broken into rows. Returns the y of the last row.

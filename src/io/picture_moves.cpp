@@ -34,6 +34,15 @@ std::vector<std::optional<std::size_t>> samples_of_joints(const PictureTrack& tr
   return found;
 }
 
+/// A closed contour may begin at any of its points: the walk begins where its place is known.
+std::size_t first_to_visit(const PictureTrack& track,
+                           const std::vector<std::optional<std::size_t>>& joints) {
+  if (!track.closed) return 0;
+  const auto known = std::find_if(joints.begin(), joints.end(),
+                                  [](const auto& sample) { return sample.has_value(); });
+  return known == joints.end() ? 0 : static_cast<std::size_t>(known - joints.begin());
+}
+
 /// Walks along the samples from point to point.
 class Walk {
  public:
@@ -140,15 +149,17 @@ PictureMoves make_moves(const PictureTrack& track, const StoredContour& stored) 
   const auto joints = samples_of_joints(track, contour);
   const std::size_t count = track.points.size();
   const bool known = stored.report && stored.report->moves.size() == count;
+  moves.points.resize(count);
   Walk walk(track);
   walk.jump(0, track.samples.front().point);
-  for (std::size_t i = 0; i < count; ++i) {
+  const std::size_t start = first_to_visit(track, joints);
+  for (std::size_t k = 0; k < count; ++k) {
+    const std::size_t i = (start + k) % count;
     const Vec2 point = track.points[i];
     if (joints[i]) walk.jump(*joints[i], point);
     const PictureSample& sample = track.samples[joints[i] ? *joints[i] : walk.next(point)];
-    const double found = distance_from(sample, point);
-    const double distance = known ? stored.report->moves[i] : found;
-    moves.points.push_back(move_at(sample, point, distance, contour.point_tolerance[i]));
+    const double distance = known ? stored.report->moves[i] : distance_from(sample, point);
+    moves.points[i] = move_at(sample, point, distance, contour.point_tolerance[i]);
     moves.largest = std::max(moves.largest, distance);
   }
   return moves;

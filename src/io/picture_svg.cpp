@@ -2,6 +2,8 @@
 #include "obvid/io/picture_svg.h"
 
 #include <algorithm>
+#include <string>
+#include <vector>
 
 #include "picture_axis.h"
 #include "picture_moves.h"
@@ -52,6 +54,21 @@ VerdictLine verdict_of(const StoredContour& stored) {
   return {"bad", "✗ NOT proved" + (reason.empty() ? std::string{} : ": " + reason)};
 }
 
+std::size_t corners_of(const Contour& contour) {
+  return static_cast<std::size_t>(
+      std::count_if(contour.joints.begin(), contour.joints.end(),
+                    [](const Joint& joint) { return joint.leaving.has_value(); }));
+}
+
+bool is_measured(const StoredContour& stored) {
+  return !stored.contour.point_tolerance.empty() || corners_of(stored.contour) > 0;
+}
+
+std::string region_fact(const StoredContour& stored) {
+  return "region width " + readable_number(stored.report->largest_width, 2) + " " +
+         stored.contour.units;
+}
+
 std::string facts_of(const StoredContour& stored) {
   if (!stored.report) return {};
   const FitReport& report = *stored.report;
@@ -60,23 +77,24 @@ std::string facts_of(const StoredContour& stored) {
   text += " (at least " + std::to_string(report.vertices_lower_bound) + ")";
   text += " · " + counted(static_cast<std::size_t>(std::max(report.inflections, 0)), "inflection",
                           "inflections");
-  text +=
-      " · region width " + readable_number(report.largest_width, 2) + " " + stored.contour.units;
+  if (!is_measured(stored)) text += " · " + region_fact(stored);
   return text;
 }
 
 /// A second line where points have tolerances or the contour has corners.
 std::string measured_facts(const StoredContour& stored) {
-  if (!stored.certificate) return {};
+  if (!is_measured(stored)) return {};
+  std::vector<std::string> facts;
+  if (stored.certificate && stored.certificate->largest_move > 0.0) {
+    facts.push_back("points at most " + readable_number(stored.certificate->largest_move, 2) + " " +
+                    stored.contour.units + " from the contour");
+  }
+  if (const std::size_t corners = corners_of(stored.contour)) {
+    facts.push_back(counted(corners, "corner", "corners"));
+  }
+  if (stored.report) facts.push_back(region_fact(stored));
   std::string text;
-  if (!stored.contour.point_tolerance.empty()) {
-    text = "Points at most " + readable_number(stored.certificate->largest_move, 2) + " " +
-           stored.contour.units + " from the contour";
-  }
-  if (stored.certificate->corners > 0) {
-    text += (text.empty() ? "" : " · ") +
-            counted(static_cast<std::size_t>(stored.certificate->corners), "corner", "corners");
-  }
+  for (const std::string& fact : facts) text += (text.empty() ? "" : " · ") + fact;
   return text;
 }
 

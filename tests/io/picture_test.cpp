@@ -2,8 +2,6 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <cstdlib>
-#include <numbers>
 #include <optional>
 #include <string>
 #include <vector>
@@ -11,46 +9,14 @@
 #include "obvid/io/picture_svg.h"
 #include "picture_axis.h"
 #include "picture_canvas.h"
+#include "picture_contours.h"
 #include "picture_region.h"
 #include "picture_track.h"
 
 namespace obvid {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
-
-/// Arc that starts at `start` with heading `theta`.
-ArcPiece arc_from(Vec2 start, double theta, double kappa, double length) {
-  const double half = 0.5 * kappa * length;
-  const Vec2 end = start + (2.0 / kappa) * std::sin(half) * unit_at(theta + half);
-  return {start, end, theta, kappa, length};
-}
-
-StoredContour semicircle(double radius, Vec2 centre) {
-  StoredContour stored;
-  const Vec2 start = centre + Vec2{radius, 0.0};
-  stored.contour.pieces = {arc_from(start, 0.5 * kPi, 1.0 / radius, kPi * radius)};
-  stored.contour.points = {start, centre + Vec2{0.0, radius}, centre - Vec2{radius, 0.0}};
-  stored.contour.runs = {{0, 0, 0}};
-  return stored;
-}
-
-/// Arcs that follow each other with the given curvatures, each turning by `turn` one way or other.
-StoredContour arc_chain(const std::vector<double>& kappas, double turn) {
-  StoredContour stored;
-  stored.contour.carrier = Carrier::kArcs;
-  Vec2 at;
-  double theta = 0.0;
-  for (const double kappa : kappas) {
-    const ArcPiece arc = arc_from(at, theta, kappa, turn / std::fabs(kappa));
-    stored.contour.points.push_back(at);
-    stored.contour.pieces.emplace_back(arc);
-    at = arc.end;
-    theta += kappa * arc.length;
-  }
-  stored.contour.points.push_back(at);
-  return stored;
-}
+using namespace picture_test;
 
 /// Parabola branch y = x^2 as quadratic Bezier from x = 0 to `width`, moved by `origin`.
 RationalBezier parabola(double width, Vec2 origin) {
@@ -61,30 +27,6 @@ RationalBezier parabola(double width, Vec2 origin) {
   piece.offset[2] = {width, width * width};
   piece.weight[0] = piece.weight[1] = piece.weight[2] = 1.0;
   return piece;
-}
-
-/// Data of the path with this class.
-std::string path_of(const std::string& svg, const std::string& css) {
-  const std::size_t at = svg.find("<path class=\"" + css + "\" d=\"");
-  if (at == std::string::npos) return {};
-  const std::size_t from = svg.find("d=\"", at) + 3;
-  return svg.substr(from, svg.find('"', from) - from);
-}
-
-std::vector<double> numbers_of(const std::string& path) {
-  std::vector<double> numbers;
-  const char* at = path.c_str();
-  while (*at != '\0') {
-    char* end = nullptr;
-    const double value = std::strtod(at, &end);
-    if (end == at) {
-      ++at;
-    } else {
-      numbers.push_back(value);
-      at = end;
-    }
-  }
-  return numbers;
 }
 
 TEST(Picture, DrawsACircleWithinOneTwentiethOfAPixel) {

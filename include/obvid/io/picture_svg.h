@@ -7,9 +7,23 @@
 
 namespace obvid {
 
-/// Picture of a contour for a report: contour, points, curvature comb, vertices and inflections,
-/// scale bar, and below it curvature and radius over arc length. One self-contained SVG file that
+/// Picture of a contour for a report: contour, points, curvature comb, vertices, inflections and
+/// corners, scale bar, and below it curvature and radius over arc length; where points have
+/// tolerances also where the contour passes within them. One self-contained SVG file that
 /// follows the viewer's light or dark scheme.
 [[nodiscard]] std::string picture_svg(const StoredContour& stored);
+
+/// Texts of a comparison.
+struct ComparisonTitles {
+  std::string heading;  ///< of the whole picture
+  std::string before;   ///< what the first contour is
+  std::string after;
+};
+
+/// Two contours of the same thing beside each other: combs and curvature over arc length, all in
+/// the same scales, vertices marked and counted. Where a small part of both (a leading edge) has
+/// far larger curvatures than the rest, the axis is that of the rest and the title says so.
+[[nodiscard]] std::string comparison_svg(const Contour& before, const Contour& after,
+                                         const ComparisonTitles& titles);
 
 }  // namespace obvid

@@ -1,0 +1,241 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "obvid/io/picture_svg.h"
+#include "picture_axis.h"
+#include "picture_drawing.h"
+#include "picture_frame.h"
+#include "picture_legend.h"
+#include "picture_panels.h"
+#include "picture_plots.h"
+#include "picture_sheet.h"
+
+namespace obvid {
+namespace {
+
+/// Shapes at least this much wider than high stand above each other, others side by side.
+constexpr double kWideShape = 2.2;
+constexpr double kMostHeight = 300.0;  // of one shape, px
+constexpr double kPadding = 18.0;      // around a shape, px
+constexpr double kCaptionRoom = 26.0;  // px
+constexpr double kPlotHeight = 170.0;
+constexpr double kPlotTitleRoom = 34.0;
+/// The axis leaves out curvatures of this part of the length when that makes it ...
+constexpr double kLeftOut = 0.12;
+/// ... shorter by this factor at least.
+constexpr double kMuchLonger = 3.0;
+/// Room beyond the curvatures that the axis shows, as part of them.
+constexpr double kAxisRoom = 0.3;
+
+struct Side {
+  PictureTrack track;
+  bool coloured = true;
+  std::string caption;
+};
+
+using Sides = std::array<Side, 2>;
+
+std::string counted(std::size_t count, const char* one, const char* many) {
+  return std::to_string(count) + " " + (count == 1 ? one : many);
+}
+
+Side make_side(const Contour& contour, const std::string& title) {
+  Side side{make_track(contour), contour.runs.size() <= kMostColouredRuns, title};
+  side.caption +=
+      (title.empty() ? "" : ": ") +
+      counted(count_features(side.track, PictureFeature::Kind::kVertex), "vertex", "vertices");
+  const std::size_t bends = count_features(side.track, PictureFeature::Kind::kInflection);
+  if (bends > 0) side.caption += ", " + counted(bends, "inflection", "inflections");
+  const std::size_t corners = count_features(side.track, PictureFeature::Kind::kCorner);
+  if (corners > 0) side.caption += ", " + counted(corners, "corner", "corners");
+  return side;
+}
+
+/// Range of the curvatures of both sides without those of the largest size on a part of the length.
+PictureRange usual_range(const Sides& sides) {
+  std::vector<std::pair<double, double>> steps;  // curvature, length
+  double length = 0.0;
+  for (const Side& side : sides) {
+    for (std::size_t j = 1; j < side.track.samples.size(); ++j) {
+      const PictureSample &a = side.track.samples[j - 1], &b = side.track.samples[j];
+      steps.emplace_back(b.kappa, b.s - a.s);
+      length += b.s - a.s;
+    }
+  }
+  std::sort(steps.begin(), steps.end(),
+            [](const auto& a, const auto& b) { return std::fabs(a.first) < std::fabs(b.first); });
+  PictureRange range;
+  double travelled = 0.0;
+  for (const auto& [kappa, part] : steps) {
+    travelled += part;
+    if (travelled > (1.0 - kLeftOut) * length) break;
+    range.low = std::min(range.low, kappa);
+    range.high = std::max(range.high, kappa);
+  }
+  return range;
+}
+
+struct Scale {
+  PictureRange range;
+  bool cut = false;
+};
+
+Scale choose_scale(const Sides& sides) {
+  Scale scale;
+  for (const Side& side : sides) {
+    const PictureRange one = curvature_range(side.track);
+    scale.range.low = std::min(scale.range.low, one.low);
+    scale.range.high = std::max(scale.range.high, one.high);
+  }
+  const PictureRange usual = usual_range(sides);
+  const double room = kAxisRoom * (usual.high - usual.low);
+  const PictureRange shown{std::max(scale.range.low, usual.low - room),
+                           std::min(scale.range.high, usual.high + room)};
+  scale.cut =
+      kMuchLonger * (shown.high - shown.low) < scale.range.high - scale.range.low && room > 0.0;
+  if (scale.cut) scale.range = shown;
+  return scale;
+}
+
+PictureComb common_comb(const Sides& sides, const Scale& scale) {
+  PictureComb comb = make_comb(sides[0].track);
+  const PictureComb other = make_comb(sides[1].track);
+  if (comb.per_kappa == 0.0 || (other.per_kappa != 0.0 && other.per_kappa < comb.per_kappa)) {
+    comb = other;
+  }
+  if (!scale.cut) return comb;
+  const double largest = std::max(std::fabs(scale.range.low), std::fabs(scale.range.high));
+  const double all = std::max(sides[0].track.largest_kappa, sides[1].track.largest_kappa);
+  comb.per_kappa *= all / largest;
+  comb.largest = largest;
+  return comb;
+}
+
+/// Place and scale of both shapes: the same px per unit, above each other or side by side.
+struct Shapes {
+  std::array<PictureView, 2> views;
+  std::array<Vec2, 2> captions;
+  double bottom = 0.0;
+};
+
+Shapes place_shapes(const Sides& sides, const PictureComb& comb, double top) {
+  std::array<PictureBox, 2> boxes;
+  Vec2 extent;
+  for (std::size_t k = 0; k < 2; ++k) {
+    boxes[k] = box_with_comb(sides[k].track, comb);
+    const Vec2 one = boxes[k].high - boxes[k].low;
+    extent = {std::max(extent.x, one.x), std::max(extent.y, one.y)};
+  }
+  const bool stacked = extent.x > kWideShape * extent.y;
+  const double column = kPictureWidth - 2.0 * kPictureMargin;
+  const double width = (stacked ? column : 0.5 * column) - 2.0 * kPadding;
+  double scale = 1.0;
+  if (extent.x > 0.0 || extent.y > 0.0) {
+    scale = std::min(extent.x > 0.0 ? width / extent.x : HUGE_VAL,
+                     extent.y > 0.0 ? kMostHeight / extent.y : HUGE_VAL);
+  }
+  const double height = extent.y * scale + 2.0 * kPadding;
+  Shapes shapes;
+  for (std::size_t k = 0; k < 2; ++k) {
+    const auto index = static_cast<double>(k);
+    const double y = top + (stacked ? index * (height + kCaptionRoom) : 0.0);
+    const double left = kPictureMargin + (stacked ? 0.0 : index * 0.5 * column);
+    shapes.captions[k] = {left, y + 14.0};
+    shapes.views[k].scale = scale;
+    shapes.views[k].centre = 0.5 * (boxes[k].low + boxes[k].high);
+    shapes.views[k].middle = {left + 0.5 * width + kPadding, y + kCaptionRoom + 0.5 * height};
+    shapes.bottom = y + kCaptionRoom + height;
+  }
+  return shapes;
+}
+
+double draw_shapes(PictureCanvas& canvas, const Sides& sides, const PictureComb& comb,
+                   const std::string& units, double top) {
+  const Shapes shapes = place_shapes(sides, comb, top);
+  for (std::size_t k = 0; k < 2; ++k) {
+    const Side& side = sides[k];
+    canvas.label(shapes.captions[k], "start", "axis-title", side.caption);
+    if (side.track.samples.empty()) continue;
+    draw_comb(canvas, side.track, comb, shapes.views[k], side.coloured);
+    canvas.add("<g class=\"fine\">\n");  // the combs are the subject
+    draw_curve(canvas, side.track, shapes.views[k], side.coloured);
+    canvas.add("</g>\n");
+    draw_features(canvas, side.track, shapes.views[k]);
+  }
+  draw_scale_bar(canvas, shapes.views[0], units, shapes.bottom + 14.0);
+  return shapes.bottom + 14.0;
+}
+
+double draw_plots(PictureCanvas& canvas, const Sides& sides, const Scale& scale,
+                  const std::string& units, double top) {
+  PictureFrame frame;
+  frame.x = tight_axis(0.0, std::max(sides[0].track.length, sides[1].track.length), 8);
+  const double diagonal = std::max(sides[0].track.box.diagonal(), sides[1].track.box.diagonal());
+  frame.y = curvature_axis(scale.range, diagonal);
+  const std::string largest =
+      readable_number(std::max(sides[0].track.largest_kappa, sides[1].track.largest_kappa), 2);
+  std::string title = curvature_title(frame.y, units);
+  if (scale.cut) title += ", cut off: the largest is " + largest + " 1/" + units;
+  frame.bottom = top;
+  for (std::size_t k = 0; k < 2; ++k) {
+    const Side& side = sides[k];
+    frame.top = frame.bottom + kPlotTitleRoom;
+    frame.bottom = frame.top + kPlotHeight;
+    canvas.label({kPictureMargin, frame.top - 11.0}, "start", "axis-title", title);
+    canvas.label({frame.right, frame.top - 11.0}, "end", "fact", side.caption);
+    draw_grid(canvas, frame, k == 1);
+    draw_joints(canvas, frame, side.track);
+    draw_graph(canvas, frame, side.track, curvature_of, side.coloured, static_cast<int>(k) + 1);
+    const double zero = frame.px_y(0.0);
+    if (zero < frame.bottom - 1.0) canvas.line({frame.left, zero}, {frame.right, zero}, "axis");
+    draw_plot_features(canvas, frame, side.track);
+  }
+  canvas.label({0.5 * (frame.left + frame.right), frame.bottom + 38.0}, "middle", "axis-title",
+               "Arc length, " + power_prefix(frame.x.exponent) + units);
+  return frame.bottom + 56.0;
+}
+
+/// Legend of both sides: what only one of them has is in it too.
+double draw_common_legend(PictureCanvas& canvas, const Sides& sides, const PictureComb& comb,
+                          const std::string& units, double y) {
+  PictureTrack both;
+  for (const Side& side : sides) {
+    both.pieces.insert(both.pieces.end(), side.track.pieces.begin(), side.track.pieces.end());
+    for (std::size_t i = 0; i < side.track.pieces.size(); ++i) {
+      both.direction.push_back(colour_of(side.track, i, side.coloured));
+    }
+    const auto& features = side.track.features;
+    if (features.size() > kMostSymbols) continue;
+    both.features.insert(both.features.end(), features.begin(), features.end());
+  }
+  both.features.resize(std::min(both.features.size(), kMostSymbols));
+  PictureLegend legend{both, units};
+  if (comb.per_kappa != 0.0) {
+    const double all = std::max(sides[0].track.largest_kappa, sides[1].track.largest_kappa);
+    legend.comb_cut = comb.largest < all;
+    legend.longest_tooth = std::min(comb.largest, all);
+  }
+  return draw_legend(canvas, legend, kPictureMargin + kScaleBarRoom, y) + 12.0;
+}
+
+}  // namespace
+
+std::string comparison_svg(const Contour& before, const Contour& after,
+                           const ComparisonTitles& titles) {
+  const Sides sides = {make_side(before, titles.before), make_side(after, titles.after)};
+  const Scale scale = choose_scale(sides);
+  const PictureComb comb = common_comb(sides, scale);
+  PictureCanvas body;
+  body.label({kPictureMargin, 40.0}, "start", "title", titles.heading);
+  double y = draw_shapes(body, sides, comb, before.units, 64.0);
+  y = draw_common_legend(body, sides, comb, before.units, y);
+  y = draw_plots(body, sides, scale, before.units, y);
+  return picture_sheet(titles.heading, sides[0].caption + "; " + sides[1].caption, body.take(), y);
+}
+
+}  // namespace obvid
