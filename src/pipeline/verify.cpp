@@ -70,6 +70,13 @@ void compare_report(const FitReport& claimed, const FitReport& found, Comparison
   }
   c.length("largest_width", claimed.largest_width, found.largest_width);
   c.length("largest_move", claimed.largest_move, found.largest_move);
+  if (!claimed.moves.empty()) {
+    c.count("the number of moves", static_cast<double>(claimed.moves.size()),
+            static_cast<double>(found.moves.size()));
+    for (std::size_t i = 0; i < std::min(claimed.moves.size(), found.moves.size()); ++i) {
+      c.length("move of point " + std::to_string(i), claimed.moves[i], found.moves[i]);
+    }
+  }
   c.count("vertices", claimed.vertices, found.vertices);
   c.count("vertices_lower_bound", claimed.vertices_lower_bound, found.vertices_lower_bound);
   c.count("inflections", claimed.inflections, found.inflections);
@@ -98,6 +105,8 @@ void compare_certificate(const Certificate& claimed, const Certificate& found, C
   c.count("gaps_within_bounds", claimed.gaps_within_bounds, found.gaps_within_bounds);
   c.count("through_points", claimed.through_points, found.through_points);
   c.count("inside_region", claimed.inside_region, found.inside_region);
+  c.length("largest_move in the certificate", claimed.largest_move, found.largest_move);
+  c.count("corners", claimed.corners, found.corners);
   c.count("vertices in the certificate", claimed.vertices, found.vertices);
   c.count("inflections in the certificate", claimed.inflections, found.inflections);
   c.count("self_intersections", claimed.self_intersections, found.self_intersections);
@@ -133,6 +142,8 @@ Verification verify(const StoredContour& stored) {
     FitReport found = std::move(*measured);
     found.vertices = out.certificate.vertices;
     found.inflections = out.certificate.inflections;
+    found.largest_move = out.certificate.largest_move;
+    if (!stored.contour.point_tolerance.empty()) found.moves = point_distances(stored.contour);
     compare_report(*stored.report, found, comparison);
     if (!(found.largest_width <= stored.report->tolerance)) {
       comparison.refuse("a tolerance above the largest width", stored.report->tolerance,

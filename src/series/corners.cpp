@@ -24,7 +24,7 @@ constexpr double kGradedSpacing = 0.75;
 /// Above this turn a point is a corner however its neighbours are spaced: no leading edge of the
 /// public airfoils turns by more than 156 degrees at one point, no closed sharp trailing edge by
 /// less than 162.
-constexpr double kSharpTurn = 160.0 * kDegree;
+constexpr double kSharpTurn = 150.0 * kDegree;
 /// A neighbour that turns by this much, or half the wanted angle, is no calm flank.
 constexpr double kRoughTurn = 15.0 * kDegree;
 /// Two corners joined by one chord, as at a blunt trailing edge, lie between calm sides; the chord
@@ -202,6 +202,13 @@ bool CornerSearch::is_bent(std::size_t i, bool forwards, const Arm& arm, double 
   return false;
 }
 
+/// Curvature of the circle through three points, by the turn between both chords.
+double bend(double turn, double before, double after) {
+  const double across =
+      std::sqrt(before * before + after * after + 2.0 * before * after * std::cos(turn));
+  return across > 0.0 ? 2.0 * std::sin(turn) / across : std::numeric_limits<double>::infinity();
+}
+
 bool CornerSearch::is_corner(std::size_t i, double turn, double noise, double chord) const {
   const std::array<Arm, 2> arms{arm(i, false, chord, kArmChords), arm(i, true, chord, kArmChords)};
   std::array<bool, 2> rough{};
@@ -212,6 +219,7 @@ bool CornerSearch::is_corner(std::size_t i, double turn, double noise, double ch
   if (rough[0] && rough[1]) return false;  // no calm side at all: scatter, or a few points
   double total = std::abs(turn), foretold = 0.0, spacing = 1.0, unrest = 0.0;
   double shortest = std::numeric_limits<double>::infinity();
+  const double peak = bend(std::abs(turn), arms[0].length[0], arms[1].length[0]);
   for (std::size_t side = 0; side < 2; ++side) {
     const Arm& a = arms[side];
     std::size_t skip = 0;
@@ -225,6 +233,10 @@ bool CornerSearch::is_corner(std::size_t i, double turn, double noise, double ch
     }
     const auto expected = forecast(a, skip);
     if (!expected) return false;
+    // a spiral bends more on one side and less on the other: at a corner the bend is a peak
+    const double beside =
+        std::copysign(1.0, turn) * bend(a.turn[skip], a.length[skip], a.length[skip + 1]);
+    if (peak <= beside) return false;
     foretold += std::max(0.0, std::copysign(1.0, turn) * expected->turn);
     spacing *= expected->spacing;
     unrest = std::max(unrest, expected->unrest);

@@ -126,12 +126,25 @@ int sampled_vertices(const Contour& contour, double admitted_gap) {
   return counter.turns();
 }
 
+/// Changes of direction along the runs, around the seam of a closed contour; the way the curvature
+/// leaps at a corner counts like a run.
 int turns_of_runs(const Contour& contour) {
-  int turns = 0, last = 0;
+  int turns = 0, first = 0, last = 0;
+  const auto follow = [&](int direction) {
+    if (direction == 0) return;
+    turns += last * direction < 0 ? 1 : 0;
+    first = first == 0 ? direction : first;
+    last = direction;
+  };
   for (const Run& run : contour.runs) {
-    turns += last * run.direction < 0 ? 1 : 0;
-    last = run.direction != 0 ? run.direction : last;
+    const Joint& joint = contour.joints[run.first_piece];
+    if (joint.leaving) {
+      const double leap = joint.leaving->kappa - joint.element.kappa;
+      follow(leap > 0.0 ? 1 : (leap < 0.0 ? -1 : 0));
+    }
+    follow(run.direction);
   }
+  if (contour.closed) follow(first);
   return turns;
 }
 
