@@ -11,12 +11,14 @@
 #include <random>
 #include <vector>
 
+#include "../common/extended_curvature.h"
 #include "../pipeline/oracle_curves.h"
 #include "obvid/certify/certify.h"
 
 namespace obvid {
 namespace {
 
+using test::extended_curvature;
 using test::uniform;
 
 /// Headings of the ends, and curvatures times the chord: a few roundings of the control polygon.
@@ -49,36 +51,6 @@ LinkState random_link(std::mt19937_64& rng) {
 double start_kappa(const LinkState& l) { return 2.0 / l.h * (l.A - std::sin(l.alpha)); }
 double end_kappa(const LinkState& l) { return 2.0 / l.h * (l.B + std::sin(l.beta)); }
 
-/// Curvature in extended precision: derivatives of the homogeneous curve by differences of its
-/// control points.
-long double exact_curvature(const RationalBezier& piece, long double t) {
-  long double h[3][5] = {};  // x, y, w
-  for (std::size_t j = 0; j < 5; ++j) {
-    const long double w = piece.weight[j];
-    h[0][j] = w * piece.offset[j].x;
-    h[1][j] = w * piece.offset[j].y;
-    h[2][j] = w;
-  }
-  long double value[3] = {}, d1[3] = {}, d2[3] = {};
-  for (int c = 0; c < 3; ++c) {
-    long double* p = h[c];
-    for (int level = 0; level < 2; ++level) {
-      for (int j = 0; j < 4 - level; ++j) p[j] += t * (p[j + 1] - p[j]);
-    }
-    d2[c] = 12.0L * (p[0] - 2.0L * p[1] + p[2]);
-    for (int j = 0; j < 2; ++j) p[j] += t * (p[j + 1] - p[j]);
-    d1[c] = 4.0L * (p[1] - p[0]);
-    value[c] = p[0] + t * (p[1] - p[0]);
-  }
-  const long double w = value[2];
-  // r' = (d1 - r w')/w; kappa = w^3-free form: det(H, H', H'') w^3 / |w P' - P w'|^3
-  const long double ux = w * d1[0] - value[0] * d1[2], uy = w * d1[1] - value[1] * d1[2];
-  const long double det = value[0] * (d1[1] * d2[2] - d1[2] * d2[1]) -
-                          value[1] * (d1[0] * d2[2] - d1[2] * d2[0]) +
-                          value[2] * (d1[0] * d2[1] - d1[1] * d2[0]);
-  return det * w * w * w / std::pow(std::hypot(ux, uy), 3.0L);
-}
-
 void expect_end_data(const LinkState& l, Vec2 start, Vec2 end,
                      const std::vector<RationalBezier>& pieces, int i) {
   const RationalBezier &first = pieces.front(), &last = pieces.back();
@@ -98,10 +70,10 @@ void expect_end_data(const LinkState& l, Vec2 start, Vec2 end,
   EXPECT_NEAR(std::remainder(turning(chord, arrive) - l.beta, 2.0 * std::numbers::pi), 0.0,
               kSameHeading)
       << i;
-  EXPECT_NEAR(static_cast<double>(exact_curvature(first, 0.0L)) * l.h, start_kappa(l) * l.h,
+  EXPECT_NEAR(static_cast<double>(extended_curvature(first, 0.0L)) * l.h, start_kappa(l) * l.h,
               kSameCurvature)
       << i;
-  EXPECT_NEAR(static_cast<double>(exact_curvature(last, 1.0L)) * l.h, end_kappa(l) * l.h,
+  EXPECT_NEAR(static_cast<double>(extended_curvature(last, 1.0L)) * l.h, end_kappa(l) * l.h,
               kSameCurvature)
       << i;
 }
@@ -125,7 +97,7 @@ TEST(Spirals, MeetTheirEndDataAndAreMonotone) {
     long double last = -INFINITY;
     for (const RationalBezier& piece : pieces) {
       for (int k = 0; k <= 50; ++k) {
-        const long double kappa = direction * exact_curvature(piece, k / 50.0L) * l.h;
+        const long double kappa = direction * extended_curvature(piece, k / 50.0L) * l.h;
         EXPECT_GT(kappa, last - kSameCurvature) << i;
         last = kappa;
       }
@@ -226,7 +198,7 @@ TEST(Spirals, BecomeTheCircleSmoothlyAsTheChangeOfCurvatureVanishes) {
       ASSERT_TRUE(append_spiral(l, 1, {0, 0}, {1, 0}, pieces)) << alpha << ", " << sigma;
       for (const RationalBezier& piece : pieces) {
         for (int k = 0; k <= 20; ++k) {
-          const double kappa = static_cast<double>(exact_curvature(piece, k / 20.0L));
+          const double kappa = static_cast<double>(extended_curvature(piece, k / 20.0L));
           EXPECT_NEAR(kappa, -2.0 * std::sin(alpha), 10.0 * sigma + kSameCurvature)
               << alpha << ", " << sigma;
         }
@@ -255,8 +227,8 @@ TEST(Spirals, PiecesThatTurnFarComeInPartsOfTheSameCurve) {
       const RationalBezier &a = pieces[i], &b = pieces[i + 1];
       EXPECT_LT(norm(a.offset[4] - b.offset[0]), 1e-15);
       EXPECT_NEAR(turning(a.offset[4] - a.offset[3], b.offset[1] - b.offset[0]), 0.0, kSameHeading);
-      EXPECT_NEAR(static_cast<double>(exact_curvature(a, 1.0L)),
-                  static_cast<double>(exact_curvature(b, 0.0L)), kSameCurvature);
+      EXPECT_NEAR(static_cast<double>(extended_curvature(a, 1.0L)),
+                  static_cast<double>(extended_curvature(b, 0.0L)), kSameCurvature);
     }
   }
   EXPECT_GT(parted, 2);
