@@ -36,7 +36,6 @@ constexpr int kPasses = 4;
 constexpr int kMostPasses = 12;
 constexpr int kStepsPerPass = 5;
 constexpr double kSmoothEnough = 1e-2;  ///< Newton's decrement
-constexpr double kRoom = 1.15;          ///< of a widened tube around its contents
 
 class Builder {
  public:
@@ -65,7 +64,7 @@ class Builder {
     }
     if (series_.closed) begin_in_a_run();
     if (series_.primitives) set_primitives();
-    set_sizes(tube_, x_);
+    if (knots_.size() > 1) set_sizes(tube_, x_);
     SmoothTube out{std::move(tube_), std::move(x_), {}, {}, steps_};
     for (const Knot& k : knots_) {
       out.source.push_back(k.first);
@@ -168,14 +167,13 @@ class Builder {
     const std::vector<std::size_t> order = points_in_order();
     SmoothPoints smooth = smooth_points(order);
     std::vector<Primitive> found = find_primitives(smooth);
-    std::erase_if(found, [&](const Primitive& p) {
-      return std::any_of(unwanted_.begin(), unwanted_.end(), [&](std::size_t i) {
-        return std::find(order.begin() + static_cast<std::ptrdiff_t>(p.first),
-                         order.begin() + static_cast<std::ptrdiff_t>(p.last) + 1,
-                         i) != order.begin() + static_cast<std::ptrdiff_t>(p.last) + 1;
-      });
-    });
     if (found.empty()) return;
+    if (series_.closed && found.front().first == 0 && found.front().last + 1 == order.size()) {
+      found.front().before = found.front().after = std::numbers::pi / std::abs(found.front().kappa);
+      knots_ = {{order.front(), order.back(), found.front()}};
+      lay_nodes();
+      return;
+    }
     std::vector<bool> is_node(series_.points.size(), false);
     for (const std::size_t i : source_) is_node[i] = true;
     knots_.clear();
@@ -189,7 +187,11 @@ class Builder {
         knots_.push_back({order[k], order[k], std::nullopt});
       }
     }
-    smooth_knots();
+    if (knots_.size() > 1) {
+      smooth_knots();
+    } else {
+      lay_nodes();
+    }
   }
 
   [[nodiscard]] std::vector<std::size_t> points_in_order() const {
@@ -214,12 +216,21 @@ class Builder {
       out.points.push_back(p);
       out.reach.push_back(series_.reach[i]);
       out.kappa.push_back(n.kappa + x_[kPerNode * node + 2] / n.length);
-      out.free.push_back(!given(i));
+      out.free.push_back(!given(i) &&
+                         std::find(unwanted_.begin(), unwanted_.end(), i) == unwanted_.end());
     }
     return out;
   }
 
   void lay_nodes() {
+    if (knots_.size() == 1) {  // one circle or line through everything
+      tube_.on_primitives.clear();
+      tube_.nodes = {primitive_node(knots_.front())};
+      tube_.rows.clear();
+      tube_.first_row = {0};
+      x_.assign(kPerNode, 0.0);
+      return;
+    }
     std::vector<Vec2> points;
     std::vector<std::size_t> place_of;  // of each knot, its first point
     if (series_.closed) points.push_back(local(knots_.back().last));
@@ -333,13 +344,16 @@ class Builder {
     for (int pass = 0; pass < kMostPasses; ++pass) {
       set_sizes(tube_, x_);
       TubeModel model(tube_, no_direction, Cone::kClosedForm, kRateEnergy);
-      const double use = model.tube_use(x_);
-      const double scale = use < 1.0 ? 1.0 : kRoom * use;
-      if (scale == 1.0 && pass >= kPasses) return true;
-      model.set_reach_scale(scale);
       TubeSolver solver(model);
-      solver.descend(x_, {kSmoothing, 0.0, 1.0}, kSmoothEnough, kStepsPerPass);
+      bool inside = model.tube_use(x_) < 1.0;
+      if (inside && pass >= kPasses) return true;
+      if (inside) {
+        solver.descend(x_, {kSmoothing, 0.0, 1.0}, kSmoothEnough, kStepsPerPass);
+      } else {
+        inside = solver.enter_tube(x_, kSmoothing);
+      }
       steps_ += solver.steps();
+      if (!inside) return false;
       relinearise();
     }
     return tube_.rows.empty();

@@ -2,6 +2,7 @@
 #include "obvid/fairing/fairing.h"
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 #include "build_tube.h"
@@ -57,20 +58,49 @@ int forced_vertices(const MeasuredSeries& series) {
 
 namespace {
 
-/// Appends a node's elements: one, or both ends of a primitive with the exact piece between them.
+/// An exact arc comes in parts that turn by no more than this, rad.
+constexpr double kLargestArc = 3.0;
+
+/// Appends a node's elements: one, or the ends of a primitive with exact pieces between them.
 void append_node(const LaidTube& laid, const SmoothTube& smooth, std::size_t i, FairedSeries& out) {
   const TubeNode& n = laid.tube.nodes[i];
   const double* x = &laid.start[kPerNode * i];
-  const PlacedNode placed = place(n, x);
-  const double theta = n.theta + x[1], kappa = placed.in.kappa;
   const auto node = laid.node[i];
+  const auto first = node ? std::optional(smooth.source[*node]) : std::nullopt;
   const Vec2 origin = laid.tube.origin;
-  out.elements.push_back({origin + placed.in.position, theta - kappa * n.before, kappa});
-  out.source.push_back(node ? std::optional(smooth.source[*node]) : std::nullopt);
+  const auto append = [&](double s, std::optional<std::size_t> source) {
+    TubeNode at = n;
+    at.before = -s;
+    const NodeEnd end = place(at, x).in;
+    out.elements.push_back({origin + end.position, n.theta + x[1] + end.kappa * s, end.kappa});
+    out.source.push_back(source);
+  };
+  append(-n.before, first);
   if (!n.is_primitive()) return;
-  out.direction.push_back(0);
-  out.elements.push_back({origin + placed.out.position, theta + kappa * n.after, kappa});
-  out.source.emplace_back(smooth.last_source[*node]);
+  const double length = n.before + n.after, turn = length * place(n, x).in.kappa;
+  const int parts = std::max(1, static_cast<int>(std::ceil(std::abs(turn) / kLargestArc)));
+  for (int k = 1; k <= parts; ++k) {
+    out.direction.push_back(0);
+    const double s = k == parts ? n.after : -n.before + length * k / parts;
+    append(s, k == parts ? std::optional(smooth.last_source[*node]) : std::nullopt);
+  }
+}
+
+/// One circle or line through all points.
+FairedSeries one_primitive(const MeasuredSeries& series, const SmoothTube& smooth) {
+  FairedSeries out;
+  LaidTube laid;
+  laid.tube = smooth.tube;
+  laid.start = smooth.state;
+  laid.node = {0};
+  append_node(laid, smooth, 0, out);
+  out.feasible = true;
+  out.primitives = 1;
+  if (series.closed) {  // the end is the beginning
+    out.elements.pop_back();
+    out.source.pop_back();
+  }
+  return out;
 }
 
 FairedSeries attempt(const MeasuredSeries& series, int lower_bound,
@@ -82,6 +112,11 @@ FairedSeries attempt(const MeasuredSeries& series, int lower_bound,
   out.vertices_lower_bound = lower_bound;
   SmoothTube smooth = build_tube(series, unwanted);
   tell(0.1);
+  if (smooth.tube.nodes.size() == 1) {
+    out = one_primitive(series, smooth);
+    out.vertices_lower_bound = lower_bound;
+    return out;
+  }
   RunSearch search(smooth.tube, smooth.state);
   const Runs runs = search.search(lower_bound);
   tell(0.6);
@@ -99,35 +134,37 @@ FairedSeries attempt(const MeasuredSeries& series, int lower_bound,
   return out;
 }
 
-/// Index of the first point of the primitive nearest to the trouble.
-std::optional<std::size_t> nearest_primitive(const FairedSeries& faired) {
+/// The first or last point of a primitive that lies nearest to the trouble.
+std::size_t nearest_end(const FairedSeries& faired) {
   std::optional<std::size_t> best;
-  std::size_t least = 0;
+  const auto away = [&](std::size_t i) {
+    return i > faired.trouble ? i - faired.trouble : faired.trouble - i;
+  };
   for (std::size_t k = 0; k < faired.direction.size(); ++k) {
     if (faired.direction[k] != 0) continue;
-    const std::size_t first = *faired.source[k], last = *faired.source[k + 1];
-    const auto away = [&](std::size_t i) {
-      return i > faired.trouble ? i - faired.trouble : faired.trouble - i;
-    };
-    const std::size_t distance = std::min(away(first), away(last));
-    if (best && distance >= least) continue;
-    best = first;
-    least = distance;
+    for (const auto source : {faired.source[k], faired.source[k + 1]}) {
+      if (source && (!best || away(*source) < away(*best))) best = source;
+    }
   }
-  return best;
+  return *best;
 }
+
+/// Points that are taken off the ends of primitives until the transitions have room.
+constexpr std::size_t kMostTrims = 40;
 
 }  // namespace
 
 FairedSeries fair(const MeasuredSeries& series, const Progress& progress) {
   const int lower_bound = forced_vertices(series);
   std::vector<std::size_t> unwanted;
-  while (true) {
+  while (unwanted.size() < kMostTrims) {
     FairedSeries out = attempt(series, lower_bound, unwanted, progress);
     if (out.feasible || out.primitives == 0) return out;
-    // a primitive may leave no room for the transitions beside it
-    unwanted.push_back(*nearest_primitive(out));
+    unwanted.push_back(nearest_end(out));
   }
+  MeasuredSeries without = series;
+  without.primitives = false;
+  return attempt(without, lower_bound, {}, progress);
 }
 
 }  // namespace obvid

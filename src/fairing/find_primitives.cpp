@@ -2,6 +2,7 @@
 #include "find_primitives.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <optional>
@@ -12,16 +13,16 @@ namespace obvid::fairing_detail {
 namespace {
 
 constexpr std::size_t kFewestPoints = 4;
-/// Parts of the tolerance that a fit may use up. Half leaves the transitions beside it room; noise
-/// of the tolerance's size needs nearly all. The former is taken where it is nearly as long.
-constexpr double kSpareShare = 0.5;
-constexpr double kFullShare = 0.95;
-constexpr double kSpareLength = 0.7;
+/// Parts of the tolerance that a fit may use up. Noise of the tolerance's size needs nearly all;
+/// the less it is, the better arcs are told from spirals, and the more room the transitions have.
+constexpr std::array<double, 3> kShares = {0.95, 0.5, 0.05};
+constexpr double kSharperLength = 0.7;
 /// A clothoid over a length L departs from its best circle by (change of curvature) L^2 / kHidden.
 constexpr double kHidden = 125.0;
 /// Least quality: a stretch of a clothoid has 1, one around a vertex about 12.
 constexpr double kLeastQuality = 16.0;
 constexpr double kLineShare = 0.8;  ///< of a circle's length that a line must reach to be preferred
+constexpr double kSameLength = 0.25;  ///< between an arc and the chords of its points
 constexpr int kFitSteps = 8;
 constexpr double kFitted = 1e-12;       ///< last step of a fit, in half lengths of the stretch
 constexpr std::size_t kFitPoints = 64;  ///< a longer stretch is fitted on so many of its points
@@ -58,14 +59,16 @@ class Finder {
   explicit Finder(const SmoothPoints& series) : s_(series) {}
 
   std::vector<Primitive> run() {
-    share_ = kSpareShare;
-    const std::vector<Primitive> spare = candidates();
-    share_ = kFullShare;
-    std::vector<Primitive> all = candidates();
-    for (Primitive& p : all) {
-      for (const Primitive& q : spare) {
-        if (common_length(p, q) >= kSpareLength * length(p)) p = q;
-      }
+    std::vector<Primitive> all;
+    for (const double share : kShares) {  // a sharper fit takes the place of one not much longer
+      share_ = share;
+      const std::vector<Primitive> sharper = candidates();
+      std::erase_if(all, [&](const Primitive& p) {
+        return std::any_of(sharper.begin(), sharper.end(), [&](const Primitive& q) {
+          return common_length(p, q) >= kSharperLength * length(p);
+        });
+      });
+      all.insert(all.end(), sharper.begin(), sharper.end());
     }
     return best_without_overlap(std::move(all));
   }
@@ -162,12 +165,19 @@ class Finder {
     }
   }
 
-  /// Curvature of the smooth curve half a stretch beyond the stretch, if the series goes so far.
-  [[nodiscard]] std::optional<double> kappa_at(double at) const {
-    if (at < s_.at.front() || at > s_.at.back()) return std::nullopt;
-    const auto next = std::upper_bound(s_.at.begin(), s_.at.end(), at);
-    const auto i = static_cast<std::size_t>(next - s_.at.begin());
-    return s_.kappa[std::min(i, s_.kappa.size() - 1)];
+  /// Largest difference of the smooth curvature from `kappa` up to half a stretch beyond both ends;
+  /// nothing when the series ends there.
+  [[nodiscard]] std::optional<double> change_beside(const Primitive& p) const {
+    const double half = 0.5 * length(p);
+    std::optional<double> largest;
+    const auto look = [&](std::size_t i) {
+      largest = std::max(largest.value_or(0.0), std::abs(s_.kappa[i] - p.kappa));
+    };
+    for (std::size_t i = p.first; i-- > 0 && s_.at[p.first] - s_.at[i] <= half;) look(i);
+    for (std::size_t i = p.last + 1; i < s_.at.size() && s_.at[i] - s_.at[p.last] <= half; ++i) {
+      look(i);
+    }
+    return largest;
   }
 
   [[nodiscard]] std::optional<Primitive> describe(std::size_t first, std::size_t last) const {
@@ -180,25 +190,21 @@ class Finder {
     }
     const auto fit = fit_circle(p.first, p.last, kind);
     if (!fit) return std::nullopt;
-    const double length = s_.at[p.last] - s_.at[p.first];
+    const double length = this->length(p);
     p.anchor = fit->node.point;
     p.theta = fit->node.theta;
     p.kappa = fit->node.kappa;
     p.before = along(*fit, s_.points[p.first]);
     p.after = along(*fit, s_.points[p.last]);
     if (!(p.before < 0.0 && p.after > 0.0)) return std::nullopt;
+    // feet beyond half a turn from the anchor look as if they lay on its other side
+    if (!(std::abs(p.after - p.before - length) <= kSameLength * length)) return std::nullopt;
     p.before = -p.before;
-    double reach = 0.0, beside = 0.0;
-    bool alone = true;
+    double reach = 0.0;
     for (std::size_t i = p.first; i <= p.last; ++i) reach = std::max(reach, s_.reach[i]);
-    for (const double at : {s_.at[p.first] - 0.5 * length, s_.at[p.last] + 0.5 * length}) {
-      if (const auto kappa = kappa_at(at)) {
-        beside = std::max(beside, std::abs(*kappa - p.kappa));
-        alone = false;
-      }
-    }
-    p.quality = alone ? std::numeric_limits<double>::infinity()
-                      : beside * length * length / (kHidden * reach);
+    const auto beside = change_beside(p);
+    p.quality = beside ? *beside * length * length / (kHidden * share_ * reach)
+                       : std::numeric_limits<double>::infinity();
     if (!(p.quality >= kLeastQuality)) return std::nullopt;
     return p;
   }

@@ -215,8 +215,15 @@ TubeModel::RowValue TubeModel::row_value(const TubeRow& row, const LinkState& s,
   const double curve =
       s.h * (out.h1 * s.sin_alpha * ca + out.h4 * s.sin_beta * cb) +
       s.h * s.h * (out.h2 * a.kappa * ca * ca * ca + out.h5 * b.kappa * cb * cb * cb);
-  out.residual = (y - curve) / (row.reach * reach_scale_);
+  out.residual = (y - curve) / row.reach;
   return out;
+}
+
+/// Barrier -log(T^2 - r^2) of a residual in a tube of half width T: derivatives by r and T.
+TubeModel::WallTerms TubeModel::wall(double r, double weight) const {
+  const double t = half_width_, f = 1.0 / (t * t - r * r);
+  const double g = 2.0 * weight * f, gg = 2.0 * g * f;
+  return {g * r, g + gg * r * r, -g * t, gg * t * t - g, -gg * r * t};
 }
 
 void TubeModel::add_rows(std::size_t i, const LinkState& s, double weight, LinkTerms& out) const {
@@ -232,7 +239,7 @@ void TubeModel::add_rows(std::size_t i, const LinkState& s, double weight, LinkT
     // by both angles to the chord, both curvatures and the chord itself
     const double da = s.h * v.h1 * ca * ca, db = s.h * v.h4 * cb * cb;
     const double ka = s.h * s.h * v.h2 * ca * ca * ca, kb = s.h * s.h * v.h5 * cb * cb * cb;
-    const double scale = -1.0 / (row.reach * reach_scale_);
+    const double scale = -1.0 / row.reach;
     double J[6];
     for (std::size_t p = 0; p < 6; ++p) {
       const double turn = dot(jet.chord[p], normal) / s.h;
@@ -240,18 +247,23 @@ void TubeModel::add_rows(std::size_t i, const LinkState& s, double weight, LinkT
       J[p] = scale * (lift + da * (jet.theta_a[p] - turn) + db * (jet.theta_b[p] - turn) +
                       ka * jet.kappa_a[p] + kb * jet.kappa_b[p]);
     }
-    const double r = v.residual, room = 1.0 / (1.0 - r * r);
-    const double g = w * 2.0 * r * room, h = w * (2.0 * room + 4.0 * r * r * room * room);
+    const WallTerms t = wall(v.residual, w);
     for (std::size_t p = 0; p < 6; ++p) {
-      out.gradient[p] += g * J[p];
-      const double hp = h * J[p];
+      out.gradient[p] += t.g * J[p];
+      const double hp = t.h * J[p];
       for (std::size_t q = 0; q <= p; ++q) out.hessian[p][q] += hp * J[q];
+      if (slack_widens_) out.slack_column[p] += t.mixed * J[p];
+    }
+    if (slack_widens_) {
+      out.slack_gradient += t.width_g;
+      out.slack_hessian += t.width_h;
     }
   }
 }
 
 /// Points on a primitive: their distances from its circle.
-void TubeModel::add_primitive(std::size_t i, double weight, BorderedSystem& system) const {
+void TubeModel::add_primitive(std::size_t i, double weight, bool with_slack,
+                              BorderedSystem& system) const {
   const TubeNode& n = node(i);
   const double w = weight / static_cast<double>(n.last_on - n.first_on);
   Vec3 gradient{};
@@ -259,14 +271,15 @@ void TubeModel::add_primitive(std::size_t i, double weight, BorderedSystem& syst
   for (std::size_t k = n.first_on; k < n.last_on; ++k) {
     const TubeRow& row = tube_.on_primitives[k];
     const CircleDistance d = circle_distance(n, state_[i], row.point);
-    const double unit = 1.0 / (row.reach * reach_scale_), r = d.value * unit;
-    const double room = 1.0 / (1.0 - r * r);
-    const double g = w * 2.0 * r * room * unit;
-    const double h = w * (2.0 * room + 4.0 * r * r * room * room) * unit * unit;
+    const double unit = 1.0 / row.reach;
+    const WallTerms t = wall(d.value * unit, w);
     for (std::size_t p = 0; p < kPerNode; ++p) {
-      gradient[p] += g * d.slope[p];
-      for (std::size_t q = 0; q <= p; ++q) hessian[p][q] += h * d.slope[p] * d.slope[q];
+      const double slope = unit * d.slope[p];
+      gradient[p] += t.g * slope;
+      for (std::size_t q = 0; q <= p; ++q) hessian[p][q] += t.h * slope * unit * d.slope[q];
+      if (with_slack && slack_widens_) system.add_to_slack_column(i, p, t.mixed * slope);
     }
+    if (with_slack && slack_widens_) system.add_slack(t.width_g, t.width_h);
   }
   system.add(i, gradient, hessian);
 }
@@ -277,9 +290,9 @@ double TubeModel::primitive_room(std::size_t i) const {
   LogSum sum;
   for (std::size_t k = n.first_on; k < n.last_on; ++k) {
     const TubeRow& row = tube_.on_primitives[k];
-    const double r = circle_distance(n, state_[i], row.point).value / (row.reach * reach_scale_);
-    if (!(std::abs(r) < 1.0)) return -kInfinity;
-    sum.add(1.0 - r * r);
+    const double r = circle_distance(n, state_[i], row.point).value / row.reach;
+    if (!(std::abs(r) < half_width_)) return -kInfinity;
+    sum.add(half_width_ * half_width_ - r * r);
   }
   return sum.value() / static_cast<double>(n.last_on - n.first_on);
 }
@@ -288,10 +301,12 @@ void TubeModel::add_nodes(const State& x, double slack, const Weights& w, bool w
                           BorderedSystem& system) const {
   for (std::size_t i = 0; i < nodes_; ++i) {
     const TubeNode& n = node(i);
-    const double e = x[kPerNode * i] / reach_scale_;
-    const double room = 1.0 / (1.0 - e * e);
-    system.add(i, 0, w.tube * 2.0 * e * room / reach_scale_,
-               w.tube * (2.0 * room + 4.0 * e * e * room * room) / (reach_scale_ * reach_scale_));
+    const WallTerms t = wall(x[kPerNode * i], w.tube);
+    system.add(i, 0, t.g, t.h);
+    if (with_slack && slack_widens_) {
+      system.add_slack(t.width_g, t.width_h);
+      system.add_to_slack_column(i, 0, t.mixed);
+    }
     if (n.sign != 0.0 && w.cone > 0.0) {
       const double v = n.sign * (n.kappa * n.length + x[kPerNode * i + 2]) + slack;
       system.add(i, 2, -kSignWeight * w.cone * n.sign / v, kSignWeight * w.cone / (v * v));
@@ -300,7 +315,7 @@ void TubeModel::add_nodes(const State& x, double slack, const Weights& w, bool w
         system.add_to_slack_column(i, 2, kSignWeight * w.cone * n.sign / (v * v));
       }
     }
-    if (n.is_primitive()) add_primitive(i, w.tube, system);
+    if (n.is_primitive()) add_primitive(i, w.tube, with_slack, system);
     if (n.reach == 0.0) system.fix(i, 0);
     if (n.fix_theta) system.fix(i, 1);
     if (n.fix_kappa || !(system.diagonal(i, 2) > 0.0)) system.fix(i, 2);
@@ -311,6 +326,7 @@ void TubeModel::assemble(const State& x, double slack, const Weights& w, bool wi
                          BorderedSystem& system) {
   system.reset(nodes_, tube_.closed, with_slack);
   place_nodes(x);
+  half_width_ = slack_widens_ ? 1.0 + slack : 1.0;
   for (std::size_t i = 0; i < link_count(); ++i) {
     const LinkState s = link_state(i);
     const ConeState c = w.cone > 0.0 ? cone_state(i, s, slack) : ConeState{};
@@ -324,12 +340,15 @@ void TubeModel::assemble(const State& x, double slack, const Weights& w, bool wi
 
 double TubeModel::merit(const State& x, double slack, const Weights& w) {
   place_nodes(x);
+  half_width_ = slack_widens_ ? 1.0 + slack : 1.0;
+  if (!(half_width_ > 0.0)) return kInfinity;
+  const double square = half_width_ * half_width_;
   double value = 0.0, primitives = 0.0;
   LogSum cones, sigmas, signs, nodes;
   for (std::size_t i = 0; i < nodes_; ++i) {
     const TubeNode& n = node(i);
-    const double e = x[kPerNode * i] / reach_scale_;
-    const double room = 1.0 - e * e;
+    const double e = x[kPerNode * i];
+    const double room = square - e * e;
     if (!(room > 0.0)) return kInfinity;
     nodes.add(room);
     if (n.is_primitive()) {
@@ -364,7 +383,7 @@ double TubeModel::merit(const State& x, double slack, const Weights& w) {
     const NodeEnd& b = state_[next(i)].in;
     for (std::size_t k = first; k < last; ++k) {
       const double r = row_value(tube_.rows[k], s, a, b).residual;
-      const double room = 1.0 - r * r;
+      const double room = square - r * r;
       if (!(room > 0.0)) return kInfinity;
       link_rows.add(room);
     }
@@ -397,11 +416,11 @@ double TubeModel::tube_use(const State& x) {
   place_nodes(x);
   double use = 0.0;
   for (std::size_t i = 0; i < nodes_; ++i) {
-    use = std::max(use, std::abs(x[kPerNode * i]) / reach_scale_);
+    use = std::max(use, std::abs(x[kPerNode * i]));
     for (std::size_t k = node(i).first_on; k < node(i).last_on; ++k) {
       const TubeRow& row = tube_.on_primitives[k];
       const double d = circle_distance(node(i), state_[i], row.point).value;
-      use = std::max(use, std::abs(d) / (row.reach * reach_scale_));
+      use = std::max(use, std::abs(d) / row.reach);
     }
   }
   for (std::size_t i = 0; i < link_count(); ++i) {

@@ -50,8 +50,8 @@ class TubeModel {
   [[nodiscard]] double barrier_parameter() const;
   /// Largest |residual| / reach over rows and nodes.
   double tube_use(const State& x);
-  /// Scales all tolerances (1: as they are).
-  void set_reach_scale(double scale) { reach_scale_ = scale; }
+  /// From now on the slack widens the tube, to 1 + slack reaches, instead of the cones.
+  void let_slack_widen_the_tube() { slack_widens_ = true; }
 
  private:
   struct LinkState {
@@ -72,6 +72,10 @@ class TubeModel {
   void add_cone(std::size_t i, const LinkState& s, const ConeState& c, const Weights& w,
                 LinkTerms& terms) const;
   void add_rows(std::size_t i, const LinkState& s, double weight, LinkTerms& terms) const;
+  struct WallTerms {
+    double g, h, width_g, width_h, mixed;
+  };
+  [[nodiscard]] WallTerms wall(double r, double weight) const;
   struct RowValue {
     double residual;  // over reach
     double h1, h2, h4, h5, u;
@@ -87,7 +91,7 @@ class TubeModel {
   };
   [[nodiscard]] LinkJet link_jet(std::size_t i) const;
   [[nodiscard]] double primitive_room(std::size_t i) const;
-  void add_primitive(std::size_t i, double weight, BorderedSystem& system) const;
+  void add_primitive(std::size_t i, double weight, bool with_slack, BorderedSystem& system) const;
   [[nodiscard]] std::size_t next(std::size_t i) const { return i + 1 == nodes_ ? 0 : i + 1; }
   void add_nodes(const State& x, double slack, const Weights& w, bool with_slack,
                  BorderedSystem& system) const;
@@ -97,7 +101,8 @@ class TubeModel {
   Cone cone_;
   LinkEnergy energy_;
   std::size_t nodes_ = 0;
-  double reach_scale_ = 1.0;
+  bool slack_widens_ = false;
+  double half_width_ = 1.0;  ///< of the tube, in reaches
   std::vector<PlacedNode> state_;
 };
 

@@ -14,6 +14,8 @@ constexpr double kSmallestStep = 1e-7;
 constexpr double kStartingRoom = 1.2;    ///< slack at the start over the needed one
 constexpr double kSmallestStart = 1e-3;  ///< of the slack at the start, in link sizes
 constexpr double kSlackBarrier = 0.1;    ///< starting barrier weight over the slack
+constexpr double kStartingWidth = 1.15;  ///< of a widened tube over what it must hold
+constexpr double kWidthBarrier = 1.0;    ///< starting barrier weight over the tube's width
 constexpr double kSlackBarrierFall = 0.15;
 constexpr double kPhaseOneEnergy = 1e-4;  ///< damper, against the barriers
 constexpr int kRounds = 12;
@@ -70,6 +72,26 @@ Feasibility TubeSolver::find_inside(State& x) {
     mu *= kSlackBarrierFall;
   }
   return {false, slack_};
+}
+
+bool TubeSolver::enter_tube(State& x, double energy) {
+  model_.let_slack_widen_the_tube();
+  slack_ = kStartingWidth * model_.tube_use(x) - 1.0;
+  if (slack_ <= 0.0) return true;
+  const double links = static_cast<double>(model_.link_count());
+  const double gap = model_.barrier_parameter() / links;
+  double mu = kWidthBarrier;
+  for (int round = 0; round < kRounds; ++round) {
+    bool centred = false;
+    for (int k = 0; k < kStepsPerRound && !centred; ++k) {
+      const double decrement = step(x, {energy, 0.0, 1.0}, links / mu);
+      if (slack_ < 0.0) return true;
+      centred = decrement < kCentred;
+    }
+    if (centred && slack_ > gap * mu && mu < kNegligibleBarrier * slack_) return false;
+    mu *= kSlackBarrierFall;
+  }
+  return false;
 }
 
 bool TubeSolver::descend(State& x, const Weights& w, double done, int most) {

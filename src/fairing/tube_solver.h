@@ -21,6 +21,9 @@ class TubeSolver {
 
   /// Moves x (inside the tube) into all cones, or tells by the duality gap that there is no such x.
   Feasibility find_inside(State& x);
+  /// Moves x inside the tube while keeping it smooth: `energy` is the weight of the model's energy
+  /// against the barrier. False when no such x was found.
+  bool enter_tube(State& x, double energy);
   /// Newton to the minimum of the merit for fixed weights, from inside; at most `most` steps.
   /// Returns whether the decrement fell below `done`.
   bool descend(State& x, const Weights& weights, double done, int most);

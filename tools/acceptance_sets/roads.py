@@ -10,7 +10,7 @@ STEP = 5.0  # m, as the issue asks
 # m. Real joints of these files are off by up to 1.5e-3 m and 1e-4 rad, and most arcs join lines
 # without a spiral between them (the transition has to fit between the points): a centimetre is what
 # lane markings are drawn to.
-TOLERANCE = 0.01
+TOLERANCE = 0.001
 FEWEST_POINTS = 4
 
 
