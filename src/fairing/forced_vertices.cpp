@@ -11,6 +11,8 @@ namespace {
 
 constexpr std::array<std::size_t, 13> kStrides = {1, 2, 3, 4, 6, 8, 12, 16, 24, 32, 48, 64, 96};
 constexpr std::size_t kCount = kStrides.size();
+/// Only so many points ahead does a step lead.
+constexpr std::size_t kRing = kStrides.back() + 1;
 /// Neighbouring strides differ by at most this many places in the table.
 constexpr std::size_t kStep = 2;
 /// Reaches larger than this part of a chord are beyond the first-order bound.
@@ -19,6 +21,10 @@ constexpr double kSecondOrder = 8.0;  ///< allowance for the second order, in re
 /// Cosine of the largest turning between neighbouring chords for which the bound is trusted.
 constexpr double kLargestTurn = 0.0;
 constexpr std::int32_t kNever = -1;
+/// Points far denser than their reaches need longer strides: every so many-th point alone is tried
+/// too, and of those again, while this many are left.
+constexpr std::size_t kThinning = 8;
+constexpr std::size_t kFewest = 64;
 
 /// Most changes of sign so far, by the last sure sign: rising, falling; `none` when none was sure.
 struct Best {
@@ -28,7 +34,7 @@ struct Best {
 class Counter {
  public:
   Counter(const std::vector<Vec2>& points, const std::vector<double>& reach)
-      : points_(points), reach_(reach), best_(points.size() * kCount * kCount) {}
+      : points_(points), reach_(reach), best_(kRing * kCount * kCount) {}
 
   int run() {
     const std::size_t n = points_.size();
@@ -41,6 +47,7 @@ class Counter {
           from.none = std::max(from.none, 0);  // a sequence may begin here
           most = std::max({most, from.none, from.rising, from.falling});
           for (std::size_t k = low(j); k <= high(j); ++k) follow(c, i, j, k, from);
+          from = {};
         }
       }
     }
@@ -62,7 +69,7 @@ class Counter {
   static std::size_t low(std::size_t i) { return i > kStep ? i - kStep : 0; }
   static std::size_t high(std::size_t i) { return std::min(kCount - 1, i + kStep); }
   static std::size_t state(std::size_t c, std::size_t i, std::size_t j) {
-    return (c * kCount + i) * kCount + j;
+    return (c % kRing * kCount + i) * kCount + j;
   }
 
   void follow(std::size_t c, std::size_t i, std::size_t j, std::size_t k, const Best& from) {
@@ -119,7 +126,20 @@ class Counter {
 }  // namespace
 
 int forced_vertices(const std::vector<Vec2>& points, const std::vector<double>& reach) {
-  return Counter(points, reach).run();
+  int most = Counter(points, reach).run();
+  std::vector<Vec2> some = points;
+  std::vector<double> of_some = reach;
+  while (some.size() >= kThinning * kFewest) {
+    std::size_t n = 0;
+    for (std::size_t i = 0; i < some.size(); i += kThinning, ++n) {
+      some[n] = some[i];
+      of_some[n] = of_some[i];
+    }
+    some.resize(n);
+    of_some.resize(n);
+    most = std::max(most, Counter(some, of_some).run());
+  }
+  return most;
 }
 
 }  // namespace obvid::fairing_detail
