@@ -155,6 +155,27 @@ Result<SeriesChain> choose_elements(const std::vector<Vec2>& points, const Analy
   return std::move(*tried.chain);
 }
 
+namespace {
+
+/// The given elements as they are, with free elements, whose heading and curvature alone are
+/// chosen, in links that one piece cannot carry.
+std::optional<SeriesChain> keep_elements(const Extended& given) {
+  ChainSolution solution = judge_chain(given.points, given.problem, given.start);
+  if (carried(given.problem, solution)) return collect(given, std::move(solution), 0);
+  Extended halved = with_free_elements(given, solution);
+  for (std::size_t i = 0; i < halved.points.size(); ++i) {
+    if (!halved.source[i]) continue;
+    halved.problem.nodes[i].theta = halved.start[i].theta;
+    halved.problem.nodes[i].kappa = halved.start[i].kappa;
+  }
+  solution = solve_chain(halved.points, halved.problem, {}, &halved.start);
+  if (!carried(halved.problem, solution)) return std::nullopt;
+  const int steps = solution.newton_steps;
+  return collect(halved, std::move(solution), steps);
+}
+
+}  // namespace
+
 Result<SeriesChain> follow_directions(DirectedSeries series) {
   Extended e;
   e.problem.chords = measure_chords(series.points);
@@ -168,6 +189,7 @@ Result<SeriesChain> follow_directions(DirectedSeries series) {
   e.start = std::move(series.start);
   e.source = std::move(series.source);
   e.turned.assign(e.problem.direction.size(), false);
+  if (auto kept = keep_elements(e)) return std::move(*kept);
   Attempt tried = attempt(std::move(e), true);
   if (tried.chain) return std::move(*tried.chain);
   return fail({ErrorCode::kNoSpiral,

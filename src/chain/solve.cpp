@@ -55,6 +55,15 @@ class Solver {
     return out;
   }
 
+  ChainSolution judge(const std::vector<Element>& elements) {
+    x_ = model_.from_elements(elements);
+    ChainSolution out;
+    fill(out);
+    out.feasible = out.smallest_margin > 0.0;
+    out.converged = true;
+    return out;
+  }
+
  private:
   /// One damped Newton step for weight `barrier` and energy weight `energy`; the slack takes part
   /// when `slack_cost` > 0. Returns Newton's decrement, or a negative number when no step helps.
@@ -178,6 +187,11 @@ double cone_margin(const LinkState& link, int direction, Cone cone) {
   }
   const double s = std::sin(link.sigma);
   return 1.0 - s * s / (2.0 * std::cos(link.sigma) * product);
+}
+
+ChainSolution judge_chain(const std::vector<Vec2>& points, const ChainProblem& problem,
+                          const std::vector<Element>& elements) {
+  return Solver(points, problem, {}).judge(elements);
 }
 
 ChainSolution solve_chain(const std::vector<Vec2>& points, const ChainProblem& problem,

@@ -23,6 +23,10 @@ constexpr double kLargestTurn = 0.5;      ///< rad over a link between thinned n
 constexpr double kGrading = 1.5;          ///< largest ratio of neighbouring thinned links
 constexpr std::size_t kFewestLinks = 24;  ///< thinning leaves at least so many
 
+/// Points between nodes keep this part of their reach: the rest is for what the model of the link does
+/// not know of the finished curve.
+constexpr double kModelShare = 0.93;
+
 /// Size that the tolerance can hide, over (tolerance / chord).
 constexpr double kHiddenSize = 0.05;
 /// Links on each side over which the rate of curvature is averaged.
@@ -39,8 +43,8 @@ constexpr double kSmoothEnough = 1e-2;  ///< Newton's decrement
 
 class Builder {
  public:
-  Builder(const MeasuredSeries& series, const std::vector<std::size_t>& unwanted)
-      : series_(series), unwanted_(unwanted) {
+  Builder(const MeasuredSeries& series, const std::vector<std::size_t>& loose)
+      : series_(series), loose_(loose) {
     tube_.closed = series.closed;
     tube_.origin = series.points.front();
   }
@@ -216,8 +220,7 @@ class Builder {
       out.points.push_back(p);
       out.reach.push_back(series_.reach[i]);
       out.kappa.push_back(n.kappa + x_[kPerNode * node + 2] / n.length);
-      out.free.push_back(!given(i) &&
-                         std::find(unwanted_.begin(), unwanted_.end(), i) == unwanted_.end());
+      out.free.push_back(!given(i) && std::find(loose_.begin(), loose_.end(), i) == loose_.end());
     }
     return out;
   }
@@ -306,7 +309,7 @@ class Builder {
       const std::size_t from = knots_[i].last, next = knots_[(i + 1) % knots_.size()].first;
       const std::size_t to = next > from ? next : next + n;
       for (std::size_t k = from + 1; k < to; ++k) {
-        tube_.rows.push_back({local(k % n), series_.reach[k % n]});
+        tube_.rows.push_back({local(k % n), kModelShare * series_.reach[k % n]});
       }
     }
     tube_.first_row.push_back(tube_.rows.size());
@@ -362,7 +365,7 @@ class Builder {
   const MeasuredSeries& series_;
   Tube tube_;
   State x_;
-  const std::vector<std::size_t>& unwanted_;
+  const std::vector<std::size_t>& loose_;
   std::vector<std::size_t> source_;
   std::vector<Knot> knots_;
   int steps_ = 0;
@@ -370,8 +373,8 @@ class Builder {
 
 }  // namespace
 
-SmoothTube build_tube(const MeasuredSeries& series, const std::vector<std::size_t>& unwanted) {
-  return Builder(series, unwanted).run();
+SmoothTube build_tube(const MeasuredSeries& series, const std::vector<std::size_t>& loose) {
+  return Builder(series, loose).run();
 }
 
 void set_sizes(Tube& tube, const State& x) {

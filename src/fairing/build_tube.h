@@ -19,9 +19,9 @@ struct SmoothTube {
 
 /// Chooses nodes among the points and lays a smooth curve through the tube, without regard to
 /// directions. Where primitives are wanted, stretches that mean a line or circle become one node
-/// each, except those with an `unwanted` point.
+/// each, except those with an `loose` point.
 [[nodiscard]] SmoothTube build_tube(const MeasuredSeries& series,
-                                    const std::vector<std::size_t>& unwanted = {});
+                                    const std::vector<std::size_t>& loose = {});
 
 /// Expected sizes of all links from the curvatures at x: the largest mean rate of curvature over
 /// three links before, after and around, but not less than what the tolerance can hide.

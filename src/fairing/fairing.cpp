@@ -104,13 +104,13 @@ FairedSeries one_primitive(const MeasuredSeries& series, const SmoothTube& smoot
 }
 
 FairedSeries attempt(const MeasuredSeries& series, int lower_bound,
-                     const std::vector<std::size_t>& unwanted, const Progress& progress) {
+                     const std::vector<std::size_t>& loose, const Progress& progress) {
   const auto tell = [&](double done) {
     if (progress) progress("searching runs", done);
   };
   FairedSeries out;
   out.vertices_lower_bound = lower_bound;
-  SmoothTube smooth = build_tube(series, unwanted);
+  SmoothTube smooth = build_tube(series, loose);
   tell(0.1);
   if (smooth.tube.nodes.size() == 1) {
     out = one_primitive(series, smooth);
@@ -124,8 +124,8 @@ FairedSeries attempt(const MeasuredSeries& series, int lower_bound,
   LaidTube laid = lay_out(smooth.tube, smooth.state, {0, smooth.tube.links()}, runs.layout);
   out.feasible = runs.feasible && make_fair(laid, out.newton_steps);
   out.vertices = runs.vertices;
-  out.trouble = smooth.source[runs.trouble];
   for (std::size_t i = 0; i < laid.tube.nodes.size(); ++i) {
+    if (laid.node[i] == runs.trouble) out.trouble = out.elements.size();
     append_node(laid, smooth, i, out);
     if (i < laid.direction.size()) out.direction.push_back(laid.direction[i]);
     out.primitives += laid.tube.nodes[i].is_primitive() ? 1 : 0;
@@ -134,33 +134,34 @@ FairedSeries attempt(const MeasuredSeries& series, int lower_bound,
   return out;
 }
 
-/// The first or last point of a primitive that lies nearest to the trouble.
-std::size_t nearest_end(const FairedSeries& faired) {
-  std::optional<std::size_t> best;
-  const auto away = [&](std::size_t i) {
-    return i > faired.trouble ? i - faired.trouble : faired.trouble - i;
-  };
-  for (std::size_t k = 0; k < faired.direction.size(); ++k) {
-    if (faired.direction[k] != 0) continue;
-    for (const auto source : {faired.source[k], faired.source[k + 1]}) {
-      if (source && (!best || away(*source) < away(*best))) best = source;
-    }
-  }
-  return *best;
-}
-
 /// Points that are taken off the ends of primitives until the transitions have room.
 constexpr std::size_t kMostTrims = 40;
 
 }  // namespace
 
+std::optional<std::size_t> nearest_primitive_end(const FairedSeries& faired, std::size_t node) {
+  std::optional<std::size_t> best;
+  std::size_t least = 0;
+  for (std::size_t k = 0; k < faired.direction.size(); ++k) {
+    if (faired.direction[k] != 0) continue;
+    for (const std::size_t end : {k, (k + 1) % faired.source.size()}) {
+      const std::size_t away = end > node ? end - node : node - end;
+      if (!faired.source[end] || (best && away >= least)) continue;
+      best = faired.source[end];
+      least = away;
+    }
+  }
+  return best;
+}
+
 FairedSeries fair(const MeasuredSeries& series, const Progress& progress) {
   const int lower_bound = forced_vertices(series);
-  std::vector<std::size_t> unwanted;
-  while (unwanted.size() < kMostTrims) {
-    FairedSeries out = attempt(series, lower_bound, unwanted, progress);
+  std::vector<std::size_t> loose = series.loose;
+  while (loose.size() < series.loose.size() + kMostTrims) {
+    FairedSeries out = attempt(series, lower_bound, loose, progress);
+    out.loose = loose;
     if (out.feasible || out.primitives == 0) return out;
-    unwanted.push_back(nearest_end(out));
+    loose.push_back(*nearest_primitive_end(out, out.trouble));
   }
   MeasuredSeries without = series;
   without.primitives = false;

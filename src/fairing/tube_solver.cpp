@@ -18,8 +18,8 @@ constexpr double kStartingWidth = 1.15;  ///< of a widened tube over what it mus
 constexpr double kWidthBarrier = 1.0;    ///< starting barrier weight over the tube's width
 constexpr double kSlackBarrierFall = 0.15;
 constexpr double kPhaseOneEnergy = 1e-4;  ///< damper, against the barriers
-constexpr int kRounds = 12;
-constexpr int kStepsPerRound = 25;
+constexpr int kRounds = 8;
+constexpr int kStepsPerRound = 16;
 constexpr double kCentred = 0.5;             ///< Newton's decrement at which a round ends
 constexpr double kNegligibleBarrier = 0.05;  ///< mu over the slack: the energy no longer counts
 

@@ -20,7 +20,7 @@ using namespace pipeline_detail;
 
 /// Rounds in which the tolerance of points that the finished contour misses is narrowed: between
 /// nodes the search knows the contour only to first order.
-constexpr int kNarrowings = 4;
+constexpr int kNarrowings = 10;
 constexpr double kNarrowed = 0.95;  ///< of what would just do
 
 Result<Contour> form(const std::vector<Vec2>& points, const SeriesChain& chain, Carrier carrier,

@@ -13,6 +13,8 @@ namespace {
 
 /// Points of a loop that are looked at beyond its seam, on both sides.
 constexpr std::size_t kOverlap = 16;
+/// Points taken off the ends of primitives beside which no transition fits.
+constexpr int kMostTrims = 40;
 /// Fewer points than this lie on one circle: there is nothing to choose.
 constexpr std::size_t kFewestForFairing = 4;
 
@@ -149,11 +151,16 @@ class SectionChooser {
     measured.primitives = series_.primitives;
     for (const std::size_t i : index_) measured.reach.push_back(series_.reach[i]);
     give_nodes(measured);
-    const FairedSeries faired = fair(measured, progress_);
+    FairedSeries faired = fair(measured, progress_);
     out_.vertices_lower_bound = faired.vertices_lower_bound;
-    if (faired.feasible) {
+    for (int k = 0; k < kMostTrims && faired.feasible; ++k) {
       auto chain = follow(faired, measured);
       if (chain) return chain;
+      const auto end = nearest_primitive_end(faired, static_cast<std::size_t>(chain.error().index));
+      if (!end) break;
+      measured.loose = faired.loose;
+      measured.loose.push_back(*end);  // the transition beside the primitive needs more room
+      faired = fair(measured, progress_);
     }
     out_.warnings.emplace_back(
         "the points were moved within their tolerances onto a smooth curve, but runs of monotone "

@@ -84,4 +84,10 @@ struct ChainOptions {
                                         const ChainOptions& options = {},
                                         const std::vector<Element>* start = nullptr);
 
+/// The same outcome for given headings and curvatures, as they are: `feasible` says whether they
+/// lie inside all cones.
+[[nodiscard]] ChainSolution judge_chain(const std::vector<Vec2>& points,
+                                        const ChainProblem& problem,
+                                        const std::vector<Element>& elements);
+
 }  // namespace obvid

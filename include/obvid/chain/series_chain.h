@@ -53,7 +53,8 @@ struct DirectedSeries {
 };
 
 /// Elements for nodes whose directions are known (from a fairing, or one turn of a closed series).
-/// No direction is turned. Errors: E401, naming nodes.
+/// The given headings and curvatures are kept where they lie inside the cones of existence;
+/// otherwise all are chosen again. No direction is turned. Errors: E401, naming nodes.
 [[nodiscard]] Result<SeriesChain> follow_directions(DirectedSeries series);
 
 /// The free element of a link for which a spiral exists but one closed-form piece does not: close

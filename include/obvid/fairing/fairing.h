@@ -13,11 +13,12 @@ namespace obvid {
 
 /// Measured points with the circles in which the true points may lie.
 struct MeasuredSeries {
-  std::vector<Vec2> points;     ///< no two neighbours equal
-  std::vector<double> reach;    ///< how far each point may be moved, units; 0: not at all
-  std::vector<NodeData> nodes;  ///< empty, or what is given at each point
-  bool closed = false;          ///< the last point is followed by the first
-  bool primitives = false;      ///< stretches that mean a line or circle become exactly that
+  std::vector<Vec2> points;        ///< no two neighbours equal
+  std::vector<double> reach;       ///< how far each point may be moved, units; 0: not at all
+  std::vector<NodeData> nodes;     ///< empty, or what is given at each point
+  bool closed = false;             ///< the last point is followed by the first
+  bool primitives = false;         ///< stretches that mean a line or circle become exactly that
+  std::vector<std::size_t> loose;  ///< points that take no part in primitives
 };
 
 /// A series of moved points with headings and curvatures that spirals can join, one direction per
@@ -33,8 +34,10 @@ struct FairedSeries {
                           ///< headings and curvatures are those of the smooth curve
   int vertices = 0;       ///< changes of direction
   int vertices_lower_bound = 0;  ///< every smooth curve within the tolerances has so many
-  std::size_t trouble = 0;       ///< when not feasible: measured point near which it failed
+  std::size_t trouble = 0;       ///< when not feasible: node near which it failed
   int primitives = 0;            ///< exact lines and arcs
+  std::vector<std::size_t>
+      loose;  ///< points taken off the primitives so that transitions have room
   int newton_steps = 0;
 };
 
@@ -50,6 +53,11 @@ struct FairedSeries {
 /// Cost O(n) per Newton step, some 20 steps and a few hundred short windows.
 /// Requires at least 4 points (3 when closed), no two neighbours equal.
 [[nodiscard]] FairedSeries fair(const MeasuredSeries& series, const Progress& progress = {});
+
+/// The measured point at the end of a primitive that lies nearest to a node; nothing without
+/// primitives.
+[[nodiscard]] std::optional<std::size_t> nearest_primitive_end(const FairedSeries& faired,
+                                                               std::size_t node);
 
 /// The lower bound alone: vertices that every smooth curve through the tolerances has. O(n).
 [[nodiscard]] int forced_vertices(const MeasuredSeries& series);
