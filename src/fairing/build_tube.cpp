@@ -8,6 +8,7 @@
 
 #include "find_primitives.h"
 #include "obvid/series/analysis.h"
+#include "tube_ends.h"
 #include "tube_solver.h"
 
 namespace obvid::fairing_detail {
@@ -23,8 +24,8 @@ constexpr double kLargestTurn = 0.5;      ///< rad over a link between thinned n
 constexpr double kGrading = 1.5;          ///< largest ratio of neighbouring thinned links
 constexpr std::size_t kFewestLinks = 24;  ///< thinning leaves at least so many
 
-/// Points between nodes keep this part of their reach: the rest is for what the model of the link does
-/// not know of the finished curve.
+/// Points between nodes keep this part of their reach: the rest is for what the model of the link
+/// does not know of the finished curve.
 constexpr double kModelShare = 0.93;
 
 /// Size that the tolerance can hide, over (tolerance / chord).
@@ -50,13 +51,13 @@ class Builder {
   }
 
   SmoothTube run() {
-    double spacing = kSpacing;
+    double spacing = series_.thin ? kSpacing : 0.0;
     source_ = spaced_points(spacing);
     while (!smooth()) {
       spacing *= 0.5;
       source_ = spaced_points(spacing);
     }
-    const std::vector<std::size_t> thinned = thinned_points();
+    const std::vector<std::size_t> thinned = series_.thin ? thinned_points() : source_;
     constexpr double kWorthwhile = 0.8;
     if (static_cast<double>(thinned.size()) < kWorthwhile * static_cast<double>(source_.size())) {
       const std::vector<std::size_t> all = source_;
@@ -317,19 +318,27 @@ class Builder {
 
   /// The reference becomes the curve at x; offsets are measured along its normals.
   void relinearise() {
+    std::vector<Vec2> at(tube_.nodes.size());
     for (std::size_t i = 0; i < tube_.nodes.size(); ++i) {
       TubeNode& node = tube_.nodes[i];
       double* x = &x_[kPerNode * i];
-      const Vec2 moved = x[0] * node.reach * node.normal;
+      at[i] = node.point + x[0] * node.reach * node.normal;
       node.theta += x[1];
       node.kappa += x[2] / node.length;
       x[1] = x[2] = 0.0;
       node.normal = left_normal(unit_at(node.theta));
-      if (!node.is_primitive()) node.reach = series_.reach[knots_[i].first];
-      if (node.reach > 0.0) {
-        constexpr double kInside = 0.99;  // a turned normal may leave the circle by a hair
-        x[0] = std::clamp(dot(moved, node.normal) / node.reach, -kInside, kInside);
-      }
+      if (node.is_primitive()) continue;
+      node.point = local(knots_[i].first);
+      node.reach = series_.reach[knots_[i].first];
+    }
+    lay_rows();
+    make_room_at_ends(tube_);
+    for (std::size_t i = 0; i < tube_.nodes.size(); ++i) {
+      const TubeNode& node = tube_.nodes[i];
+      if (!(node.reach > 0.0)) continue;
+      constexpr double kInside = 0.99;  // a turned normal may leave the circle by a hair
+      const double offset = dot(at[i] - node.point, node.normal) / node.reach;
+      x_[kPerNode * i] = std::clamp(offset, -kInside, kInside);
     }
   }
 

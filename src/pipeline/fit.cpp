@@ -20,7 +20,7 @@ using namespace pipeline_detail;
 
 /// Rounds in which the tolerance of points that the finished contour misses is narrowed: between
 /// nodes the search knows the contour only to first order.
-constexpr int kNarrowings = 10;
+constexpr int kNarrowings = 6;
 constexpr double kNarrowed = 0.95;  ///< of what would just do
 
 Result<Contour> form(const std::vector<Vec2>& points, const SeriesChain& chain, Carrier carrier,
@@ -75,6 +75,15 @@ Result<Formed> form_sections(const Prepared& series, const FitJob& job, double t
   return out;
 }
 
+bool misses_a_point(const Contour& contour) {
+  if (contour.point_tolerance.empty()) return false;
+  const std::vector<double> distance = point_distances(contour);
+  for (std::size_t i = 0; i < distance.size(); ++i) {
+    if (distance[i] > contour.point_tolerance[i]) return true;
+  }
+  return false;
+}
+
 /// Narrows the reach of points that the contour passes too far. False when there are none.
 bool narrow(const Contour& contour, Prepared& series) {
   if (series.exact()) return false;
@@ -106,6 +115,10 @@ Result<Fit> fit(const PointSeries& series, const FitJob& job, const Progress& pr
   const double tolerance = job.tolerance.value_or(default_tolerance(prepared->points));
   auto formed = form_sections(*prepared, job, tolerance, progress);
   for (int k = 0; k < kNarrowings && formed && narrow(formed->contour, *prepared); ++k) {
+    formed = form_sections(*prepared, job, tolerance, progress);
+  }
+  if (formed && prepared->thin && misses_a_point(formed->contour)) {
+    prepared->thin = false;  // every point a joint: each is met by construction
     formed = form_sections(*prepared, job, tolerance, progress);
   }
   if (!formed) return tl::unexpected(formed.error());

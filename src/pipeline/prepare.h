@@ -19,6 +19,7 @@ struct Prepared {
   std::vector<FixedData> fixed;  ///< empty, or one entry per point
   bool convex = false;
   bool primitives = false;
+  bool thin = true;  ///< fewer joints than points where points with tolerances are dense
   bool closed = false;
   SplitSeries split;
   std::vector<std::string> warnings;

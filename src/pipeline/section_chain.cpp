@@ -149,23 +149,34 @@ class SectionChooser {
     measured.points = points_;
     measured.closed = loop_;
     measured.primitives = series_.primitives;
+    measured.thin = series_.thin;
     for (const std::size_t i : index_) measured.reach.push_back(series_.reach[i]);
     give_nodes(measured);
-    FairedSeries faired = fair(measured, progress_);
-    out_.vertices_lower_bound = faired.vertices_lower_bound;
-    for (int k = 0; k < kMostTrims && faired.feasible; ++k) {
-      auto chain = follow(faired, measured);
-      if (chain) return chain;
-      const auto end = nearest_primitive_end(faired, static_cast<std::size_t>(chain.error().index));
-      if (!end) break;
-      measured.loose = faired.loose;
-      measured.loose.push_back(*end);  // the transition beside the primitive needs more room
-      faired = fair(measured, progress_);
-    }
+    FairedSeries faired;
+    if (auto chain = follow_runs(measured, faired)) return std::move(*chain);
+    measured.primitives = false;
+    measured.thin = false;
+    if (auto chain = follow_runs(measured, faired)) return std::move(*chain);
     out_.warnings.emplace_back(
         "the points were moved within their tolerances onto a smooth curve, but runs of monotone "
         "curvature along it were not found; the contour runs through the moved points");
     return through_moved(faired);
+  }
+
+  /// Nothing when no runs were found, or no chain along them.
+  std::optional<SeriesChain> follow_runs(MeasuredSeries& measured, FairedSeries& faired) {
+    for (int k = 0; k < kMostTrims; ++k) {
+      faired = fair(measured, progress_);
+      out_.vertices_lower_bound = faired.vertices_lower_bound;
+      if (!faired.feasible) return std::nullopt;
+      auto chain = follow(faired, measured);
+      if (chain) return std::move(*chain);
+      const auto end = nearest_primitive_end(faired, static_cast<std::size_t>(chain.error().index));
+      if (!end) return std::nullopt;
+      measured.loose = faired.loose;
+      measured.loose.push_back(*end);  // the transition beside the primitive needs more room
+    }
+    return std::nullopt;
   }
 
   void give_nodes(MeasuredSeries& measured) const {

@@ -19,6 +19,7 @@ struct MeasuredSeries {
   bool closed = false;             ///< the last point is followed by the first
   bool primitives = false;         ///< stretches that mean a line or circle become exactly that
   std::vector<std::size_t> loose;  ///< points that take no part in primitives
+  bool thin = true;  ///< only as many nodes as the tolerances can tell apart; else every point
 };
 
 /// A series of moved points with headings and curvatures that spirals can join, one direction per
