@@ -2,6 +2,7 @@
 #include "obvid/curve/bspline_cubic.h"
 
 #include <algorithm>
+#include <limits>
 
 namespace obvid {
 namespace {
@@ -50,28 +51,21 @@ Jet evaluate(const CubicSpline& spline, double u) {
 }
 
 void evaluate_sorted(const CubicSpline& spline, std::span<const double> u, std::span<Vec2> out) {
+  constexpr double kInfinity = std::numeric_limits<double>::infinity();
   const std::size_t last = spline.knots.size() - 2;
-  std::size_t j = 0;
-  while (j < u.size()) {
-    const std::size_t i = find_span(spline, u[j]);
-    std::size_t here = i;
-    // walk on from span to span; a step back begins again with a search
-    for (double before = u[j]; j < u.size() && u[j] >= before; ++here) {
-      here = std::min(here, last);
-      const Span s = span_of(spline, here);
-      const double end = here < last ? spline.knots[here + 1] : u[j];
-      const bool open = here == last;
-      for (; j < u.size() && u[j] >= before && (open || u[j] < end); ++j) {
-        before = u[j];
-        out[j] = s.at(before);
-      }
-      // most spans hold a parameter; where many are empty a search is cheaper than a walk
-      constexpr std::size_t kFarAhead = 8;
-      if (j < u.size() && u[j] >= before && here + kFarAhead < last &&
-          u[j] >= spline.knots[here + kFarAhead]) {
-        break;
-      }
+  double low = kInfinity, high = kInfinity;  // of no span yet
+  std::size_t i = 0;
+  Span here;
+  for (std::size_t j = 0; j < u.size(); ++j) {
+    if (!(u[j] >= low && u[j] < high)) {
+      // mostly the next span: no need to search
+      const bool next = low < high && u[j] >= high && (i + 1 == last || u[j] < spline.knots[i + 2]);
+      i = next ? i + 1 : find_span(spline, u[j]);
+      here = span_of(spline, i);
+      low = i == 0 ? -kInfinity : spline.knots[i];
+      high = i == last ? kInfinity : spline.knots[i + 1];
     }
+    out[j] = here.at(u[j]);
   }
 }
 
