@@ -1,0 +1,205 @@
+// SPDX-License-Identifier: Apache-2.0
+// Spirals with noise of a known size: told that size, the engine finds one run again, near the
+// truth.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <numbers>
+#include <string>
+#include <vector>
+
+#include "obvid/pipeline/fit.h"
+#include "oracle_curves.h"
+
+namespace obvid {
+namespace {
+
+using namespace test;
+
+constexpr int kSeries = 500;
+constexpr double kRightAngle = 0.5 * std::numbers::pi;
+constexpr double kLeastNoise = 1e-6, kMostNoise = 1e-3;  // of the diagonal of all points
+
+double diagonal(const std::vector<Vec2>& points) {
+  Vec2 low = points.front(), high = low;
+  for (const Vec2 p : points) {
+    low = {std::min(low.x, p.x), std::min(low.y, p.y)};
+    high = {std::max(high.x, p.x), std::max(high.y, p.y)};
+  }
+  return norm(high - low);
+}
+
+Vec2 in_disc(std::mt19937_64& rng, double radius) {
+  const double r = radius * std::sqrt(uniform(rng, 0.0, 1.0));
+  return r * unit_at(uniform(rng, 0.0, 2.0 * std::numbers::pi));
+}
+
+struct NoisySeries {
+  Sampled sampled;  ///< points moved already
+  double noise = 0.0;
+};
+
+double sagitta(double kappa, double chord) {
+  const double half = 0.5 * kappa * chord;
+  return 0.5 * half * chord / (1.0 + std::sqrt(1.0 - half * half));
+}
+
+/// What exact points would leave open: largest width between the circles through neighbouring
+/// triples (theory: every spiral through the points lies between them).
+double largest_gap(const std::vector<Vec2>& p) {
+  std::vector<double> kappa(p.size());
+  for (std::size_t i = 1; i + 1 < p.size(); ++i) {
+    const Vec2 u = p[i] - p[i - 1], v = p[i + 1] - p[i];
+    kappa[i] = 2.0 * cross(u, v) / (norm(u) * norm(v) * norm(u + v));
+  }
+  double largest = 0.0;
+  for (std::size_t i = 1; i + 2 < p.size(); ++i) {
+    const double h = norm(p[i + 1] - p[i]);
+    largest = std::max(largest, std::abs(sagitta(kappa[i], h) - sagitta(kappa[i + 1], h)));
+  }
+  return largest;
+}
+
+enum class Sampling {
+  kAny,
+  kNoiseRules,    ///< noise at least as large as what exact points would leave open
+  kEvenAndDense,  ///< and at the ends of the series too, where one cannot look at neighbours
+};
+constexpr std::size_t kDense = 20;  ///< points
+
+/// Points with noise between the least and the most.
+NoisySeries noisy_spiral(int i, std::mt19937_64& rng, Sampling sampling) {
+  for (;;) {
+    NoisySeries out;
+    out.sampled = random_series(static_cast<Oracle>(i % kOracleCount), rng, kRightAngle);
+    std::vector<Vec2>& points = out.sampled.points;
+    const double size = diagonal(points);
+    const double open = sampling == Sampling::kAny ? 0.0 : largest_gap(points) / size;
+    const double least = std::max(kLeastNoise, open);
+    if (!(least < kMostNoise)) continue;
+    const bool even = points.size() >= kDense && !out.sampled.uneven;
+    if (sampling == Sampling::kEvenAndDense && !even) continue;
+    out.noise = size * std::pow(10.0, uniform(rng, std::log10(least), std::log10(kMostNoise)));
+    for (Vec2& p : points) p = p + in_disc(rng, out.noise);
+    const auto same = std::adjacent_find(points.begin(), points.end());
+    if (same == points.end()) return out;
+  }
+}
+
+Result<Fit> fit_noisy(const NoisySeries& s) {
+  PointSeries series;
+  series.points = s.sampled.points;
+  FitJob job;
+  job.noise = s.noise;
+  job.closing = Closing::kOpen;
+  return fit(series, job);
+}
+
+/// Distance of a point from the truth, by Newton's method for the foot of the perpendicular from
+/// the nearest of many samples. The truth goes on beyond its ends.
+class Truth {
+ public:
+  explicit Truth(const Sampled& s) : s_(s) {
+    constexpr int kSamples = 500;
+    const long double step = (s.curve.t1 - s.curve.t0) / kSamples;
+    for (int k = 0; k <= kSamples; ++k) {
+      t_.push_back(s.curve.t0 + step * k);
+      at_.push_back(s.truth(t_.back()));
+    }
+  }
+
+  [[nodiscard]] double distance(Vec2 p) const {
+    std::size_t nearest = 0;
+    for (std::size_t k = 1; k < at_.size(); ++k) {
+      if (square(at_[k], p) < square(at_[nearest], p)) nearest = k;
+    }
+    long double t = t_[nearest];
+    constexpr int kSteps = 8;
+    for (int k = 0; k < kSteps; ++k) {
+      const long double h = 1e-5L * (s_.curve.t1 - s_.curve.t0);
+      const LongVec2 z = s_.truth(t), a = s_.truth(t - h), b = s_.truth(t + h);
+      const long double dx = (b.x - a.x) / (2 * h), dy = (b.y - a.y) / (2 * h);
+      t += ((p.x - z.x) * dx + (p.y - z.y) * dy) / (dx * dx + dy * dy);
+    }
+    return static_cast<double>(std::sqrt(square(s_.truth(t), p)));
+  }
+
+ private:
+  static long double square(LongVec2 a, Vec2 p) {
+    return (a.x - p.x) * (a.x - p.x) + (a.y - p.y) * (a.y - p.y);
+  }
+
+  const Sampled& s_;
+  std::vector<long double> t_;
+  std::vector<LongVec2> at_;
+};
+
+double largest_distance(const NoisySeries& s, const Contour& contour) {
+  const Truth truth(s.sampled);
+  double largest = 0.0;
+  for (const Piece& piece : contour.pieces) {
+    for (const double t : {0.0, 0.25, 0.5, 0.75, 1.0}) {
+      largest = std::max(largest, truth.distance(evaluate(piece, t).point));
+    }
+  }
+  return largest;
+}
+
+std::string describe(int i, const NoisySeries& s) {
+  return std::to_string(i) + ": " + name_of(s.sampled.curve.kind) + ", " +
+         std::to_string(s.sampled.points.size()) + " points, noise " +
+         std::to_string(std::log10(s.noise / diagonal(s.sampled.points))) +
+         (s.sampled.uneven ? ", uneven" : "");
+}
+
+struct Outcome {
+  int one_run = 0, proved = 0;
+  double farthest = 0.0;  ///< from the truth over the noise, where measured
+};
+
+Outcome run(unsigned seed, Sampling sampling) {
+  std::mt19937_64 rng(seed);
+  Outcome out;
+  for (int i = 0; i < kSeries; ++i) {
+    const NoisySeries s = noisy_spiral(i, rng, sampling);
+    const auto f = fit_noisy(s);
+    if (!f || !f->certificate.proved) {
+      std::printf("%s: %s\n", describe(i, s).c_str(),
+                  f ? f->certificate.reason.c_str() : f.error().what.c_str());
+      continue;
+    }
+    ++out.proved;
+    const bool one = f->certificate.vertices == 0 && f->certificate.corners == 0;
+    if (one) ++out.one_run;
+    EXPECT_EQ(f->report.vertices_lower_bound, 0) << describe(i, s);  // the truth is one curve
+    if (!one) std::printf("%s: %d vertices\n", describe(i, s).c_str(), f->certificate.vertices);
+    if (sampling != Sampling::kEvenAndDense) continue;
+    const double d = largest_distance(s, f->contour) / s.noise;
+    out.farthest = std::max(out.farthest, d);
+    EXPECT_LE(d, 2.0) << describe(i, s);
+  }
+  std::printf("of %d: %d proved, %d of one run, farthest %.2f\n", kSeries, out.proved, out.one_run,
+              out.farthest);
+  return out;
+}
+
+TEST(Noise, DenseSpiralsComeBackAsOneRunWithinTwiceTheNoise) {
+  const Outcome out = run(20260211, Sampling::kEvenAndDense);
+  EXPECT_EQ(out.proved, kSeries);
+  EXPECT_GE(out.one_run, kSeries * 99 / 100);
+}
+
+TEST(Noise, PointsCloserThanTheirNoiseComeBackAsOneRunToo) {
+  const Outcome out = run(20260212, Sampling::kNoiseRules);
+  EXPECT_GE(out.one_run, kSeries * 99 / 100);
+}
+
+TEST(Noise, FewOrUnevenPointsComeBackAsOneRunToo) {
+  const Outcome out = run(20260213, Sampling::kAny);
+  EXPECT_GE(out.one_run, kSeries * 99 / 100);
+}
+
+}  // namespace
+}  // namespace obvid
