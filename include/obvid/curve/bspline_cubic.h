@@ -26,8 +26,8 @@ void evaluate_sorted(const CubicSpline& spline, std::span<const double> u, std::
 /// One polynomial cubic Bezier piece per knot span.
 [[nodiscard]] std::vector<RationalBezier> bezier_pieces(const CubicSpline& spline);
 
-/// The spline as B-spline with simple inner knots, n + 2 control points. Exactly the same curve only
-/// if its second derivative is continuous.
+/// The spline as B-spline with simple inner knots, n + 2 control points. Exactly the same curve
+/// only if its second derivative is continuous.
 [[nodiscard]] NurbsCurve as_nurbs(const CubicSpline& spline);
 
 }  // namespace obvid
