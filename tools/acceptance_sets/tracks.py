@@ -11,7 +11,7 @@ RACELINE_TOLERANCE = 0.1  # m: computed lines, spaced 5 m, minimal curvature on 
 EXACT_TOLERANCE = 1e-3  # m: computed outlines
 # m: circuits clicked by hand on aerial pictures; 6 decimals of a degree are 0.1 m, a click is not.
 F1_TOLERANCE = 3.0
-ADRIA_TOLERANCE, ADRIA_STEP = 1e-3, 5.0  # m
+ADRIA_TOLERANCE, ADRIA_STEP = 0.01, 5.0  # m
 WGS84_A, WGS84_F = 6378137.0, 1 / 298.257223563
 
 
