@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <optional>
+#include <vector>
+
+#include "obvid/core/result.h"
+#include "obvid/curve/pieces.h"
+#include "obvid/geom/element.h"
+
+namespace obvid {
+
+/// Four parabolas that replace one link.
+struct Condensation {
+  std::array<RationalBezier, 4> parabolas;  ///< quadratic, origin at the start of the link
+  double cut = 0.0;     ///< where the first tangent cuts the triangle's sides, 0 at its ends
+  double margin = 0.0;  ///< of the tightest parabola: a.b / |a|^2 - 1, a its shorter leg; > 0
+};
+
+/// The condensation of 001_...: a tangent parallel to the chord cuts the triangle of chord and end
+/// tangents in two, its point of contact is shifted so that both can meet the given curvatures, and
+/// a second cut of each makes them do so. The chain meets both elements, is continuous in curvature
+/// and each parabola has monotone curvature (Sapidis, Frey, "Controlling the curvature of a
+/// quadratic Bezier curve", 1992), all in the same direction. `direction` +1: signed curvature
+/// increases. The place of the first cut is chosen for the largest margin.
+///
+/// Points met exactly, headings and curvatures to rounding. Nothing when the data are no convex
+/// spiral link that turns by less than half a turn, or when no such cut gives monotone parabolas:
+/// a parabola of turning `theta` changes its radius at least by the factor `cos(theta)^-3`, so the
+/// link must be short where curvature changes little (docs/methods/beziers.md, section 3).
+[[nodiscard]] std::optional<Condensation> condense(const Element& start, const Element& end,
+                                                   int direction);
+
+/// A chain of parabolas in place of one piece of a spiral.
+struct ParabolaChain {
+  std::vector<RationalBezier> parabolas;
+  std::vector<double> at;  ///< parameters on the piece whose elements are met, 0 and 1 included
+  double width = 0.0;  ///< widest region between those elements: bounds the distance between the
+                       ///< chain and the piece
+};
+
+/// Replaces a convex piece with monotone curvature by parabolas: elements are taken on it, halving
+/// its parameter, until every link can be condensed and its region is at most `tolerance` wide.
+/// Errors: E401 when curvature is zero or changes sign on the piece (no parabola has an
+/// inflection); E502 when halving does not get there (`value`: width or 0), which is what happens
+/// where curvature hardly changes.
+[[nodiscard]] Result<ParabolaChain> condense_piece(const Piece& piece, int direction,
+                                                   double tolerance);
+
+/// Curvatures for points with given headings (rad) along one convex spiral, order of fixation 1:
+/// at an inner point the geometric mean of what the parabolas of both neighbouring triangles have
+/// there; the ends lie beyond their triangle's by as much as their neighbours do.
+/// Errors: E304 fewer than three points; E201 when headings and points differ in number; E401,
+/// naming the first point, where a triangle is missing or these curvatures do not change in
+/// `direction`.
+[[nodiscard]] Result<std::vector<Element>> elements_of_triangles(
+    const std::vector<Vec2>& points, const std::vector<double>& headings, int direction);
+
+}  // namespace obvid
