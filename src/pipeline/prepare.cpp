@@ -140,15 +140,28 @@ class Preparation {
     out_.fixed.pop_back();
   }
 
+  /// The printed rounding where it is one: few digits beside the chords belong to nominal sizes.
+  [[nodiscard]] double printed_blur() const {
+    constexpr double kLargestPart = 0.05;  // of the middle one of all chords
+    std::vector<double> chords;
+    for (std::size_t i = 1; i < out_.points.size(); ++i) {
+      chords.push_back(norm(out_.points[i] - out_.points[i - 1]));
+    }
+    const auto middle = chords.begin() + static_cast<std::ptrdiff_t>(chords.size() / 2);
+    std::nth_element(chords.begin(), middle, chords.end());
+    const double rounding = std::max(series_.rounding.x, series_.rounding.y);
+    return rounding <= kLargestPart * *middle ? rounding : 0.0;
+  }
+
   void cut() {
     CornerWishes wishes;
     wishes.find = job_.find_corners;
     if (job_.corner_angle) wishes.angle = *job_.corner_angle;
     // points that are met exactly were rounded all the same, in print and as doubles
+    const double printed = printed_blur();
     std::vector<double> blur = out_.tolerance;
     for (std::size_t i = 0; i < blur.size(); ++i) {
-      blur[i] =
-          std::max({blur[i], series_.rounding.x, series_.rounding.y, least_move(out_.points[i])});
+      blur[i] = std::max({blur[i], printed, least_move(out_.points[i])});
     }
     const std::vector<std::size_t> corners =
         find_corners(out_.points, blur, out_.closed, out_.fixed, wishes);

@@ -68,6 +68,14 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   if ((options & 4U) != 0 && bytes.take(angle)) job.start_heading = 0.05 * angle;
   if ((options & 8U) != 0 && bytes.take(angle)) job.end_kappa = 0.01 * angle;
   job.tolerance = (options & 16U) != 0 ? std::optional(1e-2) : std::nullopt;
+  std::uint8_t measured = 0, reach = 0;
+  if ((options & 64U) != 0 && bytes.take(measured) && bytes.take(reach)) {
+    job.noise = 0.05 * (reach + 1);
+    job.primitives = (measured & 1U) != 0;
+    job.closing = (measured & 2U) != 0 ? obvid::Closing::kClosed : obvid::Closing::kAutomatic;
+    job.find_corners = (measured & 4U) == 0;
+    if ((measured & 8U) != 0) job.carrier = obvid::Carrier::kClothoids;
+  }
   obvid::PointSeries series;
   series.points = points_from(bytes, (options & 32U) != 0);
 
