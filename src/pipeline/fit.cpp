@@ -98,6 +98,28 @@ bool narrow(const Contour& contour, Prepared& series) {
   return any;
 }
 
+/// A convex contour turns one way all along; the search within tolerances may have missed that.
+Result<void> keeps_convex(const Contour& contour, const Certificate& certificate) {
+  if (certificate.inflections == 0) return {};
+  Error error{ErrorCode::kFixedDataContradict,
+              "a convex contour was asked for, but none was found within the tolerances",
+              "",
+              "drop the wish for a convex contour, or allow larger tolerances",
+              -1,
+              0.0};
+  int turns = 0;
+  for (const Joint& joint : contour.joints) {
+    turns += joint.element.kappa > 0.0 ? 1 : joint.element.kappa < 0.0 ? -1 : 0;
+  }
+  for (const Joint& joint : contour.joints) {
+    if (!joint.source || turns * joint.element.kappa >= 0.0) continue;
+    error.index = static_cast<std::ptrdiff_t>(*joint.source);
+    error.where = "point " + std::to_string(*joint.source + 1);
+    break;
+  }
+  return fail(std::move(error));
+}
+
 }  // namespace
 
 Result<Fit> fit(const PointSeries& series, const FitJob& job, const Progress& progress) {
@@ -127,6 +149,9 @@ Result<Fit> fit(const PointSeries& series, const FitJob& job, const Progress& pr
   out.contour.units = series.units;
   tell("proving", 0.7);
   out.certificate = certify(out.contour);
+  if (job.convex) {
+    if (auto kept = keeps_convex(out.contour, out.certificate); !kept) return fail(kept.error());
+  }
   tell("bounding the error", 0.9);
   auto report = measure(out.contour, tolerance);
   if (!report) return tl::unexpected(report.error());

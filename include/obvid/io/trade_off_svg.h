@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace obvid {
+
+/// What one tolerance for all points brings.
+struct TradeOffRow {
+  double tolerance = 0.0;  ///< units
+  bool formed = false;     ///< false: refused; the figures below mean nothing then
+  bool proved = false;
+  std::string refusal;  ///< why it was not formed or not proved
+  int vertices = 0;
+  int vertices_lower_bound = 0;  ///< every curve within the tolerance has so many
+  int inflections = 0;
+  std::size_t pieces = 0;
+  double largest_move = 0.0;  ///< units
+  double seconds = 0.0;
+};
+
+/// Tolerances and the vertices that each of them needs.
+struct TradeOff {
+  std::string name;                        ///< of the series
+  std::string units;                       ///< of lengths
+  std::vector<TradeOffRow> rows;           ///< by ascending tolerance
+  std::optional<std::size_t> recommended;  ///< row; nothing when none is proved
+};
+
+/// Chart of the vertices found and of their lower bound over the tolerance, as one self-contained
+/// SVG file in the viewer's light or dark scheme.
+[[nodiscard]] std::string trade_off_svg(const TradeOff& trade_off);
+
+}  // namespace obvid

@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "obvid/core/progress.h"
+#include "obvid/core/result.h"
+#include "obvid/io/trade_off_svg.h"
+#include "obvid/pipeline/fit.h"
+
+namespace obvid {
+
+/// Runs the job with eight tolerances in equal ratios, from the printed rounding of the file (that
+/// of doubles when there is none) to 1 % of the size. They take the place of the job's noise;
+/// larger ones of single points stay.
+/// Recommended is, among the proved rows, the one farthest below the straight line from the first
+/// of them to the last in a chart of vertices over the logarithm of the tolerance, both scaled to
+/// the same length; the smaller tolerance where two are equal. Beyond it the vertices fall more
+/// slowly than on the average.
+/// Errors: those of `fit` that do not depend on the tolerance (exit codes 2 and 3).
+[[nodiscard]] Result<TradeOff> trade_off(const PointSeries& series, const FitJob& job,
+                                         const Progress& progress = {});
+
+/// The row that `trade_off` recommends.
+[[nodiscard]] std::optional<std::size_t> recommended_row(const std::vector<TradeOffRow>& rows);
+
+}  // namespace obvid

@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <vector>
+
+#include "obvid/core/progress.h"
+#include "obvid/pipeline/fit.h"
+
+namespace obvid {
+
+/// How far the points of a refused job would have to move for its contour to exist.
+struct WhyNot {
+  Error refusal;           ///< what `fit` says to the job as it was asked
+  double tolerance = 0.0;  ///< units, of three digits: `fit` with it as noise keeps all promises
+  double refused = 0.0;    ///< largest smaller tolerance that was tried in vain; 0: none was
+  Fit fit;                 ///< the contour within `tolerance`
+  std::vector<std::size_t> moved;  ///< the points that it moves, the farthest first; how far:
+                                   ///< `fit.report.moves`
+};
+
+/// For a job that `fit` refuses because no such contour exists (E401 to E405): the smallest
+/// tolerance, the same for all points, within which one does, every wish of the job kept. Points
+/// with larger tolerances of their own keep those. Found by steps of a factor ten and bisection, to
+/// 2 %; between the tolerances that were tried feasibility is taken as monotone.
+/// Nothing when `fit` does not refuse, refuses for another reason, or when moves of a tenth of the
+/// size do not help either. Cost: some 15 calls of `fit`.
+[[nodiscard]] std::optional<WhyNot> why_not(const PointSeries& series, const FitJob& job,
+                                            const Progress& progress = {});
+
+}  // namespace obvid

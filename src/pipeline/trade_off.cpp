@@ -1,0 +1,100 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "obvid/pipeline/trade_off.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "report.h"
+#include "uniform_tolerance.h"
+
+namespace obvid {
+namespace {
+
+using namespace pipeline_detail;
+
+constexpr int kRows = 8;
+constexpr double kLargest = 0.01;    // of the size
+constexpr double kLeastSpan = 10.0;  // where the file is printed coarsely: largest / smallest
+
+std::vector<double> tolerances_for(const PointSeries& series) {
+  const double printed = std::max(series.rounding.x, series.rounding.y);
+  const double low = std::max(printed, coordinate_rounding(series));
+  const double high = std::max(kLargest * size_of(series.points), kLeastSpan * low);
+  std::vector<double> out;
+  for (int k = 0; k < kRows; ++k) {
+    out.push_back(printable(low * std::pow(high / low, static_cast<double>(k) / (kRows - 1))));
+  }
+  return out;
+}
+
+TradeOffRow row_of(double tolerance, const Result<Fit>& made) {
+  TradeOffRow row;
+  row.tolerance = tolerance;
+  if (!made) {
+    row.refusal = made.error().what;
+    return row;
+  }
+  row.formed = true;
+  row.proved = keeps_promises(*made);
+  if (!row.proved) {
+    const std::string& reason = made->certificate.reason;
+    row.refusal = made->certificate.proved ? "the region is wider than asked" : reason;
+  }
+  row.vertices = made->report.vertices;
+  row.vertices_lower_bound = made->report.vertices_lower_bound;
+  row.inflections = made->report.inflections;
+  row.pieces = made->contour.pieces.size();
+  row.largest_move = made->report.largest_move;
+  row.seconds = made->report.seconds;
+  return row;
+}
+
+}  // namespace
+
+std::optional<std::size_t> recommended_row(const std::vector<TradeOffRow>& rows) {
+  std::vector<std::size_t> proved;
+  int most = 0, fewest = 0;
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    if (!rows[i].proved) continue;
+    most = proved.empty() ? rows[i].vertices : std::max(most, rows[i].vertices);
+    fewest = proved.empty() ? rows[i].vertices : std::min(fewest, rows[i].vertices);
+    proved.push_back(i);
+  }
+  if (proved.empty()) return std::nullopt;
+  if (most == fewest) return proved.front();
+  const TradeOffRow &first = rows[proved.front()], &last = rows[proved.back()];
+  const double width = std::log(last.tolerance / first.tolerance);
+  const double height = most - fewest;
+  const double slope = (last.vertices - first.vertices) / height;
+  constexpr double kSame = 1e-9;  // of the chart: the rounding of this sum
+  double farthest = 0.0;
+  std::size_t best = proved.front();
+  for (const std::size_t i : proved) {
+    const double x = width > 0.0 ? std::log(rows[i].tolerance / first.tolerance) / width : 0.0;
+    const double below = slope * x - (rows[i].vertices - first.vertices) / height;
+    if (below <= farthest + kSame) continue;
+    farthest = below;
+    best = i;
+  }
+  return best;
+}
+
+Result<TradeOff> trade_off(const PointSeries& series, const FitJob& job, const Progress& progress) {
+  TradeOff out;
+  out.name = series.name;
+  out.units = series.units;
+  for (const double tolerance : tolerances_for(series)) {
+    const auto inner = [&](std::string_view stage, double done) {
+      progress(stage, (static_cast<double>(out.rows.size()) + done) / kRows);
+    };
+    const auto made = fit_within(series, job, tolerance, progress ? Progress(inner) : Progress());
+    if (!made && exit_code(made.error().code) != exit_code(ErrorCode::kNoSpiral)) {
+      return fail(made.error());
+    }
+    out.rows.push_back(row_of(tolerance, made));
+  }
+  out.recommended = recommended_row(out.rows);
+  return out;
+}
+
+}  // namespace obvid

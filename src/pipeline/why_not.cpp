@@ -1,0 +1,128 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "obvid/pipeline/why_not.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <utility>
+
+#include "report.h"
+#include "uniform_tolerance.h"
+
+namespace obvid {
+namespace {
+
+using namespace pipeline_detail;
+
+constexpr double kDecade = 10.0;       // step of the search for a bracket
+constexpr double kAccuracy = 1.02;     // largest / smallest end of the final bracket
+constexpr double kLargestMove = 0.1;   // of the size: beyond, it is another shape
+constexpr double kUsualGuess = 1e-5;   // of the size, where nothing says more
+constexpr double kUsualTrials = 14.0;  // for the progress bar
+constexpr double kNoMove = 1e-6;       // of the tolerance: the rounding of a distance
+
+bool says_no_contour(ErrorCode code) { return exit_code(code) == exit_code(ErrorCode::kNoSpiral); }
+
+class Search {
+ public:
+  Search(const PointSeries& series, const FitJob& job, const Progress& progress)
+      : series_(series), job_(job), progress_(progress) {}
+
+  std::optional<WhyNot> run() {
+    auto asked = fit(series_, job_);
+    if (asked || !says_no_contour(asked.error().code)) return std::nullopt;
+    out_.refusal = std::move(asked.error());
+    set_limits();
+    if (!(highest_ > lowest_) || !bracket()) return std::nullopt;
+    bisect();
+    rank();
+    return std::move(out_);
+  }
+
+ private:
+  void set_limits() {
+    lowest_ = coordinate_rounding(series_);
+    if (job_.noise) lowest_ = std::max(lowest_, *job_.noise);
+    if (job_.noise_from_rounding) {
+      lowest_ = std::max(lowest_, std::min(series_.rounding.x, series_.rounding.y));
+    }
+    highest_ = printable(kLargestMove * size_of(series_.points));
+  }
+
+  /// A tolerance to begin with: what the refusal says, what the file's digits say, or the usual.
+  [[nodiscard]] double guess() const {
+    const double printed = std::max(series_.rounding.x, series_.rounding.y);
+    double first = kUsualGuess * size_of(series_.points);
+    if (printed > 0.0) first = printed;
+    if (out_.refusal.value > 0.0 && std::isfinite(out_.refusal.value) &&
+        out_.refusal.code == ErrorCode::kNoSpiral) {
+      first = out_.refusal.value;
+    }
+    return std::clamp(printable(first), lowest_, highest_);
+  }
+
+  bool possible(double tolerance) {
+    if (progress_) {
+      progress_("searching the tolerance", std::min(trials_ / kUsualTrials, 1.0));
+    }
+    trials_ += 1.0;
+    auto made = fit_within(series_, job_, tolerance, {});
+    if (!made || !keeps_promises(*made)) {
+      out_.refused = tolerance;
+      return false;
+    }
+    out_.tolerance = tolerance;
+    out_.fit = std::move(*made);
+    return true;
+  }
+
+  /// Steps down from a guess that does, up from one that does not. False when nothing does.
+  bool bracket() {
+    double t = guess();
+    if (possible(t)) {
+      while (t > lowest_) {
+        t = std::max(printable(t / kDecade), lowest_);
+        if (!possible(t)) return true;
+      }
+      return true;
+    }
+    while (t < highest_) {
+      t = std::min(printable(t * kDecade), highest_);
+      if (possible(t)) return true;
+    }
+    return false;
+  }
+
+  void bisect() {
+    while (out_.refused > 0.0 && out_.refused < out_.tolerance / kAccuracy) {
+      const double middle = printable(std::sqrt(out_.refused) * std::sqrt(out_.tolerance));
+      if (middle <= out_.refused || middle >= out_.tolerance) return;
+      possible(middle);
+    }
+  }
+
+  void rank() {
+    const std::vector<double>& moves = out_.fit.report.moves;
+    for (std::size_t i = 0; i < moves.size(); ++i) {
+      if (moves[i] > kNoMove * out_.tolerance) out_.moved.push_back(i);
+    }
+    std::stable_sort(out_.moved.begin(), out_.moved.end(),
+                     [&](std::size_t a, std::size_t b) { return moves[a] > moves[b]; });
+  }
+
+  const PointSeries& series_;
+  const FitJob& job_;
+  const Progress& progress_;
+  double lowest_ = 0.0, highest_ = 0.0;
+  double trials_ = 0.0;
+  WhyNot out_;
+};
+
+}  // namespace
+
+std::optional<WhyNot> why_not(const PointSeries& series, const FitJob& job,
+                              const Progress& progress) {
+  return Search(series, job, progress).run();
+}
+
+}  // namespace obvid
