@@ -19,8 +19,8 @@ PointSeries series_of(std::vector<Vec2> points) {
   return series;
 }
 
-/// Points of a parabola, but for one that lies `dent` too low: every convex curve through it misses
-/// a neighbour.
+/// Points of a parabola, but for one that lies `dent` too high: no convex curve meets it and both
+/// its neighbours.
 PointSeries dented_parabola(double dent) {
   std::vector<Vec2> points;
   for (int i = -6; i <= 6; ++i) {
@@ -81,8 +81,8 @@ TEST(WhyNot, NamesTheToleranceWithinWhichADentedSeriesIsConvex) {
   expect_sound(*why, series, convex_job());
   EXPECT_EQ(why->fit.certificate.inflections, 0);
   // Three neighbours (0, 0), (1/2, 1/8 + dent), (1, 1/2) on a curve turning left: the middle one is
-  // above the chord by dent - 1/8, and all three together come within t of a left turn only if
-  // 2 t covers that height across the chord.
+  // above the chord by dent - 1/8. On a left turn it is below the chord, which moves of t can bring
+  // about only if 2 t is more than that height across the chord.
   const double above = (dent - 0.125) / std::hypot(1.0, 0.5);
   EXPECT_GE(why->tolerance, 0.5 * above);
   EXPECT_LE(why->tolerance, dent);  // the point moved back onto its parabola is one solution
@@ -96,8 +96,7 @@ TEST(WhyNot, FindsNoSmallerToleranceThanTheSizeOfALargerDentAsks) {
 }
 
 TEST(WhyNot, KeepsAFixedHeadingThatExactPointsRefuse) {
-  // points of the unit circle's upper half, slightly pushed out by turns so that no four lie on one
-  // circle, and a heading at the fifth that is off the tangent
+  // points of a spiral about the origin, and a heading at the fifth that is off its tangent
   std::vector<Vec2> points;
   for (int i = 0; i < 9; ++i) {
     const double angle = 0.3 * i, radius = 1.0 + 0.002 * i * i;
@@ -107,7 +106,7 @@ TEST(WhyNot, KeepsAFixedHeadingThatExactPointsRefuse) {
   FitJob job;
   PointWish wish;
   wish.index = 4;
-  wish.theta = -0.3 * 4 - 0.35;  // the circle's tangent there is -1.2
+  wish.theta = -0.3 * 4 - 0.35;  // the tangent there is near -1.2
   job.wishes.push_back(wish);
   const auto why = why_not(series, job);
   ASSERT_TRUE(why);
