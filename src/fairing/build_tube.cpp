@@ -23,10 +23,13 @@ constexpr double kSagitta = 1.5;
 constexpr double kLargestTurn = 0.5;      ///< rad over a link between thinned nodes
 constexpr double kGrading = 1.5;          ///< largest ratio of neighbouring thinned links
 constexpr std::size_t kFewestLinks = 24;  ///< thinning leaves at least so many
+constexpr std::size_t kFewestOnLoop = 3;  ///< nodes of a closed tube
 
 /// Points between nodes keep this part of their reach: the rest is for what the model of the link
 /// does not know of the finished curve.
-constexpr double kModelShare = 0.93;
+constexpr double kModelShare = 0.995;
+/// Where many points with noise up to their reach lie between nodes, no curve keeps that much room.
+constexpr double kTightShare = 0.998;
 
 /// Size that the tolerance can hide, over (tolerance / chord).
 constexpr double kHiddenSize = 0.05;
@@ -102,7 +105,14 @@ class Builder {
       return norm(local(out.back()) - local(out.front())) < least(out.front()) &&
              !given(out.back());
     };
-    while (series_.closed && out.size() > 3 && too_close()) out.pop_back();
+    while (series_.closed && out.size() > kFewestOnLoop && too_close()) out.pop_back();
+    if (!series_.closed || out.size() >= kFewestOnLoop) return out;
+    // the tolerances reach around the whole loop: three of its points all the same
+    for (std::size_t k = 1; k < kFewestOnLoop; ++k) {
+      out.push_back(from[k * from.size() / kFewestOnLoop]);
+    }
+    std::sort(out.begin(), out.end());
+    out.erase(std::unique(out.begin(), out.end()), out.end());
     return out;
   }
 
@@ -310,7 +320,7 @@ class Builder {
       const std::size_t from = knots_[i].last, next = knots_[(i + 1) % knots_.size()].first;
       const std::size_t to = next > from ? next : next + n;
       for (std::size_t k = from + 1; k < to; ++k) {
-        tube_.rows.push_back({local(k % n), kModelShare * series_.reach[k % n]});
+        tube_.rows.push_back({local(k % n), share_ * series_.reach[k % n]});
       }
     }
     tube_.first_row.push_back(tube_.rows.size());
@@ -349,7 +359,17 @@ class Builder {
     return smooth_knots();
   }
 
+  /// Into the tube, which is made wider when that is not possible.
+  bool enter(TubeModel& model, TubeSolver& solver) {
+    if (solver.enter_tube(x_, kSmoothing)) return true;
+    if (share_ == kTightShare) return false;
+    share_ = kTightShare;
+    for (TubeRow& row : tube_.rows) row.reach *= kTightShare / kModelShare;
+    return model.tube_use(x_) < 1.0 || solver.enter_tube(x_, kSmoothing);
+  }
+
   bool smooth_knots() {
+    share_ = kModelShare;
     lay_nodes();
     lay_rows();
     const std::vector<std::int8_t> no_direction(tube_.links(), 1);
@@ -362,7 +382,7 @@ class Builder {
       if (inside) {
         solver.descend(x_, {kSmoothing, 0.0, 1.0}, kSmoothEnough, kStepsPerPass);
       } else {
-        inside = solver.enter_tube(x_, kSmoothing);
+        inside = enter(model, solver);
       }
       steps_ += solver.steps();
       if (!inside) return false;
@@ -377,6 +397,7 @@ class Builder {
   const std::vector<std::size_t>& loose_;
   std::vector<std::size_t> source_;
   std::vector<Knot> knots_;
+  double share_ = kModelShare;  ///< of their reach that points between nodes may use
   int steps_ = 0;
 };
 

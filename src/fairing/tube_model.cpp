@@ -72,6 +72,36 @@ double angle_of(double sine, double cosine) {
   return std::atan2(sine, cosine);
 }
 
+/// Hermite's quintic polynomials of both slopes and second derivatives, with derivatives. Before
+/// and behind the link the curve goes on along its end tangents.
+struct Quintic {
+  double h1 = 0.0, h2 = 0.0, h4 = 0.0, h5 = 0.0, d1 = 0.0, d2 = 0.0, d4 = 0.0, d5 = 0.0;
+};
+
+Quintic quintic(double u) {
+  Quintic q;
+  if (u < 0.0) {
+    q.h1 = u;
+    q.d1 = 1.0;
+    return q;
+  }
+  if (u > 1.0) {
+    q.h4 = u - 1.0;
+    q.d4 = 1.0;
+    return q;
+  }
+  const double v = u * u, c = v * u;
+  q.h1 = u + c * (-6.0 + u * (8.0 - 3.0 * u));
+  q.h4 = c * (-4.0 + u * (7.0 - 3.0 * u));
+  q.h2 = 0.5 * v * (1.0 + u * (-3.0 + u * (3.0 - u)));
+  q.h5 = 0.5 * c * (1.0 + u * (-2.0 + u));
+  q.d1 = 1.0 + v * (-18.0 + u * (32.0 - 15.0 * u));
+  q.d4 = v * (-12.0 + u * (28.0 - 15.0 * u));
+  q.d2 = u * (1.0 + u * (-4.5 + u * (6.0 - 2.5 * u)));
+  q.d5 = v * (1.5 + u * (-4.0 + 2.5 * u));
+  return q;
+}
+
 }  // namespace
 
 TubeModel::TubeModel(const Tube& tube, const std::vector<std::int8_t>& direction, Cone cone,
@@ -204,17 +234,22 @@ TubeModel::RowValue TubeModel::row_value(const TubeRow& row, const LinkState& s,
                                          const NodeEnd& b) const {
   const Vec2 from_start = row.point - a.position;
   const double x = dot(s.along, from_start), y = cross(s.along, from_start);
-  const double u = std::clamp(x / s.h, 0.0, 1.0), v = u * u, c = v * u;
   RowValue out{};
-  out.u = u;
-  out.h1 = u + c * (-6.0 + u * (8.0 - 3.0 * u));
-  out.h4 = c * (-4.0 + u * (7.0 - 3.0 * u));
-  out.h2 = 0.5 * v * (1.0 + u * (-3.0 + u * (3.0 - u)));
-  out.h5 = 0.5 * c * (1.0 + u * (-2.0 + u));
+  out.u = x / s.h;
+  const Quintic q = quintic(out.u);
+  out.h1 = q.h1;
+  out.h2 = q.h2;
+  out.h4 = q.h4;
+  out.h5 = q.h5;
   const double ca = 1.0 / s.cos_alpha, cb = 1.0 / s.cos_beta;
-  const double curve =
-      s.h * (out.h1 * s.sin_alpha * ca + out.h4 * s.sin_beta * cb) +
-      s.h * s.h * (out.h2 * a.kappa * ca * ca * ca + out.h5 * b.kappa * cb * cb * cb);
+  const double ta = s.sin_alpha * ca, tb = s.sin_beta * cb;
+  const double ka = a.kappa * ca * ca * ca, kb = b.kappa * cb * cb * cb;
+  const double bend = s.h * (out.h2 * ka + out.h5 * kb);
+  const double curve = s.h * (out.h1 * ta + out.h4 * tb + bend);
+  out.by_h = out.h1 * ta + out.h4 * tb + 2.0 * bend;
+  out.slope = q.d1 * ta + q.d4 * tb + s.h * (q.d2 * ka + q.d5 * kb);
+  out.x = x;
+  out.y = y;
   out.residual = (y - curve) / row.reach;
   return out;
 }
@@ -236,16 +271,22 @@ void TubeModel::add_rows(std::size_t i, const LinkState& s, double weight, LinkT
   for (std::size_t k = first; k < last; ++k) {
     const TubeRow& row = tube_.rows[k];
     const RowValue v = row_value(row, s, state_[i].out, state_[next(i)].in);
-    // by both angles to the chord, both curvatures and the chord itself
-    const double da = s.h * v.h1 * ca * ca, db = s.h * v.h4 * cb * cb;
-    const double ka = s.h * s.h * v.h2 * ca * ca * ca, kb = s.h * s.h * v.h5 * cb * cb * cb;
+    // by both angles to the chord, both curvatures, the chord itself and the place along it
+    const NodeEnd& from = state_[i].out;
+    const NodeEnd& to = state_[next(i)].in;
+    const double h2 = s.h * s.h;
+    const double ka = h2 * v.h2 * ca * ca * ca, kb = h2 * v.h5 * cb * cb * cb;
+    const double da = s.h * v.h1 * ca * ca + 3.0 * ka * from.kappa * s.sin_alpha * ca;
+    const double db = s.h * v.h4 * cb * cb + 3.0 * kb * to.kappa * s.sin_beta * cb;
     const double scale = -1.0 / row.reach;
     double J[6];
     for (std::size_t p = 0; p < 6; ++p) {
-      const double turn = dot(jet.chord[p], normal) / s.h;
-      const double lift = dot(jet.start[p] + v.u * jet.chord[p], normal);
-      J[p] = scale * (lift + da * (jet.theta_a[p] - turn) + db * (jet.theta_b[p] - turn) +
-                      ka * jet.kappa_a[p] + kb * jet.kappa_b[p]);
+      const double turn = dot(jet.chord[p], normal) / s.h, longer = dot(jet.chord[p], s.along);
+      const double ahead = turn * v.y - dot(jet.start[p], s.along) - v.u * longer;
+      const double lift = dot(jet.start[p], normal) + turn * v.x;
+      J[p] =
+          scale * (lift + da * (jet.theta_a[p] - turn) + db * (jet.theta_b[p] - turn) +
+                   ka * jet.kappa_a[p] + kb * jet.kappa_b[p] + v.by_h * longer + v.slope * ahead);
     }
     const WallTerms t = wall(v.residual, w);
     for (std::size_t p = 0; p < 6; ++p) {

@@ -79,6 +79,8 @@ class TubeModel {
   struct RowValue {
     double residual;  // over reach
     double h1, h2, h4, h5, u;
+    double x, y;         // of the point along and across the chord
+    double by_h, slope;  // of the curve's height by the chord's length and by x
   };
   [[nodiscard]] RowValue row_value(const TubeRow& row, const LinkState& s, const NodeEnd& a,
                                    const NodeEnd& b) const;

@@ -16,6 +16,9 @@ constexpr double kSmallestStart = 1e-3;  ///< of the slack at the start, in link
 constexpr double kSlackBarrier = 0.1;    ///< starting barrier weight over the slack
 constexpr double kStartingWidth = 1.15;  ///< of a widened tube over what it must hold
 constexpr double kWidthBarrier = 1.0;    ///< starting barrier weight over the tube's width
+constexpr double kWidthBarrierFall = 0.3;
+constexpr int kWidthRounds = 16;
+constexpr int kStepsPerWidth = 25;
 constexpr double kSlackBarrierFall = 0.15;
 constexpr double kPhaseOneEnergy = 1e-4;  ///< damper, against the barriers
 constexpr int kRounds = 8;
@@ -81,15 +84,15 @@ bool TubeSolver::enter_tube(State& x, double energy) {
   const double links = static_cast<double>(model_.link_count());
   const double gap = model_.barrier_parameter() / links;
   double mu = kWidthBarrier;
-  for (int round = 0; round < kRounds; ++round) {
+  for (int round = 0; round < kWidthRounds; ++round) {
     bool centred = false;
-    for (int k = 0; k < kStepsPerRound && !centred; ++k) {
+    for (int k = 0; k < kStepsPerWidth && !centred; ++k) {
       const double decrement = step(x, {energy, 0.0, 1.0}, links / mu);
       if (slack_ < 0.0) return true;
       centred = decrement < kCentred;
     }
     if (centred && slack_ > gap * mu && mu < kNegligibleBarrier * slack_) return false;
-    mu *= kSlackBarrierFall;
+    mu *= kWidthBarrierFall;
   }
   return false;
 }
