@@ -3,61 +3,23 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <cctype>
-#include <cmath>
-#include <filesystem>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "commands.h"
 #include "fit_report.h"
-#include "obvid/io/atomic_file.h"
 #include "obvid/io/contour_json.h"
 #include "obvid/io/picture_svg.h"
 #include "obvid/io/read_points.h"
+#include "outputs.h"
+#include "refusal.h"
+#include "suggest.h"
 #include "terminal.h"
 #include "text.h"
 
 namespace obvid {
 namespace {
-
-enum class Format { kJson, kSvg };
-
-struct Output {
-  std::string path;
-  Format format = Format::kJson;
-  std::string text;
-};
-
-Result<Output> output_of(const std::string& path, const std::string& input) {
-  namespace fs = std::filesystem;
-  std::string ending = fs::path(path).extension().string();
-  std::transform(ending.begin(), ending.end(), ending.begin(),
-                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  std::error_code ignored;
-  if (path == input || fs::equivalent(path, input, ignored)) {
-    return fail(
-        {ErrorCode::kBadOption, "the output would replace the input", path, "choose another name"});
-  }
-  if (ending == ".json") return Output{path, Format::kJson, {}};
-  if (ending == ".svg") return Output{path, Format::kSvg, {}};
-  return fail({ErrorCode::kUnknownFormat,
-               ending.empty() ? "the name has no ending that tells a format"
-                              : "no format is known for the ending " + ending,
-               path, "possible are .json (contour) and .svg (picture)"});
-}
-
-Result<std::vector<Output>> outputs_of(const FitOptions& options) {
-  std::vector<Output> outputs;
-  for (const std::string& path : options.outputs) {
-    Result<Output> output = output_of(path, options.input);
-    if (!output) return fail(output.error());
-    outputs.push_back(std::move(*output));
-  }
-  return outputs;
-}
 
 /// All texts first, then all files: a failure to form leaves every file as it was.
 Result<std::vector<std::string>> write_outputs(std::vector<Output>& outputs,
@@ -65,22 +27,7 @@ Result<std::vector<std::string>> write_outputs(std::vector<Output>& outputs,
   for (Output& output : outputs) {
     output.text = output.format == Format::kJson ? contour_to_json(stored) : picture_svg(stored);
   }
-  std::vector<std::string> written;
-  for (const Output& output : outputs) {
-    if (auto done = write_file(output.path, output.text); !done) return fail(done.error());
-    written.push_back(output.path);
-  }
-  return written;
-}
-
-/// An error about points that no monotone curve meets names how far they would have to move.
-Error with_move(Error error, const std::string& units) {
-  if (error.code != ErrorCode::kNoSpiral || !(error.value > 0.0) || std::isinf(error.value)) {
-    return error;
-  }
-  error.where += fmt::format("{}about {} {}", error.where.empty() ? "" : ", ",
-                             significant(error.value, 2), units);
-  return error;
+  return write_files(outputs);
 }
 
 /// Arcs have radii between those that a smooth contour has: a given one is aimed at, not met.
@@ -101,20 +48,33 @@ void warn_of_radii(const FitJob& job, Fit& made) {
   warn_of_radius("end", job.end_kappa, joints.back().element.kappa, units, made.warnings);
 }
 
-Result<Fit> read_and_fit(const FitOptions& options, std::string& name, ProgressBar& bar) {
+/// The formed contour, or the exit code of what was reported instead.
+struct Outcome {
+  std::optional<Fit> made;
+  int code = 0;
+};
+
+Outcome read_and_fit(const FitOptions& options, std::string& name, ProgressBar& bar) {
+  const auto stop = [&](const Error& error) {
+    bar.clear();
+    return Outcome{std::nullopt, report(error)};
+  };
   bar.tell("reading", 0.0);
   Result<PointSeries> series = read_points(options.input);
-  if (!series) return fail(series.error());
+  if (!series) return stop(series.error());
   if (options.units) series->units = *options.units;
   name = series->name;
   Result<Fit> made = fit(*series, options.job, bar.progress());
   if (made) {
     warn_of_radii(options.job, *made);
-    return made;
+    return {std::move(*made), 0};
+  }
+  if (exit_code(made.error().code) == exit_code(ErrorCode::kNoSpiral)) {
+    return {std::nullopt, tell_refusal(options, *series, made.error(), bar)};
   }
   bar.clear();
   warn(series->warnings);  // a formed contour carries them itself
-  return fail(with_move(made.error(), series->units));
+  return stop(made.error());
 }
 
 /// Exit code 5 for what was formed but does not keep its promise.
@@ -137,15 +97,13 @@ int judge(const Fit& made, bool files) {
 }  // namespace
 
 int run(const FitOptions& options) {
-  Result<std::vector<Output>> outputs = outputs_of(options);
+  if (options.suggest) return suggest(options);
+  Result<std::vector<Output>> outputs = outputs_of(options.outputs, options.input);
   if (!outputs) return report(outputs.error());
   std::string name;
   ProgressBar bar(options.progress && !options.quiet);
-  Result<Fit> made = read_and_fit(options, name, bar);
-  if (!made) {
-    bar.clear();
-    return report(made.error());
-  }
+  auto [made, code] = read_and_fit(options, name, bar);
+  if (!made) return code;
 
   std::vector<std::string> written;
   if (!outputs->empty()) {

@@ -83,11 +83,13 @@ Result<TradeOff> trade_off(const PointSeries& series, const FitJob& job, const P
   TradeOff out;
   out.name = series.name;
   out.units = series.units;
+  const FitJob kept = with_closing(series, job);
+  out.closed = kept.closing == Closing::kClosed;
   for (const double tolerance : tolerances_for(series)) {
     const auto inner = [&](std::string_view stage, double done) {
       progress(stage, (static_cast<double>(out.rows.size()) + done) / kRows);
     };
-    const auto made = fit_within(series, job, tolerance, progress ? Progress(inner) : Progress());
+    const auto made = fit_within(series, kept, tolerance, progress ? Progress(inner) : Progress());
     if (!made && exit_code(made.error().code) != exit_code(ErrorCode::kNoSpiral)) {
       return fail(made.error());
     }

@@ -7,6 +7,8 @@
 #include <cmath>
 #include <cstdlib>
 
+#include "prepare.h"
+
 namespace obvid::pipeline_detail {
 
 Result<Fit> fit_within(const PointSeries& series, FitJob job, double tolerance,
@@ -18,6 +20,12 @@ Result<Fit> fit_within(const PointSeries& series, FitJob job, double tolerance,
     if (data.tolerance) data.tolerance = std::max(*data.tolerance, tolerance);
   }
   return fit(allowed, job, progress);
+}
+
+FitJob with_closing(const PointSeries& series, FitJob job) {
+  const auto prepared = prepare(series, job);
+  if (prepared) job.closing = prepared->closed ? Closing::kClosed : Closing::kOpen;
+  return job;
 }
 
 double coordinate_rounding(const PointSeries& series) {

@@ -11,6 +11,10 @@ namespace obvid::pipeline_detail {
 [[nodiscard]] Result<Fit> fit_within(const PointSeries& series, FitJob job, double tolerance,
                                      const Progress& progress);
 
+/// The job with its automatic choices made: larger tolerances do not close a series that is open
+/// without them.
+[[nodiscard]] FitJob with_closing(const PointSeries& series, FitJob job);
+
 /// Moves up to here are lost in the rounding of the coordinates as doubles.
 [[nodiscard]] double coordinate_rounding(const PointSeries& series);
 

@@ -26,7 +26,7 @@ bool says_no_contour(ErrorCode code) { return exit_code(code) == exit_code(Error
 class Search {
  public:
   Search(const PointSeries& series, const FitJob& job, const Progress& progress)
-      : series_(series), job_(job), progress_(progress) {}
+      : series_(series), job_(with_closing(series, job)), progress_(progress) {}
 
   std::optional<WhyNot> run() {
     auto asked = fit(series_, job_);
@@ -111,7 +111,7 @@ class Search {
   }
 
   const PointSeries& series_;
-  const FitJob& job_;
+  const FitJob job_;
   const Progress& progress_;
   double lowest_ = 0.0, highest_ = 0.0;
   double trials_ = 0.0;

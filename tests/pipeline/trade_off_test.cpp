@@ -121,7 +121,7 @@ TEST(TradeOff, RefusesWhatNoToleranceMends) {
 }
 
 TEST(TradeOff, TheChartShowsBothCurvesAndTheRecommendation) {
-  TradeOff t{"a & b", "mm", rows_of({5, 3, -1, 1}), 1};
+  TradeOff t{"a & b", "mm", false, rows_of({5, 3, -1, 1}), 1};
   const std::string svg = trade_off_svg(t);
   EXPECT_NE(svg.find("a &amp; b"), std::string::npos);
   EXPECT_NE(svg.find("class=\"graph up\""), std::string::npos);
@@ -129,7 +129,7 @@ TEST(TradeOff, TheChartShowsBothCurvesAndTheRecommendation) {
   EXPECT_NE(svg.find("3 vertices"), std::string::npos);
   EXPECT_NE(svg.find("no proved contour"), std::string::npos);
   EXPECT_EQ(svg.find("nan"), std::string::npos);
-  const std::string whole = trade_off_svg({"", "mm", rows_of({2, 1}), 0});
+  const std::string whole = trade_off_svg({"", "mm", false, rows_of({2, 1}), 0});
   EXPECT_EQ(whole.find("no proved contour"), std::string::npos);
 }
 

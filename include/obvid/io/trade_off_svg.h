@@ -26,6 +26,7 @@ struct TradeOffRow {
 struct TradeOff {
   std::string name;                        ///< of the series
   std::string units;                       ///< of lengths
+  bool closed = false;                     ///< whether the contours are
   std::vector<TradeOffRow> rows;           ///< by ascending tolerance
   std::optional<std::size_t> recommended;  ///< row; nothing when none is proved
 };

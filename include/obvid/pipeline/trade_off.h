@@ -10,7 +10,7 @@ namespace obvid {
 
 /// Runs the job with eight tolerances in equal ratios, from the printed rounding of the file (that
 /// of doubles when there is none) to 1 % of the size. They take the place of the job's noise;
-/// larger ones of single points stay.
+/// larger ones of single points stay, and a series that is open without them stays open.
 /// Recommended is, among the proved rows, the one farthest below the straight line from the first
 /// of them to the last in a chart of vertices over the logarithm of the tolerance, both scaled to
 /// the same length; the smaller tolerance where two are equal. Beyond it the vertices fall more

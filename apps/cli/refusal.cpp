@@ -1,0 +1,157 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "refusal.h"
+
+#include <fmt/format.h>
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "json_text.h"
+#include "obvid/io/contour_json.h"
+#include "obvid/io/picture_svg.h"
+#include "obvid/pipeline/why_not.h"
+#include "outputs.h"
+#include "table.h"
+#include "text.h"
+
+namespace obvid {
+namespace {
+
+constexpr std::size_t kMostRows = 12;
+constexpr int kToleranceDigits = 3;  // those of `WhyNot::tolerance`, so that it can be typed again
+
+std::string tolerance_text(const WhyNot& why, const std::string& units) {
+  return fmt::format("tolerance of {} {}", significant(why.tolerance, kToleranceDigits), units);
+}
+
+Error with_tolerance(Error error, const std::optional<WhyNot>& why, const std::string& units) {
+  if (!error.hint.empty()) error.hint += "; ";
+  error.hint += why ? "within a " + tolerance_text(*why, units) + " there is one"
+                    : "moving every point by up to a tenth of the size does not help";
+  return error;
+}
+
+std::string moves_table(const WhyNot& why) {
+  Table table;
+  table.column("point");
+  table.column("x");
+  table.column("y");
+  table.column("move");
+  const std::size_t shown = std::min(why.moved.size(), kMostRows);
+  for (std::size_t k = 0; k < shown; ++k) {
+    const std::size_t i = why.moved[k];
+    const Vec2 p = why.fit.contour.points[i];
+    table.row({std::to_string(i + 1), significant(p.x), significant(p.y),
+               significant(why.fit.report.moves[i], 4)});
+  }
+  std::string text = table.text();
+  if (why.moved.size() > shown) text += fmt::format("... {} more\n", why.moved.size() - shown);
+  return text;
+}
+
+std::string refusal_text(const PointSeries& series, const WhyNot& why,
+                         const std::vector<std::string>& written) {
+  std::string text;
+  if (!series.name.empty()) text += bold(series.name) + "\n";
+  text += fmt::format("points that would have to move, the farthest first; lengths in {}\n\n",
+                      series.units);
+  text += moves_table(why);
+  text += fmt::format("\nWithin a {} for every point such a contour exists and is proved: {}.\n",
+                      tolerance_text(why, series.units),
+                      noise_option(why.tolerance, why.fit.contour.closed, series.points));
+  if (why.refused > 0.0) {
+    text += fmt::format("Within {} {} none was found.\n",
+                        significant(why.refused, kToleranceDigits), series.units);
+  }
+  if (!written.empty()) {
+    text +=
+        fmt::format("picture of that contour: {}; no other file was written\n", listed(written));
+  }
+  return text;
+}
+
+void add_why_not(JsonText& json, const WhyNot& why) {
+  StoredContour bare;  // the writer of the contour file decides how report and certificate look
+  bare.contour.units = why.fit.contour.units;
+  bare.contour.carrier = why.fit.contour.carrier;
+  bare.report = why.fit.report;
+  bare.certificate = why.fit.certificate;
+  const std::string stored = contour_to_json(bare);
+  json.begin_object();
+  json.pair("tolerance", why.tolerance).pair("refused", why.refused);
+  json.key("points").begin_array();
+  for (const std::size_t i : why.moved) {
+    const Vec2 p = why.fit.contour.points[i];
+    json.begin_object().pair("index", i).pair("x", p.x).pair("y", p.y);
+    json.pair("move", why.fit.report.moves[i]).end_object();
+  }
+  json.end_array();
+  json.key("report").raw(top_level_value(stored, "report"));
+  json.key("certificate").raw(top_level_value(stored, "certificate"));
+  json.end_object();
+}
+
+std::string refusal_json(const Error& error, const PointSeries& series,
+                         const std::optional<WhyNot>& why,
+                         const std::vector<std::string>& written) {
+  JsonText json;
+  json.begin_object().pair("units", series.units);
+  json.key("error").begin_object();
+  json.pair("code", fmt::format("E{}", static_cast<int>(error.code))).pair("what", error.what);
+  json.pair("where", error.where).pair("hint", error.hint).end_object();
+  json.key("why_not");
+  if (why) {
+    add_why_not(json, *why);
+  } else {
+    json.null();
+  }
+  json.key("warnings").begin_array();
+  for (const std::string& warning : series.warnings) json.value(warning);
+  json.end_array().key("written").begin_array();
+  for (const std::string& file : written) json.value(file);
+  json.end_array().end_object();
+  return json.take();
+}
+
+/// NAME.why-not.svg for each picture: what failed must not look like a success.
+Result<std::vector<std::string>> write_pictures(const FitOptions& options, const WhyNot& why) {
+  const Result<std::vector<Output>> asked = outputs_of(options.outputs, options.input);
+  if (!asked) return fail(asked.error());
+  std::vector<Output> pictures;
+  for (const Output& output : *asked) {
+    if (output.format != Format::kSvg) continue;
+    const auto path = std::filesystem::path(output.path).replace_extension(".why-not.svg");
+    Result<Output> picture = output_of(path.string(), options.input);
+    if (!picture) return fail(picture.error());
+    picture->text = picture_svg({why.fit.contour, why.fit.report, why.fit.certificate});
+    pictures.push_back(std::move(*picture));
+  }
+  return write_files(pictures);
+}
+
+}  // namespace
+
+int tell_refusal(const FitOptions& options, const PointSeries& series, const Error& refusal,
+                 ProgressBar& bar) {
+  const std::optional<WhyNot> why = why_not(series, options.job, bar.progress());
+  Result<std::vector<std::string>> written;
+  if (why) written = write_pictures(options, *why);
+  bar.clear();
+  warn(series.warnings);  // a formed contour carries them itself
+  const Error told = with_tolerance(refusal, why, series.units);
+  const int code = report(told);
+  const std::vector<std::string> names = written ? *written : std::vector<std::string>{};
+  if (!written) warn({written.error().what + " (" + written.error().where + ")"});
+  std::string text;
+  if (options.json) {
+    text = refusal_json(told, series, why, names);
+  } else if (why && !options.quiet) {
+    text = refusal_text(series, *why, names);
+  }
+  if (auto done = put(text); !done) warn({done.error().what});
+  return code;
+}
+
+}  // namespace obvid

@@ -1,0 +1,154 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "suggest.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <string>
+#include <vector>
+
+#include "json_text.h"
+#include "obvid/io/read_points.h"
+#include "obvid/pipeline/trade_off.h"
+#include "outputs.h"
+#include "table.h"
+#include "terminal.h"
+#include "text.h"
+
+namespace obvid {
+namespace {
+
+constexpr int kToleranceDigits = 3;
+constexpr double kMilli = 1e3;  // s to ms
+
+constexpr const char* kRule =
+    "of the proved rows the one farthest below the straight line from the first to the last, in a "
+    "chart of vertices over the logarithm of the tolerance; beyond it the vertices fall more "
+    "slowly than on average";
+
+Result<std::vector<Output>> charts_of(const FitOptions& options) {
+  Result<std::vector<Output>> outputs = outputs_of(options.outputs, options.input);
+  if (!outputs) return outputs;
+  for (const Output& output : *outputs) {
+    if (output.format == Format::kSvg) continue;
+    return fail({ErrorCode::kBadOption, "--suggest forms no contour to be stored", output.path,
+                 "name an .svg for the chart, or use --json"});
+  }
+  return outputs;
+}
+
+std::string rows_text(const TradeOff& t) {
+  Table table;
+  table.column("tolerance");
+  table.column("vertices");
+  table.column("lower\nbound");
+  table.column("inflections");
+  table.column("pieces");
+  table.column("largest\nmove");
+  table.column("time\nms");
+  table.column("proved", Table::Align::kLeft);
+  for (std::size_t i = 0; i < t.rows.size(); ++i) {
+    const TradeOffRow& row = t.rows[i];
+    const std::string tolerance = significant(row.tolerance, kToleranceDigits);
+    if (!row.formed) {
+      table.row({tolerance, "-", "-", "-", "-", "-", "-", "no: " + row.refusal});
+      continue;
+    }
+    table.row({tolerance, std::to_string(row.vertices), std::to_string(row.vertices_lower_bound),
+               std::to_string(row.inflections), std::to_string(row.pieces),
+               significant(row.largest_move, kToleranceDigits),
+               fmt::format("{:.1f}", kMilli * row.seconds),
+               row.proved ? "yes" : "no: " + row.refusal});
+  }
+  return table.text();
+}
+
+std::string recommendation(const TradeOff& t, const PointSeries& series) {
+  if (!t.recommended) return "No tolerance gave a proved contour.\n";
+  const TradeOffRow& row = t.rows[*t.recommended];
+  return fmt::format("Recommended: {} ({}, moves up to {} {})\nRule: {}.\n",
+                     noise_option(row.tolerance, t.closed, series.points),
+                     counted(static_cast<std::size_t>(row.vertices), "vertex", "vertices"),
+                     significant(row.largest_move, kToleranceDigits), t.units, kRule);
+}
+
+std::string suggestion_text(const TradeOff& t, const PointSeries& series,
+                            const std::vector<std::string>& written) {
+  std::string text;
+  if (!t.name.empty()) text += bold(t.name) + "\n";
+  text += fmt::format("one tolerance for every point; lengths in {}\n\n", t.units);
+  text += rows_text(t) + "\n" + recommendation(t, series);
+  if (!written.empty()) text += fmt::format("written  {}\n", listed(written));
+  return text;
+}
+
+std::string suggestion_json(const TradeOff& t, const std::vector<std::string>& warnings,
+                            const std::vector<std::string>& written) {
+  JsonText json;
+  json.begin_object().pair("units", t.units).key("rows").begin_array();
+  for (const TradeOffRow& row : t.rows) {
+    json.begin_object().pair("tolerance", row.tolerance);
+    json.pair("formed", row.formed).pair("proved", row.proved).pair("refusal", row.refusal);
+    if (row.formed) {
+      json.pair("vertices", row.vertices).pair("vertices_lower_bound", row.vertices_lower_bound);
+      json.pair("inflections", row.inflections).pair("pieces", row.pieces);
+      json.pair("largest_move", row.largest_move).pair("seconds", row.seconds);
+    }
+    json.end_object();
+  }
+  json.end_array().key("recommended");
+  if (t.recommended) {
+    json.value(*t.recommended);
+  } else {
+    json.null();
+  }
+  json.pair("rule", kRule);
+  json.key("warnings").begin_array();
+  for (const std::string& warning : warnings) json.value(warning);
+  json.end_array().key("written").begin_array();
+  for (const std::string& file : written) json.value(file);
+  json.end_array().end_object();
+  return json.take();
+}
+
+/// Exit code of a table without any proved row.
+int judge(const TradeOff& t) {
+  if (t.recommended) return 0;
+  const bool formed =
+      std::any_of(t.rows.begin(), t.rows.end(), [](const auto& row) { return row.formed; });
+  return report({formed ? ErrorCode::kNotProved : ErrorCode::kNoSpiral,
+                 "no tolerance up to 1 % of the size gives a proved contour", "",
+                 t.rows.empty() ? "" : "at the largest: " + t.rows.back().refusal});
+}
+
+}  // namespace
+
+int suggest(const FitOptions& options) {
+  Result<std::vector<Output>> charts = charts_of(options);
+  if (!charts) return report(charts.error());
+  ProgressBar bar(options.progress && !options.quiet);
+  bar.tell("reading", 0.0);
+  Result<PointSeries> series = read_points(options.input);
+  if (series && options.units) series->units = *options.units;
+  const Result<TradeOff> found = series.and_then(
+      [&](const PointSeries& s) { return trade_off(s, options.job, bar.progress()); });
+  if (!found) {
+    bar.clear();
+    return report(found.error());
+  }
+  for (Output& chart : *charts) chart.text = trade_off_svg(*found);
+  const Result<std::vector<std::string>> written = write_files(*charts);
+  bar.clear();
+  if (!written) return report(written.error());
+  warn(series->warnings);
+  std::string text;
+  if (options.json) {
+    text = suggestion_json(*found, series->warnings, *written);
+  } else if (!options.quiet) {
+    text = suggestion_text(*found, *series, *written);
+  }
+  if (auto done = put(text); !done) return report(done.error());
+  return judge(*found);
+}
+
+}  // namespace obvid
