@@ -1,0 +1,79 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "median.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "links.h"
+#include "obvid/contour/conics.h"
+#include "obvid/region/segment_region.h"
+#include "triangle.h"
+
+namespace obvid {
+namespace conics {
+namespace {
+
+/// Ordinate of a boundary. A circle of radius 0 leaves the other arc alone, as the circle over the
+/// whole chord that keeps its tangent.
+std::optional<double> ordinate(const ChordFrame& frame, const Boundary& b, double x) {
+  if (!std::isinf(b.kappa_first) && !std::isinf(b.kappa_second)) {
+    return boundary_ordinate(frame, b, x);
+  }
+  const bool second_alone = std::isinf(b.kappa_first);
+  const double kappa = second_alone ? b.kappa_second : b.kappa_first;
+  ChordFrame circle = frame;
+  if (second_alone) circle.start_tangent = {frame.end_tangent.x, -frame.end_tangent.y};
+  if (!second_alone) circle.end_tangent = {frame.start_tangent.x, -frame.start_tangent.y};
+  return boundary_ordinate(circle, {kappa, kappa, circle.end_tangent, 0.0, 0.0}, x);
+}
+
+/// Where the median from the middle of the chord (0) to the apex (1) leaves a boundary behind.
+std::optional<double> on_median(const ChordFrame& frame, const Boundary& b, Vec2 apex) {
+  const Vec2 foot = {0.5 * frame.h, 0.0};
+  double low = 0.0, high = 1.0;
+  constexpr int kBisections = 60;  // to the last bit
+  for (int i = 0; i < kBisections; ++i) {
+    const double s = 0.5 * (low + high);
+    const Vec2 p = foot + s * (apex - foot);
+    const auto y = ordinate(frame, b, p.x);
+    if (!y) return std::nullopt;
+    (std::abs(p.y) > std::abs(*y) ? high : low) = s;
+  }
+  return 0.5 * (low + high);
+}
+
+}  // namespace
+
+std::optional<MedianCut> median_cut(const Element& start, const Element& end) {
+  const auto t = triangle_over(start, end);
+  if (!t) return std::nullopt;
+  const ChordFrame frame = chord_frame(start, end);
+  const auto region = segment_region(frame, end.kappa > start.kappa ? 1 : -1);
+  if (!region) return std::nullopt;
+  const double side = -t->turning, a = std::exp(t->log_a);
+  const Vec2 apex = {a * std::cos(t->phi), side * a * std::sin(t->phi)};
+  const auto s0 = on_median(frame, region->from_start, apex);
+  const auto s1 = on_median(frame, region->to_end, apex);
+  if (!s0 || !s1) return std::nullopt;
+  return MedianCut{std::min(*s0, *s1), std::max(*s0, *s1)};
+}
+
+}  // namespace conics
+
+std::optional<double> median_weight(const Element& start, const Element& end) {
+  const auto cut = conics::median_cut(start, end);
+  if (!cut) return std::nullopt;
+  // the conic of weight w passes the median at the part w/(1 + w)
+  const double s = 0.5 * (cut->low + cut->high);
+  return s / (1.0 - s);
+}
+
+std::optional<WeightRange> monotone_weights(const Element& start, const Element& end) {
+  const auto t = conics::triangle_over(start, end);
+  if (!t) return std::nullopt;
+  const auto range = conics::monotone_range(*t);
+  if (!(range.low < range.high)) return std::nullopt;
+  return WeightRange{std::exp(range.low), std::exp(range.high)};
+}
+
+}  // namespace obvid
