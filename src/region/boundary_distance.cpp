@@ -1,0 +1,181 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "obvid/region/boundary_distance.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace obvid {
+namespace {
+
+/// Circle arc, or line when kappa is 0, from a point with a unit tangent to the next one.
+struct Arc {
+  Vec2 start, end;
+  Vec2 start_tangent, end_tangent;
+  double kappa = 0.0;
+};
+
+double distance_to(const Arc& arc, Vec2 p) {
+  const double ends = std::min(norm(p - arc.start), norm(p - arc.end));
+  if (std::isinf(arc.kappa)) return ends;
+  const Vec2 from_start = p - arc.start, from_end = p - arc.end;
+  // abreast of the arc: ahead of its start and behind its end, seen along the radius through p
+  if (arc.kappa == 0.0) {
+    const bool abreast =
+        dot(from_start, arc.start_tangent) > 0.0 && dot(from_end, arc.end_tangent) < 0.0;
+    return abreast ? std::abs(cross(arc.start_tangent, from_start)) : ends;
+  }
+  const double turn = turning(arc.start_tangent, arc.end_tangent);
+  // radius vector p - centre, with the sign that makes it kappa-fold; tangent there is its left
+  // normal
+  const Vec2 radius = arc.kappa * from_start - left_normal(arc.start_tangent);
+  const double along = turning(arc.start_tangent, left_normal(radius));
+  const bool abreast = turn >= 0.0 ? along >= 0.0 && along <= turn : along <= 0.0 && along >= turn;
+  // |p - centre| - R without the cancellation of a large circle
+  const double offset = dot(from_start, from_start) * arc.kappa -
+                        2.0 * dot(from_start, left_normal(arc.start_tangent));
+  return abreast ? std::abs(offset) / (norm(radius) + 1.0) : ends;
+}
+
+/// Both arcs of a boundary in the chord's frame.
+struct TwoArcs {
+  Arc first, second;
+
+  TwoArcs(const ChordFrame& f, const Boundary& b) {
+    const Vec2 end = {f.h, 0.0};
+    const Vec2 t = b.joint_tangent;
+    // an arc of curvature k moves along the mean of its tangents, by tan(turn/2)/k of their sum
+    const auto moved = [](Vec2 from, Vec2 to, double k) {
+      return (cross(from, to) / ((1.0 + dot(from, to)) * k)) * (from + to);
+    };
+    Vec2 joint;
+    if (std::isinf(b.kappa_first)) {
+      joint = {};
+    } else if (std::isinf(b.kappa_second)) {
+      joint = end;
+    } else if (std::abs(b.kappa_first) >= std::abs(b.kappa_second)) {
+      joint = b.kappa_first == 0.0 ? end : moved(f.start_tangent, t, b.kappa_first);
+    } else {
+      joint = end - moved(t, f.end_tangent, b.kappa_second);
+    }
+    first = {{}, joint, f.start_tangent, t, b.kappa_first};
+    second = {joint, end, t, f.end_tangent, b.kappa_second};
+  }
+  [[nodiscard]] double distance(Vec2 p) const {
+    return std::min(distance_to(first, p), distance_to(second, p));
+  }
+};
+
+/// What is asked of one point of the curve.
+class Placement {
+ public:
+  Placement(const Piece& piece, const ChordFrame& frame, const SegmentRegion& region, Vec2 origin,
+            Vec2 along)
+      : piece_(piece),
+        frame_(frame),
+        region_(region),
+        origin_(origin),
+        along_(along),
+        from_start_(frame, region.from_start),
+        to_end_(frame, region.to_end) {}
+
+  [[nodiscard]] Vec2 at(double t) const { return evaluate(piece_, t).point; }
+  [[nodiscard]] double farther(double t) const {
+    const Vec2 p = local(t);
+    return std::max(from_start_.distance(p), to_end_.distance(p));
+  }
+  [[nodiscard]] double outside(double t) const {
+    const Vec2 p = local(t);
+    const double x = std::clamp(p.x, 0.0, frame_.h);
+    const auto y0 = ordinate_over_chord(frame_, region_.from_start, x);
+    const auto y1 = ordinate_over_chord(frame_, region_.to_end, x);
+    const bool in_chord = p.x >= 0.0 && p.x <= frame_.h;
+    if (!y0 || !y1) return 0.0;
+    if (in_chord && p.y >= std::min(*y0, *y1) && p.y <= std::max(*y0, *y1)) return 0.0;
+    return std::min(from_start_.distance(p), to_end_.distance(p));
+  }
+
+ private:
+  [[nodiscard]] Vec2 local(double t) const {
+    const Vec2 v = at(t) - origin_;
+    return {dot(along_, v), cross(along_, v)};
+  }
+  const Piece& piece_;
+  const ChordFrame& frame_;
+  const SegmentRegion& region_;
+  Vec2 origin_, along_;
+  TwoArcs from_start_, to_end_;
+};
+
+/// Largest value of f on [0, 1]: the best of equal steps, then thirds around it.
+template <class F>
+double largest_at(const F& f, int samples) {
+  int best = 0;
+  double most = -1.0;
+  for (int i = 0; i <= samples; ++i) {
+    const double value = f(static_cast<double>(i) / samples);
+    if (value > most) {
+      most = value;
+      best = i;
+    }
+  }
+  double low = std::max(0, best - 1) / static_cast<double>(samples);
+  double high = std::min(samples, best + 1) / static_cast<double>(samples);
+  constexpr int kThirds = 60;  // (2/3)^60 = 3e-11 of a step; the value is flat there
+  for (int i = 0; i < kThirds; ++i) {
+    const double a = low + (high - low) / 3.0, b = high - (high - low) / 3.0;
+    (f(a) < f(b) ? low : high) = f(a) < f(b) ? a : b;
+  }
+  return 0.5 * (low + high);
+}
+
+}  // namespace
+
+double boundary_distance(const ChordFrame& frame, const Boundary& boundary, Vec2 local) {
+  return TwoArcs(frame, boundary).distance(local);
+}
+
+std::optional<double> ordinate_over_chord(const ChordFrame& frame, const Boundary& b, double x) {
+  if (!std::isinf(b.kappa_first) && !std::isinf(b.kappa_second)) {
+    return boundary_ordinate(frame, b, x);
+  }
+  const bool second_alone = std::isinf(b.kappa_first);
+  const double kappa = second_alone ? b.kappa_second : b.kappa_first;
+  ChordFrame circle = frame;
+  if (second_alone) circle.start_tangent = {frame.end_tangent.x, -frame.end_tangent.y};
+  if (!second_alone) circle.end_tangent = {frame.start_tangent.x, -frame.start_tangent.y};
+  return boundary_ordinate(circle, {kappa, kappa, circle.end_tangent, 0.0, 0.0}, x);
+}
+
+std::optional<RegionPlacement> place_in_region(const Piece& piece, const Element& start,
+                                               const Element& end, int direction, int samples) {
+  const ChordFrame frame = chord_frame(start, end);
+  const auto region = segment_region(frame, direction);
+  if (!region) return std::nullopt;
+  const Vec2 along = (end.point - start.point) / frame.h;
+  const Placement place(piece, frame, *region, start.point, along);
+  const double t0 = largest_at([&](double t) { return place.farther(t); }, samples);
+  const double t1 = largest_at([&](double t) { return place.outside(t); }, samples);
+  return RegionPlacement{place.farther(t0), place.outside(t1), place.at(t0), place.at(t1)};
+}
+
+std::optional<ConvexErrors> convex_errors(const Element& start, const Element& end, int direction,
+                                          const ConvexTriangle& triangle) {
+  const ChordFrame frame = chord_frame(start, end);
+  const auto region = segment_region(frame, direction);
+  if (!region) return std::nullopt;
+  const auto height = [&](const Boundary& b) { return triangle.side > 0 ? b.highest : -b.lowest; };
+  const bool start_is_lower = height(region->from_start) <= height(region->to_end);
+  const Boundary& lower = start_is_lower ? region->from_start : region->to_end;
+  const Boundary& upper = start_is_lower ? region->to_end : region->from_start;
+  const Vec2 along = (end.point - start.point) / frame.h, v = triangle.apex - start.point;
+  ConvexErrors e;
+  e.upper_height = height(upper);
+  e.lower_height = height(lower);
+  e.apex_height = triangle.height;
+  e.apex_gap = triangle.height - e.lower_height;
+  e.apex_distance = boundary_distance(frame, lower, {dot(along, v), cross(along, v)});
+  e.bound = std::max(e.upper_height, e.apex_distance);
+  return e;
+}
+
+}  // namespace obvid
