@@ -1,0 +1,186 @@
+// SPDX-License-Identifier: Apache-2.0
+// C2 cubic within a tolerance of a contour: docs/methods/monotone_bspline.md, section 5.
+#include "obvid/contour/bsplines/cubic_along.h"
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+#include <vector>
+
+#include "contour_length.h"
+#include "obvid/contour/bsplines.h"
+
+namespace obvid {
+namespace {
+
+using bsplines::ContourLength;
+
+constexpr std::size_t kMostSpans = 65536;
+/// Cells per piece over which the density of knots is taken for constant.
+constexpr std::size_t kCells = 8;
+constexpr int kSamples = 8;  // per span
+/// What the largest sampled deviation may be, so that nothing between the samples exceeds the
+/// tolerance: eight samples see the flat maximum of a quartic error within 4 %.
+constexpr double kOfTolerance = 0.95;
+/// A span is at least this part of the contour: keeps straight parts from being one span.
+constexpr double kLeastDensity = 1.0;
+
+/// Places on the contour with the integral of the wanted density of knots.
+struct Density {
+  std::vector<double> place, sum;
+
+  /// Place between two others, where the integral has gone this part of the way.
+  [[nodiscard]] double between(std::size_t first, std::size_t last, double part) const {
+    const double wanted = sum[first] + part * (sum[last] - sum[first]);
+    const auto begin = sum.begin();
+    const auto from = begin + static_cast<std::ptrdiff_t>(first);
+    const auto to = begin + static_cast<std::ptrdiff_t>(last);
+    const auto i = static_cast<std::size_t>(std::upper_bound(from + 1, to, wanted) - begin);
+    const double t = (wanted - sum[i - 1]) / (sum[i] - sum[i - 1]);
+    return place[i - 1] + t * (place[i] - place[i - 1]);
+  }
+
+  /// Places of the knots of about n spans. Where there are enough of them the joints are knots: the
+  /// slope of the curvature jumps there, which a cubic spline can follow at its knots only.
+  [[nodiscard]] std::vector<double> knots(std::size_t n) const {
+    constexpr std::size_t kEnough = 2;  // spans per piece
+    const std::size_t last = sum.size() - 1, pieces = last / kCells;
+    const std::size_t stride = n < kEnough * pieces ? last : kCells;
+    std::vector<double> out = {0.0};
+    for (std::size_t i = 0; i < last; i += stride) {
+      const double share = (sum[i + stride] - sum[i]) / sum.back() * static_cast<double>(n);
+      const double count = std::max(1.0, std::round(share));
+      for (double k = 1.0; k < count; k += 1.0) out.push_back(between(i, i + stride, k / count));
+      out.push_back(place[i + stride]);
+    }
+    return out;
+  }
+};
+
+/// A cubic errs with |r''''| h^4, so knots stand as dense as the fourth root of
+/// r'''' = (kappa'' - kappa^3) n - 3 kappa kappa' t.
+Density knot_density(const Contour& contour, const ContourLength& length) {
+  Density d{{0.0}, {0.0}};
+  const double whole = length.at(static_cast<double>(contour.pieces.size()));
+  for (std::size_t i = 0; i < contour.pieces.size(); ++i) {
+    const Piece& piece = contour.pieces[i];
+    for (std::size_t c = 0; c < kCells; ++c) {
+      const double from = static_cast<double>(c) / kCells;
+      const double to = static_cast<double>(c + 1) / kCells;
+      const double place = static_cast<double>(i) + to;
+      const double ds = length.at(place) - length.at(d.place.back());
+      const Jet a = evaluate(piece, from), m = evaluate(piece, 0.5 * (from + to)),
+                b = evaluate(piece, to);
+      const double kappa = curvature(m), rate = curvature_rate(m);
+      const double second = (curvature_rate(b) - curvature_rate(a)) / ds;
+      const double fourth = std::hypot(second - kappa * kappa * kappa, 3.0 * kappa * rate);
+      d.place.push_back(place);
+      d.sum.push_back(d.sum.back() + (std::sqrt(std::sqrt(fourth)) + kLeastDensity / whole) * ds);
+    }
+  }
+  return d;
+}
+
+/// Distance of p from the spline near the parameter u.
+double distance_from(const CubicSpline& spline, Vec2 p, double u) {
+  constexpr int kSteps = 3;  // Newton, from a start that is right to the second order
+  for (int k = 0; k < kSteps; ++k) {
+    const Jet j = evaluate(spline, u);
+    u += dot(p - j.point, j.d1) / dot(j.d1, j.d1);
+  }
+  return norm(evaluate(spline, u).point - p);
+}
+
+class CubicBuilder {
+ public:
+  explicit CubicBuilder(const Contour& contour)
+      : contour_(contour), length_(contour), density_(knot_density(contour, length_)) {}
+
+  Result<CubicAlong> with_spans(std::size_t n) const {
+    const std::vector<double> places = density_.knots(n);
+    std::vector<Vec2> points;
+    points.reserve(places.size());
+    for (const double place : places) points.push_back(length_.element(place).point);
+    CubicSplineOptions options;
+    options.end = SplineEnd::kTangents;
+    options.start_slope = unit_at(length_.element(0.0).theta);
+    options.end_slope = unit_at(length_.element(places.back()).theta);
+    auto spline = cubic_spline(points, options);
+    if (!spline) return tl::unexpected(spline.error());
+    CubicAlong out{std::move(*spline), 0.0};
+    out.deviation = deviation(out.spline, places);
+    return out;
+  }
+
+ private:
+  double deviation(const CubicSpline& spline, const std::vector<double>& places) const {
+    double most = 0.0;
+    for (std::size_t i = 0; i + 1 < places.size(); ++i) {
+      const double from = length_.at(places[i]), to = length_.at(places[i + 1]);
+      for (int k = 0; k < kSamples; ++k) {
+        const double part = (k + 0.5) / kSamples;
+        const double place = places[i] + part * (places[i + 1] - places[i]);
+        const double along = (length_.at(place) - from) / (to - from);
+        const double u = spline.knots[i] + along * (spline.knots[i + 1] - spline.knots[i]);
+        most = std::max(most, distance_from(spline, length_.point(place), u));
+      }
+    }
+    return most;
+  }
+
+  const Contour& contour_;
+  ContourLength length_;
+  Density density_;
+};
+
+/// Fewest spans, nearly: grown by the fourth root of what is missing, then cut in halves of what is
+/// left between a number that does and one that does not.
+Result<CubicAlong> search(const CubicBuilder& builder, double tolerance) {
+  std::size_t failed = 0, n = 2;
+  auto found = builder.with_spans(n);
+  while (found && !(found->deviation <= tolerance)) {
+    if (n >= kMostSpans) {
+      return fail({ErrorCode::kToleranceNotReached, "65,536 cubic spans do not reach the tolerance",
+                   "", "allow more", -1, found->deviation});
+    }
+    failed = n;
+    constexpr double kMostGrowth = 4.0;
+    const double growth =
+        std::clamp(std::pow(found->deviation / tolerance, 0.25), 1.0, kMostGrowth);
+    n = std::min(kMostSpans, static_cast<std::size_t>(growth * static_cast<double>(n)) + 1);
+    found = builder.with_spans(n);
+  }
+  while (found && n - failed > 1 + n / 32) {
+    const std::size_t middle = (n + failed) / 2;
+    if (middle < 2) break;
+    auto fewer = builder.with_spans(middle);
+    if (fewer && fewer->deviation <= tolerance) {
+      n = middle;
+      found = std::move(fewer);
+    } else {
+      failed = middle;
+    }
+  }
+  return found;
+}
+
+}  // namespace
+
+Result<CubicAlong> cubic_along(const Contour& contour, double tolerance) {
+  if (!(tolerance > 0.0)) {
+    return fail(
+        {ErrorCode::kBadOption, "the tolerance must be greater than 0", "", "", -1, tolerance});
+  }
+  if (contour.pieces.empty()) {
+    return fail({ErrorCode::kTooFewPoints, "the contour has no pieces", "", "", -1, 0.0});
+  }
+  for (std::size_t i = 0; i < contour.joints.size(); ++i) {
+    if (!contour.joints[i].leaving) continue;
+    return fail({ErrorCode::kUnsupported, "the contour has a corner",
+                 "joint " + std::to_string(i + 1), "split it there", static_cast<std::ptrdiff_t>(i),
+                 0.0});
+  }
+  return search(CubicBuilder(contour), kOfTolerance * tolerance);
+}
+
+}  // namespace obvid

@@ -1,0 +1,124 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "obvid/contour/bsplines/cubic_along.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <random>
+#include <vector>
+
+#include "clothoid_data.h"
+
+namespace obvid {
+namespace {
+
+using test::uniform_between;
+
+Contour arc_contour(double radius, double turn) {
+  const ArcPiece arc = {
+      {radius, 0.0}, radius * unit_at(turn), 0.5 * std::numbers::pi, 1.0 / radius, radius * turn};
+  Contour c;
+  c.pieces = {arc};
+  c.joints.resize(2);
+  c.joints[0].element = {arc.start, arc.theta0, arc.kappa};
+  c.joints[1].element = {arc.end, arc.theta0 + turn, arc.kappa};
+  c.runs = {{0, 0, 0}};
+  return c;
+}
+
+/// Clothoids of length 1 in a row with these curvatures at their joints.
+Contour clothoid_contour(const std::vector<double>& kappa) {
+  Contour c;
+  Element e = {{0.0, 0.0}, 0.4, kappa.front()};
+  c.joints.emplace_back();
+  c.joints.back().element = e;
+  for (std::size_t i = 0; i + 1 < kappa.size(); ++i) {
+    ClothoidPiece p = {e.point, {}, e.theta, kappa[i], kappa[i + 1], 1.0};
+    p.end = p.start + test::end_by_quadrature(p.theta0, p.kappa0, p.kappa1, 1.0);
+    e = {p.end, test::end_heading(p), kappa[i + 1]};
+    c.pieces.emplace_back(p);
+    c.joints.emplace_back();
+    c.joints.back().element = e;
+  }
+  c.runs = {{0, c.pieces.size() - 1, 1}};
+  return c;
+}
+
+TEST(CubicAlong, KeepsWithinItsToleranceOfACircle) {
+  for (const double tolerance : {1e-2, 1e-4, 1e-6, 1e-8}) {
+    const auto cubic = cubic_along(arc_contour(3.0, 2.5), tolerance);
+    ASSERT_TRUE(cubic) << cubic.error().what;
+    EXPECT_LE(cubic->deviation, tolerance);
+    double worst = 0.0;
+    const auto& knots = cubic->spline.knots;
+    for (std::size_t i = 0; i + 1 < knots.size(); ++i) {
+      for (double t = 0.0; t <= 1.0; t += 0.01) {
+        const Vec2 p = evaluate(cubic->spline, knots[i] + t * (knots[i + 1] - knots[i])).point;
+        worst = std::max(worst, std::abs(norm(p) - 3.0));
+      }
+    }
+    EXPECT_LE(worst, tolerance);
+    EXPECT_GT(worst, 0.2 * tolerance);  // not many more spans than needed
+  }
+}
+
+TEST(CubicAlong, NeedsTheFourthRootOfTheToleranceInSpans) {
+  const Contour c = clothoid_contour({0.1, 0.4, 1.5, 1.7, 3.0});
+  std::vector<double> spans;
+  for (const double tolerance : {1e-5, 1e-7, 1e-9}) {
+    const auto cubic = cubic_along(c, tolerance);
+    ASSERT_TRUE(cubic);
+    spans.push_back(static_cast<double>(cubic->spline.knots.size() - 1));
+  }
+  const double expected = std::pow(100.0, 0.25);
+  for (std::size_t i = 0; i + 1 < spans.size(); ++i) {
+    EXPECT_NEAR(spans[i + 1] / spans[i], expected, 0.25 * expected) << i;
+  }
+}
+
+TEST(CubicAlong, MeetsBothEndsWithTheirTangents) {
+  const Contour c = clothoid_contour({-0.5, 0.2, 0.9});
+  const auto cubic = cubic_along(c, 1e-4);
+  ASSERT_TRUE(cubic);
+  const Element a = c.joints.front().element, b = c.joints.back().element;
+  EXPECT_EQ(cubic->spline.points.front(), a.point);
+  EXPECT_EQ(cubic->spline.points.back(), b.point);
+  constexpr double kRounding = 1e-12;
+  EXPECT_NEAR(norm(cubic->spline.slopes.front() - unit_at(a.theta)), 0.0, kRounding);
+  EXPECT_NEAR(norm(cubic->spline.slopes.back() - unit_at(b.theta)), 0.0, kRounding);
+}
+
+TEST(CubicAlong, HasContinuousCurvatureNearThatOfTheContour) {
+  const Contour c = clothoid_contour({0.2, 0.5, 1.5});
+  const auto cubic = cubic_along(c, 1e-7);
+  ASSERT_TRUE(cubic);
+  const auto& knots = cubic->spline.knots;
+  double before = -HUGE_VAL;
+  for (std::size_t i = 1; i + 1 < knots.size(); ++i) {
+    const double width = knots[i] - knots[i - 1];
+    const Jet left = evaluate(cubic->spline, knots[i] - 1e-9 * width);
+    const Jet here = evaluate(cubic->spline, knots[i]);
+    EXPECT_NEAR(curvature(left), curvature(here), 1e-6) << i;
+    // curvature errs with the square of the span, which at this tolerance is below 1 % of it
+    EXPECT_GT(curvature(here), before) << i;
+    before = curvature(here);
+  }
+  EXPECT_NEAR(before, 1.5, 0.1);
+}
+
+TEST(CubicAlong, SaysWhyThereIsNone) {
+  const Contour c = clothoid_contour({0.1, 0.4, 1.5});
+  EXPECT_EQ(cubic_along(c, 0.0).error().code, ErrorCode::kBadOption);
+  EXPECT_EQ(cubic_along(Contour{}, 1.0).error().code, ErrorCode::kTooFewPoints);
+  Contour corner = c;
+  corner.joints[1].leaving = corner.joints[1].element;
+  EXPECT_EQ(cubic_along(corner, 1e-3).error().code, ErrorCode::kUnsupported);
+  const auto hopeless = cubic_along(c, 1e-30);  // below the rounding of the coordinates
+  ASSERT_FALSE(hopeless);
+  EXPECT_EQ(hopeless.error().code, ErrorCode::kToleranceNotReached);
+}
+
+}  // namespace
+}  // namespace obvid
