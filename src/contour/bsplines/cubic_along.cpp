@@ -22,7 +22,7 @@ constexpr int kSamples = 8;  // per span
 /// What the largest sampled deviation may be, so that nothing between the samples exceeds the
 /// tolerance: eight samples see the flat maximum of a quartic error within 4 %.
 constexpr double kOfTolerance = 0.95;
-/// A span is at least this part of the contour: keeps straight parts from being one span.
+/// Integral of the density that the contour has by its length alone: straight parts get knots too.
 constexpr double kLeastDensity = 1.0;
 
 /// Places on the contour with the integral of the wanted density of knots.
