@@ -180,6 +180,33 @@ TEST(MonotoneBSpline, KeepsVerticesAndInflectionsOfTheContour) {
   EXPECT_EQ(c.inflections, f->certificate.inflections);
 }
 
+TEST(MonotoneBSpline, GoesAroundAnEllipseWithItsFourVertices) {
+  std::vector<Vec2> points;
+  constexpr int kPoints = 24;
+  for (int i = 0; i < kPoints; ++i) {
+    const double t = 2.0 * std::numbers::pi * (i + 0.3) / kPoints;
+    points.push_back({2.0 * std::cos(t), std::sin(t)});
+  }
+  PointSeries series;
+  series.points = points;
+  FitJob job;
+  job.closing = Closing::kClosed;
+  const auto f = fit(series, job);
+  ASSERT_TRUE(f && f->certificate.proved && f->contour.closed);
+  ASSERT_EQ(f->certificate.vertices, 4);
+  const auto spline = monotone_spline(f->contour, 1e-5);
+  ASSERT_TRUE(spline) << spline.error().what;
+  EXPECT_EQ(spans_not_proved(*spline), 0);
+  EXPECT_EQ(spline->curve.points.front(), spline->curve.points.back());
+  Contour closed = as_contour(*spline, points, 1e-5);
+  closed.closed = true;
+  closed.joints.pop_back();
+  const Certificate c = certify(closed);
+  EXPECT_TRUE(c.proved) << c.reason;
+  EXPECT_EQ(c.vertices, 4);
+  EXPECT_EQ(c.inflections, 0);
+}
+
 TEST(MonotoneBSpline, RefusesArcsCornersAndNoTolerance) {
   const auto f = fit_spirals(kReference);
   ASSERT_TRUE(f);

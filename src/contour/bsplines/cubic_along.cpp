@@ -94,7 +94,7 @@ double distance_from(const CubicSpline& spline, Vec2 p, double u) {
 class CubicBuilder {
  public:
   explicit CubicBuilder(const Contour& contour)
-      : contour_(contour), length_(contour), density_(knot_density(contour, length_)) {}
+      : length_(contour), density_(knot_density(contour, length_)) {}
 
   Result<CubicAlong> with_spans(std::size_t n) const {
     const std::vector<double> places = density_.knots(n);
@@ -128,7 +128,6 @@ class CubicBuilder {
     return most;
   }
 
-  const Contour& contour_;
   ContourLength length_;
   Density density_;
 };
