@@ -84,9 +84,9 @@ class Builder {
  private:
   [[nodiscard]] Vec2 local(std::size_t i) const { return series_.points[i] - tube_.origin; }
   [[nodiscard]] bool given(std::size_t i) const {
+    if (series_.reach[i] == 0.0) return true;
     if (series_.nodes.empty()) return false;
-    const NodeData& d = series_.nodes[i];
-    return d.theta || d.kappa || series_.reach[i] == 0.0;
+    return series_.nodes[i].theta || series_.nodes[i].kappa;
   }
 
   /// Points at least `least` (per point) apart, first and last (when open) and given ones included.

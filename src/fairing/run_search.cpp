@@ -17,7 +17,7 @@ constexpr int kRunsBeside = 2;       ///< and whole runs
 /// length L leaves the nearest monotone curve by K L^2 / 500 or more.
 constexpr double kHopeless = 2000.0;
 constexpr int kMostAtOnce = 3;  ///< pairs of runs that are swallowed at once
-constexpr int kMostMends = 12;
+constexpr int kMostMends = 4;
 
 void fill(Layout& layout, std::size_t from, std::size_t to, std::int8_t sign) {
   std::fill(layout.begin() + static_cast<std::ptrdiff_t>(from),

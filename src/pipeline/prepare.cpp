@@ -102,10 +102,12 @@ class Preparation {
   void set_tolerances() {
     const double noise = job_.noise.value_or(0.0);
     const Vec2 common = job_.noise_from_rounding ? series_.rounding : Vec2{noise, noise};
+    double least = 0.0;
+    for (const Vec2 p : out_.points) least = std::max(least, least_move(p));
     for (std::size_t i = 0; i < out_.points.size(); ++i) {
       const FixedData& f = out_.fixed[i];
       const double reach = f.tolerance ? *f.tolerance : across(i, common);
-      out_.tolerance.push_back(reach < least_move(out_.points[i]) ? 0.0 : reach);
+      out_.tolerance.push_back(reach < least ? 0.0 : reach);
     }
   }
 

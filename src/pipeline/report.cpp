@@ -198,8 +198,8 @@ Result<FitReport> measure(const Contour& contour, double tolerance) {
     }
     row += section.size() - 1;
   }
-  // around a loop the curvature returns to where it began
-  if (loop) report.vertices_lower_bound += report.vertices_lower_bound % 2;
+  // around a closed contour the curvature returns to where it began, leaps at corners included
+  if (contour.closed) report.vertices_lower_bound += report.vertices_lower_bound % 2;
   return report;
 }
 

@@ -32,7 +32,7 @@ def write_points(path, points, comment, tolerances=None):
 def noise_case(work, name, points, tolerance, comment, options=(), **more):
     """A case whose points may all move equally far."""
     path = write_points(work / (name + ".csv"), points, f"{comment}\ntolerance {tolerance:g}")
-    return Case(name, path, ["--noise", f"{tolerance:g}", *options], tolerance, **more)
+    return Case(name, path, ["--noise", repr(float(tolerance)), *options], tolerance, **more)
 
 
 def numbers(line):

@@ -1,12 +1,11 @@
 # SPDX-License-Identifier: Apache-2.0
 """Digitised outlines: bottles and other silhouettes on the pixel grid, mosquito wings."""
-import math
 
 from . import tables
 from .cases import noise_case, number_rows
 
 # A point rounded to the pixel grid is at most half a diagonal of a pixel off; the issue allows 1.
-PIXEL_TOLERANCE = math.sqrt(0.5)
+PIXEL_TOLERANCE = 0.707  # half the diagonal
 # Wings are given in units of their own size, not in pixels.
 WING_TOLERANCE = 0.005
 GROUPS = [("bottles", "bot", PIXEL_TOLERANCE), ("silhouettes", "shapes", PIXEL_TOLERANCE),
