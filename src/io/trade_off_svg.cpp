@@ -93,7 +93,7 @@ void draw_legend(PictureCanvas& canvas, const TradeOff& t, double y) {
     x += kLegendApart;
   };
   entry("graph up", "vertices of the contour");
-  entry("graph down", "lower bound");
+  entry("curve down", "lower bound");
   if (std::any_of(t.rows.begin(), t.rows.end(), [](const auto& row) { return !row.proved; })) {
     entry("limit", "cross: no proved contour");
   }
@@ -117,7 +117,7 @@ std::string trade_off_svg(const TradeOff& t) {
   body.label({kPictureMargin, 62.0}, "start", "fact", recommendation(t));
   body.label({kPictureMargin, frame.top - 14.0}, "start", "axis-title", "Vertices");
   draw_grid(body, frame, true);
-  draw_steps(body, frame, t, &TradeOffRow::vertices_lower_bound, "graph down");
+  draw_steps(body, frame, t, &TradeOffRow::vertices_lower_bound, "curve down");
   draw_steps(body, frame, t, &TradeOffRow::vertices, "graph up");
   draw_rows(body, frame, t);
   body.label(

@@ -14,7 +14,11 @@ namespace {
 
 using namespace pipeline_detail;
 
-constexpr double kDecade = 10.0;       // step of the search for a bracket
+constexpr double kStep = 10.0;  // of the search for a bracket
+// Where a trial takes seconds, those within the noise minutes: longer steps, from above.
+constexpr double kLongStep = 1000.0;
+constexpr double kLongGuess = 0.01;  // of the size
+constexpr std::size_t kLongSeries = 2000;
 constexpr double kAccuracy = 1.02;     // largest / smallest end of the final bracket
 constexpr double kLargestMove = 0.1;   // of the size: beyond, it is another shape
 constexpr double kUsualGuess = 1e-5;   // of the size, where nothing says more
@@ -51,8 +55,10 @@ class Search {
 
   /// A tolerance to begin with: what the refusal says, what the file's digits say, or the usual.
   [[nodiscard]] double guess() const {
+    const double size = size_of(series_.points);
+    if (long_series()) return std::clamp(printable(kLongGuess * size), lowest_, highest_);
     const double printed = std::max(series_.rounding.x, series_.rounding.y);
-    double first = kUsualGuess * size_of(series_.points);
+    double first = kUsualGuess * size;
     if (printed > 0.0) first = printed;
     if (out_.refusal.value > 0.0 && std::isfinite(out_.refusal.value) &&
         out_.refusal.code == ErrorCode::kNoSpiral) {
@@ -60,6 +66,8 @@ class Search {
     }
     return std::clamp(printable(first), lowest_, highest_);
   }
+
+  [[nodiscard]] bool long_series() const { return series_.points.size() > kLongSeries; }
 
   bool possible(double tolerance) {
     if (progress_) {
@@ -78,16 +86,17 @@ class Search {
 
   /// Steps down from a guess that does, up from one that does not. False when nothing does.
   bool bracket() {
+    const double step = long_series() ? kLongStep : kStep;
     double t = guess();
     if (possible(t)) {
       while (t > lowest_) {
-        t = std::max(printable(t / kDecade), lowest_);
+        t = std::max(printable(t / step), lowest_);
         if (!possible(t)) return true;
       }
       return true;
     }
     while (t < highest_) {
-      t = std::min(printable(t * kDecade), highest_);
+      t = std::min(printable(t * step), highest_);
       if (possible(t)) return true;
     }
     return false;

@@ -125,7 +125,7 @@ TEST(TradeOff, TheChartShowsBothCurvesAndTheRecommendation) {
   const std::string svg = trade_off_svg(t);
   EXPECT_NE(svg.find("a &amp; b"), std::string::npos);
   EXPECT_NE(svg.find("class=\"graph up\""), std::string::npos);
-  EXPECT_NE(svg.find("class=\"graph down\""), std::string::npos);
+  EXPECT_NE(svg.find("class=\"curve down\""), std::string::npos);
   EXPECT_NE(svg.find("3 vertices"), std::string::npos);
   EXPECT_NE(svg.find("no proved contour"), std::string::npos);
   EXPECT_EQ(svg.find("nan"), std::string::npos);

@@ -22,8 +22,8 @@ struct WhyNot {
 
 /// For a job that `fit` refuses because no such contour exists (E401 to E405): the smallest
 /// tolerance, the same for all points, within which one does, every wish of the job kept. Points
-/// with larger tolerances of their own keep those; an open series stays open. Found by steps of a
-/// factor ten and bisection, to 2 %; between the tolerances that were tried feasibility is taken as
+/// with larger tolerances of their own keep those; an open series stays open. Found by long steps
+/// and bisection, to 2 %; between the tolerances that were tried feasibility is taken as
 /// monotone. Nothing when `fit` does not refuse, refuses for another reason, or when moves of a
 /// tenth of the size do not help either. Cost: some 15 calls of `fit`.
 [[nodiscard]] std::optional<WhyNot> why_not(const PointSeries& series, const FitJob& job,
