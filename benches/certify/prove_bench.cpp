@@ -59,7 +59,7 @@ Contour parabola(std::size_t n) {
     const double x = 0.5 + static_cast<double>(i) * h;
     const Vec2 p{x, 0.5 * x * x};
     contour.points.push_back(p);
-    contour.joints.push_back({{p, std::atan(x), std::pow(1 + x * x, -1.5)}, i});
+    contour.joints.push_back({{p, std::atan(x), std::pow(1 + x * x, -1.5)}, i, {}});
     if (i == n) break;
     // Bernstein points of the quadratic, then degree elevation twice.
     RationalBezier piece;

@@ -60,7 +60,7 @@ StoredContour large_contour() {
   Contour& contour = stored.contour;
   for (int i = 0; i <= kPieces; ++i) {
     contour.points.push_back({number(random), number(random)});
-    contour.joints.push_back({{contour.points.back(), number(random), number(random)}, {}});
+    contour.joints.push_back({{contour.points.back(), number(random), number(random)}, {}, {}});
     if (i == kPieces) break;
     RationalBezier piece;
     piece.degree = 3;

@@ -46,7 +46,9 @@ void expect_piecewise_linear(const Fit& f, const std::string& what) {
     const auto* piece = std::get_if<ClothoidPiece>(&f.contour.pieces[i]);
     if (piece != nullptr) {
       EXPECT_GT(direction * (piece->kappa1 - piece->kappa0), 0.0) << what << ", piece " << i;
-      if (!std::isnan(before)) EXPECT_EQ(piece->kappa0, before) << what << ", piece " << i;
+      if (!std::isnan(before)) {
+        EXPECT_EQ(piece->kappa0, before) << what << ", piece " << i;
+      }
     }
     others += piece == nullptr ? 1 : 0;
     before = piece != nullptr ? piece->kappa1 : std::nan("");

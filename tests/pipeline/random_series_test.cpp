@@ -131,7 +131,9 @@ TEST(RandomSeries, EveryOneGetsAProvedMonotoneContourNearerToTheTruthThanThePoin
     const auto f = fit(series_of(s), FitJob{});
     const std::string what = std::to_string(i) + ": " + name_of(s.curve.kind) + ", " +
                              std::to_string(s.points.size()) + " points";
-    if (f) EXPECT_EQ(f->certificate.corners, 0) << what;
+    if (f) {
+      EXPECT_EQ(f->certificate.corners, 0) << what;
+    }
     if (!f || !f->certificate.proved || f->certificate.vertices != 0) {
       // the only excuse: doubles do not hold this curve, and the engine says so
       EXPECT_TRUE(speaks_of_rounding(f))
@@ -166,7 +168,9 @@ TEST(RandomSeries, ArcsAreProvedWithMonotoneRadiiAndKeepTheTolerance) {
     const Sampled s = random_series(static_cast<Oracle>(i % kOracleCount), rng, kRightAngle);
     const auto f = fit(series_of(s), job);
     const std::string what = std::to_string(i) + ": " + name_of(s.curve.kind);
-    if (f) EXPECT_EQ(f->certificate.corners, 0) << what;
+    if (f) {
+      EXPECT_EQ(f->certificate.corners, 0) << what;
+    }
     if (!f || !f->certificate.proved || f->certificate.vertices != 0) {
       EXPECT_TRUE(speaks_of_rounding(f))
           << what << ": " << (f ? f->certificate.reason : f.error().what);
