@@ -149,6 +149,10 @@ class Notary {
     }
   }
 
+  [[nodiscard]] bool is_corner(std::size_t joint) const {
+    return joint < contour_.joints.size() && contour_.joints[joint].leaving.has_value();
+  }
+
   void refuse_runs(std::string reason) {
     monotone_ = false;
     fail(std::move(reason));
@@ -161,7 +165,10 @@ class Notary {
       refuse_runs(fmt::format("run {} claims {} curvature, piece {} is {}", r, word(run.direction),
                               i, to_string(certificate_.pieces[i].verdict)));
     }
-    if (i > run.first_piece && against(joints_.jump[i])) {
+    if (i == run.first_piece) return;
+    if (is_corner(i))
+      refuse_runs(fmt::format("run {} continues over the corner at joint {}", r, i));
+    if (against(joints_.jump[i])) {
       refuse_runs(
           fmt::format("run {} claims {} curvature, which jumps the other way before piece {}", r,
                       word(run.direction), i));
@@ -174,8 +181,8 @@ class Notary {
     if (r == 0 && !contour_.closed) return;
     const Run& before = contour_.runs[r == 0 ? contour_.runs.size() - 1 : r - 1];
     const int jump = joints_.jump[run.first_piece];
-    const bool corner = contour_.joints[run.first_piece].leaving.has_value();
-    if (!corner && jump != 0 && jump != run.direction && jump != before.direction) {
+    if (!is_corner(run.first_piece) && jump != 0 && jump != run.direction &&
+        jump != before.direction) {
       refuse_runs(
           fmt::format("curvature jumps before piece {} against both its runs", run.first_piece));
     }

@@ -8,6 +8,8 @@
 #include <limits>
 #include <vector>
 
+#include "box.h"
+
 namespace obvid {
 namespace {
 
@@ -16,23 +18,6 @@ constexpr int kDeepest = 60;                // halvings of a pair: beyond the di
 constexpr std::size_t kWorkPerPiece = 400;  // pairs looked at, before a tangle is given up
 constexpr double kLargestArcTurn = 1.0;     // rad, per conic that stands in for an arc
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
-
-struct Box {
-  Vec2 low{kInfinity, kInfinity};
-  Vec2 high{-kInfinity, -kInfinity};
-
-  void grow(Vec2 p) {
-    low = {std::min(low.x, p.x), std::min(low.y, p.y)};
-    high = {std::max(high.x, p.x), std::max(high.y, p.y)};
-  }
-  void grow(const Box& b) {
-    low = {std::min(low.x, b.low.x), std::min(low.y, b.low.y)};
-    high = {std::max(high.x, b.high.x), std::max(high.y, b.high.y)};
-  }
-  [[nodiscard]] bool misses(const Box& b) const {
-    return low.x > b.high.x || b.low.x > high.x || low.y > b.high.y || b.low.y > high.y;
-  }
-};
 
 Vec2 control_point(const RationalBezier& b, std::size_t j) { return b.origin + b.offset[j]; }
 std::size_t last(const RationalBezier& b) { return static_cast<std::size_t>(b.degree); }

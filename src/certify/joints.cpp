@@ -33,6 +33,10 @@ double allowed(double base, double rounding, double ceiling) {
 /// joint or runs into a line, "relative to the larger of the two" would divide rounding by zero.
 constexpr double kFlat = 1e-6;
 
+/// Curvatures on both sides of a corner that agree this far are the same: nothing ties them to each
+/// other, and what iterations leave of two equal ones is no leap.
+constexpr double kSameAtCorner = 1e-7;
+
 /// Beyond any contour that a proof makes sense for; also stands in for NaN.
 constexpr double kBroken = std::numeric_limits<double>::max();
 
@@ -74,7 +78,9 @@ class JointWalk {
       const EndData start = start_data(contour_.pieces[i]);
       const EndData end = end_data(contour_.pieces[i]);
       if (i > 0) survey_.jump[i] = compare(i, before, start);
-      if (!compare_with_element(i, i > 0 ? &before : nullptr, &start)) break;
+      // the seam is compared when the contour comes round to it
+      const bool seam = i == 0 && contour_.closed;
+      if (!seam && !compare_with_element(i, i > 0 ? &before : nullptr, &start)) break;
       compare_stored_ends(i);
       follow_sign(start);
       follow_sign(end);
@@ -95,7 +101,7 @@ class JointWalk {
     const EndData first = start_data(contour_.pieces.front());
     survey_.jump[0] = compare(0, last, first);
     compare_with_element(0, &last, &first);
-    follow_sign(first);
+    if (first_sign_ != 0 && last_sign_ != first_sign_) ++survey_.inflections;
   }
 
   void check(double gap, double bound, std::size_t joint, const char* what) {
@@ -148,7 +154,9 @@ class JointWalk {
     ++survey_.corners;
     const double jump = right.kappa - left.kappa;
     const double rounding = left.kappa_rounding + right.kappa_rounding;
-    return static_cast<std::int8_t>(std::abs(jump) <= rounding ? 0 : (jump > 0.0 ? 1 : -1));
+    const double same = kSameAtCorner * std::max(std::abs(left.kappa), std::abs(right.kappa));
+    const bool none = std::abs(jump) <= std::max(rounding, same);
+    return static_cast<std::int8_t>(none ? 0 : (jump > 0.0 ? 1 : -1));
   }
 
   /// The joint's own element against the ends that meet there. False where there is no element.
@@ -158,8 +166,12 @@ class JointWalk {
       return false;
     }
     if (is_corner(joint)) {
-      if (left != nullptr) compare_end(joint, contour_.joints[joint].element, left, left);
-      if (right != nullptr) compare_end(joint, *contour_.joints[joint].leaving, right, right);
+      if (left == nullptr || right == nullptr) {
+        check(kBroken, 0.0, joint, "the side that is missing of the corner");
+        return true;
+      }
+      compare_end(joint, contour_.joints[joint].element, left, left);
+      compare_end(joint, *contour_.joints[joint].leaving, right, right);
       return true;
     }
     compare_end(joint, contour_.joints[joint].element, left, right);
@@ -190,7 +202,7 @@ class JointWalk {
       // Any curvature between both arcs belongs to their common point; an end has one arc only.
       const double low = std::min(left->kappa, right->kappa);
       const double high = std::max(left->kappa, right->kappa);
-      difference = std::max({0.0, low - kappa, kappa - high, std::isnan(kappa) ? kappa : 0.0});
+      difference = std::isnan(kappa) ? kappa : std::max({0.0, low - kappa, kappa - high});
     }
     const double gap = relative(known(difference), left->kappa, right->kappa);
     check(gap,
@@ -214,6 +226,7 @@ class JointWalk {
         end.kappa > end.kappa_rounding ? 1 : (end.kappa < -end.kappa_rounding ? -1 : 0);
     if (sign == 0) return;
     if (last_sign_ != 0 && sign != last_sign_) ++survey_.inflections;
+    if (first_sign_ == 0) first_sign_ = sign;
     last_sign_ = sign;
   }
 
@@ -222,6 +235,7 @@ class JointWalk {
   const Contour& contour_;
   double size_;
   double largest_kappa_ = 0.0;
+  int first_sign_ = 0;
   int last_sign_ = 0;
   JointSurvey survey_;
 };

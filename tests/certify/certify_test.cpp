@@ -10,13 +10,20 @@
 #include <numbers>
 #include <random>
 
+#include "contours.h"
 #include "end_data.h"
 #include "spiral_table.h"
 
 namespace obvid {
 namespace {
 
+using testing_data::arc_from;
+using testing_data::closed_contour;
+using testing_data::contour_of;
+using testing_data::expect_refused;
+using testing_data::joint;
 using testing_data::kSpirals;
+using testing_data::quarter_ellipse;
 using testing_data::SpiralRow;
 
 constexpr double kPi = std::numbers::pi;
@@ -27,26 +34,6 @@ RationalBezier spiral(const SpiralRow& row) {
   std::copy(row.points.begin(), row.points.end(), piece.offset.begin());
   std::copy(row.weights.begin(), row.weights.end(), piece.weight.begin());
   return piece;
-}
-
-Joint joint(Vec2 point, double theta, double kappa, std::size_t source) {
-  return {{point, theta, kappa}, source};
-}
-
-/// Joints from the analytic jets, points at every joint.
-Contour contour_of(std::vector<Piece> pieces, std::vector<Run> runs) {
-  Contour contour;
-  contour.pieces = std::move(pieces);
-  contour.runs = std::move(runs);
-  const auto add = [&](const Piece& piece, double t) {
-    const Jet jet = evaluate(piece, t);
-    contour.joints.push_back(
-        joint(jet.point, heading(jet.d1), curvature(jet), contour.points.size()));
-    contour.points.push_back(jet.point);
-  };
-  for (const Piece& piece : contour.pieces) add(piece, 0.0);
-  add(contour.pieces.back(), 1.0);
-  return contour;
 }
 
 /// One spiral of the table in three pieces, shifted so that nothing is centred.
@@ -63,25 +50,6 @@ Contour parabola_over_its_vertex() {
   return contour_of({RationalBezier{{}, 2, {Vec2{-1, 1}, {-0.5, 0}, {0, 0}}, {1, 1, 1}},
                      RationalBezier{{}, 2, {Vec2{0, 0}, {0.5, 0}, {1, 1}}, {1, 1, 1}}},
                     {{0, 0, 1}, {1, 1, -1}});
-}
-
-RationalBezier quarter_ellipse(Vec2 from, Vec2 corner, Vec2 to) {
-  // s^2 + 2 s t.. : weights 1, 1, 2 put cos = (1 - t^2)/(1 + t^2) at exact numbers.
-  return {{}, 2, {from, corner, to}, {1, 1, 2}};
-}
-
-Contour closed_contour(std::vector<Piece> pieces, std::vector<Run> runs) {
-  Contour contour = contour_of(std::move(pieces), std::move(runs));
-  contour.joints.pop_back();
-  contour.points.pop_back();
-  contour.closed = true;
-  return contour;
-}
-
-ArcPiece arc_from(Vec2 start, double theta, double kappa, double length) {
-  const double half = 0.5 * kappa * length;
-  return {start, start + length * std::sin(half) / half * unit_at(theta + half), theta, kappa,
-          length};
 }
 
 /// Arcs that continue each other's tangent, with the given curvatures and a length of 1.
@@ -102,12 +70,6 @@ Contour arcs_of(const std::vector<double>& kappas, int direction) {
   contour.points.push_back(at);
   contour.runs.push_back({0, kappas.size() - 1, direction});
   return contour;
-}
-
-void expect_refused(const Contour& contour, const std::string& why) {
-  const Certificate certificate = certify(contour);
-  EXPECT_FALSE(certificate.proved) << why;
-  EXPECT_FALSE(certificate.reason.empty()) << why;
 }
 
 TEST(Certify, SpiralsInThreePiecesAreProved) {
