@@ -2,10 +2,12 @@
 // A stored contour is proved again from its file alone, and every doctored file is refused.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <functional>
 #include <nlohmann/json.hpp>
+#include <numbers>
 #include <string>
 #include <vector>
 
@@ -62,10 +64,45 @@ std::vector<Vec2> line_spiral_arc() {
   return points;
 }
 
+/// A quarter of a circle of radius 10 as measured: in and out by at most `noise`.
+std::vector<Vec2> measured_quarter(double noise) {
+  std::vector<Vec2> points;
+  for (int i = 0; i <= 24; ++i) {
+    points.push_back((10.0 + noise * std::sin(2.3 * i * i)) * unit_at(0.065 * i));
+  }
+  return points;
+}
+
+/// An upright rectangle with bulging sides: four corners, the first point repeated at the end.
+std::vector<Vec2> bulging_rectangle() {
+  const Vec2 corner[] = {{0, 0}, {8, 0}, {8, 4}, {0, 4}};
+  std::vector<Vec2> points;
+  for (std::size_t side = 0; side < 4; ++side) {
+    const Vec2 from = corner[side], along = corner[(side + 1) % 4] - from;
+    for (int i = 0; i < 8; ++i) {
+      const double t = i / 8.0;
+      points.push_back(from + t * along - 0.25 * t * (1.0 - t) * left_normal(along));
+    }
+  }
+  points.push_back(corner[0]);
+  return points;
+}
+
+/// x^2/36 + y^2/9 = 1, from inside a quarter.
+std::vector<Vec2> ellipse() {
+  std::vector<Vec2> points;
+  for (int i = 0; i <= 32; ++i) {
+    const double a = 0.4 + 2.0 * std::numbers::pi * (i % 32) / 32.0;
+    points.push_back({6.0 * std::cos(a), 3.0 * std::sin(a)});
+  }
+  return points;
+}
+
 struct Case {
   const char* name;
   std::vector<Vec2> points;
   Carrier carrier;
+  double noise = 0.0;  ///< how far points may move, units
 };
 
 std::vector<Case> cases() {
@@ -74,7 +111,11 @@ std::vector<Case> cases() {
           {"ten points far away", moved(ten_points(), {1e6, -3e6}), Carrier::kSpiral},
           {"waves", waves(), Carrier::kSpiral},
           {"waves of arcs", waves(), Carrier::kArcs},
-          {"line, spiral, arc", line_spiral_arc(), Carrier::kSpiral}};
+          {"line, spiral, arc", line_spiral_arc(), Carrier::kSpiral},
+          {"measured quarter", measured_quarter(0.01), Carrier::kSpiral, 0.01},
+          {"bulging rectangle", bulging_rectangle(), Carrier::kSpiral},
+          {"ellipse", ellipse(), Carrier::kSpiral},
+          {"ellipse of arcs", ellipse(), Carrier::kArcs}};
 }
 
 StoredContour form(const Case& c) {
@@ -82,6 +123,7 @@ StoredContour form(const Case& c) {
   series.points = c.points;
   FitJob job;
   job.carrier = c.carrier;
+  if (c.noise > 0.0) job.noise = c.noise;
   constexpr double kCoarse = 1e-3;  // of the size: few arcs, so that all can be doctored
   if (c.carrier == Carrier::kArcs) job.tolerance = kCoarse * analyse(c.points)->size;
   auto f = fit(series, job);
@@ -103,6 +145,14 @@ std::string refusal(const std::string& text) {
 }
 
 std::string refusal(const StoredContour& stored) { return refusal(contour_to_json(stored)); }
+
+Case named(const std::string& name) {
+  for (const Case& c : cases()) {
+    if (c.name == name) return c;
+  }
+  ADD_FAILURE() << "no case " << name;
+  return cases().front();
+}
 
 double size_of(const Contour& contour) { return analyse(contour.points)->size; }
 
@@ -179,7 +229,7 @@ TEST(Verify, RefusesAChangedArc) {
 }
 
 TEST(Verify, RefusesAMovedLine) {
-  const StoredContour good = form(cases().back());
+  const StoredContour good = form(named("line, spiral, arc"));
   const double step = kDoctored * size_of(good.contour);
   int doctored = 0;
   for (std::size_t i = 0; i < good.contour.pieces.size(); ++i) {
@@ -344,6 +394,79 @@ TEST(Verify, RefusesAnotherSeriesReport) {
   stored = form(cases().front());
   stored.certificate = other.certificate;
   EXPECT_NE(refusal(stored), "");
+}
+
+TEST(Verify, RefusesAToleranceBelowTheMoveOfItsPoint) {
+  const StoredContour good = form(named("measured quarter"));
+  const std::vector<double>& moves = good.report->moves;
+  ASSERT_EQ(moves.size(), good.contour.points.size());
+  int doctored = 0;
+  for (std::size_t i = 0; i < moves.size(); ++i) {
+    EXPECT_LE(moves[i], good.contour.point_tolerance[i]) << i;
+    if (moves[i] == 0.0) continue;
+    StoredContour bad = good;
+    bad.contour.point_tolerance[i] = (1.0 - kDoctored) * moves[i];
+    // a joint may stand farther from its point than its neighbourhood does: refused or proved anew
+    // with a smaller move, which then contradicts the file
+    EXPECT_NE(refusal(bad), "") << "point " << i;
+    ++doctored;
+  }
+  EXPECT_GT(doctored, 15);
+}
+
+TEST(Verify, RefusesMovesThatAreMissingOrOfAnotherPoint) {
+  const StoredContour good = form(named("measured quarter"));
+  StoredContour bad = good;
+  bad.report->moves.pop_back();
+  EXPECT_NE(refusal(bad), "") << "one missing";
+  bad = good;
+  std::reverse(bad.report->moves.begin(), bad.report->moves.end());
+  EXPECT_NE(refusal(bad), "") << "in another order";
+  bad = good;
+  bad.contour.point_tolerance.clear();
+  EXPECT_NE(refusal(bad), "") << "exact, with moves";
+}
+
+TEST(Verify, RefusesACornerThatIsNotMarkedAndASmoothJointThatIs) {
+  const StoredContour good = form(named("bulging rectangle"));
+  EXPECT_TRUE(good.contour.closed);
+  ASSERT_EQ(good.certificate->corners, 4);
+  for (std::size_t i = 0; i < good.contour.joints.size(); ++i) {
+    StoredContour bad = good;
+    Joint& joint = bad.contour.joints[i];
+    if (joint.leaving) {
+      joint.leaving.reset();
+    } else {
+      joint.leaving = joint.element;  // a weaker claim, but the file counts four corners
+    }
+    EXPECT_NE(refusal(bad), "") << "joint " << i;
+  }
+}
+
+TEST(Verify, RefusesEitherSideOfACornerThatIsNotItsPieces) {
+  const StoredContour good = form(named("bulging rectangle"));
+  int doctored = 0;
+  for (std::size_t i = 0; i < good.contour.joints.size(); ++i) {
+    if (!good.contour.joints[i].leaving) continue;
+    StoredContour turned = good, bent = good;
+    turned.contour.joints[i].leaving->theta += kDoctored;
+    bent.contour.joints[i].leaving->kappa += kDoctored / size_of(good.contour);
+    EXPECT_NE(refusal(turned), "") << "heading behind corner " << i;
+    EXPECT_NE(refusal(bent), "") << "curvature behind corner " << i;
+    doctored += 2;
+  }
+  EXPECT_EQ(doctored, 8);
+}
+
+TEST(Verify, RefusesAClosedContourCalledOpenAndTheOtherWayRound) {
+  StoredContour closed = form(named("ellipse"));
+  EXPECT_TRUE(closed.contour.closed);
+  EXPECT_EQ(closed.certificate->vertices, 4) << "of an ellipse";
+  closed.contour.closed = false;
+  EXPECT_NE(refusal(closed), "");
+  StoredContour open = form(named("measured quarter"));
+  open.contour.closed = true;
+  EXPECT_NE(refusal(open), "");
 }
 
 TEST(Verify, WithoutClaimsProvesTheCurveAlone) {
