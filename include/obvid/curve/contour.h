@@ -19,7 +19,7 @@ enum class Carrier { kSpiral, kArcs, kClothoids };
 struct Joint {
   Element element;
   std::optional<std::size_t> source;  ///< index into `Contour::points`
-  std::optional<Element> leaving;     ///< at a corner: heading and curvature after it; the contour
+  std::optional<Element> leaving{};   ///< at a corner: heading and curvature after it; the contour
                                       ///< is continuous in position only
 };
 
