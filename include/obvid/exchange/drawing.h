@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "obvid/curve/pieces.h"
+#include "obvid/series/point_series.h"
+
+namespace obvid {
+
+/// A curve that another system made, in its plane.
+struct DrawnCurve {
+  std::string label;          ///< what a user would look for: "SPLINE 2F on layer OUTLINE"
+  std::vector<Piece> pieces;  ///< in order; where two do not meet, the gap is the drawing's own
+  bool closed = false;        ///< the last piece ends where the first one starts
+};
+
+/// What a file of an exchange format holds: curves, and series of points. Lengths in `units`.
+struct Drawing {
+  std::string name;                 ///< of the file
+  std::string units = "mm";         ///< as the file says; "mm" when it does not (with a warning)
+  std::vector<DrawnCurve> curves;   ///< in the order of the file
+  std::vector<PointSeries> series;  ///< polylines and lists of points, in the order of the file
+  std::vector<std::string> warnings;  ///< what was left out and why, in sentences
+};
+
+}  // namespace obvid
