@@ -80,7 +80,7 @@ Outcome read_and_fit(const FitOptions& options, std::string& name, ProgressBar& 
 /// Exit code 5 for what was formed but does not keep its promise.
 int judge(const Fit& made, bool files) {
   const std::string hint = files ? "the files were written, with this verdict in them" : "";
-  if (!made.certificate.proved) {
+  if (!keeps_promise(made.contour.carrier, made.certificate)) {
     return report({ErrorCode::kNotProved,
                    "the contour was formed but not proved: " + made.certificate.reason, "", hint});
   }

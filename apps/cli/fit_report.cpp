@@ -115,6 +115,16 @@ std::string error_text(const FitReport& report, const std::string& units) {
   return text;
 }
 
+void add_bounds(Facts& facts, const Fit& fit) {
+  const FitReport& report = fit.report;
+  facts.add("largest error", error_text(report, fit.contour.units));
+  facts.add("largest width",
+            fmt::format("{} {} (tolerance {})", significant(report.largest_width, 4),
+                        fit.contour.units, significant(report.tolerance, 4)));
+  facts.add("bound needed",
+            counted(report.inserted_points, "inserted element", "inserted elements"));
+}
+
 Facts summary(const Fit& fit, const std::vector<std::string>& written) {
   const Contour& contour = fit.contour;
   const FitReport& report = fit.report;
@@ -128,12 +138,12 @@ Facts summary(const Fit& fit, const std::vector<std::string>& written) {
   facts.add("contour",
             fmt::format("{} in {}", pieces, counted(contour.runs.size(), "run", "runs")));
   facts.add("fairness", fairness_text(report));
-  facts.add("largest error", error_text(report, contour.units));
-  facts.add("largest width",
-            fmt::format("{} {} (tolerance {})", significant(report.largest_width, 4), contour.units,
-                        significant(report.tolerance, 4)));
-  facts.add("bound needed",
-            counted(report.inserted_points, "inserted element", "inserted elements"));
+  if (promises_monotone(contour.carrier)) add_bounds(facts, fit);
+  if (report.carrier_deviation) {
+    facts.add("from the spirals", fmt::format("at most {} {} (measured), tolerance {}",
+                                              significant(*report.carrier_deviation, 4),
+                                              contour.units, significant(report.tolerance, 4)));
+  }
   if (report.largest_move > 0.0) {
     facts.add("largest move", significant(report.largest_move, 4) + " " + contour.units);
   }
@@ -162,9 +172,18 @@ void add_gaps(Facts& facts, const Certificate& certificate, Carrier carrier) {
   facts.add("joint gaps", text);
 }
 
+bool keeps_promise(Carrier carrier, const Certificate& certificate) {
+  if (promises_monotone(carrier)) return certificate.proved;
+  return certificate.gaps_within_bounds && certificate.through_points;
+}
+
 std::string verdict_line(Carrier carrier, const Certificate& certificate) {
   if (!certificate.proved) {
     const std::string& reason = certificate.reason;
+    if (keeps_promise(carrier, certificate)) {
+      return fmt::format("NOT monotone, as carrier {} does not promise: {}", to_string(carrier),
+                         reason);
+    }
     return fmt::format("NOT proved: {}", reason.empty() ? "no reason recorded" : reason);
   }
   return carrier == Carrier::kArcs

@@ -16,6 +16,9 @@ namespace obvid {
 [[nodiscard]] std::string fit_report_json(const Fit& fit, const std::vector<std::string>& written);
 
 /// The last line: what is proved, or why not.
+/// Whether a contour is what its carrier promises: proved, or without gaps through its points.
+[[nodiscard]] bool keeps_promise(Carrier carrier, const Certificate& certificate);
+
 [[nodiscard]] std::string verdict_line(Carrier carrier, const Certificate& certificate);
 
 /// Lines about joint gaps, vertices and the like that `fit` and `verify` share.

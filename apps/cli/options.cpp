@@ -33,7 +33,6 @@ constexpr const char* kExitCodes =
 /// Announced for later; refused with a word of their own so that nobody searches for a typing
 /// error.
 const std::vector<std::string> kLaterCommands = {"compare", "convert", "surface"};
-const std::vector<std::string> kLaterCarriers = {"conics", "beziers", "bspline"};
 
 /// What the command line said, before it is checked.
 struct Raw {
@@ -113,12 +112,15 @@ void add_fit(CLI::App& app, Raw& raw) {
                  "File to write, format by ending: .json contour, .svg picture; may be repeated")
       ->type_name("OUT")
       ->allow_extra_args(false);
-  fit.add_option("--carrier", raw.carrier,
-                 "Curve family: spiral (G2, monotone curvature), arcs (G1, monotone radii) or "
-                 "clothoids (G2, curvature monotone and piecewise linear) [spiral]")
+  fit.add_option(
+         "--carrier", raw.carrier,
+         "Curve family: spiral, arcs (G1), conics, beziers (parabolas), clothoids, bspline "
+         "(degree 5), all monotone; cubic (near the spirals) and baseline (what CAD systems "
+         "draw), not promised to be monotone [spiral]")
       ->type_name("NAME");
   fit.add_option("--tolerance", raw.tolerance,
-                 "Largest width of the region, input units [3e-6 of the size]")
+                 "Largest width of the region, input units; carriers bspline and cubic follow the "
+                 "spirals within it [3e-6 of the size]")
       ->type_name("T");
   fit.add_flag("--convex", raw.fit.job.convex, "Refuse a contour with inflections");
   add_real_points(fit, raw);
@@ -231,20 +233,19 @@ Result<void> check_units(const std::optional<std::string>& units) {
 }
 
 Result<void> set_carrier(Raw& raw) {
-  constexpr const char* kAvailable = "available are spiral, arcs and clothoids";
-  if (raw.carrier == "spiral") {
-    raw.fit.job.carrier = Carrier::kSpiral;
-  } else if (raw.carrier == "arcs") {
-    raw.fit.job.carrier = Carrier::kArcs;
-  } else if (raw.carrier == "clothoids") {
-    raw.fit.job.carrier = Carrier::kClothoids;
-  } else if (listed(kLaterCarriers, raw.carrier)) {
-    return fail(bad_option(not_available("the carrier " + raw.carrier), "--carrier", kAvailable));
-  } else {
-    return fail(bad_option("unknown carrier '" + raw.carrier + "'", "--carrier",
-                           did_you_mean(raw.carrier, {"spiral", "arcs", "clothoids"}, kAvailable)));
+  const std::optional<Carrier> carrier = carrier_of(raw.carrier);
+  if (carrier) {
+    raw.fit.job.carrier = *carrier;
+    return {};
   }
-  return {};
+  std::vector<std::string> names;
+  std::string all;
+  for (const Carrier one : kAllCarriers) {
+    names.emplace_back(to_string(one));
+    all += (all.empty() ? "available are " : ", ") + names.back();
+  }
+  return fail(bad_option("unknown carrier '" + raw.carrier + "'", "--carrier",
+                         did_you_mean(raw.carrier, names, all)));
 }
 
 Result<Command> checked_fit(Raw& raw) {

@@ -95,10 +95,14 @@ void add_claims(Facts& facts, const StoredContour& stored, const Certificate& fo
   facts.add("self-intersections", std::to_string(found.self_intersections));
 }
 
+bool as_promised(const StoredContour& stored, const Verification& found) {
+  return keeps_promise(stored.contour.carrier, found.certificate) && !found.false_claim;
+}
+
 std::string report_text(const StoredContour& stored, const Verification& found) {
   Facts facts;
   add_claims(facts, stored, found.certificate);
-  const bool holds = found.certificate.proved && !found.false_claim;
+  const bool holds = as_promised(stored, found);
   const std::string verdict = found.false_claim && found.certificate.proved
                                   ? "NOT as claimed: " + found.false_claim->what
                                   : verdict_line(stored.contour.carrier, found.certificate);
@@ -113,7 +117,7 @@ std::string report_json(const StoredContour& stored, const Verification& found) 
   bare.certificate = found.certificate;
   const std::string text = contour_to_json(bare);
   JsonText json;
-  json.begin_object().pair("holds", found.certificate.proved && !found.false_claim);
+  json.begin_object().pair("holds", as_promised(stored, found));
   json.key("false_claim");
   if (found.false_claim) {
     json.begin_object();
@@ -127,13 +131,13 @@ std::string report_json(const StoredContour& stored, const Verification& found) 
 }
 
 /// What the file says wrongly comes before what could not be proved.
-int judge(const Verification& found, const std::string& input) {
+int judge(const StoredContour& stored, const Verification& found, const std::string& input) {
   if (found.false_claim) {
     Error error = *found.false_claim;
     if (error.where.empty()) error.where = input;
     return report(error);
   }
-  if (!found.certificate.proved) {
+  if (!keeps_promise(stored.contour.carrier, found.certificate)) {
     return report({ErrorCode::kNotProved, "the contour is not proved: " + found.certificate.reason,
                    input, ""});
   }
@@ -156,7 +160,7 @@ int run(const VerifyOptions& options) {
     shown = report_text(*stored, found);
   }
   if (auto done = put(shown); !done) return report(done.error());
-  return judge(found, name);
+  return judge(*stored, found, name);
 }
 
 }  // namespace obvid

@@ -8,6 +8,7 @@
 
 #include "crossings.h"
 #include "joints.h"
+#include "monotone_parts.h"
 #include "piece_facts.h"
 
 namespace obvid {
@@ -47,7 +48,7 @@ class Notary {
       return std::move(certificate_);
     }
     examine_pieces();
-    joints_ = survey_joints(contour_);
+    joints_ = survey_joints(contour_, parts_);
     check_joints();
     check_points();
     check_runs();
@@ -73,11 +74,25 @@ class Notary {
       before_.push_back(static_cast<std::int8_t>(facts.first_change));
       after_.push_back(static_cast<std::int8_t>(facts.last_change));
       report_verdict(i, facts.proof);
+      if (facts.proof.verdict == Verdict::kHasVertex) add_parts(i);
       if (!facts.turns_below_pi) {
         forward_ = false;
         fail(fmt::format("piece {} is not proved to turn by less than half a turn", i));
       }
     }
+  }
+
+  void add_parts(std::size_t i) {
+    const auto* bezier = std::get_if<RationalBezier>(&contour_.pieces[i]);
+    if (bezier == nullptr) return;
+    const auto& parts = parts_.emplace(i, monotone_parts(*bezier)).first->second;
+    // the proof of one vertex does not say how the curvature changes at both ends
+    const auto changes = [](const RationalBezier& part) { return change_of(part) != 0; };
+    const auto first = std::find_if(parts.begin(), parts.end(), changes);
+    const auto last = std::find_if(parts.rbegin(), parts.rend(), changes);
+    if (first == parts.end()) return;
+    before_[i] = static_cast<std::int8_t>(change_of(*first));
+    after_[i] = static_cast<std::int8_t>(change_of(*last));
   }
 
   void report_verdict(std::size_t i, const PieceProof& proof) {
@@ -193,6 +208,9 @@ class Notary {
     for (std::size_t i = 0; i < contour_.pieces.size(); ++i) {
       changes.add(joints_.jump[i]);
       changes.add(before_[i]);
+      if (const auto parts = parts_.find(i); parts != parts_.end()) {
+        for (const RationalBezier& part : parts->second) changes.add(change_of(part));
+      }
       changes.add(after_[i]);
     }
     if (contour_.closed) changes.close();
@@ -202,6 +220,7 @@ class Notary {
   const Contour& contour_;
   Certificate certificate_;
   JointSurvey joints_;
+  MonotoneParts parts_;
   std::vector<std::int8_t> before_;  ///< sign of d kappa at the start of each piece
   std::vector<std::int8_t> after_;   ///< and at its end; they differ around a vertex
   bool monotone_ = true;

@@ -63,7 +63,8 @@ double heading_gap(Vec2 a, Vec2 b) { return std::abs(turning(a, b)); }
 /// Walks along the contour, comparing neighbours with each other and with the joint's element.
 class JointWalk {
  public:
-  explicit JointWalk(const Contour& contour) : contour_(contour), size_(size_of_box(contour)) {
+  JointWalk(const Contour& contour, const MonotoneParts& parts)
+      : contour_(contour), parts_(parts), size_(size_of_box(contour)) {
     for (const Piece& piece : contour.pieces) {
       largest_kappa_ = std::max(
           {largest_kappa_, std::abs(start_data(piece).kappa), std::abs(end_data(piece).kappa)});
@@ -83,6 +84,7 @@ class JointWalk {
       if (!seam && !compare_with_element(i, i > 0 ? &before : nullptr, &start)) break;
       compare_stored_ends(i);
       follow_sign(start);
+      follow_parts(i);
       follow_sign(end);
       before = end;
     }
@@ -220,6 +222,12 @@ class JointWalk {
     check_position(end.point, end_point(piece), end.point_rounding, i + 1);
   }
 
+  void follow_parts(std::size_t i) {
+    const auto parts = parts_.find(i);
+    if (parts == parts_.end()) return;
+    for (const RationalBezier& part : parts->second) follow_sign(end_data(Piece{part}));
+  }
+
   /// Curvature is monotone on each proved piece, so signs at the ends tell all its sign changes.
   void follow_sign(const EndData& end) {
     const int sign =
@@ -233,6 +241,7 @@ class JointWalk {
   static constexpr double kUnwrapped = 0x1p-52;
 
   const Contour& contour_;
+  const MonotoneParts& parts_;
   double size_;
   double largest_kappa_ = 0.0;
   int first_sign_ = 0;
@@ -242,7 +251,9 @@ class JointWalk {
 
 }  // namespace
 
-JointSurvey survey_joints(const Contour& contour) { return JointWalk(contour).run(); }
+JointSurvey survey_joints(const Contour& contour, const MonotoneParts& parts) {
+  return JointWalk(contour, parts).run();
+}
 
 std::string missed_point(const Contour& contour) {
   const std::size_t n = contour.points.size();

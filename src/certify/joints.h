@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "monotone_parts.h"
 #include "obvid/certify/certificate.h"
 #include "obvid/curve/contour.h"
 
@@ -21,7 +22,8 @@ struct JointSurvey {
   int corners = 0;
 };
 
-[[nodiscard]] JointSurvey survey_joints(const Contour& contour);
+/// `parts`: for pieces with vertices the parts of them whose curvature is monotone.
+[[nodiscard]] JointSurvey survey_joints(const Contour& contour, const MonotoneParts& parts = {});
 
 /// Joints stand on their points in the order of the points, around the end of the list in a closed
 /// contour. Without tolerances every point is the source of one joint, which stands exactly on it.

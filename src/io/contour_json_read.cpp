@@ -66,12 +66,10 @@ void Reader::read_head(const Node& root) {
   contour.closed = flag(field(root, "closed"));
   const Node carrier = field(root, "carrier");
   const std::string kind = word(carrier);
-  for (const Carrier one : {Carrier::kArcs, Carrier::kClothoids}) {
-    if (kind == to_string(one)) contour.carrier = one;
-  }
-  if (kind != to_string(contour.carrier)) {
-    refuse(carrier, ErrorCode::kUnsupported,
-           "carrier " + text::shown(kind) + " is not supported yet");
+  if (const auto one = carrier_of(kind)) {
+    contour.carrier = *one;
+  } else {
+    refuse(carrier, ErrorCode::kUnsupported, "carrier " + text::shown(kind) + " is not known");
   }
 }
 
@@ -331,6 +329,9 @@ FitReport Reader::report(const Node& node) {
   report.inflections = small_count(node, "inflections");
   report.inserted_points =
       static_cast<std::size_t>(integer(field(node, "inserted_points"), 0, kMaxInteger));
+  if (const auto deviation = optional_field(node, "carrier_deviation")) {
+    report.carrier_deviation = number(*deviation);
+  }
   report.seconds = figure(node, "seconds");
   if (const auto chain = optional_field(node, "chain")) {
     report.chain.newton_steps = small_count(*chain, "newton_steps");

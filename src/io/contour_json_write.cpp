@@ -244,6 +244,10 @@ void Writer::report(const FitReport& report) {
   raw(",\n    ");
   count("inserted_points", static_cast<long long>(report.inserted_points));
   raw(",\n    ");
+  if (report.carrier_deviation) {
+    figure("carrier_deviation", *report.carrier_deviation);
+    raw(",\n    ");
+  }
   figure("seconds", report.seconds);
   raw(",\n    \"chain\": {");
   count("newton_steps", report.chain.newton_steps);

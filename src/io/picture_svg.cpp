@@ -22,7 +22,9 @@ std::string counted(std::size_t count, const char* one, const char* many) {
 }
 
 std::string title_of(const Contour& contour) {
-  const char* const kinds[] = {"Spiral contour", "Arc contour", "Clothoid contour"};
+  const char* const kinds[] = {"Spiral contour",       "Arc contour",      "Contour of conics",
+                               "Contour of parabolas", "Clothoid contour", "B-spline contour",
+                               "Cubic B-spline",       "CAD spline"};
   std::string kind = kinds[static_cast<int>(contour.carrier)];
   if (contour.closed)
     kind = "Closed " + std::string(1, static_cast<char>(kind[0] - 'A' + 'a')) + kind.substr(1);
@@ -51,7 +53,9 @@ VerdictLine verdict_of(const StoredContour& stored) {
     while (cut > 0 && (static_cast<unsigned char>(reason[cut]) & 0xC0U) == 0x80U) --cut;
     reason = reason.substr(0, cut) + " …";
   }
-  return {"bad", "✗ NOT proved" + (reason.empty() ? std::string{} : ": " + reason)};
+  const bool no_promise = !promises_monotone(stored.contour.carrier);
+  return {"bad", std::string(no_promise ? "✗ not monotone" : "✗ NOT proved") +
+                     (reason.empty() ? std::string{} : ": " + reason)};
 }
 
 std::size_t corners_of(const Contour& contour) {
@@ -62,6 +66,10 @@ std::size_t corners_of(const Contour& contour) {
 
 bool is_measured(const StoredContour& stored) {
   return !stored.contour.point_tolerance.empty() || corners_of(stored.contour) > 0;
+}
+
+bool has_region(const StoredContour& stored) {
+  return stored.report && promises_monotone(stored.contour.carrier);
 }
 
 std::string region_fact(const StoredContour& stored) {
@@ -77,7 +85,7 @@ std::string facts_of(const StoredContour& stored) {
   text += " (at least " + std::to_string(report.vertices_lower_bound) + ")";
   text += " · " + counted(static_cast<std::size_t>(std::max(report.inflections, 0)), "inflection",
                           "inflections");
-  if (!is_measured(stored)) text += " · " + region_fact(stored);
+  if (!is_measured(stored) && has_region(stored)) text += " · " + region_fact(stored);
   return text;
 }
 
@@ -92,7 +100,7 @@ std::string measured_facts(const StoredContour& stored) {
   if (const std::size_t corners = corners_of(stored.contour)) {
     facts.push_back(counted(corners, "corner", "corners"));
   }
-  if (stored.report) facts.push_back(region_fact(stored));
+  if (has_region(stored)) facts.push_back(region_fact(stored));
   std::string text;
   for (const std::string& fact : facts) text += (text.empty() ? "" : " · ") + fact;
   return text;
@@ -103,7 +111,7 @@ std::string measured_facts(const StoredContour& stored) {
 std::string picture_svg(const StoredContour& stored) {
   const Contour& contour = stored.contour;
   const PictureTrack track = make_track(contour);
-  const bool coloured = contour.runs.size() <= kMostColouredRuns;
+  const bool coloured = track.runs_tell && contour.runs.size() <= kMostColouredRuns;
   const VerdictLine verdict = verdict_of(stored);
   const std::string title = title_of(contour);
   PictureCanvas body;

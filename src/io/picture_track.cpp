@@ -134,11 +134,24 @@ struct Change {
   std::size_t last = 0;
 };
 
+/// The way of change from sample to sample of a piece, as far as it stands out of the rounding.
+void add_steps(const PictureTrack& track, std::size_t piece, std::vector<Change>& changes) {
+  for (std::size_t j = track.first[piece] + 1; j < track.first[piece + 1]; ++j) {
+    const double step = track.samples[j].kappa - track.samples[j - 1].kappa;
+    if (std::fabs(step) <= kSameCurvature * track.largest_kappa) continue;
+    changes.push_back({step > 0.0 ? 1 : -1, j - 1, j});
+  }
+}
+
 std::vector<Change> changes_of(const PictureTrack& track) {
   std::vector<Change> changes;
   for (std::size_t i = 0; i < track.pieces.size(); ++i) {
     const std::size_t start = track.first[i];
     if (const int jump = corner_jump(track, i)) changes.push_back({jump, start, start});
+    if (!track.runs_tell) {
+      add_steps(track, i, changes);
+      continue;
+    }
     const int now = track.direction[i];
     if (now == 1 || now == -1) changes.push_back({now, start, track.first[i + 1] - 1});
   }
@@ -251,6 +264,7 @@ PictureTrack make_track(const Contour& contour) {
     track.points.push_back(p - track.reference);
     track.box.add(track.points.back());
   }
+  track.runs_tell = promises_monotone(contour.carrier);
   sample_pieces(track);
   set_directions(track, contour.runs);
   set_corners(track, contour);

@@ -44,6 +44,7 @@ struct PictureTrack {
   std::vector<int> direction;          ///< per piece, of its run; 2 when no run covers it
   std::vector<bool> corner;            ///< per piece, whether it starts at a corner
   bool closed = false;
+  bool runs_tell = true;  ///< vertices lie between runs; else wherever the samples turn back
   std::vector<PictureFeature> features;
   PictureBox box;  ///< curve and points, without the comb
   double length = 0.0;

@@ -23,20 +23,72 @@ using namespace pipeline_detail;
 constexpr int kNarrowings = 6;
 constexpr double kNarrowed = 0.95;  ///< of what would just do
 
-Result<Contour> form(const std::vector<Vec2>& points, const SeriesChain& chain, Carrier carrier,
+Result<Carried> as_carried(Result<Contour> contour) {
+  if (!contour) return tl::unexpected(contour.error());
+  return Carried{std::move(*contour), {}, {}};
+}
+
+Result<Carried> form(const std::vector<Vec2>& points, const SeriesChain& chain, Carrier carrier,
                      double tolerance) {
-  if (carrier == Carrier::kClothoids) return form_clothoids(points, chain);
+  if (carrier == Carrier::kClothoids) return as_carried(form_clothoids(points, chain));
   auto spirals = form_spirals(points, chain);
-  if (!spirals || carrier == Carrier::kSpiral) return spirals;
-  return form_arcs(*spirals, tolerance);
+  if (!spirals) return tl::unexpected(spirals.error());
+  switch (carrier) {
+    case Carrier::kArcs:
+      return as_carried(form_arcs(*spirals, tolerance));
+    case Carrier::kConics:
+      return form_conics(*spirals);
+    case Carrier::kBeziers:
+      return form_beziers(*spirals, tolerance);
+    case Carrier::kBspline:
+      return form_bspline(*spirals, tolerance);
+    case Carrier::kCubic:
+      return form_cubic(*spirals, tolerance);
+    default:
+      return as_carried(std::move(spirals));
+  }
+}
+
+/// The spline of CAD systems asks for no headings and curvatures.
+Result<Carried> form_baseline_section(const Prepared& series, const Section& section) {
+  const bool loop = series.split.smooth_loop;
+  const std::size_t last = loop ? series.points.size() : section.last;
+  std::vector<Vec2> points;
+  std::vector<std::size_t> source;
+  for (std::size_t k = section.first; k <= last; ++k) {
+    source.push_back(series.split.point_at(k) % series.points.size());
+    points.push_back(series.points[source.back()]);
+  }
+  return form_baseline(points, source);
 }
 
 /// One attempt at the whole contour, with how it was found.
 struct Formed {
   Contour contour;
   ChainReport chain;
+  std::optional<double> deviation;
   std::vector<std::string> warnings;
+
+  void add(Carried section, Assembly& assembly) {
+    if (section.deviation) deviation = std::max(deviation.value_or(0.0), *section.deviation);
+    warnings.insert(warnings.end(), section.warnings.begin(), section.warnings.end());
+    assembly.append(std::move(section.contour));
+  }
 };
+
+/// Whether the carrier passes points that are no joints within the tolerance only.
+bool follows_spirals(Carrier carrier) {
+  return carrier == Carrier::kBspline || carrier == Carrier::kCubic;
+}
+
+/// How far the contour may pass each point: a carrier that follows the spirals needs its tolerance.
+std::vector<double> point_tolerance(const Prepared& series, Carrier carrier, double tolerance) {
+  std::vector<double> out = series.tolerance;
+  if (!follows_spirals(carrier)) return out;
+  out.resize(series.points.size(), 0.0);
+  for (double& one : out) one = std::max(one, tolerance);
+  return out;
+}
 
 void add(const SectionChain& section, Formed& formed) {
   ChainReport& sum = formed.chain;
@@ -61,17 +113,24 @@ Result<Formed> form_sections(const Prepared& series, const FitJob& job, double t
         progress(stage, kUntilHere * part);
       }
     };
+    if (job.carrier == Carrier::kBaseline) {
+      auto section = form_baseline_section(series, sections[k]);
+      if (!section) return tl::unexpected(section.error());
+      out.add(std::move(*section), assembly);
+      continue;
+    }
     const auto chain = chain_section(series, sections[k], inner);
     if (!chain) return tl::unexpected(chain.error());
-    auto contour = form(series.points, chain->chain, job.carrier, tolerance);
-    if (!contour) return tl::unexpected(contour.error());
-    assembly.append(std::move(*contour));
+    auto section = form(series.points, chain->chain, job.carrier, tolerance);
+    if (!section) return tl::unexpected(section.error());
+    out.add(std::move(*section), assembly);
     add(*chain, out);
   }
   if (series.closed) assembly.close(series.split.smooth_loop);
   out.contour = assembly.take();
   out.contour.points = series.points;
-  out.contour.point_tolerance = series.tolerance;
+  out.contour.point_tolerance = point_tolerance(series, job.carrier, tolerance);
+  out.contour.carrier = job.carrier;
   return out;
 }
 
@@ -90,7 +149,7 @@ bool narrow(const Contour& contour, Prepared& series) {
   const std::vector<double> distance = point_distances(contour);
   bool any = false;
   for (std::size_t i = 0; i < distance.size(); ++i) {
-    const double allowed = series.tolerance[i];
+    const double allowed = contour.point_tolerance[i];
     if (!(distance[i] > allowed) || series.reach[i] == 0.0) continue;
     series.reach[i] *= kNarrowed * allowed / distance[i];
     any = true;
@@ -159,7 +218,8 @@ Result<Fit> fit(const PointSeries& series, const FitJob& job, const Progress& pr
   out.report.vertices = out.certificate.vertices;
   out.report.inflections = out.certificate.inflections;
   out.report.largest_move = out.certificate.largest_move;
-  if (!prepared->exact()) out.report.moves = point_distances(out.contour);
+  out.report.carrier_deviation = formed->deviation;
+  if (!out.contour.point_tolerance.empty()) out.report.moves = point_distances(out.contour);
   out.report.chain = formed->chain;
   out.warnings = series.warnings;
   for (const auto* more : {&prepared->warnings, &formed->warnings}) {

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <optional>
+#include <string>
 #include <vector>
 
 #include "obvid/chain/series_chain.h"
@@ -29,6 +31,33 @@ namespace obvid::pipeline_detail {
 /// E501 when a link is carried by no such three.
 [[nodiscard]] Result<Contour> form_clothoids(const std::vector<Vec2>& points,
                                              const SeriesChain& chain);
+
+/// A section in another carrier, and what is to be said about it.
+struct Carried {
+  Contour contour;
+  std::optional<double> deviation;  ///< from the spirals, as measured, units
+  std::vector<std::string> warnings;
+};
+
+/// One conic to a link, headings freed so that all are monotone ellipse arcs. Where no such
+/// headings are found, the chain over the given ones, with a warning.
+/// Errors: E401 where a link has no triangle (inflections, lines).
+[[nodiscard]] Result<Carried> form_conics(const Contour& spirals);
+
+/// Parabolas: every piece condensed until the region between their elements is as narrow as the
+/// tolerance. Errors: E401 at inflections, arcs; E502.
+[[nodiscard]] Result<Carried> form_beziers(const Contour& spirals, double tolerance);
+
+/// Monotone polynomial B-spline within the tolerance of the spirals; points that are no knots are
+/// passed within it. Errors: E310 at arcs; E405.
+[[nodiscard]] Result<Carried> form_bspline(const Contour& spirals, double tolerance);
+
+/// C2 cubic within the tolerance of the spirals. Errors: E502.
+[[nodiscard]] Result<Carried> form_cubic(const Contour& spirals, double tolerance);
+
+/// C2 cubic through the points (`source`: their indices), a loop when the last is the first again.
+[[nodiscard]] Result<Carried> form_baseline(const std::vector<Vec2>& points,
+                                            const std::vector<std::size_t>& source);
 
 /// Circle or line over a chord: heading from chord and curvature, so that the arc ends on its end.
 [[nodiscard]] Piece arc_over_chord(const LinkState& link, const Element& a, const Element& b);

@@ -78,7 +78,9 @@ void measure_pieces(const Contour& contour, double tolerance, FitReport& report)
     if (i > 0 && contour.joints[i].source) ++segment;
     if (segment >= report.segments.size()) return;
     SegmentReport& row = report.segments[segment];
-    if (contour.carrier != Carrier::kArcs) {
+    if (!promises_monotone(contour.carrier)) {
+      row.width = row.width_unrefined = row.deviation = std::numeric_limits<double>::quiet_NaN();
+    } else if (contour.carrier != Carrier::kArcs) {
       add(row, bound_piece(contour.pieces[i], direction[i], tolerance));
       if (i > 0 && !contour.joints[i].source) ++row.inserted;
     } else if (direction[i] != 0 && i + 1 < contour.pieces.size()) {
@@ -181,7 +183,7 @@ Result<FitReport> measure(const Contour& contour, double tolerance) {
   lay_rows(contour, report);
   measure_pieces(contour, tolerance, report);
   for (const SegmentReport& s : report.segments) {
-    report.largest_width = std::max(report.largest_width, s.width);
+    report.largest_width = std::isnan(s.width) ? s.width : std::max(report.largest_width, s.width);
     report.inserted_points += s.inserted;
   }
   const auto sections = sections_of(contour);

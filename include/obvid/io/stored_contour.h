@@ -40,6 +40,9 @@ struct FitReport {
   int vertices_lower_bound = 0;
   int inflections = 0;
   std::size_t inserted_points = 0;
+  std::optional<double> carrier_deviation;  ///< of a carrier that follows the spirals within a
+                                            ///< tolerance: largest distance from them as measured,
+                                            ///< units; nothing for carriers with exact elements
   double seconds = 0.0;
   ChainReport chain;
 };

@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "monotone_parts.h"
+
+#include "piece_facts.h"
+
+namespace obvid {
+namespace {
+
+/// Closer vertices than 2^-10 of the parameter are counted as one pair or none. Of shorter parts
+/// the rounding of the control points decides how the curvature changes: it enters with the third
+/// power.
+constexpr int kMostHalvings = 10;
+
+/// Seen from its own start, so that only the digits of its shape are rounded.
+RationalBezier seen_from_start(RationalBezier piece) {
+  const Vec2 start = piece.offset[0];
+  piece.origin = {};
+  for (int j = 0; j <= piece.degree; ++j) {
+    const auto k = static_cast<std::size_t>(j);
+    piece.offset[k] = piece.offset[k] - start;
+  }
+  return piece;
+}
+
+void halve(const RationalBezier& part, int halvings, std::vector<RationalBezier>& out) {
+  // what doubles cannot decide is flat: halving it on and on would find nothing
+  if (halvings == 0 || examine_in_doubles(part).proof.verdict != Verdict::kHasVertex) {
+    out.push_back(part);
+    return;
+  }
+  for (const RationalBezier& half : split(part, 0.5)) halve(half, halvings - 1, out);
+}
+
+}  // namespace
+
+int change_of(const RationalBezier& part) {
+  switch (examine_in_doubles(part).proof.verdict) {
+    case Verdict::kIncreasing:
+      return 1;
+    case Verdict::kDecreasing:
+      return -1;
+    default:
+      return 0;
+  }
+}
+
+std::vector<RationalBezier> monotone_parts(const RationalBezier& piece) {
+  std::vector<RationalBezier> parts;
+  halve(seen_from_start(piece), kMostHalvings, parts);
+  return parts;
+}
+
+}  // namespace obvid

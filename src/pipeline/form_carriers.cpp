@@ -1,0 +1,192 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <cmath>
+#include <numbers>
+#include <utility>
+
+#include "form.h"
+#include "obvid/certify/certify.h"
+#include "obvid/contour/beziers.h"
+#include "obvid/contour/bsplines.h"
+#include "obvid/contour/bsplines/cubic_along.h"
+#include "obvid/contour/bsplines/monotone.h"
+#include "obvid/contour/conics.h"
+#include "obvid/region/refine.h"
+
+namespace obvid::pipeline_detail {
+namespace {
+
+Contour like(const Contour& spirals, Carrier carrier) {
+  Contour out;
+  out.units = spirals.units;
+  out.carrier = carrier;
+  out.points = spirals.points;
+  return out;
+}
+
+/// Element of a piece, its heading unwrapped to be near another one.
+Element element_near(const Piece& piece, double t, double theta) {
+  Element e = element_at(piece, t);
+  e.theta = theta + std::remainder(e.theta - theta, 2.0 * std::numbers::pi);
+  return e;
+}
+
+/// An error about joint `index` of a section, told in points of the series.
+tl::unexpected<Error> at_point(Error error, const Contour& spirals, std::ptrdiff_t index,
+                               const char* hint) {
+  std::size_t joint = index < 0 ? 0 : static_cast<std::size_t>(index);
+  while (joint > 0 && (joint >= spirals.joints.size() || !spirals.joints[joint].source)) --joint;
+  error.hint = hint;
+  error.index = -1;
+  if (index >= 0 && joint < spirals.joints.size() && spirals.joints[joint].source) {
+    error.index = static_cast<std::ptrdiff_t>(*spirals.joints[joint].source);
+    error.where = "after point " + std::to_string(error.index + 1);
+  }
+  return fail(std::move(error));
+}
+
+constexpr const char* kOtherCarriers = "use --carrier spiral, arcs or clothoids";
+
+/// Runs of pieces as they are proved, one by one: the builder of these curves does not know them.
+std::vector<Run> proved_runs(const std::vector<Piece>& pieces) {
+  std::vector<int> direction;
+  for (const Piece& piece : pieces) {
+    const Verdict verdict = prove_piece(piece).verdict;
+    direction.push_back(verdict == Verdict::kIncreasing   ? 1
+                        : verdict == Verdict::kDecreasing ? -1
+                                                          : 0);
+  }
+  return collect_runs(direction);
+}
+
+/// Pieces of one smooth curve; the joints between them are no points of the series.
+void add_free_pieces(const std::vector<RationalBezier>& pieces, Contour& contour) {
+  double theta = contour.joints.empty() ? 0.0 : contour.joints.back().element.theta;
+  for (std::size_t i = 0; i < pieces.size(); ++i) {
+    contour.pieces.emplace_back(pieces[i]);
+    if (i + 1 == pieces.size()) break;
+    const Element e = element_near(contour.pieces.back(), 1.0, theta);
+    theta = e.theta;
+    contour.joints.push_back({e, std::nullopt, {}});
+  }
+}
+
+}  // namespace
+
+Result<Carried> form_conics(const Contour& spirals) {
+  std::vector<Element> elements;
+  for (const Joint& joint : spirals.joints) elements.push_back(joint.element);
+  Carried out{like(spirals, Carrier::kConics), {}, {}};
+  auto freed = headings_for_conics(elements);
+  if (freed) {
+    elements = std::move(*freed);
+  } else if (freed.error().code == ErrorCode::kNotProved) {
+    out.warnings.emplace_back(
+        "no headings were found for which all conics have monotone curvature; the headings are "
+        "those of the spirals");
+  } else {
+    return at_point(freed.error(), spirals, freed.error().index, kOtherCarriers);
+  }
+  auto chain = conic_chain(elements);
+  if (!chain) return at_point(chain.error(), spirals, chain.error().index, kOtherCarriers);
+  for (std::size_t j = 0; j < chain->elements.size(); ++j) {
+    out.contour.joints.push_back({chain->elements[j], spirals.joints[j].source, {}});
+  }
+  for (const RationalBezier& piece : chain->pieces) out.contour.pieces.emplace_back(piece);
+  out.contour.runs = spirals.runs;  // one conic to a link
+  return out;
+}
+
+Result<Carried> form_beziers(const Contour& spirals, double tolerance) {
+  Carried out{like(spirals, Carrier::kBeziers), {}, {}};
+  const std::vector<int> direction = piece_directions(spirals);
+  std::vector<int> directions;
+  for (std::size_t i = 0; i < spirals.pieces.size(); ++i) {
+    out.contour.joints.push_back(spirals.joints[i]);
+    if (std::holds_alternative<LinePiece>(spirals.pieces[i])) {
+      out.contour.pieces.push_back(spirals.pieces[i]);
+      directions.push_back(0);
+      continue;
+    }
+    if (direction[i] == 0) {
+      return at_point(
+          {ErrorCode::kNoSpiral, "no chain of parabolas has constant curvature", "", "", -1, 0.0},
+          spirals, static_cast<std::ptrdiff_t>(i), kOtherCarriers);
+    }
+    const auto chain = condense_piece(spirals.pieces[i], direction[i], tolerance);
+    if (!chain) {
+      return at_point(chain.error(), spirals, static_cast<std::ptrdiff_t>(i), kOtherCarriers);
+    }
+    add_free_pieces(chain->parabolas, out.contour);
+    directions.insert(directions.end(), chain->parabolas.size(), direction[i]);
+  }
+  out.contour.joints.push_back(spirals.joints.back());
+  out.contour.runs = collect_runs(directions);
+  return out;
+}
+
+Result<Carried> form_bspline(const Contour& spirals, double tolerance) {
+  auto spline = monotone_spline(spirals, tolerance);
+  if (!spline) return at_point(spline.error(), spirals, spline.error().index, kOtherCarriers);
+  Carried out{like(spirals, Carrier::kBspline), spline->deviation, {}};
+  std::vector<int> direction;
+  std::size_t next = 0;  // joint of the spirals that may be the next knot
+  for (std::size_t k = 0; k < spline->elements.size(); ++k) {
+    const Element& e = spline->elements[k];
+    Joint joint{e, std::nullopt, {}};
+    for (std::size_t j = next; j < spirals.joints.size(); ++j) {
+      if (!(spirals.joints[j].element.point == e.point)) continue;
+      joint.source = spirals.joints[j].source;
+      next = j + 1;
+      break;
+    }
+    out.contour.joints.push_back(joint);
+    if (k == spline->spans.size()) break;
+    out.contour.pieces.emplace_back(spline->spans[k]);
+    direction.push_back(spline->direction[k]);
+  }
+  out.contour.runs = collect_runs(direction);
+  return out;
+}
+
+Result<Carried> form_cubic(const Contour& spirals, double tolerance) {
+  const auto along = cubic_along(spirals, tolerance);
+  if (!along) return at_point(along.error(), spirals, along.error().index, kOtherCarriers);
+  Carried out{like(spirals, Carrier::kCubic), along->deviation, {}};
+  const std::vector<RationalBezier> pieces = bezier_pieces(along->spline);
+  const auto end_joint = [&](const RationalBezier& piece, double t, const Joint& end) {
+    return Joint{element_near(Piece{piece}, t, end.element.theta), end.source, {}};
+  };
+  out.contour.joints.push_back(end_joint(pieces.front(), 0.0, spirals.joints.front()));
+  add_free_pieces(pieces, out.contour);
+  out.contour.joints.push_back(end_joint(pieces.back(), 1.0, spirals.joints.back()));
+  out.contour.runs = proved_runs(out.contour.pieces);
+  return out;
+}
+
+Result<Carried> form_baseline(const std::vector<Vec2>& points,
+                              const std::vector<std::size_t>& source) {
+  CubicSplineOptions options;
+  std::vector<Vec2> through = points;
+  if (points.size() > 2 && points.front() == points.back()) {
+    options.end = SplineEnd::kPeriodic;
+    through.pop_back();
+  }
+  const auto spline = cubic_spline(through, options);
+  if (!spline) return tl::unexpected(spline.error());
+  Carried out;
+  out.contour.carrier = Carrier::kBaseline;
+  double theta = 0.0;
+  const std::vector<RationalBezier> pieces = bezier_pieces(*spline);
+  for (std::size_t i = 0; i < pieces.size(); ++i) {
+    const Element e = element_near(Piece{pieces[i]}, 0.0, theta);
+    theta = e.theta;
+    out.contour.joints.push_back({{points[i], e.theta, e.kappa}, source[i], {}});
+    out.contour.pieces.emplace_back(pieces[i]);
+  }
+  const Element end = element_near(out.contour.pieces.back(), 1.0, theta);
+  out.contour.joints.push_back({{points.back(), end.theta, end.kappa}, source.back(), {}});
+  out.contour.runs = proved_runs(out.contour.pieces);
+  return out;
+}
+
+}  // namespace obvid::pipeline_detail
