@@ -19,6 +19,7 @@ constexpr const char* kShortHelp =
   obvid fit POINTS -o contour.svg -o contour.json    form and prove a contour
   obvid analyse POINTS                               what the points alone say
   obvid region POINTS                                where every such contour must lie
+  obvid compare POINTS                               all curve families side by side
   obvid verify contour.json                          prove a stored contour again
   obvid explain E401                                 what an error means, what to do
 
@@ -32,13 +33,14 @@ constexpr const char* kExitCodes =
 
 /// Announced for later; refused with a word of their own so that nobody searches for a typing
 /// error.
-const std::vector<std::string> kLaterCommands = {"compare", "convert", "surface"};
+const std::vector<std::string> kLaterCommands = {"convert", "surface"};
 
 /// What the command line said, before it is checked.
 struct Raw {
   FitOptions fit;
   AnalyseOptions analyse;
   RegionOptions region;
+  CompareOptions compare;
   VerifyOptions verify;
   ExplainOptions explain;
   std::string carrier = "spiral";
@@ -78,15 +80,18 @@ void add_fixed_data(CLI::App& fit, TypedValues& typed) {
   add_at("--corner-at", typed.corner_at, "I", "Corner at point I; may be repeated");
 }
 
+void add_suggest(CLI::App& fit, Raw& raw) {
+  fit.add_flag("--suggest", raw.fit.suggest,
+               "Table of tolerances and the vertices that each of them needs")
+      ->group("Measured points");
+}
+
 void add_real_points(CLI::App& fit, Raw& raw) {
   const char* group = "Measured points";
   fit.add_option("--noise", raw.typed.noise,
                  "How far each point may move, input units, or rounding: half a unit of the last "
                  "printed digit [0: points are met]")
       ->type_name("EPS")
-      ->group(group);
-  fit.add_flag("--suggest", raw.fit.suggest,
-               "Table of tolerances and the vertices that each of them needs")
       ->group(group);
   fit.add_flag("--primitives", raw.fit.job.primitives,
                "Exact lines and arcs where the points allow them")
@@ -105,6 +110,13 @@ void add_real_points(CLI::App& fit, Raw& raw) {
       ->group(group);
 }
 
+void add_tolerance(CLI::App& fit, Raw& raw) {
+  fit.add_option("--tolerance", raw.tolerance,
+                 "Largest width of the region, input units; carriers bspline and cubic follow the "
+                 "spirals within it [3e-6 of the size]")
+      ->type_name("T");
+}
+
 void add_fit(CLI::App& app, Raw& raw) {
   CLI::App& fit = *app.add_subcommand("fit", "Form a contour through points and prove it");
   fit.add_option("INPUT", raw.fit.input, kInputHelp);
@@ -118,12 +130,10 @@ void add_fit(CLI::App& app, Raw& raw) {
          "(degree 5), all monotone; cubic (near the spirals) and baseline (what CAD systems "
          "draw), not promised to be monotone [spiral]")
       ->type_name("NAME");
-  fit.add_option("--tolerance", raw.tolerance,
-                 "Largest width of the region, input units; carriers bspline and cubic follow the "
-                 "spirals within it [3e-6 of the size]")
-      ->type_name("T");
+  add_tolerance(fit, raw);
   fit.add_flag("--convex", raw.fit.job.convex, "Refuse a contour with inflections");
   add_real_points(fit, raw);
+  add_suggest(fit, raw);
   add_fixed_data(fit, raw.typed);
   fit.add_option("--units", raw.fit.units, kUnitsHelp)->type_name("NAME");
   fit.add_flag("--json", raw.fit.json, "Report and certificate as JSON on standard output");
@@ -149,6 +159,28 @@ void add_readers(CLI::App& app, Raw& raw) {
   region.add_option("INPUT", raw.region.input, kInputHelp);
   region.add_option("--units", raw.region.units, kUnitsHelp)->type_name("NAME");
   region.add_flag("--json", raw.region.json, "JSON on standard output instead of the table");
+}
+
+void add_compare(CLI::App& app, Raw& raw) {
+  CLI::App& compare = *app.add_subcommand(
+      "compare", "All curve families side by side: pieces, errors, vertices, continuity, time");
+  compare.add_option("INPUT", raw.compare.input, kInputHelp);
+  compare
+      .add_option("-o,--output", raw.compare.outputs,
+                  "File to write: .svg stacked curvature plots, .csv or .json the table; may be "
+                  "repeated")
+      ->type_name("OUT")
+      ->allow_extra_args(false);
+  add_tolerance(compare, raw);
+  add_real_points(compare, raw);
+  add_fixed_data(compare, raw.typed);
+  compare.add_option("--units", raw.compare.units, kUnitsHelp)->type_name("NAME");
+  compare.add_flag("--csv", raw.compare.csv, "Table as CSV on standard output");
+  compare.add_flag("--json", raw.compare.json, "Table as JSON on standard output");
+  compare.add_flag("--no-progress", raw.no_progress, "No progress bar");
+  compare.footer(
+      "Example: obvid compare points.csv -o carriers.svg\n\nThe first row, spiral, is what the "
+      "others are measured against.\n");
 }
 
 void add_checkers(CLI::App& app, Raw& raw) {
@@ -192,7 +224,7 @@ Result<void> check_command(const CLI::App& app) {
   const std::string typed = extras.empty() ? "" : extras.front();
   if (listed(kLaterCommands, typed)) {
     return fail(bad_option(not_available("the command " + typed), "",
-                           "available are fit, analyse, region, verify, explain"));
+                           "available are fit, analyse, region, compare, verify, explain"));
   }
   std::vector<std::string> names = option_names(app);
   for (const CLI::App* command : app.get_subcommands(nullptr)) names.push_back(command->get_name());
@@ -248,19 +280,35 @@ Result<void> set_carrier(Raw& raw) {
                          did_you_mean(raw.carrier, names, all)));
 }
 
-Result<Command> checked_fit(Raw& raw) {
+Result<void> set_job(Raw& raw) {
   if (raw.tolerance && !(*raw.tolerance > 0.0 && std::isfinite(*raw.tolerance))) {
     return fail(bad_option("the tolerance must be a positive length", "--tolerance",
                            "give it in the units of the input"));
   }
   raw.fit.job.tolerance = raw.tolerance;
+  return set_values(raw.typed, raw.fit.job);
+}
+
+Result<Command> checked_fit(Raw& raw) {
   raw.fit.progress = !raw.no_progress;
-  const Result<void> done = need(raw.fit.input, "fit", "a file with points")
-                                .and_then([&] { return check_units(raw.fit.units); })
-                                .and_then([&] { return set_carrier(raw); })
-                                .and_then([&] { return set_values(raw.typed, raw.fit.job); });
+  const Result<void> done =
+      set_job(raw)
+          .and_then([&] { return set_carrier(raw); })
+          .and_then([&] { return check_units(raw.fit.units); })
+          .and_then([&] { return need(raw.fit.input, "fit", "a file with points"); });
   if (!done) return fail(done.error());
   return Command{raw.fit};
+}
+
+Result<Command> checked_compare(Raw& raw) {
+  const Result<void> done =
+      set_job(raw).and_then([&] { return check_units(raw.compare.units); }).and_then([&] {
+        return need(raw.compare.input, "compare", "a file with points");
+      });
+  if (!done) return fail(done.error());
+  raw.compare.job = raw.fit.job;
+  raw.compare.progress = !raw.no_progress && !raw.compare.json && !raw.compare.csv;
+  return Command{raw.compare};
 }
 
 template <class Options>
@@ -279,6 +327,7 @@ Result<Command> checked(const CLI::App& app, Raw& raw) {
   if (name == "fit") return checked_fit(raw);
   if (name == "analyse") return checked_points(raw.analyse, "analyse");
   if (name == "region") return checked_points(raw.region, "region");
+  if (name == "compare") return checked_compare(raw);
   if (name == "explain") return Command{raw.explain};
   if (auto done = need(raw.verify.input, "verify", "a contour file"); !done) {
     return fail(done.error());
@@ -314,6 +363,7 @@ Result<Command> parse_command_line(int argc, const char* const* argv) {
     Raw raw;
     add_fit(app, raw);
     add_readers(app, raw);
+    add_compare(app, raw);
     add_checkers(app, raw);
     allow_extras(app);
     try {

@@ -34,6 +34,16 @@ struct RegionOptions {
   bool json = false;
 };
 
+struct CompareOptions {
+  std::string input;
+  std::vector<std::string> outputs;
+  FitJob job;
+  std::optional<std::string> units;
+  bool csv = false;
+  bool json = false;
+  bool progress = true;
+};
+
 struct VerifyOptions {
   std::string input;
   bool json = false;
@@ -50,8 +60,8 @@ struct ShowText {
   std::string text;
 };
 
-using Command = std::variant<ShowText, FitOptions, AnalyseOptions, RegionOptions, VerifyOptions,
-                             ExplainOptions>;
+using Command = std::variant<ShowText, FitOptions, AnalyseOptions, RegionOptions, CompareOptions,
+                             VerifyOptions, ExplainOptions>;
 
 /// Understands the command line. Errors: E201 wrong usage, E203 option not possible.
 [[nodiscard]] Result<Command> parse_command_line(int argc, const char* const* argv);

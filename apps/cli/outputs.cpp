@@ -10,7 +10,7 @@
 
 namespace obvid {
 
-Result<Output> output_of(const std::string& path, const std::string& input) {
+Result<Output> output_of(const std::string& path, const std::string& input, FormatSet formats) {
   namespace fs = std::filesystem;
   std::string ending = fs::path(path).extension().string();
   std::transform(ending.begin(), ending.end(), ending.begin(),
@@ -22,17 +22,21 @@ Result<Output> output_of(const std::string& path, const std::string& input) {
   }
   if (ending == ".json") return Output{path, Format::kJson, {}};
   if (ending == ".svg") return Output{path, Format::kSvg, {}};
+  const bool tables = formats == FormatSet::kTables;
+  if (tables && ending == ".csv") return Output{path, Format::kCsv, {}};
   return fail({ErrorCode::kUnknownFormat,
                ending.empty() ? "the name has no ending that tells a format"
                               : "no format is known for the ending " + ending,
-               path, "possible are .json (contour) and .svg (picture)"});
+               path,
+               tables ? "possible are .svg (picture), .csv and .json (tables)"
+                      : "possible are .json (contour) and .svg (picture)"});
 }
 
 Result<std::vector<Output>> outputs_of(const std::vector<std::string>& paths,
-                                       const std::string& input) {
+                                       const std::string& input, FormatSet formats) {
   std::vector<Output> outputs;
   for (const std::string& path : paths) {
-    Result<Output> output = output_of(path, input);
+    Result<Output> output = output_of(path, input, formats);
     if (!output) return fail(output.error());
     outputs.push_back(std::move(*output));
   }

@@ -9,7 +9,13 @@
 
 namespace obvid {
 
-enum class Format { kJson, kSvg };
+enum class Format { kJson, kSvg, kCsv };
+
+/// Which endings a command knows.
+enum class FormatSet {
+  kContours,  ///< .json contour, .svg picture
+  kTables,    ///< .svg picture, .csv and .json tables
+};
 
 /// A file to write.
 struct Output {
@@ -20,9 +26,11 @@ struct Output {
 
 /// Format by ending. Errors: E202 for endings without format, E203 where the input would be
 /// replaced.
-[[nodiscard]] Result<Output> output_of(const std::string& path, const std::string& input);
+[[nodiscard]] Result<Output> output_of(const std::string& path, const std::string& input,
+                                       FormatSet formats = FormatSet::kContours);
 [[nodiscard]] Result<std::vector<Output>> outputs_of(const std::vector<std::string>& paths,
-                                                     const std::string& input);
+                                                     const std::string& input,
+                                                     FormatSet formats = FormatSet::kContours);
 
 /// Writes all texts, each file whole or not at all; names what was written. Error: E102.
 [[nodiscard]] Result<std::vector<std::string>> write_files(const std::vector<Output>& outputs);

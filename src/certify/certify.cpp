@@ -87,12 +87,8 @@ class Notary {
     if (bezier == nullptr) return;
     const auto& parts = parts_.emplace(i, monotone_parts(*bezier)).first->second;
     // the proof of one vertex does not say how the curvature changes at both ends
-    const auto changes = [](const RationalBezier& part) { return change_of(part) != 0; };
-    const auto first = std::find_if(parts.begin(), parts.end(), changes);
-    const auto last = std::find_if(parts.rbegin(), parts.rend(), changes);
-    if (first == parts.end()) return;
-    before_[i] = static_cast<std::int8_t>(change_of(*first));
-    after_[i] = static_cast<std::int8_t>(change_of(*last));
+    before_[i] = static_cast<std::int8_t>(parts.front().first_change);
+    after_[i] = static_cast<std::int8_t>(parts.back().last_change);
   }
 
   void report_verdict(std::size_t i, const PieceProof& proof) {
@@ -209,7 +205,10 @@ class Notary {
       changes.add(joints_.jump[i]);
       changes.add(before_[i]);
       if (const auto parts = parts_.find(i); parts != parts_.end()) {
-        for (const RationalBezier& part : parts->second) changes.add(change_of(part));
+        for (const MonotonePart& part : parts->second) {
+          changes.add(part.first_change);
+          changes.add(part.last_change);
+        }
       }
       changes.add(after_[i]);
     }

@@ -225,7 +225,7 @@ class JointWalk {
   void follow_parts(std::size_t i) {
     const auto parts = parts_.find(i);
     if (parts == parts_.end()) return;
-    for (const RationalBezier& part : parts->second) follow_sign(end_data(Piece{part}));
+    for (const MonotonePart& part : parts->second) follow_sign(end_data(Piece{part.piece}));
   }
 
   /// Curvature is monotone on each proved piece, so signs at the ends tell all its sign changes.

@@ -22,10 +22,11 @@ RationalBezier seen_from_start(RationalBezier piece) {
   return piece;
 }
 
-void halve(const RationalBezier& part, int halvings, std::vector<RationalBezier>& out) {
+void halve(const RationalBezier& part, int halvings, std::vector<MonotonePart>& out) {
+  const PieceFacts facts = examine_in_doubles(part);
   // what doubles cannot decide is flat: halving it on and on would find nothing
-  if (halvings == 0 || examine_in_doubles(part).proof.verdict != Verdict::kHasVertex) {
-    out.push_back(part);
+  if (halvings == 0 || facts.proof.verdict != Verdict::kHasVertex) {
+    out.push_back({part, facts.first_change, facts.last_change});
     return;
   }
   for (const RationalBezier& half : split(part, 0.5)) halve(half, halvings - 1, out);
@@ -33,19 +34,8 @@ void halve(const RationalBezier& part, int halvings, std::vector<RationalBezier>
 
 }  // namespace
 
-int change_of(const RationalBezier& part) {
-  switch (examine_in_doubles(part).proof.verdict) {
-    case Verdict::kIncreasing:
-      return 1;
-    case Verdict::kDecreasing:
-      return -1;
-    default:
-      return 0;
-  }
-}
-
-std::vector<RationalBezier> monotone_parts(const RationalBezier& piece) {
-  std::vector<RationalBezier> parts;
+std::vector<MonotonePart> monotone_parts(const RationalBezier& piece) {
+  std::vector<MonotonePart> parts;
   halve(seen_from_start(piece), kMostHalvings, parts);
   return parts;
 }

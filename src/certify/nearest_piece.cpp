@@ -17,7 +17,7 @@ constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 /// Places on a piece from which the nearest point is refined, and steps of the refinement.
 constexpr int kPlaces = 8;
-constexpr int kSteps = 8;
+constexpr int kSteps = 16;
 /// Nodes looked at on the average, for each query, before a tangle is given up. Near a contour a
 /// point needs some twenty.
 constexpr std::size_t kWorkPerQuery = 256;
@@ -89,17 +89,22 @@ struct Foot {
   }
 };
 
-/// Newton's method for the foot of the perpendicular; every step is a point of the piece too.
+/// Newton's method for the foot of the perpendicular between the neighbouring places; where it leaves
+/// what is left of them, which pieces of very uneven speed make it do, the middle instead. Every
+/// step is a point of the piece too.
 void refine(const Piece& piece, Vec2 p, Foot& foot) {
   double t = foot.t;
+  double low = std::max(0.0, t - 1.0 / kPlaces), high = std::min(1.0, t + 1.0 / kPlaces);
   for (int k = 0; k < kSteps; ++k) {
     const Jet jet = evaluate(piece, t);
     foot.offer(t, jet.point, p);
     const Vec2 away = jet.point - p;
-    const double speed = dot(jet.d1, jet.d1);
+    const double speed = dot(jet.d1, jet.d1), slope = dot(away, jet.d1);
+    (slope > 0.0 ? high : low) = t;
     const double bend = speed + dot(away, jet.d2);
-    const double next = std::clamp(t - dot(away, jet.d1) / (bend > 0.0 ? bend : speed), 0.0, 1.0);
-    if (next == t || std::isnan(next)) return;
+    const double newton = t - slope / (bend > 0.0 ? bend : speed);
+    const double next = newton >= low && newton <= high ? newton : 0.5 * (low + high);
+    if (next == t || std::isnan(newton)) return;
     t = next;
   }
 }

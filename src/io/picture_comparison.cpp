@@ -14,6 +14,7 @@
 #include "picture_panels.h"
 #include "picture_plots.h"
 #include "picture_sheet.h"
+#include "picture_side.h"
 
 namespace obvid {
 namespace {
@@ -25,84 +26,10 @@ constexpr double kPadding = 18.0;      // around a shape, px
 constexpr double kCaptionRoom = 26.0;  // px
 constexpr double kPlotHeight = 170.0;
 constexpr double kPlotTitleRoom = 34.0;
-/// The axis leaves out curvatures of this part of the length when that makes it ...
-constexpr double kLeftOut = 0.12;
-/// ... shorter by this factor at least.
-constexpr double kMuchLonger = 3.0;
-/// Room beyond the curvatures that the axis shows, as part of them.
-constexpr double kAxisRoom = 0.3;
 
-struct Side {
-  PictureTrack track;
-  bool coloured = true;
-  std::string caption;
-};
+using Sides = std::array<PictureSide, 2>;
 
-using Sides = std::array<Side, 2>;
-
-std::string counted(std::size_t count, const char* one, const char* many) {
-  return std::to_string(count) + " " + (count == 1 ? one : many);
-}
-
-Side make_side(const Contour& contour, const std::string& title) {
-  Side side{make_track(contour), contour.runs.size() <= kMostColouredRuns, title};
-  side.caption +=
-      (title.empty() ? "" : ": ") +
-      counted(count_features(side.track, PictureFeature::Kind::kVertex), "vertex", "vertices");
-  const std::size_t bends = count_features(side.track, PictureFeature::Kind::kInflection);
-  if (bends > 0) side.caption += ", " + counted(bends, "inflection", "inflections");
-  const std::size_t corners = count_features(side.track, PictureFeature::Kind::kCorner);
-  if (corners > 0) side.caption += ", " + counted(corners, "corner", "corners");
-  return side;
-}
-
-/// Range of the curvatures of both sides without those of the largest size on a part of the length.
-PictureRange usual_range(const Sides& sides) {
-  std::vector<std::pair<double, double>> steps;  // curvature, length
-  double length = 0.0;
-  for (const Side& side : sides) {
-    for (std::size_t j = 1; j < side.track.samples.size(); ++j) {
-      const PictureSample &a = side.track.samples[j - 1], &b = side.track.samples[j];
-      steps.emplace_back(b.kappa, b.s - a.s);
-      length += b.s - a.s;
-    }
-  }
-  std::sort(steps.begin(), steps.end(),
-            [](const auto& a, const auto& b) { return std::fabs(a.first) < std::fabs(b.first); });
-  PictureRange range;
-  double travelled = 0.0;
-  for (const auto& [kappa, part] : steps) {
-    travelled += part;
-    if (travelled > (1.0 - kLeftOut) * length) break;
-    range.low = std::min(range.low, kappa);
-    range.high = std::max(range.high, kappa);
-  }
-  return range;
-}
-
-struct Scale {
-  PictureRange range;
-  bool cut = false;
-};
-
-Scale choose_scale(const Sides& sides) {
-  Scale scale;
-  for (const Side& side : sides) {
-    const PictureRange one = curvature_range(side.track);
-    scale.range.low = std::min(scale.range.low, one.low);
-    scale.range.high = std::max(scale.range.high, one.high);
-  }
-  const PictureRange usual = usual_range(sides);
-  const double room = kAxisRoom * (usual.high - usual.low);
-  const PictureRange shown{std::max(scale.range.low, usual.low - room),
-                           std::min(scale.range.high, usual.high + room)};
-  scale.cut =
-      kMuchLonger * (shown.high - shown.low) < scale.range.high - scale.range.low && room > 0.0;
-  if (scale.cut) scale.range = shown;
-  return scale;
-}
-
-PictureComb common_comb(const Sides& sides, const Scale& scale) {
+PictureComb common_comb(const Sides& sides, const PictureScale& scale) {
   PictureComb comb = make_comb(sides[0].track);
   const PictureComb other = make_comb(sides[1].track);
   if (comb.per_kappa == 0.0 || (other.per_kappa != 0.0 && other.per_kappa < comb.per_kappa)) {
@@ -158,7 +85,7 @@ double draw_shapes(PictureCanvas& canvas, const Sides& sides, const PictureComb&
                    const std::string& units, double top) {
   const Shapes shapes = place_shapes(sides, comb, top);
   for (std::size_t k = 0; k < 2; ++k) {
-    const Side& side = sides[k];
+    const PictureSide& side = sides[k];
     canvas.label(shapes.captions[k], "start", "axis-title", side.caption);
     if (side.track.samples.empty()) continue;
     draw_comb(canvas, side.track, comb, shapes.views[k], side.coloured);
@@ -171,7 +98,7 @@ double draw_shapes(PictureCanvas& canvas, const Sides& sides, const PictureComb&
   return shapes.bottom + 14.0;
 }
 
-double draw_plots(PictureCanvas& canvas, const Sides& sides, const Scale& scale,
+double draw_plots(PictureCanvas& canvas, const Sides& sides, const PictureScale& scale,
                   const std::string& units, double top) {
   PictureFrame frame;
   frame.x = tight_axis(0.0, std::max(sides[0].track.length, sides[1].track.length), 8);
@@ -183,7 +110,7 @@ double draw_plots(PictureCanvas& canvas, const Sides& sides, const Scale& scale,
   if (scale.cut) title += ", cut off: the largest is " + largest + " 1/" + units;
   frame.bottom = top;
   for (std::size_t k = 0; k < 2; ++k) {
-    const Side& side = sides[k];
+    const PictureSide& side = sides[k];
     frame.top = frame.bottom + kPlotTitleRoom;
     frame.bottom = frame.top + kPlotHeight;
     canvas.label({kPictureMargin, frame.top - 11.0}, "start", "axis-title", title);
@@ -204,7 +131,7 @@ double draw_plots(PictureCanvas& canvas, const Sides& sides, const Scale& scale,
 double draw_common_legend(PictureCanvas& canvas, const Sides& sides, const PictureComb& comb,
                           const std::string& units, double y) {
   PictureTrack both;
-  for (const Side& side : sides) {
+  for (const PictureSide& side : sides) {
     both.pieces.insert(both.pieces.end(), side.track.pieces.begin(), side.track.pieces.end());
     for (std::size_t i = 0; i < side.track.pieces.size(); ++i) {
       both.direction.push_back(colour_of(side.track, i, side.coloured));
@@ -227,8 +154,9 @@ double draw_common_legend(PictureCanvas& canvas, const Sides& sides, const Pictu
 
 std::string comparison_svg(const Contour& before, const Contour& after,
                            const ComparisonTitles& titles) {
-  const Sides sides = {make_side(before, titles.before), make_side(after, titles.after)};
-  const Scale scale = choose_scale(sides);
+  const Sides sides = {make_picture_side(before, titles.before),
+                       make_picture_side(after, titles.after)};
+  const PictureScale scale = common_scale(sides);
   const PictureComb comb = common_comb(sides, scale);
   PictureCanvas body;
   body.label({kPictureMargin, 40.0}, "start", "title", titles.heading);

@@ -29,7 +29,7 @@ Result<Carried> as_carried(Result<Contour> contour) {
 }
 
 Result<Carried> form(const std::vector<Vec2>& points, const SeriesChain& chain, Carrier carrier,
-                     double tolerance) {
+                     double tolerance, bool loop) {
   if (carrier == Carrier::kClothoids) return as_carried(form_clothoids(points, chain));
   auto spirals = form_spirals(points, chain);
   if (!spirals) return tl::unexpected(spirals.error());
@@ -43,7 +43,7 @@ Result<Carried> form(const std::vector<Vec2>& points, const SeriesChain& chain, 
     case Carrier::kBspline:
       return form_bspline(*spirals, tolerance);
     case Carrier::kCubic:
-      return form_cubic(*spirals, tolerance);
+      return form_cubic(*spirals, tolerance, loop);
     default:
       return as_carried(std::move(spirals));
   }
@@ -59,7 +59,7 @@ Result<Carried> form_baseline_section(const Prepared& series, const Section& sec
     source.push_back(series.split.point_at(k) % series.points.size());
     points.push_back(series.points[source.back()]);
   }
-  return form_baseline(points, source);
+  return form_baseline(points, source, loop);
 }
 
 /// One attempt at the whole contour, with how it was found.
@@ -121,7 +121,8 @@ Result<Formed> form_sections(const Prepared& series, const FitJob& job, double t
     }
     const auto chain = chain_section(series, sections[k], inner);
     if (!chain) return tl::unexpected(chain.error());
-    auto section = form(series.points, chain->chain, job.carrier, tolerance);
+    auto section =
+        form(series.points, chain->chain, job.carrier, tolerance, series.split.smooth_loop);
     if (!section) return tl::unexpected(section.error());
     out.add(std::move(*section), assembly);
     add(*chain, out);

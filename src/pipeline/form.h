@@ -39,8 +39,9 @@ struct Carried {
   std::vector<std::string> warnings;
 };
 
-/// One conic to a link, headings freed so that all are monotone ellipse arcs. Where no such
-/// headings are found, the chain over the given ones, with a warning.
+/// Conics, headings freed so that all are monotone ellipse arcs: one to a link, or two, four, eight
+/// where one does not do. Where no such headings are found, the chain over the given ones, with a
+/// warning.
 /// Errors: E401 where a link has no triangle (inflections, lines).
 [[nodiscard]] Result<Carried> form_conics(const Contour& spirals);
 
@@ -52,12 +53,14 @@ struct Carried {
 /// passed within it. Errors: E310 at arcs; E405.
 [[nodiscard]] Result<Carried> form_bspline(const Contour& spirals, double tolerance);
 
-/// C2 cubic within the tolerance of the spirals. Errors: E502.
-[[nodiscard]] Result<Carried> form_cubic(const Contour& spirals, double tolerance);
+/// C2 cubic within the tolerance of the spirals; `loop`: continuous where the last joint is the
+/// first again. Errors: E502.
+[[nodiscard]] Result<Carried> form_cubic(const Contour& spirals, double tolerance, bool loop);
 
-/// C2 cubic through the points (`source`: their indices), a loop when the last is the first again.
+/// C2 cubic through the points (`source`: their indices); the last point of a loop is the first
+/// again.
 [[nodiscard]] Result<Carried> form_baseline(const std::vector<Vec2>& points,
-                                            const std::vector<std::size_t>& source);
+                                            const std::vector<std::size_t>& source, bool loop);
 
 /// Circle or line over a chord: heading from chord and curvature, so that the arc ends on its end.
 [[nodiscard]] Piece arc_over_chord(const LinkState& link, const Element& a, const Element& b);

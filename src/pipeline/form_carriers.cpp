@@ -44,6 +44,30 @@ tl::unexpected<Error> at_point(Error error, const Contour& spirals, std::ptrdiff
   return fail(std::move(error));
 }
 
+/// Conics to a link: headings alone leave too little freedom where neighbouring links differ much.
+constexpr int kMostParts = 8;
+
+std::vector<Element> elements_of(const std::vector<Joint>& joints) {
+  std::vector<Element> out;
+  for (const Joint& joint : joints) out.push_back(joint.element);
+  return out;
+}
+
+/// The joints of the spirals and, on every piece, those that cut it in `parts`.
+std::vector<Joint> joints_on(const Contour& spirals, int parts) {
+  std::vector<Joint> out;
+  for (std::size_t i = 0; i < spirals.pieces.size(); ++i) {
+    out.push_back(spirals.joints[i]);
+    for (int k = 1; k < parts; ++k) {
+      const double t = static_cast<double>(k) / parts;
+      out.push_back(
+          {element_near(spirals.pieces[i], t, out.back().element.theta), std::nullopt, {}});
+    }
+  }
+  out.push_back(spirals.joints.back());
+  return out;
+}
+
 constexpr const char* kOtherCarriers = "use --carrier spiral, arcs or clothoids";
 
 /// Runs of pieces as they are proved, one by one: the builder of these curves does not know them.
@@ -56,6 +80,20 @@ std::vector<Run> proved_runs(const std::vector<Piece>& pieces) {
                                                           : 0);
   }
   return collect_runs(direction);
+}
+
+/// The joint after which the curvature changes its sign first.
+std::optional<std::size_t> inflection(const Contour& spirals) {
+  double sign = 0.0;
+  std::size_t last = 0;
+  for (std::size_t j = 0; j < spirals.joints.size(); ++j) {
+    const double kappa = spirals.joints[j].element.kappa;
+    if (kappa == 0.0) continue;
+    if (sign * kappa < 0.0) return last;
+    sign = kappa;
+    last = j;
+  }
+  return std::nullopt;
 }
 
 /// Pieces of one smooth curve; the joints between them are no points of the series.
@@ -73,30 +111,47 @@ void add_free_pieces(const std::vector<RationalBezier>& pieces, Contour& contour
 }  // namespace
 
 Result<Carried> form_conics(const Contour& spirals) {
-  std::vector<Element> elements;
-  for (const Joint& joint : spirals.joints) elements.push_back(joint.element);
   Carried out{like(spirals, Carrier::kConics), {}, {}};
-  auto freed = headings_for_conics(elements);
-  if (freed) {
-    elements = std::move(*freed);
-  } else if (freed.error().code == ErrorCode::kNotProved) {
+  std::vector<Joint> joints = spirals.joints;
+  auto freed = headings_for_conics(elements_of(joints));
+  int parts = 1;
+  while (!freed && freed.error().code == ErrorCode::kNotProved && parts < kMostParts) {
+    parts *= 2;
+    joints = joints_on(spirals, parts);
+    freed = headings_for_conics(elements_of(joints));
+  }
+  if (!freed && freed.error().code != ErrorCode::kNotProved) {
+    return at_point(freed.error(), spirals, freed.error().index / parts, kOtherCarriers);
+  }
+  if (!freed) {
     out.warnings.emplace_back(
         "no headings were found for which all conics have monotone curvature; the headings are "
         "those of the spirals");
-  } else {
-    return at_point(freed.error(), spirals, freed.error().index, kOtherCarriers);
+    parts = 1;
+    joints = spirals.joints;
+    freed = elements_of(joints);
   }
-  auto chain = conic_chain(elements);
-  if (!chain) return at_point(chain.error(), spirals, chain.error().index, kOtherCarriers);
-  for (std::size_t j = 0; j < chain->elements.size(); ++j) {
-    out.contour.joints.push_back({chain->elements[j], spirals.joints[j].source, {}});
+  auto chain = conic_chain(*freed);
+  if (!chain) return at_point(chain.error(), spirals, chain.error().index / parts, kOtherCarriers);
+  for (std::size_t k = 0; k < chain->elements.size(); ++k) {
+    out.contour.joints.push_back({chain->elements[k], joints[k].source, {}});
   }
   for (const RationalBezier& piece : chain->pieces) out.contour.pieces.emplace_back(piece);
-  out.contour.runs = spirals.runs;  // one conic to a link
+  std::vector<int> direction;
+  for (const int one : piece_directions(spirals)) {
+    direction.insert(direction.end(), static_cast<std::size_t>(parts), one);
+  }
+  out.contour.runs = collect_runs(direction);
   return out;
 }
 
 Result<Carried> form_beziers(const Contour& spirals, double tolerance) {
+  if (const auto joint = inflection(spirals)) {
+    return at_point(
+        {ErrorCode::kNoSpiral, "the contour has an inflection, which no chain of parabolas has", "",
+         "", -1, 0.0},
+        spirals, static_cast<std::ptrdiff_t>(*joint), kOtherCarriers);
+  }
   Carried out{like(spirals, Carrier::kBeziers), {}, {}};
   const std::vector<int> direction = piece_directions(spirals);
   std::vector<int> directions;
@@ -148,8 +203,10 @@ Result<Carried> form_bspline(const Contour& spirals, double tolerance) {
   return out;
 }
 
-Result<Carried> form_cubic(const Contour& spirals, double tolerance) {
-  const auto along = cubic_along(spirals, tolerance);
+Result<Carried> form_cubic(const Contour& spirals, double tolerance, bool loop) {
+  Contour whole = spirals;
+  whole.closed = loop;
+  const auto along = cubic_along(whole, tolerance);
   if (!along) return at_point(along.error(), spirals, along.error().index, kOtherCarriers);
   Carried out{like(spirals, Carrier::kCubic), along->deviation, {}};
   const std::vector<RationalBezier> pieces = bezier_pieces(along->spline);
@@ -164,10 +221,10 @@ Result<Carried> form_cubic(const Contour& spirals, double tolerance) {
 }
 
 Result<Carried> form_baseline(const std::vector<Vec2>& points,
-                              const std::vector<std::size_t>& source) {
+                              const std::vector<std::size_t>& source, bool loop) {
   CubicSplineOptions options;
   std::vector<Vec2> through = points;
-  if (points.size() > 2 && points.front() == points.back()) {
+  if (loop) {
     options.end = SplineEnd::kPeriodic;
     through.pop_back();
   }

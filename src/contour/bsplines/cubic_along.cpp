@@ -94,7 +94,9 @@ double distance_from(const CubicSpline& spline, Vec2 p, double u) {
 class CubicBuilder {
  public:
   explicit CubicBuilder(const Contour& contour)
-      : length_(contour), density_(knot_density(contour, length_)) {}
+      : closed_(contour.closed), length_(contour), density_(knot_density(contour, length_)) {}
+
+  [[nodiscard]] std::size_t fewest_spans() const { return closed_ ? 4 : 2; }
 
   Result<CubicAlong> with_spans(std::size_t n) const {
     const std::vector<double> places = density_.knots(n);
@@ -102,9 +104,10 @@ class CubicBuilder {
     points.reserve(places.size());
     for (const double place : places) points.push_back(length_.element(place).point);
     CubicSplineOptions options;
-    options.end = SplineEnd::kTangents;
+    options.end = closed_ ? SplineEnd::kPeriodic : SplineEnd::kTangents;
     options.start_slope = unit_at(length_.element(0.0).theta);
     options.end_slope = unit_at(length_.element(places.back()).theta);
+    if (closed_) points.pop_back();
     auto spline = cubic_spline(points, options);
     if (!spline) return tl::unexpected(spline.error());
     CubicAlong out{std::move(*spline), 0.0};
@@ -128,6 +131,7 @@ class CubicBuilder {
     return most;
   }
 
+  bool closed_;
   ContourLength length_;
   Density density_;
 };
@@ -135,7 +139,8 @@ class CubicBuilder {
 /// Fewest spans, nearly: grown by the fourth root of what is missing, then cut in halves of what is
 /// left between a number that does and one that does not.
 Result<CubicAlong> search(const CubicBuilder& builder, double tolerance) {
-  std::size_t failed = 0, n = 2;
+  const std::size_t least = builder.fewest_spans();
+  std::size_t failed = 0, n = least;
   auto found = builder.with_spans(n);
   while (found && !(found->deviation <= tolerance)) {
     if (n >= kMostSpans) {
@@ -151,7 +156,7 @@ Result<CubicAlong> search(const CubicBuilder& builder, double tolerance) {
   }
   while (found && n - failed > 1 + n / 32) {
     const std::size_t middle = (n + failed) / 2;
-    if (middle < 2) break;
+    if (middle < least) break;
     auto fewer = builder.with_spans(middle);
     if (fewer && fewer->deviation <= tolerance) {
       n = middle;

@@ -263,14 +263,24 @@ class HeadingSearch {
   double pull_ = 0.0, joint_weight_ = 0.0;
 };
 
+/// Whether each conic's curvature changes as it does between the given elements.
+bool same_directions(const std::vector<RationalBezier>& pieces,
+                     const std::vector<Element>& elements) {
+  for (std::size_t i = 0; i < pieces.size(); ++i) {
+    const double change = elements[i + 1].kappa - elements[i].kappa;
+    if (conic_direction(pieces[i]) * change < 0.0) return false;
+  }
+  return true;
+}
+
 }  // namespace
 
 Result<std::vector<Element>> headings_for_conics(const std::vector<Element>& elements) {
   const auto links = conics::links_over(elements);
   if (!links) return tl::unexpected(links.error());
-  const auto works = [](const std::vector<Element>& e) {
+  const auto works = [&](const std::vector<Element>& e) {
     const auto chain = conic_chain(e);
-    return chain && chain->elliptic && chain->monotone;
+    return chain && chain->elliptic && chain->monotone && same_directions(chain->pieces, elements);
   };
   if (works(elements)) return elements;
   HeadingSearch search(elements, *links);

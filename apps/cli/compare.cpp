@@ -1,0 +1,198 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "obvid/pipeline/compare.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <string>
+#include <vector>
+
+#include "commands.h"
+#include "json_text.h"
+#include "obvid/io/carriers_svg.h"
+#include "obvid/io/read_points.h"
+#include "outputs.h"
+#include "table.h"
+#include "terminal.h"
+#include "text.h"
+
+namespace obvid {
+namespace {
+
+constexpr int kDigits = 4;
+
+std::string continuity_text(const ComparedCarrier& row) {
+  return "G" + std::to_string(row.continuity);
+}
+
+std::string verdict_text(const ComparedCarrier& row) {
+  if (row.fit.certificate.proved) return "proved";
+  return promises_monotone(row.carrier) ? "NOT proved" : "not monotone";
+}
+
+/// Below what coordinates of this size tell.
+std::string length_text(double value) { return significant(value, kDigits); }
+
+Table carrier_table(const Comparison& compared) {
+  Table table;
+  table.column("carrier", Table::Align::kLeft);
+  table.column("pieces");
+  table.column("control\npoints");
+  table.column("joints");
+  table.column("vertices");
+  table.column("inflec-\ntions");
+  table.column("error\nbound");
+  table.column("from the\nspirals");
+  table.column("outside\nthe region");
+  table.column("time, ms");
+  table.column("verdict", Table::Align::kLeft);
+  for (const ComparedCarrier& row : compared.carriers) {
+    if (row.refusal) {
+      table.row({to_string(row.carrier), "-", "-", "-", "-", "-", "-", "-", "-", "-",
+                 fmt::format("E{}, see below", static_cast<int>(row.refusal->code))});
+      continue;
+    }
+    const Certificate& certificate = row.fit.certificate;
+    table.row({to_string(row.carrier), std::to_string(row.fit.contour.pieces.size()),
+               row.control_points == 0 ? "-" : std::to_string(row.control_points),
+               continuity_text(row), std::to_string(certificate.vertices),
+               std::to_string(certificate.inflections), length_text(row.error_bound),
+               length_text(row.deviation), length_text(row.outside),
+               significant(row.seconds * 1e3, 3), verdict_text(row)});
+  }
+  return table;
+}
+
+std::string report_text(const PointSeries& series, const Comparison& compared) {
+  const Fit& spirals = compared.carriers.front().fit;
+  std::string out = series.name.empty() ? "" : bold(series.name) + "\n";
+  out += fmt::format(
+      "{} points, lengths in {}, tolerance {}\n"
+      "error bound: how far a monotone curve with the spirals' tangents and curvatures at the\n"
+      "points can be from this one; joints G1 common tangent, G2 continuous curvature\n\n",
+      spirals.contour.points.size(), series.units, length_text(spirals.report.tolerance));
+  out += carrier_table(compared).text();
+  for (const ComparedCarrier& row : compared.carriers) {
+    if (!row.refusal) continue;
+    const Error& e = *row.refusal;
+    out += fmt::format("\n{}: E{}: {}{}", to_string(row.carrier), static_cast<int>(e.code), e.what,
+                       e.where.empty() ? "" : " (" + e.where + ")");
+  }
+  return out + (out.back() == '\n' ? "" : "\n");
+}
+
+void add_row(JsonText& json, const ComparedCarrier& row) {
+  json.begin_object().pair("carrier", to_string(row.carrier)).key("refusal");
+  if (row.refusal) {
+    json.begin_object().pair("code", fmt::format("E{}", static_cast<int>(row.refusal->code)));
+    json.pair("what", row.refusal->what).pair("where", row.refusal->where).end_object();
+    json.end_object();
+    return;
+  }
+  const Certificate& certificate = row.fit.certificate;
+  json.null().pair("pieces", row.fit.contour.pieces.size()).key("control_points");
+  row.control_points == 0 ? json.null() : json.value(row.control_points);
+  json.pair("continuity", row.continuity).pair("vertices", certificate.vertices);
+  json.pair("inflections", certificate.inflections).pair("error_bound", row.error_bound);
+  json.pair("deviation", row.deviation).pair("outside", row.outside);
+  json.pair("seconds", row.seconds).pair("monotone", certificate.proved);
+  json.pair("reason", certificate.reason).end_object();
+}
+
+std::string report_json(const PointSeries& series, const Comparison& compared) {
+  JsonText json;
+  json.begin_object().pair("name", series.name).pair("units", series.units);
+  json.pair("tolerance", compared.carriers.front().fit.report.tolerance);
+  json.key("carriers").begin_array();
+  for (const ComparedCarrier& row : compared.carriers) add_row(json, row);
+  return json.end_array().end_object().take();
+}
+
+/// Figures that are not defined are empty cells.
+std::string cell(double value) { return std::isfinite(value) ? fmt::format("{}", value) : ""; }
+
+std::string report_csv(const Comparison& compared) {
+  std::string out =
+      "carrier,pieces,control_points,continuity,vertices,inflections,error_bound,deviation,"
+      "outside,seconds,verdict\n";
+  for (const ComparedCarrier& row : compared.carriers) {
+    if (row.refusal) {
+      out += fmt::format("{},,,,,,,,,,E{}\n", to_string(row.carrier),
+                         static_cast<int>(row.refusal->code));
+      continue;
+    }
+    const Certificate& certificate = row.fit.certificate;
+    out += fmt::format(
+        "{},{},{},{},{},{},{},{},{},{},{}\n", to_string(row.carrier), row.fit.contour.pieces.size(),
+        row.control_points == 0 ? "" : std::to_string(row.control_points), continuity_text(row),
+        certificate.vertices, certificate.inflections, cell(row.error_bound), cell(row.deviation),
+        cell(row.outside), cell(row.seconds), verdict_text(row));
+  }
+  return out;
+}
+
+std::string picture(const PointSeries& series, const Comparison& compared) {
+  std::vector<NamedContour> contours;
+  for (const ComparedCarrier& row : compared.carriers) {
+    NamedContour one{to_string(row.carrier), {}, row.fit.contour};
+    if (row.refusal) {
+      one.remark = row.refusal->what;
+    } else {
+      one.remark = fmt::format("{}, {}, {} {} from the spirals", continuity_text(row),
+                               counted(row.fit.contour.pieces.size(), "piece", "pieces"),
+                               significant(row.deviation, 2), series.units);
+    }
+    contours.push_back(std::move(one));
+  }
+  const std::string name = series.name.empty() ? "" : series.name + " · ";
+  return carriers_svg(contours, name + "carriers side by side");
+}
+
+Result<std::string> text_of(const Output& output, const PointSeries& series,
+                            const Comparison& compared) {
+  switch (output.format) {
+    case Format::kJson:
+      return report_json(series, compared);
+    case Format::kCsv:
+      return report_csv(compared);
+    case Format::kSvg:
+      return picture(series, compared);
+  }
+  return std::string{};
+}
+
+}  // namespace
+
+int run(const CompareOptions& options) {
+  Result<std::vector<Output>> outputs =
+      outputs_of(options.outputs, options.input, FormatSet::kTables);
+  if (!outputs) return report(outputs.error());
+  ProgressBar bar(options.progress);
+  Result<PointSeries> series = read_points(options.input);
+  if (!series) {
+    bar.clear();
+    return report(series.error());
+  }
+  if (options.units) series->units = *options.units;
+  const Result<Comparison> compared = compare_carriers(*series, options.job, bar.progress());
+  bar.clear();
+  warn(series->warnings);
+  if (!compared) return report(compared.error());
+  for (Output& output : *outputs) {
+    auto text = text_of(output, *series, *compared);
+    if (!text) return report(text.error());
+    output.text = std::move(*text);
+  }
+  const auto written = write_files(*outputs);
+  if (!written) return report(written.error());
+  std::string shown = options.json  ? report_json(*series, *compared)
+                      : options.csv ? report_csv(*compared)
+                                    : report_text(*series, *compared);
+  if (!written->empty() && !options.json && !options.csv) {
+    shown += "\nwritten  " + listed(*written) + "\n";
+  }
+  if (auto done = put(shown); !done) return report(done.error());
+  return 0;
+}
+
+}  // namespace obvid
