@@ -425,7 +425,7 @@ TEST(ContourJson, NumbersBeyondDoublesAreRefused) {
 TEST(ContourJson, WhatThisVersionDoesNotKnowIsCalledUnsupported) {
   const ErrorCode unknown = ErrorCode::kUnsupported;
   expect_refused(with("\"version\": 1", "\"version\": 2"), unknown, "f: /version");
-  expect_refused(with("\"spiral\"", "\"conics\""), unknown, "f: /carrier");
+  expect_refused(with("\"spiral\"", "\"quintics\""), unknown, "f: /carrier");
   expect_refused(with("\"line\"", "\"conic\""), unknown, "f: /pieces/0/type");
 }
 
