@@ -24,8 +24,8 @@ RationalBezier seen_from_start(RationalBezier piece) {
 
 void halve(const RationalBezier& part, int halvings, std::vector<MonotonePart>& out) {
   const PieceFacts facts = examine_in_doubles(part);
-  // what doubles cannot decide is flat: halving it on and on would find nothing
-  if (halvings == 0 || facts.proof.verdict != Verdict::kHasVertex) {
+  // what doubles cannot decide (a vertex at an end, a flat piece) is halved too
+  if (halvings == 0 || facts.first_change * facts.last_change > 0) {
     out.push_back({part, facts.first_change, facts.last_change});
     return;
   }

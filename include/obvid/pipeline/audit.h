@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "obvid/certify/certificate.h"
+#include "obvid/curve/contour.h"
+#include "obvid/exchange/drawing.h"
+
+namespace obvid {
+
+/// Something that a curvature comb shows at one place of a curve.
+struct AuditPlace {
+  enum class Kind {
+    kVertex,         ///< curvature turns back
+    kInflection,     ///< curvature changes its sign
+    kCurvatureJump,  ///< common tangent, different curvatures
+    kCorner,         ///< different tangents
+    kGap,            ///< pieces that do not meet
+  } kind = Kind::kVertex;
+  double s = 0.0;  ///< arc length from the start, units
+  Vec2 point;
+  double kappa_before = 0.0;  ///< 1/unit; the same on both sides unless curvature jumps
+  double kappa_after = 0.0;
+  double size = 0.0;  ///< corner: turn, rad; gap: distance, units; else 0
+};
+
+[[nodiscard]] const char* to_string(AuditPlace::Kind kind);
+
+/// The curvature of a curve that another system made.
+struct CurveAudit {
+  std::string label;
+  Contour contour;          ///< the pieces with joints; promises nothing (carrier `baseline`)
+  Certificate certificate;  ///< proved verdict of each piece, gaps, counts
+  double length = 0.0;      ///< units
+  double least_kappa = 0.0, largest_kappa = 0.0;  ///< signed, 1/unit, sampled
+  int vertices = 0;                               ///< all of them, as the certificate counts
+  int visible_vertices = 0;  ///< those that swing by more than 1 % of the range of the curvature
+  int inflections = 0;
+  int continuity = 2;              ///< of all joints: 2 curvature, 1 heading, 0 position, -1 gaps
+  std::vector<AuditPlace> places;  ///< in order along the curve; tiny swings of rounding left out
+};
+
+/// Audits a connected curve. Gaps, corners and jumps are what the numbers say beyond rounding: gaps
+/// above 1e-9 of the size, turns above 1e-6 rad, jumps above 1e-6 of the larger curvature. Places
+/// are found at 200 samples of each piece and refined: narrower swings are counted, not placed.
+[[nodiscard]] CurveAudit audit(const DrawnCurve& curve, const std::string& units);
+
+}  // namespace obvid

@@ -1,0 +1,233 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "obvid/pipeline/audit.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "obvid/certify/certify.h"
+#include "obvid/region/refine.h"
+#include "report.h"
+
+namespace obvid {
+namespace {
+
+constexpr double kLargestGap = 1e-9;   // of the size
+constexpr double kLargestTurn = 1e-6;  // rad
+constexpr double kLargestJump = 1e-6;  // of the larger curvature
+constexpr int kSamples = 200;          // of each piece
+constexpr double kVisible = 0.01;      // of the range of the curvature
+/// Swings below this part of the largest curvature are what rounding leaves on lines and circles.
+constexpr double kRounding = 1e-9;
+
+struct Sample {
+  std::size_t piece = 0;
+  double t = 0.0;
+  double s = 0.0;
+  double kappa = 0.0;
+};
+
+double size_of(const std::vector<Piece>& pieces) {
+  std::vector<Vec2> points;
+  for (const Piece& piece : pieces) {
+    for (const double t : {0.0, 0.25, 0.5, 0.75, 1.0}) points.push_back(evaluate(piece, t).point);
+  }
+  return pipeline_detail::size_of(points);
+}
+
+class Auditor {
+ public:
+  Auditor(const DrawnCurve& curve, const std::string& units) {
+    out_.label = curve.label;
+    out_.contour.units = units;
+    out_.contour.carrier = Carrier::kBaseline;
+    out_.contour.closed = curve.closed;
+    out_.contour.pieces = curve.pieces;
+    size_ = size_of(curve.pieces);
+  }
+
+  CurveAudit run() {
+    if (out_.contour.pieces.empty()) return std::move(out_);
+    take_samples();
+    lay_joints();
+    lay_runs();
+    out_.certificate = certify(out_.contour);
+    out_.vertices = out_.certificate.vertices;
+    out_.inflections = out_.certificate.inflections;
+    place_vertices();
+    place_inflections();
+    out_.visible_vertices = swings(kVisible * (out_.largest_kappa - out_.least_kappa));
+    std::stable_sort(out_.places.begin(), out_.places.end(),
+                     [](const AuditPlace& a, const AuditPlace& b) { return a.s < b.s; });
+    return std::move(out_);
+  }
+
+ private:
+  void take_samples() {
+    const std::vector<Piece>& pieces = out_.contour.pieces;
+    out_.least_kappa = HUGE_VAL;
+    out_.largest_kappa = -HUGE_VAL;
+    for (std::size_t i = 0; i < pieces.size(); ++i) {
+      starts_.push_back(out_.length);
+      Vec2 before = start_point(pieces[i]);
+      for (int k = 0; k <= kSamples; ++k) {
+        const double t = static_cast<double>(k) / kSamples;
+        const Element e = element_at(pieces[i], t);
+        out_.length += norm(e.point - before);
+        before = e.point;
+        samples_.push_back({i, t, out_.length, e.kappa});
+        out_.least_kappa = std::min(out_.least_kappa, e.kappa);
+        out_.largest_kappa = std::max(out_.largest_kappa, e.kappa);
+      }
+    }
+    rounding_ = kRounding * std::max(std::abs(out_.least_kappa), std::abs(out_.largest_kappa));
+  }
+
+  [[nodiscard]] Element end_of(std::size_t piece, double t) const {
+    return element_at(out_.contour.pieces[piece], t);
+  }
+
+  void lay_joints() {
+    const std::size_t n = out_.contour.pieces.size();
+    const bool closed = out_.contour.closed;
+    double theta = 0.0;
+    for (std::size_t j = 0; j < (closed ? n : n + 1); ++j) {
+      const bool first = j == 0 && !closed, last = j == n;
+      const Element before = first ? end_of(0, 0.0) : end_of((j + n - 1) % n, 1.0);
+      const Element after = last ? before : end_of(j, 0.0);
+      Joint joint{before, std::nullopt, {}};
+      joint.element.theta = theta + std::remainder(before.theta - theta, 2.0 * std::numbers::pi);
+      theta = joint.element.theta;
+      if (!first && !last && compare(j, before, after)) joint.leaving = after;
+      out_.contour.joints.push_back(joint);
+    }
+  }
+
+  /// Notes what is not continuous at a joint; true at a corner.
+  bool compare(std::size_t j, const Element& before, const Element& after) {
+    const double gap = norm(after.point - before.point);
+    const double turn =
+        std::abs(std::remainder(after.theta - before.theta, 2.0 * std::numbers::pi));
+    const double jump = std::abs(after.kappa - before.kappa);
+    const double larger = std::max(std::abs(after.kappa), std::abs(before.kappa));
+    AuditPlace place{AuditPlace::Kind::kGap, starts_[j],  before.point,
+                     before.kappa,           after.kappa, gap};
+    if (gap > kLargestGap * size_) add(place, -1);
+    place.kind = AuditPlace::Kind::kCorner;
+    place.size = turn;
+    const bool corner = turn > kLargestTurn;
+    if (corner) add(place, 0);
+    place.kind = AuditPlace::Kind::kCurvatureJump;
+    place.size = 0.0;
+    if (!corner && jump > std::max(kLargestJump * larger, rounding_)) add(place, 1);
+    return corner;
+  }
+
+  void add(const AuditPlace& place, int continuity) {
+    out_.places.push_back(place);
+    out_.continuity = std::min(out_.continuity, continuity);
+  }
+
+  void lay_runs() {
+    for (std::size_t i = 0; i < out_.contour.pieces.size(); ++i) {
+      const Verdict verdict = prove_piece(out_.contour.pieces[i]).verdict;
+      const int direction = verdict == Verdict::kIncreasing   ? 1
+                            : verdict == Verdict::kDecreasing ? -1
+                                                              : 0;
+      std::vector<Run>& runs = out_.contour.runs;
+      if (!runs.empty() && runs.back().direction == direction) {
+        runs.back().last_piece = i;
+      } else {
+        runs.push_back({i, i, direction});
+      }
+    }
+  }
+
+  void place(AuditPlace::Kind kind, const Sample& at) {
+    out_.places.push_back(
+        {kind, at.s, evaluate(out_.contour.pieces[at.piece], at.t).point, at.kappa, at.kappa, 0.0});
+  }
+
+  /// Extrema of the sampled curvature that stand out of the rounding.
+  void place_vertices() {
+    extrema(rounding_, [&](const Sample& at) { place(AuditPlace::Kind::kVertex, refined(at)); });
+  }
+
+  [[nodiscard]] int swings(double least) {
+    int count = 0;
+    extrema(std::max(least, rounding_), [&](const Sample&) { ++count; });
+    return count;
+  }
+
+  /// Calls `found` for each extremum that the curvature leaves by more than `least` on both sides.
+  template <class Found>
+  void extrema(double least, Found found) {
+    Sample low = samples_.front(), high = low;
+    int direction = 0;
+    for (const Sample& now : samples_) {
+      if (now.kappa < low.kappa) low = now;
+      if (now.kappa > high.kappa) high = now;
+      if (direction >= 0 && now.kappa < high.kappa - least) {
+        if (direction > 0) found(high);
+        direction = -1;
+        low = now;
+      } else if (direction <= 0 && now.kappa > low.kappa + least) {
+        if (direction < 0) found(low);
+        direction = 1;
+        high = now;
+      }
+    }
+  }
+
+  /// The extremum nearest to a sample inside its piece, where the rate of curvature is 0.
+  [[nodiscard]] Sample refined(Sample at) const {
+    const Piece& piece = out_.contour.pieces[at.piece];
+    const auto rate = [&](double t) { return curvature_rate(evaluate(piece, t)); };
+    double low = std::max(0.0, at.t - 1.0 / kSamples), high = std::min(1.0, at.t + 1.0 / kSamples);
+    const bool rises = rate(low) > 0.0;
+    if (rises == (rate(high) > 0.0)) return at;
+    constexpr int kHalvings = 50;
+    for (int k = 0; k < kHalvings; ++k) {
+      const double middle = 0.5 * (low + high);
+      ((rate(middle) > 0.0) == rises ? low : high) = middle;
+    }
+    at.kappa = curvature(evaluate(piece, low));
+    at.s += norm(evaluate(piece, low).point - evaluate(piece, at.t).point) * (low < at.t ? -1 : 1);
+    at.t = low;
+    return at;
+  }
+
+  void place_inflections() {
+    const Sample* last = nullptr;
+    for (const Sample& now : samples_) {
+      if (std::abs(now.kappa) <= rounding_) continue;
+      if (last != nullptr && last->kappa * now.kappa < 0.0) {
+        const double part = last->kappa / (last->kappa - now.kappa);
+        Sample at = now;
+        if (last->piece == now.piece) at.t = last->t + part * (now.t - last->t);
+        at.s = last->s + part * (now.s - last->s);
+        at.kappa = 0.0;
+        place(AuditPlace::Kind::kInflection, at);
+      }
+      last = &now;
+    }
+  }
+
+  CurveAudit out_;
+  double size_ = 0.0, rounding_ = 0.0;
+  std::vector<double> starts_;  // arc length at the start of each piece
+  std::vector<Sample> samples_;
+};
+
+}  // namespace
+
+const char* to_string(AuditPlace::Kind kind) {
+  constexpr const char* names[] = {"vertex", "inflection", "curvature jump", "corner", "gap"};
+  return names[static_cast<int>(kind)];
+}
+
+CurveAudit audit(const DrawnCurve& curve, const std::string& units) {
+  return Auditor(curve, units).run();
+}
+
+}  // namespace obvid

@@ -1,0 +1,116 @@
+// SPDX-License-Identifier: Apache-2.0
+// The audit of curves that another system made: what a comb would show, named and placed.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <vector>
+
+#include "obvid/contour/bsplines.h"
+#include "obvid/pipeline/audit.h"
+
+namespace obvid {
+namespace {
+
+constexpr double kPi = std::numbers::pi;
+
+int count(const CurveAudit& a, AuditPlace::Kind kind) {
+  return static_cast<int>(std::count_if(a.places.begin(), a.places.end(),
+                                        [&](const AuditPlace& p) { return p.kind == kind; }));
+}
+
+ArcPiece arc(Vec2 start, double theta, double kappa, double length) {
+  const double turn = kappa * length;
+  const Vec2 end = start + Vec2{(std::sin(theta + turn) - std::sin(theta)) / kappa,
+                                (std::cos(theta) - std::cos(theta + turn)) / kappa};
+  return {start, end, theta, kappa, length};
+}
+
+TEST(Audit, LineAndArcHaveACurvatureJumpAndNoVertex) {
+  DrawnCurve curve{"LINE, ARC", {LinePiece{{0, 0}, {2, 0}}, arc({2, 0}, 0.0, 0.5, kPi)}, false};
+  const CurveAudit a = audit(curve, "mm");
+  EXPECT_EQ(a.continuity, 1);
+  ASSERT_EQ(a.places.size(), 1U);
+  EXPECT_EQ(a.places[0].kind, AuditPlace::Kind::kCurvatureJump);
+  EXPECT_NEAR(a.places[0].s, 2.0, 1e-12);
+  EXPECT_EQ(a.places[0].kappa_before, 0.0);
+  EXPECT_NEAR(a.places[0].kappa_after, 0.5, 1e-12);
+  EXPECT_NEAR(a.length, 2.0 + kPi, 1e-4);
+}
+
+TEST(Audit, CornersAndGapsAreNamedWithTheirSizes) {
+  DrawnCurve curve{
+      "polyline",
+      {LinePiece{{0, 0}, {1, 0}}, LinePiece{{1, 0}, {1, 1}}, LinePiece{{1.001, 1}, {1.001, 2}}},
+      false};
+  const CurveAudit a = audit(curve, "mm");
+  EXPECT_EQ(a.continuity, -1);
+  ASSERT_EQ(a.places.size(), 2U);
+  EXPECT_EQ(a.places[0].kind, AuditPlace::Kind::kCorner);
+  EXPECT_NEAR(a.places[0].size, 0.5 * kPi, 1e-12);
+  EXPECT_EQ(a.places[1].kind, AuditPlace::Kind::kGap);
+  EXPECT_NEAR(a.places[1].size, 0.001, 1e-12);
+}
+
+TEST(Audit, AnEllipseHasItsFourVerticesAtItsAxes) {
+  // four rational quadratics
+  DrawnCurve curve{"ELLIPSE", {}, true};
+  const Vec2 axis[] = {{3, 0}, {0, 2}, {-3, 0}, {0, -2}};
+  for (int k = 0; k < 4; ++k) {
+    const Vec2 a = axis[k], b = axis[(k + 1) % 4];
+    RationalBezier piece;
+    piece.degree = 2;
+    piece.offset = {a, a + b, b};
+    piece.weight = {1.0, std::sqrt(0.5), 1.0};
+    curve.pieces.emplace_back(piece);
+  }
+  const CurveAudit a = audit(curve, "mm");
+  EXPECT_EQ(a.vertices, 4);
+  EXPECT_EQ(a.continuity, 2);
+  EXPECT_NEAR(a.largest_kappa, 3.0 / 4.0, 1e-9);
+  EXPECT_NEAR(a.least_kappa, 2.0 / 9.0, 1e-9);
+  EXPECT_EQ(count(a, AuditPlace::Kind::kInflection), 0);
+}
+
+TEST(Audit, TheSplineOfCadSystemsShowsItsVerticesAndItsInflection) {
+  const std::vector<Vec2> points = {
+      {0, 0},          {0.21, -5.28},  {-5.11, -10.13}, {-20.48, -7.65}, {-28.68, 16.23},
+      {-13.87, 40.95}, {17.95, 55.28}, {54.24, 53.04},  {100.94, 36.19}, {230.38, -50.82}};
+  const auto spline = cubic_spline(points);
+  ASSERT_TRUE(spline);
+  DrawnCurve curve{"SPLINE", {}, false};
+  for (const RationalBezier& piece : bezier_pieces(*spline)) curve.pieces.emplace_back(piece);
+  const CurveAudit a = audit(curve, "mm");
+  EXPECT_EQ(a.vertices, 9);
+  EXPECT_EQ(count(a, AuditPlace::Kind::kVertex), 9);
+  EXPECT_EQ(a.inflections, 1);
+  EXPECT_EQ(count(a, AuditPlace::Kind::kInflection), 1);
+  EXPECT_LT(a.visible_vertices, 9);
+  EXPECT_GT(a.visible_vertices, 0);
+  for (const AuditPlace& p : a.places) {
+    if (p.kind != AuditPlace::Kind::kVertex) continue;
+    EXPECT_GE(p.s, 0.0);
+    EXPECT_LE(p.s, a.length);
+  }
+}
+
+TEST(Audit, ACircleHasNoVerticesWhateverItsRounding) {
+  DrawnCurve curve{"CIRCLE", {}, true};
+  for (int k = 0; k < 4; ++k) {
+    curve.pieces.emplace_back(arc(1e5 * Vec2{1, 1} + unit_at(0.5 * kPi * k) * 1e-3,
+                                  0.5 * kPi * (k + 1), 1e3, 0.5 * kPi * 1e-3));
+  }
+  const CurveAudit a = audit(curve, "mm");
+  EXPECT_EQ(count(a, AuditPlace::Kind::kVertex), 0);
+  EXPECT_EQ(a.visible_vertices, 0);
+}
+
+TEST(Audit, NothingIsNothing) {
+  const CurveAudit a = audit({"empty", {}, false}, "mm");
+  EXPECT_TRUE(a.places.empty());
+  EXPECT_EQ(a.length, 0.0);
+}
+
+}  // namespace
+}  // namespace obvid
