@@ -6,8 +6,19 @@
 
 namespace obvid {
 
-/// The whole contour as one NURBS curve whose homogeneous form is C1: inner knots of multiplicity
-/// degree - 1, weights within [0.1, 10], so that CAD kernels keep one edge (docs/methods/curve.md).
+/// The whole contour as one NURBS curve whose homogeneous form is C1 at every joint but corners:
+/// inner knots of multiplicity degree - 1 (degree at corners), so that CAD kernels keep it as one
+/// edge. The curve is that of the pieces, apart from rounding; its parameter runs at one speed on
+/// both sides of a joint. Continuous curvature of the contour stays continuous curvature.
+///
+/// Pieces with weights are multiplied by a quadratic factor that makes the weight stand still at
+/// both ends (docs/methods/curve.md): quartic spirals become degree 6, conics and arcs degree 4;
+/// all are raised to the largest degree. Weights lie within [0.1, 10]: pieces are cut where they do
+/// not. A closed contour gives a clamped curve that ends in its first point.
+///
+/// Errors: E304 no pieces; E310 clothoids, which are no NURBS curves, and rational pieces of degree
+/// 6 and more (`index`: the piece); E501 where cutting does not bring the weights into their range
+/// (weights of both signs). Cost O(pieces).
 [[nodiscard]] Result<NurbsCurve> joined_nurbs(const Contour& contour);
 
 }  // namespace obvid

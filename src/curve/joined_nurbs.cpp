@@ -1,0 +1,305 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "obvid/curve/joined_nurbs.h"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <string>
+
+namespace obvid {
+namespace {
+
+constexpr double kLargestWeight = 10.0;  // and the least is its inverse
+constexpr int kMostCuts = 12;            // halvings of a piece, one after the other
+constexpr int kRaised = 2;               // degrees that the factor adds
+constexpr double kMostTurn = 1.3;        // of one conic that stands for an arc, rad: weights near 1
+
+/// Homogeneous Bezier curve whose weight is 1 and stands still at both ends.
+struct Segment {
+  std::vector<Vec2> points;
+  std::vector<double> weights;
+  bool corner_before = false;
+};
+
+tl::unexpected<Error> refuse(ErrorCode code, const char* what, std::size_t piece,
+                             const char* hint) {
+  return fail({code, what, "piece " + std::to_string(piece + 1), hint,
+               static_cast<std::ptrdiff_t>(piece), 0.0});
+}
+
+/// Ratios of weight and of its rate at both ends, after the parameter t -> t / (t + (1-t) /
+/// lambda).
+struct Factor {
+  double middle = 1.0;  ///< Bernstein coefficients of the factor: 1, middle, end
+  double end = 1.0;
+};
+
+std::optional<Factor> factor_for(const RationalBezier& b, double lambda) {
+  const auto n = static_cast<std::size_t>(b.degree);
+  const double degree = b.degree;
+  const double start_rate = degree * (lambda * b.weight[1] / b.weight[0] - 1.0);
+  const double end_rate = degree * (1.0 - b.weight[n - 1] / (lambda * b.weight[n]));
+  const double middle = 1.0 - 0.5 * start_rate, below = 1.0 + 0.5 * end_rate;
+  if (!(middle > 0.0 && below > 0.0)) return std::nullopt;
+  return Factor{middle, middle / below};
+}
+
+/// The end weight over the start weight, as a logarithm, at x = log lambda.
+std::optional<double> imbalance(const RationalBezier& b, double x) {
+  const auto factor = factor_for(b, std::exp(x));
+  if (!factor) return std::nullopt;
+  const auto n = static_cast<std::size_t>(b.degree);
+  return std::log(b.weight[n] / b.weight[0]) + b.degree * x + std::log(factor->end);
+}
+
+/// Every log lambda that makes the end weights equal. Between the ends of the interval in which the
+/// factor is positive the imbalance falls from +infinity to -infinity, nearly flat in its middle:
+/// there is one at least, unless the interval is empty.
+std::vector<double> balances(const RationalBezier& b) {
+  constexpr int kCells = 32;
+  constexpr int kHalvings = 60;
+  const auto n = static_cast<std::size_t>(b.degree);
+  const double reach = std::log1p(2.0 / b.degree);
+  const double low = std::log(b.weight[n - 1] / b.weight[n]) - reach;
+  const double high = std::log(b.weight[0] / b.weight[1]) + reach;
+  std::vector<double> out;
+  if (!(low < high)) return out;
+  // at the ends themselves: + and -
+  const auto positive = [&](double x) {
+    const auto f = imbalance(b, x);
+    return f ? *f > 0.0 : x < 0.5 * (low + high);
+  };
+  for (int k = 0; k < kCells; ++k) {
+    double from = low + (high - low) * k / kCells, to = low + (high - low) * (k + 1) / kCells;
+    if (positive(from) == positive(to)) continue;
+    const bool sign = positive(from);
+    for (int step = 0; step < kHalvings; ++step) {
+      const double middle = 0.5 * (from + to);
+      (positive(middle) == sign ? from : to) = middle;
+    }
+    out.push_back(0.5 * (from + to));
+  }
+  return out;
+}
+
+bool is_polynomial(const RationalBezier& b) {
+  for (int j = 1; j <= b.degree; ++j) {
+    if (b.weight[static_cast<std::size_t>(j)] != b.weight[0]) return false;
+  }
+  return true;
+}
+
+/// Control points as coordinates relative to the start of the piece.
+std::vector<Vec2> points_of(const RationalBezier& b) {
+  std::vector<Vec2> out;
+  for (int j = 0; j <= b.degree; ++j) {
+    out.push_back(b.offset[static_cast<std::size_t>(j)] - b.offset[0]);
+  }
+  return out;
+}
+
+/// Product of a rational Bezier and the factor. Homogeneous points w P, in Bernstein form.
+Segment multiplied(const RationalBezier& b, double lambda, const Factor& factor) {
+  const std::vector<Vec2> local = points_of(b);
+  const std::size_t n = local.size() - 1, m = n + kRaised;
+  const double q[] = {1.0, 2.0 * factor.middle, factor.end};  // times binomials
+  Segment out;
+  out.points.assign(m + 1, {});
+  out.weights.assign(m + 1, 0.0);
+  double power = 1.0 / b.weight[0], binomial = 1.0;
+  for (std::size_t j = 0; j <= n; ++j) {
+    const double w = binomial * b.weight[j] * power;
+    for (std::size_t k = 0; k <= kRaised; ++k) {
+      out.weights[j + k] += w * q[k];
+      out.points[j + k] = out.points[j + k] + (w * q[k]) * local[j];
+    }
+    power *= lambda;
+    binomial = binomial * static_cast<double>(n - j) / static_cast<double>(j + 1);
+  }
+  binomial = 1.0;
+  for (std::size_t j = 0; j <= m; ++j) {
+    out.points[j] = out.points[j] / out.weights[j];
+    out.weights[j] /= binomial;
+    binomial = binomial * static_cast<double>(m - j) / static_cast<double>(j + 1);
+  }
+  // what the equations say, to the last bit
+  for (const std::size_t j : {std::size_t{0}, std::size_t{1}, m - 1, m}) out.weights[j] = 1.0;
+  return out;
+}
+
+/// Largest ratio of a weight to 1 or of 1 to a weight; infinite when one is not positive.
+double spread(const Segment& s) {
+  double most = 1.0;
+  for (const double w : s.weights) most = std::max({most, w, w > 0.0 ? 1.0 / w : HUGE_VAL});
+  return most;
+}
+
+/// Of all products with equal end weights the one with weights nearest to 1. Nothing when they are
+/// not within their range.
+std::optional<Segment> best_segment(const RationalBezier& bezier) {
+  std::optional<Segment> best;
+  double least = kLargestWeight;
+  for (const double x : balances(bezier)) {
+    const auto factor = factor_for(bezier, std::exp(x));
+    if (!factor) continue;
+    Segment segment = multiplied(bezier, std::exp(x), *factor);
+    if (!(spread(segment) <= least)) continue;
+    least = spread(segment);
+    best = std::move(segment);
+  }
+  return best;
+}
+
+Segment raised(const Segment& s) {
+  const std::size_t n = s.points.size() - 1;
+  Segment out;
+  out.corner_before = s.corner_before;
+  for (std::size_t j = 0; j <= n + 1; ++j) {
+    const double a = static_cast<double>(j) / static_cast<double>(n + 1);
+    const double before = j > 0 ? a * s.weights[j - 1] : 0.0;
+    const double here = j <= n ? (1.0 - a) * s.weights[j] : 0.0;
+    const Vec2 sum =
+        (j > 0 ? before * s.points[j - 1] : Vec2{}) + (j <= n ? here * s.points[j] : Vec2{});
+    out.weights.push_back(before + here);
+    out.points.push_back(sum / (before + here));
+  }
+  return out;
+}
+
+/// All segments of a contour, in plain coordinates.
+class Joiner {
+ public:
+  explicit Joiner(const Contour& contour) : contour_(contour) {}
+
+  Result<NurbsCurve> run() {
+    for (std::size_t i = 0; i < contour_.pieces.size(); ++i) {
+      const std::size_t first = segments_.size();
+      if (auto added = add(i, contour_.pieces[i]); !added) return fail(added.error());
+      const bool corner = i > 0 && i < contour_.joints.size() && contour_.joints[i].leaving;
+      segments_[first].corner_before = corner;
+    }
+    raise_all();
+    return assemble();
+  }
+
+ private:
+  Result<void> add(std::size_t i, const Piece& piece) {
+    if (const auto* bezier = std::get_if<RationalBezier>(&piece)) return add(i, *bezier, 0);
+    if (const auto* line = std::get_if<LinePiece>(&piece)) {
+      segments_.push_back({{line->start, line->end}, {1.0, 1.0}});
+      return {};
+    }
+    if (const auto* arc = std::get_if<ArcPiece>(&piece)) return add(i, *arc);
+    return refuse(ErrorCode::kUnsupported, "a clothoid is no NURBS curve", i,
+                  "form the contour with --carrier spiral or bspline");
+  }
+
+  /// Conics of equal turn; the last one ends where the arc's stored end is.
+  Result<void> add(std::size_t i, const ArcPiece& arc) {
+    const double turn = arc.kappa * arc.length;
+    const int count = std::max(1, static_cast<int>(std::ceil(std::abs(turn) / kMostTurn)));
+    const double part = turn / count;
+    Vec2 start = arc.start;
+    for (int k = 0; k < count; ++k) {
+      const double theta = arc.theta0 + k * part;
+      const double chord = 2.0 * std::sin(0.5 * part) / arc.kappa;
+      const Vec2 along = unit_at(theta + 0.5 * part);
+      const Vec2 end = k + 1 == count ? arc.end : start + chord * along;
+      RationalBezier conic;
+      conic.degree = 2;
+      conic.origin = start;
+      conic.offset[1] = (0.5 * chord / std::cos(0.5 * part)) * unit_at(theta);
+      conic.offset[2] = end - start;
+      conic.weight = {1.0, std::cos(0.5 * part), 1.0};
+      if (auto added = add(i, conic, 0); !added) return added;
+      segments_.back().points.back() = end;
+      start = end;
+    }
+    return {};
+  }
+
+  Result<void> add(std::size_t i, const RationalBezier& bezier, int cuts) {
+    if (is_polynomial(bezier)) {
+      keep(bezier, {points_of(bezier), std::vector<double>(std::size_t(bezier.degree) + 1, 1.0)});
+      return {};
+    }
+    if (bezier.degree + kRaised > kMaxBezierDegree) {
+      return refuse(ErrorCode::kUnsupported, "a rational piece has degree 6 or more", i,
+                    "approximate it by a spline first");
+    }
+    if (const auto segment = best_segment(bezier)) {
+      keep(bezier, *segment);
+      return {};
+    }
+    if (cuts == kMostCuts) {
+      return refuse(ErrorCode::kNotProved, "the weights of a piece do not come into [0.1, 10]", i,
+                    "look at the weights of this piece: all must be positive");
+    }
+    for (const RationalBezier& half : split(bezier, 0.5)) {
+      if (auto added = add(i, half, cuts + 1); !added) return added;
+    }
+    return {};
+  }
+
+  /// From coordinates relative to the start of the piece to plain ones. The end is the piece's own.
+  void keep(const RationalBezier& bezier, Segment segment) {
+    const Vec2 start = bezier.origin + bezier.offset[0];
+    for (Vec2& p : segment.points) p = start + p;
+    segment.points.back() = bezier.origin + bezier.offset[static_cast<std::size_t>(bezier.degree)];
+    segments_.push_back(std::move(segment));
+  }
+
+  void raise_all() {
+    constexpr std::size_t kLeastDegree = 2;  // one degree more than multiplicity 1
+    std::size_t points = kLeastDegree + 1;
+    for (const Segment& s : segments_) points = std::max(points, s.points.size());
+    for (Segment& s : segments_) {
+      while (s.points.size() < points) s = raised(s);
+    }
+  }
+
+  /// Knot spans in the ratio of the speeds at each joint; the joint's own control point follows
+  /// from its neighbours and is left out, but at corners.
+  [[nodiscard]] NurbsCurve assemble() const {
+    NurbsCurve curve;
+    const std::size_t degree = segments_.front().points.size() - 1;
+    curve.degree = static_cast<int>(degree);
+    curve.knots.assign(degree + 1, 0.0);
+    double knot = 0.0, speed = 1.0;
+    for (std::size_t i = 0; i < segments_.size(); ++i) {
+      const Segment& s = segments_[i];
+      const double at_start = norm(s.points[1] - s.points[0]);
+      const double at_end = norm(s.points[degree] - s.points[degree - 1]);
+      if (i == 0 || s.corner_before) speed = 1.0 / static_cast<double>(degree);
+      const double span = at_start / speed;
+      speed = at_end / span;
+      knot += span;
+      const bool last = i + 1 == segments_.size();
+      const bool corner_after = !last && segments_[i + 1].corner_before;
+      const std::size_t from = i == 0 ? 0 : 1;
+      const std::size_t to = last || corner_after ? degree + 1 : degree;
+      for (std::size_t j = from; j < to; ++j) {
+        curve.points.push_back(s.points[j]);
+        curve.weights.push_back(s.weights[j]);
+      }
+      const std::size_t multiplicity = last ? degree + 1 : corner_after ? degree : degree - 1;
+      curve.knots.insert(curve.knots.end(), multiplicity, knot);
+    }
+    if (contour_.closed) curve.points.back() = curve.points.front();
+    return curve;
+  }
+
+  const Contour& contour_;
+  std::vector<Segment> segments_;
+};
+
+}  // namespace
+
+Result<NurbsCurve> joined_nurbs(const Contour& contour) {
+  if (contour.pieces.empty()) {
+    return fail({ErrorCode::kTooFewPoints, "the contour has no pieces", "", "", -1, 0.0});
+  }
+  return Joiner(contour).run();
+}
+
+}  // namespace obvid
