@@ -132,8 +132,10 @@ void expect_joined(const Contour& contour, const NurbsCurve& curve, const std::s
     shortest = std::min(shortest, norm(end_point(piece) - start_point(piece)));
   }
   for (const Joint& j : contour.joints) largest = std::max(largest, std::abs(j.element.kappa));
-  constexpr double kLegs = 400.0;  // a leg is some twentieth of its piece
-  const double rounding = kLegs * 0x1p-53 * size_of(contour) / (shortest * shortest);
+  double extent = 0.0;
+  for (const Vec2 p : contour.points) extent = std::max(extent, norm(p));
+  constexpr double kLegs = 1e4;  // a leg may be a hundredth of its piece
+  const double rounding = kLegs * 0x1p-53 * extent / (shortest * shortest);
   EXPECT_LT(d.curvature * largest, 1e-9 * largest + rounding) << what;
 }
 
