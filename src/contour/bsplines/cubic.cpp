@@ -4,43 +4,15 @@
 #include <optional>
 
 #include "obvid/contour/bsplines.h"
+#include "obvid/numeric/tridiagonal.h"
 #include "spline_knots.h"
 
 namespace obvid {
 namespace {
 
-/// Slopes m_i from before m_{i-1} + here m_i + behind m_{i+1} = right, by elimination without
-/// pivoting: the rows of a spline are dominated by their diagonal, except the not-a-knot ends,
-/// which are entered so that theirs is what remains.
-class SlopeSystem {
- public:
-  explicit SlopeSystem(std::size_t n) : upper_(n), inverse_(n), right_(n) {}
-
-  void set_first(double here, double behind, Vec2 right) { put(0, here, behind, right); }
-
-  /// Row i > 0, in ascending order.
-  void add(std::size_t i, double before, double here, double behind, Vec2 right) {
-    put(i, here - before * upper_[i - 1], behind, right - before * right_[i - 1]);
-  }
-
-  /// Leaves the solution in place of the right side.
-  std::vector<Vec2> solve() {
-    for (std::size_t i = right_.size() - 1; i-- > 0;) {
-      right_[i] = right_[i] - upper_[i] * right_[i + 1];
-    }
-    return std::move(right_);
-  }
-
- private:
-  void put(std::size_t i, double here, double behind, Vec2 right) {
-    inverse_[i] = 1.0 / here;
-    upper_[i] = behind * inverse_[i];
-    right_[i] = inverse_[i] * right;
-  }
-
-  std::vector<double> upper_, inverse_;
-  std::vector<Vec2> right_;
-};
+/// Slopes m_i. Rows of a spline are dominated by their diagonal, except the not-a-knot ends, which
+/// are entered so that theirs is what remains.
+using SlopeSystem = TridiagonalSystem<double, Vec2>;
 
 /// Length and mean slope of a span.
 struct Step {

@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "obvid/cad/plugin.h"
+
+#include <Message.hxx>
+#include <Message_Messenger.hxx>
+#include <Message_Printer.hxx>
+#include <Standard_Failure.hxx>
+#include <exception>
+#include <new>
+
+#include "read.h"
+#include "write.h"
+
+namespace obvid {
+namespace {
+
+/// The kernel's chatter belongs neither into the report nor into the errors.
+void be_quiet() { Message::DefaultMessenger()->ChangePrinters().Clear(); }
+
+Error fault(const std::string& text, const std::string& where) {
+  return {ErrorCode::kInternal,
+          "the CAD kernel gave up: " + text,
+          where,
+          "the file may be damaged; export it again",
+          -1,
+          0.0};
+}
+
+/// Nothing that the kernel throws leaves the plugin.
+template <class Value, class Work>
+Result<Value> guarded(const std::string& where, Work work) {
+  try {
+    be_quiet();
+    return work();
+  } catch (const Standard_Failure& failure) {
+    const char* text = failure.GetMessageString();
+    return fail(fault(text != nullptr && *text != '\0' ? text : "unknown reason", where));
+  } catch (const std::bad_alloc&) {
+    throw;
+  } catch (const std::exception& error) {
+    return fail(fault(error.what(), where));
+  }
+}
+
+Result<std::string> write(const std::vector<CadCurve>& curves, const CadWriteOptions& options) {
+  return guarded<std::string>("", [&] { return cad::write_text(curves, options); });
+}
+
+Result<Drawing> read(const std::string& path) {
+  return guarded<Drawing>(path, [&] { return cad::read_file(path); });
+}
+
+}  // namespace
+}  // namespace obvid
+
+extern "C" __attribute__((visibility("default"))) const obvid::CadPlugin* obvid_cad_plugin() {
+  static const std::string built = obvid::build_mark();
+  static const obvid::CadPlugin plugin = {built.c_str(), &obvid::write, &obvid::read};
+  return &plugin;
+}

@@ -1,0 +1,149 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "read.h"
+
+#include <fmt/format.h>
+
+#include <BRepTools.hxx>
+#include <BRepTools_WireExplorer.hxx>
+#include <BRep_Builder.hxx>
+#include <BRep_Tool.hxx>
+#include <IGESControl_Reader.hxx>
+#include <STEPControl_Reader.hxx>
+#include <TopExp_Explorer.hxx>
+#include <TopTools_MapOfShape.hxx>
+#include <TopoDS.hxx>
+#include <TopoDS_Wire.hxx>
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+
+#include "flatten.h"
+
+namespace obvid::cad {
+namespace {
+
+/// Curves that are looked at; a solid with more is no contour.
+constexpr std::size_t kMostCurves = 10000;
+
+Error unreadable(const std::string& path, const char* format) {
+  return {ErrorCode::kNotText,
+          std::string("the CAD kernel cannot read this ") + format + " file",
+          path,
+          "the file may be cut off or damaged; export it again",
+          -1,
+          0.0};
+}
+
+Result<TopoDS_Shape> read_step(const std::string& path) {
+  STEPControl_Reader reader;
+  if (reader.ReadFile(path.c_str()) != IFSelect_RetDone || reader.TransferRoots() == 0) {
+    return fail(unreadable(path, "STEP"));
+  }
+  return reader.OneShape();
+}
+
+Result<TopoDS_Shape> read_iges(const std::string& path) {
+  IGESControl_Reader reader;
+  if (reader.ReadFile(path.c_str()) != IFSelect_RetDone || reader.TransferRoots() == 0) {
+    return fail(unreadable(path, "IGES"));
+  }
+  return reader.OneShape();
+}
+
+Result<TopoDS_Shape> read_brep(const std::string& path) {
+  TopoDS_Shape shape;
+  BRep_Builder builder;
+  if (!BRepTools::Read(shape, path.c_str(), builder) || shape.IsNull()) {
+    return fail(unreadable(path, "BREP"));
+  }
+  return shape;
+}
+
+Result<TopoDS_Shape> read_shape(const std::string& path) {
+  std::ifstream file(path, std::ios::binary);
+  if (!file) {
+    return fail({ErrorCode::kCannotOpen, "cannot read the file", path, "check path and permissions",
+                 -1, 0.0});
+  }
+  constexpr std::size_t kHead = 4096;
+  std::string head(kHead, '\0');
+  file.read(head.data(), static_cast<std::streamsize>(kHead));
+  head.resize(static_cast<std::size_t>(file.gcount()));
+  if (head.find("ISO-10303-21") != std::string::npos) return read_step(path);
+  if (head.find("DBRep_DrawableShape") != std::string::npos ||
+      head.find("CASCADE Topology") != std::string::npos) {
+    return read_brep(path);
+  }
+  return read_iges(path);
+}
+
+class Collector {
+ public:
+  explicit Collector(Drawing& drawing) : drawing_(drawing) {}
+
+  void collect(const TopoDS_Shape& shape) {
+    for (TopExp_Explorer e(shape, TopAbs_WIRE, TopAbs_FACE); e.More(); e.Next()) wire(e, "wire");
+    for (TopExp_Explorer e(shape, TopAbs_EDGE, TopAbs_WIRE); e.More(); e.Next()) edge(e);
+    for (TopExp_Explorer e(shape, TopAbs_FACE); e.More(); e.Next()) {
+      for (TopExp_Explorer w(e.Current(), TopAbs_WIRE); w.More(); w.Next()) {
+        wire(w, "boundary of a face, wire");
+      }
+    }
+    if (left_out_ > 0) {
+      drawing_.warnings.push_back(
+          fmt::format("{} curves beyond the first {} were not looked at", left_out_, kMostCurves));
+    }
+  }
+
+ private:
+  bool full() {
+    if (count_ < kMostCurves) return false;
+    ++left_out_;
+    return true;
+  }
+
+  void wire(const TopExp_Explorer& at, const char* kind) {
+    const TopoDS_Wire one = TopoDS::Wire(at.Current());
+    EdgeChain chain;
+    bool new_one = false;
+    for (BRepTools_WireExplorer e(one); e.More(); e.Next()) {
+      if (BRep_Tool::Degenerated(e.Current())) continue;
+      chain.edges.push_back(e.Current());
+      new_one = seen_.Add(e.Current()) || new_one;
+    }
+    if (!new_one || full()) return;  // neighbouring faces share their boundaries
+    chain.label = fmt::format("{} {}", kind, ++count_);
+    chain.closed = BRep_Tool::IsClosed(one);
+    add_flat(chain, drawing_);
+  }
+
+  void edge(const TopExp_Explorer& at) {
+    const TopoDS_Edge one = TopoDS::Edge(at.Current());
+    if (BRep_Tool::Degenerated(one) || !seen_.Add(one) || full()) return;
+    add_flat({fmt::format("edge {}", ++count_), {one}, static_cast<bool>(BRep_Tool::IsClosed(one))},
+             drawing_);
+  }
+
+  Drawing& drawing_;
+  TopTools_MapOfShape seen_;
+  std::size_t count_ = 0, left_out_ = 0;
+};
+
+}  // namespace
+
+Result<Drawing> read_file(const std::string& path) {
+  const auto shape = read_shape(path);
+  if (!shape) return fail(shape.error());
+  Drawing drawing;
+  drawing.name = std::filesystem::path(path).filename().string();
+  drawing.units = "mm";
+  if (!shape->IsNull()) Collector(drawing).collect(*shape);
+  if (drawing.curves.empty()) {
+    std::string what = "the file holds no plane curves";
+    if (!drawing.warnings.empty()) what += ": " + drawing.warnings.front();
+    return fail({ErrorCode::kTooFewPoints, what, path, "export a sketch or section", -1, 0.0});
+  }
+  return drawing;
+}
+
+}  // namespace obvid::cad

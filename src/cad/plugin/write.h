@@ -1,0 +1,11 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "obvid/cad/cad.h"
+
+namespace obvid::cad {
+
+[[nodiscard]] Result<std::string> write_text(const std::vector<CadCurve>& curves,
+                                             const CadWriteOptions& options);
+
+}  // namespace obvid::cad
