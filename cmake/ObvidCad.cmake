@@ -20,5 +20,5 @@ set_target_properties(obvid_cad_plugin PROPERTIES
 target_include_directories(obvid_cad_plugin PRIVATE "${PROJECT_SOURCE_DIR}/src/cad/plugin")
 target_include_directories(obvid_cad_plugin SYSTEM PRIVATE ${OpenCASCADE_INCLUDE_DIR})
 target_link_libraries(obvid_cad_plugin PRIVATE obvid_flags fmt::fmt obvid::curve obvid::exchange
-                      TKSTEP TKIGES TKPrim TKBRep TKGeomBase TKTopAlgo TKXSBase TKG3d TKMath TKernel)
+                      TKSTEP TKIGES TKShHealing TKPrim TKBRep TKGeomBase TKTopAlgo TKXSBase TKG3d TKMath TKernel)
 install(TARGETS obvid_cad_plugin LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR}/obvid)

@@ -197,6 +197,12 @@ void add(const EdgeChain& chain, Drawing& drawing) {
   const double size = size_of(points);
   double away = 0.0;
   const auto plane = plane_of(points, size, away);
+  if (!plane && chain.edges.size() > 1) {  // one by one they may be
+    for (std::size_t i = 0; i < chain.edges.size(); ++i) {
+      add_flat({fmt::format("{}, edge {}", chain.label, i + 1), {chain.edges[i]}, false}, drawing);
+    }
+    return;
+  }
   if (!plane) {
     drawing.warnings.push_back(
         fmt::format("{} was left out: it is not plane, by {:.3g} mm", chain.label, away));

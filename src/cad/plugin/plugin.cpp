@@ -8,6 +8,8 @@
 #include <exception>
 #include <new>
 
+#include "isolated.h"
+#include "message.h"
 #include "read.h"
 #include "write.h"
 
@@ -47,7 +49,9 @@ Result<std::string> write(const std::vector<CadCurve>& curves, const CadWriteOpt
 }
 
 Result<Drawing> read(const std::string& path) {
-  return guarded<Drawing>(path, [&] { return cad::read_file(path); });
+  const std::string bytes = cad::isolated(
+      [&] { return cad::packed(guarded<Drawing>(path, [&] { return cad::read_file(path); })); });
+  return cad::unpacked(bytes, path);
 }
 
 }  // namespace

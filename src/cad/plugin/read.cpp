@@ -9,7 +9,9 @@
 #include <BRep_Tool.hxx>
 #include <IGESControl_Reader.hxx>
 #include <STEPControl_Reader.hxx>
+#include <ShapeAnalysis_FreeBounds.hxx>
 #include <TopExp_Explorer.hxx>
+#include <TopTools_HSequenceOfShape.hxx>
 #include <TopTools_MapOfShape.hxx>
 #include <TopoDS.hxx>
 #include <TopoDS_Wire.hxx>
@@ -83,7 +85,7 @@ class Collector {
 
   void collect(const TopoDS_Shape& shape) {
     for (TopExp_Explorer e(shape, TopAbs_WIRE, TopAbs_FACE); e.More(); e.Next()) wire(e, "wire");
-    for (TopExp_Explorer e(shape, TopAbs_EDGE, TopAbs_WIRE); e.More(); e.Next()) edge(e);
+    free_edges(shape);
     for (TopExp_Explorer e(shape, TopAbs_FACE); e.More(); e.Next()) {
       for (TopExp_Explorer w(e.Current(), TopAbs_WIRE); w.More(); w.Next()) {
         wire(w, "boundary of a face, wire");
@@ -102,8 +104,9 @@ class Collector {
     return true;
   }
 
-  void wire(const TopExp_Explorer& at, const char* kind) {
-    const TopoDS_Wire one = TopoDS::Wire(at.Current());
+  void wire(const TopExp_Explorer& at, const char* kind) { wire(TopoDS::Wire(at.Current()), kind); }
+
+  void wire(const TopoDS_Wire& one, const char* kind) {
     EdgeChain chain;
     bool new_one = false;
     for (BRepTools_WireExplorer e(one); e.More(); e.Next()) {
@@ -117,11 +120,17 @@ class Collector {
     add_flat(chain, drawing_);
   }
 
-  void edge(const TopExp_Explorer& at) {
-    const TopoDS_Edge one = TopoDS::Edge(at.Current());
-    if (BRep_Tool::Degenerated(one) || !seen_.Add(one) || full()) return;
-    add_flat({fmt::format("edge {}", ++count_), {one}, static_cast<bool>(BRep_Tool::IsClosed(one))},
-             drawing_);
+  /// Edges that stand alone in the file, joined where their ends meet: STEP and IGES keep no wires.
+  void free_edges(const TopoDS_Shape& shape) {
+    constexpr double kMeet = 1e-6;  // mm
+    const Handle(TopTools_HSequenceOfShape) edges = new TopTools_HSequenceOfShape;
+    for (TopExp_Explorer e(shape, TopAbs_EDGE, TopAbs_WIRE); e.More(); e.Next()) {
+      if (!BRep_Tool::Degenerated(TopoDS::Edge(e.Current()))) edges->Append(e.Current());
+    }
+    if (edges->IsEmpty()) return;
+    Handle(TopTools_HSequenceOfShape) sequence = edges, wires = new TopTools_HSequenceOfShape;
+    ShapeAnalysis_FreeBounds::ConnectEdgesToWires(sequence, kMeet, false, wires);
+    for (int i = 1; i <= wires->Length(); ++i) wire(TopoDS::Wire(wires->Value(i)), "curve");
   }
 
   Drawing& drawing_;

@@ -69,6 +69,18 @@ Result<std::string> content_of(const std::string& path, const char* what) {
   return text.str();
 }
 
+/// The kernel numbers the products of one process; the same contour shall give the same file.
+std::string without_numbers(std::string text, const std::string& name) {
+  const std::string begin = "'" + name + " ";
+  for (std::size_t at = text.find(begin); at != std::string::npos; at = text.find(begin, at + 1)) {
+    const std::size_t digits = at + begin.size();
+    const std::size_t end = text.find_first_not_of("0123456789", digits);
+    if (end == std::string::npos || end == digits || text[end] != '\'') continue;
+    text.erase(digits - 1, end - digits + 1);
+  }
+  return text;
+}
+
 Handle(TCollection_HAsciiString) word(const char* text) {
   return new TCollection_HAsciiString(text);
 }
@@ -93,7 +105,9 @@ Result<std::string> step_text(const TopoDS_Shape& shape, const Unit& unit, bool 
   if (!folder.exists() || writer.Write(file.c_str()) != IFSelect_RetDone) {
     return fail(failed("STEP"));
   }
-  return content_of(file, "STEP");
+  auto text = content_of(file, "STEP");
+  if (!text) return text;
+  return without_numbers(std::move(*text), name);
 }
 
 Result<std::string> iges_text(const TopoDS_Shape& shape, const Unit& unit) {
