@@ -5,6 +5,7 @@
 #include <limits>
 #include <numbers>
 
+#include "audit_report.h"
 #include "commands.h"
 #include "json_text.h"
 #include "obvid/io/read_points.h"
@@ -147,6 +148,11 @@ void add_rounding_warning(PointSeries& series, const Analysis& analysis) {
 }  // namespace
 
 int run(const AnalyseOptions& options) {
+  if (is_drawing(options.input)) return audit_drawing(options);
+  if (!options.outputs.empty()) {
+    return report({ErrorCode::kBadOption, "points alone make no picture of a curve",
+                   options.outputs.front(), "use `obvid fit POINTS -o NAME.svg`"});
+  }
   Result<PointSeries> series = read_points(options.input);
   if (!series) return report(series.error());
   if (options.units) series->units = *options.units;

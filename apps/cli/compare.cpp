@@ -10,7 +10,7 @@
 #include "commands.h"
 #include "json_text.h"
 #include "obvid/io/carriers_svg.h"
-#include "obvid/io/read_points.h"
+#include "obvid/pipeline/import.h"
 #include "outputs.h"
 #include "table.h"
 #include "terminal.h"
@@ -111,7 +111,7 @@ std::string report_json(const PointSeries& series, const Comparison& compared) {
 /// Figures that are not defined are empty cells.
 std::string cell(double value) { return std::isfinite(value) ? fmt::format("{}", value) : ""; }
 
-std::string report_csv(const Comparison& compared) {
+std::string report_csv(const PointSeries&, const Comparison& compared) {
   std::string out =
       "carrier,pieces,control_points,continuity,vertices,inflections,error_bound,deviation,"
       "outside,seconds,verdict\n";
@@ -148,27 +148,29 @@ std::string picture(const PointSeries& series, const Comparison& compared) {
   return carriers_svg(contours, name + "carriers side by side");
 }
 
-Result<std::string> text_of(const Output& output, const PointSeries& series,
-                            const Comparison& compared) {
-  switch (output.format) {
-    case Format::kJson:
-      return report_json(series, compared);
-    case Format::kCsv:
-      return report_csv(compared);
-    case Format::kSvg:
-      return picture(series, compared);
-  }
-  return std::string{};
+/// What to write under a name: .svg picture, .csv or .json table.
+using Maker = std::string (*)(const PointSeries&, const Comparison&);
+
+Result<Maker> maker_of(const std::string& path, const std::string& input) {
+  if (auto free = check_output(path, input); !free) return fail(free.error());
+  if (path.ends_with(".svg")) return &picture;
+  if (path.ends_with(".json")) return &report_json;
+  if (path.ends_with(".csv")) return &report_csv;
+  return fail({ErrorCode::kUnknownFormat, "no such format of a comparison", path,
+               "possible are .svg (picture), .csv and .json (tables)"});
 }
 
 }  // namespace
 
 int run(const CompareOptions& options) {
-  Result<std::vector<Output>> outputs =
-      outputs_of(options.outputs, options.input, FormatSet::kTables);
-  if (!outputs) return report(outputs.error());
+  std::vector<Maker> makers;
+  for (const std::string& path : options.outputs) {
+    const Result<Maker> maker = maker_of(path, options.input);
+    if (!maker) return report(maker.error());
+    makers.push_back(*maker);
+  }
   ProgressBar bar(options.progress);
-  Result<PointSeries> series = read_points(options.input);
+  Result<PointSeries> series = read_series(options.input, options.import);
   if (!series) {
     bar.clear();
     return report(series.error());
@@ -178,15 +180,14 @@ int run(const CompareOptions& options) {
   bar.clear();
   warn(series->warnings);
   if (!compared) return report(compared.error());
-  for (Output& output : *outputs) {
-    auto text = text_of(output, *series, *compared);
-    if (!text) return report(text.error());
-    output.text = std::move(*text);
+  std::vector<Output> outputs;
+  for (std::size_t i = 0; i < makers.size(); ++i) {
+    outputs.push_back({options.outputs[i], {}, makers[i](*series, *compared)});
   }
-  const auto written = write_files(*outputs);
+  const auto written = write_files(outputs);
   if (!written) return report(written.error());
   std::string shown = options.json  ? report_json(*series, *compared)
-                      : options.csv ? report_csv(*compared)
+                      : options.csv ? report_csv(*series, *compared)
                                     : report_text(*series, *compared);
   if (!written->empty() && !options.json && !options.csv) {
     shown += "\nwritten  " + listed(*written) + "\n";

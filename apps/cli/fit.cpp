@@ -9,9 +9,7 @@
 
 #include "commands.h"
 #include "fit_report.h"
-#include "obvid/io/contour_json.h"
-#include "obvid/io/picture_svg.h"
-#include "obvid/io/read_points.h"
+#include "obvid/pipeline/import.h"
 #include "outputs.h"
 #include "refusal.h"
 #include "suggest.h"
@@ -20,15 +18,6 @@
 
 namespace obvid {
 namespace {
-
-/// All texts first, then all files: a failure to form leaves every file as it was.
-Result<std::vector<std::string>> write_outputs(std::vector<Output>& outputs,
-                                               const StoredContour& stored) {
-  for (Output& output : outputs) {
-    output.text = output.format == Format::kJson ? contour_to_json(stored) : picture_svg(stored);
-  }
-  return write_files(outputs);
-}
 
 /// Arcs have radii between those that a smooth contour has: a given one is aimed at, not met.
 void warn_of_radius(const char* end, const std::optional<double>& asked, double kappa,
@@ -60,7 +49,7 @@ Outcome read_and_fit(const FitOptions& options, std::string& name, ProgressBar& 
     return Outcome{std::nullopt, report(error)};
   };
   bar.tell("reading", 0.0);
-  Result<PointSeries> series = read_points(options.input);
+  Result<PointSeries> series = read_series(options.input, options.import);
   if (!series) return stop(series.error());
   if (options.units) series->units = *options.units;
   name = series->name;
@@ -105,16 +94,20 @@ int run(const FitOptions& options) {
   auto [made, code] = read_and_fit(options, name, bar);
   if (!made) return code;
 
-  std::vector<std::string> written;
+  Written written;
   if (!outputs->empty()) {
     bar.tell("writing", 1.0);
     StoredContour stored{std::move(made->contour), made->report, made->certificate};
-    Result<std::vector<std::string>> done = write_outputs(*outputs, stored);
+    // all texts first, then all files: a failure to form leaves every file as it was
+    Result<std::vector<Output>> texts =
+        exported(*outputs, stored, options.formats, written.remarks);
+    Result<std::vector<std::string>> done =
+        texts ? write_files(*texts) : Result<std::vector<std::string>>(fail(texts.error()));
     if (!done) {
       bar.clear();
       return report(done.error());
     }
-    written = std::move(*done);
+    written.files = std::move(*done);
     made->contour = std::move(stored.contour);
   }
   bar.clear();
@@ -126,7 +119,7 @@ int run(const FitOptions& options) {
     text = fit_report_text(name, *made, written);
   }
   if (auto done = put(text); !done) return report(done.error());
-  return judge(*made, !written.empty());
+  return judge(*made, !written.files.empty());
 }
 
 }  // namespace obvid

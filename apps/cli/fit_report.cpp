@@ -8,6 +8,7 @@
 
 #include "json_text.h"
 #include "obvid/io/contour_json.h"
+#include "outputs.h"
 #include "table.h"
 #include "terminal.h"
 #include "text.h"
@@ -125,7 +126,7 @@ void add_bounds(Facts& facts, const Fit& fit) {
             counted(report.inserted_points, "inserted element", "inserted elements"));
 }
 
-Facts summary(const Fit& fit, const std::vector<std::string>& written) {
+Facts summary(const Fit& fit, const Written& written) {
   const Contour& contour = fit.contour;
   const FitReport& report = fit.report;
   Facts facts;
@@ -149,14 +150,8 @@ Facts summary(const Fit& fit, const std::vector<std::string>& written) {
   }
   add_gaps(facts, fit.certificate, contour.carrier);
   facts.add("time", time_text(report.seconds));
-  if (!written.empty()) {
-    std::string names;
-    for (const std::string& name : written) {
-      if (!names.empty()) names += ", ";
-      names += name;
-    }
-    facts.add("written", names);
-  }
+  for (const std::string& remark : written.remarks) facts.add("note", remark);
+  if (!written.files.empty()) facts.add("written", listed(written.files));
   return facts;
 }
 
@@ -191,8 +186,7 @@ std::string verdict_line(Carrier carrier, const Certificate& certificate) {
              : "proved: monotone curvature on every run, G2 joints, inside the region";
 }
 
-std::string fit_report_text(const std::string& name, const Fit& fit,
-                            const std::vector<std::string>& written) {
+std::string fit_report_text(const std::string& name, const Fit& fit, const Written& written) {
   const FitReport& report = fit.report;
   std::vector<double> width;
   for (const SegmentReport& segment : report.segments) width.push_back(segment.width);
@@ -207,7 +201,7 @@ std::string fit_report_text(const std::string& name, const Fit& fit,
   return out + (fit.certificate.proved ? good(verdict) : bad(verdict)) + "\n";
 }
 
-std::string fit_report_json(const Fit& fit, const std::vector<std::string>& written) {
+std::string fit_report_json(const Fit& fit, const Written& written) {
   // The writer of the contour file decides how report and certificate look; pieces are left out.
   StoredContour bare;
   bare.contour.units = fit.contour.units;
@@ -224,7 +218,9 @@ std::string fit_report_json(const Fit& fit, const std::vector<std::string>& writ
   json.key("warnings").begin_array();
   for (const std::string& warning : fit.warnings) json.value(warning);
   json.end_array().key("written").begin_array();
-  for (const std::string& file : written) json.value(file);
+  for (const std::string& file : written.files) json.value(file);
+  json.end_array().key("remarks").begin_array();
+  for (const std::string& remark : written.remarks) json.value(remark);
   json.end_array().end_object();
   return json.take();
 }

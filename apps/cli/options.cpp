@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "format_values.h"
 #include "near_name.h"
 #include "obvid/core/version.h"
 #include "option_values.h"
@@ -20,6 +21,7 @@ constexpr const char* kShortHelp =
   obvid analyse POINTS                               what the points alone say
   obvid region POINTS                                where every such contour must lie
   obvid compare POINTS                               all curve families side by side
+  obvid convert contour.json -o OUT                  another format: STEP, IGES, DXF, G-code, ...
   obvid verify contour.json                          prove a stored contour again
   obvid explain E401                                 what an error means, what to do
 
@@ -33,7 +35,7 @@ constexpr const char* kExitCodes =
 
 /// Announced for later; refused with a word of their own so that nobody searches for a typing
 /// error.
-const std::vector<std::string> kLaterCommands = {"convert", "surface"};
+const std::vector<std::string> kLaterCommands = {"surface"};
 
 /// What the command line said, before it is checked.
 struct Raw {
@@ -41,6 +43,8 @@ struct Raw {
   AnalyseOptions analyse;
   RegionOptions region;
   CompareOptions compare;
+  ConvertOptions convert;
+  FormatValues formats;
   VerifyOptions verify;
   ExplainOptions explain;
   std::string carrier = "spiral";
@@ -117,11 +121,46 @@ void add_tolerance(CLI::App& fit, Raw& raw) {
       ->type_name("T");
 }
 
+void add_import(CLI::App& command, FormatValues& values) {
+  const char* group = "Drawings as input";
+  command
+      .add_option("--curve", values.curve,
+                  "Which curve of a drawing (STEP, IGES, BREP, DXF, ...), counted from 1 [the "
+                  "longest]")
+      ->type_name("N")
+      ->group(group);
+  command
+      .add_option("--chord-tolerance", values.chord_tolerance,
+                  "Largest distance of a chord from the curve that is sampled, input units [1e-4 "
+                  "of its size]")
+      ->type_name("T")
+      ->group(group);
+}
+
+void add_formats(CLI::App& command, FormatValues& values) {
+  const char* group = "Output formats";
+  command
+      .add_option("--output-tolerance", values.tolerance,
+                  "Of curves that a format cannot hold exactly, units of the contour [1e-6 of its "
+                  "size]")
+      ->type_name("T")
+      ->group(group);
+  command.add_option("--step", values.step, "Schema of STEP files: ap214 or ap242 [ap214]")
+      ->type_name("NAME")
+      ->group(group);
+  command
+      .add_option("--face", values.face_width,
+                  "STEP, IGES, BREP: also a face of this width, units, for systems that show no "
+                  "wires [none]")
+      ->type_name("W")
+      ->group(group);
+}
+
 void add_fit(CLI::App& app, Raw& raw) {
   CLI::App& fit = *app.add_subcommand("fit", "Form a contour through points and prove it");
   fit.add_option("INPUT", raw.fit.input, kInputHelp);
   fit.add_option("-o,--output", raw.fit.outputs,
-                 "File to write, format by ending: .json contour, .svg picture; may be repeated")
+                 "File to write, format by ending: " + known_endings() + "; may be repeated")
       ->type_name("OUT")
       ->allow_extra_args(false);
   fit.add_option(
@@ -135,6 +174,8 @@ void add_fit(CLI::App& app, Raw& raw) {
   add_real_points(fit, raw);
   add_suggest(fit, raw);
   add_fixed_data(fit, raw.typed);
+  add_import(fit, raw.formats);
+  add_formats(fit, raw.formats);
   fit.add_option("--units", raw.fit.units, kUnitsHelp)->type_name("NAME");
   fit.add_flag("--json", raw.fit.json, "Report and certificate as JSON on standard output");
   fit.add_flag("--quiet", raw.fit.quiet, "No table and no progress bar");
@@ -150,8 +191,17 @@ void add_fit(CLI::App& app, Raw& raw) {
 
 void add_readers(CLI::App& app, Raw& raw) {
   CLI::App& analyse = *app.add_subcommand(
-      "analyse", "Adjacent circles, runs, vertices and inflections that the points force");
-  analyse.add_option("INPUT", raw.analyse.input, kInputHelp);
+      "analyse",
+      "What the points force: circles, runs, vertices; or the curvature of a drawn curve");
+  analyse.add_option("INPUT", raw.analyse.input,
+                     "File with the points, - for standard input, or a drawing: STEP, IGES, BREP, "
+                     "DXF, contour .json, ...");
+  analyse
+      .add_option("-o,--output", raw.analyse.outputs,
+                  "Picture (.svg) of the curvature of a drawn curve")
+      ->type_name("OUT")
+      ->allow_extra_args(false);
+  add_import(analyse, raw.formats);
   analyse.add_option("--units", raw.analyse.units, kUnitsHelp)->type_name("NAME");
   analyse.add_flag("--json", raw.analyse.json, "JSON on standard output instead of the table");
   CLI::App& region = *app.add_subcommand(
@@ -174,6 +224,7 @@ void add_compare(CLI::App& app, Raw& raw) {
   add_tolerance(compare, raw);
   add_real_points(compare, raw);
   add_fixed_data(compare, raw.typed);
+  add_import(compare, raw.formats);
   compare.add_option("--units", raw.compare.units, kUnitsHelp)->type_name("NAME");
   compare.add_flag("--csv", raw.compare.csv, "Table as CSV on standard output");
   compare.add_flag("--json", raw.compare.json, "Table as JSON on standard output");
@@ -181,6 +232,20 @@ void add_compare(CLI::App& app, Raw& raw) {
   compare.footer(
       "Example: obvid compare points.csv -o carriers.svg\n\nThe first row, spiral, is what the "
       "others are measured against.\n");
+}
+
+void add_convert(CLI::App& app, Raw& raw) {
+  CLI::App& convert =
+      *app.add_subcommand("convert", "Write a stored contour in the format of another system");
+  convert.add_option("CONTOUR", raw.convert.input, "Contour file (.json), or - for standard input");
+  convert
+      .add_option("-o,--output", raw.convert.outputs,
+                  "File to write, format by ending: " + known_endings() + "; may be repeated")
+      ->type_name("OUT")
+      ->allow_extra_args(false);
+  add_formats(convert, raw.formats);
+  convert.add_flag("--quiet", raw.convert.quiet, "Print nothing");
+  convert.footer("Example: obvid convert contour.json -o contour.step");
 }
 
 void add_checkers(CLI::App& app, Raw& raw) {
@@ -223,8 +288,9 @@ Result<void> check_command(const CLI::App& app) {
   const std::vector<std::string> extras = app.remaining();
   const std::string typed = extras.empty() ? "" : extras.front();
   if (listed(kLaterCommands, typed)) {
-    return fail(bad_option(not_available("the command " + typed), "",
-                           "available are fit, analyse, region, compare, verify, explain"));
+    return fail(
+        bad_option(not_available("the command " + typed), "",
+                   "available are fit, analyse, region, compare, convert, verify, explain"));
   }
   std::vector<std::string> names = option_names(app);
   for (const CLI::App* command : app.get_subcommands(nullptr)) names.push_back(command->get_name());
@@ -294,6 +360,8 @@ Result<Command> checked_fit(Raw& raw) {
   const Result<void> done =
       set_job(raw)
           .and_then([&] { return set_carrier(raw); })
+          .and_then([&] { return set_formats(raw.formats, raw.fit.formats); })
+          .and_then([&] { return set_import(raw.formats, raw.fit.import); })
           .and_then([&] { return check_units(raw.fit.units); })
           .and_then([&] { return need(raw.fit.input, "fit", "a file with points"); });
   if (!done) return fail(done.error());
@@ -302,9 +370,10 @@ Result<Command> checked_fit(Raw& raw) {
 
 Result<Command> checked_compare(Raw& raw) {
   const Result<void> done =
-      set_job(raw).and_then([&] { return check_units(raw.compare.units); }).and_then([&] {
-        return need(raw.compare.input, "compare", "a file with points");
-      });
+      set_job(raw)
+          .and_then([&] { return set_import(raw.formats, raw.compare.import); })
+          .and_then([&] { return check_units(raw.compare.units); })
+          .and_then([&] { return need(raw.compare.input, "compare", "a file with points"); });
   if (!done) return fail(done.error());
   raw.compare.job = raw.fit.job;
   raw.compare.progress = !raw.no_progress && !raw.compare.json && !raw.compare.csv;
@@ -320,12 +389,30 @@ Result<Command> checked_points(const Options& options, const char* name) {
   return Command{options};
 }
 
+Result<Command> checked_convert(Raw& raw) {
+  const Result<void> done = need(raw.convert.input, "convert", "a contour file").and_then([&] {
+    return set_formats(raw.formats, raw.convert.formats);
+  });
+  if (!done) return fail(done.error());
+  if (raw.convert.outputs.empty()) {
+    return fail(usage("convert needs a file to write",
+                      "add -o NAME; possible endings are " + known_endings()));
+  }
+  return Command{raw.convert};
+}
+
+Result<Command> checked_analyse(Raw& raw) {
+  if (auto done = set_import(raw.formats, raw.analyse.import); !done) return fail(done.error());
+  return checked_points(raw.analyse, "analyse");
+}
+
 Result<Command> checked(const CLI::App& app, Raw& raw) {
   if (auto done = check_command(app); !done) return fail(done.error());
   if (auto done = check_extras(app); !done) return fail(done.error());
   const std::string& name = app.get_subcommands().front()->get_name();
   if (name == "fit") return checked_fit(raw);
-  if (name == "analyse") return checked_points(raw.analyse, "analyse");
+  if (name == "analyse") return checked_analyse(raw);
+  if (name == "convert") return checked_convert(raw);
   if (name == "region") return checked_points(raw.region, "region");
   if (name == "compare") return checked_compare(raw);
   if (name == "explain") return Command{raw.explain};
@@ -364,6 +451,7 @@ Result<Command> parse_command_line(int argc, const char* const* argv) {
     add_fit(app, raw);
     add_readers(app, raw);
     add_compare(app, raw);
+    add_convert(app, raw);
     add_checkers(app, raw);
     allow_extras(app);
     try {

@@ -7,7 +7,9 @@
 #include <vector>
 
 #include "obvid/core/result.h"
+#include "obvid/pipeline/export.h"
 #include "obvid/pipeline/fit.h"
+#include "obvid/pipeline/import.h"
 
 namespace obvid {
 
@@ -15,6 +17,8 @@ struct FitOptions {
   std::string input;
   std::vector<std::string> outputs;
   FitJob job;
+  ImportOptions import;
+  ExportOptions formats;
   std::optional<std::string> units;
   bool suggest = false;  ///< how many vertices which tolerance would need
   bool json = false;
@@ -22,8 +26,17 @@ struct FitOptions {
   bool progress = true;
 };
 
+struct ConvertOptions {
+  std::string input;
+  std::vector<std::string> outputs;
+  ExportOptions formats;
+  bool quiet = false;
+};
+
 struct AnalyseOptions {
   std::string input;
+  std::vector<std::string> outputs;
+  ImportOptions import;
   std::optional<std::string> units;
   bool json = false;
 };
@@ -36,6 +49,7 @@ struct RegionOptions {
 
 struct CompareOptions {
   std::string input;
+  ImportOptions import;
   std::vector<std::string> outputs;
   FitJob job;
   std::optional<std::string> units;
@@ -61,7 +75,7 @@ struct ShowText {
 };
 
 using Command = std::variant<ShowText, FitOptions, AnalyseOptions, RegionOptions, CompareOptions,
-                             VerifyOptions, ExplainOptions>;
+                             ConvertOptions, VerifyOptions, ExplainOptions>;
 
 /// Understands the command line. Errors: E201 wrong usage, E203 option not possible.
 [[nodiscard]] Result<Command> parse_command_line(int argc, const char* const* argv);

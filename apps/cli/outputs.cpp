@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "outputs.h"
 
-#include <algorithm>
-#include <cctype>
 #include <filesystem>
 
 #include "obvid/io/atomic_file.h"
@@ -10,37 +8,55 @@
 
 namespace obvid {
 
-Result<Output> output_of(const std::string& path, const std::string& input, FormatSet formats) {
-  namespace fs = std::filesystem;
-  std::string ending = fs::path(path).extension().string();
-  std::transform(ending.begin(), ending.end(), ending.begin(),
-                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+Result<void> check_output(const std::string& path, const std::string& input) {
   std::error_code ignored;
-  if (path == input || fs::equivalent(path, input, ignored)) {
-    return fail(
-        {ErrorCode::kBadOption, "the output would replace the input", path, "choose another name"});
-  }
-  if (ending == ".json") return Output{path, Format::kJson, {}};
-  if (ending == ".svg") return Output{path, Format::kSvg, {}};
-  const bool tables = formats == FormatSet::kTables;
-  if (tables && ending == ".csv") return Output{path, Format::kCsv, {}};
+  if (path != input && !std::filesystem::equivalent(path, input, ignored)) return {};
+  return fail(
+      {ErrorCode::kBadOption, "the output would replace the input", path, "choose another name"});
+}
+
+Result<Output> output_of(const std::string& path, const std::string& input) {
+  if (auto free = check_output(path, input); !free) return fail(free.error());
+  if (const auto format = format_of(path)) return Output{path, *format, {}};
+  const std::string ending = std::filesystem::path(path).extension().string();
   return fail({ErrorCode::kUnknownFormat,
                ending.empty() ? "the name has no ending that tells a format"
                               : "no format is known for the ending " + ending,
-               path,
-               tables ? "possible are .svg (picture), .csv and .json (tables)"
-                      : "possible are .json (contour) and .svg (picture)"});
+               path, "possible are " + known_endings()});
 }
 
 Result<std::vector<Output>> outputs_of(const std::vector<std::string>& paths,
-                                       const std::string& input, FormatSet formats) {
+                                       const std::string& input) {
   std::vector<Output> outputs;
   for (const std::string& path : paths) {
-    Result<Output> output = output_of(path, input, formats);
+    Result<Output> output = output_of(path, input);
     if (!output) return fail(output.error());
     outputs.push_back(std::move(*output));
   }
   return outputs;
+}
+
+Result<std::vector<Output>> exported(const std::vector<Output>& outputs,
+                                     const StoredContour& stored, const ExportOptions& options,
+                                     std::vector<std::string>& remarks) {
+  std::vector<Output> out;
+  for (const Output& output : outputs) {
+    Result<Exported> made = export_contour(stored, output.format, options);
+    if (!made) {
+      Error error = made.error();
+      if (error.where.empty()) error.where = output.path;
+      return fail(std::move(error));
+    }
+    for (ExportedFile& file : made->files) {
+      std::filesystem::path path = output.path;
+      if (!file.suffix.empty()) {
+        path.replace_filename(path.stem().string() + file.suffix + path.extension().string());
+      }
+      out.push_back({path.string(), output.format, std::move(file.text)});
+    }
+    for (const std::string& remark : made->remarks) remarks.push_back(output.path + ": " + remark);
+  }
+  return out;
 }
 
 Result<std::vector<std::string>> write_files(const std::vector<Output>& outputs) {

@@ -6,31 +6,33 @@
 
 #include "obvid/core/result.h"
 #include "obvid/geom/vec2.h"
+#include "obvid/pipeline/export.h"
 
 namespace obvid {
-
-enum class Format { kJson, kSvg, kCsv };
-
-/// Which endings a command knows.
-enum class FormatSet {
-  kContours,  ///< .json contour, .svg picture
-  kTables,    ///< .svg picture, .csv and .json tables
-};
 
 /// A file to write.
 struct Output {
   std::string path;
-  Format format = Format::kJson;
+  FileFormat format = FileFormat::kContour;
   std::string text;
 };
 
+/// Refuses a name that would replace the input (E203).
+[[nodiscard]] Result<void> check_output(const std::string& path, const std::string& input);
+
 /// Format by ending. Errors: E202 for endings without format, E203 where the input would be
 /// replaced.
-[[nodiscard]] Result<Output> output_of(const std::string& path, const std::string& input,
-                                       FormatSet formats = FormatSet::kContours);
+[[nodiscard]] Result<Output> output_of(const std::string& path, const std::string& input);
 [[nodiscard]] Result<std::vector<Output>> outputs_of(const std::vector<std::string>& paths,
-                                                     const std::string& input,
-                                                     FormatSet formats = FormatSet::kContours);
+                                                     const std::string& input);
+
+/// Texts of all outputs, in the order of the outputs; a format that makes several files gives
+/// several outputs, their names by suffixes. `remarks` get a sentence each for what the formats
+/// cannot hold.
+[[nodiscard]] Result<std::vector<Output>> exported(const std::vector<Output>& outputs,
+                                                   const StoredContour& stored,
+                                                   const ExportOptions& options,
+                                                   std::vector<std::string>& remarks);
 
 /// Writes all texts, each file whole or not at all; names what was written. Error: E102.
 [[nodiscard]] Result<std::vector<std::string>> write_files(const std::vector<Output>& outputs);

@@ -121,7 +121,7 @@ Result<std::vector<std::string>> write_pictures(const FitOptions& options, const
   if (!asked) return fail(asked.error());
   std::vector<Output> pictures;
   for (const Output& output : *asked) {
-    if (output.format != Format::kSvg) continue;
+    if (output.format != FileFormat::kPicture) continue;
     const auto path = std::filesystem::path(output.path).replace_extension(".why-not.svg");
     Result<Output> picture = output_of(path.string(), options.input);
     if (!picture) return fail(picture.error());

@@ -30,7 +30,7 @@ Result<std::vector<Output>> charts_of(const FitOptions& options) {
   Result<std::vector<Output>> outputs = outputs_of(options.outputs, options.input);
   if (!outputs) return outputs;
   for (const Output& output : *outputs) {
-    if (output.format == Format::kSvg) continue;
+    if (output.format == FileFormat::kPicture) continue;
     return fail({ErrorCode::kBadOption, "--suggest forms no contour to be stored", output.path,
                  "name an .svg for the chart, or use --json"});
   }

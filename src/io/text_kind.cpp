@@ -5,7 +5,9 @@
 #include <array>
 #include <optional>
 #include <string>
+#include <utility>
 
+#include "obvid/io/file_kind.h"
 #include "text_lines.h"
 
 namespace obvid::text {
@@ -138,3 +140,29 @@ Result<void> check_text_kind(string_view text, string_view name) {
 }
 
 }  // namespace obvid::text
+
+namespace obvid {
+
+FileKind file_kind(std::string_view text) {
+  static constexpr std::array<std::pair<std::string_view, FileKind>, 12> kKinds = {
+      {{"a contour file", FileKind::kContour},
+       {"binary DXF", FileKind::kDxf},
+       {"DXF", FileKind::kDxf},
+       {"STEP", FileKind::kStep},
+       {"IGES", FileKind::kIges},
+       {"BREP", FileKind::kBrep},
+       {"SVG", FileKind::kSvg},
+       {"GPX", FileKind::kGpx},
+       {"GeoJSON", FileKind::kGeoJson},
+       {"LandXML", FileKind::kLandXml},
+       {"OpenDRIVE", FileKind::kOpenDrive},
+       {"KML", FileKind::kOther}}};
+  const auto kind = text::foreign_kind(text.substr(0, text::kHeadLength));
+  if (!kind) return FileKind::kPoints;
+  for (const auto& [name, one] : kKinds) {
+    if (*kind == name) return one;
+  }
+  return FileKind::kOther;
+}
+
+}  // namespace obvid

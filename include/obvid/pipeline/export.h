@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "obvid/cad/cad.h"
+#include "obvid/core/result.h"
+#include "obvid/io/stored_contour.h"
+
+namespace obvid {
+
+/// Files that a contour can be written to, told by their endings.
+enum class FileFormat {
+  kContour,  ///< .json
+  kPicture,  ///< .svg
+  kStep,     ///< .step, .stp
+  kIges,     ///< .iges, .igs
+  kBrep,     ///< .brep
+};
+
+/// Format of a file's name. Nothing for endings that stand for none.
+[[nodiscard]] std::optional<FileFormat> format_of(std::string_view path);
+
+/// ".json (contour), .svg (picture), ...": for help and errors.
+[[nodiscard]] std::string known_endings();
+
+/// Choices of the formats. Lengths in units of the contour.
+struct ExportOptions {
+  std::string name = "contour";     ///< of the curve, where a format has a place for it
+  std::optional<double> tolerance;  ///< of curves that a format cannot hold exactly [1e-6 of size]
+  CadFormat step = CadFormat::kStepAp214;
+  double face_width = 0.0;  ///< STEP, IGES, BREP: > 0 also a face of this width along z
+};
+
+/// A text to write; `suffix` goes before the ending when a contour needs several files.
+struct ExportedFile {
+  std::string suffix;
+  std::string text;
+};
+
+struct Exported {
+  std::vector<ExportedFile> files;
+  std::vector<std::string> remarks;  ///< what the user should know: deviations, units, sizes
+};
+
+/// The contour in a format of another system. CAD formats get one NURBS curve, joined as
+/// `joined_nurbs` says; contours of lines and arcs alone stay lines and arcs; clothoids are
+/// followed by a C2 cubic within the tolerance, which the remarks tell. Errors: those of the
+/// formats.
+[[nodiscard]] Result<Exported> export_contour(const StoredContour& stored, FileFormat format,
+                                              const ExportOptions& options = {});
+
+}  // namespace obvid

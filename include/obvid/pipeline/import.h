@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "obvid/core/result.h"
+#include "obvid/exchange/drawing.h"
+#include "obvid/series/point_series.h"
+
+namespace obvid {
+
+/// Whether a file is a drawing of another system (STEP, IGES, BREP, ...) or a stored contour, by its
+/// first bytes. False for lists of points and for files that cannot be opened.
+[[nodiscard]] bool is_drawing(const std::string& path);
+
+/// Curves and series of points of a drawing, or the curve of a stored contour.
+/// Errors: those of the formats.
+[[nodiscard]] Result<Drawing> read_drawing(const std::string& path);
+
+/// How a curve of a drawing becomes a series of points.
+struct ImportOptions {
+  std::optional<std::size_t> curve;  ///< which, from 0, curves before series; default the longest
+  std::optional<double> tolerance;   ///< largest distance of a chord from its curve [1e-4 of the size]
+};
+
+/// Points to fit: of a text file as they are, of a drawing its longest series or curve, sampled.
+/// Warnings say what was chosen. Errors: those of the formats; E203 when there is no such curve.
+[[nodiscard]] Result<PointSeries> read_series(const std::string& path,
+                                              const ImportOptions& options = {});
+
+}  // namespace obvid

@@ -1,0 +1,142 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "obvid/pipeline/export.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cctype>
+#include <utility>
+
+#include "obvid/contour/bsplines/cubic_along.h"
+#include "obvid/curve/joined_nurbs.h"
+#include "obvid/io/contour_json.h"
+#include "obvid/io/picture_svg.h"
+#include "report.h"
+
+namespace obvid {
+namespace {
+
+struct Ending {
+  const char* ending;
+  FileFormat format;
+  const char* what;  ///< empty for a second ending of the format before
+};
+
+constexpr std::array kEndings = {
+    Ending{".json", FileFormat::kContour, "contour"},
+    Ending{".svg", FileFormat::kPicture, "picture"},
+    Ending{".step", FileFormat::kStep, "STEP"},
+    Ending{".stp", FileFormat::kStep, ""},
+    Ending{".iges", FileFormat::kIges, "IGES"},
+    Ending{".igs", FileFormat::kIges, ""},
+    Ending{".brep", FileFormat::kBrep, "BREP"},
+};
+
+/// Tolerance of curves that a format cannot hold, of the size.
+constexpr double kDefaultTolerance = 1e-6;
+
+Exported one_file(std::string text) { return {{{"", std::move(text)}}, {}}; }
+
+class Exporter {
+ public:
+  Exporter(const StoredContour& stored, const ExportOptions& options)
+      : stored_(stored), contour_(stored.contour), options_(options) {
+    tolerance_ =
+        options.tolerance.value_or(kDefaultTolerance * pipeline_detail::size_of(contour_.points));
+  }
+
+  Result<Exported> run(FileFormat format) {
+    switch (format) {
+      case FileFormat::kContour:
+        return one_file(contour_to_json(stored_));
+      case FileFormat::kPicture:
+        return one_file(picture_svg(stored_));
+      case FileFormat::kStep:
+        return cad(options_.step);
+      case FileFormat::kIges:
+        return cad(CadFormat::kIges);
+      case FileFormat::kBrep:
+        return cad(CadFormat::kBrep);
+    }
+    return fail({ErrorCode::kInternal, "unknown format", "", "", -1, 0.0});
+  }
+
+ private:
+  [[nodiscard]] bool only_lines_and_arcs() const {
+    return std::all_of(contour_.pieces.begin(), contour_.pieces.end(), [](const Piece& piece) {
+      return std::holds_alternative<LinePiece>(piece) || std::holds_alternative<ArcPiece>(piece);
+    });
+  }
+
+  [[nodiscard]] bool any_clothoid() const {
+    return std::any_of(contour_.pieces.begin(), contour_.pieces.end(), [](const Piece& piece) {
+      return std::holds_alternative<ClothoidPiece>(piece);
+    });
+  }
+
+  Result<NurbsCurve> one_curve(Exported& out) {
+    if (!any_clothoid()) return joined_nurbs(contour_);
+    auto cubic = cubic_along(contour_, tolerance_);
+    if (!cubic) return tl::unexpected(cubic.error());
+    out.remarks.push_back(
+        fmt::format("clothoids are no NURBS curves: a C2 cubic follows them within {:.3g} {}",
+                    cubic->deviation, contour_.units));
+    return as_nurbs(cubic->spline);
+  }
+
+  Result<Exported> cad(CadFormat format) {
+    Exported out;
+    CadCurve curve{options_.name, NurbsCurve{}};
+    if (only_lines_and_arcs()) {
+      curve.geometry = contour_.pieces;
+    } else {
+      auto joined = one_curve(out);
+      if (!joined) return tl::unexpected(joined.error());
+      out.remarks.push_back(fmt::format("one NURBS curve of degree {}, {} control points",
+                                        joined->degree, joined->points.size()));
+      curve.geometry = std::move(*joined);
+    }
+    CadWriteOptions write;
+    write.format = format;
+    write.units = contour_.units;
+    write.face_width = options_.face_width;
+    auto text = cad_text({curve}, write);
+    if (!text) return tl::unexpected(text.error());
+    out.files.push_back({"", std::move(*text)});
+    return out;
+  }
+
+  const StoredContour& stored_;
+  const Contour& contour_;
+  const ExportOptions& options_;
+  double tolerance_ = 0.0;
+};
+
+}  // namespace
+
+std::optional<FileFormat> format_of(std::string_view path) {
+  std::string lower(path);
+  std::transform(lower.begin(), lower.end(), lower.begin(),
+                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  for (const Ending& one : kEndings) {
+    if (lower.ends_with(one.ending)) return one.format;
+  }
+  return std::nullopt;
+}
+
+std::string known_endings() {
+  std::string out;
+  for (const Ending& one : kEndings) {
+    if (*one.what == '\0') continue;
+    out += fmt::format("{}{} ({})", out.empty() ? "" : ", ", one.ending, one.what);
+  }
+  return out;
+}
+
+Result<Exported> export_contour(const StoredContour& stored, FileFormat format,
+                                const ExportOptions& options) {
+  return Exporter(stored, options).run(format);
+}
+
+}  // namespace obvid
