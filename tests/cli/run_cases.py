@@ -43,7 +43,7 @@ import xml.etree.ElementTree
 
 ERROR_LINE = re.compile(r"^obvid: error E([1-5]\d\d): \S.*$")
 KEYS = set("name args before edit stdin files exit stdout stdout_has stdout_last stderr stderr_has "
-           "stderr_count json svg contour contour_values untouched absent terminal env".split())
+           "stderr_count json svg contour contour_values untouched absent terminal env holds cad".split())
 TIMEOUT_S = 60
 
 
@@ -159,9 +159,13 @@ class Case:
         for name in data.get("untouched", []):
             self.check(name in before, f"{name} did not exist before")
             self.check((folder / name).read_bytes() == before.get(name), f"{name} was changed")
+        for name, part in data.get("holds", {}).items():
+            written = (folder / name).read_text() if (folder / name).exists() else ""
+            self.check(part in written, f"{name} does not hold {part!r}")
         for name in data.get("absent", []):
             self.check(not (folder / name).exists(), f"{name} exists")
         named = set(data.get("svg", [])) | set(data.get("contour", [])) | set(before)
+        named |= set(data.get("holds", {}))
         left = {p.name for p in folder.iterdir()} - named
         self.check(not left, f"files left behind: {sorted(left)}")
 
@@ -195,12 +199,16 @@ def main():
             print("skipped: " + data["name"] + " (no pseudo-terminals here)")
             skipped += 1
             continue
+        if data.get("cad") and not (pathlib.Path(program).parent / "obvid_cad.so").exists():
+            print("skipped: " + data["name"] + " (the plugin for CAD files is not built)")
+            skipped += 1
+            continue
         faults = Case(data, str(pathlib.Path(program).resolve()), pathlib.Path(examples)).run()
         print(("FAILED: " if faults else "passed: ") + data["name"])
         for fault in faults:
             print("    " + fault)
         failed += bool(faults)
-    note = f", {skipped} skipped: no pseudo-terminals here" if skipped else ""
+    note = f", {skipped} skipped" if skipped else ""
     print(f"{len(cases) - failed - skipped} of {len(cases)} cases passed{note}")
     assert skipped < len(cases), "no case was run"
     return 1 if failed else 0
