@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "format_values.h"
 
+#include <algorithm>
+#include <array>
 #include <cmath>
+#include <utility>
 
 #include "option_values.h"
 
@@ -36,6 +39,16 @@ Result<void> set_formats(const FormatValues& typed, ExportOptions& options) {
   } else if (typed.step != "ap214") {
     return fail(bad_option("unknown schema '" + typed.step + "'", "--step", "ap214 or ap242"));
   }
+  static constexpr std::array kDxf = {
+      std::pair{"exact", DxfProfile::kExact}, std::pair{"arcs", DxfProfile::kArcs},
+      std::pair{"cubic", DxfProfile::kCubic}, std::pair{"r12", DxfProfile::kArcsR12}};
+  const auto* dxf = std::find_if(kDxf.begin(), kDxf.end(),
+                                 [&](const auto& one) { return typed.dxf == one.first; });
+  if (dxf == kDxf.end()) {
+    return fail(bad_option("unknown kind of DXF '" + typed.dxf + "'", "--dxf",
+                           "exact, arcs, cubic or r12"));
+  }
+  options.dxf = dxf->second;
   return {};
 }
 

@@ -17,6 +17,7 @@ struct FormatValues {
   std::optional<double> tolerance;
   std::optional<double> face_width;
   std::string step = "ap214";
+  std::string dxf = "exact";
 };
 
 /// Error: E203.

@@ -149,6 +149,13 @@ void add_formats(CLI::App& command, FormatValues& values) {
       ->type_name("NAME")
       ->group(group);
   command
+      .add_option(
+          "--dxf", values.dxf,
+          "DXF with exact splines (exact), arcs, cubic splines (cubic), or arcs for R12 (r12) "
+          "[exact]")
+      ->type_name("NAME")
+      ->group(group);
+  command
       .add_option("--face", values.face_width,
                   "STEP, IGES, BREP: also a face of this width, units, for systems that show no "
                   "wires [none]")

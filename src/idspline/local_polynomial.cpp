@@ -24,8 +24,8 @@ LocalPolynomial local_polynomial(std::span<const double> nodes, std::span<const 
   for (std::size_t j = 0; j < count; ++j) difference[j] = values[first + j];
   for (std::size_t order = 1; order < count; ++order) {
     for (std::size_t j = count; j-- > order;) {
-      difference[j] = (difference[j] - difference[j - 1]) /
-                      (nodes[first + j] - nodes[first + j - order]);
+      difference[j] =
+          (difference[j] - difference[j - 1]) / (nodes[first + j] - nodes[first + j - order]);
     }
   }
   LocalPolynomial c{};
@@ -44,8 +44,7 @@ std::vector<double> local_derivatives(std::span<const double> nodes, std::span<c
   const double factorial = order == 2 ? 2.0 : 1.0;
   std::vector<double> out(n);
   for (std::size_t i = 0; i < n; ++i) {
-    const auto c =
-        local_polynomial(nodes, values, first_of(i, before, count, n), count, nodes[i]);
+    const auto c = local_polynomial(nodes, values, first_of(i, before, count, n), count, nodes[i]);
     out[i] = factorial * c[static_cast<std::size_t>(order)];
   }
   return out;

@@ -31,6 +31,7 @@ constexpr std::array kEndings = {
     Ending{".iges", FileFormat::kIges, "IGES"},
     Ending{".igs", FileFormat::kIges, ""},
     Ending{".brep", FileFormat::kBrep, "BREP"},
+    Ending{".dxf", FileFormat::kDxf, "DXF"},
 };
 
 /// Tolerance of curves that a format cannot hold, of the size.
@@ -58,6 +59,8 @@ class Exporter {
         return cad(CadFormat::kIges);
       case FileFormat::kBrep:
         return cad(CadFormat::kBrep);
+      case FileFormat::kDxf:
+        return dxf();
     }
     return fail({ErrorCode::kInternal, "unknown format", "", "", -1, 0.0});
   }
@@ -104,6 +107,22 @@ class Exporter {
     auto text = cad_text({curve}, write);
     if (!text) return tl::unexpected(text.error());
     out.files.push_back({"", std::move(*text)});
+    return out;
+  }
+
+  Result<Exported> dxf() {
+    DxfOptions write;
+    write.profile = options_.dxf;
+    write.tolerance = tolerance_;
+    auto made = dxf_text(contour_, write);
+    if (!made) return tl::unexpected(made.error());
+    Exported out = one_file(std::move(made->text));
+    const std::string entities =
+        fmt::format("{} {}", made->entities, made->entities == 1 ? "entity" : "entities");
+    out.remarks.push_back(made->deviation > 0.0
+                              ? fmt::format("{}, at most {:.3g} {} from the contour", entities,
+                                            made->deviation, contour_.units)
+                              : entities + ", exact");
     return out;
   }
 

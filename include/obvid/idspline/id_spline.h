@@ -31,8 +31,8 @@ struct IdSplineData {
   std::vector<double> seconds{};    ///< degree 6
 };
 
-/// Which node data give way to smoothness. Data at both end nodes and all integrals are always kept.
-/// With degree 2 m:
+/// Which node data give way to smoothness. Data at both end nodes and all integrals are always
+/// kept. With degree 2 m:
 enum class IdSmoothing {
   kNone,        ///< all data kept, C^(m-1)
   kValuesKept,  ///< derivatives at inner nodes give way, C^(2m-2); from degree 4 on

@@ -8,6 +8,7 @@
 
 #include "obvid/cad/cad.h"
 #include "obvid/core/result.h"
+#include "obvid/exchange/dxf_write.h"
 #include "obvid/io/stored_contour.h"
 
 namespace obvid {
@@ -19,6 +20,7 @@ enum class FileFormat {
   kStep,     ///< .step, .stp
   kIges,     ///< .iges, .igs
   kBrep,     ///< .brep
+  kDxf,      ///< .dxf
 };
 
 /// Format of a file's name. Nothing for endings that stand for none.
@@ -32,6 +34,7 @@ struct ExportOptions {
   std::string name = "contour";     ///< of the curve, where a format has a place for it
   std::optional<double> tolerance;  ///< of curves that a format cannot hold exactly [1e-6 of size]
   CadFormat step = CadFormat::kStepAp214;
+  DxfProfile dxf = DxfProfile::kExact;
   double face_width = 0.0;  ///< STEP, IGES, BREP: > 0 also a face of this width along z
 };
 

@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstddef>
+#include <string>
+
+#include "obvid/core/result.h"
+#include "obvid/curve/contour.h"
+
+namespace obvid {
+
+/// How a contour is drawn in a DXF file.
+enum class DxfProfile {
+  kExact,    ///< R2000: SPLINE (rational), ELLIPSE where a conic is one, LINE and ARC
+  kArcs,     ///< R2000: one LWPOLYLINE with bulges, within the tolerance
+  kCubic,    ///< R2000: SPLINE of degree 3 without weights, within the tolerance
+  kArcsR12,  ///< R12: one POLYLINE with bulges, within the tolerance
+};
+
+struct DxfOptions {
+  DxfProfile profile = DxfProfile::kExact;
+  double tolerance = 0.01;        ///< units; of profiles that are not exact, and of clothoids
+  std::string layer = "CONTOUR";  ///< letters, digits, - and _ ; others become _
+};
+
+/// A DXF file and how far it is from the contour.
+struct DxfText {
+  std::string text;
+  std::size_t entities = 0;
+  double deviation = 0.0;  ///< units, as measured; 0: exact to rounding
+};
+
+/// ASCII DXF in the plane z = 0, units in the header ($INSUNITS) when they are um, mm, cm, m, km,
+/// in, ft, else none. Corners cut an exact or cubic contour into several splines. Errors: E203 a
+/// tolerance that is not greater than 0; those of `arcs_along`, `cubic_along`, `joined_nurbs`.
+[[nodiscard]] Result<DxfText> dxf_text(const Contour& contour, const DxfOptions& options = {});
+
+}  // namespace obvid

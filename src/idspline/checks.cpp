@@ -1,0 +1,89 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "checks.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+namespace obvid::idspline {
+namespace {
+
+std::string place(std::string_view name, std::size_t i) {
+  return fmt::format("{} {}", name, i + 1);
+}
+
+std::optional<Error> refuse_infinite(std::span<const double> data, std::string_view name,
+                                     const Error& error) {
+  for (std::size_t i = 0; i < data.size(); ++i) {
+    if (std::isfinite(data[i])) continue;
+    Error out = error;
+    out.where = place(name, i);
+    out.index = static_cast<std::ptrdiff_t>(i);
+    out.value = data[i];
+    return out;
+  }
+  return std::nullopt;
+}
+
+constexpr const char* kOtherUnit = "change the unit so that sizes are usual numbers";
+
+}  // namespace
+
+std::optional<Error> refuse_nodes(std::span<const double> nodes, std::string_view name) {
+  if (nodes.size() < 2) {
+    return Error{ErrorCode::kTooFewPoints,
+                 fmt::format("a spline needs at least two {}s", name),
+                 "",
+                 "add data",
+                 -1,
+                 static_cast<double>(nodes.size())};
+  }
+  const Error infinite{
+      ErrorCode::kNotFinite, "a place is not a finite number", "", "remove or repair it", -1, 0.0};
+  if (auto error = refuse_infinite(nodes, name, infinite)) return error;
+  for (std::size_t i = 1; i < nodes.size(); ++i) {
+    const double h = nodes[i] - nodes[i - 1];
+    const auto index = static_cast<std::ptrdiff_t>(i);
+    if (!(h > 0.0)) {
+      return Error{ErrorCode::kChordReversal,
+                   fmt::format("{}s must ascend", name),
+                   place(name, i),
+                   "sort them, and keep one of those that coincide",
+                   index,
+                   h};
+    }
+    if (!(std::isfinite(h) && std::isfinite(1.0 / h))) {
+      return Error{ErrorCode::kSizeOutOfRange,
+                   "a step leaves the range of numbers",
+                   place(name, i),
+                   kOtherUnit,
+                   index,
+                   h};
+    }
+  }
+  return std::nullopt;
+}
+
+std::optional<Error> refuse_data(std::span<const double> data, std::size_t expected,
+                                 std::string_view name) {
+  if (data.size() != expected) {
+    return Error{ErrorCode::kUsage,
+                 fmt::format("{} {}s given, {} expected", data.size(), name, expected),
+                 "",
+                 "give one per node, integrals one per cell",
+                 -1,
+                 static_cast<double>(data.size())};
+  }
+  return refuse_infinite(data, name,
+                         {ErrorCode::kNotFinite, fmt::format("a {} is not a finite number", name),
+                          "", "remove or repair it", -1, 0.0});
+}
+
+std::optional<Error> refuse_overflow(std::span<const double> result, std::string_view name) {
+  return refuse_infinite(result, name,
+                         {ErrorCode::kSizeOutOfRange,
+                          fmt::format("a {} of the spline leaves the range of numbers", name), "",
+                          kOtherUnit, -1, 0.0});
+}
+
+}  // namespace obvid::idspline
