@@ -78,8 +78,12 @@ TEST(IdSpline, KeepsTheGivenDataAtNodesAndEnds) {
         EXPECT_EQ(jet.value, data.values[i]) << kind.degree << ' ' << i;
       }
       if (!end && kind.smoothing != kNone) continue;
-      if (kind.degree >= 4) EXPECT_NEAR(jet.d1, data.slopes[i], 1e-13);
-      if (kind.degree >= 6) EXPECT_NEAR(jet.d2, data.seconds[i], 1e-11);
+      if (kind.degree >= 4) {
+        EXPECT_NEAR(jet.d1, data.slopes[i], 1e-13);
+      }
+      if (kind.degree >= 6) {
+        EXPECT_NEAR(jet.d2, data.seconds[i], 1e-11);
+      }
     }
   }
 }
@@ -252,6 +256,9 @@ TEST(IdSpline, UnitsDoNotMatter) {
 }
 
 TEST(IdSpline, StepsOfVeryDifferentLengthLoseLittle) {
+  // rounding of a value, 1e-16, over the square of the ratio of neighbouring steps, 5000^2: that
+  // is how little a value says about a second derivative
+  constexpr double kLoss = 3e-9;
   const Polynomial p{{0.3, -0.2, 0.17, -0.11, 0.05, -0.012, 0.003}};
   for (const Kind& kind : kKinds) {
     const Polynomial q = p.cut(kind.degree);
@@ -265,7 +272,7 @@ TEST(IdSpline, StepsOfVeryDifferentLengthLoseLittle) {
     }
     const IdSpline s = made(data, kind.degree, kind.smoothing);
     for (double x = -1.0; x < 2.0; x += 0.01) {
-      EXPECT_NEAR(evaluate(s, x).value, q.at(x), 1e-9) << kind.degree << int(kind.smoothing);
+      EXPECT_NEAR(evaluate(s, x).value, q.at(x), kLoss) << kind.degree << int(kind.smoothing);
     }
   }
 }

@@ -21,13 +21,16 @@ struct Polynomial {
     return sum;
   }
 
+  /// In wider numbers, so that short intervals keep their digits.
   [[nodiscard]] double integral(double a, double b) const {
-    double sum = 0.0;
+    long double sum = 0.0L;
     for (std::size_t k = 0; k < c.size(); ++k) {
-      const double n = double(k + 1);
-      sum += c[k] * (std::pow(b, n) - std::pow(a, n)) / n;
+      const auto n = static_cast<long double>(k + 1);
+      sum += c[k] *
+             (std::pow(static_cast<long double>(b), n) - std::pow(static_cast<long double>(a), n)) /
+             n;
     }
-    return sum;
+    return static_cast<double>(sum);
   }
 
   /// Its terms up to a degree.
