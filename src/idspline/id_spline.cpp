@@ -7,6 +7,7 @@
 #include <cmath>
 #include <limits>
 #include <optional>
+#include <string>
 #include <utility>
 
 #include "checks.h"
@@ -29,6 +30,25 @@ std::optional<Error> refuse_derivatives(const std::vector<double>& data, std::si
   return refuse_data(data, used ? nodes : 0, name);
 }
 
+/// Steps of such different lengths side by side lose half of all digits in the equations of degree
+/// 6 with free values (docs/methods/idspline.md, section 3).
+constexpr double kLargestStepRatio = 300.0;
+
+std::optional<Error> refuse_steps(const std::vector<double>& x, const IdSplineOptions& options) {
+  if (options.degree < 6 || options.smoothing != IdSmoothing::kValuesFree) return std::nullopt;
+  for (std::size_t i = 2; i < x.size(); ++i) {
+    const double a = x[i - 1] - x[i - 2], b = x[i] - x[i - 1];
+    if (a <= kLargestStepRatio * b && b <= kLargestStepRatio * a) continue;
+    return Error{ErrorCode::kRoundingDecides,
+                 "neighbouring steps differ more than free values of degree 6 bear",
+                 "node " + std::to_string(i),
+                 "keep the values, or take degree 4",
+                 static_cast<std::ptrdiff_t>(i - 1),
+                 std::max(a / b, b / a)};
+  }
+  return std::nullopt;
+}
+
 std::optional<Error> refuse(const IdSplineData& data, const IdSplineOptions& options) {
   const int degree = options.degree;
   if (degree != 2 && degree != 4 && degree != 6) {
@@ -41,6 +61,7 @@ std::optional<Error> refuse(const IdSplineData& data, const IdSplineOptions& opt
   }
   const std::size_t n = data.nodes.size();
   if (auto error = idspline::refuse_nodes(data.nodes)) return error;
+  if (auto error = refuse_steps(data.nodes, options)) return error;
   if (auto error = refuse_data(data.values, n, "value")) return error;
   if (!data.integrals.empty()) {
     if (auto error = refuse_data(data.integrals, n - 1, "integral")) return error;

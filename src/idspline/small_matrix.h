@@ -9,14 +9,14 @@
 namespace obvid::idspline {
 
 /// Square matrix of one to three rows, a block of a tridiagonal system.
-template <std::size_t K>
+template <class Real, std::size_t K>
 struct SmallMatrix {
-  std::array<std::array<double, K>, K> row{};
+  std::array<std::array<Real, K>, K> row{};
 };
 
-template <std::size_t K>
-SmallMatrix<K> operator*(const SmallMatrix<K>& a, const SmallMatrix<K>& b) {
-  SmallMatrix<K> out;
+template <class Real, std::size_t K>
+SmallMatrix<Real, K> operator*(const SmallMatrix<Real, K>& a, const SmallMatrix<Real, K>& b) {
+  SmallMatrix<Real, K> out;
   for (std::size_t i = 0; i < K; ++i) {
     for (std::size_t j = 0; j < K; ++j) {
       for (std::size_t l = 0; l < K; ++l) out.row[i][j] += a.row[i][l] * b.row[l][j];
@@ -25,8 +25,8 @@ SmallMatrix<K> operator*(const SmallMatrix<K>& a, const SmallMatrix<K>& b) {
   return out;
 }
 
-template <std::size_t K>
-SmallMatrix<K> operator-(SmallMatrix<K> a, const SmallMatrix<K>& b) {
+template <class Real, std::size_t K>
+SmallMatrix<Real, K> operator-(SmallMatrix<Real, K> a, const SmallMatrix<Real, K>& b) {
   for (std::size_t i = 0; i < K; ++i) {
     for (std::size_t j = 0; j < K; ++j) a.row[i][j] -= b.row[i][j];
   }
@@ -34,31 +34,31 @@ SmallMatrix<K> operator-(SmallMatrix<K> a, const SmallMatrix<K>& b) {
 }
 
 /// Unknowns of one node. A struct of its own, so that its operators are found by name.
-template <std::size_t K>
+template <class Real, std::size_t K>
 struct SmallColumn {
-  std::array<double, K> at{};
+  std::array<Real, K> at{};
 };
 
-template <std::size_t K>
-SmallColumn<K> operator*(const SmallMatrix<K>& a, const SmallColumn<K>& b) {
-  SmallColumn<K> out;
+template <class Real, std::size_t K>
+SmallColumn<Real, K> operator*(const SmallMatrix<Real, K>& a, const SmallColumn<Real, K>& b) {
+  SmallColumn<Real, K> out;
   for (std::size_t i = 0; i < K; ++i) {
     for (std::size_t j = 0; j < K; ++j) out.at[i] += a.row[i][j] * b.at[j];
   }
   return out;
 }
 
-template <std::size_t K>
-SmallColumn<K> operator-(SmallColumn<K> a, const SmallColumn<K>& b) {
+template <class Real, std::size_t K>
+SmallColumn<Real, K> operator-(SmallColumn<Real, K> a, const SmallColumn<Real, K>& b) {
   for (std::size_t i = 0; i < K; ++i) a.at[i] -= b.at[i];
   return a;
 }
 
 /// Inverse by elimination with row exchanges; not finite when there is none.
-template <std::size_t K>
-SmallMatrix<K> inverse_of(SmallMatrix<K> a) {
-  SmallMatrix<K> out;
-  for (std::size_t i = 0; i < K; ++i) out.row[i][i] = 1.0;
+template <class Real, std::size_t K>
+SmallMatrix<Real, K> inverse_of(SmallMatrix<Real, K> a) {
+  SmallMatrix<Real, K> out;
+  for (std::size_t i = 0; i < K; ++i) out.row[i][i] = Real(1);
   for (std::size_t i = 0; i < K; ++i) {
     std::size_t largest = i;
     for (std::size_t j = i + 1; j < K; ++j) {
@@ -66,14 +66,14 @@ SmallMatrix<K> inverse_of(SmallMatrix<K> a) {
     }
     std::swap(a.row[i], a.row[largest]);
     std::swap(out.row[i], out.row[largest]);
-    const double per = 1.0 / a.row[i][i];
+    const Real per = Real(1) / a.row[i][i];
     for (std::size_t l = 0; l < K; ++l) {
       a.row[i][l] *= per;
       out.row[i][l] *= per;
     }
     for (std::size_t j = 0; j < K; ++j) {
       if (j == i) continue;
-      const double factor = a.row[j][i];
+      const Real factor = a.row[j][i];
       for (std::size_t l = 0; l < K; ++l) {
         a.row[j][l] -= factor * a.row[i][l];
         out.row[j][l] -= factor * out.row[i][l];

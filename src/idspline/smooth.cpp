@@ -11,6 +11,9 @@
 namespace obvid::idspline {
 namespace {
 
+/// 64 bits of fraction on usual processors; plain double elsewhere is correct too, only less exact.
+using Wide = long double;
+
 constexpr std::size_t kMostOrders = 3;  // value, slope, second derivative
 
 /// Derivative 2m - 1 - j of the unit cell at its left end (index j), by the data at the left end,
@@ -53,7 +56,10 @@ EndDerivatives end_derivatives(int m) {
 
 /// The system for a spline whose node data from order M - K on are free. Unknowns are derivatives
 /// times powers of the shorter neighbouring step, so that no row and no column depends on units.
-template <std::size_t M, std::size_t K>
+///
+/// `Real` is wider than double from degree 4 on: where neighbouring steps differ by a factor r, the
+/// equations of degree 2 m lose digits like r^(2m - 2), though the spline itself does not.
+template <class Real, std::size_t M, std::size_t K>
 class Smoother {
  public:
   explicit Smoother(IdSpline& spline)
@@ -61,11 +67,11 @@ class Smoother {
 
   void run() {
     if (last_ < 2) return;  // no inner node
-    TridiagonalSystem<SmallMatrix<K>, SmallColumn<K>> system(last_ - 1);
+    TridiagonalSystem<SmallMatrix<Real, K>, SmallColumn<Real, K>> system(last_ - 1);
     for (std::size_t i = 1; i < last_; ++i) {
       Row row;
-      add_side(i, i, i + 1, 1.0, row, row.behind);
-      add_side(i, i - 1, i - 1, -1.0, row, row.before);
+      add_side(i, i, i + 1, Real(1), row, row.behind);
+      add_side(i, i - 1, i - 1, Real(-1), row, row.before);
       if (i == 1) {
         system.set_first(row.here, row.behind, row.right);
       } else {
@@ -80,14 +86,16 @@ class Smoother {
   static constexpr std::size_t kFirst = M - K;
 
   struct Row {
-    SmallMatrix<K> before, here, behind;
-    SmallColumn<K> right;
+    SmallMatrix<Real, K> before, here, behind;
+    SmallColumn<Real, K> right;
   };
 
-  [[nodiscard]] double h(std::size_t i) const { return spline_.nodes[i + 1] - spline_.nodes[i]; }
+  [[nodiscard]] Real h(std::size_t i) const {
+    return Real(spline_.nodes[i + 1]) - Real(spline_.nodes[i]);
+  }
 
   /// Unit of length at a node.
-  [[nodiscard]] double scale(std::size_t i) const {
+  [[nodiscard]] Real scale(std::size_t i) const {
     if (i == 0) return h(0);
     return i == last_ ? h(i - 1) : std::min(h(i - 1), h(i));
   }
@@ -98,18 +106,18 @@ class Smoother {
 
   /// Adds what cell `c` on one side of node i says about its derivatives there. The left cell is
   /// seen in the mirror, where derivatives of odd order change sign.
-  void add_side(std::size_t i, std::size_t c, std::size_t other, double side, Row& row,
-                SmallMatrix<K>& beyond) {
-    const double to_here = scale(i) / h(c), to_there = scale(other) / h(c);
-    const double mean_value = spline_.integrals[c] / h(c);
+  void add_side(std::size_t i, std::size_t c, std::size_t other, Real side, Row& row,
+                SmallMatrix<Real, K>& beyond) {
+    const Real to_here = scale(i) / h(c), to_there = scale(other) / h(c);
+    const Real mean_value = spline_.integrals[c] / h(c);
     const bool end = other == 0 || other == last_;
-    double weight = side;
+    Real weight = side;
     for (std::size_t k = 0; k < M; ++k) weight *= side * to_here;  // orders from M on
     for (std::size_t j = M; j-- > kFirst; weight *= side * to_here) {
       const std::size_t r = j - kFirst;
-      double here = weight, there = weight;
+      Real here = weight, there = weight;
       for (std::size_t l = 0; l < M; ++l, here *= side / to_here, there *= side / to_there) {
-        const double a = here * table_.near[j][l], b = there * table_.far[j][l];
+        const Real a = here * table_.near[j][l], b = there * table_.far[j][l];
         if (l < kFirst) {
           row.right.at[r] -= a * scaled(i, l);
         } else {
@@ -125,17 +133,17 @@ class Smoother {
     }
   }
 
-  [[nodiscard]] double scaled(std::size_t node, std::size_t order) {
-    double out = data(order)[node];
+  [[nodiscard]] Real scaled(std::size_t node, std::size_t order) {
+    Real out = data(order)[node];
     for (std::size_t k = 0; k < order; ++k) out *= scale(node);
     return out;
   }
 
-  void store(std::size_t i, const SmallColumn<K>& found) {
+  void store(std::size_t i, const SmallColumn<Real, K>& found) {
     for (std::size_t l = kFirst; l < M; ++l) {
-      double out = found.at[l - kFirst];
+      Real out = found.at[l - kFirst];
       for (std::size_t k = 0; k < l; ++k) out /= scale(i);
-      data(l)[i] = out;
+      data(l)[i] = static_cast<double>(out);
     }
   }
 
@@ -149,15 +157,15 @@ class Smoother {
 void smooth(IdSpline& spline, int first_free) {
   switch (spline.degree + first_free) {
     case 2:
-      return Smoother<1, 1>(spline).run();
+      return Smoother<double, 1, 1>(spline).run();
     case 4:
-      return Smoother<2, 2>(spline).run();
+      return Smoother<Wide, 2, 2>(spline).run();
     case 5:
-      return Smoother<2, 1>(spline).run();
+      return Smoother<Wide, 2, 1>(spline).run();
     case 6:
-      return Smoother<3, 3>(spline).run();
+      return Smoother<Wide, 3, 3>(spline).run();
     case 7:
-      return Smoother<3, 2>(spline).run();
+      return Smoother<Wide, 3, 2>(spline).run();
     default:
       return;
   }
