@@ -27,6 +27,7 @@ int run(const ConvertOptions& options) {
   if (!written) return report(written.error());
   std::string shown;
   if (!options.quiet) {
+    if (!options.profile.empty()) shown += options.profile + "\n";
     for (const std::string& remark : remarks) shown += remark + "\n";
     shown += "written  " + listed(*written) + "\n";
   }

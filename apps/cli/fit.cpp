@@ -95,6 +95,7 @@ int run(const FitOptions& options) {
   if (!made) return code;
 
   Written written;
+  if (!options.profile.empty()) written.remarks.push_back(options.profile);
   if (!outputs->empty()) {
     bar.tell("writing", 1.0);
     StoredContour stored{std::move(made->contour), made->report, made->certificate};

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <utility>
 
+#include "obvid/pipeline/profiles.h"
 #include "option_values.h"
 
 namespace obvid {
@@ -29,27 +30,60 @@ Result<void> set_import(const FormatValues& typed, ImportOptions& options) {
   return {};
 }
 
-Result<void> set_formats(const FormatValues& typed, ExportOptions& options) {
-  if (auto done = check_length(typed.tolerance, "--output-tolerance"); !done) return done;
-  if (auto done = check_length(typed.face_width, "--face"); !done) return done;
+namespace {
+
+constexpr std::array kSteps = {std::pair{"ap214", CadFormat::kStepAp214},
+                               std::pair{"ap242", CadFormat::kStepAp242}};
+constexpr std::array kDxf = {
+    std::pair{"exact", DxfProfile::kExact}, std::pair{"arcs", DxfProfile::kArcs},
+    std::pair{"cubic", DxfProfile::kCubic}, std::pair{"r12", DxfProfile::kArcsR12}};
+constexpr std::array kControllers = {std::pair{"grbl", GcodeController::kGrbl},
+                                     std::pair{"linuxcnc", GcodeController::kLinuxCnc},
+                                     std::pair{"fanuc", GcodeController::kFanuc}};
+constexpr std::array kMotions = {std::pair{"arcs", GcodeMotion::kArcs},
+                                 std::pair{"lines", GcodeMotion::kLines},
+                                 std::pair{"splines", GcodeMotion::kSplines}};
+
+/// The value of a typed name; nothing typed leaves it as it is.
+template <class Names, class Value>
+Result<void> choose(const std::optional<std::string>& typed, const Names& names, const char* option,
+                    Value& value) {
+  if (!typed) return {};
+  std::string all;
+  for (const auto& [name, one] : names) {
+    if (*typed == name) {
+      value = one;
+      return {};
+    }
+    all += (all.empty() ? "" : ", ") + std::string(name);
+  }
+  return fail(bad_option("unknown choice '" + *typed + "'", option, "one of " + all));
+}
+
+}  // namespace
+
+Result<void> set_formats(const FormatValues& typed, ExportOptions& options,
+                         std::string& profile_text) {
+  if (typed.profile) {
+    const auto profile = profile_of(*typed.profile);
+    if (!profile) return fail(profile.error());
+    options = profile->options;
+    profile_text = "for " + profile->name + ": " + profile->choices;
+  }
+  for (const auto& [value, option] :
+       {std::pair{typed.tolerance, "--output-tolerance"}, std::pair{typed.face_width, "--face"},
+        std::pair{typed.feed, "--feed"}}) {
+    if (auto done = check_length(value, option); !done) return done;
+  }
   options.tolerance = typed.tolerance;
-  options.face_width = typed.face_width.value_or(0.0);
-  if (typed.step == "ap242") {
-    options.step = CadFormat::kStepAp242;
-  } else if (typed.step != "ap214") {
-    return fail(bad_option("unknown schema '" + typed.step + "'", "--step", "ap214 or ap242"));
-  }
-  static constexpr std::array kDxf = {
-      std::pair{"exact", DxfProfile::kExact}, std::pair{"arcs", DxfProfile::kArcs},
-      std::pair{"cubic", DxfProfile::kCubic}, std::pair{"r12", DxfProfile::kArcsR12}};
-  const auto* dxf = std::find_if(kDxf.begin(), kDxf.end(),
-                                 [&](const auto& one) { return typed.dxf == one.first; });
-  if (dxf == kDxf.end()) {
-    return fail(bad_option("unknown kind of DXF '" + typed.dxf + "'", "--dxf",
-                           "exact, arcs, cubic or r12"));
-  }
-  options.dxf = dxf->second;
-  return {};
+  if (typed.face_width) options.face_width = *typed.face_width;
+  if (typed.feed) options.feed = *typed.feed;
+  return choose(typed.step, kSteps, "--step", options.step)
+      .and_then([&] { return choose(typed.dxf, kDxf, "--dxf", options.dxf); })
+      .and_then([&] {
+        return choose(typed.controller, kControllers, "--controller", options.controller);
+      })
+      .and_then([&] { return choose(typed.motion, kMotions, "--motion", options.motion); });
 }
 
 }  // namespace obvid

@@ -16,12 +16,18 @@ struct FormatValues {
   std::optional<double> chord_tolerance;
   std::optional<double> tolerance;
   std::optional<double> face_width;
-  std::string step = "ap214";
-  std::string dxf = "exact";
+  std::optional<std::string> profile;
+  std::optional<std::string> step;
+  std::optional<std::string> dxf;
+  std::optional<std::string> controller;
+  std::optional<std::string> motion;
+  std::optional<double> feed;
 };
 
 /// Error: E203.
 [[nodiscard]] Result<void> set_import(const FormatValues& typed, ImportOptions& options);
-[[nodiscard]] Result<void> set_formats(const FormatValues& typed, ExportOptions& options);
+/// A profile first, then what was typed beside it. `profile_text` gets what the profile chose.
+[[nodiscard]] Result<void> set_formats(const FormatValues& typed, ExportOptions& options,
+                                       std::string& profile_text);
 
 }  // namespace obvid

@@ -145,6 +145,24 @@ void add_formats(CLI::App& command, FormatValues& values) {
                   "size]")
       ->type_name("T")
       ->group(group);
+  command
+      .add_option("--for", values.profile,
+                  "Choices that are known to work in solidworks, freecad, fusion, rhino, autocad, "
+                  "grbl, linuxcnc, fanuc or opendrive; printed; options beside it go before")
+      ->type_name("NAME")
+      ->group(group);
+  command
+      .add_option("--controller", values.controller, "G-code for grbl, linuxcnc or fanuc [grbl]")
+      ->type_name("NAME")
+      ->group(group);
+  command
+      .add_option("--motion", values.motion,
+                  "G-code of arcs (G2, G3), lines (G1) or splines (G5, linuxcnc) [arcs]")
+      ->type_name("NAME")
+      ->group(group);
+  command.add_option("--feed", values.feed, "Feed of G-code, mm/min (in/min for inches) [1000]")
+      ->type_name("F")
+      ->group(group);
   command.add_option("--step", values.step, "Schema of STEP files: ap214 or ap242 [ap214]")
       ->type_name("NAME")
       ->group(group);
@@ -367,7 +385,7 @@ Result<Command> checked_fit(Raw& raw) {
   const Result<void> done =
       set_job(raw)
           .and_then([&] { return set_carrier(raw); })
-          .and_then([&] { return set_formats(raw.formats, raw.fit.formats); })
+          .and_then([&] { return set_formats(raw.formats, raw.fit.formats, raw.fit.profile); })
           .and_then([&] { return set_import(raw.formats, raw.fit.import); })
           .and_then([&] { return check_units(raw.fit.units); })
           .and_then([&] { return need(raw.fit.input, "fit", "a file with points"); });
@@ -398,7 +416,7 @@ Result<Command> checked_points(const Options& options, const char* name) {
 
 Result<Command> checked_convert(Raw& raw) {
   const Result<void> done = need(raw.convert.input, "convert", "a contour file").and_then([&] {
-    return set_formats(raw.formats, raw.convert.formats);
+    return set_formats(raw.formats, raw.convert.formats, raw.convert.profile);
   });
   if (!done) return fail(done.error());
   if (raw.convert.outputs.empty()) {

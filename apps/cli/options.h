@@ -19,6 +19,7 @@ struct FitOptions {
   FitJob job;
   ImportOptions import;
   ExportOptions formats;
+  std::string profile;  ///< what --for chose, in words; empty without it
   std::optional<std::string> units;
   bool suggest = false;  ///< how many vertices which tolerance would need
   bool json = false;
@@ -30,6 +31,7 @@ struct ConvertOptions {
   std::string input;
   std::vector<std::string> outputs;
   ExportOptions formats;
+  std::string profile;  ///< what --for chose, in words; empty without it
   bool quiet = false;
 };
 

@@ -32,10 +32,16 @@ constexpr std::array kEndings = {
     Ending{".igs", FileFormat::kIges, ""},
     Ending{".brep", FileFormat::kBrep, "BREP"},
     Ending{".dxf", FileFormat::kDxf, "DXF"},
+    Ending{".nc", FileFormat::kGcode, "G-code"},
+    Ending{".ngc", FileFormat::kGcode, ""},
+    Ending{".gcode", FileFormat::kGcode, ""},
+    Ending{".tap", FileFormat::kGcode, ""},
 };
 
 /// Tolerance of curves that a format cannot hold, of the size.
 constexpr double kDefaultTolerance = 1e-6;
+constexpr double kDefaultForArcs = 2e-5;
+constexpr double kLeastForGcode = 2e-3;  // mm: what the printed digits keep well
 
 Exported one_file(std::string text) { return {{{"", std::move(text)}}, {}}; }
 
@@ -43,8 +49,9 @@ class Exporter {
  public:
   Exporter(const StoredContour& stored, const ExportOptions& options)
       : stored_(stored), contour_(stored.contour), options_(options) {
-    tolerance_ =
-        options.tolerance.value_or(kDefaultTolerance * pipeline_detail::size_of(contour_.points));
+    const double size = pipeline_detail::size_of(contour_.points);
+    tolerance_ = options.tolerance.value_or(kDefaultTolerance * size);
+    arc_tolerance_ = options.tolerance.value_or(kDefaultForArcs * size);
   }
 
   Result<Exported> run(FileFormat format) {
@@ -61,6 +68,8 @@ class Exporter {
         return cad(CadFormat::kBrep);
       case FileFormat::kDxf:
         return dxf();
+      case FileFormat::kGcode:
+        return gcode();
     }
     return fail({ErrorCode::kInternal, "unknown format", "", "", -1, 0.0});
   }
@@ -113,7 +122,8 @@ class Exporter {
   Result<Exported> dxf() {
     DxfOptions write;
     write.profile = options_.dxf;
-    write.tolerance = tolerance_;
+    const bool arcs = write.profile == DxfProfile::kArcs || write.profile == DxfProfile::kArcsR12;
+    write.tolerance = arcs ? arc_tolerance_ : tolerance_;
     auto made = dxf_text(contour_, write);
     if (!made) return tl::unexpected(made.error());
     Exported out = one_file(std::move(made->text));
@@ -126,10 +136,27 @@ class Exporter {
     return out;
   }
 
+  Result<Exported> gcode() {
+    GcodeOptions write;
+    write.motion = options_.motion;
+    write.controller = options_.controller;
+    write.feed = options_.feed;
+    write.name = options_.name;
+    write.tolerance =
+        options_.tolerance ? *options_.tolerance : std::max(arc_tolerance_, kLeastForGcode);
+    auto made = gcode_text(contour_, write);
+    if (!made) return tl::unexpected(made.error());
+    Exported out = one_file(std::move(made->text));
+    out.remarks.push_back(
+        fmt::format("{} blocks, {} of them arcs, at most {:.3g} {} from the contour", made->blocks,
+                    made->arc_blocks, made->deviation, contour_.units));
+    return out;
+  }
+
   const StoredContour& stored_;
   const Contour& contour_;
   const ExportOptions& options_;
-  double tolerance_ = 0.0;
+  double tolerance_ = 0.0, arc_tolerance_ = 0.0;
 };
 
 }  // namespace

@@ -9,6 +9,7 @@
 #include "obvid/cad/cad.h"
 #include "obvid/core/result.h"
 #include "obvid/exchange/dxf_write.h"
+#include "obvid/exchange/gcode.h"
 #include "obvid/io/stored_contour.h"
 
 namespace obvid {
@@ -21,6 +22,7 @@ enum class FileFormat {
   kIges,     ///< .iges, .igs
   kBrep,     ///< .brep
   kDxf,      ///< .dxf
+  kGcode,    ///< .nc, .ngc, .gcode, .tap
 };
 
 /// Format of a file's name. Nothing for endings that stand for none.
@@ -32,9 +34,13 @@ enum class FileFormat {
 /// Choices of the formats. Lengths in units of the contour.
 struct ExportOptions {
   std::string name = "contour";     ///< of the curve, where a format has a place for it
-  std::optional<double> tolerance;  ///< of curves that a format cannot hold exactly [1e-6 of size]
+  std::optional<double> tolerance;  ///< of curves that a format cannot hold exactly [1e-6 of the
+                                    ///< size; of arcs and G-code 2e-5 of it]
   CadFormat step = CadFormat::kStepAp214;
   DxfProfile dxf = DxfProfile::kExact;
+  GcodeMotion motion = GcodeMotion::kArcs;
+  GcodeController controller = GcodeController::kGrbl;
+  double feed = 1000.0;     ///< of G-code, mm/min (in/min for inches)
   double face_width = 0.0;  ///< STEP, IGES, BREP: > 0 also a face of this width along z
 };
 

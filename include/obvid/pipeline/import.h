@@ -10,8 +10,8 @@
 
 namespace obvid {
 
-/// Whether a file is a drawing of another system (STEP, IGES, BREP, ...) or a stored contour, by its
-/// first bytes. False for lists of points and for files that cannot be opened.
+/// Whether a file is a drawing of another system (STEP, IGES, BREP, ...) or a stored contour, by
+/// its first bytes. False for lists of points and for files that cannot be opened.
 [[nodiscard]] bool is_drawing(const std::string& path);
 
 /// Curves and series of points of a drawing, or the curve of a stored contour.
@@ -21,7 +21,8 @@ namespace obvid {
 /// How a curve of a drawing becomes a series of points.
 struct ImportOptions {
   std::optional<std::size_t> curve;  ///< which, from 0, curves before series; default the longest
-  std::optional<double> tolerance;   ///< largest distance of a chord from its curve [1e-4 of the size]
+  std::optional<double>
+      tolerance;  ///< largest distance of a chord from its curve [1e-4 of the size]
 };
 
 /// Points to fit: of a text file as they are, of a drawing its longest series or curve, sampled.
