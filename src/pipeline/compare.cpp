@@ -50,23 +50,26 @@ int continuity_of(const Certificate& certificate) {
   return certificate.gaps.curvature > kSameCurvature ? 1 : 2;
 }
 
-std::vector<Vec2> sample_points(const Contour& contour) {
+std::vector<CurvePoint> sample_points(const Contour& contour) {
   const std::size_t pieces = std::max<std::size_t>(contour.pieces.size(), 1);
   const int each = std::max(kLeastPerPiece, static_cast<int>(kLeastSamples / pieces));
-  std::vector<Vec2> out;
-  for (const Piece& piece : contour.pieces) {
-    for (int i = 0; i < each; ++i) {
-      out.push_back(evaluate(piece, static_cast<double>(i) / each).point);
+  std::vector<CurvePoint> out;
+  for (std::size_t k = 0; k < contour.pieces.size(); ++k) {
+    const Piece& piece = contour.pieces[k];
+    out.push_back({start_point(piece), contour.joints[k].source});
+    for (int i = 1; i < each; ++i) {
+      out.push_back({evaluate(piece, static_cast<double>(i) / each).point, std::nullopt});
     }
   }
-  if (!contour.pieces.empty()) out.push_back(end_point(contour.pieces.back()));
+  if (!contour.pieces.empty()) out.push_back({end_point(contour.pieces.back()), std::nullopt});
   return out;
 }
 
 /// Distances of points from the spirals, each a proved upper bound.
-double farthest_from(const Contour& spirals, std::vector<Vec2> points) {
+double farthest_from(const Contour& spirals, const std::vector<CurvePoint>& points) {
   Contour probe = spirals;
-  probe.points = std::move(points);
+  probe.points.clear();
+  for (const CurvePoint& p : points) probe.points.push_back(p.point);
   probe.point_tolerance.clear();  // the samples are no points of the series
   for (Joint& joint : probe.joints) joint.source.reset();
   double most = 0.0;
@@ -75,7 +78,7 @@ double farthest_from(const Contour& spirals, std::vector<Vec2> points) {
 }
 
 void measure_against(const Contour& spirals, ComparedCarrier& row) {
-  const std::vector<Vec2> points = sample_points(row.fit.contour);
+  const std::vector<CurvePoint> points = sample_points(row.fit.contour);
   const RegionDistances distances = place_in_regions(spirals, points);
   row.error_bound = distances.farther;
   row.outside = distances.outside;
@@ -119,7 +122,9 @@ std::size_t control_points(const Contour& contour) {
     const std::size_t own = points_of(contour.pieces[i]);
     if (own == 0) return 0;
     const bool corner = i < contour.joints.size() && contour.joints[i].leaving.has_value();
-    const std::size_t saved = i == 0 ? 0 : corner ? 1 : saved_by_joint(contour.carrier);
+    const bool alike = i > 0 && contour.pieces[i].index() == contour.pieces[i - 1].index() &&
+                       !std::holds_alternative<LinePiece>(contour.pieces[i]);
+    const std::size_t saved = i == 0 ? 0 : corner || !alike ? 1 : saved_by_joint(contour.carrier);
     count += own - std::min(saved, own);
   }
   return count;

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "form.h"
 #include "obvid/region/boundary_distance.h"
@@ -13,6 +14,24 @@ namespace {
 
 /// What coordinates cannot tell, of the contour's extent from the origin: inside all the same.
 constexpr double kRounding = 0x1p-48;
+
+double distance_from(const LinePiece& line, Vec2 p) {
+  const Vec2 chord = line.end - line.start, v = p - line.start;
+  const double part = std::clamp(dot(v, chord) / dot(chord, chord), 0.0, 1.0);
+  return norm(v - part * chord);
+}
+
+double distance_from(const ArcPiece& arc, Vec2 p) {
+  const Vec2 v = p - arc.start, ahead = unit_at(arc.theta0);
+  // seen from the start: the angle at the centre, the way the arc turns, a whole turn at most
+  const double side = std::copysign(1.0, arc.kappa);
+  const Vec2 radius = arc.kappa * v - left_normal(ahead);
+  double angle = side * turning(-left_normal(ahead), radius);
+  if (angle < 0.0) angle += 2.0 * std::numbers::pi;
+  if (angle > std::abs(arc.kappa * arc.length)) return std::min(norm(v), norm(p - arc.end));
+  // | |p - centre| - R | without the cancellation of a large circle
+  return std::abs(dot(v, v) * arc.kappa - 2.0 * dot(v, left_normal(ahead))) / (norm(radius) + 1.0);
+}
 
 class Regions {
  public:
@@ -25,8 +44,10 @@ class Regions {
     enter(0);
   }
 
-  void add(Vec2 p) {
-    while (link_ + 1 < spirals_.pieces.size() && beyond(p)) enter(link_ + 1);
+  /// Goes on to the link in which p lies, before the link `end`, and measures p there.
+  void add(Vec2 p, std::size_t end) {
+    while (link_ + 1 < end && beyond(p)) enter(link_ + 1);
+    if (direction_[link_] == 0) return add_beside_arc(p);
     if (!region_) return;
     const Vec2 v = p - start_.point;
     const Vec2 local = {dot(along_, v), cross(along_, v)};
@@ -37,9 +58,6 @@ class Regions {
     if (nearer > rounding_ && !between(local)) out_.outside = std::max(out_.outside, nearer);
   }
 
-  [[nodiscard]] RegionDistances distances() const { return out_; }
-
- private:
   void enter(std::size_t link) {
     link_ = link;
     const Joint& from = spirals_.joints[link];
@@ -50,6 +68,20 @@ class Regions {
     frame_ = chord_frame(start_, end_);
     along_ = (end_.point - start_.point) / frame_.h;
     region_ = segment_region(frame_, direction_[link]);
+  }
+
+  [[nodiscard]] RegionDistances distances() const { return out_; }
+
+ private:
+  void add_beside_arc(Vec2 p) {
+    const Piece& piece = spirals_.pieces[link_];
+    const auto* line = std::get_if<LinePiece>(&piece);
+    const auto* arc = std::get_if<ArcPiece>(&piece);
+    if (line == nullptr && arc == nullptr) return;
+    const double away = line != nullptr ? distance_from(*line, p) : distance_from(*arc, p);
+    if (!(away > rounding_)) return;
+    out_.farther = std::max(out_.farther, away);
+    out_.outside = std::max(out_.outside, away);
   }
 
   /// Past the normal at the end of the link, and not still beside its start.
@@ -81,10 +113,28 @@ class Regions {
 
 }  // namespace
 
-RegionDistances place_in_regions(const Contour& spirals, const std::vector<Vec2>& points) {
+RegionDistances place_in_regions(const Contour& spirals, const std::vector<CurvePoint>& points) {
   if (spirals.pieces.empty()) return {};
+  const std::size_t links = spirals.pieces.size();
+  std::vector<std::size_t> link_of(spirals.points.size(), links);  // that starts at an input point
+  for (std::size_t j = 0; j < links; ++j) {
+    const auto source = spirals.joints[j].source;
+    if (source && *source < link_of.size()) link_of[*source] = j;
+  }
+  const auto link_at = [&](const CurvePoint& p) {
+    return p.source && *p.source < link_of.size() ? link_of[*p.source] : links;
+  };
+  std::vector<std::size_t> end(points.size(),
+                               links);  // link of the next input point, seen from each
+  for (std::size_t i = points.size(); i-- > 1;) {
+    const std::size_t link = link_at(points[i]);
+    end[i - 1] = link < links ? link : end[i];
+  }
   Regions regions(spirals);
-  for (const Vec2 p : points) regions.add(p);
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    if (const std::size_t link = link_at(points[i]); link < links) regions.enter(link);
+    regions.add(points[i].point, end[i]);
+  }
   return regions.distances();
 }
 

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstddef>
+#include <optional>
 #include <vector>
 
 #include "obvid/curve/contour.h"
@@ -13,10 +15,16 @@ struct RegionDistances {
   double outside = 0.0;  ///< from the region; 0: all inside, or no farther out than rounding
 };
 
+/// Point of a curve; `source`: the input point that it stands on, if any.
+struct CurvePoint {
+  Vec2 point;
+  std::optional<std::size_t> source;
+};
+
 /// `points` follow a contour of spirals, in order: each is measured against the region between the
-/// two joints that it lies between, told by the normals at the joints. Circular links, whose region
-/// is the arc itself, do not count.
+/// two joints that it lies between. Input points tell which these are; between them the normals at
+/// the joints do. The region of a circular link is its arc.
 [[nodiscard]] RegionDistances place_in_regions(const Contour& spirals,
-                                               const std::vector<Vec2>& points);
+                                               const std::vector<CurvePoint>& points);
 
 }  // namespace obvid::pipeline_detail

@@ -281,5 +281,52 @@ TEST(Compare, ACarrierThatCannotDoItIsARowWithItsReason) {
   EXPECT_FALSE(c->carriers[5].refusal);  // B-spline
 }
 
+/// Two arcs of parabolas that meet at a right angle in point 8.
+PointSeries cornered() {
+  PointSeries series;
+  for (int i = 0; i <= 8; ++i) {
+    series.points.push_back({0.25 * i - 2.0, -0.05 * (i - 9.0) * (i - 9.0)});
+  }
+  for (int i = 1; i <= 8; ++i) series.points.push_back({0.02 * i * i, -0.05 - 0.25 * i});
+  return series;
+}
+
+TEST(Compare, BehindACornerTheRegionsAreThoseBehindIt) {
+  FitJob job;
+  job.wishes.push_back({8, {}, {}, true});
+  const auto c = compare_carriers(cornered(), job);
+  ASSERT_TRUE(c);
+  for (const ComparedCarrier& row : c->carriers) {
+    if (row.refusal) continue;
+    // the spirals lie in the regions: nothing is farther outside than it is from them
+    EXPECT_LE(row.outside, row.deviation) << to_string(row.carrier);
+    EXPECT_LT(row.error_bound, 0.02) << to_string(row.carrier);  // chords are 0.25 and more
+  }
+}
+
+TEST(Compare, BesideACircleTheErrorBoundIsTheDistanceFromIt) {
+  PointSeries series;
+  series.points = {{0, 0}, {1, 5}, {1.1, 0}};  // the circle through three points, more than half
+  FitJob job;
+  job.find_corners = false;
+  const auto c = compare_carriers(series, job);
+  ASSERT_TRUE(c);
+  const ComparedCarrier& baseline = c->carriers[7];
+  EXPECT_GT(baseline.deviation, 1.0);
+  EXPECT_NEAR(baseline.error_bound, baseline.deviation, 1e-6);
+  EXPECT_NEAR(baseline.outside, baseline.deviation, 1e-6);
+  EXPECT_EQ(c->carriers[0].outside, 0.0);
+  // by hand: the baseline's points from the centre
+  const Vec2 centre = {0.55, 2.49};  // as far from (1, 5) as from (0, 0): 1.1 + 10 y = 26
+  const double radius = norm(centre);
+  double most = 0.0;
+  for (const Piece& piece : baseline.fit.contour.pieces) {
+    for (int i = 0; i <= 1000; ++i) {
+      most = std::max(most, std::abs(norm(evaluate(piece, i / 1000.0).point - centre) - radius));
+    }
+  }
+  EXPECT_NEAR(baseline.deviation, most, 1e-3 * most);
+}
+
 }  // namespace
 }  // namespace obvid
