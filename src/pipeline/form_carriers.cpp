@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <utility>
@@ -96,6 +97,56 @@ std::optional<std::size_t> inflection(const Contour& spirals) {
   return std::nullopt;
 }
 
+/// Lines and arcs only: every carrier of lines has the lines, ellipse arcs are circle arcs too. A
+/// conic or polynomial of the same shape would have vertices by its rounding.
+template <class... Kinds>
+bool only(const Contour& spirals) {
+  return std::all_of(spirals.pieces.begin(), spirals.pieces.end(), [](const Piece& piece) {
+    return (std::holds_alternative<Kinds>(piece) || ...);
+  });
+}
+
+Carried as_they_are(const Contour& spirals, Carrier carrier) {
+  Carried out{spirals, 0.0, {}};
+  out.contour.carrier = carrier;
+  return out;
+}
+
+/// Points on one line, as far as their coordinates tell, each ahead of the one before.
+bool straight(const std::vector<Vec2>& points) {
+  constexpr double kRounding = 0x1p-50;  // of the largest coordinate: its last digits
+  double largest = 0.0;
+  for (const Vec2 p : points) largest = std::max({largest, std::abs(p.x), std::abs(p.y)});
+  const Vec2 chord = points.back() - points.front();
+  const Vec2 along = chord / norm(chord);
+  for (std::size_t i = 1; i < points.size(); ++i) {
+    if (!(dot(along, points[i] - points[i - 1]) > 0.0)) return false;
+    if (std::abs(cross(along, points[i] - points.front())) > kRounding * largest) return false;
+  }
+  return true;
+}
+
+/// The spline through points of one line: that line.
+Carried baseline_of_lines(const std::vector<Vec2>& points, const std::vector<std::size_t>& source) {
+  Carried out;
+  out.contour.carrier = Carrier::kBaseline;
+  const double theta = heading(points.back() - points.front());
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    out.contour.joints.push_back({{points[i], theta, 0.0}, source[i], {}});
+    if (i > 0) out.contour.pieces.emplace_back(LinePiece{points[i - 1], points[i]});
+  }
+  out.contour.runs = collect_runs(std::vector<int>(out.contour.pieces.size(), 0));
+  return out;
+}
+
+/// A section that goes on where it began, in the same direction.
+bool smooth_loop(const Contour& spirals) {
+  const Element &first = spirals.joints.front().element, &last = spirals.joints.back().element;
+  constexpr double kSameHeading = 1e-9;  // rad: the bound of gaps in certificates
+  return first.point == last.point &&
+         std::abs(std::remainder(last.theta - first.theta, 2.0 * std::numbers::pi)) < kSameHeading;
+}
+
 /// Pieces of one smooth curve; the joints between them are no points of the series.
 void add_free_pieces(const std::vector<RationalBezier>& pieces, Contour& contour) {
   double theta = contour.joints.empty() ? 0.0 : contour.joints.back().element.theta;
@@ -111,6 +162,12 @@ void add_free_pieces(const std::vector<RationalBezier>& pieces, Contour& contour
 }  // namespace
 
 Result<Carried> form_conics(const Contour& spirals) {
+  if (only<LinePiece, ArcPiece>(spirals)) return as_they_are(spirals, Carrier::kConics);
+  if (smooth_loop(spirals)) {
+    return fail({ErrorCode::kNoSpiral,
+                 "no chain of conics is made for a closed contour without corners", "",
+                 kOtherCarriers, -1, 0.0});
+  }
   Carried out{like(spirals, Carrier::kConics), {}, {}};
   std::vector<Joint> joints = spirals.joints;
   auto freed = headings_for_conics(elements_of(joints));
@@ -180,6 +237,7 @@ Result<Carried> form_beziers(const Contour& spirals, double tolerance) {
 }
 
 Result<Carried> form_bspline(const Contour& spirals, double tolerance) {
+  if (only<LinePiece>(spirals)) return as_they_are(spirals, Carrier::kBspline);
   auto spline = monotone_spline(spirals, tolerance);
   if (!spline) return at_point(spline.error(), spirals, spline.error().index, kOtherCarriers);
   Carried out{like(spirals, Carrier::kBspline), spline->deviation, {}};
@@ -196,7 +254,11 @@ Result<Carried> form_bspline(const Contour& spirals, double tolerance) {
     }
     out.contour.joints.push_back(joint);
     if (k == spline->spans.size()) break;
-    out.contour.pieces.emplace_back(spline->spans[k]);
+    if (spline->direction[k] == 0) {  // straight: rounding would bend a quintic
+      out.contour.pieces.emplace_back(LinePiece{e.point, spline->elements[k + 1].point});
+    } else {
+      out.contour.pieces.emplace_back(spline->spans[k]);
+    }
     direction.push_back(spline->direction[k]);
   }
   out.contour.runs = collect_runs(direction);
@@ -204,6 +266,7 @@ Result<Carried> form_bspline(const Contour& spirals, double tolerance) {
 }
 
 Result<Carried> form_cubic(const Contour& spirals, double tolerance, bool loop) {
+  if (only<LinePiece>(spirals)) return as_they_are(spirals, Carrier::kCubic);
   Contour whole = spirals;
   whole.closed = loop;
   const auto along = cubic_along(whole, tolerance);
@@ -222,6 +285,7 @@ Result<Carried> form_cubic(const Contour& spirals, double tolerance, bool loop) 
 
 Result<Carried> form_baseline(const std::vector<Vec2>& points,
                               const std::vector<std::size_t>& source, bool loop) {
+  if (!loop && straight(points)) return baseline_of_lines(points, source);
   CubicSplineOptions options;
   std::vector<Vec2> through = points;
   if (loop) {

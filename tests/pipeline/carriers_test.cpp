@@ -171,8 +171,12 @@ TEST(Carriers, GoAroundAClosedContour) {
   FitJob job;
   job.closing = Closing::kClosed;
   for (const Carrier carrier : kAllCarriers) {
-    if (carrier == Carrier::kConics) continue;  // headings are freed for open chains only
     const auto f = fit_with(carrier, ellipse(36), job);
+    if (carrier == Carrier::kConics) {  // headings are freed for open chains only
+      ASSERT_FALSE(f);
+      EXPECT_EQ(f.error().code, ErrorCode::kNoSpiral);
+      continue;
+    }
     ASSERT_TRUE(f) << to_string(carrier) << ": " << to_line(f.error());
     EXPECT_TRUE(f->contour.closed);
     EXPECT_EQ(f->contour.joints.size(), f->contour.pieces.size()) << to_string(carrier);
@@ -198,6 +202,50 @@ TEST(Carriers, KeepCorners) {
     ASSERT_TRUE(f) << to_string(carrier) << ": " << to_line(f.error());
     EXPECT_EQ(f->certificate.corners, 1) << to_string(carrier);
     EXPECT_TRUE(f->certificate.gaps_within_bounds) << to_string(carrier);
+  }
+}
+
+TEST(Carriers, OfStraightPointsAreTheLinesThemselvesWhateverTheirSlope) {
+  for (const Vec2 step : {Vec2{1.0, 2.0}, Vec2{0.1, 0.3}, Vec2{-3.0, 0.7}, Vec2{1e-9, 3e-9}}) {
+    std::vector<Vec2> points;
+    for (int i = 0; i < 8; ++i) points.push_back(i * step);
+    for (const Carrier carrier : kAllCarriers) {
+      const auto f = fit_with(carrier, points);
+      ASSERT_TRUE(f) << to_string(carrier) << ": " << to_line(f.error());
+      EXPECT_TRUE(f->certificate.proved) << to_string(carrier) << ": " << f->certificate.reason;
+      EXPECT_EQ(f->certificate.vertices, 0) << to_string(carrier);
+    }
+  }
+}
+
+TEST(Carriers, ASquareKeepsItsFourCorners) {
+  const std::vector<Vec2> square = {{0, 0}, {1, 0}, {2, 0}, {2, 1}, {2, 2},
+                                    {1, 2}, {0, 2}, {0, 1}, {0, 0}};
+  for (const Carrier carrier : kAllCarriers) {
+    const auto f = fit_with(carrier, square);
+    ASSERT_TRUE(f) << to_string(carrier) << ": " << to_line(f.error());
+    EXPECT_TRUE(f->certificate.proved) << to_string(carrier) << ": " << f->certificate.reason;
+    EXPECT_EQ(f->certificate.vertices, 0) << to_string(carrier);
+    EXPECT_EQ(f->certificate.corners, 4) << to_string(carrier);
+  }
+}
+
+TEST(Carriers, ConicsOfACircleAreItsArcs) {
+  std::vector<Vec2> arc, circle;
+  for (int i = 0; i < 12; ++i) {
+    const double t = 2.0 * std::numbers::pi * 0.4 * i / 12.0;
+    arc.push_back({5.0 * std::cos(t), 5.0 * std::sin(t)});
+  }
+  for (int i = 0; i < 24; ++i) {
+    const double t = 2.0 * std::numbers::pi * i / 24.0;
+    circle.push_back({10.0 * std::cos(t), 10.0 * std::sin(t)});
+  }
+  circle.push_back(circle.front());
+  for (const auto& points : {arc, circle}) {
+    const auto f = fit_with(Carrier::kConics, points);
+    ASSERT_TRUE(f) << to_line(f.error());
+    EXPECT_TRUE(f->certificate.proved) << f->certificate.reason;
+    EXPECT_EQ(f->certificate.vertices, 0);
   }
 }
 
