@@ -4,13 +4,13 @@
 
 #include <algorithm>
 #include <cassert>
-#include <cmath>
 #include <limits>
 #include <optional>
 #include <string>
 #include <utility>
 
 #include "checks.h"
+#include "integrate.h"
 #include "local_polynomial.h"
 #include "smooth.h"
 
@@ -78,20 +78,6 @@ std::optional<Error> refuse_result(const IdSpline& s) {
   return refuse_overflow(s.seconds, "second derivative");
 }
 
-/// Sum with the rounding of each addition kept (Neumaier).
-class ExactSum {
- public:
-  void add(double x) {
-    const double sum = sum_ + x;
-    rest_ += std::abs(sum_) >= std::abs(x) ? (sum_ - sum) + x : (x - sum) + sum_;
-    sum_ = sum;
-  }
-  [[nodiscard]] double value() const { return sum_ + rest_; }
-
- private:
-  double sum_ = 0.0, rest_ = 0.0;
-};
-
 }  // namespace
 
 Result<IdSpline> id_spline(IdSplineData data, const IdSplineOptions& options) {
@@ -158,16 +144,9 @@ void evaluate_sorted(const IdSpline& spline, std::span<const double> x, std::spa
 }
 
 double integral(const IdSpline& s, double a, double b) {
-  if (b < a) return -integral(s, b, a);
-  if (!(a <= b)) return a + b;  // no numbers
-  const std::size_t first = cell_index(s.nodes, a), last = cell_index(s.nodes, b);
-  ExactSum sum;
-  for (std::size_t i = first; i <= last; ++i) {
-    const double low = i == first ? a : s.nodes[i], high = i == last ? b : s.nodes[i + 1];
-    const bool whole = low == s.nodes[i] && high == s.nodes[i + 1];
-    sum.add(whole ? s.integrals[i] : integral(cell(s, i), low, high));
-  }
-  return sum.value();
+  return idspline::integrate(
+      s.nodes, a, b, [&s](std::size_t i) { return s.integrals[i]; },
+      [&s](std::size_t i, double low, double high) { return integral(cell(s, i), low, high); });
 }
 
 }  // namespace obvid
