@@ -72,10 +72,15 @@ Result<void> set_formats(const FormatValues& typed, ExportOptions& options,
   }
   for (const auto& [value, option] :
        {std::pair{typed.tolerance, "--output-tolerance"}, std::pair{typed.face_width, "--face"},
-        std::pair{typed.feed, "--feed"}}) {
+        std::pair{typed.feed, "--feed"}, std::pair{typed.sample_step, "--sample-step"}}) {
     if (auto done = check_length(value, option); !done) return done;
   }
+  if (typed.samples && *typed.samples < 2) {
+    return fail(bad_option("two samples at least are needed", "--samples", "for example 200"));
+  }
   options.tolerance = typed.tolerance;
+  if (typed.samples) options.samples.count = static_cast<std::size_t>(*typed.samples);
+  options.samples.step = typed.sample_step;
   if (typed.face_width) options.face_width = *typed.face_width;
   if (typed.feed) options.feed = *typed.feed;
   return choose(typed.step, kSteps, "--step", options.step)

@@ -22,6 +22,8 @@ struct FormatValues {
   std::optional<std::string> controller;
   std::optional<std::string> motion;
   std::optional<double> feed;
+  std::optional<long> samples;
+  std::optional<double> sample_step;
 };
 
 /// Error: E203.

@@ -163,6 +163,16 @@ void add_formats(CLI::App& command, FormatValues& values) {
   command.add_option("--feed", values.feed, "Feed of G-code, mm/min (in/min for inches) [1000]")
       ->type_name("F")
       ->group(group);
+  command
+      .add_option("--samples", values.samples,
+                  "Number of points in .csv, .sldcrv, .obj, .ply [by --output-tolerance]")
+      ->type_name("N")
+      ->group(group);
+  command
+      .add_option("--sample-step", values.sample_step,
+                  "Arc length from one of these points to the next, units of the contour")
+      ->type_name("S")
+      ->group(group);
   command.add_option("--step", values.step, "Schema of STEP files: ap214 or ap242 [ap214]")
       ->type_name("NAME")
       ->group(group);

@@ -10,6 +10,7 @@
 
 #include "obvid/contour/bsplines/cubic_along.h"
 #include "obvid/curve/joined_nurbs.h"
+#include "obvid/exchange/solidworks.h"
 #include "obvid/io/contour_json.h"
 #include "obvid/io/picture_svg.h"
 #include "report.h"
@@ -36,6 +37,11 @@ constexpr std::array kEndings = {
     Ending{".ngc", FileFormat::kGcode, ""},
     Ending{".gcode", FileFormat::kGcode, ""},
     Ending{".tap", FileFormat::kGcode, ""},
+    Ending{".csv", FileFormat::kSamples, "samples"},
+    Ending{".sldcrv", FileFormat::kSldcrv, "SolidWorks points"},
+    Ending{".bas", FileFormat::kMacro, "SolidWorks macro"},
+    Ending{".obj", FileFormat::kObj, "OBJ polyline"},
+    Ending{".ply", FileFormat::kPly, "PLY polyline"},
 };
 
 /// Tolerance of curves that a format cannot hold, of the size.
@@ -70,6 +76,16 @@ class Exporter {
         return dxf();
       case FileFormat::kGcode:
         return gcode();
+      case FileFormat::kSamples:
+        return text(samples_csv(contour_, samples()));
+      case FileFormat::kSldcrv:
+        return sldcrv();
+      case FileFormat::kMacro:
+        return text(solidworks_macro(contour_, samples()));
+      case FileFormat::kObj:
+        return text(obj_text(contour_, samples()));
+      case FileFormat::kPly:
+        return text(ply_text(contour_, samples()));
     }
     return fail({ErrorCode::kInternal, "unknown format", "", "", -1, 0.0});
   }
@@ -150,6 +166,31 @@ class Exporter {
     out.remarks.push_back(
         fmt::format("{} blocks, {} of them arcs, at most {:.3g} {} from the contour", made->blocks,
                     made->arc_blocks, made->deviation, contour_.units));
+    return out;
+  }
+
+  static Result<Exported> text(Result<std::string> made) {
+    if (!made) return tl::unexpected(made.error());
+    return one_file(std::move(*made));
+  }
+
+  [[nodiscard]] SampleOptions samples() const {
+    SampleOptions out = options_.samples;
+    if (!out.count && !out.step && !out.chord_tolerance) out.chord_tolerance = arc_tolerance_;
+    return out;
+  }
+
+  Result<Exported> sldcrv() {
+    auto made = sldcrv_files(contour_, samples());
+    if (!made) return tl::unexpected(made.error());
+    Exported out;
+    for (SldcrvFile& file : *made) {
+      out.files.push_back({std::move(file.suffix), std::move(file.text)});
+    }
+    if (out.files.size() > 1) {
+      out.remarks.push_back(fmt::format("{} files, one per run: insert each as a curve of its own",
+                                        out.files.size()));
+    }
     return out;
   }
 

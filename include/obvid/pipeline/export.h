@@ -10,6 +10,7 @@
 #include "obvid/core/result.h"
 #include "obvid/exchange/dxf_write.h"
 #include "obvid/exchange/gcode.h"
+#include "obvid/exchange/samples.h"
 #include "obvid/io/stored_contour.h"
 
 namespace obvid {
@@ -23,6 +24,11 @@ enum class FileFormat {
   kBrep,     ///< .brep
   kDxf,      ///< .dxf
   kGcode,    ///< .nc, .ngc, .gcode, .tap
+  kSamples,  ///< .csv
+  kSldcrv,   ///< .sldcrv, one file per run
+  kMacro,    ///< .bas, of SolidWorks
+  kObj,      ///< .obj
+  kPly,      ///< .ply
 };
 
 /// Format of a file's name. Nothing for endings that stand for none.
@@ -40,6 +46,8 @@ struct ExportOptions {
   DxfProfile dxf = DxfProfile::kExact;
   GcodeMotion motion = GcodeMotion::kArcs;
   GcodeController controller = GcodeController::kGrbl;
+  SampleOptions
+      samples;  ///< of points; unset: by the chord tolerance `tolerance` [2e-5 of the size]
   double feed = 1000.0;     ///< of G-code, mm/min (in/min for inches)
   double face_width = 0.0;  ///< STEP, IGES, BREP: > 0 also a face of this width along z
 };
