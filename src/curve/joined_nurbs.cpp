@@ -11,6 +11,8 @@ namespace {
 
 constexpr double kLargestWeight = 10.0;  // and the least is its inverse
 constexpr int kMostCuts = 12;            // halvings of a piece, one after the other
+constexpr double kMostDrift = 20.0;      // of the speed along the curve, against that at its start
+constexpr int kRaisedEven = 3;           // likewise where it makes the speeds equal
 constexpr int kRaised = 2;               // degrees that the factor adds
 constexpr double kMostTurn = 1.3;        // of one conic that stands for an arc, rad: weights near 1
 
@@ -82,6 +84,10 @@ std::vector<double> balances(const RationalBezier& b) {
   return out;
 }
 
+/// Product of a rational Bezier with weights w_k lambda^k and a factor with the Bernstein
+/// coefficients `factor`. Homogeneous points w P, in Bernstein form.
+Segment product(const RationalBezier& b, double lambda, const std::vector<double>& factor);
+
 bool is_polynomial(const RationalBezier& b) {
   for (int j = 1; j <= b.degree; ++j) {
     if (b.weight[static_cast<std::size_t>(j)] != b.weight[0]) return false;
@@ -98,29 +104,33 @@ std::vector<Vec2> points_of(const RationalBezier& b) {
   return out;
 }
 
-/// Product of a rational Bezier and the factor. Homogeneous points w P, in Bernstein form.
-Segment multiplied(const RationalBezier& b, double lambda, const Factor& factor) {
+double binomial_of(std::size_t n, std::size_t k) {
+  double out = 1.0;
+  for (std::size_t j = 1; j <= k; ++j) {
+    out = out * static_cast<double>(n - k + j) / static_cast<double>(j);
+  }
+  return out;
+}
+
+Segment product(const RationalBezier& b, double lambda, const std::vector<double>& factor) {
   const std::vector<Vec2> local = points_of(b);
-  const std::size_t n = local.size() - 1, m = n + kRaised;
-  const double q[] = {1.0, 2.0 * factor.middle, factor.end};  // times binomials
+  const std::size_t n = local.size() - 1, d = factor.size() - 1, m = n + d;
   Segment out;
   out.points.assign(m + 1, {});
   out.weights.assign(m + 1, 0.0);
-  double power = 1.0 / b.weight[0], binomial = 1.0;
+  double power = 1.0 / b.weight[0];
   for (std::size_t j = 0; j <= n; ++j) {
-    const double w = binomial * b.weight[j] * power;
-    for (std::size_t k = 0; k <= kRaised; ++k) {
-      out.weights[j + k] += w * q[k];
-      out.points[j + k] = out.points[j + k] + (w * q[k]) * local[j];
+    const double w = binomial_of(n, j) * b.weight[j] * power;
+    for (std::size_t k = 0; k <= d; ++k) {
+      const double part = w * binomial_of(d, k) * factor[k];
+      out.weights[j + k] += part;
+      out.points[j + k] = out.points[j + k] + part * local[j];
     }
     power *= lambda;
-    binomial = binomial * static_cast<double>(n - j) / static_cast<double>(j + 1);
   }
-  binomial = 1.0;
   for (std::size_t j = 0; j <= m; ++j) {
     out.points[j] = out.points[j] / out.weights[j];
-    out.weights[j] /= binomial;
-    binomial = binomial * static_cast<double>(m - j) / static_cast<double>(j + 1);
+    out.weights[j] /= binomial_of(m, j);
   }
   // what the equations say, to the last bit
   for (const std::size_t j : {std::size_t{0}, std::size_t{1}, m - 1, m}) out.weights[j] = 1.0;
@@ -142,12 +152,30 @@ std::optional<Segment> best_segment(const RationalBezier& bezier) {
   for (const double x : balances(bezier)) {
     const auto factor = factor_for(bezier, std::exp(x));
     if (!factor) continue;
-    Segment segment = multiplied(bezier, std::exp(x), *factor);
+    Segment segment = product(bezier, std::exp(x), {1.0, factor->middle, factor->end});
     if (!(spread(segment) <= least)) continue;
     least = spread(segment);
     best = std::move(segment);
   }
   return best;
+}
+
+/// The product with a cubic factor that leaves lambda free, which then makes the speeds at both
+/// ends equal. Nothing when weights leave their range.
+std::optional<Segment> even_segment(const RationalBezier& b) {
+  const auto n = static_cast<std::size_t>(b.degree);
+  const double degree = b.degree;
+  const double first = norm(b.offset[1] - b.offset[0]) * b.weight[1] / b.weight[0];
+  const double last = norm(b.offset[n] - b.offset[n - 1]) * b.weight[n - 1] / b.weight[n];
+  const double lambda = std::sqrt(last / first);
+  const double start_rate = degree * (lambda * b.weight[1] / b.weight[0] - 1.0);
+  const double end_rate = degree * (1.0 - b.weight[n - 1] / (lambda * b.weight[n]));
+  const double end = b.weight[0] / (b.weight[n] * std::pow(lambda, degree));
+  const double second = 1.0 - start_rate / 3.0, third = end * (1.0 + end_rate / 3.0);
+  if (!(second > 0.0 && third > 0.0 && std::isfinite(end))) return std::nullopt;
+  Segment out = product(b, lambda, {1.0, second, third, end});
+  if (!(spread(out) <= kLargestWeight)) return std::nullopt;
+  return out;
 }
 
 Segment raised(const Segment& s) {
@@ -172,17 +200,41 @@ class Joiner {
   explicit Joiner(const Contour& contour) : contour_(contour) {}
 
   Result<NurbsCurve> run() {
-    for (std::size_t i = 0; i < contour_.pieces.size(); ++i) {
-      const std::size_t first = segments_.size();
-      if (auto added = add(i, contour_.pieces[i]); !added) return fail(added.error());
-      const bool corner = i > 0 && i < contour_.joints.size() && contour_.joints[i].leaving;
-      segments_[first].corner_before = corner;
+    if (auto done = add_all(); !done) return fail(done.error());
+    if (speed_drift() > kMostDrift) {  // kernels take small derivatives for singular points
+      even_ = true;
+      segments_.clear();
+      if (auto done = add_all(); !done) return fail(done.error());
     }
     raise_all();
     return assemble();
   }
 
  private:
+  Result<void> add_all() {
+    for (std::size_t i = 0; i < contour_.pieces.size(); ++i) {
+      const std::size_t first = segments_.size();
+      if (auto added = add(i, contour_.pieces[i]); !added) return fail(added.error());
+      const bool corner = i > 0 && i < contour_.joints.size() && contour_.joints[i].leaving;
+      segments_[first].corner_before = corner;
+    }
+    return {};
+  }
+
+  /// Largest ratio of two speeds along the curve between corners.
+  [[nodiscard]] double speed_drift() const {
+    double speed = 1.0, least = 1.0, most = 1.0, drift = 1.0;
+    for (const Segment& s : segments_) {
+      if (s.corner_before) speed = least = most = 1.0;
+      const std::size_t degree = s.points.size() - 1;
+      speed *= norm(s.points[degree] - s.points[degree - 1]) / norm(s.points[1] - s.points[0]);
+      least = std::min(least, speed);
+      most = std::max(most, speed);
+      drift = std::max(drift, most / least);
+    }
+    return drift;
+  }
+
   Result<void> add(std::size_t i, const Piece& piece) {
     if (const auto* bezier = std::get_if<RationalBezier>(&piece)) return add(i, *bezier, 0);
     if (const auto* line = std::get_if<LinePiece>(&piece)) {
@@ -223,11 +275,12 @@ class Joiner {
       keep(bezier, {points_of(bezier), std::vector<double>(std::size_t(bezier.degree) + 1, 1.0)});
       return {};
     }
-    if (bezier.degree + kRaised > kMaxBezierDegree) {
+    const int raised = even_ ? kRaisedEven : kRaised;
+    if (bezier.degree + raised > kMaxBezierDegree) {
       return refuse(ErrorCode::kUnsupported, "a rational piece has degree 6 or more", i,
                     "approximate it by a spline first");
     }
-    if (const auto segment = best_segment(bezier)) {
+    if (const auto segment = even_ ? even_segment(bezier) : best_segment(bezier)) {
       keep(bezier, *segment);
       return {};
     }
@@ -290,6 +343,7 @@ class Joiner {
   }
 
   const Contour& contour_;
+  bool even_ = false;  // equal speeds at both ends of each segment, at the cost of a degree
   std::vector<Segment> segments_;
 };
 

@@ -1,0 +1,159 @@
+// SPDX-License-Identifier: Apache-2.0
+// CAD files read by FreeCAD, a program of other people: one edge, C1, the same curve and curvature.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstdio>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+#include <string>
+#include <tuple>
+#include <vector>
+
+#include "obvid/io/read_points.h"
+#include "obvid/pipeline/export.h"
+#include "obvid/pipeline/fit.h"
+
+namespace obvid {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct Case {
+  std::string name;
+  Contour contour;
+};
+
+Contour fitted(PointSeries series, FitJob job) {
+  auto f = fit(series, job);
+  EXPECT_TRUE(f) << to_line(f.error());
+  return f ? f->contour : Contour{};
+}
+
+std::vector<Case> cases() {
+  PointSeries reference;
+  reference.points = {{0, 0},          {0.21, -5.28},   {-5.11, -10.13}, {-20.48, -7.65},
+                      {-28.68, 16.23}, {-13.87, 40.95}, {17.95, 55.28},  {54.24, 53.04},
+                      {100.94, 36.19}, {230.38, -50.82}};
+  std::vector<Case> out;
+  for (const Carrier carrier : {Carrier::kSpiral, Carrier::kConics, Carrier::kBspline}) {
+    FitJob job;
+    job.carrier = carrier;
+    out.push_back({std::string("series10-") + to_string(carrier), fitted(reference, job)});
+  }
+  auto airfoil = read_points(std::string(OBVID_TEST_DATA) + "/airfoils/arad10.dat");
+  EXPECT_TRUE(airfoil);
+  if (airfoil) {
+    for (Vec2& p : airfoil->points) p = 100.0 * p;
+    airfoil->rounding = 100.0 * airfoil->rounding;
+    FitJob job;
+    job.noise_from_rounding = true;
+    out.push_back({"airfoil", fitted(*airfoil, job)});
+  }
+  return out;
+}
+
+double size_of(const Contour& c) {
+  Vec2 low = c.points.front(), high = low;
+  for (const Vec2 p : c.points) {
+    low = {std::min(low.x, p.x), std::min(low.y, p.y)};
+    high = {std::max(high.x, p.x), std::max(high.y, p.y)};
+  }
+  return norm(high - low);
+}
+
+/// 1,000 points of the contour with their curvatures, as JSON.
+std::string points_json(const Contour& contour) {
+  std::ostringstream out;
+  out.precision(17);
+  const int each = 1000 / static_cast<int>(contour.pieces.size()) + 1;
+  bool first = true;
+  for (const Piece& piece : contour.pieces) {
+    for (int k = 0; k < each; ++k) {
+      const Jet jet = evaluate(piece, (k + 0.5) / each);
+      out << (first ? "" : ", ") << "[" << jet.point.x << ", " << jet.point.y << ", "
+          << curvature(jet) << "]";
+      first = false;
+    }
+  }
+  return out.str();
+}
+
+std::string output_of(const std::string& command) {
+  std::string out;
+  FILE* pipe = ::popen(command.c_str(), "r");
+  if (pipe == nullptr) return out;
+  char buffer[4096];
+  for (std::size_t n = 0; (n = std::fread(buffer, 1, sizeof buffer, pipe)) > 0;) {
+    out.append(buffer, n);
+  }
+  ::pclose(pipe);
+  return out;
+}
+
+class InFreecad : public testing::Test {
+ protected:
+  void SetUp() override {
+    if (output_of("command -v freecadcmd").empty()) GTEST_SKIP() << "FreeCAD is not installed";
+    std::string pattern = (fs::temp_directory_path() / "obvid-test-XXXXXX").string();
+    ASSERT_NE(::mkdtemp(pattern.data()), nullptr);
+    folder_ = pattern;
+  }
+  void TearDown() override {
+    if (!folder_.empty()) fs::remove_all(folder_);
+  }
+  fs::path folder_;
+};
+
+TEST_F(InFreecad, EveryContourIsOneEdgeWithItsCurvature) {
+  std::ostringstream job;
+  job << "[";
+  int files = 0;
+  for (const Case& one : cases()) {
+    for (const auto& [format, schema, ending] :
+         {std::tuple{FileFormat::kStep, CadFormat::kStepAp214, ".step"},
+          std::tuple{FileFormat::kStep, CadFormat::kStepAp242, ".stp"},
+          std::tuple{FileFormat::kIges, CadFormat::kStepAp214, ".igs"},
+          std::tuple{FileFormat::kBrep, CadFormat::kStepAp214, ".brep"}}) {
+      ExportOptions options;
+      options.step = schema;
+      const auto made = export_contour({one.contour, {}, {}}, format, options);
+      if (!made && made.error().code == ErrorCode::kUnsupported) {
+        GTEST_SKIP() << "the plugin for CAD files is not built";
+      }
+      ASSERT_TRUE(made) << to_line(made.error());
+      const fs::path file = folder_ / (one.name + ending);
+      std::ofstream(file, std::ios::binary) << made->files.front().text;
+      job << (files++ > 0 ? ",\n" : "") << "{\"file\": \"" << file.string()
+          << "\", \"size\": " << size_of(one.contour) << ", \"points\": ["
+          << points_json(one.contour) << "]}";
+    }
+  }
+  job << "]";
+  const fs::path list = folder_ / "judge.json";
+  std::ofstream(list) << job.str();
+  const std::string out =
+      output_of("HOME=" + folder_.string() + " OBVID_JUDGE=" + list.string() + " freecadcmd " +
+                OBVID_SOURCE_DIR + "/tests/cad/freecad_judge.py 2>&1 </dev/null");
+  ASSERT_NE(out.find("JUDGE DONE"), std::string::npos) << out;
+  std::istringstream lines(out);
+  std::string word, name;
+  int judged = 0;
+  while (lines >> word) {
+    if (word != "JUDGED") continue;
+    int edges = 0, continuity = 0;
+    double distance = 0.0, difference = 0.0;
+    lines >> name >> edges >> continuity >> distance >> difference;
+    ++judged;
+    EXPECT_EQ(edges, 1) << name;
+    EXPECT_GE(continuity, 1) << name;
+    EXPECT_LE(distance, 1e-9) << name;
+    EXPECT_LE(difference, 1e-6) << name;
+  }
+  EXPECT_EQ(judged, files);
+}
+
+}  // namespace
+}  // namespace obvid
