@@ -1,0 +1,390 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "obvid/exchange/svg_read.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <numbers>
+#include <sstream>
+#include <string>
+#include <vector>
+
+namespace obvid {
+namespace {
+
+constexpr double kPx = 25.4 / 96.0;  // mm
+
+/// A sheet of 100 x 100 mm whose unit is 1 mm.
+std::string sheet(const std::string& inside) {
+  return "<svg xmlns='http://www.w3.org/2000/svg' xmlns:xlink='http://www.w3.org/1999/xlink' "
+         "width='100mm' height='100mm' viewBox='0 0 100 100'>" +
+         inside + "</svg>";
+}
+
+Drawing read(const std::string& text) {
+  auto drawing = parse_svg(text, "test.svg");
+  EXPECT_TRUE(drawing.has_value()) << drawing.error().what;
+  return drawing ? *drawing : Drawing{};
+}
+
+bool warns(const Drawing& drawing, const std::string& part) {
+  for (const std::string& warning : drawing.warnings) {
+    if (warning.find(part) != std::string::npos) return true;
+  }
+  return false;
+}
+
+void expect_near(Vec2 a, Vec2 b, double tolerance = 1e-12) {
+  EXPECT_NEAR(a.x, b.x, tolerance);
+  EXPECT_NEAR(a.y, b.y, tolerance);
+}
+
+TEST(SvgRead, MillimetresAreMillimetresAndYPointsUp) {
+  const Drawing d = read(sheet("<line x1='10' y1='20' x2='30' y2='40'/>"));
+  ASSERT_EQ(d.curves.size(), 1U);
+  EXPECT_EQ(d.units, "mm");
+  EXPECT_TRUE(d.warnings.empty());
+  expect_near(start_point(d.curves[0].pieces[0]), {10.0, 80.0});
+  expect_near(end_point(d.curves[0].pieces[0]), {30.0, 60.0});
+}
+
+TEST(SvgRead, EveryUnitOfASheetHasItsLength) {
+  const std::vector<std::pair<std::string, double>> units = {
+      {"px", kPx},       {"", kPx},        {"in", 25.4}, {"cm", 10.0},
+      {"pt", 25.4 / 72}, {"pc", 25.4 / 6}, {"Q", 0.25}};
+  for (const auto& [unit, millimetres] : units) {
+    const Drawing d = read("<svg width='10" + unit + "' height='10" + unit +
+                           "' viewBox='0 0 1 1'><path d='M0 1H1'/></svg>");
+    ASSERT_EQ(d.curves.size(), 1U);
+    EXPECT_NEAR(end_point(d.curves[0].pieces[0]).x, 10.0 * millimetres, 1e-12) << unit;
+  }
+}
+
+TEST(SvgRead, ASheetWithoutSizeIsInPixelsAndSaysSo) {
+  const Drawing d = read("<svg viewBox='0 0 200 200'><path d='M0 0H96'/></svg>");
+  EXPECT_TRUE(warns(d, "1/96 in"));
+  expect_near(start_point(d.curves[0].pieces[0]), {0.0, 200.0 * kPx});
+  EXPECT_NEAR(end_point(d.curves[0].pieces[0]).x, 25.4, 1e-12);
+}
+
+TEST(SvgRead, AViewBoxOfAnotherShapeIsCentredInItsSheet) {
+  const Drawing d =
+      read("<svg width='200mm' height='100mm' viewBox='0 0 50 50'><path d='M0 0H50'/></svg>");
+  expect_near(start_point(d.curves[0].pieces[0]), {50.0, 100.0});
+  expect_near(end_point(d.curves[0].pieces[0]), {150.0, 100.0});
+}
+
+/// Both circles of radius sqrt 2 through (0, 0) and (2, 0) have their centres at (1, 1) and (1,
+/// -1).
+TEST(SvgRead, TheTwoFlagsChooseOneOfFourArcs) {
+  const double r = std::sqrt(2.0);
+  for (const bool large : {false, true}) {
+    for (const bool sweep : {false, true}) {
+      std::ostringstream d;
+      d.precision(17);
+      d << "M0 0A" << r << " " << r << " 0 " << large << sweep << "2 0";
+      const Drawing drawing = read(sheet("<path d='" + d.str() + "'/>"));
+      ASSERT_EQ(drawing.curves.size(), 1U);
+      const auto& arc = std::get<ArcPiece>(drawing.curves[0].pieces[0]);
+      // Seen with y down, sweep 1 passes above the chord; both flags equal: the farther centre.
+      const double up = sweep ? 1.0 : -1.0, height = (large ? r + 1.0 : r - 1.0) * up;
+      expect_near(evaluate(arc, 0.5).point, {1.0, 100.0 + height}, 1e-9);
+      EXPECT_NEAR(arc.length, r * std::numbers::pi * (large ? 1.5 : 0.5), 1e-9);
+      EXPECT_NEAR(arc.kappa, -up / r, 1e-9);  // to the right over the chord: a right turn
+      expect_near(arc.end, {2.0, 100.0});
+    }
+  }
+}
+
+TEST(SvgRead, RadiiThatDoNotReachAreScaledUpToAHalfEllipse) {
+  const Drawing d = read(sheet("<path d='M0 0A1 1 0 0 1 20 0'/>"));
+  const auto& arc = std::get<ArcPiece>(d.curves[0].pieces[0]);
+  EXPECT_NEAR(arc.length, 10.0 * std::numbers::pi, 1e-12);
+  EXPECT_NEAR(std::abs(arc.kappa), 0.1, 1e-14);
+}
+
+/// Points of an ellipse satisfy its equation; so do those of the rational quadratics everywhere.
+TEST(SvgRead, EllipsesAreExactRationalQuadratics) {
+  const Drawing d = read(sheet("<ellipse cx='50' cy='40' rx='30' ry='20'/>"));
+  ASSERT_EQ(d.curves[0].pieces.size(), 4U);
+  EXPECT_TRUE(d.curves[0].closed);
+  for (const Piece& piece : d.curves[0].pieces) {
+    for (int k = 0; k <= 10; ++k) {
+      const Vec2 p = evaluate(piece, 0.1 * k).point - Vec2{50.0, 60.0};
+      EXPECT_NEAR(p.x * p.x / 900.0 + p.y * p.y / 400.0, 1.0, 1e-13);
+    }
+  }
+}
+
+TEST(SvgRead, ARotatedAndScaledCircleStaysAnArcAndASkewedOneBecomesAnEllipse) {
+  const Drawing d =
+      read(sheet("<g transform='translate(50,50) rotate(30) scale(2)'>"
+                 "<circle r='7'/></g><circle r='5' transform='skewX(45)'/>"));
+  ASSERT_EQ(d.curves.size(), 2U);
+  for (const Piece& piece : d.curves[0].pieces) {
+    const auto* arc = std::get_if<ArcPiece>(&piece);
+    ASSERT_NE(arc, nullptr);
+    EXPECT_NEAR(arc->kappa, -1.0 / 14.0, 1e-14);  // clockwise with y up
+    EXPECT_NEAR(norm(evaluate(*arc, 0.3).point - Vec2{50.0, 50.0}), 14.0, 1e-12);
+  }
+  for (const Piece& piece : d.curves[1].pieces) {
+    ASSERT_TRUE(std::holds_alternative<RationalBezier>(piece));
+    const Vec2 p = evaluate(piece, 0.37).point;
+    const double y = 100.0 - p.y, x = p.x - y;  // skewX(45): x' = x + y
+    EXPECT_NEAR(x * x + y * y, 25.0, 1e-12);
+  }
+}
+
+TEST(SvgRead, TransformsApplyFromRightToLeft) {
+  const Drawing d =
+      read(sheet("<path transform='translate(10 0) scale(2,3) "
+                 "rotate(90 1 1) matrix(1 0 0 1 5 6)' d='M0 0L1 0'/>"));
+  // (0, 0) -> (5, 6) -> about (1, 1) by 90: (1 - 5, 1 + 4) = (-4, 5) -> (-8, 15) -> (2, 15)
+  expect_near(start_point(d.curves[0].pieces[0]), {2.0, 85.0});
+  // (1, 0) -> (6, 6) -> (-4, 6) -> (-8, 18) -> (2, 18)
+  expect_near(end_point(d.curves[0].pieces[0]), {2.0, 82.0});
+}
+
+TEST(SvgRead, ATransformWithAnErrorIsNotUsedAndNamed) {
+  const Drawing d = read(sheet("<path transform='scale(2) rotate(' d='M0 0H10'/>"));
+  EXPECT_TRUE(warns(d, "transform"));
+  expect_near(end_point(d.curves[0].pieces[0]), {10.0, 100.0});
+}
+
+TEST(SvgRead, RoundedRectanglesHaveFourLinesAndFourArcs) {
+  const Drawing d = read(sheet("<rect x='10' y='10' width='40' height='20' rx='5'/>"));
+  ASSERT_EQ(d.curves[0].pieces.size(), 8U);
+  double length = 0.0;
+  for (const Piece& piece : d.curves[0].pieces) length += arc_length(piece, 1e-9);
+  EXPECT_NEAR(length, 2.0 * (30.0 + 10.0) + 10.0 * std::numbers::pi, 1e-9);
+}
+
+TEST(SvgRead, ASlotIsARectangleWhoseRoundingTakesItsShortSides) {
+  const Drawing d = read(sheet("<rect x='0' y='0' width='40' height='20' rx='99' ry='10'/>"));
+  double length = 0.0;
+  for (const Piece& piece : d.curves[0].pieces) length += arc_length(piece, 1e-9);
+  // rx is cut to 20: a whole ellipse of semi-axes 20 and 10 (perimeter from its elliptic integral).
+  EXPECT_NEAR(length, 96.88448220547675, 1e-7);
+  EXPECT_EQ(d.curves[0].pieces.size(), 4U);
+}
+
+TEST(SvgRead, EveryCommandOfPathDataRelativeOrAbsoluteMeansTheSame) {
+  const Drawing d =
+      read(sheet("<path d='M10 10L20 10H30V20C30 25 35 30 40 30S50 35 50 40Q55 40 60 45T70 50'/>"
+                 "<path d='m10 10l10 0h10v10c0 5 5 10 10 10s10 5 10 10q5 0 10 5t10 5'/>"));
+  ASSERT_EQ(d.curves.size(), 2U);
+  ASSERT_EQ(d.curves[0].pieces.size(), 7U);
+  ASSERT_EQ(d.curves[1].pieces.size(), 7U);
+  for (std::size_t i = 0; i < 7; ++i) {
+    expect_near(evaluate(d.curves[0].pieces[i], 0.3).point,
+                evaluate(d.curves[1].pieces[i], 0.3).point, 1e-12);
+  }
+  // S mirrors (35, 30) about (40, 30): (45, 30). T mirrors (55, 40) about (60, 45): (65, 50).
+  const auto& smooth = std::get<RationalBezier>(d.curves[0].pieces[4]);
+  expect_near(smooth.offset[1], {45.0, 70.0});
+  const auto& quadratic = std::get<RationalBezier>(d.curves[0].pieces[6]);
+  expect_near(quadratic.offset[1], {65.0, 50.0});
+  EXPECT_EQ(quadratic.degree, 2);
+}
+
+TEST(SvgRead, PartsOfAPathAreCurvesAndClosingReturnsToTheirStart) {
+  const Drawing d = read(sheet("<path id='p' d='M0 0h10v10z l5 5 M50 50h10'/>"));
+  ASSERT_EQ(d.curves.size(), 3U);
+  EXPECT_TRUE(d.curves[0].closed);
+  EXPECT_EQ(d.curves[0].label, "path p, part 1");
+  EXPECT_FALSE(d.curves[1].closed);
+  expect_near(start_point(d.curves[1].pieces[0]), {0.0, 100.0});
+}
+
+TEST(SvgRead, RoundingOfRelativeCommandsMakesNoTinyClosingLine) {
+  const Drawing d = read(sheet("<path d='M.1.2l.1 0 .1 .1 -.1 .1 -.1-.2z'/>"));
+  EXPECT_EQ(d.curves[0].pieces.size(), 4U);
+  EXPECT_EQ(end_point(d.curves[0].pieces.back()), start_point(d.curves[0].pieces.front()));
+}
+
+TEST(SvgRead, UseDrawsWhatItNamesWhereItStands) {
+  const Drawing d =
+      read(sheet("<defs><path id='a' d='M0 0h1'/></defs><use xlink:href='#a' x='10' y='20'/>"
+                 "<symbol id='s' viewBox='0 0 10 10'><path d='M0 0h10'/></symbol>"
+                 "<use href='#s' x='50' y='50' width='20' height='20'/><use href='#none'/>"));
+  ASSERT_EQ(d.curves.size(), 2U);
+  expect_near(end_point(d.curves[0].pieces[0]), {11.0, 80.0});
+  expect_near(start_point(d.curves[1].pieces[0]), {50.0, 50.0});
+  expect_near(end_point(d.curves[1].pieces[0]), {70.0, 50.0});
+  EXPECT_TRUE(warns(d, "'#none'"));
+}
+
+TEST(SvgRead, PrefixesHiddenGroupsTextAndForeignElementsAreUnderstood) {
+  const Drawing d = read(
+      "<s:svg xmlns:s='http://www.w3.org/2000/svg' width='96' height='96'><x:path d='M0 0H9'/>"
+      "<s:g style='fill:none; display: none'><s:path d='M0 0H9'/></s:g><s:text>a</s:text>"
+      "<s:path d='M0 0H96'/></s:svg>");
+  ASSERT_EQ(d.curves.size(), 1U);
+  EXPECT_TRUE(warns(d, "hidden"));
+  EXPECT_TRUE(warns(d, "'text'"));
+  expect_near(end_point(d.curves[0].pieces[0]), {25.4, 25.4});
+}
+
+TEST(SvgRead, AUseOfItselfAndUsesOfUsesEnd) {
+  const Drawing d = read(sheet("<g id='a'><path d='M0 0h1'/><use href='#a'/></g>"));
+  EXPECT_TRUE(warns(d, "contains itself"));
+  std::string bomb = "<defs><path id='u0' d='M0 0h1'/>";
+  for (int level = 1; level < 30; ++level) {
+    const std::string before = "<use href='#u" + std::to_string(level - 1) + "'/>";
+    bomb += "<g id='u" + std::to_string(level) + "'>";
+    for (int k = 0; k < 10; ++k) bomb += before;
+    bomb += "</g>";
+  }
+  const Drawing many = read(sheet(bomb + "</defs><use href='#u29'/>"));
+  EXPECT_TRUE(warns(many, "64 MB"));
+  EXPECT_LT(many.curves.size(), 1100000U);
+}
+
+TEST(SvgRead, DeepGroupsAreLeftOutAndEntitiesOfTheFileAreNotExpanded) {
+  std::string deep;
+  for (int k = 0; k < 100000; ++k) deep += "<g>";
+  deep += "<path d='M0 0h1'/>";
+  for (int k = 0; k < 100000; ++k) deep += "</g>";
+  const Drawing d = read(sheet("<path d='M0 0h1'/>" + deep));
+  EXPECT_EQ(d.curves.size(), 1U);
+  EXPECT_TRUE(warns(d, "nested"));
+  std::string laughs = "<?xml version='1.0'?><!DOCTYPE svg [<!ENTITY a 'M0 0h1'>";
+  for (char c = 'b'; c < 'z'; ++c) {
+    laughs += std::string("<!ENTITY ") + c + " '";
+    for (int k = 0; k < 10; ++k) laughs += std::string("&") + static_cast<char>(c - 1) + ";";
+    laughs += "'>";
+  }
+  const auto none = parse_svg(laughs + "]><svg><path d='&y;'/></svg>", "bomb.svg");
+  ASSERT_FALSE(none.has_value());
+  EXPECT_EQ(none.error().code, ErrorCode::kTooFewPoints);
+}
+
+TEST(SvgRead, NumbersBeyondTheRangeDrawNothing) {
+  const Drawing d =
+      read(sheet("<path d='M0 0L1e308 1e308' transform='scale(1e300)'/>"
+                 "<path d='M0 0L1e999 0'/><path d='M0 0L nan 0'/>"
+                 "<path d='M0 0h1'/><circle r='NaN'/><circle r='inf'/>"));
+  ASSERT_EQ(d.curves.size(), 1U);
+  EXPECT_GE(d.warnings.size(), 4U);
+}
+
+TEST(SvgRead, WhatIsNoSvgIsRefusedWithThePlace) {
+  const auto cut = parse_svg("<svg>\n<path d='M0 0h1'/>\n<g>", "cut.svg");
+  ASSERT_FALSE(cut.has_value());
+  EXPECT_EQ(cut.error().code, ErrorCode::kBadJson);
+  EXPECT_EQ(cut.error().where, "cut.svg:3");
+  const auto other = parse_svg("<html/>", "page.html");
+  ASSERT_FALSE(other.has_value());
+  EXPECT_EQ(other.error().code, ErrorCode::kUnsupported);
+  EXPECT_FALSE(parse_svg("", "empty.svg").has_value());
+}
+
+// ---- public files: what stands in them, counted by hand -----------------------------------------
+
+struct Expected {
+  const char* file;
+  std::size_t curves, pieces;  ///< the frame around each picture: 1 and 4
+  const char* warning;         ///< part of one that must come; empty: none but that of the size
+};
+
+constexpr Expected kPublic[] = {
+    {"circle_missing-cx-attribute", 3, 12, ""},
+    {"circle_missing-cy-attribute", 3, 12, ""},
+    {"circle_simple-case", 3, 12, ""},
+    {"ellipse_missing-rx-and-ry-attributes", 1, 4, "ellipse ellipse1 draws nothing"},
+    {"ellipse_missing-rx-attribute", 2, 8, ""},
+    {"ellipse_missing-ry-attribute", 2, 8, ""},
+    {"ellipse_percent-values-missing-ry", 2, 8, ""},
+    {"ellipse_percent-values", 2, 8, ""},
+    {"ellipse_simple-case", 3, 12, ""},
+    {"path_A", 1, 4, "path data have an error near \"A 5 5"},
+    {"path_M-A-s", 2, 7, ""},
+    {"path_M-A-t", 2, 7, ""},
+    {"path_M-A-trimmed", 3, 8, ""},
+    {"path_M-C", 2, 5, ""},
+    {"path_M-H-H-implicit", 2, 6, ""},
+    {"path_M-H-H", 2, 6, ""},
+    {"path_M-H", 2, 5, ""},
+    {"path_M-L-L-Z-rel", 2, 7, ""},
+    {"path_M-L-L-Z", 2, 7, ""},
+    {"path_M-L-Z-A", 3, 8, ""},
+    {"path_M-M-implicit-M-implicit", 2, 6, ""},
+    {"path_M-M-rel", 1, 4, "path path1 draws nothing"},
+    {"path_M-M", 1, 4, "path path1 draws nothing"},
+    {"path_M-Q-T-rel", 2, 6, ""},
+    {"path_M-Q-rel-T-rel", 2, 6, ""},
+    {"path_M-Q", 2, 5, ""},
+    {"path_M-S", 2, 5, ""},
+    {"path_M-T-T-rel", 2, 6, ""},
+    {"path_M-V-V-implicit", 2, 6, ""},
+    {"path_M-V", 2, 5, ""},
+    {"path_empty", 1, 4, "path path1 draws nothing"},
+    {"path_extra-spaces", 3, 8, ""},
+    {"path_negative-large-arc-flag-value", 3, 8, "near \"a 25 25 0 -1"},
+    {"path_negative-sweep-flag-value", 3, 8, "near \"a 25 25 0 1 -1"},
+    {"path_no-commawsp-before-arc-flags", 3, 8, "near \"a 25 2501 025"},
+    {"path_no-commawsp-between-and-after-arc-flags", 3, 10, ""},
+    {"path_numeric-character-references", 3, 6, ""},
+    {"path_out-of-range-large-arc-flag-value", 3, 8, "near \"a25 25 0 6"},
+    {"polygon_ignore-odd-points", 3, 9, "points of a polygon have an error near \"300\""},
+    {"polygon_simple-case", 3, 10, ""},
+    {"polygon_stop-processing-on-invalid-data", 3, 9, "error near \"text\""},
+    {"polyline_stop-processing-on-invalid-data", 3, 8, "error near \"text\""},
+};
+
+std::string slurp(const std::filesystem::path& path) {
+  std::ifstream file(path, std::ios::binary);
+  std::ostringstream text;
+  text << file.rdbuf();
+  return text.str();
+}
+
+TEST(SvgPublicFiles, EachDrawsWhatItsNameSays) {
+  const auto folder = std::filesystem::path(OBVID_SHARED_DATA) / "cad_svg";
+  if (!std::filesystem::exists(folder)) GTEST_SKIP() << "the public data set is not here";
+  for (const Expected& expected : kPublic) {
+    const auto path = folder / (std::string("resvg_") + expected.file + ".svg");
+    const auto drawing = parse_svg(slurp(path), expected.file);
+    ASSERT_TRUE(drawing.has_value()) << expected.file << ": " << drawing.error().what;
+    std::size_t pieces = 0;
+    for (const DrawnCurve& curve : drawing->curves) pieces += curve.pieces.size();
+    EXPECT_EQ(drawing->curves.size(), expected.curves) << expected.file;
+    EXPECT_EQ(pieces, expected.pieces) << expected.file;
+    EXPECT_EQ(drawing->warnings.size() == 1U, *expected.warning == '\0') << expected.file;
+    EXPECT_TRUE(warns(*drawing, expected.warning)) << expected.file << drawing->warnings.back();
+  }
+  const auto all = std::distance(std::filesystem::directory_iterator(folder), {});
+  EXPECT_EQ(static_cast<std::size_t>(all), std::size(kPublic));
+}
+
+/// In these the second shape covers the first one: the same curve written in another way.
+TEST(SvgPublicFiles, TheCoveringShapeIsTheCoveredOne) {
+  const auto folder = std::filesystem::path(OBVID_SHARED_DATA) / "cad_svg";
+  if (!std::filesystem::exists(folder)) GTEST_SKIP() << "the public data set is not here";
+  for (const char* name : {"path_M-A-trimmed", "path_extra-spaces",
+                           "path_no-commawsp-between-and-after-arc-flags", "polygon_simple-case"}) {
+    const auto d = parse_svg(slurp(folder / (std::string("resvg_") + name + ".svg")), name);
+    ASSERT_TRUE(d.has_value());
+    const auto &a = d->curves[0].pieces, &b = d->curves[1].pieces;
+    ASSERT_EQ(a.size(), b.size());
+    for (std::size_t i = 0; i < a.size(); ++i) {
+      expect_near(evaluate(a[i], 0.4).point, evaluate(b[i], 0.4).point);
+    }
+  }
+}
+
+TEST(SvgPublicFiles, CutAnywhereTheyAreRefusedOrRead) {
+  const auto folder = std::filesystem::path(OBVID_SHARED_DATA) / "cad_svg";
+  if (!std::filesystem::exists(folder)) GTEST_SKIP() << "the public data set is not here";
+  std::size_t refused = 0;
+  const std::string text = slurp(folder / "resvg_path_M-A-trimmed.svg");
+  for (std::size_t n = 0; n + 8 < text.size(); ++n) {
+    if (!parse_svg(text.substr(0, n), "cut.svg")) ++refused;
+  }
+  EXPECT_EQ(refused, text.size() - 8);
+}
+
+}  // namespace
+}  // namespace obvid
