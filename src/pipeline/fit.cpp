@@ -135,6 +135,17 @@ Result<Formed> form_sections(const Prepared& series, const FitJob& job, double t
   return out;
 }
 
+/// A carrier that follows the spirals needs a part of each point's tolerance for itself: half of
+/// the least at the most. Returns what it may use.
+double share_tolerance(Prepared& series, double tolerance) {
+  double own = tolerance;
+  for (const double reach : series.reach) {
+    if (reach > 0.0) own = std::min(own, 0.5 * reach);
+  }
+  for (double& reach : series.reach) reach = reach > 0.0 ? reach - own : 0.0;
+  return own;
+}
+
 bool misses_a_point(const Contour& contour) {
   if (contour.point_tolerance.empty()) return false;
   const std::vector<double> distance = point_distances(contour);
@@ -194,7 +205,8 @@ Result<Fit> fit(const PointSeries& series, const FitJob& job, const Progress& pr
   tell("analysing", 0.0);
   auto prepared = prepare(series, job);
   if (!prepared) return tl::unexpected(prepared.error());
-  const double tolerance = job.tolerance.value_or(default_tolerance(prepared->points));
+  double tolerance = job.tolerance.value_or(default_tolerance(prepared->points));
+  if (follows_spirals(job.carrier)) tolerance = share_tolerance(*prepared, tolerance);
   auto formed = form_sections(*prepared, job, tolerance, progress);
   for (int k = 0; k < kNarrowings && formed && narrow(formed->contour, *prepared); ++k) {
     formed = form_sections(*prepared, job, tolerance, progress);

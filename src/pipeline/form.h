@@ -42,7 +42,8 @@ struct Carried {
 /// Conics, headings freed so that all are monotone ellipse arcs: one to a link, or two, four, eight
 /// where one does not do. Where no such headings are found, the chain over the given ones, with a
 /// warning.
-/// Errors: E401 where a link has no triangle (inflections, lines).
+/// Sections of lines and arcs only stay as they are. Errors: E401 where a link has no triangle
+/// (inflections, lines), and for a closed contour without corners.
 [[nodiscard]] Result<Carried> form_conics(const Contour& spirals);
 
 /// Parabolas: every piece condensed until the region between their elements is as narrow as the
@@ -50,7 +51,7 @@ struct Carried {
 [[nodiscard]] Result<Carried> form_beziers(const Contour& spirals, double tolerance);
 
 /// Monotone polynomial B-spline within the tolerance of the spirals; points that are no knots are
-/// passed within it. Errors: E310 at arcs; E405.
+/// passed within it. Circular stretches stay arcs: no polynomial is a circle. Errors: E405.
 [[nodiscard]] Result<Carried> form_bspline(const Contour& spirals, double tolerance);
 
 /// C2 cubic within the tolerance of the spirals; `loop`: continuous where the last joint is the

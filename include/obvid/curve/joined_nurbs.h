@@ -12,9 +12,10 @@ namespace obvid {
 /// both sides of a joint. Continuous curvature of the contour stays continuous curvature.
 ///
 /// Pieces with weights are multiplied by a quadratic factor that makes the weight stand still at
-/// both ends (docs/methods/curve.md): quartic spirals become degree 6, conics and arcs degree 4;
-/// all are raised to the largest degree. Weights lie within [0.1, 10]: pieces are cut where they do
-/// not. A closed contour gives a clamped curve that ends in its first point.
+/// both ends (docs/methods/curve.md): quartic spirals become degree 6, conics and arcs degree 4,
+/// one more where the speed would otherwise change by more than 20 along the curve; all are raised
+/// to the largest degree. Weights lie within [0.1, 10]: pieces are cut where they do not. A closed
+/// contour gives a clamped curve that ends in its first point.
 ///
 /// Errors: E304 no pieces; E310 clothoids, which are no NURBS curves, and rational pieces of degree
 /// 6 and more (`index`: the piece); E501 where cutting does not bring the weights into their range

@@ -23,7 +23,7 @@ constexpr int kSamples = 8;  // per span
 /// tolerance: eight samples see the flat maximum of a quartic error within 4 %.
 constexpr double kOfTolerance = 0.95;
 /// Integral of the density that the contour has by its length alone: straight parts get knots too.
-constexpr double kLeastDensity = 1.0;
+constexpr double kLeastDensity = 0.2;
 
 /// Places on the contour with the integral of the wanted density of knots.
 struct Density {
@@ -75,7 +75,9 @@ Density knot_density(const Contour& contour, const ContourLength& length) {
       const double second = (curvature_rate(b) - curvature_rate(a)) / ds;
       const double fourth = std::hypot(second - kappa * kappa * kappa, 3.0 * kappa * rate);
       d.place.push_back(place);
-      d.sum.push_back(d.sum.back() + (std::sqrt(std::sqrt(fourth)) + kLeastDensity / whole) * ds);
+      // one over a length, so that the size of the drawing does not matter
+      const double density = std::sqrt(std::sqrt(fourth / whole)) + kLeastDensity / whole;
+      d.sum.push_back(d.sum.back() + density * ds);
     }
   }
   return d;
