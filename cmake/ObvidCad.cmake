@@ -21,4 +21,5 @@ target_include_directories(obvid_cad_plugin PRIVATE "${PROJECT_SOURCE_DIR}/src/c
 target_include_directories(obvid_cad_plugin SYSTEM PRIVATE ${OpenCASCADE_INCLUDE_DIR})
 target_link_libraries(obvid_cad_plugin PRIVATE obvid_flags fmt::fmt obvid::curve obvid::exchange
                       TKSTEP TKIGES TKShHealing TKPrim TKBRep TKGeomBase TKTopAlgo TKXSBase TKG3d TKMath TKernel)
-install(TARGETS obvid_cad_plugin LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR}/obvid)
+# where the loader looks, seen from bin, whatever the system calls its folder of libraries
+install(TARGETS obvid_cad_plugin LIBRARY DESTINATION lib/obvid)
