@@ -44,6 +44,8 @@ constexpr std::array kMotions = {std::pair{"arcs", GcodeMotion::kArcs},
                                  std::pair{"lines", GcodeMotion::kLines},
                                  std::pair{"splines", GcodeMotion::kSplines}};
 
+constexpr std::array kSvg = {std::pair{"picture", false}, std::pair{"drawing", true}};
+
 /// The value of a typed name; nothing typed leaves it as it is.
 template <class Names, class Value>
 Result<void> choose(const std::optional<std::string>& typed, const Names& names, const char* option,
@@ -88,6 +90,7 @@ Result<void> set_formats(const FormatValues& typed, ExportOptions& options,
       .and_then([&] {
         return choose(typed.controller, kControllers, "--controller", options.controller);
       })
+      .and_then([&] { return choose(typed.svg, kSvg, "--svg", options.drawing); })
       .and_then([&] { return choose(typed.motion, kMotions, "--motion", options.motion); });
 }
 

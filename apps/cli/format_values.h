@@ -24,6 +24,7 @@ struct FormatValues {
   std::optional<double> feed;
   std::optional<long> samples;
   std::optional<double> sample_step;
+  std::optional<std::string> svg;
 };
 
 /// Error: E203.

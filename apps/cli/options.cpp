@@ -173,6 +173,12 @@ void add_formats(CLI::App& command, FormatValues& values) {
                   "Arc length from one of these points to the next, units of the contour")
       ->type_name("S")
       ->group(group);
+  command
+      .add_option("--svg", values.svg,
+                  "What an .svg is: picture for a report, or drawing in true scale for cutters and "
+                  "plotters [picture]")
+      ->type_name("NAME")
+      ->group(group);
   command.add_option("--step", values.step, "Schema of STEP files: ap214 or ap242 [ap214]")
       ->type_name("NAME")
       ->group(group);

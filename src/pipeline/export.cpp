@@ -11,6 +11,7 @@
 #include "obvid/contour/bsplines/cubic_along.h"
 #include "obvid/curve/joined_nurbs.h"
 #include "obvid/exchange/solidworks.h"
+#include "obvid/exchange/svg_drawing.h"
 #include "obvid/io/contour_json.h"
 #include "obvid/io/picture_svg.h"
 #include "report.h"
@@ -65,7 +66,7 @@ class Exporter {
       case FileFormat::kContour:
         return one_file(contour_to_json(stored_));
       case FileFormat::kPicture:
-        return one_file(picture_svg(stored_));
+        return options_.drawing ? drawing() : Result<Exported>(one_file(picture_svg(stored_)));
       case FileFormat::kStep:
         return cad(options_.step);
       case FileFormat::kIges:
@@ -166,6 +167,17 @@ class Exporter {
     out.remarks.push_back(
         fmt::format("{} blocks, {} of them arcs, at most {:.3g} {} from the contour", made->blocks,
                     made->arc_blocks, made->deviation, contour_.units));
+    return out;
+  }
+
+  Result<Exported> drawing() {
+    SvgDrawingOptions write;
+    write.tolerance = arc_tolerance_;
+    auto made = svg_drawing(contour_, write);
+    if (!made) return tl::unexpected(made.error());
+    Exported out = one_file(std::move(made->text));
+    out.remarks.push_back(fmt::format("true scale, at most {:.3g} {} from the contour",
+                                      made->deviation, contour_.units));
     return out;
   }
 

@@ -10,6 +10,9 @@
 #include <sstream>
 
 #include "obvid/cad/cad.h"
+#include "obvid/exchange/geojson.h"
+#include "obvid/exchange/gpx.h"
+#include "obvid/exchange/svg_read.h"
 #include "obvid/io/contour_json.h"
 #include "obvid/io/file_kind.h"
 #include "obvid/io/read_points.h"
@@ -60,9 +63,16 @@ Result<Drawing> from_text(FileKind kind, const std::string& text, const std::str
   switch (kind) {
     case FileKind::kContour:
       return from_contour(text, path);
+    case FileKind::kSvg:
+      return parse_svg(text, path);
+    case FileKind::kGpx:
+      return parse_gpx(text, path);
+    case FileKind::kGeoJson:
+      return parse_geojson(text, path);
     default:
       return fail({ErrorCode::kUnsupported, "this kind of file is not read", path,
-                   "give a list of points, a contour, or STEP, IGES, BREP", -1, 0.0});
+                   "give a list of points, a contour, or STEP, IGES, BREP, DXF, SVG, GPX, GeoJSON",
+                   -1, 0.0});
   }
 }
 

@@ -18,7 +18,7 @@ namespace obvid {
 /// Files that a contour can be written to, told by their endings.
 enum class FileFormat {
   kContour,  ///< .json
-  kPicture,  ///< .svg
+  kPicture,  ///< .svg, a picture for a report or a drawing in true scale
   kStep,     ///< .step, .stp
   kIges,     ///< .iges, .igs
   kBrep,     ///< .brep
@@ -43,6 +43,7 @@ struct ExportOptions {
   std::optional<double> tolerance;  ///< of curves that a format cannot hold exactly [1e-6 of the
                                     ///< size; of arcs and G-code 2e-5 of it]
   CadFormat step = CadFormat::kStepAp214;
+  bool drawing = false;  ///< .svg: a drawing in true scale in place of the picture
   DxfProfile dxf = DxfProfile::kExact;
   GcodeMotion motion = GcodeMotion::kArcs;
   GcodeController controller = GcodeController::kGrbl;
