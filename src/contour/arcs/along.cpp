@@ -2,219 +2,300 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <numbers>
 #include <optional>
 #include <string>
+#include <utility>
 
-#include "obvid/contour/arcs.h"
+#include "biarc_along.h"
 #include "obvid/contour/arcs/arcs_along.h"
-#include "obvid/region/refine.h"
+#include "obvid/curve/path_distance.h"
 
 namespace obvid {
 namespace {
 
-constexpr int kSamples = 24;           // of a pair of arcs
-constexpr double kOfTolerance = 0.97;  // what lies between the samples
-constexpr int kHalvings = 12;          // of the place where a pair ends
-constexpr double kShortest = 0x1p-30;  // of a piece: arcs of that length are rounding
-constexpr double kMostTurn = 1.5;      // of a pair, rad: the arcs stay well below half a turn
+using arcs::Node;
+using arcs::PairCurvatures;
+using arcs::Stretch;
+using arcs::Track;
 
-/// Distance of a point from an arc or line, seen from its start.
-double distance_from(const Piece& piece, Vec2 p) {
-  if (const auto* line = std::get_if<LinePiece>(&piece)) {
-    const Vec2 along = line->end - line->start, v = p - line->start;
-    const double t = std::clamp(dot(v, along) / dot(along, along), 0.0, 1.0);
-    return norm(v - t * along);
-  }
-  const auto& arc = std::get<ArcPiece>(piece);
-  const Vec2 v = p - arc.start, n = left_normal(unit_at(arc.theta0));
-  // | |p - centre| - radius | without the cancellation of a large circle
-  const double signed_offset = 0.5 * arc.kappa * dot(v, v) - dot(v, n);
-  const double to_centre = norm(arc.kappa * v - n);
-  return std::abs(2.0 * signed_offset) / (1.0 + to_centre);
-}
+/// An arc of length l that meets a curve at its ends and its middle leaves it by r l^3 / kBest
+/// where the curvature changes at the rate r: 216/sqrt(3), docs/methods/gcode.md.
+constexpr double kBest = 124.707658144959;
+/// Parts of the best heading's angle that are tried at each node. With more than 0.93 of it the
+/// lengths that are near enough are no longer one interval; 0.8 costs 6 % of the length.
+constexpr std::array kParts = {0.8, 0.4, 0.0};
+constexpr double kManyArcs = 1000.0;    // from here on only the first of them
+constexpr double kOfTolerance = 0.99;   // what sampling may miss
+constexpr double kSpanAccuracy = 0.01;  // of a pair: how exactly its end is found
+constexpr double kShortest = 1e-12;     // of a contour: arcs of that length are rounding
+constexpr double kMostLean = 0.2;       // rad, between a node's heading and the contour's
+constexpr std::size_t kMostArcs = 1000000;
+constexpr std::size_t kEvened = 20;  // pairs before the end of a stretch that are made alike
+constexpr int kEvenings = 5;         // bisections for that
 
-/// Two arcs with tangents of equal length at both ends (Bolton, "Biarc curves", 1975): always there
-/// for headings less than half a turn apart.
-std::array<Piece, 2> equal_legs(const Element& a, const Element& b) {
-  const Vec2 v = b.point - a.point, t0 = unit_at(a.theta), t1 = unit_at(b.theta), t = t0 + t1;
-  const double denominator = 2.0 * (1.0 - dot(t0, t1));
-  const double vt = dot(v, t), vv = dot(v, v);
-  const double root = std::sqrt(vt * vt + denominator * vv);
-  const double leg = vv / (vt + root);
-  const Vec2 middle = 0.5 * (a.point + b.point + leg * (t0 - t1));
-  const auto arc = [](Vec2 from, double theta, Vec2 to) -> Piece {
-    const Vec2 chord = to - from;
-    const double half = turning(unit_at(theta), chord), length = norm(chord);
-    if (half == 0.0) return LinePiece{from, to};
-    const double kappa = 2.0 * std::sin(half) / length;
-    return ArcPiece{from, to, theta, kappa, 2.0 * half / kappa};
-  };
-  const double theta = a.theta + 2.0 * turning(t0, middle - a.point);
-  return {arc(a.point, a.theta, middle), arc(middle, theta, b.point)};
-}
+/// Pairs in a row: the node before each, and the last one.
+using Chain = std::vector<Node>;
 
-/// Places along a contour: piece i at parameter t is the place i + t.
-class Along {
+/// Pairs of arcs along a part of a contour without corners, lines and arcs.
+class StretchArcs {
  public:
-  Along(const Contour& contour, double tolerance)
-      : contour_(contour), tolerance_(kOfTolerance * tolerance) {}
+  StretchArcs(const Track& track, const Stretch& stretch, double tolerance, std::size_t parts)
+      : track_(track),
+        closed_(stretch.closed),
+        from_(track.start_of(stretch.first)),
+        to_(track.start_of(stretch.end)),
+        vertices_(track.vertices(stretch)),
+        tolerance_(tolerance),
+        parts_(parts),
+        period_(to_ - from_) {
+    if (closed_) seam_lean_ = kParts.front() * lean(from_, tolerance_);
+  }
 
-  Result<ArcsAlong> run() {
-    for (std::size_t i = 0; i < contour_.pieces.size();) {
-      if (is_exact(i)) {
-        out_.pieces.push_back(contour_.pieces[i]);
-        ++i;
-        continue;
-      }
-      const std::size_t end = end_of_stretch(i);
-      if (auto done = follow(i, end); !done) return fail(done.error());
-      i = end;
-    }
-    return std::move(out_);
+  /// Nothing when no pair is near enough, however short, or more than `most` arcs are needed.
+  std::optional<Chain> run(std::size_t most) {
+    auto chain = fewest(node(from_, tolerance_, 0.0), tolerance_, most / 2);
+    if (!chain) return std::nullopt;
+    even_out(*chain);
+    return chain;
   }
 
  private:
-  [[nodiscard]] bool is_exact(std::size_t i) const {
-    return std::holds_alternative<LinePiece>(contour_.pieces[i]) ||
-           std::holds_alternative<ArcPiece>(contour_.pieces[i]);
+  /// Curvature; of a closed contour also beyond its ends.
+  [[nodiscard]] double kappa(double s) const {
+    if (closed_ && s < from_) s += to_ - from_;
+    if (closed_ && s > to_) s -= to_ - from_;
+    return curvature(track_.jet(s, s >= to_));
   }
 
-  [[nodiscard]] int direction_of(std::size_t i) const {
-    for (const Run& run : contour_.runs) {
-      if (i >= run.first_piece && i <= run.last_piece) return run.direction;
+  /// How the curvature changes around a place: at length `l`, and up and down together.
+  struct Change {
+    double signed_change, variation;
+  };
+  [[nodiscard]] Change change(double s, double l) const {
+    const double low = closed_ ? s - 0.5 * l : std::max(from_, s - 0.5 * l);
+    const double high = closed_ ? s + 0.5 * l : std::min(to_, s + 0.5 * l);
+    const double k0 = kappa(low), k = kappa(s), k1 = kappa(high), scale = l / (high - low);
+    return {(k1 - k0) * scale, (std::abs(k1 - k) + std::abs(k - k0)) * scale};
+  }
+
+  /// Length of the arcs around a place in the best approximation.
+  double period(double s, double tolerance) const {
+    const double most = to_ - from_, least = kShortest * most;
+    const auto too_long = [&](double l) {
+      return change(s, l).variation * l * l > kBest * tolerance;
+    };
+    double l = std::clamp(period_, least, most);
+    const bool shrink = too_long(l);
+    double other = l;
+    while (too_long(l) == shrink) {
+      other = l;
+      l = shrink ? 0.5 * l : 2.0 * l;
+      if (l >= most || l <= least) break;
     }
-    return 0;
-  }
-
-  /// The first piece after `first` that is exact, begins at a corner, or changes another way.
-  [[nodiscard]] std::size_t end_of_stretch(std::size_t first) const {
-    const int direction = direction_of(first);
-    std::size_t end = first + 1;
-    for (; end < contour_.pieces.size(); ++end) {
-      const bool corner = end < contour_.joints.size() && contour_.joints[end].leaving;
-      if (corner || is_exact(end) || direction == 0 || direction_of(end) != direction) break;
+    double good = std::clamp(shrink ? l : other, least, most);
+    double bad = std::min(shrink ? other : l, most);
+    constexpr int kHalvings = 5;
+    for (int i = 0; i < kHalvings; ++i) {
+      const double middle = std::sqrt(good * bad);
+      (too_long(middle) ? bad : good) = middle;
     }
-    return end;
+    period_ = good;
+    return good;
   }
 
-  struct Place {
-    std::size_t piece = 0;
-    double t = 0.0;
+  /// Angle from the contour's heading to that of the best approximation, at one of its nodes.
+  double lean(double s, double tolerance) const {
+    const double l = period(s, tolerance);
+    const Change c = change(s, l);
+    const double evenness = c.variation > 0.0 ? c.signed_change / c.variation : 0.0;
+    return -evenness * std::min(kMostLean, kBest / 12.0 * tolerance / l);
+  }
+
+  /// The node at a place, its heading off the contour's by a part of the lean there. At the ends of
+  /// the stretch the heading is the contour's.
+  [[nodiscard]] Node node(double s, double tolerance, double part) const {
+    const Jet jet = track_.jet(s, s >= to_);
+    const bool end = s <= from_ || s >= to_;
+    const double off = end ? seam_lean_ : part == 0.0 ? 0.0 : part * lean(s, tolerance);
+    return {s, jet.point, heading(jet.d1) + off};
+  }
+
+  struct Step {
+    Node node;
+    PairCurvatures kappa;
   };
 
-  /// `from_left`: at a joint the end of the piece before it.
-  [[nodiscard]] static Place split(double place, bool from_left) {
-    auto piece = static_cast<std::size_t>(place);
-    if (from_left && piece > 0 && static_cast<double>(piece) == place) --piece;
-    return {piece, place - static_cast<double>(piece)};
+  /// The longest pair from a node that ends with a part of the lean.
+  std::optional<Step> longest(const Node& start, double tolerance, double guess,
+                              double part) const {
+    std::optional<Step> good;
+    double bad = to_, span = guess;
+    bool was_bad = false;
+    const double room = to_ - start.s, least = kShortest * (to_ - from_);
+    const auto attempt = [&](double s) {
+      const Node b = node(s, tolerance, part);
+      const auto pair = arcs::pair_along(track_, start, b, tolerance);
+      if (pair) good = {b, *pair};
+      if (!pair) {
+        bad = s;
+        was_bad = true;
+      }
+      return pair.has_value();
+    };
+    constexpr double kGrow = 1.4;
+    while (!good) {
+      if (span < least) return std::nullopt;
+      if (attempt(span < room ? start.s + span : to_)) break;
+      span = std::min(span, room) / kGrow;
+    }
+    while (!was_bad && good->node.s < to_) {
+      const double next = start.s + kGrow * (good->node.s - start.s);
+      if (!attempt(std::min(to_, next))) break;
+    }
+    while (was_bad && bad - good->node.s > kSpanAccuracy * (bad - start.s)) {
+      attempt(0.5 * (bad + good->node.s));
+    }
+    return good;
   }
 
-  [[nodiscard]] Element element(double place, bool from_left) const {
-    const Place p = split(place, from_left);
-    return element_at(contour_.pieces[p.piece], p.t);
-  }
-
-  struct Pair {
-    std::array<Piece, 2> arcs;
-    double deviation = 0.0;
+  /// A chain's last pair, for one part of the lean at its end.
+  struct State {
+    Step step;
+    Node start;
+    std::size_t before = 0;  ///< state of the level before
+    bool monotone = true;    ///< the arcs' curvatures change as the contour's
   };
+  using Level = std::array<std::optional<State>, kParts.size()>;
 
-  [[nodiscard]] std::optional<Pair> attempt(double from, double to, int direction) const {
-    const Element a = element(from, false);
-    Element b = element(to, true);
-    b.theta = a.theta + std::remainder(b.theta - a.theta, 2.0 * std::numbers::pi);
-    if (std::abs(b.theta - a.theta) > kMostTurn) return std::nullopt;
-    Pair pair;
-    const auto curvatures =
-        direction != 0 ? choose_biarc(chord_frame(a, b), direction) : std::nullopt;
-    pair.arcs = curvatures ? biarc(a, b, *curvatures) : equal_legs(a, b);
-    if (!forward(pair.arcs[0]) || !forward(pair.arcs[1])) return std::nullopt;
-    const Vec2 middle = end_point(pair.arcs[0]);
-    const Vec2 tangent = middle_tangent(pair.arcs);
-    for (int k = 1; k < kSamples; ++k) {
-      const double place = from + (to - from) * k / kSamples;
-      const Place at = split(place, false);
-      const Vec2 p = evaluate(contour_.pieces[at.piece], at.t).point;
-      const bool first = dot(p - middle, tangent) <= 0.0;
-      const double away = distance_from(pair.arcs[first ? 0 : 1], p);
-      pair.deviation = std::max(pair.deviation, away);
-      if (!(pair.deviation <= tolerance_)) return std::nullopt;
+  /// Whether the curvatures of a pair, and of the arc before it, change the way the contour's do.
+  [[nodiscard]] bool is_monotone(const State& last, const Step& step) const {
+    if (turns_inside(last.start.s, step.node.s)) return true;
+    const double k0 = step.kappa.first, k1 = step.kappa.second;
+    const double change = kappa(step.node.s) - kappa(last.start.s);
+    const bool first = last.start.s == last.step.node.s;
+    const double before = first ? k0 : last.step.kappa.second;
+    return change > 0.0 ? before <= k0 && k0 <= k1 : before >= k0 && k0 >= k1;
+  }
+
+  /// From the states of one level the farthest ones of the next; monotone ones come first.
+  Level advance(const Level& level, double tolerance) const {
+    Level next;
+    for (std::size_t i = 0; i < parts_; ++i) {
+      if (!level[i]) continue;
+      const Node& start = level[i]->step.node;
+      double guess = 2.0 * period(start.s, tolerance);
+      for (std::size_t j = 0; j < parts_; ++j) {
+        const auto step = longest(start, tolerance, guess, kParts[j]);
+        if (!step) continue;
+        guess = step->node.s - start.s;
+        const bool monotone = level[i]->monotone && is_monotone(*level[i], *step);
+        if (!next[j] || std::pair(monotone, step->node.s) >
+                            std::pair(next[j]->monotone, next[j]->step.node.s)) {
+          next[j] = {*step, start, i, monotone};
+        }
+      }
     }
-    return pair;
+    return next;
   }
 
-  [[nodiscard]] static bool forward(const Piece& piece) {
-    const auto* arc = std::get_if<ArcPiece>(&piece);
-    if (arc != nullptr) return arc->length > 0.0 && std::isfinite(arc->kappa);
-    const auto& line = std::get<LinePiece>(piece);
-    return !(line.start == line.end);
+  [[nodiscard]] bool turns_inside(double from, double to) const {
+    const auto first = std::upper_bound(vertices_.begin(), vertices_.end(), from);
+    return first != vertices_.end() && *first < to;
   }
 
-  [[nodiscard]] static Vec2 middle_tangent(const std::array<Piece, 2>& arcs) {
-    if (const auto* second = std::get_if<ArcPiece>(&arcs[1])) return unit_at(second->theta0);
-    const auto& line = std::get<LinePiece>(arcs[1]);
-    return line.end - line.start;
-  }
-
-  /// Pairs over the pieces [first, end), each as long as it may be.
-  Result<void> follow(std::size_t first, std::size_t end) {
-    const int direction = direction_of(first);
-    const auto last = static_cast<double>(end);
-    double from = static_cast<double>(first), step = 1.0;
-    while (from < last) {
-      double to = std::min(last, from + step);
-      auto good = attempt(from, to, direction);
-      double bad = last;
-      while (!good && to - from > kShortest) {
-        bad = to;
-        to = from + 0.5 * (to - from);
-        good = attempt(from, to, direction);
+  /// Fewest pairs from a node to the end of the stretch, at most `most`.
+  std::optional<Chain> fewest(const Node& start, double tolerance, std::size_t most) const {
+    std::vector<Level> levels(1);
+    levels[0][0] = State{{start, {}}, start};
+    for (std::size_t n = 1; n <= most; ++n) {
+      levels.push_back(advance(levels.back(), tolerance));
+      std::optional<std::size_t> done;
+      bool any = false;
+      for (std::size_t j = 0; j < parts_; ++j) {
+        const auto& state = levels.back()[j];
+        any = any || state.has_value();
+        const bool better = !done || (state && state->monotone && !levels.back()[*done]->monotone);
+        if (state && state->step.node.s >= to_ && better) done = j;
       }
-      if (!good) {
-        return fail({ErrorCode::kToleranceNotReached,
-                     "no pair of arcs is near enough to the contour",
-                     "piece " + std::to_string(static_cast<std::size_t>(from) + 1),
-                     "allow a larger tolerance", static_cast<std::ptrdiff_t>(from), tolerance_});
-      }
-      lengthen(from, to, bad, last, direction, *good);
-      out_.pieces.push_back(good->arcs[0]);
-      out_.pieces.push_back(good->arcs[1]);
-      out_.deviation = std::max(out_.deviation, good->deviation);
-      step = to - from;
-      from = to;
+      if (done) return chain_to(levels, *done);
+      if (!any) return std::nullopt;
     }
-    return {};
+    return std::nullopt;
   }
 
-  /// Moves the end of a pair that will do as far as it will.
-  void lengthen(double from, double& to, double bad, double last, int direction, Pair& good) const {
-    while (to < last && bad == last) {  // nothing was too long so far
-      const double next = std::min(last, from + 2.0 * (to - from));
-      auto longer = attempt(from, next, direction);
-      if (!longer) {
-        bad = next;
-        break;
-      }
-      to = next;
-      good = std::move(*longer);
+  [[nodiscard]] static Chain chain_to(const std::vector<Level>& levels, std::size_t state) {
+    Chain chain = {levels.back()[state]->step.node};
+    for (std::size_t n = levels.size() - 1; n > 0; --n) {
+      chain.push_back(levels[n][state]->start);
+      state = levels[n][state]->before;
     }
-    for (int k = 0; k < kHalvings && to < last; ++k) {
-      const double middle = 0.5 * (to + bad);
-      auto longer = attempt(from, middle, direction);
-      if (longer) {
-        to = middle;
-        good = std::move(*longer);
-      } else {
-        bad = middle;
-      }
+    std::reverse(chain.begin(), chain.end());
+    return chain;
+  }
+
+  /// The same number of pairs with a smaller tolerance, so that the last one is as long as others.
+  void even_out(Chain& chain) const {
+    const std::size_t n = std::min(chain.size() - 1, kEvened), kept = chain.size() - 1 - n;
+    if (n < 2) return;
+    const double fewer = 1.0 - 1.0 / static_cast<double>(n);
+    double low = 0.5 * fewer * fewer * fewer, high = 1.0;
+    for (int i = 0; i < kEvenings; ++i) {
+      const double middle = 0.5 * (low + high);
+      const auto other = fewest(chain[kept], middle * tolerance_, n);
+      (other ? high : low) = middle;
+      if (!other) continue;
+      chain.resize(kept);
+      chain.insert(chain.end(), other->begin(), other->end());
     }
   }
 
-  const Contour& contour_;
+  const Track& track_;
+  bool closed_;
+  double from_, to_;
+  std::vector<double> vertices_;
   double tolerance_;
-  ArcsAlong out_;
+  std::size_t parts_;      ///< how many of kParts are tried
+  mutable double period_;  ///< the last one found: where to look for the next
+  double seam_lean_ = 0.0;
 };
+
+Error not_reached(const char* what, double deviation) {
+  return {ErrorCode::kToleranceNotReached, what, "", "allow a larger tolerance", -1, deviation};
+}
+
+/// Arcs that the best approximation takes, roughly.
+double expected_arcs(const Contour& contour, double tolerance) {
+  constexpr int kPlaces = 4;  // of a piece
+  double sum = 0.0;
+  for (const Piece& piece : contour.pieces) {
+    if (arcs::is_circular(piece)) continue;
+    for (int k = 0; k < kPlaces; ++k) {
+      const Jet jet = evaluate(piece, (k + 0.5) / kPlaces);
+      sum += norm(jet.d1) / kPlaces * std::cbrt(std::abs(curvature_rate(jet)) / tolerance / kBest);
+    }
+  }
+  return sum;
+}
+
+Result<std::vector<Piece>> all_arcs(const Track& track, double tolerance, double expected) {
+  const std::size_t parts = expected > kManyArcs ? 1 : kParts.size();
+  std::vector<Piece> out;
+  for (const Stretch& stretch : track.stretches()) {
+    if (stretch.exact) {
+      out.push_back(arcs::as_circular(track.piece(stretch.first)));
+      continue;
+    }
+    const auto chain = StretchArcs(track, stretch, tolerance, parts).run(kMostArcs);
+    if (!chain || out.size() + 2 * chain->size() > kMostArcs) {
+      return fail(not_reached("no million arcs are near enough to the contour", tolerance));
+    }
+    for (std::size_t i = 1; i < chain->size(); ++i) {
+      const auto pair = arcs::arcs_between((*chain)[i - 1], (*chain)[i]);
+      out.insert(out.end(), pair.begin(), pair.end());
+    }
+  }
+  return out;
+}
 
 }  // namespace
 
@@ -226,7 +307,29 @@ Result<ArcsAlong> arcs_along(const Contour& contour, double tolerance) {
   if (contour.pieces.empty()) {
     return fail({ErrorCode::kTooFewPoints, "the contour has no pieces", "", "", -1, 0.0});
   }
-  return Along(contour, tolerance).run();
+  constexpr double kRough = 2.0;  // the estimate against the limit
+  const double expected = expected_arcs(contour, tolerance);
+  if (!(expected <= kRough * static_cast<double>(kMostArcs))) {
+    return fail(not_reached("more than a million arcs would be needed", expected));
+  }
+  const Track track(contour);
+  if (std::all_of(contour.pieces.begin(), contour.pieces.end(), arcs::is_circular)) {
+    auto same = all_arcs(track, tolerance, expected);
+    if (!same) return fail(same.error());
+    return ArcsAlong{std::move(*same), 0.0};
+  }
+  constexpr int kTrials = 4;
+  double within = kOfTolerance * tolerance;
+  ArcsAlong out;
+  for (int trial = 0; trial < kTrials; ++trial) {
+    auto pieces = all_arcs(track, within, expected);
+    if (!pieces) return fail(pieces.error());
+    out.pieces = std::move(*pieces);
+    out.deviation = path_distance(contour.pieces, out.pieces);
+    if (out.deviation <= tolerance) return out;
+    within *= kOfTolerance * tolerance / out.deviation;
+  }
+  return fail(not_reached("the arcs do not come near enough to the contour", out.deviation));
 }
 
 }  // namespace obvid

@@ -1,0 +1,107 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "biarc_along.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace obvid::arcs {
+namespace {
+
+constexpr double kMostTurn = 2.4;  // of the contour beside a pair, rad: arcs stay below half a turn
+constexpr int kSamples = 24;       // of a pair, and at least two of each piece beside it
+
+/// Arc from a point with this heading to another one. A line where it does not turn at all.
+Piece arc_between(Vec2 from, double theta, Vec2 to) {
+  const Vec2 chord = to - from;
+  const double length = norm(chord);
+  const double half = turning(unit_at(theta), chord);
+  if (half == 0.0) return LinePiece{from, to};
+  const double kappa = 2.0 * std::sin(half) / length;
+  return ArcPiece{from, to, theta, kappa, length * half / std::sin(half)};
+}
+
+/// An arc or line as what distances from it need.
+struct Circle {
+  Vec2 start;
+  Vec2 tangent;
+  double kappa = 0.0;
+};
+
+Circle circle_of(const Piece& piece) {
+  if (const auto* arc = std::get_if<ArcPiece>(&piece)) {
+    return {arc->start, unit_at(arc->theta0), arc->kappa};
+  }
+  const auto& line = std::get<LinePiece>(piece);
+  const Vec2 along = line.end - line.start;
+  return {line.start, along / norm(along), 0.0};
+}
+
+/// Distance of a point from a whole circle: | |p - centre| - radius | without the cancellation of
+/// a large circle.
+double distance(const Circle& c, Vec2 p) {
+  const Vec2 v = p - c.start, n = left_normal(c.tangent);
+  const double twice = c.kappa * dot(v, v) - 2.0 * dot(v, n);
+  return std::abs(twice) / (1.0 + norm(c.kappa * v - n));
+}
+
+bool goes_forward(const Piece& piece) {
+  if (const auto* arc = std::get_if<ArcPiece>(&piece)) {
+    return arc->length > 0.0 && std::isfinite(arc->length) && std::isfinite(arc->kappa);
+  }
+  const auto& line = std::get<LinePiece>(piece);
+  return !(line.start == line.end);
+}
+
+/// Largest of three neighbouring values, and of the parabola through them.
+double peak(double before, double here, double after) {
+  const double bend = 2.0 * here - before - after;
+  if (here < before || here < after || !(bend > 0.0)) return here;
+  return here + (after - before) * (after - before) / (8.0 * bend);
+}
+
+}  // namespace
+
+/// Two arcs with tangents of equal length at both ends (Bolton, "Biarc curves", 1975): always there
+/// for headings less than half a turn apart.
+std::array<Piece, 2> arcs_between(const Node& a, const Node& b) {
+  const Vec2 v = b.point - a.point, t0 = unit_at(a.theta), t1 = unit_at(b.theta);
+  const Vec2 difference = t0 - t1;
+  // (1 - cos) without cancellation
+  const double forward = dot(v, t0 + t1), square = dot(v, v);
+  const double leg =
+      square / (forward + std::sqrt(forward * forward + dot(difference, difference) * square));
+  const Vec2 middle = 0.5 * (a.point + b.point + leg * difference);
+  const double theta = a.theta + 2.0 * turning(t0, middle - a.point);
+  return {arc_between(a.point, a.theta, middle), arc_between(middle, theta, b.point)};
+}
+
+std::optional<PairCurvatures> pair_along(const Track& track, const Node& a, const Node& b,
+                                         double tolerance) {
+  const auto pair = arcs_between(a, b);
+  if (!goes_forward(pair[0]) || !goes_forward(pair[1])) return std::nullopt;
+  const std::array<Circle, 2> circle = {circle_of(pair[0]), circle_of(pair[1])};
+  const Track::Place first = track.place(a.s, false), last = track.place(b.s, true);
+  const std::size_t pieces = last.piece - first.piece + 1;
+  const int each =
+      std::max(2, kSamples / static_cast<int>(std::min<std::size_t>(pieces, kSamples)));
+  double before = 0.0, here = 0.0, turned = 0.0, deviation = 0.0;
+  Vec2 heading_before = evaluate(track.piece(first.piece), first.t).d1;
+  for (std::size_t i = first.piece; i <= last.piece; ++i) {
+    const double s0 = std::max(a.s, track.start_of(i)), s1 = std::min(b.s, track.start_of(i + 1));
+    for (int k = 1; k <= each; ++k) {
+      const Jet jet = track.jet(s0 + (s1 - s0) * k / each, true);
+      turned += std::abs(turning(heading_before, jet.d1));
+      heading_before = jet.d1;
+      const bool on_first = dot(jet.point - circle[1].start, circle[1].tangent) <= 0.0;
+      const double next = distance(circle[on_first ? 0 : 1], jet.point);
+      deviation = std::max({deviation, peak(before, here, next), next});
+      if (!(deviation <= tolerance) || turned > kMostTurn) return std::nullopt;
+      before = here;
+      here = next;
+    }
+  }
+  return PairCurvatures{circle[0].kappa, circle[1].kappa};
+}
+
+}  // namespace obvid::arcs

@@ -1,0 +1,91 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "obvid/curve/path_distance.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+#include <vector>
+
+namespace obvid {
+namespace {
+
+constexpr double kPi = std::numbers::pi;
+
+using Pieces = std::vector<Piece>;
+
+ArcPiece arc_around(Vec2 centre, double radius, double from, double turn) {
+  return {centre + radius * unit_at(from), centre + radius * unit_at(from + turn),
+          from + std::copysign(0.5 * kPi, turn), std::copysign(1.0 / radius, turn),
+          radius * std::abs(turn)};
+}
+
+/// Cubic with these control points.
+RationalBezier cubic(Vec2 a, Vec2 b, Vec2 c, Vec2 d) {
+  RationalBezier bezier;
+  bezier.degree = 3;
+  bezier.offset = {a, b, c, d};
+  bezier.weight = {1.0, 1.0, 1.0, 1.0};
+  return bezier;
+}
+
+TEST(PathDistance, OfAnArcAndItsChordIsTheSagitta) {
+  const ArcPiece arc = arc_around({0.0, 0.0}, 5.0, 0.2, 1.1);
+  const double sagitta = 5.0 * (1.0 - std::cos(0.55));
+  EXPECT_NEAR(path_distance(Pieces{arc}, Pieces{LinePiece{arc.start, arc.end}}), sagitta,
+              1e-3 * sagitta);
+}
+
+TEST(PathDistance, OfConcentricCirclesIsTheDifferenceOfTheirRadii) {
+  const Pieces a = {arc_around({1.0, 2.0}, 5.0, 0.0, 2.0 * kPi)};
+  const Pieces b = {arc_around({1.0, 2.0}, 5.25, 0.0, 3.0),
+                    arc_around({1.0, 2.0}, 5.25, 3.0, 2.0 * kPi - 3.0)};
+  EXPECT_NEAR(path_distance(a, b), 0.25, 1e-12);
+  EXPECT_NEAR(path_distance(b, a), 0.25, 1e-12);
+}
+
+TEST(PathDistance, CountsBothWays) {
+  // a detour of b to (1, 1): a is nowhere farther than sqrt(1/2) from b, but b is 1 from a
+  const Pieces a = {LinePiece{{0.0, 0.0}, {2.0, 0.0}}};
+  const Pieces b = {LinePiece{{0.0, 0.0}, {1.0, 1.0}}, LinePiece{{1.0, 1.0}, {2.0, 0.0}}};
+  EXPECT_NEAR(path_distance(a, b), 1.0, 1e-12);
+  EXPECT_NEAR(path_distance(b, a), 1.0, 1e-12);
+}
+
+TEST(PathDistance, FollowsBothSidesOfACorner) {
+  const Pieces a = {LinePiece{{0.0, 0.0}, {1.0, 0.0}}, LinePiece{{1.0, 0.0}, {1.0, 1.0}}};
+  const Pieces inside = {LinePiece{{0.0, 0.1}, {0.9, 0.1}}, LinePiece{{0.9, 0.1}, {0.9, 1.0}}};
+  const Pieces outside = {LinePiece{{0.0, -0.1}, {1.1, -0.1}}, LinePiece{{1.1, -0.1}, {1.1, 1.0}}};
+  EXPECT_NEAR(path_distance(a, inside), 0.1 * std::numbers::sqrt2, 1e-12);
+  EXPECT_NEAR(path_distance(a, outside), 0.1 * std::numbers::sqrt2, 1e-12);
+}
+
+TEST(PathDistance, OfTheUsualCubicFromItsQuarterCircle) {
+  // kappa = 4/3 (sqrt 2 - 1): radius 1 + 2.7253e-4 at most (Goldapp 1991)
+  const double k = 4.0 / 3.0 * (std::numbers::sqrt2 - 1.0);
+  const Pieces a = {cubic({1.0, 0.0}, {1.0, k}, {k, 1.0}, {0.0, 1.0})};
+  const Pieces b = {arc_around({0.0, 0.0}, 1.0, 0.0, 0.5 * kPi)};
+  EXPECT_NEAR(path_distance(a, b), 2.7253e-4, 1e-8);
+}
+
+TEST(PathDistance, OfTheSameCurveCutInManyPiecesIsRounding) {
+  RationalBezier rest = cubic({0.0, 0.0}, {0.02, 0.5}, {3.0, 1.0}, {3.2, -4.0});
+  const Pieces whole = {rest};
+  Pieces parts;
+  for (int i = 0; i < 40; ++i) {
+    const auto [first, second] = split(rest, 0.1);
+    parts.emplace_back(first);
+    rest = second;
+  }
+  parts.emplace_back(rest);
+  EXPECT_LT(path_distance(whole, parts), 1e-12);
+}
+
+TEST(PathDistance, SurvivesPiecesOfNoLengthAndEmptyPaths) {
+  const Pieces point = {LinePiece{{0.0, 0.0}, {0.0, 0.0}}};
+  EXPECT_NEAR(path_distance(point, Pieces{LinePiece{{0.0, 0.0}, {3.0, 4.0}}}), 5.0, 1e-12);
+  EXPECT_EQ(path_distance({}, point), 0.0);
+}
+
+}  // namespace
+}  // namespace obvid
