@@ -1,0 +1,15 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+namespace obvid::dxf {
+
+/// A unit of $INSUNITS in one that the program has a name for.
+struct Unit {
+  const char* name = "mm";
+  double factor = 1.0;  ///< lengths of the file times this are in `name`
+  bool known = false;   ///< false: none is stated, or an unknown one
+};
+
+[[nodiscard]] Unit unit_of(int insunits);
+
+}  // namespace obvid::dxf
