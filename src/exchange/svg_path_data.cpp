@@ -112,7 +112,7 @@ class PathReader {
   }
 
   bool cubic(char kind, Vec2 origin) {
-    Vec2 first = mirrored(last_ == 'C' || last_ == 'S');
+    const Vec2 first = mirrored(last_ == 'C' || last_ == 'S');
     if (kind == 'C') {
       const auto p = points<3>(origin);
       if (!p) return false;
@@ -147,7 +147,6 @@ class PathReader {
   }
 
   bool arc(Vec2 origin) {
-    SvgArc arc;
     const auto rx = in_.number();
     in_.skip_separator();
     const auto ry = in_.number();

@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string>
+#include <string_view>
+
+#include "obvid/core/result.h"
+#include "obvid/curve/contour.h"
+#include "obvid/exchange/drawing.h"
+
+namespace obvid {
+
+/// The CoordGeom of alignments, parcels and plan features of a LandXML file (1.0 to 2.0), one curve
+/// each: Line, Curve and clothoid Spiral exactly, x east and y north (the file has northing first);
+/// IrregularLine as lines and as a series of points. Units are those of the file ("ft" for both
+/// kinds of feet, with a warning for the survey foot).
+///
+/// A Curve has the stated radius and is placed by its start and end (from 1 rad on, by its centre);
+/// a Spiral has the stated length and radii and points where start and end want it. Where they end
+/// elsewhere than stated, a warning gives the largest distance. Elements that are left out (spirals
+/// of other kinds, radii <= 0, unreadable coordinates, missing parts) are named, and a new curve
+/// begins behind them. Profiles, surfaces and pipes are not used.
+///
+/// Linear time. Errors: E308 XML that is not well-formed (truncated files), E310 another kind of
+/// XML, E304 no CoordGeom with a curve. Never throws on any input. `name` stands in errors. Source:
+/// LandXML 1.2 schema; docs/methods/road_formats.md, section 3.
+[[nodiscard]] Result<Drawing> parse_landxml(std::string_view text, std::string_view name);
+
+struct LandXmlOptions {
+  std::string name = "contour";
+  std::string date = "1970-01-01";  ///< the format wants one; the same input gives the same bytes
+  std::string time = "00:00:00";
+};
+
+/// A LandXML 1.2 file with the contour as one Alignment in metres (converted from its units): Line,
+/// Curve and clothoid Spiral elements. Exactly; spirals through an inflection and what turns by
+/// more than a right angle are cut into parts, because the format has one direction of rotation for
+/// each, and tangents that must meet. Errors: those of `road_lines` (other pieces than lines, arcs
+/// and clothoids: E310).
+[[nodiscard]] Result<std::string> landxml_text(const Contour& contour,
+                                               const LandXmlOptions& options = {});
+
+}  // namespace obvid

@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "obvid/curve/pieces.h"
+
+namespace obvid::exchange {
+
+/// A Curve of LandXML: what the file gives.
+struct StatedCurve {
+  Vec2 start, end;
+  std::optional<Vec2> centre;
+  std::optional<double> radius;
+  bool left = true;  ///< rot is ccw
+};
+
+/// A clothoid Spiral: curvatures from the stated radii, without sign.
+struct StatedSpiral {
+  Vec2 start, end;
+  std::optional<Vec2> meeting;  ///< PI
+  double kappa0 = 0.0, kappa1 = 0.0, length = 0.0;
+  bool left = true;
+};
+
+/// A piece, how far from its stated end its formula ends, and what is doubtful about it.
+struct PlacedPiece {
+  Piece piece;
+  double off_end = 0.0;
+  std::string doubt;
+};
+
+/// The arc between its ends, or the reason why there is none.
+[[nodiscard]] std::optional<PlacedPiece> placed(const StatedCurve& curve, std::string& why);
+[[nodiscard]] std::optional<PlacedPiece> placed(const StatedSpiral& spiral, std::string& why);
+
+}  // namespace obvid::exchange

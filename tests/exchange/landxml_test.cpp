@@ -1,0 +1,274 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "obvid/exchange/landxml.h"
+
+#include <gtest/gtest.h>
+
+#include <array>
+#include <numbers>
+#include <string>
+#include <vector>
+
+#include "road_contours.h"
+
+namespace obvid {
+namespace {
+
+std::string file_of(const std::string& inside, const std::string& unit = "meter") {
+  return "<LandXML version='1.2'><Units><Metric linearUnit='" + unit +
+         "'/></Units><CgPoints><CgPoint name='a'>1 2</CgPoint><CgPoint name='b'>5 6 7</CgPoint>"
+         "</CgPoints><Alignments><Alignment name='A'><CoordGeom>" +
+         inside + "</CoordGeom></Alignment></Alignments></LandXML>";
+}
+
+std::string line(const std::string& start, const std::string& end) {
+  return "<Line><Start>" + start + "</Start><End>" + end + "</End></Line>";
+}
+
+std::string curve(const std::string& attributes, const std::string& start,
+                  const std::string& centre, const std::string& end) {
+  const std::string middle = centre.empty() ? "" : "<Center>" + centre + "</Center>";
+  return "<Curve " + attributes + "><Start>" + start + "</Start>" + middle + "<End>" + end +
+         "</End></Curve>";
+}
+
+Drawing read(const std::string& text) {
+  auto drawing = parse_landxml(text, "test.xml");
+  EXPECT_TRUE(drawing.has_value()) << drawing.error().what;
+  return drawing ? *drawing : Drawing{};
+}
+
+bool warns(const Drawing& drawing, const std::string& part) {
+  for (const std::string& warning : drawing.warnings) {
+    if (warning.find(part) != std::string::npos) return true;
+  }
+  return false;
+}
+
+TEST(LandXmlRead, NorthingComesFirstAndPointsMayBeNamed) {
+  const Drawing d = read(
+      file_of(line("10 20 30", "11 25") + "<Line><Start pntRef='a'/><End pntRef='b'/></Line>"));
+  ASSERT_EQ(d.curves.size(), 1U);
+  EXPECT_EQ(d.curves[0].label, "Alignment A");
+  EXPECT_EQ(start_point(d.curves[0].pieces[0]), (Vec2{20.0, 10.0}));
+  EXPECT_EQ(start_point(d.curves[0].pieces[1]), (Vec2{2.0, 1.0}));
+  EXPECT_EQ(end_point(d.curves[0].pieces[1]), (Vec2{6.0, 5.0}));
+  EXPECT_TRUE(d.warnings.empty());
+}
+
+TEST(LandXmlRead, UnitsAreThoseOfTheFile) {
+  for (const auto& [theirs, ours] :
+       {std::pair{"meter", "m"}, {"millimeter", "mm"}, {"foot", "ft"}, {"inch", "in"}}) {
+    EXPECT_EQ(read(file_of(line("0 0", "1 1"), theirs)).units, ours);
+  }
+  const Drawing survey = read(file_of(line("0 0", "1 1"), "USSurveyFoot"));
+  EXPECT_EQ(survey.units, "ft");
+  EXPECT_TRUE(warns(survey, "survey"));
+  EXPECT_TRUE(warns(read(file_of(line("0 0", "1 1"), "league")), "taken as metres"));
+}
+
+/// Around (100, 200) in x, y: from east to north and the long way round.
+TEST(LandXmlRead, CurvesTurnAsTheirRotationSays) {
+  const Drawing ccw =
+      read(file_of(curve("rot='ccw' radius='10'", "200 110", "200 100", "210 100")));
+  const auto& quarter = std::get<ArcPiece>(ccw.curves[0].pieces[0]);
+  EXPECT_NEAR(quarter.length, 5.0 * std::numbers::pi, 1e-12);
+  EXPECT_NEAR(quarter.kappa, 0.1, 1e-15);
+  EXPECT_NEAR(norm(evaluate(quarter, 0.5).point -
+                   (Vec2{100.0, 200.0} + 10.0 * unit_at(0.25 * std::numbers::pi))),
+              0.0, 1e-12);
+  const Drawing cw = read(file_of(curve("rot='cw'", "200 110", "200 100", "210 100")));
+  const auto& rest = std::get<ArcPiece>(cw.curves[0].pieces[0]);
+  EXPECT_NEAR(rest.length, 15.0 * std::numbers::pi, 1e-12);
+  EXPECT_NEAR(rest.kappa, -0.1, 1e-15);
+  // Without a centre: the short arc of the radius.
+  const Drawing short_one = read(file_of(curve("rot='cw' radius='10'", "200 110", "", "210 100")));
+  EXPECT_NEAR(std::get<ArcPiece>(short_one.curves[0].pieces[0]).length, 5.0 * std::numbers::pi,
+              1e-9);
+}
+
+TEST(LandXmlRead, WhatCannotBeDrawnIsNamedAndCutsTheCurve) {
+  const std::string good = line("0 0", "1 1");
+  const std::string spiral = "<Start>0 0</Start><PI>1 1</PI><End>2 3</End></Spiral>";
+  for (const std::string& bad :
+       {line("0 0", "0 0"), line("0", "1 1"), line("0 x", "1 1"), line("0 nan", "1 1"),
+        curve("rot='cw' radius='-3'", "0 0", "0 1", "0 2"), curve("rot='cw'", "0 0", "", "0 2"),
+        curve("rot='cw' radius='1'", "0 0", "", "0 9"), curve("radius='1'", "0 0", "0 1", "0 2"),
+        "<Spiral spiType='bloss' length='1' radiusStart='INF' radiusEnd='9' rot='cw'>" + spiral,
+        "<Spiral spiType='clothoid' length='1' radiusStart='0' radiusEnd='9' rot='cw'>" + spiral,
+        "<Spiral spiType='clothoid' length='-1' radiusStart='INF' radiusEnd='9' rot='cw'>" + spiral,
+        std::string("<Chain>a b</Chain>")}) {
+    const Drawing d = read(file_of(good + "\n" + bad + good));
+    EXPECT_EQ(d.curves.size(), 2U) << bad;
+    EXPECT_TRUE(warns(d, "left out (line 2)")) << bad;
+  }
+  EXPECT_TRUE(warns(read(file_of(good +
+                                 "<Spiral spiType='bloss' length='1' radiusStart='INF' "
+                                 "radiusEnd='9' rot='cw'>" +
+                                 spiral)),
+                    "'bloss'"));
+}
+
+TEST(LandXmlRead, ContradictionsAreNamed) {
+  EXPECT_TRUE(
+      warns(read(file_of(curve("rot='ccw' radius='11'", "0 10", "0 0", "10 0"))), "contradicts"));
+  // A clothoid 0 to 1/100 over 60 ends near (59.5, 5.9); a metre more is said.
+  const Drawing d = read(
+      file_of("<Spiral spiType='clothoid' length='60' radiusStart='INF' radiusEnd='100' rot='ccw'>"
+              "<Start>0 0</Start><PI>0 40</PI><End>6 60.5</End></Spiral>"));
+  EXPECT_TRUE(warns(d, "from their stated ends"));
+}
+
+TEST(LandXmlRead, IrregularLinesAreLinesAndASeries) {
+  const Drawing d =
+      read(file_of("<IrregularLine><Start>0 0</Start><End>2 9</End><PntList2D>0 0 1 5 2 "
+                   "9</PntList2D></IrregularLine>"));
+  ASSERT_EQ(d.series.size(), 1U);
+  EXPECT_EQ(d.series[0].points, (std::vector<Vec2>{{0.0, 0.0}, {5.0, 1.0}, {9.0, 2.0}}));
+  EXPECT_EQ(d.curves[0].pieces.size(), 2U);
+}
+
+TEST(LandXmlRead, BrokenFilesAreRefused) {
+  EXPECT_EQ(parse_landxml("<LandXML>", "x").error().code, ErrorCode::kBadJson);
+  EXPECT_EQ(parse_landxml("<LandXML/>", "x").error().code, ErrorCode::kTooFewPoints);
+  EXPECT_EQ(parse_landxml("<svg/>", "x").error().code, ErrorCode::kUnsupported);
+  std::string deep = "<LandXML>";
+  for (int k = 0; k < 300000; ++k) deep += "<CoordGeom>";
+  deep += "<Line/>";
+  for (int k = 0; k < 300000; ++k) deep += "</CoordGeom>";
+  EXPECT_EQ(parse_landxml(deep + "</LandXML>", "x").error().code, ErrorCode::kTooFewPoints);
+}
+
+// ---- public files
+// --------------------------------------------------------------------------------
+
+struct Counts {
+  const char* file;
+  const char* unit;
+  std::size_t curves, lines, arcs, spirals;
+  double length;  ///< chords of lines, arcs by centre and rotation, stated lengths of spirals
+};
+
+constexpr Counts kPublic[] = {{"j_landxml_sample.xml", "m", 1, 4, 5, 9, 1085.946183},
+                              {"polyline.xml", "ft", 1, 4, 1, 0, 842.538297},
+                              {"subdivision.xml", "ft", 89, 379, 73, 0, 93637.277310}};
+
+TEST(LandXmlPublicFiles, EachHasItsElementsAndLength) {
+  const auto folder = std::filesystem::path(OBVID_SHARED_DATA) / "landxml";
+  if (!std::filesystem::exists(folder)) GTEST_SKIP() << "the public data set is not here";
+  for (const Counts& expected : kPublic) {
+    const auto d = parse_landxml(slurp(folder / expected.file), expected.file);
+    ASSERT_TRUE(d.has_value()) << expected.file << d.error().what;
+    EXPECT_EQ(d->units, expected.unit);
+    EXPECT_EQ(d->curves.size(), expected.curves) << expected.file;
+    std::array<std::size_t, 4> kinds{};
+    double length = 0.0;
+    for (const DrawnCurve& one : d->curves) {
+      for (const Piece& piece : one.pieces) {
+        ++kinds[piece.index()];
+        length += arc_length(piece, 1e-9);
+      }
+    }
+    EXPECT_EQ(kinds[0], expected.lines);
+    EXPECT_EQ(kinds[1], expected.arcs);
+    EXPECT_EQ(kinds[3], expected.spirals);
+    EXPECT_NEAR(length, expected.length, 1e-5 * expected.length) << expected.file;
+  }
+  const auto all = std::distance(std::filesystem::directory_iterator(folder), {});
+  EXPECT_EQ(static_cast<std::size_t>(all), std::size(kPublic));
+}
+
+/// The alignment is G2 by design (INF, 250, INF, 150, ...): headings and curvatures agree at every
+/// joint to the eight decimals of its coordinates, which proves rotation, order and radii.
+TEST(LandXmlPublicFiles, TheJapaneseAlignmentIsCurvatureContinuous) {
+  const auto path = std::filesystem::path(OBVID_SHARED_DATA) / "landxml/j_landxml_sample.xml";
+  if (!std::filesystem::exists(path)) GTEST_SKIP() << "the public data set is not here";
+  const Drawing d = read(slurp(path));
+  EXPECT_TRUE(d.warnings.empty());
+  const auto& pieces = d.curves[0].pieces;
+  ASSERT_EQ(pieces.size(), 18U);
+  for (std::size_t i = 1; i < pieces.size(); ++i) {
+    const Element before = at(pieces[i - 1], 1.0), after = at(pieces[i], 0.0);
+    EXPECT_EQ(before.point, after.point);
+    EXPECT_NEAR(std::remainder(before.theta - after.theta, 2.0 * std::numbers::pi), 0.0, 1e-8) << i;
+    EXPECT_NEAR(before.kappa, after.kappa, 1e-12) << i;
+  }
+}
+
+TEST(LandXmlPublicFiles, CutAnywhereTheyAreRefused) {
+  const auto path = std::filesystem::path(OBVID_SHARED_DATA) / "landxml/polyline.xml";
+  if (!std::filesystem::exists(path)) GTEST_SKIP() << "the public data set is not here";
+  const std::string text = slurp(path);
+  for (std::size_t n = 0; n < text.rfind('>'); ++n) {
+    EXPECT_FALSE(parse_landxml(text.substr(0, n), "cut").has_value()) << n;
+  }
+}
+
+// ---- writer
+// --------------------------------------------------------------------------------------
+
+std::vector<std::pair<Contour, double>> contours() {
+  return {{stored("clothoids_open.json"), 1e-3},
+          {stored("clothoids_closed.json"), 1.0},
+          {stored("clothoids_wave.json"), 0.3048},
+          {every_kind(), 1.0}};
+}
+
+TEST(LandXmlWrite, ContoursComeBackTheSame) {
+  for (const auto& [contour, metres] : contours()) {
+    const auto text = landxml_text(contour);
+    ASSERT_TRUE(text.has_value()) << text.error().what;
+    const Drawing d = read(*text);
+    ASSERT_EQ(d.curves.size(), 1U);
+    EXPECT_EQ(d.curves[0].closed, contour.closed);
+    for (const std::string& warning : d.warnings) ADD_FAILURE() << warning;
+    expect_same_curve(contour, d.curves[0].pieces, metres);
+  }
+}
+
+TEST(LandXmlWrite, FilesFollowTheSchemaAndAreSmooth) {
+  if (!has_python()) GTEST_SKIP() << "python3 is not here";
+  for (const auto& [contour, metres] : contours()) {
+    auto text = landxml_text(contour, {"a <name> & \"more\"", "2024-02-29", "12:00:00"});
+    ASSERT_TRUE(text.has_value());
+    EXPECT_EQ(judged("check_landxml.py", *text), "");
+    // The judge sees what is wrong.
+    std::string turned = *text;
+    const std::size_t rotation = turned.find("rot=\"c") + 6;
+    const bool left = turned.compare(rotation, 2, "cc") == 0;
+    turned.replace(rotation, left ? 1 : 0, left ? "" : "c");
+    EXPECT_NE(judged("check_landxml.py", turned), "");
+  }
+}
+
+TEST(LandXmlWrite, SpiralsThroughAnInflectionAndLargeTurnsAreCut) {
+  const Contour wave = Road({{0.0, 0.0}, 0.0, 0.0}).add(0.01, -0.02, 60.0).take();
+  const auto text = landxml_text(wave);
+  ASSERT_TRUE(text.has_value());
+  const Drawing d = read(*text);
+  ASSERT_EQ(d.curves[0].pieces.size(), 2U);
+  const auto& first = std::get<ClothoidPiece>(d.curves[0].pieces[0]);
+  const auto& second = std::get<ClothoidPiece>(d.curves[0].pieces[1]);
+  EXPECT_NEAR(first.length, 20.0, 1e-12);
+  EXPECT_EQ(first.kappa1, 0.0);
+  EXPECT_EQ(second.kappa0, 0.0);
+  const Contour round = Road({{0.0, 0.0}, 0.0, 0.0}).add(0.1, 0.1, 60.0).take();
+  for (const Piece& piece : read(*landxml_text(round)).curves[0].pieces) {
+    const auto& arc = std::get<ArcPiece>(piece);
+    EXPECT_LE(arc.kappa * arc.length, 0.5 * std::numbers::pi + 1e-12);
+  }
+}
+
+TEST(LandXmlWrite, OtherContoursAreRefusedWithTheWayOut) {
+  Contour contour;
+  contour.units = "m";
+  RationalBezier bezier;
+  bezier.degree = 1;
+  contour.pieces.emplace_back(bezier);
+  const auto refused = landxml_text(contour);
+  ASSERT_FALSE(refused.has_value());
+  EXPECT_EQ(refused.error().code, ErrorCode::kUnsupported);
+  EXPECT_NE(refused.error().hint.find("fit --carrier clothoids"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace obvid
