@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <optional>
 #include <string>
 
 #include "obvid/core/result.h"
@@ -12,7 +13,7 @@ namespace obvid {
 /// How a controller is told to move.
 enum class GcodeMotion {
   kArcs,     ///< G2 and G3, nearly straight ones as G1
-  kLines,    ///< G1 only
+  kLines,    ///< G1 only, the longest chords one after another
   kSplines,  ///< G5, cubic Beziers (LinuxCNC)
 };
 
@@ -21,25 +22,33 @@ enum class GcodeController { kGrbl, kLinuxCnc, kFanuc };
 struct GcodeOptions {
   GcodeMotion motion = GcodeMotion::kArcs;
   GcodeController controller = GcodeController::kGrbl;
-  double tolerance = 0.01;       ///< units of the contour: printed path against contour
-  double feed = 1000.0;          ///< mm/min, for contours in inches in/min
-  std::string name = "contour";  ///< stands in a comment
+  double tolerance = 0.01;         ///< units of the contour: printed path against contour
+  double feed = 1000.0;            ///< mm/min, for contours in inches in/min
+  std::optional<int> decimals{};   ///< of the ends, 1 to 6 [the fewest, at least 3, that cost no
+                                   ///< more than a tenth of the tolerance; in inches one more]
+  std::optional<double> safe_z{};  ///< mm or in: approach and leave at this height, cut at Z0;
+                                   ///< nothing: no word about Z
+  std::string name = "contour";    ///< stands in a comment
 };
 
 /// A program in the plane G17, absolute ends (G90), centres from the start of the arc (G91.1): it
-/// begins with a rapid move to the start and holds no tool, spindle or height.
+/// begins with a rapid move to the start and holds no tool and no spindle.
 struct GcodeText {
   std::string text;
-  std::size_t blocks = 0;      ///< that move with feed
+  std::size_t blocks = 0;      ///< that move along the contour
   std::size_t arc_blocks = 0;  ///< of them G2 and G3
-  double deviation = 0.0;      ///< of the path as printed from the contour, units of the contour
+  double deviation = 0.0;      ///< largest distance, both ways, of the path as printed from the
+                               ///< contour, units of the contour: measured, good to some 1 %
 };
 
-/// G21 and millimetres, or G20 for contours in inches; other units are converted to millimetres.
-/// Ends have 4 decimals (5 in inches), centres one more, computed from the rounded ends: radii at
-/// both ends of an arc differ by less than 2e-5. No arc turns by more than a quarter. Errors: E203
-/// a tolerance or feed that is not greater than 0, or a tolerance that the decimals do not keep;
-/// those of `arcs_along` and `cubic_along`.
+/// G21 and millimetres, or G20 for contours in inches; other units (um, cm, m, km, ft) are
+/// converted to millimetres, which a comment says. Centres have 5 decimals and lie on the bisector
+/// of the ends as printed: radii at both ends of an arc differ by less than 2e-5. Arcs turn by less
+/// than half a turn; those lower than half of the last digit, or with chords below 20 of it, are
+/// lines; ends that round to the place where the tool stands are left out. Errors: E203 a tolerance
+/// or feed that is not greater than 0, decimals out of range, G5 for another controller than
+/// LinuxCNC; E310 a unit that is not known; E502 the tolerance is too small for the decimals; those
+/// of `arcs_along`, `polyline_along` and `cubic_along`.
 [[nodiscard]] Result<GcodeText> gcode_text(const Contour& contour,
                                            const GcodeOptions& options = {});
 
