@@ -278,12 +278,18 @@ void add_compare(CLI::App& app, Raw& raw) {
 void add_convert(CLI::App& app, Raw& raw) {
   CLI::App& convert =
       *app.add_subcommand("convert", "Write a stored contour in the format of another system");
-  convert.add_option("CONTOUR", raw.convert.input, "Contour file (.json), or - for standard input");
+  convert.add_option(
+      "CONTOUR", raw.convert.input,
+      "Contour file (.json), - for standard input, or a drawing (STEP, DXF, SVG, ...)");
   convert
       .add_option("-o,--output", raw.convert.outputs,
                   "File to write, format by ending: " + known_endings() + "; may be repeated")
       ->type_name("OUT")
       ->allow_extra_args(false);
+  convert
+      .add_option("--curve", raw.formats.curve,
+                  "Which curve of a drawing, counted from 1 [the longest]")
+      ->type_name("N");
   add_formats(convert, raw.formats);
   convert.add_flag("--quiet", raw.convert.quiet, "Print nothing");
   convert.footer("Example: obvid convert contour.json -o contour.step");
@@ -435,6 +441,9 @@ Result<Command> checked_convert(Raw& raw) {
     return set_formats(raw.formats, raw.convert.formats, raw.convert.profile);
   });
   if (!done) return fail(done.error());
+  if (auto import = set_import(raw.formats, raw.convert.import); !import) {
+    return fail(import.error());
+  }
   if (raw.convert.outputs.empty()) {
     return fail(usage("convert needs a file to write",
                       "add -o NAME; possible endings are " + known_endings()));

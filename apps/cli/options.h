@@ -29,6 +29,7 @@ struct FitOptions {
 
 struct ConvertOptions {
   std::string input;
+  ImportOptions import;
   std::vector<std::string> outputs;
   ExportOptions formats;
   std::string profile;  ///< what --for chose, in words; empty without it

@@ -194,6 +194,16 @@ Segment raised(const Segment& s) {
   return out;
 }
 
+/// Whether the weight is the same at both ends and its rate 0, as far as files keep digits.
+bool stands_still(const RationalBezier& b) {
+  constexpr double kSame = 1e-9;
+  const auto n = static_cast<std::size_t>(b.degree);
+  for (const std::size_t j : {std::size_t{1}, n - 1, n}) {
+    if (std::abs(b.weight[j] - b.weight[0]) > kSame * b.weight[0]) return false;
+  }
+  return true;
+}
+
 /// All segments of a contour, in plain coordinates.
 class Joiner {
  public:
@@ -274,6 +284,16 @@ class Joiner {
     if (is_polynomial(bezier)) {
       keep(bezier, {points_of(bezier), std::vector<double>(std::size_t(bezier.degree) + 1, 1.0)});
       return {};
+    }
+    if (stands_still(bezier) && !even_) {  // such curves come from here, through other systems
+      Segment segment{points_of(bezier), {}, false};
+      for (int j = 0; j <= bezier.degree; ++j) {
+        segment.weights.push_back(bezier.weight[static_cast<std::size_t>(j)] / bezier.weight[0]);
+      }
+      if (spread(segment) <= kLargestWeight) {
+        keep(bezier, std::move(segment));
+        return {};
+      }
     }
     const int raised = even_ ? kRaisedEven : kRaised;
     if (bezier.degree + raised > kMaxBezierDegree) {

@@ -10,6 +10,8 @@
 
 #include "obvid/contour/bsplines/cubic_along.h"
 #include "obvid/curve/joined_nurbs.h"
+#include "obvid/exchange/landxml.h"
+#include "obvid/exchange/opendrive.h"
 #include "obvid/exchange/solidworks.h"
 #include "obvid/exchange/svg_drawing.h"
 #include "obvid/io/contour_json.h"
@@ -38,6 +40,8 @@ constexpr std::array kEndings = {
     Ending{".ngc", FileFormat::kGcode, ""},
     Ending{".gcode", FileFormat::kGcode, ""},
     Ending{".tap", FileFormat::kGcode, ""},
+    Ending{".xodr", FileFormat::kOpenDrive, "OpenDRIVE"},
+    Ending{".xml", FileFormat::kLandXml, "LandXML"},
     Ending{".csv", FileFormat::kSamples, "samples"},
     Ending{".sldcrv", FileFormat::kSldcrv, "SolidWorks points"},
     Ending{".bas", FileFormat::kMacro, "SolidWorks macro"},
@@ -52,11 +56,19 @@ constexpr double kLeastForGcode = 2e-3;  // mm: what the printed digits keep wel
 
 Exported one_file(std::string text) { return {{{"", std::move(text)}}, {}}; }
 
+std::vector<Vec2> places_of(const Contour& contour) {
+  std::vector<Vec2> out = contour.points;
+  for (const Piece& piece : contour.pieces) {
+    for (const double t : {0.0, 0.5, 1.0}) out.push_back(evaluate(piece, t).point);
+  }
+  return out;
+}
+
 class Exporter {
  public:
   Exporter(const StoredContour& stored, const ExportOptions& options)
       : stored_(stored), contour_(stored.contour), options_(options) {
-    const double size = pipeline_detail::size_of(contour_.points);
+    const double size = pipeline_detail::size_of(places_of(contour_));
     tolerance_ = options.tolerance.value_or(kDefaultTolerance * size);
     arc_tolerance_ = options.tolerance.value_or(kDefaultForArcs * size);
   }
@@ -77,6 +89,10 @@ class Exporter {
         return dxf();
       case FileFormat::kGcode:
         return gcode();
+      case FileFormat::kOpenDrive:
+        return text(opendrive_text(contour_, opendrive_options()));
+      case FileFormat::kLandXml:
+        return text(landxml_text(contour_, landxml_options()));
       case FileFormat::kSamples:
         return text(samples_csv(contour_, samples()));
       case FileFormat::kSldcrv:
@@ -184,6 +200,17 @@ class Exporter {
   static Result<Exported> text(Result<std::string> made) {
     if (!made) return tl::unexpected(made.error());
     return one_file(std::move(*made));
+  }
+
+  [[nodiscard]] OpenDriveOptions opendrive_options() const {
+    OpenDriveOptions out;
+    out.name = options_.name;
+    return out;
+  }
+  [[nodiscard]] LandXmlOptions landxml_options() const {
+    LandXmlOptions out;
+    out.name = options_.name;
+    return out;
   }
 
   [[nodiscard]] SampleOptions samples() const {

@@ -10,8 +10,11 @@
 #include <sstream>
 
 #include "obvid/cad/cad.h"
+#include "obvid/exchange/dxf_read.h"
 #include "obvid/exchange/geojson.h"
 #include "obvid/exchange/gpx.h"
+#include "obvid/exchange/landxml.h"
+#include "obvid/exchange/opendrive.h"
 #include "obvid/exchange/svg_read.h"
 #include "obvid/io/contour_json.h"
 #include "obvid/io/file_kind.h"
@@ -67,11 +70,18 @@ Result<Drawing> from_text(FileKind kind, const std::string& text, const std::str
       return parse_svg(text, path);
     case FileKind::kGpx:
       return parse_gpx(text, path);
+    case FileKind::kDxf:
+      return parse_dxf(text, path);
+    case FileKind::kLandXml:
+      return parse_landxml(text, path);
+    case FileKind::kOpenDrive:
+      return parse_opendrive(text, path);
     case FileKind::kGeoJson:
       return parse_geojson(text, path);
     default:
       return fail({ErrorCode::kUnsupported, "this kind of file is not read", path,
-                   "give a list of points, a contour, or STEP, IGES, BREP, DXF, SVG, GPX, GeoJSON",
+                   "give a list of points, a contour, STEP, IGES, BREP, DXF, SVG, GPX, GeoJSON, "
+                   "LandXML or OpenDRIVE",
                    -1, 0.0});
   }
 }
@@ -145,17 +155,9 @@ std::size_t longest(const Drawing& drawing) {
 
 Result<PointSeries> points_of(Drawing drawing, const ImportOptions& options,
                               const std::string& path) {
-  const std::size_t count = drawing.curves.size() + drawing.series.size();
-  if (count == 0) {
-    return fail(
-        {ErrorCode::kTooFewPoints, "the file holds no curve and no points", path, "", -1, 0.0});
-  }
-  const std::size_t chosen = options.curve.value_or(longest(drawing));
-  if (chosen >= count) {
-    return fail({ErrorCode::kBadOption,
-                 fmt::format("there are {} curves, no curve {}", count, chosen + 1), path,
-                 "`obvid analyse FILE` lists them", -1, 0.0});
-  }
+  const auto found = chosen_curve(drawing, options.curve, path);
+  if (!found) return tl::unexpected(found.error());
+  const std::size_t count = drawing.curves.size() + drawing.series.size(), chosen = *found;
   PointSeries out;
   std::string label;
   if (chosen < drawing.curves.size()) {
@@ -178,6 +180,20 @@ Result<PointSeries> points_of(Drawing drawing, const ImportOptions& options,
 }
 
 }  // namespace
+
+Result<std::size_t> chosen_curve(const Drawing& drawing, const std::optional<std::size_t>& asked,
+                                 const std::string& path) {
+  const std::size_t count = drawing.curves.size() + drawing.series.size();
+  if (count == 0) {
+    return fail(
+        {ErrorCode::kTooFewPoints, "the file holds no curve and no points", path, "", -1, 0.0});
+  }
+  const std::size_t chosen = asked.value_or(longest(drawing));
+  if (chosen < count) return chosen;
+  return fail({ErrorCode::kBadOption,
+               fmt::format("there are {} curves, no curve {}", count, chosen + 1), path,
+               "`obvid analyse FILE` lists them", -1, 0.0});
+}
 
 bool is_drawing(const std::string& path) {
   return path != "-" && file_kind(head_of(path)) != FileKind::kPoints &&

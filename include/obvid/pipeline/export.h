@@ -17,18 +17,20 @@ namespace obvid {
 
 /// Files that a contour can be written to, told by their endings.
 enum class FileFormat {
-  kContour,  ///< .json
-  kPicture,  ///< .svg, a picture for a report or a drawing in true scale
-  kStep,     ///< .step, .stp
-  kIges,     ///< .iges, .igs
-  kBrep,     ///< .brep
-  kDxf,      ///< .dxf
-  kGcode,    ///< .nc, .ngc, .gcode, .tap
-  kSamples,  ///< .csv
-  kSldcrv,   ///< .sldcrv, one file per run
-  kMacro,    ///< .bas, of SolidWorks
-  kObj,      ///< .obj
-  kPly,      ///< .ply
+  kContour,    ///< .json
+  kPicture,    ///< .svg, a picture for a report or a drawing in true scale
+  kStep,       ///< .step, .stp
+  kIges,       ///< .iges, .igs
+  kBrep,       ///< .brep
+  kDxf,        ///< .dxf
+  kGcode,      ///< .nc, .ngc, .gcode, .tap
+  kOpenDrive,  ///< .xodr
+  kLandXml,    ///< .xml
+  kSamples,    ///< .csv
+  kSldcrv,     ///< .sldcrv, one file per run
+  kMacro,      ///< .bas, of SolidWorks
+  kObj,        ///< .obj
+  kPly,        ///< .ply
 };
 
 /// Format of a file's name. Nothing for endings that stand for none.

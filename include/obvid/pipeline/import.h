@@ -18,6 +18,12 @@ namespace obvid {
 /// Errors: those of the formats.
 [[nodiscard]] Result<Drawing> read_drawing(const std::string& path);
 
+/// Number of the curve that is taken: the asked one, else the longest; curves come before series.
+/// Errors: E203 when there is no such curve, E304 when there is none at all.
+[[nodiscard]] Result<std::size_t> chosen_curve(const Drawing& drawing,
+                                               const std::optional<std::size_t>& asked,
+                                               const std::string& path);
+
 /// How a curve of a drawing becomes a series of points.
 struct ImportOptions {
   std::optional<std::size_t> curve;  ///< which, from 0, curves before series; default the longest
