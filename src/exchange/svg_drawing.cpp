@@ -10,6 +10,9 @@
 #include <numbers>
 #include <optional>
 #include <utility>
+#include <vector>
+
+#include "obvid/curve/path_distance.h"
 
 namespace obvid {
 namespace {
@@ -47,8 +50,8 @@ struct Box {
 
 class Drawer {
  public:
-  Drawer(const Contour& contour, const SvgDrawingOptions& options)
-      : contour_(contour), options_(options), mm_(millimetres(contour.units)) {}
+  Drawer(const Contour& contour, const SvgDrawingOptions& options, double within)
+      : contour_(contour), options_(options), within_(within), mm_(millimetres(contour.units)) {}
 
   Result<SvgDrawing> run() {
     move(start_point(contour_.pieces.front()));
@@ -60,6 +63,7 @@ class Drawer {
       }
     }
     if (contour_.closed) path_ += "Z";
+    if (inexact_) result_.deviation = path_distance(contour_.pieces, drawn_);
     result_.text = sheet();
     return std::move(result_);
   }
@@ -78,17 +82,20 @@ class Drawer {
   bool add(const Piece& piece) {
     if (const auto* line = std::get_if<LinePiece>(&piece)) {
       put("L{} {}", line->end.x, line->end.y);
+      drawn_.push_back(piece);
       see(line->end);
       ++result_.curves;
       return true;
     }
     if (const auto* arc = std::get_if<ArcPiece>(&piece)) {
       add_arc(piece, *arc);
+      drawn_.push_back(piece);
       return true;
     }
     const auto* bezier = std::get_if<RationalBezier>(&piece);
     if (bezier != nullptr && is_polynomial(*bezier) && bezier->degree <= 3) {
       exact(*bezier);
+      drawn_.push_back(piece);
       return true;
     }
     return cubics(piece, 0.0, 1.0, kMostHalvings);
@@ -123,13 +130,14 @@ class Drawer {
     const Jet a = evaluate(piece, from), b = evaluate(piece, to);
     const auto legs = best_legs(piece, from, to, a, b);
     const double deviation = legs ? distance(piece, from, to, *legs) : HUGE_VAL;
-    if (deviation <= kOfTolerance * options_.tolerance) {
+    if (deviation <= within_) {
       const auto& c = *legs;
       put("C{} {} {} {} {} {}", c[1].x, c[1].y, c[2].x, c[2].y, c[3].x, c[3].y);
       for (int k = 1; k <= kSamples; ++k) {
         see(evaluate(piece, from + (to - from) * k / kSamples).point);
       }
-      result_.deviation = std::max(result_.deviation, deviation);
+      drawn_.emplace_back(RationalBezier{{}, 3, {c[0], c[1], c[2], c[3]}, {1.0, 1.0, 1.0, 1.0}});
+      inexact_ = true;
       ++result_.curves;
       return true;
     }
@@ -207,8 +215,11 @@ class Drawer {
 
   const Contour& contour_;
   const SvgDrawingOptions& options_;
+  double within_;  ///< of places of a piece from their cubic
   double mm_;
   std::string path_;
+  std::vector<Piece> drawn_;
+  bool inexact_ = false;
   Box box_;
   SvgDrawing result_;
 };
@@ -223,7 +234,17 @@ Result<SvgDrawing> svg_drawing(const Contour& contour, const SvgDrawingOptions& 
   if (contour.pieces.empty()) {
     return fail({ErrorCode::kTooFewPoints, "the contour has no pieces", "", "", -1, 0.0});
   }
-  return Drawer(contour, options).run();
+  constexpr int kTrials = 3;
+  double within = kOfTolerance * options.tolerance;
+  for (int trial = 0;; ++trial) {
+    auto made = Drawer(contour, options, within).run();
+    if (!made || made->deviation <= options.tolerance) return made;
+    if (trial == kTrials) {
+      return fail({ErrorCode::kToleranceNotReached, "the drawing is not near enough", "",
+                   "allow a larger tolerance", -1, made->deviation});
+    }
+    within *= kOfTolerance * options.tolerance / made->deviation;
+  }
 }
 
 }  // namespace obvid

@@ -17,16 +17,17 @@ struct SvgDrawingOptions {
 
 struct SvgDrawing {
   std::string text;
-  double deviation = 0.0;  ///< units, as measured; 0: exact to rounding
+  double deviation = 0.0;  ///< largest distance both ways, units, as measured (`path_distance`);
+                           ///< 0: exact to rounding
   std::size_t curves = 0;  ///< segments of the path
 };
 
-/// A drawing in true scale, one path: for laser cutters, plotters and drawing programs. The sheet has
-/// its size in mm, user units are those of the contour, y points up (one transformation around the
-/// path). Lines, arcs and polynomials of degree 2 and 3 are exact; everything else becomes cubic
-/// Bezier curves with the contour's tangents within the tolerance. Units other than um, mm, cm, m,
-/// km, in, ft count as mm.
-/// Errors: E203 a tolerance that is not greater than 0; E304 no pieces; E502 not reached.
+/// A drawing in true scale, one path: for laser cutters, plotters and drawing programs. The sheet
+/// has its size in mm, user units are those of the contour, y points up (one transformation around
+/// the path). Lines, arcs and polynomials of degree 2 and 3 are exact; everything else becomes
+/// cubic Bezier curves with the contour's tangents within the tolerance. Units other than um, mm,
+/// cm, m, km, in, ft count as mm. Errors: E203 a tolerance that is not greater than 0; E304 no
+/// pieces; E502 not reached.
 [[nodiscard]] Result<SvgDrawing> svg_drawing(const Contour& contour,
                                              const SvgDrawingOptions& options = {});
 
