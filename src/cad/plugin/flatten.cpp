@@ -9,6 +9,7 @@
 #include <GeomConvert.hxx>
 #include <Geom_BSplineCurve.hxx>
 #include <Geom_TrimmedCurve.hxx>
+#include <Precision.hxx>
 #include <Standard_Failure.hxx>
 #include <TColgp_Array1OfPnt.hxx>
 #include <algorithm>
@@ -39,9 +40,13 @@ std::optional<SpaceCurve> curve_of(const TopoDS_Edge& edge, std::string& why) {
     why = "has no curve in space";
     return std::nullopt;
   }
+  if (Precision::IsInfinite(first) || Precision::IsInfinite(last)) {
+    why = "has no end";
+    return std::nullopt;
+  }
   SpaceCurve out;
   out.spline = GeomConvert::CurveToBSplineCurve(new Geom_TrimmedCurve(curve, first, last),
-                                                Convert_QuasiAngular);
+                                                Convert_TgtThetaOver2);  // conics stay quadratic
   if (out.spline.IsNull()) {
     why = "is no spline";
     return std::nullopt;
@@ -81,6 +86,12 @@ std::vector<gp_Pnt> poles_of(const std::vector<SpaceCurve>& curves) {
     for (int i = 1; i <= curve.spline->NbPoles(); ++i) out.push_back(curve.spline->Pole(i));
   }
   return out;
+}
+
+bool all_finite(const std::vector<gp_Pnt>& points) {
+  return std::all_of(points.begin(), points.end(), [](const gp_Pnt& p) {
+    return std::isfinite(p.X()) && std::isfinite(p.Y()) && std::isfinite(p.Z());
+  });
 }
 
 double size_of(const std::vector<gp_Pnt>& points) {
@@ -181,28 +192,35 @@ std::string plane_text(const Plane& plane) {
                      plane.origin.X(), plane.origin.Y(), plane.origin.Z(), n.X(), n.Y(), n.Z());
 }
 
+/// What the whole is not, its edges may be.
+void add_one_by_one(const EdgeChain& chain, Drawing& drawing) {
+  for (std::size_t i = 0; i < chain.edges.size(); ++i) {
+    add_flat({fmt::format("{}, edge {}", chain.label, i + 1), {chain.edges[i]}, false}, drawing);
+  }
+}
+
 void add(const EdgeChain& chain, Drawing& drawing) {
   std::vector<SpaceCurve> curves;
   for (const TopoDS_Edge& edge : chain.edges) {
     std::string why;
     auto curve = curve_of(edge, why);
+    if (!curve && chain.edges.size() > 1) return add_one_by_one(chain, drawing);
     if (!curve) {
-      drawing.warnings.push_back(chain.label + " was left out: an edge " + why);
+      drawing.warnings.push_back(chain.label + " was left out: it " + why);
       return;
     }
     curves.push_back(std::move(*curve));
   }
   const std::vector<gp_Pnt> points = poles_of(curves);
   if (points.empty()) return;
+  if (!all_finite(points)) {
+    drawing.warnings.push_back(chain.label + " was left out: it has numbers that are not finite");
+    return;
+  }
   const double size = size_of(points);
   double away = 0.0;
   const auto plane = plane_of(points, size, away);
-  if (!plane && chain.edges.size() > 1) {  // one by one they may be
-    for (std::size_t i = 0; i < chain.edges.size(); ++i) {
-      add_flat({fmt::format("{}, edge {}", chain.label, i + 1), {chain.edges[i]}, false}, drawing);
-    }
-    return;
-  }
+  if (!plane && chain.edges.size() > 1) return add_one_by_one(chain, drawing);
   if (!plane) {
     drawing.warnings.push_back(
         fmt::format("{} was left out: it is not plane, by {:.3g} mm", chain.label, away));
@@ -212,6 +230,8 @@ void add(const EdgeChain& chain, Drawing& drawing) {
   if (own)
     drawing.warnings.push_back(chain.label + " lies in its own plane: " + plane_text(*plane));
   DrawnCurve out{chain.label, {}, chain.closed};
+  const double height = points.front().Z();
+  if (!own && std::abs(height) > kFlat * size) out.label += fmt::format(" at z = {:.6g}", height);
   for (const SpaceCurve& curve : curves) add_pieces(curve, *plane, out.pieces);
   if (!out.pieces.empty()) drawing.curves.push_back(std::move(out));
 }

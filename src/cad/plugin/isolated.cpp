@@ -14,6 +14,7 @@ namespace obvid::cad {
 namespace {
 
 constexpr rlim_t kMostSeconds = 20;
+constexpr rlim_t kMostBytes = rlim_t{4} << 30;  // damaged counts ask for any amount of memory
 
 void limit(int resource, rlim_t most) {
   const rlimit both{most, most};
@@ -22,6 +23,7 @@ void limit(int resource, rlim_t most) {
 
 [[noreturn]] void child(int pipe, const std::function<std::string()>& work) {
   limit(RLIMIT_CPU, kMostSeconds);
+  limit(RLIMIT_AS, kMostBytes);
   limit(RLIMIT_CORE, 0);
   const int nowhere = ::open("/dev/null", O_WRONLY);  // the kernel talks to the terminal
   if (nowhere >= 0) {

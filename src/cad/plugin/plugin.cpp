@@ -19,11 +19,14 @@ namespace {
 /// The kernel's chatter belongs neither into the report nor into the errors.
 void be_quiet() { Message::DefaultMessenger()->ChangePrinters().Clear(); }
 
+/// A file that cannot be read is the file's fault; a curve that cannot be written is ours.
 Error fault(const std::string& text, const std::string& where) {
-  return {ErrorCode::kInternal,
+  const bool reading = !where.empty();
+  return {reading ? ErrorCode::kNotText : ErrorCode::kInternal,
           "the CAD kernel gave up: " + text,
           where,
-          "the file may be damaged; export it again",
+          reading ? "the file may be damaged; export it again"
+                  : "look at the contour with `obvid verify`",
           -1,
           0.0};
 }

@@ -55,9 +55,15 @@ Result<TopoDS_Shape> read_iges(const std::string& path) {
 Result<TopoDS_Shape> read_brep(const std::string& path) {
   TopoDS_Shape shape;
   BRep_Builder builder;
-  if (!BRepTools::Read(shape, path.c_str(), builder) || shape.IsNull()) {
+  std::ifstream file(path, std::ios::binary);
+  file.exceptions(std::ios::failbit |
+                  std::ios::badbit);  // behind the end the kernel goes on for ever
+  try {
+    BRepTools::Read(shape, file, builder);
+  } catch (const std::ios_base::failure&) {
     return fail(unreadable(path, "BREP"));
   }
+  if (shape.IsNull()) return fail(unreadable(path, "BREP"));
   return shape;
 }
 
@@ -108,16 +114,26 @@ class Collector {
 
   void wire(const TopoDS_Wire& one, const char* kind) {
     EdgeChain chain;
+    TopTools_MapOfShape in_order;
     bool new_one = false;
     for (BRepTools_WireExplorer e(one); e.More(); e.Next()) {
       if (BRep_Tool::Degenerated(e.Current())) continue;
+      in_order.Add(e.Current());
       chain.edges.push_back(e.Current());
       new_one = seen_.Add(e.Current()) || new_one;
     }
-    if (!new_one || full()) return;  // neighbouring faces share their boundaries
-    chain.label = fmt::format("{} {}", kind, ++count_);
-    chain.closed = BRep_Tool::IsClosed(one);
-    add_flat(chain, drawing_);
+    if (new_one && !full()) {  // neighbouring faces share their boundaries
+      chain.label = fmt::format("{} {}", kind, ++count_);
+      chain.closed = BRep_Tool::IsClosed(one);
+      add_flat(chain, drawing_);
+    }
+    // edges that do not meet the others
+    for (TopExp_Explorer e(one, TopAbs_EDGE); e.More(); e.Next()) {
+      const TopoDS_Edge& edge = TopoDS::Edge(e.Current());
+      if (BRep_Tool::Degenerated(edge) || in_order.Contains(edge)) continue;
+      if (!seen_.Add(edge) || full()) continue;
+      add_flat({fmt::format("{} {}, an edge apart", kind, ++count_), {edge}, false}, drawing_);
+    }
   }
 
   /// Edges that stand alone in the file, joined where their ends meet: STEP and IGES keep no wires.

@@ -7,6 +7,7 @@
 #include <BRep_Builder.hxx>
 #include <Geom_BSplineCurve.hxx>
 #include <Geom_Circle.hxx>
+#include <Geom_Ellipse.hxx>
 #include <TColStd_Array1OfInteger.hxx>
 #include <TColStd_Array1OfReal.hxx>
 #include <TColgp_Array1OfPnt.hxx>
@@ -15,6 +16,9 @@
 #include <TopoDS_Wire.hxx>
 #include <algorithm>
 #include <cmath>
+#include <optional>
+
+#include "obvid/contour/conics.h"
 
 namespace obvid::cad {
 namespace {
@@ -84,12 +88,34 @@ TopoDS_Edge edge_of(const ArcPiece& arc, double scale) {
   return BRepBuilderAPI_MakeEdge(circle, 0.0, std::abs(arc.kappa * arc.length));
 }
 
+/// Part of an ellipse; nothing for other pieces, and where centre and axes say less than the
+/// control points do (nearly parabolas).
+std::optional<TopoDS_Edge> ellipse_edge(const RationalBezier& piece, double scale) {
+  constexpr double kExact = 1e-12;  // of the larger axis: what rounding leaves of a good ellipse
+  const auto ellipse = ellipse_of(piece);
+  if (!ellipse) return std::nullopt;
+  const Vec2 u = unit_at(ellipse->rotation), v = left_normal(u);
+  const auto point = [&](double e) {
+    return ellipse->centre + ellipse->semi_major * std::cos(e) * u +
+           ellipse->semi_minor * std::sin(e) * v;
+  };
+  const double away = std::max(norm(point(ellipse->from) - start_point(piece)),
+                               norm(point(ellipse->to) - end_point(piece)));
+  if (!(away <= kExact * ellipse->semi_major)) return std::nullopt;
+  const double sign = ellipse->from < ellipse->to ? 1.0 : -1.0;
+  const gp_Ax2 axes(at(ellipse->centre, scale), gp_Dir(0.0, 0.0, sign), gp_Dir(u.x, u.y, 0.0));
+  const Handle(Geom_Ellipse) curve =
+      new Geom_Ellipse(axes, scale * ellipse->semi_major, scale * ellipse->semi_minor);
+  return TopoDS_Edge(BRepBuilderAPI_MakeEdge(curve, sign * ellipse->from, sign * ellipse->to));
+}
+
 Result<TopoDS_Edge> edge_of(const Piece& piece, double scale) {
   if (const auto* line = std::get_if<LinePiece>(&piece)) {
     return TopoDS_Edge(BRepBuilderAPI_MakeEdge(at(line->start, scale), at(line->end, scale)));
   }
   if (const auto* arc = std::get_if<ArcPiece>(&piece)) return edge_of(*arc, scale);
   if (const auto* bezier = std::get_if<RationalBezier>(&piece)) {
+    if (const auto ellipse = ellipse_edge(*bezier, scale)) return *ellipse;
     return TopoDS_Edge(BRepBuilderAPI_MakeEdge(spline_of(nurbs_of(*bezier), scale)));
   }
   return fail({ErrorCode::kUnsupported, "CAD files know no clothoids", "",

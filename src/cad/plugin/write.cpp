@@ -1,20 +1,24 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "write.h"
 
-#include <stdlib.h>  // mkdtemp
-
 #include <APIHeaderSection_MakeHeader.hxx>
 #include <BRepTools.hxx>
 #include <IGESControl_Controller.hxx>
 #include <IGESControl_Writer.hxx>
 #include <IGESData_GlobalSection.hxx>
 #include <IGESData_IGESModel.hxx>
+#include <IGESData_IGESWriter.hxx>
+#include <IGESSelect_WorkLibrary.hxx>
+#include <Interface_FloatWriter.hxx>
 #include <Interface_Static.hxx>
 #include <STEPControl_Controller.hxx>
 #include <STEPControl_Writer.hxx>
+#include <StepData_Protocol.hxx>
+#include <StepData_StepModel.hxx>
+#include <StepData_StepWriter.hxx>
 #include <TCollection_HAsciiString.hxx>
-#include <filesystem>
-#include <fstream>
+#include <XSControl_WorkSession.hxx>
+#include <mutex>
 #include <sstream>
 
 #include "obvid/core/version.h"
@@ -24,49 +28,22 @@
 namespace obvid::cad {
 namespace {
 
-namespace fs = std::filesystem;
-
 /// Dates would make the same contour another file every time.
 constexpr const char* kNoDate = "1970-01-01T00:00:00";
 constexpr const char* kNoIgesDate = "19700101.000000";
 constexpr const char* kProgram = "Obvid";
 
-/// A folder that goes with its object: the kernel's writers want a name of a file.
-class TemporaryFolder {
- public:
-  TemporaryFolder() {
-    std::error_code error;
-    std::string pattern = (fs::temp_directory_path(error) / "obvid-XXXXXX").string();
-    if (::mkdtemp(pattern.data()) != nullptr) path_ = pattern;
-  }
-  TemporaryFolder(const TemporaryFolder&) = delete;
-  TemporaryFolder& operator=(const TemporaryFolder&) = delete;
-  ~TemporaryFolder() {
-    std::error_code ignored;
-    if (!path_.empty()) fs::remove_all(path_, ignored);
-  }
-  [[nodiscard]] bool exists() const { return !path_.empty(); }
-  [[nodiscard]] std::string file(const char* name) const { return path_ + "/" + name; }
-
- private:
-  std::string path_;
-};
+/// The kernel cuts numbers off at 9 digits behind the point (IGES) or 15 characters (STEP), too few
+/// for curvature. Its buffer has room for 23 characters: 16 digits with sign, point and exponent.
+constexpr const char* kAllDigits = "%#.16G";
 
 Error failed(const char* what) {
   return {ErrorCode::kInternal,
           std::string("the CAD kernel could not write ") + what,
           "",
-          "check that the folder for temporary files has room",
+          "look at the contour with `obvid verify`",
           -1,
           0.0};
-}
-
-Result<std::string> content_of(const std::string& path, const char* what) {
-  std::ifstream file(path, std::ios::binary);
-  std::ostringstream text;
-  text << file.rdbuf();
-  if (!file || text.str().empty()) return fail(failed(what));
-  return text.str();
 }
 
 /// The kernel numbers the products of one process; the same contour shall give the same file.
@@ -100,14 +77,12 @@ Result<std::string> step_text(const TopoDS_Shape& shape, const Unit& unit, bool 
   header.SetOriginatingSystem(word(kProgram));
   header.SetPreprocessorVersion(word((std::string(kProgram) + " " + kVersion).c_str()));
   header.Apply(writer.Model());
-  const TemporaryFolder folder;
-  const std::string file = folder.file("contour.step");
-  if (!folder.exists() || writer.Write(file.c_str()) != IFSelect_RetDone) {
-    return fail(failed("STEP"));
-  }
-  auto text = content_of(file, "STEP");
-  if (!text) return text;
-  return without_numbers(std::move(*text), name);
+  StepData_StepWriter out(writer.Model());
+  out.FloatWriter().SetFormat(kAllDigits);
+  out.SendModel(Handle(StepData_Protocol)::DownCast(writer.WS()->Protocol()));
+  std::ostringstream text;
+  if (!out.Print(text) || text.str().empty()) return fail(failed("STEP"));
+  return without_numbers(text.str(), name);
 }
 
 Result<std::string> iges_text(const TopoDS_Shape& shape, const Unit& unit) {
@@ -123,8 +98,11 @@ Result<std::string> iges_text(const TopoDS_Shape& shape, const Unit& unit) {
   global.SetAuthorName(word(kProgram));
   global.SetFileName(word("contour"));
   writer.Model()->SetGlobalSection(global);
+  IGESData_IGESWriter out(writer.Model());
+  out.FloatWriter().SetFormat(kAllDigits);
+  out.SendModel(IGESSelect_WorkLibrary::DefineProtocol());
   std::ostringstream text;
-  if (!writer.Write(text)) return fail(failed("IGES"));
+  if (!out.Print(text) || text.str().empty()) return fail(failed("IGES"));
   return text.str();
 }
 
@@ -132,6 +110,8 @@ Result<std::string> iges_text(const TopoDS_Shape& shape, const Unit& unit) {
 
 Result<std::string> write_text(const std::vector<CadCurve>& curves,
                                const CadWriteOptions& options) {
+  static std::mutex one_at_a_time;  // the kernel keeps its settings in global variables
+  const std::lock_guard lock(one_at_a_time);
   const auto unit = unit_of(options.units);
   const bool brep = options.format == CadFormat::kBrep;
   if (!brep && !unit) return fail(unit.error());
