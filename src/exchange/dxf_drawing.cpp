@@ -235,6 +235,7 @@ void DrawingBuilder::tell() {
 }
 
 std::string DrawingBuilder::place_of(const Entity& entity) const {
+  if (entity.handle.empty()) return {};  // then the label says it
   return fmt::format(" ({} {})", binary_ ? "byte" : "line", entity.line);
 }
 

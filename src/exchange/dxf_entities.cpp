@@ -8,6 +8,8 @@
 #include <optional>
 #include <utility>
 
+#include "dxf_text.h"
+
 namespace obvid::dxf {
 namespace {
 
@@ -60,7 +62,7 @@ class EntityReader {
   }
 
   void finish() {
-    e_.bulges.resize(e_.bulges.empty() ? 0 : e_.points.size(), 0.0);
+    if (!e_.points.empty() && !e_.bulges.empty()) e_.bulges.resize(e_.points.size(), 0.0);
     check(points_, e_.points.size(), "points");
     check(knots_, e_.knots.size(), "knots");
     check(fit_, e_.fit.size(), "fit points");
@@ -94,7 +96,7 @@ class EntityReader {
   }
   void bad(const Tag& tag) {
     if (e_.fault.reason != nullptr) return;
-    e_.fault = {kBadNumberReason, fmt::format("group {} at {}", tag.code, tag.line)};
+    e_.fault = {kBadNumberReason, fmt::format("group {} is \"{}\"", tag.code, to_label(tag.text))};
   }
 
   bool common(const Tag& tag) {
