@@ -285,7 +285,8 @@ class Joiner {
       keep(bezier, {points_of(bezier), std::vector<double>(std::size_t(bezier.degree) + 1, 1.0)});
       return {};
     }
-    if (stands_still(bezier) && !even_) {  // such curves come from here, through other systems
+    const bool too_high = bezier.degree + kRaisedEven > kMaxBezierDegree;
+    if (stands_still(bezier) && (!even_ || too_high)) {  // from here, through other systems
       Segment segment{points_of(bezier), {}, false};
       for (int j = 0; j <= bezier.degree; ++j) {
         segment.weights.push_back(bezier.weight[static_cast<std::size_t>(j)] / bezier.weight[0]);
