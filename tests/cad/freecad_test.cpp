@@ -10,6 +10,7 @@
 #include <sstream>
 #include <string>
 #include <tuple>
+#include <utility>
 #include <vector>
 
 #include "obvid/io/read_points.h"
@@ -24,6 +25,7 @@ namespace fs = std::filesystem;
 struct Case {
   std::string name;
   Contour contour;
+  double millimetres = 1.0;  ///< of its unit
 };
 
 Contour fitted(PointSeries series, FitJob job) {
@@ -42,6 +44,11 @@ std::vector<Case> cases() {
     FitJob job;
     job.carrier = carrier;
     out.push_back({std::string("series10-") + to_string(carrier), fitted(reference, job)});
+  }
+  for (const auto& [unit, millimetres] : {std::pair{"m", 1000.0}, std::pair{"in", 25.4}}) {
+    Case one{std::string("series10-") + unit, fitted(reference, FitJob{}), millimetres};
+    one.contour.units = unit;
+    out.push_back(std::move(one));
   }
   auto airfoil = read_points(std::string(OBVID_TEST_DATA) + "/airfoils/arad10.dat");
   EXPECT_TRUE(airfoil);
@@ -64,8 +71,8 @@ double size_of(const Contour& c) {
   return norm(high - low);
 }
 
-/// 1,000 points of the contour with their curvatures, as JSON.
-std::string points_json(const Contour& contour) {
+/// 1,000 points of the contour with their curvatures, as JSON; lengths times `scale`.
+std::string points_json(const Contour& contour, double scale) {
   std::ostringstream out;
   out.precision(17);
   const int each = 1000 / static_cast<int>(contour.pieces.size()) + 1;
@@ -73,8 +80,8 @@ std::string points_json(const Contour& contour) {
   for (const Piece& piece : contour.pieces) {
     for (int k = 0; k < each; ++k) {
       const Jet jet = evaluate(piece, (k + 0.5) / each);
-      out << (first ? "" : ", ") << "[" << jet.point.x << ", " << jet.point.y << ", "
-          << curvature(jet) << "]";
+      out << (first ? "" : ", ") << "[" << scale * jet.point.x << ", " << scale * jet.point.y
+          << ", " << curvature(jet) / scale << "]";
       first = false;
     }
   }
@@ -126,9 +133,10 @@ TEST_F(InFreecad, EveryContourIsOneEdgeWithItsCurvature) {
       ASSERT_TRUE(made) << to_line(made.error());
       const fs::path file = folder_ / (one.name + ending);
       std::ofstream(file, std::ios::binary) << made->files.front().text;
+      const double scale = format == FileFormat::kBrep ? 1.0 : one.millimetres;
       job << (files++ > 0 ? ",\n" : "") << "{\"file\": \"" << file.string()
-          << "\", \"size\": " << size_of(one.contour) << ", \"points\": ["
-          << points_json(one.contour) << "]}";
+          << "\", \"size\": " << scale * size_of(one.contour) << ", \"points\": ["
+          << points_json(one.contour, scale) << "]}";
     }
   }
   job << "]";
@@ -143,14 +151,15 @@ TEST_F(InFreecad, EveryContourIsOneEdgeWithItsCurvature) {
   int judged = 0;
   while (lines >> word) {
     if (word != "JUDGED") continue;
-    int edges = 0, continuity = 0;
+    int edges = 0, continuity = 0, turns = 0;
     double distance = 0.0, difference = 0.0;
-    lines >> name >> edges >> continuity >> distance >> difference;
+    lines >> name >> edges >> continuity >> distance >> difference >> turns;
     ++judged;
     EXPECT_EQ(edges, 1) << name;
     EXPECT_GE(continuity, 1) << name;
     EXPECT_LE(distance, 1e-9) << name;
     EXPECT_LE(difference, 1e-6) << name;
+    EXPECT_EQ(turns, 0) << name;
   }
   EXPECT_EQ(judged, files);
 }

@@ -1,0 +1,195 @@
+// SPDX-License-Identifier: Apache-2.0
+// Files read by a process that never wrote one: settings of the writer cannot help the reader.
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+
+#include "obvid/cad/cad.h"
+#include "obvid/curve/bspline.h"
+#include "obvid/curve/joined_nurbs.h"
+#include "obvid/io/contour_json.h"
+#include "obvid/io/read_points.h"
+#include "obvid/pipeline/audit.h"
+#include "obvid/pipeline/export.h"
+#include "obvid/pipeline/fit.h"
+
+namespace obvid {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr const char* kFile = "OBVID_TEST_CAD_FILE";
+constexpr const char* kContour = "OBVID_TEST_CAD_CONTOUR";
+constexpr const char* kMillimetres = "OBVID_TEST_CAD_MILLIMETRES";
+
+std::string content_of(const std::string& path) {
+  std::ifstream file(path, std::ios::binary);
+  std::ostringstream text;
+  text << file.rdbuf();
+  return text.str();
+}
+
+double size_of(const Contour& contour) {
+  double size = 0.0;
+  for (const Vec2 p : contour.points) size = std::max(size, norm(p - contour.points.front()));
+  return size;
+}
+
+/// Changes between growing and falling, swings below the noise left out.
+int turns(const std::vector<double>& values, double noise) {
+  int count = 0, direction = 0;
+  double extreme = values.front();
+  for (const double v : values) {
+    const double ahead = direction == 0 ? std::abs(v - extreme) : direction * (v - extreme);
+    if (direction == 0 && ahead > noise) direction = v > extreme ? 1 : -1;
+    if (direction != 0 && direction * (v - extreme) >= 0.0) {
+      extreme = v;
+    } else if (direction != 0 && -direction * (v - extreme) > noise) {
+      direction = -direction;
+      extreme = v;
+      ++count;
+    }
+  }
+  return count;
+}
+
+/// Runs in the fresh process only; the test behind it starts it with the names of the files.
+TEST(CadReader, FindsTheContourOfAnotherProcess) {
+  const char *file = std::getenv(kFile), *stored = std::getenv(kContour);
+  if (file == nullptr || stored == nullptr) GTEST_SKIP() << "the next test starts this one";
+  const double scale = std::atof(std::getenv(kMillimetres));
+  const auto expected = contour_from_json(content_of(stored), "contour");
+  ASSERT_TRUE(expected);
+  const auto written = joined_nurbs(expected->contour);
+  ASSERT_TRUE(written);
+  const auto drawing = read_cad(file);
+  ASSERT_TRUE(drawing) << to_line(drawing.error());
+  ASSERT_EQ(drawing->curves.size(), 1U);
+  EXPECT_TRUE(drawing->warnings.empty()) << drawing->warnings.front();
+  const DrawnCurve& read = drawing->curves.front();
+  const auto spans = bezier_spans(*written);
+  ASSERT_EQ(read.pieces.size(), spans.size());
+  const int each = 1000 / static_cast<int>(spans.size()) + 1;
+  double distance = 0.0, difference = 0.0, largest = 0.0;
+  std::vector<double> before, after;
+  for (std::size_t i = 0; i < spans.size(); ++i) {
+    for (int k = 0; k <= each; ++k) {
+      const double t = static_cast<double>(k) / each;
+      const Jet a = evaluate(spans[i].piece, t), b = evaluate(read.pieces[i], t);
+      distance = std::max(distance, norm(scale * a.point - b.point));
+      before.push_back(curvature(a));
+      after.push_back(scale * curvature(b));
+      largest = std::max(largest, std::abs(before.back()));
+      difference = std::max(difference, std::abs(before.back() - after.back()));
+    }
+  }
+  EXPECT_LE(distance, 1e-9 * scale * size_of(expected->contour));
+  EXPECT_LE(difference, 1e-6 * largest);
+  EXPECT_EQ(turns(after, 1e-8 * largest), turns(before, 1e-8 * largest));
+  EXPECT_EQ(audit(read, "mm").continuity, 2);
+}
+
+class FreshProcess : public testing::Test {
+ protected:
+  void SetUp() override {
+    const auto text = cad_text({{"line", std::vector<Piece>{LinePiece{{0, 0}, {1, 0}}}}}, {});
+    if (!text) GTEST_SKIP() << "the plugin is not built: " << text.error().what;
+    std::string pattern = (fs::temp_directory_path() / "obvid-test-XXXXXX").string();
+    ASSERT_NE(::mkdtemp(pattern.data()), nullptr);
+    folder_ = pattern;
+  }
+  void TearDown() override {
+    if (!folder_.empty()) fs::remove_all(folder_);
+  }
+
+  /// Whether a new process reads the curve of this contour out of the file.
+  void expect_found(const fs::path& file, const Contour& contour, double millimetres) {
+    const fs::path stored = folder_ / "contour.json";
+    std::ofstream(stored, std::ios::binary) << contour_to_json({contour, {}, {}});
+    std::ostringstream command;
+    command << kFile << "=" << file.string() << " " << kContour << "=" << stored.string() << " "
+            << kMillimetres << "=" << millimetres << " "
+            << fs::read_symlink("/proc/self/exe").string()
+            << " --gtest_filter=CadReader.* 2>&1 </dev/null";
+    std::string out;
+    FILE* pipe = ::popen(command.str().c_str(), "r");
+    ASSERT_NE(pipe, nullptr);
+    char buffer[4096];
+    for (std::size_t n = 0; (n = std::fread(buffer, 1, sizeof buffer, pipe)) > 0;) {
+      out.append(buffer, n);
+    }
+    EXPECT_EQ(::pclose(pipe), 0) << file.filename() << "\n" << out;
+    EXPECT_NE(out.find("[  PASSED  ] 1 test"), std::string::npos) << out;
+  }
+
+  void expect_round_trips(const Contour& contour, double millimetres, const std::string& name) {
+    const std::pair<FileFormat, CadFormat> formats[] = {{FileFormat::kStep, CadFormat::kStepAp214},
+                                                        {FileFormat::kStep, CadFormat::kStepAp242},
+                                                        {FileFormat::kIges, CadFormat::kStepAp214},
+                                                        {FileFormat::kBrep, CadFormat::kStepAp214}};
+    int number = 0;
+    for (const auto& [format, schema] : formats) {
+      ExportOptions options;
+      options.step = schema;
+      const auto made = export_contour({contour, {}, {}}, format, options);
+      ASSERT_TRUE(made) << name << ": " << to_line(made.error());
+      const fs::path file = folder_ / (name + std::to_string(++number));
+      std::ofstream(file, std::ios::binary) << made->files.front().text;
+      expect_found(file, contour, format == FileFormat::kBrep ? 1.0 : millimetres);
+    }
+  }
+
+  fs::path folder_;
+};
+
+Contour fitted(PointSeries series, FitJob job, const std::string& units) {
+  auto made = fit(series, job);
+  EXPECT_TRUE(made) << to_line(made.error());
+  if (!made) return {};
+  made->contour.units = units;
+  return made->contour;
+}
+
+PointSeries series10(double scale, Vec2 shift) {
+  PointSeries out;
+  out.points = {{0, 0},          {0.21, -5.28},   {-5.11, -10.13}, {-20.48, -7.65},
+                {-28.68, 16.23}, {-13.87, 40.95}, {17.95, 55.28},  {54.24, 53.04},
+                {100.94, 36.19}, {230.38, -50.82}};
+  for (Vec2& p : out.points) p = scale * p + shift;
+  return out;
+}
+
+TEST_F(FreshProcess, FindsContoursOfEveryCarrierThatIsOneCurve) {
+  for (const Carrier carrier : {Carrier::kSpiral, Carrier::kConics, Carrier::kBspline}) {
+    FitJob job;
+    job.carrier = carrier;
+    expect_round_trips(fitted(series10(1.0, {}), job, "mm"), 1.0, to_string(carrier));
+  }
+}
+
+TEST_F(FreshProcess, FindsSmallContoursInMetresAndInches) {
+  expect_round_trips(fitted(series10(1e-3, {}), {}, "m"), 1000.0, "metres");
+  expect_round_trips(fitted(series10(1.0 / 25.4, {}), {}, "in"), 25.4, "inches");
+}
+
+TEST_F(FreshProcess, FindsContoursFarFromTheOrigin) {
+  expect_round_trips(fitted(series10(1.0, {31250.0, -87500.0}), {}, "mm"), 1.0, "far");
+}
+
+TEST_F(FreshProcess, FindsAnAirfoilAsPrinted) {
+  auto airfoil = read_points(std::string(OBVID_TEST_DATA) + "/airfoils/arad10.dat");
+  ASSERT_TRUE(airfoil);
+  FitJob job;
+  job.noise_from_rounding = true;
+  expect_round_trips(fitted(*airfoil, job, "m"), 1000.0, "airfoil");
+}
+
+}  // namespace
+}  // namespace obvid
