@@ -73,10 +73,11 @@ Piece cubic_piece(const Base& base, Cubic u, Cubic v, double range) {
 }
 
 /// The u where v(u) = a + b u + c u^2 + d u^3 has the given length from u = 0: Simpson's rule, and
-/// halving, as the length grows with u and is at least u.
+/// Newton's steps, halved back into the bracket: the length grows with u and is at least u.
 double end_of_poly3(const Cubic& v, double length) {
-  constexpr int kSteps = 128;    // error below 1e-9 for what turns less than a right angle
-  constexpr int kHalvings = 60;  // to the last digit
+  constexpr int kSteps = 128;       // error below 1e-9 for what turns less than a right angle
+  constexpr int kMostTrials = 60;   // halvings alone come to the last digit with so many
+  constexpr double kClose = 4e-16;  // of the length: no better double
   const auto speed = [&](double u) {
     return std::hypot(1.0, v[1] + u * (2.0 * v[2] + u * 3.0 * v[3]));
   };
@@ -85,12 +86,15 @@ double end_of_poly3(const Cubic& v, double length) {
     for (int k = 1; k < kSteps; ++k) sum += (k % 2 == 1 ? 4.0 : 2.0) * speed(u * k / kSteps);
     return sum * u / (3.0 * kSteps);
   };
-  double low = 0.0, high = length;
-  for (int k = 0; k < kHalvings; ++k) {
-    const double middle = 0.5 * (low + high);
-    (length_to(middle) < length ? low : high) = middle;
+  double low = 0.0, high = length, u = length;
+  for (int k = 0; k < kMostTrials && high - low > kClose * length; ++k) {
+    const double missing = length - length_to(u);
+    (missing > 0.0 ? low : high) = u;
+    const double next = u + missing / speed(u);
+    if (std::abs(next - u) <= kClose * length) break;
+    u = next > low && next < high ? next : 0.5 * (low + high);
   }
-  return 0.5 * (low + high);
+  return u;
 }
 
 class OpenDriveReader {

@@ -30,10 +30,12 @@ using std::string_view;
 constexpr double kMillimetresPerPixel = 25.4 / 96.0;
 constexpr int kMaxDepth = 200;  // of groups in groups; what people draw has less than 50
 
-// What may be drawn through `use`, bytes of data and so many for each element: uses of uses grow as
-// a power of their depth.
-constexpr std::size_t kUseBudget = 64U << 20U;
-constexpr std::size_t kElementCost = 64;
+// What may be drawn through `use`, bytes of data and so many for each element, about what it takes
+// in memory: uses of uses grow as a power of their depth. Room for honest drawings, and so many
+// times the file.
+constexpr std::size_t kUseRoom = 4U << 20U;
+constexpr std::size_t kUseGrowth = 16;
+constexpr std::size_t kElementCost = 256;
 
 /// Elements that draw nothing by themselves, by definition.
 bool is_silent(string_view name) {
@@ -61,7 +63,8 @@ struct State {
 
 class SvgReader {
  public:
-  explicit SvgReader(const XmlFile& file) : file_(file), warnings_(file) {
+  SvgReader(const XmlFile& file, std::size_t bytes)
+      : file_(file), warnings_(file), budget_(kUseRoom + kUseGrowth * bytes) {
     const string_view root = file.root().name();
     prefix_ = root.substr(0, root.size() - local_name(root).size());
   }
@@ -77,7 +80,7 @@ class SvgReader {
     }
     for (std::string& warning : warnings_.take()) drawing_.warnings.push_back(std::move(warning));
     if (drawing_.curves.empty()) {
-      const std::string why = drawing_.warnings.empty() ? "" : ": " + drawing_.warnings.back();
+      const std::string why = drawing_.warnings.empty() ? "" : ": " + drawing_.warnings.front();
       return fail(
           {ErrorCode::kTooFewPoints, "the file draws nothing" + why, file_.name(), "", -1, 0.0});
     }
@@ -166,7 +169,7 @@ class SvgReader {
     const std::size_t cost = kElementCost + string_view(node.attribute("d").value()).size() +
                              string_view(node.attribute("points").value()).size();
     if (cost > budget_) {
-      warnings_.add("more than 64 MB drawn through use; the rest left out", node);
+      warnings_.add("more is drawn through use than 16 times the file; the rest left out", node);
       budget_ = 0;
       return false;
     }
@@ -289,7 +292,7 @@ class SvgReader {
   std::string prefix_;  ///< of the names of this file's SVG elements, with the colon
   std::unordered_map<std::string, pugi::xml_node> ids_;
   std::vector<pugi::xml_node> active_;  ///< targets of use that are being drawn
-  std::size_t budget_ = kUseBudget;
+  std::size_t budget_;                  ///< of what is drawn through use
   std::size_t empty_segments_ = 0;
   std::map<std::string, int> numbers_;
   Drawing drawing_;
@@ -300,7 +303,7 @@ class SvgReader {
 Result<Drawing> parse_svg(string_view text, string_view name) {
   XmlFile file(text, name);
   if (auto done = file.parse("svg"); !done) return fail(std::move(done.error()));
-  return SvgReader(file).run();
+  return SvgReader(file, text.size()).run();
 }
 
 }  // namespace obvid
