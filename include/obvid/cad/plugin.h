@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstddef>
+#include <string>
+
 #include "obvid/cad/cad.h"
 #include "obvid/core/version.h"
 
@@ -17,7 +20,16 @@ struct CadPlugin {
 inline constexpr const char* kCadPluginFile = "obvid_cad.so";
 inline constexpr const char* kCadPluginSymbol = "obvid_cad_plugin";
 
-/// Version and compiler, of the program and of the plugin.
-inline std::string build_mark() { return std::string(kVersion) + ", " + __VERSION__; }
+/// Version, compiler and the sizes of what is handed over, of the program and of the plugin: a
+/// plugin that was left behind from an older build is told by it.
+inline std::string build_mark() {
+  std::string mark = std::string(kVersion) + ", " + __VERSION__;
+  for (const std::size_t size :
+       {sizeof(CadCurve), sizeof(CadWriteOptions), sizeof(Drawing), sizeof(DrawnCurve),
+        sizeof(Piece), sizeof(PointSeries), sizeof(Error), sizeof(CadPlugin)}) {
+    mark += ", " + std::to_string(size);
+  }
+  return mark;
+}
 
 }  // namespace obvid

@@ -189,7 +189,8 @@ void add_pieces(const SpaceCurve& curve, const Plane& plane, std::vector<Piece>&
 std::string plane_text(const Plane& plane) {
   const gp_Dir n = plane.normal();
   return fmt::format("point ({:.6g}, {:.6g}, {:.6g}), normal ({:.6g}, {:.6g}, {:.6g})",
-                     plane.origin.X(), plane.origin.Y(), plane.origin.Z(), n.X(), n.Y(), n.Z());
+                     plane.origin.X(), plane.origin.Y(), plane.origin.Z(), n.X() + 0.0, n.Y() + 0.0,
+                     n.Z() + 0.0);  // no -0
 }
 
 /// What the whole is not, its edges may be.
