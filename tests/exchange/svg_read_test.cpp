@@ -105,6 +105,37 @@ TEST(SvgRead, RadiiThatDoNotReachAreScaledUpToAHalfEllipse) {
   EXPECT_NEAR(std::abs(arc.kappa), 0.1, 1e-14);
 }
 
+/// An ellipse of known centre, turned by 25 degrees: the arc from parameter 0.4 to 2.0 and the long
+/// way round, in both senses.
+TEST(SvgRead, ArcsOfATurnedEllipseLieOnItAndOnTheSideThatTheFlagsSay) {
+  const double turned = 25.0 * std::numbers::pi / 180.0, rx = 20.0, ry = 8.0;
+  const auto on_ellipse = [&](double a) {  // y down
+    return Vec2{50.0, 40.0} +
+           complex_product(unit_at(turned), {rx * std::cos(a), ry * std::sin(a)});
+  };
+  for (const bool sweep : {false, true}) {
+    for (const bool large : {false, true}) {
+      const double from = sweep == large ? 2.0 : 0.4, to = sweep == large ? 0.4 : 2.0;
+      std::ostringstream d;
+      d.precision(17);
+      const Vec2 a = on_ellipse(from), b = on_ellipse(to);
+      d << "M" << a.x << " " << a.y << "A20 8 25 " << large << sweep << b.x << " " << b.y;
+      const Drawing drawing = read(sheet("<path d='" + d.str() + "'/>"));
+      // Parameters grow with sweep 1: 0.4 to 2.0 or 2.0 to 0.4 + 2 pi, and fall with sweep 0.
+      const double short_way = 1.6, long_way = 2.0 * std::numbers::pi - 1.6;
+      const double change = (large ? long_way : short_way) * (sweep ? 1.0 : -1.0);
+      const auto& pieces = drawing.curves[0].pieces;
+      const auto count = static_cast<double>(pieces.size());
+      for (std::size_t i = 0; i < pieces.size(); ++i) {
+        const Vec2 expected = on_ellipse(from + change * (static_cast<double>(i) + 0.5) / count);
+        const Vec2 middle = evaluate(pieces[i], 0.5).point;
+        EXPECT_NEAR(middle.x, expected.x, 1e-9) << large << sweep;
+        EXPECT_NEAR(100.0 - middle.y, expected.y, 1e-9) << large << sweep;
+      }
+    }
+  }
+}
+
 /// Points of an ellipse satisfy its equation; so do those of the rational quadratics everywhere.
 TEST(SvgRead, EllipsesAreExactRationalQuadratics) {
   const Drawing d = read(sheet("<ellipse cx='50' cy='40' rx='30' ry='20'/>"));
