@@ -6,6 +6,8 @@
 
 #include <utility>
 
+#include "dxf_file.h"
+
 namespace obvid::dxf {
 namespace {
 
@@ -23,7 +25,7 @@ class DocumentReader {
       auto tag = tags_.next();
       if (!tag) return fail(tag.error());
       if (!*tag) break;
-      if ((*tag)->code == kComment) continue;
+      if (is_comment(**tag)) continue;
       if ((*tag)->code != 0) {
         current_.push_back(**tag);
         continue;
@@ -49,10 +51,18 @@ class DocumentReader {
     return std::move(document_);
   }
 
+  bool is_comment(const Tag& tag) {
+    const std::string_view prefix = exchange::kUnitsComment;
+    if (tag.code == kComment && tag.text.starts_with(prefix)) {
+      document_.units_remark = tag.text.substr(prefix.size());
+    }
+    return tag.code == kComment;
+  }
+
   /// The first tag of any DXF file.
   Result<void> open() {
-    Result<std::optional<Tag>> first = std::optional<Tag>(Tag{kComment, {}, {}, 0});
-    while (first && *first && (*first)->code == kComment) first = tags_.next();
+    auto first = tags_.next();
+    while (first && *first && is_comment(**first)) first = tags_.next();
     if (first && *first && (*first)->code == 0 && (*first)->text == "SECTION") {
       current_.push_back(**first);
       return {};

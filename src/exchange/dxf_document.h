@@ -18,7 +18,8 @@ struct Block {
 
 /// What is of use in a DXF file. Texts point into the bytes that it was read from.
 struct Document {
-  int units = 0;  ///< $INSUNITS; 0: none
+  int units = 0;                  ///< $INSUNITS; 0: none
+  std::string_view units_remark;  ///< what a comment of our own R12 files says instead
   std::vector<Entity> entities;
   std::map<std::string_view, Block> blocks;
   std::vector<std::string> warnings;

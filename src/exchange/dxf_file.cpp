@@ -248,8 +248,9 @@ std::string r2000_tail() {
   return out.take();
 }
 
-std::string r12_head(const std::string& layer, Vec2 low, Vec2 high) {
+std::string r12_head(const std::string& layer, const std::string& units, Vec2 low, Vec2 high) {
   DxfWriter out;
+  if (!units.empty()) out.pair(999, kUnitsComment + units);
   begin_section(out, "HEADER");
   out.pair(9, "$ACADVER");
   out.pair(1, "AC1009");

@@ -48,6 +48,9 @@ class DxfWriter {
 /// Handle of the model space, owner of all entities.
 inline constexpr const char* kModelSpace = "1F";
 
-[[nodiscard]] std::string r12_head(const std::string& layer, Vec2 low, Vec2 high);
+/// R12 knows no units: a comment names them, which `parse_dxf` understands.
+[[nodiscard]] std::string r12_head(const std::string& layer, const std::string& units, Vec2 low,
+                                   Vec2 high);
+inline constexpr const char* kUnitsComment = "obvid: lengths in ";
 
 }  // namespace obvid::exchange

@@ -12,15 +12,16 @@
 namespace obvid {
 namespace {
 
-dxf::Affine in_units(int insunits, Drawing& drawing) {
-  const dxf::Unit unit = dxf::unit_of(insunits);
+dxf::Affine in_units(const dxf::Document& document, Drawing& drawing) {
+  const dxf::Unit unit =
+      document.units == 0 ? dxf::unit_of(document.units_remark) : dxf::unit_of(document.units);
   drawing.units = unit.name;
   if (!unit.known) {
     drawing.warnings.emplace_back("the file states no known unit ($INSUNITS): mm assumed");
   }
   if (unit.factor == 1.0) return {};
-  drawing.warnings.push_back(
-      fmt::format("lengths were converted to {} (unit {} of $INSUNITS)", unit.name, insunits));
+  drawing.warnings.push_back(fmt::format("lengths were converted to {} (unit {} of $INSUNITS)",
+                                         unit.name, document.units));
   return dxf::scaling({unit.factor, unit.factor, unit.factor});
 }
 
@@ -44,7 +45,7 @@ Result<Drawing> parse_dxf(std::string_view bytes, std::string_view name) {
   Drawing drawing;
   drawing.name = std::string(name);
   dxf::DrawingBuilder builder(*document, drawing, dxf::TagReader(bytes, name).binary());
-  const dxf::Affine map = in_units(document->units, drawing);
+  const dxf::Affine map = in_units(*document, drawing);
   std::vector<std::string> units = std::move(drawing.warnings);
   drawing.warnings = std::move(document->warnings);
   builder.run(map);

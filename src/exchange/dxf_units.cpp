@@ -46,4 +46,11 @@ Unit unit_of(int insunits) {
   return {};
 }
 
+Unit unit_of(std::string_view name) {
+  for (const Row& row : kUnits) {
+    if (row.unit.factor == 1.0 && name == row.unit.name) return row.unit;
+  }
+  return {};
+}
+
 }  // namespace obvid::dxf

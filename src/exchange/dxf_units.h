@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <string_view>
+
 namespace obvid::dxf {
 
 /// A unit of $INSUNITS in one that the program has a name for.
@@ -11,5 +13,7 @@ struct Unit {
 };
 
 [[nodiscard]] Unit unit_of(int insunits);
+/// The unit of this name, lengths as they are.
+[[nodiscard]] Unit unit_of(std::string_view name);
 
 }  // namespace obvid::dxf

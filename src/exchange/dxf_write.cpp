@@ -5,10 +5,12 @@
 #include <array>
 #include <cmath>
 #include <numbers>
+#include <optional>
 #include <utility>
 #include <vector>
 
 #include "dxf_file.h"
+#include "dxf_parts.h"
 #include "obvid/contour/arcs/arcs_along.h"
 #include "obvid/contour/bsplines/cubic_along.h"
 #include "obvid/contour/conics.h"
@@ -20,7 +22,9 @@ namespace {
 using exchange::DxfWriter;
 using exchange::kModelSpace;
 
-constexpr double kDegree = std::numbers::pi / 180.0;
+constexpr double kTurn = 2.0 * std::numbers::pi, kDegree = kTurn / 360.0;
+/// What rounding of a centre and of angles may cost, of the size: a tenth of what readers must get.
+constexpr double kRounding = 1e-10;
 
 /// $INSUNITS of a unit; 0: none.
 int unit_code(const std::string& units) {
@@ -45,40 +49,12 @@ bool is_circular(const Piece& piece) {
   return std::holds_alternative<LinePiece>(piece) || std::holds_alternative<ArcPiece>(piece);
 }
 
-/// Parts of a contour between its corners, each as a contour of its own.
-std::vector<Contour> smooth_parts(const Contour& contour) {
-  std::vector<Contour> parts;
-  for (std::size_t i = 0; i < contour.pieces.size(); ++i) {
-    const bool corner = i < contour.joints.size() && contour.joints[i].leaving.has_value();
-    if (i == 0 || corner) {
-      parts.emplace_back();
-      parts.back().units = contour.units;
-      Joint first = contour.joints[i];
-      if (first.leaving) first.element = *first.leaving;
-      first.leaving.reset();
-      parts.back().joints.push_back(first);
-    }
-    Contour& part = parts.back();
-    part.pieces.push_back(contour.pieces[i]);
-    Joint end = contour.joints[(i + 1) % contour.joints.size()];
-    end.leaving.reset();
-    part.joints.push_back(end);
-  }
-  const bool seamless = contour.closed && parts.size() == 1 && !contour.joints.front().leaving;
-  for (Contour& part : parts) {
-    part.points = {start_point(part.pieces.front()), end_point(part.pieces.back())};
-    part.closed = false;
-  }
-  if (seamless) {
-    parts.front().closed = true;
-    parts.front().joints.pop_back();
-  }
-  return parts;
-}
+bool is_clothoid(const Piece& piece) { return std::holds_alternative<ClothoidPiece>(piece); }
 
-double bulge(const Piece& piece) {
-  const auto* arc = std::get_if<ArcPiece>(&piece);
-  return arc == nullptr ? 0.0 : std::tan(0.25 * arc->kappa * arc->length);
+/// Angle from 0 to below `turn`.
+double within(double angle, double turn) {
+  const double rest = std::fmod(angle, turn);
+  return rest < 0.0 ? rest + turn : rest;
 }
 
 class Drawer {
@@ -87,6 +63,11 @@ class Drawer {
       : contour_(contour), options_(options), layer_(safe_name(options.layer)) {}
 
   Result<DxfText> run() {
+    find_extents();
+    if (!std::isfinite(norm(high_ - low_))) {
+      return fail({ErrorCode::kNotFinite, "a coordinate of the contour is not finite", "", "", -1,
+                   norm(high_ - low_)});
+    }
     Result<void> done;
     switch (options_.profile) {
       case DxfProfile::kExact:
@@ -101,10 +82,11 @@ class Drawer {
         break;
     }
     if (!done) return fail(done.error());
-    find_extents();
     if (options_.profile == DxfProfile::kArcsR12) {
       result_.text =
-          exchange::r12_head(layer_, low_, high_) + out_.take() + "  0\nENDSEC\n  0\nEOF\n";
+          exchange::r12_head(layer_, unit_code(contour_.units) != 0 ? contour_.units : "", low_,
+                             high_) +
+          out_.take() + "  0\nENDSEC\n  0\nEOF\n";
     } else {
       const std::string seed = out_.next_handle();
       result_.text = exchange::r2000_head(layer_, unit_code(contour_.units), seed, low_, high_) +
@@ -119,6 +101,7 @@ class Drawer {
     for (const Piece& piece : contour_.pieces) {
       for (const double t : {0.0, 0.25, 0.5, 0.75, 1.0}) {
         const Vec2 p = evaluate(piece, t).point;
+        if (!std::isfinite(p.x) || !std::isfinite(p.y)) low_ = p;
         low_ = {std::min(low_.x, p.x), std::min(low_.y, p.y)};
         high_ = {std::max(high_.x, p.x), std::max(high_.y, p.y)};
       }
@@ -143,16 +126,19 @@ class Drawer {
 
   /// DXF arcs run counter-clockwise.
   void arc(const ArcPiece& one) {
+    constexpr double kWhole = 1.0 - 1e-12;  // of a turn: an arc of equal angles would be nothing
     const Vec2 centre = one.start + left_normal(unit_at(one.theta0)) / one.kappa;
     const double turn = one.kappa * one.length;
     const double from = one.theta0 - std::copysign(0.5 * std::numbers::pi, one.kappa);
     const double low = turn > 0.0 ? from : from + turn, high = turn > 0.0 ? from + turn : from;
-    entity("ARC", "AcDbCircle");
+    const bool whole = std::abs(turn) >= kWhole * kTurn;
+    entity(whole ? "CIRCLE" : "ARC", "AcDbCircle");
     out_.point3(10, centre);
     out_.pair(40, 1.0 / std::abs(one.kappa));
+    if (whole) return;
     out_.pair(100, "AcDbArc");
-    out_.pair(50, low / kDegree);
-    out_.pair(51, high / kDegree);
+    out_.pair(50, within(low / kDegree, 360.0));
+    out_.pair(51, within(high / kDegree, 360.0));
   }
 
   /// DXF ellipses run counter-clockwise from `start` to `end` of their parameter.
@@ -165,8 +151,8 @@ class Drawer {
     out_.pair(220, 0.0);
     out_.pair(230, 1.0);
     out_.pair(40, one.semi_minor / one.semi_major);
-    out_.pair(41, std::min(one.from, one.to));
-    out_.pair(42, std::max(one.from, one.to));
+    out_.pair(41, within(std::min(one.from, one.to), kTurn));
+    out_.pair(42, within(std::max(one.from, one.to), kTurn));
   }
 
   void spline(const NurbsCurve& curve, bool closed) {
@@ -189,40 +175,75 @@ class Drawer {
     for (const Vec2 p : curve.points) out_.point3(10, p);
   }
 
-  /// Ellipse arcs of a contour of conics; nothing where one of them is none.
+  /// Ellipse arcs of a contour of conics; nothing where one of them is none, or is so near to a
+  /// parabola that its centre and axes lose what the spline keeps.
   [[nodiscard]] std::optional<std::vector<Ellipse>> ellipses(const Contour& part) const {
     std::vector<Ellipse> out;
     for (const Piece& piece : part.pieces) {
       const auto* bezier = std::get_if<RationalBezier>(&piece);
       if (bezier == nullptr || bezier->degree != 2) return std::nullopt;
       const auto one = ellipse_of(*bezier);
-      if (!one) return std::nullopt;
+      if (!one || !is_near(*one, piece)) return std::nullopt;
       out.push_back(*one);
     }
     return out;
   }
 
+  [[nodiscard]] bool is_near(const Ellipse& e, const Piece& piece) const {
+    const Vec2 axis = unit_at(e.rotation);
+    const auto at = [&](double angle) {
+      return e.centre + (e.semi_major * std::cos(angle)) * axis +
+             (e.semi_minor * std::sin(angle)) * left_normal(axis);
+    };
+    const double off =
+        std::max({norm(at(e.from) - start_point(piece)), norm(at(e.to) - end_point(piece)),
+                  norm(at(0.5 * (e.from + e.to)) - shoulder(piece))});
+    return off <= kRounding * norm(high_ - low_);
+  }
+
+  /// Where a conic is parallel to its chord: its middle by the eccentric angle.
+  [[nodiscard]] static Vec2 shoulder(const Piece& piece) {
+    const auto& b = std::get<RationalBezier>(piece);
+    const double t = 1.0 / (1.0 + std::sqrt(b.weight[2] / b.weight[0]));
+    return evaluate(b, t).point;
+  }
+
+  /// LINE and ARC lose digits where the centre lies far away; bulges do not.
+  [[nodiscard]] bool centres_are_near(const Contour& part) const {
+    constexpr double kFar = 1e5;  // sizes: 1e5 roundings of a double are below kRounding
+    const double far = kFar * norm(high_ - low_);
+    return std::all_of(part.pieces.begin(), part.pieces.end(), [&](const Piece& piece) {
+      const auto* one = std::get_if<ArcPiece>(&piece);
+      return one == nullptr || std::abs(one->kappa) * far >= 1.0;
+    });
+  }
+
   Result<void> exact() {
-    for (const Contour& part : smooth_parts(contour_)) {
-      if (std::all_of(part.pieces.begin(), part.pieces.end(), is_circular)) {
-        for (const Piece& piece : part.pieces) circular(piece);
-        continue;
-      }
-      if (const auto conics = ellipses(part)) {
-        for (const Ellipse& one : *conics) ellipse(one);
-        continue;
-      }
-      const bool clothoid = std::any_of(
-          part.pieces.begin(), part.pieces.end(),
-          [](const Piece& piece) { return std::holds_alternative<ClothoidPiece>(piece); });
-      if (clothoid) {
-        if (auto done = cubic(part); !done) return done;
-        continue;
-      }
-      const auto curve = joined_nurbs(part);
-      if (!curve) return fail(curve.error());
-      spline(*curve, part.closed);
+    const std::vector<Contour> parts = exchange::smooth_parts(contour_);
+    for (const Contour& part : parts) {
+      if (auto done = exact(part, contour_.closed && parts.size() == 1); !done) return done;
     }
+    return {};
+  }
+
+  Result<void> exact(const Contour& part, bool closed) {
+    if (std::all_of(part.pieces.begin(), part.pieces.end(), is_circular)) {
+      if (centres_are_near(part)) {
+        for (const Piece& piece : part.pieces) circular(piece);
+      } else {
+        lwpolyline(part.pieces, closed);
+      }
+      return {};
+    }
+    if (const auto conics = ellipses(part)) {
+      for (const Ellipse& one : *conics) ellipse(one);
+      return {};
+    }
+    if (std::any_of(part.pieces.begin(), part.pieces.end(), is_clothoid))
+      return cubic(part, closed);
+    const auto curve = joined_nurbs(part);
+    if (!curve) return fail(curve.error());
+    spline(*curve, closed);
     return {};
   }
 
@@ -232,17 +253,18 @@ class Drawer {
   }
 
   Result<void> cubic() {
-    for (const Contour& part : smooth_parts(contour_)) {
-      if (auto done = cubic(part); !done) return done;
+    const std::vector<Contour> parts = exchange::smooth_parts(contour_);
+    for (const Contour& part : parts) {
+      if (auto done = cubic(part, contour_.closed && parts.size() == 1); !done) return done;
     }
     return {};
   }
 
-  Result<void> cubic(const Contour& part) {
+  Result<void> cubic(const Contour& part, bool closed) {
     const auto along = cubic_along(part, options_.tolerance);
     if (!along) return fail(along.error());
     result_.deviation = std::max(result_.deviation, along->deviation);
-    spline(as_nurbs(along->spline), part.closed);
+    spline(as_nurbs(along->spline), closed);
     return {};
   }
 
@@ -253,34 +275,33 @@ class Drawer {
     if (options_.profile == DxfProfile::kArcsR12) {
       polyline(along->pieces);
     } else {
-      lwpolyline(along->pieces);
+      lwpolyline(along->pieces, contour_.closed);
     }
     return {};
   }
 
-  void lwpolyline(const std::vector<Piece>& pieces) {
-    const std::size_t count = pieces.size() + (contour_.closed ? 0 : 1);
+  void lwpolyline(const std::vector<Piece>& pieces, bool closed) {
+    const auto vertices = exchange::bulge_vertices(pieces, closed);
     entity("LWPOLYLINE", "AcDbPolyline");
-    out_.pair(90, static_cast<int>(count));
-    out_.pair(70, contour_.closed ? 1 : 0);
-    for (std::size_t i = 0; i < count; ++i) {
-      out_.point(10, i < pieces.size() ? start_point(pieces[i]) : end_point(pieces.back()));
-      if (i < pieces.size()) out_.pair(42, bulge(pieces[i]));
+    out_.pair(90, static_cast<int>(vertices.size()));
+    out_.pair(70, closed ? 1 : 0);
+    for (const auto& vertex : vertices) {
+      out_.point(10, vertex.at);
+      out_.pair(42, vertex.bulge);
     }
   }
 
   void polyline(const std::vector<Piece>& pieces) {
-    const std::size_t count = pieces.size() + (contour_.closed ? 0 : 1);
     out_.pair(0, "POLYLINE");
     out_.pair(8, layer_);
     out_.pair(66, 1);
     out_.point3(10, {0.0, 0.0});
     out_.pair(70, contour_.closed ? 1 : 0);
-    for (std::size_t i = 0; i < count; ++i) {
+    for (const auto& vertex : exchange::bulge_vertices(pieces, contour_.closed)) {
       out_.pair(0, "VERTEX");
       out_.pair(8, layer_);
-      out_.point3(10, i < pieces.size() ? start_point(pieces[i]) : end_point(pieces.back()));
-      if (i < pieces.size()) out_.pair(42, bulge(pieces[i]));
+      out_.point3(10, vertex.at);
+      out_.pair(42, vertex.bulge);
     }
     out_.pair(0, "SEQEND");
     out_.pair(8, layer_);

@@ -31,8 +31,11 @@ struct DxfText {
 };
 
 /// ASCII DXF in the plane z = 0, units in the header ($INSUNITS) when they are um, mm, cm, m, km,
-/// in, ft, else none. Corners cut an exact or cubic contour into several splines. Errors: E203 a
-/// tolerance that is not greater than 0; those of `arcs_along`, `cubic_along`, `joined_nurbs`.
+/// in, ft, else none; R12 has no place for them but a comment that `parse_dxf` understands. Corners
+/// cut an exact or cubic contour into several splines. What numbers of an ARC or ELLIPSE would not
+/// hold to 1e-10 of the size becomes an LWPOLYLINE or a SPLINE (docs/methods/dxf.md, section 1).
+/// Errors: E203 a tolerance that is not greater than 0; E303 a coordinate that is not finite; E304
+/// no pieces; those of `arcs_along`, `cubic_along`, `joined_nurbs`.
 [[nodiscard]] Result<DxfText> dxf_text(const Contour& contour, const DxfOptions& options = {});
 
 }  // namespace obvid

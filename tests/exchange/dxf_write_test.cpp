@@ -1,0 +1,359 @@
+// SPDX-License-Identifier: Apache-2.0
+// DXF files of contours: no entry in ezdxf's audit, and the same curve through ezdxf and back.
+#include "obvid/exchange/dxf_write.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <numbers>
+#include <sstream>
+#include <string>
+#include <vector>
+
+#include "obvid/exchange/dxf_read.h"
+#include "obvid/io/contour_json.h"
+
+namespace obvid {
+namespace {
+
+namespace fs = std::filesystem;
+constexpr double kPi = std::numbers::pi;
+
+const DxfProfile kProfiles[] = {DxfProfile::kExact, DxfProfile::kArcs, DxfProfile::kCubic,
+                                DxfProfile::kArcsR12};
+const char* const kStored[] = {"spirals_open",   "spirals_closed",  "spirals_corner",
+                               "conics_open",    "arcs_closed",     "clothoids_open",
+                               "clothoids_wave", "clothoids_closed"};
+
+Contour stored(const std::string& name) {
+  std::ifstream in(fs::path(OBVID_TEST_DATA) / "contours" / (name + ".json"));
+  std::ostringstream text;
+  text << in.rdbuf();
+  const auto contour = contour_from_json(text.str(), name);
+  EXPECT_TRUE(contour) << name;
+  return contour ? contour->contour : Contour{};
+}
+
+Contour of_pieces(std::vector<Piece> pieces, bool closed) {
+  Contour c;
+  c.closed = closed;
+  c.carrier = Carrier::kArcs;
+  c.joints.resize(pieces.size() + (closed ? 0 : 1));
+  for (std::size_t i = 0; i < c.joints.size(); ++i) {
+    const bool last = i == pieces.size();
+    const Jet jet = evaluate(pieces[last ? i - 1 : i], last ? 1.0 : 0.0);
+    c.joints[i].element = {jet.point, heading(jet.d1), curvature(jet)};
+  }
+  for (const Joint& joint : c.joints) c.points.push_back(joint.element.point);
+  c.pieces = std::move(pieces);
+  c.runs = {{0, c.pieces.size() - 1, 0}};
+  return c;
+}
+
+ArcPiece arc_from(Vec2 start, double theta, double kappa, double length) {
+  const double turn = kappa * length;
+  const Vec2 chord = (2.0 * std::sin(0.5 * turn) / kappa) * unit_at(theta + 0.5 * turn);
+  return {start, start + chord, theta, kappa, length};
+}
+
+/// Two lines and two half circles, clockwise.
+Contour slot() {
+  return of_pieces({LinePiece{{0, 2}, {4, 2}}, arc_from({4, 2}, 0.0, -1.0, kPi),
+                    LinePiece{{4, 0}, {0, 0}}, arc_from({0, 0}, kPi, -1.0, kPi)},
+                   true);
+}
+
+DxfText written(const Contour& contour, DxfProfile profile, double tolerance) {
+  auto text = dxf_text(contour, {profile, tolerance, "CONTOUR"});
+  EXPECT_TRUE(text) << (text ? "" : to_line(text.error()));
+  return text ? *std::move(text) : DxfText{};
+}
+
+double size_of(const Contour& contour) {
+  Vec2 low = contour.points.front(), high = low;
+  for (const Vec2 p : contour.points) {
+    low = {std::min(low.x, p.x), std::min(low.y, p.y)};
+    high = {std::max(high.x, p.x), std::max(high.y, p.y)};
+  }
+  return norm(high - low);
+}
+
+// ---- distances, independent of the parameters of both sides -----------------------------------
+
+/// Distance from a point to a piece: the nearest of many points, then halvings beside it.
+double distance_to(const Piece& piece, Vec2 p) {
+  constexpr int kCoarse = 24;
+  const auto away = [&](double t) { return norm(evaluate(piece, t).point - p); };
+  int best = 0;
+  for (int k = 1; k <= kCoarse; ++k) {
+    if (away(double(k) / kCoarse) < away(double(best) / kCoarse)) best = k;
+  }
+  double low = std::max(0.0, (best - 1.0) / kCoarse), high = std::min(1.0, (best + 1.0) / kCoarse);
+  for (int k = 0; k < 80; ++k) {  // golden section
+    const double step = 0.381966 * (high - low);
+    (away(low + step) < away(high - step) ? high : low) =
+        away(low + step) < away(high - step) ? high - step : low + step;
+  }
+  return std::min({away(0.5 * (low + high)), away(0.0), away(1.0)});
+}
+
+double distance_to(const std::vector<Piece>& pieces, Vec2 p) {
+  double least = HUGE_VAL;
+  for (const Piece& piece : pieces) least = std::min(least, distance_to(piece, p));
+  return least;
+}
+
+double largest_distance(const std::vector<Piece>& of, const std::vector<Piece>& from) {
+  double most = 0.0;
+  for (const Piece& piece : of) {
+    for (int k = 0; k <= 6; ++k) {
+      most = std::max(most, distance_to(from, evaluate(piece, k / 6.0).point));
+    }
+  }
+  return most;
+}
+
+// ---- ezdxf ------------------------------------------------------------------------------------
+
+class DxfFilesByEzdxf : public testing::Test {
+ protected:
+  void SetUp() override {
+    if (std::system("/usr/bin/python3 -c 'import ezdxf' 2>/dev/null") != 0) {
+      GTEST_SKIP() << "python3-ezdxf is not installed";
+    }
+    std::string pattern = (fs::temp_directory_path() / "obvid-test-XXXXXX").string();
+    ASSERT_NE(::mkdtemp(pattern.data()), nullptr);
+    folder_ = pattern;
+  }
+  void TearDown() override {
+    if (!folder_.empty()) fs::remove_all(folder_);
+  }
+
+  /// What dxf_audit.py prints about a file, errors of Python included.
+  std::string judge(const std::string& task, const std::string& text,
+                    const std::string& rest = "") {
+    const fs::path file = folder_ / "file.dxf";
+    std::ofstream(file, std::ios::binary) << text;
+    const std::string command = std::string("/usr/bin/python3 -B '") + OBVID_SOURCE_DIR +
+                                "/tests/exchange/dxf_audit.py' " + task + " '" + file.string() +
+                                "' " + rest + " 2>&1";
+    std::string out;
+    std::FILE* pipe = ::popen(command.c_str(), "r");
+    if (pipe == nullptr) return "no pipe";
+    for (int c = std::fgetc(pipe); c != EOF; c = std::fgetc(pipe)) out += static_cast<char>(c);
+    if (::pclose(pipe) != 0) out += "\nfailed";
+    return out;
+  }
+
+  /// Points that ezdxf finds on the curves of a file.
+  std::vector<Vec2> points(const std::string& text, int per_piece) {
+    const std::string answer = judge("points", text, std::to_string(per_piece));
+    std::istringstream in(answer);
+    std::vector<Vec2> out;
+    for (Vec2 p; in >> p.x >> p.y;) out.push_back(p);
+    EXPECT_TRUE(in.eof()) << answer.substr(0, 400);
+    return out;
+  }
+
+  fs::path folder_;
+};
+
+TEST_F(DxfFilesByEzdxf, PassTheAuditInEveryProfile) {
+  for (const char* name : kStored) {
+    const Contour contour = stored(name);
+    for (const DxfProfile profile : kProfiles) {
+      const DxfText dxf = written(contour, profile, 1e-3);
+      EXPECT_EQ(judge("audit", dxf.text), "") << name << " " << static_cast<int>(profile);
+    }
+  }
+  EXPECT_EQ(judge("audit", written(slot(), DxfProfile::kExact, 1e-3).text), "");
+}
+
+TEST_F(DxfFilesByEzdxf, TheAuditFindsWhatIsWrong) {
+  std::string text = written(stored("spirals_open"), DxfProfile::kExact, 1e-3).text;
+  const std::size_t owner = text.find("330\n1F\n100\nAcDbEntity\n  8\nCONTOUR");
+  ASSERT_NE(owner, std::string::npos);
+  text.replace(text.find("CONTOUR", owner), 7, "CON<OUR");
+  EXPECT_NE(judge("audit", text), "");
+}
+
+TEST_F(DxfFilesByEzdxf, AreTheSameCurveInEveryExactProfile) {
+  for (const char* name :
+       {"spirals_open", "spirals_closed", "spirals_corner", "conics_open", "arcs_closed"}) {
+    const Contour contour = stored(name);
+    const std::vector<Vec2> found = points(written(contour, DxfProfile::kExact, 1e-3).text, 5);
+    ASSERT_GE(found.size(), 5 * contour.pieces.size()) << name;
+    double most = 0.0;
+    for (const Vec2 p : found) most = std::max(most, distance_to(contour.pieces, p));
+    EXPECT_LE(most, 1e-9 * size_of(contour)) << name;
+  }
+}
+
+TEST_F(DxfFilesByEzdxf, ArcsComeBackWithin1e9) {
+  for (const DxfProfile profile : {DxfProfile::kArcs, DxfProfile::kArcsR12}) {
+    const Contour contour = stored("arcs_closed");
+    const std::vector<Vec2> found = points(written(contour, profile, 1e-3).text, 5);
+    ASSERT_GE(found.size(), 5 * contour.pieces.size());
+    double most = 0.0;
+    for (const Vec2 p : found) most = std::max(most, distance_to(contour.pieces, p));
+    EXPECT_LE(most, 1e-9 * size_of(contour));
+  }
+}
+
+TEST_F(DxfFilesByEzdxf, StayWithinTheToleranceElsewhere) {
+  constexpr double kTolerance = 1e-4;
+  for (const char* name : kStored) {
+    const Contour contour = stored(name);
+    for (const DxfProfile profile : {DxfProfile::kArcs, DxfProfile::kCubic}) {
+      const DxfText dxf = written(contour, profile, kTolerance);
+      double most = 0.0;
+      for (const Vec2 p : points(dxf.text, 4)) {
+        most = std::max(most, distance_to(contour.pieces, p));
+      }
+      EXPECT_LE(most, kTolerance) << name;
+      EXPECT_LE(most, 1.05 * dxf.deviation + 1e-9) << name;  // as it was told
+    }
+  }
+}
+
+// ---- our own reader ---------------------------------------------------------------------------
+
+TEST(DxfRoundTrip, ExactContoursComeBackAsTheyWere) {
+  for (const char* name :
+       {"spirals_open", "spirals_closed", "spirals_corner", "conics_open", "arcs_closed"}) {
+    const Contour contour = stored(name);
+    const DxfText dxf = written(contour, DxfProfile::kExact, 1e-3);
+    EXPECT_EQ(dxf.deviation, 0.0);
+    const auto drawing = parse_dxf(dxf.text, name);
+    ASSERT_TRUE(drawing) << to_line(drawing.error());
+    EXPECT_EQ(drawing->units, contour.units);
+    EXPECT_TRUE(drawing->warnings.empty()) << drawing->warnings[0];
+    ASSERT_EQ(drawing->curves.size(), 1u) << name;  // joined over corners and entities
+    EXPECT_EQ(drawing->curves[0].closed, contour.closed) << name;
+    const double near = 1e-9 * size_of(contour);
+    EXPECT_LE(largest_distance(contour.pieces, drawing->curves[0].pieces), near) << name;
+    EXPECT_LE(largest_distance(drawing->curves[0].pieces, contour.pieces), near) << name;
+  }
+}
+
+TEST(DxfRoundTrip, ArcsKeepDirectionRadiusAndTangents) {
+  for (const DxfProfile profile : {DxfProfile::kArcs, DxfProfile::kArcsR12}) {
+    const auto drawing = parse_dxf(written(slot(), profile, 1e-3).text, "slot");
+    ASSERT_TRUE(drawing);
+    ASSERT_EQ(drawing->curves.size(), 1u);
+    const auto& pieces = drawing->curves[0].pieces;
+    EXPECT_TRUE(drawing->curves[0].closed);
+    EXPECT_EQ(start_point(pieces[0]), (Vec2{0, 2}));
+    double length = 0.0, turn = 0.0;
+    for (const Piece& piece : pieces) {
+      length += arc_length(piece, 1e-12);
+      turn += arc_length(piece, 1e-12) * curvature(evaluate(piece, 0.5));
+    }
+    EXPECT_NEAR(length, 8.0 + 2.0 * kPi, 1e-12);
+    EXPECT_NEAR(turn, -2.0 * kPi, 1e-12);
+  }
+}
+
+TEST(DxfRoundTrip, UnitsAreKeptEvenInR12) {
+  for (const char* unit : {"um", "mm", "cm", "m", "km", "in", "ft"}) {
+    for (const DxfProfile profile : kProfiles) {
+      Contour contour = slot();
+      contour.units = unit;
+      const auto drawing = parse_dxf(written(contour, profile, 1e-3).text, "slot");
+      ASSERT_TRUE(drawing);
+      EXPECT_EQ(drawing->units, unit);
+      EXPECT_TRUE(drawing->warnings.empty());
+    }
+  }
+}
+
+TEST(DxfWrites, OneEntityPerSmoothPart) {
+  EXPECT_EQ(written(stored("spirals_open"), DxfProfile::kExact, 1e-3).entities, 1u);
+  EXPECT_EQ(written(stored("spirals_closed"), DxfProfile::kExact, 1e-3).entities, 1u);
+  // before the corner two arcs, after it a spline
+  EXPECT_EQ(written(stored("spirals_corner"), DxfProfile::kExact, 1e-3).entities, 3u);
+  EXPECT_EQ(written(stored("spirals_corner"), DxfProfile::kCubic, 1e-3).entities, 2u);
+  EXPECT_EQ(written(stored("spirals_corner"), DxfProfile::kArcs, 1e-3).entities, 1u);
+}
+
+TEST(DxfWrites, AClosedContourOfOneCornerFromThatCornerAround) {
+  // a drop: three quarters of a circle and two lines that meet at a right angle, the seam on the
+  // circle
+  const ArcPiece first = arc_from({1, 0}, 0.5 * kPi, 1.0, 0.75 * kPi);
+  const Vec2 tip{-std::sqrt(2.0), 0.0};
+  const LinePiece down{first.end, tip};
+  const Vec2 below{first.end.x, -first.end.y};
+  const LinePiece back{tip, below};
+  const ArcPiece second = arc_from(below, -0.25 * kPi, 1.0, 0.75 * kPi);
+  Contour drop = of_pieces({first, down, back, second}, true);
+  drop.pieces[3] = ArcPiece{below, {1, 0}, -0.25 * kPi, 1.0, 0.75 * kPi};
+  drop.joints[2].leaving = drop.joints[2].element;
+  drop.joints[2].element.theta = heading(tip - first.end);
+  const DxfText dxf = written(drop, DxfProfile::kCubic, 1e-4);
+  EXPECT_EQ(dxf.entities, 1u);
+  const auto drawing = parse_dxf(dxf.text, "drop");
+  ASSERT_TRUE(drawing);
+  ASSERT_EQ(drawing->curves.size(), 1u);
+  EXPECT_TRUE(drawing->curves[0].closed);
+  EXPECT_LE(norm(start_point(drawing->curves[0].pieces[0]) - tip), 1e-12);
+  EXPECT_LE(largest_distance(drawing->curves[0].pieces, drop.pieces), 1e-4);
+}
+
+TEST(DxfWrites, AWholeCircle) {
+  const ArcPiece whole{{2, 0}, {2, 0}, 0.5 * kPi, 0.5, 4.0 * kPi};
+  for (const DxfProfile profile : {DxfProfile::kExact, DxfProfile::kArcs}) {
+    const auto drawing = parse_dxf(written(of_pieces({whole}, true), profile, 1e-3).text, "o");
+    ASSERT_TRUE(drawing) << to_line(drawing.error());
+    ASSERT_EQ(drawing->curves.size(), 1u);
+    double length = 0.0;
+    for (const Piece& piece : drawing->curves[0].pieces) length += arc_length(piece, 1e-12);
+    EXPECT_NEAR(length, 4.0 * kPi, 1e-11);
+  }
+}
+
+TEST(DxfWrites, ArcsThatAreNearlyStraightWithoutLoss) {
+  // radius 1e9: a centre would cost 1e-7
+  const Contour contour = of_pieces({arc_from({0, 0}, 0.3, 1e-9, 5.0)}, false);
+  const auto drawing = parse_dxf(written(contour, DxfProfile::kExact, 1e-3).text, "flat");
+  ASSERT_TRUE(drawing);
+  ASSERT_EQ(drawing->curves.size(), 1u);
+  EXPECT_LE(largest_distance(contour.pieces, drawing->curves[0].pieces), 1e-14);
+}
+
+TEST(DxfWrites, ConicsAsEllipsesAndNearParabolasAsSplines) {
+  const DxfText ellipses = written(stored("conics_open"), DxfProfile::kExact, 1e-3);
+  EXPECT_EQ(ellipses.entities, stored("conics_open").pieces.size());
+  EXPECT_THAT(ellipses.text, testing::HasSubstr("AcDbEllipse"));
+  RationalBezier conic;
+  conic.degree = 2;
+  conic.offset = {Vec2{0, 0}, Vec2{1, 0}, Vec2{3, 1}};
+  conic.weight = {1.0, 1.0 - 1e-12, 1.0};
+  const DxfText spline = written(of_pieces({conic}, false), DxfProfile::kExact, 1e-3);
+  EXPECT_THAT(spline.text, testing::HasSubstr("AcDbSpline"));
+}
+
+TEST(DxfWrites, LayersUnderNamesThatAllVersionsTake) {
+  auto dxf = dxf_text(slot(), {DxfProfile::kArcsR12, 1e-3, "a|b\n  0\nEOF"});
+  ASSERT_TRUE(dxf);
+  EXPECT_THAT(dxf->text, testing::HasSubstr("  8\na_b___0_EOF\n"));
+}
+
+TEST(DxfWrites, NothingWithoutATolerancePiecesOrNumbers) {
+  EXPECT_EQ(dxf_text(slot(), {DxfProfile::kArcs, 0.0, "0"}).error().code, ErrorCode::kBadOption);
+  EXPECT_EQ(dxf_text(slot(), {DxfProfile::kArcs, NAN, "0"}).error().code, ErrorCode::kBadOption);
+  EXPECT_EQ(dxf_text(Contour{}).error().code, ErrorCode::kTooFewPoints);
+  Contour broken = slot();
+  broken.pieces[2] = LinePiece{{4, 0}, {0, NAN}};
+  EXPECT_EQ(dxf_text(broken).error().code, ErrorCode::kNotFinite);
+  broken.pieces[2] = LinePiece{{4, 0}, {HUGE_VAL, 0}};
+  EXPECT_EQ(dxf_text(broken).error().code, ErrorCode::kNotFinite);
+}
+
+}  // namespace
+}  // namespace obvid
