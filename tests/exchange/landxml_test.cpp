@@ -252,7 +252,8 @@ TEST(LandXmlWrite, SpiralsThroughAnInflectionAndLargeTurnsAreCut) {
   EXPECT_EQ(first.kappa1, 0.0);
   EXPECT_EQ(second.kappa0, 0.0);
   const Contour round = Road({{0.0, 0.0}, 0.0, 0.0}).add(0.1, 0.1, 60.0).take();
-  for (const Piece& piece : read(*landxml_text(round)).curves[0].pieces) {
+  const auto again = read(*landxml_text(round));  // outlives the loop
+  for (const Piece& piece : again.curves[0].pieces) {
     const auto& arc = std::get<ArcPiece>(piece);
     EXPECT_LE(arc.kappa * arc.length, 0.5 * std::numbers::pi + 1e-12);
   }
