@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "obvid/core/progress.h"
+#include "obvid/core/result.h"
+#include "obvid/surface/nurbs_surface.h"
+#include "obvid/surface/surface.h"
+
+namespace obvid {
+
+/// A vertex of a tessellated patch.
+struct MeshVertex {
+  Vec3 point;
+  Vec3 normal;  ///< length 1, of the surface (at poles and collapsed edges the limit)
+  double u = 0.0;
+  double v = 0.0;
+};
+
+/// Triangles of one patch, counter-clockwise as seen from where the normal points to.
+struct Mesh {
+  std::vector<MeshVertex> vertices;
+  std::vector<std::array<std::uint32_t, 3>> triangles;
+  double deviation = 0.0;  ///< units: largest distance of a triangle from the surface, measured
+};
+
+struct TessellationOptions {
+  double chord_tolerance = 0.0;            ///< units, > 0: distance of a triangle from the surface
+  double angle = 0.0;                      ///< rad, > 0: between the normals at the ends of an edge
+  std::size_t most_triangles = 4'000'000;  ///< of one patch, E502 beyond
+};
+
+/// Triangles within the chord tolerance and angle, fewest where the surface is flat, no cracks
+/// inside a patch nor T-joints. Errors: E203 options <= 0, E502 more triangles than allowed.
+[[nodiscard]] Result<Mesh> tessellate(const NurbsSurface& surface,
+                                      const TessellationOptions& options);
+/// All patches; vertices of borders that two patches share are the same points.
+[[nodiscard]] Result<std::vector<Mesh>> tessellate(const SurfaceModel& model,
+                                                   const TessellationOptions& options,
+                                                   const Progress& progress = {});
+
+}  // namespace obvid

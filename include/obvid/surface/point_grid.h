@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <vector>
+
+#include "obvid/geom/vec3.h"
+
+namespace obvid {
+
+/// Points of a surface in rows: point i of row j is `points[j * count_u + i]`.
+struct PointGrid {
+  std::size_t count_u = 0;  ///< points in a row
+  std::size_t count_v = 0;  ///< rows
+  std::vector<Vec3> points;
+  std::string name;
+
+  [[nodiscard]] const Vec3& at(std::size_t i, std::size_t j) const {
+    return points[j * count_u + i];
+  }
+};
+
+/// A series of points in space: one section of a body, with its name.
+struct SpaceSeries {
+  std::string name;
+  std::vector<Vec3> points;
+};
+
+}  // namespace obvid

@@ -1,0 +1,102 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "obvid/idspline/id_spline_2d.h"
+#include "obvid/surface/nurbs_surface.h"
+
+namespace obvid {
+
+/// Ruled surface between two curves, at v = 0 and v = 1: S(u, v) = (1 - v) first(u) + v second(u),
+/// both read over their own domain scaled to [0, 1].
+struct RuledSurface {
+  SpaceCurve first;
+  SpaceCurve second;
+};
+
+/// Ruled surface of a directrix and a field of directions: S(u, v) = directrix(u) + v direction(u),
+/// v in [from, to], both over their own domains scaled to [0, 1]. Plane, cone, cylinder,
+/// hyperboloid.
+struct DirectedSurface {
+  SpaceCurve directrix;
+  SpaceCurve direction;  ///< its points are vectors
+  double from = 0.0;
+  double to = 1.0;
+};
+
+/// A curve turned about an axis by `angle` (0 < |angle| <= 2 pi). u runs along the profile, v in
+/// [0, 1] around the axis: exact rational arcs.
+struct RevolutionSurface {
+  SpaceCurve profile;
+  Vec3 axis_point;
+  Vec3 axis_direction{0.0, 0.0, 1.0};  ///< any length but 0
+  double angle = 0.0;                  ///< rad
+};
+
+/// Bilinearly blended patch of four curves that meet in the corners: along u at v = 0 and 1, along
+/// v at u = 0 and 1, each over its own domain scaled to [0, 1].
+struct CoonsPatch {
+  SpaceCurve u_at_v0, u_at_v1;
+  SpaceCurve v_at_u0, v_at_u1;
+};
+
+/// Network of crossing curves: `along_u[j]` lies at v = `v_at[j]`, `along_v[i]` at u = `u_at[i]`,
+/// all over domains scaled to [0, 1]; parameters ascending from 0 to 1, at least two each.
+struct GordonSurface {
+  std::vector<SpaceCurve> along_u;
+  std::vector<SpaceCurve> along_v;
+  std::vector<double> v_at;
+  std::vector<double> u_at;
+};
+
+/// All points at a distance along the normal du x dv (negative: the other side).
+struct OffsetSurface {
+  NurbsSurface base;
+  double distance = 0.0;
+};
+
+/// Three integro-differential splines over one grid of parameters: x, y and z of a point.
+struct IdSurface {
+  IdSpline2d x, y, z;
+};
+
+using Surface = std::variant<NurbsSurface, RuledSurface, DirectedSurface, RevolutionSurface,
+                             CoonsPatch, GordonSurface, OffsetSurface, IdSurface>;
+
+/// "ruled surface between two curves", ...
+[[nodiscard]] std::string kind_of(const Surface& surface);
+[[nodiscard]] Range domain_u(const Surface& surface);
+[[nodiscard]] Range domain_v(const Surface& surface);
+/// Point and derivatives straight from the definition, not by way of `to_nurbs`.
+[[nodiscard]] SurfaceJet evaluate(const Surface& surface, double u, double v);
+
+/// A surface as NURBS, over the same parameters, and how far they are apart at most.
+struct NurbsForm {
+  NurbsSurface surface;
+  double deviation = 0.0;  ///< units; 0: exactly the same surface apart from rounding
+};
+
+/// Ruled, revolution (of rational profiles), Coons and Gordon of polynomial curves and ID surfaces
+/// become NURBS exactly; offsets (but of planes) and Coons or Gordon of rational curves within the
+/// tolerance (units), which is measured between the samples too. Errors: E203 curves that do not
+/// meet (`value`: the gap), parameters out of order, E304 too few curves, E309, E502 the tolerance
+/// cannot be reached within the limit of knots (an offset with cusps).
+[[nodiscard]] Result<NurbsForm> to_nurbs(const Surface& surface, double tolerance);
+
+/// One patch of a model with its name.
+struct SurfacePatch {
+  std::string name;
+  NurbsSurface surface;
+};
+
+/// What is written to files: patches in order, neighbours share borders where they meet.
+struct SurfaceModel {
+  std::string name = "surface";
+  std::string units = "mm";
+  std::vector<SurfacePatch> patches;
+};
+
+}  // namespace obvid
