@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "obvid/surface/collocation.h"
+#include "obvid/surface/space_curve.h"
+
+namespace obvid {
+
+SpaceCurve line_between(Vec3 from, Vec3 to) { return {1, {0.0, 0.0, 1.0, 1.0}, {from, to}, {}}; }
+
+SpaceCurve arc_about(Vec3 start, Vec3 centre, Vec3 axis, double angle) {
+  const Vec3 foot = centre + dot(start - centre, axis) * axis;
+  const Vec3 x = start - foot, y = cross(axis, x);
+  // spans of at most a quarter turn; a whisker more than a quarter is rounding, not a new span
+  constexpr double kRounding = 1e-12;
+  const double quarters = std::abs(angle) / (std::numbers::pi / 2.0);
+  const auto spans = static_cast<std::size_t>(std::max(1.0, std::ceil(quarters - kRounding)));
+  const double step = angle / static_cast<double>(spans), w = std::cos(step / 2.0);
+  const bool full = std::abs(quarters - 4.0) <= kRounding;
+  SpaceCurve arc{2, {0.0, 0.0, 0.0}, {start}, {1.0}};
+  for (std::size_t i = 0; i < spans; ++i) {
+    const double middle = (static_cast<double>(i) + 0.5) * step,
+                 end = static_cast<double>(i + 1) * step;
+    arc.points.push_back(foot + (std::cos(middle) / w) * x + (std::sin(middle) / w) * y);
+    arc.weights.push_back(w);
+    const bool last = i + 1 == spans;
+    arc.points.push_back(last && full ? start : foot + std::cos(end) * x + std::sin(end) * y);
+    arc.weights.push_back(1.0);
+    const double knot = last ? 1.0 : static_cast<double>(i + 1) / static_cast<double>(spans);
+    arc.knots.insert(arc.knots.end(), last ? 3 : 2, knot);
+  }
+  return arc;
+}
+
+SpaceCurve placed(const NurbsCurve& curve, const Frame& frame) {
+  SpaceCurve out{curve.degree, curve.knots, {}, curve.weights};
+  out.points.reserve(curve.points.size());
+  for (const Vec2& p : curve.points) out.points.push_back(frame.at(p));
+  const bool polynomial =
+      std::all_of(out.weights.begin(), out.weights.end(), [](double w) { return w == 1.0; });
+  if (polynomial) out.weights.clear();
+  return out;
+}
+
+Result<SpaceCurve> interpolated(const std::vector<Vec3>& points,
+                                const std::vector<double>& parameters) {
+  if (points.size() != parameters.size()) {
+    return fail({ErrorCode::kUsage, "as many parameters as points are needed", "", "", -1,
+                 static_cast<double>(parameters.size())});
+  }
+  const Result<Collocation> system = cubic_collocation(parameters);
+  if (!system) return fail(system.error());
+  return SpaceCurve{system->degree, system->knots, system->matrix.solve(points), {}};
+}
+
+std::vector<double> chord_parameters(const std::vector<Vec3>& points, double exponent) {
+  std::vector<double> at(points.size(), 0.0);
+  for (std::size_t i = 1; i < points.size(); ++i) {
+    at[i] = at[i - 1] + std::pow(norm(points[i] - points[i - 1]), exponent);
+  }
+  const double all = at.empty() ? 0.0 : at.back();
+  if (all > 0.0) {
+    for (double& t : at) t = t == all ? 1.0 : t / all;
+  }
+  return at;
+}
+
+}  // namespace obvid
