@@ -1,0 +1,238 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "approximate_line.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <utility>
+
+namespace obvid {
+namespace {
+
+constexpr std::size_t kBand = 4;  // B-splines of a cubic that are not zero at a parameter
+
+using BandRow = std::array<double, kBand>;
+
+/// (a, b) turned: a becomes c a + s b, b becomes c b - s a.
+void rotate(Vec3* a, Vec3* b, std::size_t count, double c, double s) {
+  for (std::size_t i = 0; i < count; ++i) {
+    const Vec3 old = a[i];
+    a[i] = c * old + s * b[i];
+    b[i] = c * b[i] - s * old;
+  }
+}
+
+/// Upper triangle of a banded system that takes one equation after the other; their first columns
+/// must not descend.
+class Triangle {
+ public:
+  Triangle(std::size_t size, std::size_t width) : band_(size, BandRow{}) {
+    right_.width = width;
+    right_.points.assign(size * width, Vec3{});
+  }
+
+  /// Coefficient k is given.
+  void set(std::size_t k, const Vec3* value) {
+    band_[k] = {1.0, 0.0, 0.0, 0.0};
+    std::copy(value, value + right_.width, right_.row(k));
+  }
+
+  void add(std::size_t first, BandRow row, std::vector<Vec3>& right) {
+    for (std::size_t k = first; k < band_.size(); ++k) {
+      if (row[0] != 0.0) {
+        BandRow& pivot = band_[k];
+        const double length = std::hypot(pivot[0], row[0]);
+        const double c = pivot[0] / length, s = row[0] / length;
+        for (std::size_t j = 0; j < kBand; ++j) {
+          const double old = pivot[j];
+          pivot[j] = c * old + s * row[j];
+          row[j] = c * row[j] - s * old;
+        }
+        rotate(right_.row(k), right.data(), right_.width, c, s);
+      }
+      std::rotate(row.begin(), row.begin() + 1, row.end());
+      row.back() = 0.0;
+      if (row == BandRow{}) return;
+    }
+  }
+
+  [[nodiscard]] bool solve(Rows& solution) {
+    // B-splines sum to 1: a pivot this small means that a coefficient has nearly no data
+    constexpr double kSmallestPivot = 1e-9;
+    const std::size_t n = band_.size(), width = right_.width;
+    for (std::size_t k = n; k-- > 0;) {
+      if (!(std::abs(band_[k][0]) > kSmallestPivot)) return false;
+      Vec3* here = right_.row(k);
+      for (std::size_t j = 1; j < kBand && k + j < n; ++j) {
+        const double factor = band_[k][j];
+        if (factor == 0.0) continue;
+        const Vec3* known = right_.row(k + j);
+        for (std::size_t i = 0; i < width; ++i) here[i] = here[i] - factor * known[i];
+      }
+      const double inverse = 1.0 / band_[k][0];
+      for (std::size_t i = 0; i < width; ++i) here[i] = inverse * here[i];
+    }
+    solution = std::move(right_);
+    return true;
+  }
+
+ private:
+  std::vector<BandRow> band_;
+  Rows right_;
+};
+
+}  // namespace
+
+Rows transposed(const Rows& rows) {
+  constexpr std::size_t kTile = 16;  // both sides of a tile stay in the nearest cache
+  const std::size_t count = rows.count(), width = rows.width;
+  Rows out{count, std::vector<Vec3>(rows.points.size())};
+  for (std::size_t j0 = 0; j0 < count; j0 += kTile) {
+    for (std::size_t i0 = 0; i0 < width; i0 += kTile) {
+      for (std::size_t j = j0; j < std::min(count, j0 + kTile); ++j) {
+        for (std::size_t i = i0; i < std::min(width, i0 + kTile); ++i) {
+          out.points[i * count + j] = rows.points[j * width + i];
+        }
+      }
+    }
+  }
+  return out;
+}
+
+SplineLine::SplineLine(std::vector<double> parameters, bool keep_first, bool keep_last)
+    : degree_(static_cast<int>(std::min(kBand, parameters.size()) - 1)),
+      keep_first_(keep_first),
+      keep_last_(keep_last),
+      at_(std::move(parameters)) {
+  const auto order = static_cast<std::size_t>(degree_) + 1;
+  std::vector<double> knots(order, at_.front());
+  knots.insert(knots.end(), order, at_.back());
+  set_knots(std::move(knots));
+}
+
+void SplineLine::set_knots(std::vector<double> knots) {
+  knots_ = std::move(knots);
+  basis_.clear();
+  basis_.reserve(at_.size());
+  for (const double t : at_) basis_.push_back(basis_at(degree_, knots_, t, 0));
+}
+
+bool SplineLine::fit(const Rows& data, Rows& coefficients) const {
+  const std::size_t n = this->coefficients(), m = at_.size(), width = data.width;
+  const std::size_t begin = keep_first_ ? 1 : 0, end = keep_last_ ? m - 1 : m;
+  Triangle triangle(n, width);
+  if (keep_first_) triangle.set(0, data.row(0));
+  if (keep_last_) triangle.set(n - 1, data.row(m - 1));
+  std::vector<Vec3> right(width);
+  for (std::size_t i = begin; i < end; ++i) {
+    const BasisValues& basis = basis_[i];
+    BandRow row{};
+    std::copy_n(basis.value[0].begin(), static_cast<std::size_t>(degree_) + 1, row.begin());
+    std::copy(data.row(i), data.row(i) + width, right.begin());
+    const auto move_to_right = [&](std::size_t k, const Vec3* known) {
+      const double factor = std::exchange(row[k], 0.0);
+      for (std::size_t j = 0; j < width; ++j) right[j] = right[j] - factor * known[j];
+    };
+    const std::size_t last = n - 1 - basis.first;
+    if (keep_first_ && basis.first == 0) move_to_right(0, data.row(0));
+    if (keep_last_ && last < kBand) move_to_right(last, data.row(m - 1));
+    triangle.add(basis.first, row, right);
+  }
+  return triangle.solve(coefficients);
+}
+
+Rows SplineLine::values(const Rows& coefficients) const {
+  Rows out{coefficients.width, std::vector<Vec3>(at_.size() * coefficients.width)};
+  for (std::size_t i = 0; i < at_.size(); ++i) {
+    Vec3* here = out.row(i);
+    for (std::size_t k = 0; k <= static_cast<std::size_t>(degree_); ++k) {
+      const double share = basis_[i].value[0][k];
+      if (share == 0.0) continue;
+      const Vec3* from = coefficients.row(basis_[i].first + k);
+      for (std::size_t j = 0; j < out.width; ++j) here[j] = here[j] + share * from[j];
+    }
+  }
+  return out;
+}
+
+bool SplineLine::determined(const std::vector<double>& knots) const {
+  const auto order = static_cast<std::size_t>(degree_) + 1;
+  const std::size_t n = knots.size() - order;
+  std::size_t next = 0;
+  for (std::size_t k = 0; k < n; ++k) {
+    // the first and the last B-spline are 1 at the ends; all others vanish at their outer knots
+    while (next < at_.size() && k > 0 && !(at_[next] > knots[k])) ++next;
+    if (next == at_.size() || (k + 1 < n && !(at_[next] < knots[k + order]))) return false;
+    ++next;
+  }
+  return true;
+}
+
+std::size_t SplineLine::split(const std::vector<double>& errors, double threshold) {
+  if (degree_ < 3) return 0;  // as many coefficients as parameters already
+  const auto p = static_cast<std::size_t>(degree_);
+  const std::size_t spans = knots_.size() - 2 * p - 1;
+  std::vector<double> knots = knots_;
+  std::size_t begin = 0, added = 0;
+  for (std::size_t span = 0; span < spans; ++span) {
+    std::size_t end = begin;
+    double worst = 0.0;
+    const double to = knots_[p + span + 1];
+    while (end < at_.size() && (at_[end] < to || span + 1 == spans)) {
+      worst = std::max(worst, errors[end++]);
+    }
+    const std::size_t count = end - begin;
+    if (worst >= threshold && count >= 2) {
+      const auto place = static_cast<std::ptrdiff_t>(p + span + 1 + added);
+      knots.insert(knots.begin() + place, at_[begin + count / 2]);
+      if (determined(knots)) {
+        ++added;
+      } else {
+        knots.erase(knots.begin() + place);
+      }
+    }
+    begin = end;
+  }
+  if (added > 0) set_knots(std::move(knots));
+  return added;
+}
+
+std::vector<double> SplineLine::needs(const Rows& coefficients) const {
+  const auto p = static_cast<std::size_t>(degree_);
+  const std::size_t inner = knots_.size() - 2 * p - 2, width = coefficients.width;
+  std::vector<double> need(inner, 0.0);
+  Rows differences = coefficients;  // of order r: r-th derivatives but for a factor
+  for (std::size_t r = 1; r <= p && inner > 0; ++r) {
+    for (std::size_t k = 0; k + r < coefficients.count(); ++k) {
+      const double inverse = 1.0 / (knots_[k + p + 1] - knots_[k + r]);
+      Vec3* here = differences.row(k);
+      const Vec3* next = differences.row(k + 1);
+      for (std::size_t i = 0; i < width; ++i) here[i] = inverse * (next[i] - here[i]);
+    }
+  }
+  for (std::size_t k = 0; k < inner; ++k) {
+    const double h = (knots_[p + k + 2] - knots_[p + k]) / 2.0;
+    double jump = 0.0;
+    for (std::size_t i = 0; i < width; ++i) {
+      jump = std::max(jump, norm(differences.row(k + 1)[i] - differences.row(k)[i]));
+    }
+    need[k] = jump * h * h * h;
+  }
+  return need;
+}
+
+void SplineLine::remove(const std::vector<std::size_t>& inner) {
+  std::vector<double> knots;
+  std::size_t next = 0;
+  for (std::size_t k = 0; k < knots_.size(); ++k) {
+    const std::size_t place = static_cast<std::size_t>(degree_) + 1;
+    if (next < inner.size() && k == place + inner[next]) {
+      ++next;
+    } else {
+      knots.push_back(knots_[k]);
+    }
+  }
+  set_knots(std::move(knots));
+}
+
+}  // namespace obvid
