@@ -55,15 +55,20 @@ SplineLine line_of(const Rows& rows, std::vector<double> parameters) {
   return {std::move(parameters), kept.first, kept.last};
 }
 
-/// Distance of a point from the surface near (u, v), by steps of Gauss and Newton that are taken
-/// only when they come nearer: an upper bound of the distance, and the distance in all but
-/// contrived cases.
-double distance_near(const NurbsSurface& surface, double u, double v, Vec3 point) {
+/// Distances of a point from the surface: at its parameters, and nearby.
+struct Distance {
+  double parametric = 0.0, nearest = 0.0;
+};
+
+/// Steps of Gauss and Newton from (u, v), taken only when they come nearer: an upper bound of the
+/// distance, and the distance in all but contrived cases.
+Distance distance_near(const NurbsSurface& surface, double u, double v, Vec3 point) {
   constexpr int kMostSteps = 8;
-  constexpr double kSettled = 1e-6;  // part of the distance that a step has to gain
+  constexpr double kSettled = 1e-3;  // part of the distance that a step has to gain
   SurfaceJet jet = evaluate(surface, u, v);
-  double distance = norm(jet.point - point);
-  for (int step = 0; step < kMostSteps && distance > 0.0; ++step) {
+  Distance distance;
+  distance.parametric = distance.nearest = norm(jet.point - point);
+  for (int step = 0; step < kMostSteps && distance.nearest > 0.0; ++step) {
     const Vec3 gap = point - jet.point;
     const double a = dot(jet.du, jet.du), b = dot(jet.du, jet.dv), c = dot(jet.dv, jet.dv);
     const double det = a * c - b * b, gu = dot(gap, jet.du), gv = dot(gap, jet.dv);
@@ -72,8 +77,8 @@ double distance_near(const NurbsSurface& surface, double u, double v, Vec3 point
     v = std::clamp(v + (a * gv - b * gu) / det, 0.0, 1.0);
     jet = evaluate(surface, u, v);
     const double next = norm(jet.point - point);
-    const bool settled = !(next < distance * (1.0 - kSettled));
-    distance = std::min(distance, next);
+    const bool settled = !(next < distance.nearest * (1.0 - kSettled));
+    distance.nearest = std::min(distance.nearest, next);
     if (settled) break;
   }
   return distance;
@@ -101,13 +106,10 @@ class Approximation {
     ApproximatedSurface result{std::move(surface), 0.0, 0.0, 0.0};
     double squares = 0.0;
     for (std::size_t k = 0; k < data_.points.size(); ++k) {
-      const double u = u_of(k), v = v_of(k);
-      const Vec3 there = evaluate(result.surface, u, v).point;
-      const double distance = distance_near(result.surface, u, v, data_.points[k]);
-      result.parametric_deviation =
-          std::max(result.parametric_deviation, norm(there - data_.points[k]));
-      result.deviation = std::max(result.deviation, distance);
-      squares += distance * distance;
+      const Distance distance = distance_near(result.surface, u_of(k), v_of(k), data_.points[k]);
+      result.parametric_deviation = std::max(result.parametric_deviation, distance.parametric);
+      result.deviation = std::max(result.deviation, distance.nearest);
+      squares += distance.nearest * distance.nearest;
     }
     result.root_mean_square = std::sqrt(squares / static_cast<double>(data_.points.size()));
     return result;
@@ -148,7 +150,7 @@ class Approximation {
     if (all_.worst <= tolerance) return true;
     const auto near_enough = [&](std::size_t k) {
       if (norm(shape_.points[k] - data_.points[k]) <= tolerance) return true;
-      return distance_near(surface_, u_of(k), v_of(k), data_.points[k]) <= tolerance;
+      return distance_near(surface_, u_of(k), v_of(k), data_.points[k]).nearest <= tolerance;
     };
     if (!near_enough(all_.worst_at)) return false;  // decides nearly always, for one point's cost
     for (std::size_t k = 0; k < data_.points.size(); ++k) {
@@ -160,15 +162,15 @@ class Approximation {
   /// The error is that of the rows' fits plus the fitted error of the columns' fits: knots go where
   /// the direction with the larger share has its largest errors.
   bool refine(double tolerance) {
-    if (from_u_.worst >= from_v_.worst) return refine_u(tolerance) || refine_v(tolerance);
-    return refine_v(tolerance) || refine_u(tolerance);
+    const double limit_u = threshold(from_u_.worst, tolerance);
+    const double limit_v = threshold(from_v_.worst, tolerance);
+    const bool u_first = from_u_.worst >= from_v_.worst;
+    // where the worst spans have no more points, smaller errors beside them can still give way
+    return u_first ? split_u(limit_u) || split_v(limit_v) || split_u(0.0) || split_v(0.0)
+                   : split_v(limit_v) || split_u(limit_u) || split_v(0.0) || split_u(0.0);
   }
-  bool refine_u(double tolerance) {
-    return along_u_.split(from_u_.of_row, threshold(from_u_.worst, tolerance)) > 0 && fit_u();
-  }
-  bool refine_v(double tolerance) {
-    return along_v_.split(from_v_.of_row, threshold(from_v_.worst, tolerance)) > 0 && fit_v();
-  }
+  bool split_u(double limit) { return along_u_.split(from_u_.of_row, limit) > 0 && fit_u(); }
+  bool split_v(double limit) { return along_v_.split(from_v_.of_row, limit) > 0 && fit_v(); }
 
   /// Takes away knots that the tolerance does not need: those that matter least, as many at once as
   /// go well, half as many where they do not.
