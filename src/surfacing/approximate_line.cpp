@@ -11,6 +11,11 @@ namespace {
 
 constexpr std::size_t kBand = 4;  // B-splines of a cubic that are not zero at a parameter
 
+/// Bound of coefficients for data within [-1, 1], one direction. Dense data give 22 to 41 (the
+/// bound; coefficients themselves reach 5 to 7), two points in each span 60 where they are even.
+/// Beyond 100 the surface begins to leave the data between the points.
+constexpr double kMostSwing = 100.0;
+
 using BandRow = std::array<double, kBand>;
 
 /// (a, b) turned: a becomes c a + s b, b becomes c b - s a.
@@ -54,6 +59,20 @@ class Triangle {
       row.back() = 0.0;
       if (row == BandRow{}) return;
     }
+  }
+
+  /// Solution x of R^T R x = right, R this triangle.
+  [[nodiscard]] std::vector<double> solve_twice(std::vector<double> right) const {
+    const std::size_t n = band_.size();
+    for (std::size_t k = 0; k < n; ++k) {
+      right[k] /= band_[k][0];
+      for (std::size_t j = 1; j < kBand && k + j < n; ++j) right[k + j] -= band_[k][j] * right[k];
+    }
+    for (std::size_t k = n; k-- > 0;) {
+      for (std::size_t j = 1; j < kBand && k + j < n; ++j) right[k] -= band_[k][j] * right[k + j];
+      right[k] /= band_[k][0];
+    }
+    return right;
   }
 
   [[nodiscard]] bool solve(Rows& solution) {
@@ -168,12 +187,59 @@ bool SplineLine::determined(const std::vector<double>& knots) const {
   return true;
 }
 
+/// How far each coefficient can swing at most when the data swing between -1 and 1. The matrix of
+/// least squares is totally positive, so its inverse has signs like a chess board and the worst
+/// right side alternates: one solution gives the norm exactly.
+std::vector<double> SplineLine::swings() const {
+  Triangle triangle(coefficients(), 0);
+  std::vector<double> sums(coefficients(), 0.0);
+  std::vector<Vec3> nothing;
+  for (const BasisValues& basis : basis_) {
+    BandRow row{};
+    for (std::size_t k = 0; k <= static_cast<std::size_t>(degree_); ++k) {
+      row[k] = basis.value[0][k];
+      if (row[k] != 0.0) sums[basis.first + k] += row[k];
+    }
+    triangle.add(basis.first, row, nothing);
+  }
+  for (std::size_t k = 1; k < sums.size(); k += 2) sums[k] = -sums[k];
+  return triangle.solve_twice(std::move(sums));
+}
+
+/// Inserts parameters as knots but those that let coefficients swing too far.
+std::size_t SplineLine::insert(const std::vector<double>& added) {
+  const std::vector<double> old = knots_;
+  std::vector<double> left = added;
+  while (!left.empty()) {
+    std::vector<double> knots(old.size() + left.size());
+    std::merge(old.begin(), old.end(), left.begin(), left.end(), knots.begin());
+    set_knots(std::move(knots));
+    const std::vector<double> swing = swings();
+    const std::size_t before = left.size();
+    for (std::size_t k = 0; k < swing.size(); ++k) {
+      if (std::abs(swing[k]) <= kMostSwing) continue;
+      const double from = knots_[k], to = knots_[k + static_cast<std::size_t>(degree_) + 1];
+      std::erase_if(left, [&](double t) { return from <= t && t <= to; });
+    }
+    if (left.size() == before) {
+      // the old knots were as bad, or nothing is: they stay, the new ones only in the second case
+      if (std::all_of(swing.begin(), swing.end(),
+                      [](double x) { return std::abs(x) <= kMostSwing; })) {
+        return left.size();
+      }
+      left.clear();
+    }
+  }
+  set_knots(old);
+  return 0;
+}
+
 std::size_t SplineLine::split(const std::vector<double>& errors, double threshold) {
   if (degree_ < 3) return 0;  // as many coefficients as parameters already
   const auto p = static_cast<std::size_t>(degree_);
   const std::size_t spans = knots_.size() - 2 * p - 1;
-  std::vector<double> knots = knots_;
-  std::size_t begin = 0, added = 0;
+  std::vector<double> knots = knots_, added;
+  std::size_t begin = 0;
   for (std::size_t span = 0; span < spans; ++span) {
     std::size_t end = begin;
     double worst = 0.0;
@@ -183,18 +249,18 @@ std::size_t SplineLine::split(const std::vector<double>& errors, double threshol
     }
     const std::size_t count = end - begin;
     if (worst >= threshold && count >= 2) {
-      const auto place = static_cast<std::ptrdiff_t>(p + span + 1 + added);
-      knots.insert(knots.begin() + place, at_[begin + count / 2]);
+      const auto place = static_cast<std::ptrdiff_t>(p + span + 1 + added.size());
+      const double middle = at_[begin + count / 2];
+      knots.insert(knots.begin() + place, middle);
       if (determined(knots)) {
-        ++added;
+        added.push_back(middle);
       } else {
         knots.erase(knots.begin() + place);
       }
     }
     begin = end;
   }
-  if (added > 0) set_knots(std::move(knots));
-  return added;
+  return insert(added);
 }
 
 std::vector<double> SplineLine::needs(const Rows& coefficients) const {

@@ -23,7 +23,8 @@ struct Rows {
 [[nodiscard]] Rows transposed(const Rows& rows);
 
 /// Splines over ascending parameters in [0, 1]. Knots stay such that each coefficient has a
-/// parameter of its own under its B-spline (Schoenberg and Whitney): the solution is unique.
+/// parameter of its own under its B-spline (Schoenberg and Whitney), the solution is unique, and
+/// such that coefficients cannot swing far beyond the data (`kMostSwing`).
 class SplineLine {
  public:
   /// Without inner knots; degree 3 or less when there are fewer than 4 parameters. A kept end goes
@@ -44,7 +45,7 @@ class SplineLine {
   [[nodiscard]] Rows values(const Rows& coefficients) const;
 
   /// Splits spans whose error (one for each parameter) exceeds the threshold, at a parameter in
-  /// their middle, as far as there are parameters enough. Returns how many were split.
+  /// their middle, as far as the data determine the halves well. Returns how many were split.
   std::size_t split(const std::vector<double>& errors, double threshold);
 
   /// For each inner knot about how far a spline with these coefficients moves without it: the jump
@@ -55,6 +56,8 @@ class SplineLine {
 
  private:
   [[nodiscard]] bool determined(const std::vector<double>& knots) const;
+  [[nodiscard]] std::vector<double> swings() const;
+  std::size_t insert(const std::vector<double>& added);
   void set_knots(std::vector<double> knots);
 
   int degree_;

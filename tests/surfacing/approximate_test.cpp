@@ -194,6 +194,32 @@ TEST(Approximation, BecomesInterpolationWhereTheDataCarryNoMore) {
   EXPECT_EQ(controls(*made), grid.points.size());
 }
 
+TEST(Approximation, DoesNotSwingBetweenThePointsOfRoughUnevenGrids) {
+  std::mt19937_64 random(1);
+  std::uniform_real_distribution<double> rough(-1.0, 1.0);
+  for (const std::size_t n : {12u, 30u}) {
+    for (const double part : {0.9, 0.5, 0.05, 0.01}) {
+      std::vector<double> at;
+      for (std::size_t i = 0; i < n; ++i) {
+        at.push_back((static_cast<double>(i) + 0.4 * rough(random)) / static_cast<double>(n));
+      }
+      PointGrid grid{n, n, {}, "rough"};
+      for (std::size_t k = 0; k < n * n; ++k) {
+        grid.points.push_back({at[k % n], at[k / n], 0.1 * rough(random)});
+      }
+      const Result<ApproximatedSurface> made = approximated(grid, part * 0.1);
+      ASSERT_TRUE(made) << made.error().what;
+      double swing = 0.0;
+      for (double u = 0.0; u <= 1.0; u += 0.004) {
+        for (double v = 0.0; v <= 1.0; v += 0.004) {
+          swing = std::max(swing, std::abs(evaluate(made->surface, u, v).point.z));
+        }
+      }
+      EXPECT_LT(swing, 10 * 0.1) << n << ' ' << part;
+    }
+  }
+}
+
 TEST(Approximation, TakesGridsOfAnyCounts) {
   for (const std::size_t nu : {2u, 3u, 4u, 5u, 23u}) {
     for (const std::size_t nv : {2u, 3u, 4u, 9u}) {
