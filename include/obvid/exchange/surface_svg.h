@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "obvid/core/result.h"
+#include "obvid/surface/surface.h"
+
+namespace obvid {
+
+/// What the colours of a surface tell. Names: shaded, isolines, gaussian, mean, k1, k2, zebra.
+enum class SurfaceColouring { kShaded, kIsolines, kGaussian, kMean, kK1, kK2, kZebra };
+/// From where a surface is seen, z upwards. Names: iso, front (along y), top (against z), side
+/// (against x), back, bottom.
+enum class SurfaceView { kIso, kFront, kTop, kSide, kBack, kBottom };
+
+[[nodiscard]] std::string_view name_of(SurfaceColouring colouring);
+[[nodiscard]] std::string_view name_of(SurfaceView view);
+[[nodiscard]] std::optional<SurfaceColouring> colouring_named(std::string_view name);
+[[nodiscard]] std::optional<SurfaceView> surface_view_named(std::string_view name);
+
+/// A line in space drawn with a surface. Roles with a look of their own: section, toolpath, rapid.
+struct ScenePolyline {
+  std::vector<Vec3> points;
+  std::string role;
+};
+
+struct SurfacePictureOptions {
+  std::string title;  ///< empty: the name of the model
+  SurfaceColouring colouring = SurfaceColouring::kShaded;
+  SurfaceView view = SurfaceView::kIso;
+  std::optional<double> azimuth_deg;    ///< instead of the view's: 0 as front, 90 as side
+  std::optional<double> elevation_deg;  ///< instead of the view's: 90 from above
+  int isolines_u = 8;                   ///< cells of each patch between isolines; 1: none
+  int isolines_v = 8;
+  int zebra_stripes = 10;            ///< dark stripes over half a turn of the reflected ray
+  std::optional<Range> range;        ///< of the curvature colours; else by percentiles
+  double width = 900.0;              ///< px
+  double height = 620.0;             ///< px
+  std::size_t most_facets = 12'000;  ///< quadrilaterals that the patches are divided into
+  std::vector<ScenePolyline> lines;  ///< drawn over the surface, hidden behind it
+};
+
+/// Static picture in parallel projection, one self-contained SVG file on white: shaded, isolines,
+/// curvature colours with a legend, or reflection lines; outlines, borders and isolines without
+/// their hidden parts, axes and a scale bar. The patches are divided where they bend, not by a
+/// mesh. Same input, same bytes. Errors: E203 options out of range, E303 a line or a surface that
+/// is not finite, E304 no patches, those of `check` for each patch.
+[[nodiscard]] Result<std::string> surface_svg(const SurfaceModel& model,
+                                              const SurfacePictureOptions& options = {});
+
+}  // namespace obvid
