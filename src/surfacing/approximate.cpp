@@ -97,7 +97,9 @@ class Approximation {
     if (!fit_u() || !fit_v() || !fit_both()) return false;
     while (!within(tolerance)) {
       if (progress) progress("approximating surface", part_used());
-      if (!refine(tolerance) || !fit_both()) return false;
+      const bool refined = refine(tolerance);
+      if (!refined) saturate();
+      if (!fit_again() || (!refined && !within(tolerance))) return false;
     }
     return thin_out(tolerance);
   }
@@ -169,17 +171,24 @@ class Approximation {
     return u_first ? split_u(limit_u) || split_v(limit_v) || split_u(0.0) || split_v(0.0)
                    : split_v(limit_v) || split_u(limit_u) || split_v(0.0) || split_u(0.0);
   }
-  bool split_u(double limit) { return along_u_.split(from_u_.of_row, limit) > 0 && fit_u(); }
-  bool split_v(double limit) { return along_v_.split(from_v_.of_row, limit) > 0 && fit_v(); }
+  bool split_u(double limit) { return along_u_.split(from_u_.of_row, limit) > 0; }
+  bool split_v(double limit) { return along_v_.split(from_v_.of_row, limit) > 0; }
+  void saturate() {
+    along_u_.saturate();
+    along_v_.saturate();
+  }
 
   /// Takes away knots that the tolerance does not need: those that matter least, as many at once as
   /// go well, half as many where they do not.
   bool thin_out(double tolerance) {
     std::size_t batch = (inner(along_u_) + inner(along_v_)) / 2;
+    const double most_u = std::max(kMostSwing, along_u_.swing());
+    const double most_v = std::max(kMostSwing, along_v_.swing());
     while (batch > 0) {
       const SplineLine old_u = along_u_, old_v = along_v_;
       if (!remove_least(batch)) return true;
-      if (fit_again() && within(tolerance)) continue;
+      const bool tame = along_u_.swing() <= most_u && along_v_.swing() <= most_v;
+      if (tame && fit_again() && within(tolerance)) continue;
       along_u_ = old_u;
       along_v_ = old_v;
       if (!fit_again()) return false;

@@ -11,11 +11,6 @@ namespace {
 
 constexpr std::size_t kBand = 4;  // B-splines of a cubic that are not zero at a parameter
 
-/// Bound of coefficients for data within [-1, 1], one direction. Dense data give 22 to 41 (the
-/// bound; coefficients themselves reach 5 to 7), two points in each span 60 where they are even.
-/// Beyond 100 the surface begins to leave the data between the points.
-constexpr double kMostSwing = 100.0;
-
 using BandRow = std::array<double, kBand>;
 
 /// (a, b) turned: a becomes c a + s b, b becomes c b - s a.
@@ -222,11 +217,7 @@ std::size_t SplineLine::insert(const std::vector<double>& added) {
       std::erase_if(left, [&](double t) { return from <= t && t <= to; });
     }
     if (left.size() == before) {
-      // the old knots were as bad, or nothing is: they stay, the new ones only in the second case
-      if (std::all_of(swing.begin(), swing.end(),
-                      [](double x) { return std::abs(x) <= kMostSwing; })) {
-        return left.size();
-      }
+      if (this->swing() <= kMostSwing) return left.size();
       left.clear();
     }
   }
@@ -261,6 +252,21 @@ std::size_t SplineLine::split(const std::vector<double>& errors, double threshol
     begin = end;
   }
   return insert(added);
+}
+
+void SplineLine::saturate() {
+  if (degree_ < 3) return;
+  const auto p = static_cast<std::size_t>(degree_);
+  std::vector<double> knots(p + 1, at_.front());
+  for (std::size_t i = 2; i + 2 < at_.size(); ++i) knots.push_back(at_[i]);
+  knots.insert(knots.end(), p + 1, at_.back());
+  set_knots(std::move(knots));
+}
+
+double SplineLine::swing() const {
+  double worst = 0.0;
+  for (const double x : swings()) worst = std::max(worst, std::abs(x));
+  return worst;
 }
 
 std::vector<double> SplineLine::needs(const Rows& coefficients) const {

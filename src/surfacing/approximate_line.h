@@ -22,6 +22,11 @@ struct Rows {
 
 [[nodiscard]] Rows transposed(const Rows& rows);
 
+/// Bound of coefficients for data within [-1, 1], one direction. Dense data give 22 to 41 (the
+/// bound; coefficients themselves reach 5 to 7), two points in each span 60 where they are even.
+/// Beyond 100 the surface begins to leave the data between the points.
+inline constexpr double kMostSwing = 100.0;
+
 /// Splines over ascending parameters in [0, 1]. Knots stay such that each coefficient has a
 /// parameter of its own under its B-spline (Schoenberg and Whitney), the solution is unique, and
 /// such that coefficients cannot swing far beyond the data (`kMostSwing`).
@@ -47,6 +52,11 @@ class SplineLine {
   /// Splits spans whose error (one for each parameter) exceeds the threshold, at a parameter in
   /// their middle, as far as the data determine the halves well. Returns how many were split.
   std::size_t split(const std::vector<double>& errors, double threshold);
+
+  /// The knots of interpolation (not-a-knot).
+  void saturate();
+  /// Bound of coefficients for data between -1 and 1; exceeds `kMostSwing` only after `saturate`.
+  [[nodiscard]] double swing() const;
 
   /// For each inner knot about how far a spline with these coefficients moves without it: the jump
   /// of the third derivative times the third power of the mean of its spans, largest of all rows.

@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "obvid/core/progress.h"
+#include "obvid/core/result.h"
+#include "obvid/pipeline/fit.h"
+#include "obvid/surface/point_grid.h"
+#include "obvid/surfacing/skin.h"
+
+namespace obvid {
+
+/// How sections become a skin.
+struct SkinJob {
+  FitJob sections;  ///< how the contour of each section is formed
+  std::string units = "mm";
+  std::optional<double> tolerance;  ///< units: of the surface from the contours [1e-5 of the size]
+  SkinMatching matching = SkinMatching::kAutomatic;
+  bool straight_across = false;
+  bool plain_when_refused = false;  ///< a section without a fair contour takes the C2 cubic through
+                                    ///< its points, which a warning tells; else it is an error
+};
+
+struct FittedSkin {
+  Skin skin;
+  std::size_t proved = 0;  ///< sections whose contour is proved
+  std::size_t plain = 0;   ///< sections with the C2 cubic
+  std::size_t points = 0;  ///< sections that are a point
+  double tolerance = 0.0;  ///< that was used, units
+  std::vector<std::string> warnings;
+};
+
+/// The plane of a section: the one in which all points have one coordinate the same if there is
+/// one, else the plane of least squares through them.
+[[nodiscard]] Frame plane_of(const std::vector<Vec3>& points);
+
+/// Forms a fair contour through each section in its plane and a skin through the contours.
+/// Consecutive points that are the same are one point of the contour. Sections whose first and last
+/// point are the same are closed (with `Closing::kAutomatic`).
+/// Errors: of `fit`, with the section's name in front (`index`: the point), and of `skin`.
+[[nodiscard]] Result<FittedSkin> fit_skin(const std::vector<SpaceSeries>& sections,
+                                          const SkinJob& job, const Progress& progress = {});
+
+}  // namespace obvid

@@ -1,0 +1,86 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <vector>
+
+#include "obvid/core/progress.h"
+#include "obvid/core/result.h"
+#include "obvid/curve/contour.h"
+#include "obvid/surface/surface.h"
+
+namespace obvid {
+
+/// One section of a body: its points in space, and the fair contour through them in their plane.
+/// Sections need not be quite plane: heights of the points over the plane are carried along the
+/// contour by a C2 spline.
+struct SkinSection {
+  std::string name;
+  std::vector<Vec3> points;  ///< in space; all the same: the body ends in a point here
+  Frame frame;               ///< plane of the contour
+  Contour contour;           ///< through the points as they lie in the plane; no pieces when the
+                             ///< points are all the same
+  std::vector<std::size_t> on_contour;  ///< for each point: which point of `contour.points` it is
+};
+
+/// What tells which places of neighbouring sections belong together.
+enum class SkinMatching {
+  kAutomatic,  ///< by points when all sections have equally many, else by length
+  kByPoints,   ///< point i of each section belongs to point i of the others
+  kByLength,   ///< equal shares of arc length between corners, and between ends of runs where all
+               ///< sections have the same runs
+};
+
+struct SkinOptions {
+  double tolerance = 0.0;  ///< units, > 0: largest distance of the surface's sections from the
+                           ///< contours
+  SkinMatching matching = SkinMatching::kAutomatic;
+  bool straight_across = false;  ///< ruled strips between neighbouring sections, else C2 cubics
+};
+
+/// How one section came out.
+struct SkinSectionReport {
+  std::string name;
+  double parameter = 0.0;    ///< v of the section in the patches
+  double deviation = 0.0;    ///< largest distance from the contour, measured, units
+  double from_points = 0.0;  ///< largest distance of a data point from the surface's section
+  std::size_t runs = 0;      ///< of the contour: stretches of monotone curvature
+  double ripple = 0.0;       ///< largest change of curvature against its run, as a share of the
+                             ///< section's largest curvature; 0: monotone wherever the contour is
+};
+
+/// Waves across the sections, along one isoline u = const of a patch: changes of sign of the normal
+/// curvature that bulge more than the tolerance.
+struct AcrossReport {
+  std::size_t isolines = 0;
+  std::size_t found = 0;   ///< sign changes on all isolines together
+  std::size_t forced = 0;  ///< of them in the sections' own points: every smooth surface has them
+  std::size_t worst = 0;   ///< largest number beyond the forced ones on one isoline
+};
+
+struct Skin {
+  std::vector<SurfacePatch> patches;  ///< from corner to corner of the sections; u runs along the
+                                      ///< sections, v across them, neighbours share their border
+  std::vector<SkinSectionReport> sections;
+  AcrossReport across;
+  SkinMatching matching = SkinMatching::kByPoints;  ///< what was used
+  std::vector<std::string> warnings;
+};
+
+/// The surface through section contours. Along the sections it is a C2 spline of degree 5 that
+/// takes over point, tangent and curvature of each contour at common knots and follows it within
+/// the tolerance between them; across, a C2 cubic through the sections (of 3 a parabola, of 2
+/// straight lines), which are met exactly. Parameters: arc length between matched places, averaged
+/// over the sections; across, chords averaged over the places. Derivation: docs/methods/skin.md.
+///
+/// Not guaranteed: what happens between sections beyond being C2; `across` counts the waves there.
+///
+/// Errors: E201 numbers that do not belong together; E203 tolerance <= 0, sections whose corners
+/// cannot be matched (`index`: the section); E304 fewer than two sections; E309 neighbouring
+/// sections at the same place (`index`); E502 the tolerance is not reached within 2^10 parts of a
+/// stretch.
+[[nodiscard]] Result<Skin> skin(const std::vector<SkinSection>& sections,
+                                const SkinOptions& options, const Progress& progress = {});
+
+}  // namespace obvid

@@ -1,0 +1,129 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "obvid/pipeline/skin_sections.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace obvid {
+namespace {
+
+/// Surfaces need less than contours: a hundredth of what CAD systems take for the same place, on a
+/// part of a metre.
+constexpr double kDefaultTolerance = 1e-5;  ///< of the size
+
+double size_of(const std::vector<SpaceSeries>& sections) {
+  Vec3 low, high;
+  bool any = false;
+  for (const SpaceSeries& section : sections) {
+    for (const Vec3& p : section.points) {
+      low = any ? Vec3{std::min(low.x, p.x), std::min(low.y, p.y), std::min(low.z, p.z)} : p;
+      high = any ? Vec3{std::max(high.x, p.x), std::max(high.y, p.y), std::max(high.z, p.z)} : p;
+      any = true;
+    }
+  }
+  return norm(high - low);
+}
+
+/// A section in its plane: points that differ, and which of them each point is.
+struct Flat {
+  SkinSection section;
+  PointSeries series;
+};
+
+Flat flat(const SpaceSeries& given, const std::string& units) {
+  Flat out;
+  out.section.name = given.name;
+  out.section.points = given.points;
+  out.section.frame = plane_of(given.points);
+  out.series.name = given.name;
+  out.series.units = units;
+  for (const Vec3& p : given.points) {
+    const Vec2 in_plane = out.section.frame.in_plane(p);
+    if (out.series.points.empty() || !(out.series.points.back() == in_plane)) {
+      out.series.points.push_back(in_plane);
+    }
+    out.section.on_contour.push_back(out.series.points.size() - 1);
+  }
+  return out;
+}
+
+/// A closed contour drops the repeated first point; a section keeps it, as its end.
+void close(SkinSection& section) {
+  if (!section.contour.closed) return;
+  const std::size_t count = section.contour.points.size();
+  bool ends_at_start = false;
+  for (std::size_t& i : section.on_contour) {
+    ends_at_start = i == count;
+    i %= count;
+  }
+  if (ends_at_start) return;
+  section.points.push_back(section.points.front());
+  section.on_contour.push_back(0);
+}
+
+/// The contour of one section, plain where that is allowed and nothing better exists.
+Result<Fit> fit_section(const Flat& flat, const SkinJob& job, std::size_t number,
+                        std::vector<std::string>& warnings) {
+  Result<Fit> made = fit(flat.series, job.sections);
+  const std::string name = fmt::format("section {} ({})", number, flat.section.name);
+  if (!made && job.plain_when_refused && exit_code(made.error().code) == 4) {
+    FitJob plain = job.sections;
+    plain.carrier = Carrier::kBaseline;
+    plain.noise.reset();
+    plain.noise_from_rounding = false;
+    warnings.push_back(
+        fmt::format("{}: no fair contour ({}), the C2 cubic through its points stands for it", name,
+                    made.error().what));
+    made = fit(flat.series, plain);
+  }
+  if (!made) {
+    Error error = made.error();
+    error.what = fmt::format("{}: {}", name, error.what);
+    return fail(error);
+  }
+  if (!made->certificate.proved && promises_monotone(made->contour.carrier)) {
+    warnings.push_back(fmt::format("{}: {}", name, "its contour is formed, but not proved"));
+  }
+  return made;
+}
+
+}  // namespace
+
+Result<FittedSkin> fit_skin(const std::vector<SpaceSeries>& sections, const SkinJob& job,
+                            const Progress& progress) {
+  FittedSkin result;
+  std::vector<SkinSection> made;
+  for (std::size_t k = 0; k < sections.size(); ++k) {
+    if (progress) {
+      progress("forming sections", static_cast<double>(k) / static_cast<double>(sections.size()));
+    }
+    Flat section = flat(sections[k], job.units);
+    if (section.series.points.size() > 1) {
+      auto contour = fit_section(section, job, k + 1, result.warnings);
+      if (!contour) return fail(contour.error());
+      result.proved += contour->certificate.proved ? 1 : 0;
+      result.plain += contour->contour.carrier == Carrier::kBaseline ? 1 : 0;
+      section.section.contour = std::move(contour->contour);
+      close(section.section);
+    } else {
+      ++result.points;
+    }
+    made.push_back(std::move(section.section));
+  }
+  SkinOptions options;
+  options.tolerance = result.tolerance =
+      job.tolerance.value_or(kDefaultTolerance * size_of(sections));
+  options.matching = job.matching;
+  options.straight_across = job.straight_across;
+  auto surface = skin(made, options, progress);
+  if (!surface) return fail(surface.error());
+  result.skin = std::move(*surface);
+  result.warnings.insert(result.warnings.end(), result.skin.warnings.begin(),
+                         result.skin.warnings.end());
+  return result;
+}
+
+}  // namespace obvid

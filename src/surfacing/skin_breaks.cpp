@@ -1,0 +1,155 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "skin_breaks.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+namespace obvid {
+namespace {
+
+constexpr int kSamples = 16;             ///< steps of a span at which it is compared
+constexpr double kShare = 0.1;           ///< of the change of curvature over a span
+constexpr double kShareAtVertex = 1e-3;  ///< the same where the contour has a vertex in the span
+constexpr double kKept = 1e-6;  ///< of the curvature: for circular stretches, which do not change
+
+/// Halvings between two marks for the sake of points, and of curvature: where a contour's curvature
+/// steps within the rounding of its joints, no spline follows it, and more breaks are in vain.
+constexpr int kDeepest = 10;
+constexpr int kDeepestForCurvature = 5;
+
+enum class Following { kNot, kByPoints, kWhole };
+
+/// Whether changes of curvature that run one way on the contour run that way on the spline.
+class OneWay {
+ public:
+  explicit OneWay(double allowed) : allowed_(allowed) {}
+  void add(double wanted, double found) {
+    if (any_) {
+      up_ = up_ && wanted >= last_wanted_;
+      down_ = down_ && wanted <= last_wanted_;
+      rise_ = std::max(rise_, found - last_found_);
+      fall_ = std::max(fall_, last_found_ - found);
+    }
+    any_ = true;
+    last_wanted_ = wanted;
+    last_found_ = found;
+  }
+  [[nodiscard]] bool wanted() const { return up_ || down_; }
+  [[nodiscard]] bool kept() const {
+    return !((up_ && fall_ > allowed_) || (down_ && rise_ > allowed_));
+  }
+
+ private:
+  double allowed_;
+  bool any_ = false, up_ = true, down_ = true;
+  double last_wanted_ = 0.0, last_found_ = 0.0, rise_ = 0.0, fall_ = 0.0;
+};
+
+/// How well one section is followed over [a, b].
+Following following(const SectionCurve& section, double a, double b, double tolerance,
+                    double size) {
+  if (section.is_point()) return Following::kWhole;
+  const double length = b - a;
+  const std::array<Vec3, 6> piece = quintic(section.at(a), section.at(b), length);
+  std::array<double, kSamples + 1> wanted{}, found{};
+  for (int k = 0; k <= kSamples; ++k) {
+    const double part = static_cast<double>(k) / kSamples;
+    const Hermite here = evaluate(piece, part, length), there = section.at(a + part * length);
+    if (norm(here.point - there.point) > tolerance) return Following::kNot;
+    const auto i = static_cast<std::size_t>(k);
+    wanted[i] = plane_curvature(there, section.frame());
+    found[i] = plane_curvature(here, section.frame());
+  }
+  const auto [low, high] = std::minmax_element(wanted.begin(), wanted.end());
+  const double largest = std::max({std::abs(*low), std::abs(*high), 1.0 / size});
+  OneWay one_way(kKept * largest);
+  double error = 0.0;
+  for (std::size_t i = 0; i < wanted.size(); ++i) {
+    error = std::max(error, std::abs(found[i] - wanted[i]));
+    one_way.add(wanted[i], found[i]);
+  }
+  const double share = one_way.wanted() ? kShare : kShareAtVertex;
+  const bool near = error <= std::max(share * (*high - *low), kKept * largest);
+  return near && one_way.kept() ? Following::kWhole : Following::kByPoints;
+}
+
+class Halving {
+ public:
+  Halving(const std::vector<SectionCurve>& sections, const std::vector<double>& marks,
+          const BreakGoals& goals)
+      : sections_(sections), marks_(marks), goals_(goals) {
+    for (const SectionCurve& section : sections) {
+      size_.push_back(section.is_point() ? 1.0 : std::max(section.length_at(1.0).s, 1e-300));
+    }
+  }
+
+  /// Breaks after `first` up to `last`, which are numbers of marks.
+  bool between_marks(std::size_t first, std::size_t last) {
+    if (worst(marks_[first], marks_[last]) == Following::kWhole) {
+      breaks_.push_back(marks_[last]);
+      return true;
+    }
+    if (last - first == 1) return between(marks_[first], marks_[last], kDeepest);
+    const double middle = (marks_[first] + marks_[last]) / 2.0;
+    const auto above =
+        std::lower_bound(marks_.begin() + static_cast<std::ptrdiff_t>(first) + 1,
+                         marks_.begin() + static_cast<std::ptrdiff_t>(last) - 1, middle);
+    const auto cut = static_cast<std::size_t>(above - marks_.begin());
+    return between_marks(first, cut) && between_marks(cut, last);
+  }
+
+  std::vector<double> breaks_ = {0.0};
+
+ private:
+  [[nodiscard]] Following worst(double a, double b) const {
+    Following least = Following::kWhole;
+    for (std::size_t k = 0; k < sections_.size() && least != Following::kNot; ++k) {
+      least = std::min(least, following(sections_[k], a, b, goals_.tolerance, size_[k]));
+    }
+    return least;
+  }
+
+  bool between(double a, double b, int depth) {
+    const Following least = worst(a, b);
+    const bool in_vain = depth + kDeepestForCurvature <= kDeepest;
+    if (least == Following::kWhole || (least == Following::kByPoints && in_vain)) {
+      breaks_.push_back(b);
+      return true;
+    }
+    if (depth == 0) return false;
+    const double middle = (a + b) / 2.0;
+    return between(a, middle, depth - 1) && between(middle, b, depth - 1);
+  }
+
+  const std::vector<SectionCurve>& sections_;
+  const std::vector<double>& marks_;
+  BreakGoals goals_;
+  std::vector<double> size_;
+};
+
+}  // namespace
+
+double plane_curvature(const Hermite& at, const Frame& frame) {
+  const Vec2 d1{dot(at.d1, frame.x), dot(at.d1, frame.y)};
+  const Vec2 d2{dot(at.d2, frame.x), dot(at.d2, frame.y)};
+  const double speed = norm(d1);
+  return speed > 0.0 ? cross(d1, d2) / (speed * speed * speed) : 0.0;
+}
+
+Result<std::vector<double>> breaks_for(const std::vector<SectionCurve>& sections,
+                                       const std::vector<double>& marks, const BreakGoals& goals) {
+  Halving halving(sections, marks, goals);
+  if (!halving.between_marks(0, marks.size() - 1)) {
+    const double at = halving.breaks_.back();
+    return fail({ErrorCode::kToleranceNotReached,
+                 fmt::format("the sections are not followed within {:g} at {:.1f} % of a stretch",
+                             goals.tolerance, 100.0 * at),
+                 "", "allow a larger tolerance", -1, goals.tolerance});
+  }
+  return halving.breaks_;
+}
+
+}  // namespace obvid
