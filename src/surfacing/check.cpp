@@ -1,0 +1,205 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "obvid/surfacing/check.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <optional>
+
+#include "check_lines.h"
+
+namespace obvid {
+namespace {
+
+/// Order of continuity that the multiplicities of inner knots leave.
+int order_of(const std::vector<double>& knots, int degree) {
+  int order = degree;
+  const auto p = static_cast<std::ptrdiff_t>(degree);
+  for (auto at = knots.begin() + p + 1; at < knots.end() - p - 1;) {
+    const auto next = std::upper_bound(at, knots.end() - p - 1, *at);
+    order = std::min(order, degree - static_cast<int>(next - at));
+    at = next;
+  }
+  return order;
+}
+
+void widen(Extent& extent, double value, bool first) {
+  extent.least = first ? value : std::min(extent.least, value);
+  extent.most = first ? value : std::max(extent.most, value);
+}
+
+void measure_curvature(const NurbsSurface& s, std::size_t n, PatchReport& report) {
+  const Range u = domain_u(s), v = domain_v(s);
+  bool first = true;
+  for (std::size_t j = 0; j < n; ++j) {
+    for (std::size_t i = 0; i < n; ++i) {
+      // middles of cells: the same samples serve the area
+      const double a = (static_cast<double>(i) + 0.5) / static_cast<double>(n);
+      const double b = (static_cast<double>(j) + 0.5) / static_cast<double>(n);
+      const SurfaceJet jet = evaluate(s, u.at(a), v.at(b));
+      const double cell = u.length() * v.length() / static_cast<double>(n * n);
+      report.area += norm(cross(jet.du, jet.dv)) * cell;
+      const SurfaceCurvature k = curvature(jet);
+      if (k.normal == Vec3{}) {
+        ++report.without_normal;
+        continue;
+      }
+      widen(report.gaussian, k.gaussian, first);
+      widen(report.mean, k.mean, first);
+      widen(report.k1, k.k1, first);
+      widen(report.k2, k.k2, first);
+      first = false;
+    }
+  }
+}
+
+PatchReport report_of(const SurfacePatch& patch, std::size_t samples) {
+  const NurbsSurface& s = patch.surface;
+  PatchReport report;
+  report.name = patch.name;
+  report.degree_u = s.degree_u;
+  report.degree_v = s.degree_v;
+  report.count_u = s.count_u();
+  report.count_v = s.count_v();
+  report.order_u = order_of(s.knots_u, s.degree_u);
+  report.order_v = order_of(s.knots_v, s.degree_v);
+  report.rational = !s.weights.empty();
+  measure_curvature(s, samples, report);
+  report.along_u = check_lines(s, samples);
+  report.along_v = check_lines(transposed(s), samples);
+  return report;
+}
+
+/// A place on a side of a patch; `t` in [0, 1] runs with the parameter along the side.
+struct SidePlace {
+  double u = 0.0, v = 0.0;
+};
+
+SidePlace on_side(const NurbsSurface& s, int side, double t) {
+  const Range u = domain_u(s), v = domain_v(s);
+  switch (side) {
+    case 0:
+      return {u.from, v.at(t)};
+    case 1:
+      return {u.to, v.at(t)};
+    case 2:
+      return {u.at(t), v.from};
+    default:
+      return {u.at(t), v.to};
+  }
+}
+
+constexpr int kSideSamples = 33;
+
+std::vector<Vec3> side_points(const NurbsSurface& s, int side) {
+  std::vector<Vec3> points;
+  for (int k = 0; k < kSideSamples; ++k) {
+    const SidePlace at = on_side(s, side, static_cast<double>(k) / (kSideSamples - 1));
+    points.push_back(evaluate(s, at.u, at.v).point);
+  }
+  return points;
+}
+
+/// Largest distance of corresponding points, and which way round it is smaller.
+struct Meeting {
+  double gap = 0.0;
+  bool reversed = false;
+};
+
+double gap_between(const std::vector<Vec3>& a, const std::vector<Vec3>& b, bool reversed) {
+  double gap = 0.0;
+  for (std::size_t i = 0; i < a.size(); ++i) {
+    gap = std::max(gap, norm(a[i] - (reversed ? b[b.size() - 1 - i] : b[i])));
+  }
+  return gap;
+}
+
+Meeting meeting(const std::vector<Vec3>& a, const std::vector<Vec3>& b) {
+  const double same = gap_between(a, b, false), turned = gap_between(a, b, true);
+  return turned < same ? Meeting{turned, true} : Meeting{same, false};
+}
+
+double length_of(const std::vector<Vec3>& points) {
+  double length = 0.0;
+  for (std::size_t i = 1; i < points.size(); ++i) length += norm(points[i] - points[i - 1]);
+  return length;
+}
+
+/// Normal curvature in a tangential direction; its sign with the normal.
+double normal_curvature(const SurfaceCurvature& k, Vec3 direction) {
+  const double c = dot(direction, k.direction1), s = dot(direction, cross(k.normal, k.direction1));
+  return k.k1 * c * c + k.k2 * s * s;
+}
+
+void compare_across(const NurbsSurface& a, const NurbsSurface& b, bool reversed,
+                    JointReport& joint) {
+  double step = 0.0, largest = 0.0;
+  for (int i = 0; i < kSideSamples; ++i) {
+    const double t = static_cast<double>(i) / (kSideSamples - 1);
+    const SidePlace pa = on_side(a, joint.side[0], t);
+    const SidePlace pb = on_side(b, joint.side[1], reversed ? 1.0 - t : t);
+    const SurfaceJet ja = evaluate(a, pa.u, pa.v);
+    const SurfaceCurvature ka = curvature(ja), kb = curvature(evaluate(b, pb.u, pb.v));
+    if (ka.normal == Vec3{} || kb.normal == Vec3{}) continue;
+    const double sign = dot(ka.normal, kb.normal) < 0.0 ? -1.0 : 1.0;
+    joint.angle = std::max(joint.angle, std::atan2(norm(cross(ka.normal, kb.normal)),
+                                                   std::abs(dot(ka.normal, kb.normal))));
+    // across the border: perpendicular to it in the tangent plane
+    const Vec3 along = joint.side[0] < 2 ? ja.dv : ja.du;
+    const Vec3 across = unit(cross(ka.normal, along));
+    const double one = normal_curvature(ka, across), two = sign * normal_curvature(kb, across);
+    step = std::max(step, std::abs(one - two));
+    for (const double k : {ka.k1, ka.k2, kb.k1, kb.k2}) largest = std::max(largest, std::abs(k));
+  }
+  joint.curvature = largest > 0.0 ? step / largest : 0.0;
+  joint.order = joint.angle > kSmoothAngle ? 0 : joint.curvature > kSmoothCurvature ? 1 : 2;
+}
+
+std::vector<JointReport> joints_of(const SurfaceModel& model, double nearness) {
+  std::vector<std::array<std::vector<Vec3>, 4>> sides(model.patches.size());
+  for (std::size_t k = 0; k < sides.size(); ++k) {
+    for (int side = 0; side < 4; ++side) {
+      sides[k][static_cast<std::size_t>(side)] = side_points(model.patches[k].surface, side);
+    }
+  }
+  std::vector<JointReport> joints;
+  for (std::size_t a = 0; a < 4 * sides.size(); ++a) {
+    const std::vector<Vec3>& one = sides[a / 4][a % 4];
+    if (length_of(one) <= nearness) continue;  // a pole is no border
+    for (std::size_t b = a + 1; b < 4 * sides.size(); ++b) {
+      const Meeting met = meeting(one, sides[b / 4][b % 4]);
+      if (met.gap > nearness) continue;
+      JointReport joint;
+      joint.patch = {a / 4, b / 4};
+      joint.side = {static_cast<int>(a % 4), static_cast<int>(b % 4)};
+      joint.gap = met.gap;
+      compare_across(model.patches[a / 4].surface, model.patches[b / 4].surface, met.reversed,
+                     joint);
+      joints.push_back(joint);
+    }
+  }
+  return joints;
+}
+
+}  // namespace
+
+SurfaceCheck check_surface(const SurfaceModel& model, const CheckOptions& options,
+                           const Progress& progress) {
+  SurfaceCheck result;
+  NurbsSurface all;  // only its box is asked for
+  for (const SurfacePatch& patch : model.patches) {
+    all.points.insert(all.points.end(), patch.surface.points.begin(), patch.surface.points.end());
+  }
+  result.size = size_of(all);
+  for (const SurfacePatch& patch : model.patches) {
+    if (progress) {
+      progress("measuring", static_cast<double>(result.patches.size()) /
+                                static_cast<double>(model.patches.size()));
+    }
+    result.patches.push_back(report_of(patch, options.samples));
+  }
+  result.joints = joints_of(model, options.meeting * result.size);
+  return result;
+}
+
+}  // namespace obvid
