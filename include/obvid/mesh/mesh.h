@@ -29,16 +29,24 @@ struct Mesh {
 };
 
 struct TessellationOptions {
-  double chord_tolerance = 0.0;            ///< units, > 0: distance of a triangle from the surface
-  double angle = 0.0;                      ///< rad, > 0: between the normals at the ends of an edge
+  double chord_tolerance = 0.0;  ///< units, > 0: distance of a triangle from the surface
+  double angle = 0.0;  ///< rad, > 0: between the normals at the ends of an edge; edges much shorter
+                       ///< than the chord tolerance (1/32 of it: cusps, folds) are free
   std::size_t most_triangles = 4'000'000;  ///< of one patch, E502 beyond
 };
 
 /// Triangles within the chord tolerance and angle, fewest where the surface is flat, no cracks
-/// inside a patch nor T-joints. Errors: E203 options <= 0, E502 more triangles than allowed.
+/// inside a patch nor T-joints. Where the surface has an edge that is sharper than the angle,
+/// vertices are there twice, each with the normal of its side. Sides that shrink to a point (poles)
+/// have a vertex for each triangle, all at that point, and no triangles without area.
+/// Errors: E203 options that are not greater than 0 or a tolerance that rounding of the coordinates
+/// swallows (16 units of the last place), and those of `check(NurbsSurface)`; E502 more triangles
+/// than allowed, or a cusp that no triangles come near.
 [[nodiscard]] Result<Mesh> tessellate(const NurbsSurface& surface,
                                       const TessellationOptions& options);
-/// All patches; vertices of borders that two patches share are the same points.
+/// All patches; vertices of borders that two patches share are the same points: borders are shared
+/// when they run alike over their whole parameter ranges (either way) within 1e-7 of the model's
+/// size and a tenth of the chord tolerance. `Error::index`: the patch.
 [[nodiscard]] Result<std::vector<Mesh>> tessellate(const SurfaceModel& model,
                                                    const TessellationOptions& options,
                                                    const Progress& progress = {});

@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "patch_axis.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace obvid::mesh {
+
+PatchAxis::PatchAxis(int degree, const std::vector<double>& knots)
+    : degree_(degree), knots_(knots) {
+  const auto p = static_cast<std::size_t>(degree);
+  const std::size_t end = knots.size() - p - 1;
+  // spans that are shorter than knots may differ by rounding belong to their neighbours
+  const double shortest = kSameKnot * (knots[end] - knots[p]);
+  std::size_t run = 0;  // knots at the begin of the span
+  for (std::size_t k = p; k < end; ++k) {
+    ++run;
+    if (!(knots[k + 1] - knots[k] > shortest)) continue;
+    knot_of_.push_back(k);
+    ends_.push_back(knots[k]);
+    may_bend_.push_back(knot_of_.size() > 1 && run >= p);
+    run = 0;
+  }
+  ends_.front() = knots[p];
+  ends_.push_back(knots[end]);
+}
+
+double PatchAxis::at(Line line) const {
+  const auto k = static_cast<std::size_t>(line >> kFractionBits);
+  const Line part = line & (kSpan - 1);
+  if (part == 0) return ends_[k];
+  return ends_[k] +
+         std::ldexp(static_cast<double>(part), -kFractionBits) * (ends_[k + 1] - ends_[k]);
+}
+
+Place PatchAxis::locate(double t) const {
+  const auto above = std::upper_bound(ends_.begin() + 1, ends_.end() - 1, t);
+  return {static_cast<std::size_t>(above - ends_.begin()) - 1, t};
+}
+
+// The recurrence of Cox and de Boor; the row of degree - 1 gives the derivatives.
+SpanBasis PatchAxis::basis(const Place& place) const {
+  SpanBasis b;
+  const auto p = static_cast<std::size_t>(degree_);
+  const std::size_t k = knot_of_[place.span];
+  b.first = k - p;
+  b.value[0] = 1.0;
+  for (std::size_t r = 1; r <= p; ++r) {
+    double carry = 0.0, slope_carry = 0.0;
+    for (std::size_t j = 0; j < r; ++j) {
+      const double low = knots_[k + 1 + j - r], high = knots_[k + 1 + j];
+      const double share = b.value[j] / (high - low);
+      if (r == p) {
+        const double slope = static_cast<double>(p) * share;
+        b.slope[j] = slope_carry - slope;
+        slope_carry = slope;
+      }
+      b.value[j] = carry + (high - place.t) * share;
+      carry = (place.t - low) * share;
+    }
+    b.value[r] = carry;
+    if (r == p) b.slope[r] = slope_carry;
+  }
+  return b;
+}
+
+}  // namespace obvid::mesh

@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <unordered_map>
+#include <vector>
+
+#include "borders.h"
+
+namespace obvid::mesh {
+
+/// Triangles of a patch's cells; cells with finer neighbours take their points over.
+class PatchMesher {
+ public:
+  PatchMesher(const PatchSampler& sampler, const CellTree& tree, const Borders& borders,
+              std::size_t patch);
+
+  [[nodiscard]] Mesh take() { return std::move(mesh_); }
+  /// The cell that each triangle belongs to.
+  [[nodiscard]] const std::vector<std::uint32_t>& cell_of() const { return cell_of_; }
+
+ private:
+  using Id = std::uint32_t;
+  struct Node {
+    double u, v;
+    Vec3 point;
+    bool known;    ///< the point comes from a border
+    bool on_edge;  ///< of the surface: a vertex for each side of it
+  };
+  struct Outline;
+
+  void collect_nodes();
+  void collect_border(std::size_t side, std::size_t patch, const Borders& borders);
+  void add_cell(const Cell& cell);
+  void side_of(const Cell& cell, std::size_t side, std::vector<Id>& out) const;
+  [[nodiscard]] Id node_at(Line u, Line v) const;
+  [[nodiscard]] bool on_edge(Line u, Line v) const;
+
+  void strip(const Cell& cell, const std::vector<Id>& low, const std::vector<Id>& high,
+             bool along_u);
+  [[nodiscard]] double height_of(const Cell& cell, Id a, Id b) const;
+  void quad(const Cell& cell);
+  void fan(const Cell& cell);
+  void triangle(const Cell& cell, Id a, Id b, Id c);
+  [[nodiscard]] std::uint32_t vertex_of(const Cell& cell, Id node);
+  [[nodiscard]] std::uint64_t block_of(const Cell& cell) const;
+
+  const PatchSampler& sampler_;
+  const CellTree& tree_;
+  std::vector<std::pair<Line, Line>> by_v_;  ///< (v, u) of the cells' corners, ascending
+  std::vector<std::pair<std::pair<Line, Line>, Id>> by_u_;  ///< (u, v) and number in by_v_
+  std::vector<std::pair<double, Id>> border_[kSides];       ///< parameter and node, ascending
+  std::vector<Node> nodes_;
+  std::vector<Id> side_[kSides];       ///< of the cell at hand
+  std::vector<std::uint32_t> vertex_;  ///< of nodes that are not on edges
+  std::unordered_map<std::uint64_t, std::uint32_t> edge_vertex_;
+  std::vector<std::size_t> block_u_, block_v_;  ///< numbers of the smooth parts, per span
+  std::uint32_t cell_ = 0;
+  Mesh mesh_;
+  std::vector<std::uint32_t> cell_of_;
+};
+
+}  // namespace obvid::mesh

@@ -1,0 +1,195 @@
+// SPDX-License-Identifier: Apache-2.0
+// The work in rounds: cells, borders that agree, triangles, a look at each triangle; cells whose
+// triangles fail become fans or are cut.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+#include "borders.h"
+#include "cell_tree.h"
+#include "measure.h"
+#include "obvid/mesh/mesh.h"
+#include "patch_mesher.h"
+
+namespace obvid {
+namespace {
+
+using mesh::Borders;
+using mesh::CellTree;
+using mesh::PatchMesher;
+using mesh::PatchSampler;
+
+/// Borders and corners that are nearer than this part of the model's size are the same...
+constexpr double kSameOfSize = 1e-7;
+/// ...but never farther apart than this part of the chord tolerance.
+constexpr double kSameOfTolerance = 0.1;
+/// Digits that rounding leaves of a coordinate, in units of its last place: no chord tolerance
+/// below, and what is nearer is always the same.
+constexpr double kRounding = 16.0;
+/// Rounds of improving cells whose triangles turned out too far off: a fan, then halves, ...
+constexpr int kRounds = 12;
+
+struct Patches {
+  std::vector<const NurbsSurface*> surfaces;
+  std::vector<std::string> names;
+};
+
+struct Extent {
+  Vec3 low{HUGE_VAL, HUGE_VAL, HUGE_VAL}, high{-HUGE_VAL, -HUGE_VAL, -HUGE_VAL};
+  [[nodiscard]] double size() const { return norm(high - low); }
+  [[nodiscard]] double farthest() const {
+    return std::max({std::fabs(low.x), std::fabs(low.y), std::fabs(low.z), std::fabs(high.x),
+                     std::fabs(high.y), std::fabs(high.z)});
+  }
+};
+
+Extent extent_of(const Patches& patches) {
+  Extent e;
+  for (const NurbsSurface* s : patches.surfaces) {
+    for (const Vec3& p : s->points) {
+      e.low = {std::min(e.low.x, p.x), std::min(e.low.y, p.y), std::min(e.low.z, p.z)};
+      e.high = {std::max(e.high.x, p.x), std::max(e.high.y, p.y), std::max(e.high.z, p.z)};
+    }
+  }
+  return e;
+}
+
+Result<void> check_options(const TessellationOptions& options, double rounding) {
+  const auto bad = [](const char* what, double value) {
+    return fail({ErrorCode::kBadOption, fmt::format("{} {} is not greater than 0", what, value), "",
+                 "give a number greater than 0", -1, value});
+  };
+  if (!(options.chord_tolerance > 0.0) || !std::isfinite(options.chord_tolerance)) {
+    return bad("the chord tolerance", options.chord_tolerance);
+  }
+  if (!(options.angle > 0.0) || !std::isfinite(options.angle)) {
+    return bad("the angle", options.angle);
+  }
+  if (options.chord_tolerance < rounding) {
+    return fail({ErrorCode::kBadOption,
+                 fmt::format("the chord tolerance {} is lost in the rounding of the coordinates",
+                             options.chord_tolerance),
+                 "", fmt::format("at least {:.3g}, or move the surface to the origin", rounding),
+                 -1, options.chord_tolerance});
+  }
+  return {};
+}
+
+class Tessellator {
+ public:
+  Tessellator(const Patches& patches, const TessellationOptions& options, const Progress& progress)
+      : patches_(patches), options_(options), progress_(progress) {}
+
+  Result<std::vector<Mesh>> run() {
+    for (std::size_t p = 0; p < count(); ++p) {
+      if (auto good = check(*patches_.surfaces[p]); !good) return named(good.error(), p);
+    }
+    const Extent extent = count() > 0 ? extent_of(patches_) : Extent{{}, {}};
+    const double rounding = kRounding * std::numeric_limits<double>::epsilon() * extent.farthest();
+    if (auto good = check_options(options_, rounding); !good) return fail(good.error());
+    if (auto done = build_trees(); !done) return fail(done.error());
+    const double same = std::max(rounding, std::min(kSameOfSize * extent.size(),
+                                                    kSameOfTolerance * options_.chord_tolerance));
+    return rounds(same);
+  }
+
+ private:
+  [[nodiscard]] std::size_t count() const { return patches_.surfaces.size(); }
+
+  [[nodiscard]] tl::unexpected<Error> named(Error error, std::size_t p) const {
+    if (!patches_.names[p].empty()) error.where = fmt::format("patch {}", patches_.names[p]);
+    error.index = static_cast<std::ptrdiff_t>(p);
+    return fail(std::move(error));
+  }
+
+  void tell(double part) const {
+    if (progress_) progress_("triangles", part);
+  }
+
+  Result<void> build_trees() {
+    samplers_.reserve(count());
+    trees_.reserve(count());
+    for (const NurbsSurface* surface : patches_.surfaces) samplers_.emplace_back(*surface);
+    for (std::size_t p = 0; p < count(); ++p) {
+      trees_.emplace_back(samplers_[p], options_);
+      if (auto done = trees_[p].build(); !done) return named(done.error(), p);
+      tell(0.5 * static_cast<double>(p + 1) / static_cast<double>(count()));
+    }
+    return {};
+  }
+
+  Result<std::vector<Mesh>> rounds(double same) {
+    Borders borders(samplers_, same);
+    std::vector<Mesh> meshes(count());
+    std::vector<bool> changed(count(), true);
+    for (int round = 0;; ++round) {
+      borders.update(trees_, changed);
+      bool again = false;
+      for (std::size_t p = 0; p < count(); ++p) {
+        if (!changed[p]) continue;
+        auto cut = draw(borders, p, round < kRounds, meshes[p]);
+        if (!cut) return named(cut.error(), p);
+        changed[p] = *cut;
+        again = again || *cut;
+        if (round == 0) tell(0.5 + 0.5 * static_cast<double>(p + 1) / static_cast<double>(count()));
+      }
+      if (!again) return meshes;
+    }
+  }
+
+  /// Triangles of one patch; true: cells were cut, it has to be drawn again.
+  Result<bool> draw(const Borders& borders, std::size_t p, bool may_cut, Mesh& mesh) {
+    PatchMesher mesher(samplers_[p], trees_[p], borders, p);
+    mesh = mesher.take();
+    const mesh::Measured measured = mesh::measure(
+        samplers_[p], mesh, mesher.cell_of(), trees_[p].cells().size(), options_.chord_tolerance);
+    mesh.deviation = measured.deviation;
+    if (mesh.triangles.size() > options_.most_triangles) {
+      return fail({ErrorCode::kToleranceNotReached,
+                   fmt::format("the surface needs more than {} triangles", options_.most_triangles),
+                   "", "allow a larger chord tolerance or angle, or more triangles", -1,
+                   static_cast<double>(options_.most_triangles)});
+    }
+    if (measured.any_bad && may_cut) {
+      auto cut = trees_[p].improve(measured.bad);
+      if (!cut || *cut) return cut;
+    }
+    if (measured.deviation > options_.chord_tolerance) {
+      return fail({ErrorCode::kToleranceNotReached,
+                   fmt::format("triangles are {:.3g} off the surface however small they are",
+                               measured.deviation),
+                   "", "the surface folds or has a cusp there; allow a larger chord tolerance", -1,
+                   measured.deviation});
+    }
+    return false;
+  }
+
+  const Patches& patches_;
+  const TessellationOptions& options_;
+  const Progress& progress_;
+  std::vector<PatchSampler> samplers_;
+  std::vector<CellTree> trees_;
+};
+
+}  // namespace
+
+Result<Mesh> tessellate(const NurbsSurface& surface, const TessellationOptions& options) {
+  auto meshes = Tessellator({{&surface}, {""}}, options, {}).run();
+  if (!meshes) return fail(std::move(meshes.error()));
+  return std::move(meshes->front());
+}
+
+Result<std::vector<Mesh>> tessellate(const SurfaceModel& model, const TessellationOptions& options,
+                                     const Progress& progress) {
+  Patches patches;
+  for (const SurfacePatch& patch : model.patches) {
+    patches.surfaces.push_back(&patch.surface);
+    patches.names.push_back(patch.name);
+  }
+  return Tessellator(patches, options, progress).run();
+}
+
+}  // namespace obvid
