@@ -10,6 +10,7 @@
 #include "obvid/curve/nurbs.h"
 #include "obvid/curve/pieces.h"
 #include "obvid/exchange/drawing.h"
+#include "obvid/surface/surface.h"
 
 namespace obvid {
 
@@ -43,6 +44,36 @@ struct CadWriteOptions {
 /// Errors: E301, E310 as above, E306 when the kernel cannot read the file, E304 when there are no
 /// curves.
 [[nodiscard]] Result<Drawing> read_cad(const std::string& path);
+
+/// The text of a file of faces: each patch one face on its own B-spline surface (degrees, knots,
+/// points and weights as given) with its name; IGES labels keep 8 characters of it, BREP none.
+/// Corners and borders nearer than 1e-8 of the size of the model are one: patches that meet hang
+/// together in a shell (neighbours whose normals differ in side are turned to that of the first),
+/// and are a solid, normals outwards, when no border is free. Borders meet when they have the same
+/// points at the same parts of their parameters; T-joints stay open. Seams and poles are edges as
+/// kernels want them. A patch is cut into "NAME, part 1 of 2", ... where its normal jumps at an
+/// inner knot of full multiplicity, because kernels cut there. Lengths in `model.units`, which the
+/// file has too (`options.units` and `face_width` are for curves). The same model gives the same
+/// bytes. Errors: E203 a unit that these formats do not know, E304 no patches, E310 no plugin, or
+/// more than 20,000 faces by creases; what `check` finds of a patch (`where`: its name); E101 when
+/// the kernel refuses.
+[[nodiscard]] Result<std::string> cad_surface_text(const SurfaceModel& model,
+                                                   const CadWriteOptions& options);
+
+/// Faces of a file as patches.
+struct CadSurfaces {
+  SurfaceModel model;                 ///< named as in the file, else "face 1", ...; in mm
+  std::vector<std::string> warnings;  ///< what is not as in the file, in sentences
+};
+
+/// All faces of a STEP, IGES or BREP file, normals as the file has them; format by content. Planes,
+/// cylinders, cones, spheres, tori, extrusions, revolutions and B-splines exactly; offsets within
+/// 1e-6 of the model's size, which a warning says. A trimmed face gives the whole box of its
+/// parameters, with a warning that names it; faces of degree above 9 or without limits are left out
+/// with a warning. Lengths in mm (of BREP files as they are).
+/// Errors: E301, E310 no plugin, E306 when the kernel cannot read the file, E304 when it has no
+/// faces that could be taken.
+[[nodiscard]] Result<CadSurfaces> read_cad_surfaces(const std::string& path);
 
 /// Whether a file looks like one of these formats, by its first bytes.
 [[nodiscard]] bool is_cad_text(std::string_view text);

@@ -15,6 +15,8 @@ struct CadPlugin {
   const char* built;
   Result<std::string> (*write)(const std::vector<CadCurve>&, const CadWriteOptions&);
   Result<Drawing> (*read)(const std::string& path);
+  Result<std::string> (*write_surfaces)(const SurfaceModel&, const CadWriteOptions&);
+  Result<CadSurfaces> (*read_surfaces)(const std::string& path);
 };
 
 inline constexpr const char* kCadPluginFile = "obvid_cad.so";
@@ -26,7 +28,8 @@ inline std::string build_mark() {
   std::string mark = std::string(kVersion) + ", " + __VERSION__;
   for (const std::size_t size :
        {sizeof(CadCurve), sizeof(CadWriteOptions), sizeof(Drawing), sizeof(DrawnCurve),
-        sizeof(Piece), sizeof(PointSeries), sizeof(Error), sizeof(CadPlugin)}) {
+        sizeof(Piece), sizeof(PointSeries), sizeof(Error), sizeof(CadPlugin), sizeof(CadSurfaces),
+        sizeof(SurfacePatch), sizeof(NurbsSurface)}) {
     mark += ", " + std::to_string(size);
   }
   return mark;

@@ -87,6 +87,18 @@ Result<Drawing> read_cad(const std::string& path) {
   return (*loaded)->read(path);
 }
 
+Result<std::string> cad_surface_text(const SurfaceModel& model, const CadWriteOptions& options) {
+  const auto& loaded = plugin();
+  if (!loaded) return fail(loaded.error());
+  return (*loaded)->write_surfaces(model, options);
+}
+
+Result<CadSurfaces> read_cad_surfaces(const std::string& path) {
+  const auto& loaded = plugin();
+  if (!loaded) return fail(loaded.error());
+  return (*loaded)->read_surfaces(path);
+}
+
 bool is_cad_text(std::string_view text) {
   constexpr std::size_t kHead = 4096;
   const std::string_view head = text.substr(0, kHead);

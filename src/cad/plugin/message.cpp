@@ -24,6 +24,16 @@ class Packer {
     value(one.index());
     std::visit([&](const auto& kind) { value(kind); }, one);
   }
+  template <class T>
+  void values(const std::vector<T>& all) {
+    static_assert(std::is_trivially_copyable_v<T>);
+    value(all.size());
+    bytes_.append(reinterpret_cast<const char*>(all.data()), all.size() * sizeof(T));
+  }
+  void texts(const std::vector<std::string>& all) {
+    value(all.size());
+    for (const std::string& one : all) text(one);
+  }
   [[nodiscard]] std::string take() { return std::move(bytes_); }
 
  private:
@@ -74,6 +84,23 @@ class Unpacker {
         return LinePiece{};
     }
   }
+  template <class T>
+  std::vector<T> values() {
+    const auto n = get<std::size_t>();
+    if (!whole_ || n > (bytes_.size() - at_) / sizeof(T)) {
+      whole_ = false;
+      return {};
+    }
+    std::vector<T> all(n);
+    if (n > 0) std::memcpy(all.data(), bytes_.data() + at_, n * sizeof(T));
+    at_ += n * sizeof(T);
+    return all;
+  }
+  std::vector<std::string> texts() {
+    std::vector<std::string> all;
+    for (std::size_t n = count(); n > 0 && whole_; --n) all.push_back(text());
+    return all;
+  }
   /// How many items follow; never more than there are bytes.
   std::size_t count() {
     const auto n = get<std::size_t>();
@@ -104,6 +131,37 @@ Error unpack_error(Unpacker& in) {
   return error;
 }
 
+Error broke_down(const std::string& path) {
+  return {ErrorCode::kNotText,
+          "the CAD kernel broke down over this file",
+          path,
+          "the file may be damaged; export it again",
+          -1,
+          0.0};
+}
+
+void pack_patch(const SurfacePatch& patch, Packer& out) {
+  out.text(patch.name);
+  out.value(patch.surface.degree_u);
+  out.value(patch.surface.degree_v);
+  out.values(patch.surface.knots_u);
+  out.values(patch.surface.knots_v);
+  out.values(patch.surface.points);
+  out.values(patch.surface.weights);
+}
+
+SurfacePatch unpack_patch(Unpacker& in) {
+  SurfacePatch patch;
+  patch.name = in.text();
+  in.value(patch.surface.degree_u);
+  in.value(patch.surface.degree_v);
+  patch.surface.knots_u = in.values<double>();
+  patch.surface.knots_v = in.values<double>();
+  patch.surface.points = in.values<Vec3>();
+  patch.surface.weights = in.values<double>();
+  return patch;
+}
+
 }  // namespace
 
 std::string packed(const Result<Drawing>& drawing) {
@@ -115,8 +173,7 @@ std::string packed(const Result<Drawing>& drawing) {
   }
   out.text(drawing->name);
   out.text(drawing->units);
-  out.value(drawing->warnings.size());
-  for (const std::string& warning : drawing->warnings) out.text(warning);
+  out.texts(drawing->warnings);
   out.value(drawing->curves.size());
   for (const DrawnCurve& curve : drawing->curves) {
     out.text(curve.label);
@@ -137,7 +194,7 @@ Result<Drawing> unpacked(const std::string& bytes, const std::string& path) {
   Drawing drawing;
   drawing.name = in.text();
   drawing.units = in.text();
-  for (std::size_t n = in.count(); n > 0; --n) drawing.warnings.push_back(in.text());
+  drawing.warnings = in.texts();
   for (std::size_t n = in.count(); n > 0 && in.whole(); --n) {
     DrawnCurve curve;
     curve.label = in.text();
@@ -146,8 +203,42 @@ Result<Drawing> unpacked(const std::string& bytes, const std::string& path) {
     drawing.curves.push_back(std::move(curve));
   }
   if (in.whole()) return drawing;
-  return fail({ErrorCode::kNotText, "the CAD kernel broke down over this file", path,
-               "the file may be damaged; export it again", -1, 0.0});
+  return fail(broke_down(path));
+}
+
+std::string packed(const Result<CadSurfaces>& surfaces) {
+  Packer out;
+  out.value(surfaces.has_value());
+  if (!surfaces) {
+    pack_error(surfaces.error(), out);
+    return out.take();
+  }
+  out.text(surfaces->model.name);
+  out.text(surfaces->model.units);
+  out.texts(surfaces->warnings);
+  out.value(surfaces->model.patches.size());
+  for (const SurfacePatch& patch : surfaces->model.patches) pack_patch(patch, out);
+  return out.take();
+}
+
+Result<CadSurfaces> unpacked_surfaces(const std::string& bytes, const std::string& path) {
+  Unpacker in(bytes);
+  const bool made = in.get<bool>();
+  if (!made && in.whole()) {
+    Error error = unpack_error(in);
+    if (in.whole()) return fail(std::move(error));
+  }
+  CadSurfaces surfaces;
+  surfaces.model.name = in.text();
+  surfaces.model.units = in.text();
+  surfaces.warnings = in.texts();
+  for (std::size_t n = in.count(); n > 0 && in.whole(); --n) {
+    surfaces.model.patches.push_back(unpack_patch(in));
+    const auto fine = check(surfaces.model.patches.back().surface);
+    if (in.whole() && !fine) return fail(fine.error());
+  }
+  if (in.whole()) return surfaces;
+  return fail(broke_down(path));
 }
 
 }  // namespace obvid::cad

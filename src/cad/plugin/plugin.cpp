@@ -11,6 +11,7 @@
 #include "isolated.h"
 #include "message.h"
 #include "read.h"
+#include "read_faces.h"
 #include "write.h"
 
 namespace obvid {
@@ -19,14 +20,14 @@ namespace {
 /// The kernel's chatter belongs neither into the report nor into the errors.
 void be_quiet() { Message::DefaultMessenger()->ChangePrinters().Clear(); }
 
-/// A file that cannot be read is the file's fault; a curve that cannot be written is ours.
+/// A file that cannot be read is the file's fault; geometry that cannot be written is ours.
 Error fault(const std::string& text, const std::string& where) {
   const bool reading = !where.empty();
   return {reading ? ErrorCode::kNotText : ErrorCode::kInternal,
           "the CAD kernel gave up: " + text,
           where,
           reading ? "the file may be damaged; export it again"
-                  : "look at the contour with `obvid verify`",
+                  : "look at it with `obvid verify` or `obvid surface check`",
           -1,
           0.0};
 }
@@ -57,11 +58,23 @@ Result<Drawing> read(const std::string& path) {
   return cad::unpacked(bytes, path);
 }
 
+Result<std::string> write_surfaces(const SurfaceModel& model, const CadWriteOptions& options) {
+  return guarded<std::string>("", [&] { return cad::write_surfaces(model, options); });
+}
+
+Result<CadSurfaces> read_surfaces(const std::string& path) {
+  const std::string bytes = cad::isolated([&] {
+    return cad::packed(guarded<CadSurfaces>(path, [&] { return cad::read_faces(path); }));
+  });
+  return cad::unpacked_surfaces(bytes, path);
+}
+
 }  // namespace
 }  // namespace obvid
 
 extern "C" __attribute__((visibility("default"))) const obvid::CadPlugin* obvid_cad_plugin() {
   static const std::string built = obvid::build_mark();
-  static const obvid::CadPlugin plugin = {built.c_str(), &obvid::write, &obvid::read};
+  static const obvid::CadPlugin plugin = {built.c_str(), &obvid::write, &obvid::read,
+                                          &obvid::write_surfaces, &obvid::read_surfaces};
   return &plugin;
 }

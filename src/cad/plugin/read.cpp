@@ -3,12 +3,8 @@
 
 #include <fmt/format.h>
 
-#include <BRepTools.hxx>
 #include <BRepTools_WireExplorer.hxx>
-#include <BRep_Builder.hxx>
 #include <BRep_Tool.hxx>
-#include <IGESControl_Reader.hxx>
-#include <STEPControl_Reader.hxx>
 #include <ShapeAnalysis_FreeBounds.hxx>
 #include <TopExp_Explorer.hxx>
 #include <TopTools_HSequenceOfShape.hxx>
@@ -16,74 +12,15 @@
 #include <TopoDS.hxx>
 #include <TopoDS_Wire.hxx>
 #include <filesystem>
-#include <fstream>
-#include <sstream>
 
 #include "flatten.h"
+#include "load.h"
 
 namespace obvid::cad {
 namespace {
 
 /// Curves that are looked at; a solid with more is no contour.
 constexpr std::size_t kMostCurves = 10000;
-
-Error unreadable(const std::string& path, const char* format) {
-  return {ErrorCode::kNotText,
-          std::string("the CAD kernel cannot read this ") + format + " file",
-          path,
-          "the file may be cut off or damaged; export it again",
-          -1,
-          0.0};
-}
-
-Result<TopoDS_Shape> read_step(const std::string& path) {
-  STEPControl_Reader reader;
-  if (reader.ReadFile(path.c_str()) != IFSelect_RetDone || reader.TransferRoots() == 0) {
-    return fail(unreadable(path, "STEP"));
-  }
-  return reader.OneShape();
-}
-
-Result<TopoDS_Shape> read_iges(const std::string& path) {
-  IGESControl_Reader reader;
-  if (reader.ReadFile(path.c_str()) != IFSelect_RetDone || reader.TransferRoots() == 0) {
-    return fail(unreadable(path, "IGES"));
-  }
-  return reader.OneShape();
-}
-
-Result<TopoDS_Shape> read_brep(const std::string& path) {
-  TopoDS_Shape shape;
-  BRep_Builder builder;
-  std::ifstream file(path, std::ios::binary);
-  file.exceptions(std::ios::failbit |
-                  std::ios::badbit);  // behind the end the kernel goes on for ever
-  try {
-    BRepTools::Read(shape, file, builder);
-  } catch (const std::ios_base::failure&) {
-    return fail(unreadable(path, "BREP"));
-  }
-  if (shape.IsNull()) return fail(unreadable(path, "BREP"));
-  return shape;
-}
-
-Result<TopoDS_Shape> read_shape(const std::string& path) {
-  std::ifstream file(path, std::ios::binary);
-  if (!file) {
-    return fail({ErrorCode::kCannotOpen, "cannot read the file", path, "check path and permissions",
-                 -1, 0.0});
-  }
-  constexpr std::size_t kHead = 4096;
-  std::string head(kHead, '\0');
-  file.read(head.data(), static_cast<std::streamsize>(kHead));
-  head.resize(static_cast<std::size_t>(file.gcount()));
-  if (head.find("ISO-10303-21") != std::string::npos) return read_step(path);
-  if (head.find("DBRep_DrawableShape") != std::string::npos ||
-      head.find("CASCADE Topology") != std::string::npos) {
-    return read_brep(path);
-  }
-  return read_iges(path);
-}
 
 class Collector {
  public:
@@ -157,12 +94,12 @@ class Collector {
 }  // namespace
 
 Result<Drawing> read_file(const std::string& path) {
-  const auto shape = read_shape(path);
-  if (!shape) return fail(shape.error());
+  const auto loaded = load(path);
+  if (!loaded) return fail(loaded.error());
   Drawing drawing;
   drawing.name = std::filesystem::path(path).filename().string();
   drawing.units = "mm";
-  if (!shape->IsNull()) Collector(drawing).collect(*shape);
+  if (!loaded->shape.IsNull()) Collector(drawing).collect(loaded->shape);
   if (drawing.curves.empty()) {
     std::string what = "the file holds no plane curves";
     if (!drawing.warnings.empty()) what += ": " + drawing.warnings.front();

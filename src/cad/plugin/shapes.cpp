@@ -19,6 +19,7 @@
 #include <optional>
 
 #include "obvid/contour/conics.h"
+#include "splines.h"
 
 namespace obvid::cad {
 namespace {
@@ -43,27 +44,13 @@ Handle(Geom_BSplineCurve) spline_of(const NurbsCurve& curve, double scale) {
     poles(i + 1) = at(curve.points[k], scale);
     weights(i + 1) = curve.weights[k];
   }
-  std::vector<double> knots;
-  std::vector<int> counts;
-  for (const double knot : curve.knots) {
-    if (!knots.empty() && knots.back() == knot) {
-      ++counts.back();
-    } else {
-      knots.push_back(knot);
-      counts.push_back(1);
-    }
-  }
-  const int m = static_cast<int>(knots.size());
-  TColStd_Array1OfReal values(1, m);
-  TColStd_Array1OfInteger multiplicities(1, m);
-  for (int i = 0; i < m; ++i) {
-    values(i + 1) = knots[static_cast<std::size_t>(i)];
-    multiplicities(i + 1) = counts[static_cast<std::size_t>(i)];
-  }
+  const KnotTable knots = knot_table(curve.knots);
   const bool rational = std::any_of(curve.weights.begin(), curve.weights.end(),
                                     [&](double w) { return w != curve.weights.front(); });
-  if (!rational) return new Geom_BSplineCurve(poles, values, multiplicities, curve.degree);
-  return new Geom_BSplineCurve(poles, weights, values, multiplicities, curve.degree);
+  if (!rational) {
+    return new Geom_BSplineCurve(poles, knots.values, knots.multiplicities, curve.degree);
+  }
+  return new Geom_BSplineCurve(poles, weights, knots.values, knots.multiplicities, curve.degree);
 }
 
 NurbsCurve nurbs_of(const RationalBezier& piece) {

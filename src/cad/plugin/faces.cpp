@@ -1,0 +1,309 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "faces.h"
+
+#include <fmt/format.h>
+
+#include <BRepCheck_Analyzer.hxx>
+#include <BRep_Builder.hxx>
+#include <Geom2d_BSplineCurve.hxx>
+#include <Geom2d_Line.hxx>
+#include <Precision.hxx>
+#include <TColgp_Array1OfPnt2d.hxx>
+#include <TopoDS_Compound.hxx>
+#include <TopoDS_Edge.hxx>
+#include <TopoDS_Shell.hxx>
+#include <TopoDS_Solid.hxx>
+#include <TopoDS_Vertex.hxx>
+#include <TopoDS_Wire.hxx>
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "borders.h"
+#include "creases.h"
+#include "splines.h"
+
+namespace obvid::cad {
+namespace {
+
+/// Faces that a CAD system can still work with.
+constexpr std::size_t kMostFaces = 20000;
+
+/// Room for rounding around a measured gap.
+constexpr double kRoom = 1.01;
+double tolerance_for(double gap) { return std::max(Precision::Confusion(), kRoom * gap); }
+
+gp_Pnt2d corner(const NurbsSurface& surface, Side side, bool end) {
+  const Range u = domain_u(surface), v = domain_v(surface);
+  switch (side) {
+    case kBottom:
+      return {end ? u.to : u.from, v.from};
+    case kTop:
+      return {end ? u.to : u.from, v.to};
+    case kLeft:
+      return {u.from, end ? v.to : v.from};
+    default:
+      return {u.to, end ? v.to : v.from};
+  }
+}
+
+/// The straight line from a to b in the plane of the parameters, over the parameters of the edge.
+Handle(Geom2d_Curve) line_between(const gp_Pnt2d& a, const gp_Pnt2d& b, const Range& edge) {
+  const gp_Vec2d step(a, b);
+  if (std::abs(step.Magnitude() - edge.length()) <= 0.0) {
+    const gp_Dir2d direction(step);
+    return new Geom2d_Line(a.Translated(-edge.from * gp_Vec2d(direction)), direction);
+  }
+  TColgp_Array1OfPnt2d poles(1, 2);
+  poles(1) = a;
+  poles(2) = b;
+  TColStd_Array1OfReal knots(1, 2);
+  knots(1) = edge.from;
+  knots(2) = edge.to;
+  TColStd_Array1OfInteger multiplicities(1, 2);
+  multiplicities.Init(2);
+  return new Geom2d_BSplineCurve(poles, knots, multiplicities, 1);
+}
+
+/// Shape of the joints: one vertex and one edge each, shared by the faces.
+class Builder {
+ public:
+  Builder(const std::vector<NurbsSurface>& patches, Joints joints)
+      : patches_(patches), joints_(std::move(joints)) {
+    std::vector<double> wide(joints_.vertices.size());
+    for (std::size_t i = 0; i < wide.size(); ++i) wide[i] = joints_.vertices[i].gap;
+    for (const JointEdge& edge : joints_.edges) {  // no vertex narrower than its edges
+      const double gap = edge.point ? size_of_point(edge) : edge.gap;
+      for (const std::size_t end : {edge.from, edge.to}) wide[end] = std::max(wide[end], gap);
+    }
+    for (std::size_t i = 0; i < wide.size(); ++i) {
+      const Vec3 p = joints_.vertices[i].point;
+      TopoDS_Vertex vertex;
+      builder_.MakeVertex(vertex, gp_Pnt(p.x, p.y, p.z), tolerance_for(wide[i]));
+      vertices_.push_back(vertex);
+    }
+    for (const JointEdge& edge : joints_.edges) edges_.push_back(edge_of(edge));
+  }
+
+  [[nodiscard]] const Joints& joints() const { return joints_; }
+
+  /// All faces, in the order of the patches.
+  std::vector<TopoDS_Face> faces() {
+    std::vector<TopoDS_Face> out;
+    for (std::size_t i = 0; i < patches_.size(); ++i) out.push_back(face_of(i));
+    return out;
+  }
+
+ private:
+  static double size_of_point(const JointEdge& edge) {
+    double size = 0.0;
+    for (const Vec3 p : edge.curve.points) size = std::max(size, norm(p - edge.curve.points[0]));
+    return size;
+  }
+
+  TopoDS_Edge edge_of(const JointEdge& joint) {
+    TopoDS_Edge edge;
+    if (joint.point) {
+      builder_.MakeEdge(edge);
+      builder_.Degenerated(edge, true);
+    } else {
+      builder_.MakeEdge(edge, spline_of(joint.curve), tolerance_for(joint.gap));
+      const Range range = domain(joint.curve);
+      builder_.Range(edge, range.from, range.to);
+    }
+    builder_.Add(edge, vertices_[joint.from].Oriented(TopAbs_FORWARD));
+    builder_.Add(edge, vertices_[joint.to].Oriented(TopAbs_REVERSED));
+    return edge;
+  }
+
+  TopoDS_Face face_of(std::size_t patch) {
+    TopoDS_Face face;
+    builder_.MakeFace(face, spline_of(patches_[patch]), Precision::Confusion());
+    for (const Side side : kSides) place(face, patch, side);
+    TopoDS_Wire wire;
+    builder_.MakeWire(wire);
+    for (const Side side : kSides) {
+      const EdgeUse& use = joints_.sides[patch][side];
+      const bool forward = runs_with_boundary(side) == use.along;
+      builder_.Add(wire, edges_[use.edge].Oriented(forward ? TopAbs_FORWARD : TopAbs_REVERSED));
+    }
+    wire.Closed(true);
+    builder_.Add(face, wire);
+    builder_.NaturalRestriction(face, true);
+    if (joints_.turned[patch]) face.Reverse();
+    return face;
+  }
+
+  [[nodiscard]] Handle(Geom2d_Curve) line(std::size_t patch, Side side) const {
+    const EdgeUse& use = joints_.sides[patch][side];
+    return line_between(corner(patches_[patch], side, !use.along),
+                        corner(patches_[patch], side, use.along),
+                        domain(joints_.edges[use.edge].curve));
+  }
+
+  /// The edge learns where it lies in the face: once, or on both sides of a seam.
+  void place(const TopoDS_Face& face, std::size_t patch, Side side) {
+    const EdgeUse& use = joints_.sides[patch][side];
+    const JointEdge& joint = joints_.edges[use.edge];
+    const TopoDS_Edge& edge = edges_[use.edge];
+    const double tolerance = tolerance_for(joint.gap);
+    const Side opposite = kSides[(side + 2) % 4];
+    if (joints_.sides[patch][opposite].edge == use.edge) {
+      if (!runs_with_boundary(side)) return;  // both at once
+      builder_.UpdateEdge(edge, line(patch, side), line(patch, opposite), face, tolerance);
+      builder_.Continuity(edge, face, face, GeomAbs_C0);
+    } else {
+      builder_.UpdateEdge(edge, line(patch, side), face, tolerance);
+    }
+    const Range range = domain(joint.curve);
+    builder_.Range(edge, face, range.from, range.to);
+  }
+
+  const std::vector<NurbsSurface>& patches_;
+  Joints joints_;
+  BRep_Builder builder_;
+  std::vector<TopoDS_Vertex> vertices_;
+  std::vector<TopoDS_Edge> edges_;
+};
+
+/// Volume to the left of the patches' normals, up to the accuracy of a sign: two places a span.
+double volume(const NurbsSurface& surface, Vec3 centre) {
+  const auto places = [](const std::vector<double>& knots, std::vector<double>& widths) {
+    std::vector<double> out;
+    for (std::size_t k = 1; k < knots.size(); ++k) {
+      const double a = knots[k - 1], b = knots[k];
+      for (const double part : {0.25, 0.75}) {
+        if (!(a < b)) continue;
+        out.push_back(a + part * (b - a));
+        widths.push_back(0.5 * (b - a));
+      }
+    }
+    return out;
+  };
+  std::vector<double> du, dv;
+  const std::vector<double> us = places(surface.knots_u, du), vs = places(surface.knots_v, dv);
+  const auto raster = evaluate_raster(surface, us, vs);
+  double sum = 0.0;
+  for (std::size_t i = 0; i < raster.size(); ++i) {
+    const SurfacePoint& p = raster[i];
+    sum += dot(p.point - centre, cross(p.du, p.dv)) * du[i % us.size()] * dv[i / us.size()];
+  }
+  return sum / 3.0;
+}
+
+bool is_inside_out(const std::vector<NurbsSurface>& patches, const Joints& joints,
+                   const Joined& group) {
+  const Vec3 centre = patches[group.patches.front()].points.front();
+  double sum = 0.0;
+  for (const std::size_t i : group.patches) {
+    sum += (joints.turned[i] ? -1.0 : 1.0) * volume(patches[i], centre);
+  }
+  return sum < 0.0;
+}
+
+/// A face alone, else a shell; with all borders shared a solid.
+TopoDS_Shape shape_of(const std::vector<NurbsSurface>& patches, const Joints& joints,
+                      const Joined& group, const std::vector<TopoDS_Face>& faces) {
+  if (group.patches.size() == 1 && !group.closed) return faces[group.patches.front()];
+  BRep_Builder builder;
+  TopoDS_Shell shell;
+  builder.MakeShell(shell);
+  for (const std::size_t i : group.patches) builder.Add(shell, faces[i]);
+  shell.Closed(group.closed);
+  if (!group.closed) return shell;
+  if (is_inside_out(patches, joints, group)) shell.Reverse();
+  TopoDS_Solid solid;
+  builder.MakeSolid(solid);
+  builder.Add(solid, shell);
+  return solid;
+}
+
+TopoDS_Shape together(const std::vector<TopoDS_Shape>& shapes) {
+  if (shapes.size() == 1) return shapes.front();
+  BRep_Builder builder;
+  TopoDS_Compound all;
+  builder.MakeCompound(all);
+  for (const TopoDS_Shape& shape : shapes) builder.Add(all, shape);
+  return all;
+}
+
+/// Patches in the kernel's unit, cut at their creases.
+struct Parts {
+  std::vector<NurbsSurface> surfaces;
+  std::vector<std::string> names;
+};
+
+Result<Parts> parts_of(const SurfaceModel& model, double scale) {
+  Parts out;
+  for (std::size_t i = 0; i < model.patches.size(); ++i) {
+    NurbsSurface surface = model.patches[i].surface;
+    const std::string& given = model.patches[i].name;
+    const std::string name = given.empty() ? fmt::format("patch {}", i + 1) : given;
+    for (Vec3& p : surface.points) p = scale * p;
+    if (auto fine = check(surface); !fine) {
+      Error error = fine.error();
+      error.where = error.where.empty() ? name : name + ", " + error.where;
+      return fail(std::move(error));
+    }
+    auto parts = without_creases(surface, kMostFaces - std::min(kMostFaces, out.surfaces.size()));
+    if (parts.empty()) {
+      return fail({ErrorCode::kUnsupported,
+                   fmt::format("the creases cut the model into more than {} faces", kMostFaces),
+                   name, "write .stl, .obj or .glb, or make the surfaces of a higher degree", -1,
+                   static_cast<double>(kMostFaces)});
+    }
+    const std::size_t count = parts.size();
+    for (std::size_t k = 0; k < count; ++k) {
+      out.names.push_back(count == 1 ? name : fmt::format("{}, part {} of {}", name, k + 1, count));
+      out.surfaces.push_back(std::move(parts[k]));
+    }
+  }
+  if (!out.surfaces.empty()) return out;
+  return fail({ErrorCode::kTooFewPoints, "the model has no surfaces", model.name,
+               "make a surface first", -1, 0.0});
+}
+
+double size_of(const std::vector<NurbsSurface>& patches) {
+  Vec3 low = patches.front().points.front(), high = low;
+  for (const NurbsSurface& patch : patches) {
+    for (const Vec3 p : patch.points) {
+      low = {std::min(low.x, p.x), std::min(low.y, p.y), std::min(low.z, p.z)};
+      high = {std::max(high.x, p.x), std::max(high.y, p.y), std::max(high.z, p.z)};
+    }
+  }
+  return norm(high - low);
+}
+
+bool is_valid(const TopoDS_Shape& shape) { return BRepCheck_Analyzer(shape).IsValid(); }
+
+}  // namespace
+
+Result<NamedFaces> faces_of(const SurfaceModel& model, double scale) {
+  auto parts = parts_of(model, scale);
+  if (!parts) return fail(parts.error());
+  const std::vector<NurbsSurface>& patches = parts->surfaces;
+  const double tolerance = kJoin * size_of(patches);
+  Builder builder(patches, joints_of(patches, tolerance));
+  std::vector<TopoDS_Face> faces = builder.faces();
+  std::vector<TopoDS_Face> apart;  // made when a shell is not valid
+  std::vector<TopoDS_Shape> shapes;
+  for (const Joined& group : builder.joints().groups) {
+    TopoDS_Shape shape = shape_of(patches, builder.joints(), group, faces);
+    if (is_valid(shape)) {
+      shapes.push_back(shape);
+      continue;
+    }
+    if (apart.empty()) apart = Builder(patches, joints_apart(patches, tolerance)).faces();
+    for (const std::size_t i : group.patches) {
+      if (!is_valid(apart[i])) {
+        return fail({ErrorCode::kInternal, "the CAD kernel finds no valid face on this surface",
+                     parts->names[i], "look at it with `obvid surface check`", -1, 0.0});
+      }
+      faces[i] = apart[i];
+      shapes.push_back(apart[i]);
+    }
+  }
+  return NamedFaces{together(shapes), std::move(faces), std::move(parts->names)};
+}
+
+}  // namespace obvid::cad

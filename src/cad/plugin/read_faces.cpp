@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "read_faces.h"
+
+#include <fmt/format.h>
+
+#include <Standard_Failure.hxx>
+#include <TopExp_Explorer.hxx>
+#include <TopTools_MapOfShape.hxx>
+#include <TopoDS.hxx>
+#include <filesystem>
+#include <utility>
+
+#include "face_surface.h"
+#include "load.h"
+
+namespace obvid::cad {
+namespace {
+
+/// Faces that are looked at; a model with more is no surface to work on here.
+constexpr std::size_t kMostFaces = 20000;
+
+FaceSurface surface_or_reason(const TopoDS_Face& face) {
+  try {
+    return surface_of(face);
+  } catch (const Standard_Failure& failure) {
+    FaceSurface out;
+    out.refused = std::string("is refused by the CAD kernel: ") + failure.GetMessageString();
+    return out;
+  }
+}
+
+void add(const TopoDS_Face& face, std::string name, CadSurfaces& out) {
+  FaceSurface made = surface_or_reason(face);
+  if (!made.surface) {
+    out.warnings.push_back(fmt::format("{} was left out: it {}", name, made.refused));
+    return;
+  }
+  if (made.trimmed) {
+    out.warnings.push_back(name + " is trimmed: the whole box of its parameters was taken");
+  }
+  if (made.deviation > 0.0) {
+    out.warnings.push_back(
+        fmt::format("{} is an offset, approximated within {:.2g} mm", name, made.deviation));
+  }
+  out.model.patches.push_back({std::move(name), *std::move(made.surface)});
+}
+
+void collect(const Loaded& loaded, CadSurfaces& out) {
+  TopTools_MapOfShape seen;
+  std::size_t number = 0;
+  for (TopExp_Explorer e(loaded.shape, TopAbs_FACE); e.More(); e.Next()) {
+    if (!seen.Add(e.Current())) continue;
+    if (++number > kMostFaces) continue;
+    std::string name = loaded.name_of(e.Current());
+    if (name.empty()) name = fmt::format("face {}", number);
+    add(TopoDS::Face(e.Current()), std::move(name), out);
+  }
+  if (number > kMostFaces) {
+    out.warnings.push_back(fmt::format("{} faces beyond the first {} were not looked at",
+                                       number - kMostFaces, kMostFaces));
+  }
+}
+
+}  // namespace
+
+Result<CadSurfaces> read_faces(const std::string& path) {
+  const auto loaded = load(path);
+  if (!loaded) return fail(loaded.error());
+  CadSurfaces out;
+  out.model.name = std::filesystem::path(path).stem().string();
+  if (!loaded->shape.IsNull()) collect(*loaded, out);
+  if (out.model.patches.empty()) {
+    std::string what = "the file holds no faces";
+    if (!out.warnings.empty()) what += " that could be taken: " + out.warnings.front();
+    return fail({ErrorCode::kTooFewPoints, what, path, "export surfaces or a solid", -1, 0.0});
+  }
+  return out;
+}
+
+}  // namespace obvid::cad

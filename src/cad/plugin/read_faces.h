@@ -1,0 +1,12 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string>
+
+#include "obvid/cad/cad.h"
+
+namespace obvid::cad {
+
+[[nodiscard]] Result<CadSurfaces> read_faces(const std::string& path);
+
+}  // namespace obvid::cad

@@ -1,0 +1,158 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "texts.h"
+
+#include <fmt/format.h>
+
+#include <APIHeaderSection_MakeHeader.hxx>
+#include <BRepTools.hxx>
+#include <IGESControl_Controller.hxx>
+#include <IGESControl_Writer.hxx>
+#include <IGESData_GlobalSection.hxx>
+#include <IGESData_IGESEntity.hxx>
+#include <IGESData_IGESModel.hxx>
+#include <IGESData_IGESWriter.hxx>
+#include <IGESSelect_WorkLibrary.hxx>
+#include <Interface_FloatWriter.hxx>
+#include <Interface_Static.hxx>
+#include <STEPConstruct.hxx>
+#include <STEPControl_Controller.hxx>
+#include <STEPControl_Writer.hxx>
+#include <StepData_Protocol.hxx>
+#include <StepData_StepModel.hxx>
+#include <StepData_StepWriter.hxx>
+#include <StepRepr_RepresentationItem.hxx>
+#include <TCollection_HAsciiString.hxx>
+#include <TransferBRep.hxx>
+#include <Transfer_FinderProcess.hxx>
+#include <XSControl_TransferWriter.hxx>
+#include <XSControl_WorkSession.hxx>
+#include <sstream>
+
+#include "obvid/core/version.h"
+#include "units.h"
+
+namespace obvid::cad {
+namespace {
+
+/// Dates would make the same contour another file every time.
+constexpr const char* kNoDate = "1970-01-01T00:00:00";
+constexpr const char* kNoIgesDate = "19700101.000000";
+constexpr const char* kProgram = "Obvid";
+
+/// The kernel cuts numbers off at 9 digits behind the point (IGES) or 15 characters (STEP), too few
+/// for curvature. Its buffer has room for 23 characters: 16 digits with sign, point and exponent.
+constexpr const char* kAllDigits = "%#.16G";
+
+Error failed(const char* what) {
+  return {ErrorCode::kInternal,
+          std::string("the CAD kernel could not write ") + what,
+          "",
+          "look at the geometry with `obvid verify` or `obvid surface check`",
+          -1,
+          0.0};
+}
+
+/// The kernel numbers the products of one process; the same contour shall give the same file.
+std::string without_numbers(std::string text, const std::string& name) {
+  const std::string begin = "'" + name + " ";
+  for (std::size_t at = text.find(begin); at != std::string::npos; at = text.find(begin, at + 1)) {
+    const std::size_t digits = at + begin.size();
+    const std::size_t end = text.find_first_not_of("0123456789", digits);
+    if (end == std::string::npos || end == digits || text[end] != '\'') continue;
+    text.erase(digits - 1, end - digits + 1);
+  }
+  return text;
+}
+
+Handle(TCollection_HAsciiString) word(const char* text) {
+  return new TCollection_HAsciiString(text);
+}
+
+void name_faces(const FileContent& content, const STEPControl_Writer& writer) {
+  const Handle(Transfer_FinderProcess) made = writer.WS()->TransferWriter()->FinderProcess();
+  for (std::size_t i = 0; i < content.faces.size(); ++i) {
+    const Handle(StepRepr_RepresentationItem) item =
+        STEPConstruct::FindEntity(made, content.faces[i]);
+    if (!item.IsNull()) item->SetName(word(content.names[i].c_str()));
+  }
+}
+
+Result<std::string> step_text(const FileContent& content, const Unit& unit, bool ap242) {
+  STEPControl_Controller::Init();
+  Interface_Static::SetCVal("write.step.schema", ap242 ? "AP242DIS" : "AP214IS");
+  Interface_Static::SetCVal("write.step.unit", unit.kernel);
+  Interface_Static::SetCVal("write.step.product.name", content.name.c_str());
+  Interface_Static::SetIVal("write.surfacecurve.mode", 0);
+  STEPControl_Writer writer;
+  if (writer.Transfer(content.shape, STEPControl_AsIs) != IFSelect_RetDone) {
+    return fail(failed("STEP"));
+  }
+  name_faces(content, writer);
+  APIHeaderSection_MakeHeader header(writer.Model());
+  header.SetName(word(content.name.c_str()));
+  header.SetTimeStamp(word(kNoDate));
+  header.SetOriginatingSystem(word(kProgram));
+  header.SetPreprocessorVersion(word((std::string(kProgram) + " " + kVersion).c_str()));
+  header.Apply(writer.Model());
+  StepData_StepWriter out(writer.Model());
+  out.FloatWriter().SetFormat(kAllDigits);
+  out.SendModel(Handle(StepData_Protocol)::DownCast(writer.WS()->Protocol()));
+  std::ostringstream text;
+  if (!out.Print(text) || text.str().empty()) return fail(failed("STEP"));
+  return without_numbers(text.str(), content.name);
+}
+
+/// IGES labels have 8 characters.
+void label_faces(const FileContent& content, const IGESControl_Writer& writer) {
+  constexpr std::size_t kLabel = 8;
+  for (std::size_t i = 0; i < content.faces.size(); ++i) {
+    const Handle(IGESData_IGESEntity) entity = Handle(IGESData_IGESEntity)::DownCast(
+        TransferBRep::TransientFromShape(writer.TransferProcess(), content.faces[i]));
+    if (!entity.IsNull()) entity->SetLabel(word(content.names[i].substr(0, kLabel).c_str()));
+  }
+}
+
+Result<std::string> iges_text(const FileContent& content, const Unit& unit) {
+  IGESControl_Controller::Init();
+  Interface_Static::SetIVal("write.iges.brep.mode", 0);
+  IGESControl_Writer writer(unit.kernel == std::string("INCH") ? "IN" : unit.kernel, 0);
+  if (!writer.AddShape(content.shape)) return fail(failed("IGES"));
+  writer.ComputeModel();
+  label_faces(content, writer);
+  IGESData_GlobalSection global = writer.Model()->GlobalSection();
+  global.SetDate(word(kNoIgesDate));
+  global.SetLastChangeDate(word(kNoIgesDate));
+  global.SetSystemId(word(kProgram));
+  global.SetAuthorName(word(kProgram));
+  global.SetFileName(word(content.faces.empty() ? "contour" : content.name.c_str()));
+  writer.Model()->SetGlobalSection(global);
+  IGESData_IGESWriter out(writer.Model());
+  out.FloatWriter().SetFormat(kAllDigits);
+  out.SendModel(IGESSelect_WorkLibrary::DefineProtocol());
+  std::ostringstream text;
+  if (!out.Print(text) || text.str().empty()) return fail(failed("IGES"));
+  return text.str();
+}
+
+}  // namespace
+
+Result<double> scale_of(CadFormat format, const std::string& unit) {
+  if (format == CadFormat::kBrep) return 1.0;  // these files have no unit
+  const auto known = unit_of(unit);
+  if (!known) return fail(known.error());
+  return known->millimetres;  // the kernel thinks in mm and writes the unit that it is told
+}
+
+Result<std::string> text_of(const FileContent& content, CadFormat format, const std::string& unit) {
+  if (format == CadFormat::kBrep) {
+    std::ostringstream text;
+    BRepTools::Write(content.shape, text);
+    return text.str();
+  }
+  const auto known = unit_of(unit);
+  if (!known) return fail(known.error());
+  if (format == CadFormat::kIges) return iges_text(content, *known);
+  return step_text(content, *known, format == CadFormat::kStepAp242);
+}
+
+}  // namespace obvid::cad
