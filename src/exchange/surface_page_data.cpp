@@ -96,8 +96,9 @@ std::vector<PrincipalCurvatures> put_patch(Bytes& out, const NurbsSurface& surfa
   }
   std::vector<PrincipalCurvatures> curvatures;
   curvatures.reserve(mesh.vertices.size());
+  const double size = size_of(surface);
   for (const MeshVertex& v : mesh.vertices) {
-    curvatures.push_back(principal_at(surface, v.u, v.v));
+    curvatures.push_back(principal_at(surface, size, v.u, v.v));
     out.real(curvatures.back().k1);
     out.real(curvatures.back().k2);
   }

@@ -61,15 +61,18 @@ constexpr Rgb kSequential[] = {{48, 36, 92},   {49, 72, 134},  {38, 107, 148},
 
 }  // namespace
 
-PrincipalCurvatures principal_at(const NurbsSurface& surface, double u, double v) {
-  const double size = size_of(surface);
+SurfaceCurvature curvature_at(const NurbsSurface& surface, double size, double u, double v) {
   SurfaceJet jet = evaluate(surface, u, v);
   for (const double part : kBeside) {
     if (is_regular(surface, jet, size)) break;
     jet = evaluate(surface, towards_middle(domain_u(surface), u, part),
                    towards_middle(domain_v(surface), v, part));
   }
-  const SurfaceCurvature k = curvature(jet);
+  return curvature(jet);
+}
+
+PrincipalCurvatures principal_at(const NurbsSurface& surface, double size, double u, double v) {
+  const SurfaceCurvature k = curvature_at(surface, size, u, v);
   return {bounded(k.k1), bounded(k.k2)};
 }
 

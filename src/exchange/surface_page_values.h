@@ -16,8 +16,13 @@ struct PrincipalCurvatures {
   double k1 = 0.0, k2 = 0.0;  ///< 1/unit
 };
 
-/// Curvatures at a point of the surface; at poles and collapsed edges those close by. Finite.
-[[nodiscard]] PrincipalCurvatures principal_at(const NurbsSurface& surface, double u, double v);
+/// Curvature at a point of a surface of this size (`size_of`); at poles and collapsed edges that
+/// close by.
+[[nodiscard]] SurfaceCurvature curvature_at(const NurbsSurface& surface, double size, double u,
+                                            double v);
+/// Principal curvatures there, finite.
+[[nodiscard]] PrincipalCurvatures principal_at(const NurbsSurface& surface, double size, double u,
+                                               double v);
 
 /// Of the four curvature colourings; 0 for the others.
 [[nodiscard]] double quantity(SurfaceColouring colouring, PrincipalCurvatures k);
