@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <utility>
 
 namespace obvid {
 namespace {
@@ -29,15 +30,6 @@ double length_between(const RationalBezier& piece, double a, double b) {
   return half * sum;
 }
 
-std::vector<double> table_of(const RationalBezier& piece) {
-  std::vector<double> table(kParts + 1, 0.0);
-  for (std::size_t i = 0; i < kParts; ++i) {
-    const double a = static_cast<double>(i) * kPart;
-    table[i + 1] = table[i] + length_between(piece, a, a + kPart);
-  }
-  return table;
-}
-
 double length_of(const Piece& piece) {
   if (const auto* line = std::get_if<LinePiece>(&piece)) return norm(line->end - line->start);
   if (const auto* arc = std::get_if<ArcPiece>(&piece)) return arc->length;
@@ -51,25 +43,34 @@ ContourPath::ContourPath(const Contour& contour) : pieces_(contour.pieces) {
   start_.reserve(pieces_.size() + 1);
   start_.push_back(0.0);
   for (const Piece& piece : pieces_) {
-    const auto* rational = std::get_if<RationalBezier>(&piece);
-    table_.push_back(rational != nullptr ? table_of(*rational) : std::vector<double>{});
-    start_.push_back(start_.back() +
-                     (rational != nullptr ? table_.back().back() : length_of(piece)));
+    Table table;
+    double length = length_of(piece);
+    if (const auto* rational = std::get_if<RationalBezier>(&piece)) {
+      length = 0.0;
+      for (std::size_t i = 0; i <= kParts; ++i) {
+        const double t = static_cast<double>(i) * kPart;
+        if (i > 0) length += length_between(*rational, t - kPart, t);
+        table.length.push_back(length);
+        table.speed.push_back(speed(*rational, t));
+      }
+    }
+    table_.push_back(std::move(table));
+    start_.push_back(start_.back() + length);
   }
 }
 
 double ContourPath::parameter(std::size_t piece, double s) const {
-  const std::vector<double>& table = table_[piece];
-  const auto above = std::upper_bound(table.begin() + 1, table.end() - 1, s);
-  const auto part = static_cast<std::size_t>(above - table.begin()) - 1;
+  const auto& [length, speeds] = table_[piece];
+  const auto above = std::upper_bound(length.begin() + 1, length.end() - 1, s);
+  const auto part = static_cast<std::size_t>(above - length.begin()) - 1;
   const auto& curve = std::get<RationalBezier>(pieces_[piece]);
-  const double from = static_cast<double>(part) * kPart, wanted = s - table[part];
-  double t = from + kPart * wanted / (table[part + 1] - table[part]);
-  // the speed hardly changes over a part: a few steps of Newton reach rounding
-  for (int step = 0; step < 4; ++step) {
-    t -= (length_between(curve, from, t) - wanted) / speed(curve, t);
-  }
-  return std::clamp(t, 0.0, 1.0);
+  const double from = static_cast<double>(part) * kPart, wanted = s - length[part];
+  // The inverse function's cubic by values and slopes at the ends of the part is good to some 1e-7
+  // of the part; one step of Newton leaves rounding.
+  const double all = length[part + 1] - length[part], x = wanted / all, y = 1.0 - x;
+  const double t = from + kPart * x * x * (3.0 - 2.0 * x) + all * x * y * y / speeds[part] -
+                   all * x * x * y / speeds[part + 1];
+  return std::clamp(t - (length_between(curve, from, t) - wanted) / speed(curve, t), 0.0, 1.0);
 }
 
 ContourPath::Place ContourPath::at(double s, bool before_joint) const {
@@ -79,7 +80,9 @@ ContourPath::Place ContourPath::at(double s, bool before_joint) const {
   const auto k = static_cast<std::size_t>(above - start_.begin()) - 1;
   const double inside = std::clamp(s - start_[k], 0.0, start_[k + 1] - start_[k]);
   const double all = start_[k + 1] - start_[k];
-  const double t = !table_[k].empty() ? parameter(k, inside) : all > 0.0 ? inside / all : 0.0;
+  const double t = !table_[k].length.empty() ? parameter(k, inside)
+                   : all > 0.0               ? inside / all
+                                             : 0.0;
   const Jet jet = evaluate(pieces_[k], t);
   return {jet.point, jet.d1 / norm(jet.d1), curvature(jet)};
 }

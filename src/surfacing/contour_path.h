@@ -32,7 +32,12 @@ class ContourPath {
 
   std::vector<Piece> pieces_;
   std::vector<double> start_;
-  std::vector<std::vector<double>> table_;  ///< of rational pieces: arc length at equal parameters
+  /// Of a rational piece, at equal parameters: arc length, and its derivative.
+  struct Table {
+    std::vector<double> length;
+    std::vector<double> speed;
+  };
+  std::vector<Table> table_;
 };
 
 }  // namespace obvid

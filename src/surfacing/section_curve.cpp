@@ -100,8 +100,4 @@ Hermite SectionCurve::at(double u) const {
   return result;
 }
 
-double SectionCurve::kappa_at(double u) const {
-  return path_ == nullptr ? 0.0 : path_->at(length_at(u).s, u >= u_.back()).kappa;
-}
-
 }  // namespace obvid

@@ -27,8 +27,6 @@ class SectionCurve {
     double s = 0.0, ds = 0.0, dds = 0.0;
   };
   [[nodiscard]] Length length_at(double u) const;
-  /// Signed curvature of the contour in its plane.
-  [[nodiscard]] double kappa_at(double u) const;
   [[nodiscard]] const Frame& frame() const { return frame_; }
   [[nodiscard]] bool is_point() const { return path_ == nullptr; }
 

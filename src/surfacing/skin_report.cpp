@@ -128,8 +128,10 @@ void add_section_report(const SkinStretch& stretch, const MeasuredSection& measu
     for (int j = 0; j < kSamplesPerSpan; ++j) {
       const double u = stretch.breaks[i] + (j + 0.5) * step;
       const SpaceJet jet = evaluate(made, u);
-      report.deviation = std::max(report.deviation, norm(jet.point - section.at(u).point));
-      meter.add(section.kappa_at(u), plane_curvature({jet.point, jet.d1, jet.d2}, section.frame()));
+      const Hermite wanted = section.at(u);
+      report.deviation = std::max(report.deviation, norm(jet.point - wanted.point));
+      meter.add(plane_curvature(wanted, section.frame()),
+                plane_curvature({jet.point, jet.d1, jet.d2}, section.frame()));
     }
   }
   report.ripple = std::max(report.ripple, meter.ripple());
