@@ -9,6 +9,7 @@
 #include <STEPControl_Reader.hxx>
 #include <StepShape_Face.hxx>
 #include <TCollection_HAsciiString.hxx>
+#include <TopoDS.hxx>
 #include <TransferBRep.hxx>
 #include <Transfer_TransientProcess.hxx>
 #include <XSControl_TransferReader.hxx>
@@ -39,8 +40,9 @@ void collect_names(const XSControl_Reader& reader, Loaded& loaded, Name name_of)
     if (name.empty()) continue;
     const TopoDS_Shape shape = TransferBRep::ShapeResult(made, entity);
     if (shape.IsNull() || shape.ShapeType() != TopAbs_FACE) continue;
-    if (!loaded.number_of_name.Bind(shape, static_cast<int>(loaded.names.size()))) continue;
-    loaded.names.push_back(name);
+    TopLoc_Location place;
+    const Handle(Geom_Surface) surface = BRep_Tool::Surface(TopoDS::Face(shape), place);
+    if (!surface.IsNull()) loaded.name_of_surface.emplace(surface.get(), name);
   }
 }
 

@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <TopTools_DataMapOfShapeInteger.hxx>
-#include <TopoDS_Shape.hxx>
+#include <BRep_Tool.hxx>
+#include <Geom_Surface.hxx>
+#include <TopLoc_Location.hxx>
+#include <TopoDS_Face.hxx>
+#include <map>
 #include <string>
-#include <vector>
 
 #include "obvid/core/result.h"
 
@@ -13,13 +15,13 @@ namespace obvid::cad {
 /// All that a file holds, and what its faces are called there.
 struct Loaded {
   TopoDS_Shape shape;
-  std::vector<std::string> names;
-  TopTools_DataMapOfShapeInteger number_of_name;
+  std::map<const Geom_Surface*, std::string> name_of_surface;  ///< what repairs leave as it is
 
   /// Empty when the file has no name for it.
-  [[nodiscard]] std::string name_of(const TopoDS_Shape& face) const {
-    const int* found = number_of_name.Seek(face);
-    return found != nullptr ? names[static_cast<std::size_t>(*found)] : std::string{};
+  [[nodiscard]] std::string name_of(const TopoDS_Face& face) const {
+    TopLoc_Location place;
+    const auto found = name_of_surface.find(BRep_Tool::Surface(face, place).get());
+    return found != name_of_surface.end() ? found->second : std::string{};
   }
 };
 

@@ -29,8 +29,11 @@ FaceSurface surface_or_reason(const TopoDS_Face& face) {
   }
 }
 
-void add(const TopoDS_Face& face, std::string name, CadSurfaces& out) {
+/// Files may call all faces the same: the warnings say which one it is.
+void add(const TopoDS_Face& face, std::size_t number, const std::string& given, CadSurfaces& out) {
   FaceSurface made = surface_or_reason(face);
+  const std::string plain = fmt::format("face {}", number);
+  const std::string name = given.empty() ? plain : fmt::format("{} ({})", plain, given);
   if (!made.surface) {
     out.warnings.push_back(fmt::format("{} was left out: it {}", name, made.refused));
     return;
@@ -42,7 +45,7 @@ void add(const TopoDS_Face& face, std::string name, CadSurfaces& out) {
     out.warnings.push_back(
         fmt::format("{} is an offset, approximated within {:.2g} mm", name, made.deviation));
   }
-  out.model.patches.push_back({std::move(name), *std::move(made.surface)});
+  out.model.patches.push_back({given.empty() ? plain : given, *std::move(made.surface)});
 }
 
 void collect(const Loaded& loaded, CadSurfaces& out) {
@@ -51,9 +54,8 @@ void collect(const Loaded& loaded, CadSurfaces& out) {
   for (TopExp_Explorer e(loaded.shape, TopAbs_FACE); e.More(); e.Next()) {
     if (!seen.Add(e.Current())) continue;
     if (++number > kMostFaces) continue;
-    std::string name = loaded.name_of(e.Current());
-    if (name.empty()) name = fmt::format("face {}", number);
-    add(TopoDS::Face(e.Current()), std::move(name), out);
+    const TopoDS_Face& face = TopoDS::Face(e.Current());
+    add(face, number, loaded.name_of(face), out);
   }
   if (number > kMostFaces) {
     out.warnings.push_back(fmt::format("{} faces beyond the first {} were not looked at",

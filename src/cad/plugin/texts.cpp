@@ -17,6 +17,7 @@
 #include <STEPConstruct.hxx>
 #include <STEPControl_Controller.hxx>
 #include <STEPControl_Writer.hxx>
+#include <StepBasic_Product.hxx>
 #include <StepData_Protocol.hxx>
 #include <StepData_StepModel.hxx>
 #include <StepData_StepWriter.hxx>
@@ -29,6 +30,7 @@
 #include <sstream>
 
 #include "obvid/core/version.h"
+#include "step_letters.h"
 #include "units.h"
 
 namespace obvid::cad {
@@ -52,20 +54,18 @@ Error failed(const char* what) {
           0.0};
 }
 
-/// The kernel numbers the products of one process; the same contour shall give the same file.
-std::string without_numbers(std::string text, const std::string& name) {
-  const std::string begin = "'" + name + " ";
-  for (std::size_t at = text.find(begin); at != std::string::npos; at = text.find(begin, at + 1)) {
-    const std::size_t digits = at + begin.size();
-    const std::size_t end = text.find_first_not_of("0123456789", digits);
-    if (end == std::string::npos || end == digits || text[end] != '\'') continue;
-    text.erase(digits - 1, end - digits + 1);
-  }
-  return text;
-}
-
 Handle(TCollection_HAsciiString) word(const char* text) {
   return new TCollection_HAsciiString(text);
+}
+
+/// The kernel numbers the products of one process; the same content shall give the same file.
+void name_products(const std::string& name, const Handle(StepData_StepModel) & model) {
+  for (int i = 1; i <= model->NbEntities(); ++i) {
+    const auto product = Handle(StepBasic_Product)::DownCast(model->Value(i));
+    if (product.IsNull()) continue;
+    product->SetId(word(name.c_str()));
+    product->SetName(word(name.c_str()));
+  }
 }
 
 void name_faces(const FileContent& content, const STEPControl_Writer& writer) {
@@ -83,10 +83,13 @@ Result<std::string> step_text(const FileContent& content, const Unit& unit, bool
   Interface_Static::SetCVal("write.step.unit", unit.kernel);
   Interface_Static::SetCVal("write.step.product.name", content.name.c_str());
   Interface_Static::SetIVal("write.surfacecurve.mode", 0);
+  // of what the kernel repairs before it writes, faces need nothing; copies would lose their names
+  Interface_Static::SetCVal("write.step.sequence", content.faces.empty() ? "ToSTEP" : "Nothing");
   STEPControl_Writer writer;
   if (writer.Transfer(content.shape, STEPControl_AsIs) != IFSelect_RetDone) {
     return fail(failed("STEP"));
   }
+  name_products(content.name, writer.Model());
   name_faces(content, writer);
   APIHeaderSection_MakeHeader header(writer.Model());
   header.SetName(word(content.name.c_str()));
@@ -99,7 +102,7 @@ Result<std::string> step_text(const FileContent& content, const Unit& unit, bool
   out.SendModel(Handle(StepData_Protocol)::DownCast(writer.WS()->Protocol()));
   std::ostringstream text;
   if (!out.Print(text) || text.str().empty()) return fail(failed("STEP"));
-  return without_numbers(text.str(), content.name);
+  return in_step_letters(text.str());
 }
 
 /// IGES labels have 8 characters.

@@ -1,0 +1,306 @@
+// SPDX-License-Identifier: Apache-2.0
+// Faces written, and read by a process that never wrote one: the same surfaces, names and units.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cstdio>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <optional>
+#include <sstream>
+#include <tuple>
+
+#include "faces_models.h"
+#include "obvid/cad/cad.h"
+
+namespace obvid {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr const char* kFile = "OBVID_TEST_FACES_FILE";
+constexpr const char* kModel = "OBVID_TEST_FACES_MODEL";
+constexpr const char* kUnits = "OBVID_TEST_FACES_UNITS";
+
+constexpr CadFormat kFormats[] = {CadFormat::kStepAp214, CadFormat::kStepAp242, CadFormat::kIges,
+                                  CadFormat::kBrep};
+
+double millimetres(const std::string& units) {
+  return units == "m" ? 1000.0 : units == "in" ? 25.4 : 1.0;
+}
+
+SurfaceModel model_named(const std::string& name) {
+  for (KnownModel& one : known_models()) {
+    if (one.model.name == name) return std::move(one.model);
+  }
+  return {};
+}
+
+/// Largest distance of two surfaces at the same parameters; with the second turned round (its u
+/// backwards) if that is nearer.
+double apart(const NurbsSurface& a, const NurbsSurface& b, double scale) {
+  constexpr int kSteps = 16;
+  double straight = 0.0, turned = 0.0;
+  for (int k = 0; k < kSteps * kSteps; ++k) {
+    const double u = (k % kSteps + 0.5) / kSteps, v = (k / kSteps + 0.5) / kSteps;
+    const Vec3 p = scale * evaluate(a, domain_u(a).at(u), domain_v(a).at(v)).point;
+    const double y = domain_v(b).at(v);
+    straight = std::max(straight, norm(p - evaluate(b, domain_u(b).at(u), y).point));
+    turned = std::max(turned, norm(p - evaluate(b, domain_u(b).at(1.0 - u), y).point));
+  }
+  return std::min(straight, turned);
+}
+
+const SurfacePatch& nearest(const NurbsSurface& surface, const SurfaceModel& model, double scale) {
+  std::size_t best = 0;
+  double least = apart(surface, model.patches.front().surface, scale);
+  for (std::size_t i = 1; i < model.patches.size(); ++i) {
+    const double distance = apart(surface, model.patches[i].surface, scale);
+    if (distance < least) std::tie(best, least) = std::tuple(i, distance);
+  }
+  return model.patches[best];
+}
+
+/// Runs in the fresh process only; the tests below start it with the name of the file.
+TEST(FaceReader, FindsTheSurfacesOfAnotherProcess) {
+  const char *file = std::getenv(kFile), *name = std::getenv(kModel), *units = std::getenv(kUnits);
+  if (file == nullptr || name == nullptr || units == nullptr) {
+    GTEST_SKIP() << "the next tests start this one";
+  }
+  const SurfaceModel expected = model_named(name);
+  const auto read = read_cad_surfaces(file);
+  ASSERT_TRUE(read) << to_line(read.error());
+  EXPECT_TRUE(read->warnings.empty()) << read->warnings.front();
+  EXPECT_EQ(read->model.units, "mm");
+  ASSERT_EQ(read->model.patches.size(), expected.patches.size());
+  const double scale = fs::path(file).extension() == ".brep" ? 1.0 : millimetres(units);
+  const double limit = 1e-9 * scale * size_of(expected);
+  const std::string ending = fs::path(file).extension().string();
+  for (const SurfacePatch& patch : expected.patches) {
+    const SurfacePatch& found = nearest(patch.surface, read->model, scale);  // shells come in turn
+    const NurbsSurface &a = patch.surface, &b = found.surface;
+    EXPECT_EQ(a.degree_u, b.degree_u) << patch.name;
+    EXPECT_EQ(a.degree_v, b.degree_v) << patch.name;
+    EXPECT_EQ(a.points.size(), b.points.size()) << patch.name;
+    EXPECT_EQ(a.weights.empty(), b.weights.empty()) << patch.name;
+    EXPECT_LE(apart(a, b, scale), limit) << patch.name;
+    if (ending == ".igs") {
+      EXPECT_EQ(found.name, patch.name.substr(0, 8));
+    } else if (ending == ".step") {
+      EXPECT_EQ(found.name, patch.name);
+    }
+  }
+}
+
+class FaceFiles : public testing::Test {
+ protected:
+  void SetUp() override {
+    const auto text = cad_surface_text(plane_model().model, {});
+    if (!text && text.error().code == ErrorCode::kUnsupported) {
+      GTEST_SKIP() << "the plugin is not built: " << text.error().what;
+    }
+    ASSERT_TRUE(text) << to_line(text.error());
+    std::string pattern = (fs::temp_directory_path() / "obvid-test-XXXXXX").string();
+    ASSERT_NE(::mkdtemp(pattern.data()), nullptr);
+    folder_ = pattern;
+  }
+  void TearDown() override {
+    if (!folder_.empty()) fs::remove_all(folder_);
+  }
+
+  fs::path written(const SurfaceModel& model, CadFormat format) {
+    CadWriteOptions options;
+    options.format = format;
+    const auto text = cad_surface_text(model, options);
+    EXPECT_TRUE(text) << model.name << to_line(text.error());
+    const char* ending = format == CadFormat::kBrep   ? ".brep"
+                         : format == CadFormat::kIges ? ".igs"
+                                                      : ".step";
+    fs::path file = folder_ / (model.name + ending);
+    std::ofstream(file, std::ios::binary) << (text ? *text : std::string{});
+    return file;
+  }
+
+  /// Whether a new process reads the model out of the file.
+  static void expect_found(const fs::path& file, const SurfaceModel& model) {
+    std::ostringstream command;
+    command << kFile << "='" << file.string() << "' " << kModel << "=" << model.name << " "
+            << kUnits << "=" << model.units << " " << fs::read_symlink("/proc/self/exe").string()
+            << " --gtest_filter=FaceReader.* 2>&1 </dev/null";
+    std::string out;
+    FILE* pipe = ::popen(command.str().c_str(), "r");
+    ASSERT_NE(pipe, nullptr);
+    char buffer[4096];
+    for (std::size_t n = 0; (n = std::fread(buffer, 1, sizeof buffer, pipe)) > 0;) {
+      out.append(buffer, n);
+    }
+    EXPECT_EQ(::pclose(pipe), 0) << file.filename() << "\n" << out;
+    EXPECT_NE(out.find("[  PASSED  ] 1 test"), std::string::npos) << out;
+  }
+
+  fs::path folder_;
+};
+
+TEST_F(FaceFiles, EveryFormatKeepsTheSurfacesAndTheirNames) {
+  int models = 0;
+  for (const KnownModel& one : known_models()) {
+    if (one.faces != one.model.patches.size()) continue;  // cut at creases: the next test
+    ++models;
+    for (const CadFormat format : kFormats) expect_found(written(one.model, format), one.model);
+  }
+  EXPECT_GE(models, 7);
+}
+
+TEST_F(FaceFiles, UnitsKeepTheLengths) {
+  for (const char* units : {"m", "in"}) {
+    SurfaceModel model = sphere_model().model;
+    model.units = units;
+    for (const CadFormat format : kFormats) expect_found(written(model, format), model);
+  }
+  SurfaceModel model = plane_model().model;
+  model.units = "furlong";
+  const auto refused = cad_surface_text(model, {});
+  ASSERT_FALSE(refused);
+  EXPECT_EQ(refused.error().code, ErrorCode::kBadOption);
+}
+
+TEST_F(FaceFiles, ACreaseCutsAPatchIntoNamedParts) {
+  const auto read = read_cad_surfaces(written(roof_model().model, CadFormat::kStepAp214).string());
+  ASSERT_TRUE(read) << to_line(read.error());
+  ASSERT_EQ(read->model.patches.size(), 2U);
+  EXPECT_EQ(read->model.patches[0].name, "roof, part 1 of 2");
+  EXPECT_EQ(read->model.patches[1].name, "roof, part 2 of 2");
+  for (const double part : {0.0, 0.4, 1.0}) {  // the line where they meet: x = 3, z = 4
+    const Vec3 ridge = evaluate(read->model.patches[0].surface, 0.5, part).point;
+    EXPECT_NEAR(norm(ridge - Vec3{3, 7.0 * part, 4}), 0.0, 1e-12);
+  }
+}
+
+TEST_F(FaceFiles, CreasesBothWaysCutInFour) {
+  NurbsSurface tent{1, 1, {0, 0, 0.5, 1, 1}, {0, 0, 0.5, 1, 1}, {}, {}};
+  for (int k = 0; k < 9; ++k) {
+    const double x = k % 3, y = k / 3;
+    tent.points.push_back({x, y, k == 4 ? 1.0 : 0.0});
+  }
+  const SurfaceModel model{"tent", "mm", {{"tent", tent}}};
+  const auto read = read_cad_surfaces(written(model, CadFormat::kBrep).string());
+  ASSERT_TRUE(read);
+  EXPECT_EQ(read->model.patches.size(), 4U);
+}
+
+TEST_F(FaceFiles, TheSameModelGivesTheSameBytes) {
+  for (const KnownModel& one : {sphere_model(), box_model()}) {
+    for (const CadFormat format : kFormats) {
+      CadWriteOptions options;
+      options.format = format;
+      const auto a = cad_surface_text(one.model, options), b = cad_surface_text(one.model, options);
+      ASSERT_TRUE(a && b);
+      EXPECT_TRUE(*a == *b) << one.model.name;
+    }
+  }
+}
+
+std::size_t count_of(const std::string& text, const std::string& word) {
+  std::size_t count = 0;
+  for (std::size_t at = text.find(word); at != std::string::npos; at = text.find(word, at + 1)) {
+    ++count;
+  }
+  return count;
+}
+
+TEST_F(FaceFiles, StepHasOneSplineSurfaceForEachPatch) {
+  for (const KnownModel& one : known_models()) {
+    if (one.faces != one.model.patches.size()) continue;
+    const auto text = cad_surface_text(one.model, {});
+    ASSERT_TRUE(text);
+    EXPECT_EQ(count_of(*text, "B_SPLINE_SURFACE_WITH_KNOTS("), one.faces) << one.model.name;
+    EXPECT_EQ(count_of(*text, "ADVANCED_FACE("), one.faces) << one.model.name;
+    if (one.kind == "Solid") {
+      EXPECT_EQ(count_of(*text, "MANIFOLD_SOLID_BREP("), 1U) << one.model.name;
+    }
+  }
+}
+
+TEST_F(FaceFiles, NamesSurviveWhateverTheyAreMadeOf) {
+  SurfaceModel model = plane_model().model;
+  for (const std::string name : {"it's", "a\\b",
+                                 "Fl\xC3\xA4"
+                                 "che \xE2\x88\x82",
+                                 "two  words; #3 (x, $*)"}) {
+    model.patches[0].name = name;
+    model.name = "model " + name;
+    const auto text = cad_surface_text(model, {});
+    ASSERT_TRUE(text) << name;
+    for (const char c : *text) EXPECT_LT(static_cast<unsigned char>(c), 128U) << name;
+    const fs::path file = folder_ / "named.step";
+    std::ofstream(file, std::ios::binary) << *text;
+    const auto read = read_cad_surfaces(file.string());
+    ASSERT_TRUE(read) << name << to_line(read.error());
+    EXPECT_EQ(read->model.patches.at(0).name, name);
+  }
+}
+
+TEST_F(FaceFiles, WhatIsNoSurfaceIsRefusedByName) {
+  const auto empty = cad_surface_text({}, {});
+  ASSERT_FALSE(empty);
+  EXPECT_EQ(empty.error().code, ErrorCode::kTooFewPoints);
+  SurfaceModel model = plane_model().model;
+  model.patches[0].surface.points[2].y = std::nan("");
+  const auto no_number = cad_surface_text(model, {});
+  ASSERT_FALSE(no_number);
+  EXPECT_EQ(no_number.error().code, ErrorCode::kNotFinite);
+  EXPECT_NE(no_number.error().where.find("floor"), std::string::npos);
+  model = sphere_model().model;
+  model.patches[0].surface.weights[3] = -1.0;
+  EXPECT_FALSE(cad_surface_text(model, {}));
+  model.patches[0].surface.points.assign(model.patches[0].surface.points.size(), Vec3{1, 2, 3});
+  model.patches[0].surface.weights.clear();
+  const auto point = cad_surface_text(model, {});  // shrunk to a point
+  ASSERT_FALSE(point);
+  EXPECT_FALSE(point.error().what.empty());
+}
+
+TEST_F(FaceFiles, DamagedFilesAreRefusedAndNothingCrashes) {
+  for (const CadFormat format : kFormats) {
+    const fs::path file = written(box_model().model, format);
+    std::ifstream in(file, std::ios::binary);
+    std::ostringstream text;
+    text << in.rdbuf();
+    constexpr std::size_t kCuts = 12;
+    for (std::size_t k = 0; k < kCuts; ++k) {
+      std::ofstream(file, std::ios::binary) << text.str().substr(0, text.str().size() * k / kCuts);
+      const auto read = read_cad_surfaces(file.string());
+      if (!read) {
+        EXPECT_FALSE(to_line(read.error()).empty());
+      }
+    }
+  }
+  EXPECT_EQ(read_cad_surfaces((folder_ / "none.step").string()).error().code,
+            ErrorCode::kCannotOpen);
+}
+
+TEST_F(FaceFiles, PublicFilesAreReadOrRefusedWithAReason) {
+  const fs::path folder = fs::path(OBVID_SHARED_DATA) / "cad_iges_step";
+  if (!fs::exists(folder)) GTEST_SKIP() << "the public data are not there";
+  int read_ones = 0;
+  for (const auto& entry : fs::directory_iterator(folder)) {
+    if (entry.path().extension() == ".csv") continue;
+    const auto read = read_cad_surfaces(entry.path().string());
+    if (!read) {
+      std::printf("%-28s %s\n", entry.path().filename().c_str(), to_line(read.error()).c_str());
+      EXPECT_FALSE(read.error().what.empty());
+      continue;
+    }
+    ++read_ones;
+    std::printf("%-28s %zu patches, %zu warnings\n", entry.path().filename().c_str(),
+                read->model.patches.size(), read->warnings.size());
+    for (const SurfacePatch& patch : read->model.patches) {
+      EXPECT_TRUE(check(patch.surface)) << patch.name;
+    }
+  }
+  EXPECT_GE(read_ones, 7);
+}
+
+}  // namespace
+}  // namespace obvid

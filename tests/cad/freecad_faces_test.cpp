@@ -1,0 +1,211 @@
+// SPDX-License-Identifier: Apache-2.0
+// Faces read by FreeCAD, a program of other people: valid, as many, of the same area, the same
+// points.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstdio>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <map>
+#include <sstream>
+#include <string>
+
+#include "faces_models.h"
+#include "obvid/cad/cad.h"
+
+namespace obvid {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct Verdict {
+  int valid = 0;
+  std::string kind;
+  std::size_t faces = 0, open_edges = 0;
+  double area = 0.0, volume = 0.0, distance = 1.0;
+  Vec3 low, high;
+};
+
+struct Format {
+  CadFormat format;
+  const char* ending;
+};
+constexpr Format kFormats[] = {{CadFormat::kStepAp214, ".step"},
+                               {CadFormat::kStepAp242, ".stp"},
+                               {CadFormat::kIges, ".igs"},
+                               {CadFormat::kBrep, ".brep"}};
+
+std::string output_of(const std::string& command) {
+  std::string out;
+  FILE* pipe = ::popen(command.c_str(), "r");
+  if (pipe == nullptr) return out;
+  char buffer[4096];
+  for (std::size_t n = 0; (n = std::fread(buffer, 1, sizeof buffer, pipe)) > 0;) {
+    out.append(buffer, n);
+  }
+  ::pclose(pipe);
+  return out;
+}
+
+/// Points all over the patches, none of them a pole.
+std::string points_json(const SurfaceModel& model, double scale) {
+  constexpr int kEach = 5;
+  std::ostringstream out;
+  out.precision(17);
+  const char* comma = "";
+  for (const SurfacePatch& patch : model.patches) {
+    for (int k = 0; k < kEach * kEach; ++k) {
+      const double u = domain_u(patch.surface).at((k % kEach + 0.37) / kEach);
+      const double v = domain_v(patch.surface).at((k / kEach + 0.61) / kEach);
+      const Vec3 p = scale * evaluate(patch.surface, u, v).point;
+      out << comma << "[" << p.x << ", " << p.y << ", " << p.z << "]";
+      comma = ", ";
+    }
+  }
+  return out.str();
+}
+
+class FacesInFreecad : public testing::Test {
+ protected:
+  void SetUp() override {
+    if (output_of("command -v freecadcmd").empty()) GTEST_SKIP() << "FreeCAD is not installed";
+    const auto text = cad_surface_text(plane_model().model, {});
+    if (!text && text.error().code == ErrorCode::kUnsupported) {
+      GTEST_SKIP() << "the plugin for CAD files is not built: " << text.error().what;
+    }
+    ASSERT_TRUE(text) << to_line(text.error());
+    std::string pattern = (fs::temp_directory_path() / "obvid-test-XXXXXX").string();
+    ASSERT_NE(::mkdtemp(pattern.data()), nullptr);
+    folder_ = pattern;
+  }
+  void TearDown() override {
+    if (!folder_.empty()) fs::remove_all(folder_);
+  }
+
+  void write(const SurfaceModel& model, const Format& format, double millimetres) {
+    CadWriteOptions options;
+    options.format = format.format;
+    const auto text = cad_surface_text(model, options);
+    ASSERT_TRUE(text) << model.name << format.ending << to_line(text.error());
+    const fs::path file = folder_ / (model.name + format.ending);
+    std::ofstream(file, std::ios::binary) << *text;
+    add(file, model, format.format == CadFormat::kBrep ? 1.0 : millimetres);
+  }
+
+  /// A file to be judged, with points that lie on its faces.
+  void add(const fs::path& file, const SurfaceModel& model, double scale) {
+    job_ << (written_++ > 0 ? ",\n" : "[") << "{\"file\": \"" << file.string()
+         << "\", \"size\": " << scale * size_of(model) << ", \"points\": ["
+         << points_json(model, scale) << "]}";
+  }
+
+  std::map<std::string, Verdict> judged() {
+    const fs::path list = folder_ / "judge.json";
+    std::ofstream(list) << job_.str() << "]";
+    const std::string out =
+        output_of("HOME=" + folder_.string() + " OBVID_JUDGE=" + list.string() + " freecadcmd " +
+                  OBVID_SOURCE_DIR + "/tests/cad/freecad_faces_judge.py 2>&1 </dev/null");
+    EXPECT_NE(out.find("JUDGE DONE"), std::string::npos) << out;
+    std::map<std::string, Verdict> verdicts;
+    std::istringstream lines(out);
+    std::string word, name;
+    while (lines >> word) {
+      if (word != "JUDGED") continue;
+      Verdict v;
+      lines >> name >> v.valid >> v.kind >> v.faces >> v.open_edges >> v.area >> v.volume >>
+          v.distance >> v.low.x >> v.low.y >> v.low.z >> v.high.x >> v.high.y >> v.high.z;
+      verdicts[name] = v;
+      std::printf("%-16s valid %d %-9s %2zu faces, %2zu open edges, area %.12g, volume %.12g, %g\n",
+                  name.c_str(), v.valid, v.kind.c_str(), v.faces, v.open_edges, v.area, v.volume,
+                  v.distance);
+    }
+    EXPECT_EQ(verdicts.size(), written_);
+    return verdicts;
+  }
+
+  fs::path folder_;
+  std::ostringstream job_;
+  std::size_t written_ = 0;
+};
+
+/// The box that FreeCAD finds holds our points, and is not larger than that of the control points.
+void expect_around(const Verdict& v, const SurfaceModel& model, const std::string& name) {
+  const double room = 1e-6 * size_of(model);  // FreeCAD widens boxes by tolerances
+  for (const SurfacePatch& patch : model.patches) {
+    const std::vector<double> us = {domain_u(patch.surface).from, domain_u(patch.surface).at(0.3),
+                                    domain_u(patch.surface).to};
+    const std::vector<double> vs = {domain_v(patch.surface).from, domain_v(patch.surface).at(0.6),
+                                    domain_v(patch.surface).to};
+    for (const SurfacePoint& p : evaluate_raster(patch.surface, us, vs)) {
+      EXPECT_GE(p.point.x, v.low.x - room) << name;
+      EXPECT_GE(p.point.y, v.low.y - room) << name;
+      EXPECT_GE(p.point.z, v.low.z - room) << name;
+      EXPECT_LE(p.point.x, v.high.x + room) << name;
+      EXPECT_LE(p.point.y, v.high.y + room) << name;
+      EXPECT_LE(p.point.z, v.high.z + room) << name;
+    }
+  }
+  EXPECT_LE(norm(v.high - v.low), 1.001 * size_of(model)) << name;
+}
+
+TEST_F(FacesInFreecad, EveryPatchIsAValidFaceInEveryFormat) {
+  const std::vector<KnownModel> models = known_models();
+  for (const KnownModel& one : models) {
+    for (const Format& format : kFormats) write(one.model, format, 1.0);
+  }
+  const auto verdicts = judged();
+  for (const KnownModel& one : models) {
+    for (const Format& format : kFormats) {
+      const std::string name = one.model.name + format.ending;
+      ASSERT_EQ(verdicts.count(name), 1U) << name;
+      const Verdict& v = verdicts.at(name);
+      EXPECT_EQ(v.valid, 1) << name;
+      EXPECT_EQ(v.faces, one.faces) << name;
+      EXPECT_LE(v.distance, 1e-9) << name;
+      if (one.area > 0.0) {
+        EXPECT_NEAR(v.area, one.area, 1e-8 * one.area) << name;
+      }
+      expect_around(v, one.model, name);
+      if (format.format == CadFormat::kIges) continue;  // faces only
+      // STEP has no lone faces
+      const bool face = one.kind == "Face" && format.format != CadFormat::kBrep;
+      EXPECT_EQ(v.kind, face ? "Shell" : one.kind) << name;
+      EXPECT_EQ(v.open_edges, one.open_edges) << name;
+      // FreeCAD's volumes of rational bodies are a few parts in a thousand off; normals inwards
+      // would make them negative
+      EXPECT_NEAR(v.volume, one.volume, 5e-3 * one.volume) << name;
+    }
+  }
+}
+
+TEST_F(FacesInFreecad, UnitsKeepTheLengths) {
+  const std::pair<const char*, double> units[] = {{"m", 1000.0}, {"in", 25.4}, {"cm", 10.0}};
+  for (const auto& [unit, millimetres] : units) {
+    KnownModel one = torus_model();
+    one.model.name = one.model.units = unit;
+    for (const Format& format : kFormats) write(one.model, format, millimetres);
+  }
+  for (const auto& [name, v] : judged()) {
+    EXPECT_EQ(v.valid, 1) << name;
+    EXPECT_LE(v.distance, 1e-9) << name;
+  }
+}
+
+/// Planes, cylinders, spheres and tori of files that other systems wrote.
+TEST_F(FacesInFreecad, FacesReadFromPublicFilesLieOnTheirs) {
+  const fs::path folder = fs::path(OBVID_SHARED_DATA) / "cad_iges_step";
+  if (!fs::exists(folder)) GTEST_SKIP() << "the public data are not there";
+  for (const char* name :
+       {"stepcode_HEAD_BACK.stp", "stepcode_TAIL_TURBINE.stp", "pythonocc_splinecage.stp",
+        "pygem_test_pipe.step", "pythonocc_surf114.igs", "occt_wing.brep"}) {
+    const auto read = read_cad_surfaces((folder / name).string());
+    ASSERT_TRUE(read) << name << to_line(read.error());
+    add(folder / name, read->model, 1.0);
+  }
+  for (const auto& [name, v] : judged()) EXPECT_LE(v.distance, 1e-9) << name;
+}
+
+}  // namespace
+}  // namespace obvid
