@@ -263,7 +263,7 @@ function readAddress() {
   else if (Object.hasOwn(modes, mode)) state.mode = mode;
   const chosen = given.get("quantity");
   if (quantities.includes(chosen)) state.quantity = chosen;
-  for (const id of ["u", "v", "stripes"]) state[id] = whole(given.get(id) ?? "", 1, 60) ?? state[id];
+  for (const id of ["u", "v", "stripes"]) state[id] = whole(given.get(id) ?? "", Number(byId(id).min), Number(byId(id).max)) ?? state[id];
   for (const id of ["borders", "wireframe"]) if (given.has(id)) state[id] = given.get(id) !== "0";
   const projection = given.get("projection");
   if (projection) state.perspective = projection !== "orthographic";
@@ -285,7 +285,10 @@ function listen() {
   byId("none").addEventListener("click", () => setAllPatches(false));
   byId("point").querySelector("button").addEventListener("click", keys.escape);
   // until the viewer chooses a place the surface keeps filling the window
-  new ResizeObserver(() => state.placed ? redraw() : look(state.azimuth, state.elevation, true)).observe(canvas);
+  new ResizeObserver(() => {
+    if (!state.placed) look(state.azimuth, state.elevation, true);
+    draw();  // in the same frame, or it would show stretched
+  }).observe(canvas);
   addEventListener("hashchange", readAddress);
   dark.addEventListener("change", redraw);
   canvas.addEventListener("webglcontextlost", e => e.preventDefault());

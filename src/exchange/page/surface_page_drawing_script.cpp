@@ -182,7 +182,7 @@ const size = () => ({width: Math.max(1, canvas.clientWidth), height: Math.max(1,
 /** Px at the edges of the window that belong to title, panel and legend. */
 function covered() {
   const {width} = size();
-  return width > 720 ? {right: 288, top: 60, bottom: 92} : {right: 0, top: 64, bottom: byId("panel").offsetHeight + 10};
+  return width > 720 ? {right: 288, top: 60, bottom: 118} : {right: 0, top: 64, bottom: byId("panel").offsetHeight + 10};
 }
 
 function matrices() {
