@@ -66,11 +66,19 @@ double ContourPath::parameter(std::size_t piece, double s) const {
   const auto& curve = std::get<RationalBezier>(pieces_[piece]);
   const double from = static_cast<double>(part) * kPart, wanted = s - length[part];
   // The inverse function's cubic by values and slopes at the ends of the part is good to some 1e-7
-  // of the part; one step of Newton leaves rounding.
+  // of the part where the speed is even: mostly one step of Newton leaves rounding.
   const double all = length[part + 1] - length[part], x = wanted / all, y = 1.0 - x;
-  const double t = from + kPart * x * x * (3.0 - 2.0 * x) + all * x * y * y / speeds[part] -
-                   all * x * x * y / speeds[part + 1];
-  return std::clamp(t - (length_between(curve, from, t) - wanted) / speed(curve, t), 0.0, 1.0);
+  double t = from + kPart * x * x * (3.0 - 2.0 * x) + all * x * y * y / speeds[part] -
+             all * x * x * y / speeds[part + 1];
+  constexpr int kMostSteps = 10;
+  constexpr double kEnough = 1e-9;  // of the parameter: the next step would be the square of it
+  for (int step = 0; step < kMostSteps; ++step) {
+    t = std::clamp(t, from, from + kPart);
+    const double move = (length_between(curve, from, t) - wanted) / speed(curve, t);
+    t -= move;
+    if (std::abs(move) < kEnough) break;
+  }
+  return std::clamp(t, 0.0, 1.0);
 }
 
 ContourPath::Place ContourPath::at(double s, bool before_joint) const {

@@ -18,7 +18,7 @@ constexpr double kKept = 1e-6;  ///< of the curvature: for circular stretches, w
 /// Halvings between two marks for the sake of points, and of curvature: where a contour's curvature
 /// steps within the rounding of its joints, no spline follows it, and more breaks are in vain.
 constexpr int kDeepest = 10;
-constexpr int kDeepestForCurvature = 5;
+constexpr int kDeepestForCurvature = 8;
 
 enum class Following { kNot, kByPoints, kWhole };
 

@@ -19,7 +19,7 @@ struct BreakGoals {
 /// The fewest breaks (found by halving) at which splines of degree 5 that take over two derivatives
 /// of every section follow all of them within the tolerance and keep their curvature: to a tenth of
 /// its change over a span, or `kKept` of itself, and changing one way where it does so on the
-/// contour. Halving prefers the common marks; for curvature alone it ends at 2^5 parts between two
+/// contour. Halving prefers the common marks; for curvature alone it ends at 2^8 parts between two
 /// marks. Error: E502 when the tolerance is not reached with 2^10 parts.
 [[nodiscard]] Result<std::vector<double>> breaks_for(const std::vector<SectionCurve>& sections,
                                                      const std::vector<double>& marks,
