@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cstdint>
 
 namespace obvid::cad {
@@ -41,6 +42,8 @@ std::uint32_t next_letter(const std::string& text, std::size_t& at) {
 }  // namespace
 
 std::string in_step_letters(const std::string& text) {
+  const auto beyond = [](char c) { return static_cast<unsigned char>(c) >= 0x80; };
+  if (std::none_of(text.begin(), text.end(), beyond)) return text;  // nearly always
   std::string out;
   out.reserve(text.size());
   for (std::size_t at = 0; at < text.size();) {
