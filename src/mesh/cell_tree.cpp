@@ -113,9 +113,10 @@ Result<void> CellTree::refine(const Cell& cell) {
   return {};
 }
 
-Result<bool> CellTree::improve(const std::vector<bool>& marked) {
+Result<bool> CellTree::improve(const std::vector<bool>& marked, std::vector<CellSeen>& seen) {
   std::vector<Cell> old;
   std::swap(old, cells_);
+  std::vector<CellSeen> kept;
   bool changed = false;
   for (std::size_t k = 0; k < old.size(); ++k) {
     const bool bad = k < marked.size() && marked[k];
@@ -124,13 +125,16 @@ Result<bool> CellTree::improve(const std::vector<bool>& marked) {
     if (!parts) {
       cells_.push_back(old[k]);
       cells_.back().fan = old[k].fan || bad;
+      kept.push_back(seen[k]);
       continue;
     }
     for (Cell part : *parts) {
       part.fan = false;
       if (auto done = refine(part); !done) return fail(std::move(done.error()));
     }
+    kept.resize(cells_.size());
   }
+  seen = std::move(kept);
   return changed;
 }
 

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "cell_judge.h"
+#include "measure.h"
 #include "obvid/core/result.h"
 
 namespace obvid::mesh {
@@ -19,7 +20,8 @@ class CellTree {
   /// Cells that look good and turned out not to be, mostly because of the points of their
   /// neighbours: first they become fans, which gives neighbours no new points, the second time they
   /// are cut. Cells that are as small as they may be stay. False: nothing changed.
-  [[nodiscard]] Result<bool> improve(const std::vector<bool>& marked);
+  /// `seen`, one for each cell, is kept beside the cells.
+  [[nodiscard]] Result<bool> improve(const std::vector<bool>& marked, std::vector<CellSeen>& seen);
 
   [[nodiscard]] const std::vector<Cell>& cells() const { return cells_; }
   /// The surface has an edge at the begin of this span.

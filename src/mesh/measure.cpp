@@ -17,12 +17,25 @@ constexpr double kSettled = 1e-3;
 /// Most parts into which the edges of a triangle are divided for looking at it.
 constexpr std::size_t kMostParts = 32;
 
+/// Shortest part of a step that is tried when the whole one leads away.
+constexpr double kShortest = 1.0 / 64.0;
+/// Steps each way of a search around a triangle that seems too far off.
+constexpr int kSearched = 16;
+/// Square of the sine between du and dv below which they count as one direction.
+constexpr double kParallel = 1e-12;
+
+struct Moves {
+  bool u = true, v = true;
+};
+
+using Triangle = std::array<const MeshVertex*, 3>;
+
 struct Spot {
   Vec3 point;
   double u = 0.0, v = 0.0;
 };
 
-Spot mix(const std::array<const MeshVertex*, 3>& t, double a, double b, double c) {
+Spot mix(const Triangle& t, double a, double b, double c) {
   return {a * t[0]->point + b * t[1]->point + c * t[2]->point,
           a * t[0]->u + b * t[1]->u + c * t[2]->u, a * t[0]->v + b * t[1]->v + c * t[2]->v};
 }
@@ -32,39 +45,55 @@ class Meter {
   explicit Meter(const PatchSampler& sampler) : sampler_(sampler) {}
 
   /// Distance of a point from the surface near (u, v), or `enough` when it is not greater.
-  [[nodiscard]] double distance(Spot q, bool move_u, bool move_v, double enough) const {
-    double best = std::numeric_limits<double>::infinity();
-    for (int k = 0; k < kSteps; ++k) {
-      const SurfacePoint s = sampler_.at(sampler_.u().locate(q.u), sampler_.v().locate(q.v));
-      const Vec3 gap = q.point - s.point;
-      best = std::min(best, norm(gap));
-      if (best <= enough) return enough;
-      const double uu = move_u ? dot(s.du, s.du) : 0.0, vv = move_v ? dot(s.dv, s.dv) : 0.0;
-      const double uv = move_u && move_v ? dot(s.du, s.dv) : 0.0;
-      const double gu = move_u ? dot(gap, s.du) : 0.0, gv = move_v ? dot(gap, s.dv) : 0.0;
-      double su = uu > 0.0 ? gu / uu : 0.0, sv = vv > 0.0 ? gv / vv : 0.0;
-      const double det = uu * vv - uv * uv;
-      if (det > 1e-12 * uu * vv) {  // else the directions are one: each for itself
-        su = (vv * gu - uv * gv) / det;
-        sv = (uu * gv - uv * gu) / det;
+  [[nodiscard]] double distance(Spot q, Moves moves, double enough) const {
+    SurfacePoint s = at(q);
+    double best = norm(q.point - s.point);
+    for (int k = 0; k < kSteps && best > enough; ++k) {
+      const Vec2 step = step_of(q.point - s.point, s, moves);
+      bool nearer = false;
+      double moved = 0.0;
+      for (double part = 1.0; part >= kShortest && !nearer; part /= 2.0) {
+        Spot next = q;
+        next.u = std::clamp(q.u + part * step.x, sampler_.u().from(), sampler_.u().to());
+        next.v = std::clamp(q.v + part * step.y, sampler_.v().from(), sampler_.v().to());
+        moved = norm((next.u - q.u) * s.du) + norm((next.v - q.v) * s.dv);
+        if (moved <= kSettled * best) break;
+        const SurfacePoint there = at(next);
+        const double far = norm(q.point - there.point);
+        nearer = far < best;
+        if (!nearer) continue;
+        best = far;
+        s = there;
+        q = next;
       }
-      const double u = std::clamp(q.u + su, sampler_.u().from(), sampler_.u().to());
-      const double v = std::clamp(q.v + sv, sampler_.v().from(), sampler_.v().to());
-      const double moved = std::sqrt(uu) * std::fabs(u - q.u) + std::sqrt(vv) * std::fabs(v - q.v);
-      if (moved <= kSettled * best) break;
-      q.u = u;
-      q.v = v;
+      if (!nearer) break;
     }
-    return best;
+    return std::max(best, enough);
   }
 
-  /// Of the edge's point from the border when both ends lie on one side, else from the surface.
-  [[nodiscard]] double edge(const MeshVertex& a, const MeshVertex& b, double part,
-                            double enough) const {
-    const Spot q = mix({&a, &b, &b}, 1.0 - part, part, 0.0);
+  /// The same from many places around: for surfaces whose parameters run very unevenly.
+  [[nodiscard]] double searched(const Spot& q, Moves moves, Range u, Range v, double enough) const {
+    Spot best = q;
+    double least = std::numeric_limits<double>::infinity();
+    for (int j = 0; j <= (moves.v ? kSearched : 0); ++j) {
+      for (int i = 0; i <= (moves.u ? kSearched : 0); ++i) {
+        Spot next = q;
+        if (moves.u) next.u = u.at(static_cast<double>(i) / kSearched);
+        if (moves.v) next.v = v.at(static_cast<double>(j) / kSearched);
+        const double far = norm(q.point - at(next).point);
+        if (far >= least) continue;
+        least = far;
+        best = next;
+      }
+    }
+    return distance(best, moves, enough);
+  }
+
+  /// Points of an edge keep to the border when both ends lie on one side.
+  [[nodiscard]] Moves moves_of(const MeshVertex& a, const MeshVertex& b) const {
     const bool along_v = a.u == b.u && (a.u == sampler_.u().from() || a.u == sampler_.u().to());
     const bool along_u = a.v == b.v && (a.v == sampler_.v().from() || a.v == sampler_.v().to());
-    return distance(q, !along_v, !along_u, enough);
+    return {!along_v, !along_u};
   }
 
   [[nodiscard]] std::size_t parts(const MeshVertex& a, const MeshVertex& b) const {
@@ -77,10 +106,30 @@ class Meter {
   }
 
  private:
+  [[nodiscard]] SurfacePoint at(const Spot& q) const {
+    return sampler_.at(sampler_.u().locate(q.u), sampler_.v().locate(q.v));
+  }
+
+  /// Step of Gauss and Newton, by u and v.
+  static Vec2 step_of(Vec3 gap, const SurfacePoint& s, Moves moves) {
+    const double uu = moves.u ? dot(s.du, s.du) : 0.0, vv = moves.v ? dot(s.dv, s.dv) : 0.0;
+    const double uv = moves.u && moves.v ? dot(s.du, s.dv) : 0.0;
+    const double gu = moves.u ? dot(gap, s.du) : 0.0, gv = moves.v ? dot(gap, s.dv) : 0.0;
+    const double det = uu * vv - uv * uv;
+    if (det > kParallel * uu * vv) return {(vv * gu - uv * gv) / det, (uu * gv - uv * gu) / det};
+    return {uu > 0.0 ? gu / uu : 0.0, vv > 0.0 ? gv / vv : 0.0};  // one direction: each for itself
+  }
+
   const PatchSampler& sampler_;
 };
 
-bool is_turned_over(const std::array<const MeshVertex*, 3>& t, double tolerance) {
+std::array<Range, 2> box_of(const Triangle& t) {
+  const auto [u0, u1] = std::minmax({t[0]->u, t[1]->u, t[2]->u});
+  const auto [v0, v1] = std::minmax({t[0]->v, t[1]->v, t[2]->v});
+  return {Range{u0, u1}, Range{v0, v1}};
+}
+
+bool is_turned_over(const Triangle& t, double tolerance) {
   const Vec3 ab = t[1]->point - t[0]->point, ac = t[2]->point - t[0]->point;
   const Vec3 n = cross(ab, ac);
   const double longest2 = std::max({dot(ab, ab), dot(ac, ac), dot(ac - ab, ac - ab)});
@@ -90,45 +139,85 @@ bool is_turned_over(const std::array<const MeshVertex*, 3>& t, double tolerance)
   });
 }
 
-}  // namespace
+class Measurer {
+ public:
+  Measurer(const PatchSampler& sampler, const Mesh& mesh, double tolerance)
+      : meter_(sampler), mesh_(mesh), tolerance_(tolerance) {}
 
-Measured measure(const PatchSampler& sampler, const Mesh& mesh,
-                 const std::vector<std::uint32_t>& cell_of, std::size_t cells, double tolerance) {
-  const Meter meter(sampler);
-  Measured out;
-  out.bad.assign(cells, false);
-  for (std::size_t k = 0; k < mesh.triangles.size(); ++k) {
-    const auto& ids = mesh.triangles[k];
-    const std::array<const MeshVertex*, 3> t{&mesh.vertices[ids[0]], &mesh.vertices[ids[1]],
-                                             &mesh.vertices[ids[2]]};
-    double worst = 0.0;
-    const auto note = [&](double d) {
-      worst = std::max(worst, d > out.deviation || d > tolerance ? d : 0.0);
+  /// Largest distance of a triangle; what is not greater than `enough` counts as that.
+  [[nodiscard]] double of_triangle(const Triangle& t, double enough) const {
+    double worst = enough;
+    const std::array<Range, 2> box = box_of(t);
+    const auto note = [&](const Spot& q, Moves moves) {
+      double d = meter_.distance(q, moves, enough);
+      if (d > tolerance_) d = std::min(d, meter_.searched(q, moves, box[0], box[1], enough));
+      worst = std::max(worst, d);
     };
-    const double enough = std::min(out.deviation, tolerance);
     std::size_t n = 1;
     for (std::size_t e = 0; e < 3; ++e) {
       const MeshVertex &a = *t[e], &b = *t[(e + 1) % 3];
-
-      const std::size_t parts = meter.parts(a, b);
+      const std::size_t parts = meter_.parts(a, b);
       n = std::max(n, parts);
       for (std::size_t i = 0; i < parts; ++i) {
-        note(meter.edge(a, b, (static_cast<double>(i) + 0.5) / static_cast<double>(parts), enough));
+        const double part = (static_cast<double>(i) + 0.5) / static_cast<double>(parts);
+        note(mix({&a, &b, &b}, 1.0 - part, part, 0.0), meter_.moves_of(a, b));
       }
     }
     for (std::size_t i = 0; i < n; ++i) {
       for (std::size_t j = 0; i + j < n; ++j) {
         const double b = (static_cast<double>(i) + 1.0 / 3.0) / static_cast<double>(n);
         const double c = (static_cast<double>(j) + 1.0 / 3.0) / static_cast<double>(n);
-        note(meter.distance(mix(t, 1.0 - b - c, b, c), true, true, enough));
+        note(mix(t, 1.0 - b - c, b, c), {});
       }
     }
-    out.deviation = std::max(out.deviation, worst);
-    if (worst > tolerance || is_turned_over(t, tolerance)) {
-      out.bad[cell_of[k]] = true;
-      out.any_bad = true;
+    return worst;
+  }
+
+  [[nodiscard]] Triangle triangle(std::size_t k) const {
+    const auto& ids = mesh_.triangles[k];
+    return {&mesh_.vertices[ids[0]], &mesh_.vertices[ids[1]], &mesh_.vertices[ids[2]]};
+  }
+
+ private:
+  Meter meter_;
+  const Mesh& mesh_;
+  double tolerance_;
+};
+
+}  // namespace
+
+Measured measure(const PatchSampler& sampler, const Mesh& mesh,
+                 const std::vector<CellTriangles>& triangles, std::vector<CellSeen>& seen,
+                 double tolerance) {
+  const Measurer measurer(sampler, mesh, tolerance);
+  Measured out;
+  out.bad.assign(triangles.size(), false);
+  double good = 0.0, worst_bad = 0.0;
+  seen.resize(triangles.size());
+  std::size_t k = 0;
+  for (std::size_t cell = 0; cell < triangles.size(); ++cell) {
+    const std::size_t end = k + triangles[cell].count;
+    if (seen[cell].outline == triangles[cell].outline) {
+      good = std::max(good, seen[cell].deviation);
+      k = end;
+      continue;
+    }
+    double worst = 0.0;
+    bool turned = false;
+    for (; k < end; ++k) {
+      const Triangle t = measurer.triangle(k);
+      worst = std::max(worst, measurer.of_triangle(t, good));
+      turned = turned || is_turned_over(t, tolerance);
+    }
+    if (worst > tolerance || turned) {
+      worst_bad = std::max(worst_bad, worst);
+      out.bad[cell] = out.any_bad = true;
+    } else {
+      good = std::max(good, worst);
+      seen[cell] = {triangles[cell].outline, worst};
     }
   }
+  out.deviation = std::max(good, worst_bad);
   return out;
 }
 

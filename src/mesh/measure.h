@@ -9,6 +9,18 @@
 
 namespace obvid::mesh {
 
+/// Triangles of a cell: so many of the mesh, in the order of the cells.
+struct CellTriangles {
+  std::uint32_t count = 0;
+  std::uint64_t outline = 0;  ///< a number that tells whether they are the same as last time
+};
+
+/// What is known of a cell from an earlier look, 0 for nothing.
+struct CellSeen {
+  std::uint64_t outline = 0;
+  double deviation = 0.0;
+};
+
 struct Measured {
   double deviation = 0.0;  ///< units, largest distance of a triangle from the surface
   std::vector<bool> bad;   ///< per cell: a triangle too far off, or turned over
@@ -17,9 +29,9 @@ struct Measured {
 
 /// Distances of triangles from the surface, at points between those that led to the triangles:
 /// middles of edges (of borders: from the border curve), centroids, more of them where a triangle
-/// reaches over several spans.
+/// reaches over several spans. Cells that were good and have not changed are not looked at again.
 [[nodiscard]] Measured measure(const PatchSampler& sampler, const Mesh& mesh,
-                               const std::vector<std::uint32_t>& cell_of, std::size_t cells,
-                               double tolerance);
+                               const std::vector<CellTriangles>& triangles,
+                               std::vector<CellSeen>& seen, double tolerance);
 
 }  // namespace obvid::mesh

@@ -2,6 +2,7 @@
 #include "patch_mesher.h"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <limits>
 
@@ -50,8 +51,28 @@ PatchMesher::PatchMesher(const PatchSampler& sampler, const CellTree& tree, cons
   mesh_.vertices.reserve(nodes_.size());
   mesh_.triangles.reserve(2 * tree.cells().size());
   for (const Cell& cell : tree.cells()) {
+    const std::size_t before = mesh_.triangles.size();
     add_cell(cell);
-    ++cell_;
+    of_cells_.push_back(
+        {static_cast<std::uint32_t>(mesh_.triangles.size() - before), outline_of(cell)});
+  }
+  give_missing_normals();
+}
+
+/// Where the surface has none (a line instead of an area around the point): those of triangles.
+void PatchMesher::give_missing_normals() {
+  std::unordered_map<std::uint32_t, Vec3> sums;
+  for (const auto& t : mesh_.triangles) {
+    const auto at = [&](std::size_t k) { return mesh_.vertices[t[k]]; };
+    for (std::size_t k = 0; k < 3; ++k) {
+      if (at(k).normal != Vec3{}) continue;
+      Vec3& sum = sums[t[k]];
+      sum = sum + cross(at(1).point - at(0).point, at(2).point - at(0).point);
+    }
+  }
+  for (const auto& [vertex, sum] : sums) {
+    const Vec3 up{0.0, 0.0, 1.0};  // triangles without area: anything but nothing
+    mesh_.vertices[vertex].normal = sum == Vec3{} ? up : unit(sum);
   }
 }
 
@@ -143,6 +164,23 @@ void PatchMesher::add_cell(const Cell& cell) {
   } else {
     quad(cell);
   }
+}
+
+/// Parameters of the outline and the kind of drawing, mixed into one number (FNV, 64 bits).
+std::uint64_t PatchMesher::outline_of(const Cell& cell) const {
+  std::uint64_t mixed = 0xCBF29CE484222325U;
+  const auto mix = [&](double t) {
+    mixed = (mixed ^ std::bit_cast<std::uint64_t>(t)) * 0x100000001B3U;
+    mixed ^= mixed >> 32U;
+  };
+  mix(cell.fan ? 1.0 : 0.0);
+  for (const auto& side : side_) {
+    for (const Id id : side) {
+      mix(nodes_[id].u);
+      mix(nodes_[id].v);
+    }
+  }
+  return mixed;
 }
 
 void PatchMesher::quad(const Cell& cell) {
@@ -240,7 +278,6 @@ void PatchMesher::triangle(const Cell& cell, Id a, Id b, Id c) {
              &pc = mesh_.vertices[vc].point;
   if (pa == pb || pb == pc || pc == pa) return;
   mesh_.triangles.push_back({va, vb, vc});
-  cell_of_.push_back(cell_);
 }
 
 }  // namespace obvid::mesh

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "borders.h"
+#include "measure.h"
 
 namespace obvid::mesh {
 
@@ -16,8 +17,7 @@ class PatchMesher {
               std::size_t patch);
 
   [[nodiscard]] Mesh take() { return std::move(mesh_); }
-  /// The cell that each triangle belongs to.
-  [[nodiscard]] const std::vector<std::uint32_t>& cell_of() const { return cell_of_; }
+  [[nodiscard]] const std::vector<CellTriangles>& triangles_of_cells() const { return of_cells_; }
 
  private:
   using Id = std::uint32_t;
@@ -29,9 +29,11 @@ class PatchMesher {
   };
   struct Outline;
 
+  void give_missing_normals();
   void collect_nodes();
   void collect_border(std::size_t side, std::size_t patch, const Borders& borders);
   void add_cell(const Cell& cell);
+  [[nodiscard]] std::uint64_t outline_of(const Cell& cell) const;
   void side_of(const Cell& cell, std::size_t side, std::vector<Id>& out) const;
   [[nodiscard]] Id node_at(Line u, Line v) const;
   [[nodiscard]] bool on_edge(Line u, Line v) const;
@@ -55,9 +57,8 @@ class PatchMesher {
   std::vector<std::uint32_t> vertex_;  ///< of nodes that are not on edges
   std::unordered_map<std::uint64_t, std::uint32_t> edge_vertex_;
   std::vector<std::size_t> block_u_, block_v_;  ///< numbers of the smooth parts, per span
-  std::uint32_t cell_ = 0;
   Mesh mesh_;
-  std::vector<std::uint32_t> cell_of_;
+  std::vector<CellTriangles> of_cells_;
 };
 
 }  // namespace obvid::mesh

@@ -30,7 +30,7 @@ constexpr double kSameOfTolerance = 0.1;
 /// below, and what is nearer is always the same.
 constexpr double kRounding = 16.0;
 /// Rounds of improving cells whose triangles turned out too far off: a fan, then halves, ...
-constexpr int kRounds = 12;
+constexpr int kRounds = 40;
 
 struct Patches {
   std::vector<const NurbsSurface*> surfaces;
@@ -112,6 +112,7 @@ class Tessellator {
   Result<void> build_trees() {
     samplers_.reserve(count());
     trees_.reserve(count());
+    seen_.resize(count());
     for (const NurbsSurface* surface : patches_.surfaces) samplers_.emplace_back(*surface);
     for (std::size_t p = 0; p < count(); ++p) {
       trees_.emplace_back(samplers_[p], options_);
@@ -144,8 +145,8 @@ class Tessellator {
   Result<bool> draw(const Borders& borders, std::size_t p, bool may_cut, Mesh& mesh) {
     PatchMesher mesher(samplers_[p], trees_[p], borders, p);
     mesh = mesher.take();
-    const mesh::Measured measured = mesh::measure(
-        samplers_[p], mesh, mesher.cell_of(), trees_[p].cells().size(), options_.chord_tolerance);
+    const mesh::Measured measured = mesh::measure(samplers_[p], mesh, mesher.triangles_of_cells(),
+                                                  seen_[p], options_.chord_tolerance);
     mesh.deviation = measured.deviation;
     if (mesh.triangles.size() > options_.most_triangles) {
       return fail({ErrorCode::kToleranceNotReached,
@@ -154,7 +155,7 @@ class Tessellator {
                    static_cast<double>(options_.most_triangles)});
     }
     if (measured.any_bad && may_cut) {
-      auto cut = trees_[p].improve(measured.bad);
+      auto cut = trees_[p].improve(measured.bad, seen_[p]);
       if (!cut || *cut) return cut;
     }
     if (measured.deviation > options_.chord_tolerance) {
@@ -172,6 +173,7 @@ class Tessellator {
   const Progress& progress_;
   std::vector<PatchSampler> samplers_;
   std::vector<CellTree> trees_;
+  std::vector<std::vector<mesh::CellSeen>> seen_;  ///< per patch and cell
 };
 
 }  // namespace
