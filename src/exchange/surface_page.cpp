@@ -246,6 +246,7 @@ std::string assembled(const std::string& title, const std::string& facts, const 
   page += "<script type=\"application/json\" id=\"model\">" + header + "</script>\n";
   page += "<script type=\"application/octet-stream\" id=\"data\">" + data + "</script>\n<script>";
   page += exchange::surface_page_model_script();
+  page += exchange::surface_page_shaders();
   page += exchange::surface_page_drawing_script();
   page += exchange::surface_page_controls_script();
   page += "</script>\n</body>\n</html>\n";

@@ -15,9 +15,11 @@ namespace {
 
 using namespace exchange;
 
-constexpr double kLeastSheet = 200.0, kMostSheet = 4000.0;  // px
+constexpr double kLeastSheet = 200.0, kMostSheet = 2000.0;  // px
 constexpr int kMostIsolines = 200, kMostStripes = 100;
 constexpr std::size_t kLeastFacets = 16, kMostFacets = 40'000;
+/// Files beyond this (bytes) are drawn again with fewer facets, but not with fewer than so many.
+constexpr std::size_t kMostText = 1'450'000, kFewestFacets = 1500;
 /// Sizes beyond these leave the range of doubles when they are multiplied.
 constexpr double kLeastSize = 1e-60, kMostSize = 1e60;
 
@@ -27,8 +29,8 @@ Error bad_option(const char* what, double value) {
 
 Result<void> check_options(const SurfacePictureOptions& o) {
   const auto sheet = [](double a) { return a >= kLeastSheet && a <= kMostSheet; };
-  if (!sheet(o.width)) return fail(bad_option("a picture is 200 to 4000 px wide", o.width));
-  if (!sheet(o.height)) return fail(bad_option("a picture is 200 to 4000 px high", o.height));
+  if (!sheet(o.width)) return fail(bad_option("a picture is 200 to 2000 px wide", o.width));
+  if (!sheet(o.height)) return fail(bad_option("a picture is 200 to 2000 px high", o.height));
   for (const int n : {o.isolines_u, o.isolines_v}) {
     if (n < 1 || n > kMostIsolines) return fail(bad_option("isolines are 1 to 200", n));
   }
@@ -119,26 +121,27 @@ SheetTexts texts_of(const SurfaceModel& model, const std::vector<DrawnPatch>& pa
   return texts;
 }
 
-}  // namespace
+Colours colours_of(const std::vector<DrawnPatch>& patches, const SurfacePictureOptions& options) {
+  Colours colours{options.colouring, {}, options.zebra_stripes};
+  if (!is_curvature(options.colouring)) return colours;
+  colours.scale = scale_of(patches, options.colouring);
+  if (options.range) {
+    colours.scale.low = options.range->from;
+    colours.scale.high = options.range->to;
+    colours.scale.diverging = options.range->from == -options.range->to;
+  }
+  return colours;
+}
 
-Result<std::string> surface_svg(const SurfaceModel& model, const SurfacePictureOptions& options) {
-  if (auto good = check_options(options); !good) return fail(good.error());
-  if (auto good = check_scene(model, options); !good) return fail(good.error());
-  const auto patches = drawn_patches(model, options.colouring, options.most_facets);
+Result<std::string> drawn(const SurfaceModel& model, const SurfacePictureOptions& options,
+                          std::size_t facets) {
+  const auto patches = drawn_patches(model, options.colouring, facets);
   const double size = norm(box_of(patches).size());
   if (!(size >= kLeastSize && size <= kMostSize)) {
     return fail({ErrorCode::kSizeOutOfRange, "the size of the surface cannot be drawn", "",
                  "change the unit", -1, size});
   }
-  Colours colours{options.colouring, {}, options.zebra_stripes};
-  if (is_curvature(options.colouring)) {
-    colours.scale = scale_of(patches, options.colouring);
-    if (options.range) {
-      colours.scale.low = options.range->from;
-      colours.scale.high = options.range->to;
-      colours.scale.diverging = options.range->from == -options.range->to;
-    }
-  }
+  const Colours colours = colours_of(patches, options);
   const PictureCamera camera = fitted(patches, options);
   DepthBuffer depth(options.width, options.height);
   const auto quads = projected(patches, camera);
@@ -146,9 +149,25 @@ Result<std::string> surface_svg(const SurfaceModel& model, const SurfacePictureO
   const Scene scene{model, patches, camera, depth};
   const SheetTexts texts = texts_of(model, patches, options);
   return sheet(texts, options,
-               facet_paths(patches, quads, depth.judge(quads), camera, colours) +
-                   surface_lines(scene, options) + extra_lines(scene, options.lines) +
+               facet_paths(patches, quads, depth, camera, colours) + surface_lines(scene, options) +
+                   extra_lines(scene, options.lines) +
                    sheet_furniture(texts, camera, colours, options));
+}
+
+}  // namespace
+
+Result<std::string> surface_svg(const SurfaceModel& model, const SurfacePictureOptions& options) {
+  if (auto good = check_options(options); !good) return fail(good.error());
+  if (auto good = check_scene(model, options); !good) return fail(good.error());
+  std::size_t facets = options.most_facets;
+  for (;;) {
+    auto svg = drawn(model, options, facets);
+    const std::size_t fewer = facets * 2 / 3;
+    if (!svg || svg->size() <= kMostText || fewer < kFewestFacets + model.patches.size()) {
+      return svg;
+    }
+    facets = fewer;
+  }
 }
 
 }  // namespace obvid

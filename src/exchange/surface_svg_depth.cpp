@@ -89,6 +89,27 @@ std::vector<DepthBuffer::Seen> DepthBuffer::judge(const std::vector<Quad>& facet
   return seen;
 }
 
+void DepthBuffer::draw(const std::vector<Quad>& facets, const std::vector<std::size_t>& order) {
+  drawn_.assign(owner_.size(), kNobody);
+  for (const std::size_t n : order) {
+    const Quad& f = facets[n];
+    for (const auto& triangle : {std::array{f[0], f[1], f[2]}, std::array{f[0], f[2], f[3]}}) {
+      pixels(triangle,
+             [&](std::size_t pixel, double) { drawn_[pixel] = static_cast<std::uint32_t>(n); });
+    }
+  }
+}
+
+bool DepthBuffer::wronged(std::size_t facet, Vec2 at) const {
+  const double x = std::floor(kFine * at.x), y = std::floor(kFine * at.y);
+  if (!(x >= 0.0 && y >= 0.0 && x < static_cast<double>(width_) &&
+        y < static_cast<double>(height_))) {
+    return false;
+  }
+  const std::size_t pixel = static_cast<std::size_t>(y) * width_ + static_cast<std::size_t>(x);
+  return owner_[pixel] == facet && drawn_[pixel] != facet;
+}
+
 bool DepthBuffer::sees(Vec3 p) const {
   const double x = std::floor(kFine * p.x), y = std::floor(kFine * p.y);
   if (!(x >= 1.0 && y >= 1.0 && x + 1.0 < static_cast<double>(width_) &&

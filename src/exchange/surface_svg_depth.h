@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "obvid/geom/vec2.h"
 #include "obvid/geom/vec3.h"
 
 namespace obvid::exchange {
@@ -23,6 +24,11 @@ class DepthBuffer {
   enum class Seen { kWhole, kPartly, kHidden };
   /// After all facets are there.
   [[nodiscard]] std::vector<Seen> judge(const std::vector<Quad>& facets) const;
+  /// Facets are drawn over each other in this order.
+  void draw(const std::vector<Quad>& facets, const std::vector<std::size_t>& order);
+  /// Whether this facet should be seen at a place, and another one was drawn over it: where facets
+  /// cross each other no order is right.
+  [[nodiscard]] bool wronged(std::size_t facet, Vec2 at) const;
   /// Whether a point on or before a facet can be seen.
   [[nodiscard]] bool sees(Vec3 p) const;
 
@@ -34,6 +40,7 @@ class DepthBuffer {
   std::uint32_t facets_ = 0;
   std::vector<double> depth_;
   std::vector<std::uint32_t> owner_;
+  std::vector<std::uint32_t> drawn_;
 };
 
 }  // namespace obvid::exchange

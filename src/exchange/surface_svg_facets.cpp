@@ -6,6 +6,8 @@
 #include <cmath>
 #include <map>
 #include <numbers>
+#include <numeric>
+#include <utility>
 
 #include "surface_svg_light.h"
 #include "surface_svg_paths.h"
@@ -19,6 +21,9 @@ using Seen = DepthBuffer::Seen;
 constexpr Rgb kDark{43, 52, 64}, kLight{238, 241, 244};
 /// Width (px) of the line around each piece in its own colour: closes the seams between neighbours.
 constexpr double kSeam = 0.9;
+/// Parts of cells that are mended, px; and how many there may be along a side.
+constexpr double kPart = 1.0;
+constexpr int kMostParts = 64;
 
 /// A corner of a piece on the sheet with its value in bands.
 struct Corner {
@@ -26,6 +31,7 @@ struct Corner {
   double band = 0.0;
 };
 using Polygon = std::vector<Corner>;
+using Corners = std::array<Corner, 4>;
 
 /// What lies on one side of a border of bands; the value is linear along the sides.
 Polygon cut(const Polygon& polygon, double border, bool above) {
@@ -47,6 +53,7 @@ struct Cell {
   const DrawnPatch& patch;
   std::array<std::size_t, 4> corners;
   const Quad& quad;
+  std::size_t number = 0;
 
   /// Whether the side that the normal points to is seen (y points down on the sheet).
   [[nodiscard]] bool front() const {
@@ -60,16 +67,31 @@ class Painter {
   Painter(const PictureCamera& camera, const Colours& colours)
       : camera_(camera), colours_(colours) {}
 
-  /// Pieces of a cell, whole ones at the end and by colour.
+  /// Pieces of a cell, those of whole ones at the end and by colour.
   void add(const Cell& cell, bool whole) {
-    if (is_curvature(colours_.colouring)) {
-      banded(cell, whole, curvature_bands(cell), 0, kBands - 1);
-    } else if (colours_.colouring == SurfaceColouring::kZebra) {
-      const int most = 2 * colours_.zebra_stripes + 1;
-      banded(cell, whole, zebra_bands(cell), -most, most);
-    } else {
-      front_ = cell.front();
-      banded(cell, whole, light_bands(cell), 0, kShades - 1);
+    front_ = cell.front();
+    Corners corners{};
+    for (std::size_t k = 0; k < corners.size(); ++k) {
+      corners[k] = {{cell.quad[k].x, cell.quad[k].y}, band_at(cell, k)};
+    }
+    banded(corners, whole);
+  }
+
+  /// Parts of a cell that should be seen and were covered, as strips on top of what is there.
+  void mend(const Cell& cell, const DepthBuffer& depth) {
+    front_ = cell.front();
+    const int parts = parts_of(cell.quad);
+    for (int j = 0; j < parts; ++j) {
+      for (int i = 0; i < parts; ++i) {
+        const int from = i;
+        while (i < parts && depth.wronged(cell.number, inside(cell, i + 0.5, j + 0.5, parts).at)) {
+          ++i;
+        }
+        if (i == from) continue;
+        banded({inside(cell, from, j, parts), inside(cell, i, j, parts),
+                inside(cell, i, j + 1, parts), inside(cell, from, j + 1, parts)},
+               true);
+      }
     }
   }
 
@@ -80,37 +102,51 @@ class Painter {
   }
 
  private:
-  [[nodiscard]] std::array<double, 4> light_bands(const Cell& cell) const {
-    std::array<double, 4> bands{};
-    const double side = front_ ? 1.0 : -1.0;
-    for (std::size_t k = 0; k < bands.size(); ++k) {
-      bands[k] = light_at(camera_.seen(side * cell.patch.normals[cell.corners[k]]));
+  /// How often a cell is divided both ways so that its parts are as small as the raster.
+  static int parts_of(const Quad& quad) {
+    double longest = 0.0;
+    for (std::size_t k = 0; k < quad.size(); ++k) {
+      const Vec3 side = quad[(k + 1) % quad.size()] - quad[k];
+      longest = std::max(longest, std::hypot(side.x, side.y));
     }
-    return bands;
+    return std::clamp(static_cast<int>(std::ceil(longest / kPart)), 1, kMostParts);
   }
 
-  [[nodiscard]] std::array<double, 4> curvature_bands(const Cell& cell) const {
-    std::array<double, 4> bands{};
-    const ValueScale& s = colours_.scale;
-    for (std::size_t k = 0; k < bands.size(); ++k) {
+  /// Place and value inside a cell, i and j in 0 ... parts.
+  [[nodiscard]] Corner inside(const Cell& cell, double i, double j, int parts) const {
+    const double u = i / parts, v = j / parts;
+    const std::array<double, 4> w = {(1 - u) * (1 - v), u * (1 - v), u * v, (1 - u) * v};
+    Corner corner;
+    for (std::size_t k = 0; k < w.size(); ++k) {
+      corner.at = corner.at + w[k] * Vec2{cell.quad[k].x, cell.quad[k].y};
+      corner.band += w[k] * band_at(cell, k);
+    }
+    return corner;
+  }
+
+  /// Value of a corner in bands or shades.
+  [[nodiscard]] double band_at(const Cell& cell, std::size_t corner) const {
+    const std::size_t vertex = cell.corners[corner];
+    if (is_curvature(colours_.colouring)) {
+      const ValueScale& s = colours_.scale;
       const double part =
-          s.constant() ? 0.5 : (cell.patch.values[cell.corners[k]] - s.low) / (s.high - s.low);
+          s.constant() ? 0.5 : (cell.patch.values[vertex] - s.low) / (s.high - s.low);
       // beyond the ends everything is one band
-      bands[k] = kBands * std::clamp(part, -1.0, 2.0);
+      return kBands * std::clamp(part, -1.0, 2.0);
     }
-    return bands;
+    const Vec3 n = camera_.seen((front_ ? 1.0 : -1.0) * cell.patch.normals[vertex]);
+    if (colours_.colouring != SurfaceColouring::kZebra) return light_at(n);
+    // reflection of the direction of view, two bands to a stripe
+    const double angle = std::asin(std::clamp(2.0 * n.z * n.y, -1.0, 1.0));
+    return 2.0 * colours_.zebra_stripes * angle / std::numbers::pi + 0.5;
   }
 
-  /// Reflection of the direction of view, two bands to a stripe.
-  [[nodiscard]] std::array<double, 4> zebra_bands(const Cell& cell) const {
-    std::array<double, 4> bands{};
-    const double side = cell.front() ? 1.0 : -1.0;
-    for (std::size_t k = 0; k < bands.size(); ++k) {
-      const Vec3 n = camera_.seen(side * cell.patch.normals[cell.corners[k]]);
-      const double angle = std::asin(std::clamp(2.0 * n.z * n.y, -1.0, 1.0));
-      bands[k] = 2.0 * colours_.zebra_stripes * angle / std::numbers::pi + 0.5;
-    }
-    return bands;
+  /// First and last band, both open.
+  [[nodiscard]] std::pair<int, int> bands() const {
+    if (is_curvature(colours_.colouring)) return {0, kBands - 1};
+    if (colours_.colouring != SurfaceColouring::kZebra) return {0, kShades - 1};
+    const int most = 2 * colours_.zebra_stripes + 1;
+    return {-most, most};
   }
 
   [[nodiscard]] Rgb band_colour(int band) const {
@@ -121,19 +157,18 @@ class Painter {
     return shade_colour(band, front_, colours_.colouring == SurfaceColouring::kIsolines);
   }
 
-  /// The cell cut along the borders of its bands; the outermost bands are open.
-  void banded(const Cell& cell, bool whole, const std::array<double, 4>& bands, int first,
-              int last) {
-    Polygon polygon;
-    for (std::size_t k = 0; k < bands.size(); ++k) {
-      polygon.push_back({{cell.quad[k].x, cell.quad[k].y}, bands[k]});
-    }
-    const auto [low, high] = std::minmax_element(bands.begin(), bands.end());
-    const auto band_of = [&](double value) {
-      return std::clamp(static_cast<int>(std::floor(value)), first, last);
+  /// A quadrilateral cut along the borders of its bands.
+  void banded(const Corners& corners, bool whole) {
+    const auto [first, last] = bands();
+    const auto band_of = [from = first, to = last](double value) {
+      return std::clamp(static_cast<int>(std::floor(value)), from, to);
     };
-    const int end = band_of(*high);
-    for (int band = band_of(*low); band <= end; ++band) {
+    const auto [low, high] =
+        std::minmax_element(corners.begin(), corners.end(),
+                            [](const Corner& a, const Corner& b) { return a.band < b.band; });
+    const int end = band_of(high->band);
+    Polygon polygon(corners.begin(), corners.end());
+    for (int band = band_of(low->band); band <= end; ++band) {
       Polygon rest = band < end ? cut(polygon, band + 1.0, true) : Polygon{};
       emit(band < end ? cut(polygon, band + 1.0, false) : polygon, band_colour(band), whole);
       polygon = std::move(rest);
@@ -198,23 +233,29 @@ std::vector<Quad> projected(const std::vector<DrawnPatch>& patches, const Pictur
 }
 
 std::string facet_paths(const std::vector<DrawnPatch>& patches, const std::vector<Quad>& quads,
-                        const std::vector<Seen>& seen, const PictureCamera& camera,
-                        const Colours& colours) {
+                        DepthBuffer& depth, const PictureCamera& camera, const Colours& colours) {
+  const std::vector<Seen> seen = depth.judge(quads);
   std::vector<Cell> partly;
   Painter painter(camera, colours);
   std::size_t n = 0;
   each_cell(patches, [&](const DrawnPatch& patch, const std::array<std::size_t, 4>& corners) {
-    const Cell cell{patch, corners, quads[n]};
+    const Cell cell{patch, corners, quads[n], n};
     if (seen[n] == Seen::kWhole) painter.add(cell, true);
     if (seen[n] == Seen::kPartly) partly.push_back(cell);
     ++n;
   });
   std::vector<std::size_t> order(partly.size());
-  for (std::size_t k = 0; k < order.size(); ++k) order[k] = k;
+  std::iota(order.begin(), order.end(), std::size_t{0});
   std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
     return depth_of(partly[a].quad) < depth_of(partly[b].quad);
   });
-  for (const std::size_t k : order) painter.add(partly[k], false);
+  std::vector<std::size_t> numbers;
+  for (const std::size_t k : order) {
+    painter.add(partly[k], false);
+    numbers.push_back(partly[k].number);
+  }
+  depth.draw(quads, numbers);
+  for (const std::size_t k : order) painter.mend(partly[k], depth);
   return "<g transform=\"" + std::string(kPathTransform) + "\" stroke-width=\"" +
          std::to_string(static_cast<int>(10.0 * kSeam)) + "\" stroke-linejoin=\"round\">\n" +
          painter.take() + "</g>\n";

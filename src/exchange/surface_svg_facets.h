@@ -25,10 +25,11 @@ struct Colours {
                                                        const PictureCamera& camera);
 
 /// The cells that can be seen as SVG paths: those with something before them from back to front,
-/// then all others by colour; cut along the borders between shades or bands.
+/// then all others by colour, and what no order gets right, where patches cross; cut along the
+/// borders between shades or bands.
 [[nodiscard]] std::string facet_paths(const std::vector<DrawnPatch>& patches,
                                       const std::vector<DepthBuffer::Quad>& quads,
-                                      const std::vector<DepthBuffer::Seen>& seen,
-                                      const PictureCamera& camera, const Colours& colours);
+                                      DepthBuffer& depth, const PictureCamera& camera,
+                                      const Colours& colours);
 
 }  // namespace obvid::exchange

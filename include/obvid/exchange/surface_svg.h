@@ -41,7 +41,8 @@ struct SurfacePictureOptions {
   std::optional<Range> range;        ///< of the curvature colours; else by percentiles
   double width = 900.0;              ///< px
   double height = 620.0;             ///< px
-  std::size_t most_facets = 12'000;  ///< quadrilaterals that the patches are divided into
+  std::size_t most_facets = 12'000;  ///< cells that the patches are divided into; fewer
+                                     ///< where the file would exceed 1.5 MB
   std::vector<ScenePolyline> lines;  ///< drawn over the surface, hidden behind it
 };
 
