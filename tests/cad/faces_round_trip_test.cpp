@@ -254,11 +254,91 @@ TEST_F(FaceFiles, WhatIsNoSurfaceIsRefusedByName) {
   model = sphere_model().model;
   model.patches[0].surface.weights[3] = -1.0;
   EXPECT_FALSE(cad_surface_text(model, {}));
-  model.patches[0].surface.points.assign(model.patches[0].surface.points.size(), Vec3{1, 2, 3});
   model.patches[0].surface.weights.clear();
-  const auto point = cad_surface_text(model, {});  // shrunk to a point
-  ASSERT_FALSE(point);
-  EXPECT_FALSE(point.error().what.empty());
+  const std::size_t count = model.patches[0].surface.points.size();
+  for (const Vec3 p : {Vec3{1, 2, 3}, Vec3{0, 0, 0}}) {  // shrunk to a point
+    model.patches[0].surface.points.assign(count, p);
+    const auto point = cad_surface_text(model, {});
+    ASSERT_FALSE(point);
+    EXPECT_EQ(point.error().code, ErrorCode::kSizeOutOfRange);
+  }
+  model = plane_model().model;
+  model.patches[0].surface.points[3] = {1e300, 1e300, 0};
+  EXPECT_FALSE(cad_surface_text(model, {}));
+}
+
+/// What stands in a STEP file.
+struct Counts {
+  std::size_t edges = 0, vertices = 0, shells = 0, solids = 0;
+};
+Counts counts_in_step(const SurfaceModel& model) {
+  const auto text = cad_surface_text(model, {});
+  EXPECT_TRUE(text) << to_line(text.error());
+  if (!text) return {};
+  return {count_of(*text, "= EDGE_CURVE("), count_of(*text, "= VERTEX_POINT("),
+          count_of(*text, "= OPEN_SHELL("), count_of(*text, "= MANIFOLD_SOLID_BREP(")};
+}
+
+TEST_F(FaceFiles, ThreePatchesOnOneLineShareItTwoByTwo) {
+  const Vec3 a{0, 0, 0}, b{0, 0, 5};
+  SurfaceModel model{"fan", "mm", {}};
+  for (const Vec3 p : {Vec3{4, 0, 0}, Vec3{-2, 3, 0}, Vec3{-2, -3, 0}}) {
+    model.patches.push_back({"wing", bilinear(a, a + p, b, b + p)});
+  }
+  const Counts counts = counts_in_step(model);
+  EXPECT_EQ(counts.edges, 11U);  // 12 sides, two of them the same
+  EXPECT_EQ(counts.shells, 2U);
+}
+
+TEST_F(FaceFiles, AMoebiusStripStaysOpenAtOneJoint) {
+  // three flat pieces; the third turns the strip over
+  const Vec3 a0{4, 0, -1}, a1{4, 0, 1}, b0{-2, 3, -1}, b1{-2, 3, 1}, c0{-2, -3, -1}, c1{-2, -3, 1};
+  const SurfaceModel model{"strip",
+                           "mm",
+                           {{"1", bilinear(a0, b0, a1, b1)},
+                            {"2", bilinear(b0, c0, b1, c1)},
+                            {"3", bilinear(c0, a1, c1, a0)}}};
+  const Counts counts = counts_in_step(model);
+  EXPECT_EQ(counts.edges, 10U);  // 12 sides, two joints
+  EXPECT_EQ(counts.solids, 0U);
+  EXPECT_EQ(read_cad_surfaces(written(model, CadFormat::kBrep).string())->model.patches.size(), 3U);
+}
+
+TEST_F(FaceFiles, BordersOfOtherDegreesAndKnotsAreOneWhereTheyAreTheSame) {
+  const NurbsSurface low = bilinear({0, 0, 0}, {4, 0, 0}, {0, 3, 0}, {4, 3, 0});
+  const NurbsSurface high = with_knots_u(
+      with_degrees(bilinear({4, 0, 0}, {0, 0, 0}, {4, 0, 2}, {0, 0, 2}), 4, 2), {0.3, 0.3, 0.7});
+  EXPECT_EQ(counts_in_step({"two", "mm", {{"low", low}, {"high", high}}}).edges, 7U);
+  NurbsSurface off = high;  // by more than 1e-8 of the size
+  for (Vec3& p : off.points) p.y += 1e-6;
+  EXPECT_EQ(counts_in_step({"two", "mm", {{"low", low}, {"off", off}}}).edges, 8U);
+}
+
+TEST_F(FaceFiles, ATriangularPatchHasThreeEdges) {
+  const NurbsSurface triangle = bilinear({0, 0, 0}, {4, 0, 0}, {2, 3, 1}, {2, 3, 1});
+  const Counts counts = counts_in_step({"triangle", "mm", {{"sail", triangle}}});
+  EXPECT_EQ(counts.edges, 3U);
+  EXPECT_EQ(counts.vertices, 3U);
+}
+
+TEST_F(FaceFiles, ASphereSeenFromInsideIsWrittenWithItsNormalOutwards) {
+  SurfaceModel model = sphere_model().model;
+  for (const bool turned : {false, true}) {
+    if (turned) model.patches[0].surface = reversed_u(model.patches[0].surface);
+    const auto read = read_cad_surfaces(written(model, CadFormat::kBrep).string());
+    ASSERT_TRUE(read);
+    const SurfaceJet at = evaluate(read->model.patches.at(0).surface, 0.3, 0.4);
+    EXPECT_GT(dot(cross(at.du, at.dv), at.point), 0.0) << turned;
+  }
+}
+
+TEST_F(FaceFiles, PatchesFarFromTheOriginStillMeet) {
+  SurfaceModel model = box_model().model;
+  for (SurfacePatch& patch : model.patches) {
+    for (Vec3& p : patch.surface.points) p = p + Vec3{1e6 / 3.0, -1e6 / 7.0, 1e5};
+  }
+  EXPECT_EQ(counts_in_step(model).edges, 12U);
+  EXPECT_EQ(counts_in_step(model).solids, 1U);
 }
 
 TEST_F(FaceFiles, DamagedFilesAreRefusedAndNothingCrashes) {

@@ -26,8 +26,11 @@
 namespace obvid::cad {
 namespace {
 
-/// Faces that a CAD system can still work with.
+/// Faces by creases that a CAD system can still work with.
 constexpr std::size_t kMostFaces = 20000;
+
+/// In the kernel's unit: it compares squares of lengths, which have to be numbers.
+constexpr double kLargest = 1e100;
 
 /// Room for rounding around a measured gap.
 constexpr double kRoom = 1.01;
@@ -235,6 +238,7 @@ struct Parts {
 
 Result<Parts> parts_of(const SurfaceModel& model, double scale) {
   Parts out;
+  std::size_t by_creases = 0;
   for (std::size_t i = 0; i < model.patches.size(); ++i) {
     NurbsSurface surface = model.patches[i].surface;
     const std::string& given = model.patches[i].name;
@@ -245,14 +249,16 @@ Result<Parts> parts_of(const SurfaceModel& model, double scale) {
       error.where = error.where.empty() ? name : name + ", " + error.where;
       return fail(std::move(error));
     }
-    auto parts = without_creases(surface, kMostFaces - std::min(kMostFaces, out.surfaces.size()));
+    auto parts = without_creases(surface, 1 + kMostFaces - by_creases);
     if (parts.empty()) {
-      return fail({ErrorCode::kUnsupported,
-                   fmt::format("the creases cut the model into more than {} faces", kMostFaces),
-                   name, "write .stl, .obj or .glb, or make the surfaces of a higher degree", -1,
-                   static_cast<double>(kMostFaces)});
+      return fail(
+          {ErrorCode::kUnsupported,
+           fmt::format("the creases cut the model into more than {} more faces", kMostFaces), name,
+           "write .stl, .obj or .glb, or make the surfaces of a higher degree", -1,
+           static_cast<double>(kMostFaces)});
     }
     const std::size_t count = parts.size();
+    by_creases += count - 1;
     for (std::size_t k = 0; k < count; ++k) {
       out.names.push_back(count == 1 ? name : fmt::format("{}, part {} of {}", name, k + 1, count));
       out.surfaces.push_back(std::move(parts[k]));
@@ -282,7 +288,13 @@ Result<NamedFaces> faces_of(const SurfaceModel& model, double scale) {
   auto parts = parts_of(model, scale);
   if (!parts) return fail(parts.error());
   const std::vector<NurbsSurface>& patches = parts->surfaces;
-  const double tolerance = kJoin * size_of(patches);
+  const double size = size_of(patches);
+  if (!(size > 0.0 && size < kLargest)) {
+    return fail({ErrorCode::kSizeOutOfRange,
+                 fmt::format("the size of the model is {:.3g} mm", size), model.name,
+                 "check the points and their unit", -1, size});
+  }
+  const double tolerance = kJoin * size;
   Builder builder(patches, joints_of(patches, tolerance));
   std::vector<TopoDS_Face> faces = builder.faces();
   std::vector<TopoDS_Face> apart;  // made when a shell is not valid

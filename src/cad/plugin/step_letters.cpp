@@ -59,7 +59,7 @@ std::string in_step_letters(const std::string& text) {
     while (at < text.size() && !is_ascii(text, at)) {
       run += fmt::format("{:0{}X}", next_letter(text, at), wide ? 8 : 4);
     }
-    out += (wide ? "\\X4\\" : "\\X2\\") + run + "\\X0\\";
+    out.append(wide ? "\\X4\\" : "\\X2\\").append(run).append("\\X0\\");
   }
   return out;
 }

@@ -105,17 +105,29 @@ Result<std::string> step_text(const FileContent& content, const Unit& unit, bool
   return in_step_letters(text.str());
 }
 
+/// IGES knows ASCII only; a letter of several bytes becomes one question mark.
+std::string in_ascii(const std::string& name, std::size_t most) {
+  std::string out;
+  for (const char c : name) {
+    const auto byte = static_cast<unsigned char>(c);
+    if ((byte & 0xC0U) == 0x80 || out.size() == most) continue;
+    out += byte < 0x80 ? c : '?';
+  }
+  return out;
+}
+
 /// IGES labels have 8 characters.
 void label_faces(const FileContent& content, const IGESControl_Writer& writer) {
   constexpr std::size_t kLabel = 8;
   for (std::size_t i = 0; i < content.faces.size(); ++i) {
     const Handle(IGESData_IGESEntity) entity = Handle(IGESData_IGESEntity)::DownCast(
         TransferBRep::TransientFromShape(writer.TransferProcess(), content.faces[i]));
-    if (!entity.IsNull()) entity->SetLabel(word(content.names[i].substr(0, kLabel).c_str()));
+    if (!entity.IsNull()) entity->SetLabel(word(in_ascii(content.names[i], kLabel).c_str()));
   }
 }
 
 Result<std::string> iges_text(const FileContent& content, const Unit& unit) {
+  constexpr std::size_t kFileName = 60;  // within one line of the global section
   IGESControl_Controller::Init();
   Interface_Static::SetIVal("write.iges.brep.mode", 0);
   IGESControl_Writer writer(unit.kernel == std::string("INCH") ? "IN" : unit.kernel, 0);
@@ -127,7 +139,8 @@ Result<std::string> iges_text(const FileContent& content, const Unit& unit) {
   global.SetLastChangeDate(word(kNoIgesDate));
   global.SetSystemId(word(kProgram));
   global.SetAuthorName(word(kProgram));
-  global.SetFileName(word(content.faces.empty() ? "contour" : content.name.c_str()));
+  global.SetFileName(
+      word(content.faces.empty() ? "contour" : in_ascii(content.name, kFileName).c_str()));
   writer.Model()->SetGlobalSection(global);
   IGESData_IGESWriter out(writer.Model());
   out.FloatWriter().SetFormat(kAllDigits);
