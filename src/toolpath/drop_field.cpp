@@ -1,0 +1,174 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "drop_field.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace obvid::toolpath {
+namespace {
+
+constexpr std::uint32_t kLeaf = 4;  // triangles
+/// Boxes halve what they hold: 2^32 triangles are 32 deep, and each leaves one waiting.
+constexpr std::size_t kDeepest = 64;
+constexpr double kNone = -std::numeric_limits<double>::infinity();
+
+double middle_of(const FieldTriangle& t, bool of_x) {
+  const auto& c = t.corners;
+  return of_x ? c[0].x + c[1].x + c[2].x : c[0].y + c[1].y + c[2].y;
+}
+
+double top_of(const Triangle& t) { return std::max({t[0].z, t[1].z, t[2].z}); }
+
+double apart(double p, double low, double high) { return std::max({low - p, p - high, 0.0}); }
+
+/// Greatest tip height that a triangle can cause, at least.
+double ceiling(const CutterShape& cutter, Vec2 axis, const Triangle& t) {
+  const double dx =
+      apart(axis.x, std::min({t[0].x, t[1].x, t[2].x}), std::max({t[0].x, t[1].x, t[2].x}));
+  const double dy =
+      apart(axis.y, std::min({t[0].y, t[1].y, t[2].y}), std::max({t[0].y, t[1].y, t[2].y}));
+  const double d = std::hypot(dx, dy);
+  return d > cutter.radius ? kNone : top_of(t) - cutter.height(d);
+}
+
+}  // namespace
+
+double DropField::Box::apart(Vec2 p) const {
+  return std::hypot(toolpath::apart(p.x, low.x, high.x), toolpath::apart(p.y, low.y, high.y));
+}
+
+DropField::DropField(const std::vector<Mesh>& meshes) {
+  take(meshes);
+  mark_open_sides(triangles_);
+  build();
+}
+
+void DropField::take(const std::vector<Mesh>& meshes) {
+  constexpr double kFar = std::numeric_limits<double>::infinity();
+  low_ = {kFar, kFar, kFar};
+  high_ = -low_;
+  for (std::uint32_t m = 0; m < meshes.size(); ++m) {
+    for (std::uint32_t i = 0; i < meshes[m].triangles.size(); ++i) {
+      FieldTriangle t;
+      for (std::size_t k = 0; k < 3; ++k) {
+        const Vec3 p = meshes[m].vertices[meshes[m].triangles[i][k]].point;
+        t.corners[k] = p;
+        low_ = {std::min(low_.x, p.x), std::min(low_.y, p.y), std::min(low_.z, p.z)};
+        high_ = {std::max(high_.x, p.x), std::max(high_.y, p.y), std::max(high_.z, p.z)};
+      }
+      t.mesh = m;
+      t.number = i;
+      triangles_.push_back(t);
+    }
+  }
+}
+
+void DropField::bound(Box& box, std::uint32_t first, std::uint32_t count) const {
+  constexpr double kFar = std::numeric_limits<double>::infinity();
+  box.low = {kFar, kFar};
+  box.high = {-kFar, -kFar};
+  box.top = -kFar;
+  for (std::uint32_t i = first; i < first + count; ++i) {
+    for (const Vec3 p : triangles_[i].corners) {
+      box.low = {std::min(box.low.x, p.x), std::min(box.low.y, p.y)};
+      box.high = {std::max(box.high.x, p.x), std::max(box.high.y, p.y)};
+      box.top = std::max(box.top, p.z);
+    }
+  }
+}
+
+void DropField::build() {
+  if (triangles_.empty()) return;
+  struct Work {
+    std::uint32_t box, first, count;
+  };
+  std::vector<Work> waiting{{0, 0, static_cast<std::uint32_t>(triangles_.size())}};
+  boxes_.emplace_back();
+  while (!waiting.empty()) {
+    const Work work = waiting.back();
+    waiting.pop_back();
+    Box box;
+    bound(box, work.first, work.count);
+    if (work.count <= kLeaf) {
+      box.first = work.first;
+      box.count = work.count;
+      boxes_[work.box] = box;
+      continue;
+    }
+    const bool of_x = box.high.x - box.low.x > box.high.y - box.low.y;
+    const std::uint32_t half = work.count / 2;
+    const auto begin = triangles_.begin() + work.first;
+    std::nth_element(begin, begin + half, begin + work.count, [of_x](const auto& a, const auto& b) {
+      return middle_of(a, of_x) < middle_of(b, of_x);
+    });
+    box.first = static_cast<std::uint32_t>(boxes_.size());
+    boxes_[work.box] = box;
+    boxes_.resize(boxes_.size() + 2);
+    waiting.push_back({box.first, work.first, half});
+    waiting.push_back({box.first + 1, work.first + half, work.count - half});
+  }
+}
+
+std::optional<FieldRest> DropField::drop(const CutterShape& cutter, Vec2 axis) const {
+  struct Waiting {
+    std::uint32_t box;
+    double ceiling;
+  };
+  const auto ceiling_of = [&](std::uint32_t b) {
+    const double d = boxes_[b].apart(axis);
+    return d > cutter.radius ? kNone : boxes_[b].top - cutter.height(d);
+  };
+  FieldRest best;
+  best.rest.tip_z = kNone;
+  std::array<Waiting, kDeepest> stack;
+  std::size_t size = 0;
+  if (!boxes_.empty()) stack[size++] = {0, ceiling_of(0)};
+  while (size > 0) {
+    const Waiting next = stack[--size];
+    if (next.ceiling <= best.rest.tip_z) continue;
+    const Box& box = boxes_[next.box];
+    if (box.count == 0) {
+      Waiting a{box.first, ceiling_of(box.first)}, b{box.first + 1, ceiling_of(box.first + 1)};
+      const auto mid = [&](const Waiting& w) {  // ties: the nearer box first
+        return boxes_[w.box].apart(axis);
+      };
+      if (a.ceiling > b.ceiling || (a.ceiling == b.ceiling && mid(a) < mid(b))) std::swap(a, b);
+      stack[size++] = a;
+      stack[size++] = b;
+      continue;
+    }
+    for (std::uint32_t i = box.first; i < box.first + box.count; ++i) {
+      const Triangle& t = triangles_[i].corners;
+      if (ceiling(cutter, axis, t) <= best.rest.tip_z) continue;
+      if (drop_on(cutter, axis, t, best.rest)) best.triangle = i;
+    }
+  }
+  if (best.rest.tip_z == kNone) return std::nullopt;
+  return best;
+}
+
+std::optional<FieldHeight> DropField::height(Vec2 place) const {
+  std::optional<FieldHeight> best;
+  std::array<std::uint32_t, kDeepest> stack;
+  std::size_t size = 0;
+  if (!boxes_.empty()) stack[size++] = 0;
+  while (size > 0) {
+    const Box& box = boxes_[stack[--size]];
+    if (box.apart(place) > 0.0 || (best && box.top <= best->z)) continue;
+    if (box.count == 0) {
+      stack[size++] = box.first;
+      stack[size++] = box.first + 1;
+      continue;
+    }
+    for (std::uint32_t i = box.first; i < box.first + box.count; ++i) {
+      FieldHeight found;
+      found.triangle = i;
+      if (!height_over(triangles_[i].corners, place, found.z, found.weights)) continue;
+      if (!best || found.z > best->z) best = found;
+    }
+  }
+  return best;
+}
+
+}  // namespace obvid::toolpath

@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "drop_triangle.h"
+#include "obvid/mesh/mesh.h"
+
+namespace obvid::toolpath {
+
+/// A triangle of a model, where it comes from and which of its sides nothing continues.
+struct FieldTriangle {
+  Triangle corners;
+  std::uint32_t mesh = 0;
+  std::uint32_t number = 0;
+  std::uint8_t open = 0;  ///< bit per feature as numbered in `Rest` (edges 1..3, corners 4..6)
+};
+
+struct FieldRest {
+  Rest rest;
+  std::uint32_t triangle = 0;  ///< of `DropField::triangles`
+
+  friend bool operator<(const FieldRest& a, const FieldRest& b) {
+    return a.rest.tip_z < b.rest.tip_z;
+  }
+};
+
+struct FieldHeight {
+  double z = 0.0;
+  std::uint32_t triangle = 0;
+  std::array<double, 3> weights{};
+};
+
+/// All triangles of a model in a tree of boxes: what a cutter coming down meets first, in about
+/// O(log n) for each place. `triangles` stay in the tree's order.
+class DropField {
+ public:
+  explicit DropField(const std::vector<Mesh>& meshes);
+
+  [[nodiscard]] const std::vector<FieldTriangle>& triangles() const { return triangles_; }
+  /// Highest rest of the tip on this axis; nothing: the cutter meets nothing.
+  [[nodiscard]] std::optional<FieldRest> drop(const CutterShape& cutter, Vec2 axis) const;
+  /// Highest point over a place.
+  [[nodiscard]] std::optional<FieldHeight> height(Vec2 place) const;
+  [[nodiscard]] Vec3 low() const { return low_; }
+  [[nodiscard]] Vec3 high() const { return high_; }
+
+ private:
+  struct Box {
+    Vec2 low, high;
+    double top = 0.0;
+    std::uint32_t first = 0,
+                  count = 0;  ///< leaf: triangles; else count 0, children first, next one
+    [[nodiscard]] double apart(Vec2 p) const;
+  };
+  void take(const std::vector<Mesh>& meshes);
+  void build();
+  void bound(Box& box, std::uint32_t first, std::uint32_t count) const;
+
+  std::vector<FieldTriangle> triangles_;
+  std::vector<Box> boxes_;
+  Vec3 low_, high_;
+};
+
+/// Sets the bits of open sides: edges that belong to one triangle only (corners at the same place
+/// are one corner), and corners at their ends.
+void mark_open_sides(std::vector<FieldTriangle>& triangles);
+
+}  // namespace obvid::toolpath

@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <vector>
+
+#include "obvid/core/progress.h"
+#include "passes.h"
+#include "steps.h"
+
+namespace obvid::toolpath {
+
+/// Passes side by side; neighbours in the list are neighbours on the part. An empty pass stands
+/// between groups that have nothing to do with each other.
+using Family = std::vector<Pass>;
+
+[[nodiscard]] Result<Family> zigzag(const Part& part, const ToolpathOptions& options,
+                                    const StepRule& rule, Walker& walker, const Progress& progress);
+[[nodiscard]] Result<Family> isoparametric(const Part& part, const ToolpathOptions& options,
+                                           const StepRule& rule, Walker& walker,
+                                           const Progress& progress);
+[[nodiscard]] Result<Family> constant_scallop(const Part& part, const ToolpathOptions& options,
+                                              const StepRule& rule, Walker& walker,
+                                              const Progress& progress);
+
+/// The field of the axis in the directions of the passes: a along them, b across.
+struct PassFrame {
+  Vec2 along{1.0, 0.0};
+  double a0 = 0.0, a1 = 0.0, b0 = 0.0, b1 = 0.0;
+  PassPlane plane = PassPlane::kNone;  ///< of straight passes
+  [[nodiscard]] Vec2 across() const { return left_normal(along); }
+  [[nodiscard]] Vec2 at(double a, double b) const { return a * along + b * across(); }
+};
+[[nodiscard]] PassFrame pass_frame(const Part& part, double angle_deg);
+
+}  // namespace obvid::toolpath

@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+#include <cmath>
+
+#include "families.h"
+
+namespace obvid::toolpath {
+namespace {
+
+constexpr double kLeastStep = 1e-4;  // of the range of the parameter: poles, folds
+
+/// To the next line of parameters: as far as the narrowest place allows.
+double step_of(const Part& part, const StepRule& rule, const Pass& pass, double length) {
+  double step = length;
+  const Rail& rail = pass.rail;
+  const NurbsSurface& surface = part.model().patches[rail.patch].surface;
+  for (const auto& piece : pass.pieces) {
+    for (const PassPoint& p : piece) {
+      if (p.lifted) continue;
+      const SurfaceJet jet = evaluate(surface, p.place.u, p.place.v);
+      const Vec3 along = unit(rail.along_v ? jet.dv : jet.du);
+      const Vec3 to = rail.along_v ? jet.du : jet.dv;
+      const double speed = norm(to - dot(to, along) * along);
+      if (speed > 0.0) step = std::min(step, rule.across(part, p.place, along) / speed);
+    }
+  }
+  return std::max(step, kLeastStep * length);
+}
+
+}  // namespace
+
+Result<Family> isoparametric(const Part& part, const ToolpathOptions& options, const StepRule& rule,
+                             Walker& walker, const Progress& progress) {
+  Family family;
+  const auto& patches = part.model().patches;
+  for (std::size_t k = 0; k < patches.size(); ++k) {
+    const NurbsSurface& surface = patches[k].surface;
+    const Range range = options.along_v ? domain_u(surface) : domain_v(surface);
+    double at = range.from;
+    while (true) {
+      Rail rail;
+      rail.patch = k;
+      rail.along_v = options.along_v;
+      rail.fixed = at;
+      auto pass = walker.walk(rail);
+      if (!pass) return fail(pass.error());
+      const double step = step_of(part, rule, *pass, range.length());
+      family.push_back(std::move(*pass));
+      if (at >= range.to) break;
+      at = std::min(at + step, range.to);
+      if (progress) {
+        progress("passes", (static_cast<double>(k) + (at - range.from) / range.length()) /
+                               static_cast<double>(patches.size()));
+      }
+    }
+    family.emplace_back();  // nothing between patches
+  }
+  return family;
+}
+
+}  // namespace obvid::toolpath

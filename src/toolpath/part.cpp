@@ -1,0 +1,161 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "part.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace obvid::toolpath {
+namespace {
+
+/// Normals at the ends of an edge; the cutter's place follows normals.
+constexpr double kEdgeAngle = std::numbers::pi / 6.0;
+constexpr int kSteps = 8;              // of Newton, from places that are near
+constexpr double kSettled = 1e-12;     // of the radius
+constexpr double kLevelNormal = 1e-6;  // below, the rim's point is not defined by the normal
+constexpr double kAgree = 1.0;         // shares of triangles, between exact and triangles' height
+
+Vec3 upwards(Vec3 n) { return n.z < 0.0 ? -n : n; }
+
+std::array<double, 3> weights_at(const Triangle& t, Vec3 p) {
+  const Vec3 n = cross(t[1] - t[0], t[2] - t[0]);
+  const double area = dot(n, n);
+  if (!(area > 0.0)) return {1.0, 0.0, 0.0};
+  const double b = std::clamp(dot(cross(p - t[0], t[2] - t[0]), n) / area, 0.0, 1.0);
+  const double c = std::clamp(dot(cross(t[1] - t[0], p - t[0]), n) / area, 0.0, 1.0);
+  return {1.0 - b - c, b, c};
+}
+
+/// The normal and how it turns with u and v.
+struct TurningNormal {
+  Vec3 n, du, dv;
+};
+
+TurningNormal normal_of(const SurfaceJet& jet) {
+  const Vec3 across = cross(jet.du, jet.dv);
+  const double size = norm(across);
+  if (!(size > 0.0)) return {};
+  const Vec3 n = across / size;
+  const auto turned = [&](Vec3 d) { return (d - dot(n, d) * n) / size; };
+  TurningNormal out{n, turned(cross(jet.duu, jet.dv) + cross(jet.du, jet.duv)),
+                    turned(cross(jet.duv, jet.dv) + cross(jet.du, jet.dvv))};
+  if (n.z < 0.0) out = {-n, -out.du, -out.dv};
+  return out;
+}
+
+/// Derivative of `CutterShape::offset` along a change of the normal.
+Vec2 offset_change(const CutterShape& cutter, Vec3 n, Vec3 dn) {
+  Vec2 out{cutter.corner * dn.x, cutter.corner * dn.y};
+  if (cutter.flat() > 0.0) {
+    const double level = std::hypot(n.x, n.y);
+    const Vec2 h{n.x / level, n.y / level}, d{dn.x, dn.y};
+    out = out + (cutter.flat() / level) * (d - dot(h, d) * h);
+  }
+  return out;
+}
+
+}  // namespace
+
+Result<Part> Part::make(const SurfaceModel& model, const CutterShape& cutter, double tolerance,
+                        const Progress& progress) {
+  TessellationOptions options;
+  options.chord_tolerance = kTriangleShare * tolerance;
+  options.angle = kEdgeAngle;
+  auto meshes = tessellate(model, options, progress);
+  if (!meshes) return fail(meshes.error());
+  return Part(model, cutter, tolerance, std::move(*meshes));
+}
+
+Part::Part(const SurfaceModel& model, CutterShape cutter, double tolerance,
+           std::vector<Mesh> meshes)
+    : model_(model),
+      cutter_(cutter),
+      slim_(cutter),
+      tolerance_(tolerance),
+      meshes_(std::move(meshes)),
+      field_(meshes_) {
+  slim_.radius -= std::min(kWallShare * tolerance, 0.5 * cutter.radius);
+  slim_.corner = std::min(slim_.corner, slim_.radius);
+}
+
+Place Part::on_triangle(std::uint32_t triangle, const std::array<double, 3>& w) const {
+  const FieldTriangle& t = field_.triangles()[triangle];
+  const Mesh& mesh = meshes_[t.mesh];
+  Place place;
+  place.patch = t.mesh;
+  Vec3 normal;
+  for (std::size_t k = 0; k < 3; ++k) {
+    const MeshVertex& vertex = mesh.vertices[mesh.triangles[t.number][k]];
+    normal = normal + w[k] * upwards(vertex.normal);
+    place.contact = place.contact + w[k] * t.corners[k];
+    place.u += w[k] * vertex.u;
+    place.v += w[k] * vertex.v;
+  }
+  place.normal = unit(normal);
+  return place;
+}
+
+std::optional<Place> Part::drop(Vec2 axis) const {
+  const auto found = field_.drop(slim_, axis);
+  if (!found) return std::nullopt;
+  const FieldTriangle& t = field_.triangles()[found->triangle];
+  Place place = on_triangle(found->triangle, weights_at(t.corners, found->rest.point));
+  place.tip = {axis.x, axis.y, found->rest.tip_z};
+  place.contact = found->rest.point;
+  place.open = ((static_cast<unsigned>(t.open) >> found->rest.feature) & 1U) != 0;
+  if (!place.open) polish(axis, place);
+  return place;
+}
+
+// Newton's method for the point of the patch that touches a cutter on this axis.
+void Part::polish(Vec2 axis, Place& place) const {
+  const NurbsSurface& surface = model_.patches[place.patch].surface;
+  const Range us = domain_u(surface), vs = domain_v(surface);
+  double u = place.u, v = place.v;
+  for (int step = 0; step < kSteps; ++step) {
+    const SurfaceJet jet = evaluate(surface, u, v);
+    const TurningNormal n = normal_of(jet);
+    const bool level = std::hypot(n.n.x, n.n.y) < kLevelNormal;
+    if (!(n.n.z > 0.0) || (level && slim_.flat() > 0.0)) return;
+    const Vec2 gap = axis - Vec2{jet.point.x, jet.point.y} - slim_.offset(n.n);
+    if (norm(gap) <= kSettled * slim_.radius) {
+      const double z = jet.point.z + slim_.corner * (n.n.z - 1.0);
+      const double off = std::abs(z - place.tip.z) * n.n.z;
+      if (off > kAgree * kTriangleShare * tolerance_) return;
+      place.tip.z = z;
+      place.contact = jet.point;
+      place.normal = n.n;
+      place.u = u;
+      place.v = v;
+      return;
+    }
+    const Vec2 by_u = Vec2{jet.du.x, jet.du.y} + offset_change(slim_, n.n, n.du);
+    const Vec2 by_v = Vec2{jet.dv.x, jet.dv.y} + offset_change(slim_, n.n, n.dv);
+    const double area = cross(by_u, by_v);
+    if (area == 0.0) return;
+    u += cross(gap, by_v) / area;
+    v += cross(by_u, gap) / area;
+    if (!(u >= us.from && u <= us.to && v >= vs.from && v <= vs.to)) return;
+  }
+}
+
+std::optional<Place> Part::surface_over(Vec2 at) const {
+  const auto found = field_.height(at);
+  if (!found) return std::nullopt;
+  return on_triangle(found->triangle, found->weights);
+}
+
+Bends Part::bends(const Place& place) const {
+  const SurfaceCurvature k =
+      curvature(evaluate(model_.patches[place.patch].surface, place.u, place.v));
+  Bends out{place.normal, k.direction1, 0.0, 0.0};
+  if (k.normal == Vec3{}) return out;
+  // curvature towards the normal is positive there: a bulge as seen from above is negative
+  const double sign = k.normal.z < 0.0 ? 1.0 : -1.0;
+  out.normal = upwards(k.normal);
+  out.k1 = sign * k.k1;
+  out.k2 = sign * k.k2;
+  return out;
+}
+
+}  // namespace obvid::toolpath

@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <optional>
+
+#include "drop_field.h"
+#include "obvid/surface/surface.h"
+
+namespace obvid::toolpath {
+
+/// How the tolerance is shared out.
+inline constexpr double kTriangleShare = 0.2;  ///< surface to triangles
+inline constexpr double kStepShare = 0.25;     ///< between neighbouring points of a pass
+inline constexpr double kPrintShare = 0.3;     ///< points to printed blocks, with rounding
+/// By so much the radius is taken smaller when the cutter comes down, so that rounding does not
+/// lift it onto walls that it runs along.
+inline constexpr double kWallShare = 0.02;
+
+/// Bends of a surface where a cutter touches it.
+struct Bends {
+  Vec3 normal;  ///< upwards
+  Vec3 direction1;
+  double k1 = 0.0, k2 = 0.0;  ///< principal curvatures, positive where the part bulges upwards
+};
+
+/// A place of the cutter on the part.
+struct Place {
+  Vec3 tip;
+  Vec3 contact;
+  Vec3 normal;        ///< of the surface at the contact, upwards
+  bool open = false;  ///< rests on an open border
+  std::uint32_t patch = 0;
+  double u = 0.0, v = 0.0;
+};
+
+/// A model ready to be cut: triangles within their share of the tolerance, and the surface itself.
+class Part {
+ public:
+  static Result<Part> make(const SurfaceModel& model, const CutterShape& cutter, double tolerance,
+                           const Progress& progress);
+
+  [[nodiscard]] const CutterShape& cutter() const { return cutter_; }
+  [[nodiscard]] double tolerance() const { return tolerance_; }
+  [[nodiscard]] const DropField& field() const { return field_; }
+  [[nodiscard]] const SurfaceModel& model() const { return model_; }
+
+  /// Where the cutter comes to rest; on triangles, then made exact on the surface where the contact
+  /// lies inside a patch.
+  [[nodiscard]] std::optional<Place> drop(Vec2 axis) const;
+  /// Highest point of the part over a place, with the normal.
+  [[nodiscard]] std::optional<Place> surface_over(Vec2 place) const;
+  [[nodiscard]] Bends bends(const Place& place) const;
+  [[nodiscard]] Place on_triangle(std::uint32_t triangle, const std::array<double, 3>& w) const;
+
+ private:
+  Part(const SurfaceModel& model, CutterShape cutter, double tolerance, std::vector<Mesh> meshes);
+  void polish(Vec2 axis, Place& place) const;
+
+  const SurfaceModel& model_;
+  CutterShape cutter_;
+  CutterShape slim_;
+  double tolerance_;
+  std::vector<Mesh> meshes_;
+  DropField field_;
+};
+
+}  // namespace obvid::toolpath

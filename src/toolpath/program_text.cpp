@@ -1,0 +1,219 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "program_text.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "biarc.h"
+#include "moves.h"
+
+namespace obvid::toolpath {
+namespace {
+
+constexpr int kCentreDecimals = 5;
+constexpr double kLowestArc = 0.5;         // last digits: height of arcs that are told as such
+constexpr double kShortestChord = 20.0;    // last digits: below, rounding turns an arc too much
+constexpr double kSmallestRadius = 0.002;  // a radius that LinuxCNC takes for none, and some
+constexpr double kLargestRadius = 1e4;     // machine units: beyond, centres need more digits
+/// Cosine of half the turn of the flattest arcs that are told as one: less than half a turn.
+constexpr double kMostLean = 0.2;
+constexpr std::size_t kMostAhead = 512;  // points that one biarc stands for: bounds the search
+constexpr double kCornerCosine = 0.98;   // sharper ones end a biarc
+
+double round_to(double value, int decimals) {
+  const double places = std::pow(10.0, decimals);
+  return std::round(value * places) / places;
+}
+
+std::string fixed(double value, int decimals) {
+  std::string text = fmt::format("{:.{}f}", value, decimals);
+  const bool zero = text.find_first_not_of("-0.") == std::string::npos;
+  return zero && text[0] == '-' ? text.substr(1) : text;
+}
+
+}  // namespace
+
+/// A pass in its plane: the level axis and z; directions by parabolas through three points.
+struct ProgramText::Flat {
+  PassPlane plane;
+  double other = 0.0;  ///< the axis that does not move
+  std::vector<Vec2> points, directions;
+
+  Flat(const std::vector<Vec3>& pass, PassPlane in) : plane(in) {
+    other = in == PassPlane::kXz ? pass.front().y : pass.front().x;
+    for (const Vec3 p : pass) {
+      const Vec2 q{in == PassPlane::kXz ? p.x : p.y, p.z};
+      if (points.empty() || !(q == points.back())) points.push_back(q);
+    }
+    directions.resize(points.size());
+    const std::size_t n = points.size();
+    for (std::size_t i = 1; i + 1 < n; ++i) {
+      const Vec2 a = points[i] - points[i - 1], b = points[i + 1] - points[i];
+      const double la = norm(a), lb = norm(b);
+      directions[i] = unit2((lb / la) * a + (la / lb) * b);
+    }
+    if (n < 3) {
+      for (Vec2& d : directions) d = n == 2 ? unit2(points[1] - points[0]) : Vec2{1.0, 0.0};
+      return;
+    }
+    const auto end = [&](Vec2 chord, Vec2 next) {  // mirrored at the chord
+      const Vec2 c = unit2(chord);
+      return 2.0 * dot(next, c) * c - next;
+    };
+    directions[0] = end(points[1] - points[0], directions[1]);
+    directions[n - 1] = end(points[n - 1] - points[n - 2], directions[n - 2]);
+  }
+  static Vec2 unit2(Vec2 a) {
+    const double length = norm(a);
+    return length > 0.0 ? a / length : a;
+  }
+  [[nodiscard]] Vec3 place(Vec2 p) const {
+    return plane == PassPlane::kXz ? Vec3{p.x, other, p.y} : Vec3{other, p.x, p.y};
+  }
+};
+
+ProgramText::ProgramText(int decimals, double within, bool arcs)
+    : decimals_(decimals), unit_(std::pow(10.0, -decimals)), within_(within), with_arcs_(arcs) {}
+
+Vec3 ProgramText::printed(Vec3 p) const {
+  return {round_to(p.x, decimals_), round_to(p.y, decimals_), round_to(p.z, decimals_)};
+}
+
+std::string ProgramText::words(Vec3 to) const {
+  std::string out;
+  if (!placed_ || to.x != at_.x) out += " X" + fixed(to.x, decimals_);
+  if (!placed_ || to.y != at_.y) out += " Y" + fixed(to.y, decimals_);
+  if (!placed_ || to.z != at_.z) out += " Z" + fixed(to.z, decimals_);
+  return out;
+}
+
+void ProgramText::line(const char* code, Vec3 to) {
+  const Vec3 end = printed(to);
+  const std::string axes = words(end);
+  if (axes.empty()) return;
+  text_ += code + axes + "\n";
+  ++blocks_;
+  at_ = end;
+}
+
+void ProgramText::feed(double value) {
+  if (value == feed_) return;
+  text_ += "F" + fixed(value, 3) + "\n";
+  feed_ = value;
+}
+
+void ProgramText::plane(PassPlane wanted) {
+  if (wanted == plane_) return;
+  text_ += wanted == PassPlane::kNone ? "G17\n" : wanted == PassPlane::kXz ? "G18\n" : "G19\n";
+  plane_ = wanted;
+}
+
+void ProgramText::level_plane() { plane(PassPlane::kNone); }
+
+// The first place: up before sideways, the tool may stand anywhere.
+void ProgramText::rapid(const std::vector<Vec3>& points) {
+  if (!placed_) {
+    const Vec3 first = printed(points.front());
+    text_ += "G0 Z" + fixed(first.z, decimals_) + "\n";
+    text_ += "G0 X" + fixed(first.x, decimals_) + " Y" + fixed(first.y, decimals_) + "\n";
+    blocks_ += 2;
+    at_ = first;
+    placed_ = true;
+  }
+  for (const Vec3 p : points) line("G0", p);
+}
+
+void ProgramText::straight(const std::vector<Vec3>& points, double at_feed) {
+  feed(at_feed);
+  for (const Vec3 p : thinned(points, within_)) line("G1", p);
+}
+
+std::size_t ProgramText::furthest_biarc(const Flat& flat, std::size_t first, Vec2& joint) const {
+  const auto fits = [&](std::size_t last) -> std::optional<Vec2> {
+    const Vec2 a = flat.points[first], b = flat.points[last];
+    const Vec2 leaving = flat.directions[first], arriving = flat.directions[last];
+    const auto middle = biarc_joint(a, leaving, b, arriving);
+    if (!middle) return std::nullopt;
+    const Vec2 c = *middle - a, d = b - *middle;
+    if (dot(c, leaving) < kMostLean * norm(c) || dot(d, arriving) < kMostLean * norm(d)) {
+      return std::nullopt;
+    }
+    for (std::size_t i = first + 1; i < last; ++i) {
+      if (dot(flat.points[i] - flat.points[i - 1], flat.directions[i]) <
+          kCornerCosine * norm(flat.points[i] - flat.points[i - 1])) {
+        return std::nullopt;
+      }
+      const double one = distance_from_arc(a, leaving, *middle, flat.points[i]);
+      const double two = distance_from_arc(b, -arriving, *middle, flat.points[i]);
+      if (std::min(one, two) > within_) return std::nullopt;
+    }
+    return middle;
+  };
+  const std::size_t end = std::min(flat.points.size() - 1, first + kMostAhead);
+  const std::size_t last =
+      furthest_good(first, end, [&](std::size_t k) { return fits(k).has_value(); });
+  if (const auto middle = fits(last)) {
+    joint = *middle;
+    return last;
+  }
+  return first;
+}
+
+/// The arc over the printed chord with the height of the exact one, as in the plane XY: of all that
+/// can be kept it moves the arc least.
+void ProgramText::arc(const Flat& flat, Vec2 middle, Vec2 to) {
+  const auto flat_of = [&](Vec3 p) { return Vec2{flat.plane == PassPlane::kXz ? p.x : p.y, p.z}; };
+  const Vec3 end3 = printed(flat.place(to));
+  const Vec2 at = flat_of(at_), end = flat_of(end3), chord = end - at;
+  const double length = norm(chord);
+  if (length < kShortestChord * unit_) return line("G1", flat.place(to));
+  const Vec2 across = left_normal(chord) / length;
+  const double height = dot(middle - at, across);  // below the chord, turning left: negative
+  const double radius = 0.5 * std::abs(height) + 0.125 * length * length / std::abs(height);
+  if (std::abs(height) < kLowestArc * unit_ || radius < kSmallestRadius ||
+      radius > kLargestRadius) {
+    return line("G1", flat.place(to));
+  }
+  const bool left = height < 0.0;
+  const Vec2 to_centre = 0.5 * chord + (height + (left ? radius : -radius)) * across;
+  // G18 is the plane ZX seen from +Y: x and z have the other hand there
+  const bool counter_clockwise = left != (flat.plane == PassPlane::kXz);
+  plane(flat.plane);
+  text_ += fmt::format("{}{} {}{} K{}\n", counter_clockwise ? "G3" : "G2", words(end3),
+                       flat.plane == PassPlane::kXz ? "I" : "J",
+                       fixed(to_centre.x, kCentreDecimals), fixed(to_centre.y, kCentreDecimals));
+  ++blocks_;
+  ++arc_blocks_;
+  at_ = end3;
+}
+
+void ProgramText::pass(const std::vector<Vec3>& points, PassPlane in, double at_feed) {
+  if (!with_arcs_ || in == PassPlane::kNone || points.size() < 3) {
+    return straight(points, at_feed);
+  }
+  feed(at_feed);
+  const Flat flat(points, in);
+  std::vector<Vec3> rounded;
+  for (const Vec2 p : flat.points) rounded.push_back(flat.place(p));
+  line("G1", rounded.front());
+  for (std::size_t k = 0; k + 1 < flat.points.size();) {
+    Vec2 joint{};
+    const std::size_t by_arcs = furthest_biarc(flat, k, joint);
+    const std::size_t by_line = furthest_good(k, flat.points.size() - 1, [&](std::size_t last) {
+      return last - k <= kMostAhead && off_chord(rounded, k, last) <= within_;
+    });
+    if (by_arcs <= by_line + 1) {
+      line("G1", rounded[by_line]);
+      k = by_line;
+      continue;
+    }
+    const Vec2 a = flat.points[k], b = flat.points[by_arcs];
+    arc(flat, arc_middle(a, flat.directions[k], joint), joint);
+    arc(flat, arc_middle(b, -flat.directions[by_arcs], joint), b);
+    k = by_arcs;
+  }
+}
+
+}  // namespace obvid::toolpath

@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <vector>
+
+#include "obvid/toolpath/toolpath.h"
+
+namespace obvid::toolpath {
+
+/// Blocks of a program. Places come in machine units and are rounded as they are printed; what
+/// follows starts where the tool stands, so nothing drifts.
+class ProgramText {
+ public:
+  /// `within`: machine units, how far blocks may lie from the points they stand for.
+  ProgramText(int decimals, double within, bool arcs);
+
+  void rapid(const std::vector<Vec3>& points);
+  void straight(const std::vector<Vec3>& points, double feed);
+  void pass(const std::vector<Vec3>& points, PassPlane plane, double feed);
+  void level_plane();  ///< back to G17
+
+  [[nodiscard]] const std::string& text() const { return text_; }
+  [[nodiscard]] std::size_t blocks() const { return blocks_; }
+  [[nodiscard]] std::size_t arcs() const { return arc_blocks_; }
+
+ private:
+  struct Flat;
+  [[nodiscard]] Vec3 printed(Vec3 p) const;
+  /// Words of the axes that change; empty: the tool stands there.
+  [[nodiscard]] std::string words(Vec3 to) const;
+  void line(const char* code, Vec3 to);
+  void feed(double value);
+  void plane(PassPlane plane);
+  [[nodiscard]] std::size_t furthest_biarc(const Flat& flat, std::size_t first, Vec2& joint) const;
+  void arc(const Flat& flat, Vec2 middle, Vec2 to);
+
+  int decimals_;
+  double unit_, within_;
+  bool with_arcs_;
+  bool placed_ = false;
+  Vec3 at_;
+  double feed_ = 0.0;
+  PassPlane plane_ = PassPlane::kNone;
+  std::string text_;
+  std::size_t blocks_ = 0, arc_blocks_ = 0;
+};
+
+}  // namespace obvid::toolpath

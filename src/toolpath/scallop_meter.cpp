@@ -1,0 +1,121 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "scallop_meter.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+
+namespace obvid::toolpath {
+namespace {
+
+constexpr double kCellOfRadius = 0.25;
+constexpr double kMostCells = 1e6;
+constexpr int kTraceSteps = 24;
+constexpr double kTraced = 1e-3;    // of the allowed height
+constexpr double kLookedFor = 8.0;  // allowed heights: beyond, the exact height says no more
+constexpr double kHeld = 0.5;       // of the tolerance: still taken for touching
+constexpr double kFarApart = 3.0;   // contacts against tips: the cutter leaps over a valley
+constexpr std::array<double, 3> kParts = {0.35, 0.5, 0.65};  // between contacts
+
+}  // namespace
+
+double held_up(const Part& part, const Place& surface) {
+  const Vec3 tip = part.cutter().tip(surface.contact, surface.normal);
+  const auto rest = part.drop({tip.x, tip.y});
+  if (!rest) return 0.0;
+  return (rest->tip.z - tip.z) * std::max(surface.normal.z, rest->normal.z);
+}
+
+ScallopMeter::ScallopMeter(const Part& part) : part_(part) {
+  const double r = part.cutter().radius;
+  const Vec3 low = part.field().low(), high = part.field().high();
+  const double dx = high.x - low.x + 4.0 * r, dy = high.y - low.y + 4.0 * r;
+  size_ = std::max(kCellOfRadius * r, std::sqrt(dx * dy / kMostCells));
+  low_ = {low.x - 2.0 * r, low.y - 2.0 * r};
+  nx_ = static_cast<std::size_t>(dx / size_) + 1;
+  ny_ = static_cast<std::size_t>(dy / size_) + 1;
+  cells_.resize(nx_ * ny_);
+}
+
+std::size_t ScallopMeter::cell(double value, double low, std::size_t count) const {
+  const double k = std::floor((value - low) / size_);
+  return static_cast<std::size_t>(std::clamp(k, 0.0, static_cast<double>(count - 1)));
+}
+
+void ScallopMeter::add(const Pass& pass) {
+  for (const auto& piece : pass.pieces) {
+    for (const PassPoint& p : piece) {
+      const Vec3 tip = p.place.tip;
+      cells_[cell(tip.y, low_.y, ny_) * nx_ + cell(tip.x, low_.x, nx_)].push_back(tip);
+    }
+  }
+}
+
+double ScallopMeter::distance(Vec3 p) const {
+  const CutterShape& cutter = part_.cutter();
+  const double reach = cutter.radius + size_;
+  double best = std::numeric_limits<double>::infinity();
+  const std::size_t x1 = cell(p.x + reach, low_.x, nx_), y1 = cell(p.y + reach, low_.y, ny_);
+  for (std::size_t y = cell(p.y - reach, low_.y, ny_); y <= y1; ++y) {
+    for (std::size_t x = cell(p.x - reach, low_.x, nx_); x <= x1; ++x) {
+      for (const Vec3 tip : cells_[y * nx_ + x]) best = std::min(best, cutter.distance(p - tip));
+    }
+  }
+  return best;
+}
+
+/// Up along the normal until the cutter has been there.
+double ScallopMeter::left_over(const Place& q, double most) const {
+  double up = 0.0;
+  for (int k = 0; k < kTraceSteps && up < kLookedFor * most; ++k) {
+    const double d = distance(q.contact + up * q.normal);
+    if (d <= kTraced * most) break;
+    up += d;
+  }
+  return std::min(up, kLookedFor * most);
+}
+
+void ScallopMeter::measure(const PassPoint& a, const PassPoint& b, double allowed, Gap& gap) const {
+  const Vec3 from = a.place.contact, way = b.place.contact - from;
+  const double apart = norm(b.place.tip - a.place.tip);
+  if (norm(way) > kFarApart * apart || a.place.open || b.place.open) return;
+  for (const double part : kParts) {
+    const Vec3 middle = from + part * way;
+    const auto q = part_.surface_over({middle.x, middle.y});
+    if (!q || std::abs(q->contact.z - middle.z) > norm(way)) continue;
+    if (held_up(part_, *q) > kHeld * part_.tolerance()) continue;
+    const double height = left_over(*q, allowed);
+    gap.scallop = std::max(gap.scallop, height);
+    if (height <= allowed) continue;
+    gap.too_high = true;
+    gap.from = std::min({gap.from, a.t, b.t});
+    gap.to = std::max({gap.to, a.t, b.t});
+  }
+}
+
+Gap ScallopMeter::between(const Pass& a, const Pass& b, double spacing, double allowed) const {
+  std::vector<const PassPoint*> others;
+  for (const auto& piece : b.pieces) {
+    for (const PassPoint& p : piece) others.push_back(&p);
+  }
+  Gap gap;
+  for (const auto& piece : a.pieces) {
+    Vec3 last = piece.front().place.tip;
+    bool first = true;
+    for (const PassPoint& p : piece) {
+      if (!first && norm(p.place.tip - last) < spacing) continue;
+      first = false;
+      last = p.place.tip;
+      auto at = std::lower_bound(others.begin(), others.end(), p.t,
+                                 [](const PassPoint* o, double t) { return o->t < t; });
+      if (at == others.end()) continue;
+      if (at != others.begin() && p.t - (*(at - 1))->t < (*at)->t - p.t) --at;
+      if (norm((*at)->place.tip - last) > kFarApart * part_.cutter().radius) continue;
+      measure(p, **at, allowed, gap);
+    }
+  }
+  return gap;
+}
+
+}  // namespace obvid::toolpath

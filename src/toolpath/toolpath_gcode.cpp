@@ -1,0 +1,107 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "obvid/toolpath/toolpath_gcode.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "machine_units.h"
+#include "obvid/core/version.h"
+#include "part.h"
+#include "program_text.h"
+
+namespace obvid {
+namespace {
+
+constexpr int kLeastDecimals = 3, kMostDecimals = 6;
+constexpr double kDigitsOfTolerance = 0.1;  // of the tolerance, what the last digit may be worth
+constexpr double kRounding = 1e-9;          // a tolerance of 0.001 asks for 4, not for 4.0000000001
+
+/// Comments end at ")": nothing of the kind in a name, and nothing but ASCII.
+std::string comment_of(const std::string& name) {
+  constexpr std::size_t kLongest = 40;  // a line has to fit into the buffers of controllers
+  std::string out;
+  for (const char c : name.substr(0, kLongest)) {
+    const auto code = static_cast<unsigned char>(c);
+    if (code >= 0x20 && code < 0x7F && c != '(' && c != ')' && c != '%' && c != ';') out += c;
+  }
+  return out;
+}
+
+std::string cutter_text(const Toolpath& path, double scale) {
+  const double d = path.cutter.diameter * scale;
+  switch (path.cutter.kind) {
+    case CutterKind::kBall:
+      return fmt::format("ball mill D{:.4g}", d);
+    case CutterKind::kFlat:
+      return fmt::format("flat mill D{:.4g}", d);
+    case CutterKind::kBullNose:
+      break;
+  }
+  return fmt::format("bull nose mill D{:.4g} R{:.4g}", d, path.cutter.corner_radius * scale);
+}
+
+std::string head(const Toolpath& path, const ToolpathGcodeOptions& options, double scale) {
+  const bool fanuc = options.controller == GcodeController::kFanuc, inches = path.units == "in";
+  const char* unit = inches ? "in" : "mm";
+  std::string out = fanuc ? "%\nO0001\n" : "";
+  out += fmt::format("(Obvid {}: {})\n", kVersion, comment_of(options.name));
+  out += fmt::format("({}, places are those of the tip)\n", cutter_text(path, scale));
+  out += fmt::format("({} passes, {:.1f} min, within {:.3g} {})\n", path.report.passes,
+                     path.report.minutes, path.tolerance * scale, unit);
+  if (!inches && scale != 1.0) out += fmt::format("(converted from {})\n", comment_of(path.units));
+  out += inches ? "G20 " : "G21 ";
+  return out + (fanuc ? "G90 G17 G94\n" : "G90 G91.1 G17 G94\n");
+}
+
+void write_moves(const Toolpath& path, double scale, toolpath::ProgramText& program) {
+  for (const ToolpathMove& move : path.moves) {
+    std::vector<Vec3> points = move.points;
+    for (Vec3& p : points) p = scale * p;
+    if (move.kind == ToolMove::kRapid) {
+      program.rapid(points);
+    } else if (move.kind == ToolMove::kPass) {
+      program.pass(points, move.plane, path.feed);
+    } else {
+      program.straight(points, move.kind == ToolMove::kPlunge ? path.plunge_feed : path.feed);
+    }
+  }
+  program.level_plane();
+}
+
+}  // namespace
+
+Result<ToolpathGcode> toolpath_gcode(const Toolpath& path, const ToolpathGcodeOptions& options) {
+  const double scale = toolpath::machine_scale(path.units);
+  if (scale == 0.0) {
+    return fail({ErrorCode::kUnsupported, "machines do not know the unit " + path.units, "",
+                 "known are um, mm, cm, m, km, in, ft", -1, 0.0});
+  }
+  if (options.decimals && (*options.decimals < 1 || *options.decimals > kMostDecimals)) {
+    return fail({ErrorCode::kBadOption, fmt::format("decimals must be 1 to {}", kMostDecimals), "",
+                 "", -1, static_cast<double>(*options.decimals)});
+  }
+  const double tolerance = path.tolerance * scale;
+  const int least = kLeastDecimals + (path.units == "in" ? 1 : 0);
+  const double digits = std::ceil(-std::log10(kDigitsOfTolerance * tolerance) - kRounding);
+  const int decimals =
+      options.decimals.value_or(static_cast<int>(std::clamp<double>(digits, least, kMostDecimals)));
+  const double within = toolpath::kPrintShare * tolerance - std::pow(10.0, -decimals);
+  if (!(within > 0.0)) {
+    return fail({ErrorCode::kToleranceNotReached,
+                 fmt::format("{} decimals do not keep a tolerance of {:g} {}", decimals,
+                             path.tolerance, path.units),
+                 "", "print more decimals, or allow a larger tolerance", -1, path.tolerance});
+  }
+  toolpath::ProgramText program(decimals, within, options.arcs);
+  write_moves(path, scale, program);
+  ToolpathGcode out;
+  out.blocks = program.blocks();
+  out.arc_blocks = program.arcs();
+  out.text = head(path, options, scale) + program.text() +
+             (options.controller == GcodeController::kFanuc ? "M30\n%\n" : "M2\n");
+  return out;
+}
+
+}  // namespace obvid
