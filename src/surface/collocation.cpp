@@ -3,6 +3,9 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <utility>
+
 #include "obvid/surface/basis.h"
 
 namespace obvid {
@@ -15,7 +18,39 @@ std::vector<double> not_a_knot(const std::vector<double>& t, std::size_t degree)
   return knots;
 }
 
+/// B-splines at the parameters, factored.
+Result<Collocation> factored(int degree, std::vector<double> knots, const std::vector<double>& at,
+                             std::size_t width) {
+  Collocation system{degree, std::move(knots), BandedMatrix(at.size(), width, width)};
+  for (std::size_t i = 0; i < at.size(); ++i) {
+    const BasisValues basis = basis_at(degree, system.knots, at[i], 0);
+    for (std::size_t j = 0; j <= static_cast<std::size_t>(degree); ++j) {
+      if (basis.value[0][j] != 0.0) system.matrix.at(i, basis.first + j) = basis.value[0][j];
+    }
+  }
+  if (system.matrix.factor()) return system;
+  return fail(
+      {ErrorCode::kSizeOutOfRange, "parameters are too uneven for a spline", "", "", -1, 0.0});
+}
+
 }  // namespace
+
+std::vector<double> greville(int degree, const std::vector<double>& knots) {
+  const auto p = static_cast<std::size_t>(degree);
+  std::vector<double> at(knots.size() - p - 1);
+  for (std::size_t i = 0; i < at.size(); ++i) {
+    double sum = 0.0;
+    for (std::size_t j = 1; j <= p; ++j) sum += knots[i + j];
+    // means of equal knots are that knot, whatever the sum rounds to
+    at[i] = knots[i + 1] == knots[i + p] ? knots[i + 1] : sum / static_cast<double>(p);
+  }
+  return at;
+}
+
+Result<Collocation> greville_collocation(int degree, std::vector<double> knots) {
+  const std::vector<double> at = greville(degree, knots);
+  return factored(degree, std::move(knots), at, static_cast<std::size_t>(degree));
+}
 
 Result<Collocation> cubic_collocation(const std::vector<double>& parameters) {
   const std::size_t n = parameters.size();
@@ -30,22 +65,8 @@ Result<Collocation> cubic_collocation(const std::vector<double>& parameters) {
                  static_cast<std::ptrdiff_t>(i), parameters[i]});
   }
   const std::size_t degree = std::min<std::size_t>(3, n - 1);
-  Collocation system;
-  system.degree = static_cast<int>(degree);
-  system.knots = not_a_knot(parameters, degree);
   // the second and the last but one parameter lie inside the end spans: two diagonals on each side
-  system.matrix = BandedMatrix(n, 2, 2);
-  for (std::size_t i = 0; i < n; ++i) {
-    const BasisValues basis = basis_at(system.degree, system.knots, parameters[i], 0);
-    for (std::size_t j = 0; j <= degree; ++j) {
-      if (basis.value[0][j] != 0.0) system.matrix.at(i, basis.first + j) = basis.value[0][j];
-    }
-  }
-  if (!system.matrix.factor()) {
-    return fail(
-        {ErrorCode::kSizeOutOfRange, "parameters are too uneven for a spline", "", "", -1, 0.0});
-  }
-  return system;
+  return factored(static_cast<int>(degree), not_a_knot(parameters, degree), parameters, 2);
 }
 
 }  // namespace obvid

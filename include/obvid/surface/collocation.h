@@ -21,4 +21,9 @@ struct Collocation {
 /// (`index`: the later one).
 [[nodiscard]] Result<Collocation> cubic_collocation(const std::vector<double>& parameters);
 
+/// Interpolation at the Greville abscissae (means of `degree` neighbouring inner knots) of any
+/// clamped knots: as continuous as the knots say. Error: E309 knots too uneven for a matrix.
+[[nodiscard]] Result<Collocation> greville_collocation(int degree, std::vector<double> knots);
+[[nodiscard]] std::vector<double> greville(int degree, const std::vector<double>& knots);
+
 }  // namespace obvid

@@ -11,7 +11,7 @@
 namespace obvid {
 
 /// Ruled surface between two curves, at v = 0 and v = 1: S(u, v) = (1 - v) first(u) + v second(u),
-/// both read over their own domain scaled to [0, 1].
+/// both read over their own domain scaled to [0, 1]. A second curve of one point makes a cone.
 struct RuledSurface {
   SpaceCurve first;
   SpaceCurve second;
@@ -66,11 +66,17 @@ struct IdSurface {
 using Surface = std::variant<NurbsSurface, RuledSurface, DirectedSurface, RevolutionSurface,
                              CoonsPatch, GordonSurface, OffsetSurface, IdSurface>;
 
+/// Cylinder over a curve (or plane over a line): along `direction` by its length.
+[[nodiscard]] DirectedSurface cylinder_over(const SpaceCurve& directrix, Vec3 direction);
+/// Cone from a curve to a point.
+[[nodiscard]] RuledSurface cone_over(const SpaceCurve& directrix, Vec3 apex);
+
 /// "ruled surface between two curves", ...
 [[nodiscard]] std::string kind_of(const Surface& surface);
 [[nodiscard]] Range domain_u(const Surface& surface);
 [[nodiscard]] Range domain_v(const Surface& surface);
-/// Point and derivatives straight from the definition, not by way of `to_nurbs`.
+/// Point and derivatives straight from the definition, not by way of `to_nurbs`. Second derivatives
+/// of offsets are differences of first ones, good to some 1e-6 of themselves.
 [[nodiscard]] SurfaceJet evaluate(const Surface& surface, double u, double v);
 
 /// A surface as NURBS, over the same parameters, and how far they are apart at most.
@@ -79,11 +85,15 @@ struct NurbsForm {
   double deviation = 0.0;  ///< units; 0: exactly the same surface apart from rounding
 };
 
-/// Ruled, revolution (of rational profiles), Coons and Gordon of polynomial curves and ID surfaces
-/// become NURBS exactly; offsets (but of planes) and Coons or Gordon of rational curves within the
-/// tolerance (units), which is measured between the samples too. Errors: E203 curves that do not
-/// meet (`value`: the gap), parameters out of order, E304 too few curves, E309, E502 the tolerance
-/// cannot be reached within the limit of knots (an offset with cusps).
+/// Ruled and directed surfaces, revolutions, Coons and Gordon of polynomial curves and ID surfaces
+/// become NURBS exactly, offsets of planes too. Between rational curves of different weights the
+/// rulings are the same, but v runs along each of them projectively. Other offsets and Coons or
+/// Gordon of rational curves come within the tolerance (units), measured between the samples too.
+///
+/// Errors: E203 curves that do not meet (`value`: the gap), parameters out of order, a zero axis or
+/// angle, directed surfaces of a rational direction whose weights are not those of the directrix;
+/// E304 too few curves; E502 the tolerance cannot be reached within the limit of knots (an offset
+/// with cusps); those of `check` for each curve.
 [[nodiscard]] Result<NurbsForm> to_nurbs(const Surface& surface, double tolerance);
 
 /// One patch of a model with its name.

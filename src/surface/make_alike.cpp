@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+#include <array>
+
+#include "kinds.h"
+#include "knots.h"
+
+namespace obvid {
+namespace {
+
+/// Knots of all surfaces in one direction, rounding differences made equal, largest multiplicities.
+std::vector<double> common(std::vector<NurbsSurface>& surfaces,
+                           std::vector<double> NurbsSurface::*knots) {
+  std::vector<double> all;
+  for (NurbsSurface& s : surfaces) {
+    for (double& u : s.*knots) {
+      const auto near = std::find_if(
+          all.begin(), all.end(), [&](double other) { return std::abs(other - u) <= kSameKnot; });
+      if (near != all.end()) {
+        u = *near;
+      } else {
+        all.push_back(u);
+      }
+    }
+  }
+  std::sort(all.begin(), all.end());
+  std::vector<double> repeated;
+  for (const double u : all) {
+    std::size_t most = 0;
+    for (const NurbsSurface& s : surfaces) most = std::max(most, multiplicity(s.*knots, u));
+    repeated.insert(repeated.end(), most, u);
+  }
+  return repeated;
+}
+
+std::vector<double> missing(const std::vector<double>& have, const std::vector<double>& wanted) {
+  std::vector<double> out;
+  std::set_difference(wanted.begin(), wanted.end(), have.begin(), have.end(),
+                      std::back_inserter(out));
+  return out;
+}
+
+}  // namespace
+
+void make_alike(std::vector<NurbsSurface>& surfaces) {
+  int p = 1, q = 1;
+  for (const NurbsSurface& s : surfaces) {
+    p = std::max(p, s.degree_u);
+    q = std::max(q, s.degree_v);
+  }
+  for (NurbsSurface& s : surfaces) s = with_degrees(with_domain(s, {0.0, 1.0}, {0.0, 1.0}), p, q);
+  const std::vector<double> u = common(surfaces, &NurbsSurface::knots_u);
+  const std::vector<double> v = common(surfaces, &NurbsSurface::knots_v);
+  for (NurbsSurface& s : surfaces) {
+    s = with_knots_v(with_knots_u(s, missing(s.knots_u, u)), missing(s.knots_v, v));
+  }
+}
+
+}  // namespace obvid
