@@ -22,11 +22,11 @@ struct Place {
   double t = 0.0;
 };
 
-/// B-splines that are not zero on a span, with their first derivatives.
+/// B-splines that are not zero on a span, with their first derivatives: degree + 1 of each.
 struct SpanBasis {
-  std::size_t first = 0;
-  std::array<double, kMaxSurfaceDegree + 1> value{};
-  std::array<double, kMaxSurfaceDegree + 1> slope{};
+  std::size_t first;
+  std::array<double, kMaxSurfaceDegree + 1> value;
+  std::array<double, kMaxSurfaceDegree + 1> slope;
 };
 
 /// One direction of the parameters of a patch: its spans.
