@@ -136,6 +136,13 @@ Colours colours_of(const std::vector<DrawnPatch>& patches, const SurfacePictureO
 Result<std::string> drawn(const SurfaceModel& model, const SurfacePictureOptions& options,
                           std::size_t facets) {
   const auto patches = drawn_patches(model, options.colouring, facets);
+  for (const DrawnPatch& patch : patches) {
+    if (!std::all_of(patch.points.begin(), patch.points.end(),
+                     [](Vec3 p) { return is_finite(p); })) {
+      return fail({ErrorCode::kNotFinite, "a point of the surface is not finite", "",
+                   "change the unit", -1, 0.0});
+    }
+  }
   const double size = norm(box_of(patches).size());
   if (!(size >= kLeastSize && size <= kMostSize)) {
     return fail({ErrorCode::kSizeOutOfRange, "the size of the surface cannot be drawn", "",

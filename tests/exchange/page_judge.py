@@ -142,6 +142,7 @@ KINDS = {
     "green": lambda r, g, b: g > r + 40 and g > b,
     "blue": lambda r, g, b: b > r + 50 and b > g,
     "red": lambda r, g, b: r > b + 40 and r > g,
+    "brown": lambda r, g, b: r > b + 15 and r > g,
     "dark": lambda r, g, b: r + g + b < 240,
     "ink": lambda r, g, b: r + g + b < 700,
 }

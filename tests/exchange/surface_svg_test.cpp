@@ -308,6 +308,20 @@ TEST(SurfacePicture, RefusesWhatItCannotDraw) {
   EXPECT_TRUE(surface_svg(model, options)) << "a line without points is no harm";
 }
 
+TEST(SurfacePicture, DegenerateSurfacesAreNoHarm) {
+  NurbsSurface line = rectangle(5, 1);
+  for (Vec3& p : line.points) p.y = 0.0;
+  NurbsSurface vast = rectangle(1, 1);
+  for (Vec3& p : vast.points) p = 1.7e308 * (p - Vec3{0.5, 0.5, 0});
+  for (const SurfaceColouring c : kAll) {
+    for (const SurfaceView view : {SurfaceView::kTop, SurfaceView::kSide}) {  // and from its end
+      const Drawing drawing(picture(model_of({{"line", line}}), with(c, view)));
+    }
+    const auto svg = surface_svg(model_of({{"vast", vast}}), with(c));
+    ASSERT_FALSE(svg);
+  }
+}
+
 class SurfacePictureByRsvg : public Judged {
  protected:
   void SetUp() override {
@@ -348,6 +362,21 @@ TEST_F(SurfacePictureByRsvg, NearPartsCoverFarOnes) {
   const double before = seen(-100.0);
   EXPECT_NEAR(seen(100.0) - before, disc, 0.02 * disc);
   EXPECT_NEAR(seen(0.0) - before, 0.0, 0.02 * disc) << "the wall cuts through the ball";
+}
+
+TEST_F(SurfacePictureByRsvg, PlatesThatCrossShareTheirPlace) {
+  // few and large cells: no order of drawing is right along the line where the plates cross
+  NurbsSurface up = rectangle(60, 40), down = rectangle(60, 40);
+  for (Vec3& p : up.points) p.z = 0.2 * (p.x - 24.0);
+  for (Vec3& p : down.points) p = {p.x, 40.0 - p.y, -0.2 * (p.x - 24.0)};  // shows its brown back
+  SurfacePictureOptions options = with(SurfaceColouring::kShaded, SurfaceView::kTop);
+  options.most_facets = 16;
+  const auto model = model_of({{"up", up}, {"down", down}});
+  const Spot brown = spot(rendered(picture(model, options)), "brown", "20,62,880,530");
+  // the lower one is seen up to 24 of 60: 456 px are 40 units
+  const double scale = 456.0 / 40.0;
+  EXPECT_NEAR(brown.count / (scale * scale), 24.0 * 40.0, 0.02 * 24.0 * 40.0);
+  EXPECT_NEAR(brown.width() / scale, 24.0, 0.5);
 }
 
 }  // namespace
