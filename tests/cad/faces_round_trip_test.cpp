@@ -241,6 +241,19 @@ TEST_F(FaceFiles, NamesSurviveWhateverTheyAreMadeOf) {
   }
 }
 
+TEST_F(FaceFiles, LineEndsInNamesBecomeBlanks) {
+  SurfaceModel model = plane_model().model;
+  model.name = "two\nlines";
+  model.patches[0].name = "a\r\nb\tc";
+  for (const CadFormat format : kFormats) {
+    const auto read = read_cad_surfaces(written(model, format).string());
+    ASSERT_TRUE(read) << to_line(read.error());
+    if (format == CadFormat::kStepAp214) {
+      EXPECT_EQ(read->model.patches.at(0).name, "a  b c");
+    }
+  }
+}
+
 TEST_F(FaceFiles, WhatIsNoSurfaceIsRefusedByName) {
   const auto empty = cad_surface_text({}, {});
   ASSERT_FALSE(empty);

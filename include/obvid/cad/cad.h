@@ -54,9 +54,10 @@ struct CadWriteOptions {
 /// kernels want them. A patch is cut into "NAME, part 1 of 2", ... where its normal jumps at an
 /// inner knot of full multiplicity, because kernels cut there. Lengths in `model.units`, which the
 /// file has too (`options.units` and `face_width` are for curves). The same model gives the same
-/// bytes. Errors: E203 a unit that these formats do not know, E304 no patches, E309 all points are
-/// one or beyond 1e100 mm, E310 no plugin, or more than 20,000 faces by creases; what `check` finds
-/// of a patch (`where`: its name); E101 when the kernel refuses.
+/// bytes. Patches of one shell stand together in the file. Errors: E203 a unit that these formats
+/// do not know, E304 no patches, E309 all points are one or beyond 1e100 mm, E310 no plugin, or
+/// more than 20,000 faces by creases; what `check` finds of a patch (`where`: its name); E101 when
+/// the kernel refuses.
 [[nodiscard]] Result<std::string> cad_surface_text(const SurfaceModel& model,
                                                    const CadWriteOptions& options);
 

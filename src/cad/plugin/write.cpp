@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "write.h"
 
+#include <algorithm>
 #include <mutex>
+#include <utility>
 
 #include "faces.h"
 #include "shapes.h"
@@ -11,6 +13,16 @@ namespace obvid::cad {
 namespace {
 
 std::mutex one_at_a_time;  // the kernel keeps its settings in global variables
+
+/// Names of files have no line ends and other signs of control.
+std::string on_one_line(std::string name) {
+  const auto is_control = [](char c) {
+    const auto byte = static_cast<unsigned char>(c);
+    return byte < 0x20 || byte == 0x7F;
+  };
+  std::replace_if(name.begin(), name.end(), is_control, ' ');
+  return name;
+}
 
 }  // namespace
 
@@ -23,7 +35,7 @@ Result<std::string> write_text(const std::vector<CadCurve>& curves,
   if (!shape) return fail(shape.error());
   const std::string name =
       curves.empty() || curves.front().name.empty() ? "contour" : curves.front().name;
-  return text_of({*shape, name, {}, {}}, options.format, options.units);
+  return text_of({*shape, on_one_line(name), {}, {}}, options.format, options.units);
 }
 
 Result<std::string> write_surfaces(const SurfaceModel& model, const CadWriteOptions& options) {
@@ -32,7 +44,8 @@ Result<std::string> write_surfaces(const SurfaceModel& model, const CadWriteOpti
   if (!scale) return fail(scale.error());
   auto faces = faces_of(model, *scale);
   if (!faces) return fail(faces.error());
-  return text_of({faces->shape, model.name.empty() ? "surface" : model.name,
+  for (std::string& name : faces->names) name = on_one_line(std::move(name));
+  return text_of({faces->shape, model.name.empty() ? "surface" : on_one_line(model.name),
                   std::move(faces->faces), std::move(faces->names)},
                  options.format, model.units);
 }
