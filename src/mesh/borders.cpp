@@ -11,6 +11,9 @@ namespace {
 
 /// Steps by which two curves with the same ends are compared.
 constexpr int kCompared = 32;
+/// Points of each span among which the foot of a perpendicular is looked for, and steps from there.
+constexpr int kPerSpan = 4;
+constexpr int kNewtonSteps = 20;
 
 /// Corners are numbered 2 * (v at its end) + (u at its end).
 std::array<std::size_t, 2> corners_of(std::size_t side) {
@@ -78,14 +81,16 @@ const PatchAxis& Borders::axis(std::size_t side) const {
   return runs_along_u(side % kSides) ? patch.u() : patch.v();
 }
 
-Vec3 Borders::point(std::size_t side, double t) const {
+SurfacePoint Borders::at(std::size_t side, double t) const {
   const PatchSampler& patch = patches_[side / kSides];
   const PatchAxis& across = runs_along_u(side % kSides) ? patch.v() : patch.u();
   const Place along = axis(side).locate(t);
   const Place end =
       is_far_end(side % kSides) ? Place{across.spans() - 1, across.to()} : Place{0, across.from()};
-  return runs_along_u(side % kSides) ? patch.at(along, end).point : patch.at(end, along).point;
+  return runs_along_u(side % kSides) ? patch.at(along, end) : patch.at(end, along);
 }
+
+Vec3 Borders::point(std::size_t side, double t) const { return at(side, t).point; }
 
 void Borders::find_corners() {
   for (std::size_t p = 0; p < patches_.size(); ++p) {
@@ -129,6 +134,65 @@ bool Borders::are_same(std::size_t a, std::size_t b, bool reversed) const {
   return true;
 }
 
+/// Parameter of the side's point nearest to a point: from the nearest of some points per span.
+double Borders::foot(std::size_t side, Vec3 of) const {
+  const PatchAxis& a = axis(side);
+  double t = a.from(), least = norm(point(side, t) - of);
+  for (std::size_t k = 0; k < a.spans(); ++k) {
+    for (int i = 1; i <= kPerSpan; ++i) {
+      const double next = Range{a.end(k), a.end(k + 1)}.at(static_cast<double>(i) / kPerSpan);
+      const double far = norm(point(side, next) - of);
+      if (far >= least) continue;
+      least = far;
+      t = next;
+    }
+  }
+  for (int k = 0; k < kNewtonSteps; ++k) {
+    const SurfacePoint here = at(side, t);
+    const Vec3 slope = runs_along_u(side % kSides) ? here.du : here.dv;
+    const double speed2 = dot(slope, slope);
+    if (!(speed2 > 0.0)) break;
+    const double next = std::clamp(t + dot(of - here.point, slope) / speed2, a.from(), a.to());
+    const double far = norm(point(side, next) - of);
+    if (far >= least) break;
+    least = far;
+    t = next;
+  }
+  return t;
+}
+
+/// The same curve, but parameters run differently: feet of perpendiculars both ways, in order.
+bool Borders::follows(std::size_t a, std::size_t b, bool reversed) const {
+  const Range ra{axis(a).from(), axis(a).to()}, rb{axis(b).from(), axis(b).to()};
+  double before = reversed ? ra.to : ra.from;
+  for (int k = 1; k < kCompared; ++k) {
+    const double part = static_cast<double>(k) / kCompared;
+    const Vec3 on_a = point(a, ra.at(part)), on_b = point(b, rb.at(part));
+    if (norm(point(b, foot(b, on_a)) - on_a) > same_) return false;
+    const double t = foot(a, on_b);
+    if (norm(point(a, t) - on_b) > same_) return false;
+    if (reversed ? t >= before : t <= before) return false;
+    before = t;
+  }
+  return true;
+}
+
+/// Whether a side is the curve of a group's first; if so it is noted how.
+bool Borders::joins(std::size_t side, std::size_t first) {
+  Curve& curve = curves_[side];
+  for (const bool own_pace : {false, true}) {
+    for (const bool reversed : {false, true}) {
+      if (curves_[first].end[reversed ? 1 : 0] != curve.end[0]) continue;
+      if (!(own_pace ? follows(first, side, reversed) : are_same(first, side, reversed))) continue;
+      curve.reversed = reversed;
+      curve.own_pace = own_pace;
+      curve.group = curves_[first].group;
+      return true;
+    }
+  }
+  return false;
+}
+
 void Borders::find_groups() {
   std::map<std::pair<std::size_t, std::size_t>, std::vector<std::size_t>> by_ends;
   for (std::size_t side = 0; side < curves_.size(); ++side) {
@@ -140,24 +204,42 @@ void Borders::find_groups() {
       continue;
     }
     auto& candidates = by_ends[std::minmax(curve.end[0], curve.end[1])];
-    const auto fits = [&](std::size_t other, bool reversed) {
-      const auto& ends = curves_[other].end;
-      return ends[reversed ? 1 : 0] == curve.end[0] && are_same(other, side, reversed);
-    };
-    bool found = false;
-    for (const std::size_t other : candidates) {
-      const bool straight = fits(other, false);
-      if (!straight && !fits(other, true)) continue;
-      curve.reversed = !straight;
-      curve.group = curves_[other].group;
+    const bool found = std::any_of(candidates.begin(), candidates.end(),
+                                   [&](std::size_t first) { return joins(side, first); });
+    if (found) {
       groups_[curve.group].push_back(side);
-      found = true;
-      break;
+    } else {
+      candidates.push_back(side);
+      groups_.push_back({side});
     }
-    if (found) continue;
-    candidates.push_back(side);
-    groups_.push_back({side});
   }
+}
+
+/// Where a line of a patch ends on its side, as a part of the range of the group's first.
+double Borders::part_in_group(std::size_t side, Line line) const {
+  const PatchAxis& own = axis(side);
+  const Curve& curve = curves_[side];
+  double part = line == own.last() ? 1.0 : 0.0;
+  if (line != 0 && line != own.last()) {
+    if (curve.own_pace) {
+      const std::size_t first = groups_[curve.group].front();
+      const PatchAxis& other = axis(first);
+      return (foot(first, point(side, own.at(line))) - other.from()) / (other.to() - other.from());
+    }
+    part = (own.at(line) - own.from()) / (own.to() - own.from());
+  }
+  return curve.reversed ? 1.0 - part : part;
+}
+
+double Borders::own_parameter(std::size_t side, double part) const {
+  const PatchAxis& own = axis(side);
+  const Curve& curve = curves_[side];
+  if (curve.own_pace && part > 0.0 && part < 1.0) {
+    const std::size_t first = groups_[curve.group].front();
+    const Range range{axis(first).from(), axis(first).to()};
+    return foot(side, point(first, range.at(part)));
+  }
+  return Range{own.from(), own.to()}.at(curve.reversed ? 1.0 - part : part);
 }
 
 void Borders::update_group(const std::vector<std::size_t>& sides,
@@ -171,14 +253,9 @@ void Borders::update_group(const std::vector<std::size_t>& sides,
   for (std::size_t m = 0; m < sides.size(); ++m) {
     const std::size_t side = sides[m];
     const PatchSampler& patch = patches_[side / kSides];
-    const PatchAxis& a = axis(side);
     for (const Line line :
          lines_on(trees[side / kSides], side % kSides, patch.u().last(), patch.v().last())) {
-      const double t = a.at(line);
-      const double part = line == 0          ? 0.0
-                          : line == a.last() ? 1.0
-                                             : (t - a.from()) / (a.to() - a.from());
-      marks.push_back({curves_[side].reversed ? 1.0 - part : part, m, t});
+      marks.push_back({part_in_group(side, line), m, axis(side).at(line)});
     }
     nodes_[side].clear();
   }
@@ -202,9 +279,7 @@ void Borders::update_group(const std::vector<std::size_t>& sides,
     if (k > 0 && end < marks.size() && !curve.collapsed)
       at = point(sides[0], range.at(marks[k].part));
     for (std::size_t m = 0; m < sides.size(); ++m) {
-      const Range own{axis(sides[m]).from(), axis(sides[m]).to()};
-      const double part = marks[k].part;
-      double t = own.at(curves_[sides[m]].reversed ? 1.0 - part : part);
+      double t = own_parameter(sides[m], marks[k].part);
       for (std::size_t i = k; i < end; ++i) {
         if (marks[i].member == m) t = marks[i].t;
       }
@@ -214,6 +289,8 @@ void Borders::update_group(const std::vector<std::size_t>& sides,
   }
   for (const std::size_t side : sides) {
     if (curves_[side].reversed) std::reverse(nodes_[side].begin(), nodes_[side].end());
+    std::stable_sort(nodes_[side].begin(), nodes_[side].end(),  // feet may swap by rounding
+                     [](const BorderNode& a, const BorderNode& b) { return a.t < b.t; });
   }
 }
 

@@ -19,7 +19,8 @@ struct BorderNode {
   Vec3 point;
 };
 
-/// Borders of all patches: sides that are the same curve get the same points, corners that meet
+/// Borders of all patches: sides that are the same curve, at the same pace or not, get the same
+/// points, corners that meet
 /// are one point, sides that shrink to a point are that point.
 class Borders {
  public:
@@ -41,14 +42,21 @@ class Borders {
     std::array<std::size_t, 2> end{};  ///< numbers of its corner points
     bool collapsed = false;
     bool reversed = false;  ///< against the first of its group
+    bool own_pace = false;  ///< the same curve, but parameters run differently from the first's
     std::size_t group = 0;
   };
   void find_corners();
   void find_groups();
   [[nodiscard]] const PatchAxis& axis(std::size_t side) const;
+  [[nodiscard]] SurfacePoint at(std::size_t side, double t) const;
   [[nodiscard]] Vec3 point(std::size_t side, double t) const;
   [[nodiscard]] bool is_collapsed(std::size_t side) const;
   [[nodiscard]] bool are_same(std::size_t a, std::size_t b, bool reversed) const;
+  [[nodiscard]] bool follows(std::size_t a, std::size_t b, bool reversed) const;
+  [[nodiscard]] bool joins(std::size_t side, std::size_t first);
+  [[nodiscard]] double foot(std::size_t side, Vec3 of) const;
+  [[nodiscard]] double part_in_group(std::size_t side, Line line) const;
+  [[nodiscard]] double own_parameter(std::size_t side, double part) const;
   void update_group(const std::vector<std::size_t>& sides, const std::vector<CellTree>& trees);
 
   const std::vector<PatchSampler>& patches_;

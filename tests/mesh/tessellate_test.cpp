@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <set>
 #include <vector>
 
 #include "mesh_checks.h"
@@ -206,6 +207,37 @@ TEST(Tessellate, ABorderNextToAFinerPatchStaysWithinTheTolerance) {
     EXPECT_FALSE(std::fabs(from[0]) < 1e-12 && std::fabs(to[0]) < 1e-12) << from[1] << ' ' << to[1];
   }
   EXPECT_EQ(checks::turned_over((*meshes)[1]), 0u);
+}
+
+TEST(Tessellate, ABorderCurveWithOtherParametersIsStillTheSameBorder) {
+  // a quarter of a circle by a rational parabola with equal end weights, and the same with its
+  // parameter pushed to one side (weights 1, w c, c^2): above a flat sector, below a cylinder
+  const double w = std::sqrt(0.5), c = 2.5;
+  NurbsSurface wall;
+  wall.degree_u = 2;
+  wall.degree_v = 1;
+  wall.knots_u = {0, 0, 0, 1, 1, 1};
+  wall.knots_v = {0, 0, 1, 1};
+  wall.points = {{1, 0, -2}, {1, 1, -2}, {0, 1, -2}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}};
+  wall.weights = {1, w, 1, 1, w, 1};
+  NurbsSurface sector = wall;
+  sector.points = {{0, 1, 0}, {1, 1, 0}, {1, 0, 0}, {0, 0, 0}, {0, 0, 0}, {0, 0, 0}};
+  sector.weights = {1, w * c, c * c, 1, w * c, c * c};
+  sector.points[3] = sector.points[4] = sector.points[5] = {0, 0, 0};
+  SurfaceModel model;
+  model.patches = {{"wall", wall}, {"sector", reversed_u(sector)}};
+  auto meshes = tessellate(model, {1e-4, kAnyAngle});
+  ASSERT_TRUE(meshes) << meshes.error().what;
+  std::set<checks::Key> points[2];
+  for (std::size_t p = 0; p < 2; ++p) {
+    for (const MeshVertex& v : (*meshes)[p].vertices) {
+      if (std::fabs(norm(v.point) - 1.0) < 1e-9) points[p].insert(checks::key(v.point));
+    }
+    EXPECT_LE((*meshes)[p].deviation, 1e-4);
+    EXPECT_EQ(checks::turned_over((*meshes)[p]), 0u);
+  }
+  EXPECT_EQ(points[0], points[1]);
+  EXPECT_GT(points[0].size(), 50u);
 }
 
 TEST(Tessellate, AThinWallKeepsItsTwoSidesApart) {

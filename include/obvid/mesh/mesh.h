@@ -45,8 +45,8 @@ struct TessellationOptions {
 [[nodiscard]] Result<Mesh> tessellate(const NurbsSurface& surface,
                                       const TessellationOptions& options);
 /// All patches; vertices of borders that two patches share are the same points: borders are shared
-/// when they run alike over their whole parameter ranges (either way) within 1e-7 of the model's
-/// size and a tenth of the chord tolerance. `Error::index`: the patch.
+/// when they are the same curve from corner to corner (either way, at any pace) within 1e-7 of the
+/// model's size and a tenth of the chord tolerance. `Error::index`: the patch.
 [[nodiscard]] Result<std::vector<Mesh>> tessellate(const SurfaceModel& model,
                                                    const TessellationOptions& options,
                                                    const Progress& progress = {});
