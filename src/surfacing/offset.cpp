@@ -11,10 +11,13 @@
 namespace obvid {
 namespace {
 
-constexpr double kSettled = 1e-3;               // part of the greatest curvatures
-constexpr std::size_t kFirstSteps = 32;         // of the whole raster, each direction, and
-constexpr std::size_t kFewestInSpan = 2;        // in each span
-constexpr std::size_t kMostPoints = 4'000'000;  // of a refined raster: some seconds
+constexpr double kSettled = 1e-3;         // part of the greatest curvatures
+constexpr std::size_t kFirstSteps = 32;   // of the whole raster, each direction, and
+constexpr std::size_t kFewestInSpan = 2;  // in each span
+// points of a refined raster: the first refinement takes a second or two, a surface of unbounded
+// curvature, which never settles, less than that
+constexpr std::size_t kMostPoints = 1'000'000, kMostPointsOnce = 4'000'000;
+constexpr std::size_t kMostClimbed = 200;  // regions; of more, the raster's worst points stand
 
 struct Raster {
   std::vector<double> u, v;
@@ -51,8 +54,9 @@ Raster raster_of(const Bending& bending, std::vector<double> us, std::vector<dou
       keep(against, bend.against, 1);
     }
   }
-  raster.along = bending.climbed(along, step_u[0], step_v[0], +1);
-  raster.against = bending.climbed(against, step_u[1], step_v[1], -1);
+  const Range all_u{raster.u.front(), raster.u.back()}, all_v{raster.v.front(), raster.v.back()};
+  raster.along = bending.climbed(along, step_u[0], step_v[0], +1, all_u, all_v);
+  raster.against = bending.climbed(against, step_u[1], step_v[1], -1, all_u, all_v);
   return raster;
 }
 
@@ -67,7 +71,9 @@ Raster settled_raster(const NurbsSurface& surface, const Bending& bending, doubl
                      raster_parameters(surface.knots_v, surface.degree_v, steps_v), distance);
   };
   Raster raster = make();
-  while (4 * raster.u.size() * raster.v.size() <= kMostPoints) {
+  std::size_t limit = kMostPointsOnce;
+  while (4 * raster.u.size() * raster.v.size() <= limit) {
+    limit = kMostPoints;
     const Bend along = raster.along, against = raster.against;
     steps_u *= 2;
     steps_v *= 2;
@@ -122,13 +128,19 @@ Range between_lines(const std::vector<double>& at, std::size_t first, std::size_
   return {at[first > 0 ? first - 1 : 0], at[std::min(last + 1, at.size() - 1)]};
 }
 
-FoldedRegion region_of(const Raster& raster, const Part& part, const Bending& bending, int side) {
-  const Bend worst =
-      bending.climbed({raster.u[part.worst_i], raster.v[part.worst_j],
-                       bending.at(raster.u[part.worst_i], raster.v[part.worst_j], side)},
-                      raster.step_u(part.worst_i), raster.step_v(part.worst_j), side);
-  return {between_lines(raster.u, part.u0, part.u1), between_lines(raster.v, part.v0, part.v1),
-          worst.u, worst.v, side * worst.value};
+FoldedRegion region_of(const Raster& raster, const Part& part, const Bending& bending, int side,
+                       bool climb) {
+  FoldedRegion region{between_lines(raster.u, part.u0, part.u1),
+                      between_lines(raster.v, part.v0, part.v1), 0.0, 0.0, 0.0};
+  const std::size_t i = part.worst_i, j = part.worst_j;
+  Bend worst{raster.u[i], raster.v[j], bending.at(raster.u[i], raster.v[j], side)};
+  if (climb) {
+    worst = bending.climbed(worst, raster.step_u(i), raster.step_v(j), side, region.u, region.v);
+  }
+  region.worst_u = worst.u;
+  region.worst_v = worst.v;
+  region.curvature = side * worst.value;
+  return region;
 }
 
 /// A fold that lies between the lines of the raster: the mesh around it.
@@ -153,7 +165,8 @@ std::vector<FoldedRegion> folds_of(Raster& raster, const Bending& bending, doubl
   for (std::size_t j = 0; j < raster.v.size(); ++j) {
     for (std::size_t i = 0; i < raster.u.size(); ++i) {
       if (!(raster.folding[j * raster.u.size() + i] > 0.0)) continue;
-      folds.push_back(region_of(raster, part_at(raster, i, j), bending, side));
+      const bool climb = folds.size() < kMostClimbed;
+      folds.push_back(region_of(raster, part_at(raster, i, j), bending, side, climb));
     }
   }
   const Bend& worst = side > 0 ? raster.along : raster.against;

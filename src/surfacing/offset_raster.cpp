@@ -51,9 +51,9 @@ double Bending::at(double u, double v, int side) const {
   return side > 0 ? sides.along : sides.against;
 }
 
-Bend Bending::climbed(Bend from, double step_u, double step_v, int side) const {
+Bend Bending::climbed(Bend from, double step_u, double step_v, int side, const Range& u,
+                      const Range& v) const {
   constexpr int kHalvings = 20;  // a millionth of the raster's step: 1e-12 of the curvature's rise
-  const Range u = domain_u(surface_), v = domain_v(surface_);
   constexpr int kMostSteps = 400;
   int halvings = 0;
   for (int step = 0; step < kMostSteps && halvings < kHalvings; ++step) {

@@ -28,8 +28,10 @@ class Bending {
   [[nodiscard]] Sides at(double u, double v) const;
   [[nodiscard]] double at(double u, double v, int side) const;
 
-  /// The greatest bend near a place: compass steps, halved until they are far below the raster.
-  [[nodiscard]] Bend climbed(Bend from, double step_u, double step_v, int side) const;
+  /// The greatest bend near a place, inside the ranges: compass steps, halved until they are far
+  /// below the raster.
+  [[nodiscard]] Bend climbed(Bend from, double step_u, double step_v, int side, const Range& u,
+                             const Range& v) const;
 
  private:
   const NurbsSurface& surface_;

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <array>
+#include <chrono>
 #include <cmath>
 #include <limits>
 #include <numbers>
@@ -205,6 +206,39 @@ TEST(OffsetCheck, SeparatesRegionsAndScalesWithTheSurface) {
     EXPECT_NEAR(both.folds[0].curvature + both.folds[1].curvature, 1.016 * 6.0 / scale,
                 0.01 / scale);
     EXPECT_NEAR(both.largest_outwards, 0.25 / 1.016 * scale, 1e-3 * scale);
+  }
+}
+
+TEST(OffsetCheck, EndsInTimeWhereCurvatureHasNoBound) {
+  // the cusp x = t^3, z = t^2: curvature about 3/4 / |t| without bound, on one side only
+  NurbsSurface surface{3, 1, {0, 0, 0, 0, 1, 1, 1, 1}, {0, 0, 1, 1}, {}, {}};
+  const std::array<double, 4> x{-1.0, 1.0, -1.0, 1.0}, z{1.0, -1.0 / 3, -1.0 / 3, 1.0};
+  for (const double y : {0.0, 1.0}) {
+    for (std::size_t i = 0; i < 4; ++i) surface.points.push_back({x[i], y, z[i]});
+  }
+  const auto start = std::chrono::steady_clock::now();
+  int folding_sides = 0;
+  for (const double distance : {-0.1, 0.1}) {
+    const OffsetCheck checked = check_offset(surface, distance);
+    EXPECT_LT(std::min(checked.largest_inwards, checked.largest_outwards), 1e-3);
+    EXPECT_EQ(std::max(checked.largest_inwards, checked.largest_outwards), kInfinite);
+    folding_sides += checked.folds.empty() ? 0 : 1;
+    for (const FoldedRegion& fold : checked.folds) {
+      EXPECT_LE(fold.u.from, fold.worst_u);
+      EXPECT_LE(fold.worst_u, fold.u.to);
+      EXPECT_GE(distance * fold.curvature, 1.0);
+    }
+  }
+  EXPECT_EQ(folding_sides, 1);
+  EXPECT_LT(std::chrono::steady_clock::now() - start, std::chrono::seconds(60));
+}
+
+TEST(OffsetCheck, OfNoSurfaceAndOfAnyDistanceIsCalm) {
+  NurbsSurface point = quadric(0.0, 0.0);
+  for (Vec3& p : point.points) p = {1, 1, 1};
+  EXPECT_TRUE(check_offset(point, 1.0).folds.empty());
+  for (const double distance : {1e300, -1e300, kInfinite, -kInfinite, std::nan("")}) {
+    EXPECT_TRUE(check_offset(quadric(0.0, 0.0), distance).folds.empty());
   }
 }
 

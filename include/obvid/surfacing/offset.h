@@ -28,10 +28,11 @@ struct OffsetCheck {
 /// that is refined until both greatest curvatures settle to 1e-3 of themselves; the greatest ones
 /// are climbed to from the raster. At knots that are not C2 both sides count. Points without a
 /// normal, such as poles, are left out; their neighbourhood counts. Curvatures below 1e-10
-/// coordinates / size^2, which are rounding, count as flat. Global self-intersections (two distant parts that
-/// meet) are not looked for, and regions are not joined across the seam of a closed surface.
-/// The surface has to pass `check`. O(spans x steps^2) until it settles, at most some 4 million
-/// points or 4 for each span.
+/// coordinates / size^2, which are rounding, count as flat. Global self-intersections (two distant
+/// parts that meet) are not looked for, and regions are not joined across the seam of a closed
+/// surface. The surface has to pass `check`. Where curvature has no bound (cusps, collapsed nets)
+/// it does not settle; rasters end at a million points (the second one at four), or at 4 for each
+/// span where those are more.
 [[nodiscard]] OffsetCheck check_offset(const NurbsSurface& surface, double distance);
 
 }  // namespace obvid
