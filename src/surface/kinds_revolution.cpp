@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -9,6 +10,13 @@ namespace {
 
 /// Cosine and sine about the axis as the arc of radius 1 that the NURBS form uses.
 SpaceCurve turn(double angle) { return arc_about({1, 0, 0}, {0, 0, 0}, {0, 0, 1}, angle); }
+
+/// Direction of the axis; its square may be too large or too small for a number.
+Vec3 axis_of(const RevolutionSurface& s) {
+  const Vec3& d = s.axis_direction;
+  const double most = std::max({std::abs(d.x), std::abs(d.y), std::abs(d.z)});
+  return most > 0.0 ? unit(d / most) : d;
+}
 
 /// A vector turned: its part along the axis stays.
 Vec3 turned(Vec3 vector, Vec3 axis, double cosine, double sine) {
@@ -25,7 +33,7 @@ Vec3 moved(Vec3 vector, Vec3 axis, double cosine, double sine) {
 }  // namespace
 
 SurfaceJet evaluate_kind(const RevolutionSurface& s, double u, double v) {
-  const Vec3 axis = unit(s.axis_direction);
+  const Vec3 axis = axis_of(s);
   const SpaceJet p = evaluate_unit(s.profile, u);
   const SpaceJet t = evaluate(turn(s.angle), v);
   const Vec3 arm = p.point - s.axis_point;
@@ -38,7 +46,10 @@ SurfaceJet evaluate_kind(const RevolutionSurface& s, double u, double v) {
 }
 
 Result<NurbsForm> nurbs_of(const RevolutionSurface& s) {
-  if (!(norm(s.axis_direction) > 0.0)) {
+  if (!is_finite(s.axis_point) || !is_finite(s.axis_direction)) {
+    return fail({ErrorCode::kNotFinite, "the axis is not finite", "", "", -1, 0.0});
+  }
+  if (s.axis_direction == Vec3{}) {
     return fail({ErrorCode::kBadOption, "the axis has no direction", "", "", -1, 0.0});
   }
   constexpr double kFull = 2.0 * std::numbers::pi * (1.0 + 1e-12);  // a full turn, rounded
@@ -46,7 +57,7 @@ Result<NurbsForm> nurbs_of(const RevolutionSurface& s) {
     return fail({ErrorCode::kBadOption, "the angle must be more than 0 and at most a full turn", "",
                  "", -1, s.angle});
   }
-  const Vec3 axis = unit(s.axis_direction);
+  const Vec3 axis = axis_of(s);
   const SpaceCurve profile = with_domain(s.profile, {0.0, 1.0});
   const std::size_t n = profile.points.size();
   NurbsSurface out{profile.degree, 2, profile.knots, turn(s.angle).knots, {}, {}};

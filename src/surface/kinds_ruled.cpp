@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 #include "kinds.h"
+#include "one_denominator.h"
 
 namespace obvid {
 namespace {
@@ -24,6 +26,39 @@ SpaceCurve like(const SpaceCurve& pattern, Vec3 point) {
   SpaceCurve curve = pattern;
   std::fill(curve.points.begin(), curve.points.end(), point);
   return curve;
+}
+
+/// Whether weights agree but for rounding; then they are made the same.
+bool made_same(const std::vector<double>& pattern, std::vector<double>& weights) {
+  constexpr double kRounding = 1e-14;  // of a weight: moves points by that part of the size
+  for (std::size_t i = 0; i < weights.size(); ++i) {
+    if (std::abs(weights[i] - pattern[i]) > kRounding * pattern[i]) return false;
+  }
+  weights = pattern;
+  return true;
+}
+
+SpaceCurve over_unit(const SpaceCurve& curve) {
+  SpaceCurve out = with_domain(curve, {0.0, 1.0});
+  const auto first = [&](double w) { return w == out.weights.front(); };
+  if (std::all_of(out.weights.begin(), out.weights.end(), first)) out.weights.clear();
+  return out;
+}
+
+/// Both curves over the same knots and, where degrees allow it, with the same weights.
+struct Rows {
+  SpaceCurve a, b;
+  bool one_denominator = true;
+};
+
+Rows rows_of(const SpaceCurve& first, const SpaceCurve& second) {
+  const SpaceCurve a = over_unit(first), b = over_unit(second);
+  if (one_point(b)) return {a, like(a, b.points.front())};
+  if (one_point(a)) return {like(b, a.points.front()), b};
+  std::vector<SpaceCurve> both = compatible({a, b});
+  if (made_same(both[0].weights, both[1].weights)) return {both[0], both[1]};
+  if (auto product = with_one_denominator(a, b)) return {(*product)[0], (*product)[1]};
+  return {both[0], both[1], false};
 }
 
 SpaceCurve along(const SpaceCurve& directrix, const SpaceCurve& direction, double v) {
@@ -61,40 +96,51 @@ SurfaceJet evaluate_kind(const DirectedSurface& s, double u, double v) {
   return {a.point + v * d.point, a.d1 + v * d.d1, d.point, a.d2 + v * d.d2, d.d1, {}};
 }
 
-Result<NurbsForm> nurbs_of(const RuledSurface& s) {
-  SpaceCurve first = with_domain(s.first, {0.0, 1.0}), second = with_domain(s.second, {0.0, 1.0});
-  if (one_point(second)) {
-    second = like(first, second.points.front());
-  } else if (one_point(first)) {
-    first = like(second, first.points.front());
-  } else {
-    std::vector<SpaceCurve> rows = compatible({first, second});
-    first = std::move(rows[0]);
-    second = std::move(rows[1]);
+namespace {
+
+/// How far points of rulings are from where the definition has them when the curves have different
+/// weights: the rulings are the same. Weights vary slowly, so a raster finds the largest.
+double sideways(const RuledSurface& s, const NurbsSurface& form) {
+  constexpr int kInSpan = 8, kAlong = 16;
+  double worst = 0.0;
+  for (std::size_t k = 1; k < form.knots_u.size(); ++k) {
+    const Range span{form.knots_u[k - 1], form.knots_u[k]};
+    if (!(span.length() > 0.0)) continue;
+    for (int i = 0; i <= kInSpan; ++i) {
+      const double u = span.at(static_cast<double>(i) / kInSpan);
+      for (int j = 1; j < kAlong; ++j) {
+        const double v = static_cast<double>(j) / kAlong;
+        worst = std::max(worst, norm(evaluate(form, u, v).point - evaluate_kind(s, u, v).point));
+      }
+    }
   }
-  return NurbsForm{between_rows(first, second, {0.0, 1.0}), 0.0};
+  return worst;
+}
+
+}  // namespace
+
+Result<NurbsForm> nurbs_of(const RuledSurface& s) {
+  const Rows rows = rows_of(s.first, s.second);
+  NurbsForm form{between_rows(rows.a, rows.b, {0.0, 1.0}), 0.0};
+  if (!rows.one_denominator) form.deviation = sideways(s, form.surface);
+  return form;
 }
 
 Result<NurbsForm> nurbs_of(const DirectedSurface& s) {
-  if (!(s.to > s.from)) {
+  if (!(s.to > s.from) || !std::isfinite(s.from) || !std::isfinite(s.to)) {
     return fail({ErrorCode::kBadOption, "the parameters along the directions do not ascend", "", "",
                  -1, s.to - s.from});
   }
-  SpaceCurve directrix = with_domain(s.directrix, {0.0, 1.0}), direction = s.direction;
-  if (one_point(direction)) {
-    direction = like(directrix, direction.points.front());
-  } else {
-    std::vector<SpaceCurve> rows = compatible({directrix, direction});
-    directrix = std::move(rows[0]);
-    direction = std::move(rows[1]);
+  const Rows rows = rows_of(s.directrix, s.direction);
+  if (!rows.one_denominator) {
+    return fail({ErrorCode::kBadOption,
+                 "a rational directrix and its directions have degrees that are too high together",
+                 "", "give both with the same weights, or with a lower degree", -1,
+                 static_cast<double>(s.directrix.degree + s.direction.degree)});
   }
-  if (directrix.weights != direction.weights) {
-    return fail({ErrorCode::kBadOption, "directions have other weights than their directrix", "",
-                 "give directions as a polynomial curve to a polynomial directrix", -1, 0.0});
-  }
-  const Range v{s.from, s.to};
   return NurbsForm{
-      between_rows(along(directrix, direction, s.from), along(directrix, direction, s.to), v), 0.0};
+      between_rows(along(rows.a, rows.b, s.from), along(rows.a, rows.b, s.to), {s.from, s.to}),
+      0.0};
 }
 
 DirectedSurface cylinder_over(const SpaceCurve& directrix, Vec3 direction) {

@@ -87,13 +87,15 @@ struct NurbsForm {
 
 /// Ruled and directed surfaces, revolutions, Coons and Gordon of polynomial curves and ID surfaces
 /// become NURBS exactly, offsets of planes too. Between rational curves of different weights the
-/// rulings are the same, but v runs along each of them projectively. Other offsets and Coons or
-/// Gordon of rational curves come within the tolerance (units), measured between the samples too.
+/// degrees add; where the sum is above `kMaxSurfaceDegree` the rulings of a ruled surface are the
+/// same, but v runs along each of them projectively, and `deviation` tells how far that is. Other
+/// offsets and Coons or Gordon of rational curves come within the tolerance (units), measured
+/// between the samples too.
 ///
 /// Errors: E203 curves that do not meet (`value`: the gap), parameters out of order, a zero axis or
-/// angle, directed surfaces of a rational direction whose weights are not those of the directrix;
-/// E304 too few curves; E502 the tolerance cannot be reached within the limit of knots (an offset
-/// with cusps); those of `check` for each curve.
+/// angle, directed surfaces of rational curves whose degrees are too high together; E303 numbers
+/// that are not finite; E304 too few curves; E502 the tolerance cannot be reached within the limit
+/// of knots; those of `check` for each curve.
 [[nodiscard]] Result<NurbsForm> to_nurbs(const Surface& surface, double tolerance);
 
 /// One patch of a model with its name.
