@@ -427,6 +427,32 @@ TEST(GordonFrom, FollowsCorners) {
   }
 }
 
+TEST(GordonFrom, BecomesANurbsSurfaceThatHoldsAllCurves) {
+  for (const double warp : {0.0, 0.6}) {
+    const HillNet given = hill_net(warp);
+    const double tolerance = 1e-4;
+    const Result<GordonSurface> net = gordon_from(given.rows, given.columns, tolerance);
+    ASSERT_TRUE(net) << net.error().what;
+    const Result<NurbsForm> form = to_nurbs(*net, 1e-8);
+    ASSERT_TRUE(form) << form.error().what;
+    for (std::size_t j = 0; j < kRows.size(); ++j) {
+      EXPECT_LE(farthest(isocurve_at_v(form->surface, net->v_at[j]), given.rows[j]),
+                tolerance + 1e-7);
+    }
+    for (std::size_t i = 0; i < kColumns.size(); ++i) {
+      EXPECT_LE(farthest(isocurve_at_u(form->surface, net->u_at[i]), given.columns[i]),
+                tolerance + 1e-7);
+    }
+    // between the curves it is the hill as far as few curves tell
+    for (double u = 0.05; u < 1.0; u += 0.1) {
+      for (double v = 0.05; v < 1.0; v += 0.1) {
+        const Vec3 p = evaluate(form->surface, u, v).point;
+        EXPECT_NEAR(p.z, hill(p.x, p.y), 0.01);
+      }
+    }
+  }
+}
+
 TEST(GordonFrom, SaysThatAToleranceBelowRoundingIsNotReached) {
   NetSide side{"of the first kind", {}, {0}, {0}, {{0.0, 0.6, 1.0}}};
   side.curves.push_back(curve_of([](double x) { return place(x, x * x); }));
