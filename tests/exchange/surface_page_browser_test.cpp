@@ -89,6 +89,8 @@ TEST_F(SurfacePageInBrowser, AnswersMouseKeysAndPanel) {
     canvas.dispatchEvent(new WheelEvent("wheel", {deltaY: -120, clientX: 300, clientY: 300}));
     html.zoomed = state.span < span;
     press("z"); html.key = state.mode === "zebra";
+    html.said = byId("said").textContent;
+    html.pressed = [...document.querySelectorAll("[aria-pressed=true]")].map(e => e.textContent).join();
     press("ArrowLeft"); press("-"); press("p"); html.flat = !state.perspective;
     press("w"); draw(); html.edges = model.patches[0].edges.count;
     document.querySelector("#patches input:last-of-type").click();
@@ -101,9 +103,10 @@ TEST_F(SurfacePageInBrowser, AnswersMouseKeysAndPanel) {
     html.error = gl.getError();
   )";
   const std::string out = after(p, script);
-  for (const char* wanted : {"data-state=\"ready\"", "data-turned=\"true\"", "data-moved=\"true\"",
-                             "data-zoomed=\"true\"", "data-key=\"true\"", "data-flat=\"true\"",
-                             "data-off=\"true\"", "data-error=\"0\""}) {
+  for (const char* wanted :
+       {"data-state=\"ready\"", "data-turned=\"true\"", "data-moved=\"true\"",
+        "data-zoomed=\"true\"", "data-key=\"true\"", "data-flat=\"true\"", "data-off=\"true\"",
+        "data-said=\"Zebra\"", "data-pressed=\"Zebra\"", "data-error=\"0\""}) {
     EXPECT_NE(out.find(wanted), std::string::npos) << wanted << " in " << out;
   }
   // a raster of 48 x 48 cells: 2 * 48 * 49 sides and as many diagonals as cells

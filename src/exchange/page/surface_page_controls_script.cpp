@@ -44,8 +44,8 @@ function showLegend() {
 }
 
 function showState() {
-  for (const button of document.querySelectorAll("[data-mode]")) button.setAttribute("aria-pressed", button.dataset.mode === state.mode);
-  for (const button of document.querySelectorAll("[data-view]")) {
+  for (const button of document.querySelectorAll("#modes button")) button.setAttribute("aria-pressed", button.dataset.mode === state.mode);
+  for (const button of document.querySelectorAll("#views button")) {
     const v = views[button.dataset.view];
     button.setAttribute("aria-pressed", v[0] === state.azimuth && v[1] === state.elevation);
   }
@@ -56,7 +56,7 @@ function showState() {
   }
   for (const id of ["borders", "wireframe", "perspective"]) byId(id).checked = state[id];
   byId("quantity").value = state.quantity;
-  document.documentElement.dataset.mode = state.mode;
+  document.documentElement.dataset.look = state.mode;
   showLegend();
   redraw();
 }
@@ -64,7 +64,7 @@ function showState() {
 function setMode(mode) {
   state.mode = mode;
   showState();
-  say(document.querySelector(`[data-mode=${mode}]`).textContent);
+  say(document.querySelector(`#modes [data-mode=${mode}]`).textContent);
 }
 
 /** Moves the camera, softly unless the viewer wants none of that. */
@@ -274,8 +274,8 @@ function readAddress() {
 function listen() {
   listenToPointers();
   document.addEventListener("keydown", onKey);
-  for (const button of document.querySelectorAll("[data-mode]")) button.addEventListener("click", () => setMode(button.dataset.mode));
-  for (const button of document.querySelectorAll("[data-view]")) button.addEventListener("click", () => setView(button.dataset.view));
+  for (const button of document.querySelectorAll("#modes button")) button.addEventListener("click", () => setMode(button.dataset.mode));
+  for (const button of document.querySelectorAll("#views button")) button.addEventListener("click", () => setView(button.dataset.view));
   for (const id of ["u", "v", "stripes"]) byId(id).addEventListener("input", e => { state[id] = Number(e.target.value); showState(); });
   for (const id of ["borders", "wireframe", "perspective"]) byId(id).addEventListener("change", () => toggle(id));
   byId("quantity").addEventListener("change", e => { state.quantity = e.target.value; showState(); });
