@@ -13,5 +13,8 @@ int run(const CompareOptions& options);
 int run(const ConvertOptions& options);
 int run(const VerifyOptions& options);
 int run(const ExplainOptions& options);
+int run(const SurfaceOptions& options);
+int run(const SurfaceCheckOptions& options);
+int run(const ToolpathCommand& command);
 
 }  // namespace obvid

@@ -1,13 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-// The only unit that includes CLI11: it is slow to compile.
 #include "options.h"
 
-#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cmath>
 
+#include "cli_app.h"
 #include "format_values.h"
-#include "near_name.h"
 #include "obvid/core/version.h"
 #include "option_values.h"
 
@@ -21,6 +19,8 @@ constexpr const char* kShortHelp =
   obvid analyse POINTS                               what the points alone say
   obvid region POINTS                                where every such contour must lie
   obvid compare POINTS                               all curve families side by side
+  obvid surface skin SECTIONS... -o hull.step        surfaces: skin, revolve, ruled, grid, ...
+  obvid toolpath hull.json -o hull.nc                milling with three axes, without gouges
   obvid convert contour.json -o OUT                  another format: STEP, IGES, DXF, G-code, ...
   obvid verify contour.json                          prove a stored contour again
   obvid explain E401                                 what an error means, what to do
@@ -32,10 +32,6 @@ line, an airfoil file, ... or - for standard input.
 constexpr const char* kExitCodes =
     "Exit codes: 0 done and proved, 2 wrong usage, 3 input unreadable or malformed, 4 no such\n"
     "contour exists, 5 formed but not proved or tolerance not reached, 1 anything else.";
-
-/// Announced for later; refused with a word of their own so that nobody searches for a typing
-/// error.
-const std::vector<std::string> kLaterCommands = {"surface"};
 
 /// What the command line said, before it is checked.
 struct Raw {
@@ -52,10 +48,6 @@ struct Raw {
   bool no_progress = false;
   std::optional<double> tolerance;
 };
-
-Error usage(std::string what, std::string hint) {
-  return {ErrorCode::kUsage, std::move(what), {}, std::move(hint)};
-}
 
 constexpr const char* kInputHelp = "File with the points, or - for standard input";
 constexpr const char* kUnitsHelp =
@@ -308,57 +300,23 @@ void add_checkers(CLI::App& app, Raw& raw) {
   explain.add_flag("--json", raw.explain.json, "JSON on standard output");
 }
 
-std::vector<std::string> option_names(const CLI::App& app) {
-  std::vector<std::string> names;
-  for (const CLI::Option* option : app.get_options()) {
-    for (const std::string& name : option->get_lnames()) names.push_back("--" + name);
-  }
-  return names;
-}
-
-std::string did_you_mean(const std::string& typed, const std::vector<std::string>& names,
-                         const std::string& otherwise) {
-  const std::string near = nearest_name(typed, names);
-  return near.empty() ? otherwise : "did you mean " + near + "?";
-}
-
-bool listed(const std::vector<std::string>& names, const std::string& name) {
-  return std::find(names.begin(), names.end(), name) != names.end();
-}
-
-std::string not_available(const std::string& what) {
-  return what + " is not available in this version";
-}
-
 Result<void> check_command(const CLI::App& app) {
   if (!app.get_subcommands().empty()) return {};
   const std::vector<std::string> extras = app.remaining();
   const std::string typed = extras.empty() ? "" : extras.front();
-  if (listed(kLaterCommands, typed)) {
-    return fail(
-        bad_option(not_available("the command " + typed), "",
-                   "available are fit, analyse, region, compare, convert, verify, explain"));
-  }
   std::vector<std::string> names = option_names(app);
   for (const CLI::App* command : app.get_subcommands(nullptr)) names.push_back(command->get_name());
+  names.insert(names.end(), {"surface", "toolpath"});
   const std::string kind = typed.starts_with("-") ? "option" : "command";
   return fail(usage("unknown " + kind + " '" + typed + "'",
                     did_you_mean(typed, names, "see obvid --help")));
 }
 
-Result<void> check_extras(const CLI::App& app) {
+Result<void> check_all_extras(const CLI::App& app) {
   const CLI::App& command = *app.get_subcommands().front();
   std::vector<std::string> extras = command.remaining();
   for (const std::string& extra : app.remaining()) extras.push_back(extra);
-  if (extras.empty()) return {};
-  const std::string see = "see obvid " + command.get_name() + " --help";
-  for (const std::string& extra : extras) {
-    if (!extra.starts_with("-")) continue;
-    const std::string name = extra.substr(0, extra.find('='));
-    return fail(usage("unknown option '" + name + "' of " + command.get_name(),
-                      did_you_mean(name, option_names(command), see)));
-  }
-  return fail(usage("one argument too many: '" + extras.front() + "'", see));
+  return check_extras(command, extras, command.get_name());
 }
 
 Result<void> need(const std::string& input, const char* command, const char* what) {
@@ -458,7 +416,7 @@ Result<Command> checked_analyse(Raw& raw) {
 
 Result<Command> checked(const CLI::App& app, Raw& raw) {
   if (auto done = check_command(app); !done) return fail(done.error());
-  if (auto done = check_extras(app); !done) return fail(done.error());
+  if (auto done = check_all_extras(app); !done) return fail(done.error());
   const std::string& name = app.get_subcommands().front()->get_name();
   if (name == "fit") return checked_fit(raw);
   if (name == "analyse") return checked_analyse(raw);
@@ -472,15 +430,6 @@ Result<Command> checked(const CLI::App& app, Raw& raw) {
   return Command{raw.verify};
 }
 
-Error from_cli(const CLI::ParseError& error) {
-  std::string what = error.what();
-  while (!what.empty() && (what.back() == '\n' || what.back() == '.')) what.pop_back();
-  const bool value = dynamic_cast<const CLI::ConversionError*>(&error) != nullptr ||
-                     dynamic_cast<const CLI::ValidationError*>(&error) != nullptr;
-  if (value) return bad_option(what, "", "`obvid COMMAND --help` shows units and defaults");
-  return usage(what, "see obvid --help");
-}
-
 void allow_extras(CLI::App& app) {
   // They are reported by this program, with a guess at what was meant.
   app.allow_extras();
@@ -492,6 +441,8 @@ void allow_extras(CLI::App& app) {
 Result<Command> parse_command_line(int argc, const char* const* argv) {
   if (argc < 2) return Command{ShowText{kShortHelp}};
   try {
+    if (std::string_view(argv[1]) == "surface") return parse_surface(argc - 1, argv + 1);
+    if (std::string_view(argv[1]) == "toolpath") return parse_toolpath(argc - 1, argv + 1);
     CLI::App app("Points in, a curvature-continuous, monotone and proved contour out", "obvid");
     app.set_version_flag("--version", std::string("obvid ") + kVersion);
     app.require_subcommand(0, 1);
@@ -511,7 +462,7 @@ Result<Command> parse_command_line(int argc, const char* const* argv) {
     } catch (const CLI::CallForHelp&) {
       return Command{ShowText{app.help()}};
     } catch (const CLI::ParseError& error) {
-      return fail(from_cli(error));
+      return fail(from_cli(error, "COMMAND"));
     }
     return checked(app, raw);
   } catch (const CLI::Error& error) {

@@ -10,6 +10,8 @@
 #include "obvid/pipeline/export.h"
 #include "obvid/pipeline/fit.h"
 #include "obvid/pipeline/import.h"
+#include "surface_options.h"
+#include "toolpath_options.h"
 
 namespace obvid {
 
@@ -78,9 +80,14 @@ struct ShowText {
 };
 
 using Command = std::variant<ShowText, FitOptions, AnalyseOptions, RegionOptions, CompareOptions,
-                             ConvertOptions, VerifyOptions, ExplainOptions>;
+                             ConvertOptions, VerifyOptions, ExplainOptions, SurfaceOptions,
+                             SurfaceCheckOptions, ToolpathCommand>;
 
 /// Understands the command line. Errors: E201 wrong usage, E203 option not possible.
 [[nodiscard]] Result<Command> parse_command_line(int argc, const char* const* argv);
+
+/// The same for what follows `obvid`: surface KIND ..., toolpath ...
+[[nodiscard]] Result<Command> parse_surface(int argc, const char* const* argv);
+[[nodiscard]] Result<Command> parse_toolpath(int argc, const char* const* argv);
 
 }  // namespace obvid

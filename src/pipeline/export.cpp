@@ -8,8 +8,7 @@
 #include <cctype>
 #include <utility>
 
-#include "obvid/contour/bsplines/cubic_along.h"
-#include "obvid/curve/joined_nurbs.h"
+#include "contour_nurbs.h"
 #include "obvid/exchange/landxml.h"
 #include "obvid/exchange/opendrive.h"
 #include "obvid/exchange/solidworks.h"
@@ -114,20 +113,15 @@ class Exporter {
     });
   }
 
-  [[nodiscard]] bool any_clothoid() const {
-    return std::any_of(contour_.pieces.begin(), contour_.pieces.end(), [](const Piece& piece) {
-      return std::holds_alternative<ClothoidPiece>(piece);
-    });
-  }
-
   Result<NurbsCurve> one_curve(Exported& out) {
-    if (!any_clothoid()) return joined_nurbs(contour_);
-    auto cubic = cubic_along(contour_, tolerance_);
-    if (!cubic) return tl::unexpected(cubic.error());
-    out.remarks.push_back(
-        fmt::format("clothoids are no NURBS curves: a C2 cubic follows them within {:.3g} {}",
-                    cubic->deviation, contour_.units));
-    return as_nurbs(cubic->spline);
+    auto made = pipeline_detail::contour_nurbs(contour_, tolerance_);
+    if (!made) return fail(made.error());
+    if (made->deviation > 0.0) {
+      out.remarks.push_back(
+          fmt::format("clothoids are no NURBS curves: a C2 cubic follows them within {:.3g} {}",
+                      made->deviation, contour_.units));
+    }
+    return std::move(made->curve);
   }
 
   Result<Exported> cad(CadFormat format) {

@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "cli_app.h"
+
+#include <utility>
+
+#include "near_name.h"
+#include "option_values.h"
+
+namespace obvid {
+
+Error usage(std::string what, std::string hint) {
+  return {ErrorCode::kUsage, std::move(what), {}, std::move(hint)};
+}
+
+std::string did_you_mean(const std::string& typed, const std::vector<std::string>& names,
+                         const std::string& otherwise) {
+  const std::string near = nearest_name(typed, names);
+  return near.empty() ? otherwise : "did you mean " + near + "?";
+}
+
+std::vector<std::string> option_names(const CLI::App& app) {
+  std::vector<std::string> names;
+  for (const CLI::Option* option : app.get_options()) {
+    for (const std::string& name : option->get_lnames()) names.push_back("--" + name);
+  }
+  return names;
+}
+
+Result<void> check_extras(const CLI::App& command, const std::vector<std::string>& extras,
+                          const std::string& name) {
+  if (extras.empty()) return {};
+  const std::string see = "see obvid " + name + " --help";
+  for (const std::string& extra : extras) {
+    if (!extra.starts_with("-")) continue;
+    const std::string option = extra.substr(0, extra.find('='));
+    return fail(usage("unknown option '" + option + "' of " + name,
+                      did_you_mean(option, option_names(command), see)));
+  }
+  return fail(usage("one argument too many: '" + extras.front() + "'", see));
+}
+
+Error from_cli(const CLI::ParseError& error, const std::string& name) {
+  std::string what = error.what();
+  while (!what.empty() && (what.back() == '\n' || what.back() == '.')) what.pop_back();
+  const bool value = dynamic_cast<const CLI::ConversionError*>(&error) != nullptr ||
+                     dynamic_cast<const CLI::ValidationError*>(&error) != nullptr;
+  if (value) return bad_option(what, "", "`obvid " + name + " --help` shows units and defaults");
+  return usage(what, "see obvid --help");
+}
+
+}  // namespace obvid

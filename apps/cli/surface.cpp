@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <fmt/format.h>
+
+#include <cmath>
+#include <numbers>
+#include <string>
+#include <vector>
+
+#include "commands.h"
+#include "obvid/pipeline/surface_job.h"
+#include "outputs.h"
+#include "surface_outputs.h"
+#include "surface_report.h"
+#include "terminal.h"
+
+namespace obvid {
+
+int run(const SurfaceOptions& options) {
+  Result<std::vector<SurfaceOutput>> outputs =
+      surface_outputs_of(options.outputs, options.job.inputs);
+  if (!outputs) return report(outputs.error());
+  ProgressBar bar(options.progress);
+  bar.tell("reading", 0.0);
+  Result<MadeSurface> made = make_surface(options.job, bar.progress());
+  if (!made) {
+    bar.clear();
+    return report(made.error());
+  }
+  SurfaceExportOptions formats = options.formats;
+  formats.lines = made->lines;
+  SurfaceWritten written;
+  if (auto done = write_surface(made->model, *outputs, formats, bar.progress(), written); !done) {
+    bar.clear();
+    return report(done.error());
+  }
+  bar.clear();
+  warn(made->warnings);
+  std::string text;
+  if (options.json) {
+    text = surface_report_json(*made, written);
+  } else if (!options.quiet) {
+    text = surface_report_text(*made, written);
+  }
+  if (auto done = put(text); !done) return report(done.error());
+  return 0;
+}
+
+}  // namespace obvid

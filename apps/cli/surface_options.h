@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "obvid/core/result.h"
+#include "obvid/pipeline/surface_export.h"
+#include "obvid/pipeline/surface_job.h"
+
+namespace obvid {
+
+/// `obvid surface KIND`: makes a surface and writes it.
+struct SurfaceOptions {
+  std::string command;  ///< the kind as typed
+  SurfaceJob job;
+  SurfaceExportOptions formats;
+  std::vector<std::string> outputs;
+  bool json = false;
+  bool quiet = false;
+  bool progress = true;
+};
+
+/// `obvid surface check`
+struct SurfaceCheckOptions {
+  std::string input;
+  std::vector<std::string> outputs;  ///< pictures and pages of the curvature
+  std::size_t samples = 65;
+  bool json = false;
+  bool progress = true;
+};
+
+}  // namespace obvid

@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "surface_outputs.h"
+
+#include <utility>
+
+#include "obvid/io/atomic_file.h"
+#include "outputs.h"
+
+namespace obvid {
+
+Result<std::vector<SurfaceOutput>> surface_outputs_of(const std::vector<std::string>& paths,
+                                                      const std::vector<std::string>& inputs) {
+  std::vector<SurfaceOutput> outputs;
+  for (const std::string& path : paths) {
+    for (const std::string& input : inputs) {
+      if (auto good = check_output(path, input); !good) return fail(good.error());
+    }
+    const auto format = surface_format_of(path);
+    if (!format) {
+      return fail({ErrorCode::kUnknownFormat, "no format has this ending", path,
+                   "possible endings are " + known_surface_endings(), -1, 0.0});
+    }
+    outputs.push_back({path, *format});
+  }
+  return outputs;
+}
+
+Result<void> write_surface(const SurfaceModel& model, const std::vector<SurfaceOutput>& outputs,
+                           const SurfaceExportOptions& options, const Progress& progress,
+                           SurfaceWritten& written) {
+  SurfaceExporter exporter(model, options, progress);
+  std::vector<std::string> texts;
+  for (const SurfaceOutput& output : outputs) {
+    auto text = exporter.text(output.format, written.remarks);
+    if (!text) return fail(text.error());
+    texts.push_back(std::move(*text));
+  }
+  for (std::size_t i = 0; i < outputs.size(); ++i) {
+    if (auto done = write_file(outputs[i].path, texts[i]); !done) return done;
+    written.files.push_back(outputs[i].path);
+  }
+  return {};
+}
+
+}  // namespace obvid

@@ -1,0 +1,160 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "surface_report.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "json_text.h"
+#include "outputs.h"
+#include "table.h"
+#include "text.h"
+
+namespace obvid {
+namespace {
+
+double size_of(const SurfaceModel& model) {
+  NurbsSurface box;
+  for (const SurfacePatch& patch : model.patches) {
+    box.points.insert(box.points.end(), patch.surface.points.begin(), patch.surface.points.end());
+  }
+  return size_of(box);
+}
+
+std::string patch_text(const NurbsSurface& s) {
+  return fmt::format("degree {} x {}, {} x {} control points{}", s.degree_u, s.degree_v,
+                     s.count_u(), s.count_v(), s.weights.empty() ? "" : ", rational");
+}
+
+void add_patches(const SurfaceModel& model, Facts& facts) {
+  constexpr std::size_t kMostNamed = 6;
+  facts.add("patches", std::to_string(model.patches.size()));
+  for (std::size_t i = 0; i < std::min(kMostNamed, model.patches.size()); ++i) {
+    facts.add("  " + model.patches[i].name, patch_text(model.patches[i].surface));
+  }
+  if (model.patches.size() > kMostNamed) {
+    facts.add("  ...", fmt::format("{} more", model.patches.size() - kMostNamed));
+  }
+}
+
+std::string deviation_text(const MadeSurface& made) {
+  if (made.deviation == 0.0) return "exact";
+  return fmt::format("within {} {}", significant(made.deviation, 3), made.model.units);
+}
+
+Table section_table(const std::vector<SkinSectionReport>& sections) {
+  Table table;
+  table.column("section", Table::Align::kLeft);
+  table.column("v");
+  table.column("from its\ncontour");
+  table.column("from its\npoints");
+  table.column("runs");
+  table.column("curvature\nagainst its run");
+  std::vector<double> worst;
+  for (const SkinSectionReport& s : sections) worst.push_back(s.ripple);
+  std::size_t before = 0;
+  for (const std::size_t i : rows_worth_showing(worst)) {
+    if (i > before) table.gap();
+    before = i + 1;
+    const SkinSectionReport& s = sections[i];
+    table.row({s.name, fmt::format("{:.4f}", s.parameter), significant(s.deviation, 3),
+               significant(s.from_points, 3), std::to_string(s.runs),
+               s.ripple > 0.0 ? significant(100.0 * s.ripple, 2) + " %" : "none"});
+  }
+  return table;
+}
+
+std::string across_text(const AcrossReport& across) {
+  return fmt::format(
+      "{} changes of bending on {} isolines, {} of them in the sections' points; at "
+      "most {} beyond those on one isoline",
+      across.found, across.isolines, across.forced, across.worst);
+}
+
+void add_skin(const FittedSkin& fitted, const std::string& units, Facts& facts) {
+  const Skin& skin = fitted.skin;
+  const std::size_t contours = skin.sections.size() - fitted.points;
+  std::string text = fmt::format("{} of {} contours proved", fitted.proved, contours);
+  if (fitted.plain > 0) text += fmt::format(", {} plain cubics", fitted.plain);
+  if (fitted.points > 0) text += fmt::format(", {} points", fitted.points);
+  facts.add("sections", text);
+  facts.add("matched by", skin.matching == SkinMatching::kByPoints ? "points" : "arc length");
+  facts.add("tolerance", significant(fitted.tolerance, 3) + " " + units);
+  if (skin.across.isolines > 0) facts.add("across", across_text(skin.across));
+}
+
+void add_written(const SurfaceWritten& written, Facts& facts) {
+  for (const std::string& remark : written.remarks) facts.add("note", remark);
+  if (!written.files.empty()) facts.add("written", listed(written.files));
+}
+
+JsonText& add_list(JsonText& json, const char* name, const std::vector<std::string>& list) {
+  json.key(name).begin_array();
+  for (const std::string& one : list) json.value(one);
+  return json.end_array();
+}
+
+void add_patches(const SurfaceModel& model, JsonText& json) {
+  json.key("patches").begin_array();
+  for (const SurfacePatch& patch : model.patches) {
+    json.begin_object().pair("name", patch.name);
+    json.pair("degree_u", patch.surface.degree_u).pair("degree_v", patch.surface.degree_v);
+    json.pair("count_u", patch.surface.count_u()).pair("count_v", patch.surface.count_v());
+    json.pair("rational", !patch.surface.weights.empty()).end_object();
+  }
+  json.end_array();
+}
+
+void add_skin(const FittedSkin& fitted, JsonText& json) {
+  json.key("skin").begin_object();
+  json.pair("proved", fitted.proved).pair("plain", fitted.plain).pair("points", fitted.points);
+  json.pair("tolerance", fitted.tolerance);
+  json.pair("matched_by", fitted.skin.matching == SkinMatching::kByPoints ? "points" : "length");
+  json.key("sections").begin_array();
+  for (const SkinSectionReport& s : fitted.skin.sections) {
+    json.begin_object().pair("name", s.name).pair("v", s.parameter).pair("deviation", s.deviation);
+    json.pair("from_points", s.from_points).pair("runs", s.runs).pair("ripple", s.ripple);
+    json.end_object();
+  }
+  json.end_array();
+  const AcrossReport& across = fitted.skin.across;
+  json.key("across").begin_object().pair("isolines", across.isolines).pair("found", across.found);
+  json.pair("forced", across.forced).pair("worst", across.worst).end_object();
+  json.end_object();
+}
+
+}  // namespace
+
+std::string surface_report_text(const MadeSurface& made, const SurfaceWritten& written) {
+  const std::string& units = made.model.units;
+  Facts facts;
+  facts.add("surface", made.kind);
+  for (const auto& [name, value] : made.facts) facts.add(name, value);
+  facts.add("size", significant(size_of(made.model)) + " " + units);
+  add_patches(made.model, facts);
+  if (made.skin) {
+    add_skin(*made.skin, units, facts);
+  } else {
+    facts.add("as NURBS", deviation_text(made));
+  }
+  add_written(written, facts);
+  std::string text;
+  if (made.skin) text = section_table(made.skin->skin.sections).text() + "\n";
+  return text + facts.text();
+}
+
+std::string surface_report_json(const MadeSurface& made, const SurfaceWritten& written) {
+  JsonText json;
+  json.begin_object().pair("kind", made.kind).pair("name", made.model.name);
+  json.pair("units", made.model.units).pair("size", size_of(made.model));
+  json.pair("deviation", made.deviation);
+  for (const auto& [name, value] : made.facts) json.pair(name, value);
+  add_patches(made.model, json);
+  if (made.skin) add_skin(*made.skin, json);
+  add_list(json, "warnings", made.warnings);
+  add_list(json, "remarks", written.remarks);
+  add_list(json, "written", written.files);
+  return json.end_object().take() + "\n";
+}
+
+}  // namespace obvid

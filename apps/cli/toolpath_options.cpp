@@ -1,0 +1,190 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "toolpath_options.h"
+
+#include <cmath>
+#include <map>
+
+#include "cli_app.h"
+#include "obvid/exchange/surface_svg.h"
+#include "option_values.h"
+#include "options.h"
+
+namespace obvid {
+namespace {
+
+struct RawToolpath {
+  ToolpathCommand command;
+  std::string cutter = "ball", strategy = "zigzag", controller = "grbl", motion = "arcs";
+  bool no_progress = false;
+};
+
+constexpr const char* kOutputHelp =
+    "File to write: .nc, .ngc, .gcode, .tap (G-code), .svg (picture), .html (page for browsers); "
+    "may be repeated";
+
+void add_cutter(CLI::App& app, RawToolpath& raw) {
+  const char* group = "Cutter";
+  ToolpathOptions& plan = raw.command.plan;
+  app.add_option("--cutter", raw.cutter, "ball, flat or bull (rounded corners) [ball]")
+      ->type_name("NAME")
+      ->group(group);
+  app.add_option("--diameter", plan.cutter.diameter, "Diameter, units of the surface [6]")
+      ->type_name("D")
+      ->group(group);
+  app.add_option("--corner-radius", plan.cutter.corner_radius,
+                 "Of a bull-nose cutter, units [a quarter of the diameter]")
+      ->type_name("R")
+      ->group(group);
+}
+
+void add_passes(CLI::App& app, RawToolpath& raw) {
+  const char* group = "Passes";
+  ToolpathOptions& plan = raw.command.plan;
+  app.add_option("--strategy", raw.strategy,
+                 "zigzag (parallel planes), isoparametric (along the patches' parameters) or "
+                 "scallop (constant height between passes) [zigzag]")
+      ->type_name("NAME")
+      ->group(group);
+  app.add_option("--scallop", plan.scallop,
+                 "Greatest height left between passes, units [0.01 diameters]")
+      ->type_name("H")
+      ->group(group);
+  app.add_option("--step-over", plan.step_over, "Greatest distance of passes, units [by scallop]")
+      ->type_name("S")
+      ->group(group);
+  app.add_option("--angle", plan.angle_deg, "Of the passes against X, degrees [0]")
+      ->type_name("DEG")
+      ->group(group);
+  app.add_flag("--along-v", plan.along_v, "Isoparametric passes along v [along u]")->group(group);
+  app.add_flag("--one-way", plan.one_way, "All passes in the same direction")->group(group);
+  app.add_option("--tolerance", plan.tolerance,
+                 "Gouges, triangles and chords together, units [0.01]")
+      ->type_name("T")
+      ->group(group);
+  app.add_option("--safe-z", plan.safe_z,
+                 "Height of rapid moves, units [half a diameter above the part]")
+      ->type_name("Z")
+      ->group(group);
+}
+
+void add_program(CLI::App& app, RawToolpath& raw) {
+  const char* group = "Program";
+  ToolpathOptions& plan = raw.command.plan;
+  app.add_option("--feed", plan.feed, "Feed along passes, mm/min (in/min for inches) [1000]")
+      ->type_name("F")
+      ->group(group);
+  app.add_option("--plunge-feed", plan.plunge_feed, "Feed straight down, likewise [300]")
+      ->type_name("F")
+      ->group(group);
+  app.add_option("--controller", raw.controller, "grbl, linuxcnc or fanuc [grbl]")
+      ->type_name("NAME")
+      ->group(group);
+  app.add_option("--motion", raw.motion,
+                 "arcs (G2, G3 in passes along X or Y) or lines (G1 only) [arcs]")
+      ->type_name("NAME")
+      ->group(group);
+}
+
+template <class Value>
+Result<void> pick(const std::map<std::string, Value>& values, const std::string& typed,
+                  const char* option, Value& into) {
+  const auto at = values.find(typed);
+  if (at != values.end()) {
+    into = at->second;
+    return {};
+  }
+  std::vector<std::string> names;
+  std::string all = "available are ";
+  for (const auto& [name, value] : values) {
+    all += (names.empty() ? "" : ", ") + name;
+    names.push_back(name);
+  }
+  return fail(bad_option("unknown name '" + typed + "'", option, did_you_mean(typed, names, all)));
+}
+
+Result<void> set_names(RawToolpath& raw) {
+  ToolpathCommand& command = raw.command;
+  ToolpathOptions& plan = command.plan;
+  return pick<CutterKind>({{"ball", CutterKind::kBall},
+                           {"flat", CutterKind::kFlat},
+                           {"bull", CutterKind::kBullNose}},
+                          raw.cutter, "--cutter", plan.cutter.kind)
+      .and_then([&] {
+        return pick<ToolpathStrategy>({{"zigzag", ToolpathStrategy::kZigzag},
+                                       {"isoparametric", ToolpathStrategy::kIsoparametric},
+                                       {"scallop", ToolpathStrategy::kConstantScallop}},
+                                      raw.strategy, "--strategy", plan.strategy);
+      })
+      .and_then([&] {
+        return pick<GcodeController>({{"grbl", GcodeController::kGrbl},
+                                      {"linuxcnc", GcodeController::kLinuxCnc},
+                                      {"fanuc", GcodeController::kFanuc}},
+                                     raw.controller, "--controller", command.gcode.controller);
+      })
+      .and_then([&] {
+        return pick<bool>({{"arcs", true}, {"lines", false}}, raw.motion, "--motion",
+                          command.gcode.arcs);
+      });
+}
+
+Result<Command> checked(const CLI::App& app, RawToolpath& raw) {
+  constexpr double kScallop = 0.01, kCorner = 0.25;  // of the diameter
+  ToolpathCommand& command = raw.command;
+  ToolpathOptions& plan = command.plan;
+  if (auto done = check_extras(app, app.remaining(), "toolpath"); !done) return fail(done.error());
+  if (auto done = set_names(raw); !done) return fail(done.error());
+  if (command.input.empty()) {
+    return fail(usage("toolpath needs a surface", "see obvid toolpath --help"));
+  }
+  if (command.outputs.empty()) {
+    return fail(usage("toolpath needs a file to write", "add -o part.nc"));
+  }
+  if (!surface_view_named(command.view)) {
+    return fail(bad_option("unknown view '" + command.view + "'", "--view",
+                           "available are iso, front, top, side, back, bottom"));
+  }
+  if (!plan.scallop && !plan.step_over) plan.scallop = kScallop * plan.cutter.diameter;
+  if (plan.cutter.kind == CutterKind::kBullNose && plan.cutter.corner_radius == 0.0) {
+    plan.cutter.corner_radius = kCorner * plan.cutter.diameter;
+  }
+  command.progress = !raw.no_progress && !command.quiet && !command.json;
+  return Command{command};
+}
+
+}  // namespace
+
+Result<Command> parse_toolpath(int argc, const char* const* argv) {
+  CLI::App app("Three-axis milling of a surface: G-code without gouges, within a stated scallop",
+               "obvid toolpath");
+  app.get_formatter()->column_width(28);
+  app.allow_extras();
+  RawToolpath raw;
+  app.add_option("INPUT", raw.command.input, "Surface (.json, STEP, IGES, BREP, control points)");
+  app.add_option("-o,--output", raw.command.outputs, kOutputHelp)
+      ->type_name("OUT")
+      ->allow_extra_args(false);
+  add_cutter(app, raw);
+  add_passes(app, raw);
+  add_program(app, raw);
+  app.add_option("--view", raw.command.view,
+                 "Of the picture: iso, front, top, side, back or bottom [iso]")
+      ->type_name("NAME");
+  app.add_flag("--json", raw.command.json, "Report as JSON on standard output");
+  app.add_flag("--quiet", raw.command.quiet, "No report and no progress bar");
+  app.add_flag("--no-progress", raw.no_progress, "No progress bar");
+  app.footer(
+      "Example: obvid toolpath hull.json --cutter ball --diameter 6 --scallop 0.02 -o hull.nc\n\n"
+      "The part lies as the surface says, Z upwards; the tip of the cutter is programmed. Read "
+      "the\n"
+      "program before you run it: it knows neither clamps nor stock.\n");
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::CallForHelp&) {
+    return Command{ShowText{app.help()}};
+  } catch (const CLI::ParseError& error) {
+    return fail(from_cli(error, "toolpath"));
+  }
+  return checked(app, raw);
+}
+
+}  // namespace obvid

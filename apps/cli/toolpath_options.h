@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "obvid/toolpath/toolpath.h"
+#include "obvid/toolpath/toolpath_gcode.h"
+
+namespace obvid {
+
+/// `obvid toolpath`
+struct ToolpathCommand {
+  std::string input;
+  std::vector<std::string> outputs;  ///< G-code, pictures, pages
+  ToolpathOptions plan;
+  ToolpathGcodeOptions gcode;
+  std::string view = "iso";
+  bool json = false;
+  bool quiet = false;
+  bool progress = true;
+};
+
+}  // namespace obvid

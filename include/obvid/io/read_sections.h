@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "obvid/core/result.h"
+#include "obvid/surface/point_grid.h"
+
+namespace obvid {
+
+struct SectionOptions {
+  double spacing = 1.0;  ///< units along z between sections whose files have no z
+};
+
+/// Sections of a body, in any of the forms of docs/formats.md ("Surfaces"): one file each, with x y
+/// z or with x y (z then counts by the spacing); one file with sections separated by blank lines or
+/// titles, or by a column named `section`; the rows of three matrices as of `read_grid`; rotor
+/// blades in cylindrical coordinates (Z R THETA 1 THETA 2, rad); airfoils of a blade with the table
+/// that places them (columns BlSpn, BlCrvAC, BlSwpAC, BlTwist, BlChord, BlAFID).
+/// Errors: E301 to E307 with place.
+[[nodiscard]] Result<std::vector<SpaceSeries>> read_sections(const std::vector<std::string>& paths,
+                                                             const SectionOptions& options = {});
+/// One text with one section or more. `flat` tells that no z was there.
+struct ParsedSections {
+  std::vector<SpaceSeries> sections;
+  bool flat = false;
+};
+[[nodiscard]] Result<ParsedSections> parse_sections(std::string_view text, std::string_view name,
+                                                    const SectionOptions& options = {});
+
+}  // namespace obvid

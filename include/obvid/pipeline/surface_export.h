@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "obvid/cad/cad.h"
+#include "obvid/core/progress.h"
+#include "obvid/core/result.h"
+#include "obvid/exchange/surface_page.h"
+#include "obvid/exchange/surface_svg.h"
+#include "obvid/mesh/mesh.h"
+
+namespace obvid {
+
+/// Files that a surface can be written to, told by their endings.
+enum class SurfaceFormat {
+  kSurface,  ///< .json
+  kStep,     ///< .step, .stp
+  kIges,     ///< .iges, .igs
+  kBrep,     ///< .brep
+  kStl,      ///< .stl
+  kObj,      ///< .obj
+  kGlb,      ///< .glb
+  kPly,      ///< .ply
+  kPage,     ///< .html
+  kPicture,  ///< .svg
+};
+
+[[nodiscard]] std::optional<SurfaceFormat> surface_format_of(std::string_view path);
+/// ".json (surface), .step (STEP), ...": for help and errors.
+[[nodiscard]] std::string known_surface_endings();
+
+struct SurfaceExportOptions {
+  CadFormat step = CadFormat::kStepAp214;
+  std::optional<double> chord_tolerance;  ///< units: of triangles [1e-3 of the size]
+  double angle = 0.0;                     ///< rad, between normals along an edge [15 degrees]
+  SurfaceColouring colouring = SurfaceColouring::kShaded;
+  SurfaceView view = SurfaceView::kIso;
+  std::vector<ScenePolyline> lines;  ///< drawn on page and picture
+};
+
+/// A surface in all formats that were asked for; triangles are made once for all of them.
+class SurfaceExporter {
+ public:
+  SurfaceExporter(const SurfaceModel& model, const SurfaceExportOptions& options,
+                  Progress progress = {});
+
+  /// Text of one file; `remarks` get what the user should know. Errors: those of the formats.
+  [[nodiscard]] Result<std::string> text(SurfaceFormat format, std::vector<std::string>& remarks);
+
+ private:
+  [[nodiscard]] Result<void> tessellated(std::vector<std::string>& remarks);
+
+  const SurfaceModel& model_;
+  SurfaceExportOptions options_;
+  Progress progress_;
+  std::vector<Mesh> meshes_;
+};
+
+}  // namespace obvid

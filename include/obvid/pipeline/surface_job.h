@@ -1,0 +1,92 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "obvid/core/progress.h"
+#include "obvid/core/result.h"
+#include "obvid/exchange/surface_svg.h"
+#include "obvid/pipeline/import.h"
+#include "obvid/pipeline/skin_sections.h"
+#include "obvid/surface/surface.h"
+#include "obvid/surfacing/grid.h"
+
+namespace obvid {
+
+/// What is made of the inputs.
+enum class SurfaceKind {
+  kRuled,    ///< between two curves, or from one along a direction or to a point
+  kRevolve,  ///< a profile about an axis
+  kCoons,    ///< of four border curves
+  kGordon,   ///< of a net of curves
+  kGrid,     ///< through, near or controlled by a grid of points
+  kSkin,     ///< through section contours
+  kOffset,   ///< of a surface
+  kId,       ///< integro-differential spline through a grid
+  kConvert,  ///< a surface as it is
+};
+
+/// How a grid becomes a surface.
+enum class GridUse { kThrough, kNear, kControl };
+
+struct SurfaceJob {
+  SurfaceKind kind = SurfaceKind::kSkin;
+  std::vector<std::string> inputs;   ///< files
+  std::vector<std::string> across;   ///< Gordon: curves that cross those of `inputs`
+  std::optional<std::string> units;  ///< name of the length unit; default as the files say
+  std::optional<double> tolerance;   ///< units: of what NURBS do not hold exactly, of skins from
+                                     ///< their contours, of grids that are approximated, of
+                                     ///< curves that have to meet [1e-5 of the size]
+  ImportOptions import;              ///< of curves of drawings
+  FitJob sections;                   ///< how contours of point files are formed
+  bool plain_when_refused = false;   ///< as in `SkinJob`
+  SkinMatching matching = SkinMatching::kAutomatic;
+  bool straight_across = false;
+  std::optional<Vec3> direction;       ///< ruled: from the curve by this vector
+  std::optional<Vec3> apex;            ///< ruled: to this point
+  Vec3 axis_point;                     ///< revolve
+  Vec3 axis_direction{1.0, 0.0, 0.0};  ///< revolve
+  double angle = 0.0;                  ///< revolve, rad; 0: a full turn
+  double distance = 0.0;               ///< offset, along the normal du x dv
+  GridUse use = GridUse::kThrough;
+  Spread spread = Spread::kChord;
+  std::optional<double> spacing;  ///< of rows and columns of height matrices, and between
+                                  ///< sections whose files have no z
+  bool smooth = false;            ///< ID spline: C1 in place of the values
+};
+
+/// A surface with what is known about how it was made.
+struct MadeSurface {
+  SurfaceModel model;
+  std::string kind;        ///< in words: "skin through 21 sections"
+  double deviation = 0.0;  ///< units: of the NURBS from what was asked for; 0 exact
+  std::optional<FittedSkin> skin;
+  std::vector<std::pair<std::string, std::string>> facts;  ///< name and value, for the report
+  std::vector<ScenePolyline> lines;                        ///< inputs, to be drawn with it
+  std::vector<std::string> warnings;
+};
+
+/// Reads the inputs and makes the surface. Errors: those of the readers and builders; E201 wrong
+/// numbers of inputs; E403 an offset that folds (`value`: the largest distance that does not).
+[[nodiscard]] Result<MadeSurface> make_surface(const SurfaceJob& job,
+                                               const Progress& progress = {});
+
+/// A surface from a file: stored (.json), STEP, IGES, BREP, control points (.cpt, .cptw, .csv).
+/// `warnings` get what was left out.
+[[nodiscard]] Result<SurfaceModel> read_surface(const std::string& path,
+                                                std::vector<std::string>& warnings);
+
+/// A curve of space from a file: a contour, a curve of a drawing, or points: in a plane the fair
+/// contour through them, else the C2 cubic by chord lengths (with a warning).
+struct ReadCurve {
+  std::string name;
+  std::string units = "mm";
+  SpaceCurve curve;
+  std::vector<std::string> warnings;
+};
+[[nodiscard]] Result<ReadCurve> read_space_curve(const std::string& path, const SurfaceJob& job);
+
+}  // namespace obvid

@@ -1,0 +1,158 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "number_rows.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cctype>
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+
+#include "text_kind.h"
+#include "text_lines.h"
+#include "text_number.h"
+
+namespace obvid {
+namespace {
+
+using std::string_view;
+
+/// Fields of a line, however many.
+void split_all(string_view line, text::Separator separator, std::vector<string_view>& fields) {
+  fields.clear();
+  if (separator == text::Separator::kWhite) {
+    for (std::size_t at = 0; at < line.size();) {
+      while (at < line.size() && text::is_blank(line[at])) ++at;
+      const std::size_t start = at;
+      while (at < line.size() && !text::is_blank(line[at])) ++at;
+      if (at > start) fields.push_back(line.substr(start, at - start));
+    }
+    return;
+  }
+  const char mark = separator == text::Separator::kTab     ? '\t'
+                    : separator == text::Separator::kComma ? ','
+                                                           : ';';
+  for (std::size_t start = 0; start <= line.size();) {
+    const std::size_t end = std::min(line.find(mark, start), line.size());
+    fields.push_back(text::trim(line.substr(start, end - start)));
+    start = end + 1;
+  }
+  if (fields.size() > 1 && fields.back().empty()) fields.pop_back();  // a mark at the end
+}
+
+class Reader {
+ public:
+  Reader(string_view text, string_view name) : cursor_(text), name_(name) {}
+
+  Result<NumberRows> read() {
+    constexpr string_view kByteOrderMark = "\xEF\xBB\xBF";
+    if (cursor_.rest().starts_with(kByteOrderMark))
+      cursor_ = text::LineCursor(cursor_.rest().substr(3));
+    while (!cursor_.at_end()) {
+      const string_view whole = cursor_.peek();
+      if (auto done = line(whole); !done) return fail(done.error());
+      cursor_.skip(whole);
+    }
+    if (out_.rows.empty()) {
+      return fail(
+          {ErrorCode::kTooFewPoints, "the file holds no numbers", std::string(name_), "", -1, 0.0});
+    }
+    return std::move(out_);
+  }
+
+ private:
+  Result<void> line(string_view whole) {
+    const string_view bare = text::trim(whole);
+    if (bare.empty()) {
+      gap_ = true;
+      return {};
+    }
+    if (text::is_comment(bare)) return {};
+    const string_view data = text::trim(text::without_comment(bare));
+    split_all(data, text::detect_separator(data), fields_);
+    NumberRow row{cursor_.line_number(), gap_, {}};
+    std::size_t words = 0;
+    string_view word;
+    for (const string_view field : fields_) {
+      const text::ParsedNumber number = text::parse_number(field, true);
+      if (number.kind == text::NumberKind::kNotFinite) {
+        return fail(error_at(ErrorCode::kNotFinite, text::shown(field) + " is not a finite number",
+                             name_, row.line, "remove the point"));
+      }
+      if (number.kind == text::NumberKind::kNotNumber) {
+        if (words++ == 0) word = field;
+        continue;
+      }
+      row.values.push_back(number.value);
+    }
+    if (words == 0) {
+      out_.rows.push_back(std::move(row));
+      gap_ = false;
+      return {};
+    }
+    // a line with as many numbers as words and more is a row that is broken, not a title
+    if (row.values.size() > words && !out_.rows.empty()) {
+      return fail(error_at(ErrorCode::kBadNumber, text::shown(word) + " is not a number", name_,
+                           row.line,
+                           "correct the field, or begin the line with # when it is a remark"));
+    }
+    if (out_.rows.empty()) {
+      out_.header.clear();
+      for (const string_view field : fields_) out_.header.emplace_back(field);
+    }
+    out_.titles.push_back({out_.rows.size(), text::to_utf8(data)});
+    gap_ = true;
+    return {};
+  }
+
+  text::LineCursor cursor_;
+  string_view name_;
+  NumberRows out_;
+  std::vector<string_view> fields_;
+  bool gap_ = false;
+};
+
+std::string lower(string_view text) {
+  std::string out(text);
+  std::transform(out.begin(), out.end(), out.begin(),
+                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  return out;
+}
+
+}  // namespace
+
+Result<NumberRows> number_rows(string_view text, string_view name) {
+  if (auto good = text::check_text_kind(text, name); !good) return fail(good.error());
+  return Reader(text, name).read();
+}
+
+int column_named(const NumberRows& rows, string_view name) {
+  for (std::size_t i = 0; i < rows.header.size(); ++i) {
+    if (lower(rows.header[i]) == lower(name)) return static_cast<int>(i);
+  }
+  return -1;
+}
+
+Error error_at(ErrorCode code, std::string what, string_view name, std::size_t line,
+               std::string hint) {
+  return {code, std::move(what), fmt::format("{}:{}", name, line), std::move(hint), -1, 0.0};
+}
+
+Result<std::string> file_text(const std::string& path) {
+  std::error_code ignored;
+  std::ifstream file(path, std::ios::binary);
+  std::ostringstream text;
+  const bool folder = std::filesystem::is_directory(path, ignored);
+  if (file && !folder) text << file.rdbuf();
+  if (file && !folder) return text.str();
+  return fail({ErrorCode::kCannotOpen,
+               folder ? "this is a folder, not a file" : "cannot read the file", path,
+               "check the path and the permissions", -1, 0.0});
+}
+
+std::string file_name(const std::string& path) {
+  return std::filesystem::path(path).filename().string();
+}
+
+}  // namespace obvid

@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "obvid/core/result.h"
+
+namespace obvid {
+
+/// A line of numbers.
+struct NumberRow {
+  std::size_t line = 0;    ///< from 1
+  bool after_gap = false;  ///< blank lines or a title stand before it
+  std::vector<double> values;
+};
+
+/// A text of numbers in rows.
+struct NumberRows {
+  std::vector<std::string> header;  ///< names of columns: a line of words before the first row
+  std::vector<NumberRow> rows;
+  /// Lines of words between rows (titles of blocks), each before the row with this index.
+  struct Title {
+    std::size_t row = 0;
+    std::string text;
+  };
+  std::vector<Title> titles;
+};
+
+/// Rows of numbers of any length, separated as `read_points` allows; comments and blank lines are
+/// passed over. Words alone make a header or a title; numbers and words in one line are an error.
+/// Errors: E302, E303, E304 nothing there, E306, E310.
+[[nodiscard]] Result<NumberRows> number_rows(std::string_view text, std::string_view name);
+
+/// Column of this name, by case; -1 when there is none.
+[[nodiscard]] int column_named(const NumberRows& rows, std::string_view name);
+
+/// Error at a line of a file.
+[[nodiscard]] Error error_at(ErrorCode code, std::string what, std::string_view name,
+                             std::size_t line, std::string hint = {});
+
+/// Whole text of a file. Error: E301.
+[[nodiscard]] Result<std::string> file_text(const std::string& path);
+/// Name without folders.
+[[nodiscard]] std::string file_name(const std::string& path);
+
+}  // namespace obvid

@@ -1,0 +1,320 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "obvid/io/read_grid.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <filesystem>
+#include <map>
+#include <utility>
+
+#include "number_rows.h"
+#include "text_number.h"
+
+namespace obvid {
+namespace {
+
+using std::string_view;
+
+Result<PointGrid> grid_of(const std::vector<std::vector<Vec3>>& rows, string_view name) {
+  PointGrid grid;
+  grid.name = std::string(name);
+  grid.count_v = rows.size();
+  grid.count_u = rows.empty() ? 0 : rows.front().size();
+  for (std::size_t j = 0; j < rows.size(); ++j) {
+    if (rows[j].size() != grid.count_u) {
+      return fail({ErrorCode::kBadCount,
+                   fmt::format("row {} has {} points where the first has {}", j + 1, rows[j].size(),
+                               grid.count_u),
+                   std::string(name), "a grid needs rows of equal length",
+                   static_cast<std::ptrdiff_t>(j), static_cast<double>(rows[j].size())});
+    }
+    grid.points.insert(grid.points.end(), rows[j].begin(), rows[j].end());
+  }
+  if (grid.count_u >= 2 && grid.count_v >= 2) return grid;
+  return fail({ErrorCode::kTooFewPoints,
+               fmt::format("{} rows of {} points are no grid", grid.count_v, grid.count_u),
+               std::string(name), "give at least 2 x 2 points; rows are told by blank lines", -1,
+               0.0});
+}
+
+// ---- three matrices ---------------------------------------------------------------------------
+
+constexpr std::array<string_view, 3> kAxes = {"_x", "_y", "_z"};
+
+/// Name of the matrix of another coordinate.
+std::string sibling(const std::string& path, std::size_t axis) {
+  std::filesystem::path file(path);
+  std::string stem = file.stem().string();
+  stem.replace(stem.size() - 2, 2, kAxes[axis]);
+  return (file.parent_path() / (stem + file.extension().string())).string();
+}
+
+Result<NumberRows> matrix(const std::string& path) {
+  const auto text = file_text(path);
+  if (!text) return fail(text.error());
+  auto rows = number_rows(*text, path);
+  if (!rows) return rows;
+  for (const NumberRow& row : rows->rows) {
+    if (row.values.size() == rows->rows.front().values.size()) continue;
+    return fail(error_at(ErrorCode::kBadCount,
+                         fmt::format("this row has {} numbers, the first has {}", row.values.size(),
+                                     rows->rows.front().values.size()),
+                         path, row.line));
+  }
+  return rows;
+}
+
+Result<PointGrid> from_three(const std::string& path) {
+  std::array<NumberRows, 3> all;
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    const std::string file = sibling(path, axis);
+    auto rows = matrix(file);
+    if (!rows) return fail(rows.error());
+    all[axis] = std::move(*rows);
+    const bool same = all[axis].rows.size() == all[0].rows.size() &&
+                      all[axis].rows.front().values.size() == all[0].rows.front().values.size();
+    if (same) continue;
+    return fail({ErrorCode::kBadCount, "the matrix is not as large as that of x", file,
+                 "the three files hold one coordinate each of the same points", -1, 0.0});
+  }
+  std::vector<std::vector<Vec3>> points;
+  for (std::size_t j = 0; j < all[0].rows.size(); ++j) {
+    points.emplace_back();
+    for (std::size_t i = 0; i < all[0].rows[j].values.size(); ++i) {
+      points.back().push_back(
+          {all[0].rows[j].values[i], all[1].rows[j].values[i], all[2].rows[j].values[i]});
+    }
+  }
+  std::string stem = std::filesystem::path(path).stem().string();
+  return grid_of(points, stem.substr(0, stem.size() - 2));
+}
+
+// ---- one text ---------------------------------------------------------------------------------
+
+Result<Vec3> point_of(const NumberRow& row, string_view name) {
+  if (row.values.size() >= 3) return Vec3{row.values[0], row.values[1], row.values[2]};
+  return fail(error_at(ErrorCode::kTooFewColumns,
+                       fmt::format("{} numbers where x y z are needed", row.values.size()), name,
+                       row.line));
+}
+
+Result<std::vector<Vec3>> points_of(const NumberRows& rows, std::size_t from, string_view name) {
+  std::vector<Vec3> points;
+  for (std::size_t i = from; i < rows.rows.size(); ++i) {
+    const auto point = point_of(rows.rows[i], name);
+    if (!point) return fail(point.error());
+    points.push_back(*point);
+  }
+  return points;
+}
+
+std::vector<std::vector<Vec3>> cut(const std::vector<Vec3>& points, std::size_t length) {
+  std::vector<std::vector<Vec3>> rows;
+  for (std::size_t i = 0; i < points.size(); i += length) {
+    const auto from = points.begin() + static_cast<std::ptrdiff_t>(i);
+    rows.emplace_back(from,
+                      from + static_cast<std::ptrdiff_t>(std::min(length, points.size() - i)));
+  }
+  return rows;
+}
+
+/// "40 30": counts of points in a row and of rows, before as many points.
+bool led_by_counts(const NumberRows& rows) {
+  const std::vector<double>& head = rows.rows.front().values;
+  if (head.size() != 2 || rows.rows.size() < 2 || rows.rows[1].values.size() < 3) return false;
+  return head[0] * head[1] == static_cast<double>(rows.rows.size() - 1);
+}
+
+bool has_gaps(const NumberRows& rows, std::size_t from) {
+  for (std::size_t i = from + 1; i < rows.rows.size(); ++i) {
+    if (rows.rows[i].after_gap) return true;
+  }
+  return false;
+}
+
+/// Length of scan lines: a coordinate that stays for the whole line, or one that comes again at the
+/// same place of every line. 0 when there is neither.
+std::size_t line_length(const std::vector<Vec3>& points) {
+  const std::size_t n = points.size();
+  for (const auto coordinate : {&Vec3::x, &Vec3::y, &Vec3::z}) {
+    std::size_t run = 1;
+    while (run < n && points[run].*coordinate == points[0].*coordinate) ++run;
+    if (run < 2 || run == n || n % run != 0) continue;
+    bool good = true;
+    for (std::size_t i = 0; i < n && good; ++i) {
+      good = points[i].*coordinate == points[i - i % run].*coordinate;
+    }
+    if (good) return run;
+  }
+  for (const auto coordinate : {&Vec3::x, &Vec3::y, &Vec3::z}) {
+    std::size_t period = 1;
+    while (period < n && points[period].*coordinate != points[0].*coordinate) ++period;
+    if (period < 2 || period >= n || n % period != 0) continue;
+    bool good = true;
+    for (std::size_t i = period; i < n && good; ++i) {
+      good = points[i].*coordinate == points[i - period].*coordinate;
+    }
+    if (good) return period;
+  }
+  return 0;
+}
+
+Result<PointGrid> from_list(const NumberRows& rows, string_view name) {
+  const bool counts = led_by_counts(rows);
+  const std::size_t from = counts ? 1 : 0;
+  const auto points = points_of(rows, from, name);
+  if (!points) return fail(points.error());
+  if (counts) {
+    return grid_of(cut(*points, static_cast<std::size_t>(rows.rows.front().values[0])), name);
+  }
+  if (has_gaps(rows, from)) {
+    std::vector<std::vector<Vec3>> grid;
+    for (std::size_t i = from; i < rows.rows.size(); ++i) {
+      if (i == from || rows.rows[i].after_gap) grid.emplace_back();
+      grid.back().push_back((*points)[i - from]);
+    }
+    return grid_of(grid, name);
+  }
+  const std::size_t length = line_length(*points);
+  if (length == 0) {
+    return fail({ErrorCode::kBadCount, "rows of the grid cannot be told from each other",
+                 std::string(name),
+                 "put a blank line between rows, or begin with a line of two counts: points in a "
+                 "row, rows",
+                 -1, static_cast<double>(points->size())});
+  }
+  return grid_of(cut(*points, length), name);
+}
+
+/// Columns row, col, x, y, z.
+Result<PointGrid> from_places(const NumberRows& rows, string_view name) {
+  std::array<std::size_t, 5> column{};
+  constexpr std::array<string_view, 5> kNames = {"row", "col", "x", "y", "z"};
+  std::size_t widest = 0;
+  for (std::size_t k = 0; k < 5; ++k) {
+    const int at = column_named(rows, kNames[k]);
+    if (at < 0) {
+      return fail({ErrorCode::kTooFewColumns, fmt::format("there is no column {}", kNames[k]),
+                   std::string(name), "the columns are row, col, x, y, z", -1, 0.0});
+    }
+    column[k] = static_cast<std::size_t>(at);
+    widest = std::max(widest, column[k] + 1);
+  }
+  std::map<double, std::map<double, Vec3>> places;
+  for (const NumberRow& row : rows.rows) {
+    if (row.values.size() < widest) {
+      return fail(
+          error_at(ErrorCode::kTooFewColumns, "the row has too few columns", name, row.line));
+    }
+    const auto at = [&](std::size_t k) { return row.values[column[k]]; };
+    const bool fresh = places[at(0)].emplace(at(1), Vec3{at(2), at(3), at(4)}).second;
+    if (fresh) continue;
+    return fail(
+        error_at(ErrorCode::kBadCount, "this place of the grid is given twice", name, row.line));
+  }
+  std::vector<std::vector<Vec3>> grid;
+  for (const auto& [index, line] : places) {
+    grid.emplace_back();
+    for (const auto& [place, point] : line) grid.back().push_back(point);
+  }
+  return grid_of(grid, name);
+}
+
+Result<PointGrid> from_heights(const NumberRows& rows, string_view name, double spacing) {
+  std::vector<std::vector<Vec3>> grid;
+  for (const NumberRow& row : rows.rows) {
+    const double y = spacing * static_cast<double>(grid.size());
+    grid.emplace_back();
+    for (std::size_t i = 0; i < row.values.size(); ++i) {
+      grid.back().push_back({spacing * static_cast<double>(i), y, row.values[i]});
+    }
+  }
+  return grid_of(grid, name);
+}
+
+/// Half-breadths: first row stations, first column waterlines. `corner` words stand in the header.
+Result<PointGrid> from_offsets(const NumberRows& rows, string_view name) {
+  std::vector<double> stations;
+  for (std::size_t i = 1; i < rows.header.size(); ++i) {
+    const text::ParsedNumber number = text::parse_number(rows.header[i], true);
+    if (number.kind != text::NumberKind::kNumber) {
+      return fail({ErrorCode::kBadNumber,
+                   fmt::format("station '{}' is not a number", rows.header[i]), std::string(name),
+                   "write its distance in place of its name", -1, 0.0});
+    }
+    stations.push_back(number.value);
+  }
+  std::vector<std::vector<Vec3>> grid;
+  for (const NumberRow& row : rows.rows) {
+    if (row.values.size() != stations.size() + 1) {
+      return fail(error_at(
+          ErrorCode::kBadCount,
+          fmt::format("{} half-breadths for {} stations", row.values.size() - 1, stations.size()),
+          name, row.line, "every station needs a number in every row"));
+    }
+    grid.emplace_back();
+    for (std::size_t i = 0; i < stations.size(); ++i) {
+      grid.back().push_back({stations[i], row.values[i + 1], row.values[0]});
+    }
+  }
+  return grid_of(grid, name);
+}
+
+/// A header of one word and numbers: a table of half-breadths.
+bool is_offset_table(const NumberRows& rows) {
+  if (rows.header.size() < 3) return false;
+  std::size_t numbers = 0;
+  for (std::size_t i = 1; i < rows.header.size(); ++i) {
+    numbers += text::parse_number(rows.header[i], true).kind == text::NumberKind::kNumber ? 1 : 0;
+  }
+  return numbers + 1 == rows.header.size();
+}
+
+bool is_matrix(const NumberRows& rows) {
+  constexpr std::size_t kLeastColumns = 4;  // x y z have three
+  return std::all_of(rows.rows.begin(), rows.rows.end(), [&](const NumberRow& row) {
+    return row.values.size() >= kLeastColumns &&
+           row.values.size() == rows.rows.front().values.size();
+  });
+}
+
+}  // namespace
+
+bool is_one_of_three(string_view path) {
+  const std::string stem = std::filesystem::path(path).stem().string();
+  return std::any_of(kAxes.begin(), kAxes.end(), [&](string_view axis) {
+    return stem.size() > axis.size() && stem.ends_with(axis);
+  });
+}
+
+Result<PointGrid> parse_grid(string_view text, string_view name, const GridOptions& options) {
+  const auto rows = number_rows(text, name);
+  if (!rows) return fail(rows.error());
+  if (column_named(*rows, "row") >= 0 && column_named(*rows, "col") >= 0) {
+    return from_places(*rows, name);
+  }
+  if (is_offset_table(*rows)) return from_offsets(*rows, name);
+  if (is_matrix(*rows)) return from_heights(*rows, name, options.spacing);
+  return from_list(*rows, name);
+}
+
+Result<PointGrid> read_grid(const std::vector<std::string>& paths, const GridOptions& options) {
+  if (paths.empty()) return fail({ErrorCode::kUsage, "no file with a grid", "", "", -1, 0.0});
+  const bool three = std::all_of(paths.begin(), paths.end(),
+                                 [](const std::string& path) { return is_one_of_three(path); });
+  if (three && (paths.size() == 1 || paths.size() == 3)) return from_three(paths.front());
+  if (paths.size() > 1) {
+    return fail({ErrorCode::kUsage, "a grid is one file, or three whose names end in _x, _y, _z",
+                 paths[1], "", -1, static_cast<double>(paths.size())});
+  }
+  const auto text = file_text(paths.front());
+  if (!text) return fail(text.error());
+  auto grid = parse_grid(*text, paths.front(), options);
+  if (grid) grid->name = std::filesystem::path(paths.front()).stem().string();
+  return grid;
+}
+
+}  // namespace obvid

@@ -1,0 +1,238 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "obvid/io/read_sections.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "blade_table.h"
+#include "number_rows.h"
+#include "obvid/io/read_grid.h"
+#include "obvid/io/read_points.h"
+
+namespace obvid {
+namespace {
+
+using std::string_view;
+
+/// Title that stands before a row, or a running number.
+std::string title_of(const NumberRows& rows, std::size_t row, std::size_t number) {
+  for (const NumberRows::Title& title : rows.titles) {
+    if (title.row == row && row > 0) return title.text;
+  }
+  return fmt::format("section {}", number);
+}
+
+/// Z R THETA 1 THETA 2: both sides of a blade from edge to edge, on surfaces of revolution.
+bool is_rotor(const NumberRows& rows) {
+  return std::any_of(rows.titles.begin(), rows.titles.end(), [](const NumberRows::Title& title) {
+    return title.text.find("THETA 1") != std::string::npos;
+  });
+}
+
+Vec3 cylindrical(double z, double r, double theta) {
+  return {z, r * std::sin(theta), r * std::cos(theta)};
+}
+
+/// Whether both sides begin in one point, apart from the rounding of the angles.
+bool starts_at_one_edge(const std::vector<const NumberRow*>& block) {
+  constexpr double kPart = 0.01;  // of the first step
+  const auto& v = block.front()->values;
+  const Vec3 a = cylindrical(v[1], v[2], v[3]), b = cylindrical(v[1], v[2], v[4]);
+  if (block.size() < 2) return a == b;
+  const auto& w = block[1]->values;
+  return norm(a - b) <= kPart * norm(cylindrical(w[1], w[2], w[3]) - a);
+}
+
+Result<ParsedSections> rotor_sections(const NumberRows& rows, string_view name) {
+  std::vector<std::vector<const NumberRow*>> blocks;
+  for (const NumberRow& row : rows.rows) {
+    constexpr std::size_t kColumns = 5;
+    if (row.values.size() != kColumns) {
+      return fail(error_at(ErrorCode::kTooFewColumns, "J Z R THETA 1 THETA 2 are expected", name,
+                           row.line));
+    }
+    if (blocks.empty() || row.after_gap || row.values[0] == 1.0) blocks.emplace_back();
+    blocks.back().push_back(&row);
+  }
+  ParsedSections out;
+  for (const auto& block : blocks) {
+    SpaceSeries section{fmt::format("surface {}", out.sections.size() + 1), {}};
+    // one side from the last point to the first, the other one back
+    for (auto row = block.rbegin(); row != block.rend(); ++row) {
+      const auto& v = (*row)->values;
+      section.points.push_back(cylindrical(v[1], v[2], v[3]));
+    }
+    for (auto row = block.begin(); row != block.end(); ++row) {
+      const auto& v = (*row)->values;
+      if (row == block.begin() && starts_at_one_edge(block)) continue;
+      section.points.push_back(cylindrical(v[1], v[2], v[4]));
+    }
+    out.sections.push_back(std::move(section));
+  }
+  return out;
+}
+
+/// Index of the columns x, y, z: as named, else the first ones. z < 0: there is none.
+struct Columns {
+  int x = 0, y = 1, z = 2, section = -1;
+};
+
+Columns columns_of(const NumberRows& rows) {
+  Columns columns;
+  columns.section = column_named(rows, "section");
+  const int x = column_named(rows, "x"), y = column_named(rows, "y"), z = column_named(rows, "z");
+  if (x >= 0 && y >= 0) return {x, y, z, columns.section};
+  if (columns.section == 0) columns = {1, 2, 3, 0};
+  if (rows.rows.front().values.size() <= static_cast<std::size_t>(columns.z)) columns.z = -1;
+  return columns;
+}
+
+Result<ParsedSections> from_rows(const NumberRows& rows, string_view name) {
+  const Columns columns = columns_of(rows);
+  const auto widest =
+      static_cast<std::size_t>(std::max({columns.x, columns.y, columns.z, columns.section}) + 1);
+  ParsedSections out;
+  out.flat = columns.z < 0;
+  double before = 0.0;
+  for (std::size_t i = 0; i < rows.rows.size(); ++i) {
+    const NumberRow& row = rows.rows[i];
+    if (row.values.size() < widest) {
+      return fail(error_at(ErrorCode::kTooFewColumns,
+                           fmt::format("{} numbers where {} are needed", row.values.size(), widest),
+                           name, row.line));
+    }
+    const auto at = [&](int k) { return row.values[static_cast<std::size_t>(k)]; };
+    const bool fresh =
+        columns.section >= 0 ? i == 0 || at(columns.section) != before : i == 0 || row.after_gap;
+    if (columns.section >= 0) before = at(columns.section);
+    if (fresh) {
+      const std::size_t number = out.sections.size() + 1;
+      const std::string title =
+          columns.section >= 0 ? fmt::format("section {:g}", before) : title_of(rows, i, number);
+      out.sections.push_back({title, {}});
+    }
+    out.sections.back().points.push_back(
+        {at(columns.x), at(columns.y), out.flat ? 0.0 : at(columns.z)});
+  }
+  return out;
+}
+
+/// One section in any form of `read_points`.
+Result<ParsedSections> flat_section(string_view text, string_view name) {
+  const auto series = parse_points(text, name);
+  if (!series) return fail(series.error());
+  SpaceSeries section{series->name, {}};
+  for (const Vec2 p : series->points) section.points.push_back({p.x, p.y, 0.0});
+  return ParsedSections{{std::move(section)}, true};
+}
+
+/// A list of points with two columns and no blank lines inside: what `read_points` is for.
+bool is_plain_list(const Result<NumberRows>& rows) {
+  if (!rows) return true;
+  if (column_named(*rows, "section") >= 0) return false;
+  const bool two = std::all_of(rows->rows.begin(), rows->rows.end(),
+                               [](const NumberRow& row) { return row.values.size() == 2; });
+  const bool parted = std::any_of(rows->rows.begin() + 1, rows->rows.end(),
+                                  [](const NumberRow& row) { return row.after_gap; });
+  return two && !parted;
+}
+
+void lift(std::vector<SpaceSeries>& sections, double spacing) {
+  for (std::size_t k = 0; k < sections.size(); ++k) {
+    for (Vec3& p : sections[k].points) p.z = spacing * static_cast<double>(k);
+  }
+}
+
+Result<std::vector<SpaceSeries>> rows_of_grid(const std::vector<std::string>& paths) {
+  const auto grid = read_grid(paths);
+  if (!grid) return fail(grid.error());
+  std::vector<SpaceSeries> sections;
+  for (std::size_t j = 0; j < grid->count_v; ++j) {
+    const auto from = grid->points.begin() + static_cast<std::ptrdiff_t>(j * grid->count_u);
+    sections.push_back(
+        {fmt::format("row {}", j + 1), {from, from + static_cast<std::ptrdiff_t>(grid->count_u)}});
+  }
+  return sections;
+}
+
+/// Files of one airfoil each and the table that places them.
+Result<std::vector<SpaceSeries>> blade_sections(const std::string& table_path,
+                                                const std::string& table_text,
+                                                const std::vector<std::string>& airfoils) {
+  const auto table = parse_blade_table(table_text, table_path);
+  if (!table) return fail(table.error());
+  std::vector<SpaceSeries> sections;
+  for (const BladeStation& station : *table) {
+    if (station.airfoil < 1 || static_cast<std::size_t>(station.airfoil) > airfoils.size()) {
+      return fail({ErrorCode::kBadCount,
+                   fmt::format("station {} asks for airfoil {}, {} files were given",
+                               sections.size() + 1, station.airfoil, airfoils.size()),
+                   table_path, "give all airfoil files in the order of their numbers", -1,
+                   static_cast<double>(station.airfoil)});
+    }
+    const std::string& path = airfoils[static_cast<std::size_t>(station.airfoil) - 1];
+    const auto text = file_text(path);
+    if (!text) return fail(text.error());
+    const auto airfoil = parse_airfoil_of_blade(*text, path);
+    if (!airfoil) return fail(airfoil.error());
+    sections.push_back(
+        placed(*airfoil, station, fmt::format("{} at {:.4g}", file_name(path), station.span)));
+  }
+  return sections;
+}
+
+}  // namespace
+
+Result<ParsedSections> parse_sections(string_view text, string_view name,
+                                      const SectionOptions& options) {
+  Result<ParsedSections> out;
+  if (is_airfoil_of_blade(text)) {
+    const auto airfoil = parse_airfoil_of_blade(text, name);
+    if (!airfoil) return fail(airfoil.error());
+    SpaceSeries section{std::string(name), {}};
+    for (const Vec2 p : airfoil->points) section.points.push_back({p.x, p.y, 0.0});
+    out = ParsedSections{{std::move(section)}, true};
+  } else {
+    const auto rows = number_rows(text, name);
+    if (is_plain_list(rows)) {
+      out = flat_section(text, name);
+    } else {
+      out = is_rotor(*rows) ? rotor_sections(*rows, name) : from_rows(*rows, name);
+    }
+  }
+  if (out && out->flat) lift(out->sections, options.spacing);
+  return out;
+}
+
+Result<std::vector<SpaceSeries>> read_sections(const std::vector<std::string>& paths,
+                                               const SectionOptions& options) {
+  if (paths.empty()) return fail({ErrorCode::kUsage, "no files with sections", "", "", -1, 0.0});
+  const bool matrices = std::all_of(paths.begin(), paths.end(),
+                                    [](const std::string& path) { return is_one_of_three(path); });
+  if (matrices && (paths.size() == 1 || paths.size() == 3)) return rows_of_grid(paths);
+  std::vector<SpaceSeries> sections;
+  bool all_flat = true;
+  for (const std::string& path : paths) {
+    const auto text = file_text(path);
+    if (!text) return fail(text.error());
+    if (is_blade_table(*text)) {
+      std::vector<std::string> airfoils;
+      std::copy_if(paths.begin(), paths.end(), std::back_inserter(airfoils),
+                   [&](const std::string& other) { return other != path; });
+      return blade_sections(path, *text, airfoils);
+    }
+    auto parsed = parse_sections(*text, path, options);
+    if (!parsed) return fail(parsed.error());
+    all_flat = all_flat && parsed->flat;
+    if (paths.size() > 1 && parsed->sections.size() == 1)
+      parsed->sections.front().name = file_name(path);
+    std::move(parsed->sections.begin(), parsed->sections.end(), std::back_inserter(sections));
+  }
+  if (all_flat) lift(sections, options.spacing);
+  return sections;
+}
+
+}  // namespace obvid

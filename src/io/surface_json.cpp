@@ -1,0 +1,148 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "obvid/io/surface_json.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <iterator>
+#include <nlohmann/json.hpp>
+#include <utility>
+
+#include "contour_json_values.h"
+
+namespace obvid {
+namespace {
+
+constexpr const char* kFormat = "obvid-surface";
+constexpr int kVersion = 1;
+
+void write_number(fmt::memory_buffer& out, double value) {
+  // "-0" would be read as the integer 0
+  if (value == 0.0 && std::signbit(value)) {
+    fmt::format_to(std::back_inserter(out), "-0.0");
+  } else {
+    fmt::format_to(std::back_inserter(out), "{}", value);
+  }
+}
+
+void write_list(fmt::memory_buffer& out, const std::vector<double>& values) {
+  const char* comma = "[";
+  for (const double value : values) {
+    fmt::format_to(std::back_inserter(out), "{}", comma);
+    write_number(out, value);
+    comma = ", ";
+  }
+  fmt::format_to(std::back_inserter(out), "]");
+}
+
+std::string quoted(const std::string& text) {
+  return nlohmann::json(text).dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
+}
+
+void write_patch(fmt::memory_buffer& out, const SurfacePatch& patch) {
+  const NurbsSurface& s = patch.surface;
+  auto to = std::back_inserter(out);
+  fmt::format_to(to, "  {{\"name\": {}, \"degree_u\": {}, \"degree_v\": {},\n", quoted(patch.name),
+                 s.degree_u, s.degree_v);
+  fmt::format_to(to, "   \"knots_u\": ");
+  write_list(out, s.knots_u);
+  fmt::format_to(to, ",\n   \"knots_v\": ");
+  write_list(out, s.knots_v);
+  fmt::format_to(to, ",\n   \"points\": [");
+  for (std::size_t i = 0; i < s.points.size(); ++i) {
+    // a row along u on each line
+    fmt::format_to(to, "{}", i == 0 ? "\n    " : i % s.count_u() == 0 ? ",\n    " : ", ");
+    write_list(out, {s.points[i].x, s.points[i].y, s.points[i].z});
+  }
+  fmt::format_to(to, "]");
+  if (!s.weights.empty()) {
+    fmt::format_to(to, ",\n   \"weights\": ");
+    write_list(out, s.weights);
+  }
+  fmt::format_to(to, "}}");
+}
+
+class Reader : private JsonValues {
+ public:
+  using JsonValues::JsonValues;
+
+  Result<SurfaceModel> read(const nlohmann::json& document) {
+    const Node root{&document, nullptr, {}, 0};
+    const Node format = field(root, "format");
+    if (!failed() && word(format) != kFormat) refuse(format, "this is no surface file");
+    const Node version = field(root, "version");
+    if (!failed() && integer(version, 1, kMaxInteger) != kVersion) {
+      refuse(version, "this version of the format is not known");
+    }
+    if (const auto name = optional_field(root, "name")) model_.name = word(*name);
+    if (const auto units = optional_field(root, "units")) model_.units = word(*units);
+    if (!failed()) {
+      each(field(root, "patches"),
+           [&](const Node& node) { model_.patches.push_back(patch(node)); });
+    }
+    if (error_) return fail(*error_);
+    return std::move(model_);
+  }
+
+ private:
+  std::vector<double> numbers(const Node& node) {
+    std::vector<double> values;
+    each(node, [&](const Node& one) { values.push_back(number(one)); });
+    return values;
+  }
+
+  Vec3 point_of(const Node& node) {
+    const std::vector<double> values = numbers(node);
+    if (failed()) return {};
+    if (values.size() != 3) {
+      refuse(node, "a point has three coordinates");
+      return {};
+    }
+    return {values[0], values[1], values[2]};
+  }
+
+  SurfacePatch patch(const Node& node) {
+    SurfacePatch out;
+    NurbsSurface& s = out.surface;
+    if (const auto name = optional_field(node, "name")) out.name = word(*name);
+    s.degree_u = static_cast<int>(integer(field(node, "degree_u"), 1, kMaxSurfaceDegree));
+    if (!failed())
+      s.degree_v = static_cast<int>(integer(field(node, "degree_v"), 1, kMaxSurfaceDegree));
+    if (!failed()) s.knots_u = numbers(field(node, "knots_u"));
+    if (!failed()) s.knots_v = numbers(field(node, "knots_v"));
+    if (!failed())
+      each(field(node, "points"), [&](const Node& one) { s.points.push_back(point_of(one)); });
+    if (!failed()) {
+      if (const auto weights = optional_field(node, "weights")) s.weights = numbers(*weights);
+    }
+    if (failed()) return out;
+    if (auto good = check(s); !good) refuse(node, good.error().what);
+    return out;
+  }
+
+  SurfaceModel model_;
+};
+
+}  // namespace
+
+std::string surface_json(const SurfaceModel& model) {
+  fmt::memory_buffer out;
+  auto to = std::back_inserter(out);
+  fmt::format_to(
+      to, "{{\"format\": \"{}\", \"version\": {},\n \"name\": {}, \"units\": {},\n \"patches\": [",
+      kFormat, kVersion, quoted(model.name), quoted(model.units));
+  for (std::size_t i = 0; i < model.patches.size(); ++i) {
+    fmt::format_to(to, "{}", i == 0 ? "\n" : ",\n");
+    write_patch(out, model.patches[i]);
+  }
+  fmt::format_to(to, "]}}\n");
+  return fmt::to_string(out);
+}
+
+Result<SurfaceModel> surface_from_json(std::string_view text, std::string_view name) {
+  const auto document = parse_json(text, name);
+  if (!document) return fail(document.error());
+  return Reader(name).read(*document);
+}
+
+}  // namespace obvid

@@ -1,0 +1,145 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "obvid/pipeline/surface_export.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cctype>
+#include <numbers>
+#include <utility>
+
+#include "obvid/exchange/mesh_files.h"
+#include "obvid/io/surface_json.h"
+#include "surface_kinds.h"
+
+namespace obvid {
+namespace {
+
+struct Ending {
+  const char* ending;
+  SurfaceFormat format;
+  const char* what;  ///< empty for a second ending of the format before
+};
+
+constexpr std::array kEndings = {
+    Ending{".json", SurfaceFormat::kSurface, "surface"},
+    Ending{".step", SurfaceFormat::kStep, "STEP"},
+    Ending{".stp", SurfaceFormat::kStep, ""},
+    Ending{".iges", SurfaceFormat::kIges, "IGES"},
+    Ending{".igs", SurfaceFormat::kIges, ""},
+    Ending{".brep", SurfaceFormat::kBrep, "BREP"},
+    Ending{".stl", SurfaceFormat::kStl, "STL triangles"},
+    Ending{".obj", SurfaceFormat::kObj, "OBJ triangles"},
+    Ending{".glb", SurfaceFormat::kGlb, "glTF"},
+    Ending{".ply", SurfaceFormat::kPly, "PLY triangles"},
+    Ending{".html", SurfaceFormat::kPage, "page for browsers"},
+    Ending{".svg", SurfaceFormat::kPicture, "picture"},
+};
+
+constexpr double kDefaultChordTolerance = 1e-3;  ///< of the size: not seen on a screen
+constexpr double kDefaultAngle = 15.0 * std::numbers::pi / 180.0;
+
+double size_of(const SurfaceModel& model) {
+  std::vector<Vec3> points;
+  for (const SurfacePatch& patch : model.patches) {
+    points.insert(points.end(), patch.surface.points.begin(), patch.surface.points.end());
+  }
+  return pipeline_detail::size_of(points);
+}
+
+}  // namespace
+
+std::optional<SurfaceFormat> surface_format_of(std::string_view path) {
+  std::string lower(path);
+  std::transform(lower.begin(), lower.end(), lower.begin(),
+                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  for (const Ending& ending : kEndings) {
+    if (lower.ends_with(ending.ending)) return ending.format;
+  }
+  return std::nullopt;
+}
+
+std::string known_surface_endings() {
+  std::string all;
+  for (const Ending& ending : kEndings) {
+    if (*ending.what == '\0') continue;
+    all += fmt::format("{}{} ({})", all.empty() ? "" : ", ", ending.ending, ending.what);
+  }
+  return all;
+}
+
+SurfaceExporter::SurfaceExporter(const SurfaceModel& model, const SurfaceExportOptions& options,
+                                 Progress progress)
+    : model_(model), options_(options), progress_(std::move(progress)) {}
+
+Result<void> SurfaceExporter::tessellated(std::vector<std::string>& remarks) {
+  if (!meshes_.empty()) return {};
+  TessellationOptions options;
+  options.chord_tolerance =
+      options_.chord_tolerance.value_or(kDefaultChordTolerance * size_of(model_));
+  options.angle = options_.angle > 0.0 ? options_.angle : kDefaultAngle;
+  auto made = tessellate(model_, options, progress_);
+  if (!made) return fail(made.error());
+  meshes_ = std::move(*made);
+  std::size_t triangles = 0;
+  double deviation = 0.0;
+  for (const Mesh& mesh : meshes_) {
+    triangles += mesh.triangles.size();
+    deviation = std::max(deviation, mesh.deviation);
+  }
+  remarks.push_back(fmt::format("{} triangles within {:.3g} {} of the surface", triangles,
+                                deviation, model_.units));
+  return {};
+}
+
+Result<std::string> SurfaceExporter::text(SurfaceFormat format, std::vector<std::string>& remarks) {
+  const bool triangles = format == SurfaceFormat::kStl || format == SurfaceFormat::kObj ||
+                         format == SurfaceFormat::kGlb || format == SurfaceFormat::kPly ||
+                         format == SurfaceFormat::kPage;
+  if (triangles) {
+    if (auto done = tessellated(remarks); !done) return fail(done.error());
+  }
+  CadWriteOptions cad;
+  cad.units = model_.units;
+  switch (format) {
+    case SurfaceFormat::kSurface:
+      return surface_json(model_);
+    case SurfaceFormat::kStep:
+      cad.format = options_.step;
+      return cad_surface_text(model_, cad);
+    case SurfaceFormat::kIges:
+      cad.format = CadFormat::kIges;
+      return cad_surface_text(model_, cad);
+    case SurfaceFormat::kBrep:
+      cad.format = CadFormat::kBrep;
+      return cad_surface_text(model_, cad);
+    case SurfaceFormat::kStl:
+      remarks.push_back(fmt::format("STL holds single precision: another {:.2g} {}",
+                                    single_precision_loss(meshes_), model_.units));
+      return stl_text(model_, meshes_);
+    case SurfaceFormat::kObj:
+      return obj_mesh_text(model_, meshes_);
+    case SurfaceFormat::kGlb:
+      return glb_text(model_, meshes_);
+    case SurfaceFormat::kPly:
+      return ply_text(model_, meshes_);
+    case SurfaceFormat::kPage: {
+      PageOptions page;
+      page.colouring = options_.colouring;
+      page.view = options_.view;
+      page.lines = options_.lines;
+      return surface_page(model_, meshes_, page, progress_);
+    }
+    case SurfaceFormat::kPicture: {
+      SurfacePictureOptions picture;
+      picture.colouring = options_.colouring;
+      picture.view = options_.view;
+      picture.lines = options_.lines;
+      return surface_svg(model_, picture);
+    }
+  }
+  return fail({ErrorCode::kInternal, "unknown format", "", "", -1, 0.0});
+}
+
+}  // namespace obvid

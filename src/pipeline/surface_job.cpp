@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "obvid/pipeline/surface_job.h"
+
+#include "surface_kinds.h"
+
+namespace obvid {
+namespace {
+
+using namespace pipeline_detail;
+
+Result<MadeSurface> made_by(const SurfaceJob& job, const Progress& progress) {
+  switch (job.kind) {
+    case SurfaceKind::kRuled:
+      return make_ruled(job, progress);
+    case SurfaceKind::kRevolve:
+      return make_revolution(job);
+    case SurfaceKind::kCoons:
+      return make_coons(job);
+    case SurfaceKind::kGordon:
+      return make_gordon(job);
+    case SurfaceKind::kGrid:
+      return make_grid(job, progress);
+    case SurfaceKind::kSkin:
+      return make_skin(job, progress);
+    case SurfaceKind::kOffset:
+      return make_offset(job);
+    case SurfaceKind::kId:
+      return make_id(job);
+    case SurfaceKind::kConvert:
+      return make_converted(job);
+  }
+  return fail({ErrorCode::kInternal, "unknown kind of surface", "", "", -1, 0.0});
+}
+
+}  // namespace
+
+Result<MadeSurface> make_surface(const SurfaceJob& job, const Progress& progress) {
+  auto made = made_by(job, progress);
+  if (made && job.units) made->model.units = *job.units;
+  return made;
+}
+
+}  // namespace obvid

@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "obvid/core/progress.h"
+#include "obvid/core/result.h"
+#include "obvid/pipeline/surface_job.h"
+
+namespace obvid::pipeline_detail {
+
+/// One function for each kind of surface; errors as `make_surface`.
+[[nodiscard]] Result<MadeSurface> make_ruled(const SurfaceJob& job, const Progress& progress);
+[[nodiscard]] Result<MadeSurface> make_revolution(const SurfaceJob& job);
+[[nodiscard]] Result<MadeSurface> make_coons(const SurfaceJob& job);
+[[nodiscard]] Result<MadeSurface> make_gordon(const SurfaceJob& job);
+[[nodiscard]] Result<MadeSurface> make_grid(const SurfaceJob& job, const Progress& progress);
+[[nodiscard]] Result<MadeSurface> make_skin(const SurfaceJob& job, const Progress& progress);
+[[nodiscard]] Result<MadeSurface> make_offset(const SurfaceJob& job);
+[[nodiscard]] Result<MadeSurface> make_id(const SurfaceJob& job);
+[[nodiscard]] Result<MadeSurface> make_converted(const SurfaceJob& job);
+
+/// Points along a curve, to be drawn with the surface.
+[[nodiscard]] ScenePolyline drawn(const SpaceCurve& curve, const char* role = "section");
+/// Diagonal of the box of points.
+[[nodiscard]] double size_of(const std::vector<Vec3>& points);
+
+/// A surface of one patch as NURBS within the job's tolerance, or 1e-5 of `size`.
+[[nodiscard]] Result<MadeSurface> made_of(const Surface& surface, const std::string& name,
+                                          double size, const SurfaceJob& job);
+
+}  // namespace obvid::pipeline_detail
