@@ -84,9 +84,42 @@ SurfaceJet evaluate_kind(const IdSurface& s, double u, double v) {
           {x.dxx, y.dxx, z.dxx},       {x.dxy, y.dxy, z.dxy}, {x.dyy, y.dyy, z.dyy}};
 }
 
+namespace {
+
+/// As many numbers as the nodes need, all finite, nodes ascending.
+Result<void> check_spline(const IdSpline2d& s) {
+  const std::size_t nx = s.x.size(), ny = s.y.size();
+  const auto ascends = [](const std::vector<double>& nodes) {
+    return nodes.size() >= 2 &&
+           std::adjacent_find(nodes.begin(), nodes.end(),
+                              [](double a, double b) { return !(b > a); }) == nodes.end();
+  };
+  const auto finite = [](const std::vector<double>& all) {
+    return std::all_of(all.begin(), all.end(), [](double a) { return std::isfinite(a); });
+  };
+  if (!ascends(s.x) || !ascends(s.y)) {
+    return fail({ErrorCode::kBadOption, "the nodes of a spline do not ascend", "", "", -1, 0.0});
+  }
+  if (s.values.size() != nx * ny || s.along_x.size() != (nx - 1) * ny ||
+      s.along_y.size() != nx * (ny - 1) || s.cells.size() != (nx - 1) * (ny - 1)) {
+    return fail({ErrorCode::kBadOption, "a spline lacks values or integrals of its grid", "",
+                 "form it by id_spline_2d", -1, 0.0});
+  }
+  for (const auto* all : {&s.x, &s.y, &s.values, &s.along_x, &s.along_y, &s.cells}) {
+    if (!finite(*all)) {
+      return fail({ErrorCode::kNotFinite, "a number of a spline is not finite", "", "", -1, 0.0});
+    }
+  }
+  return {};
+}
+
+}  // namespace
+
 Result<NurbsForm> nurbs_of(const IdSurface& s) {
-  const bool same = s.x.x == s.y.x && s.x.x == s.z.x && s.x.y == s.y.y && s.x.y == s.z.y;
-  if (!same || s.x.x.size() < 2 || s.x.y.size() < 2) {
+  for (const IdSpline2d* spline : {&s.x, &s.y, &s.z}) {
+    if (auto good = check_spline(*spline); !good) return fail(good.error());
+  }
+  if (!(s.x.x == s.y.x && s.x.x == s.z.x && s.x.y == s.y.y && s.x.y == s.z.y)) {
     return fail(
         {ErrorCode::kBadOption, "the three splines do not stand over one grid", "", "", -1, 0.0});
   }

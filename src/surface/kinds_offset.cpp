@@ -4,42 +4,51 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
+#include <optional>
+#include <span>
 
 #include "kinds.h"
 #include "knots.h"
 #include "obvid/surface/collocation.h"
+#include "third_order.h"
 
 namespace obvid {
 namespace {
 
-/// Point and first derivatives of the offset.
-SurfacePoint first_order(const OffsetSurface& s, double u, double v) {
-  const SurfaceJet j = evaluate(s.base, u, v);
-  const Vec3 area = cross(j.du, j.dv);
-  const double size = norm(area);
-  if (!(size > 0.0)) return {j.point, j.du, j.dv};
-  const Vec3 n = area / size;
-  const Vec3 area_u = cross(j.duu, j.dv) + cross(j.du, j.duv);
-  const Vec3 area_v = cross(j.duv, j.dv) + cross(j.du, j.dvv);
-  const auto turned = [&](Vec3 by) { return (by - dot(by, n) * n) / size; };
-  return {j.point + s.distance * n, j.du + s.distance * turned(area_u),
-          j.dv + s.distance * turned(area_v)};
+/// Whether du x dv is rounding: at poles and collapsed edges it is not exactly 0.
+bool vanishes(const NurbsSurface& base, Vec3 point, Vec3 du, Vec3 dv) {
+  constexpr double kRounding = 1e-13;  // of the coordinates, in a derivative over the whole domain
+  const double lu = domain_u(base).length(), lv = domain_v(base).length();
+  const double coordinates = norm(point) + lu * norm(du) + lv * norm(dv);
+  return norm(cross(du, dv)) <= kRounding * coordinates * (norm(du) / lv + norm(dv) / lu);
 }
 
-/// The normal, at poles the limit from inside.
-Vec3 normal_at(const NurbsSurface& base, double u, double v) {
-  const Range ru = domain_u(base), rv = domain_v(base);
-  const Vec3 middle_u{ru.at(0.5), rv.at(0.5), 0.0};
-  for (const double inwards : {0.0, 1e-7, 1e-5, 1e-3}) {
-    const double a = u + inwards * (middle_u.x - u), b = v + inwards * (middle_u.y - v);
-    const SurfaceCurvature k = curvature(evaluate(base, a, b));
-    if (!(k.normal == Vec3{})) return k.normal;
+/// The normal; where du x dv vanishes its limit from inside, zero where there is none.
+Vec3 normal_at(const NurbsSurface& base, double u, double v, const SurfaceJet& jet) {
+  const Vec3 area = cross(jet.du, jet.dv);
+  if (!vanishes(base, jet.point, jet.du, jet.dv)) return unit(area);
+  // du x dv grows from 0 towards the middle of the domain: its derivative that way
+  const double to_u = domain_u(base).at(0.5) - u, to_v = domain_v(base).at(0.5) - v;
+  const Vec3 by_u = cross(jet.duu, jet.dv) + cross(jet.du, jet.duv);
+  const Vec3 by_v = cross(jet.duv, jet.dv) + cross(jet.du, jet.dvv);
+  const Vec3 inwards = to_u * by_u + to_v * by_v;
+  constexpr double kFlat = 1e-10;  // below this part of its terms the derivative vanishes too
+  const double terms =
+      std::abs(to_u) * (norm(jet.duu) * norm(jet.dv) + norm(jet.du) * norm(jet.duv)) +
+      std::abs(to_v) * (norm(jet.duv) * norm(jet.dv) + norm(jet.du) * norm(jet.dvv));
+  if (norm(inwards) > kFlat * terms) return unit(inwards);
+  for (const double part : {1e-5, 1e-3}) {  // poles of higher order: near them, not in them
+    const double a = u + part * to_u, b = v + part * to_v;
+    const SurfaceJet near = evaluate(base, a, b);
+    if (!vanishes(base, near.point, near.du, near.dv)) return unit(cross(near.du, near.dv));
   }
   return {};
 }
 
 Vec3 point_at(const OffsetSurface& s, double u, double v) {
-  return evaluate(s.base, u, v).point + s.distance * normal_at(s.base, u, v);
+  const SurfaceJet jet = evaluate(s.base, u, v);
+  return jet.point + s.distance * normal_at(s.base, u, v, jet);
 }
 
 /// Order of continuity at an inner knot.
@@ -54,8 +63,8 @@ bool same_slopes_at(const OffsetSurface& s, double u) {
   const auto [left, right] = split_u(s.base, u);
   for (int k = 0; k < kSamples; ++k) {
     const double v = domain_v(s.base).at((k + 0.5) / kSamples);
-    const Vec3 a = first_order({left, s.distance}, u, v).du;
-    const Vec3 b = first_order({right, s.distance}, u, v).du;
+    const Vec3 a = evaluate_kind(OffsetSurface{left, s.distance}, u, v).du;
+    const Vec3 b = evaluate_kind(OffsetSurface{right, s.distance}, u, v).du;
     if (norm(a - b) > kRounding * (norm(a) + norm(b))) return false;
   }
   return true;
@@ -94,6 +103,12 @@ std::vector<double> divided(const Frameworks& frame, int parts) {
   return knots;
 }
 
+tl::unexpected<Error> no_normal(double u, double v) {
+  return fail({ErrorCode::kBadOption,
+               fmt::format("the surface has no normal at u = {:g}, v = {:g}", u, v), "",
+               "an offset needs a surface that does not collapse", -1, 0.0});
+}
+
 /// Bicubic through the offset's points at the Greville abscissae of both knots.
 Result<NurbsSurface> through(const OffsetSurface& s, const std::vector<double>& knots_u,
                              const std::vector<double>& knots_v) {
@@ -106,7 +121,12 @@ Result<NurbsSurface> through(const OffsetSurface& s, const std::vector<double>& 
   out.points.resize(us.size() * vs.size());
   for (std::size_t j = 0; j < vs.size(); ++j) {
     std::vector<Vec3> row;
-    for (const double u : us) row.push_back(point_at(s, u, vs[j]));
+    for (const double u : us) {
+      const SurfaceJet jet = evaluate(s.base, u, vs[j]);
+      const Vec3 normal = normal_at(s.base, u, vs[j], jet);
+      if (normal == Vec3{}) return no_normal(u, vs[j]);
+      row.push_back(jet.point + s.distance * normal);
+    }
     row = along_u->matrix.solve(std::move(row));
     std::copy(row.begin(), row.end(),
               out.points.begin() + static_cast<std::ptrdiff_t>(j * us.size()));
@@ -154,9 +174,36 @@ Errors errors_of(const OffsetSurface& s, const NurbsSurface& form, const std::ve
   return worst;
 }
 
+std::vector<double> sampled(const std::vector<double>& lines) {
+  std::vector<double> at;
+  for (std::size_t i = 0; i + 1 < lines.size(); ++i) {
+    for (const double part : {0.1, 0.3, 0.5, 0.7, 0.9}) {
+      at.push_back(lines[i] + part * (lines[i + 1] - lines[i]));
+    }
+  }
+  return at;
+}
+
+/// Largest error on a raster in each cell, with what it may rise between the samples.
+double measured(const OffsetSurface& s, const NurbsSurface& form, const std::vector<double>& us,
+                const std::vector<double>& vs) {
+  constexpr double kBetween = 1.1;  // quartics rise by less between the samples
+  const std::vector<double> raster_u = sampled(us), raster_v = sampled(vs);
+  std::vector<SurfacePoint> row(raster_u.size());
+  double worst = 0.0;
+  for (const double v : raster_v) {
+    evaluate_raster(form, raster_u, std::span(&v, 1), row);
+    for (std::size_t i = 0; i < row.size(); ++i) {
+      worst = std::max(worst, norm(row[i].point - point_at(s, raster_u[i], v)));
+    }
+  }
+  return kBetween * worst;
+}
+
 /// A plane moves as a whole.
 std::optional<NurbsSurface> moved_plane(const OffsetSurface& s) {
-  const Vec3 n = normal_at(s.base, domain_u(s.base).at(0.5), domain_v(s.base).at(0.5));
+  const double u = domain_u(s.base).at(0.5), v = domain_v(s.base).at(0.5);
+  const Vec3 n = normal_at(s.base, u, v, evaluate(s.base, u, v));
   if (n == Vec3{}) return std::nullopt;
   double coordinate = 0.0, height = 0.0;
   for (const Vec3& p : s.base.points) {
@@ -173,46 +220,52 @@ std::optional<NurbsSurface> moved_plane(const OffsetSurface& s) {
 }  // namespace
 
 SurfaceJet evaluate_kind(const OffsetSurface& s, double u, double v) {
-  constexpr double kStep = 1e-5;  // of the domain: half the digits of first derivatives
-  const SurfacePoint here = first_order(s, u, v);
-  const Range ru = domain_u(s.base), rv = domain_v(s.base);
-  const double hu = kStep * ru.length(), hv = kStep * rv.length();
-  const double u0 = std::max(ru.from, u - hu), u1 = std::min(ru.to, u + hu);
-  const double v0 = std::max(rv.from, v - hv), v1 = std::min(rv.to, v + hv);
-  const SurfacePoint left = first_order(s, u0, v), right = first_order(s, u1, v);
-  const SurfacePoint low = first_order(s, u, v0), high = first_order(s, u, v1);
-  return {here.point,
-          here.du,
-          here.dv,
-          (right.du - left.du) / (u1 - u0),
-          (high.du - low.du) / (v1 - v0),
-          (high.dv - low.dv) / (v1 - v0)};
+  const Partials p = partials_to_third(s.base, u, v);
+  if (vanishes(s.base, p[0][0], p[1][0], p[0][1])) {
+    return {point_at(s, u, v), p[1][0], p[0][1], p[2][0], p[1][1], p[0][2]};
+  }
+  const Partials n = partials_of_unit(partials_of_area(p));
+  const auto moved = [&](std::size_t r, std::size_t q) { return p[r][q] + s.distance * n[r][q]; };
+  return {moved(0, 0), moved(1, 0), moved(0, 1), moved(2, 0), moved(1, 1), moved(0, 2)};
 }
 
 Result<NurbsForm> nurbs_of(const OffsetSurface& s, double tolerance) {
+  if (!std::isfinite(s.distance)) {
+    return fail(
+        {ErrorCode::kNotFinite, "the distance of the offset is not finite", "", "", -1, 0.0});
+  }
   if (auto plane = moved_plane(s)) return NurbsForm{std::move(*plane), 0.0};
-  constexpr std::size_t kMostPoints = 4'000'000;
+  constexpr std::size_t kMostPoints = 1'000'000;
+  constexpr int kMostStalls = 4;  // divisions that hardly help: something is not smooth
+  constexpr double kHelps = 0.7;  // smooth ones leave 1/16, first ones more
   const Frameworks frame_u = framework(s);
   const Frameworks frame_v = framework({transposed(s.base), -s.distance});
-  int parts_u = 1, parts_v = 1;
-  while (true) {
+  int parts_u = 1, parts_v = 1, stalls = 0;
+  double before = std::numeric_limits<double>::infinity();
+  while (tolerance > 0.0 && stalls < kMostStalls) {
     const std::vector<double> knots_u = divided(frame_u, parts_u);
     const std::vector<double> knots_v = divided(frame_v, parts_v);
-    if (knots_u.size() * knots_v.size() > kMostPoints) {
-      return fail(
-          {ErrorCode::kToleranceNotReached,
-           fmt::format("the offset by {:g} is not followed within {:g}", s.distance, tolerance), "",
-           "allow a larger tolerance; an offset with cusps cannot be followed", -1, tolerance});
-    }
+    if (knots_u.size() * knots_v.size() > kMostPoints) break;
     auto form = through(s, knots_u, knots_v);
     if (!form) return fail(form.error());
-    const Errors worst = errors_of(s, *form, distinct(knots_u), distinct(knots_v));
+    const std::vector<double> us = distinct(knots_u), vs = distinct(knots_v);
+    const Errors worst = errors_of(s, *form, us, vs);
     const double total = worst.u + worst.v;
-    if (total <= tolerance) return NurbsForm{std::move(*form), total};
+    if (total <= tolerance) {
+      const double deviation = measured(s, *form, us, vs);
+      if (deviation <= tolerance) return NurbsForm{std::move(*form), deviation};
+    }
+    stalls = total > kHelps * before ? stalls + 1 : 0;
+    before = total;
     // the direction that errs more is divided; both when they are alike
     if (worst.u >= worst.v / 4.0) parts_u *= 2;
     if (worst.v >= worst.u / 4.0) parts_v *= 2;
   }
+  return fail({ErrorCode::kToleranceNotReached,
+               fmt::format("the offset by {:g} is followed within {:.3g}, not {:g}", s.distance,
+                           before, tolerance),
+               "", "allow a larger tolerance; at creases of the surface its offset is torn", -1,
+               before});
 }
 
 }  // namespace obvid

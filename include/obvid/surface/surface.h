@@ -75,8 +75,9 @@ using Surface = std::variant<NurbsSurface, RuledSurface, DirectedSurface, Revolu
 [[nodiscard]] std::string kind_of(const Surface& surface);
 [[nodiscard]] Range domain_u(const Surface& surface);
 [[nodiscard]] Range domain_v(const Surface& surface);
-/// Point and derivatives straight from the definition, not by way of `to_nurbs`. Second derivatives
-/// of offsets are differences of first ones, good to some 1e-6 of themselves.
+/// Point and derivatives straight from the definition, not by way of `to_nurbs`, of a surface that
+/// `to_nurbs` accepts. Where the base of an offset has no normal, as in a pole, the point is the
+/// limit from inside and the derivatives are those of the base.
 [[nodiscard]] SurfaceJet evaluate(const Surface& surface, double u, double v);
 
 /// A surface as NURBS, over the same parameters, and how far they are apart at most.
