@@ -97,7 +97,7 @@ class Case:
             self.faults.append(text)
 
     def prepare(self, folder):
-        for example in self.examples.glob("*.csv"):
+        for example in self.examples.glob("**/*.csv"):
             shutil.copy(example, folder)
         for name, text in self.data.get("files", {}).items():
             (folder / name).write_text(text)
@@ -160,7 +160,7 @@ class Case:
             self.check(name in before, f"{name} did not exist before")
             self.check((folder / name).read_bytes() == before.get(name), f"{name} was changed")
         for name, part in data.get("holds", {}).items():
-            written = (folder / name).read_text() if (folder / name).exists() else ""
+            written = (folder / name).read_text(errors="replace") if (folder / name).exists() else ""
             self.check(part in written, f"{name} does not hold {part!r}")
         for name in data.get("absent", []):
             self.check(not (folder / name).exists(), f"{name} exists")
