@@ -17,8 +17,10 @@ namespace obvid {
 [[nodiscard]] Result<NurbsForm> nurbs_of(const RuledSurface& s);
 [[nodiscard]] Result<NurbsForm> nurbs_of(const DirectedSurface& s);
 [[nodiscard]] Result<NurbsForm> nurbs_of(const RevolutionSurface& s);
-[[nodiscard]] Result<NurbsForm> nurbs_of(const CoonsPatch& s, double tolerance);
-[[nodiscard]] Result<NurbsForm> nurbs_of(const GordonSurface& s, double tolerance);
+/// Rational curves followed within a third of `tolerance` each, which bounds the `deviation` of a
+/// Coons patch only; gaps between curves up to `gap` are let pass.
+[[nodiscard]] Result<NurbsForm> nurbs_of(const CoonsPatch& s, double tolerance, double gap);
+[[nodiscard]] Result<NurbsForm> nurbs_of(const GordonSurface& s, double tolerance, double gap);
 [[nodiscard]] Result<NurbsForm> nurbs_of(const OffsetSurface& s, double tolerance);
 [[nodiscard]] Result<NurbsForm> nurbs_of(const IdSurface& s);
 

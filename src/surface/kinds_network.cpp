@@ -150,6 +150,15 @@ Result<void> check_net(const GordonSurface& s, double allowed) {
     return fail(
         {ErrorCode::kBadOption, "each curve needs its parameter, from 0 to 1", "", "", -1, 0.0});
   }
+  for (const auto* at : {&s.v_at, &s.u_at}) {
+    for (std::size_t i = 1; i < at->size(); ++i) {
+      if ((*at)[i] > (*at)[i - 1]) continue;
+      return fail({ErrorCode::kBadOption,
+                   fmt::format("the parameter of curve {} is not above the one before", i + 1), "",
+                   "give curves in the order of their parameters", static_cast<std::ptrdiff_t>(i),
+                   (*at)[i]});
+    }
+  }
   const auto points = crossings(s);
   for (std::size_t j = 0; j < points.size(); ++j) {
     for (std::size_t i = 0; i < points[j].size(); ++i) {
@@ -180,9 +189,9 @@ SurfaceJet evaluate_kind(const CoonsPatch& s, double u, double v) {
           b.duu};
 }
 
-Result<NurbsForm> nurbs_of(const CoonsPatch& s, double tolerance) {
+Result<NurbsForm> nurbs_of(const CoonsPatch& s, double tolerance, double gap) {
   std::vector<SpaceCurve> curves = {s.u_at_v0, s.u_at_v1, s.v_at_u0, s.v_at_u1};
-  const double allowed = kMeeting * extent(curves) + std::max(0.0, tolerance);
+  const double allowed = kMeeting * extent(curves) + std::max(0.0, gap);
   // four curves deviate together three times at most: two ruled surfaces and the bilinear one
   const auto deviation = make_polynomial(curves, tolerance / 3.0);
   if (!deviation) return fail(deviation.error());
@@ -207,11 +216,11 @@ SurfaceJet evaluate_kind(const GordonSurface& s, double u, double v) {
       a.first.d1 + b.first.d1 - c.first.d1,          a.value.d2 + b.second.point - c.value.d2};
 }
 
-Result<NurbsForm> nurbs_of(const GordonSurface& given, double tolerance) {
+Result<NurbsForm> nurbs_of(const GordonSurface& given, double tolerance, double gap) {
   GordonSurface s = given;
   std::vector<SpaceCurve> all = s.along_u;
   all.insert(all.end(), s.along_v.begin(), s.along_v.end());
-  const double allowed = kMeeting * extent(all) + std::max(0.0, tolerance);
+  const double allowed = kMeeting * extent(all) + std::max(0.0, gap);
   const auto along_u = make_polynomial(s.along_u, tolerance / 3.0);
   if (!along_u) return fail(along_u.error());
   const auto along_v = make_polynomial(s.along_v, tolerance / 3.0);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
-#include <array>
+#include <cmath>
+#include <iterator>
 
 #include "kinds.h"
 #include "knots.h"
@@ -11,21 +12,23 @@ namespace {
 /// Knots of all surfaces in one direction, rounding differences made equal, largest multiplicities.
 std::vector<double> common(std::vector<NurbsSurface>& surfaces,
                            std::vector<double> NurbsSurface::*knots) {
-  std::vector<double> all;
-  for (NurbsSurface& s : surfaces) {
-    for (double& u : s.*knots) {
-      const auto near = std::find_if(
-          all.begin(), all.end(), [&](double other) { return std::abs(other - u) <= kSameKnot; });
-      if (near != all.end()) {
-        u = *near;
-      } else {
-        all.push_back(u);
-      }
-    }
+  std::vector<double> all, kept;
+  for (const NurbsSurface& s : surfaces) {
+    all.insert(all.end(), (s.*knots).begin(), (s.*knots).end());
   }
   std::sort(all.begin(), all.end());
-  std::vector<double> repeated;
   for (const double u : all) {
+    if (kept.empty() || u - kept.back() > kSameKnot) kept.push_back(u);
+  }
+  kept.back() = 1.0;
+  for (NurbsSurface& s : surfaces) {
+    for (double& u : s.*knots) {
+      const auto near = std::lower_bound(kept.begin(), kept.end(), u - kSameKnot);
+      if (near != kept.end() && std::abs(*near - u) <= kSameKnot) u = *near;
+    }
+  }
+  std::vector<double> repeated;
+  for (const double u : kept) {
     std::size_t most = 0;
     for (const NurbsSurface& s : surfaces) most = std::max(most, multiplicity(s.*knots, u));
     repeated.insert(repeated.end(), most, u);

@@ -23,19 +23,54 @@ struct Name {
 
 constexpr Range kUnit{0.0, 1.0};
 
+Range ends_of(const std::vector<double>& nodes) {
+  return nodes.empty() ? kUnit : Range{nodes.front(), nodes.back()};
+}
+
+/// Places in the spans of knots, thinned where there are very many.
+std::vector<double> sampled(const std::vector<double>& knots) {
+  constexpr std::size_t kMost = 120;
+  std::vector<double> at;
+  for (std::size_t k = 1; k < knots.size(); ++k) {
+    const Range span{knots[k - 1], knots[k]};
+    if (!(span.length() > 0.0)) continue;
+    // half way is where cubics with the right ends and slopes err most
+    for (const double part : {0.0, 0.2, 0.5, 0.8}) at.push_back(span.at(part));
+  }
+  at.push_back(knots.back());
+  const std::size_t step = 1 + at.size() / kMost;
+  std::vector<double> thinned;
+  for (std::size_t i = 0; i < at.size(); i += step) thinned.push_back(at[i]);
+  return thinned;
+}
+
 /// Largest distance of the NURBS form from the definition on a raster.
 double measured(const Surface& surface, const NurbsSurface& form) {
-  constexpr int kSteps = 40;
+  const std::vector<double> us = sampled(form.knots_u), vs = sampled(form.knots_v);
   double worst = 0.0;
-  const Range u = domain_u(form), v = domain_v(form);
-  for (int j = 0; j <= kSteps; ++j) {
-    for (int i = 0; i <= kSteps; ++i) {
-      const double a = u.at(static_cast<double>(i) / kSteps),
-                   b = v.at(static_cast<double>(j) / kSteps);
-      worst = std::max(worst, norm(evaluate(surface, a, b).point - evaluate(form, a, b).point));
+  for (const double v : vs) {
+    for (const double u : us) {
+      worst = std::max(worst, norm(evaluate(surface, u, v).point - evaluate(form, u, v).point));
     }
   }
-  return worst;
+  constexpr double kBetween = 1.1;  // what errors rise between samples
+  return kBetween * worst;
+}
+
+/// Coons and Gordon of rational curves: errors of the curves add, and interpolation across a net
+/// makes them larger by some factor that is found by trying.
+template <class Kind>
+Result<NurbsForm> network_form(const Kind& kind, double tolerance) {
+  constexpr int kTries = 5;
+  double share = tolerance;
+  for (int i = 0; i < kTries; ++i, share /= 4.0) {
+    auto form = nurbs_of(kind, share, tolerance);
+    if (!form || form->deviation == 0.0) return form;
+    form->deviation = std::max(measured(kind, form->surface), form->deviation / 3.0);
+    if (form->deviation <= tolerance) return form;
+  }
+  return fail({ErrorCode::kToleranceNotReached, "rational curves of a net are not followed", "",
+               "allow a larger tolerance", -1, tolerance});
 }
 
 template <class Kind>
@@ -44,11 +79,7 @@ Result<NurbsForm> form_of(const Kind& kind, double tolerance) {
     if (auto good = check(kind); !good) return fail(good.error());
     return NurbsForm{kind, 0.0};
   } else if constexpr (std::is_same_v<Kind, CoonsPatch> || std::is_same_v<Kind, GordonSurface>) {
-    auto form = nurbs_of(kind, tolerance);
-    if (form && form->deviation > 0.0) {
-      form->deviation = std::max(measured(kind, form->surface), form->deviation / 3.0);
-    }
-    return form;
+    return network_form(kind, tolerance);
   } else if constexpr (std::is_same_v<Kind, OffsetSurface>) {
     if (auto good = check(kind.base); !good) return fail(good.error());
     return nurbs_of(kind, tolerance);
@@ -76,14 +107,14 @@ std::string kind_of(const Surface& surface) { return std::visit(Name{}, surface)
 Range domain_u(const Surface& surface) {
   if (const auto* s = std::get_if<NurbsSurface>(&surface)) return domain_u(*s);
   if (const auto* s = std::get_if<OffsetSurface>(&surface)) return domain_u(s->base);
-  if (const auto* s = std::get_if<IdSurface>(&surface)) return {s->x.x.front(), s->x.x.back()};
+  if (const auto* s = std::get_if<IdSurface>(&surface)) return ends_of(s->x.x);
   return kUnit;
 }
 
 Range domain_v(const Surface& surface) {
   if (const auto* s = std::get_if<NurbsSurface>(&surface)) return domain_v(*s);
   if (const auto* s = std::get_if<OffsetSurface>(&surface)) return domain_v(s->base);
-  if (const auto* s = std::get_if<IdSurface>(&surface)) return {s->x.y.front(), s->x.y.back()};
+  if (const auto* s = std::get_if<IdSurface>(&surface)) return ends_of(s->x.y);
   if (const auto* s = std::get_if<DirectedSurface>(&surface)) return {s->from, s->to};
   return kUnit;
 }
