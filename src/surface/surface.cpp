@@ -38,7 +38,8 @@ std::vector<double> sampled(const std::vector<double>& knots) {
     for (const double part : {0.0, 0.2, 0.5, 0.8}) at.push_back(span.at(part));
   }
   at.push_back(knots.back());
-  const std::size_t step = 1 + at.size() / kMost;
+  // odd, so that all places within spans have their turn
+  const std::size_t step = (1 + at.size() / kMost) | 1U;
   std::vector<double> thinned;
   for (std::size_t i = 0; i < at.size(); i += step) thinned.push_back(at[i]);
   return thinned;
