@@ -11,7 +11,7 @@
 #include <sstream>
 #include <tuple>
 
-#include "faces_models.h"
+#include "faces_fixture.h"
 #include "obvid/cad/cad.h"
 
 namespace obvid {
@@ -22,9 +22,6 @@ namespace fs = std::filesystem;
 constexpr const char* kFile = "OBVID_TEST_FACES_FILE";
 constexpr const char* kModel = "OBVID_TEST_FACES_MODEL";
 constexpr const char* kUnits = "OBVID_TEST_FACES_UNITS";
-
-constexpr CadFormat kFormats[] = {CadFormat::kStepAp214, CadFormat::kStepAp242, CadFormat::kIges,
-                                  CadFormat::kBrep};
 
 double millimetres(const std::string& units) {
   return units == "m" ? 1000.0 : units == "in" ? 25.4 : 1.0;
@@ -93,61 +90,30 @@ TEST(FaceReader, FindsTheSurfacesOfAnotherProcess) {
   }
 }
 
-class FaceFiles : public testing::Test {
- protected:
-  void SetUp() override {
-    const auto text = cad_surface_text(plane_model().model, {});
-    if (!text && text.error().code == ErrorCode::kUnsupported) {
-      GTEST_SKIP() << "the plugin is not built: " << text.error().what;
-    }
-    ASSERT_TRUE(text) << to_line(text.error());
-    std::string pattern = (fs::temp_directory_path() / "obvid-test-XXXXXX").string();
-    ASSERT_NE(::mkdtemp(pattern.data()), nullptr);
-    folder_ = pattern;
+/// Whether a new process reads the model out of the file.
+void expect_found(const fs::path& file, const SurfaceModel& model) {
+  std::ostringstream command;
+  command << kFile << "='" << file.string() << "' " << kModel << "=" << model.name << " " << kUnits
+          << "=" << model.units << " " << fs::read_symlink("/proc/self/exe").string()
+          << " --gtest_filter=FaceReader.* 2>&1 </dev/null";
+  std::string out;
+  FILE* pipe = ::popen(command.str().c_str(), "r");
+  ASSERT_NE(pipe, nullptr);
+  char buffer[4096];
+  for (std::size_t n = 0; (n = std::fread(buffer, 1, sizeof buffer, pipe)) > 0;) {
+    out.append(buffer, n);
   }
-  void TearDown() override {
-    if (!folder_.empty()) fs::remove_all(folder_);
-  }
-
-  fs::path written(const SurfaceModel& model, CadFormat format) {
-    CadWriteOptions options;
-    options.format = format;
-    const auto text = cad_surface_text(model, options);
-    EXPECT_TRUE(text) << model.name << to_line(text.error());
-    const char* ending = format == CadFormat::kBrep   ? ".brep"
-                         : format == CadFormat::kIges ? ".igs"
-                                                      : ".step";
-    fs::path file = folder_ / (model.name + ending);
-    std::ofstream(file, std::ios::binary) << (text ? *text : std::string{});
-    return file;
-  }
-
-  /// Whether a new process reads the model out of the file.
-  static void expect_found(const fs::path& file, const SurfaceModel& model) {
-    std::ostringstream command;
-    command << kFile << "='" << file.string() << "' " << kModel << "=" << model.name << " "
-            << kUnits << "=" << model.units << " " << fs::read_symlink("/proc/self/exe").string()
-            << " --gtest_filter=FaceReader.* 2>&1 </dev/null";
-    std::string out;
-    FILE* pipe = ::popen(command.str().c_str(), "r");
-    ASSERT_NE(pipe, nullptr);
-    char buffer[4096];
-    for (std::size_t n = 0; (n = std::fread(buffer, 1, sizeof buffer, pipe)) > 0;) {
-      out.append(buffer, n);
-    }
-    EXPECT_EQ(::pclose(pipe), 0) << file.filename() << "\n" << out;
-    EXPECT_NE(out.find("[  PASSED  ] 1 test"), std::string::npos) << out;
-  }
-
-  fs::path folder_;
-};
+  EXPECT_EQ(::pclose(pipe), 0) << file.filename() << "\n" << out;
+  EXPECT_NE(out.find("[  PASSED  ] 1 test"), std::string::npos) << out;
+}
 
 TEST_F(FaceFiles, EveryFormatKeepsTheSurfacesAndTheirNames) {
   int models = 0;
   for (const KnownModel& one : known_models()) {
     if (one.faces != one.model.patches.size()) continue;  // cut at creases: the next test
     ++models;
-    for (const CadFormat format : kFormats) expect_found(written(one.model, format), one.model);
+    for (const CadFormat format : kAllCadFormats)
+      expect_found(written(one.model, format), one.model);
   }
   EXPECT_GE(models, 7);
 }
@@ -156,7 +122,7 @@ TEST_F(FaceFiles, UnitsKeepTheLengths) {
   for (const char* units : {"m", "in"}) {
     SurfaceModel model = sphere_model().model;
     model.units = units;
-    for (const CadFormat format : kFormats) expect_found(written(model, format), model);
+    for (const CadFormat format : kAllCadFormats) expect_found(written(model, format), model);
   }
   SurfaceModel model = plane_model().model;
   model.units = "furlong";
@@ -165,33 +131,9 @@ TEST_F(FaceFiles, UnitsKeepTheLengths) {
   EXPECT_EQ(refused.error().code, ErrorCode::kBadOption);
 }
 
-TEST_F(FaceFiles, ACreaseCutsAPatchIntoNamedParts) {
-  const auto read = read_cad_surfaces(written(roof_model().model, CadFormat::kStepAp214).string());
-  ASSERT_TRUE(read) << to_line(read.error());
-  ASSERT_EQ(read->model.patches.size(), 2U);
-  EXPECT_EQ(read->model.patches[0].name, "roof, part 1 of 2");
-  EXPECT_EQ(read->model.patches[1].name, "roof, part 2 of 2");
-  for (const double part : {0.0, 0.4, 1.0}) {  // the line where they meet: x = 3, z = 4
-    const Vec3 ridge = evaluate(read->model.patches[0].surface, 0.5, part).point;
-    EXPECT_NEAR(norm(ridge - Vec3{3, 7.0 * part, 4}), 0.0, 1e-12);
-  }
-}
-
-TEST_F(FaceFiles, CreasesBothWaysCutInFour) {
-  NurbsSurface tent{1, 1, {0, 0, 0.5, 1, 1}, {0, 0, 0.5, 1, 1}, {}, {}};
-  for (int k = 0; k < 9; ++k) {
-    const double x = k % 3, y = k / 3;
-    tent.points.push_back({x, y, k == 4 ? 1.0 : 0.0});
-  }
-  const SurfaceModel model{"tent", "mm", {{"tent", tent}}};
-  const auto read = read_cad_surfaces(written(model, CadFormat::kBrep).string());
-  ASSERT_TRUE(read);
-  EXPECT_EQ(read->model.patches.size(), 4U);
-}
-
 TEST_F(FaceFiles, TheSameModelGivesTheSameBytes) {
   for (const KnownModel& one : {sphere_model(), box_model()}) {
-    for (const CadFormat format : kFormats) {
+    for (const CadFormat format : kAllCadFormats) {
       CadWriteOptions options;
       options.format = format;
       const auto a = cad_surface_text(one.model, options), b = cad_surface_text(one.model, options);
@@ -199,14 +141,6 @@ TEST_F(FaceFiles, TheSameModelGivesTheSameBytes) {
       EXPECT_TRUE(*a == *b) << one.model.name;
     }
   }
-}
-
-std::size_t count_of(const std::string& text, const std::string& word) {
-  std::size_t count = 0;
-  for (std::size_t at = text.find(word); at != std::string::npos; at = text.find(word, at + 1)) {
-    ++count;
-  }
-  return count;
 }
 
 TEST_F(FaceFiles, StepHasOneSplineSurfaceForEachPatch) {
@@ -245,7 +179,7 @@ TEST_F(FaceFiles, LineEndsInNamesBecomeBlanks) {
   SurfaceModel model = plane_model().model;
   model.name = "two\nlines";
   model.patches[0].name = "a\r\nb\tc";
-  for (const CadFormat format : kFormats) {
+  for (const CadFormat format : kAllCadFormats) {
     const auto read = read_cad_surfaces(written(model, format).string());
     ASSERT_TRUE(read) << to_line(read.error());
     if (format == CadFormat::kStepAp214) {
@@ -280,82 +214,8 @@ TEST_F(FaceFiles, WhatIsNoSurfaceIsRefusedByName) {
   EXPECT_FALSE(cad_surface_text(model, {}));
 }
 
-/// What stands in a STEP file.
-struct Counts {
-  std::size_t edges = 0, vertices = 0, shells = 0, solids = 0;
-};
-Counts counts_in_step(const SurfaceModel& model) {
-  const auto text = cad_surface_text(model, {});
-  EXPECT_TRUE(text) << to_line(text.error());
-  if (!text) return {};
-  return {count_of(*text, "= EDGE_CURVE("), count_of(*text, "= VERTEX_POINT("),
-          count_of(*text, "= OPEN_SHELL("), count_of(*text, "= MANIFOLD_SOLID_BREP(")};
-}
-
-TEST_F(FaceFiles, ThreePatchesOnOneLineShareItTwoByTwo) {
-  const Vec3 a{0, 0, 0}, b{0, 0, 5};
-  SurfaceModel model{"fan", "mm", {}};
-  for (const Vec3 p : {Vec3{4, 0, 0}, Vec3{-2, 3, 0}, Vec3{-2, -3, 0}}) {
-    model.patches.push_back({"wing", bilinear(a, a + p, b, b + p)});
-  }
-  const Counts counts = counts_in_step(model);
-  EXPECT_EQ(counts.edges, 11U);  // 12 sides, two of them the same
-  EXPECT_EQ(counts.shells, 2U);
-}
-
-TEST_F(FaceFiles, AMoebiusStripStaysOpenAtOneJoint) {
-  // three flat pieces; the third turns the strip over
-  const Vec3 a0{4, 0, -1}, a1{4, 0, 1}, b0{-2, 3, -1}, b1{-2, 3, 1}, c0{-2, -3, -1}, c1{-2, -3, 1};
-  const SurfaceModel model{"strip",
-                           "mm",
-                           {{"1", bilinear(a0, b0, a1, b1)},
-                            {"2", bilinear(b0, c0, b1, c1)},
-                            {"3", bilinear(c0, a1, c1, a0)}}};
-  const Counts counts = counts_in_step(model);
-  EXPECT_EQ(counts.edges, 10U);  // 12 sides, two joints
-  EXPECT_EQ(counts.solids, 0U);
-  EXPECT_EQ(read_cad_surfaces(written(model, CadFormat::kBrep).string())->model.patches.size(), 3U);
-}
-
-TEST_F(FaceFiles, BordersOfOtherDegreesAndKnotsAreOneWhereTheyAreTheSame) {
-  const NurbsSurface low = bilinear({0, 0, 0}, {4, 0, 0}, {0, 3, 0}, {4, 3, 0});
-  const NurbsSurface high = with_knots_u(
-      with_degrees(bilinear({4, 0, 0}, {0, 0, 0}, {4, 0, 2}, {0, 0, 2}), 4, 2), {0.3, 0.3, 0.7});
-  EXPECT_EQ(counts_in_step({"two", "mm", {{"low", low}, {"high", high}}}).edges, 7U);
-  NurbsSurface off = high;  // by more than 1e-8 of the size
-  for (Vec3& p : off.points) p.y += 1e-6;
-  EXPECT_EQ(counts_in_step({"two", "mm", {{"low", low}, {"off", off}}}).edges, 8U);
-}
-
-TEST_F(FaceFiles, ATriangularPatchHasThreeEdges) {
-  const NurbsSurface triangle = bilinear({0, 0, 0}, {4, 0, 0}, {2, 3, 1}, {2, 3, 1});
-  const Counts counts = counts_in_step({"triangle", "mm", {{"sail", triangle}}});
-  EXPECT_EQ(counts.edges, 3U);
-  EXPECT_EQ(counts.vertices, 3U);
-}
-
-TEST_F(FaceFiles, ASphereSeenFromInsideIsWrittenWithItsNormalOutwards) {
-  SurfaceModel model = sphere_model().model;
-  for (const bool turned : {false, true}) {
-    if (turned) model.patches[0].surface = reversed_u(model.patches[0].surface);
-    const auto read = read_cad_surfaces(written(model, CadFormat::kBrep).string());
-    ASSERT_TRUE(read);
-    const SurfaceJet at = evaluate(read->model.patches.at(0).surface, 0.3, 0.4);
-    EXPECT_GT(dot(cross(at.du, at.dv), at.point), 0.0) << turned;
-  }
-}
-
-TEST_F(FaceFiles, PatchesFarFromTheOriginStillMeet) {
-  SurfaceModel model = box_model().model;
-  for (SurfacePatch& patch : model.patches) {
-    for (Vec3& p : patch.surface.points) p = p + Vec3{1e6 / 3.0, -1e6 / 7.0, 1e5};
-  }
-  EXPECT_EQ(counts_in_step(model).edges, 12U);
-  EXPECT_EQ(counts_in_step(model).solids, 1U);
-}
-
 TEST_F(FaceFiles, DamagedFilesAreRefusedAndNothingCrashes) {
-  for (const CadFormat format : kFormats) {
+  for (const CadFormat format : kAllCadFormats) {
     const fs::path file = written(box_model().model, format);
     std::ifstream in(file, std::ios::binary);
     std::ostringstream text;

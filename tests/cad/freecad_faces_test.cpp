@@ -207,5 +207,44 @@ TEST_F(FacesInFreecad, FacesReadFromPublicFilesLieOnTheirs) {
   for (const auto& [name, v] : judged()) EXPECT_LE(v.distance, 1e-9) << name;
 }
 
+/// Distance of a point from the shape of this name, whose equation is known.
+double off(const std::string& name, Vec3 p) {
+  const double r = std::hypot(p.x, p.y);
+  if (name == "torus") return std::hypot(r - 10.0, p.z) - 3.0;
+  if (name == "cone") return r - 4.0 + 4.0 / 3.0 * p.z;
+  if (name == "cylinder" || name == "extrusion") return r - 2.0;
+  return norm(p) - 5.0;
+}
+
+TEST_F(FacesInFreecad, FacesOfAllKindsAreReadAsTheyAre) {
+  const std::string out =
+      output_of("HOME=" + folder_.string() + " OBVID_MAKE=" + folder_.string() + " freecadcmd " +
+                OBVID_SOURCE_DIR + "/tests/cad/freecad_faces_make.py 2>&1 </dev/null");
+  ASSERT_NE(out.find("MADE ALL"), std::string::npos) << out;
+  for (const std::string name :
+       {"sphere", "torus", "cone", "cylinder", "extrusion", "revolution", "offset"}) {
+    for (const char* ending : {".step", ".brep", ".igs"}) {
+      const bool offset = name == "offset", iges = std::string(ending) == ".igs";
+      if (offset && iges) continue;  // known limit: the kernel refuses its parameters
+      const auto read = read_cad_surfaces((folder_ / (name + ending)).string());
+      ASSERT_TRUE(read) << name << ending << to_line(read.error());
+      double worst = 0.0;
+      for (const SurfacePatch& patch : read->model.patches) {
+        for (int k = 0; k < 100; ++k) {
+          const double u = domain_u(patch.surface).at((k % 10 + 0.5) / 10.0);
+          const double v = domain_v(patch.surface).at((k / 10 + 0.5) / 10.0);
+          worst = std::max(worst, std::abs(off(name, evaluate(patch.surface, u, v).point)));
+        }
+      }
+      std::printf("%-10s %-5s %zu patches, %zu warnings, %g\n", name.c_str(), ending,
+                  read->model.patches.size(), read->warnings.size(), worst);
+      // FreeCAD writes 9 digits behind the point into IGES and 15 characters into STEP files
+      EXPECT_LE(worst, offset ? 1e-5 : iges ? 1e-9 : 1e-11) << name << ending;
+      EXPECT_EQ(read->model.patches.size(), 1U) << name << ending;
+      EXPECT_EQ(read->warnings.empty(), !offset) << name << ending;
+    }
+  }
+}
+
 }  // namespace
 }  // namespace obvid

@@ -12,12 +12,17 @@
 #include <GeomConvert_ApproxSurface.hxx>
 #include <Geom_OffsetSurface.hxx>
 #include <Geom_RectangularTrimmedSurface.hxx>
+#include <Geom_SurfaceOfRevolution.hxx>
+#include <Geom_TrimmedCurve.hxx>
 #include <Precision.hxx>
 #include <TopExp_Explorer.hxx>
 #include <TopoDS.hxx>
 #include <TopoDS_Edge.hxx>
+#include <algorithm>
 #include <cmath>
+#include <utility>
 
+#include "obvid/surface/surface.h"
 #include "splines.h"
 
 namespace obvid::cad {
@@ -121,6 +126,41 @@ Handle(Geom_BSplineSurface) spline_over(const Handle(Geom_Surface) & surface, co
   return GeomConvert::SurfaceToBSplineSurface(part);
 }
 
+/// The kernel would approximate it; its meridian and arcs are splines already.
+Result<NurbsSurface> revolution_over(const Handle(Geom_SurfaceOfRevolution) & surface,
+                                     const Box& box) {
+  const Handle(Geom_Curve) meridian =
+      new Geom_TrimmedCurve(surface->BasisCurve(), box.v.from, box.v.to);
+  auto profile = curve_of(GeomConvert::CurveToBSplineCurve(meridian, Convert_TgtThetaOver2));
+  if (!profile) return fail(profile.error());
+  const gp_Ax1 axis = surface->Axis();
+  gp_Trsf start;
+  start.SetRotation(axis, box.u.from);
+  for (Vec3& p : profile->points) {
+    const gp_Pnt turned = gp_Pnt(p.x, p.y, p.z).Transformed(start);
+    p = {turned.X(), turned.Y(), turned.Z()};
+  }
+  const gp_Pnt on = axis.Location();
+  const gp_Dir along = axis.Direction();
+  const auto made = to_nurbs(RevolutionSurface{*std::move(profile),
+                                               {on.X(), on.Y(), on.Z()},
+                                               {along.X(), along.Y(), along.Z()},
+                                               std::min(box.u.length(), 2.0 * M_PI)},
+                             kApproximation);  // not needed: exact
+  if (!made) return fail(made.error());
+  return transposed(made->surface);  // the kernel turns along u
+}
+
+Result<NurbsSurface> nurbs_over(const Handle(Geom_Surface) & surface, const Box& box, double size,
+                                double& deviation) {
+  const auto revolution = Handle(Geom_SurfaceOfRevolution)::DownCast(surface);
+  if (!revolution.IsNull()) return revolution_over(revolution, box);
+  const auto spline = spline_over(surface, box, size, deviation);
+  if (!spline.IsNull()) return surface_of(spline);
+  return fail({ErrorCode::kToleranceNotReached, "it cannot be approximated well enough", "", "", -1,
+               kApproximation * size});
+}
+
 }  // namespace
 
 FaceSurface surface_of(const TopoDS_Face& face) {
@@ -139,12 +179,7 @@ FaceSurface surface_of(const TopoDS_Face& face) {
   surface->Bounds(u.from, u.to, v.from, v.to);
   box = {snapped(box.u, u, surface->IsUPeriodic()), snapped(box.v, v, surface->IsVPeriodic())};
   out.trimmed = !fills(face, box);
-  const auto spline = spline_over(surface, box, size_of_face(face), out.deviation);
-  if (spline.IsNull()) {
-    out.refused = "has a surface that cannot be approximated well enough";
-    return out;
-  }
-  auto made = surface_of(spline);
+  auto made = nurbs_over(surface, box, size_of_face(face), out.deviation);
   if (!made) {
     out.refused = "is no surface of this program: " + made.error().what;
     return out;

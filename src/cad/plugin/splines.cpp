@@ -119,4 +119,22 @@ Result<NurbsSurface> surface_of(Handle(Geom_BSplineSurface) spline) {
   return out;
 }
 
+Result<SpaceCurve> curve_of(Handle(Geom_BSplineCurve) spline) {
+  if (spline->IsPeriodic()) spline->SetNotPeriodic();
+  if (spline->Multiplicity(1) <= spline->Degree() ||
+      spline->Multiplicity(spline->NbKnots()) <= spline->Degree()) {
+    spline->Segment(spline->FirstParameter(), spline->LastParameter());
+  }
+  SpaceCurve out;
+  out.degree = spline->Degree();
+  out.knots = all_knots(spline->Knots(), spline->Multiplicities());
+  for (int i = 1; i <= spline->NbPoles(); ++i) {
+    const gp_Pnt& p = spline->Pole(i);
+    out.points.push_back({p.X(), p.Y(), p.Z()});
+    if (spline->IsRational()) out.weights.push_back(spline->Weight(i));
+  }
+  if (const auto fine = check(out); !fine) return fail(fine.error());
+  return out;
+}
+
 }  // namespace obvid::cad

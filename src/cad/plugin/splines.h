@@ -17,6 +17,9 @@ namespace obvid::cad {
 /// Back again; knots clamped, periods opened. Error: what `check` finds, degrees above 9 among it.
 [[nodiscard]] Result<NurbsSurface> surface_of(Handle(Geom_BSplineSurface) spline);
 
+/// The same of a curve; clamped as it is.
+[[nodiscard]] Result<SpaceCurve> curve_of(Handle(Geom_BSplineCurve) spline);
+
 /// The kernel's table of knots: each once, ascending, and how often it stands.
 struct KnotTable {
   TColStd_Array1OfReal values;
