@@ -11,6 +11,8 @@ SpaceCurve circle(double radius, double z, double start) {
                    2.0 * kPi);
 }
 
+Vec3 on(const SpaceCurve& curve, double t) { return evaluate(curve, domain(curve).at(t)).point; }
+
 TEST(KindsRuled, TwoTurnedCirclesMakeAHyperboloid) {
   const double r = std::sqrt(2.0);
   const NurbsForm form = expect_agrees(RuledSurface{circle(r, -1, 0), circle(r, 1, kPi / 2)});
@@ -121,6 +123,23 @@ TEST(KindsRuled, BetweenRationalCurvesOfDifferentWeightsItIsExactToo) {
     });
     EXPECT_EQ(expect_agrees(DirectedSurface{a, b, -1.0, 2.0}).deviation, 0.0);
   }
+}
+
+TEST(KindsRuled, BeyondTheLargestDegreeRulingsStayAndTheDeviationIsTold) {
+  SpaceCurve five{5, {0, 0, 0, 0, 0, 0, 1, 1, 1, 1, 1, 1}, {}, {1, 2, 1, 0.5, 3, 1}};
+  for (int i = 0; i < 6; ++i) five.points.push_back({i * 1.0, std::sin(i), 0.0});
+  SpaceCurve other = five;
+  other.weights = {1, 1, 0.5, 2, 1, 1};
+  for (Vec3& p : other.points) p = p + Vec3{0.5, 1.0, 3.0};
+  const RuledSurface s{five, other};
+  const NurbsForm form = form_of(s, 1e-6);
+  EXPECT_GT(form.deviation, 0.01);
+  over(s, [&](double u, double v) {
+    const Vec3 a = on(five, u), b = on(other, u), p = evaluate(form.surface, u, v).point;
+    EXPECT_LT(norm(cross(p - a, unit(b - a))), 1e-13);
+    EXPECT_LE(norm(p - evaluate(s, u, v).point), form.deviation);
+  });
+  expect_error(DirectedSurface{five, other, 0.0, 1.0}, ErrorCode::kBadOption);
 }
 
 TEST(KindsRuled, CurvesOfOtherDegreesKnotsAndDomains) {
