@@ -63,6 +63,7 @@ bool is_blade_table(string_view text) {
 Result<std::vector<BladeStation>> parse_blade_table(string_view text, string_view name) {
   std::vector<BladeStation> stations;
   std::vector<std::size_t> columns;
+  std::optional<double> count;
   text::Fields fields;
   for (text::LineCursor cursor(text); !cursor.at_end();) {
     const string_view line = cursor.peek();
@@ -70,6 +71,7 @@ Result<std::vector<BladeStation>> parse_blade_table(string_view text, string_vie
     cursor.skip(line);
     text::split(text::trim(line), text::Separator::kWhite, fields);
     if (columns.empty()) {
+      if (fields.count >= 2 && fields.cell[1] == "NumBlNds") count = number_in(fields.cell[0]);
       columns = columns_in(fields);
       continue;
     }
@@ -83,6 +85,13 @@ Result<std::vector<BladeStation>> parse_blade_table(string_view text, string_vie
       return fail(error_at(ErrorCode::kBadNumber, "this line of the blade table cannot be read",
                            name, number));
     }
+  }
+  const auto size = static_cast<double>(stations.size());
+  if (count && *count != size && !stations.empty()) {
+    return fail({ErrorCode::kBadCount,
+                 fmt::format("{:g} stations can be read, NumBlNds says {:g}", size, *count),
+                 std::string(name), "look at the line after the last one that can be read", -1,
+                 size});
   }
   if (!stations.empty()) return stations;
   return fail({ErrorCode::kTooFewPoints, "the blade table has no stations", std::string(name),

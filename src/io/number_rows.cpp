@@ -72,9 +72,10 @@ class Reader {
     const string_view data = text::trim(text::without_comment(bare));
     split_all(data, text::detect_separator(data), fields_);
     NumberRow row{cursor_.line_number(), gap_, {}};
-    std::size_t words = 0;
+    std::size_t words = 0, empty = 0;
     string_view word;
     for (const string_view field : fields_) {
+      empty += field.empty() ? 1 : 0;
       const text::ParsedNumber number = text::parse_number(field, true);
       if (number.kind == text::NumberKind::kNotFinite) {
         return fail(error_at(ErrorCode::kNotFinite, text::shown(field) + " is not a finite number",
@@ -91,12 +92,7 @@ class Reader {
       gap_ = false;
       return {};
     }
-    // a line with as many numbers as words and more is a row that is broken, not a title
-    if (row.values.size() > words && !out_.rows.empty()) {
-      return fail(error_at(ErrorCode::kBadNumber, text::shown(word) + " is not a number", name_,
-                           row.line,
-                           "correct the field, or begin the line with # when it is a remark"));
-    }
+    if (is_broken(row.values.size(), words, empty)) return fail(broken(bare, word, row.line));
     if (out_.rows.empty()) {
       out_.header.clear();
       for (const string_view field : fields_) out_.header.emplace_back(field);
@@ -104,6 +100,30 @@ class Reader {
     out_.titles.push_back({out_.rows.size(), text::to_utf8(data)});
     gap_ = true;
     return {};
+  }
+
+  /// Whether a line of numbers and words is a row with a fault and not a header or a title: none may
+  /// be dropped as if it were a remark.
+  [[nodiscard]] bool is_broken(std::size_t numbers, std::size_t words, std::size_t empty) const {
+    if (numbers == 0) return false;
+    const bool corner = fields_.front().empty() && empty == 1;  // of a table whose head it is
+    if (empty > 0 && !(out_.rows.empty() && corner)) return true;
+    const auto first = text::parse_number(fields_.front(), true).kind;
+    if (first == text::NumberKind::kNumber) return !out_.rows.empty() || numbers > words;
+    return !out_.rows.empty() && numbers > words;
+  }
+
+  [[nodiscard]] Error broken(string_view line, string_view word, std::size_t number) const {
+    Error error = error_at(
+        ErrorCode::kBadNumber,
+        word.empty() ? "an empty cell where a number belongs" : text::shown(word) + " is no number",
+        name_, number,
+        word.empty() ? "fill the cell in, or leave out its row or column"
+                     : "correct the field, or begin the line with # when it is a remark");
+    if (!word.empty()) {
+      error.where = text::position(name_, number, text::column_of(line, word.data()));
+    }
+    return error;
   }
 
   text::LineCursor cursor_;

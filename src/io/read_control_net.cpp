@@ -50,6 +50,14 @@ Result<SurfacePatch> bezier_patch(const Net& net, const std::string& patch, stri
                    std::string(name), "", -1, static_cast<double>(line.size())});
     }
     for (const auto& [column, point] : line) s.points.push_back(point);
+    const auto& first = net.begin()->second;
+    if (std::equal(line.begin(), line.end(), first.begin(),
+                   [](const auto& a, const auto& b) { return a.first == b.first; })) {
+      continue;
+    }
+    return fail({ErrorCode::kBadCount,
+                 fmt::format("row {:g} of {} has not the columns of its first row", row, patch),
+                 std::string(name), "every place of the net needs a point", -1, row});
   }
   if (nu < 2 || nv < 2) {
     return fail({ErrorCode::kTooFewPoints,
@@ -172,6 +180,10 @@ Result<SurfacePatch> net_patch(const std::vector<Row>& rows, string_view name) {
                      row.line));
       }
       const double w = width == 4 ? p[3] : 1.0;
+      if (!(w > 0.0)) {
+        return fail(error_at(ErrorCode::kBadNumber, fmt::format("the weight {:g} is not > 0", w),
+                             name, row.line, "points are wx,wy,wz,w with w > 0"));
+      }
       s.points.push_back({p[0] / w, p[1] / w, p[2] / w});
       if (width == 4) s.weights.push_back(w);
     }

@@ -124,8 +124,20 @@ std::vector<std::vector<Vec3>> cut(const std::vector<Vec3>& points, std::size_t 
 /// "40 30": counts of points in a row and of rows, before as many points.
 bool led_by_counts(const NumberRows& rows) {
   const std::vector<double>& head = rows.rows.front().values;
-  if (head.size() != 2 || rows.rows.size() < 2 || rows.rows[1].values.size() < 3) return false;
-  return head[0] * head[1] == static_cast<double>(rows.rows.size() - 1);
+  return head.size() == 2 && rows.rows.size() >= 2 && rows.rows[1].values.size() >= 3;
+}
+
+/// The counts must be whole, and as many points must follow.
+Result<void> check_counts(const NumberRows& rows, string_view name) {
+  const NumberRow& head = rows.rows.front();
+  const double u = head.values[0], v = head.values[1];
+  const auto size = static_cast<double>(rows.rows.size() - 1);
+  const bool whole = u >= 1.0 && v >= 1.0 && u == std::floor(u) && v == std::floor(v);
+  if (whole && u * v == size) return {};
+  return fail(error_at(ErrorCode::kBadCount,
+                       fmt::format("{:g} x {:g} points are announced, {:g} follow", u, v, size),
+                       name, head.line,
+                       "correct the counts (points in a row, rows) or leave out the line"));
 }
 
 bool has_gaps(const NumberRows& rows, std::size_t from) {
@@ -165,6 +177,9 @@ std::size_t line_length(const std::vector<Vec3>& points) {
 Result<PointGrid> from_list(const NumberRows& rows, string_view name) {
   const bool counts = led_by_counts(rows);
   const std::size_t from = counts ? 1 : 0;
+  if (counts) {
+    if (auto good = check_counts(rows, name); !good) return fail(good.error());
+  }
   const auto points = points_of(rows, from, name);
   if (!points) return fail(points.error());
   if (counts) {
@@ -217,6 +232,15 @@ Result<PointGrid> from_places(const NumberRows& rows, string_view name) {
   }
   std::vector<std::vector<Vec3>> grid;
   for (const auto& [index, line] : places) {
+    const auto& first = places.begin()->second;
+    const bool alike = std::equal(line.begin(), line.end(), first.begin(), first.end(),
+                                  [](const auto& a, const auto& b) { return a.first == b.first; });
+    if (!alike) {
+      return fail({ErrorCode::kBadCount,
+                   fmt::format("row {:g} has not the same columns as row {:g}", index,
+                               places.begin()->first),
+                   std::string(name), "every place of the grid needs a point", -1, index});
+    }
     grid.emplace_back();
     for (const auto& [place, point] : line) grid.back().push_back(point);
   }
@@ -305,7 +329,15 @@ Result<PointGrid> read_grid(const std::vector<std::string>& paths, const GridOpt
   if (paths.empty()) return fail({ErrorCode::kUsage, "no file with a grid", "", "", -1, 0.0});
   const bool three = std::all_of(paths.begin(), paths.end(),
                                  [](const std::string& path) { return is_one_of_three(path); });
-  if (three && (paths.size() == 1 || paths.size() == 3)) return from_three(paths.front());
+  if (three && (paths.size() == 1 || paths.size() == 3)) {
+    for (std::size_t axis = 0; paths.size() == 3 && axis < 3; ++axis) {
+      const std::string wanted = sibling(paths.front(), axis);
+      if (std::find(paths.begin(), paths.end(), wanted) != paths.end()) continue;
+      return fail({ErrorCode::kUsage, "the three files do not belong together", paths.front(),
+                   fmt::format("{} is not among them", wanted), -1, 0.0});
+    }
+    return from_three(paths.front());
+  }
   if (paths.size() > 1) {
     return fail({ErrorCode::kUsage, "a grid is one file, or three whose names end in _x, _y, _z",
                  paths[1], "", -1, static_cast<double>(paths.size())});

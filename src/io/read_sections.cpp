@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
 #include <utility>
 
 #include "blade_table.h"
@@ -146,14 +147,65 @@ void lift(std::vector<SpaceSeries>& sections, double spacing) {
   }
 }
 
-Result<std::vector<SpaceSeries>> rows_of_grid(const std::vector<std::string>& paths) {
-  const auto grid = read_grid(paths);
-  if (!grid) return fail(grid.error());
+/// Name without the letter of the coordinate: the same for the three files of a grid.
+std::string grid_name(const std::string& path) {
+  const std::filesystem::path file(path);
+  const std::string stem = file.stem().string();
+  return (file.parent_path() / stem.substr(0, stem.size() - 1)).string();
+}
+
+std::vector<SpaceSeries> rows_of(const PointGrid& grid) {
   std::vector<SpaceSeries> sections;
-  for (std::size_t j = 0; j < grid->count_v; ++j) {
-    const auto from = grid->points.begin() + static_cast<std::ptrdiff_t>(j * grid->count_u);
+  for (std::size_t j = 0; j < grid.count_v; ++j) {
+    const auto from = grid.points.begin() + static_cast<std::ptrdiff_t>(j * grid.count_u);
     sections.push_back(
-        {fmt::format("row {}", j + 1), {from, from + static_cast<std::ptrdiff_t>(grid->count_u)}});
+        {fmt::format("row {}", j + 1), {from, from + static_cast<std::ptrdiff_t>(grid.count_u)}});
+  }
+  return sections;
+}
+
+/// Goes on with the rows of the next panel, which begin where these end: at a corner.
+Result<void> join(std::vector<SpaceSeries>& sections, const PointGrid& panel,
+                  const std::string& name) {
+  constexpr double kMeeting = 1e-6;  // of the size: what is left of printed coordinates
+  if (panel.count_v != sections.size()) {
+    return fail({ErrorCode::kBadCount,
+                 fmt::format("the panel has {} rows, the ones before have {}", panel.count_v,
+                             sections.size()),
+                 name, "panels of one body need the same stations", -1, 0.0});
+  }
+  double size = 0.0;
+  for (const Vec3& p : panel.points) size = std::max(size, norm(p - panel.points.front()));
+  std::vector<SpaceSeries> rows = rows_of(panel);
+  for (std::size_t j = 0; j < rows.size(); ++j) {
+    std::vector<Vec3>& line = sections[j].points;
+    const double gap = norm(rows[j].points.front() - line.back());
+    if (gap > kMeeting * size) {
+      return fail({ErrorCode::kBadCount,
+                   fmt::format("row {} begins {:.3g} from where the panel before ends", j + 1, gap),
+                   name, "give panels in order, each beginning where the one before ends",
+                   static_cast<std::ptrdiff_t>(j), gap});
+    }
+    sections[j].corners.push_back(line.size() - 1);
+    line.insert(line.end(), rows[j].points.begin() + 1, rows[j].points.end());
+  }
+  return {};
+}
+
+/// Rows of one grid, or of panels that meet at corners, each in three files.
+Result<std::vector<SpaceSeries>> rows_of_grids(const std::vector<std::string>& paths) {
+  std::vector<SpaceSeries> sections;
+  std::vector<std::string> seen;
+  for (const std::string& path : paths) {
+    if (std::find(seen.begin(), seen.end(), grid_name(path)) != seen.end()) continue;
+    seen.push_back(grid_name(path));
+    const auto grid = read_grid({path});
+    if (!grid) return fail(grid.error());
+    if (seen.size() == 1) {
+      sections = rows_of(*grid);
+    } else if (auto done = join(sections, *grid, path); !done) {
+      return fail(done.error());
+    }
   }
   return sections;
 }
@@ -212,7 +264,7 @@ Result<std::vector<SpaceSeries>> read_sections(const std::vector<std::string>& p
   if (paths.empty()) return fail({ErrorCode::kUsage, "no files with sections", "", "", -1, 0.0});
   const bool matrices = std::all_of(paths.begin(), paths.end(),
                                     [](const std::string& path) { return is_one_of_three(path); });
-  if (matrices && (paths.size() == 1 || paths.size() == 3)) return rows_of_grid(paths);
+  if (matrices) return rows_of_grids(paths);
   std::vector<SpaceSeries> sections;
   bool all_flat = true;
   for (const std::string& path : paths) {

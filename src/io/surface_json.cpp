@@ -79,6 +79,7 @@ class Reader : private JsonValues {
     if (!failed()) {
       each(field(root, "patches"),
            [&](const Node& node) { model_.patches.push_back(patch(node)); });
+      if (!failed() && model_.patches.empty()) refuse(root, "the surface has no patches");
     }
     if (error_) return fail(*error_);
     return std::move(model_);

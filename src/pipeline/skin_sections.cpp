@@ -47,6 +47,11 @@ Flat flat(const SpaceSeries& given, const std::string& units) {
     }
     out.section.on_contour.push_back(out.series.points.size() - 1);
   }
+  if (!given.corners.empty()) out.series.fixed.resize(out.series.points.size());
+  for (const std::size_t corner : given.corners) {
+    if (corner < given.points.size())
+      out.series.fixed[out.section.on_contour[corner]].corner = true;
+  }
   return out;
 }
 

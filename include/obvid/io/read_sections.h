@@ -16,7 +16,8 @@ struct SectionOptions {
 
 /// Sections of a body, in any of the forms of docs/formats.md ("Surfaces"): one file each, with x y
 /// z or with x y (z then counts by the spacing); one file with sections separated by blank lines or
-/// titles, or by a column named `section`; the rows of three matrices as of `read_grid`; rotor
+/// titles, or by a column named `section`; the rows of three matrices as of `read_grid`, of
+/// several panels too, each beginning where the one before ends (a corner); rotor
 /// blades in cylindrical coordinates (Z R THETA 1 THETA 2, rad); airfoils of a blade with the table
 /// that places them (columns BlSpn, BlCrvAC, BlSwpAC, BlTwist, BlChord, BlAFID).
 /// Errors: E301 to E307 with place.

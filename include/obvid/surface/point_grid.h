@@ -25,6 +25,8 @@ struct PointGrid {
 struct SpaceSeries {
   std::string name;
   std::vector<Vec3> points;
+  std::vector<std::size_t> corners{};  ///< points at which the section turns at once, whatever the
+                                       ///< angle, ascending; others are found
 };
 
 }  // namespace obvid
