@@ -11,6 +11,8 @@ namespace {
 
 constexpr double kStationOfRadius = 0.25;  // looked at before refinement
 constexpr int kDeepest = 40;               // halvings between stations
+constexpr double kStraightRise = 4.0;      // shares of the tolerance, of steps with a known middle
+constexpr double kStraightBend = 0.25;     // of the share
 constexpr std::size_t kIsoSteps = 64;      // to guess the length of a line of parameters
 /// Contacts that move so much faster than the cutter, to places that lean otherwise (change of the
 /// unit normal): it changes from one side of a valley to the other.
@@ -102,6 +104,15 @@ bool Walker::near_enough(Vec3 a, Vec3 b) const {
   return std::abs(way.z) <= 0.5 * share && level * level <= 4.0 * cutter.flat() * share;
 }
 
+// Sharp corners: a short rise whose middle is where a straight line has it.
+bool Walker::straight(Vec3 a, Vec3 middle, Vec3 b) const {
+  const double share = kStepShare * part_.tolerance(), flat = part_.cutter().flat();
+  const double level = level_distance(a, b);
+  if (std::abs(b.z - a.z) > kStraightRise * share || level * level > 4.0 * flat * share)
+    return false;
+  return std::abs(middle.z - 0.5 * (a.z + b.z)) <= kStraightBend * share;
+}
+
 std::vector<double> Walker::stations(const Rail& rail) const {
   double length = 0.0;
   if (rail.of_parameters()) {
@@ -147,6 +158,11 @@ void Walker::fill(Step& step, const std::optional<PassPoint>& a, double ta,
   if (!done) {
     const double middle = 0.5 * (ta + tb);
     const auto m = at(step.rail, middle);
+    if (a && b && m && straight(a->place.tip, m->place.tip, b->place.tip)) {
+      append(step, *m);
+      append(step, *b);
+      return;
+    }
     fill(step, a, ta, m, middle, depth + 1);
     fill(step, m, middle, b, tb, depth + 1);
     return;
@@ -155,12 +171,16 @@ void Walker::fill(Step& step, const std::optional<PassPoint>& a, double ta,
     step.open = false;
     return;
   }
+  append(step, *b);
+}
+
+void Walker::append(Step& step, const PassPoint& p) {
   if (!step.open) step.pass.pieces.emplace_back();
   step.open = true;
   auto& piece = step.pass.pieces.back();
-  piece.push_back(*b);
+  piece.push_back(p);
   ++points_;
-  if (piece.size() > 1 && changes_sides(piece[piece.size() - 2], *b)) piece.back().lifted = true;
+  if (piece.size() > 1 && changes_sides(piece[piece.size() - 2], p)) piece.back().lifted = true;
 }
 
 Result<Pass> Walker::walk(const Rail& rail) {

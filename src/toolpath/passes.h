@@ -57,6 +57,8 @@ class Walker {
   [[nodiscard]] std::optional<PassPoint> touching(const Rail& rail, double t) const;
   [[nodiscard]] std::optional<PassPoint> resting(Vec2 axis, double t) const;
   [[nodiscard]] bool near_enough(Vec3 a, Vec3 b) const;
+  [[nodiscard]] bool straight(Vec3 a, Vec3 middle, Vec3 b) const;
+  void append(Step& step, const PassPoint& p);
   [[nodiscard]] std::vector<double> stations(const Rail& rail) const;
   void fill(Step& step, const std::optional<PassPoint>& a, double ta,
             const std::optional<PassPoint>& b, double tb, int depth);

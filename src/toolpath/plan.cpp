@@ -20,9 +20,10 @@ using namespace toolpath;
 
 constexpr int kRounds = 4;               // of passes put between others
 constexpr double kMeasureSpacing = 0.5;  // of the level step, along passes
-constexpr double kMargin = 2.0;          // measured places that an added pass goes beyond both ends
-constexpr double kDefaultSafe = 0.5;     // diameters above the highest point
-constexpr double kMostAngle = 1e6;       // degrees: beyond, the angle is lost in rounding
+constexpr double kMeasureOfRadius = 0.25;
+constexpr double kMargin = 2.0;       // measured places that an added pass goes beyond both ends
+constexpr double kDefaultSafe = 0.5;  // diameters above the highest point
+constexpr double kMostAngle = 1e6;    // degrees: beyond, the angle is lost in rounding
 
 Result<void> refuse(std::string what, double value, std::string hint = "") {
   return fail({ErrorCode::kBadOption, std::move(what), "", std::move(hint), -1, value});
@@ -75,10 +76,9 @@ Result<Family> family_of(const Part& part, const ToolpathOptions& options, const
 class Filler {
  public:
   Filler(const Part& part, const ToolpathOptions& options, const StepRule& rule, Walker& walker)
-      : meter_(part),
+      : meter_(part, options.scallop.value_or(part.cutter().radius)),
         walker_(walker),
-        spacing_(kMeasureSpacing * rule.level()),
-        allowed_(options.scallop ? *options.scallop : part.cutter().radius),
+        spacing_(std::min(kMeasureSpacing * rule.level(), kMeasureOfRadius * part.cutter().radius)),
         fills_(options.scallop.has_value()) {}
 
   Result<Family> fill(Family family, ToolpathReport& report, const Progress& progress) {
@@ -92,7 +92,7 @@ class Filler {
         const bool pair = i + 1 < family.size() && !family[i].empty() && !family[i + 1].empty();
         Pass extra;
         if (pair && !done[i]) {
-          const Gap gap = meter_.between(family[i], family[i + 1], spacing_, allowed_);
+          const Gap gap = meter_.between(family[i], family[i + 1], spacing_);
           if (gap.too_high && fills_ && round < kRounds) {
             auto pass = between_passes(family[i], family[i + 1], gap);
             if (!pass) return fail(pass.error());
@@ -133,7 +133,6 @@ class Filler {
   ScallopMeter meter_;
   Walker& walker_;
   double spacing_;
-  double allowed_;
   bool fills_;
 };
 
@@ -154,6 +153,11 @@ void warn(Toolpath& out, const ToolpathOptions& options) {
   if (options.scallop && r.scallop > *options.scallop) {
     add(fmt::format("scallops of up to {:.3g} {} stay where the part is steep across the passes",
                     r.scallop, out.units));
+  }
+  if (options.scallop && options.cutter.kind != CutterKind::kBall) {
+    add("scallops of cutters with a flat bottom are estimated: where the part changes from hollow "
+        "to "
+        "bulge they can be several times as high");
   }
   if (r.hidden_area > 0.0) {
     add(fmt::format("{:.3g} % of the surface is hidden from above and is not cut",

@@ -12,10 +12,11 @@ namespace {
 constexpr double kCellOfRadius = 0.25;
 constexpr double kMostCells = 1e6;
 constexpr int kTraceSteps = 24;
-constexpr double kTraced = 1e-3;    // of the allowed height
-constexpr double kLookedFor = 8.0;  // allowed heights: beyond, the exact height says no more
-constexpr double kHeld = 0.5;       // of the tolerance: still taken for touching
-constexpr double kFarApart = 3.0;   // contacts against tips: the cutter leaps over a valley
+constexpr double kTraced = 1e-3;     // of the allowed height
+constexpr double kLookedFor = 8.0;   // allowed heights: beyond, the exact height says no more
+constexpr double kOfAllowed = 0.02;  // of the scallop: what is left between kept places
+constexpr double kHeld = 0.5;        // of the tolerance: still taken for touching
+constexpr double kFarApart = 3.0;    // contacts against tips: the cutter leaps over a valley
 constexpr std::array<double, 3> kParts = {0.35, 0.5, 0.65};  // between contacts
 
 }  // namespace
@@ -27,7 +28,7 @@ double held_up(const Part& part, const Place& surface) {
   return (rest->tip.z - tip.z) * std::max(surface.normal.z, rest->normal.z);
 }
 
-ScallopMeter::ScallopMeter(const Part& part) : part_(part) {
+ScallopMeter::ScallopMeter(const Part& part, double allowed) : part_(part), allowed_(allowed) {
   const double r = part.cutter().radius;
   const Vec3 low = part.field().low(), high = part.field().high();
   const double dx = high.x - low.x + 4.0 * r, dy = high.y - low.y + 4.0 * r;
@@ -43,10 +44,23 @@ std::size_t ScallopMeter::cell(double value, double low, std::size_t count) cons
   return static_cast<std::size_t>(std::clamp(k, 0.0, static_cast<double>(count - 1)));
 }
 
+/// Places of the cutter between which it leaves nothing to speak of, as in `Walker`.
+bool ScallopMeter::says_the_same(Vec3 a, Vec3 b) const {
+  const CutterShape& cutter = part_.cutter();
+  const double share = kOfAllowed * allowed_;
+  const Vec3 way = b - a;
+  const double level2 = way.x * way.x + way.y * way.y;
+  return dot(way, way) <= 8.0 * cutter.corner * share ||
+         (level2 <= 4.0 * cutter.flat() * share && std::abs(way.z) <= share);
+}
+
 void ScallopMeter::add(const Pass& pass) {
   for (const auto& piece : pass.pieces) {
+    const Vec3* last = nullptr;
     for (const PassPoint& p : piece) {
-      const Vec3 tip = p.place.tip;
+      const Vec3& tip = p.place.tip;
+      if (last != nullptr && &p != &piece.back() && says_the_same(*last, tip)) continue;
+      last = &tip;
       cells_[cell(tip.y, low_.y, ny_) * nx_ + cell(tip.x, low_.x, nx_)].push_back(tip);
     }
   }
@@ -66,7 +80,8 @@ double ScallopMeter::distance(Vec3 p) const {
 }
 
 /// Up along the normal until the cutter has been there.
-double ScallopMeter::left_over(const Place& q, double most) const {
+double ScallopMeter::left_over(const Place& q) const {
+  const double most = allowed_;
   double up = 0.0;
   for (int k = 0; k < kTraceSteps && up < kLookedFor * most; ++k) {
     const double d = distance(q.contact + up * q.normal);
@@ -76,25 +91,29 @@ double ScallopMeter::left_over(const Place& q, double most) const {
   return std::min(up, kLookedFor * most);
 }
 
-void ScallopMeter::measure(const PassPoint& a, const PassPoint& b, double allowed, Gap& gap) const {
-  const Vec3 from = a.place.contact, way = b.place.contact - from;
-  const double apart = norm(b.place.tip - a.place.tip);
-  if (norm(way) > kFarApart * apart || a.place.open || b.place.open) return;
-  for (const double part : kParts) {
-    const Vec3 middle = from + part * way;
-    const auto q = part_.surface_over({middle.x, middle.y});
-    if (!q || std::abs(q->contact.z - middle.z) > norm(way)) continue;
-    if (held_up(part_, *q) > kHeld * part_.tolerance()) continue;
-    const double height = left_over(*q, allowed);
-    gap.scallop = std::max(gap.scallop, height);
-    if (height <= allowed) continue;
-    gap.too_high = true;
-    gap.from = std::min({gap.from, a.t, b.t});
-    gap.to = std::max({gap.to, a.t, b.t});
-  }
+void ScallopMeter::look_at(Vec3 middle, double reach, Gap& gap, double from, double to) const {
+  const auto q = part_.surface_over({middle.x, middle.y});
+  if (!q || std::abs(q->contact.z - middle.z) > reach) return;
+  if (held_up(part_, *q) > kHeld * part_.tolerance()) return;
+  const double height = left_over(*q);
+  gap.scallop = std::max(gap.scallop, height);
+  if (height <= allowed_) return;
+  gap.too_high = true;
+  gap.from = std::min(gap.from, from);
+  gap.to = std::max(gap.to, to);
 }
 
-Gap ScallopMeter::between(const Pass& a, const Pass& b, double spacing, double allowed) const {
+// Between the contacts; where they lie on different sides of the cutter, between the tips.
+void ScallopMeter::measure(const PassPoint& a, const PassPoint& b, Gap& gap) const {
+  const double from = std::min(a.t, b.t), to = std::max(a.t, b.t);
+  const Vec3 tips = b.place.tip - a.place.tip, contacts = b.place.contact - a.place.contact;
+  const bool leaps = norm(contacts) > kFarApart * norm(tips) || a.place.open || b.place.open;
+  const Vec3 start = leaps ? a.place.tip : a.place.contact, way = leaps ? tips : contacts;
+  const double reach = leaps ? 2.0 * part_.cutter().radius : norm(way);
+  for (const double part : kParts) look_at(start + part * way, reach, gap, from, to);
+}
+
+Gap ScallopMeter::between(const Pass& a, const Pass& b, double spacing) const {
   std::vector<const PassPoint*> others;
   for (const auto& piece : b.pieces) {
     for (const PassPoint& p : piece) others.push_back(&p);
@@ -112,7 +131,7 @@ Gap ScallopMeter::between(const Pass& a, const Pass& b, double spacing, double a
       if (at == others.end()) continue;
       if (at != others.begin() && p.t - (*(at - 1))->t < (*at)->t - p.t) --at;
       if (norm((*at)->place.tip - last) > kFarApart * part_.cutter().radius) continue;
-      measure(p, **at, allowed, gap);
+      measure(p, **at, gap);
     }
   }
   return gap;

@@ -18,20 +18,23 @@ struct Gap {
 /// Measures what the cutter leaves over the surface: all places of the cutter, in a raster.
 class ScallopMeter {
  public:
-  explicit ScallopMeter(const Part& part);
+  ScallopMeter(const Part& part, double allowed);  ///< scallop
 
   void add(const Pass& pass);
   /// Between two passes of a family, half way and at thirds between their contacts, where the
   /// cutter can touch the surface without cutting elsewhere. `spacing`: between measured places.
-  [[nodiscard]] Gap between(const Pass& a, const Pass& b, double spacing, double allowed) const;
+  [[nodiscard]] Gap between(const Pass& a, const Pass& b, double spacing) const;
 
  private:
   [[nodiscard]] double distance(Vec3 p) const;  ///< from the nearest place of the cutter
-  [[nodiscard]] double left_over(const Place& q, double most) const;
-  void measure(const PassPoint& a, const PassPoint& b, double allowed, Gap& gap) const;
+  [[nodiscard]] double left_over(const Place& q) const;
+  [[nodiscard]] bool says_the_same(Vec3 a, Vec3 b) const;
+  void look_at(Vec3 middle, double reach, Gap& gap, double from, double to) const;
+  void measure(const PassPoint& a, const PassPoint& b, Gap& gap) const;
   [[nodiscard]] std::size_t cell(double value, double low, std::size_t count) const;
 
   const Part& part_;
+  double allowed_;
   Vec2 low_;
   double size_ = 1.0;  ///< of a cell
   std::size_t nx_ = 1, ny_ = 1;

@@ -34,10 +34,10 @@ struct ToolpathOptions {
   std::optional<double> scallop;    ///< greatest height of what stays between passes
   std::optional<double> step_over;  ///< greatest distance of passes seen from above (zigzag,
                                     ///< constant scallop) or along the surface (isoparametric)
-  double angle_deg = 0.0;   ///< of the passes against X; not for isoparametric ones
-  bool along_v = false;     ///< isoparametric: passes run along v, else along u
-  bool one_way = false;     ///< all passes in the same direction
-  double tolerance = 0.01;  ///< gouges and chords together
+  double angle_deg = 0.0;           ///< of the passes against X; not for isoparametric ones
+  bool along_v = false;             ///< isoparametric: passes run along v, else along u
+  bool one_way = false;             ///< all passes in the same direction
+  double tolerance = 0.01;          ///< gouges and chords together
   double feed = 1000.0;
   double plunge_feed = 300.0;
   double rapid_feed = 5000.0;      ///< for the estimate of time only
@@ -101,6 +101,8 @@ struct Toolpath {
 /// docs/methods/toolpath.md). Both sides of patches count. Passes of zigzag and constant scallop
 /// run over open borders by about a step, rolling over the edge.
 ///
+/// The scallop is kept by balls; flat and bull-nosed mills can leave several times as much where
+/// the part changes from hollow to bulge (a warning says so; docs/methods/toolpath.md has figures).
 /// Where the scallop needs passes nearer than a tenth of what a level place needs (walls), it is
 /// not kept; a warning says what is left. Errors: E203 sizes, feeds, heights or options that do not
 /// go together; E304 no patches; E310 a unit that machines do not know; E502 more triangles or

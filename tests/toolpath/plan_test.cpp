@@ -1,0 +1,121 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "obvid/toolpath/toolpath.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "obvid/toolpath/toolpath_gcode.h"
+#include "shapes.h"
+
+namespace obvid {
+namespace {
+
+ToolpathOptions ball(double diameter) {
+  ToolpathOptions o;
+  o.cutter = {CutterKind::kBall, diameter, 0.0};
+  o.tolerance = 0.02;
+  o.scallop = 0.1;
+  return o;
+}
+
+double lowest_tip(const Toolpath& path) {
+  double z = 1e9;
+  for (const ToolpathMove& move : path.moves) {
+    for (const Vec3 p : move.points) z = std::min(z, p.z);
+  }
+  return z;
+}
+
+TEST(Toolpath, RestsOnBothSidesOfAValleyThatIsNarrowerThanTheBall) {
+  // sides of 45 degrees meet in y = 0: a ball of radius 3 stays (sqrt 2 - 1) 3 above the bottom
+  const auto path =
+      plan(test::model_of({test::plate({0, -8, 8}, {20, -8, 8}, {0, 0, 0}, {20, 0, 0}),
+                           test::plate({0, 0, 0}, {20, 0, 0}, {0, 8, 8}, {20, 8, 8})}),
+           [] {
+             ToolpathOptions o = ball(6.0);
+             o.angle_deg = 90.0;
+             return o;
+           }());
+  ASSERT_TRUE(path) << to_line(path.error());
+  double at_middle = 1e9;
+  for (const ToolpathMove& move : path->moves) {
+    if (move.kind != ToolMove::kPass) continue;
+    for (const Vec3 p : move.points) {
+      if (p.x > 4.0 && p.x < 16.0) at_middle = std::min(at_middle, p.z);
+    }
+  }
+  EXPECT_NEAR(at_middle, 3.0 * (std::sqrt(2.0) - 1.0), 0.02);
+  EXPECT_GT(path->report.lifted_points, 0U);
+  EXPECT_NEAR(path->report.unreached_area, 2.0 * 3.0 * 20.0, 8.0);  // 3 up each side
+}
+
+TEST(Toolpath, AWallUnderARoofIsReportedAsHidden) {
+  const auto path =
+      plan(test::model_of({test::plate({0, 0, 5}, {10, 0, 5}, {0, 10, 5}, {10, 10, 5}),
+                           test::plate({2, 2, 0}, {8, 2, 0}, {2, 8, 0}, {8, 8, 0})}),
+           ball(4.0));
+  ASSERT_TRUE(path) << to_line(path.error());
+  EXPECT_NEAR(path->report.surface_area, 136.0, 1e-9);
+  EXPECT_NEAR(path->report.hidden_area, 36.0, 1e-6);
+  EXPECT_FALSE(path->warnings.empty());
+}
+
+TEST(Toolpath, AFlatMillGoesUpAVerticalWallWithoutCuttingIntoIt) {
+  ToolpathOptions o = ball(4.0);
+  o.cutter = {CutterKind::kFlat, 4.0, 0.0};
+  const auto path =
+      plan(test::model_of({test::plate({0, 0, 0}, {10, 0, 0}, {0, 10, 0}, {10, 10, 0}),
+                           test::plate({10, 0, 0}, {10, 10, 0}, {10, 0, 6}, {10, 10, 6}),
+                           test::plate({10, 0, 6}, {20, 0, 6}, {10, 10, 6}, {20, 10, 6})}),
+           o);
+  ASSERT_TRUE(path) << to_line(path.error());
+  EXPECT_NEAR(lowest_tip(*path), 0.0, o.tolerance);
+  for (const ToolpathMove& move : path->moves) {
+    for (const Vec3 p : move.points) {
+      if (p.x > 8.0 + o.tolerance && p.y > 0.0 && p.y < 10.0) {
+        EXPECT_GE(p.z, 6.0 - o.tolerance);
+      }
+    }
+  }
+}
+
+TEST(Toolpath, RefusesSizesThatMakeNoSense) {
+  const auto model = test::model_of({test::plate({0, 0, 0}, {9, 0, 0}, {0, 9, 0}, {9, 9, 0})});
+  const auto code = [&](auto&& change) {
+    ToolpathOptions o = ball(6.0);
+    change(o);
+    const auto path = plan(model, o);
+    return path ? 0 : static_cast<int>(path.error().code);
+  };
+  EXPECT_EQ(code([](ToolpathOptions&) {}), 0);
+  EXPECT_EQ(code([](ToolpathOptions& o) { o.cutter.diameter = 0.0; }), 203);
+  EXPECT_EQ(code([](ToolpathOptions& o) { o.cutter = {CutterKind::kBullNose, 6.0, 3.0}; }), 203);
+  EXPECT_EQ(code([](ToolpathOptions& o) { o.tolerance = std::nan(""); }), 203);
+  EXPECT_EQ(code([](ToolpathOptions& o) { o.feed = -1.0; }), 203);
+  EXPECT_EQ(code([](ToolpathOptions& o) { o.scallop.reset(); }), 203);
+  EXPECT_EQ(code([](ToolpathOptions& o) { o.safe_z = -1.0; }), 203);
+  EXPECT_EQ(code([](ToolpathOptions& o) { o.most_points = 10; }), 502);
+  EXPECT_FALSE(plan(SurfaceModel{}, ball(6.0)));
+}
+
+TEST(ToolpathGcode, InchesAndConvertedUnitsAndDecimalsTooFew) {
+  auto model = test::model_of({test::plate({0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {1, 1, 0})});
+  ToolpathOptions o = ball(0.25);
+  o.tolerance = 0.001;
+  o.scallop = 0.005;
+  model.units = "in";
+  auto path = plan(model, o);
+  ASSERT_TRUE(path);
+  EXPECT_NE(toolpath_gcode(*path)->text.find("G20 "), std::string::npos);
+  path->units = "cm";
+  EXPECT_NE(toolpath_gcode(*path)->text.find("(converted from cm)"), std::string::npos);
+  ToolpathGcodeOptions few;
+  few.decimals = 1;
+  const auto refused = toolpath_gcode(*path, few);
+  ASSERT_FALSE(refused);
+  EXPECT_EQ(refused.error().code, ErrorCode::kToleranceNotReached);
+}
+
+}  // namespace
+}  // namespace obvid
