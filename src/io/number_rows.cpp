@@ -38,7 +38,6 @@ void split_all(string_view line, text::Separator separator, std::vector<string_v
     fields.push_back(text::trim(line.substr(start, end - start)));
     start = end + 1;
   }
-  if (fields.size() > 1 && fields.back().empty()) fields.pop_back();  // a mark at the end
 }
 
 class Reader {
@@ -71,6 +70,9 @@ class Reader {
     if (text::is_comment(bare)) return {};
     const string_view data = text::trim(text::without_comment(bare));
     split_all(data, text::detect_separator(data), fields_);
+    // a mark at the end, unless the header has a column there
+    const bool marked = fields_.size() > 1 && fields_.back().empty();
+    if (marked && fields_.size() != out_.header.size()) fields_.pop_back();
     NumberRow row{cursor_.line_number(), gap_, {}};
     std::size_t words = 0, empty = 0;
     string_view word;
@@ -102,8 +104,8 @@ class Reader {
     return {};
   }
 
-  /// Whether a line of numbers and words is a row with a fault and not a header or a title: none may
-  /// be dropped as if it were a remark.
+  /// Whether a line of numbers and words is a row with a fault and not a header or a title: none
+  /// may be dropped as if it were a remark.
   [[nodiscard]] bool is_broken(std::size_t numbers, std::size_t words, std::size_t empty) const {
     if (numbers == 0) return false;
     const bool corner = fields_.front().empty() && empty == 1;  // of a table whose head it is

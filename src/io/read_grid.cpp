@@ -269,6 +269,13 @@ Result<PointGrid> from_offsets(const NumberRows& rows, string_view name) {
                    fmt::format("station '{}' is not a number", rows.header[i]), std::string(name),
                    "write its distance in place of its name", -1, 0.0});
     }
+    if (!stations.empty() && !(number.value > stations.back())) {
+      return fail({ErrorCode::kBadNumber,
+                   fmt::format("station {:g} does not lie behind station {:g}", number.value,
+                               stations.back()),
+                   std::string(name), "the first row holds the stations in ascending order", -1,
+                   number.value});
+    }
     stations.push_back(number.value);
   }
   std::vector<std::vector<Vec3>> grid;

@@ -20,9 +20,10 @@ using std::string_view;
 
 /// Title that stands before a row, or a running number.
 std::string title_of(const NumberRows& rows, std::size_t row, std::size_t number) {
-  for (const NumberRows::Title& title : rows.titles) {
-    if (title.row == row && row > 0) return title.text;
-  }
+  const auto title = std::lower_bound(
+      rows.titles.begin(), rows.titles.end(), row,
+      [](const NumberRows::Title& one, std::size_t place) { return one.row < place; });
+  if (row > 0 && title != rows.titles.end() && title->row == row) return title->text;
   return fmt::format("section {}", number);
 }
 

@@ -1,0 +1,126 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstdlib>
+#include <filesystem>
+#include <numbers>
+#include <string>
+
+#include "obvid/io/read_sections.h"
+
+namespace obvid {
+namespace {
+
+namespace fs = std::filesystem;
+
+fs::path shared_data() {
+  const char* const folder = std::getenv("OBVID_SHARED_DATA");
+  return folder != nullptr ? fs::path(folder) : fs::path(OBVID_SHARED_DATA);
+}
+
+#define SKIP_WITHOUT_DATA()                                                 \
+  if (!fs::exists(shared_data() / "turbomachinery_nasa")) {                 \
+    GTEST_SKIP() << "the public data sets are missing (OBVID_SHARED_DATA)"; \
+  }
+
+TEST(ReadSections, BlankLinesAndAColumnPartSections) {
+  for (const char* text :
+       {"0 0 1\n1 2 1\n2 0 1\n\n0 0 3\n1 4 3\n2 0 3\n",
+        "section,x,y,z\n7,0,0,1\n7,1,2,1\n7,2,0,1\n9,0,0,3\n9,1,4,3\n9,2,0,3\n"}) {
+    const auto parsed = parse_sections(text, "f");
+    ASSERT_TRUE(parsed) << to_line(parsed.error());
+    ASSERT_EQ(parsed->sections.size(), 2u);
+    EXPECT_FALSE(parsed->flat);
+    EXPECT_EQ(parsed->sections[0].points[1], (Vec3{1, 2, 1}));
+    EXPECT_EQ(parsed->sections[1].points[1], (Vec3{1, 4, 3}));
+  }
+}
+
+TEST(ReadSections, SectionsWithoutHeightStandAtTheirSpacing) {
+  const auto parsed = parse_sections("0 0\n1 2\n2 0\n\n0 0\n1 4\n2 0\n", "f", {2.5});
+  ASSERT_TRUE(parsed) << to_line(parsed.error());
+  ASSERT_EQ(parsed->sections.size(), 2u);
+  EXPECT_TRUE(parsed->flat);
+  EXPECT_EQ(parsed->sections[0].points[1], (Vec3{1, 2, 0}));
+  EXPECT_EQ(parsed->sections[1].points[1], (Vec3{1, 4, 2.5}));
+}
+
+TEST(ReadSections, FaultsAreNamedWithTheirLine) {
+  const auto broken = parse_sections("0 0 1\n1 2 1\n\n0 0 3\n1 x 3\n", "f");
+  ASSERT_FALSE(broken);
+  EXPECT_EQ(broken.error().where, "f:5:3");
+  const auto narrow = parse_sections("0 0 1\n1 2 1\n\n0 0 3\n1 3\n", "f");
+  ASSERT_FALSE(narrow);
+  EXPECT_EQ(narrow.error().code, ErrorCode::kTooFewColumns);
+  EXPECT_EQ(narrow.error().where, "f:5");
+}
+
+TEST(ReadSections, RotorBladesComeFromCylindersAroundTheirAxis) {
+  constexpr std::string_view kText =
+      " SURFACE NUMBER 1 FROM THE HUB\n J Z R THETA 1 THETA 2\n"
+      " 1 0.0 2.0 0.0 0.0\n 2 1.0 2.0 0.5 -0.5\n 3 2.0 2.0 0.25 -0.25\n";
+  const auto parsed = parse_sections(kText, "f");
+  ASSERT_TRUE(parsed) << to_line(parsed.error());
+  ASSERT_EQ(parsed->sections.size(), 1u);
+  const auto& p = parsed->sections[0].points;
+  ASSERT_EQ(p.size(), 5u);  // the edge that the sides share once
+  EXPECT_EQ(p[2], (Vec3{0, 0, 2}));
+  EXPECT_NEAR(p[1].y, 2.0 * std::sin(0.5), 1e-15);
+  EXPECT_NEAR(p[3].y, -2.0 * std::sin(0.5), 1e-15);
+  EXPECT_NEAR(p[4].z, 2.0 * std::cos(0.25), 1e-15);
+}
+
+TEST(ReadSections, RotorThirtySevenHasThirteenSectionsAtTheirRadii) {
+  SKIP_WITHOUT_DATA();
+  const auto sections =
+      read_sections({(shared_data() / "turbomachinery_nasa" / "rotor37geometry.dat").string()});
+  ASSERT_TRUE(sections) << to_line(sections.error());
+  ASSERT_EQ(sections->size(), 13u);
+  for (const SpaceSeries& section : *sections) {
+    EXPECT_GE(section.points.size(), 198u);
+    EXPECT_LE(section.points.size(), 200u);
+  }
+  const Vec3 edge = sections->front().points[99];  // J = 1 of the first surface
+  EXPECT_EQ(edge.x, 0.0281091);
+  EXPECT_NEAR(std::hypot(edge.y, edge.z), 17.7903728, 1e-12);
+  EXPECT_NEAR(std::atan2(edge.y, edge.z), -0.1165276, 1e-12);
+}
+
+TEST(ReadSections, TheBladeHasFiftySectionsOfItsChordsAndTwists) {
+  SKIP_WITHOUT_DATA();
+  const fs::path folder = shared_data() / "windturbine_iea15";
+  std::vector<std::string> paths = {(folder / "IEA-15-240-RWT_AeroDyn15_blade.dat").string()};
+  for (int i = 0; i < 50; ++i) {
+    paths.push_back((folder / ("IEA-15-240-RWT_AF" + std::string(i < 10 ? "0" : "") +
+                               std::to_string(i) + "_Coords.txt"))
+                        .string());
+  }
+  const auto sections = read_sections(paths);
+  ASSERT_TRUE(sections) << to_line(sections.error());
+  ASSERT_EQ(sections->size(), 50u);
+  for (const SpaceSeries& section : *sections) EXPECT_EQ(section.points.size(), 200u);
+  // the root is a circle with the chord of the table as its diameter
+  const auto& root = sections->front().points;
+  double widest = 0.0;
+  for (const Vec3& p : root) widest = std::max(widest, norm(p - root.front()));
+  EXPECT_NEAR(widest, 5.2, 0.01);
+  EXPECT_EQ(root.front().z, 0.0);
+  EXPECT_EQ((*sections)[1].points.front().z, 2.387753704536792);
+
+  const auto fewer = read_sections({paths[0], paths[1], paths[2]});
+  ASSERT_FALSE(fewer);
+  EXPECT_EQ(fewer.error().code, ErrorCode::kBadCount);
+}
+
+TEST(ReadSections, MatricesOfAHullAreTheirRows) {
+  SKIP_WITHOUT_DATA();
+  const auto sections =
+      read_sections({(shared_data() / "hulls_grids" / "TrawlerOffset_x.dat").string()});
+  ASSERT_TRUE(sections) << to_line(sections.error());
+  EXPECT_EQ(sections->size(), 21u);
+  EXPECT_EQ(sections->front().points.size(), 21u);
+}
+
+}  // namespace
+}  // namespace obvid
