@@ -55,6 +55,20 @@ Flat flat(const SpaceSeries& given, const std::string& units) {
   return out;
 }
 
+/// Ends that nearly meet are one point: a slit below the tolerance is no part of the body.
+void close_slits(std::vector<SpaceSeries>& sections, double tolerance,
+                 std::vector<std::string>& warnings) {
+  constexpr std::size_t kLeast = 4;  // points of something that closes
+  for (SpaceSeries& section : sections) {
+    if (section.points.size() < kLeast) continue;
+    const double gap = norm(section.points.back() - section.points.front());
+    if (!(gap > 0.0) || gap > tolerance) continue;
+    section.points.back() = section.points.front();
+    warnings.push_back(fmt::format("{}: its ends are {:.2g} apart, less than the tolerance: closed",
+                                   section.name, gap));
+  }
+}
+
 /// A closed contour drops the repeated first point; a section keeps it, as its end.
 void close(SkinSection& section) {
   if (!section.contour.closed) return;
@@ -97,9 +111,14 @@ Result<Fit> fit_section(const Flat& flat, const SkinJob& job, std::size_t number
 
 }  // namespace
 
-Result<FittedSkin> fit_skin(const std::vector<SpaceSeries>& sections, const SkinJob& job,
+Result<FittedSkin> fit_skin(const std::vector<SpaceSeries>& given, const SkinJob& job,
                             const Progress& progress) {
   FittedSkin result;
+  std::vector<SpaceSeries> sections = given;
+  result.tolerance = job.tolerance.value_or(kDefaultTolerance * size_of(sections));
+  if (job.sections.closing == Closing::kAutomatic) {
+    close_slits(sections, result.tolerance, result.warnings);
+  }
   std::vector<SkinSection> made;
   for (std::size_t k = 0; k < sections.size(); ++k) {
     if (progress) {
@@ -119,8 +138,7 @@ Result<FittedSkin> fit_skin(const std::vector<SpaceSeries>& sections, const Skin
     made.push_back(std::move(section.section));
   }
   SkinOptions options;
-  options.tolerance = result.tolerance =
-      job.tolerance.value_or(kDefaultTolerance * size_of(sections));
+  options.tolerance = result.tolerance;
   options.matching = job.matching;
   options.straight_across = job.straight_across;
   auto surface = skin(made, options, progress);

@@ -1,7 +1,8 @@
 # SPDX-License-Identifier: Apache-2.0
 """Judges files of faces inside FreeCAD: run by freecadcmd, the list comes in the environment.
 
-OBVID_JUDGE names a JSON file: a list of {"file", "size", "points": [[x, y, z], ...]}, lengths in mm.
+OBVID_JUDGE names a JSON file: a list of {"file", "size", "points": [[x, y, z], ...]}, lengths in mm;
+"area": false leaves the area at 0, because it takes seconds on surfaces of many spans.
 Prints one line per file: JUDGED name valid kind faces open_edges area volume distance box, and a last
 line JUDGE DONE. Distance: the largest of the points from the faces, over the size. Open edges: those of
 one face only, not counting poles. Area: integrated here over the faces' own surfaces (FreeCAD's
@@ -83,7 +84,8 @@ def judge(case):
         kinds.append(shape.ShapeType)
     volume = sum(solid.Volume for solid in shape.Solids)
     box = shape.BoundBox
-    return (int(shape.isValid()), kinds[-1], len(faces), open_edges, repr(sum(map(area, faces))),
+    total = sum(map(area, faces)) if case.get("area", True) else 0.0
+    return (int(shape.isValid()), kinds[-1], len(faces), open_edges, repr(total),
             repr(volume), worst / case["size"], box.XMin, box.YMin, box.ZMin, box.XMax, box.YMax,
             box.ZMax)
 

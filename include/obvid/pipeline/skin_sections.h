@@ -39,7 +39,8 @@ struct FittedSkin {
 
 /// Forms a fair contour through each section in its plane and a skin through the contours.
 /// Consecutive points that are the same are one point of the contour. Sections whose first and last
-/// point are the same are closed (with `Closing::kAutomatic`).
+/// point are the same, or nearer than the tolerance (a warning tells), are closed (with
+/// `Closing::kAutomatic`).
 /// Errors: of `fit`, with the section's name in front (`index`: the point), and of `skin`.
 [[nodiscard]] Result<FittedSkin> fit_skin(const std::vector<SpaceSeries>& sections,
                                           const SkinJob& job, const Progress& progress = {});
