@@ -46,7 +46,7 @@ constexpr std::array kKinds = {
              "obvid surface ruled lower.csv upper.csv -o strip.step"},
     KindText{"revolve", SurfaceKind::kRevolve, "A profile turned about an axis",
              "Profile: points or a contour",
-             "obvid surface revolve vase.csv --axis y -o vase.step"},
+             "obvid surface revolve vase.csv --axis z -o vase.step"},
     KindText{"coons", SurfaceKind::kCoons, "Between four border curves",
              "Four curves that meet in the corners, in any order",
              "obvid surface coons a.csv b.csv c.csv d.csv -o patch.step"},

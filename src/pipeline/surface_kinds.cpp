@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
 #include <numbers>
 #include <utility>
 
@@ -162,7 +163,8 @@ Result<MadeSurface> make_revolution(const SurfaceJob& job) {
   if (!curves) return fail(curves.error());
   const double angle = job.angle != 0.0 ? job.angle : 2.0 * std::numbers::pi;
   const RevolutionSurface surface{curves->front().curve, job.axis_point, job.axis_direction, angle};
-  auto made = made_of(surface, curves->front().name, size_of_all(*curves), job);
+  const std::string stem = std::filesystem::path(job.inputs.front()).stem().string();
+  auto made = made_of(surface, stem, size_of_all(*curves), job);
   if (!made) return made;
   made->facts.emplace_back("angle", degrees(angle));
   take_over(*curves, *made);

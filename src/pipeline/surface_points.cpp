@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <filesystem>
 #include <utility>
 
 #include "obvid/io/read_grid.h"
@@ -101,7 +102,8 @@ Result<MadeSurface> make_skin(const SurfaceJob& job, const Progress& progress) {
   if (!fitted) return fail(fitted.error());
   MadeSurface made;
   made.kind = fmt::format("skin through {} sections", sections->size());
-  made.model.name = "skin";
+  const std::string stem = std::filesystem::path(job.inputs.front()).stem().string();
+  made.model.name = job.inputs.size() == 1 ? stem : "skin";
   made.model.patches = fitted->skin.patches;
   made.lines = drawn_sections(*sections);
   made.warnings = fitted->warnings;
