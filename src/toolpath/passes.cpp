@@ -11,7 +11,7 @@ namespace {
 
 constexpr double kStationOfRadius = 0.25;  // looked at before refinement
 constexpr int kDeepest = 40;               // halvings between stations
-constexpr double kStraightRise = 4.0;      // shares of the tolerance, of steps with a known middle
+constexpr double kStraightRise = 1.5;      // shares of the tolerance, of steps with a known middle
 constexpr double kStraightBend = 0.25;     // of the share
 constexpr std::size_t kIsoSteps = 64;      // to guess the length of a line of parameters
 /// Contacts that move so much faster than the cutter, to places that lean otherwise (change of the

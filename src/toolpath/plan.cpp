@@ -12,6 +12,7 @@
 #include "obvid/toolpath/toolpath.h"
 #include "reach_report.h"
 #include "scallop_meter.h"
+#include "scallop_survey.h"
 
 namespace obvid {
 namespace {
@@ -72,16 +73,39 @@ Result<Family> family_of(const Part& part, const ToolpathOptions& options, const
   return constant_scallop(part, options, rule, walker, progress);
 }
 
-/// Measures between passes and puts others where they leave too much.
+/// Measures between passes and puts others where they leave too much: between contacts (walls are
+/// seen there), then over the whole stock.
 class Filler {
  public:
   Filler(const Part& part, const ToolpathOptions& options, const StepRule& rule, Walker& walker)
       : meter_(part, options.scallop.value_or(part.cutter().radius)),
+        survey_(part, options, rule, walker),
         walker_(walker),
         spacing_(std::min(kMeasureSpacing * rule.level(), kMeasureOfRadius * part.cutter().radius)),
         fills_(options.scallop.has_value()) {}
 
-  Result<Family> fill(Family family, ToolpathReport& report, const Progress& progress) {
+  Result<Family> fill(Family first, ToolpathReport& report, const Progress& progress) {
+    auto family = between_contacts(std::move(first), report, progress);
+    if (!family) return family;
+    const auto added =
+        survey_.complete(*family, progress, [this](const Pass& pass) { meter_.add(pass); });
+    if (!added) return fail(added.error());
+    report.added_passes += *added;
+    const HighSpot spot = survey_.highest();
+    keep(spot.height, spot.place, report);
+    for (const Place& place : high_) keep(meter_.left_over(place), place, report);
+    report.scallop_raster = survey_.raster();
+    return family;
+  }
+
+ private:
+  static void keep(double height, const Place& place, ToolpathReport& report) {
+    if (height <= report.scallop) return;
+    report.scallop = height;
+    report.scallop_place = place.contact;
+  }
+
+  Result<Family> between_contacts(Family family, ToolpathReport& report, const Progress& progress) {
     for (const Pass& pass : family) meter_.add(pass);
     std::vector<bool> done(family.size(), false);  // gaps behind the passes
     for (int round = 0;; ++round) {
@@ -98,7 +122,10 @@ class Filler {
             if (!pass) return fail(pass.error());
             extra = std::move(*pass);
           }
-          if (extra.empty()) report.scallop = std::max(report.scallop, gap.scallop);
+          if (extra.empty()) {
+            report.scallop = std::max(report.scallop, gap.scallop);
+            high_.insert(high_.end(), gap.high.begin(), gap.high.end());
+          }
         }
         next.push_back(std::move(family[i]));
         next_done.push_back(done[i] || extra.empty());
@@ -117,7 +144,6 @@ class Filler {
     }
   }
 
- private:
   Result<Pass> between_passes(const Pass& a, const Pass& b, const Gap& gap) {
     Rail rail = toolpath::between(a.rail, b.rail);
     double length = 0.0;
@@ -131,6 +157,8 @@ class Filler {
   }
 
   ScallopMeter meter_;
+  ScallopSurvey survey_;
+  std::vector<Place> high_;  ///< between contacts, at last
   Walker& walker_;
   double spacing_;
   bool fills_;
@@ -151,13 +179,12 @@ void warn(Toolpath& out, const ToolpathOptions& options) {
   const ToolpathReport& r = out.report;
   const auto add = [&](std::string text) { out.warnings.push_back(std::move(text)); };
   if (options.scallop && r.scallop > *options.scallop) {
-    add(fmt::format("scallops of up to {:.3g} {} stay where the part is steep across the passes",
-                    r.scallop, out.units));
-  }
-  if (options.scallop && options.cutter.kind != CutterKind::kBall) {
-    add("scallops of cutters with a flat bottom are estimated: where the part changes from hollow "
-        "to "
-        "bulge they can be several times as high");
+    const Vec3 at = r.scallop_place;
+    add(
+        fmt::format("scallops of up to {:.3g} {} stay, {:.3g} more than asked for; the highest at "
+                    "{:.6g} {:.6g} "
+                    "{:.6g}",
+                    r.scallop, out.units, r.scallop - *options.scallop, at.x, at.y, at.z));
   }
   if (r.hidden_area > 0.0) {
     add(fmt::format("{:.3g} % of the surface is hidden from above and is not cut",

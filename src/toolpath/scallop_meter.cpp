@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <numbers>
 
 namespace obvid::toolpath {
 namespace {
@@ -16,6 +17,9 @@ constexpr double kTraced = 1e-3;     // of the allowed height
 constexpr double kLookedFor = 8.0;   // allowed heights: beyond, the exact height says no more
 constexpr double kOfAllowed = 0.02;  // of the scallop: what is left between kept places
 constexpr double kHeld = 0.5;        // of the tolerance: still taken for touching
+constexpr double kLevel = 1e-6;      // size of x and y of normals
+constexpr int kRim = 8;              // places of flat bottoms besides the middle
+constexpr double kInside = 0.99;     // of the bottom's radius
 constexpr double kFarApart = 3.0;    // contacts against tips: the cutter leaps over a valley
 constexpr std::array<double, 3> kParts = {0.35, 0.5, 0.65};  // between contacts
 
@@ -23,9 +27,20 @@ constexpr std::array<double, 3> kParts = {0.35, 0.5, 0.65};  // between contacts
 
 double held_up(const Part& part, const Place& surface) {
   const Vec3 tip = part.cutter().tip(surface.contact, surface.normal);
-  const auto rest = part.drop({tip.x, tip.y});
-  if (!rest) return 0.0;
-  return (rest->tip.z - tip.z) * std::max(surface.normal.z, rest->normal.z);
+  const auto held_at = [&](Vec2 axis) {
+    const auto rest = part.drop(axis);
+    if (!rest) return 0.0;
+    return (rest->tip.z - tip.z) * std::max(surface.normal.z, rest->normal.z);
+  };
+  double held = held_at({tip.x, tip.y});
+  const double flat = part.cutter().flat();
+  if (!(flat > 0.0) || std::hypot(surface.normal.x, surface.normal.y) > kLevel) return held;
+  for (int k = 0; k < kRim && held > 0.0; ++k) {  // level: each place of the bottom touches
+    const double angle = 2.0 * std::numbers::pi * k / kRim;
+    const Vec2 out{std::cos(angle), std::sin(angle)};
+    held = std::min(held, held_at(Vec2{tip.x, tip.y} + kInside * flat * out));
+  }
+  return held;
 }
 
 ScallopMeter::ScallopMeter(const Part& part, double allowed) : part_(part), allowed_(allowed) {
@@ -96,9 +111,12 @@ void ScallopMeter::look_at(Vec3 middle, double reach, Gap& gap, double from, dou
   if (!q || std::abs(q->contact.z - middle.z) > reach) return;
   if (held_up(part_, *q) > kHeld * part_.tolerance()) return;
   const double height = left_over(*q);
-  gap.scallop = std::max(gap.scallop, height);
-  if (height <= allowed_) return;
+  if (height <= allowed_) {
+    gap.scallop = std::max(gap.scallop, height);
+    return;
+  }
   gap.too_high = true;
+  gap.high.push_back(*q);
   gap.from = std::min(gap.from, from);
   gap.to = std::max(gap.to, to);
 }

@@ -13,6 +13,7 @@ struct Gap {
   double scallop = 0.0;
   bool too_high = false;
   double from = 1.0, to = 0.0;  ///< t of the rail
+  std::vector<Place> high;      ///< where it is too much
 };
 
 /// Measures what the cutter leaves over the surface: all places of the cutter, in a raster.
@@ -24,10 +25,11 @@ class ScallopMeter {
   /// Between two passes of a family, half way and at thirds between their contacts, where the
   /// cutter can touch the surface without cutting elsewhere. `spacing`: between measured places.
   [[nodiscard]] Gap between(const Pass& a, const Pass& b, double spacing) const;
+  /// Along the normal of a place of the part, up to some allowed scallops.
+  [[nodiscard]] double left_over(const Place& q) const;
 
  private:
   [[nodiscard]] double distance(Vec3 p) const;  ///< from the nearest place of the cutter
-  [[nodiscard]] double left_over(const Place& q) const;
   [[nodiscard]] bool says_the_same(Vec3 a, Vec3 b) const;
   void look_at(Vec3 middle, double reach, Gap& gap, double from, double to) const;
   void measure(const PassPoint& a, const PassPoint& b, Gap& gap) const;

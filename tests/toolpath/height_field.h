@@ -91,12 +91,11 @@ struct HeightField {
 };
 
 /// The lowest that a cutter can reach without going below `part`: from all places of a raster that
-/// leads over the part by the cutter's radius.
-inline HeightField lowest_reachable(HeightField part, double diameter, double corner) {
-  const double r = 0.5 * diameter;
+/// leads over the part by `over`.
+inline HeightField lowest_reachable(HeightField part, double diameter, double corner, double over) {
   const Vec2 low = part.place(0, 0), high = part.place(part.nx - 1, part.ny - 1);
   HeightField out(low, high, part.step, 1e9);
-  const double edge = part.step * std::ceil(r / part.step);
+  const double edge = part.step * std::ceil(over / part.step);
   for (double y = low.y - edge; y <= high.y + edge + 1e-9; y += part.step) {
     for (double x = low.x - edge; x <= high.x + edge + 1e-9; x += part.step) {
       double tip = -1e9;

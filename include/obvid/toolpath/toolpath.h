@@ -68,9 +68,11 @@ struct ToolpathReport {
   double plunge_length = 0.0;
   double rapid_length = 0.0;
   double minutes = 0.0;  ///< at the stated feeds, without acceleration
-  /// Greatest height left between neighbouring passes, measured along the normal half way between
-  /// them where the cutter can reach the surface at all, units.
+  /// Greatest height that the passes leave, measured along the normal over the whole surface where
+  /// the cutter can reach it at all (within the tolerance), units; and where.
   double scallop = 0.0;
+  Vec3 scallop_place;
+  double scallop_raster = 0.0;   ///< it was measured at places so far apart, seen from above
   std::size_t added_passes = 0;  ///< between others that left too much
   /// Points of passes where the cutter rests on two places (all strategies) or is held up by
   /// another place than it was meant to touch (isoparametric): gouges that were avoided.
