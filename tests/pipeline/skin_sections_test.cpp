@@ -1,0 +1,142 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "obvid/pipeline/skin_sections.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+
+#include "obvid/pipeline/surface_job.h"
+
+namespace obvid {
+namespace {
+
+/// Wigley's hull: y = B/2 (1 - (2x/L)^2)(1 - (z/T)^2), stations from keel to waterline.
+double half_breadth(double x, double z) {
+  return 0.5 * (1 - 0.04 * x * x) * (1 - (z / 0.625) * (z / 0.625));
+}
+
+std::vector<SpaceSeries> wigley(Vec3 shift = {}, double scale = 1.0) {
+  std::vector<SpaceSeries> sections;
+  for (int k = 0; k < 9; ++k) {
+    const double x = -4.0 + k;
+    sections.push_back({"station", {}});
+    for (int i = 0; i < 12; ++i) {
+      const double z = -0.625 * std::cos(std::numbers::pi / 2 * i / 11.0);
+      sections.back().points.push_back(scale * (Vec3{x, half_breadth(x, z), z} + shift));
+    }
+  }
+  return sections;
+}
+
+TEST(SkinSections, FollowsWigleysHull) {
+  const auto made = fit_skin(wigley(), {});
+  ASSERT_TRUE(made) << made.error().what;
+  EXPECT_EQ(made->proved, 9u);
+  ASSERT_EQ(made->skin.patches.size(), 1u);
+  const NurbsSurface& s = made->skin.patches[0].surface;
+  for (double u = 0.0; u <= 1.0; u += 0.05) {
+    for (double v = 0.0; v <= 1.0; v += 0.05) {
+      const Vec3 p = evaluate(s, u, v).point;
+      // points a twelfth of the depth apart carry the shape to some 1e-4
+      EXPECT_NEAR(p.y, half_breadth(p.x, p.z), 3e-4);
+    }
+  }
+  for (const SkinSectionReport& section : made->skin.sections) {
+    EXPECT_LE(section.deviation, made->tolerance);
+    EXPECT_LE(section.ripple, 1e-6);
+  }
+  EXPECT_EQ(made->skin.across.found, 0u);
+}
+
+TEST(SkinSections, IsTheSameAtAnySizeAndPlace) {
+  const auto plain = fit_skin(wigley(), {});
+  ASSERT_TRUE(plain);
+  for (const double scale : {1e-9, 1e9}) {
+    const auto other = fit_skin(wigley({7, -3, 2}, scale), {});
+    ASSERT_TRUE(other) << other.error().what;
+    const NurbsSurface &a = plain->skin.patches[0].surface, &b = other->skin.patches[0].surface;
+    for (double u = 0.0; u <= 1.0; u += 0.1) {
+      for (double v = 0.0; v <= 1.0; v += 0.1) {
+        const Vec3 p = evaluate(b, u, v).point / scale - Vec3{7, -3, 2};
+        EXPECT_LT(norm(p - evaluate(a, u, v).point), 1e-6);
+      }
+    }
+  }
+}
+
+TEST(SkinSections, MergesRepeatedPointsAndKeepsTheMatching) {
+  auto sections = wigley();
+  // one station has a point twice: its neighbours' points i still belong to its points i
+  sections[3].points[5] = sections[3].points[4];
+  const auto made = fit_skin(sections, {});
+  ASSERT_TRUE(made) << made.error().what;
+  EXPECT_EQ(made->skin.matching, SkinMatching::kByPoints);
+}
+
+TEST(SkinSections, TurnsAtMarkedCornersHoweverFlat) {
+  auto sections = wigley();
+  for (SpaceSeries& section : sections) section.corners = {6};
+  const auto made = fit_skin(sections, {});
+  ASSERT_TRUE(made) << made.error().what;
+  EXPECT_EQ(made->skin.patches.size(), 2u);
+}
+
+TEST(SkinSections, ClosesSlitsBelowTheToleranceAndSaysSo) {
+  std::vector<SpaceSeries> tubes;
+  for (int k = 0; k < 3; ++k) {
+    tubes.push_back({"ring", {}});
+    for (int i = 0; i <= 16; ++i) {
+      const double a = 2 * std::numbers::pi * i / 16.0;
+      tubes.back().points.push_back(
+          {std::cos(a), std::sin(a) + (i == 16 && k == 1 ? 1e-7 : 0.0), double(k)});
+    }
+    if (k != 1) tubes.back().points.back() = tubes.back().points.front();
+  }
+  const auto made = fit_skin(tubes, {});
+  ASSERT_TRUE(made) << made.error().what;
+  ASSERT_EQ(made->warnings.size(), 1u);
+  EXPECT_NE(made->warnings[0].find("closed"), std::string::npos);
+  const NurbsSurface& s = made->skin.patches[0].surface;
+  for (double v = 0.0; v <= 1.0; v += 0.1) {
+    EXPECT_LT(norm(evaluate(s, 0, v).point - evaluate(s, 1, v).point), 1e-15);
+  }
+}
+
+TEST(SkinSections, NamesTheSectionThatHasNoContourOrTakesThePlainCubic) {
+  auto sections = wigley();
+  // a bump that no curve of monotone curvature passes
+  sections[4].points = {{0, 0, 0}, {0, 1, 0},  {0, 2, 0},  {0, 3, 0.5}, {0, 3.1, 3}, {0, 3, 0},
+                        {0, 9, 1}, {0, 10, 1}, {0, 11, 1}, {0, 12, 1},  {0, 13, 1},  {0, 14, 1}};
+  const auto refused = fit_skin(sections, {});
+  ASSERT_FALSE(refused);
+  EXPECT_NE(refused.error().what.find("section 5"), std::string::npos);
+  SkinJob job;
+  job.plain_when_refused = true;
+  const auto plain = fit_skin(sections, job);
+  if (plain) {
+    EXPECT_EQ(plain->plain, 1u);
+    EXPECT_FALSE(plain->warnings.empty());
+  } else {
+    EXPECT_NE(plain.error().what.find("section 5"), std::string::npos);
+  }
+}
+
+TEST(PlaneOf, IsTheCoordinatePlaneWhereThereIsOneElseLeastSquares) {
+  const Frame flat = plane_of({{0, 0, 3}, {1, 0, 3}, {0, 1, 3}});
+  EXPECT_EQ(flat.normal(), (Vec3{0, 0, 1}));
+  EXPECT_EQ(flat.in_plane({0.1, 0.2, 3}), (Vec2{0.1, 0.2}));  // coordinates as they are printed
+  const Vec3 normal = unit({1, 2, -3});
+  std::vector<Vec3> points;
+  for (int k = 0; k < 20; ++k) {
+    const Vec3 any{std::sin(k * 1.0), std::cos(k * 2.0), 0.1 * k};
+    points.push_back(Vec3{5, 5, 5} + any - dot(any, normal) * normal);
+  }
+  const Frame askew = plane_of(points);
+  EXPECT_NEAR(std::abs(dot(askew.normal(), normal)), 1.0, 1e-12);
+  EXPECT_NEAR(dot(askew.x, askew.y), 0.0, 1e-15);
+  for (const Vec3& p : points) EXPECT_LT(norm(askew.at(askew.in_plane(p)) - p), 1e-13);
+}
+
+}  // namespace
+}  // namespace obvid

@@ -1,0 +1,108 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "obvid/surfacing/check.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+
+namespace obvid {
+namespace {
+
+constexpr double kPi = std::numbers::pi;
+
+NurbsSurface nurbs(const Surface& surface) { return to_nurbs(surface, 1e-9)->surface; }
+
+NurbsSurface sphere_zone() {
+  // latitudes -60 to 60 degrees, a full turn
+  const Vec3 start{2 * std::cos(-kPi / 3), 0, 2 * std::sin(-kPi / 3)};
+  return nurbs(RevolutionSurface{
+      arc_about(start, {0, 0, 0}, {0, -1, 0}, 2 * kPi / 3), {0, 0, 0}, {0, 0, 1}, 2 * kPi});
+}
+
+TEST(CheckSurface, MeasuresASphereAndItsSeam) {
+  const SurfaceCheck found = check_surface({"s", "mm", {{"zone", sphere_zone()}}});
+  ASSERT_EQ(found.patches.size(), 1u);
+  const PatchReport& p = found.patches[0];
+  EXPECT_NEAR(p.gaussian.least, 0.25, 1e-11);
+  EXPECT_NEAR(p.gaussian.most, 0.25, 1e-11);
+  // 2 pi r h with h = 2 r sin 60
+  EXPECT_NEAR(p.area, 2 * kPi * 2 * (2 * 2 * std::sin(kPi / 3)), 2e-3);
+  EXPECT_TRUE(p.rational);
+  EXPECT_EQ(p.order_v, 0);                         // double knots of quarter arcs say no more
+  EXPECT_EQ(p.along_u.monotone, p.along_u.lines);  // circles
+  EXPECT_EQ(p.along_u.vertices, 0u);
+  EXPECT_EQ(p.along_v.inflections, 0u);
+  // the seam is a border that meets itself smoothly
+  ASSERT_EQ(found.joints.size(), 1u);
+  EXPECT_EQ(found.joints[0].side, (std::array{2, 3}));
+  EXPECT_EQ(found.joints[0].order, 2);
+  EXPECT_LT(found.joints[0].angle, 1e-12);
+}
+
+TEST(CheckSurface, TellsCornersFromSmoothBorders) {
+  const NurbsSurface flat = nurbs(cylinder_over(line_between({0, 0, 0}, {2, 0, 0}), {0, 1, 0}));
+  const NurbsSurface wall = nurbs(cylinder_over(line_between({0, 1, 0}, {2, 1, 0}), {0, 0, 1}));
+  const auto [left, right] = split_u(flat, 0.25);
+  const SurfaceCheck found = check_surface(
+      {"s", "mm", {{"left", left}, {"right", reversed_u(right)}, {"whole", flat}, {"wall", wall}}});
+  int smooth = 0, square = 0;
+  for (const JointReport& j : found.joints) {
+    if (j.patch == std::array<std::size_t, 2>{0, 1}) {
+      ++smooth;
+      EXPECT_EQ(j.order, 2);
+      EXPECT_EQ(j.side, (std::array{1, 1}));  // the second runs backwards
+    }
+    if (j.patch == std::array<std::size_t, 2>{2, 3}) {
+      ++square;
+      EXPECT_NEAR(j.angle, kPi / 2, 1e-12);
+      EXPECT_EQ(j.order, 0);
+    }
+  }
+  EXPECT_EQ(smooth, 1);
+  EXPECT_EQ(square, 1);
+}
+
+TEST(CheckSurface, SeesTheStepOfCurvatureFromPlaneToCylinder) {
+  const SpaceCurve arc = arc_about({0, 0, 0}, {0, 0, 1}, {0, -1, 0}, 1.0);  // leaves along +x, up
+  const NurbsSurface round = nurbs(cylinder_over(arc, {0, 3, 0}));
+  const NurbsSurface flat = nurbs(cylinder_over(line_between({-2, 0, 0}, {0, 0, 0}), {0, 3, 0}));
+  const SurfaceCheck found = check_surface({"s", "mm", {{"flat", flat}, {"round", round}}});
+  ASSERT_EQ(found.joints.size(), 1u);
+  EXPECT_LT(found.joints[0].angle, 1e-12);
+  EXPECT_NEAR(found.joints[0].curvature, 1.0, 1e-9);
+  EXPECT_EQ(found.joints[0].order, 1);
+}
+
+TEST(CheckSurface, CountsVerticesAndInflectionsOfLines) {
+  // y = sin x over one and a half waves: extrema of curvature at the crests, inflections between
+  std::vector<Vec3> points;
+  std::vector<double> at;
+  for (int k = 0; k <= 400; ++k) {
+    const double x = 0.3 + 3 * kPi * k / 400.0;
+    points.push_back({x, std::sin(x), 0});
+    at.push_back(k / 400.0);
+  }
+  const NurbsSurface wave = nurbs(cylinder_over(*interpolated(points, at), {0, 0, 1}));
+  const SurfaceCheck found = check_surface({"s", "mm", {{"wave", wave}}}, {5, 1e-5});
+  const LineReport& lines = found.patches[0].along_u;
+  EXPECT_EQ(lines.lines, 5u);
+  EXPECT_EQ(lines.most_vertices, 3u);     // pi/2, 3 pi/2, 5 pi/2
+  EXPECT_EQ(lines.inflections, 5u * 3u);  // pi, 2 pi, 3 pi
+  EXPECT_EQ(lines.monotone, 0u);
+  // rulings are straight
+  EXPECT_EQ(found.patches[0].along_v.monotone, 5u);
+  EXPECT_EQ(found.patches[0].along_v.inflections, 0u);
+  EXPECT_NEAR(found.patches[0].gaussian.most, 0.0, 1e-9);
+}
+
+TEST(CheckSurface, SaysWhereThereIsNoTangentPlane) {
+  const SpaceCurve circle = arc_about({1, 0, 0}, {0, 0, 0}, {0, 0, 1}, 2 * kPi);
+  SurfaceModel model{"s", "mm", {{"point", nurbs(RuledSurface{circle, circle})}}};
+  const SurfaceCheck found = check_surface(model, {9, 1e-5});
+  EXPECT_EQ(found.patches[0].without_normal, 81u);  // a surface of no width
+  EXPECT_EQ(found.patches[0].area, 0.0);
+}
+
+}  // namespace
+}  // namespace obvid
