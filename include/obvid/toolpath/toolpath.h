@@ -103,12 +103,13 @@ struct Toolpath {
 /// docs/methods/toolpath.md). Both sides of patches count. Passes of zigzag and constant scallop
 /// run over open borders by about a step, rolling over the edge.
 ///
-/// The scallop is kept by balls; flat and bull-nosed mills can leave several times as much where
-/// the part changes from hollow to bulge (a warning says so; docs/methods/toolpath.md has figures).
+/// The scallop is kept by all cutters as far as `scallop_raster` shows it: heights between its
+/// places and at places that hold the cutter up within the tolerance can be somewhat greater
+/// (docs/methods/toolpath.md has figures).
 /// Where the scallop needs passes nearer than a tenth of what a level place needs (walls), it is
-/// not kept; a warning says what is left. Errors: E203 sizes, feeds, heights or options that do not
-/// go together; E304 no patches; E310 a unit that machines do not know; E502 more triangles or
-/// points than allowed; those of `tessellate`.
+/// not always kept; a warning says what is left and where. Errors: E203 sizes, feeds, heights or
+/// options that do not go together; E304 no patches; E310 a unit that machines do not know; E502
+/// more triangles or points than allowed; those of `tessellate`.
 [[nodiscard]] Result<Toolpath> plan(const SurfaceModel& model, const ToolpathOptions& options,
                                     const Progress& progress = {});
 
