@@ -306,7 +306,6 @@ Result<void> check_command(const CLI::App& app) {
   const std::string typed = extras.empty() ? "" : extras.front();
   std::vector<std::string> names = option_names(app);
   for (const CLI::App* command : app.get_subcommands(nullptr)) names.push_back(command->get_name());
-  names.insert(names.end(), {"surface", "toolpath"});
   const std::string kind = typed.starts_with("-") ? "option" : "command";
   return fail(usage("unknown " + kind + " '" + typed + "'",
                     did_you_mean(typed, names, "see obvid --help")));
@@ -454,6 +453,10 @@ Result<Command> parse_command_line(int argc, const char* const* argv) {
     add_compare(app, raw);
     add_convert(app, raw);
     add_checkers(app, raw);
+    // understood apart, listed here
+    app.add_subcommand("surface",
+                       "Surfaces: skin, ruled, revolve, coons, gordon, grid, offset, check, ...");
+    app.add_subcommand("toolpath", "Three-axis milling of a surface as G-code");
     allow_extras(app);
     try {
       app.parse(argc, argv);

@@ -14,6 +14,20 @@
 #include "terminal.h"
 
 namespace obvid {
+namespace {
+
+/// Exit code 5 for contours that were formed but do not keep their promise.
+int judge(const MadeSurface& made, bool files) {
+  if (!made.skin) return 0;
+  const std::size_t fair = made.skin->skin.sections.size() - made.skin->points - made.skin->plain;
+  if (made.skin->proved == fair) return 0;
+  return report({ErrorCode::kNotProved,
+                 fmt::format("{} of {} section contours were formed but not proved",
+                             fair - made.skin->proved, fair),
+                 "", files ? "the files were written" : "", -1, 0.0});
+}
+
+}  // namespace
 
 int run(const SurfaceOptions& options) {
   Result<std::vector<SurfaceOutput>> outputs =
@@ -42,7 +56,7 @@ int run(const SurfaceOptions& options) {
     text = surface_report_text(*made, written);
   }
   if (auto done = put(text); !done) return report(done.error());
-  return 0;
+  return judge(*made, !written.files.empty());
 }
 
 }  // namespace obvid

@@ -210,8 +210,11 @@ CLI::App& add_maker(CLI::App& app, RawSurface& raw, const KindText& text) {
   kind.add_option("INPUT", raw.make.job.inputs, text.inputs);
   add_outputs(kind, raw.make.outputs, known_surface_endings());
   add_kind(kind, raw, text.kind);
-  kind.add_option("--units", raw.make.job.units, "Name of the length unit: mm, m, in, ... [mm]")
-      ->type_name("NAME");
+  const bool stored = text.kind == SurfaceKind::kConvert || text.kind == SurfaceKind::kOffset;
+  if (!stored) {  // a stored surface knows its unit
+    kind.add_option("--units", raw.make.job.units, "Name of the length unit: mm, m, in, ... [mm]")
+        ->type_name("NAME");
+  }
   kind.add_option("--step", raw.step, "Schema of STEP files: ap214 or ap242 [ap214]")
       ->type_name("NAME");
   add_pictures(kind, raw);

@@ -66,9 +66,9 @@ Table section_table(const std::vector<SkinSectionReport>& sections) {
 
 std::string across_text(const AcrossReport& across) {
   return fmt::format(
-      "{} changes of bending on {} isolines, {} of them in the sections' points; at "
-      "most {} beyond those on one isoline",
-      across.found, across.isolines, across.forced, across.worst);
+      "{} changes of bending on {} isolines, the sections' points force {}; {} beyond "
+      "those, at most {} on one isoline",
+      across.found, across.isolines, across.forced, across.beyond, across.worst);
 }
 
 void add_skin(const FittedSkin& fitted, const std::string& units, Facts& facts) {
@@ -119,7 +119,10 @@ void add_skin(const FittedSkin& fitted, JsonText& json) {
   json.end_array();
   const AcrossReport& across = fitted.skin.across;
   json.key("across").begin_object().pair("isolines", across.isolines).pair("found", across.found);
-  json.pair("forced", across.forced).pair("worst", across.worst).end_object();
+  json.pair("forced", across.forced)
+      .pair("beyond", across.beyond)
+      .pair("worst", across.worst)
+      .end_object();
   json.end_object();
 }
 

@@ -158,6 +158,18 @@ std::string report_json(const Made& made, const std::vector<std::string>& files)
   return json.end_array().end_object().take() + "\n";
 }
 
+/// Exit code 5 where more is left than was asked for.
+int judge(const ToolpathCommand& command, const Made& made) {
+  constexpr double kMeasured = 1.05;  // what is measured is good to some percent
+  const double left = made.path.report.scallop;
+  if (!command.plan.scallop || left <= kMeasured * *command.plan.scallop) return 0;
+  return report(
+      {ErrorCode::kToleranceNotReached,
+       fmt::format("{} {} is left between passes where {} were asked for", significant(left, 3),
+                   made.path.units, significant(*command.plan.scallop, 3)),
+       "", "the files were written; a ball cutter or a smaller --step-over leaves less", -1, left});
+}
+
 }  // namespace
 
 int run(const ToolpathCommand& command) {
@@ -186,7 +198,7 @@ int run(const ToolpathCommand& command) {
     text = report_text(*made, files);
   }
   if (auto done = put(text); !done) return report(done.error());
-  return 0;
+  return judge(command, *made);
 }
 
 }  // namespace obvid

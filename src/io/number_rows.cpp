@@ -7,6 +7,7 @@
 #include <cctype>
 #include <filesystem>
 #include <fstream>
+#include <iostream>
 #include <sstream>
 
 #include "text_kind.h"
@@ -162,6 +163,11 @@ Error error_at(ErrorCode code, std::string what, string_view name, std::size_t l
 }
 
 Result<std::string> file_text(const std::string& path) {
+  if (path == "-") {
+    std::ostringstream text;
+    text << std::cin.rdbuf();
+    return text.str();
+  }
   std::error_code ignored;
   std::ifstream file(path, std::ios::binary);
   std::ostringstream text;

@@ -305,7 +305,7 @@ bool is_offset_table(const NumberRows& rows) {
 }
 
 bool is_matrix(const NumberRows& rows) {
-  constexpr std::size_t kLeastColumns = 4;  // x y z have three
+  constexpr std::size_t kLeastColumns = 5;  // x y z and a number have four
   return std::all_of(rows.rows.begin(), rows.rows.end(), [&](const NumberRow& row) {
     return row.values.size() >= kLeastColumns &&
            row.values.size() == rows.rows.front().values.size();

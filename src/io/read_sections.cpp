@@ -82,18 +82,28 @@ struct Columns {
   int x = 0, y = 1, z = 2, section = -1;
 };
 
-Columns columns_of(const NumberRows& rows) {
+Result<Columns> columns_of(const NumberRows& rows, string_view name) {
   Columns columns;
   columns.section = column_named(rows, "section");
   const int x = column_named(rows, "x"), y = column_named(rows, "y"), z = column_named(rows, "z");
-  if (x >= 0 && y >= 0) return {x, y, z, columns.section};
+  if (x >= 0 && y >= 0) {
+    const std::size_t understood = 2 + (z >= 0 ? 1 : 0) + (columns.section >= 0 ? 1 : 0);
+    if (z < 0 && rows.header.size() > understood) {
+      return fail({ErrorCode::kTooFewColumns, "columns x and y are there, but none is called z",
+                   std::string(name), "call the third coordinate z, or take the column out", -1,
+                   0.0});
+    }
+    return Columns{x, y, z, columns.section};
+  }
   if (columns.section == 0) columns = {1, 2, 3, 0};
   if (rows.rows.front().values.size() <= static_cast<std::size_t>(columns.z)) columns.z = -1;
   return columns;
 }
 
 Result<ParsedSections> from_rows(const NumberRows& rows, string_view name) {
-  const Columns columns = columns_of(rows);
+  const auto found = columns_of(rows, name);
+  if (!found) return fail(found.error());
+  const Columns columns = *found;
   const auto widest =
       static_cast<std::size_t>(std::max({columns.x, columns.y, columns.z, columns.section}) + 1);
   ParsedSections out;
@@ -153,6 +163,15 @@ std::string grid_name(const std::string& path) {
   const std::filesystem::path file(path);
   const std::string stem = file.stem().string();
   return (file.parent_path() / stem.substr(0, stem.size() - 1)).string();
+}
+
+/// A name that ends in _x, _y or _z, and the two other files beside it.
+bool is_matrix_with_siblings(const std::string& path) {
+  if (!is_one_of_three(path)) return false;
+  const std::string ending = std::filesystem::path(path).extension().string();
+  return std::all_of(std::begin("xyz"), std::end("xyz") - 1, [&](char axis) {
+    return std::filesystem::exists(grid_name(path) + axis + ending);
+  });
 }
 
 std::vector<SpaceSeries> rows_of(const PointGrid& grid) {
@@ -218,6 +237,16 @@ Result<std::vector<SpaceSeries>> blade_sections(const std::string& table_path,
   const auto table = parse_blade_table(table_text, table_path);
   if (!table) return fail(table.error());
   std::vector<SpaceSeries> sections;
+  std::size_t used = 0;
+  for (const BladeStation& station : *table)
+    used = std::max(used, static_cast<std::size_t>(std::max(station.airfoil, 0)));
+  if (used < airfoils.size()) {
+    return fail(
+        {ErrorCode::kBadCount,
+         fmt::format("{} airfoil files were given, the table asks for {}", airfoils.size(), used),
+         table_path, "give exactly the files of the table, in the order of their numbers", -1,
+         static_cast<double>(airfoils.size())});
+  }
   for (const BladeStation& station : *table) {
     if (station.airfoil < 1 || static_cast<std::size_t>(station.airfoil) > airfoils.size()) {
       return fail({ErrorCode::kBadCount,
@@ -267,7 +296,7 @@ Result<std::vector<SpaceSeries>> read_sections(const std::vector<std::string>& p
                                     [](const std::string& path) { return is_one_of_three(path); });
   if (matrices) return rows_of_grids(paths);
   std::vector<SpaceSeries> sections;
-  bool all_flat = true;
+  std::string flat_file, spatial_file;
   for (const std::string& path : paths) {
     const auto text = file_text(path);
     if (!text) return fail(text.error());
@@ -279,12 +308,16 @@ Result<std::vector<SpaceSeries>> read_sections(const std::vector<std::string>& p
     }
     auto parsed = parse_sections(*text, path, options);
     if (!parsed) return fail(parsed.error());
-    all_flat = all_flat && parsed->flat;
+    (parsed->flat ? flat_file : spatial_file) = path;
     if (paths.size() > 1 && parsed->sections.size() == 1)
       parsed->sections.front().name = file_name(path);
     std::move(parsed->sections.begin(), parsed->sections.end(), std::back_inserter(sections));
   }
-  if (all_flat) lift(sections, options.spacing);
+  if (!flat_file.empty() && !spatial_file.empty()) {
+    return fail({ErrorCode::kTooFewColumns, "this file has no z, others have", flat_file,
+                 "give all sections a z, or none of them", -1, 0.0});
+  }
+  if (spatial_file.empty()) lift(sections, options.spacing);
   return sections;
 }
 

@@ -95,8 +95,21 @@ Result<ReadCurve> from_points(const std::string& path, const SurfaceJob& job) {
         series.name, "mm", line_between(series.points.front(), series.points.back()), {}};
   }
   const Result<Fit> made = fit(flat, job.sections);
+  if (!made && job.plain_when_refused && exit_code(made.error().code) == 4) {
+    auto curve = spline_through(series);
+    if (!curve) return curve;
+    curve->warnings.push_back(
+        fmt::format("{}: no fair contour ({}), the C2 cubic through its points stands for it", path,
+                    made.error().what));
+    return curve;
+  }
   if (!made) {
     Error error = made.error();
+    if (exit_code(error.code) == 4) {
+      error.hint =
+          "--noise EPS lets points move that far; --plain takes the C2 cubic where no fair "
+          "contour exists";
+    }
     error.where = error.where.empty() ? path : path + ", " + error.where;
     return fail(error);
   }

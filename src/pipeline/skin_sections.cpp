@@ -7,6 +7,8 @@
 #include <cmath>
 #include <utility>
 
+#include "align_sections.h"
+
 namespace obvid {
 namespace {
 
@@ -31,7 +33,13 @@ double size_of(const std::vector<SpaceSeries>& sections) {
 struct Flat {
   SkinSection section;
   PointSeries series;
+  double extent = 0.0;  ///< largest coordinate in space, units
 };
+
+/// Of the largest coordinate: some thousand steps of a double, and up to a million of them where
+/// points are dense; far below what is ever measured.
+constexpr double kRounding = 1e-12;
+constexpr double kMostRounding = 2e-9;
 
 Flat flat(const SpaceSeries& given, const std::string& units) {
   Flat out;
@@ -41,6 +49,7 @@ Flat flat(const SpaceSeries& given, const std::string& units) {
   out.series.name = given.name;
   out.series.units = units;
   for (const Vec3& p : given.points) {
+    out.extent = std::max({out.extent, std::abs(p.x), std::abs(p.y), std::abs(p.z)});
     const Vec2 in_plane = out.section.frame.in_plane(p);
     if (out.series.points.empty() || !(out.series.points.back() == in_plane)) {
       out.series.points.push_back(in_plane);
@@ -83,10 +92,21 @@ void close(SkinSection& section) {
   section.on_contour.push_back(0);
 }
 
-/// The contour of one section, plain where that is allowed and nothing better exists.
-Result<Fit> fit_section(const Flat& flat, const SkinJob& job, std::size_t number,
+/// The contour of one section (`moved` grows to what its points were allowed to move), plain where
+/// that is allowed and nothing better exists.
+Result<Fit> fit_section(const Flat& flat, const SkinJob& job, std::size_t number, double& moved,
                         std::vector<std::string>& warnings) {
   Result<Fit> made = fit(flat.series, job.sections);
+  // circles in full precision, and sections turned into their plane: below the last digits of the
+  // coordinates nothing is known, so points may move there
+  for (double share = kRounding; !made && share < kMostRounding && !job.sections.noise &&
+                                 made.error().code == ErrorCode::kRoundingDecides;
+       share *= 10.0) {
+    FitJob within_rounding = job.sections;
+    within_rounding.noise = share * flat.extent;
+    made = fit(flat.series, within_rounding);
+    moved = std::max(moved, share * flat.extent);
+  }
   const std::string name = fmt::format("section {} ({})", number, flat.section.name);
   if (!made && job.plain_when_refused && exit_code(made.error().code) == 4) {
     FitJob plain = job.sections;
@@ -101,6 +121,11 @@ Result<Fit> fit_section(const Flat& flat, const SkinJob& job, std::size_t number
   if (!made) {
     Error error = made.error();
     error.what = fmt::format("{}: {}", name, error.what);
+    if (exit_code(error.code) == 4) {
+      error.hint =
+          "--noise EPS lets points move that far; --plain takes the C2 cubic where no fair "
+          "contour exists";
+    }
     return fail(error);
   }
   if (!made->certificate.proved && promises_monotone(made->contour.carrier)) {
@@ -114,19 +139,25 @@ Result<Fit> fit_section(const Flat& flat, const SkinJob& job, std::size_t number
 Result<FittedSkin> fit_skin(const std::vector<SpaceSeries>& given, const SkinJob& job,
                             const Progress& progress) {
   FittedSkin result;
+  if (given.size() < 2) {
+    return fail({ErrorCode::kTooFewPoints, "a skin needs at least two sections", "", "", -1,
+                 static_cast<double>(given.size())});
+  }
   std::vector<SpaceSeries> sections = given;
   result.tolerance = job.tolerance.value_or(kDefaultTolerance * size_of(sections));
   if (job.sections.closing == Closing::kAutomatic) {
     close_slits(sections, result.tolerance, result.warnings);
   }
+  align_sections(sections, result.warnings);
   std::vector<SkinSection> made;
+  double moved = 0.0;
   for (std::size_t k = 0; k < sections.size(); ++k) {
     if (progress) {
       progress("forming sections", static_cast<double>(k) / static_cast<double>(sections.size()));
     }
     Flat section = flat(sections[k], job.units);
     if (section.series.points.size() > 1) {
-      auto contour = fit_section(section, job, k + 1, result.warnings);
+      auto contour = fit_section(section, job, k + 1, moved, result.warnings);
       if (!contour) return fail(contour.error());
       result.proved += contour->certificate.proved ? 1 : 0;
       result.plain += contour->contour.carrier == Carrier::kBaseline ? 1 : 0;
@@ -136,6 +167,11 @@ Result<FittedSkin> fit_skin(const std::vector<SpaceSeries>& given, const SkinJob
       ++result.points;
     }
     made.push_back(std::move(section.section));
+  }
+  if (moved > 0.0) {
+    result.warnings.push_back(fmt::format(
+        "the rounding of coordinates decides about some sections: their points may move by {:.2g}",
+        moved));
   }
   SkinOptions options;
   options.tolerance = result.tolerance;

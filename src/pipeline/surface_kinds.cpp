@@ -83,6 +83,23 @@ std::string folded_at(const SurfacePatch& patch, const FoldedRegion& fold) {
                      fold.u.to, fold.v.from, fold.v.to);
 }
 
+/// Whether a profile lies on both sides of the axis: the surface then runs through itself.
+bool crosses_axis(const SpaceCurve& profile, Vec3 point, Vec3 direction) {
+  const Vec3 axis = unit(direction);
+  const ScenePolyline line = drawn(profile);
+  Vec3 farthest;
+  std::vector<Vec3> arms;
+  for (const Vec3& p : line.points) {
+    const Vec3 arm = (p - point) - dot(p - point, axis) * axis;
+    arms.push_back(arm);
+    if (norm(arm) > norm(farthest)) farthest = arm;
+  }
+  constexpr double kRounding = 1e-9;  // of the largest radius
+  return std::any_of(arms.begin(), arms.end(), [&](const Vec3& arm) {
+    return dot(arm, farthest) < -kRounding * dot(farthest, farthest);
+  });
+}
+
 Error folds(const SurfacePatch& patch, const OffsetCheck& found, double distance) {
   const double largest = distance < 0.0 ? found.largest_inwards : found.largest_outwards;
   return {ErrorCode::kFixedDataContradict,
@@ -167,6 +184,12 @@ Result<MadeSurface> make_revolution(const SurfaceJob& job) {
   auto made = made_of(surface, stem, size_of_all(*curves), job);
   if (!made) return made;
   made->facts.emplace_back("angle", degrees(angle));
+  if (crosses_axis(curves->front().curve, job.axis_point, job.axis_direction)) {
+    made->warnings.push_back(
+        fmt::format("{}: the profile lies on both sides of the axis, the surface runs "
+                    "through itself; is it half an outline, and --axis right?",
+                    job.inputs.front()));
+  }
   take_over(*curves, *made);
   return made;
 }

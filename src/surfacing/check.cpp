@@ -167,7 +167,10 @@ std::vector<JointReport> joints_of(const SurfaceModel& model, double nearness) {
     const std::vector<Vec3>& one = sides[a / 4][a % 4];
     if (length_of(one) <= nearness) continue;  // a pole is no border
     for (std::size_t b = a + 1; b < 4 * sides.size(); ++b) {
-      const Meeting met = meeting(one, sides[b / 4][b % 4]);
+      const std::vector<Vec3>& two = sides[b / 4][b % 4];
+      const double ends = std::min(norm(one.front() - two.front()), norm(one.front() - two.back()));
+      if (ends > nearness) continue;
+      const Meeting met = meeting(one, two);
       if (met.gap > nearness) continue;
       JointReport joint;
       joint.patch = {a / 4, b / 4};

@@ -152,7 +152,9 @@ void add_across_report(const SkinStretch& stretch, const std::vector<double>& v,
     ++report.isolines;
     report.found += found;
     report.forced += forced;
-    if (found > forced) report.worst = std::max(report.worst, found - forced);
+    if (found <= forced) continue;
+    report.beyond += found - forced;
+    report.worst = std::max(report.worst, found - forced);
   }
 }
 

@@ -42,11 +42,13 @@ TEST(ReadGrid, EveryFormOfAListGivesTheSameGrid) {
 }
 
 TEST(ReadGrid, AMatrixOfHeightsStandsOnItsSpacing) {
-  const auto grid = parse_grid("a,b,c,d\n1,2,3,4\n5,6,7,8\n", "heights", {2.5});
+  const auto grid = parse_grid("a,b,c,d,e\n1,2,3,4,0\n5,6,7,8,0\n", "heights", {2.5});
   ASSERT_TRUE(grid) << to_line(grid.error());
-  EXPECT_EQ(grid->count_u, 4u);
+  EXPECT_EQ(grid->count_u, 5u);
   EXPECT_EQ(grid->count_v, 2u);
   EXPECT_EQ(grid->at(3, 1), (Vec3{7.5, 2.5, 8}));
+  // four columns are more likely a number and x y z, which is no grid of heights
+  EXPECT_FALSE(parse_grid("7,1,2,3\n8,5,6,7\n9,1,6,3\n", "points"));
 }
 
 TEST(ReadGrid, HalfBreadthsStandOverStationsAndWaterlines) {

@@ -122,5 +122,14 @@ TEST(ReadSections, MatricesOfAHullAreTheirRows) {
   EXPECT_EQ(sections->front().points.size(), 21u);
 }
 
+TEST(ReadSections, NothingIsTakenForAThirdCoordinateSilently) {
+  const auto height = parse_sections("y,x,h\n0,0,5\n1,1,5\n2,0,5\n", "s");
+  ASSERT_FALSE(height);
+  EXPECT_EQ(height.error().code, ErrorCode::kTooFewColumns);
+  const auto named = parse_sections("y,x,z\n0,9,5\n1,8,5\n2,9,5\n", "s");
+  ASSERT_TRUE(named) << to_line(named.error());
+  EXPECT_EQ(named->sections[0].points[1], (Vec3{8, 1, 5}));
+}
+
 }  // namespace
 }  // namespace obvid

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -119,6 +120,62 @@ TEST(SkinSections, NamesTheSectionThatHasNoContourOrTakesThePlainCubic) {
     EXPECT_FALSE(plain->warnings.empty());
   } else {
     EXPECT_NE(plain.error().what.find("section 5"), std::string::npos);
+  }
+}
+
+TEST(SkinSections, TurnsSectionsThatRunBackwardsAndSaysSo) {
+  auto sections = wigley();
+  std::reverse(sections[4].points.begin(), sections[4].points.end());
+  const auto plain = fit_skin(wigley(), {}), turned = fit_skin(sections, {});
+  ASSERT_TRUE(plain);
+  ASSERT_TRUE(turned) << turned.error().what;
+  ASSERT_EQ(turned->warnings.size(), 1u);
+  EXPECT_NE(turned->warnings[0].find("section 5"), std::string::npos);
+  EXPECT_EQ(turned->skin.patches[0].surface, plain->skin.patches[0].surface);
+}
+
+TEST(SkinSections, WarnsOfSectionsOutOfOrderAndOfTwistedRings) {
+  auto sections = wigley();
+  std::swap(sections[3], sections[5]);
+  const auto disorder = fit_skin(sections, {});
+  ASSERT_TRUE(disorder) << disorder.error().what;
+  ASSERT_FALSE(disorder->warnings.empty());
+  EXPECT_NE(disorder->warnings[0].find("in order?"), std::string::npos);
+  std::vector<SpaceSeries> rings;
+  for (int k = 0; k < 3; ++k) {
+    rings.push_back({"ring", {}});
+    for (int i = 0; i <= 24; ++i) {
+      const double a = 2 * std::numbers::pi * ((i + (k == 1 ? 12 : 0)) % 24) / 24.0;
+      rings.back().points.push_back({2 * std::cos(a), std::sin(a), double(k)});
+    }
+  }
+  const auto twisted = fit_skin(rings, {});
+  ASSERT_TRUE(twisted) << twisted.error().what;
+  ASSERT_FALSE(twisted->warnings.empty());
+  EXPECT_NE(twisted->warnings[0].find("begins elsewhere"), std::string::npos);
+}
+
+TEST(SkinSections, TakesCirclesInFullPrecisionInAnyPlane) {
+  for (const std::size_t n : {12u, 24u, 60u}) {
+    std::vector<SpaceSeries> tube;
+    for (int k = 0; k < 4; ++k) {
+      const double tilt = 0.1 * k;  // the planes of a bend
+      tube.push_back({"ring", {}});
+      for (std::size_t i = 0; i <= n; ++i) {
+        const double a = 2 * std::numbers::pi * static_cast<double>(i) / static_cast<double>(n);
+        const double r = 10 + 2 * std::cos(a);
+        tube.back().points.push_back({r * std::cos(tilt), r * std::sin(tilt), 2 * std::sin(a)});
+      }
+    }
+    const auto made = fit_skin(tube, {});
+    ASSERT_TRUE(made) << n << ": " << made.error().what;
+    const NurbsSurface& s = made->skin.patches[0].surface;
+    for (double u = 0.0; u <= 1.0; u += 0.05) {
+      for (double v = 0.0; v <= 1.0; v += 0.05) {
+        const Vec3 p = evaluate(s, u, v).point;
+        EXPECT_NEAR(std::hypot(std::hypot(p.x, p.y) - 10, p.z), 2.0, 5e-4) << n;
+      }
+    }
   }
 }
 

@@ -41,7 +41,10 @@ struct FittedSkin {
 /// Consecutive points that are the same are one point of the contour. Sections whose first and last
 /// point are the same, or nearer than the tolerance (a warning tells), are closed (with
 /// `Closing::kAutomatic`).
-/// Errors: of `fit`, with the section's name in front (`index`: the point), and of `skin`.
+/// Where the rounding of the coordinates decides (E405: circles in full precision), points may move
+/// by 1e-12 of the largest coordinate. Sections that run against the one before are turned round,
+/// and a warning tells; others tell of closed sections that begin elsewhere and of sections out of
+/// order. Errors: of `fit`, with the section's name in front (`index`: the point), and of `skin`.
 [[nodiscard]] Result<FittedSkin> fit_skin(const std::vector<SpaceSeries>& sections,
                                           const SkinJob& job, const Progress& progress = {});
 
