@@ -81,7 +81,10 @@ std::optional<ScallopSurvey::Sides> ScallopSurvey::sides(const Family& family,
     const NurbsSurface& surface = part_.model().patches[place.patch].surface;
     least = kLeastLine * (along_v_ ? domain_u(surface) : domain_v(surface)).length();
   }
-  if (!std::isfinite(high - low) || high - low <= least) return std::nullopt;
+  if (high - low <= least) return std::nullopt;
+  if (!std::isfinite(low)) out.low = out.high;
+  if (!std::isfinite(high)) out.high = out.low;
+  if (!std::isfinite(low) && !std::isfinite(high)) return std::nullopt;
   return out;
 }
 
@@ -97,17 +100,35 @@ double ScallopSurvey::length(const Rail& rail) const {
   return norm(point(0.5) - point(0.0)) + norm(point(1.0) - point(0.5));
 }
 
+/// From the last rail to the farthest of places beyond it.
+Vec2 ScallopSurvey::outside(const Rail& rail, const std::vector<Place>& places) const {
+  double farthest = 0.0;
+  for (const Place& place : places) {
+    const Across aim = across(place);
+    const double off = aim.across - dot(rail.axis_at(aim.t), frame_.across());
+    if (std::abs(off) > std::abs(farthest)) farthest = off;
+  }
+  return farthest * frame_.across();
+}
+
 std::vector<ScallopSurvey::Wanted> ScallopSurvey::wanted(const Family& family) {
-  std::map<Sides, std::vector<double>> places;
+  std::map<Sides, std::vector<Place>> places;
   for (const HighSpot& spot : stock_.above(limit_)) {
     if (const auto both = sides(family, spot.place)) {
-      places[*both].push_back(across(spot.place).t);
+      places[*both].push_back(spot.place);
     }
   }
   std::vector<Wanted> out;
-  for (auto& [both, ts] : places) {
+  for (const auto& [both, spots] : places) {
+    Rail rail = between(family[both.low].rail, family[both.high].rail);
+    if (both.low == both.high) {  // beyond the last pass
+      if (of_parameters_) continue;
+      const Vec2 out_there = outside(rail, spots);
+      for (Vec2& axis : rail.axis) axis = axis + out_there;
+    }
+    std::vector<double> ts;
+    for (const Place& place : spots) ts.push_back(across(place).t);
     std::sort(ts.begin(), ts.end());
-    const Rail rail = between(family[both.low].rail, family[both.high].rail);
     const double whole = std::max(length(rail), part_.cutter().radius);
     const double margin = kMargin * stock_.spacing() / whole;
     const double together = kTogether * 2.0 * part_.cutter().radius / whole;

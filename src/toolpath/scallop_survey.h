@@ -63,6 +63,7 @@ class ScallopSurvey {
   [[nodiscard]] Across across(const Place& place) const;
   [[nodiscard]] std::optional<double> across(const Rail& rail, const Place& place, double t) const;
   [[nodiscard]] std::optional<Sides> sides(const Family& family, const Place& place) const;
+  [[nodiscard]] Vec2 outside(const Rail& rail, const std::vector<Place>& places) const;
   [[nodiscard]] double length(const Rail& rail) const;
 
   const Part& part_;
