@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
 #include <optional>
 #include <string>
 #include <vector>
@@ -83,6 +84,31 @@ Result<void> fill(ToolpathOutput& output, const ToolpathCommand& command, Made& 
   return {};
 }
 
+/// Distance of passes on a level place.
+double level_step(const ToolpathOptions& plan) {
+  if (plan.step_over) return *plan.step_over;
+  if (plan.cutter.kind == CutterKind::kFlat) return plan.cutter.diameter / 2.0;
+  const bool ball = plan.cutter.kind == CutterKind::kBall;
+  const double r = ball ? plan.cutter.diameter / 2.0 : plan.cutter.corner_radius;
+  return 2.0 * std::sqrt(2.0 * r * plan.scallop.value_or(r));
+}
+
+/// Refuses work without end: a typing error in a length, most likely.
+Result<void> check_effort(const SurfaceModel& model, const ToolpathOptions& plan) {
+  constexpr double kMostPasses = 20'000.0;
+  NurbsSurface box;
+  for (const SurfacePatch& patch : model.patches) {
+    box.points.insert(box.points.end(), patch.surface.points.begin(), patch.surface.points.end());
+  }
+  const double passes = size_of(box) / level_step(plan);
+  if (!(passes > kMostPasses)) return {};  // sizes that are no sizes are refused by the plan
+  return fail({ErrorCode::kBadOption,
+               fmt::format("that would be some {:.2g} passes over {} {}", passes,
+                           significant(size_of(box), 4), model.units),
+               "", "check the units of the surface, --diameter, --scallop and --step-over", -1,
+               passes});
+}
+
 Result<Made> made_from(const ToolpathCommand& command, std::vector<ToolpathOutput>& outputs,
                        ProgressBar& bar) {
   Made made;
@@ -90,6 +116,7 @@ Result<Made> made_from(const ToolpathCommand& command, std::vector<ToolpathOutpu
   auto model = read_surface(command.input, made.warnings);
   if (!model) return fail(model.error());
   made.model = std::move(*model);
+  if (auto good = check_effort(made.model, command.plan); !good) return fail(good.error());
   auto path = plan(made.model, command.plan, bar.progress());
   if (!path) return fail(path.error());
   made.path = std::move(*path);
