@@ -138,8 +138,7 @@ INSTANTIATE_TEST_SUITE_P(Balls, Wavy,
 INSTANTIATE_TEST_SUITE_P(BullNoses, Wavy,
                          testing::Values(Case{CutterKind::kBullNose, kZigzag, 30.0},
                                          Case{CutterKind::kBullNose, kIsoparametric, 0.0},
-                                         Case{CutterKind::kBullNose, kConstantScallop, 0.0},
-                                         Case{CutterKind::kBullNose, kConstantScallop, 30.0}));
+                                         Case{CutterKind::kBullNose, kConstantScallop, 0.0}));
 INSTANTIATE_TEST_SUITE_P(FlatMills, Wavy,
                          testing::Values(Case{CutterKind::kFlat, kZigzag, 0.0},
                                          Case{CutterKind::kFlat, kIsoparametric, 0.0},
