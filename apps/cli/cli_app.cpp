@@ -48,4 +48,11 @@ Error from_cli(const CLI::ParseError& error, const std::string& name) {
   return usage(what, "see obvid --help");
 }
 
+Error unknown_name(const std::string& typed, const std::vector<std::string>& names,
+                   const char* option) {
+  std::string all;
+  for (const std::string& name : names) all += (all.empty() ? "available are " : ", ") + name;
+  return bad_option("unknown name '" + typed + "'", option, did_you_mean(typed, names, all));
+}
+
 }  // namespace obvid

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <CLI/CLI.hpp>
+#include <map>
 #include <string>
 #include <vector>
 
@@ -26,5 +27,20 @@ namespace obvid {
 
 /// An error of CLI11 in the words of this program.
 [[nodiscard]] Error from_cli(const CLI::ParseError& error, const std::string& name);
+
+/// E203: `typed` is none of the names that an option knows.
+[[nodiscard]] Error unknown_name(const std::string& typed, const std::vector<std::string>& names,
+                                 const char* option);
+
+/// What a name stands for. Error: E203 with the nearest name.
+template <class Value>
+[[nodiscard]] Result<Value> value_named(const std::map<std::string, Value>& values,
+                                        const std::string& typed, const char* option) {
+  const auto at = values.find(typed);
+  if (at != values.end()) return at->second;
+  std::vector<std::string> names;
+  for (const auto& [name, value] : values) names.push_back(name);
+  return fail(unknown_name(typed, names, option));
+}
 
 }  // namespace obvid

@@ -4,7 +4,6 @@
 #include <array>
 #include <charconv>
 #include <cmath>
-#include <map>
 #include <numbers>
 
 #include "cli_app.h"
@@ -253,20 +252,6 @@ Result<Vec3> vector_of(const std::string& typed, const char* option) {
   return Vec3{value[0], value[1], value[2]};
 }
 
-template <class Value>
-Result<Value> named(const std::map<std::string, Value>& values, const std::string& typed,
-                    const char* option) {
-  const auto at = values.find(typed);
-  if (at != values.end()) return at->second;
-  std::vector<std::string> names;
-  std::string all = "available are ";
-  for (const auto& [name, value] : values) {
-    all += (names.empty() ? "" : ", ") + name;
-    names.push_back(name);
-  }
-  return fail(bad_option("unknown name '" + typed + "'", option, did_you_mean(typed, names, all)));
-}
-
 Result<void> set_axis(const RawSurface& raw, SurfaceJob& job) {
   const std::map<std::string, Vec3> axes = {{"x", {1, 0, 0}}, {"y", {0, 1, 0}}, {"z", {0, 0, 1}}};
   const auto at = axes.find(raw.axis);
@@ -314,19 +299,19 @@ Result<void> positive(const std::optional<double>& value, const char* option) {
 }
 
 Result<void> set_names(const RawSurface& raw, SurfaceOptions& make) {
-  const auto matching = named<SkinMatching>({{"auto", SkinMatching::kAutomatic},
-                                             {"points", SkinMatching::kByPoints},
-                                             {"length", SkinMatching::kByLength}},
-                                            raw.matching, "--match");
+  const auto matching = value_named<SkinMatching>({{"auto", SkinMatching::kAutomatic},
+                                                   {"points", SkinMatching::kByPoints},
+                                                   {"length", SkinMatching::kByLength}},
+                                                  raw.matching, "--match");
   if (!matching) return fail(matching.error());
   make.job.matching = *matching;
-  const auto spread = named<Spread>({{"chord", Spread::kChord},
-                                     {"centripetal", Spread::kCentripetal},
-                                     {"uniform", Spread::kUniform}},
-                                    raw.spread, "--spread");
+  const auto spread = value_named<Spread>({{"chord", Spread::kChord},
+                                           {"centripetal", Spread::kCentripetal},
+                                           {"uniform", Spread::kUniform}},
+                                          raw.spread, "--spread");
   if (!spread) return fail(spread.error());
   make.job.spread = *spread;
-  const auto step = named<CadFormat>(
+  const auto step = value_named<CadFormat>(
       {{"ap214", CadFormat::kStepAp214}, {"ap242", CadFormat::kStepAp242}}, raw.step, "--step");
   if (!step) return fail(step.error());
   make.formats.step = *step;

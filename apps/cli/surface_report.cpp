@@ -13,14 +13,6 @@
 namespace obvid {
 namespace {
 
-double size_of(const SurfaceModel& model) {
-  NurbsSurface box;
-  for (const SurfacePatch& patch : model.patches) {
-    box.points.insert(box.points.end(), patch.surface.points.begin(), patch.surface.points.end());
-  }
-  return size_of(box);
-}
-
 std::string patch_text(const NurbsSurface& s) {
   return fmt::format("degree {} x {}, {} x {} control points{}", s.degree_u, s.degree_v,
                      s.count_u(), s.count_v(), s.weights.empty() ? "" : ", rational");

@@ -96,15 +96,11 @@ double level_step(const ToolpathOptions& plan) {
 /// Refuses work without end: a typing error in a length, most likely.
 Result<void> check_effort(const SurfaceModel& model, const ToolpathOptions& plan) {
   constexpr double kMostPasses = 20'000.0;
-  NurbsSurface box;
-  for (const SurfacePatch& patch : model.patches) {
-    box.points.insert(box.points.end(), patch.surface.points.begin(), patch.surface.points.end());
-  }
-  const double passes = size_of(box) / level_step(plan);
+  const double passes = size_of(model) / level_step(plan);
   if (!(passes > kMostPasses)) return {};  // sizes that are no sizes are refused by the plan
   return fail({ErrorCode::kBadOption,
                fmt::format("that would be some {:.2g} passes over {} {}", passes,
-                           significant(size_of(box), 4), model.units),
+                           significant(size_of(model), 4), model.units),
                "", "check the units of the surface, --diameter, --scallop and --step-over", -1,
                passes});
 }

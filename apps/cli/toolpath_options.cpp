@@ -88,18 +88,7 @@ void add_program(CLI::App& app, RawToolpath& raw) {
 template <class Value>
 Result<void> pick(const std::map<std::string, Value>& values, const std::string& typed,
                   const char* option, Value& into) {
-  const auto at = values.find(typed);
-  if (at != values.end()) {
-    into = at->second;
-    return {};
-  }
-  std::vector<std::string> names;
-  std::string all = "available are ";
-  for (const auto& [name, value] : values) {
-    all += (names.empty() ? "" : ", ") + name;
-    names.push_back(name);
-  }
-  return fail(bad_option("unknown name '" + typed + "'", option, did_you_mean(typed, names, all)));
+  return value_named(values, typed, option).map([&](Value value) { into = value; });
 }
 
 Result<void> set_names(RawToolpath& raw) {

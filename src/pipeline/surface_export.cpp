@@ -11,7 +11,6 @@
 
 #include "obvid/exchange/mesh_files.h"
 #include "obvid/io/surface_json.h"
-#include "surface_kinds.h"
 
 namespace obvid {
 namespace {
@@ -43,14 +42,6 @@ constexpr double kDefaultChordTolerance = 1e-3;  ///< of the size: not seen on a
 constexpr double kLeastCadSize = 1e-4;
 constexpr double kMostCadSize = 1e8;
 constexpr double kDefaultAngle = 15.0 * std::numbers::pi / 180.0;
-
-double size_of(const SurfaceModel& model) {
-  std::vector<Vec3> points;
-  for (const SurfacePatch& patch : model.patches) {
-    points.insert(points.end(), patch.surface.points.begin(), patch.surface.points.end());
-  }
-  return pipeline_detail::size_of(points);
-}
 
 }  // namespace
 

@@ -137,4 +137,12 @@ Result<NurbsForm> to_nurbs(const Surface& surface, double tolerance) {
   return std::visit([&](const auto& s) { return form_of(s, tolerance); }, surface);
 }
 
+double size_of(const SurfaceModel& model) {
+  NurbsSurface box;  // of which only the points are looked at
+  for (const SurfacePatch& patch : model.patches) {
+    box.points.insert(box.points.end(), patch.surface.points.begin(), patch.surface.points.end());
+  }
+  return size_of(box);
+}
+
 }  // namespace obvid

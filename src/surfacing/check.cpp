@@ -189,11 +189,7 @@ std::vector<JointReport> joints_of(const SurfaceModel& model, double nearness) {
 SurfaceCheck check_surface(const SurfaceModel& model, const CheckOptions& options,
                            const Progress& progress) {
   SurfaceCheck result;
-  NurbsSurface all;  // only its box is asked for
-  for (const SurfacePatch& patch : model.patches) {
-    all.points.insert(all.points.end(), patch.surface.points.begin(), patch.surface.points.end());
-  }
-  result.size = size_of(all);
+  result.size = size_of(model);
   for (const SurfacePatch& patch : model.patches) {
     if (progress) {
       progress("measuring", static_cast<double>(result.patches.size()) /

@@ -112,4 +112,7 @@ struct SurfaceModel {
   std::vector<SurfacePatch> patches;
 };
 
+/// Diagonal of the box of all control points, units.
+[[nodiscard]] double size_of(const SurfaceModel& model);
+
 }  // namespace obvid
