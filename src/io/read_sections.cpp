@@ -165,13 +165,15 @@ std::string grid_name(const std::string& path) {
   return (file.parent_path() / stem.substr(0, stem.size() - 1)).string();
 }
 
-/// A name that ends in _x, _y or _z, and the two other files beside it.
+/// A name that ends in _x, _y or _z, and another file of the same grid beside it.
 bool is_matrix_with_siblings(const std::string& path) {
   if (!is_one_of_three(path)) return false;
   const std::string ending = std::filesystem::path(path).extension().string();
-  return std::all_of(std::begin("xyz"), std::end("xyz") - 1, [&](char axis) {
-    return std::filesystem::exists(grid_name(path) + axis + ending);
-  });
+  const std::string_view axes = "xyz";
+  return std::count_if(axes.begin(), axes.end(), [&](char axis) {
+           std::error_code ignored;
+           return std::filesystem::exists(grid_name(path) + axis + ending, ignored);
+         }) > 1;
 }
 
 std::vector<SpaceSeries> rows_of(const PointGrid& grid) {
@@ -292,8 +294,7 @@ Result<ParsedSections> parse_sections(string_view text, string_view name,
 Result<std::vector<SpaceSeries>> read_sections(const std::vector<std::string>& paths,
                                                const SectionOptions& options) {
   if (paths.empty()) return fail({ErrorCode::kUsage, "no files with sections", "", "", -1, 0.0});
-  const bool matrices = std::all_of(paths.begin(), paths.end(),
-                                    [](const std::string& path) { return is_one_of_three(path); });
+  const bool matrices = std::all_of(paths.begin(), paths.end(), is_matrix_with_siblings);
   if (matrices) return rows_of_grids(paths);
   std::vector<SpaceSeries> sections;
   std::string flat_file, spatial_file;
