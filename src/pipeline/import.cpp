@@ -7,7 +7,6 @@
 #include <cmath>
 #include <filesystem>
 #include <fstream>
-#include <sstream>
 
 #include "obvid/cad/cad.h"
 #include "obvid/exchange/dxf_read.h"
@@ -20,6 +19,7 @@
 #include "obvid/io/file_kind.h"
 #include "obvid/io/read_points.h"
 #include "report.h"
+#include "text_of.h"
 
 namespace obvid {
 namespace {
@@ -34,17 +34,6 @@ std::string head_of(const std::string& path) {
   file.read(head.data(), static_cast<std::streamsize>(head.size()));
   head.resize(static_cast<std::size_t>(std::max<std::streamsize>(file.gcount(), 0)));
   return head;
-}
-
-Result<std::string> text_of(const std::string& path) {
-  std::ifstream file(path, std::ios::binary);
-  std::ostringstream text;
-  text << file.rdbuf();
-  if (!file) {
-    return fail({ErrorCode::kCannotOpen, "cannot read the file", path,
-                 "check the path and the permissions", -1, 0.0});
-  }
-  return text.str();
 }
 
 std::string name_of(const std::string& path) {
@@ -203,7 +192,7 @@ bool is_drawing(const std::string& path) {
 Result<Drawing> read_drawing(const std::string& path) {
   const FileKind kind = file_kind(head_of(path));
   if (is_cad(kind)) return read_cad(path);
-  const auto text = text_of(path);
+  const auto text = pipeline_detail::text_of(path);
   if (!text) return tl::unexpected(text.error());
   return from_text(kind, *text, path);
 }

@@ -8,25 +8,17 @@
 #include <utility>
 
 #include "align_sections.h"
+#include "surface_kinds.h"
 
 namespace obvid {
 namespace {
 
-/// Surfaces need less than contours: a hundredth of what CAD systems take for the same place, on a
-/// part of a metre.
-constexpr double kDefaultTolerance = 1e-5;  ///< of the size
-
 double size_of(const std::vector<SpaceSeries>& sections) {
-  Vec3 low, high;
-  bool any = false;
+  std::vector<Vec3> all;
   for (const SpaceSeries& section : sections) {
-    for (const Vec3& p : section.points) {
-      low = any ? Vec3{std::min(low.x, p.x), std::min(low.y, p.y), std::min(low.z, p.z)} : p;
-      high = any ? Vec3{std::max(high.x, p.x), std::max(high.y, p.y), std::max(high.z, p.z)} : p;
-      any = true;
-    }
+    all.insert(all.end(), section.points.begin(), section.points.end());
   }
-  return norm(high - low);
+  return pipeline_detail::size_of(all);
 }
 
 /// A section in its plane: points that differ, and which of them each point is.
@@ -144,7 +136,7 @@ Result<FittedSkin> fit_skin(const std::vector<SpaceSeries>& given, const SkinJob
                  static_cast<double>(given.size())});
   }
   std::vector<SpaceSeries> sections = given;
-  result.tolerance = job.tolerance.value_or(kDefaultTolerance * size_of(sections));
+  result.tolerance = job.tolerance.value_or(pipeline_detail::kSurfaceTolerance * size_of(sections));
   if (job.sections.closing == Closing::kAutomatic) {
     close_slits(sections, result.tolerance, result.warnings);
   }

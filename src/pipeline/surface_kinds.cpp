@@ -16,8 +16,6 @@
 namespace obvid::pipeline_detail {
 namespace {
 
-constexpr double kDefaultTolerance = 1e-5;  ///< of the size
-
 Result<std::vector<ReadCurve>> read_curves(const std::vector<std::string>& paths,
                                            const SurfaceJob& job) {
   std::vector<ReadCurve> curves;
@@ -136,7 +134,7 @@ ScenePolyline drawn(const SpaceCurve& curve, const char* role) {
 
 Result<MadeSurface> made_of(const Surface& surface, const std::string& name, double size,
                             const SurfaceJob& job) {
-  auto form = to_nurbs(surface, job.tolerance.value_or(kDefaultTolerance * size));
+  auto form = to_nurbs(surface, job.tolerance.value_or(kSurfaceTolerance * size));
   if (!form) return fail(form.error());
   MadeSurface made;
   made.kind = kind_of(surface);
@@ -200,7 +198,7 @@ Result<MadeSurface> make_coons(const SurfaceJob& job) {
   if (!curves) return fail(curves.error());
   const double size = size_of_all(*curves);
   const auto patch =
-      coons_from(geometry(*curves), job.tolerance.value_or(kDefaultTolerance * size));
+      coons_from(geometry(*curves), job.tolerance.value_or(kSurfaceTolerance * size));
   if (!patch) return fail(patch.error());
   auto made = made_of(*patch, "Coons patch", size, job);
   if (made) take_over(*curves, *made);
@@ -214,7 +212,7 @@ Result<MadeSurface> make_gordon(const SurfaceJob& job) {
   if (!second) return fail(second.error());
   const double size = std::max(size_of_all(*first), size_of_all(*second));
   const auto net = gordon_from(geometry(*first), geometry(*second),
-                               job.tolerance.value_or(kDefaultTolerance * size));
+                               job.tolerance.value_or(kSurfaceTolerance * size));
   if (!net) return fail(net.error());
   auto made = made_of(*net, "Gordon surface", size, job);
   if (!made) return made;
@@ -236,7 +234,7 @@ Result<MadeSurface> make_offset(const SurfaceJob& job) {
     if (!found.folds.empty()) return fail(folds(patch, found, job.distance));
     const double size = obvid::size_of(patch.surface);
     const OffsetSurface offset{patch.surface, job.distance};
-    auto form = to_nurbs(offset, job.tolerance.value_or(kDefaultTolerance * size));
+    auto form = to_nurbs(offset, job.tolerance.value_or(kSurfaceTolerance * size));
     if (!form) {
       Error error = form.error();
       error.where = patch.name;

@@ -7,6 +7,9 @@
 
 namespace obvid::pipeline_detail {
 
+/// What surfaces are made within when nobody says otherwise, of the size.
+inline constexpr double kSurfaceTolerance = 1e-5;
+
 /// One function for each kind of surface; errors as `make_surface`.
 [[nodiscard]] Result<MadeSurface> make_ruled(const SurfaceJob& job, const Progress& progress);
 [[nodiscard]] Result<MadeSurface> make_revolution(const SurfaceJob& job);

@@ -14,8 +14,6 @@
 namespace obvid::pipeline_detail {
 namespace {
 
-constexpr double kDefaultTolerance = 1e-5;  ///< of the size
-
 MadeSurface of_one_patch(const PointGrid& grid, NurbsSurface surface) {
   MadeSurface made;
   made.model.name = grid.name.empty() ? "surface" : grid.name;
@@ -25,7 +23,7 @@ MadeSurface of_one_patch(const PointGrid& grid, NurbsSurface surface) {
 }
 
 Result<MadeSurface> near(const PointGrid& grid, const SurfaceJob& job, const Progress& progress) {
-  const double tolerance = job.tolerance.value_or(kDefaultTolerance * size_of(grid.points));
+  const double tolerance = job.tolerance.value_or(kSurfaceTolerance * size_of(grid.points));
   auto surface = approximated(grid, tolerance, progress);
   if (!surface) return fail(surface.error());
   MadeSurface made = of_one_patch(grid, std::move(surface->surface));

@@ -86,17 +86,6 @@ Result<std::vector<double>> averaged(const PointGrid& grid, bool along_u, Spread
   return sum;
 }
 
-/// Solves along v for whole rows at once: rows lie in one piece, which compilers make vectors of.
-void solve_along_v(const BandedMatrix& matrix, std::vector<Vec3>& points, std::size_t width) {
-  matrix.solve([&](std::size_t j) { return points.data() + j * width; },
-               [&](Vec3* a, double factor, const Vec3* b) {
-                 for (std::size_t i = 0; i < width; ++i) a[i] = a[i] - factor * b[i];
-               },
-               [&](Vec3* a, double pivot) {
-                 for (std::size_t i = 0; i < width; ++i) a[i] = a[i] / pivot;
-               });
-}
-
 std::vector<Vec3> transposed_points(const std::vector<Vec3>& points, std::size_t width) {
   const std::size_t rows = points.size() / width;
   constexpr std::size_t kTile = 16;  // both sides of a tile stay in the nearest cache
@@ -141,9 +130,9 @@ Result<NurbsSurface> interpolated(const PointGrid& grid, Spread spread) {
   const Result<Collocation> along_v = cubic_collocation(*v);
   if (!along_v) return fail(along_v.error());
   std::vector<Vec3> points = grid.points;
-  solve_along_v(along_v->matrix, points, grid.count_u);
+  along_v->matrix.solve_rows(points, grid.count_u);
   points = transposed_points(points, grid.count_u);
-  solve_along_v(along_u->matrix, points, grid.count_v);
+  along_u->matrix.solve_rows(points, grid.count_v);
   points = transposed_points(points, grid.count_v);
   return NurbsSurface{along_u->degree, along_v->degree,   along_u->knots,
                       along_v->knots,  std::move(points), {}};

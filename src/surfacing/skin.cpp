@@ -103,13 +103,7 @@ Collocation straight(const std::vector<double>& v) {
 
 NurbsSurface surface_of(const Net& net, const Collocation& across) {
   std::vector<Vec3> points = net.points;
-  across.matrix.solve([&](std::size_t j) { return points.data() + j * net.width; },
-                      [&](Vec3* a, double factor, const Vec3* b) {
-                        for (std::size_t i = 0; i < net.width; ++i) a[i] = a[i] - factor * b[i];
-                      },
-                      [&](Vec3* a, double pivot) {
-                        for (std::size_t i = 0; i < net.width; ++i) a[i] = a[i] / pivot;
-                      });
+  across.matrix.solve_rows(points, net.width);
   return {kSkinDegree,  across.degree,     quintic_knots(net.breaks),
           across.knots, std::move(points), {}};
 }

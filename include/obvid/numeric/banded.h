@@ -66,6 +66,19 @@ class BandedMatrix {
     return right;
   }
 
+  /// Solves for all columns of a matrix at once, its rows of `width` in one piece each: the inner
+  /// loops run over rows, which compilers make vectors of.
+  template <class Right>
+  void solve_rows(std::vector<Right>& rows, std::size_t width) const {
+    solve([&](std::size_t i) { return rows.data() + i * width; },
+          [&](Right* a, double factor, const Right* b) {
+            for (std::size_t k = 0; k < width; ++k) a[k] = a[k] - factor * b[k];
+          },
+          [&](Right* a, double pivot) {
+            for (std::size_t k = 0; k < width; ++k) a[k] = a[k] / pivot;
+          });
+  }
+
  private:
   std::size_t n_, below_, above_;
   std::vector<double> entry_;
