@@ -71,7 +71,7 @@ std::string bound_text(int now, int bound) {
   return fmt::format("{} (any smooth curve: at least {})", now, bound);
 }
 
-std::string report_text(const PointSeries& series, const Analysis& analysis) {
+std::string analysis_text(const PointSeries& series, const Analysis& analysis) {
   std::vector<double> worst = analysis.points_only_error;
   worst.resize(analysis.circles.size(), kNan);
   Facts facts;
@@ -108,7 +108,7 @@ void add_points(JsonText& json, const Analysis& analysis) {
   json.end_array();
 }
 
-std::string report_json(const PointSeries& series, const Analysis& analysis) {
+std::string analysis_json(const PointSeries& series, const Analysis& analysis) {
   JsonText json;
   json.begin_object().pair("name", series.name).pair("units", series.units);
   json.pair("size", analysis.size);
@@ -164,7 +164,7 @@ int run(const AnalyseOptions& options) {
   add_rounding_warning(*series, *analysis);
   warn(series->warnings);
   const std::string text =
-      options.json ? report_json(*series, *analysis) : report_text(*series, *analysis);
+      options.json ? analysis_json(*series, *analysis) : analysis_text(*series, *analysis);
   if (auto done = put(text); !done) return report(done.error());
   return 0;
 }

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "json_text.h"
+#include "obvid/geom/angle.h"
 #include "obvid/io/picture_svg.h"
 #include "obvid/pipeline/audit.h"
 #include "outputs.h"
@@ -21,9 +22,8 @@ namespace {
 
 /// Curves that get a list of their places; a drawing with more gets the table only.
 constexpr std::size_t kMostDetailed = 3;
-constexpr double kDegree = std::numbers::pi / 180.0;
 
-std::string continuity_text(int continuity) {
+std::string audit_continuity(int continuity) {
   return continuity < 0 ? "gaps" : "G" + std::to_string(continuity);
 }
 
@@ -53,7 +53,7 @@ std::string curve_table(const std::vector<CurveAudit>& audits) {
     before = i + 1;
     const CurveAudit& a = audits[i];
     table.row({std::to_string(i + 1), a.label, std::to_string(a.contour.pieces.size()),
-               significant(a.length), continuity_text(a.continuity), std::to_string(a.vertices),
+               significant(a.length), audit_continuity(a.continuity), std::to_string(a.vertices),
                std::to_string(a.visible_vertices), std::to_string(a.inflections), least_radius(a)});
   }
   return table.text() + shown_note(shown.size(), audits.size(), "least fair", "curves");
@@ -61,7 +61,7 @@ std::string curve_table(const std::vector<CurveAudit>& audits) {
 
 std::string size_text(const AuditPlace& place, const std::string& units) {
   if (place.kind == AuditPlace::Kind::kCorner) {
-    return fmt::format("{} deg", significant(place.size / kDegree, 4));
+    return fmt::format("{} deg", significant(place.size / kOneDegree, 4));
   }
   if (place.kind == AuditPlace::Kind::kGap) return significant(place.size, 4) + " " + units;
   return "";
@@ -91,7 +91,7 @@ std::string place_table(const CurveAudit& a) {
   return table.text() + shown_note(shown.size(), a.places.size(), "largest", "places");
 }
 
-std::string report_text(const Drawing& drawing, const std::vector<CurveAudit>& audits) {
+std::string audit_text(const Drawing& drawing, const std::vector<CurveAudit>& audits) {
   std::string out = bold(drawing.name) + "\n";
   out += fmt::format(
       "lengths in {}; joints: G2 continuous curvature, G1 common tangent, G0 corners\n\n",
@@ -119,7 +119,7 @@ void add_places(JsonText& json, const CurveAudit& a) {
   json.end_array();
 }
 
-std::string report_json(const Drawing& drawing, const std::vector<CurveAudit>& audits) {
+std::string audit_json(const Drawing& drawing, const std::vector<CurveAudit>& audits) {
   JsonText json;
   json.begin_object().pair("name", drawing.name).pair("units", drawing.units);
   json.key("curves").begin_array();
@@ -145,8 +145,8 @@ const CurveAudit& pictured(const std::vector<CurveAudit>& audits, const ImportOp
       [](const CurveAudit& a, const CurveAudit& b) { return a.length < b.length; });
 }
 
-Result<std::vector<std::string>> write_pictures(const AnalyseOptions& options,
-                                                const std::vector<CurveAudit>& audits) {
+Result<std::vector<std::string>> write_audit_pictures(const AnalyseOptions& options,
+                                                      const std::vector<CurveAudit>& audits) {
   Result<std::vector<Output>> outputs = outputs_of(options.outputs, options.input);
   if (!outputs) return fail(outputs.error());
   for (Output& output : *outputs) {
@@ -168,10 +168,10 @@ int audit_drawing(const AnalyseOptions& options) {
   if (options.units) drawing->units = *options.units;
   std::vector<CurveAudit> audits;
   for (const DrawnCurve& curve : drawing->curves) audits.push_back(audit(curve, drawing->units));
-  const auto written = write_pictures(options, audits);
+  const auto written = write_audit_pictures(options, audits);
   warn(drawing->warnings);
   if (!written) return report(written.error());
-  std::string text = options.json ? report_json(*drawing, audits) : report_text(*drawing, audits);
+  std::string text = options.json ? audit_json(*drawing, audits) : audit_text(*drawing, audits);
   if (!written->empty() && !options.json) text += "\nwritten  " + listed(*written) + "\n";
   if (auto done = put(text); !done) return report(done.error());
   return 0;

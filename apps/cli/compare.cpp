@@ -19,9 +19,9 @@
 namespace obvid {
 namespace {
 
-constexpr int kDigits = 4;
+constexpr int kComparedDigits = 4;
 
-std::string continuity_text(const ComparedCarrier& row) {
+std::string row_continuity(const ComparedCarrier& row) {
   return "G" + std::to_string(row.continuity);
 }
 
@@ -31,7 +31,7 @@ std::string verdict_text(const ComparedCarrier& row) {
 }
 
 /// Below what coordinates of this size tell.
-std::string length_text(double value) { return significant(value, kDigits); }
+std::string length_text(double value) { return significant(value, kComparedDigits); }
 
 Table carrier_table(const Comparison& compared) {
   Table table;
@@ -55,7 +55,7 @@ Table carrier_table(const Comparison& compared) {
     const Certificate& certificate = row.fit.certificate;
     table.row({to_string(row.carrier), std::to_string(row.fit.contour.pieces.size()),
                row.control_points == 0 ? "-" : std::to_string(row.control_points),
-               continuity_text(row), std::to_string(certificate.vertices),
+               row_continuity(row), std::to_string(certificate.vertices),
                std::to_string(certificate.inflections), length_text(row.error_bound),
                length_text(row.deviation), length_text(row.outside),
                significant(row.seconds * 1e3, 3), verdict_text(row)});
@@ -63,7 +63,7 @@ Table carrier_table(const Comparison& compared) {
   return table;
 }
 
-std::string report_text(const PointSeries& series, const Comparison& compared) {
+std::string comparison_text(const PointSeries& series, const Comparison& compared) {
   const Fit& spirals = compared.carriers.front().fit;
   std::string out = series.name.empty() ? "" : bold(series.name) + "\n";
   out += fmt::format(
@@ -99,7 +99,7 @@ void add_row(JsonText& json, const ComparedCarrier& row) {
   json.pair("reason", certificate.reason).end_object();
 }
 
-std::string report_json(const PointSeries& series, const Comparison& compared) {
+std::string comparison_json(const PointSeries& series, const Comparison& compared) {
   JsonText json;
   json.begin_object().pair("name", series.name).pair("units", series.units);
   json.pair("tolerance", compared.carriers.front().fit.report.tolerance);
@@ -124,7 +124,7 @@ std::string report_csv(const PointSeries&, const Comparison& compared) {
     const Certificate& certificate = row.fit.certificate;
     out += fmt::format(
         "{},{},{},{},{},{},{},{},{},{},{}\n", to_string(row.carrier), row.fit.contour.pieces.size(),
-        row.control_points == 0 ? "" : std::to_string(row.control_points), continuity_text(row),
+        row.control_points == 0 ? "" : std::to_string(row.control_points), row_continuity(row),
         certificate.vertices, certificate.inflections, cell(row.error_bound), cell(row.deviation),
         cell(row.outside), cell(row.seconds), verdict_text(row));
   }
@@ -138,7 +138,7 @@ std::string picture(const PointSeries& series, const Comparison& compared) {
     if (row.refusal) {
       one.remark = row.refusal->what;
     } else {
-      one.remark = fmt::format("{}, {}, {} {} from the spirals", continuity_text(row),
+      one.remark = fmt::format("{}, {}, {} {} from the spirals", row_continuity(row),
                                counted(row.fit.contour.pieces.size(), "piece", "pieces"),
                                significant(row.deviation, 2), series.units);
     }
@@ -154,7 +154,7 @@ using Maker = std::string (*)(const PointSeries&, const Comparison&);
 Result<Maker> maker_of(const std::string& path, const std::string& input) {
   if (auto free = check_output(path, input); !free) return fail(free.error());
   if (path.ends_with(".svg")) return &picture;
-  if (path.ends_with(".json")) return &report_json;
+  if (path.ends_with(".json")) return &comparison_json;
   if (path.ends_with(".csv")) return &report_csv;
   return fail({ErrorCode::kUnknownFormat, "no such format of a comparison", path,
                "possible are .svg (picture), .csv and .json (tables)"});
@@ -186,9 +186,9 @@ int run(const CompareOptions& options) {
   }
   const auto written = write_files(outputs);
   if (!written) return report(written.error());
-  std::string shown = options.json  ? report_json(*series, *compared)
+  std::string shown = options.json  ? comparison_json(*series, *compared)
                       : options.csv ? report_csv(*series, *compared)
-                                    : report_text(*series, *compared);
+                                    : comparison_text(*series, *compared);
   if (!written->empty() && !options.json && !options.csv) {
     shown += "\nwritten  " + listed(*written) + "\n";
   }

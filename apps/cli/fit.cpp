@@ -67,7 +67,7 @@ Outcome read_and_fit(const FitOptions& options, std::string& name, ProgressBar& 
 }
 
 /// Exit code 5 for what was formed but does not keep its promise.
-int judge(const Fit& made, bool files) {
+int judge_fit(const Fit& made, bool files) {
   const std::string hint = files ? "the files were written, with this verdict in them" : "";
   if (!keeps_promise(made.contour.carrier, made.certificate)) {
     return report({ErrorCode::kNotProved,
@@ -120,7 +120,7 @@ int run(const FitOptions& options) {
     text = fit_report_text(name, *made, written);
   }
   if (auto done = put(text); !done) return report(done.error());
-  return judge(*made, !written.files.empty());
+  return judge_fit(*made, !written.files.empty());
 }
 
 }  // namespace obvid

@@ -32,7 +32,7 @@ std::string radius_at(const Contour& contour, std::size_t joint) {
   return joint == kNone ? "-" : radius_text(contour.joints[joint].element.kappa);
 }
 
-Table segment_table(const Fit& fit) {
+Table fit_segments(const Fit& fit) {
   const Contour& contour = fit.contour;
   const std::vector<std::size_t> joint = joints_of_points(contour);
   Table table;
@@ -194,7 +194,7 @@ std::string fit_report_text(const std::string& name, const Fit& fit, const Writt
   if (!name.empty()) out += bold(name) + "\n";
   out += fmt::format("lengths in {}; radius positive where the contour turns left\n\n",
                      fit.contour.units);
-  out += segment_table(fit).text();
+  out += fit_segments(fit).text();
   out += shown_note(rows_worth_showing(width).size(), width.size(), "widest", "segments");
   out += fmt::format("\n{}", summary(fit, written).text());
   const std::string verdict = verdict_line(fit.contour.carrier, fit.certificate);

@@ -7,16 +7,17 @@
 #include <numbers>
 #include <string_view>
 
+#include "obvid/geom/angle.h"
+
 namespace obvid {
 namespace {
 
 using std::string_view;
 
-constexpr double kDegree = std::numbers::pi / 180.0;
 constexpr const char* kRadiusHint = "positive turns left, negative right, inf is straight";
 constexpr const char* kHeadingHint = "degrees counter-clockwise from +x, or natural";
 
-std::string quoted(string_view text) {
+std::string in_quotes(string_view text) {
   std::string result(1, '\'');
   result.append(text);
   result.push_back('\'');
@@ -45,9 +46,9 @@ std::optional<std::size_t> point_index(string_view text) {
 Result<double> heading_of(string_view text, const char* option) {
   const auto deg = number(text);
   if (!deg || !std::isfinite(*deg)) {
-    return fail(bad_option(quoted(text) + " is no heading", option, kHeadingHint));
+    return fail(bad_option(in_quotes(text) + " is no heading", option, kHeadingHint));
   }
-  return *deg * kDegree;
+  return *deg * kOneDegree;
 }
 
 Result<double> curvature_of_radius(double radius, const char* option) {
@@ -77,10 +78,10 @@ Result<void> set_noise(const std::string& typed, FitJob& job) {
   }
   const auto noise = number(typed);
   if (!noise || !std::isfinite(*noise) || *noise < 0.0) {
-    return fail(bad_option("the noise must be a length or the word rounding, not " + quoted(typed),
-                           "--noise",
-                           "give how far a point may move in input units; rounding is half a unit "
-                           "of the last printed digit"));
+    return fail(bad_option(
+        "the noise must be a length or the word rounding, not " + in_quotes(typed), "--noise",
+        "give how far a point may move in input units; rounding is half a unit "
+        "of the last printed digit"));
   }
   if (*noise > 0.0) job.noise = noise;
   return {};
@@ -111,7 +112,7 @@ Result<void> set_corners(const TypedValues& typed, FitJob& job) {
     return fail(bad_option("the angle must lie between 0 and 180 degrees", "--corner-angle",
                            "20 degrees is usual"));
   }
-  job.corner_angle = *typed.corner_angle_deg * kDegree;
+  job.corner_angle = *typed.corner_angle_deg * kOneDegree;
   return {};
 }
 
@@ -133,7 +134,7 @@ Result<void> set_at(const std::vector<std::string>& typed, const char* option,
     const std::size_t equals = std::min(text.find('='), text.size());
     const auto index = point_index(string_view(text).substr(0, equals));
     if (!index || equals == text.size()) {
-      return fail(bad_option(quoted(text) + " does not name a point and its value", option,
+      return fail(bad_option(in_quotes(text) + " does not name a point and its value", option,
                              "write I=VALUE, points count from 1, as in 5=90"));
     }
     const Result<double> value = read(string_view(text).substr(equals + 1));
@@ -151,7 +152,7 @@ Result<void> set_at(const std::vector<std::string>& typed, const char* option,
 Result<double> radius_value(string_view text) {
   const auto radius = number(text);
   if (!radius) {
-    return fail(bad_option(quoted(text) + " is no radius", "--radius-at", kRadiusHint));
+    return fail(bad_option(in_quotes(text) + " is no radius", "--radius-at", kRadiusHint));
   }
   return curvature_of_radius(*radius, "--radius-at");
 }
@@ -159,7 +160,7 @@ Result<double> radius_value(string_view text) {
 Result<double> kappa_value(string_view text) {
   const auto kappa = number(text);
   if (kappa && std::isfinite(*kappa)) return *kappa;
-  return fail(bad_option(quoted(text) + " is no curvature", "--kappa-at",
+  return fail(bad_option(in_quotes(text) + " is no curvature", "--kappa-at",
                          "one over the radius, positive turns left, 0 is straight"));
 }
 
@@ -167,7 +168,7 @@ Result<void> set_corner_at(const std::vector<std::string>& typed, FitJob& job) {
   for (const std::string& text : typed) {
     const auto index = point_index(text);
     if (!index) {
-      return fail(bad_option(quoted(text) + " is no number of a point", "--corner-at",
+      return fail(bad_option(in_quotes(text) + " is no number of a point", "--corner-at",
                              "points count from 1"));
     }
     wish_at(job.wishes, *index).corner = true;

@@ -116,7 +116,8 @@ std::string refusal_json(const Error& error, const PointSeries& series,
 }
 
 /// NAME.why-not.svg for each picture: what failed must not look like a success.
-Result<std::vector<std::string>> write_pictures(const FitOptions& options, const WhyNot& why) {
+Result<std::vector<std::string>> write_refusal_pictures(const FitOptions& options,
+                                                        const WhyNot& why) {
   const Result<std::vector<Output>> asked = outputs_of(options.outputs, options.input);
   if (!asked) return fail(asked.error());
   std::vector<Output> pictures;
@@ -137,7 +138,7 @@ int tell_refusal(const FitOptions& options, const PointSeries& series, const Err
                  ProgressBar& bar) {
   const std::optional<WhyNot> why = why_not(series, options.job, bar.progress());
   Result<std::vector<std::string>> written;
-  if (why) written = write_pictures(options, *why);
+  if (why) written = write_refusal_pictures(options, *why);
   bar.clear();
   warn(series.warnings);  // a formed contour carries them itself
   const Error told = with_tolerance(refusal, why, series.units);

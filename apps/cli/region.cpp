@@ -30,7 +30,7 @@ RadiusRange radius_range(double kappa_low, double kappa_high) {
           crosses ? "straight" : radius_text(smaller)};
 }
 
-Table segment_table(const RegionTable& region) {
+Table region_segments(const RegionTable& region) {
   Table table;
   table.column("points");
   table.column("chord");
@@ -58,7 +58,7 @@ Table segment_table(const RegionTable& region) {
   return table;
 }
 
-std::string report_text(const PointSeries& series, const RegionTable& region) {
+std::string region_text(const PointSeries& series, const RegionTable& region) {
   std::vector<double> width;
   double largest = 0.0;
   for (const RegionRow& row : region.rows) {
@@ -71,12 +71,12 @@ std::string report_text(const PointSeries& series, const RegionTable& region) {
       "T: where the tangents at points i and i+1 meet; h: height of the lower boundary above the\n"
       "chord, delta: width of the region, both over the middle of the chord\n\n",
       series.units);
-  out += segment_table(region).text();
+  out += region_segments(region).text();
   out += shown_note(rows_worth_showing(width).size(), width.size(), "widest", "segments");
   return out + fmt::format("\nlargest delta  {} {}\n", significant(largest, 4), series.units);
 }
 
-std::string report_json(const PointSeries& series, const RegionTable& region) {
+std::string region_json(const PointSeries& series, const RegionTable& region) {
   JsonText json;
   json.begin_object().pair("name", series.name).pair("units", series.units);
   json.key("segments").begin_array();
@@ -108,7 +108,7 @@ int run(const RegionOptions& options) {
   const Result<RegionTable> region = region_table(*series);
   if (!region) return report(region.error());
   const std::string text =
-      options.json ? report_json(*series, *region) : report_text(*series, *region);
+      options.json ? region_json(*series, *region) : region_text(*series, *region);
   if (auto done = put(text); !done) return report(done.error());
   return 0;
 }

@@ -18,7 +18,7 @@
 namespace obvid {
 namespace {
 
-constexpr int kToleranceDigits = 3;
+constexpr int kSuggestedDigits = 3;
 constexpr double kMilli = 1e3;  // s to ms
 
 constexpr const char* kRule =
@@ -49,14 +49,14 @@ std::string rows_text(const TradeOff& t) {
   table.column("proved", Table::Align::kLeft);
   for (std::size_t i = 0; i < t.rows.size(); ++i) {
     const TradeOffRow& row = t.rows[i];
-    const std::string tolerance = significant(row.tolerance, kToleranceDigits);
+    const std::string tolerance = significant(row.tolerance, kSuggestedDigits);
     if (!row.formed) {
       table.row({tolerance, "-", "-", "-", "-", "-", "-", "no: " + row.refusal});
       continue;
     }
     table.row({tolerance, std::to_string(row.vertices), std::to_string(row.vertices_lower_bound),
                std::to_string(row.inflections), std::to_string(row.pieces),
-               significant(row.largest_move, kToleranceDigits),
+               significant(row.largest_move, kSuggestedDigits),
                fmt::format("{:.1f}", kMilli * row.seconds),
                row.proved ? "yes" : "no: " + row.refusal});
   }
@@ -69,7 +69,7 @@ std::string recommendation(const TradeOff& t, const PointSeries& series) {
   return fmt::format("Recommended: {} ({}, moves up to {} {})\nRule: {}.\n",
                      noise_option(row.tolerance, t.closed, series.points),
                      counted(static_cast<std::size_t>(row.vertices), "vertex", "vertices"),
-                     significant(row.largest_move, kToleranceDigits), t.units, kRule);
+                     significant(row.largest_move, kSuggestedDigits), t.units, kRule);
 }
 
 std::string suggestion_text(const TradeOff& t, const PointSeries& series,
@@ -112,7 +112,7 @@ std::string suggestion_json(const TradeOff& t, const std::vector<std::string>& w
 }
 
 /// Exit code of a table without any proved row.
-int judge(const TradeOff& t) {
+int judge_trade_off(const TradeOff& t) {
   if (t.recommended) return 0;
   const bool formed =
       std::any_of(t.rows.begin(), t.rows.end(), [](const auto& row) { return row.formed; });
@@ -148,7 +148,7 @@ int suggest(const FitOptions& options) {
     text = suggestion_text(*found, *series, *written);
   }
   if (auto done = put(text); !done) return report(done.error());
-  return judge(*found);
+  return judge_trade_off(*found);
 }
 
 }  // namespace obvid

@@ -17,7 +17,7 @@ namespace obvid {
 namespace {
 
 /// Exit code 5 for contours that were formed but do not keep their promise.
-int judge(const MadeSurface& made, bool files) {
+int judge_surface(const MadeSurface& made, bool files) {
   if (!made.skin) return 0;
   const std::size_t fair = made.skin->skin.sections.size() - made.skin->points - made.skin->plain;
   if (made.skin->proved == fair) return 0;
@@ -56,7 +56,7 @@ int run(const SurfaceOptions& options) {
     text = surface_report_text(*made, written);
   }
   if (auto done = put(text); !done) return report(done.error());
-  return judge(*made, !written.files.empty());
+  return judge_surface(*made, !written.files.empty());
 }
 
 }  // namespace obvid

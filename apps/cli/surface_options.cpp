@@ -8,13 +8,12 @@
 
 #include "cli_app.h"
 #include "format_values.h"
+#include "obvid/geom/angle.h"
 #include "option_values.h"
 #include "options.h"
 
 namespace obvid {
 namespace {
-
-constexpr double kDegree = std::numbers::pi / 180.0;
 
 /// What the command line said, before it is checked.
 struct RawSurface {
@@ -65,7 +64,7 @@ constexpr std::array kKinds = {
              "obvid surface convert part.step -o part.glb"},
 };
 
-constexpr const char* kShortHelp =
+constexpr const char* kSurfaceHelp =
     R"(obvid surface: surfaces over fair contours
 
   obvid surface skin SECTIONS... -o OUT        through section contours
@@ -130,14 +129,14 @@ void add_contours(CLI::App& app, RawSurface& raw) {
       ->group(group);
 }
 
-void add_tolerance(CLI::App& app, RawSurface& raw, const char* what) {
+void add_surface_tolerance(CLI::App& app, RawSurface& raw, const char* what) {
   app.add_option("--tolerance", raw.tolerance,
                  std::string(what) + ", " + kLengthHelp + " [1e-5 of the size]")
       ->type_name("T");
 }
 
-void add_skin(CLI::App& app, RawSurface& raw) {
-  add_tolerance(app, raw, "Largest distance of the surface from the section contours");
+void add_skin_options(CLI::App& app, RawSurface& raw) {
+  add_surface_tolerance(app, raw, "Largest distance of the surface from the section contours");
   app.add_option("--match", raw.matching,
                  "What belongs together in the sections: points, length or auto (points when all "
                  "sections have equally many) [auto]")
@@ -152,11 +151,11 @@ void add_kind(CLI::App& app, RawSurface& raw, SurfaceKind kind) {
   SurfaceJob& job = raw.make.job;
   switch (kind) {
     case SurfaceKind::kSkin:
-      add_skin(app, raw);
+      add_skin_options(app, raw);
       app.add_flag("--straight", job.straight_across, "Ruled strips between sections [C2 across]");
       break;
     case SurfaceKind::kRuled:
-      add_skin(app, raw);
+      add_skin_options(app, raw);
       app.add_option("--direction", raw.direction, "From one curve by this vector, input units")
           ->type_name("X,Y,Z");
       app.add_option("--apex", raw.apex, "From one curve to this point, input units")
@@ -174,14 +173,14 @@ void add_kind(CLI::App& app, RawSurface& raw, SurfaceKind kind) {
       app.add_option("--across", job.across, "Curves that cross the others")->type_name("CURVES");
       [[fallthrough]];
     case SurfaceKind::kCoons:
-      add_tolerance(app, raw,
-                    "How near curves have to meet, and of what NURBS do not hold exactly");
+      add_surface_tolerance(app, raw,
+                            "How near curves have to meet, and of what NURBS do not hold exactly");
       add_contours(app, raw);
       break;
     case SurfaceKind::kGrid:
       app.add_flag("--near", raw.near, "As few knots as the tolerance allows [through all points]");
       app.add_flag("--control", raw.control, "The points are control points");
-      add_tolerance(app, raw, "With --near: largest distance of the points");
+      add_surface_tolerance(app, raw, "With --near: largest distance of the points");
       [[fallthrough]];
     case SurfaceKind::kId:
       app.add_option("--spread", raw.spread, "Parameters by chord, centripetal or uniform [chord]")
@@ -197,7 +196,7 @@ void add_kind(CLI::App& app, RawSurface& raw, SurfaceKind kind) {
       app.add_option("--distance", raw.distance,
                      "Along the normals, input units; negative: against")
           ->type_name("D");
-      add_tolerance(app, raw, "Largest distance from the exact offset");
+      add_surface_tolerance(app, raw, "Largest distance from the exact offset");
       break;
     case SurfaceKind::kConvert:
       break;
@@ -271,7 +270,7 @@ Result<void> set_axis(const RawSurface& raw, SurfaceJob& job) {
     if (!(std::abs(*raw.turn_deg) > 0.0 && std::abs(*raw.turn_deg) <= 360.0)) {
       return fail(bad_option("the angle must lie in -360 to 360 and not be 0", "--angle", ""));
     }
-    job.angle = *raw.turn_deg * kDegree;
+    job.angle = *raw.turn_deg * kOneDegree;
   }
   return {};
 }
@@ -298,7 +297,7 @@ Result<void> positive(const std::optional<double>& value, const char* option) {
   return fail(bad_option("the value must be greater than 0", option, ""));
 }
 
-Result<void> set_names(const RawSurface& raw, SurfaceOptions& make) {
+Result<void> set_surface_names(const RawSurface& raw, SurfaceOptions& make) {
   const auto matching = value_named<SkinMatching>({{"auto", SkinMatching::kAutomatic},
                                                    {"points", SkinMatching::kByPoints},
                                                    {"length", SkinMatching::kByLength}},
@@ -334,7 +333,7 @@ Result<void> set_numbers(const RawSurface& raw, SurfaceOptions& make) {
   make.job.tolerance = raw.tolerance;
   make.job.spacing = raw.spacing;
   make.formats.chord_tolerance = raw.chord;
-  if (raw.angle_deg) make.formats.angle = *raw.angle_deg * kDegree;
+  if (raw.angle_deg) make.formats.angle = *raw.angle_deg * kOneDegree;
   return positive(raw.tolerance, "--tolerance")
       .and_then([&] { return positive(raw.spacing, "--spacing"); })
       .and_then([&] { return positive(raw.chord, "--chord-tolerance"); })
@@ -370,7 +369,7 @@ Result<Command> checked_maker(RawSurface& raw, const KindText& text) {
   make.progress = !raw.no_progress && !make.quiet && !make.json;
   const Result<void> done = check_needs(raw, text)
                                 .and_then([&] { return set_numbers(raw, make); })
-                                .and_then([&] { return set_names(raw, make); })
+                                .and_then([&] { return set_surface_names(raw, make); })
                                 .and_then([&] { return set_values(raw.typed, make.job.sections); })
                                 .and_then([&] { return set_axis(raw, make.job); })
                                 .and_then([&] { return set_ruling(raw, make.job); })
@@ -391,7 +390,7 @@ Result<Command> checked_check(RawSurface& raw) {
   return Command{raw.check};
 }
 
-Result<Command> checked(const CLI::App& app, RawSurface& raw) {
+Result<Command> checked_surface(const CLI::App& app, RawSurface& raw) {
   std::vector<std::string> extras = app.remaining();
   if (app.get_subcommands().empty()) {
     std::vector<std::string> names = {"check"};
@@ -416,7 +415,7 @@ Result<Command> checked(const CLI::App& app, RawSurface& raw) {
 
 Result<Command> parse_surface(int argc, const char* const* argv) {
   const bool bare = argc < 2 || std::string_view(argv[1]) == "--help";
-  if (bare) return Command{ShowText{kShortHelp}};
+  if (bare) return Command{ShowText{kSurfaceHelp}};
   CLI::App app("Surfaces over fair contours", "obvid surface");
   app.require_subcommand(0, 1);
   app.get_formatter()->column_width(28);
@@ -432,7 +431,7 @@ Result<Command> parse_surface(int argc, const char* const* argv) {
   } catch (const CLI::ParseError& error) {
     return fail(from_cli(error, "surface KIND"));
   }
-  return checked(app, raw);
+  return checked_surface(app, raw);
 }
 
 }  // namespace obvid

@@ -63,7 +63,7 @@ std::string across_text(const AcrossReport& across) {
       across.found, across.isolines, across.forced, across.beyond, across.worst);
 }
 
-void add_skin(const FittedSkin& fitted, const std::string& units, Facts& facts) {
+void add_skin_report(const FittedSkin& fitted, const std::string& units, Facts& facts) {
   const Skin& skin = fitted.skin;
   const std::size_t contours = skin.sections.size() - fitted.points;
   std::string text = fmt::format("{} of {} contours proved", fitted.proved, contours);
@@ -97,7 +97,7 @@ void add_patches(const SurfaceModel& model, JsonText& json) {
   json.end_array();
 }
 
-void add_skin(const FittedSkin& fitted, JsonText& json) {
+void add_skin_report(const FittedSkin& fitted, JsonText& json) {
   json.key("skin").begin_object();
   json.pair("proved", fitted.proved).pair("plain", fitted.plain).pair("points", fitted.points);
   json.pair("tolerance", fitted.tolerance);
@@ -128,7 +128,7 @@ std::string surface_report_text(const MadeSurface& made, const SurfaceWritten& w
   facts.add("size", significant(size_of(made.model)) + " " + units);
   add_patches(made.model, facts);
   if (made.skin) {
-    add_skin(*made.skin, units, facts);
+    add_skin_report(*made.skin, units, facts);
   } else {
     facts.add("as NURBS", deviation_text(made));
   }
@@ -145,7 +145,7 @@ std::string surface_report_json(const MadeSurface& made, const SurfaceWritten& w
   json.pair("deviation", made.deviation);
   for (const auto& [name, value] : made.facts) json.pair(name, value);
   add_patches(made.model, json);
-  if (made.skin) add_skin(*made.skin, json);
+  if (made.skin) add_skin_report(*made.skin, json);
   add_list(json, "warnings", made.warnings);
   add_list(json, "remarks", written.remarks);
   add_list(json, "written", written.files);

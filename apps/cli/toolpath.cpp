@@ -132,7 +132,7 @@ std::string share_text(double area, double all) {
   return area > 0.0 && all > 0.0 ? fmt::format("{} %", significant(100.0 * area / all, 3)) : "none";
 }
 
-std::string report_text(const Made& made, const std::vector<std::string>& files) {
+std::string toolpath_text(const Made& made, const std::vector<std::string>& files) {
   const ToolpathReport& r = made.path.report;
   const std::string& unit = made.path.units;
   Facts facts;
@@ -161,7 +161,7 @@ std::string report_text(const Made& made, const std::vector<std::string>& files)
   return facts.text();
 }
 
-std::string report_json(const Made& made, const std::vector<std::string>& files) {
+std::string toolpath_json(const Made& made, const std::vector<std::string>& files) {
   const ToolpathReport& r = made.path.report;
   JsonText json;
   json.begin_object().pair("units", made.path.units).pair("passes", r.passes);
@@ -182,7 +182,7 @@ std::string report_json(const Made& made, const std::vector<std::string>& files)
 }
 
 /// Exit code 5 where more is left than was asked for.
-int judge(const ToolpathCommand& command, const Made& made) {
+int judge_toolpath(const ToolpathCommand& command, const Made& made) {
   constexpr double kMeasured = 1.05;  // what is measured is good to some percent
   const double left = made.path.report.scallop;
   if (!command.plan.scallop || left <= kMeasured * *command.plan.scallop) return 0;
@@ -216,12 +216,12 @@ int run(const ToolpathCommand& command) {
   warn(made->warnings);
   std::string text;
   if (command.json) {
-    text = report_json(*made, files);
+    text = toolpath_json(*made, files);
   } else if (!command.quiet) {
-    text = report_text(*made, files);
+    text = toolpath_text(*made, files);
   }
   if (auto done = put(text); !done) return report(done.error());
-  return judge(command, *made);
+  return judge_toolpath(command, *made);
 }
 
 }  // namespace obvid

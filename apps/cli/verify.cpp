@@ -99,7 +99,7 @@ bool as_promised(const StoredContour& stored, const Verification& found) {
   return keeps_promise(stored.contour.carrier, found.certificate) && !found.false_claim;
 }
 
-std::string report_text(const StoredContour& stored, const Verification& found) {
+std::string verification_text(const StoredContour& stored, const Verification& found) {
   Facts facts;
   add_claims(facts, stored, found.certificate);
   const bool holds = as_promised(stored, found);
@@ -110,7 +110,7 @@ std::string report_text(const StoredContour& stored, const Verification& found) 
          (holds ? good(verdict) : bad(verdict)) + "\n";
 }
 
-std::string report_json(const StoredContour& stored, const Verification& found) {
+std::string verification_json(const StoredContour& stored, const Verification& found) {
   StoredContour bare;
   bare.contour.units = stored.contour.units;
   bare.contour.carrier = stored.contour.carrier;
@@ -131,7 +131,8 @@ std::string report_json(const StoredContour& stored, const Verification& found) 
 }
 
 /// What the file says wrongly comes before what could not be proved.
-int judge(const StoredContour& stored, const Verification& found, const std::string& input) {
+int judge_contour_file(const StoredContour& stored, const Verification& found,
+                       const std::string& input) {
   if (found.false_claim) {
     Error error = *found.false_claim;
     if (error.where.empty()) error.where = input;
@@ -155,12 +156,12 @@ int run(const VerifyOptions& options) {
   const Verification found = verify(*stored);
   std::string shown;
   if (options.json) {
-    shown = report_json(*stored, found);
+    shown = verification_json(*stored, found);
   } else if (!options.quiet) {
-    shown = report_text(*stored, found);
+    shown = verification_text(*stored, found);
   }
   if (auto done = put(shown); !done) return report(done.error());
-  return judge(*stored, found, name);
+  return judge_contour_file(*stored, found, name);
 }
 
 }  // namespace obvid

@@ -46,12 +46,12 @@ struct Errors {
 };
 constexpr double kInnerStart = 0.6, kInnerEnd = 2.4;
 
-constexpr int kPlaces = 4000;
+constexpr int kErrorPlaces = 4000;
 
 Errors largest_errors(const AnySpline& s) {
   Errors e;
-  for (int k = 0; k <= kPlaces; ++k) {
-    const double x = kEnd * k / kPlaces;
+  for (int k = 0; k <= kErrorPlaces; ++k) {
+    const double x = kEnd * k / kErrorPlaces;
     const ScalarJet jet = s.at(x);
     const double at = std::abs(jet.value - f(x)), along = std::abs(jet.d1 - slope(x));
     e.value = std::max(e.value, at);
@@ -60,20 +60,20 @@ Errors largest_errors(const AnySpline& s) {
     e.inner_value = std::max(e.inner_value, at);
     e.inner_slope = std::max(e.inner_slope, along);
   }
-  for (int k = 0; k <= kPlaces; k += 10) {
-    const double x = kEnd * k / kPlaces;
+  for (int k = 0; k <= kErrorPlaces; k += 10) {
+    const double x = kEnd * k / kErrorPlaces;
     e.integral = std::max(e.integral, std::abs(s.integral(0.0, x) - sum_to(x)));
   }
   return e;
 }
 
 Errors add_squares(const AnySpline& s, Errors e) {
-  for (int k = 0; k <= kPlaces; ++k) {
-    const double x = kEnd * k / kPlaces;
+  for (int k = 0; k <= kErrorPlaces; ++k) {
+    const double x = kEnd * k / kErrorPlaces;
     const ScalarJet jet = s.at(x);
-    e.value += std::pow(jet.value - f(x), 2) / (kPlaces + 1);
-    e.slope += std::pow(jet.d1 - slope(x), 2) / (kPlaces + 1);
-    if (k % 40 == 0) e.integral += std::pow(s.integral(0.0, x) - sum_to(x), 2) * 40 / kPlaces;
+    e.value += std::pow(jet.value - f(x), 2) / (kErrorPlaces + 1);
+    e.slope += std::pow(jet.d1 - slope(x), 2) / (kErrorPlaces + 1);
+    if (k % 40 == 0) e.integral += std::pow(s.integral(0.0, x) - sum_to(x), 2) * 40 / kErrorPlaces;
   }
   return e;
 }
@@ -184,8 +184,8 @@ double helix_error(std::size_t n, bool random_steps, const IdSplineOptions& opti
   const auto curve = id_curve<3>(points, options);
   if (!curve) return -1.0;
   double worst = 0.0;
-  for (int k = 0; k <= kPlaces; ++k) {
-    const auto p = evaluate(*curve, curve->part[0].nodes.back() * k / kPlaces).point;
+  for (int k = 0; k <= kErrorPlaces; ++k) {
+    const auto p = evaluate(*curve, curve->part[0].nodes.back() * k / kErrorPlaces).point;
     worst = std::max(worst, std::abs(std::hypot(p[0], p[1]) - 1.0));
   }
   return worst;

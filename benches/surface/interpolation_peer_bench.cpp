@@ -19,15 +19,15 @@
 namespace obvid {
 namespace {
 
-constexpr std::size_t kSide = 300;
+constexpr std::size_t kPeerSide = 300;
 constexpr std::size_t kRaster = 1000;
 
-PointGrid wavy_grid() {
-  PointGrid grid{kSide, kSide, {}, "wavy"};
-  for (std::size_t j = 0; j < kSide; ++j) {
-    for (std::size_t i = 0; i < kSide; ++i) {
-      const double x = static_cast<double>(i) / (kSide - 1);
-      const double y = static_cast<double>(j) / (kSide - 1);
+PointGrid peer_grid() {
+  PointGrid grid{kPeerSide, kPeerSide, {}, "wavy"};
+  for (std::size_t j = 0; j < kPeerSide; ++j) {
+    for (std::size_t i = 0; i < kPeerSide; ++i) {
+      const double x = static_cast<double>(i) / (kPeerSide - 1);
+      const double y = static_cast<double>(j) / (kPeerSide - 1);
       grid.points.push_back({x, y, 0.1 * std::sin(7.0 * x) * std::cos(5.0 * y)});
     }
   }
@@ -35,10 +35,10 @@ PointGrid wavy_grid() {
 }
 
 TColgp_Array2OfPnt kernel_grid() {
-  const PointGrid grid = wavy_grid();
-  TColgp_Array2OfPnt out(1, kSide, 1, kSide);
-  for (std::size_t j = 0; j < kSide; ++j) {
-    for (std::size_t i = 0; i < kSide; ++i) {
+  const PointGrid grid = peer_grid();
+  TColgp_Array2OfPnt out(1, kPeerSide, 1, kPeerSide);
+  for (std::size_t j = 0; j < kPeerSide; ++j) {
+    for (std::size_t i = 0; i < kPeerSide; ++i) {
       const Vec3 p = grid.at(i, j);
       out(static_cast<int>(i) + 1, static_cast<int>(j) + 1) = gp_Pnt(p.x, p.y, p.z);
     }
@@ -71,7 +71,7 @@ Handle(Geom_BSplineSurface) in_kernel(const NurbsSurface& surface) {
 }
 
 void interpolation_obvid(benchmark::State& state) {
-  const PointGrid grid = wavy_grid();
+  const PointGrid grid = peer_grid();
   for (auto _ : state) {
     const Result<NurbsSurface> surface = interpolated(grid);
     benchmark::DoNotOptimize(surface->points.data());
@@ -89,7 +89,7 @@ void interpolation_open_cascade(benchmark::State& state) {
 }
 BENCHMARK(interpolation_open_cascade)->Unit(benchmark::kMillisecond);
 
-std::vector<double> steps() {
+std::vector<double> peer_steps() {
   std::vector<double> at(kRaster);
   for (std::size_t i = 0; i < kRaster; ++i) at[i] = static_cast<double>(i) / (kRaster - 1.0);
   return at;
@@ -102,8 +102,8 @@ void count_points(benchmark::State& state) {
 }
 
 void raster_obvid(benchmark::State& state) {
-  const NurbsSurface surface = *interpolated(wavy_grid());
-  const std::vector<double> at = steps();
+  const NurbsSurface surface = *interpolated(peer_grid());
+  const std::vector<double> at = peer_steps();
   std::vector<SurfacePoint> out(at.size() * at.size());
   for (auto _ : state) {
     evaluate_raster(surface, at, at, out);
@@ -117,7 +117,7 @@ BENCHMARK(raster_obvid)->Unit(benchmark::kMillisecond);
 /// Calls `at(u, v)` over the raster, in rows of u.
 template <class At>
 void raster_of_kernel(benchmark::State& state, At at) {
-  const std::vector<double> parameters = steps();
+  const std::vector<double> parameters = peer_steps();
   for (auto _ : state) {
     for (const double v : parameters) {
       for (const double u : parameters) at(u, v);
@@ -127,7 +127,7 @@ void raster_of_kernel(benchmark::State& state, At at) {
 }
 
 void raster_open_cascade_d1(benchmark::State& state) {
-  const Handle(Geom_BSplineSurface) surface = in_kernel(*interpolated(wavy_grid()));
+  const Handle(Geom_BSplineSurface) surface = in_kernel(*interpolated(peer_grid()));
   raster_of_kernel(state, [&](double u, double v) {
     gp_Pnt p;
     gp_Vec du, dv;
@@ -140,7 +140,7 @@ void raster_open_cascade_d1(benchmark::State& state) {
 BENCHMARK(raster_open_cascade_d1)->Unit(benchmark::kMillisecond);
 
 void raster_open_cascade_cached_d1(benchmark::State& state) {
-  const GeomAdaptor_Surface surface(in_kernel(*interpolated(wavy_grid())));
+  const GeomAdaptor_Surface surface(in_kernel(*interpolated(peer_grid())));
   raster_of_kernel(state, [&](double u, double v) {
     gp_Pnt p;
     gp_Vec du, dv;
@@ -153,7 +153,7 @@ void raster_open_cascade_cached_d1(benchmark::State& state) {
 BENCHMARK(raster_open_cascade_cached_d1)->Unit(benchmark::kMillisecond);
 
 void raster_open_cascade_cached_position(benchmark::State& state) {
-  const GeomAdaptor_Surface surface(in_kernel(*interpolated(wavy_grid())));
+  const GeomAdaptor_Surface surface(in_kernel(*interpolated(peer_grid())));
   raster_of_kernel(state, [&](double u, double v) {
     gp_Pnt p;
     surface.D0(u, v, p);
@@ -165,7 +165,7 @@ BENCHMARK(raster_open_cascade_cached_position)->Unit(benchmark::kMillisecond);
 /// Text of the file of one bicubic face on 300 x 300 points.
 void cad_text_of_face(benchmark::State& state, CadFormat format) {
   SurfaceModel model;
-  model.patches = {{"wavy", *interpolated(wavy_grid())}};
+  model.patches = {{"wavy", *interpolated(peer_grid())}};
   CadWriteOptions options;
   options.format = format;
   std::size_t bytes = 0;

@@ -9,12 +9,12 @@
 
 namespace obvid {
 
+inline constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
 /// Smallest upright rectangle around what it was grown by; empty at first.
 struct Box {
-  static constexpr double kNowhere = std::numeric_limits<double>::infinity();
-
-  Vec2 low{kNowhere, kNowhere};
-  Vec2 high{-kNowhere, -kNowhere};
+  Vec2 low{kInfinity, kInfinity};
+  Vec2 high{-kInfinity, -kInfinity};
 
   void grow(Vec2 p) {
     low = {std::min(low.x, p.x), std::min(low.y, p.y)};

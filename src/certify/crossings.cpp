@@ -17,13 +17,12 @@ constexpr double kFlatness = 1e-9;          // of the contour's size: a part thi
 constexpr int kDeepest = 60;                // halvings of a pair: beyond the digits of a double
 constexpr std::size_t kWorkPerPiece = 400;  // pairs looked at, before a tangle is given up
 constexpr double kLargestArcTurn = 1.0;     // rad, per conic that stands in for an arc
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 Vec2 control_point(const RationalBezier& b, std::size_t j) { return b.origin + b.offset[j]; }
 std::size_t last(const RationalBezier& b) { return static_cast<std::size_t>(b.degree); }
 
 /// Holds the curve when the weights are positive.
-Box box_of(const RationalBezier& b) {
+Box box_of_controls(const RationalBezier& b) {
   Box box;
   for (std::size_t j = 0; j <= last(b); ++j) box.grow(control_point(b, j));
   return box;
@@ -34,7 +33,7 @@ struct Part {
   RationalBezier curve;
   Box box;
 
-  explicit Part(const RationalBezier& b) : curve(b), box(box_of(b)) {}
+  explicit Part(const RationalBezier& b) : curve(b), box(box_of_controls(b)) {}
   [[nodiscard]] Vec2 from() const { return control_point(curve, 0); }
   [[nodiscard]] Vec2 to() const { return control_point(curve, last(curve)); }
   [[nodiscard]] double extent() const {

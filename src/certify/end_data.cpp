@@ -15,7 +15,7 @@ namespace {
 constexpr double kStoredRoundings = 4.0;
 constexpr double kStored = kStoredRoundings * kUnitRoundoff;
 
-double size_of(Vec2 v) { return std::max(std::abs(v.x), std::abs(v.y)); }
+double largest_coordinate(Vec2 v) { return std::max(std::abs(v.x), std::abs(v.y)); }
 
 EndData line_end(const LinePiece& line, Vec2 point) {
   const Vec2 d = line.end - line.start;
@@ -23,8 +23,9 @@ EndData line_end(const LinePiece& line, Vec2 point) {
   EndData end;
   end.point = point;
   end.direction = d / length;
-  end.point_rounding = kStored * size_of(point);
-  end.heading_rounding = kStored * (1.0 + (size_of(line.start) + size_of(line.end)) / length);
+  end.point_rounding = kStored * largest_coordinate(point);
+  end.heading_rounding =
+      kStored * (1.0 + (largest_coordinate(line.start) + largest_coordinate(line.end)) / length);
   return end;
 }
 
@@ -39,10 +40,11 @@ EndData arc_end(const ArcPiece& arc, double t) {
   end.direction = unit_at(theta);
   end.kappa = arc.kappa;
   // a short arc far from the origin: its points cannot say its heading better than this
-  const double lever = (size_of(arc.start) + size_of(arc.end)) / norm(arc.end - arc.start);
+  const double lever =
+      (largest_coordinate(arc.start) + largest_coordinate(arc.end)) / norm(arc.end - arc.start);
   end.heading_rounding = kStored * (1.0 + std::abs(arc.theta0) + std::abs(theta) + lever);
-  end.point_rounding =
-      kStored * (size_of(arc.start) + size_of(arc.end)) + end.heading_rounding * arc.length;
+  end.point_rounding = kStored * (largest_coordinate(arc.start) + largest_coordinate(arc.end)) +
+                       end.heading_rounding * arc.length;
   end.kappa_rounding = kStored * std::abs(arc.kappa);
   return end;
 }
@@ -82,10 +84,11 @@ EndData clothoid_end(const ClothoidPiece& piece, double t) {
   end.point = t == 0.0 ? piece.start : piece.start + clothoid_chord(piece);
   end.direction = unit_at(theta);
   end.kappa = t == 0.0 ? piece.kappa0 : piece.kappa1;
-  const double lever = (size_of(piece.start) + size_of(piece.end)) / norm(piece.end - piece.start);
+  const double lever = (largest_coordinate(piece.start) + largest_coordinate(piece.end)) /
+                       norm(piece.end - piece.start);
   end.heading_rounding = kStored * (1.0 + std::abs(piece.theta0) + std::abs(theta) + lever);
-  end.point_rounding =
-      kStored * (size_of(piece.start) + size_of(piece.end)) + end.heading_rounding * piece.length;
+  end.point_rounding = kStored * (largest_coordinate(piece.start) + largest_coordinate(piece.end)) +
+                       end.heading_rounding * piece.length;
   end.kappa_rounding = kStored * std::abs(end.kappa);
   return end;
 }
@@ -105,7 +108,7 @@ EndData bezier_end(const EndPolygon& p, double side) {
   EndData end;
   end.point = p.point;
   end.direction = (side / length) * p.leg1;
-  end.point_rounding = kStored * size_of(p.point);
+  end.point_rounding = kStored * largest_coordinate(p.point);
   end.heading_rounding = kStored + 2.0 * moved;
   const double factor = (p.degree - 1.0) / p.degree * (p.w0 * p.w2 / (p.w1 * p.w1));
   const Vec2 unit = p.leg1 / length;
@@ -128,7 +131,7 @@ EndPolygon polygon_at(const RationalBezier& piece, bool at_start) {
   p.w1 = piece.weight[at(1)];
   p.w2 = n >= 2 ? piece.weight[at(2)] : 1.0;
   for (std::size_t j = 0; j < 3 && j <= n; ++j) {
-    p.coordinate = std::max(p.coordinate, size_of(piece.offset[at(j)]));
+    p.coordinate = std::max(p.coordinate, largest_coordinate(piece.offset[at(j)]));
   }
   p.degree = piece.degree;
   return p;

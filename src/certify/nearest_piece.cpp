@@ -13,8 +13,6 @@
 namespace obvid {
 namespace {
 
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
-
 /// Places on a piece from which the nearest point is refined, and steps of the refinement.
 constexpr int kPlaces = 8;
 constexpr int kSteps = 16;
@@ -29,10 +27,10 @@ constexpr double kQuotient = 4.0;   // control points seen from an end, weighted
 constexpr double kAngle = 8.0;      // sine and cosine of a rounded angle
 constexpr double kSpiral = 64.0;    // the same of a clothoid, by its series
 
-double size_of(Vec2 v) { return std::abs(v.x) + std::abs(v.y); }
+double sum_of_coordinates(Vec2 v) { return std::abs(v.x) + std::abs(v.y); }
 
 double rounding_of_sums(Vec2 a, Vec2 b) {
-  return kSums * kUnitRoundoff * (size_of(a) + size_of(b));
+  return kSums * kUnitRoundoff * (sum_of_coordinates(a) + sum_of_coordinates(b));
 }
 
 struct Evaluation {
@@ -47,9 +45,9 @@ Evaluation evaluation_of(const RationalBezier& b) {
     box.grow(b.offset[j]);
     out.ends_only = out.ends_only || !(b.weight[j] > 0.0);
   }
-  out.rounding =
-      kUnitRoundoff * ((kPerDegree * b.degree + kQuotient) * size_of(box.high - box.low) +
-                       kSums * size_of(b.origin));
+  out.rounding = kUnitRoundoff *
+                 ((kPerDegree * b.degree + kQuotient) * sum_of_coordinates(box.high - box.low) +
+                  kSums * sum_of_coordinates(b.origin));
   return out;
 }
 
@@ -89,9 +87,9 @@ struct Foot {
   }
 };
 
-/// Newton's method for the foot of the perpendicular between the neighbouring places; where it leaves
-/// what is left of them, which pieces of very uneven speed make it do, the middle instead. Every
-/// step is a point of the piece too.
+/// Newton's method for the foot of the perpendicular between the neighbouring places; where it
+/// leaves what is left of them, which pieces of very uneven speed make it do, the middle instead.
+/// Every step is a point of the piece too.
 void refine(const Piece& piece, Vec2 p, Foot& foot) {
   double t = foot.t;
   double low = std::max(0.0, t - 1.0 / kPlaces), high = std::min(1.0, t + 1.0 / kPlaces);
@@ -110,7 +108,7 @@ void refine(const Piece& piece, Vec2 p, Foot& foot) {
 }
 
 /// Holds the piece: a curve of length L stays within L/2 of the middle of its ends.
-Box box_of(const Piece& piece) {
+Box box_of_piece(const Piece& piece) {
   Box box;
   if (const auto* b = std::get_if<RationalBezier>(&piece)) {
     for (std::size_t j = 0; j <= static_cast<std::size_t>(b->degree); ++j) {
@@ -147,7 +145,7 @@ double distance_bound(const Piece& piece, Vec2 p) {
 
 PieceTree::PieceTree(const std::vector<Piece>& pieces)
     : pieces_(pieces), leaves_(std::bit_ceil(pieces.size())), boxes_(2 * leaves_) {
-  for (std::size_t i = 0; i < pieces.size(); ++i) boxes_[leaves_ + i] = box_of(pieces[i]);
+  for (std::size_t i = 0; i < pieces.size(); ++i) boxes_[leaves_ + i] = box_of_piece(pieces[i]);
   for (std::size_t k = leaves_ - 1; k > 0; --k) {
     boxes_[k] = boxes_[2 * k];
     boxes_[k].grow(boxes_[2 * k + 1]);

@@ -4,13 +4,12 @@
 #include <algorithm>
 #include <array>
 
+#include "homogeneous.h"
+
 namespace obvid {
 namespace {
 
-/// Point of the projective plane: weighted coordinates and weight.
-struct Homogeneous {
-  double x = 0.0, y = 0.0, w = 0.0;
-};
+using curve_detail::Homogeneous;
 
 Homogeneous between(const Homogeneous& a, const Homogeneous& b, double t) {
   const double s = 1.0 - t;

@@ -5,25 +5,13 @@
 #include <cassert>
 #include <cmath>
 
+#include "homogeneous.h"
 #include "obvid/curve/clothoid.h"
 
 namespace obvid {
 namespace {
 
-/// Point of the projective plane: numerator and weight.
-struct Homogeneous {
-  double x = 0.0;
-  double y = 0.0;
-  double w = 0.0;
-
-  friend Homogeneous operator+(Homogeneous a, Homogeneous b) {
-    return {a.x + b.x, a.y + b.y, a.w + b.w};
-  }
-  friend Homogeneous operator-(Homogeneous a, Homogeneous b) {
-    return {a.x - b.x, a.y - b.y, a.w - b.w};
-  }
-  friend Homogeneous operator*(double s, Homogeneous a) { return {s * a.x, s * a.y, s * a.w}; }
-};
+using curve_detail::Homogeneous;
 
 using ControlNet = std::array<Homogeneous, kMaxBezierDegree + 1>;
 

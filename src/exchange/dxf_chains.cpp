@@ -18,16 +18,16 @@ namespace {
 /// Ends meet within this part of the size of the drawing: six digits are what the coarser programs
 /// print.
 constexpr double kMeet = 1e-6;
-constexpr std::size_t kNone = std::numeric_limits<std::size_t>::max();
+constexpr std::size_t kNoPlace = std::numeric_limits<std::size_t>::max();
 
-struct Cell {
+struct GridCell {
   std::int64_t x = 0, y = 0;
   std::size_t layer = 0;
-  friend bool operator==(const Cell&, const Cell&) = default;
+  friend bool operator==(const GridCell&, const GridCell&) = default;
 };
 
 struct CellHash {
-  std::size_t operator()(const Cell& c) const {
+  std::size_t operator()(const GridCell& c) const {
     std::uint64_t h = static_cast<std::uint64_t>(c.x) * 0x9E3779B97F4A7C15ULL;
     h = (h ^ (h >> 32U) ^ static_cast<std::uint64_t>(c.y)) * 0xC2B2AE3D27D4EB4FULL;
     h = (h ^ (h >> 29U) ^ c.layer) * 0x165667B19E3779F9ULL;
@@ -42,7 +42,7 @@ class Places {
   Places(Vec2 low, double tolerance) : low_(low), tolerance_(tolerance) {}
 
   std::size_t of(Vec2 p, std::size_t layer) {
-    const Cell here = {index(p.x - low_.x), index(p.y - low_.y), layer};
+    const GridCell here = {index(p.x - low_.x), index(p.y - low_.y), layer};
     for (std::int64_t dx = -1; dx <= 1; ++dx) {
       for (std::int64_t dy = -1; dy <= 1; ++dy) {
         const auto found = cells_.find({here.x + dx, here.y + dy, layer});
@@ -63,12 +63,12 @@ class Places {
 
   Vec2 low_;
   double tolerance_;
-  std::unordered_map<Cell, std::pair<std::size_t, Vec2>, CellHash> cells_;
+  std::unordered_map<GridCell, std::pair<std::size_t, Vec2>, CellHash> cells_;
   std::size_t count_ = 0;
 };
 
 /// A point that is the same from both directions.
-Vec2 middle_of(const std::vector<Piece>& pieces) {
+Vec2 place_half_way(const std::vector<Piece>& pieces) {
   const std::size_t half = pieces.size() / 2;
   return pieces.size() % 2 == 0 ? start_point(pieces[half]) : evaluate(pieces[half], 0.5).point;
 }
@@ -107,7 +107,7 @@ class Joiner {
 
   void find_places() {
     Places places(low_, out_.tolerance);
-    place_.assign(2 * links_.size(), kNone);
+    place_.assign(2 * links_.size(), kNoPlace);
     for (std::size_t i = 0; i < links_.size(); ++i) {
       if (links_[i].closed) continue;
       const std::size_t a = places.of(start_point(links_[i].pieces.front()), links_[i].layer);
@@ -125,8 +125,8 @@ class Joiner {
     std::vector<Row> rows;
     for (std::size_t i = 0; i < links_.size(); ++i) {
       const std::size_t a = place_[2 * i], b = place_[2 * i + 1];
-      if (a == kNone) continue;
-      const Vec2 middle = middle_of(links_[i].pieces);
+      if (a == kNoPlace) continue;
+      const Vec2 middle = place_half_way(links_[i].pieces);
       rows.emplace_back(std::min(a, b), std::max(a, b), middle.x, middle.y, i);
     }
     std::sort(rows.begin(), rows.end());
@@ -135,21 +135,21 @@ class Joiner {
       const auto& [a0, b0, x0, y0, i0] = rows[k - 1];
       if (a != a0 || b != b0 || norm(Vec2{x - x0, y - y0}) > out_.tolerance) continue;
       used_[i] = true;
-      place_[2 * i] = place_[2 * i + 1] = kNone;
+      place_[2 * i] = place_[2 * i + 1] = kNoPlace;
       ++out_.duplicates;
     }
   }
 
   /// The only other end at the place of each end.
   void pair_ends() {
-    std::vector<std::array<std::size_t, 2>> ends(place_count_, {kNone, kNone});
+    std::vector<std::array<std::size_t, 2>> ends(place_count_, {kNoPlace, kNoPlace});
     std::vector<std::size_t> count(place_count_, 0);
     for (std::size_t e = 0; e < place_.size(); ++e) {
-      if (place_[e] == kNone) continue;
+      if (place_[e] == kNoPlace) continue;
       const std::size_t k = count[place_[e]]++;
       if (k < 2) ends[place_[e]][k] = e;
     }
-    other_.assign(place_.size(), kNone);
+    other_.assign(place_.size(), kNoPlace);
     for (std::size_t p = 0; p < place_count_; ++p) {
       if (count[p] != 2) continue;
       other_[ends[p][0]] = ends[p][1];
@@ -161,7 +161,7 @@ class Joiner {
   /// the file, so it gives the direction.
   Chain chain_from(std::size_t link) {
     Chain chain;
-    if (place_[2 * link] == kNone) {  // stands for itself
+    if (place_[2 * link] == kNoPlace) {  // stands for itself
       const Vec2 gap =
           end_point(links_[link].pieces.back()) - start_point(links_[link].pieces.front());
       chain.closed = links_[link].closed || meets(link, gap);
@@ -170,12 +170,12 @@ class Joiner {
       return chain;
     }
     std::size_t first = 2 * link;  // the end that is entered
-    while (other_[first] != kNone) {
+    while (other_[first] != kNoPlace) {
       first = other_[first] ^ 1U;
       chain.closed = first == 2 * link;
       if (chain.closed) break;
     }
-    for (std::size_t e = first; e != kNone;) {
+    for (std::size_t e = first; e != kNoPlace;) {
       used_[e / 2] = true;
       chain.members.push_back({e / 2, e % 2 == 1});
       e = other_[e ^ 1U];
@@ -198,7 +198,7 @@ class Joiner {
   const std::vector<Link>& links_;
   Chains out_;
   Vec2 low_;
-  std::vector<std::size_t> place_;  ///< of the two ends of each link; kNone: joined to nothing
+  std::vector<std::size_t> place_;  ///< of the two ends of each link; kNoPlace: joined to nothing
   std::size_t place_count_ = 0;
   std::vector<std::size_t> other_;
   std::vector<bool> used_;

@@ -11,14 +11,14 @@
 
 #include "dxf_arcs.h"
 #include "obvid/curve/bspline.h"
+#include "obvid/geom/angle.h"
 
 namespace obvid::dxf {
 namespace {
 
 /// Out of a level plane by less than this part of the length: rounding of the file's digits.
-constexpr double kFlat = 1e-6;
+constexpr double kLevelWithin = 1e-6;
 constexpr double kLargest = 1e100;  // coordinates and curvatures whose squares are still numbers
-constexpr double kTurn = 2.0 * std::numbers::pi, kDegree = kTurn / 360.0;
 
 constexpr const char* kTilted = "it lies in a plane that is tilted against xy";
 constexpr const char* kNothing = "it is a single point, seen from above";
@@ -33,7 +33,7 @@ Point3 turned(const Affine& map, Point3 v) {
 }
 
 bool is_level(Point3 direction) {
-  return std::abs(direction.z) <= kFlat * std::hypot(direction.x, direction.y);
+  return std::abs(direction.z) <= kLevelWithin * std::hypot(direction.x, direction.y);
 }
 
 double size_of(const Entity& e) {
@@ -115,8 +115,8 @@ class Shaper {
     const Point3 p = turned(map, {e_.size, 0, 0}), q = turned(map, {0, e_.size, 0});
     if (!is_level(p) || !is_level(q)) return refuse(kTilted);
     const double sweep = sweep_of(from, to, 360.0);
-    add_elliptic({place(map, e_.at), flat(p), flat(q)}, std::fmod(from, 360.0) * kDegree,
-                 sweep == 360.0 ? kTurn : sweep * kDegree);
+    add_elliptic({place(map, e_.at), flat(p), flat(q)}, std::fmod(from, 360.0) * kOneDegree,
+                 sweep == 360.0 ? kFullTurn : sweep * kOneDegree);
   }
 
   void ellipse() {
@@ -131,14 +131,14 @@ class Shaper {
                           e_.size * (n.x * m.y - n.y * m.x)};
     const Point3 p = turned(space_, m), q = turned(space_, minor);
     if (!is_level(p) || !is_level(q)) return refuse(kTilted);
-    add_elliptic({place(space_, e_.at), flat(p), flat(q)}, std::fmod(e_.from, kTurn),
-                 sweep_of(e_.from, e_.to, kTurn));
+    add_elliptic({place(space_, e_.at), flat(p), flat(q)}, std::fmod(e_.from, kFullTurn),
+                 sweep_of(e_.from, e_.to, kFullTurn));
   }
 
   void add_elliptic(const EllipseFrame& frame, double from, double sweep) {
     if (cross(frame.p, frame.q) == 0.0) return refuse(kNothing);
     append_elliptic(frame, from, sweep, shape_.pieces);
-    shape_.closed = sweep == kTurn;
+    shape_.closed = sweep == kFullTurn;
     const bool point = start_point(shape_.pieces.front()) == end_point(shape_.pieces.back());
     if (point && !shape_.closed) refuse(kNothing);
   }

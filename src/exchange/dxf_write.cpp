@@ -15,6 +15,7 @@
 #include "obvid/contour/bsplines/cubic_along.h"
 #include "obvid/contour/conics.h"
 #include "obvid/curve/joined_nurbs.h"
+#include "obvid/geom/angle.h"
 
 namespace obvid {
 namespace {
@@ -22,9 +23,8 @@ namespace {
 using exchange::DxfWriter;
 using exchange::kModelSpace;
 
-constexpr double kTurn = 2.0 * std::numbers::pi, kDegree = kTurn / 360.0;
 /// What rounding of a centre and of angles may cost, of the size: a tenth of what readers must get.
-constexpr double kRounding = 1e-10;
+constexpr double kArcRounding = 1e-10;
 
 /// $INSUNITS of a unit; 0: none.
 int unit_code(const std::string& units) {
@@ -57,9 +57,9 @@ double within(double angle, double turn) {
   return rest < 0.0 ? rest + turn : rest;
 }
 
-class Drawer {
+class DxfDrawer {
  public:
-  Drawer(const Contour& contour, const DxfOptions& options)
+  DxfDrawer(const Contour& contour, const DxfOptions& options)
       : contour_(contour), options_(options), layer_(safe_name(options.layer)) {}
 
   Result<DxfText> run() {
@@ -131,14 +131,14 @@ class Drawer {
     const double turn = one.kappa * one.length;
     const double from = one.theta0 - std::copysign(0.5 * std::numbers::pi, one.kappa);
     const double low = turn > 0.0 ? from : from + turn, high = turn > 0.0 ? from + turn : from;
-    const bool whole = std::abs(turn) >= kWhole * kTurn;
+    const bool whole = std::abs(turn) >= kWhole * kFullTurn;
     entity(whole ? "CIRCLE" : "ARC", "AcDbCircle");
     out_.point3(10, centre);
     out_.pair(40, 1.0 / std::abs(one.kappa));
     if (whole) return;
     out_.pair(100, "AcDbArc");
-    out_.pair(50, within(low / kDegree, 360.0));
-    out_.pair(51, within(high / kDegree, 360.0));
+    out_.pair(50, within(low / kOneDegree, 360.0));
+    out_.pair(51, within(high / kOneDegree, 360.0));
   }
 
   /// DXF ellipses run counter-clockwise from `start` to `end` of their parameter.
@@ -151,8 +151,8 @@ class Drawer {
     out_.pair(220, 0.0);
     out_.pair(230, 1.0);
     out_.pair(40, one.semi_minor / one.semi_major);
-    out_.pair(41, within(std::min(one.from, one.to), kTurn));
-    out_.pair(42, within(std::max(one.from, one.to), kTurn));
+    out_.pair(41, within(std::min(one.from, one.to), kFullTurn));
+    out_.pair(42, within(std::max(one.from, one.to), kFullTurn));
   }
 
   void spline(const NurbsCurve& curve, bool closed) {
@@ -198,7 +198,7 @@ class Drawer {
     const double off =
         std::max({norm(at(e.from) - start_point(piece)), norm(at(e.to) - end_point(piece)),
                   norm(at(0.5 * (e.from + e.to)) - shoulder(piece))});
-    return off <= kRounding * norm(high_ - low_);
+    return off <= kArcRounding * norm(high_ - low_);
   }
 
   /// Where a conic is parallel to its chord: its middle by the eccentric angle.
@@ -210,7 +210,7 @@ class Drawer {
 
   /// LINE and ARC lose digits where the centre lies far away; bulges do not.
   [[nodiscard]] bool centres_are_near(const Contour& part) const {
-    constexpr double kFar = 1e5;  // sizes: 1e5 roundings of a double are below kRounding
+    constexpr double kFar = 1e5;  // sizes: 1e5 roundings of a double are below kArcRounding
     const double far = kFar * norm(high_ - low_);
     return std::all_of(part.pieces.begin(), part.pieces.end(), [&](const Piece& piece) {
       const auto* one = std::get_if<ArcPiece>(&piece);
@@ -326,7 +326,7 @@ Result<DxfText> dxf_text(const Contour& contour, const DxfOptions& options) {
   if (contour.pieces.empty() || contour.joints.empty()) {
     return fail({ErrorCode::kTooFewPoints, "the contour has no pieces", "", "", -1, 0.0});
   }
-  return Drawer(contour, options).run();
+  return DxfDrawer(contour, options).run();
 }
 
 }  // namespace obvid

@@ -15,6 +15,7 @@
 #include "obvid/contour/bsplines/cubic_along.h"
 #include "obvid/core/version.h"
 #include "obvid/curve/path_distance.h"
+#include "unit_sizes.h"
 
 namespace obvid {
 namespace {
@@ -23,30 +24,15 @@ using exchange::fixed;
 using exchange::GcodePath;
 
 constexpr int kLeastDecimals = 3, kMostDecimals = 6;
-constexpr double kDigitsOfTolerance = 0.1;  // of the tolerance, what the last digit may be worth
-constexpr double kOfTolerance = 0.995;      // aimed at, so that what is measured stays below
-constexpr int kTrials = 5;
-
-/// Millimetres of a unit; 0: not known.
-double millimetres(const std::string& units) {
-  static constexpr std::array<std::pair<const char*, double>, 7> kUnits = {{{"um", 1e-3},
-                                                                            {"mm", 1.0},
-                                                                            {"cm", 10.0},
-                                                                            {"m", 1e3},
-                                                                            {"km", 1e6},
-                                                                            {"in", 25.4},
-                                                                            {"ft", 304.8}}};
-  for (const auto& [name, value] : kUnits) {
-    if (units == name) return value;
-  }
-  return 0.0;
-}
+constexpr double kDigitsOfTolerance = 0.1;   // of the tolerance, what the last digit may be worth
+constexpr double kOfBlockTolerance = 0.995;  // aimed at, so that what is measured stays below
+constexpr int kToleranceTrials = 5;
 
 /// Comments end at ")": nothing of the kind in a name, and nothing but ASCII.
 std::string comment_of(const std::string& name) {
-  constexpr std::size_t kLongest = 40;  // a line has to fit into the buffers of controllers
+  constexpr std::size_t kLongestComment = 40;  // a line has to fit into the buffers of controllers
   std::string out;
-  for (const char c : name.substr(0, kLongest)) {
+  for (const char c : name.substr(0, kLongestComment)) {
     const auto code = static_cast<unsigned char>(c);
     if (code >= 0x20 && code < 0x7F && c != '(' && c != ')' && c != '%' && c != ';') out += c;
   }
@@ -75,7 +61,7 @@ class Program {
  public:
   Program(const Contour& contour, const GcodeOptions& options)
       : contour_(contour), options_(options), inches_(contour.units == "in") {
-    scale_ = inches_ ? 1.0 : millimetres(contour.units);
+    scale_ = inches_ ? 1.0 : exchange::millimetres_of(contour.units).value_or(0.0);
     decimals_ = options.decimals ? *options.decimals : fewest_decimals();
     unit_ = std::pow(10.0, -decimals_) / scale_;
   }
@@ -83,14 +69,14 @@ class Program {
   Result<GcodeText> run() const {
     double within = options_.tolerance - unit_;  // ends move by 0.71 of the last digit at most
     double deviation = unit_;
-    for (int trial = 0; trial < kTrials && within > 0.0; ++trial) {
+    for (int trial = 0; trial < kToleranceTrials && within > 0.0; ++trial) {
       GcodePath path(scale_, decimals_);
       path.start_at(start_point(contour_.pieces.front()));
       if (const auto done = follow(path, within); !done) return fail(done.error());
       deviation = path_distance(contour_.pieces, path.pieces());
       if (path.pieces().empty()) break;
       if (deviation <= options_.tolerance) return finished(path, deviation);
-      within -= deviation - kOfTolerance * options_.tolerance;
+      within -= deviation - kOfBlockTolerance * options_.tolerance;
     }
     return fail({ErrorCode::kToleranceNotReached,
                  fmt::format("{} decimals do not keep a tolerance of {:g} {}", decimals_,
@@ -102,9 +88,10 @@ class Program {
   [[nodiscard]] int fewest_decimals() const {
     const int least = kLeastDecimals + (inches_ ? 1 : 0);
     const double digits = -std::log10(kDigitsOfTolerance * options_.tolerance * scale_);
-    constexpr double kRounding = 1e-9;  // a tolerance of 0.001 asks for 4, not for 4.0000000001
+    constexpr double kDigitRounding =
+        1e-9;  // a tolerance of 0.001 asks for 4, not for 4.0000000001
     return static_cast<int>(
-        std::clamp<double>(std::ceil(digits - kRounding), least, kMostDecimals));
+        std::clamp<double>(std::ceil(digits - kDigitRounding), least, kMostDecimals));
   }
 
   Result<void> follow(GcodePath& path, double within) const {
@@ -212,7 +199,7 @@ Result<void> check(const Contour& contour, const GcodeOptions& options) {
   if (contour.pieces.empty()) {
     return fail({ErrorCode::kTooFewPoints, "the contour has no pieces", "", "", -1, 0.0});
   }
-  if (millimetres(contour.units) == 0.0) {
+  if (!exchange::millimetres_of(contour.units)) {
     return fail({ErrorCode::kUnsupported, "machines do not know the unit " + contour.units, "",
                  "known are um, mm, cm, m, km, in, ft", -1, 0.0});
   }

@@ -11,7 +11,7 @@ namespace obvid::exchange {
 namespace {
 
 constexpr int kCentreDecimals = 5;
-constexpr double kMostTurn = 2.8;        // of one block, rad: well below half a turn
+constexpr double kMostBlockTurn = 2.8;   // of one block, rad: well below half a turn
 constexpr double kLowestArc = 0.5;       // last digits: height of arcs that are told as such
 constexpr double kShortestChord = 20.0;  // last digits: below, rounding turns an arc too much
 /// A radius that LinuxCNC takes for none (0.00127 mm), and some.
@@ -56,7 +56,7 @@ void GcodePath::line(Vec2 end) {
 
 void GcodePath::follow_arc(const ArcPiece& arc_piece) {
   const double turn = std::abs(arc_piece.kappa * arc_piece.length);
-  const int parts = std::max(1, static_cast<int>(std::ceil(turn / kMostTurn)));
+  const int parts = std::max(1, static_cast<int>(std::ceil(turn / kMostBlockTurn)));
   for (int k = 1; k <= parts; ++k) {
     const Vec2 middle = evaluate(arc_piece, (k - 0.5) / parts).point;
     const Vec2 end = evaluate(arc_piece, static_cast<double>(k) / parts).point;

@@ -23,7 +23,7 @@ using std::string_view;
 
 // MultiPolygon in a feature in a collection: 8. The rest is room for collections in collections and
 // for properties. What walks over the values may recurse this deep.
-constexpr int kMaxDepth = 64;
+constexpr int kMaxJsonDepth = 64;
 constexpr std::size_t kMaxDetail = 120;  // bytes taken over from the message of the JSON parser
 
 Error malformed(std::string what, std::string where) {
@@ -48,7 +48,7 @@ std::optional<std::size_t> too_deep(string_view text) {
     } else if (c == '"') {
       in_string = true;
     } else if (c == '[' || c == '{') {
-      if (++depth > kMaxDepth) return i;
+      if (++depth > kMaxJsonDepth) return i;
     } else if (c == ']' || c == '}') {
       --depth;
     }
@@ -58,7 +58,7 @@ std::optional<std::size_t> too_deep(string_view text) {
 
 Result<json> parsed(string_view text, string_view name) {
   if (const auto byte = too_deep(text)) {
-    return fail(malformed(fmt::format("brackets are nested more than {} deep", kMaxDepth),
+    return fail(malformed(fmt::format("brackets are nested more than {} deep", kMaxJsonDepth),
                           place_of(text, name, *byte)));
   }
   try {

@@ -6,11 +6,10 @@
 #include <numbers>
 
 #include "obvid/curve/clothoid.h"
+#include "obvid/geom/angle.h"
 
 namespace obvid::exchange {
 namespace {
-
-constexpr double kTurn = 2.0 * std::numbers::pi;
 
 // Radius and centre that differ by more, as part of the radius, are contradictory, not rounded.
 constexpr double kSameRadius = 1e-3;
@@ -23,9 +22,7 @@ constexpr double kPlacedByEnds = 1.0;
 constexpr double kShortChord = 1e-3;
 
 // Lines of this heading against the PI (rad) are doubtful: five minutes of arc.
-constexpr double kSameHeading = 1.5e-3;
-
-bool is_finite(Vec2 p) { return std::isfinite(p.x) && std::isfinite(p.y); }
+constexpr double kAlongTangent = 1.5e-3;
 
 /// Turning of an arc in its sense of rotation, (0, 2 pi].
 double turn_of(const StatedCurve& curve, double radius) {
@@ -35,7 +32,7 @@ double turn_of(const StatedCurve& curve, double radius) {
   if (!curve.centre) return small;
   const Vec2 from = curve.start - *curve.centre, to = curve.end - *curve.centre;
   double turn = turning(from, to) * (curve.left ? 1.0 : -1.0);
-  if (turn <= 0.0) turn += kTurn;
+  if (turn <= 0.0) turn += kFullTurn;
   return turn < kPlacedByEnds ? small : turn;
 }
 
@@ -104,7 +101,7 @@ std::optional<PlacedPiece> placed(const StatedSpiral& spiral, std::string& why) 
   const double along = by_chord ? heading(complex_product(chord, {own.x, -own.y})) : 0.0;
   const double to_meeting = spiral.meeting ? heading(*spiral.meeting - c.start) : along;
   c.theta0 = by_chord ? along : to_meeting;
-  if (std::abs(std::remainder(c.theta0 - to_meeting, kTurn)) > kSameHeading) {
+  if (std::abs(std::remainder(c.theta0 - to_meeting, kFullTurn)) > kAlongTangent) {
     out.doubt = "the PI of a Spiral contradicts its start, end, length and radii; it is not used";
   }
   const Vec2 end = c.start + clothoid_step(c.theta0, c.kappa0, c.kappa1, c.length);

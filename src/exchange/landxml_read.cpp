@@ -25,7 +25,7 @@ using exchange::XmlWarnings;
 using std::string_view;
 
 // Ends that differ by more from what is stated, as part of the length, are worth a warning.
-constexpr double kWorthSaying = 1e-6;
+constexpr double kMisplacedEnd = 1e-6;
 
 // Fields of one point of a list.
 constexpr std::size_t kMostCoordinates = 3;
@@ -157,7 +157,7 @@ class LandXmlReader {
            pugi::xml_node node) {
     if (!placed) return leave_out(why, node);
     if (!placed->doubt.empty()) warnings_.add(placed->doubt, node);
-    if (placed->off_end > kWorthSaying * length) off_end_ = std::max(off_end_, placed->off_end);
+    if (placed->off_end > kMisplacedEnd * length) off_end_ = std::max(off_end_, placed->off_end);
     curve_.pieces.push_back(placed->piece);
   }
 

@@ -15,14 +15,14 @@ namespace obvid {
 namespace {
 
 // What turns by more than this is cut: tangents of a part then meet at a good angle.
-constexpr double kMostTurn = 0.5 * std::numbers::pi;
-constexpr double kMostParts = 10000.0;  // of one element: what turns more often is no road
+constexpr double kMostTangentTurn = 0.5 * std::numbers::pi;
+constexpr double kMostElementParts = 10000.0;  // of one element: what turns more often is no road
 
 // Tangents that turn by less (rad) meet in the middle of the chord, to the square of this.
 constexpr double kParallel = 1e-6;
 
 /// Part [from, to] of an element, both in [0, 1].
-RoadElement part_of(const RoadElement& e, double from, double to) {
+RoadElement part_of_element(const RoadElement& e, double from, double to) {
   const double rate = e.kappa1 - e.kappa0;
   RoadElement part;
   part.s = e.s + from * e.length;
@@ -43,11 +43,12 @@ void cut_turns(const RoadElement& e, double from, double to, std::vector<RoadEle
   const double k0 = e.kappa0 + from * (e.kappa1 - e.kappa0);
   const double k1 = e.kappa0 + to * (e.kappa1 - e.kappa0);
   const double steepest = std::max(std::abs(k0), std::abs(k1)) * (to - from) * e.length;
-  const int count = static_cast<int>(std::clamp(std::ceil(steepest / kMostTurn), 1.0, kMostParts));
+  const int count =
+      static_cast<int>(std::clamp(std::ceil(steepest / kMostTangentTurn), 1.0, kMostElementParts));
   for (int k = 0; k < count; ++k) {
     const double a = from + (to - from) * k / count;
     const double b = k + 1 == count ? to : from + (to - from) * (k + 1) / count;
-    out.push_back(part_of(e, a, b));
+    out.push_back(part_of_element(e, a, b));
   }
 }
 

@@ -9,6 +9,8 @@
 
 #include "mesh_parts.h"
 #include "obvid/exchange/mesh_files.h"
+#include "obvid/geom/box.h"
+#include "unit_sizes.h"
 
 namespace obvid {
 namespace {
@@ -22,40 +24,15 @@ constexpr std::uint32_t kDataChunk = 0x004E4942;  // "BIN"
 constexpr int kFloat = 5126, kUnsignedInt = 5125;
 constexpr int kArrayBuffer = 34962, kElementBuffer = 34963;
 constexpr int kTriangles = 4;
-constexpr std::size_t kHeader = 12, kChunkHeader = 8;  // bytes
-
-double metres(const std::string& units) {
-  static constexpr std::pair<const char*, double> kUnits[] = {
-      {"um", 1e-6}, {"mm", 1e-3},   {"cm", 1e-2},  {"m", 1.0},
-      {"km", 1e3},  {"in", 0.0254}, {"ft", 0.3048}};
-  for (const auto& [name, value] : kUnits) {
-    if (units == name) return value;
-  }
-  return 1e-3;
-}
-
-struct Box {
-  Vec3 low{HUGE_VAL, HUGE_VAL, HUGE_VAL}, high{-HUGE_VAL, -HUGE_VAL, -HUGE_VAL};
-  void add(Vec3 p) {
-    low = {std::min(low.x, p.x), std::min(low.y, p.y), std::min(low.z, p.z)};
-    high = {std::max(high.x, p.x), std::max(high.y, p.y), std::max(high.z, p.z)};
-  }
-  [[nodiscard]] Vec3 middle() const { return low + 0.5 * (high - low); }
-};
+constexpr std::size_t kGlbHeader = 12, kChunkHeader = 8;  // bytes
 
 json as_json(Vec3 p) { return json::array({p.x, p.y, p.z}); }
-
-Vec3 single(Vec3 p) {
-  return {static_cast<double>(static_cast<float>(p.x)),
-          static_cast<double>(static_cast<float>(p.y)),
-          static_cast<double>(static_cast<float>(p.z))};
-}
 
 class GlbWriter {
  public:
   GlbWriter(const SurfaceModel& model, const std::vector<Mesh>& meshes)
       : model_(model), meshes_(meshes) {
-    Box box;
+    Box3 box;
     for (const Mesh& mesh : meshes) {
       for (const MeshVertex& v : mesh.vertices) box.add(v.point);
     }
@@ -71,7 +48,7 @@ class GlbWriter {
     document_["buffers"] = json::array({{{"byteLength", data_.size()}}});
     std::string text = document_.dump(-1, ' ', false, json::error_handler_t::replace);
     text.resize((text.size() + 3) / 4 * 4, ' ');  // chunks end at multiples of 4
-    const std::size_t size = kHeader + 2 * kChunkHeader + text.size() + data_.size();
+    const std::size_t size = kGlbHeader + 2 * kChunkHeader + text.size() + data_.size();
     if (size > std::numeric_limits<std::uint32_t>::max()) return fail(exchange::too_large("glTF"));
     return assembled(text, static_cast<std::uint32_t>(size));
   }
@@ -79,7 +56,7 @@ class GlbWriter {
  private:
   /// The node above all patches: z up becomes y up, units become metres, the middle its place.
   void head() {
-    const double scale = metres(model_.units);
+    const double scale = exchange::millimetres_of(model_.units).value_or(1.0) / 1000.0;
     const double half = std::numbers::sqrt2 / 2.0;
     json root = {{"name", model_.name},
                  {"rotation", json::array({-half, 0.0, 0.0, half})},
@@ -124,9 +101,9 @@ class GlbWriter {
     const Mesh& mesh = meshes_[p];
     const std::size_t count = mesh.vertices.size();
     std::size_t from = data_.size();
-    Box box;
+    Box3 box;
     for (const MeshVertex& v : mesh.vertices) {
-      box.add(single(v.point - middle_));
+      box.add(exchange::single(v.point - middle_));
       exchange::put_single(data_, v.point - middle_);
     }
     if (!is_finite(box.low) || !is_finite(box.high)) return false;

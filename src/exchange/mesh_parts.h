@@ -23,6 +23,13 @@ void put(std::string& out, T value) {
   out.append(bytes.data(), bytes.size());
 }
 
+/// Rounded to the nearest floats.
+[[nodiscard]] inline Vec3 single(Vec3 p) {
+  return {static_cast<double>(static_cast<float>(p.x)),
+          static_cast<double>(static_cast<float>(p.y)),
+          static_cast<double>(static_cast<float>(p.z))};
+}
+
 inline void put_single(std::string& out, Vec3 p) {
   put(out, static_cast<float>(p.x));
   put(out, static_cast<float>(p.y));

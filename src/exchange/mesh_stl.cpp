@@ -10,15 +10,9 @@
 namespace obvid {
 namespace {
 
-constexpr std::size_t kHeader = 80;           // bytes
+constexpr std::size_t kStlHeader = 80;        // bytes
 constexpr std::size_t kBytesOfTriangle = 50;  // 12 numbers of 4 bytes, 2 bytes of attributes
 constexpr std::size_t kName = 40;             // characters that are kept
-
-Vec3 single(Vec3 p) {
-  return {static_cast<double>(static_cast<float>(p.x)),
-          static_cast<double>(static_cast<float>(p.y)),
-          static_cast<double>(static_cast<float>(p.z))};
-}
 
 }  // namespace
 
@@ -32,15 +26,15 @@ Result<std::string> stl_text(const SurfaceModel& model, const std::vector<Mesh>&
   std::string out = fmt::format("binary STL by obvid, {}, unit {}",
                                 exchange::plain_name(model.name, "surface").substr(0, kName),
                                 exchange::plain_name(model.units, "mm").substr(0, kName / 4));
-  out.resize(kHeader, ' ');
-  out.reserve(kHeader + sizeof(std::uint32_t) + kBytesOfTriangle * counts->triangles);
+  out.resize(kStlHeader, ' ');
+  out.reserve(kStlHeader + sizeof(std::uint32_t) + kBytesOfTriangle * counts->triangles);
   exchange::put(out, std::uint32_t{0});
   std::uint32_t written = 0;
   for (const Mesh& mesh : meshes) {
     for (const auto& t : mesh.triangles) {
       const Vec3 a = mesh.vertices[t[0]].point, b = mesh.vertices[t[1]].point,
                  c = mesh.vertices[t[2]].point;
-      const Vec3 sa = single(a), sb = single(b), sc = single(c);
+      const Vec3 sa = exchange::single(a), sb = exchange::single(b), sc = exchange::single(c);
       if (!is_finite(sa) || !is_finite(sb) || !is_finite(sc))
         return fail(exchange::too_large("STL"));
       if (sa == sb || sb == sc || sc == sa) continue;
@@ -54,7 +48,7 @@ Result<std::string> stl_text(const SurfaceModel& model, const std::vector<Mesh>&
   }
   std::string number;
   exchange::put(number, written);
-  out.replace(kHeader, number.size(), number);
+  out.replace(kStlHeader, number.size(), number);
   return out;
 }
 

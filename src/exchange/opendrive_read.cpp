@@ -35,7 +35,7 @@ bool read_numbers(pugi::xml_node node, std::initializer_list<std::pair<const cha
   return true;
 }
 
-bool is_finite(const Piece& piece) {
+bool has_finite_places(const Piece& piece) {
   const Jet middle = evaluate(piece, 0.5);
   const Vec2 end = end_point(piece);
   return std::isfinite(middle.point.x) && std::isfinite(middle.point.y) && std::isfinite(end.x) &&
@@ -166,7 +166,7 @@ class OpenDriveReader {
     }
     auto piece = shape(node, base);
     if (!piece) return std::nullopt;
-    if (!is_finite(*piece) || start_point(*piece) == end_point(*piece)) {
+    if (!has_finite_places(*piece) || start_point(*piece) == end_point(*piece)) {
       warnings_.add("an element that comes to no point or goes nowhere left out", node);
       return std::nullopt;
     }

@@ -8,29 +8,21 @@
 #include "obvid/curve/clothoid.h"
 #include "obvid/exchange/opendrive.h"
 #include "obvid/exchange/road_elements.h"
+#include "obvid/geom/box.h"
 #include "xml_text.h"
 
 namespace obvid {
 namespace {
 
-constexpr int kSamples =
+constexpr int kBoxSamples =
     16;  // of each element, for the box in the header, which is information only
 
-struct Box {
-  Vec2 low{HUGE_VAL, HUGE_VAL}, high{-HUGE_VAL, -HUGE_VAL};
-
-  void add(Vec2 p) {
-    low = {std::min(low.x, p.x), std::min(low.y, p.y)};
-    high = {std::max(high.x, p.x), std::max(high.y, p.y)};
-  }
-};
-
-Box box_of(const std::vector<RoadLine>& lines) {
-  Box box;
+Box2 box_of_roads(const std::vector<RoadLine>& lines) {
+  Box2 box;
   for (const RoadLine& line : lines) {
     for (const RoadElement& e : line.elements) {
-      for (int k = 0; k <= kSamples; ++k) {
-        const double part = static_cast<double>(k) / kSamples, s = part * e.length;
+      for (int k = 0; k <= kBoxSamples; ++k) {
+        const double part = static_cast<double>(k) / kBoxSamples, s = part * e.length;
         const double kappa = e.kappa0 + part * (e.kappa1 - e.kappa0);
         box.add(e.start + clothoid_step(e.theta, e.kappa0, kappa, s));
       }
@@ -45,7 +37,7 @@ class OpenDriveWriter {
       : lines_(lines), closed_(closed), options_(options) {}
 
   std::string run() {
-    const Box box = box_of(lines_);
+    const Box2 box = box_of_roads(lines_);
     put("<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<OpenDRIVE>\n");
     put("  <header revMajor=\"1\" revMinor=\"6\" name=\"{}\" version=\"1.00\" north=\"{}\" "
         "south=\"{}\" east=\"{}\" west=\"{}\"/>\n",

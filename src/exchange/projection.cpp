@@ -4,10 +4,11 @@
 #include <cmath>
 #include <numbers>
 
+#include "obvid/geom/angle.h"
+
 namespace obvid {
 namespace {
 
-constexpr double kDegree = std::numbers::pi / 180.0;
 constexpr double kSemiMajor = 6378137.0;                  // m, WGS84
 constexpr double kFlattening = 1.0 / 298.257223563;       // WGS84
 constexpr double kMeanRadius = 6380e3;                    // m, for the scale only
@@ -50,11 +51,11 @@ Vec2 kruegers_series(double longitude, double latitude) {
 }  // namespace
 
 LocalProjection::LocalProjection(GeoPoint centre)
-    : centre_(centre), northing_(kruegers_series(0.0, kDegree * centre.latitude).y) {}
+    : centre_(centre), northing_(kruegers_series(0.0, kOneDegree * centre.latitude).y) {}
 
 Vec2 LocalProjection::to_plane(GeoPoint place) const {
   const double longitude = longitude_from(centre_.longitude, place.longitude);
-  const Vec2 p = kruegers_series(kDegree * longitude, kDegree * place.latitude);
+  const Vec2 p = kruegers_series(kOneDegree * longitude, kOneDegree * place.latitude);
   return {p.x, p.y - northing_};
 }
 

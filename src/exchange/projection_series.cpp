@@ -11,12 +11,13 @@
 namespace obvid::exchange {
 namespace {
 
-constexpr double kWorthSaying = 1e-3;  // of a length: scale of the plane that users must know of
+constexpr double kScaleWorthSaying =
+    1e-3;                              // of a length: scale of the plane that users must know of
 constexpr double kMostDistance = 3e6;  // m from the middle meridian: the series is good so far
 constexpr double kMetresPerDegree = 6371e3 * std::numbers::pi / 180.0;  // for the rounding only
 
 /// Middle of the smallest box around all places, seen from the first one.
-GeoPoint middle_of(const std::vector<GeoSeries>& all) {
+GeoPoint middle_of_places(const std::vector<GeoSeries>& all) {
   const double reference = all.front().places.front().longitude;
   double west = 0.0, east = 0.0, south = 90.0, north = -90.0;
   for (const GeoSeries& series : all) {
@@ -67,14 +68,14 @@ void drop_single_places(std::vector<GeoSeries>& all, std::vector<std::string>& w
 }  // namespace
 
 void LastDigit::add(double value) {
-  constexpr int kMostDecimals = 17;
+  constexpr int kMostCoordinateDigits = 17;
   const std::string text = fmt::format("{}", value);
   const std::size_t exponent = text.find('e'), point = text.find('.');
   const std::size_t end = std::min(exponent, text.size());
   int decimals = point < end ? static_cast<int>(end - point - 1) : 0;
   if (exponent != std::string::npos) decimals -= std::atoi(text.c_str() + exponent + 1);
   if (point != std::string::npos && text.substr(point, end - point) == ".0") --decimals;
-  decimals_ = std::clamp(decimals, decimals_, kMostDecimals);
+  decimals_ = std::clamp(decimals, decimals_, kMostCoordinateDigits);
 }
 
 double LastDigit::half_unit() const { return 0.5 * std::pow(10.0, -decimals_); }
@@ -104,7 +105,7 @@ Result<void> project_series(std::vector<GeoSeries> all, std::string_view name, D
     return fail({ErrorCode::kTooFewPoints, "the file holds no line with two different places",
                  std::string(name), "", -1, 0.0});
   }
-  const LocalProjection projection(middle_of(all));
+  const LocalProjection projection(middle_of_places(all));
   double farthest = 0.0;
   for (const GeoSeries& series : all) {
     for (const GeoPoint& place : series.places) {
@@ -123,7 +124,7 @@ Result<void> project_series(std::vector<GeoSeries> all, std::string_view name, D
       fmt::format("longitude and latitude became metres east and north of {:.6f}, {:.6f} "
                   "(transverse Mercator on WGS84, scale 1 there); heights are not used",
                   projection.centre().longitude, projection.centre().latitude));
-  if (const double scale = projection_scale(farthest) - 1.0; scale > kWorthSaying) {
+  if (const double scale = projection_scale(farthest) - 1.0; scale > kScaleWorthSaying) {
     drawing.warnings.push_back(fmt::format(
         "the places span so much that lengths are up to {:.2g} % too long", 100.0 * scale));
   }

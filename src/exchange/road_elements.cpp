@@ -36,16 +36,17 @@ RoadElement scaled(RoadElement e, double metres) {
 }  // namespace
 
 std::optional<double> metres_in(std::string_view unit) {
-  static constexpr std::array<std::pair<std::string_view, double>, 9> kUnits = {{{"um", 1e-6},
-                                                                                 {"mm", 1e-3},
-                                                                                 {"cm", 1e-2},
-                                                                                 {"m", 1.0},
-                                                                                 {"km", 1e3},
-                                                                                 {"in", 0.0254},
-                                                                                 {"ft", 0.3048},
-                                                                                 {"yd", 0.9144},
-                                                                                 {"mi", 1609.344}}};
-  for (const auto& [name, metres] : kUnits) {
+  static constexpr std::array<std::pair<std::string_view, double>, 9> kMetres = {
+      {{"um", 1e-6},
+       {"mm", 1e-3},
+       {"cm", 1e-2},
+       {"m", 1.0},
+       {"km", 1e3},
+       {"in", 0.0254},
+       {"ft", 0.3048},
+       {"yd", 0.9144},
+       {"mi", 1609.344}}};
+  for (const auto& [name, metres] : kMetres) {
     if (unit == name) return metres;
   }
   return std::nullopt;

@@ -16,7 +16,7 @@ namespace {
 constexpr std::size_t kMostSamples = 10'000'000;
 constexpr double kDefaultChord = 1e-4;  // of the length
 constexpr int kMostChords = 1 << 20;    // of a piece
-constexpr double kSameHeading = 1e-6;   // rad: no corner
+constexpr double kNoCorner = 1e-6;      // rad: no corner
 
 Error bad(const char* what, double value) {
   return {ErrorCode::kBadOption, what, "", "give a positive number", -1, value};
@@ -131,7 +131,7 @@ Result<std::vector<CurveSample>> by_chords(std::span<const Piece> pieces, const 
       const CurveSample one = track.at(i, t, track.start(i) + track.partial(i, t), theta);
       theta = one.theta;
       const bool joint = k == 0 && !out.empty();
-      const bool corner = joint && std::abs(one.theta - out.back().theta) > kSameHeading;
+      const bool corner = joint && std::abs(one.theta - out.back().theta) > kNoCorner;
       if (!joint || corner) out.push_back(one);
     }
   }

@@ -10,19 +10,10 @@
 #include <utility>
 
 #include "obvid/contour/conics.h"
+#include "unit_sizes.h"
 
 namespace obvid {
 namespace {
-
-double metres(const std::string& units) {
-  static constexpr std::pair<const char*, double> kUnits[] = {
-      {"um", 1e-6}, {"mm", 1e-3},   {"cm", 1e-2},  {"m", 1.0},
-      {"km", 1e3},  {"in", 0.0254}, {"ft", 0.3048}};
-  for (const auto& [name, value] : kUnits) {
-    if (units == name) return value;
-  }
-  return 1e-3;
-}
 
 /// Runs as ranges of pieces; the whole contour where it has none.
 std::vector<Run> runs_of(const Contour& contour) {
@@ -38,7 +29,9 @@ std::span<const Piece> pieces_of(const Contour& contour, const Run& run) {
 class Macro {
  public:
   Macro(const Contour& contour, const SampleOptions& options)
-      : contour_(contour), options_(options), scale_(metres(contour.units)) {}
+      : contour_(contour),
+        options_(options),
+        scale_(exchange::millimetres_of(contour.units).value_or(1.0) / 1000.0) {}
 
   Result<std::string> run() {
     out_ =

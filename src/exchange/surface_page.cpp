@@ -18,28 +18,28 @@ using exchange::escaped;
 using exchange::plain_text;
 using nlohmann::json;
 
-constexpr int kMostCells = 60;  // of the sliders
+constexpr int kMostSliderCells = 60;  // of the sliders
 constexpr int kLeastStripes = 2;
 /// Sizes beyond these leave the range of single precision, or their squares do.
 constexpr double kLeastRadius = 1e-15, kMostRadius = 1e15;
 constexpr std::size_t kPaletteStops = 33;
 
-Result<void> check_options(const PageOptions& options) {
-  const auto within = [](int n, int least) { return n >= least && n <= kMostCells; };
+Result<void> check_page_options(const PageOptions& options) {
+  const auto within = [](int n, int least) { return n >= least && n <= kMostSliderCells; };
   if (within(options.isolines_u, 1) && within(options.isolines_v, 1) &&
       within(options.zebra_stripes, kLeastStripes)) {
     return {};
   }
   return fail({ErrorCode::kBadOption,
-               fmt::format("isolines and stripes of a page are numbers up to {}", kMostCells), "",
-               "", -1, 0.0});
+               fmt::format("isolines and stripes of a page are numbers up to {}", kMostSliderCells),
+               "", "", -1, 0.0});
 }
 
 std::string patch_place(const SurfaceModel& model, std::size_t i) {
   return fmt::format("patch {} '{}'", i + 1, exchange::shortened(model.patches[i].name));
 }
 
-Result<void> check_mesh(const Mesh& mesh, const std::string& where) {
+Result<void> check_page_mesh(const Mesh& mesh, const std::string& where) {
   for (std::size_t i = 0; i < mesh.vertices.size(); ++i) {
     const MeshVertex& v = mesh.vertices[i];
     if (!is_finite(v.point) || !std::isfinite(v.u) || !std::isfinite(v.v)) {
@@ -59,7 +59,8 @@ Result<void> check_mesh(const Mesh& mesh, const std::string& where) {
 
 Result<void> check_lines(const std::vector<ScenePolyline>& lines) {
   for (std::size_t i = 0; i < lines.size(); ++i) {
-    if (!std::all_of(lines[i].points.begin(), lines[i].points.end(), is_finite)) {
+    if (!std::all_of(lines[i].points.begin(), lines[i].points.end(),
+                     [](Vec3 p) { return is_finite(p); })) {
       return fail({ErrorCode::kNotFinite, "a point of a line is not finite",
                    fmt::format("line {}", i + 1), "", static_cast<std::ptrdiff_t>(i), 0.0});
     }
@@ -77,7 +78,8 @@ Result<std::size_t> count_triangles(const SurfaceModel& model, const std::vector
   std::size_t triangles = 0;
   for (std::size_t i = 0; i < meshes.size(); ++i) {
     if (auto good = check(model.patches[i].surface); !good) return fail(good.error());
-    if (auto good = check_mesh(meshes[i], patch_place(model, i)); !good) return fail(good.error());
+    if (auto good = check_page_mesh(meshes[i], patch_place(model, i)); !good)
+      return fail(good.error());
     triangles += meshes[i].triangles.size();
   }
   if (triangles == 0) {
@@ -257,7 +259,7 @@ std::string assembled(const std::string& title, const std::string& facts, const 
 
 Result<std::string> surface_page(const SurfaceModel& model, const std::vector<Mesh>& meshes,
                                  const PageOptions& options, const Progress& progress) {
-  if (auto good = check_options(options); !good) return fail(good.error());
+  if (auto good = check_page_options(options); !good) return fail(good.error());
   if (auto good = check_lines(options.lines); !good) return fail(good.error());
   const auto triangles = count_triangles(model, meshes, options.most_triangles);
   if (!triangles) return fail(triangles.error());

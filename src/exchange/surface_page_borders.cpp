@@ -7,7 +7,7 @@ namespace obvid::exchange {
 namespace {
 
 /// Points closer than this part of the size are one; also how far inside normals are compared.
-constexpr double kSamePlace = 1e-7;
+constexpr double kSameBorderPlace = 1e-7;
 constexpr double kInside = 1e-4;
 /// Cosine of the angle between the normals of both sides of a smooth seam: 1.8 degrees.
 constexpr double kSmooth = 0.9995;
@@ -24,7 +24,7 @@ struct Pair {
 };
 
 Pair judge(const NurbsSurface& s, bool of_u) {
-  const double near = kSamePlace * size_of(s);
+  const double near = kSameBorderPlace * size_of(s);
   const Vec3 a0 = at(s, of_u, 0.0, 0.0).point, b0 = at(s, of_u, 1.0, 0.0).point;
   Pair pair;
   for (int k = 0; k <= kPlaces; ++k) {

@@ -7,16 +7,10 @@
 #include <limits>
 #include <type_traits>
 
+#include "obvid/geom/box.h"
+
 namespace obvid::exchange {
 namespace {
-
-struct Box {
-  Vec3 low{HUGE_VAL, HUGE_VAL, HUGE_VAL}, high{-HUGE_VAL, -HUGE_VAL, -HUGE_VAL};
-  void add(Vec3 p) {
-    low = {std::min(low.x, p.x), std::min(low.y, p.y), std::min(low.z, p.z)};
-    high = {std::max(high.x, p.x), std::max(high.y, p.y), std::max(high.z, p.z)};
-  }
-};
 
 /// Arrays of numbers as bytes, whatever the order of bytes of the machine.
 class Bytes {
@@ -67,7 +61,7 @@ void put_direction(Bytes& out, Vec3 n) {
   out.whole(static_cast<std::int16_t>(std::lround(kUnit * y)));
 }
 
-double part_of(Range range, double at) {
+double part_of_range(Range range, double at) {
   return std::clamp((at - range.from) / range.length(), 0.0, 1.0);
 }
 
@@ -91,8 +85,8 @@ std::vector<PrincipalCurvatures> put_patch(Bytes& out, const NurbsSurface& surfa
   for (const MeshVertex& v : mesh.vertices) put_direction(out, v.normal);
   const Range us = domain_u(surface), vs = domain_v(surface);
   for (const MeshVertex& v : mesh.vertices) {
-    out.real(part_of(us, v.u));
-    out.real(part_of(vs, v.v));
+    out.real(part_of_range(us, v.u));
+    out.real(part_of_range(vs, v.v));
   }
   std::vector<PrincipalCurvatures> curvatures;
   curvatures.reserve(mesh.vertices.size());
@@ -132,7 +126,7 @@ ValueScale scale_of(const std::vector<Measured>& measured, SurfaceColouring colo
 
 void place(PageData& data, const std::vector<Mesh>& meshes,
            const std::vector<ScenePolyline>& lines) {
-  Box box;
+  Box3 box;
   for (const Mesh& mesh : meshes) {
     for (const MeshVertex& v : mesh.vertices) box.add(v.point);
   }

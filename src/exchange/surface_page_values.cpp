@@ -17,7 +17,7 @@ constexpr double kSameValue = 1e-4;
 /// An end on the other side of 0 that is shorter than this part of the other counts as 0.
 constexpr double kShortEnd = 0.02;
 /// Curvatures below this divided by the size of the surface are those of a plane.
-constexpr double kFlat = 1e-9;
+constexpr double kPlaneCurvature = 1e-9;
 /// A derivative that would carry less far than this part of the size vanishes.
 constexpr double kCollapsed = 1e-6;
 /// How far from a pole curvatures are read, parts of the domain.
@@ -113,7 +113,7 @@ std::string unit_of(SurfaceColouring colouring, const std::string& units) {
 }
 
 double resolution_of(SurfaceColouring colouring, double size) {
-  const double flat = kFlat / size;
+  const double flat = kPlaneCurvature / size;
   return colouring == SurfaceColouring::kGaussian ? flat / size : flat;
 }
 

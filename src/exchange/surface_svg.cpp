@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "obvid/geom/box.h"
 #include "surface_svg_facets.h"
 #include "surface_svg_lines.h"
 #include "surface_svg_sheet.h"
@@ -19,7 +20,7 @@ constexpr double kLeastSheet = 200.0, kMostSheet = 2000.0;  // px
 constexpr int kMostIsolines = 200, kMostStripes = 100;
 constexpr std::size_t kLeastFacets = 16, kMostFacets = 40'000;
 /// Files beyond this (bytes) are drawn again with fewer facets, but not with fewer than so many.
-constexpr std::size_t kMostText = 1'450'000, kFewestFacets = 1500;
+constexpr std::size_t kMostFileText = 1'450'000, kFewestFacets = 1500;
 /// Sizes beyond these leave the range of doubles when they are multiplied.
 constexpr double kLeastSize = 1e-60, kMostSize = 1e60;
 
@@ -27,7 +28,7 @@ Error bad_option(const char* what, double value) {
   return {ErrorCode::kBadOption, what, "", "", -1, value};
 }
 
-Result<void> check_options(const SurfacePictureOptions& o) {
+Result<void> check_picture_options(const SurfacePictureOptions& o) {
   const auto sheet = [](double a) { return a >= kLeastSheet && a <= kMostSheet; };
   if (!sheet(o.width)) return fail(bad_option("a picture is 200 to 2000 px wide", o.width));
   if (!sheet(o.height)) return fail(bad_option("a picture is 200 to 2000 px high", o.height));
@@ -71,18 +72,8 @@ Result<void> check_scene(const SurfaceModel& model, const SurfacePictureOptions&
   return {};
 }
 
-struct Box {
-  Vec3 low{HUGE_VAL, HUGE_VAL, HUGE_VAL}, high{-HUGE_VAL, -HUGE_VAL, -HUGE_VAL};
-  void add(Vec3 p) {
-    low = {std::min(low.x, p.x), std::min(low.y, p.y), std::min(low.z, p.z)};
-    high = {std::max(high.x, p.x), std::max(high.y, p.y), std::max(high.z, p.z)};
-  }
-  [[nodiscard]] Vec3 size() const { return high - low; }
-  [[nodiscard]] Vec3 middle() const { return low + 0.5 * size(); }
-};
-
-Box box_of(const std::vector<DrawnPatch>& patches) {
-  Box box;
+Box3 box_of_patches(const std::vector<DrawnPatch>& patches) {
+  Box3 box;
   for (const DrawnPatch& patch : patches) {
     for (const Vec3 p : patch.points) box.add(p);
   }
@@ -92,8 +83,8 @@ Box box_of(const std::vector<DrawnPatch>& patches) {
 /// The camera of the options so that everything fills the middle of the sheet.
 PictureCamera fitted(const std::vector<DrawnPatch>& patches, const SurfacePictureOptions& options) {
   PictureCamera camera = camera_of(options);
-  camera.centre = box_of(patches).middle();
-  Box seen;
+  camera.centre = box_of_patches(patches).middle();
+  Box3 seen;
   const auto see = [&](Vec3 p) { seen.add(camera.seen(p - camera.centre)); };
   for (const DrawnPatch& patch : patches) {
     for (const Vec3 p : patch.points) see(p);
@@ -116,7 +107,7 @@ SheetTexts texts_of(const SurfaceModel& model, const std::vector<DrawnPatch>& pa
   SheetTexts texts;
   texts.title = plain_text(options.title.empty() ? model.name : options.title);
   texts.units = plain_text(model.units);
-  texts.facts = size_text(box_of(patches).size(), texts.units);
+  texts.facts = size_text(box_of_patches(patches).size(), texts.units);
   if (patches.size() > 1) texts.facts += " · " + std::to_string(patches.size()) + " patches";
   return texts;
 }
@@ -143,7 +134,7 @@ Result<std::string> drawn(const SurfaceModel& model, const SurfacePictureOptions
                    "change the unit", -1, 0.0});
     }
   }
-  const double size = norm(box_of(patches).size());
+  const double size = norm(box_of_patches(patches).size());
   if (!(size >= kLeastSize && size <= kMostSize)) {
     return fail({ErrorCode::kSizeOutOfRange, "the size of the surface cannot be drawn", "",
                  "change the unit", -1, size});
@@ -164,13 +155,13 @@ Result<std::string> drawn(const SurfaceModel& model, const SurfacePictureOptions
 }  // namespace
 
 Result<std::string> surface_svg(const SurfaceModel& model, const SurfacePictureOptions& options) {
-  if (auto good = check_options(options); !good) return fail(good.error());
+  if (auto good = check_picture_options(options); !good) return fail(good.error());
   if (auto good = check_scene(model, options); !good) return fail(good.error());
   std::size_t facets = options.most_facets;
   for (;;) {
     auto svg = drawn(model, options, facets);
     const std::size_t fewer = facets * 2 / 3;
-    if (!svg || svg->size() <= kMostText || fewer < kFewestFacets + model.patches.size()) {
+    if (!svg || svg->size() <= kMostFileText || fewer < kFewestFacets + model.patches.size()) {
       return svg;
     }
     facets = fewer;

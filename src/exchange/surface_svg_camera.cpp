@@ -5,6 +5,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "obvid/geom/angle.h"
+
 namespace obvid::exchange {
 namespace {
 
@@ -20,9 +22,8 @@ constexpr std::array<Angles, 6> kAngles = {
 
 PictureCamera camera_of(const SurfacePictureOptions& options) {
   const Angles named = kAngles[static_cast<std::size_t>(options.view)];
-  constexpr double kDegree = std::numbers::pi / 180.0;
-  const double a = kDegree * options.azimuth_deg.value_or(named.azimuth_deg);
-  const double e = kDegree * options.elevation_deg.value_or(named.elevation_deg);
+  const double a = kOneDegree * options.azimuth_deg.value_or(named.azimuth_deg);
+  const double e = kOneDegree * options.elevation_deg.value_or(named.elevation_deg);
   PictureCamera camera;
   camera.right = {std::cos(a), std::sin(a), 0.0};
   camera.up = {-std::sin(a) * std::sin(e), std::cos(a) * std::sin(e), std::cos(e)};

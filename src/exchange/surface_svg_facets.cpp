@@ -23,7 +23,7 @@ constexpr Rgb kDark{43, 52, 64}, kLight{238, 241, 244};
 constexpr double kSeam = 0.9;
 /// Parts of cells that are mended, px; and how many there may be along a side.
 constexpr double kPart = 1.0;
-constexpr int kMostParts = 64;
+constexpr int kMostFacetParts = 64;
 
 /// A corner of a piece on the sheet with its value in bands.
 struct Corner {
@@ -49,7 +49,7 @@ Polygon cut(const Polygon& polygon, double border, bool above) {
   return out;
 }
 
-struct Cell {
+struct DrawnCell {
   const DrawnPatch& patch;
   std::array<std::size_t, 4> corners;
   const Quad& quad;
@@ -68,7 +68,7 @@ class Painter {
       : camera_(camera), colours_(colours) {}
 
   /// Pieces of a cell, those of whole ones at the end and by colour.
-  void add(const Cell& cell, bool whole) {
+  void add(const DrawnCell& cell, bool whole) {
     front_ = cell.front();
     Corners corners{};
     for (std::size_t k = 0; k < corners.size(); ++k) {
@@ -78,7 +78,7 @@ class Painter {
   }
 
   /// Parts of a cell that should be seen and were covered, as strips on top of what is there.
-  void mend(const Cell& cell, const DepthBuffer& depth) {
+  void mend(const DrawnCell& cell, const DepthBuffer& depth) {
     front_ = cell.front();
     const int parts = parts_of(cell.quad);
     for (int j = 0; j < parts; ++j) {
@@ -109,11 +109,11 @@ class Painter {
       const Vec3 side = quad[(k + 1) % quad.size()] - quad[k];
       longest = std::max(longest, std::hypot(side.x, side.y));
     }
-    return std::clamp(static_cast<int>(std::ceil(longest / kPart)), 1, kMostParts);
+    return std::clamp(static_cast<int>(std::ceil(longest / kPart)), 1, kMostFacetParts);
   }
 
   /// Place and value inside a cell, i and j in 0 ... parts.
-  [[nodiscard]] Corner inside(const Cell& cell, double i, double j, int parts) const {
+  [[nodiscard]] Corner inside(const DrawnCell& cell, double i, double j, int parts) const {
     const double u = i / parts, v = j / parts;
     const std::array<double, 4> w = {(1 - u) * (1 - v), u * (1 - v), u * v, (1 - u) * v};
     Corner corner;
@@ -125,7 +125,7 @@ class Painter {
   }
 
   /// Value of a corner in bands or shades.
-  [[nodiscard]] double band_at(const Cell& cell, std::size_t corner) const {
+  [[nodiscard]] double band_at(const DrawnCell& cell, std::size_t corner) const {
     const std::size_t vertex = cell.corners[corner];
     if (is_curvature(colours_.colouring)) {
       const ValueScale& s = colours_.scale;
@@ -235,11 +235,11 @@ std::vector<Quad> projected(const std::vector<DrawnPatch>& patches, const Pictur
 std::string facet_paths(const std::vector<DrawnPatch>& patches, const std::vector<Quad>& quads,
                         DepthBuffer& depth, const PictureCamera& camera, const Colours& colours) {
   const std::vector<Seen> seen = depth.judge(quads);
-  std::vector<Cell> partly;
+  std::vector<DrawnCell> partly;
   Painter painter(camera, colours);
   std::size_t n = 0;
   each_cell(patches, [&](const DrawnPatch& patch, const std::array<std::size_t, 4>& corners) {
-    const Cell cell{patch, corners, quads[n], n};
+    const DrawnCell cell{patch, corners, quads[n], n};
     if (seen[n] == Seen::kWhole) painter.add(cell, true);
     if (seen[n] == Seen::kPartly) partly.push_back(cell);
     ++n;

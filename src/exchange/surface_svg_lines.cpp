@@ -21,7 +21,7 @@ constexpr double kThin = 0.2;
 /// So many probes that differ from both their neighbours are noise of the raster.
 constexpr std::size_t kNoise = 2;
 /// Text of extra lines beyond this is thinned more, bytes; and how often.
-constexpr std::size_t kMostText = 600'000;
+constexpr std::size_t kMostLineText = 600'000;
 constexpr int kThinnings = 6;
 
 struct Probe {
@@ -197,7 +197,7 @@ std::string extra_lines(const Scene& scene, const std::vector<ScenePolyline>& li
   double thin = kThin;
   for (int trial = 0;; ++trial) {
     std::string text = extra_paths(scene, lines, thin);
-    if (text.size() <= kMostText || trial == kThinnings) return group(text);
+    if (text.size() <= kMostLineText || trial == kThinnings) return group(text);
     thin *= 2.0;
   }
 }

@@ -17,7 +17,7 @@ constexpr std::size_t kRows = 7;
 constexpr double kTurnWeight = 0.25;
 /// What every stretch of the parameters counts at least, part of the whole.
 constexpr double kLeastShare = 0.05;
-constexpr std::size_t kMostCells = 500;  // in one direction of a patch
+constexpr std::size_t kMostRasterCells = 500;  // in one direction of a patch
 
 /// How much a patch is worth drawing along one direction: sums up to each explored parameter.
 struct Effort {
@@ -86,7 +86,7 @@ struct Plan {
 
 std::size_t cells(double wanted) {
   return std::clamp(static_cast<std::size_t>(std::max(1.0, std::floor(wanted))), std::size_t{1},
-                    kMostCells);
+                    kMostRasterCells);
 }
 
 DrawnPatch evaluated(const NurbsSurface& surface, double size, std::vector<double> us,

@@ -35,7 +35,7 @@ constexpr double kShortAxis = 5.0;   // px, shorter ones have no letter
 constexpr double kScaleBar = 130.0;  // px, widest
 constexpr double kLegend = 330.0;    // px, at most
 constexpr int kTicks = 6;            // wanted
-constexpr int kDigits = 3;           // of numbers
+constexpr int kSheetDigits = 3;      // of numbers
 /// A tick this part of a step beyond the range lies on its end.
 constexpr double kSlack = 1e-9;
 
@@ -94,7 +94,7 @@ std::string scale_bar(const SheetTexts& texts, const PictureCamera& camera, doub
              "{1:.1f}v8\"/>\n",
              left, y - 4.0, y, right) +
          text_at(0.5 * (left + right), y - 9.0, "", "middle",
-                 readable(length, kDigits) + " " + texts.units);
+                 readable(length, kSheetDigits) + " " + texts.units);
 }
 
 /// Bands of the colours with round numbers below.
@@ -112,7 +112,7 @@ std::string legend_bar(const ValueScale& scale, double left, double width, doubl
        k += 1.0) {
     const double x = left + width * (k * step - scale.low) / (scale.high - scale.low);
     out += fmt::format("<path class=\"bar\" d=\"M{:.1f} {:.1f}v4\"/>\n", x, y + 11.0);
-    out += text_at(x, y + 27.0, "", "middle", readable(k * step, kDigits));
+    out += text_at(x, y + 27.0, "", "middle", readable(k * step, kSheetDigits));
   }
   return out;
 }
@@ -128,14 +128,14 @@ std::string legend(const Colours& colours, const std::string& units, double widt
            fmt::format("<rect x=\"{:.1f}\" y=\"{:.1f}\" width=\"22\" height=\"11\" fill=\"{}\"/>\n",
                        0.5 * width - 60.0, y, hex(palette(scale.diverging, 0.5))) +
            text_at(0.5 * width - 30.0, y + 10.0, "", "start",
-                   readable(scale.low, kDigits) + " everywhere");
+                   readable(scale.low, kSheetDigits) + " everywhere");
   }
   std::string out = text_at(0.5 * width, y - 6.0, "name", "middle", head);
   out += legend_bar(scale, left, wide, y);
   if (scale.least < scale.low || scale.most > scale.high) {
     out += text_at(0.5 * width, y + 40.0, "note", "middle",
-                   "from " + readable(scale.least, kDigits) + " to " +
-                       readable(scale.most, kDigits) + " in all");
+                   "from " + readable(scale.least, kSheetDigits) + " to " +
+                       readable(scale.most, kSheetDigits) + " in all");
   }
   return out;
 }

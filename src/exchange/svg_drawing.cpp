@@ -13,25 +13,17 @@
 #include <vector>
 
 #include "obvid/curve/path_distance.h"
+#include "obvid/geom/box.h"
+#include "unit_sizes.h"
 
 namespace obvid {
 namespace {
 
 constexpr int kMostHalvings = 24;  // of one piece
-constexpr int kSamples = 16;       // of a cubic
-constexpr double kOfTolerance = 0.95;
+constexpr int kCubicSamples = 16;  // of a cubic
+constexpr double kOfCubicTolerance = 0.95;
 /// A flag of SVG's arcs cannot tell half a turn from its complement: arcs are cut below it.
-constexpr double kMostTurn = 3.0;
-
-double millimetres(const std::string& units) {
-  static constexpr std::pair<const char*, double> kUnits[] = {
-      {"um", 1e-3}, {"mm", 1.0},  {"cm", 10.0}, {"m", 1000.0},
-      {"km", 1e6},  {"in", 25.4}, {"ft", 304.8}};
-  for (const auto& [name, value] : kUnits) {
-    if (units == name) return value;
-  }
-  return 1.0;
-}
+constexpr double kMostArcTurn = 3.0;
 
 bool is_polynomial(const RationalBezier& b) {
   for (int j = 1; j <= b.degree; ++j) {
@@ -40,18 +32,13 @@ bool is_polynomial(const RationalBezier& b) {
   return true;
 }
 
-struct Box {
-  Vec2 low{HUGE_VAL, HUGE_VAL}, high{-HUGE_VAL, -HUGE_VAL};
-  void add(Vec2 p) {
-    low = {std::min(low.x, p.x), std::min(low.y, p.y)};
-    high = {std::max(high.x, p.x), std::max(high.y, p.y)};
-  }
-};
-
-class Drawer {
+class SvgDrawer {
  public:
-  Drawer(const Contour& contour, const SvgDrawingOptions& options, double within)
-      : contour_(contour), options_(options), within_(within), mm_(millimetres(contour.units)) {}
+  SvgDrawer(const Contour& contour, const SvgDrawingOptions& options, double within)
+      : contour_(contour),
+        options_(options),
+        within_(within),
+        mm_(exchange::millimetres_of(contour.units).value_or(1.0)) {}
 
   Result<SvgDrawing> run() {
     move(start_point(contour_.pieces.front()));
@@ -103,15 +90,15 @@ class Drawer {
 
   void add_arc(const Piece& piece, const ArcPiece& arc) {
     const double turn = std::abs(arc.kappa * arc.length);
-    const int parts = std::max(1, static_cast<int>(std::ceil(turn / kMostTurn)));
+    const int parts = std::max(1, static_cast<int>(std::ceil(turn / kMostArcTurn)));
     const double radius = 1.0 / std::abs(arc.kappa);
     for (int k = 1; k <= parts; ++k) {
       const Vec2 end = k == parts ? arc.end : evaluate(piece, static_cast<double>(k) / parts).point;
       put("A{0} {0} 0 0 {1} {2} {3}", radius, arc.kappa > 0.0 ? 1 : 0, end.x, end.y);
       ++result_.curves;
     }
-    for (int k = 0; k <= kSamples; ++k)
-      see(evaluate(piece, static_cast<double>(k) / kSamples).point);
+    for (int k = 0; k <= kCubicSamples; ++k)
+      see(evaluate(piece, static_cast<double>(k) / kCubicSamples).point);
   }
 
   void exact(const RationalBezier& b) {
@@ -133,8 +120,8 @@ class Drawer {
     if (deviation <= within_) {
       const auto& c = *legs;
       put("C{} {} {} {} {} {}", c[1].x, c[1].y, c[2].x, c[2].y, c[3].x, c[3].y);
-      for (int k = 1; k <= kSamples; ++k) {
-        see(evaluate(piece, from + (to - from) * k / kSamples).point);
+      for (int k = 1; k <= kCubicSamples; ++k) {
+        see(evaluate(piece, from + (to - from) * k / kCubicSamples).point);
       }
       drawn_.emplace_back(RationalBezier{{}, 3, {c[0], c[1], c[2], c[3]}, {1.0, 1.0, 1.0, 1.0}});
       inexact_ = true;
@@ -160,8 +147,8 @@ class Drawer {
     const Vec2 rest = (8.0 / 3.0) * (middle - 0.5 * (a.point + b.point));
     const double det = -cross(ta, tb);
     double p = norm(chord) / 3.0, q = p;
-    constexpr double kParallel = 1e-3;
-    if (std::abs(det) > kParallel) {
+    constexpr double kParallelTangents = 1e-3;
+    if (std::abs(det) > kParallelTangents) {
       const double p0 = -cross(rest, tb) / det, q0 = cross(ta, rest) / det * -1.0;
       if (p0 > 0.0 && q0 > 0.0) {
         p = p0;
@@ -185,8 +172,8 @@ class Drawer {
   /// Largest distance of places of the part from the cubic.
   static double distance(const Piece& piece, double from, double to, const Cubic& cubic) {
     double most = 0.0;
-    for (int k = 1; k < kSamples; ++k) {
-      const double part = static_cast<double>(k) / kSamples;
+    for (int k = 1; k < kCubicSamples; ++k) {
+      const double part = static_cast<double>(k) / kCubicSamples;
       const Vec2 p = evaluate(piece, from + part * (to - from)).point;
       double t = part;
       constexpr int kSteps = 6;
@@ -220,7 +207,7 @@ class Drawer {
   std::string path_;
   std::vector<Piece> drawn_;
   bool inexact_ = false;
-  Box box_;
+  Box2 box_;
   SvgDrawing result_;
 };
 
@@ -235,15 +222,15 @@ Result<SvgDrawing> svg_drawing(const Contour& contour, const SvgDrawingOptions& 
     return fail({ErrorCode::kTooFewPoints, "the contour has no pieces", "", "", -1, 0.0});
   }
   constexpr int kTrials = 3;
-  double within = kOfTolerance * options.tolerance;
+  double within = kOfCubicTolerance * options.tolerance;
   for (int trial = 0;; ++trial) {
-    auto made = Drawer(contour, options, within).run();
+    auto made = SvgDrawer(contour, options, within).run();
     if (!made || made->deviation <= options.tolerance) return made;
     if (trial == kTrials) {
       return fail({ErrorCode::kToleranceNotReached, "the drawing is not near enough", "",
                    "allow a larger tolerance", -1, made->deviation});
     }
-    within *= kOfTolerance * options.tolerance / made->deviation;
+    within *= kOfCubicTolerance * options.tolerance / made->deviation;
   }
 }
 

@@ -16,12 +16,10 @@ constexpr double kSimilarity = 1e-12;
 
 // Relative commands add up roundings: a path that ends so close to its start, as part of its
 // largest coordinate, is closed.
-constexpr double kSamePlace = 1e-12;
+constexpr double kClosedWithin = 1e-12;
 
 // A quarter of an ellipse is one piece in spite of rounding.
 constexpr double kQuarterSlack = 1e-9;  // of a quarter
-
-bool is_finite(Vec2 p) { return std::isfinite(p.x) && std::isfinite(p.y); }
 
 void move_end(Piece& piece, Vec2 end) {
   if (auto* line = std::get_if<LinePiece>(&piece)) line->end = end;
@@ -178,7 +176,7 @@ void SvgPathBuilder::circle_arc(Vec2 centre, double sweep, Vec2 end) {
 /// A line back to the start, unless the path is there already but for rounding.
 void SvgPathBuilder::close() {
   if (!part_.pieces.empty()) {
-    if (norm(here_ - start_) <= kSamePlace * extent_) {
+    if (norm(here_ - start_) <= kClosedWithin * extent_) {
       move_end(part_.pieces.back(), to_sheet_.point(start_));
     } else {
       line_to(start_);

@@ -9,7 +9,7 @@
 namespace obvid::exchange {
 namespace {
 
-constexpr bool is_blank(char c) {
+constexpr bool is_path_blank(char c) {
   return c == ' ' || c == '\t' || c == '\n' || c == '\r' || c == '\f';
 }
 constexpr bool is_digit(char c) { return c >= '0' && c <= '9'; }
@@ -192,7 +192,7 @@ class PathReader {
 }  // namespace
 
 void SvgScanner::skip_blanks() {
-  while (!at_end() && is_blank(text_[at_])) ++at_;
+  while (!at_end() && is_path_blank(text_[at_])) ++at_;
 }
 
 bool SvgScanner::skip_separator() {

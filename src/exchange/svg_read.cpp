@@ -28,7 +28,7 @@ using exchange::XmlWarnings;
 using std::string_view;
 
 constexpr double kMillimetresPerPixel = 25.4 / 96.0;
-constexpr int kMaxDepth = 200;  // of groups in groups; what people draw has less than 50
+constexpr int kMaxGroupDepth = 200;  // of groups in groups; what people draw has less than 50
 
 // What may be drawn through `use`, bytes of data and so many for each element, about what it takes
 // in memory: uses of uses grow as a power of their depth. Room for honest drawings, and so many
@@ -152,8 +152,8 @@ class SvgReader {
   }
 
   void children(pugi::xml_node node, const State& state) {
-    if (state.depth >= kMaxDepth) {
-      warnings_.add(fmt::format("groups nested more than {} deep left out", kMaxDepth), node);
+    if (state.depth >= kMaxGroupDepth) {
+      warnings_.add(fmt::format("groups nested more than {} deep left out", kMaxGroupDepth), node);
       return;
     }
     for (const pugi::xml_node child : node.children()) {
@@ -268,7 +268,7 @@ class SvgReader {
     }
     const pugi::xml_node target = found->second;
     if (std::find(active_.begin(), active_.end(), target) != active_.end() ||
-        static_cast<int>(active_.size()) >= kMaxDepth || state.depth >= kMaxDepth) {
+        static_cast<int>(active_.size()) >= kMaxGroupDepth || state.depth >= kMaxGroupDepth) {
       return warnings_.add("a use that contains itself left out", node);
     }
     const auto length = [&](const char* name, SvgAxis axis) {

@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "obvid/geom/angle.h"
 #include "svg_path_data.h"
 #include "xml_text.h"
 
@@ -16,7 +17,6 @@ namespace {
 
 using std::string_view;
 
-constexpr double kDegree = std::numbers::pi / 180.0;
 constexpr std::size_t kMostArguments = 6;
 
 /// Arguments in parentheses; nothing where they have an error.
@@ -51,13 +51,15 @@ std::optional<Affine> function(string_view name, const std::vector<double>& v) {
   if (name == "scale" && (count == 1 || count == 2)) {
     return Affine{v[0], 0.0, 0.0, count == 2 ? v[1] : v[0], 0.0, 0.0};
   }
-  if (name == "rotate" && count == 1) return rotation(kDegree * v[0]);
+  if (name == "rotate" && count == 1) return rotation(kOneDegree * v[0]);
   if (name == "rotate" && count == 3) {
-    return Affine{1.0, 0.0, 0.0, 1.0, v[1], v[2]} * rotation(kDegree * v[0]) *
+    return Affine{1.0, 0.0, 0.0, 1.0, v[1], v[2]} * rotation(kOneDegree * v[0]) *
            Affine{1.0, 0.0, 0.0, 1.0, -v[1], -v[2]};
   }
-  if (name == "skewX" && count == 1) return Affine{1.0, 0.0, std::tan(kDegree * v[0]), 1.0, 0, 0};
-  if (name == "skewY" && count == 1) return Affine{1.0, std::tan(kDegree * v[0]), 0.0, 1.0, 0, 0};
+  if (name == "skewX" && count == 1)
+    return Affine{1.0, 0.0, std::tan(kOneDegree * v[0]), 1.0, 0, 0};
+  if (name == "skewY" && count == 1)
+    return Affine{1.0, std::tan(kOneDegree * v[0]), 0.0, 1.0, 0, 0};
   return std::nullopt;
 }
 

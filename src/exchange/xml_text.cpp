@@ -13,10 +13,10 @@ namespace {
 using std::string_view;
 
 // More different warnings help nobody, and a hostile file could make millions.
-constexpr std::size_t kMostKinds = 60;
+constexpr std::size_t kMostWarnings = 60;
 constexpr std::size_t kMostShown = 60;  // bytes of a foreign text in a message
 
-constexpr bool is_blank(char c) { return c == ' ' || c == '\t' || c == '\n' || c == '\r'; }
+constexpr bool is_xml_blank(char c) { return c == ' ' || c == '\t' || c == '\n' || c == '\r'; }
 
 }  // namespace
 
@@ -58,7 +58,7 @@ void XmlWarnings::add(const std::string& sentence, pugi::xml_node node) {
   const auto found = entries_.find(sentence);
   if (found != entries_.end()) {
     ++found->second.count;
-  } else if (entries_.size() < kMostKinds) {
+  } else if (entries_.size() < kMostWarnings) {
     entries_.emplace(sentence, Entry{entries_.size(), 1, file_.line_of(node)});
   } else {
     ++unlisted_;
@@ -100,8 +100,8 @@ pugi::xml_attribute attribute_of(pugi::xml_node node, string_view name) {
 }
 
 string_view trimmed(string_view text) {
-  while (!text.empty() && is_blank(text.front())) text.remove_prefix(1);
-  while (!text.empty() && is_blank(text.back())) text.remove_suffix(1);
+  while (!text.empty() && is_xml_blank(text.front())) text.remove_prefix(1);
+  while (!text.empty() && is_xml_blank(text.back())) text.remove_suffix(1);
   return text;
 }
 
@@ -121,7 +121,7 @@ std::optional<double> number_of(string_view text) {
 std::optional<std::vector<double>> numbers_of(string_view text, std::size_t most) {
   std::vector<double> out;
   for (text = trimmed(text); !text.empty(); text = trimmed(text)) {
-    const auto end = std::find_if(text.begin(), text.end(), is_blank);
+    const auto end = std::find_if(text.begin(), text.end(), is_xml_blank);
     const auto length = static_cast<std::size_t>(end - text.begin());
     const auto value = number_of(text.substr(0, length));
     if (!value || out.size() == most) return std::nullopt;

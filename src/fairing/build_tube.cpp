@@ -20,7 +20,7 @@ constexpr double kSpacing = 8.0;
 /// And so far that the height of the curve over its chord is at least this many tolerances: closer
 /// nodes could not tell its curvature.
 constexpr double kSagitta = 1.5;
-constexpr double kLargestTurn = 0.5;      ///< rad over a link between thinned nodes
+constexpr double kLargestLinkTurn = 0.5;  ///< rad over a link between thinned nodes
 constexpr double kGrading = 1.5;          ///< largest ratio of neighbouring thinned links
 constexpr std::size_t kFewestLinks = 24;  ///< thinning leaves at least so many
 /// Shorter series are fast enough with all their nodes, which leave the runs more room: thinned, 14
@@ -142,7 +142,7 @@ class Builder {
       for (std::size_t j = i > 2 ? i - 2 : 0; j < std::min(n, i + 3); ++j)
         k = std::max(k, kappa(j));
       const double by_sagitta = std::sqrt(8.0 * kSagitta * tube_.nodes[i].reach / k);
-      spacing[i] = std::min({by_sagitta, kLargestTurn / k, total / kFewestLinks});
+      spacing[i] = std::min({by_sagitta, kLargestLinkTurn / k, total / kFewestLinks});
       if (!(tube_.nodes[i].reach > 0.0)) spacing[i] = 0.0;
     }
     // neighbouring links of similar length: spacing grows no faster than the grading allows

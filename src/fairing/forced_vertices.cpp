@@ -19,7 +19,7 @@ constexpr std::size_t kStep = 2;
 constexpr double kLargestReach = 0.1;
 constexpr double kSecondOrder = 8.0;  ///< allowance for the second order, in reaches over chords
 /// Cosine of the largest turning between neighbouring chords for which the bound is trusted.
-constexpr double kLargestTurn = 0.0;
+constexpr double kCosLargestTurn = 0.0;
 constexpr std::int32_t kNever = -1;
 /// Points far denser than their reaches need longer strides: every so many-th point alone is tried
 /// too, and of those again, while this many are left.
@@ -62,8 +62,8 @@ class Counter {
   [[nodiscard]] bool turns_far(const Window& at) const {
     const Vec2 u = points_[at.b] - points_[at.a], v = points_[at.c] - points_[at.b];
     const Vec2 w = points_[at.d] - points_[at.c];
-    return dot(u, v) <= kLargestTurn * norm(u) * norm(v) ||
-           dot(v, w) <= kLargestTurn * norm(v) * norm(w);
+    return dot(u, v) <= kCosLargestTurn * norm(u) * norm(v) ||
+           dot(v, w) <= kCosLargestTurn * norm(v) * norm(w);
   }
 
   static std::size_t low(std::size_t i) { return i > kStep ? i - kStep : 0; }

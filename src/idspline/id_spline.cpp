@@ -49,7 +49,7 @@ std::optional<Error> refuse_steps(const std::vector<double>& x, const IdSplineOp
   return std::nullopt;
 }
 
-std::optional<Error> refuse(const IdSplineData& data, const IdSplineOptions& options) {
+std::optional<Error> refuse_id_data(const IdSplineData& data, const IdSplineOptions& options) {
   const int degree = options.degree;
   if (degree != 2 && degree != 4 && degree != 6) {
     return bad_option("the degree of an integro-differential spline is 2, 4 or 6", "choose one",
@@ -70,7 +70,7 @@ std::optional<Error> refuse(const IdSplineData& data, const IdSplineOptions& opt
   return refuse_derivatives(data.seconds, n, degree >= 6, "second derivative");
 }
 
-std::optional<Error> refuse_result(const IdSpline& s) {
+std::optional<Error> refuse_large(const IdSpline& s) {
   using idspline::refuse_overflow;
   if (auto error = refuse_overflow(s.values, "value")) return error;
   if (auto error = refuse_overflow(s.integrals, "integral")) return error;
@@ -81,7 +81,7 @@ std::optional<Error> refuse_result(const IdSpline& s) {
 }  // namespace
 
 Result<IdSpline> id_spline(IdSplineData data, const IdSplineOptions& options) {
-  if (auto error = refuse(data, options)) return fail(std::move(*error));
+  if (auto error = refuse_id_data(data, options)) return fail(std::move(*error));
   IdSpline s;
   s.degree = options.degree;
   s.integrals = data.integrals.empty()
@@ -100,7 +100,7 @@ Result<IdSpline> id_spline(IdSplineData data, const IdSplineOptions& options) {
   if (options.smoothing != IdSmoothing::kNone) {
     idspline::smooth(s, options.smoothing == IdSmoothing::kValuesKept ? 1 : 0);
   }
-  if (auto error = refuse_result(s)) return fail(std::move(*error));
+  if (auto error = refuse_large(s)) return fail(std::move(*error));
   return s;
 }
 

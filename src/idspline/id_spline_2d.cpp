@@ -29,7 +29,7 @@ void write(const std::vector<double>& in, const Line& line, std::vector<double>&
 Line row(std::size_t j, std::size_t width) { return {j * width, 1}; }
 Line column(std::size_t i, std::size_t width) { return {i, width}; }
 
-std::optional<Error> refuse(const IdSpline2dData& d) {
+std::optional<Error> refuse_table(const IdSpline2dData& d) {
   if (auto error = idspline::refuse_nodes(d.x, "column")) return error;
   if (auto error = idspline::refuse_nodes(d.y, "row")) return error;
   const std::size_t nx = d.x.size(), ny = d.y.size();
@@ -100,7 +100,7 @@ void smooth_both(IdSpline2d& s) {
   }
 }
 
-std::optional<Error> refuse_result(const IdSpline2d& s) {
+std::optional<Error> refuse_large_table(const IdSpline2d& s) {
   using idspline::refuse_overflow;
   if (auto error = refuse_overflow(s.values, "value")) return error;
   if (auto error = refuse_overflow(s.along_x, "integral along x")) return error;
@@ -131,11 +131,11 @@ CellPolynomial along_y(const IdSpline2d& s, std::size_t j, double low, double hi
 }  // namespace
 
 Result<IdSpline2d> id_spline_2d(IdSpline2dData data, bool smooth) {
-  if (auto error = refuse(data)) return fail(std::move(*error));
+  if (auto error = refuse_table(data)) return fail(std::move(*error));
   IdSpline2d s = std::move(data);
   if (s.cells.empty()) fill_integrals(s);
   if (smooth) smooth_both(s);
-  if (auto error = refuse_result(s)) return fail(std::move(*error));
+  if (auto error = refuse_large_table(s)) return fail(std::move(*error));
   return s;
 }
 

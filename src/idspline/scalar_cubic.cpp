@@ -25,7 +25,7 @@ Step step(const ScalarCubic& s, std::size_t i) {
   return {h, (s.values[i + 1] - s.values[i]) / h};
 }
 
-std::optional<Error> refuse(const ScalarCubic& s) {
+std::optional<Error> refuse_cubic(const ScalarCubic& s) {
   if (auto error = idspline::refuse_nodes(s.nodes)) return error;
   return idspline::refuse_data(s.values, s.nodes.size(), "value");
 }
@@ -60,16 +60,16 @@ std::vector<double> solve(const ScalarCubic& s, double first, double last, const
 
 Result<ScalarCubic> local_cubic(std::vector<double> nodes, std::vector<double> values) {
   ScalarCubic s{std::move(nodes), std::move(values), {}};
-  if (auto error = refuse(s)) return fail(std::move(*error));
-  constexpr int kParabola = 2;
-  s.slopes = idspline::local_derivatives(s.nodes, s.values, kParabola, 1);
+  if (auto error = refuse_cubic(s)) return fail(std::move(*error));
+  constexpr int kParabolaDegree = 2;
+  s.slopes = idspline::local_derivatives(s.nodes, s.values, kParabolaDegree, 1);
   return checked(std::move(s));
 }
 
 Result<ScalarCubic> global_cubic_by_slopes(std::vector<double> nodes, std::vector<double> values,
                                            const CubicEnds& ends) {
   ScalarCubic s{std::move(nodes), std::move(values), {}};
-  if (auto error = refuse(s)) return fail(std::move(*error));
+  if (auto error = refuse_cubic(s)) return fail(std::move(*error));
   const auto row = [](System& system, std::size_t i, const Step& a, const Step& b) {
     system.add(i, b.h, 2.0 * (a.h + b.h), a.h, 3.0 * (b.h * a.slope + a.h * b.slope));
   };
@@ -81,7 +81,7 @@ Result<ScalarCubic> global_cubic_by_slopes(std::vector<double> nodes, std::vecto
 Result<ScalarCubic> global_cubic_by_seconds(std::vector<double> nodes, std::vector<double> values,
                                             const CubicEnds& ends) {
   ScalarCubic s{std::move(nodes), std::move(values), {}};
-  if (auto error = refuse(s)) return fail(std::move(*error));
+  if (auto error = refuse_cubic(s)) return fail(std::move(*error));
   const auto row = [](System& system, std::size_t i, const Step& a, const Step& b) {
     system.add(i, a.h, 2.0 * (a.h + b.h), b.h, 6.0 * (b.slope - a.slope));
   };

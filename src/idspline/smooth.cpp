@@ -25,7 +25,8 @@ struct EndDerivatives {
 };
 
 /// One column of the table: the cell of one unit datum.
-EndDerivatives::Row column(int m, const NodeJet& left, const NodeJet& right, double mean_value) {
+EndDerivatives::Row unit_column(int m, const NodeJet& left, const NodeJet& right,
+                                double mean_value) {
   const auto power = power_coefficients(integral_cell(0.0, 1.0, m, left, right, mean_value));
   EndDerivatives::Row out{};
   for (int j = 0; j < m; ++j) {
@@ -44,13 +45,13 @@ EndDerivatives end_derivatives(int m) {
   for (std::size_t l = 0; l < static_cast<std::size_t>(m); ++l) {
     NodeJet unit{};
     unit[l] = 1.0;
-    const auto near = column(m, unit, {}, 0.0), far = column(m, {}, unit, 0.0);
+    const auto near = unit_column(m, unit, {}, 0.0), far = unit_column(m, {}, unit, 0.0);
     for (std::size_t j = 0; j < kMostOrders; ++j) {
       table.near[j][l] = near[j];
       table.far[j][l] = far[j];
     }
   }
-  table.by_mean = column(m, {}, {}, 1.0);
+  table.by_mean = unit_column(m, {}, {}, 1.0);
   return table;
 }
 

@@ -22,7 +22,7 @@ using nlohmann::json;
 using std::string_view;
 
 /// Turns the parsed values into a contour.
-class Reader : private JsonValues {
+class ContourReader : private JsonValues {
  public:
   using JsonValues::JsonValues;
 
@@ -54,7 +54,7 @@ class Reader : private JsonValues {
 
 // ---- contour ---------------------------------------------------------------------------------
 
-void Reader::read_head(const Node& root) {
+void ContourReader::read_head(const Node& root) {
   const Node format = field(root, "format");
   if (word(format) != contour_json::kFormat) refuse(format, "this is no contour file");
   const Node version = field(root, "version");
@@ -73,7 +73,7 @@ void Reader::read_head(const Node& root) {
   }
 }
 
-void Reader::read_contour(const Node& root) {
+void ContourReader::read_contour(const Node& root) {
   Contour& contour = stored_.contour;
   each(field(root, "points"), [&](const Node& node) { contour.points.push_back(point(node)); });
   if (const auto node = optional_field(root, "point_tolerance")) {
@@ -97,7 +97,7 @@ void Reader::read_contour(const Node& root) {
 }
 
 /// One for each point, or none at all.
-std::vector<double> Reader::point_tolerance(const Node& node) {
+std::vector<double> ContourReader::point_tolerance(const Node& node) {
   std::vector<double> tolerance;
   each(node, [&](const Node& one) {
     tolerance.push_back(number(one));
@@ -111,7 +111,7 @@ std::vector<double> Reader::point_tolerance(const Node& node) {
   return tolerance;
 }
 
-Joint Reader::joint(const Node& node) {
+Joint ContourReader::joint(const Node& node) {
   Joint joint;
   joint.element.point = point(field(node, "point"));
   joint.element.theta = number(field(node, "heading"));
@@ -126,7 +126,7 @@ Joint Reader::joint(const Node& node) {
 
 /// Heading and curvature behind a corner stand there and nowhere else: where the mark is taken
 /// away, what is left must not look like a smooth joint.
-void Reader::corner(const Node& node, Joint& joint) {
+void ContourReader::corner(const Node& node, Joint& joint) {
   if (optional_flag(node, "corner", false)) {
     joint.leaving = Element{joint.element.point, number(field(node, "heading_out")),
                             number(field(node, "kappa_out"))};
@@ -140,7 +140,7 @@ void Reader::corner(const Node& node, Joint& joint) {
 }
 
 /// Nothing leaves the end of an open contour and nothing arrives at its start.
-void Reader::check_ends(const Node& elements) {
+void ContourReader::check_ends(const Node& elements) {
   const std::vector<Joint>& joints = stored_.contour.joints;
   if (failed() || stored_.contour.closed) return;
   for (const std::size_t i : {std::size_t{0}, joints.size() - 1}) {
@@ -149,7 +149,7 @@ void Reader::check_ends(const Node& elements) {
   }
 }
 
-Piece Reader::piece(const Node& node) {
+Piece ContourReader::piece(const Node& node) {
   const Node type = field(node, "type");
   const std::string kind = word(type);
   if (kind == "bezier") return bezier(node);
@@ -166,7 +166,7 @@ Piece Reader::piece(const Node& node) {
   return line;
 }
 
-ArcPiece Reader::arc(const Node& node) {
+ArcPiece ContourReader::arc(const Node& node) {
   ArcPiece arc;
   arc.start = point(field(node, "start"));
   arc.end = point(field(node, "end"));
@@ -180,7 +180,7 @@ ArcPiece Reader::arc(const Node& node) {
   return arc;
 }
 
-ClothoidPiece Reader::clothoid(const Node& node) {
+ClothoidPiece ContourReader::clothoid(const Node& node) {
   ClothoidPiece clothoid;
   clothoid.start = point(field(node, "start"));
   clothoid.end = point(field(node, "end"));
@@ -193,7 +193,7 @@ ClothoidPiece Reader::clothoid(const Node& node) {
   return clothoid;
 }
 
-RationalBezier Reader::bezier(const Node& node) {
+RationalBezier ContourReader::bezier(const Node& node) {
   RationalBezier bezier;
   const Node points = field(node, "points");
   const std::size_t size = !failed() && points.value->is_array() ? points.value->size() : 0;
@@ -220,7 +220,7 @@ RationalBezier Reader::bezier(const Node& node) {
 
 // "exact" holds the points without rounding; "points" must be what they round to, so that both
 // readers of one and of the other see the same curve.
-void Reader::exact_points(const Node& exact, const Node& points, RationalBezier& bezier) {
+void ContourReader::exact_points(const Node& exact, const Node& points, RationalBezier& bezier) {
   bezier.origin = point(field(exact, "origin"));
   const Node offsets = field(exact, "offsets");
   if (failed()) return;
@@ -240,7 +240,7 @@ void Reader::exact_points(const Node& exact, const Node& points, RationalBezier&
 }
 
 /// The one curve must be the one that the pieces make: nothing else would prove it.
-void Reader::one_nurbs(const Node& node) {
+void ContourReader::one_nurbs(const Node& node) {
   NurbsCurve curve;
   curve.degree = static_cast<int>(integer(field(node, "degree"), 1, kMaxBezierDegree));
   each(field(node, "knots"), [&](const Node& one) { curve.knots.push_back(number(one)); });
@@ -256,7 +256,7 @@ void Reader::one_nurbs(const Node& node) {
   }
 }
 
-Run Reader::run(const Node& node) {
+Run ContourReader::run(const Node& node) {
   const std::size_t pieces = stored_.contour.pieces.size();
   Run run;
   const Node last = field(node, "last_piece");
@@ -269,7 +269,7 @@ Run Reader::run(const Node& node) {
 
 // ---- claims ----------------------------------------------------------------------------------
 
-SegmentReport Reader::segment(const Node& node) {
+SegmentReport ContourReader::segment(const Node& node) {
   SegmentReport row;
   row.chord = figure(node, "chord");
   row.points_only_error = figure(node, "points_only_error");
@@ -287,7 +287,7 @@ SegmentReport Reader::segment(const Node& node) {
 
 /// One row for each chord of the points. Points with tolerances need not be joints: rows are then
 /// the parts between two joints that stand for points.
-bool Reader::rows_fit(std::size_t rows) const {
+bool ContourReader::rows_fit(std::size_t rows) const {
   const Contour& contour = stored_.contour;
   const std::size_t points = contour.points.size();
   const std::size_t chords = contour.closed || points == 0 ? points : points - 1;
@@ -301,7 +301,7 @@ bool Reader::rows_fit(std::size_t rows) const {
   return rows == parts;
 }
 
-std::vector<double> Reader::moves(const Node& node) {
+std::vector<double> ContourReader::moves(const Node& node) {
   std::vector<double> moves;
   each(node, [&](const Node& one) { moves.push_back(number_or_nan(one)); });
   const std::size_t points = stored_.contour.points.size();
@@ -312,7 +312,7 @@ std::vector<double> Reader::moves(const Node& node) {
   return moves;
 }
 
-FitReport Reader::report(const Node& node) {
+FitReport ContourReader::report(const Node& node) {
   FitReport report;
   const Node segments = field(node, "segments");
   each(segments, [&](const Node& one) { report.segments.push_back(segment(one)); });
@@ -341,7 +341,7 @@ FitReport Reader::report(const Node& node) {
   return report;
 }
 
-PieceProof Reader::proof(const Node& node, std::size_t expected) {
+PieceProof ContourReader::proof(const Node& node, std::size_t expected) {
   PieceProof proof;
   const Node piece = field(node, "piece");
   if (index(piece, stored_.contour.pieces.size(), "pieces") != expected) {
@@ -364,7 +364,7 @@ PieceProof Reader::proof(const Node& node, std::size_t expected) {
 }
 
 // Fields that other programs may leave out stand for what "proved" and the report imply.
-Certificate Reader::certificate(const Node& node) {
+Certificate ContourReader::certificate(const Node& node) {
   Certificate claims;
   const Node monotone = field(node, "monotone");
   each(monotone, [&](const Node& one) { claims.pieces.push_back(proof(one, one.index)); });
@@ -396,7 +396,7 @@ Certificate Reader::certificate(const Node& node) {
   return claims;
 }
 
-Result<StoredContour> Reader::read(const json& document) {
+Result<StoredContour> ContourReader::read(const json& document) {
   const Node root{&document, nullptr, {}, 0};
   read_head(root);
   read_contour(root);
@@ -413,7 +413,7 @@ Result<StoredContour> Reader::read(const json& document) {
 Result<StoredContour> contour_from_json(std::string_view text, std::string_view name) {
   const Result<json> document = parse_json(text, name);
   if (!document) return fail(document.error());
-  return Reader(name).read(*document);
+  return ContourReader(name).read(*document);
 }
 
 }  // namespace obvid

@@ -41,9 +41,9 @@ void split_all(string_view line, text::Separator separator, std::vector<string_v
   }
 }
 
-class Reader {
+class NumberRowReader {
  public:
-  Reader(string_view text, string_view name) : cursor_(text), name_(name) {}
+  NumberRowReader(string_view text, string_view name) : cursor_(text), name_(name) {}
 
   Result<NumberRows> read() {
     constexpr string_view kByteOrderMark = "\xEF\xBB\xBF";
@@ -147,7 +147,7 @@ std::string lower(string_view text) {
 
 Result<NumberRows> number_rows(string_view text, string_view name) {
   if (auto good = text::check_text_kind(text, name); !good) return fail(good.error());
-  return Reader(text, name).read();
+  return NumberRowReader(text, name).read();
 }
 
 int column_named(const NumberRows& rows, string_view name) {

@@ -14,10 +14,10 @@
 namespace obvid {
 namespace {
 
-constexpr double kPlotHeight = 104.0;
-constexpr double kTitleRoom = 32.0;
+constexpr double kCarrierPlotHeight = 104.0;
+constexpr double kCarrierTitleRoom = 32.0;
 constexpr double kRefusalRoom = 26.0;
-constexpr double kAxisRoom = 56.0;
+constexpr double kAxisWidth = 56.0;
 
 PictureFrame common_frame(const std::vector<PictureSide>& sides, const PictureScale& scale) {
   PictureFrame frame;
@@ -112,14 +112,14 @@ std::string carriers_svg(const std::vector<NamedContour>& contours, const std::s
       y += kRefusalRoom;
       continue;
     }
-    frame.top = y + kTitleRoom;
-    frame.bottom = frame.top + kPlotHeight;
+    frame.top = y + kCarrierTitleRoom;
+    frame.bottom = frame.top + kCarrierPlotHeight;
     draw_plot(body, frame, sides[k], sides.front(), static_cast<int>(k) + 1, k == last_drawn);
     y = frame.bottom;
   }
   body.label({0.5 * (frame.left + frame.right), frame.bottom + 38.0}, "middle", "axis-title",
              "Arc length, " + power_prefix(frame.x.exponent) + units);
-  return picture_sheet(heading, description, body.take(), std::max(y, frame.bottom) + kAxisRoom);
+  return picture_sheet(heading, description, body.take(), std::max(y, frame.bottom) + kAxisWidth);
 }
 
 }  // namespace obvid

@@ -21,10 +21,10 @@ namespace {
 
 /// Shapes at least this much wider than high stand above each other, others side by side.
 constexpr double kWideShape = 2.2;
-constexpr double kMostHeight = 300.0;  // of one shape, px
-constexpr double kPadding = 18.0;      // around a shape, px
-constexpr double kCaptionRoom = 26.0;  // px
-constexpr double kPlotHeight = 170.0;
+constexpr double kMostComparedHeight = 300.0;  // of one shape, px
+constexpr double kComparedPadding = 18.0;      // around a shape, px
+constexpr double kCaptionRoom = 26.0;          // px
+constexpr double kComparedPlotHeight = 170.0;
 constexpr double kPlotTitleRoom = 34.0;
 
 using Sides = std::array<PictureSide, 2>;
@@ -60,13 +60,13 @@ Shapes place_shapes(const Sides& sides, const PictureComb& comb, double top) {
   }
   const bool stacked = extent.x > kWideShape * extent.y;
   const double column = kPictureWidth - 2.0 * kPictureMargin;
-  const double width = (stacked ? column : 0.5 * column) - 2.0 * kPadding;
+  const double width = (stacked ? column : 0.5 * column) - 2.0 * kComparedPadding;
   double scale = 1.0;
   if (extent.x > 0.0 || extent.y > 0.0) {
     scale = std::min(extent.x > 0.0 ? width / extent.x : HUGE_VAL,
-                     extent.y > 0.0 ? kMostHeight / extent.y : HUGE_VAL);
+                     extent.y > 0.0 ? kMostComparedHeight / extent.y : HUGE_VAL);
   }
-  const double height = extent.y * scale + 2.0 * kPadding;
+  const double height = extent.y * scale + 2.0 * kComparedPadding;
   Shapes shapes;
   for (std::size_t k = 0; k < 2; ++k) {
     const auto index = static_cast<double>(k);
@@ -75,7 +75,8 @@ Shapes place_shapes(const Sides& sides, const PictureComb& comb, double top) {
     shapes.captions[k] = {left, y + 14.0};
     shapes.views[k].scale = scale;
     shapes.views[k].centre = 0.5 * (boxes[k].low + boxes[k].high);
-    shapes.views[k].middle = {left + 0.5 * width + kPadding, y + kCaptionRoom + 0.5 * height};
+    shapes.views[k].middle = {left + 0.5 * width + kComparedPadding,
+                              y + kCaptionRoom + 0.5 * height};
     shapes.bottom = y + kCaptionRoom + height;
   }
   return shapes;
@@ -112,7 +113,7 @@ double draw_plots(PictureCanvas& canvas, const Sides& sides, const PictureScale&
   for (std::size_t k = 0; k < 2; ++k) {
     const PictureSide& side = sides[k];
     frame.top = frame.bottom + kPlotTitleRoom;
-    frame.bottom = frame.top + kPlotHeight;
+    frame.bottom = frame.top + kComparedPlotHeight;
     canvas.label({kPictureMargin, frame.top - 11.0}, "start", "axis-title", title);
     canvas.label({frame.right, frame.top - 11.0}, "end", "fact", side.caption);
     draw_grid(canvas, frame, k == 1);

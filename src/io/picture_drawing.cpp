@@ -13,7 +13,7 @@ namespace {
 constexpr double kCombPart = 0.12;
 constexpr int kTeeth = 180;
 /// Below this curvature times size there is no comb: the contour is straight to the eye.
-constexpr double kStraightAngle = 1e-9;
+constexpr double kNoCombAngle = 1e-9;
 /// Distance of the drawn cubics from the exact curve, px (half of what is promised).
 constexpr double kDrawnWithin = 0.025;
 constexpr int kDeepestSplit = 10;
@@ -68,7 +68,7 @@ Vec2 PictureComb::tip(const PictureSample& sample) const {
 
 PictureComb make_comb(const PictureTrack& track) {
   const double diagonal = track.box.diagonal();
-  if (track.largest_kappa * diagonal < kStraightAngle) return {};
+  if (track.largest_kappa * diagonal < kNoCombAngle) return {};
   return {kCombPart * diagonal / track.largest_kappa, HUGE_VAL};
 }
 

@@ -10,7 +10,7 @@ namespace obvid {
 namespace {
 
 /// Curves are thinned to extremes of columns this wide, px.
-constexpr double kColumn = 0.5;
+constexpr double kCurveColumn = 0.5;
 /// Ticks of joints stand at least this far apart, px.
 constexpr double kJointApart = 2.5;
 /// Symbols nearer than this, px, would cover each other.
@@ -29,14 +29,14 @@ class ColumnPath {
     if (!started_) {
       path_.move(p);
       started_ = true;
-      column_ = std::floor(p.x / kColumn);
+      column_ = std::floor(p.x / kCurveColumn);
       low_ = high_ = last_ = p;
       low_first_ = true;
       return;
     }
-    if (std::floor(p.x / kColumn) != column_) {
+    if (std::floor(p.x / kCurveColumn) != column_) {
       flush();
-      column_ = std::floor(p.x / kColumn);
+      column_ = std::floor(p.x / kCurveColumn);
       low_ = high_ = p;
     }
     if (p.y < low_.y) {

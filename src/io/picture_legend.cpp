@@ -15,9 +15,9 @@ constexpr double kScaleBar = 150.0;
 constexpr double kLetter = 6.4;
 
 /// Entries of the legend from left to right, broken into rows.
-class Row {
+class LegendRow {
  public:
-  Row(PictureCanvas& canvas, double left, double y)
+  LegendRow(PictureCanvas& canvas, double left, double y)
       : canvas_(canvas), left_(left), x_(left), y_(y) {}
 
   /// Reserves room for a symbol and a text, returns where the symbol's centre stands.
@@ -41,7 +41,8 @@ class Row {
   double y_;
 };
 
-void legend_lines(PictureCanvas& canvas, Row& legend, const PictureTrack& track, bool coloured) {
+void legend_lines(PictureCanvas& canvas, LegendRow& legend, const PictureTrack& track,
+                  bool coloured) {
   static constexpr std::array<const char*, 4> kNames = {
       "curvature increasing", "curvature decreasing", "constant curvature", "contour"};
   for (std::size_t c = 0; c < kPictureColours.size(); ++c) {
@@ -57,7 +58,7 @@ void legend_lines(PictureCanvas& canvas, Row& legend, const PictureTrack& track,
   }
 }
 
-void legend_points(PictureCanvas& canvas, Row& legend, std::size_t unmarked) {
+void legend_points(PictureCanvas& canvas, LegendRow& legend, std::size_t unmarked) {
   const std::string text =
       unmarked == 0 ? "given point" : std::to_string(unmarked) + " given points, too dense to mark";
   const Vec2 at = legend.entry(text, text.size(), 8.0);
@@ -77,7 +78,7 @@ constexpr FeatureName kFeatureNames[] = {
     {PictureFeature::Kind::kInflection, "inflection", "inflections"},
     {PictureFeature::Kind::kCorner, "corner", "corners"}};
 
-void legend_features(PictureCanvas& canvas, Row& legend, const PictureTrack& track) {
+void legend_features(PictureCanvas& canvas, LegendRow& legend, const PictureTrack& track) {
   for (const auto& [kind, one, many] : kFeatureNames) {
     const std::size_t count = count_features(track, kind);
     if (count == 0) continue;
@@ -89,7 +90,8 @@ void legend_features(PictureCanvas& canvas, Row& legend, const PictureTrack& tra
   }
 }
 
-void legend_region(PictureCanvas& canvas, Row& legend, double widest, const std::string& units) {
+void legend_region(PictureCanvas& canvas, LegendRow& legend, double widest,
+                   const std::string& units) {
   const std::string text = "region: every monotone curve through the points, widest " +
                            readable_number(widest, 3) + " " + units;
   const Vec2 at = legend.entry(text, text.size(), 22.0);
@@ -97,7 +99,7 @@ void legend_region(PictureCanvas& canvas, Row& legend, double widest, const std:
              px(at.y + 2.0));
 }
 
-void legend_comb(PictureCanvas& canvas, Row& legend, const PictureLegend& told) {
+void legend_comb(PictureCanvas& canvas, LegendRow& legend, const PictureLegend& told) {
   const std::string number = readable_number(told.longest_tooth, 3) + " /" + told.units;
   const std::string text =
       std::string("curvature comb, ") + (told.comb_cut ? "cut off at " : "longest tooth ") + number;
@@ -120,7 +122,7 @@ void draw_scale_bar(PictureCanvas& canvas, const PictureView& view, const std::s
 
 double draw_legend(PictureCanvas& canvas, const PictureLegend& legend, double left, double y) {
   const PictureTrack& track = legend.track;
-  Row row(canvas, left, y);
+  LegendRow row(canvas, left, y);
   legend_lines(canvas, row, track, legend.coloured);
   if (!track.points.empty()) legend_points(canvas, row, legend.dots ? 0 : track.points.size());
   legend_features(canvas, row, track);

@@ -17,7 +17,7 @@ constexpr double kReach = 3.0;
 /// The strip ends beyond the tolerance, so that its lines and what breaks them are seen.
 constexpr double kBeyond = 1.25;
 /// Teeth are thinned to the extremes of columns this wide, px.
-constexpr double kColumn = 0.5;
+constexpr double kToothColumn = 0.5;
 /// Points at least this far apart, px, on the average get dots.
 constexpr double kDotsApart = 5.0;
 constexpr double kDot = 1.8;  // radius, px
@@ -116,7 +116,7 @@ std::string teeth_of(const PictureFrame& frame, const std::vector<PictureMove>& 
   for (const PictureMove& move : moves) {
     const double at = frame.px_x(move.s);
     const double y = frame.px_y(std::clamp(move.part, frame.y.low, frame.y.high));
-    if (!open || std::floor(at / kColumn) != std::floor(x / kColumn)) {
+    if (!open || std::floor(at / kToothColumn) != std::floor(x / kToothColumn)) {
       flush();
       low = high = zero;
       x = at;

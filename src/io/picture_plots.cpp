@@ -12,9 +12,9 @@
 namespace obvid {
 namespace {
 
-constexpr double kHeight = 150.0;
+constexpr double kOnePlotHeight = 150.0;
 constexpr double kMovesHeight = 56.0;
-constexpr double kTitleRoom = 30.0;
+constexpr double kPlotsTitleRoom = 30.0;
 /// Room between two plots, px.
 constexpr double kPlotsApart = 8.0;
 /// Radii beyond this many sizes look straight; the axis ends there.
@@ -121,16 +121,16 @@ double plot_panels(PictureCanvas& canvas, const PictureTrack& track, const Pictu
                    const std::string& units, bool coloured, double top) {
   PictureFrame frame;
   frame.x = tight_axis(0.0, track.length, 8);
-  frame.top = top + kTitleRoom;
-  frame.bottom = frame.top + kHeight;
+  frame.top = top + kPlotsTitleRoom;
+  frame.bottom = frame.top + kOnePlotHeight;
   draw_curvature(canvas, track, frame, units, coloured);
   if (!moves.points.empty()) {
-    frame.top = frame.bottom + kTitleRoom + kPlotsApart;
+    frame.top = frame.bottom + kPlotsTitleRoom + kPlotsApart;
     frame.bottom = frame.top + kMovesHeight;
     draw_moves(canvas, frame, track, moves, units);
   }
-  frame.top = frame.bottom + kTitleRoom + kPlotsApart;
-  frame.bottom = frame.top + kHeight;
+  frame.top = frame.bottom + kPlotsTitleRoom + kPlotsApart;
+  frame.bottom = frame.top + kOnePlotHeight;
   draw_radius(canvas, track, frame, units, coloured);
   canvas.label({0.5 * (frame.left + frame.right), frame.bottom + 38.0}, "middle", "axis-title",
                "Arc length, " + power_prefix(frame.x.exponent) + units +

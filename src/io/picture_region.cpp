@@ -47,7 +47,7 @@ std::vector<int> chord_directions(const PictureTrack& track, const Contour& cont
 
 /// Per point, whether the contour turns there at once: three points around it lie on no circle that
 /// says anything.
-std::vector<bool> corners_of(const Contour& contour) {
+std::vector<bool> corner_marks(const Contour& contour) {
   std::vector<bool> corner(contour.points.size(), false);
   for (const Joint& joint : contour.joints) {
     if (joint.leaving && joint.source && *joint.source < corner.size())
@@ -91,7 +91,7 @@ std::vector<PictureLens> points_only_region(const PictureTrack& track, const Con
   const Result<Analysis> analysis = analyse(points);
   if (!analysis) return region;
   const std::vector<int> direction = chord_directions(track, contour);
-  const std::vector<bool> corner = corners_of(contour);
+  const std::vector<bool> corner = corner_marks(contour);
   for (std::size_t i = 1; i + 1 < direction.size(); ++i) {
     if (corner[i] || corner[i + 1]) continue;
     // The circles of both points bound a curve only where it is monotone as far as these circles

@@ -12,10 +12,10 @@ namespace obvid {
 namespace {
 
 /// Room of the drawing, px.
-constexpr double kMostHeight = 480.0;
+constexpr double kMostShapeHeight = 480.0;
 constexpr double kLeastHeight = 110.0;
 /// Room around the curve for symbols and the word "start", px.
-constexpr double kPadding = 26.0;
+constexpr double kShapePadding = 26.0;
 /// Narrower parts of the region, px, cannot be told from the curve.
 constexpr double kLeastRegion = 1.0;
 
@@ -23,14 +23,14 @@ PictureView make_view(const PictureTrack& track, const PictureComb& comb, double
                       double& bottom) {
   const PictureBox box = box_with_comb(track, comb);
   const Vec2 extent = box.high - box.low;
-  const double room = kPictureWidth - 2.0 * (kPictureMargin + kPadding);
+  const double room = kPictureWidth - 2.0 * (kPictureMargin + kShapePadding);
   PictureView view;
   view.scale = 1.0;
   if (extent.x > 0.0 || extent.y > 0.0) {
     view.scale = std::min(extent.x > 0.0 ? room / extent.x : HUGE_VAL,
-                          extent.y > 0.0 ? kMostHeight / extent.y : HUGE_VAL);
+                          extent.y > 0.0 ? kMostShapeHeight / extent.y : HUGE_VAL);
   }
-  const double height = std::max(kLeastHeight, extent.y * view.scale) + 2.0 * kPadding;
+  const double height = std::max(kLeastHeight, extent.y * view.scale) + 2.0 * kShapePadding;
   view.centre = 0.5 * (box.low + box.high);
   view.middle = {0.5 * kPictureWidth, top + 0.5 * height};
   bottom = top + height;

@@ -6,21 +6,20 @@
 #include <utility>
 #include <vector>
 
+#include "counted.h"
 #include "picture_panels.h"
 
 namespace obvid {
 namespace {
+
+using picture_detail::counted;
 
 /// The axis leaves out curvatures of this part of the length when that makes it ...
 constexpr double kLeftOut = 0.12;
 /// ... shorter by this factor at least.
 constexpr double kMuchLonger = 3.0;
 /// Room beyond the curvatures that the axis shows, as part of them.
-constexpr double kAxisRoom = 0.3;
-
-std::string counted(std::size_t count, const char* one, const char* many) {
-  return std::to_string(count) + " " + (count == 1 ? one : many);
-}
+constexpr double kBeyondCurvatures = 0.3;
 
 /// Range of the curvatures of all sides without those of the largest size on a part of the length.
 PictureRange usual_range(std::span<const PictureSide> sides) {
@@ -70,7 +69,7 @@ PictureScale common_scale(std::span<const PictureSide> sides) {
     scale.range.high = std::max(scale.range.high, one.high);
   }
   const PictureRange usual = usual_range(sides);
-  const double room = kAxisRoom * (usual.high - usual.low);
+  const double room = kBeyondCurvatures * (usual.high - usual.low);
   const PictureRange shown{std::max(scale.range.low, usual.low - room),
                            std::min(scale.range.high, usual.high + room)};
   scale.cut =

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "counted.h"
 #include "picture_axis.h"
 #include "picture_moves.h"
 #include "picture_panels.h"
@@ -14,14 +15,12 @@
 namespace obvid {
 namespace {
 
+using picture_detail::counted;
+
 /// Verdicts longer than this are cut: the file tells the whole reason.
 constexpr std::size_t kLongestReason = 105;
 
-std::string counted(std::size_t count, const char* one, const char* many) {
-  return std::to_string(count) + " " + (count == 1 ? one : many);
-}
-
-std::string title_of(const Contour& contour) {
+std::string picture_title(const Contour& contour) {
   const char* const kinds[] = {"Spiral contour",       "Arc contour",      "Contour of conics",
                                "Contour of parabolas", "Clothoid contour", "B-spline contour",
                                "Cubic B-spline",       "CAD spline"};
@@ -58,14 +57,14 @@ VerdictLine verdict_of(const StoredContour& stored) {
                      (reason.empty() ? std::string{} : ": " + reason)};
 }
 
-std::size_t corners_of(const Contour& contour) {
+std::size_t corner_count(const Contour& contour) {
   return static_cast<std::size_t>(
       std::count_if(contour.joints.begin(), contour.joints.end(),
                     [](const Joint& joint) { return joint.leaving.has_value(); }));
 }
 
 bool is_measured(const StoredContour& stored) {
-  return !stored.contour.point_tolerance.empty() || corners_of(stored.contour) > 0;
+  return !stored.contour.point_tolerance.empty() || corner_count(stored.contour) > 0;
 }
 
 bool has_region(const StoredContour& stored) {
@@ -97,7 +96,7 @@ std::string measured_facts(const StoredContour& stored) {
     facts.push_back("points at most " + readable_number(stored.certificate->largest_move, 2) + " " +
                     stored.contour.units + " from the contour");
   }
-  if (const std::size_t corners = corners_of(stored.contour)) {
+  if (const std::size_t corners = corner_count(stored.contour)) {
     facts.push_back(counted(corners, "corner", "corners"));
   }
   if (has_region(stored)) facts.push_back(region_fact(stored));
@@ -113,7 +112,7 @@ std::string picture_svg(const StoredContour& stored) {
   const PictureTrack track = make_track(contour);
   const bool coloured = track.runs_tell && contour.runs.size() <= kMostColouredRuns;
   const VerdictLine verdict = verdict_of(stored);
-  const std::string title = title_of(contour);
+  const std::string title = picture_title(contour);
   PictureCanvas body;
   body.label({kPictureMargin, 40.0}, "start", "title", title);
   body.label({kPictureWidth - kPictureMargin, 40.0}, "end", "fact", facts_of(stored));

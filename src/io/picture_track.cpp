@@ -18,7 +18,7 @@ constexpr double kStepsPerDiagonal = 400.0;
 /// Curvatures below this part of the largest are straight to the eye and to the sign test.
 constexpr double kStraightPart = 1e-9;
 /// Curvatures below this, times the size, bend a line by less than coordinates can say.
-constexpr double kStraightAngle = 1e-12;
+constexpr double kStraightLineAngle = 1e-12;
 /// Curvatures that differ by less, relatively, are the same on both sides of a corner.
 constexpr double kSameCurvature = 1e-7;
 constexpr int kBisections = 48;
@@ -190,7 +190,7 @@ PictureSample refine_inflection(const Piece& piece, PictureSample a, PictureSamp
 void find_inflections(PictureTrack& track) {
   const double diagonal = track.box.diagonal();
   const double straight = std::max(kStraightPart * track.largest_kappa,
-                                   diagonal > 0.0 ? kStraightAngle / diagonal : 0.0);
+                                   diagonal > 0.0 ? kStraightLineAngle / diagonal : 0.0);
   std::size_t last = track.samples.size();   // last sample with a sign
   std::size_t first = track.samples.size();  // first one
   std::size_t last_piece = 0;

@@ -105,7 +105,7 @@ Result<SurfaceModel> bezier_patches(const NumberRows& rows, string_view name) {
 
 // ---- "x,y,z;x,y,z;..." ------------------------------------------------------------------------
 
-struct Row {
+struct NetRow {
   std::size_t line = 0;
   std::vector<std::vector<double>> points;
 };
@@ -121,8 +121,8 @@ std::vector<string_view> parts_of(string_view text, char mark) {
   return parts;
 }
 
-Result<Row> row_of(string_view line, std::size_t number, string_view name) {
-  Row row{number, {}};
+Result<NetRow> row_of(string_view line, std::size_t number, string_view name) {
+  NetRow row{number, {}};
   for (const string_view point : parts_of(line, ';')) {
     row.points.emplace_back();
     for (const string_view field : parts_of(point, ',')) {
@@ -161,11 +161,11 @@ void set_knots(bool arcs, std::size_t count, int& degree, std::vector<double>& k
   knots = clamped(count, p, arcs ? 2 : 1);
 }
 
-Result<SurfacePatch> net_patch(const std::vector<Row>& rows, string_view name) {
+Result<SurfacePatch> net_patch(const std::vector<NetRow>& rows, string_view name) {
   NurbsSurface s;
   const std::size_t nu = rows.front().points.size(), nv = rows.size();
   const std::size_t width = rows.front().points.front().size();
-  for (const Row& row : rows) {
+  for (const NetRow& row : rows) {
     if (row.points.size() != nu) {
       return fail(
           error_at(ErrorCode::kBadCount,
@@ -205,7 +205,7 @@ Result<SurfaceModel> parse_control_net(string_view text, string_view name) {
     if (!rows) return fail(rows.error());
     return bezier_patches(*rows, name);
   }
-  std::vector<Row> rows;
+  std::vector<NetRow> rows;
   for (text::LineCursor cursor(text); !cursor.at_end();) {
     const string_view line = cursor.peek();
     const std::size_t number = cursor.line_number();

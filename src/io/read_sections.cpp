@@ -19,7 +19,7 @@ namespace {
 using std::string_view;
 
 /// Title that stands before a row, or a running number.
-std::string title_of(const NumberRows& rows, std::size_t row, std::size_t number) {
+std::string section_title(const NumberRows& rows, std::size_t row, std::size_t number) {
   const auto title = std::lower_bound(
       rows.titles.begin(), rows.titles.end(), row,
       [](const NumberRows::Title& one, std::size_t place) { return one.row < place; });
@@ -51,8 +51,8 @@ bool starts_at_one_edge(const std::vector<const NumberRow*>& block) {
 Result<ParsedSections> rotor_sections(const NumberRows& rows, string_view name) {
   std::vector<std::vector<const NumberRow*>> blocks;
   for (const NumberRow& row : rows.rows) {
-    constexpr std::size_t kColumns = 5;
-    if (row.values.size() != kColumns) {
+    constexpr std::size_t kRotorColumns = 5;
+    if (row.values.size() != kRotorColumns) {
       return fail(error_at(ErrorCode::kTooFewColumns, "J Z R THETA 1 THETA 2 are expected", name,
                            row.line));
     }
@@ -122,8 +122,8 @@ Result<ParsedSections> from_rows(const NumberRows& rows, string_view name) {
     if (columns.section >= 0) before = at(columns.section);
     if (fresh) {
       const std::size_t number = out.sections.size() + 1;
-      const std::string title =
-          columns.section >= 0 ? fmt::format("section {:g}", before) : title_of(rows, i, number);
+      const std::string title = columns.section >= 0 ? fmt::format("section {:g}", before)
+                                                     : section_title(rows, i, number);
       out.sections.push_back({title, {}});
     }
     out.sections.back().points.push_back(

@@ -62,7 +62,7 @@ void write_patch(fmt::memory_buffer& out, const SurfacePatch& patch) {
   fmt::format_to(to, "}}");
 }
 
-class Reader : private JsonValues {
+class SurfaceReader : private JsonValues {
  public:
   using JsonValues::JsonValues;
 
@@ -143,7 +143,7 @@ std::string surface_json(const SurfaceModel& model) {
 Result<SurfaceModel> surface_from_json(std::string_view text, std::string_view name) {
   const auto document = parse_json(text, name);
   if (!document) return fail(document.error());
-  return Reader(name).read(*document);
+  return SurfaceReader(name).read(*document);
 }
 
 }  // namespace obvid

@@ -14,9 +14,9 @@ namespace obvid {
 namespace {
 
 constexpr double kTop = 108.0;  // px
-constexpr double kHeight = 300.0;
+constexpr double kTradeOffHeight = 300.0;
 constexpr double kBelow = 92.0;
-constexpr double kRoom = 1.25;          // beyond the first and the last tolerance, as a ratio
+constexpr double kTradeOffRoom = 1.25;  // beyond the first and the last tolerance, as a ratio
 constexpr double kMarkReach = 4.5;      // of the cross on a tolerance without contour, px
 constexpr double kRecommended = 6.0;    // half a diagonal of the recommended row's mark, px
 constexpr double kLegendLine = 26.0;    // px
@@ -26,7 +26,7 @@ constexpr int kVertexTicks = 6;
 PictureFrame frame_of(const TradeOff& t) {
   PictureFrame frame;
   frame.top = kTop;
-  frame.bottom = kTop + kHeight;
+  frame.bottom = kTop + kTradeOffHeight;
   int most = 1;
   for (const TradeOffRow& row : t.rows) {
     if (row.formed) most = std::max({most, row.vertices, row.vertices_lower_bound});
@@ -35,7 +35,7 @@ PictureFrame frame_of(const TradeOff& t) {
   frame.y = round_axis(0.0, most + 0.5, std::min(kVertexTicks, most + 1));
   const double low = t.rows.empty() ? 1.0 : t.rows.front().tolerance;
   const double high = t.rows.empty() ? 1.0 : t.rows.back().tolerance;
-  frame.x = log_axis(low / kRoom, high * kRoom);
+  frame.x = log_axis(low / kTradeOffRoom, high * kTradeOffRoom);
   return frame;
 }
 

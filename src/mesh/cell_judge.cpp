@@ -23,8 +23,6 @@ constexpr double kPoint = 1.0 / 32.0;
 constexpr double kOfTolerance = 0.97;
 constexpr double kOfAngle = 0.98;
 
-std::size_t span_of(Line line) { return static_cast<std::size_t>(line >> kFractionBits); }
-
 /// Places of a cell in one direction, at most `most` steps (0: all that the spans need).
 void spread_places(const PatchAxis& axis, Line from, Line to, std::size_t most,
                    std::vector<Place>& out) {

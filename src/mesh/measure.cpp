@@ -11,7 +11,7 @@ namespace {
 
 /// Steps of Gauss and Newton towards the foot of a perpendicular: two or three, many where the
 /// surface stands still.
-constexpr int kSteps = 32;
+constexpr int kMostMeasureSteps = 32;
 /// A step shorter than this part of the distance no longer changes it (by the square of it).
 constexpr double kSettled = 1e-3;
 /// Most parts into which the edges of a triangle are divided for looking at it.
@@ -22,7 +22,7 @@ constexpr double kShortest = 1.0 / 64.0;
 /// Steps each way of a search around a triangle that seems too far off.
 constexpr int kSearched = 16;
 /// Square of the sine between du and dv below which they count as one direction.
-constexpr double kParallel = 1e-12;
+constexpr double kParallelSquared = 1e-12;
 
 struct Moves {
   bool u = true, v = true;
@@ -48,7 +48,7 @@ class Meter {
   [[nodiscard]] double distance(Spot q, Moves moves, double enough) const {
     SurfacePoint s = at(q);
     double best = norm(q.point - s.point);
-    for (int k = 0; k < kSteps && best > enough; ++k) {
+    for (int k = 0; k < kMostMeasureSteps && best > enough; ++k) {
       const Vec2 step = step_of(q.point - s.point, s, moves);
       bool nearer = false;
       double moved = 0.0;
@@ -116,7 +116,8 @@ class Meter {
     const double uv = moves.u && moves.v ? dot(s.du, s.dv) : 0.0;
     const double gu = moves.u ? dot(gap, s.du) : 0.0, gv = moves.v ? dot(gap, s.dv) : 0.0;
     const double det = uu * vv - uv * uv;
-    if (det > kParallel * uu * vv) return {(vv * gu - uv * gv) / det, (uu * gv - uv * gu) / det};
+    if (det > kParallelSquared * uu * vv)
+      return {(vv * gu - uv * gv) / det, (uu * gv - uv * gu) / det};
     return {uu > 0.0 ? gu / uu : 0.0, vv > 0.0 ? gv / vv : 0.0};  // one direction: each for itself
   }
 

@@ -41,7 +41,7 @@ PatchAxis::PatchAxis(int degree, const std::vector<double>& knots)
 }
 
 double PatchAxis::at(Line line) const {
-  const auto k = static_cast<std::size_t>(line >> kFractionBits);
+  const std::size_t k = span_of(line);
   const Line part = line & (kSpan - 1);
   if (part == 0) return ends_[k];
   return ends_[k] +

@@ -15,6 +15,9 @@ namespace obvid::mesh {
 using Line = std::uint64_t;
 inline constexpr int kFractionBits = 32;
 inline constexpr Line kSpan = Line{1} << kFractionBits;
+[[nodiscard]] constexpr std::size_t span_of(Line line) {
+  return static_cast<std::size_t>(line >> kFractionBits);
+}
 
 /// A parameter and the span it is taken in: at a knot that decides from which side.
 struct Place {

@@ -13,8 +13,6 @@ constexpr std::uint32_t kNone = std::numeric_limits<std::uint32_t>::max();
 /// A triangle whose height is below this part of its longest edge is none.
 constexpr double kNeedle = 1e-7;
 
-std::size_t span_of(Line line) { return static_cast<std::size_t>(line >> kFractionBits); }
-
 std::vector<std::size_t> blocks_of(const std::vector<bool>& edges) {
   std::vector<std::size_t> blocks(edges.size(), 0);
   for (std::size_t k = 1; k < edges.size(); ++k) blocks[k] = blocks[k - 1] + (edges[k] ? 1 : 0);

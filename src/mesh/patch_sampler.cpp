@@ -13,7 +13,7 @@ constexpr double kNoDerivative = 1e-7;
 /// Sine of the angle of du and dv below which their product has no direction worth its digits.
 constexpr double kParallel = 1e-7;
 /// Steps off a pole in parts of the span, on which the limit of the normal is read.
-constexpr double kSteps[] = {1e-5, 1e-3, 1e-2};
+constexpr double kStepsOffPole[] = {1e-5, 1e-3, 1e-2};
 
 /// Distance from 0, in sizes of the surface, at which derivatives lose digits worth the trouble.
 constexpr double kFar = 64.0;
@@ -114,7 +114,7 @@ Sample PatchSampler::sample(const Place& u, const Place& v) const {
 // apex has a normal for each u), then along both.
 Vec3 PatchSampler::normal_at(const SurfacePoint& p, const Place& u, const Place& v) const {
   if (is_regular(p)) return unit(cross(p.du, p.dv));
-  for (const double step : kSteps) {
+  for (const double step : kStepsOffPole) {
     const Place near_u = stepped(u_, u, step), near_v = stepped(v_, v, step);
     for (const auto& [a, b] :
          {std::pair{u, near_v}, std::pair{near_u, v}, std::pair{near_u, near_v}}) {

@@ -8,17 +8,17 @@
 namespace obvid {
 namespace {
 
-constexpr std::size_t kSamples = 16;
+constexpr std::size_t kSectionSamples = 16;
 
 /// Points at equal shares of the length of a section's chords, seen from their middle.
-std::vector<Vec3> sampled(const SpaceSeries& section) {
+std::vector<Vec3> section_samples(const SpaceSeries& section) {
   std::vector<double> at(section.points.size(), 0.0);
   for (std::size_t i = 1; i < at.size(); ++i) {
     at[i] = at[i - 1] + norm(section.points[i] - section.points[i - 1]);
   }
   std::vector<Vec3> samples;
-  for (std::size_t k = 0; k <= kSamples; ++k) {
-    const double s = at.back() * static_cast<double>(k) / kSamples;
+  for (std::size_t k = 0; k <= kSectionSamples; ++k) {
+    const double s = at.back() * static_cast<double>(k) / kSectionSamples;
     const auto above = std::upper_bound(at.begin() + 1, at.end() - 1, s);
     const auto i = static_cast<std::size_t>(above - at.begin()) - 1;
     const double chord = at[i + 1] - at[i];
@@ -38,9 +38,9 @@ Vec3 middle_of(const SpaceSeries& section) {
 double distance(const std::vector<Vec3>& a, const std::vector<Vec3>& b, Vec3 step, bool backwards,
                 std::size_t shift) {
   double sum = 0.0;
-  for (std::size_t k = 0; k < kSamples; ++k) {
-    const std::size_t there = (k + shift) % kSamples;
-    const Vec3 d = b[backwards ? kSamples - there : there] - step - a[k];
+  for (std::size_t k = 0; k < kSectionSamples; ++k) {
+    const std::size_t there = (k + shift) % kSectionSamples;
+    const Vec3 d = b[backwards ? kSectionSamples - there : there] - step - a[k];
     sum += dot(d, d);
   }
   return sum;
@@ -60,13 +60,13 @@ void align(const SpaceSeries& before, SpaceSeries& here, std::size_t number,
            std::vector<std::string>& warnings) {
   constexpr double kClearly = 0.25;  // of the sum as it is: neither noise nor twist of a blade
   const Vec3 step = middle_of(here) - middle_of(before);
-  const std::vector<Vec3> a = sampled(before), b = sampled(here);
+  const std::vector<Vec3> a = section_samples(before), b = section_samples(here);
   const bool closed = is_closed(before) && is_closed(here);
   double best = distance(a, b, step, false, 0), as_given = best;
   bool backwards = false;
   std::size_t shift = 0;
   for (const bool way : {false, true}) {
-    for (std::size_t k = 0; k < (closed ? kSamples : 1); ++k) {
+    for (std::size_t k = 0; k < (closed ? kSectionSamples : 1); ++k) {
       const double sum = distance(a, b, step, way, k);
       if (sum < best * kClearly || (sum < best && best < as_given)) {
         best = sum;

@@ -15,10 +15,10 @@ namespace {
 constexpr double kLargestGap = 1e-9;   // of the size
 constexpr double kLargestTurn = 1e-6;  // rad
 constexpr double kLargestJump = 1e-6;  // of the larger curvature
-constexpr int kSamples = 200;          // of each piece
+constexpr int kPieceSamples = 200;     // of each piece
 constexpr double kVisible = 0.01;      // of the range of the curvature
 /// Swings below this part of the largest curvature are what rounding leaves on lines and circles.
-constexpr double kRounding = 1e-9;
+constexpr double kRippleRounding = 1e-9;
 
 struct Sample {
   std::size_t piece = 0;
@@ -27,7 +27,7 @@ struct Sample {
   double kappa = 0.0;
 };
 
-double size_of(const std::vector<Piece>& pieces) {
+double size_of_pieces(const std::vector<Piece>& pieces) {
   std::vector<Vec2> points;
   for (const Piece& piece : pieces) {
     for (const double t : {0.0, 0.25, 0.5, 0.75, 1.0}) points.push_back(evaluate(piece, t).point);
@@ -43,7 +43,7 @@ class Auditor {
     out_.contour.carrier = Carrier::kBaseline;
     out_.contour.closed = curve.closed;
     out_.contour.pieces = curve.pieces;
-    size_ = size_of(curve.pieces);
+    size_ = size_of_pieces(curve.pieces);
   }
 
   CurveAudit run() {
@@ -70,8 +70,8 @@ class Auditor {
     for (std::size_t i = 0; i < pieces.size(); ++i) {
       starts_.push_back(out_.length);
       Vec2 before = start_point(pieces[i]);
-      for (int k = 0; k <= kSamples; ++k) {
-        const double t = static_cast<double>(k) / kSamples;
+      for (int k = 0; k <= kPieceSamples; ++k) {
+        const double t = static_cast<double>(k) / kPieceSamples;
         const Element e = element_at(pieces[i], t);
         out_.length += norm(e.point - before);
         before = e.point;
@@ -80,7 +80,8 @@ class Auditor {
         out_.largest_kappa = std::max(out_.largest_kappa, e.kappa);
       }
     }
-    rounding_ = kRounding * std::max(std::abs(out_.least_kappa), std::abs(out_.largest_kappa));
+    rounding_ =
+        kRippleRounding * std::max(std::abs(out_.least_kappa), std::abs(out_.largest_kappa));
   }
 
   [[nodiscard]] Element end_of(std::size_t piece, double t) const {
@@ -183,7 +184,8 @@ class Auditor {
   [[nodiscard]] Sample refined(Sample at) const {
     const Piece& piece = out_.contour.pieces[at.piece];
     const auto rate = [&](double t) { return curvature_rate(evaluate(piece, t)); };
-    double low = std::max(0.0, at.t - 1.0 / kSamples), high = std::min(1.0, at.t + 1.0 / kSamples);
+    double low = std::max(0.0, at.t - 1.0 / kPieceSamples),
+           high = std::min(1.0, at.t + 1.0 / kPieceSamples);
     const bool rises = rate(low) > 0.0;
     if (rises == (rate(high) > 0.0)) return at;
     constexpr int kHalvings = 50;

@@ -87,7 +87,7 @@ void measure_against(const Contour& spirals, ComparedCarrier& row) {
   row.continuity = continuity_of(row.fit.certificate);
 }
 
-std::size_t points_of(const Piece& piece) {
+std::size_t control_points_of(const Piece& piece) {
   if (std::holds_alternative<LinePiece>(piece)) return 2;
   if (const auto* bezier = std::get_if<RationalBezier>(&piece)) {
     return static_cast<std::size_t>(bezier->degree) + 1;
@@ -119,7 +119,7 @@ std::size_t saved_by_joint(Carrier carrier) {
 std::size_t control_points(const Contour& contour) {
   std::size_t count = 0;
   for (std::size_t i = 0; i < contour.pieces.size(); ++i) {
-    const std::size_t own = points_of(contour.pieces[i]);
+    const std::size_t own = control_points_of(contour.pieces[i]);
     if (own == 0) return 0;
     const bool corner = i < contour.joints.size() && contour.joints[i].leaving.has_value();
     const bool alike = i > 0 && contour.pieces[i].index() == contour.pieces[i - 1].index() &&

@@ -49,7 +49,7 @@ constexpr std::array kEndings = {
 };
 
 /// Tolerance of curves that a format cannot hold, of the size.
-constexpr double kDefaultTolerance = 1e-6;
+constexpr double kExportTolerance = 1e-6;
 constexpr double kDefaultForArcs = 2e-5;
 constexpr double kLeastForGcode = 2e-3;  // mm: what the printed digits keep well
 
@@ -68,7 +68,7 @@ class Exporter {
   Exporter(const StoredContour& stored, const ExportOptions& options)
       : stored_(stored), contour_(stored.contour), options_(options) {
     const double size = pipeline_detail::size_of(places_of(contour_));
-    tolerance_ = options.tolerance.value_or(kDefaultTolerance * size);
+    tolerance_ = options.tolerance.value_or(kExportTolerance * size);
     arc_tolerance_ = options.tolerance.value_or(kDefaultForArcs * size);
   }
 

@@ -90,7 +90,7 @@ std::vector<double> point_tolerance(const Prepared& series, Carrier carrier, dou
   return out;
 }
 
-void add(const SectionChain& section, Formed& formed) {
+void add_section(const SectionChain& section, Formed& formed) {
   ChainReport& sum = formed.chain;
   const SeriesChain& one = section.chain;
   sum.smallest_margin = sum.newton_steps == 0 ? one.smallest_margin
@@ -125,7 +125,7 @@ Result<Formed> form_sections(const Prepared& series, const FitJob& job, double t
         form(series.points, chain->chain, job.carrier, tolerance, series.split.smooth_loop);
     if (!section) return tl::unexpected(section.error());
     out.add(std::move(*section), assembly);
-    add(*chain, out);
+    add_section(*chain, out);
   }
   if (series.closed) assembly.close(series.split.smooth_loop);
   out.contour = assembly.take();

@@ -205,7 +205,7 @@ Piece seen_from(const RationalBezier& piece, Vec2 anchor) {
   return local;
 }
 
-Piece moved(const Piece& piece, Vec2 by) {
+Piece moved_piece(const Piece& piece, Vec2 by) {
   if (const auto* arc = std::get_if<ArcPiece>(&piece)) {
     return ArcPiece{arc->start + by, arc->end + by, arc->theta0, arc->kappa, arc->length};
   }
@@ -291,8 +291,8 @@ class ArcBuilder {
       return false;
     }
     const double theta = second != nullptr ? second->theta0 : to.theta;
-    contour_.pieces.push_back(moved(arcs[0], anchor));
-    contour_.pieces.push_back(moved(arcs[1], anchor));
+    contour_.pieces.push_back(moved_piece(arcs[0], anchor));
+    contour_.pieces.push_back(moved_piece(arcs[1], anchor));
     direction_.insert(direction_.end(), 2, direction);
     contour_.joints.push_back(
         {{end_point(arcs[0]) + anchor, theta, 0.5 * (k.first + k.second)}, std::nullopt});

@@ -40,7 +40,7 @@ std::string name_of(const std::string& path) {
   return std::filesystem::path(path).filename().string();
 }
 
-Result<Drawing> from_contour(const std::string& text, const std::string& path) {
+Result<Drawing> drawing_of_contour(const std::string& text, const std::string& path) {
   auto stored = contour_from_json(text, path);
   if (!stored) return tl::unexpected(stored.error());
   Contour& contour = stored->contour;
@@ -54,7 +54,7 @@ Result<Drawing> from_contour(const std::string& text, const std::string& path) {
 Result<Drawing> from_text(FileKind kind, const std::string& text, const std::string& path) {
   switch (kind) {
     case FileKind::kContour:
-      return from_contour(text, path);
+      return drawing_of_contour(text, path);
     case FileKind::kSvg:
       return parse_svg(text, path);
     case FileKind::kGpx:
@@ -106,7 +106,7 @@ double largest_sagitta(const Piece& piece, int steps) {
 }
 
 /// Points on the curve with chords within the tolerance, joints of its pieces among them.
-std::vector<Vec2> sampled(const DrawnCurve& curve, double tolerance) {
+std::vector<Vec2> samples_within(const DrawnCurve& curve, double tolerance) {
   std::vector<Vec2> out;
   for (const Piece& piece : curve.pieces) {
     int steps = std::holds_alternative<LinePiece>(piece) ? 1 : 2;
@@ -142,8 +142,8 @@ std::size_t longest(const Drawing& drawing) {
   return best;
 }
 
-Result<PointSeries> points_of(Drawing drawing, const ImportOptions& options,
-                              const std::string& path) {
+Result<PointSeries> points_of_drawing(Drawing drawing, const ImportOptions& options,
+                                      const std::string& path) {
   const auto found = chosen_curve(drawing, options.curve, path);
   if (!found) return tl::unexpected(found.error());
   const std::size_t count = drawing.curves.size() + drawing.series.size(), chosen = *found;
@@ -152,7 +152,7 @@ Result<PointSeries> points_of(Drawing drawing, const ImportOptions& options,
   if (chosen < drawing.curves.size()) {
     const DrawnCurve& curve = drawing.curves[chosen];
     const double size = pipeline_detail::size_of(ends_of(curve));
-    out.points = sampled(curve, options.tolerance.value_or(kChordTolerance * size));
+    out.points = samples_within(curve, options.tolerance.value_or(kChordTolerance * size));
     label = curve.label;
   } else {
     out = std::move(drawing.series[chosen - drawing.curves.size()]);
@@ -204,7 +204,7 @@ Result<PointSeries> read_series(const std::string& path, const ImportOptions& op
   }
   auto drawing = read_drawing(path);
   if (!drawing) return tl::unexpected(drawing.error());
-  return points_of(std::move(*drawing), options, path);
+  return points_of_drawing(std::move(*drawing), options, path);
 }
 
 }  // namespace obvid

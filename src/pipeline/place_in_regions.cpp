@@ -13,7 +13,7 @@ namespace obvid::pipeline_detail {
 namespace {
 
 /// What coordinates cannot tell, of the contour's extent from the origin: inside all the same.
-constexpr double kRounding = 0x1p-48;
+constexpr double kCoordinateRounding = 0x1p-48;
 
 double distance_from(const LinePiece& line, Vec2 p) {
   const Vec2 chord = line.end - line.start, v = p - line.start;
@@ -39,7 +39,7 @@ class Regions {
       : spirals_(spirals), direction_(piece_directions(spirals)) {
     for (const Joint& joint : spirals.joints) {
       const Vec2 p = joint.element.point;
-      rounding_ = std::max(rounding_, kRounding * (std::abs(p.x) + std::abs(p.y)));
+      rounding_ = std::max(rounding_, kCoordinateRounding * (std::abs(p.x) + std::abs(p.y)));
     }
     enter(0);
   }

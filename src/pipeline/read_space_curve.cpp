@@ -17,7 +17,7 @@ namespace {
 /// Of curves that NURBS do not hold (clothoids): far below what a surface is made within.
 constexpr double kFollowing = 1e-8;  ///< of the size
 
-Result<ReadCurve> from_contour(const Contour& contour, const Frame& frame, std::string name) {
+Result<ReadCurve> curve_of_contour(const Contour& contour, const Frame& frame, std::string name) {
   double size = 0.0;
   for (const Piece& piece : contour.pieces)
     size = std::max(size, norm(end_point(piece) - start_point(contour.pieces.front())));
@@ -42,7 +42,7 @@ Result<ReadCurve> from_drawing(const std::string& path, const SurfaceJob& job) {
                  "write the points to a text file and give that", -1, 0.0});
   }
   const DrawnCurve& drawn = drawing->curves[*chosen];
-  auto curve = from_contour(audit(drawn, drawing->units).contour, Frame{}, drawn.label);
+  auto curve = curve_of_contour(audit(drawn, drawing->units).contour, Frame{}, drawn.label);
   if (!curve) return curve;
   curve->warnings.insert(curve->warnings.end(), drawing->warnings.begin(), drawing->warnings.end());
   return curve;
@@ -113,7 +113,7 @@ Result<ReadCurve> from_points(const std::string& path, const SurfaceJob& job) {
     error.where = error.where.empty() ? path : path + ", " + error.where;
     return fail(error);
   }
-  auto curve = from_contour(made->contour, frame, series.name);
+  auto curve = curve_of_contour(made->contour, frame, series.name);
   if (!curve) return curve;
   curve->warnings.insert(curve->warnings.end(), made->warnings.begin(), made->warnings.end());
   return curve;

@@ -13,7 +13,7 @@
 namespace obvid::pipeline_detail {
 namespace {
 
-constexpr double kDefaultTolerance = 3e-6;  // of the diagonal of the series
+constexpr double kRegionTolerance = 3e-6;  // of the diagonal of the series
 
 /// Element with which piece `i` begins: at a corner the one after it.
 const Element& start_element(const Contour& contour, std::size_t i) {
@@ -61,7 +61,7 @@ std::size_t last_before_point(const Contour& contour, std::size_t from) {
   return piece;
 }
 
-void add(SegmentReport& segment, const PieceBound& bound) {
+void add_bound(SegmentReport& segment, const PieceBound& bound) {
   segment.width = std::max(segment.width, bound.width);
   segment.width_unrefined = std::max(segment.width_unrefined, bound.width_unrefined);
   if (bound.deviation > segment.deviation) {
@@ -81,7 +81,7 @@ void measure_pieces(const Contour& contour, double tolerance, FitReport& report)
     if (!promises_monotone(contour.carrier)) {
       row.width = row.width_unrefined = row.deviation = std::numeric_limits<double>::quiet_NaN();
     } else if (contour.carrier != Carrier::kArcs) {
-      add(row, bound_piece(contour.pieces[i], direction[i], tolerance));
+      add_bound(row, bound_piece(contour.pieces[i], direction[i], tolerance));
       if (i > 0 && !contour.joints[i].source) ++row.inserted;
     } else if (direction[i] != 0 && i + 1 < contour.pieces.size()) {
       PieceBound bound = bound_arc_pair(contour, i, direction[i]);
@@ -92,7 +92,7 @@ void measure_pieces(const Contour& contour, double tolerance, FitReport& report)
             width_between_points(contour, i, last_before_point(contour, i), direction[i]);
         bound.deviation = bound.width_unrefined;
       }
-      add(row, bound);
+      add_bound(row, bound);
       ++i;  // a pair of arcs
     }
   }
@@ -174,7 +174,7 @@ double size_of(const std::vector<Vec2>& points) {
 }
 
 double default_tolerance(const std::vector<Vec2>& points) {
-  return kDefaultTolerance * size_of(points);
+  return kRegionTolerance * size_of(points);
 }
 
 Result<FitReport> measure(const Contour& contour, double tolerance) {

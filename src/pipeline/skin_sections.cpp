@@ -13,7 +13,7 @@
 namespace obvid {
 namespace {
 
-double size_of(const std::vector<SpaceSeries>& sections) {
+double size_of_sections(const std::vector<SpaceSeries>& sections) {
   std::vector<Vec3> all;
   for (const SpaceSeries& section : sections) {
     all.insert(all.end(), section.points.begin(), section.points.end());
@@ -30,7 +30,7 @@ struct Flat {
 
 /// Of the largest coordinate: some thousand steps of a double, and up to a million of them where
 /// points are dense; far below what is ever measured.
-constexpr double kRounding = 1e-12;
+constexpr double kDenseRounding = 1e-12;
 constexpr double kMostRounding = 2e-9;
 
 Flat flat(const SpaceSeries& given, const std::string& units) {
@@ -91,8 +91,8 @@ Result<Fit> fit_section(const Flat& flat, const SkinJob& job, std::size_t number
   Result<Fit> made = fit(flat.series, job.sections);
   // circles in full precision, and sections turned into their plane: below the last digits of the
   // coordinates nothing is known, so points may move there
-  for (double share = kRounding; !made && share < kMostRounding && !job.sections.noise &&
-                                 made.error().code == ErrorCode::kRoundingDecides;
+  for (double share = kDenseRounding; !made && share < kMostRounding && !job.sections.noise &&
+                                      made.error().code == ErrorCode::kRoundingDecides;
        share *= 10.0) {
     FitJob within_rounding = job.sections;
     within_rounding.noise = share * flat.extent;
@@ -136,7 +136,8 @@ Result<FittedSkin> fit_skin(const std::vector<SpaceSeries>& given, const SkinJob
                  static_cast<double>(given.size())});
   }
   std::vector<SpaceSeries> sections = given;
-  result.tolerance = job.tolerance.value_or(pipeline_detail::kSurfaceTolerance * size_of(sections));
+  result.tolerance =
+      job.tolerance.value_or(pipeline_detail::kSurfaceTolerance * size_of_sections(sections));
   if (job.sections.closing == Closing::kAutomatic) {
     close_slits(sections, result.tolerance, result.warnings);
   }

@@ -15,25 +15,25 @@
 namespace obvid {
 namespace {
 
-struct Ending {
+struct SurfaceEnding {
   const char* ending;
   SurfaceFormat format;
   const char* what;  ///< empty for a second ending of the format before
 };
 
-constexpr std::array kEndings = {
-    Ending{".json", SurfaceFormat::kSurface, "surface"},
-    Ending{".step", SurfaceFormat::kStep, "STEP"},
-    Ending{".stp", SurfaceFormat::kStep, ""},
-    Ending{".iges", SurfaceFormat::kIges, "IGES"},
-    Ending{".igs", SurfaceFormat::kIges, ""},
-    Ending{".brep", SurfaceFormat::kBrep, "BREP"},
-    Ending{".stl", SurfaceFormat::kStl, "STL triangles"},
-    Ending{".obj", SurfaceFormat::kObj, "OBJ triangles"},
-    Ending{".glb", SurfaceFormat::kGlb, "glTF"},
-    Ending{".ply", SurfaceFormat::kPly, "PLY triangles"},
-    Ending{".html", SurfaceFormat::kPage, "page for browsers"},
-    Ending{".svg", SurfaceFormat::kPicture, "picture"},
+constexpr std::array kSurfaceEndings = {
+    SurfaceEnding{".json", SurfaceFormat::kSurface, "surface"},
+    SurfaceEnding{".step", SurfaceFormat::kStep, "STEP"},
+    SurfaceEnding{".stp", SurfaceFormat::kStep, ""},
+    SurfaceEnding{".iges", SurfaceFormat::kIges, "IGES"},
+    SurfaceEnding{".igs", SurfaceFormat::kIges, ""},
+    SurfaceEnding{".brep", SurfaceFormat::kBrep, "BREP"},
+    SurfaceEnding{".stl", SurfaceFormat::kStl, "STL triangles"},
+    SurfaceEnding{".obj", SurfaceFormat::kObj, "OBJ triangles"},
+    SurfaceEnding{".glb", SurfaceFormat::kGlb, "glTF"},
+    SurfaceEnding{".ply", SurfaceFormat::kPly, "PLY triangles"},
+    SurfaceEnding{".html", SurfaceFormat::kPage, "page for browsers"},
+    SurfaceEnding{".svg", SurfaceFormat::kPicture, "picture"},
 };
 
 constexpr double kDefaultChordTolerance = 1e-3;  ///< of the size: not seen on a screen
@@ -49,7 +49,7 @@ std::optional<SurfaceFormat> surface_format_of(std::string_view path) {
   std::string lower(path);
   std::transform(lower.begin(), lower.end(), lower.begin(),
                  [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  for (const Ending& ending : kEndings) {
+  for (const SurfaceEnding& ending : kSurfaceEndings) {
     if (lower.ends_with(ending.ending)) return ending.format;
   }
   return std::nullopt;
@@ -57,7 +57,7 @@ std::optional<SurfaceFormat> surface_format_of(std::string_view path) {
 
 std::string known_surface_endings() {
   std::string all;
-  for (const Ending& ending : kEndings) {
+  for (const SurfaceEnding& ending : kSurfaceEndings) {
     if (*ending.what == '\0') continue;
     all += fmt::format("{}{} ({})", all.empty() ? "" : ", ", ending.ending, ending.what);
   }

@@ -56,7 +56,7 @@ std::vector<SpaceCurve> geometry(const std::vector<ReadCurve>& curves) {
   return out;
 }
 
-SpaceCurve moved(SpaceCurve curve, Vec3 by) {
+SpaceCurve moved_curve(SpaceCurve curve, Vec3 by) {
   for (Vec3& p : curve.points) p = p + by;
   return curve;
 }
@@ -161,7 +161,7 @@ Result<MadeSurface> make_ruled(const SurfaceJob& job, const Progress& progress) 
   auto curves = read_curves(job.inputs, job);
   if (!curves) return fail(curves.error());
   const SpaceCurve& first = curves->front().curve;
-  RuledSurface ruled{first, job.direction ? moved(first, *job.direction)
+  RuledSurface ruled{first, job.direction ? moved_curve(first, *job.direction)
                             : job.apex    ? shrunk_to(first, *job.apex)
                                           : curves->back().curve};
   auto made = made_of(ruled, "ruled surface", size_of_all(*curves), job);

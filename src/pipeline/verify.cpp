@@ -19,9 +19,9 @@ constexpr double kSameFigure = 1e-9;
 /// Widths far below the contour's size are differences of its coordinates.
 constexpr double kNegligible = 1e-13;
 
-class Comparison {
+class ClaimCheck {
  public:
-  explicit Comparison(double size) : size_(size) {}
+  explicit ClaimCheck(double size) : size_(size) {}
 
   void length(const std::string& name, double claimed, double found) {
     if (std::isnan(claimed) && std::isnan(found)) return;
@@ -47,7 +47,7 @@ class Comparison {
   std::optional<Error> refused_;
 };
 
-void compare_report(const FitReport& claimed, const FitReport& found, Comparison& c) {
+void compare_report(const FitReport& claimed, const FitReport& found, ClaimCheck& c) {
   c.count("the number of segments", static_cast<double>(claimed.segments.size()),
           static_cast<double>(found.segments.size()));
   if (claimed.segments.size() != found.segments.size()) return;
@@ -85,7 +85,7 @@ void compare_report(const FitReport& claimed, const FitReport& found, Comparison
 }
 
 /// Gaps are rounding noise near zero: only a claim that is off by more than that is false.
-void compare_certificate(const Certificate& claimed, const Certificate& found, Comparison& c) {
+void compare_certificate(const Certificate& claimed, const Certificate& found, ClaimCheck& c) {
   constexpr double kGapNoise = 2.0;
   constexpr double kSmallestGap = 1e-15;
   const auto gap = [&](const char* name, double a, double b) {
@@ -115,7 +115,7 @@ void compare_certificate(const Certificate& claimed, const Certificate& found, C
 
 /// A run that claims a direction has a piece whose curvature changes. (The certificate allows
 /// lines and circles inside a run; arcs change at their joints only, by any amount.)
-void compare_runs(const Contour& contour, const Certificate& found, Comparison& c) {
+void compare_runs(const Contour& contour, const Certificate& found, ClaimCheck& c) {
   if (contour.carrier == Carrier::kArcs) return;
   for (std::size_t r = 0; r < contour.runs.size(); ++r) {
     const Run& run = contour.runs[r];
@@ -132,7 +132,7 @@ void compare_runs(const Contour& contour, const Certificate& found, Comparison& 
 Verification verify(const StoredContour& stored) {
   Verification out;
   out.certificate = certify(stored.contour);
-  Comparison comparison(pipeline_detail::size_of(stored.contour.points));
+  ClaimCheck comparison(pipeline_detail::size_of(stored.contour.points));
   if (stored.report) {
     auto measured = pipeline_detail::measure(stored.contour, stored.report->tolerance);
     if (!measured) {

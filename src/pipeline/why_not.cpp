@@ -14,7 +14,7 @@ namespace {
 
 using namespace pipeline_detail;
 
-constexpr double kStep = 10.0;  // of the search for a bracket
+constexpr double kBracketStep = 10.0;  // of the search for a bracket
 // Where a trial takes seconds, those within the noise minutes: longer steps, from above.
 constexpr double kLongStep = 1000.0;
 constexpr double kLongGuess = 0.01;  // of the size
@@ -86,7 +86,7 @@ class Search {
 
   /// Steps down from a guess that does, up from one that does not. False when nothing does.
   bool bracket() {
-    const double step = long_series() ? kLongStep : kStep;
+    const double step = long_series() ? kLongStep : kBracketStep;
     double t = guess();
     if (possible(t)) {
       while (t > lowest_) {

@@ -87,7 +87,7 @@ Result<void> check_corners(const CoonsPatch& s, double allowed) {
 }
 
 /// The curves across `at` as one surface: exact at each, C2 cubic between them.
-Result<NurbsSurface> through(std::vector<SpaceCurve> curves, const std::vector<double>& at) {
+Result<NurbsSurface> through_curves(std::vector<SpaceCurve> curves, const std::vector<double>& at) {
   const auto system = cubic_collocation(at);
   if (!system) return fail(system.error());
   curves = compatible(std::move(curves));
@@ -226,13 +226,13 @@ Result<NurbsForm> nurbs_of(const GordonSurface& given, double tolerance, double 
   const auto along_v = make_polynomial(s.along_v, tolerance / 3.0);
   if (!along_v) return fail(along_v.error());
   if (auto good = check_net(s, allowed); !good) return fail(good.error());
-  const auto first = through(s.along_u, s.v_at);
+  const auto first = through_curves(s.along_u, s.v_at);
   if (!first) return fail(first.error());
-  const auto second = through(s.along_v, s.u_at);
+  const auto second = through_curves(s.along_v, s.u_at);
   if (!second) return fail(second.error());
   std::vector<SpaceCurve> rows;
   for (const auto& row : crossings(s)) rows.push_back(*interpolated(row, s.u_at));
-  const auto common = through(rows, s.v_at);
+  const auto common = through_curves(rows, s.v_at);
   if (!common) return fail(common.error());
   return NurbsForm{boolean_sum(*first, transposed(*second), *common),
                    3.0 * std::max(*along_u, *along_v)};

@@ -110,8 +110,8 @@ tl::unexpected<Error> no_normal(double u, double v) {
 }
 
 /// Bicubic through the offset's points at the Greville abscissae of both knots.
-Result<NurbsSurface> through(const OffsetSurface& s, const std::vector<double>& knots_u,
-                             const std::vector<double>& knots_v) {
+Result<NurbsSurface> through_offset(const OffsetSurface& s, const std::vector<double>& knots_u,
+                                    const std::vector<double>& knots_v) {
   const auto along_u = greville_collocation(kDegree, knots_u);
   if (!along_u) return fail(along_u.error());
   const auto along_v = greville_collocation(kDegree, knots_v);
@@ -174,7 +174,7 @@ Errors errors_of(const OffsetSurface& s, const NurbsSurface& form, const std::ve
   return worst;
 }
 
-std::vector<double> sampled(const std::vector<double>& lines) {
+std::vector<double> offset_samples(const std::vector<double>& lines) {
   std::vector<double> at;
   for (std::size_t i = 0; i + 1 < lines.size(); ++i) {
     for (const double part : {0.1, 0.3, 0.5, 0.7, 0.9}) {
@@ -185,10 +185,10 @@ std::vector<double> sampled(const std::vector<double>& lines) {
 }
 
 /// Largest error on a raster in each cell, with what it may rise between the samples.
-double measured(const OffsetSurface& s, const NurbsSurface& form, const std::vector<double>& us,
-                const std::vector<double>& vs) {
+double offset_error(const OffsetSurface& s, const NurbsSurface& form, const std::vector<double>& us,
+                    const std::vector<double>& vs) {
   constexpr double kBetween = 1.1;  // quartics rise by less between the samples
-  const std::vector<double> raster_u = sampled(us), raster_v = sampled(vs);
+  const std::vector<double> raster_u = offset_samples(us), raster_v = offset_samples(vs);
   std::vector<SurfacePoint> row(raster_u.size());
   double worst = 0.0;
   for (const double v : raster_v) {
@@ -246,13 +246,13 @@ Result<NurbsForm> nurbs_of(const OffsetSurface& s, double tolerance) {
     const std::vector<double> knots_u = divided(frame_u, parts_u);
     const std::vector<double> knots_v = divided(frame_v, parts_v);
     if (knots_u.size() * knots_v.size() > kMostPoints) break;
-    auto form = through(s, knots_u, knots_v);
+    auto form = through_offset(s, knots_u, knots_v);
     if (!form) return fail(form.error());
     const std::vector<double> us = distinct(knots_u), vs = distinct(knots_v);
     const Errors worst = errors_of(s, *form, us, vs);
     const double total = worst.u + worst.v;
     if (total <= tolerance) {
-      const double deviation = measured(s, *form, us, vs);
+      const double deviation = offset_error(s, *form, us, vs);
       if (deviation <= tolerance) return NurbsForm{std::move(*form), deviation};
     }
     stalls = total > kHelps * before ? stalls + 1 : 0;

@@ -5,6 +5,7 @@
 
 #include "kinds.h"
 #include "knots.h"
+#include "snap.h"
 
 namespace obvid {
 namespace {
@@ -21,12 +22,7 @@ std::vector<double> common(std::vector<NurbsSurface>& surfaces,
     if (kept.empty() || u - kept.back() > kSameKnot) kept.push_back(u);
   }
   kept.back() = 1.0;
-  for (NurbsSurface& s : surfaces) {
-    for (double& u : s.*knots) {
-      const auto near = std::lower_bound(kept.begin(), kept.end(), u - kSameKnot);
-      if (near != kept.end() && std::abs(*near - u) <= kSameKnot) u = *near;
-    }
-  }
+  for (NurbsSurface& s : surfaces) snap(s.*knots, kept);
   std::vector<double> repeated;
   for (const double u : kept) {
     std::size_t most = 0;

@@ -9,6 +9,7 @@
 #include "knots.h"
 #include "obvid/surface/basis.h"
 #include "obvid/surface/collocation.h"
+#include "snap.h"
 
 namespace obvid {
 namespace {
@@ -20,14 +21,6 @@ Vec4 homogeneous_at(const SpaceCurve& curve, double u) {
     sum = sum + basis.value[0][j] * lifted(curve.points, curve.weights, basis.first + j);
   }
   return sum;
-}
-
-/// Knots that differ from one of `pattern` by rounding become that one.
-void snap(std::vector<double>& knots, const std::vector<double>& pattern) {
-  for (double& u : knots) {
-    const auto near = std::lower_bound(pattern.begin(), pattern.end(), u - kSameKnot);
-    if (near != pattern.end() && std::abs(*near - u) <= kSameKnot) u = *near;
-  }
 }
 
 /// Knots of a product: it is as smooth as the less smooth factor.

@@ -5,6 +5,7 @@
 
 #include "knots.h"
 #include "obvid/surface/space_curve.h"
+#include "snap.h"
 
 namespace obvid {
 namespace {
@@ -35,13 +36,6 @@ std::vector<double> common_knots(const std::vector<SpaceCurve>& curves) {
   }
   kept.back() = 1.0;
   return kept;
-}
-
-void snap(std::vector<double>& knots, const std::vector<double>& to) {
-  for (double& u : knots) {
-    const auto above = std::lower_bound(to.begin(), to.end(), u - kSameKnot);
-    if (above != to.end() && std::abs(*above - u) <= kSameKnot) u = *above;
-  }
 }
 
 }  // namespace

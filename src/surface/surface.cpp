@@ -28,7 +28,7 @@ Range ends_of(const std::vector<double>& nodes) {
 }
 
 /// Places in the spans of knots, thinned where there are very many.
-std::vector<double> sampled(const std::vector<double>& knots) {
+std::vector<double> span_samples(const std::vector<double>& knots) {
   constexpr std::size_t kMost = 120;
   std::vector<double> at;
   for (std::size_t k = 1; k < knots.size(); ++k) {
@@ -46,8 +46,8 @@ std::vector<double> sampled(const std::vector<double>& knots) {
 }
 
 /// Largest distance of the NURBS form from the definition on a raster.
-double measured(const Surface& surface, const NurbsSurface& form) {
-  const std::vector<double> us = sampled(form.knots_u), vs = sampled(form.knots_v);
+double form_error(const Surface& surface, const NurbsSurface& form) {
+  const std::vector<double> us = span_samples(form.knots_u), vs = span_samples(form.knots_v);
   double worst = 0.0;
   for (const double v : vs) {
     for (const double u : us) {
@@ -67,7 +67,7 @@ Result<NurbsForm> network_form(const Kind& kind, double tolerance) {
   for (int i = 0; i < kTries; ++i, share /= 4.0) {
     auto form = nurbs_of(kind, share, tolerance);
     if (!form || form->deviation == 0.0) return form;
-    form->deviation = std::max(measured(kind, form->surface), form->deviation / 3.0);
+    form->deviation = std::max(form_error(kind, form->surface), form->deviation / 3.0);
     if (form->deviation <= tolerance) return form;
   }
   return fail({ErrorCode::kToleranceNotReached, "rational curves of a net are not followed", "",

@@ -13,7 +13,7 @@ constexpr std::array<std::array<double, 4>, 4> kChoose = {
 
 using Homogeneous = std::array<std::array<Vec4, 4>, 4>;
 
-Homogeneous homogeneous_at(const NurbsSurface& s, double u, double v) {
+Homogeneous derivatives_at(const NurbsSurface& s, double u, double v) {
   const BasisValues a = basis_at(s.degree_u, s.knots_u, u, 3);
   const BasisValues b = basis_at(s.degree_v, s.knots_v, v, 3);
   Homogeneous h{};
@@ -33,7 +33,7 @@ Homogeneous homogeneous_at(const NurbsSurface& s, double u, double v) {
 }  // namespace
 
 Partials partials_to_third(const NurbsSurface& surface, double u, double v) {
-  const Homogeneous h = homogeneous_at(surface, u, v);
+  const Homogeneous h = derivatives_at(surface, u, v);
   Partials s{};
   // numerator = weight times point, by the rule of Leibniz solved for the highest derivative
   for (std::size_t r = 0; r < 4; ++r) {

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "approximate_line.h"
+#include "network_curves.h"
 #include "obvid/surfacing/grid.h"
 
 namespace obvid {
@@ -257,12 +258,6 @@ class Approximation {
   Rows shape_;  // points of the surface at the parameters
   NurbsSurface surface_;
 };
-
-Result<void> check_tolerance(double tolerance) {
-  if (tolerance > 0.0 && std::isfinite(tolerance)) return {};
-  return fail({ErrorCode::kBadOption, fmt::format("tolerance {:g} is not above 0", tolerance), "",
-               "", -1, tolerance});
-}
 
 }  // namespace
 

@@ -119,7 +119,7 @@ Meeting meeting(const std::vector<Vec3>& a, const std::vector<Vec3>& b) {
   return turned < same ? Meeting{turned, true} : Meeting{same, false};
 }
 
-double length_of(const std::vector<Vec3>& points) {
+double polyline_length(const std::vector<Vec3>& points) {
   double length = 0.0;
   for (std::size_t i = 1; i < points.size(); ++i) length += norm(points[i] - points[i - 1]);
   return length;
@@ -165,7 +165,7 @@ std::vector<JointReport> joints_of(const SurfaceModel& model, double nearness) {
   std::vector<JointReport> joints;
   for (std::size_t a = 0; a < 4 * sides.size(); ++a) {
     const std::vector<Vec3>& one = sides[a / 4][a % 4];
-    if (length_of(one) <= nearness) continue;  // a pole is no border
+    if (polyline_length(one) <= nearness) continue;  // a pole is no border
     for (std::size_t b = a + 1; b < 4 * sides.size(); ++b) {
       const std::vector<Vec3>& two = sides[b / 4][b % 4];
       const double ends = std::min(norm(one.front() - two.front()), norm(one.front() - two.back()));

@@ -7,8 +7,8 @@
 namespace obvid {
 namespace {
 
-constexpr int kSamplesPerSpan = 8;
-constexpr double kRounding = 1e-6;  ///< of a line's largest curvature
+constexpr int kLineSamplesPerSpan = 8;
+constexpr double kCurvatureRounding = 1e-6;  ///< of a line's largest curvature
 
 std::vector<double> distinct(std::vector<double> knots) {
   knots.erase(std::unique(knots.begin(), knots.end()), knots.end());
@@ -22,8 +22,8 @@ std::vector<double> curvatures(const SpaceCurve& curve) {
   Vec3 mean;
   std::vector<double> values;
   for (std::size_t i = 0; i + 1 < knots.size(); ++i) {
-    const double step = (knots[i + 1] - knots[i]) / kSamplesPerSpan;
-    for (int k = 0; k < kSamplesPerSpan; ++k) {
+    const double step = (knots[i + 1] - knots[i]) / kLineSamplesPerSpan;
+    for (int k = 0; k < kLineSamplesPerSpan; ++k) {
       const SpaceJet jet = evaluate(curve, knots[i] + (k + 0.5) * step);
       const double speed = norm(jet.d1);
       if (!(speed > 0.0)) continue;
@@ -92,12 +92,12 @@ LineReport check_lines(const NurbsSurface& surface, std::size_t lines) {
     if (values.empty()) continue;
     double largest = 1.0 / std::max(size, 1e-300);  // flatter than the model is large: straight
     for (const double value : values) largest = std::max(largest, std::abs(value));
-    const std::size_t vertices = extrema(values, kRounding * largest);
+    const std::size_t vertices = extrema(values, kCurvatureRounding * largest);
     ++report.lines;
     report.monotone += vertices == 0 ? 1 : 0;
     report.vertices += vertices;
     report.most_vertices = std::max(report.most_vertices, vertices);
-    report.inflections += sign_changes(values, kRounding * largest);
+    report.inflections += sign_changes(values, kCurvatureRounding * largest);
   }
   return report;
 }

@@ -30,7 +30,7 @@ double length_between(const RationalBezier& piece, double a, double b) {
   return half * sum;
 }
 
-double length_of(const Piece& piece) {
+double stored_length(const Piece& piece) {
   if (const auto* line = std::get_if<LinePiece>(&piece)) return norm(line->end - line->start);
   if (const auto* arc = std::get_if<ArcPiece>(&piece)) return arc->length;
   if (const auto* clothoid = std::get_if<ClothoidPiece>(&piece)) return clothoid->length;
@@ -44,7 +44,7 @@ ContourPath::ContourPath(const Contour& contour) : pieces_(contour.pieces) {
   start_.push_back(0.0);
   for (const Piece& piece : pieces_) {
     Table table;
-    double length = length_of(piece);
+    double length = stored_length(piece);
     if (const auto* rational = std::get_if<RationalBezier>(&piece)) {
       length = 0.0;
       for (std::size_t i = 0; i <= kParts; ++i) {

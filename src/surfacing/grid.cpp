@@ -12,7 +12,7 @@
 namespace obvid {
 namespace {
 
-Result<void> check(const PointGrid& grid) {
+Result<void> check_grid(const PointGrid& grid) {
   if (grid.points.size() != grid.count_u * grid.count_v) {
     return fail({ErrorCode::kUsage,
                  fmt::format("{} points do not make {} rows of {}", grid.points.size(),
@@ -59,7 +59,7 @@ Lines lines_along(const PointGrid& grid, bool along_u) {
 }
 
 /// Each line's accumulated chords scaled to 1, averaged; lines that shrink to a point do not count.
-Result<std::vector<double>> averaged(const PointGrid& grid, bool along_u, Spread spread) {
+Result<std::vector<double>> averaged_chords(const PointGrid& grid, bool along_u, Spread spread) {
   const Lines lines = lines_along(grid, along_u);
   std::vector<double> sum(lines.length, 0.0), at(lines.length, 0.0);
   std::size_t counted = 0;
@@ -115,9 +115,9 @@ std::vector<double> uniform_knots(std::size_t count, std::size_t degree) {
 }  // namespace
 
 Result<std::vector<double>> grid_parameters(const PointGrid& grid, bool along_u, Spread spread) {
-  if (auto good = check(grid); !good) return fail(good.error());
+  if (auto good = check_grid(grid); !good) return fail(good.error());
   if (spread == Spread::kUniform) return uniform(along_u ? grid.count_u : grid.count_v);
-  return averaged(grid, along_u, spread);
+  return averaged_chords(grid, along_u, spread);
 }
 
 Result<NurbsSurface> interpolated(const PointGrid& grid, Spread spread) {
@@ -139,7 +139,7 @@ Result<NurbsSurface> interpolated(const PointGrid& grid, Spread spread) {
 }
 
 Result<NurbsSurface> from_control_points(const PointGrid& grid, int degree_u, int degree_v) {
-  if (auto good = check(grid); !good) return fail(good.error());
+  if (auto good = check_grid(grid); !good) return fail(good.error());
   if (std::min(degree_u, degree_v) < 1 || std::max(degree_u, degree_v) > kMaxSurfaceDegree) {
     return fail({ErrorCode::kBadOption,
                  fmt::format("degrees {} and {} are not both in 1 to {}", degree_u, degree_v,

@@ -132,12 +132,12 @@ std::vector<double> refined(const std::vector<Wanted>& wanted,
 }
 
 std::vector<double> first_nodes(const std::vector<double>& parameters) {
-  constexpr std::size_t kParts = 4;  // between crossings: enough to see what happens there
+  constexpr std::size_t kPartsOfGap = 4;  // between crossings: enough to see what happens there
   std::vector<double> nodes{parameters.front()};
   for (std::size_t j = 0; j + 1 < parameters.size(); ++j) {
     const Range gap{parameters[j], parameters[j + 1]};
-    for (std::size_t i = 1; i <= kParts; ++i) {
-      nodes.push_back(gap.at(static_cast<double>(i) / static_cast<double>(kParts)));
+    for (std::size_t i = 1; i <= kPartsOfGap; ++i) {
+      nodes.push_back(gap.at(static_cast<double>(i) / static_cast<double>(kPartsOfGap)));
     }
   }
   return nodes;

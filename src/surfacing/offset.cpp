@@ -11,9 +11,9 @@
 namespace obvid {
 namespace {
 
-constexpr double kSettled = 1e-3;         // part of the greatest curvatures
-constexpr std::size_t kFirstSteps = 32;   // of the whole raster, each direction, and
-constexpr std::size_t kFewestInSpan = 2;  // in each span
+constexpr double kSettledCurvature = 1e-3;  // part of the greatest curvatures
+constexpr std::size_t kFirstSteps = 32;     // of the whole raster, each direction, and
+constexpr std::size_t kFewestInSpan = 2;    // in each span
 // points of a refined raster: the first refinement takes a second or two, a surface of unbounded
 // curvature, which never settles, less than that
 constexpr std::size_t kMostPoints = 1'000'000, kMostPointsOnce = 4'000'000;
@@ -60,7 +60,9 @@ Raster raster_of(const Bending& bending, std::vector<double> us, std::vector<dou
   return raster;
 }
 
-bool settled(double before, double now) { return std::abs(now - before) <= kSettled * now; }
+bool settled(double before, double now) {
+  return std::abs(now - before) <= kSettledCurvature * now;
+}
 
 Raster settled_raster(const NurbsSurface& surface, const Bending& bending, double distance) {
   const std::size_t spans_u = span_count(surface.knots_u), spans_v = span_count(surface.knots_v);

@@ -15,7 +15,7 @@ constexpr double kFlat = 1e-10;
 
 /// Most that rounding adds to second derivatives, part of coordinates / span^2: some units in the
 /// last place of sums of 16 and of quotients of weights.
-constexpr double kRounding = 1e-14;
+constexpr double kBasisRounding = 1e-14;
 
 double span_length(int degree, const std::vector<double>& knots, double u) {
   const std::size_t k = span_at(degree, knots, u);
@@ -40,7 +40,7 @@ Bending::Sides Bending::at(double u, double v) const {
   if (!(most > flat_)) return {};
   const double hu = across_u * span_length(surface_.degree_u, surface_.knots_u, u);
   const double hv = across_v * span_length(surface_.degree_v, surface_.knots_v, v);
-  const double rounding = kRounding * coordinates_ * (1.0 / (hu * hu) + 1.0 / (hv * hv));
+  const double rounding = kBasisRounding * coordinates_ * (1.0 / (hu * hu) + 1.0 / (hv * hv));
   // a lower bound, so that nothing climbs on rounding, which has no bound at poles
   const auto sure = [&](double k) { return k > flat_ && k > rounding ? k - rounding : 0.0; };
   return {sure(bent.k1), sure(-bent.k2)};

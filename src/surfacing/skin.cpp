@@ -17,7 +17,7 @@
 namespace obvid {
 namespace {
 
-Result<void> check(const std::vector<SkinSection>& sections, const SkinOptions& options) {
+Result<void> check_sections(const std::vector<SkinSection>& sections, const SkinOptions& options) {
   if (!(options.tolerance > 0.0)) {
     return fail({ErrorCode::kBadOption, "the tolerance must be greater than 0", "", "", -1,
                  options.tolerance});
@@ -112,7 +112,7 @@ NurbsSurface surface_of(const Net& net, const Collocation& across) {
 
 Result<Skin> skin(const std::vector<SkinSection>& given, const SkinOptions& options,
                   const Progress& progress) {
-  if (auto good = check(given, options); !good) return fail(good.error());
+  if (auto good = check_sections(given, options); !good) return fail(good.error());
   const auto tell = [&](const char* stage, double part) {
     if (progress) progress(stage, part);
   };

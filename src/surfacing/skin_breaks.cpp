@@ -10,7 +10,7 @@
 namespace obvid {
 namespace {
 
-constexpr int kSamples = 16;             ///< steps of a span at which it is compared
+constexpr int kBreakSamples = 16;        ///< steps of a span at which it is compared
 constexpr double kShare = 0.1;           ///< of the change of curvature over a span
 constexpr double kShareAtVertex = 1e-3;  ///< the same where the contour has a vertex in the span
 constexpr double kKept = 1e-6;  ///< of the curvature: for circular stretches, which do not change
@@ -54,9 +54,9 @@ Following following(const SectionCurve& section, double a, double b, double tole
   if (section.is_point()) return Following::kWhole;
   const double length = b - a;
   const std::array<Vec3, 6> piece = quintic(section.at(a), section.at(b), length);
-  std::array<double, kSamples + 1> wanted{}, found{};
-  for (int k = 0; k <= kSamples; ++k) {
-    const double part = static_cast<double>(k) / kSamples;
+  std::array<double, kBreakSamples + 1> wanted{}, found{};
+  for (int k = 0; k <= kBreakSamples; ++k) {
+    const double part = static_cast<double>(k) / kBreakSamples;
     const Hermite here = evaluate(piece, part, length), there = section.at(a + part * length);
     if (norm(here.point - there.point) > tolerance) return Following::kNot;
     const auto i = static_cast<std::size_t>(k);

@@ -56,7 +56,7 @@ std::size_t point_at(const MeasuredSection& section, double s) {
 }
 
 /// Shares of arc length between the first and the last mark, averaged over the sections.
-std::vector<double> averaged(const std::vector<std::vector<double>>& marks) {
+std::vector<double> averaged_marks(const std::vector<std::vector<double>>& marks) {
   std::vector<double> sum;
   double counted = 0.0;
   for (const std::vector<double>& s : marks) {
@@ -75,7 +75,7 @@ std::vector<double> averaged(const std::vector<std::vector<double>>& marks) {
 /// are one.
 std::optional<Stretch> stretch_of(std::vector<std::vector<double>> marks) {
   Stretch stretch{std::move(marks), {}};
-  stretch.at = averaged(stretch.marks);
+  stretch.at = averaged_marks(stretch.marks);
   if (stretch.at.empty()) return std::nullopt;
   std::vector<std::size_t> kept = {0};
   for (std::size_t i = 1; i < stretch.at.size(); ++i) {

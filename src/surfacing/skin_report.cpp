@@ -9,7 +9,7 @@
 namespace obvid {
 namespace {
 
-constexpr int kSamplesPerSpan = 16;
+constexpr int kReportSamplesPerSpan = 16;
 
 /// Largest fall of curvature against the direction in which the contour's own curvature changes.
 class RippleMeter {
@@ -87,8 +87,8 @@ std::size_t waves_found(const NurbsSurface& surface, double u, const std::vector
                         double tolerance) {
   WaveCounter counter(tolerance);
   for (std::size_t j = 0; j + 1 < v.size(); ++j) {
-    const double step = (v[j + 1] - v[j]) / kSamplesPerSpan;
-    for (int k = 0; k < kSamplesPerSpan; ++k) {
+    const double step = (v[j + 1] - v[j]) / kReportSamplesPerSpan;
+    for (int k = 0; k < kReportSamplesPerSpan; ++k) {
       const SurfaceJet jet = evaluate(surface, u, v[j] + (k + 0.5) * step);
       const Vec3 normal = unit(cross(jet.du, jet.dv));
       const double speed = dot(jet.dv, jet.dv);
@@ -124,8 +124,8 @@ void add_section_report(const SkinStretch& stretch, const MeasuredSection& measu
   const SpaceCurve made = isocurve_at_v(stretch.surface, v);
   RippleMeter meter;
   for (std::size_t i = 0; i + 1 < stretch.breaks.size(); ++i) {
-    const double step = (stretch.breaks[i + 1] - stretch.breaks[i]) / kSamplesPerSpan;
-    for (int j = 0; j < kSamplesPerSpan; ++j) {
+    const double step = (stretch.breaks[i + 1] - stretch.breaks[i]) / kReportSamplesPerSpan;
+    for (int j = 0; j < kReportSamplesPerSpan; ++j) {
       const double u = stretch.breaks[i] + (j + 0.5) * step;
       const SpaceJet jet = evaluate(made, u);
       const Hermite wanted = section.at(u);

@@ -8,7 +8,7 @@ namespace obvid::toolpath {
 namespace {
 
 /// Triangles that stand upright within this (z of the unit normal) touch with edges only.
-constexpr double kUpright = 1e-9;
+constexpr double kUprightTriangle = 1e-9;
 constexpr int kHalvings = 40;  // of the part of an edge under the cutter: below rounding
 
 bool raise(Rest& rest, double tip_z, Vec3 point, int feature) {
@@ -74,7 +74,7 @@ bool inside(const Triangle& t, Vec2 p, std::array<double, 3>& w) {
 
 bool on_inside(const CutterShape& cutter, Vec2 axis, const Triangle& t, Rest& rest) {
   Vec3 n = unit(cross(t[1] - t[0], t[2] - t[0]));
-  if (std::abs(n.z) < kUpright) return false;
+  if (std::abs(n.z) < kUprightTriangle) return false;
   if (n.z < 0.0) n = -n;
   const Vec2 touch = axis - cutter.offset(n);
   std::array<double, 3> w{};

@@ -7,7 +7,7 @@
 namespace obvid::toolpath {
 namespace {
 
-constexpr double kLeastStep = 1e-4;  // of the range of the parameter: poles, folds
+constexpr double kLeastParameterStep = 1e-4;  // of the range of the parameter: poles, folds
 
 /// To the next line of parameters: as far as the narrowest place allows.
 double step_of(const Part& part, const StepRule& rule, const Pass& pass, double length) {
@@ -24,7 +24,7 @@ double step_of(const Part& part, const StepRule& rule, const Pass& pass, double 
       if (speed > 0.0) step = std::min(step, rule.across(part, p.place, along) / speed);
     }
   }
-  return std::max(step, kLeastStep * length);
+  return std::max(step, kLeastParameterStep * length);
 }
 
 }  // namespace

@@ -10,7 +10,7 @@ namespace obvid::toolpath {
 namespace {
 
 constexpr double kStationOfRadius = 0.25;  // looked at before refinement
-constexpr int kDeepest = 40;               // halvings between stations
+constexpr int kMostHalvings = 40;          // halvings between stations
 constexpr double kStraightRise = 1.5;      // shares of the tolerance, of steps with a known middle
 constexpr double kStraightBend = 0.25;     // of the share
 constexpr std::size_t kIsoSteps = 64;      // to guess the length of a line of parameters
@@ -147,12 +147,12 @@ std::vector<double> Walker::stations(const Rail& rail) const {
 void Walker::fill(Step& step, const std::optional<PassPoint>& a, double ta,
                   const std::optional<PassPoint>& b, double tb, int depth) {
   if ((!a && !b) || points_ > most_points_) return;
-  bool done = depth >= kDeepest;
+  bool done = depth >= kMostHalvings;
   if (a && b) {
     done = done || near_enough(a->place.tip, b->place.tip);
   } else {
     const double share = kStepShare * part_.tolerance();
-    const double parts = static_cast<double>(std::size_t{1} << std::min(depth, kDeepest));
+    const double parts = static_cast<double>(std::size_t{1} << std::min(depth, kMostHalvings));
     done = done || kStationOfRadius * part_.cutter().radius / parts <= share;
   }
   if (!done) {

@@ -22,7 +22,7 @@ using namespace toolpath;
 constexpr int kRounds = 4;               // of passes put between others
 constexpr double kMeasureSpacing = 0.5;  // of the level step, along passes
 constexpr double kMeasureOfRadius = 0.25;
-constexpr double kMargin = 2.0;       // measured places that an added pass goes beyond both ends
+constexpr double kPassMargin = 2.0;   // measured places that an added pass goes beyond both ends
 constexpr double kDefaultSafe = 0.5;  // diameters above the highest point
 constexpr double kMostAngle = 1e6;    // degrees: beyond, the angle is lost in rounding
 
@@ -150,7 +150,7 @@ class Filler {
     for (std::size_t i = 1; i < rail.axis.size(); ++i) {
       length += norm(rail.axis[i] - rail.axis[i - 1]);
     }
-    const double margin = length > 0.0 ? kMargin * spacing_ / length : 1.0;
+    const double margin = length > 0.0 ? kPassMargin * spacing_ / length : 1.0;
     rail.from = std::max({gap.from - margin, 0.0});
     rail.to = std::min({gap.to + margin, 1.0});
     return walker_.walk(rail);

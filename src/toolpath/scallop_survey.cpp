@@ -12,12 +12,12 @@ namespace {
 
 constexpr double kRasterOfRadius = 1.0 / 16.0;
 constexpr double kRasterOfStep = 0.25;
-constexpr double kWithin = 0.02;      // of the scallop: stays between points of a pass at most
-constexpr double kLimit = 0.97;       // of the scallop: the rest is for what the raster misses
-constexpr double kMargin = 3.0;       // nodes of the raster that a pass goes beyond high places
-constexpr double kTogether = 2.0;     // diameters: passes nearer to each other become one
-constexpr double kLeastStep = 0.002;  // of the level step: nearer passes help no more
-constexpr double kLeastLine = 1e-7;   // of the range of parameters, likewise
+constexpr double kWithin = 0.02;          // of the scallop: stays between points of a pass at most
+constexpr double kLimit = 0.97;           // of the scallop: the rest is for what the raster misses
+constexpr double kRasterMargin = 3.0;     // nodes of the raster that a pass goes beyond high places
+constexpr double kTogether = 2.0;         // diameters: passes nearer to each other become one
+constexpr double kLeastPassStep = 0.002;  // of the level step: nearer passes help no more
+constexpr double kLeastLine = 1e-7;       // of the range of parameters, likewise
 
 double spacing_of(const CutterShape& cutter, const StepRule& rule) {
   return std::min(kRasterOfRadius * cutter.radius, kRasterOfStep * rule.level());
@@ -76,7 +76,7 @@ std::optional<ScallopSurvey::Sides> ScallopSurvey::sides(const Family& family,
       out.high = i;
     }
   }
-  double least = kLeastStep * level_;
+  double least = kLeastPassStep * level_;
   if (of_parameters_) {
     const NurbsSurface& surface = part_.model().patches[place.patch].surface;
     least = kLeastLine * (along_v_ ? domain_u(surface) : domain_v(surface)).length();
@@ -130,7 +130,7 @@ std::vector<ScallopSurvey::Wanted> ScallopSurvey::wanted(const Family& family) {
     for (const Place& place : spots) ts.push_back(across(place).t);
     std::sort(ts.begin(), ts.end());
     const double whole = std::max(length(rail), part_.cutter().radius);
-    const double margin = kMargin * stock_.spacing() / whole;
+    const double margin = kRasterMargin * stock_.spacing() / whole;
     const double together = kTogether * 2.0 * part_.cutter().radius / whole;
     for (std::size_t i = 0; i < ts.size();) {
       std::size_t end = i + 1;

@@ -13,7 +13,7 @@ namespace {
 
 constexpr double kMostNodes = 4e6;  // some 130 MB; larger parts get a coarser raster
 
-constexpr double kRounding = 1e-6;  // of a cell: else nodes could stand on the border
+constexpr double kCellRounding = 1e-6;  // of a cell: else nodes could stand on the border
 
 /// Height of a disc over a node `p` on the way from `a` to `b`, at its lowest; infinite: never over
 /// it.
@@ -42,7 +42,7 @@ Stock::Stock(const Part& part, double spacing, double within) : part_(part), wit
   const double dx = high.x - low.x, dy = high.y - low.y;
   spacing_ = std::max({spacing, std::sqrt(dx * dy / kMostNodes), (dx + dy) / kMostNodes});
   const auto cells = [&](double size) {
-    return static_cast<std::size_t>(std::max(1.0, std::ceil(size / spacing_ - kRounding)));
+    return static_cast<std::size_t>(std::max(1.0, std::ceil(size / spacing_ - kCellRounding)));
   };
   nx_ = cells(dx);
   ny_ = cells(dy);

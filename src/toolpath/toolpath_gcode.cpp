@@ -16,7 +16,7 @@ namespace {
 
 constexpr int kLeastDecimals = 3, kMostDecimals = 6;
 constexpr double kDigitsOfTolerance = 0.1;  // of the tolerance, what the last digit may be worth
-constexpr double kRounding = 1e-9;          // a tolerance of 0.001 asks for 4, not for 4.0000000001
+constexpr double kDigitRounding = 1e-9;     // a tolerance of 0.001 asks for 4, not for 4.0000000001
 
 /// Comments end at ")": nothing of the kind in a name, and nothing but ASCII.
 std::string comment_of(const std::string& name) {
@@ -84,7 +84,7 @@ Result<ToolpathGcode> toolpath_gcode(const Toolpath& path, const ToolpathGcodeOp
   }
   const double tolerance = path.tolerance * scale;
   const int least = kLeastDecimals + (path.units == "in" ? 1 : 0);
-  const double digits = std::ceil(-std::log10(kDigitsOfTolerance * tolerance) - kRounding);
+  const double digits = std::ceil(-std::log10(kDigitsOfTolerance * tolerance) - kDigitRounding);
   const int decimals =
       options.decimals.value_or(static_cast<int>(std::clamp<double>(digits, least, kMostDecimals)));
   const double within = toolpath::kPrintShare * tolerance - std::pow(10.0, -decimals);

@@ -19,7 +19,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr const char* kFile = "OBVID_TEST_FACES_FILE";
+constexpr const char* kFacesFile = "OBVID_TEST_FACES_FILE";
 constexpr const char* kModel = "OBVID_TEST_FACES_MODEL";
 constexpr const char* kUnits = "OBVID_TEST_FACES_UNITS";
 
@@ -61,7 +61,8 @@ const SurfacePatch& nearest(const NurbsSurface& surface, const SurfaceModel& mod
 
 /// Runs in the fresh process only; the tests below start it with the name of the file.
 TEST(FaceReader, FindsTheSurfacesOfAnotherProcess) {
-  const char *file = std::getenv(kFile), *name = std::getenv(kModel), *units = std::getenv(kUnits);
+  const char *file = std::getenv(kFacesFile), *name = std::getenv(kModel),
+             *units = std::getenv(kUnits);
   if (file == nullptr || name == nullptr || units == nullptr) {
     GTEST_SKIP() << "the next tests start this one";
   }
@@ -93,8 +94,8 @@ TEST(FaceReader, FindsTheSurfacesOfAnotherProcess) {
 /// Whether a new process reads the model out of the file.
 void expect_found(const fs::path& file, const SurfaceModel& model) {
   std::ostringstream command;
-  command << kFile << "='" << file.string() << "' " << kModel << "=" << model.name << " " << kUnits
-          << "=" << model.units << " " << fs::read_symlink("/proc/self/exe").string()
+  command << kFacesFile << "='" << file.string() << "' " << kModel << "=" << model.name << " "
+          << kUnits << "=" << model.units << " " << fs::read_symlink("/proc/self/exe").string()
           << " --gtest_filter=FaceReader.* 2>&1 </dev/null";
   std::string out;
   FILE* pipe = ::popen(command.str().c_str(), "r");

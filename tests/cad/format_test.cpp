@@ -18,8 +18,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr CadFormat kFormats[] = {CadFormat::kStepAp214, CadFormat::kStepAp242, CadFormat::kIges,
-                                  CadFormat::kBrep};
+constexpr CadFormat kAllFormats[] = {CadFormat::kStepAp214, CadFormat::kStepAp242, CadFormat::kIges,
+                                     CadFormat::kBrep};
 
 class CadFormats : public testing::Test {
  protected:
@@ -97,7 +97,7 @@ TEST_F(CadFormats, EllipsesStayEllipsesBothWays) {
   for (const bool backwards : {false, true}) {
     const CadCurve curve{"ellipse", std::vector<Piece>{quarter(backwards)}};
     EXPECT_NE(text_of(curve, CadFormat::kStepAp214).find("ELLIPSE("), std::string::npos);
-    for (const CadFormat format : kFormats) {
+    for (const CadFormat format : kAllFormats) {
       const auto drawing = read(text_of(curve, format));
       ASSERT_TRUE(drawing) << to_line(drawing.error());
       ASSERT_EQ(drawing->curves.size(), 1U);
@@ -164,7 +164,7 @@ TEST_F(CadFormats, HugeAndTinyNumbersStayInTheirPlace) {
   NurbsCurve curve = cubic();
   curve.points[1].y = -1.0 / 3.0 * 1e-120;
   curve.points[2].y = -1.0 / 3.0 * 1e-5;
-  for (const CadFormat format : kFormats) {
+  for (const CadFormat format : kAllFormats) {
     const auto drawing = read(text_of({"cubic", curve}, format));
     ASSERT_TRUE(drawing) << to_line(drawing.error());
     EXPECT_EQ(drawing->curves.size(), 1U);
@@ -179,7 +179,7 @@ TEST_F(CadFormats, DamagedFilesEndAtOnce) {
                                      ArcPiece{{2, 0}, {3, 1}, 0.0, 1.0, turn},
                                      LinePiece{{3, 1}, {3, 4}}};
   const auto begin = std::chrono::steady_clock::now();
-  for (const CadFormat format : kFormats) {
+  for (const CadFormat format : kAllFormats) {
     const std::string text = text_of({"outline", pieces}, format);
     for (std::size_t k = 0; k < kCuts; ++k) {
       const auto drawing = read(text.substr(0, text.size() * k / kCuts));

@@ -12,6 +12,7 @@
 #include <sstream>
 #include <string>
 
+#include "command_output.h"
 #include "faces_models.h"
 #include "obvid/cad/cad.h"
 
@@ -20,7 +21,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-struct Verdict {
+struct FaceVerdict {
   int valid = 0;
   std::string kind;
   std::size_t faces = 0, open_edges = 0;
@@ -28,29 +29,17 @@ struct Verdict {
   Vec3 low, high;
 };
 
-struct Format {
+struct FileEnding {
   CadFormat format;
   const char* ending;
 };
-constexpr Format kFormats[] = {{CadFormat::kStepAp214, ".step"},
-                               {CadFormat::kStepAp242, ".stp"},
-                               {CadFormat::kIges, ".igs"},
-                               {CadFormat::kBrep, ".brep"}};
-
-std::string output_of(const std::string& command) {
-  std::string out;
-  FILE* pipe = ::popen(command.c_str(), "r");
-  if (pipe == nullptr) return out;
-  char buffer[4096];
-  for (std::size_t n = 0; (n = std::fread(buffer, 1, sizeof buffer, pipe)) > 0;) {
-    out.append(buffer, n);
-  }
-  ::pclose(pipe);
-  return out;
-}
+constexpr FileEnding kFreecadFormats[] = {{CadFormat::kStepAp214, ".step"},
+                                          {CadFormat::kStepAp242, ".stp"},
+                                          {CadFormat::kIges, ".igs"},
+                                          {CadFormat::kBrep, ".brep"}};
 
 /// Points all over the patches, none of them a pole.
-std::string points_json(const SurfaceModel& model, double scale) {
+std::string patch_points_json(const SurfaceModel& model, double scale) {
   constexpr int kEach = 5;
   std::ostringstream out;
   out.precision(17);
@@ -84,7 +73,7 @@ class FacesInFreecad : public testing::Test {
     if (!folder_.empty()) fs::remove_all(folder_);
   }
 
-  void write(const SurfaceModel& model, const Format& format, double millimetres) {
+  void write(const SurfaceModel& model, const FileEnding& format, double millimetres) {
     CadWriteOptions options;
     options.format = format.format;
     const auto text = cad_surface_text(model, options);
@@ -98,22 +87,22 @@ class FacesInFreecad : public testing::Test {
   void add(const fs::path& file, const SurfaceModel& model, double scale) {
     job_ << (written_++ > 0 ? ",\n" : "[") << "{\"file\": \"" << file.string()
          << "\", \"size\": " << scale * size_of(model) << ", \"points\": ["
-         << points_json(model, scale) << "]}";
+         << patch_points_json(model, scale) << "]}";
   }
 
-  std::map<std::string, Verdict> judged() {
+  std::map<std::string, FaceVerdict> judged() {
     const fs::path list = folder_ / "judge.json";
     std::ofstream(list) << job_.str() << "]";
     const std::string out =
         output_of("HOME=" + folder_.string() + " OBVID_JUDGE=" + list.string() + " freecadcmd " +
                   OBVID_SOURCE_DIR + "/tests/cad/freecad_faces_judge.py 2>&1 </dev/null");
     EXPECT_NE(out.find("JUDGE DONE"), std::string::npos) << out;
-    std::map<std::string, Verdict> verdicts;
+    std::map<std::string, FaceVerdict> verdicts;
     std::istringstream lines(out);
     std::string word, name;
     while (lines >> word) {
       if (word != "JUDGED") continue;
-      Verdict v;
+      FaceVerdict v;
       lines >> name >> v.valid >> v.kind >> v.faces >> v.open_edges >> v.area >> v.volume >>
           v.distance >> v.low.x >> v.low.y >> v.low.z >> v.high.x >> v.high.y >> v.high.z;
       verdicts[name] = v;
@@ -131,7 +120,7 @@ class FacesInFreecad : public testing::Test {
 };
 
 /// The box that FreeCAD finds holds our points, and is not larger than that of the control points.
-void expect_around(const Verdict& v, const SurfaceModel& model, const std::string& name) {
+void expect_around(const FaceVerdict& v, const SurfaceModel& model, const std::string& name) {
   const double room = 1e-6 * size_of(model);  // FreeCAD widens boxes by tolerances
   for (const SurfacePatch& patch : model.patches) {
     const std::vector<double> us = {domain_u(patch.surface).from, domain_u(patch.surface).at(0.3),
@@ -153,14 +142,14 @@ void expect_around(const Verdict& v, const SurfaceModel& model, const std::strin
 TEST_F(FacesInFreecad, EveryPatchIsAValidFaceInEveryFormat) {
   const std::vector<KnownModel> models = known_models();
   for (const KnownModel& one : models) {
-    for (const Format& format : kFormats) write(one.model, format, 1.0);
+    for (const FileEnding& format : kFreecadFormats) write(one.model, format, 1.0);
   }
   const auto verdicts = judged();
   for (const KnownModel& one : models) {
-    for (const Format& format : kFormats) {
+    for (const FileEnding& format : kFreecadFormats) {
       const std::string name = one.model.name + format.ending;
       ASSERT_EQ(verdicts.count(name), 1U) << name;
-      const Verdict& v = verdicts.at(name);
+      const FaceVerdict& v = verdicts.at(name);
       EXPECT_EQ(v.valid, 1) << name;
       EXPECT_EQ(v.faces, one.faces) << name;
       EXPECT_LE(v.distance, 1e-9) << name;
@@ -185,7 +174,7 @@ TEST_F(FacesInFreecad, UnitsKeepTheLengths) {
   for (const auto& [unit, millimetres] : units) {
     KnownModel one = torus_model();
     one.model.name = one.model.units = unit;
-    for (const Format& format : kFormats) write(one.model, format, millimetres);
+    for (const FileEnding& format : kFreecadFormats) write(one.model, format, millimetres);
   }
   for (const auto& [name, v] : judged()) {
     EXPECT_EQ(v.valid, 1) << name;

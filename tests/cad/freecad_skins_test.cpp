@@ -15,6 +15,7 @@
 #include <string>
 #include <vector>
 
+#include "command_output.h"
 #include "faces_fixture.h"
 #include "obvid/io/read_points.h"
 #include "obvid/io/read_sections.h"
@@ -28,17 +29,6 @@ namespace fs = std::filesystem;
 
 std::string public_file(const std::string& path) {
   return (fs::path(OBVID_SHARED_DATA) / path).string();
-}
-
-std::string output_of(const std::string& command) {
-  std::string out;
-  FILE* pipe = ::popen(command.c_str(), "r");
-  if (pipe == nullptr) return out;
-  char buffer[4096];
-  for (std::size_t n = 0; (n = std::fread(buffer, 1, sizeof buffer, pipe)) > 0;)
-    out.append(buffer, n);
-  ::pclose(pipe);
-  return out;
 }
 
 class SkinsInFreecad : public FaceFiles {

@@ -13,6 +13,7 @@
 #include <utility>
 #include <vector>
 
+#include "command_output.h"
 #include "obvid/io/read_points.h"
 #include "obvid/pipeline/export.h"
 #include "obvid/pipeline/fit.h"
@@ -62,7 +63,7 @@ std::vector<Case> cases() {
   return out;
 }
 
-double size_of(const Contour& c) {
+double diagonal_of(const Contour& c) {
   Vec2 low = c.points.front(), high = low;
   for (const Vec2 p : c.points) {
     low = {std::min(low.x, p.x), std::min(low.y, p.y)};
@@ -72,7 +73,7 @@ double size_of(const Contour& c) {
 }
 
 /// 1,000 points of the contour with their curvatures, as JSON; lengths times `scale`.
-std::string points_json(const Contour& contour, double scale) {
+std::string contour_points_json(const Contour& contour, double scale) {
   std::ostringstream out;
   out.precision(17);
   const int each = 1000 / static_cast<int>(contour.pieces.size()) + 1;
@@ -86,18 +87,6 @@ std::string points_json(const Contour& contour, double scale) {
     }
   }
   return out.str();
-}
-
-std::string output_of(const std::string& command) {
-  std::string out;
-  FILE* pipe = ::popen(command.c_str(), "r");
-  if (pipe == nullptr) return out;
-  char buffer[4096];
-  for (std::size_t n = 0; (n = std::fread(buffer, 1, sizeof buffer, pipe)) > 0;) {
-    out.append(buffer, n);
-  }
-  ::pclose(pipe);
-  return out;
 }
 
 class InFreecad : public testing::Test {
@@ -135,8 +124,8 @@ TEST_F(InFreecad, EveryContourIsOneEdgeWithItsCurvature) {
       std::ofstream(file, std::ios::binary) << made->files.front().text;
       const double scale = format == FileFormat::kBrep ? 1.0 : one.millimetres;
       job << (files++ > 0 ? ",\n" : "") << "{\"file\": \"" << file.string()
-          << "\", \"size\": " << scale * size_of(one.contour) << ", \"points\": ["
-          << points_json(one.contour, scale) << "]}";
+          << "\", \"size\": " << scale * diagonal_of(one.contour) << ", \"points\": ["
+          << contour_points_json(one.contour, scale) << "]}";
     }
   }
   job << "]";

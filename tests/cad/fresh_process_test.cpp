@@ -25,7 +25,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr const char* kFile = "OBVID_TEST_CAD_FILE";
+constexpr const char* kContourFile = "OBVID_TEST_CAD_FILE";
 constexpr const char* kContour = "OBVID_TEST_CAD_CONTOUR";
 constexpr const char* kMillimetres = "OBVID_TEST_CAD_MILLIMETRES";
 
@@ -36,7 +36,7 @@ std::string content_of(const std::string& path) {
   return text.str();
 }
 
-double size_of(const Contour& contour) {
+double size_from_start(const Contour& contour) {
   double size = 0.0;
   for (const Vec2 p : contour.points) size = std::max(size, norm(p - contour.points.front()));
   return size;
@@ -62,7 +62,7 @@ int turns(const std::vector<double>& values, double noise) {
 
 /// Runs in the fresh process only; the test behind it starts it with the names of the files.
 TEST(CadReader, FindsTheContourOfAnotherProcess) {
-  const char *file = std::getenv(kFile), *stored = std::getenv(kContour);
+  const char *file = std::getenv(kContourFile), *stored = std::getenv(kContour);
   if (file == nullptr || stored == nullptr) GTEST_SKIP() << "the next test starts this one";
   const double scale = std::atof(std::getenv(kMillimetres));
   const auto expected = contour_from_json(content_of(stored), "contour");
@@ -90,7 +90,7 @@ TEST(CadReader, FindsTheContourOfAnotherProcess) {
       difference = std::max(difference, std::abs(before.back() - after.back()));
     }
   }
-  EXPECT_LE(distance, 1e-9 * scale * size_of(expected->contour));
+  EXPECT_LE(distance, 1e-9 * scale * size_from_start(expected->contour));
   EXPECT_LE(difference, 1e-6 * largest);
   EXPECT_EQ(turns(after, 1e-8 * largest), turns(before, 1e-8 * largest));
   EXPECT_EQ(audit(read, "mm").continuity, 2);
@@ -114,8 +114,8 @@ class FreshProcess : public testing::Test {
     const fs::path stored = folder_ / "contour.json";
     std::ofstream(stored, std::ios::binary) << contour_to_json({contour, {}, {}});
     std::ostringstream command;
-    command << kFile << "=" << file.string() << " " << kContour << "=" << stored.string() << " "
-            << kMillimetres << "=" << millimetres << " "
+    command << kContourFile << "=" << file.string() << " " << kContour << "=" << stored.string()
+            << " " << kMillimetres << "=" << millimetres << " "
             << fs::read_symlink("/proc/self/exe").string()
             << " --gtest_filter=CadReader.* 2>&1 </dev/null";
     std::string out;
@@ -149,7 +149,7 @@ class FreshProcess : public testing::Test {
   fs::path folder_;
 };
 
-Contour fitted(PointSeries series, FitJob job, const std::string& units) {
+Contour fitted_in(PointSeries series, FitJob job, const std::string& units) {
   auto made = fit(series, job);
   EXPECT_TRUE(made) << to_line(made.error());
   if (!made) return {};
@@ -170,17 +170,17 @@ TEST_F(FreshProcess, FindsContoursOfEveryCarrierThatIsOneCurve) {
   for (const Carrier carrier : {Carrier::kSpiral, Carrier::kConics, Carrier::kBspline}) {
     FitJob job;
     job.carrier = carrier;
-    expect_round_trips(fitted(series10(1.0, {}), job, "mm"), 1.0, to_string(carrier));
+    expect_round_trips(fitted_in(series10(1.0, {}), job, "mm"), 1.0, to_string(carrier));
   }
 }
 
 TEST_F(FreshProcess, FindsSmallContoursInMetresAndInches) {
-  expect_round_trips(fitted(series10(1e-3, {}), {}, "m"), 1000.0, "metres");
-  expect_round_trips(fitted(series10(1.0 / 25.4, {}), {}, "in"), 25.4, "inches");
+  expect_round_trips(fitted_in(series10(1e-3, {}), {}, "m"), 1000.0, "metres");
+  expect_round_trips(fitted_in(series10(1.0 / 25.4, {}), {}, "in"), 25.4, "inches");
 }
 
 TEST_F(FreshProcess, FindsContoursFarFromTheOrigin) {
-  expect_round_trips(fitted(series10(1.0, {31250.0, -87500.0}), {}, "mm"), 1.0, "far");
+  expect_round_trips(fitted_in(series10(1.0, {31250.0, -87500.0}), {}, "mm"), 1.0, "far");
 }
 
 TEST_F(FreshProcess, FindsAnAirfoilAsPrinted) {
@@ -188,7 +188,7 @@ TEST_F(FreshProcess, FindsAnAirfoilAsPrinted) {
   ASSERT_TRUE(airfoil);
   FitJob job;
   job.noise_from_rounding = true;
-  expect_round_trips(fitted(*airfoil, job, "m"), 1000.0, "airfoil");
+  expect_round_trips(fitted_in(*airfoil, job, "m"), 1000.0, "airfoil");
 }
 
 }  // namespace

@@ -10,6 +10,7 @@
 #include <numbers>
 #include <sstream>
 
+#include "../common/ten_points.h"
 #include "obvid/cad/cad.h"
 #include "obvid/curve/bspline.h"
 #include "obvid/curve/joined_nurbs.h"
@@ -21,10 +22,6 @@ namespace obvid {
 namespace {
 
 namespace fs = std::filesystem;
-
-const std::vector<Vec2> kReference = {
-    {0, 0},          {0.21, -5.28},  {-5.11, -10.13}, {-20.48, -7.65}, {-28.68, 16.23},
-    {-13.87, 40.95}, {17.95, 55.28}, {54.24, 53.04},  {100.94, 36.19}, {230.38, -50.82}};
 
 class CadFiles : public testing::Test {
  protected:
@@ -99,7 +96,7 @@ void expect_same(const NurbsCurve& written, const DrawnCurve& read, double scale
 
 TEST_F(CadFiles, ContoursComeBackAsOneEdgeWithTheSameCurvature) {
   for (const Carrier carrier : {Carrier::kSpiral, Carrier::kConics, Carrier::kBspline}) {
-    const Contour contour = contour_of(kReference, carrier);
+    const Contour contour = contour_of(kTenPoints, carrier);
     const auto curve = joined_nurbs(contour);
     ASSERT_TRUE(curve);
     for (const Format& one : kFormats) {
@@ -116,7 +113,7 @@ TEST_F(CadFiles, ContoursComeBackAsOneEdgeWithTheSameCurvature) {
 }
 
 TEST_F(CadFiles, UnitsKeepTheLengths) {
-  const auto curve = joined_nurbs(contour_of(kReference, Carrier::kSpiral));
+  const auto curve = joined_nurbs(contour_of(kTenPoints, Carrier::kSpiral));
   ASSERT_TRUE(curve);
   const std::pair<const char*, double> units[] = {
       {"mm", 1.0}, {"m", 1000.0}, {"in", 25.4}, {"cm", 10.0}, {"ft", 304.8}};
@@ -165,7 +162,7 @@ TEST_F(CadFiles, LinesAndArcsStayWhatTheyAre) {
 }
 
 TEST_F(CadFiles, TheSameContourGivesTheSameBytes) {
-  const auto curve = joined_nurbs(contour_of(kReference, Carrier::kSpiral));
+  const auto curve = joined_nurbs(contour_of(kTenPoints, Carrier::kSpiral));
   ASSERT_TRUE(curve);
   for (const Format& one : kFormats) {
     CadWriteOptions options;
@@ -178,7 +175,7 @@ TEST_F(CadFiles, TheSameContourGivesTheSameBytes) {
 }
 
 TEST_F(CadFiles, AFaceIsWrittenBesideTheWireWhereItIsWished) {
-  const auto curve = joined_nurbs(contour_of(kReference, Carrier::kSpiral));
+  const auto curve = joined_nurbs(contour_of(kTenPoints, Carrier::kSpiral));
   ASSERT_TRUE(curve);
   CadWriteOptions options;
   options.face_width = 5.0;
@@ -188,14 +185,14 @@ TEST_F(CadFiles, AFaceIsWrittenBesideTheWireWhereItIsWished) {
 }
 
 TEST_F(CadFiles, ClothoidsAreRefusedWithACarrierThatCan) {
-  const Contour contour = contour_of(kReference, Carrier::kClothoids);
+  const Contour contour = contour_of(kTenPoints, Carrier::kClothoids);
   const auto text = cad_text({{"contour", contour.pieces}}, {});
   ASSERT_FALSE(text);
   EXPECT_NE(text.error().hint.find("--carrier"), std::string::npos);
 }
 
 TEST_F(CadFiles, DamagedFilesAreRefusedAndNothingCrashes) {
-  const auto curve = joined_nurbs(contour_of(kReference, Carrier::kSpiral));
+  const auto curve = joined_nurbs(contour_of(kTenPoints, Carrier::kSpiral));
   ASSERT_TRUE(curve);
   for (const Format& one : kFormats) {
     CadWriteOptions options;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "obvid/certify/certify.h"
+#include "../common/angles.h"
 
 #include <gtest/gtest.h>
 
@@ -7,7 +8,6 @@
 #include <cmath>
 #include <functional>
 #include <limits>
-#include <numbers>
 #include <random>
 
 #include "contours.h"
@@ -24,17 +24,8 @@ using testing_data::expect_refused;
 using testing_data::joint;
 using testing_data::kSpirals;
 using testing_data::quarter_ellipse;
+using testing_data::spiral;
 using testing_data::SpiralRow;
-
-constexpr double kPi = std::numbers::pi;
-
-RationalBezier spiral(const SpiralRow& row) {
-  RationalBezier piece;
-  piece.degree = 4;
-  std::copy(row.points.begin(), row.points.end(), piece.offset.begin());
-  std::copy(row.weights.begin(), row.weights.end(), piece.weight.begin());
-  return piece;
-}
 
 /// One spiral of the table in three pieces, shifted so that nothing is centred.
 Contour three_pieces(const SpiralRow& row) {

@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
-#include <numbers>
 
+#include "../common/angles.h"
 #include "contours.h"
 
 namespace obvid {
@@ -16,8 +16,6 @@ using testing_data::arc_from;
 using testing_data::closed_contour;
 using testing_data::expect_refused;
 using testing_data::quarter_ellipse;
-
-constexpr double kPi = std::numbers::pi;
 
 /// Arcs and lines (curvature 0), each as {curvature, turn or length}, one after the other.
 Contour loop_of(const std::vector<std::pair<double, double>>& steps, std::vector<Run> runs,

@@ -21,15 +21,15 @@ ClothoidPiece from(const Element& start, double kappa1, double length) {
   return {start.point, end, start.theta, start.kappa, kappa1, length};
 }
 
-Verdict verdict(const ClothoidPiece& piece) { return prove_piece(piece).verdict; }
+Verdict clothoid_verdict(const ClothoidPiece& piece) { return prove_piece(piece).verdict; }
 
 TEST(ProveClothoid, ItsEndsDecideHoweverCloseTheirCurvaturesAre) {
   const Element start = {{0, 0}, 0.3, 0.5};
-  EXPECT_EQ(verdict(from(start, 0.9, 1.0)), Verdict::kIncreasing);
-  EXPECT_EQ(verdict(from(start, -0.9, 1.0)), Verdict::kDecreasing);
-  EXPECT_EQ(verdict(from(start, 0.5, 1.0)), Verdict::kConstant);
-  EXPECT_EQ(verdict(from(start, std::nextafter(0.5, 1.0), 1.0)), Verdict::kIncreasing);
-  EXPECT_EQ(verdict(from(start, std::nextafter(0.5, 0.0), 1.0)), Verdict::kDecreasing);
+  EXPECT_EQ(clothoid_verdict(from(start, 0.9, 1.0)), Verdict::kIncreasing);
+  EXPECT_EQ(clothoid_verdict(from(start, -0.9, 1.0)), Verdict::kDecreasing);
+  EXPECT_EQ(clothoid_verdict(from(start, 0.5, 1.0)), Verdict::kConstant);
+  EXPECT_EQ(clothoid_verdict(from(start, std::nextafter(0.5, 1.0), 1.0)), Verdict::kIncreasing);
+  EXPECT_EQ(clothoid_verdict(from(start, std::nextafter(0.5, 0.0), 1.0)), Verdict::kDecreasing);
 }
 
 TEST(ProveClothoid, WithoutLengthOrFiniteNumbersItIsNotProved) {
@@ -37,15 +37,15 @@ TEST(ProveClothoid, WithoutLengthOrFiniteNumbersItIsNotProved) {
   constexpr double kInfinity = std::numeric_limits<double>::infinity();
   ClothoidPiece bad = good;
   bad.length = 0.0;
-  EXPECT_EQ(verdict(bad), Verdict::kUndecided);
+  EXPECT_EQ(clothoid_verdict(bad), Verdict::kUndecided);
   bad.length = -1.0;
-  EXPECT_EQ(verdict(bad), Verdict::kUndecided);
+  EXPECT_EQ(clothoid_verdict(bad), Verdict::kUndecided);
   for (double ClothoidPiece::*field : {&ClothoidPiece::theta0, &ClothoidPiece::kappa0,
                                        &ClothoidPiece::kappa1, &ClothoidPiece::length}) {
     for (const double value : {std::nan(""), kInfinity, -kInfinity}) {
       bad = good;
       bad.*field = value;
-      EXPECT_EQ(verdict(bad), Verdict::kUndecided);
+      EXPECT_EQ(clothoid_verdict(bad), Verdict::kUndecided);
     }
   }
 }

@@ -4,8 +4,8 @@
 
 #include <cmath>
 #include <functional>
-#include <numbers>
 
+#include "../common/angles.h"
 #include "contours.h"
 
 namespace obvid {
@@ -15,8 +15,6 @@ using testing_data::arc_from;
 using testing_data::closed_contour;
 using testing_data::contour_of;
 using testing_data::expect_refused;
-
-constexpr double kPi = std::numbers::pi;
 
 /// Every joint where two pieces meet becomes a corner with the heading and curvature of both.
 Contour with_corners(Contour contour) {

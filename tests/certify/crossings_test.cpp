@@ -1,15 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "crossings.h"
+#include "../common/angles.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <numbers>
 
 namespace obvid {
 namespace {
-
-constexpr double kPi = std::numbers::pi;
 
 Contour each_its_own_run(std::vector<Piece> pieces) {
   Contour contour;

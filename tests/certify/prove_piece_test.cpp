@@ -15,18 +15,11 @@ namespace {
 
 using testing_data::kHiddenVertex;
 using testing_data::kSpirals;
+using testing_data::spiral;
 using testing_data::SpiralRow;
 
 RationalBezier conic(Vec2 p0, Vec2 p1, Vec2 p2, double w0, double w1, double w2) {
   return {{}, 2, {p0, p1, p2}, {w0, w1, w2}};
-}
-
-RationalBezier spiral(const SpiralRow& row) {
-  RationalBezier piece;
-  piece.degree = 4;
-  std::copy(row.points.begin(), row.points.end(), piece.offset.begin());
-  std::copy(row.weights.begin(), row.weights.end(), piece.weight.begin());
-  return piece;
 }
 
 // A mirror image turns increasing into decreasing. The reversed curve keeps the word: its signed

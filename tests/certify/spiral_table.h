@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <algorithm>
 #include <array>
 
 #include "obvid/curve/pieces.h"
@@ -16,6 +17,14 @@ struct SpiralRow {
   std::array<double, 5> weights;
   double theta0, theta1, kappa0, kappa1;
 };
+
+inline RationalBezier spiral(const SpiralRow& row) {
+  RationalBezier piece;
+  piece.degree = 4;
+  std::copy(row.points.begin(), row.points.end(), piece.offset.begin());
+  std::copy(row.weights.begin(), row.weights.end(), piece.weight.begin());
+  return piece;
+}
 
 inline constexpr SpiralRow kSpirals[] = {
     {{{{-0.9999999999999999, 0.0},

@@ -5,9 +5,9 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numbers>
 #include <random>
 
+#include "../common/angles.h"
 #include "contours.h"
 #include "spiral_table.h"
 
@@ -20,7 +20,6 @@ using testing_data::expect_refused;
 using testing_data::kSpirals;
 using testing_data::SpiralRow;
 
-constexpr double kPi = std::numbers::pi;
 /// What the coordinates of these circles and the bounds of their roundings leave open.
 constexpr double kRounding = 1e-13;
 

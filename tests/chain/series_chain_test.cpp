@@ -2,6 +2,7 @@
 // Headings and curvatures of a series: inside every cone, the same at every scale, true to what is
 // fixed, and refused with the reason where nothing fits.
 #include "obvid/chain/series_chain.h"
+#include "../common/angles.h"
 
 #include <gtest/gtest.h>
 
@@ -19,8 +20,6 @@ namespace obvid {
 namespace {
 
 using namespace test;
-
-constexpr double kRightAngle = 0.5 * std::numbers::pi;
 
 Result<SeriesChain> chain_of(const std::vector<Vec2>& points, const ChainWishes& wishes = {}) {
   const auto analysis = analyse(points);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Arcs and chords along contours whose curvature is known in closed form.
 #include "obvid/contour/arcs/arcs_along.h"
+#include "../common/angles.h"
 
 #include <gtest/gtest.h>
 
@@ -14,8 +15,6 @@
 
 namespace obvid {
 namespace {
-
-constexpr double kPi = std::numbers::pi;
 
 /// Pieces in a row as a contour; corners at these joints.
 Contour contour_of(std::vector<Piece> pieces, std::vector<std::size_t> corners = {}) {
@@ -31,7 +30,7 @@ Contour contour_of(std::vector<Piece> pieces, std::vector<std::size_t> corners =
   return c;
 }
 
-ClothoidPiece clothoid(Vec2 start, double theta, double kappa0, double kappa1, double length) {
+ClothoidPiece clothoid_from(Vec2 start, double theta, double kappa0, double kappa1, double length) {
   ClothoidPiece p = {start, {}, theta, kappa0, kappa1, length};
   p.end = start + test::end_by_quadrature(theta, kappa0, kappa1, length);
   return p;
@@ -111,7 +110,7 @@ double turn_of(const Piece& piece) {
 }
 
 TEST(ArcsAlong, DeviationIsTheLargestDistanceBothWaysToOnePercent) {
-  const Contour c = contour_of({clothoid({1.0, 2.0}, 0.3, -0.4, 1.2, 6.0)});
+  const Contour c = contour_of({clothoid_from({1.0, 2.0}, 0.3, -0.4, 1.2, 6.0)});
   for (const double tolerance : {1e-1, 1e-2, 1e-3, 1e-4}) {
     const auto arcs = arcs_along(c, tolerance);
     ASSERT_TRUE(arcs) << arcs.error().what;
@@ -124,7 +123,7 @@ TEST(ArcsAlong, DeviationIsTheLargestDistanceBothWaysToOnePercent) {
 
 TEST(ArcsAlong, NumberOnAClothoidIsNearTheBestPossible) {
   // kappa' = 1 over length 2: best arcs have length cbrt(216/sqrt(3) tolerance)
-  const Contour c = contour_of({clothoid({0.0, 0.0}, 0.0, 0.0, 2.0, 2.0)});
+  const Contour c = contour_of({clothoid_from({0.0, 0.0}, 0.0, 0.0, 2.0, 2.0)});
   for (const double tolerance : {1e-6, 1e-8, 1e-9}) {
     const double best = 2.0 / std::cbrt(216.0 / std::sqrt(3.0) * tolerance);
     const auto arcs = arcs_along(c, tolerance);
@@ -137,8 +136,8 @@ TEST(ArcsAlong, NumberOnAClothoidIsNearTheBestPossible) {
 }
 
 TEST(ArcsAlong, RadiiAreMonotoneOnASpiralAndTangentsItsOwnAtTheEnds) {
-  const Contour c = contour_of(
-      {clothoid({0.0, 0.0}, 0.5, 0.1, 0.9, 3.0), clothoid({0.0, 0.0}, 0.0, 0.0, 0.0, 1.0)});
+  const Contour c = contour_of({clothoid_from({0.0, 0.0}, 0.5, 0.1, 0.9, 3.0),
+                                clothoid_from({0.0, 0.0}, 0.0, 0.0, 0.0, 1.0)});
   Contour one = contour_of({c.pieces[0]});
   const auto arcs = arcs_along(one, 1e-6);
   ASSERT_TRUE(arcs);
@@ -169,11 +168,11 @@ TEST(ArcsAlong, ClosedCurveStaysClosedAndSmoothAtItsSeam) {
 
 TEST(ArcsAlong, CornersLinesAndArcsStay) {
   const LinePiece line = {{-3.0, 0.0}, {0.0, 0.0}};
-  const ClothoidPiece in = clothoid({0.0, 0.0}, 0.0, 0.0, 1.0, 2.0);  // turns by 1
+  const ClothoidPiece in = clothoid_from({0.0, 0.0}, 0.0, 0.0, 1.0, 2.0);  // turns by 1
   const Jet end = evaluate(in, 1.0);
   ArcPiece arc = {end.point, {}, 1.0, 1.0, 4.0};  // more than half a turn
   arc.end = arc.start + Vec2{std::sin(5.0) - std::sin(1.0), std::cos(1.0) - std::cos(5.0)};
-  const ClothoidPiece out = clothoid(arc.end, 5.0 + 1.2, -0.5, 0.3, 2.0);
+  const ClothoidPiece out = clothoid_from(arc.end, 5.0 + 1.2, -0.5, 0.3, 2.0);
   const Contour c = contour_of({line, in, arc, out}, {3});
   const auto arcs = arcs_along(c, 1e-4);
   ASSERT_TRUE(arcs);
@@ -186,8 +185,8 @@ TEST(ArcsAlong, CornersLinesAndArcsStay) {
 }
 
 TEST(ArcsAlong, ClothoidsOfConstantCurvatureAreArcs) {
-  const Contour c = contour_of(
-      {clothoid({0.0, 0.0}, 0.0, 0.5, 0.5, 3.0), clothoid({0.0, 0.0}, 0.0, 0.0, 0.0, 3.0)});
+  const Contour c = contour_of({clothoid_from({0.0, 0.0}, 0.0, 0.5, 0.5, 3.0),
+                                clothoid_from({0.0, 0.0}, 0.0, 0.0, 0.0, 3.0)});
   const auto arcs = arcs_along(c, 1e-6);
   ASSERT_TRUE(arcs);
   ASSERT_EQ(arcs->pieces.size(), 2U);
@@ -196,7 +195,7 @@ TEST(ArcsAlong, ClothoidsOfConstantCurvatureAreArcs) {
 }
 
 TEST(ArcsAlong, ToleranceAsLargeAsTheContourGivesOnePair) {
-  const auto arcs = arcs_along(contour_of({clothoid({0.0, 0.0}, 0.0, 0.1, 0.9, 2.0)}), 10.0);
+  const auto arcs = arcs_along(contour_of({clothoid_from({0.0, 0.0}, 0.0, 0.1, 0.9, 2.0)}), 10.0);
   ASSERT_TRUE(arcs);
   EXPECT_EQ(arcs->pieces.size(), 2U);
 }
@@ -204,8 +203,9 @@ TEST(ArcsAlong, ToleranceAsLargeAsTheContourGivesOnePair) {
 TEST(ArcsAlong, SizeDoesNotMatter) {
   std::vector<std::size_t> numbers;
   for (const double size : {1e-6, 1.0, 1e6}) {
-    const auto arcs = arcs_along(
-        contour_of({clothoid({0.0, 0.0}, 0.0, 0.1 / size, 0.9 / size, 2.0 * size)}), 1e-5 * size);
+    const auto arcs =
+        arcs_along(contour_of({clothoid_from({0.0, 0.0}, 0.0, 0.1 / size, 0.9 / size, 2.0 * size)}),
+                   1e-5 * size);
     ASSERT_TRUE(arcs);
     numbers.push_back(arcs->pieces.size());
   }
@@ -214,7 +214,7 @@ TEST(ArcsAlong, SizeDoesNotMatter) {
 }
 
 TEST(ArcsAlong, RefusesMoreThanAMillionArcsAtOnce) {
-  const Contour c = contour_of({clothoid({0.0, 0.0}, 0.0, 0.0, 2.0, 2.0)});
+  const Contour c = contour_of({clothoid_from({0.0, 0.0}, 0.0, 0.0, 2.0, 2.0)});
   const auto arcs = arcs_along(c, 1e-22);
   ASSERT_FALSE(arcs);
   EXPECT_EQ(arcs.error().code, ErrorCode::kToleranceNotReached);
@@ -250,7 +250,8 @@ TEST(PolylineAlong, StaysNearAnEllipseAndKeepsCornersAndLines) {
 }
 
 TEST(PolylineAlong, RefusesMoreThanTenMillionPoints) {
-  const auto line = polyline_along(contour_of({clothoid({0.0, 0.0}, 0.0, 1.0, 2.0, 2.0)}), 1e-16);
+  const auto line =
+      polyline_along(contour_of({clothoid_from({0.0, 0.0}, 0.0, 1.0, 2.0, 2.0)}), 1e-16);
   ASSERT_FALSE(line);
   EXPECT_EQ(line.error().code, ErrorCode::kToleranceNotReached);
   EXPECT_EQ(polyline_along(Contour{}, 1.0).error().code, ErrorCode::kTooFewPoints);

@@ -9,6 +9,7 @@
 #include <string>
 
 #include "clothoid_data.h"
+#include "turned_elements.h"
 
 namespace obvid {
 namespace {
@@ -28,10 +29,6 @@ Element log_spiral(double b, double phi) {
 Element involute(double t) {
   return {{std::cos(t) + t * std::sin(t), std::sin(t) - t * std::cos(t)}, t, 1.0 / t};
 }
-
-Element mirrored(Element e) { return {{e.point.x, -e.point.y}, -e.theta, -e.kappa}; }
-
-Element reversed(Element e) { return {e.point, e.theta + std::numbers::pi, -e.kappa}; }
 
 /// Curvature of a quadratic Bezier where it starts, from its legs: half their cross product over
 /// the cube of the first one.

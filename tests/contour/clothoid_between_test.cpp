@@ -5,8 +5,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
+#include "../common/angles.h"
 #include "clothoid_data.h"
 #include "obvid/contour/clothoids.h"
 #include "obvid/curve/clothoid.h"
@@ -15,8 +15,6 @@ namespace obvid {
 namespace {
 
 using namespace test;
-
-constexpr double kPi = std::numbers::pi;
 
 double wrapped(double angle) { return std::remainder(angle, 2.0 * kPi); }
 

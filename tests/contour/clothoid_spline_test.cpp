@@ -7,6 +7,7 @@
 #include <numbers>
 #include <vector>
 
+#include "../common/ten_points.h"
 #include "clothoid_data.h"
 #include "obvid/contour/clothoids.h"
 #include "obvid/curve/clothoid.h"
@@ -15,10 +16,6 @@ namespace obvid {
 namespace {
 
 using namespace test;
-
-const std::vector<Vec2> kTenPoints = {
-    {0, 0},          {0.21, -5.28},  {-5.11, -10.13}, {-20.48, -7.65}, {-28.68, 16.23},
-    {-13.87, 40.95}, {17.95, 55.28}, {54.24, 53.04},  {100.94, 36.19}, {230.38, -50.82}};
 
 TEST(ClothoidSpline, HasTheCurvaturesOfThePrototypeOnTheTenPoints) {
   const auto s = clothoid_spline(kTenPoints);

@@ -2,13 +2,14 @@
 // Conics: ellipses that must come back, the monotone test against sampling, the weight chain, and
 // chains with freed headings, proved by other code.
 #include "obvid/contour/conics.h"
+#include "../common/angles.h"
+#include "../common/ten_points.h"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numbers>
 #include <random>
 #include <string>
 #include <vector>
@@ -19,8 +20,6 @@
 
 namespace obvid {
 namespace {
-
-constexpr double kPi = std::numbers::pi;
 
 /// Ellipse with half axes a > b whose major axis has heading `rotation`.
 struct TrueEllipse {
@@ -201,7 +200,7 @@ TEST(Conics, UnknownCurvaturesGiveTheMedianOfTheTangentsAlone) {
   EXPECT_NEAR(*open, *nearly, 1e-6);
 }
 
-std::vector<Element> elements_of(const std::vector<Vec2>& points) {
+std::vector<Element> chosen_elements(const std::vector<Vec2>& points) {
   const auto analysis = analyse(points);
   EXPECT_TRUE(analysis.has_value());
   ChainWishes wishes;
@@ -238,12 +237,8 @@ void expect_good(const ConicChain& chain, const std::vector<Vec2>& points,
   }
 }
 
-const std::vector<Vec2> kTenPoints = {
-    {0, 0},          {0.21, -5.28},  {-5.11, -10.13}, {-20.48, -7.65}, {-28.68, 16.23},
-    {-13.87, 40.95}, {17.95, 55.28}, {54.24, 53.04},  {100.94, 36.19}, {230.38, -50.82}};
-
 TEST(ConicChain, TenPointsSayWhyNotAndBecomeMonotoneWithFreedHeadings) {
-  const auto elements = elements_of(kTenPoints);
+  const auto elements = chosen_elements(kTenPoints);
   ASSERT_EQ(elements.size(), 10u);
   const auto fixed = conic_chain(elements);
   ASSERT_TRUE(fixed.has_value());
@@ -264,7 +259,7 @@ TEST(ConicChain, TenPointsSayWhyNotAndBecomeMonotoneWithFreedHeadings) {
 }
 
 TEST(ConicChain, FirstWeightOfThePaperGivesEllipsesOnTheFirstTwoSegments) {
-  auto elements = elements_of(kTenPoints);
+  auto elements = chosen_elements(kTenPoints);
   const auto median = median_weight(elements[0], elements[1]);
   ASSERT_TRUE(median);
   elements.resize(3);
@@ -304,7 +299,7 @@ TEST(ConicChain, FreedHeadingsMakeNearlyEveryRandomSpiralMonotoneAndProved) {
   int as_given = 0, made = 0;
   for (int i = 0; i < 500; ++i) {
     const auto points = random_spiral(rng);
-    const auto elements = elements_of(points);
+    const auto elements = chosen_elements(points);
     const auto found = headings_for_conics(elements);
     if (!found) {
       EXPECT_EQ(found.error().code, ErrorCode::kNotProved);
@@ -326,7 +321,7 @@ TEST(ConicChain, FreedHeadingsMakeNearlyEveryRandomSpiralMonotoneAndProved) {
 }
 
 TEST(ConicChain, ScaledAndMirroredSeriesHaveTheSameWeights) {
-  const auto elements = elements_of(kTenPoints);
+  const auto elements = chosen_elements(kTenPoints);
   const auto chain = conic_chain(elements);
   auto other = elements;
   const double scale = 1e-4;

@@ -22,7 +22,7 @@ using test::extended_curvature;
 using test::uniform;
 
 /// Headings of the ends, and curvatures times the chord: a few roundings of the control polygon.
-constexpr double kSameHeading = 1e-13;
+constexpr double kSameEndHeading = 1e-13;
 constexpr double kSameCurvature = 1e-11;
 
 /// A link with these angles inside the closed form's cone by the factor `room` > 1; `skew` > 0 is
@@ -36,7 +36,7 @@ LinkState link_of(double h, double omega, double alpha, double sigma, double roo
   return link;
 }
 
-LinkState mirrored(LinkState link) {
+LinkState mirrored_link(LinkState link) {
   for (double* v : {&link.omega, &link.alpha, &link.beta, &link.A, &link.B, &link.sigma}) *v = -*v;
   return link;
 }
@@ -65,10 +65,10 @@ void expect_end_data(const LinkState& l, Vec2 start, Vec2 end,
   // the chord stands for omega: it was rounded from it
   const Vec2 chord = end - start;
   EXPECT_NEAR(std::remainder(turning(chord, leave) - l.alpha, 2.0 * std::numbers::pi), 0.0,
-              kSameHeading)
+              kSameEndHeading)
       << i;
   EXPECT_NEAR(std::remainder(turning(chord, arrive) - l.beta, 2.0 * std::numbers::pi), 0.0,
-              kSameHeading)
+              kSameEndHeading)
       << i;
   EXPECT_NEAR(static_cast<double>(extended_curvature(first, 0.0L)) * l.h, start_kappa(l) * l.h,
               kSameCurvature)
@@ -84,7 +84,7 @@ TEST(Spirals, MeetTheirEndDataAndAreMonotone) {
   for (int i = 0; i < 3000; ++i) {
     const LinkState up = random_link(rng);
     const int direction = i % 2 == 0 ? 1 : -1;
-    const LinkState l = direction > 0 ? up : mirrored(up);
+    const LinkState l = direction > 0 ? up : mirrored_link(up);
     const Vec2 start = {l.h * uniform(rng, -1.0, 1.0), l.h * uniform(rng, -1.0, 1.0)};
     const Vec2 end = start + l.h * unit_at(l.omega);
     std::vector<RationalBezier> pieces;
@@ -116,7 +116,7 @@ TEST(Spirals, AreRefusedOutsideTheClosedFormsCone) {
   };
   refused(link_of(1.0, 0.0, -0.2, 0.3, 0.999, 1.0), 1);
   refused(link_of(1.0, 0.0, -0.2, 0.3, 2.0, 1.0), -1);  // the other direction
-  refused(mirrored(link_of(1.0, 0.0, -0.2, 0.3, 2.0, 1.0)), 1);
+  refused(mirrored_link(link_of(1.0, 0.0, -0.2, 0.3, 2.0, 1.0)), 1);
   LinkState turned = link_of(1.0, 0.0, -0.2, 0.3, 2.0, 1.0);
   turned.sigma = 1.6;  // beyond a right angle
   refused(turned, 1);
@@ -226,7 +226,8 @@ TEST(Spirals, PiecesThatTurnFarComeInPartsOfTheSameCurve) {
     for (std::size_t i = 0; i + 1 < pieces.size(); ++i) {
       const RationalBezier &a = pieces[i], &b = pieces[i + 1];
       EXPECT_LT(norm(a.offset[4] - b.offset[0]), 1e-15);
-      EXPECT_NEAR(turning(a.offset[4] - a.offset[3], b.offset[1] - b.offset[0]), 0.0, kSameHeading);
+      EXPECT_NEAR(turning(a.offset[4] - a.offset[3], b.offset[1] - b.offset[0]), 0.0,
+                  kSameEndHeading);
       EXPECT_NEAR(static_cast<double>(extended_curvature(a, 1.0L)),
                   static_cast<double>(extended_curvature(b, 0.0L)), kSameCurvature);
     }

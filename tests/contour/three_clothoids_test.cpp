@@ -10,6 +10,7 @@
 #include "../pipeline/oracle_curves.h"
 #include "clothoid_data.h"
 #include "obvid/contour/clothoids.h"
+#include "turned_elements.h"
 
 namespace obvid {
 namespace {
@@ -43,10 +44,6 @@ Element element_on(const OracleCurve& c, long double t) {
   }
   return e;
 }
-
-Element mirrored(Element e) { return {{e.point.x, -e.point.y}, -e.theta, -e.kappa}; }
-
-Element reversed(Element e) { return {e.point, e.theta + std::acos(-1.0), -e.kappa}; }
 
 void expect_three(const Element& a, const Element& b, int direction,
                   std::vector<ClothoidPiece>& pieces) {

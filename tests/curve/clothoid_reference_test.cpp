@@ -9,6 +9,7 @@
 #include <random>
 
 #include "obvid/curve/clothoid.h"
+#include "uniform.h"
 
 #ifdef OBVID_HAS_MPFR
 #include <mpfr.h>
@@ -107,10 +108,6 @@ class Reference {
   mpfr_prec_t digits_;
   Real c_, s_, c1_, s1_, next_c_, next_s_, a_, x_, y_, t_, u_;
 };
-
-double uniform(std::mt19937_64& rng, double low, double high) {
-  return low + (high - low) * (static_cast<double>(rng() >> 11) * 0x1p-53);
-}
 
 double either_sign(std::mt19937_64& rng, double low_power, double high_power) {
   const double size = std::pow(10.0, uniform(rng, low_power, high_power));

@@ -2,23 +2,18 @@
 // Clothoids against closed forms and against themselves; tests against arbitrary precision are in
 // clothoid_reference_test.cpp.
 #include "obvid/curve/clothoid.h"
+#include "../common/angles.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <numbers>
 #include <random>
 
 #include "obvid/curve/pieces.h"
+#include "uniform.h"
 
 namespace obvid {
 namespace {
-
-constexpr double kPi = std::numbers::pi;
-
-double uniform(std::mt19937_64& rng, double low, double high) {
-  return low + (high - low) * (static_cast<double>(rng() >> 11) * 0x1p-53);
-}
 
 TEST(Clothoid, WithoutSharpnessIsTheLineOrTheArc) {
   const Vec2 line = clothoid_step(0.7, 0.0, 0.0, 3.0);

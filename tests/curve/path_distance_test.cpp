@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "obvid/curve/path_distance.h"
+#include "../common/angles.h"
 
 #include <gtest/gtest.h>
 
@@ -9,8 +10,6 @@
 
 namespace obvid {
 namespace {
-
-constexpr double kPi = std::numbers::pi;
 
 using Pieces = std::vector<Piece>;
 

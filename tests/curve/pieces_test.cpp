@@ -1,17 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "obvid/curve/pieces.h"
+#include "../common/angles.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <numbers>
 
 #include "obvid/curve/contour.h"
 
 namespace obvid {
 namespace {
-
-constexpr double kPi = std::numbers::pi;
 
 /// Parabola (t, t^2) on [0, 1]: curvature 2 / (1 + 4 t^2)^(3/2).
 RationalBezier parabola(Vec2 origin) {

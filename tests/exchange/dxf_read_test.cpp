@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 // DXF files written by hand: every kind of entity against its closed form.
 #include "obvid/exchange/dxf_read.h"
+#include "../common/angles.h"
+#include "drawing_checks.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <numbers>
 #include <string>
 
 #include "dxf_text.h"
@@ -23,9 +24,7 @@ using testing::AllOf;
 using testing::Contains;
 using testing::HasSubstr;
 
-constexpr double kPi = std::numbers::pi;
-
-Drawing read(const std::string& text) {
+Drawing read_dxf_text(const std::string& text) {
   auto drawing = parse_dxf(text, "test.dxf");
   EXPECT_TRUE(drawing) << (drawing ? "" : to_line(drawing.error()));
   return drawing ? *std::move(drawing) : Drawing{};
@@ -35,11 +34,6 @@ Error refused(const std::string& text) {
   const auto drawing = parse_dxf(text, "test.dxf");
   EXPECT_FALSE(drawing);
   return drawing ? Error{} : drawing.error();
-}
-
-void expect_near(Vec2 a, Vec2 b, double tolerance = 1e-12) {
-  EXPECT_NEAR(a.x, b.x, tolerance);
-  EXPECT_NEAR(a.y, b.y, tolerance);
 }
 
 /// Every piece starts where the one before ends, with its heading when `smooth`.
@@ -68,12 +62,12 @@ double length_of(const DrawnCurve& curve) {
   return sum;
 }
 
-Tags with(Tags tags, const Tags& more) { return std::move(tags) + more; }
+Tags joined(Tags tags, const Tags& more) { return std::move(tags) + more; }
 
 const Tags kMirrored = {{210, "0"}, {220, "0"}, {230, "-1"}};
 
 TEST(DxfReads, ALineWithItsHandleLayerAndUnit) {
-  const Drawing d = read(dxf(
+  const Drawing d = read_dxf_text(dxf(
       {{0, "LINE"}, {5, "2F"}, {8, "OUTLINE"}, {10, "1.5"}, {20, "-2"}, {11, "+3e1"}, {21, "4."}}));
   ASSERT_EQ(d.curves.size(), 1u);
   EXPECT_EQ(d.units, "mm");
@@ -84,7 +78,7 @@ TEST(DxfReads, ALineWithItsHandleLayerAndUnit) {
 }
 
 TEST(DxfReads, ArcsCounterClockwiseFromAngleToAngle) {
-  const Drawing d = read(dxf(arc("1", "2", "5", "350", "30")));
+  const Drawing d = read_dxf_text(dxf(arc("1", "2", "5", "350", "30")));
   ASSERT_EQ(d.curves.size(), 1u);
   expect_near(start_point(d.curves[0].pieces.front()),
               {1.0 + 5.0 * std::cos(-kPi / 18.0), 2.0 - 5.0 * std::sin(kPi / 18.0)});
@@ -95,7 +89,7 @@ TEST(DxfReads, ArcsCounterClockwiseFromAngleToAngle) {
 }
 
 TEST(DxfReads, ArcsOfAPlaneSeenFromBelowMirrored) {
-  const Drawing d = read(dxf(with(arc("1", "2", "5", "0", "90"), kMirrored)));
+  const Drawing d = read_dxf_text(dxf(joined(arc("1", "2", "5", "0", "90"), kMirrored)));
   ASSERT_EQ(d.curves.size(), 1u);
   expect_near(start_point(d.curves[0].pieces.front()), {-6.0, 2.0});
   expect_near(end_point(d.curves[0].pieces.back()), {-1.0, 7.0});
@@ -104,9 +98,9 @@ TEST(DxfReads, ArcsOfAPlaneSeenFromBelowMirrored) {
 }
 
 TEST(DxfReads, CirclesAndEllipsesAsClosedCurves) {
-  const Drawing d =
-      read(dxf(Tags{{0, "CIRCLE"}, {10, "3"}, {20, "4"}, {40, "2"}} +
-               Tags{{0, "ELLIPSE"}, {10, "1"}, {20, "1"}, {11, "0"}, {21, "4"}, {40, "0.5"}}));
+  const Drawing d = read_dxf_text(
+      dxf(Tags{{0, "CIRCLE"}, {10, "3"}, {20, "4"}, {40, "2"}} +
+          Tags{{0, "ELLIPSE"}, {10, "1"}, {20, "1"}, {11, "0"}, {21, "4"}, {40, "0.5"}}));
   ASSERT_EQ(d.curves.size(), 2u);
   EXPECT_TRUE(d.curves[0].closed && d.curves[1].closed);
   EXPECT_LT(off_circle(d.curves[0], {3, 4}, 2), 1e-14);
@@ -123,14 +117,14 @@ TEST(DxfReads, CirclesAndEllipsesAsClosedCurves) {
 }
 
 TEST(DxfReads, EllipseArcsByTheirParameter) {
-  const Drawing d = read(dxf({{0, "ELLIPSE"},
-                              {10, "0"},
-                              {20, "0"},
-                              {11, "2"},
-                              {21, "0"},
-                              {40, "0.5"},
-                              {41, "0.5"},
-                              {42, "2.5"}}));
+  const Drawing d = read_dxf_text(dxf({{0, "ELLIPSE"},
+                                       {10, "0"},
+                                       {20, "0"},
+                                       {11, "2"},
+                                       {21, "0"},
+                                       {40, "0.5"},
+                                       {41, "0.5"},
+                                       {42, "2.5"}}));
   ASSERT_EQ(d.curves.size(), 1u);
   expect_near(start_point(d.curves[0].pieces.front()), {2 * std::cos(0.5), std::sin(0.5)});
   expect_near(end_point(d.curves[0].pieces.back()), {2 * std::cos(2.5), std::sin(2.5)});
@@ -139,19 +133,19 @@ TEST(DxfReads, EllipseArcsByTheirParameter) {
 
 TEST(DxfReads, BulgesAsArcs) {
   // half a circle to the right of the chord, a line back, and three quarters of a circle
-  const Drawing d = read(dxf({{0, "LWPOLYLINE"},
-                              {90, "4"},
-                              {70, "0"},
-                              {10, "0"},
-                              {20, "0"},
-                              {42, "1"},
-                              {10, "2"},
-                              {20, "0"},
-                              {10, "2"},
-                              {20, "1"},
-                              {42, "-2.414213562373095"},
-                              {10, "3"},
-                              {20, "1"}}));
+  const Drawing d = read_dxf_text(dxf({{0, "LWPOLYLINE"},
+                                       {90, "4"},
+                                       {70, "0"},
+                                       {10, "0"},
+                                       {20, "0"},
+                                       {42, "1"},
+                                       {10, "2"},
+                                       {20, "0"},
+                                       {10, "2"},
+                                       {20, "1"},
+                                       {42, "-2.414213562373095"},
+                                       {10, "3"},
+                                       {20, "1"}}));
   ASSERT_EQ(d.curves.size(), 1u);
   const auto& pieces = d.curves[0].pieces;
   EXPECT_NEAR(length_of(d.curves[0]), kPi + 1.0 + 1.5 * kPi * std::sqrt(0.5), 1e-12);
@@ -166,9 +160,9 @@ TEST(DxfReads, OldPolylinesWithTheirVertices) {
   const auto vertex = [](const char* x, const char* y, const char* bulge, const char* flags) {
     return Tags{{0, "VERTEX"}, {8, "0"}, {10, x}, {20, y}, {42, bulge}, {70, flags}};
   };
-  const Drawing d = read(dxf(Tags{{0, "POLYLINE"}, {8, "0"}, {66, "1"}, {70, "1"}} +
-                             vertex("0", "0", "1", "0") + vertex("7", "9", "0", "16") +
-                             vertex("2", "0", "1", "0") + Tags{{0, "SEQEND"}, {8, "0"}}));
+  const Drawing d = read_dxf_text(dxf(Tags{{0, "POLYLINE"}, {8, "0"}, {66, "1"}, {70, "1"}} +
+                                      vertex("0", "0", "1", "0") + vertex("7", "9", "0", "16") +
+                                      vertex("2", "0", "1", "0") + Tags{{0, "SEQEND"}, {8, "0"}}));
   ASSERT_EQ(d.curves.size(), 1u);
   EXPECT_TRUE(d.curves[0].closed);
   EXPECT_LT(off_circle(d.curves[0], {1, 0}, 1), 1e-14);
@@ -176,16 +170,16 @@ TEST(DxfReads, OldPolylinesWithTheirVertices) {
 }
 
 TEST(DxfReads, PolylinesWithoutArcsAsPoints) {
-  const Drawing d = read(dxf({{0, "LWPOLYLINE"},
-                              {8, "A"},
-                              {90, "3"},
-                              {70, "1"},
-                              {10, "0"},
-                              {20, "0"},
-                              {10, "2"},
-                              {20, "0"},
-                              {10, "2"},
-                              {20, "1"}}));
+  const Drawing d = read_dxf_text(dxf({{0, "LWPOLYLINE"},
+                                       {8, "A"},
+                                       {90, "3"},
+                                       {70, "1"},
+                                       {10, "0"},
+                                       {20, "0"},
+                                       {10, "2"},
+                                       {20, "0"},
+                                       {10, "2"},
+                                       {20, "1"}}));
   EXPECT_TRUE(d.curves.empty());
   ASSERT_EQ(d.series.size(), 1u);
   EXPECT_EQ(d.series[0].points, (std::vector<Vec2>{{0, 0}, {2, 0}, {2, 1}, {0, 0}}));
@@ -196,25 +190,26 @@ TEST(DxfReads, AllPointsAsOneSeries) {
   const auto point = [](const char* x, const char* y) {
     return Tags{{0, "POINT"}, {8, "0"}, {10, x}, {20, y}};
   };
-  const Drawing d = read(dxf(point("1", "2") + line("0", "0", "5", "0") + point("3", "4")));
+  const Drawing d =
+      read_dxf_text(dxf(point("1", "2") + line("0", "0", "5", "0") + point("3", "4")));
   ASSERT_EQ(d.series.size(), 1u);
   EXPECT_EQ(d.series[0].points, (std::vector<Vec2>{{1, 2}, {3, 4}}));
 }
 
 TEST(DxfReads, RationalSplinesExactly) {
   // a quarter of the unit circle, and the same curve with knots that are not clamped
-  const Drawing d = read(dxf({{0, "SPLINE"}, {70, "12"},
-                              {71, "2"},     {72, "6"},
-                              {73, "3"},     {74, "0"},
-                              {40, "0"},     {40, "0"},
-                              {40, "0"},     {40, "3"},
-                              {40, "3"},     {40, "3"},
-                              {41, "1"},     {41, "0.70710678118654757"},
-                              {41, "1"},     {10, "1"},
-                              {20, "0"},     {30, "0"},
-                              {10, "1"},     {20, "1"},
-                              {30, "0"},     {10, "0"},
-                              {20, "1"},     {30, "0"}}));
+  const Drawing d = read_dxf_text(dxf({{0, "SPLINE"}, {70, "12"},
+                                       {71, "2"},     {72, "6"},
+                                       {73, "3"},     {74, "0"},
+                                       {40, "0"},     {40, "0"},
+                                       {40, "0"},     {40, "3"},
+                                       {40, "3"},     {40, "3"},
+                                       {41, "1"},     {41, "0.70710678118654757"},
+                                       {41, "1"},     {10, "1"},
+                                       {20, "0"},     {30, "0"},
+                                       {10, "1"},     {20, "1"},
+                                       {30, "0"},     {10, "0"},
+                                       {20, "1"},     {30, "0"}}));
   ASSERT_EQ(d.curves.size(), 1u);
   EXPECT_LT(off_circle(d.curves[0], {0, 0}, 1), 1e-14);
   EXPECT_NEAR(length_of(d.curves[0]), 0.5 * kPi, 1e-11);
@@ -222,10 +217,10 @@ TEST(DxfReads, RationalSplinesExactly) {
 
 TEST(DxfReads, UniformSplinesOverTheirDomainOnly) {
   // uniform quadratic: runs from the middle of the first leg to the middle of the last one
-  const Drawing d =
-      read(dxf({{0, "SPLINE"}, {70, "8"}, {71, "2"}, {72, "7"}, {73, "4"}, {40, "0"}, {40, "1"},
-                {40, "2"},     {40, "3"}, {40, "4"}, {40, "5"}, {40, "6"}, {10, "0"}, {20, "0"},
-                {10, "2"},     {20, "0"}, {10, "2"}, {20, "2"}, {10, "4"}, {20, "2"}}));
+  const Drawing d = read_dxf_text(
+      dxf({{0, "SPLINE"}, {70, "8"}, {71, "2"}, {72, "7"}, {73, "4"}, {40, "0"}, {40, "1"},
+           {40, "2"},     {40, "3"}, {40, "4"}, {40, "5"}, {40, "6"}, {10, "0"}, {20, "0"},
+           {10, "2"},     {20, "0"}, {10, "2"}, {20, "2"}, {10, "4"}, {20, "2"}}));
   ASSERT_EQ(d.curves.size(), 1u);
   expect_near(start_point(d.curves[0].pieces.front()), {1, 0});
   expect_near(end_point(d.curves[0].pieces.back()), {3, 2});
@@ -233,25 +228,25 @@ TEST(DxfReads, UniformSplinesOverTheirDomainOnly) {
 }
 
 TEST(DxfReads, SplinesOfFitPointsAloneAsPoints) {
-  const Drawing d = read(dxf({{0, "SPLINE"},
-                              {70, "8"},
-                              {71, "3"},
-                              {72, "0"},
-                              {73, "0"},
-                              {74, "3"},
-                              {11, "0"},
-                              {21, "0"},
-                              {11, "1"},
-                              {21, "1"},
-                              {11, "2"},
-                              {21, "0"}}));
+  const Drawing d = read_dxf_text(dxf({{0, "SPLINE"},
+                                       {70, "8"},
+                                       {71, "3"},
+                                       {72, "0"},
+                                       {73, "0"},
+                                       {74, "3"},
+                                       {11, "0"},
+                                       {21, "0"},
+                                       {11, "1"},
+                                       {21, "1"},
+                                       {11, "2"},
+                                       {21, "0"}}));
   ASSERT_EQ(d.series.size(), 1u);
   EXPECT_EQ(d.series[0].points, (std::vector<Vec2>{{0, 0}, {1, 1}, {2, 0}}));
 }
 
 TEST(DxfReads, UnitsAndConvertsThoseWithoutName) {
   const auto read_unit = [](const char* code) {
-    return read(
+    return read_dxf_text(
         test::ascii(test::file_of(line("0", "0", "10", "0"), {}, {{9, "$INSUNITS"}, {70, code}})));
   };
   EXPECT_EQ(read_unit("1").units, "in");
@@ -273,15 +268,15 @@ Tags block(const char* name, const char* x, const char* y, const Tags& entities)
 }
 
 TEST(DxfReads, InsertsScaledTurnedAndMoved) {
-  const Drawing d = read(dxf({{0, "INSERT"},
-                              {8, "PARTS"},
-                              {2, "B"},
-                              {10, "10"},
-                              {20, "20"},
-                              {41, "2"},
-                              {42, "2"},
-                              {50, "90"}},
-                             block("B", "1", "1", line("1", "1", "4", "2"))));
+  const Drawing d = read_dxf_text(dxf({{0, "INSERT"},
+                                       {8, "PARTS"},
+                                       {2, "B"},
+                                       {10, "10"},
+                                       {20, "20"},
+                                       {41, "2"},
+                                       {42, "2"},
+                                       {50, "90"}},
+                                      block("B", "1", "1", line("1", "1", "4", "2"))));
   ASSERT_EQ(d.curves.size(), 1u);
   // (0, 0) and (3, 1), twice as large, turned by 90 degrees
   expect_near(start_point(d.curves[0].pieces[0]), {10, 20});
@@ -293,23 +288,24 @@ TEST(DxfReads, InsertsInsideBlocksAndArrays) {
   const Tags blocks =
       block("INNER", "0", "0", line("0", "0", "1", "0")) +
       block("OUTER", "0", "0", Tags{{0, "INSERT"}, {2, "INNER"}, {10, "0"}, {20, "1"}, {50, "90"}});
-  const Drawing d = read(dxf({{0, "INSERT"},
-                              {2, "OUTER"},
-                              {10, "0"},
-                              {20, "0"},
-                              {70, "2"},
-                              {71, "3"},
-                              {44, "10"},
-                              {45, "100"}},
-                             blocks));
+  const Drawing d = read_dxf_text(dxf({{0, "INSERT"},
+                                       {2, "OUTER"},
+                                       {10, "0"},
+                                       {20, "0"},
+                                       {70, "2"},
+                                       {71, "3"},
+                                       {44, "10"},
+                                       {45, "100"}},
+                                      blocks));
   ASSERT_EQ(d.curves.size(), 6u);
   expect_near(start_point(d.curves[5].pieces[0]), {10, 201});
   expect_near(end_point(d.curves[5].pieces[0]), {10, 202});
 }
 
 TEST(DxfReads, CirclesOfUnevenScaleAsEllipses) {
-  const Drawing d = read(dxf({{0, "INSERT"}, {2, "B"}, {10, "5"}, {20, "0"}, {41, "-3"}, {42, "1"}},
-                             block("B", "0", "0", arc("0", "0", "1", "0", "90"))));
+  const Drawing d =
+      read_dxf_text(dxf({{0, "INSERT"}, {2, "B"}, {10, "5"}, {20, "0"}, {41, "-3"}, {42, "1"}},
+                        block("B", "0", "0", arc("0", "0", "1", "0", "90"))));
   ASSERT_EQ(d.curves.size(), 1u);
   expect_near(start_point(d.curves[0].pieces.front()), {2, 0});
   expect_near(end_point(d.curves[0].pieces.back()), {5, 1});
@@ -319,16 +315,17 @@ TEST(DxfReads, CirclesOfUnevenScaleAsEllipses) {
 }
 
 TEST(DxfReads, BulgesOfUnevenScaleAsEllipses) {
-  const Drawing d = read(dxf({{0, "INSERT"}, {2, "B"}, {10, "0"}, {20, "0"}, {41, "1"}, {42, "2"}},
-                             block("B", "0", "0",
-                                   {{0, "LWPOLYLINE"},
-                                    {90, "2"},
-                                    {70, "0"},
-                                    {10, "-1"},
-                                    {20, "0"},
-                                    {42, "-1"},
-                                    {10, "1"},
-                                    {20, "0"}})));
+  const Drawing d =
+      read_dxf_text(dxf({{0, "INSERT"}, {2, "B"}, {10, "0"}, {20, "0"}, {41, "1"}, {42, "2"}},
+                        block("B", "0", "0",
+                              {{0, "LWPOLYLINE"},
+                               {90, "2"},
+                               {70, "0"},
+                               {10, "-1"},
+                               {20, "0"},
+                               {42, "-1"},
+                               {10, "1"},
+                               {20, "0"}})));
   ASSERT_EQ(d.curves.size(), 1u);
   expect_near(start_point(d.curves[0].pieces.front()), {-1, 0});
   expect_near(end_point(d.curves[0].pieces.back()), {1, 0});
@@ -340,16 +337,17 @@ TEST(DxfReads, BulgesOfUnevenScaleAsEllipses) {
 }
 
 TEST(DxfReads, MirroredBlocksWithTheArcsTheOtherWay) {
-  const Drawing d = read(dxf({{0, "INSERT"}, {2, "B"}, {10, "0"}, {20, "0"}, {41, "-1"}, {42, "1"}},
-                             block("B", "0", "0",
-                                   {{0, "LWPOLYLINE"},
-                                    {90, "2"},
-                                    {70, "0"},
-                                    {10, "1"},
-                                    {20, "0"},
-                                    {42, "0.41421356237309503"},
-                                    {10, "0"},
-                                    {20, "1"}})));
+  const Drawing d =
+      read_dxf_text(dxf({{0, "INSERT"}, {2, "B"}, {10, "0"}, {20, "0"}, {41, "-1"}, {42, "1"}},
+                        block("B", "0", "0",
+                              {{0, "LWPOLYLINE"},
+                               {90, "2"},
+                               {70, "0"},
+                               {10, "1"},
+                               {20, "0"},
+                               {42, "0.41421356237309503"},
+                               {10, "0"},
+                               {20, "1"}})));
   ASSERT_EQ(d.curves.size(), 1u);
   EXPECT_LT(off_circle(d.curves[0], {0, 0}, 1), 1e-14);
   EXPECT_NEAR(curvature(evaluate(d.curves[0].pieces[0], 0.5)), -1.0, 1e-13);
@@ -359,8 +357,8 @@ TEST(DxfReads, MirroredBlocksWithTheArcsTheOtherWay) {
 
 TEST(DxfReads, EntitiesThatMeetAsOneCurveInTheDirectionOfTheFirst) {
   // a slot, its lines and arcs in no order and of no direction
-  const Drawing d = read(dxf(line("0", "0", "4", "0") + arc("0", "1", "1", "90", "270") +
-                             line("0", "2", "4", "2") + arc("4", "1", "1", "270", "90")));
+  const Drawing d = read_dxf_text(dxf(line("0", "0", "4", "0") + arc("0", "1", "1", "90", "270") +
+                                      line("0", "2", "4", "2") + arc("4", "1", "1", "270", "90")));
   ASSERT_EQ(d.curves.size(), 1u);
   EXPECT_TRUE(d.curves[0].closed);
   expect_near(start_point(d.curves[0].pieces[0]), {0, 0});
@@ -370,8 +368,8 @@ TEST(DxfReads, EntitiesThatMeetAsOneCurveInTheDirectionOfTheFirst) {
 }
 
 TEST(DxfReads, OpenChainsFromTheirBeginning) {
-  const Drawing d =
-      read(dxf(line("1", "0", "2", "0") + line("1", "0", "0", "0.5") + line("3", "1", "2", "0")));
+  const Drawing d = read_dxf_text(
+      dxf(line("1", "0", "2", "0") + line("1", "0", "0", "0.5") + line("3", "1", "2", "0")));
   ASSERT_EQ(d.curves.size(), 1u);
   EXPECT_FALSE(d.curves[0].closed);
   expect_near(start_point(d.curves[0].pieces.front()), {0, 0.5});
@@ -380,38 +378,43 @@ TEST(DxfReads, OpenChainsFromTheirBeginning) {
 }
 
 TEST(DxfReads, ChainsUpToABranch) {
-  const Drawing d = read(dxf(line("0", "0", "1", "0") + line("1", "0", "2", "1") +
-                             line("1", "0", "2", "-1") + line("2", "-1", "3", "-1")));
+  const Drawing d = read_dxf_text(dxf(line("0", "0", "1", "0") + line("1", "0", "2", "1") +
+                                      line("1", "0", "2", "-1") + line("2", "-1", "3", "-1")));
   EXPECT_EQ(d.curves.size(), 3u);
 }
 
 TEST(DxfReads, LayersApart) {
-  EXPECT_EQ(read(dxf(line("0", "0", "1", "0", "A") + line("1", "0", "2", "1", "B"))).curves.size(),
+  EXPECT_EQ(read_dxf_text(dxf(line("0", "0", "1", "0", "A") + line("1", "0", "2", "1", "B")))
+                .curves.size(),
             2u);
 }
 
 TEST(DxfReads, EndsWithinAMillionthOfTheSizeAsOne) {
-  EXPECT_EQ(read(dxf(line("0", "0", "1", "0") + line("1.0000005", "0", "2", "1"))).curves.size(),
-            1u);
-  EXPECT_EQ(read(dxf(line("0", "0", "1", "0") + line("1.00001", "0", "2", "1"))).curves.size(), 2u);
+  EXPECT_EQ(
+      read_dxf_text(dxf(line("0", "0", "1", "0") + line("1.0000005", "0", "2", "1"))).curves.size(),
+      1u);
+  EXPECT_EQ(
+      read_dxf_text(dxf(line("0", "0", "1", "0") + line("1.00001", "0", "2", "1"))).curves.size(),
+      2u);
 }
 
 TEST(DxfReads, WhatWasDrawnTwiceOnce) {
-  const Drawing d =
-      read(dxf(line("0", "0", "1", "0") + line("1", "0", "0", "0") + line("1", "0", "2", "1")));
+  const Drawing d = read_dxf_text(
+      dxf(line("0", "0", "1", "0") + line("1", "0", "0", "0") + line("1", "0", "2", "1")));
   ASSERT_EQ(d.curves.size(), 1u);
   EXPECT_EQ(d.curves[0].pieces.size(), 2u);
   EXPECT_THAT(d.warnings, Contains(HasSubstr("1 entity lies on others")));
   // two halves of a circle share their ends and are no such case
-  EXPECT_TRUE(
-      read(dxf(arc("0", "0", "1", "0", "180") + arc("0", "0", "1", "180", "0"))).curves[0].closed);
+  EXPECT_TRUE(read_dxf_text(dxf(arc("0", "0", "1", "0", "180") + arc("0", "0", "1", "180", "0")))
+                  .curves[0]
+                  .closed);
 }
 
 // ---- what is left out -------------------------------------------------------------------------
 
 TEST(DxfLeavesOut, WhatCannotBeDrawnAndSaysSo) {
   const auto warned = [](const Tags& entity, const char* words) {
-    const Drawing d = read(dxf(line("0", "0", "1", "0") + entity));
+    const Drawing d = read_dxf_text(dxf(line("0", "0", "1", "0") + entity));
     EXPECT_EQ(d.curves.size(), 1u) << words;
     EXPECT_THAT(d.warnings, Contains(HasSubstr(words)));
   };
@@ -423,7 +426,7 @@ TEST(DxfLeavesOut, WhatCannotBeDrawnAndSaysSo) {
   warned({{0, "CIRCLE"}, {10, "1e200"}, {20, "0"}, {40, "1"}}, "its size is out of range");
   warned({{0, "LINE"}, {10, "1"}, {20, "2"}, {30, "0"}, {11, "1"}, {21, "2"}, {31, "5"}},
          "it is a single point, seen from above");
-  warned(with(arc("0", "0", "1", "0", "90"), {{210, "1"}, {220, "0"}, {230, "0"}}),
+  warned(joined(arc("0", "0", "1", "0", "90"), {{210, "1"}, {220, "0"}, {230, "0"}}),
          "tilted against xy");
   warned({{0, "ELLIPSE"}, {10, "0"}, {20, "0"}, {11, "1"}, {21, "0"}, {40, "0"}},
          "ratio of its axes");
@@ -453,7 +456,7 @@ Tags spline(int degree, const std::vector<const char*>& knots, int points,
 TEST(DxfLeavesOut, SplinesThatAreNone) {
   const auto why = [](const Tags& entity) { return refused(dxf(entity)).hint; };
   const std::vector<const char*> good = {"0", "0", "0", "1", "1", "1"};
-  EXPECT_EQ(read(dxf(spline(2, good, 3))).curves.size(), 1u);
+  EXPECT_EQ(read_dxf_text(dxf(spline(2, good, 3))).curves.size(), 1u);
   EXPECT_THAT(why(spline(2, good, 4)), HasSubstr("degree 2, 4 points, 6 knots"));
   EXPECT_THAT(why(spline(0, good, 3)), HasSubstr("its degree is not from 1 to 7 (0)"));
   EXPECT_THAT(why(spline(2, {"0", "0", "1", "0", "1", "1"}, 3)), HasSubstr("do not ascend"));
@@ -464,17 +467,17 @@ TEST(DxfLeavesOut, SplinesThatAreNone) {
 }
 
 TEST(DxfLeavesOut, HeightsWithAWarning) {
-  const Drawing d =
-      read(dxf({{0, "LINE"}, {10, "0"}, {20, "0"}, {30, "0"}, {11, "4"}, {21, "0"}, {31, "3"}}));
+  const Drawing d = read_dxf_text(
+      dxf({{0, "LINE"}, {10, "0"}, {20, "0"}, {30, "0"}, {11, "4"}, {21, "0"}, {31, "3"}}));
   EXPECT_NEAR(length_of(d.curves[0]), 4.0, 0.0);
   EXPECT_THAT(d.warnings,
               Contains(HasSubstr("height z is not constant, and dropped (from 0 to 3)")));
 }
 
 TEST(DxfLeavesOut, BytesOfOtherCodePagesFromLabels) {
-  const Drawing d = read(dxf(line("0", "0", "1", "0",
-                                  "Au\xDF"
-                                  "en \\U+00E4 \x01")));
+  const Drawing d = read_dxf_text(dxf(line("0", "0", "1", "0",
+                                           "Au\xDF"
+                                           "en \\U+00E4 \x01")));
   EXPECT_EQ(d.curves[0].label, "LINE at line 15 on layer Au\u00DFen \u00E4 ?");
 }
 
@@ -496,9 +499,9 @@ TEST(DxfFiles, BinaryOnesAreTheSameAsAscii) {
                                                                          {1001, "OBVID"},
                                                                          {1000, "a note"}},
                                   {}, {{9, "$INSUNITS"}, {70, "1"}});
-  const Drawing ascii = read(test::ascii(tags));
+  const Drawing ascii = read_dxf_text(test::ascii(tags));
   for (const bool wide : {false, true}) {
-    const Drawing binary = read(test::binary(tags, wide));
+    const Drawing binary = read_dxf_text(test::binary(tags, wide));
     EXPECT_EQ(binary.units, "in");
     ASSERT_EQ(binary.curves.size(), ascii.curves.size());
     for (std::size_t i = 0; i < ascii.curves.size(); ++i) {
@@ -516,9 +519,9 @@ TEST(DxfFiles, LineEndsOfAllSystemsAndComments) {
   for (const char* end : {"\r\n", "\r"}) {
     std::string other;
     for (const char c : text) other += c == '\n' ? std::string(end) : std::string(1, c);
-    EXPECT_EQ(read(other).curves.size(), 1u);
+    EXPECT_EQ(read_dxf_text(other).curves.size(), 1u);
   }
-  EXPECT_EQ(read("\xEF\xBB\xBF" + text).curves.size(), 1u);
+  EXPECT_EQ(read_dxf_text("\xEF\xBB\xBF" + text).curves.size(), 1u);
 }
 
 TEST(DxfFiles, OthersAreRefusedWithAReason) {
@@ -551,7 +554,8 @@ TEST(DxfFiles, CutOnesGiveWhatIsThereWithAWarningOrAnError) {
 
 TEST(DxfFiles, BlocksThatContainThemselvesEnd) {
   const Tags again = {{0, "INSERT"}, {2, "B"}, {10, "1"}, {20, "0"}};
-  const Drawing d = read(dxf(again, block("B", "0", "0", line("0", "0", "0.1", "0") + again)));
+  const Drawing d =
+      read_dxf_text(dxf(again, block("B", "0", "0", line("0", "0", "0.1", "0") + again)));
   EXPECT_GT(d.curves.size(), 10u);
   EXPECT_THAT(d.warnings, Contains(HasSubstr("blocks contain each other")));
 }
@@ -570,7 +574,7 @@ TEST(DxfFiles, SmallOnesThatAskForBillionsEnd) {
                              {44, "10"},
                              {45, "10"}});
   }
-  const Drawing d = read(dxf({{0, "INSERT"}, {2, "B11"}, {10, "0"}, {20, "0"}}, blocks));
+  const Drawing d = read_dxf_text(dxf({{0, "INSERT"}, {2, "B11"}, {10, "0"}, {20, "0"}}, blocks));
   EXPECT_THAT(d.warnings, Contains(HasSubstr("more than 500,000 entities")));
   // nothing at the bottom of it
   const Tags empty =
@@ -589,7 +593,7 @@ TEST(DxfFiles, AMillionVerticesAreReadInOneGo) {
   for (int i = 0; i < kCount; ++i) {
     text += "10\n" + std::to_string(i) + "\n20\n" + std::to_string(i % 7) + "\n";
   }
-  const Drawing d = read(text + test::ascii({{0, "ENDSEC"}, {0, "EOF"}}));
+  const Drawing d = read_dxf_text(text + test::ascii({{0, "ENDSEC"}, {0, "EOF"}}));
   ASSERT_EQ(d.series.size(), 1u);
   EXPECT_EQ(d.series[0].points.size(), static_cast<std::size_t>(kCount));
 }
@@ -598,7 +602,7 @@ TEST(DxfFiles, CrowdedEndsTakeNoLonger) {
   Tags tags;
   for (int i = 0; i < 100'000; ++i) tags = std::move(tags) + line("0", "0", "1", "1");
   tags = std::move(tags) + line("5", "5", "6", "6");
-  const Drawing d = read(dxf(tags));
+  const Drawing d = read_dxf_text(dxf(tags));
   EXPECT_EQ(d.curves.size(), 2u);
 }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // DXF files of contours: no entry in ezdxf's audit, and the same curve through ezdxf and back.
 #include "obvid/exchange/dxf_write.h"
+#include "../common/angles.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -11,7 +12,6 @@
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
-#include <numbers>
 #include <sstream>
 #include <string>
 #include <vector>
@@ -23,7 +23,6 @@ namespace obvid {
 namespace {
 
 namespace fs = std::filesystem;
-constexpr double kPi = std::numbers::pi;
 
 const DxfProfile kProfiles[] = {DxfProfile::kExact, DxfProfile::kArcs, DxfProfile::kCubic,
                                 DxfProfile::kArcsR12};

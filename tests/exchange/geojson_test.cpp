@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "obvid/exchange/geojson.h"
+#include "drawing_checks.h"
 
 #include <gtest/gtest.h>
 
@@ -14,13 +15,6 @@
 
 namespace obvid {
 namespace {
-
-bool warns(const Drawing& drawing, const std::string& part) {
-  for (const std::string& warning : drawing.warnings) {
-    if (warning.find(part) != std::string::npos) return true;
-  }
-  return false;
-}
 
 TEST(GeoJson, EveryLineAndRingIsASeries) {
   const auto d = parse_geojson(
@@ -115,13 +109,6 @@ TEST(GeoJson, AMillionPositionsAreRead) {
   const auto d = parse_geojson(text + "}", "big");
   ASSERT_TRUE(d.has_value());
   EXPECT_EQ(d->series[0].points.size(), 1000000U);
-}
-
-std::string slurp(const std::filesystem::path& path) {
-  std::ifstream file(path, std::ios::binary);
-  std::ostringstream text;
-  text << file.rdbuf();
-  return text.str();
 }
 
 /// Positions of the first line, found as text; its repetitions merge.

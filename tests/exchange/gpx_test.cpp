@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "obvid/exchange/gpx.h"
+#include "drawing_checks.h"
 
 #include <gtest/gtest.h>
 
@@ -20,13 +21,6 @@ std::string point(const char* kind, double latitude, double longitude) {
   out << "<" << kind << " lat='" << latitude << "' lon='" << longitude << "'><ele>3</ele></" << kind
       << ">\n";
   return out.str();
-}
-
-bool warns(const Drawing& drawing, const std::string& part) {
-  for (const std::string& warning : drawing.warnings) {
-    if (warning.find(part) != std::string::npos) return true;
-  }
-  return false;
 }
 
 TEST(Gpx, SegmentsRoutesAndWaypointsAreSeriesInMetres) {
@@ -103,13 +97,6 @@ TEST(Gpx, BrokenFilesAreRefused) {
   std::string deep = "<gpx>";
   for (int k = 0; k < 200000; ++k) deep += "<trk>";
   EXPECT_FALSE(parse_gpx(deep, "deep.gpx").has_value());
-}
-
-std::string slurp(const std::filesystem::path& path) {
-  std::ifstream file(path, std::ios::binary);
-  std::ostringstream text;
-  text << file.rdbuf();
-  return text.str();
 }
 
 TEST(GpxPublicFiles, EachHasItsPoints) {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "obvid/exchange/landxml.h"
+#include "drawing_checks.h"
 
 #include <gtest/gtest.h>
 
@@ -31,21 +32,14 @@ std::string curve(const std::string& attributes, const std::string& start,
          "</End></Curve>";
 }
 
-Drawing read(const std::string& text) {
+Drawing read_landxml_text(const std::string& text) {
   auto drawing = parse_landxml(text, "test.xml");
   EXPECT_TRUE(drawing.has_value()) << drawing.error().what;
   return drawing ? *drawing : Drawing{};
 }
 
-bool warns(const Drawing& drawing, const std::string& part) {
-  for (const std::string& warning : drawing.warnings) {
-    if (warning.find(part) != std::string::npos) return true;
-  }
-  return false;
-}
-
 TEST(LandXmlRead, NorthingComesFirstAndPointsMayBeNamed) {
-  const Drawing d = read(
+  const Drawing d = read_landxml_text(
       file_of(line("10 20 30", "11 25") + "<Line><Start pntRef='a'/><End pntRef='b'/></Line>"));
   ASSERT_EQ(d.curves.size(), 1U);
   EXPECT_EQ(d.curves[0].label, "Alignment A");
@@ -58,30 +52,31 @@ TEST(LandXmlRead, NorthingComesFirstAndPointsMayBeNamed) {
 TEST(LandXmlRead, UnitsAreThoseOfTheFile) {
   for (const auto& [theirs, ours] :
        {std::pair{"meter", "m"}, {"millimeter", "mm"}, {"foot", "ft"}, {"inch", "in"}}) {
-    EXPECT_EQ(read(file_of(line("0 0", "1 1"), theirs)).units, ours);
+    EXPECT_EQ(read_landxml_text(file_of(line("0 0", "1 1"), theirs)).units, ours);
   }
-  const Drawing survey = read(file_of(line("0 0", "1 1"), "USSurveyFoot"));
+  const Drawing survey = read_landxml_text(file_of(line("0 0", "1 1"), "USSurveyFoot"));
   EXPECT_EQ(survey.units, "ft");
   EXPECT_TRUE(warns(survey, "survey"));
-  EXPECT_TRUE(warns(read(file_of(line("0 0", "1 1"), "league")), "taken as metres"));
+  EXPECT_TRUE(warns(read_landxml_text(file_of(line("0 0", "1 1"), "league")), "taken as metres"));
 }
 
 /// Around (100, 200) in x, y: from east to north and the long way round.
 TEST(LandXmlRead, CurvesTurnAsTheirRotationSays) {
   const Drawing ccw =
-      read(file_of(curve("rot='ccw' radius='10'", "200 110", "200 100", "210 100")));
+      read_landxml_text(file_of(curve("rot='ccw' radius='10'", "200 110", "200 100", "210 100")));
   const auto& quarter = std::get<ArcPiece>(ccw.curves[0].pieces[0]);
   EXPECT_NEAR(quarter.length, 5.0 * std::numbers::pi, 1e-12);
   EXPECT_NEAR(quarter.kappa, 0.1, 1e-15);
   EXPECT_NEAR(norm(evaluate(quarter, 0.5).point -
                    (Vec2{100.0, 200.0} + 10.0 * unit_at(0.25 * std::numbers::pi))),
               0.0, 1e-12);
-  const Drawing cw = read(file_of(curve("rot='cw'", "200 110", "200 100", "210 100")));
+  const Drawing cw = read_landxml_text(file_of(curve("rot='cw'", "200 110", "200 100", "210 100")));
   const auto& rest = std::get<ArcPiece>(cw.curves[0].pieces[0]);
   EXPECT_NEAR(rest.length, 15.0 * std::numbers::pi, 1e-12);
   EXPECT_NEAR(rest.kappa, -0.1, 1e-15);
   // Without a centre: the short arc of the radius.
-  const Drawing short_one = read(file_of(curve("rot='cw' radius='10'", "200 110", "", "210 100")));
+  const Drawing short_one =
+      read_landxml_text(file_of(curve("rot='cw' radius='10'", "200 110", "", "210 100")));
   EXPECT_NEAR(std::get<ArcPiece>(short_one.curves[0].pieces[0]).length, 5.0 * std::numbers::pi,
               1e-9);
 }
@@ -97,31 +92,33 @@ TEST(LandXmlRead, WhatCannotBeDrawnIsNamedAndCutsTheCurve) {
         "<Spiral spiType='clothoid' length='1' radiusStart='0' radiusEnd='9' rot='cw'>" + spiral,
         "<Spiral spiType='clothoid' length='-1' radiusStart='INF' radiusEnd='9' rot='cw'>" + spiral,
         std::string("<Chain>a b</Chain>")}) {
-    const Drawing d = read(file_of(good + "\n" + bad + good));
+    const Drawing d = read_landxml_text(file_of(good + "\n" + bad + good));
     EXPECT_EQ(d.curves.size(), 2U) << bad;
     EXPECT_TRUE(warns(d, "left out (line 2)")) << bad;
   }
-  EXPECT_TRUE(warns(read(file_of(good +
-                                 "<Spiral spiType='bloss' length='1' radiusStart='INF' "
-                                 "radiusEnd='9' rot='cw'>" +
-                                 spiral)),
-                    "'bloss'"));
+  EXPECT_TRUE(
+      warns(read_landxml_text(file_of(good +
+                                      "<Spiral spiType='bloss' length='1' radiusStart='INF' "
+                                      "radiusEnd='9' rot='cw'>" +
+                                      spiral)),
+            "'bloss'"));
 }
 
 TEST(LandXmlRead, ContradictionsAreNamed) {
   EXPECT_TRUE(
-      warns(read(file_of(curve("rot='ccw' radius='11'", "0 10", "0 0", "10 0"))), "contradicts"));
+      warns(read_landxml_text(file_of(curve("rot='ccw' radius='11'", "0 10", "0 0", "10 0"))),
+            "contradicts"));
   // A clothoid 0 to 1/100 over 60 ends near (59.5, 5.9); a metre more is said.
-  const Drawing d = read(
+  const Drawing d = read_landxml_text(
       file_of("<Spiral spiType='clothoid' length='60' radiusStart='INF' radiusEnd='100' rot='ccw'>"
               "<Start>0 0</Start><PI>0 40</PI><End>6 60.5</End></Spiral>"));
   EXPECT_TRUE(warns(d, "from their stated ends"));
 }
 
 TEST(LandXmlRead, IrregularLinesAreLinesAndASeries) {
-  const Drawing d =
-      read(file_of("<IrregularLine><Start>0 0</Start><End>2 9</End><PntList2D>0 0 1 5 2 "
-                   "9</PntList2D></IrregularLine>"));
+  const Drawing d = read_landxml_text(
+      file_of("<IrregularLine><Start>0 0</Start><End>2 9</End><PntList2D>0 0 1 5 2 "
+              "9</PntList2D></IrregularLine>"));
   ASSERT_EQ(d.series.size(), 1U);
   EXPECT_EQ(d.series[0].points, (std::vector<Vec2>{{0.0, 0.0}, {5.0, 1.0}, {9.0, 2.0}}));
   EXPECT_EQ(d.curves[0].pieces.size(), 2U);
@@ -148,14 +145,14 @@ struct Counts {
   double length;  ///< chords of lines, arcs by centre and rotation, stated lengths of spirals
 };
 
-constexpr Counts kPublic[] = {{"j_landxml_sample.xml", "m", 1, 4, 5, 9, 1085.946183},
-                              {"polyline.xml", "ft", 1, 4, 1, 0, 842.538297},
-                              {"subdivision.xml", "ft", 89, 379, 73, 0, 93637.277310}};
+constexpr Counts kPublicAlignments[] = {{"j_landxml_sample.xml", "m", 1, 4, 5, 9, 1085.946183},
+                                        {"polyline.xml", "ft", 1, 4, 1, 0, 842.538297},
+                                        {"subdivision.xml", "ft", 89, 379, 73, 0, 93637.277310}};
 
 TEST(LandXmlPublicFiles, EachHasItsElementsAndLength) {
   const auto folder = std::filesystem::path(OBVID_SHARED_DATA) / "landxml";
   if (!std::filesystem::exists(folder)) GTEST_SKIP() << "the public data set is not here";
-  for (const Counts& expected : kPublic) {
+  for (const Counts& expected : kPublicAlignments) {
     const auto d = parse_landxml(slurp(folder / expected.file), expected.file);
     ASSERT_TRUE(d.has_value()) << expected.file << d.error().what;
     EXPECT_EQ(d->units, expected.unit);
@@ -174,7 +171,7 @@ TEST(LandXmlPublicFiles, EachHasItsElementsAndLength) {
     EXPECT_NEAR(length, expected.length, 1e-5 * expected.length) << expected.file;
   }
   const auto all = std::distance(std::filesystem::directory_iterator(folder), {});
-  EXPECT_EQ(static_cast<std::size_t>(all), std::size(kPublic));
+  EXPECT_EQ(static_cast<std::size_t>(all), std::size(kPublicAlignments));
 }
 
 /// The alignment is G2 by design (INF, 250, INF, 150, ...): headings and curvatures agree at every
@@ -182,7 +179,7 @@ TEST(LandXmlPublicFiles, EachHasItsElementsAndLength) {
 TEST(LandXmlPublicFiles, TheJapaneseAlignmentIsCurvatureContinuous) {
   const auto path = std::filesystem::path(OBVID_SHARED_DATA) / "landxml/j_landxml_sample.xml";
   if (!std::filesystem::exists(path)) GTEST_SKIP() << "the public data set is not here";
-  const Drawing d = read(slurp(path));
+  const Drawing d = read_landxml_text(slurp(path));
   EXPECT_TRUE(d.warnings.empty());
   const auto& pieces = d.curves[0].pieces;
   ASSERT_EQ(pieces.size(), 18U);
@@ -217,7 +214,7 @@ TEST(LandXmlWrite, ContoursComeBackTheSame) {
   for (const auto& [contour, metres] : contours()) {
     const auto text = landxml_text(contour);
     ASSERT_TRUE(text.has_value()) << text.error().what;
-    const Drawing d = read(*text);
+    const Drawing d = read_landxml_text(*text);
     ASSERT_EQ(d.curves.size(), 1U);
     EXPECT_EQ(d.curves[0].closed, contour.closed);
     for (const std::string& warning : d.warnings) ADD_FAILURE() << warning;
@@ -244,7 +241,7 @@ TEST(LandXmlWrite, SpiralsThroughAnInflectionAndLargeTurnsAreCut) {
   const Contour wave = Road({{0.0, 0.0}, 0.0, 0.0}).add(0.01, -0.02, 60.0).take();
   const auto text = landxml_text(wave);
   ASSERT_TRUE(text.has_value());
-  const Drawing d = read(*text);
+  const Drawing d = read_landxml_text(*text);
   ASSERT_EQ(d.curves[0].pieces.size(), 2U);
   const auto& first = std::get<ClothoidPiece>(d.curves[0].pieces[0]);
   const auto& second = std::get<ClothoidPiece>(d.curves[0].pieces[1]);
@@ -252,7 +249,7 @@ TEST(LandXmlWrite, SpiralsThroughAnInflectionAndLargeTurnsAreCut) {
   EXPECT_EQ(first.kappa1, 0.0);
   EXPECT_EQ(second.kappa0, 0.0);
   const Contour round = Road({{0.0, 0.0}, 0.0, 0.0}).add(0.1, 0.1, 60.0).take();
-  const auto again = read(*landxml_text(round));  // outlives the loop
+  const auto again = read_landxml_text(*landxml_text(round));  // outlives the loop
   for (const Piece& piece : again.curves[0].pieces) {
     const auto& arc = std::get<ArcPiece>(piece);
     EXPECT_LE(arc.kappa * arc.length, 0.5 * std::numbers::pi + 1e-12);

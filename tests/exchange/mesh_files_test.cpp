@@ -11,19 +11,17 @@
 #include <locale>
 #include <map>
 #include <nlohmann/json.hpp>
-#include <numbers>
 #include <sstream>
 #include <string>
 #include <vector>
 
+#include "../common/angles.h"
 #include "../mesh/mesh_checks.h"
 #include "../mesh/shapes.h"
 #include "obvid/exchange/mesh_files.h"
 
 namespace obvid {
 namespace {
-
-constexpr double kPi = std::numbers::pi;
 
 struct Drawn {
   SurfaceModel model;

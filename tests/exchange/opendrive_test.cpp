@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "obvid/exchange/opendrive.h"
+#include "drawing_checks.h"
 
 #include <gtest/gtest.h>
 
@@ -20,21 +21,14 @@ std::string geometry(const std::string& base, const std::string& shape) {
   return "<geometry " + base + ">" + shape + "</geometry>";
 }
 
-Drawing read(const std::string& text) {
+Drawing read_opendrive_text(const std::string& text) {
   auto drawing = parse_opendrive(text, "test.xodr");
   EXPECT_TRUE(drawing.has_value()) << drawing.error().what;
   return drawing ? *drawing : Drawing{};
 }
 
-bool warns(const Drawing& drawing, const std::string& part) {
-  for (const std::string& warning : drawing.warnings) {
-    if (warning.find(part) != std::string::npos) return true;
-  }
-  return false;
-}
-
 TEST(OpenDriveRead, LinesArcsAndSpiralsAreExact) {
-  const Drawing d = read(
+  const Drawing d = read_opendrive_text(
       road_of(geometry("s='0' x='1' y='2' hdg='1.5707963267948966' length='10'", "<line/>") +
               geometry("s='10' x='1' y='12' hdg='1.5707963267948966' length='15.707963267948966'",
                        "<arc curvature='-0.1'/>") +
@@ -53,8 +47,9 @@ TEST(OpenDriveRead, LinesArcsAndSpiralsAreExact) {
 
 /// v = u^2 / 20 up to u = 10: length 5 (sqrt 2 + asinh 1).
 TEST(OpenDriveRead, Poly3EndsAtItsArcLength) {
-  const Drawing d = read(road_of(geometry("s='0' x='5' y='0' hdg='0' length='11.477935746963718'",
-                                          "<poly3 a='0' b='0' c='0.05' d='0'/>")));
+  const Drawing d =
+      read_opendrive_text(road_of(geometry("s='0' x='5' y='0' hdg='0' length='11.477935746963718'",
+                                           "<poly3 a='0' b='0' c='0.05' d='0'/>")));
   const Vec2 end = end_point(d.curves[0].pieces[0]);
   EXPECT_NEAR(end.x, 15.0, 1e-8);
   EXPECT_NEAR(end.y, 5.0, 1e-8);
@@ -62,11 +57,11 @@ TEST(OpenDriveRead, Poly3EndsAtItsArcLength) {
 
 TEST(OpenDriveRead, ParamPoly3IsTheSameCubicInBothRanges) {
   const std::string base = "s='0' x='3' y='4' hdg='0.5' length='2'";
-  const Drawing one = read(road_of(geometry(
+  const Drawing one = read_opendrive_text(road_of(geometry(
       base,
       "<paramPoly3 pRange='normalized' aU='0' bU='2' cU='.4' dU='-.8' aV='.1' bV='0' cV='1.2' "
       "dV='1.6'/>")));
-  const Drawing two = read(road_of(geometry(
+  const Drawing two = read_opendrive_text(road_of(geometry(
       base,
       "<paramPoly3 pRange='arcLength' aU='0' bU='1' cU='.1' dU='-.1' aV='.1' bV='0' cV='.3' "
       "dV='.2'/>")));
@@ -88,7 +83,7 @@ TEST(OpenDriveRead, ElementsThatCannotBeDrawnAreNamedAndCutTheCurve) {
         geometry("s='0' x='0' y='0' hdg='0' length='1e308'",
                  "<spiral curvStart='1e308' curvEnd='-1e308'/>"),
         geometry("s='0' x='0' y='0' length='1'", "<line/>")}) {
-    const Drawing d = read(road_of(good + "\n" + bad + good));
+    const Drawing d = read_opendrive_text(road_of(good + "\n" + bad + good));
     EXPECT_EQ(d.curves.size(), 2U) << bad;
     EXPECT_TRUE(warns(d, "left out (line 2)")) << bad;
   }
@@ -107,13 +102,13 @@ TEST(OpenDriveRead, BrokenFilesAreRefused) {
 // ---- public files, counted by another XML parser
 // -------------------------------------------------
 
-struct Counts {
+struct RoadCounts {
   const char* file;
   std::size_t roads, pieces, lines, arcs, spirals, cubics;
   double length;  ///< sum of the stated lengths, m
 };
 
-constexpr Counts kPublic[] = {
+constexpr RoadCounts kPublicRoads[] = {
     {"asam_smoothness_many_invalid.xodr", 18, 33, 16, 5, 4, 8, 1474.78606},
     {"carla_Town01.xodr", 98, 352, 240, 112, 0, 0, 3923.07189},
     {"carla_Town04.xodr", 242, 1215, 917, 298, 0, 0, 9749.61444},
@@ -135,7 +130,7 @@ constexpr Counts kPublic[] = {
 TEST(OpenDrivePublicFiles, EachHasItsElementsAndLength) {
   const auto folder = std::filesystem::path(OBVID_SHARED_DATA) / "roads_opendrive";
   if (!std::filesystem::exists(folder)) GTEST_SKIP() << "the public data set is not here";
-  for (const Counts& expected : kPublic) {
+  for (const RoadCounts& expected : kPublicRoads) {
     const auto d = parse_opendrive(slurp(folder / expected.file), expected.file);
     ASSERT_TRUE(d.has_value()) << expected.file << d.error().what;
     EXPECT_EQ(d->curves.size(), expected.roads) << expected.file;
@@ -157,7 +152,7 @@ TEST(OpenDrivePublicFiles, EachHasItsElementsAndLength) {
     EXPECT_NEAR(length, expected.length, slack * expected.length) << expected.file;
   }
   const auto all = std::distance(std::filesystem::directory_iterator(folder), {});
-  EXPECT_EQ(static_cast<std::size_t>(all), std::size(kPublic));
+  EXPECT_EQ(static_cast<std::size_t>(all), std::size(kPublicRoads));
 }
 
 /// The next element starts where the formula of this one ends: gaps are those of the files, at most
@@ -166,7 +161,7 @@ TEST(OpenDrivePublicFiles, ElementsMeetTheNextOnes) {
   const auto folder = std::filesystem::path(OBVID_SHARED_DATA) / "roads_opendrive";
   if (!std::filesystem::exists(folder)) GTEST_SKIP() << "the public data set is not here";
   std::size_t joints = 0;
-  for (const Counts& expected : kPublic) {
+  for (const RoadCounts& expected : kPublicRoads) {
     if (std::string(expected.file).starts_with("asam")) continue;
     const auto d = parse_opendrive(slurp(folder / expected.file), expected.file);
     for (const DrawnCurve& curve : d->curves) {
@@ -190,7 +185,7 @@ TEST(OpenDriveWrite, ContoursComeBackTheSame) {
   for (const auto& [contour, metres] : contours) {
     const auto text = opendrive_text(contour);
     ASSERT_TRUE(text.has_value()) << text.error().what;
-    const Drawing d = read(*text);
+    const Drawing d = read_opendrive_text(*text);
     ASSERT_EQ(d.curves.size(), 1U);
     EXPECT_TRUE(d.warnings.empty());
     expect_same_curve(contour, d.curves[0].pieces, metres);
@@ -220,7 +215,7 @@ TEST(OpenDriveWrite, ACornerBeginsALinkedRoadAndAClosedContourIsLinkedToItself) 
                            .take();
   const auto text = opendrive_text(bent);
   ASSERT_TRUE(text.has_value());
-  const Drawing d = read(*text);
+  const Drawing d = read_opendrive_text(*text);
   ASSERT_EQ(d.curves.size(), 2U);
   EXPECT_EQ(d.curves[0].pieces.size(), 2U);
   if (has_python()) {

@@ -14,18 +14,12 @@
 #include <string>
 #include <vector>
 
+#include "drawing_checks.h"
 #include "obvid/curve/clothoid.h"
 #include "obvid/exchange/drawing.h"
 #include "obvid/io/contour_json.h"
 
 namespace obvid {
-
-inline std::string slurp(const std::filesystem::path& path) {
-  std::ifstream file(path, std::ios::binary);
-  std::ostringstream text;
-  text << file.rdbuf();
-  return text.str();
-}
 
 inline Contour stored(const std::string& name) {
   const auto path = std::filesystem::path(OBVID_TEST_DATA) / "contours" / name;

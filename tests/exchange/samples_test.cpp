@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 // Samples of curves of known length, and the texts made of them.
 #include "obvid/exchange/samples.h"
+#include "../common/angles.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <numbers>
 #include <sstream>
 #include <string>
 
@@ -13,8 +13,6 @@
 
 namespace obvid {
 namespace {
-
-constexpr double kPi = std::numbers::pi;
 
 /// A line of length 2, a quarter of a circle of radius 1, a line of length 3.
 Contour hook() {

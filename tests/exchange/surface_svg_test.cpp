@@ -24,15 +24,15 @@ std::string picture(const SurfaceModel& model, const SurfacePictureOptions& opti
   return svg.value_or("");
 }
 
-ErrorCode error_of(const SurfaceModel& model, const SurfacePictureOptions& options = {}) {
+ErrorCode picture_error(const SurfaceModel& model, const SurfacePictureOptions& options = {}) {
   const auto svg = surface_svg(model, options);
   EXPECT_FALSE(svg);
   return svg ? ErrorCode::kInternal : svg.error().code;
 }
 
 /// A picture as XML.
-struct Drawing {
-  explicit Drawing(const std::string& svg) {
+struct DrawnPicture {
+  explicit DrawnPicture(const std::string& svg) {
     EXPECT_TRUE(xml.load_string(svg.c_str(), pugi::parse_full)) << svg.substr(0, 300);
   }
   /// Data of the path of a class; "" where there is none.
@@ -80,9 +80,9 @@ std::vector<Vec2> corners(const std::string& data) {
   return out;
 }
 
-struct Extent {
+struct SheetExtent {
   Vec2 low{HUGE_VAL, HUGE_VAL}, high{-HUGE_VAL, -HUGE_VAL};
-  explicit Extent(const std::vector<Vec2>& points) {
+  explicit SheetExtent(const std::vector<Vec2>& points) {
     for (const Vec2 p : points) {
       low = {std::min(low.x, p.x), std::min(low.y, p.y)};
       high = {std::max(high.x, p.x), std::max(high.y, p.y)};
@@ -92,7 +92,8 @@ struct Extent {
   Vec2 middle() const { return 0.5 * (low + high); }
 };
 
-SurfacePictureOptions with(SurfaceColouring colouring, SurfaceView view = SurfaceView::kIso) {
+SurfacePictureOptions picture_with(SurfaceColouring colouring,
+                                   SurfaceView view = SurfaceView::kIso) {
   SurfacePictureOptions options;
   options.colouring = colouring;
   options.view = view;
@@ -114,14 +115,14 @@ SurfaceModel parts() {
 TEST(SurfacePicture, IsSmallGoodXmlInEveryColouringAndView) {
   for (const SurfaceColouring c : kAll) {
     for (const auto view : {SurfaceView::kIso, SurfaceView::kTop, SurfaceView::kSide}) {
-      const std::string svg = picture(parts(), with(c, view));
-      const Drawing drawing(svg);
+      const std::string svg = picture(parts(), picture_with(c, view));
+      const DrawnPicture drawing(svg);
       EXPECT_EQ(svg.find("nan"), std::string::npos);
       EXPECT_EQ(svg.find("inf"), std::string::npos);
       EXPECT_LT(svg.size(), 1'500'000U);
       EXPECT_GT(drawing.colours().size(), 1U);
     }
-    EXPECT_EQ(picture(parts(), with(c)), picture(parts(), with(c)));
+    EXPECT_EQ(picture(parts(), picture_with(c)), picture(parts(), picture_with(c)));
   }
 }
 
@@ -130,10 +131,10 @@ TEST(SurfacePicture, OutlineOfASphereIsItsCircleFromEverywhere) {
     SurfacePictureOptions options;
     options.azimuth_deg = azimuth;
     options.elevation_deg = elevation;
-    const Drawing drawing(picture(model_of({{"ball", sphere(25)}}), options));
+    const DrawnPicture drawing(picture(model_of({{"ball", sphere(25)}}), options));
     const auto outline = corners(drawing.path("outline"));
     ASSERT_GT(outline.size(), 50U);
-    const Extent extent(outline);
+    const SheetExtent extent(outline);
     // the sheet is 900 x 620 with 24 px beside, 64 above and 76 + 24 below: the height decides
     const double radius = 0.5 * (620.0 - 64.0 - 76.0 - 24.0);
     for (const Vec2 p : outline) EXPECT_NEAR(norm(p - extent.middle()), radius, 0.7);
@@ -142,12 +143,13 @@ TEST(SurfacePicture, OutlineOfASphereIsItsCircleFromEverywhere) {
 }
 
 TEST(SurfacePicture, PlaneFromAboveKeepsItsProportions) {
-  const Drawing drawing(picture(model_of({{"plate", rectangle(60, 20)}}),
-                                with(SurfaceColouring::kIsolines, SurfaceView::kTop)));
-  const Extent border(corners(drawing.path("border")));
+  const DrawnPicture drawing(picture(model_of({{"plate", rectangle(60, 20)}}),
+                                     picture_with(SurfaceColouring::kIsolines, SurfaceView::kTop)));
+  const SheetExtent border(corners(drawing.path("border")));
   EXPECT_NEAR(border.size().x, 852.0, 0.2);  // 900 without both margins
   EXPECT_NEAR(border.size().y, 284.0, 0.2);
-  const Extent u(corners(drawing.path("iso u")));  // 7 lines inside, the outermost at 1/8 and 7/8
+  const SheetExtent u(
+      corners(drawing.path("iso u")));  // 7 lines inside, the outermost at 1/8 and 7/8
   EXPECT_NEAR(u.size().x, 852.0 * 6.0 / 8.0, 0.2);
   EXPECT_NEAR(u.size().y, 284.0, 0.2);
   EXPECT_TRUE(drawing.says("60 × 20 × 0 mm"));
@@ -159,9 +161,9 @@ TEST(SurfacePicture, ViewsLookFromWhereTheirNamesSay) {
   NurbsSurface roof = rectangle(30, 10);
   for (Vec3& p : roof.points) p.z = p.x / 3.0;
   const auto width_and_rise = [&](SurfaceView view) {
-    const auto points =
-        corners(Drawing(picture(model_of({{"roof", roof}}), with(SurfaceColouring::kShaded, view)))
-                    .path("border"));
+    const auto points = corners(DrawnPicture(picture(model_of({{"roof", roof}}),
+                                                     picture_with(SurfaceColouring::kShaded, view)))
+                                    .path("border"));
     const auto [left, right] =
         std::minmax_element(points.begin(), points.end(), [](Vec2 a, Vec2 b) { return a.x < b.x; });
     return Vec2{right->x - left->x, left->y - right->y};
@@ -180,20 +182,22 @@ TEST(SurfacePicture, WhatIsInsideIsHidden) {
   };
   for (const SurfaceView view : {SurfaceView::kIso, SurfaceView::kTop}) {
     const auto inside = model_of({{"ball", sphere(30)}, {"plate", plate(0)}});
-    EXPECT_TRUE(
-        Drawing(picture(inside, with(SurfaceColouring::kShaded, view))).path("border").empty());
+    EXPECT_TRUE(DrawnPicture(picture(inside, picture_with(SurfaceColouring::kShaded, view)))
+                    .path("border")
+                    .empty());
     const auto above = model_of({{"ball", sphere(30)}, {"plate", plate(40)}});
-    EXPECT_FALSE(
-        Drawing(picture(above, with(SurfaceColouring::kShaded, view))).path("border").empty());
+    EXPECT_FALSE(DrawnPicture(picture(above, picture_with(SurfaceColouring::kShaded, view)))
+                     .path("border")
+                     .empty());
   }
 }
 
 TEST(SurfacePicture, IsolinesOfTheFarSideAreNotDrawn) {
   const auto model = model_of({{"tube", turned(line_between({20, 0, 50}, {20, 0, 0}))}});
-  SurfacePictureOptions options = with(SurfaceColouring::kIsolines, SurfaceView::kFront);
+  SurfacePictureOptions options = picture_with(SurfaceColouring::kIsolines, SurfaceView::kFront);
   options.isolines_u = 1;
   options.isolines_v = 8;  // one each 45 degrees: three of seven are in front, not at the sides
-  const std::string v = Drawing(picture(model, options)).path("iso v");
+  const std::string v = DrawnPicture(picture(model, options)).path("iso v");
   // of the eight places 0, 45, ... the seam at 0 is none; the front has 225, 270 and 315 degrees,
   // and the outlines at 180 (and 0) degrees may count as seen
   const auto lines = std::count(v.begin(), v.end(), 'M');
@@ -202,34 +206,37 @@ TEST(SurfacePicture, IsolinesOfTheFarSideAreNotDrawn) {
 }
 
 TEST(SurfacePicture, CurvatureLegendsHaveTheNumbersOfClosedForms) {
-  const Drawing ring(
-      picture(model_of({{"ring", torus(40, 14)}}), with(SurfaceColouring::kGaussian)));
+  const DrawnPicture ring(
+      picture(model_of({{"ring", torus(40, 14)}}), picture_with(SurfaceColouring::kGaussian)));
   // -1 / (14 * 26) and 1 / (14 * 54)
   EXPECT_TRUE(ring.says("from −0.00275 to 0.00132 in all"));
   EXPECT_TRUE(ring.says("Gaussian curvature, 1/mm²"));
-  const Drawing ball(picture(model_of({{"ball", sphere(25)}}), with(SurfaceColouring::kGaussian)));
+  const DrawnPicture ball(
+      picture(model_of({{"ball", sphere(25)}}), picture_with(SurfaceColouring::kGaussian)));
   EXPECT_TRUE(ball.says("0.0016 everywhere"));
   EXPECT_EQ(ball.colours(), std::vector<std::string>(ball.colours().size(), ball.colours()[0]));
-  const Drawing plate(picture(model_of({{"plate", rectangle(3, 2)}}), with(SurfaceColouring::kK1)));
+  const DrawnPicture plate(
+      picture(model_of({{"plate", rectangle(3, 2)}}), picture_with(SurfaceColouring::kK1)));
   EXPECT_TRUE(plate.says("0 everywhere"));
-  SurfacePictureOptions fixed = with(SurfaceColouring::kGaussian);
+  SurfacePictureOptions fixed = picture_with(SurfaceColouring::kGaussian);
   fixed.range = Range{0.0, 0.004};
-  const Drawing same(picture(model_of({{"ball", sphere(25)}}), fixed));
+  const DrawnPicture same(picture(model_of({{"ball", sphere(25)}}), fixed));
   EXPECT_TRUE(same.says("0.004"));
 }
 
 TEST(SurfacePicture, ZebraOfAPlaneHasOneColourAndOfASphereTwo) {
-  const auto zebra = with(SurfaceColouring::kZebra);
+  const auto zebra = picture_with(SurfaceColouring::kZebra);
   const auto different = [](std::vector<std::string> c) {
     std::sort(c.begin(), c.end());
     return std::unique(c.begin(), c.end()) - c.begin();
   };
-  EXPECT_EQ(different(Drawing(picture(model_of({{"p", rectangle(3, 2)}}), zebra)).colours()), 1);
-  EXPECT_EQ(different(Drawing(picture(model_of({{"b", sphere(3)}}), zebra)).colours()), 2);
+  EXPECT_EQ(different(DrawnPicture(picture(model_of({{"p", rectangle(3, 2)}}), zebra)).colours()),
+            1);
+  EXPECT_EQ(different(DrawnPicture(picture(model_of({{"b", sphere(3)}}), zebra)).colours()), 2);
 }
 
 TEST(SurfacePicture, LinesStandOverTheSurfaceAndBehindIt) {
-  SurfacePictureOptions options = with(SurfaceColouring::kShaded, SurfaceView::kFront);
+  SurfacePictureOptions options = picture_with(SurfaceColouring::kShaded, SurfaceView::kFront);
   ScenePolyline ring{{}, "section"};
   for (int k = 0; k <= 200; ++k) {
     const double a = 2.0 * std::numbers::pi * k / 200;
@@ -239,17 +246,17 @@ TEST(SurfacePicture, LinesStandOverTheSurfaceAndBehindIt) {
   path.role = "toolpath";
   unknown.role = "\"><script>";
   options.lines = {ring, path, unknown};
-  const Drawing drawing(picture(model_of({{"ball", sphere(25)}}), options));
+  const DrawnPicture drawing(picture(model_of({{"ball", sphere(25)}}), options));
   // the equator from the front: one half before the ball, one behind
-  EXPECT_NEAR(Extent(corners(drawing.path("section"))).size().x, 456.0, 3.0);
-  EXPECT_NEAR(Extent(corners(drawing.path("section behind"))).size().x, 456.0, 12.0);
+  EXPECT_NEAR(SheetExtent(corners(drawing.path("section"))).size().x, 456.0, 3.0);
+  EXPECT_NEAR(SheetExtent(corners(drawing.path("section behind"))).size().x, 456.0, 12.0);
   EXPECT_FALSE(drawing.path("toolpath").empty());
   EXPECT_FALSE(drawing.path("other").empty());
   EXPECT_TRUE(drawing.path("rapid").empty());
 }
 
 TEST(SurfacePicture, LongToolPathsStaySmall) {
-  SurfacePictureOptions options = with(SurfaceColouring::kShaded);
+  SurfacePictureOptions options = picture_with(SurfaceColouring::kShaded);
   ScenePolyline path{{}, "toolpath"};
   for (int row = 0; row < 400; ++row) {
     for (int k = 0; k <= 500; ++k) {
@@ -260,14 +267,15 @@ TEST(SurfacePicture, LongToolPathsStaySmall) {
   options.lines = {path};
   const std::string svg = picture(model_of({{"plate", rectangle(100, 100)}}), options);
   EXPECT_LT(svg.size(), 1'500'000U);
-  EXPECT_FALSE(Drawing(svg).path("toolpath").empty());
+  EXPECT_FALSE(DrawnPicture(svg).path("toolpath").empty());
 }
 
 TEST(SurfacePicture, DoesNotCareWhereTheSurfaceLies) {
   const auto outline = [](Vec3 centre) {
-    return Extent(corners(Drawing(picture(model_of({{"b", sphere(2, centre)}}))).path("outline")));
+    return SheetExtent(
+        corners(DrawnPicture(picture(model_of({{"b", sphere(2, centre)}}))).path("outline")));
   };
-  const Extent here = outline({}), far = outline({5e6, -4e6, 100});
+  const SheetExtent here = outline({}), far = outline({5e6, -4e6, 100});
   EXPECT_NEAR(here.size().x, far.size().x, 0.2);
   EXPECT_NEAR(here.middle().y, far.middle().y, 0.2);
 }
@@ -277,7 +285,7 @@ TEST(SurfacePicture, HostileNamesAreText) {
        {"</title><script>alert(1)</script>", "\xff\xc3( & \"x\" <b>", "\x01\x1b[0m"}) {
     auto model = model_of({{name, rectangle(3, 2)}}, name);
     model.units = name;
-    const Drawing drawing(picture(model, with(SurfaceColouring::kMean)));
+    const DrawnPicture drawing(picture(model, picture_with(SurfaceColouring::kMean)));
     EXPECT_FALSE(drawing.xml.select_node("//*[local-name()='script']"));
     EXPECT_FALSE(drawing.xml.select_node("//*[local-name()='b']"));
   }
@@ -285,25 +293,25 @@ TEST(SurfacePicture, HostileNamesAreText) {
 
 TEST(SurfacePicture, RefusesWhatItCannotDraw) {
   const auto model = model_of({{"plate", rectangle(1, 1)}});
-  EXPECT_EQ(error_of({}), ErrorCode::kTooFewPoints);
+  EXPECT_EQ(picture_error({}), ErrorCode::kTooFewPoints);
   auto broken = model;
   broken.patches[0].surface.points.pop_back();
-  EXPECT_EQ(error_of(broken), ErrorCode::kBadOption);
+  EXPECT_EQ(picture_error(broken), ErrorCode::kBadOption);
   auto point = model;
   for (Vec3& p : point.patches[0].surface.points) p = {1, 2, 3};
-  EXPECT_EQ(error_of(point), ErrorCode::kSizeOutOfRange);
+  EXPECT_EQ(picture_error(point), ErrorCode::kSizeOutOfRange);
   SurfacePictureOptions options;
   options.width = std::numeric_limits<double>::quiet_NaN();
-  EXPECT_EQ(error_of(model, options), ErrorCode::kBadOption);
+  EXPECT_EQ(picture_error(model, options), ErrorCode::kBadOption);
   options = {};
   options.isolines_u = 0;
-  EXPECT_EQ(error_of(model, options), ErrorCode::kBadOption);
+  EXPECT_EQ(picture_error(model, options), ErrorCode::kBadOption);
   options = {};
   options.range = Range{1.0, 1.0};
-  EXPECT_EQ(error_of(model, options), ErrorCode::kBadOption);
+  EXPECT_EQ(picture_error(model, options), ErrorCode::kBadOption);
   options = {};
   options.lines = {{{{0, 0, std::numeric_limits<double>::quiet_NaN()}}, "section"}};
-  EXPECT_EQ(error_of(model, options), ErrorCode::kNotFinite);
+  EXPECT_EQ(picture_error(model, options), ErrorCode::kNotFinite);
   options.lines = {{{}, "section"}};
   EXPECT_TRUE(surface_svg(model, options)) << "a line without points is no harm";
 }
@@ -315,9 +323,9 @@ TEST(SurfacePicture, DegenerateSurfacesAreNoHarm) {
   for (Vec3& p : vast.points) p = 1.7e308 * (p - Vec3{0.5, 0.5, 0});
   for (const SurfaceColouring c : kAll) {
     for (const SurfaceView view : {SurfaceView::kTop, SurfaceView::kSide}) {  // and from its end
-      const Drawing drawing(picture(model_of({{"line", line}}), with(c, view)));
+      const DrawnPicture drawing(picture(model_of({{"line", line}}), picture_with(c, view)));
     }
-    const auto svg = surface_svg(model_of({{"vast", vast}}), with(c));
+    const auto svg = surface_svg(model_of({{"vast", vast}}), picture_with(c));
     ASSERT_FALSE(svg);
   }
 }
@@ -337,7 +345,7 @@ class SurfacePictureByRsvg : public Judged {
 
 TEST_F(SurfacePictureByRsvg, SphereIsADiscWithoutHoles) {
   const std::string png =
-      rendered(picture(model_of({{"b", sphere(25)}}), with(SurfaceColouring::kGaussian)));
+      rendered(picture(model_of({{"b", sphere(25)}}), picture_with(SurfaceColouring::kGaussian)));
   const Spot disc = spot(png, "ink", "100,62,800,530");
   EXPECT_NEAR(disc.width(), 456.0, 4.0);
   EXPECT_NEAR(disc.height(), 456.0, 4.0);
@@ -348,7 +356,7 @@ TEST_F(SurfacePictureByRsvg, NearPartsCoverFarOnes) {
   // from the front a small ball stands in the middle of a wide plate: before it, then behind it
   NurbsSurface wall = rectangle(100, 60);
   for (Vec3& p : wall.points) p = {p.x - 50.0, 0.0, p.y - 30.0};
-  SurfacePictureOptions options = with(SurfaceColouring::kGaussian, SurfaceView::kFront);
+  SurfacePictureOptions options = picture_with(SurfaceColouring::kGaussian, SurfaceView::kFront);
   options.range =
       Range{0.0, 0.008};  // the ball: 1/20^2 = 0.0025, blue or green; the wall: dark blue
   options.isolines_u = options.isolines_v = 1;
@@ -369,7 +377,7 @@ TEST_F(SurfacePictureByRsvg, PlatesThatCrossShareTheirPlace) {
   NurbsSurface up = rectangle(60, 40), down = rectangle(60, 40);
   for (Vec3& p : up.points) p.z = 0.2 * (p.x - 24.0);
   for (Vec3& p : down.points) p = {p.x, 40.0 - p.y, -0.2 * (p.x - 24.0)};  // shows its brown back
-  SurfacePictureOptions options = with(SurfaceColouring::kShaded, SurfaceView::kTop);
+  SurfacePictureOptions options = picture_with(SurfaceColouring::kShaded, SurfaceView::kTop);
   options.most_facets = 16;
   const auto model = model_of({{"up", up}, {"down", down}});
   const Spot brown = spot(rendered(picture(model, options)), "brown", "20,62,880,530");

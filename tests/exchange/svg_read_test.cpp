@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "obvid/exchange/svg_read.h"
+#include "drawing_checks.h"
 
 #include <gtest/gtest.h>
 
@@ -23,26 +24,14 @@ std::string sheet(const std::string& inside) {
          inside + "</svg>";
 }
 
-Drawing read(const std::string& text) {
+Drawing read_svg_text(const std::string& text) {
   auto drawing = parse_svg(text, "test.svg");
   EXPECT_TRUE(drawing.has_value()) << drawing.error().what;
   return drawing ? *drawing : Drawing{};
 }
 
-bool warns(const Drawing& drawing, const std::string& part) {
-  for (const std::string& warning : drawing.warnings) {
-    if (warning.find(part) != std::string::npos) return true;
-  }
-  return false;
-}
-
-void expect_near(Vec2 a, Vec2 b, double tolerance = 1e-12) {
-  EXPECT_NEAR(a.x, b.x, tolerance);
-  EXPECT_NEAR(a.y, b.y, tolerance);
-}
-
 TEST(SvgRead, MillimetresAreMillimetresAndYPointsUp) {
-  const Drawing d = read(sheet("<line x1='10' y1='20' x2='30' y2='40'/>"));
+  const Drawing d = read_svg_text(sheet("<line x1='10' y1='20' x2='30' y2='40'/>"));
   ASSERT_EQ(d.curves.size(), 1U);
   EXPECT_EQ(d.units, "mm");
   EXPECT_TRUE(d.warnings.empty());
@@ -55,23 +44,23 @@ TEST(SvgRead, EveryUnitOfASheetHasItsLength) {
       {"px", kPx},       {"", kPx},        {"in", 25.4}, {"cm", 10.0},
       {"pt", 25.4 / 72}, {"pc", 25.4 / 6}, {"Q", 0.25}};
   for (const auto& [unit, millimetres] : units) {
-    const Drawing d = read("<svg width='10" + unit + "' height='10" + unit +
-                           "' viewBox='0 0 1 1'><path d='M0 1H1'/></svg>");
+    const Drawing d = read_svg_text("<svg width='10" + unit + "' height='10" + unit +
+                                    "' viewBox='0 0 1 1'><path d='M0 1H1'/></svg>");
     ASSERT_EQ(d.curves.size(), 1U);
     EXPECT_NEAR(end_point(d.curves[0].pieces[0]).x, 10.0 * millimetres, 1e-12) << unit;
   }
 }
 
 TEST(SvgRead, ASheetWithoutSizeIsInPixelsAndSaysSo) {
-  const Drawing d = read("<svg viewBox='0 0 200 200'><path d='M0 0H96'/></svg>");
+  const Drawing d = read_svg_text("<svg viewBox='0 0 200 200'><path d='M0 0H96'/></svg>");
   EXPECT_TRUE(warns(d, "1/96 in"));
   expect_near(start_point(d.curves[0].pieces[0]), {0.0, 200.0 * kPx});
   EXPECT_NEAR(end_point(d.curves[0].pieces[0]).x, 25.4, 1e-12);
 }
 
 TEST(SvgRead, AViewBoxOfAnotherShapeIsCentredInItsSheet) {
-  const Drawing d =
-      read("<svg width='200mm' height='100mm' viewBox='0 0 50 50'><path d='M0 0H50'/></svg>");
+  const Drawing d = read_svg_text(
+      "<svg width='200mm' height='100mm' viewBox='0 0 50 50'><path d='M0 0H50'/></svg>");
   expect_near(start_point(d.curves[0].pieces[0]), {50.0, 100.0});
   expect_near(end_point(d.curves[0].pieces[0]), {150.0, 100.0});
 }
@@ -85,7 +74,7 @@ TEST(SvgRead, TheTwoFlagsChooseOneOfFourArcs) {
       std::ostringstream d;
       d.precision(17);
       d << "M0 0A" << r << " " << r << " 0 " << large << sweep << "2 0";
-      const Drawing drawing = read(sheet("<path d='" + d.str() + "'/>"));
+      const Drawing drawing = read_svg_text(sheet("<path d='" + d.str() + "'/>"));
       ASSERT_EQ(drawing.curves.size(), 1U);
       const auto& arc = std::get<ArcPiece>(drawing.curves[0].pieces[0]);
       // Seen with y down, sweep 1 passes above the chord; both flags equal: the farther centre.
@@ -99,7 +88,7 @@ TEST(SvgRead, TheTwoFlagsChooseOneOfFourArcs) {
 }
 
 TEST(SvgRead, RadiiThatDoNotReachAreScaledUpToAHalfEllipse) {
-  const Drawing d = read(sheet("<path d='M0 0A1 1 0 0 1 20 0'/>"));
+  const Drawing d = read_svg_text(sheet("<path d='M0 0A1 1 0 0 1 20 0'/>"));
   const auto& arc = std::get<ArcPiece>(d.curves[0].pieces[0]);
   EXPECT_NEAR(arc.length, 10.0 * std::numbers::pi, 1e-12);
   EXPECT_NEAR(std::abs(arc.kappa), 0.1, 1e-14);
@@ -120,7 +109,7 @@ TEST(SvgRead, ArcsOfATurnedEllipseLieOnItAndOnTheSideThatTheFlagsSay) {
       d.precision(17);
       const Vec2 a = on_ellipse(from), b = on_ellipse(to);
       d << "M" << a.x << " " << a.y << "A20 8 25 " << large << sweep << b.x << " " << b.y;
-      const Drawing drawing = read(sheet("<path d='" + d.str() + "'/>"));
+      const Drawing drawing = read_svg_text(sheet("<path d='" + d.str() + "'/>"));
       // Parameters grow with sweep 1: 0.4 to 2.0 or 2.0 to 0.4 + 2 pi, and fall with sweep 0.
       const double short_way = 1.6, long_way = 2.0 * std::numbers::pi - 1.6;
       const double change = (large ? long_way : short_way) * (sweep ? 1.0 : -1.0);
@@ -138,7 +127,7 @@ TEST(SvgRead, ArcsOfATurnedEllipseLieOnItAndOnTheSideThatTheFlagsSay) {
 
 /// Points of an ellipse satisfy its equation; so do those of the rational quadratics everywhere.
 TEST(SvgRead, EllipsesAreExactRationalQuadratics) {
-  const Drawing d = read(sheet("<ellipse cx='50' cy='40' rx='30' ry='20'/>"));
+  const Drawing d = read_svg_text(sheet("<ellipse cx='50' cy='40' rx='30' ry='20'/>"));
   ASSERT_EQ(d.curves[0].pieces.size(), 4U);
   EXPECT_TRUE(d.curves[0].closed);
   for (const Piece& piece : d.curves[0].pieces) {
@@ -151,8 +140,8 @@ TEST(SvgRead, EllipsesAreExactRationalQuadratics) {
 
 TEST(SvgRead, ARotatedAndScaledCircleStaysAnArcAndASkewedOneBecomesAnEllipse) {
   const Drawing d =
-      read(sheet("<g transform='translate(50,50) rotate(30) scale(2)'>"
-                 "<circle r='7'/></g><circle r='5' transform='skewX(45)'/>"));
+      read_svg_text(sheet("<g transform='translate(50,50) rotate(30) scale(2)'>"
+                          "<circle r='7'/></g><circle r='5' transform='skewX(45)'/>"));
   ASSERT_EQ(d.curves.size(), 2U);
   for (const Piece& piece : d.curves[0].pieces) {
     const auto* arc = std::get_if<ArcPiece>(&piece);
@@ -170,8 +159,8 @@ TEST(SvgRead, ARotatedAndScaledCircleStaysAnArcAndASkewedOneBecomesAnEllipse) {
 
 TEST(SvgRead, TransformsApplyFromRightToLeft) {
   const Drawing d =
-      read(sheet("<path transform='translate(10 0) scale(2,3) "
-                 "rotate(90 1 1) matrix(1 0 0 1 5 6)' d='M0 0L1 0'/>"));
+      read_svg_text(sheet("<path transform='translate(10 0) scale(2,3) "
+                          "rotate(90 1 1) matrix(1 0 0 1 5 6)' d='M0 0L1 0'/>"));
   // (0, 0) -> (5, 6) -> about (1, 1) by 90: (1 - 5, 1 + 4) = (-4, 5) -> (-8, 15) -> (2, 15)
   expect_near(start_point(d.curves[0].pieces[0]), {2.0, 85.0});
   // (1, 0) -> (6, 6) -> (-4, 6) -> (-8, 18) -> (2, 18)
@@ -179,13 +168,13 @@ TEST(SvgRead, TransformsApplyFromRightToLeft) {
 }
 
 TEST(SvgRead, ATransformWithAnErrorIsNotUsedAndNamed) {
-  const Drawing d = read(sheet("<path transform='scale(2) rotate(' d='M0 0H10'/>"));
+  const Drawing d = read_svg_text(sheet("<path transform='scale(2) rotate(' d='M0 0H10'/>"));
   EXPECT_TRUE(warns(d, "transform"));
   expect_near(end_point(d.curves[0].pieces[0]), {10.0, 100.0});
 }
 
 TEST(SvgRead, RoundedRectanglesHaveFourLinesAndFourArcs) {
-  const Drawing d = read(sheet("<rect x='10' y='10' width='40' height='20' rx='5'/>"));
+  const Drawing d = read_svg_text(sheet("<rect x='10' y='10' width='40' height='20' rx='5'/>"));
   ASSERT_EQ(d.curves[0].pieces.size(), 8U);
   double length = 0.0;
   for (const Piece& piece : d.curves[0].pieces) length += arc_length(piece, 1e-9);
@@ -193,7 +182,8 @@ TEST(SvgRead, RoundedRectanglesHaveFourLinesAndFourArcs) {
 }
 
 TEST(SvgRead, ASlotIsARectangleWhoseRoundingTakesItsShortSides) {
-  const Drawing d = read(sheet("<rect x='0' y='0' width='40' height='20' rx='99' ry='10'/>"));
+  const Drawing d =
+      read_svg_text(sheet("<rect x='0' y='0' width='40' height='20' rx='99' ry='10'/>"));
   double length = 0.0;
   for (const Piece& piece : d.curves[0].pieces) length += arc_length(piece, 1e-9);
   // rx is cut to 20: a whole ellipse of semi-axes 20 and 10 (perimeter from its elliptic integral).
@@ -202,9 +192,9 @@ TEST(SvgRead, ASlotIsARectangleWhoseRoundingTakesItsShortSides) {
 }
 
 TEST(SvgRead, EveryCommandOfPathDataRelativeOrAbsoluteMeansTheSame) {
-  const Drawing d =
-      read(sheet("<path d='M10 10L20 10H30V20C30 25 35 30 40 30S50 35 50 40Q55 40 60 45T70 50'/>"
-                 "<path d='m10 10l10 0h10v10c0 5 5 10 10 10s10 5 10 10q5 0 10 5t10 5'/>"));
+  const Drawing d = read_svg_text(
+      sheet("<path d='M10 10L20 10H30V20C30 25 35 30 40 30S50 35 50 40Q55 40 60 45T70 50'/>"
+            "<path d='m10 10l10 0h10v10c0 5 5 10 10 10s10 5 10 10q5 0 10 5t10 5'/>"));
   ASSERT_EQ(d.curves.size(), 2U);
   ASSERT_EQ(d.curves[0].pieces.size(), 7U);
   ASSERT_EQ(d.curves[1].pieces.size(), 7U);
@@ -221,7 +211,7 @@ TEST(SvgRead, EveryCommandOfPathDataRelativeOrAbsoluteMeansTheSame) {
 }
 
 TEST(SvgRead, PartsOfAPathAreCurvesAndClosingReturnsToTheirStart) {
-  const Drawing d = read(sheet("<path id='p' d='M0 0h10v10z l5 5 M50 50h10'/>"));
+  const Drawing d = read_svg_text(sheet("<path id='p' d='M0 0h10v10z l5 5 M50 50h10'/>"));
   ASSERT_EQ(d.curves.size(), 3U);
   EXPECT_TRUE(d.curves[0].closed);
   EXPECT_EQ(d.curves[0].label, "path p, part 1");
@@ -230,16 +220,16 @@ TEST(SvgRead, PartsOfAPathAreCurvesAndClosingReturnsToTheirStart) {
 }
 
 TEST(SvgRead, RoundingOfRelativeCommandsMakesNoTinyClosingLine) {
-  const Drawing d = read(sheet("<path d='M.1.2l.1 0 .1 .1 -.1 .1 -.1-.2z'/>"));
+  const Drawing d = read_svg_text(sheet("<path d='M.1.2l.1 0 .1 .1 -.1 .1 -.1-.2z'/>"));
   EXPECT_EQ(d.curves[0].pieces.size(), 4U);
   EXPECT_EQ(end_point(d.curves[0].pieces.back()), start_point(d.curves[0].pieces.front()));
 }
 
 TEST(SvgRead, UseDrawsWhatItNamesWhereItStands) {
-  const Drawing d =
-      read(sheet("<defs><path id='a' d='M0 0h1'/></defs><use xlink:href='#a' x='10' y='20'/>"
-                 "<symbol id='s' viewBox='0 0 10 10'><path d='M0 0h10'/></symbol>"
-                 "<use href='#s' x='50' y='50' width='20' height='20'/><use href='#none'/>"));
+  const Drawing d = read_svg_text(
+      sheet("<defs><path id='a' d='M0 0h1'/></defs><use xlink:href='#a' x='10' y='20'/>"
+            "<symbol id='s' viewBox='0 0 10 10'><path d='M0 0h10'/></symbol>"
+            "<use href='#s' x='50' y='50' width='20' height='20'/><use href='#none'/>"));
   ASSERT_EQ(d.curves.size(), 2U);
   expect_near(end_point(d.curves[0].pieces[0]), {11.0, 80.0});
   expect_near(start_point(d.curves[1].pieces[0]), {50.0, 50.0});
@@ -248,7 +238,7 @@ TEST(SvgRead, UseDrawsWhatItNamesWhereItStands) {
 }
 
 TEST(SvgRead, PrefixesHiddenGroupsTextAndForeignElementsAreUnderstood) {
-  const Drawing d = read(
+  const Drawing d = read_svg_text(
       "<s:svg xmlns:s='http://www.w3.org/2000/svg' width='96' height='96'><x:path d='M0 0H9'/>"
       "<s:g style='fill:none; display: none'><s:path d='M0 0H9'/></s:g><s:text>a</s:text>"
       "<s:path d='M0 0H96'/></s:svg>");
@@ -259,7 +249,7 @@ TEST(SvgRead, PrefixesHiddenGroupsTextAndForeignElementsAreUnderstood) {
 }
 
 TEST(SvgRead, AUseOfItselfAndUsesOfUsesEnd) {
-  const Drawing d = read(sheet("<g id='a'><path d='M0 0h1'/><use href='#a'/></g>"));
+  const Drawing d = read_svg_text(sheet("<g id='a'><path d='M0 0h1'/><use href='#a'/></g>"));
   EXPECT_TRUE(warns(d, "contains itself"));
   std::string bomb = "<defs><path id='u0' d='M0 0h1'/>";
   for (int level = 1; level < 30; ++level) {
@@ -268,7 +258,7 @@ TEST(SvgRead, AUseOfItselfAndUsesOfUsesEnd) {
     for (int k = 0; k < 10; ++k) bomb += before;
     bomb += "</g>";
   }
-  const Drawing many = read(sheet(bomb + "</defs><use href='#u29'/>"));
+  const Drawing many = read_svg_text(sheet(bomb + "</defs><use href='#u29'/>"));
   EXPECT_TRUE(warns(many, "through use"));
   EXPECT_LT(many.curves.size(), 20000U);
 }
@@ -278,7 +268,7 @@ TEST(SvgRead, DeepGroupsAreLeftOutAndEntitiesOfTheFileAreNotExpanded) {
   for (int k = 0; k < 100000; ++k) deep += "<g>";
   deep += "<path d='M0 0h1'/>";
   for (int k = 0; k < 100000; ++k) deep += "</g>";
-  const Drawing d = read(sheet("<path d='M0 0h1'/>" + deep));
+  const Drawing d = read_svg_text(sheet("<path d='M0 0h1'/>" + deep));
   EXPECT_EQ(d.curves.size(), 1U);
   EXPECT_TRUE(warns(d, "nested"));
   std::string laughs = "<?xml version='1.0'?><!DOCTYPE svg [<!ENTITY a 'M0 0h1'>";
@@ -294,9 +284,9 @@ TEST(SvgRead, DeepGroupsAreLeftOutAndEntitiesOfTheFileAreNotExpanded) {
 
 TEST(SvgRead, NumbersBeyondTheRangeDrawNothing) {
   const Drawing d =
-      read(sheet("<path d='M0 0L1e308 1e308' transform='scale(1e300)'/>"
-                 "<path d='M0 0L1e999 0'/><path d='M0 0L nan 0'/>"
-                 "<path d='M0 0h1'/><circle r='NaN'/><circle r='inf'/>"));
+      read_svg_text(sheet("<path d='M0 0L1e308 1e308' transform='scale(1e300)'/>"
+                          "<path d='M0 0L1e999 0'/><path d='M0 0L nan 0'/>"
+                          "<path d='M0 0h1'/><circle r='NaN'/><circle r='inf'/>"));
   ASSERT_EQ(d.curves.size(), 1U);
   EXPECT_GE(d.warnings.size(), 4U);
 }
@@ -314,13 +304,13 @@ TEST(SvgRead, WhatIsNoSvgIsRefusedWithThePlace) {
 
 // ---- public files: what stands in them, counted by hand -----------------------------------------
 
-struct Expected {
+struct ExpectedPicture {
   const char* file;
   std::size_t curves, pieces;  ///< the frame around each picture: 1 and 4
   const char* warning;         ///< part of one that must come; empty: none but that of the size
 };
 
-constexpr Expected kPublic[] = {
+constexpr ExpectedPicture kPublicPictures[] = {
     {"circle_missing-cx-attribute", 3, 12, ""},
     {"circle_missing-cy-attribute", 3, 12, ""},
     {"circle_simple-case", 3, 12, ""},
@@ -365,17 +355,10 @@ constexpr Expected kPublic[] = {
     {"polyline_stop-processing-on-invalid-data", 3, 8, "error near \"text\""},
 };
 
-std::string slurp(const std::filesystem::path& path) {
-  std::ifstream file(path, std::ios::binary);
-  std::ostringstream text;
-  text << file.rdbuf();
-  return text.str();
-}
-
 TEST(SvgPublicFiles, EachDrawsWhatItsNameSays) {
   const auto folder = std::filesystem::path(OBVID_SHARED_DATA) / "cad_svg";
   if (!std::filesystem::exists(folder)) GTEST_SKIP() << "the public data set is not here";
-  for (const Expected& expected : kPublic) {
+  for (const ExpectedPicture& expected : kPublicPictures) {
     const auto path = folder / (std::string("resvg_") + expected.file + ".svg");
     const auto drawing = parse_svg(slurp(path), expected.file);
     ASSERT_TRUE(drawing.has_value()) << expected.file << ": " << drawing.error().what;
@@ -387,7 +370,7 @@ TEST(SvgPublicFiles, EachDrawsWhatItsNameSays) {
     EXPECT_TRUE(warns(*drawing, expected.warning)) << expected.file << drawing->warnings.back();
   }
   const auto all = std::distance(std::filesystem::directory_iterator(folder), {});
-  EXPECT_EQ(static_cast<std::size_t>(all), std::size(kPublic));
+  EXPECT_EQ(static_cast<std::size_t>(all), std::size(kPublicPictures));
 }
 
 /// In these the second shape covers the first one: the same curve written in another way.

@@ -38,7 +38,7 @@ IdSpline2dData values_on(const std::vector<double>& x, const std::vector<double>
   return data;
 }
 
-IdSpline2dData random_data() {
+IdSpline2dData random_table() {
   std::mt19937 random(4);
   const auto number = [&](double, double) { return double(random()) / double(random.max()); };
   IdSpline2dData data = values_on(kX, kY, number);
@@ -72,7 +72,7 @@ TEST(IdSpline2d, ReproducesBiquadraticsFromValuesAlone) {
 }
 
 TEST(IdSpline2d, MeetsValuesLineIntegralsAndCellIntegrals) {
-  const IdSpline2dData data = random_data();
+  const IdSpline2dData data = random_table();
   const auto s = id_spline_2d(data);
   ASSERT_TRUE(s);
   const std::size_t nx = kX.size();
@@ -109,7 +109,7 @@ double by_points(const IdSpline2d& s, std::size_t i, std::size_t j) {
 }
 
 TEST(IdSpline2d, IntegralOverEveryCellIsMetSmoothOrNot) {
-  const IdSpline2dData data = random_data();
+  const IdSpline2dData data = random_table();
   for (const bool smooth : {false, true}) {
     const auto s = id_spline_2d(data, smooth);
     ASSERT_TRUE(s);
@@ -125,7 +125,7 @@ TEST(IdSpline2d, IntegralOverEveryCellIsMetSmoothOrNot) {
 
 TEST(IdSpline2d, SmoothingMakesBothDerivativesContinuous) {
   for (const bool smooth : {false, true}) {
-    const auto s = id_spline_2d(random_data(), smooth);
+    const auto s = id_spline_2d(random_table(), smooth);
     ASSERT_TRUE(s);
     double jump = 0.0;
     for (const double at : {-1.9, -0.7, 0.1, 1.6}) {
@@ -146,9 +146,9 @@ TEST(IdSpline2d, SmoothingMakesBothDerivativesContinuous) {
 }
 
 TEST(IdSpline2d, SectionsAreTheSurfaceAndTransposedDataTheTransposedSurface) {
-  const auto s = id_spline_2d(random_data(), true);
+  const auto s = id_spline_2d(random_table(), true);
   IdSpline2dData turned{kY, kX, {}, {}, {}, {}};
-  const IdSpline2dData data = random_data();
+  const IdSpline2dData data = random_table();
   const auto transpose = [](const std::vector<double>& in, std::size_t width,
                             std::vector<double>& out) {
     for (std::size_t i = 0; i < width; ++i) {
@@ -174,7 +174,7 @@ TEST(IdSpline2d, SectionsAreTheSurfaceAndTransposedDataTheTransposedSurface) {
 }
 
 TEST(IdSpline2d, BezierOrdinatesGiveTheSamePatch) {
-  const auto s = id_spline_2d(random_data());
+  const auto s = id_spline_2d(random_table());
   ASSERT_TRUE(s);
   const auto b = bezier_ordinates(*s, 2, 1);
   for (const double u : {0.0, 0.3, 0.5, 1.0}) {

@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <string>
 
+#include "../common/shared_data.h"
 #include "obvid/io/read_control_net.h"
 
 namespace obvid {
@@ -13,18 +14,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-fs::path shared_data() {
-  const char* const folder = std::getenv("OBVID_SHARED_DATA");
-  return folder != nullptr ? fs::path(folder) : fs::path(OBVID_SHARED_DATA);
-}
-
-#define SKIP_WITHOUT_DATA()                                                 \
-  if (!fs::exists(shared_data() / "nurbs_control_points")) {                \
-    GTEST_SKIP() << "the public data sets are missing (OBVID_SHARED_DATA)"; \
-  }
-
 TEST(ReadControlNet, TheTeapotHasThirtyTwoBicubicPatches) {
-  SKIP_WITHOUT_DATA();
+  SKIP_WITHOUT("nurbs_control_points");
   const auto model =
       read_control_net((shared_data() / "surfaces" / "utah_teapot_bezier_patches.csv").string());
   ASSERT_TRUE(model) << to_line(model.error());
@@ -38,7 +29,7 @@ TEST(ReadControlNet, TheTeapotHasThirtyTwoBicubicPatches) {
 }
 
 TEST(ReadControlNet, ANetOfArcsIsACylinder) {
-  SKIP_WITHOUT_DATA();
+  SKIP_WITHOUT("nurbs_control_points");
   const auto model = read_control_net(
       (shared_data() / "nurbs_control_points" / "surface_ex_cylinder.cptw").string());
   ASSERT_TRUE(model) << to_line(model.error());
@@ -53,7 +44,7 @@ TEST(ReadControlNet, ANetOfArcsIsACylinder) {
 }
 
 TEST(ReadControlNet, ANetOfSixBySixHasItsCorners) {
-  SKIP_WITHOUT_DATA();
+  SKIP_WITHOUT("nurbs_control_points");
   const auto model = read_control_net(
       (shared_data() / "nurbs_control_points" / "surface_ex_surface01.cpt").string());
   ASSERT_TRUE(model) << to_line(model.error());
@@ -72,7 +63,7 @@ TEST(ReadControlNet, WeightsDivideTheirPoints) {
   EXPECT_EQ(model->patches[0].surface.weights, (std::vector<double>{1, 2, 1, 1}));
 }
 
-void expect_refused(std::string_view text, ErrorCode code, std::string_view place) {
+void expect_net_refused(std::string_view text, ErrorCode code, std::string_view place) {
   const auto model = parse_control_net(text, "f");
   ASSERT_FALSE(model) << text;
   EXPECT_EQ(model.error().code, code) << to_line(model.error());
@@ -80,16 +71,17 @@ void expect_refused(std::string_view text, ErrorCode code, std::string_view plac
 }
 
 TEST(ReadControlNet, FaultsAreNamedWithTheirPlace) {
-  expect_refused("", ErrorCode::kTooFewPoints, "f");
-  expect_refused("0,0,0;1,0,0\n0,1,0\n", ErrorCode::kBadCount, "f:2");
-  expect_refused("0,0,0;1,0,0\n0,1,0;1,1\n", ErrorCode::kTooFewColumns, "f:2");
-  expect_refused("0,0,0;1,0,0\n0,1,0;1,{{1}},1\n", ErrorCode::kBadNumber, "f:2");
-  expect_refused("0,0,0;1,0,inf\n0,1,0;1,1,1\n", ErrorCode::kNotFinite, "f:1");
-  expect_refused("0,0,0,1;1,0,0,0\n0,1,0,1;1,1,1,1\n", ErrorCode::kBadNumber, "f:1");
-  expect_refused("0,0,0;1,0,0\n", ErrorCode::kTooFewPoints, "f");
-  expect_refused("patch,row,col,x,y,z\n0,0,0,1,1,1\n0,0,0,1,1,1\n", ErrorCode::kBadCount, "f:3");
-  expect_refused("patch,row,col,x,y,z\n0,0,0,1,1,1\n0,0,1,1,1,1\n0,1,0,1,1,1\n0,1,2,1,1,1\n",
-                 ErrorCode::kBadCount, "f");
+  expect_net_refused("", ErrorCode::kTooFewPoints, "f");
+  expect_net_refused("0,0,0;1,0,0\n0,1,0\n", ErrorCode::kBadCount, "f:2");
+  expect_net_refused("0,0,0;1,0,0\n0,1,0;1,1\n", ErrorCode::kTooFewColumns, "f:2");
+  expect_net_refused("0,0,0;1,0,0\n0,1,0;1,{{1}},1\n", ErrorCode::kBadNumber, "f:2");
+  expect_net_refused("0,0,0;1,0,inf\n0,1,0;1,1,1\n", ErrorCode::kNotFinite, "f:1");
+  expect_net_refused("0,0,0,1;1,0,0,0\n0,1,0,1;1,1,1,1\n", ErrorCode::kBadNumber, "f:1");
+  expect_net_refused("0,0,0;1,0,0\n", ErrorCode::kTooFewPoints, "f");
+  expect_net_refused("patch,row,col,x,y,z\n0,0,0,1,1,1\n0,0,0,1,1,1\n", ErrorCode::kBadCount,
+                     "f:3");
+  expect_net_refused("patch,row,col,x,y,z\n0,0,0,1,1,1\n0,0,1,1,1,1\n0,1,0,1,1,1\n0,1,2,1,1,1\n",
+                     ErrorCode::kBadCount, "f");
 }
 
 }  // namespace

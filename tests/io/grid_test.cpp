@@ -6,22 +6,13 @@
 #include <filesystem>
 #include <string>
 
+#include "../common/shared_data.h"
 #include "obvid/io/read_grid.h"
 
 namespace obvid {
 namespace {
 
 namespace fs = std::filesystem;
-
-fs::path shared_data() {
-  const char* const folder = std::getenv("OBVID_SHARED_DATA");
-  return folder != nullptr ? fs::path(folder) : fs::path(OBVID_SHARED_DATA);
-}
-
-#define SKIP_WITHOUT_DATA()                                                 \
-  if (!fs::exists(shared_data() / "hulls_grids")) {                         \
-    GTEST_SKIP() << "the public data sets are missing (OBVID_SHARED_DATA)"; \
-  }
 
 void expect_two_by_three(const Result<PointGrid>& grid) {
   ASSERT_TRUE(grid) << to_line(grid.error());
@@ -58,7 +49,7 @@ TEST(ReadGrid, HalfBreadthsStandOverStationsAndWaterlines) {
   EXPECT_EQ(grid->at(1, 0), (Vec3{10, 0.2, 0}));
 }
 
-void expect_refused(std::string_view text, ErrorCode code, std::string_view place) {
+void expect_grid_refused(std::string_view text, ErrorCode code, std::string_view place) {
   const auto grid = parse_grid(text, "f");
   ASSERT_FALSE(grid) << text;
   EXPECT_EQ(grid.error().code, code) << to_line(grid.error());
@@ -67,34 +58,34 @@ void expect_refused(std::string_view text, ErrorCode code, std::string_view plac
 }
 
 TEST(ReadGrid, FaultsAreNamedWithTheirPlace) {
-  expect_refused("", ErrorCode::kTooFewPoints, "f");
-  expect_refused("wl,0,10,25\n0,0.1,,0.3\n", ErrorCode::kBadNumber, "f:2");
-  expect_refused("wl,0,10,25\n0,0.1,0.2,0.3\n4,,,\n", ErrorCode::kBadNumber, "f:3");
-  expect_refused("wl,0,10,5\n0,0.1,0.2,0.3\n4,1,1,1\n", ErrorCode::kBadNumber, "f");
-  expect_refused("0 0 5\n1 0 x6\n2 0 7\n", ErrorCode::kBadNumber, "f:2:5");
-  expect_refused("0 0 nan\n1 0 6\n", ErrorCode::kNotFinite, "f:1");
-  expect_refused("0 0 5\n1 0 6\n\n0 4 8\n", ErrorCode::kBadCount, "f");
-  expect_refused("0 0 5\n1 0 6\n\n0 4\n", ErrorCode::kTooFewColumns, "f:4");
-  expect_refused("row,col,x,y,z\n0,0,1,1,1\n0,1,1,1,1\n1,0,1,1,1\n1,2,1,1,1\n",
-                 ErrorCode::kBadCount, "f");
-  expect_refused("row,col,x,y,z\n0,0,1,1,1\n0,0,1,1,1\n", ErrorCode::kBadCount, "f:3");
-  expect_refused("row,col,x,y\n0,0,1,1\n", ErrorCode::kTooFewColumns, "f");
+  expect_grid_refused("", ErrorCode::kTooFewPoints, "f");
+  expect_grid_refused("wl,0,10,25\n0,0.1,,0.3\n", ErrorCode::kBadNumber, "f:2");
+  expect_grid_refused("wl,0,10,25\n0,0.1,0.2,0.3\n4,,,\n", ErrorCode::kBadNumber, "f:3");
+  expect_grid_refused("wl,0,10,5\n0,0.1,0.2,0.3\n4,1,1,1\n", ErrorCode::kBadNumber, "f");
+  expect_grid_refused("0 0 5\n1 0 x6\n2 0 7\n", ErrorCode::kBadNumber, "f:2:5");
+  expect_grid_refused("0 0 nan\n1 0 6\n", ErrorCode::kNotFinite, "f:1");
+  expect_grid_refused("0 0 5\n1 0 6\n\n0 4 8\n", ErrorCode::kBadCount, "f");
+  expect_grid_refused("0 0 5\n1 0 6\n\n0 4\n", ErrorCode::kTooFewColumns, "f:4");
+  expect_grid_refused("row,col,x,y,z\n0,0,1,1,1\n0,1,1,1,1\n1,0,1,1,1\n1,2,1,1,1\n",
+                      ErrorCode::kBadCount, "f");
+  expect_grid_refused("row,col,x,y,z\n0,0,1,1,1\n0,0,1,1,1\n", ErrorCode::kBadCount, "f:3");
+  expect_grid_refused("row,col,x,y\n0,0,1,1\n", ErrorCode::kTooFewColumns, "f");
 }
 
 TEST(ReadGrid, CountsMustBeWholeAndTrue) {
   // products that are right by accident
   for (const char* counts : {"0.5 8", "-2 -2", "2 3", "1e300 1e300"}) {
-    expect_refused(fmt::format("{}\n0 0 5\n1 0 6\n0 4 8\n1 4 9\n", counts), ErrorCode::kBadCount,
-                   "f:1");
+    expect_grid_refused(fmt::format("{}\n0 0 5\n1 0 6\n0 4 8\n1 4 9\n", counts),
+                        ErrorCode::kBadCount, "f:1");
   }
 }
 
 TEST(ReadGrid, RowsThatCannotBeToldAreRefused) {
-  expect_refused("0 1 5\n1 2 6\n2 3 7\n3 4 8\n", ErrorCode::kBadCount, "f");
+  expect_grid_refused("0 1 5\n1 2 6\n2 3 7\n3 4 8\n", ErrorCode::kBadCount, "f");
 }
 
 TEST(ReadGrid, FilesOfAHullTouchTheirMatrices) {
-  SKIP_WITHOUT_DATA();
+  SKIP_WITHOUT("hulls_grids");
   const std::string x = (shared_data() / "hulls_grids" / "Series60Offset_x.dat").string();
   const auto grid = read_grid({x});
   ASSERT_TRUE(grid) << to_line(grid.error());
@@ -112,7 +103,7 @@ TEST(ReadGrid, FilesOfDifferentHullsAreNotMixed) {
 }
 
 TEST(ReadGrid, TheVolcanoHasItsRowsAndColumns) {
-  SKIP_WITHOUT_DATA();
+  SKIP_WITHOUT("hulls_grids");
   const auto grid = read_grid({(shared_data() / "surfaces" / "volcano.csv").string()}, {10.0});
   ASSERT_TRUE(grid) << to_line(grid.error());
   EXPECT_EQ(grid->count_u, 61u);
@@ -121,7 +112,7 @@ TEST(ReadGrid, TheVolcanoHasItsRowsAndColumns) {
 }
 
 TEST(ReadGrid, OffsetTablesWithGapsOrNamedStationsAreErrors) {
-  SKIP_WITHOUT_DATA();
+  SKIP_WITHOUT("hulls_grids");
   for (const char* name : {"PX121_offsets.csv", "series60_4214W-B4_table7.csv"}) {
     const auto grid = read_grid({(shared_data() / "hulls_offset_tables" / name).string()});
     ASSERT_FALSE(grid) << name;

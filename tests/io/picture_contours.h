@@ -3,15 +3,13 @@
 
 #include <cmath>
 #include <cstdlib>
-#include <numbers>
 #include <string>
 #include <vector>
 
+#include "../common/angles.h"
 #include "obvid/io/stored_contour.h"
 
 namespace obvid::picture_test {
-
-inline constexpr double kPi = std::numbers::pi;
 
 /// Arc that starts at `start` with heading `theta`.
 inline ArcPiece arc_from(Vec2 start, double theta, double kappa, double length) {

@@ -12,22 +12,13 @@
 #include <string>
 #include <vector>
 
+#include "../common/shared_data.h"
 #include "obvid/io/read_points.h"
 
 namespace obvid {
 namespace {
 
 namespace fs = std::filesystem;
-
-fs::path shared_data() {
-  const char* const folder = std::getenv("OBVID_SHARED_DATA");
-  return folder != nullptr ? fs::path(folder) : fs::path(OBVID_SHARED_DATA);
-}
-
-#define SKIP_WITHOUT_DATA()                                                 \
-  if (!fs::exists(shared_data() / "airfoil_quirks.tsv")) {                  \
-    GTEST_SKIP() << "the public data sets are missing (OBVID_SHARED_DATA)"; \
-  }
 
 std::vector<fs::path> files_of(const std::string& set) {
   std::vector<fs::path> files;
@@ -92,7 +83,7 @@ std::vector<Vec2> expected_points(const fs::path& file, const std::string& forma
 }
 
 TEST(PublicData, EveryAirfoilFileIsReadAsPrinted) {
-  SKIP_WITHOUT_DATA();
+  SKIP_WITHOUT("airfoil_quirks.tsv");
   std::ifstream table(shared_data() / "airfoil_quirks.tsv");
   std::string line;
   std::getline(table, line);
@@ -125,7 +116,7 @@ TEST(PublicData, EveryAirfoilFileIsReadAsPrinted) {
 }
 
 TEST(PublicData, EveryTurbineSectionHasItsTwoHundredPoints) {
-  SKIP_WITHOUT_DATA();
+  SKIP_WITHOUT("airfoil_quirks.tsv");
   std::size_t read = 0;
   for (const fs::path& file : files_of("windturbine_iea15")) {
     if (file.string().find("_Coords.txt") == std::string::npos) continue;
@@ -140,7 +131,7 @@ TEST(PublicData, EveryTurbineSectionHasItsTwoHundredPoints) {
 }
 
 TEST(PublicData, EveryOtherListOfPointsIsRead) {
-  SKIP_WITHOUT_DATA();
+  SKIP_WITHOUT("airfoil_quirks.tsv");
   const std::vector<std::pair<std::string, std::size_t>> sets{{"rail_wheel_profiles", 2},
                                                               {"published_series", 9},
                                                               {"tracks_tum", 28},
@@ -164,7 +155,7 @@ TEST(PublicData, EveryOtherListOfPointsIsRead) {
 }
 
 TEST(PublicData, NamedCoordinatesOfRailCurvesAreTheirPoints) {
-  SKIP_WITHOUT_DATA();
+  SKIP_WITHOUT("airfoil_quirks.tsv");
   // A clothoid from curvature 0 to 1/300 over 100 m ends at these coordinates (Fresnel integrals).
   const auto series = read_points(
       (shared_data() / "rail_transition_curves" / "toolboxH_Clothoid_100.0_inf_300_1_Meter.txt")
@@ -176,7 +167,7 @@ TEST(PublicData, NamedCoordinatesOfRailCurvesAreTheirPoints) {
 }
 
 TEST(PublicData, ASurveyOfSeveralScansIsRefusedAndOneOfItsScansIsReadWithItsIntervals) {
-  SKIP_WITHOUT_DATA();
+  SKIP_WITHOUT("airfoil_quirks.tsv");
   const fs::path file = shared_data() / "turbomachinery_nasa" / "ns10_scan_data.dat";
   const auto whole = read_points(file.string());
   ASSERT_FALSE(whole.has_value());
@@ -206,7 +197,7 @@ TEST(PublicData, ASurveyOfSeveralScansIsRefusedAndOneOfItsScansIsReadWithItsInte
 }
 
 TEST(PublicData, DrawingsAreRefusedByTheirName) {
-  SKIP_WITHOUT_DATA();
+  SKIP_WITHOUT("airfoil_quirks.tsv");
   const std::vector<std::string> sets{"cad_dxf",           "cad_svg",  "cad_iges_step",
                                       "gps_gpx",           "landxml",  "roads_opendrive",
                                       "tracks_f1_geojson", "nist_strd"};

@@ -7,22 +7,13 @@
 #include <numbers>
 #include <string>
 
+#include "../common/shared_data.h"
 #include "obvid/io/read_sections.h"
 
 namespace obvid {
 namespace {
 
 namespace fs = std::filesystem;
-
-fs::path shared_data() {
-  const char* const folder = std::getenv("OBVID_SHARED_DATA");
-  return folder != nullptr ? fs::path(folder) : fs::path(OBVID_SHARED_DATA);
-}
-
-#define SKIP_WITHOUT_DATA()                                                 \
-  if (!fs::exists(shared_data() / "turbomachinery_nasa")) {                 \
-    GTEST_SKIP() << "the public data sets are missing (OBVID_SHARED_DATA)"; \
-  }
 
 TEST(ReadSections, BlankLinesAndAColumnPartSections) {
   for (const char* text :
@@ -72,7 +63,7 @@ TEST(ReadSections, RotorBladesComeFromCylindersAroundTheirAxis) {
 }
 
 TEST(ReadSections, RotorThirtySevenHasThirteenSectionsAtTheirRadii) {
-  SKIP_WITHOUT_DATA();
+  SKIP_WITHOUT("turbomachinery_nasa");
   const auto sections =
       read_sections({(shared_data() / "turbomachinery_nasa" / "rotor37geometry.dat").string()});
   ASSERT_TRUE(sections) << to_line(sections.error());
@@ -88,7 +79,7 @@ TEST(ReadSections, RotorThirtySevenHasThirteenSectionsAtTheirRadii) {
 }
 
 TEST(ReadSections, TheBladeHasFiftySectionsOfItsChordsAndTwists) {
-  SKIP_WITHOUT_DATA();
+  SKIP_WITHOUT("turbomachinery_nasa");
   const fs::path folder = shared_data() / "windturbine_iea15";
   std::vector<std::string> paths = {(folder / "IEA-15-240-RWT_AeroDyn15_blade.dat").string()};
   for (int i = 0; i < 50; ++i) {
@@ -114,7 +105,7 @@ TEST(ReadSections, TheBladeHasFiftySectionsOfItsChordsAndTwists) {
 }
 
 TEST(ReadSections, MatricesOfAHullAreTheirRows) {
-  SKIP_WITHOUT_DATA();
+  SKIP_WITHOUT("turbomachinery_nasa");
   const auto sections =
       read_sections({(shared_data() / "hulls_grids" / "TrawlerOffset_x.dat").string()});
   ASSERT_TRUE(sections) << to_line(sections.error());

@@ -49,29 +49,29 @@ std::string changed(const std::string& old_text, const std::string& new_text) {
   return at == std::string::npos ? "" : text.replace(at, old_text.size(), new_text);
 }
 
-void expect_refused(const std::string& text, std::string_view place) {
+void expect_surface_refused(const std::string& text, std::string_view place) {
   const auto read = surface_from_json(text, "f");
   ASSERT_FALSE(read) << text;
   EXPECT_NE(read.error().where.find(place), std::string::npos) << to_line(read.error());
 }
 
 TEST(SurfaceJson, EveryBrokenRuleIsNamedByItsPath) {
-  expect_refused(changed("obvid-surface", "obvid-contour"), "/format");
-  expect_refused(changed("\"version\": 1", "\"version\": 2"), "/version");
-  expect_refused(changed("\"degree_u\": 1", "\"degree_u\": 10"), "/patches/0/degree_u");
-  expect_refused(changed("\"degree_v\": 1", "\"degree_v\": 0"), "/patches/0/degree_v");
-  expect_refused(changed("[0, 0, 1, 1]", "[0, 0, \"1\", 1]"), "/patches/0/knots_u/2");
-  expect_refused(changed("[0, 0, 1, 1]", "[0, 1, 0, 1]"), "/patches/0");
-  expect_refused(changed("[0, 0, 1, 1]", "[]"), "/patches/0");
-  expect_refused(changed("[1, 0, 0]", "[1, 0]"), "/patches/0/points/1");
-  expect_refused(changed("[0, 0, 0], ", ""), "/patches/0");
-  expect_refused(changed("5e-07]", "-5e-07]"), "/patches/1");
-  expect_refused(changed("5e-07]", "5]]"), "f:");
-  expect_refused("{\"format\": \"obvid-surface\", \"version\": 1, \"patches\": []}", "f");
-  expect_refused("{\"format\": \"obvid-surface\", \"version\": 1}", "f");
-  expect_refused("[1]", "f");
-  expect_refused("", "f");
-  expect_refused(std::string(100000, '['), "f:1:");
+  expect_surface_refused(changed("obvid-surface", "obvid-contour"), "/format");
+  expect_surface_refused(changed("\"version\": 1", "\"version\": 2"), "/version");
+  expect_surface_refused(changed("\"degree_u\": 1", "\"degree_u\": 10"), "/patches/0/degree_u");
+  expect_surface_refused(changed("\"degree_v\": 1", "\"degree_v\": 0"), "/patches/0/degree_v");
+  expect_surface_refused(changed("[0, 0, 1, 1]", "[0, 0, \"1\", 1]"), "/patches/0/knots_u/2");
+  expect_surface_refused(changed("[0, 0, 1, 1]", "[0, 1, 0, 1]"), "/patches/0");
+  expect_surface_refused(changed("[0, 0, 1, 1]", "[]"), "/patches/0");
+  expect_surface_refused(changed("[1, 0, 0]", "[1, 0]"), "/patches/0/points/1");
+  expect_surface_refused(changed("[0, 0, 0], ", ""), "/patches/0");
+  expect_surface_refused(changed("5e-07]", "-5e-07]"), "/patches/1");
+  expect_surface_refused(changed("5e-07]", "5]]"), "f:");
+  expect_surface_refused("{\"format\": \"obvid-surface\", \"version\": 1, \"patches\": []}", "f");
+  expect_surface_refused("{\"format\": \"obvid-surface\", \"version\": 1}", "f");
+  expect_surface_refused("[1]", "f");
+  expect_surface_refused("", "f");
+  expect_surface_refused(std::string(100000, '['), "f:1:");
 }
 
 TEST(SurfaceJson, FieldsOfOtherProgramsArePassedOver) {

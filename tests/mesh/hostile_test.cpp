@@ -20,8 +20,6 @@
 namespace obvid {
 namespace {
 
-constexpr double kAnyAngle = 10.0;
-
 /// Finite, normals of length 1, closed inside: every open edge lies on the border of [0, 1]^2.
 void expect_sound(const NurbsSurface& surface, const Mesh& mesh) {
   std::set<checks::Key> border;

@@ -12,6 +12,12 @@
 
 #include "obvid/mesh/mesh.h"
 
+namespace obvid {
+
+inline constexpr double kAnyAngle = 10.0;  // rad: only the chord tolerance counts
+
+}  // namespace obvid
+
 namespace obvid::checks {
 
 using Key = std::array<double, 3>;

@@ -3,19 +3,16 @@
 
 #include <cmath>
 #include <limits>
-#include <numbers>
 #include <set>
 #include <vector>
 
+#include "../common/angles.h"
 #include "mesh_checks.h"
 #include "obvid/mesh/mesh.h"
 #include "shapes.h"
 
 namespace obvid {
 namespace {
-
-constexpr double kPi = std::numbers::pi;
-constexpr double kAnyAngle = 10.0;  // rad: only the chord tolerance counts
 
 Mesh drawn(const NurbsSurface& surface, double tolerance, double angle = kAnyAngle) {
   auto mesh = tessellate(surface, {tolerance, angle});

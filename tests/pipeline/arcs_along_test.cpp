@@ -7,19 +7,16 @@
 #include <numbers>
 #include <vector>
 
+#include "../common/ten_points.h"
 #include "obvid/contour/arcs/arcs_along.h"
 #include "obvid/pipeline/fit.h"
 
 namespace obvid {
 namespace {
 
-const std::vector<Vec2> kReference = {
-    {0, 0},          {0.21, -5.28},  {-5.11, -10.13}, {-20.48, -7.65}, {-28.68, 16.23},
-    {-13.87, 40.95}, {17.95, 55.28}, {54.24, 53.04},  {100.94, 36.19}, {230.38, -50.82}};
-
 Contour contour_of(Carrier carrier) {
   PointSeries series;
-  series.points = kReference;
+  series.points = kTenPoints;
   FitJob job;
   job.carrier = carrier;
   auto f = fit(series, job);
@@ -67,8 +64,8 @@ TEST(ArcsAlong, StayWithinTheToleranceAndTangentOnEveryCarrier) {
       EXPECT_LE(arcs->deviation, tolerance);
       EXPECT_LE(farthest(contour.pieces, arcs->pieces, 40), tolerance) << to_string(carrier);
       expect_tangent(arcs->pieces);
-      EXPECT_EQ(start_point(arcs->pieces.front()), kReference.front());
-      EXPECT_LT(norm(end_point(arcs->pieces.back()) - kReference.back()), 1e-12);
+      EXPECT_EQ(start_point(arcs->pieces.front()), kTenPoints.front());
+      EXPECT_LT(norm(end_point(arcs->pieces.back()) - kTenPoints.back()), 1e-12);
     }
   }
 }

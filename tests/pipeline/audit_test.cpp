@@ -4,16 +4,14 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <vector>
 
+#include "../common/angles.h"
 #include "obvid/contour/bsplines.h"
 #include "obvid/pipeline/audit.h"
 
 namespace obvid {
 namespace {
-
-constexpr double kPi = std::numbers::pi;
 
 int count(const CurveAudit& a, AuditPlace::Kind kind) {
   return static_cast<int>(std::count_if(a.places.begin(), a.places.end(),

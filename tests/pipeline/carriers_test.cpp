@@ -8,6 +8,8 @@
 #include <numbers>
 #include <vector>
 
+#include "../common/angles.h"
+#include "../common/ten_points.h"
 #include "obvid/certify/certify.h"
 #include "obvid/io/contour_json.h"
 #include "obvid/pipeline/compare.h"
@@ -18,12 +20,6 @@ namespace obvid {
 namespace {
 
 using namespace test;
-
-constexpr double kRightAngle = 0.5 * std::numbers::pi;
-
-const std::vector<Vec2> kReference = {
-    {0, 0},          {0.21, -5.28},  {-5.11, -10.13}, {-20.48, -7.65}, {-28.68, 16.23},
-    {-13.87, 40.95}, {17.95, 55.28}, {54.24, 53.04},  {100.94, 36.19}, {230.38, -50.82}};
 
 Result<Fit> fit_with(Carrier carrier, const std::vector<Vec2>& points, FitJob job = {}) {
   PointSeries series;
@@ -67,7 +63,7 @@ int inflections_by_samples(const Contour& contour) {
 TEST(Carriers, AllThatPromiseMonotoneCurvatureProveItOnTheReferenceSeries) {
   for (const Carrier carrier : kAllCarriers) {
     if (!promises_monotone(carrier)) continue;
-    const auto f = fit_with(carrier, kReference);
+    const auto f = fit_with(carrier, kTenPoints);
     ASSERT_TRUE(f) << to_string(carrier) << ": " << to_line(f.error());
     EXPECT_TRUE(f->certificate.proved) << to_string(carrier) << ": " << f->certificate.reason;
     EXPECT_EQ(f->certificate.vertices, 0) << to_string(carrier);
@@ -76,7 +72,7 @@ TEST(Carriers, AllThatPromiseMonotoneCurvatureProveItOnTheReferenceSeries) {
 }
 
 TEST(Carriers, TheBaselineCountsItsVerticesAndInflectionsHonestly) {
-  const auto f = fit_with(Carrier::kBaseline, kReference);
+  const auto f = fit_with(Carrier::kBaseline, kTenPoints);
   ASSERT_TRUE(f);
   EXPECT_FALSE(f->certificate.proved);
   EXPECT_TRUE(f->certificate.gaps_within_bounds);
@@ -251,7 +247,7 @@ TEST(Carriers, ConicsOfACircleAreItsArcs) {
 
 TEST(Carriers, AreStoredAndVerifiedFromTheirFiles) {
   for (const Carrier carrier : kAllCarriers) {
-    const auto f = fit_with(carrier, kReference);
+    const auto f = fit_with(carrier, kTenPoints);
     ASSERT_TRUE(f) << to_string(carrier);
     const std::string text = contour_to_json({f->contour, f->report, f->certificate});
     const auto stored = contour_from_json(text, "test");
@@ -265,7 +261,7 @@ TEST(Carriers, AreStoredAndVerifiedFromTheirFiles) {
 }
 
 TEST(Carriers, AFileThatClaimsFewerVerticesThanTheBaselineHasIsFalse) {
-  auto f = fit_with(Carrier::kBaseline, kReference);
+  auto f = fit_with(Carrier::kBaseline, kTenPoints);
   ASSERT_TRUE(f);
   f->report.vertices -= 2;
   EXPECT_TRUE(verify({f->contour, f->report, f->certificate}).false_claim);
@@ -273,7 +269,7 @@ TEST(Carriers, AFileThatClaimsFewerVerticesThanTheBaselineHasIsFalse) {
 
 TEST(Compare, EveryCarrierHasItsRowAndTheSpiralsLieInTheirOwnRegion) {
   PointSeries series;
-  series.points = kReference;
+  series.points = kTenPoints;
   const auto c = compare_carriers(series, {});
   ASSERT_TRUE(c);
   ASSERT_EQ(c->carriers.size(), kAllCarriers.size());
@@ -295,7 +291,7 @@ TEST(Compare, DistancesOfAKnownCurveComeOut) {
   // points of a circle, one of them pushed in: spirals, and a baseline whose deviation is that of
   // the sampled distance between both contours
   PointSeries series;
-  series.points = kReference;
+  series.points = kTenPoints;
   const auto c = compare_carriers(series, {});
   ASSERT_TRUE(c);
   const Contour& spirals = c->carriers[0].fit.contour;

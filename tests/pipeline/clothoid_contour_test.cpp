@@ -6,34 +6,27 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
-#include <numbers>
 #include <vector>
 
+#include "../common/angles.h"
 #include "obvid/certify/certify.h"
 #include "obvid/pipeline/fit.h"
 #include "oracle_curves.h"
+#include "rounding_words.h"
 
 namespace obvid {
 namespace {
 
 using namespace test;
 
-constexpr int kSeries = 2000;
-constexpr unsigned kSeed = 20260131;
-constexpr double kRightAngle = 0.5 * std::numbers::pi;
+constexpr int kClothoidSeries = 2000;
+constexpr unsigned kClothoidSeed = 20260131;
 
 Result<Fit> fit_clothoids(const std::vector<Vec2>& points, FitJob job = {}) {
   PointSeries series;
   series.points = points;
   job.carrier = Carrier::kClothoids;
   return fit(series, job);
-}
-
-bool speaks_of_rounding(const Result<Fit>& f) {
-  if (!f) return f.error().code == ErrorCode::kRoundingDecides;
-  return std::any_of(f->warnings.begin(), f->warnings.end(), [](const std::string& w) {
-    return w.find("rounding of the coordinates decides") != std::string::npos;
-  });
 }
 
 /// Curvature linear on every piece (constant where points lie on one circle to rounding),
@@ -62,10 +55,10 @@ void expect_piecewise_linear(const Fit& f, const std::string& what) {
 }
 
 TEST(ClothoidContour, IsProvedOnTwoThousandRandomSeries) {
-  std::mt19937_64 rng(kSeed);
+  std::mt19937_64 rng(kClothoidSeed);
   int proved = 0;
   std::size_t pieces = 0, links = 0;
-  for (int i = 0; i < kSeries; ++i) {
+  for (int i = 0; i < kClothoidSeries; ++i) {
     const Sampled s = random_series(static_cast<Oracle>(i % kOracleCount), rng, kRightAngle);
     const auto f = fit_clothoids(s.points);
     const std::string what = std::to_string(i) + ": " + name_of(s.curve.kind) + ", " +
@@ -82,9 +75,9 @@ TEST(ClothoidContour, IsProvedOnTwoThousandRandomSeries) {
     EXPECT_LE(f->report.inflections, s.curve.kind == Oracle::kInflectedClothoid ? 1 : 0) << what;
     expect_piecewise_linear(*f, what);
   }
-  std::printf("%d of %d proved, %.2f clothoids per chord\n", proved, kSeries,
+  std::printf("%d of %d proved, %.2f clothoids per chord\n", proved, kClothoidSeries,
               static_cast<double>(pieces) / static_cast<double>(links));
-  EXPECT_GE(proved, kSeries * 99 / 100);
+  EXPECT_GE(proved, kClothoidSeries * 99 / 100);
 }
 
 TEST(ClothoidContour, MeetsGivenHeadingsAndRadii) {

@@ -7,11 +7,12 @@
 #include <cstdio>
 #include <filesystem>
 #include <map>
-#include <numbers>
 #include <sstream>
 #include <string>
 #include <vector>
 
+#include "../common/angles.h"
+#include "../common/ten_points.h"
 #include "obvid/exchange/gcode.h"
 #include "obvid/io/read_points.h"
 #include "obvid/pipeline/fit.h"
@@ -20,7 +21,6 @@ namespace obvid {
 namespace {
 
 namespace fs = std::filesystem;
-constexpr double kPi = std::numbers::pi;
 
 /// What a controller does with a program: ends absolute, centres from the start.
 class Interpreter {
@@ -156,7 +156,7 @@ class Interpreter {
 };
 
 /// Largest distance of points from a polyline that runs along with them.
-double farthest(const std::vector<Vec2>& points, const std::vector<Vec2>& path) {
+double farthest_from_path(const std::vector<Vec2>& points, const std::vector<Vec2>& path) {
   double most = 0.0;
   std::size_t at = 0;
   const auto distance = [&](Vec2 p, std::size_t i) {
@@ -244,9 +244,9 @@ Made check(const Contour& contour, double tolerance, const std::string& what) {
         << what << ": " << run.faults.size() << " " << run.faults.front();
     EXPECT_EQ(run.moves, text->blocks) << what;
     EXPECT_LE(text->deviation, tolerance) << what;
-    const double there = farthest(dense(contour, 60), run.path);
+    const double there = farthest_from_path(dense(contour, 60), run.path);
     const int each = std::max(10, 6000 / static_cast<int>(contour.pieces.size()));
-    const double back = farthest(run.places, dense(contour, each));
+    const double back = farthest_from_path(run.places, dense(contour, each));
     EXPECT_LE(there, 1.01 * text->deviation) << what;
     EXPECT_LE(back, 1.01 * text->deviation + 1e-3 * tolerance) << what;
     EXPECT_GE(std::max(there, back), 0.9 * text->deviation) << what;
@@ -268,13 +268,9 @@ Contour fitted(PointSeries series, double scale, bool rounding) {
   return f ? f->contour : Contour{};
 }
 
-const std::vector<Vec2> kReference = {
-    {0, 0},          {0.21, -5.28},  {-5.11, -10.13}, {-20.48, -7.65}, {-28.68, 16.23},
-    {-13.87, 40.95}, {17.95, 55.28}, {54.24, 53.04},  {100.94, 36.19}, {230.38, -50.82}};
-
 Contour reference() {
   PointSeries series;
-  series.points = kReference;
+  series.points = kTenPoints;
   return fitted(series, 1.0, false);
 }
 
@@ -330,7 +326,7 @@ TEST(Gcode, SplinesFollowTheContourOnLinuxCnc) {
   ASSERT_TRUE(text);
   const Interpreter run(text->text);
   EXPECT_TRUE(run.faults.empty());
-  EXPECT_LE(farthest(dense(contour, 60), run.path), options.tolerance);
+  EXPECT_LE(farthest_from_path(dense(contour, 60), run.path), options.tolerance);
   options.controller = GcodeController::kGrbl;
   EXPECT_EQ(gcode_text(contour, options).error().code, ErrorCode::kBadOption);
 }
@@ -409,7 +405,7 @@ TEST(Gcode, SplinesTurnAtCorners) {
   options.controller = GcodeController::kLinuxCnc;
   const auto text = gcode_text(c, options);
   ASSERT_TRUE(text) << to_line(text.error());
-  EXPECT_LE(farthest(dense(c, 60), Interpreter(text->text).path), options.tolerance);
+  EXPECT_LE(farthest_from_path(dense(c, 60), Interpreter(text->text).path), options.tolerance);
 }
 
 TEST(Gcode, ProgramsHaveTheFormOfTheirControllers) {

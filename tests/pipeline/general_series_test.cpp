@@ -13,7 +13,9 @@
 #include <string>
 #include <vector>
 
+#include "../common/angles.h"
 #include "../common/extended_curvature.h"
+#include "../common/shared_data.h"
 #include "obvid/io/read_points.h"
 #include "obvid/pipeline/fit.h"
 
@@ -21,16 +23,6 @@ namespace obvid {
 namespace {
 
 namespace fs = std::filesystem;
-
-fs::path shared_data() {
-  const char* const folder = std::getenv("OBVID_SHARED_DATA");
-  return folder != nullptr ? fs::path(folder) : fs::path(OBVID_SHARED_DATA);
-}
-
-#define SKIP_WITHOUT(set)                                                   \
-  if (!fs::exists(shared_data() / (set))) {                                 \
-    GTEST_SKIP() << "the public data sets are missing (OBVID_SHARED_DATA)"; \
-  }
 
 // ---- an independent look at the curvature ------------------------------------------------------
 
@@ -144,7 +136,8 @@ struct Tally {
   }
 };
 
-void check(const std::string& name, const PointSeries& series, Carrier carrier, Tally& tally) {
+void check_series(const std::string& name, const PointSeries& series, Carrier carrier,
+                  Tally& tally) {
   FitJob job;
   job.carrier = carrier;
   const auto f = fit(series, job);
@@ -175,7 +168,7 @@ Tally check_all(const std::vector<std::pair<std::string, std::vector<Vec2>>>& al
   for (const auto& [name, points] : all) {
     PointSeries series;
     series.points = points;
-    check(name, series, carrier, tally);
+    check_series(name, series, carrier, tally);
   }
   return tally;
 }
@@ -259,7 +252,6 @@ TEST(GeneralSeries, CurvesWithKnownVerticesGetExactlyThese) {
     std::vector<Vec2> points;
     int vertices, inflections;
   };
-  constexpr double kPi = std::numbers::pi;
   const std::vector<Known> all = {{"sine over a period and a half",
                                    sampled(40, 0.1, 3.0 * kPi - 0.1,
                                            [](double t) {
@@ -396,7 +388,7 @@ Tally check_files(const std::vector<fs::path>& files) {
   Tally tally;
   for (const fs::path& file : files) {
     const auto series = read_points(file.string());
-    if (series) check(file.filename().string(), *series, Carrier::kSpiral, tally);
+    if (series) check_series(file.filename().string(), *series, Carrier::kSpiral, tally);
   }
   return tally;
 }

@@ -5,9 +5,10 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
-#include <numbers>
 #include <vector>
 
+#include "../common/angles.h"
+#include "../common/ten_points.h"
 #include "obvid/curve/bspline.h"
 #include "obvid/curve/joined_nurbs.h"
 #include "obvid/io/read_points.h"
@@ -18,12 +19,6 @@ namespace obvid {
 namespace {
 
 using namespace test;
-
-constexpr double kPi = std::numbers::pi;
-
-const std::vector<Vec2> kReference = {
-    {0, 0},          {0.21, -5.28},  {-5.11, -10.13}, {-20.48, -7.65}, {-28.68, 16.23},
-    {-13.87, 40.95}, {17.95, 55.28}, {54.24, 53.04},  {100.94, 36.19}, {230.38, -50.82}};
 
 Contour contour_through(const std::vector<Vec2>& points, Carrier carrier = Carrier::kSpiral,
                         FitJob job = {}) {
@@ -62,7 +57,7 @@ double largest_c1_gap(const NurbsCurve& curve) {
 }
 
 /// How far the pieces' places are from those of the curve: both walked from end to end.
-struct Difference {
+struct WalkDifference {
   double position = 0.0;   ///< of the size
   double curvature = 0.0;  ///< of the largest
 };
@@ -85,8 +80,8 @@ double foot(const RationalBezier& piece, Vec2 p) {
   return best;
 }
 
-Difference compare(const Contour& contour, const NurbsCurve& curve) {
-  Difference out;
+WalkDifference compare(const Contour& contour, const NurbsCurve& curve) {
+  WalkDifference out;
   const auto spans = bezier_spans(curve);
   double largest = 0.0;
   for (const Joint& j : contour.joints) largest = std::max(largest, std::abs(j.element.kappa));
@@ -124,7 +119,7 @@ void expect_joined(const Contour& contour, const NurbsCurve& curve, const std::s
     EXPECT_GE(w, 0.1) << what;
     EXPECT_LE(w, 10.0) << what;
   }
-  const Difference d = compare(contour, curve);
+  const WalkDifference d = compare(contour, curve);
   EXPECT_LT(d.position, 1e-12) << what;
   // plain coordinates keep the curvature of a piece only as far as their rounding lets them
   double shortest = HUGE_VAL, largest = 0.0;
@@ -140,7 +135,7 @@ void expect_joined(const Contour& contour, const NurbsCurve& curve, const std::s
 }
 
 TEST(JoinedNurbs, ReferenceSeriesIsOneCurveOfDegreeSixWithWeightsNearOne) {
-  const Contour contour = contour_through(kReference);
+  const Contour contour = contour_through(kTenPoints);
   const auto curve = joined_nurbs(contour);
   ASSERT_TRUE(curve) << to_line(curve.error());
   EXPECT_EQ(curve->degree, 6);
@@ -170,7 +165,7 @@ TEST(JoinedNurbs, RandomSpiralsKeepTheirCurve) {
 TEST(JoinedNurbs, SizesAndPlacesDoNotMatter) {
   for (const double scale : {1e-9, 1e9}) {
     std::vector<Vec2> points;
-    for (const Vec2 p : kReference) points.push_back(scale * p);
+    for (const Vec2 p : kTenPoints) points.push_back(scale * p);
     const Contour contour = contour_through(points);
     const auto curve = joined_nurbs(contour);
     ASSERT_TRUE(curve);
@@ -232,7 +227,7 @@ TEST(JoinedNurbs, CornersAreKnotsOfFullMultiplicity) {
 
 TEST(JoinedNurbs, EveryCarrierButClothoidsIsOneCurve) {
   for (const Carrier carrier : kAllCarriers) {
-    const Contour contour = contour_through(kReference, carrier);
+    const Contour contour = contour_through(kTenPoints, carrier);
     const auto curve = joined_nurbs(contour);
     if (carrier == Carrier::kClothoids) {
       ASSERT_FALSE(curve);

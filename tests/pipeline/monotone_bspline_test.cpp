@@ -10,6 +10,8 @@
 #include <string>
 #include <vector>
 
+#include "../common/angles.h"
+#include "../common/ten_points.h"
 #include "obvid/certify/certify.h"
 #include "obvid/contour/bsplines/monotone.h"
 #include "obvid/curve/bspline.h"
@@ -21,17 +23,12 @@ namespace {
 
 using namespace test;
 
-constexpr int kSeries = 2000;
-constexpr unsigned kSeed = 20260131;
-constexpr double kRightAngle = 0.5 * std::numbers::pi;
+constexpr int kSplineSeries = 2000;
+constexpr unsigned kSplineSeed = 20260131;
 /// Tolerance against the size of the series: 0.3 mm on the reference series.
 constexpr double kTolerance = 1e-3;
 
-const std::vector<Vec2> kReference = {
-    {0, 0},          {0.21, -5.28},  {-5.11, -10.13}, {-20.48, -7.65}, {-28.68, 16.23},
-    {-13.87, 40.95}, {17.95, 55.28}, {54.24, 53.04},  {100.94, 36.19}, {230.38, -50.82}};
-
-double size_of(const std::vector<Vec2>& points) {
+double diagonal_of(const std::vector<Vec2>& points) {
   Vec2 low = points.front(), high = low;
   for (const Vec2 p : points) {
     low = {std::min(low.x, p.x), std::min(low.y, p.y)};
@@ -89,10 +86,10 @@ double distance_between(const NurbsCurve& curve, const std::vector<RationalBezie
 }
 
 TEST(MonotoneBSpline, IsProvedOnTwoThousandRandomSeries) {
-  std::mt19937_64 rng(kSeed);
+  std::mt19937_64 rng(kSplineSeed);
   int proved = 0, formed = 0;
   std::size_t control_points = 0, points = 0;
-  for (int i = 0; i < kSeries; ++i) {
+  for (int i = 0; i < kSplineSeries; ++i) {
     const Sampled s = random_series(static_cast<Oracle>(i % kOracleCount), rng, kRightAngle);
     const auto f = fit_spirals(s.points);
     if (!f || !f->certificate.proved) continue;
@@ -101,7 +98,7 @@ TEST(MonotoneBSpline, IsProvedOnTwoThousandRandomSeries) {
     ++formed;
     const std::string what = std::to_string(i) + ": " + name_of(s.curve.kind) + ", " +
                              std::to_string(s.points.size()) + " points";
-    const double tolerance = kTolerance * size_of(s.points);
+    const double tolerance = kTolerance * diagonal_of(s.points);
     const auto spline = monotone_spline(f->contour, tolerance);
     if (!spline) {
       ADD_FAILURE() << what << ": " << spline.error().what << " at " << spline.error().where;
@@ -119,11 +116,11 @@ TEST(MonotoneBSpline, IsProvedOnTwoThousandRandomSeries) {
   }
   std::printf("%d of %d proved, %.2f control points per point\n", proved, formed,
               static_cast<double>(control_points) / static_cast<double>(points));
-  EXPECT_GE(proved, kSeries * 98 / 100);
+  EXPECT_GE(proved, kSplineSeries * 98 / 100);
 }
 
 TEST(MonotoneBSpline, IsOneCurveWithContinuousSecondDerivatives) {
-  const auto f = fit_spirals(kReference);
+  const auto f = fit_spirals(kTenPoints);
   ASSERT_TRUE(f);
   const auto spline = monotone_spline(f->contour, 1e-3);
   ASSERT_TRUE(spline);
@@ -145,7 +142,7 @@ TEST(MonotoneBSpline, IsOneCurveWithContinuousSecondDerivatives) {
 TEST(MonotoneBSpline, NeedsFewerKnotsForLargerTolerances) {
   // a quintic Hermite errs with the sixth power of its span: a thousand times finer takes about
   // 10^(3/6) = 3.2 times the spans, once accuracy and not monotony decides
-  const auto f = fit_spirals(kReference);
+  const auto f = fit_spirals(kTenPoints);
   ASSERT_TRUE(f);
   std::size_t before = 0;
   std::vector<double> growth;
@@ -208,7 +205,7 @@ TEST(MonotoneBSpline, GoesAroundAnEllipseWithItsFourVertices) {
 }
 
 TEST(MonotoneBSpline, RefusesArcsCornersAndNoTolerance) {
-  const auto f = fit_spirals(kReference);
+  const auto f = fit_spirals(kTenPoints);
   ASSERT_TRUE(f);
   EXPECT_EQ(monotone_spline(f->contour, 0.0).error().code, ErrorCode::kBadOption);
   EXPECT_EQ(monotone_spline(f->contour, std::nan("")).error().code, ErrorCode::kBadOption);

@@ -10,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include "../common/angles.h"
 #include "obvid/pipeline/fit.h"
 #include "oracle_curves.h"
 
@@ -18,8 +19,7 @@ namespace {
 
 using namespace test;
 
-constexpr int kSeries = 500;
-constexpr double kRightAngle = 0.5 * std::numbers::pi;
+constexpr int kNoisySeries = 500;
 constexpr double kLeastNoise = 1e-6, kMostNoise = 1e-3;  // of the diagonal of all points
 
 double diagonal(const std::vector<Vec2>& points) {
@@ -162,7 +162,7 @@ struct Outcome {
 Outcome run(unsigned seed, Sampling sampling) {
   std::mt19937_64 rng(seed);
   Outcome out;
-  for (int i = 0; i < kSeries; ++i) {
+  for (int i = 0; i < kNoisySeries; ++i) {
     const NoisySeries s = noisy_spiral(i, rng, sampling);
     const auto f = fit_noisy(s);
     if (!f || !f->certificate.proved) {
@@ -180,25 +180,25 @@ Outcome run(unsigned seed, Sampling sampling) {
     out.farthest = std::max(out.farthest, d);
     EXPECT_LE(d, 2.0) << describe(i, s);
   }
-  std::printf("of %d: %d proved, %d of one run, farthest %.2f\n", kSeries, out.proved, out.one_run,
-              out.farthest);
+  std::printf("of %d: %d proved, %d of one run, farthest %.2f\n", kNoisySeries, out.proved,
+              out.one_run, out.farthest);
   return out;
 }
 
 TEST(Noise, DenseSpiralsComeBackAsOneRunWithinTwiceTheNoise) {
   const Outcome out = run(20260211, Sampling::kEvenAndDense);
-  EXPECT_EQ(out.proved, kSeries);
-  EXPECT_GE(out.one_run, kSeries * 99 / 100);
+  EXPECT_EQ(out.proved, kNoisySeries);
+  EXPECT_GE(out.one_run, kNoisySeries * 99 / 100);
 }
 
 TEST(Noise, PointsCloserThanTheirNoiseComeBackAsOneRunToo) {
   const Outcome out = run(20260212, Sampling::kNoiseRules);
-  EXPECT_GE(out.one_run, kSeries * 99 / 100);
+  EXPECT_GE(out.one_run, kNoisySeries * 99 / 100);
 }
 
 TEST(Noise, FewOrUnevenPointsComeBackAsOneRunToo) {
   const Outcome out = run(20260213, Sampling::kAny);
-  EXPECT_GE(out.one_run, kSeries * 99 / 100);
+  EXPECT_GE(out.one_run, kNoisySeries * 99 / 100);
 }
 
 }  // namespace

@@ -11,6 +11,7 @@
 #include <string>
 #include <vector>
 
+#include "../common/angles.h"
 #include "obvid/io/contour_json.h"
 #include "obvid/pipeline/fit.h"
 #include "oracle_curves.h"
@@ -20,8 +21,7 @@ namespace {
 
 using namespace test;
 
-constexpr double kRightAngle = 0.5 * std::numbers::pi;
-constexpr int kSeries = 300;
+constexpr int kPropertySeries = 300;
 
 // Any two spirals through the same points stay within the points-only error of each other. That is
 // the bound which theory gives; those below are what the engine keeps beyond it. Each is at least
@@ -41,11 +41,11 @@ constexpr double kReversedOfPointsOnly = 0.1;
 constexpr double kInsertedOfChord = 0.02;
 constexpr double kInsertedOfPointsOnly = 0.25;
 /// Headings, and curvatures relative to the largest of both neighbours: Newton's last step.
-constexpr double kSameHeading = 1e-9;
-constexpr double kSameCurvature = 1e-8;
+constexpr double kConvergedHeading = 1e-9;
+constexpr double kConvergedCurvature = 1e-8;
 
 /// Point of a piece relative to an anchor, without rounding to the anchor's coordinates.
-Vec2 relative_point(const Piece& piece, double t, Vec2 anchor) {
+Vec2 point_from(const Piece& piece, double t, Vec2 anchor) {
   const auto* bezier = std::get_if<RationalBezier>(&piece);
   if (bezier == nullptr) return evaluate(piece, t).point - anchor;
   RationalBezier local = *bezier;
@@ -74,7 +74,7 @@ class ByChord {
   [[nodiscard]] double ordinate(std::size_t chord, double x) const {
     const Vec2 p = contour_.points[chord], d = contour_.points[chord + 1] - p;
     const auto local = [&](std::size_t k, double t) {
-      const Vec2 v = relative_point(contour_.pieces[k], t, p);
+      const Vec2 v = point_from(contour_.pieces[k], t, p);
       return Vec2{dot(d, v) / dot(d, d), cross(d, v) / dot(d, d)};
     };
     std::size_t k = first(chord);
@@ -116,7 +116,7 @@ Difference difference(const Fit& a, const Fit& b, const Relation& r) {
     const double rounding = 8.0 * 0x1p-53 * (std::abs(p.x) + std::abs(p.y) + h);
     for (std::size_t k = other.first(c); k < other.end(c); ++k) {
       for (const double t : {0.2, 0.5, 0.8}) {
-        const Vec2 v = r.back(relative_point(b.contour.pieces[k], t, anchor));
+        const Vec2 v = r.back(point_from(b.contour.pieces[k], t, anchor));
         const double x = dot(d, v) / (h * h), y = cross(d, v) / (h * h);
         const double gap = std::max(0.0, std::abs(y - first.ordinate(chord, x)) * h - rounding);
         const double bound = a.report.segments[chord].points_only_error;
@@ -145,7 +145,7 @@ struct Changed {
   std::vector<Vec2> points;
   Relation relation;
 };
-using Change = std::function<Changed(const Sampled&, const Fit&, std::mt19937_64&)>;
+using ChangeOfSeries = std::function<Changed(const Sampled&, const Fit&, std::mt19937_64&)>;
 
 /// Series whose coordinates hold the curve well: near the origin.
 Sampled near_series(int i, std::mt19937_64& rng) {
@@ -155,10 +155,10 @@ Sampled near_series(int i, std::mt19937_64& rng) {
   }
 }
 
-std::vector<Difference> differences(unsigned seed, const Change& change) {
+std::vector<Difference> differences(unsigned seed, const ChangeOfSeries& change) {
   std::mt19937_64 rng(seed);
   std::vector<Difference> out;
-  for (int i = 0; i < kSeries; ++i) {
+  for (int i = 0; i < kPropertySeries; ++i) {
     const Sampled s = near_series(i, rng);
     const auto a = fit_points(s.points);
     if (!a || !a->certificate.proved || a->certificate.vertices != 0) continue;
@@ -185,7 +185,7 @@ Difference largest(const char* name, const std::vector<Difference>& all) {
   }
   std::printf("%s: %zu series, largest change %.2e of the chord, %.2e of the points-only error\n",
               name, all.size(), out.of_chord, out.of_points_only);
-  EXPECT_GE(all.size(), static_cast<std::size_t>(kSeries) * 95 / 100) << name;
+  EXPECT_GE(all.size(), static_cast<std::size_t>(kPropertySeries) * 95 / 100) << name;
   return out;
 }
 
@@ -277,7 +277,7 @@ TEST(Properties, APointOfTheContourInsertedChangesLittle) {
 TEST(Properties, ElementsDoNotDependOnTheWayRound) {
   std::mt19937_64 rng(6);
   int compared = 0;
-  for (int i = 0; i < kSeries; ++i) {
+  for (int i = 0; i < kPropertySeries; ++i) {
     const Sampled s = near_series(i, rng);
     const auto a = fit_points(s.points);
     const auto b = fit_points({s.points.rbegin(), s.points.rend()});
@@ -295,21 +295,21 @@ TEST(Properties, ElementsDoNotDependOnTheWayRound) {
     for (std::size_t j = 0; j <= last; ++j) {
       const Element &e = there[j], &f = back[last - j];
       const double turn = e.theta - f.theta - std::numbers::pi;
-      EXPECT_NEAR(std::remainder(turn, 2.0 * std::numbers::pi), 0.0, kSameHeading)
+      EXPECT_NEAR(std::remainder(turn, 2.0 * std::numbers::pi), 0.0, kConvergedHeading)
           << i << ", " << j;
       const double scale = std::max({std::abs(e.kappa), std::abs(there[j > 0 ? j - 1 : 1].kappa),
                                      std::abs(there[j < last ? j + 1 : last - 1].kappa)});
-      EXPECT_NEAR(e.kappa, -f.kappa, kSameCurvature * scale) << i << ", " << j;
+      EXPECT_NEAR(e.kappa, -f.kappa, kConvergedCurvature * scale) << i << ", " << j;
     }
     ++compared;
   }
-  EXPECT_GE(compared, kSeries * 9 / 10);
+  EXPECT_GE(compared, kPropertySeries * 9 / 10);
 }
 
 TEST(Properties, AScaleByAPowerOfTwoChangesNothingButExponents) {
   std::mt19937_64 rng(7);
   int compared = 0;
-  for (int i = 0; i < kSeries / 3; ++i) {
+  for (int i = 0; i < kPropertySeries / 3; ++i) {
     const Sampled s = near_series(i, rng);
     const int power = static_cast<int>(rng() % 81) - 40;
     std::vector<Vec2> scaled;
@@ -345,7 +345,7 @@ TEST(Properties, FarFromTheOriginTheContourStaysWithinThePointsOnlyError) {
   std::mt19937_64 rng(8);
   int compared = 0;
   double worst = 0.0;
-  for (int i = 0; i < kSeries; ++i) {
+  for (int i = 0; i < kPropertySeries; ++i) {
     const Sampled s = near_series(i, rng);
     const double far = s.size * std::pow(10.0, uniform(rng, 0.0, 3.0));
     const Changed changed = similarity(s, 1.0, 0.0, {far, -far});
@@ -363,7 +363,7 @@ TEST(Properties, FarFromTheOriginTheContourStaysWithinThePointsOnlyError) {
   }
   std::printf("far away: %d series, largest change %.2e of the points-only error\n", compared,
               worst);
-  EXPECT_GT(compared, kSeries / 4);
+  EXPECT_GT(compared, kPropertySeries / 4);
   EXPECT_LE(worst, 1.0);
 }
 

@@ -10,16 +10,17 @@
 #include <string>
 #include <vector>
 
+#include "../common/angles.h"
 #include "obvid/pipeline/fit.h"
 #include "oracle_curves.h"
+#include "rounding_words.h"
 
 namespace obvid {
 namespace {
 
 using namespace test;
 
-constexpr int kSeries = 2000;
-constexpr double kRightAngle = 0.5 * std::numbers::pi;
+constexpr int kRandomSeries = 2000;
 constexpr double kCoarseTurning = 170.0 * std::numbers::pi / 180.0;
 constexpr unsigned kSeed = 20260131;
 
@@ -110,13 +111,6 @@ Deviation deviation_from_truth(const Sampled& s, const Fit& f) {
   return worst;
 }
 
-bool speaks_of_rounding(const Result<Fit>& f) {
-  if (!f) return f.error().code == ErrorCode::kRoundingDecides;
-  return std::any_of(f->warnings.begin(), f->warnings.end(), [](const std::string& w) {
-    return w.find("rounding of the coordinates decides") != std::string::npos;
-  });
-}
-
 double quantile(std::vector<double> values, double part) {
   std::sort(values.begin(), values.end());
   return values[static_cast<std::size_t>(part * static_cast<double>(values.size() - 1))];
@@ -126,7 +120,7 @@ TEST(RandomSeries, EveryOneGetsAProvedMonotoneContourNearerToTheTruthThanThePoin
   std::mt19937_64 rng(kSeed);
   std::vector<double> deviations, ratios;
   int proved = 0, decided_by_rounding = 0;
-  for (int i = 0; i < kSeries; ++i) {
+  for (int i = 0; i < kRandomSeries; ++i) {
     const Sampled s = random_series(static_cast<Oracle>(i % kOracleCount), rng, kRightAngle);
     const auto f = fit(series_of(s), FitJob{});
     const std::string what = std::to_string(i) + ": " + name_of(s.curve.kind) + ", " +
@@ -150,13 +144,13 @@ TEST(RandomSeries, EveryOneGetsAProvedMonotoneContourNearerToTheTruthThanThePoin
     ratios.push_back(d.of_points_only);
     EXPECT_LE(d.of_points_only, 1.0) << what;
   }
-  std::printf("%d series: %d proved, %d decided by the rounding of their coordinates\n", kSeries,
-              proved, decided_by_rounding);
+  std::printf("%d series: %d proved, %d decided by the rounding of their coordinates\n",
+              kRandomSeries, proved, decided_by_rounding);
   std::printf("distance from the truth over the chord: median %.2e, 95 %% %.2e, largest %.2e\n",
               quantile(deviations, 0.5), quantile(deviations, 0.95), quantile(deviations, 1.0));
   std::printf("over the points-only error: median %.3f, 95 %% %.3f, largest %.3f\n",
               quantile(ratios, 0.5), quantile(ratios, 0.95), quantile(ratios, 1.0));
-  EXPECT_GE(proved, kSeries * 99 / 100);
+  EXPECT_GE(proved, kRandomSeries * 99 / 100);
 }
 
 TEST(RandomSeries, ArcsAreProvedWithMonotoneRadiiAndKeepTheTolerance) {
@@ -164,7 +158,7 @@ TEST(RandomSeries, ArcsAreProvedWithMonotoneRadiiAndKeepTheTolerance) {
   int proved = 0;
   FitJob job;
   job.carrier = Carrier::kArcs;
-  for (int i = 0; i < kSeries / 2; ++i) {
+  for (int i = 0; i < kRandomSeries / 2; ++i) {
     const Sampled s = random_series(static_cast<Oracle>(i % kOracleCount), rng, kRightAngle);
     const auto f = fit(series_of(s), job);
     const std::string what = std::to_string(i) + ": " + name_of(s.curve.kind);
@@ -179,14 +173,14 @@ TEST(RandomSeries, ArcsAreProvedWithMonotoneRadiiAndKeepTheTolerance) {
     ++proved;
     EXPECT_LE(f->report.largest_width, f->report.tolerance) << what;
   }
-  std::printf("%d of %d arc contours proved\n", proved, kSeries / 2);
-  EXPECT_GE(proved, kSeries / 2 * 99 / 100);
+  std::printf("%d of %d arc contours proved\n", proved, kRandomSeries / 2);
+  EXPECT_GE(proved, kRandomSeries / 2 * 99 / 100);
 }
 
 TEST(RandomSeries, CoarseOnesAreProvedOrRefusedWithTheReason) {
   std::mt19937_64 rng(kSeed + 2);
   int proved = 0, refused = 0;
-  for (int i = 0; i < kSeries / 4; ++i) {
+  for (int i = 0; i < kRandomSeries / 4; ++i) {
     const Sampled s = random_series(static_cast<Oracle>(i % kOracleCount), rng, kCoarseTurning);
     const auto f = fit(series_of(s), FitJob{});
     if (f) {
@@ -198,8 +192,8 @@ TEST(RandomSeries, CoarseOnesAreProvedOrRefusedWithTheReason) {
       EXPECT_FALSE(f.error().what.empty());
     }
   }
-  std::printf("coarse: %d proved, %d refused of %d\n", proved, refused, kSeries / 4);
-  EXPECT_GE(proved, kSeries / 4 * 95 / 100);
+  std::printf("coarse: %d proved, %d refused of %d\n", proved, refused, kRandomSeries / 4);
+  EXPECT_GE(proved, kRandomSeries / 4 * 95 / 100);
 }
 
 }  // namespace

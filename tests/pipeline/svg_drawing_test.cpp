@@ -10,6 +10,7 @@
 #include <iterator>
 #include <string>
 
+#include "../common/ten_points.h"
 #include "obvid/exchange/svg_drawing.h"
 #include "obvid/exchange/svg_read.h"
 #include "obvid/pipeline/fit.h"
@@ -19,13 +20,9 @@ namespace {
 
 namespace fs = std::filesystem;
 
-const std::vector<Vec2> kReference = {
-    {0, 0},          {0.21, -5.28},  {-5.11, -10.13}, {-20.48, -7.65}, {-28.68, 16.23},
-    {-13.87, 40.95}, {17.95, 55.28}, {54.24, 53.04},  {100.94, 36.19}, {230.38, -50.82}};
-
-Contour contour_of(Carrier carrier) {
+Contour drawn_contour(Carrier carrier) {
   PointSeries series;
-  series.points = kReference;
+  series.points = kTenPoints;
   FitJob job;
   job.carrier = carrier;
   auto f = fit(series, job);
@@ -34,7 +31,7 @@ Contour contour_of(Carrier carrier) {
 }
 
 /// Largest distance of dense points of one list of pieces from dense chords of the other.
-double farthest(const std::vector<Piece>& from, const std::vector<Piece>& to) {
+double farthest_from_chords(const std::vector<Piece>& from, const std::vector<Piece>& to) {
   std::vector<Vec2> chain;
   for (const Piece& piece : to) {
     for (int k = 0; k <= 200; ++k) chain.push_back(evaluate(piece, k / 200.0).point);
@@ -57,7 +54,7 @@ double farthest(const std::vector<Piece>& from, const std::vector<Piece>& to) {
 
 TEST(SvgDrawing, ReadsBackInTrueScaleWithinItsTolerance) {
   for (const Carrier carrier : kAllCarriers) {
-    const Contour contour = contour_of(carrier);
+    const Contour contour = drawn_contour(carrier);
     SvgDrawingOptions options;
     options.tolerance = 1e-3;
     const auto made = svg_drawing(contour, options);
@@ -69,7 +66,7 @@ TEST(SvgDrawing, ReadsBackInTrueScaleWithinItsTolerance) {
     EXPECT_EQ(read->units, "mm");
     // the reader's origin is the sheet's corner: the start tells by how much all is moved
     std::vector<Piece> moved;
-    const Vec2 shift = start_point(read->curves[0].pieces.front()) - kReference.front();
+    const Vec2 shift = start_point(read->curves[0].pieces.front()) - kTenPoints.front();
     Contour back = contour;
     double most = 0.0;
     for (const Piece& piece : read->curves[0].pieces) {
@@ -85,7 +82,8 @@ TEST(SvgDrawing, ReadsBackInTrueScaleWithinItsTolerance) {
         moved.emplace_back(LinePiece{l.start - shift, l.end - shift});
       }
     }
-    most = std::max(farthest(contour.pieces, moved), farthest(moved, contour.pieces));
+    most = std::max(farthest_from_chords(contour.pieces, moved),
+                    farthest_from_chords(moved, contour.pieces));
     EXPECT_LE(most, options.tolerance * 1.1 + 1e-4) << to_string(carrier);  // chords of the test
   }
 }
@@ -111,7 +109,7 @@ class Rendered : public testing::Test {
     std::string pattern = (fs::temp_directory_path() / "obvid-test-XXXXXX").string();
     ASSERT_NE(::mkdtemp(pattern.data()), nullptr);
     folder_ = pattern;
-    const auto made = svg_drawing(contour_of(Carrier::kSpiral), {});
+    const auto made = svg_drawing(drawn_contour(Carrier::kSpiral), {});
     ASSERT_TRUE(made);
     std::ofstream(folder_ / "d.svg") << made->text;
   }

@@ -89,7 +89,7 @@ std::vector<Vec2> bulging_rectangle() {
 }
 
 /// x^2/36 + y^2/9 = 1, from inside a quarter.
-std::vector<Vec2> ellipse() {
+std::vector<Vec2> closed_ellipse() {
   std::vector<Vec2> points;
   for (int i = 0; i <= 32; ++i) {
     const double a = 0.4 + 2.0 * std::numbers::pi * (i % 32) / 32.0;
@@ -114,8 +114,8 @@ std::vector<Case> cases() {
           {"line, spiral, arc", line_spiral_arc(), Carrier::kSpiral},
           {"measured quarter", measured_quarter(0.01), Carrier::kSpiral, 0.01},
           {"bulging rectangle", bulging_rectangle(), Carrier::kSpiral},
-          {"ellipse", ellipse(), Carrier::kSpiral},
-          {"ellipse of arcs", ellipse(), Carrier::kArcs}};
+          {"ellipse", closed_ellipse(), Carrier::kSpiral},
+          {"ellipse of arcs", closed_ellipse(), Carrier::kArcs}};
 }
 
 StoredContour form(const Case& c) {
@@ -154,7 +154,7 @@ Case named(const std::string& name) {
   return cases().front();
 }
 
-double size_of(const Contour& contour) { return analyse(contour.points)->size; }
+double size_by_analysis(const Contour& contour) { return analyse(contour.points)->size; }
 
 TEST(Verify, AcceptsWhatFitWrote) {
   for (const Case& c : cases()) EXPECT_EQ(refusal(form(c)), "") << c.name;
@@ -164,7 +164,7 @@ TEST(Verify, RefusesAMovedControlPoint) {
   int doctored = 0;
   for (const Case& c : cases()) {
     const StoredContour good = form(c);
-    const double step = kDoctored * size_of(good.contour);
+    const double step = kDoctored * size_by_analysis(good.contour);
     for (std::size_t i = 0; i < good.contour.pieces.size(); ++i) {
       const auto* piece = std::get_if<RationalBezier>(&good.contour.pieces[i]);
       if (piece == nullptr) continue;
@@ -213,7 +213,7 @@ TEST(Verify, RefusesAChangedArc) {
   int doctored = 0;
   for (const Case& c : cases()) {
     const StoredContour good = form(c);
-    const double size = size_of(good.contour);
+    const double size = size_by_analysis(good.contour);
     for (std::size_t i = 0; i < good.contour.pieces.size(); ++i) {
       if (!std::holds_alternative<ArcPiece>(good.contour.pieces[i])) continue;
       for (const auto& [name, change] : changes) {
@@ -230,7 +230,7 @@ TEST(Verify, RefusesAChangedArc) {
 
 TEST(Verify, RefusesAMovedLine) {
   const StoredContour good = form(named("line, spiral, arc"));
-  const double step = kDoctored * size_of(good.contour);
+  const double step = kDoctored * size_by_analysis(good.contour);
   int doctored = 0;
   for (std::size_t i = 0; i < good.contour.pieces.size(); ++i) {
     if (!std::holds_alternative<LinePiece>(good.contour.pieces[i])) continue;
@@ -254,7 +254,7 @@ TEST(Verify, RefusesAChangedElement) {
   int doctored = 0;
   for (const Case& c : cases()) {
     const StoredContour good = form(c);
-    const double size = size_of(good.contour);
+    const double size = size_by_analysis(good.contour);
     for (std::size_t i = 0; i < good.contour.joints.size(); ++i) {
       const auto refused = [&](const char* name, auto change) {
         StoredContour bad = good;
@@ -322,7 +322,7 @@ TEST(Verify, RefusesEveryChangedNumberOfReportAndCertificate) {
   int doctored = 0;
   for (const Case& c : cases()) {
     const StoredContour good = form(c);
-    const double size = size_of(good.contour);
+    const double size = size_by_analysis(good.contour);
     const json document = json::parse(contour_to_json(good));
     ASSERT_EQ(refusal(document.dump()), "") << c.name;
     std::vector<std::string> paths;
@@ -450,7 +450,7 @@ TEST(Verify, RefusesEitherSideOfACornerThatIsNotItsPieces) {
     if (!good.contour.joints[i].leaving) continue;
     StoredContour turned = good, bent = good;
     turned.contour.joints[i].leaving->theta += kDoctored;
-    bent.contour.joints[i].leaving->kappa += kDoctored / size_of(good.contour);
+    bent.contour.joints[i].leaving->kappa += kDoctored / size_by_analysis(good.contour);
     EXPECT_NE(refusal(turned), "") << "heading behind corner " << i;
     EXPECT_NE(refusal(bent), "") << "curvature behind corner " << i;
     doctored += 2;

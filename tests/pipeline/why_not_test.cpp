@@ -13,7 +13,7 @@
 namespace obvid {
 namespace {
 
-PointSeries series_of(std::vector<Vec2> points) {
+PointSeries series_through(std::vector<Vec2> points) {
   PointSeries series;
   series.points = std::move(points);
   return series;
@@ -27,7 +27,7 @@ PointSeries dented_parabola(double dent) {
     const double x = 0.5 * i;
     points.push_back({x, 0.5 * x * x + (i == 1 ? dent : 0.0)});
   }
-  return series_of(std::move(points));
+  return series_through(std::move(points));
 }
 
 FitJob convex_job() {
@@ -102,7 +102,7 @@ TEST(WhyNot, KeepsAFixedHeadingThatExactPointsRefuse) {
     const double angle = 0.3 * i, radius = 1.0 + 0.002 * i * i;
     points.push_back({radius * std::sin(angle), radius * std::cos(angle)});
   }
-  const PointSeries series = series_of(std::move(points));
+  const PointSeries series = series_through(std::move(points));
   FitJob job;
   PointWish wish;
   wish.index = 4;

@@ -1,19 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
 // Distances from the boundaries of a region, and the errors of convex contours of 003_....
 #include "obvid/region/boundary_distance.h"
+#include "../common/angles.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <numbers>
 #include <random>
 
 #include "paper_fit.h"
 
 namespace obvid {
 namespace {
-
-constexpr double kPi = std::numbers::pi;
 
 /// Two arcs of curvature 1 and 1/2 that turn by `first` and `second` radians, seen from their
 /// chord.

@@ -55,17 +55,6 @@ TEST(InvoluteTable, HeightsOfTheTangentTrianglesAreAboutHalfAsLarge) {
   }
 }
 
-/// Hidden series behind Table 2 of 000_..., to which this paper's Table 1 adds its figures.
-Tables table2() {
-  Tables t;
-  t.add_triangles(2);
-  for (std::size_t i = 0; i < t.printed2()[0].size(); ++i) {
-    t.add_lower(2, i, t.printed2()[3][i]);
-    t.add_width(2, i, i == kMisprintedWidth ? t.printed3()[4][i] : t.printed2()[4][i]);
-  }
-  return t;
-}
-
 TEST(ConvexTable, HeightsOfTheTangentTrianglesAddNoContradiction) {
   const auto printed = read_columns("convex10.txt");
   Tables t = table2();

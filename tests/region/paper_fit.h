@@ -115,4 +115,15 @@ class Tables {
   std::vector<Claim> claims_;
 };
 
+/// Table 2 as printed, with the width of segment 8 that Table 3 prints.
+inline Tables table2() {
+  Tables t;
+  t.add_triangles(2);
+  for (std::size_t i = 0; i < t.printed2()[0].size(); ++i) {
+    t.add_lower(2, i, t.printed2()[3][i]);
+    t.add_width(2, i, i == kMisprintedWidth ? t.printed3()[4][i] : t.printed2()[4][i]);
+  }
+  return t;
+}
+
 }  // namespace obvid::paper

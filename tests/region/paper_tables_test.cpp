@@ -82,17 +82,6 @@ TEST(PaperTable1, PointsOnlyErrorsComeOutOfTheRoundedPoints) {
   EXPECT_FALSE(explains(s, printed[1], kHalfOfFourDecimals)) << "misprint 0.4966";
 }
 
-/// Table 2 as printed, with the width of segment 8 that Table 3 prints.
-Tables table2() {
-  Tables t;
-  t.add_triangles(2);
-  for (std::size_t i = 0; i < t.printed2()[0].size(); ++i) {
-    t.add_lower(2, i, t.printed2()[3][i]);
-    t.add_width(2, i, i == kMisprintedWidth ? t.printed3()[4][i] : t.printed2()[4][i]);
-  }
-  return t;
-}
-
 TEST(PaperTable2, OneSeriesWithinTheRoundingGivesEveryPrintedFigureAtOnce) {
   const auto fit = table2().fit();
   EXPECT_LE(fit.roundings, 1.0) << fit.worst;

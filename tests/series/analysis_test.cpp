@@ -1,18 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "obvid/series/analysis.h"
+#include "../common/angles.h"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>
 #include <functional>
-#include <numbers>
 #include <random>
 
 namespace obvid {
 namespace {
-
-constexpr double kPi = std::numbers::pi;
 
 std::vector<Vec2> sample(int n, double from, double to, const std::function<Vec2(double)>& curve) {
   std::vector<Vec2> points;

@@ -3,9 +3,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <random>
 
+#include "../common/angles.h"
 #include "obvid/series/sections.h"
 
 namespace obvid {
@@ -14,7 +14,6 @@ namespace {
 using Points = std::vector<Vec2>;
 using Indices = std::vector<std::size_t>;
 
-constexpr double kPi = std::numbers::pi;
 constexpr double kDeg = kPi / 180.0;
 
 Indices corners_of(const Points& points, bool closed, double noise = 0.0, double angle_deg = 20.0) {
@@ -22,7 +21,7 @@ Indices corners_of(const Points& points, bool closed, double noise = 0.0, double
   return find_corners(points, tolerance, closed, {}, {true, angle_deg * kDeg});
 }
 
-Points ellipse(double a, double b, int n, double from = 0.0) {
+Points ellipse_points(double a, double b, int n, double from = 0.0) {
   Points points;
   for (int i = 0; i < n; ++i) {
     const double t = from + 2.0 * kPi * i / n;
@@ -62,11 +61,12 @@ const Points kRectangle{{0, 0}, {3, 0}, {3, 2}, {0, 2}};
 const Points kBracket{{0, 0}, {4, 0}, {4, 1}, {1, 1}, {1, 3}, {0, 3}};
 
 TEST(Corners, CoarselySampledSmoothLoopsHaveNone) {
-  for (const int n : {8, 12, 16, 24}) EXPECT_EQ(corners_of(ellipse(1, 1, n), true), Indices{});
+  for (const int n : {8, 12, 16, 24})
+    EXPECT_EQ(corners_of(ellipse_points(1, 1, n), true), Indices{});
   for (const double ratio : {2.0, 4.0, 10.0}) {
     for (const int n : {12, 16, 17, 20, 32, 64}) {
       for (const double from : {0.0, 0.5, 1.0}) {  // in steps: tips on a point and between two
-        EXPECT_EQ(corners_of(ellipse(ratio, 1, n, from * 2.0 * kPi / n), true), Indices{})
+        EXPECT_EQ(corners_of(ellipse_points(ratio, 1, n, from * 2.0 * kPi / n), true), Indices{})
             << ratio << ":1 with " << n;
       }
     }
@@ -74,7 +74,7 @@ TEST(Corners, CoarselySampledSmoothLoopsHaveNone) {
 }
 
 TEST(Corners, CoarselySampledOpenArcsHaveNone) {
-  Points points = ellipse(1, 1, 12);
+  Points points = ellipse_points(1, 1, 12);
   points.push_back(points.front());
   EXPECT_EQ(corners_of(points, false), Indices{});
   for (const double each : {10.0, 30.0, 45.0}) {
@@ -86,8 +86,8 @@ TEST(Corners, EachCornerOfAnOutlineIsFound) {
   for (const int m : {2, 3, 4, 10, 50}) {
     const auto step = static_cast<std::size_t>(m);
     EXPECT_EQ(corners_of(outline(kRectangle, m), true), multiples(step, 4)) << m;
-    EXPECT_EQ(corners_of(outline(ellipse(1, 1, 6), m), true), multiples(step, 6)) << m;
-    EXPECT_EQ(corners_of(outline(ellipse(1, 1, 8), m), true), multiples(step, 8)) << m;
+    EXPECT_EQ(corners_of(outline(ellipse_points(1, 1, 6), m), true), multiples(step, 6)) << m;
+    EXPECT_EQ(corners_of(outline(ellipse_points(1, 1, 8), m), true), multiples(step, 8)) << m;
     EXPECT_EQ(corners_of(outline(kBracket, m), true), multiples(step, 6)) << m;
   }
 }
@@ -202,7 +202,7 @@ Points on_grid(const Points& points) {
 
 TEST(Corners, NoiseAndStaircasesAreNotTakenForThem) {
   for (const double radius : {40.0, 100.0, 300.0}) {
-    const Points smooth = ellipse(2.0 * radius, radius, static_cast<int>(8.0 * radius));
+    const Points smooth = ellipse_points(2.0 * radius, radius, static_cast<int>(8.0 * radius));
     for (const double noise : {0.5, 1.0}) {
       EXPECT_EQ(corners_of(on_grid(smooth), true, noise), Indices{}) << radius;
       for (unsigned seed = 0; seed < 5; ++seed) {
@@ -265,7 +265,7 @@ TEST(Corners, MotionScaleAndMirrorImageChangeNothing) {
 }
 
 TEST(Corners, MarkedPointsAreCornersWhateverTheyLookLike) {
-  const Points points = ellipse(3, 1, 40);
+  const Points points = ellipse_points(3, 1, 40);
   std::vector<FixedData> fixed(40);
   fixed[7].corner = true;
   fixed[0].corner = true;

@@ -8,7 +8,7 @@
 namespace obvid {
 namespace {
 
-using Indices = std::vector<std::size_t>;
+using SectionIndices = std::vector<std::size_t>;
 using Sections = std::vector<Section>;
 
 TEST(Sections, ASeriesReturnsWhenItsEndsCoincideWithinTheirTolerances) {
@@ -42,7 +42,7 @@ TEST(Sections, TwoEndsBecomeOnePointThatIsTrueToBoth) {
 
 TEST(Sections, AnOpenSeriesIsCutBetweenItsEnds) {
   const SplitSeries whole = split_sections(5, {}, false);
-  EXPECT_EQ(whole.order, (Indices{0, 1, 2, 3, 4}));
+  EXPECT_EQ(whole.order, (SectionIndices{0, 1, 2, 3, 4}));
   EXPECT_EQ(whole.sections, (Sections{{0, 4}}));
   EXPECT_FALSE(whole.smooth_loop);
   const SplitSeries cut = split_sections(7, {2, 3}, false);
@@ -58,12 +58,12 @@ TEST(Sections, AClosedSeriesWithoutCornersIsOneLoop) {
 
 TEST(Sections, AClosedSeriesBeginsAtItsFirstCorner) {
   const SplitSeries one = split_sections(6, {2}, true);
-  EXPECT_EQ(one.order, (Indices{2, 3, 4, 5, 0, 1}));
+  EXPECT_EQ(one.order, (SectionIndices{2, 3, 4, 5, 0, 1}));
   EXPECT_EQ(one.sections, (Sections{{0, 6}}));
   EXPECT_FALSE(one.smooth_loop);
   EXPECT_EQ(one.point_at(6), 2U);
   const SplitSeries three = split_sections(8, {1, 4, 7}, true);
-  EXPECT_EQ(three.order, (Indices{1, 2, 3, 4, 5, 6, 7, 0}));
+  EXPECT_EQ(three.order, (SectionIndices{1, 2, 3, 4, 5, 6, 7, 0}));
   EXPECT_EQ(three.sections, (Sections{{0, 3}, {3, 6}, {6, 8}}));
   EXPECT_EQ(three.point_at(8), 1U);
 }

@@ -6,8 +6,6 @@ namespace {
 
 using namespace kinds_test;
 
-Vec3 on(const SpaceCurve& curve, double t) { return evaluate(curve, domain(curve).at(t)).point; }
-
 const Vec3 kA{0, 0, 0}, kB{4, 0, 1}, kC{0, 3, -1}, kD{4, 4, 2};
 
 CoonsPatch waves() {

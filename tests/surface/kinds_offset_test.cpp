@@ -7,12 +7,12 @@ namespace {
 using namespace kinds_test;
 
 /// Sphere from pole to pole; u along the meridian, the normal inwards.
-NurbsSurface sphere(double radius) {
+NurbsSurface sphere_patch(double radius) {
   SpaceCurve half = arc_about({0, 0, -radius}, {}, {0, -1, 0}, kPi);
   return form_of(RevolutionSurface{half, {}, kZ, 2.0 * kPi}, 1e-6).surface;
 }
 
-NurbsSurface torus(double large, double small) {
+NurbsSurface torus_patch(double large, double small) {
   const SpaceCurve tube = arc_about({large + small, 0, 0}, {large, 0, 0}, {0, -1, 0}, 2.0 * kPi);
   return form_of(RevolutionSurface{tube, {}, kZ, 2.0 * kPi}, 1e-6).surface;
 }
@@ -46,7 +46,7 @@ double measured(const OffsetSurface& s, const NurbsSurface& form) {
 
 TEST(KindsOffset, OfASphereIsASphereUpToItsPoles) {
   for (const double distance : {-0.5, 0.25}) {
-    const OffsetSurface s{sphere(2.0), distance};
+    const OffsetSurface s{sphere_patch(2.0), distance};
     const double radius = 2.0 - distance;  // the normal points inwards
     for (const double tolerance : {1e-4, 1e-6}) {
       const NurbsForm form = form_of(s, tolerance);
@@ -60,7 +60,7 @@ TEST(KindsOffset, OfASphereIsASphereUpToItsPoles) {
 }
 
 TEST(KindsOffset, PolesStayPolesFarFromTheOriginToo) {
-  NurbsSurface base = sphere(1.0);
+  NurbsSurface base = sphere_patch(1.0);
   for (Vec3& p : base.points) p = p + Vec3{1e4, -2e4, 5e3};
   const OffsetSurface s{base, -0.5};
   for (const double v : {0.0, 0.1, 0.4, 0.9, 1.0}) {
@@ -72,7 +72,7 @@ TEST(KindsOffset, PolesStayPolesFarFromTheOriginToo) {
 
 TEST(KindsOffset, DeviationIsWhatAnotherRasterFinds) {
   for (const OffsetSurface& s : {OffsetSurface{hills(), 0.15}, OffsetSurface{hills(), -0.1},
-                                 OffsetSurface{torus(3, 1), -0.7}}) {
+                                 OffsetSurface{torus_patch(3, 1), -0.7}}) {
     for (const double tolerance : {1e-3, 1e-4, 1e-6}) {
       const NurbsForm form = form_of(s, tolerance);
       const double found = measured(s, form.surface);
@@ -84,7 +84,7 @@ TEST(KindsOffset, DeviationIsWhatAnotherRasterFinds) {
 
 TEST(KindsOffset, DerivativesToSecondOrderAgreeWithDifferences) {
   expect_partials(OffsetSurface{hills(), 0.15}, 100.0);
-  expect_partials(OffsetSurface{torus(3, 1), 0.3}, 1000.0);
+  expect_partials(OffsetSurface{torus_patch(3, 1), 0.3}, 1000.0);
 }
 
 TEST(KindsOffset, CurvaturesAreThoseOfParallelSurfaces) {

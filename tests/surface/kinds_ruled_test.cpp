@@ -11,8 +11,6 @@ SpaceCurve circle(double radius, double z, double start) {
                    2.0 * kPi);
 }
 
-Vec3 on(const SpaceCurve& curve, double t) { return evaluate(curve, domain(curve).at(t)).point; }
-
 TEST(KindsRuled, TwoTurnedCirclesMakeAHyperboloid) {
   const double r = std::sqrt(2.0);
   const NurbsForm form = expect_agrees(RuledSurface{circle(r, -1, 0), circle(r, 1, kPi / 2)});

@@ -6,15 +6,18 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <string>
 
+#include "../common/angles.h"
 #include "obvid/surface/surface.h"
 
 namespace obvid::kinds_test {
 
-inline constexpr double kPi = std::numbers::pi;
 inline constexpr Vec3 kZ{0.0, 0.0, 1.0};
+
+inline Vec3 on(const SpaceCurve& curve, double t) {
+  return evaluate(curve, domain(curve).at(t)).point;
+}
 
 /// Positions inside and on the borders of the domain that are no halves or quarters of spans.
 inline const std::vector<double>& parts() {

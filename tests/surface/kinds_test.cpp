@@ -2,14 +2,13 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <numbers>
 
+#include "../common/angles.h"
 #include "obvid/surface/surface.h"
 
 namespace obvid {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
 constexpr double kTolerance = 1e-7;
 
 /// Something to go on with after a failure.

@@ -1,20 +1,18 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "obvid/surface/space_curve.h"
+#include "../common/angles.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <numbers>
 
 #include "obvid/surface/basis.h"
 
 namespace obvid {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
-
 /// A rational cubic with a double inner knot and uneven spans.
-SpaceCurve uneven() {
+SpaceCurve uneven_curve() {
   return {
       3,
       {0, 0, 0, 0, 0.1, 0.5, 0.5, 0.503, 2, 2, 2, 2},
@@ -58,7 +56,7 @@ void expect_same_curve(const SpaceCurve& a, const SpaceCurve& b, double toleranc
 }
 
 TEST(SpaceCurve, IsTheSumOfItsBSplinesByTheirDefinition) {
-  const SpaceCurve c = uneven();
+  const SpaceCurve c = uneven_curve();
   for (const double u : {0.0, 0.05, 0.1, 0.3, 0.5, 0.501, 0.503, 1.0, 1.9999}) {
     EXPECT_LT(norm(evaluate(c, u).point - by_definition(c, u)), 1e-14) << u;
   }
@@ -66,7 +64,7 @@ TEST(SpaceCurve, IsTheSumOfItsBSplinesByTheirDefinition) {
 }
 
 TEST(SpaceCurve, DerivativesAgreeWithDifferences) {
-  const SpaceCurve c = uneven();
+  const SpaceCurve c = uneven_curve();
   const double h = 1e-4;
   for (const double u : {0.05, 0.3, 0.8, 1.5}) {
     const SpaceJet at = evaluate(c, u), up = evaluate(c, u + h), down = evaluate(c, u - h);
@@ -77,7 +75,7 @@ TEST(SpaceCurve, DerivativesAgreeWithDifferences) {
 }
 
 TEST(SpaceCurve, BSplinesSumToOneAndTheirDerivativesToNothing) {
-  const SpaceCurve c = uneven();
+  const SpaceCurve c = uneven_curve();
   for (double u = 0.0; u < 2.0; u += 0.013) {
     const BasisValues b = basis_at(3, c.knots, u, 3);
     std::array<double, 4> sum{};
@@ -92,20 +90,21 @@ TEST(SpaceCurve, BSplinesSumToOneAndTheirDerivativesToNothing) {
 }
 
 TEST(SpaceCurve, KnotsAreInsertedWithoutChangingTheCurve) {
-  expect_same_curve(uneven(), with_knots(uneven(), {0.0501, 0.1, 0.5, 0.5029, 1.0, 1.0, 1.0}));
-  expect_same_curve(uneven(), with_knots(uneven(), {0.503, 0.503}));
+  expect_same_curve(uneven_curve(),
+                    with_knots(uneven_curve(), {0.0501, 0.1, 0.5, 0.5029, 1.0, 1.0, 1.0}));
+  expect_same_curve(uneven_curve(), with_knots(uneven_curve(), {0.503, 0.503}));
 }
 
 TEST(SpaceCurve, DegreeIsRaisedWithoutChangingTheCurve) {
   for (int degree = 4; degree <= kMaxSurfaceDegree; ++degree) {
-    const SpaceCurve raised = with_degree(uneven(), degree);
+    const SpaceCurve raised = with_degree(uneven_curve(), degree);
     EXPECT_EQ(raised.degree, degree);
-    expect_same_curve(uneven(), raised);
+    expect_same_curve(uneven_curve(), raised);
   }
 }
 
 TEST(SpaceCurve, DegreeIsRaisedOnSpansOfVeryUnevenLength) {
-  SpaceCurve c = uneven();
+  SpaceCurve c = uneven_curve();
   c.knots = {0, 0, 0, 0, 1e-9, 0.5, 0.5 + 1e-7, 1.9, 2, 2, 2, 2};
   const SpaceCurve raised = with_degree(c, 6);
   for (int k = 0; k <= 1000; ++k) {
@@ -115,7 +114,7 @@ TEST(SpaceCurve, DegreeIsRaisedOnSpansOfVeryUnevenLength) {
 
 TEST(SpaceCurve, SplitsIntoTwoPartsThatMeet) {
   for (const double u : {0.02, 0.1, 0.5, 0.7, 1.999}) {
-    const auto [before, after] = split(uneven(), u);
+    const auto [before, after] = split(uneven_curve(), u);
     ASSERT_TRUE(check(before)) << u;
     ASSERT_TRUE(check(after)) << u;
     EXPECT_EQ(before.points.back(), after.points.front());
@@ -123,24 +122,24 @@ TEST(SpaceCurve, SplitsIntoTwoPartsThatMeet) {
     EXPECT_EQ(domain(after).from, u);
     for (int k = 0; k <= 20; ++k) {
       const double a = domain(before).at(k / 20.0 * 0.999), b = domain(after).at(k / 20.0);
-      EXPECT_LT(norm(evaluate(before, a).point - evaluate(uneven(), a).point), 1e-13);
-      EXPECT_LT(norm(evaluate(after, b).point - evaluate(uneven(), b).point), 1e-13);
+      EXPECT_LT(norm(evaluate(before, a).point - evaluate(uneven_curve(), a).point), 1e-13);
+      EXPECT_LT(norm(evaluate(after, b).point - evaluate(uneven_curve(), b).point), 1e-13);
     }
   }
 }
 
 TEST(SpaceCurve, ReversedRunsBackwards) {
-  const SpaceCurve back = reversed(uneven());
+  const SpaceCurve back = reversed(uneven_curve());
   ASSERT_TRUE(check(back));
   for (int k = 0; k <= 50; ++k) {
     const double u = k / 25.0;
-    EXPECT_LT(norm(evaluate(back, 2.0 - u).point - evaluate(uneven(), u).point), 1e-13);
+    EXPECT_LT(norm(evaluate(back, 2.0 - u).point - evaluate(uneven_curve(), u).point), 1e-13);
   }
 }
 
 TEST(SpaceCurve, CompatibleCurvesShareDegreeAndKnotsAndKeepTheirShape) {
   const SpaceCurve arc = arc_about({1, 0, 0}, {0, 0, 0}, {0, 0, 1}, 2.0);
-  const std::vector<SpaceCurve> in = {uneven(), arc, line_between({0, 0, 0}, {1, 1, 1})};
+  const std::vector<SpaceCurve> in = {uneven_curve(), arc, line_between({0, 0, 0}, {1, 1, 1})};
   const std::vector<SpaceCurve> out = compatible(in);
   ASSERT_EQ(out.size(), 3u);
   for (std::size_t k = 0; k < 3; ++k) {
@@ -198,19 +197,19 @@ TEST(SpaceCurve, InterpolationPassesThroughItsPointsAndReproducesCubics) {
 }
 
 TEST(SpaceCurve, RefusesWhatIsNoCurve) {
-  SpaceCurve c = uneven();
+  SpaceCurve c = uneven_curve();
   c.knots[5] = 0.05;
   EXPECT_EQ(check(c).error().code, ErrorCode::kBadOption);
-  c = uneven();
+  c = uneven_curve();
   c.weights[2] = 0.0;
   EXPECT_EQ(check(c).error().index, 2);
-  c = uneven();
+  c = uneven_curve();
   c.points.pop_back();
   EXPECT_EQ(check(c).error().code, ErrorCode::kBadOption);
-  c = uneven();
+  c = uneven_curve();
   c.points[3].y = std::nan("");
   EXPECT_EQ(check(c).error().code, ErrorCode::kNotFinite);
-  c = uneven();
+  c = uneven_curve();
   c.knots[0] = -1.0;
   EXPECT_EQ(check(c).error().code, ErrorCode::kBadOption);
   EXPECT_EQ(interpolated({{0, 0, 0}, {1, 0, 0}}, {1.0, 1.0}).error().index, 1);

@@ -14,21 +14,10 @@
 
 #include "approximate_line.h"
 #include "obvid/surfacing/grid.h"
+#include "sampled.h"
 
 namespace obvid {
 namespace {
-
-template <class Function>
-PointGrid sampled(std::size_t nu, std::size_t nv, const Function& f) {
-  PointGrid grid{nu, nv, {}, "sampled"};
-  for (std::size_t j = 0; j < nv; ++j) {
-    for (std::size_t i = 0; i < nu; ++i) {
-      grid.points.push_back(f(static_cast<double>(i) / static_cast<double>(nu - 1),
-                              static_cast<double>(j) / static_cast<double>(nv - 1)));
-    }
-  }
-  return grid;
-}
 
 /// Franke's function on [0, 1] x [0, 1].
 double franke(double x, double y) {

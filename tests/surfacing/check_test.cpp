@@ -1,15 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "obvid/surfacing/check.h"
+#include "../common/angles.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <numbers>
 
 namespace obvid {
 namespace {
-
-constexpr double kPi = std::numbers::pi;
 
 NurbsSurface nurbs(const Surface& surface) { return to_nurbs(surface, 1e-9)->surface; }
 

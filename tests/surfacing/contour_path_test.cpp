@@ -1,15 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "contour_path.h"
+#include "../common/angles.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <numbers>
 
 namespace obvid {
 namespace {
-
-constexpr double kPi = std::numbers::pi;
 
 /// A line, then a rational quarter circle of radius 2 whose parameter runs unevenly, to the left.
 Contour line_and_arc() {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "obvid/surfacing/grid.h"
+#include "sampled.h"
 
 #include <gtest/gtest.h>
 
@@ -7,18 +8,6 @@
 
 namespace obvid {
 namespace {
-
-template <class Function>
-PointGrid sampled(std::size_t nu, std::size_t nv, const Function& f) {
-  PointGrid grid{nu, nv, {}, "sampled"};
-  for (std::size_t j = 0; j < nv; ++j) {
-    for (std::size_t i = 0; i < nu; ++i) {
-      grid.points.push_back(f(static_cast<double>(i) / static_cast<double>(nu - 1),
-                              static_cast<double>(j) / static_cast<double>(nv - 1)));
-    }
-  }
-  return grid;
-}
 
 void expect_through_all(const PointGrid& grid, const NurbsSurface& surface, Spread spread) {
   ASSERT_TRUE(check(surface)) << check(surface).error().what;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "obvid/surfacing/network.h"
+#include "../common/angles.h"
 
 #include <gtest/gtest.h>
 
@@ -7,7 +8,6 @@
 #include <array>
 #include <chrono>
 #include <cmath>
-#include <numbers>
 #include <random>
 
 #include "network_crossing.h"
@@ -16,14 +16,12 @@
 namespace obvid {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
-
 Vec3 at(const SpaceCurve& curve, double part) {
   return evaluate(curve, domain(curve).at(part)).point;
 }
 
 /// Distance of a point from a curve by rasters around the nearest place: 0 to some 1e-9.
-double searched_distance(const SpaceCurve& curve, Vec3 point) {
+double distance_from_curve(const SpaceCurve& curve, Vec3 point) {
   double best = 1e300, centre = 0.5, half = 0.5;
   for (int level = 0; level < 10; ++level) {
     const int steps = level == 0 ? 400 : 20;
@@ -45,7 +43,7 @@ double searched_distance(const SpaceCurve& curve, Vec3 point) {
 double farthest(const SpaceCurve& curve, const SpaceCurve& from) {
   double worst = 0.0;
   for (int i = 0; i <= 40; ++i) {
-    worst = std::max(worst, searched_distance(from, at(curve, i / 40.0)));
+    worst = std::max(worst, distance_from_curve(from, at(curve, i / 40.0)));
   }
   return worst;
 }
@@ -153,7 +151,7 @@ TEST(CoonsFrom, TakesCurvesInAnyOrderAndDirection) {
       EXPECT_LT(norm(at(patch->u_at_v0, 0.3) - at(given[0], 0.3)), 1e-12);
       // the opposite border is the one two further on
       const SpaceCurve& opposite = borders[(order[0] + 2) % 4];
-      EXPECT_LT(searched_distance(opposite, at(patch->u_at_v1, 0.3)), 1e-8);
+      EXPECT_LT(distance_from_curve(opposite, at(patch->u_at_v1, 0.3)), 1e-8);
       ++tried;
     }
   } while (std::next_permutation(order.begin(), order.end()));
@@ -333,10 +331,10 @@ TEST(GordonFrom, TakesGapsWithinTheToleranceIntoTheMiddle) {
   }
   // crossings lie half way: as far from the one curve as from the other
   const Vec3 crossing = at(net->along_u[1], net->u_at[1]);
-  const double to_row = searched_distance(given.rows[1], crossing);
+  const double to_row = distance_from_curve(given.rows[1], crossing);
   EXPECT_GT(to_row, 1e-4);
   EXPECT_LT(to_row, 2e-4);
-  EXPECT_NEAR(to_row, searched_distance(given.columns[1], crossing), 1e-8);
+  EXPECT_NEAR(to_row, distance_from_curve(given.columns[1], crossing), 1e-8);
 }
 
 TEST(GordonFrom, CutsOffWhatSticksOut) {

@@ -1,18 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "obvid/surfacing/skin.h"
+#include "../common/angles.h"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 #include "obvid/curve/clothoid.h"
 
 namespace obvid {
 namespace {
-
-constexpr double kPi = std::numbers::pi;
 
 /// Points of the contour are its joints; in space they lie in the plane of the frame.
 SkinSection section_of(Contour contour, const Frame& frame, const std::string& name = "s") {

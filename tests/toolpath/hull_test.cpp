@@ -97,20 +97,20 @@ class Columns {
   std::vector<std::vector<Vec3>> cells_;
 };
 
-struct Found {
+struct FoundOnHull {
   double gouge = 0.0, cusp = 0.0;
   Vec3 place;
   int looked = 0;
 };
 
-Found simulated(const std::vector<Sample>& samples, const test::NcRun& run) {
+FoundOnHull simulated(const std::vector<Sample>& samples, const test::NcRun& run) {
   std::vector<Vec3> centres, points;
   for (const test::NcMove& move : run.moves) {
     for (const Vec3 tip : move.points) centres.push_back(tip + Vec3{0.0, 0.0, kRadius});
   }
   for (const Sample& s : samples) points.push_back(s.point);
   Columns balls(centres, 0.5 * kRadius), part(points, 0.5 * kRadius);
-  Found found;
+  FoundOnHull found;
   for (const Sample& s : samples) {
     double left = 1e9;
     balls.near(s.point, kRadius + 2.0 * kScallop, [&](Vec3 c) {
@@ -156,7 +156,7 @@ TEST_P(Hull, HalfOfSeries60IsNotGougedAndItsCuspsStayBelowTheScallop) {
   ASSERT_TRUE(run.faults.empty()) << run.faults.front();
 
   const auto samples = samples_of(surface, 300, 300);
-  const Found found = simulated(samples, run);
+  const FoundOnHull found = simulated(samples, run);
   RecordProperty("gouge", std::to_string(found.gouge));
   RecordProperty("cusp", std::to_string(found.cusp));
   RecordProperty("at", std::to_string(found.place.x) + " " + std::to_string(found.place.y) + " " +

@@ -24,6 +24,7 @@ struct Vec2 {
 [[nodiscard]] constexpr double cross(Vec2 a, Vec2 b) { return a.x * b.y - a.y * b.x; }
 [[nodiscard]] inline double norm(Vec2 a) { return std::sqrt(dot(a, a)); }
 [[nodiscard]] constexpr Vec2 left_normal(Vec2 a) { return {-a.y, a.x}; }
+[[nodiscard]] inline bool is_finite(Vec2 a) { return std::isfinite(a.x) && std::isfinite(a.y); }
 /// Heading of a vector in (-pi, pi].
 [[nodiscard]] inline double heading(Vec2 a) { return std::atan2(a.y, a.x); }
 [[nodiscard]] inline Vec2 unit_at(double theta) { return {std::cos(theta), std::sin(theta)}; }

@@ -27,7 +27,7 @@ namespace obvid::cad {
 namespace {
 
 /// Faces by creases that a CAD system can still work with.
-constexpr std::size_t kMostFaces = 20000;
+constexpr std::size_t kMostCreasedFaces = 20000;
 
 /// In the kernel's unit: it compares squares of lengths, which have to be numbers.
 constexpr double kLargest = 1e100;
@@ -249,13 +249,13 @@ Result<Parts> parts_of(const SurfaceModel& model, double scale) {
       error.where = error.where.empty() ? name : name + ", " + error.where;
       return fail(std::move(error));
     }
-    auto parts = without_creases(surface, 1 + kMostFaces - by_creases);
+    auto parts = without_creases(surface, 1 + kMostCreasedFaces - by_creases);
     if (parts.empty()) {
       return fail(
           {ErrorCode::kUnsupported,
-           fmt::format("the creases cut the model into more than {} more faces", kMostFaces), name,
-           "write .stl, .obj or .glb, or make the surfaces of a higher degree", -1,
-           static_cast<double>(kMostFaces)});
+           fmt::format("the creases cut the model into more than {} more faces", kMostCreasedFaces),
+           name, "write .stl, .obj or .glb, or make the surfaces of a higher degree", -1,
+           static_cast<double>(kMostCreasedFaces)});
     }
     const std::size_t count = parts.size();
     by_creases += count - 1;
@@ -269,7 +269,7 @@ Result<Parts> parts_of(const SurfaceModel& model, double scale) {
                "make a surface first", -1, 0.0});
 }
 
-double size_of(const std::vector<NurbsSurface>& patches) {
+double size_of_patches(const std::vector<NurbsSurface>& patches) {
   Vec3 low = patches.front().points.front(), high = low;
   for (const NurbsSurface& patch : patches) {
     for (const Vec3 p : patch.points) {
@@ -288,7 +288,7 @@ Result<NamedFaces> faces_of(const SurfaceModel& model, double scale) {
   auto parts = parts_of(model, scale);
   if (!parts) return fail(parts.error());
   const std::vector<NurbsSurface>& patches = parts->surfaces;
-  const double size = size_of(patches);
+  const double size = size_of_patches(patches);
   if (!(size > 0.0 && size < kLargest)) {
     return fail({ErrorCode::kSizeOutOfRange,
                  fmt::format("the size of the model is {:.3g} mm", size), model.name,

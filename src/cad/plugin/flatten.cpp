@@ -25,14 +25,14 @@ namespace {
 constexpr double kFlat = 1e-6;
 
 /// An edge in space, from its start to its end.
-struct SpaceCurve {
+struct EdgeCurve {
   Handle(Geom_BSplineCurve) spline;  ///< always there
   bool line = false;
   std::optional<gp_Circ> circle;
   double turn = 0.0;  ///< of the circle, rad, positive about its axis
 };
 
-std::optional<SpaceCurve> curve_of(const TopoDS_Edge& edge, std::string& why) {
+std::optional<EdgeCurve> curve_of(const TopoDS_Edge& edge, std::string& why) {
   const BRepAdaptor_Curve adaptor(edge);
   double first = 0.0, last = 0.0;
   const Handle(Geom_Curve) curve = BRep_Tool::Curve(edge, first, last);
@@ -44,7 +44,7 @@ std::optional<SpaceCurve> curve_of(const TopoDS_Edge& edge, std::string& why) {
     why = "has no end";
     return std::nullopt;
   }
-  SpaceCurve out;
+  EdgeCurve out;
   out.spline = GeomConvert::CurveToBSplineCurve(new Geom_TrimmedCurve(curve, first, last),
                                                 Convert_TgtThetaOver2);  // conics stay quadratic
   if (out.spline.IsNull()) {
@@ -80,9 +80,9 @@ struct Plane {
   [[nodiscard]] gp_Dir normal() const { return x.Crossed(y); }
 };
 
-std::vector<gp_Pnt> poles_of(const std::vector<SpaceCurve>& curves) {
+std::vector<gp_Pnt> poles_of(const std::vector<EdgeCurve>& curves) {
   std::vector<gp_Pnt> out;
-  for (const SpaceCurve& curve : curves) {
+  for (const EdgeCurve& curve : curves) {
     for (int i = 1; i <= curve.spline->NbPoles(); ++i) out.push_back(curve.spline->Pole(i));
   }
   return out;
@@ -94,7 +94,7 @@ bool all_finite(const std::vector<gp_Pnt>& points) {
   });
 }
 
-double size_of(const std::vector<gp_Pnt>& points) {
+double size_of_points(const std::vector<gp_Pnt>& points) {
   double size = 0.0;
   for (const gp_Pnt& p : points) size = std::max(size, p.Distance(points.front()));
   return size;
@@ -145,7 +145,7 @@ std::optional<Plane> plane_of(const std::vector<gp_Pnt>& points, double size, do
 }
 
 /// Arcs of less than half a turn each.
-void add_arcs(const SpaceCurve& curve, const Plane& plane, std::vector<Piece>& pieces) {
+void add_arcs(const EdgeCurve& curve, const Plane& plane, std::vector<Piece>& pieces) {
   constexpr double kMostTurn = 3.0;
   const gp_Circ& circle = *curve.circle;
   const double sign = circle.Axis().Direction().Dot(plane.normal()) > 0.0 ? 1.0 : -1.0;
@@ -165,7 +165,7 @@ void add_arcs(const SpaceCurve& curve, const Plane& plane, std::vector<Piece>& p
   }
 }
 
-void add_pieces(const SpaceCurve& curve, const Plane& plane, std::vector<Piece>& pieces) {
+void add_pieces(const EdgeCurve& curve, const Plane& plane, std::vector<Piece>& pieces) {
   const Handle(Geom_BSplineCurve)& spline = curve.spline;
   if (curve.line) {
     pieces.emplace_back(
@@ -200,8 +200,8 @@ void add_one_by_one(const EdgeChain& chain, Drawing& drawing) {
   }
 }
 
-void add(const EdgeChain& chain, Drawing& drawing) {
-  std::vector<SpaceCurve> curves;
+void add_chain(const EdgeChain& chain, Drawing& drawing) {
+  std::vector<EdgeCurve> curves;
   for (const TopoDS_Edge& edge : chain.edges) {
     std::string why;
     auto curve = curve_of(edge, why);
@@ -218,7 +218,7 @@ void add(const EdgeChain& chain, Drawing& drawing) {
     drawing.warnings.push_back(chain.label + " was left out: it has numbers that are not finite");
     return;
   }
-  const double size = size_of(points);
+  const double size = size_of_points(points);
   double away = 0.0;
   const auto plane = plane_of(points, size, away);
   if (!plane && chain.edges.size() > 1) return add_one_by_one(chain, drawing);
@@ -233,7 +233,7 @@ void add(const EdgeChain& chain, Drawing& drawing) {
   DrawnCurve out{chain.label, {}, chain.closed};
   const double height = points.front().Z();
   if (!own && std::abs(height) > kFlat * size) out.label += fmt::format(" at z = {:.6g}", height);
-  for (const SpaceCurve& curve : curves) add_pieces(curve, *plane, out.pieces);
+  for (const EdgeCurve& curve : curves) add_pieces(curve, *plane, out.pieces);
   if (!out.pieces.empty()) drawing.curves.push_back(std::move(out));
 }
 
@@ -241,7 +241,7 @@ void add(const EdgeChain& chain, Drawing& drawing) {
 
 void add_flat(const EdgeChain& chain, Drawing& drawing) {
   try {
-    add(chain, drawing);
+    add_chain(chain, drawing);
   } catch (const Standard_Failure& failure) {
     drawing.warnings.push_back(chain.label + " was left out: the CAD kernel says " +
                                failure.GetMessageString());

@@ -17,7 +17,7 @@ namespace obvid::cad {
 namespace {
 
 /// Faces that are looked at; a model with more is no surface to work on here.
-constexpr std::size_t kMostFaces = 20000;
+constexpr std::size_t kMostReadFaces = 20000;
 
 FaceSurface surface_or_reason(const TopoDS_Face& face) {
   try {
@@ -30,7 +30,8 @@ FaceSurface surface_or_reason(const TopoDS_Face& face) {
 }
 
 /// Files may call all faces the same: the warnings say which one it is.
-void add(const TopoDS_Face& face, std::size_t number, const std::string& given, CadSurfaces& out) {
+void add_face(const TopoDS_Face& face, std::size_t number, const std::string& given,
+              CadSurfaces& out) {
   FaceSurface made = surface_or_reason(face);
   const std::string plain = fmt::format("face {}", number);
   const std::string name = given.empty() ? plain : fmt::format("{} ({})", plain, given);
@@ -53,13 +54,13 @@ void collect(const Loaded& loaded, CadSurfaces& out) {
   std::size_t number = 0;
   for (TopExp_Explorer e(loaded.shape, TopAbs_FACE); e.More(); e.Next()) {
     if (!seen.Add(e.Current())) continue;
-    if (++number > kMostFaces) continue;
+    if (++number > kMostReadFaces) continue;
     const TopoDS_Face& face = TopoDS::Face(e.Current());
-    add(face, number, loaded.name_of(face), out);
+    add_face(face, number, loaded.name_of(face), out);
   }
-  if (number > kMostFaces) {
+  if (number > kMostReadFaces) {
     out.warnings.push_back(fmt::format("{} faces beyond the first {} were not looked at",
-                                       number - kMostFaces, kMostFaces));
+                                       number - kMostReadFaces, kMostReadFaces));
   }
 }
 

@@ -24,11 +24,11 @@ constexpr double kBest = 124.707658144959;
 /// Parts of the best heading's angle that are tried at each node. With more than 0.93 of it the
 /// lengths that are near enough are no longer one interval; 0.8 costs 6 % of the length.
 constexpr std::array kParts = {0.8, 0.4, 0.0};
-constexpr double kManyArcs = 1000.0;    // from here on only the first of them
-constexpr double kOfTolerance = 0.99;   // what sampling may miss
-constexpr double kSpanAccuracy = 0.01;  // of a pair: how exactly its end is found
-constexpr double kShortest = 1e-12;     // of a contour: arcs of that length are rounding
-constexpr double kMostLean = 0.2;       // rad, between a node's heading and the contour's
+constexpr double kManyArcs = 1000.0;      // from here on only the first of them
+constexpr double kOfArcTolerance = 0.99;  // what sampling may miss
+constexpr double kSpanAccuracy = 0.01;    // of a pair: how exactly its end is found
+constexpr double kShortestArc = 1e-12;    // of a contour: arcs of that length are rounding
+constexpr double kMostLean = 0.2;         // rad, between a node's heading and the contour's
 constexpr std::size_t kMostArcs = 1000000;
 constexpr std::size_t kEvened = 20;  // pairs before the end of a stretch that are made alike
 constexpr int kEvenings = 5;         // bisections for that
@@ -80,7 +80,7 @@ class StretchArcs {
 
   /// Length of the arcs around a place in the best approximation.
   double period(double s, double tolerance) const {
-    const double most = to_ - from_, least = kShortest * most;
+    const double most = to_ - from_, least = kShortestArc * most;
     const auto too_long = [&](double l) {
       return change(s, l).variation * l * l > kBest * tolerance;
     };
@@ -131,7 +131,7 @@ class StretchArcs {
     std::optional<Step> good;
     double bad = to_, span = guess;
     bool was_bad = false;
-    const double room = to_ - start.s, least = kShortest * (to_ - from_);
+    const double room = to_ - start.s, least = kShortestArc * (to_ - from_);
     const auto attempt = [&](double s) {
       const Node b = node(s, tolerance, part);
       const auto pair = arcs::pair_along(track_, start, b, tolerance);
@@ -319,7 +319,7 @@ Result<ArcsAlong> arcs_along(const Contour& contour, double tolerance) {
     return ArcsAlong{std::move(*same), 0.0};
   }
   constexpr int kTrials = 4;
-  double within = kOfTolerance * tolerance;
+  double within = kOfArcTolerance * tolerance;
   ArcsAlong out;
   for (int trial = 0; trial < kTrials; ++trial) {
     auto pieces = all_arcs(track, within, expected);
@@ -327,7 +327,7 @@ Result<ArcsAlong> arcs_along(const Contour& contour, double tolerance) {
     out.pieces = std::move(*pieces);
     out.deviation = path_distance(contour.pieces, out.pieces);
     if (out.deviation <= tolerance) return out;
-    within *= kOfTolerance * tolerance / out.deviation;
+    within *= kOfArcTolerance * tolerance / out.deviation;
   }
   return fail(not_reached("the arcs do not come near enough to the contour", out.deviation));
 }

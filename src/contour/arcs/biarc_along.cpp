@@ -5,11 +5,14 @@
 #include <cmath>
 #include <limits>
 
+#include "peak.h"
+
 namespace obvid::arcs {
 namespace {
 
-constexpr double kMostTurn = 2.4;  // of the contour beside a pair, rad: arcs stay below half a turn
-constexpr int kSamples = 24;       // of a pair, and at least two of each piece beside it
+constexpr double kMostPairTurn =
+    2.4;                          // of the contour beside a pair, rad: arcs stay below half a turn
+constexpr int kPairSamples = 24;  // of a pair, and at least two of each piece beside it
 
 /// Arc from a point with this heading to another one. A line where it does not turn at all.
 Piece arc_between(Vec2 from, double theta, Vec2 to) {
@@ -53,13 +56,6 @@ bool goes_forward(const Piece& piece) {
   return !(line.start == line.end);
 }
 
-/// Largest of three neighbouring values, and of the parabola through them.
-double peak(double before, double here, double after) {
-  const double bend = 2.0 * here - before - after;
-  if (here < before || here < after || !(bend > 0.0)) return here;
-  return here + (after - before) * (after - before) / (8.0 * bend);
-}
-
 }  // namespace
 
 /// Two arcs with tangents of equal length at both ends (Bolton, "Biarc curves", 1975): always there
@@ -84,7 +80,7 @@ std::optional<PairCurvatures> pair_along(const Track& track, const Node& a, cons
   const Track::Place first = track.place(a.s, false), last = track.place(b.s, true);
   const std::size_t pieces = last.piece - first.piece + 1;
   const int each =
-      std::max(2, kSamples / static_cast<int>(std::min<std::size_t>(pieces, kSamples)));
+      std::max(2, kPairSamples / static_cast<int>(std::min<std::size_t>(pieces, kPairSamples)));
   double before = 0.0, here = 0.0, turned = 0.0, deviation = 0.0;
   Vec2 heading_before = evaluate(track.piece(first.piece), first.t).d1;
   for (std::size_t i = first.piece; i <= last.piece; ++i) {
@@ -96,7 +92,7 @@ std::optional<PairCurvatures> pair_along(const Track& track, const Node& a, cons
       const bool on_first = dot(jet.point - circle[1].start, circle[1].tangent) <= 0.0;
       const double next = distance(circle[on_first ? 0 : 1], jet.point);
       deviation = std::max({deviation, peak(before, here, next), next});
-      if (!(deviation <= tolerance) || turned > kMostTurn) return std::nullopt;
+      if (!(deviation <= tolerance) || turned > kMostPairTurn) return std::nullopt;
       before = here;
       here = next;
     }

@@ -5,26 +5,21 @@
 
 #include "obvid/contour/arcs/polyline_along.h"
 #include "obvid/curve/path_distance.h"
+#include "peak.h"
 #include "track.h"
 
 namespace obvid {
 namespace {
 
+using arcs::peak;
 using arcs::Track;
 
 constexpr double kMostPoints = 1e7;
-constexpr double kOfTolerance = 0.99;  // what sampling may miss
-constexpr double kAccuracy = 0.01;     // of a chord: how exactly its end is found
-constexpr double kShortest = 1e-13;    // of a contour: chords of that length are rounding
-constexpr int kSamples = 8;            // beside a chord, and at least two of each piece
-constexpr double kMostTurn = 1.5;      // of the contour beside a chord, rad
-
-/// Largest of three neighbouring values, and of the parabola through them.
-double peak(double before, double here, double after) {
-  const double bend = 2.0 * here - before - after;
-  if (here < before || here < after || !(bend > 0.0)) return here;
-  return here + (after - before) * (after - before) / (8.0 * bend);
-}
+constexpr double kOfChordTolerance = 0.99;  // what sampling may miss
+constexpr double kAccuracy = 0.01;          // of a chord: how exactly its end is found
+constexpr double kShortestChord = 1e-13;    // of a contour: chords of that length are rounding
+constexpr int kChordSamples = 8;            // beside a chord, and at least two of each piece
+constexpr double kMostChordTurn = 1.5;      // of the contour beside a chord, rad
 
 class Chords {
  public:
@@ -33,7 +28,7 @@ class Chords {
   /// Appends the points after the first one. False when no chord is near enough.
   bool follow(double from, double to, std::vector<Vec2>& out) const {
     double span = to - from;
-    const double least = kShortest * track_.length();
+    const double least = kShortestChord * track_.length();
     for (double s = from; to - s > least;) {
       const double step = longest(s, to, std::max(span, least), least);
       if (step == 0.0 || static_cast<double>(out.size()) > kMostPoints) return false;
@@ -54,14 +49,14 @@ class Chords {
     const Track::Place first = track_.place(a, false), last = track_.place(b, true);
     const std::size_t pieces = last.piece - first.piece + 1;
     const int each =
-        std::max(2, kSamples / static_cast<int>(std::min<std::size_t>(pieces, kSamples)));
+        std::max(2, kChordSamples / static_cast<int>(std::min<std::size_t>(pieces, kChordSamples)));
     double before = 0.0, here = 0.0;
     for (std::size_t i = first.piece; i <= last.piece; ++i) {
       const double s0 = std::max(a, track_.start_of(i));
       const double s1 = std::min(b, track_.start_of(i + 1));
       for (int k = 1; k <= each; ++k) {
         const Jet jet = track_.jet(s0 + (s1 - s0) * k / each, true);
-        if (std::abs(turning(along, jet.d1)) > kMostTurn) return false;
+        if (std::abs(turning(along, jet.d1)) > kMostChordTurn) return false;
         const double next = std::abs(cross(along, jet.point - start));
         if (!(std::max(next, peak(before, here, next)) <= tolerance_)) return false;
         before = here;
@@ -109,7 +104,7 @@ double expected_chords(const Contour& contour, double tolerance) {
   return sum;
 }
 
-Error not_reached(double value) {
+Error chords_not_near(double value) {
   return {ErrorCode::kToleranceNotReached,
           "ten million chords are not near enough to the contour",
           "",
@@ -137,22 +132,23 @@ Result<PolylineAlong> polyline_along(const Contour& contour, double tolerance) {
     return fail({ErrorCode::kTooFewPoints, "the contour has no pieces", "", "", -1, 0.0});
   }
   const double expected = expected_chords(contour, tolerance);
-  if (!(expected <= kMostPoints)) return fail(not_reached(expected));
+  if (!(expected <= kMostPoints)) return fail(chords_not_near(expected));
   const Track track(contour);
   constexpr int kTrials = 4;
-  double within = kOfTolerance * tolerance;
+  double within = kOfChordTolerance * tolerance;
   PolylineAlong out;
   for (int trial = 0; trial < kTrials; ++trial) {
     out.points.assign(1, start_point(contour.pieces.front()));
     for (const arcs::Stretch& stretch : track.stretches()) {
       const double from = track.start_of(stretch.first), to = track.start_of(stretch.end);
-      if (!Chords(track, within).follow(from, to, out.points)) return fail(not_reached(tolerance));
+      if (!Chords(track, within).follow(from, to, out.points))
+        return fail(chords_not_near(tolerance));
     }
     out.deviation = path_distance(contour.pieces, as_pieces(out.points));
     if (out.deviation <= tolerance) return out;
-    within *= kOfTolerance * tolerance / out.deviation;
+    within *= kOfChordTolerance * tolerance / out.deviation;
   }
-  return fail(not_reached(out.deviation));
+  return fail(chords_not_near(out.deviation));
 }
 
 }  // namespace obvid

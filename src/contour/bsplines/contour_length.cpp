@@ -11,7 +11,7 @@
 namespace obvid::bsplines {
 namespace {
 
-constexpr std::size_t kCells = 8;  // per piece: the quadrature then errs by rounding only
+constexpr std::size_t kLengthCells = 8;  // per piece: the quadrature then errs by rounding only
 
 /// Eight-point Gauss-Legendre over [from, to] of the parameter.
 double length_between(const Piece& piece, double from, double to) {
@@ -31,12 +31,12 @@ double length_between(const Piece& piece, double from, double to) {
 }  // namespace
 
 ContourLength::ContourLength(const Contour& contour) : contour_(contour) {
-  cells_.reserve(kCells * contour.pieces.size() + 1);
+  cells_.reserve(kLengthCells * contour.pieces.size() + 1);
   double sum = 0.0;
   cells_.push_back(0.0);
   for (const Piece& piece : contour.pieces) {
-    for (std::size_t c = 0; c < kCells; ++c) {
-      constexpr double kStep = 1.0 / static_cast<double>(kCells);
+    for (std::size_t c = 0; c < kLengthCells; ++c) {
+      constexpr double kStep = 1.0 / static_cast<double>(kLengthCells);
       const auto from = static_cast<double>(c) * kStep;
       sum += length_between(piece, from, from + kStep);
       cells_.push_back(sum);
@@ -52,9 +52,9 @@ ContourLength::Place ContourLength::split(double place) const {
 
 double ContourLength::at(double place) const {
   const Place p = split(place);
-  const auto cell = std::min(static_cast<std::size_t>(p.t * kCells), kCells - 1);
-  const double from = static_cast<double>(cell) / kCells;
-  const double before = cells_[p.piece * kCells + cell];
+  const auto cell = std::min(static_cast<std::size_t>(p.t * kLengthCells), kLengthCells - 1);
+  const double from = static_cast<double>(cell) / kLengthCells;
+  const double before = cells_[p.piece * kLengthCells + cell];
   return p.t > from ? before + length_between(contour_.pieces[p.piece], from, p.t) : before;
 }
 

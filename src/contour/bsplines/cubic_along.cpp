@@ -17,11 +17,11 @@ using bsplines::ContourLength;
 
 constexpr std::size_t kMostSpans = 65536;
 /// Cells per piece over which the density of knots is taken for constant.
-constexpr std::size_t kCells = 8;
-constexpr int kSamples = 8;  // per span
+constexpr std::size_t kDensityCells = 8;
+constexpr int kSpanSamples = 8;  // per span
 /// What the largest sampled deviation may be, so that nothing between the samples exceeds the
 /// tolerance: eight samples see the flat maximum of a quartic error within 4 %.
-constexpr double kOfTolerance = 0.95;
+constexpr double kOfCubicTolerance = 0.95;
 /// Integral of the density that the contour has by its length alone: straight parts get knots too.
 constexpr double kLeastDensity = 0.2;
 
@@ -44,8 +44,8 @@ struct Density {
   /// slope of the curvature jumps there, which a cubic spline can follow at its knots only.
   [[nodiscard]] std::vector<double> knots(std::size_t n) const {
     constexpr std::size_t kEnough = 2;  // spans per piece
-    const std::size_t last = sum.size() - 1, pieces = last / kCells;
-    const std::size_t stride = n < kEnough * pieces ? last : kCells;
+    const std::size_t last = sum.size() - 1, pieces = last / kDensityCells;
+    const std::size_t stride = n < kEnough * pieces ? last : kDensityCells;
     std::vector<double> out = {0.0};
     for (std::size_t i = 0; i < last; i += stride) {
       const double share = (sum[i + stride] - sum[i]) / sum.back() * static_cast<double>(n);
@@ -64,9 +64,9 @@ Density knot_density(const Contour& contour, const ContourLength& length) {
   const double whole = length.at(static_cast<double>(contour.pieces.size()));
   for (std::size_t i = 0; i < contour.pieces.size(); ++i) {
     const Piece& piece = contour.pieces[i];
-    for (std::size_t c = 0; c < kCells; ++c) {
-      const double from = static_cast<double>(c) / kCells;
-      const double to = static_cast<double>(c + 1) / kCells;
+    for (std::size_t c = 0; c < kDensityCells; ++c) {
+      const double from = static_cast<double>(c) / kDensityCells;
+      const double to = static_cast<double>(c + 1) / kDensityCells;
       const double place = static_cast<double>(i) + to;
       const double ds = length.at(place) - length.at(d.place.back());
       const Jet a = evaluate(piece, from), m = evaluate(piece, 0.5 * (from + to)),
@@ -122,8 +122,8 @@ class CubicBuilder {
     double most = 0.0;
     for (std::size_t i = 0; i + 1 < places.size(); ++i) {
       const double from = length_.at(places[i]), to = length_.at(places[i + 1]);
-      for (int k = 0; k < kSamples; ++k) {
-        const double part = (k + 0.5) / kSamples;
+      for (int k = 0; k < kSpanSamples; ++k) {
+        const double part = (k + 0.5) / kSpanSamples;
         const double place = places[i] + part * (places[i + 1] - places[i]);
         const double along = (length_.at(place) - from) / (to - from);
         const double u = spline.knots[i] + along * (spline.knots[i + 1] - spline.knots[i]);
@@ -186,7 +186,7 @@ Result<CubicAlong> cubic_along(const Contour& contour, double tolerance) {
                  "joint " + std::to_string(i + 1), "split it there", static_cast<std::ptrdiff_t>(i),
                  0.0});
   }
-  return search(CubicBuilder(contour), kOfTolerance * tolerance);
+  return search(CubicBuilder(contour), kOfCubicTolerance * tolerance);
 }
 
 }  // namespace obvid

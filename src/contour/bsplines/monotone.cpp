@@ -17,10 +17,10 @@ using bsplines::ContourLength;
 using bsplines::Quintic;
 
 /// Places at which a span is measured, at least; its error s^3 (L - s)^3 has no finer features.
-constexpr int kSamples = 24;
+constexpr int kErrorSamples = 24;
 constexpr int kLeastPerPiece = 4;
 /// What the largest of these may be, so that nothing between them exceeds the tolerance.
-constexpr double kOfTolerance = 0.98;
+constexpr double kOfMonotoneTolerance = 0.98;
 
 /// A span that was tried.
 struct Span {
@@ -123,7 +123,7 @@ class SplineBuilder {
   bool measure(Span& s) const {
     const double start = length_.at(s.from);
     const int parts = static_cast<int>(std::ceil(s.to) - std::floor(s.from));
-    const int each = std::max(kLeastPerPiece, kSamples / std::max(parts, 1));
+    const int each = std::max(kLeastPerPiece, kErrorSamples / std::max(parts, 1));
     for (double piece = std::floor(s.from); piece < s.to; piece += 1.0) {
       const double low = std::max(s.from, piece), high = std::min(s.to, piece + 1.0);
       for (int i = 0; i < each; ++i) {
@@ -131,7 +131,7 @@ class SplineBuilder {
         const double t = (length_.at(place) - start) / s.length;
         s.deviation =
             std::max(s.deviation, norm(bsplines::point_at(s.points, t) - length_.point(place)));
-        if (!(s.deviation <= kOfTolerance * tolerance_)) return false;
+        if (!(s.deviation <= kOfMonotoneTolerance * tolerance_)) return false;
       }
     }
     return true;

@@ -14,7 +14,7 @@ constexpr std::size_t kMostTerms = 40;
 
 /// Newton's steps end below this: what is left after the step is its square.
 constexpr double kLastStep = 1e-8;
-constexpr int kMostSteps = 20;  // two or three do it; the tests count
+constexpr int kMostChordSteps = 20;  // two or three do it; the tests count
 
 struct Recurrence {
   std::array<double, kMostTerms + 2> by_next{};    ///< 1 + 1/(2k)
@@ -140,7 +140,7 @@ Solved solve(const Series& series, double half_sum, double linear, double square
   out.chord.linear = linear;
   out.cosine = std::cos(half_sum);
   out.sine = std::sin(half_sum);
-  for (int i = 0; i < kMostSteps; ++i) {
+  for (int i = 0; i < kMostChordSteps; ++i) {
     const Series::Value g = series.at(square, 0);
     const double miss = out.sine * g.re + out.cosine * g.im;
     out.slope = out.sine * g.re_slope + out.cosine * g.im_slope;

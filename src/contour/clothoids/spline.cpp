@@ -16,7 +16,7 @@ using clothoids::ChordClothoid;
 using clothoids::Chords;
 using clothoids::ChordSlopes;
 
-constexpr int kMostSteps = 60;
+constexpr int kMostSplineSteps = 60;
 constexpr double kLargestStep = 0.5;    // rad, of a heading; farther the model says nothing
 constexpr double kConverged = 1e-13;    // of a heading, rad
 constexpr double kLargestJump = 1e-10;  // of curvature, times the chord: what counts as G2
@@ -63,7 +63,7 @@ class SplineSolver {
   }
 
   Result<ClothoidSpline> run() {
-    for (int step = 0; step < kMostSteps; ++step) {
+    for (int step = 0; step < kMostSplineSteps; ++step) {
       if (!evaluate_all()) return refuse();
       ++steps_;
       if (take_step() <= kConverged) break;

@@ -19,9 +19,9 @@ using Cells = std::array<double, kCells>;
 constexpr double kLeastSharpness = 1e-6;
 /// At least this much of the mean on every cell of equal length, or unequal ones are tried first.
 constexpr double kEvenSharpness = 0.2;
-constexpr int kMostSteps = 12;       // four or five do it
-constexpr double kRounding = 4e-16;  // of the chord and of a radian: no step betters this
-constexpr double kClose = 1e-14;     // what counts as met
+constexpr int kMostTripleSteps = 12;  // four or five do it
+constexpr double kRounding = 4e-16;   // of the chord and of a radian: no step betters this
+constexpr double kClose = 1e-14;      // what counts as met
 
 struct Link {
   double alpha, beta;  ///< headings against the chord
@@ -214,7 +214,7 @@ std::optional<Trace> meet_end(const Link& link, Profile& p) {
   std::optional<Trace> best;
   Profile best_profile = p;
   double best_miss = HUGE_VAL;
-  for (int i = 0; i < kMostSteps; ++i) {
+  for (int i = 0; i < kMostTripleSteps; ++i) {
     const Trace t = trace(link, p);
     const double miss = largest_miss(t, link);
     if (!(miss < best_miss) && best_miss <= kClose) break;

@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <algorithm>
+#include <limits>
+
+#include "obvid/geom/vec2.h"
+#include "obvid/geom/vec3.h"
+
+namespace obvid {
+
+/// Smallest upright rectangle around what was added; empty at first: from +infinity to -infinity.
+struct Box2 {
+  static constexpr double kNowhere = std::numeric_limits<double>::infinity();
+
+  Vec2 low{kNowhere, kNowhere};
+  Vec2 high{-kNowhere, -kNowhere};
+
+  constexpr void add(Vec2 p) {
+    low = {std::min(low.x, p.x), std::min(low.y, p.y)};
+    high = {std::max(high.x, p.x), std::max(high.y, p.y)};
+  }
+};
+
+/// The same in space.
+struct Box3 {
+  static constexpr double kNowhere = std::numeric_limits<double>::infinity();
+
+  Vec3 low{kNowhere, kNowhere, kNowhere};
+  Vec3 high{-kNowhere, -kNowhere, -kNowhere};
+
+  constexpr void add(Vec3 p) {
+    low = {std::min(low.x, p.x), std::min(low.y, p.y), std::min(low.z, p.z)};
+    high = {std::max(high.x, p.x), std::max(high.y, p.y), std::max(high.z, p.z)};
+  }
+  [[nodiscard]] constexpr Vec3 size() const { return high - low; }
+  [[nodiscard]] constexpr Vec3 middle() const { return low + 0.5 * size(); }
+};
+
+}  // namespace obvid
