@@ -13,7 +13,8 @@ if(NOT OpenCASCADE_FOUND)
   return()
 endif()
 file(GLOB plugin_sources CONFIGURE_DEPENDS "${PROJECT_SOURCE_DIR}/src/cad/plugin/*.cpp")
-add_library(obvid_cad_plugin MODULE ${plugin_sources})
+obvid_unity(plugin_units obvid_cad_plugin ${OBVID_BATCH} ${plugin_sources})
+add_library(obvid_cad_plugin MODULE ${plugin_units})
 set_target_properties(obvid_cad_plugin PROPERTIES
   PREFIX "" OUTPUT_NAME obvid_cad LIBRARY_OUTPUT_DIRECTORY "${PROJECT_BINARY_DIR}"
   CXX_VISIBILITY_PRESET hidden)

@@ -5,18 +5,24 @@ configure_file("${PROJECT_SOURCE_DIR}/cmake/version.h.in"
                "${PROJECT_BINARY_DIR}/generated/obvid/core/version.h" @ONLY)
 
 # obvid_module(NAME x [FOLDER src-folder] [DEPENDS module...] [LIBRARIES target...]
-#              [PRIVATE_HEADERS_OF target...])
+#              [PRIVATE_HEADERS_OF target...] [BATCH number])
 # Target obvid_x with alias obvid::x from all src/<folder>/**.cpp. A module without sources is a
 # header-only one. LIBRARIES appear in its public headers, PRIVATE_HEADERS_OF only in its sources.
+# BATCH: sources that are compiled together.
+set(OBVID_BATCH 16)
 function(obvid_module)
-  cmake_parse_arguments(M "" "NAME;FOLDER" "DEPENDS;LIBRARIES;PRIVATE_HEADERS_OF" ${ARGN})
+  cmake_parse_arguments(M "" "NAME;FOLDER;BATCH" "DEPENDS;LIBRARIES;PRIVATE_HEADERS_OF" ${ARGN})
   if(NOT M_FOLDER)
     set(M_FOLDER ${M_NAME})
+  endif()
+  if(NOT M_BATCH)
+    set(M_BATCH ${OBVID_BATCH})
   endif()
   file(GLOB_RECURSE sources CONFIGURE_DEPENDS "${PROJECT_SOURCE_DIR}/src/${M_FOLDER}/*.cpp")
   set(target obvid_${M_NAME})
   if(sources)
-    add_library(${target} STATIC ${sources})
+    obvid_unity(units ${target} ${M_BATCH} ${sources})
+    add_library(${target} STATIC ${units})
     set(scope PUBLIC)
     target_link_libraries(${target} PRIVATE fmt::fmt $<BUILD_INTERFACE:obvid_flags>)
     target_include_directories(${target} PRIVATE "${PROJECT_SOURCE_DIR}/src/${M_FOLDER}")
@@ -60,7 +66,8 @@ function(obvid_program)
     message(STATUS "no sources in ${P_FOLDER}: program ${P_NAME} left out")
     return()
   endif()
-  add_executable(${P_NAME}_cli ${sources})
+  obvid_unity(units ${P_NAME}_cli ${OBVID_BATCH} ${sources})
+  add_executable(${P_NAME}_cli ${units})
   set_target_properties(${P_NAME}_cli PROPERTIES
     OUTPUT_NAME ${P_NAME} RUNTIME_OUTPUT_DIRECTORY "${PROJECT_BINARY_DIR}")
   target_include_directories(${P_NAME}_cli PRIVATE "${PROJECT_SOURCE_DIR}/${P_FOLDER}")
