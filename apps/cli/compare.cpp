@@ -4,6 +4,8 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <limits>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -30,8 +32,15 @@ std::string verdict_text(const ComparedCarrier& row) {
   return promises_monotone(row.carrier) ? "NOT proved" : "not monotone";
 }
 
-/// Below what coordinates of this size tell.
 std::string length_text(double value) { return significant(value, kComparedDigits); }
+
+std::string length_text(const std::optional<double>& value) {
+  return value ? length_text(*value) : "-";
+}
+
+double or_unknown(const std::optional<double>& value) {
+  return value.value_or(std::numeric_limits<double>::quiet_NaN());
+}
 
 Table carrier_table(const Comparison& compared) {
   Table table;
@@ -43,7 +52,7 @@ Table carrier_table(const Comparison& compared) {
   table.column("inflec-\ntions");
   table.column("error\nbound");
   table.column("from the\nspirals");
-  table.column("outside\nthe region");
+  table.column("outside their\nregion");
   table.column("time, ms");
   table.column("verdict", Table::Align::kLeft);
   for (const ComparedCarrier& row : compared.carriers) {
@@ -56,8 +65,10 @@ Table carrier_table(const Comparison& compared) {
     table.row({to_string(row.carrier), std::to_string(row.fit.contour.pieces.size()),
                row.control_points == 0 ? "-" : std::to_string(row.control_points),
                row_continuity(row), std::to_string(certificate.vertices),
-               std::to_string(certificate.inflections), length_text(row.error_bound),
-               length_text(row.deviation), length_text(row.outside),
+               std::to_string(certificate.inflections),
+               length_text(row.fit.report.largest_deviation),
+               length_text(row.fit.report.carrier_deviation),
+               length_text(row.fit.report.outside_spirals_region),
                significant(row.seconds * 1e3, 3), verdict_text(row)});
   }
   return table;
@@ -68,8 +79,8 @@ std::string comparison_text(const PointSeries& series, const Comparison& compare
   std::string out = series.name.empty() ? "" : bold(series.name) + "\n";
   out += fmt::format(
       "{} points, lengths in {}, tolerance {}\n"
-      "error bound: how far a monotone curve with the spirals' tangents and curvatures at the\n"
-      "points can be from this one; joints G1 common tangent, G2 continuous curvature\n\n",
+      "error bound: no monotone curve with this one's own tangents and curvatures at the points\n"
+      "is farther from it; joints G1 common tangent, G2 continuous curvature\n\n",
       spirals.contour.points.size(), series.units, length_text(spirals.report.tolerance));
   out += carrier_table(compared).text();
   for (const ComparedCarrier& row : compared.carriers) {
@@ -90,11 +101,13 @@ void add_row(JsonText& json, const ComparedCarrier& row) {
     return;
   }
   const Certificate& certificate = row.fit.certificate;
+  const FitReport& report = row.fit.report;
   json.null().pair("pieces", row.fit.contour.pieces.size()).key("control_points");
   row.control_points == 0 ? json.null() : json.value(row.control_points);
   json.pair("continuity", row.continuity).pair("vertices", certificate.vertices);
-  json.pair("inflections", certificate.inflections).pair("error_bound", row.error_bound);
-  json.pair("deviation", row.deviation).pair("outside", row.outside);
+  json.pair("inflections", certificate.inflections).pair("error_bound", report.largest_deviation);
+  json.pair("deviation", or_unknown(report.carrier_deviation));
+  json.pair("outside", or_unknown(report.outside_spirals_region));
   json.pair("seconds", row.seconds).pair("monotone", certificate.proved);
   json.pair("reason", certificate.reason).end_object();
 }
@@ -125,8 +138,10 @@ std::string report_csv(const PointSeries&, const Comparison& compared) {
     out += fmt::format(
         "{},{},{},{},{},{},{},{},{},{},{}\n", to_string(row.carrier), row.fit.contour.pieces.size(),
         row.control_points == 0 ? "" : std::to_string(row.control_points), row_continuity(row),
-        certificate.vertices, certificate.inflections, cell(row.error_bound), cell(row.deviation),
-        cell(row.outside), cell(row.seconds), verdict_text(row));
+        certificate.vertices, certificate.inflections, cell(row.fit.report.largest_deviation),
+        cell(or_unknown(row.fit.report.carrier_deviation)),
+        cell(or_unknown(row.fit.report.outside_spirals_region)), cell(row.seconds),
+        verdict_text(row));
   }
   return out;
 }
@@ -138,9 +153,11 @@ std::string picture(const PointSeries& series, const Comparison& compared) {
     if (row.refusal) {
       one.remark = row.refusal->what;
     } else {
-      one.remark = fmt::format("{}, {}, {} {} from the spirals", row_continuity(row),
-                               counted(row.fit.contour.pieces.size(), "piece", "pieces"),
-                               significant(row.deviation, 2), series.units);
+      one.remark = fmt::format("{}, {}", row_continuity(row),
+                               counted(row.fit.contour.pieces.size(), "piece", "pieces"));
+      if (const auto away = row.fit.report.carrier_deviation) {
+        one.remark += fmt::format(", {} {} from the spirals", significant(*away, 2), series.units);
+      }
     }
     contours.push_back(std::move(one));
   }

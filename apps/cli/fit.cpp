@@ -19,24 +19,6 @@
 namespace obvid {
 namespace {
 
-/// Arcs have radii between those that a smooth contour has: a given one is aimed at, not met.
-void warn_of_radius(const char* end, const std::optional<double>& asked, double kappa,
-                    const std::string& units, std::vector<std::string>& warnings) {
-  if (!asked || *asked == kappa) return;
-  warnings.push_back(
-      fmt::format("the arc at the {} has radius {} {}, not {}: arcs meet the given heading, and a "
-                  "given radius only in the limit",
-                  end, radius_text(kappa), units, radius_text(*asked)));
-}
-
-void warn_of_radii(const FitJob& job, Fit& made) {
-  if (job.carrier != Carrier::kArcs || made.contour.joints.empty()) return;
-  const std::vector<Joint>& joints = made.contour.joints;
-  const std::string& units = made.contour.units;
-  warn_of_radius("start", job.start_kappa, joints.front().element.kappa, units, made.warnings);
-  warn_of_radius("end", job.end_kappa, joints.back().element.kappa, units, made.warnings);
-}
-
 /// The formed contour, or the exit code of what was reported instead.
 struct Outcome {
   std::optional<Fit> made;
@@ -54,10 +36,7 @@ Outcome read_and_fit(const FitOptions& options, std::string& name, ProgressBar& 
   if (options.units) series->units = *options.units;
   name = series->name;
   Result<Fit> made = fit(*series, options.job, bar.progress());
-  if (made) {
-    warn_of_radii(options.job, *made);
-    return {std::move(*made), 0};
-  }
+  if (made) return {std::move(*made), 0};
   if (exit_code(made.error().code) == exit_code(ErrorCode::kNoSpiral)) {
     return {std::nullopt, tell_refusal(options, *series, made.error(), bar)};
   }

@@ -32,6 +32,18 @@ std::string radius_at(const Contour& contour, std::size_t joint) {
   return joint == kNone ? "-" : radius_text(contour.joints[joint].element.kappa);
 }
 
+/// Pieces from one joint to another; around the seam of a closed contour the last joint is the
+/// first.
+std::string pieces_text(const Contour& contour, std::size_t from, std::size_t to) {
+  if (from == kNone || to == kNone) return "-";
+  const std::size_t end = to > from ? to : to + (contour.closed ? contour.pieces.size() : 0);
+  return end > from ? std::to_string(end - from) : "-";
+}
+
+std::string points_text(const SegmentReport& segment) {
+  return fmt::format("{}-{}", segment.from.value_or(0) + 1, segment.to.value_or(0) + 1);
+}
+
 Table fit_segments(const Fit& fit) {
   const Contour& contour = fit.contour;
   const std::vector<std::size_t> joint = joints_of_points(contour);
@@ -51,12 +63,10 @@ Table fit_segments(const Fit& fit) {
     if (i > before) table.gap();
     before = i + 1;
     const SegmentReport& segment = fit.report.segments[i];
-    const std::size_t from = i < joint.size() ? joint[i] : kNone;
-    const std::size_t to = i + 1 < joint.size() ? joint[i + 1] : kNone;
-    const bool known = from != kNone && to != kNone && to >= from;
-    table.row({fmt::format("{}-{}", i + 1, i + 2), significant(segment.chord),
+    const std::size_t from = joint[segment.from.value_or(0)], to = joint[segment.to.value_or(0)];
+    table.row({points_text(segment), significant(segment.chord),
                significant(segment.points_only_error, 4), significant(segment.width, 4),
-               std::to_string(segment.inserted), known ? std::to_string(to - from) : "-",
+               std::to_string(segment.inserted), pieces_text(contour, from, to),
                radius_at(contour, from), radius_at(contour, to)});
   }
   return table;
@@ -78,15 +88,12 @@ std::string time_text(double seconds) {
 
 struct LargestError {
   double value = 0.0;
-  std::size_t segment = kNone;  // none: not defined on any segment, or 0 on all
+  const SegmentReport* segment = nullptr;  // none: not known on any segment, or 0 on all
 
-  void meet(double other, std::size_t at) {
-    if (!(other > value)) return;  // undefined ones are not met
+  void meet(double other, const SegmentReport& at) {
+    if (!(other > value)) return;  // unknown ones are not met
     value = other;
-    segment = at;
-  }
-  [[nodiscard]] std::string points() const {
-    return fmt::format("points {}-{}", segment + 1, segment + 2);
+    segment = &at;
   }
 };
 
@@ -94,26 +101,39 @@ struct LargestError {
 std::string error_text(const FitReport& report, const std::string& units) {
   LargestError points_only;
   LargestError chosen;
-  bool defined = false;
-  for (std::size_t i = 0; i < report.segments.size(); ++i) {
-    const SegmentReport& segment = report.segments[i];
-    defined = defined || !std::isnan(segment.points_only_error);
-    points_only.meet(segment.points_only_error, i);
-    chosen.meet(segment.deviation, i);
+  bool known = false;
+  for (const SegmentReport& segment : report.segments) {
+    known = known || !std::isnan(segment.points_only_error);
+    points_only.meet(segment.points_only_error, segment);
+    chosen.meet(segment.deviation, segment);
   }
-  std::string text;
-  if (defined) {
-    text = fmt::format("{} {} from the points alone", significant(points_only.value, 4), units);
-    if (points_only.segment != kNone) text += fmt::format(" ({})", points_only.points());
-    text += "; ";
+  std::string text = known ? significant(points_only.value, 4) + " " + units : "unknown";
+  text += " from the points alone";
+  if (points_only.segment != nullptr) {
+    text += fmt::format(" (points {})", points_text(*points_only.segment));
   }
-  text +=
-      fmt::format("{} {} with these tangents and curvatures", significant(chosen.value, 4), units);
-  if (chosen.segment != kNone) {
-    const Vec2 at = report.segments[chosen.segment].deviation_at;
-    text += fmt::format(" ({}, at {}, {})", chosen.points(), significant(at.x), significant(at.y));
+  text += fmt::format("; {} {} with these tangents and curvatures", significant(chosen.value, 4),
+                      units);
+  if (chosen.segment != nullptr) {
+    const Vec2 at = chosen.segment->deviation_at;
+    text += fmt::format(" (points {}, at {}, {})", points_text(*chosen.segment), significant(at.x),
+                        significant(at.y));
   }
   return text;
+}
+
+std::string given_text(const GivenReport& given) {
+  std::vector<std::string> kinds;
+  if (given.headings > 0) kinds.push_back(counted(given.headings, "heading", "headings"));
+  if (given.curvatures > 0) kinds.push_back(counted(given.curvatures, "radius", "radii"));
+  if (given.corners > 0) kinds.push_back(counted(given.corners, "corner", "corners"));
+  std::string text = listed(kinds) + " met";
+  std::vector<std::string> misses;
+  if (given.headings > 0) misses.push_back(significant(given.heading_miss, 2) + " rad");
+  if (given.curvatures > 0) {
+    misses.push_back(significant(given.curvature_miss, 2) + " of the curvature");
+  }
+  return misses.empty() ? text : text + "; largest miss " + listed(misses);
 }
 
 void add_bounds(Facts& facts, const Fit& fit) {
@@ -140,10 +160,17 @@ Facts summary(const Fit& fit, const Written& written) {
             fmt::format("{} in {}", pieces, counted(contour.runs.size(), "run", "runs")));
   facts.add("fairness", fairness_text(report));
   if (promises_monotone(contour.carrier)) add_bounds(facts, fit);
-  if (report.carrier_deviation) {
-    facts.add("from the spirals", fmt::format("at most {} {} (measured), tolerance {}",
-                                              significant(*report.carrier_deviation, 4),
-                                              contour.units, significant(report.tolerance, 4)));
+  const GivenReport& given = report.given;
+  if (given.headings + given.curvatures + given.corners > 0) {
+    facts.add("given data", given_text(given));
+  }
+  if (report.carrier_deviation && report.outside_spirals_region) {
+    const double outside = *report.outside_spirals_region;
+    facts.add("from the spirals",
+              fmt::format("{} {} as measured, {}", significant(*report.carrier_deviation, 4),
+                          contour.units,
+                          outside > 0.0 ? significant(outside, 4) + " outside their region"
+                                        : "inside their region"));
   }
   if (report.largest_move > 0.0) {
     facts.add("largest move", significant(report.largest_move, 4) + " " + contour.units);

@@ -136,12 +136,15 @@ Result<std::vector<std::string>> write_refusal_pictures(const FitOptions& option
 
 int tell_refusal(const FitOptions& options, const PointSeries& series, const Error& refusal,
                  ProgressBar& bar) {
-  const std::optional<WhyNot> why = why_not(series, options.job, bar.progress());
+  // tolerances of points do not help a carrier that cannot keep what was given
+  const bool by_points = refusal.code != ErrorCode::kCarrierCannotKeep;
+  const std::optional<WhyNot> why =
+      by_points ? why_not(series, options.job, bar.progress()) : std::nullopt;
   Result<std::vector<std::string>> written;
   if (why) written = write_refusal_pictures(options, *why);
   bar.clear();
   warn(series.warnings);  // a formed contour carries them itself
-  const Error told = with_tolerance(refusal, why, series.units);
+  const Error told = by_points ? with_tolerance(refusal, why, series.units) : refusal;
   const int code = report(told);
   const std::vector<std::string> names = written ? *written : std::vector<std::string>{};
   if (!written) warn({written.error().what + " (" + written.error().where + ")"});

@@ -90,17 +90,25 @@ constexpr std::array kTexts{
               "curvatures that were fixed.",
               "Free the named values one after another, or compare them with the ranges that "
               "`obvid region` prints."},
-    ErrorText{ErrorCode::kNoRoomForTransition, "No room for a curvature-continuous transition",
-              "Four or more points lie exactly on one line or circle, and the points beside them are "
-              "so close to it that the curvature would have to jump at its end.",
-              "Move or leave out the named points, or one point at the end of the straight or "
-              "circular stretch."},
+    ErrorText{
+        ErrorCode::kNoRoomForTransition, "No room for a curvature-continuous transition",
+        "Four or more points lie exactly on one line or circle, and the points beside them are "
+        "so close to it that the curvature would have to jump at its end.",
+        "Move or leave out the named points, or one point at the end of the straight or "
+        "circular stretch."},
     ErrorText{ErrorCode::kRoundingDecides, "Rounding of the coordinates decides",
               "The points are so close together, compared with the size of their coordinates, that "
               "the last digit of the numbers determines the curvature. Another rounding of the "
               "same shape would give another answer.",
               "Move the origin to the part, give more digits, or leave out points that are too "
               "close to each other."},
+    ErrorText{
+        ErrorCode::kCarrierCannotKeep, "This carrier cannot keep what was given",
+        "The contour could be formed with spirals, but the carrier that was asked for has too "
+        "little freedom to have the heading, radius or corner given at the named point. "
+        "Nothing was written.",
+        "Use `--carrier spiral` or `clothoids`, which keep everything that a contour can have, "
+        "or give less at this point."},
     ErrorText{
         ErrorCode::kNotProved, "Formed, but not proved",
         "A contour was formed, but the proof of one of its properties did not succeed. It may "

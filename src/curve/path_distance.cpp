@@ -3,55 +3,14 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
+
+#include "obvid/curve/nearest.h"
 
 namespace obvid {
 namespace {
 
-constexpr int kSamples = 16;        // of a piece
-constexpr int kNewtonSteps = 40;    // towards a nearest point
-constexpr double kFootStep = 1e-7;  // of a piece: the step after it would be the square of it
-constexpr int kThirds = 6;          // of the search between samples: to a tenth of their spacing
-
-double nearest_parameter(const LinePiece& line, Vec2 p, double) {
-  const Vec2 along = line.end - line.start;
-  const double square = dot(along, along);
-  return square > 0.0 ? std::clamp(dot(p - line.start, along) / square, 0.0, 1.0) : 0.0;
-}
-
-double nearest_parameter(const ArcPiece& arc, Vec2 p, double) {
-  const Vec2 v = p - arc.start, tangent = unit_at(arc.theta0);
-  const double along = dot(v, tangent), across = cross(tangent, v);
-  const double whole = arc.kappa * arc.length;
-  double turn = std::atan2(arc.kappa * along, 1.0 - arc.kappa * across);
-  // of the turns that mean the same direction the one nearest to the middle of the arc
-  turn = 0.5 * whole + std::remainder(turn - 0.5 * whole, 2.0 * std::numbers::pi);
-  const double t = whole != 0.0 ? turn / whole : along / arc.length;
-  return std::isfinite(t) ? std::clamp(t, 0.0, 1.0) : 0.0;
-}
-
-/// Newton's method from `t` between places where the distance still falls and rises again.
-template <class Curve>
-double nearest_parameter(const Curve& piece, Vec2 p, double t) {
-  double low = 0.0, high = 1.0;
-  bool low_tried = false, high_tried = false;
-  for (int i = 0; i < kNewtonSteps; ++i) {
-    const Jet jet = evaluate(piece, t);
-    const Vec2 away = jet.point - p;
-    const double slope = dot(away, jet.d1);
-    const double bend = dot(jet.d1, jet.d1) + dot(away, jet.d2);
-    (slope < 0.0 ? low : high) = t;
-    (slope < 0.0 ? low_tried : high_tried) = true;
-    const double step = bend > 0.0 ? -slope / bend : HUGE_VAL;
-    if (std::abs(step) < kFootStep) return std::clamp(t + step, 0.0, 1.0);
-    double next = bend > 0.0 ? t + step : (slope < 0.0 ? high : low);
-    if (next >= high) next = high_tried ? 0.5 * (low + high) : high;
-    if (next <= low) next = low_tried ? 0.5 * (low + high) : low;
-    if (next == t) break;
-    t = next;
-  }
-  return t;
-}
+constexpr int kSamples = 16;  // of a piece
+constexpr int kThirds = 6;    // of the search between samples: to a tenth of their spacing
 
 /// The nearest point of a path to points that move along it.
 class Follower {
@@ -75,7 +34,7 @@ class Follower {
 
  private:
   double settle(std::size_t piece, double& t, Vec2 p) const {
-    t = std::visit([&](const auto& q) { return nearest_parameter(q, p, t); }, path_[piece]);
+    t = nearest_parameter(path_[piece], p, t);
     return norm(evaluate(path_[piece], t).point - p);
   }
 

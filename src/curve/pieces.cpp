@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
+#include <type_traits>
 
 #include "homogeneous.h"
 #include "obvid/curve/clothoid.h"
@@ -153,6 +154,27 @@ double curvature_rate(const Jet& jet) {
   const Vec2 third = jet.d3 / speed;
   const double bend = cross(tangent, second);
   return (cross(tangent, third) - 3.0 * bend * dot(tangent, second)) / speed / speed;
+}
+
+Piece moved(const Piece& piece, Vec2 by) {
+  return std::visit(
+      [by](auto shifted) -> Piece {
+        if constexpr (std::is_same_v<decltype(shifted), RationalBezier>) {
+          if (shifted.origin == Vec2{}) {
+            for (int j = 0; j <= shifted.degree; ++j) {
+              Vec2& offset = shifted.offset[static_cast<std::size_t>(j)];
+              offset = offset + by;
+            }
+          } else {
+            shifted.origin = shifted.origin + by;
+          }
+        } else {
+          shifted.start = shifted.start + by;
+          shifted.end = shifted.end + by;
+        }
+        return shifted;
+      },
+      piece);
 }
 
 Vec2 start_point(const Piece& piece) {

@@ -44,6 +44,8 @@ class ContourReader : private JsonValues {
   Run run(const Node& node);
   [[nodiscard]] bool rows_fit(std::size_t rows) const;
   std::vector<double> moves(const Node& node);
+  GivenDatum given(const Node& node);
+  GivenReport given_report(const Node& node);
   FitReport report(const Node& node);
   SegmentReport segment(const Node& node);
   Certificate certificate(const Node& node);
@@ -78,6 +80,9 @@ void ContourReader::read_contour(const Node& root) {
   each(field(root, "points"), [&](const Node& node) { contour.points.push_back(point(node)); });
   if (const auto node = optional_field(root, "point_tolerance")) {
     contour.point_tolerance = point_tolerance(*node);
+  }
+  if (const auto list = optional_field(root, "given")) {
+    each(*list, [&](const Node& node) { contour.given.push_back(given(node)); });
   }
   const Node elements = field(root, "elements");
   each(elements, [&](const Node& node) { contour.joints.push_back(joint(node)); });
@@ -271,6 +276,17 @@ Run ContourReader::run(const Node& node) {
 
 SegmentReport ContourReader::segment(const Node& node) {
   SegmentReport row;
+  if (const auto points = optional_field(node, "points")) {
+    std::vector<std::size_t> ends;
+    const std::size_t n = stored_.contour.points.size();
+    each(*points, [&](const Node& one) { ends.push_back(index(one, n, "points")); });
+    if (ends.size() != 2) {
+      refuse(*points, "the two points of the segment are expected");
+    } else {
+      row.from = ends[0];
+      row.to = ends[1];
+    }
+  }
   row.chord = figure(node, "chord");
   row.points_only_error = figure(node, "points_only_error");
   row.width = figure(node, "width");
@@ -312,6 +328,29 @@ std::vector<double> ContourReader::moves(const Node& node) {
   return moves;
 }
 
+GivenDatum ContourReader::given(const Node& node) {
+  GivenDatum one;
+  one.point = index(field(node, "point"), stored_.contour.points.size(), "points");
+  if (const auto theta = optional_field(node, "heading")) one.theta = number(*theta);
+  if (const auto kappa = optional_field(node, "kappa")) one.kappa = number(*kappa);
+  one.corner = optional_flag(node, "corner", false);
+  const std::vector<GivenDatum>& before = stored_.contour.given;
+  if (!before.empty() && !failed() && one.point <= before.back().point) {
+    refuse(node, "given data stand in the order of their points");
+  }
+  return one;
+}
+
+GivenReport ContourReader::given_report(const Node& node) {
+  GivenReport out;
+  out.headings = optional_count(node, "headings");
+  out.curvatures = optional_count(node, "curvatures");
+  out.corners = optional_count(node, "corners");
+  out.heading_miss = optional_figure(node, "heading_miss", 0.0);
+  out.curvature_miss = optional_figure(node, "curvature_miss", 0.0);
+  return out;
+}
+
 FitReport ContourReader::report(const Node& node) {
   FitReport report;
   const Node segments = field(node, "segments");
@@ -322,6 +361,7 @@ FitReport ContourReader::report(const Node& node) {
   }
   report.tolerance = figure(node, "tolerance");
   report.largest_width = figure(node, "largest_width");
+  report.largest_deviation = optional_figure(node, "largest_deviation", kNoClaim);
   report.largest_move = figure(node, "largest_move");
   if (const auto list = optional_field(node, "moves")) report.moves = moves(*list);
   report.vertices = small_count(node, "vertices");
@@ -329,9 +369,14 @@ FitReport ContourReader::report(const Node& node) {
   report.inflections = small_count(node, "inflections");
   report.inserted_points =
       static_cast<std::size_t>(integer(field(node, "inserted_points"), 0, kMaxInteger));
-  if (const auto deviation = optional_field(node, "carrier_deviation")) {
-    report.carrier_deviation = number(*deviation);
-  }
+  const auto measured = [&](string_view key) -> std::optional<double> {
+    const auto found = optional_field(node, key);
+    if (!found || found->value->is_null()) return std::nullopt;
+    return number(*found);
+  };
+  report.carrier_deviation = measured("carrier_deviation");
+  report.outside_spirals_region = measured("outside_spirals_region");
+  if (const auto given = optional_field(node, "given")) report.given = given_report(*given);
   report.seconds = figure(node, "seconds");
   if (const auto chain = optional_field(node, "chain")) {
     report.chain.newton_steps = small_count(*chain, "newton_steps");

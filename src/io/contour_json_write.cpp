@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
+#include <limits>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -28,6 +30,7 @@ class Writer {
   void point(Vec2 p);
   void flag(bool value) { raw(value ? "true" : "false"); }
   void figure(std::string_view name, double value);
+  void optional_figure(std::string_view name, const std::optional<double>& value);
   void count(std::string_view name, long long value);
   void claim(std::string_view name, bool value);
   void figures(std::string_view name, const std::vector<double>& values);
@@ -42,6 +45,8 @@ class Writer {
   void piece(const ArcPiece& arc);
   void piece(const ClothoidPiece& clothoid);
   void piece(const RationalBezier& bezier);
+  void given(const GivenDatum& one);
+  void given(const GivenReport& report);
   void segment(const SegmentReport& row);
   void proof(std::size_t index, const PieceProof& proof);
   void one_nurbs(const NurbsCurve& curve);
@@ -78,6 +83,10 @@ void Writer::point(Vec2 p) {
 void Writer::figure(std::string_view name, double value) {
   fmt::format_to(std::back_inserter(buffer_), "\"{}\": ", name);
   number(value);
+}
+
+void Writer::optional_figure(std::string_view name, const std::optional<double>& value) {
+  figure(name, value.value_or(std::numeric_limits<double>::quiet_NaN()));
 }
 
 void Writer::count(std::string_view name, long long value) {
@@ -202,6 +211,9 @@ void Writer::piece(const RationalBezier& bezier) {
 
 void Writer::segment(const SegmentReport& row) {
   raw("{");
+  if (row.from && row.to) {
+    fmt::format_to(std::back_inserter(buffer_), "\"points\": [{}, {}], ", *row.from, *row.to);
+  }
   figure("chord", row.chord);
   raw(", ");
   figure("points_only_error", row.points_only_error);
@@ -222,6 +234,35 @@ void Writer::segment(const SegmentReport& row) {
   raw("}");
 }
 
+void Writer::given(const GivenDatum& one) {
+  raw("{");
+  count("point", static_cast<long long>(one.point));
+  if (one.theta) {
+    raw(", ");
+    figure("heading", *one.theta);
+  }
+  if (one.kappa) {
+    raw(", ");
+    figure("kappa", *one.kappa);
+  }
+  if (one.corner) raw(", \"corner\": true");
+  raw("}");
+}
+
+void Writer::given(const GivenReport& report) {
+  raw("\"given\": {");
+  count("headings", static_cast<long long>(report.headings));
+  raw(", ");
+  count("curvatures", static_cast<long long>(report.curvatures));
+  raw(", ");
+  count("corners", static_cast<long long>(report.corners));
+  raw(", ");
+  figure("heading_miss", report.heading_miss);
+  raw(", ");
+  figure("curvature_miss", report.curvature_miss);
+  raw("}");
+}
+
 void Writer::report(const FitReport& report) {
   raw(",\n  \"report\": {\n");
   line_list("segments", report.segments, "    ", [&](const SegmentReport& row) { segment(row); });
@@ -229,6 +270,8 @@ void Writer::report(const FitReport& report) {
   figure("tolerance", report.tolerance);
   raw(",\n    ");
   figure("largest_width", report.largest_width);
+  raw(",\n    ");
+  figure("largest_deviation", report.largest_deviation);
   raw(",\n    ");
   figure("largest_move", report.largest_move);
   raw(",\n    ");
@@ -244,10 +287,12 @@ void Writer::report(const FitReport& report) {
   raw(",\n    ");
   count("inserted_points", static_cast<long long>(report.inserted_points));
   raw(",\n    ");
-  if (report.carrier_deviation) {
-    figure("carrier_deviation", *report.carrier_deviation);
-    raw(",\n    ");
-  }
+  given(report.given);
+  raw(",\n    ");
+  optional_figure("carrier_deviation", report.carrier_deviation);
+  raw(",\n    ");
+  optional_figure("outside_spirals_region", report.outside_spirals_region);
+  raw(",\n    ");
   figure("seconds", report.seconds);
   raw(",\n    \"chain\": {");
   count("newton_steps", report.chain.newton_steps);
@@ -333,6 +378,10 @@ std::string Writer::write(const StoredContour& stored) {
   if (!contour.point_tolerance.empty()) {
     raw("  ");
     figures("point_tolerance", contour.point_tolerance);
+    raw(",\n");
+  }
+  if (!contour.given.empty()) {
+    line_list("given", contour.given, "  ", [&](const GivenDatum& one) { given(one); });
     raw(",\n");
   }
   line_list("elements", contour.joints, "  ", [&](const Joint& joint) { element(joint); });

@@ -7,32 +7,29 @@
 #include <limits>
 
 #include "obvid/certify/certify.h"
-#include "place_in_regions.h"
 
 namespace obvid {
 namespace {
 
-using namespace pipeline_detail;
-
 /// Calls that are timed: as many as take this long, at least one, at most this many.
 constexpr double kLongEnough = 0.1;  // s
 constexpr int kMostCalls = 9;
-/// Samples of a piece, and of the whole contour at least (carriers with few pieces).
-constexpr int kLeastPerPiece = 16;
-constexpr std::size_t kLeastSamples = 2000;
 
 double seconds_since(std::chrono::steady_clock::time_point begin) {
   return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
 }
 
-/// Median time of the calls; the contour is the same every time.
+/// Median time of the calls, without what is measured against the spirals; the contour is the same
+/// every time.
 Result<Fit> timed_fit(const PointSeries& series, const FitJob& job, double& median) {
+  FitJob alone = job;
+  alone.measure_against_spirals = false;
   std::vector<double> times;
   Result<Fit> made;
   double all = 0.0;
   while (times.empty() || (all < kLongEnough && times.size() < kMostCalls)) {
     const auto begin = std::chrono::steady_clock::now();
-    made = fit(series, job);
+    made = fit(series, alone);
     times.push_back(seconds_since(begin));
     all += times.back();
     if (!made) return made;
@@ -40,7 +37,7 @@ Result<Fit> timed_fit(const PointSeries& series, const FitJob& job, double& medi
   std::nth_element(times.begin(), times.begin() + static_cast<std::ptrdiff_t>(times.size() / 2),
                    times.end());
   median = times[times.size() / 2];
-  return made;
+  return job.carrier == Carrier::kSpiral ? made : fit(series, job);
 }
 
 int continuity_of(const Certificate& certificate) {
@@ -48,43 +45,6 @@ int continuity_of(const Certificate& certificate) {
   constexpr double kSameHeading = 1e-7, kSameCurvature = 1e-4;
   if (certificate.gaps.heading > kSameHeading) return 0;
   return certificate.gaps.curvature > kSameCurvature ? 1 : 2;
-}
-
-std::vector<CurvePoint> sample_points(const Contour& contour) {
-  const std::size_t pieces = std::max<std::size_t>(contour.pieces.size(), 1);
-  const int each = std::max(kLeastPerPiece, static_cast<int>(kLeastSamples / pieces));
-  std::vector<CurvePoint> out;
-  for (std::size_t k = 0; k < contour.pieces.size(); ++k) {
-    const Piece& piece = contour.pieces[k];
-    out.push_back({start_point(piece), contour.joints[k].source});
-    for (int i = 1; i < each; ++i) {
-      out.push_back({evaluate(piece, static_cast<double>(i) / each).point, std::nullopt});
-    }
-  }
-  if (!contour.pieces.empty()) out.push_back({end_point(contour.pieces.back()), std::nullopt});
-  return out;
-}
-
-/// Distances of points from the spirals, each a proved upper bound.
-double farthest_from(const Contour& spirals, const std::vector<CurvePoint>& points) {
-  Contour probe = spirals;
-  probe.points.clear();
-  for (const CurvePoint& p : points) probe.points.push_back(p.point);
-  probe.point_tolerance.clear();  // the samples are no points of the series
-  for (Joint& joint : probe.joints) joint.source.reset();
-  double most = 0.0;
-  for (const double d : point_distances(probe)) most = std::max(most, d);
-  return most;
-}
-
-void measure_against(const Contour& spirals, ComparedCarrier& row) {
-  const std::vector<CurvePoint> points = sample_points(row.fit.contour);
-  const RegionDistances distances = place_in_regions(spirals, points);
-  row.error_bound = distances.farther;
-  row.outside = distances.outside;
-  row.deviation = row.carrier == Carrier::kSpiral ? 0.0 : farthest_from(spirals, points);
-  row.control_points = control_points(row.fit.contour);
-  row.continuity = continuity_of(row.fit.certificate);
 }
 
 std::size_t control_points_of(const Piece& piece) {
@@ -146,9 +106,8 @@ Result<Comparison> compare_carriers(const PointSeries& series, const FitJob& job
     if (!made && carrier == Carrier::kSpiral) return tl::unexpected(made.error());
     if (made) {
       row.fit = std::move(*made);
-      const Contour& spirals =
-          carrier == Carrier::kSpiral ? row.fit.contour : out.carriers.front().fit.contour;
-      measure_against(spirals, row);
+      row.control_points = control_points(row.fit.contour);
+      row.continuity = continuity_of(row.fit.certificate);
     } else {
       row.refusal = made.error();
     }

@@ -6,9 +6,12 @@
 #include <cmath>
 #include <string>
 
+#include "against_spirals.h"
 #include "assemble.h"
 #include "form.h"
+#include "given.h"
 #include "obvid/certify/certify.h"
+#include "parts.h"
 #include "prepare.h"
 #include "report.h"
 #include "section_chain.h"
@@ -25,31 +28,32 @@ constexpr double kNarrowed = 0.95;  ///< of what would just do
 
 Result<Carried> as_carried(Result<Contour> contour) {
   if (!contour) return tl::unexpected(contour.error());
-  return Carried{std::move(*contour), {}, {}};
+  return Carried{std::move(*contour), {}};
 }
 
-Result<Carried> form(const std::vector<Vec2>& points, const SeriesChain& chain, Carrier carrier,
-                     double tolerance, bool loop) {
-  if (carrier == Carrier::kClothoids) return as_carried(form_clothoids(points, chain));
-  auto spirals = form_spirals(points, chain);
-  if (!spirals) return tl::unexpected(spirals.error());
+/// A section in its carrier; `spirals` are those that carry the same elements.
+Result<Carried> form(const std::vector<Vec2>& points, const SeriesChain& chain,
+                     const Contour& spirals, const Prepared& series, Carrier carrier,
+                     double tolerance) {
   switch (carrier) {
+    case Carrier::kClothoids:
+      return as_carried(form_clothoids(points, chain));
     case Carrier::kArcs:
-      return as_carried(form_arcs(*spirals, tolerance));
+      return as_carried(form_arcs(spirals, tolerance, series.given));
     case Carrier::kConics:
-      return form_conics(*spirals);
+      return form_conics(spirals, series.given);
     case Carrier::kBeziers:
-      return form_beziers(*spirals, tolerance);
+      return form_beziers(spirals, tolerance);
     case Carrier::kBspline:
-      return form_bspline(*spirals, tolerance);
+      return form_bspline(spirals, tolerance, series.given);
     case Carrier::kCubic:
-      return form_cubic(*spirals, tolerance, loop);
+      return form_cubic(spirals, tolerance, series.split.smooth_loop);
     default:
-      return as_carried(std::move(spirals));
+      return as_carried(spirals);
   }
 }
 
-/// The spline of CAD systems asks for no headings and curvatures.
+/// The spline of CAD systems asks for no headings and curvatures; those given at its ends it keeps.
 Result<Carried> form_baseline_section(const Prepared& series, const Section& section) {
   const bool loop = series.split.smooth_loop;
   const std::size_t last = loop ? series.points.size() : section.last;
@@ -59,32 +63,29 @@ Result<Carried> form_baseline_section(const Prepared& series, const Section& sec
     source.push_back(series.split.point_at(k) % series.points.size());
     points.push_back(series.points[source.back()]);
   }
-  return form_baseline(points, source, loop);
+  const auto heading_at = [&](std::size_t point) {
+    return series.fixed.empty() ? std::nullopt : series.fixed[point].theta;
+  };
+  return form_baseline(points, source, loop, heading_at(source.front()), heading_at(source.back()));
 }
 
 /// One attempt at the whole contour, with how it was found.
 struct Formed {
   Contour contour;
+  std::optional<Contour> spirals;  ///< that another carrier stands for
   ChainReport chain;
-  std::optional<double> deviation;
   std::vector<std::string> warnings;
 
   void add(Carried section, Assembly& assembly) {
-    if (section.deviation) deviation = std::max(deviation.value_or(0.0), *section.deviation);
     warnings.insert(warnings.end(), section.warnings.begin(), section.warnings.end());
     assembly.append(std::move(section.contour));
   }
 };
 
-/// Whether the carrier passes points that are no joints within the tolerance only.
-bool follows_spirals(Carrier carrier) {
-  return carrier == Carrier::kBspline || carrier == Carrier::kCubic;
-}
-
 /// How far the contour may pass each point: a carrier that follows the spirals needs its tolerance.
 std::vector<double> point_tolerance(const Prepared& series, Carrier carrier, double tolerance) {
   std::vector<double> out = series.tolerance;
-  if (!follows_spirals(carrier)) return out;
+  if (!passes_between_joints(carrier)) return out;
   out.resize(series.points.size(), 0.0);
   for (double& one : out) one = std::max(one, tolerance);
   return out;
@@ -100,47 +101,99 @@ void add_section(const SectionChain& section, Formed& formed) {
   formed.warnings.insert(formed.warnings.end(), section.warnings.begin(), section.warnings.end());
 }
 
+/// Forms the sections one after the other, and beside them the spirals of the same elements.
+class SectionForming {
+ public:
+  SectionForming(const Prepared& series, const FitJob& job, double tolerance,
+                 const Progress& progress)
+      : series_(series), job_(job), tolerance_(tolerance), progress_(progress) {}
+
+  Result<Formed> run() {
+    for (std::size_t k = 0; k < series_.split.sections.size(); ++k) {
+      if (auto done = form_one(k); !done) return tl::unexpected(done.error());
+    }
+    out_.contour = finished(assembly_, job_.carrier);
+    if (have_spirals_) out_.spirals = finished(spirals_, Carrier::kSpiral);
+    return std::move(out_);
+  }
+
+ private:
+  Result<void> form_one(std::size_t k) {
+    const Section& section = series_.split.sections[k];
+    if (job_.carrier == Carrier::kBaseline) return form_baseline_alone(section, k);
+    const auto chain = chain_section(series_, section, progress_of(k));
+    if (!chain) return tl::unexpected(chain.error());
+    auto spirals = form_spirals(series_.points, chain->chain);
+    if (!spirals && job_.carrier != Carrier::kClothoids) return tl::unexpected(spirals.error());
+    auto carried = form(series_.points, chain->chain, spirals ? *spirals : Contour{}, series_,
+                        job_.carrier, tolerance_);
+    if (!carried) return tl::unexpected(carried.error());
+    out_.add(std::move(*carried), assembly_);
+    add_section(*chain, out_);
+    keep(std::move(spirals));
+    return {};
+  }
+
+  /// Needs no spirals, and is compared with them where there are any.
+  Result<void> form_baseline_alone(const Section& section, std::size_t k) {
+    auto carried = form_baseline_section(series_, section);
+    if (!carried) return tl::unexpected(carried.error());
+    out_.add(std::move(*carried), assembly_);
+    if (!job_.measure_against_spirals) return {};
+    const auto chain = chain_section(series_, section, progress_of(k));
+    keep(chain ? form_spirals(series_.points, chain->chain)
+               : Result<Contour>(tl::unexpected(chain.error())));
+    return {};
+  }
+
+  void keep(Result<Contour> spirals) {
+    have_spirals_ = have_spirals_ && job_.measure_against_spirals && spirals.has_value() &&
+                    job_.carrier != Carrier::kSpiral;
+    if (have_spirals_) spirals_.append(std::move(*spirals));
+  }
+
+  [[nodiscard]] Progress progress_of(std::size_t k) const {
+    constexpr double kUntilHere = 0.6;  // of the whole work
+    const double count = static_cast<double>(series_.split.sections.size());
+    return [this, k, count](std::string_view stage, double done) {
+      if (progress_) progress_(stage, kUntilHere * (static_cast<double>(k) + done) / count);
+    };
+  }
+
+  [[nodiscard]] Contour finished(Assembly& assembly, Carrier carrier) const {
+    if (series_.closed) assembly.close(series_.split.smooth_loop);
+    Contour contour = assembly.take();
+    contour.points = series_.points;
+    contour.point_tolerance = point_tolerance(series_, carrier, tolerance_);
+    contour.given = series_.given;
+    contour.carrier = carrier;
+    return contour;
+  }
+
+  const Prepared& series_;
+  const FitJob& job_;
+  double tolerance_;
+  const Progress& progress_;
+  Formed out_;
+  Assembly assembly_, spirals_;
+  bool have_spirals_ = true;
+};
+
 Result<Formed> form_sections(const Prepared& series, const FitJob& job, double tolerance,
                              const Progress& progress) {
-  Formed out;
-  Assembly assembly;
-  const std::vector<Section>& sections = series.split.sections;
-  for (std::size_t k = 0; k < sections.size(); ++k) {
-    const auto inner = [&](std::string_view stage, double done) {
-      if (progress) {
-        const double part = (static_cast<double>(k) + done) / static_cast<double>(sections.size());
-        constexpr double kUntilHere = 0.6;  // of the whole work
-        progress(stage, kUntilHere * part);
-      }
-    };
-    if (job.carrier == Carrier::kBaseline) {
-      auto section = form_baseline_section(series, sections[k]);
-      if (!section) return tl::unexpected(section.error());
-      out.add(std::move(*section), assembly);
-      continue;
-    }
-    const auto chain = chain_section(series, sections[k], inner);
-    if (!chain) return tl::unexpected(chain.error());
-    auto section =
-        form(series.points, chain->chain, job.carrier, tolerance, series.split.smooth_loop);
-    if (!section) return tl::unexpected(section.error());
-    out.add(std::move(*section), assembly);
-    add_section(*chain, out);
-  }
-  if (series.closed) assembly.close(series.split.smooth_loop);
-  out.contour = assembly.take();
-  out.contour.points = series.points;
-  out.contour.point_tolerance = point_tolerance(series, job.carrier, tolerance);
-  out.contour.carrier = job.carrier;
-  return out;
+  return SectionForming(series, job, tolerance, progress).run();
 }
 
-/// A carrier that follows the spirals needs a part of each point's tolerance for itself: half of
+/// Part of a point's tolerance that a carrier which follows the spirals takes for itself: what it
+/// takes, the spirals lack, and less room means more vertices.
+constexpr double kOwnPart = 0.1;
+
+/// A carrier that follows the spirals needs a part of each point's tolerance for itself, a tenth of
 /// the least at the most. Returns what it may use.
 double share_tolerance(Prepared& series, double tolerance) {
   double own = tolerance;
   for (const double reach : series.reach) {
-    if (reach > 0.0) own = std::min(own, 0.5 * reach);
+    if (reach > 0.0) own = std::min(own, kOwnPart * reach);
   }
   for (double& reach : series.reach) reach = reach > 0.0 ? reach - own : 0.0;
   return own;
@@ -206,7 +259,7 @@ Result<Fit> fit(const PointSeries& series, const FitJob& job, const Progress& pr
   auto prepared = prepare(series, job);
   if (!prepared) return tl::unexpected(prepared.error());
   double tolerance = job.tolerance.value_or(default_tolerance(prepared->points));
-  if (follows_spirals(job.carrier)) tolerance = share_tolerance(*prepared, tolerance);
+  if (passes_between_joints(job.carrier)) tolerance = share_tolerance(*prepared, tolerance);
   auto formed = form_sections(*prepared, job, tolerance, progress);
   for (int k = 0; k < kNarrowings && formed && narrow(formed->contour, *prepared); ++k) {
     formed = form_sections(*prepared, job, tolerance, progress);
@@ -216,6 +269,7 @@ Result<Fit> fit(const PointSeries& series, const FitJob& job, const Progress& pr
     formed = form_sections(*prepared, job, tolerance, progress);
   }
   if (!formed) return tl::unexpected(formed.error());
+  if (auto kept = keeps_given(formed->contour); !kept) return fail(kept.error());
   Fit out;
   out.contour = std::move(formed->contour);
   out.contour.units = series.units;
@@ -228,11 +282,10 @@ Result<Fit> fit(const PointSeries& series, const FitJob& job, const Progress& pr
   auto report = measure(out.contour, tolerance);
   if (!report) return tl::unexpected(report.error());
   out.report = std::move(*report);
-  out.report.vertices = out.certificate.vertices;
-  out.report.inflections = out.certificate.inflections;
-  out.report.largest_move = out.certificate.largest_move;
-  out.report.carrier_deviation = formed->deviation;
-  if (!out.contour.point_tolerance.empty()) out.report.moves = point_distances(out.contour);
+  settle_with(out.certificate, out.contour, out.report);
+  if (formed->spirals) {
+    measure_against(*formed->spirals, out.contour, out.report);
+  }
   out.report.chain = formed->chain;
   out.warnings = series.warnings;
   for (const auto* more : {&prepared->warnings, &formed->warnings}) {

@@ -9,6 +9,7 @@
 #include "obvid/contour/arcs.h"
 #include "obvid/contour/spirals.h"
 #include "obvid/region/refine.h"
+#include "parts.h"
 
 namespace obvid::pipeline_detail {
 namespace {
@@ -179,44 +180,15 @@ std::vector<Run> collect_runs(const std::vector<int>& direction) {
   return runs;
 }
 
-std::vector<int> piece_directions(const Contour& contour) {
-  std::vector<int> direction(contour.pieces.size(), 0);
-  for (const Run& run : contour.runs) {
-    for (std::size_t i = run.first_piece; i <= run.last_piece && i < direction.size(); ++i) {
-      direction[i] = run.direction;
-    }
-  }
-  return direction;
-}
-
 namespace {
-
-/// The piece seen from its own start, so that arcs are computed with all digits of its shape.
-Piece seen_from(const RationalBezier& piece, Vec2 anchor) {
-  RationalBezier local = piece;
-  local.origin = piece.origin - anchor;
-  if (piece.origin == Vec2{}) {
-    local.origin = {};
-    for (int j = 0; j <= piece.degree; ++j) {
-      const auto k = static_cast<std::size_t>(j);
-      local.offset[k] = piece.offset[k] - anchor;
-    }
-  }
-  return local;
-}
-
-Piece moved_piece(const Piece& piece, Vec2 by) {
-  if (const auto* arc = std::get_if<ArcPiece>(&piece)) {
-    return ArcPiece{arc->start + by, arc->end + by, arc->theta0, arc->kappa, arc->length};
-  }
-  const auto& line = std::get<LinePiece>(piece);
-  return LinePiece{line.start + by, line.end + by};
-}
 
 /// Arcs in place of spirals, piece by piece.
 class ArcBuilder {
  public:
-  ArcBuilder(const Contour& spirals, double tolerance) : spirals_(spirals), tolerance_(tolerance) {
+  ArcBuilder(const Contour& spirals, double tolerance, const std::vector<GivenDatum>& given)
+      : spirals_(spirals), tolerance_(tolerance) {
+    start_given_ = curvature_given(spirals.joints.front(), given);
+    end_given_ = curvature_given(spirals.joints.back(), given);
     contour_.units = spirals.units;
     contour_.carrier = Carrier::kArcs;
     contour_.points = spirals.points;
@@ -245,7 +217,8 @@ class ArcBuilder {
  private:
   Result<void> add(std::size_t i, const RationalBezier& spiral, int direction) {
     const Vec2 anchor = spirals_.joints[i].element.point;
-    const Piece local = seen_from(spiral, anchor);
+    // seen from its own start, so that arcs keep all digits of its shape
+    const Piece local = moved(spiral, -anchor);
     const std::vector<double> steps = fewest_elements(local, direction, tolerance_);
     if (steps.back() < 1.0) {
       return fail({ErrorCode::kToleranceNotReached, "the tolerance asks for too many arcs",
@@ -258,7 +231,9 @@ class ArcBuilder {
     for (std::size_t j = 1; j < steps.size(); ++j) {
       Element to = j + 1 == steps.size() ? last : element_at(local, steps[j]);
       to.theta = from.theta + std::remainder(to.theta - from.theta, 2.0 * std::numbers::pi);
-      const auto k = choose_biarc(chord_frame(from, to), direction);
+      const bool begins = start_given_ && i == 0 && j == 1;
+      const bool ends = end_given_ && i + 1 == spirals_.pieces.size() && j + 1 == steps.size();
+      const auto k = choose_arcs(chord_frame(from, to), direction, begins, ends);
       if (!k) {
         return fail({ErrorCode::kRoundingDecides,
                      "the rounding of the coordinates decides which arcs join two elements",
@@ -280,6 +255,28 @@ class ArcBuilder {
     return {};
   }
 
+  static bool curvature_given(const Joint& end, const std::vector<GivenDatum>& given) {
+    return std::any_of(given.begin(), given.end(), [&](const GivenDatum& one) {
+      return end.source == one.point && one.kappa.has_value();
+    });
+  }
+
+  /// The arc at an end where a curvature was given takes it over: the boundary of the region, by
+  /// which a curvature is still monotone.
+  static std::optional<BiarcCurvatures> choose_arcs(const ChordFrame& frame, int direction,
+                                                    bool begins, bool ends) {
+    if (begins)
+      return BiarcCurvatures{frame.kappa_start, second_curvature(frame, frame.kappa_start)};
+    if (!ends) return choose_biarc(frame, direction);
+    // the same from the other end: mirrored in the bisector of the chord, curvatures change places
+    const ChordFrame reversed{frame.h,
+                              {frame.end_tangent.x, -frame.end_tangent.y},
+                              {frame.start_tangent.x, -frame.start_tangent.y},
+                              frame.kappa_end,
+                              frame.kappa_start};
+    return BiarcCurvatures{second_curvature(reversed, frame.kappa_end), frame.kappa_end};
+  }
+
   /// False when an arc would run backwards.
   bool add_pair(const Element& from, const Element& to, const BiarcCurvatures& k, Vec2 anchor,
                 int direction) {
@@ -291,8 +288,8 @@ class ArcBuilder {
       return false;
     }
     const double theta = second != nullptr ? second->theta0 : to.theta;
-    contour_.pieces.push_back(moved_piece(arcs[0], anchor));
-    contour_.pieces.push_back(moved_piece(arcs[1], anchor));
+    contour_.pieces.push_back(moved(arcs[0], anchor));
+    contour_.pieces.push_back(moved(arcs[1], anchor));
     direction_.insert(direction_.end(), 2, direction);
     contour_.joints.push_back(
         {{end_point(arcs[0]) + anchor, theta, 0.5 * (k.first + k.second)}, std::nullopt});
@@ -317,14 +314,16 @@ class ArcBuilder {
 
   const Contour& spirals_;
   double tolerance_;
+  bool start_given_ = false, end_given_ = false;
   Contour contour_;
   std::vector<int> direction_;
 };
 
 }  // namespace
 
-Result<Contour> form_arcs(const Contour& spirals, double tolerance) {
-  return ArcBuilder(spirals, tolerance).run();
+Result<Contour> form_arcs(const Contour& spirals, double tolerance,
+                          const std::vector<GivenDatum>& given) {
+  return ArcBuilder(spirals, tolerance, given).run();
 }
 
 }  // namespace obvid::pipeline_detail

@@ -24,8 +24,10 @@ namespace obvid::pipeline_detail {
                                            const SeriesChain& chain);
 
 /// Arcs in place of spirals: elements on each spiral piece as far apart as the tolerance allows,
-/// two arcs between neighbours. Error E502 when the tolerance asks for too many arcs.
-[[nodiscard]] Result<Contour> form_arcs(const Contour& spirals, double tolerance);
+/// two arcs between neighbours. A curvature given at an end is that of its arc. Error E502 when the
+/// tolerance asks for too many arcs.
+[[nodiscard]] Result<Contour> form_arcs(const Contour& spirals, double tolerance,
+                                        const std::vector<GivenDatum>& given);
 
 /// Clothoids over the elements, three to a link, and arcs or lines over circular stretches. Error
 /// E501 when a link is carried by no such three.
@@ -35,41 +37,43 @@ namespace obvid::pipeline_detail {
 /// A section in another carrier, and what is to be said about it.
 struct Carried {
   Contour contour;
-  std::optional<double> deviation;  ///< from the spirals, as measured, units
   std::vector<std::string> warnings;
 };
 
 /// Conics, headings freed so that all are monotone ellipse arcs: one to a link, or two, four, eight
 /// where one does not do. Where no such headings are found, the chain over the given ones, with a
 /// warning.
+/// Headings that were given stay; of given curvatures one can be met, by the first weight.
 /// Sections of lines and arcs only stay as they are. Errors: E401 where a link has no triangle
 /// (inflections, lines), and for a closed contour without corners.
-[[nodiscard]] Result<Carried> form_conics(const Contour& spirals);
+[[nodiscard]] Result<Carried> form_conics(const Contour& spirals,
+                                          const std::vector<GivenDatum>& given);
 
 /// Parabolas: every piece condensed until the region between their elements is as narrow as the
 /// tolerance. Errors: E401 at inflections, arcs; E502.
 [[nodiscard]] Result<Carried> form_beziers(const Contour& spirals, double tolerance);
 
 /// Monotone polynomial B-spline within the tolerance of the spirals; points that are no knots are
-/// passed within it. Circular stretches stay arcs: no polynomial is a circle. Errors: E405.
-[[nodiscard]] Result<Carried> form_bspline(const Contour& spirals, double tolerance);
+/// passed within it; those with given data are knots. Circular stretches stay arcs: no polynomial
+/// is a circle. Errors: E405.
+[[nodiscard]] Result<Carried> form_bspline(const Contour& spirals, double tolerance,
+                                           const std::vector<GivenDatum>& given);
 
 /// C2 cubic within the tolerance of the spirals; `loop`: continuous where the last joint is the
 /// first again. Errors: E502.
 [[nodiscard]] Result<Carried> form_cubic(const Contour& spirals, double tolerance, bool loop);
 
-/// C2 cubic through the points (`source`: their indices); the last point of a loop is the first
-/// again.
+/// C2 cubic through the points (`source`: their indices), with headings (rad) at its ends where
+/// they are given; the last point of a loop is the first again, and has no heading of its own.
 [[nodiscard]] Result<Carried> form_baseline(const std::vector<Vec2>& points,
-                                            const std::vector<std::size_t>& source, bool loop);
+                                            const std::vector<std::size_t>& source, bool loop,
+                                            std::optional<double> start_heading,
+                                            std::optional<double> end_heading);
 
 /// Circle or line over a chord: heading from chord and curvature, so that the arc ends on its end.
 [[nodiscard]] Piece arc_over_chord(const LinkState& link, const Element& a, const Element& b);
 
 /// Runs of a contour from the direction of each piece.
 [[nodiscard]] std::vector<Run> collect_runs(const std::vector<int>& direction);
-
-/// Direction of every piece: its run's.
-[[nodiscard]] std::vector<int> piece_directions(const Contour& contour);
 
 }  // namespace obvid::pipeline_detail

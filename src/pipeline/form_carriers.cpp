@@ -12,6 +12,7 @@
 #include "obvid/contour/bsplines/monotone.h"
 #include "obvid/contour/conics.h"
 #include "obvid/region/refine.h"
+#include "parts.h"
 
 namespace obvid::pipeline_detail {
 namespace {
@@ -43,6 +44,15 @@ tl::unexpected<Error> at_point(Error error, const Contour& spirals, std::ptrdiff
     error.where = "after point " + std::to_string(error.index + 1);
   }
   return fail(std::move(error));
+}
+
+/// What was given at the point on which a joint stands, if anything.
+const GivenDatum* given_at(const Joint& joint, const std::vector<GivenDatum>& given) {
+  if (!joint.source) return nullptr;
+  const auto found =
+      std::lower_bound(given.begin(), given.end(), *joint.source,
+                       [](const GivenDatum& one, std::size_t point) { return one.point < point; });
+  return found != given.end() && found->point == *joint.source ? &*found : nullptr;
 }
 
 /// Conics to a link: headings alone leave too little freedom where neighbouring links differ much.
@@ -107,7 +117,7 @@ bool only(const Contour& spirals) {
 }
 
 Carried as_they_are(const Contour& spirals, Carrier carrier) {
-  Carried out{spirals, 0.0, {}};
+  Carried out{spirals, {}};
   out.contour.carrier = carrier;
   return out;
 }
@@ -183,7 +193,6 @@ Result<void> add_spline(const Contour& stretch, double tolerance, Carried& out,
   }
   const auto spline = monotone_spline(stretch, tolerance);
   if (!spline) return fail(spline.error());
-  out.deviation = std::max(out.deviation.value_or(0.0), spline->deviation);
   std::size_t next = 0;  // joint of the spirals that may be the next knot
   for (std::size_t k = 0; k < spline->spans.size(); ++k) {
     const Element& e = spline->elements[k];
@@ -207,21 +216,44 @@ Result<void> add_spline(const Contour& stretch, double tolerance, Carried& out,
 
 }  // namespace
 
-Result<Carried> form_conics(const Contour& spirals) {
+namespace {
+
+/// Which elements keep their headings, and one curvature that the first weight can meet.
+struct GivenToConics {
+  std::vector<bool> headings;
+  std::optional<std::size_t> curvature;  ///< its element
+};
+
+GivenToConics given_to_conics(const std::vector<Joint>& joints,
+                              const std::vector<GivenDatum>& given) {
+  GivenToConics out;
+  for (std::size_t k = 0; k < joints.size(); ++k) {
+    const GivenDatum* one = given_at(joints[k], given);
+    out.headings.push_back(one != nullptr && one->theta.has_value());
+    if (one != nullptr && one->kappa && !out.curvature) out.curvature = k;
+  }
+  return out;
+}
+
+}  // namespace
+
+Result<Carried> form_conics(const Contour& spirals, const std::vector<GivenDatum>& given) {
   if (only<LinePiece, ArcPiece>(spirals)) return as_they_are(spirals, Carrier::kConics);
   if (smooth_loop(spirals)) {
     return fail({ErrorCode::kNoSpiral,
                  "no chain of conics is made for a closed contour without corners", "",
                  kOtherCarriers, -1, 0.0});
   }
-  Carried out{like(spirals, Carrier::kConics), {}, {}};
+  Carried out{like(spirals, Carrier::kConics), {}};
   std::vector<Joint> joints = spirals.joints;
-  auto freed = headings_for_conics(elements_of(joints));
+  GivenToConics kept = given_to_conics(joints, given);
+  auto freed = headings_for_conics(elements_of(joints), {kept.headings, kept.curvature});
   int parts = 1;
   while (!freed && freed.error().code == ErrorCode::kNotProved && parts < kMostParts) {
     parts *= 2;
     joints = joints_on(spirals, parts);
-    freed = headings_for_conics(elements_of(joints));
+    kept = given_to_conics(joints, given);
+    freed = headings_for_conics(elements_of(joints), {kept.headings, kept.curvature});
   }
   if (!freed && freed.error().code != ErrorCode::kNotProved) {
     return at_point(freed.error(), spirals, freed.error().index / parts, kOtherCarriers);
@@ -232,9 +264,10 @@ Result<Carried> form_conics(const Contour& spirals) {
         "those of the spirals");
     parts = 1;
     joints = spirals.joints;
+    kept = given_to_conics(joints, given);
     freed = elements_of(joints);
   }
-  auto chain = conic_chain(*freed);
+  auto chain = conic_chain(*freed, {std::nullopt, kept.curvature});
   if (!chain) return at_point(chain.error(), spirals, chain.error().index / parts, kOtherCarriers);
   for (std::size_t k = 0; k < chain->elements.size(); ++k) {
     out.contour.joints.push_back({chain->elements[k], joints[k].source, {}});
@@ -255,7 +288,7 @@ Result<Carried> form_beziers(const Contour& spirals, double tolerance) {
          "", -1, 0.0},
         spirals, static_cast<std::ptrdiff_t>(*joint), kOtherCarriers);
   }
-  Carried out{like(spirals, Carrier::kBeziers), {}, {}};
+  Carried out{like(spirals, Carrier::kBeziers), {}};
   const std::vector<int> direction = piece_directions(spirals);
   std::vector<int> directions;
   for (std::size_t i = 0; i < spirals.pieces.size(); ++i) {
@@ -282,8 +315,9 @@ Result<Carried> form_beziers(const Contour& spirals, double tolerance) {
   return out;
 }
 
-Result<Carried> form_bspline(const Contour& spirals, double tolerance) {
-  Carried out{like(spirals, Carrier::kBspline), std::nullopt, {}};
+Result<Carried> form_bspline(const Contour& spirals, double tolerance,
+                             const std::vector<GivenDatum>& given) {
+  Carried out{like(spirals, Carrier::kBspline), {}};
   const std::vector<int> directions = piece_directions(spirals);
   std::vector<int> direction;
   const std::size_t n = spirals.pieces.size();
@@ -296,7 +330,11 @@ Result<Carried> form_bspline(const Contour& spirals, double tolerance) {
       continue;
     }
     std::size_t end = i + 1;
-    while (end < n && !std::holds_alternative<ArcPiece>(spirals.pieces[end])) ++end;
+    // what was given at a point is met where the point is a knot
+    while (end < n && !std::holds_alternative<ArcPiece>(spirals.pieces[end]) &&
+           given_at(spirals.joints[end], given) == nullptr) {
+      ++end;
+    }
     if (auto done = add_spline(stretch_of(spirals, directions, i, end), tolerance, out, direction);
         !done) {
       return at_point(done.error(), spirals, static_cast<std::ptrdiff_t>(i) + done.error().index,
@@ -315,7 +353,7 @@ Result<Carried> form_cubic(const Contour& spirals, double tolerance, bool loop) 
   whole.closed = loop;
   const auto along = cubic_along(whole, tolerance);
   if (!along) return at_point(along.error(), spirals, along.error().index, kOtherCarriers);
-  Carried out{like(spirals, Carrier::kCubic), along->deviation, {}};
+  Carried out{like(spirals, Carrier::kCubic), {}};
   const std::vector<RationalBezier> pieces = bezier_pieces(along->spline);
   const auto end_joint = [&](const RationalBezier& piece, double t, const Joint& end) {
     return Joint{element_near(Piece{piece}, t, end.element.theta), end.source, {}};
@@ -328,15 +366,24 @@ Result<Carried> form_cubic(const Contour& spirals, double tolerance, bool loop) 
 }
 
 Result<Carried> form_baseline(const std::vector<Vec2>& points,
-                              const std::vector<std::size_t>& source, bool loop) {
-  if (!loop && straight(points)) return baseline_of_lines(points, source);
+                              const std::vector<std::size_t>& source, bool loop,
+                              std::optional<double> start_heading,
+                              std::optional<double> end_heading) {
+  const bool clamped = !loop && (start_heading || end_heading);
+  if (!loop && !clamped && straight(points)) return baseline_of_lines(points, source);
   CubicSplineOptions options;
   std::vector<Vec2> through = points;
   if (loop) {
     options.end = SplineEnd::kPeriodic;
     through.pop_back();
   }
-  const auto spline = cubic_spline(through, options);
+  auto spline = cubic_spline(through, options);
+  if (spline && clamped) {  // an end without a heading keeps the slope that it has by itself
+    options.end = SplineEnd::kTangents;
+    options.start_slope = start_heading ? unit_at(*start_heading) : spline->slopes.front();
+    options.end_slope = end_heading ? unit_at(*end_heading) : spline->slopes.back();
+    spline = cubic_spline(through, options);
+  }
   if (!spline) return tl::unexpected(spline.error());
   Carried out;
   out.contour.carrier = Carrier::kBaseline;

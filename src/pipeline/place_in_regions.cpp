@@ -8,6 +8,7 @@
 #include "form.h"
 #include "obvid/region/boundary_distance.h"
 #include "obvid/region/segment_region.h"
+#include "parts.h"
 
 namespace obvid::pipeline_detail {
 namespace {
@@ -53,9 +54,8 @@ class Regions {
     const Vec2 local = {dot(along_, v), cross(along_, v)};
     const double near_start = boundary_distance(frame_, region_->from_start, local);
     const double near_end = boundary_distance(frame_, region_->to_end, local);
-    out_.farther = std::max({out_.farther, near_start, near_end});
     const double nearer = std::min(near_start, near_end);
-    if (nearer > rounding_ && !between(local)) out_.outside = std::max(out_.outside, nearer);
+    if (nearer > rounding_ && !between(local)) outside_ = std::max(outside_, nearer);
   }
 
   void enter(std::size_t link) {
@@ -70,7 +70,7 @@ class Regions {
     region_ = segment_region(frame_, direction_[link]);
   }
 
-  [[nodiscard]] RegionDistances distances() const { return out_; }
+  [[nodiscard]] double outside() const { return outside_; }
 
  private:
   void add_beside_arc(Vec2 p) {
@@ -79,9 +79,7 @@ class Regions {
     const auto* arc = std::get_if<ArcPiece>(&piece);
     if (line == nullptr && arc == nullptr) return;
     const double away = line != nullptr ? distance_from(*line, p) : distance_from(*arc, p);
-    if (!(away > rounding_)) return;
-    out_.farther = std::max(out_.farther, away);
-    out_.outside = std::max(out_.outside, away);
+    if (away > rounding_) outside_ = std::max(outside_, away);
   }
 
   /// Past the normal at the end of the link, and not still beside its start.
@@ -108,13 +106,13 @@ class Regions {
   ChordFrame frame_;
   Vec2 along_;
   std::optional<SegmentRegion> region_;
-  RegionDistances out_;
+  double outside_ = 0.0;
 };
 
 }  // namespace
 
-RegionDistances place_in_regions(const Contour& spirals, const std::vector<CurvePoint>& points) {
-  if (spirals.pieces.empty()) return {};
+double distance_outside_regions(const Contour& spirals, const std::vector<CurvePoint>& points) {
+  if (spirals.pieces.empty()) return 0.0;
   const std::size_t links = spirals.pieces.size();
   std::vector<std::size_t> link_of(spirals.points.size(), links);  // that starts at an input point
   for (std::size_t j = 0; j < links; ++j) {
@@ -135,7 +133,7 @@ RegionDistances place_in_regions(const Contour& spirals, const std::vector<Curve
     if (const std::size_t link = link_at(points[i]); link < links) regions.enter(link);
     regions.add(points[i].point, end[i]);
   }
-  return regions.distances();
+  return regions.outside();
 }
 
 }  // namespace obvid::pipeline_detail

@@ -9,12 +9,6 @@
 
 namespace obvid::pipeline_detail {
 
-/// Largest distances of points from the regions of a contour of spirals.
-struct RegionDistances {
-  double farther = 0.0;  ///< from the farther boundary
-  double outside = 0.0;  ///< from the region; 0: all inside, or no farther out than rounding
-};
-
 /// Point of a curve; `source`: the input point that it stands on, if any.
 struct CurvePoint {
   Vec2 point;
@@ -23,8 +17,9 @@ struct CurvePoint {
 
 /// `points` follow a contour of spirals, in order: each is measured against the region between the
 /// two joints that it lies between. Input points tell which these are; between them the normals at
-/// the joints do. The region of a circular link is its arc.
-[[nodiscard]] RegionDistances place_in_regions(const Contour& spirals,
-                                               const std::vector<CurvePoint>& points);
+/// the joints do. The region of a circular link is its arc. Returns the largest distance from the
+/// region; 0: all inside, or no farther out than rounding.
+[[nodiscard]] double distance_outside_regions(const Contour& spirals,
+                                              const std::vector<CurvePoint>& points);
 
 }  // namespace obvid::pipeline_detail

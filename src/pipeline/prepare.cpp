@@ -174,9 +174,17 @@ class Preparation {
                     [](double t) { return t == 0.0; })) {
       out_.tolerance.clear();
     }
+    list_given();
     const bool nothing = std::all_of(out_.fixed.begin(), out_.fixed.end(),
                                      [](const FixedData& f) { return !f.theta && !f.kappa; });
     if (nothing) out_.fixed.clear();
+  }
+
+  void list_given() {
+    for (std::size_t i = 0; i < out_.fixed.size(); ++i) {
+      const FixedData& f = out_.fixed[i];
+      if (f.theta || f.kappa || f.corner) out_.given.push_back({i, f.theta, f.kappa, f.corner});
+    }
   }
 
   const PointSeries& series_;

@@ -16,7 +16,8 @@ struct Prepared {
   std::vector<double> reach;  ///< how far each point may be moved; 0: not at all
   std::vector<double>
       tolerance;  ///< how far the contour may pass it; empty when all are met exactly
-  std::vector<FixedData> fixed;  ///< empty, or one entry per point
+  std::vector<FixedData> fixed;   ///< empty, or one entry per point
+  std::vector<GivenDatum> given;  ///< the same headings and curvatures, and the marked corners
   bool convex = false;
   bool primitives = false;
   bool thin = true;  ///< fewer joints than points where points with tolerances are dense

@@ -4,16 +4,25 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numbers>
+#include <span>
 
-#include "form.h"
+#include "given.h"
+#include "obvid/certify/certify.h"
 #include "obvid/fairing/fairing.h"
+#include "obvid/region/farther_boundary.h"
 #include "obvid/region/refine.h"
 #include "obvid/series/analysis.h"
+#include "parts.h"
 
 namespace obvid::pipeline_detail {
 namespace {
 
 constexpr double kRegionTolerance = 3e-6;  // of the diagonal of the series
+
+constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
+/// A part whose curvature rises and falls; runs have -1, 0, +1.
+constexpr int kNotMonotone = 2;
 
 /// Element with which piece `i` begins: at a corner the one after it.
 const Element& start_element(const Contour& contour, std::size_t i) {
@@ -26,88 +35,180 @@ const Element& end_element(const Contour& contour, std::size_t i) {
   return contour.joints[(i + 1) % contour.joints.size()].element;
 }
 
-/// Distance of a spiral that is carried by two arcs from the farther boundary of their region.
-PieceBound bound_arc_pair(const Contour& contour, std::size_t piece, int direction) {
-  PieceBound bound;
-  const Element& from = start_element(contour, piece);
-  const Element& to = end_element(contour, piece + 1);
-  const auto* first = std::get_if<ArcPiece>(&contour.pieces[piece]);
-  const auto* second = std::get_if<ArcPiece>(&contour.pieces[piece + 1]);
-  ChordFrame frame = chord_frame(from, to);
-  // the arcs' own curvatures bound every other pair between them
-  frame.kappa_start = direction * std::min(direction * frame.kappa_start,
-                                           direction * (first != nullptr ? first->kappa : 0.0));
-  frame.kappa_end = direction * std::max(direction * frame.kappa_end,
-                                         direction * (second != nullptr ? second->kappa : 0.0));
-  const auto region = segment_region(frame, direction);
-  bound.width = region ? region->width : bilens_width(frame);
-  bound.deviation_at = end_point(contour.pieces[piece]);
-  return bound;
+/// Common direction of two neighbours; a constant one goes with either.
+int common_direction(int a, int b) {
+  if (a == 0 || a == b) return b;
+  return b == 0 ? a : kNotMonotone;
 }
 
-/// Region between the elements at two neighbouring points of the series alone: pieces first to
-/// last.
-double width_between_points(const Contour& contour, std::size_t first, std::size_t last,
-                            int direction) {
-  const ChordFrame frame = chord_frame(start_element(contour, first), end_element(contour, last));
-  const auto region = segment_region(frame, direction);
-  return region ? region->width : bilens_width(frame);
-}
+/// What a contour leaves open between its stations (docs/claims.md).
+class PartMeasure {
+ public:
+  PartMeasure(const Contour& contour, double tolerance)
+      : contour_(contour), tolerance_(tolerance), direction_(piece_directions(contour)) {}
 
-/// The last piece before the next point of the series after piece `from` begins.
-std::size_t last_before_point(const Contour& contour, std::size_t from) {
-  std::size_t piece = from;
-  while (piece + 1 < contour.pieces.size() && !contour.joints[piece + 1].source) ++piece;
-  return piece;
-}
-
-void add_bound(SegmentReport& segment, const PieceBound& bound) {
-  segment.width = std::max(segment.width, bound.width);
-  segment.width_unrefined = std::max(segment.width_unrefined, bound.width_unrefined);
-  if (bound.deviation > segment.deviation) {
-    segment.deviation = bound.deviation;
-    segment.deviation_at = bound.deviation_at;
+  SegmentReport operator()(const Part& part) {
+    see_from_near(part);
+    SegmentReport row;
+    row.from = part.from;
+    row.to = part.to;
+    row.points_only_error = kUnknown;
+    row.deviation_at = place(part.first_piece, part.t0) + reference_;
+    row.chord = norm(place(part.last_piece, part.t1) - place(part.first_piece, part.t0));
+    if (!promises_monotone(contour_.carrier)) {
+      row.width = row.width_unrefined = row.deviation = kUnknown;
+      return row;
+    }
+    contour_.carrier == Carrier::kArcs ? bound_arcs(part, row) : bound_pieces(part, row);
+    bound_between_stations(part, row);
+    return row;
   }
-  segment.inserted += bound.inserted;
-}
 
-void measure_pieces(const Contour& contour, double tolerance, FitReport& report) {
-  const std::vector<int> direction = piece_directions(contour);
-  std::size_t segment = 0;
-  for (std::size_t i = 0; i < contour.pieces.size(); ++i) {
-    if (i > 0 && contour.joints[i].source) ++segment;
-    if (segment >= report.segments.size()) return;
-    SegmentReport& row = report.segments[segment];
-    if (!promises_monotone(contour.carrier)) {
-      row.width = row.width_unrefined = row.deviation = std::numeric_limits<double>::quiet_NaN();
-    } else if (contour.carrier != Carrier::kArcs) {
-      add_bound(row, bound_piece(contour.pieces[i], direction[i], tolerance));
-      if (i > 0 && !contour.joints[i].source) ++row.inserted;
-    } else if (direction[i] != 0 && i + 1 < contour.pieces.size()) {
-      PieceBound bound = bound_arc_pair(contour, i, direction[i]);
-      if (i > 0 && !contour.joints[i].source) {
-        ++row.inserted;
-      } else {
-        bound.width_unrefined =
-            width_between_points(contour, i, last_before_point(contour, i), direction[i]);
-        bound.deviation = bound.width_unrefined;
-      }
-      add_bound(row, bound);
-      ++i;  // a pair of arcs
+  /// Direction of a part, or `kNotMonotone`.
+  [[nodiscard]] int direction_of(const Part& part) const {
+    int common = 0;
+    for (std::size_t k = part.first_piece; k <= part.last_piece && common != kNotMonotone; ++k) {
+      common = common_direction(common, direction_[k]);
+    }
+    return common;
+  }
+
+ private:
+  /// Copies the pieces of a part to where their coordinates are small: rounded ones blur what is
+  /// measured.
+  void see_from_near(const Part& part) {
+    const auto* bezier = std::get_if<RationalBezier>(&contour_.pieces[part.first_piece]);
+    const bool own_origin = bezier != nullptr && !(bezier->origin == Vec2{});
+    reference_ = own_origin ? bezier->origin : start_point(contour_.pieces[part.first_piece]);
+    first_ = part.first_piece;
+    local_.clear();
+    for (std::size_t k = part.first_piece; k <= part.last_piece; ++k) {
+      local_.push_back(moved(contour_.pieces[k], -reference_));
     }
   }
-}
 
-/// One row for every part between two neighbouring points that the contour has as joints.
-void lay_rows(const Contour& contour, FitReport& report) {
-  for (std::size_t i = 0; i < contour.pieces.size(); ++i) {
-    if (i > 0 && !contour.joints[i].source) continue;
-    const Vec2 from = start_element(contour, i).point;
-    SegmentReport row;
-    row.chord = norm(end_element(contour, last_before_point(contour, i)).point - from);
-    row.points_only_error = std::numeric_limits<double>::quiet_NaN();
-    row.deviation_at = from;
-    report.segments.push_back(row);
+  [[nodiscard]] const Piece& local(std::size_t piece) const { return local_[piece - first_]; }
+  [[nodiscard]] Vec2 place(std::size_t piece, double t) const {
+    return evaluate(local(piece), t).point;
+  }
+
+  void bound_pieces(const Part& part, SegmentReport& row) const {
+    for (std::size_t k = part.first_piece; k <= part.last_piece; ++k) {
+      const double a = k == part.first_piece ? part.t0 : 0.0;
+      const double b = k == part.last_piece ? part.t1 : 1.0;
+      const PieceBound bound = bound_piece(local(k), a, b, direction_[k], tolerance_);
+      row.width = std::max(row.width, bound.width);
+      row.inserted += bound.inserted + (k > part.first_piece ? 1 : 0);
+    }
+  }
+
+  /// Arcs come in pairs between elements of the spirals.
+  void bound_arcs(const Part& part, SegmentReport& row) const {
+    for (std::size_t k = part.first_piece; k <= part.last_piece; ++k) {
+      if (direction_[k] == 0 || k == part.last_piece) continue;
+      row.width = std::max(row.width, arc_pair_width(k));
+      row.inserted += k > part.first_piece ? 1 : 0;
+      ++k;
+    }
+  }
+
+  [[nodiscard]] double arc_pair_width(std::size_t piece) const {
+    const int direction = direction_[piece];
+    const auto kappa_of = [&](std::size_t k) {
+      const auto* arc = std::get_if<ArcPiece>(&contour_.pieces[k]);
+      return arc != nullptr ? arc->kappa : 0.0;
+    };
+    ChordFrame frame = frame_of({piece, piece + 1, 0.0, 1.0});
+    // the arcs' own curvatures bound every other pair between them
+    frame.kappa_start =
+        direction * std::min(direction * frame.kappa_start, direction * kappa_of(piece));
+    frame.kappa_end =
+        direction * std::max(direction * frame.kappa_end, direction * kappa_of(piece + 1));
+    const auto region = segment_region(frame, direction);
+    return region ? region->width : bilens_width(frame);
+  }
+
+  /// Consecutive pieces with one direction.
+  struct Stretch {
+    std::size_t first, last;
+    double t0, t1;
+  };
+
+  /// Cuts the part at vertices, and where it turns too far for one region at all joints.
+  void bound_between_stations(const Part& part, SegmentReport& row) const {
+    Stretch stretch{part.first_piece, part.first_piece, part.t0, 1.0};
+    int common = direction_[stretch.first];
+    for (std::size_t k = part.first_piece + 1; k <= part.last_piece; ++k) {
+      const int next = common_direction(common, direction_[k]);
+      const bool cut = next == kNotMonotone || turns_far(stretch.first, k);
+      if (cut) {
+        bound_stretch(stretch, common, row);
+        stretch = {k, k, 0.0, 1.0};
+      }
+      stretch.last = k;
+      common = cut ? direction_[k] : next;
+    }
+    stretch.t1 = part.t1;
+    bound_stretch(stretch, common, row);
+  }
+
+  /// Regions are those of curves that turn by less than half a turn.
+  [[nodiscard]] bool turns_far(std::size_t first, std::size_t last) const {
+    const double turn = end_element(contour_, last).theta - start_element(contour_, first).theta;
+    return !(std::abs(turn) < std::numbers::pi);
+  }
+
+  void bound_stretch(const Stretch& stretch, int direction, SegmentReport& row) const {
+    if (direction == 0) return;
+    const ChordFrame frame = frame_of(stretch);
+    const auto region = segment_region(frame, direction);
+    if (!region) {  // hidden by rounding: the bilens holds whatever the curvatures are
+      const double width = bilens_width(frame);
+      row.width_unrefined = std::max(row.width_unrefined, width);
+      row.deviation = std::max(row.deviation, width);
+      return;
+    }
+    row.width_unrefined = std::max(row.width_unrefined, region->width);
+    const Vec2 start = place(stretch.first, stretch.t0);
+    const Vec2 along = (place(stretch.last, stretch.t1) - start) / frame.h;
+    const std::span<const Piece> pieces(&local(stretch.first), stretch.last - stretch.first + 1);
+    const FartherBoundary farther =
+        farther_boundary({pieces, stretch.t0, stretch.t1}, {frame, *region, start, along});
+    if (!(farther.distance > row.deviation)) return;
+    row.deviation = farther.distance;
+    row.deviation_at = farther.at + reference_;
+  }
+
+  /// Both ends as the pieces have them; arcs leave a joint's curvature to its element.
+  [[nodiscard]] ChordFrame frame_of(const Stretch& s) const {
+    const Jet a = evaluate(local(s.first), s.t0), b = evaluate(local(s.last), s.t1);
+    if (contour_.carrier != Carrier::kArcs) {
+      return chord_frame(a.point, a.d1, curvature(a), b.point, b.d1, curvature(b));
+    }
+    return chord_frame(a.point, a.d1, start_element(contour_, s.first).kappa, b.point, b.d1,
+                       end_element(contour_, s.last).kappa);
+  }
+
+  const Contour& contour_;
+  double tolerance_;
+  std::vector<int> direction_;
+  std::vector<Piece> local_;  // of the part at hand
+  std::size_t first_ = 0;     // its first piece
+  Vec2 reference_;            // where they are seen from
+};
+
+/// Says nothing about points around which the contour itself is not monotone.
+void forget_beside_vertices(const std::vector<int>& direction, bool loop, FitReport& report) {
+  const std::size_t n = direction.size();
+  for (std::size_t k = 0; k < n; ++k) {
+    double& error = report.segments[k].points_only_error;
+    if (direction[k] == 0) continue;  // points of one circle or line
+    const bool inner = k > 0 && k + 1 < n;
+    if (!inner && !loop) continue;
+    const int before = direction[(k + n - 1) % n], after = direction[(k + 1) % n];
+    if (common_direction(common_direction(before, direction[k]), after) == kNotMonotone) {
+      error = kUnknown;
+    }
   }
 }
 
@@ -144,6 +245,7 @@ Result<int> say_points(const Contour& contour, const std::vector<std::size_t>& s
   if (points.size() > 2 && points.front() == points.back()) points.pop_back();
   const auto analysis = analyse(points);
   if (!analysis) return tl::unexpected(analysis.error());
+  if (!promises_monotone(contour.carrier)) return analysis->vertices_lower_bound;
   for (std::size_t i = 0; i < analysis->chords.size(); ++i) {
     if (first_row + i >= report.segments.size()) break;
     report.segments[first_row + i].points_only_error = analysis->points_only_error[i];
@@ -180,10 +282,15 @@ double default_tolerance(const std::vector<Vec2>& points) {
 Result<FitReport> measure(const Contour& contour, double tolerance) {
   FitReport report;
   report.tolerance = tolerance;
-  lay_rows(contour, report);
-  measure_pieces(contour, tolerance, report);
-  for (const SegmentReport& s : report.segments) {
+  report.given = measure_given(contour);
+  report.largest_deviation = promises_monotone(contour.carrier) ? 0.0 : kUnknown;
+  PartMeasure measure_part(contour, tolerance);
+  std::vector<int> direction;
+  for (const Part& part : parts_of(contour)) {
+    const SegmentReport& s = report.segments.emplace_back(measure_part(part));
+    direction.push_back(measure_part.direction_of(part));
     report.largest_width = std::isnan(s.width) ? s.width : std::max(report.largest_width, s.width);
+    if (s.deviation > report.largest_deviation) report.largest_deviation = s.deviation;
     report.inserted_points += s.inserted;
   }
   const auto sections = sections_of(contour);
@@ -200,9 +307,21 @@ Result<FitReport> measure(const Contour& contour, double tolerance) {
     }
     row += section.size() - 1;
   }
+  forget_beside_vertices(direction, loop, report);
   // around a closed contour the curvature returns to where it began, leaps at corners included
   if (contour.closed) report.vertices_lower_bound += report.vertices_lower_bound % 2;
   return report;
+}
+
+void settle_with(const Certificate& certificate, const Contour& contour, FitReport& report) {
+  report.vertices = certificate.vertices;
+  report.inflections = certificate.inflections;
+  report.largest_move = certificate.largest_move;
+  if (!contour.point_tolerance.empty()) report.moves = point_distances(contour);
+  // a proved contour is a witness: no bound of all curves exceeds its vertices
+  if (certificate.proved) {
+    report.vertices_lower_bound = std::min(report.vertices_lower_bound, certificate.vertices);
+  }
 }
 
 }  // namespace obvid::pipeline_detail

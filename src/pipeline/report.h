@@ -3,6 +3,7 @@
 
 #include <vector>
 
+#include "obvid/certify/certificate.h"
 #include "obvid/core/result.h"
 #include "obvid/curve/contour.h"
 #include "obvid/io/stored_contour.h"
@@ -13,6 +14,10 @@ namespace obvid::pipeline_detail {
 /// points force: exact points, from their adjacent circles; points with tolerances, from averages
 /// of the curvature's rate (docs/methods/fairing.md). Errors as those of `analyse`.
 [[nodiscard]] Result<FitReport> measure(const Contour& contour, double tolerance);
+
+/// Figures of the report that the proof decides. A bound above the vertices of a proved contour is
+/// taken back: that contour refutes it.
+void settle_with(const Certificate& certificate, const Contour& contour, FitReport& report);
 
 /// Default of the tolerance: the seeds' 0.001 mm, near enough, on their series of 280 mm
 /// across.

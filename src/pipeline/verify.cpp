@@ -47,6 +47,22 @@ class ClaimCheck {
   std::optional<Error> refused_;
 };
 
+/// What is missed is rounding, which another library rounds otherwise.
+void compare_given(const GivenReport& claimed, const GivenReport& found, ClaimCheck& c) {
+  c.count("given headings", static_cast<double>(claimed.headings),
+          static_cast<double>(found.headings));
+  c.count("given curvatures", static_cast<double>(claimed.curvatures),
+          static_cast<double>(found.curvatures));
+  c.count("given corners", static_cast<double>(claimed.corners),
+          static_cast<double>(found.corners));
+  constexpr double kRounding = 1e-13;
+  const auto miss = [&](const char* name, double a, double b) {
+    if (!(b <= 2.0 * a + kRounding && a <= 2.0 * b + kRounding)) c.refuse(name, a, b);
+  };
+  miss("largest miss of a given heading", claimed.heading_miss, found.heading_miss);
+  miss("largest miss of a given curvature", claimed.curvature_miss, found.curvature_miss);
+}
+
 void compare_report(const FitReport& claimed, const FitReport& found, ClaimCheck& c) {
   c.count("the number of segments", static_cast<double>(claimed.segments.size()),
           static_cast<double>(found.segments.size()));
@@ -54,6 +70,11 @@ void compare_report(const FitReport& claimed, const FitReport& found, ClaimCheck
   for (std::size_t i = 0; i < found.segments.size(); ++i) {
     const std::string at = " of segment " + std::to_string(i);
     const SegmentReport &a = claimed.segments[i], &b = found.segments[i];
+    // beyond the contract's fields: a file need not claim them
+    if (a.from && a.to) {
+      c.count("points[0]" + at, static_cast<double>(*a.from), static_cast<double>(*b.from));
+      c.count("points[1]" + at, static_cast<double>(*a.to), static_cast<double>(*b.to));
+    }
     c.length("chord" + at, a.chord, b.chord);
     c.length("points_only_error" + at, a.points_only_error, b.points_only_error);
     c.length("width" + at, a.width, b.width);
@@ -69,6 +90,10 @@ void compare_report(const FitReport& claimed, const FitReport& found, ClaimCheck
     c.count("inserted" + at, static_cast<double>(a.inserted), static_cast<double>(b.inserted));
   }
   c.length("largest_width", claimed.largest_width, found.largest_width);
+  if (!std::isnan(claimed.largest_deviation)) {
+    c.length("largest_deviation", claimed.largest_deviation, found.largest_deviation);
+  }
+  compare_given(claimed.given, found.given, c);
   c.length("largest_move", claimed.largest_move, found.largest_move);
   if (!claimed.moves.empty()) {
     c.count("the number of moves", static_cast<double>(claimed.moves.size()),
@@ -140,10 +165,7 @@ Verification verify(const StoredContour& stored) {
       return out;
     }
     FitReport found = std::move(*measured);
-    found.vertices = out.certificate.vertices;
-    found.inflections = out.certificate.inflections;
-    found.largest_move = out.certificate.largest_move;
-    if (!stored.contour.point_tolerance.empty()) found.moves = point_distances(stored.contour);
+    pipeline_detail::settle_with(out.certificate, stored.contour, found);
     compare_report(*stored.report, found, comparison);
     const bool bounded = promises_monotone(stored.contour.carrier);
     if (bounded && !(found.largest_width <= stored.report->tolerance)) {

@@ -4,68 +4,15 @@
 #include <algorithm>
 #include <cmath>
 
+#include "obvid/region/farther_boundary.h"
+#include "two_arcs.h"
+
 namespace obvid {
 namespace {
 
-/// Circle arc, or line when kappa is 0, from a point with a unit tangent to the next one.
-struct Arc {
-  Vec2 start, end;
-  Vec2 start_tangent, end_tangent;
-  double kappa = 0.0;
-};
-
-double distance_to(const Arc& arc, Vec2 p) {
-  const double ends = std::min(norm(p - arc.start), norm(p - arc.end));
-  if (std::isinf(arc.kappa)) return ends;
-  const Vec2 from_start = p - arc.start, from_end = p - arc.end;
-  // abreast of the arc: ahead of its start and behind its end, seen along the radius through p
-  if (arc.kappa == 0.0) {
-    const bool abreast =
-        dot(from_start, arc.start_tangent) > 0.0 && dot(from_end, arc.end_tangent) < 0.0;
-    return abreast ? std::abs(cross(arc.start_tangent, from_start)) : ends;
-  }
-  const double turn = turning(arc.start_tangent, arc.end_tangent);
-  // radius vector p - centre, with the sign that makes it kappa-fold; tangent there is its left
-  // normal
-  const Vec2 radius = arc.kappa * from_start - left_normal(arc.start_tangent);
-  const double along = turning(arc.start_tangent, left_normal(radius));
-  const bool abreast = turn >= 0.0 ? along >= 0.0 && along <= turn : along <= 0.0 && along >= turn;
-  // |p - centre| - R without the cancellation of a large circle
-  const double offset = dot(from_start, from_start) * arc.kappa -
-                        2.0 * dot(from_start, left_normal(arc.start_tangent));
-  return abreast ? std::abs(offset) / (norm(radius) + 1.0) : ends;
-}
-
-/// Both arcs of a boundary in the chord's frame.
-struct TwoArcs {
-  Arc first, second;
-
-  TwoArcs(const ChordFrame& f, const Boundary& b) {
-    const Vec2 end = {f.h, 0.0};
-    const Vec2 t = b.joint_tangent;
-    // an arc of curvature k moves along the mean of its tangents, by tan(turn/2)/k of their sum
-    const auto moved = [](Vec2 from, Vec2 to, double k) {
-      return (cross(from, to) / ((1.0 + dot(from, to)) * k)) * (from + to);
-    };
-    Vec2 joint;
-    if (std::isinf(b.kappa_first)) {
-      joint = {};
-    } else if (std::isinf(b.kappa_second)) {
-      joint = end;
-    } else if (std::abs(b.kappa_first) >= std::abs(b.kappa_second)) {
-      joint = b.kappa_first == 0.0 ? end : moved(f.start_tangent, t, b.kappa_first);
-    } else {
-      joint = end - moved(t, f.end_tangent, b.kappa_second);
-    }
-    first = {{}, joint, f.start_tangent, t, b.kappa_first};
-    second = {joint, end, t, f.end_tangent, b.kappa_second};
-  }
-  [[nodiscard]] double distance(Vec2 p) const {
-    return std::min(distance_to(first, p), distance_to(second, p));
-  }
-};
-
 /// What is asked of one point of the curve.
+using region_detail::TwoArcs;
+
 class Placement {
  public:
   Placement(const Piece& piece, const ChordFrame& frame, const SegmentRegion& region, Vec2 origin,
@@ -79,10 +26,6 @@ class Placement {
         to_end_(frame, region.to_end) {}
 
   [[nodiscard]] Vec2 at(double t) const { return evaluate(piece_, t).point; }
-  [[nodiscard]] double farther(double t) const {
-    const Vec2 p = local(t);
-    return std::max(from_start_.distance(p), to_end_.distance(p));
-  }
   [[nodiscard]] double outside(double t) const {
     const Vec2 p = local(t);
     const double x = std::clamp(p.x, 0.0, frame_.h);
@@ -153,9 +96,10 @@ std::optional<RegionPlacement> place_in_region(const Piece& piece, const Element
   if (!region) return std::nullopt;
   const Vec2 along = (end.point - start.point) / frame.h;
   const Placement place(piece, frame, *region, start.point, along);
-  const double t0 = largest_at([&](double t) { return place.farther(t); }, samples);
+  const FartherBoundary farther =
+      farther_boundary({{&piece, 1}, 0.0, 1.0}, {frame, *region, start.point, along});
   const double t1 = largest_at([&](double t) { return place.outside(t); }, samples);
-  return RegionPlacement{place.farther(t0), place.outside(t1), place.at(t0), place.at(t1)};
+  return RegionPlacement{farther.distance, place.outside(t1), farther.at, place.at(t1)};
 }
 
 std::optional<ConvexErrors> convex_errors(const Element& start, const Element& end, int direction,

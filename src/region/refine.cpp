@@ -9,8 +9,6 @@ namespace {
 
 /// Elements that one piece may take; widths fall with the third power, so this is 15 decades.
 constexpr std::size_t kMostElements = 100000;
-/// Steps of the search for the point that is parallel to the chord; Newton converges faster.
-constexpr int kParallelSteps = 3;
 /// Bisection steps for a step that uses the tolerance up: to a thousandth of the parameter step.
 constexpr int kStepBisections = 10;
 
@@ -32,31 +30,6 @@ double width_between(const Sample& a, const Sample& b, int direction) {
   return region ? region->width : bilens_width(frame);
 }
 
-/// The point whose tangent is parallel to the chord along the unit vector u.
-Vec2 parallel_point(const Piece& piece, Vec2 start, Vec2 u) {
-  double t = 0.5;
-  Vec2 p = start;
-  for (int i = 0; i < kParallelSteps; ++i) {
-    const Jet jet = evaluate(piece, t);
-    p = jet.point;
-    const double slope = cross(u, jet.d1), bend = cross(u, jet.d2);
-    if (bend == 0.0) break;
-    t = std::clamp(t - slope / bend, 0.0, 1.0);
-  }
-  return p;
-}
-
-double deviation_from(const SegmentRegion& r, const Piece& piece, const Sample& a, const Sample& b,
-                      Vec2& at) {
-  const Vec2 u = (b.point - a.point) / norm(b.point - a.point);
-  at = parallel_point(piece, a.point, u);
-  const double y = cross(u, at - a.point);
-  const bool above = y >= 0.0;
-  const double y0 = above ? r.from_start.highest : r.from_start.lowest;
-  const double y1 = above ? r.to_end.highest : r.to_end.lowest;
-  return std::min(r.width, std::max(std::abs(y - y0), std::abs(y - y1)));
-}
-
 }  // namespace
 
 Element element_at(const Piece& piece, double t) {
@@ -64,20 +37,14 @@ Element element_at(const Piece& piece, double t) {
   return {s.point, heading(s.tangent), s.kappa};
 }
 
-PieceBound bound_piece(const Piece& piece, int direction, double tolerance) {
+PieceBound bound_piece(const Piece& piece, double t0, double t1, int direction, double tolerance) {
   PieceBound bound;
   if (direction == 0 || std::holds_alternative<LinePiece>(piece) ||
       std::holds_alternative<ArcPiece>(piece)) {
     return bound;
   }
-  const Sample first = sample(piece, 0.0), last = sample(piece, 1.0);
-  const ChordFrame frame =
-      chord_frame(first.point, first.tangent, first.kappa, last.point, last.tangent, last.kappa);
-  const auto region = segment_region(frame, direction);
-  bound.width = bound.width_unrefined = region ? region->width : bilens_width(frame);
-  bound.deviation_at = first.point;
-  bound.deviation =
-      region ? deviation_from(*region, piece, first, last, bound.deviation_at) : bound.width;
+  const Sample first = sample(piece, t0), last = sample(piece, t1);
+  bound.width = width_between(first, last, direction);
   double expected = bound.width;
   std::size_t count = 1;
   while (bound.width > tolerance) {
@@ -91,7 +58,7 @@ PieceBound bound_piece(const Piece& piece, int direction, double tolerance) {
     bound.width = 0.0;
     Sample before = first;
     for (std::size_t j = 1; j <= count; ++j) {
-      const double t = static_cast<double>(j) / static_cast<double>(count);
+      const double t = t0 + (t1 - t0) * static_cast<double>(j) / static_cast<double>(count);
       const Sample here = j == count ? last : sample(piece, t);
       bound.width = std::max(bound.width, width_between(before, here, direction));
       before = here;

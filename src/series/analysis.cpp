@@ -19,6 +19,9 @@ constexpr double kLargestSize = 1e100;
 /// rounding of one point (the interpolation factors of a quadratic sum to at most 3).
 constexpr double kStretchRoundings = 4.0;
 
+/// Chords of the shortest stretch that a curve of monotone curvature cannot leave.
+constexpr std::size_t kFewestThatTell = 3;
+
 /// How far the rounding of its coordinates can have moved a point.
 double point_rounding(Vec2 p) { return kUnitRoundoff * (std::abs(p.x) + std::abs(p.y)); }
 
@@ -217,6 +220,8 @@ void bound_error(Analysis& a) {
     a.points_only_error[i] = 0.5 * a.chords[i].length * std::abs(sag_after - sag_before);
   }
   for (const CircularStretch& s : a.stretches) {
+    // two or three points lie on a circle whatever the curve; four say that it is the curve
+    if (s.last - s.first < kFewestThatTell) continue;
     for (std::size_t i = s.first; i < s.last; ++i) a.points_only_error[i] = 0.0;
   }
 }

@@ -231,11 +231,14 @@ Contour random_contour(Numbers& numbers) {
   return contour;
 }
 
-FitReport random_report(Numbers& numbers, std::size_t segments, std::size_t moves) {
+FitReport random_report(Numbers& numbers, std::size_t points, std::size_t segments,
+                        std::size_t moves) {
   FitReport report;
   for (std::size_t i = 0; i < moves; ++i) report.moves.push_back(numbers.positive());
   for (std::size_t i = 0; i < segments; ++i) {
-    report.segments.push_back({numbers.positive(),
+    report.segments.push_back({numbers.below(points),
+                               numbers.below(points),
+                               numbers.positive(),
                                numbers.coin() ? kNan : numbers.any(),
                                numbers.any(),
                                numbers.any(),
@@ -245,7 +248,12 @@ FitReport random_report(Numbers& numbers, std::size_t segments, std::size_t move
   }
   report.tolerance = numbers.positive();
   report.largest_width = numbers.any();
+  report.largest_deviation = numbers.any();
   report.largest_move = numbers.any();
+  report.given = {numbers.below(5), numbers.below(5), numbers.below(5), numbers.positive(),
+                  numbers.positive()};
+  if (numbers.coin()) report.carrier_deviation = numbers.positive();
+  if (numbers.coin()) report.outside_spirals_region = numbers.positive();
   report.vertices = static_cast<int>(numbers.below(5));
   report.vertices_lower_bound = static_cast<int>(numbers.below(5));
   report.inflections = static_cast<int>(numbers.below(5));
@@ -284,7 +292,7 @@ TEST(ContourJson, EveryContourReadsBackToTheSameBits) {
     StoredContour stored{random_contour(numbers), std::nullopt, std::nullopt};
     const std::size_t points = stored.contour.points.size();
     if (numbers.coin()) {
-      stored.report = random_report(numbers, points - 1, numbers.coin() ? points : 0);
+      stored.report = random_report(numbers, points, points - 1, numbers.coin() ? points : 0);
     }
     if (numbers.coin()) {
       stored.certificate = random_certificate(numbers, stored.contour.pieces.size());

@@ -69,6 +69,8 @@ struct ConicWhyNot {
 struct ConicOptions {
   std::optional<double>
       first_weight;  ///< given; 003_... takes `median_weight` of the first segment
+  std::optional<std::size_t>
+      curvature_of{};  ///< the element whose own curvature is met: it decides the first weight
 };
 
 /// One conic per segment, curvature continuous.
@@ -91,11 +93,17 @@ struct ConicChain {
 [[nodiscard]] Result<ConicChain> conic_chain(const std::vector<Element>& elements,
                                              const ConicOptions& options = {});
 
+/// What the search for headings leaves alone.
+struct KeptByConics {
+  std::vector<bool> headings;            ///< empty, or one entry per element
+  std::optional<std::size_t> curvature;  ///< as `ConicOptions::curvature_of`
+};
+
 /// Frees the headings: elements at the same points, as near to the given ones as was found, over
 /// which `conic_chain` is elliptic and monotone, curvature growing and falling where that of the
 /// given elements does. For elements of a convex spiral contour. Gauss-Newton, O(n) per step.
 /// Errors: E304, E401 as above (an inflection is one); E501 no such headings were found.
-[[nodiscard]] Result<std::vector<Element>> headings_for_conics(
-    const std::vector<Element>& elements);
+[[nodiscard]] Result<std::vector<Element>> headings_for_conics(const std::vector<Element>& elements,
+                                                               const KeptByConics& kept = {});
 
 }  // namespace obvid

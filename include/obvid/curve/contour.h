@@ -47,6 +47,14 @@ struct Joint {
                                       ///< is continuous in position only
 };
 
+/// What the user fixed at a point.
+struct GivenDatum {
+  std::size_t point = 0;          ///< index into `Contour::points`
+  std::optional<double> theta{};  ///< heading, rad, modulo a full turn
+  std::optional<double> kappa{};  ///< signed curvature, 1/unit
+  bool corner = false;            ///< the contour may turn here at once
+};
+
 /// Maximal part with curvature changing one way; pieces are counted from 0, both ends included.
 struct Run {
   std::size_t first_piece = 0;
@@ -64,6 +72,7 @@ struct Contour {
   std::vector<Vec2> points;             ///< input points as read (consecutive duplicates merged)
   std::vector<double> point_tolerance;  ///< per point: how far from it the contour may pass, units;
                                         ///< empty: it passes through all of them
+  std::vector<GivenDatum> given;        ///< ascending by point
   std::vector<Joint> joints;
   std::vector<Piece> pieces;
   std::vector<Run> runs;

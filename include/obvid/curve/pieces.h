@@ -77,6 +77,9 @@ struct Jet {
 /// Arc length of t in [0, 1] by Gauss-Legendre quadrature refined until `tolerance` (model units).
 [[nodiscard]] double arc_length(const Piece& piece, double tolerance);
 
+/// The piece shifted by a vector. A Bezier piece with an origin of its own keeps its offsets.
+[[nodiscard]] Piece moved(const Piece& piece, Vec2 by);
+
 /// The two halves [0, t] and [t, 1] of a rational Bezier (de Casteljau), 0 < t < 1.
 [[nodiscard]] std::array<RationalBezier, 2> split(const RationalBezier& piece, double t);
 

@@ -10,15 +10,26 @@
 
 namespace obvid {
 
-/// One row of the report: the chord from point i to i + 1.
+/// One part of the contour between two neighbouring stations (docs/claims.md). NaN: not known.
 struct SegmentReport {
+  std::optional<std::size_t> from;  ///< point of the series at its start; files need not say it
+  std::optional<std::size_t> to;    ///< and at its end
   double chord = 0.0;
-  double points_only_error = 0.0;  ///< NaN on the first and last chord
+  double points_only_error = 0.0;  ///< NaN on the first and last chord, and beside vertices
   double width = 0.0;              ///< largest width of the region after refinement
-  double width_unrefined = 0.0;    ///< width between the two elements alone
+  double width_unrefined = 0.0;    ///< between its stations (and vertices) alone
   double deviation = 0.0;          ///< contour to the farther boundary of the unrefined region
   Vec2 deviation_at;               ///< point of the contour where that occurs
-  std::size_t inserted = 0;        ///< elements that the bound needed inside this segment
+  std::size_t inserted = 0;        ///< elements that the bound needed inside this part
+};
+
+/// How well the contour keeps what the user fixed.
+struct GivenReport {
+  std::size_t headings = 0;  ///< how many were given
+  std::size_t curvatures = 0;
+  std::size_t corners = 0;
+  double heading_miss = 0.0;    ///< largest, rad
+  double curvature_miss = 0.0;  ///< largest, of the given curvature
 };
 
 /// How the headings and curvatures were found.
@@ -33,16 +44,20 @@ struct FitReport {
   std::vector<SegmentReport> segments;
   double tolerance = 0.0;
   double largest_width = 0.0;
-  double largest_move = 0.0;  ///< how far a point was moved; 0 when interpolated exactly
-  std::vector<double> moves;  ///< per point, an upper bound of its distance from the contour, units;
-                              ///< empty when interpolated exactly
+  double largest_deviation = 0.0;  ///< of all parts; NaN where none is known
+  double largest_move = 0.0;       ///< how far a point was moved; 0 when interpolated exactly
+  std::vector<double> moves;       ///< per point, an upper bound of its distance from the contour,
+                              ///< units; empty when interpolated exactly
   int vertices = 0;
   int vertices_lower_bound = 0;
   int inflections = 0;
   std::size_t inserted_points = 0;
-  std::optional<double> carrier_deviation;  ///< of a carrier that follows the spirals within a
-                                            ///< tolerance: largest distance from them as measured,
-                                            ///< units; nothing for carriers with exact elements
+  GivenReport given;
+  std::optional<double>
+      carrier_deviation;  ///< largest distance from the spirals as measured, units;
+                          ///< nothing for the spirals, and where there are none
+  std::optional<double> outside_spirals_region;  ///< largest distance from the regions of the
+                                                 ///< spirals as measured, units; likewise
   double seconds = 0.0;
   ChainReport chain;
 };

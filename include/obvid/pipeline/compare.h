@@ -10,7 +10,7 @@
 
 namespace obvid {
 
-/// One carrier of a comparison. Lengths in units; NaN: not defined for this carrier.
+/// One carrier of a comparison: what `fit` makes and says of it, and some more.
 struct ComparedCarrier {
   Carrier carrier = Carrier::kSpiral;
   std::optional<Error>
@@ -18,14 +18,8 @@ struct ComparedCarrier {
   Fit fit;
   std::size_t control_points = 0;  ///< of the contour as NURBS curves with the fewest inner knots;
                                    ///< 0 where a piece is none (clothoids)
-  double error_bound = 0.0;        ///< how far any monotone curve with the spirals' headings and
-                             ///< curvatures at the points can be from this one: largest distance of
-                             ///< its points from the farther boundary of their region, sampled
-  double deviation = 0.0;  ///< largest distance of its points from the spirals, sampled; every
-                           ///< distance is a proved upper bound
-  double outside = 0.0;    ///< largest distance of its points from the region, sampled; 0: inside
-  int continuity = 0;      ///< 0 position, 1 heading, 2 curvature at every joint (corners apart)
-  double seconds = 0.0;    ///< one call of `fit`, median of several
+  int continuity = 0;    ///< 0 position, 1 heading, 2 curvature at every joint (corners apart)
+  double seconds = 0.0;  ///< one call of `fit`, median of several
 };
 
 /// All carriers through the same points with the same wishes; the spirals come first.
@@ -33,9 +27,8 @@ struct Comparison {
   std::vector<ComparedCarrier> carriers;
 };
 
-/// Forms the contour with each carrier and measures it against the spirals and their region. A
-/// carrier that cannot do it is a row with a refusal. Deviation, error bound and outside are
-/// sampled at 16 places or more of each piece.
+/// Forms the contour with each carrier. A carrier that cannot do it is a row with a refusal. Error
+/// bounds and distances from the spirals are those of `Fit::report`.
 /// Errors: those of `fit` with spirals. Cost: a few calls of `fit` for each carrier, at least.
 [[nodiscard]] Result<Comparison> compare_carriers(const PointSeries& series, const FitJob& job,
                                                   const Progress& progress = {});

@@ -41,10 +41,11 @@ struct FitJob {
   std::optional<double> noise;       ///< how far every point may move, units; default: not at all
   bool noise_from_rounding = false;  ///< as far as half a unit of the last printed digit
   Closing closing = Closing::kAutomatic;
-  bool find_corners = true;            ///< where the series turns at once; else only marked ones
-  std::optional<double> corner_angle;  ///< rad, what counts as a corner at least
-  bool primitives = false;             ///< exact lines and arcs where the points allow them
-  std::vector<PointWish> wishes;       ///< ascending, at most one per point; range not checked
+  bool find_corners = true;             ///< where the series turns at once; else only marked ones
+  std::optional<double> corner_angle;   ///< rad, what counts as a corner at least
+  bool primitives = false;              ///< exact lines and arcs where the points allow them
+  std::vector<PointWish> wishes;        ///< ascending, at most one per point; range not checked
+  bool measure_against_spirals = true;  ///< other carriers: how far they are from the spirals
 };
 
 /// A contour with its report and its proof.

@@ -13,20 +13,19 @@ namespace obvid {
 /// Element of a piece at parameter t; heading in (-pi, pi].
 [[nodiscard]] Element element_at(const Piece& piece, double t);
 
-/// Error bound of one piece of a spiral contour.
+/// Error bound of a part of one piece of a spiral contour.
 struct PieceBound {
-  double width = 0.0;            ///< largest region width after refinement
-  double width_unrefined = 0.0;  ///< region width between the piece's own ends
-  double deviation = 0.0;        ///< piece to the farther boundary of the unrefined region
-  Vec2 deviation_at;             ///< point of the piece where that occurs
-  std::size_t inserted = 0;  ///< elements taken on the piece so that every width is small enough
+  double width = 0.0;        ///< largest region width after refinement
+  std::size_t inserted = 0;  ///< elements taken on the part so that every width is small enough
   bool reached = true;  ///< false: the tolerance was not reached with the most elements allowed
 };
 
-/// Takes elements on the piece (equal steps of its parameter, as few as do it) until the region
-/// between neighbours is nowhere wider than `tolerance`. The piece itself stays as it is.
-/// Widths fall about by 8 per halving. `direction` +1: signed curvature increases.
-[[nodiscard]] PieceBound bound_piece(const Piece& piece, int direction, double tolerance);
+/// Takes elements on the piece between parameters t0 and t1 (equal steps, as few as do it) until
+/// the region between neighbours is nowhere wider than `tolerance`. The piece itself stays as it
+/// is. Widths fall about by 8 per halving. `direction` +1: signed curvature increases; 0: constant,
+/// and nothing is open.
+[[nodiscard]] PieceBound bound_piece(const Piece& piece, double t0, double t1, int direction,
+                                     double tolerance);
 
 /// Parameters 0 = t_0 < t_1 < ... < t_k = 1 with the region between neighbours at most
 /// `tolerance` wide, each step as long as that allows (k nearly the least).

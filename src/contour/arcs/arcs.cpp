@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 namespace obvid {
 namespace {
@@ -18,18 +17,32 @@ BiarcCurvatures middle_biarc(const ChordFrame& f, const SegmentRegion& r) {
   return {first, second_curvature(f, first)};
 }
 
+/// Abscissa of the joint of two arcs within a right angle of the chord, from the one that bends
+/// more.
+double joint_abscissa(const ChordFrame& f, double first, double second, Vec2 tangent) {
+  const double x = std::abs(first) >= std::abs(second)
+                       ? (tangent.y - f.start_tangent.y) / first
+                       : f.h - (f.end_tangent.y - tangent.y) / second;
+  return std::clamp(x, 0.0, f.h);
+}
+
+/// Where the ray foot + s way, s > 0, first meets the circle (or line) through `at` with this unit
+/// tangent: the root of k |p - at|^2 = 2 (p - at) . normal of smaller size.
+double first_meeting(Vec2 foot, Vec2 way, Vec2 at, Vec2 tangent, double kappa) {
+  const Vec2 v = foot - at, normal = left_normal(tangent);
+  const double a = kappa * dot(way, way), half = kappa * dot(v, way) - dot(way, normal);
+  const double c = kappa * dot(v, v) - 2.0 * dot(v, normal);
+  const double root = std::sqrt(std::max(0.0, half * half - a * c));
+  return -c / (half + std::copysign(root, half));
+}
+
 /// Where the median from the middle of the chord to the apex meets a boundary.
 Vec2 on_median(const ChordFrame& f, const Boundary& b, Vec2 apex) {
-  const Vec2 foot = {0.5 * f.h, 0.0};
-  double low = 0.0, high = 1.0;
-  constexpr int kBisections = 60;  // to the last bit
-  for (int i = 0; i < kBisections; ++i) {
-    const double s = 0.5 * (low + high);
-    const Vec2 p = foot + s * (apex - foot);
-    const bool beyond = std::abs(p.y) > std::abs(boundary_ordinate(f, b, p.x).value_or(0.0));
-    (beyond ? high : low) = s;
-  }
-  return foot + 0.5 * (low + high) * (apex - foot);
+  const Vec2 foot = {0.5 * f.h, 0.0}, way = apex - foot;
+  const double joint = joint_abscissa(f, b.kappa_first, b.kappa_second, b.joint_tangent);
+  const Vec2 p = foot + first_meeting(foot, way, {0.0, 0.0}, f.start_tangent, b.kappa_first) * way;
+  if (p.x <= joint) return p;
+  return foot + first_meeting(foot, way, {f.h, 0.0}, f.end_tangent, b.kappa_second) * way;
 }
 
 bool has_triangle(const ChordFrame& f, const SegmentRegion& r) {
@@ -54,24 +67,23 @@ double half_turn_sine_squared(const ChordFrame& f) {
   return turn.x > 0.0 ? turn.y * turn.y / (2.0 * (1.0 + turn.x)) : 0.5 * (1.0 - turn.x);
 }
 
-/// How far the biarc with this first curvature passes the point p, across the chord.
-double miss(const ChordFrame& f, int direction, double first, Vec2 p) {
-  ChordFrame own = f;
-  own.kappa_start = first;
-  own.kappa_end = second_curvature(f, first);
-  const auto region = segment_region(own, direction);
-  const auto y = region ? boundary_ordinate(own, region->from_start, p.x) : std::nullopt;
-  return y ? std::abs(*y - p.y) : std::numeric_limits<double>::infinity();
+/// Tangent at the joint of the arcs with these curvatures, by closing the chord (theory 4).
+Vec2 joint_tangent(const ChordFrame& f, double first, double second) {
+  const double a = 0.5 * first * f.h, b = 0.5 * second * f.h;
+  const Vec2 v = Vec2{0.0, 2.0 * a * b} + b * f.start_tangent - a * f.end_tangent;
+  const double length = std::copysign(norm(v), b - a);
+  return length != 0.0 ? v / length : f.start_tangent;
 }
 
-/// First curvature of the biarc through p: p may lie on its first arc or on its second.
-double first_through(const ChordFrame& f, int direction, Vec2 p) {
+/// First curvature of the biarc through p: p lies on its first arc, or on its second.
+double first_through(const ChordFrame& f, Vec2 p) {
   const double on_first = 2.0 * cross(f.start_tangent, p) / dot(p, p);
+  const double then = second_curvature(f, on_first);
+  if (p.x <= joint_abscissa(f, on_first, then, joint_tangent(f, on_first, then))) return on_first;
   const Vec2 rest = Vec2{f.h, 0.0} - p;
   const double second = 2.0 * cross(rest, f.end_tangent) / dot(rest, rest);
   const double B = 0.5 * second * f.h - f.end_tangent.y;
-  const double on_second = 2.0 / f.h * (-f.start_tangent.y - half_turn_sine_squared(f) / B);
-  return miss(f, direction, on_first, p) <= miss(f, direction, on_second, p) ? on_first : on_second;
+  return 2.0 / f.h * (-f.start_tangent.y - half_turn_sine_squared(f) / B);
 }
 
 /// The second turn of a biarc: what the first one leaves of the whole, where that loses no digits
@@ -114,7 +126,7 @@ std::optional<BiarcCurvatures> choose_biarc(const ChordFrame& f, int direction) 
   const Vec2 apex = {apex_x, apex_x * f.start_tangent.y / f.start_tangent.x};
   const Vec2 p =
       0.5 * (on_median(f, region->from_start, apex) + on_median(f, region->to_end, apex));
-  const double first = first_through(f, direction, p);
+  const double first = first_through(f, p);
   const double low = std::min(region->from_start.kappa_first, region->to_end.kappa_first);
   const double high = std::max(region->from_start.kappa_first, region->to_end.kappa_first);
   // in a region narrower than rounding the median point says nothing

@@ -18,9 +18,13 @@ using bsplines::Quintic;
 
 /// Places at which a span is measured, at least; its error s^3 (L - s)^3 has no finer features.
 constexpr int kErrorSamples = 24;
-constexpr int kLeastPerPiece = 4;
+constexpr int kLeastPerPiece = 2;
 /// What the largest of these may be, so that nothing between them exceeds the tolerance.
 constexpr double kOfMonotoneTolerance = 0.98;
+
+/// Where no span goes on, the one before it is shortened to this part, so many times in a run.
+constexpr double kRetreat = 0.6;
+constexpr int kMostRetreats = 24;
 
 /// A span that was tried.
 struct Span {
@@ -57,16 +61,26 @@ class SplineBuilder {
       return true;
     }
     // from the whole run downwards: rounding may spoil short spans where long ones are monotone
-    double at = first, step = last - first;
-    while (at < last) {
-      const auto span = longest(at, last, step, run.direction);
-      if (!span) {
+    const std::size_t before = spans_.size();
+    double at = first, step = last - first, until = last;
+    for (int retreats = 0; at < last;) {
+      const auto span = longest(at, until, step, run.direction);
+      if (span) {
+        keep(*span, run.direction);
+        step = 2.0 * (span->to - at);
+        at = span->to;
+        until = last;
+      } else if (spans_.size() > before && retreats++ < kMostRetreats) {
+        // a span that goes as far as it can may leave no room for the next one
+        at = spans_.back().from;
+        until = at + kRetreat * (spans_.back().to - at);
+        step = until - at;
+        spans_.pop_back();
+        direction_.pop_back();
+      } else {
         failed_at_ = at;
         return false;
       }
-      keep(*span, run.direction);
-      step = 2.0 * (span->to - at);
-      at = span->to;
     }
     return true;
   }
@@ -122,10 +136,11 @@ class SplineBuilder {
   /// Distance between points of equal arc length. False as soon as one exceeds the tolerance.
   bool measure(Span& s) const {
     const double start = length_.at(s.from);
-    const int parts = static_cast<int>(std::ceil(s.to) - std::floor(s.from));
-    const int each = std::max(kLeastPerPiece, kErrorSamples / std::max(parts, 1));
     for (double piece = std::floor(s.from); piece < s.to; piece += 1.0) {
       const double low = std::max(s.from, piece), high = std::min(s.to, piece + 1.0);
+      // pieces of uneven length share the places by their lengths
+      const double part = (length_.at(high) - length_.at(low)) / s.length;
+      const int each = std::max(kLeastPerPiece, static_cast<int>(std::ceil(part * kErrorSamples)));
       for (int i = 0; i < each; ++i) {
         const double place = low + (high - low) * i / each;  // joints are input points, mostly
         const double t = (length_.at(place) - start) / s.length;

@@ -118,6 +118,17 @@ double choose_first(const std::vector<Link>& links, const std::vector<Element>& 
   return nearest_to_middle(links, elements, elliptic_range(links));
 }
 
+/// Logarithm of the first weight with which an element has its own curvature.
+std::optional<double> first_for_curvature(const std::vector<Link>& links,
+                                          const std::vector<Element>& elements, std::size_t e) {
+  if (e >= elements.size() || elements[e].kappa == 0.0) return std::nullopt;
+  const bool last = e == links.size();
+  const Link& link = links[last ? e - 1 : e];
+  const double weighted =
+      last ? log_end_curvature(link.triangle) : log_start_curvature(link.triangle);
+  return 0.5 * (weighted - std::log(std::abs(elements[e].kappa))) - link.from_first;
+}
+
 ConicChain form(const std::vector<Element>& elements, const std::vector<Link>& links,
                 double log_first) {
   ConicChain chain;
@@ -148,7 +159,11 @@ Result<ConicChain> conic_chain(const std::vector<Element>& elements, const Conic
   if (!links) return tl::unexpected(links.error());
   ConicWhyNot why_not;
   const double free_choice = choose_first(*links, elements, why_not);
-  const double first = options.first_weight ? std::log(*options.first_weight) : free_choice;
+  const auto met = options.curvature_of
+                       ? first_for_curvature(*links, elements, *options.curvature_of)
+                       : std::nullopt;
+  const double first =
+      options.first_weight ? std::log(*options.first_weight) : met.value_or(free_choice);
   ConicChain chain = form(elements, *links, first);
   if (!chain.elliptic || !chain.monotone) chain.why_not = why_not;
   return chain;

@@ -69,6 +69,16 @@ class BandedNormal {
     }
   }
 
+  /// Leaves an unknown where it is.
+  void keep(std::size_t j) {
+    for (std::size_t k = 0; k <= kReach; ++k) {
+      rows_[j][k] = 0.0;
+      if (k <= j) rows_[j - k][k] = 0.0;
+    }
+    rows_[j][0] = 1.0;
+    right_[j] = 0.0;
+  }
+
   std::vector<double> solve() {
     const std::size_t n = right_.size();
     for (std::size_t c = 0; c < n; ++c) {
@@ -96,8 +106,11 @@ class BandedNormal {
 
 class HeadingSearch {
  public:
-  HeadingSearch(const std::vector<Element>& elements, const std::vector<conics::Link>& links)
-      : given_(elements) {
+  HeadingSearch(const std::vector<Element>& elements, const std::vector<conics::Link>& links,
+                const KeptByConics& kept)
+      : given_(elements), kept_(2 * elements.size(), false) {
+    for (std::size_t i = 0; i < kept.headings.size(); ++i) kept_[2 * i] = kept.headings[i];
+    if (kept.curvature) kept_[2 * *kept.curvature + 1] = true;
     for (std::size_t i = 0; i < links.size(); ++i) add_segment(i, links[i].triangle);
   }
 
@@ -242,6 +255,9 @@ class HeadingSearch {
       const double w = pull_weight(i);
       system.add<1>(2 * i, {w}, w * (unknowns_[2 * i] - given_[i].theta));
     }
+    for (std::size_t j = 0; j < unknowns_.size(); ++j) {
+      if (kept_[j]) system.keep(j);
+    }
     return system.solve();
   }
 
@@ -258,6 +274,7 @@ class HeadingSearch {
   }
 
   const std::vector<Element>& given_;
+  std::vector<bool> kept_;  // per unknown
   std::vector<Segment> segments_;
   std::vector<double> unknowns_;
   double pull_ = 0.0, joint_weight_ = 0.0;
@@ -275,15 +292,16 @@ bool same_directions(const std::vector<RationalBezier>& pieces,
 
 }  // namespace
 
-Result<std::vector<Element>> headings_for_conics(const std::vector<Element>& elements) {
+Result<std::vector<Element>> headings_for_conics(const std::vector<Element>& elements,
+                                                 const KeptByConics& kept) {
   const auto links = conics::links_over(elements);
   if (!links) return tl::unexpected(links.error());
   const auto works = [&](const std::vector<Element>& e) {
-    const auto chain = conic_chain(e);
+    const auto chain = conic_chain(e, {std::nullopt, kept.curvature});
     return chain && chain->elliptic && chain->monotone && same_directions(chain->pieces, elements);
   };
   if (works(elements)) return elements;
-  HeadingSearch search(elements, *links);
+  HeadingSearch search(elements, *links, kept);
   for (const double pull : kPulls) {
     const auto found = search.run(pull);
     if (found && works(*found)) return *found;

@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <span>
+
+#include "obvid/curve/pieces.h"
+#include "obvid/region/segment_region.h"
+
+namespace obvid {
+
+/// Consecutive pieces, from the parameter t0 of the first to t1 of the last.
+struct PieceSpan {
+  std::span<const Piece> pieces;
+  double t0 = 0.0;
+  double t1 = 1.0;
+};
+
+/// The region of two elements at its place in the plane.
+struct PlacedRegion {
+  ChordFrame frame;
+  SegmentRegion region;
+  Vec2 start;  ///< of the chord
+  Vec2 along;  ///< unit vector of the chord
+};
+
+/// How far a curve gets from the farther of the two boundaries of its region, and where.
+struct FartherBoundary {
+  double distance = 0.0;
+  Vec2 at;
+};
+
+/// Largest distance of a monotone curve from the farther boundary of the region of its own end
+/// elements. No other monotone curve
+/// with these end elements gets farther from any point of it: the other curve lies between the
+/// boundaries, and the way to one of them crosses it.
+///
+/// Searched among the ends of the pieces and inner places, then refined by parabolas; what the last
+/// step says is missing, and rounding, is added. An upper bound as far as the distance has no two
+/// peaks between neighbouring places. Coordinates should be near the curve: their rounding is part
+/// of the bound. Cost: some ten evaluations per piece.
+[[nodiscard]] FartherBoundary farther_boundary(const PieceSpan& path, const PlacedRegion& placed);
+
+}  // namespace obvid

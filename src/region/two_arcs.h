@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+
+#include "obvid/region/segment_region.h"
+
+namespace obvid::region_detail {
+
+/// Circle arc, or line when kappa is 0, from a point with a unit tangent to the next one.
+struct Arc {
+  Vec2 start, end;
+  Vec2 start_tangent, end_tangent;
+  double kappa = 0.0;
+
+  /// Whether the foot of p on the line or circle lies on the arc, which turns by less than pi.
+  [[nodiscard]] bool abreast(Vec2 from_start, Vec2 from_end, Vec2 radius) const {
+    if (kappa == 0.0)
+      return dot(from_start, start_tangent) > 0.0 && dot(from_end, end_tangent) < 0.0;
+    // radius vectors p - centre, kappa-fold: minus the left normals of the tangents at the ends
+    const double side = cross(start_tangent, end_tangent) >= 0.0 ? 1.0 : -1.0;
+    return side * cross(-left_normal(start_tangent), radius) >= 0.0 &&
+           side * cross(radius, -left_normal(end_tangent)) >= 0.0;
+  }
+
+  [[nodiscard]] double distance(Vec2 p) const {
+    const Vec2 from_start = p - start, from_end = p - end;
+    const double ends = std::sqrt(std::min(dot(from_start, from_start), dot(from_end, from_end)));
+    if (std::isinf(kappa)) return ends;
+    const Vec2 radius = kappa * from_start - left_normal(start_tangent);
+    if (!abreast(from_start, from_end, radius)) return ends;
+    if (kappa == 0.0) return std::abs(cross(start_tangent, from_start));
+    // |p - centre| - R without the cancellation of a large circle
+    const double offset =
+        dot(from_start, from_start) * kappa - 2.0 * dot(from_start, left_normal(start_tangent));
+    return std::abs(offset) / (norm(radius) + 1.0);
+  }
+};
+
+/// Both arcs of a boundary in the chord's frame.
+struct TwoArcs {
+  Arc first, second;
+
+  TwoArcs(const ChordFrame& f, const Boundary& b) {
+    const Vec2 end = {f.h, 0.0};
+    const Vec2 t = b.joint_tangent;
+    // an arc of curvature k moves along the mean of its tangents, by tan(turn/2)/k of their sum
+    const auto moved = [](Vec2 from, Vec2 to, double k) {
+      return (cross(from, to) / ((1.0 + dot(from, to)) * k)) * (from + to);
+    };
+    Vec2 joint;
+    if (std::isinf(b.kappa_first)) {
+      joint = {};
+    } else if (std::isinf(b.kappa_second)) {
+      joint = end;
+    } else if (std::abs(b.kappa_first) >= std::abs(b.kappa_second)) {
+      joint = b.kappa_first == 0.0 ? end : moved(f.start_tangent, t, b.kappa_first);
+    } else {
+      joint = end - moved(t, f.end_tangent, b.kappa_second);
+    }
+    first = {{}, joint, f.start_tangent, t, b.kappa_first};
+    second = {joint, end, t, f.end_tangent, b.kappa_second};
+  }
+  [[nodiscard]] double distance(Vec2 p) const {
+    return std::min(first.distance(p), second.distance(p));
+  }
+};
+
+}  // namespace obvid::region_detail

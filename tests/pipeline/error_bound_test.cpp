@@ -1,0 +1,292 @@
+// SPDX-License-Identifier: Apache-2.0
+// The error bound of a report against what another construction of the region says: arcs laid out by
+// their turning, polylines and brute force instead of closed forms.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <random>
+#include <vector>
+
+#include "../common/ten_points.h"
+#include "obvid/pipeline/compare.h"
+#include "obvid/pipeline/fit.h"
+#include "oracle_curves.h"
+
+namespace obvid {
+namespace {
+
+using namespace test;
+
+/// Point at arc length s of an arc, by the angle that it turns.
+Vec2 along_arc(Vec2 from, double theta, double kappa, double s) {
+  const double half = 0.5 * kappa * s;
+  const double chord = half == 0.0 ? s : s * std::sin(half) / half;
+  return from + chord * unit_at(theta + half);
+}
+
+/// How far the direction from a point of the first arc to the end is from that in which an arc with
+/// these end tangents would leave: half way between both.
+double turn_missing(const Element& a, const Element& b, double s) {
+  const Vec2 joint = along_arc(a.point, a.theta, a.kappa, s);
+  const double middle = 0.5 * (a.theta + a.kappa * s + b.theta);
+  return std::remainder(heading(b.point - joint) - middle, 2.0 * std::numbers::pi);
+}
+
+/// The osculating circle of `a`, left for the arc that ends in the tangent of `b`: as a polyline.
+std::vector<Vec2> circle_then_arc(const Element& a, const Element& b) {
+  const double h = norm(b.point - a.point);
+  constexpr int kSteps = 400;
+  double low = 0.0, high = 0.0;
+  for (int i = 1; i <= kSteps; ++i) {  // the first place where the missing turn changes its sign
+    const double s = 1.5 * h * i / kSteps;
+    if (turn_missing(a, b, s) * turn_missing(a, b, 0.0) <= 0.0) {
+      high = s;
+      break;
+    }
+    low = s;
+  }
+  EXPECT_GT(high, 0.0);
+  for (int i = 0; i < 80; ++i) {
+    const double middle = 0.5 * (low + high);
+    (turn_missing(a, b, middle) * turn_missing(a, b, 0.0) > 0.0 ? low : high) = middle;
+  }
+  const Vec2 joint = along_arc(a.point, a.theta, a.kappa, low);
+  const double theta = a.theta + a.kappa * low, turn = b.theta - theta;
+  const double chord = norm(b.point - joint);
+  const double length = turn == 0.0 ? chord : chord * 0.5 * turn / std::sin(0.5 * turn);
+  std::vector<Vec2> out;
+  constexpr int kPoints = 600;
+  for (int i = 0; i <= kPoints; ++i) {
+    out.push_back(along_arc(a.point, a.theta, a.kappa, low * i / kPoints));
+  }
+  for (int i = 1; i <= kPoints; ++i) {
+    out.push_back(along_arc(joint, theta, turn / length, length * i / kPoints));
+  }
+  return out;
+}
+
+/// The other boundary is the same seen from the other end.
+std::vector<Vec2> arc_then_circle(const Element& a, const Element& b) {
+  return circle_then_arc({b.point, b.theta + std::numbers::pi, -b.kappa},
+                         {a.point, a.theta + std::numbers::pi, -a.kappa});
+}
+
+double distance(const std::vector<Vec2>& polyline, Vec2 p) {
+  double least = HUGE_VAL;
+  for (std::size_t i = 1; i < polyline.size(); ++i) {
+    const Vec2 a = polyline[i - 1], d = polyline[i] - a;
+    const double square = dot(d, d);
+    const double part = square > 0.0 ? std::clamp(dot(p - a, d) / square, 0.0, 1.0) : 0.0;
+    least = std::min(least, norm(a + part * d - p));
+  }
+  return least;
+}
+
+Element element_of(const Piece& piece, double t, double theta) {
+  const Jet jet = evaluate(piece, t);
+  const double here = theta + std::remainder(heading(jet.d1) - theta, 2.0 * std::numbers::pi);
+  return {jet.point, here, curvature(jet)};
+}
+
+/// Largest distance of a row's part from the farther boundary, by brute force. Pieces of the part
+/// begin at the joint of its first point.
+double deviation_by_force(const Contour& contour, const SegmentReport& row) {
+  std::size_t first = 0;
+  while (contour.joints[first].source != row.from) ++first;
+  std::size_t last = first;
+  while (contour.joints[last + 1].source != row.to) ++last;
+  Element a = element_of(contour.pieces[first], 0.0, contour.joints[first].element.theta);
+  Element b = element_of(contour.pieces[last], 1.0, contour.joints[last + 1].element.theta);
+  if (contour.carrier == Carrier::kArcs) {  // a joint of arcs has its curvature between theirs
+    a.kappa = contour.joints[first].element.kappa;
+    b.kappa = contour.joints[last + 1].element.kappa;
+  }
+  const std::vector<Vec2> low = circle_then_arc(a, b), high = arc_then_circle(a, b);
+  double most = 0.0;
+  const int samples = std::max(4, 200 / static_cast<int>(last - first + 1));
+  for (std::size_t k = first; k <= last; ++k) {
+    for (int i = 0; i <= samples; ++i) {
+      const Vec2 p = evaluate(contour.pieces[k], static_cast<double>(i) / samples).point;
+      most = std::max({most, distance(low, p), distance(high, p)});
+    }
+  }
+  return most;
+}
+
+Result<Fit> fit_carrier(const std::vector<Vec2>& points, Carrier carrier) {
+  PointSeries series;
+  series.points = points;
+  FitJob job;
+  job.carrier = carrier;
+  return fit(series, job);
+}
+
+// The finest step of the polylines is 1/600 of an arc: its sagitta is below 1e-6 of the distance
+// between two boundaries that are a hundredth of the chord apart.
+constexpr double kBruteForce = 1e-3;
+
+TEST(ErrorBound, IsTheDistanceFromTheFartherBoundaryForEveryCarrierWithJointsAtThePoints) {
+  for (const Carrier carrier : {Carrier::kSpiral, Carrier::kArcs, Carrier::kConics,
+                                Carrier::kBeziers, Carrier::kClothoids}) {
+    const auto f = fit_carrier(kTenPoints, carrier);
+    ASSERT_TRUE(f) << to_string(carrier);
+    ASSERT_EQ(f->report.segments.size(), 9U);
+    double largest = 0.0;
+    for (const SegmentReport& row : f->report.segments) {
+      const double found = deviation_by_force(f->contour, row);
+      EXPECT_GE(row.deviation, found * (1.0 - 1e-5)) << to_string(carrier) << " at " << *row.from;
+      EXPECT_LE(row.deviation, found * (1.0 + kBruteForce)) << to_string(carrier) << " at " << *row.from;
+      largest = std::max(largest, row.deviation);
+    }
+    EXPECT_EQ(f->report.largest_deviation, largest);
+  }
+}
+
+TEST(ErrorBound, HoldsOnRandomSpirals) {
+  std::mt19937_64 rng(2024);
+  int looked_at = 0;
+  for (int i = 0; i < 40; ++i) {
+    const Sampled s = random_series(static_cast<Oracle>(i % kOracleCount), rng, 1.2);
+    if (s.uneven || s.offset_sizes > 10.0 || s.points.size() > 40) continue;
+    const auto f = fit_carrier(s.points, Carrier::kSpiral);
+    ASSERT_TRUE(f) << to_line(f.error());
+    for (const SegmentReport& row : f->report.segments) {
+      if (!(row.width_unrefined > 1e-4 * row.chord)) continue;  // too thin for polylines
+      const double found = deviation_by_force(f->contour, row);
+      EXPECT_GE(row.deviation, found * (1.0 - 1e-2));
+      EXPECT_LE(row.deviation, found * (1.0 + 3e-2));
+      ++looked_at;
+    }
+  }
+  EXPECT_GT(looked_at, 50);
+}
+
+/// Four arcs through the last two points of the reference series, with the contour's own points,
+/// headings and curvatures at the ends and strictly rising curvature: a curve that the bound speaks
+/// of, and farther away than the height over the middle of the chord says (0.5912).
+TEST(ErrorBound, NoMonotoneCurveWithTheSameElementsIsFartherAway) {
+  const auto f = fit_carrier(kTenPoints, Carrier::kSpiral);
+  ASSERT_TRUE(f);
+  const SegmentReport& row = f->report.segments.back();
+  const Contour& contour = f->contour;
+  const std::size_t last = contour.pieces.size() - 1;
+  const Element a = contour.joints[last].element, b = contour.joints[last + 1].element;
+  // near the boundaries: their arcs are the limits of monotone chains
+  double farthest = 0.0;
+  for (const auto& other : {circle_then_arc(a, b), arc_then_circle(a, b)}) {
+    double most = 0.0;
+    for (int i = 0; i <= 400; ++i) {
+      most = std::max(most, distance(other, evaluate(contour.pieces[last], i / 400.0).point));
+    }
+    farthest = std::max(farthest, most);
+  }
+  EXPECT_GT(farthest, 0.604);
+  EXPECT_GE(row.deviation, farthest);
+  EXPECT_LT(row.deviation, 0.6050);
+}
+
+TEST(ErrorBound, FitAndCompareSayTheSame) {
+  PointSeries series;
+  series.points = kTenPoints;
+  const auto compared = compare_carriers(series, {});
+  ASSERT_TRUE(compared);
+  for (const ComparedCarrier& row : compared->carriers) {
+    const auto alone = fit_carrier(kTenPoints, row.carrier);
+    ASSERT_TRUE(alone);
+    const FitReport &a = row.fit.report, &b = alone->report;
+    EXPECT_TRUE(a.largest_deviation == b.largest_deviation ||
+                (std::isnan(a.largest_deviation) && std::isnan(b.largest_deviation)));
+    EXPECT_EQ(a.carrier_deviation, b.carrier_deviation);
+    EXPECT_EQ(a.outside_spirals_region, b.outside_spirals_region);
+    EXPECT_EQ(std::isnan(b.largest_deviation), !promises_monotone(row.carrier));
+  }
+}
+
+TEST(ErrorBound, ACarrierPassingPointsBetweenItsJointsHasARowForEachChord) {
+  for (const Carrier carrier : {Carrier::kBspline, Carrier::kCubic}) {
+    const auto f = fit_carrier(kTenPoints, carrier);
+    ASSERT_TRUE(f);
+    ASSERT_EQ(f->report.segments.size(), 9U) << to_string(carrier);
+    for (std::size_t i = 0; i < 9; ++i) {
+      const SegmentReport& row = f->report.segments[i];
+      EXPECT_EQ(row.from, i);
+      EXPECT_EQ(row.to, i + 1);
+      EXPECT_NEAR(row.chord, norm(kTenPoints[i + 1] - kTenPoints[i]), 2.0 * f->report.tolerance);
+    }
+  }
+  // as wide open as the spirals leave it
+  const auto spline = fit_carrier(kTenPoints, Carrier::kBspline);
+  const auto spirals = fit_carrier(kTenPoints, Carrier::kSpiral);
+  for (std::size_t i = 0; i < 9; ++i) {
+    // a tolerance of 0.002 of the bound changes headings and curvatures at the feet a little
+    EXPECT_NEAR(spline->report.segments[i].deviation, spirals->report.segments[i].deviation,
+                0.1 * spirals->report.segments[i].deviation + spline->report.tolerance);
+  }
+}
+
+bool all_unknown(const FitReport& report) {
+  return std::all_of(report.segments.begin(), report.segments.end(), [](const SegmentReport& row) {
+    return std::isnan(row.points_only_error);
+  });
+}
+
+TEST(PointsOnlyError, IsUnknownWhereThreePointsAreAll) {
+  const std::vector<Vec2> bent = {{0, 0}, {1, 0.1}, {2, 0.5}}, straight = {{0, 0}, {1, 1}, {3, 3}};
+  for (const auto& points : {bent, straight, std::vector<Vec2>{{0, 0}, {1, 2}}}) {
+    const auto f = fit_carrier(points, Carrier::kSpiral);
+    ASSERT_TRUE(f);
+    EXPECT_TRUE(f->certificate.proved);
+    EXPECT_TRUE(all_unknown(f->report)) << points.size();
+  }
+  // two proved fair curves through the same three points, far apart
+  PointSeries series;
+  series.points = bent;
+  FitJob job;
+  job.start_heading = 0.0;
+  const auto other = fit(series, job);
+  ASSERT_TRUE(other);
+  EXPECT_TRUE(other->certificate.proved);
+  EXPECT_TRUE(all_unknown(other->report));
+}
+
+TEST(PointsOnlyError, IsUnknownBetweenCornersThreePointsApart) {
+  PointSeries series;
+  series.points = {{0, 0}, {1, 0.2}, {2, 0}, {2.2, -1}, {2, -2}};
+  FitJob job;
+  job.wishes.push_back({2, {}, {}, true});
+  const auto f = fit(series, job);
+  ASSERT_TRUE(f) << to_line(f.error());
+  EXPECT_EQ(f->certificate.corners, 1);
+  EXPECT_TRUE(all_unknown(f->report));
+}
+
+TEST(PointsOnlyError, IsNothingOnFourPointsOfOneCircle) {
+  const std::vector<Vec2> circle = {{5, 0}, {4, 3}, {3, 4}, {0, 5}, {-3, 4}};
+  const auto f = fit_carrier(circle, Carrier::kSpiral);
+  ASSERT_TRUE(f) << to_line(f.error());
+  for (const SegmentReport& row : f->report.segments) EXPECT_EQ(row.points_only_error, 0.0);
+}
+
+TEST(PointsOnlyError, IsUnknownWhereTheContourIsNotMonotone) {
+  std::vector<Vec2> wave;
+  for (int i = 0; i <= 24; ++i) wave.push_back({0.25 * i, std::sin(0.25 * i)});
+  const auto f = fit_carrier(wave, Carrier::kSpiral);
+  ASSERT_TRUE(f) << to_line(f.error());
+  ASSERT_GT(f->certificate.vertices, 0);
+  std::size_t known = 0;
+  for (std::size_t i = 0; i < f->report.segments.size(); ++i) {
+    if (std::isnan(f->report.segments[i].points_only_error)) continue;
+    ++known;
+    // pieces i - 1 to i + 1 carry the three chords around
+    const auto& verdict = f->certificate.pieces;
+    ASSERT_EQ(verdict.size(), wave.size() - 1);
+    EXPECT_EQ(verdict[i - 1].verdict, verdict[i].verdict);
+    EXPECT_EQ(verdict[i].verdict, verdict[i + 1].verdict);
+  }
+  EXPECT_GT(known, 8U);
+}
+
+}  // namespace
+}  // namespace obvid
