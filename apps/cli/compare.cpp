@@ -74,6 +74,20 @@ Table carrier_table(const Comparison& compared) {
   return table;
 }
 
+/// Carriers that keep monotone runs, but more of them than the spirals.
+std::string more_vertices_text(const Comparison& compared) {
+  const int least = compared.carriers.front().fit.certificate.vertices;
+  std::string out;
+  for (const ComparedCarrier& row : compared.carriers) {
+    const int more = row.refusal ? 0 : row.fit.certificate.vertices - least;
+    if (more <= 0 || !promises_monotone(row.carrier)) continue;
+    out += fmt::format("\n{} has {} more than the spirals: it needs a part of the tolerance itself",
+                       to_string(row.carrier),
+                       counted(static_cast<std::size_t>(more), "vertex", "vertices"));
+  }
+  return out;
+}
+
 std::string comparison_text(const PointSeries& series, const Comparison& compared) {
   const Fit& spirals = compared.carriers.front().fit;
   std::string out = series.name.empty() ? "" : bold(series.name) + "\n";
@@ -89,6 +103,7 @@ std::string comparison_text(const PointSeries& series, const Comparison& compare
     out += fmt::format("\n{}: E{}: {}{}", to_string(row.carrier), static_cast<int>(e.code), e.what,
                        e.where.empty() ? "" : " (" + e.where + ")");
   }
+  out += more_vertices_text(compared);
   return out + (out.back() == '\n' ? "" : "\n");
 }
 
