@@ -49,7 +49,7 @@ Result<Carried> form(const std::vector<Vec2>& points, const SeriesChain& chain,
     case Carrier::kCubic:
       return form_cubic(spirals, tolerance, series.split.smooth_loop);
     default:
-      return as_carried(spirals);
+      return Carried{spirals, {}};
   }
 }
 
@@ -113,7 +113,9 @@ class SectionForming {
       if (auto done = form_one(k); !done) return tl::unexpected(done.error());
     }
     out_.contour = finished(assembly_, job_.carrier);
-    if (have_spirals_) out_.spirals = finished(spirals_, Carrier::kSpiral);
+    if (have_spirals_ && job_.carrier != Carrier::kSpiral) {
+      out_.spirals = finished(spirals_, Carrier::kSpiral);
+    }
     return std::move(out_);
   }
 
@@ -125,6 +127,11 @@ class SectionForming {
     if (!chain) return tl::unexpected(chain.error());
     auto spirals = form_spirals(series_.points, chain->chain);
     if (!spirals && job_.carrier != Carrier::kClothoids) return tl::unexpected(spirals.error());
+    if (job_.carrier == Carrier::kSpiral) {
+      assembly_.append(std::move(*spirals));
+      add_section(*chain, out_);
+      return {};
+    }
     auto carried = form(series_.points, chain->chain, spirals ? *spirals : Contour{}, series_,
                         job_.carrier, tolerance_);
     if (!carried) return tl::unexpected(carried.error());
@@ -147,8 +154,7 @@ class SectionForming {
   }
 
   void keep(Result<Contour> spirals) {
-    have_spirals_ = have_spirals_ && job_.measure_against_spirals && spirals.has_value() &&
-                    job_.carrier != Carrier::kSpiral;
+    have_spirals_ = have_spirals_ && job_.measure_against_spirals && spirals.has_value();
     if (have_spirals_) spirals_.append(std::move(*spirals));
   }
 

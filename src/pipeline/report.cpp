@@ -53,14 +53,15 @@ class PartMeasure {
     row.from = part.from;
     row.to = part.to;
     row.points_only_error = kUnknown;
-    row.deviation_at = place(part.first_piece, part.t0) + reference_;
-    row.chord = norm(place(part.last_piece, part.t1) - place(part.first_piece, part.t0));
+    const Vec2 start = place(part.first_piece, part.t0);
+    row.deviation_at = start + reference_;
+    row.chord = norm(place(part.last_piece, part.t1) - start);
     if (!promises_monotone(contour_.carrier)) {
       row.width = row.width_unrefined = row.deviation = kUnknown;
       return row;
     }
-    contour_.carrier == Carrier::kArcs ? bound_arcs(part, row) : bound_pieces(part, row);
     bound_between_stations(part, row);
+    contour_.carrier == Carrier::kArcs ? bound_arcs(part, row) : bound_pieces(part, row);
     return row;
   }
 
@@ -93,6 +94,14 @@ class PartMeasure {
   }
 
   void bound_pieces(const Part& part, SegmentReport& row) const {
+    if (part.first_piece == part.last_piece) {
+      const PieceBound bound =
+          bound_piece(local_.front(), part.t0, part.t1, direction_[part.first_piece], tolerance_,
+                      row.width_unrefined);
+      row.width = bound.width;
+      row.inserted = bound.inserted;
+      return;
+    }
     for (std::size_t k = part.first_piece; k <= part.last_piece; ++k) {
       const double a = k == part.first_piece ? part.t0 : 0.0;
       const double b = k == part.last_piece ? part.t1 : 1.0;
@@ -118,7 +127,8 @@ class PartMeasure {
       const auto* arc = std::get_if<ArcPiece>(&contour_.pieces[k]);
       return arc != nullptr ? arc->kappa : 0.0;
     };
-    ChordFrame frame = frame_of({piece, piece + 1, 0.0, 1.0});
+    const Stretch pair{piece, piece + 1, 0.0, 1.0};
+    ChordFrame frame = frame_of(pair, ends_of(pair));
     // the arcs' own curvatures bound every other pair between them
     frame.kappa_start =
         direction * std::min(direction * frame.kappa_start, direction * kappa_of(piece));
@@ -160,7 +170,8 @@ class PartMeasure {
 
   void bound_stretch(const Stretch& stretch, int direction, SegmentReport& row) const {
     if (direction == 0) return;
-    const ChordFrame frame = frame_of(stretch);
+    const Ends ends = ends_of(stretch);
+    const ChordFrame frame = frame_of(stretch, ends);
     const auto region = segment_region(frame, direction);
     if (!region) {  // hidden by rounding: the bilens holds whatever the curvatures are
       const double width = bilens_width(frame);
@@ -169,24 +180,28 @@ class PartMeasure {
       return;
     }
     row.width_unrefined = std::max(row.width_unrefined, region->width);
-    const Vec2 start = place(stretch.first, stretch.t0);
-    const Vec2 along = (place(stretch.last, stretch.t1) - start) / frame.h;
+    const Vec2 along = (ends.end.point - ends.start.point) / frame.h;
     const std::span<const Piece> pieces(&local(stretch.first), stretch.last - stretch.first + 1);
-    const FartherBoundary farther =
-        farther_boundary({pieces, stretch.t0, stretch.t1}, {frame, *region, start, along});
+    const FartherBoundary farther = farther_boundary({pieces, stretch.t0, stretch.t1},
+                                                     {frame, *region, ends.start.point, along});
     if (!(farther.distance > row.deviation)) return;
     row.deviation = farther.distance;
     row.deviation_at = farther.at + reference_;
   }
 
+  struct Ends {
+    Jet start, end;
+  };
+  [[nodiscard]] Ends ends_of(const Stretch& s) const {
+    return {evaluate(local(s.first), s.t0), evaluate(local(s.last), s.t1)};
+  }
+
   /// Both ends as the pieces have them; arcs leave a joint's curvature to its element.
-  [[nodiscard]] ChordFrame frame_of(const Stretch& s) const {
-    const Jet a = evaluate(local(s.first), s.t0), b = evaluate(local(s.last), s.t1);
-    if (contour_.carrier != Carrier::kArcs) {
-      return chord_frame(a.point, a.d1, curvature(a), b.point, b.d1, curvature(b));
-    }
-    return chord_frame(a.point, a.d1, start_element(contour_, s.first).kappa, b.point, b.d1,
-                       end_element(contour_, s.last).kappa);
+  [[nodiscard]] ChordFrame frame_of(const Stretch& s, const Ends& e) const {
+    const bool arcs = contour_.carrier == Carrier::kArcs;
+    const double start = arcs ? start_element(contour_, s.first).kappa : curvature(e.start);
+    const double end = arcs ? end_element(contour_, s.last).kappa : curvature(e.end);
+    return chord_frame(e.start.point, e.start.d1, start, e.end.point, e.end.d1, end);
   }
 
   const Contour& contour_;

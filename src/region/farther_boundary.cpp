@@ -2,6 +2,7 @@
 #include "obvid/region/farther_boundary.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstddef>
 #include <vector>
@@ -15,47 +16,99 @@ using region_detail::TwoArcs;
 
 /// Equal steps of a piece between which the distance is taken to have one peak at the most. A lone
 /// piece takes more of them than one among many.
-constexpr int kStepsAlone = 6;
-constexpr int kStepsAmongMany = 2;
+constexpr std::size_t kStepsAlone = 5;
+constexpr std::size_t kStepsAmongMany = 2;
 /// Peaks of the samples this near to the largest are looked at closely.
 constexpr double kCouldBeMore = 0.8;
 /// Steps of successive parabolas: their error falls faster than geometrically.
 constexpr int kMostParabolas = 8;
-/// When two neighbouring steps agree this far, of the distance, the peak is found.
-constexpr double kFound = 1e-10;
-/// Added for what rounding and the flat top of the peak leave, of the distance.
+/// When a step changes the peak by no more than this part, it is found.
+constexpr double kFound = 1e-5;
+/// Multiple of the last change that is added: the next one would be far smaller than that.
+constexpr double kOfLastChange = 2.0;
+/// Added for what rounding leaves of a flat top, of the distance.
 constexpr double kUpward = 1e-9;
 /// Roundings of a point seen from the start of its chord, each 2^-53 of the coordinates' size.
 constexpr double kPointRoundings = 8.0 * 0x1p-53;
+
+/// A piece in the frame of the chord, quick to evaluate.
+class LocalPiece {
+ public:
+  LocalPiece(const Piece& piece, Vec2 start, Vec2 along)
+      : piece_(&piece), start_(start), along_(along) {
+    const auto* bezier = std::get_if<RationalBezier>(&piece);
+    if (bezier == nullptr) return;
+    degree_ = bezier->degree;
+    const Vec2 origin = bezier->origin - start;
+    for (std::size_t j = 0; j <= static_cast<std::size_t>(degree_); ++j) {
+      const Vec2 p = in_frame(origin + bezier->offset[j]);
+      weight_[j] = bezier->weight[j];
+      weighted_[j] = weight_[j] * p;
+    }
+  }
+
+  [[nodiscard]] Vec2 at(double t) const {
+    if (degree_ == 0) return in_frame(evaluate(*piece_, t).point - start_);
+    std::array<Vec2, kMaxBezierDegree + 1> p = weighted_;
+    std::array<double, kMaxBezierDegree + 1> w = weight_;
+    const double s = 1.0 - t;
+    for (auto left = static_cast<std::size_t>(degree_); left > 0; --left) {
+      for (std::size_t j = 0; j < left; ++j) {
+        p[j] = s * p[j] + t * p[j + 1];
+        w[j] = s * w[j] + t * w[j + 1];
+      }
+    }
+    return p[0] / w[0];
+  }
+
+ private:
+  [[nodiscard]] Vec2 in_frame(Vec2 v) const { return {dot(along_, v), cross(along_, v)}; }
+
+  const Piece* piece_;
+  Vec2 start_, along_;
+  int degree_ = 0;  // 0: no Bezier piece
+  std::array<Vec2, kMaxBezierDegree + 1> weighted_;
+  std::array<double, kMaxBezierDegree + 1> weight_;
+};
 
 /// The distance from the farther boundary along a path; its parameter counts pieces.
 class AlongPath {
  public:
   AlongPath(const PieceSpan& path, const PlacedRegion& placed)
       : path_(path),
+        placed_(placed),
         from_start_(placed.frame, placed.region.from_start),
         to_end_(placed.frame, placed.region.to_end),
-        start_(placed.start),
-        along_(placed.along) {}
+        local_(path.pieces.front(), placed.start, placed.along) {}
 
   [[nodiscard]] double first() const { return path_.t0; }
   [[nodiscard]] double last() const {
     return static_cast<double>(path_.pieces.size() - 1) + path_.t1;
   }
-  [[nodiscard]] double operator()(double u) const {
-    const Vec2 v = point(u) - start_;
-    const Vec2 p = {dot(along_, v), cross(along_, v)};
-    return std::max(from_start_.distance(p), to_end_.distance(p));
+  double operator()(double u) {
+    const std::size_t k = piece_at(u);
+    if (k != at_) {
+      local_ = LocalPiece(path_.pieces[k], placed_.start, placed_.along);
+      at_ = k;
+    }
+    const Vec2 p = local_.at(u - static_cast<double>(k));
+    return std::max(from_start_.distance_from_near(p), to_end_.distance_from_near(p));
   }
   [[nodiscard]] Vec2 point(double u) const {
-    const auto k = std::min(static_cast<std::size_t>(u), path_.pieces.size() - 1);
+    const std::size_t k = piece_at(u);
     return evaluate(path_.pieces[k], u - static_cast<double>(k)).point;
   }
 
  private:
+  [[nodiscard]] std::size_t piece_at(double u) const {
+    return std::min(static_cast<std::size_t>(u), path_.pieces.size() - 1);
+  }
+
   const PieceSpan& path_;
+  const PlacedRegion& placed_;
   TwoArcs from_start_, to_end_;
-  Vec2 start_, along_;
+  LocalPiece local_;
+  std::size_t at_ = 0;
 };
 
 struct PathSample {
@@ -72,38 +125,36 @@ double top_of(const PathSample& a, const PathSample& b, const PathSample& c) {
   return std::isfinite(u) ? std::clamp(u, a.u, c.u) : b.u;
 }
 
-/// Climbs from three samples whose middle one is the largest. Where a parabola leads back to a
-/// known place, the middle of the longer side is tried.
-PathSample climb(const AlongPath& distance, PathSample a, PathSample b, PathSample c) {
+/// Climbs from three samples whose middle one is the largest; the value is raised by what the last
+/// step says could still be missing. Where a parabola leads back to a known place, one beside it is
+/// tried.
+PathSample climb(AlongPath& distance, PathSample a, PathSample b, PathSample c) {
+  double change = 0.0;
   for (int i = 0; i < kMostParabolas; ++i) {
     double u = top_of(a, b, c);
     const double apart = 1e-3 * (c.u - a.u);  // closer places say nothing new
     if (std::abs(u - b.u) < apart) u = b.u + (c.u - b.u > b.u - a.u ? apart : -apart);
     const PathSample next = {u, distance(u)};
-    const double gained = std::abs(next.value - b.value);
+    change = std::abs(next.value - b.value);
     if (next.value > b.value) {
       (next.u > b.u ? a : c) = b;
       b = next;
     } else {
       (next.u > b.u ? c : a) = next;
     }
-    if (gained <= kFound * b.value) break;
+    if (change <= kFound * b.value) break;
   }
-  return b;
+  return {b.u, b.value + kOfLastChange * change};
 }
 
-}  // namespace
-
-FartherBoundary farther_boundary(const PieceSpan& path, const PlacedRegion& placed) {
-  const AlongPath distance(path, placed);
-  const int per_piece = path.pieces.size() == 1 ? kStepsAlone : kStepsAmongMany;
-  const auto steps = static_cast<std::size_t>(per_piece) * path.pieces.size();
-  std::vector<PathSample> samples(steps + 1);
+/// Equal steps along the path, in order; looks at three neighbours at a time.
+PathSample highest(AlongPath& distance, std::size_t steps, std::vector<PathSample>& samples) {
   PathSample best{distance.first(), 0.0};
+  samples.resize(steps + 1);
   for (std::size_t i = 0; i <= steps; ++i) {
     const double part = static_cast<double>(i) / static_cast<double>(steps);
     const double u = distance.first() + part * (distance.last() - distance.first());
-    samples[i] = {u, distance(u)};
+    samples[i] = {u, i == 0 || i == steps ? 0.0 : distance(u)};  // ends lie on both boundaries
     if (samples[i].value > best.value) best = samples[i];
   }
   const double close = kCouldBeMore * best.value;
@@ -113,6 +164,17 @@ FartherBoundary farther_boundary(const PieceSpan& path, const PlacedRegion& plac
     const PathSample top = climb(distance, a, b, c);
     if (top.value > best.value) best = top;
   }
+  return best;
+}
+
+}  // namespace
+
+FartherBoundary farther_boundary(const PieceSpan& path, const PlacedRegion& placed) {
+  AlongPath distance(path, placed);
+  const std::size_t count = path.pieces.size();
+  std::vector<PathSample> samples;
+  const PathSample best =
+      highest(distance, count == 1 ? kStepsAlone : kStepsAmongMany * count, samples);
   const Vec2 at = distance.point(best.u);
   const double rounding = kPointRoundings * (std::abs(at.x) + std::abs(at.y) + placed.frame.h);
   return {best.value * (1.0 + kUpward) + rounding, at};

@@ -37,14 +37,19 @@ Element element_at(const Piece& piece, double t) {
   return {s.point, heading(s.tangent), s.kappa};
 }
 
-PieceBound bound_piece(const Piece& piece, double t0, double t1, int direction, double tolerance) {
+PieceBound bound_piece(const Piece& piece, double t0, double t1, int direction, double tolerance,
+                       std::optional<double> unrefined) {
   PieceBound bound;
   if (direction == 0 || std::holds_alternative<LinePiece>(piece) ||
       std::holds_alternative<ArcPiece>(piece)) {
     return bound;
   }
+  if (unrefined && *unrefined <= tolerance) {
+    bound.width = *unrefined;
+    return bound;
+  }
   const Sample first = sample(piece, t0), last = sample(piece, t1);
-  bound.width = width_between(first, last, direction);
+  bound.width = unrefined ? *unrefined : width_between(first, last, direction);
   double expected = bound.width;
   std::size_t count = 1;
   while (bound.width > tolerance) {

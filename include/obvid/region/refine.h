@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <optional>
 #include <vector>
 
 #include "obvid/curve/pieces.h"
@@ -23,9 +24,9 @@ struct PieceBound {
 /// Takes elements on the piece between parameters t0 and t1 (equal steps, as few as do it) until
 /// the region between neighbours is nowhere wider than `tolerance`. The piece itself stays as it
 /// is. Widths fall about by 8 per halving. `direction` +1: signed curvature increases; 0: constant,
-/// and nothing is open.
+/// and nothing is open. `unrefined`: the width between both ends, where it is known.
 [[nodiscard]] PieceBound bound_piece(const Piece& piece, double t0, double t1, int direction,
-                                     double tolerance);
+                                     double tolerance, std::optional<double> unrefined = {});
 
 /// Parameters 0 = t_0 < t_1 < ... < t_k = 1 with the region between neighbours at most
 /// `tolerance` wide, each step as long as that allows (k nearly the least).
