@@ -1,0 +1,413 @@
+// SPDX-License-Identifier: Apache-2.0
+// The texts of `fit` and `verify`.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "sentences.h"
+#include "texts.h"
+
+namespace judge {
+namespace {
+
+/// What is printed without being a claim, or is history that nobody can check.
+bool is_idle(const Fact& fact) {
+  return fact.label == "time" || fact.label == "written";
+}
+
+bool has_figure(const Sentence& sentence) {
+  return std::any_of(sentence.figures.begin(), sentence.figures.end(),
+                     [](const std::string& f) { return f != "-"; });
+}
+
+class TextCheck {
+ public:
+  TextCheck(const Course& course, const Run& run, Sheet& sheet)
+      : course_(course),
+        file_(course.file),
+        run_(run),
+        sheet_(sheet),
+        report_(course.file.report),
+        certificate_(course.file.certificate) {}
+
+  void fit() {
+    bool in_table = false;
+    for (const std::string& line : lines_of(run_.out)) {
+      if (line.empty() || line == run_.input_name) continue;
+      const std::vector<std::string> words = words_of(line);
+      const bool row = line[0] == ' ' && !words.empty() && is_row_name(words[0]);
+      if (line[0] == ' ' || words[0] == "points" || words[0] == "...") {
+        if (row) segment_row(words);
+        if (row && !in_table) in_table = true;
+        if (!row) header(words);
+      } else {
+        sentence(line, "fit");
+      }
+    }
+    verdict_must_name_gaps();
+  }
+
+  void verify() {
+    for (const std::string& line : lines_of(run_.out)) {
+      if (line.empty() || line == run_.input_name) continue;
+      const std::vector<std::string> words = words_of(line);
+      if (line[0] == ' ' || words[0] == "piece" || words[0] == "...") {
+        piece_row(words);
+      } else {
+        sentence(line, "verify");
+      }
+    }
+  }
+
+ private:
+  static bool is_row_name(const std::string& word) {
+    const std::size_t dash = word.find('-');
+    return dash != std::string::npos && dash > 0 && dash + 1 < word.size() &&
+           word.find_first_not_of("0123456789-") == std::string::npos;
+  }
+
+  void say(bool ok, const std::string& what, const std::string& printed,
+           std::optional<double> value) {
+    sheet_.expect(ok, "text: " + what, printed, value ? shown(*value) : std::string("-"), "");
+  }
+  void figure_is(const std::string& what, const std::string& printed,
+                 std::optional<double> value) {
+    say(prints(printed, value), what, printed, value);
+  }
+  void count_is(const std::string& what, const Sentence& s, std::size_t i, double value) {
+    say(s.number(i) == value, what, i < s.figures.size() ? s.figures[i] : "", value);
+  }
+
+  void header(const std::vector<std::string>& words) {
+    for (const std::string& word : words) header_ += word + " ";
+  }
+
+  /// Row i-j: points, chord, points-only error, width, inserted, pieces, radii at both ends.
+  void segment_row(const std::vector<std::string>& words) {
+    static const std::string kHead =
+        "points-only region inserted radius radius points chord error width elements pieces "
+        "at start at end ";
+    std::string head;
+    for (const std::string& word : words_of(header_)) {
+      if (word != "...") head += word + " ";
+    }
+    if (words.size() != 8 || !same_words(head, kHead)) {
+      return sheet_.unjudged("text: table", "columns: " + head);
+    }
+    const std::size_t k = std::strtoul(words[0].c_str(), nullptr, 10) - 1;
+    const Json& rows = member(report_, "segments");
+    if (!rows.is_array() || k >= rows.size()) {
+      return sheet_.fails("text: table", words[0], "no such row", "");
+    }
+    figure_is("table chord", words[1], figure(rows[k], "chord").value);
+    figure_is("table points-only error", words[2], figure(rows[k], "points_only_error").value);
+    figure_is("table width", words[3], figure(rows[k], "width").value);
+    figure_is("table inserted", words[4], figure(rows[k], "inserted").value);
+    if (k >= course_.parts.size() || rows.size() != course_.parts.size()) return;
+    const Part& part = course_.parts[k];
+    const bool joints = part.from == std::floor(part.from) && part.to == std::floor(part.to);
+    if (words[5] != "-") {
+      say(joints && std::strtod(words[5].c_str(), nullptr) == static_cast<double>(part.to - part.from),
+          "table pieces", words[5], static_cast<double>(part.to - part.from));
+    }
+    radius(words[6], part.from);
+    radius(words[7], part.to);
+  }
+  static bool same_words(const std::string& a, const std::string& b) {
+    std::vector<std::string> x = words_of(a), y = words_of(b);
+    std::sort(x.begin(), x.end());
+    std::sort(y.begin(), y.end());
+    return x == y;
+  }
+  void radius(const std::string& printed, Real order) {
+    if (printed == "-" || order != std::floor(order)) return;
+    const FileElement* e = file_.joint(static_cast<std::size_t>(order));
+    if (e == nullptr) return;
+    const auto fits = [&](double kappa) {
+      return kappa == 0.0 ? printed == "straight" : prints(printed, 1.0 / kappa);
+    };
+    say(fits(e->kappa) || (e->corner && fits(e->kappa_out)), "table radius", printed,
+        e->kappa == 0.0 ? 0.0 : 1.0 / e->kappa);
+  }
+
+  void piece_row(const std::vector<std::string>& words) {
+    if (words[0] == "piece" || words[0] == "...") return;
+    const std::size_t i = std::strtoul(words[0].c_str(), nullptr, 10) - 1;
+    const Json& list = member(certificate_, "monotone");
+    if (words.size() < 3 || i >= file_.pieces.size() || i >= list.size()) {
+      return sheet_.unjudged("text: verify table", "columns");
+    }
+    sheet_.expect(words[1] == type_name(file_.pieces[i]), "text: verify type", words[1],
+                  std::string(type_name(file_.pieces[i])), "piece " + words[0]);
+    sheet_.expect(words[2] == text_of(list[i], "verdict"), "text: verify curvature", words[2],
+                  text_of(list[i], "verdict"), "piece " + words[0]);
+  }
+
+  void sentence(const std::string& line, const std::string& command) {
+    const auto fact = fact_of(line);
+    if (!fact) return plain(line, command);
+    if (is_idle(*fact) || fact->label == "note") return;
+    if (fact->label == "given data") return given(*fact);
+    for (const std::string& part : split(fact->value, "; ")) {
+      judge(fact->label, sentence_of(part, file_.units), command);
+    }
+  }
+
+  void plain(const std::string& line, const std::string& command) {
+    const Sentence s = sentence_of(line, file_.units);
+    if (line.starts_with("lengths in ")) {
+      const std::string unit = line.substr(11, line.find_first_of(";,", 11) - 11);
+      sheet_.expect(unit == file_.units, "text: unit", unit, file_.units, "");
+    } else if (line.starts_with("shown: ")) {
+      const Json& rows = member(report_, command == "fit" ? "segments" : "none");
+      if (rows.is_array()) count_is("rows", s, s.figures.size() - 1, double(rows.size()));
+    } else if (line.starts_with("proved") || line.starts_with("NOT")) {
+      verdict(line);
+    } else if (has_figure(s)) {
+      sheet_.unjudged("text: " + command, s.shape);
+    }
+  }
+
+  void verdict(const std::string& line) {
+    verdict_ = line;
+    const bool proved = flag(certificate_, "proved").value_or(false);
+    sheet_.expect(line.starts_with("proved") == proved, "text: verdict", line,
+                  proved ? "proved" : "not proved", "");
+    const bool arcs = file_.carrier == "arcs";
+    if (!line.starts_with("proved")) {
+      const std::string reason = text_of(certificate_, "reason");
+      const bool named = line.find(reason) != std::string::npos;
+      if (!named) sheet_.unjudged("text: verdict", sentence_of(line, file_.units).shape);
+      return;
+    }
+    const bool g2 = line.find("G2 joints") != std::string::npos;
+    const bool g1 = line.find("G1 joints") != std::string::npos;
+    sheet_.expect(arcs ? g1 && !g2 : g2, "text: verdict", line, arcs ? "G1" : "G2", "");
+  }
+
+  /// docs/claims.md: the verdict names the gaps when either exceeds 1e-9.
+  void verdict_must_name_gaps() {
+    if (verdict_.empty() || !verdict_.starts_with("proved")) return;
+    constexpr double kNamed = 1e-9;
+    const Json& gaps = member(certificate_, "joint_gaps");
+    const double heading = figure(gaps, "heading").value.value_or(0.0);
+    const double curvature =
+        file_.carrier == "arcs" ? 0.0 : figure(gaps, "curvature").value.value_or(0.0);
+    if (heading <= kNamed && curvature <= kNamed) return;
+    const Sentence s = sentence_of(verdict_, file_.units);
+    sheet_.expect(has_figure(s), "text: verdict names gaps", verdict_,
+                  fmt::format("heading {:.3g}, curvature {:.3g}", heading, curvature), "");
+  }
+
+  void given(const Fact& fact) {
+    const Sentence s = sentence_of(fact.value, file_.units);
+    if (file_.given.is_null()) return sheet_.unjudged("text: given data", s.shape);
+    sheet_.unjudged("text: given data", s.shape);
+  }
+
+  struct Largest {
+    std::optional<double> value;
+    std::vector<std::size_t> rows;
+  };
+  [[nodiscard]] Largest largest(const char* name) const {
+    Largest out;
+    const Json& rows = member(report_, "segments");
+    for (std::size_t k = 0; rows.is_array() && k < rows.size(); ++k) {
+      const Figure f = figure(rows[k], name);
+      if (!f.known()) continue;
+      if (!out.value || *f.value > *out.value) out = {f.value, {}};
+      if (*f.value == *out.value) out.rows.push_back(k);
+    }
+    return out;
+  }
+
+  void error(const Sentence& s, const char* name, const char* what) {
+    const Largest most = largest(name);
+    figure_is(std::string("largest error ") + what, s.figures.at(0), most.value);
+    if (s.figures.size() < 3 || !most.value) return;
+    const bool named = std::any_of(most.rows.begin(), most.rows.end(), [&](std::size_t k) {
+      return k < course_.parts.size() &&
+             s.number(1) == static_cast<double>(course_.parts[k].from_point + 1);
+    });
+    // rows that are equal to the digits shown may be named too
+    if (named || course_.parts.size() != member(report_, "segments").size()) return;
+    const auto k = static_cast<std::size_t>(s.number(1)) - 1;
+    const Json& rows = member(report_, "segments");
+    const bool equal = k < rows.size() && figure(rows[k], name).value == most.value;
+    say(equal, std::string("largest error place ") + what, s.figures[1],
+        static_cast<double>(most.rows.front() + 1));
+  }
+
+  void gaps(const Sentence& s, std::size_t count) {
+    const Json& gaps = member(certificate_, "joint_gaps");
+    const char* names[] = {"position", "heading", "curvature"};
+    for (std::size_t i = 0; i < count; ++i) {
+      figure_is(std::string("joint gaps ") + names[i], s.figures.at(i), figure(gaps, names[i]).value);
+    }
+  }
+
+  void judge(const std::string& label, const Sentence& s, const std::string& command) {
+    const std::string key = label + ": " + s.shape;
+    const auto count = [](std::size_t n) { return static_cast<double>(n); };
+    if (key == "contour: # piece through # point in # run" ||
+        key == "contour: # piece through # point, # joint free between them in # run") {
+      count_is("contour pieces", s, 0, count(file_.pieces.size()));
+      count_is("contour points", s, 1, count(file_.points.size()));
+      count_is("contour runs", s, s.figures.size() - 1, count(file_.runs.size()));
+      if (s.figures.size() == 4) {
+        count_is("contour free joints", s, 2,
+                 figure(member(report_, "chain"), "free_elements").value.value_or(0.0));
+      }
+    } else if (key == "fairness: # vertex (the point force at least #), # inflection") {
+      figure_is("fairness vertices", s.figures[0], figure(report_, "vertices").value);
+      figure_is("fairness bound", s.figures[1], figure(report_, "vertices_lower_bound").value);
+      figure_is("fairness inflections", s.figures[2], figure(report_, "inflections").value);
+    } else if (key.starts_with("largest error: # U from the point alone")) {
+      error(s, "points_only_error", "from the points");
+    } else if (key.starts_with("largest error: # U with these tangents and curvature")) {
+      error(s, "deviation", "with tangents");
+    } else if (key == "largest width: # U (tolerance #)") {
+      figure_is("largest width", s.figures[0], figure(report_, "largest_width").value);
+      figure_is("tolerance", s.figures[1], figure(report_, "tolerance").value);
+    } else if (key == "bound needed: # inserted element") {
+      figure_is("inserted", s.figures[0], figure(report_, "inserted_points").value);
+    } else if (key.starts_with("from the spirals: at most # U (measured), tolerance #")) {
+      figure_is("from the spirals", s.figures[0], figure(report_, "carrier_deviation").value);
+      figure_is("tolerance", s.figures[1], figure(report_, "tolerance").value);
+    } else if (key == "largest move: # U") {
+      figure_is("largest move", s.figures[0], figure(report_, "largest_move").value);
+    } else if (key == "joint gaps: position # of the size, heading # rad, curvature # of the larger") {
+      gaps(s, 3);
+    } else if (key == "joint gaps: position # of the size, heading # rad") {
+      gaps(s, 2);
+    } else if (key == "joint gaps: curvature steps up to # (arcs)") {
+      figure_is("joint gaps curvature", s.figures[0],
+                figure(member(certificate_, "joint_gaps"), "curvature").value);
+    } else if (key == "report claims: # vertex, # inflection, largest width # U") {
+      figure_is("report claims", s.figures[0], figure(report_, "vertices").value);
+      figure_is("report claims", s.figures[1], figure(report_, "inflections").value);
+      figure_is("report claims", s.figures[2], figure(report_, "largest_width").value);
+    } else if (label == "file claims") {
+      return;  // words of the file, judged with `fit`
+    } else if (label == "curvature") {
+      verdict_counts(s);
+    } else if (label == "vertices" || label == "inflections") {
+      figure_is("verify " + label, s.figures.empty() ? "" : s.figures[0],
+                figure(certificate_, label.c_str()).value);
+    } else if (label == "self-intersections") {
+      figure_is("verify " + label, s.figures.empty() ? "" : s.figures[0],
+                figure(certificate_, "self_intersections").value);
+    } else if (s.shape == "yes" || s.shape == "no") {
+      yes_no(label, s.shape == "yes");
+    } else if (has_figure(s)) {
+      sheet_.unjudged("text: " + command, key);
+    }
+  }
+
+  void yes_no(const std::string& label, bool yes) {
+    const char* name = label == "gaps within bounds"   ? "gaps_within_bounds"
+                       : label == "through all points" ? "through_points"
+                       : label == "inside the region"  ? "inside_region"
+                                                       : "";
+    const auto stated = flag(certificate_, name);
+    if (!stated) return sheet_.unjudged("text: verify", label);
+    sheet_.expect(yes == *stated, "text: verify " + label, yes ? "yes" : "no",
+                  *stated ? "yes" : "no", "");
+  }
+
+  void verdict_counts(const Sentence& s) {
+    std::map<std::string, double> counts;
+    for (const Json& one : member(certificate_, "monotone")) ++counts[text_of(one, "verdict")];
+    const std::vector<std::string> parts = split(s.shape, ", ");
+    for (std::size_t i = 0; i < parts.size(); ++i) {
+      const std::string verdict = parts[i].substr(std::min<std::size_t>(2, parts[i].size()));
+      say(s.number(i) == counts[verdict == "has-vertex" ? verdict : verdict], "verify verdicts",
+          i < s.figures.size() ? s.figures[i] : "", counts[verdict]);
+    }
+  }
+
+  const Course& course_;
+  const ContourFile& file_;
+  const Run& run_;
+  Sheet& sheet_;
+  const Json& report_;
+  const Json& certificate_;
+  std::string header_, verdict_;
+};
+
+/// Members of `a` that `b` has too must be the same.
+void same_json(const Json& a, const Json& b, const std::string& path, Sheet& sheet) {
+  const std::string claim = "fit --json equals the file";
+  if (a.kind != b.kind || a.size() != b.size() || a.text != b.text || a.boolean != b.boolean) {
+    return sheet.fails(claim, a.text.empty() ? "another kind or size" : a.text,
+                       b.text.empty() ? "another kind or size" : b.text, path);
+  }
+  for (std::size_t i = 0; i < a.size(); ++i) {
+    const std::string name = a.is_object() ? a.names[i] : std::to_string(i);
+    if (name == "seconds" || name == "chain") continue;
+    if (a.is_object() && !b.contains(name)) {
+      sheet.fails(claim, name, "not in the file", path);
+      continue;
+    }
+    same_json(a[i], a.is_object() ? b.at(name) : b[i], path + "/" + name, sheet);
+  }
+  if (path.empty()) sheet.holds(claim);
+}
+
+}  // namespace
+
+void check_fit_text(const Course& course, const Run& run, Sheet& sheet) {
+  TextCheck(course, run, sheet).fit();
+}
+
+void check_verify_text(const Course& course, const Run& run, Sheet& sheet) {
+  const bool holds = run.code == 0;
+  const bool promised = flag(course.file.certificate, "proved").value_or(false) ||
+                        !course.file.promises_monotone();
+  sheet.expect(holds == promised, "verify agrees with fit",
+               fmt::format("exit {}: {}", run.code, run.err.substr(0, 200)),
+               promised ? "what fit wrote" : "not proved", "");
+  TextCheck(course, run, sheet).verify();
+}
+
+void check_fit_json(const Course& course, const Run& run, Sheet& sheet) {
+  const ReadJson read = read_json(run.out);
+  if (!read.fault.empty()) return sheet.fails("fit --json", "JSON", read.fault, "");
+  const ContourFile& file = course.file;
+  const Json& json = read.value;
+  sheet.expect(text_of(json, "units") == file.units, "fit --json units", text_of(json, "units"),
+               file.units, "");
+  sheet.expect(figure(json, "points").value == static_cast<double>(file.points.size()),
+               "fit --json points", figure(json, "points").value.value_or(-1.0),
+               static_cast<double>(file.points.size()), "");
+  sheet.expect(figure(json, "pieces").value == static_cast<double>(file.pieces.size()),
+               "fit --json pieces", figure(json, "pieces").value.value_or(-1.0),
+               static_cast<double>(file.pieces.size()), "");
+  same_json(member(json, "report"), file.report, "", sheet);
+  same_json(member(json, "certificate"), file.certificate, "", sheet);
+}
+
+void check_exit(const Course* course, const Run& run, Sheet& sheet) {
+  const std::string claim = "exit code";
+  const std::string stated = fmt::format("exit {}", run.code);
+  if (course == nullptr) {
+    const bool refusal = run.code >= 2 && run.code <= 4;
+    sheet.expect(refusal && !run.err.empty(), claim, stated,
+                 std::string("no contour was written, and the code or the message do not say why"),
+                 run.err.substr(0, 200));
+    return;
+  }
+  const ContourFile& file = course->file;
+  const Figure width = figure(file.report, "largest_width");
+  const Figure tolerance = figure(file.report, "tolerance");
+  const bool proved = flag(file.certificate, "proved").value_or(false);
+  const bool wide = file.promises_monotone() && width.known() && tolerance.known() &&
+                    *width.value > *tolerance.value;
+  const bool kept = (proved || !file.promises_monotone()) && !wide;
+  const bool ok = run.code == 0 ? kept : run.code == 5 && (!kept || !file.promises_monotone());
+  sheet.expect(ok, claim, stated,
+               fmt::format("proved: {}, width within the tolerance: {}", proved, !wide), "");
+}
+
+}  // namespace judge

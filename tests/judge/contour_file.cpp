@@ -1,0 +1,135 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "contour_file.h"
+
+#include <stdexcept>
+
+namespace judge {
+namespace {
+
+Point point_of(const Json& json) {
+  if (!json.is_array() || json.size() != 2) throw std::runtime_error("a point is no [x, y]");
+  return {json[0].real(), json[1].real()};
+}
+
+std::vector<Point> points_of(const Json& json) {
+  std::vector<Point> out;
+  for (const Json& one : json) out.push_back(point_of(one));
+  return out;
+}
+
+double number(const Json& json, const char* name) { return json.at(name).real(); }
+
+Bezier bezier_of(const Json& json) {
+  Bezier out;
+  out.rounded = points_of(json.at("points"));
+  out.offset = out.rounded;
+  if (json.contains("exact")) {
+    out.origin = point_of(json.at("exact").at("origin"));
+    out.offset = points_of(json.at("exact").at("offsets"));
+  }
+  out.weight.assign(out.offset.size(), 1.0);
+  if (json.contains("weights")) out.weight = json.at("weights").reals();
+  if (out.offset.size() < 2 || out.offset.size() != out.rounded.size() ||
+      out.weight.size() != out.offset.size()) {
+    throw std::runtime_error("a Bezier piece has lists of different lengths");
+  }
+  return out;
+}
+
+Piece piece_of(const Json& json) {
+  const std::string& type = json.at("type").string();
+  if (type == "bezier") return bezier_of(json);
+  const Point start = point_of(json.at("start")), end = point_of(json.at("end"));
+  if (type == "line") return Line{start, end};
+  if (type == "arc") {
+    return Arc{start, end, number(json, "theta0"), number(json, "kappa"), number(json, "length")};
+  }
+  if (type == "clothoid") {
+    return Clothoid{start,
+                    end,
+                    number(json, "theta0"),
+                    number(json, "kappa0"),
+                    number(json, "kappa1"),
+                    number(json, "length")};
+  }
+  throw std::runtime_error("unknown type of piece: " + type);
+}
+
+FileElement element_of(const Json& json) {
+  FileElement out;
+  out.point = point_of(json.at("point"));
+  out.heading = number(json, "heading");
+  out.kappa = number(json, "kappa");
+  const Json& source = member(json, "source");
+  if (!source.is_null()) out.source = source.index();
+  if (flag(json, "corner").value_or(false)) {
+    out.corner = true;
+    out.heading_out = number(json, "heading_out");
+    out.kappa_out = number(json, "kappa_out");
+  }
+  return out;
+}
+
+FileSpline spline_of(const Json& json) {
+  FileSpline out;
+  out.degree = static_cast<int>(json.at("degree").real());
+  out.knots = json.at("knots").reals();
+  out.points = points_of(json.at("points"));
+  out.weights.assign(out.points.size(), 1.0);
+  if (json.contains("weights")) out.weights = json.at("weights").reals();
+  return out;
+}
+
+ContourFile contour_of(const Json& json) {
+  ContourFile out;
+  if (text_of(json, "format") != "obvid-contour" || json.at("version").real() != 1.0) {
+    throw std::runtime_error("not a contour file of version 1");
+  }
+  out.units = json.at("units").string();
+  out.carrier = json.at("carrier").string();
+  out.closed = json.at("closed").truth();
+  out.points = points_of(json.at("points"));
+  if (json.contains("point_tolerance")) {
+    out.tolerance = json.at("point_tolerance").reals();
+  }
+  for (const Json& one : json.at("elements")) out.elements.push_back(element_of(one));
+  for (const Json& one : json.at("pieces")) out.pieces.push_back(piece_of(one));
+  for (const Json& one : json.at("runs")) {
+    out.runs.push_back({one.at("first_piece").index(),
+                        one.at("last_piece").index(), static_cast<int>(one.at("direction").real())});
+  }
+  if (json.contains("bspline")) out.spline = spline_of(json.at("bspline"));
+  out.report = member(json, "report");
+  out.certificate = member(json, "certificate");
+  out.given = member(json, "given");
+  if (out.given.is_null()) out.given = member(out.report, "given");
+  return out;
+}
+
+}  // namespace
+
+const FileElement* ContourFile::joint(std::size_t i) const {
+  if (elements.empty()) return nullptr;
+  if (closed && i == pieces.size() && elements.size() == pieces.size()) return &elements.front();
+  return i < elements.size() ? &elements[i] : nullptr;
+}
+
+bool ContourFile::corner_at(std::size_t joint_index) const {
+  const FileElement* element = joint(joint_index);
+  return element != nullptr && element->corner;
+}
+
+ReadContour read_contour(const std::string& text) {
+  ReadContour out;
+  const ReadJson read = read_json(text);
+  out.fault = read.fault;
+  if (!out.fault.empty()) return out;
+  try {
+    out.contour = contour_of(read.value);
+  } catch (const std::exception& error) {
+    out.fault = error.what();
+  }
+  return out;
+}
+
+}  // namespace judge

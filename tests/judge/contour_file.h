@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: Apache-2.0
+// A contour file (docs/formats.md) as it stands.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "json_text.h"
+#include "pieces.h"
+
+namespace judge {
+
+struct FileElement {
+  Point point;
+  double heading = 0.0, kappa = 0.0;
+  std::optional<std::size_t> source;
+  bool corner = false;
+  double heading_out = 0.0, kappa_out = 0.0;
+};
+
+struct FileRun {
+  std::size_t first = 0, last = 0;
+  int direction = 0;
+};
+
+struct FileSpline {
+  int degree = 0;
+  std::vector<double> knots, weights;
+  std::vector<Point> points;
+};
+
+struct ContourFile {
+  std::string units, carrier;
+  bool closed = false;
+  std::vector<Point> points;
+  std::vector<double> tolerance;  ///< empty: points are met exactly
+  std::vector<FileElement> elements;
+  std::vector<Piece> pieces;
+  std::vector<FileRun> runs;
+  std::optional<FileSpline> spline;
+  Json report, certificate, given;  ///< null where the file has none
+
+  /// Joint that stands between piece i - 1 and piece i; nullptr past an end.
+  [[nodiscard]] const FileElement* joint(std::size_t i) const;
+  [[nodiscard]] bool corner_at(std::size_t joint_index) const;
+  [[nodiscard]] bool promises_monotone() const {
+    return carrier != "cubic" && carrier != "baseline";
+  }
+};
+
+struct ReadContour {
+  ContourFile contour;
+  std::string fault;  ///< empty: the file can be read
+};
+ReadContour read_contour(const std::string& text);
+
+}  // namespace judge

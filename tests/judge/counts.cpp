@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "counts.h"
+
+#include <algorithm>
+
+namespace judge {
+namespace {
+
+/// Curvatures below this part of the largest around a joint may be rounding of zero.
+constexpr double kFlat = 1e-9;
+
+struct Item {
+  int sign = 0;
+  bool certain = true;
+};
+
+int changes(const std::vector<Item>& items, bool all, bool closed) {
+  int count = 0, first = 0, last = 0;
+  for (const Item& item : items) {
+    if (item.sign == 0 || (!all && !item.certain)) continue;
+    if (last != 0 && item.sign != last) ++count;
+    if (first == 0) first = item.sign;
+    last = item.sign;
+  }
+  if (closed && first != last) ++count;
+  return count;
+}
+
+CountRange range_of(const std::vector<Item>& items, bool closed) {
+  return {changes(items, false, closed), changes(items, true, closed), true};
+}
+
+}  // namespace
+
+CountRange count_vertices(const Course& course) {
+  std::vector<Item> items;
+  for (std::size_t i = 0; i < course.laws.size(); ++i) {
+    if (!course.laws[i].decided || !course.laws[i].regular) return {0, 0, false};
+    const JointFacts& joint = course.joints[i];
+    // at a smooth joint only a jump beyond what the gaps may be is a change of curvature
+    const bool counted = joint.corner || course.file.carrier == "arcs" || joint.clear_jump;
+    if (counted) items.push_back({joint.jump, joint.clear_jump});
+    for (const int sign : course.laws[i].signs) items.push_back({sign, true});
+  }
+  return range_of(items, course.file.closed);
+}
+
+CountRange count_inflections(const Course& course) {
+  std::vector<Item> items;
+  for (std::size_t i = 0; i < course.laws.size(); ++i) {
+    if (!course.laws[i].decided) return {0, 0, false};
+    const End &a = course.ends.start[i], &b = course.ends.end[i];
+    const double most = std::max(abs(a.kappa).upper(), abs(b.kappa).upper());
+    const auto meet = [&](double kappa) {
+      items.push_back({kappa > 0.0 ? 1 : (kappa < 0.0 ? -1 : 0), std::abs(kappa) > kFlat * most});
+    };
+    meet(static_cast<double>(a.kappa.middle()));
+    for (const Turn& turn : course.laws[i].turns) {
+      const Real t = 0.5L * (static_cast<Real>(turn.from) + turn.to);
+      meet(static_cast<double>(course.path.spans()[i].at(t).kappa()));
+    }
+    meet(static_cast<double>(b.kappa.middle()));
+  }
+  return range_of(items, course.file.closed);
+}
+
+}  // namespace judge

@@ -1,0 +1,173 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "course.h"
+
+#include <algorithm>
+#include <limits>
+
+namespace judge {
+namespace {
+
+Path path_of(const ContourFile& contour, Point origin) {
+  std::vector<Span> spans;
+  for (const Piece& piece : contour.pieces) spans.emplace_back(piece, origin);
+  return Path(std::move(spans));
+}
+
+Vec seen_from(const BallVec& p, Point origin) {
+  return {(p.x - Ball(origin.x)).middle(), (p.y - Ball(origin.y)).middle()};
+}
+
+bool is_joint(Real order) { return order == std::floor(order); }
+
+/// Stations in the order of the contour: point and place.
+struct Station {
+  std::size_t point = 0;
+  Real order = 0.0L;
+};
+
+/// The first place behind `from` that is near enough to the point, else the nearest.
+Real place_behind(const Path& path, Vec p, Real from, Real to, Real reach) {
+  Place best;
+  best.distance = std::numeric_limits<Real>::max();
+  for (Real at = from; at < to; at = std::floor(at) + 1.0L) {
+    const Place here = path.nearest(p, at, std::min(to, std::floor(at) + 1.0L));
+    if (here.distance < best.distance) {
+      best = here;
+    } else if (best.distance <= reach) {
+      break;  // the distance grows again
+    }
+  }
+  return best.distance < std::numeric_limits<Real>::max() ? best.order() : from;
+}
+
+std::vector<Station> stations_of(const ContourFile& contour, const Path& path, Point origin) {
+  std::vector<Station> out;
+  const std::size_t n = contour.points.size();
+  if (n < 2 || contour.pieces.empty()) return out;
+  std::vector<std::optional<Real>> known(n);
+  for (std::size_t j = 0; j < contour.elements.size(); ++j) {
+    const auto source = contour.elements[j].source;
+    if (source && *source < n && !known[*source]) known[*source] = static_cast<Real>(j);
+  }
+  std::size_t first = 0;
+  if (contour.closed) {
+    for (std::size_t i = 0; i < n; ++i) {
+      if (known[i] == 0.0L) first = i;
+    }
+  }
+  Real before = 0.0L;
+  for (std::size_t k = 0; k < n; ++k) {
+    const std::size_t i = (first + k) % n;
+    Real order = before;
+    if (known[i]) {
+      order = *known[i];
+    } else if (k == 0) {
+      order = 0.0L;
+    } else if (k + 1 == n && !contour.closed) {
+      order = path.end();
+    } else {
+      Real to = path.end();
+      for (std::size_t m = k + 1; m < n; ++m) {
+        if (known[(first + m) % n]) {
+          to = *known[(first + m) % n];
+          break;
+        }
+      }
+      const Real reach = contour.tolerance.empty() ? 0.0L : contour.tolerance[i] * (1.0L + 1e-9L);
+      order = place_behind(path, seen(contour.points[i], origin), before, to, reach);
+    }
+    out.push_back({i, std::max(order, before)});
+    before = out.back().order;
+  }
+  if (contour.closed) out.push_back({first, path.end()});
+  return out;
+}
+
+}  // namespace
+
+Course::Course(const ContourFile& contour)
+    : file(contour),
+      origin(contour.points.empty() ? Point{} : contour.points.front()),
+      ends(ends_of(contour)),
+      joints(joints_of(contour, ends)),
+      path(path_of(contour, origin)) {
+  for (const Piece& piece : contour.pieces) laws.push_back(curvature_law(piece));
+  const std::vector<Station> stations = stations_of(contour, path, origin);
+  for (std::size_t k = 0; k + 1 < stations.size(); ++k) {
+    Part part{stations[k].point, stations[k + 1].point, stations[k].order, stations[k + 1].order,
+              {}};
+    part.cuts.push_back(part.from);
+    for (Real j = std::floor(part.from) + 1.0L; j < part.to; j += 1.0L) {
+      if (direction_changes_at(static_cast<std::size_t>(j))) part.cuts.push_back(j);
+    }
+    part.cuts.push_back(part.to);
+    parts.push_back(std::move(part));
+  }
+  stations_known = !parts.empty();
+}
+
+Real Course::resolution() const {
+  constexpr Real kOfSize = 1e-13L, kUlps = 16.0L * 0x1p-52L;
+  return kOfSize * ends.size + kUlps * ends.coordinate;
+}
+
+bool Course::direction_changes_at(std::size_t joint) const {
+  if (joint == 0 || joint >= file.pieces.size()) return false;
+  if (file.corner_at(joint)) return true;
+  // the direction that rules before: of the last piece or clear jump that has one
+  int before = 0;
+  for (std::size_t i = joint; i-- > 0 && before == 0;) {
+    before = laws[i].direction();
+    if (before == 0 && i > 0 && joints[i].clear_jump) before = joints[i].jump;
+    if (file.corner_at(i)) break;
+  }
+  const int jump = joints[joint].clear_jump ? joints[joint].jump : 0;
+  const int after = jump != 0 ? jump : laws[joint].direction();
+  return before != 0 && after != 0 && before != after;
+}
+
+Element Course::element(Real order, bool behind) const {
+  Element out;
+  const bool arcs = file.carrier == "arcs";
+  if (!is_joint(order)) {
+    const auto i = static_cast<std::size_t>(order);
+    const Jet jet = path.spans()[i].at(order - std::floor(order));
+    return {jet.p, std::atan2(jet.d.y, jet.d.x), jet.kappa()};
+  }
+  const auto joint = static_cast<std::size_t>(order);
+  const bool next = behind ? joint < file.pieces.size() : joint == 0;
+  const End& end = next ? ends.start[joint] : ends.end[joint - 1];
+  out.point = seen_from(end.point, origin);
+  out.theta = std::atan2(end.tangent.y.middle(), end.tangent.x.middle());
+  out.kappa = end.kappa.middle();
+  const FileElement* stored = file.joint(joint);
+  if (arcs && stored != nullptr) out.kappa = behind && stored->corner ? stored->kappa_out : stored->kappa;
+  return out;
+}
+
+bool Course::monotone(Real a, Real b) const {
+  int direction = 0;
+  const auto first = static_cast<std::size_t>(a);
+  for (std::size_t i = first; static_cast<Real>(i) < b && i < laws.size(); ++i) {
+    if (!laws[i].one_way()) return false;
+    const bool inner_joint = i > first || static_cast<Real>(i) > a;
+    if (inner_joint && file.corner_at(i)) return false;
+    for (const int sign : {inner_joint && joints[i].clear_jump ? joints[i].jump : 0,
+                           laws[i].direction()}) {
+      if (sign == 0) continue;
+      if (direction != 0 && sign != direction) return false;
+      direction = sign;
+    }
+  }
+  return true;
+}
+
+Real Course::turning(Real a, Real b) const {
+  Real sum = 0.0L;
+  for (auto i = static_cast<std::size_t>(a); static_cast<Real>(i) < b && i < laws.size(); ++i) {
+    sum += std::abs(path.spans()[i].turning());
+  }
+  return sum;
+}
+
+}  // namespace judge

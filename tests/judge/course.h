@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: Apache-2.0
+// A contour with all that its own numbers say: ends, joints, laws of curvature, stations, parts.
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "contour_file.h"
+#include "joints.h"
+#include "monotone.h"
+#include "region.h"
+
+namespace judge {
+
+/// What lies between two neighbouring stations. Orders count pieces: 2.5 is the middle of piece 2.
+struct Part {
+  std::size_t from_point = 0, to_point = 0;
+  Real from = 0.0L, to = 0.0L;
+  std::vector<Real> cuts;  ///< from, vertices and corners inside, to
+};
+
+struct Course {
+  Course(const ContourFile& contour);  // NOLINT: a course is a contour seen closely
+
+  const ContourFile& file;
+  Point origin;  ///< real numbers are seen from here
+  ContourEnds ends;
+  std::vector<JointFacts> joints;
+  std::vector<CurvatureLaw> laws;
+  Path path;
+  std::vector<Part> parts;
+  bool stations_known = false;
+
+  /// Length below which figures are rounding of the coordinates.
+  [[nodiscard]] Real resolution() const;
+  /// Element of the contour at an order; at a joint that of the piece behind or before it.
+  [[nodiscard]] Element element(Real order, bool behind) const;
+  /// Direction of curvature along piece i with the jump before it; 0: none or not decided.
+  [[nodiscard]] bool direction_changes_at(std::size_t joint) const;
+  /// Whether curvature changes one way from order a to order b.
+  [[nodiscard]] bool monotone(Real a, Real b) const;
+  [[nodiscard]] Real turning(Real a, Real b) const;
+};
+
+}  // namespace judge

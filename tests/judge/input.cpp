@@ -1,0 +1,158 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "input.h"
+
+#include <cmath>
+#include <cstdlib>
+#include <map>
+#include <numbers>
+#include <sstream>
+
+namespace judge {
+namespace {
+
+double radians(double degrees) { return degrees * std::numbers::pi / 180.0; }
+
+double curvature_of(const std::string& radius) {
+  return radius == "inf" ? 0.0 : 1.0 / std::strtod(radius.c_str(), nullptr);
+}
+
+std::vector<std::string> cells_of(std::string line) {
+  const std::size_t comment = line.find('#');
+  if (comment != std::string::npos) line.resize(comment);
+  std::vector<std::string> out;
+  const bool separated = line.find_first_of(",;") != std::string::npos;
+  std::string cell;
+  for (const char c : line) {
+    const bool blank = c == ' ' || c == '\t' || c == '\r';
+    if (c == ',' || c == ';' || (blank && !separated)) {
+      if (separated || !cell.empty()) out.push_back(cell);
+      cell.clear();
+    } else if (!blank) {
+      cell += c;
+    }
+  }
+  if (separated || !cell.empty()) out.push_back(cell);
+  return out;
+}
+
+bool is_number(const std::string& cell) {
+  char* end = nullptr;
+  std::strtod(cell.c_str(), &end);
+  return !cell.empty() && *end == '\0';
+}
+
+class Reader {
+ public:
+  void line(const std::string& text) {
+    const std::vector<std::string> cells = cells_of(text);
+    if (cells.empty()) return;
+    if (!is_number(cells[0])) {
+      for (std::size_t i = 0; i < cells.size(); ++i) column_[cells[i]] = i;
+      return;
+    }
+    GivenPoint p;
+    p.point = {number(cells, "x", 0).value_or(0.0), number(cells, "y", 1).value_or(0.0)};
+    if (const auto heading = number(cells, "heading_deg")) p.heading = radians(*heading);
+    if (const std::string* radius = cell(cells, "radius")) p.kappa = curvature_of(*radius);
+    if (const auto kappa = number(cells, "kappa")) p.kappa = kappa;
+    p.tolerance = number(cells, "tol");
+    if (const std::string* corner = cell(cells, "corner")) p.corner = *corner == "1";
+    merge(p);
+  }
+  std::vector<GivenPoint> points;
+
+ private:
+  const std::string* cell(const std::vector<std::string>& cells, const std::string& name,
+                          int otherwise = -1) const {
+    const auto found = column_.find(name);
+    const int i = found != column_.end() ? static_cast<int>(found->second)
+                                         : (column_.contains("x") ? -1 : otherwise);
+    if (i < 0 || static_cast<std::size_t>(i) >= cells.size()) return nullptr;
+    const std::string& text = cells[static_cast<std::size_t>(i)];
+    return text.empty() ? nullptr : &text;
+  }
+  std::optional<double> number(const std::vector<std::string>& cells, const std::string& name,
+                               int otherwise = -1) const {
+    const std::string* text = cell(cells, name, otherwise);
+    if (text == nullptr) return std::nullopt;
+    return std::strtod(text->c_str(), nullptr);
+  }
+  void merge(const GivenPoint& p) {
+    if (points.empty() || !(points.back().point == p.point)) return points.push_back(p);
+    GivenPoint& before = points.back();
+    if (!before.heading) before.heading = p.heading;
+    if (!before.kappa) before.kappa = p.kappa;
+    if (p.tolerance) before.tolerance = std::min(before.tolerance.value_or(*p.tolerance), *p.tolerance);
+    before.corner = before.corner || p.corner;
+  }
+  std::map<std::string, std::size_t> column_;
+};
+
+class Options {
+ public:
+  explicit Options(Input& input) : input_(input) {}
+
+  void read(const std::vector<std::string>& words) {
+    for (std::size_t i = 0; i < words.size(); ++i) {
+      std::string name = words[i], value;
+      const std::size_t equals = name.find('=');
+      const bool takes = name != "--closed" && name != "--open" && name != "--convex" &&
+                         name != "--primitives" && name != "--no-corners";
+      if (name.starts_with("--") && equals != std::string::npos) {
+        value = name.substr(equals + 1);
+        name.resize(equals);
+      } else if (takes && i + 1 < words.size()) {
+        value = words[++i];
+      }
+      set(name, value);
+    }
+  }
+
+ private:
+  void set(const std::string& name, const std::string& value) {
+    const double number = std::strtod(value.c_str(), nullptr);
+    if (name == "--carrier") input_.carrier = value;
+    if (name == "--units") input_.units = value;
+    if (name == "--tolerance") input_.tolerance = number;
+    if (name == "--noise" && value == "rounding") input_.rounding = true;
+    if (name == "--noise" && value != "rounding") input_.noise = number;
+    if (name == "--closed") input_.closed = true;
+    if (name == "--open") input_.open = true;
+    if (name == "--convex") input_.convex = true;
+    if (name == "--primitives") input_.primitives = true;
+    if (input_.points.empty()) return;
+    GivenPoint &first = input_.points.front(), &last = input_.points.back();
+    if (name == "--start-heading" && value != "natural") first.heading = radians(number);
+    if (name == "--end-heading" && value != "natural") last.heading = radians(number);
+    if (name == "--start-radius") first.kappa = curvature_of(value);
+    if (name == "--end-radius") last.kappa = curvature_of(value);
+    at_point(name, value);
+  }
+  void at_point(const std::string& name, const std::string& value) {
+    const std::size_t equals = value.find('=');
+    const std::size_t i = std::strtoul(value.c_str(), nullptr, 10);
+    if (i < 1 || i > input_.points.size()) return;
+    GivenPoint& p = input_.points[i - 1];
+    if (name == "--corner-at") p.corner = true;
+    if (equals == std::string::npos) return;
+    const std::string what = value.substr(equals + 1);
+    if (name == "--heading-at") p.heading = radians(std::strtod(what.c_str(), nullptr));
+    if (name == "--radius-at") p.kappa = curvature_of(what);
+    if (name == "--kappa-at") p.kappa = std::strtod(what.c_str(), nullptr);
+  }
+  Input& input_;
+};
+
+}  // namespace
+
+Input read_input(const std::string& text, const std::vector<std::string>& options) {
+  Input out;
+  Reader reader;
+  std::istringstream lines(text);
+  for (std::string line; std::getline(lines, line);) reader.line(line);
+  out.points = std::move(reader.points);
+  Options(out).read(options);
+  return out;
+}
+
+}  // namespace judge

@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: Apache-2.0
+// What the user gave: points, options, and (for made series) the curve behind them.
+#pragma once
+
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "real_curve.h"
+
+namespace judge {
+
+struct GivenPoint {
+  Point point;
+  std::optional<double> heading, kappa, tolerance;  // rad, 1/unit, unit
+  bool corner = false;
+};
+
+/// The curve that the points were taken from.
+struct Truth {
+  std::function<Vec(Real)> at;
+  std::vector<Real> parameters;  ///< of each point, before merging
+  int vertices = 0;              ///< of the curve between its ends (around, when closed)
+  bool monotone = false;         ///< no vertex at all
+  Real largest_turn = 0.0L;      ///< between neighbouring points, rad
+};
+
+struct Input {
+  std::vector<GivenPoint> points;  ///< repeats merged
+  std::string units = "mm", carrier = "spiral";
+  std::optional<double> tolerance, noise;
+  bool rounding = false, closed = false, open = false, convex = false, primitives = false;
+  std::optional<Truth> truth;
+  std::string fault;  ///< of the reading
+};
+
+/// Simple text: x and y, or named columns x, y, heading_deg, radius, kappa, tol, corner.
+Input read_input(const std::string& text, const std::vector<std::string>& options);
+
+}  // namespace judge

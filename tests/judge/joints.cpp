@@ -1,0 +1,85 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "joints.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "real_curve.h"
+
+namespace judge {
+namespace {
+
+/// Curvature gaps are told of this part of the largest curvature at the four ends, at the least.
+constexpr double kFlat = 1e-6;
+/// Jumps below this, of the larger curvature at the four ends, may be rounding.
+constexpr double kClearJump = 1e-6;
+
+struct Box {
+  double low_x = std::numeric_limits<double>::max(), low_y = low_x;
+  double high_x = -low_x, high_y = -low_x;
+
+  void grow(double x, double y) {
+    low_x = std::min(low_x, x);
+    low_y = std::min(low_y, y);
+    high_x = std::max(high_x, x);
+    high_y = std::max(high_y, y);
+  }
+  [[nodiscard]] double diagonal() const { return std::hypot(high_x - low_x, high_y - low_y); }
+  [[nodiscard]] double coordinate() const {
+    return std::max({std::abs(low_x), std::abs(low_y), std::abs(high_x), std::abs(high_y)});
+  }
+};
+
+JointFacts between(const ContourFile& contour, const ContourEnds& ends, std::size_t left,
+                   std::size_t right) {
+  const End &a = ends.end[left], &b = ends.start[right];
+  JointFacts out;
+  out.corner = contour.corner_at(right);
+  out.position = norm(b.point - a.point);
+  const Ball jump = b.kappa - a.kappa;
+  Ball larger_kappa = larger(abs(a.kappa), abs(b.kappa));
+  Ball four = larger(larger_kappa, larger(abs(ends.start[left].kappa), abs(ends.end[right].kappa)));
+  out.jump = jump.sign() == 2 ? 0 : jump.sign();
+  out.clear_jump = (abs(jump) - Ball(kClearJump) * larger_kappa).sign() == 1;
+  if (out.corner) return out;
+  out.heading = abs(angle_between(a.tangent, b.tangent));
+  const Ball scale = larger(larger_kappa, Ball(kFlat) * four);
+  if (jump.sign() != 0 && scale.sign() == 1) out.curvature = abs(jump) / scale;
+  return out;
+}
+
+}  // namespace
+
+ContourEnds ends_of(const ContourFile& contour) {
+  ContourEnds out;
+  Box box;
+  for (const Point p : contour.points) box.grow(p.x, p.y);
+  for (const Piece& piece : contour.pieces) {
+    out.start.push_back(start_of(piece));
+    out.end.push_back(end_of(piece));
+    const Span span(piece, {});
+    constexpr int kPlaces = 8;
+    Vec before = span.point(0.0L);
+    for (int k = 0; k <= kPlaces; ++k) {
+      const Vec p = span.point(static_cast<Real>(k) / kPlaces);
+      box.grow(static_cast<double>(p.x), static_cast<double>(p.y));
+      out.length += static_cast<double>(norm(p - before));
+      before = p;
+    }
+  }
+  out.size = box.diagonal();
+  out.coordinate = box.coordinate();
+  return out;
+}
+
+std::vector<JointFacts> joints_of(const ContourFile& contour, const ContourEnds& ends) {
+  std::vector<JointFacts> out(contour.pieces.size());
+  if (contour.pieces.empty()) return out;
+  const std::size_t last = contour.pieces.size() - 1;
+  for (std::size_t i = 1; i <= last; ++i) out[i] = between(contour, ends, i - 1, i);
+  if (contour.closed) out[0] = between(contour, ends, last, 0);
+  return out;
+}
+
+}  // namespace judge

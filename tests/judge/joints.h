@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: Apache-2.0
+// How well neighbouring pieces of a contour fit, proved.
+#pragma once
+
+#include <vector>
+
+#include "ball.h"
+#include "contour_file.h"
+#include "ends.h"
+
+namespace judge {
+
+struct JointFacts {
+  bool corner = false;
+  Ball position;   ///< distance of the ends that meet, contour units
+  Ball heading;    ///< rad; 0 at corners
+  Ball curvature;  ///< of the larger of both (docs/claims.md); 0 at corners
+  int jump = 0;    ///< sign of the curvature behind less that before
+  bool clear_jump = false;  ///< too large to be rounding
+};
+
+struct ContourEnds {
+  std::vector<End> start, end;  ///< of each piece
+  double size = 0.0;            ///< diagonal of the box around pieces and points
+  double coordinate = 0.0;      ///< largest
+  double length = 0.0;          ///< of the whole contour, roughly
+};
+
+ContourEnds ends_of(const ContourFile& contour);
+/// At joint i between piece i - 1 and i; for closed contours joint 0 is the seam.
+std::vector<JointFacts> joints_of(const ContourFile& contour, const ContourEnds& ends);
+
+}  // namespace judge

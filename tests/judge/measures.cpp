@@ -1,0 +1,153 @@
+// SPDX-License-Identifier: Apache-2.0
+// Measures of a contour that several checks need.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <limits>
+#include <numbers>
+
+#include "checks.h"
+
+namespace judge {
+
+std::vector<Real> point_distances(const Course& course) {
+  std::vector<Real> out;
+  for (const Point p : course.file.points) {
+    out.push_back(course.path.nearest(seen(p, course.origin)).distance);
+  }
+  return out;
+}
+
+namespace {
+
+/// Points that are met exactly: a joint stands on each, in order.
+std::string missed_exactly(const Course& course) {
+  const ContourFile& file = course.file;
+  for (const Part& part : course.parts) {
+    for (const auto& [order, index] :
+         {std::pair{part.from, part.from_point}, std::pair{part.to, part.to_point}}) {
+      const FileElement* element =
+          order == std::floor(order) ? file.joint(static_cast<std::size_t>(order)) : nullptr;
+      if (element == nullptr || element->source != index ||
+          !(element->point == file.points[index])) {
+        return fmt::format("no joint stands on point {}", index + 1);
+      }
+    }
+    if (!(part.to > part.from)) return "points are met out of order";
+  }
+  return "";
+}
+
+}  // namespace
+
+std::string missed_point(const Course& course) {
+  const ContourFile& file = course.file;
+  if (file.points.size() < 2) return "there are no points";
+  if (file.tolerance.empty()) return missed_exactly(course);
+  if (file.tolerance.size() != file.points.size()) return "a point has no tolerance";
+  const std::vector<Real> away = point_distances(course);
+  for (std::size_t i = 0; i < away.size(); ++i) {
+    if (away[i] > file.tolerance[i] * (1.0L + 1e-9L) + course.resolution()) {
+      return fmt::format("point {} is {:.6Lg} away", i + 1, away[i]);
+    }
+  }
+  // in order: each near the place that belongs to it
+  for (const Part& part : course.parts) {
+    const Vec p = seen(file.points[part.from_point], course.origin);
+    const Real off = norm(course.path.at(part.from) - p);
+    if (off > file.tolerance[part.from_point] * (1.0L + 1e-6L) + course.resolution()) {
+      return fmt::format("the contour does not pass the points in their order: point {}",
+                         part.from_point + 1);
+    }
+  }
+  return "";
+}
+
+Real outside_region(const Course& course, Real a, Real b) {
+  const Element from = course.element(a, true), to = course.element(b, false);
+  const int direction = to.kappa > from.kappa ? 1 : -1;
+  const auto region = Region::of(from, to, direction);
+  if (!region) return 0.0L;
+  constexpr int kPlaces = 64;
+  Real most = 0.0L;
+  for (int k = 1; k < kPlaces; ++k) {
+    most = std::max(most, region->outside(course.path.at(a + (b - a) * k / kPlaces)));
+  }
+  return most;
+}
+
+ElementGap worst_element_gap(const Course& course) {
+  ElementGap out;
+  const auto compare = [&](std::size_t j, const End& end, Point point, double heading,
+                           double kappa) {
+    const double position =
+        norm(end.point - BallVec{point.x, point.y}).lower() / course.ends.size;
+    BallVec direction;
+    sin_cos(Ball(heading), direction.y, direction.x);
+    const double angle = abs(angle_between(direction, end.tangent)).lower();
+    const Ball scale = larger(abs(end.kappa), Ball(std::abs(kappa)));
+    const double bend =
+        scale.sign() == 1 ? (abs(end.kappa - Ball(kappa)) / scale).lower() : 0.0;
+    if (angle > out.heading) out.at = j;
+    out.position = std::max(out.position, position);
+    out.heading = std::max(out.heading, angle);
+    if (course.file.carrier != "arcs") out.curvature = std::max(out.curvature, bend);
+  };
+  for (std::size_t i = 0; i < course.file.pieces.size(); ++i) {
+    if (const FileElement* e = course.file.joint(i)) {
+      compare(i, course.ends.start[i], e->point, e->corner ? e->heading_out : e->heading,
+              e->corner ? e->kappa_out : e->kappa);
+    }
+    if (const FileElement* e = course.file.joint(i + 1)) {
+      compare(i + 1, course.ends.end[i], e->point, e->heading, e->kappa);
+    }
+  }
+  return out;
+}
+
+namespace {
+
+struct Chord {
+  Vec a, b;
+  std::size_t index;
+};
+
+bool crosses(const Chord& p, const Chord& q) {
+  const Vec u = p.b - p.a, v = q.b - q.a;
+  const Real s0 = cross(u, q.a - p.a), s1 = cross(u, q.b - p.a);
+  const Real t0 = cross(v, p.a - q.a), t1 = cross(v, p.b - q.a);
+  return (s0 > 0.0L) != (s1 > 0.0L) && (t0 > 0.0L) != (t1 > 0.0L);
+}
+
+}  // namespace
+
+std::optional<int> count_crossings(const Course& course) {
+  constexpr std::size_t kMostChords = 4000;
+  constexpr std::size_t kPerPiece = 24;
+  const std::size_t pieces = course.file.pieces.size();
+  if (pieces * kPerPiece > kMostChords) return std::nullopt;
+  std::vector<Chord> chords;
+  Vec before = course.path.at(0.0L);
+  for (std::size_t k = 1; k <= pieces * kPerPiece; ++k) {
+    const Vec now = course.path.at(static_cast<Real>(k) / kPerPiece);
+    chords.push_back({before, now, k});
+    before = now;
+  }
+  const auto low = [](const Chord& c) { return std::min(c.a.x, c.b.x); };
+  const auto high = [](const Chord& c) { return std::max(c.a.x, c.b.x); };
+  std::sort(chords.begin(), chords.end(),
+            [&](const Chord& a, const Chord& b) { return low(a) < low(b); });
+  int count = 0;
+  for (std::size_t i = 0; i < chords.size(); ++i) {
+    for (std::size_t j = i + 1; j < chords.size() && low(chords[j]) <= high(chords[i]); ++j) {
+      const std::size_t apart = chords[i].index > chords[j].index
+                                    ? chords[i].index - chords[j].index
+                                    : chords[j].index - chords[i].index;
+      const bool neighbours = apart == 1 || (course.file.closed && apart == chords.size() - 1);
+      if (!neighbours && crosses(chords[i], chords[j])) ++count;
+    }
+  }
+  return count;
+}
+
+}  // namespace judge

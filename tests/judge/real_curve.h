@@ -1,0 +1,138 @@
+// SPDX-License-Identifier: Apache-2.0
+// Curves in long double: quick evaluation, nearest points. What they find is decided elsewhere.
+#pragma once
+
+#include <cmath>
+#include <cstddef>
+#include <variant>
+#include <vector>
+
+#include "ball.h"
+#include "pieces.h"
+
+namespace judge {
+
+struct Vec {
+  Real x = 0.0L, y = 0.0L;
+};
+inline Vec operator+(Vec a, Vec b) { return {a.x + b.x, a.y + b.y}; }
+inline Vec operator-(Vec a, Vec b) { return {a.x - b.x, a.y - b.y}; }
+inline Vec operator*(Real k, Vec a) { return {k * a.x, k * a.y}; }
+inline Real dot(Vec a, Vec b) { return a.x * b.x + a.y * b.y; }
+inline Real cross(Vec a, Vec b) { return a.x * b.y - a.y * b.x; }
+inline Real norm(Vec a) { return std::hypot(a.x, a.y); }
+inline Vec unit_at(Real theta) { return {std::cos(theta), std::sin(theta)}; }
+inline Vec left_of(Vec a) { return {-a.y, a.x}; }
+/// A point seen from an origin.
+inline Vec seen(Point p, Point origin) {
+  return {static_cast<Real>(p.x) - origin.x, static_cast<Real>(p.y) - origin.y};
+}
+
+/// Point with its first two derivatives by the parameter.
+struct Jet {
+  Vec p, d, dd;
+
+  [[nodiscard]] Real kappa() const {
+    const Real speed = norm(d);
+    return cross(d, dd) / (speed * speed * speed);
+  }
+};
+
+/// Line, arc or clothoid.
+struct SpiralForm {
+  Vec start;
+  Real theta0 = 0.0L, kappa0 = 0.0L, kappa1 = 0.0L, length = 0.0L;
+  std::vector<Vec> panel;  ///< chord vector up to each panel
+};
+struct RationalForm {
+  std::vector<Vec> numerator;  ///< times binomial and weight
+  std::vector<Real> weight;    ///< times binomial
+};
+
+/// One piece over t in [0, 1], seen from an origin.
+class Span {
+ public:
+  Span(const Piece& piece, Point origin);
+  /// A rational Bezier span, control points as seen.
+  Span(std::vector<Vec> points, std::vector<Real> weights);
+  /// A circle arc (or a line for kappa = 0).
+  Span(Vec start, Real theta0, Real kappa, Real length);
+
+  [[nodiscard]] Jet at(Real t) const;
+  [[nodiscard]] Vec point(Real t) const { return at(t).p; }
+  /// Angle that the tangent turns over the whole span, unwrapped.
+  [[nodiscard]] Real turning() const;
+
+ private:
+  
+  std::variant<SpiralForm, RationalForm> form_;
+};
+
+/// Place on a path: span and parameter.
+struct Place {
+  std::size_t span = 0;
+  Real t = 0.0L;
+  Real distance = 0.0L;
+
+  [[nodiscard]] Real order() const { return static_cast<Real>(span) + t; }
+};
+
+/// Spans one after the other, for nearest points.
+class Path {
+ public:
+  explicit Path(std::vector<Span> spans, int places_per_span = 8);
+  [[nodiscard]] const std::vector<Span>& spans() const { return spans_; }
+  /// Nearest place between two orders (span + t).
+  [[nodiscard]] Place nearest(Vec p, Real from, Real to) const;
+  [[nodiscard]] Place nearest(Vec p) const {
+    return nearest(p, 0.0L, static_cast<Real>(spans_.size()));
+  }
+  [[nodiscard]] Vec at(Real order) const;
+  [[nodiscard]] Real end() const { return static_cast<Real>(spans_.size()); }
+
+ private:
+  [[nodiscard]] Place refined(Vec p, Real from, Real to) const;
+
+  std::vector<Span> spans_;
+  int per_span_;
+  std::vector<Vec> places_;
+};
+
+/// Largest value of f on [from, to]: the best of equal steps, then golden sections around it.
+template <class F>
+Real largest_place(const F& f, Real from, Real to, int steps) {
+  int best = 0;
+  Real most = f(from);
+  for (int i = 1; i <= steps; ++i) {
+    const Real value = f(from + (to - from) * i / steps);
+    if (value > most) {
+      most = value;
+      best = i;
+    }
+  }
+  constexpr Real kGolden = 0.6180339887498948482L;
+  Real low = from + (to - from) * std::max(0, best - 1) / steps;
+  Real high = from + (to - from) * std::min(steps, best + 1) / steps;
+  Real a = high - kGolden * (high - low), b = low + kGolden * (high - low);
+  Real fa = f(a), fb = f(b);
+  constexpr int kSections = 44;  // 0.618^44 = 6e-10 of a step: the value is flat there
+  for (int i = 0; i < kSections; ++i) {
+    if (fa < fb) {
+      low = a;
+      a = b;
+      fa = fb;
+      b = low + kGolden * (high - low);
+      fb = f(b);
+    } else {
+      high = b;
+      b = a;
+      fb = fa;
+      a = high - kGolden * (high - low);
+      fa = f(a);
+    }
+  }
+  const Real middle = 0.5L * (low + high), first = from + (to - from) * best / steps;
+  return f(middle) >= most ? middle : first;
+}
+
+}  // namespace judge

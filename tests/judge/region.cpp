@@ -1,0 +1,213 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "region.h"
+
+#include <algorithm>
+#include <array>
+#include <numbers>
+
+namespace judge {
+namespace {
+
+constexpr Real kPi = std::numbers::pi_v<Real>;
+/// Rounding of long double, with a reserve, relative to terms that cancel.
+constexpr Real kRounding = 1e-17L;
+
+Real wrapped(Real angle) { return std::remainder(angle, 2.0L * kPi); }
+
+/// Angle in the sense of the curvature, between -2 pi and 2 pi.
+Real in_sense_of(Real kappa, Real turn) {
+  const Real w = wrapped(turn);
+  if (std::abs(w) < 1e-9L || w * kappa >= 0.0L) return w;
+  return w + (kappa > 0.0L ? 2.0L * kPi : -2.0L * kPi);
+}
+
+/// Chord vector of an arc that turns by `turn` from heading `theta`.
+Vec arc_vector(Real theta, Real kappa, Real turn) {
+  return (2.0L * std::sin(0.5L * turn) / kappa) * unit_at(theta + 0.5L * turn);
+}
+
+/// In half chords a = k0 h/2, b = k1 h/2: closing the chord gives the heading at the joint,
+/// (b - a) e^{i theta} = 2 i a b + b e^{i alpha} - a e^{i beta}.
+Biarc closing(Real h, Real alpha, Real beta, Real k0, Real k1) {
+  const Real a = 0.5L * k0 * h, b = 0.5L * k1 * h;
+  Vec v = Vec{0.0L, 2.0L * a * b} + b * unit_at(alpha) - a * unit_at(beta);
+  if (b < a) v = -1.0L * v;
+  const bool circle = norm(v) <= kRounding * (std::abs(a) + std::abs(b));
+  const Real theta = circle ? alpha : std::atan2(v.y, v.x);
+  Biarc out;
+  const Vec end{h, 0.0L};
+  const Real turn0 = in_sense_of(k0, theta - alpha), turn1 = in_sense_of(k1, beta - theta);
+  Vec joint;
+  if (std::abs(k0) >= std::abs(k1)) {
+    joint = k0 == 0.0L ? end : arc_vector(alpha, k0, turn0);
+  } else {
+    joint = end - arc_vector(theta, k1, turn1);
+  }
+  out.first = {{}, joint, alpha, k0, turn0};
+  out.second = {joint, end, theta, k1, turn1};
+  return out;
+}
+
+struct Extent {
+  Real high = 0.0L, low = 0.0L;
+
+  void reach(const BoundaryArc& arc) {
+    meet(arc.start.y);
+    meet(arc.end.y);
+    // where the arc runs along or against the chord
+    for (const Real parallel : {0.0L, kPi, -kPi, 2.0L * kPi, -2.0L * kPi}) {
+      const Real turned = parallel - arc.theta;
+      const bool passed = arc.turn >= 0.0L ? turned > 0.0L && turned < arc.turn
+                                           : turned < 0.0L && turned > arc.turn;
+      if (passed && arc.kappa != 0.0L) {
+        meet(arc.start.y + arc_vector(arc.theta, arc.kappa, turned).y);
+      }
+    }
+  }
+  void meet(Real y) {
+    high = std::max(high, y);
+    low = std::min(low, y);
+  }
+};
+
+bool is_graph(const Biarc& b) {
+  for (const BoundaryArc* arc : {&b.first, &b.second}) {
+    for (const Real theta : {arc->theta, arc->theta + arc->turn}) {
+      if (!(std::abs(theta) < 0.5L * kPi)) return false;
+    }
+  }
+  return b.first.end.x >= 0.0L && b.first.end.x <= b.second.end.x;
+}
+
+/// Ordinate over the chord of a boundary that is a graph.
+Real ordinate(const Biarc& b, Real x) {
+  const auto arc = [](Real sine, Real kappa, Real run) {
+    const Real after = sine + kappa * run;
+    const Real c0 = std::sqrt(std::max(0.0L, 1.0L - sine * sine));
+    const Real c1 = std::sqrt(std::max(0.0L, 1.0L - after * after));
+    return run * (sine + after) / (c0 + c1);
+  };
+  if (x <= b.first.end.x) return arc(std::sin(b.first.theta), b.first.kappa, x);
+  const Real last = b.second.theta + b.second.turn;
+  return arc(std::sin(last), b.second.kappa, x - b.second.end.x);
+}
+
+Real largest_gap(const Biarc& a, const Biarc& b) {
+  std::array<Real, 4> stops = {0.0L, a.first.end.x, b.first.end.x, a.second.end.x};
+  std::sort(stops.begin(), stops.end());
+  const auto gap = [&](Real x) { return std::abs(ordinate(a, x) - ordinate(b, x)); };
+  Real most = 0.0L;
+  for (std::size_t i = 0; i + 1 < stops.size(); ++i) {
+    if (!(stops[i + 1] > stops[i])) continue;
+    most = std::max(most, gap(largest_place(gap, stops[i], stops[i + 1], 4)));
+  }
+  return most;
+}
+
+}  // namespace
+
+Real BoundaryArc::distance(Vec p) const {
+  const Vec from_start = p - start, from_end = p - end;
+  const Real ends = std::min(norm(from_start), norm(from_end));
+  const Vec tangent = unit_at(theta);
+  // left_of(tangent) points to the centre; this is kappa (p - centre)
+  const Vec radius = kappa * from_start - left_of(tangent);
+  const Vec along = left_of(radius);  // tangent of the circle abreast of p
+  constexpr Real kGentle = 1e-3L;
+  bool abreast = false;
+  if (std::abs(turn) < kGentle) {
+    abreast = dot(from_start, tangent) >= 0.0L && dot(from_end, unit_at(theta + turn)) <= 0.0L;
+  } else {
+    Real passed = std::atan2(cross(tangent, along), dot(tangent, along));
+    if (turn > 0.0L && passed < 0.0L) passed += 2.0L * kPi;
+    if (turn < 0.0L && passed > 0.0L) passed -= 2.0L * kPi;
+    abreast = std::abs(passed) <= std::abs(turn);
+  }
+  if (!abreast) return ends;
+  // | |p - centre| - R | without the cancellation of a large circle
+  const Real power = kappa * dot(from_start, from_start) - 2.0L * cross(tangent, from_start);
+  return std::min(ends, std::abs(power) / (norm(radius) + 1.0L));
+}
+
+std::optional<Region> Region::of(const Element& from, const Element& to, int direction) {
+  Region out;
+  const Vec chord = to.point - from.point;
+  out.h_ = norm(chord);
+  if (!(out.h_ > 0.0L)) return std::nullopt;
+  out.origin_ = from.point;
+  out.along_ = (1.0L / out.h_) * chord;
+  const Real d = direction, omega = std::atan2(chord.y, chord.x), half = 0.5L * out.h_;
+  // for increasing curvature; the other case is the mirror image
+  const Real alpha = d * wrapped(from.theta - omega), beta = d * wrapped(to.theta - omega);
+  const Real k0 = d * from.kappa, k1 = d * to.kappa;
+  const Real square = std::pow(std::sin(0.5L * (alpha + beta)), 2);
+  Real a = k0 * half + std::sin(alpha), b = k1 * half - std::sin(beta);
+  const Real noise_a = kRounding * (std::abs(k0 * half) + std::abs(std::sin(alpha)));
+  const Real noise_b = kRounding * (std::abs(k1 * half) + std::abs(std::sin(beta)));
+  if (a > noise_a || b < -noise_b) return std::nullopt;
+  const Real slack = kRounding + noise_a + noise_b;
+  if (-a * b < square && std::sqrt(square) > std::sqrt(std::max(0.0L, -a * b)) + slack) {
+    return std::nullopt;
+  }
+  const bool flat_a = -a <= noise_a, flat_b = b <= noise_b;
+  const Real end_of_first = flat_a ? k1 : (std::sin(beta) + square / -a) / half;
+  const Real start_of_second = flat_b ? k0 : (-std::sin(alpha) - square / b) / half;
+  out.from_start_ = closing(out.h_, alpha, beta, k0, end_of_first);
+  out.to_end_ = closing(out.h_, alpha, beta, start_of_second, k1);
+  if (direction < 0) {  // mirror the boundaries back
+    for (Biarc* biarc : {&out.from_start_, &out.to_end_}) {
+      for (BoundaryArc* arc : {&biarc->first, &biarc->second}) {
+        arc->start.y = -arc->start.y;
+        arc->end.y = -arc->end.y;
+        arc->theta = -arc->theta;
+        arc->kappa = -arc->kappa;
+        arc->turn = -arc->turn;
+      }
+    }
+  }
+  return out;
+}
+
+Vec Region::local(Vec p) const {
+  const Vec v = p - origin_;
+  return {dot(along_, v), cross(along_, v)};
+}
+
+Real Region::farther(Vec p) const {
+  const Vec q = local(p);
+  return std::max(from_start_.distance(q), to_end_.distance(q));
+}
+
+Real Region::nearer(Vec p) const {
+  const Vec q = local(p);
+  return std::min(from_start_.distance(q), to_end_.distance(q));
+}
+
+Real Region::width() const {
+  Extent a, b;
+  for (const BoundaryArc* arc : {&from_start_.first, &from_start_.second}) a.reach(*arc);
+  for (const BoundaryArc* arc : {&to_end_.first, &to_end_.second}) b.reach(*arc);
+  const Real parallels = std::max(std::abs(a.high - b.high), std::abs(a.low - b.low));
+  if (!is_graph(from_start_) || !is_graph(to_end_)) return parallels;
+  return std::max(parallels, largest_gap(from_start_, to_end_));
+}
+
+Real Region::outside(Vec p) const {
+  if (!is_graph(from_start_) || !is_graph(to_end_)) return 0.0L;
+  const Vec q = local(p);
+  if (q.x >= 0.0L && q.x <= h_) {
+    const Real y0 = ordinate(from_start_, q.x), y1 = ordinate(to_end_, q.x);
+    if (q.y >= std::min(y0, y1) && q.y <= std::max(y0, y1)) return 0.0L;
+  }
+  return nearer(p);
+}
+
+Real between_arcs(Real k0, Real k1, Real h) {
+  const auto sag = [h](Real k) {
+    const Real half = 0.5L * k * h;
+    return 0.25L * k * h * h / (1.0L + std::sqrt(std::max(0.0L, 1.0L - half * half)));
+  };
+  return std::abs(sag(k0) - sag(k1));
+}
+
+}  // namespace judge

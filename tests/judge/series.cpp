@@ -1,0 +1,219 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "series.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace judge {
+
+std::uint64_t Dice::next() {
+  state_ += 0x9E3779B97F4A7C15ULL;
+  std::uint64_t z = state_;
+  z = (z ^ (z >> 30U)) * 0xBF58476D1CE4E5B9ULL;
+  z = (z ^ (z >> 27U)) * 0x94D049BB133111EBULL;
+  return z ^ (z >> 31U);
+}
+
+double Dice::unit() { return static_cast<double>(next() >> 11U) * 0x1p-53; }
+
+double Dice::logarithmic(double a, double b) { return std::exp(between(std::log(a), std::log(b))); }
+
+int Dice::whole(int a, int b) {
+  return a + static_cast<int>(next() % static_cast<std::uint64_t>(b - a + 1));
+}
+
+double Dice::normal() {
+  double sum = -6.0;
+  for (int i = 0; i < 12; ++i) sum += unit();
+  return sum;
+}
+
+namespace {
+
+/// Size, place, direction and sense of a shape.
+struct Motion {
+  Real scale = 1.0L, angle = 0.0L, side = 1.0L;
+  Vec offset;
+
+  [[nodiscard]] Vec of(Vec p) const {
+    const Vec q{p.x, side * p.y}, u = unit_at(angle);
+    return scale * Vec{u.x * q.x - u.y * q.y, u.y * q.x + u.x * q.y} + offset;
+  }
+};
+
+Real size_of(const std::vector<Vec>& points) {
+  Vec low = points.front(), high = low;
+  for (const Vec p : points) {
+    low = {std::min(low.x, p.x), std::min(low.y, p.y)};
+    high = {std::max(high.x, p.x), std::max(high.y, p.y)};
+  }
+  return std::max(norm(high - low), 1e-30L);
+}
+
+Motion make_motion(Dice& dice, Real shape_size) {
+  Motion out;
+  const double wanted = dice.chance(0.5) ? dice.logarithmic(1.0, 1000.0)
+                                         : dice.logarithmic(1e-9, 1e9);
+  out.scale = wanted / shape_size;
+  out.angle = dice.chance(0.3) ? 0.0L : dice.between(0.0, 6.28);
+  out.side = dice.chance(0.5) ? 1.0L : -1.0L;
+  if (dice.chance(0.15)) {
+    const double away = dice.chance(0.7) ? 1e6 : 1e9;
+    out.offset = {wanted * away * dice.unit(), wanted * away * dice.unit()};
+  }
+  return out;
+}
+
+class SeriesMaker {
+ public:
+  SeriesMaker(std::uint64_t seed, std::uint64_t index) : dice_(seed * 0x100000001B3ULL ^ index) {
+    for (int i = 0; i < 4; ++i) dice_.next();
+  }
+
+  Series run() {
+    Shape shape = make_shape(dice_);
+    const Motion motion = make_motion(dice_, size_of(shape.points));
+    std::vector<Vec> points;
+    for (const Vec p : shape.points) points.push_back(motion.of(p));
+    size_ = static_cast<double>(size_of(points));
+    out_.family = shape.family;
+    choose_options(shape);
+    if (shape.truth) move_truth(*shape.truth, motion);
+    if (dice_.chance(0.1)) disturb(points);
+    write(points);
+    out_.points = points.size();
+    fix_data(points);
+    return std::move(out_);
+  }
+
+ private:
+  void add(const std::string& option) { out_.options.push_back(option); }
+  void add(const std::string& option, const std::string& value) {
+    out_.options.push_back(option);
+    out_.options.push_back(value);
+  }
+  static std::string digits(double value) { return fmt::format("{:.17g}", value); }
+  static std::string few(double value) { return fmt::format("{:.4g}", value); }
+
+  void choose_options(const Shape& shape) {
+    static const char* kCarriers[] = {"arcs",    "conics", "beziers", "clothoids",
+                                      "bspline", "cubic",  "baseline"};
+    static const char* kUnits[] = {"mm", "m", "in", "cm", "ft", "um", "km", "yd", "mi", "usft"};
+    if (dice_.chance(0.65)) add("--carrier", kCarriers[dice_.whole(0, 6)]);
+    if (dice_.chance(0.35)) add("--units", kUnits[dice_.whole(0, 9)]);
+    if (dice_.chance(0.2)) {
+      const double part = dice_.chance(0.05) ? 1e-300 : dice_.logarithmic(1e-9, 0.1);
+      add("--tolerance", few(part * size_));
+    }
+    if (dice_.chance(0.25)) add("--noise", few(dice_.logarithmic(1e-9, 1e-2) * size_));
+    if (shape.closed ? dice_.chance(0.7) : dice_.chance(0.04)) {
+      add("--closed");
+    } else if (dice_.chance(0.05)) {
+      add("--open");
+    }
+    if (dice_.chance(0.05)) add("--convex");
+    if (dice_.chance(0.07)) add("--primitives");
+    if (dice_.chance(0.05)) add("--no-corners");
+  }
+
+  void move_truth(const Truth& truth, const Motion& motion) {
+    Truth moved = truth;
+    moved.at = [at = truth.at, motion](Real t) { return motion.of(at(t)); };
+    out_.truth = std::move(moved);
+  }
+
+  /// Noise of known size, or repeats of points.
+  void disturb(std::vector<Vec>& points) {
+    out_.truth.reset();
+    if (dice_.chance(0.3)) {
+      const auto i = static_cast<std::size_t>(dice_.whole(0, static_cast<int>(points.size()) - 1));
+      points.insert(points.begin() + static_cast<std::ptrdiff_t>(i), points[i]);
+      return;
+    }
+    const double noise = dice_.logarithmic(1e-9, 1e-3) * size_;
+    for (Vec& p : points) p = p + Vec{noise * dice_.normal(), noise * dice_.normal()};
+  }
+
+  void write(const std::vector<Vec>& points) {
+    const bool rounded = dice_.chance(0.15);
+    const int decimals = 6 - static_cast<int>(std::floor(std::log10(size_)));
+    if (rounded && decimals >= 0 && decimals < 15) {
+      if (dice_.chance(0.6)) add("--noise", "rounding");
+      out_.truth.reset();
+    }
+    const bool tolerances = dice_.chance(0.05);
+    out_.text = tolerances ? "x,y,tol\n" : "x,y\n";
+    for (const Vec p : points) {
+      const auto x = static_cast<double>(p.x), y = static_cast<double>(p.y);
+      out_.text += rounded && decimals >= 0 && decimals < 15
+                       ? fmt::format("{:.{}f},{:.{}f}", x, decimals, y, decimals)
+                       : fmt::format("{:.17g},{:.17g}", x, y);
+      if (tolerances) out_.text += "," + few(dice_.logarithmic(1e-8, 1e-3) * size_);
+      out_.text += "\n";
+    }
+  }
+
+  /// Headings and radii: of the known curve, or random and mostly contradictory.
+  void fix_data(const std::vector<Vec>& points) {
+    if (!dice_.chance(0.25) || points.size() < 2) return;
+    const bool closed = std::find(out_.options.begin(), out_.options.end(), "--closed") !=
+                        out_.options.end();
+    const auto n = static_cast<int>(points.size());
+    const int wishes = dice_.whole(1, 3);
+    for (int k = 0; k < wishes; ++k) {
+      const int kind = dice_.whole(closed ? 4 : 0, 6);
+      const int i = kind < 4 ? (kind % 2 == 0 ? 1 : n) : dice_.whole(1, n);
+      const bool honest = out_.truth.has_value() && dice_.chance(0.7);
+      const auto [heading, kappa] = honest ? true_data(i) : random_data(points, i);
+      const std::string radius = kappa == 0.0 ? "inf" : digits(1.0 / kappa);
+      if (kind == 0) add("--start-heading=" + digits(heading));
+      if (kind == 1) add("--end-heading=" + digits(heading));
+      if (kind == 2) add("--start-radius=" + radius);
+      if (kind == 3) add("--end-radius=" + radius);
+      if (kind == 4) add(fmt::format("--heading-at={}={}", i, digits(heading)));
+      if (kind == 5) add(fmt::format("--radius-at={}={}", i, radius));
+      if (kind == 6) add(fmt::format("--kappa-at={}={}", i, digits(kappa)));
+    }
+  }
+
+  struct Data {
+    double heading_deg, kappa;
+  };
+  /// By differences of the known curve, seven digits or so: as a user would have them.
+  [[nodiscard]] Data true_data(int i) const {
+    const Truth& truth = *out_.truth;
+    const std::vector<Real>& t = truth.parameters;
+    const auto at = static_cast<std::size_t>(i - 1);
+    const Real step = 1e-4L * (t.back() - t.front()) / static_cast<Real>(t.size());
+    const Vec a = truth.at(t[at] - step), b = truth.at(t[at]), c = truth.at(t[at] + step);
+    const Vec along = c - a;
+    const Real kappa = 2.0L * cross(b - a, c - b) / (norm(b - a) * norm(c - b) * norm(along));
+    return {static_cast<double>(std::atan2(along.y, along.x) * 180.0L / std::numbers::pi_v<Real>),
+            std::stod(few(static_cast<double>(kappa)))};
+  }
+  Data random_data(const std::vector<Vec>& points, int i) {
+    const auto at = static_cast<std::size_t>(i - 1);
+    const Vec chord = at + 1 < points.size() ? points[at + 1] - points[at]
+                                             : points[at] - points[at - 1];
+    const double along = static_cast<double>(std::atan2(chord.y, chord.x)) * 180.0 /
+                         std::numbers::pi;
+    const double kappa = dice_.chance(0.3) ? 0.0 : dice_.normal() * 4.0 / size_;
+    return {along + (dice_.chance(0.6) ? 5.0 * dice_.normal() : dice_.between(-180.0, 180.0)),
+            kappa};
+  }
+
+  Dice dice_;
+  Series out_;
+  double size_ = 1.0;
+};
+
+}  // namespace
+
+Series make_series(std::uint64_t seed, std::uint64_t index) {
+  return SeriesMaker(seed, index).run();
+}
+
+}  // namespace judge

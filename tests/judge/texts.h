@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: Apache-2.0
+// The printed reports: every sentence that has a figure is compared with the file it speaks of.
+#pragma once
+
+#include <map>
+#include <string>
+#include <vector>
+
+#include "course.h"
+#include "drawing.h"
+#include "input.h"
+#include "sheet.h"
+
+namespace judge {
+
+/// One run of the program, and what it left.
+struct Run {
+  std::string command;  ///< "fit", "verify", ...
+  int code = 0;
+  std::string out, err;
+  std::map<std::string, std::string> files;  ///< written, by name
+  std::string input_name;
+};
+
+void check_fit_text(const Course& course, const Run& run, Sheet& sheet);
+/// `fit --json` against the file.
+void check_fit_json(const Course& course, const Run& run, Sheet& sheet);
+void check_verify_text(const Course& course, const Run& run, Sheet& sheet);
+/// The exit code against the file; without a file the texts of a refusal.
+void check_exit(const Course* course, const Run& run, Sheet& sheet);
+/// Files of other formats against the contour; `note` is what the report says of the file.
+void check_export(const Course& course, const std::string& file, const std::string& text,
+                  const std::vector<std::string>& notes, Sheet& sheet);
+
+void check_analyse(const Input& input, const Run& json, const Run& text, Sheet& sheet);
+/// `compare --json` and its table; `fits` are contours that `fit --carrier` made.
+void check_compare(const Run& json, const Run& text, const Course& fit, Sheet& sheet);
+
+}  // namespace judge

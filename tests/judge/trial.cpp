@@ -1,0 +1,306 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "trial.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <ctime>
+#include <filesystem>
+#include <optional>
+
+#include "checks.h"
+#include "process.h"
+#include "sentences.h"
+#include "series.h"
+#include "texts.h"
+
+namespace judge {
+namespace {
+
+/// Processor time of this thread: what judging costs, programs that it runs left out.
+double own_seconds() {
+  timespec t{};
+  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &t);
+  return static_cast<double>(t.tv_sec) + 1e-9 * static_cast<double>(t.tv_nsec);
+}
+
+constexpr const char* kPoints = "points.csv";
+
+class Work {
+ public:
+  Work(const TrialOptions& options, std::uint64_t index)
+      : options_(options),
+        series_(make_series(options.seed, index)),
+        dice_(options.seed * 31 + index * 7 + 1) {
+    out_.index = index;
+    out_.family = series_.family;
+    out_.points = series_.points;
+  }
+
+  Trial run() {
+    std::filesystem::remove_all(options_.folder);
+    std::filesystem::create_directories(options_.folder);
+    write_file(path(kPoints), series_.text);
+    Input input = read_input(series_.text, series_.options);
+    input.truth = series_.truth;
+    const Run fit = program("fit", fit_words());
+    if (stopped_) return std::move(out_);
+    const double start = own_seconds();
+    const std::string stored = text_of_file(path("c.json"));
+    if (stored.empty()) {
+      refusal(fit);
+    } else {
+      contour(stored, fit, input);
+    }
+    if (!stopped_ && dice_.chance(0.2)) analyse(input);
+    out_.judge_seconds = own_seconds() - start;
+    if (!stopped_) classify(stored.empty());
+    return std::move(out_);
+  }
+
+ private:
+  [[nodiscard]] std::string path(const std::string& name) const {
+    return options_.folder + "/" + name;
+  }
+
+  std::vector<std::string> fit_words() {
+    std::vector<std::string> words{"fit", kPoints};
+    words.insert(words.end(), series_.options.begin(), series_.options.end());
+    words.insert(words.end(), {"-o", "c.json"});
+    for (const char* other : {"c.step", "c.nc", "c.dxf"}) {
+      if (!dice_.chance(0.1)) continue;
+      words.insert(words.end(), {"-o", other});
+      exports_.emplace_back(other);
+    }
+    return words;
+  }
+
+  Run program(const std::string& command, std::vector<std::string> words) {
+    words.insert(words.begin(), options_.obvid);
+    const Finished done = run_program(words, options_.folder, options_.limit);
+    out_.program_seconds += done.seconds;
+    out_.slowest = std::max(out_.slowest, done.seconds);
+    if (out_.command.empty()) {
+      for (std::size_t i = 1; i < words.size(); ++i) out_.command += (i > 1 ? " " : "") + words[i];
+    }
+    std::string line;
+    for (std::size_t i = 1; i < words.size(); ++i) line += words[i] + " ";
+    if (done.out_of_time) {
+      stop(Trial::Outcome::kTimeout, "time limit", line, fmt::format("{:.1f} s", done.seconds));
+    } else if (done.signal != 0 || done.code < 0 || done.code > 5 || done.code == 1) {
+      stop(Trial::Outcome::kCrash, "crash", line,
+           fmt::format("exit {}, signal {}: {}", done.code, done.signal, done.err.substr(0, 200)));
+    }
+    Run run;
+    run.command = command;
+    run.code = done.code;
+    run.out = done.out;
+    run.err = done.err;
+    run.input_name = kPoints;
+    return run;
+  }
+
+  void stop(Trial::Outcome outcome, const std::string& claim, const std::string& line,
+            const std::string& found) {
+    if (!stopped_) out_.outcome = outcome;
+    stopped_ = true;
+    out_.sheet.fails(claim, line, found, "");
+  }
+
+  void contour(const std::string& stored, const Run& fit, const Input& input) {
+    const ReadContour read = read_contour(stored);
+    if (!read.fault.empty()) {
+      out_.sheet.fails("file", "a contour file", read.fault, "c.json");
+      return;
+    }
+    const Course course(read.contour);
+    Sheet& sheet = out_.sheet;
+    check_form(course, sheet);
+    check_certificate(course, sheet);
+    check_report(course, sheet);
+    check_input(course, input, sheet);
+    check_truth(course, input, sheet);
+    check_fit_text(course, fit, sheet);
+    check_exit(&course, fit, sheet);
+    exports(course, fit);
+    others(course);
+  }
+
+  static std::vector<std::string> notes_of(const std::string& out, const std::string& file) {
+    std::vector<std::string> notes;
+    for (const std::string& line : lines_of(out)) {
+      std::string value = line;
+      if (const auto fact = fact_of(line); fact && fact->label == "note") value = fact->value;
+      if (value.starts_with(file + ": ")) notes.push_back(value.substr(file.size() + 2));
+    }
+    return notes;
+  }
+
+  void exports(const Course& course, const Run& fit) {
+    for (const std::string& file : exports_) {
+      const std::string text = text_of_file(path(file));
+      if (text.empty()) {
+        out_.sheet.fails("export", file, "not written", fit.err.substr(0, 200));
+        continue;
+      }
+      check_export(course, file, text, notes_of(fit.out, file), out_.sheet);
+    }
+  }
+
+  void others(const Course& course) {
+    if (dice_.chance(0.5)) {
+      const Run verify = program("verify", {"verify", "c.json"});
+      if (stopped_) return;
+      check_verify_text(course, verify, out_.sheet);
+    }
+    if (dice_.chance(0.2)) {
+      std::vector<std::string> words{"fit", kPoints, "--json"};
+      words.insert(words.end(), series_.options.begin(), series_.options.end());
+      const Run json = program("fit --json", words);
+      if (stopped_) return;
+      check_fit_json(course, json, out_.sheet);
+    }
+    if (dice_.chance(0.05) && series_.points < 60) compare(course);
+    if (!stopped_ && dice_.chance(0.1)) convert(course);
+  }
+
+  void compare(const Course& course) {
+    std::vector<std::string> words{"compare", kPoints};
+    for (std::size_t i = 0; i < series_.options.size(); ++i) {
+      if (series_.options[i] == "--carrier") {
+        ++i;
+      } else if (series_.options[i] != "--primitives") {
+        words.push_back(series_.options[i]);
+      } else {
+        return;  // compare has no such option
+      }
+    }
+    const Run text = program("compare", words);
+    if (stopped_) return;
+    words.emplace_back("--json");
+    const Run json = program("compare --json", words);
+    if (stopped_ || json.code != 0) return;
+    check_compare(json, text, course, out_.sheet);
+  }
+
+  /// To another format, and back to a contour.
+  void convert(const Course& course) {
+    static const char* kOthers[] = {"d.step", "d.dxf", "d.nc", "d.json"};
+    const std::string other = kOthers[dice_.whole(0, 3)];
+    const Run there = program("convert", {"convert", "c.json", "-o", other});
+    if (stopped_) return;
+    if (there.code != 0) {
+      out_.sheet.unjudged("convert", fmt::format("exit {}", there.code), there.err.substr(0, 160));
+      return;
+    }
+    const std::string text = text_of_file(path(other));
+    if (other == "d.json") return back(course, text, 0.0);
+    check_export(course, other, text, notes_of(there.out, other), out_.sheet);
+    if (other == "d.nc") return;
+    const bool approximate = there.out.find("follows them") != std::string::npos ||
+                             there.out.find("at most") != std::string::npos;
+    const Run again = program("convert", {"convert", other, "-o", "e.json"});
+    if (stopped_ || approximate) return;
+    if (again.code != 0) {
+      out_.sheet.fails("convert back", other, fmt::format("exit {}", again.code),
+                       again.err.substr(0, 200));
+      return;
+    }
+    back(course, text_of_file(path("e.json")), 1e-9);
+  }
+
+  void back(const Course& course, const std::string& text, double part) {
+    const ReadContour read = read_contour(text);
+    if (!read.fault.empty()) {
+      out_.sheet.fails("convert back", "a contour", read.fault, "");
+      return;
+    }
+    const auto mine = metres_of(course.file.units), other = metres_of(read.contour.units);
+    if (mine && other && *mine != *other) {
+      out_.sheet.unjudged("convert back", "comes back in " + read.contour.units);
+      return;
+    }
+    std::vector<Span> spans;
+    for (const Piece& piece : read.contour.pieces) spans.emplace_back(piece, course.origin);
+    if (spans.empty()) return out_.sheet.fails("convert back", "a curve", "no pieces", "");
+    const Path path(std::move(spans));
+    const Real limit = static_cast<Real>(part) * course.ends.size +
+                       4e-15L * course.ends.coordinate + course.resolution() * 1e-3L;
+    Real most = 0.0L;
+    const int count = 200;
+    for (int k = 0; k <= count; ++k) {
+      const Vec p = course.path.at(course.path.end() * k / count);
+      most = std::max(most, path.nearest(p).distance);
+    }
+    out_.sheet.expect(most <= limit, "convert back", limit, most, "farthest place");
+  }
+
+  void analyse(const Input& input) {
+    const Run text = program("analyse", {"analyse", kPoints, "--units", input.units});
+    if (stopped_ || text.code != 0) return;
+    const Run json = program("analyse --json", {"analyse", kPoints, "--json"});
+    if (stopped_ || json.code != 0) return;
+    check_analyse(input, json, text, out_.sheet);
+  }
+
+  void refusal(const Run& fit) {
+    check_exit(nullptr, fit, out_.sheet);
+    const std::string within = "within a tolerance of ";
+    const std::size_t at = fit.err.find(within);
+    if (at == std::string::npos || !dice_.chance(0.25)) return;
+    const std::string tolerance =
+        fit.err.substr(at + within.size(), fit.err.find(' ', at + within.size()) - at - within.size());
+    std::vector<std::string> words{"fit", kPoints, "--quiet"};
+    for (std::size_t i = 0; i < series_.options.size(); ++i) {
+      if (series_.options[i] == "--noise") {
+        ++i;
+      } else {
+        words.push_back(series_.options[i]);
+      }
+    }
+    words.insert(words.end(), {"--noise", tolerance});
+    const Run again = program("fit", words);
+    if (stopped_) return;
+    out_.sheet.expect(again.code == 0, "refusal: within a tolerance there is one", tolerance,
+                      fmt::format("exit {}: {}", again.code, again.err.substr(0, 200)), "");
+  }
+
+  void classify(bool refused) {
+    if (out_.sheet.wrong() > 0) {
+      out_.outcome = refused && out_.sheet.has("exit code") ? Trial::Outcome::kBadRefusal
+                                                            : Trial::Outcome::kFalse;
+    } else if (refused) {
+      out_.outcome = Trial::Outcome::kRefused;
+    }
+  }
+
+  const TrialOptions& options_;
+  Series series_;
+  Dice dice_;
+  Trial out_;
+  std::vector<std::string> exports_;
+  bool stopped_ = false;
+};
+
+}  // namespace
+
+const char* name_of(Trial::Outcome outcome) {
+  constexpr const char* kNames[] = {"fine",    "false sentence", "crash",
+                                    "timeout", "refused",        "refused without reason"};
+  return kNames[static_cast<int>(outcome)];
+}
+
+Trial run_trial(const TrialOptions& options, std::uint64_t index) {
+  return Work(options, index).run();
+}
+
+void judge_contour(const std::string& text, Sheet& sheet) {
+  const ReadContour read = read_contour(text);
+  if (!read.fault.empty()) return sheet.fails("file", "a contour file", read.fault, "");
+  const Course course(read.contour);
+  check_form(course, sheet);
+  check_certificate(course, sheet);
+  check_report(course, sheet);
+}
+
+}  // namespace judge
