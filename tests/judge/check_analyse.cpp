@@ -136,7 +136,8 @@ class AnalyseCheck {
                   stated, changes(certain), "changes of sign of the adjacent circles");
     Real most = 0.0L;
     for (const Real t : turning_) most = std::max(most, std::abs(t));
-    near("analyse largest turning", figure(json, "largest_turning"), most, 1e-6L * most + 1e-9L, "");
+    near("analyse largest turning", figure(json, "largest_turning"), most, 1e-6L * most + 1e-9L,
+         "");
   }
 
   void printed(const std::string& what, const std::string& text, std::optional<double> value) {
@@ -243,12 +244,11 @@ void check_compare(const Run& json, const Run& text, const Course& fit, Sheet& s
   } else {
     const auto same = [&](const char* name, std::optional<double> mine) {
       const Figure stated = figure(row, name);
-      const bool ok = stated.value == mine ||
-                      (stated.known() && mine &&
-                       std::abs(*stated.value - *mine) <= 1e-9 * std::abs(*mine));
-      sheet.expect(ok, std::string("compare ") + name,
-                   stated.known() ? shown(*stated.value) : "-", mine ? shown(*mine) : "-",
-                   file.carrier + ": what fit --carrier says");
+      const bool ok =
+          stated.value == mine ||
+          (stated.known() && mine && std::abs(*stated.value - *mine) <= 1e-9 * std::abs(*mine));
+      sheet.expect(ok, std::string("compare ") + name, stated.known() ? shown(*stated.value) : "-",
+                   mine ? shown(*mine) : "-", file.carrier + ": what fit --carrier says");
     };
     same("pieces", static_cast<double>(file.pieces.size()));
     same("vertices", figure(file.certificate, "vertices").value);

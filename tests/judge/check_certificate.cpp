@@ -167,8 +167,7 @@ void check_region_flag(const Course& course, Sheet& sheet) {
     for (std::size_t k = 0; k + 1 < part.cuts.size(); ++k) {
       const Real a = part.cuts[k], b = part.cuts[k + 1];
       if (course.monotone(a, b) && course.turning(a, b) < std::numbers::pi_v<Real>) continue;
-      const std::string where =
-          fmt::format("points {}-{}", part.from_point + 1, part.to_point + 1);
+      const std::string where = fmt::format("points {}-{}", part.from_point + 1, part.to_point + 1);
       const Real out = outside_region(course, a, b);
       if (out > course.resolution() + 1e-9L * course.ends.size) {
         return sheet.fails(claim, "true", fmt::format("outside by {:.3Lg}", out), where);
@@ -217,8 +216,8 @@ void check_crossings(const Course& course, Sheet& sheet) {
   const auto found = count_crossings(course);
   if (!found) return sheet.unjudged(claim, "too many pieces");
   if (stated.value == *found) return sheet.holds(claim);
-  sheet.unjudged(claim, fmt::format("stated {}, polylines cross {} times",
-                                    stated.value.value_or(-1), *found));
+  sheet.unjudged(
+      claim, fmt::format("stated {}, polylines cross {} times", stated.value.value_or(-1), *found));
 }
 
 /// proved = every other claim of the certificate.
@@ -228,8 +227,8 @@ void check_proved(const Course& course, const Gaps& gaps, Sheet& sheet) {
   const auto stated = flag(certificate, "proved");
   if (!stated) return sheet.missing(claim);
   if (!*stated) {
-    sheet.expect(!text_of(certificate, "reason").empty(), "certificate.reason",
-                 std::string("none"), std::string("not proved without a reason"), "");
+    sheet.expect(!text_of(certificate, "reason").empty(), "certificate.reason", std::string("none"),
+                 std::string("not proved without a reason"), "");
     return sheet.holds(claim);
   }
   for (const char* name : {"gaps_within_bounds", "inside_region", "through_points"}) {

@@ -11,9 +11,9 @@
 namespace judge {
 namespace {
 
-constexpr Real kExact = 1e-9L;             // of the size (formats: STEP)
-constexpr Real kPrintedDigits = 4e-15L;    // of the coordinate: 15 digits and more are printed
-constexpr double kRadiusMismatch = 5e-4;   // mm (formats: G-code)
+constexpr Real kExact = 1e-9L;            // of the size (formats: STEP)
+constexpr Real kPrintedDigits = 4e-15L;   // of the coordinate: 15 digits and more are printed
+constexpr double kRadiusMismatch = 5e-4;  // mm (formats: G-code)
 constexpr Real kPlacesPerPiece = 6.0L;
 
 struct Farthest {

@@ -36,10 +36,10 @@ void check_carrier(const ContourFile& file, Sheet& sheet) {
   for (std::size_t i = 0; i < file.pieces.size(); ++i) {
     if (fits(file.carrier, file.pieces[i])) continue;
     const auto* b = std::get_if<Bezier>(&file.pieces[i]);
-    return sheet.fails("carrier", file.carrier,
-                       b == nullptr ? type_name(file.pieces[i])
-                                    : fmt::format("bezier of degree {}", b->degree()),
-                       fmt::format("piece {}", i));
+    return sheet.fails(
+        "carrier", file.carrier,
+        b == nullptr ? type_name(file.pieces[i]) : fmt::format("bezier of degree {}", b->degree()),
+        fmt::format("piece {}", i));
   }
   sheet.holds("carrier");
 }
@@ -86,7 +86,8 @@ void check_runs(const Course& course, Sheet& sheet) {
         changes = true;
         if (sign != run.direction) {
           return sheet.fails("runs", fmt::format("direction {}", run.direction),
-                             fmt::format("direction {}", sign), fmt::format("{}, piece {}", where, i));
+                             fmt::format("direction {}", sign),
+                             fmt::format("{}, piece {}", where, i));
         }
       }
       if (law.decided && !law.one_way()) {
@@ -178,14 +179,16 @@ void check_sizes(const Course& course, Sheet& sheet) {
         b == nullptr ? 0.0 : std::max(std::abs(b->origin.x), std::abs(b->origin.y));
     const bool far = origin > 4.0 * (course.ends.coordinate + course.ends.size);
     if (std::abs(theta) <= kMostHeading && !far) continue;
-    return sheet.fails("pieces.sizes", far ? fmt::format("origin {:.3g}", origin)
-                                           : fmt::format("theta0 {:.3g}", theta),
-                       "its rounding hides gaps", fmt::format("piece {}", i));
+    return sheet.fails(
+        "pieces.sizes",
+        far ? fmt::format("origin {:.3g}", origin) : fmt::format("theta0 {:.3g}", theta),
+        "its rounding hides gaps", fmt::format("piece {}", i));
   }
   sheet.holds("pieces.sizes");
 }
 
-/// Elements that name a point stand on it, or as near as its tolerance; all points are met in order.
+/// Elements that name a point stand on it, or as near as its tolerance; all points are met in
+/// order.
 void check_points_met(const Course& course, Sheet& sheet) {
   const ContourFile& file = course.file;
   const std::string fault = missed_point(course);

@@ -59,8 +59,8 @@ class ReportCheck {
     if (points.is_array() && points.size() == 2) {
       sheet_.expect(points[0].number == static_cast<double>(part.from_point) &&
                         points[1].number == static_cast<double>(part.to_point),
-                    "segments.points", fmt::format("[{},{}]", points[0].number, points[1].number), fmt::format("[{},{}]", part.from_point, part.to_point),
-                    where(part));
+                    "segments.points", fmt::format("[{},{}]", points[0].number, points[1].number),
+                    fmt::format("[{},{}]", part.from_point, part.to_point), where(part));
     } else {
       sheet_.missing("segments.points", where(part));
     }
@@ -76,8 +76,8 @@ class ReportCheck {
     if (!stated.known()) return sheet_.missing("segments.chord", where(part));
     const Real found = norm(course_.path.at(part.to) - course_.path.at(part.from));
     const Real off = std::abs(static_cast<Real>(*stated.value) - found);
-    const Real slack = file_.joint(0) != nullptr && part.from == std::floor(part.from) ? kSame
-                                                                                     : 1e-5L;
+    const Real slack =
+        file_.joint(0) != nullptr && part.from == std::floor(part.from) ? kSame : 1e-5L;
     sheet_.expect(off <= slack * found + course_.resolution(), "segments.chord", *stated.value,
                   found, where(part));
   }

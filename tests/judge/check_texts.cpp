@@ -12,9 +12,7 @@ namespace judge {
 namespace {
 
 /// What is printed without being a claim, or is history that nobody can check.
-bool is_idle(const Fact& fact) {
-  return fact.label == "time" || fact.label == "written";
-}
+bool is_idle(const Fact& fact) { return fact.label == "time" || fact.label == "written"; }
 
 bool has_figure(const Sentence& sentence) {
   return std::any_of(sentence.figures.begin(), sentence.figures.end(),
@@ -71,8 +69,7 @@ class TextCheck {
            std::optional<double> value) {
     sheet_.expect(ok, "text: " + what, printed, value ? shown(*value) : std::string("-"), "");
   }
-  void figure_is(const std::string& what, const std::string& printed,
-                 std::optional<double> value) {
+  void figure_is(const std::string& what, const std::string& printed, std::optional<double> value) {
     say(prints(printed, value), what, printed, value);
   }
   void count_is(const std::string& what, const Sentence& s, std::size_t i, double value) {
@@ -95,24 +92,40 @@ class TextCheck {
     if (words.size() != 8 || !same_words(head, kHead)) {
       return sheet_.unjudged("text: table", "columns: " + head);
     }
-    const std::size_t k = std::strtoul(words[0].c_str(), nullptr, 10) - 1;
     const Json& rows = member(report_, "segments");
-    if (!rows.is_array() || k >= rows.size()) {
+    if (rows.size() != course_.parts.size()) {
+      return sheet_.unjudged("text: table", "rows do not lead from point to point");
+    }
+    const std::size_t k = row_of(words[0]);
+    if (k == course_.parts.size()) {
       return sheet_.fails("text: table", words[0], "no such row", "");
     }
     figure_is("table chord", words[1], figure(rows[k], "chord").value);
     figure_is("table points-only error", words[2], figure(rows[k], "points_only_error").value);
     figure_is("table width", words[3], figure(rows[k], "width").value);
     figure_is("table inserted", words[4], figure(rows[k], "inserted").value);
-    if (k >= course_.parts.size() || rows.size() != course_.parts.size()) return;
     const Part& part = course_.parts[k];
     const bool joints = part.from == std::floor(part.from) && part.to == std::floor(part.to);
     if (words[5] != "-") {
-      say(joints && std::strtod(words[5].c_str(), nullptr) == static_cast<double>(part.to - part.from),
+      say(joints &&
+              std::strtod(words[5].c_str(), nullptr) == static_cast<double>(part.to - part.from),
           "table pieces", words[5], static_cast<double>(part.to - part.from));
     }
     radius(words[6], part.from);
     radius(words[7], part.to);
+  }
+  /// The part that leads between the points of a row's name.
+  [[nodiscard]] std::size_t row_of(const std::string& name) const {
+    for (std::size_t k = 0; k < course_.parts.size(); ++k) {
+      const Part& part = course_.parts[k];
+      if (name == fmt::format("{}-{}", part.from_point + 1, part.to_point + 1)) return k;
+      // the last chord of a closed series goes on counting
+      if (part.to_point == 0 &&
+          name == fmt::format("{}-{}", part.from_point + 1, part.from_point + 2)) {
+        return k;
+      }
+    }
+    return course_.parts.size();
   }
   static bool same_words(const std::string& a, const std::string& b) {
     std::vector<std::string> x = words_of(a), y = words_of(b);
@@ -230,12 +243,8 @@ class TextCheck {
       return k < course_.parts.size() &&
              s.number(1) == static_cast<double>(course_.parts[k].from_point + 1);
     });
-    // rows that are equal to the digits shown may be named too
-    if (named || course_.parts.size() != member(report_, "segments").size()) return;
-    const auto k = static_cast<std::size_t>(s.number(1)) - 1;
-    const Json& rows = member(report_, "segments");
-    const bool equal = k < rows.size() && figure(rows[k], name).value == most.value;
-    say(equal, std::string("largest error place ") + what, s.figures[1],
+    if (course_.parts.size() != member(report_, "segments").size()) return;
+    say(named, std::string("largest error place ") + what, s.figures[1],
         static_cast<double>(most.rows.front() + 1));
   }
 
@@ -243,7 +252,8 @@ class TextCheck {
     const Json& gaps = member(certificate_, "joint_gaps");
     const char* names[] = {"position", "heading", "curvature"};
     for (std::size_t i = 0; i < count; ++i) {
-      figure_is(std::string("joint gaps ") + names[i], s.figures.at(i), figure(gaps, names[i]).value);
+      figure_is(std::string("joint gaps ") + names[i], s.figures.at(i),
+                figure(gaps, names[i]).value);
     }
   }
 
@@ -277,7 +287,8 @@ class TextCheck {
       figure_is("tolerance", s.figures[1], figure(report_, "tolerance").value);
     } else if (key == "largest move: # U") {
       figure_is("largest move", s.figures[0], figure(report_, "largest_move").value);
-    } else if (key == "joint gaps: position # of the size, heading # rad, curvature # of the larger") {
+    } else if (key ==
+               "joint gaps: position # of the size, heading # rad, curvature # of the larger") {
       gaps(s, 3);
     } else if (key == "joint gaps: position # of the size, heading # rad") {
       gaps(s, 2);
@@ -363,8 +374,8 @@ void check_fit_text(const Course& course, const Run& run, Sheet& sheet) {
 
 void check_verify_text(const Course& course, const Run& run, Sheet& sheet) {
   const bool holds = run.code == 0;
-  const bool promised = flag(course.file.certificate, "proved").value_or(false) ||
-                        !course.file.promises_monotone();
+  const bool promised =
+      flag(course.file.certificate, "proved").value_or(false) || !course.file.promises_monotone();
   sheet.expect(holds == promised, "verify agrees with fit",
                fmt::format("exit {}: {}", run.code, run.err.substr(0, 200)),
                promised ? "what fit wrote" : "not proved", "");

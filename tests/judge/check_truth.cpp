@@ -19,8 +19,7 @@ void check_distance(const Course& course, const Truth& truth, std::size_t k, dou
   constexpr int kPlaces = 12;
   Real most = 0.0L;
   for (int i = 1; i < kPlaces; ++i) {
-    const Vec p = truth.at(a + (b - a) * i / kPlaces) -
-                  Vec{course.origin.x, course.origin.y};
+    const Vec p = truth.at(a + (b - a) * i / kPlaces) - Vec{course.origin.x, course.origin.y};
     most = std::max(most, course.path.nearest(p, part.from, part.to).distance);
   }
   // the points themselves miss the curve by their rounding

@@ -95,8 +95,8 @@ ContourFile contour_of(const Json& json) {
   for (const Json& one : json.at("elements")) out.elements.push_back(element_of(one));
   for (const Json& one : json.at("pieces")) out.pieces.push_back(piece_of(one));
   for (const Json& one : json.at("runs")) {
-    out.runs.push_back({one.at("first_piece").index(),
-                        one.at("last_piece").index(), static_cast<int>(one.at("direction").real())});
+    out.runs.push_back({one.at("first_piece").index(), one.at("last_piece").index(),
+                        static_cast<int>(one.at("direction").real())});
   }
   if (json.contains("bspline")) out.spline = spline_of(json.at("bspline"));
   out.report = member(json, "report");

@@ -94,13 +94,9 @@ Course::Course(const ContourFile& contour)
   for (const Piece& piece : contour.pieces) laws.push_back(curvature_law(piece));
   const std::vector<Station> stations = stations_of(contour, path, origin);
   for (std::size_t k = 0; k + 1 < stations.size(); ++k) {
-    Part part{stations[k].point, stations[k + 1].point, stations[k].order, stations[k + 1].order,
-              {}};
-    part.cuts.push_back(part.from);
-    for (Real j = std::floor(part.from) + 1.0L; j < part.to; j += 1.0L) {
-      if (direction_changes_at(static_cast<std::size_t>(j))) part.cuts.push_back(j);
-    }
-    part.cuts.push_back(part.to);
+    Part part{
+        stations[k].point, stations[k + 1].point, stations[k].order, stations[k + 1].order, {}};
+    part.cuts = cuts_of(part.from, part.to);
     parts.push_back(std::move(part));
   }
   stations_known = !parts.empty();
@@ -111,19 +107,29 @@ Real Course::resolution() const {
   return kOfSize * ends.size + kUlps * ends.coordinate;
 }
 
-bool Course::direction_changes_at(std::size_t joint) const {
-  if (joint == 0 || joint >= file.pieces.size()) return false;
-  if (file.corner_at(joint)) return true;
-  // the direction that rules before: of the last piece or clear jump that has one
+/// Joints inside a part where a new direction begins, corners too. The vertex of arcs is a whole
+/// arc: there the runs of the file say which of its ends counts (the runs are judged on their own).
+std::vector<Real> Course::cuts_of(Real from, Real to) const {
+  std::vector<Real> out{from};
   int before = 0;
-  for (std::size_t i = joint; i-- > 0 && before == 0;) {
-    before = laws[i].direction();
-    if (before == 0 && i > 0 && joints[i].clear_jump) before = joints[i].jump;
-    if (file.corner_at(i)) break;
+  for (auto i = static_cast<std::size_t>(from); static_cast<Real>(i) < to; ++i) {
+    const bool inner = static_cast<Real>(i) > from;
+    bool turns = inner && file.corner_at(i);
+    if (turns) before = 0;
+    for (const int sign :
+         {inner && joints[i].clear_jump ? joints[i].jump : 0, laws[i].direction()}) {
+      if (sign == 0) continue;
+      turns = turns || (inner && before != 0 && sign != before);
+      before = sign;
+    }
+    if (file.carrier == "arcs" && inner && !file.corner_at(i)) {
+      turns = std::any_of(file.runs.begin(), file.runs.end(),
+                          [i](const FileRun& run) { return run.first == i; });
+    }
+    if (turns) out.push_back(static_cast<Real>(i));
   }
-  const int jump = joints[joint].clear_jump ? joints[joint].jump : 0;
-  const int after = jump != 0 ? jump : laws[joint].direction();
-  return before != 0 && after != 0 && before != after;
+  out.push_back(to);
+  return out;
 }
 
 Element Course::element(Real order, bool behind) const {
@@ -141,7 +147,8 @@ Element Course::element(Real order, bool behind) const {
   out.theta = std::atan2(end.tangent.y.middle(), end.tangent.x.middle());
   out.kappa = end.kappa.middle();
   const FileElement* stored = file.joint(joint);
-  if (arcs && stored != nullptr) out.kappa = behind && stored->corner ? stored->kappa_out : stored->kappa;
+  if (arcs && stored != nullptr)
+    out.kappa = behind && stored->corner ? stored->kappa_out : stored->kappa;
   return out;
 }
 
@@ -152,8 +159,8 @@ bool Course::monotone(Real a, Real b) const {
     if (!laws[i].one_way()) return false;
     const bool inner_joint = i > first || static_cast<Real>(i) > a;
     if (inner_joint && file.corner_at(i)) return false;
-    for (const int sign : {inner_joint && joints[i].clear_jump ? joints[i].jump : 0,
-                           laws[i].direction()}) {
+    for (const int sign :
+         {inner_joint && joints[i].clear_jump ? joints[i].jump : 0, laws[i].direction()}) {
       if (sign == 0) continue;
       if (direction != 0 && sign != direction) return false;
       direction = sign;

@@ -35,8 +35,7 @@ struct Course {
   [[nodiscard]] Real resolution() const;
   /// Element of the contour at an order; at a joint that of the piece behind or before it.
   [[nodiscard]] Element element(Real order, bool behind) const;
-  /// Direction of curvature along piece i with the jump before it; 0: none or not decided.
-  [[nodiscard]] bool direction_changes_at(std::size_t joint) const;
+  [[nodiscard]] std::vector<Real> cuts_of(Real from, Real to) const;
   /// Whether curvature changes one way from order a to order b.
   [[nodiscard]] bool monotone(Real a, Real b) const;
   [[nodiscard]] Real turning(Real a, Real b) const;

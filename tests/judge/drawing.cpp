@@ -25,7 +25,8 @@ struct Weighted {
   Real w;
 };
 
-/// Control points of the Bezier span on knots [k, k+1], by blossoming (de Boor with mixed arguments).
+/// Control points of the Bezier span on knots [k, k+1], by blossoming (de Boor with mixed
+/// arguments).
 std::vector<Weighted> blossomed(int degree, const std::vector<Real>& knots,
                                 const std::vector<Weighted>& points, std::size_t k) {
   const auto p = static_cast<std::size_t>(degree);
@@ -49,8 +50,7 @@ std::vector<Weighted> blossomed(int degree, const std::vector<Real>& knots,
 }  // namespace
 
 std::vector<Span> spans_of_nurbs(int degree, const std::vector<Real>& knots,
-                                 const std::vector<Vec>& points,
-                                 const std::vector<Real>& weights) {
+                                 const std::vector<Vec>& points, const std::vector<Real>& weights) {
   std::vector<Span> out;
   const auto p = static_cast<std::size_t>(degree);
   if (points.size() < p + 1 || knots.size() != points.size() + p + 1) return out;

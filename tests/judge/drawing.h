@@ -11,9 +11,9 @@
 namespace judge {
 
 struct Drawing {
-  std::vector<Span> spans;      ///< contour units, seen from the origin
+  std::vector<Span> spans;       ///< contour units, seen from the origin
   std::optional<double> metres;  ///< of the file's unit
-  std::string fault;            ///< empty: read
+  std::string fault;             ///< empty: read
 
   // G-code
   long blocks = 0, arc_blocks = 0;

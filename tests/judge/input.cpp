@@ -82,7 +82,8 @@ class Reader {
     GivenPoint& before = points.back();
     if (!before.heading) before.heading = p.heading;
     if (!before.kappa) before.kappa = p.kappa;
-    if (p.tolerance) before.tolerance = std::min(before.tolerance.value_or(*p.tolerance), *p.tolerance);
+    if (p.tolerance)
+      before.tolerance = std::min(before.tolerance.value_or(*p.tolerance), *p.tolerance);
     before.corner = before.corner || p.corner;
   }
   std::map<std::string, std::size_t> column_;

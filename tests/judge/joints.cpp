@@ -12,7 +12,7 @@ namespace {
 
 /// Curvature gaps are told of this part of the largest curvature at the four ends, at the least.
 constexpr double kFlat = 1e-6;
-/// Jumps below this, of the larger curvature at the four ends, may be rounding.
+/// Jumps below this, told like gaps, may be rounding.
 constexpr double kClearJump = 1e-6;
 
 struct Box {
@@ -41,10 +41,10 @@ JointFacts between(const ContourFile& contour, const ContourEnds& ends, std::siz
   Ball larger_kappa = larger(abs(a.kappa), abs(b.kappa));
   Ball four = larger(larger_kappa, larger(abs(ends.start[left].kappa), abs(ends.end[right].kappa)));
   out.jump = jump.sign() == 2 ? 0 : jump.sign();
-  out.clear_jump = (abs(jump) - Ball(kClearJump) * larger_kappa).sign() == 1;
+  const Ball scale = larger(larger_kappa, Ball(kFlat) * four);
+  out.clear_jump = (abs(jump) - Ball(kClearJump) * scale).sign() == 1;
   if (out.corner) return out;
   out.heading = abs(angle_between(a.tangent, b.tangent));
-  const Ball scale = larger(larger_kappa, Ball(kFlat) * four);
   if (jump.sign() != 0 && scale.sign() == 1) out.curvature = abs(jump) / scale;
   return out;
 }

@@ -105,8 +105,12 @@ class Parser {
         // letters behind \u stay as they are: no name or figure needs them
         if (*at_ == 'u') out += '\\';
         const char c = *at_;
-        out += c == 'n' ? '\n' : c == 't' ? '\t' : c == 'r' ? '\r' : c == 'b' ? '\b'
-                                                         : c == 'f' ? '\f' : c;
+        out += c == 'n'   ? '\n'
+               : c == 't' ? '\t'
+               : c == 'r' ? '\r'
+               : c == 'b' ? '\b'
+               : c == 'f' ? '\f'
+                          : c;
         continue;
       }
       out += *at_;

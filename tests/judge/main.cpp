@@ -50,21 +50,36 @@ Settings settings_of(int argc, char** argv) {
       return out;
     }
     const std::string value = argv[i];
-    if (name == "--series") out.series = std::strtoull(value.c_str(), nullptr, 10);
-    else if (name == "--seed") out.trial.seed = std::strtoull(value.c_str(), nullptr, 10);
-    else if (name == "--first") out.first = std::strtoull(value.c_str(), nullptr, 10);
-    else if (name == "--jobs") out.jobs = std::max(1, std::atoi(value.c_str()));
-    else if (name == "--most") out.most = std::strtoull(value.c_str(), nullptr, 10);
-    else if (name == "--limit") out.trial.limit = std::atof(value.c_str());
-    else if (name == "--obvid") out.trial.obvid = value;
-    else if (name == "--keep") out.keep = value;
-    else if (name == "--json") out.json = value;
-    else if (name == "--points") out.points = value;
-    else if (name == "--options") out.options = value;
-    else if (name == "--text") out.text = value;
-    else if (name == "--verify") out.verify = value;
-    else if (name == "--export") out.exports.push_back(value);
-    else out.wrong = true;
+    if (name == "--series")
+      out.series = std::strtoull(value.c_str(), nullptr, 10);
+    else if (name == "--seed")
+      out.trial.seed = std::strtoull(value.c_str(), nullptr, 10);
+    else if (name == "--first")
+      out.first = std::strtoull(value.c_str(), nullptr, 10);
+    else if (name == "--jobs")
+      out.jobs = std::max(1, std::atoi(value.c_str()));
+    else if (name == "--most")
+      out.most = std::strtoull(value.c_str(), nullptr, 10);
+    else if (name == "--limit")
+      out.trial.limit = std::atof(value.c_str());
+    else if (name == "--obvid")
+      out.trial.obvid = value;
+    else if (name == "--keep")
+      out.keep = value;
+    else if (name == "--json")
+      out.json = value;
+    else if (name == "--points")
+      out.points = value;
+    else if (name == "--options")
+      out.options = value;
+    else if (name == "--text")
+      out.text = value;
+    else if (name == "--verify")
+      out.verify = value;
+    else if (name == "--export")
+      out.exports.push_back(value);
+    else
+      out.wrong = true;
   }
   out.wrong = out.wrong || (out.series == 0) == out.contour.empty();
   return out;
@@ -157,8 +172,9 @@ int judge_file(const Settings& settings) {
     for (const Finding& f : sheet.findings()) {
       list += (list.empty() ? "\n    " : ",\n    ") + finding_json(f);
     }
-    write_file(settings.json, fmt::format("{{\n  \"claims\": {{{}\n  }},\n  \"findings\": [{}]\n}}\n",
-                                          counts_json(sheet), list));
+    write_file(settings.json,
+               fmt::format("{{\n  \"claims\": {{{}\n  }},\n  \"findings\": [{}]\n}}\n",
+                           counts_json(sheet), list));
   }
   return sheet.wrong() == 0 ? 0 : 1;
 }
@@ -255,8 +271,8 @@ void keep_files(const Settings& settings, const Trial& trial, const std::string&
   if (settings.keep.empty()) return;
   const bool wanted = settings.series == 1 || trial.sheet.wrong() > 0;
   if (!wanted) return;
-  const auto to = std::filesystem::path(settings.keep) /
-                  fmt::format("{}_{}", settings.trial.seed, trial.index);
+  const auto to =
+      std::filesystem::path(settings.keep) / fmt::format("{}_{}", settings.trial.seed, trial.index);
   std::filesystem::remove_all(to);
   std::filesystem::create_directories(to.parent_path());
   std::filesystem::copy(folder, to, std::filesystem::copy_options::recursive);

@@ -80,14 +80,12 @@ ElementGap worst_element_gap(const Course& course) {
   ElementGap out;
   const auto compare = [&](std::size_t j, const End& end, Point point, double heading,
                            double kappa) {
-    const double position =
-        norm(end.point - BallVec{point.x, point.y}).lower() / course.ends.size;
+    const double position = norm(end.point - BallVec{point.x, point.y}).lower() / course.ends.size;
     BallVec direction;
     sin_cos(Ball(heading), direction.y, direction.x);
     const double angle = abs(angle_between(direction, end.tangent)).lower();
     const Ball scale = larger(abs(end.kappa), Ball(std::abs(kappa)));
-    const double bend =
-        scale.sign() == 1 ? (abs(end.kappa - Ball(kappa)) / scale).lower() : 0.0;
+    const double bend = scale.sign() == 1 ? (abs(end.kappa - Ball(kappa)) / scale).lower() : 0.0;
     if (angle > out.heading) out.at = j;
     out.position = std::max(out.position, position);
     out.heading = std::max(out.heading, angle);

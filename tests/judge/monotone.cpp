@@ -104,6 +104,7 @@ class Isolation {
     if (out_.signs.empty()) out_.signs.push_back(0);
     return out_;
   }
+
  private:
   void meet(int sign, double from, double to) {
     if (sign == 0) return;
@@ -131,7 +132,9 @@ class Isolation {
       return;
     }
     const double middle = 0.5 * (from + to);
-    follow(left_half(form), from, middle, depth + 1);
+    const Form left = left_half(form);
+    out_.touches = out_.touches || left.back().sign() == 0;
+    follow(left, from, middle, depth + 1);
     if (!open_) follow(reversed(left_half(reversed(form))), middle, to, depth + 1);
   }
 
@@ -161,7 +164,8 @@ CurvatureLaw bezier_law(const Bezier& bezier) {
     const Signs speed = signs_of(tests.speed);
     const Signs slope = signs_of(tests.slope);
     law.decided = speed.decided && slope.decided;
-    law.regular = speed.decided && speed.signs == std::vector<int>{1} && positive(bezier.weight);
+    law.regular = speed.decided && !speed.touches && speed.signs == std::vector<int>{1} &&
+                  positive(bezier.weight);
     law.signs = slope.signs;
     law.turns = slope.turns;
     return law;

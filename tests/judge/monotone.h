@@ -15,10 +15,10 @@ struct Turn {
 };
 
 struct CurvatureLaw {
-  bool decided = false;      ///< the rest holds
-  bool regular = false;      ///< weights and speed are positive on [0, 1]
-  std::vector<int> signs;    ///< of d kappa / dt, in order; {0} where it is constant
-  std::vector<Turn> turns;   ///< one less than signs
+  bool decided = false;     ///< the rest holds
+  bool regular = false;     ///< weights and speed are positive on [0, 1]
+  std::vector<int> signs;   ///< of d kappa / dt, in order; {0} where it is constant
+  std::vector<Turn> turns;  ///< one less than signs
 
   [[nodiscard]] int direction() const { return signs.size() == 1 ? signs.front() : 0; }
   [[nodiscard]] bool one_way() const { return decided && regular && signs.size() == 1; }
@@ -34,6 +34,7 @@ struct Signs {
   bool decided = true;
   std::vector<int> signs;  ///< without repetitions; {0}: the zero polynomial
   std::vector<Turn> turns;
+  bool touches = false;  ///< zero at a place that was met exactly
 };
 /// Signs of a polynomial on the open interval (0, 1).
 Signs signs_of(const Form& form);

@@ -37,6 +37,8 @@ using Piece = std::variant<Line, Arc, Clothoid, Bezier>;
 
 Point stored_start(const Piece& piece);
 Point stored_end(const Piece& piece);
+/// The same piece in a unit that is smaller by the factor.
+Piece scaled(const Piece& piece, double factor);
 const char* type_name(const Piece& piece);
 
 }  // namespace judge

@@ -17,7 +17,7 @@ namespace judge {
 namespace {
 
 constexpr rlim_t kMemory = 8ULL << 30U;  // bytes
-constexpr double kClock = 6.0;           // clock time over processor time, on a busy machine
+constexpr double kClock = 20.0;          // clock time over processor time, on a busy machine
 
 /// Between fork and exec only calls that are safe there.
 [[noreturn]] void become(char* const* words, const char* folder, double limit) {
@@ -85,8 +85,8 @@ Finished run_program(const std::vector<std::string>& words, const std::string& f
   } else {
     out.code = -1;
     out.signal = WTERMSIG(status);
-    out.out_of_time = out.out_of_time || out.signal == SIGXCPU ||
-                      (out.signal == SIGKILL && out.seconds >= limit);
+    out.out_of_time =
+        out.out_of_time || out.signal == SIGXCPU || (out.signal == SIGKILL && out.seconds >= limit);
   }
   out.out = text_of_file(folder + "/stdout");
   out.err = text_of_file(folder + "/stderr");

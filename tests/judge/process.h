@@ -8,14 +8,14 @@
 namespace judge {
 
 struct Finished {
-  int code = 0;             ///< exit code; -1 when it did not end by itself
-  int signal = 0;           ///< that ended it
+  int code = 0;    ///< exit code; -1 when it did not end by itself
+  int signal = 0;  ///< that ended it
   bool out_of_time = false;
-  double seconds = 0.0;     ///< of processor time
+  double seconds = 0.0;  ///< of processor time
   std::string out, err;
 };
 
-/// `limit`: seconds of processor time; six times as long on the clock.
+/// `limit`: seconds of processor time; twenty times as long on the clock.
 Finished run_program(const std::vector<std::string>& words, const std::string& folder,
                      double limit);
 std::string text_of_file(const std::string& path);

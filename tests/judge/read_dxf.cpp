@@ -42,7 +42,8 @@ class DxfReader {
     for (std::size_t i = 0; i < tags.size();) {
       std::size_t end = i + 1;
       while (end < tags.size() && tags[end].code != 0) ++end;
-      if (tags[i].value == "SECTION") inside = i + 1 < tags.size() && tags[i + 1].value == "ENTITIES";
+      if (tags[i].value == "SECTION")
+        inside = i + 1 < tags.size() && tags[i + 1].value == "ENTITIES";
       if (tags[i].value == "ENDSEC") inside = false;
       if (inside && tags[i].value != "SECTION") {
         entity(tags[i].value, {tags.begin() + static_cast<std::ptrdiff_t>(i) + 1,
@@ -57,9 +58,9 @@ class DxfReader {
  private:
   void read_unit(const std::vector<Tag>& tags) {
     static const std::map<int, double> kUnits = {
-        {1, 0.0254}, {2, 0.3048}, {3, 1609.344}, {4, 1e-3},  {5, 1e-2},
-        {6, 1.0},    {7, 1e3},    {9, 2.54e-5},  {10, 0.9144}, {12, 1e-9}, {13, 1e-6}, {14, 0.1},
-        {21, 1200.0 / 3937.0}};
+        {1, 0.0254}, {2, 0.3048}, {3, 1609.344},        {4, 1e-3},    {5, 1e-2},
+        {6, 1.0},    {7, 1e3},    {9, 2.54e-5},         {10, 0.9144}, {12, 1e-9},
+        {13, 1e-6},  {14, 0.1},   {21, 1200.0 / 3937.0}};
     for (std::size_t i = 0; i + 1 < tags.size(); ++i) {
       if (tags[i].value != "$INSUNITS") continue;
       const auto found = kUnits.find(std::atoi(tags[i + 1].value.c_str()));
@@ -111,8 +112,7 @@ class DxfReader {
     const Real from = whole ? 0.0L : value(tags, 50, 0.0L) * degree;
     Real turn = whole ? kFull : value(tags, 51, 360.0L) * degree - from;
     while (turn <= 0.0L) turn += kFull;
-    out_.spans.push_back(
-        arc_span(point(tags, 10, 20), value(tags, 40, 0.0L) * scale_, from, turn));
+    out_.spans.push_back(arc_span(point(tags, 10, 20), value(tags, 40, 0.0L) * scale_, from, turn));
   }
 
   void bulge_arc(Vec a, Vec b, Real bulge) {

@@ -99,8 +99,7 @@ class Interpreter {
     if (motion_ == 3 && turn <= 0.0L) turn += kFull;
     if (motion_ == 2 && turn >= 0.0L) turn -= kFull;
     // controllers go round with the radius of the start
-    out.spans.push_back(
-        arc_span(seen_here(centre), r0 * scale_, std::atan2(from.y, from.x), turn));
+    out.spans.push_back(arc_span(seen_here(centre), r0 * scale_, std::atan2(from.y, from.x), turn));
   }
 
   void spline(const std::map<char, std::vector<Real>>& words, Vec to) {

@@ -168,8 +168,8 @@ class StepReader {
   }
   [[nodiscard]] Real si(long id) const {
     static const std::map<std::string, Real> kPrefix = {
-        {"$", 1.0L},        {".MICRO.", 1e-6L}, {".MILLI.", 1e-3L}, {".CENTI.", 1e-2L},
-        {".DECI.", 1e-1L},  {".KILO.", 1e3L},   {".NANO.", 1e-9L}};
+        {"$", 1.0L},       {".MICRO.", 1e-6L}, {".MILLI.", 1e-3L}, {".CENTI.", 1e-2L},
+        {".DECI.", 1e-1L}, {".KILO.", 1e3L},   {".NANO.", 1e-9L}};
     const auto* unit = record(id, "SI_UNIT");
     if (unit == nullptr || !kPrefix.contains(unit->at(0).text)) {
       throw std::runtime_error("unit not understood");

@@ -64,7 +64,6 @@ class Span {
   [[nodiscard]] Real turning() const;
 
  private:
-  
   std::variant<SpiralForm, RationalForm> form_;
 };
 

@@ -79,27 +79,47 @@ bool is_graph(const Biarc& b) {
   return b.first.end.x >= 0.0L && b.first.end.x <= b.second.end.x;
 }
 
-/// Ordinate over the chord of a boundary that is a graph.
-Real ordinate(const Biarc& b, Real x) {
-  const auto arc = [](Real sine, Real kappa, Real run) {
+/// A boundary over the chord. The sine of its heading is linear in the abscissa on each arc.
+struct Graph {
+  Real h, joint, k0, k1, sine0, sine1;
+
+  explicit Graph(const Biarc& b)
+      : h(b.second.end.x),
+        joint(b.first.end.x),
+        k0(b.first.kappa),
+        k1(b.second.kappa),
+        sine0(std::sin(b.first.theta)),
+        sine1(std::sin(b.second.theta + b.second.turn)) {}
+
+  [[nodiscard]] Real ordinate(Real x) const {
+    return x <= joint ? rise(sine0, k0, x) : rise(sine1, k1, x - h);
+  }
+  /// Intercept and slope of the sine of the heading around an abscissa.
+  [[nodiscard]] std::array<Real, 2> sine(Real x) const {
+    return x <= joint ? std::array{sine0, k0} : std::array{sine1 - k1 * h, k1};
+  }
+
+ private:
+  static Real rise(Real sine, Real kappa, Real run) {
     const Real after = sine + kappa * run;
     const Real c0 = std::sqrt(std::max(0.0L, 1.0L - sine * sine));
     const Real c1 = std::sqrt(std::max(0.0L, 1.0L - after * after));
     return run * (sine + after) / (c0 + c1);
-  };
-  if (x <= b.first.end.x) return arc(std::sin(b.first.theta), b.first.kappa, x);
-  const Real last = b.second.theta + b.second.turn;
-  return arc(std::sin(last), b.second.kappa, x - b.second.end.x);
-}
+  }
+};
 
-Real largest_gap(const Biarc& a, const Biarc& b) {
-  std::array<Real, 4> stops = {0.0L, a.first.end.x, b.first.end.x, a.second.end.x};
-  std::sort(stops.begin(), stops.end());
-  const auto gap = [&](Real x) { return std::abs(ordinate(a, x) - ordinate(b, x)); };
-  Real most = 0.0L;
+/// The gap is largest at a joint, or where both boundaries have the same heading.
+Real largest_gap(const Biarc& first, const Biarc& second) {
+  const Graph a(first), b(second);
+  const std::array<Real, 4> stops = {0.0L, std::min(a.joint, b.joint), std::max(a.joint, b.joint),
+                                     a.h};
+  const auto gap = [&](Real x) { return std::abs(a.ordinate(x) - b.ordinate(x)); };
+  Real most = std::max(gap(stops[1]), gap(stops[2]));
   for (std::size_t i = 0; i + 1 < stops.size(); ++i) {
-    if (!(stops[i + 1] > stops[i])) continue;
-    most = std::max(most, gap(largest_place(gap, stops[i], stops[i + 1], 4)));
+    const Real middle = 0.5L * (stops[i] + stops[i + 1]);
+    const auto p = a.sine(middle), q = b.sine(middle);
+    const Real x = (q[0] - p[0]) / (p[1] - q[1]);
+    if (x > stops[i] && x < stops[i + 1]) most = std::max(most, gap(x));
   }
   return most;
 }
@@ -196,7 +216,7 @@ Real Region::outside(Vec p) const {
   if (!is_graph(from_start_) || !is_graph(to_end_)) return 0.0L;
   const Vec q = local(p);
   if (q.x >= 0.0L && q.x <= h_) {
-    const Real y0 = ordinate(from_start_, q.x), y1 = ordinate(to_end_, q.x);
+    const Real y0 = Graph(from_start_).ordinate(q.x), y1 = Graph(to_end_).ordinate(q.x);
     if (q.y >= std::min(y0, y1) && q.y <= std::max(y0, y1)) return 0.0L;
   }
   return nearer(p);

@@ -38,11 +38,11 @@ std::size_t number_end(const std::string& s, std::size_t i) {
 
 const std::string& singular(const std::string& word) {
   static const std::map<std::string, std::string> kForms = {
-      {"pieces", "piece"},       {"points", "point"},     {"runs", "run"},
-      {"joints", "joint"},       {"vertices", "vertex"},  {"inflections", "inflection"},
-      {"elements", "element"},   {"blocks", "block"},     {"entities", "entity"},
-      {"segments", "segment"},   {"headings", "heading"}, {"radii", "radius"},
-      {"curvatures", "curvature"}, {"corners", "corner"}, {"chords", "chord"}};
+      {"pieces", "piece"},         {"points", "point"},     {"runs", "run"},
+      {"joints", "joint"},         {"vertices", "vertex"},  {"inflections", "inflection"},
+      {"elements", "element"},     {"blocks", "block"},     {"entities", "entity"},
+      {"segments", "segment"},     {"headings", "heading"}, {"radii", "radius"},
+      {"curvatures", "curvature"}, {"corners", "corner"},   {"chords", "chord"}};
   const auto found = kForms.find(word);
   return found == kForms.end() ? word : found->second;
 }
@@ -58,10 +58,11 @@ Sentence sentence_of(const std::string& text, const std::string& unit) {
   Sentence out;
   for (std::size_t i = 0; i < text.size();) {
     const char c = text[i], before = i == 0 ? ' ' : text[i - 1];
-    const bool fresh = before == ' ' || before == '(' || before == '[' || before == '=' ||
-                       before == ',';
-    const bool alone = c == '-' && fresh && (i + 1 == text.size() || text[i + 1] == ' ' ||
-                                             text[i + 1] == ';' || text[i + 1] == ',');
+    const bool fresh =
+        before == ' ' || before == '(' || before == '[' || before == '=' || before == ',';
+    const bool alone =
+        c == '-' && fresh &&
+        (i + 1 == text.size() || text[i + 1] == ' ' || text[i + 1] == ';' || text[i + 1] == ',');
     std::size_t end = i;
     if (alone) {
       end = i + 1;

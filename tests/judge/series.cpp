@@ -55,8 +55,8 @@ Real size_of(const std::vector<Vec>& points) {
 
 Motion make_motion(Dice& dice, Real shape_size) {
   Motion out;
-  const double wanted = dice.chance(0.5) ? dice.logarithmic(1.0, 1000.0)
-                                         : dice.logarithmic(1e-9, 1e9);
+  const double wanted =
+      dice.chance(0.5) ? dice.logarithmic(1.0, 1000.0) : dice.logarithmic(1e-9, 1e9);
   out.scale = wanted / shape_size;
   out.angle = dice.chance(0.3) ? 0.0L : dice.between(0.0, 6.28);
   out.side = dice.chance(0.5) ? 1.0L : -1.0L;
@@ -158,9 +158,9 @@ class SeriesMaker {
 
   /// Headings and radii: of the known curve, or random and mostly contradictory.
   void fix_data(const std::vector<Vec>& points) {
-    if (!dice_.chance(0.25) || points.size() < 2) return;
-    const bool closed = std::find(out_.options.begin(), out_.options.end(), "--closed") !=
-                        out_.options.end();
+    if (!dice_.chance(0.18) || points.size() < 2) return;
+    const bool closed =
+        std::find(out_.options.begin(), out_.options.end(), "--closed") != out_.options.end();
     const auto n = static_cast<int>(points.size());
     const int wishes = dice_.whole(1, 3);
     for (int k = 0; k < wishes; ++k) {
@@ -196,10 +196,10 @@ class SeriesMaker {
   }
   Data random_data(const std::vector<Vec>& points, int i) {
     const auto at = static_cast<std::size_t>(i - 1);
-    const Vec chord = at + 1 < points.size() ? points[at + 1] - points[at]
-                                             : points[at] - points[at - 1];
-    const double along = static_cast<double>(std::atan2(chord.y, chord.x)) * 180.0 /
-                         std::numbers::pi;
+    const Vec chord =
+        at + 1 < points.size() ? points[at + 1] - points[at] : points[at] - points[at - 1];
+    const double along =
+        static_cast<double>(std::atan2(chord.y, chord.x)) * 180.0 / std::numbers::pi;
     const double kappa = dice_.chance(0.3) ? 0.0 : dice_.normal() * 4.0 / size_;
     return {along + (dice_.chance(0.6) ? 5.0 * dice_.normal() : dice_.between(-180.0, 180.0)),
             kappa};

@@ -16,10 +16,10 @@ class Dice {
  public:
   explicit Dice(std::uint64_t seed) : state_(seed) {}
   std::uint64_t next();
-  double unit();                            ///< in [0, 1)
+  double unit();  ///< in [0, 1)
   double between(double a, double b) { return a + (b - a) * unit(); }
-  double logarithmic(double a, double b);   ///< equal chances per decade
-  int whole(int a, int b);                  ///< both included
+  double logarithmic(double a, double b);  ///< equal chances per decade
+  int whole(int a, int b);                 ///< both included
   bool chance(double p) { return unit() < p; }
   double normal();
 

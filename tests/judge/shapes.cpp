@@ -89,9 +89,11 @@ Shape known_curve(Dice& dice) {
       return sampled(dice, "clothoid", at, 0.0L, 1.0L, n, {});
     }
     case 3:
-      return sampled(
-          dice, "parabola", [a](Real t) { return Vec{t, a * t * t}; }, dice.between(-1.0, 0.5),
-          dice.between(0.6, 3.0), n, {0.0L});
+      return sampled(dice, "parabola",
+                     [a](Real t) {
+                       return Vec{t, a * t * t};
+                     },
+                     dice.between(-1.0, 0.5), dice.between(0.6, 3.0), n, {0.0L});
     case 4: {
       const Real b = dice.between(0.1, 1.0), to = dice.between(0.5, 6.2);
       const auto at = [b](Real t) { return Vec{std::cos(t), b * std::sin(t)}; };
@@ -108,14 +110,18 @@ Shape known_curve(Dice& dice) {
       return sampled(dice, "sine", at, 0.0L, to, n, every(0.5L * kPi, kPi, 0.0L, to));
     }
     case 7:
-      return sampled(
-          dice, "catenary", [](Real t) { return Vec{t, std::cosh(t)}; }, dice.between(-2.0, 0.5),
-          dice.between(0.6, 3.0), n, {0.0L});
+      return sampled(dice, "catenary",
+                     [](Real t) {
+                       return Vec{t, std::cosh(t)};
+                     },
+                     dice.between(-2.0, 0.5), dice.between(0.6, 3.0), n, {0.0L});
     case 8: {  // y = x^3 has extreme curvature at x^4 = 1/45
       const Real v = std::pow(1.0L / 45.0L, 0.25L);
-      return sampled(
-          dice, "cubic parabola", [](Real t) { return Vec{t, t * t * t}; },
-          dice.between(-1.0, -0.1), dice.between(0.1, 1.0), n, {-v, v});
+      return sampled(dice, "cubic parabola",
+                     [](Real t) {
+                       return Vec{t, t * t * t};
+                     },
+                     dice.between(-1.0, -0.1), dice.between(0.1, 1.0), n, {-v, v});
     }
     default: {
       const auto at = [](Real t) { return Vec{t - std::sin(t), 1.0L - std::cos(t)}; };
@@ -144,7 +150,8 @@ Shape zigzag(Dice& dice) {
   std::vector<Vec> p;
   const int n = dice.whole(4, 40);
   const double height = dice.logarithmic(1e-6, 1.0);
-  for (int i = 0; i < n; ++i) p.push_back({static_cast<Real>(i), (i % 2 == 0 ? 1.0 : -1.0) * height});
+  for (int i = 0; i < n; ++i)
+    p.push_back({static_cast<Real>(i), (i % 2 == 0 ? 1.0 : -1.0) * height});
   return plain("zigzag", std::move(p));
 }
 

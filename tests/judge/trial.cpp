@@ -216,12 +216,16 @@ class Work {
       return;
     }
     const auto mine = metres_of(course.file.units), other = metres_of(read.contour.units);
-    if (mine && other && *mine != *other) {
+    if ((mine.has_value() != other.has_value()) && part > 0.0) {
       out_.sheet.unjudged("convert back", "comes back in " + read.contour.units);
       return;
     }
+    // in another unit it is the same curve, larger or smaller
+    const double factor = mine && other ? *other / *mine : 1.0;
     std::vector<Span> spans;
-    for (const Piece& piece : read.contour.pieces) spans.emplace_back(piece, course.origin);
+    for (const Piece& piece : read.contour.pieces) {
+      spans.emplace_back(factor == 1.0 ? piece : scaled(piece, factor), course.origin);
+    }
     if (spans.empty()) return out_.sheet.fails("convert back", "a curve", "no pieces", "");
     const Path path(std::move(spans));
     const Real limit = static_cast<Real>(part) * course.ends.size +
@@ -248,8 +252,8 @@ class Work {
     const std::string within = "within a tolerance of ";
     const std::size_t at = fit.err.find(within);
     if (at == std::string::npos || !dice_.chance(0.25)) return;
-    const std::string tolerance =
-        fit.err.substr(at + within.size(), fit.err.find(' ', at + within.size()) - at - within.size());
+    const std::string tolerance = fit.err.substr(
+        at + within.size(), fit.err.find(' ', at + within.size()) - at - within.size());
     std::vector<std::string> words{"fit", kPoints, "--quiet"};
     for (std::size_t i = 0; i < series_.options.size(); ++i) {
       if (series_.options[i] == "--noise") {

@@ -11,10 +11,10 @@
 namespace judge {
 
 struct TrialOptions {
-  std::string obvid;         ///< the program
-  std::string folder;        ///< to work in; emptied
+  std::string obvid;   ///< the program
+  std::string folder;  ///< to work in; emptied
   std::uint64_t seed = 1;
-  double limit = 10.0;       ///< seconds of processor time of one run
+  double limit = 10.0;  ///< seconds of processor time of one run
 };
 
 struct Trial {

@@ -1,0 +1,214 @@
+// SPDX-License-Identifier: Apache-2.0
+// Printed sentences, files of other formats, given data, known truth: each doctored once.
+#include <cmath>
+
+#include "doctored.h"
+#include "sentences.h"
+#include "series.h"
+
+namespace judge {
+namespace {
+
+struct Case {
+  ReadContour read = read_contour(data("judge/series10.json"));
+  Course course{read.contour};
+};
+
+Sheet of_fit(const std::string& text) {
+  const Case one;
+  judge::Run run;
+  run.input_name = "points.csv";
+  run.out = text;
+  Sheet sheet;
+  check_fit_text(one.course, run, sheet);
+  return sheet;
+}
+
+TEST(JudgeTexts, ComparesFiguresToTheDigitsPrinted) {
+  EXPECT_TRUE(prints("0.6047", 0.60474));
+  EXPECT_TRUE(prints("0.6048", 0.60474));  // a bound may be rounded up
+  EXPECT_FALSE(prints("0.6046", 0.60474));
+  EXPECT_FALSE(prints("0.6049", 0.60474));
+  EXPECT_TRUE(prints("-5.1e-05", -5.12e-5));
+  EXPECT_FALSE(prints("5.1e-05", -5.12e-5));
+  EXPECT_TRUE(prints("-", std::nullopt));
+  EXPECT_FALSE(prints("0", std::nullopt));
+  EXPECT_FALSE(prints("-", 0.0));
+  EXPECT_FALSE(prints("0", 1e-12));
+}
+
+TEST(JudgeTexts, TakesTheFiguresOutOfASentence) {
+  const Sentence s = sentence_of("1.885 mm from the points alone (points 4-5)", "mm");
+  EXPECT_EQ(s.shape, "# U from the point alone (point #-#)");
+  EXPECT_EQ(s.figures, (std::vector<std::string>{"1.885", "4", "5"}));
+}
+
+TEST(JudgeTexts, FindsEveryDoctoredFigureOfTheReport) {
+  const std::string sound = data("judge/series10.txt");
+  EXPECT_EQ(all_false(of_fit(sound)), "");
+  const struct {
+    const char *what, *by;
+  } kDoctored[] = {{"9 pieces", "8 pieces"},
+                   {"10 points in", "11 points in"},
+                   {"1 run\n", "2 runs\n"},
+                   {"0 vertices (", "1 vertices ("},
+                   {"at least 0)", "at least 1)"},
+                   {"), 0 inflections", "), 2 inflections"},
+                   {"1.885 mm from", "1.883 mm from"},
+                   {"(points 4-5); ", "(points 3-4); "},
+                   {"0.5912 mm with", "0.5900 mm with"},
+                   {"0.0008333 mm", "0.0008331 mm"},
+                   {"(tolerance 0.0008398)", "(tolerance 0.0008390)"},
+                   {"52 inserted", "50 inserted"},
+                   {"heading 6.7e-16", "heading 6.2e-16"},
+                   {"curvature 1.1e-14", "curvature 1.1e-15"},
+                   {"-6.9602", "-6.9600"},
+                   {"0.9426", "0.9422"},
+                   {"15.569", "15.566"},
+                   {"0.0006424         5", "0.0006424         4"},
+                   {"lengths in mm", "lengths in in"},
+                   {"proved: monotone", "NOT proved: monotone"},
+                   {"G2 joints", "G1 joints"}};
+  for (const auto& one : kDoctored) {
+    EXPECT_GT(of_fit(changed(sound, one.what, one.by)).wrong(), 0) << one.what;
+  }
+}
+
+TEST(JudgeTexts, TellsSentencesThatItDoesNotKnow) {
+  const std::string sound = data("judge/series10.txt");
+  const auto unjudged = [](const Sheet& sheet) {
+    long sum = 0;
+    for (const auto& [claim, n] : sheet.counts()) sum += n.unjudged;
+    return sum;
+  };
+  EXPECT_EQ(unjudged(of_fit(sound)), 0);
+  EXPECT_EQ(unjudged(of_fit(sound + "smoothness  7 of 10\n")), 1);
+}
+
+TEST(JudgeTexts, FindsDoctoredSentencesOfVerify) {
+  const Case one;
+  const auto of = [&](const std::string& text) {
+    judge::Run run;
+    run.out = text;
+    Sheet sheet;
+    check_verify_text(one.course, run, sheet);
+    return sheet;
+  };
+  const std::string sound = data("judge/series10.verify.txt");
+  EXPECT_EQ(all_false(of(sound)), "");
+  EXPECT_GT(of(changed(sound, "inside the region   yes", "inside the region   no")).wrong(), 0);
+  EXPECT_GT(of(changed(sound, "9 increasing", "8 increasing")).wrong(), 0);
+  EXPECT_GT(of(changed(sound, "bezier  increasing", "bezier  decreasing")).wrong(), 0);
+  EXPECT_GT(of(changed(sound, "self-intersections  0", "self-intersections  1")).wrong(), 0);
+}
+
+TEST(JudgeTexts, ExitCodesMustFitTheReport) {
+  const Case one;
+  Sheet sheet;
+  judge::Run run;
+  run.code = 0;
+  check_exit(&one.course, run, sheet);
+  EXPECT_EQ(sheet.wrong(), 0);
+  run.code = 5;
+  check_exit(&one.course, run, sheet);
+  EXPECT_EQ(sheet.wrong(), 1);
+  run.code = 4;
+  run.err.clear();
+  check_exit(nullptr, run, sheet);
+  EXPECT_EQ(sheet.wrong(), 2);  // a refusal without a word
+}
+
+Sheet of_export(const std::string& name, const std::string& text, const std::string& note) {
+  const Case one;
+  Sheet sheet;
+  check_export(one.course, name, text, {note}, sheet);
+  return sheet;
+}
+
+TEST(JudgeTexts, FindsStepFilesOfAnotherCurveOrUnit) {
+  const std::string step = data("judge/series10.step");
+  const std::string note = "one NURBS curve of degree 6, 47 control points";
+  EXPECT_EQ(all_false(of_export("a.step", step, note)), "");
+  EXPECT_GT(
+      of_export("a.step", changed(step, "-5.829641661304633", "-5.829651661304633"), note).wrong(),
+      0);
+  EXPECT_GT(
+      of_export("a.step", changed(step, "SI_UNIT(.MILLI.,.METRE.)", "SI_UNIT($,.METRE.)"), note)
+          .wrong(),
+      0);
+  EXPECT_GT(of_export("a.step", changed(step, "DATA;", "NOTHING;"), note).wrong(), 0);
+}
+
+TEST(JudgeTexts, FindsGcodeThatLeavesTheContourOrMiscounts) {
+  const std::string nc = data("judge/series10.nc");
+  const std::string note = "30 blocks, 30 of them arcs, at most 0.00473 mm from the contour";
+  EXPECT_EQ(all_false(of_export("a.nc", nc, note)), "");
+  const auto found = [&](const std::string& text, const std::string& told) {
+    return of_export("a.nc", text, told).wrong() > 0;
+  };
+  EXPECT_TRUE(found(changed(nc, "X-20.1438", "X-20.1638"), note));
+  EXPECT_TRUE(found(changed(nc, "G21", "G20"), note));
+  EXPECT_TRUE(found(changed(nc, "G2 X227", "G3 X227"), note));
+  EXPECT_TRUE(found(nc, "31 blocks, 30 of them arcs, at most 0.00473 mm from the contour"));
+  EXPECT_TRUE(found(nc, "30 blocks, 29 of them arcs, at most 0.00473 mm from the contour"));
+  EXPECT_TRUE(found(nc, "30 blocks, 30 of them arcs, at most 0.00373 mm from the contour"));
+}
+
+TEST(JudgeTexts, FindsDxfOfAnotherCurve) {
+  const std::string dxf = data("judge/series10.dxf");
+  EXPECT_EQ(all_false(of_export("a.dxf", dxf, "1 entity, exact")), "");
+  EXPECT_GT(of_export("a.dxf", changed(dxf, "-5.829641661304633", "-5.829651661304633"),
+                      "1 entity, exact")
+                .wrong(),
+            0);
+}
+
+Sheet of_input(const std::string& points, const std::vector<std::string>& options) {
+  const Case one;
+  Sheet sheet;
+  check_input(one.course, read_input(points, options), sheet);
+  return sheet;
+}
+
+TEST(JudgeTexts, FindsGivenDataThatAreNotKept) {
+  const std::string points = data("judge/points.csv");
+  EXPECT_EQ(all_false(of_input(points, {})), "");
+  EXPECT_TRUE(of_input(points, {"--units", "in"}).has("units"));
+  EXPECT_TRUE(of_input(points, {"--closed"}).has("closed"));
+  EXPECT_TRUE(of_input(points, {"--carrier", "arcs"}).has("carrier"));
+  EXPECT_TRUE(of_input(points, {"--tolerance", "0.01"}).has("report.tolerance"));
+  EXPECT_TRUE(of_input(points, {"--heading-at", "5=90"}).has("given.heading"));
+  EXPECT_TRUE(of_input(points, {"--start-radius=-5"}).has("given.curvature"));
+  EXPECT_TRUE(of_input(points, {"--kappa-at=10=0"}).has("given.curvature"));
+  EXPECT_TRUE(of_input(points + "240,-60\n", {}).has("points"));
+  EXPECT_TRUE(of_input(changed(points, "-20.48", "-20.49"), {}).has("points"));
+}
+
+TEST(JudgeTexts, FindsAnErrorThatTheTrueCurveExceeds) {
+  const Case one;
+  Input input = read_input(data("judge/points.csv"), {});
+  Truth truth;
+  truth.monotone = true;
+  truth.at = [&](Real t) {  // the polygon of the points, far from every fair curve
+    const auto i = static_cast<std::size_t>(std::min(t, 8.999L));
+    const Point a = input.points[i].point, b = input.points[i + 1].point;
+    const Real u = t - static_cast<Real>(i);
+    return Vec{a.x + u * (static_cast<Real>(b.x) - a.x), a.y + u * (static_cast<Real>(b.y) - a.y)};
+  };
+  for (int i = 0; i < 10; ++i) truth.parameters.push_back(i);
+  input.truth = truth;
+  Sheet sheet;
+  check_truth(one.course, input, sheet);
+  EXPECT_TRUE(sheet.has("segments.points_only_error truth"));
+}
+
+TEST(JudgeTexts, MakesTheSameSeriesFromTheSameSeed) {
+  for (std::uint64_t i = 0; i < 50; ++i) {
+    EXPECT_EQ(make_series(7, i).text, make_series(7, i).text);
+    EXPECT_EQ(make_series(7, i).options, make_series(7, i).options);
+  }
+  EXPECT_NE(make_series(7, 1).text, make_series(8, 1).text);
+}
+
+}  // namespace
+}  // namespace judge
