@@ -13,7 +13,7 @@
 namespace judge {
 namespace {
 
-constexpr Real kSame = 1e-9L;
+constexpr Real kSameFigure = 1e-9L;
 
 class AnalyseCheck {
  public:
@@ -30,7 +30,7 @@ class AnalyseCheck {
       const Real shortest = std::min({norm(a), norm(b), norm(c)});
       kappa_.push_back(2.0L * cross(a, b) / (norm(a) * norm(b) * norm(c)));
       rounding_.push_back(32.0L * 0x1p-53L * coordinate_ / (shortest * shortest) +
-                          kSame * std::abs(kappa_.back()));
+                          kSameFigure * std::abs(kappa_.back()));
       turning_.push_back(std::atan2(cross(a, b), dot(a, b)));
     }
   }
@@ -81,8 +81,8 @@ class AnalyseCheck {
   void segment(const Json& segment, std::size_t i) {
     const std::string where = fmt::format("points {}-{}", i + 1, i + 2);
     const Real h = norm(p_[i + 1] - p_[i]);
-    near("analyse chord", figure(segment, "chord"), h, 4.0L * 0x1p-53L * coordinate_ + kSame * h,
-         where);
+    near("analyse chord", figure(segment, "chord"), h,
+         4.0L * 0x1p-53L * coordinate_ + kSameFigure * h, where);
     const Figure error = figure(segment, "points_only_error");
     const bool inner = i >= 1 && i + 2 < p_.size();
     if (!inner) {

@@ -166,9 +166,10 @@ void check_convex(const Course& course, Sheet& sheet) {
       high = std::max(high, end->kappa.lower());
     }
   }
-  constexpr double kRounding = 1e-9;
+  constexpr double kConvexRounding = 1e-9;
   const double most = std::max(-low, high);
-  sheet.expect(std::min(-low, high) <= kRounding * most, "convex", std::string("no inflection"),
+  sheet.expect(std::min(-low, high) <= kConvexRounding * most, "convex",
+               std::string("no inflection"),
                fmt::format("curvature from {:.6g} to {:.6g}", low, high), "");
 }
 

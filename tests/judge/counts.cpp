@@ -7,7 +7,7 @@ namespace judge {
 namespace {
 
 /// Curvatures below this part of the largest around a joint may be rounding of zero.
-constexpr double kFlat = 1e-9;
+constexpr double kFlatEnd = 1e-9;
 
 struct Item {
   int sign = 0;
@@ -52,7 +52,8 @@ CountRange count_inflections(const Course& course) {
     const End &a = course.ends.start[i], &b = course.ends.end[i];
     const double most = std::max(abs(a.kappa).upper(), abs(b.kappa).upper());
     const auto meet = [&](double kappa) {
-      items.push_back({kappa > 0.0 ? 1 : (kappa < 0.0 ? -1 : 0), std::abs(kappa) > kFlat * most});
+      items.push_back(
+          {kappa > 0.0 ? 1 : (kappa < 0.0 ? -1 : 0), std::abs(kappa) > kFlatEnd * most});
     };
     meet(static_cast<double>(a.kappa.middle()));
     for (const Turn& turn : course.laws[i].turns) {

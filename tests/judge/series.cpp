@@ -105,7 +105,7 @@ class SeriesMaker {
     if (dice_.chance(0.65)) add("--carrier", kCarriers[dice_.whole(0, 6)]);
     if (dice_.chance(0.35)) add("--units", kUnits[dice_.whole(0, 9)]);
     if (dice_.chance(0.2)) {
-      const double part = dice_.chance(0.05) ? 1e-300 : dice_.logarithmic(1e-9, 0.1);
+      const double part = dice_.chance(0.02) ? 1e-300 : dice_.logarithmic(1e-9, 0.1);
       add("--tolerance", few(part * size_));
     }
     if (dice_.chance(0.25)) add("--noise", few(dice_.logarithmic(1e-9, 1e-2) * size_));

@@ -10,7 +10,7 @@
 namespace judge {
 namespace {
 
-constexpr Real kPi = std::numbers::pi_v<Real>;
+constexpr Real kHalfTurn = std::numbers::pi_v<Real>;
 
 /// Parameters from a to b: even, random, in geometric ratio, or with close pairs.
 std::vector<Real> spaced(Dice& dice, Real a, Real b, int n) {
@@ -97,7 +97,7 @@ Shape known_curve(Dice& dice) {
     case 4: {
       const Real b = dice.between(0.1, 1.0), to = dice.between(0.5, 6.2);
       const auto at = [b](Real t) { return Vec{std::cos(t), b * std::sin(t)}; };
-      return sampled(dice, "ellipse", at, 0.0L, to, n, every(0.0L, 0.5L * kPi, 0.0L, to));
+      return sampled(dice, "ellipse", at, 0.0L, to, n, every(0.0L, 0.5L * kHalfTurn, 0.0L, to));
     }
     case 5: {
       const auto at = [](Real t) { return t * unit_at(t); };
@@ -107,7 +107,7 @@ Shape known_curve(Dice& dice) {
     case 6: {  // curvature of y = a sin x is extreme at the crests alone
       const Real to = dice.between(1.0, 20.0);
       const auto at = [a](Real t) { return Vec{t, a * std::sin(t)}; };
-      return sampled(dice, "sine", at, 0.0L, to, n, every(0.5L * kPi, kPi, 0.0L, to));
+      return sampled(dice, "sine", at, 0.0L, to, n, every(0.5L * kHalfTurn, kHalfTurn, 0.0L, to));
     }
     case 7:
       return sampled(dice, "catenary",
@@ -126,7 +126,7 @@ Shape known_curve(Dice& dice) {
     default: {
       const auto at = [](Real t) { return Vec{t - std::sin(t), 1.0L - std::cos(t)}; };
       return sampled(dice, "cycloid", at, dice.between(0.05, 3.0), dice.between(3.3, 6.2), n,
-                     {kPi});
+                     {kHalfTurn});
     }
   }
 }
@@ -168,7 +168,7 @@ Shape circular(Dice& dice) {
   const int n = dice.whole(3, 40);
   const double off = dice.chance(0.4) ? 0.0 : dice.logarithmic(1e-15, 1e-3);
   const bool closed = dice.chance(0.4);
-  const Real turn = closed ? 2.0L * kPi : dice.between(0.2, 7.0);
+  const Real turn = closed ? 2.0L * kHalfTurn : dice.between(0.2, 7.0);
   for (int i = 0; i < n; ++i) {
     const Real t = turn * i / (closed ? n : n - 1);
     p.push_back((1.0L + off * dice.normal()) * unit_at(t));
@@ -201,12 +201,12 @@ Shape slot(Dice& dice) {
   const int on_line = dice.whole(2, 6), on_arc = dice.whole(2, 9);
   for (int i = 0; i < on_line; ++i) p.push_back({length * i / on_line, -1.0});
   for (int i = 0; i < on_arc; ++i) {
-    p.push_back(Vec{length, 0.0L} + unit_at(kPi * (static_cast<Real>(i) / on_arc - 0.5L)));
+    p.push_back(Vec{length, 0.0L} + unit_at(kHalfTurn * (static_cast<Real>(i) / on_arc - 0.5L)));
   }
   for (int i = 0; i < on_line; ++i) p.push_back({length - length * i / on_line, 1.0});
   if (dice.chance(0.5)) return plain("line-arc-line", std::move(p));
   for (int i = 0; i < on_arc; ++i) {
-    p.push_back(unit_at(kPi * (static_cast<Real>(i) / on_arc + 0.5L)));
+    p.push_back(unit_at(kHalfTurn * (static_cast<Real>(i) / on_arc + 0.5L)));
   }
   p.push_back(p.front());
   return plain("slot", std::move(p), true);
@@ -218,7 +218,7 @@ Shape blob(Dice& dice) {
   const int n = dice.whole(5, 60);
   std::vector<Vec> p;
   for (int i = 0; i < n; ++i) {
-    const Real t = 2.0L * kPi * i / n;
+    const Real t = 2.0L * kHalfTurn * i / n;
     Real r = 1.0L;
     for (std::size_t k = 0; k < 4; ++k) {
       r += c[2 * k] * std::cos((k + 1) * t) + c[2 * k + 1] * std::sin((k + 1) * t);
@@ -234,7 +234,7 @@ Shape limacon(Dice& dice) {
   const int n = dice.whole(8, 40);
   std::vector<Vec> p;
   for (int i = 0; i < n; ++i) {
-    const Real t = 2.0L * kPi * i / n;
+    const Real t = 2.0L * kHalfTurn * i / n;
     p.push_back((1.0L + loop * std::cos(t)) * unit_at(t));
   }
   return plain("limacon", std::move(p), true);
