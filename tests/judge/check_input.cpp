@@ -104,58 +104,112 @@ Sides sides_at(const Course& course, std::size_t point) {
   return out;
 }
 
-void check_heading(const Sides& sides, double given, bool corner, const std::string& where,
-                   Sheet& sheet) {
-  double worst = 0.0, best = std::numeric_limits<double>::max(), stated = 0.0;
+/// How far the contour is from a given heading or curvature at a point: on its worst side, at a
+/// corner on its best one.
+struct Miss {
+  double off = 0.0, stated = 0.0;
+};
+
+Miss heading_miss(const Sides& sides, double given, bool corner) {
+  Miss worst, best{std::numeric_limits<double>::max(), 0.0};
   for (const auto& [heading, kappa] : sides.heading_kappa) {
     const double off = std::abs(std::remainder(heading - given, 2.0 * std::numbers::pi));
-    if (off >= worst) stated = heading;
-    worst = std::max(worst, off);
-    best = std::min(best, off);
+    if (off >= worst.off) worst = {off, heading};
+    if (off < best.off) best = {off, heading};
   }
-  sheet.expect((corner ? best : worst) <= kGivenHeading * (1.0 + 1e-6), "given.heading", stated,
-               given, where);
+  return corner ? best : worst;
 }
 
-void check_curvature(const Course& course, const Sides& sides, double given, bool corner,
-                     const std::string& where, Sheet& sheet) {
-  const double scale = given != 0.0 ? std::abs(given) : sides.largest_kappa;
-  double worst = 0.0, best = std::numeric_limits<double>::max(), stated = 0.0;
+/// Of the curvature, or of the largest one around where 0 was given.
+Miss curvature_miss(const Course& course, const Sides& sides, double given, bool corner) {
+  const double scale = given != 0.0 ? std::abs(given) : std::max(sides.largest_kappa, 1e-300);
+  Miss worst, best{std::numeric_limits<double>::max(), 0.0};
   double low = std::numeric_limits<double>::max(), high = -low;
   for (const auto& [heading, kappa] : sides.heading_kappa) {
-    const double off = std::abs(kappa - given);
-    if (off >= worst) stated = kappa;
-    worst = std::max(worst, off);
-    best = std::min(best, off);
+    const double off = std::abs(kappa - given) / scale;
+    if (off >= worst.off) worst = {off, kappa};
+    if (off < best.off) best = {off, kappa};
     low = std::min(low, kappa);
     high = std::max(high, kappa);
   }
-  const double slack = kGivenCurvature * scale * (1.0 + 1e-6);
-  bool ok = (corner ? best : worst) <= slack;
   // arcs: any curvature between both arcs belongs to their common point
-  if (course.file.carrier == "arcs") ok = ok || (given >= low - slack && given <= high + slack);
-  sheet.expect(ok, "given.curvature", stated, given, where);
+  if (course.file.carrier == "arcs" && given >= low && given <= high) return {0.0, given};
+  return corner ? best : worst;
+}
+
+bool is_corner(const ContourFile& file, std::size_t point) {
+  return std::any_of(file.elements.begin(), file.elements.end(),
+                     [point](const FileElement& e) { return e.corner && e.source == point; });
+}
+
+struct GivenCounts {
+  int headings = 0, curvatures = 0, corners = 0;
+  double heading_miss = 0.0, curvature_miss = 0.0;
+};
+
+/// One fixed point: met, or found false.
+void check_datum(const Course& course, std::size_t i, const std::optional<double>& heading,
+                 const std::optional<double>& kappa, GivenCounts& counts, Sheet& sheet) {
+  constexpr double kLastDigits = 1.0 + 1e-6;
+  const std::string where = fmt::format("point {}", i + 1);
+  const Sides sides = sides_at(course, i);
+  if (sides.heading_kappa.empty()) return sheet.unjudged("given.heading", "no station", where);
+  const bool corner = is_corner(course.file, i);
+  if (heading) {
+    const Miss miss = heading_miss(sides, *heading, corner);
+    sheet.expect(miss.off <= kGivenHeading * kLastDigits, "given.heading", miss.stated, *heading,
+                 where);
+    ++counts.headings;
+    counts.heading_miss = std::max(counts.heading_miss, miss.off);
+  }
+  if (kappa) {
+    const Miss miss = curvature_miss(course, sides, *kappa, corner);
+    sheet.expect(miss.off <= kGivenCurvature * kLastDigits, "given.curvature", miss.stated, *kappa,
+                 where);
+    ++counts.curvatures;
+    counts.curvature_miss = std::max(counts.curvature_miss, miss.off);
+  }
+}
+
+/// What the file lists as given must be what was asked for.
+void check_list(const ContourFile& file, const Expected& expected, Sheet& sheet) {
+  std::vector<bool> heading(expected.points.size()), kappa(expected.points.size());
+  for (const Json& one : file.given) {
+    const auto i = static_cast<std::size_t>(figure(one, "point").value.value_or(-1.0));
+    if (i >= expected.points.size()) {
+      sheet.fails("given", "point " + std::to_string(i), "no such point", "");
+      continue;
+    }
+    const GivenPoint& p = expected.points[i];
+    const Figure h = figure(one, "heading"), k = figure(one, "kappa");
+    heading[i] = h.known();
+    kappa[i] = k.known();
+    constexpr double kSameText = 1e-12;
+    const bool ok = (!h.known() ||
+                     (p.heading && std::abs(std::remainder(*h.value - *p.heading,
+                                                           2.0 * std::numbers::pi)) < kSameText)) &&
+                    (!k.known() ||
+                     (p.kappa && std::abs(*k.value - *p.kappa) <= kSameText * std::abs(*p.kappa)));
+    sheet.expect(ok, "given", std::string("listed"), std::string("not what was asked for"),
+                 fmt::format("point {}", i + 1));
+  }
+  for (std::size_t i = 0; i < expected.points.size(); ++i) {
+    const GivenPoint& p = expected.points[i];
+    const bool listed = (!p.heading || heading[i]) && (!p.kappa || kappa[i]);
+    if (!listed) {
+      sheet.fails("given", "not listed", "asked for", fmt::format("point {}", i + 1));
+    }
+  }
 }
 
 void check_given(const Course& course, const Expected& expected, Sheet& sheet) {
-  bool any = false;
+  GivenCounts counts;
   for (std::size_t i = 0; i < expected.points.size(); ++i) {
     const GivenPoint& p = expected.points[i];
-    if (!p.heading && !p.kappa) continue;
-    any = true;
-    const std::string where = fmt::format("point {}", i + 1);
-    const Sides sides = sides_at(course, i);
-    if (sides.heading_kappa.empty()) {
-      sheet.unjudged("given.heading", "no station", where);
-      continue;
-    }
-    bool corner = false;
-    for (const FileElement& e : course.file.elements)
-      corner = corner || (e.corner && e.source == i);
-    if (p.heading) check_heading(sides, *p.heading, corner, where, sheet);
-    if (p.kappa) check_curvature(course, sides, *p.kappa, corner, where, sheet);
+    if (p.heading || p.kappa) check_datum(course, i, p.heading, p.kappa, counts, sheet);
   }
-  if (any && course.file.given.is_null()) sheet.missing("given", "list of what was fixed");
+  if (!course.file.given.is_null()) return check_list(course.file, expected, sheet);
+  if (counts.headings + counts.curvatures > 0) sheet.missing("given", "list of what was fixed");
 }
 
 void check_convex(const Course& course, Sheet& sheet) {
@@ -174,6 +228,33 @@ void check_convex(const Course& course, Sheet& sheet) {
 }
 
 }  // namespace
+
+/// The list of given data in the file, and the report's line on them.
+void check_given_list(const Course& course, Sheet& sheet) {
+  GivenCounts counts;
+  for (const Json& one : course.file.given) {
+    const auto i = static_cast<std::size_t>(figure(one, "point").value.value_or(0.0));
+    check_datum(course, i, figure(one, "heading").value, figure(one, "kappa").value, counts, sheet);
+    counts.corners += flag(one, "corner").value_or(false) ? 1 : 0;
+  }
+  const Json& report = member(course.file.report, "given");
+  if (report.is_null()) return;
+  const auto count = [&](const char* name, int found) {
+    sheet.expect(figure(report, name).value == found, std::string("report.given.") + name,
+                 figure(report, name).value.value_or(-1.0), found, "in the list");
+  };
+  count("headings", counts.headings);
+  count("curvatures", counts.curvatures);
+  count("corners", counts.corners);
+  const auto miss = [&](const char* name, double found) {
+    constexpr double kNoise = 1e-15;  // the list's own last digits
+    const double stated = figure(report, name).value.value_or(0.0);
+    sheet.expect(stated >= found * (1.0 - 1e-6) - kNoise, std::string("report.given.") + name,
+                 stated, found, "");
+  };
+  miss("heading_miss", counts.heading_miss);
+  miss("curvature_miss", counts.curvature_miss);
+}
 
 void check_input(const Course& course, const Input& input, Sheet& sheet) {
   const ContourFile& file = course.file;

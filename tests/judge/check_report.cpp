@@ -374,8 +374,24 @@ class ReportCheck {
       sheet_.expect(sum.value == inserted, "report.inserted_points", sum.value.value_or(-1.0),
                     inserted, "sum of the rows");
     }
+    largest_deviation(rows);
     tolerance(largest);
     carrier_deviation();
+  }
+
+  void largest_deviation(const Json& rows) {
+    const Figure stated = figure(report_, "largest_deviation");
+    if (!stated.present || !rows.is_array()) return;  // the page does not ask for it
+    double most = 0.0;
+    bool known = false;
+    for (const Json& row : rows) {
+      const Figure one = figure(row, "deviation");
+      known = known || one.known();
+      most = std::max(most, one.value.value_or(0.0));
+    }
+    sheet_.expect(known ? stated.value == most : stated.null() || stated.value == 0.0,
+                  "report.largest_deviation", stated.value.value_or(-1.0), most,
+                  "largest of the rows");
   }
 
   void tolerance(const Figure& largest) {

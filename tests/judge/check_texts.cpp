@@ -213,10 +213,30 @@ class TextCheck {
                   fmt::format("heading {:.3g}, curvature {:.3g}", heading, curvature), "");
   }
 
+  /// "2 headings and 1 radius met; largest miss 1e-12 rad and 2e-11 of the curvature"
   void given(const Fact& fact) {
-    const Sentence s = sentence_of(fact.value, file_.units);
-    if (file_.given.is_null()) return sheet_.unjudged("text: given data", s.shape);
-    sheet_.unjudged("text: given data", s.shape);
+    const Json& report = member(report_, "given");
+    for (const std::string& part : split(fact.value, "; ")) {
+      const Sentence s = sentence_of(part, file_.units);
+      const bool misses = s.shape.starts_with("largest miss");
+      std::size_t at = 0;
+      for (std::size_t i = 0; i < s.figures.size(); ++i, ++at) {
+        at = s.shape.find('#', at);
+        const std::string behind = s.shape.substr(at);
+        const auto is = [&](const char* words) { return behind.starts_with(words); };
+        const char* name = misses            ? (is("# rad") ? "heading_miss" : "curvature_miss")
+                           : is("# heading") ? "headings"
+                           : is("# radius") || is("# curvature") ? "curvatures"
+                           : is("# corner")                      ? "corners"
+                                                                 : "";
+        const Figure value = figure(report, name);
+        if (!value.present) {
+          sheet_.unjudged("text: given data", s.shape);
+        } else {
+          figure_is(std::string("given ") + name, s.figures[i], value.value);
+        }
+      }
+    }
   }
 
   struct Largest {
@@ -273,6 +293,9 @@ class TextCheck {
       figure_is("fairness vertices", s.figures[0], figure(report_, "vertices").value);
       figure_is("fairness bound", s.figures[1], figure(report_, "vertices_lower_bound").value);
       figure_is("fairness inflections", s.figures[2], figure(report_, "inflections").value);
+    } else if (key == "largest error: unknown from the point alone") {
+      say(!largest("points_only_error").value, "largest error from the points", "unknown",
+          largest("points_only_error").value);
     } else if (key.starts_with("largest error: # U from the point alone")) {
       error(s, "points_only_error", "from the points");
     } else if (key.starts_with("largest error: # U with these tangents and curvature")) {
@@ -285,6 +308,15 @@ class TextCheck {
     } else if (key.starts_with("from the spirals: at most # U (measured), tolerance #")) {
       figure_is("from the spirals", s.figures[0], figure(report_, "carrier_deviation").value);
       figure_is("tolerance", s.figures[1], figure(report_, "tolerance").value);
+    } else if (key == "from the spirals: # U as measured, # outside their region" ||
+               key == "from the spirals: # U as measured, inside their region") {
+      figure_is("from the spirals", s.figures[0], figure(report_, "carrier_deviation").value);
+      const Figure outside = figure(report_, "outside_spirals_region");
+      if (s.figures.size() == 2) {
+        figure_is("outside their region", s.figures[1], outside.value);
+      } else {
+        say(outside.value == 0.0, "outside their region", "inside", outside.value);
+      }
     } else if (key == "largest move: # U") {
       figure_is("largest move", s.figures[0], figure(report_, "largest_move").value);
     } else if (key ==

@@ -102,7 +102,6 @@ ContourFile contour_of(const Json& json) {
   out.report = member(json, "report");
   out.certificate = member(json, "certificate");
   out.given = member(json, "given");
-  if (out.given.is_null()) out.given = member(out.report, "given");
   return out;
 }
 

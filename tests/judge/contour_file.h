@@ -39,7 +39,8 @@ struct ContourFile {
   std::vector<Piece> pieces;
   std::vector<FileRun> runs;
   std::optional<FileSpline> spline;
-  Json report, certificate, given;  ///< null where the file has none
+  Json report, certificate;
+  Json given;  ///< what the user fixed; null where the file has no such list
 
   /// Joint that stands between piece i - 1 and piece i; nullptr past an end.
   [[nodiscard]] const FileElement* joint(std::size_t i) const;

@@ -146,6 +146,7 @@ int judge_file(const Settings& settings) {
     check_form(course, sheet);
     check_certificate(course, sheet);
     check_report(course, sheet);
+    check_given_list(course, sheet);
     if (!settings.points.empty()) {
       check_input(course, read_input(text_of_file(settings.points), words_of(settings.options)),
                   sheet);

@@ -25,7 +25,8 @@ struct Run {
 void check_fit_text(const Course& course, const Run& run, Sheet& sheet);
 /// `fit --json` against the file.
 void check_fit_json(const Course& course, const Run& run, Sheet& sheet);
-void check_verify_text(const Course& course, const Run& run, Sheet& sheet);
+/// `fit_code`: what `fit` ended with when it wrote the file; -1: not known.
+void check_verify_text(const Course& course, const Run& run, Sheet& sheet, int fit_code = -1);
 /// The exit code against the file; without a file the texts of a refusal.
 void check_exit(const Course* course, const Run& run, Sheet& sheet);
 /// Files of other formats against the contour; `note` is what the report says of the file.

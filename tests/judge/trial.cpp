@@ -118,6 +118,7 @@ class Work {
     check_form(course, sheet);
     check_certificate(course, sheet);
     check_report(course, sheet);
+    check_given_list(course, sheet);
     check_input(course, input, sheet);
     check_truth(course, input, sheet);
     check_fit_text(course, fit, sheet);
@@ -305,6 +306,7 @@ void judge_contour(const std::string& text, Sheet& sheet) {
   check_form(course, sheet);
   check_certificate(course, sheet);
   check_report(course, sheet);
+  check_given_list(course, sheet);
 }
 
 }  // namespace judge
