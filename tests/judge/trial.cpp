@@ -44,6 +44,7 @@ class Work {
     Input input = read_input(series_.text, series_.options);
     input.truth = series_.truth;
     const Run fit = program("fit", fit_words());
+    fit_code_ = fit.code;
     if (stopped_) return std::move(out_);
     const double start = own_seconds();
     const std::string stored = text_of_file(path("c.json"));
@@ -152,7 +153,7 @@ class Work {
     if (dice_.chance(0.5)) {
       const Run verify = program("verify", {"verify", "c.json"});
       if (stopped_) return;
-      check_verify_text(course, verify, out_.sheet);
+      check_verify_text(course, verify, out_.sheet, fit_code_);
     }
     if (dice_.chance(0.2)) {
       std::vector<std::string> words{"fit", kPoints, "--json"};
@@ -285,6 +286,7 @@ class Work {
   Trial out_;
   std::vector<std::string> exports_;
   bool stopped_ = false;
+  int fit_code_ = 0;
 };
 
 }  // namespace
