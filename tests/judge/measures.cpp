@@ -51,10 +51,12 @@ std::string missed_point(const Course& course) {
       return fmt::format("point {} is {:.6Lg} away", i + 1, away[i]);
     }
   }
-  // in order: each near the place that belongs to it
-  for (const Part& part : course.parts) {
+  // in order: each near a place between the stations of its neighbours
+  for (std::size_t k = 0; k < course.parts.size(); ++k) {
+    const Part& part = course.parts[k];
     const Vec p = seen(file.points[part.from_point], course.origin);
-    const Real off = norm(course.path.at(part.from) - p);
+    const Real from = k > 0 ? course.parts[k - 1].from : part.from;
+    const Real off = course.path.nearest(p, from, part.to).distance;
     if (off > file.tolerance[part.from_point] * (1.0L + 1e-6L) + course.resolution()) {
       return fmt::format("the contour does not pass the points in their order: point {}",
                          part.from_point + 1);

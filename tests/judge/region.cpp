@@ -12,12 +12,15 @@ constexpr Real kPi = std::numbers::pi_v<Real>;
 /// Rounding of long double, with a reserve, relative to terms that cancel.
 constexpr Real kRounding = 1e-17L;
 
+constexpr Real kSmallTurn = 1.0L;  // rad
+
 Real wrapped(Real angle) { return std::remainder(angle, 2.0L * kPi); }
 
-/// Angle in the sense of the curvature, between -2 pi and 2 pi.
+/// Angle in the sense of the curvature, between -2 pi and 2 pi. A small one against that sense is
+/// rounding, not nearly a full turn.
 Real in_sense_of(Real kappa, Real turn) {
   const Real w = wrapped(turn);
-  if (std::abs(w) < 1e-9L || w * kappa >= 0.0L) return w;
+  if (std::abs(w) < kSmallTurn || w * kappa >= 0.0L) return w;
   return w + (kappa > 0.0L ? 2.0L * kPi : -2.0L * kPi);
 }
 

@@ -88,9 +88,11 @@ class Work {
     for (std::size_t i = 1; i < words.size(); ++i) line += words[i] + " ";
     if (done.out_of_time) {
       stop(Trial::Outcome::kTimeout, "time limit", line, fmt::format("{:.1f} s", done.seconds));
-    } else if (done.signal != 0 || done.code < 0 || done.code > 5 || done.code == 1) {
+    } else if (done.signal != 0 || done.code < 0 || done.code > 5) {
       stop(Trial::Outcome::kCrash, "crash", line,
            fmt::format("exit {}, signal {}: {}", done.code, done.signal, done.err.substr(0, 200)));
+    } else if (done.code == 1) {
+      stop(Trial::Outcome::kFalse, "exit 1", line, done.err.substr(0, 200));
     }
     Run run;
     run.command = command;
