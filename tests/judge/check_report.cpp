@@ -424,7 +424,7 @@ class ReportCheck {
   void moves() {
     const Figure largest = figure(report_, "largest_move");
     const Figure certified = figure(file_.certificate, "largest_move");
-    const std::vector<Real> away = point_distances(course_);
+    const std::vector<Real>& away = course_.away;
     Real most = 0.0L;
     std::size_t at = 0;
     for (std::size_t i = 0; i < away.size(); ++i) {

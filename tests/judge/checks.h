@@ -13,7 +13,6 @@
 namespace judge {
 
 // measures that several checks need
-std::vector<Real> point_distances(const Course& course);
 /// What is wrong with how the points are met; empty: nothing.
 std::string missed_point(const Course& course);
 /// How far the contour between two orders leaves the region of its elements there.

@@ -99,6 +99,7 @@ Course::Course(const ContourFile& contour)
     part.cuts = cuts_of(part.from, part.to);
     parts.push_back(std::move(part));
   }
+  for (const Point p : contour.points) away.push_back(path.nearest(seen(p, origin)).distance);
   stations_known = !parts.empty();
 }
 

@@ -29,6 +29,7 @@ struct Course {
   std::vector<CurvatureLaw> laws;
   Path path;
   std::vector<Part> parts;
+  std::vector<Real> away;  ///< of each point, from the nearest place of the contour
   bool stations_known = false;
 
   /// Length below which figures are rounding of the coordinates.

@@ -10,14 +10,6 @@
 
 namespace judge {
 
-std::vector<Real> point_distances(const Course& course) {
-  std::vector<Real> out;
-  for (const Point p : course.file.points) {
-    out.push_back(course.path.nearest(seen(p, course.origin)).distance);
-  }
-  return out;
-}
-
 namespace {
 
 /// Points that are met exactly: a joint stands on each, in order.
@@ -45,7 +37,7 @@ std::string missed_point(const Course& course) {
   if (file.points.size() < 2) return "there are no points";
   if (file.tolerance.empty()) return missed_exactly(course);
   if (file.tolerance.size() != file.points.size()) return "a point has no tolerance";
-  const std::vector<Real> away = point_distances(course);
+  const std::vector<Real>& away = course.away;
   for (std::size_t i = 0; i < away.size(); ++i) {
     if (away[i] > file.tolerance[i] * (1.0L + 1e-9L) + course.resolution()) {
       return fmt::format("point {} is {:.6Lg} away", i + 1, away[i]);

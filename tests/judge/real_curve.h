@@ -20,7 +20,8 @@ inline Vec operator-(Vec a, Vec b) { return {a.x - b.x, a.y - b.y}; }
 inline Vec operator*(Real k, Vec a) { return {k * a.x, k * a.y}; }
 inline Real dot(Vec a, Vec b) { return a.x * b.x + a.y * b.y; }
 inline Real cross(Vec a, Vec b) { return a.x * b.y - a.y * b.x; }
-inline Real norm(Vec a) { return std::hypot(a.x, a.y); }
+/// Long doubles hold squares of all lengths that occur: no need of std::hypot.
+inline Real norm(Vec a) { return std::sqrt(a.x * a.x + a.y * a.y); }
 inline Vec unit_at(Real theta) { return {std::cos(theta), std::sin(theta)}; }
 inline Vec left_of(Vec a) { return {-a.y, a.x}; }
 /// A point seen from an origin.
