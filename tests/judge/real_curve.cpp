@@ -225,6 +225,7 @@ Place Path::refined(Vec p, Real from, Real to) const {
 }
 
 Place Path::nearest(Vec p, Real from, Real to) const {
+  if (spans_.empty()) return {0, 0.0L, std::numeric_limits<Real>::max()};
   const Real per = per_span_;
   const auto count = static_cast<Real>(places_.size() - 1);
   auto first = static_cast<std::size_t>(std::clamp(std::floor(from * per), 0.0L, count));

@@ -113,6 +113,11 @@ TEST(JudgeContour, FindsTotalsThatAreNotThoseOfTheRows) {
   expect_found(series10(), with(series10(), "inserted_points", "51"), "report.inserted_points");
 }
 
+TEST(JudgeContour, FindsFaultsInAFileWithoutPieces) {
+  const std::string empty = with(with(series10(), "pieces", "[]"), "runs", "[]");
+  EXPECT_GT(judged(empty).wrong(), 0);
+}
+
 TEST(JudgeContour, FindsProofsThatAreNone) {
   expect_found(series10(), with(series10(), "through_points", "false"), "certificate.proved");
   const std::string vertex =
