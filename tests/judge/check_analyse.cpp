@@ -84,6 +84,7 @@ class AnalyseCheck {
     near("analyse chord", figure(segment, "chord"), h,
          4.0L * 0x1p-53L * coordinate_ + kSameFigure * h, where);
     const Figure error = figure(segment, "points_only_error");
+    if (error.value == 0.0 && on_circle(i)) return sheet_.holds("analyse circular");
     const bool inner = i >= 1 && i + 2 < p_.size();
     if (!inner) {
       sheet_.expect(error.null() || p_.size() < 3, "analyse points_only_error null",
@@ -102,6 +103,16 @@ class AnalyseCheck {
       sheet_.expect(stated.value == direction, "analyse direction", stated.value.value_or(9.0),
                     direction, where);
     }
+  }
+
+  /// Whether four neighbouring points around chord i lie on one circle, within rounding.
+  [[nodiscard]] bool on_circle(std::size_t i) const {
+    for (std::size_t k = i >= 2 ? i - 2 : 0; k <= i && k + 1 < kappa_.size(); ++k) {
+      if (std::abs(kappa_[k + 1] - kappa_[k]) <= 4.0L * (rounding_[k] + rounding_[k + 1])) {
+        return true;
+      }
+    }
+    return false;
   }
 
   static int changes(const std::vector<int>& signs) {

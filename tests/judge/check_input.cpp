@@ -12,8 +12,8 @@
 namespace judge {
 namespace {
 
-constexpr double kGivenHeading = 1e-9;      // rad (docs/claims.md)
-constexpr double kGivenCurvature = 1e-9;    // of the curvature, or of the largest around where 0
+constexpr double kGivenHeading = 1e-6;      // rad (docs/claims.md)
+constexpr double kGivenCurvature = 1e-6;    // of the curvature, or of the largest around where 0
 constexpr double kDefaultTolerance = 3e-6;  // of the size (docs/cli.md)
 
 struct Expected {

@@ -116,6 +116,9 @@ class ReportCheck {
     const char* claim = "segments.points_only_error";
     const Figure stated = figure(row, "points_only_error");
     if (!stated.present) return sheet_.missing(claim, where(part));
+    // a monotone curve along four points of one circle is that circle
+    const bool circular = file_.tolerance.empty() && on_circle(part);
+    if (circular && (stated.null() || stated.value == 0.0)) return sheet_.holds(claim);
     const auto four = four_points(part);
     const bool exists = four && file_.tolerance.empty() && file_.points.size() >= 4;
     if (stated.null()) {
@@ -140,6 +143,22 @@ class ReportCheck {
     sheet_.expect(*stated.value >= found * (1.0L - kSame) - slack &&
                       *stated.value <= found * (1.0L + kPadding) + slack,
                   claim, *stated.value, found, where(part));
+  }
+
+  /// Whether four neighbouring points around the part's chord lie on one circle, within rounding.
+  [[nodiscard]] bool on_circle(const Part& part) const {
+    const std::size_t n = file_.points.size();
+    for (std::size_t back = 0; back < 3 && n >= 4; ++back) {
+      if (!file_.closed && (part.from_point < back || part.from_point + 3 - back >= n)) continue;
+      std::array<std::size_t, 4> four{};
+      for (std::size_t j = 0; j < 4; ++j) four[j] = (part.from_point + n - back + j) % n;
+      const auto p = [&](std::size_t j) { return seen(file_.points[four[j]], course_.origin); };
+      const auto [k0, k1, h] = adjacent(four);
+      const Real shortest = std::min({norm(p(1) - p(0)), h, norm(p(3) - p(2))});
+      const Real blur = rounding_of_circles(four) / (shortest * shortest);
+      if (std::abs(k1 - k0) <= blur + 1e-12L * std::abs(k0)) return true;
+    }
+    return false;
   }
 
   /// What the rounding of the coordinates does to heights over a chord.

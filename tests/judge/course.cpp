@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <numbers>
 
 namespace judge {
 namespace {
@@ -112,6 +113,8 @@ Real Course::resolution() const {
 /// arc: there the runs of the file say which of its ends counts (the runs are judged on their own).
 std::vector<Real> Course::cuts_of(Real from, Real to) const {
   std::vector<Real> out{from};
+  // over half a turn or more a region is none: there all joints count (docs/claims.md)
+  const bool far = turning(from, to) >= std::numbers::pi_v<Real>;
   int before = 0;
   for (auto i = static_cast<std::size_t>(from); static_cast<Real>(i) < to; ++i) {
     const bool inner = static_cast<Real>(i) > from;
@@ -127,7 +130,7 @@ std::vector<Real> Course::cuts_of(Real from, Real to) const {
       turns = std::any_of(file.runs.begin(), file.runs.end(),
                           [i](const FileRun& run) { return run.first == i; });
     }
-    if (turns) out.push_back(static_cast<Real>(i));
+    if (turns || (far && inner)) out.push_back(static_cast<Real>(i));
   }
   out.push_back(to);
   return out;
