@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <limits>
 #include <numbers>
+#include <set>
 
 namespace judge {
 namespace {
@@ -84,6 +85,22 @@ std::vector<Station> stations_of(const ContourFile& contour, const Path& path, P
   return out;
 }
 
+/// Where the rows of the report name their points, only those that they name are stations: points
+/// with tolerances need not have a joint of their own.
+std::vector<Station> named_by_rows(const ContourFile& contour, std::vector<Station> stations) {
+  std::set<std::size_t> named;
+  for (const Json& row : member(contour.report, "segments")) {
+    for (const Json& point : member(row, "points")) {
+      if (point.is_number() && point.number >= 0.0) {
+        named.insert(static_cast<std::size_t>(point.number));
+      }
+    }
+  }
+  if (named.empty()) return stations;
+  std::erase_if(stations, [&](const Station& s) { return !named.contains(s.point); });
+  return stations;
+}
+
 }  // namespace
 
 Course::Course(const ContourFile& contour)
@@ -93,7 +110,7 @@ Course::Course(const ContourFile& contour)
       joints(joints_of(contour, ends)),
       path(path_of(contour, origin)) {
   for (const Piece& piece : contour.pieces) laws.push_back(curvature_law(piece));
-  const std::vector<Station> stations = stations_of(contour, path, origin);
+  const std::vector<Station> stations = named_by_rows(contour, stations_of(contour, path, origin));
   for (std::size_t k = 0; k + 1 < stations.size(); ++k) {
     Part part{
         stations[k].point, stations[k + 1].point, stations[k].order, stations[k + 1].order, {}};

@@ -117,7 +117,7 @@ std::optional<int> count_crossings(const Course& course) {
   constexpr std::size_t kMostChords = 4000;
   constexpr std::size_t kPerPiece = 24;
   const std::size_t pieces = course.file.pieces.size();
-  if (pieces * kPerPiece > kMostChords) return std::nullopt;
+  if (pieces == 0 || pieces * kPerPiece > kMostChords) return std::nullopt;
   std::vector<Chord> chords;
   Vec before = course.path.at(0.0L);
   for (std::size_t k = 1; k <= pieces * kPerPiece; ++k) {
