@@ -134,7 +134,7 @@ TEST(JudgeArithmetic, ASimpleKnotIsTakenApart) {
 
 TEST(JudgeArithmetic, SharesNoLineWithTheLibrary) {
   int files = 0;
-  const auto folder = std::filesystem::path(__FILE__).parent_path().parent_path();
+  const auto folder = std::filesystem::path(JUDGE_SOURCES);
   for (const auto& entry : std::filesystem::recursive_directory_iterator(folder)) {
     if (entry.path().extension() != ".h" && entry.path().extension() != ".cpp") continue;
     std::ifstream in(entry.path());
