@@ -264,8 +264,9 @@ Result<Fit> fit(const PointSeries& series, const FitJob& job, const Progress& pr
   tell("analysing", 0.0);
   auto prepared = prepare(series, job);
   if (!prepared) return tl::unexpected(prepared.error());
-  double tolerance = job.tolerance.value_or(default_tolerance(prepared->points));
-  if (passes_between_joints(job.carrier)) tolerance = share_tolerance(*prepared, tolerance);
+  const double asked = job.tolerance.value_or(default_tolerance(prepared->points));
+  const double tolerance =
+      passes_between_joints(job.carrier) ? share_tolerance(*prepared, asked) : asked;
   auto formed = form_sections(*prepared, job, tolerance, progress);
   for (int k = 0; k < kNarrowings && formed && narrow(formed->contour, *prepared); ++k) {
     formed = form_sections(*prepared, job, tolerance, progress);
@@ -285,7 +286,7 @@ Result<Fit> fit(const PointSeries& series, const FitJob& job, const Progress& pr
     if (auto kept = keeps_convex(out.contour, out.certificate); !kept) return fail(kept.error());
   }
   tell("bounding the error", 0.9);
-  auto report = measure(out.contour, tolerance);
+  auto report = measure(out.contour, asked);
   if (!report) return tl::unexpected(report.error());
   out.report = std::move(*report);
   settle_with(out.certificate, out.contour, out.report);

@@ -21,6 +21,8 @@ namespace {
 constexpr double kRegionTolerance = 3e-6;  // of the diagonal of the series
 
 constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
+/// Points beyond the seam of a loop that the errors of its chords ask for.
+constexpr std::ptrdiff_t kAroundSeam = 3;
 /// A part whose curvature rises and falls; runs have -1, 0, +1.
 constexpr int kNotMonotone = 2;
 
@@ -162,10 +164,15 @@ class PartMeasure {
     bound_stretch(stretch, common, row);
   }
 
-  /// Regions are those of curves that turn by less than half a turn.
+  /// Regions are those of curves that turn by less than half a turn, either way. A piece turns by
+  /// less than that.
   [[nodiscard]] bool turns_far(std::size_t first, std::size_t last) const {
-    const double turn = end_element(contour_, last).theta - start_element(contour_, first).theta;
-    return !(std::abs(turn) < std::numbers::pi);
+    double turn = 0.0;
+    for (std::size_t k = first; k <= last; ++k) {
+      const double change = end_element(contour_, k).theta - start_element(contour_, k).theta;
+      turn += std::abs(std::remainder(change, 2.0 * std::numbers::pi));
+    }
+    return !(turn < std::numbers::pi);
   }
 
   void bound_stretch(const Stretch& stretch, int direction, SegmentReport& row) const {
@@ -253,17 +260,28 @@ std::vector<std::vector<std::size_t>> sections_of(const Contour& contour) {
 
 /// What the points of one section alone say, where the contour meets them exactly: errors of its
 /// chords and vertices that they force.
-Result<int> say_points(const Contour& contour, const std::vector<std::size_t>& section,
+Result<int> say_points(const Contour& contour, std::vector<std::size_t> section, bool loop,
                        FitReport& report, std::size_t first_row) {
+  if (loop) section.pop_back();  // its first point again
   std::vector<Vec2> points;
   for (const std::size_t i : section) points.push_back(contour.points[i]);
-  if (points.size() > 2 && points.front() == points.back()) points.pop_back();
   const auto analysis = analyse(points);
   if (!analysis) return tl::unexpected(analysis.error());
   if (!promises_monotone(contour.carrier)) return analysis->vertices_lower_bound;
-  for (std::size_t i = 0; i < analysis->chords.size(); ++i) {
+  std::vector<double> errors = analysis->points_only_error;
+  if (loop &&
+      points.size() > kAroundSeam) {  // every chord has neighbours: once around and some more
+    std::vector<Vec2> around = points;
+    around.insert(around.begin(), points.end() - kAroundSeam, points.end());
+    around.insert(around.end(), points.begin(), points.begin() + kAroundSeam + 1);
+    const auto more = analyse(around);
+    if (!more) return tl::unexpected(more.error());
+    errors.assign(more->points_only_error.begin() + kAroundSeam,
+                  more->points_only_error.end() - kAroundSeam);
+  }
+  for (std::size_t i = 0; i < errors.size(); ++i) {
     if (first_row + i >= report.segments.size()) break;
-    report.segments[first_row + i].points_only_error = analysis->points_only_error[i];
+    report.segments[first_row + i].points_only_error = errors[i];
   }
   return analysis->vertices_lower_bound;
 }
@@ -314,7 +332,7 @@ Result<FitReport> measure(const Contour& contour, double tolerance) {
   std::size_t row = 0;
   for (const auto& section : sections) {
     if (contour.point_tolerance.empty()) {
-      const auto lower_bound = say_points(contour, section, report, row);
+      const auto lower_bound = say_points(contour, section, loop, report, row);
       if (!lower_bound) return tl::unexpected(lower_bound.error());
       report.vertices_lower_bound += *lower_bound;
     } else {

@@ -20,12 +20,11 @@ constexpr std::size_t kStepsAlone = 5;
 constexpr std::size_t kStepsAmongMany = 2;
 /// Peaks of the samples this near to the largest are looked at closely.
 constexpr double kCouldBeMore = 0.8;
-/// Steps of successive parabolas: their error falls faster than geometrically.
-constexpr int kMostParabolas = 8;
-/// When a step changes the peak by no more than this part, it is found.
-constexpr double kFound = 1e-5;
-/// Multiple of the last change that is added: the next one would be far smaller than that.
-constexpr double kOfLastChange = 2.0;
+/// Steps of a climb: parabolas converge faster than geometrically.
+constexpr int kMostSteps = 16;
+/// Places this close, of the three samples that a climb begins with, enclose the top: what can lie
+/// between them is some 1e-5 of it.
+constexpr double kClose = 2e-3;
 /// Added for what rounding leaves of a flat top, of the distance.
 constexpr double kUpward = 1e-9;
 /// Roundings of a point seen from the start of its chord, each 2^-53 of the coordinates' size.
@@ -125,26 +124,33 @@ double top_of(const PathSample& a, const PathSample& b, const PathSample& c) {
   return std::isfinite(u) ? std::clamp(u, a.u, c.u) : b.u;
 }
 
-/// Climbs from three samples whose middle one is the largest; the value is raised by what the last
-/// step says could still be missing. Where a parabola leads back to a known place, one beside it is
-/// tried.
+/// What a function that bends down can reach between three samples whose middle one is the largest:
+/// it stays below the lines through two of them, beyond these.
+double ceiling_of(const PathSample& a, const PathSample& b, const PathSample& c) {
+  const double rise = (b.value - a.value) / (b.u - a.u), fall = (b.value - c.value) / (c.u - b.u);
+  return b.value + std::max(rise * (c.u - b.u), fall * (b.u - a.u));
+}
+
+/// Climbs from three samples whose middle one is the largest: parabolas, then places close to the
+/// top on both sides of it. The value is raised to what can lie between them.
 PathSample climb(AlongPath& distance, PathSample a, PathSample b, PathSample c) {
-  double change = 0.0;
-  for (int i = 0; i < kMostParabolas; ++i) {
+  const double close = kClose * (c.u - a.u);
+  for (int i = 0; i < kMostSteps && c.u - a.u > 2.0 * close; ++i) {
     double u = top_of(a, b, c);
-    const double apart = 1e-3 * (c.u - a.u);  // closer places say nothing new
-    if (std::abs(u - b.u) < apart) u = b.u + (c.u - b.u > b.u - a.u ? apart : -apart);
+    if (std::abs(u - b.u) < close) {
+      // the farther neighbour comes close; a parabola would lead back to a known place
+      u = c.u - b.u > b.u - a.u ? std::min(b.u + close, c.u) : std::max(b.u - close, a.u);
+      if (u == a.u || u == c.u) break;
+    }
     const PathSample next = {u, distance(u)};
-    change = std::abs(next.value - b.value);
     if (next.value > b.value) {
       (next.u > b.u ? a : c) = b;
       b = next;
     } else {
       (next.u > b.u ? c : a) = next;
     }
-    if (change <= kFound * b.value) break;
   }
-  return {b.u, b.value + kOfLastChange * change};
+  return {b.u, ceiling_of(a, b, c)};
 }
 
 /// Equal steps along the path, in order; looks at three neighbours at a time.

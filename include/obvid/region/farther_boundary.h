@@ -34,9 +34,9 @@ struct FartherBoundary {
 /// with these end elements gets farther from any point of it: the other curve lies between the
 /// boundaries, and the way to one of them crosses it.
 ///
-/// Searched among the ends of the pieces and inner places, then refined by parabolas; what the last
-/// step says is missing, and rounding, is added. An upper bound as far as the distance has no two
-/// peaks between neighbouring places. Coordinates should be near the curve: their rounding is part
+/// Searched among the ends of the pieces and inner places, then refined by parabolas; what can lie
+/// between the last places (some 1e-5 of it) and rounding are added. An upper bound as far as the
+/// distance has no two peaks between neighbouring places and bends down at them. Coordinates should be near the curve: their rounding is part
 /// of the bound. Cost: some ten evaluations per piece.
 [[nodiscard]] FartherBoundary farther_boundary(const PieceSpan& path, const PlacedRegion& placed);
 
