@@ -11,9 +11,9 @@
 #include <vector>
 
 #include "build_tube.h"
-#include "forced_vertices.h"
 #include "obvid/fairing/fairing.h"
 #include "obvid/pipeline/fit.h"
+#include "obvid/series/forced_vertices.h"
 
 namespace {
 
@@ -75,7 +75,9 @@ BENCHMARK(fairing_of_a_meander)->Apply(sizes);
 void lower_bound_alone(benchmark::State& state) {
   const auto series =
       meander(static_cast<std::size_t>(state.range(0)), static_cast<double>(state.range(1)));
-  for (auto _ : state) benchmark::DoNotOptimize(forced_vertices(series));
+  for (auto _ : state) {
+    benchmark::DoNotOptimize(forced_vertices(series.points, series.reach, series.closed));
+  }
   per_point(state);
 }
 BENCHMARK(lower_bound_alone)->Apply(sizes);

@@ -6,7 +6,7 @@
 #include <utility>
 
 #include "build_tube.h"
-#include "forced_vertices.h"
+#include "obvid/series/forced_vertices.h"
 #include "run_search.h"
 #include "tube_solver.h"
 
@@ -39,24 +39,6 @@ bool make_fair(LaidTube& laid, int& steps) {
   }
   return false;
 }
-
-}  // namespace
-
-int forced_vertices(const MeasuredSeries& series) {
-  std::vector<Vec2> points = series.points;
-  std::vector<double> reach = series.reach;
-  if (series.closed) {  // windows across the seam
-    constexpr std::size_t kOverlap = 3;
-    for (std::size_t i = 0; i < kOverlap; ++i) {
-      points.push_back(series.points[i]);
-      reach.push_back(reach[i]);
-    }
-  }
-  const int forced = fairing_detail::forced_vertices(points, reach);
-  return series.closed ? forced + forced % 2 : forced;  // curvature returns: an even number
-}
-
-namespace {
 
 /// An exact arc comes in parts that turn by no more than this, rad.
 constexpr double kLargestArc = 3.0;
@@ -155,7 +137,7 @@ std::optional<std::size_t> nearest_primitive_end(const FairedSeries& faired, std
 }
 
 FairedSeries fair(const MeasuredSeries& series, const Progress& progress) {
-  const int lower_bound = forced_vertices(series);
+  const int lower_bound = forced_vertices(series.points, series.reach, series.closed);
   std::vector<std::size_t> loose = series.loose;
   while (loose.size() < series.loose.size() + kMostTrims) {
     FairedSeries out = attempt(series, lower_bound, loose, progress);

@@ -225,7 +225,7 @@ Result<Fit> fit(const PointSeries& series, const FitJob& job, const Progress& pr
     if (auto kept = keeps_convex(out.contour, out.certificate); !kept) return fail(kept.error());
   }
   tell("bounding the error", 0.9);
-  auto report = measure(out.contour, tolerance);
+  auto report = measure(out.contour, out.certificate, tolerance);
   if (!report) return tl::unexpected(report.error());
   out.report = std::move(*report);
   out.report.vertices = out.certificate.vertices;

@@ -6,9 +6,9 @@
 #include <limits>
 
 #include "form.h"
-#include "obvid/fairing/fairing.h"
 #include "obvid/region/refine.h"
 #include "obvid/series/analysis.h"
+#include "obvid/series/forced_vertices.h"
 
 namespace obvid::pipeline_detail {
 namespace {
@@ -135,10 +135,10 @@ std::vector<std::vector<std::size_t>> sections_of(const Contour& contour) {
   return out;
 }
 
-/// What the points of one section alone say, where the contour meets them exactly: errors of its
-/// chords and vertices that they force.
-Result<int> say_points(const Contour& contour, const std::vector<std::size_t>& section,
-                       FitReport& report, std::size_t first_row) {
+/// Errors of the chords that the points of one section alone determine, where the contour meets
+/// them exactly.
+Result<void> say_points(const Contour& contour, const std::vector<std::size_t>& section,
+                        FitReport& report, std::size_t first_row) {
   std::vector<Vec2> points;
   for (const std::size_t i : section) points.push_back(contour.points[i]);
   if (points.size() > 2 && points.front() == points.back()) points.pop_back();
@@ -148,17 +148,17 @@ Result<int> say_points(const Contour& contour, const std::vector<std::size_t>& s
     if (first_row + i >= report.segments.size()) break;
     report.segments[first_row + i].points_only_error = analysis->points_only_error[i];
   }
-  return analysis->vertices_lower_bound;
+  return {};
 }
 
 int forced(const Contour& contour, const std::vector<std::size_t>& section, bool loop) {
-  MeasuredSeries series;
-  series.closed = loop;
+  std::vector<Vec2> points;
+  std::vector<double> reach;
   for (std::size_t k = 0; k + (loop ? 1 : 0) < section.size(); ++k) {
-    series.points.push_back(contour.points[section[k]]);
-    series.reach.push_back(contour.point_tolerance[section[k]]);
+    points.push_back(contour.points[section[k]]);
+    if (!contour.point_tolerance.empty()) reach.push_back(contour.point_tolerance[section[k]]);
   }
-  return forced_vertices(series);
+  return forced_vertices(points, reach, loop);
 }
 
 }  // namespace
@@ -177,7 +177,8 @@ double default_tolerance(const std::vector<Vec2>& points) {
   return kRegionTolerance * size_of(points);
 }
 
-Result<FitReport> measure(const Contour& contour, double tolerance) {
+Result<FitReport> measure(const Contour& contour, const Certificate& certificate,
+                          double tolerance) {
   FitReport report;
   report.tolerance = tolerance;
   lay_rows(contour, report);
@@ -192,16 +193,19 @@ Result<FitReport> measure(const Contour& contour, double tolerance) {
   std::size_t row = 0;
   for (const auto& section : sections) {
     if (contour.point_tolerance.empty()) {
-      const auto lower_bound = say_points(contour, section, report, row);
-      if (!lower_bound) return tl::unexpected(lower_bound.error());
-      report.vertices_lower_bound += *lower_bound;
-    } else {
-      report.vertices_lower_bound += forced(contour, section, loop);
+      const auto said = say_points(contour, section, report, row);
+      if (!said) return tl::unexpected(said.error());
     }
+    report.vertices_lower_bound += forced(contour, section, loop);
     row += section.size() - 1;
   }
   // around a closed contour the curvature returns to where it began, leaps at corners included
   if (contour.closed) report.vertices_lower_bound += report.vertices_lower_bound % 2;
+  // a contour may turn more between its points than the curves of which the bound speaks: what it
+  // does with fewer vertices no longer bounds anything
+  if (certificate.proved) {
+    report.vertices_lower_bound = std::min(report.vertices_lower_bound, certificate.vertices);
+  }
   return report;
 }
 

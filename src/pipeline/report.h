@@ -3,16 +3,18 @@
 
 #include <vector>
 
+#include "obvid/certify/certificate.h"
 #include "obvid/core/result.h"
 #include "obvid/curve/contour.h"
 #include "obvid/io/stored_contour.h"
 
 namespace obvid::pipeline_detail {
 
-/// Every figure of the report that follows from the contour and its points alone. Vertices that the
-/// points force: exact points, from their adjacent circles; points with tolerances, from averages
-/// of the curvature's rate (docs/methods/fairing.md). Errors as those of `analyse`.
-[[nodiscard]] Result<FitReport> measure(const Contour& contour, double tolerance);
+/// Every figure of the report that follows from the contour, its points and its proof. The vertices
+/// that the points force (obvid/series/forced_vertices.h) are never more than a proved contour has.
+/// Errors as those of `analyse`.
+[[nodiscard]] Result<FitReport> measure(const Contour& contour, const Certificate& certificate,
+                                        double tolerance);
 
 /// Default of the tolerance: the seeds' 0.001 mm, near enough, on their series of 280 mm
 /// across.

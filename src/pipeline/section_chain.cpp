@@ -167,7 +167,6 @@ class SectionChooser {
   std::optional<SeriesChain> follow_runs(MeasuredSeries& measured, FairedSeries& faired) {
     for (int k = 0; k < kMostTrims; ++k) {
       faired = fair(measured, progress_);
-      out_.vertices_lower_bound = faired.vertices_lower_bound;
       if (!faired.feasible) return std::nullopt;
       auto chain = follow(faired, measured);
       if (chain) return std::move(*chain);

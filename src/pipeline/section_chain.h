@@ -14,7 +14,6 @@ namespace obvid::pipeline_detail {
 /// ends with its first element again.
 struct SectionChain {
   SeriesChain chain;
-  int vertices_lower_bound = 0;  ///< of every curve within the tolerances; 0 for exact points
   std::vector<std::string> warnings;
 };
 
