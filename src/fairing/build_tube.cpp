@@ -41,7 +41,7 @@ constexpr std::size_t kRateReach = 3;
 
 /// int kappa'^2 of the quintic Hermite curve (docs/methods/fairing.md), and its weight against the
 /// tube's barrier.
-constexpr LinkEnergy kRateEnergy{24.0, -72.0, 84.0, 12.0};
+constexpr LinkEnergy kRateEnergy{24.0, 1.5, 30.0, 12.0};
 constexpr double kSmoothing = 0.3;
 constexpr int kPasses = 4;
 constexpr int kMostPasses = 12;

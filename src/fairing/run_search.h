@@ -9,11 +9,6 @@
 
 namespace obvid::fairing_detail {
 
-/// Energy of fair links in units of their expected size: departure from a clothoid, skewness, size
-/// (docs/methods/chain.md, section 4).
-inline constexpr double kFinalBarrier = 0.3;
-inline constexpr LinkEnergy kFairEnergy{24.0, -96.0, 96.0 + 5.0 * kFinalBarrier, 6.0};
-
 /// Which curves must exist over every link while runs are searched.
 inline constexpr Cone kSearchCone = Cone::kSpiral;
 

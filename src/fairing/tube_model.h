@@ -6,15 +6,10 @@
 
 #include "bordered_system.h"
 #include "node_ends.h"
-#include "obvid/chain/chain.h"
+#include "obvid/chain/cone.h"
 #include "tube.h"
 
 namespace obvid::fairing_detail {
-
-/// Quadratic form of a link in m = B - A, q = A + B and sigma.
-struct LinkEnergy {
-  double mm = 0.0, ms = 0.0, ss = 0.0, qq = 0.0;
-};
 
 /// What the merit function is made of.
 struct Weights {
@@ -54,24 +49,22 @@ class TubeModel {
   void let_slack_widen_the_tube() { slack_widens_ = true; }
 
  private:
-  struct LinkState {
-    double h = 0.0, m = 0.0, q = 0.0, sigma = 0.0, sin_sigma = 0.0, cos_sigma = 1.0;
+  struct LinkView {
+    double h = 0.0;
+    ConeVariables cone;
     double cos_alpha = 1.0, cos_beta = 1.0, sin_alpha = 0.0, sin_beta = 0.0;
     Vec2 along;
-  };
-  struct ConeState {
-    double t, f, u, width, slope;
   };
 
   [[nodiscard]] const TubeNode& node(std::size_t i) const { return tube_.nodes[i]; }
   void place_nodes(const State& x);
-  [[nodiscard]] LinkState link_state(std::size_t i) const;
-  [[nodiscard]] ConeState cone_state(std::size_t i, const LinkState& s, double slack) const;
+  [[nodiscard]] LinkView link_view(std::size_t i) const;
+  [[nodiscard]] ConeRoom room(std::size_t i, const LinkView& s, double slack) const;
   [[nodiscard]] double least_cosine(std::size_t link) const;
   [[nodiscard]] double row_weight(std::size_t link) const;
-  void add_cone(std::size_t i, const LinkState& s, const ConeState& c, const Weights& w,
+  void add_cone(std::size_t i, const LinkView& s, double slack, const Weights& w,
                 LinkTerms& terms) const;
-  void add_rows(std::size_t i, const LinkState& s, double weight, LinkTerms& terms) const;
+  void add_rows(std::size_t i, const LinkView& s, double weight, LinkTerms& terms) const;
   struct WallTerms {
     double g, h, width_g, width_h, mixed;
   };
@@ -82,7 +75,7 @@ class TubeModel {
     double x, y;         // of the point along and across the chord
     double by_h, slope;  // of the curve's height by the chord's length and by x
   };
-  [[nodiscard]] RowValue row_value(const TubeRow& row, const LinkState& s, const NodeEnd& a,
+  [[nodiscard]] RowValue row_value(const TubeRow& row, const LinkView& s, const NodeEnd& a,
                                    const NodeEnd& b) const;
   /// Derivatives of both ends of a link, first by the unknowns of its first node, then of its
   /// second.
