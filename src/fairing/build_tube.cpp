@@ -7,6 +7,7 @@
 #include <optional>
 
 #include "find_primitives.h"
+#include "heading_ranges.h"
 #include "obvid/series/analysis.h"
 #include "tube_ends.h"
 #include "tube_solver.h"
@@ -76,7 +77,10 @@ class Builder {
     }
     if (series_.closed) begin_in_a_run();
     if (series_.primitives) set_primitives();
-    if (knots_.size() > 1) set_sizes(tube_, x_);
+    if (knots_.size() > 1) {
+      set_sizes(tube_, x_);
+      set_heading_ranges(tube_, x_);
+    }
     SmoothTube out{std::move(tube_), std::move(x_), {}, {}, steps_};
     for (const Knot& k : knots_) {
       out.source.push_back(k.first);

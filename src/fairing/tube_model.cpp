@@ -289,6 +289,11 @@ void TubeModel::add_nodes(const State& x, double slack, const Weights& w, bool w
       }
     }
     if (n.is_primitive()) add_primitive(i, w.tube, with_slack, system);
+    if (n.bounds_heading()) {
+      const double up = 1.0 / (n.turn_high - x[kPerNode * i + 1]);
+      const double down = 1.0 / (x[kPerNode * i + 1] - n.turn_low);
+      system.add(i, 1, w.tube * (up - down), w.tube * (up * up + down * down));
+    }
     if (n.reach == 0.0) system.fix(i, 0);
     if (n.fix_theta) system.fix(i, 1);
     if (n.fix_kappa || !(system.diagonal(i, 2) > 0.0)) system.fix(i, 2);
@@ -326,6 +331,11 @@ double TubeModel::merit(const State& x, double slack, const Weights& w) {
     if (n.is_primitive()) {
       primitives += primitive_room(i);
       if (!(primitives > -kInfinity)) return kInfinity;
+    }
+    if (n.bounds_heading()) {
+      const double turn = x[kPerNode * i + 1], half = 0.5 * (n.turn_high - n.turn_low);
+      if (!(turn > n.turn_low && turn < n.turn_high)) return kInfinity;
+      nodes.add((turn - n.turn_low) * (n.turn_high - turn) / (half * half));
     }
     if (n.sign != 0.0 && w.cone > 0.0) {
       const double v = n.sign * (n.kappa * n.length + x[kPerNode * i + 2]) + slack;
