@@ -60,7 +60,8 @@ void fairing_of_a_meander(benchmark::State& state) {
       meander(static_cast<std::size_t>(state.range(0)), static_cast<double>(state.range(1)));
   FairedSeries faired;
   for (auto _ : state) {
-    faired = fair(series);
+    Watch watch;
+    faired = fair(series, watch);
     benchmark::DoNotOptimize(&faired);
   }
   if (!faired.feasible) state.SkipWithError("not feasible");
@@ -86,7 +87,8 @@ void smooth_curve_alone(benchmark::State& state) {
   const auto series =
       meander(static_cast<std::size_t>(state.range(0)), static_cast<double>(state.range(1)));
   for (auto _ : state) {
-    auto smooth = fairing_detail::build_tube(series);
+    Watch watch;
+    auto smooth = fairing_detail::build_tube(series, {}, watch);
     benchmark::DoNotOptimize(&smooth);
   }
   per_point(state);

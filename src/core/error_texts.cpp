@@ -90,17 +90,27 @@ constexpr std::array kTexts{
               "curvatures that were fixed.",
               "Free the named values one after another, or compare them with the ranges that "
               "`obvid region` prints."},
-    ErrorText{ErrorCode::kNoRoomForTransition, "No room for a curvature-continuous transition",
-              "Four or more points lie exactly on one line or circle, and the points beside them are "
-              "so close to it that the curvature would have to jump at its end.",
-              "Move or leave out the named points, or one point at the end of the straight or "
-              "circular stretch."},
+    ErrorText{
+        ErrorCode::kNoRoomForTransition, "No room for a curvature-continuous transition",
+        "Four or more points lie exactly on one line or circle, and the points beside them are "
+        "so close to it that the curvature would have to jump at its end.",
+        "Move or leave out the named points, or one point at the end of the straight or "
+        "circular stretch."},
     ErrorText{ErrorCode::kRoundingDecides, "Rounding of the coordinates decides",
               "The points are so close together, compared with the size of their coordinates, that "
               "the last digit of the numbers determines the curvature. Another rounding of the "
               "same shape would give another answer.",
               "Move the origin to the part, give more digits, or leave out points that are too "
               "close to each other."},
+    ErrorText{
+        ErrorCode::kWanders, "The contour would wander between two points",
+        "Between two neighbouring points the contour would leave the directions of all circles "
+        "through three points beside it by more than these differ among each other and 45 "
+        "degrees: a swing or a loop that the points do not ask for. Its curvature may well be "
+        "monotone; that alone makes no sensible shape.",
+        "Look at the named points. If the contour turns at once there, mark corners "
+        "(--corner-at); if a straight or round part is given by its ends only, put points on "
+        "it; or allow the points to move (--noise)."},
     ErrorText{
         ErrorCode::kNotProved, "Formed, but not proved",
         "A contour was formed, but the proof of one of its properties did not succeed. It may "

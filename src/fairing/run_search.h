@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "layout.h"
+#include "obvid/core/watch.h"
 #include "tube_model.h"
 
 namespace obvid::fairing_detail {
@@ -24,7 +25,8 @@ struct Runs {
 /// Searches few alternating runs on a tube with a smooth curve in it (docs/methods/fairing.md).
 class RunSearch {
  public:
-  RunSearch(const Tube& tube, const State& smooth) : tube_(tube), smooth_(smooth) {}
+  RunSearch(const Tube& tube, const State& smooth, Watch& watch)
+      : tube_(tube), smooth_(smooth), watch_(watch) {}
 
   /// Starts from the courses of the smooth curve and takes vertices away, the weakest runs first,
   /// as long as a neighbourhood of each change stays feasible; stops at `enough` vertices, fewer
@@ -54,6 +56,7 @@ class RunSearch {
 
   const Tube& tube_;
   const State& smooth_;
+  Watch& watch_;
   int steps_ = 0, solves_ = 0;
 };
 

@@ -393,25 +393,33 @@ double TubeModel::needed_slack(const State& x) {
   return slack;
 }
 
-double TubeModel::tube_use(const State& x) {
+std::vector<double> TubeModel::node_uses(const State& x) {
   place_nodes(x);
-  double use = 0.0;
+  std::vector<double> use(nodes_, 0.0);
+  const auto take = [&](std::size_t i, double r) {
+    if (!(std::abs(r) <= use[i])) use[i] = std::isnan(r) ? kInfinity : std::abs(r);
+  };
   for (std::size_t i = 0; i < nodes_; ++i) {
-    use = std::max(use, std::abs(x[kPerNode * i]));
+    take(i, x[kPerNode * i]);
     for (std::size_t k = node(i).first_on; k < node(i).last_on; ++k) {
       const TubeRow& row = tube_.on_primitives[k];
       const double d = circle_distance(node(i), state_[i], row.point).value;
-      use = std::max(use, std::abs(d) / row.reach);
+      take(i, d / row.reach);
     }
   }
   for (std::size_t i = 0; i < link_count(); ++i) {
     const LinkView s = link_view(i);
     for (std::size_t k = tube_.first_row[i]; k < tube_.first_row[i + 1]; ++k) {
       const double r = row_value(tube_.rows[k], s, state_[i].out, state_[next(i)].in).residual;
-      use = std::max(use, std::abs(r));
+      take(i, r);
     }
   }
   return use;
+}
+
+double TubeModel::tube_use(const State& x) {
+  const std::vector<double> use = node_uses(x);
+  return *std::max_element(use.begin(), use.end());
 }
 
 std::vector<double> TubeModel::link_forces(const State& x, double slack) {

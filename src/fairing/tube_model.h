@@ -27,6 +27,12 @@ class TubeModel {
 
   [[nodiscard]] std::size_t node_count() const { return nodes_; }
   [[nodiscard]] std::size_t link_count() const { return tube_.links(); }
+  /// Work of one step: a node is one unit, points between and on primitives are less.
+  [[nodiscard]] double step_work() const {
+    constexpr double kPerPoint = 0.25;
+    return static_cast<double>(nodes_) +
+           kPerPoint * static_cast<double>(tube_.rows.size() + tube_.on_primitives.size());
+  }
 
   /// Gradient and Gauss-Newton Hessian of the merit at x (3 per node).
   void assemble(const State& x, double slack, const Weights& weights, bool with_slack,
@@ -43,7 +49,9 @@ class TubeModel {
   };
   std::vector<LinkValue> link_values(const State& x);
   [[nodiscard]] double barrier_parameter() const;
-  /// Largest |residual| / reach over rows and nodes.
+  /// Largest |residual| / reach of each node, its primitive and the rows behind it.
+  std::vector<double> node_uses(const State& x);
+  /// The largest of all.
   double tube_use(const State& x);
   /// From now on the slack widens the tube, to 1 + slack reaches, instead of the cones.
   void let_slack_widen_the_tube() { slack_widens_ = true; }

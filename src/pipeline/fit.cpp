@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "obvid/pipeline/fit.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <chrono>
 #include <cmath>
@@ -22,6 +24,10 @@ using namespace pipeline_detail;
 /// nodes the search knows the contour only to first order.
 constexpr int kNarrowings = 6;
 constexpr double kNarrowed = 0.95;  ///< of what would just do
+/// No further round begins when so many steps on every point (and some more where there are few)
+/// were spent: a hundred times what a contour takes as a rule.
+constexpr double kMostFitSteps = 1e4, kSpareWork = 1e6;
+constexpr double kFormedAt = 0.7;  ///< part of the bar when all sections are formed
 
 Result<Carried> as_carried(Result<Contour> contour) {
   if (!contour) return tl::unexpected(contour.error());
@@ -101,25 +107,22 @@ void add_section(const SectionChain& section, Formed& formed) {
 }
 
 Result<Formed> form_sections(const Prepared& series, const FitJob& job, double tolerance,
-                             const Progress& progress) {
+                             Watch& watch) {
   Formed out;
   Assembly assembly;
   const std::vector<Section>& sections = series.split.sections;
   for (std::size_t k = 0; k < sections.size(); ++k) {
-    const auto inner = [&](std::string_view stage, double done) {
-      if (progress) {
-        const double part = (static_cast<double>(k) + done) / static_cast<double>(sections.size());
-        constexpr double kUntilHere = 0.6;  // of the whole work
-        progress(stage, kUntilHere * part);
-      }
-    };
+    const auto count = static_cast<double>(sections.size());
+    const Stretch stretch(watch, static_cast<double>(k) / count,
+                          static_cast<double>(k + 1) / count);
+    watch.tell("choosing headings and curvatures", 0.0);
     if (job.carrier == Carrier::kBaseline) {
       auto section = form_baseline_section(series, sections[k]);
       if (!section) return tl::unexpected(section.error());
       out.add(std::move(*section), assembly);
       continue;
     }
-    const auto chain = chain_section(series, sections[k], inner);
+    const auto chain = chain_section(series, sections[k], watch);
     if (!chain) return tl::unexpected(chain.error());
     auto section =
         form(series.points, chain->chain, job.carrier, tolerance, series.split.smooth_loop);
@@ -191,40 +194,64 @@ Result<void> keeps_convex(const Contour& contour, const Certificate& certificate
   return fail(std::move(error));
 }
 
+/// The tolerance of the job, or the default; refused where coordinates could not tell it.
+Result<double> tolerance_of(const FitJob& job, const std::vector<Vec2>& points) {
+  if (!job.tolerance) return default_tolerance(points);
+  const double least = least_tolerance(points);
+  if (std::isfinite(*job.tolerance) && *job.tolerance >= least) return *job.tolerance;
+  return fail({ErrorCode::kBadOption,
+               fmt::format("the tolerance must be finite and at least {:.2g}, 1e-12 of the size: "
+                           "coordinates cannot tell less",
+                           least),
+               "", "give a larger one, or none for the default", -1, *job.tolerance});
+}
+
+/// The contour, formed again with narrower reaches as long as it passes points too far.
+Result<Formed> form_within(Prepared& series, const FitJob& job, double tolerance, Watch& watch) {
+  const double most =
+      watch.spent() + kSpareWork + kMostFitSteps * static_cast<double>(series.points.size());
+  int round = 0;
+  const auto again = [&] {
+    const Stretch stretch = Stretch::next_of_many(watch, round++);
+    return form_sections(series, job, tolerance, watch);
+  };
+  auto formed = again();
+  while (formed && round <= kNarrowings && watch.spent() < most &&
+         narrow(formed->contour, series)) {
+    formed = again();
+  }
+  if (formed && series.thin && misses_a_point(formed->contour)) {
+    series.thin = false;  // every point a joint: each is met by construction
+    formed = again();
+  }
+  return formed;
+}
+
 }  // namespace
 
-Result<Fit> fit(const PointSeries& series, const FitJob& job, const Progress& progress) {
+Result<Fit> fit(const PointSeries& series, const FitJob& job, Watch& watch) {
   const auto begin = std::chrono::steady_clock::now();
-  const auto tell = [&](const char* stage, double done) {
-    if (progress) progress(stage, done);
-  };
-  if (job.tolerance && !(*job.tolerance > 0.0)) {
-    return fail({ErrorCode::kBadOption, "the tolerance must be greater than 0", "", "", -1,
-                 *job.tolerance});
-  }
-  tell("analysing", 0.0);
+  watch.tell("analysing", 0.0);
   auto prepared = prepare(series, job);
   if (!prepared) return tl::unexpected(prepared.error());
-  double tolerance = job.tolerance.value_or(default_tolerance(prepared->points));
+  const auto asked = tolerance_of(job, prepared->points);
+  if (!asked) return tl::unexpected(asked.error());
+  double tolerance = *asked;
   if (follows_spirals(job.carrier)) tolerance = share_tolerance(*prepared, tolerance);
-  auto formed = form_sections(*prepared, job, tolerance, progress);
-  for (int k = 0; k < kNarrowings && formed && narrow(formed->contour, *prepared); ++k) {
-    formed = form_sections(*prepared, job, tolerance, progress);
-  }
-  if (formed && prepared->thin && misses_a_point(formed->contour)) {
-    prepared->thin = false;  // every point a joint: each is met by construction
-    formed = form_sections(*prepared, job, tolerance, progress);
-  }
+  Result<Formed> formed = [&] {
+    const Stretch stretch(watch, 0.0, kFormedAt);
+    return form_within(*prepared, job, tolerance, watch);
+  }();
   if (!formed) return tl::unexpected(formed.error());
   Fit out;
   out.contour = std::move(formed->contour);
   out.contour.units = series.units;
-  tell("proving", 0.7);
+  watch.tell("proving", kFormedAt);
   out.certificate = certify(out.contour);
   if (job.convex) {
     if (auto kept = keeps_convex(out.contour, out.certificate); !kept) return fail(kept.error());
   }
-  tell("bounding the error", 0.9);
+  watch.tell("bounding the error", 0.9);
   auto report = measure(out.contour, out.certificate, tolerance);
   if (!report) return tl::unexpected(report.error());
   out.report = std::move(*report);
@@ -240,8 +267,13 @@ Result<Fit> fit(const PointSeries& series, const FitJob& job, const Progress& pr
   }
   out.report.seconds =
       std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
-  tell("done", 1.0);
+  watch.tell("done", 1.0);
   return out;
+}
+
+Result<Fit> fit(const PointSeries& series, const FitJob& job, const Progress& progress) {
+  Watch watch(progress);
+  return fit(series, job, watch);
 }
 
 }  // namespace obvid

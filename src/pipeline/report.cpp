@@ -14,6 +14,7 @@ namespace obvid::pipeline_detail {
 namespace {
 
 constexpr double kRegionTolerance = 3e-6;  // of the diagonal of the series
+constexpr double kLeastTolerance = 1e-12;  // of it: some thousand roundings of a coordinate
 
 /// Element with which piece `i` begins: at a corner the one after it.
 const Element& start_element(const Contour& contour, std::size_t i) {
@@ -175,6 +176,10 @@ double size_of(const std::vector<Vec2>& points) {
 
 double default_tolerance(const std::vector<Vec2>& points) {
   return kRegionTolerance * size_of(points);
+}
+
+double least_tolerance(const std::vector<Vec2>& points) {
+  return kLeastTolerance * size_of(points);
 }
 
 Result<FitReport> measure(const Contour& contour, const Certificate& certificate,

@@ -20,7 +20,7 @@ namespace {
 using test::Long;
 using test::uniform;
 
-constexpr double kReserve = 1.05;  ///< of mere existence, docs/methods/chain.md section 1
+constexpr double kOfExistence = 1.05;  ///< of mere existence, docs/methods/chain.md section 1
 
 /// Random points whose neighbouring chords turn by up to 0.9 rad, with cones, directions, wanted
 /// signs and fixed data of every kind.
@@ -163,9 +163,13 @@ std::vector<std::vector<double>> gauss_newton(const Problem& p, const LinkModel&
     if (p.problem.cone[i] == Cone::kNone) continue;
     const LinkState& s = now[i];
     const double scale = size[i];
-    const test::ConeMerit merit{
-        p.problem.cone[i],        kReserve, p.problem.direction[i], scale, kFairEnergy,
-        energy / (scale * scale), barrier};
+    const test::ConeMerit merit{p.problem.cone[i],
+                                kOfExistence,
+                                static_cast<Long>(p.problem.direction[i]),
+                                scale,
+                                kFairEnergy,
+                                energy / (scale * scale),
+                                barrier};
     const auto linear = merit.with_linear_width_at(s.sigma);
     const std::array<Long, 4> at = {s.B - s.A, s.A + s.B, s.sigma, slack};
     std::array<std::array<double, 4>, 5> J{};  // by the four unknowns of the link and the slack

@@ -9,6 +9,11 @@
 
 namespace obvid::test {
 
+inline FairedSeries faired(const MeasuredSeries& series) {
+  Watch nobody;
+  return fair(series, nobody);
+}
+
 inline MeasuredSeries measured(std::vector<Vec2> points, double reach, bool closed = false) {
   MeasuredSeries series;
   series.reach.assign(points.size(), reach);

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // Gradient and Hessian of the tube's merit on random tubes of every kind. The Hessian is Gauss and
-// Newton's: that of the merit in m, q, sigma, S(sigma), offsets and residuals, seen through their
-// first derivatives; here these come from differences of quantities computed once more by hand.
+// Newton's: that of the merit in m, q, sigma, S(sigma), offsets, turns and residuals, seen through
+// their first derivatives; here these come from differences of quantities computed once more by
+// hand.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -116,6 +117,10 @@ struct RandomTube {
       node.reach = 0.05;
       node.length = uniform(rng, 0.5, 2.0);
       if (rng() % 3 == 0) node.sign = rng() % 2 == 0 ? 1.0 : -1.0;
+      if (rng() % 2 == 0) {
+        node.turn_low = uniform(rng, -1.5, -0.8);
+        node.turn_high = uniform(rng, 0.8, 1.5);
+      }
       if (fixed && rng() % 3 == 0) node.reach = 0.0;
       if (fixed && rng() % 4 == 0) node.fix_theta = true;
       if (fixed && rng() % 4 == 0) node.fix_kappa = true;
@@ -211,7 +216,12 @@ Parts parts_at(const RandomTube& t, const std::vector<Long>& x, double tube_weig
 
 test::ConeMerit cone_merit(const RandomTube& t, std::size_t link, const Case& c) {
   const Long z = t.tube.size[link];
-  return {c.cone,        kReserve, t.direction[link], z, kFairEnergy, c.weights.energy / (z * z),
+  return {c.cone,
+          kReserve,
+          static_cast<Long>(t.direction[link]),
+          z,
+          kFairEnergy,
+          c.weights.energy / (z * z),
           c.weights.cone};
 }
 
@@ -230,6 +240,12 @@ Long merit_by_hand(const RandomTube& t, const std::vector<Long>& x, Long slack, 
     if (n.sign == 0.0) continue;
     sum -= 0.5L * c.weights.cone *
            std::log(n.sign * (n.kappa * n.length + x[kPerNode * i + 2]) + slack);
+  }
+  for (std::size_t i = 0; i < t.tube.nodes.size(); ++i) {
+    const TubeNode& n = t.tube.nodes[i];
+    if (!n.bounds_heading()) continue;
+    const Long turn = x[kPerNode * i + 1];
+    sum -= c.weights.tube * std::log((turn - n.turn_low) * (n.turn_high - turn));
   }
   return sum;
 }
@@ -390,6 +406,13 @@ Matrix gauss_newton(const RandomTube& t, const Case& c) {
     h[k][n] += w * node.sign;
     h[n][k] += w * node.sign;
     h[n][n] += w;
+  }
+  for (std::size_t i = 0; i < t.tube.nodes.size(); ++i) {
+    const TubeNode& node = t.tube.nodes[i];
+    if (!node.bounds_heading()) continue;
+    const std::size_t k = kPerNode * i + 1;
+    h[k][k] += c.weights.tube *
+               (std::pow(t.x[k] - node.turn_low, -2.0) + std::pow(node.turn_high - t.x[k], -2.0));
   }
   return h;
 }

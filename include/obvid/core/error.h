@@ -31,6 +31,7 @@ enum class ErrorCode : int {
   kFixedDataContradict = 403,
   kNoRoomForTransition = 404,
   kRoundingDecides = 405,
+  kWanders = 406,
   kNotProved = 501,
   kToleranceNotReached = 502,
   kFalseClaim = 503,

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "obvid/chain/chain.h"
-#include "obvid/core/progress.h"
+#include "obvid/core/watch.h"
 #include "obvid/geom/element.h"
 
 namespace obvid {
@@ -52,7 +52,7 @@ struct FairedSeries {
 /// held to a quintic Hermite model of the link: measure the finished contour).
 /// Cost O(n) per Newton step, some 20 steps and a few hundred short windows.
 /// Requires at least 4 points (3 when closed), no two neighbours equal.
-[[nodiscard]] FairedSeries fair(const MeasuredSeries& series, const Progress& progress = {});
+[[nodiscard]] FairedSeries fair(const MeasuredSeries& series, Watch& watch);
 
 /// The measured point at the end of a primitive that lies nearest to a node; nothing without
 /// primitives.
