@@ -28,8 +28,15 @@ std::string tolerance_text(const WhyNot& why, const std::string& units) {
 
 Error with_tolerance(Error error, const std::optional<WhyNot>& why, const std::string& units) {
   if (!error.hint.empty()) error.hint += "; ";
-  error.hint += why ? "within a " + tolerance_text(*why, units) + " there is one"
-                    : "moving every point by up to a tenth of the size does not help";
+  if (!why) {
+    error.hint += "moving every point by up to a tenth of the size does not help";
+  } else if (why->found) {
+    error.hint += "within a " + tolerance_text(*why, units) + " there is one";
+  } else {
+    error.hint += fmt::format(
+        "the search for a tolerance that would do ended at its limit: up to {} {} none was found",
+        significant(why->refused, kToleranceDigits), units);
+  }
   return error;
 }
 
@@ -65,6 +72,9 @@ std::string refusal_text(const PointSeries& series, const WhyNot& why,
     text += fmt::format("Within {} {} none was found.\n",
                         significant(why.refused, kToleranceDigits), series.units);
   }
+  if (why.stopped) {
+    text += "The search ended at its limit of work: a tolerance between them may do as well.\n";
+  }
   if (!written.empty()) {
     text +=
         fmt::format("picture of that contour: {}; no other file was written\n", listed(written));
@@ -80,7 +90,12 @@ void add_why_not(JsonText& json, const WhyNot& why) {
   bare.certificate = why.fit.certificate;
   const std::string stored = contour_to_json(bare);
   json.begin_object();
-  json.pair("tolerance", why.tolerance).pair("refused", why.refused);
+  json.pair("refused", why.refused).pair("stopped", why.stopped).key("tolerance");
+  if (!why.found) {
+    json.null().end_object();
+    return;
+  }
+  json.value(why.tolerance);
   json.key("points").begin_array();
   for (const std::size_t i : why.moved) {
     const Vec2 p = why.fit.contour.points[i];
@@ -139,9 +154,9 @@ int tell_refusal(const FitOptions& options, const PointSeries& series, const Err
   // tolerances of points do not help a carrier that cannot keep what was given
   const bool by_points = refusal.code != ErrorCode::kCarrierCannotKeep;
   const std::optional<WhyNot> why =
-      by_points ? why_not(series, options.job, bar.progress()) : std::nullopt;
+      by_points ? why_not(series, options.job, refusal, bar.progress()) : std::nullopt;
   Result<std::vector<std::string>> written;
-  if (why) written = write_refusal_pictures(options, *why);
+  if (why && why->found) written = write_refusal_pictures(options, *why);
   bar.clear();
   warn(series.warnings);  // a formed contour carries them itself
   const Error told = by_points ? with_tolerance(refusal, why, series.units) : refusal;
@@ -151,7 +166,7 @@ int tell_refusal(const FitOptions& options, const PointSeries& series, const Err
   std::string text;
   if (options.json) {
     text = refusal_json(told, series, why, names);
-  } else if (why && !options.quiet) {
+  } else if (why && why->found && !options.quiet) {
     text = refusal_text(series, *why, names);
   }
   if (auto done = put(text); !done) warn({done.error().what});

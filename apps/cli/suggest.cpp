@@ -58,7 +58,9 @@ std::string rows_text(const TradeOff& t) {
                std::to_string(row.inflections), std::to_string(row.pieces),
                significant(row.largest_move, kSuggestedDigits),
                fmt::format("{:.1f}", kMilli * row.seconds),
-               row.proved ? "yes" : "no: " + row.refusal});
+               row.carried  ? "yes, as the row before"
+               : row.proved ? "yes"
+                            : "no: " + row.refusal});
   }
   return table.text();
 }
@@ -88,7 +90,8 @@ std::string suggestion_json(const TradeOff& t, const std::vector<std::string>& w
   json.begin_object().pair("units", t.units).key("rows").begin_array();
   for (const TradeOffRow& row : t.rows) {
     json.begin_object().pair("tolerance", row.tolerance);
-    json.pair("formed", row.formed).pair("proved", row.proved).pair("refusal", row.refusal);
+    json.pair("formed", row.formed).pair("proved", row.proved).pair("carried", row.carried);
+    json.pair("refusal", row.refusal);
     if (row.formed) {
       json.pair("vertices", row.vertices).pair("vertices_lower_bound", row.vertices_lower_bound);
       json.pair("inflections", row.inflections).pair("pieces", row.pieces);

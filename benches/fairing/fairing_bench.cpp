@@ -11,9 +11,9 @@
 #include <vector>
 
 #include "build_tube.h"
-#include "forced_vertices.h"
 #include "obvid/fairing/fairing.h"
 #include "obvid/pipeline/fit.h"
+#include "obvid/series/forced_vertices.h"
 
 namespace {
 
@@ -60,7 +60,8 @@ void fairing_of_a_meander(benchmark::State& state) {
       meander(static_cast<std::size_t>(state.range(0)), static_cast<double>(state.range(1)));
   FairedSeries faired;
   for (auto _ : state) {
-    faired = fair(series);
+    Watch watch;
+    faired = fair(series, watch);
     benchmark::DoNotOptimize(&faired);
   }
   if (!faired.feasible) state.SkipWithError("not feasible");
@@ -75,7 +76,9 @@ BENCHMARK(fairing_of_a_meander)->Apply(sizes);
 void lower_bound_alone(benchmark::State& state) {
   const auto series =
       meander(static_cast<std::size_t>(state.range(0)), static_cast<double>(state.range(1)));
-  for (auto _ : state) benchmark::DoNotOptimize(forced_vertices(series));
+  for (auto _ : state) {
+    benchmark::DoNotOptimize(forced_vertices(series.points, series.reach, series.closed));
+  }
   per_point(state);
 }
 BENCHMARK(lower_bound_alone)->Apply(sizes);
@@ -84,7 +87,8 @@ void smooth_curve_alone(benchmark::State& state) {
   const auto series =
       meander(static_cast<std::size_t>(state.range(0)), static_cast<double>(state.range(1)));
   for (auto _ : state) {
-    auto smooth = fairing_detail::build_tube(series);
+    Watch watch;
+    auto smooth = fairing_detail::build_tube(series, {}, watch);
     benchmark::DoNotOptimize(&smooth);
   }
   per_point(state);

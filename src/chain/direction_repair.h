@@ -13,7 +13,7 @@ namespace obvid::chain_detail {
 /// Turns directions where no monotone curve exists although the adjacent circles allow one.
 class DirectionRepair {
  public:
-  explicit DirectionRepair(const Extended& series) : series_(series) {}
+  DirectionRepair(const Extended& series, Watch& watch) : series_(series), watch_(watch) {}
 
   /// The link to turn for this infeasibility: one that makes its neighbourhood feasible, with as
   /// few vertices as possible; else the one that comes closest. Nothing when all were turned.
@@ -24,7 +24,7 @@ class DirectionRepair {
     const std::size_t last = std::min({links, why.last_point + kReach, first + kMostCandidates});
     std::optional<std::size_t> best;
     Outcome least;
-    for (std::size_t i = first; i < last; ++i) {
+    for (std::size_t i = first; i < last && watch_.may_go_on(); ++i) {
       if (problem.direction[i] == 0 || series_.turned[i]) continue;
       const Outcome outcome = try_turn(problem, i, first, last);
       if (best && !outcome.better_than(least)) continue;
@@ -56,7 +56,7 @@ class DirectionRepair {
     Extended part = slice(series_, from, to);
     ChainProblem& window = part.problem;
     window.direction[link - from] = static_cast<std::int8_t>(-window.direction[link - from]);
-    const ChainSolution s = solve_chain(part.points, window);
+    const ChainSolution s = solve_chain(part.points, window, watched(watch_));
     int vertices = 0;
     for (std::size_t i = 0; i + 1 < window.direction.size(); ++i) {
       vertices += window.direction[i] * window.direction[i + 1] < 0 ? 1 : 0;
@@ -65,6 +65,7 @@ class DirectionRepair {
   }
 
   const Extended& series_;
+  Watch& watch_;
 };
 
 }  // namespace obvid::chain_detail

@@ -17,6 +17,13 @@ struct Extended {
   std::vector<bool> turned;  ///< links whose direction was turned
 };
 
+/// The usual limits, with somebody who counts.
+[[nodiscard]] inline ChainOptions watched(Watch& watch) {
+  ChainOptions out;
+  out.watch = &watch;
+  return out;
+}
+
 /// Links solved beyond the ones in question, when only a neighbourhood is looked at.
 inline constexpr std::size_t kWindow = 4;
 

@@ -10,79 +10,11 @@ namespace obvid::chain_detail {
 namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
-/// The closed form needs -A B > sin^2(sigma)/(2 cos sigma); the cone keeps this much more.
-constexpr double kClosedFormReserve = 1.1;
 /// Mere existence needs -A B > sin^2(sigma/2); the cone keeps this much more.
 constexpr double kExistenceReserve = 1.05;
-/// Beyond this sigma the closed form's cone is continued by its tangent: it has no finite value
-/// at a right angle, and phase 1 may start there. Solutions are judged by the true cone.
-constexpr double kStraightenedSigma = 1.3;
 /// Up to this angle the Taylor polynomials below are exact to rounding (0.2^13/13! < 2^-60); most
 /// headings differ less from the adjacent circle's, and the library's sine costs three times more.
 constexpr double kTaylorReach = 0.2;
-/// Barrier weights of sigma > 0 and of the curvature's sign, relative to the cone's.
-constexpr double kSigmaWeight = 0.5;
-constexpr double kSignWeight = 0.5;
-
-/// S(sigma) with the cone written as (B-A)^2 - (A+B)^2 > S^2, and its derivative.
-struct ConeWidth {
-  double value, slope;
-};
-
-/// Closed form, sigma beyond kStraightenedSigma: continued by the tangent.
-ConeWidth straightened_width(double sigma) {
-  const double k = std::sqrt(2.0 * kClosedFormReserve);
-  const double sine = std::sin(kStraightenedSigma), cosine = std::cos(kStraightenedSigma);
-  const double root = std::sqrt(cosine);
-  const double slope = k * (cosine * cosine + 0.5 * sine * sine) / (cosine * root);
-  const double value = k * sine / root + slope * (std::abs(sigma) - kStraightenedSigma);
-  return {std::copysign(value, sigma), slope};
-}
-
-ConeWidth cone_width(Cone cone, double sigma, double sine, double cosine) {
-  if (cone == Cone::kSpiral) {
-    const double k = 2.0 * std::sqrt(kExistenceReserve);
-    return {k * std::sin(0.5 * sigma), 0.5 * k * std::cos(0.5 * sigma)};
-  }
-  if (std::abs(sigma) > kStraightenedSigma) return straightened_width(sigma);
-  const double k = std::sqrt(2.0 * kClosedFormReserve);
-  const double scale = k / std::sqrt(cosine);
-  return {scale * sine, scale * (cosine + 0.5 * sine * sine / cosine)};
-}
-
-/// Sum of logarithms with one call of log for many factors.
-class LogSum {
- public:
-  void add(double factor) {
-    product_ *= factor;
-    constexpr double kLarge = 1e150, kSmall = 1e-150;  // the next factor cannot leave the range
-    if (product_ > kLarge || product_ < kSmall) flush();
-  }
-  [[nodiscard]] double value() const { return sum_ + std::log(product_); }
-
- private:
-  void flush() {
-    sum_ += std::log(product_);
-    product_ = 1.0;
-  }
-  double product_ = 1.0, sum_ = 0.0;
-};
-
-/// Energy weights of a link, in units of its expected size: departure from the clothoid's
-/// B - A = 2 sigma, skewness A + B, and size. The size weight balances the final barrier, so that
-/// the clothoid which the data predict is stationary (docs/methods/chain.md: statistics of 1,200
-/// random spirals decided).
-constexpr double kDepartureWeight = 24.0;
-constexpr double kSkewWeight = 6.0;
-constexpr double kSizeWeight = 5.0 * kFinalBarrier;
-
-/// Fairness energy of a link; zero for a circle, since m, q and sigma are zero there.
-double link_energy(double m, double q, double sigma) {
-  const double departure = m - 2.0 * sigma;
-  return kDepartureWeight * departure * departure + kSkewWeight * q * q +
-         kSizeWeight * sigma * sigma;
-}
-
 double wrapped(double angle) { return std::remainder(angle, 2.0 * std::numbers::pi); }
 
 }  // namespace
@@ -254,80 +186,40 @@ LinkModel::State LinkModel::state(const Link& l, const Trig& a, const Trig& b, d
   return s;
 }
 
-LinkModel::ConeState LinkModel::cone_state(const Link& l, const State& s, double slack) {
-  ConeState c{};
-  c.m = s.B - s.A;
-  c.q = s.A + s.B;
-  const ConeWidth width = cone_width(l.cone, s.sigma, s.sin_sigma, s.cos_sigma);
-  c.width = width.value;
-  c.width_slope = width.slope;
-  c.t = l.direction * c.m + slack * l.size;
-  c.f = c.t * c.t - c.q * c.q - c.width * c.width;
-  c.u = l.direction * s.sigma + slack * l.size;
-  return c;
+ConeVariables LinkModel::variables(const State& s) {
+  return {s.B - s.A, s.A + s.B, s.sigma, s.sin_sigma, s.cos_sigma};
 }
 
-/// Gradient and Gauss-Newton Hessian of one link by A, B, sigma and the slack.
-LinkModel::Terms LinkModel::link_terms(const Link& l, const State& s, const ConeState& c,
-                                       double energy, double barrier) {
-  const double e = energy * l.energy;
-  const double departure = 2.0 * e * kDepartureWeight * (c.m - 2.0 * s.sigma);
-  double hmm = 2.0 * e * kDepartureWeight, hms = -2.0 * hmm;
-  double hqq = 2.0 * e * kSkewWeight;
-  double hss = 2.0 * e * (kSizeWeight + 4.0 * kDepartureWeight);
-  // derivatives of f by m, q, sigma and the slack
-  const double fm = 2.0 * c.t * l.direction, fq = -2.0 * c.q;
-  const double fs = -2.0 * c.width * c.width_slope, fz = 2.0 * c.t * l.size;
-  const double r = 1.0 / c.f, wr = barrier * r, wrr = wr * r;
-  const double us = kSigmaWeight * barrier / c.u, uss = us / c.u;
-  const double gm = departure - wr * fm, gq = 2.0 * e * kSkewWeight * c.q - wr * fq;
-  hmm += wrr * fm * fm - 2.0 * wr;
-  hqq += wrr * fq * fq + 2.0 * wr;
-  hss += wrr * fs * fs + 2.0 * wr * c.width_slope * c.width_slope + uss;
-  hms += wrr * fm * fs;
-  const double hmq = wrr * fm * fq, hqs = wrr * fq * fs;
-  const double zm = wrr * fz * fm - 2.0 * wr * l.size * l.direction, zq = wrr * fz * fq;
-
-  Terms out{};  // from (m, q, sigma) to (A, B, sigma)
-  out.gA = gq - gm;
-  out.gB = gq + gm;
-  out.gs = 2.0 * e * kSizeWeight * s.sigma - 2.0 * departure - wr * fs - us * l.direction;
-  out.hAA = hmm - 2.0 * hmq + hqq;
-  out.hBB = hmm + 2.0 * hmq + hqq;
-  out.hAB = hqq - hmm;
-  out.hAs = hqs - hms;
-  out.hBs = hqs + hms;
-  out.hss = hss;
-  out.zA = zq - zm;
-  out.zB = zq + zm;
-  out.zs = wrr * fz * fs + uss * l.size * l.direction;
-  out.slack_gradient = -wr * fz - us * l.size;
-  out.slack_hessian = wrr * fz * fz - 2.0 * wr * l.size * l.size + uss * l.size * l.size;
-  return out;
+ConeRoom LinkModel::room(const Link& l, const ConeVariables& v, double slack) {
+  return cone_room(v, cone_width(l.cone, v, kExistenceReserve), l.direction, l.size, slack);
 }
 
-/// From A, B, sigma to heading and curvature at both ends of a link.
-void LinkModel::scatter(const Terms& v, const Link& l, const State& s, NewtonSystem::Block& a,
+/// From m, q, sigma to heading and curvature at both ends of a link.
+void LinkModel::scatter(const ConeTerms& v, const Link& l, const State& s, NewtonSystem::Block& a,
                         NewtonSystem::Block& b) {
   const double ca = s.dA, cb = s.dB, ka = l.ka, kb = l.kb;
-  a.g0 += ca * v.gA + v.gs;
-  a.g1 += ka * v.gA;
-  b.g0 += -cb * v.gB + v.gs;
-  b.g1 += kb * v.gB;
-  a.a00 += ca * ca * v.hAA + 2.0 * ca * v.hAs + v.hss;
-  a.a10 += ka * (ca * v.hAA + v.hAs);
-  a.a11 += ka * ka * v.hAA;
-  b.a00 += cb * cb * v.hBB - 2.0 * cb * v.hBs + v.hss;
-  b.a10 += kb * (v.hBs - cb * v.hBB);
-  b.a11 += kb * kb * v.hBB;
-  a.o00 += -ca * cb * v.hAB + ca * v.hAs - cb * v.hBs + v.hss;
-  a.o01 += kb * (ca * v.hAB + v.hBs);
-  a.o10 += ka * (v.hAs - cb * v.hAB);
-  a.o11 += ka * kb * v.hAB;
-  a.c0 += ca * v.zA + v.zs;
-  a.c1 += ka * v.zA;
-  b.c0 += -cb * v.zB + v.zs;
-  b.c1 += kb * v.zB;
+  const double gA = v.gq - v.gm, gB = v.gq + v.gm;  // by A and B, as m = B - A, q = A + B
+  const double hAA = v.hmm - 2.0 * v.hmq + v.hqq, hBB = v.hmm + 2.0 * v.hmq + v.hqq;
+  const double hAB = v.hqq - v.hmm, hAs = v.hqs - v.hms, hBs = v.hqs + v.hms;
+  const double zA = v.zq - v.zm, zB = v.zq + v.zm;
+  a.g0 += ca * gA + v.gs;
+  a.g1 += ka * gA;
+  b.g0 += -cb * gB + v.gs;
+  b.g1 += kb * gB;
+  a.a00 += ca * ca * hAA + 2.0 * ca * hAs + v.hss;
+  a.a10 += ka * (ca * hAA + hAs);
+  a.a11 += ka * ka * hAA;
+  b.a00 += cb * cb * hBB - 2.0 * cb * hBs + v.hss;
+  b.a10 += kb * (hBs - cb * hBB);
+  b.a11 += kb * kb * hBB;
+  a.o00 += -ca * cb * hAB + ca * hAs - cb * hBs + v.hss;
+  a.o01 += kb * (ca * hAB + hBs);
+  a.o10 += ka * (hAs - cb * hAB);
+  a.o11 += ka * kb * hAB;
+  a.c0 += ca * zA + v.zs;
+  a.c1 += ka * zA;
+  b.c0 += -cb * zB + v.zs;
+  b.c1 += kb * zB;
 }
 
 /// Barrier of the curvature's sign at the nodes; returns its sum of logarithms. Fixed variables are
@@ -372,11 +264,13 @@ double LinkModel::assemble(const std::vector<double>& x, double slack, double en
     const State s = state(l, ta, tb, x[2 * i], x[2 * i + 1], x[2 * i + 2], x[2 * i + 3]);
     ta = tb;
     if (l.cone == Cone::kNone) continue;
-    const ConeState c = cone_state(l, s, slack);
-    value += energy * l.energy * link_energy(c.m, c.q, s.sigma);
+    const ConeVariables v = variables(s);
+    const ConeRoom c = room(l, v, slack);
+    value += energy * l.energy * kFairEnergy.of(v);
     cones.add(c.f * l.inverse_size * l.inverse_size);
     sigmas.add(c.u * l.inverse_size);
-    const Terms terms = link_terms(l, s, c, energy, barrier);
+    const ConeTerms terms =
+        cone_terms(v, c, l.direction, l.size, kFairEnergy, energy * l.energy, barrier);
     scatter(terms, l, s, system[i], system[i + 1]);
     system.slack_gradient += terms.slack_gradient;
     system.slack_hessian += terms.slack_hessian;
@@ -397,9 +291,10 @@ double LinkModel::merit(const std::vector<double>& x, double slack, double energ
     const State s = state(l, ta, tb, x[2 * i], x[2 * i + 1], x[2 * i + 2], x[2 * i + 3]);
     ta = tb;
     if (l.cone == Cone::kNone) continue;
-    const ConeState c = cone_state(l, s, slack);
-    if (!(c.t > 0.0 && c.f > 0.0 && c.u > 0.0)) return kInfinity;
-    value += energy * l.energy * link_energy(c.m, c.q, s.sigma);
+    const ConeVariables v = variables(s);
+    const ConeRoom c = room(l, v, slack);
+    if (!c.inside()) return kInfinity;
+    value += energy * l.energy * kFairEnergy.of(v);
     cones.add(c.f * l.inverse_size * l.inverse_size);
     sigmas.add(c.u * l.inverse_size);
   }
@@ -447,7 +342,7 @@ std::vector<double> LinkModel::link_forces(const std::vector<double>& x, double 
     if (l.cone == Cone::kNone) continue;
     const double pa = x[2 * i], pb = x[2 * i + 2];
     const State s = state(l, trig(pa), trig(pb), pa, x[2 * i + 1], pb, x[2 * i + 3]);
-    const ConeState c = cone_state(l, s, slack);
+    const ConeRoom c = room(l, variables(s), slack);
     force[i] = 2.0 * c.t * l.size / c.f;
   }
   return force;

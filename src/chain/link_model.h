@@ -5,11 +5,9 @@
 
 #include "newton_system.h"
 #include "obvid/chain/chain.h"
+#include "obvid/chain/cone.h"
 
 namespace obvid::chain_detail {
-
-/// Weight of the barrier in the final problem, against the energy of a link of expected size.
-inline constexpr double kFinalBarrier = 0.3;
 
 /// Energy and barriers of a chain as functions of the deviations from the adjacent circles.
 ///
@@ -74,19 +72,10 @@ class LinkModel {
         dB;  // dA = dA/dphi at the start, dB = -dB/dphi at the end
   };
 
-  struct ConeState {
-    double m, q, width, width_slope;
-    double t, f, u;  // the barriers' arguments: f, t > 0 for the cone, u > 0 for sigma
-  };
-  struct Terms {
-    double gA, gB, gs, hAA, hBB, hAB, hAs, hBs, hss;
-    double zA, zB, zs, slack_gradient, slack_hessian;
-  };
-
-  [[nodiscard]] static ConeState cone_state(const Link& link, const State& state, double slack);
-  [[nodiscard]] static Terms link_terms(const Link& link, const State& state, const ConeState& cone,
-                                        double energy, double barrier);
-  static void scatter(const Terms& terms, const Link& link, const State& state,
+  [[nodiscard]] static ConeVariables variables(const State& state);
+  [[nodiscard]] static ConeRoom room(const Link& link, const ConeVariables& variables,
+                                     double slack);
+  static void scatter(const ConeTerms& terms, const Link& link, const State& state,
                       NewtonSystem::Block& a, NewtonSystem::Block& b);
   double add_nodes(const std::vector<double>& x, double slack, double barrier,
                    NewtonSystem& system) const;

@@ -52,10 +52,10 @@ Attempt refuse(Infeasibility why, int steps) { return {std::nullopt, why, steps}
 
 Infeasibility blame(std::size_t link) { return {link, link + 1, 0.0, 0.0}; }
 
-Attempt insert_and_solve(Extended current, ChainSolution solution, int steps) {
+Attempt insert_and_solve(Extended current, ChainSolution solution, int steps, Watch& watch) {
   for (int round = 0; round < kInsertionRounds; ++round) {
     current = with_free_elements(current, solution);
-    solution = solve_chain(current.points, current.problem, {}, &current.start);
+    solution = solve_chain(current.points, current.problem, watched(watch), &current.start);
     steps += solution.newton_steps;
     if (carried(current.problem, solution)) {
       return {collect(current, std::move(solution), steps), {}, steps};
@@ -72,10 +72,10 @@ Attempt insert_and_solve(Extended current, ChainSolution solution, int steps) {
 
 /// Closed-form cones first; then mere existence and free elements; then without the wish that the
 /// curvature keep its sign, which can turn out to be impossible.
-Attempt attempt(Extended current, bool convex) {
+Attempt attempt(Extended current, bool convex, Watch& watch) {
   const std::vector<Element> given = current.start;
   const std::vector<Element>* start = given.empty() ? nullptr : &given;
-  ChainSolution solution = solve_chain(current.points, current.problem, {}, start);
+  ChainSolution solution = solve_chain(current.points, current.problem, watched(watch), start);
   int steps = solution.newton_steps;
   if (carried(current.problem, solution)) {
     return {collect(current, std::move(solution), steps), {}, steps};
@@ -85,42 +85,49 @@ Attempt attempt(Extended current, bool convex) {
       return refuse(blame(*link), steps);
   }
   for (Cone& c : current.problem.cone) c = c == Cone::kNone ? c : Cone::kSpiral;
-  solution = solve_chain(current.points, current.problem, {}, start);
+  solution = solve_chain(current.points, current.problem, watched(watch), start);
   steps += solution.newton_steps;
   bool unforced_inflection = false;
   if (!solution.feasible && !convex) {
     const Infeasibility with_signs = solution.infeasibility;
     for (NodeData& node : current.problem.nodes) node.curvature_sign = 0;
-    solution = solve_chain(current.points, current.problem);
+    solution = solve_chain(current.points, current.problem, watched(watch));
     steps += solution.newton_steps;
     unforced_inflection = solution.feasible;
     if (!solution.feasible) solution.infeasibility = with_signs;
   }
   if (!solution.feasible) return refuse(solution.infeasibility, steps);
-  Attempt out = insert_and_solve(std::move(current), std::move(solution), steps);
+  Attempt out = insert_and_solve(std::move(current), std::move(solution), steps, watch);
   if (out.chain) out.chain->unforced_inflection = unforced_inflection;
   return out;
 }
 
 /// Whether the points alone have a solution, so that it is the wishes which have none. Then no
 /// direction is turned: further vertices are not what somebody who fixes a radius asks for.
-bool fulfilled_without(const ChainWishes& wishes, const Analysis& analysis, Extended series) {
+bool fulfilled_without(const ChainWishes& wishes, const Analysis& analysis, Extended series,
+                       Watch& watch) {
   if (!anything_wished(wishes)) return false;
   auto problem = set_up(analysis, {});
   if (!problem) return false;
   series.problem = std::move(*problem);
-  return attempt(std::move(series), false).chain.has_value();
+  return attempt(std::move(series), false, watch).chain.has_value();
 }
 
-/// Directions that may be turned, and the longest series for which that is tried: every turn costs
-/// a solution of the whole chain.
+/// Directions that may be turned. Every turn costs a solution of the whole chain: so many steps on
+/// every point are spent on them, a few more where there are few points, and no more where there
+/// are very many.
 constexpr int kMostTurns = 100;
-constexpr std::size_t kLongestRepair = 5000;
+constexpr double kRepairSteps = 3000.0, kRepairWork = 1e6;
+constexpr std::size_t kMostRepairedPoints = 5000;
+
+double repair_work(std::size_t points) {
+  return kRepairWork + kRepairSteps * static_cast<double>(std::min(points, kMostRepairedPoints));
+}
 
 }  // namespace
 
 Result<SeriesChain> choose_elements(const std::vector<Vec2>& points, const Analysis& analysis,
-                                    const ChainWishes& wishes) {
+                                    const ChainWishes& wishes, Watch& watch) {
   auto problem = set_up(analysis, wishes);
   if (!problem) return tl::unexpected(problem.error());
   Extended current;
@@ -129,27 +136,31 @@ Result<SeriesChain> choose_elements(const std::vector<Vec2>& points, const Analy
   for (std::size_t i = 0; i < points.size(); ++i) current.source.emplace_back(i);
 
   current.turned.assign(current.problem.direction.size(), false);
-  Attempt tried = attempt(current, wishes.convex);
-  if (!tried.chain && fulfilled_without(wishes, analysis, current)) {
+  Attempt tried = attempt(current, wishes.convex, watch);
+  if (!tried.chain && fulfilled_without(wishes, analysis, current, watch)) {
     return fail(explain(points, analysis, wishes, tried.why));
   }
   const Infeasibility first_reason = tried.why;
   int steps = tried.steps;
   std::size_t turned = 0;
-  for (int round = 0; !tried.chain && round < kMostTurns && points.size() <= kLongestRepair;
-       ++round) {
-    if (!TransitionVertex::insert(current, tried.why)) {
-      const auto link = DirectionRepair(current).choose(tried.why);
+  const Allowance allowance(watch, repair_work(points.size()));
+  for (int round = 0; !tried.chain && round < kMostTurns && watch.may_go_on(); ++round) {
+    if (!TransitionVertex::insert(current, tried.why, watch)) {
+      const auto link = DirectionRepair(current, watch).choose(tried.why);
       if (!link) break;
       current.turned[*link] = true;
       std::int8_t& direction = current.problem.direction[*link];
       direction = static_cast<std::int8_t>(-direction);
     }
     ++turned;
-    tried = attempt(current, wishes.convex);
+    tried = attempt(current, wishes.convex, watch);
     steps += tried.steps;
   }
-  if (!tried.chain) return fail(explain(points, analysis, wishes, first_reason));
+  if (!tried.chain) {
+    Error error = explain(points, analysis, wishes, first_reason);
+    if (!watch.may_go_on()) error.hint += "; the search for other directions ended at its limit";
+    return fail(std::move(error));
+  }
   tried.chain->newton_steps = steps;
   tried.chain->turned_directions = turned;
   return std::move(*tried.chain);
@@ -159,7 +170,7 @@ namespace {
 
 /// The given elements as they are, with free elements, whose heading and curvature alone are
 /// chosen, in links that one piece cannot carry.
-std::optional<SeriesChain> keep_elements(const Extended& given) {
+std::optional<SeriesChain> keep_elements(const Extended& given, Watch& watch) {
   ChainSolution solution = judge_chain(given.points, given.problem, given.start);
   if (carried(given.problem, solution)) return collect(given, std::move(solution), 0);
   Extended halved = with_free_elements(given, solution);
@@ -168,7 +179,7 @@ std::optional<SeriesChain> keep_elements(const Extended& given) {
     halved.problem.nodes[i].theta = halved.start[i].theta;
     halved.problem.nodes[i].kappa = halved.start[i].kappa;
   }
-  solution = solve_chain(halved.points, halved.problem, {}, &halved.start);
+  solution = solve_chain(halved.points, halved.problem, watched(watch), &halved.start);
   if (!carried(halved.problem, solution)) return std::nullopt;
   const int steps = solution.newton_steps;
   return collect(halved, std::move(solution), steps);
@@ -176,7 +187,7 @@ std::optional<SeriesChain> keep_elements(const Extended& given) {
 
 }  // namespace
 
-Result<SeriesChain> follow_directions(DirectedSeries series) {
+Result<SeriesChain> follow_directions(DirectedSeries series, Watch& watch) {
   Extended e;
   e.problem.chords = measure_chords(series.points);
   e.problem.circles = measure_circles(series.points, e.problem.chords);
@@ -189,8 +200,8 @@ Result<SeriesChain> follow_directions(DirectedSeries series) {
   e.start = std::move(series.start);
   e.source = std::move(series.source);
   e.turned.assign(e.problem.direction.size(), false);
-  if (auto kept = keep_elements(e)) return std::move(*kept);
-  Attempt tried = attempt(std::move(e), true);
+  if (auto kept = keep_elements(e, watch)) return std::move(*kept);
+  Attempt tried = attempt(std::move(e), true, watch);
   if (tried.chain) return std::move(*tried.chain);
   return fail({ErrorCode::kNoSpiral,
                "no curve with curvature changing as wanted runs through the nodes",

@@ -73,6 +73,7 @@ class Solver {
         model_.assemble(x_, slack_, energy, barrier, system_) + slack_cost * slack_;
     system_.slack_gradient = with_slack ? system_.slack_gradient + slack_cost : 0.0;
     ++steps_;
+    if (options_.watch != nullptr) options_.watch->spend(static_cast<double>(points_.size()));
     system_.solve(direction_, slack_direction_, with_slack);
     const double decrement = system_.decrement(direction_, slack_direction_);
     if (!(decrement > 0.0)) return -1.0;

@@ -15,16 +15,17 @@ class TransitionVertex {
  public:
   /// Inserts one beside the first stretch that the infeasibility touches and that has none yet on
   /// that side. False when there is no such place.
-  static bool insert(Extended& series, const Infeasibility& why) {
+  static bool insert(Extended& series, const Infeasibility& why, Watch& watch) {
     const std::vector<Cone>& cone = series.problem.cone;
     const std::size_t first = why.first_point >= kReach ? why.first_point - kReach : 0;
     const std::size_t last = std::min(cone.size() - 1, why.last_point + kReach);
     for (std::size_t i = first; i < last; ++i) {
       const bool enters = cone[i] != Cone::kNone && cone[i + 1] == Cone::kNone;
       const bool leaves = cone[i] == Cone::kNone && cone[i + 1] != Cone::kNone;
-      if (enters && series.source[i] && series.source[i + 1]) return insert_into(series, i, true);
+      if (enters && series.source[i] && series.source[i + 1])
+        return insert_into(series, i, true, watch);
       if (leaves && series.source[i + 1] && series.source[i + 2]) {
-        return insert_into(series, i + 1, false);
+        return insert_into(series, i + 1, false, watch);
       }
     }
     return false;
@@ -49,7 +50,8 @@ class TransitionVertex {
   }
 
   /// The place whose neighbourhood is feasible with the widest margin, else comes closest.
-  static Vec2 best_place(const Extended& series, std::size_t link, bool before_stretch) {
+  static Vec2 best_place(const Extended& series, std::size_t link, bool before_stretch,
+                         Watch& watch) {
     const std::size_t from = link >= kWindow ? link - kWindow : 0;
     const std::size_t to = std::min(series.problem.direction.size(), link + 1 + kWindow);
     const Extended window = slice(series, from, to);
@@ -60,7 +62,7 @@ class TransitionVertex {
         const Vec2 point = place(series, link, along, height);
         Extended candidate = window;
         insert_at(candidate, link - from, before_stretch, point);
-        const ChainSolution s = solve_chain(candidate.points, candidate.problem);
+        const ChainSolution s = solve_chain(candidate.points, candidate.problem, watched(watch));
         const double score = s.feasible ? s.smallest_margin : -s.infeasibility.slack;
         if (score <= best_score) continue;
         best_score = score;
@@ -70,8 +72,8 @@ class TransitionVertex {
     return best;
   }
 
-  static bool insert_into(Extended& s, std::size_t link, bool before_stretch) {
-    insert_at(s, link, before_stretch, best_place(s, link, before_stretch));
+  static bool insert_into(Extended& s, std::size_t link, bool before_stretch, Watch& watch) {
+    insert_at(s, link, before_stretch, best_place(s, link, before_stretch, watch));
     return true;
   }
 

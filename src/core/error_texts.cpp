@@ -110,6 +110,15 @@ constexpr std::array kTexts{
         "Use `--carrier spiral` or `clothoids`, which keep everything that a contour can have, "
         "or give less at this point."},
     ErrorText{
+        ErrorCode::kWanders, "The contour would wander between two points",
+        "Between two neighbouring points the contour would leave the directions of all circles "
+        "through three points beside it by more than these differ among each other and 45 "
+        "degrees: a swing or a loop that the points do not ask for. Its curvature may well be "
+        "monotone; that alone makes no sensible shape.",
+        "Look at the named points. If the contour turns at once there, mark corners "
+        "(--corner-at); if a straight or round part is given by its ends only, put points on "
+        "it; or allow the points to move (--noise)."},
+    ErrorText{
         ErrorCode::kNotProved, "Formed, but not proved",
         "A contour was formed, but the proof of one of its properties did not succeed. It may "
         "still be good; the program does not claim it.",

@@ -7,6 +7,7 @@
 #include <optional>
 
 #include "find_primitives.h"
+#include "heading_ranges.h"
 #include "obvid/series/analysis.h"
 #include "tube_ends.h"
 #include "tube_solver.h"
@@ -41,7 +42,7 @@ constexpr std::size_t kRateReach = 3;
 
 /// int kappa'^2 of the quintic Hermite curve (docs/methods/fairing.md), and its weight against the
 /// tube's barrier.
-constexpr LinkEnergy kRateEnergy{24.0, -72.0, 84.0, 12.0};
+constexpr LinkEnergy kRateEnergy{24.0, 1.5, 30.0, 12.0};
 constexpr double kSmoothing = 0.3;
 constexpr int kPasses = 4;
 constexpr int kMostPasses = 12;
@@ -50,8 +51,8 @@ constexpr double kSmoothEnough = 1e-2;  ///< Newton's decrement
 
 class Builder {
  public:
-  Builder(const MeasuredSeries& series, const std::vector<std::size_t>& loose)
-      : series_(series), loose_(loose) {
+  Builder(const MeasuredSeries& series, const std::vector<std::size_t>& loose, Watch& watch)
+      : series_(series), loose_(loose), watch_(watch) {
     tube_.closed = series.closed;
     tube_.origin = series.points.front();
   }
@@ -76,8 +77,11 @@ class Builder {
     }
     if (series_.closed) begin_in_a_run();
     if (series_.primitives) set_primitives();
-    if (knots_.size() > 1) set_sizes(tube_, x_);
-    SmoothTube out{std::move(tube_), std::move(x_), {}, {}, steps_};
+    if (knots_.size() > 1 && inside_) {
+      set_sizes(tube_, x_);
+      set_heading_ranges(tube_, x_);
+    }
+    SmoothTube out{std::move(tube_), std::move(x_), {}, {}, steps_, inside_, trouble_};
     for (const Knot& k : knots_) {
       out.source.push_back(k.first);
       out.last_source.push_back(k.last);
@@ -185,7 +189,7 @@ class Builder {
   void set_primitives() {
     const std::vector<std::size_t> order = points_in_order();
     SmoothPoints smooth = smooth_points(order);
-    std::vector<Primitive> found = find_primitives(smooth);
+    std::vector<Primitive> found = find_primitives(smooth, watch_);
     if (found.empty()) return;
     if (series_.closed && found.front().first == 0 && found.front().last + 1 == order.size()) {
       found.front().before = found.front().after = std::numbers::pi / std::abs(found.front().kappa);
@@ -206,11 +210,20 @@ class Builder {
         knots_.push_back({order[k], order[k], std::nullopt});
       }
     }
-    if (knots_.size() > 1) {
-      smooth_knots();
-    } else {
+    if (knots_.size() == 1) {
       lay_nodes();
+      return;
     }
+    inside_ = smooth_knots();
+    if (!inside_) trouble_ = farthest_outside();
+  }
+
+  /// Node whose points, or those behind it, lie farthest from the curve, in their reaches.
+  [[nodiscard]] std::size_t farthest_outside() {
+    const std::vector<std::int8_t> no_direction(tube_.links(), 1);
+    TubeModel model(tube_, no_direction, Cone::kClosedForm, kRateEnergy);
+    const std::vector<double> use = model.node_uses(x_);
+    return static_cast<std::size_t>(std::max_element(use.begin(), use.end()) - use.begin());
   }
 
   [[nodiscard]] std::vector<std::size_t> points_in_order() const {
@@ -380,7 +393,7 @@ class Builder {
     for (int pass = 0; pass < kMostPasses; ++pass) {
       set_sizes(tube_, x_);
       TubeModel model(tube_, no_direction, Cone::kClosedForm, kRateEnergy);
-      TubeSolver solver(model);
+      TubeSolver solver(model, watch_);
       bool inside = model.tube_use(x_) < 1.0;
       if (inside && pass >= kPasses) return true;
       if (inside) {
@@ -399,16 +412,20 @@ class Builder {
   Tube tube_;
   State x_;
   const std::vector<std::size_t>& loose_;
+  Watch& watch_;
   std::vector<std::size_t> source_;
   std::vector<Knot> knots_;
   double share_ = kModelShare;  ///< of their reach that points between nodes may use
   int steps_ = 0;
+  bool inside_ = true;
+  std::size_t trouble_ = 0;
 };
 
 }  // namespace
 
-SmoothTube build_tube(const MeasuredSeries& series, const std::vector<std::size_t>& loose) {
-  return Builder(series, loose).run();
+SmoothTube build_tube(const MeasuredSeries& series, const std::vector<std::size_t>& loose,
+                      Watch& watch) {
+  return Builder(series, loose, watch).run();
 }
 
 void set_sizes(Tube& tube, const State& x) {

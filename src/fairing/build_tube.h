@@ -3,6 +3,7 @@
 
 #include <vector>
 
+#include "obvid/core/watch.h"
 #include "obvid/fairing/fairing.h"
 #include "tube.h"
 
@@ -15,13 +16,15 @@ struct SmoothTube {
   std::vector<std::size_t> source;       ///< per node: index of its measured point, of a primitive
   std::vector<std::size_t> last_source;  ///< its first one, and its last one
   int newton_steps = 0;
+  bool inside = true;  ///< false: with its primitives no curve was found that stays in the tube
+  std::size_t trouble = 0;  ///< node farthest outside then
 };
 
 /// Chooses nodes among the points and lays a smooth curve through the tube, without regard to
 /// directions. Where primitives are wanted, stretches that mean a line or circle become one node
 /// each, except those with an `loose` point.
 [[nodiscard]] SmoothTube build_tube(const MeasuredSeries& series,
-                                    const std::vector<std::size_t>& loose = {});
+                                    const std::vector<std::size_t>& loose, Watch& watch);
 
 /// Expected sizes of all links from the curvatures at x: the largest mean rate of curvature over
 /// three links before, after and around, but not less than what the tolerance can hide.

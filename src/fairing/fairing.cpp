@@ -6,7 +6,7 @@
 #include <utility>
 
 #include "build_tube.h"
-#include "forced_vertices.h"
+#include "obvid/series/forced_vertices.h"
 #include "run_search.h"
 #include "tube_solver.h"
 
@@ -23,10 +23,10 @@ constexpr int kFairSteps = 60;
 
 /// Inside all cones, then to the fairest state. The closed form's cones when they leave room for
 /// it, because then no link needs a further element.
-bool make_fair(LaidTube& laid, int& steps) {
+bool make_fair(LaidTube& laid, Watch& watch, int& steps) {
   for (const Cone cone : {Cone::kClosedForm, Cone::kSpiral}) {
     TubeModel model(laid.tube, laid.direction, cone, kFairEnergy);
-    TubeSolver solver(model);
+    TubeSolver solver(model, watch);
     State x = laid.start;
     if (!solver.find_inside(x).feasible) {
       steps += solver.steps();
@@ -40,26 +40,13 @@ bool make_fair(LaidTube& laid, int& steps) {
   return false;
 }
 
-}  // namespace
-
-int forced_vertices(const MeasuredSeries& series) {
-  std::vector<Vec2> points = series.points;
-  std::vector<double> reach = series.reach;
-  if (series.closed) {  // windows across the seam
-    constexpr std::size_t kOverlap = 3;
-    for (std::size_t i = 0; i < kOverlap; ++i) {
-      points.push_back(series.points[i]);
-      reach.push_back(reach[i]);
-    }
-  }
-  const int forced = fairing_detail::forced_vertices(points, reach);
-  return series.closed ? forced + forced % 2 : forced;  // curvature returns: an even number
-}
-
-namespace {
-
 /// An exact arc comes in parts that turn by no more than this, rad.
 constexpr double kLargestArc = 3.0;
+
+/// Parts of an arc that belongs to a result; of one that does not, nobody asks for them.
+int parts_of_arc(double turn, bool feasible) {
+  return feasible ? std::max(1, static_cast<int>(std::ceil(std::abs(turn) / kLargestArc))) : 1;
+}
 
 /// Appends a node's elements: one, or the ends of a primitive with exact pieces between them.
 void append_node(const LaidTube& laid, const SmoothTube& smooth, std::size_t i, FairedSeries& out) {
@@ -78,7 +65,7 @@ void append_node(const LaidTube& laid, const SmoothTube& smooth, std::size_t i, 
   append(-n.before, first);
   if (!n.is_primitive()) return;
   const double length = n.before + n.after, turn = length * place(n, x).in.kappa;
-  const int parts = std::max(1, static_cast<int>(std::ceil(std::abs(turn) / kLargestArc)));
+  const int parts = parts_of_arc(turn, out.feasible);
   for (int k = 1; k <= parts; ++k) {
     out.direction.push_back(0);
     const double s = k == parts ? n.after : -n.before + length * k / parts;
@@ -89,13 +76,13 @@ void append_node(const LaidTube& laid, const SmoothTube& smooth, std::size_t i, 
 /// One circle or line through all points.
 FairedSeries one_primitive(const MeasuredSeries& series, const SmoothTube& smooth) {
   FairedSeries out;
+  out.feasible = true;
+  out.primitives = 1;
   LaidTube laid;
   laid.tube = smooth.tube;
   laid.start = smooth.state;
   laid.node = {0};
   append_node(laid, smooth, 0, out);
-  out.feasible = true;
-  out.primitives = 1;
   if (series.closed) {  // the end is the beginning
     out.elements.pop_back();
     out.source.pop_back();
@@ -103,39 +90,69 @@ FairedSeries one_primitive(const MeasuredSeries& series, const SmoothTube& smoot
   return out;
 }
 
+/// The elements of a laid tube, one after another; `trouble` is the node in the whole tube near
+/// which something failed.
+void collect_nodes(const LaidTube& laid, const SmoothTube& smooth, std::size_t trouble,
+                   FairedSeries& out) {
+  for (std::size_t i = 0; i < laid.tube.nodes.size(); ++i) {
+    if (laid.node[i] == trouble) out.trouble = out.elements.size();
+    append_node(laid, smooth, i, out);
+    if (i < laid.direction.size()) out.direction.push_back(laid.direction[i]);
+    out.primitives += laid.tube.nodes[i].is_primitive() ? 1 : 0;
+  }
+}
+
 FairedSeries attempt(const MeasuredSeries& series, int lower_bound,
-                     const std::vector<std::size_t>& loose, const Progress& progress) {
-  const auto tell = [&](double done) {
-    if (progress) progress("searching runs", done);
-  };
+                     const std::vector<std::size_t>& loose, Watch& watch) {
+  constexpr const char* kStage = "searching runs";
   FairedSeries out;
-  out.vertices_lower_bound = lower_bound;
-  SmoothTube smooth = build_tube(series, loose);
-  tell(0.1);
+  const SmoothTube smooth = build_tube(series, loose, watch);
+  watch.tell(kStage, 0.1);
   if (smooth.tube.nodes.size() == 1) {
     out = one_primitive(series, smooth);
     out.vertices_lower_bound = lower_bound;
     return out;
   }
-  RunSearch search(smooth.tube, smooth.state);
-  const Runs runs = search.search(lower_bound);
-  tell(0.6);
-  out.newton_steps = smooth.newton_steps + search.newton_steps();
-  LaidTube laid = lay_out(smooth.tube, smooth.state, {0, smooth.tube.links()}, runs.layout);
-  out.feasible = runs.feasible && make_fair(laid, out.newton_steps);
-  out.vertices = runs.vertices;
-  for (std::size_t i = 0; i < laid.tube.nodes.size(); ++i) {
-    if (laid.node[i] == runs.trouble) out.trouble = out.elements.size();
-    append_node(laid, smooth, i, out);
-    if (i < laid.direction.size()) out.direction.push_back(laid.direction[i]);
-    out.primitives += laid.tube.nodes[i].is_primitive() ? 1 : 0;
+  out.vertices_lower_bound = lower_bound;
+  out.newton_steps = smooth.newton_steps;
+  if (!smooth.inside) {
+    const Layout any(smooth.tube.links(), course(1));
+    collect_nodes(lay_out(smooth.tube, smooth.state, {0, smooth.tube.links()}, any), smooth,
+                  smooth.trouble, out);
+    return out;
   }
-  tell(1.0);
+  RunSearch search(smooth.tube, smooth.state, watch);
+  const Runs runs = search.search(lower_bound);
+  watch.tell(kStage, 0.6);
+  out.newton_steps += search.newton_steps();
+  LaidTube laid = lay_out(smooth.tube, smooth.state, {0, smooth.tube.links()}, runs.layout);
+  out.feasible = runs.feasible && make_fair(laid, watch, out.newton_steps);
+  out.vertices = runs.vertices;
+  collect_nodes(laid, smooth, runs.trouble, out);
+  watch.tell(kStage, 1.0);
   return out;
 }
 
 /// Points that are taken off the ends of primitives until the transitions have room.
-constexpr std::size_t kMostTrims = 40;
+constexpr int kMostTrims = 40;
+/// Work of that, in steps on every point, and for few points.
+constexpr double kTrimSteps = 3000.0, kTrimWork = 2e5;
+
+/// Nothing when no transition fits between the lines and arcs, or the work is used up.
+std::optional<FairedSeries> keep_primitives(const MeasuredSeries& series, int lower_bound,
+                                            Watch& watch) {
+  const Allowance allowance(watch,
+                            kTrimWork + kTrimSteps * static_cast<double>(series.points.size()));
+  std::vector<std::size_t> loose = series.loose;
+  for (int k = 0; k < kMostTrims && watch.may_go_on(); ++k) {
+    const Stretch stretch = Stretch::next_of_many(watch, k);
+    FairedSeries out = attempt(series, lower_bound, loose, watch);
+    out.loose = loose;
+    if (out.feasible || out.primitives == 0) return out;
+    loose.push_back(*nearest_primitive_end(out, out.trouble));
+  }
+  return std::nullopt;
+}
 
 }  // namespace
 
@@ -154,18 +171,14 @@ std::optional<std::size_t> nearest_primitive_end(const FairedSeries& faired, std
   return best;
 }
 
-FairedSeries fair(const MeasuredSeries& series, const Progress& progress) {
-  const int lower_bound = forced_vertices(series);
-  std::vector<std::size_t> loose = series.loose;
-  while (loose.size() < series.loose.size() + kMostTrims) {
-    FairedSeries out = attempt(series, lower_bound, loose, progress);
-    out.loose = loose;
-    if (out.feasible || out.primitives == 0) return out;
-    loose.push_back(*nearest_primitive_end(out, out.trouble));
+FairedSeries fair(const MeasuredSeries& series, Watch& watch) {
+  const int lower_bound = forced_vertices(series.points, series.reach, series.closed);
+  if (series.primitives) {
+    if (auto out = keep_primitives(series, lower_bound, watch)) return std::move(*out);
   }
   MeasuredSeries without = series;
   without.primitives = false;
-  return attempt(without, lower_bound, {}, progress);
+  return attempt(without, lower_bound, {}, watch);
 }
 
 }  // namespace obvid

@@ -25,6 +25,7 @@ constexpr double kLineShare = 0.8;  ///< of a circle's length that a line must r
 constexpr double kSameLength = 0.25;  ///< between an arc and the chords of its points
 constexpr int kFitSteps = 8;
 constexpr double kFitted = 1e-12;       ///< last step of a fit, in half lengths of the stretch
+constexpr double kWorkPerPoint = 0.1;   ///< of a fit's step, against a solver's step on a point
 constexpr std::size_t kFitPoints = 64;  ///< a longer stretch is fitted on so many of its points
 
 enum class Kind { kLine, kCircle };
@@ -56,7 +57,7 @@ bool solve(Mat3& a, Vec3& b, std::size_t size) {
 
 class Finder {
  public:
-  explicit Finder(const SmoothPoints& series) : s_(series) {}
+  Finder(const SmoothPoints& series, Watch& watch) : s_(series), watch_(watch) {}
 
   std::vector<Primitive> run() {
     std::vector<Primitive> all;
@@ -129,6 +130,7 @@ class Finder {
       Mat3 a{};
       Vec3 b{};
       for (std::size_t i = first; i <= last; i += step) add(fit, s_.points[i], a, b);
+      watch_.spend(kWorkPerPoint * static_cast<double>((last - first) / step + 1));
       if (!solve(a, b, unknowns)) return std::nullopt;
       double largest = 0.0;
       for (std::size_t j = 0; j < unknowns; ++j) {
@@ -264,11 +266,14 @@ class Finder {
   }
 
   const SmoothPoints& s_;
+  Watch& watch_;
   double share_ = 1.0;  // of the tolerance that a fit may use up
 };
 
 }  // namespace
 
-std::vector<Primitive> find_primitives(const SmoothPoints& series) { return Finder(series).run(); }
+std::vector<Primitive> find_primitives(const SmoothPoints& series, Watch& watch) {
+  return Finder(series, watch).run();
+}
 
 }  // namespace obvid::fairing_detail

@@ -3,6 +3,7 @@
 
 #include <vector>
 
+#include "obvid/core/watch.h"
 #include "obvid/geom/vec2.h"
 
 namespace obvid::fairing_detail {
@@ -30,6 +31,6 @@ struct Primitive {
 /// Stretches that fit one circle or line with half their tolerance to spare and that are far longer
 /// than a stretch of a spiral could be that fits as well (docs/methods/fairing.md). In order,
 /// without common points. Cost O(n) fits.
-[[nodiscard]] std::vector<Primitive> find_primitives(const SmoothPoints& series);
+[[nodiscard]] std::vector<Primitive> find_primitives(const SmoothPoints& series, Watch& watch);
 
 }  // namespace obvid::fairing_detail

@@ -18,6 +18,10 @@ constexpr int kRunsBeside = 2;       ///< and whole runs
 constexpr double kHopeless = 2000.0;
 constexpr int kMostAtOnce = 3;  ///< pairs of runs that are swallowed at once
 constexpr int kMostMends = 4;
+/// Work of the search and of each attempt to mend its outcome, in steps on every node; few nodes
+/// have more to spare.
+constexpr double kSearchSteps = 3000.0, kMendSteps = 500.0;
+constexpr double kSpareWork = 2e5;
 
 void fill(Layout& layout, std::size_t from, std::size_t to, std::int8_t sign) {
   std::fill(layout.begin() + static_cast<std::ptrdiff_t>(from),
@@ -106,7 +110,7 @@ Window RunSearch::neighbourhood(const Layout& layout, std::size_t from, std::siz
 double RunSearch::slack_of(Window window, const Layout& layout) {
   LaidTube laid = lay_out(tube_, smooth_, window, layout);
   TubeModel model(laid.tube, laid.direction, kSearchCone, kFairEnergy);
-  TubeSolver solver(model);
+  TubeSolver solver(model, watch_);
   const Feasibility f = solver.find_inside(laid.start);
   steps_ += solver.steps();
   ++solves_;
@@ -127,7 +131,7 @@ bool RunSearch::drop_weakest(Layout& layout, int enough) {
   int vertices = count_vertices(layout, tube_.closed);
   bool changed = false;
   for (const Run& run : runs) {
-    if (vertices <= enough || run.strength > kHopeless) break;
+    if (vertices <= enough || run.strength > kHopeless || !watch_.may_go_on()) break;
     const bool begins = run.first == 0 || layout[run.first - 1] != layout[run.first];
     const bool ends = run.last == layout.size() || layout[run.last] != layout[run.last - 1];
     if (!begins || !ends) continue;  // it has grown together with a neighbour
@@ -143,7 +147,8 @@ bool RunSearch::drop_weakest(Layout& layout, int enough) {
 /// Every run takes in several of the following ones at once: what cannot vanish alone can together.
 bool RunSearch::swallow(Layout& layout, int enough) {
   bool changed = false;
-  for (std::size_t k = 0; count_vertices(layout, tube_.closed) > enough; ++k) {
+  for (std::size_t k = 0; count_vertices(layout, tube_.closed) > enough && watch_.may_go_on();
+       ++k) {
     const std::vector<Run> runs = runs_of(layout);
     if (k >= runs.size()) break;
     for (int many = 2; many <= kMostAtOnce; ++many) {
@@ -162,7 +167,7 @@ bool RunSearch::swallow(Layout& layout, int enough) {
 void RunSearch::solve_whole(Runs& runs) {
   LaidTube laid = lay_out(tube_, smooth_, {0, tube_.links()}, runs.layout);
   TubeModel model(laid.tube, laid.direction, kSearchCone, kFairEnergy);
-  TubeSolver solver(model);
+  TubeSolver solver(model, watch_);
   const Feasibility f = solver.find_inside(laid.start);
   steps_ += solver.steps();
   ++solves_;
@@ -212,14 +217,21 @@ bool RunSearch::mend(Runs& runs) {
 }
 
 Runs RunSearch::search(int enough) {
+  const auto work = [&](double steps) {
+    return kSpareWork + steps * static_cast<double>(tube_.nodes.size());
+  };
   Runs runs;
   runs.layout = smooth_layout();
-  while (count_vertices(runs.layout, tube_.closed) > enough) {
-    if (drop_weakest(runs.layout, enough)) continue;
-    if (!swallow(runs.layout, enough)) break;
+  {
+    const Allowance allowance(watch_, work(kSearchSteps));
+    while (count_vertices(runs.layout, tube_.closed) > enough && watch_.may_go_on()) {
+      if (drop_weakest(runs.layout, enough)) continue;
+      if (!swallow(runs.layout, enough)) break;
+    }
   }
   solve_whole(runs);
   for (int k = 0; k < kMostMends && !runs.feasible; ++k) {
+    const Allowance allowance(watch_, work(kMendSteps));
     if (!mend(runs)) break;
     solve_whole(runs);
   }

@@ -5,14 +5,10 @@
 #include <vector>
 
 #include "layout.h"
+#include "obvid/core/watch.h"
 #include "tube_model.h"
 
 namespace obvid::fairing_detail {
-
-/// Energy of fair links in units of their expected size: departure from a clothoid, skewness, size
-/// (docs/methods/chain.md, section 4).
-inline constexpr double kFinalBarrier = 0.3;
-inline constexpr LinkEnergy kFairEnergy{24.0, -96.0, 96.0 + 5.0 * kFinalBarrier, 6.0};
 
 /// Which curves must exist over every link while runs are searched.
 inline constexpr Cone kSearchCone = Cone::kSpiral;
@@ -29,7 +25,8 @@ struct Runs {
 /// Searches few alternating runs on a tube with a smooth curve in it (docs/methods/fairing.md).
 class RunSearch {
  public:
-  RunSearch(const Tube& tube, const State& smooth) : tube_(tube), smooth_(smooth) {}
+  RunSearch(const Tube& tube, const State& smooth, Watch& watch)
+      : tube_(tube), smooth_(smooth), watch_(watch) {}
 
   /// Starts from the courses of the smooth curve and takes vertices away, the weakest runs first,
   /// as long as a neighbourhood of each change stays feasible; stops at `enough` vertices, fewer
@@ -59,6 +56,7 @@ class RunSearch {
 
   const Tube& tube_;
   const State& smooth_;
+  Watch& watch_;
   int steps_ = 0, solves_ = 0;
 };
 

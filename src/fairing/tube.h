@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <vector>
 
 #include "obvid/geom/vec2.h"
@@ -20,12 +21,16 @@ struct TubeNode {
   double length = 1.0;  ///< local scale, units
   double sign = 0.0;    ///< the curvature must keep this sign; 0 = free
   bool fix_theta = false, fix_kappa = false;
+  /// The heading keeps between these, rad from `theta`.
+  double turn_low = -std::numeric_limits<double>::infinity();
+  double turn_high = std::numeric_limits<double>::infinity();
   /// A primitive: the arc or line from `before` ahead of the anchor to `after` behind it, arc
   /// lengths; it passes the points first_on .. last_on - 1 of `Tube::on_primitives`.
   double before = 0.0, after = 0.0;
   std::size_t first_on = 0, last_on = 0;
 
   [[nodiscard]] bool is_primitive() const { return before + after > 0.0; }
+  [[nodiscard]] bool bounds_heading() const { return turn_low > -1e300 && turn_high < 1e300; }
 };
 
 /// A measured point between two nodes: the contour must pass it within `reach`.

@@ -9,54 +9,8 @@ namespace obvid::fairing_detail {
 namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
-/// The cones keep this much more than the bare conditions, as in the chain of exact points.
-constexpr double kClosedFormReserve = 1.1;
+/// The cone of mere existence keeps this much more than the bare condition.
 constexpr double kExistenceReserve = 1.0001;
-/// Beyond this sigma the closed form's cone is continued by its tangent.
-constexpr double kStraightenedSigma = 1.3;
-constexpr double kSigmaWeight = 0.5;  ///< of the barrier of sigma > 0, against the cone's
-constexpr double kSignWeight = 0.5;   ///< of the barrier of the curvature's sign
-
-/// Sum of logarithms with one call of log for many factors.
-class LogSum {
- public:
-  void add(double factor) {
-    product_ *= factor;
-    constexpr double kLarge = 1e150, kSmall = 1e-150;  // the next factor cannot leave the range
-    if (product_ > kLarge || product_ < kSmall) {
-      sum_ += std::log(product_);
-      product_ = 1.0;
-    }
-  }
-  [[nodiscard]] double value() const { return sum_ + std::log(product_); }
-
- private:
-  double product_ = 1.0, sum_ = 0.0;
-};
-
-struct ConeWidth {
-  double value, slope;
-};
-
-ConeWidth straightened_width(double sigma) {
-  const double k = std::sqrt(2.0 * kClosedFormReserve);
-  const double sine = std::sin(kStraightenedSigma), cosine = std::cos(kStraightenedSigma);
-  const double root = std::sqrt(cosine);
-  const double slope = k * (cosine * cosine + 0.5 * sine * sine) / (cosine * root);
-  const double value = k * sine / root + slope * (std::abs(sigma) - kStraightenedSigma);
-  return {std::copysign(value, sigma), std::copysign(slope, sigma)};
-}
-
-ConeWidth cone_width(Cone cone, double sigma, double sine, double cosine) {
-  if (cone == Cone::kSpiral) {
-    const double k = 2.0 * std::sqrt(kExistenceReserve);
-    return {k * std::sin(0.5 * sigma), 0.5 * k * std::cos(0.5 * sigma)};
-  }
-  if (std::abs(sigma) > kStraightenedSigma) return straightened_width(sigma);
-  const double k = std::sqrt(2.0 * kClosedFormReserve);
-  const double scale = k / std::sqrt(cosine);
-  return {scale * sine, scale * (cosine + 0.5 * sine * sine / cosine)};
-}
 
 /// atan2(sine, cosine) for a unit vector, by its series where the angle is small.
 double angle_of(double sine, double cosine) {
@@ -131,10 +85,10 @@ TubeModel::LinkJet TubeModel::link_jet(std::size_t i) const {
   return out;
 }
 
-TubeModel::LinkState TubeModel::link_state(std::size_t i) const {
+TubeModel::LinkView TubeModel::link_view(std::size_t i) const {
   const NodeEnd& a = state_[i].out;
   const NodeEnd& b = state_[next(i)].in;
-  LinkState s;
+  LinkView s;
   const Vec2 chord = b.position - a.position;
   s.h = norm(chord);
   s.along = (1.0 / s.h) * chord;
@@ -144,19 +98,18 @@ TubeModel::LinkState TubeModel::link_state(std::size_t i) const {
   s.cos_beta = dot(s.along, b.tangent);
   const double A = 0.5 * s.h * a.kappa + s.sin_alpha;
   const double B = 0.5 * s.h * b.kappa - s.sin_beta;
-  s.m = B - A;
-  s.q = A + B;
-  s.sin_sigma = s.sin_alpha * s.cos_beta + s.cos_alpha * s.sin_beta;
-  s.cos_sigma = s.cos_alpha * s.cos_beta - s.sin_alpha * s.sin_beta;
-  s.sigma = angle_of(s.sin_sigma, s.cos_sigma);
+  ConeVariables& v = s.cone;
+  v.m = B - A;
+  v.q = A + B;
+  v.sin_sigma = s.sin_alpha * s.cos_beta + s.cos_alpha * s.sin_beta;
+  v.cos_sigma = s.cos_alpha * s.cos_beta - s.sin_alpha * s.sin_beta;
+  v.sigma = angle_of(v.sin_sigma, v.cos_sigma);
   return s;
 }
 
-TubeModel::ConeState TubeModel::cone_state(std::size_t i, const LinkState& s, double slack) const {
-  const double d = direction_[i], z = tube_.size[i];
-  const ConeWidth w = cone_width(cone_, s.sigma, s.sin_sigma, s.cos_sigma);
-  const double t = d * s.m + slack * z;
-  return {t, t * t - s.q * s.q - w.value * w.value, d * s.sigma + slack * z, w.value, w.slope};
+ConeRoom TubeModel::room(std::size_t i, const LinkView& s, double slack) const {
+  return cone_room(s.cone, cone_width(cone_, s.cone, kExistenceReserve), direction_[i],
+                   tube_.size[i], slack);
 }
 
 /// Headings farther from the chord than this are no spirals' any more; between nodes with points to
@@ -176,34 +129,13 @@ double TubeModel::barrier_parameter() const {
          kTube * static_cast<double>(nodes_ + link_count()) + kSignWeight;
 }
 
-void TubeModel::add_cone(std::size_t i, const LinkState& s, const ConeState& c, const Weights& w,
+void TubeModel::add_cone(std::size_t i, const LinkView& s, double slack, const Weights& w,
                          LinkTerms& out) const {
-  const double z = tube_.size[i], d = direction_[i];
-  const double e = w.energy / (z * z);
-  double gm = e * (2.0 * energy_.mm * s.m + energy_.ms * s.sigma), gq = 2.0 * e * energy_.qq * s.q;
-  double gs = e * (2.0 * energy_.ss * s.sigma + energy_.ms * s.m);
-  double hmm = 2.0 * e * energy_.mm, hqq = 2.0 * e * energy_.qq, hss = 2.0 * e * energy_.ss;
-  double hms = e * energy_.ms, hmq = 0.0, hqs = 0.0, zm = 0.0, zq = 0.0, zs = 0.0;
-  if (w.cone > 0.0) {
-    const double fm = 2.0 * c.t * d, fq = -2.0 * s.q, fs = -2.0 * c.width * c.slope;
-    const double fz = 2.0 * c.t * z;
-    const double r = 1.0 / c.f, wr = w.cone * r, wrr = wr * r;
-    const double us = kSigmaWeight * w.cone / c.u, uss = us / c.u;
-    gm -= wr * fm;
-    gq -= wr * fq;
-    gs -= wr * fs + us * d;
-    hmm += wrr * fm * fm - 2.0 * wr;
-    hqq += wrr * fq * fq + 2.0 * wr;
-    hss += wrr * fs * fs + 2.0 * wr * c.slope * c.slope + uss;
-    hms += wrr * fm * fs;
-    hmq = wrr * fm * fq;
-    hqs = wrr * fq * fs;
-    zm = wrr * fz * fm - 2.0 * wr * z * d;
-    zq = wrr * fz * fq;
-    zs = wrr * fz * fs + uss * z * d;
-    out.slack_gradient = -wr * fz - us * z;
-    out.slack_hessian = wrr * fz * fz - 2.0 * wr * z * z + uss * z * z;
-  }
+  const double z = tube_.size[i];
+  const ConeRoom c = w.cone > 0.0 ? room(i, s, slack) : ConeRoom{};
+  const ConeTerms v = cone_terms(s.cone, c, direction_[i], z, energy_, w.energy / (z * z), w.cone);
+  out.slack_gradient = v.slack_gradient;
+  out.slack_hessian = v.slack_hessian;
   const LinkJet jet = link_jet(i);
   const Vec2 normal = left_normal(s.along);
   const double ka = state_[i].out.kappa, kb = state_[next(i)].in.kappa;
@@ -216,13 +148,13 @@ void TubeModel::add_cone(std::size_t i, const LinkState& s, const ConeState& c, 
     M[k] = B - A;
     Q[k] = A + B;
     S[k] = jet.theta_a[k] + jet.theta_b[k] - 2.0 * turn;
-    wm[k] = hmm * M[k] + hmq * Q[k] + hms * S[k];
-    wq[k] = hmq * M[k] + hqq * Q[k] + hqs * S[k];
-    ws[k] = hms * M[k] + hqs * Q[k] + hss * S[k];
+    wm[k] = v.hmm * M[k] + v.hmq * Q[k] + v.hms * S[k];
+    wq[k] = v.hmq * M[k] + v.hqq * Q[k] + v.hqs * S[k];
+    ws[k] = v.hms * M[k] + v.hqs * Q[k] + v.hss * S[k];
   }
   for (std::size_t k = 0; k < 6; ++k) {
-    out.gradient[k] += gm * M[k] + gq * Q[k] + gs * S[k];
-    out.slack_column[k] += zm * M[k] + zq * Q[k] + zs * S[k];
+    out.gradient[k] += v.gm * M[k] + v.gq * Q[k] + v.gs * S[k];
+    out.slack_column[k] += v.zm * M[k] + v.zq * Q[k] + v.zs * S[k];
     for (std::size_t l = 0; l <= k; ++l) {
       out.hessian[k][l] += M[k] * wm[l] + Q[k] * wq[l] + S[k] * ws[l];
     }
@@ -230,7 +162,7 @@ void TubeModel::add_cone(std::size_t i, const LinkState& s, const ConeState& c, 
 }
 
 /// Lateral distance of a measured point from the quintic Hermite curve with the link's data.
-TubeModel::RowValue TubeModel::row_value(const TubeRow& row, const LinkState& s, const NodeEnd& a,
+TubeModel::RowValue TubeModel::row_value(const TubeRow& row, const LinkView& s, const NodeEnd& a,
                                          const NodeEnd& b) const {
   const Vec2 from_start = row.point - a.position;
   const double x = dot(s.along, from_start), y = cross(s.along, from_start);
@@ -261,7 +193,7 @@ TubeModel::WallTerms TubeModel::wall(double r, double weight) const {
   return {g * r, g + gg * r * r, -g * t, gg * t * t - g, -gg * r * t};
 }
 
-void TubeModel::add_rows(std::size_t i, const LinkState& s, double weight, LinkTerms& out) const {
+void TubeModel::add_rows(std::size_t i, const LinkView& s, double weight, LinkTerms& out) const {
   const std::size_t first = tube_.first_row[i], last = tube_.first_row[i + 1];
   if (first == last) return;
   const LinkJet jet = link_jet(i);
@@ -357,6 +289,11 @@ void TubeModel::add_nodes(const State& x, double slack, const Weights& w, bool w
       }
     }
     if (n.is_primitive()) add_primitive(i, w.tube, with_slack, system);
+    if (n.bounds_heading()) {
+      const double up = 1.0 / (n.turn_high - x[kPerNode * i + 1]);
+      const double down = 1.0 / (x[kPerNode * i + 1] - n.turn_low);
+      system.add(i, 1, w.tube * (up - down), w.tube * (up * up + down * down));
+    }
     if (n.reach == 0.0) system.fix(i, 0);
     if (n.fix_theta) system.fix(i, 1);
     if (n.fix_kappa || !(system.diagonal(i, 2) > 0.0)) system.fix(i, 2);
@@ -369,10 +306,9 @@ void TubeModel::assemble(const State& x, double slack, const Weights& w, bool wi
   place_nodes(x);
   half_width_ = slack_widens_ ? 1.0 + slack : 1.0;
   for (std::size_t i = 0; i < link_count(); ++i) {
-    const LinkState s = link_state(i);
-    const ConeState c = w.cone > 0.0 ? cone_state(i, s, slack) : ConeState{};
+    const LinkView s = link_view(i);
     LinkTerms terms;
-    add_cone(i, s, c, w, terms);
+    add_cone(i, s, slack, w, terms);
     add_rows(i, s, w.tube, terms);
     system.add(i, terms);
   }
@@ -396,6 +332,11 @@ double TubeModel::merit(const State& x, double slack, const Weights& w) {
       primitives += primitive_room(i);
       if (!(primitives > -kInfinity)) return kInfinity;
     }
+    if (n.bounds_heading()) {
+      const double turn = x[kPerNode * i + 1], half = 0.5 * (n.turn_high - n.turn_low);
+      if (!(turn > n.turn_low && turn < n.turn_high)) return kInfinity;
+      nodes.add((turn - n.turn_low) * (n.turn_high - turn) / (half * half));
+    }
     if (n.sign != 0.0 && w.cone > 0.0) {
       const double v = n.sign * (n.kappa * n.length + x[kPerNode * i + 2]) + slack;
       if (!(v > 0.0)) return kInfinity;
@@ -404,15 +345,13 @@ double TubeModel::merit(const State& x, double slack, const Weights& w) {
   }
   double rows = 0.0;
   for (std::size_t i = 0; i < link_count(); ++i) {
-    const LinkState s = link_state(i);
+    const LinkView s = link_view(i);
     if (!(std::min(s.cos_alpha, s.cos_beta) > least_cosine(i))) return kInfinity;
     const double z = tube_.size[i];
-    value += w.energy / (z * z) *
-             (energy_.mm * s.m * s.m + energy_.ms * s.m * s.sigma + energy_.ss * s.sigma * s.sigma +
-              energy_.qq * s.q * s.q);
+    value += w.energy / (z * z) * energy_.of(s.cone);
     if (w.cone > 0.0) {
-      const ConeState c = cone_state(i, s, slack);
-      if (!(c.t > 0.0 && c.f > 0.0 && c.u > 0.0)) return kInfinity;
+      const ConeRoom c = room(i, s, slack);
+      if (!c.inside()) return kInfinity;
       cones.add(c.f / (z * z));
       sigmas.add(c.u / z);
     }
@@ -439,10 +378,11 @@ double TubeModel::needed_slack(const State& x) {
   place_nodes(x);
   double slack = 0.0;
   for (std::size_t i = 0; i < link_count(); ++i) {
-    const LinkState s = link_state(i);
+    const LinkView s = link_view(i);
     const double d = direction_[i], z = tube_.size[i];
-    const ConeWidth w = cone_width(cone_, s.sigma, s.sin_sigma, s.cos_sigma);
-    slack = std::max({slack, (std::hypot(s.q, w.value) - d * s.m) / z, -d * s.sigma / z});
+    const ConeVariables& v = s.cone;
+    const double width = cone_width(cone_, v, kExistenceReserve).value;
+    slack = std::max({slack, (std::hypot(v.q, width) - d * v.m) / z, -d * v.sigma / z});
   }
   for (std::size_t i = 0; i < nodes_; ++i) {
     const TubeNode& n = node(i);
@@ -453,32 +393,40 @@ double TubeModel::needed_slack(const State& x) {
   return slack;
 }
 
-double TubeModel::tube_use(const State& x) {
+std::vector<double> TubeModel::node_uses(const State& x) {
   place_nodes(x);
-  double use = 0.0;
+  std::vector<double> use(nodes_, 0.0);
+  const auto take = [&](std::size_t i, double r) {
+    if (!(std::abs(r) <= use[i])) use[i] = std::isnan(r) ? kInfinity : std::abs(r);
+  };
   for (std::size_t i = 0; i < nodes_; ++i) {
-    use = std::max(use, std::abs(x[kPerNode * i]));
+    take(i, x[kPerNode * i]);
     for (std::size_t k = node(i).first_on; k < node(i).last_on; ++k) {
       const TubeRow& row = tube_.on_primitives[k];
       const double d = circle_distance(node(i), state_[i], row.point).value;
-      use = std::max(use, std::abs(d) / row.reach);
+      take(i, d / row.reach);
     }
   }
   for (std::size_t i = 0; i < link_count(); ++i) {
-    const LinkState s = link_state(i);
+    const LinkView s = link_view(i);
     for (std::size_t k = tube_.first_row[i]; k < tube_.first_row[i + 1]; ++k) {
       const double r = row_value(tube_.rows[k], s, state_[i].out, state_[next(i)].in).residual;
-      use = std::max(use, std::abs(r));
+      take(i, r);
     }
   }
   return use;
+}
+
+double TubeModel::tube_use(const State& x) {
+  const std::vector<double> use = node_uses(x);
+  return *std::max_element(use.begin(), use.end());
 }
 
 std::vector<double> TubeModel::link_forces(const State& x, double slack) {
   place_nodes(x);
   std::vector<double> force(link_count());
   for (std::size_t i = 0; i < force.size(); ++i) {
-    const ConeState c = cone_state(i, link_state(i), slack);
+    const ConeRoom c = room(i, link_view(i), slack);
     force[i] = 2.0 * c.t * tube_.size[i] / c.f;
   }
   return force;
@@ -488,8 +436,8 @@ std::vector<TubeModel::LinkValue> TubeModel::link_values(const State& x) {
   place_nodes(x);
   std::vector<LinkValue> out(link_count());
   for (std::size_t i = 0; i < out.size(); ++i) {
-    const LinkState s = link_state(i);
-    out[i] = {s.m, s.q, s.sigma};
+    const ConeVariables v = link_view(i).cone;
+    out[i] = {v.m, v.q, v.sigma};
   }
   return out;
 }

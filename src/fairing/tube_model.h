@@ -6,15 +6,10 @@
 
 #include "bordered_system.h"
 #include "node_ends.h"
-#include "obvid/chain/chain.h"
+#include "obvid/chain/cone.h"
 #include "tube.h"
 
 namespace obvid::fairing_detail {
-
-/// Quadratic form of a link in m = B - A, q = A + B and sigma.
-struct LinkEnergy {
-  double mm = 0.0, ms = 0.0, ss = 0.0, qq = 0.0;
-};
 
 /// What the merit function is made of.
 struct Weights {
@@ -32,6 +27,12 @@ class TubeModel {
 
   [[nodiscard]] std::size_t node_count() const { return nodes_; }
   [[nodiscard]] std::size_t link_count() const { return tube_.links(); }
+  /// Work of one step: a node is one unit, points between and on primitives are less.
+  [[nodiscard]] double step_work() const {
+    constexpr double kPerPoint = 0.25;
+    return static_cast<double>(nodes_) +
+           kPerPoint * static_cast<double>(tube_.rows.size() + tube_.on_primitives.size());
+  }
 
   /// Gradient and Gauss-Newton Hessian of the merit at x (3 per node).
   void assemble(const State& x, double slack, const Weights& weights, bool with_slack,
@@ -48,30 +49,30 @@ class TubeModel {
   };
   std::vector<LinkValue> link_values(const State& x);
   [[nodiscard]] double barrier_parameter() const;
-  /// Largest |residual| / reach over rows and nodes.
+  /// Largest |residual| / reach of each node, its primitive and the rows behind it.
+  std::vector<double> node_uses(const State& x);
+  /// The largest of all.
   double tube_use(const State& x);
   /// From now on the slack widens the tube, to 1 + slack reaches, instead of the cones.
   void let_slack_widen_the_tube() { slack_widens_ = true; }
 
  private:
-  struct LinkState {
-    double h = 0.0, m = 0.0, q = 0.0, sigma = 0.0, sin_sigma = 0.0, cos_sigma = 1.0;
+  struct LinkView {
+    double h = 0.0;
+    ConeVariables cone;
     double cos_alpha = 1.0, cos_beta = 1.0, sin_alpha = 0.0, sin_beta = 0.0;
     Vec2 along;
-  };
-  struct ConeState {
-    double t, f, u, width, slope;
   };
 
   [[nodiscard]] const TubeNode& node(std::size_t i) const { return tube_.nodes[i]; }
   void place_nodes(const State& x);
-  [[nodiscard]] LinkState link_state(std::size_t i) const;
-  [[nodiscard]] ConeState cone_state(std::size_t i, const LinkState& s, double slack) const;
+  [[nodiscard]] LinkView link_view(std::size_t i) const;
+  [[nodiscard]] ConeRoom room(std::size_t i, const LinkView& s, double slack) const;
   [[nodiscard]] double least_cosine(std::size_t link) const;
   [[nodiscard]] double row_weight(std::size_t link) const;
-  void add_cone(std::size_t i, const LinkState& s, const ConeState& c, const Weights& w,
+  void add_cone(std::size_t i, const LinkView& s, double slack, const Weights& w,
                 LinkTerms& terms) const;
-  void add_rows(std::size_t i, const LinkState& s, double weight, LinkTerms& terms) const;
+  void add_rows(std::size_t i, const LinkView& s, double weight, LinkTerms& terms) const;
   struct WallTerms {
     double g, h, width_g, width_h, mixed;
   };
@@ -82,7 +83,7 @@ class TubeModel {
     double x, y;         // of the point along and across the chord
     double by_h, slope;  // of the curve's height by the chord's length and by x
   };
-  [[nodiscard]] RowValue row_value(const TubeRow& row, const LinkState& s, const NodeEnd& a,
+  [[nodiscard]] RowValue row_value(const TubeRow& row, const LinkView& s, const NodeEnd& a,
                                    const NodeEnd& b) const;
   /// Derivatives of both ends of a link, first by the unknowns of its first node, then of its
   /// second.

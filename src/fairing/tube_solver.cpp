@@ -34,6 +34,7 @@ double TubeSolver::step(State& x, const Weights& w, double slack_cost) {
   model_.assemble(x, slack_, w, with_slack, system_);
   if (with_slack) system_.add_slack(slack_cost, 0.0);
   ++steps_;
+  if (!watch_.spend(model_.step_work())) return -1.0;
   const double ds = system_.solve(direction_);
   const double decrement = system_.decrement(direction_, ds);
   if (!(decrement > 0.0)) return -1.0;
@@ -61,7 +62,7 @@ Feasibility TubeSolver::find_inside(State& x) {
   const double links = static_cast<double>(model_.link_count());
   const double gap = model_.barrier_parameter() / links;
   double mu = kSlackBarrier * slack_;
-  for (int round = 0; round < kRounds; ++round) {
+  for (int round = 0; round < kRounds && watch_.may_go_on(); ++round) {
     bool centred = false;
     for (int k = 0; k < kStepsPerRound && !centred; ++k) {
       const double decrement = step(x, {kPhaseOneEnergy, 1.0, 1.0}, links / mu);
@@ -84,7 +85,7 @@ bool TubeSolver::enter_tube(State& x, double energy) {
   const double links = static_cast<double>(model_.link_count());
   const double gap = model_.barrier_parameter() / links;
   double mu = kWidthBarrier;
-  for (int round = 0; round < kWidthRounds; ++round) {
+  for (int round = 0; round < kWidthRounds && watch_.may_go_on(); ++round) {
     bool centred = false;
     for (int k = 0; k < kStepsPerWidth && !centred; ++k) {
       const double decrement = step(x, {energy, 0.0, 1.0}, links / mu);

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "obvid/core/watch.h"
 #include "tube_model.h"
 
 namespace obvid::fairing_detail {
@@ -14,10 +15,11 @@ struct Feasibility {
   double slack = 0.0;  ///< left when not feasible, in units of each link's size
 };
 
-/// Damped Newton's method on windows of one tube. Counts its steps.
+/// Damped Newton's method on windows of one tube. Counts its steps; each is work of one unit per
+/// node. When the watch says stop, whatever was sought counts as not found.
 class TubeSolver {
  public:
-  explicit TubeSolver(TubeModel& model) : model_(model) {}
+  TubeSolver(TubeModel& model, Watch& watch) : model_(model), watch_(watch) {}
 
   /// Moves x (inside the tube) into all cones, or tells by the duality gap that there is no such x.
   Feasibility find_inside(State& x);
@@ -34,6 +36,7 @@ class TubeSolver {
   double step(State& x, const Weights& weights, double slack_cost);
 
   TubeModel& model_;
+  Watch& watch_;
   BorderedSystem system_;
   State direction_, trial_;
   double slack_ = 0.0;

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "obvid/pipeline/fit.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <chrono>
 #include <cmath>
@@ -25,6 +27,10 @@ using namespace pipeline_detail;
 /// nodes the search knows the contour only to first order.
 constexpr int kNarrowings = 6;
 constexpr double kNarrowed = 0.95;  ///< of what would just do
+/// No further round begins when so many steps on every point (and some more where there are few)
+/// were spent: a hundred times what a contour takes as a rule.
+constexpr double kMostFitSteps = 1e4, kSpareWork = 1e6;
+constexpr double kFormedAt = 0.7;  ///< part of the bar when all sections are formed
 
 Result<Carried> as_carried(Result<Contour> contour) {
   if (!contour) return tl::unexpected(contour.error());
@@ -104,9 +110,8 @@ void add_section(const SectionChain& section, Formed& formed) {
 /// Forms the sections one after the other, and beside them the spirals of the same elements.
 class SectionForming {
  public:
-  SectionForming(const Prepared& series, const FitJob& job, double tolerance,
-                 const Progress& progress)
-      : series_(series), job_(job), tolerance_(tolerance), progress_(progress) {}
+  SectionForming(const Prepared& series, const FitJob& job, double tolerance, Watch& watch)
+      : series_(series), job_(job), tolerance_(tolerance), watch_(watch) {}
 
   Result<Formed> run() {
     for (std::size_t k = 0; k < series_.split.sections.size(); ++k) {
@@ -121,9 +126,13 @@ class SectionForming {
 
  private:
   Result<void> form_one(std::size_t k) {
+    const auto count = static_cast<double>(series_.split.sections.size());
+    const Stretch stretch(watch_, static_cast<double>(k) / count,
+                          static_cast<double>(k + 1) / count);
+    watch_.tell("choosing headings and curvatures", 0.0);
     const Section& section = series_.split.sections[k];
-    if (job_.carrier == Carrier::kBaseline) return form_baseline_alone(section, k);
-    const auto chain = chain_section(series_, section, progress_of(k));
+    if (job_.carrier == Carrier::kBaseline) return form_baseline_alone(section);
+    const auto chain = chain_section(series_, section, watch_);
     if (!chain) return tl::unexpected(chain.error());
     auto spirals = form_spirals(series_.points, chain->chain);
     if (!spirals && job_.carrier != Carrier::kClothoids) return tl::unexpected(spirals.error());
@@ -142,12 +151,12 @@ class SectionForming {
   }
 
   /// Needs no spirals, and is compared with them where there are any.
-  Result<void> form_baseline_alone(const Section& section, std::size_t k) {
+  Result<void> form_baseline_alone(const Section& section) {
     auto carried = form_baseline_section(series_, section);
     if (!carried) return tl::unexpected(carried.error());
     out_.add(std::move(*carried), assembly_);
     if (!job_.measure_against_spirals) return {};
-    const auto chain = chain_section(series_, section, progress_of(k));
+    const auto chain = chain_section(series_, section, watch_);
     keep(chain ? form_spirals(series_.points, chain->chain)
                : Result<Contour>(tl::unexpected(chain.error())));
     return {};
@@ -156,14 +165,6 @@ class SectionForming {
   void keep(Result<Contour> spirals) {
     have_spirals_ = have_spirals_ && job_.measure_against_spirals && spirals.has_value();
     if (have_spirals_) spirals_.append(std::move(*spirals));
-  }
-
-  [[nodiscard]] Progress progress_of(std::size_t k) const {
-    constexpr double kUntilHere = 0.6;  // of the whole work
-    const double count = static_cast<double>(series_.split.sections.size());
-    return [this, k, count](std::string_view stage, double done) {
-      if (progress_) progress_(stage, kUntilHere * (static_cast<double>(k) + done) / count);
-    };
   }
 
   [[nodiscard]] Contour finished(Assembly& assembly, Carrier carrier) const {
@@ -179,15 +180,15 @@ class SectionForming {
   const Prepared& series_;
   const FitJob& job_;
   double tolerance_;
-  const Progress& progress_;
+  Watch& watch_;
   Formed out_;
   Assembly assembly_, spirals_;
   bool have_spirals_ = true;
 };
 
 Result<Formed> form_sections(const Prepared& series, const FitJob& job, double tolerance,
-                             const Progress& progress) {
-  return SectionForming(series, job, tolerance, progress).run();
+                             Watch& watch) {
+  return SectionForming(series, job, tolerance, watch).run();
 }
 
 /// Part of a point's tolerance that a carrier which follows the spirals takes for itself: what it
@@ -250,43 +251,66 @@ Result<void> keeps_convex(const Contour& contour, const Certificate& certificate
   return fail(std::move(error));
 }
 
+/// The tolerance of the job, or the default; refused where coordinates could not tell it.
+Result<double> tolerance_of(const FitJob& job, const std::vector<Vec2>& points) {
+  if (!job.tolerance) return default_tolerance(points);
+  const double least = least_tolerance(points);
+  if (std::isfinite(*job.tolerance) && *job.tolerance >= least) return *job.tolerance;
+  return fail({ErrorCode::kBadOption,
+               fmt::format("the tolerance must be finite and at least {:.2g}, 1e-12 of the size: "
+                           "coordinates cannot tell less",
+                           least),
+               "", "give a larger one, or none for the default", -1, *job.tolerance});
+}
+
+/// The contour, formed again with narrower reaches as long as it passes points too far.
+Result<Formed> form_within(Prepared& series, const FitJob& job, double tolerance, Watch& watch) {
+  const double most =
+      watch.spent() + kSpareWork + kMostFitSteps * static_cast<double>(series.points.size());
+  int round = 0;
+  const auto again = [&] {
+    const Stretch stretch = Stretch::next_of_many(watch, round++);
+    return form_sections(series, job, tolerance, watch);
+  };
+  auto formed = again();
+  while (formed && round <= kNarrowings && watch.spent() < most &&
+         narrow(formed->contour, series)) {
+    formed = again();
+  }
+  if (formed && series.thin && misses_a_point(formed->contour)) {
+    series.thin = false;  // every point a joint: each is met by construction
+    formed = again();
+  }
+  return formed;
+}
+
 }  // namespace
 
-Result<Fit> fit(const PointSeries& series, const FitJob& job, const Progress& progress) {
+Result<Fit> fit(const PointSeries& series, const FitJob& job, Watch& watch) {
   const auto begin = std::chrono::steady_clock::now();
-  const auto tell = [&](const char* stage, double done) {
-    if (progress) progress(stage, done);
-  };
-  if (job.tolerance && !(*job.tolerance > 0.0)) {
-    return fail({ErrorCode::kBadOption, "the tolerance must be greater than 0", "", "", -1,
-                 *job.tolerance});
-  }
-  tell("analysing", 0.0);
+  watch.tell("analysing", 0.0);
   auto prepared = prepare(series, job);
   if (!prepared) return tl::unexpected(prepared.error());
-  const double asked = job.tolerance.value_or(default_tolerance(prepared->points));
+  const auto asked = tolerance_of(job, prepared->points);
+  if (!asked) return tl::unexpected(asked.error());
   const double tolerance =
-      passes_between_joints(job.carrier) ? share_tolerance(*prepared, asked) : asked;
-  auto formed = form_sections(*prepared, job, tolerance, progress);
-  for (int k = 0; k < kNarrowings && formed && narrow(formed->contour, *prepared); ++k) {
-    formed = form_sections(*prepared, job, tolerance, progress);
-  }
-  if (formed && prepared->thin && misses_a_point(formed->contour)) {
-    prepared->thin = false;  // every point a joint: each is met by construction
-    formed = form_sections(*prepared, job, tolerance, progress);
-  }
+      passes_between_joints(job.carrier) ? share_tolerance(*prepared, *asked) : *asked;
+  Result<Formed> formed = [&] {
+    const Stretch stretch(watch, 0.0, kFormedAt);
+    return form_within(*prepared, job, tolerance, watch);
+  }();
   if (!formed) return tl::unexpected(formed.error());
   if (auto kept = keeps_given(formed->contour); !kept) return fail(kept.error());
   Fit out;
   out.contour = std::move(formed->contour);
   out.contour.units = series.units;
-  tell("proving", 0.7);
+  watch.tell("proving", kFormedAt);
   out.certificate = certify(out.contour);
   if (job.convex) {
     if (auto kept = keeps_convex(out.contour, out.certificate); !kept) return fail(kept.error());
   }
-  tell("bounding the error", 0.9);
-  auto report = measure(out.contour, asked);
+  watch.tell("bounding the error", 0.9);
+  auto report = measure(out.contour, *asked);
   if (!report) return tl::unexpected(report.error());
   out.report = std::move(*report);
   settle_with(out.certificate, out.contour, out.report);
@@ -300,8 +324,13 @@ Result<Fit> fit(const PointSeries& series, const FitJob& job, const Progress& pr
   }
   out.report.seconds =
       std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
-  tell("done", 1.0);
+  watch.tell("done", 1.0);
   return out;
+}
+
+Result<Fit> fit(const PointSeries& series, const FitJob& job, const Progress& progress) {
+  Watch watch(progress);
+  return fit(series, job, watch);
 }
 
 }  // namespace obvid

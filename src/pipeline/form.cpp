@@ -102,23 +102,23 @@ bool anything_fixed(const ChainWishes& wishes) {
 /// Three points lie on one circle, but fixed data ask for another curve through them: it may
 /// increase or decrease its curvature.
 Result<SeriesChain> three_points_with_fixed_data(const std::vector<Vec2>& points, Analysis analysis,
-                                                 const ChainWishes& wishes) {
+                                                 const ChainWishes& wishes, Watch& watch) {
   analysis.stretches.clear();
   analysis.direction.assign(2, std::int8_t{1});
-  auto increasing = choose_elements(points, analysis, wishes);
+  auto increasing = choose_elements(points, analysis, wishes, watch);
   if (increasing) return increasing;
   analysis.direction.assign(2, std::int8_t{-1});
-  auto decreasing = choose_elements(points, analysis, wishes);
+  auto decreasing = choose_elements(points, analysis, wishes, watch);
   return decreasing ? decreasing : increasing;
 }
 
 }  // namespace
 
 Result<SeriesChain> form_elements(const std::vector<Vec2>& points, const Analysis& analysis,
-                                  const ChainWishes& wishes) {
-  if (!wholly_circular(points, analysis)) return choose_elements(points, analysis, wishes);
+                                  const ChainWishes& wishes, Watch& watch) {
+  if (!wholly_circular(points, analysis)) return choose_elements(points, analysis, wishes, watch);
   if (anything_fixed(wishes) && points.size() == 3) {
-    return three_points_with_fixed_data(points, analysis, wishes);
+    return three_points_with_fixed_data(points, analysis, wishes, watch);
   }
   if (anything_fixed(wishes)) {
     return fail(

@@ -15,8 +15,8 @@ namespace obvid::pipeline_detail {
 /// Elements for every point: from the chain, or from the one circle or line that 2 or 3 points or
 /// a wholly circular series determine.
 [[nodiscard]] Result<SeriesChain> form_elements(const std::vector<Vec2>& points,
-                                                const Analysis& analysis,
-                                                const ChainWishes& wishes);
+                                                const Analysis& analysis, const ChainWishes& wishes,
+                                                Watch& watch);
 
 /// Pieces over the elements: closed-form spirals, and arcs or lines over circular stretches.
 /// Error E501 when a piece came out with a weight that is not positive.

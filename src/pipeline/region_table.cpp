@@ -77,8 +77,9 @@ RegionRow make_row(const Element& a, const Element& b, CurvatureRange ka, Curvat
 Result<RegionTable> region_table(const PointSeries& series) {
   const auto analysis = analyse(series.points);
   if (!analysis) return tl::unexpected(analysis.error());
+  Watch nobody;
   const auto chain =
-      pipeline_detail::form_elements(series.points, *analysis, {series.fixed, false});
+      pipeline_detail::form_elements(series.points, *analysis, {series.fixed, false}, nobody);
   if (!chain) return tl::unexpected(chain.error());
   RegionTable table;
   table.elements = chain->elements;

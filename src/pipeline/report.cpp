@@ -7,18 +7,20 @@
 #include <numbers>
 #include <span>
 
+#include "form.h"
 #include "given.h"
 #include "obvid/certify/certify.h"
-#include "obvid/fairing/fairing.h"
 #include "obvid/region/farther_boundary.h"
 #include "obvid/region/refine.h"
 #include "obvid/series/analysis.h"
+#include "obvid/series/forced_vertices.h"
 #include "parts.h"
 
 namespace obvid::pipeline_detail {
 namespace {
 
 constexpr double kRegionTolerance = 3e-6;  // of the diagonal of the series
+constexpr double kLeastTolerance = 1e-12;  // of it: some thousand roundings of a coordinate
 
 constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
 /// Points beyond the seam of a loop that the errors of its chords ask for.
@@ -258,16 +260,16 @@ std::vector<std::vector<std::size_t>> sections_of(const Contour& contour) {
   return out;
 }
 
-/// What the points of one section alone say, where the contour meets them exactly: errors of its
-/// chords and vertices that they force.
-Result<int> say_points(const Contour& contour, std::vector<std::size_t> section, bool loop,
-                       FitReport& report, std::size_t first_row) {
+/// Errors of the chords that the points of one section alone determine, where the contour meets
+/// them exactly.
+Result<void> say_points(const Contour& contour, std::vector<std::size_t> section, bool loop,
+                        FitReport& report, std::size_t first_row) {
+  if (!promises_monotone(contour.carrier)) return {};
   if (loop) section.pop_back();  // its first point again
   std::vector<Vec2> points;
   for (const std::size_t i : section) points.push_back(contour.points[i]);
   const auto analysis = analyse(points);
   if (!analysis) return tl::unexpected(analysis.error());
-  if (!promises_monotone(contour.carrier)) return analysis->vertices_lower_bound;
   std::vector<double> errors = analysis->points_only_error;
   if (loop &&
       points.size() > kAroundSeam) {  // every chord has neighbours: once around and some more
@@ -283,17 +285,17 @@ Result<int> say_points(const Contour& contour, std::vector<std::size_t> section,
     if (first_row + i >= report.segments.size()) break;
     report.segments[first_row + i].points_only_error = errors[i];
   }
-  return analysis->vertices_lower_bound;
+  return {};
 }
 
 int forced(const Contour& contour, const std::vector<std::size_t>& section, bool loop) {
-  MeasuredSeries series;
-  series.closed = loop;
+  std::vector<Vec2> points;
+  std::vector<double> reach;
   for (std::size_t k = 0; k + (loop ? 1 : 0) < section.size(); ++k) {
-    series.points.push_back(contour.points[section[k]]);
-    series.reach.push_back(contour.point_tolerance[section[k]]);
+    points.push_back(contour.points[section[k]]);
+    if (!contour.point_tolerance.empty()) reach.push_back(contour.point_tolerance[section[k]]);
   }
-  return forced_vertices(series);
+  return forced_vertices(points, reach, loop);
 }
 
 }  // namespace
@@ -310,6 +312,10 @@ double size_of(const std::vector<Vec2>& points) {
 
 double default_tolerance(const std::vector<Vec2>& points) {
   return kRegionTolerance * size_of(points);
+}
+
+double least_tolerance(const std::vector<Vec2>& points) {
+  return kLeastTolerance * size_of(points);
 }
 
 Result<FitReport> measure(const Contour& contour, double tolerance) {
@@ -332,12 +338,10 @@ Result<FitReport> measure(const Contour& contour, double tolerance) {
   std::size_t row = 0;
   for (const auto& section : sections) {
     if (contour.point_tolerance.empty()) {
-      const auto lower_bound = say_points(contour, section, loop, report, row);
-      if (!lower_bound) return tl::unexpected(lower_bound.error());
-      report.vertices_lower_bound += *lower_bound;
-    } else {
-      report.vertices_lower_bound += forced(contour, section, loop);
+      const auto said = say_points(contour, section, loop, report, row);
+      if (!said) return tl::unexpected(said.error());
     }
+    report.vertices_lower_bound += forced(contour, section, loop);
     row += section.size() - 1;
   }
   forget_beside_vertices(direction, loop, report);
@@ -351,7 +355,8 @@ void settle_with(const Certificate& certificate, const Contour& contour, FitRepo
   report.inflections = certificate.inflections;
   report.largest_move = certificate.largest_move;
   if (!contour.point_tolerance.empty()) report.moves = point_distances(contour);
-  // a proved contour is a witness: no bound of all curves exceeds its vertices
+  // a contour may turn more between its points than the curves of which the bound speaks: what it
+  // does with fewer vertices no longer bounds anything
   if (certificate.proved) {
     report.vertices_lower_bound = std::min(report.vertices_lower_bound, certificate.vertices);
   }

@@ -10,9 +10,8 @@
 
 namespace obvid::pipeline_detail {
 
-/// Every figure of the report that follows from the contour and its points alone. Vertices that the
-/// points force: exact points, from their adjacent circles; points with tolerances, from averages
-/// of the curvature's rate (docs/methods/fairing.md). Errors as those of `analyse`.
+/// Every figure of the report that follows from the contour and its points alone. Errors as those
+/// of `analyse`.
 [[nodiscard]] Result<FitReport> measure(const Contour& contour, double tolerance);
 
 /// Figures of the report that the proof decides. A bound above the vertices of a proved contour is
@@ -22,6 +21,9 @@ void settle_with(const Certificate& certificate, const Contour& contour, FitRepo
 /// Default of the tolerance: the seeds' 0.001 mm, near enough, on their series of 280 mm
 /// across.
 [[nodiscard]] double default_tolerance(const std::vector<Vec2>& points);
+
+/// Below this no tolerance means anything: 1e-12 of the size.
+[[nodiscard]] double least_tolerance(const std::vector<Vec2>& points);
 
 /// Diagonal of the points' bounding box.
 [[nodiscard]] double size_of(const std::vector<Vec2>& points);

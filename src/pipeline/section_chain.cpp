@@ -1,12 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "section_chain.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
+#include <numbers>
 #include <utility>
 
 #include "form.h"
 #include "obvid/fairing/fairing.h"
 #include "obvid/series/analysis.h"
+#include "wandering.h"
 
 namespace obvid::pipeline_detail {
 namespace {
@@ -17,6 +21,12 @@ constexpr std::size_t kOverlap = 16;
 constexpr int kMostTrims = 40;
 /// Fewer points than this lie on one circle: there is nothing to choose.
 constexpr std::size_t kFewestForFairing = 4;
+/// Work of finding lines and arcs with room between them, in steps on every point, and for few
+/// points.
+constexpr double kPrimitiveSteps = 3000.0, kPrimitiveWork = 2e5;
+/// Long chords that are named when the points leave open what happens over them.
+constexpr std::size_t kMostGuesses = 3;
+constexpr double kDegrees = 180.0 / std::numbers::pi;
 
 std::vector<std::string> warn(const Analysis& a, const SeriesChain& chain) {
   std::vector<std::string> out;
@@ -42,8 +52,8 @@ std::vector<std::string> warn(const Analysis& a, const SeriesChain& chain) {
 
 class SectionChooser {
  public:
-  SectionChooser(const Prepared& series, const Section& section, const Progress& progress)
-      : series_(series), loop_(series.split.smooth_loop), progress_(progress) {
+  SectionChooser(const Prepared& series, const Section& section, Watch& watch)
+      : series_(series), loop_(series.split.smooth_loop), watch_(watch) {
     // a loop's first place is its last one too
     const std::size_t last = loop_ ? series.points.size() - 1 : section.last;
     for (std::size_t k = section.first; k <= last; ++k) {
@@ -68,6 +78,7 @@ class SectionChooser {
       if (source) source = index_[*source % index_.size()];
     }
     out_.chain = std::move(*chain);
+    if (const auto sensible = judge_sense(); !sensible) return fail(sensible.error());
     return std::move(out_);
   }
 
@@ -77,6 +88,43 @@ class SectionChooser {
       error.index = static_cast<std::ptrdiff_t>(index_[static_cast<std::size_t>(error.index)]);
     }
     return error;
+  }
+
+  /// Refuses a chain that swings out between points; warns where the points leave it open.
+  Result<void> judge_sense() {
+    std::vector<double> reach;
+    std::vector<bool> given;
+    for (const auto& source : out_.chain.source) {
+      reach.push_back(source ? series_.reach[*source] : 0.0);
+      const bool fixed = source && !series_.fixed.empty() &&
+                         (series_.fixed[*source].theta || series_.fixed[*source].kappa);
+      given.push_back(fixed);
+    }
+    const Wandering found = find_wandering(out_.chain, reach, given, loop_);
+    const auto range = [&](const WanderingPart& part) {
+      return fmt::format("points {} to {}", *out_.chain.source[part.first] + 1,
+                         *out_.chain.source[part.last] + 1);
+    };
+    if (!found.senseless.empty()) {
+      const WanderingPart& worst =
+          *std::max_element(found.senseless.begin(), found.senseless.end(),
+                            [](const auto& a, const auto& b) { return a.beyond < b.beyond; });
+      const auto index = static_cast<std::ptrdiff_t>(*out_.chain.source[worst.first]);
+      return fail({ErrorCode::kWanders,
+                   fmt::format("the contour would swing out by {:.0f} degrees more than the points "
+                               "ask for",
+                               worst.beyond * kDegrees),
+                   range(worst), "mark corners there, or put points between them", index,
+                   worst.beyond});
+    }
+    for (std::size_t k = 0; k < std::min(found.guessed.size(), kMostGuesses); ++k) {
+      out_.warnings.push_back(fmt::format(
+          "the points leave open what the contour does over the long chord from point {} to {}: it "
+          "turns by {:.0f} degrees there; mark corners (--corner-at) if it should be straight",
+          *out_.chain.source[found.guessed[k].first] + 1,
+          *out_.chain.source[found.guessed[k].last] + 1, found.guessed[k].turn * kDegrees));
+    }
+    return {};
   }
 
   [[nodiscard]] ChainWishes wishes() const {
@@ -90,7 +138,7 @@ class SectionChooser {
   Result<SeriesChain> through_points(const std::vector<Vec2>& points, const ChainWishes& wishes) {
     const auto analysis = analyse(points);
     if (!analysis) return tl::unexpected(analysis.error());
-    auto chain = form_elements(points, *analysis, wishes);
+    auto chain = form_elements(points, *analysis, wishes, watch_);
     if (chain) out_.warnings = warn(*analysis, *chain);
     return chain;
   }
@@ -136,12 +184,12 @@ class SectionChooser {
   }
 
   /// Fixes the same element at both ends of one turn and solves it.
-  static Result<SeriesChain> close_at_seam(DirectedSeries turn) {
+  Result<SeriesChain> close_at_seam(DirectedSeries turn) const {
     for (NodeData* end : {&turn.nodes.front(), &turn.nodes.back()}) {
       end->theta = turn.start.front().theta;
       end->kappa = turn.start.front().kappa;
     }
-    return follow_directions(std::move(turn));
+    return follow_directions(std::move(turn), watch_);
   }
 
   Result<SeriesChain> within_tolerances() {
@@ -154,6 +202,12 @@ class SectionChooser {
     give_nodes(measured);
     FairedSeries faired;
     if (auto chain = follow_runs(measured, faired)) return std::move(*chain);
+    if (measured.primitives) {
+      out_.warnings.emplace_back(
+          "no contour was found that keeps the lines and arcs among the points: it is formed "
+          "without "
+          "them");
+    }
     measured.primitives = false;
     measured.thin = false;
     if (auto chain = follow_runs(measured, faired)) return std::move(*chain);
@@ -165,9 +219,11 @@ class SectionChooser {
 
   /// Nothing when no runs were found, or no chain along them.
   std::optional<SeriesChain> follow_runs(MeasuredSeries& measured, FairedSeries& faired) {
-    for (int k = 0; k < kMostTrims; ++k) {
-      faired = fair(measured, progress_);
-      out_.vertices_lower_bound = faired.vertices_lower_bound;
+    const double most =
+        watch_.spent() + kPrimitiveWork + kPrimitiveSteps * static_cast<double>(points_.size());
+    for (int k = 0; k < kMostTrims && (k == 0 || watch_.spent() < most); ++k) {
+      const Stretch stretch = Stretch::next_of_many(watch_, measured.primitives ? k + 1 : 0);
+      faired = fair(measured, watch_);
       if (!faired.feasible) return std::nullopt;
       auto chain = follow(faired, measured);
       if (chain) return std::move(*chain);
@@ -223,7 +279,7 @@ class SectionChooser {
       nodes.nodes.back().theta = nodes.start[k].theta;
       nodes.nodes.back().kappa = nodes.start[k].kappa;
     }
-    return loop_ ? close_at_seam(std::move(nodes)) : follow_directions(std::move(nodes));
+    return loop_ ? close_at_seam(std::move(nodes)) : follow_directions(std::move(nodes), watch_);
   }
 
   /// Interpolates the moved points, each of which is within its tolerance.
@@ -245,7 +301,7 @@ class SectionChooser {
 
   const Prepared& series_;
   bool loop_;
-  const Progress& progress_;
+  Watch& watch_;
   std::vector<std::size_t> index_;  // of each point in the whole series
   std::vector<Vec2> points_;
   SectionChain out_;
@@ -253,9 +309,8 @@ class SectionChooser {
 
 }  // namespace
 
-Result<SectionChain> chain_section(const Prepared& series, const Section& section,
-                                   const Progress& progress) {
-  return SectionChooser(series, section, progress).run();
+Result<SectionChain> chain_section(const Prepared& series, const Section& section, Watch& watch) {
+  return SectionChooser(series, section, watch).run();
 }
 
 }  // namespace obvid::pipeline_detail

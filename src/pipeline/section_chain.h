@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "obvid/chain/series_chain.h"
-#include "obvid/core/progress.h"
+#include "obvid/core/watch.h"
 #include "prepare.h"
 
 namespace obvid::pipeline_detail {
@@ -14,13 +14,12 @@ namespace obvid::pipeline_detail {
 /// ends with its first element again.
 struct SectionChain {
   SeriesChain chain;
-  int vertices_lower_bound = 0;  ///< of every curve within the tolerances; 0 for exact points
   std::vector<std::string> warnings;
 };
 
 /// Headings and curvatures for a section: through its points, or within their tolerances with few
 /// vertices. Errors: E401, E402, E403, E404, E405, naming points of the whole series.
 [[nodiscard]] Result<SectionChain> chain_section(const Prepared& series, const Section& section,
-                                                 const Progress& progress);
+                                                 Watch& watch);
 
 }  // namespace obvid::pipeline_detail

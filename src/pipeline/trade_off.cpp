@@ -13,7 +13,11 @@ namespace {
 using namespace pipeline_detail;
 
 constexpr int kRows = 8;
-constexpr double kLargest = 0.01;    // of the size
+constexpr double kLargest = 0.01;  // of the size
+/// No further trial begins when so many steps on every point, and some more where there are few,
+/// were spent.
+constexpr double kTrialSteps = 1e4, kSpareTrials = 2e6;
+constexpr const char* kNotTried = "not tried: the search ended at its limit of work";
 constexpr double kLeastSpan = 10.0;  // where the file is printed coarsely: largest / smallest
 
 std::vector<double> tolerances_for(const PointSeries& series) {
@@ -27,26 +31,41 @@ std::vector<double> tolerances_for(const PointSeries& series) {
   return out;
 }
 
-TradeOffRow row_of(double tolerance, const Result<Fit>& made) {
+TradeOffRow row_of(double tolerance, const Fit& made) {
   TradeOffRow row;
   row.tolerance = tolerance;
-  if (!made) {
-    row.refusal = made.error().what;
-    return row;
-  }
   row.formed = true;
-  row.proved = keeps_promises(*made);
+  row.proved = keeps_promises(made);
   if (!row.proved) {
-    const std::string& reason = made->certificate.reason;
-    row.refusal = made->certificate.proved ? "the region is wider than asked" : reason;
+    const std::string& reason = made.certificate.reason;
+    row.refusal = made.certificate.proved ? "the region is wider than asked" : reason;
   }
-  row.vertices = made->report.vertices;
-  row.vertices_lower_bound = made->report.vertices_lower_bound;
-  row.inflections = made->report.inflections;
-  row.pieces = made->contour.pieces.size();
-  row.largest_move = made->report.largest_move;
-  row.seconds = made->report.seconds;
+  row.vertices = made.report.vertices;
+  row.vertices_lower_bound = made.report.vertices_lower_bound;
+  row.inflections = made.report.inflections;
+  row.pieces = made.contour.pieces.size();
+  row.largest_move = made.report.largest_move;
+  row.seconds = made.report.seconds;
   return row;
+}
+
+TradeOffRow row_of(double tolerance, const Error& refusal) {
+  TradeOffRow row;
+  row.tolerance = tolerance;
+  row.refusal = refusal.what;
+  return row;
+}
+
+/// A contour within smaller tolerances is one within larger ones; only the points force less then.
+void carry_on(Fit& best, double tolerance, TradeOffRow& row) {
+  for (double& own : best.contour.point_tolerance) own = std::max(own, tolerance);
+  const auto measured = measure(best.contour, best.report.tolerance);
+  if (!measured) return;
+  best.report.vertices_lower_bound = measured->vertices_lower_bound;
+  const double seconds = row.seconds;
+  row = row_of(tolerance, best);
+  row.carried = true;
+  row.seconds = seconds;
 }
 
 }  // namespace
@@ -85,15 +104,25 @@ Result<TradeOff> trade_off(const PointSeries& series, const FitJob& job, const P
   out.units = series.units;
   const FitJob kept = with_closing(series, job);
   out.closed = kept.closing == Closing::kClosed;
+  Watch watch(progress);
+  const double most = kSpareTrials + kTrialSteps * static_cast<double>(series.points.size());
+  std::optional<Fit> best;  // what larger tolerances allow as well
   for (const double tolerance : tolerances_for(series)) {
-    const auto inner = [&](std::string_view stage, double done) {
-      progress(stage, (static_cast<double>(out.rows.size()) + done) / kRows);
-    };
-    const auto made = fit_within(series, kept, tolerance, progress ? Progress(inner) : Progress());
+    const auto row = static_cast<double>(out.rows.size());
+    const Stretch stretch(watch, row / kRows, (row + 1.0) / kRows);
+    Result<Fit> made = watch.spent() < most
+                           ? fit_within(series, kept, tolerance, watch)
+                           : Result<Fit>(fail({ErrorCode::kNoSpiral, kNotTried, "", "", -1, 0.0}));
     if (!made && exit_code(made.error().code) != exit_code(ErrorCode::kNoSpiral)) {
       return fail(made.error());
     }
-    out.rows.push_back(row_of(tolerance, made));
+    out.rows.push_back(made ? row_of(tolerance, *made) : row_of(tolerance, made.error()));
+    TradeOffRow& now = out.rows.back();
+    if (best && (!now.proved || now.vertices > best->report.vertices)) {
+      carry_on(*best, tolerance, now);
+    } else if (now.proved) {
+      best = std::move(*made);
+    }
   }
   out.recommended = recommended_row(out.rows);
   return out;

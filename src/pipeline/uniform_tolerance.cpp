@@ -11,15 +11,14 @@
 
 namespace obvid::pipeline_detail {
 
-Result<Fit> fit_within(const PointSeries& series, FitJob job, double tolerance,
-                       const Progress& progress) {
+Result<Fit> fit_within(const PointSeries& series, FitJob job, double tolerance, Watch& watch) {
   job.noise = tolerance;
   job.noise_from_rounding = false;
   PointSeries allowed = series;
   for (FixedData& data : allowed.fixed) {
     if (data.tolerance) data.tolerance = std::max(*data.tolerance, tolerance);
   }
-  return fit(allowed, job, progress);
+  return fit(allowed, job, watch);
 }
 
 FitJob with_closing(const PointSeries& series, FitJob job) {

@@ -9,7 +9,7 @@ namespace obvid::pipeline_detail {
 /// The job with a tolerance of the same size for every point; a point's own one stays where it is
 /// larger.
 [[nodiscard]] Result<Fit> fit_within(const PointSeries& series, FitJob job, double tolerance,
-                                     const Progress& progress);
+                                     Watch& watch);
 
 /// The job with its automatic choices made: larger tolerances do not close a series that is open
 /// without them.

@@ -159,7 +159,8 @@ Verification verify(const StoredContour& stored) {
   out.certificate = certify(stored.contour);
   ClaimCheck comparison(pipeline_detail::size_of(stored.contour.points));
   if (stored.report) {
-    auto measured = pipeline_detail::measure(stored.contour, stored.report->tolerance);
+    auto measured =
+        pipeline_detail::measure(stored.contour, stored.report->tolerance);
     if (!measured) {
       out.false_claim = measured.error();
       return out;

@@ -23,23 +23,32 @@ constexpr double kAccuracy = 1.02;     // largest / smallest end of the final br
 constexpr double kLargestMove = 0.1;   // of the size: beyond, it is another shape
 constexpr double kUsualGuess = 1e-5;   // of the size, where nothing says more
 constexpr double kUsualTrials = 14.0;  // for the progress bar
-constexpr double kNoMove = 1e-6;       // of the tolerance: the rounding of a distance
+/// No further trial begins when so many steps on every point, and some more where there are few,
+/// were spent.
+constexpr double kSearchSteps = 5000.0, kSpareSearch = 2e6;
+constexpr double kNoMove = 1e-6;  // of the tolerance: the rounding of a distance
 
 bool says_no_contour(ErrorCode code) { return exit_code(code) == exit_code(ErrorCode::kNoSpiral); }
 
 class Search {
  public:
-  Search(const PointSeries& series, const FitJob& job, const Progress& progress)
-      : series_(series), job_(with_closing(series, job)), progress_(progress) {}
+  Search(const PointSeries& series, const FitJob& job, const Error& refusal,
+         const Progress& progress)
+      : series_(series),
+        job_(with_closing(series, job)),
+        progress_(progress),
+        most_(kSpareSearch + kSearchSteps * static_cast<double>(series.points.size())) {
+    out_.refusal = refusal;
+  }
 
   std::optional<WhyNot> run() {
-    auto asked = fit(series_, job_);
-    if (asked || !says_no_contour(asked.error().code)) return std::nullopt;
-    out_.refusal = std::move(asked.error());
     set_limits();
-    if (!(highest_ > lowest_) || !bracket()) return std::nullopt;
-    bisect();
-    rank();
+    if (!(highest_ > lowest_)) return std::nullopt;
+    if (bracket()) {
+      bisect();
+      rank();
+    }
+    if (!out_.found && !out_.stopped) return std::nullopt;
     return std::move(out_);
   }
 
@@ -69,16 +78,23 @@ class Search {
 
   [[nodiscard]] bool long_series() const { return series_.points.size() > kLongSeries; }
 
+  /// Whether another trial may begin.
+  bool may_go_on() {
+    if (watch_.spent() >= most_) out_.stopped = true;
+    return !out_.stopped;
+  }
+
   bool possible(double tolerance) {
     if (progress_) {
       progress_("searching the tolerance", std::min(trials_ / kUsualTrials, 1.0));
     }
     trials_ += 1.0;
-    auto made = fit_within(series_, job_, tolerance, {});
+    auto made = fit_within(series_, job_, tolerance, watch_);
     if (!made || !keeps_promises(*made)) {
       out_.refused = tolerance;
       return false;
     }
+    out_.found = true;
     out_.tolerance = tolerance;
     out_.fit = std::move(*made);
     return true;
@@ -89,13 +105,13 @@ class Search {
     const double step = long_series() ? kLongStep : kBracketStep;
     double t = guess();
     if (possible(t)) {
-      while (t > lowest_) {
+      while (t > lowest_ && may_go_on()) {
         t = std::max(printable(t / step), lowest_);
         if (!possible(t)) return true;
       }
       return true;
     }
-    while (t < highest_) {
+    while (t < highest_ && may_go_on()) {
       t = std::min(printable(t * step), highest_);
       if (possible(t)) return true;
     }
@@ -103,7 +119,7 @@ class Search {
   }
 
   void bisect() {
-    while (out_.refused > 0.0 && out_.refused < out_.tolerance / kAccuracy) {
+    while (out_.refused > 0.0 && out_.refused < out_.tolerance / kAccuracy && may_go_on()) {
       const double middle = printable(std::sqrt(out_.refused) * std::sqrt(out_.tolerance));
       if (middle <= out_.refused || middle >= out_.tolerance) return;
       possible(middle);
@@ -124,14 +140,24 @@ class Search {
   const Progress& progress_;
   double lowest_ = 0.0, highest_ = 0.0;
   double trials_ = 0.0;
+  Watch watch_;  // counts; the bar shows trials
+  double most_;
   WhyNot out_;
 };
 
 }  // namespace
 
+std::optional<WhyNot> why_not(const PointSeries& series, const FitJob& job, const Error& refusal,
+                              const Progress& progress) {
+  if (!says_no_contour(refusal.code)) return std::nullopt;
+  return Search(series, job, refusal, progress).run();
+}
+
 std::optional<WhyNot> why_not(const PointSeries& series, const FitJob& job,
                               const Progress& progress) {
-  return Search(series, job, progress).run();
+  const auto asked = fit(series, job);
+  if (asked) return std::nullopt;
+  return why_not(series, job, asked.error(), progress);
 }
 
 }  // namespace obvid

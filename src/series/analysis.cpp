@@ -4,7 +4,8 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
-#include <optional>
+
+#include "obvid/series/forced_vertices.h"
 
 namespace obvid {
 namespace {
@@ -158,39 +159,27 @@ void collect_runs(Analysis& a) {
   }
 }
 
-/// Greatest number of disjoint windows, each of which holds two opposite certain signs.
-/// `sign(i)` is +1, -1 or 0 (uncertain); window of signs j < k covers points first(j)..last(k).
-template <class Sign, class First, class Last>
-int disjoint_sign_changes(std::size_t count, Sign sign, First first, Last last) {
-  int changes = 0;
-  std::size_t cut = 0;
-  std::optional<std::size_t> newest[2];  // newest certain index of either sign since the cut
-  for (std::size_t k = 0; k < count; ++k) {
-    const int s = sign(k);
-    if (s == 0 || first(k) < cut) continue;
-    const std::size_t own = s > 0 ? 1 : 0;
-    if (newest[1 - own]) {
-      ++changes;
-      cut = last(k);
-      newest[0].reset();
-      newest[1].reset();
-    } else {
-      newest[own] = k;
-    }
+/// Changes of sign among the adjacent curvatures whose sign rounding cannot change, at points where
+/// the chords turn by less than a right angle: inflections of every curve through the points whose
+/// heading keeps within a half turn over any three of them (docs/methods/series.md).
+int forced_inflections(const std::vector<Vec2>& points, const Analysis& a) {
+  int changes = 0, before = 0;
+  for (std::size_t i = 1; i + 1 < points.size(); ++i) {
+    const AdjacentCircle& c = a.circles[i];
+    if (std::abs(c.kappa) <= c.rounding) continue;
+    if (!(dot(points[i] - points[i - 1], points[i + 1] - points[i]) > 0.0)) continue;
+    const int sign = c.kappa > 0.0 ? 1 : -1;
+    if (before != 0 && sign != before) ++changes;
+    before = sign;
   }
   return changes;
 }
 
-void bound_singular_points(Analysis& a) {
+void bound_singular_points(const std::vector<Vec2>& points, Analysis& a) {
   const std::size_t n = a.circles.size();
   if (n < 4) return;
-  a.vertices_lower_bound = disjoint_sign_changes(
-      a.chords.size(),
-      [&](std::size_t i) {
-        if (!direction_is_certain(a, i)) return 0;
-        return a.circles[i + 1].kappa > a.circles[i].kappa ? 1 : -1;
-      },
-      [](std::size_t i) { return i - 1; }, [](std::size_t i) { return i + 2; });
+  a.vertices_lower_bound = forced_vertices(points, {}, false);
+  a.inflections_lower_bound = forced_inflections(points, a);
   int before = 0;
   for (std::size_t i = 1; i + 1 < n; ++i) {
     const double k = a.circles[i].kappa;
@@ -199,14 +188,6 @@ void bound_singular_points(Analysis& a) {
     if (before != 0 && s != before) ++a.inflections;
     before = s;
   }
-  a.inflections_lower_bound = disjoint_sign_changes(
-      n,
-      [&](std::size_t i) {
-        if (i == 0 || i + 1 == n) return 0;
-        const AdjacentCircle& c = a.circles[i];
-        return std::abs(c.kappa) <= c.rounding ? 0 : c.kappa > 0.0 ? 1 : -1;
-      },
-      [](std::size_t i) { return i - 1; }, [](std::size_t i) { return i + 1; });
 }
 
 void bound_error(Analysis& a) {
@@ -300,7 +281,7 @@ Result<Analysis> analyse(const std::vector<Vec2>& points) {
   a.direction = choose_directions(a);
   count_undecided(a);
   collect_runs(a);
-  bound_singular_points(a);
+  bound_singular_points(points, a);
   bound_error(a);
   return a;
 }

@@ -41,6 +41,15 @@ constexpr double kChordsPerNoise = 24.0;
 constexpr std::array<double, 3> kAngleSteps{4.0, 2.0, 1.0};
 /// Turn that the rounding of doubles gives points in line at usual spacings, rad.
 constexpr double kRoundingTurn = 1e-6;
+/// Chords of a drawn arc, as CAD systems give it in points, are equal but for this part, and so are
+/// the turns between them: so many in a row are no accident.
+constexpr double kEvenly = 0.01;
+constexpr std::size_t kEvenChords = 4;
+/// A chord so many times as long as theirs is an edge: on a curve that goes on, whoever put points
+/// so close together would have put some there, too, ...
+constexpr double kEdgeChord = 8.0;
+/// ... when it turns by so much there.
+constexpr double kEdgeTurn = 45.0 * kDegree;
 /// Points that are looked at one by one before the step doubles.
 constexpr std::size_t kFineSteps = 32;
 constexpr std::size_t kArmChords = 4;
@@ -92,6 +101,7 @@ class CornerSearch {
                                               bool forwards) const;
   [[nodiscard]] Arm arm(std::size_t i, bool forwards, double chord, std::size_t chords) const;
   [[nodiscard]] bool is_corner(std::size_t i, double turn, double noise, double chord) const;
+  [[nodiscard]] bool ends_arc_at_edge(std::size_t i) const;
   [[nodiscard]] bool is_base(const Arm& beside, const Arm& other, double total) const;
   [[nodiscard]] std::optional<Forecast> forecast(const Arm& arm, std::size_t skip) const;
   [[nodiscard]] bool is_bent(std::size_t i, bool forwards, const Arm& arm, double noise) const;
@@ -249,11 +259,37 @@ bool CornerSearch::is_corner(std::size_t i, double turn, double noise, double ch
   return !is_bent(i, false, arms[0], noise) && !is_bent(i, true, arms[1], noise);
 }
 
+/// Whether a drawn arc ends here and an edge begins that goes off at an angle. What the points say
+/// elsewhere does not matter: the edge may have another corner at its other end.
+bool CornerSearch::ends_arc_at_edge(std::size_t i) const {
+  for (const bool forwards : {false, true}) {  // the way in which the arc lies
+    const auto beyond = at(i, 1, !forwards), next = at(i, 1, forwards);
+    if (!beyond || !next || !at(i, kEvenChords, forwards)) continue;
+    const Vec2 edge = points_[*beyond] - points_[i];
+    if (norm(edge) < kEdgeChord * norm(points_[*next] - points_[i])) continue;
+    const Arm arc = arm(i, forwards, 0.0, kEvenChords);
+    const double length = arc.length[0], turn = arc.turn[0];
+    bool even = true;
+    for (std::size_t k = 1; even && k < kEvenChords; ++k) {
+      even = std::abs(arc.length[k] - length) <= kEvenly * length &&
+             (k == 1 || std::abs(arc.turn[k - 1] - turn) <= kEvenly * std::abs(turn));
+    }
+    if (!even || turn == 0.0) continue;
+    const double here = forwards ? turning(-edge, arc.first) : turning(-arc.first, edge);
+    if (std::abs(here - 0.5 * turn) >= std::max(angle_, kEdgeTurn)) return true;
+  }
+  return false;
+}
+
 std::vector<Candidate> CornerSearch::candidates() const {
   std::vector<Candidate> found;
   const std::size_t n = points_.size();
   const std::size_t begin = closed_ ? 0 : 1, end = closed_ ? n : n - 1;
   for (std::size_t i = begin; i < end; ++i) {
+    if (ends_arc_at_edge(i)) {
+      found.push_back({i, kAngleSteps.front(), std::numbers::pi, 0.0});
+      continue;
+    }
     const double noise = noise_at(i);
     for (const double step : kAngleSteps) {
       // Without noise the next points are near enough whatever the angle.

@@ -24,7 +24,8 @@ using namespace test;
 Result<SeriesChain> chain_of(const std::vector<Vec2>& points, const ChainWishes& wishes = {}) {
   const auto analysis = analyse(points);
   if (!analysis) return tl::unexpected(analysis.error());
-  return choose_elements(points, *analysis, wishes);
+  Watch nobody;
+  return choose_elements(points, *analysis, wishes, nobody);
 }
 
 /// Whether a spiral exists between two elements (theory 4, Kurnosenko), from their numbers alone.

@@ -205,7 +205,8 @@ std::vector<Element> chosen_elements(const std::vector<Vec2>& points) {
   EXPECT_TRUE(analysis.has_value());
   ChainWishes wishes;
   wishes.convex = true;
-  const auto chain = choose_elements(points, *analysis, wishes);
+  Watch nobody;
+  const auto chain = choose_elements(points, *analysis, wishes, nobody);
   EXPECT_TRUE(chain.has_value());
   std::vector<Element> elements;
   for (std::size_t i = 0; chain && i < chain->elements.size(); ++i) {

@@ -62,7 +62,7 @@ void expect_promises(const MeasuredSeries& series, const FairedSeries& f, const 
 }
 
 FairedSeries fair_and_check(const MeasuredSeries& series, const std::string& what) {
-  FairedSeries f = fair(series);
+  FairedSeries f = faired(series);
   expect_promises(series, f, what);
   return f;
 }
@@ -177,7 +177,7 @@ TEST(Fair, SameInputSameResultBitForBit) {
   auto points = meander(300, 3.0, 0.8);
   add_noise(points, 1e-4, rng);
   const auto series = measured(points, 1e-4);
-  const auto a = fair(series), b = fair(series);
+  const auto a = faired(series), b = faired(series);
   ASSERT_EQ(a.elements.size(), b.elements.size());
   for (std::size_t i = 0; i < a.elements.size(); ++i) {
     EXPECT_EQ(std::memcmp(&a.elements[i], &b.elements[i], sizeof(Element)), 0) << i;
@@ -229,7 +229,7 @@ TEST(Fair, GivenHeadingsCurvaturesAndSignsAreKept) {
 /// Whatever the points are: an answer, finite, with every node in its place. When it is feasible,
 /// every promise holds.
 void expect_sane(const MeasuredSeries& series, const std::string& what) {
-  const FairedSeries f = fair(series);
+  const FairedSeries f = faired(series);
   if (f.feasible) expect_promises(series, f, what);
   for (const Element& e : f.elements) {
     EXPECT_TRUE(std::isfinite(e.point.x + e.point.y + e.theta + e.kappa)) << what;

@@ -98,14 +98,6 @@ class Derivatives {
     return g;
   }
 
-  std::vector<double> newton_direction(const State& x, double slack) {
-    model_.assemble(x, slack, weights_, true, system_);
-    std::vector<double> d;
-    const double ds = system_.solve(d);
-    d.push_back(ds);
-    return d;
-  }
-
  private:
   TubeModel model_;
   Weights weights_;
@@ -152,36 +144,6 @@ TEST(TubeModel, GradientIsThatOfTheMerit) {
         expect_gradient(f, cone, {0.3, 0.0, 1.0}, true, what + ": widened tube");
       }
     }
-  }
-}
-
-/// The Hessian leaves out only the curvature of m, q, sigma and of the rows as functions of the
-/// unknowns. On a nearly straight tube that is small, and along Newton's direction d the gradient
-/// must change by minus itself.
-void expect_newton(double bend, Cone cone, Weights w, bool widen, double tolerance) {
-  Fixture f(bend, false, false);
-  Derivatives d(f, cone, w, widen);
-  const double slack = widen ? 0.3 : 5.0;
-  const std::vector<double> g = d.gradient(f.x, slack);
-  const std::vector<double> direction = d.newton_direction(f.x, slack);
-  const double step = 1e-5 / largest(direction);
-  const auto moved = [&](double by) {
-    State x = f.x;
-    for (std::size_t i = 0; i < x.size(); ++i) x[i] += by * direction[i];
-    return d.gradient(x, slack + by * direction.back());
-  };
-  const std::vector<double> up = moved(step), down = moved(-step);
-  for (std::size_t i = 0; i < g.size(); ++i) {
-    EXPECT_NEAR((up[i] - down[i]) / (2.0 * step), -g[i], tolerance * largest(g)) << i;
-  }
-}
-
-TEST(TubeModel, HessianIsThatOfTheMeritOnANearlyStraightTube) {
-  constexpr double kBend = 1e-3;  // rad: what is left out is of this order
-  for (const Cone cone : {Cone::kSpiral, Cone::kClosedForm}) {
-    expect_newton(kBend, cone, {0.0, 1.0, 1.0}, false, 0.01);
-    expect_newton(kBend, cone, {1.0, 1.0, 0.5}, false, 0.01);
-    expect_newton(kBend, cone, {1.0, 0.0, 1.0}, true, 0.01);
   }
 }
 

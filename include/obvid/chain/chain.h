@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "obvid/core/result.h"
+#include "obvid/core/watch.h"
 #include "obvid/geom/element.h"
 #include "obvid/series/analysis.h"
 
@@ -73,6 +74,7 @@ struct ChainSolution {
 /// Limits of the interior-point method.
 struct ChainOptions {
   int largest_steps = 200;  ///< Newton steps altogether
+  Watch* watch = nullptr;   ///< each Newton step is work of one unit per node
 };
 
 /// Solves the chain: the fairest headings and curvatures inside all cones, by a barrier method

@@ -39,9 +39,11 @@ struct SeriesChain {
 /// Errors: E401 no such spiral runs through the points; E403 fixed data contradict the points or
 /// each other; E404 a straight or circular stretch leaves no room for a transition; E405 the
 /// rounding of the coordinates decides.
+/// Where directions have to be turned that search ends after a number of steps that grows with the
+/// points; the error says so.
 [[nodiscard]] Result<SeriesChain> choose_elements(const std::vector<Vec2>& points,
                                                   const Analysis& analysis,
-                                                  const ChainWishes& wishes);
+                                                  const ChainWishes& wishes, Watch& watch);
 
 /// Nodes with the direction of every link already chosen.
 struct DirectedSeries {
@@ -55,7 +57,7 @@ struct DirectedSeries {
 /// Elements for nodes whose directions are known (from a fairing, or one turn of a closed series).
 /// The given headings and curvatures are kept where they lie inside the cones of existence;
 /// otherwise all are chosen again. No direction is turned. Errors: E401, naming nodes.
-[[nodiscard]] Result<SeriesChain> follow_directions(DirectedSeries series);
+[[nodiscard]] Result<SeriesChain> follow_directions(DirectedSeries series, Watch& watch);
 
 /// The free element of a link for which a spiral exists but one closed-form piece does not: close
 /// to the joint of the middle biarc, such that both halves lie inside the closed form's cone.

@@ -32,6 +32,7 @@ enum class ErrorCode : int {
   kNoRoomForTransition = 404,
   kRoundingDecides = 405,
   kCarrierCannotKeep = 406,
+  kWanders = 407,
   kNotProved = 501,
   kToleranceNotReached = 502,
   kFalseClaim = 503,

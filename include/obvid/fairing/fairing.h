@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "obvid/chain/chain.h"
-#include "obvid/core/progress.h"
+#include "obvid/core/watch.h"
 #include "obvid/geom/element.h"
 
 namespace obvid {
@@ -34,7 +34,7 @@ struct FairedSeries {
   bool feasible = false;  ///< false: the points are moved and smooth, but no runs were found;
                           ///< headings and curvatures are those of the smooth curve
   int vertices = 0;       ///< changes of direction
-  int vertices_lower_bound = 0;  ///< every smooth curve within the tolerances has so many
+  int vertices_lower_bound = 0;  ///< what the points force within their tolerances
   std::size_t trouble = 0;       ///< when not feasible: node near which it failed
   int primitives = 0;            ///< exact lines and arcs
   std::vector<std::size_t>
@@ -46,21 +46,17 @@ struct FairedSeries {
 /// series (docs/methods/fairing.md): a smooth curve through the tube of tolerances, from its runs
 /// the weakest are taken away as long as the problem stays feasible, then one solve of the whole.
 ///
-/// Guarantees: every node lies within its point's reach, by construction. The lower bound is the
-/// variation-diminishing property of B-splines (Schoenberg), to first order in tolerance over chord
-/// and exact for graphs of small slope. Not guaranteed: that fewer vertices are impossible when the
+/// Guarantees: every node lies within its point's reach, by construction. The lower bound is that of
+/// `forced_vertices` (obvid/series). Not guaranteed: that fewer vertices are impossible when the
 /// lower bound is smaller; that points between nodes keep their tolerance to the last bit (they are
 /// held to a quintic Hermite model of the link: measure the finished contour).
 /// Cost O(n) per Newton step, some 20 steps and a few hundred short windows.
 /// Requires at least 4 points (3 when closed), no two neighbours equal.
-[[nodiscard]] FairedSeries fair(const MeasuredSeries& series, const Progress& progress = {});
+[[nodiscard]] FairedSeries fair(const MeasuredSeries& series, Watch& watch);
 
 /// The measured point at the end of a primitive that lies nearest to a node; nothing without
 /// primitives.
 [[nodiscard]] std::optional<std::size_t> nearest_primitive_end(const FairedSeries& faired,
                                                                std::size_t node);
-
-/// The lower bound alone: vertices that every smooth curve through the tolerances has. O(n).
-[[nodiscard]] int forced_vertices(const MeasuredSeries& series);
 
 }  // namespace obvid

@@ -13,9 +13,11 @@ struct TradeOffRow {
   double tolerance = 0.0;  ///< units
   bool formed = false;     ///< false: refused; the figures below mean nothing then
   bool proved = false;
-  std::string refusal;  ///< why it was not formed or not proved
+  bool carried = false;  ///< the contour of the row before: this tolerance allows it as well, and
+                         ///< nothing better was found
+  std::string refusal;   ///< why it was not formed or not proved
   int vertices = 0;
-  int vertices_lower_bound = 0;  ///< every curve within the tolerance has so many
+  int vertices_lower_bound = 0;  ///< what the points force
   int inflections = 0;
   std::size_t pieces = 0;
   double largest_move = 0.0;  ///< units

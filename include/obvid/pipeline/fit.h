@@ -8,6 +8,7 @@
 #include "obvid/certify/certificate.h"
 #include "obvid/core/progress.h"
 #include "obvid/core/result.h"
+#include "obvid/core/watch.h"
 #include "obvid/curve/contour.h"
 #include "obvid/io/stored_contour.h"
 #include "obvid/series/point_series.h"
@@ -58,12 +59,15 @@ struct Fit {
 
 /// Forms and proves a contour through the points: analyse, choose headings and curvatures, bound
 /// the region, form the pieces, prove them. Same input, same result, bit for bit (apart from
-/// `seconds`). Cost O(n).
-/// Errors: E304, E309, E402 for the data; E401, E403, E404, E405 when no such contour exists;
+/// `seconds`). Cost O(n): every search ends after a number of steps per point.
+/// Errors: E203 for a tolerance below 1e-12 of the size; E304, E309, E402 for the data; E401, E403,
+/// E404, E405 when no such contour exists, E406 when the carrier cannot keep what was given, E407 when it would swing out between two points.
 /// A contour that was formed but not proved is returned with
 /// `certificate.proved == false` and its reason: never hidden.
 [[nodiscard]] Result<Fit> fit(const PointSeries& series, const FitJob& job,
                               const Progress& progress = {});
+/// The same as part of some longer work.
+[[nodiscard]] Result<Fit> fit(const PointSeries& series, const FitJob& job, Watch& watch);
 
 /// What `verify` found: the new proof, and the first claim of the file that is false (if any).
 struct Verification {

@@ -13,9 +13,11 @@ namespace obvid {
 /// How far the points of a refused job would have to move for its contour to exist.
 struct WhyNot {
   Error refusal;           ///< what `fit` says to the job as it was asked
+  bool found = false;      ///< whether a tolerance that does was found
+  bool stopped = false;    ///< the search ended at its limit of work, not because it was done
   double tolerance = 0.0;  ///< units, of three digits: `fit` with it as noise keeps all promises
   double refused = 0.0;    ///< largest smaller tolerance that was tried in vain; 0: none was
-  Fit fit;                 ///< the contour within `tolerance`
+  Fit fit;                 ///< the contour within `tolerance`, when one was found
   std::vector<std::size_t> moved;  ///< the points that it moves, the farthest first; how far:
                                    ///< `fit.report.moves`
 };
@@ -24,9 +26,13 @@ struct WhyNot {
 /// tolerance, the same for all points, within which one does, every wish of the job kept. Points
 /// with larger tolerances of their own keep those; an open series stays open. Found by long steps
 /// and bisection, to 2 %; between the tolerances that were tried feasibility is taken as
-/// monotone. Nothing when `fit` does not refuse, refuses for another reason, or when moves of a
-/// tenth of the size do not help either. Cost: some 15 calls of `fit`.
+/// monotone. The search ends after some 15 calls of `fit`, or earlier after a number of steps that
+/// grows with the points: then it says what it knows. Nothing when `fit` does not refuse, refuses
+/// for another reason, or when moves of a tenth of the size do not help either.
 [[nodiscard]] std::optional<WhyNot> why_not(const PointSeries& series, const FitJob& job,
                                             const Progress& progress = {});
+/// The same when the refusal is known already.
+[[nodiscard]] std::optional<WhyNot> why_not(const PointSeries& series, const FitJob& job,
+                                            const Error& refusal, const Progress& progress = {});
 
 }  // namespace obvid

@@ -50,7 +50,7 @@ struct Analysis {
   std::vector<SeriesRun> runs;
   std::vector<CircularStretch> stretches;
   int vertices = 0;              ///< changes of direction: what the contour will have
-  int vertices_lower_bound = 0;  ///< what any smooth curve through the points must have
+  int vertices_lower_bound = 0;  ///< what the points force (forced_vertices.h)
   int inflections = 0;           ///< sign changes of the adjacent curvatures
   int inflections_lower_bound = 0;
   std::size_t rounding_decided = 0;  ///< chords whose direction lies within coordinate rounding

@@ -1,0 +1,89 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <string_view>
+#include <utility>
+
+#include "obvid/core/progress.h"
+
+namespace obvid {
+
+/// Looks after long work: tells whoever listens how far it is, counts it, and says when to stop.
+/// Work is counted in units that no machine changes (one step of a solver on one point is one), so
+/// that a limit has the same result everywhere.
+class Watch {
+ public:
+  Watch() = default;
+  explicit Watch(Progress progress) : progress_(std::move(progress)) {}
+
+  /// So much was done. False: stop, and make do with what there is.
+  bool spend(double units) {
+    spent_ += units;
+    return may_go_on();
+  }
+  [[nodiscard]] bool may_go_on() const { return spent_ < limit_; }
+  [[nodiscard]] double spent() const { return spent_; }
+
+  /// `done` of the present stretch, in [0, 1]. What is told never goes back.
+  void tell(std::string_view stage, double done) {
+    if (!progress_) return;
+    told_ = std::max(told_, from_ + (to_ - from_) * std::clamp(done, 0.0, 1.0));
+    progress_(stage, told_);
+  }
+
+ private:
+  friend class Allowance;
+  friend class Stretch;
+
+  Progress progress_;
+  double spent_ = 0.0, limit_ = std::numeric_limits<double>::infinity();
+  double from_ = 0.0, to_ = 1.0, told_ = 0.0;
+};
+
+/// While it lives, `Watch::spend` says stop after so many more units; an outer allowance that is
+/// nearer its end holds as well.
+class Allowance {
+ public:
+  Allowance(Watch& watch, double units) : watch_(watch), outer_(watch.limit_) {
+    watch_.limit_ = std::min(outer_, watch_.spent_ + units);
+  }
+  ~Allowance() { watch_.limit_ = outer_; }
+  Allowance(const Allowance&) = delete;
+  Allowance& operator=(const Allowance&) = delete;
+
+ private:
+  Watch& watch_;
+  double outer_;
+};
+
+/// While it lives, what is told is from `from` to `to` of the stretch around it.
+class Stretch {
+ public:
+  Stretch(Watch& watch, double from, double to)
+      : watch_(watch), outer_from_(watch.from_), outer_to_(watch.to_) {
+    const double length = outer_to_ - outer_from_;
+    watch_.from_ = outer_from_ + length * from;
+    watch_.to_ = outer_from_ + length * to;
+  }
+  ~Stretch() {
+    watch_.from_ = outer_from_;
+    watch_.to_ = outer_to_;
+  }
+  Stretch(const Stretch&) = delete;
+  Stretch& operator=(const Stretch&) = delete;
+
+  /// The k-th of nobody knows how many: half of what the ones before have left.
+  static Stretch next_of_many(Watch& watch, int k) {
+    const double left = std::pow(0.5, k);
+    return {watch, 1.0 - left, 1.0 - 0.5 * left};
+  }
+
+ private:
+  Watch& watch_;
+  double outer_from_, outer_to_;
+};
+
+}  // namespace obvid
