@@ -10,6 +10,7 @@
 #include "scaled_piece.h"
 
 namespace obvid {
+namespace {
 
 using Integer = boost::multiprecision::cpp_int;
 
@@ -36,8 +37,6 @@ struct Arithmetic<Integer> {
     return value * (multiple / static_cast<std::int64_t>(binomial(degree, j)));
   }
 };
-
-namespace {
 
 constexpr int kMantissaBits = 53;
 

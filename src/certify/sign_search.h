@@ -5,10 +5,11 @@
 #include <cstddef>
 #include <vector>
 
-#include "obvid/numeric/bernstein.h"
-#include "obvid/numeric/double_double.h"
+#include "double_double.h"
+#include "obvid/numeric/internal/bernstein.h"
 
 namespace obvid {
+namespace {  // see strict_arithmetic.h
 
 /// What is proved about the sign of a polynomial on the open interval (0, 1).
 enum class SignVerdict { kPositive, kNegative, kZero, kBoth, kOpen };
@@ -171,4 +172,5 @@ class SignSearch {
   double open1_ = 1.0;
 };
 
+}  // namespace
 }  // namespace obvid

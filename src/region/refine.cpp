@@ -9,6 +9,9 @@ namespace {
 
 /// Elements that one piece may take; widths fall with the third power, so this is 15 decades.
 constexpr std::size_t kMostElements = 100000;
+/// Least growth of their number from one attempt to the next, as its part: where rounding keeps the
+/// widths from falling, the attempts come to an end.
+constexpr std::size_t kLeastGrowth = 16;
 /// Steps of the search for the point that is parallel to the chord; Newton converges faster.
 constexpr int kParallelSteps = 3;
 /// Bisection steps for a step that uses the tolerance up: to a thousandth of the parameter step.
@@ -87,7 +90,7 @@ PieceBound bound_piece(const Piece& piece, int direction, double tolerance) {
       bound.reached = false;
       return bound;
     }
-    count = std::max(count + 1, wanted);
+    count = std::max(count + 1 + count / kLeastGrowth, wanted);
     bound.width = 0.0;
     Sample before = first;
     for (std::size_t j = 1; j <= count; ++j) {

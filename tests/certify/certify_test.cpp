@@ -286,8 +286,8 @@ TEST(Certify, StraightContourIsProved) {
 TEST(EndData, MatchesTheJetsOfBothEnds) {
   for (const SpiralRow& row : kSpirals) {
     const RationalBezier piece = spiral(row);
-    const EndData start = start_data(piece);
-    const EndData end = end_data(piece);
+    const EndData start = ends_of(piece).start;
+    const EndData end = ends_of(piece).end;
     EXPECT_NEAR(heading(start.direction), row.theta0, 1e-14);
     EXPECT_NEAR(heading(end.direction), row.theta1, 1e-14);
     EXPECT_NEAR(start.kappa, row.kappa0, 1e-13);
@@ -312,8 +312,8 @@ TEST(EndData, RoundingBoundCoversWhatHalfAnUlpMoves) {
       moved.offset[j] = {nudged(piece.offset[j].x), nudged(piece.offset[j].y)};
       moved.weight[j] = nudged(piece.weight[j]);
     }
-    const EndData a = start_data(piece), b = start_data(moved);
-    const EndData c = end_data(piece), d = end_data(moved);
+    const EndData a = ends_of(piece).start, b = ends_of(moved).start;
+    const EndData c = ends_of(piece).end, d = ends_of(moved).end;
     EXPECT_LE(std::abs(turning(a.direction, b.direction)), a.heading_rounding);
     EXPECT_LE(std::abs(a.kappa - b.kappa), a.kappa_rounding);
     EXPECT_LE(std::abs(c.kappa - d.kappa), c.kappa_rounding);

@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "obvid/certify/certificate.h"
@@ -34,8 +35,8 @@ struct FitReport {
   double tolerance = 0.0;
   double largest_width = 0.0;
   double largest_move = 0.0;  ///< how far a point was moved; 0 when interpolated exactly
-  std::vector<double> moves;  ///< per point, an upper bound of its distance from the contour, units;
-                              ///< empty when interpolated exactly
+  std::vector<double> moves;  ///< per point, an upper bound of its distance from the contour,
+                              ///< units; empty when interpolated exactly
   int vertices = 0;
   int vertices_lower_bound = 0;
   int inflections = 0;
@@ -52,6 +53,8 @@ struct StoredContour {
   Contour contour;
   std::optional<FitReport> report;
   std::optional<Certificate> certificate;
+  std::vector<std::string> unread;  ///< fields of the file that mean nothing to this program, each
+                                    ///< once: "/pieces/*/colour"
 };
 
 }  // namespace obvid

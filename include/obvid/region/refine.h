@@ -10,6 +10,10 @@
 
 namespace obvid {
 
+/// Least tolerance that a width may be asked to keep, of the size of the series: the widths of
+/// narrower regions are the rounding of coordinates.
+inline constexpr double kLeastTolerance = 1e-12;
+
 /// Element of a piece at parameter t; heading in (-pi, pi].
 [[nodiscard]] Element element_at(const Piece& piece, double t);
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "obvid/numeric/double_double.h"
+#include "double_double.h"
 
 #include <gtest/gtest.h>
 
