@@ -22,7 +22,7 @@ constexpr double kCurvatureBound = 1e-6;  // of the curvature at the joint
 /// nobody would call a joint continuous.
 constexpr double kPositionCeiling = 1e-6;  // of the contour's size
 
-// Between an element and the pieces beside it: the element is rounded once more than the gap.
+// How far an element may be outside of what lies between the two ends that meet at its joint.
 constexpr double kElementHeading = 1e-9;    // rad
 constexpr double kElementCurvature = 1e-9;  // of the curvature at the joint
 
@@ -232,11 +232,15 @@ class JointWalk {
                              right != nullptr ? &right->start : nullptr};
     EndData claimed;
     claimed.point = element.point;
+    // what lies between both ends belongs to their joint; how far they are apart is judged there
+    const double apart = ends[0] != nullptr && ends[1] != nullptr
+                             ? heading_gap(ends[0]->direction, ends[1]->direction, 0.0)
+                             : 0.0;
     for (const EndData* end : ends) {
       if (end == nullptr) continue;
       check_position(distance(*end, claimed), end->point_rounding, joint);
       check(known(heading_gap(unit_at(element.theta), end->direction, end->heading_error)),
-            allowed(kElementHeading, end->heading_rounding, kHeadingBound), joint,
+            apart + allowed(kElementHeading, end->heading_rounding, kHeadingBound), joint,
             "the difference of headings between element and piece");
     }
     check_element_kappa(joint, element.kappa, scale_at(left, right),
@@ -247,13 +251,9 @@ class JointWalk {
   void check_element_kappa(std::size_t joint, double kappa, const Scale& scale, const EndData& left,
                            const EndData& right) {
     const double rounding = std::max(left.kappa_rounding, right.kappa_rounding);
-    double difference = std::max(std::abs(kappa - left.kappa), std::abs(kappa - right.kappa));
-    if (may_jump(joint % contour_.pieces.size())) {
-      // Any curvature between both arcs belongs to their common point; an end has one arc only.
-      const double low = std::min(left.kappa, right.kappa);
-      const double high = std::max(left.kappa, right.kappa);
-      difference = is_nan(kappa) ? kappa : std::max({0.0, low - kappa, kappa - high});
-    }
+    const double low = std::min(left.kappa, right.kappa);
+    const double high = std::max(left.kappa, right.kappa);
+    const double difference = is_nan(kappa) ? kappa : std::max({0.0, low - kappa, kappa - high});
     check(scale.of(known(difference)),
           allowed(kElementCurvature, scale.of(rounding), kCurvatureBound), joint,
           "the difference of curvatures between element and piece");
@@ -302,7 +302,10 @@ JointSurvey survey_joints(const Contour& contour, const MonotoneParts& parts) {
 
 std::string missed_point(const Contour& contour) {
   const std::size_t n = contour.points.size();
-  if (n < 2) return "the contour names no points that it passes";
+  // one closed piece has one joint, all others two at least
+  if (n < std::min<std::size_t>(2, std::max<std::size_t>(1, contour.joints.size()))) {
+    return "the contour does not name the points that it passes";
+  }
   for (std::size_t i = 1; i < n; ++i) {
     if (contour.points[i] == contour.points[i - 1]) {
       return fmt::format("point {} repeats the point before it", i);

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "obvid/pipeline/fit.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <chrono>
 #include <cmath>
@@ -9,6 +11,7 @@
 #include "assemble.h"
 #include "form.h"
 #include "obvid/certify/certify.h"
+#include "obvid/region/refine.h"
 #include "prepare.h"
 #include "report.h"
 #include "section_chain.h"
@@ -137,12 +140,13 @@ Result<Formed> form_sections(const Prepared& series, const FitJob& job, double t
 
 /// A carrier that follows the spirals needs a part of each point's tolerance for itself: half of
 /// the least at the most. Returns what it may use.
-double share_tolerance(Prepared& series, double tolerance) {
+double share_tolerance(Prepared& series, double tolerance, double least) {
   double own = tolerance;
   for (const double reach : series.reach) {
     if (reach > 0.0) own = std::min(own, 0.5 * reach);
   }
-  for (double& reach : series.reach) reach = reach > 0.0 ? reach - own : 0.0;
+  own = std::max(own, least);
+  for (double& reach : series.reach) reach = std::max(0.0, reach - own);
   return own;
 }
 
@@ -198,15 +202,17 @@ Result<Fit> fit(const PointSeries& series, const FitJob& job, const Progress& pr
   const auto tell = [&](const char* stage, double done) {
     if (progress) progress(stage, done);
   };
-  if (job.tolerance && !(*job.tolerance > 0.0)) {
-    return fail({ErrorCode::kBadOption, "the tolerance must be greater than 0", "", "", -1,
-                 *job.tolerance});
-  }
   tell("analysing", 0.0);
   auto prepared = prepare(series, job);
   if (!prepared) return tl::unexpected(prepared.error());
+  const double least = kLeastTolerance * size_of(prepared->points);
+  if (job.tolerance && !(*job.tolerance >= least && *job.tolerance < HUGE_VAL)) {
+    return fail({ErrorCode::kBadOption,
+                 fmt::format("the tolerance must be at least {:.3g} (1e-12 of the size)", least),
+                 "", "", -1, *job.tolerance});
+  }
   double tolerance = job.tolerance.value_or(default_tolerance(prepared->points));
-  if (follows_spirals(job.carrier)) tolerance = share_tolerance(*prepared, tolerance);
+  if (follows_spirals(job.carrier)) tolerance = share_tolerance(*prepared, tolerance, least);
   auto formed = form_sections(*prepared, job, tolerance, progress);
   for (int k = 0; k < kNarrowings && formed && narrow(formed->contour, *prepared); ++k) {
     formed = form_sections(*prepared, job, tolerance, progress);
