@@ -7,6 +7,7 @@
 
 #include "homogeneous.h"
 #include "obvid/curve/clothoid.h"
+#include "obvid/numeric/internal/strict_arithmetic.h"
 
 namespace obvid {
 namespace {

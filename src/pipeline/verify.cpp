@@ -181,9 +181,9 @@ std::optional<Error> wrong_carrier(const Contour& contour) {
 
 Verification verify(const StoredContour& stored) {
   Verification out;
-  out.certificate = certify(stored.contour);
   out.not_checked = not_checked(stored);
   out.false_claim = wrong_carrier(stored.contour);
+  out.certificate = certify(stored.contour);
   // the figures of a report are not looked for on a contour whose numbers make no sense
   if (out.false_claim || out_of_range(stored.contour)) return out;
   ClaimCheck comparison(pipeline_detail::size_of(stored.contour.points));
