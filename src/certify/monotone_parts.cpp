@@ -13,7 +13,7 @@ constexpr int kMostHalvings = 10;
 
 /// Parts of one piece that are looked at: enough for the vertices of a septic, and an end to the
 /// work on pieces that doubles cannot decide anywhere.
-constexpr int kMostParts = 256;
+constexpr int kMostPartsOfPiece = 256;
 
 /// Seen from its own start, so that only the digits of its shape are rounded.
 RationalBezier seen_from_start(RationalBezier piece) {
@@ -41,7 +41,7 @@ void halve(const RationalBezier& part, int halvings, int& parts_left,
 
 std::vector<MonotonePart> monotone_parts(const RationalBezier& piece) {
   std::vector<MonotonePart> parts;
-  int parts_left = kMostParts;
+  int parts_left = kMostPartsOfPiece;
   halve(seen_from_start(piece), kMostHalvings, parts_left, parts);
   return parts;
 }

@@ -38,7 +38,7 @@ RationalBezier polynomial(int degree) {
   return piece;
 }
 
-RationalBezier conic(double middle) {
+RationalBezier conic_with(double middle) {
   return {{}, 2, {Vec2{0, 0}, {0.5, 0}, {1, 1}}, {1.0, middle, 1.0}};
 }
 
@@ -56,9 +56,9 @@ TEST(CarrierPieces, EachCarrierHasItsOwnKindsOnly) {
       {"arc", arc_from({0, 0}, 0.0, 0.5, 1.0)},
       {"clothoid", ClothoidPiece{{0, 0}, {1, 0}, 0.0, 0.0, 0.1, 1.0}},
       {"spiral", spiral(kSpirals[1])},
-      {"ellipse", conic(0.9)},
-      {"parabola", conic(1.0)},
-      {"hyperbola", conic(1.1)},
+      {"ellipse", conic_with(0.9)},
+      {"parabola", conic_with(1.0)},
+      {"hyperbola", conic_with(1.1)},
       {"cubic", polynomial(3)},
       {"quartic", polynomial(4)},
       {"quintic", polynomial(5)}};
@@ -82,10 +82,10 @@ TEST(CarrierPieces, EachCarrierHasItsOwnKindsOnly) {
 }
 
 TEST(CarrierPieces, EllipsesEndExactlyWhereParabolasBegin) {
-  EXPECT_TRUE(belongs(Carrier::kConics, conic(std::nextafter(1.0, 0.0))));
-  EXPECT_FALSE(belongs(Carrier::kConics, conic(1.0)));
-  EXPECT_FALSE(belongs(Carrier::kConics, conic(std::nextafter(1.0, 2.0))));
-  EXPECT_FALSE(belongs(Carrier::kBeziers, conic(std::nextafter(1.0, 2.0))));
+  EXPECT_TRUE(belongs(Carrier::kConics, conic_with(std::nextafter(1.0, 0.0))));
+  EXPECT_FALSE(belongs(Carrier::kConics, conic_with(1.0)));
+  EXPECT_FALSE(belongs(Carrier::kConics, conic_with(std::nextafter(1.0, 2.0))));
+  EXPECT_FALSE(belongs(Carrier::kBeziers, conic_with(std::nextafter(1.0, 2.0))));
 }
 
 TEST(CarrierPieces, SpiralsHaveTheClosedFormWholeOrInParts) {

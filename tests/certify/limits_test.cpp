@@ -18,7 +18,7 @@ using testing_data::arc_from;
 using testing_data::contour_of;
 using testing_data::kSpirals;
 
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
+constexpr double kUnbounded = std::numeric_limits<double>::infinity();
 
 RationalBezier quartic() {
   RationalBezier piece;
@@ -71,7 +71,7 @@ TEST(Limits, HoldUsualContoursOfAllSizes) {
 }
 
 TEST(Limits, RefuseEveryNumberOfAPieceThatIsNoneOrTooLarge) {
-  for (const double value : {kInfinity, -kInfinity, std::nan(""), 1e130}) {
+  for (const double value : {kUnbounded, -kUnbounded, std::nan(""), 1e130}) {
     const std::string why = std::to_string(value);
     const auto bezier = [&](const std::function<void(RationalBezier&)>& change) {
       Contour bad = two_halves();
@@ -105,7 +105,7 @@ TEST(Limits, RefuseEveryNumberOfAPieceThatIsNoneOrTooLarge) {
     };
     element([&](Joint& j) { j.element.theta = value; });
     element([&](Joint& j) { j.element.point.x = value; });
-    if (!(std::abs(value) < kInfinity)) element([&](Joint& j) { j.element.kappa = value; });
+    if (!(std::abs(value) < kUnbounded)) element([&](Joint& j) { j.element.kappa = value; });
     Contour bad = two_arcs();
     bad.points[0].y = value;
     expect_out(bad, "points", why);

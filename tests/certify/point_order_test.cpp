@@ -17,13 +17,13 @@ using testing_data::contour_of;
 
 constexpr double kPi = std::numbers::pi;
 
-Vec2 on_circle(double angle, double radius) { return Vec2{3, -2} + radius * unit_at(angle); }
+Vec2 on_ring(double angle, double radius) { return Vec2{3, -2} + radius * unit_at(angle); }
 
 /// Circle of radius 5 from angle 0 in arcs of half a radian; no joint stands on a point.
 Contour circle(int arcs, std::vector<Vec2> points, double tolerance) {
   std::vector<Piece> pieces;
   for (int k = 0; k < arcs; ++k) {
-    pieces.emplace_back(arc_from(on_circle(0.5 * k, 5.0), 0.5 * k + kPi / 2, 0.2, 2.5));
+    pieces.emplace_back(arc_from(on_ring(0.5 * k, 5.0), 0.5 * k + kPi / 2, 0.2, 2.5));
   }
   Contour contour = contour_of(std::move(pieces), {{0, static_cast<std::size_t>(arcs) - 1, 0}});
   contour.carrier = Carrier::kArcs;
@@ -35,7 +35,7 @@ Contour circle(int arcs, std::vector<Vec2> points, double tolerance) {
 
 std::vector<Vec2> points_at(const std::vector<double>& angles) {
   std::vector<Vec2> points;
-  for (const double a : angles) points.push_back(on_circle(a, 5.0));
+  for (const double a : angles) points.push_back(on_ring(a, 5.0));
   return points;
 }
 
@@ -76,7 +76,7 @@ TEST(PointOrder, MeasuredPointsWhoseNoiseIsLargerThanTheirSpacingAreMet) {
   std::vector<Vec2> points;
   for (int k = 0; k < 2000; ++k) {
     const Vec2 off{noise(random), noise(random)};
-    points.push_back(on_circle(0.001 + 0.00149 * k, 5.0) + (kNoise / std::sqrt(2.0)) * off);
+    points.push_back(on_ring(0.001 + 0.00149 * k, 5.0) + (kNoise / std::sqrt(2.0)) * off);
   }
   const Certificate certificate = certify(circle(6, points, kNoise));
   EXPECT_TRUE(certificate.through_points) << certificate.reason;
@@ -88,7 +88,7 @@ Contour closed_circle(std::vector<Vec2> points, double tolerance) {
   std::vector<Piece> pieces;
   for (int k = 0; k < kArcs; ++k) {
     const double a = 2.0 * kPi * k / kArcs;
-    pieces.emplace_back(arc_from(on_circle(a, 5.0), a + kPi / 2, 0.2, 10.0 * kPi / kArcs));
+    pieces.emplace_back(arc_from(on_ring(a, 5.0), a + kPi / 2, 0.2, 10.0 * kPi / kArcs));
   }
   Contour contour = testing_data::closed_contour(std::move(pieces), {{0, kArcs - 1, 0}});
   contour.carrier = Carrier::kArcs;
@@ -126,7 +126,7 @@ TEST(PointOrder, AContourWithoutPointsPassesNone) {
   EXPECT_FALSE(certificate.through_points);
   EXPECT_FALSE(certificate.proved);
   EXPECT_NE(certificate.reason.find("does not name the points"), std::string::npos);
-  contour.points.assign(5, on_circle(1.0, 5.0));
+  contour.points.assign(5, on_ring(1.0, 5.0));
   contour.point_tolerance.assign(5, 0.01);
   certificate = certify(contour);
   EXPECT_FALSE(certificate.through_points) << "the same point five times";
