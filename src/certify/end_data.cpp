@@ -17,7 +17,7 @@ namespace {
 constexpr double kStoredRoundings = 4.0;
 constexpr double kStored = kStoredRoundings * kUnitRoundoff;
 
-// Roundings of the evaluation below, in units of 2^-53 (docs/methods/certify.md, section 4). Sines
+// Roundings of the evaluation below, in units of 2^-53 (docs/methods/certify.md, section 5). Sines
 // and cosines are taken to be right to one ulp, which is two of these units.
 constexpr double kOfDifference = 1.0;  // rad, of a direction: one rounding in each component
 constexpr double kOfUnit = 3.0;        // rad, of a direction from sine and cosine

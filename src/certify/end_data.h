@@ -5,7 +5,7 @@
 
 namespace obvid {
 
-/// Where a piece begins or ends (docs/methods/certify.md, section 4). Every figure comes with two
+/// Where a piece begins or ends (docs/methods/certify.md, section 5). Every figure comes with two
 /// bounds. Error: how far the figure may be from that of the piece exactly as its numbers stand.
 /// Rounding: how far the rounding of the stored numbers alone can have moved it.
 struct EndData {

@@ -21,7 +21,7 @@ struct OutOfRange {
 
 /// The first number outside of what `fit` accepts and forms, within which no step of the proof
 /// leaves the range of doubles. Coordinates: as large as a contour within the limits of its size
-/// can have. Lengths, weights and turnings: docs/methods/certify.md, section 2. Headings: four
+/// can have. Lengths, weights and turnings: docs/methods/certify.md, section 4. Headings: four
 /// turns more than the pieces and corners can make. An origin: no farther from the contour than the
 /// contour is large. Nothing when all are within. Cost O(n).
 [[nodiscard]] std::optional<OutOfRange> out_of_range(const Contour& contour);
