@@ -12,7 +12,6 @@
 #include "obvid/curve/nurbs.h"
 #include "obvid/io/contour_json.h"
 #include "obvid/region/refine.h"
-#include "obvid/series/analysis.h"
 #include "text_lines.h"
 
 namespace obvid {
@@ -338,8 +337,8 @@ FitReport ContourReader::report(const Node& node) {
   }
   const Node tolerance = field(node, "tolerance");
   report.tolerance = number(tolerance);
-  if (!(report.tolerance >= kLeastTolerance * bounding_diagonal(stored_.contour.points))) {
-    refuse(tolerance, "a tolerance is at least 1e-12 of the size");
+  if (!(report.tolerance >= least_tolerance(stored_.contour.points))) {
+    refuse(tolerance, "the tolerance is below 1e-12 of the size or the rounding of coordinates");
   }
   report.largest_width = figure(node, "largest_width");
   report.largest_move = figure(node, "largest_move");

@@ -205,13 +205,15 @@ Result<Fit> fit(const PointSeries& series, const FitJob& job, const Progress& pr
   tell("analysing", 0.0);
   auto prepared = prepare(series, job);
   if (!prepared) return tl::unexpected(prepared.error());
-  const double least = kLeastTolerance * size_of(prepared->points);
+  const double least = least_tolerance(prepared->points);
   if (job.tolerance && !(*job.tolerance >= least && *job.tolerance < HUGE_VAL)) {
     return fail({ErrorCode::kBadOption,
-                 fmt::format("the tolerance must be at least {:.3g} (1e-12 of the size)", least),
+                 fmt::format("the tolerance must be at least {:.3g} (1e-12 of the size, or the "
+                             "rounding of coordinates)",
+                             least),
                  "", "", -1, *job.tolerance});
   }
-  double tolerance = job.tolerance.value_or(default_tolerance(prepared->points));
+  double tolerance = job.tolerance.value_or(std::max(least, default_tolerance(prepared->points)));
   if (follows_spirals(job.carrier)) tolerance = share_tolerance(*prepared, tolerance, least);
   auto formed = form_sections(*prepared, job, tolerance, progress);
   for (int k = 0; k < kNarrowings && formed && narrow(formed->contour, *prepared); ++k) {

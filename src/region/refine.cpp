@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "obvid/series/analysis.h"
+
 namespace obvid {
 namespace {
 
@@ -61,6 +63,14 @@ double deviation_from(const SegmentRegion& r, const Piece& piece, const Sample& 
 }
 
 }  // namespace
+
+double least_tolerance(const std::vector<Vec2>& points) {
+  constexpr double kOfSize = 1e-12;
+  constexpr double kOfCoordinates = 8.0 * 0x1p-53;
+  double largest = 0.0;
+  for (const Vec2 p : points) largest = std::max({largest, std::abs(p.x), std::abs(p.y)});
+  return std::max(kOfSize * bounding_diagonal(points), kOfCoordinates * largest);
+}
 
 Element element_at(const Piece& piece, double t) {
   const Sample s = sample(piece, t);

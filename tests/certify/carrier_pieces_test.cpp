@@ -17,15 +17,8 @@ namespace {
 
 using testing_data::arc_from;
 using testing_data::kSpirals;
+using testing_data::spiral;
 using testing_data::SpiralRow;
-
-RationalBezier spiral(const SpiralRow& row) {
-  RationalBezier piece;
-  piece.degree = 4;
-  std::copy(row.points.begin(), row.points.end(), piece.offset.begin());
-  std::copy(row.weights.begin(), row.weights.end(), piece.weight.begin());
-  return piece;
-}
 
 RationalBezier polynomial(int degree) {
   RationalBezier piece;

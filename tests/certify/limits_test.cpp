@@ -20,13 +20,7 @@ using testing_data::kSpirals;
 
 constexpr double kUnbounded = std::numeric_limits<double>::infinity();
 
-RationalBezier quartic() {
-  RationalBezier piece;
-  piece.degree = 4;
-  std::copy(kSpirals[1].points.begin(), kSpirals[1].points.end(), piece.offset.begin());
-  std::copy(kSpirals[1].weights.begin(), kSpirals[1].weights.end(), piece.weight.begin());
-  return piece;
-}
+RationalBezier quartic() { return testing_data::spiral(kSpirals[1]); }
 
 Contour two_halves() {
   const auto [a, b] = split(quartic(), 0.5);
