@@ -21,10 +21,14 @@ if(OBVID_MOLD)
 endif()
 
 add_library(obvid_flags INTERFACE)
-target_compile_options(obvid_flags INTERFACE
-  -Wall -Wextra -Wpedantic -Wconversion -Wshadow
-  # The same input must give the same bytes in every build: no fused multiply-add.
-  -ffp-contract=off)
+# The same input must give the same bytes in every build, and proofs count every rounding: no fused
+# multiply-add. (strict_arithmetic.h says so to compilers that know a pragma for it.)
+if(MSVC)
+  target_compile_options(obvid_flags INTERFACE /W4 /fp:precise)
+else()
+  target_compile_options(obvid_flags INTERFACE
+    -Wall -Wextra -Wpedantic -Wconversion -Wshadow -ffp-contract=off)
+endif()
 if(OBVID_WERROR)
   target_compile_options(obvid_flags INTERFACE -Werror)
 endif()

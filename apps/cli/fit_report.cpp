@@ -199,18 +199,36 @@ bool keeps_promise(Carrier carrier, const Certificate& certificate) {
   return certificate.gaps_within_bounds && certificate.through_points;
 }
 
+namespace {
+
+/// Gaps above are named: what the bounds of certificates call continuous is a number.
+constexpr double kNamedGap = 1e-9;
+
+/// "G2 joints", with the largest gaps where these are worth a word.
+std::string joints_text(Carrier carrier, const JointGaps& gaps) {
+  const bool arcs = carrier == Carrier::kArcs;
+  std::string text = arcs ? "G1 joints" : "G2 joints";
+  const double curvature = arcs ? 0.0 : gaps.curvature;
+  if (gaps.heading <= kNamedGap && curvature <= kNamedGap) return text;
+  text += fmt::format(" within {} rad of heading", significant(gaps.heading, 2));
+  if (!arcs) text += fmt::format(" and {} of curvature", significant(gaps.curvature, 2));
+  return text;
+}
+
+}  // namespace
+
 std::string verdict_line(Carrier carrier, const Certificate& certificate) {
+  const std::string joints = joints_text(carrier, certificate.gaps);
   if (!certificate.proved) {
     const std::string& reason = certificate.reason;
     if (keeps_promise(carrier, certificate)) {
-      return fmt::format("NOT monotone, as carrier {} does not promise: {}", to_string(carrier),
-                         reason);
+      return fmt::format("NOT monotone, as carrier {} does not promise ({}): {}",
+                         to_string(carrier), joints, reason);
     }
     return fmt::format("NOT proved: {}", reason.empty() ? "no reason recorded" : reason);
   }
-  return carrier == Carrier::kArcs
-             ? "proved: monotone radii on every run, G1 joints, inside the region"
-             : "proved: monotone curvature on every run, G2 joints, inside the region";
+  return fmt::format("proved: monotone {} on every run, {}, inside the region",
+                     carrier == Carrier::kArcs ? "radii" : "curvature", joints);
 }
 
 std::string fit_report_text(const std::string& name, const Fit& fit, const Written& written) {

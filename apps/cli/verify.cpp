@@ -102,8 +102,9 @@ bool as_promised(const StoredContour& stored, const Verification& found) {
 std::string verification_text(const StoredContour& stored, const Verification& found) {
   Facts facts;
   add_claims(facts, stored, found.certificate);
+  facts.add("not checked", listed(found.not_checked));
   const bool holds = as_promised(stored, found);
-  const std::string verdict = found.false_claim && found.certificate.proved
+  const std::string verdict = found.false_claim
                                   ? "NOT as claimed: " + found.false_claim->what
                                   : verdict_line(stored.contour.carrier, found.certificate);
   return piece_table(stored.contour, found.certificate) + "\n" + facts.text() +
@@ -126,7 +127,9 @@ std::string verification_json(const StoredContour& stored, const Verification& f
   } else {
     json.null();
   }
-  json.key("certificate").raw(top_level_value(text, "certificate")).end_object();
+  json.key("not_checked").begin_array();
+  for (const std::string& field : found.not_checked) json.value(field);
+  json.end_array().key("certificate").raw(top_level_value(text, "certificate")).end_object();
   return json.take();
 }
 

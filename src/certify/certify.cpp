@@ -9,7 +9,10 @@
 #include "crossings.h"
 #include "joints.h"
 #include "monotone_parts.h"
+#include "obvid/certify/limits.h"
+#include "obvid/numeric/internal/strict_arithmetic.h"
 #include "piece_facts.h"
+#include "point_places.h"
 
 namespace obvid {
 namespace {
@@ -43,8 +46,9 @@ class Notary {
   explicit Notary(const Contour& contour) : contour_(contour) {}
 
   Certificate run() {
-    if (contour_.pieces.empty()) {
-      certificate_.reason = "the contour has no pieces";
+    if (std::string reason = unfit(); !reason.empty()) {
+      certificate_.pieces.resize(contour_.pieces.size());  // undecided, all of them
+      certificate_.reason = std::move(reason);
       return std::move(certificate_);
     }
     examine_pieces();
@@ -61,6 +65,19 @@ class Notary {
   }
 
  private:
+  /// Why nothing can be proved of this contour here and now.
+  [[nodiscard]] std::string unfit() const {
+    if (const char* fault = fault_of_arithmetic()) {
+      return std::string("no proof is possible: ") + fault;
+    }
+    if (contour_.pieces.empty()) return "the contour has no pieces";
+    const auto number = out_of_range(contour_);
+    if (!number) return {};
+    return number->list.empty()
+               ? number->what
+               : fmt::format("{} ({} {})", number->what, number->list, number->index);
+  }
+
   void fail(std::string reason) {
     if (certificate_.reason.empty()) certificate_.reason = std::move(reason);
   }
@@ -114,31 +131,27 @@ class Notary {
     if (!joints_.within_bounds) fail(joints_.reason);
   }
 
-  /// Points with tolerances: the contour passes each of them near enough.
+  /// Points with tolerances: the contour passes each of them near enough, one after the other.
   [[nodiscard]] std::string too_far() {
     if (contour_.point_tolerance.empty()) return {};
     if (contour_.point_tolerance.size() != contour_.points.size()) {
       return "there is not one tolerance for every point";
     }
-    // what the coordinates of point and contour do not tell
-    constexpr double kRoundings = 32.0 * 0x1p-53;
-    const std::vector<double> distance = point_distances(contour_);
+    const std::vector<Nearest> places = nearest_places(contour_);
     std::string reason;
-    for (std::size_t i = 0; i < distance.size(); ++i) {
-      certificate_.largest_move = std::max(certificate_.largest_move, distance[i]);
-      const Vec2 p = contour_.points[i];
-      const double allowed =
-          contour_.point_tolerance[i] + kRoundings * (std::abs(p.x) + std::abs(p.y));
-      if (distance[i] <= allowed || !reason.empty()) continue;
+    for (std::size_t i = 0; i < places.size(); ++i) {
+      const double distance = places[i].distance;
+      certificate_.largest_move = std::max(certificate_.largest_move, distance);
+      if (distance <= allowed_distance(contour_, i) || !reason.empty()) continue;
       reason = fmt::format("the contour passes point {} at {:.9g}, its tolerance is {:.9g}", i,
-                           distance[i], contour_.point_tolerance[i]);
+                           distance, contour_.point_tolerance[i]);
     }
-    return reason;
+    return reason.empty() ? out_of_order(contour_, places) : reason;
   }
 
   void check_points() {
     std::string missed = missed_point(contour_);
-    if (missed.empty()) missed = too_far();
+    if (std::string far = too_far(); missed.empty()) missed = std::move(far);
     certificate_.through_points = missed.empty() && joints_.within_bounds;
     if (!missed.empty()) fail(missed);
   }

@@ -5,13 +5,14 @@
 #include <cmath>
 #include <cstddef>
 
-#include "obvid/numeric/bernstein.h"
-#include "obvid/numeric/double_double.h"
+#include "double_double.h"
+#include "obvid/numeric/internal/bernstein.h"
 
 // The polynomials that decide how the curvature of a rational Bezier piece of degree N changes,
 // in scaled Bernstein form. Derivation and error bounds: docs/methods/certify.md.
 
 namespace obvid {
+namespace {  // see strict_arithmetic.h
 
 /// Control polygon as the proof needs it: differences of control points, and weights. The
 /// curvature does not see the position, so no coordinate enters but through a difference.
@@ -222,4 +223,5 @@ template <int N>
   return a;
 }
 
+}  // namespace
 }  // namespace obvid

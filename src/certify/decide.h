@@ -10,6 +10,7 @@
 #include "sign_search.h"
 
 namespace obvid {
+namespace {  // see strict_arithmetic.h
 
 /// Direction with small integer components: a product with it is exact enough in every arithmetic.
 struct LatticeDirection {
@@ -156,4 +157,5 @@ template <int N, class S>
                   speed == Speed::kForward);
 }
 
+}  // namespace
 }  // namespace obvid

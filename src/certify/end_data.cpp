@@ -4,8 +4,10 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 
-#include "obvid/numeric/double_double.h"
+#include "double_double.h"
+#include "scaled_piece.h"
 
 namespace obvid {
 namespace {
@@ -15,38 +17,74 @@ namespace {
 constexpr double kStoredRoundings = 4.0;
 constexpr double kStored = kStoredRoundings * kUnitRoundoff;
 
+// Roundings of the evaluation below, in units of 2^-53 (docs/methods/certify.md, section 5). Sines
+// and cosines are taken to be right to one ulp, which is two of these units.
+constexpr double kOfDifference = 1.0;  // rad, of a direction: one rounding in each component
+constexpr double kOfUnit = 3.0;        // rad, of a direction from sine and cosine
+constexpr double kOfCurvature = 20.0;  // of a Bezier end, relative
+constexpr double kOfChord = 12.0;      // of an arc's chord, relative to its length
+
 double largest_coordinate(Vec2 v) { return std::max(std::abs(v.x), std::abs(v.y)); }
 
-EndData line_end(const LinePiece& line, Vec2 point) {
-  const Vec2 d = line.end - line.start;
-  const double length = norm(d);
-  EndData end;
-  end.point = point;
-  end.direction = d / length;
-  end.point_rounding = kStored * largest_coordinate(point);
-  end.heading_rounding =
-      kStored * (1.0 + (largest_coordinate(line.start) + largest_coordinate(line.end)) / length);
-  return end;
+/// point + by, with what two doubles cannot say.
+void place(EndData& end, Vec2 point, Vec2 by) {
+  const DoubleDouble x = two_sum(point.x, by.x), y = two_sum(point.y, by.y);
+  end.point = {x.hi, y.hi};
+  end.rest = {x.lo, y.lo};
 }
 
-/// The arc's `end` must be where its heading, curvature and length lead: what the arc says at its
-/// end is taken from these, so the gap shows any contradiction.
-EndData arc_end(const ArcPiece& arc, double t) {
-  const double theta = arc.theta0 + arc.kappa * arc.length * t;
-  const double half = 0.5 * arc.kappa * arc.length;
+PieceEnds ends_of(const LinePiece& line) {
+  PieceEnds ends;
+  EndData& end = ends.start;
+  end.direction = line.end - line.start;
+  const double length = std::hypot(end.direction.x, end.direction.y);
+  end.heading_error = kOfDifference * kUnitRoundoff;
+  end.heading_rounding = kStored * (1.0 + (largest_coordinate(line.start) + largest_coordinate(line.end)) / length);
+  ends.end = end;
+  ends.start.point = line.start;
+  ends.end.point = line.end;
+  ends.start.point_rounding = kStored * largest_coordinate(line.start);
+  ends.end.point_rounding = kStored * largest_coordinate(line.end);
+  return ends;
+}
+
+/// What arcs and clothoids have in common: a heading `theta0` that turns by `turn` to the end, and
+/// a stored end beside the one where the other numbers lead. What a piece says at its end is taken
+/// from these, so the gap shows any contradiction. `chord_error`: in units of 2^-53 of the length.
+template <class Curve>
+PieceEnds ends_of_turning(const Curve& curve, double turn, Vec2 chord, double chord_error) {
+  PieceEnds ends;
+  const double theta1 = curve.theta0 + turn;
+  // a short piece far from the origin: its points cannot say its heading better than this
+  const Vec2 across = curve.end - curve.start;
+  const double coordinates = largest_coordinate(curve.start) + largest_coordinate(curve.end);
+  const double lever = coordinates / std::hypot(across.x, across.y);
+  for (EndData* end : {&ends.start, &ends.end}) {
+    end->heading_rounding = kStored * (1.0 + std::abs(curve.theta0) + std::abs(theta1) + lever);
+    end->point_rounding = kStored * coordinates + end->heading_rounding * curve.length;
+    end->heading_error = kOfUnit * kUnitRoundoff;
+  }
+  ends.start.point = curve.start;
+  ends.start.direction = unit_at(curve.theta0);
+  place(ends.end, curve.start, chord);
+  ends.end.direction = unit_at(theta1);
+  constexpr double kOfTurn = 3.0;  // three operations at the most
+  ends.end.heading_error += kUnitRoundoff * (kOfTurn * std::abs(turn) + std::abs(theta1));
+  ends.end.point_error = kUnitRoundoff * chord_error * curve.length;
+  return ends;
+}
+
+PieceEnds ends_of(const ArcPiece& arc) {
+  const double turn = arc.kappa * arc.length, half = 0.5 * turn;
   const double chord = std::abs(half) > kUnitRoundoff ? std::sin(half) / half : 1.0;
-  EndData end;
-  end.point = t == 0.0 ? arc.start : arc.start + arc.length * chord * unit_at(arc.theta0 + half);
-  end.direction = unit_at(theta);
-  end.kappa = arc.kappa;
-  // a short arc far from the origin: its points cannot say its heading better than this
-  const double lever =
-      (largest_coordinate(arc.start) + largest_coordinate(arc.end)) / norm(arc.end - arc.start);
-  end.heading_rounding = kStored * (1.0 + std::abs(arc.theta0) + std::abs(theta) + lever);
-  end.point_rounding = kStored * (largest_coordinate(arc.start) + largest_coordinate(arc.end)) +
-                       end.heading_rounding * arc.length;
-  end.kappa_rounding = kStored * std::abs(arc.kappa);
-  return end;
+  const double middle = arc.theta0 + half;
+  PieceEnds ends = ends_of_turning(arc, turn, arc.length * chord * unit_at(middle),
+                                   kOfChord + std::abs(turn) + std::abs(middle));
+  for (EndData* end : {&ends.start, &ends.end}) {
+    end->kappa = arc.kappa;
+    end->kappa_rounding = kStored * std::abs(arc.kappa);
+  }
+  return ends;
 }
 
 // Gauss-Legendre nodes and weights on [-1, 1], 8 points (Abramowitz and Stegun, table 25.4).
@@ -54,14 +92,20 @@ constexpr std::array<double, 4> kGaussNode = {0.1834346424956498, 0.525532409916
                                               0.7966664774136267, 0.9602898564975363};
 constexpr std::array<double, 4> kGaussWeight = {0.3626837833783620, 0.3137066458778873,
                                                 0.2223810344533745, 0.1012285362903763};
-constexpr double kPanelTurn = 1.0;    // rad: 8 points are exact to rounding up to here
-constexpr double kMostPanels = 64.0;  // ten full turns; a piece that is proved has less than half
+/// rad. With it the remainder of the quadrature, (8!)^4 / (17 (16!)^3) times the 16th derivative of
+/// exp(i theta) over the panel, is below 2e-16 of the panel, also where the curvature changes its
+/// sign.
+constexpr double kPanelTurn = 0.5;
+constexpr double kQuadrature = 2.0;    // that remainder, in units of 2^-53
+constexpr double kMostPanels = 128.0;  // ten full turns; a piece that is proved has less than one
+
+int panels_of(double most_turn) {
+  return 1 + static_cast<int>(std::min(kMostPanels, most_turn / kPanelTurn));
+}
 
 /// Where a clothoid leads, by quadrature: the proof does not use the formulas that built the piece.
-Vec2 clothoid_chord(const ClothoidPiece& piece) {
+Vec2 clothoid_chord(const ClothoidPiece& piece, int panels) {
   const double sharpness = (piece.kappa1 - piece.kappa0) / piece.length;
-  const double turn = std::max(std::abs(piece.kappa0), std::abs(piece.kappa1)) * piece.length;
-  const int panels = 1 + static_cast<int>(std::min(kMostPanels, turn / kPanelTurn));
   const double half = 0.5 * piece.length / panels;
   Vec2 chord;
   for (int panel = 0; panel < panels; ++panel) {
@@ -76,87 +120,90 @@ Vec2 clothoid_chord(const ClothoidPiece& piece) {
   return chord;
 }
 
-/// As for an arc, the stored `end` is compared with where the other numbers lead.
-EndData clothoid_end(const ClothoidPiece& piece, double t) {
-  const double turn = 0.5 * (piece.kappa0 + piece.kappa1) * piece.length;
-  const double theta = t == 0.0 ? piece.theta0 : piece.theta0 + turn;
-  EndData end;
-  end.point = t == 0.0 ? piece.start : piece.start + clothoid_chord(piece);
-  end.direction = unit_at(theta);
-  end.kappa = t == 0.0 ? piece.kappa0 : piece.kappa1;
-  const double lever = (largest_coordinate(piece.start) + largest_coordinate(piece.end)) /
-                       norm(piece.end - piece.start);
-  end.heading_rounding = kStored * (1.0 + std::abs(piece.theta0) + std::abs(theta) + lever);
-  end.point_rounding = kStored * (largest_coordinate(piece.start) + largest_coordinate(piece.end)) +
-                       end.heading_rounding * piece.length;
-  end.kappa_rounding = kStored * std::abs(end.kappa);
-  return end;
+PieceEnds ends_of(const ClothoidPiece& piece) {
+  const double most = std::max(std::abs(piece.kappa0), std::abs(piece.kappa1)) * piece.length;
+  const int panels = panels_of(most);
+  constexpr double kPerPanel = 8.0;  // sums of one panel
+  constexpr double kOfTheta = 6.0;   // of the turning part of an angle inside
+  const double chord_error =
+      kOfChord + kQuadrature + kPerPanel * panels + kOfTheta * most + std::abs(piece.theta0);
+  PieceEnds ends = ends_of_turning(piece, 0.5 * (piece.kappa0 + piece.kappa1) * piece.length,
+                                   clothoid_chord(piece, panels), chord_error);
+  constexpr double kOfTurn = 3.0;  // of |kappa0 + kappa1|, which may cancel
+  ends.end.heading_error += kUnitRoundoff * kOfTurn * most;
+  ends.start.kappa = piece.kappa0;
+  ends.end.kappa = piece.kappa1;
+  for (EndData* end : {&ends.start, &ends.end}) {
+    end->kappa_rounding = kStored * std::abs(end->kappa);
+  }
+  return ends;
 }
 
-/// First three control points seen from one end, with their weights.
-struct EndPolygon {
-  Vec2 point, leg1, leg2;  ///< legs from the end to the next two control points
-  double w0 = 1.0, w1 = 1.0, w2 = 1.0;
-  double coordinate = 0.0;  ///< largest stored offset
-  int degree = 0;
+/// Vector between two control points, without rounding.
+struct Leg {
+  DoubleDouble x, y;
 };
 
-/// kappa = (n-1)/n (w0 w2 / w1^2) cross(leg1, leg2) / |leg1|^3, and what rounding does to it.
-EndData bezier_end(const EndPolygon& p, double side) {
-  const double length = norm(p.leg1);
-  const double moved = kStored * p.coordinate / length;  // of a control point, against leg 1
+Leg leg_of(const RationalBezier& piece, std::size_t from, std::size_t to, double scale) {
+  const auto difference = [scale](double a, double b) {
+    const DoubleDouble d = two_sum(b, -a);
+    return DoubleDouble{scale * d.hi, scale * d.lo};
+  };
+  const Vec2 a = piece.offset[from], b = piece.offset[to];
+  return {difference(a.x, b.x), difference(a.y, b.y)};
+}
+
+/// kappa = (n-1)/n (w0 w2 / w1^2) cross(leg1, leg2) / |leg1|^3 from the three control points at one
+/// end, legs from that end on, seen at the size of the first leg: nothing leaves the range of
+/// doubles, whatever the size of the piece and its weights.
+EndData bezier_end(const RationalBezier& piece, bool at_start) {
+  const auto n = static_cast<std::size_t>(piece.degree);
+  const auto at = [&](std::size_t j) { return at_start ? j : n - j; };
+  const Vec2 first_leg = piece.offset[at(1)] - piece.offset[at(0)];
+  const auto scale = unit_scale(largest_coordinate(first_leg));
   EndData end;
-  end.point = p.point;
-  end.direction = (side / length) * p.leg1;
-  end.point_rounding = kStored * largest_coordinate(p.point);
+  place(end, piece.origin, piece.offset[at(0)]);
+  end.point_rounding = kStored * largest_coordinate(end.point);
+  end.heading_error = kOfDifference * kUnitRoundoff;
+  if (!scale) {
+    end.kappa = end.heading_error = std::numeric_limits<double>::quiet_NaN();
+    return end;
+  }
+  const Leg one = leg_of(piece, at(0), at(1), *scale);
+  const double side = at_start ? 1.0 : -1.0;
+  end.direction = {side * one.x.hi, side * one.y.hi};
+  const double length = norm(end.direction), cube = length * length * length;
+  double coordinate = std::max(largest_coordinate(piece.offset[at(0)]), largest_coordinate(piece.offset[at(1)]));
+  if (n >= 2) coordinate = std::max(coordinate, largest_coordinate(piece.offset[at(2)]));
+  const double moved = kStored * (*scale * coordinate) / length;  // of a control point, by leg 1
   end.heading_rounding = kStored + 2.0 * moved;
-  const double factor = (p.degree - 1.0) / p.degree * (p.w0 * p.w2 / (p.w1 * p.w1));
-  const Vec2 unit = p.leg1 / length;
-  end.kappa = side * factor * (cross(unit, p.leg2) / length) / length;
-  const double lever = 1.0 + norm(p.leg2) / length;  // turning leg 1 sweeps point 2 this far
+  if (n < 2) return end;
+  const Leg two = leg_of(piece, at(0), at(2), *scale);
+  const DoubleDouble left = one.x * two.y, right = one.y * two.x, area = left - right;
+  const double w1 = piece.weight[at(1)];
+  const double factor =
+      (piece.degree - 1.0) / piece.degree * (piece.weight[at(0)] / w1) * (piece.weight[at(2)] / w1);
+  constexpr double kOfArea = 3.0 * kDoubleDoubleRoundoff;  // two products and a difference
+  const double area_error = kOfArea * (std::abs(left.hi) + std::abs(right.hi));
+  const double per_area = *scale * (factor / cube);
+  end.kappa = side * per_area * area.hi;
+  end.kappa_error =
+      kOfCurvature * kUnitRoundoff * std::abs(end.kappa) + std::abs(per_area) * area_error;
+  const double reach =
+      1.0 + std::hypot(two.x.hi, two.y.hi) / length;  // turning leg 1 sweeps point 2
   end.kappa_rounding = std::abs(end.kappa) * 4.0 * (kStored + moved) +
-                       std::abs(factor) * 2.0 * lever * (moved + kStored) / length;
+                       *scale * std::abs(factor) * 2.0 * reach * (moved + kStored) / length;
   return end;
 }
 
-EndPolygon polygon_at(const RationalBezier& piece, bool at_start) {
-  const auto n = static_cast<std::size_t>(piece.degree);
-  const auto at = [&](std::size_t j) { return at_start ? j : n - j; };
-  EndPolygon p;
-  const Vec2 q = piece.offset[at(0)];
-  p.point = piece.origin + q;
-  p.leg1 = piece.offset[at(1)] - q;
-  p.leg2 = n >= 2 ? piece.offset[at(2)] - q : 2.0 * p.leg1;
-  p.w0 = piece.weight[at(0)];
-  p.w1 = piece.weight[at(1)];
-  p.w2 = n >= 2 ? piece.weight[at(2)] : 1.0;
-  for (std::size_t j = 0; j < 3 && j <= n; ++j) {
-    p.coordinate = std::max(p.coordinate, largest_coordinate(piece.offset[at(j)]));
-  }
-  p.degree = piece.degree;
-  return p;
+PieceEnds ends_of(const RationalBezier& piece) {
+  return {bezier_end(piece, true), bezier_end(piece, false)};
 }
 
 }  // namespace
 
-EndData start_data(const Piece& piece) {
-  if (const auto* bezier = std::get_if<RationalBezier>(&piece)) {
-    return bezier_end(polygon_at(*bezier, true), 1.0);
-  }
-  if (const auto* arc = std::get_if<ArcPiece>(&piece)) return arc_end(*arc, 0.0);
-  if (const auto* one = std::get_if<ClothoidPiece>(&piece)) return clothoid_end(*one, 0.0);
-  const auto& line = std::get<LinePiece>(piece);
-  return line_end(line, line.start);
-}
-
-EndData end_data(const Piece& piece) {
-  if (const auto* bezier = std::get_if<RationalBezier>(&piece)) {
-    return bezier_end(polygon_at(*bezier, false), -1.0);
-  }
-  if (const auto* arc = std::get_if<ArcPiece>(&piece)) return arc_end(*arc, 1.0);
-  if (const auto* one = std::get_if<ClothoidPiece>(&piece)) return clothoid_end(*one, 1.0);
-  const auto& line = std::get<LinePiece>(piece);
-  return line_end(line, line.end);
+PieceEnds ends_of(const Piece& piece) {
+  return std::visit([](const auto& kind) { return ends_of(kind); }, piece);
 }
 
 }  // namespace obvid

@@ -5,18 +5,27 @@
 
 namespace obvid {
 
-/// Where a piece ends: point, direction, curvature, and how far the rounding of its stored
-/// numbers alone can move each (docs/methods/certify.md).
+/// Where a piece begins or ends (docs/methods/certify.md, section 5). Every figure comes with two
+/// bounds. Error: how far the figure may be from that of the piece exactly as its numbers stand.
+/// Rounding: how far the rounding of the stored numbers alone can have moved it.
 struct EndData {
   Vec2 point;
-  Vec2 direction;  ///< unit
+  Vec2 rest;       ///< the exact end is point + rest, where `point_error` is 0
+  Vec2 direction;  ///< of any length
   double kappa = 0.0;
-  double point_rounding = 0.0;    ///< units
-  double heading_rounding = 0.0;  ///< rad
-  double kappa_rounding = 0.0;    ///< 1/unit
+  double point_error = 0.0;    ///< units
+  double heading_error = 0.0;  ///< rad
+  double kappa_error = 0.0;    ///< 1/unit
+  double point_rounding = 0.0;
+  double heading_rounding = 0.0;
+  double kappa_rounding = 0.0;
 };
 
-[[nodiscard]] EndData start_data(const Piece& piece);
-[[nodiscard]] EndData end_data(const Piece& piece);
+struct PieceEnds {
+  EndData start, end;
+};
+
+/// NaN where a piece has no direction.
+[[nodiscard]] PieceEnds ends_of(const Piece& piece);
 
 }  // namespace obvid

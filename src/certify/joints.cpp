@@ -7,40 +7,49 @@
 #include <cmath>
 #include <limits>
 
+#include "double_double.h"
 #include "end_data.h"
 
 namespace obvid {
 namespace {
 
-// Upper limits of what is called continuous, where rounding alone would not explain a gap. A
-// machine tool or a CAD kernel sees nothing below them.
-constexpr double kPositionBase = 1e-12;  // of the contour's size
-constexpr double kHeadingBase = 1e-9;    // rad
-constexpr double kCurvatureBase = 1e-9;  // of the larger curvature
+// What is called continuous (docs/claims.md).
+constexpr double kPositionBound = 1e-12;  // of the contour's size
+constexpr double kHeadingBound = 1e-6;    // rad
+constexpr double kCurvatureBound = 1e-6;  // of the curvature at the joint
 
-// What rounding may explain at the most: beyond these nobody would call a joint continuous, and the
-// coordinates must be given from a nearer origin.
-constexpr double kPositionCeiling = 1e-6;   // of the contour's size
-constexpr double kHeadingCeiling = 1e-4;    // rad
-constexpr double kCurvatureCeiling = 1e-2;  // of the larger curvature
+/// Coordinates far from the origin cannot say a position better than this, at the most; beyond,
+/// nobody would call a joint continuous.
+constexpr double kPositionCeiling = 1e-6;  // of the contour's size
+
+// How far an element may be outside of what lies between the two ends that meet at its joint.
+constexpr double kElementHeading = 1e-9;    // rad
+constexpr double kElementCurvature = 1e-9;  // of the curvature at the joint
 
 /// The bound of a gap: what is called continuous, or what rounding explains up to the ceiling.
 double allowed(double base, double rounding, double ceiling) {
   return std::max(base, std::min(rounding, ceiling));
 }
 
-/// Curvature that counts as flat, against the contour's largest one: where a contour inflects at a
-/// joint or runs into a line, "relative to the larger of the two" would divide rounding by zero.
+/// Of the largest curvature at the four ends of two neighbouring pieces: below, the joint is flat
+/// beside its pieces, and "of the larger of the two" would divide rounding by zero.
 constexpr double kFlat = 1e-6;
+
+/// Two arcs whose curvatures agree this far, of the larger, are one circle in rounded numbers.
+constexpr double kSameArc = 1e-9;
 
 /// Curvatures on both sides of a corner that agree this far are the same: nothing ties them to each
 /// other, and what iterations leave of two equal ones is no leap.
 constexpr double kSameAtCorner = 1e-7;
 
+// Roundings of the comparison of two ends, in units of 2^-53.
+constexpr double kOfTurning = 4.0;   // rad: of the product of two directions, and of its arctangent
+constexpr double kOfQuotient = 8.0;  // relative: of distances and differences over a size
+
 /// Beyond any contour that a proof makes sense for; also stands in for NaN.
 constexpr double kBroken = std::numeric_limits<double>::max();
 
-double known(double gap) { return std::isnan(gap) ? kBroken : gap; }
+double known(double gap) { return is_nan(gap) ? kBroken : gap; }
 
 double size_of_box(const Contour& contour) {
   double low_x = kBroken, low_y = kBroken, high_x = -kBroken, high_y = -kBroken;
@@ -58,49 +67,62 @@ double size_of_box(const Contour& contour) {
   return std::hypot(high_x - low_x, high_y - low_y);
 }
 
-double heading_gap(Vec2 a, Vec2 b) { return std::abs(turning(a, b)); }
+/// Rounded outward: at least what it would be without the roundings of its own evaluation.
+double outward(double figure) { return figure * (1.0 + kOfQuotient * kUnitRoundoff); }
+
+/// At least the angle between two directions that are known to `error`.
+double heading_gap(Vec2 a, Vec2 b, double error) {
+  return std::abs(turning(a, b)) + kOfTurning * kUnitRoundoff + error;
+}
+
+/// At least the distance between two exact ends.
+double distance(const EndData& a, const EndData& b) {
+  const Vec2 d = (a.point - b.point) + (a.rest - b.rest);
+  return outward(std::hypot(d.x, d.y)) + a.point_error + b.point_error;
+}
+
+bool is_arc_or_line(const Piece& piece) {
+  return std::holds_alternative<ArcPiece>(piece) || std::holds_alternative<LinePiece>(piece);
+}
+
+double largest_kappa(const PieceEnds& piece) {
+  return std::max(std::abs(piece.start.kappa), std::abs(piece.end.kappa));
+}
 
 /// Walks along the contour, comparing neighbours with each other and with the joint's element.
 class JointWalk {
  public:
   JointWalk(const Contour& contour, const MonotoneParts& parts)
-      : contour_(contour), parts_(parts), size_(size_of_box(contour)) {
-    for (const Piece& piece : contour.pieces) {
-      largest_kappa_ = std::max(
-          {largest_kappa_, std::abs(start_data(piece).kappa), std::abs(end_data(piece).kappa)});
-    }
-  }
+      : contour_(contour), parts_(parts), size_(size_of_box(contour)) {}
 
   JointSurvey run() {
     const std::size_t n = contour_.pieces.size();
     survey_.jump.assign(n, 0);
-    EndData before{};
+    PieceEnds first, before;
     for (std::size_t i = 0; i < n; ++i) {
-      const EndData start = start_data(contour_.pieces[i]);
-      const EndData end = end_data(contour_.pieces[i]);
-      if (i > 0) survey_.jump[i] = compare(i, before, start);
+      const PieceEnds here = ends_of(contour_.pieces[i]);
+      if (i == 0) first = here;
+      if (i > 0) survey_.jump[i] = compare(i, before, here);
       // the seam is compared when the contour comes round to it
       const bool seam = i == 0 && contour_.closed;
-      if (!seam && !compare_with_element(i, i > 0 ? &before : nullptr, &start)) break;
-      compare_stored_ends(i);
-      follow_sign(start);
+      if (!seam && !compare_with_element(i, i > 0 ? &before : nullptr, &here)) break;
+      compare_stored_ends(i, here.end);
+      follow_sign(here.start);
       follow_parts(i);
-      follow_sign(end);
-      before = end;
+      follow_sign(here.end);
+      before = here;
     }
-    finish(before);
+    if (n > 0) finish(before, first);
     return std::move(survey_);
   }
 
  private:
-  void finish(const EndData& last) {
-    if (contour_.pieces.empty()) return;
+  void finish(const PieceEnds& last, const PieceEnds& first) {
     const std::size_t n = contour_.pieces.size();
     if (!contour_.closed) {
       compare_with_element(n, &last, nullptr);
       return;
     }
-    const EndData first = start_data(contour_.pieces.front());
     survey_.jump[0] = compare(0, last, first);
     compare_with_element(0, &last, &first);
     if (first_sign_ != 0 && last_sign_ != first_sign_) ++survey_.inflections;
@@ -113,37 +135,61 @@ class JointWalk {
         fmt::format("{} at joint {} is {:.3g}, its bound {:.3g}", what, joint, gap, bound);
   }
 
-  void check_position(Vec2 a, Vec2 b, double rounding, std::size_t joint) {
-    const double gap = known(norm(a - b) / size_);
+  void check_position(double far, double rounding, std::size_t joint) {
+    const double gap = known(outward(far / size_));
     survey_.gaps.position = std::max(survey_.gaps.position, gap);
-    check(gap, allowed(kPositionBase, rounding / size_, kPositionCeiling), joint,
+    check(gap, allowed(kPositionBound, rounding / size_, kPositionCeiling), joint,
           "the position gap");
   }
 
-  double relative(double difference, double a, double b) const {
-    const double scale = std::max({std::abs(a), std::abs(b), kFlat * largest_kappa_});
-    return difference == 0.0 ? 0.0 : known(difference / scale);
+  /// A difference of curvatures against those that meet at a joint.
+  struct Scale {
+    double kappa = 0.0;
+    [[nodiscard]] double of(double difference) const {
+      return difference == 0.0 ? 0.0 : known(outward(difference / kappa));
+    }
+  };
+
+  /// `left` and `right` of a joint; null beyond the end of an open contour.
+  static Scale scale_at(const PieceEnds* left, const PieceEnds* right) {
+    double there = 0.0, beside = 0.0;
+    if (left != nullptr) {
+      there = std::abs(left->end.kappa);
+      beside = largest_kappa(*left);
+    }
+    if (right != nullptr) {
+      there = std::max(there, std::abs(right->start.kappa));
+      beside = std::max(beside, largest_kappa(*right));
+    }
+    return {std::max(there, kFlat * beside)};
+  }
+
+  /// Arcs promise a common tangent only; their jumps are judged as changes of curvature.
+  [[nodiscard]] bool may_jump(std::size_t joint) const {
+    const std::size_t n = contour_.pieces.size();
+    return contour_.carrier == Carrier::kArcs &&
+           is_arc_or_line(contour_.pieces[(joint + n - 1) % n]) &&
+           is_arc_or_line(contour_.pieces[joint]);
   }
 
   /// Two neighbouring pieces; returns the sign of the curvature's jump if it is one.
-  std::int8_t compare(std::size_t joint, const EndData& left, const EndData& right) {
-    check_position(left.point, right.point, left.point_rounding + right.point_rounding, joint);
+  std::int8_t compare(std::size_t joint, const PieceEnds& before, const PieceEnds& after) {
+    const EndData &left = before.end, &right = after.start;
+    check_position(distance(left, right), left.point_rounding + right.point_rounding, joint);
     if (is_corner(joint)) return jump_at_corner(left, right);
-    const double turn = known(heading_gap(left.direction, right.direction));
+    const double turn = known(
+        heading_gap(left.direction, right.direction, left.heading_error + right.heading_error));
     survey_.gaps.heading = std::max(survey_.gaps.heading, turn);
-    check(turn,
-          allowed(kHeadingBase, left.heading_rounding + right.heading_rounding, kHeadingCeiling),
-          joint, "the heading gap");
+    check(turn, kHeadingBound, joint, "the heading gap");
     const double jump = right.kappa - left.kappa;
-    const double gap = relative(std::abs(jump), left.kappa, right.kappa);
-    const double bound =
-        allowed(kCurvatureBase,
-                relative(left.kappa_rounding + right.kappa_rounding, left.kappa, right.kappa),
-                kCurvatureCeiling);
+    const double gap = scale_at(&before, &after)
+                           .of(outward(std::abs(jump)) + left.kappa_error + right.kappa_error);
     survey_.gaps.curvature = std::max(survey_.gaps.curvature, gap);
-    // Arcs promise a common tangent only; their jumps are judged as changes of curvature.
-    if (contour_.carrier != Carrier::kArcs) check(gap, bound, joint, "the curvature gap");
-    return static_cast<std::int8_t>(gap <= bound ? 0 : (jump > 0.0 ? 1 : -1));
+    const bool arcs = may_jump(joint);
+    if (!arcs) check(gap, kCurvatureBound, joint, "the curvature gap");
+    return static_cast<std::int8_t>(gap <= (arcs ? kSameArc : kCurvatureBound) ? 0
+                                    : jump > 0.0                               ? 1
+                                                                               : -1);
   }
 
   [[nodiscard]] bool is_corner(std::size_t joint) const {
@@ -155,77 +201,79 @@ class JointWalk {
   [[nodiscard]] std::int8_t jump_at_corner(const EndData& left, const EndData& right) {
     ++survey_.corners;
     const double jump = right.kappa - left.kappa;
+    const double larger = std::max(std::abs(left.kappa), std::abs(right.kappa));
     const double rounding = left.kappa_rounding + right.kappa_rounding;
-    const double same = kSameAtCorner * std::max(std::abs(left.kappa), std::abs(right.kappa));
-    const bool none = std::abs(jump) <= std::max(rounding, same);
+    const bool none =
+        std::abs(jump) <= allowed(kSameAtCorner * larger, rounding, kCurvatureBound * larger);
     return static_cast<std::int8_t>(none ? 0 : (jump > 0.0 ? 1 : -1));
   }
 
   /// The joint's own element against the ends that meet there. False where there is no element.
-  bool compare_with_element(std::size_t joint, const EndData* left, const EndData* right) {
+  bool compare_with_element(std::size_t joint, const PieceEnds* left, const PieceEnds* right) {
     if (joint >= contour_.joints.size()) {
       check(kBroken, 0.0, joint, "the number of joints");
       return false;
     }
-    if (is_corner(joint)) {
-      if (left == nullptr || right == nullptr) {
-        check(kBroken, 0.0, joint, "the side that is missing of the corner");
-        return true;
-      }
-      compare_end(joint, contour_.joints[joint].element, left, left);
-      compare_end(joint, *contour_.joints[joint].leaving, right, right);
-      return true;
+    const Joint& here = contour_.joints[joint];
+    if (!is_corner(joint)) {
+      compare_element(joint, here.element, left, right);
+    } else if (left == nullptr || right == nullptr) {
+      check(kBroken, 0.0, joint, "the side that is missing of the corner");
+    } else {
+      compare_element(joint, here.element, left, nullptr);
+      compare_element(joint, *here.leaving, nullptr, right);
     }
-    compare_end(joint, contour_.joints[joint].element, left, right);
     return true;
   }
 
-  void compare_end(std::size_t joint, const Element& element, const EndData* left,
-                   const EndData* right) {
-    const Vec2 direction = unit_at(element.theta);
-    // Reducing an unwrapped heading costs a rounding of its own size.
-    const double wrapped = kUnwrapped * std::abs(element.theta);
-    for (const EndData* end : {left, right}) {
+  void compare_element(std::size_t joint, const Element& element, const PieceEnds* left,
+                       const PieceEnds* right) {
+    const EndData* ends[] = {left != nullptr ? &left->end : nullptr,
+                             right != nullptr ? &right->start : nullptr};
+    EndData claimed;
+    claimed.point = element.point;
+    // what lies between both ends belongs to their joint; how far they are apart is judged there
+    const double apart = ends[0] != nullptr && ends[1] != nullptr
+                             ? heading_gap(ends[0]->direction, ends[1]->direction, 0.0)
+                             : 0.0;
+    for (const EndData* end : ends) {
       if (end == nullptr) continue;
-      check_position(end->point, element.point, end->point_rounding, joint);
-      check(known(heading_gap(direction, end->direction)),
-            allowed(kHeadingBase, end->heading_rounding + wrapped, kHeadingCeiling), joint,
+      check_position(distance(*end, claimed), end->point_rounding, joint);
+      check(known(heading_gap(unit_at(element.theta), end->direction, end->heading_error)),
+            apart + allowed(kElementHeading, end->heading_rounding, kHeadingBound), joint,
             "the difference of headings between element and piece");
     }
-    check_element_kappa(joint, element.kappa, left != nullptr ? left : right,
-                        right != nullptr ? right : left);
+    check_element_kappa(joint, element.kappa, scale_at(left, right),
+                        *(ends[0] != nullptr ? ends[0] : ends[1]),
+                        *(ends[1] != nullptr ? ends[1] : ends[0]));
   }
 
-  void check_element_kappa(std::size_t joint, double kappa, const EndData* left,
-                           const EndData* right) {
-    const double rounding = std::max(left->kappa_rounding, right->kappa_rounding);
-    double difference = std::max(std::abs(kappa - left->kappa), std::abs(kappa - right->kappa));
-    if (contour_.carrier == Carrier::kArcs) {
-      // Any curvature between both arcs belongs to their common point; an end has one arc only.
-      const double low = std::min(left->kappa, right->kappa);
-      const double high = std::max(left->kappa, right->kappa);
-      difference = std::isnan(kappa) ? kappa : std::max({0.0, low - kappa, kappa - high});
-    }
-    const double gap = relative(known(difference), left->kappa, right->kappa);
-    check(gap,
-          allowed(kCurvatureBase, relative(rounding, left->kappa, right->kappa), kCurvatureCeiling),
-          joint, "the difference of curvatures between element and piece");
+  void check_element_kappa(std::size_t joint, double kappa, const Scale& scale, const EndData& left,
+                           const EndData& right) {
+    const double rounding = std::max(left.kappa_rounding, right.kappa_rounding);
+    const double low = std::min(left.kappa, right.kappa);
+    const double high = std::max(left.kappa, right.kappa);
+    const double difference = is_nan(kappa) ? kappa : std::max({0.0, low - kappa, kappa - high});
+    check(scale.of(known(difference)),
+          allowed(kElementCurvature, scale.of(rounding), kCurvatureBound), joint,
+          "the difference of curvatures between element and piece");
   }
 
   /// The stored end of an arc or clothoid is a number of its own, beside the end it leads to.
-  void compare_stored_ends(std::size_t i) {
+  void compare_stored_ends(std::size_t i, const EndData& end) {
     const Piece& piece = contour_.pieces[i];
     if (!std::holds_alternative<ArcPiece>(piece) && !std::holds_alternative<ClothoidPiece>(piece)) {
       return;
     }
-    const EndData end = end_data(piece);
-    check_position(end.point, end_point(piece), end.point_rounding, i + 1);
+    EndData stored;
+    stored.point = end_point(piece);
+    check_position(distance(end, stored), end.point_rounding, i + 1);
   }
 
   void follow_parts(std::size_t i) {
     const auto parts = parts_.find(i);
     if (parts == parts_.end()) return;
-    for (const MonotonePart& part : parts->second) follow_sign(end_data(Piece{part.piece}));
+    for (const MonotonePart& part : parts->second) follow_sign(ends_of(Piece{part.piece}).end);
   }
 
   /// Curvature is monotone on each proved piece, so signs at the ends tell all its sign changes.
@@ -238,12 +286,9 @@ class JointWalk {
     last_sign_ = sign;
   }
 
-  static constexpr double kUnwrapped = 0x1p-52;
-
   const Contour& contour_;
   const MonotoneParts& parts_;
   double size_;
-  double largest_kappa_ = 0.0;
   int first_sign_ = 0;
   int last_sign_ = 0;
   JointSurvey survey_;
@@ -257,6 +302,15 @@ JointSurvey survey_joints(const Contour& contour, const MonotoneParts& parts) {
 
 std::string missed_point(const Contour& contour) {
   const std::size_t n = contour.points.size();
+  // one closed piece has one joint, all others two at least
+  if (n < std::min<std::size_t>(2, std::max<std::size_t>(1, contour.joints.size()))) {
+    return "the contour does not name the points that it passes";
+  }
+  for (std::size_t i = 1; i < n; ++i) {
+    if (contour.points[i] == contour.points[i - 1]) {
+      return fmt::format("point {} repeats the point before it", i);
+    }
+  }
   const bool exact = contour.point_tolerance.empty();
   std::size_t met = 0, first = 0, due = 0;  // due: counted from the first source on
   for (std::size_t j = 0; j < contour.joints.size(); ++j) {

@@ -25,9 +25,9 @@ struct JointSurvey {
 /// `parts`: for pieces with vertices the parts of them whose curvature is monotone.
 [[nodiscard]] JointSurvey survey_joints(const Contour& contour, const MonotoneParts& parts = {});
 
-/// Joints stand on their points in the order of the points, around the end of the list in a closed
-/// contour. Without tolerances every point is the source of one joint, which stands exactly on it.
-/// Empty when so, else the first that is not.
+/// There are points, no two neighbours the same; joints stand on them in their order, around the
+/// end of the list in a closed contour. Without tolerances every point is the source of one joint,
+/// which stands exactly on it. Empty when so, else the first that is not.
 [[nodiscard]] std::string missed_point(const Contour& contour);
 
 }  // namespace obvid

@@ -11,6 +11,10 @@ namespace {
 /// power.
 constexpr int kMostHalvings = 10;
 
+/// Parts of one piece that are looked at: enough for the vertices of a septic, and an end to the
+/// work on pieces that doubles cannot decide anywhere.
+constexpr int kMostPartsOfPiece = 256;
+
 /// Seen from its own start, so that only the digits of its shape are rounded.
 RationalBezier seen_from_start(RationalBezier piece) {
   const Vec2 start = piece.offset[0];
@@ -22,21 +26,23 @@ RationalBezier seen_from_start(RationalBezier piece) {
   return piece;
 }
 
-void halve(const RationalBezier& part, int halvings, std::vector<MonotonePart>& out) {
+void halve(const RationalBezier& part, int halvings, int& parts_left,
+           std::vector<MonotonePart>& out) {
   const PieceFacts facts = examine_in_doubles(part);
   // what doubles cannot decide (a vertex at an end, a flat piece) is halved too
-  if (halvings == 0 || facts.first_change * facts.last_change > 0) {
+  if (halvings == 0 || parts_left-- <= 0 || facts.first_change * facts.last_change > 0) {
     out.push_back({part, facts.first_change, facts.last_change});
     return;
   }
-  for (const RationalBezier& half : split(part, 0.5)) halve(half, halvings - 1, out);
+  for (const RationalBezier& half : split(part, 0.5)) halve(half, halvings - 1, parts_left, out);
 }
 
 }  // namespace
 
 std::vector<MonotonePart> monotone_parts(const RationalBezier& piece) {
   std::vector<MonotonePart> parts;
-  halve(seen_from_start(piece), kMostHalvings, parts);
+  int parts_left = kMostPartsOfPiece;
+  halve(seen_from_start(piece), kMostHalvings, parts_left, parts);
   return parts;
 }
 

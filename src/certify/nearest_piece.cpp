@@ -7,8 +7,8 @@
 #include <cmath>
 #include <limits>
 
+#include "double_double.h"
 #include "end_data.h"
-#include "obvid/numeric/double_double.h"
 
 namespace obvid {
 namespace {
@@ -57,7 +57,10 @@ double turned(double roundings, double length, double theta, double turn) {
 
 /// A piece's points beyond its middle are measured from its stored end, which may be this far from
 /// where its other numbers lead.
-double misclosure(const Piece& piece) { return norm(end_data(piece).point - end_point(piece)); }
+double misclosure(const Piece& piece) {
+  const EndData end = ends_of(piece).end;
+  return norm(end.point - end_point(piece)) + end.point_error;
+}
 
 Evaluation evaluation_of(const Piece& piece) {
   if (const auto* bezier = std::get_if<RationalBezier>(&piece)) return evaluation_of(*bezier);
@@ -90,9 +93,9 @@ struct Foot {
 /// Newton's method for the foot of the perpendicular between the neighbouring places; where it
 /// leaves what is left of them, which pieces of very uneven speed make it do, the middle instead.
 /// Every step is a point of the piece too.
-void refine(const Piece& piece, Vec2 p, Foot& foot) {
+void refine(const Piece& piece, Vec2 p, double from, Foot& foot) {
   double t = foot.t;
-  double low = std::max(0.0, t - 1.0 / kPlaces), high = std::min(1.0, t + 1.0 / kPlaces);
+  double low = std::max(from, t - 1.0 / kPlaces), high = std::min(1.0, t + 1.0 / kPlaces);
   for (int k = 0; k < kSteps; ++k) {
     const Jet jet = evaluate(piece, t);
     foot.offer(t, jet.point, p);
@@ -102,7 +105,7 @@ void refine(const Piece& piece, Vec2 p, Foot& foot) {
     const double bend = speed + dot(away, jet.d2);
     const double newton = t - slope / (bend > 0.0 ? bend : speed);
     const double next = newton >= low && newton <= high ? newton : 0.5 * (low + high);
-    if (next == t || std::isnan(newton)) return;
+    if (next == t || is_nan(newton)) return;
     t = next;
   }
 }
@@ -129,18 +132,27 @@ double distance_bound(Vec2 a, Vec2 b) {
   return a == b ? 0.0 : norm(a - b) + rounding_of_sums(a, b);
 }
 
-double distance_bound(const Piece& piece, Vec2 p) {
+double distance_at(const Piece& piece, double t, Vec2 p) {
+  const Evaluation evaluation = evaluation_of(piece);
+  const Vec2 there = evaluate(piece, t).point;
+  double bound = norm(there - p) + rounding_of_sums(there, p) + evaluation.rounding;
+  if (t > 0.5 && has_stored_end(piece)) bound += misclosure(piece);
+  const bool known = !evaluation.ends_only || t == 0.0 || t == 1.0;
+  return known && bound >= 0.0 ? bound : kInfinity;
+}
+
+Nearest nearest_on(const Piece& piece, Vec2 p, double from) {
   const Evaluation evaluation = evaluation_of(piece);
   Foot foot;
   const int step = evaluation.ends_only ? kPlaces : 1;
   for (int k = 0; k <= kPlaces; k += step) {
-    const double t = static_cast<double>(k) / kPlaces;
+    const double t = std::max(from, static_cast<double>(k) / kPlaces);
     foot.offer(t, evaluate(piece, t).point, p);
   }
-  if (!evaluation.ends_only) refine(piece, p, foot);
+  if (!evaluation.ends_only) refine(piece, p, from, foot);
   double bound = foot.distance + rounding_of_sums(foot.point, p) + evaluation.rounding;
   if (foot.t > 0.5 && has_stored_end(piece)) bound += misclosure(piece);
-  return bound >= 0.0 ? bound : kInfinity;
+  return {bound >= 0.0 ? bound : kInfinity, 0, foot.t};
 }
 
 PieceTree::PieceTree(const std::vector<Piece>& pieces)
@@ -152,7 +164,7 @@ PieceTree::PieceTree(const std::vector<Piece>& pieces)
   }
 }
 
-void PieceTree::improve(Vec2 p, std::size_t first, std::size_t last, double& best) {
+void PieceTree::improve(Vec2 p, std::size_t first, std::size_t last, Nearest& best) {
   work_left_ += kWorkPerQuery;  // what easy points leave is there for others
   visit({1, 0, leaves_}, {p, first, last, best});
 }
@@ -161,10 +173,12 @@ void PieceTree::improve(Vec2 p, std::size_t first, std::size_t last, double& bes
 void PieceTree::visit(const Node& node, const Query& query) {
   const bool outside = node.first > query.last || node.first + node.width <= query.first;
   if (outside || work_left_ == 0) return;
-  if (!(boxes_[node.id].distance(query.p) < query.best)) return;
+  if (!(boxes_[node.id].distance(query.p) < query.best.distance)) return;
   --work_left_;
   if (node.width == 1) {
-    query.best = std::min(query.best, distance_bound(pieces_[node.first], query.p));
+    Nearest here = nearest_on(pieces_[node.first], query.p);
+    here.piece = node.first;
+    if (here.distance < query.best.distance) query.best = here;
     return;
   }
   const std::size_t half = node.width / 2;

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <limits>
 #include <vector>
 
 #include "box.h"
@@ -9,11 +10,23 @@
 
 namespace obvid {
 
-/// Proved upper bound of a point's distance from a piece: the distance to some point of it, usually
-/// the nearest, with all roundings. Infinite for a piece without finite numbers.
-[[nodiscard]] double distance_bound(const Piece& piece, Vec2 p);
+/// A place of a contour with a proved upper bound of its distance from a point.
+struct Nearest {
+  double distance = std::numeric_limits<double>::infinity();
+  std::size_t piece = 0;
+  double t = 0.0;
+};
 
-/// The same for a point that is known to one rounding of its coordinates; 0 when both are the same.
+/// Proved upper bound of the distance of a point from the piece's point at `t`, with all roundings.
+/// Infinite for a piece without finite numbers, or whose inner points are not known well.
+[[nodiscard]] double distance_at(const Piece& piece, double t, Vec2 p);
+
+/// The same at some place between `from` and the end of the piece, usually the nearest. The number
+/// of the piece is left to the caller.
+[[nodiscard]] Nearest nearest_on(const Piece& piece, Vec2 p, double from = 0.0);
+
+/// The same between two points that are known to one rounding of their coordinates; 0 when both are
+/// the same.
 [[nodiscard]] double distance_bound(Vec2 a, Vec2 b);
 
 /// A tree of boxes over pieces in their order, to find the nearest ones.
@@ -21,8 +34,8 @@ class PieceTree {
  public:
   explicit PieceTree(const std::vector<Piece>& pieces);
 
-  /// Lowers `best` to the distance of `p` from the pieces first to last, where that is smaller.
-  void improve(Vec2 p, std::size_t first, std::size_t last, double& best);
+  /// Moves `best` to the pieces first to last, where those are nearer to `p`.
+  void improve(Vec2 p, std::size_t first, std::size_t last, Nearest& best);
 
  private:
   struct Node {
@@ -31,7 +44,7 @@ class PieceTree {
   struct Query {
     Vec2 p;
     std::size_t first, last;
-    double& best;
+    Nearest& best;
   };
 
   void visit(const Node& node, const Query& query);

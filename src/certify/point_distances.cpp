@@ -4,8 +4,8 @@
 #include <limits>
 #include <optional>
 
-#include "nearest_piece.h"
 #include "obvid/certify/certify.h"
+#include "point_places.h"
 
 namespace obvid {
 namespace {
@@ -15,12 +15,12 @@ class Distances {
  public:
   explicit Distances(const Contour& contour) : contour_(contour) {}
 
-  std::vector<double> run() {
+  std::vector<Nearest> run() {
     const std::size_t n = contour_.points.size();
-    std::vector<double> out(n, std::numeric_limits<double>::infinity());
+    std::vector<Nearest> out(n);
     if (contour_.pieces.empty()) return out;
     find_pieces();
-    for (std::size_t i = 0; i < n; ++i) out[i] = distance(i);
+    for (std::size_t i = 0; i < n; ++i) out[i] = nearest(i);
     return out;
   }
 
@@ -62,25 +62,25 @@ class Distances {
     }
   }
 
-  /// The bound that the joint on the point gives; infinite without one. Taken from the piece: only
-  /// its points are points of the contour, the joint's own element is a claim.
-  [[nodiscard]] double from_joint(std::size_t i) const {
+  /// What the joint on the point gives; infinite without one. Taken from the piece: only its points
+  /// are points of the contour, the joint's own element is a claim.
+  [[nodiscard]] Nearest at_joint(std::size_t i) const {
     const std::size_t joint = own_[i];
-    if (joint >= contour_.joints.size()) return std::numeric_limits<double>::infinity();
-    const Vec2 end = joint < contour_.pieces.size() ? start_point(contour_.pieces[joint])
-                                                    : end_point(contour_.pieces.back());
-    return distance_bound(end, contour_.points[i]);
+    if (joint >= contour_.joints.size()) return {};
+    const bool last = joint >= contour_.pieces.size();
+    const Vec2 end = last ? end_point(contour_.pieces.back()) : start_point(contour_.pieces[joint]);
+    return {distance_bound(end, contour_.points[i]), last ? joint - 1 : joint, last ? 1.0 : 0.0};
   }
 
-  double distance(std::size_t i) {
+  Nearest nearest(std::size_t i) {
     const bool tolerant = i < contour_.point_tolerance.size();
     const double wanted = tolerant ? contour_.point_tolerance[i] : 0.0;
-    double best = from_joint(i);
-    if (best <= wanted) return best;
+    Nearest best = at_joint(i);
+    if (best.distance <= wanted) return best;
     if (!tree_) tree_.emplace(contour_.pieces);
     const Vec2 p = contour_.points[i];
     tree_->improve(p, range_[i].first, range_[i].last, best);
-    if (!(best <= wanted)) tree_->improve(p, 0, contour_.pieces.size() - 1, best);
+    if (!(best.distance <= wanted)) tree_->improve(p, 0, contour_.pieces.size() - 1, best);
     return best;
   }
 
@@ -92,6 +92,13 @@ class Distances {
 
 }  // namespace
 
-std::vector<double> point_distances(const Contour& contour) { return Distances(contour).run(); }
+std::vector<Nearest> nearest_places(const Contour& contour) { return Distances(contour).run(); }
+
+std::vector<double> point_distances(const Contour& contour) {
+  std::vector<double> out;
+  out.reserve(contour.points.size());
+  for (const Nearest& place : nearest_places(contour)) out.push_back(place.distance);
+  return out;
+}
 
 }  // namespace obvid

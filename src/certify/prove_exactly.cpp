@@ -10,6 +10,7 @@
 #include "scaled_piece.h"
 
 namespace obvid {
+namespace {
 
 using Integer = boost::multiprecision::cpp_int;
 
@@ -18,8 +19,9 @@ using Integer = boost::multiprecision::cpp_int;
 template <>
 struct Arithmetic<Integer> {
   static constexpr double kRoundoff = 0.0;
-  static constexpr int kDepth = 64;  // beyond any end that rounding moved by an ulp; a double zero
-                                     // inside stays open
+  static constexpr int kDepth = 64;   // beyond any end that rounding moved by an ulp; a double zero
+                                      // inside stays open
+  static constexpr int kParts = 160;  // enough for two such ends
   static constexpr bool kExact = true;
   static int sign(const Integer& value, double) { return value.sign(); }
   static double magnitude(const Integer&) { return 0.0; }
@@ -36,8 +38,6 @@ struct Arithmetic<Integer> {
     return value * (multiple / static_cast<std::int64_t>(binomial(degree, j)));
   }
 };
-
-namespace {
 
 constexpr int kMantissaBits = 53;
 

@@ -37,17 +37,19 @@ PieceFacts straight(bool forward) {
   return facts;
 }
 
-bool finite(Vec2 v) { return std::isfinite(v.x) && std::isfinite(v.y); }
+bool has_finite_numbers(Vec2 v) { return is_finite(v.x) && is_finite(v.y); }
 
 PieceFacts examine_line(const LinePiece& line) {
-  return straight(finite(line.start) && finite(line.end) && !(line.start == line.end));
+  return straight(has_finite_numbers(line.start) && has_finite_numbers(line.end) &&
+                  !(line.start == line.end));
 }
 
 constexpr double kHalfTurn = 3.141592653589793;  // the double below pi
 
 PieceFacts examine_arc(const ArcPiece& arc) {
-  const bool valid = finite(arc.start) && finite(arc.end) && std::isfinite(arc.theta0) &&
-                     std::isfinite(arc.kappa) && std::isfinite(arc.length) && arc.length > 0.0;
+  const bool valid = has_finite_numbers(arc.start) && has_finite_numbers(arc.end) &&
+                     is_finite(arc.theta0) && is_finite(arc.kappa) && is_finite(arc.length) &&
+                     arc.length > 0.0;
   PieceFacts facts = straight(valid);
   facts.turns_below_pi = valid && std::abs(arc.kappa * arc.length) < kHalfTurn;
   return facts;
@@ -65,9 +67,9 @@ bool turns_below_pi(const ClothoidPiece& piece) {
 
 /// Curvature is linear along a clothoid: comparing its ends decides without any rounding.
 PieceFacts examine_clothoid(const ClothoidPiece& piece) {
-  const bool valid = finite(piece.start) && finite(piece.end) && std::isfinite(piece.theta0) &&
-                     std::isfinite(piece.kappa0) && std::isfinite(piece.kappa1) &&
-                     std::isfinite(piece.length) && piece.length > 0.0;
+  const bool valid = has_finite_numbers(piece.start) && has_finite_numbers(piece.end) &&
+                     is_finite(piece.theta0) && is_finite(piece.kappa0) &&
+                     is_finite(piece.kappa1) && is_finite(piece.length) && piece.length > 0.0;
   PieceFacts facts = straight(valid);
   if (!valid) return facts;
   facts.turns_below_pi = turns_below_pi(piece);
@@ -212,6 +214,7 @@ PieceFacts examine_bezier(const RationalBezier& piece) {
 }  // namespace
 
 PieceFacts examine_piece(const Piece& piece) {
+  if (fault_of_arithmetic() != nullptr) return {};
   if (const auto* bezier = std::get_if<RationalBezier>(&piece)) return examine_bezier(*bezier);
   if (const auto* arc = std::get_if<ArcPiece>(&piece)) return examine_arc(*arc);
   if (const auto* one = std::get_if<ClothoidPiece>(&piece)) return examine_clothoid(*one);

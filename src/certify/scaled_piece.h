@@ -13,6 +13,7 @@
 #include "obvid/curve/pieces.h"
 
 namespace obvid {
+namespace {  // see strict_arithmetic.h
 
 /// Calls f.template operator()<N>() for the degree of the piece, 2 to 7.
 template <class F>
@@ -62,7 +63,7 @@ inline constexpr double kLargestSize = 0x1p900;
   }
   const auto by_size = unit_scale(size);
   const auto by_weight = unit_scale(weight);
-  if (!std::isfinite(sum) || !by_size || !by_weight) return std::nullopt;
+  if (!is_finite(sum) || !by_size || !by_weight) return std::nullopt;
   RationalBezier result = piece;
   for (std::size_t j = 0; j <= n; ++j) {
     result.offset[j] = *by_size * piece.offset[j];
@@ -113,4 +114,5 @@ inline constexpr double kLattice = 1 << 20;  // resolution of test directions; a
           on_lattice(unit_or_zero(leg(piece, 0, 1)) + unit_or_zero(leg(piece, n - 1, n)))};
 }
 
+}  // namespace
 }  // namespace obvid

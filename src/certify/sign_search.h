@@ -5,10 +5,11 @@
 #include <cstddef>
 #include <vector>
 
-#include "obvid/numeric/bernstein.h"
-#include "obvid/numeric/double_double.h"
+#include "double_double.h"
+#include "obvid/numeric/internal/bernstein.h"
 
 namespace obvid {
+namespace {  // see strict_arithmetic.h
 
 /// What is proved about the sign of a polynomial on the open interval (0, 1).
 enum class SignVerdict { kPositive, kNegative, kZero, kBoth, kOpen };
@@ -27,7 +28,8 @@ struct Arithmetic;
 template <>
 struct Arithmetic<double> {
   static constexpr double kRoundoff = kUnitRoundoff;
-  static constexpr int kDepth = 16;  ///< halvings; what is closer is left to the next arithmetic
+  static constexpr int kDepth = 16;   ///< halvings; what is closer is left to the next arithmetic
+  static constexpr int kParts = 128;  ///< looked at in all: time has an end on any polynomial
   static constexpr bool kExact = false;
   static int sign(double value, double bound) {
     return value > bound ? 1 : (value < -bound ? -1 : 0);
@@ -41,6 +43,7 @@ template <>
 struct Arithmetic<DoubleDouble> {
   static constexpr double kRoundoff = kDoubleDoubleRoundoff;
   static constexpr int kDepth = 32;
+  static constexpr int kParts = 128;
   static constexpr bool kExact = false;
   static int sign(const DoubleDouble& value, double bound) {
     // |lo| <= u |hi|, so hi alone understates the size by less than 2 u.
@@ -103,10 +106,11 @@ class SignSearch {
       if (positive + negative > 0) note(positive > 0 ? 1 : -1, c, t0, t1);
       return;
     }
-    if (depth == 0 || positive + negative == 0) {
+    if (depth == 0 || positive + negative == 0 || parts_left_ == 0) {
       leave_open(t0, t1);
       return;
     }
+    --parts_left_;
     const auto [left, right] = halves(c);
     const double middle = 0.5 * (t0 + t1);
     visit(left, t0, middle, depth - 1);
@@ -162,6 +166,7 @@ class SignSearch {
   /// Covers the roundings of the bound's own evaluation (four, each 2^-53).
   static constexpr double kBoundRounding = 1.0 + 0x1p-48;
 
+  int parts_left_ = Arithmetic<S>::kParts;
   bool both_ = false;
   bool open_ = false;
   int seen_ = 0;
@@ -171,4 +176,5 @@ class SignSearch {
   double open1_ = 1.0;
 };
 
+}  // namespace
 }  // namespace obvid

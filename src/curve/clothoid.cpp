@@ -7,6 +7,7 @@
 #include <numbers>
 
 #include "clothoid_tail_table.h"
+#include "obvid/numeric/internal/strict_arithmetic.h"
 
 namespace obvid {
 namespace {

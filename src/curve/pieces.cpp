@@ -8,6 +8,7 @@
 
 #include "homogeneous.h"
 #include "obvid/curve/clothoid.h"
+#include "obvid/numeric/internal/strict_arithmetic.h"
 
 namespace obvid {
 namespace {

@@ -8,8 +8,10 @@
 
 #include "contour_json_names.h"
 #include "contour_json_values.h"
+#include "obvid/certify/limits.h"
 #include "obvid/curve/nurbs.h"
 #include "obvid/io/contour_json.h"
+#include "obvid/region/refine.h"
 #include "text_lines.h"
 
 namespace obvid {
@@ -36,6 +38,7 @@ class ContourReader : private JsonValues {
   Joint joint(const Node& node);
   void corner(const Node& node, Joint& joint);
   void check_ends(const Node& elements);
+  void check_range();
   Piece piece(const Node& node);
   ArcPiece arc(const Node& node);
   ClothoidPiece clothoid(const Node& node);
@@ -97,6 +100,7 @@ void ContourReader::read_contour(const Node& root) {
            std::to_string(joints) + " elements do not fit " + std::to_string(around) + " pieces");
   }
   check_ends(elements);
+  check_range();
   if (const auto node = optional_field(root, "bspline")) one_nurbs(*node);
   each(field(root, "runs"), [&](const Node& node) { contour.runs.push_back(run(node)); });
 }
@@ -152,6 +156,17 @@ void ContourReader::check_ends(const Node& elements) {
     if (!joints[i].leaving) continue;
     refuse({&(*elements.value)[i], &elements, {}, i}, "an open contour has no corner at its ends");
   }
+}
+
+/// What `fit` would not form is not proved either; said here, it has its place.
+void ContourReader::check_range() {
+  if (failed()) return;
+  const auto number = out_of_range(stored_.contour);
+  if (!number) return;
+  const json nothing;
+  const Node root{&nothing, nullptr, {}, 0}, list{&nothing, &root, number->list};
+  refuse(number->list.empty() ? root : Node{&nothing, &list, {}, number->index}, number->code,
+         number->what);
 }
 
 Piece ContourReader::piece(const Node& node) {
@@ -359,7 +374,11 @@ FitReport ContourReader::report(const Node& node) {
     refuse(segments, std::to_string(report.segments.size()) + " segments do not fit " +
                          std::to_string(stored_.contour.points.size()) + " points");
   }
-  report.tolerance = figure(node, "tolerance");
+  const Node tolerance = field(node, "tolerance");
+  report.tolerance = number(tolerance);
+  if (!(report.tolerance >= least_tolerance(stored_.contour.points))) {
+    refuse(tolerance, "the tolerance is below 1e-12 of the size or the rounding of coordinates");
+  }
   report.largest_width = figure(node, "largest_width");
   report.largest_deviation = optional_figure(node, "largest_deviation", kNoClaim);
   report.largest_move = figure(node, "largest_move");
@@ -450,6 +469,7 @@ Result<StoredContour> ContourReader::read(const json& document) {
     stored_.certificate = certificate(*node);
   }
   if (error_) return fail(std::move(*error_));
+  stored_.unread = unread_fields(document);
   return std::move(stored_);
 }
 

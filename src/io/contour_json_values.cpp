@@ -3,6 +3,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
+#include <iterator>
+#include <set>
 #include <utility>
 
 #include "text_lines.h"
@@ -67,12 +70,81 @@ std::string detail_of(string_view message) {
   return text::to_utf8(message.substr(0, kMaxDetail));
 }
 
+/// The text, told how far it was read.
+class Followed {
+ public:
+  using iterator_category = std::input_iterator_tag;
+  using value_type = char;
+  using difference_type = std::ptrdiff_t;
+  using pointer = const char*;
+  using reference = const char&;
+
+  Followed(const char* at, const char** reached) : at_(at), reached_(reached) {}
+  reference operator*() const { return *at_; }
+  Followed& operator++() {
+    *reached_ = ++at_;
+    return *this;
+  }
+  Followed operator++(int) {
+    Followed before = *this;
+    ++*this;
+    return before;
+  }
+  friend bool operator==(const Followed& a, const Followed& b) { return a.at_ == b.at_; }
+  friend bool operator!=(const Followed& a, const Followed& b) { return a.at_ != b.at_; }
+
+ private:
+  const char* at_;
+  const char** reached_;
+};
+
+/// Notes the first field that its object names twice: the parser would keep the last one.
+class RepeatedField {
+ public:
+  explicit RepeatedField(const char* const* reached) : reached_(reached) {}
+
+  bool operator()(int, json::parse_event_t event, json& parsed) {
+    if (event == json::parse_event_t::object_start) {
+      if (++depth_ > open_.size()) open_.emplace_back();
+    } else if (event == json::parse_event_t::object_end) {
+      open_[--depth_].clear();
+    } else if (event == json::parse_event_t::key && at_ == nullptr) {
+      const auto& name = parsed.get_ref<const std::string&>();
+      if (open_[depth_ - 1].insert(name).second) return true;
+      name_ = name;
+      at_ = *reached_;
+    }
+    return true;
+  }
+
+  [[nodiscard]] bool found() const { return at_ != nullptr; }
+  [[nodiscard]] const std::string& name() const { return name_; }
+  /// Behind its closing quote.
+  [[nodiscard]] const char* at() const { return at_; }
+
+ private:
+  const char* const* reached_;
+  std::vector<std::set<std::string>> open_;  ///< names in the objects that are not complete
+  std::size_t depth_ = 0;
+  std::string name_;
+  const char* at_ = nullptr;
+};
+
 }  // namespace
 
 Result<nlohmann::json> parse_json(string_view text, string_view name) {
   if (auto depth = check_depth(text, name); !depth) return fail(std::move(depth.error()));
   try {
-    return json::parse(text.begin(), text.end());
+    const char* reached = text.data();
+    RepeatedField repeated(&reached);
+    json document = json::parse(Followed(text.data(), &reached),
+                                Followed(text.data() + text.size(), &reached), std::ref(repeated));
+    if (!repeated.found()) return document;
+    const auto end = static_cast<std::size_t>(repeated.at() - text.data());
+    const std::size_t quoted = repeated.name().size() + 2;
+    return fail(
+        bad_json("the field " + text::shown(repeated.name()) + " stands twice in its object",
+                 place_of_byte(text, name, end > quoted ? end - quoted : 0)));
   } catch (const json::parse_error& error) {
     // The parser counts from 1 and names the last byte that it read.
     const std::size_t byte = error.byte > 0 ? error.byte - 1 : 0;
@@ -113,7 +185,65 @@ std::optional<JsonNode> JsonValues::optional_field(const Node& object, string_vi
   }
   const auto found = object.value->find(key);
   if (found == object.value->end()) return std::nullopt;
+  taken_.push_back(&*found);
   return Node{&*found, &object, key};
+}
+
+namespace {
+
+/// Different fields that a list of unknown ones names; the others are counted.
+constexpr std::size_t kMostUnread = 50;
+
+class UnreadFields {
+ public:
+  explicit UnreadFields(const std::vector<const json*>& taken) : taken_(taken) {}
+
+  void visit(const json& value, const std::string& path) {
+    if (value.is_array()) {
+      for (const json& item : value) {
+        if (item.is_structured()) visit(item, path + "/*");
+      }
+    }
+    if (!value.is_object()) return;
+    for (auto item = value.begin(); item != value.end(); ++item) {
+      const bool known = std::binary_search(taken_.begin(), taken_.end(), &*item, std::less<>());
+      if (!known) {
+        note(path + "/" + text::to_utf8(item.key()));
+      } else if (item->is_structured()) {
+        visit(*item, path + "/" + item.key());
+      }
+    }
+  }
+
+  std::vector<std::string> take() {
+    if (others_ > 0) names_.push_back(std::to_string(others_) + " other unknown fields");
+    return std::move(names_);
+  }
+
+ private:
+  void note(std::string path) {
+    if (seen_.count(path) > 0) return;
+    if (names_.size() >= kMostUnread) {
+      ++others_;
+      return;
+    }
+    names_.push_back(path);
+    seen_.insert(std::move(path));
+  }
+
+  const std::vector<const json*>& taken_;  ///< sorted
+  std::set<std::string> seen_;
+  std::vector<std::string> names_;
+  std::size_t others_ = 0;
+};
+
+}  // namespace
+
+std::vector<std::string> JsonValues::unread_fields(const json& document) {
+  std::sort(taken_.begin(), taken_.end(), std::less<>());
+  UnreadFields unread(taken_);
+  unread.visit(document, "");
+  return unread.take();
 }
 
 double JsonValues::number(const Node& node) {

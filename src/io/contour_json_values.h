@@ -8,6 +8,7 @@
 #include <string>
 #include <string_view>
 #include <utility>
+#include <vector>
 
 #include "obvid/core/result.h"
 #include "obvid/geom/vec2.h"
@@ -18,7 +19,8 @@ namespace obvid {
 inline constexpr long long kMaxInteger = 1LL << 53;
 inline constexpr int kMaxInt = std::numeric_limits<int>::max();
 
-/// The parsed text. Errors: E308 with line and column.
+/// The parsed text. Errors: E308 with line and column, also where an object names a field twice:
+/// other programs might take the other one.
 [[nodiscard]] Result<nlohmann::json> parse_json(std::string_view text, std::string_view name);
 
 /// A value with the way to it, so that errors can name it ("/pieces/3/weights/2").
@@ -61,6 +63,10 @@ class JsonValues {
   std::size_t optional_count(const Node& object, std::string_view key);
   bool optional_flag(const Node& object, std::string_view key, bool otherwise);
 
+  /// Fields below `document` that nothing took, the same ones of several items once, with `*` for
+  /// the number of the item.
+  [[nodiscard]] std::vector<std::string> unread_fields(const nlohmann::json& document);
+
   template <class Read>
   void each(const Node& array, Read read) {
     if (failed()) return;
@@ -74,6 +80,7 @@ class JsonValues {
 
  private:
   std::string_view name_;
+  std::vector<const nlohmann::json*> taken_;
 };
 
 }  // namespace obvid

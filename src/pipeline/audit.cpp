@@ -100,6 +100,8 @@ class Auditor {
       joint.element.theta = theta + std::remainder(before.theta - theta, 2.0 * std::numbers::pi);
       theta = joint.element.theta;
       if (!first && !last && compare(j, before, after)) joint.leaving = after;
+      joint.source = j;  // a drawn curve passes the ends of its pieces
+      out_.contour.points.push_back(before.point);
       out_.contour.joints.push_back(joint);
     }
   }

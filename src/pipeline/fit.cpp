@@ -13,6 +13,7 @@
 #include "form.h"
 #include "given.h"
 #include "obvid/certify/certify.h"
+#include "obvid/region/refine.h"
 #include "parts.h"
 #include "prepare.h"
 #include "report.h"
@@ -197,12 +198,13 @@ constexpr double kOwnPart = 0.1;
 
 /// A carrier that follows the spirals needs a part of each point's tolerance for itself, a tenth of
 /// the least at the most. Returns what it may use.
-double share_tolerance(Prepared& series, double tolerance) {
+double share_tolerance(Prepared& series, double tolerance, double least) {
   double own = tolerance;
   for (const double reach : series.reach) {
     if (reach > 0.0) own = std::min(own, kOwnPart * reach);
   }
-  for (double& reach : series.reach) reach = reach > 0.0 ? reach - own : 0.0;
+  own = std::max(own, least);
+  for (double& reach : series.reach) reach = std::max(0.0, reach - own);
   return own;
 }
 
@@ -252,13 +254,12 @@ Result<void> keeps_convex(const Contour& contour, const Certificate& certificate
 }
 
 /// The tolerance of the job, or the default; refused where coordinates could not tell it.
-Result<double> tolerance_of(const FitJob& job, const std::vector<Vec2>& points) {
-  if (!job.tolerance) return default_tolerance(points);
-  const double least = least_tolerance(points);
+Result<double> tolerance_of(const FitJob& job, const std::vector<Vec2>& points, double least) {
+  if (!job.tolerance) return std::max(least, default_tolerance(points));
   if (std::isfinite(*job.tolerance) && *job.tolerance >= least) return *job.tolerance;
   return fail({ErrorCode::kBadOption,
-               fmt::format("the tolerance must be finite and at least {:.2g}, 1e-12 of the size: "
-                           "coordinates cannot tell less",
+               fmt::format("the tolerance must be finite and at least {:.2g} (1e-12 of the size, or "
+                           "the rounding of coordinates)",
                            least),
                "", "give a larger one, or none for the default", -1, *job.tolerance});
 }
@@ -291,10 +292,11 @@ Result<Fit> fit(const PointSeries& series, const FitJob& job, Watch& watch) {
   watch.tell("analysing", 0.0);
   auto prepared = prepare(series, job);
   if (!prepared) return tl::unexpected(prepared.error());
-  const auto asked = tolerance_of(job, prepared->points);
+  const double least = least_tolerance(prepared->points);
+  const auto asked = tolerance_of(job, prepared->points, least);
   if (!asked) return tl::unexpected(asked.error());
   const double tolerance =
-      passes_between_joints(job.carrier) ? share_tolerance(*prepared, *asked) : *asked;
+      passes_between_joints(job.carrier) ? share_tolerance(*prepared, *asked, least) : *asked;
   Result<Formed> formed = [&] {
     const Stretch stretch(watch, 0.0, kFormedAt);
     return form_within(*prepared, job, tolerance, watch);

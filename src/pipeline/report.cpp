@@ -20,7 +20,6 @@ namespace obvid::pipeline_detail {
 namespace {
 
 constexpr double kRegionTolerance = 3e-6;  // of the diagonal of the series
-constexpr double kLeastTolerance = 1e-12;  // of it: some thousand roundings of a coordinate
 
 constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
 /// Points beyond the seam of a loop that the errors of its chords ask for.
@@ -312,10 +311,6 @@ double size_of(const std::vector<Vec2>& points) {
 
 double default_tolerance(const std::vector<Vec2>& points) {
   return kRegionTolerance * size_of(points);
-}
-
-double least_tolerance(const std::vector<Vec2>& points) {
-  return kLeastTolerance * size_of(points);
 }
 
 Result<FitReport> measure(const Contour& contour, double tolerance) {

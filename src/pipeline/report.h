@@ -22,9 +22,6 @@ void settle_with(const Certificate& certificate, const Contour& contour, FitRepo
 /// across.
 [[nodiscard]] double default_tolerance(const std::vector<Vec2>& points);
 
-/// Below this no tolerance means anything: 1e-12 of the size.
-[[nodiscard]] double least_tolerance(const std::vector<Vec2>& points);
-
 /// Diagonal of the points' bounding box.
 [[nodiscard]] double size_of(const std::vector<Vec2>& points);
 

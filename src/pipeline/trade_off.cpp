@@ -59,8 +59,9 @@ TradeOffRow row_of(double tolerance, const Error& refusal) {
 /// A contour within smaller tolerances is one within larger ones; only the points force less then.
 void carry_on(Fit& best, double tolerance, TradeOffRow& row) {
   for (double& own : best.contour.point_tolerance) own = std::max(own, tolerance);
-  const auto measured = measure(best.contour, best.report.tolerance);
+  auto measured = measure(best.contour, best.report.tolerance);
   if (!measured) return;
+  settle_with(best.certificate, best.contour, *measured);
   best.report.vertices_lower_bound = measured->vertices_lower_bound;
   const double seconds = row.seconds;
   row = row_of(tolerance, best);

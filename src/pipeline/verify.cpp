@@ -1,10 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <string>
+#include <vector>
 
+#include "obvid/certify/carrier_pieces.h"
 #include "obvid/certify/certify.h"
+#include "obvid/certify/limits.h"
 #include "obvid/pipeline/fit.h"
 #include "obvid/series/analysis.h"
 #include "report.h"
@@ -109,14 +113,15 @@ void compare_report(const FitReport& claimed, const FitReport& found, ClaimCheck
           static_cast<double>(found.inserted_points));
 }
 
-/// Gaps are rounding noise near zero: only a claim that is off by more than that is false.
+/// Gaps are upper bounds: a claim below what is found is false, but for sines that another library
+/// rounds differently. One far above is not what this contour was given.
 void compare_certificate(const Certificate& claimed, const Certificate& found, ClaimCheck& c) {
-  constexpr double kGapNoise = 2.0;
-  constexpr double kSmallestGap = 1e-15;
+  constexpr double kLooseBound = 2.0;
+  constexpr double kOtherSines = 1e-14;  // rad, or relative: some twenty ulps
   const auto gap = [&](const char* name, double a, double b) {
-    if (!(b <= kGapNoise * a + kSmallestGap && a <= kGapNoise * b + kSmallestGap)) {
-      c.refuse(name, a, b);
-    }
+    const bool low = a < b * (1.0 - kSameFigure) - kOtherSines;
+    const bool high = a > kLooseBound * b + kOtherSines;
+    if (low || high || std::isnan(a)) c.refuse(name, a, b);
   };
   gap("joint gap position", claimed.gaps.position, found.gaps.position);
   gap("joint gap heading", claimed.gaps.heading, found.gaps.heading);
@@ -124,8 +129,11 @@ void compare_certificate(const Certificate& claimed, const Certificate& found, C
   c.count("the number of verdicts", static_cast<double>(claimed.pieces.size()),
           static_cast<double>(found.pieces.size()));
   for (std::size_t i = 0; i < std::min(claimed.pieces.size(), found.pieces.size()); ++i) {
-    c.count("verdict of piece " + std::to_string(i), static_cast<double>(claimed.pieces[i].verdict),
-            static_cast<double>(found.pieces[i].verdict));
+    const PieceProof &a = claimed.pieces[i], &b = found.pieces[i];
+    const std::string of = " of piece " + std::to_string(i);
+    c.count("verdict" + of, static_cast<double>(a.verdict), static_cast<double>(b.verdict));
+    c.count("t0" + of, a.t0, b.t0);
+    c.count("t1" + of, a.t1, b.t1);
   }
   c.count("gaps_within_bounds", claimed.gaps_within_bounds, found.gaps_within_bounds);
   c.count("through_points", claimed.through_points, found.through_points);
@@ -136,14 +144,34 @@ void compare_certificate(const Certificate& claimed, const Certificate& found, C
   c.count("inflections in the certificate", claimed.inflections, found.inflections);
   c.count("self_intersections", claimed.self_intersections, found.self_intersections);
   c.count("proved", claimed.proved, found.proved);
+  if (claimed.proved && !claimed.reason.empty()) c.refuse("a reason beside proved", 1.0, 0.0);
+}
+
+/// No report may claim that all curves have more vertices than the proved one beside it has.
+void compare_bound(const FitReport& claimed, const Certificate& found, ClaimCheck& c) {
+  if (!found.proved || claimed.vertices_lower_bound <= found.vertices) return;
+  c.refuse("vertices_lower_bound beyond the vertices of a proved contour",
+           claimed.vertices_lower_bound, found.vertices);
+}
+
+int direction_of(Verdict verdict) {
+  return verdict == Verdict::kIncreasing ? 1 : (verdict == Verdict::kDecreasing ? -1 : 0);
 }
 
 /// A run that claims a direction has a piece whose curvature changes. (The certificate allows
-/// lines and circles inside a run; arcs change at their joints only, by any amount.)
+/// lines and circles inside a run; arcs change at their joints only, by any amount.) Carriers that
+/// promise no monotone curvature have runs of pieces that are proved, all others in runs of 0.
 void compare_runs(const Contour& contour, const Certificate& found, ClaimCheck& c) {
   if (contour.carrier == Carrier::kArcs) return;
   for (std::size_t r = 0; r < contour.runs.size(); ++r) {
     const Run& run = contour.runs[r];
+    if (!promises_monotone(contour.carrier)) {
+      for (std::size_t i = run.first_piece; i <= run.last_piece && i < found.pieces.size(); ++i) {
+        c.count("direction of run " + std::to_string(r), run.direction,
+                direction_of(found.pieces[i].verdict));
+      }
+      continue;
+    }
     bool changes = run.direction == 0;
     for (std::size_t i = run.first_piece; i <= run.last_piece && i < found.pieces.size(); ++i) {
       changes = changes || found.pieces[i].verdict != Verdict::kConstant;
@@ -152,11 +180,52 @@ void compare_runs(const Contour& contour, const Certificate& found, ClaimCheck& 
   }
 }
 
+/// What stands in the file and is taken as it stands.
+std::vector<std::string> not_checked(const StoredContour& stored) {
+  std::vector<std::string> out = {"/units"};
+  if (!stored.contour.point_tolerance.empty()) out.emplace_back("/point_tolerance");
+  if (stored.contour.carrier == Carrier::kArcs) {
+    out.emplace_back("/elements/*/kappa (only that it lies between both arcs)");
+  }
+  if (stored.report) {
+    if (stored.report->carrier_deviation) out.emplace_back("/report/carrier_deviation");
+    out.emplace_back("/report/tolerance (only that the widths keep it)");
+    out.emplace_back("/report/seconds");
+    out.emplace_back("/report/chain");
+  }
+  if (stored.certificate) {
+    const std::vector<PieceProof>& pieces = stored.certificate->pieces;
+    if (std::any_of(pieces.begin(), pieces.end(),
+                    [](const PieceProof& proof) { return proof.exact_arithmetic; })) {
+      out.emplace_back("/certificate/monotone/*/exact_arithmetic");
+    }
+    if (!stored.certificate->reason.empty()) out.emplace_back("/certificate/reason");
+  }
+  out.insert(out.end(), stored.unread.begin(), stored.unread.end());
+  return out;
+}
+
+/// The curve that the file calls by its carrier's name.
+std::optional<Error> wrong_carrier(const Contour& contour) {
+  const auto foreign = foreign_piece(contour);
+  if (!foreign) return std::nullopt;
+  return Error{ErrorCode::kFalseClaim,
+               foreign->what,
+               "/pieces/" + std::to_string(foreign->index),
+               "form the contour again",
+               -1,
+               0.0};
+}
+
 }  // namespace
 
 Verification verify(const StoredContour& stored) {
   Verification out;
+  out.not_checked = not_checked(stored);
+  out.false_claim = wrong_carrier(stored.contour);
   out.certificate = certify(stored.contour);
+  // the figures of a report are not looked for on a contour whose numbers make no sense
+  if (out.false_claim || out_of_range(stored.contour)) return out;
   ClaimCheck comparison(pipeline_detail::size_of(stored.contour.points));
   if (stored.report) {
     auto measured =
@@ -167,6 +236,7 @@ Verification verify(const StoredContour& stored) {
     }
     FitReport found = std::move(*measured);
     pipeline_detail::settle_with(out.certificate, stored.contour, found);
+    compare_bound(*stored.report, out.certificate, comparison);
     compare_report(*stored.report, found, comparison);
     const bool bounded = promises_monotone(stored.contour.carrier);
     if (bounded && !(found.largest_width <= stored.report->tolerance)) {

@@ -4,11 +4,16 @@
 #include <algorithm>
 #include <cmath>
 
+#include "obvid/series/analysis.h"
+
 namespace obvid {
 namespace {
 
 /// Elements that one piece may take; widths fall with the third power, so this is 15 decades.
 constexpr std::size_t kMostElements = 100000;
+/// Least growth of their number from one attempt to the next, as its part: where rounding keeps the
+/// widths from falling, the attempts come to an end.
+constexpr std::size_t kLeastGrowth = 16;
 /// Bisection steps for a step that uses the tolerance up: to a thousandth of the parameter step.
 constexpr int kStepBisections = 10;
 
@@ -31,6 +36,14 @@ double width_between(const Sample& a, const Sample& b, int direction) {
 }
 
 }  // namespace
+
+double least_tolerance(const std::vector<Vec2>& points) {
+  constexpr double kOfSize = 1e-12;
+  constexpr double kOfCoordinates = 8.0 * 0x1p-53;
+  double largest = 0.0;
+  for (const Vec2 p : points) largest = std::max({largest, std::abs(p.x), std::abs(p.y)});
+  return std::max(kOfSize * bounding_diagonal(points), kOfCoordinates * largest);
+}
 
 Element element_at(const Piece& piece, double t) {
   const Sample s = sample(piece, t);
@@ -59,7 +72,7 @@ PieceBound bound_piece(const Piece& piece, double t0, double t1, int direction, 
       bound.reached = false;
       return bound;
     }
-    count = std::max(count + 1, wanted);
+    count = std::max(count + 1 + count / kLeastGrowth, wanted);
     bound.width = 0.0;
     Sample before = first;
     for (std::size_t j = 1; j <= count; ++j) {

@@ -13,9 +13,6 @@ namespace {
 constexpr double kUnitRoundoff = 0x1p-53;
 /// Neighbouring chords that turn by more than this say nothing about the curve between them.
 constexpr double kLargestTurning = 170.0 * std::numbers::pi / 180.0;
-/// Squares and cubes of lengths outside this range would leave the range of doubles.
-constexpr double kSmallestSize = 1e-100;
-constexpr double kLargestSize = 1e100;
 /// A circle through three rounded points misses the points between by a small multiple of the
 /// rounding of one point (the interpolation factors of a quadratic sum to at most 3).
 constexpr double kStretchRoundings = 4.0;
@@ -25,15 +22,6 @@ constexpr std::size_t kFewestThatTell = 3;
 
 /// How far the rounding of its coordinates can have moved a point.
 double point_rounding(Vec2 p) { return kUnitRoundoff * (std::abs(p.x) + std::abs(p.y)); }
-
-double bounding_diagonal(const std::vector<Vec2>& points) {
-  Vec2 low = points.front(), high = points.front();
-  for (const Vec2 p : points) {
-    low = {std::min(low.x, p.x), std::min(low.y, p.y)};
-    high = {std::max(high.x, p.x), std::max(high.y, p.y)};
-  }
-  return std::hypot(high.x - low.x, high.y - low.y);
-}
 
 AdjacentCircle circle_through(Vec2 p, Vec2 q, Vec2 r, double pq, double qr) {
   const Vec2 a = q - p, b = r - q, c = r - p;
@@ -256,6 +244,16 @@ std::vector<AdjacentCircle> measure_circles(const std::vector<Vec2>& points,
   return circles;
 }
 
+double bounding_diagonal(const std::vector<Vec2>& points) {
+  if (points.empty()) return 0.0;
+  Vec2 low = points.front(), high = points.front();
+  for (const Vec2 p : points) {
+    low = {std::min(low.x, p.x), std::min(low.y, p.y)};
+    high = {std::max(high.x, p.x), std::max(high.y, p.y)};
+  }
+  return std::hypot(high.x - low.x, high.y - low.y);
+}
+
 double sagitta(double kappa, double h) {
   const double x = 0.5 * kappa * h;
   return 0.5 * x * h / (1.0 + std::sqrt(std::max(0.0, 1.0 - x * x)));
@@ -268,7 +266,7 @@ Result<Analysis> analyse(const std::vector<Vec2>& points) {
   }
   Analysis a;
   a.size = bounding_diagonal(points);
-  if (!(a.size >= kSmallestSize && a.size <= kLargestSize)) {
+  if (!(a.size >= kSmallestSeries && a.size <= kLargestSeries)) {
     return fail({ErrorCode::kSizeOutOfRange, "the size of the series is outside 1e-100 to 1e100",
                  "", "choose another unit", -1, a.size});
   }

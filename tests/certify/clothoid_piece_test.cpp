@@ -66,11 +66,11 @@ TEST(ProveClothoid, EndIsWhereTheNumbersLeadNotWhereItIsStored) {
   ClothoidPiece piece = from({{3, -2}, 0.3, -0.5}, 2.9, 1.7);
   const Vec2 truth = piece.end;
   piece.end = {9.0, 9.0};
-  const EndData end = end_data(piece);
+  const EndData end = ends_of(piece).end;
   EXPECT_NEAR(norm(end.point - truth), 0.0, 1e-14);
   EXPECT_NEAR(norm(end.direction - unit_at(0.3 + 0.5 * 2.4 * 1.7)), 0.0, 1e-14);
   EXPECT_EQ(end.kappa, 2.9);
-  EXPECT_EQ(start_data(piece).kappa, -0.5);
+  EXPECT_EQ(ends_of(piece).start.kappa, -0.5);
 }
 
 /// Crossings of a polyline with itself, neighbours apart.

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "obvid/numeric/bernstein.h"
+#include "obvid/numeric/internal/bernstein.h"
 
 #include <gtest/gtest.h>
 

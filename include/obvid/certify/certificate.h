@@ -20,8 +20,9 @@ struct PieceProof {
   double t1 = 1.0;
 };
 
-/// Largest gaps at the joints. Position relative to the contour's size, heading in radians,
-/// curvature relative to the larger of the two.
+/// Upper bounds of the gaps at the joints of the numbers as they stand. Position relative to the
+/// contour's size, heading in radians, curvature relative to the larger of the two at the joint
+/// (but not less than 1e-6 of the largest at the four ends of the two pieces).
 struct JointGaps {
   double position = 0.0;
   double heading = 0.0;
@@ -32,9 +33,10 @@ struct JointGaps {
 struct Certificate {
   std::vector<PieceProof> pieces;
   JointGaps gaps;
-  bool gaps_within_bounds = false;  ///< each gap is below what its coordinates' rounding explains
+  bool gaps_within_bounds = false;  ///< position 1e-12 (or what the coordinates' rounding
+                                    ///< explains), heading and curvature 1e-6
   bool inside_region = false;
-  bool through_points = false;  ///< every input point is met within rounding, or within its
+  bool through_points = false;  ///< every input point is met in order, exactly or within its
                                 ///< tolerance where it has one
   double largest_move = 0.0;    ///< proved bound of the distance of a point with a tolerance, units
   int corners = 0;              ///< joints that are continuous in position only

@@ -17,9 +17,10 @@ namespace obvid {
 /// Cost: about 0.5 us for a quartic; some 20 times that where doubles cannot decide.
 [[nodiscard]] PieceProof prove_piece(const Piece& piece);
 
-/// Proves every claim of a contour from its own numbers (docs/methods/certify.md).
-/// `self_intersections` are counted, not proved, and do not make a contour unproved.
-/// Cost O(n log n), about a microsecond per piece.
+/// Proves every claim of a contour from its own numbers (docs/methods/certify.md). Nothing is
+/// proved of numbers that `out_of_range` names, nor while the processor does not round to the
+/// nearest. `self_intersections` are counted, not proved, and do not make a contour unproved. Cost
+/// O(n log n), about a microsecond per piece.
 [[nodiscard]] Certificate certify(const Contour& contour);
 
 /// Proved upper bound of every input point's distance from the contour, units: the distance to some

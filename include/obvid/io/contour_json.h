@@ -12,8 +12,9 @@ namespace obvid {
 /// The contour file of docs/formats.md. Every number reads back to the same double.
 [[nodiscard]] std::string contour_to_json(const StoredContour& stored);
 
-/// Reads a contour file. `name` stands in errors. Errors: E308 with line and column, E310 for a
-/// version or piece type that this program does not know. Never throws on any input.
+/// Reads a contour file. `name` stands in errors. Errors: E308 with line and column or the path of
+/// the field, E309 for numbers beyond what `fit` forms (`out_of_range`), E310 for a version or
+/// piece type that this program does not know. Never throws on any input.
 [[nodiscard]] Result<StoredContour> contour_from_json(std::string_view text, std::string_view name);
 
 }  // namespace obvid

@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "obvid/certify/certificate.h"
@@ -67,6 +68,8 @@ struct StoredContour {
   Contour contour;
   std::optional<FitReport> report;
   std::optional<Certificate> certificate;
+  std::vector<std::string> unread;  ///< fields of the file that mean nothing to this program, each
+                                    ///< once: "/pieces/*/colour"
 };
 
 }  // namespace obvid

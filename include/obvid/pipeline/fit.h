@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "obvid/certify/certificate.h"
@@ -69,10 +70,12 @@ struct Fit {
 /// The same as part of some longer work.
 [[nodiscard]] Result<Fit> fit(const PointSeries& series, const FitJob& job, Watch& watch);
 
-/// What `verify` found: the new proof, and the first claim of the file that is false (if any).
+/// What `verify` found: the new proof, the first claim of the file that is false (if any), and which
+/// fields it took as they stand.
 struct Verification {
   Certificate certificate;
   std::optional<Error> false_claim;
+  std::vector<std::string> not_checked;  ///< "/units", "/report/seconds", ...
 };
 
 /// Proves a stored contour again from its own numbers and compares every claim of its report.

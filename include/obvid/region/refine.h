@@ -11,6 +11,10 @@
 
 namespace obvid {
 
+/// Least tolerance that widths may be asked to keep, units: 1e-12 of the size of the series, and
+/// eight roundings of its largest coordinate. Widths below are what is left of coordinates.
+[[nodiscard]] double least_tolerance(const std::vector<Vec2>& points);
+
 /// Element of a piece at parameter t; heading in (-pi, pi].
 [[nodiscard]] Element element_at(const Piece& piece, double t);
 

@@ -10,6 +10,13 @@
 
 namespace obvid {
 
+/// Size of a series, units: squares and cubes of lengths beyond would leave the range of doubles.
+inline constexpr double kSmallestSeries = 1e-100;
+inline constexpr double kLargestSeries = 1e100;
+
+/// Diagonal of the points' bounding box; 0 without points.
+[[nodiscard]] double bounding_diagonal(const std::vector<Vec2>& points);
+
 /// A chord of the series, from point i to point i + 1.
 struct Chord {
   double length = 0.0;

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "obvid/numeric/bernstein.h"
+#include "obvid/numeric/internal/bernstein.h"
 
 namespace obvid::bsplines {
 namespace {

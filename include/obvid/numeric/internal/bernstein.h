@@ -4,7 +4,10 @@
 #include <array>
 #include <cstddef>
 
+#include "obvid/numeric/internal/strict_arithmetic.h"
+
 namespace obvid {
+namespace {  // see strict_arithmetic.h
 
 /// Polynomials on [0, 1] in *scaled* Bernstein form: p = sum c_j t^j s^(n-j) with s = 1 - t, so
 /// c_j is the Bernstein coefficient times binomial(n, j). Products are then plain convolutions.
@@ -60,4 +63,5 @@ template <class S, std::size_t Count>
   return result;
 }
 
+}  // namespace
 }  // namespace obvid

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "obvid/numeric/double_double.h"
+#include "double_double.h"
 
 #include <gtest/gtest.h>
 
@@ -10,15 +10,15 @@
 namespace obvid {
 namespace {
 
-using Rational = boost::multiprecision::cpp_rational;
+using Fraction = boost::multiprecision::cpp_rational;
 
-Rational exactly(double x) { return Rational(x); }
-Rational exactly(DoubleDouble x) { return Rational(x.hi) + Rational(x.lo); }
+Fraction exactly(double x) { return Fraction(x); }
+Fraction exactly(DoubleDouble x) { return Fraction(x.hi) + Fraction(x.lo); }
 
 /// |found - truth| / |truth|
-double relative_error(const DoubleDouble& found, const Rational& truth) {
+double relative_error(const DoubleDouble& found, const Fraction& truth) {
   if (truth == 0) return exactly(found) == 0 ? 0.0 : HUGE_VAL;
-  return std::abs(static_cast<double>(Rational((exactly(found) - truth) / truth)));
+  return std::abs(static_cast<double>(Fraction((exactly(found) - truth) / truth)));
 }
 
 class DoubleDoubleTest : public ::testing::Test {

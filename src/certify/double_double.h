@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "obvid/numeric/internal/strict_arithmetic.h"
+
 namespace obvid {
+namespace {  // see strict_arithmetic.h
 
 /// Unit roundoff of double.
 inline constexpr double kUnitRoundoff = 0x1p-53;
@@ -67,4 +70,5 @@ inline constexpr double kDoubleDoubleRoundoff = 8.0 * kUnitRoundoff * kUnitRound
   return quick_two_sum(p.hi, p.lo + a.lo * static_cast<double>(factor));
 }
 
+}  // namespace
 }  // namespace obvid

@@ -1,0 +1,131 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+#include "double_double.h"
+#include "obvid/curve/pieces.h"
+#include "point_places.h"
+
+namespace obvid {
+namespace {
+
+/// Steps of the search for the place where a piece enters the reach of a point.
+constexpr int kEntrySteps = 30;
+
+/// A place along the contour, counted on around a closed one.
+struct Along {
+  std::size_t piece = 0;
+  double t = 0.0;
+
+  friend bool operator<(const Along& a, const Along& b) {
+    return a.piece != b.piece ? a.piece < b.piece : a.t < b.t;
+  }
+};
+
+/// Follows the contour once and meets the points on the way.
+class Passage {
+ public:
+  Passage(const Contour& contour, Along from) : contour_(contour), here_(from), last_(from) {
+    const std::size_t n = contour.pieces.size();
+    last_ = contour.closed ? Along{from.piece + n, from.t} : Along{n - 1, 1.0};
+  }
+
+  /// Goes on to the place, or stays where it is when that is near enough.
+  bool meet_at(std::size_t i, Along place) {
+    if (place < here_ || last_ < place) return in_reach(i, here_);
+    here_ = place;
+    return true;
+  }
+
+  /// Goes on to the first place that is near enough.
+  bool meet_first(std::size_t i) {
+    for (Along at = here_; at < last_ || at.piece == here_.piece; at = {at.piece + 1, 0.0}) {
+      if (const auto entry = enters(i, at); entry && !(last_ < *entry)) {
+        here_ = *entry;
+        return true;
+      }
+    }
+    return false;
+  }
+
+ private:
+  [[nodiscard]] const Piece& piece(std::size_t k) const {
+    return contour_.pieces[k % contour_.pieces.size()];
+  }
+
+  [[nodiscard]] bool in_reach(std::size_t i, Along at) const {
+    return distance_at(piece(at.piece), at.t, contour_.points[i]) <= allowed_distance(contour_, i);
+  }
+
+  /// The first place of one piece, from `at` on, that is near enough.
+  [[nodiscard]] std::optional<Along> enters(std::size_t i, Along at) const {
+    if (in_reach(i, at)) return at;
+    const Nearest nearest = nearest_on(piece(at.piece), contour_.points[i], at.t);
+    Along inside{at.piece, nearest.t};
+    if (!in_reach(i, inside)) return std::nullopt;
+    double outside = at.t;
+    for (int k = 0; k < kEntrySteps; ++k) {
+      const Along middle{at.piece, 0.5 * (outside + inside.t)};
+      if (in_reach(i, middle)) {
+        inside = middle;
+      } else {
+        outside = middle.t;
+      }
+    }
+    return inside;
+  }
+
+  const Contour& contour_;
+  Along here_;
+  Along last_;
+};
+
+/// The place as one that is not before the start.
+Along counted_on(const Contour& contour, const Nearest& place, Along start) {
+  Along out{place.piece, place.t};
+  if (contour.closed && out < start) out.piece += contour.pieces.size();
+  return out;
+}
+
+/// Points near the seam of a closed contour may be met before the place that is nearest to the
+/// first one: the passage begins with a piece that comes within reach of it.
+Along before_reach(const Contour& contour, const Nearest& place) {
+  const double allowed = allowed_distance(contour, 0);
+  const std::size_t n = contour.pieces.size();
+  std::size_t k = place.piece;
+  for (std::size_t steps = 0; steps < n; ++steps) {
+    if (!(distance_at(contour.pieces[k], 0.0, contour.points[0]) <= allowed)) break;
+    k = k > 0 ? k - 1 : n - 1;
+  }
+  return {k, 0.0};
+}
+
+}  // namespace
+
+double allowed_distance(const Contour& contour, std::size_t i) {
+  constexpr double kRoundings = 32.0 * kUnitRoundoff;
+  const Vec2 p = contour.points[i];
+  const double tolerance = i < contour.point_tolerance.size() ? contour.point_tolerance[i] : 0.0;
+  return tolerance + kRoundings * (std::abs(p.x) + std::abs(p.y));
+}
+
+std::string out_of_order(const Contour& contour, const std::vector<Nearest>& places) {
+  if (places.empty() || contour.pieces.empty()) return {};
+  const Along first = contour.closed ? Along{places[0].piece, places[0].t} : Along{};
+  Passage quick(contour, first);
+  std::size_t met = 0;
+  while (met < places.size() && quick.meet_at(met, counted_on(contour, places[met], first))) ++met;
+  if (met == places.size()) return {};
+  // the nearest places may stand against the order where tolerances are wide: take the first ones
+  Passage careful(contour, contour.closed ? before_reach(contour, places[0]) : first);
+  for (std::size_t i = 0; i < places.size(); ++i) {
+    if (careful.meet_first(i)) continue;
+    return fmt::format("the contour does not pass point {} after the points before it", i);
+  }
+  return {};
+}
+
+}  // namespace obvid

@@ -1,0 +1,136 @@
+// SPDX-License-Identifier: Apache-2.0
+// Points with tolerances are met one after the other, or they are not met.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <random>
+
+#include "contours.h"
+
+namespace obvid {
+namespace {
+
+using testing_data::arc_from;
+using testing_data::contour_of;
+
+constexpr double kPi = std::numbers::pi;
+
+Vec2 on_ring(double angle, double radius) { return Vec2{3, -2} + radius * unit_at(angle); }
+
+/// Circle of radius 5 from angle 0 in arcs of half a radian; no joint stands on a point.
+Contour circle(int arcs, std::vector<Vec2> points, double tolerance) {
+  std::vector<Piece> pieces;
+  for (int k = 0; k < arcs; ++k) {
+    pieces.emplace_back(arc_from(on_ring(0.5 * k, 5.0), 0.5 * k + kPi / 2, 0.2, 2.5));
+  }
+  Contour contour = contour_of(std::move(pieces), {{0, static_cast<std::size_t>(arcs) - 1, 0}});
+  contour.carrier = Carrier::kArcs;
+  for (Joint& joint : contour.joints) joint.source.reset();
+  contour.points = std::move(points);
+  contour.point_tolerance.assign(contour.points.size(), tolerance);
+  return contour;
+}
+
+std::vector<Vec2> points_at(const std::vector<double>& angles) {
+  std::vector<Vec2> points;
+  for (const double a : angles) points.push_back(on_ring(a, 5.0));
+  return points;
+}
+
+TEST(PointOrder, PointsAlongTheContourAreMet) {
+  EXPECT_TRUE(certify(circle(6, points_at({0.1, 0.9, 1.0, 2.2, 2.9}), 0.01)).through_points);
+}
+
+TEST(PointOrder, APointThatStandsBeforeItsPredecessorIsNotMet) {
+  const Certificate certificate = certify(circle(6, points_at({0.1, 1.0, 0.9, 2.2, 2.9}), 0.01));
+  EXPECT_FALSE(certificate.through_points);
+  EXPECT_FALSE(certificate.proved);
+  EXPECT_NE(certificate.reason.find("point 2 after"), std::string::npos) << certificate.reason;
+}
+
+TEST(PointOrder, ReversedPointsAreNotMet) {
+  EXPECT_FALSE(certify(circle(6, points_at({2.9, 2.2, 1.0, 0.9, 0.1}), 0.01)).through_points);
+}
+
+TEST(PointOrder, PointsThatStandBackByLessThanTheirTolerancesAreMet) {
+  // 1.0 comes before 0.9 along the way when the one may be met early and the other late
+  EXPECT_TRUE(certify(circle(6, points_at({0.1, 1.0, 0.9, 2.2}), 0.26)).through_points);
+  EXPECT_FALSE(certify(circle(6, points_at({0.1, 1.0, 0.9, 2.2}), 0.24)).through_points);
+}
+
+TEST(PointOrder, MeetingEachPointAsEarlyAsPossibleFindsAnOrderThatNearestPlacesHide) {
+  // the second point lies far ahead within its wide tolerance, the third before it
+  Contour contour = circle(6, points_at({0.1, 1.6, 0.9, 2.2}), 0.01);
+  contour.point_tolerance[1] = 4.0;
+  EXPECT_TRUE(certify(contour).through_points) << certify(contour).reason;
+  contour.point_tolerance[1] = 3.0;
+  EXPECT_FALSE(certify(contour).through_points);
+}
+
+TEST(PointOrder, MeasuredPointsWhoseNoiseIsLargerThanTheirSpacingAreMet) {
+  std::mt19937_64 random(5);
+  std::uniform_real_distribution<double> noise(-1.0, 1.0);
+  constexpr double kNoise = 0.05;
+  std::vector<Vec2> points;
+  for (int k = 0; k < 2000; ++k) {
+    const Vec2 off{noise(random), noise(random)};
+    points.push_back(on_ring(0.001 + 0.00149 * k, 5.0) + (kNoise / std::sqrt(2.0)) * off);
+  }
+  const Certificate certificate = certify(circle(6, points, kNoise));
+  EXPECT_TRUE(certificate.through_points) << certificate.reason;
+}
+
+/// The whole circle, closed, from angle 0 on.
+Contour closed_circle(std::vector<Vec2> points, double tolerance) {
+  constexpr int kArcs = 8;
+  std::vector<Piece> pieces;
+  for (int k = 0; k < kArcs; ++k) {
+    const double a = 2.0 * kPi * k / kArcs;
+    pieces.emplace_back(arc_from(on_ring(a, 5.0), a + kPi / 2, 0.2, 10.0 * kPi / kArcs));
+  }
+  Contour contour = testing_data::closed_contour(std::move(pieces), {{0, kArcs - 1, 0}});
+  contour.carrier = Carrier::kArcs;
+  for (Joint& joint : contour.joints) joint.source.reset();
+  contour.points = std::move(points);
+  contour.point_tolerance.assign(contour.points.size(), tolerance);
+  return contour;
+}
+
+TEST(PointOrder, AClosedContourMayBeginAtAnyOfItsPoints) {
+  std::vector<double> angles;
+  for (int k = 0; k < 40; ++k) angles.push_back(0.1 + 0.155 * k);
+  for (int turn = 0; turn < 40; turn += 7) {
+    std::rotate(angles.begin(), angles.begin() + 7, angles.end());
+    const Certificate certificate = certify(closed_circle(points_at(angles), 0.01));
+    EXPECT_TRUE(certificate.through_points) << turn << ": " << certificate.reason;
+  }
+  std::swap(angles[10], angles[11]);
+  EXPECT_FALSE(certify(closed_circle(points_at(angles), 0.01)).through_points);
+  std::swap(angles[10], angles[11]);
+  std::reverse(angles.begin(), angles.end());
+  EXPECT_FALSE(certify(closed_circle(points_at(angles), 0.01)).through_points);
+}
+
+TEST(PointOrder, PointsAroundTheSeamMayStandBackWithinTheirTolerances) {
+  // the first two points change places, right where a closed contour begins
+  EXPECT_TRUE(certify(closed_circle(points_at({0.01, -0.01, 1.0, 3.0, 5.0}), 0.2)).through_points);
+  EXPECT_FALSE(
+      certify(closed_circle(points_at({0.01, -0.01, 1.0, 3.0, 5.0}), 0.01)).through_points);
+}
+
+TEST(PointOrder, AContourWithoutPointsPassesNone) {
+  Contour contour = circle(6, {}, 0.01);
+  Certificate certificate = certify(contour);
+  EXPECT_FALSE(certificate.through_points);
+  EXPECT_FALSE(certificate.proved);
+  EXPECT_NE(certificate.reason.find("does not name the points"), std::string::npos);
+  contour.points.assign(5, on_ring(1.0, 5.0));
+  contour.point_tolerance.assign(5, 0.01);
+  certificate = certify(contour);
+  EXPECT_FALSE(certificate.through_points) << "the same point five times";
+}
+
+}  // namespace
+}  // namespace obvid

@@ -1,0 +1,232 @@
+// SPDX-License-Identifier: Apache-2.0
+// Whatever is changed in a contour file, `verify` notices it or says that it does not look at it.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstdio>
+#include <map>
+#include <nlohmann/json.hpp>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "obvid/io/contour_json.h"
+#include "obvid/pipeline/fit.h"
+
+namespace obvid {
+namespace {
+
+using nlohmann::json;
+
+/// A sine over somewhat more than a period: vertices and inflections.
+std::vector<Vec2> a_wave() {
+  std::vector<Vec2> points;
+  for (int i = 0; i <= 14; ++i) points.push_back({0.5 * i, std::sin(0.5 * i)});
+  return points;
+}
+
+/// Part of the spiral r = exp(0.3 phi): no vertex, no inflection.
+std::vector<Vec2> a_spiral() {
+  std::vector<Vec2> points;
+  for (int i = 0; i < 7; ++i) points.push_back(std::exp(0.12 * i) * unit_at(0.4 * i));
+  return points;
+}
+
+std::vector<Vec2> an_oval() {
+  std::vector<Vec2> points;
+  for (int i = 0; i < 14; ++i) {
+    const double a = 0.3 + 6.283185307179586 * i / 14.0;
+    points.push_back({3.0 * std::cos(a), 2.0 * std::sin(a)});
+  }
+  return points;
+}
+
+std::vector<Vec2> a_corner() {
+  std::vector<Vec2> points;
+  for (int i = 0; i < 6; ++i) points.push_back({1.0 * i, 0.04 * i * (5 - i)});
+  for (int i = 1; i < 6; ++i) points.push_back({5.0 + 0.05 * i * (5 - i), 1.0 * i});
+  return points;
+}
+
+struct LeafCase {
+  const char* name;
+  Carrier carrier;
+  std::vector<Vec2> points;
+  double noise = 0.0;
+  double tolerance = 0.0;  ///< 0: the default
+  Closing closing = Closing::kAutomatic;
+};
+
+std::vector<LeafCase> leaf_cases() {
+  return {{"spirals", Carrier::kSpiral, a_wave()},
+          {"arcs", Carrier::kArcs, a_spiral(), 0.0, 0.01},
+          {"conics", Carrier::kConics, a_spiral()},
+          {"parabolas", Carrier::kBeziers, a_spiral(), 0.0, 0.01},
+          {"clothoids", Carrier::kClothoids, a_wave()},
+          {"one B-spline", Carrier::kBspline, a_spiral(), 0.0, 0.01},
+          {"one cubic", Carrier::kCubic, a_spiral(), 0.0, 0.01},
+          {"baseline", Carrier::kBaseline, a_wave()},
+          {"closed", Carrier::kSpiral, an_oval(), 0.0, 0.0, Closing::kClosed},
+          {"closed arcs", Carrier::kArcs, an_oval(), 0.0, 0.03, Closing::kClosed},
+          {"corner", Carrier::kSpiral, a_corner()},
+          {"within tolerances", Carrier::kSpiral, a_wave(), 0.01}};
+}
+
+std::string file_of(const LeafCase& c) {
+  PointSeries series;
+  series.points = c.points;
+  FitJob job;
+  job.carrier = c.carrier;
+  job.closing = c.closing;
+  if (c.noise > 0.0) job.noise = c.noise;
+  if (c.tolerance > 0.0) job.tolerance = c.tolerance;
+  const auto made = fit(series, job);
+  if (!made) {
+    ADD_FAILURE() << c.name << ": " << to_line(made.error());
+    return "{}";
+  }
+  return contour_to_json({made->contour, made->report, made->certificate, {}});
+}
+
+struct Judged {
+  std::string refusal;  ///< empty: accepted
+  std::vector<std::string> not_checked;
+};
+
+Judged judged(const std::string& text) {
+  const auto stored = contour_from_json(text, "file");
+  if (!stored) return {to_line(stored.error()), {}};
+  const Verification v = verify(*stored);
+  Judged out{"", v.not_checked};
+  if (v.false_claim) {
+    out.refusal = v.false_claim->what;
+  } else if (promises_monotone(stored->contour.carrier) && !v.certificate.proved) {
+    out.refusal = v.certificate.reason;
+  } else if (!v.certificate.gaps_within_bounds || !v.certificate.through_points) {
+    out.refusal = v.certificate.reason;
+  }
+  return out;
+}
+
+void leaves(const json& value, const std::string& path, std::vector<std::string>& out) {
+  if (value.is_object()) {
+    for (const auto& [key, inner] : value.items()) leaves(inner, path + "/" + key, out);
+  } else if (value.is_array()) {
+    for (std::size_t i = 0; i < value.size(); ++i) {
+      leaves(value[i], path + "/" + std::to_string(i), out);
+    }
+  } else {
+    out.push_back(path);
+  }
+}
+
+/// The path with `*` for numbers of items, as `verify` lists it.
+std::string general(const std::string& path) {
+  std::string out, part;
+  for (std::size_t i = 1; i <= path.size(); ++i) {
+    if (i < path.size() && path[i] != '/') {
+      part += path[i];
+      continue;
+    }
+    const bool number = part.find_first_not_of("0123456789") == std::string::npos;
+    out += "/" + (number ? "*" : part);
+    part.clear();
+  }
+  return out;
+}
+
+bool listed(const std::vector<std::string>& not_checked, const std::string& path) {
+  for (const std::string& one : not_checked) {
+    const std::string field = one.substr(0, one.find(' '));
+    const std::string place = general(path);
+    if (place == field || place.rfind(field + "/", 0) == 0) return true;
+  }
+  return false;
+}
+
+/// What a leaf may be changed to. Numbers by a thousandth; gaps, which are bounds, by more than the
+/// room that bounds have.
+std::vector<json> changes_of(const json& value, const std::string& path, double size) {
+  if (value.is_boolean()) return {!value.get<bool>(), nullptr, "x"};
+  if (value.is_string()) return {"other", 1, nullptr};
+  if (value.is_null()) return {0, 1.5, "x"};
+  std::vector<json> out = {nullptr, "1"};
+  const double number = value.get<double>();
+  if (path.find("joint_gaps") != std::string::npos) {
+    out.insert(out.end(), {3.0 * number + 1e-13, 0.3 * number - 1e-13});
+  } else if (value.is_number_integer() && path.find("/points") != 0) {
+    out.insert(out.end(), {value.get<long long>() + 1, value.get<long long>() - 1});
+  } else {
+    const double step = number == 0.0 ? 1e-3 * size : 1e-3 * std::abs(number);
+    out.insert(out.end(), {number + step, number - step});
+  }
+  return out;
+}
+
+TEST(EveryLeaf, OfAContourFileIsNoticedWhenItChangesOrListedAsNotChecked) {
+  for (const LeafCase& c : leaf_cases()) {
+    const json document = json::parse(file_of(c));
+    const Judged good = judged(document.dump());
+    ASSERT_EQ(good.refusal, "") << c.name;
+    std::vector<std::string> paths;
+    leaves(document, "", paths);
+    std::size_t noticed = 0, told = 0;
+    for (const std::string& path : paths) {
+      const json::json_pointer place(path);
+      for (const json& other : changes_of(document[place], path, 1.0)) {
+        if (other == document[place]) continue;
+        json bad = document;
+        bad[place] = other;
+        const Judged found = judged(bad.dump());
+        if (!found.refusal.empty()) {
+          ++noticed;
+        } else if (listed(found.not_checked, path)) {
+          ++told;
+        } else {
+          ADD_FAILURE() << c.name << ": " << path << " = " << other << " instead of "
+                        << document[place];
+        }
+      }
+    }
+    std::printf("%s: %zu leaves, %zu changes noticed, %zu told\n", c.name, paths.size(), noticed,
+                told);
+    EXPECT_GT(noticed, paths.size());
+  }
+}
+
+TEST(EveryLeaf, UnknownFieldsAreListedOnceForAllItems) {
+  json document = json::parse(file_of(leaf_cases().front()));
+  document["author"] = "somebody";
+  document["report"]["mood"] = {{"good", true}};
+  for (json& piece : document["pieces"]) piece["colour"] = "red";
+  const Judged found = judged(document.dump());
+  EXPECT_EQ(found.refusal, "");
+  for (const char* field : {"/author", "/report/mood", "/pieces/*/colour"}) {
+    EXPECT_EQ(std::count(found.not_checked.begin(), found.not_checked.end(), field), 1) << field;
+  }
+  const Judged before = judged(file_of(leaf_cases().front()));
+  EXPECT_EQ(found.not_checked.size(), before.not_checked.size() + 3);
+}
+
+TEST(EveryLeaf, EveryFieldThatStandsTwiceIsRefusedWithItsPlace) {
+  const std::string text = file_of(leaf_cases().front());
+  std::set<std::string> names;
+  std::size_t tried = 0;
+  for (std::size_t at = text.find("\":"); at != std::string::npos; at = text.find("\":", at + 1)) {
+    const std::size_t from = text.rfind('"', at - 1);
+    const std::string name = text.substr(from, at - from + 1);
+    if (!names.insert(name).second) continue;
+    std::string twice = text;
+    twice.insert(from, name + ": 0, ");
+    const auto stored = contour_from_json(twice, "file");
+    ASSERT_FALSE(stored) << name;
+    EXPECT_NE(stored.error().what.find(name + " stands twice"), std::string::npos)
+        << name << ": " << stored.error().what;
+    EXPECT_EQ(stored.error().where.rfind("file:", 0), 0u) << stored.error().where;
+    ++tried;
+  }
+  EXPECT_GT(tried, 40u);
+}
+
+}  // namespace
+}  // namespace obvid
