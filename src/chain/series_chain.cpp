@@ -106,7 +106,7 @@ Attempt attempt(Extended current, bool convex) {
 /// direction is turned: further vertices are not what somebody who fixes a radius asks for.
 bool fulfilled_without(const ChainWishes& wishes, const Analysis& analysis, Extended series) {
   if (!anything_wished(wishes)) return false;
-  auto problem = set_up(analysis, {});
+  auto problem = chain_problem(analysis, {});
   if (!problem) return false;
   series.problem = std::move(*problem);
   return attempt(std::move(series), false).chain.has_value();
@@ -121,7 +121,7 @@ constexpr std::size_t kLongestRepair = 5000;
 
 Result<SeriesChain> choose_elements(const std::vector<Vec2>& points, const Analysis& analysis,
                                     const ChainWishes& wishes) {
-  auto problem = set_up(analysis, wishes);
+  auto problem = chain_problem(analysis, wishes);
   if (!problem) return tl::unexpected(problem.error());
   Extended current;
   current.points = points;

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "form.h"
+#include "more_vertices.h"
 #include "obvid/fairing/fairing.h"
 #include "obvid/series/analysis.h"
 
@@ -91,6 +92,11 @@ class SectionChooser {
     const auto analysis = analyse(points);
     if (!analysis) return tl::unexpected(analysis.error());
     auto chain = form_elements(points, *analysis, wishes);
+    if (!chain) {
+      if (auto mended = with_more_vertices(points, *analysis, wishes, progress_)) {
+        chain = std::move(mended);
+      }
+    }
     if (chain) out_.warnings = warn(*analysis, *chain);
     return chain;
   }

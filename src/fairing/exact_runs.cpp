@@ -1,0 +1,212 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "obvid/fairing/exact_runs.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+#include "build_tube.h"
+#include "draft.h"
+#include "run_search.h"
+#include "tube_solver.h"
+
+namespace obvid {
+namespace {
+
+using namespace fairing_detail;
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+constexpr std::size_t kBefore = 5, kBeyond = 11;  ///< links of a window before and behind its place
+constexpr std::size_t kStride = 8;                ///< links from one window to the next
+constexpr std::size_t kReach = 3;    ///< links on each side of the trouble that are changed
+constexpr int kMendsPerWindow = 12;  ///< changes of one window
+constexpr std::size_t kLinksPerMend = 10;  ///< of the whole: mends at the end, one for so many
+constexpr double kTubeBarrier = 0.02;      ///< of free nodes in their room, in the final problem
+constexpr double kFairEnough = 1e-6;       ///< Newton's decrement
+constexpr int kFairSteps = 60;
+constexpr int kRoughSteps = 12;  ///< towards the fairest state of a window, to compare windows
+/// Below this part of B - A a link's sigma is a leap of curvature at its ends, as in the chain.
+constexpr double kLeapingSigma = 2e-3;
+
+/// What a window of a draft came to.
+struct Trial {
+  double slack = kInfinity;  ///< 0: feasible
+  double energy = kInfinity;
+  std::size_t trouble = 0;  ///< link of the window that pushes hardest
+  State x;
+
+  [[nodiscard]] bool feasible() const { return slack == 0.0; }
+};
+
+/// A window that grows with the nodes that are put into it.
+struct GrowingWindow {
+  std::size_t first = 0, beyond = 0;  ///< links before and behind it
+  [[nodiscard]] Window of(const Draft& d) const { return {first, d.links() - beyond}; }
+};
+
+class Mender {
+ public:
+  Mender(const ExactSeries& series, const Progress& progress)
+      : series_(series), progress_(progress), draft_(draft_of(series)) {}
+
+  ExactRuns run() {
+    std::size_t at = 0;
+    for (; at < draft_.links(); at += kStride) {
+      if (progress_) progress_("searching runs", part_done(at));
+      const GrowingWindow window = around(at);
+      for (int k = 0; k < kMendsPerWindow && !holds(window.of(draft_)); ++k) {
+        if (!mend(window.of(draft_))) break;
+      }
+    }
+    return finish();
+  }
+
+ private:
+  [[nodiscard]] GrowingWindow around(std::size_t at) const {
+    return {at > kBefore ? at - kBefore : 0,
+            draft_.links() - std::min(draft_.links(), at + kBeyond)};
+  }
+
+  [[nodiscard]] double part_done(std::size_t at) const {
+    return static_cast<double>(at) / static_cast<double>(draft_.links());
+  }
+
+  Trial attempt(const Draft& draft, Window window, int fair_steps) {
+    Draft part = part_of(draft, window);
+    TubeModel model(part.tube, part.direction, Cone::kSpiral, kFairEnergy);
+    TubeSolver solver(model);
+    Trial out;
+    const Feasibility f = solver.find_inside(part.x);
+    if (f.feasible) {
+      solver.descend(part.x, {1.0, kFinalBarrier, kTubeBarrier}, kFairEnough, fair_steps);
+      out.slack = 0.0;
+      out.energy = model.merit(part.x, 0.0, {1.0, kFinalBarrier, kTubeBarrier});
+      if (const auto leap = leaping(model, part.x)) {
+        out.slack = std::numeric_limits<double>::min();
+        out.trouble = *leap;
+      }
+    } else {
+      out.slack = f.slack;
+      const std::vector<double> force = model.link_forces(part.x, f.slack);
+      out.trouble =
+          static_cast<std::size_t>(std::max_element(force.begin(), force.end()) - force.begin());
+    }
+    steps_ += solver.steps();
+    out.x = std::move(part.x);
+    return out;
+  }
+
+  static std::optional<std::size_t> leaping(TubeModel& model, const State& x) {
+    const auto values = model.link_values(x);
+    std::optional<std::size_t> worst;
+    double least = kLeapingSigma;
+    for (std::size_t i = 0; i < values.size(); ++i) {
+      const double ratio = values[i].sigma / values[i].m;
+      if (ratio >= least) continue;
+      least = ratio;
+      worst = i;
+    }
+    return worst;
+  }
+
+  /// Whether the window holds as it is; where it does, its state is kept to begin with.
+  bool holds(Window window) {
+    last_ = attempt(draft_, window, kRoughSteps);
+    if (!last_.feasible()) return false;
+    std::copy(last_.x.begin(), last_.x.end(),
+              draft_.x.begin() + static_cast<std::ptrdiff_t>(kPerNode * window.first));
+    return true;
+  }
+
+  /// Changes the directions around the trouble that `last_` names. False when nothing helps.
+  bool mend(Window window) {
+    const Draft part = part_of(draft_, window);
+    const std::size_t trouble = last_.trouble;
+    const std::size_t first = trouble - std::min(trouble, kReach);
+    const std::size_t last = std::min(part.links(), trouble + kReach + 1);
+    best_ = last_;
+    best_part_ = {};
+    best_vertices_ = std::numeric_limits<int>::max();
+    for (const Change change : {Change::kTurn, Change::kSplit, Change::kSplitTwice}) {
+      for (std::size_t i = first; i < last; ++i) {
+        for (Draft& changed_part : changed(part, change, i)) {
+          consider(std::move(changed_part), window);
+        }
+      }
+      if (best_.feasible()) break;
+    }
+    if (best_part_.direction.empty()) return false;
+    splice(draft_, window, std::move(best_part_));
+    return true;
+  }
+
+  void consider(Draft part, Window window) {
+    const int vertices = vertices_with_neighbours(part, window);
+    if (best_.feasible() && vertices > best_vertices_) return;
+    Trial trial = attempt(part, {0, part.links()}, kRoughSteps);
+    const bool better = trial.feasible() != best_.feasible() ? trial.feasible()
+                        : !trial.feasible()                  ? trial.slack < best_.slack
+                        : vertices != best_vertices_         ? vertices < best_vertices_
+                                                             : trial.energy < best_.energy;
+    if (!better) return;
+    best_ = std::move(trial);
+    best_vertices_ = vertices;
+    best_part_ = std::move(part);
+  }
+
+  /// Changes of direction inside a part and towards the links before and behind its window.
+  [[nodiscard]] int vertices_with_neighbours(const Draft& part, Window window) const {
+    std::vector<std::int8_t> all = part.direction;
+    if (window.first > 0) all.insert(all.begin(), draft_.direction[window.first - 1]);
+    if (window.last < draft_.links()) all.push_back(draft_.direction[window.last]);
+    return vertices_of(all);
+  }
+
+  ExactRuns finish() {
+    const std::size_t mends = 1 + draft_.links() / kLinksPerMend;
+    for (std::size_t k = 0; k <= mends; ++k) {
+      const Window whole{0, draft_.links()};
+      last_ = attempt(draft_, whole, kFairSteps);
+      if (last_.feasible() || k == mends) break;
+      const std::size_t trouble = last_.trouble;
+      const Window here = around(trouble).of(draft_);
+      last_.trouble = trouble - here.first;
+      if (!mend(here)) break;
+    }
+    return result();
+  }
+
+  ExactRuns result() {
+    ExactRuns out;
+    out.feasible = last_.feasible();
+    out.newton_steps = steps_;
+    out.source = draft_.source;
+    out.direction = draft_.direction;
+    for (std::size_t i = 0; i < draft_.tube.nodes.size(); ++i) {
+      const TubeNode& n = draft_.tube.nodes[i];
+      const double* x = &last_.x[kPerNode * i];
+      const NodeEnd end = place(n, x).in;
+      const Vec2 point =
+          out.source[i] ? series_.points[*out.source[i]] : draft_.tube.origin + end.position;
+      out.elements.push_back({point, n.theta + x[1], end.kappa});
+      if (i <= last_.trouble && out.source[i]) out.trouble = *out.source[i];
+    }
+    return out;
+  }
+
+  const ExactSeries& series_;
+  const Progress& progress_;
+  Draft draft_, best_part_;
+  Trial last_, best_;
+  int best_vertices_ = 0;
+  int steps_ = 0;
+};
+
+}  // namespace
+
+ExactRuns exact_runs(const ExactSeries& series, const Progress& progress) {
+  return Mender(series, progress).run();
+}
+
+}  // namespace obvid
