@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <set>
 #include <utility>
 
 #include "build_tube.h"
@@ -21,13 +22,15 @@ constexpr std::size_t kBefore = 5, kBeyond = 11;  ///< links of a window before 
 constexpr std::size_t kStride = 8;                ///< links from one window to the next
 constexpr std::size_t kReach = 3;    ///< links on each side of the trouble that are changed
 constexpr int kMendsPerWindow = 12;  ///< changes of one window
-constexpr std::size_t kLinksPerMend = 10;  ///< of the whole: mends at the end, one for so many
+constexpr std::size_t kLeastMends = 10, kLinksPerMend = 4;  ///< at the end, of the whole
 constexpr double kTubeBarrier = 0.02;      ///< of free nodes in their room, in the final problem
 constexpr double kFairEnough = 1e-6;       ///< Newton's decrement
 constexpr int kFairSteps = 60;
 constexpr int kRoughSteps = 12;  ///< towards the fairest state of a window, to compare windows
 /// Below this part of B - A a link's sigma is a leap of curvature at its ends, as in the chain.
 constexpr double kLeapingSigma = 2e-3;
+/// A link that lies in its cone by less than this leaves no room for its pieces.
+constexpr double kThinMargin = 5e-3;
 
 /// What a window of a draft came to.
 struct Trial {
@@ -63,9 +66,9 @@ class Mender {
   }
 
  private:
-  [[nodiscard]] GrowingWindow around(std::size_t at) const {
-    return {at > kBefore ? at - kBefore : 0,
-            draft_.links() - std::min(draft_.links(), at + kBeyond)};
+  [[nodiscard]] GrowingWindow around(std::size_t at, std::size_t wider = 1) const {
+    return {at - std::min(at, wider * kBefore),
+            draft_.links() - std::min(draft_.links(), at + wider * kBeyond)};
   }
 
   [[nodiscard]] double part_done(std::size_t at) const {
@@ -82,9 +85,9 @@ class Mender {
       solver.descend(part.x, {1.0, kFinalBarrier, kTubeBarrier}, kFairEnough, fair_steps);
       out.slack = 0.0;
       out.energy = model.merit(part.x, 0.0, {1.0, kFinalBarrier, kTubeBarrier});
-      if (const auto leap = leaping(model, part.x)) {
+      if (const auto link = strained(model, part.x)) {
         out.slack = std::numeric_limits<double>::min();
-        out.trouble = *leap;
+        out.trouble = *link;
       }
     } else {
       out.slack = f.slack;
@@ -97,14 +100,18 @@ class Mender {
     return out;
   }
 
-  static std::optional<std::size_t> leaping(TubeModel& model, const State& x) {
+  /// The link that is carried worst, if one leaps or hardly lies in its cone.
+  static std::optional<std::size_t> strained(TubeModel& model, const State& x) {
     const auto values = model.link_values(x);
     std::optional<std::size_t> worst;
-    double least = kLeapingSigma;
+    double least = 1.0;
     for (std::size_t i = 0; i < values.size(); ++i) {
-      const double ratio = values[i].sigma / values[i].m;
-      if (ratio >= least) continue;
-      least = ratio;
+      const auto& v = values[i];
+      const double half = std::sin(0.5 * v.sigma);
+      const double margin = 1.0 - 4.0 * half * half / (v.m * v.m - v.q * v.q);
+      const double use = std::min(v.sigma / v.m / kLeapingSigma, margin / kThinMargin);
+      if (use >= least) continue;
+      least = use;
       worst = i;
     }
     return worst;
@@ -134,9 +141,16 @@ class Mender {
           consider(std::move(changed_part), window);
         }
       }
-      if (best_.feasible()) break;
+      if (best_.feasible() && change != Change::kTurn) break;
+    }
+    if (best_part_.direction.empty()) {  // more than one link is in the way: room for this one
+      best_.slack = kInfinity;
+      for (Draft& split : changed(part, Change::kSplitTwice, trouble)) {
+        consider(std::move(split), window);
+      }
     }
     if (best_part_.direction.empty()) return false;
+    if (best_.feasible()) best_part_.x = best_.x;
     splice(draft_, window, std::move(best_part_));
     return true;
   }
@@ -164,22 +178,31 @@ class Mender {
   }
 
   ExactRuns finish() {
-    const std::size_t mends = 1 + draft_.links() / kLinksPerMend;
+    const std::size_t mends = kLeastMends + draft_.links() / kLinksPerMend;
+    std::set<std::size_t> seen;
+    std::size_t wider = 1;
     for (std::size_t k = 0; k <= mends; ++k) {
       const Window whole{0, draft_.links()};
       last_ = attempt(draft_, whole, kFairSteps);
       if (last_.feasible() || k == mends) break;
+      // a window that holds promises too much when the whole fails there again
       const std::size_t trouble = last_.trouble;
-      const Window here = around(trouble).of(draft_);
+      wider = seen.insert(point_before(trouble)).second ? 1 : 2 * wider;
+      const Window here = around(trouble, wider).of(draft_);
       last_.trouble = trouble - here.first;
       if (!mend(here)) break;
     }
     return result();
   }
 
+  [[nodiscard]] std::size_t point_before(std::size_t node) const {
+    while (!draft_.source[node]) --node;
+    return *draft_.source[node];
+  }
+
   ExactRuns result() {
     ExactRuns out;
-    out.feasible = last_.feasible();
+    out.feasible = std::isfinite(last_.energy);
     out.newton_steps = steps_;
     out.source = draft_.source;
     out.direction = draft_.direction;
