@@ -27,10 +27,15 @@ constexpr double kTubeBarrier = 0.02;      ///< of free nodes in their room, in 
 constexpr double kFairEnough = 1e-6;       ///< Newton's decrement
 constexpr int kFairSteps = 60;
 constexpr int kRoughSteps = 12;  ///< towards the fairest state of a window, to compare windows
-/// Below this part of B - A a link's sigma is a leap of curvature at its ends, as in the chain.
+/// Below this part of B - A a link's sigma is a leap of curvature at its ends (the chain refuses
+/// half of it), and a link that lies in its cone by less than this leaves its pieces no room.
 constexpr double kLeapingSigma = 2e-3;
-/// A link that lies in its cone by less than this leaves no room for its pieces.
 constexpr double kThinMargin = 5e-3;
+/// Without the wish for room: what the chain refuses, and what rounding may hide.
+constexpr double kRefusedSigma = 1.1e-3;
+constexpr double kLeastMargin = 1e-4;
+/// Newton steps times links, some microseconds each: the search gives up beyond.
+constexpr double kWork = 200'000.0, kWorkPerLink = 20'000.0;
 
 /// What a window of a draft came to.
 struct Trial {
@@ -54,10 +59,13 @@ class Mender {
       : series_(series), progress_(progress), draft_(draft_of(series)) {}
 
   ExactRuns run() {
-    std::size_t at = 0;
-    for (; at < draft_.links(); at += kStride) {
-      if (progress_) progress_("searching runs", part_done(at));
-      const GrowingWindow window = around(at);
+    // counted from the end, which stays while nodes are put in before it
+    const std::size_t links = draft_.links();
+    for (std::size_t done = 0; done < links; done += kStride) {
+      if (progress_) {
+        progress_("searching runs", static_cast<double>(done) / static_cast<double>(links));
+      }
+      const GrowingWindow window = around(draft_.links() - (links - done));
       for (int k = 0; k < kMendsPerWindow && !holds(window.of(draft_)); ++k) {
         if (!mend(window.of(draft_))) break;
       }
@@ -69,10 +77,6 @@ class Mender {
   [[nodiscard]] GrowingWindow around(std::size_t at, std::size_t wider = 1) const {
     return {at - std::min(at, wider * kBefore),
             draft_.links() - std::min(draft_.links(), at + wider * kBeyond)};
-  }
-
-  [[nodiscard]] double part_done(std::size_t at) const {
-    return static_cast<double>(at) / static_cast<double>(draft_.links());
   }
 
   Trial attempt(const Draft& draft, Window window, int fair_steps) {
@@ -96,20 +100,23 @@ class Mender {
           static_cast<std::size_t>(std::max_element(force.begin(), force.end()) - force.begin());
     }
     steps_ += solver.steps();
+    work_ += static_cast<double>(solver.steps()) * static_cast<double>(part.links());
     out.x = std::move(part.x);
     return out;
   }
 
   /// The link that is carried worst, if one leaps or hardly lies in its cone.
-  static std::optional<std::size_t> strained(TubeModel& model, const State& x) {
+  [[nodiscard]] std::optional<std::size_t> strained(TubeModel& model, const State& x) const {
     const auto values = model.link_values(x);
+    const double least_sigma = series_.with_room ? kLeapingSigma : kRefusedSigma;
+    const double least_margin = series_.with_room ? kThinMargin : kLeastMargin;
     std::optional<std::size_t> worst;
     double least = 1.0;
     for (std::size_t i = 0; i < values.size(); ++i) {
       const auto& v = values[i];
       const double half = std::sin(0.5 * v.sigma);
       const double margin = 1.0 - 4.0 * half * half / (v.m * v.m - v.q * v.q);
-      const double use = std::min(v.sigma / v.m / kLeapingSigma, margin / kThinMargin);
+      const double use = std::min(v.sigma / v.m / least_sigma, margin / least_margin);
       if (use >= least) continue;
       least = use;
       worst = i;
@@ -126,8 +133,13 @@ class Mender {
     return true;
   }
 
+  [[nodiscard]] bool worn_out() const {
+    return work_ > kWork + kWorkPerLink * static_cast<double>(series_.points.size());
+  }
+
   /// Changes the directions around the trouble that `last_` names. False when nothing helps.
   bool mend(Window window) {
+    if (worn_out()) return false;
     const Draft part = part_of(draft_, window);
     const std::size_t trouble = last_.trouble;
     const std::size_t first = trouble - std::min(trouble, kReach);
@@ -157,7 +169,7 @@ class Mender {
 
   void consider(Draft part, Window window) {
     const int vertices = vertices_with_neighbours(part, window);
-    if (best_.feasible() && vertices > best_vertices_) return;
+    if (worn_out() || (best_.feasible() && vertices > best_vertices_)) return;
     Trial trial = attempt(part, {0, part.links()}, kRoughSteps);
     const bool better = trial.feasible() != best_.feasible() ? trial.feasible()
                         : !trial.feasible()                  ? trial.slack < best_.slack
@@ -187,7 +199,7 @@ class Mender {
       if (last_.feasible() || k == mends) break;
       // a window that holds promises too much when the whole fails there again
       const std::size_t trouble = last_.trouble;
-      wider = seen.insert(point_before(trouble)).second ? 1 : 2 * wider;
+      wider = seen.insert(point_before(trouble)).second ? 1 : std::min(2 * wider, draft_.links());
       const Window here = around(trouble, wider).of(draft_);
       last_.trouble = trouble - here.first;
       if (!mend(here)) break;
@@ -224,6 +236,7 @@ class Mender {
   Trial last_, best_;
   int best_vertices_ = 0;
   int steps_ = 0;
+  double work_ = 0.0;
 };
 
 }  // namespace

@@ -14,8 +14,12 @@ namespace {
 class Assembler {
  public:
   Assembler(const std::vector<Vec2>& points, const ChainProblem& problem, bool convex,
-            const Progress& progress)
-      : points_(points), problem_(problem), convex_(convex), progress_(progress) {}
+            bool with_room, const Progress& progress)
+      : points_(points),
+        problem_(problem),
+        convex_(convex),
+        with_room_(with_room),
+        progress_(progress) {}
 
   Result<SeriesChain> run() {
     const std::size_t links = problem_.direction.size();
@@ -61,6 +65,7 @@ class Assembler {
 
   Result<void> append_part(std::size_t first, std::size_t last) {
     ExactSeries part;
+    part.with_room = with_room_;
     for (std::size_t i = first; i <= last; ++i) {
       part.points.push_back(points_[i]);
       part.nodes.push_back(node(i));
@@ -97,7 +102,7 @@ class Assembler {
 
   const std::vector<Vec2>& points_;
   const ChainProblem& problem_;
-  bool convex_;
+  bool convex_, with_room_;
   const Progress& progress_;
   DirectedSeries out_;
   Element last_;
@@ -118,7 +123,9 @@ Result<SeriesChain> attempt(const std::vector<Vec2>& points, const Analysis& ana
                             const ChainWishes& wishes, const Progress& progress) {
   const auto problem = chain_problem(analysis, wishes);
   if (!problem) return fail(problem.error());
-  return Assembler(points, *problem, wishes.convex, progress).run();
+  auto chain = Assembler(points, *problem, wishes.convex, false, progress).run();
+  if (chain) return chain;
+  return Assembler(points, *problem, wishes.convex, true, progress).run();
 }
 
 /// The analysis without stretches of so few points; their links go the way of their neighbours.

@@ -17,6 +17,7 @@ struct ExactSeries {
   std::vector<Vec2> points;            ///< at least 2, no two neighbours equal
   std::vector<NodeData> nodes;         ///< one per point: what is given there
   std::vector<std::int8_t> direction;  ///< per link: +1 or -1
+  bool with_room = false;  ///< links must keep clear of the limits of their cones, too
 };
 
 /// The same points with the directions that they can keep. Where one direction does not carry a
@@ -35,7 +36,7 @@ struct ExactRuns {
 /// holds, then the whole. The change that needs the fewest vertices is taken, of equal ones the
 /// fairest. What is not in the way stays as it was given.
 /// Not guaranteed: the least number of vertices. Cost O(n) for the windows that hold, some 30
-/// solves of a window for each that does not.
+/// solves of a window for each that does not; given up after 20,000 Newton steps of a link per link.
 [[nodiscard]] ExactRuns exact_runs(const ExactSeries& series, const Progress& progress = {});
 
 }  // namespace obvid
