@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "draft.h"
 
+#include <cmath>
+#include <numbers>
 #include <utility>
 
 #include "build_tube.h"
+#include "obvid/series/analysis.h"
 
 namespace obvid::fairing_detail {
 namespace {
@@ -11,6 +14,23 @@ namespace {
 template <class Vector>
 auto at(Vector& v, std::size_t i) {
   return v.begin() + static_cast<std::ptrdiff_t>(i);
+}
+
+State on_adjacent_circles(const Tube& tube, const ExactSeries& series) {
+  const std::size_t n = series.points.size();
+  const std::vector<Chord> chords = measure_chords(series.points);
+  const std::vector<AdjacentCircle> circles = measure_circles(series.points, chords);
+  State out(kPerNode * n, 0.0);
+  for (std::size_t i = 0; i < n; ++i) {
+    const TubeNode& node = tube.nodes[i];
+    const double theta = i + 1 == n ? chords[i - 1].omega + circles[i].eta_in
+                                    : chords[i].omega - circles[i].eta_out;
+    if (!node.fix_theta) {
+      out[kPerNode * i + 1] = std::remainder(theta - node.theta, 2.0 * std::numbers::pi);
+    }
+    if (!node.fix_kappa) out[kPerNode * i + 2] = (circles[i].kappa - node.kappa) * node.length;
+  }
+  return out;
 }
 
 /// Puts a free node into the middle of a link, with a direction for each half.
@@ -24,6 +44,7 @@ void insert(Draft& draft, std::size_t link, std::int8_t first, std::int8_t secon
   tube.size.insert(at(tube.size, link), tube.size[link]);
   tube.first_row.push_back(0);  // exact points are nodes, all of them: no rows anywhere
   draft.x.insert(at(draft.x, kPerNode * (link + 1)), kPerNode, 0.0);
+  draft.plain.insert(at(draft.plain, kPerNode * (link + 1)), kPerNode, 0.0);
   draft.source.insert(at(draft.source, link + 1), std::nullopt);
   draft.direction[link] = second;
   draft.direction.insert(at(draft.direction, link), first);
@@ -41,6 +62,7 @@ Draft draft_of(const ExactSeries& series) {
   Draft out;
   out.tube = std::move(smooth.tube);
   out.x = std::move(smooth.state);
+  out.plain = on_adjacent_circles(out.tube, series);
   out.direction = series.direction;
   out.source.assign(smooth.source.begin(), smooth.source.end());
   return out;
@@ -53,6 +75,8 @@ Draft part_of(const Draft& draft, Window window) {
   out.tube.size.assign(at(draft.tube.size, window.first), at(draft.tube.size, window.last));
   out.tube.first_row.assign(window.last - window.first + 1, 0);
   out.x.assign(at(draft.x, kPerNode * window.first), at(draft.x, kPerNode * (window.last + 1)));
+  out.plain.assign(at(draft.plain, kPerNode * window.first),
+                   at(draft.plain, kPerNode * (window.last + 1)));
   out.direction.assign(at(draft.direction, window.first), at(draft.direction, window.last));
   out.source.assign(at(draft.source, window.first), at(draft.source, window.last + 1));
   return out;
@@ -66,6 +90,7 @@ void splice(Draft& draft, Window window, Draft part) {
   replace(draft.tube.nodes, part.tube.nodes, window.first, window.last + 1);
   replace(draft.tube.size, part.tube.size, window.first, window.last);
   replace(draft.x, part.x, kPerNode * window.first, kPerNode * (window.last + 1));
+  replace(draft.plain, part.plain, kPerNode * window.first, kPerNode * (window.last + 1));
   replace(draft.direction, part.direction, window.first, window.last);
   replace(draft.source, part.source, window.first, window.last + 1);
   draft.tube.first_row.assign(draft.links() + 1, 0);

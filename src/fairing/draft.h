@@ -13,14 +13,15 @@ namespace obvid::fairing_detail {
 /// Exact points, and free nodes between them, with a direction per link.
 struct Draft {
   Tube tube;
-  State x;
+  State x;      ///< on a smooth curve through the points
+  State plain;  ///< with the headings and curvatures of the adjacent circles: another start
   std::vector<std::int8_t> direction;
   std::vector<std::optional<std::size_t>> source;  ///< per node: its point; nothing: free
 
   [[nodiscard]] std::size_t links() const { return direction.size(); }
 };
 
-/// Nodes on a smooth curve through the points, with the directions that were given.
+/// The points with the directions that were given.
 [[nodiscard]] Draft draft_of(const ExactSeries& series);
 
 /// Links window.first .. window.last - 1 as a draft of their own.

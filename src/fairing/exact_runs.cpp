@@ -9,6 +9,7 @@
 
 #include "build_tube.h"
 #include "draft.h"
+#include "obvid/chain/series_chain.h"
 #include "run_search.h"
 #include "tube_solver.h"
 
@@ -27,13 +28,13 @@ constexpr double kTubeBarrier = 0.02;      ///< of free nodes in their room, in 
 constexpr double kFairEnough = 1e-6;       ///< Newton's decrement
 constexpr int kFairSteps = 60;
 constexpr int kRoughSteps = 12;  ///< towards the fairest state of a window, to compare windows
-/// Below this part of B - A a link's sigma is a leap of curvature at its ends (the chain refuses
-/// half of it), and a link that lies in its cone by less than this leaves its pieces no room.
-constexpr double kLeapingSigma = 2e-3;
-constexpr double kThinMargin = 5e-3;
-/// Without the wish for room: what the chain refuses, and what rounding may hide.
-constexpr double kRefusedSigma = 1.1e-3;
-constexpr double kLeastMargin = 1e-4;
+/// Headings farther from their chord than 120 degrees belong to loops.
+constexpr double kLeastCosine = -0.5;
+/// Least sigma over B - A of the pieces of a link: below it curvature leaps at their ends and rests
+/// between them. The first with a wish for room, the second a little more than the chain refuses.
+constexpr double kRoom = 2e-3, kRefused = 1.1e-3;
+/// Closed-form margin with which the chain carries a link in one piece.
+constexpr double kOnePiece = 0.02;
 /// Newton steps times links, some microseconds each: the search gives up beyond.
 constexpr double kWork = 200'000.0, kWorkPerLink = 20'000.0;
 
@@ -52,6 +53,31 @@ struct GrowingWindow {
   std::size_t first = 0, beyond = 0;  ///< links before and behind it
   [[nodiscard]] Window of(const Draft& d) const { return {first, d.links() - beyond}; }
 };
+
+LinkState link_between(const NodeEnd& a, const NodeEnd& b) {
+  const Vec2 chord = b.position - a.position;
+  LinkState s;
+  s.h = norm(chord);
+  s.omega = heading(chord);
+  s.alpha = turning(chord, a.tangent);
+  s.beta = turning(chord, b.tangent);
+  s.A = 0.5 * s.h * a.kappa + std::sin(s.alpha);
+  s.B = 0.5 * s.h * b.kappa - std::sin(s.beta);
+  s.sigma = s.alpha + s.beta;
+  return s;
+}
+
+/// Least sigma over B - A of the one or two pieces that carry a link; -1 for loops.
+double room_of(const NodeEnd& a, const NodeEnd& b, std::int8_t direction) {
+  const LinkState link = link_between(a, b);
+  if (std::min(std::cos(link.alpha), std::cos(link.beta)) < kLeastCosine) return -1.0;
+  const double whole = link.sigma / (link.B - link.A);
+  if (cone_margin(link, direction, Cone::kClosedForm) >= kOnePiece) return whole;
+  const Element e = free_element(link, direction, a.position);
+  const NodeEnd middle{e.point, unit_at(e.theta), e.kappa};
+  const LinkState first = link_between(a, middle), second = link_between(middle, b);
+  return std::min({whole, first.sigma / (first.B - first.A), second.sigma / (second.B - second.A)});
+}
 
 class Mender {
  public:
@@ -80,45 +106,52 @@ class Mender {
   }
 
   Trial attempt(const Draft& draft, Window window, int fair_steps) {
-    Draft part = part_of(draft, window);
+    const Draft part = part_of(draft, window);
+    Trial out = attempt_from(part.x, part, fair_steps);
+    if (!std::isfinite(out.energy)) {
+      Trial other = attempt_from(part.plain, part, fair_steps);
+      if (std::isfinite(other.energy)) return other;
+    }
+    return out;
+  }
+
+  Trial attempt_from(State x, const Draft& part, int fair_steps) {
     TubeModel model(part.tube, part.direction, Cone::kSpiral, kFairEnergy);
     TubeSolver solver(model);
     Trial out;
-    const Feasibility f = solver.find_inside(part.x);
+    const Feasibility f = solver.find_inside(x);
     if (f.feasible) {
-      solver.descend(part.x, {1.0, kFinalBarrier, kTubeBarrier}, kFairEnough, fair_steps);
+      const Weights weights{1.0, kFinalBarrier, kTubeBarrier};
+      solver.descend(x, weights, kFairEnough, fair_steps);
       out.slack = 0.0;
-      out.energy = model.merit(part.x, 0.0, {1.0, kFinalBarrier, kTubeBarrier});
-      if (const auto link = strained(model, part.x)) {
+      out.energy = model.merit(x, 0.0, weights);
+      if (const auto link = strained(part, x)) {
         out.slack = std::numeric_limits<double>::min();
         out.trouble = *link;
       }
     } else {
       out.slack = f.slack;
-      const std::vector<double> force = model.link_forces(part.x, f.slack);
+      const std::vector<double> force = model.link_forces(x, f.slack);
       out.trouble =
           static_cast<std::size_t>(std::max_element(force.begin(), force.end()) - force.begin());
     }
     steps_ += solver.steps();
     work_ += static_cast<double>(solver.steps()) * static_cast<double>(part.links());
-    out.x = std::move(part.x);
+    out.x = std::move(x);
     return out;
   }
 
-  /// The link that is carried worst, if one leaps or hardly lies in its cone.
-  [[nodiscard]] std::optional<std::size_t> strained(TubeModel& model, const State& x) const {
-    const auto values = model.link_values(x);
-    const double least_sigma = series_.with_room ? kLeapingSigma : kRefusedSigma;
-    const double least_margin = series_.with_room ? kThinMargin : kLeastMargin;
+  /// The link that is carried worst, if one leaps, hardly lies in its cone or belongs to a loop.
+  [[nodiscard]] std::optional<std::size_t> strained(const Draft& part, const State& x) const {
     std::optional<std::size_t> worst;
     double least = 1.0;
-    for (std::size_t i = 0; i < values.size(); ++i) {
-      const auto& v = values[i];
-      const double half = std::sin(0.5 * v.sigma);
-      const double margin = 1.0 - 4.0 * half * half / (v.m * v.m - v.q * v.q);
-      const double use = std::min(v.sigma / v.m / least_sigma, margin / least_margin);
-      if (use >= least) continue;
-      least = use;
+    for (std::size_t i = 0; i < part.links(); ++i) {
+      const NodeEnd a = place(part.tube.nodes[i], &x[kPerNode * i]).out;
+      const NodeEnd b = place(part.tube.nodes[i + 1], &x[kPerNode * (i + 1)]).in;
+      const double room = room_of(a, b, part.direction[i]);
+      const double wanted = series_.with_room ? kRoom : kRefused;
+      if (room / wanted >= least) continue;
+      least = room / wanted;
       worst = i;
     }
     return worst;
@@ -155,7 +188,8 @@ class Mender {
       }
       if (best_.feasible() && change != Change::kTurn) break;
     }
-    if (best_part_.direction.empty()) {  // more than one link is in the way: room for this one
+    const bool strained_only = std::isfinite(last_.energy);
+    if (best_part_.direction.empty() && !strained_only) {  // several links are in the way
       best_.slack = kInfinity;
       for (Draft& split : changed(part, Change::kSplitTwice, trouble)) {
         consider(std::move(split), window);

@@ -54,9 +54,9 @@ class SectionChooser {
   }
 
   Result<SectionChain> run() {
-    const bool moves = std::any_of(index_.begin(), index_.end(),
-                                   [&](std::size_t i) { return series_.reach[i] > 0.0; });
-    auto chain = moves && points_.size() >= kFewestForFairing ? within_tolerances()
+    moves_ = std::any_of(index_.begin(), index_.end(),
+                         [&](std::size_t i) { return series_.reach[i] > 0.0; });
+    auto chain = moves_ && points_.size() >= kFewestForFairing ? within_tolerances()
                  : loop_                                      ? around_loop()
                                                               : through_points(points_, wishes());
     if (!chain) return fail(in_whole_series(chain.error()));
@@ -92,7 +92,7 @@ class SectionChooser {
     const auto analysis = analyse(points);
     if (!analysis) return tl::unexpected(analysis.error());
     auto chain = form_elements(points, *analysis, wishes);
-    if (!chain) {
+    if (!chain && !moves_) {
       if (auto mended = with_more_vertices(points, *analysis, wishes, progress_)) {
         chain = std::move(mended);
       }
@@ -251,6 +251,7 @@ class SectionChooser {
 
   const Prepared& series_;
   bool loop_;
+  bool moves_ = false;  ///< some point may be moved
   const Progress& progress_;
   std::vector<std::size_t> index_;  // of each point in the whole series
   std::vector<Vec2> points_;
