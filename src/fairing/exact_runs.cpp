@@ -33,6 +33,7 @@ constexpr double kLeastCosine = -0.5;
 /// Least sigma over B - A of the pieces of a link: below it curvature leaps at their ends and rests
 /// between them. The first with a wish for room, the second a little more than the chain refuses.
 constexpr double kRoom = 2e-3, kRefused = 1.1e-3;
+constexpr double kLoop = -1.0;  ///< stands for the room of a loop
 /// Closed-form margin with which the chain carries a link in one piece.
 constexpr double kOnePiece = 0.02;
 /// Newton steps times links, some microseconds each: the search gives up beyond.
@@ -43,6 +44,7 @@ struct Trial {
   double slack = kInfinity;  ///< 0: feasible
   double energy = kInfinity;
   std::size_t trouble = 0;  ///< link of the window that pushes hardest
+  bool loops = false;       ///< feasible, but the curve turns away from its chord there
   State x;
 
   [[nodiscard]] bool feasible() const { return slack == 0.0; }
@@ -67,10 +69,10 @@ LinkState link_between(const NodeEnd& a, const NodeEnd& b) {
   return s;
 }
 
-/// Least sigma over B - A of the one or two pieces that carry a link; -1 for loops.
+/// Least sigma over B - A of the one or two pieces that carry a link, or kLoop.
 double room_of(const NodeEnd& a, const NodeEnd& b, std::int8_t direction) {
   const LinkState link = link_between(a, b);
-  if (std::min(std::cos(link.alpha), std::cos(link.beta)) < kLeastCosine) return -1.0;
+  if (std::min(std::cos(link.alpha), std::cos(link.beta)) < kLeastCosine) return kLoop;
   const double whole = link.sigma / (link.B - link.A);
   if (cone_margin(link, direction, Cone::kClosedForm) >= kOnePiece) return whole;
   const Element e = free_element(link, direction, a.position);
@@ -125,10 +127,7 @@ class Mender {
       solver.descend(x, weights, kFairEnough, fair_steps);
       out.slack = 0.0;
       out.energy = model.merit(x, 0.0, weights);
-      if (const auto link = strained(part, x)) {
-        out.slack = std::numeric_limits<double>::min();
-        out.trouble = *link;
-      }
+      judge(part, x, out);
     } else {
       out.slack = f.slack;
       const std::vector<double> force = model.link_forces(x, f.slack);
@@ -141,20 +140,19 @@ class Mender {
     return out;
   }
 
-  /// The link that is carried worst, if one leaps, hardly lies in its cone or belongs to a loop.
-  [[nodiscard]] std::optional<std::size_t> strained(const Draft& part, const State& x) const {
-    std::optional<std::size_t> worst;
-    double least = 1.0;
+  /// Names the link that is carried worst, if one leaps, hardly lies in its cone or loops.
+  void judge(const Draft& part, const State& x, Trial& trial) const {
+    double least = series_.with_room ? kRoom : kRefused;
     for (std::size_t i = 0; i < part.links(); ++i) {
       const NodeEnd a = place(part.tube.nodes[i], &x[kPerNode * i]).out;
       const NodeEnd b = place(part.tube.nodes[i + 1], &x[kPerNode * (i + 1)]).in;
       const double room = room_of(a, b, part.direction[i]);
-      const double wanted = series_.with_room ? kRoom : kRefused;
-      if (room / wanted >= least) continue;
-      least = room / wanted;
-      worst = i;
+      if (room >= least) continue;
+      least = room;
+      trial.slack = std::numeric_limits<double>::min();
+      trial.trouble = i;
+      trial.loops = room == kLoop;
     }
-    return worst;
   }
 
   /// Whether the window holds as it is; where it does, its state is kept to begin with.
@@ -188,8 +186,7 @@ class Mender {
       }
       if (best_.feasible() && change != Change::kTurn) break;
     }
-    const bool strained_only = std::isfinite(last_.energy);
-    if (best_part_.direction.empty() && !strained_only) {  // several links are in the way
+    if (best_part_.direction.empty() && !last_.loops) {  // several links are in the way
       best_.slack = kInfinity;
       for (Draft& split : changed(part, Change::kSplitTwice, trouble)) {
         consider(std::move(split), window);
