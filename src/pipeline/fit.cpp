@@ -8,6 +8,7 @@
 
 #include "assemble.h"
 #include "form.h"
+#include "keep_joints.h"
 #include "obvid/certify/certify.h"
 #include "prepare.h"
 #include "report.h"
@@ -28,7 +29,7 @@ Result<Carried> as_carried(Result<Contour> contour) {
   return Carried{std::move(*contour), {}, {}};
 }
 
-Result<Carried> form(const std::vector<Vec2>& points, const SeriesChain& chain, Carrier carrier,
+Result<Carried> form_carrier(const std::vector<Vec2>& points, const SeriesChain& chain, Carrier carrier,
                      double tolerance, bool loop) {
   if (carrier == Carrier::kClothoids) return as_carried(form_clothoids(points, chain));
   auto spirals = form_spirals(points, chain);
@@ -47,6 +48,19 @@ Result<Carried> form(const std::vector<Vec2>& points, const SeriesChain& chain, 
     default:
       return as_carried(std::move(spirals));
   }
+}
+
+/// A carrier that promises continuous curvature keeps its digits at the joints.
+bool keeps_curvature(Carrier carrier) {
+  return carrier == Carrier::kSpiral || carrier == Carrier::kConics ||
+         carrier == Carrier::kBeziers || carrier == Carrier::kBspline;
+}
+
+Result<Carried> form(const std::vector<Vec2>& points, const SeriesChain& chain, Carrier carrier,
+                     double tolerance, bool loop) {
+  auto out = form_carrier(points, chain, carrier, tolerance, loop);
+  if (out && keeps_curvature(carrier)) keep_joint_curvatures(out->contour);
+  return out;
 }
 
 /// The spline of CAD systems asks for no headings and curvatures.
