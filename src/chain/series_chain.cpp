@@ -107,7 +107,7 @@ Attempt attempt(Extended current, bool convex, Watch& watch) {
 bool fulfilled_without(const ChainWishes& wishes, const Analysis& analysis, Extended series,
                        Watch& watch) {
   if (!anything_wished(wishes)) return false;
-  auto problem = set_up(analysis, {});
+  auto problem = chain_problem(analysis, {});
   if (!problem) return false;
   series.problem = std::move(*problem);
   return attempt(std::move(series), false, watch).chain.has_value();
@@ -128,7 +128,7 @@ double repair_work(std::size_t points) {
 
 Result<SeriesChain> choose_elements(const std::vector<Vec2>& points, const Analysis& analysis,
                                     const ChainWishes& wishes, Watch& watch) {
-  auto problem = set_up(analysis, wishes);
+  auto problem = chain_problem(analysis, wishes);
   if (!problem) return tl::unexpected(problem.error());
   Extended current;
   current.points = points;

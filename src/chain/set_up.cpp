@@ -71,48 +71,6 @@ double rounding_move(const std::vector<Vec2>& points, const Infeasibility& why) 
 
 }  // namespace
 
-Result<ChainProblem> set_up(const Analysis& a, const ChainWishes& wishes) {
-  ChainProblem p{a.chords, a.circles, a.direction, {}, std::vector<NodeData>(a.circles.size())};
-  for (const std::int8_t d : a.direction)
-    p.cone.push_back(d == 0 ? Cone::kNone : Cone::kClosedForm);
-  int turns = 0;
-  for (std::size_t i = 0; i < p.nodes.size(); ++i) {
-    p.nodes[i].curvature_sign = forced_sign(a, i);
-    if (i < wishes.fixed.size()) {
-      p.nodes[i].theta = wishes.fixed[i].theta;
-      p.nodes[i].kappa = wishes.fixed[i].kappa;
-    }
-    turns += a.circles[i].kappa > 0.0 ? 1 : a.circles[i].kappa < 0.0 ? -1 : 0;
-  }
-  if (wishes.convex) {
-    for (std::size_t i = 0; i < p.nodes.size(); ++i) {
-      const AdjacentCircle& c = a.circles[i];
-      if (turns * c.kappa < 0.0 && std::abs(c.kappa) > c.rounding) {
-        return fail({ErrorCode::kFixedDataContradict,
-                     "a convex contour was asked for, but the points turn the other way here",
-                     "point " + std::to_string(i + 1), "drop the wish for a convex contour",
-                     static_cast<std::ptrdiff_t>(i), c.kappa});
-      }
-      p.nodes[i].curvature_sign = turns > 0 ? 1 : -1;
-    }
-  }
-  for (const CircularStretch& s : a.stretches) {
-    for (std::size_t i = s.first; i <= s.last; ++i) {
-      if (contradicts(p.nodes[i], heading_on_stretch(a, s, i), s.kappa, a.circles[i].rounding)) {
-        return fail({ErrorCode::kFixedDataContradict,
-                     "the points lie on one circle or line here, with another heading or radius "
-                     "than the fixed one",
-                     fmt::format("point {}", i + 1), "free the heading and radius there",
-                     static_cast<std::ptrdiff_t>(i), s.kappa});
-      }
-      p.nodes[i].theta = heading_on_stretch(a, s, i);
-      p.nodes[i].kappa = s.kappa;
-      p.nodes[i].curvature_sign = 0;
-    }
-  }
-  return p;
-}
-
 bool anything_wished(const ChainWishes& wishes) {
   return wishes.convex ||
          std::any_of(wishes.fixed.begin(), wishes.fixed.end(),
@@ -166,3 +124,50 @@ Error explain(const std::vector<Vec2>& points, const Analysis& a, const ChainWis
 }
 
 }  // namespace obvid::chain_detail
+
+namespace obvid {
+
+Result<ChainProblem> chain_problem(const Analysis& a, const ChainWishes& wishes) {
+  using namespace chain_detail;
+  ChainProblem p{a.chords, a.circles, a.direction, {}, std::vector<NodeData>(a.circles.size())};
+  for (const std::int8_t d : a.direction)
+    p.cone.push_back(d == 0 ? Cone::kNone : Cone::kClosedForm);
+  int turns = 0;
+  for (std::size_t i = 0; i < p.nodes.size(); ++i) {
+    p.nodes[i].curvature_sign = forced_sign(a, i);
+    if (i < wishes.fixed.size()) {
+      p.nodes[i].theta = wishes.fixed[i].theta;
+      p.nodes[i].kappa = wishes.fixed[i].kappa;
+    }
+    turns += a.circles[i].kappa > 0.0 ? 1 : a.circles[i].kappa < 0.0 ? -1 : 0;
+  }
+  if (wishes.convex) {
+    for (std::size_t i = 0; i < p.nodes.size(); ++i) {
+      const AdjacentCircle& c = a.circles[i];
+      if (turns * c.kappa < 0.0 && std::abs(c.kappa) > c.rounding) {
+        return fail({ErrorCode::kFixedDataContradict,
+                     "a convex contour was asked for, but the points turn the other way here",
+                     "point " + std::to_string(i + 1), "drop the wish for a convex contour",
+                     static_cast<std::ptrdiff_t>(i), c.kappa});
+      }
+      p.nodes[i].curvature_sign = turns > 0 ? 1 : -1;
+    }
+  }
+  for (const CircularStretch& s : a.stretches) {
+    for (std::size_t i = s.first; i <= s.last; ++i) {
+      if (contradicts(p.nodes[i], heading_on_stretch(a, s, i), s.kappa, a.circles[i].rounding)) {
+        return fail({ErrorCode::kFixedDataContradict,
+                     "the points lie on one circle or line here, with another heading or radius "
+                     "than the fixed one",
+                     fmt::format("point {}", i + 1), "free the heading and radius there",
+                     static_cast<std::ptrdiff_t>(i), s.kappa});
+      }
+      p.nodes[i].theta = heading_on_stretch(a, s, i);
+      p.nodes[i].kappa = s.kappa;
+      p.nodes[i].curvature_sign = 0;
+    }
+  }
+  return p;
+}
+
+}  // namespace obvid

@@ -11,27 +11,6 @@ namespace {
 /// A free node may move by this part of its link to either side.
 constexpr double kFreeReach = 0.1;
 
-/// Middle of the quintic Hermite curve over a link.
-TubeNode middle_node(const NodeEnd& a, const NodeEnd& b) {
-  const Vec2 chord = b.position - a.position;
-  const double h = norm(chord), omega = heading(chord);
-  const double ta = std::tan(turning(chord, a.tangent)), tb = std::tan(turning(chord, b.tangent));
-  const double sum = a.kappa + b.kappa;
-  const double y = 5.0 / 32.0 * h * (ta - tb) + h * h * sum / 64.0;
-  const double slope = -7.0 / 16.0 * (ta + tb) + h * (b.kappa - a.kappa) / 32.0;
-  const double bend = 1.5 * (tb - ta) / h - 0.25 * sum;
-  const double run = std::hypot(1.0, slope);
-  TubeNode n;
-  const Vec2 along = (1.0 / h) * chord;
-  n.point = a.position + 0.5 * chord + y * left_normal(along);
-  n.theta = omega + std::atan(slope);
-  n.normal = left_normal(unit_at(n.theta));
-  n.kappa = bend / (run * run * run);
-  n.length = 0.5 * h;
-  n.reach = kFreeReach * h;
-  return n;
-}
-
 class Layer {
  public:
   Layer(const Tube& tube, const State& state, Window window, const Layout& layout)
@@ -99,6 +78,26 @@ class Layer {
 };
 
 }  // namespace
+
+TubeNode middle_node(const NodeEnd& a, const NodeEnd& b) {
+  const Vec2 chord = b.position - a.position;
+  const double h = norm(chord), omega = heading(chord);
+  const double ta = std::tan(turning(chord, a.tangent)), tb = std::tan(turning(chord, b.tangent));
+  const double sum = a.kappa + b.kappa;
+  const double y = 5.0 / 32.0 * h * (ta - tb) + h * h * sum / 64.0;
+  const double slope = -7.0 / 16.0 * (ta + tb) + h * (b.kappa - a.kappa) / 32.0;
+  const double bend = 1.5 * (tb - ta) / h - 0.25 * sum;
+  const double run = std::hypot(1.0, slope);
+  TubeNode n;
+  const Vec2 along = (1.0 / h) * chord;
+  n.point = a.position + 0.5 * chord + y * left_normal(along);
+  n.theta = omega + std::atan(slope);
+  n.normal = left_normal(unit_at(n.theta));
+  n.kappa = bend / (run * run * run);
+  n.length = 0.5 * h;
+  n.reach = kFreeReach * h;
+  return n;
+}
 
 int count_vertices(const Layout& layout, bool closed) {
   int n = 0;

@@ -5,6 +5,7 @@
 #include <optional>
 #include <vector>
 
+#include "node_ends.h"
 #include "tube.h"
 
 namespace obvid::fairing_detail {
@@ -52,6 +53,9 @@ struct LaidTube {
   std::vector<std::int8_t> direction;
   std::vector<std::optional<std::size_t>> node;  ///< index in the whole tube; nothing: free node
 };
+
+/// A free node in the middle of the quintic Hermite curve over a link.
+[[nodiscard]] TubeNode middle_node(const NodeEnd& a, const NodeEnd& b);
 
 [[nodiscard]] LaidTube lay_out(const Tube& tube, const State& state, Window window,
                                const Layout& layout);

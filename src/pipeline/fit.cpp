@@ -12,6 +12,7 @@
 #include "assemble.h"
 #include "form.h"
 #include "given.h"
+#include "keep_joints.h"
 #include "obvid/certify/certify.h"
 #include "obvid/region/refine.h"
 #include "parts.h"
@@ -39,9 +40,9 @@ Result<Carried> as_carried(Result<Contour> contour) {
 }
 
 /// A section in its carrier; `spirals` are those that carry the same elements.
-Result<Carried> form(const std::vector<Vec2>& points, const SeriesChain& chain,
-                     const Contour& spirals, const Prepared& series, Carrier carrier,
-                     double tolerance) {
+Result<Carried> form_carrier(const std::vector<Vec2>& points, const SeriesChain& chain,
+                             const Contour& spirals, const Prepared& series, Carrier carrier,
+                             double tolerance) {
   switch (carrier) {
     case Carrier::kClothoids:
       return as_carried(form_clothoids(points, chain));
@@ -58,6 +59,27 @@ Result<Carried> form(const std::vector<Vec2>& points, const SeriesChain& chain,
     default:
       return Carried{spirals, {}};
   }
+}
+
+/// A carrier that promises continuous curvature keeps its digits at the joints.
+bool keeps_curvature(Carrier carrier) {
+  return carrier == Carrier::kConics || carrier == Carrier::kBeziers ||
+         carrier == Carrier::kBspline;
+}
+
+Result<Carried> form(const std::vector<Vec2>& points, const SeriesChain& chain,
+                     const Contour& spirals, const Prepared& series, Carrier carrier,
+                     double tolerance) {
+  auto out = form_carrier(points, chain, spirals, series, carrier, tolerance);
+  if (out && keeps_curvature(carrier)) keep_joint_curvatures(out->contour);
+  return out;
+}
+
+/// Spirals whose stored numbers have the curvatures of their joints.
+Result<Contour> exact_spirals(const std::vector<Vec2>& points, const SeriesChain& chain) {
+  auto out = form_spirals(points, chain);
+  if (out) keep_joint_curvatures(*out);
+  return out;
 }
 
 /// The spline of CAD systems asks for no headings and curvatures; those given at its ends it keeps.
@@ -135,7 +157,7 @@ class SectionForming {
     if (job_.carrier == Carrier::kBaseline) return form_baseline_alone(section);
     const auto chain = chain_section(series_, section, watch_);
     if (!chain) return tl::unexpected(chain.error());
-    auto spirals = form_spirals(series_.points, chain->chain);
+    auto spirals = exact_spirals(series_.points, chain->chain);
     if (!spirals && job_.carrier != Carrier::kClothoids) return tl::unexpected(spirals.error());
     if (job_.carrier == Carrier::kSpiral) {
       assembly_.append(std::move(*spirals));
@@ -158,7 +180,7 @@ class SectionForming {
     out_.add(std::move(*carried), assembly_);
     if (!job_.measure_against_spirals) return {};
     const auto chain = chain_section(series_, section, watch_);
-    keep(chain ? form_spirals(series_.points, chain->chain)
+    keep(chain ? exact_spirals(series_.points, chain->chain)
                : Result<Contour>(tl::unexpected(chain.error())));
     return {};
   }

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "form.h"
+#include "more_vertices.h"
 #include "obvid/fairing/fairing.h"
 #include "obvid/series/analysis.h"
 #include "wandering.h"
@@ -63,9 +64,9 @@ class SectionChooser {
   }
 
   Result<SectionChain> run() {
-    const bool moves = std::any_of(index_.begin(), index_.end(),
-                                   [&](std::size_t i) { return series_.reach[i] > 0.0; });
-    auto chain = moves && points_.size() >= kFewestForFairing ? within_tolerances()
+    moves_ = std::any_of(index_.begin(), index_.end(),
+                         [&](std::size_t i) { return series_.reach[i] > 0.0; });
+    auto chain = moves_ && points_.size() >= kFewestForFairing ? within_tolerances()
                  : loop_                                      ? around_loop()
                                                               : through_points(points_, wishes());
     if (!chain) return fail(in_whole_series(chain.error()));
@@ -139,6 +140,11 @@ class SectionChooser {
     const auto analysis = analyse(points);
     if (!analysis) return tl::unexpected(analysis.error());
     auto chain = form_elements(points, *analysis, wishes, watch_);
+    if (!chain && !moves_) {
+      if (auto mended = with_more_vertices(points, *analysis, wishes, watch_)) {
+        chain = std::move(mended);
+      }
+    }
     if (chain) out_.warnings = warn(*analysis, *chain);
     return chain;
   }
@@ -301,6 +307,7 @@ class SectionChooser {
 
   const Prepared& series_;
   bool loop_;
+  bool moves_ = false;  ///< some point may be moved
   Watch& watch_;
   std::vector<std::size_t> index_;  // of each point in the whole series
   std::vector<Vec2> points_;

@@ -31,6 +31,11 @@ struct SeriesChain {
   bool unforced_inflection = false;   ///< an inflection was needed that the adjacent circles hide
 };
 
+/// The problem that `choose_elements` solves first: directions and cones from the analysis, given
+/// data and the data of circular stretches fixed. Error E403 when wishes contradict the points.
+[[nodiscard]] Result<ChainProblem> chain_problem(const Analysis& analysis,
+                                                 const ChainWishes& wishes);
+
 /// Chooses headings and curvatures for a series of at least 4 points (fewer are one circle):
 /// first with the closed form's cones; where those have no solution, with the cones of mere
 /// existence and a free element in every link that one piece cannot carry. Monotone adjacent

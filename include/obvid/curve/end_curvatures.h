@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "obvid/curve/pieces.h"
+
+namespace obvid {
+
+/// Signed curvatures wanted at both ends of a piece.
+struct WantedCurvatures {
+  double start = 0.0;
+  double end = 0.0;
+};
+
+/// Which numbers of a piece may be changed beside its control points.
+enum class InnerWeights { kFixed, kFree };
+
+/// Signed curvature at an end, exactly what the stored numbers say but for the last bits: areas of
+/// control points are computed without rounding.
+[[nodiscard]] double stored_curvature(const RationalBezier& piece, bool at_start);
+
+/// Moves inner control points so that the stored curvatures are the wanted ones (degree 2, 4 or 5,
+/// positive weights). In a nearly straight piece half a unit of the last bit of a control point is
+/// a large part of its distance from the tangent. The doubles around it lie at many other distances
+/// though: among those that are up to 1e-6 of the piece farther along the tangent, where they
+/// hardly change the curve, there is one at nearly every distance wanted
+/// (docs/methods/curve.md). Free inner weights take up what is left. A piece whose ends are right
+/// to 1e-10 already (of the curvature; where it is flat beside the other end, of 1e-6 of that
+/// one's) stays as it is; one that is stored in plain coordinates may come out with an origin.
+/// End points stay; tangents at the ends turn by less than 1e-15.
+void keep_end_curvatures(RationalBezier& piece, WantedCurvatures wanted, InnerWeights weights);
+
+}  // namespace obvid

@@ -1,0 +1,13 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "obvid/curve/contour.h"
+
+namespace obvid::pipeline_detail {
+
+/// Makes the stored curvatures of neighbouring Bezier pieces agree at their joint: both become that
+/// of the joint's element (`keep_end_curvatures`). Where a joint stands on no point its curvature
+/// is the one that the piece before it stores. For contours of one section, before their proof.
+void keep_joint_curvatures(Contour& contour);
+
+}  // namespace obvid::pipeline_detail
