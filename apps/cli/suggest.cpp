@@ -129,7 +129,7 @@ int suggest(const FitOptions& options) {
   ProgressBar bar(options.progress && !options.quiet);
   bar.tell("reading", 0.0);
   Result<PointSeries> series = read_points(options.input);
-  if (series && options.units) series->units = *options.units;
+  if (series && options.units) take_units(*series, *options.units);
   const Result<TradeOff> found = series.and_then(
       [&](const PointSeries& s) { return trade_off(s, options.job, bar.progress()); });
   if (!found) {

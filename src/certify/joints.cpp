@@ -128,8 +128,17 @@ class JointWalk {
   /// Two neighbouring pieces; returns the sign of the curvature's jump if it is one.
   std::int8_t compare(std::size_t joint, const EndData& left, const EndData& right) {
     check_position(left.point, right.point, left.point_rounding + right.point_rounding, joint);
-    if (is_corner(joint)) return jump_at_corner(left, right);
     const double turn = known(heading_gap(left.direction, right.direction));
+    if (is_parted(joint)) {
+      if (is_corner(contour_.joints[joint])) {
+        ++survey_.corners;
+      } else {
+        ++survey_.curvature_steps;
+        survey_.gaps.heading = std::max(survey_.gaps.heading, turn);
+        check(turn, kTangentTurn, joint, "the heading gap");
+      }
+      return parted_jump(left, right);
+    }
     survey_.gaps.heading = std::max(survey_.gaps.heading, turn);
     check(turn,
           allowed(kHeadingBase, left.heading_rounding + right.heading_rounding, kHeadingCeiling),
@@ -146,14 +155,14 @@ class JointWalk {
     return static_cast<std::int8_t>(gap <= bound ? 0 : (jump > 0.0 ? 1 : -1));
   }
 
-  [[nodiscard]] bool is_corner(std::size_t joint) const {
+  /// Whether the joint says something else for the piece that leaves it.
+  [[nodiscard]] bool is_parted(std::size_t joint) const {
     return joint < contour_.joints.size() && contour_.joints[joint].leaving.has_value();
   }
 
-  /// At a corner only the position is continuous; which way the curvature leaps counts like a leap
-  /// between arcs.
-  [[nodiscard]] std::int8_t jump_at_corner(const EndData& left, const EndData& right) {
-    ++survey_.corners;
+  /// At a corner only the position is continuous, at a step of the curvature the heading too; which
+  /// way the curvature leaps counts like a leap between arcs.
+  [[nodiscard]] static std::int8_t parted_jump(const EndData& left, const EndData& right) {
     const double jump = right.kappa - left.kappa;
     const double rounding = left.kappa_rounding + right.kappa_rounding;
     const double same = kSameAtCorner * std::max(std::abs(left.kappa), std::abs(right.kappa));
@@ -167,9 +176,9 @@ class JointWalk {
       check(kBroken, 0.0, joint, "the number of joints");
       return false;
     }
-    if (is_corner(joint)) {
+    if (is_parted(joint)) {
       if (left == nullptr || right == nullptr) {
-        check(kBroken, 0.0, joint, "the side that is missing of the corner");
+        check(kBroken, 0.0, joint, "the missing side of the joint");
         return true;
       }
       compare_end(joint, contour_.joints[joint].element, left, left);

@@ -120,6 +120,7 @@ class SectionForming {
  private:
   Result<void> form_one(std::size_t k) {
     const Section& section = series_.split.sections[k];
+    if (form_drawn(section)) return {};
     if (job_.carrier == Carrier::kBaseline) return form_baseline_alone(section, k);
     const auto chain = chain_section(series_, section, progress_of(k));
     if (!chain) return tl::unexpected(chain.error());
@@ -132,6 +133,17 @@ class SectionForming {
     add_section(*chain, out_);
     keep(std::move(spirals));
     return {};
+  }
+
+  /// A piece of a drawing stays as it is. False where there is none.
+  bool form_drawn(const Section& section) {
+    const std::size_t first = series_.split.point_at(section.first);
+    if (series_.kept.empty() || !series_.kept[first]) return false;
+    const std::size_t last = series_.split.point_at(section.last) % series_.points.size();
+    Contour drawn = form_kept(*series_.kept[first], series_.points, first, last);
+    out_.add({drawn, {}}, assembly_);
+    keep(std::move(drawn));
+    return true;
   }
 
   /// Needs no spirals, and is compared with them where there are any.
@@ -268,7 +280,13 @@ Result<Fit> fit(const PointSeries& series, const FitJob& job, const Progress& pr
     prepared->thin = false;  // every point a joint: each is met by construction
     formed = form_sections(*prepared, job, tolerance, progress);
   }
-  if (!formed) return tl::unexpected(formed.error());
+  if (!formed) {
+    Error error = formed.error();
+    if (!prepared->polygon.empty()) {
+      error.hint += (error.hint.empty() ? "" : "; ") + prepared->polygon;
+    }
+    return fail(std::move(error));
+  }
   if (auto kept = keeps_given(formed->contour); !kept) return fail(kept.error());
   Fit out;
   out.contour = std::move(formed->contour);
