@@ -110,8 +110,8 @@ Vec2 box_of(const std::vector<Vec2>& points) {
 }
 
 const char* kind_text(const PointSeries& series) {
-  constexpr const char* kKinds[] = {"points", "route", "single points", "waypoints"};
-  return kKinds[static_cast<int>(series.kind)];
+  constexpr const char* kSeriesKinds[] = {"points", "route", "single points", "waypoints"};
+  return kSeriesKinds[static_cast<int>(series.kind)];
 }
 
 /// Series of points go on counting where the curves end.

@@ -21,7 +21,7 @@ constexpr double kVisible = 0.01;      // of the range of the curvature
 constexpr double kRippleRounding = 1e-9;
 
 /// Roundings of a double in the coordinates of a piece that computing and printing may have cost.
-constexpr double kRoundings = 8.0;
+constexpr double kFlatRoundings = 8.0;
 
 /// Curvature below which a piece of this length cannot be told from a straight one: its height over
 /// the chord is what rounding makes of its coordinates, 1/unit.
@@ -33,7 +33,7 @@ double flat_curvature(const Piece& piece) {
   const Vec2 chord = end_point(piece) - start_point(piece);
   const double square = dot(chord, chord);
   // height of an arc: kappa length^2 / 8
-  return square > 0.0 ? 8.0 * kRoundings * 0x1p-53 * extent / square : 0.0;
+  return square > 0.0 ? 8.0 * kFlatRoundings * 0x1p-53 * extent / square : 0.0;
 }
 
 struct Sample {

@@ -272,7 +272,7 @@ struct ConicEnds {
   double way = 1.0, first = 0.0, last = 0.0;
 };
 
-ConicEnds ends_of(const RationalBezier& arc) {
+ConicEnds conic_ends(const RationalBezier& arc) {
   const Vec2 a = arc.offset[1] - arc.offset[0], b = arc.offset[2] - arc.offset[1];
   ConicEnds out{dot(a, a), dot(b, b), dot(a, b), 1.0, 0.0, 0.0};
   out.way = out.leg_b > out.leg_a ? 1.0 : -1.0;
@@ -291,9 +291,9 @@ bool opened(RationalBezier& arc) {
   constexpr double kSure = 1e-14;                  // some fifty roundings
   constexpr double kLeast = 1e-13, kMost = 1e-8;  // e: how far the arc moves, of its size
   const RationalBezier given = arc;
-  const ConicEnds at = ends_of(given);
+  const ConicEnds at = conic_ends(given);
   const auto sure = [&] {
-    const ConicEnds now = ends_of(arc);
+    const ConicEnds now = conic_ends(arc);
     return now.leg_a != now.leg_b && now.first >= kSure && now.last >= kSure;
   };
   for (double e = kLeast; !sure(); e *= 10.0) {

@@ -13,7 +13,7 @@ constexpr double kCoarseTurn = 40.0 * std::numbers::pi / 180.0;
 /// Turn that the rounding of doubles gives points in line, rad.
 constexpr double kInLine = 1e-6;
 /// Errors of the points turn longer chords by less than a quarter of a right angle.
-constexpr double kChordsPerNoise = 8.0;
+constexpr double kChordPerTolerance = 8.0;
 
 }  // namespace
 
@@ -30,7 +30,7 @@ CoarsePolygon coarse_polygon(const std::vector<Vec2>& points, const std::vector<
         tolerance.empty() ? 0.0
                           : std::max({tolerance[before], tolerance[i], tolerance[after]});
     const double turn = std::abs(turning(in, leave));
-    if (turn <= kInLine || std::min(norm(in), norm(leave)) < kChordsPerNoise * noise) continue;
+    if (turn <= kInLine || std::min(norm(in), norm(leave)) < kChordPerTolerance * noise) continue;
     turns.push_back(turn);
     if (turn >= angle) out.corners.push_back(i);
   }

@@ -24,7 +24,7 @@ struct LengthOfUnit {
   const char* name;
   double metres;  // by definition
 };
-constexpr LengthOfUnit kUnits[] = {
+constexpr LengthOfUnit kLengthUnits[] = {
     {"nm", 1e-9},    {"um", 1e-6},    {"mm", 1e-3},   {"cm", 1e-2},   {"dm", 1e-1},
     {"m", 1.0},      {"km", 1e3},     {"mil", 2.54e-5}, {"in", 0.0254}, {"ft", 0.3048},
     {"yd", 0.9144},  {"mi", 1609.344}, {"usft", 1200.0 / 3937.0}};
@@ -164,7 +164,7 @@ TEST_F(EveryUnit, OfADrawingComesBackAsTheSameCurve) {
                       {"a.step", FileFormat::kStep, 1e-9},
                       {"a.iges", FileFormat::kIges, 1e-9}};
   int compared = 0;
-  for (const LengthOfUnit& unit : kUnits) {
+  for (const LengthOfUnit& unit : kLengthUnits) {
     const Contour contour = outline(unit.name);
     for (const Row& row : rows) {
       const bool kernel = row.format == FileFormat::kStep || row.format == FileFormat::kIges;
@@ -187,7 +187,7 @@ TEST_F(EveryUnit, OfADrawingComesBackAsTheSameCurve) {
 }
 
 TEST_F(EveryUnit, OfARoadComesBackAsTheSameCurve) {
-  for (const LengthOfUnit& unit : kUnits) {
+  for (const LengthOfUnit& unit : kLengthUnits) {
     const Contour contour = road(unit.name);
     for (const auto& [name, format] : {std::pair{"a.xodr", FileFormat::kOpenDrive},
                                        {"a.xml", FileFormat::kLandXml}}) {
@@ -207,7 +207,7 @@ TEST_F(EveryUnit, FeetOfLandXmlStayFeet) {
 }
 
 TEST_F(EveryUnit, OfSamplesComesBackAsPointsOfTheSameCurve) {
-  for (const LengthOfUnit& unit : kUnits) {
+  for (const LengthOfUnit& unit : kLengthUnits) {
     const Contour contour = outline(unit.name);
     const auto series =
         read_series(file_with("a.csv", written(contour, FileFormat::kSamples, "csv")));
@@ -228,7 +228,7 @@ TEST_F(EveryUnit, OfSamplesComesBackAsPointsOfTheSameCurve) {
 }
 
 TEST_F(EveryUnit, OfAProgramIsMillimetresOrInches) {
-  for (const LengthOfUnit& unit : kUnits) {
+  for (const LengthOfUnit& unit : kLengthUnits) {
     const Contour contour = outline(unit.name);
     ExportOptions options;
     options.motion = GcodeMotion::kLines;
@@ -247,7 +247,7 @@ TEST_F(EveryUnit, OfAProgramIsMillimetresOrInches) {
 }
 
 TEST_F(EveryUnit, OfAMacroIsMetres) {
-  for (const LengthOfUnit& unit : kUnits) {
+  for (const LengthOfUnit& unit : kLengthUnits) {
     const Contour contour = outline(unit.name);
     const std::vector<Vec2> places =
         places_in_macro(written(contour, FileFormat::kMacro, "macro"));

@@ -11,46 +11,46 @@
 namespace obvid {
 namespace {
 
-using Points = std::vector<Vec2>;
+using RowPoints = std::vector<Vec2>;
 constexpr double kTurn = 2.0 * std::numbers::pi;
 
-Points regular(int corners, double radius = 1.0) {
-  Points out;
+RowPoints regular_row(int corners, double radius = 1.0) {
+  RowPoints out;
   for (int k = 0; k < corners; ++k) out.push_back(radius * unit_at(kTurn * k / corners));
   return out;
 }
 
-const Points kRectangle{{0, 0}, {4, 0}, {4, 3}, {0, 3}};
-const Points kTriangle{{0, 0}, {4, 0}, {1, 3}};
-const Points kEll{{0, 0}, {4, 0}, {4, 1}, {1, 1}, {1, 3}, {0, 3}};
-const Points kChamfered{{1, 0}, {3, 0}, {4, 1}, {4, 2}, {3, 3}, {1, 3}, {0, 2}, {0, 1}};
+const RowPoints kRowRectangle{{0, 0}, {4, 0}, {4, 3}, {0, 3}};
+const RowPoints kTriangle{{0, 0}, {4, 0}, {1, 3}};
+const RowPoints kEll{{0, 0}, {4, 0}, {4, 1}, {1, 1}, {1, 3}, {0, 3}};
+const RowPoints kChamfered{{1, 0}, {3, 0}, {4, 1}, {4, 2}, {3, 3}, {1, 3}, {0, 2}, {0, 1}};
 
 TEST(StraightRows, EdgesOfPolygonsAreNoChordsOfACurve) {
-  for (const Points& polygon : {kRectangle, kTriangle, kEll, kChamfered}) {
+  for (const RowPoints& polygon : {kRowRectangle, kTriangle, kEll, kChamfered}) {
     EXPECT_FALSE(chords_of_curve(polygon, true));
     EXPECT_FALSE(chords_of_curve(polygon, false));
   }
   for (int corners = 3; corners <= 13; ++corners) {
-    EXPECT_FALSE(chords_of_curve(regular(corners), true)) << corners;
+    EXPECT_FALSE(chords_of_curve(regular_row(corners), true)) << corners;
   }
 }
 
 TEST(StraightRows, ManyShortChordsAreACurve) {
   for (int corners = 14; corners <= 2000; corners += 7) {
-    EXPECT_TRUE(chords_of_curve(regular(corners), true)) << corners;
+    EXPECT_TRUE(chords_of_curve(regular_row(corners), true)) << corners;
   }
 }
 
 TEST(StraightRows, TheScaleDoesNotMatter) {
   for (const double scale : {1e-9, 1.0, 1e9}) {
-    EXPECT_TRUE(chords_of_curve(regular(40, scale), true));
-    EXPECT_FALSE(chords_of_curve(regular(6, scale), true));
+    EXPECT_TRUE(chords_of_curve(regular_row(40, scale), true));
+    EXPECT_FALSE(chords_of_curve(regular_row(6, scale), true));
   }
 }
 
 TEST(StraightRows, ThreeTurnsMakeACurveAndTwoABend) {
   const auto bent = [](std::vector<double> degrees) {
-    Points out{{0, 0}, {1, 0}};
+    RowPoints out{{0, 0}, {1, 0}};
     double theta = 0.0;
     for (const double turn : degrees) {
       theta += turn * kTurn / 360.0;
@@ -75,7 +75,7 @@ TEST(StraightRows, RoundedPointsOnEdgesNeverMakeACurve) {
   int tried = 0;
   for (int k = 0; k < 10000; ++k) {
     const int count = 3 + static_cast<int>(random() % 40);
-    Points line;
+    RowPoints line;
     double x = 0.0;
     for (int i = 0; i < count; ++i) {
       line.push_back({x, 1e-6 * error(random)});
@@ -87,7 +87,7 @@ TEST(StraightRows, RoundedPointsOnEdgesNeverMakeACurve) {
 }
 
 TEST(StraightRows, WhereAClosedSeriesBeginsDoesNotMatter) {
-  Points shape = regular(60);
+  RowPoints shape = regular_row(60);
   shape.erase(shape.begin() + 20, shape.begin() + 40);  // a D, its flat side from 20 to 40
   for (std::size_t k = 0; k < shape.size(); ++k) {
     EXPECT_TRUE(chords_of_curve(shape, true)) << k;
