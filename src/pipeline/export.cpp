@@ -68,9 +68,9 @@ class Exporter {
  public:
   Exporter(const StoredContour& stored, const ExportOptions& options)
       : stored_(stored), contour_(stored.contour), options_(options) {
-    const double size = pipeline_detail::size_of(places_of(contour_));
-    tolerance_ = options.tolerance.value_or(kExportTolerance * size);
-    arc_tolerance_ = options.tolerance.value_or(kDefaultForArcs * size);
+    size_ = pipeline_detail::size_of(places_of(contour_));
+    tolerance_ = options.tolerance.value_or(kExportTolerance * size_);
+    arc_tolerance_ = options.tolerance.value_or(kDefaultForArcs * size_);
   }
 
   Result<Exported> run(FileFormat format) {
@@ -166,6 +166,9 @@ class Exporter {
   }
 
   Result<Exported> cad(CadFormat format) {
+    const auto held = pipeline_detail::kernel_holds(size_, contour_.units,
+                                                    format == CadFormat::kBrep, "write .dxf");
+    if (!held) return fail(held.error());
     Exported out;
     CadCurve curve{options_.name, NurbsCurve{}};
     if (only_lines_and_arcs()) {
@@ -271,7 +274,7 @@ class Exporter {
   const StoredContour& stored_;
   const Contour& contour_;
   const ExportOptions& options_;
-  double tolerance_ = 0.0, arc_tolerance_ = 0.0;
+  double size_ = 0.0, tolerance_ = 0.0, arc_tolerance_ = 0.0;
 };
 
 }  // namespace

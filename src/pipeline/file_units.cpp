@@ -38,4 +38,16 @@ Result<UnitNotes> unit_notes(const Units& units, UnitRule rule, std::string_view
   return notes;
 }
 
+Result<void> kernel_holds(double size, const Units& units, bool plain, std::string_view instead) {
+  // kernels take points nearer than 1e-7 mm for one: a thousand times that is the least that keeps
+  // its shape, and doubles of 1e8 the largest with steps below it
+  constexpr double kLeast = 1e-4, kMost = 1e8;
+  const double held = plain ? size : size * unit_ratio(units.name, "mm").value_or(1.0);
+  if (held >= kLeast && held <= kMost) return {};
+  return fail({ErrorCode::kSizeOutOfRange,
+               fmt::format("{:.3g} {} across: CAD kernels hold {:g} to {:g}", held,
+                           plain ? "units" : "mm", kLeast, kMost),
+               "", fmt::format("choose another unit, or {}", instead), -1, held});
+}
+
 }  // namespace obvid::pipeline_detail

@@ -28,4 +28,9 @@ struct UnitNotes {
 [[nodiscard]] Result<UnitNotes> unit_notes(const Units& units, UnitRule rule,
                                            std::string_view kind, std::string_view written);
 
+/// Whether a CAD kernel keeps the shape of something of this size. Error E309 with `instead`, what
+/// else can be done. `plain`: the format has no unit, numbers are taken for millimetres.
+[[nodiscard]] Result<void> kernel_holds(double size, const Units& units, bool plain,
+                                        std::string_view instead);
+
 }  // namespace obvid::pipeline_detail

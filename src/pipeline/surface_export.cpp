@@ -38,10 +38,6 @@ constexpr std::array kSurfaceEndings = {
 };
 
 constexpr double kDefaultChordTolerance = 1e-3;  ///< of the size: not seen on a screen
-/// CAD kernels take points nearer than 1e-7 units for one: a thousand times that is the least that
-/// keeps its shape, and doubles of 1e8 the largest with steps below it.
-constexpr double kLeastCadSize = 1e-4;
-constexpr double kMostCadSize = 1e8;
 constexpr double kDefaultAngle = 15.0 * std::numbers::pi / 180.0;
 
 }  // namespace
@@ -109,12 +105,11 @@ Result<std::string> SurfaceExporter::text(SurfaceFormat format, std::vector<std:
 Result<std::string> SurfaceExporter::made(SurfaceFormat format, std::vector<std::string>& remarks) {
   const bool kernel = format == SurfaceFormat::kStep || format == SurfaceFormat::kIges ||
                       format == SurfaceFormat::kBrep;
-  if (kernel && !(size_of(model_) >= kLeastCadSize && size_of(model_) <= kMostCadSize)) {
-    return fail({ErrorCode::kSizeOutOfRange,
-                 fmt::format("the model is {:.3g} {} large: CAD kernels hold {:g} to {:g}",
-                             size_of(model_), model_.units.text(), kLeastCadSize, kMostCadSize),
-                 "", "choose another unit, or write .json, .obj, .glb or .ply", -1,
-                 size_of(model_)});
+  const bool brep = format == SurfaceFormat::kBrep;
+  if (kernel) {
+    const auto held = pipeline_detail::kernel_holds(size_of(model_), model_.units, brep,
+                                                    "write .json, .obj, .glb or .ply");
+    if (!held) return fail(held.error());
   }
   const bool triangles = format == SurfaceFormat::kStl || format == SurfaceFormat::kObj ||
                          format == SurfaceFormat::kGlb || format == SurfaceFormat::kPly ||
