@@ -26,7 +26,7 @@ constexpr double kOwnTolerance = 1e-3;
 /// degree, which splines of CAD systems keep by far and the eye does not see.
 constexpr double kTangent = 1e-3;
 /// Curvatures that agree so far, of the larger one, were meant to be the same.
-constexpr double kSameCurvature = 1e-3;
+constexpr double kSameBend = 1e-3;
 /// The chord beside a piece that stays turns away from it by half the turn between chords when the
 /// piece is its tangent; what turns by more than this many of the next turns is a corner.
 constexpr double kChordTurns = 1.5;
@@ -121,7 +121,7 @@ class SeriesOfDrawing {
     fixed.theta = kept.theta;
     const double larger = std::max(std::abs(kept.kappa), std::abs(other.kappa));
     if (!is_chord(curve) && std::isfinite(larger) &&
-        std::abs(kept.kappa - other.kappa) <= kSameCurvature * larger) {
+        std::abs(kept.kappa - other.kappa) <= kSameBend * larger) {
       fixed.kappa = kept.kappa;
     }
   }

@@ -82,7 +82,7 @@ std::optional<std::size_t> recommended_row(const std::vector<TradeOffRow>& rows)
 Result<TradeOff> trade_off(const PointSeries& series, const FitJob& job, const Progress& progress) {
   TradeOff out;
   out.name = series.name;
-  out.units = series.units.text();
+  out.units = series.units;
   const FitJob kept = with_closing(series, job);
   out.closed = kept.closing == Closing::kClosed;
   for (const double tolerance : tolerances_for(series)) {

@@ -38,7 +38,7 @@ Fit fit_of_dxf(const std::string& entities, const FitJob& job = {},
 
 /// Proved as it stands, proved again from its file, and every piece of one of the kinds.
 template <class... Kinds>
-void expect_kept(const Fit& made, int corners, int steps) {
+void expect_drawn(const Fit& made, int corners, int steps) {
   EXPECT_TRUE(made.certificate.proved) << made.certificate.reason;
   EXPECT_EQ(made.certificate.corners, corners);
   EXPECT_EQ(made.certificate.curvature_steps, steps);
@@ -61,7 +61,7 @@ TEST(Drawings, ARectangleStaysARectangle) {
         "<polygon points='10,20 50,20 50,50 10,50'/>",
         "<polyline points='10,20 50,20 50,50 10,50 10,20'/>", "<path d='M10 20h40v30h-40z'/>"}) {
     const Fit made = fit_of_svg(shape);
-    expect_kept<LinePiece>(made, 4, 0);
+    expect_drawn<LinePiece>(made, 4, 0);
     EXPECT_EQ(made.contour.pieces.size(), 4U) << shape;
     EXPECT_TRUE(made.contour.closed);
     EXPECT_EQ(made.certificate.vertices, 0);
@@ -73,7 +73,7 @@ TEST(Drawings, ARectangleStaysARectangle) {
 TEST(Drawings, ARectangleOfFourLinesStaysOne) {
   const Fit made = fit_of_dxf(dxf_line(0, 0, 4, 0) + dxf_line(4, 3, 4, 0) + dxf_line(4, 3, 0, 3) +
                               dxf_line(0, 3, 0, 0));
-  expect_kept<LinePiece>(made, 4, 0);
+  expect_drawn<LinePiece>(made, 4, 0);
 }
 
 TEST(Drawings, TrianglesEllsHexagonsAndGearsStayWhatTheyAre) {
@@ -93,13 +93,13 @@ TEST(Drawings, TrianglesEllsHexagonsAndGearsStayWhatTheyAre) {
       {gear, 48}};
   for (const auto& [points, corners] : shapes) {
     const Fit made = fit_of_svg("<polygon points='" + points + "'/>");
-    expect_kept<LinePiece>(made, corners, 0);
+    expect_drawn<LinePiece>(made, corners, 0);
   }
 }
 
 TEST(Drawings, ARoundedRectangleIsFourLinesAndFourArcs) {
   const Fit made = fit_of_svg("<rect x='10' y='20' width='40' height='30' rx='5'/>");
-  expect_kept<LinePiece, ArcPiece>(made, 0, 8);
+  expect_drawn<LinePiece, ArcPiece>(made, 0, 8);
   const KeptPieces kept = kept_pieces(made.contour);
   EXPECT_EQ(kept.lines, 4U);
   EXPECT_EQ(kept.arcs, 4U);
@@ -114,7 +114,7 @@ TEST(Drawings, ACircleIsACircle) {
   for (const Fit& made :
        {fit_of_dxf("0\nCIRCLE\n8\n0\n10\n0\n20\n0\n40\n0.5\n"),
         fit_of_svg("<circle cx='50' cy='40' r='0.5'/>")}) {
-    expect_kept<ArcPiece>(made, 0, 0);
+    expect_drawn<ArcPiece>(made, 0, 0);
     EXPECT_EQ(kept_pieces(made.contour).arcs, 1U);
     EXPECT_TRUE(made.contour.closed);
     EXPECT_EQ(made.certificate.vertices, 0);
@@ -127,7 +127,7 @@ TEST(Drawings, ACircleIsACircle) {
 TEST(Drawings, ASlotIsTwoLinesAndTwoArcs) {
   const Fit made = fit_of_dxf(dxf_line(0, 0, 3, 0) + dxf_arc(3, 1, 1, -90, 90) +
                               dxf_line(3, 2, 0, 2) + dxf_arc(0, 1, 1, 90, 270));
-  expect_kept<LinePiece, ArcPiece>(made, 0, 4);
+  expect_drawn<LinePiece, ArcPiece>(made, 0, 4);
   const KeptPieces kept = kept_pieces(made.contour);
   EXPECT_EQ(kept.lines, 2U);
   EXPECT_EQ(kept.arcs, 2U);
@@ -164,7 +164,7 @@ double off_ellipse(const Contour& contour, Vec2 centre, double a, double b, doub
 
 TEST(Drawings, AnEllipseIsAnEllipseWithFourVertices) {
   const Fit made = fit_of_svg("<ellipse cx='50' cy='40' rx='30' ry='10'/>");
-  expect_kept<RationalBezier>(made, 0, 0);
+  expect_drawn<RationalBezier>(made, 0, 0);
   EXPECT_EQ(made.certificate.vertices, 4);
   EXPECT_EQ(made.certificate.inflections, 0);
   EXPECT_EQ(kept_pieces(made.contour).ellipses, 1U);
@@ -231,7 +231,7 @@ TEST(Drawings, APolylineOfManyChordsIsPointsOfACurve) {
   ImportOptions exact;
   exact.use = DrawnUse::kExact;
   const Fit edges = fit_of(path, {}, exact);
-  expect_kept<LinePiece>(edges, 60, 0);
+  expect_drawn<LinePiece>(edges, 60, 0);
 }
 
 TEST(Drawings, FlanksOfChordsBetweenArcsBecomeCurvesWithTheirCorners) {
@@ -335,7 +335,7 @@ TEST(Drawings, ClothoidsOfRoadsStay) {
       "<geometry s='50' x='50' y='0' hdg='0' length='40'>"
       "<spiral curvStart='0' curvEnd='0.01'/></geometry></planView></road></OpenDRIVE>";
   const Fit made = fit_of(file_with("road.xodr", road));
-  expect_kept<LinePiece, ClothoidPiece>(made, 0, 0);
+  expect_drawn<LinePiece, ClothoidPiece>(made, 0, 0);
   EXPECT_EQ(kept_pieces(made.contour).clothoids, 1U);
 }
 
