@@ -1,151 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <fmt/format.h>
-
-#include <cmath>
-#include <limits>
-#include <numbers>
+#include <string>
 
 #include "audit_report.h"
 #include "commands.h"
-#include "json_text.h"
 #include "obvid/io/read_points.h"
 #include "obvid/series/analysis.h"
-#include "table.h"
+#include "series_report.h"
 #include "terminal.h"
-#include "text.h"
 
 namespace obvid {
-namespace {
-
-constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
-
-double degrees(double rad) { return rad * 180.0 / std::numbers::pi; }
-
-/// Turning of the polyline at a point; NaN at the two ends.
-double turning_at(const Analysis& analysis, std::size_t point) {
-  if (point == 0 || point >= analysis.chords.size()) return kNan;
-  return analysis.chords[point].omega - analysis.chords[point - 1].omega;
-}
-
-std::string to_next(const Analysis& analysis, std::size_t point) {
-  return point < analysis.chords.size() ? significant(analysis.chords[point].length) : "";
-}
-
-Table point_table(const Analysis& analysis) {
-  Table table;
-  table.column("point");
-  table.column("adjacent\nradius");
-  table.column("turning,\ndegrees");
-  table.column("chord to\nthe next");
-  table.column("curvature\nalong it", Table::Align::kLeft);
-  table.column("points-only\nerror");
-  std::size_t before = 0;
-  std::vector<double> worst = analysis.points_only_error;
-  worst.resize(analysis.circles.size(), kNan);
-  for (const std::size_t i : rows_worth_showing(worst)) {
-    if (i > before) table.gap();
-    before = i + 1;
-    const bool chord = i < analysis.chords.size();
-    const bool end = i == 0 || i + 1 == analysis.circles.size();
-    table.row({std::to_string(i + 1), end ? "-" : radius_text(analysis.circles[i].kappa),
-               significant(degrees(turning_at(analysis, i)), 4), to_next(analysis, i),
-               chord ? direction_text(analysis.direction[i]) : "",
-               chord ? significant(analysis.points_only_error[i], 4) : ""});
-  }
-  return table;
-}
-
-std::string runs_text(const Analysis& analysis) {
-  constexpr std::size_t kMost = 12;
-  std::string text = counted(analysis.runs.size(), "run", "runs");
-  if (analysis.runs.size() > kMost) return text;
-  for (std::size_t i = 0; i < analysis.runs.size(); ++i) {
-    const SeriesRun& run = analysis.runs[i];
-    text += fmt::format("{} {}-{} {}", i == 0 ? ": points" : ",", run.first_chord + 1,
-                        run.last_chord + 2, direction_text(run.direction));
-  }
-  return text;
-}
-
-std::string bound_text(int now, int bound) {
-  return fmt::format("{} (any smooth curve: at least {})", now, bound);
-}
-
-std::string analysis_text(const PointSeries& series, const Analysis& analysis) {
-  std::vector<double> worst = analysis.points_only_error;
-  worst.resize(analysis.circles.size(), kNan);
-  Facts facts;
-  facts.add("size", significant(analysis.size) + " " + series.units);
-  facts.add("curvature", runs_text(analysis));
-  facts.add("vertices", bound_text(analysis.vertices, analysis.vertices_lower_bound));
-  facts.add("inflections", bound_text(analysis.inflections, analysis.inflections_lower_bound));
-  facts.add("largest turning", significant(degrees(analysis.largest_turning), 4) + " degrees");
-  for (const CircularStretch& stretch : analysis.stretches) {
-    facts.add(stretch.kappa == 0.0 ? "straight" : "circular",
-              fmt::format("points {}-{}", stretch.first + 1, stretch.last + 1));
-  }
-  std::string out = series.name.empty() ? "" : bold(series.name) + "\n";
-  out += fmt::format("lengths in {}; radius positive where the points turn left\n\n", series.units);
-  out += point_table(analysis).text();
-  out += shown_note(rows_worth_showing(worst).size(), worst.size(), "least certain", "points");
-  return out + "\n" + facts.text();
-}
-
-void add_points(JsonText& json, const Analysis& analysis) {
-  json.key("points").begin_array();
-  for (std::size_t i = 0; i < analysis.circles.size(); ++i) {
-    json.begin_object().pair("kappa", analysis.circles[i].kappa);
-    json.pair("kappa_rounding", analysis.circles[i].rounding);
-    json.pair("turning", turning_at(analysis, i)).end_object();
-  }
-  json.end_array().key("segments").begin_array();
-  for (std::size_t i = 0; i < analysis.chords.size(); ++i) {
-    json.begin_object().pair("chord", analysis.chords[i].length);
-    json.pair("heading", analysis.chords[i].omega);
-    json.pair("direction", static_cast<int>(analysis.direction[i]));
-    json.pair("points_only_error", analysis.points_only_error[i]).end_object();
-  }
-  json.end_array();
-}
-
-std::string analysis_json(const PointSeries& series, const Analysis& analysis) {
-  JsonText json;
-  json.begin_object().pair("name", series.name).pair("units", series.units);
-  json.pair("size", analysis.size);
-  add_points(json, analysis);
-  json.key("runs").begin_array();
-  for (const SeriesRun& run : analysis.runs) {
-    json.begin_object().pair("first_point", run.first_chord).pair("last_point", run.last_chord + 1);
-    json.pair("direction", run.direction).end_object();
-  }
-  json.end_array().key("circular").begin_array();
-  for (const CircularStretch& stretch : analysis.stretches) {
-    json.begin_object().pair("first_point", stretch.first).pair("last_point", stretch.last);
-    json.pair("kappa", stretch.kappa).end_object();
-  }
-  json.end_array();
-  json.pair("vertices", analysis.vertices);
-  json.pair("vertices_lower_bound", analysis.vertices_lower_bound);
-  json.pair("inflections", analysis.inflections);
-  json.pair("inflections_lower_bound", analysis.inflections_lower_bound);
-  json.pair("rounding_decided", analysis.rounding_decided);
-  json.pair("largest_turning", analysis.largest_turning);
-  json.key("warnings").begin_array();
-  for (const std::string& warning : series.warnings) json.value(warning);
-  json.end_array().end_object();
-  return json.take();
-}
-
-void add_rounding_warning(PointSeries& series, const Analysis& analysis) {
-  if (analysis.rounding_decided == 0) return;
-  const std::size_t first = analysis.first_rounding_decided;
-  series.warnings.push_back(fmt::format(
-      "the rounding of the coordinates decides which way curvature changes on {}, first between "
-      "points {} and {}",
-      counted(analysis.rounding_decided, "chord", "chords"), first + 1, first + 2));
-}
-
-}  // namespace
 
 int run(const AnalyseOptions& options) {
   if (is_drawing(options.input)) return audit_drawing(options);
@@ -155,7 +18,7 @@ int run(const AnalyseOptions& options) {
   }
   Result<PointSeries> series = read_points(options.input);
   if (!series) return report(series.error());
-  if (options.units) series->units = *options.units;
+  if (options.units) take_units(*series, *options.units);
   const Result<Analysis> analysis = analyse(series->points);
   if (!analysis) {
     warn(series->warnings);
@@ -164,7 +27,7 @@ int run(const AnalyseOptions& options) {
   add_rounding_warning(*series, *analysis);
   warn(series->warnings);
   const std::string text =
-      options.json ? analysis_json(*series, *analysis) : analysis_text(*series, *analysis);
+      options.json ? series_report_json(*series, *analysis) : series_report_text(*series, *analysis);
   if (auto done = put(text); !done) return report(done.error());
   return 0;
 }

@@ -6,13 +6,16 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <numeric>
 #include <vector>
 
 #include "json_text.h"
 #include "obvid/geom/angle.h"
 #include "obvid/io/picture_svg.h"
 #include "obvid/pipeline/audit.h"
+#include "obvid/series/analysis.h"
 #include "outputs.h"
+#include "series_report.h"
 #include "table.h"
 #include "terminal.h"
 #include "text.h"
@@ -84,28 +87,110 @@ std::string place_table(const CurveAudit& a) {
     if (i > before) table.gap();
     before = i + 1;
     const AuditPlace& place = a.places[i];
-    table.row({significant(place.s), to_string(place.kind), significant(place.point.x),
-               significant(place.point.y), radius_text(place.kappa_before),
-               radius_text(place.kappa_after), size_text(place, a.contour.units)});
+    table.row({coordinate(place.s, a.length), to_string(place.kind), coordinate(place.point.x, a.length),
+               coordinate(place.point.y, a.length), radius_text(place.kappa_before),
+               radius_text(place.kappa_after), size_text(place, a.contour.units.text())});
   }
   return table.text() + shown_note(shown.size(), a.places.size(), "largest", "places");
 }
 
-std::string audit_text(const Drawing& drawing, const std::vector<CurveAudit>& audits) {
+double length_of(const std::vector<Vec2>& points) {
+  double length = 0.0;
+  for (std::size_t i = 1; i < points.size(); ++i) length += norm(points[i] - points[i - 1]);
+  return length;
+}
+
+Vec2 box_of(const std::vector<Vec2>& points) {
+  Vec2 low = points.front(), high = low;
+  for (const Vec2 p : points) {
+    low = {std::min(low.x, p.x), std::min(low.y, p.y)};
+    high = {std::max(high.x, p.x), std::max(high.y, p.y)};
+  }
+  return high - low;
+}
+
+const char* kind_text(const PointSeries& series) {
+  constexpr const char* kSeriesKinds[] = {"points", "route", "single points", "waypoints"};
+  return kSeriesKinds[static_cast<int>(series.kind)];
+}
+
+/// Series of points go on counting where the curves end.
+std::string series_table(const Drawing& drawing) {
+  Table table;
+  table.column("curve");
+  table.column("what", Table::Align::kLeft);
+  table.column("points");
+  table.column("length");
+  table.column("closed", Table::Align::kLeft);
+  table.column("width");
+  table.column("height");
+  std::vector<double> length;
+  for (const PointSeries& series : drawing.series) length.push_back(length_of(series.points));
+  const std::vector<std::size_t> shown = rows_worth_showing(length);
+  std::size_t before = 0;
+  for (const std::size_t i : shown) {
+    if (i > before) table.gap();
+    before = i + 1;
+    const PointSeries& series = drawing.series[i];
+    const Vec2 box = box_of(series.points);
+    const bool closed = series.points.size() > 2 && series.points.front() == series.points.back();
+    table.row({std::to_string(drawing.curves.size() + i + 1),
+               fmt::format("{} ({})", series.name, kind_text(series)),
+               std::to_string(series.points.size()), significant(length[i]), closed ? "yes" : "no",
+               significant(box.x), significant(box.y)});
+  }
+  return table.text() + shown_note(shown.size(), drawing.series.size(), "longest", "series");
+}
+
+/// Curves whose places are listed: the one that was asked for, or the first few.
+std::vector<std::size_t> detailed(const std::vector<CurveAudit>& audits,
+                                  const std::optional<std::size_t>& asked) {
+  if (asked) return *asked < audits.size() ? std::vector{*asked} : std::vector<std::size_t>{};
+  std::vector<std::size_t> out(std::min(audits.size(), kMostDetailed));
+  std::iota(out.begin(), out.end(), std::size_t{0});
+  return out;
+}
+
+void add_straightened(const CurveAudit& a, std::string& out) {
+  if (a.straightened == 0) return;
+  out += fmt::format("straight but for rounding: {} below a curvature of {} 1/{}\n",
+                     counted(a.straightened, "piece", "pieces"), significant(a.flat_curvature, 3),
+                     a.contour.units.text());
+}
+
+std::string audit_text(const Drawing& drawing, const std::vector<CurveAudit>& audits,
+                        const std::optional<std::size_t>& asked) {
   std::string out = bold(drawing.name) + "\n";
-  out += fmt::format(
-      "lengths in {}; joints: G2 continuous curvature, G1 common tangent, G0 corners\n\n",
-      drawing.units);
-  out += curve_table(audits);
-  for (std::size_t i = 0; i < std::min(audits.size(), kMostDetailed); ++i) {
-    if (audits[i].places.empty()) continue;
-    out += fmt::format("\ncurve {}, {}\n", i + 1, audits[i].label) + place_table(audits[i]);
+  out += fmt::format("lengths in {}", drawing.units.text());
+  if (!audits.empty()) {
+    out += "; joints: G2 continuous curvature, G1 common tangent, G0 corners\n\n";
+    out += curve_table(audits);
+  } else {
+    out += "\n";
   }
   if (!drawing.series.empty()) {
-    out += fmt::format("\n{} of points: `obvid fit` takes them\n",
-                       counted(drawing.series.size(), "series", "series"));
+    out += "\n" + series_table(drawing);
+    out += "\npoints are for `obvid fit FILE --curve N`\n";
+  }
+  for (const std::size_t i : detailed(audits, asked)) {
+    if (audits[i].places.empty() && audits[i].straightened == 0) continue;
+    out += fmt::format("\ncurve {}, {}\n", i + 1, audits[i].label);
+    add_straightened(audits[i], out);
+    if (!audits[i].places.empty()) out += place_table(audits[i]);
   }
   return out;
+}
+
+void add_series(JsonText& json, const Drawing& drawing) {
+  json.key("series").begin_array();
+  for (const PointSeries& series : drawing.series) {
+    const Vec2 box = box_of(series.points);
+    json.begin_object().pair("label", series.name).pair("kind", kind_text(series));
+    json.pair("points", series.points.size()).pair("length", length_of(series.points));
+    json.pair("closed", series.points.size() > 2 && series.points.front() == series.points.back());
+    json.pair("width", box.x).pair("height", box.y).end_object();
+  }
+  json.end_array();
 }
 
 void add_places(JsonText& json, const CurveAudit& a) {
@@ -119,9 +204,11 @@ void add_places(JsonText& json, const CurveAudit& a) {
   json.end_array();
 }
 
-std::string audit_json(const Drawing& drawing, const std::vector<CurveAudit>& audits) {
+std::string audit_json(const Drawing& drawing, const std::vector<CurveAudit>& audits,
+                        const std::string& points) {
   JsonText json;
-  json.begin_object().pair("name", drawing.name).pair("units", drawing.units);
+  json.begin_object().pair("name", drawing.name);
+  add_units(json, drawing.units);
   json.key("curves").begin_array();
   for (const CurveAudit& a : audits) {
     json.begin_object().pair("label", a.label).pair("pieces", a.contour.pieces.size());
@@ -129,10 +216,14 @@ std::string audit_json(const Drawing& drawing, const std::vector<CurveAudit>& au
     json.pair("closed", a.contour.closed).pair("vertices", a.vertices);
     json.pair("visible_vertices", a.visible_vertices).pair("inflections", a.inflections);
     json.pair("least_kappa", a.least_kappa).pair("largest_kappa", a.largest_kappa);
+    json.pair("straightened", a.straightened).pair("flat_curvature", a.flat_curvature);
     add_places(json, a);
     json.end_object();
   }
-  json.end_array().pair("series", drawing.series.size()).key("warnings").begin_array();
+  json.end_array();
+  add_series(json, drawing);
+  if (!points.empty()) json.key("points").raw(points);
+  json.key("warnings").begin_array();
   for (const std::string& warning : drawing.warnings) json.value(warning);
   return json.end_array().end_object().take();
 }
@@ -146,6 +237,7 @@ const CurveAudit& pictured(const std::vector<CurveAudit>& audits, const ImportOp
 }
 
 Result<std::vector<std::string>> write_audit_pictures(const AnalyseOptions& options,
+                                                      const std::string& name,
                                                       const std::vector<CurveAudit>& audits) {
   Result<std::vector<Output>> outputs = outputs_of(options.outputs, options.input);
   if (!outputs) return fail(outputs.error());
@@ -155,9 +247,24 @@ Result<std::vector<std::string>> write_audit_pictures(const AnalyseOptions& opti
                    output.path, "name an .svg"});
     }
     const CurveAudit& a = pictured(audits, options.import);
-    output.text = picture_svg({a.contour, std::nullopt, a.certificate});
+    output.text = picture_svg({a.contour, std::nullopt, a.certificate},
+                              {name + ": " + a.label, as_drawn(a)});
   }
   return write_files(*outputs);
+}
+
+/// What the points of the chosen series say; a warning instead where they say nothing.
+std::string points_report(Drawing& drawing, std::size_t number, bool json) {
+  PointSeries series = drawing.series[number];
+  series.units = drawing.units;
+  const auto analysis = analyse(series.points);
+  if (!analysis) {
+    drawing.warnings.push_back(fmt::format("{}: {}", series.name, analysis.error().what));
+    return {};
+  }
+  add_rounding_warning(series, *analysis);
+  drawing.warnings.insert(drawing.warnings.end(), series.warnings.begin(), series.warnings.end());
+  return json ? series_report_json(series, *analysis) : series_report_text(series, *analysis);
 }
 
 }  // namespace
@@ -165,13 +272,26 @@ Result<std::vector<std::string>> write_audit_pictures(const AnalyseOptions& opti
 int audit_drawing(const AnalyseOptions& options) {
   Result<Drawing> drawing = read_drawing(options.input);
   if (!drawing) return report(drawing.error());
-  if (options.units) drawing->units = *options.units;
+  if (options.units) {
+    if (auto told = take_units(drawing->units, *options.units)) drawing->warnings.push_back(*told);
+  }
+  const auto chosen = chosen_curve(*drawing, options.import.curve, options.input);
+  if (!chosen && options.import.curve) return report(chosen.error());
   std::vector<CurveAudit> audits;
   for (const DrawnCurve& curve : drawing->curves) audits.push_back(audit(curve, drawing->units));
-  const auto written = write_audit_pictures(options, audits);
+  const auto written = write_audit_pictures(options, drawing->name, audits);
+  if (!written) {
+    warn(drawing->warnings);
+    return report(written.error());
+  }
+  std::string points;
+  if (chosen && *chosen >= audits.size()) {
+    points = points_report(*drawing, *chosen - audits.size(), options.json);
+  }
   warn(drawing->warnings);
-  if (!written) return report(written.error());
-  std::string text = options.json ? audit_json(*drawing, audits) : audit_text(*drawing, audits);
+  std::string text = options.json ? audit_json(*drawing, audits, points)
+                                  : audit_text(*drawing, audits, options.import.curve) +
+                                        (points.empty() ? "" : "\n" + points);
   if (!written->empty() && !options.json) text += "\nwritten  " + listed(*written) + "\n";
   if (auto done = put(text); !done) return report(done.error());
   return 0;

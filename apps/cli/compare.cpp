@@ -95,7 +95,7 @@ std::string comparison_text(const PointSeries& series, const Comparison& compare
       "{} points, lengths in {}, tolerance {}\n"
       "error bound: no monotone curve with this one's own tangents and curvatures at the points\n"
       "is farther from it; joints G1 common tangent, G2 continuous curvature\n\n",
-      spirals.contour.points.size(), series.units, length_text(spirals.report.tolerance));
+      spirals.contour.points.size(), series.units.text(), length_text(spirals.report.tolerance));
   out += carrier_table(compared).text();
   for (const ComparedCarrier& row : compared.carriers) {
     if (!row.refusal) continue;
@@ -129,7 +129,8 @@ void add_row(JsonText& json, const ComparedCarrier& row) {
 
 std::string comparison_json(const PointSeries& series, const Comparison& compared) {
   JsonText json;
-  json.begin_object().pair("name", series.name).pair("units", series.units);
+  json.begin_object().pair("name", series.name);
+  add_units(json, series.units);
   json.pair("tolerance", compared.carriers.front().fit.report.tolerance);
   json.key("carriers").begin_array();
   for (const ComparedCarrier& row : compared.carriers) add_row(json, row);
@@ -171,7 +172,8 @@ std::string picture(const PointSeries& series, const Comparison& compared) {
       one.remark = fmt::format("{}, {}", row_continuity(row),
                                counted(row.fit.contour.pieces.size(), "piece", "pieces"));
       if (const auto away = row.fit.report.carrier_deviation) {
-        one.remark += fmt::format(", {} {} from the spirals", significant(*away, 2), series.units);
+        one.remark +=
+            fmt::format(", {} {} from the spirals", significant(*away, 2), series.units.text());
       }
     }
     contours.push_back(std::move(one));
@@ -207,7 +209,7 @@ int run(const CompareOptions& options) {
     bar.clear();
     return report(series.error());
   }
-  if (options.units) series->units = *options.units;
+  if (options.units) take_units(*series, *options.units);
   const Result<Comparison> compared = compare_carriers(*series, options.job, bar.progress());
   bar.clear();
   warn(series->warnings);

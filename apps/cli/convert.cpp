@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <fmt/format.h>
 
+#include <filesystem>
 #include <string>
 #include <vector>
 
@@ -18,21 +19,26 @@ namespace {
 bool is_foreign(const std::string& input) { return is_drawing(input) && !input.ends_with(".json"); }
 
 /// A curve of a drawing as it is, with what can be proved about it.
-Result<StoredContour> from_drawing(const ConvertOptions& options,
+Result<StoredContour> from_drawing(const ConvertOptions& options, ExportOptions& formats,
                                    std::vector<std::string>& remarks) {
   const Result<Drawing> drawing = read_drawing(options.input);
   if (!drawing) return fail(drawing.error());
   const auto chosen = chosen_curve(*drawing, options.import.curve, options.input);
   if (!chosen) return fail(chosen.error());
-  if (*chosen >= drawing->curves.size()) {
+  const std::size_t curves = drawing->curves.size();
+  if (*chosen >= curves && options.import.use != DrawnUse::kExact) {
     return fail({ErrorCode::kUnsupported, "this is a series of points, not a curve", options.input,
-                 "use `obvid fit`, or --curve N with another one", -1, 0.0});
+                 "use `obvid fit`, --drawing exact for its edges, or --curve N for another one", -1,
+                 0.0});
   }
-  const DrawnCurve& curve = drawing->curves[*chosen];
   remarks = drawing->warnings;
-  remarks.push_back(fmt::format("{}: curve {} of {}, {}", options.input, *chosen + 1,
-                                drawing->curves.size(), curve.label));
-  CurveAudit audited = audit(curve, drawing->units);
+  remarks.push_back(options.input + ": " +
+                    chosen_text(*drawing, *chosen, options.import.curve.has_value()));
+  CurveAudit audited = audit(*chosen < curves ? drawing->curves[*chosen]
+                                              : edges_of(drawing->series[*chosen - curves]),
+                             drawing->units);
+  formats.name = audited.label;
+  formats.picture = {drawing->name + ": " + audited.label, as_drawn(audited)};
   return StoredContour{std::move(audited.contour), std::nullopt, std::move(audited.certificate)};
 }
 
@@ -48,11 +54,21 @@ int run(const ConvertOptions& options) {
   Result<std::vector<Output>> outputs = outputs_of(options.outputs, options.input);
   if (!outputs) return report(outputs.error());
   std::vector<std::string> remarks;
-  const Result<StoredContour> stored =
-      is_foreign(options.input) ? from_drawing(options, remarks) : from_contour(options);
+  ExportOptions formats = options.formats;
+  if (options.input != "-") {
+    formats.picture.name = std::filesystem::path(options.input).filename().string();
+  }
+  Result<StoredContour> stored =
+      is_foreign(options.input) ? from_drawing(options, formats, remarks) : from_contour(options);
   if (!stored) return report(stored.error());
-  const Result<std::vector<Output>> texts = exported(*outputs, *stored, options.formats, remarks);
+  if (options.units) {
+    if (auto told = take_units(stored->contour.units, *options.units)) warn({*told});
+  }
+  FileNotes notes;
+  const Result<std::vector<Output>> texts = exported(*outputs, *stored, formats, notes);
   if (!texts) return report(texts.error());
+  warn(notes.warnings);
+  remarks.insert(remarks.end(), notes.remarks.begin(), notes.remarks.end());
   const Result<std::vector<std::string>> written = write_files(*texts);
   if (!written) return report(written.error());
   std::string shown;

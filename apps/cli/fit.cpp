@@ -25,7 +25,7 @@ struct Outcome {
   int code = 0;
 };
 
-Outcome read_and_fit(const FitOptions& options, std::string& name, ProgressBar& bar) {
+Outcome read_and_fit(const FitOptions& options, ExportOptions& formats, ProgressBar& bar) {
   const auto stop = [&](const Error& error) {
     bar.clear();
     return Outcome{std::nullopt, report(error)};
@@ -33,8 +33,9 @@ Outcome read_and_fit(const FitOptions& options, std::string& name, ProgressBar& 
   bar.tell("reading", 0.0);
   Result<PointSeries> series = read_series(options.input, options.import);
   if (!series) return stop(series.error());
-  if (options.units) series->units = *options.units;
-  name = series->name;
+  if (options.units) take_units(*series, *options.units);
+  formats.picture.name = series->name;
+  if (!series->label.empty()) formats.name = series->label;
   Result<Fit> made = fit(*series, options.job, bar.progress());
   if (made) return {std::move(*made), 0};
   if (exit_code(made.error().code) == exit_code(ErrorCode::kNoSpiral)) {
@@ -68,9 +69,9 @@ int run(const FitOptions& options) {
   if (options.suggest) return suggest(options);
   Result<std::vector<Output>> outputs = outputs_of(options.outputs, options.input);
   if (!outputs) return report(outputs.error());
-  std::string name;
+  ExportOptions formats = options.formats;
   ProgressBar bar(options.progress && !options.quiet);
-  auto [made, code] = read_and_fit(options, name, bar);
+  auto [made, code] = read_and_fit(options, formats, bar);
   if (!made) return code;
 
   Written written;
@@ -79,8 +80,8 @@ int run(const FitOptions& options) {
     bar.tell("writing", 1.0);
     StoredContour stored{std::move(made->contour), made->report, made->certificate};
     // all texts first, then all files: a failure to form leaves every file as it was
-    Result<std::vector<Output>> texts =
-        exported(*outputs, stored, options.formats, written.remarks);
+    FileNotes notes;
+    Result<std::vector<Output>> texts = exported(*outputs, stored, formats, notes);
     Result<std::vector<std::string>> done =
         texts ? write_files(*texts) : Result<std::vector<std::string>>(fail(texts.error()));
     if (!done) {
@@ -88,6 +89,8 @@ int run(const FitOptions& options) {
       return report(done.error());
     }
     written.files = std::move(*done);
+    for (std::string& remark : notes.remarks) written.remarks.push_back(std::move(remark));
+    for (std::string& warning : notes.warnings) made->warnings.push_back(std::move(warning));
     made->contour = std::move(stored.contour);
   }
   bar.clear();
@@ -96,7 +99,7 @@ int run(const FitOptions& options) {
   if (options.json) {
     text = fit_report_json(*made, written);
   } else if (!options.quiet) {
-    text = fit_report_text(name, *made, written);
+    text = fit_report_text(formats.picture.name, *made, written);
   }
   if (auto done = put(text); !done) return report(done.error());
   return judge_fit(*made, !written.files.empty());

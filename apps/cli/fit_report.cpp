@@ -138,12 +138,36 @@ std::string given_text(const GivenReport& given) {
 
 void add_bounds(Facts& facts, const Fit& fit) {
   const FitReport& report = fit.report;
-  facts.add("largest error", error_text(report, fit.contour.units));
+  facts.add("largest error", error_text(report, fit.contour.units.text()));
   facts.add("largest width",
             fmt::format("{} {} (tolerance {})", significant(report.largest_width, 4),
-                        fit.contour.units, significant(report.tolerance, 4)));
+                        fit.contour.units.text(), significant(report.tolerance, 4)));
   facts.add("bound needed",
             counted(report.inserted_points, "inserted element", "inserted elements"));
+}
+
+/// What stays of a drawing; empty for points.
+std::string kept_text(const Contour& contour, const Certificate& certificate) {
+  const KeptPieces kept = kept_pieces(contour);
+  std::string text;
+  const auto add = [&](std::size_t count, const char* one, const char* many) {
+    if (count > 0) text += (text.empty() ? "" : ", ") + counted(count, one, many);
+  };
+  add(kept.lines, "line", "lines");
+  add(kept.arcs, "arc", "arcs");
+  add(kept.ellipses, "arc of an ellipse", "arcs of ellipses");
+  add(kept.clothoids, "clothoid", "clothoids");
+  if (text.empty()) return text;
+  const std::size_t made = contour.pieces.size() - contour.kept.size();
+  text += " as drawn; " +
+          counted(static_cast<std::size_t>(certificate.corners), "corner", "corners");
+  if (certificate.curvature_steps > 0) {
+    text += fmt::format(", {} with a step of the curvature",
+                        counted(static_cast<std::size_t>(certificate.curvature_steps),
+                                "common tangent", "common tangents"));
+  }
+  if (made > 0) text += "; " + counted(made, "other piece", "other pieces") + " through points";
+  return text;
 }
 
 Facts summary(const Fit& fit, const Written& written) {
@@ -158,6 +182,9 @@ Facts summary(const Fit& fit, const Written& written) {
   }
   facts.add("contour",
             fmt::format("{} in {}", pieces, counted(contour.runs.size(), "run", "runs")));
+  if (const std::string kept = kept_text(contour, fit.certificate); !kept.empty()) {
+    facts.add("taken over", kept);
+  }
   facts.add("fairness", fairness_text(report));
   if (promises_monotone(contour.carrier)) add_bounds(facts, fit);
   const GivenReport& given = report.given;
@@ -168,12 +195,12 @@ Facts summary(const Fit& fit, const Written& written) {
     const double outside = *report.outside_spirals_region;
     facts.add("from the spirals",
               fmt::format("{} {} as measured, {}", significant(*report.carrier_deviation, 4),
-                          contour.units,
+                          contour.units.text(),
                           outside > 0.0 ? significant(outside, 4) + " outside their region"
                                         : "inside their region"));
   }
   if (report.largest_move > 0.0) {
-    facts.add("largest move", significant(report.largest_move, 4) + " " + contour.units);
+    facts.add("largest move", significant(report.largest_move, 4) + " " + contour.units.text());
   }
   add_gaps(facts, fit.certificate, contour.carrier);
   facts.add("time", time_text(report.seconds));
@@ -227,8 +254,13 @@ std::string verdict_line(Carrier carrier, const Certificate& certificate) {
     }
     return fmt::format("NOT proved: {}", reason.empty() ? "no reason recorded" : reason);
   }
-  return fmt::format("proved: monotone {} on every run, {}, inside the region",
-                     carrier == Carrier::kArcs ? "radii" : "curvature", joints);
+  std::string parted;
+  if (certificate.curvature_steps > 0) {
+    parted = fmt::format(" but for {} of the drawing, G1 with a step of the curvature",
+                         certificate.curvature_steps);
+  }
+  return fmt::format("proved: monotone {} on every run, {}{}, inside the region",
+                     carrier == Carrier::kArcs ? "radii" : "curvature", joints, parted);
 }
 
 std::string fit_report_text(const std::string& name, const Fit& fit, const Written& written) {
@@ -238,7 +270,7 @@ std::string fit_report_text(const std::string& name, const Fit& fit, const Writt
   std::string out;
   if (!name.empty()) out += bold(name) + "\n";
   out += fmt::format("lengths in {}; radius positive where the contour turns left\n\n",
-                     fit.contour.units);
+                     fit.contour.units.text());
   out += fit_segments(fit).text();
   out += shown_note(rows_worth_showing(width).size(), width.size(), "widest", "segments");
   out += fmt::format("\n{}", summary(fit, written).text());
@@ -256,8 +288,12 @@ std::string fit_report_json(const Fit& fit, const Written& written) {
   const std::string stored = contour_to_json(bare);
   JsonText json;
   json.begin_object();
-  json.pair("units", fit.contour.units).pair("carrier", to_string(fit.contour.carrier));
+  add_units(json, fit.contour.units);
+  json.pair("carrier", to_string(fit.contour.carrier));
   json.pair("points", fit.contour.points.size()).pair("pieces", fit.contour.pieces.size());
+  const KeptPieces kept = kept_pieces(fit.contour);
+  json.key("taken_over").begin_object().pair("lines", kept.lines).pair("arcs", kept.arcs);
+  json.pair("ellipse_arcs", kept.ellipses).pair("clothoids", kept.clothoids).end_object();
   json.key("report").raw(top_level_value(stored, "report"));
   json.key("certificate").raw(top_level_value(stored, "certificate"));
   json.key("warnings").begin_array();

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "obvid/pipeline/profiles.h"
+#include "cli_app.h"
 #include "option_values.h"
 
 namespace obvid {
@@ -27,6 +28,12 @@ Result<void> set_import(const FormatValues& typed, ImportOptions& options) {
   if (auto done = check_length(typed.chord_tolerance, "--chord-tolerance"); !done) return done;
   if (typed.curve) options.curve = static_cast<std::size_t>(*typed.curve - 1);
   options.tolerance = typed.chord_tolerance;
+  const auto use = value_named<DrawnUse>({{"auto", DrawnUse::kAutomatic},
+                                          {"exact", DrawnUse::kExact},
+                                          {"points", DrawnUse::kPoints}},
+                                         typed.drawing, "--drawing");
+  if (!use) return fail(use.error());
+  options.use = *use;
   return {};
 }
 

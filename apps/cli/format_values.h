@@ -14,6 +14,7 @@ namespace obvid {
 struct FormatValues {
   std::optional<long> curve;
   std::optional<double> chord_tolerance;
+  std::string drawing = "auto";
   std::optional<double> tolerance;
   std::optional<double> face_width;
   std::optional<std::string> profile;

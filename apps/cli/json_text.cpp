@@ -139,6 +139,10 @@ std::string JsonText::take() {
   return std::exchange(text_, {});
 }
 
+void add_units(JsonText& json, const Units& units) {
+  json.pair("units", units.name).pair("units_source", to_string(units.source));
+}
+
 std::string_view top_level_value(std::string_view json, std::string_view name) {
   std::size_t at = skip_blank(json, 0);
   while (at < json.size() && (json[at] == '{' || json[at] == ',')) {

@@ -4,6 +4,8 @@
 #include <string>
 #include <string_view>
 
+#include "obvid/core/units.h"
+
 namespace obvid {
 
 /// Grows one JSON text; commas and escapes are its business, nesting the caller's.
@@ -35,6 +37,9 @@ class JsonText {
   std::string text_;
   bool comma_ = false;
 };
+
+/// "units", the name as it stands or is assumed, and "units_source", how it is known.
+void add_units(JsonText& json, const Units& units);
 
 /// Text of the value of one top-level key of a JSON object, or "" when it is not there.
 [[nodiscard]] std::string_view top_level_value(std::string_view json, std::string_view name);

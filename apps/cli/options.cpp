@@ -47,12 +47,13 @@ struct Raw {
   TypedValues typed;
   bool no_progress = false;
   std::optional<double> tolerance;
+  std::optional<std::string> units;
 };
 
 constexpr const char* kInputHelp = "File with the points, or - for standard input";
 constexpr const char* kUnitsHelp =
-    "Name of the length unit, printed only: mm, m, in, ... "
-    "[as the file says, else mm]";
+    "Unit of the lengths: mm, m, in, ft, ...; what files are written in, nothing is converted "
+    "[as the file says; else mm is assumed, with a warning where it matters]";
 
 void add_fixed_data(CLI::App& fit, TypedValues& typed) {
   const char* group = "Fixed data";
@@ -126,6 +127,13 @@ void add_import(CLI::App& command, FormatValues& values) {
                   "Largest distance of a chord from the curve that is sampled, input units [1e-4 "
                   "of its size]")
       ->type_name("T")
+      ->group(group);
+  command
+      .add_option("--drawing", values.drawing,
+                  "Which pieces stay as they are drawn: auto (lines, arcs, ellipses, clothoids; "
+                  "chords of curves and splines become points), exact (every line), points (none) "
+                  "[auto]")
+      ->type_name("NAME")
       ->group(group);
 }
 
@@ -209,7 +217,7 @@ void add_fit(CLI::App& app, Raw& raw) {
   add_fixed_data(fit, raw.typed);
   add_import(fit, raw.formats);
   add_formats(fit, raw.formats);
-  fit.add_option("--units", raw.fit.units, kUnitsHelp)->type_name("NAME");
+  fit.add_option("--units", raw.units, kUnitsHelp)->type_name("NAME");
   fit.add_flag("--json", raw.fit.json, "Report and certificate as JSON on standard output");
   fit.add_flag("--quiet", raw.fit.quiet, "No table and no progress bar");
   fit.add_flag("--no-progress", raw.no_progress, "No progress bar");
@@ -235,12 +243,12 @@ void add_readers(CLI::App& app, Raw& raw) {
       ->type_name("OUT")
       ->allow_extra_args(false);
   add_import(analyse, raw.formats);
-  analyse.add_option("--units", raw.analyse.units, kUnitsHelp)->type_name("NAME");
+  analyse.add_option("--units", raw.units, kUnitsHelp)->type_name("NAME");
   analyse.add_flag("--json", raw.analyse.json, "JSON on standard output instead of the table");
   CLI::App& region = *app.add_subcommand(
       "region", "Tangents, radius ranges, heights and widths of the region, per segment");
   region.add_option("INPUT", raw.region.input, kInputHelp);
-  region.add_option("--units", raw.region.units, kUnitsHelp)->type_name("NAME");
+  region.add_option("--units", raw.units, kUnitsHelp)->type_name("NAME");
   region.add_flag("--json", raw.region.json, "JSON on standard output instead of the table");
 }
 
@@ -258,7 +266,7 @@ void add_compare(CLI::App& app, Raw& raw) {
   add_real_points(compare, raw);
   add_fixed_data(compare, raw.typed);
   add_import(compare, raw.formats);
-  compare.add_option("--units", raw.compare.units, kUnitsHelp)->type_name("NAME");
+  compare.add_option("--units", raw.units, kUnitsHelp)->type_name("NAME");
   compare.add_flag("--csv", raw.compare.csv, "Table as CSV on standard output");
   compare.add_flag("--json", raw.compare.json, "Table as JSON on standard output");
   compare.add_flag("--no-progress", raw.no_progress, "No progress bar");
@@ -282,7 +290,12 @@ void add_convert(CLI::App& app, Raw& raw) {
       .add_option("--curve", raw.formats.curve,
                   "Which curve of a drawing, counted from 1 [the longest]")
       ->type_name("N");
+  convert
+      .add_option("--drawing", raw.formats.drawing,
+                  "exact: polylines whose vertices look like points of a curve, too [auto]")
+      ->type_name("NAME");
   add_formats(convert, raw.formats);
+  convert.add_option("--units", raw.units, kUnitsHelp)->type_name("NAME");
   convert.add_flag("--quiet", raw.convert.quiet, "Print nothing");
   convert.footer("Example: obvid convert contour.json -o contour.step");
 }
@@ -324,14 +337,12 @@ Result<void> need(const std::string& input, const char* command, const char* wha
                     std::string("see obvid ") + command + " --help"));
 }
 
-Result<void> check_units(const std::optional<std::string>& units) {
-  constexpr std::size_t kLongest = 16;
-  if (!units) return {};
-  bool bad = units->empty() || units->size() > kLongest;
-  for (const char c : *units) bad = bad || static_cast<unsigned char>(c) < 0x20;
-  if (!bad) return {};
-  return fail(bad_option("the unit's name must have 1 to 16 letters", "--units",
-                         "for example mm, m or in"));
+Result<void> set_units(const std::optional<std::string>& typed, std::optional<Units>& units) {
+  if (!typed) return {};
+  auto given = given_units(*typed, "--units");
+  if (!given) return fail(given.error());
+  units = std::move(*given);
+  return {};
 }
 
 Result<void> set_carrier(Raw& raw) {
@@ -366,7 +377,7 @@ Result<Command> checked_fit(Raw& raw) {
           .and_then([&] { return set_carrier(raw); })
           .and_then([&] { return set_formats(raw.formats, raw.fit.formats, raw.fit.profile); })
           .and_then([&] { return set_import(raw.formats, raw.fit.import); })
-          .and_then([&] { return check_units(raw.fit.units); })
+          .and_then([&] { return set_units(raw.units, raw.fit.units); })
           .and_then([&] { return need(raw.fit.input, "fit", "a file with points"); });
   if (!done) return fail(done.error());
   return Command{raw.fit};
@@ -376,7 +387,7 @@ Result<Command> checked_compare(Raw& raw) {
   const Result<void> done =
       set_job(raw)
           .and_then([&] { return set_import(raw.formats, raw.compare.import); })
-          .and_then([&] { return check_units(raw.compare.units); })
+          .and_then([&] { return set_units(raw.units, raw.compare.units); })
           .and_then([&] { return need(raw.compare.input, "compare", "a file with points"); });
   if (!done) return fail(done.error());
   raw.compare.job = raw.fit.job;
@@ -385,9 +396,9 @@ Result<Command> checked_compare(Raw& raw) {
 }
 
 template <class Options>
-Result<Command> checked_points(const Options& options, const char* name) {
+Result<Command> checked_points(Options& options, const Raw& raw, const char* name) {
   const Result<void> done = need(options.input, name, "a file with points").and_then([&] {
-    return check_units(options.units);
+    return set_units(raw.units, options.units);
   });
   if (!done) return fail(done.error());
   return Command{options};
@@ -398,6 +409,7 @@ Result<Command> checked_convert(Raw& raw) {
     return set_formats(raw.formats, raw.convert.formats, raw.convert.profile);
   });
   if (!done) return fail(done.error());
+  if (auto units = set_units(raw.units, raw.convert.units); !units) return fail(units.error());
   if (auto import = set_import(raw.formats, raw.convert.import); !import) {
     return fail(import.error());
   }
@@ -410,7 +422,7 @@ Result<Command> checked_convert(Raw& raw) {
 
 Result<Command> checked_analyse(Raw& raw) {
   if (auto done = set_import(raw.formats, raw.analyse.import); !done) return fail(done.error());
-  return checked_points(raw.analyse, "analyse");
+  return checked_points(raw.analyse, raw, "analyse");
 }
 
 Result<Command> checked(const CLI::App& app, Raw& raw) {
@@ -420,7 +432,7 @@ Result<Command> checked(const CLI::App& app, Raw& raw) {
   if (name == "fit") return checked_fit(raw);
   if (name == "analyse") return checked_analyse(raw);
   if (name == "convert") return checked_convert(raw);
-  if (name == "region") return checked_points(raw.region, "region");
+  if (name == "region") return checked_points(raw.region, raw, "region");
   if (name == "compare") return checked_compare(raw);
   if (name == "explain") return Command{raw.explain};
   if (auto done = need(raw.verify.input, "verify", "a contour file"); !done) {

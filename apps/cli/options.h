@@ -22,7 +22,7 @@ struct FitOptions {
   ImportOptions import;
   ExportOptions formats;
   std::string profile;  ///< what --for chose, in words; empty without it
-  std::optional<std::string> units;
+  std::optional<Units> units;
   bool suggest = false;  ///< how many vertices which tolerance would need
   bool json = false;
   bool quiet = false;
@@ -35,6 +35,7 @@ struct ConvertOptions {
   std::vector<std::string> outputs;
   ExportOptions formats;
   std::string profile;  ///< what --for chose, in words; empty without it
+  std::optional<Units> units;
   bool quiet = false;
 };
 
@@ -42,13 +43,13 @@ struct AnalyseOptions {
   std::string input;
   std::vector<std::string> outputs;
   ImportOptions import;
-  std::optional<std::string> units;
+  std::optional<Units> units;
   bool json = false;
 };
 
 struct RegionOptions {
   std::string input;
-  std::optional<std::string> units;
+  std::optional<Units> units;
   bool json = false;
 };
 
@@ -57,7 +58,7 @@ struct CompareOptions {
   ImportOptions import;
   std::vector<std::string> outputs;
   FitJob job;
-  std::optional<std::string> units;
+  std::optional<Units> units;
   bool csv = false;
   bool json = false;
   bool progress = true;

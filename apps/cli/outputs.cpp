@@ -38,7 +38,7 @@ Result<std::vector<Output>> outputs_of(const std::vector<std::string>& paths,
 
 Result<std::vector<Output>> exported(const std::vector<Output>& outputs,
                                      const StoredContour& stored, const ExportOptions& options,
-                                     std::vector<std::string>& remarks) {
+                                     FileNotes& notes) {
   std::vector<Output> out;
   for (const Output& output : outputs) {
     Result<Exported> made = export_contour(stored, output.format, options);
@@ -54,7 +54,10 @@ Result<std::vector<Output>> exported(const std::vector<Output>& outputs,
       }
       out.push_back({path.string(), output.format, std::move(file.text)});
     }
-    for (const std::string& remark : made->remarks) remarks.push_back(output.path + ": " + remark);
+    for (const std::string& one : made->remarks) notes.remarks.push_back(output.path + ": " + one);
+    for (const std::string& one : made->warnings) {
+      notes.warnings.push_back(output.path + ": " + one);
+    }
   }
   return out;
 }

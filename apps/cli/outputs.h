@@ -17,6 +17,12 @@ struct Output {
   std::string text;
 };
 
+/// What is to be said of files that were formed.
+struct FileNotes {
+  std::vector<std::string> remarks;
+  std::vector<std::string> warnings;
+};
+
 /// Refuses a name that would replace the input (E203).
 [[nodiscard]] Result<void> check_output(const std::string& path, const std::string& input);
 
@@ -27,12 +33,12 @@ struct Output {
                                                      const std::string& input);
 
 /// Texts of all outputs, in the order of the outputs; a format that makes several files gives
-/// several outputs, their names by suffixes. `remarks` get a sentence each for what the formats
-/// cannot hold.
+/// several outputs, their names by suffixes. `notes` get a sentence each for what the formats cannot
+/// hold, and for what may be wrong.
 [[nodiscard]] Result<std::vector<Output>> exported(const std::vector<Output>& outputs,
                                                    const StoredContour& stored,
                                                    const ExportOptions& options,
-                                                   std::vector<std::string>& remarks);
+                                                   FileNotes& notes);
 
 /// Writes all texts, each file whole or not at all; names what was written. Error: E102.
 [[nodiscard]] Result<std::vector<std::string>> write_files(const std::vector<Output>& outputs);

@@ -63,14 +63,14 @@ std::string refusal_text(const PointSeries& series, const WhyNot& why,
   std::string text;
   if (!series.name.empty()) text += bold(series.name) + "\n";
   text += fmt::format("points that would have to move, the farthest first; lengths in {}\n\n",
-                      series.units);
+                      series.units.text());
   text += moves_table(why);
   text += fmt::format("\nWithin a {} for every point such a contour exists and is proved: {}.\n",
-                      tolerance_text(why, series.units),
+                      tolerance_text(why, series.units.text()),
                       noise_option(why.tolerance, why.fit.contour.closed, series.points));
   if (why.refused > 0.0) {
     text += fmt::format("Within {} {} none was found.\n",
-                        significant(why.refused, kToleranceDigits), series.units);
+                        significant(why.refused, kToleranceDigits), series.units.text());
   }
   if (why.stopped) {
     text += "The search ended at its limit of work: a tolerance between them may do as well.\n";
@@ -112,7 +112,8 @@ std::string refusal_json(const Error& error, const PointSeries& series,
                          const std::optional<WhyNot>& why,
                          const std::vector<std::string>& written) {
   JsonText json;
-  json.begin_object().pair("units", series.units);
+  json.begin_object();
+  add_units(json, series.units);
   json.key("error").begin_object();
   json.pair("code", fmt::format("E{}", static_cast<int>(error.code))).pair("what", error.what);
   json.pair("where", error.where).pair("hint", error.hint).end_object();
@@ -132,6 +133,7 @@ std::string refusal_json(const Error& error, const PointSeries& series,
 
 /// NAME.why-not.svg for each picture: what failed must not look like a success.
 Result<std::vector<std::string>> write_refusal_pictures(const FitOptions& options,
+                                                        const std::string& name,
                                                         const WhyNot& why) {
   const Result<std::vector<Output>> asked = outputs_of(options.outputs, options.input);
   if (!asked) return fail(asked.error());
@@ -141,7 +143,7 @@ Result<std::vector<std::string>> write_refusal_pictures(const FitOptions& option
     const auto path = std::filesystem::path(output.path).replace_extension(".why-not.svg");
     Result<Output> picture = output_of(path.string(), options.input);
     if (!picture) return fail(picture.error());
-    picture->text = picture_svg({why.fit.contour, why.fit.report, why.fit.certificate});
+    picture->text = picture_svg({why.fit.contour, why.fit.report, why.fit.certificate}, {name, ""});
     pictures.push_back(std::move(*picture));
   }
   return write_files(pictures);
@@ -156,10 +158,10 @@ int tell_refusal(const FitOptions& options, const PointSeries& series, const Err
   const std::optional<WhyNot> why =
       by_points ? why_not(series, options.job, refusal, bar.progress()) : std::nullopt;
   Result<std::vector<std::string>> written;
-  if (why && why->found) written = write_refusal_pictures(options, *why);
+  if (why && why->found) written = write_refusal_pictures(options, series.name, *why);
   bar.clear();
   warn(series.warnings);  // a formed contour carries them itself
-  const Error told = by_points ? with_tolerance(refusal, why, series.units) : refusal;
+  const Error told = by_points ? with_tolerance(refusal, why, series.units.text()) : refusal;
   const int code = report(told);
   const std::vector<std::string> names = written ? *written : std::vector<std::string>{};
   if (!written) warn({written.error().what + " (" + written.error().where + ")"});

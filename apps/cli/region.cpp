@@ -70,15 +70,16 @@ std::string region_text(const PointSeries& series, const RegionTable& region) {
       "lengths in {}; radius positive where the contour turns left\n"
       "T: where the tangents at points i and i+1 meet; h: height of the lower boundary above the\n"
       "chord, delta: width of the region, both over the middle of the chord\n\n",
-      series.units);
+      series.units.text());
   out += region_segments(region).text();
   out += shown_note(rows_worth_showing(width).size(), width.size(), "widest", "segments");
-  return out + fmt::format("\nlargest delta  {} {}\n", significant(largest, 4), series.units);
+  return out + fmt::format("\nlargest delta  {} {}\n", significant(largest, 4), series.units.text());
 }
 
 std::string region_json(const PointSeries& series, const RegionTable& region) {
   JsonText json;
-  json.begin_object().pair("name", series.name).pair("units", series.units);
+  json.begin_object().pair("name", series.name);
+  add_units(json, series.units);
   json.key("segments").begin_array();
   for (const RegionRow& row : region.rows) {
     json.begin_object().pair("chord", row.chord);
@@ -103,7 +104,7 @@ std::string region_json(const PointSeries& series, const RegionTable& region) {
 int run(const RegionOptions& options) {
   Result<PointSeries> series = read_points(options.input);
   if (!series) return report(series.error());
-  if (options.units) series->units = *options.units;
+  if (options.units) take_units(*series, *options.units);
   warn(series->warnings);
   const Result<RegionTable> region = region_table(*series);
   if (!region) return report(region.error());

@@ -71,14 +71,14 @@ std::string recommendation(const TradeOff& t, const PointSeries& series) {
   return fmt::format("Recommended: {} ({}, moves up to {} {})\nRule: {}.\n",
                      noise_option(row.tolerance, t.closed, series.points),
                      counted(static_cast<std::size_t>(row.vertices), "vertex", "vertices"),
-                     significant(row.largest_move, kSuggestedDigits), t.units, kRule);
+                     significant(row.largest_move, kSuggestedDigits), t.units.text(), kRule);
 }
 
 std::string suggestion_text(const TradeOff& t, const PointSeries& series,
                             const std::vector<std::string>& written) {
   std::string text;
   if (!t.name.empty()) text += bold(t.name) + "\n";
-  text += fmt::format("one tolerance for every point; lengths in {}\n\n", t.units);
+  text += fmt::format("one tolerance for every point; lengths in {}\n\n", t.units.text());
   text += rows_text(t) + "\n" + recommendation(t, series);
   if (!written.empty()) text += fmt::format("written  {}\n", listed(written));
   return text;
@@ -87,7 +87,9 @@ std::string suggestion_text(const TradeOff& t, const PointSeries& series,
 std::string suggestion_json(const TradeOff& t, const std::vector<std::string>& warnings,
                             const std::vector<std::string>& written) {
   JsonText json;
-  json.begin_object().pair("units", t.units).key("rows").begin_array();
+  json.begin_object();
+  add_units(json, t.units);
+  json.key("rows").begin_array();
   for (const TradeOffRow& row : t.rows) {
     json.begin_object().pair("tolerance", row.tolerance);
     json.pair("formed", row.formed).pair("proved", row.proved).pair("carried", row.carried);
@@ -132,7 +134,7 @@ int suggest(const FitOptions& options) {
   ProgressBar bar(options.progress && !options.quiet);
   bar.tell("reading", 0.0);
   Result<PointSeries> series = read_points(options.input);
-  if (series && options.units) series->units = *options.units;
+  if (series && options.units) take_units(*series, *options.units);
   const Result<TradeOff> found = series.and_then(
       [&](const PointSeries& s) { return trade_off(s, options.job, bar.progress()); });
   if (!found) {

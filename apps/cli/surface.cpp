@@ -48,6 +48,7 @@ int run(const SurfaceOptions& options) {
     return report(done.error());
   }
   bar.clear();
+  made->warnings.insert(made->warnings.end(), written.warnings.begin(), written.warnings.end());
   warn(made->warnings);
   std::string text;
   if (options.json) {

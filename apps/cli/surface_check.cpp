@@ -139,7 +139,7 @@ std::string surface_check_text(const SurfaceModel& model, const SurfaceCheck& ch
   std::string text = patch_table(check).text() + "\n" + line_table(check).text() + "\n";
   if (!check.joints.empty()) text += joint_table(model, check).text() + "\n";
   Facts facts;
-  facts.add("size", significant(check.size) + " " + model.units);
+  facts.add("size", significant(check.size) + " " + model.units.text());
   facts.add("borders", fmt::format("{} meet", check.joints.size()));
   for (const std::string& remark : written.remarks) facts.add("note", remark);
   if (!written.files.empty()) facts.add("written", listed(written.files));
@@ -149,7 +149,8 @@ std::string surface_check_text(const SurfaceModel& model, const SurfaceCheck& ch
 std::string surface_check_json(const SurfaceModel& model, const SurfaceCheck& check,
                                const SurfaceWritten& written) {
   JsonText json;
-  json.begin_object().pair("name", model.name).pair("units", model.units);
+  json.begin_object().pair("name", model.name);
+  add_units(json, model.units);
   json.pair("size", check.size).key("patches").begin_array();
   for (const PatchReport& p : check.patches) {
     json.begin_object().pair("name", p.name).pair("degree_u", p.degree_u);

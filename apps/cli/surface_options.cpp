@@ -25,6 +25,7 @@ struct RawSurface {
   std::string matching = "auto", spread = "chord", colouring = "shaded", view = "iso";
   std::string direction, apex, axis = "x", axis_point, step = "ap214";
   bool near = false, control = false, no_progress = false;
+  std::optional<std::string> units;
 };
 
 struct KindText {
@@ -208,11 +209,10 @@ CLI::App& add_maker(CLI::App& app, RawSurface& raw, const KindText& text) {
   kind.add_option("INPUT", raw.make.job.inputs, text.inputs);
   add_outputs(kind, raw.make.outputs, known_surface_endings());
   add_kind(kind, raw, text.kind);
-  const bool stored = text.kind == SurfaceKind::kConvert || text.kind == SurfaceKind::kOffset;
-  if (!stored) {  // a stored surface knows its unit
-    kind.add_option("--units", raw.make.job.units, "Name of the length unit: mm, m, in, ... [mm]")
-        ->type_name("NAME");
-  }
+  kind.add_option("--units", raw.units,
+                  "Unit of the lengths: mm, m, in, ft, ...; nothing is converted [as the files "
+                  "say; else mm is assumed, with a warning where it matters]")
+      ->type_name("NAME");
   kind.add_option("--step", raw.step, "Schema of STEP files: ap214 or ap242 [ap214]")
       ->type_name("NAME");
   add_pictures(kind, raw);
@@ -298,6 +298,11 @@ Result<void> positive(const std::optional<double>& value, const char* option) {
 }
 
 Result<void> set_surface_names(const RawSurface& raw, SurfaceOptions& make) {
+  if (raw.units) {
+    auto units = given_units(*raw.units, "--units");
+    if (!units) return fail(units.error());
+    make.job.units = std::move(*units);
+  }
   const auto matching = value_named<SkinMatching>({{"auto", SkinMatching::kAutomatic},
                                                    {"points", SkinMatching::kByPoints},
                                                    {"length", SkinMatching::kByLength}},

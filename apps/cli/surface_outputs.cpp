@@ -35,6 +35,7 @@ Result<void> write_surface(const SurfaceModel& model, const std::vector<SurfaceO
     if (!text) return fail(text.error());
     texts.push_back(std::move(*text));
   }
+  written.warnings = exporter.warnings();
   for (std::size_t i = 0; i < outputs.size(); ++i) {
     if (auto done = write_file(outputs[i].path, texts[i]); !done) return done;
     written.files.push_back(outputs[i].path);

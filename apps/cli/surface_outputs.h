@@ -19,6 +19,7 @@ struct SurfaceOutput {
 struct SurfaceWritten {
   std::vector<std::string> files;
   std::vector<std::string> remarks;
+  std::vector<std::string> warnings;
 };
 
 /// Formats by endings. Errors: E202 for endings without format, E203 where an input would be

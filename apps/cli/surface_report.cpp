@@ -31,7 +31,7 @@ void add_patches(const SurfaceModel& model, Facts& facts) {
 
 std::string deviation_text(const MadeSurface& made) {
   if (made.deviation == 0.0) return "exact";
-  return fmt::format("within {} {}", significant(made.deviation, 3), made.model.units);
+  return fmt::format("within {} {}", significant(made.deviation, 3), made.model.units.text());
 }
 
 Table section_table(const std::vector<SkinSectionReport>& sections) {
@@ -121,7 +121,7 @@ void add_skin_report(const FittedSkin& fitted, JsonText& json) {
 }  // namespace
 
 std::string surface_report_text(const MadeSurface& made, const SurfaceWritten& written) {
-  const std::string& units = made.model.units;
+  const std::string units = made.model.units.text();
   Facts facts;
   facts.add("surface", made.kind);
   for (const auto& [name, value] : made.facts) facts.add(name, value);
@@ -141,7 +141,8 @@ std::string surface_report_text(const MadeSurface& made, const SurfaceWritten& w
 std::string surface_report_json(const MadeSurface& made, const SurfaceWritten& written) {
   JsonText json;
   json.begin_object().pair("kind", made.kind).pair("name", made.model.name);
-  json.pair("units", made.model.units).pair("size", size_of(made.model));
+  add_units(json, made.model.units);
+  json.pair("size", size_of(made.model));
   json.pair("deviation", made.deviation);
   for (const auto& [name, value] : made.facts) json.pair(name, value);
   add_patches(made.model, json);

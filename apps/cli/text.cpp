@@ -25,6 +25,16 @@ std::string significant(double value, int digits) {
   return fmt::format("{:.{}f}", value, std::clamp(digits - before, 0, digits + 3));
 }
 
+std::string coordinate(double value, double size) {
+  constexpr double kResolution = 1e-6;  // of the size
+  constexpr int kMostDecimals = 15;
+  if (!(size > 0.0) || !std::isfinite(value)) return significant(value);
+  const double digits = std::ceil(-std::log10(kResolution * size));
+  const int decimals = static_cast<int>(std::clamp<double>(digits, 0.0, kMostDecimals));
+  const bool nothing = std::abs(value) < 0.5 * std::pow(10.0, -decimals);
+  return fmt::format("{:.{}f}", nothing ? 0.0 : value, decimals);
+}
+
 std::string radius_text(double kappa) {
   return kappa == 0.0 ? "straight" : significant(1.0 / kappa);
 }

@@ -14,6 +14,9 @@ namespace obvid {
 /// exponent; "-" for NaN, "inf" for infinity.
 [[nodiscard]] std::string significant(double value, int digits = 5);
 
+/// Coordinate of a place on something of this size: as many decimals as tell a millionth of it.
+[[nodiscard]] std::string coordinate(double value, double size);
+
 /// Radius of a signed curvature for a table; "straight" for 0.
 [[nodiscard]] std::string radius_text(double kappa);
 

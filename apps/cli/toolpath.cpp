@@ -100,7 +100,7 @@ Result<void> check_effort(const SurfaceModel& model, const ToolpathOptions& plan
   if (!(passes > kMostPasses)) return {};  // sizes that are no sizes are refused by the plan
   return fail({ErrorCode::kBadOption,
                fmt::format("that would be some {:.2g} passes over {} {}", passes,
-                           significant(size_of(model), 4), model.units),
+                           significant(size_of(model), 4), model.units.text()),
                "", "check the units of the surface, --diameter, --scallop and --step-over", -1,
                passes});
 }
@@ -116,6 +116,10 @@ Result<Made> made_from(const ToolpathCommand& command, std::vector<ToolpathOutpu
   auto path = plan(made.model, command.plan, bar.progress());
   if (!path) return fail(path.error());
   made.path = std::move(*path);
+  if (!made.model.units.known()) {
+    made.warnings.push_back("nothing says what a unit is: " + made.model.units.name +
+                            " assumed; `obvid surface convert --units` states it");
+  }
   made.warnings.insert(made.warnings.end(), made.path.warnings.begin(), made.path.warnings.end());
   SurfaceExportOptions formats;
   formats.view = *surface_view_named(command.view);

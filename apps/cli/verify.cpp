@@ -76,7 +76,7 @@ void add_claims(Facts& facts, const StoredContour& stored, const Certificate& fo
     facts.add("report claims",
               fmt::format("{} vertices, {} inflections, largest width {} {}",
                           stored.report->vertices, stored.report->inflections,
-                          significant(stored.report->largest_width, 4), stored.contour.units));
+                          significant(stored.report->largest_width, 4), stored.contour.units.text()));
   } else {
     facts.add("report claims", "the file holds no report");
   }

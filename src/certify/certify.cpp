@@ -123,6 +123,7 @@ class Notary {
     certificate_.gaps = joints_.gaps;
     certificate_.inflections = joints_.inflections;
     certificate_.corners = joints_.corners;
+    certificate_.curvature_steps = joints_.curvature_steps;
     certificate_.gaps_within_bounds = joints_.within_bounds;
     if (contour_.joints.size() != expected) {
       certificate_.gaps_within_bounds = joints_.within_bounds = false;
@@ -173,7 +174,7 @@ class Notary {
     }
   }
 
-  [[nodiscard]] bool is_corner(std::size_t joint) const {
+  [[nodiscard]] bool is_parted(std::size_t joint) const {
     return joint < contour_.joints.size() && contour_.joints[joint].leaving.has_value();
   }
 
@@ -190,8 +191,11 @@ class Notary {
                               i, to_string(certificate_.pieces[i].verdict)));
     }
     if (i == run.first_piece) return;
-    if (is_corner(i))
-      refuse_runs(fmt::format("run {} continues over the corner at joint {}", r, i));
+    if (is_parted(i)) {
+      refuse_runs(fmt::format("run {} continues over the {} at joint {}", r,
+                              is_corner(contour_.joints[i]) ? "corner" : "step of the curvature",
+                              i));
+    }
     if (against(joints_.jump[i])) {
       refuse_runs(
           fmt::format("run {} claims {} curvature, which jumps the other way before piece {}", r,
@@ -205,7 +209,7 @@ class Notary {
     if (r == 0 && !contour_.closed) return;
     const Run& before = contour_.runs[r == 0 ? contour_.runs.size() - 1 : r - 1];
     const int jump = joints_.jump[run.first_piece];
-    if (!is_corner(run.first_piece) && jump != 0 && jump != run.direction &&
+    if (!is_parted(run.first_piece) && jump != 0 && jump != run.direction &&
         jump != before.direction) {
       refuse_runs(
           fmt::format("curvature jumps before piece {} against both its runs", run.first_piece));

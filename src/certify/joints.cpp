@@ -176,9 +176,18 @@ class JointWalk {
   std::int8_t compare(std::size_t joint, const PieceEnds& before, const PieceEnds& after) {
     const EndData &left = before.end, &right = after.start;
     check_position(distance(left, right), left.point_rounding + right.point_rounding, joint);
-    if (is_corner(joint)) return jump_at_corner(left, right);
     const double turn = known(
         heading_gap(left.direction, right.direction, left.heading_error + right.heading_error));
+    if (is_parted(joint)) {
+      if (is_corner(contour_.joints[joint])) {
+        ++survey_.corners;
+      } else {
+        ++survey_.curvature_steps;
+        survey_.gaps.heading = std::max(survey_.gaps.heading, turn);
+        check(turn, kTangentTurn, joint, "the heading gap");
+      }
+      return parted_jump(left, right);
+    }
     survey_.gaps.heading = std::max(survey_.gaps.heading, turn);
     check(turn, kHeadingBound, joint, "the heading gap");
     const double jump = right.kappa - left.kappa;
@@ -192,14 +201,14 @@ class JointWalk {
                                                                                : -1);
   }
 
-  [[nodiscard]] bool is_corner(std::size_t joint) const {
+  /// Whether the joint says something else for the piece that leaves it.
+  [[nodiscard]] bool is_parted(std::size_t joint) const {
     return joint < contour_.joints.size() && contour_.joints[joint].leaving.has_value();
   }
 
-  /// At a corner only the position is continuous; which way the curvature leaps counts like a leap
-  /// between arcs.
-  [[nodiscard]] std::int8_t jump_at_corner(const EndData& left, const EndData& right) {
-    ++survey_.corners;
+  /// At a corner only the position is continuous, at a step of the curvature the heading too; which
+  /// way the curvature leaps counts like a leap between arcs.
+  [[nodiscard]] static std::int8_t parted_jump(const EndData& left, const EndData& right) {
     const double jump = right.kappa - left.kappa;
     const double larger = std::max(std::abs(left.kappa), std::abs(right.kappa));
     const double rounding = left.kappa_rounding + right.kappa_rounding;
@@ -215,10 +224,10 @@ class JointWalk {
       return false;
     }
     const Joint& here = contour_.joints[joint];
-    if (!is_corner(joint)) {
+    if (!is_parted(joint)) {
       compare_element(joint, here.element, left, right);
     } else if (left == nullptr || right == nullptr) {
-      check(kBroken, 0.0, joint, "the side that is missing of the corner");
+      check(kBroken, 0.0, joint, "the missing side of the joint");
     } else {
       compare_element(joint, here.element, left, nullptr);
       compare_element(joint, *here.leaving, nullptr, right);

@@ -20,6 +20,7 @@ struct JointSurvey {
   std::vector<std::int8_t> jump;  ///< sign of the curvature's jump at the start of each piece
   int inflections = 0;
   int corners = 0;
+  int curvature_steps = 0;
 };
 
 /// `parts`: for pieces with vertices the parts of them whose curvature is monotone.

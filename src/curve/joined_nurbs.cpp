@@ -225,7 +225,8 @@ class Joiner {
     for (std::size_t i = 0; i < contour_.pieces.size(); ++i) {
       const std::size_t first = segments_.size();
       if (auto added = add(i, contour_.pieces[i]); !added) return fail(added.error());
-      const bool corner = i > 0 && i < contour_.joints.size() && contour_.joints[i].leaving;
+      const bool corner =
+          i > 0 && i < contour_.joints.size() && is_corner(contour_.joints[i]);
       segments_[first].corner_before = corner;
     }
     return {};

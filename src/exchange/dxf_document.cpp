@@ -100,10 +100,12 @@ class DocumentReader {
 
   /// All variables stand between SECTION and ENDSEC: no 0 tag parts them.
   void header() {
-    bool units = false;
+    std::string_view variable;
     for (const Tag& tag : current_) {
-      if (tag.code == 9) units = tag.text == "$INSUNITS";
-      if (units && tag.code == 70) document_.units = integer(tag).value_or(0);
+      if (tag.code == 9) variable = tag.text;
+      if (tag.code != 70) continue;
+      if (variable == "$INSUNITS") document_.units = integer(tag).value_or(0);
+      if (variable == "$MEASUREMENT") document_.measurement = integer(tag);
     }
   }
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <map>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -19,6 +20,7 @@ struct Block {
 /// What is of use in a DXF file. Texts point into the bytes that it was read from.
 struct Document {
   int units = 0;                  ///< $INSUNITS; 0: none
+  std::optional<int> measurement; ///< $MEASUREMENT
   std::string_view units_remark;  ///< what a comment of our own R12 files says instead
   std::vector<Entity> entities;
   std::map<std::string_view, Block> blocks;

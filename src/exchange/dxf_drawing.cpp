@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "dxf_text.h"
+#include "obvid/series/straight_rows.h"
 
 namespace obvid::dxf {
 namespace {
@@ -19,6 +20,14 @@ constexpr double kLevel = 1e-9;  // of the size: heights that differ by less are
 
 constexpr const char* kTooMuch =
     "blocks expand to more than 500,000 entities and points; what goes beyond is missing";
+
+/// Whether the lines of a polyline are chords of a curve, so that its vertices are points of it.
+bool is_sampled(const Link& link, bool closed) {
+  std::vector<Vec2> points;
+  for (const Piece& piece : link.pieces) points.push_back(start_point(piece));
+  if (!closed) points.push_back(end_point(link.pieces.back()));
+  return chords_of_curve(points, closed);
+}
 
 std::size_t work_of(const Entity& e) { return 1 + e.points.size() + e.fit.size() + e.knots.size(); }
 
@@ -163,7 +172,7 @@ void DrawingBuilder::take_chains() {
   }
   for (const Chain& chain : joined.chains) {
     const std::size_t first = chain.members.front().link;
-    if (chain.members.size() == 1 && polygon_[first]) {
+    if (chain.members.size() == 1 && polygon_[first] && is_sampled(links_[first], chain.closed)) {
       take_series(links_[first], sources_[first], chain.closed);
       continue;
     }
@@ -196,6 +205,7 @@ void DrawingBuilder::take_points() {
   PointSeries series;
   series.name =
       fmt::format("{} POINT {}", points_.size(), points_.size() == 1 ? "entity" : "entities");
+  series.kind = SeriesKind::kLoose;
   series.units = drawing_.units;
   series.points = std::move(points_);
   drawing_.series.push_back(std::move(series));

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "dxf_file.h"
 
+#include "dxf_units.h"
+
 namespace obvid::exchange {
 namespace {
 
@@ -189,10 +191,9 @@ void end_section(DxfWriter& out) { out.pair(0, "ENDSEC"); }
 
 std::string r2000_head(const std::string& layer, int units, const std::string& seed, Vec2 low,
                        Vec2 high) {
-  constexpr int kInch = 1, kFoot = 2;
   DxfWriter out;
   out.append(fmt::format(fmt::runtime(kHead), fmt::arg("seed", seed), fmt::arg("units", units),
-                         fmt::arg("metric", units == kInch || units == kFoot ? 0 : 1),
+                         fmt::arg("metric", dxf::measurement_of(units)),
                          fmt::arg("low_x", low.x), fmt::arg("low_y", low.y),
                          fmt::arg("high_x", high.x), fmt::arg("high_y", high.y)));
   begin_section(out, "TABLES");

@@ -13,11 +13,19 @@ namespace obvid {
 namespace {
 
 dxf::Affine in_units(const dxf::Document& document, Drawing& drawing) {
-  const dxf::Unit unit =
-      document.units == 0 ? dxf::unit_of(document.units_remark) : dxf::unit_of(document.units);
+  if (const auto ours = canonical_unit(document.units_remark); document.units == 0 && ours) {
+    drawing.units = *ours;
+    return {};
+  }
+  const dxf::Unit unit = dxf::unit_of(document.units);
   drawing.units = unit.name;
   if (!unit.known) {
-    drawing.warnings.emplace_back("the file states no known unit ($INSUNITS): mm assumed");
+    // imperial or metric is all that $MEASUREMENT says
+    const bool imperial = document.measurement == 0;
+    drawing.units = Units(imperial ? "in" : "mm", UnitSource::kAssumed);
+    drawing.warnings.push_back(fmt::format(
+        "the file states no known unit ($INSUNITS), $MEASUREMENT says {}: --units says what it is",
+        !document.measurement ? "nothing" : imperial ? "imperial" : "metric"));
   }
   if (unit.factor == 1.0) return {};
   drawing.warnings.push_back(fmt::format("lengths were converted to {} (unit {} of $INSUNITS)",

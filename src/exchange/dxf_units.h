@@ -13,7 +13,11 @@ struct Unit {
 };
 
 [[nodiscard]] Unit unit_of(int insunits);
-/// The unit of this name, lengths as they are.
-[[nodiscard]] Unit unit_of(std::string_view name);
+
+/// $INSUNITS of a unit by its canonical name; 0: none.
+[[nodiscard]] int insunits_of(std::string_view name);
+
+/// $MEASUREMENT of a value of $INSUNITS: 0 inches and feet, 1 metric.
+[[nodiscard]] int measurement_of(int insunits);
 
 }  // namespace obvid::dxf

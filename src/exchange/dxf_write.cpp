@@ -11,6 +11,7 @@
 
 #include "dxf_file.h"
 #include "dxf_parts.h"
+#include "dxf_units.h"
 #include "obvid/contour/arcs/arcs_along.h"
 #include "obvid/contour/bsplines/cubic_along.h"
 #include "obvid/contour/conics.h"
@@ -26,15 +27,8 @@ using exchange::kModelSpace;
 /// What rounding of a centre and of angles may cost, of the size: a tenth of what readers must get.
 constexpr double kArcRounding = 1e-10;
 
-/// $INSUNITS of a unit; 0: none.
-int unit_code(const std::string& units) {
-  static constexpr std::array<std::pair<const char*, int>, 7> kCodes = {
-      {{"in", 1}, {"ft", 2}, {"mm", 4}, {"cm", 5}, {"m", 6}, {"km", 7}, {"um", 13}}};
-  for (const auto& [name, code] : kCodes) {
-    if (units == name) return code;
-  }
-  return 0;
-}
+/// $INSUNITS of a unit that is known; 0: the file states none.
+int unit_code(const Units& units) { return units.known() ? dxf::insunits_of(units.name) : 0; }
 
 std::string safe_name(std::string layer) {
   for (char& c : layer) {
@@ -84,8 +78,7 @@ class DxfDrawer {
     if (!done) return fail(done.error());
     if (options_.profile == DxfProfile::kArcsR12) {
       result_.text =
-          exchange::r12_head(layer_, unit_code(contour_.units) != 0 ? contour_.units : "", low_,
-                             high_) +
+          exchange::r12_head(layer_, dxf_unit(contour_.units), low_, high_) +
           out_.take() + "  0\nENDSEC\n  0\nEOF\n";
     } else {
       const std::string seed = out_.next_handle();
@@ -317,6 +310,8 @@ class DxfDrawer {
 };
 
 }  // namespace
+
+std::string dxf_unit(const Units& units) { return unit_code(units) != 0 ? units.name : ""; }
 
 Result<DxfText> dxf_text(const Contour& contour, const DxfOptions& options) {
   if (!(options.tolerance > 0.0)) {

@@ -15,7 +15,6 @@
 #include "obvid/contour/bsplines/cubic_along.h"
 #include "obvid/core/version.h"
 #include "obvid/curve/path_distance.h"
-#include "unit_sizes.h"
 
 namespace obvid {
 namespace {
@@ -60,8 +59,8 @@ std::vector<Contour> smooth_parts(const Contour& contour) {
 class Program {
  public:
   Program(const Contour& contour, const GcodeOptions& options)
-      : contour_(contour), options_(options), inches_(contour.units == "in") {
-    scale_ = inches_ ? 1.0 : exchange::millimetres_of(contour.units).value_or(0.0);
+      : contour_(contour), options_(options), inches_(contour.units.name == "in") {
+    scale_ = *unit_ratio(contour.units.name, inches_ ? "in" : "mm");
     decimals_ = options.decimals ? *options.decimals : fewest_decimals();
     unit_ = std::pow(10.0, -decimals_) / scale_;
   }
@@ -80,7 +79,7 @@ class Program {
     }
     return fail({ErrorCode::kToleranceNotReached,
                  fmt::format("{} decimals do not keep a tolerance of {:g} {}", decimals_,
-                             options_.tolerance, contour_.units),
+                             options_.tolerance, contour_.units.text()),
                  "", "print more decimals, or allow a larger tolerance", -1, deviation});
   }
 
@@ -151,7 +150,8 @@ class Program {
     out += fmt::format("(Obvid {}: {})\n", kVersion, comment_of(options_.name));
     out += fmt::format("({} blocks within {:.3g} {} of the contour)\n", blocks, deviation * scale_,
                        units);
-    if (!inches_ && scale_ != 1.0) out += fmt::format("(converted from {})\n", contour_.units);
+    if (!contour_.units.known()) out += "(the unit is assumed)\n";
+    if (!inches_ && scale_ != 1.0) out += fmt::format("(converted from {})\n", contour_.units.name);
     out += inches_ ? "G20 " : "G21 ";
     out += fanuc ? "G90 G17 G94\n" : "G90 G91.1 G17 G94\n";
     return out;
@@ -199,10 +199,7 @@ Result<void> check(const Contour& contour, const GcodeOptions& options) {
   if (contour.pieces.empty()) {
     return fail({ErrorCode::kTooFewPoints, "the contour has no pieces", "", "", -1, 0.0});
   }
-  if (!exchange::millimetres_of(contour.units)) {
-    return fail({ErrorCode::kUnsupported, "machines do not know the unit " + contour.units, "",
-                 "known are um, mm, cm, m, km, in, ft", -1, 0.0});
-  }
+  if (auto known = unit_ratio(contour.units, "mm", "machines"); !known) return fail(known.error());
   return {};
 }
 

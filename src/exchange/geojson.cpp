@@ -129,14 +129,15 @@ class GeoJsonReader {
   }
 
   void take_as_plane(const std::string& crs, Drawing& out) {
-    out.units = "m";
+    out.units = Units("m", UnitSource::kAssumed);
     const std::string why = crs.empty() ? "some positions are no longitude and latitude"
                                         : "the reference system is " + crs;
-    out.warnings.push_back(why + ": coordinates are taken as plane ones in metres");
+    out.warnings.push_back(why + ": coordinates are taken as plane ones; metres are assumed");
     for (const GeoSeries& series : all_) {
       std::vector<Vec2> points;
       for (const GeoPoint& p : series.places) points.push_back({p.longitude, p.latitude});
-      PointSeries one = exchange::plane_series(series.name, "m", points);
+      PointSeries one = exchange::plane_series(series.name, out.units, points);
+      one.kind = series.kind;
       if (one.points.size() < 2) {
         out.warnings.push_back(fmt::format("{} has a single place and is left out", one.name));
       } else {
@@ -256,7 +257,7 @@ class GeoJsonReader {
 
   std::string name_, title_;
   std::vector<GeoSeries> all_;
-  GeoSeries points_{"points", {}, {}};
+  GeoSeries points_{"points", {}, {}, SeriesKind::kLoose};
   std::map<std::string, std::size_t> left_out_;
   bool out_of_range_ = false;
 };

@@ -23,12 +23,12 @@ class GpxReader {
   explicit GpxReader(const XmlFile& file) : file_(file), warnings_(file) {}
 
   Result<Drawing> run() {
-    GeoSeries waypoints{"waypoints", {}, {}};
+    GeoSeries waypoints{"waypoints", {}, {}, SeriesKind::kWaypoints};
     for (const pugi::xml_node node : file_.root().children()) {
       const auto kind = local_name(node);
       if (kind == "trk") track(node);
       if (kind == "rte") {
-        add(title(node, "route", ++routes_), node, "rtept");
+        add(title(node, "route", ++routes_), node, "rtept", SeriesKind::kRoute);
       }
       if (kind == "wpt") place(node, waypoints);
     }
@@ -55,12 +55,13 @@ class GpxReader {
     for (const pugi::xml_node child : node.children()) {
       if (local_name(child) != "trkseg") continue;
       ++segment;
-      add(segment == 1 ? name : fmt::format("{}, segment {}", name, segment), child, "trkpt");
+      add(segment == 1 ? name : fmt::format("{}, segment {}", name, segment), child, "trkpt",
+          SeriesKind::kLine);
     }
   }
 
-  void add(std::string name, pugi::xml_node node, std::string_view kind) {
-    GeoSeries series{std::move(name), {}, {}};
+  void add(std::string name, pugi::xml_node node, std::string_view kind, SeriesKind what) {
+    GeoSeries series{std::move(name), {}, {}, what};
     for (const pugi::xml_node child : node.children()) {
       if (local_name(child) == kind) place(child, series);
     }

@@ -2,13 +2,13 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <unordered_map>
 #include <utility>
 #include <vector>
 
 #include "landxml_elements.h"
+#include "landxml_units.h"
 #include "obvid/exchange/landxml.h"
 #include "projection_series.h"
 #include "xml_text.h"
@@ -61,7 +61,7 @@ class LandXmlReader {
     if (off_end_ > 0.0) {
       drawing_.warnings.push_back(
           fmt::format("curves and spirals end up to {:.2g} {} from their stated ends", off_end_,
-                      drawing_.units));
+                      drawing_.units.text()));
     }
     if (drawing_.curves.empty()) {
       return fail({ErrorCode::kTooFewPoints, "the file has no CoordGeom with a curve", file_.name(),
@@ -71,27 +71,17 @@ class LandXmlReader {
   }
 
  private:
-  std::string units() {
-    static constexpr std::array<std::array<string_view, 2>, 8> kNames = {{{"meter", "m"},
-                                                                          {"millimeter", "mm"},
-                                                                          {"centimeter", "cm"},
-                                                                          {"kilometer", "km"},
-                                                                          {"foot", "ft"},
-                                                                          {"USSurveyFoot", "ft"},
-                                                                          {"inch", "in"},
-                                                                          {"mile", "mi"}}};
+  Units units() {
     const pugi::xml_node all = child_of(file_.root(), "Units");
     const pugi::xml_node metric = child_of(all, "Metric");
     const pugi::xml_node one = metric ? metric : child_of(all, "Imperial");
     const string_view name = one.attribute("linearUnit").value();
-    if (name == "USSurveyFoot") {
-      warnings_.add("survey feet are taken as feet: 2 parts in a million", one);
+    for (const exchange::LandXmlUnit& unit : exchange::kLandXmlUnits) {
+      if (name == unit.theirs) return std::string(unit.name);
     }
-    for (const auto& [theirs, ours] : kNames) {
-      if (name == theirs) return std::string(ours);
-    }
-    warnings_.add("the file names no unit of length that is known; taken as metres", file_.root());
-    return "m";
+    warnings_.add("the file names no unit of length that is known; metres are assumed",
+                  file_.root());
+    return Units("m", UnitSource::kAssumed);
   }
 
   void geometry(pugi::xml_node node) {

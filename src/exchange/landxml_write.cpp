@@ -2,10 +2,12 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <iterator>
 #include <numbers>
 
+#include "landxml_units.h"
 #include "obvid/curve/clothoid.h"
 #include "obvid/exchange/landxml.h"
 #include "obvid/exchange/road_elements.h"
@@ -76,8 +78,9 @@ Vec2 tangents_meet(const RoadElement& e) {
 
 class LandXmlWriter {
  public:
-  LandXmlWriter(const std::vector<RoadLine>& lines, const LandXmlOptions& options)
-      : lines_(lines), options_(options) {}
+  LandXmlWriter(const std::vector<RoadLine>& lines, std::string_view unit,
+                const LandXmlOptions& options)
+      : lines_(lines), unit_(unit), options_(options) {}
 
   std::string run() {
     double length = 0.0;
@@ -86,10 +89,8 @@ class LandXmlWriter {
     put("<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n"
         "<LandXML xmlns=\"http://www.landxml.org/schema/LandXML-1.2\" version=\"1.2\" date=\"{}\" "
         "time=\"{}\">\n"
-        "  <Units>\n    <Metric areaUnit=\"squareMeter\" linearUnit=\"meter\" "
-        "volumeUnit=\"cubicMeter\" temperatureUnit=\"celsius\" pressureUnit=\"HPA\"/>\n"
-        "  </Units>\n",
-        exchange::escaped(options_.date), exchange::escaped(options_.time));
+        "  <Units>\n    {}/>\n  </Units>\n",
+        exchange::escaped(options_.date), exchange::escaped(options_.time), units());
     put("  <Alignments name=\"{}\">\n    <Alignment name=\"{}\" length=\"{}\" staStart=\"0\">\n"
         "      <CoordGeom>\n",
         name, name, length);
@@ -139,17 +140,41 @@ class LandXmlWriter {
     }
   }
 
+  [[nodiscard]] std::string units() const {
+    const auto* one = std::find_if(exchange::kLandXmlUnits.begin(), exchange::kLandXmlUnits.end(),
+                                   [&](const auto& unit) { return unit.name == unit_; });
+    return fmt::format(
+        fmt::runtime(one->metric
+                         ? "<Metric areaUnit=\"squareMeter\" linearUnit=\"{}\" "
+                           "volumeUnit=\"cubicMeter\" temperatureUnit=\"celsius\" "
+                           "pressureUnit=\"HPA\""
+                         : "<Imperial areaUnit=\"squareFoot\" linearUnit=\"{}\" "
+                           "volumeUnit=\"cubicFeet\" temperatureUnit=\"fahrenheit\" "
+                           "pressureUnit=\"inHG\""),
+        one->theirs);
+  }
+
   const std::vector<RoadLine>& lines_;
+  std::string_view unit_;  ///< one of the format's
   const LandXmlOptions& options_;
   std::string out_;
 };
 
 }  // namespace
 
+std::string_view landxml_unit(std::string_view unit) {
+  std::array<std::string_view, exchange::kLandXmlUnits.size()> names;
+  std::transform(exchange::kLandXmlUnits.begin(), exchange::kLandXmlUnits.end(), names.begin(),
+                 [](const auto& one) { return one.name; });
+  return unit_for_file(unit, names);
+}
+
 Result<std::string> landxml_text(const Contour& contour, const LandXmlOptions& options) {
-  const auto lines = road_lines(contour);
+  // a unit that is not known gets its error from `road_lines`
+  const std::string_view unit = landxml_unit(contour.units.name);
+  const auto lines = road_lines(contour, unit.empty() ? "m" : unit);
   if (!lines) return fail(lines.error());
-  return LandXmlWriter(*lines, options).run();
+  return LandXmlWriter(*lines, unit, options).run();
 }
 
 }  // namespace obvid

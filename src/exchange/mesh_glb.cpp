@@ -10,7 +10,6 @@
 #include "mesh_parts.h"
 #include "obvid/exchange/mesh_files.h"
 #include "obvid/geom/box.h"
-#include "unit_sizes.h"
 
 namespace obvid {
 namespace {
@@ -30,8 +29,8 @@ json as_json(Vec3 p) { return json::array({p.x, p.y, p.z}); }
 
 class GlbWriter {
  public:
-  GlbWriter(const SurfaceModel& model, const std::vector<Mesh>& meshes)
-      : model_(model), meshes_(meshes) {
+  GlbWriter(const SurfaceModel& model, const std::vector<Mesh>& meshes, double metres)
+      : model_(model), meshes_(meshes), metres_(metres) {
     Box3 box;
     for (const Mesh& mesh : meshes) {
       for (const MeshVertex& v : mesh.vertices) box.add(v.point);
@@ -56,13 +55,13 @@ class GlbWriter {
  private:
   /// The node above all patches: z up becomes y up, units become metres, the middle its place.
   void head() {
-    const double scale = exchange::millimetres_of(model_.units).value_or(1.0) / 1000.0;
+    const double scale = metres_;
     const double half = std::numbers::sqrt2 / 2.0;
     json root = {{"name", model_.name},
                  {"rotation", json::array({-half, 0.0, 0.0, half})},
                  {"scale", json::array({scale, scale, scale})},
                  {"translation", as_json(scale * Vec3{middle_.x, middle_.z, -middle_.y})},
-                 {"extras", {{"units", model_.units}}},
+                 {"extras", {{"units", model_.units.name}, {"units_source", to_string(model_.units.source)}}},
                  {"children", json::array()}};
     document_ = {
         {"asset", {{"version", "2.0"}, {"generator", "obvid"}}},
@@ -166,6 +165,7 @@ class GlbWriter {
 
   const SurfaceModel& model_;
   const std::vector<Mesh>& meshes_;
+  double metres_;  ///< in a unit of the model
   Vec3 middle_;
   json document_;
   std::string data_;
@@ -177,7 +177,9 @@ Result<std::string> glb_text(const SurfaceModel& model, const std::vector<Mesh>&
   if (auto counts = exchange::counts_of(model, meshes); !counts) {
     return fail(std::move(counts.error()));
   }
-  return GlbWriter(model, meshes).run();
+  const auto metres = unit_ratio(model.units, "m", "glTF files");
+  if (!metres) return fail(metres.error());
+  return GlbWriter(model, meshes, *metres).run();
 }
 
 }  // namespace obvid

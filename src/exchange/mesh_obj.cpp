@@ -26,7 +26,7 @@ class ObjWriter {
 
   void head(const SurfaceModel& model) {
     add("# Wavefront OBJ by obvid: {}\n# unit {}\n", exchange::plain_name(model.name, "surface"),
-        exchange::plain_name(model.units, "mm"));
+        exchange::plain_name(model.units.text(), "units"));
   }
 
   void patch(const SurfacePatch& patch, const Mesh& mesh, std::size_t number) {

@@ -22,7 +22,7 @@ Result<std::string> ply_text(const SurfaceModel& model, const std::vector<Mesh>&
       "property float nx\nproperty float ny\nproperty float nz\n"
       "property float s\nproperty float t\n"
       "element face {}\nproperty list uchar int vertex_indices\nproperty int patch\nend_header\n",
-      exchange::plain_name(model.name, "surface"), exchange::plain_name(model.units, "mm"),
+      exchange::plain_name(model.name, "surface"), exchange::plain_name(model.units.text(), "units"),
       counts->vertices, counts->triangles);
   for (std::size_t p = 0; p < meshes.size(); ++p) {
     const exchange::TextureMap texture(model.patches[p].surface);

@@ -25,7 +25,8 @@ Result<std::string> stl_text(const SurfaceModel& model, const std::vector<Mesh>&
   // a header that begins with "solid" would be taken for the form in text
   std::string out = fmt::format("binary STL by obvid, {}, unit {}",
                                 exchange::plain_name(model.name, "surface").substr(0, kName),
-                                exchange::plain_name(model.units, "mm").substr(0, kName / 4));
+                                exchange::plain_name(model.units.text(), "units")
+                                    .substr(0, kName / 4));
   out.resize(kStlHeader, ' ');
   out.reserve(kStlHeader + sizeof(std::uint32_t) + kBytesOfTriangle * counts->triangles);
   exchange::put(out, std::uint32_t{0});

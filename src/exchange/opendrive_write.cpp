@@ -117,7 +117,7 @@ Result<std::string> opendrive_text(const Contour& contour, const OpenDriveOption
     return fail({ErrorCode::kBadOption, "the width of the lane must not be negative", "", "", -1,
                  options.lane_width});
   }
-  const auto lines = road_lines(contour);
+  const auto lines = road_lines(contour, "m");
   if (!lines) return fail(lines.error());
   return OpenDriveWriter(*lines, contour.closed, options).run();
 }

@@ -45,6 +45,7 @@ PointSeries projected(GeoSeries series, const LocalProjection& projection) {
   const double narrow =
       std::cos(projection.centre().latitude * std::numbers::pi / 180.0) * kMetresPerDegree;
   out.rounding = {narrow * longitude.half_unit(), kMetresPerDegree * latitude.half_unit()};
+  out.kind = series.kind;
   out.warnings.insert(out.warnings.begin(), series.warnings.begin(), series.warnings.end());
   return out;
 }
@@ -80,7 +81,7 @@ void LastDigit::add(double value) {
 
 double LastDigit::half_unit() const { return 0.5 * std::pow(10.0, -decimals_); }
 
-PointSeries plane_series(std::string name, std::string units, const std::vector<Vec2>& points) {
+PointSeries plane_series(std::string name, Units units, const std::vector<Vec2>& points) {
   PointSeries out;
   out.name = std::move(name);
   out.units = std::move(units);

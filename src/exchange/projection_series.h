@@ -16,6 +16,7 @@ struct GeoSeries {
   std::string name;
   std::vector<GeoPoint> places;
   std::vector<std::string> warnings;
+  SeriesKind kind = SeriesKind::kLine;
 };
 
 /// All series in one plane: metres around the middle of them all. Consecutive repetitions are
@@ -25,7 +26,7 @@ struct GeoSeries {
 Result<void> project_series(std::vector<GeoSeries> all, std::string_view name, Drawing& drawing);
 
 /// Points of a file, in its own plane: half a unit of the last digit, repetitions merged.
-[[nodiscard]] PointSeries plane_series(std::string name, std::string units,
+[[nodiscard]] PointSeries plane_series(std::string name, Units units,
                                        const std::vector<Vec2>& points);
 
 /// Half a unit of the last decimal of numbers as they read back shortest.

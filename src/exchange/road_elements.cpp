@@ -3,8 +3,6 @@
 
 #include <fmt/format.h>
 
-#include <array>
-#include <utility>
 
 namespace obvid {
 namespace {
@@ -24,41 +22,20 @@ std::optional<RoadElement> element_of(const Piece& piece) {
   return std::nullopt;
 }
 
-RoadElement scaled(RoadElement e, double metres) {
-  e.start = metres * e.start;
-  e.end = metres * e.end;
-  e.kappa0 /= metres;
-  e.kappa1 /= metres;
-  e.length *= metres;
+RoadElement scaled(RoadElement e, double ratio) {
+  e.start = ratio * e.start;
+  e.end = ratio * e.end;
+  e.kappa0 /= ratio;
+  e.kappa1 /= ratio;
+  e.length *= ratio;
   return e;
 }
 
 }  // namespace
 
-std::optional<double> metres_in(std::string_view unit) {
-  static constexpr std::array<std::pair<std::string_view, double>, 9> kMetres = {
-      {{"um", 1e-6},
-       {"mm", 1e-3},
-       {"cm", 1e-2},
-       {"m", 1.0},
-       {"km", 1e3},
-       {"in", 0.0254},
-       {"ft", 0.3048},
-       {"yd", 0.9144},
-       {"mi", 1609.344}}};
-  for (const auto& [name, metres] : kMetres) {
-    if (unit == name) return metres;
-  }
-  return std::nullopt;
-}
-
-Result<std::vector<RoadLine>> road_lines(const Contour& contour) {
-  const auto metres = metres_in(contour.units);
-  if (!metres) {
-    return fail({ErrorCode::kBadOption, "the unit '" + contour.units + "' has no known length", "",
-                 "form the contour with `fit --units mm` or another of um, mm, cm, m, km, in, ft",
-                 -1, 0.0});
-  }
+Result<std::vector<RoadLine>> road_lines(const Contour& contour, std::string_view unit) {
+  const auto ratio = unit_ratio(contour.units, unit, "road formats");
+  if (!ratio) return fail(ratio.error());
   if (contour.pieces.empty()) {
     return fail({ErrorCode::kTooFewPoints, "the contour has no pieces", "", "", -1, 0.0});
   }
@@ -70,10 +47,10 @@ Result<std::vector<RoadLine>> road_lines(const Contour& contour) {
                    "road formats know lines, arcs and clothoids, and this contour has other pieces",
                    fmt::format("piece {}", i + 1), "use `fit --carrier clothoids`", -1, 0.0});
     }
-    const bool corner = i < contour.joints.size() && contour.joints[i].leaving.has_value();
+    const bool corner = i < contour.joints.size() && is_corner(contour.joints[i]);
     if (i == 0 || corner) lines.emplace_back();
     RoadLine& line = lines.back();
-    line.elements.push_back(scaled(*element, *metres));
+    line.elements.push_back(scaled(*element, *ratio));
     line.elements.back().s = line.length;
     line.length += line.elements.back().length;
   }

@@ -139,9 +139,9 @@ Result<std::vector<CurveSample>> by_chords(std::span<const Piece> pieces, const 
 }
 
 /// Letters and digits of a unit: it becomes part of a column's name.
-std::string plain(const std::string& units) {
+std::string plain(const Units& units) {
   std::string out;
-  for (const char c : units) {
+  for (const char c : units.text()) {
     if ((c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9')) out += c;
   }
   return out.empty() ? "unit" : out;
@@ -191,7 +191,10 @@ Result<std::string> samples_csv(const Contour& contour, const SampleOptions& opt
   if (!samples) return tl::unexpected(samples.error());
   const std::string unit = plain(contour.units);
   std::string out =
-      fmt::format("s_{0},x_{0},y_{0},heading_deg,curvature_1_per_{0},normal_x,normal_y\n", unit);
+      contour.units.known()
+          ? fmt::format("s_{0},x_{0},y_{0},heading_deg,curvature_1_per_{0},normal_x,normal_y\n",
+                        unit)
+          : "s,x,y,heading_deg,curvature,normal_x,normal_y\n";
   for (const CurveSample& one : *samples) {
     const Vec2 normal = left_normal(unit_at(one.theta));
     fmt::format_to(std::back_inserter(out), "{},{},{},{},{},{},{}\n", one.s, one.point.x,

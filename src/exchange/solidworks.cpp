@@ -10,7 +10,6 @@
 #include <utility>
 
 #include "obvid/contour/conics.h"
-#include "unit_sizes.h"
 
 namespace obvid {
 namespace {
@@ -28,10 +27,8 @@ std::span<const Piece> pieces_of(const Contour& contour, const Run& run) {
 /// Statements of the macro.
 class Macro {
  public:
-  Macro(const Contour& contour, const SampleOptions& options)
-      : contour_(contour),
-        options_(options),
-        scale_(exchange::millimetres_of(contour.units).value_or(1.0) / 1000.0) {}
+  Macro(const Contour& contour, const SampleOptions& options, double metres)
+      : contour_(contour), options_(options), scale_(metres) {}
 
   Result<std::string> run() {
     out_ =
@@ -141,7 +138,9 @@ Result<std::string> solidworks_macro(const Contour& contour, const SampleOptions
   if (contour.pieces.empty()) {
     return fail({ErrorCode::kTooFewPoints, "the contour has no pieces", "", "", -1, 0.0});
   }
-  return Macro(contour, options).run();
+  const auto metres = unit_ratio(contour.units, "m", "macros of SolidWorks");
+  if (!metres) return fail(metres.error());
+  return Macro(contour, options, *metres).run();
 }
 
 }  // namespace obvid

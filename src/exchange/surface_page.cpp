@@ -167,7 +167,7 @@ std::string script_text(const json& value) {
 std::string header_json(const SurfaceModel& model, const std::vector<Mesh>& meshes,
                         const PageOptions& options, const exchange::PageData& data,
                         const std::string& title) {
-  const std::string units = plain_text(model.units);
+  const std::string units = plain_text(model.units.text());
   const json header = {
       {"name", title},
       {"units", units},
@@ -200,7 +200,7 @@ std::string grouped(std::size_t count) {
 
 std::string facts(const SurfaceModel& model, const std::vector<Mesh>& meshes,
                   const exchange::PageData& data, std::size_t triangles) {
-  const std::string units = plain_text(model.units);
+  const std::string units = plain_text(model.units.text());
   double deviation = 0.0;
   for (const Mesh& mesh : meshes) deviation = std::max(deviation, mesh.deviation);
   std::string text = exchange::size_text(data.size, units);

@@ -106,7 +106,7 @@ SheetTexts texts_of(const SurfaceModel& model, const std::vector<DrawnPatch>& pa
                     const SurfacePictureOptions& options) {
   SheetTexts texts;
   texts.title = plain_text(options.title.empty() ? model.name : options.title);
-  texts.units = plain_text(model.units);
+  texts.units = plain_text(model.units.text());
   texts.facts = size_text(box_of_patches(patches).size(), texts.units);
   if (patches.size() > 1) texts.facts += " · " + std::to_string(patches.size()) + " patches";
   return texts;

@@ -14,7 +14,6 @@
 
 #include "obvid/curve/path_distance.h"
 #include "obvid/geom/box.h"
-#include "unit_sizes.h"
 
 namespace obvid {
 namespace {
@@ -34,11 +33,9 @@ bool is_polynomial(const RationalBezier& b) {
 
 class SvgDrawer {
  public:
-  SvgDrawer(const Contour& contour, const SvgDrawingOptions& options, double within)
-      : contour_(contour),
-        options_(options),
-        within_(within),
-        mm_(exchange::millimetres_of(contour.units).value_or(1.0)) {}
+  SvgDrawer(const Contour& contour, const SvgDrawingOptions& options, double millimetres,
+            double within)
+      : contour_(contour), options_(options), within_(within), mm_(millimetres) {}
 
   Result<SvgDrawing> run() {
     move(start_point(contour_.pieces.front()));
@@ -221,10 +218,12 @@ Result<SvgDrawing> svg_drawing(const Contour& contour, const SvgDrawingOptions& 
   if (contour.pieces.empty()) {
     return fail({ErrorCode::kTooFewPoints, "the contour has no pieces", "", "", -1, 0.0});
   }
+  const auto millimetres = unit_ratio(contour.units, "mm", "drawings in true scale");
+  if (!millimetres) return fail(millimetres.error());
   constexpr int kTrials = 3;
   double within = kOfCubicTolerance * options.tolerance;
   for (int trial = 0;; ++trial) {
-    auto made = SvgDrawer(contour, options, within).run();
+    auto made = SvgDrawer(contour, options, *millimetres, within).run();
     if (!made || made->deviation <= options.tolerance) return made;
     if (trial == kTrials) {
       return fail({ErrorCode::kToleranceNotReached, "the drawing is not near enough", "",

@@ -7,10 +7,12 @@
 #include <array>
 #include <cmath>
 #include <map>
+#include <span>
 #include <unordered_map>
 #include <utility>
 #include <vector>
 
+#include "obvid/series/straight_rows.h"
 #include "projection_series.h"
 #include "svg_read_shapes.h"
 
@@ -79,7 +81,7 @@ class SvgReader {
           fmt::format("{} segments of no length left out", empty_segments_));
     }
     for (std::string& warning : warnings_.take()) drawing_.warnings.push_back(std::move(warning));
-    if (drawing_.curves.empty()) {
+    if (drawing_.curves.empty() && drawing_.series.empty()) {
       const std::string why = drawing_.warnings.empty() ? "" : ": " + drawing_.warnings.front();
       return fail(
           {ErrorCode::kTooFewPoints, "the file draws nothing" + why, file_.name(), "", -1, 0.0});
@@ -208,8 +210,15 @@ class SvgReader {
     if (curves.empty()) {
       return warnings_.add(fmt::format("{} draws nothing", label), node);
     }
+    // vertices of a polyline are points of a curve, or its edges are what is drawn
+    if (is_sampled(drawn.points())) return series(drawn.points(), state.to_sheet, label);
     std::move(curves.begin(), curves.end(), std::back_inserter(drawing_.curves));
-    if (!drawn.points().empty()) series(drawn.points(), state.to_sheet, label);
+  }
+
+  static bool is_sampled(const std::vector<Vec2>& points) {
+    const bool closed = points.size() > 1 && points.front() == points.back();
+    return !points.empty() &&
+           chords_of_curve(std::span(points).first(points.size() - (closed ? 1 : 0)), closed);
   }
 
   void series(const std::vector<Vec2>& points, const Affine& to_sheet, const std::string& label) {

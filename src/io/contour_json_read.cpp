@@ -36,6 +36,8 @@ class ContourReader : private JsonValues {
   void read_contour(const Node& root);
   std::vector<double> point_tolerance(const Node& node);
   Joint joint(const Node& node);
+  void units_source(const Node& node);
+  void kept(const Node& node);
   void corner(const Node& node, Joint& joint);
   void check_ends(const Node& elements);
   void check_range();
@@ -68,6 +70,7 @@ void ContourReader::read_head(const Node& root) {
   }
   Contour& contour = stored_.contour;
   contour.units = word(field(root, "units"));
+  if (const auto source = optional_field(root, "units_source")) units_source(*source);
   contour.closed = flag(field(root, "closed"));
   const Node carrier = field(root, "carrier");
   const std::string kind = word(carrier);
@@ -75,6 +78,15 @@ void ContourReader::read_head(const Node& root) {
     contour.carrier = *one;
   } else {
     refuse(carrier, ErrorCode::kUnsupported, "carrier " + text::shown(kind) + " is not known");
+  }
+}
+
+void ContourReader::units_source(const Node& node) {
+  const std::string name = word(node);
+  if (const auto source = unit_source_of(name)) {
+    stored_.contour.units.source = *source;
+  } else {
+    refuse(node, text::shown(name) + " is no source of a unit: file, given or assumed");
   }
 }
 
@@ -103,6 +115,19 @@ void ContourReader::read_contour(const Node& root) {
   check_range();
   if (const auto node = optional_field(root, "bspline")) one_nurbs(*node);
   each(field(root, "runs"), [&](const Node& node) { contour.runs.push_back(run(node)); });
+  if (const auto node = optional_field(root, "kept")) kept(*node);
+}
+
+/// Numbers of pieces, ascending.
+void ContourReader::kept(const Node& node) {
+  Contour& contour = stored_.contour;
+  each(node, [&](const Node& one) {
+    contour.kept.push_back(index(one, contour.pieces.size(), "pieces"));
+    const std::size_t count = contour.kept.size();
+    if (count > 1 && contour.kept[count - 2] >= contour.kept[count - 1]) {
+      refuse(one, "numbers of pieces ascend");
+    }
+  });
 }
 
 /// One for each point, or none at all.
@@ -136,14 +161,14 @@ Joint ContourReader::joint(const Node& node) {
 /// Heading and curvature behind a corner stand there and nowhere else: where the mark is taken
 /// away, what is left must not look like a smooth joint.
 void ContourReader::corner(const Node& node, Joint& joint) {
-  if (optional_flag(node, "corner", false)) {
+  if (optional_flag(node, "corner", false) || optional_flag(node, "curvature_step", false)) {
     joint.leaving = Element{joint.element.point, number(field(node, "heading_out")),
                             number(field(node, "kappa_out"))};
     return;
   }
   for (const string_view key : {"heading_out", "kappa_out"}) {
     if (const auto given = optional_field(node, key)) {
-      refuse(*given, "the field stands at corners only");
+      refuse(*given, "the field stands at corners and steps of the curvature only");
     }
   }
 }
@@ -154,7 +179,7 @@ void ContourReader::check_ends(const Node& elements) {
   if (failed() || stored_.contour.closed) return;
   for (const std::size_t i : {std::size_t{0}, joints.size() - 1}) {
     if (!joints[i].leaving) continue;
-    refuse({&(*elements.value)[i], &elements, {}, i}, "an open contour has no corner at its ends");
+    refuse({&(*elements.value)[i], &elements, {}, i}, "an open contour has no corner and no step at its ends");
   }
 }
 
@@ -450,9 +475,11 @@ Certificate ContourReader::certificate(const Node& node) {
     return optional_field(node, key) ? small_count(node, key) : otherwise;
   };
   const std::vector<Joint>& joints = stored_.contour.joints;
-  const auto corners = std::count_if(joints.begin(), joints.end(),
-                                     [](const Joint& joint) { return joint.leaving.has_value(); });
+  const auto corners = std::count_if(joints.begin(), joints.end(), is_corner);
+  const auto parted = std::count_if(joints.begin(), joints.end(),
+                                    [](const Joint& joint) { return joint.leaving.has_value(); });
   claims.corners = count("corners", static_cast<int>(corners));
+  claims.curvature_steps = count("curvature_steps", static_cast<int>(parted - corners));
   claims.vertices = count("vertices", stored_.report ? stored_.report->vertices : 0);
   claims.inflections = count("inflections", stored_.report ? stored_.report->inflections : 0);
   claims.self_intersections = count("self_intersections", 0);

@@ -142,7 +142,7 @@ void Writer::element(const Joint& joint) {
     raw("null");
   }
   if (joint.leaving) {
-    raw(", \"corner\": true, ");
+    raw(is_corner(joint) ? ", \"corner\": true, " : ", \"curvature_step\": true, ");
     figure("heading_out", joint.leaving->theta);
     raw(", ");
     figure("kappa_out", joint.leaving->kappa);
@@ -339,6 +339,8 @@ void Writer::certificate(const Certificate& certificate) {
   raw(",\n    ");
   count("corners", certificate.corners);
   raw(",\n    ");
+  count("curvature_steps", certificate.curvature_steps);
+  raw(",\n    ");
   count("vertices", certificate.vertices);
   raw(",\n    ");
   count("inflections", certificate.inflections);
@@ -368,7 +370,9 @@ std::string Writer::write(const StoredContour& stored) {
   fmt::format_to(std::back_inserter(buffer_), "{{\n  \"format\": \"{}\",\n  \"version\": {},\n",
                  contour_json::kFormat, contour_json::kVersion);
   raw("  \"units\": ");
-  text(contour.units);
+  text(contour.units.name);
+  raw(", \"units_source\": ");
+  text(to_string(contour.units.source));
   raw(",\n  \"closed\": ");
   flag(contour.closed);
   fmt::format_to(std::back_inserter(buffer_), ",\n  \"carrier\": \"{}\",\n",
@@ -395,6 +399,11 @@ std::string Writer::write(const StoredContour& stored) {
                    "{{\"first_piece\": {}, \"last_piece\": {}, \"direction\": {}}}",
                    run.first_piece, run.last_piece, run.direction);
   });
+  if (!contour.kept.empty()) {
+    raw(",\n  \"kept\": ");
+    inline_list(contour.kept,
+                [&](std::size_t i) { fmt::format_to(std::back_inserter(buffer_), "{}", i); });
+  }
   if (stored.report) report(*stored.report);
   if (stored.certificate) certificate(*stored.certificate);
   raw("\n}\n");

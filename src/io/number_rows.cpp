@@ -99,6 +99,7 @@ class NumberRowReader {
     if (out_.rows.empty()) {
       out_.header.clear();
       for (const string_view field : fields_) out_.header.emplace_back(field);
+      out_.columns = column_names(data);
     }
     out_.titles.push_back({out_.rows.size(), text::to_utf8(data)});
     gap_ = true;
@@ -136,13 +137,6 @@ class NumberRowReader {
   bool gap_ = false;
 };
 
-std::string lower(string_view text) {
-  std::string out(text);
-  std::transform(out.begin(), out.end(), out.begin(),
-                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  return out;
-}
-
 }  // namespace
 
 Result<NumberRows> number_rows(string_view text, string_view name) {
@@ -151,10 +145,21 @@ Result<NumberRows> number_rows(string_view text, string_view name) {
 }
 
 int column_named(const NumberRows& rows, string_view name) {
-  for (std::size_t i = 0; i < rows.header.size(); ++i) {
-    if (lower(rows.header[i]) == lower(name)) return static_cast<int>(i);
+  for (std::size_t i = 0; i < rows.columns.size(); ++i) {
+    if (rows.columns[i].name == name) return static_cast<int>(i);
   }
   return -1;
+}
+
+Result<Units> units_of_columns(const NumberRows& rows, string_view name) {
+  std::vector<Units> all;
+  for (const string_view axis : {"x", "y", "z"}) {
+    const int at = column_named(rows, axis);
+    if (at < 0) continue;
+    const std::string& unit = rows.columns[static_cast<std::size_t>(at)].unit;
+    if (!unit.empty()) all.emplace_back(unit);
+  }
+  return common_units(all, name);
 }
 
 Error error_at(ErrorCode code, std::string what, string_view name, std::size_t line,

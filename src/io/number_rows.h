@@ -7,6 +7,8 @@
 #include <vector>
 
 #include "obvid/core/result.h"
+#include "obvid/core/units.h"
+#include "read_points_header.h"
 
 namespace obvid {
 
@@ -20,6 +22,7 @@ struct NumberRow {
 /// A text of numbers in rows.
 struct NumberRows {
   std::vector<std::string> header;  ///< names of columns: a line of words before the first row
+  std::vector<ColumnName> columns;  ///< the same, understood
   std::vector<NumberRow> rows;
   /// Lines of words between rows (titles of blocks), each before the row with this index.
   struct Title {
@@ -34,8 +37,12 @@ struct NumberRows {
 /// Errors: E302, E303, E304 nothing there, E306, E310.
 [[nodiscard]] Result<NumberRows> number_rows(std::string_view text, std::string_view name);
 
-/// Column of this name, by case; -1 when there is none.
+/// Column of this name ("x" for "X [mm]", "x_m"); -1 when there is none.
 [[nodiscard]] int column_named(const NumberRows& rows, std::string_view name);
+
+/// Unit that the names of the columns x, y and z state; assumed when they state none. Error E310
+/// when they differ.
+[[nodiscard]] Result<Units> units_of_columns(const NumberRows& rows, std::string_view name);
 
 /// Error at a line of a file.
 [[nodiscard]] Error error_at(ErrorCode code, std::string what, std::string_view name,

@@ -87,7 +87,7 @@ std::string carriers_svg(const std::vector<NamedContour>& contours, const std::s
   std::string units, description;
   for (const NamedContour& one : contours) {
     sides.push_back(make_picture_side(one.contour, one.name));
-    if (units.empty() && !one.contour.pieces.empty()) units = one.contour.units;
+    if (units.empty() && !one.contour.pieces.empty()) units = one.contour.units.text();
     description += (description.empty() ? "" : "; ") + one.name + ": " + one.remark;
   }
   const PictureScale scale = common_scale(sides);

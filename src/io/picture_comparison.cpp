@@ -161,9 +161,9 @@ std::string comparison_svg(const Contour& before, const Contour& after,
   const PictureComb comb = common_comb(sides, scale);
   PictureCanvas body;
   body.label({kPictureMargin, 40.0}, "start", "title", titles.heading);
-  double y = draw_shapes(body, sides, comb, before.units, 64.0);
-  y = draw_common_legend(body, sides, comb, before.units, y);
-  y = draw_plots(body, sides, scale, before.units, y);
+  double y = draw_shapes(body, sides, comb, before.units.text(), 64.0);
+  y = draw_common_legend(body, sides, comb, before.units.text(), y);
+  y = draw_plots(body, sides, scale, before.units.text(), y);
   return picture_sheet(titles.heading, sides[0].caption + "; " + sides[1].caption, body.take(), y);
 }
 

@@ -73,8 +73,8 @@ double shape_panel(PictureCanvas& canvas, const PictureTrack& track, const Conto
   draw_features(canvas, track, view);
   draw_start(canvas, track, view);
   const double strip = bottom + 22.0;
-  draw_scale_bar(canvas, view, contour.units, strip);
-  PictureLegend legend{track, contour.units, coloured, widest};
+  draw_scale_bar(canvas, view, contour.units.text(), strip);
+  PictureLegend legend{track, contour.units.text(), coloured, widest};
   legend.dots = dot_radius(track, view) > 0.0;
   if (comb.per_kappa != 0.0) legend.longest_tooth = track.largest_kappa;
   return draw_legend(canvas, legend, kPictureMargin + kScaleBarRoom, strip) + 16.0;

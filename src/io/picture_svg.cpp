@@ -19,16 +19,27 @@ using picture_detail::counted;
 
 /// Verdicts longer than this are cut: the file tells the whole reason.
 constexpr std::size_t kLongestReason = 105;
+/// Titles longer than this would meet the facts beside them.
+constexpr std::size_t kLongestName = 50;
 
-std::string picture_title(const Contour& contour) {
+/// What the curve is; `foreign`: another system drew it.
+std::string kind_of(const Contour& contour, bool foreign) {
   const char* const kinds[] = {"Spiral contour",       "Arc contour",      "Contour of conics",
                                "Contour of parabolas", "Clothoid contour", "B-spline contour",
                                "Cubic B-spline",       "CAD spline"};
-  std::string kind = kinds[static_cast<int>(contour.carrier)];
+  std::string kind = foreign ? "Curve as drawn" : kinds[static_cast<int>(contour.carrier)];
   if (contour.closed)
     kind = "Closed " + std::string(1, static_cast<char>(kind[0] - 'A' + 'a')) + kind.substr(1);
-  return kind + " · " + counted(contour.points.size(), "point", "points") + " · " +
-         counted(contour.pieces.size(), "piece", "pieces");
+  if (!foreign) kind += " · " + counted(contour.points.size(), "point", "points");
+  return kind + " · " + counted(contour.pieces.size(), "piece", "pieces");
+}
+
+/// A name that fits beside the facts, in whole characters.
+std::string shortened(const std::string& name) {
+  if (name.size() <= kLongestName) return name;
+  std::size_t cut = kLongestName;
+  while (cut > 0 && (static_cast<unsigned char>(name[cut]) & 0xC0U) == 0x80U) --cut;
+  return name.substr(0, cut) + " …";
 }
 
 struct VerdictLine {
@@ -59,12 +70,12 @@ VerdictLine verdict_of(const StoredContour& stored) {
 
 std::size_t corner_count(const Contour& contour) {
   return static_cast<std::size_t>(
-      std::count_if(contour.joints.begin(), contour.joints.end(),
-                    [](const Joint& joint) { return joint.leaving.has_value(); }));
+      std::count_if(contour.joints.begin(), contour.joints.end(), is_corner));
 }
 
 bool is_measured(const StoredContour& stored) {
-  return !stored.contour.point_tolerance.empty() || corner_count(stored.contour) > 0;
+  return !stored.contour.point_tolerance.empty() || corner_count(stored.contour) > 0 ||
+         !stored.contour.kept.empty();
 }
 
 bool has_region(const StoredContour& stored) {
@@ -73,7 +84,7 @@ bool has_region(const StoredContour& stored) {
 
 std::string region_fact(const StoredContour& stored) {
   return "region width " + readable_number(stored.report->largest_width, 2) + " " +
-         stored.contour.units;
+         stored.contour.units.text();
 }
 
 std::string facts_of(const StoredContour& stored) {
@@ -94,7 +105,7 @@ std::string measured_facts(const StoredContour& stored) {
   std::vector<std::string> facts;
   if (stored.certificate && stored.certificate->largest_move > 0.0) {
     facts.push_back("points at most " + readable_number(stored.certificate->largest_move, 2) + " " +
-                    stored.contour.units + " from the contour");
+                    stored.contour.units.text() + " from the contour");
   }
   if (const std::size_t corners = corner_count(stored.contour)) {
     facts.push_back(counted(corners, "corner", "corners"));
@@ -107,22 +118,25 @@ std::string measured_facts(const StoredContour& stored) {
 
 }  // namespace
 
-std::string picture_svg(const StoredContour& stored) {
+std::string picture_svg(const StoredContour& stored, const PictureTitles& titles) {
   const Contour& contour = stored.contour;
   const PictureTrack track = make_track(contour);
   const bool coloured = track.runs_tell && contour.runs.size() <= kMostColouredRuns;
-  const VerdictLine verdict = verdict_of(stored);
-  const std::string title = picture_title(contour);
+  const VerdictLine verdict =
+      titles.verdict.empty() ? verdict_of(stored) : VerdictLine{"open", titles.verdict};
+  const std::string kind = kind_of(contour, !titles.verdict.empty());
+  const std::string title = titles.name.empty() ? kind : shortened(titles.name);
   PictureCanvas body;
   body.label({kPictureMargin, 40.0}, "start", "title", title);
   body.label({kPictureWidth - kPictureMargin, 40.0}, "end", "fact", facts_of(stored));
   body.label({kPictureMargin, 64.0}, "start", std::string("verdict ") + verdict.css, verdict.text);
-  const std::string more = measured_facts(stored);
+  std::string more = measured_facts(stored);
+  if (!titles.name.empty()) more = kind + (more.empty() ? "" : " · " + more);
   if (!more.empty()) body.label({kPictureMargin, 85.0}, "start", "fact", more);
   const double top = more.empty() ? 78.0 : 99.0;
   const double below = shape_panel(body, track, contour, coloured, top);
   const PictureMoves moves = make_moves(track, stored);
-  const double height = plot_panels(body, track, moves, contour.units, coloured, below);
+  const double height = plot_panels(body, track, moves, contour.units.text(), coloured, below);
   return picture_sheet(title, verdict.text, body.take(), height);
 }
 

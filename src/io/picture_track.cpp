@@ -110,7 +110,8 @@ void set_corners(PictureTrack& track, const Contour& contour) {
   track.corner.assign(track.pieces.size(), false);
   for (std::size_t i = contour.closed ? 0 : 1; i < track.pieces.size(); ++i) {
     if (i >= contour.joints.size() || !contour.joints[i].leaving) continue;
-    track.corner[i] = true;
+    track.corner[i] = true;  // also where the curvature alone steps
+    if (!is_corner(contour.joints[i])) continue;
     track.features.push_back({PictureFeature::Kind::kCorner, track.samples[track.first[i]]});
   }
 }

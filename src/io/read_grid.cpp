@@ -312,6 +312,15 @@ bool is_matrix(const NumberRows& rows) {
   });
 }
 
+Result<PointGrid> grid_in(const NumberRows& rows, string_view name, const GridOptions& options) {
+  if (column_named(rows, "row") >= 0 && column_named(rows, "col") >= 0) {
+    return from_places(rows, name);
+  }
+  if (is_offset_table(rows)) return from_offsets(rows, name);
+  if (is_matrix(rows)) return from_heights(rows, name, options.spacing);
+  return from_list(rows, name);
+}
+
 }  // namespace
 
 bool is_one_of_three(string_view path) {
@@ -324,12 +333,11 @@ bool is_one_of_three(string_view path) {
 Result<PointGrid> parse_grid(string_view text, string_view name, const GridOptions& options) {
   const auto rows = number_rows(text, name);
   if (!rows) return fail(rows.error());
-  if (column_named(*rows, "row") >= 0 && column_named(*rows, "col") >= 0) {
-    return from_places(*rows, name);
-  }
-  if (is_offset_table(*rows)) return from_offsets(*rows, name);
-  if (is_matrix(*rows)) return from_heights(*rows, name, options.spacing);
-  return from_list(*rows, name);
+  const auto units = units_of_columns(*rows, name);
+  if (!units) return fail(units.error());
+  auto grid = grid_in(*rows, name, options);
+  if (grid) grid->units = *units;
+  return grid;
 }
 
 Result<PointGrid> read_grid(const std::vector<std::string>& paths, const GridOptions& options) {

@@ -3,9 +3,11 @@
 
 #include <algorithm>
 #include <cerrno>
+#include <cmath>
 #include <cstdio>
 #include <cstring>
 #include <memory>
+#include <numbers>
 #include <utility>
 
 #include "read_points_raw.h"
@@ -66,8 +68,31 @@ void fill_missing(FixedData& kept, const FixedData& other) {
   kept.corner = kept.corner || other.corner;
 }
 
+// Samples that we wrote hold a corner twice, with the headings before and after it. The headings
+// say what the curve did there; nobody fixes them.
+void mark_corners(RawPoints& raw) {
+  constexpr double kCorner = 1e-6;  // rad: beyond the rounding of any heading
+  std::vector<Vec2> points;
+  std::vector<FixedData> fixed;
+  for (std::size_t i = 0; i < raw.points.size(); ++i) {
+    const bool again = i > 0 && raw.points[i] == points.back();
+    if (again) fixed.back().corner = true;
+    if (again) continue;
+    points.push_back(raw.points[i]);
+    fixed.emplace_back();
+  }
+  const double turn = raw.fixed.front().theta.value_or(0.0) - raw.fixed.back().theta.value_or(0.0);
+  if (points.front() == points.back() &&
+      std::abs(std::remainder(turn, 2.0 * std::numbers::pi)) > kCorner) {
+    fixed.front().corner = fixed.back().corner = true;
+  }
+  raw.points = std::move(points);
+  raw.fixed = std::move(fixed);
+}
+
 // Keeps the first of equal neighbours; data fixed at either of them hold for the one kept.
 void merge_duplicates(RawPoints& raw) {
+  if (raw.our_samples) return mark_corners(raw);
   std::size_t merged = 0;
   std::uint32_t first_line = 0;
   std::size_t kept = 0;
@@ -138,6 +163,7 @@ Result<PointSeries> parse_points(string_view text, string_view name) {
   if (!has_enough_distinct(raw->points)) return fail(too_few(*raw, name));
   PointSeries series;
   series.name = raw->title.empty() ? text::to_utf8(base_name(name)) : std::move(raw->title);
+  series.units = std::move(raw->units);
   series.points = std::move(raw->points);
   series.fixed = std::move(raw->fixed);
   series.rounding = rounding_of(*raw);

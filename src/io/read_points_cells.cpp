@@ -66,18 +66,20 @@ Result<std::optional<double>> RowReader::read_curvature(string_view line) {
   const auto radius = optional_cell(line, layout_.radius, true);
   if (!radius) return fail(radius.error());
   auto kappa = optional_cell(line, layout_.kappa, false);
+  if (kappa && *kappa) **kappa *= layout_.kappa_scale;
   if (!kappa || !*radius) return kappa;
   if (*kappa) {
     return fail(error(ErrorCode::kBadNumber, "radius and kappa are both given",
                       {line, fields_.cell[*layout_.kappa].data()}));
   }
-  if (!std::isfinite(1.0 / **radius)) {
+  const double curvature = 1.0 / (**radius * layout_.radius_scale);
+  if (!std::isfinite(curvature)) {
     const string_view cell = fields_.cell[*layout_.radius];
     return fail(error(ErrorCode::kNotFinite,
                       "a radius of " + shown(cell) + " has no finite curvature; inf is straight",
                       {line, cell.data()}));
   }
-  return std::optional<double>(1.0 / **radius);
+  return std::optional<double>(curvature);
 }
 
 Result<bool> RowReader::read_corner(string_view line) {
@@ -111,7 +113,7 @@ Result<FixedData> RowReader::read_fixed(string_view line) {
   FixedData fixed;
   if (*heading) fixed.theta = **heading * (std::numbers::pi / 180.0);
   fixed.kappa = *kappa;
-  fixed.tolerance = *tolerance;
+  if (*tolerance) fixed.tolerance = **tolerance * layout_.tolerance_scale;
   fixed.corner = *corner;
   return fixed;
 }

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "obvid/core/units.h"
 #include "text_lines.h"
 
 namespace obvid {
@@ -19,33 +20,60 @@ using std::string_view;
 constexpr std::array<string_view, 9> kToleranceNames{
     "tol", "tolerance", "u95", "ci95", "uncertainty", "unc", "+-", "+/-", "\xC2\xB1"};
 
-// Lower case, without quotes, brackets, unit and the words that programs put around x and y:
-// "X [mm]", "x_m", "[X-Coordinate]", "x/c" all give "x".
-std::string plain_name(string_view cell) {
+std::string lower(string_view text) {
+  std::string out;
+  for (const char c : text) out += static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  return out;
+}
+
+// "mm" of "mm]" and of "mm)", "m" of "1/m"; empty when it is none.
+std::string unit_in(string_view text) {
+  text = text::trim(text.substr(0, text.find_first_of(")]")));
+  if (text.starts_with("1/")) text.remove_prefix(2);
+  return canonical_unit(text).value_or("");
+}
+
+// Name and unit of a column. Lower case, without quotes, brackets and the words that programs put
+// around x and y: "X [mm]", "x_mm", "x(mm)", "X / mm", "[X-Coordinate]", "x/c" are all x.
+ColumnName column_name(string_view cell) {
   std::string name;
   for (const char c : text::trim(cell)) {
-    if (c != '"' && c != '\'')
-      name += static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+    if (c != '"' && c != '\'') name += c;
   }
   if (!name.empty() && (name[0] == '[' || name[0] == '(')) name.erase(0, 1);
-  name.erase(std::min(name.find_first_of(" [(])"), name.size()));
-  static constexpr std::array<string_view, 8> kEndings{"-coordinate", "_coordinate", "/c",  "_mm",
-                                                       "_cm",         "_m",          "_in", "_ft"};
-  for (const string_view ending : kEndings) {
-    const bool ends = name.size() > ending.size() &&
-                      string_view(name).substr(name.size() - ending.size()) == ending;
-    if (ends) name.erase(name.size() - ending.size());
+  ColumnName out;
+  if (const std::size_t open = name.find_first_of("[("); open != std::string::npos) {
+    out.unit = unit_in(string_view(name).substr(open + 1));
+    name.erase(open);
   }
-  return name;
+  if (const std::size_t slash = name.find('/'); slash != std::string::npos && slash > 0) {
+    const string_view rest = text::trim(string_view(name).substr(slash + 1));
+    const std::string unit = lower(rest) == "c" ? "chord" : unit_in(rest);
+    if (out.unit.empty()) out.unit = unit;
+    if (!unit.empty()) name.erase(slash);
+  }
+  name.erase(std::min(name.find_first_of(" \t)]"), name.size()));
+  name = lower(name);
+  for (const string_view ending : {"-coordinate", "_coordinate"}) {
+    if (name.ends_with(ending)) name.erase(name.size() - ending.size());
+  }
+  if (const std::size_t bar = name.rfind('_'); bar != std::string::npos && bar > 0) {
+    if (std::string unit = unit_in(string_view(name).substr(bar + 1)); !unit.empty()) {
+      out.unit = std::move(unit);
+      name.erase(bar);
+    }
+  }
+  out.name = std::move(name);
+  return out;
 }
 
 // "[Curve Length]  [X-Coordinate]": names in brackets that may hold blanks.
-std::vector<std::string> bracket_names(string_view line) {
-  std::vector<std::string> names;
+std::vector<ColumnName> bracket_names(string_view line) {
+  std::vector<ColumnName> names;
   for (std::size_t open = line.find('['); open != string_view::npos; open = line.find('[')) {
     const std::size_t close = line.find(']', open);
     if (close == string_view::npos) break;
-    names.push_back(plain_name(line.substr(open, close - open + 1)));
+    names.push_back(column_name(line.substr(open, close - open + 1)));
     line.remove_prefix(close + 1);
   }
   return names;
@@ -53,15 +81,18 @@ std::vector<std::string> bracket_names(string_view line) {
 
 bool is_unit(string_view cell) { return !cell.empty() && (cell[0] == '[' || cell[0] == '('); }
 
-std::vector<std::string> column_names(string_view line, text::Separator separator) {
-  if (separator == text::Separator::kWhite && is_unit(text::trim(line))) return bracket_names(line);
-  text::Fields fields;
-  text::split(line, separator, fields);
-  std::vector<std::string> names;
+// Between blanks the unit of "x [mm]" and of "x / mm" belongs to the name before.
+std::vector<ColumnName> names_between_blanks(const text::Fields& fields) {
+  std::vector<ColumnName> names;
   for (std::size_t i = 0; i < fields.count; ++i) {
-    // "x [mm]" between blanks: the unit belongs to the name before.
-    if (separator == text::Separator::kWhite && i > 0 && is_unit(fields.cell[i])) continue;
-    names.push_back(plain_name(fields.cell[i]));
+    const string_view cell = fields.cell[i];
+    if (is_unit(cell) && !names.empty()) {
+      names.back().unit = unit_in(cell.substr(1));
+    } else if (cell == "/" && !names.empty() && i + 1 < fields.count) {
+      names.back().unit = unit_in(fields.cell[++i]);
+    } else {
+      names.push_back(column_name(cell));
+    }
   }
   return names;
 }
@@ -73,13 +104,44 @@ text::Separator header_separator(string_view line) {
   return text::Separator::kWhite;
 }
 
+/// What lengths of a column become in those of the coordinates; 1 where nothing is said.
+double scale_of(const std::vector<ColumnName>& names, std::optional<std::size_t> column,
+                const std::string& unit) {
+  if (!column || names[*column].unit.empty() || unit.empty()) return 1.0;
+  return unit_ratio(names[*column].unit, unit).value_or(1.0);
+}
+
+/// Samples that `samples_csv` wrote: their headings and curvatures say what the curve did there,
+/// not what a user fixes.
+bool are_our_samples(const std::vector<ColumnName>& names) {
+  static constexpr std::array<string_view, 7> kOurs{
+      "s", "x", "y", "heading_deg", "curvature", "normal_x", "normal_y"};
+  return std::equal(names.begin(), names.end(), kOurs.begin(), kOurs.end(),
+                    [](const ColumnName& name, string_view ours) {
+                      return name.name == ours ||
+                             (ours == "curvature" && name.name == "curvature_1_per");
+                    });
+}
+
 }  // namespace
 
+std::vector<ColumnName> column_names(string_view line) {
+  line = text::trim(line);
+  const text::Separator separator = header_separator(line);
+  if (separator == text::Separator::kWhite && is_unit(line)) return bracket_names(line);
+  text::Fields fields;
+  text::split(line, separator, fields);
+  if (separator == text::Separator::kWhite) return names_between_blanks(fields);
+  std::vector<ColumnName> names;
+  for (std::size_t i = 0; i < fields.count; ++i) names.push_back(column_name(fields.cell[i]));
+  return names;
+}
+
 std::optional<Columns> read_header(string_view line) {
-  const text::Separator separator = header_separator(text::trim(line));
-  const std::vector<std::string> names = column_names(text::trim(line), separator);
+  const std::vector<ColumnName> names = column_names(line);
   const auto find = [&](string_view name) -> std::optional<std::size_t> {
-    const auto at = std::find(names.begin(), names.end(), name);
+    const auto at = std::find_if(names.begin(), names.end(),
+                                 [&](const ColumnName& one) { return one.name == name; });
     if (at == names.end()) return std::nullopt;
     return static_cast<std::size_t>(at - names.begin());
   };
@@ -87,17 +149,24 @@ std::optional<Columns> read_header(string_view line) {
   const auto y = find("y");
   if (!x || !y) return std::nullopt;
   Columns columns;
+  columns.count = names.size();
   columns.x = *x;
   columns.y = *y;
+  columns.unit_x = names[*x].unit;
+  columns.unit_y = names[*y].unit;
   columns.z = find("z");
+  columns.corner = find("corner");
+  columns.tab_separated = header_separator(text::trim(line)) == text::Separator::kTab;
+  columns.our_samples = are_our_samples(names);
   columns.heading_deg = find("heading_deg");
   columns.radius = find("radius");
   columns.kappa = find("kappa");
   for (const string_view name : kToleranceNames) {
     if (!columns.tolerance) columns.tolerance = find(name);
   }
-  columns.corner = find("corner");
-  columns.tab_separated = separator == text::Separator::kTab;
+  columns.radius_scale = scale_of(names, columns.radius, columns.unit_x);
+  columns.kappa_scale = 1.0 / scale_of(names, columns.kappa, columns.unit_x);
+  columns.tolerance_scale = scale_of(names, columns.tolerance, columns.unit_x);
   return columns;
 }
 

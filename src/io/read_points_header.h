@@ -3,16 +3,32 @@
 
 #include <cstddef>
 #include <optional>
+#include <string>
 #include <string_view>
+#include <vector>
 
 namespace obvid {
 
+/// A column by its name, and the unit that stands beside it ("x_mm", "X [mm]", "x / mm").
+struct ColumnName {
+  std::string name;  ///< lower case
+  std::string unit;  ///< canonical; empty: none is stated
+};
+
+/// The cells of a line as names of columns.
+[[nodiscard]] std::vector<ColumnName> column_names(std::string_view line);
+
 /// Which column holds what.
 struct Columns {
+  std::size_t count = 0;  ///< columns that have a name
   std::size_t x = 0;
   std::size_t y = 1;
+  std::string unit_x, unit_y;  ///< canonical; empty: none is stated
   std::optional<std::size_t> z, heading_deg, radius, kappa, tolerance, corner;
+  /// Columns in another unit than x: what their numbers become in that of x.
+  double radius_scale = 1.0, kappa_scale = 1.0, tolerance_scale = 1.0;
   bool tab_separated = false;  ///< header with tabs: a tab ends a cell, cells may be empty
+  bool our_samples = false;    ///< columns of `samples_csv`: headings show corners
 
   [[nodiscard]] bool has_fixed_data() const {
     return heading_deg || radius || kappa || tolerance || corner;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // What stands before the first row: title, column names, counts.
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "read_points_reader.h"
@@ -28,7 +29,9 @@ bool is_count(const ParsedNumber& number) {
 Result<void> RowReader::read_preamble() {
   while (!cursor_.at_end()) {
     const string_view line = cursor_.peek();
-    if (!text::trim(line).empty() && !text::is_comment(line)) {
+    if (text::is_comment(line)) {
+      watch_comment(line);
+    } else if (!text::trim(line).empty()) {
       const Result<bool> more = read_preamble_line(line);
       if (!more) return fail(more.error());
       if (!*more) return {};
@@ -66,6 +69,14 @@ Result<bool> RowReader::read_preamble_line(string_view line) {
   return true;
 }
 
+// "# x_m,y_m": a comment may name the columns. Only what names as many of them as the rows have is
+// believed; "# x and y of the outline" is prose.
+void RowReader::watch_comment(string_view line) {
+  string_view body = text::trim(line);
+  body.remove_prefix(std::min(body.find_first_not_of("#;!/ \t"), body.size()));
+  if (auto columns = read_header(body)) commented_ = std::move(columns);
+}
+
 // Whether the rows begin here; sets their separator and number of columns.
 bool RowReader::is_first_row(string_view body) {
   separator_ = text::detect_separator(body);
@@ -85,7 +96,12 @@ bool RowReader::is_first_row(string_view body) {
   }
   raw_.columns = leading;
   // "Inf wing" may be a title, "nan 1.5" is a row.
-  return leading >= 2 && (finite || leading == fields_.count);
+  const bool row = leading >= 2 && (finite || leading == fields_.count);
+  if (row && commented_ && commented_->count == leading) {
+    layout_ = *commented_;
+    raw_.named = true;
+  }
+  return row;
 }
 
 Result<void> RowReader::take_count(string_view line, double count) {
@@ -150,6 +166,11 @@ Result<void> RowReader::take_text(string_view line) {
 
 // "length,curvature": names, but not x and y. No title of a drawing, and worth a warning.
 void RowReader::take_unknown_names() {
+  for (const ColumnName& column : column_names(raw_.title)) {
+    constexpr std::array<string_view, 5> kDegrees{"lon", "lat", "lng", "longitude", "latitude"};
+    degrees_named_ = degrees_named_ || std::find(kDegrees.begin(), kDegrees.end(), column.name) !=
+                                           kDegrees.end();
+  }
   if (raw_.named || separator_ == Separator::kWhite || raw_.title.empty()) return;
   text::Fields names;
   text::split(raw_.title, separator_, names);

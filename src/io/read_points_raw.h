@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "obvid/core/result.h"
+#include "obvid/core/units.h"
 #include "obvid/series/point_series.h"
 #include "text_digits.h"
 
@@ -25,6 +26,8 @@ struct VspHead {
 struct RawPoints {
   std::string title;
   bool named = false;       ///< a header names the columns
+  bool our_samples = false; ///< columns as `samples_csv` writes them
+  Units units;              ///< of the column names; assumed when they have none
   bool white = false;       ///< blanks or tabs separate the fields
   std::size_t columns = 2;  ///< numbers per row
   std::vector<Vec2> points;

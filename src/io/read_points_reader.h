@@ -31,11 +31,13 @@ class RowReader {
 
   Result<void> read_preamble();
   Result<bool> read_preamble_line(std::string_view line);
+  void watch_comment(std::string_view line);
   Result<void> take_count(std::string_view line, double count);
   Result<void> take_text(std::string_view line);
   bool is_first_row(std::string_view body);
   Result<void> take_vsp(std::string_view line, const text::ParsedNumber& number);
 
+  Result<void> take_unit();
   Result<void> read_all_rows();
   bool read_plain_pair();
   Result<void> read_row(std::string_view line);
@@ -54,6 +56,8 @@ class RowReader {
   Result<void> check_columns(Place place, std::size_t count);
   bool drop_grid_bounds(std::size_t count);
   void watch_third(double value);
+  void watch_length(const std::array<double, 3>& row);
+  void warn_about_meaning();
   void take_unknown_names();
   void push(Vec2 point, const text::PrintedDigits& x, const text::PrintedDigits& y);
 
@@ -69,9 +73,14 @@ class RowReader {
   text::LineCursor cursor_;
   RawPoints raw_;
   Columns layout_;
+  std::optional<Columns> commented_;  ///< names that a comment gives the columns
   text::Separator separator_ = text::Separator::kWhite;
   text::Fields fields_;
   std::array<double, 4> first_row_{};
+  std::optional<std::array<double, 3>> row_before_;
+  bool degrees_named_ = false;   ///< columns called lon and lat
+  bool first_is_length_ = true;  ///< so far the first column grows by the distance of the others
+  std::size_t length_rows_ = 0;
   std::optional<double> third_;
   bool third_changes_ = false;
   bool title_seen_ = false;

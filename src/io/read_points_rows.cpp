@@ -33,7 +33,22 @@ Result<RawPoints> RowReader::read() {
   if (auto done = read_preamble(); !done) return fail(std::move(done.error()));
   if (auto done = read_all_rows(); !done) return fail(std::move(done.error()));
   raw_.white = separator_ == Separator::kWhite;
+  raw_.our_samples = raw_.named && layout_.our_samples;
+  if (auto done = take_unit(); !done) return fail(std::move(done.error()));
+  warn_about_meaning();
   return std::move(raw_);
+}
+
+Result<void> RowReader::take_unit() {
+  if (!raw_.named) return {};
+  std::vector<Units> all;
+  for (const std::string& unit : {layout_.unit_x, layout_.unit_y}) {
+    if (!unit.empty()) all.emplace_back(unit);
+  }
+  auto units = common_units(all, name_);
+  if (!units) return fail(std::move(units.error()));
+  raw_.units = std::move(*units);
+  return {};
 }
 
 Result<void> RowReader::read_all_rows() {
@@ -148,6 +163,7 @@ Result<void> RowReader::read_unnamed_row(Place place) {
     const auto number = text::parse_number(fields_.cell[count], separator_ != Separator::kComma);
     if (number.kind == NumberKind::kNotNumber) break;
     if (count == 2) watch_third(number.value);
+    if (count == 2) watch_length({xy[0], xy[1], number.value});
   }
   if (auto same = check_columns(place, count); !same) return same;
   push({xy[0], xy[1]}, text::digits_of(fields_.cell[0]), text::digits_of(fields_.cell[1]));
@@ -176,6 +192,51 @@ bool RowReader::drop_grid_bounds(std::size_t count) {
   raw_.points.clear();
   raw_.lines.clear();
   return true;
+}
+
+// Three columns without names may be s, x and y: then the first one grows by the distance of the
+// points that the other two give.
+void RowReader::watch_length(const std::array<double, 3>& row) {
+  constexpr double kSame = 0.02;  // of a step: a chord is that much shorter when it turns by 40 degrees
+  if (row_before_ && first_is_length_) {
+    const std::array<double, 3>& before = *row_before_;
+    const double step = row[0] - before[0];
+    const double chord = std::hypot(row[1] - before[1], row[2] - before[2]);
+    first_is_length_ = step > 0.0 && std::abs(chord - step) <= kSame * step;
+    ++length_rows_;
+  }
+  row_before_ = row;
+}
+
+// Numbers that are probably not what they are taken for.
+void RowReader::warn_about_meaning() {
+  constexpr std::size_t kFewestRows = 4;
+  if (first_is_length_ && length_rows_ >= kFewestRows) {
+    raw_.warnings.emplace_back(
+        "The first column grows by the distance of the points in the second and third: it looks "
+        "like an arc length, but is taken as x. Name the columns to change that: a first line "
+        "`s x y`.");
+  }
+  if (raw_.points.empty() || raw_.units.known()) return;
+  Vec2 low = raw_.points.front(), high = low;
+  for (const Vec2 p : raw_.points) {
+    low = {std::min(low.x, p.x), std::min(low.y, p.y)};
+    high = {std::max(high.x, p.x), std::max(high.y, p.y)};
+  }
+  // places on the globe lie far from its origin, within a part of a degree
+  constexpr double kMostDegrees = 0.5, kPart = 0.02;
+  const auto place = [&](double from, double to, double limit) {
+    const double far = std::min(std::abs(from), std::abs(to));
+    return to - from <= std::min(kMostDegrees, kPart * far) &&
+           std::max(std::abs(from), std::abs(to)) <= limit;
+  };
+  const bool lon_lat = place(low.x, high.x, 180.0) && place(low.y, high.y, 90.0);
+  const bool lat_lon = place(low.x, high.x, 90.0) && place(low.y, high.y, 180.0);
+  if (degrees_named_ || lon_lat || lat_lon) {
+    raw_.warnings.emplace_back(
+        "The coordinates look like longitude and latitude in degrees, which are no lengths: as GPX "
+        "or GeoJSON they are projected to metres.");
+  }
 }
 
 // A third column that changes may be a height or a width: say that it is not used.

@@ -88,7 +88,7 @@ Result<Columns> columns_of(const NumberRows& rows, string_view name) {
   const int x = column_named(rows, "x"), y = column_named(rows, "y"), z = column_named(rows, "z");
   if (x >= 0 && y >= 0) {
     const std::size_t understood = 2 + (z >= 0 ? 1 : 0) + (columns.section >= 0 ? 1 : 0);
-    if (z < 0 && rows.header.size() > understood) {
+    if (z < 0 && rows.columns.size() > understood) {
       return fail({ErrorCode::kTooFewColumns, "columns x and y are there, but none is called z",
                    std::string(name), "call the third coordinate z, or take the column out", -1,
                    0.0});
@@ -106,6 +106,8 @@ Result<ParsedSections> from_rows(const NumberRows& rows, string_view name) {
   const Columns columns = *found;
   const auto widest =
       static_cast<std::size_t>(std::max({columns.x, columns.y, columns.z, columns.section}) + 1);
+  const auto units = units_of_columns(rows, name);
+  if (!units) return fail(units.error());
   ParsedSections out;
   out.flat = columns.z < 0;
   double before = 0.0;
@@ -125,6 +127,7 @@ Result<ParsedSections> from_rows(const NumberRows& rows, string_view name) {
       const std::string title = columns.section >= 0 ? fmt::format("section {:g}", before)
                                                      : section_title(rows, i, number);
       out.sections.push_back({title, {}});
+      out.sections.back().units = *units;
     }
     out.sections.back().points.push_back(
         {at(columns.x), at(columns.y), out.flat ? 0.0 : at(columns.z)});
@@ -137,6 +140,7 @@ Result<ParsedSections> flat_section(string_view text, string_view name) {
   const auto series = parse_points(text, name);
   if (!series) return fail(series.error());
   SpaceSeries section{series->name, {}};
+  section.units = series->units;
   for (const Vec2 p : series->points) section.points.push_back({p.x, p.y, 0.0});
   return ParsedSections{{std::move(section)}, true};
 }
@@ -182,6 +186,7 @@ std::vector<SpaceSeries> rows_of(const PointGrid& grid) {
     const auto from = grid.points.begin() + static_cast<std::ptrdiff_t>(j * grid.count_u);
     sections.push_back(
         {fmt::format("row {}", j + 1), {from, from + static_cast<std::ptrdiff_t>(grid.count_u)}});
+    sections.back().units = grid.units;
   }
   return sections;
 }

@@ -76,6 +76,7 @@ class SurfaceReader : private JsonValues {
     }
     if (const auto name = optional_field(root, "name")) model_.name = word(*name);
     if (const auto units = optional_field(root, "units")) model_.units = word(*units);
+    if (const auto source = optional_field(root, "units_source")) units_source(*source);
     if (!failed()) {
       each(field(root, "patches"),
            [&](const Node& node) { model_.patches.push_back(patch(node)); });
@@ -121,6 +122,12 @@ class SurfaceReader : private JsonValues {
     return out;
   }
 
+  void units_source(const Node& node) {
+    const auto source = unit_source_of(word(node));
+    if (!source) return refuse(node, "a unit is from the file, given or assumed");
+    model_.units.source = *source;
+  }
+
   SurfaceModel model_;
 };
 
@@ -130,8 +137,10 @@ std::string surface_json(const SurfaceModel& model) {
   fmt::memory_buffer out;
   auto to = std::back_inserter(out);
   fmt::format_to(
-      to, "{{\"format\": \"{}\", \"version\": {},\n \"name\": {}, \"units\": {},\n \"patches\": [",
-      kFormat, kVersion, quoted(model.name), quoted(model.units));
+      to, "{{\"format\": \"{}\", \"version\": {},\n \"name\": {}, \"units\": {}, "
+      "\"units_source\": \"{}\",\n \"patches\": [",
+      kFormat, kVersion, quoted(model.name), quoted(model.units.name),
+      to_string(model.units.source));
   for (std::size_t i = 0; i < model.patches.size(); ++i) {
     fmt::format_to(to, "{}", i == 0 ? "\n" : ",\n");
     write_patch(out, model.patches[i]);

@@ -5,7 +5,8 @@
 
 namespace obvid::pipeline_detail {
 
-/// Joins the contours of neighbouring sections at their corners.
+/// Joins the contours of neighbouring sections at their corners, and where pieces of a drawing begin
+/// and end.
 class Assembly {
  public:
   /// Appends the contour of the next section, which begins where the last one ends.

@@ -20,6 +20,22 @@ constexpr double kVisible = 0.01;      // of the range of the curvature
 /// Swings below this part of the largest curvature are what rounding leaves on lines and circles.
 constexpr double kRippleRounding = 1e-9;
 
+/// Roundings of a double in the coordinates of a piece that computing and printing may have cost.
+constexpr double kFlatRoundings = 8.0;
+
+/// Curvature below which a piece of this length cannot be told from a straight one: its height over
+/// the chord is what rounding makes of its coordinates, 1/unit.
+double flat_curvature(const Piece& piece) {
+  double extent = 0.0;
+  for (const Vec2 p : {start_point(piece), end_point(piece)}) {
+    extent = std::max({extent, std::abs(p.x), std::abs(p.y)});
+  }
+  const Vec2 chord = end_point(piece) - start_point(piece);
+  const double square = dot(chord, chord);
+  // height of an arc: kappa length^2 / 8
+  return square > 0.0 ? 8.0 * kFlatRoundings * 0x1p-53 * extent / square : 0.0;
+}
+
 struct Sample {
   std::size_t piece = 0;
   double t = 0.0;
@@ -37,13 +53,14 @@ double size_of_pieces(const std::vector<Piece>& pieces) {
 
 class Auditor {
  public:
-  Auditor(const DrawnCurve& curve, const std::string& units) {
+  Auditor(const DrawnCurve& curve, const Units& units) {
     out_.label = curve.label;
     out_.contour.units = units;
     out_.contour.carrier = Carrier::kBaseline;
     out_.contour.closed = curve.closed;
     out_.contour.pieces = curve.pieces;
-    size_ = size_of_pieces(curve.pieces);
+    for (Piece& piece : out_.contour.pieces) straighten(piece);
+    size_ = size_of_pieces(out_.contour.pieces);
   }
 
   CurveAudit run() {
@@ -63,6 +80,42 @@ class Auditor {
   }
 
  private:
+  /// Curvature that rounding alone explains is none: left in, its signs would be counted.
+  void straighten(Piece& piece) {
+    const double flat = flat_curvature(piece);
+    if (auto* c = std::get_if<ClothoidPiece>(&piece)) {
+      for (double* kappa : {&c->kappa0, &c->kappa1}) {
+        if (*kappa == 0.0 || std::abs(*kappa) > flat) continue;
+        *kappa = 0.0;
+        note_flat(flat);
+      }
+      if (c->kappa0 == 0.0 && c->kappa1 == 0.0) piece = LinePiece{c->start, c->end};
+      return;
+    }
+    if (std::holds_alternative<LinePiece>(piece) || !is_flat(piece, flat)) return;
+    piece = LinePiece{start_point(piece), end_point(piece)};
+    note_flat(flat);
+  }
+
+  void note_flat(double flat) {
+    ++out_.straightened;
+    out_.flat_curvature = std::max(out_.flat_curvature, flat);
+  }
+
+  /// An arc, or a curve of the chord's length, that nowhere is more curved than that.
+  static bool is_flat(const Piece& piece, double flat) {
+    if (const auto* arc = std::get_if<ArcPiece>(&piece)) {
+      const double most = std::abs(arc->kappa * arc->length);
+      return std::abs(arc->kappa) <= flat && most < 1.0;
+    }
+    const Vec2 chord = end_point(piece) - start_point(piece);
+    for (int k = 0; k <= kSamples; ++k) {
+      const Jet jet = evaluate(piece, static_cast<double>(k) / kSamples);
+      if (!(dot(jet.d1, chord) > 0.0) || !(std::abs(curvature(jet)) <= flat)) return false;
+    }
+    return true;
+  }
+
   void take_samples() {
     const std::vector<Piece>& pieces = out_.contour.pieces;
     out_.least_kappa = HUGE_VAL;
@@ -106,7 +159,7 @@ class Auditor {
     }
   }
 
-  /// Notes what is not continuous at a joint; true at a corner.
+  /// Notes what is not continuous at a joint; true at a corner and where the curvature jumps.
   bool compare(std::size_t j, const Element& before, const Element& after) {
     const double gap = norm(after.point - before.point);
     const double turn =
@@ -122,8 +175,9 @@ class Auditor {
     if (corner) add(place, 0);
     place.kind = AuditPlace::Kind::kCurvatureJump;
     place.size = 0.0;
-    if (!corner && jump > std::max(kLargestJump * larger, rounding_)) add(place, 1);
-    return corner;
+    const bool jumps = !corner && jump > std::max(kLargestJump * larger, rounding_);
+    if (jumps) add(place, 1);
+    return corner || jumps;
   }
 
   void add(const AuditPlace& place, int continuity) {
@@ -138,7 +192,8 @@ class Auditor {
                             : verdict == Verdict::kDecreasing ? -1
                                                               : 0;
       std::vector<Run>& runs = out_.contour.runs;
-      if (!runs.empty() && runs.back().direction == direction) {
+      const bool goes_on = !out_.contour.joints[i].leaving;
+      if (!runs.empty() && goes_on && runs.back().direction == direction) {
         runs.back().last_piece = i;
       } else {
         runs.push_back({i, i, direction});
@@ -230,7 +285,25 @@ const char* to_string(AuditPlace::Kind kind) {
   return names[static_cast<int>(kind)];
 }
 
-CurveAudit audit(const DrawnCurve& curve, const std::string& units) {
+std::string as_drawn(const CurveAudit& a) {
+  const auto counted = [](int count, const char* one, const char* many) {
+    return std::to_string(count) + " " + (count == 1 ? one : many);
+  };
+  int corners = 0, jumps = 0, gaps = 0;
+  for (const AuditPlace& place : a.places) {
+    corners += place.kind == AuditPlace::Kind::kCorner ? 1 : 0;
+    jumps += place.kind == AuditPlace::Kind::kCurvatureJump ? 1 : 0;
+    gaps += place.kind == AuditPlace::Kind::kGap ? 1 : 0;
+  }
+  std::string text = "as drawn: " + counted(a.vertices, "vertex", "vertices") + ", " +
+                     counted(a.inflections, "inflection", "inflections");
+  if (corners > 0) text += ", " + counted(corners, "corner", "corners");
+  if (jumps > 0) text += ", " + counted(jumps, "jump", "jumps") + " of the curvature";
+  if (gaps > 0) text += ", " + counted(gaps, "gap", "gaps");
+  return text;
+}
+
+CurveAudit audit(const DrawnCurve& curve, const Units& units) {
   return Auditor(curve, units).run();
 }
 

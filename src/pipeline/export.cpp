@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "contour_nurbs.h"
+#include "file_units.h"
 #include "obvid/exchange/landxml.h"
 #include "obvid/exchange/opendrive.h"
 #include "obvid/exchange/solidworks.h"
@@ -53,7 +54,7 @@ constexpr double kExportTolerance = 1e-6;
 constexpr double kDefaultForArcs = 2e-5;
 constexpr double kLeastForGcode = 2e-3;  // mm: what the printed digits keep well
 
-Exported one_file(std::string text) { return {{{"", std::move(text)}}, {}}; }
+Exported one_file(std::string text) { return {{{"", std::move(text)}}, {}, {}}; }
 
 std::vector<Vec2> places_of(const Contour& contour) {
   std::vector<Vec2> out = contour.points;
@@ -67,17 +68,58 @@ class Exporter {
  public:
   Exporter(const StoredContour& stored, const ExportOptions& options)
       : stored_(stored), contour_(stored.contour), options_(options) {
-    const double size = pipeline_detail::size_of(places_of(contour_));
-    tolerance_ = options.tolerance.value_or(kExportTolerance * size);
-    arc_tolerance_ = options.tolerance.value_or(kDefaultForArcs * size);
+    size_ = pipeline_detail::size_of(places_of(contour_));
+    tolerance_ = options.tolerance.value_or(kExportTolerance * size_);
+    arc_tolerance_ = options.tolerance.value_or(kDefaultForArcs * size_);
   }
 
   Result<Exported> run(FileFormat format) {
+    auto notes = notes_of(format);
+    if (!notes) return fail(notes.error());
+    auto out = made(format);
+    if (!out) return out;
+    for (std::string& one : notes->remarks) out->remarks.push_back(std::move(one));
+    out->warnings = std::move(notes->warnings);
+    return out;
+  }
+
+ private:
+  [[nodiscard]] Result<pipeline_detail::UnitNotes> notes_of(FileFormat format) const {
+    using pipeline_detail::UnitRule;
+    const std::string& name = contour_.units.name;
+    const auto notes = [&](UnitRule rule, const char* kind, std::string_view written) {
+      return pipeline_detail::unit_notes(contour_.units, rule, kind, written);
+    };
+    switch (format) {
+      case FileFormat::kStep:
+        return notes(UnitRule::kLength, "STEP files", cad_unit(name));
+      case FileFormat::kIges:
+        return notes(UnitRule::kLength, "IGES files", cad_unit(name));
+      case FileFormat::kDxf:
+        return notes(UnitRule::kStated, "the DXF file", dxf_unit(contour_.units));
+      case FileFormat::kGcode:
+        return notes(UnitRule::kLength, "machines", name == "in" ? "in" : "mm");
+      case FileFormat::kOpenDrive:
+        return notes(UnitRule::kRoad, "OpenDRIVE files", "m");
+      case FileFormat::kLandXml:
+        return notes(UnitRule::kRoad, "LandXML files", landxml_unit(name));
+      case FileFormat::kMacro:
+        return notes(UnitRule::kLength, "macros of SolidWorks", "m");
+      case FileFormat::kPicture:
+        if (options_.drawing) return notes(UnitRule::kLength, "drawings in true scale", name);
+        break;
+      default:
+        break;
+    }
+    return notes(UnitRule::kNone, "", name);
+  }
+
+  Result<Exported> made(FileFormat format) {
     switch (format) {
       case FileFormat::kContour:
         return one_file(contour_to_json(stored_));
       case FileFormat::kPicture:
-        return options_.drawing ? drawing() : Result<Exported>(one_file(picture_svg(stored_)));
+        return options_.drawing ? drawing() : Result<Exported>(one_file(picture_svg(stored_, options_.picture)));
       case FileFormat::kStep:
         return cad(options_.step);
       case FileFormat::kIges:
@@ -106,7 +148,6 @@ class Exporter {
     return fail({ErrorCode::kInternal, "unknown format", "", "", -1, 0.0});
   }
 
- private:
   [[nodiscard]] bool only_lines_and_arcs() const {
     return std::all_of(contour_.pieces.begin(), contour_.pieces.end(), [](const Piece& piece) {
       return std::holds_alternative<LinePiece>(piece) || std::holds_alternative<ArcPiece>(piece);
@@ -119,12 +160,15 @@ class Exporter {
     if (made->deviation > 0.0) {
       out.remarks.push_back(
           fmt::format("clothoids are no NURBS curves: a C2 cubic follows them within {:.3g} {}",
-                      made->deviation, contour_.units));
+                      made->deviation, contour_.units.text()));
     }
     return std::move(made->curve);
   }
 
   Result<Exported> cad(CadFormat format) {
+    const auto held = pipeline_detail::kernel_holds(size_, contour_.units,
+                                                    format == CadFormat::kBrep, "write .dxf");
+    if (!held) return fail(held.error());
     Exported out;
     CadCurve curve{options_.name, NurbsCurve{}};
     if (only_lines_and_arcs()) {
@@ -138,7 +182,7 @@ class Exporter {
     }
     CadWriteOptions write;
     write.format = format;
-    write.units = contour_.units;
+    write.units = contour_.units.name;
     write.face_width = options_.face_width;
     auto text = cad_text({curve}, write);
     if (!text) return tl::unexpected(text.error());
@@ -158,7 +202,7 @@ class Exporter {
         fmt::format("{} {}", made->entities, made->entities == 1 ? "entity" : "entities");
     out.remarks.push_back(made->deviation > 0.0
                               ? fmt::format("{}, at most {:.3g} {} from the contour", entities,
-                                            made->deviation, contour_.units)
+                                            made->deviation, contour_.units.text())
                               : entities + ", exact");
     return out;
   }
@@ -176,7 +220,7 @@ class Exporter {
     Exported out = one_file(std::move(made->text));
     out.remarks.push_back(
         fmt::format("{} blocks, {} of them arcs, at most {:.3g} {} from the contour", made->blocks,
-                    made->arc_blocks, made->deviation, contour_.units));
+                    made->arc_blocks, made->deviation, contour_.units.text()));
     return out;
   }
 
@@ -187,7 +231,7 @@ class Exporter {
     if (!made) return tl::unexpected(made.error());
     Exported out = one_file(std::move(made->text));
     out.remarks.push_back(fmt::format("true scale, at most {:.3g} {} from the contour",
-                                      made->deviation, contour_.units));
+                                      made->deviation, contour_.units.text()));
     return out;
   }
 
@@ -230,7 +274,7 @@ class Exporter {
   const StoredContour& stored_;
   const Contour& contour_;
   const ExportOptions& options_;
-  double tolerance_ = 0.0, arc_tolerance_ = 0.0;
+  double size_ = 0.0, tolerance_ = 0.0, arc_tolerance_ = 0.0;
 };
 
 }  // namespace

@@ -154,6 +154,7 @@ class SectionForming {
                           static_cast<double>(k + 1) / count);
     watch_.tell("choosing headings and curvatures", 0.0);
     const Section& section = series_.split.sections[k];
+    if (form_drawn(section)) return {};
     if (job_.carrier == Carrier::kBaseline) return form_baseline_alone(section);
     const auto chain = chain_section(series_, section, watch_);
     if (!chain) return tl::unexpected(chain.error());
@@ -171,6 +172,17 @@ class SectionForming {
     add_section(*chain, out_);
     keep(std::move(spirals));
     return {};
+  }
+
+  /// A piece of a drawing stays as it is. False where there is none.
+  bool form_drawn(const Section& section) {
+    const std::size_t first = series_.split.point_at(section.first);
+    if (series_.kept.empty() || !series_.kept[first]) return false;
+    const std::size_t last = series_.split.point_at(section.last) % series_.points.size();
+    Contour drawn = form_kept(*series_.kept[first], series_.points, first, last);
+    out_.add({drawn, {}}, assembly_);
+    keep(std::move(drawn));
+    return true;
   }
 
   /// Needs no spirals, and is compared with them where there are any.
@@ -323,7 +335,13 @@ Result<Fit> fit(const PointSeries& series, const FitJob& job, Watch& watch) {
     const Stretch stretch(watch, 0.0, kFormedAt);
     return form_within(*prepared, job, tolerance, watch);
   }();
-  if (!formed) return tl::unexpected(formed.error());
+  if (!formed) {
+    Error error = formed.error();
+    if (!prepared->polygon.empty()) {
+      error.hint += (error.hint.empty() ? "" : "; ") + prepared->polygon;
+    }
+    return fail(std::move(error));
+  }
   if (auto kept = keeps_given(formed->contour); !kept) return fail(kept.error());
   Fit out;
   out.contour = std::move(formed->contour);

@@ -70,6 +70,10 @@ struct Carried {
                                             std::optional<double> start_heading,
                                             std::optional<double> end_heading);
 
+/// A piece of a drawing as it is, between two points of the series (`from`, `to`: their indices).
+[[nodiscard]] Contour form_kept(const Piece& piece, const std::vector<Vec2>& points,
+                                std::size_t from, std::size_t to);
+
 /// Circle or line over a chord: heading from chord and curvature, so that the arc ends on its end.
 [[nodiscard]] Piece arc_over_chord(const LinkState& link, const Element& a, const Element& b);
 

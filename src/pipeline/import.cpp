@@ -8,6 +8,7 @@
 #include <filesystem>
 #include <fstream>
 
+#include "drawn_series.h"
 #include "obvid/cad/cad.h"
 #include "obvid/exchange/dxf_read.h"
 #include "obvid/exchange/geojson.h"
@@ -18,15 +19,12 @@
 #include "obvid/io/contour_json.h"
 #include "obvid/io/file_kind.h"
 #include "obvid/io/read_points.h"
-#include "report.h"
 #include "text_of.h"
 
 namespace obvid {
 namespace {
 
-constexpr std::size_t kHead = 4096;       // bytes that tell the kind of a file
-constexpr double kChordTolerance = 1e-4;  // of the size of a curve
-constexpr int kMostSteps = 4096;          // chords of one piece
+constexpr std::size_t kHead = 4096;  // bytes that tell the kind of a file
 
 std::string head_of(const std::string& path) {
   std::ifstream file(path, std::ios::binary);
@@ -89,82 +87,63 @@ std::vector<Vec2> ends_of(const DrawnCurve& curve) {
   return out;
 }
 
-/// Largest distance of the middles between equal steps from their chords.
-double largest_sagitta(const Piece& piece, int steps) {
-  double most = 0.0;
-  Vec2 before = start_point(piece);
-  for (int k = 1; k <= steps; ++k) {
-    const Vec2 here = evaluate(piece, static_cast<double>(k) / steps).point;
-    const Vec2 middle = evaluate(piece, (k - 0.5) / steps).point, chord = here - before;
-    const double length = norm(chord);
-    const double away =
-        length > 0.0 ? std::abs(cross(chord, middle - before)) / length : norm(middle - before);
-    most = std::max(most, away);
-    before = here;
-  }
-  return most;
-}
-
-/// Points on the curve with chords within the tolerance, joints of its pieces among them.
-std::vector<Vec2> samples_within(const DrawnCurve& curve, double tolerance) {
-  std::vector<Vec2> out;
-  for (const Piece& piece : curve.pieces) {
-    int steps = std::holds_alternative<LinePiece>(piece) ? 1 : 2;
-    while (steps < kMostSteps && largest_sagitta(piece, steps) > tolerance) steps *= 2;
-    for (int k = out.empty() ? 0 : 1; k <= steps; ++k) {
-      out.push_back(evaluate(piece, static_cast<double>(k) / steps).point);
-    }
-  }
-  return out;
-}
-
 double length_of(const std::vector<Vec2>& points) {
   double length = 0.0;
   for (std::size_t i = 1; i < points.size(); ++i) length += norm(points[i] - points[i - 1]);
   return length;
 }
 
-/// Curves come before series; the longest is what a drawing is about, mostly.
-std::size_t longest(const Drawing& drawing) {
+/// What comes first is what a drawing is about; among equals the longest, curves before series.
+std::size_t foremost(const Drawing& drawing) {
   std::size_t best = 0;
+  SeriesKind first = SeriesKind::kWaypoints;
   double most = -1.0;
-  const auto offer = [&](std::size_t i, const std::vector<Vec2>& points) {
+  const auto offer = [&](std::size_t i, SeriesKind kind, const std::vector<Vec2>& points) {
     const double length = length_of(points);
-    if (length > most) {
-      most = length;
-      best = i;
-    }
+    if (kind > first || (kind == first && length <= most)) return;
+    first = kind;
+    most = length;
+    best = i;
   };
-  for (std::size_t i = 0; i < drawing.curves.size(); ++i) offer(i, ends_of(drawing.curves[i]));
+  for (std::size_t i = 0; i < drawing.curves.size(); ++i) {
+    offer(i, SeriesKind::kLine, ends_of(drawing.curves[i]));
+  }
   for (std::size_t i = 0; i < drawing.series.size(); ++i) {
-    offer(drawing.curves.size() + i, drawing.series[i].points);
+    const PointSeries& series = drawing.series[i];
+    offer(drawing.curves.size() + i, series.kind, series.points);
   }
   return best;
 }
 
-Result<PointSeries> points_of_drawing(Drawing drawing, const ImportOptions& options,
-                                      const std::string& path) {
+/// All warnings of the drawing, and which curve was taken of several.
+void tell(const Drawing& drawing, std::size_t chosen, bool asked, PointSeries& out) {
+  out.warnings.insert(out.warnings.begin(), drawing.warnings.begin(), drawing.warnings.end());
+  if (drawing.curves.size() + drawing.series.size() > 1) {
+    out.warnings.push_back(chosen_text(drawing, chosen, asked));
+  }
+}
+
+Result<PointSeries> points_of_drawing(const Drawing& drawing, const ImportOptions& options,
+                              const std::string& path) {
   const auto found = chosen_curve(drawing, options.curve, path);
   if (!found) return tl::unexpected(found.error());
-  const std::size_t count = drawing.curves.size() + drawing.series.size(), chosen = *found;
+  const std::size_t chosen = *found;
   PointSeries out;
-  std::string label;
   if (chosen < drawing.curves.size()) {
-    const DrawnCurve& curve = drawing.curves[chosen];
-    const double size = pipeline_detail::size_of(ends_of(curve));
-    out.points = samples_within(curve, options.tolerance.value_or(kChordTolerance * size));
-    label = curve.label;
+    out = pipeline_detail::series_of(drawing.curves[chosen], options.use, options.tolerance);
+    out.label = drawing.curves[chosen].label;
   } else {
-    out = std::move(drawing.series[chosen - drawing.curves.size()]);
-    label = out.name;
+    out = drawing.series[chosen - drawing.curves.size()];
+    out.label = out.name;
+    const bool edges = options.use == DrawnUse::kExact && out.kind == SeriesKind::kLine;
+    if (edges) {
+      out = pipeline_detail::series_of(edges_of(out), options.use, options.tolerance);
+      out.label = drawing.series[chosen - drawing.curves.size()].name;
+    }
   }
-  out.name = drawing.name;
+  out.name = drawing.name + (out.label.empty() ? "" : ": " + out.label);
   out.units = drawing.units;
-  out.warnings.insert(out.warnings.begin(), drawing.warnings.begin(), drawing.warnings.end());
-  if (count > 1) {
-    out.warnings.push_back(fmt::format("of {} curves the {} was taken: number {}, {}", count,
-                                       options.curve ? "asked one" : "longest", chosen + 1, label));
-  }
+  tell(drawing, chosen, options.curve.has_value(), out);
   return out;
 }
 
@@ -177,11 +156,39 @@ Result<std::size_t> chosen_curve(const Drawing& drawing, const std::optional<std
     return fail(
         {ErrorCode::kTooFewPoints, "the file holds no curve and no points", path, "", -1, 0.0});
   }
-  const std::size_t chosen = asked.value_or(longest(drawing));
-  if (chosen < count) return chosen;
-  return fail({ErrorCode::kBadOption,
-               fmt::format("there are {} curves, no curve {}", count, chosen + 1), path,
-               "`obvid analyse FILE` lists them", -1, 0.0});
+  const std::size_t chosen = asked.value_or(foremost(drawing));
+  if (chosen >= count) {
+    return fail({ErrorCode::kBadOption,
+                 fmt::format("there are {} curves, no curve {}", count, chosen + 1), path,
+                 "`obvid analyse FILE` lists them", -1, 0.0});
+  }
+  const bool waypoints = chosen >= drawing.curves.size() &&
+                         drawing.series[chosen - drawing.curves.size()].kind ==
+                             SeriesKind::kWaypoints;
+  if (asked || !waypoints) return chosen;
+  return fail({ErrorCode::kTooFewPoints,
+               "the file holds waypoints only, no track and no route: places are no curve", path,
+               fmt::format("--curve {} takes them in the order of the file", chosen + 1), -1, 0.0});
+}
+
+std::string chosen_text(const Drawing& drawing, std::size_t chosen, bool asked) {
+  const std::size_t curves = drawing.curves.size(), count = curves + drawing.series.size();
+  const std::string& name =
+      chosen < curves ? drawing.curves[chosen].label : drawing.series[chosen - curves].name;
+  std::string text = fmt::format("curve {} of {} was taken, {}", chosen + 1, count, name);
+  if (asked || count == 1) return text;
+  return text + fmt::format(", the longest of its kind; --curve N takes one of the other {}",
+                            count - 1);
+}
+
+DrawnCurve edges_of(const PointSeries& series) {
+  DrawnCurve out{series.name, {}, false};
+  const std::vector<Vec2>& points = series.points;
+  for (std::size_t i = 0; i + 1 < points.size(); ++i) {
+    if (points[i] != points[i + 1]) out.pieces.emplace_back(LinePiece{points[i], points[i + 1]});
+  }
+  out.closed = out.pieces.size() > 2 && points.front() == points.back();
+  return out;
 }
 
 bool is_drawing(const std::string& path) {
@@ -204,7 +211,7 @@ Result<PointSeries> read_series(const std::string& path, const ImportOptions& op
   }
   auto drawing = read_drawing(path);
   if (!drawing) return tl::unexpected(drawing.error());
-  return points_of_drawing(std::move(*drawing), options, path);
+  return points_of_drawing(*drawing, options, path);
 }
 
 }  // namespace obvid

@@ -18,12 +18,15 @@ struct Prepared {
       tolerance;  ///< how far the contour may pass it; empty when all are met exactly
   std::vector<FixedData> fixed;   ///< empty, or one entry per point
   std::vector<GivenDatum> given;  ///< the same headings and curvatures, and the marked corners
+  /// Empty, or per point the piece that leaves it and stays as it is.
+  std::vector<std::optional<Piece>> kept;
   bool convex = false;
   bool primitives = false;
   bool thin = true;  ///< fewer joints than points where points with tolerances are dense
   bool closed = false;
   SplitSeries split;
   std::vector<std::string> warnings;
+  std::string polygon;  ///< what is said when the points may be corners of a polygon; mostly empty
 
   [[nodiscard]] bool exact() const { return tolerance.empty(); }
 };

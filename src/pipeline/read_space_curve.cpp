@@ -27,7 +27,7 @@ Result<ReadCurve> curve_of_contour(const Contour& contour, const Frame& frame, s
   if (made->deviation > 0.0) {
     curve.warnings.push_back(
         fmt::format("{}: clothoids are followed by a C2 cubic within {:.2g} {}", curve.name,
-                    made->deviation, contour.units));
+                    made->deviation, contour.units.text()));
   }
   return curve;
 }
@@ -62,7 +62,7 @@ Result<ReadCurve> spline_through(const SpaceSeries& series) {
   }
   auto curve = interpolated(points, chord_parameters(points));
   if (!curve) return fail(curve.error());
-  return ReadCurve{series.name, "mm", std::move(*curve), {}};
+  return ReadCurve{series.name, series.units, std::move(*curve), {}};
 }
 
 Result<ReadCurve> from_points(const std::string& path, const SurfaceJob& job) {
@@ -89,10 +89,11 @@ Result<ReadCurve> from_points(const std::string& path, const SurfaceJob& job) {
   }
   PointSeries flat;
   flat.name = series.name;
+  flat.units = series.units;
   for (const Vec3& p : series.points) flat.points.push_back(frame.in_plane(p));
   if (flat.points.size() == 2) {
     return ReadCurve{
-        series.name, "mm", line_between(series.points.front(), series.points.back()), {}};
+        series.name, series.units, line_between(series.points.front(), series.points.back()), {}};
   }
   const Result<Fit> made = fit(flat, job.sections);
   if (!made && job.plain_when_refused && exit_code(made.error().code) == 4) {

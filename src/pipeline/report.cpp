@@ -44,6 +44,21 @@ int common_direction(int a, int b) {
   return b == 0 ? a : kNotMonotone;
 }
 
+/// Whether the input drew a piece.
+bool is_kept(const Contour& contour, std::size_t piece) {
+  return std::binary_search(contour.kept.begin(), contour.kept.end(), piece);
+}
+
+/// Points at which a piece begins that the input drew.
+std::vector<bool> begins_kept(const Contour& contour) {
+  std::vector<bool> begins(contour.points.size(), false);
+  for (const std::size_t i : contour.kept) {
+    const auto source = contour.joints[i].source;
+    if (source && *source < begins.size()) begins[*source] = true;
+  }
+  return begins;
+}
+
 /// What a contour leaves open between its stations (docs/claims.md).
 class PartMeasure {
  public:
@@ -59,12 +74,14 @@ class PartMeasure {
     const Vec2 start = place(part.first_piece, part.t0);
     row.deviation_at = start + reference_;
     row.chord = norm(place(part.last_piece, part.t1) - start);
-    if (!promises_monotone(contour_.carrier)) {
+    const bool kept = is_kept(contour_, part.first_piece);
+    if (!kept && !promises_monotone(contour_.carrier)) {
       row.width = row.width_unrefined = row.deviation = kUnknown;
       return row;
     }
     bound_between_stations(part, row);
-    contour_.carrier == Carrier::kArcs ? bound_arcs(part, row) : bound_pieces(part, row);
+    const bool pairs = !kept && contour_.carrier == Carrier::kArcs;
+    pairs ? bound_arcs(part, row) : bound_pieces(part, row);
     return row;
   }
 
@@ -243,7 +260,13 @@ std::vector<std::vector<std::size_t>> sections_of(const Contour& contour) {
   for (const Joint& joint : contour.joints) {
     if (joint.leaving && joint.source) cuts.push_back(*joint.source);
   }
+  for (const std::size_t i : contour.kept) {  // both ends
+    for (const std::size_t j : {i, (i + 1) % contour.joints.size()}) {
+      if (contour.joints[j].source) cuts.push_back(*contour.joints[j].source);
+    }
+  }
   std::sort(cuts.begin(), cuts.end());
+  cuts.erase(std::unique(cuts.begin(), cuts.end()), cuts.end());
   if (!contour.closed) {
     if (cuts.empty() || cuts.front() != 0) cuts.insert(cuts.begin(), 0);
     if (cuts.back() != n - 1) cuts.push_back(n - 1);
@@ -330,8 +353,13 @@ Result<FitReport> measure(const Contour& contour, double tolerance) {
   const auto sections = sections_of(contour);
   const bool loop =
       contour.closed && sections.size() == 1 && !(contour.joints.front().leaving.has_value());
+  const std::vector<bool> begins = begins_kept(contour);
   std::size_t row = 0;
   for (const auto& section : sections) {
+    if (begins[section.front()]) {  // nothing is left open: the piece is what it is
+      ++row;
+      continue;
+    }
     if (contour.point_tolerance.empty()) {
       const auto said = say_points(contour, section, loop, report, row);
       if (!said) return tl::unexpected(said.error());

@@ -33,7 +33,7 @@ struct Flat {
 constexpr double kDenseRounding = 1e-12;
 constexpr double kMostRounding = 2e-9;
 
-Flat flat(const SpaceSeries& given, const std::string& units) {
+Flat flat(const SpaceSeries& given, const Units& units) {
   Flat out;
   out.section.name = given.name;
   out.section.points = given.points;

@@ -9,6 +9,7 @@
 #include <numbers>
 #include <utility>
 
+#include "file_units.h"
 #include "obvid/exchange/mesh_files.h"
 #include "obvid/io/surface_json.h"
 
@@ -37,10 +38,6 @@ constexpr std::array kSurfaceEndings = {
 };
 
 constexpr double kDefaultChordTolerance = 1e-3;  ///< of the size: not seen on a screen
-/// CAD kernels take points nearer than 1e-7 units for one: a thousand times that is the least that
-/// keeps its shape, and doubles of 1e8 the largest with steps below it.
-constexpr double kLeastCadSize = 1e-4;
-constexpr double kMostCadSize = 1e8;
 constexpr double kDefaultAngle = 15.0 * std::numbers::pi / 180.0;
 
 }  // namespace
@@ -84,19 +81,35 @@ Result<void> SurfaceExporter::tessellated(std::vector<std::string>& remarks) {
     deviation = std::max(deviation, mesh.deviation);
   }
   remarks.push_back(fmt::format("{} triangles within {:.3g} {} of the surface", triangles,
-                                deviation, model_.units));
+                                deviation, model_.units.text()));
   return {};
 }
 
 Result<std::string> SurfaceExporter::text(SurfaceFormat format, std::vector<std::string>& remarks) {
+  const bool step = format == SurfaceFormat::kStep, glb = format == SurfaceFormat::kGlb;
+  const bool length = step || glb || format == SurfaceFormat::kIges;
+  auto notes = pipeline_detail::unit_notes(
+      model_.units, length ? pipeline_detail::UnitRule::kLength : pipeline_detail::UnitRule::kNone,
+      step  ? "STEP files"
+      : glb ? "glTF files"
+            : "IGES files",
+      glb ? "m" : cad_unit(model_.units.name));
+  if (!notes) return fail(notes.error());
+  auto text = made(format, remarks);
+  if (!text) return text;
+  for (std::string& one : notes->remarks) remarks.push_back(std::move(one));
+  for (std::string& one : notes->warnings) warnings_.push_back(std::move(one));
+  return text;
+}
+
+Result<std::string> SurfaceExporter::made(SurfaceFormat format, std::vector<std::string>& remarks) {
   const bool kernel = format == SurfaceFormat::kStep || format == SurfaceFormat::kIges ||
                       format == SurfaceFormat::kBrep;
-  if (kernel && !(size_of(model_) >= kLeastCadSize && size_of(model_) <= kMostCadSize)) {
-    return fail({ErrorCode::kSizeOutOfRange,
-                 fmt::format("the model is {:.3g} {} large: CAD kernels hold {:g} to {:g}",
-                             size_of(model_), model_.units, kLeastCadSize, kMostCadSize),
-                 "", "choose another unit, or write .json, .obj, .glb or .ply", -1,
-                 size_of(model_)});
+  const bool brep = format == SurfaceFormat::kBrep;
+  if (kernel) {
+    const auto held = pipeline_detail::kernel_holds(size_of(model_), model_.units, brep,
+                                                    "write .json, .obj, .glb or .ply");
+    if (!held) return fail(held.error());
   }
   const bool triangles = format == SurfaceFormat::kStl || format == SurfaceFormat::kObj ||
                          format == SurfaceFormat::kGlb || format == SurfaceFormat::kPly ||
@@ -105,7 +118,7 @@ Result<std::string> SurfaceExporter::text(SurfaceFormat format, std::vector<std:
     if (auto done = tessellated(remarks); !done) return fail(done.error());
   }
   CadWriteOptions cad;
-  cad.units = model_.units;
+  cad.units = model_.units.name;
   switch (format) {
     case SurfaceFormat::kSurface:
       return surface_json(model_);
@@ -120,7 +133,7 @@ Result<std::string> SurfaceExporter::text(SurfaceFormat format, std::vector<std:
       return cad_surface_text(model_, cad);
     case SurfaceFormat::kStl:
       remarks.push_back(fmt::format("STL holds single precision: another {:.2g} {}",
-                                    single_precision_loss(meshes_), model_.units));
+                                    single_precision_loss(meshes_), model_.units.text()));
       return stl_text(model_, meshes_);
     case SurfaceFormat::kObj:
       return obj_mesh_text(model_, meshes_);

@@ -36,7 +36,9 @@ Result<MadeSurface> made_by(const SurfaceJob& job, const Progress& progress) {
 
 Result<MadeSurface> make_surface(const SurfaceJob& job, const Progress& progress) {
   auto made = made_by(job, progress);
-  if (made && job.units) made->model.units = *job.units;
+  if (made && job.units) {
+    if (auto told = take_units(made->model.units, *job.units)) made->warnings.push_back(*told);
+  }
   return made;
 }
 

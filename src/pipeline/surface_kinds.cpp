@@ -41,13 +41,18 @@ double size_of_all(const std::vector<ReadCurve>& curves) {
   return size_of(points);
 }
 
-/// What the curves bring to the surface that is made of them.
-void take_over(std::vector<ReadCurve>& curves, MadeSurface& made) {
+/// What the curves bring to the surface that is made of them. Error E310 where their units differ.
+Result<void> take_over(std::vector<ReadCurve>& curves, MadeSurface& made) {
+  std::vector<Units> all{made.model.units};
+  for (const ReadCurve& curve : curves) all.push_back(curve.units);
+  auto units = common_units(all, curves.empty() ? "" : curves.front().name);
+  if (!units) return fail(units.error());
+  made.model.units = std::move(*units);
   for (ReadCurve& curve : curves) {
     made.lines.push_back(drawn(curve.curve));
     made.warnings.insert(made.warnings.end(), curve.warnings.begin(), curve.warnings.end());
   }
-  if (!curves.empty()) made.model.units = curves.front().units;
+  return {};
 }
 
 std::vector<SpaceCurve> geometry(const std::vector<ReadCurve>& curves) {
@@ -168,7 +173,7 @@ Result<MadeSurface> make_ruled(const SurfaceJob& job, const Progress& progress) 
   if (!made) return made;
   if (job.direction) made->kind = "cylinder over a curve";
   if (job.apex) made->kind = "cone over a curve";
-  take_over(*curves, *made);
+  if (auto done = take_over(*curves, *made); !done) return fail(done.error());
   return made;
 }
 
@@ -188,7 +193,7 @@ Result<MadeSurface> make_revolution(const SurfaceJob& job) {
                     "through itself; is it half an outline, and --axis right?",
                     job.inputs.front()));
   }
-  take_over(*curves, *made);
+  if (auto done = take_over(*curves, *made); !done) return fail(done.error());
   return made;
 }
 
@@ -201,7 +206,8 @@ Result<MadeSurface> make_coons(const SurfaceJob& job) {
       coons_from(geometry(*curves), job.tolerance.value_or(kSurfaceTolerance * size));
   if (!patch) return fail(patch.error());
   auto made = made_of(*patch, "Coons patch", size, job);
-  if (made) take_over(*curves, *made);
+  if (!made) return made;
+  if (auto done = take_over(*curves, *made); !done) return fail(done.error());
   return made;
 }
 
@@ -218,8 +224,9 @@ Result<MadeSurface> make_gordon(const SurfaceJob& job) {
   if (!made) return made;
   made->facts.emplace_back("curves",
                            fmt::format("{} and {} across", first->size(), second->size()));
-  take_over(*second, *made);
-  take_over(*first, *made);
+  for (std::vector<ReadCurve>* curves : {&*second, &*first}) {
+    if (auto done = take_over(*curves, *made); !done) return fail(done.error());
+  }
   return made;
 }
 

@@ -17,6 +17,7 @@ namespace {
 MadeSurface of_one_patch(const PointGrid& grid, NurbsSurface surface) {
   MadeSurface made;
   made.model.name = grid.name.empty() ? "surface" : grid.name;
+  made.model.units = grid.units;
   made.model.patches.push_back({made.model.name, std::move(surface)});
   made.facts.emplace_back("grid", fmt::format("{} rows of {} points", grid.count_v, grid.count_u));
   return made;
@@ -81,6 +82,7 @@ Result<MadeSurface> make_id(const SurfaceJob& job) {
   auto made =
       made_of(surface, grid->name.empty() ? "surface" : grid->name, size_of(grid->points), job);
   if (made) {
+    made->model.units = grid->units;
     made->facts.emplace_back("grid",
                              fmt::format("{} rows of {} points", grid->count_v, grid->count_u));
   }
@@ -90,7 +92,12 @@ Result<MadeSurface> make_id(const SurfaceJob& job) {
 Result<MadeSurface> make_skin(const SurfaceJob& job, const Progress& progress) {
   const auto sections = read_sections(job.inputs, {job.spacing.value_or(1.0)});
   if (!sections) return fail(sections.error());
+  std::vector<Units> units;
+  for (const SpaceSeries& section : *sections) units.push_back(section.units);
+  auto unit = common_units(units, job.inputs.front());
+  if (!unit) return fail(unit.error());
   SkinJob how;
+  how.units = *unit;
   how.sections = job.sections;
   how.tolerance = job.tolerance;
   how.matching = job.matching;
@@ -102,6 +109,7 @@ Result<MadeSurface> make_skin(const SurfaceJob& job, const Progress& progress) {
   made.kind = fmt::format("skin through {} sections", sections->size());
   const std::string stem = std::filesystem::path(job.inputs.front()).stem().string();
   made.model.name = job.inputs.size() == 1 ? stem : "skin";
+  made.model.units = std::move(*unit);
   made.model.patches = fitted->skin.patches;
   made.lines = drawn_sections(*sections);
   made.warnings = fitted->warnings;

@@ -140,6 +140,7 @@ void compare_certificate(const Certificate& claimed, const Certificate& found, C
   c.count("inside_region", claimed.inside_region, found.inside_region);
   c.length("largest_move in the certificate", claimed.largest_move, found.largest_move);
   c.count("corners", claimed.corners, found.corners);
+  c.count("curvature_steps", claimed.curvature_steps, found.curvature_steps);
   c.count("vertices in the certificate", claimed.vertices, found.vertices);
   c.count("inflections in the certificate", claimed.inflections, found.inflections);
   c.count("self_intersections", claimed.self_intersections, found.self_intersections);

@@ -1,24 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "machine_units.h"
 
-#include <array>
-#include <utility>
+#include "obvid/core/units.h"
 
 namespace obvid::toolpath {
 
-double millimetres(const std::string& units) {
-  static constexpr std::array<std::pair<const char*, double>, 7> kUnits = {{{"um", 1e-3},
-                                                                            {"mm", 1.0},
-                                                                            {"cm", 10.0},
-                                                                            {"m", 1e3},
-                                                                            {"km", 1e6},
-                                                                            {"in", 25.4},
-                                                                            {"ft", 304.8}}};
-  for (const auto& [name, value] : kUnits) {
-    if (units == name) return value;
-  }
-  return 0.0;
-}
+double millimetres(const std::string& units) { return unit_ratio(units, "mm").value_or(0.0); }
 
 double machine_scale(const std::string& units) { return units == "in" ? 1.0 : millimetres(units); }
 

@@ -203,7 +203,7 @@ Result<Toolpath> planned(const SurfaceModel& model, const ToolpathOptions& optio
   const auto part = Part::make(model, cutter, options.tolerance, progress);
   if (!part) return fail(part.error());
   Toolpath out{model.name,
-               model.units,
+               model.units.name,
                options.cutter,
                options.tolerance,
                options.feed,
@@ -240,8 +240,8 @@ Result<Toolpath> plan(const SurfaceModel& model, const ToolpathOptions& options,
   if (model.patches.empty()) {
     return fail({ErrorCode::kTooFewPoints, "the model has no patches", "", "", -1, 0.0});
   }
-  if (machine_scale(model.units) == 0.0) {
-    return fail({ErrorCode::kUnsupported, "machines do not know the unit " + model.units, "",
+  if (machine_scale(model.units.name) == 0.0) {
+    return fail({ErrorCode::kUnsupported, "machines do not know the unit " + model.units.name, "",
                  "known are um, mm, cm, m, km, in, ft", -1, 0.0});
   }
   return planned(model, options, *cutter, progress);

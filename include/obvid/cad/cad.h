@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <array>
 #include <string>
 #include <string_view>
 #include <variant>
 #include <vector>
 
 #include "obvid/core/result.h"
+#include "obvid/core/units.h"
 #include "obvid/curve/nurbs.h"
 #include "obvid/curve/pieces.h"
 #include "obvid/exchange/drawing.h"
@@ -24,10 +26,20 @@ struct CadCurve {
   std::variant<NurbsCurve, std::vector<Piece>> geometry;
 };
 
+/// Units that STEP and IGES files are written in.
+inline constexpr std::array<std::string_view, 9> kCadUnits = {"um", "mm",  "cm", "m", "km",
+                                                              "mil", "in", "ft", "mi"};
+
+/// The unit of a STEP or IGES file for lengths in `unit`: itself, or the next one of its system,
+/// into which lengths are converted. Empty for units without a length.
+[[nodiscard]] inline std::string_view cad_unit(std::string_view unit) {
+  return unit_for_file(unit, kCadUnits);
+}
+
 struct CadWriteOptions {
   CadFormat format = CadFormat::kStepAp214;
-  std::string units = "mm";  ///< of the curves and of the file: um, mm, cm, m, km, in, ft. BREP
-                             ///< files have no unit: numbers are written as they are
+  std::string units = "mm";  ///< of the curves, and of the file as `cad_unit` says. BREP files have
+                             ///< no unit: numbers are written as they are
   double face_width = 0.0;  ///< units; > 0: also a face, the curve moved along z by this width, for
                             ///< systems that show no wires
 };
@@ -39,7 +51,7 @@ struct CadWriteOptions {
                                            const CadWriteOptions& options);
 
 /// Curves of a STEP, IGES or BREP file, of edges and wires of all kinds; format by content. Lengths
-/// in mm (of BREP files as they are). Curves in a plane z = const are taken as they lie; other
+/// in mm (of BREP files as they are, the unit assumed). Curves in a plane z = const are taken as they lie; other
 /// plane curves each in its own plane, which a warning names; others are left out with a warning.
 /// Errors: E301, E310 as above, E306 when the kernel cannot read the file, E304 when there are no
 /// curves.

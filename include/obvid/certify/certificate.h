@@ -40,6 +40,7 @@ struct Certificate {
                                 ///< tolerance where it has one
   double largest_move = 0.0;    ///< proved bound of the distance of a point with a tolerance, units
   int corners = 0;              ///< joints that are continuous in position only
+  int curvature_steps = 0;      ///< joints with a common tangent whose curvature is said to step
   int vertices = 0;
   int inflections = 0;
   int self_intersections = 0;

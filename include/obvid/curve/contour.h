@@ -7,6 +7,7 @@
 #include <string_view>
 #include <vector>
 
+#include "obvid/core/units.h"
 #include "obvid/curve/pieces.h"
 #include "obvid/geom/element.h"
 
@@ -43,8 +44,9 @@ inline constexpr std::array kAllCarriers = {
 struct Joint {
   Element element;
   std::optional<std::size_t> source;  ///< index into `Contour::points`
-  std::optional<Element> leaving{};   ///< at a corner: heading and curvature after it; the contour
-                                      ///< is continuous in position only
+  std::optional<Element> leaving{};   ///< heading and curvature after it where they are others:
+                                      ///< at a corner, and where the curvature steps between pieces
+                                      ///< that the input drew
 };
 
 /// What the user fixed at a point.
@@ -54,6 +56,13 @@ struct GivenDatum {
   std::optional<double> kappa{};  ///< signed curvature, 1/unit
   bool corner = false;            ///< the contour may turn here at once
 };
+
+/// Neighbouring pieces that turn by no more have a common tangent, rad.
+inline constexpr double kTangentTurn = 1e-6;
+
+/// Whether the contour turns at once at a joint: not where its curvature alone steps, as between a
+/// line and an arc of a drawing.
+[[nodiscard]] bool is_corner(const Joint& joint);
 
 /// Maximal part with curvature changing one way; pieces are counted from 0, both ends included.
 struct Run {
@@ -66,7 +75,7 @@ struct Run {
 /// `joints.size()` is `pieces.size() + 1` for an open contour, `pieces.size()` for a closed one,
 /// whose first joint is its last one too.
 struct Contour {
-  std::string units = "mm";
+  Units units;
   bool closed = false;
   Carrier carrier = Carrier::kSpiral;
   std::vector<Vec2> points;             ///< input points as read (consecutive duplicates merged)
@@ -76,6 +85,14 @@ struct Contour {
   std::vector<Joint> joints;
   std::vector<Piece> pieces;
   std::vector<Run> runs;
+  std::vector<std::size_t> kept;  ///< pieces that the input drew itself and that were taken over as
+                                  ///< they are, ascending
 };
+
+/// What a contour keeps of a drawing. Parts of one arc or ellipse count once.
+struct KeptPieces {
+  std::size_t lines = 0, arcs = 0, ellipses = 0, clothoids = 0;
+};
+[[nodiscard]] KeptPieces kept_pieces(const Contour& contour);
 
 }  // namespace obvid

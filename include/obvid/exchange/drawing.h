@@ -19,7 +19,7 @@ struct DrawnCurve {
 /// What a file of an exchange format holds: curves, and series of points. Lengths in `units`.
 struct Drawing {
   std::string name;                   ///< of the file
-  std::string units = "mm";           ///< as the file says; "mm" when it does not (with a warning)
+  Units units;                        ///< as the file says; assumed when it does not
   std::vector<DrawnCurve> curves;     ///< in the order of the file
   std::vector<PointSeries> series;    ///< polylines and lists of points, in the order of the file
   std::vector<std::string> warnings;  ///< what was left out and why, in sentences

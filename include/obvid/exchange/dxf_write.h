@@ -30,8 +30,12 @@ struct DxfText {
   double deviation = 0.0;  ///< units, as measured; 0: exact to rounding
 };
 
-/// ASCII DXF in the plane z = 0, units in the header ($INSUNITS) when they are um, mm, cm, m, km,
-/// in, ft, else none; R12 has no place for them but a comment that `parse_dxf` understands. Corners
+/// The unit that a DXF file states for lengths in `units`: none (empty) when it is merely assumed,
+/// and where it has no length in metres.
+[[nodiscard]] std::string dxf_unit(const Units& units);
+
+/// ASCII DXF in the plane z = 0, unit in the header ($INSUNITS) as `dxf_unit` says; R12 has no place
+/// for it but a comment that `parse_dxf` understands. Corners
 /// cut an exact or cubic contour into several splines. What numbers of an ARC or ELLIPSE would not
 /// hold to 1e-10 of the size becomes an LWPOLYLINE or a SPLINE (docs/methods/dxf.md, section 1).
 /// Errors: E203 a tolerance that is not greater than 0; E303 a coordinate that is not finite; E304

@@ -12,8 +12,8 @@ namespace obvid {
 
 /// The CoordGeom of alignments, parcels and plan features of a LandXML file (1.0 to 2.0), one curve
 /// each: Line, Curve and clothoid Spiral exactly, x east and y north (the file has northing first);
-/// IrregularLine as lines and as a series of points. Units are those of the file ("ft" for both
-/// kinds of feet, with a warning for the survey foot).
+/// IrregularLine as lines and as a series of points. Units are those of the file; metres
+/// are assumed, with a warning, where it names none.
 ///
 /// A Curve has the stated radius and is placed by its start and end (from 1 rad on, by its centre);
 /// a Spiral has the stated length and radii and points where start and end want it. Where they end
@@ -32,8 +32,12 @@ struct LandXmlOptions {
   std::string time = "00:00:00";
 };
 
-/// A LandXML 1.2 file with the contour as one Alignment in metres (converted from its units): Line,
-/// Curve and clothoid Spiral elements. Exactly; spirals through an inflection and what turns by
+/// The unit of a LandXML file for lengths in `unit`: itself where the format knows it (mm, cm, m,
+/// km, in, ft, usft, mi), else the next one of its system. Empty for units without a length.
+[[nodiscard]] std::string_view landxml_unit(std::string_view unit);
+
+/// A LandXML 1.2 file with the contour as one Alignment in its unit, or in the next one that the
+/// format knows: Line, Curve and clothoid Spiral elements. Exactly; spirals through an inflection and what turns by
 /// more than a right angle are cut into parts, because the format has one direction of rotation for
 /// each, and tangents that must meet. Errors: those of `road_lines` (other pieces than lines, arcs
 /// and clothoids: E310).

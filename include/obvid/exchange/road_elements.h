@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <optional>
 #include <string_view>
 #include <vector>
 
@@ -11,7 +10,7 @@
 namespace obvid {
 
 /// What road and rail formats know: from `start` with heading `theta` along `length`, curvature
-/// changing linearly from `kappa0` to `kappa1`. Metres.
+/// changing linearly from `kappa0` to `kappa1`.
 struct RoadElement {
   double s = 0.0;  ///< length before it on its line
   Vec2 start, end;
@@ -29,12 +28,10 @@ struct RoadLine {
   double length = 0.0;
 };
 
-/// Metres in a unit of length (um, mm, cm, m, km, in, ft, yd, mi); nothing for other names.
-[[nodiscard]] std::optional<double> metres_in(std::string_view unit);
-
-/// A contour of lines, arcs and clothoids as elements in metres, exactly but for the rounding of
+/// A contour of lines, arcs and clothoids as elements in `unit`, exactly but for the rounding of
 /// the change of units; a new line begins at each corner. Linear time. Errors: E310 a piece of
 /// another kind, E203 a unit that is no known length, E304 a contour without pieces.
-[[nodiscard]] Result<std::vector<RoadLine>> road_lines(const Contour& contour);
+[[nodiscard]] Result<std::vector<RoadLine>> road_lines(const Contour& contour,
+                                                       std::string_view unit);
 
 }  // namespace obvid

@@ -35,7 +35,8 @@ struct SampleOptions {
                                                       const SampleOptions& options);
 
 /// Columns `s_mm,x_mm,y_mm,heading_deg,curvature_1_per_mm,normal_x,normal_y` (the unit is the
-/// contour's; the normal is the left one). Numbers read back to the same doubles.
+/// contour's; without it, `s,x,y,...,curvature,...`, when that is merely assumed; the normal is the
+/// left one). `parse_points` knows samples by these names. Numbers read back to the same doubles.
 [[nodiscard]] Result<std::string> samples_csv(const Contour& contour, const SampleOptions& options);
 
 /// Wavefront OBJ: vertices and one polyline, closed for closed contours.

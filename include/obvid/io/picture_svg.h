@@ -7,11 +7,18 @@
 
 namespace obvid {
 
+/// Texts of a picture; what is empty follows from the contour.
+struct PictureTitles {
+  std::string name;     ///< of the file or the curve
+  std::string verdict;  ///< of curves that nobody here promised anything about
+};
+
 /// Picture of a contour for a report: contour, points, curvature comb, vertices, inflections and
 /// corners, scale bar, and below it curvature and radius over arc length; where points have
 /// tolerances also where the contour passes within them. One self-contained SVG file that
 /// follows the viewer's light or dark scheme.
-[[nodiscard]] std::string picture_svg(const StoredContour& stored);
+[[nodiscard]] std::string picture_svg(const StoredContour& stored,
+                                      const PictureTitles& titles = {});
 
 /// Texts of a comparison.
 struct ComparisonTitles {

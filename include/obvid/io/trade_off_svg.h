@@ -6,6 +6,8 @@
 #include <string>
 #include <vector>
 
+#include "obvid/core/units.h"
+
 namespace obvid {
 
 /// What one tolerance for all points brings.
@@ -27,7 +29,7 @@ struct TradeOffRow {
 /// Tolerances and the vertices that each of them needs.
 struct TradeOff {
   std::string name;                        ///< of the series
-  std::string units;                       ///< of lengths
+  Units units;                             ///< of lengths
   bool closed = false;                     ///< whether the contours are
   std::vector<TradeOffRow> rows;           ///< by ascending tolerance
   std::optional<std::size_t> recommended;  ///< row; nothing when none is proved

@@ -11,6 +11,7 @@
 #include "obvid/exchange/dxf_write.h"
 #include "obvid/exchange/gcode.h"
 #include "obvid/exchange/samples.h"
+#include "obvid/io/picture_svg.h"
 #include "obvid/io/stored_contour.h"
 
 namespace obvid {
@@ -42,6 +43,7 @@ enum class FileFormat {
 /// Choices of the formats. Lengths in units of the contour.
 struct ExportOptions {
   std::string name = "contour";     ///< of the curve, where a format has a place for it
+  PictureTitles picture{};          ///< of .svg pictures
   std::optional<double> tolerance;  ///< of curves that a format cannot hold exactly [1e-6 of the
                                     ///< size; of arcs and G-code 2e-5 of it]
   CadFormat step = CadFormat::kStepAp214;
@@ -63,7 +65,8 @@ struct ExportedFile {
 
 struct Exported {
   std::vector<ExportedFile> files;
-  std::vector<std::string> remarks;  ///< what the user should know: deviations, units, sizes
+  std::vector<std::string> remarks;   ///< what the user should know: deviations, units, sizes
+  std::vector<std::string> warnings;  ///< what may be wrong: a unit that is merely assumed
 };
 
 /// The contour in a format of another system. CAD formats get one NURBS curve, joined as

@@ -18,15 +18,32 @@ namespace obvid {
 /// Errors: those of the formats.
 [[nodiscard]] Result<Drawing> read_drawing(const std::string& path);
 
-/// Number of the curve that is taken: the asked one, else the longest; curves come before series.
-/// Errors: E203 when there is no such curve, E304 when there is none at all.
+/// Number of the curve that is taken: the asked one, else the longest of curves, tracks and
+/// polylines, else of routes, else of points drawn one by one; curves come before series. Waypoints
+/// are taken only when they are asked for. Errors: E203 when there is no such curve, E304 when there
+/// is none at all.
 [[nodiscard]] Result<std::size_t> chosen_curve(const Drawing& drawing,
                                                const std::optional<std::size_t>& asked,
                                                const std::string& path);
 
+/// "curve 2 of 5 was taken, track Foo, the longest of its kind; ...": for the user.
+[[nodiscard]] std::string chosen_text(const Drawing& drawing, std::size_t chosen, bool asked);
+
+/// The edges between the points of a polyline as a curve of lines.
+[[nodiscard]] DrawnCurve edges_of(const PointSeries& series);
+
+/// What becomes of the pieces of a drawing (docs/methods/drawings.md).
+enum class DrawnUse {
+  kAutomatic,  ///< lines, arcs, arcs of ellipses and clothoids stay as they are; lines that are
+               ///< chords of a curve, and splines, become points
+  kExact,      ///< every line stays, however many there are
+  kPoints,     ///< everything becomes points
+};
+
 /// How a curve of a drawing becomes a series of points.
 struct ImportOptions {
   std::optional<std::size_t> curve;  ///< which, from 0, curves before series; default the longest
+  DrawnUse use = DrawnUse::kAutomatic;
   std::optional<double>
       tolerance;  ///< largest distance of a chord from its curve [1e-4 of the size]
 };

@@ -16,7 +16,7 @@ namespace obvid {
 /// How sections become a skin.
 struct SkinJob {
   FitJob sections;  ///< how the contour of each section is formed
-  std::string units = "mm";
+  Units units;
   std::optional<double> tolerance;  ///< units: of the surface from the contours [1e-5 of the size]
   SkinMatching matching = SkinMatching::kAutomatic;
   bool straight_across = false;

@@ -50,14 +50,18 @@ class SurfaceExporter {
 
   /// Text of one file; `remarks` get what the user should know. Errors: those of the formats.
   [[nodiscard]] Result<std::string> text(SurfaceFormat format, std::vector<std::string>& remarks);
+  /// What may be wrong about the texts so far: a unit that is merely assumed.
+  [[nodiscard]] const std::vector<std::string>& warnings() const { return warnings_; }
 
  private:
+  [[nodiscard]] Result<std::string> made(SurfaceFormat format, std::vector<std::string>& remarks);
   [[nodiscard]] Result<void> tessellated(std::vector<std::string>& remarks);
 
   const SurfaceModel& model_;
   SurfaceExportOptions options_;
   Progress progress_;
   std::vector<Mesh> meshes_;
+  std::vector<std::string> warnings_;
 };
 
 }  // namespace obvid

@@ -36,7 +36,7 @@ struct SurfaceJob {
   SurfaceKind kind = SurfaceKind::kSkin;
   std::vector<std::string> inputs;   ///< files
   std::vector<std::string> across;   ///< Gordon: curves that cross those of `inputs`
-  std::optional<std::string> units;  ///< name of the length unit; default as the files say
+  std::optional<Units> units;        ///< stated by the user; default as the files say
   std::optional<double> tolerance;   ///< units: of what NURBS do not hold exactly, of skins from
                                      ///< their contours, of grids that are approximated, of
                                      ///< curves that have to meet [1e-5 of the size]
@@ -83,7 +83,7 @@ struct MadeSurface {
 /// contour through them, else the C2 cubic by chord lengths (with a warning).
 struct ReadCurve {
   std::string name;
-  std::string units = "mm";
+  Units units;
   SpaceCurve curve;
   std::vector<std::string> warnings;
 };

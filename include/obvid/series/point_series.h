@@ -1,10 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstddef>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
+#include "obvid/core/units.h"
+#include "obvid/curve/pieces.h"
 #include "obvid/geom/vec2.h"
 
 namespace obvid {
@@ -17,14 +21,37 @@ struct FixedData {
   bool corner = false;              ///< the contour may turn here at once (G0)
 };
 
+/// A piece that a drawing has between two neighbouring points: it stays as it is.
+struct KeptPiece {
+  std::size_t from = 0;  ///< index of the point where it starts; it ends in the next one
+  Piece piece;
+};
+
+/// What points of a drawing are, from those that a drawing is about to those that never are a curve
+/// by themselves.
+enum class SeriesKind {
+  kLine,       ///< a polyline, a track, a list of points
+  kRoute,      ///< a route of a GPX file: its corners, where a track is what was driven
+  kLoose,      ///< points drawn one by one, in the order of the file
+  kWaypoints,  ///< places of a GPX file
+};
+
 /// Points in the order in which they were read.
 struct PointSeries {
-  std::string name;  ///< title of the file, or its name
-  std::string units = "mm";
+  std::string name;   ///< title of the file, or its name
+  std::string label;  ///< of the curve in its drawing; empty for lists of points
+  SeriesKind kind = SeriesKind::kLine;
+  Units units;
   std::vector<Vec2> points;
   std::vector<FixedData> fixed;       ///< empty, or one entry per point
+  std::vector<KeptPiece> kept;        ///< of drawings, ascending; empty for lists of points
   Vec2 rounding;  ///< half a unit of the last printed digit of x and of y; 0 when not from text
   std::vector<std::string> warnings;  ///< sentences for the user, e.g. merged duplicates
 };
+
+/// The unit that the user states, with a warning when the file says otherwise.
+inline void take_units(PointSeries& series, const Units& given) {
+  if (auto told = take_units(series.units, given)) series.warnings.push_back(std::move(*told));
+}
 
 }  // namespace obvid

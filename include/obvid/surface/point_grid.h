@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "obvid/core/units.h"
 #include "obvid/geom/vec3.h"
 
 namespace obvid {
@@ -15,6 +16,7 @@ struct PointGrid {
   std::size_t count_v = 0;  ///< rows
   std::vector<Vec3> points;
   std::string name;
+  Units units{};
 
   [[nodiscard]] const Vec3& at(std::size_t i, std::size_t j) const {
     return points[j * count_u + i];
@@ -27,6 +29,7 @@ struct SpaceSeries {
   std::vector<Vec3> points;
   std::vector<std::size_t> corners{};  ///< points at which the section turns at once, whatever the
                                        ///< angle, ascending; others are found
+  Units units{};
 };
 
 }  // namespace obvid

@@ -108,7 +108,7 @@ struct SurfacePatch {
 /// What is written to files: patches in order, neighbours share borders where they meet.
 struct SurfaceModel {
   std::string name = "surface";
-  std::string units = "mm";
+  Units units;
   std::vector<SurfacePatch> patches;
 };
 

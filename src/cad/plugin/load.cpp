@@ -83,6 +83,7 @@ Result<Loaded> read_iges(const std::string& path) {
 
 Result<Loaded> read_brep(const std::string& path) {
   Loaded loaded;
+  loaded.units = Units();
   BRep_Builder builder;
   std::ifstream file(path, std::ios::binary);
   file.exceptions(std::ios::failbit |

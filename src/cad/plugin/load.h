@@ -9,12 +9,14 @@
 #include <string>
 
 #include "obvid/core/result.h"
+#include "obvid/core/units.h"
 
 namespace obvid::cad {
 
 /// All that a file holds, and what its faces are called there.
 struct Loaded {
   TopoDS_Shape shape;
+  Units units = "mm";  ///< assumed for BREP files, which have none
   std::map<const Geom_Surface*, std::string> name_of_surface;  ///< what repairs leave as it is
 
   /// Empty when the file has no name for it.

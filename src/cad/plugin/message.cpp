@@ -162,6 +162,16 @@ SurfacePatch unpack_patch(Unpacker& in) {
   return patch;
 }
 
+void pack_units(const Units& units, Packer& out) {
+  out.text(units.name);
+  out.value(units.known());
+}
+
+Units unpack_units(Unpacker& in) {
+  std::string name = in.text();
+  return {std::move(name), in.get<bool>() ? UnitSource::kFile : UnitSource::kAssumed};
+}
+
 }  // namespace
 
 std::string packed(const Result<Drawing>& drawing) {
@@ -172,7 +182,7 @@ std::string packed(const Result<Drawing>& drawing) {
     return out.take();
   }
   out.text(drawing->name);
-  out.text(drawing->units);
+  pack_units(drawing->units, out);
   out.texts(drawing->warnings);
   out.value(drawing->curves.size());
   for (const DrawnCurve& curve : drawing->curves) {
@@ -193,7 +203,7 @@ Result<Drawing> unpacked(const std::string& bytes, const std::string& path) {
   }
   Drawing drawing;
   drawing.name = in.text();
-  drawing.units = in.text();
+  drawing.units = unpack_units(in);
   drawing.warnings = in.texts();
   for (std::size_t n = in.count(); n > 0 && in.whole(); --n) {
     DrawnCurve curve;
@@ -214,7 +224,7 @@ std::string packed(const Result<CadSurfaces>& surfaces) {
     return out.take();
   }
   out.text(surfaces->model.name);
-  out.text(surfaces->model.units);
+  pack_units(surfaces->model.units, out);
   out.texts(surfaces->warnings);
   out.value(surfaces->model.patches.size());
   for (const SurfacePatch& patch : surfaces->model.patches) pack_patch(patch, out);
@@ -230,7 +240,7 @@ Result<CadSurfaces> unpacked_surfaces(const std::string& bytes, const std::strin
   }
   CadSurfaces surfaces;
   surfaces.model.name = in.text();
-  surfaces.model.units = in.text();
+  surfaces.model.units = unpack_units(in);
   surfaces.warnings = in.texts();
   for (std::size_t n = in.count(); n > 0 && in.whole(); --n) {
     surfaces.model.patches.push_back(unpack_patch(in));

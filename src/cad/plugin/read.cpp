@@ -98,7 +98,7 @@ Result<Drawing> read_file(const std::string& path) {
   if (!loaded) return fail(loaded.error());
   Drawing drawing;
   drawing.name = std::filesystem::path(path).filename().string();
-  drawing.units = "mm";
+  drawing.units = loaded->units;
   if (!loaded->shape.IsNull()) Collector(drawing).collect(loaded->shape);
   if (drawing.curves.empty()) {
     std::string what = "the file holds no plane curves";

@@ -71,6 +71,7 @@ Result<CadSurfaces> read_faces(const std::string& path) {
   if (!loaded) return fail(loaded.error());
   CadSurfaces out;
   out.model.name = std::filesystem::path(path).stem().string();
+  out.model.units = loaded->units;
   if (!loaded->shape.IsNull()) collect(*loaded, out);
   if (out.model.patches.empty()) {
     std::string what = "the file holds no faces";

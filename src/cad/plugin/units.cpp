@@ -2,23 +2,28 @@
 #include "units.h"
 
 #include <array>
-#include <utility>
+
+#include "obvid/cad/cad.h"
+#include "obvid/core/units.h"
 
 namespace obvid::cad {
+namespace {
+
+/// The kernel's names of `kCadUnits`, in the same order.
+constexpr std::array<const char*, kCadUnits.size()> kKernelNames = {
+    "UM", "MM", "CM", "M", "KM", "MIL", "INCH", "FT", "MI"};
+
+}  // namespace
 
 Result<Unit> unit_of(const std::string& name) {
-  static constexpr std::array<std::pair<const char*, Unit>, 7> kUnits = {{{"um", {"UM", 1e-3}},
-                                                                          {"mm", {"MM", 1.0}},
-                                                                          {"cm", {"CM", 10.0}},
-                                                                          {"m", {"M", 1000.0}},
-                                                                          {"km", {"KM", 1e6}},
-                                                                          {"in", {"INCH", 25.4}},
-                                                                          {"ft", {"FT", 304.8}}}};
-  for (const auto& [known, unit] : kUnits) {
-    if (name == known) return unit;
+  const auto millimetres = unit_ratio(Units(name), "mm", "STEP and IGES files");
+  if (!millimetres) return fail(millimetres.error());
+  const std::string_view written = cad_unit(name);
+  Unit unit{"MM", *millimetres};
+  for (std::size_t i = 0; i < kCadUnits.size(); ++i) {
+    if (kCadUnits[i] == written) unit.kernel = kKernelNames[i];
   }
-  return fail({ErrorCode::kBadOption, "STEP and IGES do not know the unit '" + name + "'",
-               "--units", "one of um, mm, cm, m, km, in, ft", -1, 0.0});
+  return unit;
 }
 
 }  // namespace obvid::cad

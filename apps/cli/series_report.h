@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string>
+
+#include "obvid/series/analysis.h"
+#include "obvid/series/point_series.h"
+
+namespace obvid {
+
+/// What the points of a series alone say: tables and figures.
+[[nodiscard]] std::string series_report_text(const PointSeries& series, const Analysis& analysis);
+
+/// The same as one object.
+[[nodiscard]] std::string series_report_json(const PointSeries& series, const Analysis& analysis);
+
+/// Says where the rounding of the coordinates decides which way the curvature changes.
+void add_rounding_warning(PointSeries& series, const Analysis& analysis);
+
+}  // namespace obvid

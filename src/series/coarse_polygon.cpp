@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "obvid/series/coarse_polygon.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace obvid {
+namespace {
+
+/// Curves are given by more than eight points to the turn, polygons mostly by fewer.
+constexpr double kCoarseTurn = 40.0 * std::numbers::pi / 180.0;
+/// Turn that the rounding of doubles gives points in line, rad.
+constexpr double kInLine = 1e-6;
+/// Errors of the points turn longer chords by less than a quarter of a right angle.
+constexpr double kChordPerTolerance = 8.0;
+
+}  // namespace
+
+CoarsePolygon coarse_polygon(const std::vector<Vec2>& points, const std::vector<double>& tolerance,
+                             bool closed, double angle) {
+  CoarsePolygon out;
+  const std::size_t n = points.size();
+  if (n < 3) return out;
+  std::vector<double> turns;
+  for (std::size_t i = closed ? 0 : 1; i < (closed ? n : n - 1); ++i) {
+    const std::size_t before = (i + n - 1) % n, after = (i + 1) % n;
+    const Vec2 in = points[i] - points[before], leave = points[after] - points[i];
+    const double noise =
+        tolerance.empty() ? 0.0
+                          : std::max({tolerance[before], tolerance[i], tolerance[after]});
+    const double turn = std::abs(turning(in, leave));
+    if (turn <= kInLine || std::min(norm(in), norm(leave)) < kChordPerTolerance * noise) continue;
+    turns.push_back(turn);
+    if (turn >= angle) out.corners.push_back(i);
+  }
+  if (turns.empty()) return {};
+  const auto middle = turns.begin() + static_cast<std::ptrdiff_t>(turns.size() / 2);
+  std::nth_element(turns.begin(), middle, turns.end());
+  out.turn = *middle;
+  return out.turn >= kCoarseTurn ? out : CoarsePolygon{};
+}
+
+}  // namespace obvid
