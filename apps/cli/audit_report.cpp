@@ -157,7 +157,7 @@ Result<std::vector<std::string>> write_audit_pictures(const AnalyseOptions& opti
     const CurveAudit& a = pictured(audits, options.import);
     output.text = picture_svg({a.contour, std::nullopt, a.certificate});
   }
-  return write_files(*outputs);
+  return write_files(*outputs, options.input);
 }
 
 }  // namespace

@@ -53,7 +53,7 @@ int run(const ConvertOptions& options) {
   if (!stored) return report(stored.error());
   const Result<std::vector<Output>> texts = exported(*outputs, *stored, options.formats, remarks);
   if (!texts) return report(texts.error());
-  const Result<std::vector<std::string>> written = write_files(*texts);
+  const Result<std::vector<std::string>> written = write_files(*texts, options.input);
   if (!written) return report(written.error());
   std::string shown;
   if (!options.quiet) {

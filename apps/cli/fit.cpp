@@ -103,7 +103,8 @@ int run(const FitOptions& options) {
     Result<std::vector<Output>> texts =
         exported(*outputs, stored, options.formats, written.remarks);
     Result<std::vector<std::string>> done =
-        texts ? write_files(*texts) : Result<std::vector<std::string>>(fail(texts.error()));
+        texts ? write_files(*texts, options.input)
+              : Result<std::vector<std::string>>(fail(texts.error()));
     if (!done) {
       bar.clear();
       return report(done.error());
