@@ -24,7 +24,9 @@ add_library(obvid_flags INTERFACE)
 target_compile_options(obvid_flags INTERFACE
   -Wall -Wextra -Wpedantic -Wconversion -Wshadow
   # The same input must give the same bytes in every build: no fused multiply-add.
-  -ffp-contract=off)
+  -ffp-contract=off
+  # What is built tells nothing of the machine that built it.
+  "-ffile-prefix-map=${PROJECT_SOURCE_DIR}/=" "-ffile-prefix-map=${PROJECT_BINARY_DIR}=build")
 if(OBVID_WERROR)
   target_compile_options(obvid_flags INTERFACE -Werror)
 endif()
