@@ -17,6 +17,11 @@ constexpr std::array kTexts{
               "A file could not be created or written whole. Files are written beside their place "
               "and then renamed, so what stood there before is untouched.",
               "Check that the folder exists, that you may write to it and that the disk has room."},
+    ErrorText{
+        ErrorCode::kCancelled, "Cancelled",
+        "The work was stopped before its end by whoever asked for it. There is no result, and "
+        "no file was written.",
+        "Ask again if it was a mistake."},
     ErrorText{ErrorCode::kUsage, "Wrong use of the command line",
               "The command, an option or the number of arguments is not one that this program "
               "knows.",
@@ -90,11 +95,12 @@ constexpr std::array kTexts{
               "curvatures that were fixed.",
               "Free the named values one after another, or compare them with the ranges that "
               "`obvid region` prints."},
-    ErrorText{ErrorCode::kNoRoomForTransition, "No room for a curvature-continuous transition",
-              "Four or more points lie exactly on one line or circle, and the points beside them are "
-              "so close to it that the curvature would have to jump at its end.",
-              "Move or leave out the named points, or one point at the end of the straight or "
-              "circular stretch."},
+    ErrorText{
+        ErrorCode::kNoRoomForTransition, "No room for a curvature-continuous transition",
+        "Four or more points lie exactly on one line or circle, and the points beside them are "
+        "so close to it that the curvature would have to jump at its end.",
+        "Move or leave out the named points, or one point at the end of the straight or "
+        "circular stretch."},
     ErrorText{ErrorCode::kRoundingDecides, "Rounding of the coordinates decides",
               "The points are so close together, compared with the size of their coordinates, that "
               "the last digit of the numbers determines the curvature. Another rounding of the "
