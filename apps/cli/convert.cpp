@@ -6,6 +6,7 @@
 
 #include "commands.h"
 #include "obvid/io/contour_json.h"
+#include "obvid/io/read_file.h"
 #include "obvid/pipeline/audit.h"
 #include "obvid/pipeline/import.h"
 #include "outputs.h"
@@ -37,7 +38,7 @@ Result<StoredContour> from_drawing(const ConvertOptions& options,
 }
 
 Result<StoredContour> from_contour(const ConvertOptions& options) {
-  const Result<std::string> text = read_text(options.input);
+  const Result<std::string> text = read_file(options.input);
   if (!text) return fail(text.error());
   return contour_from_json(*text, options.input == "-" ? "standard input" : options.input);
 }

@@ -70,14 +70,14 @@ Result<void> replace(const std::string& path, std::string_view text, const struc
 }
 
 /// Folder and name that a path leads to, behind all links.
-struct Place {
+struct OutputPlace {
   struct stat folder {};
   std::string name;
 };
 
-std::optional<Place> place_of(const std::string& path) {
+std::optional<OutputPlace> output_place(const std::string& path) {
   const std::string target = behind_links(path), folder = folder_of(target);
-  Place place;
+  OutputPlace place;
   place.name = target.substr(folder.size());
   const bool there = ::stat(folder.empty() ? "." : folder.c_str(), &place.folder) == 0;
   return there && !place.name.empty() ? std::optional(place) : std::nullopt;
@@ -121,7 +121,7 @@ bool same_file(const std::string& a, const std::string& b) {
   const bool a_is = ::stat(a.c_str(), &at_a) == 0, b_is = ::stat(b.c_str(), &at_b) == 0;
   if (a_is && b_is) return S_ISREG(at_a.st_mode) && is_one(at_a, at_b);
   if (a_is != b_is) return false;
-  const auto place_a = place_of(a), place_b = place_of(b);
+  const auto place_a = output_place(a), place_b = output_place(b);
   if (!place_a || !place_b) return a == b;
   return place_a->name == place_b->name && is_one(place_a->folder, place_b->folder);
 }
