@@ -48,7 +48,7 @@ int turns(const std::vector<double>& values, double noise) {
 }
 
 /// Whether the file holds this contour and nothing else, in millimetres.
-void expect_found(const std::string& file, const Contour& contour, double scale) {
+void expect_contour_found(const std::string& file, const Contour& contour, double scale) {
   const auto written = joined_nurbs(contour);
   ASSERT_TRUE(written);
   const auto drawing = read_cad(file);
@@ -103,7 +103,7 @@ class ContourFiles : public testing::Test {
       ASSERT_TRUE(made) << name << ": " << to_line(made.error());
       const fs::path file = folder_ / (name + std::to_string(++number));
       std::ofstream(file, std::ios::binary) << made->files.front().text;
-      expect_found(file.string(), contour, format == FileFormat::kBrep ? 1.0 : millimetres);
+      expect_contour_found(file.string(), contour, format == FileFormat::kBrep ? 1.0 : millimetres);
     }
   }
 

@@ -24,7 +24,7 @@ namespace obvid {
 namespace {
 
 namespace fs = std::filesystem;
-using Clock = std::chrono::steady_clock;
+using SteadyClock = std::chrono::steady_clock;
 
 class CadIsolation : public TestFolder {
  protected:
@@ -123,13 +123,13 @@ TEST_F(CadIsolation, NothingOfTheKernelIsInThisProcess) {
 }
 
 TEST_F(CadIsolation, ReadingIsCancelled) {
-  const auto start = Clock::now();
+  const auto start = SteadyClock::now();
   CadRun run;
-  run.cancelled = [&] { return Clock::now() - start > std::chrono::milliseconds(200); };
+  run.cancelled = [&] { return SteadyClock::now() - start > std::chrono::milliseconds(200); };
   const auto read = read_cad(endless(), run);
   ASSERT_FALSE(read);
   EXPECT_EQ(read.error().code, ErrorCode::kCancelled);
-  EXPECT_LT(Clock::now() - start, std::chrono::seconds(20));
+  EXPECT_LT(SteadyClock::now() - start, std::chrono::seconds(20));
 }
 
 TEST_F(CadIsolation, ReadingEndsWithTheTimeItIsGiven) {
@@ -158,8 +158,8 @@ bool is_alive(pid_t process) {
 
 template <class Condition>
 bool comes_true(Condition condition) {
-  const auto start = Clock::now();
-  while (!condition() && Clock::now() - start < std::chrono::seconds(60)) {
+  const auto start = SteadyClock::now();
+  while (!condition() && SteadyClock::now() - start < std::chrono::seconds(60)) {
     std::this_thread::sleep_for(std::chrono::milliseconds(20));
   }
   return condition();

@@ -54,7 +54,8 @@ class Helper(unittest.TestCase):
 
     def fit(self, cwd=None, **env):
         """Exit code and error line of a run that has to write STEP."""
-        clean = {k: v for k, v in os.environ.items() if k != "OBVID_PLUGINS"}
+        ours = ("OBVID_PLUGINS", "OBVID_CAD_BUILDER")
+        clean = {k: v for k, v in os.environ.items() if k not in ours}
         done = subprocess.run(
             [self.program, "fit", f"{EXAMPLES}/series10.csv", "-o", self.folder / "out.step",
              "--quiet"], cwd=cwd or self.folder, env=clean | env, capture_output=True, text=True)
@@ -120,6 +121,29 @@ class Helper(unittest.TestCase):
             self.assertTrue((self.folder / "out.step").read_text().startswith("ISO-10303-21"))
             (self.folder / "out.step").unlink()
             (folder / "obvid-cad").unlink()
+
+    def test_a_helper_that_is_missing_or_stale_is_built_when_it_is_needed(self):
+        if not HELPER:
+            self.skipTest("the helper for CAD files is not built")
+        builder = self.folder / "builder"
+        builder.write_text(f"#!/bin/sh\necho building\ncp {HELPER} {self.bin}/obvid-cad\n")
+        builder.chmod(0o755)
+        for stale in (False, True):
+            if stale:
+                self.put(self.bin)
+            code, told = self.fit(OBVID_CAD_BUILDER=str(builder))
+            self.assertEqual(code, 0, told)
+            self.assertIn("building", told)
+            self.assertFalse(self.trace.exists())
+        code, told = self.fit(OBVID_CAD_BUILDER=str(builder))
+        self.assertNotIn("building", told)
+
+    def test_a_builder_that_fails_leaves_the_reason(self):
+        builder = self.folder / "builder"
+        builder.write_text("#!/bin/sh\nexit 1\n")
+        builder.chmod(0o755)
+        self.expect_refused("not installed", OBVID_CAD_BUILDER=str(builder))
+        self.expect_refused("not installed", OBVID_CAD_BUILDER=str(self.folder / "none"))
 
     def test_a_link_to_the_program_leads_to_its_helper(self):
         if not HELPER:

@@ -25,7 +25,8 @@ namespace obvid {
 // (or shared library) that holds this code, and in ../libexec/obvid seen from there; nowhere else.
 // Before it is started it must be a plain file that not everybody may write to, belong to root, to
 // the user or to the owner of the program, and hold the mark of this very build. What is found
-// first decides. E310 says which of these failed, or that there is none.
+// first decides. Where none fits, the command $OBVID_CAD_BUILDER, if set, is run to build it, as the
+// launcher of a source folder has it. E310 says what is wrong, or that there is none.
 //
 // Reading is limited: 4 GiB of memory, 20 s of processor time (E306 says which), and the time on
 // the clock below. The helper gets no environment but the settings of the dynamic linker, writes no

@@ -12,6 +12,7 @@
 #include <utility>
 
 #include "cad_build_mark.h"
+#include "helper_build.h"
 
 namespace obvid::cad {
 namespace {
@@ -48,6 +49,25 @@ Error unusable(std::string why, std::string hint) {
           std::move(hint),
           -1,
           0.0};
+}
+
+Result<fs::path> installed_helper() {
+  const std::string mark = std::string(kHelperFile) + " " + OBVID_CAD_BUILD_MARK;
+  const fs::path own = own_file();
+  for (const fs::path& folder : helper_folders(own)) {
+    const fs::path file = folder / kHelperFile;
+    std::error_code ignored;
+    if (!fs::exists(fs::symlink_status(file, ignored))) continue;
+    if (auto good = check_helper(file, own, mark); !good) return fail(good.error());
+    return file;
+  }
+  return fail({ErrorCode::kUnsupported,
+               "STEP, IGES and BREP need the helper program " + std::string(kHelperFile) +
+                   ", which is not installed",
+               "",
+               "install libocct-data-exchange-dev and libtbb-dev and build with -DOBVID_CAD=ON, or "
+               "write .dxf or .svg instead",
+               -1, 0.0});
 }
 
 }  // namespace
@@ -101,22 +121,8 @@ Result<void> check_helper(const fs::path& file, const fs::path& own, std::string
 }
 
 Result<fs::path> helper_file() {
-  const std::string mark = std::string(kHelperFile) + " " + OBVID_CAD_BUILD_MARK;
-  const fs::path own = own_file();
-  for (const fs::path& folder : helper_folders(own)) {
-    const fs::path file = folder / kHelperFile;
-    std::error_code ignored;
-    if (!fs::exists(fs::symlink_status(file, ignored))) continue;
-    if (auto good = check_helper(file, own, mark); !good) return fail(good.error());
-    return file;
-  }
-  return fail({ErrorCode::kUnsupported,
-               "STEP, IGES and BREP need the helper program " + std::string(kHelperFile) +
-                   ", which is not installed",
-               "",
-               "install libocct-data-exchange-dev and libtbb-dev and build with -DOBVID_CAD=ON, or "
-               "write .dxf or .svg instead",
-               -1, 0.0});
+  auto helper = installed_helper();
+  return helper || !build_helper() ? helper : installed_helper();
 }
 
 }  // namespace obvid::cad

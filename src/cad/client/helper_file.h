@@ -24,7 +24,8 @@ inline constexpr const char* kHelperFile = "obvid-cad";
 [[nodiscard]] Result<void> check_helper(const std::filesystem::path& file,
                                         const std::filesystem::path& own, std::string_view mark);
 
-/// The helper of this build. Error: E310.
+/// The helper of this build; where there is none yet and the launcher offers to build it, after
+/// that. Error: E310.
 [[nodiscard]] Result<std::filesystem::path> helper_file();
 
 }  // namespace obvid::cad
