@@ -79,11 +79,11 @@ std::optional<Result<Value>> result_in(std::string_view bytes) {
   return Result<Value>(fail(std::move(error)));
 }
 
-bool is_finite(double x) { return std::isfinite(x); }
-bool is_finite(Vec2 v) { return std::isfinite(v.x) && std::isfinite(v.y); }
+bool finite_number(double x) { return std::isfinite(x); }
+bool finite_number(Vec2 v) { return is_finite(v); }
 template <class... T>
 bool all_finite(const T&... all) {
-  return (is_finite(all) && ...);
+  return (finite_number(all) && ...);
 }
 
 bool is_sound(const LinePiece& p) { return all_finite(p.start, p.end); }
