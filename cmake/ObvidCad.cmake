@@ -1,26 +1,42 @@
 # SPDX-License-Identifier: Apache-2.0
-# The plugin obvid_cad.so: formats that need Open CASCADE. The program loads it on demand.
-option(OBVID_CAD "build the plugin for STEP, IGES and BREP (needs Open CASCADE)" ON)
+# The helper program obvid-cad: formats that need Open CASCADE. The program starts it on demand.
+option(OBVID_CAD "build the helper for STEP, IGES and BREP (needs Open CASCADE)" ON)
 
-obvid_module(NAME cad FOLDER cad/loader DEPENDS curve surface exchange)
-target_link_libraries(obvid_cad PUBLIC ${CMAKE_DL_LIBS})
+# What both programs agree on: the program starts only a helper that was built from the same.
+file(GLOB obvid_cad_agreed CONFIGURE_DEPENDS "${PROJECT_SOURCE_DIR}/src/cad/client/*"
+     "${PROJECT_SOURCE_DIR}/src/cad/helper/*")
+list(APPEND obvid_cad_agreed "${PROJECT_SOURCE_DIR}/include/obvid/cad/cad.h"
+     "${PROJECT_SOURCE_DIR}/include/obvid/core/error.h")
+set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${obvid_cad_agreed})
+set(digests "")
+foreach(source IN LISTS obvid_cad_agreed)
+  file(SHA256 "${source}" digest)
+  string(APPEND digests "${digest}\n")
+endforeach()
+string(SHA256 obvid_cad_digest "${digests}")
+configure_file(cmake/cad_build_mark.h.in "${PROJECT_BINARY_DIR}/generated-private/cad_build_mark.h" @ONLY)
+
+obvid_module(NAME cad FOLDER cad/client DEPENDS curve surface exchange)
+target_include_directories(obvid_cad PRIVATE "${PROJECT_BINARY_DIR}/generated-private")
 
 if(OBVID_CAD AND NOT OBVID_SANITIZE)
   find_package(OpenCASCADE QUIET)
 endif()
 if(NOT OpenCASCADE_FOUND)
-  message(STATUS "no plugin for STEP, IGES and BREP: Open CASCADE is missing or not wanted")
+  message(STATUS "no helper for STEP, IGES and BREP: Open CASCADE is missing or not wanted")
   return()
 endif()
-file(GLOB plugin_sources CONFIGURE_DEPENDS "${PROJECT_SOURCE_DIR}/src/cad/plugin/*.cpp")
-obvid_unity(plugin_units obvid_cad_plugin ${OBVID_BATCH} ${plugin_sources})
-add_library(obvid_cad_plugin MODULE ${plugin_units})
-set_target_properties(obvid_cad_plugin PROPERTIES
-  PREFIX "" OUTPUT_NAME obvid_cad LIBRARY_OUTPUT_DIRECTORY "${PROJECT_BINARY_DIR}"
-  CXX_VISIBILITY_PRESET hidden)
-target_include_directories(obvid_cad_plugin PRIVATE "${PROJECT_SOURCE_DIR}/src/cad/plugin")
-target_include_directories(obvid_cad_plugin SYSTEM PRIVATE ${OpenCASCADE_INCLUDE_DIR})
-target_link_libraries(obvid_cad_plugin PRIVATE obvid_flags fmt::fmt obvid::curve obvid::surface obvid::exchange
+find_package(Threads REQUIRED)
+file(GLOB helper_sources CONFIGURE_DEPENDS "${PROJECT_SOURCE_DIR}/src/cad/helper/*.cpp")
+obvid_unity(helper_units obvid_cad_helper ${OBVID_BATCH} ${helper_sources})
+add_executable(obvid_cad_helper ${helper_units})
+set_target_properties(obvid_cad_helper PROPERTIES
+  OUTPUT_NAME obvid-cad RUNTIME_OUTPUT_DIRECTORY "${PROJECT_BINARY_DIR}")
+target_include_directories(obvid_cad_helper PRIVATE "${PROJECT_SOURCE_DIR}/src/cad/client"
+                           "${PROJECT_SOURCE_DIR}/src/cad/helper"
+                           "${PROJECT_BINARY_DIR}/generated-private")
+target_include_directories(obvid_cad_helper SYSTEM PRIVATE ${OpenCASCADE_INCLUDE_DIR})
+target_link_libraries(obvid_cad_helper PRIVATE obvid_flags fmt::fmt obvid::cad Threads::Threads
                       TKSTEP TKIGES TKShHealing TKPrim TKBRep TKGeomBase TKTopAlgo TKXSBase TKG3d TKMath TKernel)
-# where the loader looks, seen from bin, whatever the system calls its folder of libraries
-install(TARGETS obvid_cad_plugin LIBRARY DESTINATION lib/obvid)
+# where the program looks, seen from bin, whatever the system calls its folders
+install(TARGETS obvid_cad_helper RUNTIME DESTINATION libexec/obvid)

@@ -14,6 +14,8 @@ install(DIRECTORY include/obvid DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}
         FILES_MATCHING PATTERN "*.h" PATTERN "internal" EXCLUDE)
 install(DIRECTORY "${PROJECT_BINARY_DIR}/generated/obvid" DESTINATION ${CMAKE_INSTALL_INCLUDEDIR})
 
+install(FILES LICENSE NOTICE SECURITY.md DESTINATION ${CMAKE_INSTALL_DOCDIR})
+
 configure_package_config_file(cmake/obvidConfig.cmake.in "${PROJECT_BINARY_DIR}/obvidConfig.cmake"
                               INSTALL_DESTINATION ${obvid_config_dir})
 write_basic_package_version_file("${PROJECT_BINARY_DIR}/obvidConfigVersion.cmake"

@@ -27,7 +27,9 @@ if(MSVC)
   target_compile_options(obvid_flags INTERFACE /W4 /fp:precise)
 else()
   target_compile_options(obvid_flags INTERFACE
-    -Wall -Wextra -Wpedantic -Wconversion -Wshadow -ffp-contract=off)
+    -Wall -Wextra -Wpedantic -Wconversion -Wshadow -ffp-contract=off
+    # What is built tells nothing of the machine that built it.
+    "-ffile-prefix-map=${PROJECT_SOURCE_DIR}/=" "-ffile-prefix-map=${PROJECT_BINARY_DIR}=build")
 endif()
 if(OBVID_WERROR)
   target_compile_options(obvid_flags INTERFACE -Werror)

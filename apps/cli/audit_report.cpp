@@ -250,7 +250,7 @@ Result<std::vector<std::string>> write_audit_pictures(const AnalyseOptions& opti
     output.text = picture_svg({a.contour, std::nullopt, a.certificate},
                               {name + ": " + a.label, as_drawn(a)});
   }
-  return write_files(*outputs);
+  return write_files(*outputs, options.input);
 }
 
 /// What the points of the chosen series say; a warning instead where they say nothing.

@@ -11,6 +11,7 @@
 
 #include "commands.h"
 #include "json_text.h"
+#include "obvid/io/atomic_file.h"
 #include "obvid/io/carriers_svg.h"
 #include "obvid/pipeline/import.h"
 #include "outputs.h"
@@ -185,8 +186,7 @@ std::string picture(const PointSeries& series, const Comparison& compared) {
 /// What to write under a name: .svg picture, .csv or .json table.
 using Maker = std::string (*)(const PointSeries&, const Comparison&);
 
-Result<Maker> maker_of(const std::string& path, const std::string& input) {
-  if (auto free = check_output(path, input); !free) return fail(free.error());
+Result<Maker> maker_of(const std::string& path) {
   if (path.ends_with(".svg")) return &picture;
   if (path.ends_with(".json")) return &comparison_json;
   if (path.ends_with(".csv")) return &report_csv;
@@ -197,9 +197,12 @@ Result<Maker> maker_of(const std::string& path, const std::string& input) {
 }  // namespace
 
 int run(const CompareOptions& options) {
+  if (auto free = check_outputs(options.outputs, {&options.input, 1}); !free) {
+    return report(free.error());
+  }
   std::vector<Maker> makers;
   for (const std::string& path : options.outputs) {
-    const Result<Maker> maker = maker_of(path, options.input);
+    const Result<Maker> maker = maker_of(path);
     if (!maker) return report(maker.error());
     makers.push_back(*maker);
   }
@@ -218,7 +221,7 @@ int run(const CompareOptions& options) {
   for (std::size_t i = 0; i < makers.size(); ++i) {
     outputs.push_back({options.outputs[i], {}, makers[i](*series, *compared)});
   }
-  const auto written = write_files(outputs);
+  const auto written = write_files(outputs, options.input);
   if (!written) return report(written.error());
   std::string shown = options.json  ? comparison_json(*series, *compared)
                       : options.csv ? report_csv(*series, *compared)

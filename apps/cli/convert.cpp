@@ -7,6 +7,7 @@
 
 #include "commands.h"
 #include "obvid/io/contour_json.h"
+#include "obvid/io/read_file.h"
 #include "obvid/pipeline/audit.h"
 #include "obvid/pipeline/import.h"
 #include "outputs.h"
@@ -43,7 +44,7 @@ Result<StoredContour> from_drawing(const ConvertOptions& options, ExportOptions&
 }
 
 Result<StoredContour> from_contour(const ConvertOptions& options) {
-  const Result<std::string> text = read_text(options.input);
+  const Result<std::string> text = read_file(options.input);
   if (!text) return fail(text.error());
   return contour_from_json(*text, options.input == "-" ? "standard input" : options.input);
 }
@@ -69,7 +70,7 @@ int run(const ConvertOptions& options) {
   if (!texts) return report(texts.error());
   warn(notes.warnings);
   remarks.insert(remarks.end(), notes.remarks.begin(), notes.remarks.end());
-  const Result<std::vector<std::string>> written = write_files(*texts);
+  const Result<std::vector<std::string>> written = write_files(*texts, options.input);
   if (!written) return report(written.error());
   std::string shown;
   if (!options.quiet) {

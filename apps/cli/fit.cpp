@@ -83,7 +83,8 @@ int run(const FitOptions& options) {
     FileNotes notes;
     Result<std::vector<Output>> texts = exported(*outputs, stored, formats, notes);
     Result<std::vector<std::string>> done =
-        texts ? write_files(*texts) : Result<std::vector<std::string>>(fail(texts.error()));
+        texts ? write_files(*texts, options.input)
+              : Result<std::vector<std::string>>(fail(texts.error()));
     if (!done) {
       bar.clear();
       return report(done.error());

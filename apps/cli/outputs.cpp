@@ -8,15 +8,7 @@
 
 namespace obvid {
 
-Result<void> check_output(const std::string& path, const std::string& input) {
-  std::error_code ignored;
-  if (path != input && !std::filesystem::equivalent(path, input, ignored)) return {};
-  return fail(
-      {ErrorCode::kBadOption, "the output would replace the input", path, "choose another name"});
-}
-
-Result<Output> output_of(const std::string& path, const std::string& input) {
-  if (auto free = check_output(path, input); !free) return fail(free.error());
+Result<Output> output_of(const std::string& path) {
   if (const auto format = format_of(path)) return Output{path, *format, {}};
   const std::string ending = std::filesystem::path(path).extension().string();
   return fail({ErrorCode::kUnknownFormat,
@@ -27,9 +19,10 @@ Result<Output> output_of(const std::string& path, const std::string& input) {
 
 Result<std::vector<Output>> outputs_of(const std::vector<std::string>& paths,
                                        const std::string& input) {
+  if (auto free = check_outputs(paths, {&input, 1}); !free) return fail(free.error());
   std::vector<Output> outputs;
   for (const std::string& path : paths) {
-    Result<Output> output = output_of(path, input);
+    Result<Output> output = output_of(path);
     if (!output) return fail(output.error());
     outputs.push_back(std::move(*output));
   }
@@ -62,13 +55,16 @@ Result<std::vector<Output>> exported(const std::vector<Output>& outputs,
   return out;
 }
 
-Result<std::vector<std::string>> write_files(const std::vector<Output>& outputs) {
-  std::vector<std::string> written;
+Result<std::vector<std::string>> write_files(const std::vector<Output>& outputs,
+                                             const std::string& input) {
+  std::vector<std::string> names;
+  for (const Output& output : outputs) names.push_back(output.path);
+  // again: formats that make several files have made names of their own
+  if (auto free = check_outputs(names, {&input, 1}); !free) return fail(free.error());
   for (const Output& output : outputs) {
     if (auto done = write_file(output.path, output.text); !done) return fail(done.error());
-    written.push_back(output.path);
   }
-  return written;
+  return names;
 }
 
 std::string noise_option(double tolerance, bool closed, const std::vector<Vec2>& points) {

@@ -23,12 +23,9 @@ struct FileNotes {
   std::vector<std::string> warnings;
 };
 
-/// Refuses a name that would replace the input (E203).
-[[nodiscard]] Result<void> check_output(const std::string& path, const std::string& input);
-
-/// Format by ending. Errors: E202 for endings without format, E203 where the input would be
-/// replaced.
-[[nodiscard]] Result<Output> output_of(const std::string& path, const std::string& input);
+/// Format by ending. Error: E202 for endings without format.
+[[nodiscard]] Result<Output> output_of(const std::string& path);
+/// All of them. Errors: E202; E203 where the input or another output would be replaced.
 [[nodiscard]] Result<std::vector<Output>> outputs_of(const std::vector<std::string>& paths,
                                                      const std::string& input);
 
@@ -40,8 +37,10 @@ struct FileNotes {
                                                    const ExportOptions& options,
                                                    FileNotes& notes);
 
-/// Writes all texts, each file whole or not at all; names what was written. Error: E102.
-[[nodiscard]] Result<std::vector<std::string>> write_files(const std::vector<Output>& outputs);
+/// Writes all texts, each file whole or not at all; names what was written. Errors: E102; E203, and
+/// nothing is written, where the input or another output would be replaced.
+[[nodiscard]] Result<std::vector<std::string>> write_files(const std::vector<Output>& outputs,
+                                                           const std::string& input);
 
 /// "--noise 0.01", as it was tried: with " --open" where the ends would meet within it.
 [[nodiscard]] std::string noise_option(double tolerance, bool closed,

@@ -141,12 +141,12 @@ Result<std::vector<std::string>> write_refusal_pictures(const FitOptions& option
   for (const Output& output : *asked) {
     if (output.format != FileFormat::kPicture) continue;
     const auto path = std::filesystem::path(output.path).replace_extension(".why-not.svg");
-    Result<Output> picture = output_of(path.string(), options.input);
+    Result<Output> picture = output_of(path.string());
     if (!picture) return fail(picture.error());
     picture->text = picture_svg({why.fit.contour, why.fit.report, why.fit.certificate}, {name, ""});
     pictures.push_back(std::move(*picture));
   }
-  return write_files(pictures);
+  return write_files(pictures, options.input);
 }
 
 }  // namespace

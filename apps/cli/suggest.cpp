@@ -142,7 +142,7 @@ int suggest(const FitOptions& options) {
     return report(found.error());
   }
   for (Output& chart : *charts) chart.text = trade_off_svg(*found);
-  const Result<std::vector<std::string>> written = write_files(*charts);
+  const Result<std::vector<std::string>> written = write_files(*charts, options.input);
   bar.clear();
   if (!written) return report(written.error());
   warn(series->warnings);

@@ -30,8 +30,9 @@ int judge_surface(const MadeSurface& made, bool files) {
 }  // namespace
 
 int run(const SurfaceOptions& options) {
-  Result<std::vector<SurfaceOutput>> outputs =
-      surface_outputs_of(options.outputs, options.job.inputs);
+  std::vector<std::string> inputs = options.job.inputs;
+  inputs.insert(inputs.end(), options.job.across.begin(), options.job.across.end());
+  Result<std::vector<SurfaceOutput>> outputs = surface_outputs_of(options.outputs, inputs);
   if (!outputs) return report(outputs.error());
   ProgressBar bar(options.progress);
   bar.tell("reading", 0.0);

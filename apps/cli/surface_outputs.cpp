@@ -4,17 +4,14 @@
 #include <utility>
 
 #include "obvid/io/atomic_file.h"
-#include "outputs.h"
 
 namespace obvid {
 
 Result<std::vector<SurfaceOutput>> surface_outputs_of(const std::vector<std::string>& paths,
                                                       const std::vector<std::string>& inputs) {
+  if (auto free = check_outputs(paths, inputs); !free) return fail(free.error());
   std::vector<SurfaceOutput> outputs;
   for (const std::string& path : paths) {
-    for (const std::string& input : inputs) {
-      if (auto good = check_output(path, input); !good) return fail(good.error());
-    }
     const auto format = surface_format_of(path);
     if (!format) {
       return fail({ErrorCode::kUnknownFormat, "no format has this ending", path,

@@ -4,12 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cerrno>
 #include <cmath>
-#include <cstdio>
-#include <cstring>
-#include <filesystem>
-#include <memory>
 
 namespace obvid {
 
@@ -45,33 +40,6 @@ std::string counted(std::size_t count, const char* one, const char* many) {
 
 const char* direction_text(int direction) {
   return direction > 0 ? "increasing" : direction < 0 ? "decreasing" : "constant";
-}
-
-Result<std::string> read_text(const std::string& path) {
-  const auto cannot = [&path](const std::string& why) {
-    return fail({ErrorCode::kCannotOpen, "cannot read the file: " + why, path,
-                 "check the path and the permissions"});
-  };
-  std::error_code ignored;
-  if (path != "-" && std::filesystem::is_directory(path, ignored)) return cannot("it is a folder");
-  struct Closer {
-    void operator()(std::FILE* file) const {
-      if (file != stdin) std::fclose(file);
-    }
-  };
-  const std::unique_ptr<std::FILE, Closer> file(path == "-" ? stdin
-                                                            : std::fopen(path.c_str(), "rb"));
-  if (!file) return cannot(std::strerror(errno));
-  constexpr std::size_t kBlock = 1U << 16U;
-  std::string text;
-  std::size_t got = 0;
-  do {
-    text.resize(text.size() + kBlock);
-    got = std::fread(text.data() + text.size() - kBlock, 1, kBlock, file.get());
-    text.resize(text.size() - kBlock + got);
-  } while (got == kBlock);
-  if (std::ferror(file.get()) != 0) return cannot(std::strerror(errno));
-  return text;
 }
 
 void Facts::add(std::string label, std::string value) {

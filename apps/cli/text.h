@@ -26,9 +26,6 @@ namespace obvid {
 /// Direction of curvature along the way: increasing, decreasing, constant.
 [[nodiscard]] const char* direction_text(int direction);
 
-/// Whole text of a file, or of standard input for "-". Error: E301.
-[[nodiscard]] Result<std::string> read_text(const std::string& path);
-
 /// Lines "label   value", values aligned.
 class Facts {
  public:

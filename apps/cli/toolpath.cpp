@@ -30,9 +30,11 @@ struct ToolpathOutput {
 };
 
 Result<std::vector<ToolpathOutput>> outputs_of(const ToolpathCommand& command) {
+  if (auto free = check_outputs(command.outputs, {&command.input, 1}); !free) {
+    return fail(free.error());
+  }
   std::vector<ToolpathOutput> outputs;
   for (const std::string& path : command.outputs) {
-    if (auto good = check_output(path, command.input); !good) return fail(good.error());
     const auto surface = surface_format_of(path);
     if (format_of(path) == FileFormat::kGcode) {
       outputs.push_back({path, Kind::kProgram, {}});

@@ -7,6 +7,7 @@
 #include "fit_report.h"
 #include "json_text.h"
 #include "obvid/io/contour_json.h"
+#include "obvid/io/read_file.h"
 #include "table.h"
 #include "terminal.h"
 #include "text.h"
@@ -151,7 +152,7 @@ int judge_contour_file(const StoredContour& stored, const Verification& found,
 }  // namespace
 
 int run(const VerifyOptions& options) {
-  const Result<std::string> text = read_text(options.input);
+  const Result<std::string> text = read_file(options.input);
   if (!text) return report(text.error());
   const std::string name = options.input == "-" ? "standard input" : options.input;
   const Result<StoredContour> stored = contour_from_json(*text, name);

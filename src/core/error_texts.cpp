@@ -17,6 +17,11 @@ constexpr std::array kTexts{
               "A file could not be created or written whole. Files are written beside their place "
               "and then renamed, so what stood there before is untouched.",
               "Check that the folder exists, that you may write to it and that the disk has room."},
+    ErrorText{
+        ErrorCode::kCancelled, "Cancelled",
+        "The work was stopped before its end by whoever asked for it. There is no result, and "
+        "no file was written.",
+        "Ask again if it was a mistake."},
     ErrorText{ErrorCode::kUsage, "Wrong use of the command line",
               "The command, an option or the number of arguments is not one that this program "
               "knows.",

@@ -32,7 +32,7 @@ std::optional<Error> refuse_derivatives(const std::vector<double>& data, std::si
 
 /// Steps of such different lengths side by side lose half of all digits in the equations of degree
 /// 6 with free values (docs/methods/idspline.md, section 3).
-constexpr double kLargestStepRatio = 300.0;
+constexpr double kLargestStepRatio = 1e5;
 
 std::optional<Error> refuse_steps(const std::vector<double>& x, const IdSplineOptions& options) {
   if (options.degree < 6 || options.smoothing != IdSmoothing::kValuesFree) return std::nullopt;

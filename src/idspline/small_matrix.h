@@ -57,12 +57,13 @@ SmallColumn<Real, K> operator-(SmallColumn<Real, K> a, const SmallColumn<Real, K
 /// Inverse by elimination with row exchanges; not finite when there is none.
 template <class Real, std::size_t K>
 SmallMatrix<Real, K> inverse_of(SmallMatrix<Real, K> a) {
+  using std::abs;
   SmallMatrix<Real, K> out;
   for (std::size_t i = 0; i < K; ++i) out.row[i][i] = Real(1);
   for (std::size_t i = 0; i < K; ++i) {
     std::size_t largest = i;
     for (std::size_t j = i + 1; j < K; ++j) {
-      if (std::abs(a.row[j][i]) > std::abs(a.row[largest][i])) largest = j;
+      if (abs(a.row[j][i]) > abs(a.row[largest][i])) largest = j;
     }
     std::swap(a.row[i], a.row[largest]);
     std::swap(out.row[i], out.row[largest]);

@@ -7,12 +7,10 @@
 
 #include "obvid/numeric/tridiagonal.h"
 #include "small_matrix.h"
+#include "wide.h"
 
 namespace obvid::idspline {
 namespace {
-
-/// 64 bits of fraction on usual processors; plain double elsewhere is correct too, only less exact.
-using Wide = long double;
 
 constexpr std::size_t kMostOrders = 3;  // value, slope, second derivative
 
@@ -109,15 +107,17 @@ class Smoother {
   /// seen in the mirror, where derivatives of odd order change sign.
   void add_side(std::size_t i, std::size_t c, std::size_t other, Real side, Row& row,
                 SmallMatrix<Real, K>& beyond) {
-    const Real to_here = scale(i) / h(c), to_there = scale(other) / h(c);
-    const Real mean_value = spline_.integrals[c] / h(c);
+    const Real length = h(c), to_here = side * (scale(i) / length);
+    // the other way round, because divisions are dear
+    const Real from_here = side * (length / scale(i)), from_there = side * (length / scale(other));
+    const Real mean_value = spline_.integrals[c] / length;
     const bool end = other == 0 || other == last_;
     Real weight = side;
-    for (std::size_t k = 0; k < M; ++k) weight *= side * to_here;  // orders from M on
-    for (std::size_t j = M; j-- > kFirst; weight *= side * to_here) {
+    for (std::size_t k = 0; k < M; ++k) weight *= to_here;  // orders from M on
+    for (std::size_t j = M; j-- > kFirst; weight *= to_here) {
       const std::size_t r = j - kFirst;
       Real here = weight, there = weight;
-      for (std::size_t l = 0; l < M; ++l, here *= side / to_here, there *= side / to_there) {
+      for (std::size_t l = 0; l < M; ++l, here *= from_here, there *= from_there) {
         const Real a = here * table_.near[j][l], b = there * table_.far[j][l];
         if (l < kFirst) {
           row.right.at[r] -= a * scaled(i, l);

@@ -2,98 +2,97 @@
 #include "obvid/io/atomic_file.h"
 
 #include <fcntl.h>
+#include <fmt/format.h>
 #include <sys/stat.h>
+#include <sys/statvfs.h>
 #include <unistd.h>
 
-#include <atomic>
 #include <cerrno>
 #include <cstdio>
-#include <cstdlib>
 #include <cstring>
-#include <memory>
+#include <optional>
+
+#include "temporary_file.h"
 
 namespace obvid {
 namespace {
 
-// Names tried for the file beside; each taken one belongs to another writer at work.
-constexpr int kMaxNames = 100;
+/// Bytes that are free in the folder of a file.
+std::optional<unsigned long long> room_beside(const std::string& file) {
+  const std::string folder = folder_of(file);
+  struct statvfs disk {};
+  if (::statvfs(folder.empty() ? "." : folder.c_str(), &disk) != 0) return std::nullopt;
+  return static_cast<unsigned long long>(disk.f_bavail) * disk.f_frsize;
+}
 
-// Permissions of a new file before the user's mask.
-constexpr mode_t kNewFileMode = 0666;
-constexpr mode_t kPermissionBits = 07777;
+Error no_room(const std::string& path, std::size_t needed, std::optional<unsigned long long> free) {
+  Error error;
+  error.code = ErrorCode::kWriteFailed;
+  error.what = fmt::format("there is no room for the file: it needs {} bytes", needed);
+  if (free) error.what += fmt::format(", {} are free", *free);
+  error.where = path;
+  error.hint = "make room or choose a folder on another disk";
+  error.value = static_cast<double>(needed);
+  return error;
+}
 
 Error write_failed(const std::string& path, int reason) {
   Error error;
   error.code = ErrorCode::kWriteFailed;
   error.what = std::string("cannot write the file: ") + std::strerror(reason);
   error.where = path;
-  error.hint = "check that the folder exists, may be written to and has room";
+  error.hint = "check that the folder exists and may be written to";
   return error;
 }
 
-// 0, or the reason why not all was written.
-int write_all(int file, std::string_view text) {
-  while (!text.empty()) {
-    const ssize_t written = ::write(file, text.data(), text.size());
-    if (written < 0 && errno == EINTR) continue;
-    if (written < 0) return errno;
-    text.remove_prefix(static_cast<std::size_t>(written));
-  }
-  return 0;
+/// `beside`: a file whose disk is meant, where it is one.
+Result<void> outcome(const std::string& path, int reason, std::size_t size,
+                     const std::string& beside = {}) {
+  if (reason == 0) return {};
+  const bool full = reason == ENOSPC || reason == EDQUOT || reason == EFBIG;
+  if (!full) return fail(write_failed(path, reason));
+  const bool disk = reason == ENOSPC && !beside.empty();
+  return fail(no_room(path, size, disk ? room_beside(beside) : std::nullopt));
 }
 
-int write_and_close(int file, std::string_view text) {
-  const int reason = write_all(file, text);
-  const int closed = ::close(file) == 0 ? 0 : errno;
-  return reason != 0 ? reason : closed;
-}
-
-Result<void> outcome(const std::string& path, int reason) {
-  if (reason != 0) return fail(write_failed(path, reason));
-  return {};
-}
-
-// A link stays a link: what it points to is replaced.
-std::string behind_links(const std::string& path) {
-  const std::unique_ptr<char, void (*)(void*)> real(::realpath(path.c_str(), nullptr), &std::free);
-  return real ? std::string(real.get()) : path;
-}
-
-std::string folder_of(const std::string& path) {
-  const std::size_t slash = path.find_last_of('/');
-  return slash == std::string::npos ? std::string() : path.substr(0, slash + 1);
-}
-
-// Creates a file of its own beside `target`; -1 with errno when that fails.
-int create_beside(const std::string& target, std::string& name) {
-  static std::atomic<unsigned> counter{0};
-  for (int attempt = 0; attempt < kMaxNames; ++attempt) {
-    name = folder_of(target) + ".obvid-" + std::to_string(::getpid()) + "-" +
-           std::to_string(counter++) + ".tmp";
-    const int file = ::open(name.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, kNewFileMode);
-    if (file >= 0 || errno != EEXIST) return file;
-  }
-  return -1;
+/// 0 or errno. What was begun is gone when it returns.
+int replaced(const std::string& target, std::string_view text, const struct stat* old) {
+  TemporaryFile beside(target, old);
+  if (beside.reason() != 0) return beside.reason();
+  if (const int reason = beside.write(text); reason != 0) return reason;
+  return beside.take_place();
 }
 
 Result<void> replace(const std::string& path, std::string_view text, const struct stat* old) {
   const std::string target = behind_links(path);
-  std::string beside;
-  const int file = create_beside(target, beside);
-  if (file < 0) return outcome(path, errno);
-  int reason = 0;
-  if (old != nullptr && ::fchmod(file, old->st_mode & kPermissionBits) != 0) reason = errno;
-  const int written = write_and_close(file, reason == 0 ? text : std::string_view());
-  if (reason == 0) reason = written;
-  if (reason == 0 && ::rename(beside.c_str(), target.c_str()) != 0) reason = errno;
-  if (reason != 0) ::unlink(beside.c_str());
-  return outcome(path, reason);
+  if (target.empty()) return outcome(path, errno, text.size());
+  return outcome(path, replaced(target, text, old), text.size(), target);
+}
+
+/// Folder and name that a path leads to, behind all links.
+struct OutputPlace {
+  struct stat folder {};
+  std::string name;
+};
+
+std::optional<OutputPlace> output_place(const std::string& path) {
+  const std::string target = behind_links(path), folder = folder_of(target);
+  OutputPlace place;
+  place.name = target.substr(folder.size());
+  const bool there = ::stat(folder.empty() ? "." : folder.c_str(), &place.folder) == 0;
+  return there && !place.name.empty() ? std::optional(place) : std::nullopt;
+}
+
+bool is_one(const struct stat& a, const struct stat& b) {
+  return a.st_dev == b.st_dev && a.st_ino == b.st_ino;
 }
 
 Result<void> write_in_place(const std::string& path, std::string_view text) {
   const int file = ::open(path.c_str(), O_WRONLY | O_CLOEXEC);
-  if (file < 0) return outcome(path, errno);
-  return outcome(path, write_and_close(file, text));
+  if (file < 0) return outcome(path, errno, text.size());
+  const int reason = write_all(file, text);
+  const int closed = ::close(file) == 0 ? 0 : errno;
+  return outcome(path, reason != 0 ? reason : closed, text.size());
 }
 
 }  // namespace
@@ -101,19 +100,51 @@ Result<void> write_in_place(const std::string& path, std::string_view text) {
 Result<void> write_file(const std::string& path, std::string_view text) {
   if (path == "-") {
     // What others printed through stdio comes first.
-    if (std::fflush(stdout) != 0) return outcome("standard output", errno);
-    return outcome("standard output", write_all(STDOUT_FILENO, text));
+    const int reason = std::fflush(stdout) != 0 ? errno : write_all(STDOUT_FILENO, text);
+    return outcome("standard output", reason, text.size());
   }
   struct stat old {};
   if (::stat(path.c_str(), &old) != 0) {
-    if (errno != ENOENT) return outcome(path, errno);
+    if (errno != ENOENT) return outcome(path, errno, text.size());
     return replace(path, text, nullptr);
   }
-  if (S_ISDIR(old.st_mode)) return outcome(path, EISDIR);
+  if (S_ISDIR(old.st_mode)) return outcome(path, EISDIR, text.size());
   // Devices and pipes cannot be replaced, only written to.
   if (!S_ISREG(old.st_mode)) return write_in_place(path, text);
-  if (::access(path.c_str(), W_OK) != 0) return outcome(path, errno);
+  if (::access(path.c_str(), W_OK) != 0) return outcome(path, errno, text.size());
   return replace(path, text, &old);
+}
+
+bool same_file(const std::string& a, const std::string& b) {
+  struct stat at_a {
+  }, at_b{};
+  const bool a_is = ::stat(a.c_str(), &at_a) == 0, b_is = ::stat(b.c_str(), &at_b) == 0;
+  if (a_is && b_is) return S_ISREG(at_a.st_mode) && is_one(at_a, at_b);
+  if (a_is != b_is) return false;
+  const auto place_a = output_place(a), place_b = output_place(b);
+  if (!place_a || !place_b) return a == b;
+  return place_a->name == place_b->name && is_one(place_a->folder, place_b->folder);
+}
+
+Result<void> check_outputs(std::span<const std::string> outputs,
+                           std::span<const std::string> inputs) {
+  const auto refused = [](const std::string& path, const char* why) {
+    return fail({ErrorCode::kBadOption, why, path, "choose another name"});
+  };
+  for (std::size_t i = 0; i < outputs.size(); ++i) {
+    for (const std::string& input : inputs) {
+      // what is redirected to standard input is a file with a name, too
+      if (same_file(outputs[i], input == "-" ? "/dev/stdin" : input)) {
+        return refused(outputs[i], "the output would replace the input");
+      }
+    }
+    for (std::size_t k = 0; k < i; ++k) {
+      if (same_file(outputs[i], outputs[k])) {
+        return refused(outputs[i], "two outputs would be the same file");
+      }
+    }
+  }
+  return {};
 }
 
 }  // namespace obvid

@@ -6,9 +6,6 @@
 #include <algorithm>
 #include <cctype>
 #include <filesystem>
-#include <fstream>
-#include <iostream>
-#include <sstream>
 
 #include "text_kind.h"
 #include "text_lines.h"
@@ -165,23 +162,6 @@ Result<Units> units_of_columns(const NumberRows& rows, string_view name) {
 Error error_at(ErrorCode code, std::string what, string_view name, std::size_t line,
                std::string hint) {
   return {code, std::move(what), fmt::format("{}:{}", name, line), std::move(hint), -1, 0.0};
-}
-
-Result<std::string> file_text(const std::string& path) {
-  if (path == "-") {
-    std::ostringstream text;
-    text << std::cin.rdbuf();
-    return text.str();
-  }
-  std::error_code ignored;
-  std::ifstream file(path, std::ios::binary);
-  std::ostringstream text;
-  const bool folder = std::filesystem::is_directory(path, ignored);
-  if (file && !folder) text << file.rdbuf();
-  if (file && !folder) return text.str();
-  return fail({ErrorCode::kCannotOpen,
-               folder ? "this is a folder, not a file" : "cannot read the file", path,
-               "check the path and the permissions", -1, 0.0});
 }
 
 std::string file_name(const std::string& path) {

@@ -48,8 +48,6 @@ struct NumberRows {
 [[nodiscard]] Error error_at(ErrorCode code, std::string what, std::string_view name,
                              std::size_t line, std::string hint = {});
 
-/// Whole text of a file. Error: E301.
-[[nodiscard]] Result<std::string> file_text(const std::string& path);
 /// Name without folders.
 [[nodiscard]] std::string file_name(const std::string& path);
 

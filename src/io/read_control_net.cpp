@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "number_rows.h"
+#include "obvid/io/read_file.h"
 #include "text_lines.h"
 #include "text_number.h"
 
@@ -228,7 +229,7 @@ Result<SurfaceModel> parse_control_net(string_view text, string_view name) {
 }
 
 Result<SurfaceModel> read_control_net(const std::string& path) {
-  const auto text = file_text(path);
+  const auto text = read_file(path);
   if (!text) return fail(text.error());
   auto model = parse_control_net(*text, path);
   if (model) model->name = std::filesystem::path(path).stem().string();

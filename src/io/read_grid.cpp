@@ -11,6 +11,7 @@
 #include <utility>
 
 #include "number_rows.h"
+#include "obvid/io/read_file.h"
 #include "text_number.h"
 
 namespace obvid {
@@ -53,7 +54,7 @@ std::string sibling(const std::string& path, std::size_t axis) {
 }
 
 Result<NumberRows> matrix(const std::string& path) {
-  const auto text = file_text(path);
+  const auto text = read_file(path);
   if (!text) return fail(text.error());
   auto rows = number_rows(*text, path);
   if (!rows) return rows;
@@ -357,7 +358,7 @@ Result<PointGrid> read_grid(const std::vector<std::string>& paths, const GridOpt
     return fail({ErrorCode::kUsage, "a grid is one file, or three whose names end in _x, _y, _z",
                  paths[1], "", -1, static_cast<double>(paths.size())});
   }
-  const auto text = file_text(paths.front());
+  const auto text = read_file(paths.front());
   if (!text) return fail(text.error());
   auto grid = parse_grid(*text, paths.front(), options);
   if (grid) grid->name = std::filesystem::path(paths.front()).stem().string();

@@ -2,14 +2,11 @@
 #include "obvid/io/read_points.h"
 
 #include <algorithm>
-#include <cerrno>
 #include <cmath>
-#include <cstdio>
-#include <cstring>
-#include <memory>
 #include <numbers>
 #include <utility>
 
+#include "obvid/io/read_file.h"
 #include "read_points_raw.h"
 #include "text_kind.h"
 #include "text_lines.h"
@@ -19,42 +16,7 @@ namespace {
 
 using std::string_view;
 
-// Bytes asked for at a time; large enough that the number of calls does not count.
-constexpr std::size_t kReadBlock = std::size_t{1} << 20U;
-
 constexpr std::size_t kMinDistinctPoints = 3;
-
-Error cannot_open(const std::string& path, int reason) {
-  Error error;
-  error.code = ErrorCode::kCannotOpen;
-  error.what = std::string("cannot read the file: ") + std::strerror(reason);
-  error.where = path;
-  error.hint = "check the path and the permissions";
-  return error;
-}
-
-Result<std::string> read_stream(std::FILE* stream, const std::string& path) {
-  std::string text;
-  std::size_t used = 0;
-  for (;;) {
-    text.resize(used + kReadBlock);
-    const std::size_t got = std::fread(text.data() + used, 1, kReadBlock, stream);
-    used += got;
-    if (got < kReadBlock) break;
-  }
-  if (std::ferror(stream) != 0) return fail(cannot_open(path, errno));
-  text.resize(used);
-  return text;
-}
-
-Result<std::string> read_text(const std::string& path) {
-  if (path == "-") return read_stream(stdin, "standard input");
-  errno = 0;
-  const std::unique_ptr<std::FILE, int (*)(std::FILE*)> file(std::fopen(path.c_str(), "rb"),
-                                                             &std::fclose);
-  if (!file) return fail(cannot_open(path, errno));
-  return read_stream(file.get(), path);
-}
 
 string_view base_name(string_view path) {
   const std::size_t slash = path.find_last_of('/');
@@ -172,7 +134,7 @@ Result<PointSeries> parse_points(string_view text, string_view name) {
 }
 
 Result<PointSeries> read_points(const std::string& path) {
-  const Result<std::string> text = read_text(path);
+  const Result<std::string> text = read_file(path);
   if (!text) return fail(text.error());
   return parse_points(*text, path == "-" ? string_view("standard input") : string_view(path));
 }

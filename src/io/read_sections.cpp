@@ -10,6 +10,7 @@
 
 #include "blade_table.h"
 #include "number_rows.h"
+#include "obvid/io/read_file.h"
 #include "obvid/io/read_grid.h"
 #include "obvid/io/read_points.h"
 
@@ -263,7 +264,7 @@ Result<std::vector<SpaceSeries>> blade_sections(const std::string& table_path,
                    static_cast<double>(station.airfoil)});
     }
     const std::string& path = airfoils[static_cast<std::size_t>(station.airfoil) - 1];
-    const auto text = file_text(path);
+    const auto text = read_file(path);
     if (!text) return fail(text.error());
     const auto airfoil = parse_airfoil_of_blade(*text, path);
     if (!airfoil) return fail(airfoil.error());
@@ -304,7 +305,7 @@ Result<std::vector<SpaceSeries>> read_sections(const std::vector<std::string>& p
   std::vector<SpaceSeries> sections;
   std::string flat_file, spatial_file;
   for (const std::string& path : paths) {
-    const auto text = file_text(path);
+    const auto text = read_file(path);
     if (!text) return fail(text.error());
     if (is_blade_table(*text)) {
       std::vector<std::string> airfoils;

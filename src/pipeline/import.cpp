@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
-#include <fstream>
 
 #include "drawn_series.h"
 #include "obvid/cad/cad.h"
@@ -18,21 +17,15 @@
 #include "obvid/exchange/svg_read.h"
 #include "obvid/io/contour_json.h"
 #include "obvid/io/file_kind.h"
+#include "obvid/io/read_file.h"
 #include "obvid/io/read_points.h"
-#include "text_of.h"
 
 namespace obvid {
 namespace {
 
 constexpr std::size_t kHead = 4096;  // bytes that tell the kind of a file
 
-std::string head_of(const std::string& path) {
-  std::ifstream file(path, std::ios::binary);
-  std::string head(kHead, '\0');
-  file.read(head.data(), static_cast<std::streamsize>(head.size()));
-  head.resize(static_cast<std::size_t>(std::max<std::streamsize>(file.gcount(), 0)));
-  return head;
-}
+std::string head_of(const std::string& path) { return head_of_file(path, kHead); }
 
 std::string name_of(const std::string& path) {
   return std::filesystem::path(path).filename().string();
@@ -199,7 +192,7 @@ bool is_drawing(const std::string& path) {
 Result<Drawing> read_drawing(const std::string& path) {
   const FileKind kind = file_kind(head_of(path));
   if (is_cad(kind)) return read_cad(path);
-  const auto text = pipeline_detail::text_of(path);
+  const auto text = read_file(path);
   if (!text) return tl::unexpected(text.error());
   return from_text(kind, *text, path);
 }

@@ -4,9 +4,9 @@
 
 #include "obvid/cad/cad.h"
 #include "obvid/io/read_control_net.h"
+#include "obvid/io/read_file.h"
 #include "obvid/io/surface_json.h"
 #include "obvid/pipeline/surface_job.h"
-#include "text_of.h"
 
 namespace obvid {
 namespace {
@@ -19,7 +19,7 @@ bool starts_with_brace(const std::string& text) {
 }  // namespace
 
 Result<SurfaceModel> read_surface(const std::string& path, std::vector<std::string>& warnings) {
-  const Result<std::string> text = pipeline_detail::text_of(path);
+  const Result<std::string> text = read_file(path);
   if (!text) return fail(text.error());
   if (starts_with_brace(*text)) return surface_from_json(*text, path);
   if (!is_cad_text(*text)) {

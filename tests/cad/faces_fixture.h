@@ -8,6 +8,7 @@
 #include <fstream>
 #include <string>
 
+#include "built_cad.h"
 #include "faces_models.h"
 #include "obvid/cad/cad.h"
 
@@ -16,15 +17,11 @@ namespace obvid {
 constexpr CadFormat kAllCadFormats[] = {CadFormat::kStepAp214, CadFormat::kStepAp242,
                                         CadFormat::kIges, CadFormat::kBrep};
 
-/// Files of faces in a folder of their own; skipped where the plugin is missing.
+/// Files of faces in a folder of their own; skipped where the helper is not built.
 class FaceFiles : public testing::Test {
  protected:
   void SetUp() override {
-    const auto text = cad_surface_text(plane_model().model, {});
-    if (!text && text.error().code == ErrorCode::kUnsupported) {
-      GTEST_SKIP() << "the plugin is not built: " << text.error().what;
-    }
-    ASSERT_TRUE(text) << to_line(text.error());
+    if (kCadIsMissing) GTEST_SKIP() << kCadMissing;
     std::string pattern = (std::filesystem::temp_directory_path() / "obvid-test-XXXXXX").string();
     ASSERT_NE(::mkdtemp(pattern.data()), nullptr);
     folder_ = pattern;

@@ -11,6 +11,7 @@
 #include <sstream>
 #include <string>
 
+#include "built_cad.h"
 #include "obvid/cad/cad.h"
 
 namespace obvid {
@@ -24,8 +25,7 @@ constexpr CadFormat kAllFormats[] = {CadFormat::kStepAp214, CadFormat::kStepAp24
 class CadFormats : public testing::Test {
  protected:
   void SetUp() override {
-    const auto text = cad_text({{"line", std::vector<Piece>{LinePiece{{0, 0}, {1, 0}}}}}, {});
-    if (!text) GTEST_SKIP() << "the plugin is not built: " << text.error().what;
+    if (kCadIsMissing) GTEST_SKIP() << kCadMissing;
     std::string pattern = (fs::temp_directory_path() / "obvid-test-XXXXXX").string();
     ASSERT_NE(::mkdtemp(pattern.data()), nullptr);
     folder_ = pattern;

@@ -12,6 +12,7 @@
 #include <sstream>
 #include <string>
 
+#include "built_cad.h"
 #include "command_output.h"
 #include "faces_models.h"
 #include "obvid/cad/cad.h"
@@ -60,11 +61,7 @@ class FacesInFreecad : public testing::Test {
  protected:
   void SetUp() override {
     if (output_of("command -v freecadcmd").empty()) GTEST_SKIP() << "FreeCAD is not installed";
-    const auto text = cad_surface_text(plane_model().model, {});
-    if (!text && text.error().code == ErrorCode::kUnsupported) {
-      GTEST_SKIP() << "the plugin for CAD files is not built: " << text.error().what;
-    }
-    ASSERT_TRUE(text) << to_line(text.error());
+    if (kCadIsMissing) GTEST_SKIP() << kCadMissing;
     std::string pattern = (fs::temp_directory_path() / "obvid-test-XXXXXX").string();
     ASSERT_NE(::mkdtemp(pattern.data()), nullptr);
     folder_ = pattern;

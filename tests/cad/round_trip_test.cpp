@@ -11,6 +11,7 @@
 #include <sstream>
 
 #include "../common/ten_points.h"
+#include "built_cad.h"
 #include "obvid/cad/cad.h"
 #include "obvid/curve/bspline.h"
 #include "obvid/curve/joined_nurbs.h"
@@ -29,10 +30,7 @@ class CadFiles : public testing::Test {
     std::string pattern = (fs::temp_directory_path() / "obvid-test-XXXXXX").string();
     ASSERT_NE(::mkdtemp(pattern.data()), nullptr);
     folder_ = pattern;
-    const auto text = cad_text({{"line", std::vector<Piece>{LinePiece{{0, 0}, {1, 0}}}}}, {});
-    if (!text && text.error().code == ErrorCode::kUnsupported) {
-      GTEST_SKIP() << "the plugin is not built: " << text.error().what;
-    }
+    if (kCadIsMissing) GTEST_SKIP() << kCadMissing;
   }
   void TearDown() override { fs::remove_all(folder_); }
 

@@ -199,8 +199,8 @@ def main():
             print("skipped: " + data["name"] + " (no pseudo-terminals here)")
             skipped += 1
             continue
-        if data.get("cad") and not (pathlib.Path(program).parent / "obvid_cad.so").exists():
-            print("skipped: " + data["name"] + " (the plugin for CAD files is not built)")
+        if data.get("cad") and not (pathlib.Path(program).parent / "obvid-cad").exists():
+            print("skipped: " + data["name"] + " (the helper for CAD files is not built)")
             skipped += 1
             continue
         faults = Case(data, str(pathlib.Path(program).resolve()), pathlib.Path(examples)).run()

@@ -3,37 +3,24 @@
 
 #include <gtest/gtest.h>
 #include <sys/stat.h>
+#include <sys/wait.h>
 #include <unistd.h>
 
+#include <csignal>
 #include <filesystem>
 #include <fstream>
-#include <iterator>
 #include <string>
+#include <thread>
+
+#include "output_folder.h"
+#include "temporary_file.h"
 
 namespace obvid {
 namespace {
 
 namespace fs = std::filesystem;
 
-class WriteFile : public testing::Test {
- protected:
-  void SetUp() override {
-    std::string name = (fs::temp_directory_path() / "obvid-test-XXXXXX").string();
-    ASSERT_NE(::mkdtemp(name.data()), nullptr);
-    folder_ = name;
-  }
-  void TearDown() override { fs::remove_all(folder_); }
-
-  static std::string content(const fs::path& file) {
-    std::ifstream stream(file, std::ios::binary);
-    return {std::istreambuf_iterator<char>(stream), {}};
-  }
-  [[nodiscard]] std::ptrdiff_t entries() const {
-    return std::distance(fs::directory_iterator(folder_), fs::directory_iterator());
-  }
-
-  fs::path folder_;
-};
+class WriteFile : public OutputFolder {};
 
 TEST_F(WriteFile, CreatesAndReplacesWholeFilesAndLeavesNothingBeside) {
   const fs::path file = folder_ / "out.json";
@@ -70,6 +57,88 @@ TEST_F(WriteFile, ALinkStaysALink) {
   EXPECT_EQ(content(file), "b");
 }
 
+TEST_F(WriteFile, ALinkToWhatIsNotThereYetStaysALinkAndLeadsToTheFile) {
+  fs::create_directory(folder_ / "sub");
+  fs::create_symlink("sub/second", folder_ / "first");
+  fs::create_symlink("../real", folder_ / "sub" / "second");
+  ASSERT_TRUE(write_file((folder_ / "first").string(), "a"));
+  EXPECT_TRUE(fs::is_symlink(folder_ / "first"));
+  EXPECT_TRUE(fs::is_symlink(folder_ / "sub" / "second"));
+  EXPECT_EQ(content(folder_ / "real"), "a");
+  EXPECT_EQ(entries(), 3);
+}
+
+TEST_F(WriteFile, LinksInACircleAreRefused) {
+  fs::create_symlink("b", folder_ / "a");
+  fs::create_symlink("a", folder_ / "b");
+  const auto written = write_file((folder_ / "a").string(), "x");
+  ASSERT_FALSE(written);
+  EXPECT_EQ(written.error().code, ErrorCode::kWriteFailed);
+  EXPECT_EQ(entries(), 2);
+}
+
+TEST_F(WriteFile, OfSeveralNamesOfAFileTheOneGivenGetsTheNewContent) {
+  const fs::path one = folder_ / "one", other = folder_ / "other";
+  ASSERT_TRUE(write_file(one.string(), "old"));
+  fs::create_hard_link(one, other);
+  ASSERT_TRUE(write_file(one.string(), "new"));
+  EXPECT_EQ(content(one), "new");
+  EXPECT_EQ(content(other), "old");
+}
+
+TEST_F(WriteFile, WhatAKilledWriterLeftIsRemovedByTheNextOne) {
+  const std::string file = (folder_ / "out.json").string();
+  for (int round = 0; round < 3; ++round) {
+    const pid_t child = ::fork();
+    if (child == 0) {
+      TemporaryFile half(file, nullptr);
+      if (half.write("half") == 0) ::raise(SIGKILL);
+      ::_exit(1);
+    }
+    int status = 0;
+    ASSERT_EQ(::waitpid(child, &status, 0), child);
+    ASSERT_TRUE(WIFSIGNALED(status));
+    EXPECT_EQ(entries(), 1);  // the third one has removed what the second one left
+  }
+  ASSERT_TRUE(write_file(file, "whole"));
+  EXPECT_EQ(entries(), 1);
+  EXPECT_EQ(content(file), "whole");
+}
+
+TEST_F(WriteFile, WhatAnotherWriterIsWorkingOnIsLeftAlone) {
+  const std::string file = (folder_ / "out.json").string();
+  TemporaryFile other(file, nullptr);
+  ASSERT_EQ(other.write("other"), 0);
+  ASSERT_TRUE(write_file(file, "mine"));
+  EXPECT_EQ(content(file), "mine");
+  EXPECT_EQ(content(other.name()), "other");
+  EXPECT_EQ(other.take_place(), 0);
+  EXPECT_EQ(content(file), "other");
+  EXPECT_EQ(entries(), 1);
+}
+
+TEST_F(WriteFile, WritersOfOneFileAtOnceDoNotMix) {
+  const std::string file = (folder_ / "out.json").string();
+  const std::string texts[] = {std::string(100'000, 'a'), std::string(50'000, 'b')};
+  bool good[] = {true, true};
+  std::thread writers[2];
+  for (int k = 0; k < 2; ++k) {
+    writers[k] = std::thread([&, k] {
+      for (int i = 0; i < 50; ++i) good[k] = write_file(file, texts[k]).has_value() && good[k];
+    });
+  }
+  for (std::thread& writer : writers) writer.join();
+  EXPECT_TRUE(good[0] && good[1]);
+  EXPECT_TRUE(content(file) == texts[0] || content(file) == texts[1]);
+  EXPECT_EQ(entries(), 1);
+}
+
+TEST_F(WriteFile, LongNamesAreWritten) {
+  const fs::path file = folder_ / std::string(255, 'n');
+  ASSERT_TRUE(write_file(file.string(), "a"));
+  EXPECT_EQ(entries(), 1);
+}
+
 TEST_F(WriteFile, DevicesAreWrittenTo) { EXPECT_TRUE(write_file("/dev/null", "gone")); }
 
 TEST_F(WriteFile, SaysWhyItCouldNotWriteAndLeavesNothing) {
@@ -87,14 +156,21 @@ TEST_F(WriteFile, SaysWhyItCouldNotWriteAndLeavesNothing) {
 }
 
 TEST_F(WriteFile, AFolderWithoutPermissionIsRefusedAndTheOldFileStays) {
-  if (::geteuid() == 0) GTEST_SKIP() << "root may write everywhere";
   const fs::path file = folder_ / "out.json";
   ASSERT_TRUE(write_file(file.string(), "old"));
-  fs::permissions(folder_, fs::perms(0500));
-  const auto written = write_file(file.string(), "new");
+  fs::permissions(file, fs::perms(0666));
+  fs::permissions(folder_, fs::perms(0555));
+  constexpr uid_t kSomebody = 1234;  // for whom permissions hold, unlike for root
+  const pid_t child = ::fork();
+  if (child == 0) {
+    if (::geteuid() == 0 && ::setresuid(kSomebody, kSomebody, kSomebody) != 0) ::_exit(2);
+    const auto written = write_file(file.string(), "new");
+    ::_exit(!written && written.error().code == ErrorCode::kWriteFailed ? 0 : 1);
+  }
+  int status = 1;
+  ASSERT_EQ(::waitpid(child, &status, 0), child);
   fs::permissions(folder_, fs::perms(0700));
-  ASSERT_FALSE(written.has_value());
-  EXPECT_EQ(written.error().code, ErrorCode::kWriteFailed);
+  EXPECT_EQ(status, 0);
   EXPECT_EQ(content(file), "old");
   EXPECT_EQ(entries(), 1);
 }

@@ -13,6 +13,7 @@ namespace obvid {
 enum class ErrorCode : int {
   kInternal = 101,
   kWriteFailed = 102,
+  kCancelled = 103,
   kUsage = 201,
   kUnknownFormat = 202,
   kBadOption = 203,

@@ -54,7 +54,7 @@ struct IdSplineOptions {
 /// (`index`: the node or cell); E304 fewer than two nodes; E309 steps or data so large or small
 /// that the spline has no finite data; E402 nodes that do not ascend (`index`: the first that is
 /// not greater than the one before); E405 at degree 6 with `kValuesFree` when neighbouring steps
-/// differ by a factor of more than 300 (`value`: the factor): the equations would lose more than
+/// differ by a factor of more than 100,000 (`value`: the factor): the equations would lose more than
 /// half of the digits there.
 [[nodiscard]] Result<IdSpline> id_spline(IdSplineData data, const IdSplineOptions& options = {});
 

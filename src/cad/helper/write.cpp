@@ -2,7 +2,6 @@
 #include "write.h"
 
 #include <algorithm>
-#include <mutex>
 #include <utility>
 
 #include "faces.h"
@@ -11,8 +10,6 @@
 
 namespace obvid::cad {
 namespace {
-
-std::mutex one_at_a_time;  // the kernel keeps its settings in global variables
 
 /// Names of files have no line ends and other signs of control.
 std::string on_one_line(std::string name) {
@@ -28,7 +25,6 @@ std::string on_one_line(std::string name) {
 
 Result<std::string> write_text(const std::vector<CadCurve>& curves,
                                const CadWriteOptions& options) {
-  const std::lock_guard lock(one_at_a_time);
   const auto scale = scale_of(options.format, options.units);
   if (!scale) return fail(scale.error());
   const auto shape = shape_of(curves, *scale, options.face_width);
@@ -39,7 +35,6 @@ Result<std::string> write_text(const std::vector<CadCurve>& curves,
 }
 
 Result<std::string> write_surfaces(const SurfaceModel& model, const CadWriteOptions& options) {
-  const std::lock_guard lock(one_at_a_time);
   const auto scale = scale_of(options.format, model.units);
   if (!scale) return fail(scale.error());
   auto faces = faces_of(model, *scale);

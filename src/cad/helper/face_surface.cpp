@@ -20,6 +20,7 @@
 #include <TopoDS_Edge.hxx>
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <utility>
 
 #include "obvid/surface/surface.h"
@@ -145,7 +146,7 @@ Result<NurbsSurface> revolution_over(const Handle(Geom_SurfaceOfRevolution) & su
   const auto made = to_nurbs(RevolutionSurface{*std::move(profile),
                                                {on.X(), on.Y(), on.Z()},
                                                {along.X(), along.Y(), along.Z()},
-                                               std::min(box.u.length(), 2.0 * M_PI)},
+                                               std::min(box.u.length(), 2.0 * std::numbers::pi)},
                              kApproximation);  // not needed: exact
   if (!made) return fail(made.error());
   return transposed(made->surface);  // the kernel turns along u

@@ -14,6 +14,7 @@
 #include <TColgp_Array1OfPnt.hxx>
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <optional>
 
 #include "obvid/curve/bspline.h"
@@ -158,7 +159,7 @@ void add_arcs(const EdgeCurve& curve, const Plane& plane, std::vector<Piece>& pi
     const Vec2 turned = {from.x * std::cos(part) - from.y * std::sin(part),
                          from.x * std::sin(part) + from.y * std::cos(part)};
     const double angle = std::atan2(from.y, from.x);
-    const double theta = angle + std::copysign(0.5 * M_PI, part);
+    const double theta = angle + std::copysign(0.5 * std::numbers::pi, part);
     pieces.emplace_back(ArcPiece{centre + from, centre + turned, theta,
                                  std::copysign(1.0 / radius, part), std::abs(part) * radius});
     from = turned;

@@ -1,0 +1,124 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
+"""Licences: every source file says its own, every data file has its source and licence listed.
+
+usage: house_test.py PROJECT_FOLDER
+"""
+import os
+import pathlib
+import re
+import subprocess
+import sys
+import tempfile
+import unittest
+
+ROOT = pathlib.Path(sys.argv[1]).resolve()
+
+# Folders whose files are data: listed with source and licence in tests/data/README.md.
+DATA_FOLDERS = ("tests/data", "tests/fuzz/corpus", "examples")
+# Neither sources nor data: prose, its pictures, and files whose form has no room for a comment.
+PROSE = {".md", ".svg", ".png", ".jpg", ".gif"}
+WITHOUT_COMMENTS = {"LICENSE", "NOTICE", "VERSION", "CMakePresets.json"}
+SPDX = "SPDX-License-Identifier: Apache-2.0"
+HEAD_LINES = 3  # a line that starts the program may come before
+
+
+def project_files(root):
+    """Files of the project, from its folder: what git would take, or all without git."""
+    listed = subprocess.run(["git", "-C", root, "ls-files", "-co", "--exclude-standard", "-z"],
+                            capture_output=True)
+    if listed.returncode == 0:
+        names = listed.stdout.decode().split("\0")
+        return [pathlib.PurePosixPath(name) for name in names if name and (root / name).is_file()]
+    out = []
+    for folder, folders, names in os.walk(root):
+        folders[:] = [f for f in folders if f not in ("build", ".git", "__pycache__", ".cache")]
+        out += [pathlib.PurePosixPath(os.path.relpath(os.path.join(folder, n), root))
+                for n in names]
+    return out
+
+
+def is_data(path):
+    inside = any(str(path).startswith(folder + "/") for folder in DATA_FOLDERS)
+    return inside and path.suffix not in (".cpp", ".h", ".py", ".md")
+
+
+def without_licence(root, files):
+    faults = []
+    for path in files:
+        if is_data(path) or path.suffix in PROSE or path.name in WITHOUT_COMMENTS:
+            continue
+        with open(root / path, encoding="utf-8", errors="replace") as text:
+            head = [text.readline() for _ in range(HEAD_LINES)]
+        if not any(SPDX in line for line in head):
+            faults.append(str(path))
+    return faults
+
+
+def listed_data(readme):
+    """Names in the first cells of the table rows: `tests/data/...`."""
+    return re.findall(r"^\| `([^`]+)` \|", readme, re.MULTILINE)
+
+
+def data_faults(root, files):
+    rows = listed_data((root / "tests/data/README.md").read_text(encoding="utf-8"))
+    data = [str(path) for path in files if is_data(path)]
+    faults = [f"{name} is not listed" for name in data if name not in rows]
+    faults += [f"{name} is listed and not there" for name in rows if name not in data]
+    faults += [f"{name} is listed twice" for name in set(rows) if rows.count(name) > 1]
+    return faults
+
+
+class House(unittest.TestCase):
+    def test_every_source_file_says_its_licence(self):
+        files = project_files(ROOT)
+        self.assertGreater(len(files), 500)
+        self.assertEqual(without_licence(ROOT, files), [])
+
+    def test_every_data_file_has_its_source_and_licence_listed(self):
+        files = project_files(ROOT)
+        self.assertGreater(sum(map(is_data, files)), 40)
+        self.assertEqual(data_faults(ROOT, files), [])
+
+    def test_every_row_of_the_list_has_a_source_and_a_licence(self):
+        for line in (ROOT / "tests/data/README.md").read_text(encoding="utf-8").splitlines():
+            if line.startswith("| `"):
+                cells = [cell.strip() for cell in line.strip("|").split("|")]
+                self.assertEqual(len(cells), 3, line)
+                self.assertTrue(all(cells), line)
+
+    def test_the_copyright_holder_is_one(self):
+        line = "Copyright 2026 The Obvid authors"
+        for name in ("LICENSE", "NOTICE"):
+            self.assertIn(line, (ROOT / name).read_text(encoding="utf-8"), name)
+
+    def test_what_is_linked_is_in_the_notice(self):
+        notice = (ROOT / "NOTICE").read_text(encoding="utf-8")
+        packages = (ROOT / "tools/install_packages").read_text(encoding="utf-8")
+        wanted = re.search(r'build_packages="([^"]*)"', packages)[1].split()
+        wanted += re.search(r'cad_packages="([^"]*)"', packages)[1].split()
+        libraries = [name for name in wanted if name.endswith("-dev")]
+        self.assertGreater(len(libraries), 5)
+        for name in libraries:
+            self.assertIn(name, notice)
+
+    def test_the_checks_see(self):
+        with tempfile.TemporaryDirectory() as name:
+            root = pathlib.Path(name)
+            files = {"a.cpp": f"// {SPDX}\n", "b.cpp": "int x;\n", "tool": "#!/bin/sh\n",
+                     "README.md": "no licence\n", "tests/data/known": "1\n",
+                     "tests/data/unknown": "2\n",
+                     "tests/data/README.md": "| `tests/data/known` | ours | Apache-2.0 |\n"
+                                             "| `tests/data/gone` | ours | Apache-2.0 |\n"}
+            for path, text in files.items():
+                (root / path).parent.mkdir(parents=True, exist_ok=True)
+                (root / path).write_text(text)
+            found = [pathlib.PurePosixPath(path) for path in files]
+            self.assertEqual(without_licence(root, found), ["b.cpp", "tool"])
+            self.assertEqual(data_faults(root, found),
+                             ["tests/data/unknown is not listed",
+                              "tests/data/gone is listed and not there"])
+
+
+if __name__ == "__main__":
+    unittest.main(argv=sys.argv[:1])
