@@ -4,6 +4,8 @@
 #include <array>
 #include <utility>
 
+#include "obvid/toolpath/toolpath.h"
+
 namespace obvid::toolpath {
 
 double millimetres(const std::string& units) {
@@ -23,3 +25,14 @@ double millimetres(const std::string& units) {
 double machine_scale(const std::string& units) { return units == "in" ? 1.0 : millimetres(units); }
 
 }  // namespace obvid::toolpath
+
+namespace obvid {
+
+double millimetres_of(const std::string& units) { return toolpath::millimetres(units); }
+
+ToolpathFeeds default_feeds(const std::string& units) {
+  constexpr ToolpathFeeds kMillimetres{1000.0, 300.0, 5000.0}, kInches{40.0, 12.0, 200.0};
+  return units == "in" ? kInches : kMillimetres;
+}
+
+}  // namespace obvid

@@ -9,8 +9,7 @@ namespace {
 
 constexpr double kFloor = 0.1;       // of the level step
 constexpr double kOfDiameter = 0.8;  // flat bottoms overlap
-constexpr double kOfScallop = 0.95;  // aimed at
-constexpr double kWall = 1e-6;       // z of normals taken for walls
+constexpr double kUpright = 1e-6;    // z of normals taken for walls
 
 double bend_along(const Bends& bends, Vec3 direction) {
   const double c = dot(direction, bends.direction1), c2 = std::min(1.0, c * c);
@@ -33,6 +32,11 @@ BodyBends body_bends(const CutterShape& cutter, double scallop, double sine, dou
 
 }  // namespace
 
+double print_within(const ToolpathOptions& options) {
+  const double share = kPrintShare * options.tolerance;
+  return options.scallop ? std::min(share, kScallopPrint * *options.scallop) : share;
+}
+
 double StepForm::along(Vec2 d) const {
   return 1.0 / std::sqrt(xx * d.x * d.x + 2.0 * xy * d.x * d.y + yy * d.y * d.y);
 }
@@ -40,7 +44,7 @@ double StepForm::along(Vec2 d) const {
 StepRule::StepRule(const CutterShape& cutter, const ToolpathOptions& options) : cutter_(cutter) {
   level_ = kOfDiameter * 2.0 * cutter.radius;
   if (options.scallop) {
-    scallop_ = kOfScallop * *options.scallop;
+    scallop_ = kScallopAim * *options.scallop;
     const double h = std::min(scallop_, cutter.corner);
     const double round = 2.0 * std::sqrt(std::max(0.0, h * (2.0 * cutter.corner - h)));
     level_ = std::min(level_, kOfDiameter * 2.0 * cutter.flat() + round);
@@ -63,7 +67,7 @@ double StepRule::on_surface(double cutter_bend, double bend) const {
 StepForm StepRule::form(const Part& part, const Place& place) const {
   const Bends bends = part.bends(place);
   const Vec3 n = place.normal;
-  const double sine = std::hypot(n.x, n.y), cosine = std::max(n.z, kWall);
+  const double sine = std::hypot(n.x, n.y), cosine = std::max(n.z, kUpright);
   if (scallop_ <= 0.0) return level_form();
   const Vec2 down = sine > 0.0 ? Vec2{n.x / sine, n.y / sine} : Vec2{1.0, 0.0};
   const Vec3 slope{down.x * cosine, down.y * cosine, -sine}, level{-down.y, down.x, 0.0};
@@ -85,7 +89,7 @@ double StepRule::across(const Part& part, const Place& place, Vec3 along) const 
   if (scallop_ <= 0.0) return level_;
   const Bends bends = part.bends(place);
   const Vec3 n = place.normal, across = unit(cross(n, along));
-  const double sine = std::hypot(n.x, n.y), cosine = std::max(n.z, kWall);
+  const double sine = std::hypot(n.x, n.y), cosine = std::max(n.z, kUpright);
   const BodyBends body = body_bends(cutter_, scallop_, sine, cosine);
   const Vec3 level = sine > 0.0 ? Vec3{-n.y / sine, n.x / sine, 0.0} : across;
   const double c = dot(across, level), c2 = std::min(1.0, c * c);
