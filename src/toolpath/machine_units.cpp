@@ -31,8 +31,8 @@ namespace obvid {
 double millimetres_of(const std::string& units) { return toolpath::millimetres(units); }
 
 ToolpathFeeds default_feeds(const std::string& units) {
-  constexpr ToolpathFeeds kMillimetres{1000.0, 300.0, 5000.0}, kInches{40.0, 12.0, 200.0};
-  return units == "in" ? kInches : kMillimetres;
+  const bool inches = units == "in";
+  return {default_feed(units), inches ? 12.0 : 300.0, inches ? 200.0 : 5000.0};
 }
 
 }  // namespace obvid
