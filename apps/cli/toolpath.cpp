@@ -138,15 +138,15 @@ Result<Made> made_from(const ToolpathCommand& command, std::vector<ToolpathOutpu
   return made;
 }
 
-std::string share_text(double area, double all) {
+std::string area_share(double area, double all) {
   return area > 0.0 && all > 0.0 ? fmt::format("{} %", significant(100.0 * area / all, 3)) : "none";
 }
 
-std::string place_text(Vec3 p) {
+std::string toolpath_place(Vec3 p) {
   return fmt::format("{} {} {}", significant(p.x, 6), significant(p.y, 6), significant(p.z, 6));
 }
 
-std::string report_text(const Made& made, const std::vector<std::string>& files) {
+std::string toolpath_text(const Made& made, const std::vector<std::string>& files) {
   const ToolpathReport& r = made.path.report;
   const std::string& unit = made.path.units;
   Facts facts;
@@ -156,19 +156,20 @@ std::string report_text(const Made& made, const std::vector<std::string>& files)
                                   unit, significant(r.rapid_length, 5), unit));
   facts.add("time", fmt::format("{} minutes at the stated feeds, without acceleration",
                                 significant(r.minutes, 3)));
-  facts.add("scallop", fmt::format("{} {} where the cutter reaches, at {}; {} nowhere exceeded",
-                                   significant(r.scallop.found, 3), unit,
-                                   place_text(r.scallop.place), significant(r.scallop.most, 3)));
+  facts.add("scallop",
+            fmt::format("{} {} where the cutter reaches, at {}; {} nowhere exceeded",
+                        significant(r.scallop.found, 3), unit, toolpath_place(r.scallop.place),
+                        significant(r.scallop.most, 3)));
   facts.add("gouges",
             fmt::format("{} {} the deepest found, none beyond {}; avoided by lifting at {} points",
                         significant(r.gouge.found, 3), unit, significant(r.gouge.most, 3),
                         r.lifted_points));
-  facts.add("not seen from above", share_text(r.hidden_area, r.surface_area));
+  facts.add("not seen from above", area_share(r.hidden_area, r.surface_area));
   facts.add("not reached",
-            share_text(r.unreached_area, r.surface_area) +
+            area_share(r.unreached_area, r.surface_area) +
                 (r.unreached_area > 0.0
                      ? fmt::format(", up to {} {} left at {}", significant(r.unreached_depth, 3),
-                                   unit, place_text(r.unreached_place))
+                                   unit, toolpath_place(r.unreached_place))
                      : ""));
   facts.add("program", fmt::format("{} blocks, {} of them arcs; read back and simulated at places "
                                    "{} {} apart and nearer",
@@ -187,7 +188,7 @@ void add_measured(JsonText& json, const char* name, const ToolpathReport::Measur
   json.end_array().end_object();
 }
 
-std::string report_json(const Made& made, const std::vector<std::string>& files) {
+std::string toolpath_json(const Made& made, const std::vector<std::string>& files) {
   const ToolpathReport& r = made.path.report;
   JsonText json;
   json.begin_object().pair("units", made.path.units).pair("passes", r.passes);
@@ -212,7 +213,7 @@ std::string report_json(const Made& made, const std::vector<std::string>& files)
 }
 
 /// Exit code 5 where something is not so that was asked for; the files are written all the same.
-int judge(const Made& made) {
+int judge_toolpath(const Made& made) {
   int code = 0;
   for (Error error : made.path.not_kept) {
     error.hint = "the files were written" + (error.hint.empty() ? "" : "; " + error.hint);
@@ -244,12 +245,12 @@ int run(const ToolpathCommand& command) {
   warn(made->warnings);
   std::string text;
   if (command.json) {
-    text = report_json(*made, files);
+    text = toolpath_json(*made, files);
   } else if (!command.quiet) {
-    text = report_text(*made, files);
+    text = toolpath_text(*made, files);
   }
   if (auto done = put(text); !done) return report(done.error());
-  return judge(*made);
+  return judge_toolpath(*made);
 }
 
 }  // namespace obvid

@@ -92,7 +92,7 @@ Result<void> pick(const std::map<std::string, Value>& values, const std::string&
   return value_named(values, typed, option).map([&](Value value) { into = value; });
 }
 
-Result<void> set_names(RawToolpath& raw) {
+Result<void> set_toolpath_names(RawToolpath& raw) {
   ToolpathCommand& command = raw.command;
   ToolpathOptions& plan = command.plan;
   return pick<CutterKind>({{"ball", CutterKind::kBall},
@@ -117,10 +117,10 @@ Result<void> set_names(RawToolpath& raw) {
       });
 }
 
-Result<Command> checked(const CLI::App& app, RawToolpath& raw) {
+Result<Command> checked_toolpath(const CLI::App& app, RawToolpath& raw) {
   ToolpathCommand& command = raw.command;
   if (auto done = check_extras(app, app.remaining(), "toolpath"); !done) return fail(done.error());
-  if (auto done = set_names(raw); !done) return fail(done.error());
+  if (auto done = set_toolpath_names(raw); !done) return fail(done.error());
   if (command.input.empty()) {
     return fail(usage("toolpath needs a surface", "see obvid toolpath --help"));
   }
@@ -168,7 +168,7 @@ Result<Command> parse_toolpath(int argc, const char* const* argv) {
   } catch (const CLI::ParseError& error) {
     return fail(from_cli(error, "toolpath"));
   }
-  return checked(app, raw);
+  return checked_toolpath(app, raw);
 }
 
 }  // namespace obvid

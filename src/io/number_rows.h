@@ -2,11 +2,13 @@
 #pragma once
 
 #include <cstddef>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
 
 #include "obvid/core/result.h"
+#include "text_digits.h"
 
 namespace obvid {
 
@@ -27,6 +29,10 @@ struct NumberRows {
     std::string text;
   };
   std::vector<Title> titles;
+  std::vector<text::ColumnDigits> digits;  ///< of the numbers, by their place in their rows
+
+  /// Half a unit of the last digit printed in these columns; 0 for those that are not there.
+  [[nodiscard]] std::vector<double> rounding(std::span<const int> columns) const;
 };
 
 /// Rows of numbers of any length, separated as `read_points` allows; comments and blank lines are
@@ -36,6 +42,9 @@ struct NumberRows {
 
 /// Column of this name, by case; -1 when there is none.
 [[nodiscard]] int column_named(const NumberRows& rows, std::string_view name);
+
+/// A matrix of numbers: rows of equal length, too long for points x y z with a number.
+[[nodiscard]] bool is_matrix(const NumberRows& rows);
 
 /// Error at a line of a file.
 [[nodiscard]] Error error_at(ErrorCode code, std::string what, std::string_view name,

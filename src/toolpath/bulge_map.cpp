@@ -9,10 +9,10 @@ namespace obvid::toolpath {
 namespace {
 
 constexpr float kEndless = std::numeric_limits<float>::infinity();
-constexpr double kCellOfRadius = 0.5, kLongestOfRadius = 0.5;
-constexpr double kMostCells = 4e6;
-constexpr double kMargin = 1.5;    // for what lies between the vertices of a triangle
-constexpr double kUpright = 0.02;  // z of normals: beyond, heights say nothing
+constexpr double kMapCellOfRadius = 0.5, kLongestOfRadius = 0.5;
+constexpr double kMostMapCells = 4e6;
+constexpr double kBulgeMargin = 1.5;    // for what lies between the vertices of a triangle
+constexpr double kUprightBulge = 0.02;  // z of normals: beyond, heights say nothing
 
 /// How the height bends, seen from above: second derivatives by x and y.
 struct HeightBend {
@@ -35,7 +35,7 @@ double bulge_at(const NurbsSurface& surface, double u, double v, const std::opti
   const SurfaceJet jet = evaluate(surface, u, v);
   const Vec3 across = cross(jet.du, jet.dv);
   const double size = norm(across);
-  if (!(std::abs(across.z) > kUpright * size)) return kEndless;
+  if (!(std::abs(across.z) > kUprightBulge * size)) return kEndless;
   const Vec3 n = (across.z < 0.0 ? -1.0 : 1.0) / size * across;
   // heights bend as the surface does along the ways of u and v that lie straight seen from above
   const double l = dot(n, jet.duu) / n.z, m = dot(n, jet.duv) / n.z, k = dot(n, jet.dvv) / n.z;
@@ -63,7 +63,7 @@ std::vector<double> bulges(const Part& part, const std::optional<Vec2>& directio
   for (const FieldTriangle& t : triangles) {
     double most = t.rough ? kEndless : 0.0;
     for (const std::uint32_t k : meshes[t.mesh].triangles[t.number]) {
-      most = std::max(most, kMargin * of_vertex[t.mesh][k]);
+      most = std::max(most, kBulgeMargin * of_vertex[t.mesh][k]);
     }
     out.push_back(most);
   }
@@ -78,7 +78,7 @@ BulgeMap::BulgeMap(const Part& part, std::optional<Vec2> direction)
   const Vec3 low = part.field().low(), high = part.field().high();
   const double over = 2.0 * r + longest_;
   const double dx = high.x - low.x + 2.0 * over, dy = high.y - low.y + 2.0 * over;
-  size_ = std::max(kCellOfRadius * r, std::sqrt(dx * dy / kMostCells));
+  size_ = std::max(kMapCellOfRadius * r, std::sqrt(dx * dy / kMostMapCells));
   low_ = {low.x - over, low.y - over};
   nx_ = static_cast<std::size_t>(dx / size_) + 1;
   ny_ = static_cast<std::size_t>(dy / size_) + 1;

@@ -10,7 +10,7 @@ namespace {
 
 constexpr std::uint32_t kLeaf = 4;  // triangles
 /// Boxes halve what they hold: 2^32 triangles are 32 deep, and each leaves one waiting.
-constexpr std::size_t kDeepest = 64;
+constexpr std::size_t kDeepestBox = 64;
 constexpr double kLeastLid = 0.1;  // z of unit normals: steeper lids gain nothing
 constexpr double kNone = -std::numeric_limits<double>::infinity();
 
@@ -150,7 +150,7 @@ std::optional<FieldRest> DropField::drop(const CutterShape& cutter, Vec2 axis) c
   const auto ceiling_of = [&](std::uint32_t b) { return boxes_[b].ceiling(cutter, axis); };
   FieldRest best;
   best.rest.tip_z = kNone;
-  std::array<Waiting, kDeepest> stack;
+  std::array<Waiting, kDeepestBox> stack;
   std::size_t size = 0;
   if (!boxes_.empty()) stack[size++] = {0, ceiling_of(0)};
   while (size > 0) {
@@ -179,7 +179,7 @@ std::optional<FieldRest> DropField::drop(const CutterShape& cutter, Vec2 axis) c
 
 std::optional<FieldHeight> DropField::height(Vec2 place) const {
   std::optional<FieldHeight> best;
-  std::array<std::uint32_t, kDeepest> stack;
+  std::array<std::uint32_t, kDeepestBox> stack;
   std::size_t size = 0;
   if (!boxes_.empty()) stack[size++] = 0;
   while (size > 0) {

@@ -10,13 +10,13 @@ namespace obvid::toolpath {
 namespace {
 
 /// Triangles that stand upright within this (z of the unit normal) touch with edges only.
-constexpr double kUpright = 1e-9;
-constexpr int kMostSteps = 40;      // along an edge: below rounding
-constexpr double kSettled = 1e-12;  // of the radius
+constexpr double kUprightTriangle = 1e-9;
+constexpr int kMostEdgeSteps = 40;        // along an edge: below rounding
+constexpr double kSettledOnEdge = 1e-12;  // of the radius
 
-double length_of(double x, double y) { return std::sqrt(x * x + y * y); }
+double level_length(double x, double y) { return std::sqrt(x * x + y * y); }
 
-bool raise(Rest& rest, double tip_z, Vec3 point, int feature) {
+bool raise_rest(Rest& rest, double tip_z, Vec3 point, int feature) {
   if (!(tip_z > rest.tip_z)) return false;
   rest = {tip_z, point, feature};
   return true;
@@ -24,8 +24,8 @@ bool raise(Rest& rest, double tip_z, Vec3 point, int feature) {
 
 bool on_corner(const CutterShape& cutter, Vec2 axis, Vec3 p, int feature, Rest& rest) {
   if (p.z <= rest.tip_z) return false;
-  const double d = length_of(p.x - axis.x, p.y - axis.y);
-  return d <= cutter.radius && raise(rest, p.z - cutter.height(d), p, feature);
+  const double d = level_length(p.x - axis.x, p.y - axis.y);
+  return d <= cutter.radius && raise_rest(rest, p.z - cutter.height(d), p, feature);
 }
 
 /// An edge seen from the axis: it passes at distance `beside`; height over `s` along it.
@@ -35,7 +35,7 @@ struct EdgeLine {
     double z, change;  ///< of the tip that touches at s; concave in s
   };
   [[nodiscard]] Tip tip(const CutterShape& cutter, double s) const {
-    const double d = length_of(s, beside), out = d - cutter.flat();
+    const double d = level_length(s, beside), out = d - cutter.flat();
     if (out <= 0.0) return {height + slope * s, slope};
     const double side = std::sqrt(std::max(0.0, cutter.corner * cutter.corner - out * out));
     const double steep = side > 0.0 ? out / side : std::numeric_limits<double>::infinity();
@@ -56,8 +56,8 @@ bool touching(const CutterShape& cutter, const EdgeLine& edge, double from, doub
     s = std::clamp(std::sqrt(r2) * edge.slope / std::sqrt(1.0 + edge.slope * edge.slope), from, to);
     return true;
   }
-  const double settled = kSettled * cutter.radius;
-  for (int k = 0; k < kMostSteps && to - from > settled; ++k) {
+  const double settled = kSettledOnEdge * cutter.radius;
+  for (int k = 0; k < kMostEdgeSteps && to - from > settled; ++k) {
     s = 0.5 * (from + to);
     const EdgeLine::Tip at = edge.tip(cutter, s);
     if (at.z + std::abs(at.change) * 0.5 * (to - from) <= enough) return false;
@@ -83,7 +83,7 @@ bool on_edge(const CutterShape& cutter, Vec2 axis, Vec3 a, Vec3 b, int feature, 
   if (!touching(cutter, {e, slope, a.z + slope * foot}, from, end, rest.tip_z, s)) return false;
   const double part = std::clamp((s + foot) / length, 0.0, 1.0);
   const Vec3 p = a + part * (b - a);
-  return raise(rest, p.z - cutter.height(length_of(s, e)), p, feature);
+  return raise_rest(rest, p.z - cutter.height(level_length(s, e)), p, feature);
 }
 
 bool inside(const Triangle& t, Vec2 p, std::array<double, 3>& w) {
@@ -105,7 +105,7 @@ struct PlaneRest {
 std::optional<PlaneRest> on_plane(const CutterShape& cutter, Vec2 axis, const Triangle& t) {
   const Vec3 n = cross(t[1] - t[0], t[2] - t[0]);
   const double level2 = n.x * n.x + n.y * n.y, size = std::sqrt(level2 + n.z * n.z);
-  if (!(std::abs(n.z) >= kUpright * size) || !(size > 0.0)) return std::nullopt;
+  if (!(std::abs(n.z) >= kUprightTriangle * size) || !(size > 0.0)) return std::nullopt;
   const double level = std::sqrt(level2), up = std::abs(n.z), side = n.z < 0.0 ? -1.0 : 1.0;
   const double plane = t[0].z - (n.x * (axis.x - t[0].x) + n.y * (axis.y - t[0].y)) / n.z;
   const double lift = cutter.corner * (size / up - 1.0) + cutter.flat() * level / up;
@@ -121,7 +121,7 @@ bool drop_on(const CutterShape& cutter, Vec2 axis, const Triangle& t, unsigned s
     if (plane->tip_z <= rest.tip_z) return false;
     std::array<double, 3> w{};
     if (inside(t, axis + plane->touch, w)) {
-      return raise(rest, plane->tip_z, w[0] * t[0] + w[1] * t[1] + w[2] * t[2], 0);
+      return raise_rest(rest, plane->tip_z, w[0] * t[0] + w[1] * t[1] + w[2] * t[2], 0);
     }
   }
   bool raised = false;

@@ -12,7 +12,7 @@ namespace obvid::toolpath {
 namespace {
 
 constexpr double kStationOfRadius = 0.5;  // looked at before refinement
-constexpr int kDeepest = 40;              // halvings between stations
+constexpr int kMostHalvings = 40;         // halvings between stations
 constexpr double kEnd = 1e-4;           // of the share: walls at a border rise that fast before it
 constexpr double kMeasured = 0.25;      // radii: longer ways are not judged by three places alone
 constexpr double kMeasuredBend = 0.25;  // of the share: how far these may lie off the chord
@@ -166,11 +166,11 @@ void Walker::fill(const Rail& rail, const Station& a, double ta, const Station& 
                   int depth, Stretch& out) const {
   if ((!a && !b) || out.points.size() > out.most) return;
   const double share = kStepShare * part_.tolerance();
-  bool done = depth >= kDeepest;
+  bool done = depth >= kMostHalvings;
   if (a && b) {
     done = done || round_enough(a->place.tip, b->place.tip);
   } else {
-    const double parts = static_cast<double>(std::size_t{1} << std::min(depth, kDeepest));
+    const double parts = static_cast<double>(std::size_t{1} << std::min(depth, kMostHalvings));
     done = done || kStationOfRadius * part_.cutter().radius / parts <= kEnd * share;
   }
   if (done) {

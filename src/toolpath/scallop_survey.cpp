@@ -13,10 +13,10 @@ namespace obvid::toolpath {
 namespace {
 
 constexpr int kMostRounds = 10;
-constexpr double kMargin = 3.0;       // cells that a pass goes beyond high places
-constexpr double kTogether = 2.0;     // diameters: passes nearer to each other become one
-constexpr double kLeastStep = 0.002;  // of the level step: nearer passes help no more
-constexpr double kLeastLine = 1e-7;   // of the range of parameters, likewise
+constexpr double kPassMargin = 3.0;       // cells that a pass goes beyond high places
+constexpr double kPassesTogether = 2.0;   // diameters: passes nearer to each other become one
+constexpr double kLeastPassStep = 0.002;  // of the level step: nearer passes help no more
+constexpr double kLeastLine = 1e-7;       // of the range of parameters, likewise
 
 /// As they are printed where no arcs stand for them.
 void append_sweeps(const Pass& pass, double within, std::vector<Sweep>& sweeps) {
@@ -109,7 +109,7 @@ std::optional<ScallopSurvey::Sides> ScallopSurvey::sides(const Family& family,
       out.high = i;
     }
   }
-  double least = kLeastStep * level_;
+  double least = kLeastPassStep * level_;
   if (of_parameters_) {
     const NurbsSurface& surface = part_.model().patches[spot.place.patch].surface;
     least = kLeastLine * (along_v_ ? domain_u(surface) : domain_v(surface)).length();
@@ -161,8 +161,8 @@ std::vector<ScallopSurvey::Wanted> ScallopSurvey::wanted(const Family& family, d
     for (const HighSpot& spot : spots) ts.push_back(across(spot).t);
     std::sort(ts.begin(), ts.end());
     const double whole = std::max(length(rail), part_.cutter().radius);
-    const double margin = kMargin * spacing_ / whole;
-    const double together = kTogether * 2.0 * part_.cutter().radius / whole;
+    const double margin = kPassMargin * spacing_ / whole;
+    const double together = kPassesTogether * 2.0 * part_.cutter().radius / whole;
     for (std::size_t i = 0; i < ts.size();) {
       std::size_t end = i + 1;
       while (end < ts.size() && ts[end] - ts[end - 1] <= together) ++end;

@@ -9,9 +9,9 @@
 namespace obvid::toolpath {
 namespace {
 
-constexpr std::size_t kTogether = 2048;  // cells looked into before bounds are compared again
+constexpr std::size_t kCellsTogether = 2048;  // cells looked into before bounds are compared again
 
-void raise(Extreme& extreme, double found, Vec3 place) {
+void raise_extreme(Extreme& extreme, double found, Vec3 place) {
   if (!(found > extreme.found)) return;
   extreme.found = found;
   extreme.place = place;
@@ -22,7 +22,7 @@ void raise(Extreme& extreme, double found, Vec3 place) {
 void Simulation::report_depth(double allowed, SimulationReport& out) const {
   std::vector<std::size_t> deep;
   for (std::size_t i = 0; i < nodes_.size(); ++i) {
-    raise(out.depth, nodes_[i].depth, cells_.cells()[i].point);
+    raise_extreme(out.depth, nodes_[i].depth, cells_.cells()[i].point);
   }
   const double limit = std::max(allowed, out.depth.found);
   for (std::size_t i = 0; i < nodes_.size(); ++i) {
@@ -35,14 +35,14 @@ void Simulation::report_depth(double allowed, SimulationReport& out) const {
   std::vector<Extreme> found(deep.size());
   in_parallel(deep.size(), threads_, [&](std::size_t k) {
     quarter(Looking::kForDepth, deep[k], [&](const Piece& part, int levels) {
-      raise(found[k], part.bounds.depth, part.cell.point);
+      raise_extreme(found[k], part.bounds.depth, part.cell.point);
       const bool deeper = part.bounds.depth_most > std::max(limit, found[k].found);
       if (!deeper || levels == 0) found[k].most = std::max(found[k].most, part.bounds.depth_most);
       return deeper;
     });
   });
   for (const Extreme& e : found) {
-    raise(out.depth, e.found, e.place);
+    raise_extreme(out.depth, e.found, e.place);
     out.depth.most = std::max({out.depth.most, e.most, e.found});
   }
   out.depth.most = std::max(out.depth.most, out.depth.found);
@@ -75,7 +75,7 @@ void Simulation::report_left(double within, SimulationReport& out, const Progres
     if (cell.normal == Vec3{}) continue;
     const bool touched =
         nodes_[i].left <= part_.tolerance() || nearest_[i].reach == Reach::kReached;
-    if (touched) raise(out.left, nodes_[i].left, cell.point);
+    if (touched) raise_extreme(out.left, nodes_[i].left, cell.point);
     if (touched || at_edge(i, part_.tolerance())) high.push_back(i);
   }
   std::sort(high.begin(), high.end(), [&](std::size_t a, std::size_t b) {
@@ -83,10 +83,10 @@ void Simulation::report_left(double within, SimulationReport& out, const Progres
                                                       : a < b;
   });
   std::size_t begin = 0;
-  for (; begin < high.size(); begin += kTogether) {
+  for (; begin < high.size(); begin += kCellsTogether) {
     const double limit = out.left.found;
     if (nodes_[high[begin]].left_most <= limit + within) break;
-    const std::size_t count = std::min(kTogether, high.size() - begin);
+    const std::size_t count = std::min(kCellsTogether, high.size() - begin);
     std::vector<Extreme> found(count, {limit, 0.0, {}});
     in_parallel(count, threads_, [&](std::size_t k) {
       const std::size_t node = high[begin + k];
@@ -95,14 +95,14 @@ void Simulation::report_left(double within, SimulationReport& out, const Progres
         if (part.bounds.left > found[k].found) {
           const bool held = nearest(node, part).reach != Reach::kReached;
           if (held) return deeper && levels > kMostLevels - kEdgeLevels;
-          raise(found[k], part.bounds.left, part.cell.point);
+          raise_extreme(found[k], part.bounds.left, part.cell.point);
         }
         if (!deeper || levels == 0) found[k].most = std::max(found[k].most, part.bounds.left_most);
         return deeper;
       });
     });
     for (const Extreme& e : found) {
-      raise(out.left, e.found, e.place);
+      raise_extreme(out.left, e.found, e.place);
       out.left.most = std::max(out.left.most, e.most);
     }
     if (progress) {

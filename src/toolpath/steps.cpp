@@ -9,7 +9,7 @@ namespace {
 
 constexpr double kFloor = 0.1;       // of the level step
 constexpr double kOfDiameter = 0.8;  // flat bottoms overlap
-constexpr double kUpright = 1e-6;    // z of normals taken for walls
+constexpr double kWall = 1e-6;       // z of normals taken for walls
 
 double bend_along(const Bends& bends, Vec3 direction) {
   const double c = dot(direction, bends.direction1), c2 = std::min(1.0, c * c);
@@ -67,7 +67,7 @@ double StepRule::on_surface(double cutter_bend, double bend) const {
 StepForm StepRule::form(const Part& part, const Place& place) const {
   const Bends bends = part.bends(place);
   const Vec3 n = place.normal;
-  const double sine = std::hypot(n.x, n.y), cosine = std::max(n.z, kUpright);
+  const double sine = std::hypot(n.x, n.y), cosine = std::max(n.z, kWall);
   if (scallop_ <= 0.0) return level_form();
   const Vec2 down = sine > 0.0 ? Vec2{n.x / sine, n.y / sine} : Vec2{1.0, 0.0};
   const Vec3 slope{down.x * cosine, down.y * cosine, -sine}, level{-down.y, down.x, 0.0};
@@ -89,7 +89,7 @@ double StepRule::across(const Part& part, const Place& place, Vec3 along) const 
   if (scallop_ <= 0.0) return level_;
   const Bends bends = part.bends(place);
   const Vec3 n = place.normal, across = unit(cross(n, along));
-  const double sine = std::hypot(n.x, n.y), cosine = std::max(n.z, kUpright);
+  const double sine = std::hypot(n.x, n.y), cosine = std::max(n.z, kWall);
   const BodyBends body = body_bends(cutter_, scallop_, sine, cosine);
   const Vec3 level = sine > 0.0 ? Vec3{-n.y / sine, n.x / sine, 0.0} : across;
   const double c = dot(across, level), c2 = std::min(1.0, c * c);

@@ -13,10 +13,10 @@ namespace {
 
 constexpr double kMostCells = 1e6;  // some 120 MB; larger parts get larger cells
 constexpr double kMostTiles = 1e6;
-constexpr double kMargin = 1.25;   // for what the derivatives in the middle do not say
-constexpr double kUpright = 1e-3;  // z of normals of walls: which side is open is looked up
-constexpr std::size_t kLines = 9;  // across, that lengths are measured on
-constexpr std::size_t kParts = 4;  // of a span, likewise
+constexpr double kCellMargin = 1.25;   // for what the derivatives in the middle do not say
+constexpr double kUprightCell = 1e-3;  // z of normals of walls: which side is open is looked up
+constexpr std::size_t kLines = 9;      // across, that lengths are measured on
+constexpr std::size_t kParts = 4;      // of a span, likewise
 
 /// Knots inside the domain where the surface may have an edge, with the domain's ends.
 std::vector<double> stretches(const std::vector<double>& knots, int degree, Range domain) {
@@ -82,7 +82,7 @@ bool roofed(const Part& part, Vec3 p) {
 
 /// Where the normal stands up too little to say which side is open: the one without a roof.
 Vec3 open_side(const Part& part, const Cell& cell) {
-  if (std::abs(cell.normal.z) > kUpright) return cell.normal;
+  if (std::abs(cell.normal.z) > kUprightCell) return cell.normal;
   const Vec3 out = part.tolerance() * cell.normal;
   return roofed(part, cell.point + out) && !roofed(part, cell.point - out) ? -cell.normal
                                                                            : cell.normal;
@@ -104,12 +104,12 @@ Cell cell_at(const SurfaceModel& model, const CellPlace& at, Vec3 side) {
   const Vec3 uu = at.du * at.du * jet.duu, uv = at.du * at.dv * jet.duv,
              vv = at.dv * at.dv * jet.dvv;
   const double bend = 0.5 * (norm(uu) + 2.0 * norm(uv) + norm(vv));
-  cell.reach = kMargin * (std::max(norm(u + v), norm(u - v)) + bend);
-  cell.rise =
-      kMargin * 0.5 * (std::abs(dot(n, uu)) + 2.0 * std::abs(dot(n, uv)) + std::abs(dot(n, vv)));
+  cell.reach = kCellMargin * (std::max(norm(u + v), norm(u - v)) + bend);
+  cell.rise = kCellMargin * 0.5 *
+              (std::abs(dot(n, uu)) + 2.0 * std::abs(dot(n, uv)) + std::abs(dot(n, vv)));
   const auto turned = [&](Vec3 d) { return norm(d - dot(n, d) * n); };
   const double cell_size = size * at.du * at.dv;
-  cell.turn = kMargin *
+  cell.turn = kCellMargin *
               (turned(cross(uu, v) + cross(u, uv)) + turned(cross(uv, v) + cross(u, vv))) /
               cell_size;
   return cell;

@@ -8,8 +8,8 @@
 namespace obvid::toolpath {
 namespace {
 
-constexpr double kSettled = 1e-6;       // of the radius
-constexpr int kMostSteps = 60;          // a bracket of the way is halved at least every third step
+constexpr double kSettledOnWay = 1e-6;  // of the radius
+constexpr int kMostWaySteps = 60;       // a bracket of the way is halved at least every third step
 constexpr int kMostRaySteps = 50;       // of Newton's method, from outside
 constexpr double kSecantInside = 0.05;  // of the bracket: a secant keeps that far from its ends
 
@@ -71,8 +71,8 @@ SweepDistance distance_from(const CutterShape& cutter, const Sweep& sweep, Vec3 
   AtPlace high = at_place(cutter, sweep, way, 1.0, p);
   if (high.slope <= 0.0) return {high.value, high.gradient};
   double from = 0.0, to = 1.0;
-  const double settled = kSettled * cutter.radius;
-  for (int step = 0; step < kMostSteps; ++step) {
+  const double settled = kSettledOnWay * cutter.radius;
+  for (int step = 0; step < kMostWaySteps; ++step) {
     const double meet =
         (high.value - low.value + low.slope * from - high.slope * to) / (low.slope - high.slope);
     const double floor = low.value + low.slope * (meet - from);
@@ -101,7 +101,7 @@ SweepEntry entry_into(const CutterShape& cutter, const Sweep& sweep, Vec3 from, 
   double height = 0.0;
   for (int step = 0; step < kMostRaySteps; ++step) {
     const SweepDistance d = distance_from(cutter, sweep, from + height * direction);
-    if (d.value <= kSettled * cutter.radius) return {height, d.gradient};
+    if (d.value <= kSettledOnWay * cutter.radius) return {height, d.gradient};
     const double nearer = -dot(d.gradient, direction);
     if (!(nearer > 0.0)) return {kNever, d.gradient};
     height += d.value / nearer;

@@ -16,7 +16,7 @@ namespace {
 
 constexpr int kLeastDecimals = 3, kMostDecimals = 6;
 constexpr double kDigitsOfPrint = 1.0 / 3.0;  // of what printing may, the last digit's worth
-constexpr double kRounding = 1e-9;            // 0.003 asks for 3 decimals, not for 3.0000000001
+constexpr double kDigitRounding = 1e-9;       // 0.003 asks for 3 decimals, not for 3.0000000001
 
 /// Comments end at ")": nothing of the kind in a name, and nothing but ASCII.
 std::string comment_of(const std::string& name) {
@@ -85,7 +85,7 @@ Result<ToolpathGcode> toolpath_gcode(const Toolpath& path, const ToolpathGcodeOp
   }
   const double print = path.print_within * scale;
   const int least = kLeastDecimals + (path.units == "in" ? 1 : 0);
-  const double digits = std::ceil(-std::log10(kDigitsOfPrint * print) - kRounding);
+  const double digits = std::ceil(-std::log10(kDigitsOfPrint * print) - kDigitRounding);
   const int decimals =
       options.decimals.value_or(static_cast<int>(std::clamp<double>(digits, least, kMostDecimals)));
   const double within = print - std::pow(10.0, -decimals);

@@ -18,11 +18,11 @@
 namespace obvid {
 namespace {
 
-constexpr double kRadius = 3.0, kTolerance = 0.02, kScallop = 0.1;
-constexpr double kScale = 5.0;  // makes a model some 160 long
-constexpr double kStep = 0.1;   // of the interpreter
+constexpr double kHullRadius = 3.0, kHullTolerance = 0.02, kHullScallop = 0.1;
+constexpr double kScale = 5.0;     // makes a model some 160 long
+constexpr double kHullStep = 0.1;  // of the interpreter
 constexpr double kSampleError = 1e-5;
-constexpr double kStepError = kStep * kStep / (8.0 * kRadius);
+constexpr double kStepError = kHullStep * kHullStep / (8.0 * kHullRadius);
 constexpr double kUpright = 0.01;  // z of normals: walls that lean outwards are hidden
 
 std::filesystem::path shared_data() {
@@ -39,7 +39,7 @@ NurbsSurface lying_hull(const std::filesystem::path& file) {
   return surface ? *surface : NurbsSurface{};
 }
 
-std::vector<test::Sample> samples_of(const NurbsSurface& surface, int along_u, int along_v) {
+std::vector<test::Sample> hull_samples(const NurbsSurface& surface, int along_u, int along_v) {
   const auto at = [&](double s, double t) {
     const SurfaceJet jet = evaluate(surface, domain_u(surface).at(s), domain_v(surface).at(t));
     return test::Sample{jet.point, unit(cross(jet.du, jet.dv))};
@@ -56,27 +56,27 @@ std::vector<test::Sample> samples_of(const NurbsSurface& surface, int along_u, i
   return out;
 }
 
-struct Found {
+struct FoundOnHull {
   double gouge = 0.0, cusp = 0.0;
   Vec3 place;
   int looked = 0;
 };
 
-Found simulated(const std::vector<test::Sample>& samples, const test::NcRun& run) {
+FoundOnHull simulated(const std::vector<test::Sample>& samples, const test::NcRun& run) {
   std::vector<Vec3> points;
   for (const test::Sample& s : samples) points.push_back(s.point);
-  test::Columns part(points, 0.5 * kRadius);
-  test::Cut cut({kRadius, kRadius}, test::tips_of(run));
-  Found found;
+  test::Columns part(points, 0.5 * kHullRadius);
+  test::Cut cut({kHullRadius, kHullRadius}, test::tips_of(run));
+  FoundOnHull found;
   for (const test::Sample& s : samples) {
     found.gouge = std::max(found.gouge, cut.depth(s.point));
     if (s.normal.z < kUpright) continue;
-    const Vec3 centre = s.point + kRadius * s.normal;  // of the ball that touches here
-    double nearest = kRadius;
-    part.near(centre, kRadius, [&](Vec3 q) { nearest = std::min(nearest, norm(q - centre)); });
-    if (nearest < kRadius - kTolerance) continue;  // it would cut elsewhere
+    const Vec3 centre = s.point + kHullRadius * s.normal;  // of the ball that touches here
+    double nearest = kHullRadius;
+    part.near(centre, kHullRadius, [&](Vec3 q) { nearest = std::min(nearest, norm(q - centre)); });
+    if (nearest < kHullRadius - kHullTolerance) continue;  // it would cut elsewhere
     ++found.looked;
-    const double left = cut.left(s, kRadius);
+    const double left = cut.left(s, kHullRadius);
     if (left > found.cusp) found.place = s.point;
     found.cusp = std::max(found.cusp, left);
   }
@@ -93,18 +93,18 @@ TEST_P(Hull, HalfOfSeries60IsNotGougedAndItsCuspsStayBelowTheScallop) {
   const NurbsSurface surface = lying_hull(file);
   ASSERT_FALSE(surface.points.empty());
   ToolpathOptions options;
-  options.cutter = {CutterKind::kBall, 2.0 * kRadius, 0.0};
+  options.cutter = {CutterKind::kBall, 2.0 * kHullRadius, 0.0};
   options.strategy = GetParam();
   options.angle_deg = 90.0;  // up the bottom, which stands upright here
-  options.tolerance = kTolerance;
-  options.scallop = kScallop;
+  options.tolerance = kHullTolerance;
+  options.scallop = kHullScallop;
   const auto path = plan(test::model_of({surface}), options);
   ASSERT_TRUE(path) << to_line(path.error());
-  const auto run = test::NcInterpreter(kStep).run(path->program.text);
+  const auto run = test::NcInterpreter(kHullStep).run(path->program.text);
   ASSERT_TRUE(run.faults.empty()) << run.faults.front();
 
-  const auto samples = samples_of(surface, 300, 300);
-  const Found found = simulated(samples, run);
+  const auto samples = hull_samples(surface, 300, 300);
+  const FoundOnHull found = simulated(samples, run);
   RecordProperty("gouge", std::to_string(found.gouge));
   RecordProperty("cusp", std::to_string(found.cusp));
   RecordProperty("at", std::to_string(found.place.x) + " " + std::to_string(found.place.y) + " " +
@@ -115,10 +115,10 @@ TEST_P(Hull, HalfOfSeries60IsNotGougedAndItsCuspsStayBelowTheScallop) {
   for (const std::string& warning : path->warnings) RecordProperty("warning", warning);
   EXPECT_GT(found.looked, static_cast<int>(samples.size() / 2));
   EXPECT_LE(found.gouge, path->report.gouge.most + kSampleError);
-  EXPECT_LE(path->report.gouge.most, kTolerance);
+  EXPECT_LE(path->report.gouge.most, kHullTolerance);
   EXPECT_LE(found.cusp, path->report.scallop.most + kStepError);
-  EXPECT_LE(path->report.scallop.found, kScallop);
-  EXPECT_GT(found.cusp, 0.2 * kScallop);
+  EXPECT_LE(path->report.scallop.found, kHullScallop);
+  EXPECT_GT(found.cusp, 0.2 * kHullScallop);
 }
 
 INSTANTIATE_TEST_SUITE_P(Balls, Hull,
