@@ -160,7 +160,9 @@ void add_formats(CLI::App& command, FormatValues& values) {
                   "G-code of arcs (G2, G3), lines (G1) or splines (G5, linuxcnc) [arcs]")
       ->type_name("NAME")
       ->group(group);
-  command.add_option("--feed", values.feed, "Feed of G-code, mm/min (in/min for inches) [1000]")
+  command
+      .add_option("--feed", values.feed,
+                  "Feed of G-code [1000 mm/min; contours in inches: 40 in/min]")
       ->type_name("F")
       ->group(group);
   command

@@ -63,20 +63,13 @@ std::vector<ScenePolyline> drawn(const Toolpath& path) {
 struct Made {
   SurfaceModel model;
   Toolpath path;
-  std::optional<ToolpathGcode> program;
   std::vector<std::string> remarks;
   std::vector<std::string> warnings;
 };
 
-Result<void> fill(ToolpathOutput& output, const ToolpathCommand& command, Made& made,
-                  SurfaceExporter& exporter) {
+Result<void> fill(ToolpathOutput& output, Made& made, SurfaceExporter& exporter) {
   if (output.kind == Kind::kProgram) {
-    if (!made.program) {
-      auto program = toolpath_gcode(made.path, command.gcode);
-      if (!program) return fail(program.error());
-      made.program = std::move(*program);
-    }
-    output.text = made.program->text;
+    output.text = made.path.program.text;
     return {};
   }
   const bool page = output.kind == Kind::kPage;
@@ -93,6 +86,22 @@ double level_step(const ToolpathOptions& plan) {
   const bool ball = plan.cutter.kind == CutterKind::kBall;
   const double r = ball ? plan.cutter.diameter / 2.0 : plan.cutter.corner_radius;
   return 2.0 * std::sqrt(2.0 * r * plan.scallop.value_or(r));
+}
+
+/// What is not typed, in the units of the surface.
+ToolpathOptions options_for(const ToolpathCommand& command, const std::string& units) {
+  constexpr double kDiameter = 6.0, kTolerance = 0.01;  // mm
+  constexpr double kScallop = 0.01, kCorner = 0.25;     // diameters
+  ToolpathOptions plan = command.plan;
+  const double mm = millimetres_of(units);
+  const double unit = mm > 0.0 ? mm : 1.0;  // units that machines do not know are refused
+  plan.cutter.diameter = command.diameter.value_or(kDiameter / unit);
+  plan.tolerance = command.tolerance.value_or(kTolerance / unit);
+  if (!plan.scallop && !plan.step_over) plan.scallop = kScallop * plan.cutter.diameter;
+  if (plan.cutter.kind == CutterKind::kBullNose) {
+    plan.cutter.corner_radius = command.corner_radius.value_or(kCorner * plan.cutter.diameter);
+  }
+  return plan;
 }
 
 /// Refuses work without end: a typing error in a length, most likely.
@@ -114,8 +123,9 @@ Result<Made> made_from(const ToolpathCommand& command, std::vector<ToolpathOutpu
   auto model = read_surface(command.input, made.warnings);
   if (!model) return fail(model.error());
   made.model = std::move(*model);
-  if (auto good = check_effort(made.model, command.plan); !good) return fail(good.error());
-  auto path = plan(made.model, command.plan, bar.progress());
+  const ToolpathOptions options = options_for(command, made.model.units);
+  if (auto good = check_effort(made.model, options); !good) return fail(good.error());
+  auto path = plan(made.model, options, bar.progress());
   if (!path) return fail(path.error());
   made.path = std::move(*path);
   if (!made.model.units.known()) {
@@ -129,13 +139,17 @@ Result<Made> made_from(const ToolpathCommand& command, std::vector<ToolpathOutpu
   SurfaceExporter exporter(made.model, formats, bar.progress());
   bar.tell("writing", 1.0);
   for (ToolpathOutput& output : outputs) {
-    if (auto done = fill(output, command, made, exporter); !done) return fail(done.error());
+    if (auto done = fill(output, made, exporter); !done) return fail(done.error());
   }
   return made;
 }
 
-std::string share_text(double area, double all) {
+std::string area_share(double area, double all) {
   return area > 0.0 && all > 0.0 ? fmt::format("{} %", significant(100.0 * area / all, 3)) : "none";
+}
+
+std::string toolpath_place(Vec3 p) {
+  return fmt::format("{} {} {}", significant(p.x, 6), significant(p.y, 6), significant(p.z, 6));
 }
 
 std::string toolpath_text(const Made& made, const std::vector<std::string>& files) {
@@ -149,22 +163,35 @@ std::string toolpath_text(const Made& made, const std::vector<std::string>& file
   facts.add("time", fmt::format("{} minutes at the stated feeds, without acceleration",
                                 significant(r.minutes, 3)));
   facts.add("scallop",
-            fmt::format("{} {} at most where the cutter reaches", significant(r.scallop, 3), unit));
-  facts.add("gouges", fmt::format("none beyond {} {}; avoided by lifting at {} points",
-                                  significant(made.path.tolerance, 3), unit, r.lifted_points));
-  facts.add("not seen from above", share_text(r.hidden_area, r.surface_area));
+            fmt::format("{} {} where the cutter reaches, at {}; {} nowhere exceeded",
+                        significant(r.scallop.found, 3), unit, toolpath_place(r.scallop.place),
+                        significant(r.scallop.most, 3)));
+  facts.add("gouges",
+            fmt::format("{} {} the deepest found, none beyond {}; avoided by lifting at {} points",
+                        significant(r.gouge.found, 3), unit, significant(r.gouge.most, 3),
+                        r.lifted_points));
+  facts.add("not seen from above", area_share(r.hidden_area, r.surface_area));
   facts.add("not reached",
-            share_text(r.unreached_area, r.surface_area) +
+            area_share(r.unreached_area, r.surface_area) +
                 (r.unreached_area > 0.0
-                     ? fmt::format(", up to {} {} left", significant(r.unreached_depth, 3), unit)
+                     ? fmt::format(", up to {} {} left at {}", significant(r.unreached_depth, 3),
+                                   unit, toolpath_place(r.unreached_place))
                      : ""));
-  if (made.program) {
-    facts.add("program", fmt::format("{} blocks, {} of them arcs", made.program->blocks,
-                                     made.program->arc_blocks));
-  }
+  facts.add("program", fmt::format("{} blocks, {} of them arcs; read back and simulated at places "
+                                   "{} {} apart and nearer",
+                                   made.path.program.blocks, made.path.program.arc_blocks,
+                                   significant(r.spacing, 2), unit));
   for (const std::string& remark : made.remarks) facts.add("note", remark);
   facts.add("written", listed(files));
   return facts.text();
+}
+
+/// Found at a place, and what is nowhere exceeded.
+void add_measured(JsonText& json, const char* name, const ToolpathReport::Measured& measured) {
+  json.key(name).begin_object().pair("found", measured.found).pair("most", measured.most);
+  json.key("place").begin_array();
+  for (const double x : {measured.place.x, measured.place.y, measured.place.z}) json.value(x);
+  json.end_array().end_object();
 }
 
 std::string toolpath_json(const Made& made, const std::vector<std::string>& files) {
@@ -173,13 +200,17 @@ std::string toolpath_json(const Made& made, const std::vector<std::string>& file
   json.begin_object().pair("units", made.path.units).pair("passes", r.passes);
   json.pair("added_passes", r.added_passes).pair("cutting_length", r.cutting_length);
   json.pair("plunge_length", r.plunge_length).pair("rapid_length", r.rapid_length);
-  json.pair("minutes", r.minutes).pair("scallop", r.scallop).pair("tolerance", made.path.tolerance);
+  json.pair("minutes", r.minutes).pair("tolerance", made.path.tolerance);
+  add_measured(json, "scallop", r.scallop);
+  add_measured(json, "gouge", r.gouge);
+  json.pair("spacing", r.spacing);
   json.pair("lifted_points", r.lifted_points).pair("surface_area", r.surface_area);
   json.pair("hidden_area", r.hidden_area).pair("unreached_area", r.unreached_area);
   json.pair("unreached_depth", r.unreached_depth).pair("safe_z", r.safe_z);
-  if (made.program) {
-    json.pair("blocks", made.program->blocks).pair("arc_blocks", made.program->arc_blocks);
-  }
+  json.pair("blocks", made.path.program.blocks).pair("arc_blocks", made.path.program.arc_blocks);
+  json.key("not_kept").begin_array();
+  for (const Error& error : made.path.not_kept) json.value(error.what);
+  json.end_array();
   json.key("warnings").begin_array();
   for (const std::string& warning : made.warnings) json.value(warning);
   json.end_array().key("written").begin_array();
@@ -187,16 +218,14 @@ std::string toolpath_json(const Made& made, const std::vector<std::string>& file
   return json.end_array().end_object().take() + "\n";
 }
 
-/// Exit code 5 where more is left than was asked for.
-int judge_toolpath(const ToolpathCommand& command, const Made& made) {
-  constexpr double kMeasured = 1.05;  // what is measured is good to some percent
-  const double left = made.path.report.scallop;
-  if (!command.plan.scallop || left <= kMeasured * *command.plan.scallop) return 0;
-  return report(
-      {ErrorCode::kToleranceNotReached,
-       fmt::format("{} {} is left between passes where {} were asked for", significant(left, 3),
-                   made.path.units, significant(*command.plan.scallop, 3)),
-       "", "the files were written; a ball cutter or a smaller --step-over leaves less", -1, left});
+/// Exit code 5 where something is not so that was asked for; the files are written all the same.
+int judge_toolpath(const Made& made) {
+  int code = 0;
+  for (Error error : made.path.not_kept) {
+    error.hint = "the files were written" + (error.hint.empty() ? "" : "; " + error.hint);
+    code = report(error);
+  }
+  return code;
 }
 
 }  // namespace
@@ -227,7 +256,7 @@ int run(const ToolpathCommand& command) {
     text = toolpath_text(*made, files);
   }
   if (auto done = put(text); !done) return report(done.error());
-  return judge_toolpath(command, *made);
+  return judge_toolpath(*made);
 }
 
 }  // namespace obvid

@@ -24,14 +24,14 @@ constexpr const char* kOutputHelp =
 
 void add_cutter(CLI::App& app, RawToolpath& raw) {
   const char* group = "Cutter";
-  ToolpathOptions& plan = raw.command.plan;
+  ToolpathCommand& command = raw.command;
   app.add_option("--cutter", raw.cutter, "ball, flat or bull (rounded corners) [ball]")
       ->type_name("NAME")
       ->group(group);
-  app.add_option("--diameter", plan.cutter.diameter, "Diameter, units of the surface [6]")
+  app.add_option("--diameter", command.diameter, "Diameter, units of the surface [6 mm]")
       ->type_name("D")
       ->group(group);
-  app.add_option("--corner-radius", plan.cutter.corner_radius,
+  app.add_option("--corner-radius", command.corner_radius,
                  "Of a bull-nose cutter, units [a quarter of the diameter]")
       ->type_name("R")
       ->group(group);
@@ -57,8 +57,8 @@ void add_passes(CLI::App& app, RawToolpath& raw) {
       ->group(group);
   app.add_flag("--along-v", plan.along_v, "Isoparametric passes along v [along u]")->group(group);
   app.add_flag("--one-way", plan.one_way, "All passes in the same direction")->group(group);
-  app.add_option("--tolerance", plan.tolerance,
-                 "Gouges, triangles and chords together, units [0.01]")
+  app.add_option("--tolerance", raw.command.tolerance,
+                 "Deepest gouge of the printed program, units [0.01 mm]")
       ->type_name("T")
       ->group(group);
   app.add_option("--safe-z", plan.safe_z,
@@ -70,10 +70,11 @@ void add_passes(CLI::App& app, RawToolpath& raw) {
 void add_program(CLI::App& app, RawToolpath& raw) {
   const char* group = "Program";
   ToolpathOptions& plan = raw.command.plan;
-  app.add_option("--feed", plan.feed, "Feed along passes, mm/min (in/min for inches) [1000]")
+  app.add_option("--feed", plan.feed, "Feed along passes [1000 mm/min; inches: 40 in/min]")
       ->type_name("F")
       ->group(group);
-  app.add_option("--plunge-feed", plan.plunge_feed, "Feed straight down, likewise [300]")
+  app.add_option("--plunge-feed", plan.plunge_feed,
+                 "Feed straight down [300 mm/min; inches: 12 in/min]")
       ->type_name("F")
       ->group(group);
   app.add_option("--controller", raw.controller, "grbl, linuxcnc or fanuc [grbl]")
@@ -108,18 +109,16 @@ Result<void> set_toolpath_names(RawToolpath& raw) {
         return pick<GcodeController>({{"grbl", GcodeController::kGrbl},
                                       {"linuxcnc", GcodeController::kLinuxCnc},
                                       {"fanuc", GcodeController::kFanuc}},
-                                     raw.controller, "--controller", command.gcode.controller);
+                                     raw.controller, "--controller", command.plan.gcode.controller);
       })
       .and_then([&] {
         return pick<bool>({{"arcs", true}, {"lines", false}}, raw.motion, "--motion",
-                          command.gcode.arcs);
+                          command.plan.gcode.arcs);
       });
 }
 
 Result<Command> checked_toolpath(const CLI::App& app, RawToolpath& raw) {
-  constexpr double kScallop = 0.01, kCorner = 0.25;  // of the diameter
   ToolpathCommand& command = raw.command;
-  ToolpathOptions& plan = command.plan;
   if (auto done = check_extras(app, app.remaining(), "toolpath"); !done) return fail(done.error());
   if (auto done = set_toolpath_names(raw); !done) return fail(done.error());
   if (command.input.empty()) {
@@ -131,10 +130,6 @@ Result<Command> checked_toolpath(const CLI::App& app, RawToolpath& raw) {
   if (!surface_view_named(command.view)) {
     return fail(bad_option("unknown view '" + command.view + "'", "--view",
                            "available are iso, front, top, side, back, bottom"));
-  }
-  if (!plan.scallop && !plan.step_over) plan.scallop = kScallop * plan.cutter.diameter;
-  if (plan.cutter.kind == CutterKind::kBullNose && plan.cutter.corner_radius == 0.0) {
-    plan.cutter.corner_radius = kCorner * plan.cutter.diameter;
   }
   command.progress = !raw.no_progress && !command.quiet && !command.json;
   return Command{command};

@@ -43,7 +43,7 @@ void plan_waves(benchmark::State& state, Cutter cutter, ToolpathStrategy strateg
   state.counters["passes"] = static_cast<double>(report.passes);
   state.counters["added"] = static_cast<double>(report.added_passes);
   state.counters["length"] = report.cutting_length;
-  state.counters["scallop"] = report.scallop;
+  state.counters["scallop"] = report.scallop.found;
 }
 
 constexpr Cutter kBall{CutterKind::kBall, 6.0, 0.0};

@@ -160,7 +160,8 @@ class Program {
   [[nodiscard]] std::string approach(const GcodePath& path) const {
     std::string out;
     if (options_.safe_z) out += "G0 Z" + fixed(*options_.safe_z, kLeastDecimals) + "\n";
-    out += "G0 " + path.start() + "\nF" + fixed(options_.feed, kLeastDecimals) + "\n";
+    out += "G0 " + path.start() + "\nF" +
+           fixed(options_.feed.value_or(default_feed(contour_.units)), kLeastDecimals) + "\n";
     if (options_.safe_z) out += "G1 Z0.000\n";
     return out;
   }
@@ -183,8 +184,9 @@ Result<void> check(const Contour& contour, const GcodeOptions& options) {
   const auto bad = [](std::string what, std::string hint, double value) {
     return fail({ErrorCode::kBadOption, std::move(what), "", std::move(hint), -1, value});
   };
-  if (!(options.tolerance > 0.0) || !std::isfinite(options.tolerance) || !(options.feed > 0.0) ||
-      !std::isfinite(options.feed)) {
+  const double feed = options.feed.value_or(default_feed(contour.units));
+  if (!(options.tolerance > 0.0) || !std::isfinite(options.tolerance) || !(feed > 0.0) ||
+      !std::isfinite(feed)) {
     return bad("tolerance and feed must be greater than 0", "", options.tolerance);
   }
   if (options.decimals && (*options.decimals < 1 || *options.decimals > kMostDecimals)) {
@@ -204,6 +206,11 @@ Result<void> check(const Contour& contour, const GcodeOptions& options) {
 }
 
 }  // namespace
+
+double default_feed(std::string_view units) {
+  constexpr double kMillimetres = 1000.0, kInches = 40.0;  // a minute
+  return units == "in" ? kInches : kMillimetres;
+}
 
 Result<GcodeText> gcode_text(const Contour& contour, const GcodeOptions& options) {
   if (const auto good = check(contour, options); !good) return fail(good.error());

@@ -25,6 +25,7 @@ struct BladeStation {
 struct BladeAirfoil {
   std::vector<Vec2> points;  ///< chord from (0, 0) to (1, 0)
   Vec2 reference;            ///< the point that lies on the blade's axis
+  Vec2 rounding;             ///< half a unit of the last digit printed
 };
 
 [[nodiscard]] bool is_blade_table(std::string_view text);

@@ -88,6 +88,7 @@ class NumberRowReader {
       row.values.push_back(number.value);
     }
     if (words == 0) {
+      add_digits();
       out_.rows.push_back(std::move(row));
       gap_ = false;
       return {};
@@ -101,6 +102,13 @@ class NumberRowReader {
     out_.titles.push_back({out_.rows.size(), text::to_utf8(data)});
     gap_ = true;
     return {};
+  }
+
+  void add_digits() {
+    if (out_.digits.size() < fields_.size()) out_.digits.resize(fields_.size());
+    for (std::size_t i = 0; i < fields_.size(); ++i) {
+      out_.digits[i].add(text::digits_of(fields_[i]));
+    }
   }
 
   /// Whether a line of numbers and words is a row with a fault and not a header or a title: none
@@ -157,6 +165,30 @@ Result<Units> units_of_columns(const NumberRows& rows, string_view name) {
     if (!unit.empty()) all.emplace_back(unit);
   }
   return common_units(all, name);
+}
+
+std::vector<double> NumberRows::rounding(std::span<const int> columns) const {
+  std::vector<text::ColumnDigits> used;
+  for (const int column : columns) {
+    const bool there = column >= 0 && static_cast<std::size_t>(column) < digits.size();
+    if (there) used.push_back(digits[static_cast<std::size_t>(column)]);
+  }
+  const std::vector<double> known = text::half_units(used);
+  std::vector<double> out;
+  std::size_t next = 0;
+  for (const int column : columns) {
+    const bool there = column >= 0 && static_cast<std::size_t>(column) < digits.size();
+    out.push_back(there ? known[next++] : 0.0);
+  }
+  return out;
+}
+
+bool is_matrix(const NumberRows& rows) {
+  constexpr std::size_t kLeastColumns = 5;
+  return std::all_of(rows.rows.begin(), rows.rows.end(), [&](const NumberRow& row) {
+    return row.values.size() >= kLeastColumns &&
+           row.values.size() == rows.rows.front().values.size();
+  });
 }
 
 Error error_at(ErrorCode code, std::string what, string_view name, std::size_t line,

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -9,6 +10,7 @@
 #include "obvid/core/result.h"
 #include "obvid/core/units.h"
 #include "read_points_header.h"
+#include "text_digits.h"
 
 namespace obvid {
 
@@ -30,6 +32,10 @@ struct NumberRows {
     std::string text;
   };
   std::vector<Title> titles;
+  std::vector<text::ColumnDigits> digits;  ///< of the numbers, by their place in their rows
+
+  /// Half a unit of the last digit printed in these columns; 0 for those that are not there.
+  [[nodiscard]] std::vector<double> rounding(std::span<const int> columns) const;
 };
 
 /// Rows of numbers of any length, separated as `read_points` allows; comments and blank lines are
@@ -43,6 +49,9 @@ struct NumberRows {
 /// Unit that the names of the columns x, y and z state; assumed when they state none. Error E310
 /// when they differ.
 [[nodiscard]] Result<Units> units_of_columns(const NumberRows& rows, std::string_view name);
+
+/// A matrix of numbers: rows of equal length, too long for points x y z with a number.
+[[nodiscard]] bool is_matrix(const NumberRows& rows);
 
 /// Error at a line of a file.
 [[nodiscard]] Error error_at(ErrorCode code, std::string what, std::string_view name,

@@ -8,8 +8,10 @@
 #include <cmath>
 #include <filesystem>
 #include <map>
+#include <optional>
 #include <utility>
 
+#include "matrix_names.h"
 #include "number_rows.h"
 #include "obvid/io/read_file.h"
 #include "text_number.h"
@@ -43,16 +45,6 @@ Result<PointGrid> grid_of(const std::vector<std::vector<Vec3>>& rows, string_vie
 
 // ---- three matrices ---------------------------------------------------------------------------
 
-constexpr std::array<string_view, 3> kAxes = {"_x", "_y", "_z"};
-
-/// Name of the matrix of another coordinate.
-std::string sibling(const std::string& path, std::size_t axis) {
-  std::filesystem::path file(path);
-  std::string stem = file.stem().string();
-  stem.replace(stem.size() - 2, 2, kAxes[axis]);
-  return (file.parent_path() / (stem + file.extension().string())).string();
-}
-
 Result<NumberRows> matrix(const std::string& path) {
   const auto text = read_file(path);
   if (!text) return fail(text.error());
@@ -68,10 +60,10 @@ Result<NumberRows> matrix(const std::string& path) {
   return rows;
 }
 
-Result<PointGrid> from_three(const std::string& path) {
+Result<PointGrid> from_three(const MatrixName& name) {
   std::array<NumberRows, 3> all;
   for (std::size_t axis = 0; axis < 3; ++axis) {
-    const std::string file = sibling(path, axis);
+    const std::string file = name.path(axis);
     auto rows = matrix(file);
     if (!rows) return fail(rows.error());
     all[axis] = std::move(*rows);
@@ -89,8 +81,7 @@ Result<PointGrid> from_three(const std::string& path) {
           {all[0].rows[j].values[i], all[1].rows[j].values[i], all[2].rows[j].values[i]});
     }
   }
-  std::string stem = std::filesystem::path(path).stem().string();
-  return grid_of(points, stem.substr(0, stem.size() - 2));
+  return grid_of(points, name.common_name());
 }
 
 // ---- one text ---------------------------------------------------------------------------------
@@ -305,12 +296,36 @@ bool is_offset_table(const NumberRows& rows) {
   return numbers + 1 == rows.header.size();
 }
 
-bool is_matrix(const NumberRows& rows) {
-  constexpr std::size_t kLeastColumns = 5;  // x y z and a number have four
-  return std::all_of(rows.rows.begin(), rows.rows.end(), [&](const NumberRow& row) {
-    return row.values.size() >= kLeastColumns &&
-           row.values.size() == rows.rows.front().values.size();
-  });
+bool is_matrix_text(string_view text, string_view name) {
+  const auto rows = number_rows(text, name);
+  return rows && is_matrix(*rows);
+}
+
+std::optional<MatrixName> matrix_name(const std::string& path) {
+  const auto name = matrix_with_siblings(path);
+  return name ? name : matrix_by_ending(path);
+}
+
+Error not_one_grid(const std::string& path) {
+  return {ErrorCode::kUsage,
+          "a grid is one file, or three whose names differ in one letter: _x, _y, _z",
+          path,
+          "name them like hull_x.dat, hull_y.dat, hull_z.dat",
+          -1,
+          0.0};
+}
+
+/// Three files that are given, in any order.
+Result<PointGrid> from_three_names(const std::vector<std::string>& paths) {
+  const auto first = matrix_name(paths.front());
+  if (!first) return fail(not_one_grid(paths.front()));
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    const std::string wanted = first->path(axis);
+    if (std::find(paths.begin(), paths.end(), wanted) != paths.end()) continue;
+    return fail({ErrorCode::kUsage, "the three files do not belong together", paths.front(),
+                 fmt::format("{} is not among them", wanted), -1, 0.0});
+  }
+  return from_three(*first);
 }
 
 Result<PointGrid> grid_in(const NumberRows& rows, string_view name, const GridOptions& options) {
@@ -324,13 +339,6 @@ Result<PointGrid> grid_in(const NumberRows& rows, string_view name, const GridOp
 
 }  // namespace
 
-bool is_one_of_three(string_view path) {
-  const std::string stem = std::filesystem::path(path).stem().string();
-  return std::any_of(kAxes.begin(), kAxes.end(), [&](string_view axis) {
-    return stem.size() > axis.size() && stem.ends_with(axis);
-  });
-}
-
 Result<PointGrid> parse_grid(string_view text, string_view name, const GridOptions& options) {
   const auto rows = number_rows(text, name);
   if (!rows) return fail(rows.error());
@@ -343,24 +351,22 @@ Result<PointGrid> parse_grid(string_view text, string_view name, const GridOptio
 
 Result<PointGrid> read_grid(const std::vector<std::string>& paths, const GridOptions& options) {
   if (paths.empty()) return fail({ErrorCode::kUsage, "no file with a grid", "", "", -1, 0.0});
-  const bool three = std::all_of(paths.begin(), paths.end(),
-                                 [](const std::string& path) { return is_one_of_three(path); });
-  if (three && (paths.size() == 1 || paths.size() == 3)) {
-    for (std::size_t axis = 0; paths.size() == 3 && axis < 3; ++axis) {
-      const std::string wanted = sibling(paths.front(), axis);
-      if (std::find(paths.begin(), paths.end(), wanted) != paths.end()) continue;
-      return fail({ErrorCode::kUsage, "the three files do not belong together", paths.front(),
-                   fmt::format("{} is not among them", wanted), -1, 0.0});
-    }
-    return from_three(paths.front());
-  }
-  if (paths.size() > 1) {
-    return fail({ErrorCode::kUsage, "a grid is one file, or three whose names end in _x, _y, _z",
-                 paths[1], "", -1, static_cast<double>(paths.size())});
-  }
+  if (paths.size() == 3) return from_three_names(paths);
+  if (paths.size() > 1) return fail(not_one_grid(paths[1]));
+  if (const auto name = matrix_name(paths.front())) return from_three(*name);
   const auto text = read_file(paths.front());
   if (!text) return fail(text.error());
   auto grid = parse_grid(*text, paths.front(), options);
+  const auto lonely = lonely_matrix(paths.front());
+  if (grid && lonely && is_matrix_text(*text, paths.front())) {
+    return fail({ErrorCode::kBadCount,
+                 fmt::format("the name says that these are the coordinates {} of a grid",
+                             "xyz"[lonely->axis]),
+                 paths.front(),
+                 fmt::format("put {} beside it, or give a matrix of heights another name",
+                             lonely->path(lonely->axis == 0 ? 1 : 0)),
+                 -1, 0.0});
+  }
   if (grid) grid->name = std::filesystem::path(paths.front()).stem().string();
   return grid;
 }

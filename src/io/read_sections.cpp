@@ -4,11 +4,13 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
-#include <filesystem>
+#include <map>
 #include <utility>
 
 #include "blade_table.h"
+#include "matrix_names.h"
 #include "number_rows.h"
 #include "obvid/io/read_file.h"
 #include "obvid/io/read_grid.h"
@@ -49,6 +51,15 @@ bool starts_at_one_edge(const std::vector<const NumberRow*>& block) {
   return norm(a - b) <= kPart * norm(cylindrical(w[1], w[2], w[3]) - a);
 }
 
+/// Of places given by z, radius and angle.
+Vec3 cylindrical_rounding(const NumberRows& rows) {
+  const std::vector<double> half = rows.rounding(std::array{1, 2, 3, 4});
+  double radius = 0.0;
+  for (const NumberRow& row : rows.rows) radius = std::max(radius, std::abs(row.values[2]));
+  const double across = half[1] + radius * std::max(half[2], half[3]);
+  return {half[0], across, across};
+}
+
 Result<ParsedSections> rotor_sections(const NumberRows& rows, string_view name) {
   std::vector<std::vector<const NumberRow*>> blocks;
   for (const NumberRow& row : rows.rows) {
@@ -73,6 +84,7 @@ Result<ParsedSections> rotor_sections(const NumberRows& rows, string_view name) 
       if (row == block.begin() && starts_at_one_edge(block)) continue;
       section.points.push_back(cylindrical(v[1], v[2], v[4]));
     }
+    section.rounding = cylindrical_rounding(rows);
     out.sections.push_back(std::move(section));
   }
   return out;
@@ -111,6 +123,8 @@ Result<ParsedSections> from_rows(const NumberRows& rows, string_view name) {
   if (!units) return fail(units.error());
   ParsedSections out;
   out.flat = columns.z < 0;
+  const std::vector<double> half =
+      rows.rounding(std::array{columns.x, columns.y, columns.z});
   double before = 0.0;
   for (std::size_t i = 0; i < rows.rows.size(); ++i) {
     const NumberRow& row = rows.rows[i];
@@ -127,8 +141,7 @@ Result<ParsedSections> from_rows(const NumberRows& rows, string_view name) {
       const std::size_t number = out.sections.size() + 1;
       const std::string title = columns.section >= 0 ? fmt::format("section {:g}", before)
                                                      : section_title(rows, i, number);
-      out.sections.push_back({title, {}});
-      out.sections.back().units = *units;
+      out.sections.push_back({title, {}, {}, *units, {half[0], half[1], half[2]}});
     }
     out.sections.back().points.push_back(
         {at(columns.x), at(columns.y), out.flat ? 0.0 : at(columns.z)});
@@ -143,6 +156,7 @@ Result<ParsedSections> flat_section(string_view text, string_view name) {
   SpaceSeries section{series->name, {}};
   section.units = series->units;
   for (const Vec2 p : series->points) section.points.push_back({p.x, p.y, 0.0});
+  section.rounding = {series->rounding.x, series->rounding.y, 0.0};
   return ParsedSections{{std::move(section)}, true};
 }
 
@@ -163,31 +177,13 @@ void lift(std::vector<SpaceSeries>& sections, double spacing) {
   }
 }
 
-/// Name without the letter of the coordinate: the same for the three files of a grid.
-std::string grid_name(const std::string& path) {
-  const std::filesystem::path file(path);
-  const std::string stem = file.stem().string();
-  return (file.parent_path() / stem.substr(0, stem.size() - 1)).string();
-}
-
-/// A name that ends in _x, _y or _z, and another file of the same grid beside it.
-bool is_matrix_with_siblings(const std::string& path) {
-  if (!is_one_of_three(path)) return false;
-  const std::string ending = std::filesystem::path(path).extension().string();
-  const std::string_view axes = "xyz";
-  return std::count_if(axes.begin(), axes.end(), [&](char axis) {
-           std::error_code ignored;
-           return std::filesystem::exists(grid_name(path) + axis + ending, ignored);
-         }) > 1;
-}
-
 std::vector<SpaceSeries> rows_of(const PointGrid& grid) {
   std::vector<SpaceSeries> sections;
   for (std::size_t j = 0; j < grid.count_v; ++j) {
     const auto from = grid.points.begin() + static_cast<std::ptrdiff_t>(j * grid.count_u);
     sections.push_back(
-        {fmt::format("row {}", j + 1), {from, from + static_cast<std::ptrdiff_t>(grid.count_u)}});
-    sections.back().units = grid.units;
+        {fmt::format("row {}", j + 1), {from, from + static_cast<std::ptrdiff_t>(grid.count_u)}, {},
+         grid.units, grid.rounding});
   }
   return sections;
 }
@@ -223,10 +219,14 @@ Result<void> join(std::vector<SpaceSeries>& sections, const PointGrid& panel,
 /// Rows of one grid, or of panels that meet at corners, each in three files.
 Result<std::vector<SpaceSeries>> rows_of_grids(const std::vector<std::string>& paths) {
   std::vector<SpaceSeries> sections;
-  std::vector<std::string> seen;
+  std::vector<MatrixName> seen;
   for (const std::string& path : paths) {
-    if (std::find(seen.begin(), seen.end(), grid_name(path)) != seen.end()) continue;
-    seen.push_back(grid_name(path));
+    const auto name = matrix_with_siblings(path);
+    const auto known = std::find_if(seen.begin(), seen.end(), [&](const MatrixName& other) {
+      return name && other.same_grid(*name);
+    });
+    if (!name || known != seen.end()) continue;
+    seen.push_back(*name);
     const auto grid = read_grid({path});
     if (!grid) return fail(grid.error());
     if (seen.size() == 1) {
@@ -236,6 +236,32 @@ Result<std::vector<SpaceSeries>> rows_of_grids(const std::vector<std::string>& p
     }
   }
   return sections;
+}
+
+/// Refuses matrices whose rows would be taken for points x y z and more: a row is longer than any
+/// point with its normal, or three files at least have matrices of one shape.
+Result<void> check_no_matrices(const std::vector<std::string>& paths) {
+  constexpr std::size_t kPointAndNormal = 6, kCoordinates = 3;
+  std::map<std::pair<std::size_t, std::size_t>, std::size_t> shapes;
+  for (const std::string& path : paths) {
+    if (path == "-") return {};  // standard input is read once
+    const auto text = read_file(path);
+    if (!text || is_blade_table(*text) || is_airfoil_of_blade(*text)) continue;
+    const auto rows = number_rows(*text, path);
+    const bool named = rows && column_named(*rows, "x") >= 0;
+    if (!rows || named || is_rotor(*rows) || !is_matrix(*rows)) continue;
+    const std::size_t width = rows->rows.front().values.size(), height = rows->rows.size();
+    const std::size_t alike = ++shapes[{height, width}];
+    if (width <= kPointAndNormal && alike < kCoordinates) continue;
+    return fail(
+        {ErrorCode::kBadCount,
+         fmt::format("{} rows of {} numbers are a matrix, not points of sections", height, width),
+         path,
+         "three matrices of coordinates need names that differ in one letter, as in "
+         "hull_x.dat, hull_y.dat, hull_z.dat",
+         -1, static_cast<double>(width)});
+  }
+  return {};
 }
 
 /// Files of one airfoil each and the table that places them.
@@ -284,6 +310,7 @@ Result<ParsedSections> parse_sections(string_view text, string_view name,
     if (!airfoil) return fail(airfoil.error());
     SpaceSeries section{std::string(name), {}};
     for (const Vec2 p : airfoil->points) section.points.push_back({p.x, p.y, 0.0});
+    section.rounding = {airfoil->rounding.x, airfoil->rounding.y, 0.0};
     out = ParsedSections{{std::move(section)}, true};
   } else {
     const auto rows = number_rows(text, name);
@@ -300,8 +327,11 @@ Result<ParsedSections> parse_sections(string_view text, string_view name,
 Result<std::vector<SpaceSeries>> read_sections(const std::vector<std::string>& paths,
                                                const SectionOptions& options) {
   if (paths.empty()) return fail({ErrorCode::kUsage, "no files with sections", "", "", -1, 0.0});
-  const bool matrices = std::all_of(paths.begin(), paths.end(), is_matrix_with_siblings);
+  const bool matrices = std::all_of(paths.begin(), paths.end(), [](const std::string& path) {
+    return matrix_with_siblings(path).has_value();
+  });
   if (matrices) return rows_of_grids(paths);
+  if (auto good = check_no_matrices(paths); !good) return fail(good.error());
   std::vector<SpaceSeries> sections;
   std::string flat_file, spatial_file;
   for (const std::string& path : paths) {

@@ -154,20 +154,31 @@ bool ColumnDigits::shows_rounding() const {
          std::popcount(used_digits_[0] | used_digits_[1]) >= kTellingDigits;
 }
 
-HalfUnits half_units(const ColumnDigits& x, const ColumnDigits& y) {
-  // Both columns come from one format, so padding is common to both. Round abscissae alone are
+std::vector<double> half_units(std::span<const ColumnDigits> columns) {
+  // All columns come from one format, so padding is common to them. Round abscissae alone are
   // exact numbers, not rounded ones.
-  const int common = std::min(x.padding(), y.padding());
-  const int above = std::max(x.above(), y.above());
-  const auto tells = [&](const ColumnDigits& column) {
+  int common = kAllZeros;
+  int above = 0;
+  bool first = true;
+  for (const ColumnDigits& column : columns) {
+    common = std::min(common, column.padding());
+    above = first ? column.above() : std::max(above, column.above());
+    first = false;
+  }
+  const bool tells = std::any_of(columns.begin(), columns.end(), [&](const ColumnDigits& column) {
     return column.padding() == common && column.shows_rounding() &&
            above - (column.unit() + common) >= kTellingLength;
-  };
-  const int padding = tells(x) || tells(y) ? common : 0;
-  const auto half = [&](const ColumnDigits& column) {
-    return column.empty() ? 0.0 : half_of(column.unit() + padding);
-  };
-  return {half(x), half(y)};
+  });
+  std::vector<double> out;
+  for (const ColumnDigits& column : columns) {
+    out.push_back(column.empty() ? 0.0 : half_of(column.unit() + (tells ? common : 0)));
+  }
+  return out;
+}
+
+HalfUnits half_units(const ColumnDigits& x, const ColumnDigits& y) {
+  const std::vector<double> both = half_units(std::array{x, y});
+  return {both[0], both[1]};
 }
 
 }  // namespace obvid::text

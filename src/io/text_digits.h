@@ -3,7 +3,9 @@
 
 #include <array>
 #include <cstddef>
+#include <span>
 #include <string_view>
+#include <vector>
 
 namespace obvid::text {
 
@@ -58,5 +60,7 @@ struct HalfUnits {
   double y = 0.0;
 };
 [[nodiscard]] HalfUnits half_units(const ColumnDigits& x, const ColumnDigits& y);
+/// The same of any number of columns.
+[[nodiscard]] std::vector<double> half_units(std::span<const ColumnDigits> columns);
 
 }  // namespace obvid::text

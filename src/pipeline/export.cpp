@@ -207,14 +207,19 @@ class Exporter {
     return out;
   }
 
+  /// In units of the contour.
+  [[nodiscard]] double gcode_tolerance() const {
+    const double mm = millimetres_of(contour_.units);  // 0: refused when it is written
+    return mm > 0.0 ? std::max(arc_tolerance_, kLeastForGcode / mm) : arc_tolerance_;
+  }
+
   Result<Exported> gcode() {
     GcodeOptions write;
     write.motion = options_.motion;
     write.controller = options_.controller;
     write.feed = options_.feed;
     write.name = options_.name;
-    write.tolerance =
-        options_.tolerance ? *options_.tolerance : std::max(arc_tolerance_, kLeastForGcode);
+    write.tolerance = options_.tolerance ? *options_.tolerance : gcode_tolerance();
     auto made = gcode_text(contour_, write);
     if (!made) return tl::unexpected(made.error());
     Exported out = one_file(std::move(made->text));

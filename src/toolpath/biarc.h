@@ -11,11 +11,7 @@ namespace obvid::toolpath {
 /// along `arriving`, by equal lengths of tangents; nothing: they would turn by half a turn or more.
 [[nodiscard]] std::optional<Vec2> biarc_joint(Vec2 from, Vec2 leaving, Vec2 to, Vec2 arriving);
 
-/// Distance of a point from the arc that leaves `from` along `leaving` (length 1) and ends in `to`;
-/// arcs of less than half a turn.
-[[nodiscard]] double distance_from_arc(Vec2 from, Vec2 leaving, Vec2 to, Vec2 point);
-
-/// Half way along such an arc.
+/// Half way along the arc that leaves `from` along `leaving` (length 1) and ends in `to`.
 [[nodiscard]] Vec2 arc_middle(Vec2 from, Vec2 leaving, Vec2 to);
 
 }  // namespace obvid::toolpath

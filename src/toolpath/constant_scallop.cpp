@@ -4,6 +4,7 @@
 #include <optional>
 
 #include "families.h"
+#include "obvid/core/parallel.h"
 
 namespace obvid::toolpath {
 namespace {
@@ -21,8 +22,8 @@ std::optional<double> reach(const StepForm& f, double da) {
 /// A pass as heights b over places a; the next one is where steps from all of it end together.
 class Front {
  public:
-  Front(const Part& part, const StepRule& rule, const PassFrame& frame)
-      : part_(part), rule_(rule), frame_(frame) {
+  Front(const Part& part, const StepRule& rule, const PassFrame& frame, std::size_t threads)
+      : part_(part), rule_(rule), frame_(frame), threads_(threads) {
     const double spacing = kSpacingOfStep * rule.level();
     const double places = std::ceil((frame.a1 - frame.a0) / spacing) + 1.0;
     const auto count =
@@ -58,15 +59,15 @@ class Front {
   [[nodiscard]] std::vector<StepForm> forms(const std::vector<double>& b) const {
     std::vector<StepForm> out(b.size(), rule_.level_form());
     const Vec2 x = frame_.along, y = frame_.across();
-    for (std::size_t i = 0; i < b.size(); ++i) {
+    in_parallel(b.size(), threads_, [&](std::size_t i) {
       const auto place = part_.drop(frame_.at(a(i), b[i]));
-      if (!place) continue;
+      if (!place) return;
       const StepForm f = rule_.form(part_, *place);
       const auto form = [&](Vec2 p, Vec2 q) {
         return f.xx * p.x * q.x + f.xy * (p.x * q.y + p.y * q.x) + f.yy * p.y * q.y;
       };
       out[i] = {form(x, x), form(x, y), form(y, y)};
-    }
+    });
     return out;
   }
 
@@ -85,6 +86,7 @@ class Front {
   const Part& part_;
   const StepRule& rule_;
   const PassFrame& frame_;
+  std::size_t threads_;
   double spacing_ = 0.0;
   std::vector<double> b_;
 };
@@ -94,7 +96,7 @@ class Front {
 Result<Family> constant_scallop(const Part& part, const ToolpathOptions& options,
                                 const StepRule& rule, Walker& walker, const Progress& progress) {
   PassFrame frame = pass_frame(part, options.angle_deg);
-  Front front(part, rule, frame);
+  Front front(part, rule, frame, walker.threads());
   Family family;
   while (front.lowest() <= frame.b1) {
     auto pass = walker.walk(front.rail());

@@ -13,7 +13,7 @@ double CutterShape::height(double distance) const {
 }
 
 Vec2 CutterShape::offset(Vec3 normal) const {
-  const double level = std::hypot(normal.x, normal.y);
+  const double level = std::sqrt(normal.x * normal.x + normal.y * normal.y);
   if (!(level > 0.0)) return {};
   const double scale = corner + flat() / level;
   return {scale * normal.x, scale * normal.y};
@@ -22,14 +22,6 @@ Vec2 CutterShape::offset(Vec3 normal) const {
 Vec3 CutterShape::tip(Vec3 point, Vec3 normal) const {
   const Vec2 out = offset(normal);
   return {point.x + out.x, point.y + out.y, point.z + corner * (normal.z - 1.0)};
-}
-
-double CutterShape::distance(Vec3 p) const {
-  const double level = std::hypot(p.x, p.y);
-  if (p.z >= corner) return level - radius;
-  const double out = level - flat();
-  if (out <= 0.0) return -p.z;
-  return std::hypot(out, p.z - corner) - corner;
 }
 
 Result<CutterShape> shape_of(const Cutter& cutter) {

@@ -1,11 +1,19 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cmath>
+
 #include "obvid/core/result.h"
 #include "obvid/geom/vec3.h"
 #include "obvid/toolpath/toolpath.h"
 
 namespace obvid::toolpath {
+
+/// Distance from a cutter's body, and how it changes away from the axis and upwards.
+struct BodyDistance {
+  double value = 0.0;  ///< negative inside
+  double by_level = 0.0, by_height = 0.0;
+};
 
 /// The body that a cutter sweeps when it turns: above the tip, a disc of radius `flat()` whose rim
 /// is rounded by `corner`, then a cylinder of radius `radius`.
@@ -21,8 +29,15 @@ struct CutterShape {
   [[nodiscard]] Vec2 offset(Vec3 normal) const;
   /// Place of the tip that touches the point of a surface with this normal.
   [[nodiscard]] Vec3 tip(Vec3 point, Vec3 normal) const;
-  /// Distance of a point from the body, its place given from the tip; negative inside.
-  [[nodiscard]] double distance(Vec3 from_tip) const;
+  /// The body is all that lies within the corner's radius of an upright cylinder of radius flat()
+  /// that begins at the height of the corner: so is its distance, inside as well as outside.
+  [[nodiscard]] BodyDistance distance(double from_axis, double over_tip) const {
+    const double out = from_axis - flat(), below = corner - over_tip;
+    if (below <= 0.0 && out > below) return {out - corner, 1.0, 0.0};
+    if (out <= 0.0) return {below - corner, 0.0, -1.0};
+    const double far = std::sqrt(out * out + below * below);
+    return {far - corner, out / far, -below / far};
+  }
 };
 
 /// Errors: E203.

@@ -11,6 +11,7 @@ namespace {
 constexpr std::uint32_t kLeaf = 4;  // triangles
 /// Boxes halve what they hold: 2^32 triangles are 32 deep, and each leaves one waiting.
 constexpr std::size_t kDeepestBox = 64;
+constexpr double kLeastLid = 0.1;  // z of unit normals: steeper lids gain nothing
 constexpr double kNone = -std::numeric_limits<double>::infinity();
 
 double middle_of(const FieldTriangle& t, bool of_x) {
@@ -22,25 +23,40 @@ double top_of(const Triangle& t) { return std::max({t[0].z, t[1].z, t[2].z}); }
 
 double apart(double p, double low, double high) { return std::max({low - p, p - high, 0.0}); }
 
+/// Of a tip over the top of a flat lid whose nearest place lies that far from the axis.
+double under_top(const CutterShape& cutter, double top, double apart2) {
+  if (apart2 > cutter.radius * cutter.radius) return kNone;
+  const double flat = cutter.flat();
+  return apart2 <= flat * flat ? top : top - cutter.height(std::sqrt(apart2));
+}
+
 /// Greatest tip height that a triangle can cause, at least.
 double ceiling(const CutterShape& cutter, Vec2 axis, const Triangle& t) {
   const double dx =
       apart(axis.x, std::min({t[0].x, t[1].x, t[2].x}), std::max({t[0].x, t[1].x, t[2].x}));
   const double dy =
       apart(axis.y, std::min({t[0].y, t[1].y, t[2].y}), std::max({t[0].y, t[1].y, t[2].y}));
-  const double d = std::hypot(dx, dy);
-  return d > cutter.radius ? kNone : top_of(t) - cutter.height(d);
+  return under_top(cutter, top_of(t), dx * dx + dy * dy);
 }
 
 }  // namespace
 
-double DropField::Box::apart(Vec2 p) const {
-  return std::hypot(toolpath::apart(p.x, low.x, high.x), toolpath::apart(p.y, low.y, high.y));
+double DropField::Box::apart2(Vec2 p) const {
+  const double dx = apart(p.x, low.x, high.x), dy = apart(p.y, low.y, high.y);
+  return dx * dx + dy * dy;
+}
+
+// A cutter rests on a plane of slope s by corner * (sqrt(1 + s^2) - 1) + flat * s above it.
+double DropField::Box::ceiling(const CutterShape& cutter, Vec2 axis) const {
+  const double by_top = under_top(cutter, top, apart2(axis));
+  const double by_lid =
+      lid + lean_x * axis.x + lean_y * axis.y + cutter.corner * stretch + cutter.flat() * slope;
+  return std::min(by_top, by_lid);
 }
 
 DropField::DropField(const std::vector<Mesh>& meshes) {
   take(meshes);
-  mark_open_sides(triangles_);
+  mark_sides(meshes, triangles_);
   build();
 }
 
@@ -69,11 +85,27 @@ void DropField::bound(Box& box, std::uint32_t first, std::uint32_t count) const 
   box.low = {kFar, kFar};
   box.high = {-kFar, -kFar};
   box.top = -kFar;
+  Vec3 upwards;
   for (std::uint32_t i = first; i < first + count; ++i) {
-    for (const Vec3 p : triangles_[i].corners) {
+    const Triangle& t = triangles_[i].corners;
+    for (const Vec3 p : t) {
       box.low = {std::min(box.low.x, p.x), std::min(box.low.y, p.y)};
       box.high = {std::max(box.high.x, p.x), std::max(box.high.y, p.y)};
       box.top = std::max(box.top, p.z);
+    }
+    const Vec3 n = cross(t[1] - t[0], t[2] - t[0]);
+    upwards = n.z < 0.0 ? upwards - n : upwards + n;
+  }
+  box.lid = box.top;
+  if (!(upwards.z > kLeastLid * norm(upwards))) return;
+  box.lean_x = -upwards.x / upwards.z;
+  box.lean_y = -upwards.y / upwards.z;
+  box.slope = std::sqrt(box.lean_x * box.lean_x + box.lean_y * box.lean_y);
+  box.stretch = std::sqrt(1.0 + box.slope * box.slope) - 1.0;
+  box.lid = -kFar;
+  for (std::uint32_t i = first; i < first + count; ++i) {
+    for (const Vec3 p : triangles_[i].corners) {
+      box.lid = std::max(box.lid, p.z - box.lean_x * p.x - box.lean_y * p.y);
     }
   }
 }
@@ -115,10 +147,7 @@ std::optional<FieldRest> DropField::drop(const CutterShape& cutter, Vec2 axis) c
     std::uint32_t box;
     double ceiling;
   };
-  const auto ceiling_of = [&](std::uint32_t b) {
-    const double d = boxes_[b].apart(axis);
-    return d > cutter.radius ? kNone : boxes_[b].top - cutter.height(d);
-  };
+  const auto ceiling_of = [&](std::uint32_t b) { return boxes_[b].ceiling(cutter, axis); };
   FieldRest best;
   best.rest.tip_z = kNone;
   std::array<Waiting, kDeepestBox> stack;
@@ -131,7 +160,7 @@ std::optional<FieldRest> DropField::drop(const CutterShape& cutter, Vec2 axis) c
     if (box.count == 0) {
       Waiting a{box.first, ceiling_of(box.first)}, b{box.first + 1, ceiling_of(box.first + 1)};
       const auto mid = [&](const Waiting& w) {  // ties: the nearer box first
-        return boxes_[w.box].apart(axis);
+        return boxes_[w.box].apart2(axis);
       };
       if (a.ceiling > b.ceiling || (a.ceiling == b.ceiling && mid(a) < mid(b))) std::swap(a, b);
       stack[size++] = a;
@@ -141,7 +170,7 @@ std::optional<FieldRest> DropField::drop(const CutterShape& cutter, Vec2 axis) c
     for (std::uint32_t i = box.first; i < box.first + box.count; ++i) {
       const Triangle& t = triangles_[i].corners;
       if (ceiling(cutter, axis, t) <= best.rest.tip_z) continue;
-      if (drop_on(cutter, axis, t, best.rest)) best.triangle = i;
+      if (drop_on(cutter, axis, t, triangles_[i].skipped, best.rest)) best.triangle = i;
     }
   }
   if (best.rest.tip_z == kNone) return std::nullopt;
@@ -155,7 +184,7 @@ std::optional<FieldHeight> DropField::height(Vec2 place) const {
   if (!boxes_.empty()) stack[size++] = 0;
   while (size > 0) {
     const Box& box = boxes_[stack[--size]];
-    if (box.apart(place) > 0.0 || (best && box.top <= best->z)) continue;
+    if (box.apart2(place) > 0.0 || (best && box.top <= best->z)) continue;
     if (box.count == 0) {
       stack[size++] = box.first;
       stack[size++] = box.first + 1;

@@ -16,6 +16,9 @@ struct FieldTriangle {
   std::uint32_t mesh = 0;
   std::uint32_t number = 0;
   std::uint8_t open = 0;  ///< bit per feature as numbered in `Rest` (edges 1..3, corners 4..6)
+  /// Features that no cutter rests on, or that are those of another triangle, too.
+  std::uint8_t skipped = 0;
+  bool rough = false;  ///< the part ends at one of its edges, or has an edge there
 };
 
 struct FieldRest {
@@ -33,8 +36,8 @@ struct FieldHeight {
   std::array<double, 3> weights{};
 };
 
-/// All triangles of a model in a tree of boxes: what a cutter coming down meets first, in about
-/// O(log n) for each place. `triangles` stay in the tree's order.
+/// All triangles of a model in a tree of boxes with leaning lids: what a cutter coming down meets
+/// first, in about O(log n) for each place. `triangles` stay in the tree's order.
 class DropField {
  public:
   explicit DropField(const std::vector<Mesh>& meshes);
@@ -51,9 +54,13 @@ class DropField {
   struct Box {
     Vec2 low, high;
     double top = 0.0;
+    /// All below z = lid + lean_x x + lean_y y, too; that plane's slope, and sqrt(1 + slope^2) - 1.
+    double lid = 0.0, lean_x = 0.0, lean_y = 0.0, slope = 0.0, stretch = 0.0;
     std::uint32_t first = 0,
                   count = 0;  ///< leaf: triangles; else count 0, children first, next one
-    [[nodiscard]] double apart(Vec2 p) const;
+    [[nodiscard]] double apart2(Vec2 p) const;  ///< squared
+    /// Greatest height of a tip on the axis that anything in the box can cause, at least.
+    [[nodiscard]] double ceiling(const CutterShape& cutter, Vec2 axis) const;
   };
   void take(const std::vector<Mesh>& meshes);
   void build();
@@ -65,7 +72,9 @@ class DropField {
 };
 
 /// Sets the bits of open sides: edges that belong to one triangle only (corners at the same place
-/// are one corner), and corners at their ends.
-void mark_open_sides(std::vector<FieldTriangle>& triangles);
+/// are one corner), and corners at their ends. Rough are the triangles at these and at edges whose
+/// two sides have normals of their own. Skipped are the bottoms of valleys, where both sides
+/// hold a cutter up before, and all but one of the features that triangles share.
+void mark_sides(const std::vector<Mesh>& meshes, std::vector<FieldTriangle>& triangles);
 
 }  // namespace obvid::toolpath

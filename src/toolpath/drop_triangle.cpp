@@ -3,15 +3,20 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <optional>
 
 namespace obvid::toolpath {
 namespace {
 
 /// Triangles that stand upright within this (z of the unit normal) touch with edges only.
 constexpr double kUprightTriangle = 1e-9;
-constexpr int kHalvings = 40;  // of the part of an edge under the cutter: below rounding
+constexpr int kMostEdgeSteps = 40;        // along an edge: below rounding
+constexpr double kSettledOnEdge = 1e-12;  // of the radius
 
-bool raise(Rest& rest, double tip_z, Vec3 point, int feature) {
+double level_length(double x, double y) { return std::sqrt(x * x + y * y); }
+
+bool raise_rest(Rest& rest, double tip_z, Vec3 point, int feature) {
   if (!(tip_z > rest.tip_z)) return false;
   rest = {tip_z, point, feature};
   return true;
@@ -19,29 +24,47 @@ bool raise(Rest& rest, double tip_z, Vec3 point, int feature) {
 
 bool on_corner(const CutterShape& cutter, Vec2 axis, Vec3 p, int feature, Rest& rest) {
   if (p.z <= rest.tip_z) return false;
-  const double d = std::hypot(p.x - axis.x, p.y - axis.y);
-  return d <= cutter.radius && raise(rest, p.z - cutter.height(d), p, feature);
+  const double d = level_length(p.x - axis.x, p.y - axis.y);
+  return d <= cutter.radius && raise_rest(rest, p.z - cutter.height(d), p, feature);
 }
 
-/// Along a straight line that passes the axis at distance `e`, height z0 + slope s: the s within
-/// [from, to] where a coming cutter touches. The gap is convex in s, so one place is lowest.
-double touching(const CutterShape& cutter, double e, double slope, double from, double to) {
-  if (cutter.corner <= 0.0) return slope > 0.0 ? to : from;
-  if (cutter.flat() <= 0.0) {  // a ball is cut in a circle
-    const double r2 = std::max(0.0, cutter.corner * cutter.corner - e * e);
-    return std::clamp(std::sqrt(r2) * slope / std::sqrt(1.0 + slope * slope), from, to);
-  }
-  const auto rises = [&](double s) {  // the line's slope beats that of the cutter
-    const double d = std::hypot(s, e), out = d - cutter.flat();
-    if (out <= 0.0) return slope > 0.0;
-    const double side = std::sqrt(std::max(0.0, cutter.corner * cutter.corner - out * out));
-    return slope * side * d > out * s;
+/// An edge seen from the axis: it passes at distance `beside`; height over `s` along it.
+struct EdgeLine {
+  double beside, slope, height;  ///< height: at s = 0
+  struct Tip {
+    double z, change;  ///< of the tip that touches at s; concave in s
   };
-  for (int k = 0; k < kHalvings; ++k) {
-    const double middle = 0.5 * (from + to);
-    (rises(middle) ? from : to) = middle;
+  [[nodiscard]] Tip tip(const CutterShape& cutter, double s) const {
+    const double d = level_length(s, beside), out = d - cutter.flat();
+    if (out <= 0.0) return {height + slope * s, slope};
+    const double side = std::sqrt(std::max(0.0, cutter.corner * cutter.corner - out * out));
+    const double steep = side > 0.0 ? out / side : std::numeric_limits<double>::infinity();
+    return {height + slope * s - (cutter.corner - side), slope - (s == 0.0 ? 0.0 : steep * s / d)};
   }
-  return 0.5 * (from + to);
+};
+
+/// The s within [from, to] where a coming cutter touches; `enough`: tips up to there are of no
+/// interest, false then.
+bool touching(const CutterShape& cutter, const EdgeLine& edge, double from, double to,
+              double enough, double& s) {
+  if (cutter.corner <= 0.0) {
+    s = edge.slope > 0.0 ? to : from;
+    return true;
+  }
+  if (cutter.flat() <= 0.0) {  // a ball is cut in a circle
+    const double r2 = std::max(0.0, cutter.corner * cutter.corner - edge.beside * edge.beside);
+    s = std::clamp(std::sqrt(r2) * edge.slope / std::sqrt(1.0 + edge.slope * edge.slope), from, to);
+    return true;
+  }
+  const double settled = kSettledOnEdge * cutter.radius;
+  for (int k = 0; k < kMostEdgeSteps && to - from > settled; ++k) {
+    s = 0.5 * (from + to);
+    const EdgeLine::Tip at = edge.tip(cutter, s);
+    if (at.z + std::abs(at.change) * 0.5 * (to - from) <= enough) return false;
+    (at.change > 0.0 ? from : to) = s;
+  }
+  s = 0.5 * (from + to);
+  return true;
 }
 
 bool on_edge(const CutterShape& cutter, Vec2 axis, Vec3 a, Vec3 b, int feature, Rest& rest) {
@@ -50,16 +73,17 @@ bool on_edge(const CutterShape& cutter, Vec2 axis, Vec3 a, Vec3 b, int feature, 
   const double length = norm(way);
   if (!(length > 0.0)) return false;  // upright: the corners say it
   const double e = std::abs(cross(way, to)) / length;
-  if (e >= cutter.radius) return false;
+  if (e >= cutter.radius || std::max(a.z, b.z) - cutter.height(e) <= rest.tip_z) return false;
   const double foot = dot(way, to) / length;
   const double half = std::sqrt(cutter.radius * cutter.radius - e * e);
   const double from = std::max(-foot, -half), end = std::min(length - foot, half);
   if (!(from < end)) return false;
   const double slope = (b.z - a.z) / length;
-  const double s = touching(cutter, e, slope, from, end);
+  double s = 0.0;
+  if (!touching(cutter, {e, slope, a.z + slope * foot}, from, end, rest.tip_z, s)) return false;
   const double part = std::clamp((s + foot) / length, 0.0, 1.0);
   const Vec3 p = a + part * (b - a);
-  return raise(rest, p.z - cutter.height(std::hypot(s, e)), p, feature);
+  return raise_rest(rest, p.z - cutter.height(level_length(s, e)), p, feature);
 }
 
 bool inside(const Triangle& t, Vec2 p, std::array<double, 3>& w) {
@@ -72,25 +96,43 @@ bool inside(const Triangle& t, Vec2 p, std::array<double, 3>& w) {
   return w[0] >= 0.0 && w[1] >= 0.0 && w[2] >= 0.0;
 }
 
-bool on_inside(const CutterShape& cutter, Vec2 axis, const Triangle& t, Rest& rest) {
-  Vec3 n = unit(cross(t[1] - t[0], t[2] - t[0]));
-  if (std::abs(n.z) < kUprightTriangle) return false;
-  if (n.z < 0.0) n = -n;
-  const Vec2 touch = axis - cutter.offset(n);
-  std::array<double, 3> w{};
-  if (!inside(t, touch, w)) return false;
-  const Vec3 p = w[0] * t[0] + w[1] * t[1] + w[2] * t[2];
-  return raise(rest, p.z + cutter.corner * (n.z - 1.0), p, 0);
+/// The whole plane of a triangle under a cutter.
+struct PlaneRest {
+  double tip_z;  ///< no feature of the triangle holds the tip any higher
+  Vec2 touch;    ///< from the axis
+};
+
+std::optional<PlaneRest> on_plane(const CutterShape& cutter, Vec2 axis, const Triangle& t) {
+  const Vec3 n = cross(t[1] - t[0], t[2] - t[0]);
+  const double level2 = n.x * n.x + n.y * n.y, size = std::sqrt(level2 + n.z * n.z);
+  if (!(std::abs(n.z) >= kUprightTriangle * size) || !(size > 0.0)) return std::nullopt;
+  const double level = std::sqrt(level2), up = std::abs(n.z), side = n.z < 0.0 ? -1.0 : 1.0;
+  const double plane = t[0].z - (n.x * (axis.x - t[0].x) + n.y * (axis.y - t[0].y)) / n.z;
+  const double lift = cutter.corner * (size / up - 1.0) + cutter.flat() * level / up;
+  const double out = cutter.corner / size + (level > 0.0 ? cutter.flat() / level : 0.0);
+  return PlaneRest{plane + lift, -side * out * Vec2{n.x, n.y}};
 }
 
 }  // namespace
 
-bool drop_on(const CutterShape& cutter, Vec2 axis, const Triangle& t, Rest& rest) {
-  bool raised = on_inside(cutter, axis, t, rest);
+bool drop_on(const CutterShape& cutter, Vec2 axis, const Triangle& t, unsigned skipped,
+             Rest& rest) {
+  if (const auto plane = on_plane(cutter, axis, t)) {
+    if (plane->tip_z <= rest.tip_z) return false;
+    std::array<double, 3> w{};
+    if (inside(t, axis + plane->touch, w)) {
+      return raise_rest(rest, plane->tip_z, w[0] * t[0] + w[1] * t[1] + w[2] * t[2], 0);
+    }
+  }
+  bool raised = false;
   for (std::size_t k = 0; k < 3; ++k) {
     const int edge = static_cast<int>(k) + 1;
-    raised = on_edge(cutter, axis, t[k], t[(k + 1) % 3], edge, rest) || raised;
-    raised = on_corner(cutter, axis, t[k], edge + 3, rest) || raised;
+    if (((skipped >> edge) & 1U) == 0) {
+      raised = on_edge(cutter, axis, t[k], t[(k + 1) % 3], edge, rest) || raised;
+    }
+    if (((skipped >> (edge + 3)) & 1U) == 0) {
+      raised = on_corner(cutter, axis, t[k], edge + 3, rest) || raised;
+    }
   }
   return raised;
 }

@@ -17,9 +17,10 @@ struct Rest {
 using Triangle = std::array<Vec3, 3>;
 
 /// Raises `rest` when the cutter, coming down along the axis through `axis`, meets the triangle
-/// before `rest.tip_z`; true then. The exact greatest height for each of the seven features.
+/// before `rest.tip_z`; true then. The exact greatest height for each of the seven features but
+/// those whose bits are set in `skipped`.
 [[nodiscard]] bool drop_on(const CutterShape& cutter, Vec2 axis, const Triangle& triangle,
-                           Rest& rest);
+                           unsigned skipped, Rest& rest);
 
 /// Height of the triangle over a place, and the corners' weights; false: not over it.
 [[nodiscard]] bool height_over(const Triangle& triangle, Vec2 place, double& z,

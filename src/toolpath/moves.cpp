@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "machine_units.h"
+
 namespace obvid::toolpath {
 namespace {
 
@@ -113,6 +115,7 @@ std::vector<Vec3> thinned(const std::vector<Vec3>& points, double within) {
 
 void lay_moves(const Family& family, const ToolpathOptions& options, double level_step,
                Walker& walker, Toolpath& out) {
+  out.moves.clear();
   Layer layer(options, level_step, walker, out);
   for (const Pass& pass : family) {
     if (pass.empty()) continue;
@@ -127,9 +130,9 @@ void lay_moves(const Family& family, const ToolpathOptions& options, double leve
   }
   layer.leave();
   ToolpathReport& report = out.report;
-  report.minutes = report.cutting_length / options.feed +
-                   report.plunge_length / options.plunge_feed +
-                   report.rapid_length / options.rapid_feed;
+  report.minutes = machine_scale(out.units) * (report.cutting_length / out.feeds.pass +
+                                               report.plunge_length / out.feeds.plunge +
+                                               report.rapid_length / out.feeds.rapid);
 }
 
 }  // namespace obvid::toolpath

@@ -44,6 +44,7 @@ class Part {
   [[nodiscard]] double tolerance() const { return tolerance_; }
   [[nodiscard]] const DropField& field() const { return field_; }
   [[nodiscard]] const SurfaceModel& model() const { return model_; }
+  [[nodiscard]] const std::vector<Mesh>& meshes() const { return meshes_; }
 
   /// Where the cutter comes to rest; on triangles, then made exact on the surface where the contact
   /// lies inside a patch.

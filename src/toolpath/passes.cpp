@@ -6,20 +6,33 @@
 #include <algorithm>
 #include <cmath>
 
+#include "obvid/core/parallel.h"
+
 namespace obvid::toolpath {
 namespace {
 
-constexpr double kStationOfRadius = 0.25;  // looked at before refinement
-constexpr int kMostHalvings = 40;          // halvings between stations
-constexpr double kStraightRise = 1.5;      // shares of the tolerance, of steps with a known middle
-constexpr double kStraightBend = 0.25;     // of the share
-constexpr std::size_t kIsoSteps = 64;      // to guess the length of a line of parameters
+constexpr double kStationOfRadius = 0.5;  // looked at before refinement
+constexpr int kMostHalvings = 40;         // halvings between stations
+constexpr double kEnd = 1e-4;           // of the share: walls at a border rise that fast before it
+constexpr double kMeasured = 0.25;      // radii: longer ways are not judged by three places alone
+constexpr double kMeasuredBend = 0.25;  // of the share: how far these may lie off the chord
+constexpr std::size_t kIsoSteps = 64;   // to guess the length of a line of parameters
 /// Contacts that move so much faster than the cutter, to places that lean otherwise (change of the
 /// unit normal): it changes from one side of a valley to the other.
 constexpr double kJump = 10.0;
 constexpr double kLeansOtherwise = 0.05;
 
-double level_distance(Vec3 a, Vec3 b) { return std::hypot(a.x - b.x, a.y - b.y); }
+double level_distance(Vec3 a, Vec3 b) {
+  const double dx = a.x - b.x, dy = a.y - b.y;
+  return std::sqrt(dx * dx + dy * dy);
+}
+
+/// Distance of a point from the line through a and b.
+double off_line(Vec3 a, Vec3 b, Vec3 p) {
+  const Vec3 way = b - a;
+  const double length = norm(way);
+  return length > 0.0 ? norm(cross(way, p - a)) / length : norm(p - a);
+}
 
 bool changes_sides(const PassPoint& a, const PassPoint& b) {
   const double contact = norm(a.place.contact - b.place.contact);
@@ -43,13 +56,7 @@ Rail between(const Rail& a, const Rail& b) {
   return out;
 }
 
-struct Walker::Step {
-  const Rail& rail;
-  Pass& pass;
-  bool open = false;  ///< the last piece goes on
-};
-
-std::optional<PassPoint> Walker::resting(Vec2 axis, double t) const {
+Walker::Station Walker::resting(Vec2 axis, double t) const {
   const auto place = part_.drop(axis);
   if (!place) return std::nullopt;
   if (place->open) {
@@ -61,7 +68,7 @@ std::optional<PassPoint> Walker::resting(Vec2 axis, double t) const {
 }
 
 // Where the cutter is to touch the patch; held up where it would cut into something else.
-std::optional<PassPoint> Walker::touching(const Rail& rail, double t) const {
+Walker::Station Walker::touching(const Rail& rail, double t) const {
   const NurbsSurface& surface = part_.model().patches[rail.patch].surface;
   const double along = (rail.along_v ? domain_v(surface) : domain_u(surface)).at(t);
   PassPoint out;
@@ -91,12 +98,13 @@ std::optional<PassPoint> Walker::touching(const Rail& rail, double t) const {
   return out;
 }
 
-std::optional<PassPoint> Walker::at(const Rail& rail, double t) const {
+Walker::Station Walker::at(const Rail& rail, double t) const {
   return rail.of_parameters() ? touching(rail, t) : resting(rail.axis_at(t), t);
 }
 
-/// Derivation: docs/methods/toolpath.md.
-bool Walker::near_enough(Vec3 a, Vec3 b) const {
+/// Derivations: docs/methods/toolpath.md. Round bodies: no part can hide between two that are so
+/// near; discs: they leave no more than a sliver open, and rise by no more than that.
+bool Walker::round_enough(Vec3 a, Vec3 b) const {
   const CutterShape& cutter = part_.cutter();
   const double share = kStepShare * part_.tolerance(), level = level_distance(a, b);
   const Vec3 way = b - a;
@@ -104,13 +112,23 @@ bool Walker::near_enough(Vec3 a, Vec3 b) const {
   return std::abs(way.z) <= 0.5 * share && level * level <= 4.0 * cutter.flat() * share;
 }
 
-// Sharp corners: a short rise whose middle is where a straight line has it.
-bool Walker::straight(Vec3 a, Vec3 middle, Vec3 b) const {
-  const double share = kStepShare * part_.tolerance(), flat = part_.cutter().flat();
+/// The part bulges so little under the cutter that it cannot stand out between two places.
+bool Walker::flat_enough(const Rail& rail, Vec3 a, Vec3 b) const {
   const double level = level_distance(a, b);
-  if (std::abs(b.z - a.z) > kStraightRise * share || level * level > 4.0 * flat * share)
-    return false;
-  return std::abs(middle.z - 0.5 * (a.z + b.z)) <= kStraightBend * share;
+  if (rail.across || level > bulges_.longest()) return false;
+  const double bulge = bulges_.at({0.5 * (a.x + b.x), 0.5 * (a.y + b.y)});
+  return level * level * bulge <= 8.0 * kStepShare * part_.tolerance();
+}
+
+/// At borders and edges of the part: a short way whose inner places lie where a straight one has
+/// them.
+bool Walker::measured_enough(const std::array<Vec3, 5>& p) const {
+  if (level_distance(p[0], p[4]) > kMeasured * part_.cutter().radius) return false;
+  const double most = kMeasuredBend * kStepShare * part_.tolerance();
+  for (std::size_t k = 1; k < 4; ++k) {
+    if (off_line(p[0], p[4], p[k]) > most) return false;
+  }
+  return true;
 }
 
 std::vector<double> Walker::stations(const Rail& rail) const {
@@ -144,60 +162,76 @@ std::vector<double> Walker::stations(const Rail& rail) const {
 }
 
 // Appends what lies behind `a`, up to and with `b`.
-void Walker::fill(Step& step, const std::optional<PassPoint>& a, double ta,
-                  const std::optional<PassPoint>& b, double tb, int depth) {
-  if ((!a && !b) || points_ > most_points_) return;
+void Walker::fill(const Rail& rail, const Station& a, double ta, const Station& b, double tb,
+                  int depth, Stretch& out) const {
+  if ((!a && !b) || out.points.size() > out.most) return;
+  const double share = kStepShare * part_.tolerance();
   bool done = depth >= kMostHalvings;
   if (a && b) {
-    done = done || near_enough(a->place.tip, b->place.tip);
+    done = done || round_enough(a->place.tip, b->place.tip);
   } else {
-    const double share = kStepShare * part_.tolerance();
     const double parts = static_cast<double>(std::size_t{1} << std::min(depth, kMostHalvings));
-    done = done || kStationOfRadius * part_.cutter().radius / parts <= share;
+    done = done || kStationOfRadius * part_.cutter().radius / parts <= kEnd * share;
   }
-  if (!done) {
-    const double middle = 0.5 * (ta + tb);
-    const auto m = at(step.rail, middle);
-    if (a && b && m && straight(a->place.tip, m->place.tip, b->place.tip)) {
-      append(step, *m);
-      append(step, *b);
+  if (done) {
+    out.points.push_back(b);
+  } else {
+    fill_both(rail, a, ta, b, tb, depth, out);
+  }
+}
+
+void Walker::fill_both(const Rail& rail, const Station& a, double ta, const Station& b, double tb,
+                       int depth, Stretch& out) const {
+  const double t = 0.5 * (ta + tb);
+  const Station m = at(rail, t);
+  if (a && b && m) {
+    const Vec3 from = a->place.tip, middle = m->place.tip, to = b->place.tip;
+    const double off = off_line(from, to, middle), share = kStepShare * part_.tolerance();
+    if (off <= share && flat_enough(rail, from, to)) {
+      out.points.push_back(m);
+      out.points.push_back(b);
       return;
     }
-    fill(step, a, ta, m, middle, depth + 1);
-    fill(step, m, middle, b, tb, depth + 1);
-    return;
+    if (off <= kMeasuredBend * share &&
+        level_distance(from, to) <= kMeasured * part_.cutter().radius) {
+      const Station q1 = at(rail, 0.5 * (ta + t)), q3 = at(rail, 0.5 * (t + tb));
+      if (q1 && q3 && measured_enough({from, q1->place.tip, middle, q3->place.tip, to})) {
+        out.points.insert(out.points.end(), {q1, m, q3, b});
+        return;
+      }
+    }
   }
-  if (!b) {
-    step.open = false;
-    return;
-  }
-  append(step, *b);
+  fill(rail, a, ta, m, t, depth + 1, out);
+  fill(rail, m, t, b, tb, depth + 1, out);
 }
 
-void Walker::append(Step& step, const PassPoint& p) {
-  if (!step.open) step.pass.pieces.emplace_back();
-  step.open = true;
-  auto& piece = step.pass.pieces.back();
-  piece.push_back(p);
-  ++points_;
-  if (piece.size() > 1 && changes_sides(piece[piece.size() - 2], p)) piece.back().lifted = true;
-}
-
+// Stretches between stations know nothing of each other: they are walked side by side.
 Result<Pass> Walker::walk(const Rail& rail) {
+  const auto ts = stations(rail);
+  std::vector<Station> ends(ts.size());
+  in_parallel(ts.size(), threads_, [&](std::size_t i) { ends[i] = at(rail, ts[i]); });
+  std::vector<Stretch> stretches(ts.size() - 1);
+  in_parallel(stretches.size(), threads_, [&](std::size_t i) {
+    stretches[i].most = most_points_ - std::min(most_points_, points_);
+    fill(rail, ends[i], ts[i], ends[i + 1], ts[i + 1], 0, stretches[i]);
+  });
   Pass pass;
   pass.rail = rail;
-  Step step{rail, pass};
-  const auto ts = stations(rail);
-  std::optional<PassPoint> last;
-  for (std::size_t i = 0; i < ts.size(); ++i) {
-    const auto next = at(rail, ts[i]);
-    if (i > 0) {
-      fill(step, last, ts[i - 1], next, ts[i], 0);
-    } else if (next) {
-      pass.pieces.push_back({*next});
-      step.open = true;
+  bool open = false;
+  const auto append = [&](const Station& p) {
+    if (p) {
+      if (!open) pass.pieces.emplace_back();
+      auto& piece = pass.pieces.back();
+      piece.push_back(*p);
+      ++points_;
+      if (piece.size() > 1 && changes_sides(piece[piece.size() - 2], *p))
+        piece.back().lifted = true;
     }
-    last = next;
+    open = p.has_value();
+  };
+  append(ends.front());
+  for (const Stretch& stretch : stretches) {
+    for (const Station& p : stretch.points) append(p);
   }
   if (points_ > most_points_) {
     return fail({ErrorCode::kToleranceNotReached,
@@ -212,6 +246,7 @@ Result<Pass> Walker::walk(const Rail& rail) {
 std::optional<std::vector<Vec3>> Walker::link(Vec3 from, Vec3 to) {
   Rail rail;
   rail.axis = {{from.x, from.y}, {to.x, to.y}};
+  rail.across = true;
   const auto pass = walk(rail);
   if (!pass || pass->pieces.size() != 1) return std::nullopt;
   const auto& piece = pass->pieces.front();

@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <optional>
 #include <vector>
 
+#include "bulge_map.h"
 #include "part.h"
 
 namespace obvid::toolpath {
@@ -18,6 +20,7 @@ struct Rail {
   bool along_v = false;
   double fixed = 0.0;  ///< the other parameter
   double from = 0.0, to = 1.0;
+  bool across = false;  ///< a link: not in the direction of the passes
 
   [[nodiscard]] bool of_parameters() const { return axis.empty(); }
   [[nodiscard]] Vec2 axis_at(double t) const;
@@ -39,33 +42,47 @@ struct Pass {
 };
 
 /// Follows rails with points so near to each other that the cutter, moved straight between
-/// neighbours, cuts nothing deeper than its share of the tolerance.
+/// neighbours, cuts nothing deeper than its share of the tolerance and leaves no more than that.
 class Walker {
  public:
-  /// `overrun`: how far the axis may leave open borders.
-  Walker(const Part& part, double overrun, std::size_t most_points)
-      : part_(part), overrun_(overrun), most_points_(most_points) {}
+  /// `overrun`: how far the axis may leave open borders. `direction`: of all passes; nothing: any.
+  Walker(const Part& part, double overrun, std::optional<Vec2> direction,
+         const ToolpathOptions& options)
+      : part_(part),
+        bulges_(part, direction),
+        overrun_(overrun),
+        most_points_(options.most_points),
+        threads_(options.threads) {}
 
   /// Errors: E502 more points than allowed, in all passes so far.
   [[nodiscard]] Result<Pass> walk(const Rail& rail);
   /// A straight way on the surface; nothing: it leads where there is nothing to go on.
   [[nodiscard]] std::optional<std::vector<Vec3>> link(Vec3 from, Vec3 to);
+  [[nodiscard]] std::size_t threads() const { return threads_; }
 
  private:
-  struct Step;
-  [[nodiscard]] std::optional<PassPoint> at(const Rail& rail, double t) const;
-  [[nodiscard]] std::optional<PassPoint> touching(const Rail& rail, double t) const;
-  [[nodiscard]] std::optional<PassPoint> resting(Vec2 axis, double t) const;
-  [[nodiscard]] bool near_enough(Vec3 a, Vec3 b) const;
-  [[nodiscard]] bool straight(Vec3 a, Vec3 middle, Vec3 b) const;
-  void append(Step& step, const PassPoint& p);
+  using Station = std::optional<PassPoint>;
+  /// What lies behind a station up to and with the next: points, and where nothing is between.
+  struct Stretch {
+    std::vector<Station> points;
+    std::size_t most = 0;
+  };
+  [[nodiscard]] Station at(const Rail& rail, double t) const;
+  [[nodiscard]] Station touching(const Rail& rail, double t) const;
+  [[nodiscard]] Station resting(Vec2 axis, double t) const;
+  [[nodiscard]] bool round_enough(Vec3 a, Vec3 b) const;
+  [[nodiscard]] bool flat_enough(const Rail& rail, Vec3 a, Vec3 b) const;
+  [[nodiscard]] bool measured_enough(const std::array<Vec3, 5>& quarters) const;
   [[nodiscard]] std::vector<double> stations(const Rail& rail) const;
-  void fill(Step& step, const std::optional<PassPoint>& a, double ta,
-            const std::optional<PassPoint>& b, double tb, int depth);
+  void fill(const Rail& rail, const Station& a, double ta, const Station& b, double tb, int depth,
+            Stretch& out) const;
+  void fill_both(const Rail& rail, const Station& a, double ta, const Station& b, double tb,
+                 int depth, Stretch& out) const;
 
   const Part& part_;
+  BulgeMap bulges_;
   double overrun_;
-  std::size_t most_points_;
+  std::size_t most_points_, threads_;
   std::size_t points_ = 0;
 };
 

@@ -10,8 +10,7 @@
 #include "machine_units.h"
 #include "moves.h"
 #include "obvid/toolpath/toolpath.h"
-#include "reach_report.h"
-#include "scallop_meter.h"
+#include "program_check.h"
 #include "scallop_survey.h"
 
 namespace obvid {
@@ -19,10 +18,10 @@ namespace {
 
 using namespace toolpath;
 
-constexpr int kRounds = 4;               // of passes put between others
-constexpr double kMeasureSpacing = 0.5;  // of the level step, along passes
-constexpr double kMeasureOfRadius = 0.25;
-constexpr double kPassMargin = 2.0;   // measured places that an added pass goes beyond both ends
+/// Where the printed program leaves more than asked for, passes are added at a lower limit.
+constexpr int kMostAttempts = 3;
+constexpr double kLowerShare = 0.96;
+constexpr double kCellOfRadius = 1.0 / 8.0, kCellOfStep = 0.25;
 constexpr double kDefaultSafe = 0.5;  // diameters above the highest point
 constexpr double kMostAngle = 1e6;    // degrees: beyond, the angle is lost in rounding
 
@@ -38,8 +37,8 @@ Result<void> check_sizes(const ToolpathOptions& o) {
   if (o.tolerance >= radius) {
     return refuse("the tolerance must be less than half the cutter's diameter", o.tolerance);
   }
-  for (const double feed : {o.feed, o.plunge_feed, o.rapid_feed}) {
-    if (!positive(feed)) return refuse("feeds must be greater than 0", feed);
+  for (const auto& feed : {o.feed, o.plunge_feed, o.rapid_feed}) {
+    if (feed && !positive(*feed)) return refuse("feeds must be greater than 0", *feed);
   }
   if (!o.scallop && !o.step_over) {
     return refuse("neither scallop nor step over is given", 0.0, "give one of them or both");
@@ -73,97 +72,6 @@ Result<Family> family_of(const Part& part, const ToolpathOptions& options, const
   return constant_scallop(part, options, rule, walker, progress);
 }
 
-/// Measures between passes and puts others where they leave too much: between contacts (walls are
-/// seen there), then over the whole stock.
-class Filler {
- public:
-  Filler(const Part& part, const ToolpathOptions& options, const StepRule& rule, Walker& walker)
-      : meter_(part, options.scallop.value_or(part.cutter().radius)),
-        survey_(part, options, rule, walker),
-        walker_(walker),
-        spacing_(std::min(kMeasureSpacing * rule.level(), kMeasureOfRadius * part.cutter().radius)),
-        fills_(options.scallop.has_value()) {}
-
-  Result<Family> fill(Family first, ToolpathReport& report, const Progress& progress) {
-    auto family = between_contacts(std::move(first), report, progress);
-    if (!family) return family;
-    const auto added =
-        survey_.complete(*family, progress, [this](const Pass& pass) { meter_.add(pass); });
-    if (!added) return fail(added.error());
-    report.added_passes += *added;
-    const HighSpot spot = survey_.highest();
-    keep(spot.height, spot.place, report);
-    for (const Place& place : high_) keep(meter_.left_over(place), place, report);
-    report.scallop_raster = survey_.raster();
-    return family;
-  }
-
- private:
-  static void keep(double height, const Place& place, ToolpathReport& report) {
-    if (height <= report.scallop) return;
-    report.scallop = height;
-    report.scallop_place = place.contact;
-  }
-
-  Result<Family> between_contacts(Family family, ToolpathReport& report, const Progress& progress) {
-    for (const Pass& pass : family) meter_.add(pass);
-    std::vector<bool> done(family.size(), false);  // gaps behind the passes
-    for (int round = 0;; ++round) {
-      Family next;
-      std::vector<bool> next_done;
-      bool added = false;
-      for (std::size_t i = 0; i < family.size(); ++i) {
-        const bool pair = i + 1 < family.size() && !family[i].empty() && !family[i + 1].empty();
-        Pass extra;
-        if (pair && !done[i]) {
-          const Gap gap = meter_.between(family[i], family[i + 1], spacing_);
-          if (gap.too_high && fills_ && round < kRounds) {
-            auto pass = between_passes(family[i], family[i + 1], gap);
-            if (!pass) return fail(pass.error());
-            extra = std::move(*pass);
-          }
-          if (extra.empty()) {
-            report.scallop = std::max(report.scallop, gap.scallop);
-            high_.insert(high_.end(), gap.high.begin(), gap.high.end());
-          }
-        }
-        next.push_back(std::move(family[i]));
-        next_done.push_back(done[i] || extra.empty());
-        if (extra.empty()) continue;
-        meter_.add(extra);
-        ++report.added_passes;
-        added = true;
-        next.push_back(std::move(extra));
-        next_done.push_back(false);
-        if (progress)
-          progress("scallops", static_cast<double>(i) / static_cast<double>(family.size()));
-      }
-      family = std::move(next);
-      done = std::move(next_done);
-      if (!added) return family;
-    }
-  }
-
-  Result<Pass> between_passes(const Pass& a, const Pass& b, const Gap& gap) {
-    Rail rail = toolpath::between(a.rail, b.rail);
-    double length = 0.0;
-    for (std::size_t i = 1; i < rail.axis.size(); ++i) {
-      length += norm(rail.axis[i] - rail.axis[i - 1]);
-    }
-    const double margin = length > 0.0 ? kPassMargin * spacing_ / length : 1.0;
-    rail.from = std::max({gap.from - margin, 0.0});
-    rail.to = std::min({gap.to + margin, 1.0});
-    return walker_.walk(rail);
-  }
-
-  ScallopMeter meter_;
-  ScallopSurvey survey_;
-  std::vector<Place> high_;  ///< between contacts, at last
-  Walker& walker_;
-  double spacing_;
-  bool fills_;
-};
-
 std::size_t lifted_points(const Family& family) {
   std::size_t count = 0;
   for (const Pass& pass : family) {
@@ -175,42 +83,84 @@ std::size_t lifted_points(const Family& family) {
   return count;
 }
 
-void warn(Toolpath& out, const ToolpathOptions& options) {
+std::string place_text(Vec3 p) { return fmt::format("{:.6g} {:.6g} {:.6g}", p.x, p.y, p.z); }
+
+void take_over(const SimulationReport& seen, double spacing, ToolpathReport& out) {
+  out.gouge = {seen.depth.found, seen.depth.most, seen.depth.place};
+  out.scallop = {seen.left.found, seen.left.most, seen.left.place};
+  out.spacing = spacing;
+  out.surface_area = seen.area;
+  out.hidden_area = seen.hidden_area;
+  out.unreached_area = seen.held_area;
+  out.unreached_depth = seen.held;
+  out.unreached_place = seen.held_place;
+}
+
+void judge(Toolpath& out, const ToolpathOptions& options) {
   const ToolpathReport& r = out.report;
-  const auto add = [&](std::string text) { out.warnings.push_back(std::move(text)); };
-  if (options.scallop && r.scallop > *options.scallop) {
-    const Vec3 at = r.scallop_place;
-    add(
-        fmt::format("scallops of up to {:.3g} {} stay, {:.3g} more than asked for; the highest at "
-                    "{:.6g} {:.6g} "
-                    "{:.6g}",
-                    r.scallop, out.units, r.scallop - *options.scallop, at.x, at.y, at.z));
+  const auto add = [&](std::string what, double value, std::string hint) {
+    out.not_kept.push_back(
+        {ErrorCode::kToleranceNotReached, std::move(what), "", std::move(hint), -1, value});
+  };
+  if (r.passes == 0) add("no pass: the cutter meets nothing", 0.0, "");
+  if (r.gouge.found > out.tolerance) {
+    add(fmt::format("the program cuts {:.3g} {} into the surface at {}, {:.3g} are allowed",
+                    r.gouge.found, out.units, place_text(r.gouge.place), out.tolerance),
+        r.gouge.found, "do not run it; a smaller --tolerance may keep it");
+  }
+  if (options.scallop && r.scallop.found > *options.scallop) {
+    add(fmt::format("{:.3g} {} stay at {}, where {:.3g} were asked for", r.scallop.found, out.units,
+                    place_text(r.scallop.place), *options.scallop),
+        r.scallop.found,
+        "a ball cutter, another strategy or angle, or a smaller --step-over "
+        "leaves less");
+  }
+  const double allowed = std::max(out.tolerance, options.scallop.value_or(0.0));
+  if (r.unreached_area > 0.0 && r.unreached_depth > allowed) {
+    add(fmt::format("{:.3g} % of the surface is narrower than the cutter: up to {:.3g} {} stay, "
+                    "most at {}",
+                    100.0 * r.unreached_area / r.surface_area, r.unreached_depth, out.units,
+                    place_text(r.unreached_place)),
+        r.unreached_depth, "a smaller cutter reaches more");
   }
   if (r.hidden_area > 0.0) {
-    add(fmt::format("{:.3g} % of the surface is hidden from above and is not cut",
+    out.warnings.push_back(
+        fmt::format("{:.3g} % of the surface is hidden from above and is not cut",
                     100.0 * r.hidden_area / r.surface_area));
   }
-  if (r.unreached_area > 0.0) {
-    add(fmt::format(
-        "{:.3g} % of the surface is narrower than the cutter, up to {:.3g} {} stay there",
-        100.0 * r.unreached_area / r.surface_area, r.unreached_depth, out.units));
-  }
-  if (r.passes == 0) add("no pass: the cutter meets nothing");
+}
+
+/// Prints the program, reads it back and reports on that.
+Result<void> finish(const Part& part, const SurfaceCells& cells, std::vector<Nearest>& reach,
+                    const ToolpathOptions& options, const Progress& progress, Toolpath& out) {
+  auto program = toolpath_gcode(out, options.gcode);
+  if (!program) return fail(program.error());
+  out.program = std::move(*program);
+  const auto seen = check_program(part, cells, reach, out.program.text, machine_scale(out.units),
+                                  options, progress);
+  if (!seen) return fail(seen.error());
+  take_over(*seen, cells.spacing(), out.report);
+  return {};
+}
+
+Toolpath begun(const SurfaceModel& model, const ToolpathOptions& options) {
+  Toolpath out;
+  out.name = model.name;
+  out.units = model.units.name;
+  out.cutter = options.cutter;
+  out.tolerance = options.tolerance;
+  out.print_within = print_within(options);
+  const ToolpathFeeds usual = default_feeds(model.units.name);
+  out.feeds = {options.feed.value_or(usual.pass), options.plunge_feed.value_or(usual.plunge),
+               options.rapid_feed.value_or(usual.rapid)};
+  return out;
 }
 
 Result<Toolpath> planned(const SurfaceModel& model, const ToolpathOptions& options,
                          const CutterShape& cutter, const Progress& progress) {
   const auto part = Part::make(model, cutter, options.tolerance, progress);
   if (!part) return fail(part.error());
-  Toolpath out{model.name,
-               model.units.name,
-               options.cutter,
-               options.tolerance,
-               options.feed,
-               options.plunge_feed,
-               {},
-               {},
-               {}};
+  Toolpath out = begun(model, options);
   const double top = part->field().high().z;
   out.report.safe_z = options.safe_z.value_or(top + kDefaultSafe * options.cutter.diameter);
   if (out.report.safe_z < top + options.tolerance) {
@@ -218,15 +168,34 @@ Result<Toolpath> planned(const SurfaceModel& model, const ToolpathOptions& optio
                  fmt::format("choose more than {:g}", top), -1, out.report.safe_z});
   }
   const StepRule rule(cutter, options);
-  Walker walker(*part, rule.level(), options.most_points);
+  const bool straight = options.strategy == ToolpathStrategy::kZigzag;
+  const PassFrame frame = pass_frame(*part, options.angle_deg);
+  Walker walker(*part, rule.level(), straight ? std::optional(frame.along) : std::nullopt, options);
   auto family = family_of(*part, options, rule, walker, progress);
   if (!family) return fail(family.error());
-  auto filled = Filler(*part, options, rule, walker).fill(std::move(*family), out.report, progress);
-  if (!filled) return fail(filled.error());
-  out.report.lifted_points = lifted_points(*filled);
-  lay_moves(*filled, options, rule.level(), walker, out);
-  report_reach(*part, out.report);
-  warn(out, options);
+  const SurfaceCells cells(*part,
+                           std::min(kCellOfRadius * cutter.radius, kCellOfStep * rule.level()),
+                           cutter.radius, options.threads);
+  std::vector<Nearest> reach(cells.cells().size());
+  ScallopSurvey survey(*part, options, rule, cells, reach, walker);
+  const ToolpathReport fresh = out.report;
+  std::size_t all_added = 0;
+  double share = kScallopLimit;
+  for (int attempt = 1;; ++attempt, share *= kLowerShare) {
+    const auto added = survey.complete(*family, share, progress);
+    if (!added) return fail(added.error());
+    all_added += *added;
+    out.report = fresh;
+    out.report.added_passes = all_added;
+    out.report.lifted_points = lifted_points(*family);
+    lay_moves(*family, options, rule.level(), walker, out);
+    if (auto done = finish(*part, cells, reach, options, progress, out); !done) {
+      return fail(done.error());
+    }
+    const bool high = options.scallop && out.report.scallop.found > *options.scallop;
+    if (!high || attempt == kMostAttempts) break;
+  }
+  judge(out, options);
   return out;
 }
 

@@ -69,6 +69,7 @@ struct ProgramText::Flat {
     const double length = norm(a);
     return length > 0.0 ? a / length : a;
   }
+  [[nodiscard]] Vec2 flat(Vec3 p) const { return {plane == PassPlane::kXz ? p.x : p.y, p.z}; }
   [[nodiscard]] Vec3 place(Vec2 p) const {
     return plane == PassPlane::kXz ? Vec3{p.x, other, p.y} : Vec3{other, p.x, p.y};
   }
@@ -130,63 +131,79 @@ void ProgramText::straight(const std::vector<Vec3>& points, double at_feed) {
   for (const Vec3 p : thinned(points, within_)) line("G1", p);
 }
 
-std::size_t ProgramText::furthest_biarc(const Flat& flat, std::size_t first, Vec2& joint) const {
-  const auto fits = [&](std::size_t last) -> std::optional<Vec2> {
-    const Vec2 a = flat.points[first], b = flat.points[last];
-    const Vec2 leaving = flat.directions[first], arriving = flat.directions[last];
-    const auto middle = biarc_joint(a, leaving, b, arriving);
-    if (!middle) return std::nullopt;
-    const Vec2 c = *middle - a, d = b - *middle;
-    if (dot(c, leaving) < kMostLean * norm(c) || dot(d, arriving) < kMostLean * norm(d)) {
-      return std::nullopt;
-    }
-    for (std::size_t i = first + 1; i < last; ++i) {
-      if (dot(flat.points[i] - flat.points[i - 1], flat.directions[i]) <
-          kCornerCosine * norm(flat.points[i] - flat.points[i - 1])) {
-        return std::nullopt;
-      }
-      const double one = distance_from_arc(a, leaving, *middle, flat.points[i]);
-      const double two = distance_from_arc(b, -arriving, *middle, flat.points[i]);
-      if (std::min(one, two) > within_) return std::nullopt;
-    }
-    return middle;
-  };
-  const std::size_t end = std::min(flat.points.size() - 1, first + kMostAhead);
-  const std::size_t last =
-      furthest_good(first, end, [&](std::size_t k) { return fits(k).has_value(); });
-  if (const auto middle = fits(last)) {
-    joint = *middle;
-    return last;
+double ProgramText::Block::distance(Vec2 p) const {
+  const Vec2 chord = to - from;
+  if (!arc) {
+    const double length2 = dot(chord, chord);
+    const double part = length2 > 0.0 ? std::clamp(dot(p - from, chord) / length2, 0.0, 1.0) : 0.0;
+    return norm(p - from - part * chord);
   }
-  return first;
+  const Vec2 a = -to_centre, b = chord - to_centre, q = p - from - to_centre;
+  const double side = left ? 1.0 : -1.0;
+  const bool between = side * cross(a, q) >= 0.0 && side * cross(q, b) >= 0.0;
+  return between ? std::abs(norm(q) - norm(a)) : std::min(norm(p - from), norm(p - to));
 }
 
-/// The arc over the printed chord with the height of the exact one, as in the plane XY: of all that
-/// can be kept it moves the arc least.
-void ProgramText::arc(const Flat& flat, Vec2 middle, Vec2 to) {
-  const auto flat_of = [&](Vec3 p) { return Vec2{flat.plane == PassPlane::kXz ? p.x : p.y, p.z}; };
-  const Vec3 end3 = printed(flat.place(to));
-  const Vec2 at = flat_of(at_), end = flat_of(end3), chord = end - at;
+/// The arc over the printed chord with the height of the exact one: of all that can be kept it
+/// moves the arc least. A line where controllers would not know it for an arc.
+ProgramText::Block ProgramText::block(Vec2 from, Vec2 middle, Vec2 to) const {
+  Block out;
+  out.from = from;
+  out.to = {round_to(to.x, decimals_), round_to(to.y, decimals_)};
+  const Vec2 chord = out.to - from;
   const double length = norm(chord);
-  if (length < kShortestChord * unit_) return line("G1", flat.place(to));
+  if (length < kShortestChord * unit_) return out;
   const Vec2 across = left_normal(chord) / length;
-  const double height = dot(middle - at, across);  // below the chord, turning left: negative
+  const double height = dot(middle - from, across);  // below the chord, turning left: negative
+  if (std::abs(height) < kLowestArc * unit_) return out;
   const double radius = 0.5 * std::abs(height) + 0.125 * length * length / std::abs(height);
-  if (std::abs(height) < kLowestArc * unit_ || radius < kSmallestRadius ||
-      radius > kLargestRadius) {
-    return line("G1", flat.place(to));
+  if (radius < kSmallestRadius || radius > kLargestRadius) return out;
+  out.arc = true;
+  out.left = height < 0.0;
+  const Vec2 centre = 0.5 * chord + (height + (out.left ? radius : -radius)) * across;
+  out.to_centre = {round_to(centre.x, kCentreDecimals), round_to(centre.y, kCentreDecimals)};
+  return out;
+}
+
+/// Two blocks from where the tool stands that stand for the points first .. last; nothing: they are
+/// no arcs, or the blocks as printed lie too far from a point.
+std::optional<std::array<ProgramText::Block, 2>> ProgramText::biarc(const Flat& flat,
+                                                                    std::size_t first,
+                                                                    std::size_t last) const {
+  const Vec2 a = flat.points[first], b = flat.points[last];
+  const Vec2 leaving = flat.directions[first], arriving = flat.directions[last];
+  const auto joint = biarc_joint(a, leaving, b, arriving);
+  if (!joint) return std::nullopt;
+  const Vec2 c = *joint - a, d = b - *joint;
+  if (dot(c, leaving) < kMostLean * norm(c) || dot(d, arriving) < kMostLean * norm(d)) {
+    return std::nullopt;
   }
-  const bool left = height < 0.0;
-  const Vec2 to_centre = 0.5 * chord + (height + (left ? radius : -radius)) * across;
+  const Block one = block(flat.flat(at_), arc_middle(a, leaving, *joint), *joint);
+  const Block two = block(one.to, arc_middle(b, -arriving, *joint), b);
+  if (!one.arc && !two.arc) return std::nullopt;
+  for (std::size_t i = first + 1; i < last; ++i) {
+    const Vec2 way = flat.points[i] - flat.points[i - 1];
+    if (dot(way, flat.directions[i]) < kCornerCosine * norm(way)) return std::nullopt;
+    if (std::min(one.distance(flat.points[i]), two.distance(flat.points[i])) > within_) {
+      return std::nullopt;
+    }
+  }
+  return std::array{one, two};
+}
+
+void ProgramText::print(const Flat& flat, const Block& block) {
+  if (!block.arc) return line("G1", flat.place(block.to));
+  const Vec3 end = printed(flat.place(block.to));
   // G18 is the plane ZX seen from +Y: x and z have the other hand there
-  const bool counter_clockwise = left != (flat.plane == PassPlane::kXz);
+  const bool counter_clockwise = block.left != (flat.plane == PassPlane::kXz);
   plane(flat.plane);
-  text_ += fmt::format("{}{} {}{} K{}\n", counter_clockwise ? "G3" : "G2", words(end3),
+  text_ += fmt::format("{}{} {}{} K{}\n", counter_clockwise ? "G3" : "G2", words(end),
                        flat.plane == PassPlane::kXz ? "I" : "J",
-                       fixed(to_centre.x, kCentreDecimals), fixed(to_centre.y, kCentreDecimals));
+                       fixed(block.to_centre.x, kCentreDecimals),
+                       fixed(block.to_centre.y, kCentreDecimals));
   ++blocks_;
   ++arc_blocks_;
-  at_ = end3;
+  at_ = end;
 }
 
 void ProgramText::pass(const std::vector<Vec3>& points, PassPlane in, double at_feed) {
@@ -195,24 +212,24 @@ void ProgramText::pass(const std::vector<Vec3>& points, PassPlane in, double at_
   }
   feed(at_feed);
   const Flat flat(points, in);
-  std::vector<Vec3> rounded;
-  for (const Vec2 p : flat.points) rounded.push_back(flat.place(p));
-  line("G1", rounded.front());
-  for (std::size_t k = 0; k + 1 < flat.points.size();) {
-    Vec2 joint{};
-    const std::size_t by_arcs = furthest_biarc(flat, k, joint);
-    const std::size_t by_line = furthest_good(k, flat.points.size() - 1, [&](std::size_t last) {
-      return last - k <= kMostAhead && off_chord(rounded, k, last) <= within_;
+  std::vector<Vec3> places;
+  for (const Vec2 p : flat.points) places.push_back(flat.place(p));
+  line("G1", places.front());
+  const std::size_t end = flat.points.size() - 1;
+  for (std::size_t k = 0; k < end;) {
+    const std::size_t by_arcs =
+        furthest_good(k, std::min(end, k + kMostAhead),
+                      [&](std::size_t last) { return biarc(flat, k, last).has_value(); });
+    const std::size_t by_line = furthest_good(k, end, [&](std::size_t last) {
+      return last - k <= kMostAhead && off_chord(places, k, last) <= within_;
     });
-    if (by_arcs <= by_line + 1) {
-      line("G1", rounded[by_line]);
-      k = by_line;
-      continue;
+    const auto arcs = by_arcs > by_line + 1 ? biarc(flat, k, by_arcs) : std::nullopt;
+    if (arcs) {
+      for (const Block& block : *arcs) print(flat, block);
+    } else {
+      line("G1", places[by_line]);
     }
-    const Vec2 a = flat.points[k], b = flat.points[by_arcs];
-    arc(flat, arc_middle(a, flat.directions[k], joint), joint);
-    arc(flat, arc_middle(b, -flat.directions[by_arcs], joint), b);
-    k = by_arcs;
+    k = arcs ? by_arcs : by_line;
   }
 }
 

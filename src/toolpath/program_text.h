@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <array>
 #include <cstddef>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -27,14 +29,22 @@ class ProgramText {
 
  private:
   struct Flat;
+  /// A block in the plane of a pass, as it is printed.
+  struct Block {
+    Vec2 from, to, to_centre;
+    bool arc = false, left = false;
+    [[nodiscard]] double distance(Vec2 p) const;
+  };
   [[nodiscard]] Vec3 printed(Vec3 p) const;
   /// Words of the axes that change; empty: the tool stands there.
   [[nodiscard]] std::string words(Vec3 to) const;
   void line(const char* code, Vec3 to);
   void feed(double value);
   void plane(PassPlane plane);
-  [[nodiscard]] std::size_t furthest_biarc(const Flat& flat, std::size_t first, Vec2& joint) const;
-  void arc(const Flat& flat, Vec2 middle, Vec2 to);
+  [[nodiscard]] Block block(Vec2 from, Vec2 middle, Vec2 to) const;
+  [[nodiscard]] std::optional<std::array<Block, 2>> biarc(const Flat& flat, std::size_t first,
+                                                          std::size_t last) const;
+  void print(const Flat& flat, const Block& block);
 
   int decimals_;
   double unit_, within_;

@@ -7,66 +7,99 @@
 #include <map>
 #include <utility>
 
+#include "moves.h"
+
 namespace obvid::toolpath {
 namespace {
 
-constexpr double kRasterOfRadius = 1.0 / 16.0;
-constexpr double kRasterOfStep = 0.25;
-constexpr double kWithin = 0.02;          // of the scallop: stays between points of a pass at most
-constexpr double kLimit = 0.97;           // of the scallop: the rest is for what the raster misses
-constexpr double kRasterMargin = 3.0;     // nodes of the raster that a pass goes beyond high places
-constexpr double kTogether = 2.0;         // diameters: passes nearer to each other become one
+constexpr int kMostRounds = 10;
+constexpr double kPassMargin = 3.0;       // cells that a pass goes beyond high places
+constexpr double kPassesTogether = 2.0;   // diameters: passes nearer to each other become one
 constexpr double kLeastPassStep = 0.002;  // of the level step: nearer passes help no more
 constexpr double kLeastLine = 1e-7;       // of the range of parameters, likewise
 
-double spacing_of(const CutterShape& cutter, const StepRule& rule) {
-  return std::min(kRasterOfRadius * cutter.radius, kRasterOfStep * rule.level());
+/// As they are printed where no arcs stand for them.
+void append_sweeps(const Pass& pass, double within, std::vector<Sweep>& sweeps) {
+  for (const auto& piece : pass.pieces) {
+    std::vector<Vec3> tips;
+    for (const PassPoint& p : piece) tips.push_back(p.place.tip);
+    tips = thinned(tips, within);
+    for (std::size_t i = 1; i < tips.size(); ++i) sweeps.push_back({tips[i - 1], tips[i]});
+  }
 }
 
 }  // namespace
 
 ScallopSurvey::ScallopSurvey(const Part& part, const ToolpathOptions& options, const StepRule& rule,
-                             Walker& walker)
+                             const SurfaceCells& cells, std::vector<Nearest>& reach, Walker& walker)
     : part_(part),
       walker_(walker),
       of_parameters_(options.strategy == ToolpathStrategy::kIsoparametric),
       along_v_(options.along_v),
       frame_(pass_frame(part, options.angle_deg)),
       level_(rule.level()),
-      limit_(kLimit * options.scallop.value_or(0.0)),
-      stock_(part, spacing_of(part.cutter(), rule),
-             options.scallop ? kWithin * *options.scallop : part.tolerance()) {}
+      spacing_(cells.spacing()),
+      scallop_(options.scallop.value_or(0.0)),
+      print_(print_within(options)),
+      simulation_(part, cells, reach, options.threads) {}
 
-ScallopSurvey::Across ScallopSurvey::across(const Place& place) const {
-  if (of_parameters_) {
-    const NurbsSurface& surface = part_.model().patches[place.patch].surface;
-    const Range range = along_v_ ? domain_v(surface) : domain_u(surface);
-    const double along = along_v_ ? place.v : place.u;
-    return {(along - range.from) / range.length(), along_v_ ? place.u : place.v};
+Result<std::size_t> ScallopSurvey::complete(Family& family, double share,
+                                            const Progress& progress) {
+  std::size_t count = 0;
+  if (!(scallop_ > 0.0)) return count;
+  std::vector<Sweep> sweeps;
+  if (!begun_) {
+    for (const Pass& pass : family) append_sweeps(pass, print_, sweeps);
   }
-  const Vec3 tip = part_.cutter().tip(place.contact, place.normal);
-  const Vec2 axis{tip.x, tip.y};
-  return {(dot(axis, frame_.along) - frame_.a0) / (frame_.a1 - frame_.a0),
-          dot(axis, frame_.across())};
+  begun_ = true;
+  for (int round = 0; round < kMostRounds; ++round) {
+    if (progress) progress("scallops", static_cast<double>(round) / kMostRounds);
+    simulation_.cut(sweeps);
+    sweeps.clear();
+    auto extra = wanted(family, share * scallop_);
+    for (std::size_t k = extra.size(); k-- > 0;) {  // from the end: numbers before stay
+      auto pass = walker_.walk(extra[k].rail);
+      if (!pass) return fail(pass.error());
+      if (pass->empty()) continue;
+      append_sweeps(*pass, print_, sweeps);
+      ++count;
+      family.insert(family.begin() + static_cast<std::ptrdiff_t>(extra[k].behind + 1),
+                    std::move(*pass));
+    }
+    if (sweeps.empty()) break;
+  }
+  return count;
+}
+
+ScallopSurvey::Across ScallopSurvey::across(const HighSpot& spot) const {
+  if (of_parameters_) {
+    const NurbsSurface& surface = part_.model().patches[spot.place.patch].surface;
+    const Range range = along_v_ ? domain_v(surface) : domain_u(surface);
+    const double along = along_v_ ? spot.place.v : spot.place.u;
+    return {(along - range.from) / range.length(), along_v_ ? spot.place.u : spot.place.v};
+  }
+  return {(dot(spot.axis, frame_.along) - frame_.a0) / (frame_.a1 - frame_.a0),
+          dot(spot.axis, frame_.across())};
 }
 
 /// Where the rail runs at `t`; nothing: it does not come by.
-std::optional<double> ScallopSurvey::across(const Rail& rail, const Place& place, double t) const {
+std::optional<double> ScallopSurvey::across(const Rail& rail, const HighSpot& spot,
+                                            double t) const {
   if (t < rail.from || t > rail.to) return std::nullopt;
   if (!of_parameters_) return dot(rail.axis_at(t), frame_.across());
-  if (rail.patch != place.patch) return std::nullopt;
+  if (rail.patch != spot.place.patch) return std::nullopt;
   return rail.fixed;
 }
 
 /// The nearest passes on both sides of where the cutter touches the place.
 std::optional<ScallopSurvey::Sides> ScallopSurvey::sides(const Family& family,
-                                                         const Place& place) const {
-  const Across aim = across(place);
+                                                         const HighSpot& spot) const {
+  const Across aim = across(spot);
   double low = -std::numeric_limits<double>::infinity(), high = -low;
   Sides out;
   for (std::size_t i = 0; i < family.size(); ++i) {
     if (family[i].empty()) continue;
-    const auto at = across(family[i].rail, place, aim.t);
+    const auto at = across(family[i].rail, spot, aim.t);
     if (!at) continue;
     if (*at <= aim.across && *at > low) {
       low = *at;
@@ -78,7 +111,7 @@ std::optional<ScallopSurvey::Sides> ScallopSurvey::sides(const Family& family,
   }
   double least = kLeastPassStep * level_;
   if (of_parameters_) {
-    const NurbsSurface& surface = part_.model().patches[place.patch].surface;
+    const NurbsSurface& surface = part_.model().patches[spot.place.patch].surface;
     least = kLeastLine * (along_v_ ? domain_u(surface) : domain_v(surface)).length();
   }
   if (high - low <= least) return std::nullopt;
@@ -101,22 +134,20 @@ double ScallopSurvey::length(const Rail& rail) const {
 }
 
 /// From the last rail to the farthest of places beyond it.
-Vec2 ScallopSurvey::outside(const Rail& rail, const std::vector<Place>& places) const {
+Vec2 ScallopSurvey::outside(const Rail& rail, const std::vector<HighSpot>& spots) const {
   double farthest = 0.0;
-  for (const Place& place : places) {
-    const Across aim = across(place);
+  for (const HighSpot& spot : spots) {
+    const Across aim = across(spot);
     const double off = aim.across - dot(rail.axis_at(aim.t), frame_.across());
     if (std::abs(off) > std::abs(farthest)) farthest = off;
   }
   return farthest * frame_.across();
 }
 
-std::vector<ScallopSurvey::Wanted> ScallopSurvey::wanted(const Family& family) {
-  std::map<Sides, std::vector<Place>> places;
-  for (const HighSpot& spot : stock_.above(limit_)) {
-    if (const auto both = sides(family, spot.place)) {
-      places[*both].push_back(spot.place);
-    }
+std::vector<ScallopSurvey::Wanted> ScallopSurvey::wanted(const Family& family, double limit) {
+  std::map<Sides, std::vector<HighSpot>> places;
+  for (const HighSpot& spot : simulation_.above(limit, kScallopWithin * scallop_)) {
+    if (const auto both = sides(family, spot)) places[*both].push_back(spot);
   }
   std::vector<Wanted> out;
   for (const auto& [both, spots] : places) {
@@ -127,11 +158,11 @@ std::vector<ScallopSurvey::Wanted> ScallopSurvey::wanted(const Family& family) {
       for (Vec2& axis : rail.axis) axis = axis + out_there;
     }
     std::vector<double> ts;
-    for (const Place& place : spots) ts.push_back(across(place).t);
+    for (const HighSpot& spot : spots) ts.push_back(across(spot).t);
     std::sort(ts.begin(), ts.end());
     const double whole = std::max(length(rail), part_.cutter().radius);
-    const double margin = kRasterMargin * stock_.spacing() / whole;
-    const double together = kTogether * 2.0 * part_.cutter().radius / whole;
+    const double margin = kPassMargin * spacing_ / whole;
+    const double together = kPassesTogether * 2.0 * part_.cutter().radius / whole;
     for (std::size_t i = 0; i < ts.size();) {
       std::size_t end = i + 1;
       while (end < ts.size() && ts[end] - ts[end - 1] <= together) ++end;

@@ -9,7 +9,6 @@ namespace {
 
 constexpr double kFloor = 0.1;       // of the level step
 constexpr double kOfDiameter = 0.8;  // flat bottoms overlap
-constexpr double kOfScallop = 0.95;  // aimed at
 constexpr double kWall = 1e-6;       // z of normals taken for walls
 
 double bend_along(const Bends& bends, Vec3 direction) {
@@ -33,6 +32,11 @@ BodyBends body_bends(const CutterShape& cutter, double scallop, double sine, dou
 
 }  // namespace
 
+double print_within(const ToolpathOptions& options) {
+  const double share = kPrintShare * options.tolerance;
+  return options.scallop ? std::min(share, kScallopPrint * *options.scallop) : share;
+}
+
 double StepForm::along(Vec2 d) const {
   return 1.0 / std::sqrt(xx * d.x * d.x + 2.0 * xy * d.x * d.y + yy * d.y * d.y);
 }
@@ -40,7 +44,7 @@ double StepForm::along(Vec2 d) const {
 StepRule::StepRule(const CutterShape& cutter, const ToolpathOptions& options) : cutter_(cutter) {
   level_ = kOfDiameter * 2.0 * cutter.radius;
   if (options.scallop) {
-    scallop_ = kOfScallop * *options.scallop;
+    scallop_ = kScallopAim * *options.scallop;
     const double h = std::min(scallop_, cutter.corner);
     const double round = 2.0 * std::sqrt(std::max(0.0, h * (2.0 * cutter.corner - h)));
     level_ = std::min(level_, kOfDiameter * 2.0 * cutter.flat() + round);

@@ -5,6 +5,16 @@
 
 namespace obvid::toolpath {
 
+/// Shares of a scallop: passes are laid out for the first; where more than the second stays, others
+/// are put between them; the survey may overlook the third above it, and printing adds the fourth.
+inline constexpr double kScallopAim = 0.88;
+inline constexpr double kScallopLimit = 0.95;
+inline constexpr double kScallopWithin = 0.02;
+inline constexpr double kScallopPrint = 0.04;
+
+/// How far printed blocks may lie from the points of passes.
+[[nodiscard]] double print_within(const ToolpathOptions& options);
+
 /// How far the next pass may lie, seen from above, as a quadratic form: directions d with
 /// xx dx^2 + 2 xy dx dy + yy dy^2 = 1.
 struct StepForm {

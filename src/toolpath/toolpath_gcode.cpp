@@ -8,15 +8,15 @@
 
 #include "machine_units.h"
 #include "obvid/core/version.h"
-#include "part.h"
+#include "obvid/toolpath/toolpath.h"
 #include "program_text.h"
 
 namespace obvid {
 namespace {
 
 constexpr int kLeastDecimals = 3, kMostDecimals = 6;
-constexpr double kDigitsOfTolerance = 0.1;  // of the tolerance, what the last digit may be worth
-constexpr double kDigitRounding = 1e-9;     // a tolerance of 0.001 asks for 4, not for 4.0000000001
+constexpr double kDigitsOfPrint = 1.0 / 3.0;  // of what printing may, the last digit's worth
+constexpr double kDigitRounding = 1e-9;       // 0.003 asks for 3 decimals, not for 3.0000000001
 
 /// Comments end at ")": nothing of the kind in a name, and nothing but ASCII.
 std::string comment_of(const std::string& name) {
@@ -62,9 +62,10 @@ void write_moves(const Toolpath& path, double scale, toolpath::ProgramText& prog
     if (move.kind == ToolMove::kRapid) {
       program.rapid(points);
     } else if (move.kind == ToolMove::kPass) {
-      program.pass(points, move.plane, path.feed);
+      program.pass(points, move.plane, path.feeds.pass);
     } else {
-      program.straight(points, move.kind == ToolMove::kPlunge ? path.plunge_feed : path.feed);
+      program.straight(points,
+                       move.kind == ToolMove::kPlunge ? path.feeds.plunge : path.feeds.pass);
     }
   }
   program.level_plane();
@@ -82,12 +83,12 @@ Result<ToolpathGcode> toolpath_gcode(const Toolpath& path, const ToolpathGcodeOp
     return fail({ErrorCode::kBadOption, fmt::format("decimals must be 1 to {}", kMostDecimals), "",
                  "", -1, static_cast<double>(*options.decimals)});
   }
-  const double tolerance = path.tolerance * scale;
+  const double print = path.print_within * scale;
   const int least = kLeastDecimals + (path.units == "in" ? 1 : 0);
-  const double digits = std::ceil(-std::log10(kDigitsOfTolerance * tolerance) - kDigitRounding);
+  const double digits = std::ceil(-std::log10(kDigitsOfPrint * print) - kDigitRounding);
   const int decimals =
       options.decimals.value_or(static_cast<int>(std::clamp<double>(digits, least, kMostDecimals)));
-  const double within = toolpath::kPrintShare * tolerance - std::pow(10.0, -decimals);
+  const double within = print - std::pow(10.0, -decimals);
   if (!(within > 0.0)) {
     return fail({ErrorCode::kToleranceNotReached,
                  fmt::format("{} decimals do not keep a tolerance of {:g} {}", decimals,

@@ -10,19 +10,19 @@
 #include <string>
 #include <vector>
 
-#include "nc_interpreter.h"
+#include "cutting.h"
 #include "obvid/io/read_grid.h"
 #include "obvid/toolpath/toolpath.h"
-#include "obvid/toolpath/toolpath_gcode.h"
 #include "shapes.h"
 
 namespace obvid {
 namespace {
 
-constexpr double kRadius = 3.0, kTolerance = 0.02, kScallop = 0.1;
-constexpr double kScale = 5.0;  // makes a model some 160 long
-constexpr double kStep = 0.1;   // of the interpreter
-constexpr double kStepError = kStep * kStep / (8.0 * kRadius);
+constexpr double kHullRadius = 3.0, kHullTolerance = 0.02, kHullScallop = 0.1;
+constexpr double kScale = 5.0;     // makes a model some 160 long
+constexpr double kHullStep = 0.1;  // of the interpreter
+constexpr double kSampleError = 1e-5;
+constexpr double kStepError = kHullStep * kHullStep / (8.0 * kHullRadius);
 constexpr double kUpright = 0.01;  // z of normals: walls that lean outwards are hidden
 
 std::filesystem::path shared_data() {
@@ -39,20 +39,16 @@ NurbsSurface lying_hull(const std::filesystem::path& file) {
   return surface ? *surface : NurbsSurface{};
 }
 
-struct Sample {
-  Vec3 point, normal;
-};
-
-std::vector<Sample> samples_of(const NurbsSurface& surface, int along_u, int along_v) {
+std::vector<test::Sample> hull_samples(const NurbsSurface& surface, int along_u, int along_v) {
   const auto at = [&](double s, double t) {
     const SurfaceJet jet = evaluate(surface, domain_u(surface).at(s), domain_v(surface).at(t));
-    return Sample{jet.point, unit(cross(jet.du, jet.dv))};
+    return test::Sample{jet.point, unit(cross(jet.du, jet.dv))};
   };
   const double sign = at(0.5, 0.5).normal.z < 0.0 ? -1.0 : 1.0;
-  std::vector<Sample> out;
+  std::vector<test::Sample> out;
   for (int j = 0; j <= along_v; ++j) {
     for (int i = 0; i <= along_u; ++i) {
-      Sample s = at(static_cast<double>(i) / along_u, static_cast<double>(j) / along_v);
+      test::Sample s = at(static_cast<double>(i) / along_u, static_cast<double>(j) / along_v);
       s.normal = sign * s.normal;
       out.push_back(s);
     }
@@ -60,73 +56,27 @@ std::vector<Sample> samples_of(const NurbsSurface& surface, int along_u, int alo
   return out;
 }
 
-/// Points in square columns.
-class Columns {
- public:
-  Columns(const std::vector<Vec3>& points, double size) : size_(size) {
-    low_ = high_ = {points.front().x, points.front().y};
-    for (const Vec3 p : points) {
-      low_ = {std::min(low_.x, p.x), std::min(low_.y, p.y)};
-      high_ = {std::max(high_.x, p.x), std::max(high_.y, p.y)};
-    }
-    nx_ = number(high_.x - low_.x) + 1;
-    ny_ = number(high_.y - low_.y) + 1;
-    cells_.resize(static_cast<std::size_t>(nx_ * ny_));
-    for (const Vec3 p : points) cell(number(p.x - low_.x), number(p.y - low_.y)).push_back(p);
-  }
-
-  /// All points nearer than `reach` seen from above, and some more.
-  template <class Look>
-  void near(Vec3 p, double reach, const Look& look) {
-    const int x1 = std::min(nx_ - 1, number(p.x + reach - low_.x));
-    const int y1 = std::min(ny_ - 1, number(p.y + reach - low_.y));
-    for (int y = std::max(0, number(p.y - reach - low_.y)); y <= y1; ++y) {
-      for (int x = std::max(0, number(p.x - reach - low_.x)); x <= x1; ++x) {
-        for (const Vec3 q : cell(x, y)) look(q);
-      }
-    }
-  }
-
- private:
-  [[nodiscard]] int number(double d) const { return static_cast<int>(std::floor(d / size_)); }
-  std::vector<Vec3>& cell(int x, int y) { return cells_[static_cast<std::size_t>(y * nx_ + x)]; }
-
-  double size_;
-  Vec2 low_, high_;
-  int nx_ = 0, ny_ = 0;
-  std::vector<std::vector<Vec3>> cells_;
-};
-
 struct FoundOnHull {
   double gouge = 0.0, cusp = 0.0;
   Vec3 place;
   int looked = 0;
 };
 
-FoundOnHull simulated(const std::vector<Sample>& samples, const test::NcRun& run) {
-  std::vector<Vec3> centres, points;
-  for (const test::NcMove& move : run.moves) {
-    for (const Vec3 tip : move.points) centres.push_back(tip + Vec3{0.0, 0.0, kRadius});
-  }
-  for (const Sample& s : samples) points.push_back(s.point);
-  Columns balls(centres, 0.5 * kRadius), part(points, 0.5 * kRadius);
+FoundOnHull simulated(const std::vector<test::Sample>& samples, const test::NcRun& run) {
+  std::vector<Vec3> points;
+  for (const test::Sample& s : samples) points.push_back(s.point);
+  test::Columns part(points, 0.5 * kHullRadius);
+  test::Cut cut({kHullRadius, kHullRadius}, test::tips_of(run));
   FoundOnHull found;
-  for (const Sample& s : samples) {
-    double left = 1e9;
-    balls.near(s.point, kRadius + 2.0 * kScallop, [&](Vec3 c) {
-      const Vec3 to = c - s.point;
-      const double along = dot(to, s.normal), beside2 = dot(to, to) - along * along;
-      found.gouge = std::max(found.gouge, kRadius - norm(to));
-      if (beside2 < kRadius * kRadius) {
-        left = std::min(left, along - std::sqrt(kRadius * kRadius - beside2));
-      }
-    });
+  for (const test::Sample& s : samples) {
+    found.gouge = std::max(found.gouge, cut.depth(s.point));
     if (s.normal.z < kUpright) continue;
-    const Vec3 centre = s.point + kRadius * s.normal;  // of the ball that touches here
-    double nearest = kRadius;
-    part.near(centre, kRadius, [&](Vec3 q) { nearest = std::min(nearest, norm(q - centre)); });
-    if (nearest < kRadius - kTolerance) continue;  // it would cut elsewhere
+    const Vec3 centre = s.point + kHullRadius * s.normal;  // of the ball that touches here
+    double nearest = kHullRadius;
+    part.near(centre, kHullRadius, [&](Vec3 q) { nearest = std::min(nearest, norm(q - centre)); });
+    if (nearest < kHullRadius - kHullTolerance) continue;  // it would cut elsewhere
     ++found.looked;
+    const double left = cut.left(s, kHullRadius);
     if (left > found.cusp) found.place = s.point;
     found.cusp = std::max(found.cusp, left);
   }
@@ -143,33 +93,32 @@ TEST_P(Hull, HalfOfSeries60IsNotGougedAndItsCuspsStayBelowTheScallop) {
   const NurbsSurface surface = lying_hull(file);
   ASSERT_FALSE(surface.points.empty());
   ToolpathOptions options;
-  options.cutter = {CutterKind::kBall, 2.0 * kRadius, 0.0};
+  options.cutter = {CutterKind::kBall, 2.0 * kHullRadius, 0.0};
   options.strategy = GetParam();
   options.angle_deg = 90.0;  // up the bottom, which stands upright here
-  options.tolerance = kTolerance;
-  options.scallop = kScallop;
+  options.tolerance = kHullTolerance;
+  options.scallop = kHullScallop;
   const auto path = plan(test::model_of({surface}), options);
   ASSERT_TRUE(path) << to_line(path.error());
-  const auto program = toolpath_gcode(*path);
-  ASSERT_TRUE(program) << to_line(program.error());
-  const auto run = test::NcInterpreter(kStep).run(program->text);
+  const auto run = test::NcInterpreter(kHullStep).run(path->program.text);
   ASSERT_TRUE(run.faults.empty()) << run.faults.front();
 
-  const auto samples = samples_of(surface, 300, 300);
+  const auto samples = hull_samples(surface, 300, 300);
   const FoundOnHull found = simulated(samples, run);
   RecordProperty("gouge", std::to_string(found.gouge));
   RecordProperty("cusp", std::to_string(found.cusp));
   RecordProperty("at", std::to_string(found.place.x) + " " + std::to_string(found.place.y) + " " +
                            std::to_string(found.place.z));
-  RecordProperty("reported", std::to_string(path->report.scallop));
+  RecordProperty("reported", std::to_string(path->report.scallop.found));
   RecordProperty("passes", std::to_string(path->report.passes));
   RecordProperty("looked", found.looked);
   for (const std::string& warning : path->warnings) RecordProperty("warning", warning);
   EXPECT_GT(found.looked, static_cast<int>(samples.size() / 2));
-  EXPECT_LE(found.gouge, kTolerance);
-  EXPECT_LE(found.cusp, kScallop + kTolerance + kStepError);
-  EXPECT_LE(found.cusp, path->report.scallop + kTolerance + kStepError);
-  EXPECT_GT(found.cusp, 0.2 * kScallop);
+  EXPECT_LE(found.gouge, path->report.gouge.most + kSampleError);
+  EXPECT_LE(path->report.gouge.most, kHullTolerance);
+  EXPECT_LE(found.cusp, path->report.scallop.most + kStepError);
+  EXPECT_LE(path->report.scallop.found, kHullScallop);
+  EXPECT_GT(found.cusp, 0.2 * kHullScallop);
 }
 
 INSTANTIATE_TEST_SUITE_P(Balls, Hull,

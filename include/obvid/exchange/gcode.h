@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <optional>
 #include <string>
+#include <string_view>
 
 #include "obvid/core/result.h"
 #include "obvid/curve/contour.h"
@@ -19,11 +20,14 @@ enum class GcodeMotion {
 
 enum class GcodeController { kGrbl, kLinuxCnc, kFanuc };
 
+/// Feed where none is given: 1000 mm/min, for inches 40 in/min.
+[[nodiscard]] double default_feed(std::string_view units);
+
 struct GcodeOptions {
   GcodeMotion motion = GcodeMotion::kArcs;
   GcodeController controller = GcodeController::kGrbl;
   double tolerance = 0.01;         ///< units of the contour: printed path against contour
-  double feed = 1000.0;            ///< mm/min, for contours in inches in/min
+  std::optional<double> feed{};    ///< mm/min, for contours in inches in/min [default_feed]
   std::optional<int> decimals{};   ///< of the ends, 1 to 6 [the fewest, at least 3, that cost no
                                    ///< more than a tenth of the tolerance; in inches one more]
   std::optional<double> safe_z{};  ///< mm or in: approach and leave at this height, cut at Z0;

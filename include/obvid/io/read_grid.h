@@ -15,18 +15,16 @@ struct GridOptions {
 };
 
 /// A grid of points, in any of the forms of docs/formats.md ("Surfaces"):
-/// three files whose names end in _x, _y, _z before the ending, one matrix in each (one of the
-/// names is enough); a list x y z, rows separated by blank lines, or led by a line with the two
+/// three files whose names differ in one letter x, y, z that stands by itself (hull_x.dat,
+/// hull_x_in.dat), one matrix in each (one of the names is enough); a list x y z, rows separated by blank lines, or led by a line with the two
 /// counts, or found by a coordinate that repeats; named columns row, col, x, y, z; a matrix of
 /// heights; a table of half-breadths over stations (first row) and waterlines (first column).
-/// Errors: E301 to E307 with place, E307 also for rows of different length.
+/// Errors: E301 to E307 with place, E307 also for rows of different length and for a matrix whose
+/// name says that it holds x or y alone.
 [[nodiscard]] Result<PointGrid> read_grid(const std::vector<std::string>& paths,
                                           const GridOptions& options = {});
 /// One text; not the form of three matrices.
 [[nodiscard]] Result<PointGrid> parse_grid(std::string_view text, std::string_view name,
                                            const GridOptions& options = {});
-
-/// Whether a file's name says that it is one of three matrices.
-[[nodiscard]] bool is_one_of_three(std::string_view path);
 
 }  // namespace obvid

@@ -45,7 +45,8 @@ struct ExportOptions {
   std::string name = "contour";     ///< of the curve, where a format has a place for it
   PictureTitles picture{};          ///< of .svg pictures
   std::optional<double> tolerance;  ///< of curves that a format cannot hold exactly [1e-6 of the
-                                    ///< size; of arcs and G-code 2e-5 of it]
+                                    ///< size; of arcs and G-code 2e-5 of it, of G-code at least
+                                    ///< 0.002 mm]
   CadFormat step = CadFormat::kStepAp214;
   bool drawing = false;  ///< .svg: a drawing in true scale in place of the picture
   DxfProfile dxf = DxfProfile::kExact;
@@ -53,8 +54,8 @@ struct ExportOptions {
   GcodeController controller = GcodeController::kGrbl;
   SampleOptions
       samples;  ///< of points; unset: by the chord tolerance `tolerance` [2e-5 of the size]
-  double feed = 1000.0;     ///< of G-code, mm/min (in/min for inches)
-  double face_width = 0.0;  ///< STEP, IGES, BREP: > 0 also a face of this width along z
+  std::optional<double> feed{};  ///< of G-code, mm/min (in/min for inches) [default_feed]
+  double face_width = 0.0;       ///< STEP, IGES, BREP: > 0 also a face of this width along z
 };
 
 /// A text to write; `suffix` goes before the ending when a contour needs several files.

@@ -30,6 +30,7 @@ struct SpaceSeries {
   std::vector<std::size_t> corners{};  ///< points at which the section turns at once, whatever the
                                        ///< angle, ascending; others are found
   Units units{};
+  Vec3 rounding{};  ///< half a unit of the last digit printed; 0 when not from text
 };
 
 }  // namespace obvid

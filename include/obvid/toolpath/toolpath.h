@@ -9,6 +9,7 @@
 #include "obvid/core/progress.h"
 #include "obvid/core/result.h"
 #include "obvid/surface/surface.h"
+#include "obvid/toolpath/toolpath_gcode.h"
 
 namespace obvid {
 
@@ -27,7 +28,16 @@ enum class ToolpathStrategy {
   kConstantScallop,  ///< each pass lies as far from the last as the scallop allows, place by place
 };
 
-/// Lengths in units of the model; feeds in mm/min, for models in inches in in/min.
+/// Feeds, unless others are given: mm/min, and in/min for models in inches.
+struct ToolpathFeeds {
+  double pass = 0.0, plunge = 0.0;
+  double rapid = 0.0;  ///< for the estimate of time only
+};
+[[nodiscard]] ToolpathFeeds default_feeds(const std::string& units);
+/// Millimetres of a unit; 0: machines do not know it.
+[[nodiscard]] double millimetres_of(const std::string& units);
+
+/// Lengths in units of the model.
 struct ToolpathOptions {
   Cutter cutter;
   ToolpathStrategy strategy = ToolpathStrategy::kZigzag;
@@ -37,12 +47,12 @@ struct ToolpathOptions {
   double angle_deg = 0.0;           ///< of the passes against X; not for isoparametric ones
   bool along_v = false;             ///< isoparametric: passes run along v, else along u
   bool one_way = false;             ///< all passes in the same direction
-  double tolerance = 0.01;          ///< gouges and chords together
-  double feed = 1000.0;
-  double plunge_feed = 300.0;
-  double rapid_feed = 5000.0;      ///< for the estimate of time only
+  double tolerance = 0.01;          ///< of the printed program: gouges
+  std::optional<double> feed{}, plunge_feed{}, rapid_feed{};  ///< [default_feeds]
   std::optional<double> safe_z{};  ///< [half a diameter above the highest point]
   std::size_t most_points = 20'000'000;
+  std::size_t threads = 0;  ///< [all of the machine]; the result does not depend on it
+  ToolpathGcodeOptions gcode{};
 };
 
 enum class ToolMove {
@@ -68,20 +78,27 @@ struct ToolpathReport {
   double plunge_length = 0.0;
   double rapid_length = 0.0;
   double minutes = 0.0;  ///< at the stated feeds, without acceleration
-  /// Greatest height that the passes leave, measured along the normal over the whole surface where
-  /// the cutter can reach it at all (within the tolerance), units; and where.
-  double scallop = 0.0;
-  Vec3 scallop_place;
-  double scallop_raster = 0.0;   ///< it was measured at places so far apart, seen from above
+  /// Of the printed program, read as a controller reads it and simulated against the surface
+  /// itself. `found`: at a place that was looked at; `most`: nowhere more, by the bends of cutter
+  /// and surface around those places.
+  struct Measured {
+    double found = 0.0, most = 0.0;  ///< units
+    Vec3 place;                      ///< where it was found
+  };
+  Measured gouge;    ///< depth of a point of the surface in the cutter's body
+  Measured scallop;  ///< what stays, along the normal, where the cutter can reach the surface at
+                     ///< all (within the tolerance)
+  double spacing = 0.0;  ///< of the places looked at first; closer ones where they do not decide
   std::size_t added_passes = 0;  ///< between others that left too much
   /// Points of passes where the cutter rests on two places (all strategies) or is held up by
   /// another place than it was meant to touch (isoparametric): gouges that were avoided.
   std::size_t lifted_points = 0;
   double surface_area = 0.0;  ///< of the model
   double hidden_area = 0.0;   ///< not seen from above: not cut
-  double unreached_area =
-      0.0;  ///< seen, but where the cutter cannot touch without cutting elsewhere
-  double unreached_depth = 0.0;  ///< how far from the surface it stays there at most, units
+  /// Seen, but no place of the cutter comes within the tolerance without cutting elsewhere.
+  double unreached_area = 0.0;
+  double unreached_depth = 0.0;  ///< how far from the surface the cutter stays there at most, units
+  Vec3 unreached_place;
   double safe_z = 0.0;
 };
 
@@ -90,26 +107,27 @@ struct Toolpath {
   std::string units;
   Cutter cutter;
   double tolerance = 0.0;
-  double feed = 0.0;
-  double plunge_feed = 0.0;
+  double print_within = 0.0;  ///< units: of printed blocks from the points of the moves
+  ToolpathFeeds feeds;
   std::vector<ToolpathMove> moves;
+  ToolpathGcode program;  ///< what the report is about
   ToolpathReport report;
   std::vector<std::string> warnings;
+  /// What was asked for and is not so (E502): gouges, more left than the scallop, places that the
+  /// cutter does not reach.
+  std::vector<Error> not_kept;
 };
 
-/// Tool paths of three axes over all patches. Wherever the cutter goes at feed, it is at the height
-/// where it touches the whole surface from above: nothing is cut deeper than the tolerance
-/// (triangles, the way between points and printing share it; the shares are proved, see
-/// docs/methods/toolpath.md). Both sides of patches count. Passes of zigzag and constant scallop
-/// run over open borders by about a step, rolling over the edge.
-///
-/// The scallop is kept by all cutters as far as `scallop_raster` shows it: heights between its
-/// places and at places that hold the cutter up within the tolerance can be somewhat greater
-/// (docs/methods/toolpath.md has figures).
-/// Where the scallop needs passes nearer than a tenth of what a level place needs (walls), it is
-/// not always kept; a warning says what is left and where. Errors: E203 sizes, feeds, heights or
-/// options that do not go together; E304 no patches; E310 a unit that machines do not know; E502
-/// more triangles or points than allowed; those of `tessellate`.
+/// Tool paths of three axes over all patches, and the program for them. Wherever the cutter goes at
+/// feed, it is at the height where it touches the whole surface from above. Both sides of patches
+/// count. Passes of zigzag and constant scallop run over open borders by about a step, rolling over
+/// the edge. Where passes leave too much, others are put between them. At last the printed text is
+/// read back and simulated against the surface: the report's figures for gouges, scallops and what
+/// is not reached come from that alone, and `not_kept` says what does not hold
+/// (docs/methods/toolpath.md).
+/// Errors: E203 sizes, feeds, heights or options that do not go together; E304 no patches; E310 a
+/// unit that machines do not know; E502 more triangles or points than allowed, or decimals too few
+/// for the tolerance; those of `tessellate`.
 [[nodiscard]] Result<Toolpath> plan(const SurfaceModel& model, const ToolpathOptions& options,
                                     const Progress& progress = {});
 

@@ -5,10 +5,12 @@
 #include <optional>
 #include <string>
 
+#include "obvid/core/result.h"
 #include "obvid/exchange/gcode.h"
-#include "obvid/toolpath/toolpath.h"
 
 namespace obvid {
+
+struct Toolpath;
 
 struct ToolpathGcodeOptions {
   GcodeController controller = GcodeController::kGrbl;
@@ -16,7 +18,7 @@ struct ToolpathGcodeOptions {
   /// No controller here knows splines outside XY (G5 of LinuxCNC is for G17 alone).
   bool arcs = true;
   std::optional<int> decimals{};  ///< 1 to 6 [the fewest, at least 3, that cost no more than a
-                                  ///< tenth of the tolerance; in inches one more]
+                                  ///< third of what printing may; in inches one more]
   std::string name = "tool path";
 };
 

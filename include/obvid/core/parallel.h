@@ -1,0 +1,15 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstddef>
+#include <functional>
+
+namespace obvid {
+
+/// work(i) once for each i in [0, count), in no order, on up to `threads` threads (0: as many as
+/// the machine runs at a time). Calls that share nothing they write give the same results for any
+/// number of threads. Rethrows what the first of failing calls throws, when all have ended.
+void in_parallel(std::size_t count, std::size_t threads,
+                 const std::function<void(std::size_t)>& work);
+
+}  // namespace obvid

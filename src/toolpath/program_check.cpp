@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "program_check.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "nc_reader.h"
+#include "steps.h"
+
+namespace obvid::toolpath {
+namespace {
+
+constexpr double kChordDepth = 0.05;  // of the tolerance: of chords for the program's arcs
+constexpr double kWithin = 0.1;       // of the tolerance, where no scallop is asked for
+
+std::vector<Sweep> sweeps_of(const NcProgram& program, double scale, double top) {
+  std::vector<Sweep> out;
+  for (const NcMotion& motion : program.motions) {
+    for (std::size_t i = 1; i < motion.points.size(); ++i) {
+      const Sweep sweep{motion.points[i - 1] / scale, motion.points[i] / scale};
+      const bool over_all = motion.rapid && std::min(sweep.from.z, sweep.to.z) > top;
+      if (!over_all) out.push_back(sweep);
+    }
+  }
+  return out;
+}
+
+}  // namespace
+
+Result<SimulationReport> check_program(const Part& part, const SurfaceCells& cells,
+                                       std::vector<Nearest>& reach, const std::string& text,
+                                       double scale, const ToolpathOptions& options,
+                                       const Progress& progress) {
+  const double chord = kChordDepth * options.tolerance;
+  const auto program = read_program(text, chord * scale);
+  if (!program) return fail(program.error());
+  if (progress) progress("checking", 0.0);
+  Simulation simulation(part, cells, reach, options.threads);
+  simulation.cut(sweeps_of(*program, scale, part.field().high().z));
+  const double within =
+      options.scallop ? kScallopWithin * *options.scallop : kWithin * options.tolerance;
+  SimulationReport out = simulation.report(options.tolerance - chord, within, progress);
+  out.depth.most += chord;
+  return out;
+}
+
+}  // namespace obvid::toolpath

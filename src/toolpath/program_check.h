@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string>
+
+#include "simulation.h"
+
+namespace obvid::toolpath {
+
+/// Reads the text of a program as a controller does and simulates it against the surface itself.
+/// `scale`: machine units in a unit of the part. Errors: E101 a text that controllers do not
+/// understand.
+[[nodiscard]] Result<SimulationReport> check_program(const Part& part, const SurfaceCells& cells,
+                                                     std::vector<Nearest>& reach,
+                                                     const std::string& text, double scale,
+                                                     const ToolpathOptions& options,
+                                                     const Progress& progress);
+
+}  // namespace obvid::toolpath

@@ -1,0 +1,82 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "reach.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+
+#include "sweep.h"
+
+namespace obvid::toolpath {
+namespace {
+
+/// Heights are good to the triangles' share of the tolerance where the contact is no inner point of
+/// a patch: what comes that near is taken for reached.
+constexpr double kReached = 1.0 + kTriangleShare;
+constexpr double kFirstStep = 0.5, kLastStep = 0.02;  // of the radius
+constexpr double kNextStep = 0.125;                   // likewise, beside a place that is known
+constexpr double kLevel = 1e-6;   // size of x and y of normals: any place of a flat bottom touches
+constexpr double kBottom = 0.99;  // of a flat bottom's radius: the farthest such place
+constexpr int kDirections = 8;
+
+class Search {
+ public:
+  Search(const Part& part, Vec3 point, Vec3 normal)
+      : part_(part), point_(point), normal_(normal), most_(2.0 * part.cutter().radius) {}
+
+  Nearest run(std::optional<Vec2> first) {
+    const CutterShape& cutter = part_.cutter();
+    const Vec3 tip = cutter.tip(point_, normal_);
+    best_ = {Reach::kHeld, most_, {tip.x, tip.y}};
+    if ((first && look(*first)) || look({tip.x, tip.y})) return best_;
+    const bool level = std::hypot(normal_.x, normal_.y) < kLevel && cutter.flat() > 0.0;
+    if (level && around({tip.x, tip.y}, kBottom * cutter.flat())) return best_;
+    for (double step = first ? kNextStep : kFirstStep; step >= kLastStep;) {
+      const double before = best_.height;
+      if (around(best_.axis, step * cutter.radius)) return best_;
+      if (!(best_.height < before)) step *= 0.5;
+    }
+    return best_;
+  }
+
+ private:
+  /// True: reached.
+  bool look(Vec2 axis) {
+    const auto rest = part_.drop(axis);
+    // nothing there: it goes down as far as it likes
+    const Vec3 tip = rest ? rest->tip : Vec3{axis.x, axis.y, point_.z - part_.cutter().radius};
+    const SweepEntry entry = entry_into(part_.cutter(), {tip, tip}, point_, normal_, best_.height);
+    if (entry.height < best_.height) {
+      best_.height = entry.height;
+      best_.axis = axis;
+    }
+    if (best_.height <= kReached * part_.tolerance()) best_.reach = Reach::kReached;
+    return best_.reach == Reach::kReached;
+  }
+
+  bool around(Vec2 middle, double radius) {
+    for (int k = 0; k < kDirections; ++k) {
+      const double angle = 2.0 * std::numbers::pi * k / kDirections;
+      if (look(middle + radius * Vec2{std::cos(angle), std::sin(angle)})) return true;
+    }
+    return false;
+  }
+
+  const Part& part_;
+  Vec3 point_, normal_;
+  double most_;
+  Nearest best_;
+};
+
+}  // namespace
+
+Nearest nearest_to(const Part& part, Vec3 point, Vec3 normal, std::optional<Vec2> first) {
+  const double tolerance = part.tolerance();
+  const Vec3 beside = point + tolerance * normal;  // walls do not hide themselves
+  const auto over = part.surface_over({beside.x, beside.y});
+  if (over && over->contact.z > beside.z + tolerance) return {Reach::kHidden, 0.0, {}};
+  return Search(part, point, normal).run(first);
+}
+
+}  // namespace obvid::toolpath

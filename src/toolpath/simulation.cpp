@@ -1,0 +1,255 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "simulation.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numeric>
+
+#include "obvid/core/parallel.h"
+
+namespace obvid::toolpath {
+namespace {
+
+constexpr double kNotThere = std::numeric_limits<double>::infinity();
+constexpr double kFarthest = 4.0;  // radii: rays are not followed any farther
+constexpr double kAbout = 1.5;     // as far as in the cell before: most likely enough
+constexpr double kGrazing = 1e-3;  // cosine of rays that hardly come nearer
+/// Round bodies bend by this much more than the corner where a place is lifted a little.
+constexpr double kMoreBent = 1.1;
+
+/// The body is convex: it lies where its distance grows by the gradient, at least.
+double deepest_by_gradient(const Cell& cell, const SweepDistance& d) {
+  const double out = dot(d.gradient, cell.normal);
+  return -d.value + std::abs(out) * cell.rise + norm(d.gradient - out * cell.normal) * cell.reach;
+}
+
+/// All of a sweep lies above the plane across the cell's normal that touches it at one of its ends.
+double deepest_by_plane(const CutterShape& cutter, const Cell& cell, const Sweep& sweep) {
+  const Vec3 n = cell.normal;
+  if (n.z < 0.0) return kNotThere;
+  const double lean = std::sqrt(n.x * n.x + n.y * n.y);
+  const double under_tip = cutter.corner * (1.0 - n.z) + cutter.flat() * lean;
+  const double plane = std::min(dot(n, sweep.from), dot(n, sweep.to)) - under_tip;
+  return dot(n, cell.point) - plane + cell.rise;
+}
+
+}  // namespace
+
+Simulation::Simulation(const Part& part, const SurfaceCells& cells, std::vector<Nearest>& reach,
+                       std::size_t threads)
+    : part_(part),
+      cells_(cells),
+      threads_(threads),
+      of_tile_(cells.tiles().size()),
+      tile_of_(cells.cells().size()),
+      nodes_(cells.cells().size(), CellBounds{kNotThere, kNotThere, -kNotThere, -kNotThere}),
+      nearest_(reach) {
+  for (std::size_t t = 0; t < cells.tiles().size(); ++t) {
+    const SurfaceCells::Tile& tile = cells.tiles()[t];
+    std::fill_n(tile_of_.begin() + tile.first, tile.count, static_cast<std::uint32_t>(t));
+  }
+}
+
+// The body is convex: beside the entry its surface falls away by the gradient and, where it is
+// round, by the bend of its corner. Derivation: docs/methods/toolpath.md.
+double Simulation::highest_entry(const Cell& cell, const Sweep& sweep, const SweepEntry& entry,
+                                 double most) const {
+  const CutterShape& cutter = part_.cutter();
+  const double beside = cell.reach + entry.height * cell.turn;
+  const double towards = -dot(entry.gradient, cell.normal);
+  double highest = kNotThere;
+  if (cutter.corner > 0.0 && towards > kGrazing) {
+    const double along = norm(entry.gradient + towards * cell.normal);
+    const double falls = along * beside + kMoreBent * 0.5 * beside * beside / cutter.corner;
+    highest = entry.height + falls / towards + cell.rise;
+  }
+  const double in = beside + cell.rise;
+  if (cutter.flat() <= in) return highest;
+  // what a narrower, higher cutter reaches from here, the whole one reaches from all of the cell
+  const double lean = std::sqrt(cell.normal.x * cell.normal.x + cell.normal.y * cell.normal.y);
+  const CutterShape narrow{cutter.radius - in, cutter.corner};
+  const Vec3 up{0.0, 0.0, lean * beside + cell.rise};
+  return std::min(highest, entry_into(narrow, {sweep.from + up, sweep.to + up}, cell.point,
+                                      cell.normal, std::min(highest, most))
+                               .height);
+}
+
+void Simulation::look(Looking what, const Cell& cell, const Sweep& sweep, CellBounds& b) const {
+  const CutterShape& cutter = part_.cutter();
+  const SweepDistance d = distance_from(cutter, sweep, cell.point);
+  b.depth = std::max(b.depth, -d.value);
+  b.depth_most = std::max(
+      b.depth_most, std::min(deepest_by_gradient(cell, d), deepest_by_plane(cutter, cell, sweep)));
+  if (what == Looking::kForDepth || d.value >= b.left_most) return;
+  const double most = std::min(b.left_most, kFarthest * cutter.radius);
+  const SweepEntry entry = d.value <= 0.0
+                               ? SweepEntry{0.0, d.gradient}
+                               : entry_into(cutter, sweep, cell.point, cell.normal, most);
+  if (!(entry.height < kNotThere)) return;
+  b.left = std::min(b.left, entry.height);
+  b.left_most = std::min(b.left_most, highest_entry(cell, sweep, entry, most));
+}
+
+double Simulation::radius_of(Looking what, const Cell& cell, const CellBounds& bounds) const {
+  if (what == Looking::kForDepth) return cell.reach + cell.rise;
+  const double most = kFarthest * part_.cutter().radius;
+  return std::clamp(bounds.left_most, 0.0, most) + cell.reach + cell.rise;
+}
+
+void Simulation::look(Looking what, const Cell& cell, std::span<const std::uint32_t> sweeps,
+                      double enough, CellBounds& b, std::vector<Candidate>& candidates) const {
+  candidates.clear();
+  for (const std::uint32_t s : sweeps) {
+    const double least = distance_at_least(part_.cutter(), sweeps_[s], cell.point, enough);
+    if (least <= enough) candidates.push_back({least, s});
+  }
+  if (candidates.empty()) return;
+  const auto nearest =
+      std::min_element(candidates.begin(), candidates.end(),
+                       [](const Candidate& x, const Candidate& y) { return x.least < y.least; });
+  std::swap(*nearest, candidates.front());
+  for (const Candidate& c : candidates) {
+    if (c.least >
+        std::max(what == Looking::kForDepth ? 0.0 : b.left_most, cell.reach + cell.rise)) {
+      continue;
+    }
+    look(what, cell, sweeps_[c.sweep], b);
+  }
+}
+
+CellBounds Simulation::bounds(Looking what, const Cell& cell, std::span<const std::uint32_t> sweeps,
+                              double about, double most, Numbers& near) const {
+  std::vector<Candidate> candidates;
+  for (double enough = about;; enough = most) {
+    CellBounds out{kNotThere, kNotThere, -kNotThere, -kNotThere};
+    look(what, cell, sweeps, enough, out, candidates);
+    const double matters = radius_of(what, cell, out);
+    if (matters > enough && enough < most) continue;  // what was passed over matters
+    near.clear();
+    for (const Candidate& c : candidates) {
+      if (c.least <= matters) near.push_back(c.sweep);
+    }
+    return out;
+  }
+}
+
+void Simulation::cut(const std::vector<Sweep>& sweeps) {
+  const std::size_t first = sweeps_.size();
+  sweeps_.insert(sweeps_.end(), sweeps.begin(), sweeps.end());
+  std::vector<std::size_t> had(of_tile_.size());
+  std::vector<std::size_t> touched;
+  for (std::size_t t = 0; t < had.size(); ++t) had[t] = of_tile_[t].size();
+  for (std::size_t s = first; s < sweeps_.size(); ++s) {
+    const Sweep& w = sweeps_[s];
+    cells_.tiles_near({std::min(w.from.x, w.to.x), std::min(w.from.y, w.to.y)},
+                      {std::max(w.from.x, w.to.x), std::max(w.from.y, w.to.y)},
+                      part_.cutter().radius + cells_.spacing(), [&](std::size_t t) {
+                        if (of_tile_[t].size() == had[t]) touched.push_back(t);
+                        of_tile_[t].push_back(static_cast<std::uint32_t>(s));
+                      });
+  }
+  in_parallel(touched.size(), threads_, [&](std::size_t k) {
+    const SurfaceCells::Tile& tile = cells_.tiles()[touched[k]];
+    const auto fresh =
+        std::span<const std::uint32_t>(of_tile_[touched[k]]).subspan(had[touched[k]]);
+    Numbers near;
+    double about = kAbout * part_.cutter().radius;
+    for (std::size_t i = tile.first; i < tile.first + tile.count; ++i) {
+      const Cell& cell = cells_.cells()[i];
+      const double most = radius_of(Looking::kForBoth, cell, nodes_[i]);
+      const CellBounds b =
+          bounds(Looking::kForBoth, cell, fresh, std::min(about, most), most, near);
+      about = kAbout * radius_of(Looking::kForBoth, cell, b);  // the next one is much alike
+      nodes_[i] = {std::min(nodes_[i].left, b.left), std::min(nodes_[i].left_most, b.left_most),
+                   std::max(nodes_[i].depth, b.depth),
+                   std::max(nodes_[i].depth_most, b.depth_most)};
+    }
+  });
+}
+
+const Nearest& Simulation::nearest(std::size_t node) {
+  Nearest& known = nearest_[node];
+  const Cell& cell = cells_.cells()[node];
+  if (known.reach == Reach::kUnknown) known = nearest_to(part_, cell.point, cell.normal);
+  return known;
+}
+
+void Simulation::look_into_reach(double limit) {
+  in_parallel(cells_.tiles().size(), threads_, [&](std::size_t t) {
+    const SurfaceCells::Tile& tile = cells_.tiles()[t];
+    for (std::size_t i = tile.first; i < tile.first + tile.count; ++i) {
+      if (nodes_[i].left > limit && !(cells_.cells()[i].normal == Vec3{})) nearest(i);
+    }
+  });
+}
+
+bool Simulation::at_edge(std::size_t node, double limit) const {
+  if (nearest_[node].reach != Reach::kHeld) return false;
+  bool out = false;
+  cells_.neighbours(node, [&](std::size_t k) {
+    out = out || nodes_[k].left <= limit || nearest_[k].reach == Reach::kReached;
+  });
+  return out;
+}
+
+Nearest Simulation::nearest(std::size_t node, const Piece& piece) {
+  const Nearest& whole = nearest(node);
+  const Vec3 way = piece.cell.point - cells_.cells()[node].point;
+  const Vec2 first = whole.axis + Vec2{way.x, way.y};
+  return nearest_to(part_, piece.cell.point, piece.cell.normal, first);
+}
+
+// The highest place of a cell that the cutter reaches.
+bool Simulation::find_above(std::size_t node, double limit, double within, HighSpot& spot) {
+  const CellBounds& b = nodes_[node];
+  const Cell& cell = cells_.cells()[node];
+  if (!(b.left_most > limit + within) || cell.normal == Vec3{}) return false;
+  if (b.left > limit) {
+    const Nearest& near = nearest(node);
+    if (near.reach == Reach::kReached) {
+      spot = {b.left, cells_.place(node), cell.point, near.axis};
+      return true;
+    }
+    if (!at_edge(node, limit)) return false;
+  }
+  return find_inside(node, limit, within, spot);
+}
+
+bool Simulation::find_inside(std::size_t node, double limit, double within, HighSpot& spot) {
+  double most = 0.0;
+  spot.height = 0.0;
+  quarter(Looking::kForBoth, node, [&](const Piece& part, int levels) {
+    const double left = part.bounds.left;
+    bool held = false;
+    if (left > std::max(limit, spot.height)) {
+      const Nearest near = nearest(node, part);
+      held = near.reach != Reach::kReached;
+      if (!held) spot = {left, part.place, part.cell.point, near.axis};
+    }
+    const int least = held ? kMostLevels - kEdgeLevels : 0;
+    const bool deeper = part.bounds.left_most > limit + within && (held || left <= limit);
+    if ((!deeper || levels <= least) && !held) most = std::max(most, part.bounds.left_most);
+    return deeper && levels > least;
+  });
+  if (spot.height > 0.0) return true;
+  nodes_[node].left_most = std::min(nodes_[node].left_most, most);  // for the next round
+  return false;
+}
+
+std::vector<HighSpot> Simulation::above(double limit, double within) {
+  look_into_reach(limit);
+  std::vector<std::vector<HighSpot>> found(cells_.tiles().size());
+  in_parallel(found.size(), threads_, [&](std::size_t t) {
+    const SurfaceCells::Tile& tile = cells_.tiles()[t];
+    for (std::size_t i = tile.first; i < tile.first + tile.count; ++i) {
+      HighSpot spot;
+      if (find_above(i, limit, within, spot)) found[t].push_back(spot);
+    }
+  });
+  std::vector<HighSpot> out;
+  for (const auto& spots : found) out.insert(out.end(), spots.begin(), spots.end());
+  return out;
+}
+
+}  // namespace obvid::toolpath

@@ -1,0 +1,144 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "reach.h"
+#include "surface_cells.h"
+#include "sweep.h"
+
+namespace obvid::toolpath {
+
+/// What sweeps leave over a place, along its normal, and how deep they cut into it.
+struct CellBounds {
+  double left = 0.0, left_most = 0.0;    ///< over its middle; anywhere in it at most
+  double depth = 0.0, depth_most = 0.0;  ///< likewise; below 0: distance from the nearest sweep
+};
+
+/// A place of the part over which too much stays.
+struct HighSpot {
+  double height = 0.0;  ///< along the normal
+  CellPlace place;
+  Vec3 point;
+  Vec2 axis;  ///< where the cutter would come nearest to it
+};
+
+struct Extreme {
+  double found = 0.0;  ///< at a place that was looked at
+  double most = 0.0;   ///< anywhere, by the bounds of the cells
+  Vec3 place;
+};
+
+struct SimulationReport {
+  Extreme left;       ///< where the cutter can touch the part
+  Extreme depth;      ///< of gouges
+  double held = 0.0;  ///< where it cannot: distance of the cutter from the part
+  Vec3 held_place;
+  double hidden_area = 0.0, held_area = 0.0, area = 0.0;
+};
+
+/// Takes a cutter's body along straight ways out of the stock over a part's surface. Places of the
+/// surface are looked at as exact points of the patches with their normals, walls as well as level
+/// places; where the bounds of a cell do not decide, the cell is quartered.
+class Simulation {
+ public:
+  /// `reach` is known to all simulations of a part: as many as cells, filled as it is asked for.
+  Simulation(const Part& part, const SurfaceCells& cells, std::vector<Nearest>& reach,
+             std::size_t threads);
+
+  void cut(const std::vector<Sweep>& sweeps);
+  /// Where more than `limit` stays though the cutter can touch the part: one place of each cell at
+  /// most. Heights within `within` above the limit can stay unseen.
+  [[nodiscard]] std::vector<HighSpot> above(double limit, double within);
+  /// `allowed`: depth that need not be looked into any closer; `within`: how near bounds come to
+  /// what was found, where quartering has not to go too far for it.
+  [[nodiscard]] SimulationReport report(double allowed, double within, const Progress& progress);
+
+ private:
+  static constexpr int kMostLevels = 9;  ///< of quarters
+  static constexpr int kEdgeLevels = 2;  ///< where the cutter does not reach: searches are dear
+  using Numbers = std::vector<std::uint32_t>;
+  struct Piece {
+    CellPlace place;
+    Cell cell;
+    CellBounds bounds;
+  };
+
+  enum class Looking { kForBoth, kForDepth };
+  struct Candidate {
+    double least = 0.0;  ///< distance from the cell's middle at least
+    std::uint32_t sweep = 0;
+  };
+  void look(Looking what, const Cell& cell, const Sweep& sweep, CellBounds& bounds) const;
+  /// Takes sweeps in, the nearest first; `candidates`: those of them that are no farther from the
+  /// cell's middle than `enough`.
+  void look(Looking what, const Cell& cell, std::span<const std::uint32_t> sweeps, double enough,
+            CellBounds& bounds, std::vector<Candidate>& candidates) const;
+  /// What matters to a cell by its bounds, from its middle.
+  [[nodiscard]] double radius_of(Looking what, const Cell& cell, const CellBounds& bounds) const;
+  [[nodiscard]] double highest_entry(const Cell& cell, const Sweep& sweep, const SweepEntry& entry,
+                                     double most) const;
+  /// Bounds of a cell by these sweeps; `near` gets those that matter to any part of it. They lie
+  /// within `about` of the middle most likely, within `most` in any case.
+  [[nodiscard]] CellBounds bounds(Looking what, const Cell& cell,
+                                  std::span<const std::uint32_t> sweeps, double about, double most,
+                                  Numbers& near) const;
+  /// Quarters a cell; look(piece, levels left) says of each quarter whether to go on.
+  template <class Look>
+  void quarter(Looking what, const Piece& whole, std::span<const std::uint32_t> sweeps, int levels,
+               const Look& look) const;
+  template <class Look>
+  void quarter(Looking what, std::size_t node, const Look& look) const;
+  [[nodiscard]] const Nearest& nearest(std::size_t node);
+  [[nodiscard]] Nearest nearest(std::size_t node, const Piece& piece);  ///< of a piece of a node
+  /// The cutter does not reach the middle of the node, but that of one beside it, where more than
+  /// `limit` was looked into.
+  [[nodiscard]] bool at_edge(std::size_t node, double limit) const;
+  void look_into_reach(double limit);  ///< nodes with more than that
+  [[nodiscard]] bool find_above(std::size_t node, double limit, double within, HighSpot& spot);
+  [[nodiscard]] bool find_inside(std::size_t node, double limit, double within, HighSpot& spot);
+  void report_depth(double allowed, SimulationReport& out) const;
+  void report_reach(SimulationReport& out);
+  void report_left(double within, SimulationReport& out, const Progress& progress);
+
+  const Part& part_;
+  const SurfaceCells& cells_;
+  std::size_t threads_;
+  std::vector<Sweep> sweeps_;
+  std::vector<Numbers> of_tile_;
+  std::vector<std::uint32_t> tile_of_;
+  std::vector<CellBounds> nodes_;
+  std::vector<Nearest>& nearest_;
+};
+
+template <class Look>
+void Simulation::quarter(Looking what, const Piece& whole, std::span<const std::uint32_t> sweeps,
+                         int levels, const Look& look) const {
+  Numbers near;
+  const double du = 0.5 * whole.place.du, dv = 0.5 * whole.place.dv;
+  for (const double v : {whole.place.v - dv, whole.place.v + dv}) {
+    for (const double u : {whole.place.u - du, whole.place.u + du}) {
+      Piece part;
+      part.place = {whole.place.patch, u, v, du, dv};
+      part.cell = cell_at(part_.model(), part.place, whole.cell.normal);
+      if (part.cell.normal == Vec3{}) continue;
+      const double most = radius_of(what, part.cell, whole.bounds);
+      part.bounds = bounds(what, part.cell, sweeps, most, most, near);
+      if (look(part, levels - 1) && levels > 1) quarter(what, part, near, levels - 1, look);
+    }
+  }
+}
+
+template <class Look>
+void Simulation::quarter(Looking what, std::size_t node, const Look& look) const {
+  Numbers near;
+  const Cell& cell = cells_.cells()[node];
+  const double about = radius_of(what, cell, nodes_[node]);
+  const Piece whole{cells_.place(node), cell,
+                    bounds(what, cell, of_tile_[tile_of_[node]], about, about, near)};
+  quarter(what, whole, near, kMostLevels, look);
+}
+
+}  // namespace obvid::toolpath

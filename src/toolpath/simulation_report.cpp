@@ -1,0 +1,124 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "obvid/core/parallel.h"
+#include "simulation.h"
+
+namespace obvid::toolpath {
+namespace {
+
+constexpr std::size_t kCellsTogether = 2048;  // cells looked into before bounds are compared again
+
+void raise_extreme(Extreme& extreme, double found, Vec3 place) {
+  if (!(found > extreme.found)) return;
+  extreme.found = found;
+  extreme.place = place;
+}
+
+}  // namespace
+
+void Simulation::report_depth(double allowed, SimulationReport& out) const {
+  std::vector<std::size_t> deep;
+  for (std::size_t i = 0; i < nodes_.size(); ++i) {
+    raise_extreme(out.depth, nodes_[i].depth, cells_.cells()[i].point);
+  }
+  const double limit = std::max(allowed, out.depth.found);
+  for (std::size_t i = 0; i < nodes_.size(); ++i) {
+    if (nodes_[i].depth_most > limit) {
+      deep.push_back(i);
+    } else {
+      out.depth.most = std::max(out.depth.most, nodes_[i].depth_most);
+    }
+  }
+  std::vector<Extreme> found(deep.size());
+  in_parallel(deep.size(), threads_, [&](std::size_t k) {
+    quarter(Looking::kForDepth, deep[k], [&](const Piece& part, int levels) {
+      raise_extreme(found[k], part.bounds.depth, part.cell.point);
+      const bool deeper = part.bounds.depth_most > std::max(limit, found[k].found);
+      if (!deeper || levels == 0) found[k].most = std::max(found[k].most, part.bounds.depth_most);
+      return deeper;
+    });
+  });
+  for (const Extreme& e : found) {
+    raise_extreme(out.depth, e.found, e.place);
+    out.depth.most = std::max({out.depth.most, e.most, e.found});
+  }
+  out.depth.most = std::max(out.depth.most, out.depth.found);
+}
+
+void Simulation::report_reach(SimulationReport& out) {
+  look_into_reach(part_.tolerance());
+  for (std::size_t i = 0; i < nodes_.size(); ++i) {
+    const Cell& cell = cells_.cells()[i];
+    out.area += cell.area;
+    if (!(nodes_[i].left > part_.tolerance())) continue;
+    const Nearest& near = nearest_[i];
+    if (near.reach == Reach::kHidden) out.hidden_area += cell.area;
+    if (near.reach != Reach::kHeld) continue;
+    out.held_area += cell.area;
+    const double held =
+        std::max(near.height, std::isfinite(nodes_[i].depth) ? -nodes_[i].depth : near.height);
+    if (held > out.held) {
+      out.held = held;
+      out.held_place = cell.point;
+    }
+  }
+}
+
+// In order of what cells can hide at most, some at a time: what they show counts for the next.
+void Simulation::report_left(double within, SimulationReport& out, const Progress& progress) {
+  std::vector<std::size_t> high;
+  for (std::size_t i = 0; i < nodes_.size(); ++i) {
+    const Cell& cell = cells_.cells()[i];
+    if (cell.normal == Vec3{}) continue;
+    const bool touched =
+        nodes_[i].left <= part_.tolerance() || nearest_[i].reach == Reach::kReached;
+    if (touched) raise_extreme(out.left, nodes_[i].left, cell.point);
+    if (touched || at_edge(i, part_.tolerance())) high.push_back(i);
+  }
+  std::sort(high.begin(), high.end(), [&](std::size_t a, std::size_t b) {
+    return nodes_[a].left_most != nodes_[b].left_most ? nodes_[a].left_most > nodes_[b].left_most
+                                                      : a < b;
+  });
+  std::size_t begin = 0;
+  for (; begin < high.size(); begin += kCellsTogether) {
+    const double limit = out.left.found;
+    if (nodes_[high[begin]].left_most <= limit + within) break;
+    const std::size_t count = std::min(kCellsTogether, high.size() - begin);
+    std::vector<Extreme> found(count, {limit, 0.0, {}});
+    in_parallel(count, threads_, [&](std::size_t k) {
+      const std::size_t node = high[begin + k];
+      quarter(Looking::kForBoth, node, [&](const Piece& part, int levels) {
+        const bool deeper = part.bounds.left_most > found[k].found + within;
+        if (part.bounds.left > found[k].found) {
+          const bool held = nearest(node, part).reach != Reach::kReached;
+          if (held) return deeper && levels > kMostLevels - kEdgeLevels;
+          raise_extreme(found[k], part.bounds.left, part.cell.point);
+        }
+        if (!deeper || levels == 0) found[k].most = std::max(found[k].most, part.bounds.left_most);
+        return deeper;
+      });
+    });
+    for (const Extreme& e : found) {
+      raise_extreme(out.left, e.found, e.place);
+      out.left.most = std::max(out.left.most, e.most);
+    }
+    if (progress) {
+      progress("checking", static_cast<double>(begin) / static_cast<double>(high.size()));
+    }
+  }
+  if (begin < high.size()) out.left.most = std::max(out.left.most, nodes_[high[begin]].left_most);
+  out.left.most = std::max(out.left.most, out.left.found);
+}
+
+SimulationReport Simulation::report(double allowed, double within, const Progress& progress) {
+  SimulationReport out;
+  report_depth(allowed, out);
+  report_reach(out);
+  report_left(within, out, progress);
+  return out;
+}
+
+}  // namespace obvid::toolpath
