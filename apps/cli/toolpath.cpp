@@ -123,7 +123,7 @@ Result<Made> made_from(const ToolpathCommand& command, std::vector<ToolpathOutpu
   auto model = read_surface(command.input, made.warnings);
   if (!model) return fail(model.error());
   made.model = std::move(*model);
-  const ToolpathOptions options = options_for(command, made.model.units);
+  const ToolpathOptions options = options_for(command, made.model.units.name);
   if (auto good = check_effort(made.model, options); !good) return fail(good.error());
   auto path = plan(made.model, options, bar.progress());
   if (!path) return fail(path.error());

@@ -161,7 +161,7 @@ class Program {
     std::string out;
     if (options_.safe_z) out += "G0 Z" + fixed(*options_.safe_z, kLeastDecimals) + "\n";
     out += "G0 " + path.start() + "\nF" +
-           fixed(options_.feed.value_or(default_feed(contour_.units)), kLeastDecimals) + "\n";
+           fixed(options_.feed.value_or(default_feed(contour_.units.name)), kLeastDecimals) + "\n";
     if (options_.safe_z) out += "G1 Z0.000\n";
     return out;
   }
@@ -184,7 +184,7 @@ Result<void> check(const Contour& contour, const GcodeOptions& options) {
   const auto bad = [](std::string what, std::string hint, double value) {
     return fail({ErrorCode::kBadOption, std::move(what), "", std::move(hint), -1, value});
   };
-  const double feed = options.feed.value_or(default_feed(contour.units));
+  const double feed = options.feed.value_or(default_feed(contour.units.name));
   if (!(options.tolerance > 0.0) || !std::isfinite(options.tolerance) || !(feed > 0.0) ||
       !std::isfinite(feed)) {
     return bad("tolerance and feed must be greater than 0", "", options.tolerance);

@@ -52,13 +52,13 @@ void insert(Draft& draft, std::size_t link, std::int8_t first, std::int8_t secon
 
 }  // namespace
 
-Draft draft_of(const ExactSeries& series) {
+Draft draft_of(const ExactSeries& series, Watch& watch) {
   MeasuredSeries measured;
   measured.points = series.points;
   measured.reach.assign(series.points.size(), 0.0);
   measured.nodes = series.nodes;
   measured.thin = false;
-  SmoothTube smooth = build_tube(measured);
+  SmoothTube smooth = build_tube(measured, {}, watch);
   Draft out;
   out.tube = std::move(smooth.tube);
   out.x = std::move(smooth.state);

@@ -22,7 +22,7 @@ struct Draft {
 };
 
 /// The points with the directions that were given.
-[[nodiscard]] Draft draft_of(const ExactSeries& series);
+[[nodiscard]] Draft draft_of(const ExactSeries& series, Watch& watch);
 
 /// Links window.first .. window.last - 1 as a draft of their own.
 [[nodiscard]] Draft part_of(const Draft& draft, Window window);

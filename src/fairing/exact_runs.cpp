@@ -18,15 +18,15 @@ namespace {
 
 using namespace fairing_detail;
 
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
+constexpr double kNoEnergy = std::numeric_limits<double>::infinity();
 constexpr std::size_t kBefore = 5, kBeyond = 11;  ///< links of a window before and behind its place
 constexpr std::size_t kStride = 8;                ///< links from one window to the next
 constexpr std::size_t kReach = 3;    ///< links on each side of the trouble that are changed
 constexpr int kMendsPerWindow = 12;  ///< changes of one window
 constexpr std::size_t kLeastMends = 10, kLinksPerMend = 4;  ///< at the end, of the whole
 constexpr double kTubeBarrier = 0.02;      ///< of free nodes in their room, in the final problem
-constexpr double kFairEnough = 1e-6;       ///< Newton's decrement
-constexpr int kFairSteps = 60;
+constexpr double kRunFairEnough = 1e-6;       ///< Newton's decrement
+constexpr int kRunFairSteps = 60;
 constexpr int kRoughSteps = 12;  ///< towards the fairest state of a window, to compare windows
 /// Headings farther from their chord than 120 degrees belong to loops.
 constexpr double kLeastCosine = -0.5;
@@ -41,8 +41,8 @@ constexpr double kWork = 200'000.0, kWorkPerLink = 20'000.0;
 
 /// What a window of a draft came to.
 struct Trial {
-  double slack = kInfinity;  ///< 0: feasible
-  double energy = kInfinity;
+  double slack = kNoEnergy;  ///< 0: feasible
+  double energy = kNoEnergy;
   std::size_t trouble = 0;  ///< link of the window that pushes hardest
   bool loops = false;       ///< feasible, but the curve turns away from its chord there
   State x;
@@ -84,7 +84,7 @@ double room_of(const NodeEnd& a, const NodeEnd& b, std::int8_t direction) {
 class Mender {
  public:
   Mender(const ExactSeries& series, Watch& watch)
-      : series_(series), watch_(watch), draft_(draft_of(series)) {}
+      : series_(series), watch_(watch), draft_(draft_of(series, watch)) {}
 
   ExactRuns run() {
     // counted from the end, which stays while nodes are put in before it
@@ -122,7 +122,7 @@ class Mender {
     const Feasibility f = solver.find_inside(x);
     if (f.feasible) {
       const Weights weights{1.0, kFinalBarrier, kTubeBarrier};
-      solver.descend(x, weights, kFairEnough, fair_steps);
+      solver.descend(x, weights, kRunFairEnough, fair_steps);
       out.slack = 0.0;
       out.energy = model.merit(x, 0.0, weights);
       judge(part, x, out);
@@ -186,7 +186,7 @@ class Mender {
       if (best_.feasible() && change != Change::kTurn) break;
     }
     if (best_part_.direction.empty() && !last_.loops) {  // several links are in the way
-      best_.slack = kInfinity;
+      best_.slack = kNoEnergy;
       for (Draft& split : changed(part, Change::kSplitTwice, trouble)) {
         consider(std::move(split), window);
       }
@@ -225,7 +225,7 @@ class Mender {
     std::size_t wider = 1;
     for (std::size_t k = 0; k <= mends; ++k) {
       const Window whole{0, draft_.links()};
-      last_ = attempt(draft_, whole, kFairSteps);
+      last_ = attempt(draft_, whole, kRunFairSteps);
       if (last_.feasible() || k == mends) break;
       // a window that holds promises too much when the whole fails there again
       const std::size_t trouble = last_.trouble;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "obvid/numeric/double_double.h"
+#include "double_double.h"
 
 namespace obvid::idspline {
 

@@ -43,6 +43,26 @@ Result<PointGrid> grid_of(const std::vector<std::vector<Vec3>>& rows, string_vie
                0.0});
 }
 
+/// Half a unit of the last digits of three columns.
+Vec3 half_units_of(const NumberRows& rows, const std::array<int, 3>& columns) {
+  const std::vector<double> half = rows.rounding(columns);
+  return {half[0], half[1], half[2]};
+}
+
+/// Of a matrix: the most of all its columns from this one on.
+double matrix_rounding(const NumberRows& rows, std::size_t from = 0) {
+  double most = 0.0;
+  for (std::size_t k = from; k < rows.digits.size(); ++k) {
+    most = std::max(most, rows.rounding(std::array{static_cast<int>(k)}).front());
+  }
+  return most;
+}
+
+Result<PointGrid> with_rounding(Result<PointGrid> grid, Vec3 rounding) {
+  if (grid) grid->rounding = rounding;
+  return grid;
+}
+
 // ---- three matrices ---------------------------------------------------------------------------
 
 Result<NumberRows> matrix(const std::string& path) {
@@ -81,7 +101,8 @@ Result<PointGrid> from_three(const MatrixName& name) {
           {all[0].rows[j].values[i], all[1].rows[j].values[i], all[2].rows[j].values[i]});
     }
   }
-  return grid_of(points, name.common_name());
+  return with_rounding(grid_of(points, name.common_name()),
+                       {matrix_rounding(all[0]), matrix_rounding(all[1]), matrix_rounding(all[2])});
 }
 
 // ---- one text ---------------------------------------------------------------------------------
@@ -330,11 +351,19 @@ Result<PointGrid> from_three_names(const std::vector<std::string>& paths) {
 
 Result<PointGrid> grid_in(const NumberRows& rows, string_view name, const GridOptions& options) {
   if (column_named(rows, "row") >= 0 && column_named(rows, "col") >= 0) {
-    return from_places(rows, name);
+    return with_rounding(from_places(rows, name),
+                         half_units_of(rows, {column_named(rows, "x"), column_named(rows, "y"),
+                                            column_named(rows, "z")}));
   }
-  if (is_offset_table(rows)) return from_offsets(rows, name);
-  if (is_matrix(rows)) return from_heights(rows, name, options.spacing);
-  return from_list(rows, name);
+  if (is_offset_table(rows)) {
+    return with_rounding(from_offsets(rows, name),
+                         {0.0, matrix_rounding(rows, 1), rows.rounding(std::array{0}).front()});
+  }
+  if (is_matrix(rows)) {
+    return with_rounding(from_heights(rows, name, options.spacing),
+                         {0.0, 0.0, matrix_rounding(rows)});
+  }
+  return with_rounding(from_list(rows, name), half_units_of(rows, {0, 1, 2}));
 }
 
 }  // namespace

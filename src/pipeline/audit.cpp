@@ -109,8 +109,8 @@ class Auditor {
       return std::abs(arc->kappa) <= flat && most < 1.0;
     }
     const Vec2 chord = end_point(piece) - start_point(piece);
-    for (int k = 0; k <= kSamples; ++k) {
-      const Jet jet = evaluate(piece, static_cast<double>(k) / kSamples);
+    for (int k = 0; k <= kPieceSamples; ++k) {
+      const Jet jet = evaluate(piece, static_cast<double>(k) / kPieceSamples);
       if (!(dot(jet.d1, chord) > 0.0) || !(std::abs(curvature(jet)) <= flat)) return false;
     }
     return true;

@@ -209,7 +209,8 @@ class Exporter {
 
   /// In units of the contour.
   [[nodiscard]] double gcode_tolerance() const {
-    const double mm = millimetres_of(contour_.units);  // 0: refused when it is written
+    // 0: refused when it is written
+    const double mm = unit_ratio(contour_.units.name, "mm").value_or(0.0);
     return mm > 0.0 ? std::max(arc_tolerance_, kLeastForGcode / mm) : arc_tolerance_;
   }
 

@@ -10,7 +10,7 @@ namespace obvid::pipeline_detail {
 namespace {
 
 /// Which way the curvature of a piece changes: pieces of drawings are cut at their vertices.
-int direction_of(const Piece& piece) {
+int direction_of_kept(const Piece& piece) {
   if (const auto* conic = std::get_if<RationalBezier>(&piece)) return conic_direction(*conic);
   if (const auto* clothoid = std::get_if<ClothoidPiece>(&piece)) {
     return clothoid->kappa0 < clothoid->kappa1 ? 1 : clothoid->kappa0 > clothoid->kappa1 ? -1 : 0;
@@ -31,7 +31,7 @@ Contour form_kept(const Piece& piece, const std::vector<Vec2>& points, std::size
   out.points = points;
   out.pieces.push_back(piece);
   out.joints = {{first, from}, {last, to}};
-  out.runs = {{0, 0, direction_of(piece)}};
+  out.runs = {{0, 0, direction_of_kept(piece)}};
   out.kept = {0};
   return out;
 }

@@ -14,7 +14,7 @@ namespace obvid::pipeline_detail {
 namespace {
 
 /// What counts as kept: as much as joints may differ (docs/methods/certify.md).
-constexpr double kSameHeading = 1e-6;    // rad
+constexpr double kKeptHeading = 1e-6;    // rad
 constexpr double kSameCurvature = 1e-6;  // of the given one
 
 struct Miss {
@@ -139,7 +139,7 @@ Result<void> keeps_given(const Contour& contour) {
                    fmt::format("point {}", given.point + 1), "mark another point, or none",
                    static_cast<std::ptrdiff_t>(given.point), 0.0});
     }
-    const bool turned = !(miss.heading <= kSameHeading);
+    const bool turned = !(miss.heading <= kKeptHeading);
     if (!turned && miss.curvature <= kSameCurvature) continue;
     const double off = turned ? miss.heading * 180.0 / std::numbers::pi : 100.0 * miss.curvature;
     return fail(

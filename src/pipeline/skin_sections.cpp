@@ -33,6 +33,15 @@ struct Flat {
 constexpr double kDenseRounding = 1e-12;
 constexpr double kMostRounding = 2e-9;
 
+/// The rounding of coordinates in space, seen along the axes of a plane.
+Vec2 across(const Frame& plane, Vec3 rounding) {
+  const auto along = [&](Vec3 axis) {
+    return std::abs(axis.x) * rounding.x + std::abs(axis.y) * rounding.y +
+           std::abs(axis.z) * rounding.z;
+  };
+  return {along(plane.x), along(plane.y)};
+}
+
 Flat flat(const SpaceSeries& given, const Units& units) {
   Flat out;
   out.section.name = given.name;
@@ -40,6 +49,7 @@ Flat flat(const SpaceSeries& given, const Units& units) {
   out.section.frame = plane_of(given.points);
   out.series.name = given.name;
   out.series.units = units;
+  out.series.rounding = across(out.section.frame, given.rounding);
   for (const Vec3& p : given.points) {
     out.extent = std::max({out.extent, std::abs(p.x), std::abs(p.y), std::abs(p.z)});
     const Vec2 in_plane = out.section.frame.in_plane(p);

@@ -11,6 +11,7 @@
 #include <string>
 #include <vector>
 
+#include "../common/ten_points.h"
 #include "obvid/io/contour_json.h"
 #include "obvid/pipeline/fit.h"
 #include "obvid/series/analysis.h"
@@ -24,11 +25,6 @@ using nlohmann::json;
 constexpr double kDoctored = 1e-6;
 /// How far a claimed figure is moved.
 constexpr double kClaimed = 1e-3;
-
-std::vector<Vec2> ten_points() {  // 000_..., Table 1
-  return {{0, 0},          {0.21, -5.28},  {-5.11, -10.13}, {-20.48, -7.65}, {-28.68, 16.23},
-          {-13.87, 40.95}, {17.95, 55.28}, {54.24, 53.04},  {100.94, 36.19}, {230.38, -50.82}};
-}
 
 std::vector<Vec2> moved(std::vector<Vec2> points, Vec2 by) {
   for (Vec2& p : points) p = p + by;
@@ -106,9 +102,9 @@ struct Case {
 };
 
 std::vector<Case> cases() {
-  return {{"ten points", ten_points(), Carrier::kSpiral},
-          {"ten points of arcs", ten_points(), Carrier::kArcs},
-          {"ten points far away", moved(ten_points(), {1e6, -3e6}), Carrier::kSpiral},
+  return {{"ten points", kTenPoints, Carrier::kSpiral},
+          {"ten points of arcs", kTenPoints, Carrier::kArcs},
+          {"ten points far away", moved(kTenPoints, {1e6, -3e6}), Carrier::kSpiral},
           {"waves", waves(), Carrier::kSpiral},
           {"waves of arcs", waves(), Carrier::kArcs},
           {"line, spiral, arc", line_spiral_arc(), Carrier::kSpiral},

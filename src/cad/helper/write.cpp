@@ -35,14 +35,14 @@ Result<std::string> write_text(const std::vector<CadCurve>& curves,
 }
 
 Result<std::string> write_surfaces(const SurfaceModel& model, const CadWriteOptions& options) {
-  const auto scale = scale_of(options.format, model.units);
+  const auto scale = scale_of(options.format, model.units.name);
   if (!scale) return fail(scale.error());
   auto faces = faces_of(model, *scale);
   if (!faces) return fail(faces.error());
   for (std::string& name : faces->names) name = on_one_line(std::move(name));
   return text_of({faces->shape, model.name.empty() ? "surface" : on_one_line(model.name),
                   std::move(faces->faces), std::move(faces->names)},
-                 options.format, model.units);
+                 options.format, model.units.name);
 }
 
 }  // namespace obvid::cad
