@@ -95,7 +95,7 @@ TEST(FaceReader, FindsTheSurfacesOfAnotherProcess) {
 void expect_found(const fs::path& file, const SurfaceModel& model) {
   std::ostringstream command;
   command << kFacesFile << "='" << file.string() << "' " << kModel << "=" << model.name << " "
-          << kUnits << "=" << model.units << " " << fs::read_symlink("/proc/self/exe").string()
+          << kUnits << "=" << model.units.name << " " << fs::read_symlink("/proc/self/exe").string()
           << " --gtest_filter=FaceReader.* 2>&1 </dev/null";
   std::string out;
   FILE* pipe = ::popen(command.str().c_str(), "r");

@@ -170,7 +170,8 @@ TEST_F(FacesInFreecad, UnitsKeepTheLengths) {
   const std::pair<const char*, double> units[] = {{"m", 1000.0}, {"in", 25.4}, {"cm", 10.0}};
   for (const auto& [unit, millimetres] : units) {
     KnownModel one = torus_model();
-    one.model.name = one.model.units = unit;
+    one.model.name = unit;
+    one.model.units = unit;
     for (const FileEnding& format : kFreecadFormats) write(one.model, format, millimetres);
   }
   for (const auto& [name, v] : judged()) {

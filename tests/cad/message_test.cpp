@@ -121,13 +121,13 @@ TEST(CadMessage, FalseCountsAskForNothing) {
 
 TEST(CadMessage, DegreesKindsAndCodesOutsideTheirRangeAreRefused) {
   Drawing one;
-  one.units.clear();
+  one.units.name.clear();
   one.curves.push_back({"", {parabola()}, false});
   const std::string bytes = packed(Result<Drawing>(one));
   ASSERT_EQ(refusal(bytes), "");
-  // made, size of name, of units, number of curves, size of label, number of pieces, kind,
+  // made, size of name, of units, their source, number of curves, size of label, number of pieces, kind,
   // origin, degree
-  constexpr std::size_t kKind = 6, kDegree = 9;
+  constexpr std::size_t kKind = 7, kDegree = 10;
   EXPECT_EQ(refusal(with_word(bytes, kKind, std::uint64_t{4})), "not whole");
   for (const std::int64_t degree : {0LL, -1LL, 8LL, 1LL << 32}) {
     EXPECT_EQ(refusal(with_word(bytes, kDegree, degree)), "not whole") << degree;

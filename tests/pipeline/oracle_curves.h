@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "../common/plane_curves.h"
 #include "obvid/geom/vec2.h"
 
 namespace obvid::test {
@@ -117,10 +118,6 @@ struct Sampled {
 
   [[nodiscard]] LongVec2 truth(long double t) const { return placement.apply(curve.at(t)); }
 };
-
-inline double uniform(std::mt19937_64& rng, double low, double high) {
-  return low + (high - low) * (static_cast<double>(rng() >> 11) * 0x1p-53);
-}
 
 inline OracleCurve random_curve(Oracle kind, std::mt19937_64& rng) {
   OracleCurve c;

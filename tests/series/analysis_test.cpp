@@ -19,7 +19,7 @@ std::vector<Vec2> sample(int n, double from, double to, const std::function<Vec2
 }
 
 Vec2 sine(double x) { return {x, std::sin(x)}; }
-Vec2 ellipse(double t) { return {2.0 * std::cos(t), std::sin(t)}; }
+Vec2 on_ellipse(double t) { return {2.0 * std::cos(t), std::sin(t)}; }
 Vec2 log_spiral(double t) { return std::exp(0.2 * t) * unit_at(t); }
 
 TEST(Analysis, AdjacentCirclesOfACircleAreThatCircle) {
@@ -121,7 +121,7 @@ TEST(Analysis, SpiralStaysBetweenTheArcsOfItsAdjacentCircles) {
 TEST(Analysis, EllipseForcesAtMostItsFourVertices) {
   for (const int n : {13, 24, 50, 101, 400}) {
     // from inside a quarter to the same place: all four vertices lie inside
-    const auto a = analyse(sample(n, 0.7, 0.7 + 2.0 * kPi, ellipse)).value();
+    const auto a = analyse(sample(n, 0.7, 0.7 + 2.0 * kPi, on_ellipse)).value();
     EXPECT_LE(a.vertices_lower_bound, 4) << n;
     EXPECT_LE(a.vertices, 4) << n;
     EXPECT_EQ(a.inflections, 0) << n;

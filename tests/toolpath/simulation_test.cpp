@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
 #include <string>
@@ -144,17 +145,19 @@ TEST_P(Printed, ProgramsDoWhatTheirReportsSay) {
   EXPECT_LE(held, std::max(r.unreached_depth, kTolerance) + low + step_error());
 }
 
+std::string title(const testing::TestParamInfo<Printed::ParamType>& info) {
+  constexpr std::array kStrategies = {"zigzag", "isoparametric", "scallop"};
+  return std::string(kParts[std::get<0>(info.param)].name) + "_" +
+         kTools[std::get<1>(info.param)].name + "_" +
+         kStrategies[static_cast<std::size_t>(std::get<2>(info.param))];
+}
+
 INSTANTIATE_TEST_SUITE_P(
     All, Printed,
     testing::Combine(testing::Range(0, 6), testing::Range(0, 3),
                      testing::Values(ToolpathStrategy::kZigzag, ToolpathStrategy::kIsoparametric,
                                      ToolpathStrategy::kConstantScallop)),
-    [](const auto& info) {
-      static constexpr const char* kStrategies[] = {"zigzag", "isoparametric", "scallop"};
-      return std::string(kParts[std::get<0>(info.param)].name) + "_" +
-             kTools[std::get<1>(info.param)].name + "_" +
-             kStrategies[static_cast<int>(std::get<2>(info.param))];
-    });
+    title);
 
 }  // namespace
 }  // namespace obvid
