@@ -117,7 +117,7 @@ bool fulfilled_without(const ChainWishes& wishes, const Analysis& analysis, Exte
 /// every point are spent on them, a few more where there are few points, and no more where there
 /// are very many.
 constexpr int kMostTurns = 100;
-constexpr double kRepairSteps = 3000.0, kRepairWork = 1e6;
+constexpr double kRepairSteps = 10000.0, kRepairWork = 1e6;
 constexpr std::size_t kMostRepairedPoints = 5000;
 
 double repair_work(std::size_t points) {

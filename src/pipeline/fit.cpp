@@ -72,6 +72,7 @@ Result<Carried> form(const std::vector<Vec2>& points, const SeriesChain& chain,
                      double tolerance) {
   auto out = form_carrier(points, chain, spirals, series, carrier, tolerance);
   if (out && keeps_curvature(carrier)) keep_joint_curvatures(out->contour);
+  if (out && carrier == Carrier::kConics) chain_conic_weights(out->contour);
   return out;
 }
 

@@ -2,6 +2,7 @@
 #include "keep_joints.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "obvid/curve/end_curvatures.h"
 
@@ -25,6 +26,19 @@ void keep_joint_curvatures(Contour& contour) {
     if (free_end) end.kappa = stored_curvature(*piece, false);
     keep_end_curvatures(*piece, {contour.joints[i].element.kappa, end.kappa},
                         polynomial(*piece) ? InnerWeights::kFixed : InnerWeights::kFree);
+  }
+}
+
+void chain_conic_weights(Contour& contour) {
+  for (std::size_t i = 0; i < contour.pieces.size(); ++i) {
+    auto* conic = std::get_if<RationalBezier>(&contour.pieces[i]);
+    if (conic == nullptr || conic->degree != 2) continue;
+    Element& start = contour.joints[i].element;
+    const double stored = stored_curvature(*conic, true);
+    const double ratio = i > 0 ? stored / start.kappa : 1.0;
+    if (ratio > 0.0 && std::isfinite(ratio)) conic->weight[1] *= std::sqrt(ratio);
+    if (i == 0) start.kappa = stored;
+    contour.joints[i + 1].element.kappa = stored_curvature(*conic, false);
   }
 }
 

@@ -10,4 +10,9 @@ namespace obvid::pipeline_detail {
 /// is the one that the piece before it stores. For contours of one section, before their proof.
 void keep_joint_curvatures(Contour& contour);
 
+/// Weights of conics, one after the other, such that the stored pieces have the same curvature on
+/// both sides of each joint; the joints take it. A conic has no other freedom: its weight changes
+/// both its end curvatures by one factor.
+void chain_conic_weights(Contour& contour);
+
 }  // namespace obvid::pipeline_detail

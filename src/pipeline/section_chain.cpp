@@ -140,13 +140,17 @@ class SectionChooser {
     const auto analysis = analyse(points);
     if (!analysis) return tl::unexpected(analysis.error());
     auto chain = form_elements(points, *analysis, wishes, watch_);
-    if (!chain && !moves_) {
-      if (auto mended = with_more_vertices(points, *analysis, wishes, watch_)) {
-        chain = std::move(mended);
-      }
+    if (chain || moves_) {
+      if (chain) out_.warnings = warn(*analysis, *chain);
+      return chain;
     }
-    if (chain) out_.warnings = warn(*analysis, *chain);
-    return chain;
+    // where the points alone have a curve, it is the given data that are in the way: more vertices
+    // are not what somebody who gives a heading asks for
+    if (chain.error().code == ErrorCode::kFixedDataContradict) return chain;
+    auto mended = with_more_vertices(points, *analysis, wishes, watch_);
+    if (!mended) return chain;
+    out_.warnings = warn(*analysis, *mended);
+    return mended;
   }
 
   /// One turn and some more as an open series; the turn from seam to seam is cut out of it and

@@ -20,6 +20,7 @@ constexpr double kLongStep = 1000.0;
 constexpr double kLongGuess = 0.01;  // of the size
 constexpr std::size_t kLongSeries = 2000;
 constexpr double kAccuracy = 1.02;     // largest / smallest end of the final bracket
+constexpr double kLeastAdvice = 1e-9;  // of the size: nobody measures less
 constexpr double kLargestMove = 0.1;   // of the size: beyond, it is another shape
 constexpr double kUsualGuess = 1e-5;   // of the size, where nothing says more
 constexpr double kUsualTrials = 14.0;  // for the progress bar
@@ -54,7 +55,7 @@ class Search {
 
  private:
   void set_limits() {
-    lowest_ = coordinate_rounding(series_);
+    lowest_ = std::max(coordinate_rounding(series_), kLeastAdvice * size_of(series_.points));
     if (job_.noise) lowest_ = std::max(lowest_, *job_.noise);
     if (job_.noise_from_rounding) {
       lowest_ = std::max(lowest_, std::min(series_.rounding.x, series_.rounding.y));

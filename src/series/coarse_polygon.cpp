@@ -14,6 +14,26 @@ constexpr double kCoarseTurn = 40.0 * std::numbers::pi / 180.0;
 constexpr double kInLine = 1e-6;
 /// Errors of the points turn longer chords by less than a quarter of a right angle.
 constexpr double kChordPerTolerance = 8.0;
+/// So many circles through three neighbours whose curvature only grows, or only falls, are a spiral:
+/// corners of polygons come in no such order.
+constexpr std::size_t kCirclesOfASpiral = 5;
+
+double curvature_through(Vec2 a, Vec2 b, Vec2 c) {
+  return 2.0 * cross(b - a, c - b) / (norm(b - a) * norm(c - b) * norm(c - a));
+}
+
+bool is_spiral(const std::vector<Vec2>& points) {
+  if (points.size() < kCirclesOfASpiral + 2) return false;
+  bool grows = true, falls = true;
+  double before = curvature_through(points[0], points[1], points[2]);
+  for (std::size_t i = 2; i + 1 < points.size(); ++i) {
+    const double here = curvature_through(points[i - 1], points[i], points[i + 1]);
+    grows = grows && here > before;
+    falls = falls && here < before;
+    before = here;
+  }
+  return grows || falls;
+}
 
 }  // namespace
 
@@ -21,7 +41,7 @@ CoarsePolygon coarse_polygon(const std::vector<Vec2>& points, const std::vector<
                              bool closed, double angle) {
   CoarsePolygon out;
   const std::size_t n = points.size();
-  if (n < 3) return out;
+  if (n < 3 || (!closed && is_spiral(points))) return out;
   std::vector<double> turns;
   for (std::size_t i = closed ? 0 : 1; i < (closed ? n : n - 1); ++i) {
     const std::size_t before = (i + n - 1) % n, after = (i + 1) % n;

@@ -147,6 +147,12 @@ class Case:
 
     def check_files(self, folder, before):
         data = self.data
+        missing = [n for n in data.get("svg", []) + data.get("contour", [])
+                   if not (folder / n).is_file()]
+        for name in missing:
+            self.check(False, f"{name} was not written")
+        if missing:
+            return
         for name in data.get("svg", []):
             root = xml.etree.ElementTree.parse(folder / name).getroot()
             self.check(root.tag == "{http://www.w3.org/2000/svg}svg", f"{name} is no SVG")

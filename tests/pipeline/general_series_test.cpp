@@ -369,8 +369,9 @@ TEST(GeneralSeries, HostileGeometryIsProvedOrRefusedWithTheReason) {
   arcs.print("hostile, arcs");
   EXPECT_GE(spirals.proved, 36);
   EXPECT_GE(arcs.proved, 35);
-  // 1e12 sizes from the origin and beyond, doubles do not hold a continuous joint: said, not proved
-  EXPECT_LE(spirals.formed + arcs.formed, 3);
+  // 1e12 sizes from the origin and beyond, and between points some last digits apart, doubles do
+  // not hold a continuous joint: said, not proved
+  EXPECT_LE(spirals.formed + arcs.formed, 4);
 }
 
 // ---- public data --------------------------------------------------------------------------------

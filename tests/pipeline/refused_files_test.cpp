@@ -71,6 +71,20 @@ std::string with(const std::string& name, const std::function<void(json&)>& chan
   return document.dump();
 }
 
+/// Arcs one after the other, from their own headings: the ends of each and what names them.
+void lay_arcs(json& d) {
+  double x = 0.0, y = 0.0;
+  for (std::size_t i = 0; i < d["pieces"].size(); ++i) {
+    json& arc = d["pieces"][i];
+    const double theta = arc["theta0"], kappa = arc["kappa"], length = arc["length"];
+    arc["start"] = {x, y};
+    x += (std::sin(theta + kappa * length) - std::sin(theta)) / kappa;
+    y -= (std::cos(theta + kappa * length) - std::cos(theta)) / kappa;
+    arc["end"] = {x, y};
+    d["points"][i + 1] = d["elements"][i + 1]["point"] = arc["end"];
+  }
+}
+
 TEST(RefusedFiles, WithoutTheirTrickTheCurvesAreJudgedForThemselves) {
   // headings near 0: the kink that they hid is seen
   const std::string kink = words_of_refusal(with("B_theta.json", [](json& d) {
@@ -81,6 +95,7 @@ TEST(RefusedFiles, WithoutTheirTrickTheCurvesAreJudgedForThemselves) {
     for (json& element : d["elements"]) {
       element["heading"] = std::remainder(element["heading"].get<double>(), turn);
     }
+    lay_arcs(d);
   }));
   EXPECT_NE(kink.find("E501"), std::string::npos) << kink;
   EXPECT_NE(kink.find("heading"), std::string::npos) << kink;
@@ -88,6 +103,8 @@ TEST(RefusedFiles, WithoutTheirTrickTheCurvesAreJudgedForThemselves) {
   for (const char* name : {"D_weights_underflow_0.9.json", "D_weights_underflow_1.15.json"}) {
     const std::string jump = words_of_refusal(with(name, [](json& d) {
       d["carrier"] = "baseline";
+      d["runs"] = json::array({{{"first_piece", 0}, {"last_piece", 0}, {"direction", 0}},
+                               {{"first_piece", 1}, {"last_piece", 1}, {"direction", -1}}});
       for (json& w : d["pieces"][1]["weights"]) w = w.get<double>() * 0x1p537;
     }));
     EXPECT_NE(jump.find("curvature"), std::string::npos) << name << jump;
@@ -99,6 +116,7 @@ TEST(RefusedFiles, ControlsWithSoundNumbersPass) {
   json d = json::parse(text_of("B_theta.json"));
   for (std::size_t i = 0; i < 3; ++i) d["pieces"][i]["theta0"] = 0.5 * static_cast<double>(i);
   for (std::size_t i = 0; i < 4; ++i) d["elements"][i]["heading"] = 0.5 * static_cast<double>(i);
+  lay_arcs(d);
   EXPECT_EQ(words_of_refusal(d.dump()), "");
   // the decreasing arcs of A2_scale_arcs alone
   json arcs = json::parse(text_of("A2_scale_arcs.json"));

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "../common/ten_points.h"
 #include "obvid/series/coarse_polygon.h"
 
 #include <gtest/gtest.h>
@@ -36,6 +37,11 @@ TEST(CoarsePolygon, PointsOnItsEdgesDoNotHideIt) {
   const PolygonPoints rectangle{{0, 0}, {1, 0}, {2, 0}, {2, 1}, {1, 1}, {0, 1}};
   EXPECT_EQ(coarse_polygon(rectangle, {}, true, 20.0 * kDegree).corners,
             (std::vector<std::size_t>{0, 2, 3, 5}));
+}
+
+TEST(CoarsePolygon, ASpiralOfFewPointsIsNone) {
+  // 000_..., Table 1: turns of some 50 degrees, curvatures that only fall
+  EXPECT_FALSE(coarse_polygon(kTenPoints, {}, false, 0.3).found());
 }
 
 TEST(CoarsePolygon, StairsOfPixelsWithinTheirToleranceAreNone) {

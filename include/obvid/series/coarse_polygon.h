@@ -20,6 +20,7 @@ struct CoarsePolygon {
 /// Turns at points that are to be judged: beyond rounding, between chords of eight tolerances at
 /// least. Where the middle one of them is 40 degrees or more (an octagon, or coarser) the series is
 /// such a polygon, and `corners` are its points that turn by `angle` (rad); else nothing is found.
+/// Nor is it where the curvatures of the circles through three neighbours only grow, or only fall.
 /// `tolerance` is empty or has one entry per point. O(n log n).
 [[nodiscard]] CoarsePolygon coarse_polygon(const std::vector<Vec2>& points,
                                            const std::vector<double>& tolerance, bool closed,
