@@ -24,6 +24,8 @@ constexpr double kFlat = 1e-6;
 constexpr double kSought = 1e-11;
 /// A control point may be moved by this part of its leg along the tangent.
 constexpr double kFarthest = 1e-6;
+/// Tangents at the ends may turn by this, rad.
+constexpr double kLegTurn = 1e-11;
 /// Weights take up at most this factor of a curvature: beyond, the piece would change its shape.
 constexpr double kMostOfWeight = 1.5;
 /// Roundings of a control point, in units of 2^-53 of the largest offset, that a curvature carries
@@ -107,7 +109,7 @@ class Lattice {
   /// A short lattice vector along the direction: its multiples up to the size of the point `at` stay
   /// within about half a step of the line.
   [[nodiscard]] Vec2 along() const {
-    constexpr double kStretch = 0x1p52;  // some 2^26 steps long, 2^-26 of a step across
+    constexpr double kStretch = 0x1p104;  // some 2^26 steps long, 2^-26 of a step across
     Vector a = vector(1.0, 0.0), b = vector(0.0, 1.0);
     reduce(a, b, kStretch);
     if (product_of(a, a, kStretch) > product_of(b, b, kStretch)) std::swap(a, b);
@@ -225,8 +227,10 @@ class Keeper {
       across += (at_start ? -0.5 : 0.5) * off / h;
       tolerance = std::max(tolerance, std::abs(wanted_cross(e, kSought * unit(at_start))) / h);
     }
+    const Vec2 first = piece_.offset[1] - piece_.offset[0];
+    const Vec2 last = piece_.offset[2] - piece_.offset[1];
     place(1, Lattice(piece_.offset[1], leg(piece_.offset[0], piece_.offset[2])), across, tolerance,
-          h);
+          std::min(farthest(first, chord), farthest(last, chord)));
   }
 
   /// The flatter end comes first: the point that it has in common with the other end is set by it.
@@ -268,7 +272,7 @@ class Keeper {
     const double off = wanted_cross(e, wanted(at_start)) - cross(tangent, leg(e.p0, e.p2)).hi;
     const double tolerance = std::abs(wanted_cross(e, kSought * unit(at_start))) / length;
     place(index(piece_, at_start, 2), Lattice(e.p2, tangent), off / length, tolerance,
-          norm(e.p2 - e.p0));
+          kFarthest * norm(e.p2 - e.p0));
   }
 
   /// The first one: its distance from the line through the end and the second one.
@@ -279,13 +283,20 @@ class Keeper {
     const double off = wanted_cross(e, wanted(at_start)) - cross(leg(e.p0, e.p1), second).hi;
     const double tolerance = std::abs(wanted_cross(e, kSought * unit(at_start))) / length;
     place(index(piece_, at_start, 1), Lattice(e.p1, second), -off / length, tolerance,
-          norm(e.p1 - e.p0));
+          farthest(e.p1 - e.p0, rounded(second)));
   }
 
-  void place(std::size_t j, const Lattice& lattice, double across, double tolerance, double size) {
+  /// How far the control point at the end of a leg may be moved along a direction: the leg, a tangent,
+  /// hardly turns.
+  static double farthest(Vec2 leg, Vec2 along) {
+    const double slope = std::abs(cross(leg, along)) / (norm(leg) * norm(along));
+    return norm(leg) * std::min(kFarthest, kLegTurn / slope);
+  }
+
+  void place(std::size_t j, const Lattice& lattice, double across, double tolerance, double limit) {
     if (std::abs(across) <= tolerance) return;
     const Vec2 moved = lattice.nearest(across, tolerance);
-    if (norm(moved - piece_.offset[j]) <= kFarthest * size) piece_.offset[j] = moved;
+    if (norm(moved - piece_.offset[j]) <= limit) piece_.offset[j] = moved;
   }
 
   /// Curvature at an end goes with 1 / w1^2, of a conic at both.

@@ -148,9 +148,21 @@ class SectionChooser {
     // are not what somebody who gives a heading asks for
     if (chain.error().code == ErrorCode::kFixedDataContradict) return chain;
     auto mended = with_more_vertices(points, *analysis, wishes, watch_);
-    if (!mended) return chain;
+    if (!mended || bends_back(*mended)) return chain;
     out_.warnings = warn(*analysis, *mended);
     return mended;
+  }
+
+  /// Whether a link turns by half a turn, nearly: no shape that points ask for.
+  static bool bends_back(const SeriesChain& chain) {
+    constexpr double kMostOfLink = 170.0 / kDegrees;  // as between neighbouring chords
+    for (std::size_t k = 0; k + 1 < chain.elements.size(); ++k) {
+      const Element &a = chain.elements[k], &b = chain.elements[k + 1];
+      const Vec2 chord = b.point - a.point;
+      const double turn = turning(chord, unit_at(b.theta)) - turning(chord, unit_at(a.theta));
+      if (std::abs(turn) > kMostOfLink) return true;
+    }
+    return false;
   }
 
   /// One turn and some more as an open series; the turn from seam to seam is cut out of it and

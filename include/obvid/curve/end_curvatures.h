@@ -26,7 +26,7 @@ enum class InnerWeights { kFixed, kFree };
 /// (docs/methods/curve.md). Free inner weights take up what is left. A piece whose ends are right
 /// to 1e-10 already (of the curvature; where it is flat beside the other end, of 1e-6 of that
 /// one's) stays as it is; one that is stored in plain coordinates may come out with an origin.
-/// End points stay; tangents at the ends turn by less than 1e-15.
+/// End points stay; tangents at the ends turn by less than 2e-11 rad.
 void keep_end_curvatures(RationalBezier& piece, WantedCurvatures wanted, InnerWeights weights);
 
 }  // namespace obvid
