@@ -155,7 +155,7 @@ class SectionChooser {
 
   /// Whether a link turns by half a turn, nearly: no shape that points ask for.
   static bool bends_back(const SeriesChain& chain) {
-    constexpr double kMostOfLink = 170.0 / kDegrees;  // as between neighbouring chords
+    constexpr double kMostOfLink = 179.0 / kDegrees;
     for (std::size_t k = 0; k + 1 < chain.elements.size(); ++k) {
       const Element &a = chain.elements[k], &b = chain.elements[k + 1];
       const Vec2 chord = b.point - a.point;
