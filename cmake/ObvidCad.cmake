@@ -6,7 +6,8 @@ option(OBVID_CAD "build the helper for STEP, IGES and BREP (needs Open CASCADE)"
 file(GLOB obvid_cad_agreed CONFIGURE_DEPENDS "${PROJECT_SOURCE_DIR}/src/cad/client/*"
      "${PROJECT_SOURCE_DIR}/src/cad/helper/*")
 list(APPEND obvid_cad_agreed "${PROJECT_SOURCE_DIR}/include/obvid/cad/cad.h"
-     "${PROJECT_SOURCE_DIR}/include/obvid/core/error.h")
+     "${PROJECT_SOURCE_DIR}/include/obvid/core/error.h"
+     "${PROJECT_SOURCE_DIR}/include/obvid/core/units.h")
 set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${obvid_cad_agreed})
 set(digests "")
 foreach(source IN LISTS obvid_cad_agreed)

@@ -7,6 +7,8 @@
 #include <iterator>
 #include <utility>
 
+#include "obvid/core/format_into.h"
+
 namespace obvid {
 namespace {
 
@@ -17,7 +19,7 @@ void append_quoted(std::string& out, std::string_view text) {
       out += '\\';
       out += c;
     } else if (static_cast<unsigned char>(c) < 0x20) {
-      fmt::format_to(std::back_inserter(out), "\\u{:04x}", static_cast<unsigned char>(c));
+      format_into(out, "\\u{:04x}", static_cast<unsigned char>(c));
     } else {
       out += c;
     }
@@ -101,7 +103,7 @@ JsonText& JsonText::key(std::string_view name) {
 JsonText& JsonText::value(double number) {
   if (!std::isfinite(number)) return null();
   before_value();
-  fmt::format_to(std::back_inserter(text_), "{}", number);
+  format_into(text_, "{}", number);
   return *this;
 }
 

@@ -7,6 +7,7 @@
 #include <string>
 #include <string_view>
 
+#include "obvid/core/format_into.h"
 #include "obvid/geom/vec2.h"
 
 namespace obvid::exchange {
@@ -14,9 +15,7 @@ namespace obvid::exchange {
 /// Pairs of group code and value in the making.
 class DxfWriter {
  public:
-  void pair(int code, std::string_view value) {
-    fmt::format_to(std::back_inserter(text_), "{:3d}\n{}\n", code, value);
-  }
+  void pair(int code, std::string_view value) { format_into(text_, "{:3d}\n{}\n", code, value); }
   void pair(int code, int value) { pair(code, std::to_string(value)); }
   /// 17 significant digits: the same double when it is read.
   void pair(int code, double value) { pair(code, fmt::format("{}", value == 0.0 ? 0.0 : value)); }

@@ -7,6 +7,8 @@
 #include <cmath>
 #include <iterator>
 
+#include "obvid/core/format_into.h"
+
 namespace obvid::exchange {
 namespace {
 
@@ -49,7 +51,7 @@ void GcodePath::line_to(Vec2 point) { line(printed(scale_ * point)); }
 
 void GcodePath::line(Vec2 end) {
   if (end == at_) return;  // the next block starts where the tool stands: nothing drifts
-  fmt::format_to(std::back_inserter(text_), "G1 {}\n", place(end));
+  format_into(text_, "G1 {}\n", place(end));
   pieces_.emplace_back(LinePiece{at_ / scale_, end / scale_});
   at_ = end;
 }
@@ -79,8 +81,8 @@ void GcodePath::arc(Vec2 middle, Vec2 end, bool left) {
   }
   const Vec2 to_centre = 0.5 * chord + (height + (left ? radius : -radius)) * across;
   const Vec2 ij = {round_to(to_centre.x, kCentreDecimals), round_to(to_centre.y, kCentreDecimals)};
-  fmt::format_to(std::back_inserter(text_), "{} {} I{} J{}\n", left ? "G3" : "G2", place(end),
-                 fixed(ij.x, kCentreDecimals), fixed(ij.y, kCentreDecimals));
+  format_into(text_, "{} {} I{} J{}\n", left ? "G3" : "G2", place(end),
+              fixed(ij.x, kCentreDecimals), fixed(ij.y, kCentreDecimals));
   // the controller's arc: it leaves square to its radius, and its chord says the rest
   const Vec2 tangent = (left ? 1.0 : -1.0) * left_normal(-ij);
   const double angle = turning(tangent, chord);
@@ -96,9 +98,9 @@ void GcodePath::follow_cubic(const RationalBezier& cubic) {
   const Vec2 end = printed(point(3));
   const Vec2 first = printed(point(1) - at_), second = printed(point(2) - end);
   if (end == at_) return;
-  fmt::format_to(std::back_inserter(text_), "G5 I{} J{} P{} Q{} {}\n", fixed(first.x, decimals_),
-                 fixed(first.y, decimals_), fixed(second.x, decimals_), fixed(second.y, decimals_),
-                 place(end));
+  format_into(text_, "G5 I{} J{} P{} Q{} {}\n", fixed(first.x, decimals_),
+              fixed(first.y, decimals_), fixed(second.x, decimals_), fixed(second.y, decimals_),
+              place(end));
   RationalBezier path;
   path.degree = 3;
   path.offset = {at_ / scale_, (at_ + first) / scale_, (end + second) / scale_, end / scale_};

@@ -8,6 +8,7 @@
 #include <numbers>
 
 #include "landxml_units.h"
+#include "obvid/core/format_into.h"
 #include "obvid/curve/clothoid.h"
 #include "obvid/exchange/landxml.h"
 #include "obvid/exchange/road_elements.h"
@@ -106,7 +107,7 @@ class LandXmlWriter {
  private:
   template <class... Args>
   void put(fmt::format_string<Args...> text, Args&&... args) {
-    fmt::format_to(std::back_inserter(out_), text, std::forward<Args>(args)...);
+    format_into(out_, text, std::forward<Args>(args)...);
   }
 
   /// Northing first.

@@ -7,6 +7,7 @@
 #include <unordered_map>
 
 #include "mesh_parts.h"
+#include "obvid/core/format_into.h"
 #include "obvid/exchange/mesh_files.h"
 
 namespace obvid {
@@ -53,7 +54,7 @@ class ObjWriter {
  private:
   template <class... Args>
   void add(fmt::format_string<Args...> format, Args&&... args) {
-    fmt::format_to(std::back_inserter(text_), format, std::forward<Args>(args)...);
+    format_into(text_, format, std::forward<Args>(args)...);
   }
 
   /// Numbers of the mesh's points; those that a neighbour has written keep theirs.

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <iterator>
 
+#include "obvid/core/format_into.h"
 #include "obvid/curve/clothoid.h"
 #include "obvid/exchange/opendrive.h"
 #include "obvid/exchange/road_elements.h"
@@ -50,7 +51,7 @@ class OpenDriveWriter {
  private:
   template <class... Args>
   void put(fmt::format_string<Args...> text, Args&&... args) {
-    fmt::format_to(std::back_inserter(out_), text, std::forward<Args>(args)...);
+    format_into(out_, text, std::forward<Args>(args)...);
   }
 
   void road(std::size_t i) {

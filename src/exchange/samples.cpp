@@ -8,6 +8,7 @@
 #include <iterator>
 #include <numbers>
 
+#include "obvid/core/format_into.h"
 #include "obvid/region/refine.h"
 
 namespace obvid {
@@ -197,9 +198,8 @@ Result<std::string> samples_csv(const Contour& contour, const SampleOptions& opt
           : "s,x,y,heading_deg,curvature,normal_x,normal_y\n";
   for (const CurveSample& one : *samples) {
     const Vec2 normal = left_normal(unit_at(one.theta));
-    fmt::format_to(std::back_inserter(out), "{},{},{},{},{},{},{}\n", one.s, one.point.x,
-                   one.point.y, one.theta * 180.0 / std::numbers::pi, one.kappa, normal.x,
-                   normal.y);
+    format_into(out, "{},{},{},{},{},{},{}\n", one.s, one.point.x, one.point.y,
+                one.theta * 180.0 / std::numbers::pi, one.kappa, normal.x, normal.y);
   }
   return out;
 }
@@ -209,10 +209,10 @@ Result<std::string> obj_text(const Contour& contour, const SampleOptions& option
   if (!samples) return tl::unexpected(samples.error());
   const std::vector<Vec2> points = distinct(*samples, contour.closed);
   std::string out = "# Obvid contour, lengths in " + plain(contour.units) + "\n";
-  for (const Vec2 p : points) fmt::format_to(std::back_inserter(out), "v {} {} 0\n", p.x, p.y);
+  for (const Vec2 p : points) format_into(out, "v {} {} 0\n", p.x, p.y);
   out += "l";
   for (std::size_t i = 1; i <= points.size(); ++i) {
-    fmt::format_to(std::back_inserter(out), " {}", i);
+    format_into(out, " {}", i);
   }
   return out + (contour.closed ? " 1\n" : "\n");
 }
@@ -227,9 +227,9 @@ Result<std::string> ply_text(const Contour& contour, const SampleOptions& option
       "property double x\nproperty double y\nproperty double z\nelement edge {}\n"
       "property int vertex1\nproperty int vertex2\nend_header\n",
       plain(contour.units), points.size(), edges);
-  for (const Vec2 p : points) fmt::format_to(std::back_inserter(out), "{} {} 0\n", p.x, p.y);
+  for (const Vec2 p : points) format_into(out, "{} {} 0\n", p.x, p.y);
   for (std::size_t i = 0; i < edges; ++i) {
-    fmt::format_to(std::back_inserter(out), "{} {}\n", i, (i + 1) % points.size());
+    format_into(out, "{} {}\n", i, (i + 1) % points.size());
   }
   return out;
 }

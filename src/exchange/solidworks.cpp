@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "obvid/contour/conics.h"
+#include "obvid/core/format_into.h"
 
 namespace obvid {
 namespace {
@@ -46,7 +47,7 @@ class Macro {
  private:
   template <class... Args>
   void add(fmt::format_string<Args...> format, Args&&... args) {
-    fmt::format_to(std::back_inserter(out_), format, std::forward<Args>(args)...);
+    format_into(out_, format, std::forward<Args>(args)...);
   }
   [[nodiscard]] std::string xyz(Vec2 p) const {
     return fmt::format("{}, {}, 0#", scale_ * p.x, scale_ * p.y);
@@ -126,7 +127,7 @@ Result<std::vector<SldcrvFile>> sldcrv_files(const Contour& contour, const Sampl
     const CurveSample* before = nullptr;
     for (const CurveSample& one : *samples) {
       if (before != nullptr && before->point == one.point) continue;
-      fmt::format_to(std::back_inserter(file.text), "{} {} 0\n", one.point.x, one.point.y);
+      format_into(file.text, "{} {} 0\n", one.point.x, one.point.y);
       before = &one;
     }
     out.push_back(std::move(file));

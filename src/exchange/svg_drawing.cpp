@@ -12,6 +12,7 @@
 #include <utility>
 #include <vector>
 
+#include "obvid/core/format_into.h"
 #include "obvid/curve/path_distance.h"
 #include "obvid/geom/box.h"
 
@@ -55,7 +56,7 @@ class SvgDrawer {
  private:
   template <class... Args>
   void put(fmt::format_string<Args...> format, Args&&... args) {
-    fmt::format_to(std::back_inserter(path_), format, std::forward<Args>(args)...);
+    format_into(path_, format, std::forward<Args>(args)...);
   }
   void see(Vec2 p) { box_.add(p); }
   void move(Vec2 p) {

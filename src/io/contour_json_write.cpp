@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "contour_json_names.h"
+#include "obvid/core/format_into.h"
 #include "obvid/curve/nurbs.h"
 #include "obvid/io/contour_json.h"
 #include "text_lines.h"
@@ -53,14 +54,14 @@ class Writer {
   void report(const FitReport& report);
   void certificate(const Certificate& certificate);
 
-  fmt::memory_buffer buffer_;
+  std::string buffer_;
 };
 
 void Writer::number(double value) {
   if (!std::isfinite(value)) return raw("null");
   // "-0" would be read as the integer 0.
   if (value == 0.0) return raw(std::signbit(value) ? "-0.0" : "0");
-  fmt::format_to(std::back_inserter(buffer_), "{}", value);
+  format_into(buffer_, "{}", value);
 }
 
 void Writer::text(std::string_view value) {
@@ -81,7 +82,7 @@ void Writer::point(Vec2 p) {
 }
 
 void Writer::figure(std::string_view name, double value) {
-  fmt::format_to(std::back_inserter(buffer_), "\"{}\": ", name);
+  format_into(buffer_, "\"{}\": ", name);
   number(value);
 }
 
@@ -90,15 +91,15 @@ void Writer::optional_figure(std::string_view name, const std::optional<double>&
 }
 
 void Writer::count(std::string_view name, long long value) {
-  fmt::format_to(std::back_inserter(buffer_), "\"{}\": {}", name, value);
+  format_into(buffer_, "\"{}\": {}", name, value);
 }
 
 void Writer::claim(std::string_view name, bool value) {
-  fmt::format_to(std::back_inserter(buffer_), "\"{}\": {}", name, value);
+  format_into(buffer_, "\"{}\": {}", name, value);
 }
 
 void Writer::figures(std::string_view name, const std::vector<double>& values) {
-  fmt::format_to(std::back_inserter(buffer_), "\"{}\": ", name);
+  format_into(buffer_, "\"{}\": ", name);
   inline_list(values, [&](double value) { number(value); });
 }
 
@@ -117,14 +118,14 @@ void Writer::inline_list(const List& list, Write write) {
 template <class List, class Write>
 void Writer::line_list(std::string_view name, const List& list, std::string_view indent,
                        Write write) {
-  fmt::format_to(std::back_inserter(buffer_), "{}\"{}\": [", indent, name);
+  format_into(buffer_, "{}\"{}\": [", indent, name);
   bool first = true;
   for (const auto& item : list) {
-    fmt::format_to(std::back_inserter(buffer_), "{}\n{}  ", first ? "" : ",", indent);
+    format_into(buffer_, "{}\n{}  ", first ? "" : ",", indent);
     first = false;
     write(item);
   }
-  if (!first) fmt::format_to(std::back_inserter(buffer_), "\n{}", indent);
+  if (!first) format_into(buffer_, "\n{}", indent);
   buffer_.push_back(']');
 }
 
@@ -137,7 +138,7 @@ void Writer::element(const Joint& joint) {
   figure("kappa", joint.element.kappa);
   raw(", \"source\": ");
   if (joint.source) {
-    fmt::format_to(std::back_inserter(buffer_), "{}", *joint.source);
+    format_into(buffer_, "{}", *joint.source);
   } else {
     raw("null");
   }
@@ -306,7 +307,7 @@ void Writer::report(const FitReport& report) {
 void Writer::proof(std::size_t index, const PieceProof& proof) {
   raw("{");
   count("piece", static_cast<long long>(index));
-  fmt::format_to(std::back_inserter(buffer_), ", \"verdict\": \"{}\"", to_string(proof.verdict));
+  format_into(buffer_, ", \"verdict\": \"{}\"", to_string(proof.verdict));
   if (proof.exact_arithmetic) raw(", \"exact_arithmetic\": true");
   if (proof.t0 != 0.0 || proof.t1 != 1.0) {
     raw(", ");
@@ -367,16 +368,15 @@ void Writer::one_nurbs(const NurbsCurve& curve) {
 
 std::string Writer::write(const StoredContour& stored) {
   const Contour& contour = stored.contour;
-  fmt::format_to(std::back_inserter(buffer_), "{{\n  \"format\": \"{}\",\n  \"version\": {},\n",
-                 contour_json::kFormat, contour_json::kVersion);
+  format_into(buffer_, "{{\n  \"format\": \"{}\",\n  \"version\": {},\n", contour_json::kFormat,
+              contour_json::kVersion);
   raw("  \"units\": ");
   text(contour.units.name);
   raw(", \"units_source\": ");
   text(to_string(contour.units.source));
   raw(",\n  \"closed\": ");
   flag(contour.closed);
-  fmt::format_to(std::back_inserter(buffer_), ",\n  \"carrier\": \"{}\",\n",
-                 to_string(contour.carrier));
+  format_into(buffer_, ",\n  \"carrier\": \"{}\",\n", to_string(contour.carrier));
   line_list("points", contour.points, "  ", [&](Vec2 p) { point(p); });
   raw(",\n");
   if (!contour.point_tolerance.empty()) {
@@ -395,9 +395,8 @@ std::string Writer::write(const StoredContour& stored) {
   if (const auto curve = as_one_nurbs(contour)) one_nurbs(*curve);
   raw(",\n");
   line_list("runs", contour.runs, "  ", [&](const Run& run) {
-    fmt::format_to(std::back_inserter(buffer_),
-                   "{{\"first_piece\": {}, \"last_piece\": {}, \"direction\": {}}}",
-                   run.first_piece, run.last_piece, run.direction);
+    format_into(buffer_, "{{\"first_piece\": {}, \"last_piece\": {}, \"direction\": {}}}",
+                run.first_piece, run.last_piece, run.direction);
   });
   if (!contour.kept.empty()) {
     raw(",\n  \"kept\": ");
@@ -407,7 +406,7 @@ std::string Writer::write(const StoredContour& stored) {
   if (stored.report) report(*stored.report);
   if (stored.certificate) certificate(*stored.certificate);
   raw("\n}\n");
-  return fmt::to_string(buffer_);
+  return std::move(buffer_);
 }
 
 }  // namespace

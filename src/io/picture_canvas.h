@@ -8,6 +8,7 @@
 #include <string_view>
 #include <utility>
 
+#include "obvid/core/format_into.h"
 #include "obvid/geom/vec2.h"
 
 namespace obvid {
@@ -17,7 +18,7 @@ class PictureCanvas {
  public:
   template <class... Args>
   void add(fmt::format_string<Args...> format, Args&&... args) {
-    fmt::format_to(std::back_inserter(text_), format, std::forward<Args>(args)...);
+    format_into(text_, format, std::forward<Args>(args)...);
   }
   /// Text element; `anchor` is start, middle or end.
   void label(Vec2 at, std::string_view anchor, std::string_view css, std::string_view text);

@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "contour_json_values.h"
+#include "obvid/core/format_into.h"
 
 namespace obvid {
 namespace {
@@ -16,50 +17,49 @@ namespace {
 constexpr const char* kFormat = "obvid-surface";
 constexpr int kVersion = 1;
 
-void write_number(fmt::memory_buffer& out, double value) {
+void write_number(std::string& out, double value) {
   // "-0" would be read as the integer 0
   if (value == 0.0 && std::signbit(value)) {
-    fmt::format_to(std::back_inserter(out), "-0.0");
+    format_into(out, "-0.0");
   } else {
-    fmt::format_to(std::back_inserter(out), "{}", value);
+    format_into(out, "{}", value);
   }
 }
 
-void write_list(fmt::memory_buffer& out, const std::vector<double>& values) {
+void write_list(std::string& out, const std::vector<double>& values) {
   const char* comma = "[";
   for (const double value : values) {
-    fmt::format_to(std::back_inserter(out), "{}", comma);
+    format_into(out, "{}", comma);
     write_number(out, value);
     comma = ", ";
   }
-  fmt::format_to(std::back_inserter(out), "]");
+  format_into(out, "]");
 }
 
 std::string quoted(const std::string& text) {
   return nlohmann::json(text).dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
 }
 
-void write_patch(fmt::memory_buffer& out, const SurfacePatch& patch) {
+void write_patch(std::string& out, const SurfacePatch& patch) {
   const NurbsSurface& s = patch.surface;
-  auto to = std::back_inserter(out);
-  fmt::format_to(to, "  {{\"name\": {}, \"degree_u\": {}, \"degree_v\": {},\n", quoted(patch.name),
-                 s.degree_u, s.degree_v);
-  fmt::format_to(to, "   \"knots_u\": ");
+  format_into(out, "  {{\"name\": {}, \"degree_u\": {}, \"degree_v\": {},\n", quoted(patch.name),
+              s.degree_u, s.degree_v);
+  format_into(out, "   \"knots_u\": ");
   write_list(out, s.knots_u);
-  fmt::format_to(to, ",\n   \"knots_v\": ");
+  format_into(out, ",\n   \"knots_v\": ");
   write_list(out, s.knots_v);
-  fmt::format_to(to, ",\n   \"points\": [");
+  format_into(out, ",\n   \"points\": [");
   for (std::size_t i = 0; i < s.points.size(); ++i) {
     // a row along u on each line
-    fmt::format_to(to, "{}", i == 0 ? "\n    " : i % s.count_u() == 0 ? ",\n    " : ", ");
+    format_into(out, "{}", i == 0 ? "\n    " : i % s.count_u() == 0 ? ",\n    " : ", ");
     write_list(out, {s.points[i].x, s.points[i].y, s.points[i].z});
   }
-  fmt::format_to(to, "]");
+  format_into(out, "]");
   if (!s.weights.empty()) {
-    fmt::format_to(to, ",\n   \"weights\": ");
+    format_into(out, ",\n   \"weights\": ");
     write_list(out, s.weights);
   }
-  fmt::format_to(to, "}}");
+  format_into(out, "}}");
 }
 
 class SurfaceReader : private JsonValues {
@@ -134,19 +134,18 @@ class SurfaceReader : private JsonValues {
 }  // namespace
 
 std::string surface_json(const SurfaceModel& model) {
-  fmt::memory_buffer out;
-  auto to = std::back_inserter(out);
-  fmt::format_to(
-      to, "{{\"format\": \"{}\", \"version\": {},\n \"name\": {}, \"units\": {}, "
-      "\"units_source\": \"{}\",\n \"patches\": [",
-      kFormat, kVersion, quoted(model.name), quoted(model.units.name),
-      to_string(model.units.source));
+  std::string out;
+  format_into(out,
+              "{{\"format\": \"{}\", \"version\": {},\n \"name\": {}, \"units\": {}, "
+              "\"units_source\": \"{}\",\n \"patches\": [",
+              kFormat, kVersion, quoted(model.name), quoted(model.units.name),
+              to_string(model.units.source));
   for (std::size_t i = 0; i < model.patches.size(); ++i) {
-    fmt::format_to(to, "{}", i == 0 ? "\n" : ",\n");
+    format_into(out, "{}", i == 0 ? "\n" : ",\n");
     write_patch(out, model.patches[i]);
   }
-  fmt::format_to(to, "]}}\n");
-  return fmt::to_string(out);
+  format_into(out, "]}}\n");
+  return out;
 }
 
 Result<SurfaceModel> surface_from_json(std::string_view text, std::string_view name) {
