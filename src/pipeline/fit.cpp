@@ -343,6 +343,7 @@ Result<Fit> fit(const PointSeries& series, const FitJob& job, Watch& watch) {
     }
     return fail(std::move(error));
   }
+  take_piece_ends(formed->contour);
   if (auto kept = keeps_given(formed->contour); !kept) return fail(kept.error());
   Fit out;
   out.contour = std::move(formed->contour);

@@ -15,4 +15,9 @@ void keep_joint_curvatures(Contour& contour);
 /// both its end curvatures by one factor.
 void chain_conic_weights(Contour& contour);
 
+/// Elements of joints that lie outside what their pieces have there, heading and curvature each, get
+/// the nearest of these: rounding of coordinates can turn a short piece by more than anything that
+/// was sought.
+void take_piece_ends(Contour& contour);
+
 }  // namespace obvid::pipeline_detail

@@ -164,13 +164,14 @@ class PartMeasure {
     double t0, t1;
   };
 
-  /// Cuts the part at vertices, and where it turns too far for one region at all joints.
+  /// Cuts the part at vertices, and at all joints where it turns too far for one region.
   void bound_between_stations(const Part& part, SegmentReport& row) const {
     Stretch stretch{part.first_piece, part.first_piece, part.t0, 1.0};
     int common = direction_[stretch.first];
+    const bool far = part.first_piece != part.last_piece && turns_far(part);
     for (std::size_t k = part.first_piece + 1; k <= part.last_piece; ++k) {
       const int next = common_direction(common, direction_[k]);
-      const bool cut = next == kNotMonotone || turns_far(stretch.first, k);
+      const bool cut = far || next == kNotMonotone;
       if (cut) {
         bound_stretch(stretch, common, row);
         stretch = {k, k, 0.0, 1.0};
@@ -184,11 +185,12 @@ class PartMeasure {
 
   /// Regions are those of curves that turn by less than half a turn, either way. A piece turns by
   /// less than that.
-  [[nodiscard]] bool turns_far(std::size_t first, std::size_t last) const {
+  [[nodiscard]] bool turns_far(const Part& part) const {
     double turn = 0.0;
-    for (std::size_t k = first; k <= last; ++k) {
-      const double change = end_element(contour_, k).theta - start_element(contour_, k).theta;
-      turn += std::abs(std::remainder(change, 2.0 * std::numbers::pi));
+    for (std::size_t k = part.first_piece; k <= part.last_piece; ++k) {
+      const Vec2 from = evaluate(local(k), k == part.first_piece ? part.t0 : 0.0).d1;
+      const Vec2 to = evaluate(local(k), k == part.last_piece ? part.t1 : 1.0).d1;
+      turn += std::abs(turning(from, to));
     }
     return !(turn < std::numbers::pi);
   }

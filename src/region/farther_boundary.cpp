@@ -16,8 +16,8 @@ using region_detail::TwoArcs;
 
 /// Equal steps of a piece between which the distance is taken to have one peak at the most. A lone
 /// piece takes more of them than one among many.
-constexpr std::size_t kStepsAlone = 5;
-constexpr std::size_t kStepsAmongMany = 2;
+constexpr std::size_t kStepsAlone = 8;
+constexpr std::size_t kStepsAmongMany = 6;
 /// Peaks of the samples this near to the largest are looked at closely.
 constexpr double kCouldBeMore = 0.8;
 /// Steps of a climb: parabolas converge faster than geometrically.
