@@ -10,6 +10,11 @@ namespace obvid::pipeline_detail {
 /// What surfaces are made within when nobody says otherwise, of the size.
 inline constexpr double kSurfaceTolerance = 1e-5;
 
+/// What helps where points have no fair contour.
+inline constexpr const char* kNoFairContour =
+    "--noise EPS lets points move that far, --noise rounding as far as their printed digits leave "
+    "open; --plain takes the C2 cubic where no fair contour exists";
+
 /// One function for each kind of surface; errors as `make_surface`.
 [[nodiscard]] Result<MadeSurface> make_ruled(const SurfaceJob& job, const Progress& progress);
 [[nodiscard]] Result<MadeSurface> make_revolution(const SurfaceJob& job);
