@@ -113,7 +113,7 @@ Result<ReadCurve> from_points(const std::string& path, const SurfaceJob& job) {
   if (!made) {
     Error error = made.error();
     if (exit_code(error.code) == 4) {
-      error.hint = pipeline_detail::kNoFairContour;
+      error.hint = pipeline_detail::without_fair_contour(job.sections);
     }
     error.where = error.where.empty() ? path : path + ", " + error.where;
     return fail(error);

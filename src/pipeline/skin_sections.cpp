@@ -115,7 +115,7 @@ Result<Fit> fit_section(const Flat& flat, const SkinJob& job, std::size_t number
     Error error = made.error();
     error.what = fmt::format("{}: {}", name, error.what);
     if (exit_code(error.code) == 4) {
-      error.hint = pipeline_detail::kNoFairContour;
+      error.hint = pipeline_detail::without_fair_contour(job.sections);
     }
     return fail(error);
   }

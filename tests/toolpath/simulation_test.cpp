@@ -188,6 +188,38 @@ TEST_P(Printed, ProgramsDoWhatTheirReportsSay) {
   EXPECT_LE(held, std::max(r.unreached_depth, kTolerance) + low + step_error());
 }
 
+/// Bends of larger radius than the arcs that controllers are told (10 m): what may stand for them
+/// is decided by the height of the arc, 0.03 here, not by the radius.
+TEST(PrintedArcs, AreNoLinesWhereTheirHeightIsMoreThanTheTolerance) {
+  constexpr double kRadius = 15'000.0, kLength = 60.0, kWidth = 3.0, kAllowed = 0.01;
+  const auto ridge = [](double x, double) {
+    return -(x - 0.5 * kLength) * (x - 0.5 * kLength) / (2.0 * kRadius);
+  };
+  for (const bool arcs : {true, false}) {
+    ToolpathOptions o;
+    o.cutter = kTools[0].cutter;
+    o.tolerance = kAllowed;
+    o.scallop = kScallop;
+    o.gcode.arcs = arcs;
+    const auto path =
+        plan(test::model_of({test::surface_of(ridge, {0, 0}, {kLength, kWidth}, 31)}), o);
+    ASSERT_TRUE(path) << to_line(path.error());
+    const auto run = test::NcInterpreter(kStep).run(path->program.text);
+    ASSERT_TRUE(run.faults.empty()) << run.faults.front();
+    test::Cut cut(kTools[0].mill, test::tips_of(run));
+    double gouge = 0.0;
+    for (double x = 0.0; x <= kLength; x += 0.25) {
+      for (double y = 0.0; y <= kWidth; y += 0.25) {
+        gouge = std::max(gouge, cut.depth({x, y, ridge(x, y)}));
+      }
+    }
+    EXPECT_LE(gouge, kAllowed);
+    EXPECT_LE(gouge, path->report.gouge.most + 1e-6);
+    EXPECT_LE(path->report.gouge.most, kAllowed);
+    EXPECT_TRUE(path->not_kept.empty());
+  }
+}
+
 std::string title(const testing::TestParamInfo<Printed::ParamType>& info) {
   constexpr std::array kStrategies = {"zigzag", "isoparametric", "scallop"};
   return std::string(kParts[std::get<0>(info.param)].name) + "_" +
