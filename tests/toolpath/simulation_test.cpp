@@ -189,9 +189,9 @@ TEST_P(Printed, ProgramsDoWhatTheirReportsSay) {
 }
 
 /// Bends of larger radius than the arcs that controllers are told (10 m): what may stand for them
-/// is decided by the height of the arc, 0.03 here, not by the radius.
+/// is decided by the height of the arc, 0.04 over half the length here, not by the radius.
 TEST(PrintedArcs, AreNoLinesWhereTheirHeightIsMoreThanTheTolerance) {
-  constexpr double kRadius = 15'000.0, kLength = 60.0, kWidth = 3.0, kAllowed = 0.01;
+  constexpr double kRadius = 10'500.0, kLength = 120.0, kWidth = 3.0, kAllowed = 0.01;
   const auto ridge = [](double x, double) {
     return -(x - 0.5 * kLength) * (x - 0.5 * kLength) / (2.0 * kRadius);
   };
