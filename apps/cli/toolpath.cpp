@@ -145,7 +145,8 @@ Result<Made> made_from(const ToolpathCommand& command, std::vector<ToolpathOutpu
 }
 
 std::string area_share(double area, double all) {
-  return area > 0.0 && all > 0.0 ? fmt::format("{} %", significant(100.0 * area / all, 3)) : "none";
+  return area > 0.0 && all > 0.0 ? fmt::format("about {} %", significant(100.0 * area / all, 3))
+                                 : "none";
 }
 
 std::string toolpath_place(Vec3 p) {
