@@ -113,8 +113,10 @@ void add_pictures(CLI::App& app, RawSurface& raw) {
 /// Options of contours through points, where points are read.
 void add_contours(CLI::App& app, RawSurface& raw) {
   const char* group = "Contours through points";
-  app.add_option("--noise", raw.typed.noise, "How far each point may move, input units [0]")
-      ->type_name("EPS")
+  app.add_option("--noise", raw.typed.noise,
+                 "How far each point may move, input units, or the word rounding: half a unit of "
+                 "the last printed digit [0]")
+      ->type_name("EPS|rounding")
       ->group(group);
   app.add_flag("--closed", raw.typed.closed, "Contours return to their first points")->group(group);
   app.add_flag("--open", raw.typed.open, "They do not, even if the last point is the first again")

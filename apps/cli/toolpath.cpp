@@ -145,7 +145,8 @@ Result<Made> made_from(const ToolpathCommand& command, std::vector<ToolpathOutpu
 }
 
 std::string area_share(double area, double all) {
-  return area > 0.0 && all > 0.0 ? fmt::format("{} %", significant(100.0 * area / all, 3)) : "none";
+  return area > 0.0 && all > 0.0 ? fmt::format("about {} %", significant(100.0 * area / all, 3))
+                                 : "none";
 }
 
 std::string toolpath_place(Vec3 p) {
@@ -162,14 +163,17 @@ std::string toolpath_text(const Made& made, const std::vector<std::string>& file
                                   unit, significant(r.rapid_length, 5), unit));
   facts.add("time", fmt::format("{} minutes at the stated feeds, without acceleration",
                                 significant(r.minutes, 3)));
+  const auto bound = [](const char* words, double most) {
+    return std::isfinite(most) ? fmt::format(fmt::runtime(words), significant(most, 3))
+                               : std::string("no bound is known");
+  };
   facts.add("scallop",
-            fmt::format("{} {} where the cutter reaches, at {}; {} nowhere exceeded",
+            fmt::format("{} {} where the cutter reaches, at {}; {}",
                         significant(r.scallop.found, 3), unit, toolpath_place(r.scallop.place),
-                        significant(r.scallop.most, 3)));
-  facts.add("gouges",
-            fmt::format("{} {} the deepest found, none beyond {}; avoided by lifting at {} points",
-                        significant(r.gouge.found, 3), unit, significant(r.gouge.most, 3),
-                        r.lifted_points));
+                        bound("{} nowhere exceeded", r.scallop.most)));
+  facts.add("gouges", fmt::format("{} {} the deepest found, {}; avoided by lifting at {} points",
+                                  significant(r.gouge.found, 3), unit,
+                                  bound("none beyond {}", r.gouge.most), r.lifted_points));
   facts.add("not seen from above", area_share(r.hidden_area, r.surface_area));
   facts.add("not reached",
             area_share(r.unreached_area, r.surface_area) +

@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "number_rows.h"
+#include "text_digits.h"
 #include "text_lines.h"
 #include "text_number.h"
 
@@ -102,6 +103,7 @@ bool is_airfoil_of_blade(string_view text) { return text.find("NumCoords") != st
 
 Result<BladeAirfoil> parse_airfoil_of_blade(string_view text, string_view name) {
   std::vector<Vec2> points;
+  text::ColumnDigits x_digits, y_digits;
   std::optional<double> count;
   text::Fields fields;
   for (text::LineCursor cursor(text); !cursor.at_end();) {
@@ -121,6 +123,8 @@ Result<BladeAirfoil> parse_airfoil_of_blade(string_view text, string_view name) 
       return fail(error_at(ErrorCode::kBadNumber, "x and y are expected here", name, number));
     }
     points.push_back({*x, *y});
+    x_digits.add(text::digits_of(fields.cell[0]));
+    y_digits.add(text::digits_of(fields.cell[1]));
   }
   const auto size = static_cast<double>(points.size());
   if (!count || *count != size || points.size() < 4) {
@@ -132,6 +136,8 @@ Result<BladeAirfoil> parse_airfoil_of_blade(string_view text, string_view name) 
   BladeAirfoil airfoil;
   airfoil.reference = points.front();
   airfoil.points.assign(points.begin() + 1, points.end());
+  const text::HalfUnits half = text::half_units(x_digits, y_digits);
+  airfoil.rounding = {half.x, half.y};
   return airfoil;
 }
 
@@ -144,6 +150,10 @@ SpaceSeries placed(const BladeAirfoil& airfoil, const BladeStation& station, std
     section.points.push_back({station.out_of_plane + c * thick - s * along,
                               station.in_plane + s * thick + c * along, station.span});
   }
+  // that of the table places whole sections: their shapes do not know of it
+  const Vec2 half = station.chord * airfoil.rounding;
+  section.rounding = {std::abs(c) * half.y + std::abs(s) * half.x,
+                      std::abs(s) * half.y + std::abs(c) * half.x, 0.0};
   return section;
 }
 

@@ -167,16 +167,16 @@ Result<Units> units_of_columns(const NumberRows& rows, string_view name) {
   return common_units(all, name);
 }
 
-std::vector<double> NumberRows::rounding(std::span<const int> columns) const {
+std::vector<double> NumberRows::rounding(std::span<const int> wanted) const {
   std::vector<text::ColumnDigits> used;
-  for (const int column : columns) {
+  for (const int column : wanted) {
     const bool there = column >= 0 && static_cast<std::size_t>(column) < digits.size();
     if (there) used.push_back(digits[static_cast<std::size_t>(column)]);
   }
   const std::vector<double> known = text::half_units(used);
   std::vector<double> out;
   std::size_t next = 0;
-  for (const int column : columns) {
+  for (const int column : wanted) {
     const bool there = column >= 0 && static_cast<std::size_t>(column) < digits.size();
     out.push_back(there ? known[next++] : 0.0);
   }

@@ -35,7 +35,7 @@ struct NumberRows {
   std::vector<text::ColumnDigits> digits;  ///< of the numbers, by their place in their rows
 
   /// Half a unit of the last digit printed in these columns; 0 for those that are not there.
-  [[nodiscard]] std::vector<double> rounding(std::span<const int> columns) const;
+  [[nodiscard]] std::vector<double> rounding(std::span<const int> wanted) const;
 };
 
 /// Rows of numbers of any length, separated as `read_points` allows; comments and blank lines are

@@ -353,7 +353,7 @@ Result<PointGrid> grid_in(const NumberRows& rows, string_view name, const GridOp
   if (column_named(rows, "row") >= 0 && column_named(rows, "col") >= 0) {
     return with_rounding(from_places(rows, name),
                          half_units_of(rows, {column_named(rows, "x"), column_named(rows, "y"),
-                                            column_named(rows, "z")}));
+                                              column_named(rows, "z")}));
   }
   if (is_offset_table(rows)) {
     return with_rounding(from_offsets(rows, name),

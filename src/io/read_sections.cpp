@@ -123,8 +123,7 @@ Result<ParsedSections> from_rows(const NumberRows& rows, string_view name) {
   if (!units) return fail(units.error());
   ParsedSections out;
   out.flat = columns.z < 0;
-  const std::vector<double> half =
-      rows.rounding(std::array{columns.x, columns.y, columns.z});
+  const std::vector<double> half = rows.rounding(std::array{columns.x, columns.y, columns.z});
   double before = 0.0;
   for (std::size_t i = 0; i < rows.rows.size(); ++i) {
     const NumberRow& row = rows.rows[i];
@@ -181,9 +180,11 @@ std::vector<SpaceSeries> rows_of(const PointGrid& grid) {
   std::vector<SpaceSeries> sections;
   for (std::size_t j = 0; j < grid.count_v; ++j) {
     const auto from = grid.points.begin() + static_cast<std::ptrdiff_t>(j * grid.count_u);
-    sections.push_back(
-        {fmt::format("row {}", j + 1), {from, from + static_cast<std::ptrdiff_t>(grid.count_u)}, {},
-         grid.units, grid.rounding});
+    sections.push_back({fmt::format("row {}", j + 1),
+                        {from, from + static_cast<std::ptrdiff_t>(grid.count_u)},
+                        {},
+                        grid.units,
+                        grid.rounding});
   }
   return sections;
 }
@@ -211,6 +212,9 @@ Result<void> join(std::vector<SpaceSeries>& sections, const PointGrid& panel,
                    static_cast<std::ptrdiff_t>(j), gap});
     }
     sections[j].corners.push_back(line.size() - 1);
+    Vec3& known = sections[j].rounding;  // of all panels
+    known = {std::max(known.x, panel.rounding.x), std::max(known.y, panel.rounding.y),
+             std::max(known.z, panel.rounding.z)};
     line.insert(line.end(), rows[j].points.begin() + 1, rows[j].points.end());
   }
   return {};

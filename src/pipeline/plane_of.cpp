@@ -88,4 +88,12 @@ Frame plane_of(const std::vector<Vec3>& points) {
   return {centre, x, cross(normal, x)};
 }
 
+PlaneRounding rounding_in(const Frame& plane, Vec3 rounding) {
+  const auto along = [&](Vec3 axis) {
+    return std::abs(axis.x) * rounding.x + std::abs(axis.y) * rounding.y +
+           std::abs(axis.z) * rounding.z;
+  };
+  return {{along(plane.x), along(plane.y)}, along(plane.normal())};
+}
+
 }  // namespace obvid

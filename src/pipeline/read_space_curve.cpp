@@ -8,8 +8,10 @@
 #include "contour_nurbs.h"
 #include "obvid/io/read_sections.h"
 #include "obvid/pipeline/audit.h"
+#include "obvid/pipeline/skin_sections.h"
 #include "obvid/pipeline/surface_job.h"
 #include "report.h"
+#include "surface_kinds.h"
 
 namespace obvid {
 namespace {
@@ -79,7 +81,10 @@ Result<ReadCurve> from_points(const std::string& path, const SurfaceJob& job) {
   double size = 0.0;
   for (const Vec3& p : series.points) size = std::max(size, norm(p - series.points.front()));
   constexpr double kRounding = 1e-9;  // of the size: printed points of a plane that lies askew
-  const double allowed = std::max(job.sections.noise.value_or(0.0), kRounding * size);
+  const PlaneRounding printed = rounding_in(frame, series.rounding);
+  const double noise =
+      job.sections.noise_from_rounding ? printed.across : job.sections.noise.value_or(0.0);
+  const double allowed = std::max(noise, kRounding * size);
   if (flatness(series.points, frame) > allowed) {
     auto curve = spline_through(series);
     if (!curve) return curve;
@@ -90,6 +95,7 @@ Result<ReadCurve> from_points(const std::string& path, const SurfaceJob& job) {
   PointSeries flat;
   flat.name = series.name;
   flat.units = series.units;
+  flat.rounding = printed.within;
   for (const Vec3& p : series.points) flat.points.push_back(frame.in_plane(p));
   if (flat.points.size() == 2) {
     return ReadCurve{
@@ -107,9 +113,7 @@ Result<ReadCurve> from_points(const std::string& path, const SurfaceJob& job) {
   if (!made) {
     Error error = made.error();
     if (exit_code(error.code) == 4) {
-      error.hint =
-          "--noise EPS lets points move that far; --plain takes the C2 cubic where no fair "
-          "contour exists";
+      error.hint = pipeline_detail::without_fair_contour(job.sections);
     }
     error.where = error.where.empty() ? path : path + ", " + error.where;
     return fail(error);

@@ -33,15 +33,6 @@ struct Flat {
 constexpr double kDenseRounding = 1e-12;
 constexpr double kMostRounding = 2e-9;
 
-/// The rounding of coordinates in space, seen along the axes of a plane.
-Vec2 across(const Frame& plane, Vec3 rounding) {
-  const auto along = [&](Vec3 axis) {
-    return std::abs(axis.x) * rounding.x + std::abs(axis.y) * rounding.y +
-           std::abs(axis.z) * rounding.z;
-  };
-  return {along(plane.x), along(plane.y)};
-}
-
 Flat flat(const SpaceSeries& given, const Units& units) {
   Flat out;
   out.section.name = given.name;
@@ -49,7 +40,7 @@ Flat flat(const SpaceSeries& given, const Units& units) {
   out.section.frame = plane_of(given.points);
   out.series.name = given.name;
   out.series.units = units;
-  out.series.rounding = across(out.section.frame, given.rounding);
+  out.series.rounding = rounding_in(out.section.frame, given.rounding).within;
   for (const Vec3& p : given.points) {
     out.extent = std::max({out.extent, std::abs(p.x), std::abs(p.y), std::abs(p.z)});
     const Vec2 in_plane = out.section.frame.in_plane(p);
@@ -124,9 +115,7 @@ Result<Fit> fit_section(const Flat& flat, const SkinJob& job, std::size_t number
     Error error = made.error();
     error.what = fmt::format("{}: {}", name, error.what);
     if (exit_code(error.code) == 4) {
-      error.hint =
-          "--noise EPS lets points move that far; --plain takes the C2 cubic where no fair "
-          "contour exists";
+      error.hint = pipeline_detail::without_fair_contour(job.sections);
     }
     return fail(error);
   }

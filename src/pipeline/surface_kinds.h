@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <string>
+
 #include "obvid/core/progress.h"
 #include "obvid/core/result.h"
 #include "obvid/pipeline/surface_job.h"
@@ -9,6 +11,15 @@ namespace obvid::pipeline_detail {
 
 /// What surfaces are made within when nobody says otherwise, of the size.
 inline constexpr double kSurfaceTolerance = 1e-5;
+
+/// What helps where points have no fair contour.
+[[nodiscard]] inline std::string without_fair_contour(const FitJob& job) {
+  return std::string("--noise EPS lets points move that far") +
+         (job.noise_from_rounding
+              ? ""
+              : ", --noise rounding as far as their printed digits leave open") +
+         "; --plain takes the C2 cubic where no fair contour exists";
+}
 
 /// One function for each kind of surface; errors as `make_surface`.
 [[nodiscard]] Result<MadeSurface> make_ruled(const SurfaceJob& job, const Progress& progress);

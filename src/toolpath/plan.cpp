@@ -117,15 +117,16 @@ void judge(Toolpath& out, const ToolpathOptions& options) {
   }
   const double allowed = std::max(out.tolerance, options.scallop.value_or(0.0));
   if (r.unreached_area > 0.0 && r.unreached_depth > allowed) {
-    add(fmt::format("{:.3g} % of the surface is narrower than the cutter: up to {:.3g} {} stay, "
-                    "most at {}",
-                    100.0 * r.unreached_area / r.surface_area, r.unreached_depth, out.units,
-                    place_text(r.unreached_place)),
+    add(fmt::format(
+            "about {:.3g} % of the surface is narrower than the cutter: up to {:.3g} {} stay, "
+            "most at {}",
+            100.0 * r.unreached_area / r.surface_area, r.unreached_depth, out.units,
+            place_text(r.unreached_place)),
         r.unreached_depth, "a smaller cutter reaches more");
   }
   if (r.hidden_area > 0.0) {
     out.warnings.push_back(
-        fmt::format("{:.3g} % of the surface is hidden from above and is not cut",
+        fmt::format("about {:.3g} % of the surface is hidden from above and is not cut",
                     100.0 * r.hidden_area / r.surface_area));
   }
 }

@@ -10,8 +10,10 @@
 namespace obvid::toolpath {
 namespace {
 
-constexpr double kChordDepth = 0.05;  // of the tolerance: of chords for the program's arcs
-constexpr double kWithin = 0.1;       // of the tolerance, where no scallop is asked for
+/// Depth of the chords that stand for the program's arcs, the lesser of: of the tolerance, and of
+/// how near the bounds of what is left come to what was found.
+constexpr double kChordDepth = 0.005, kChordOfWithin = 0.05;
+constexpr double kWithin = 0.1;  // of the tolerance, where no scallop is asked for
 
 std::vector<Sweep> sweeps_of(const NcProgram& program, double scale, double top) {
   std::vector<Sweep> out;
@@ -31,17 +33,15 @@ Result<SimulationReport> check_program(const Part& part, const SurfaceCells& cel
                                        std::vector<Nearest>& reach, const std::string& text,
                                        double scale, const ToolpathOptions& options,
                                        const Progress& progress) {
-  const double chord = kChordDepth * options.tolerance;
+  const double within =
+      options.scallop ? kScallopWithin * *options.scallop : kWithin * options.tolerance;
+  const double chord = std::min(kChordDepth * options.tolerance, kChordOfWithin * within);
   const auto program = read_program(text, chord * scale);
   if (!program) return fail(program.error());
   if (progress) progress("checking", 0.0);
-  Simulation simulation(part, cells, reach, options.threads);
+  Simulation simulation(part, cells, reach, options.threads, chord);
   simulation.cut(sweeps_of(*program, scale, part.field().high().z));
-  const double within =
-      options.scallop ? kScallopWithin * *options.scallop : kWithin * options.tolerance;
-  SimulationReport out = simulation.report(options.tolerance - chord, within, progress);
-  out.depth.most += chord;
-  return out;
+  return simulation.report(options.tolerance, within, progress);
 }
 
 }  // namespace obvid::toolpath

@@ -37,10 +37,11 @@ double deepest_by_plane(const CutterShape& cutter, const Cell& cell, const Sweep
 }  // namespace
 
 Simulation::Simulation(const Part& part, const SurfaceCells& cells, std::vector<Nearest>& reach,
-                       std::size_t threads)
+                       std::size_t threads, double sway)
     : part_(part),
       cells_(cells),
       threads_(threads),
+      sway_(sway),
       of_tile_(cells.tiles().size()),
       tile_of_(cells.cells().size()),
       nodes_(cells.cells().size(), CellBounds{kNotThere, kNotThere, -kNotThere, -kNotThere}),
@@ -92,9 +93,10 @@ void Simulation::look(Looking what, const Cell& cell, const Sweep& sweep, CellBo
 }
 
 double Simulation::radius_of(Looking what, const Cell& cell, const CellBounds& bounds) const {
-  if (what == Looking::kForDepth) return cell.reach + cell.rise;
+  const double wide = cell.reach + cell.rise + 2.0 * sway_;
+  if (what == Looking::kForDepth) return wide;
   const double most = kFarthest * part_.cutter().radius;
-  return std::clamp(bounds.left_most, 0.0, most) + cell.reach + cell.rise;
+  return std::clamp(bounds.left_most, 0.0, most) + wide;
 }
 
 void Simulation::look(Looking what, const Cell& cell, std::span<const std::uint32_t> sweeps,
@@ -121,9 +123,12 @@ void Simulation::look(Looking what, const Cell& cell, std::span<const std::uint3
 CellBounds Simulation::bounds(Looking what, const Cell& cell, std::span<const std::uint32_t> sweeps,
                               double about, double most, Numbers& near) const {
   std::vector<Candidate> candidates;
+  Cell wide = cell;  // that the cutter sways is as if the cell's points did
+  wide.reach += sway_;
+  wide.rise += sway_;
   for (double enough = about;; enough = most) {
     CellBounds out{kNotThere, kNotThere, -kNotThere, -kNotThere};
-    look(what, cell, sweeps, enough, out, candidates);
+    look(what, wide, sweeps, enough, out, candidates);
     const double matters = radius_of(what, cell, out);
     if (matters > enough && enough < most) continue;  // what was passed over matters
     near.clear();
@@ -179,7 +184,8 @@ void Simulation::look_into_reach(double limit) {
   in_parallel(cells_.tiles().size(), threads_, [&](std::size_t t) {
     const SurfaceCells::Tile& tile = cells_.tiles()[t];
     for (std::size_t i = tile.first; i < tile.first + tile.count; ++i) {
-      if (nodes_[i].left > limit && !(cells_.cells()[i].normal == Vec3{})) nearest(i);
+      if (nodes_[i].left > limit && !(cells_.cells()[i].normal == Vec3{}))
+        static_cast<void>(nearest(i));
     }
   });
 }

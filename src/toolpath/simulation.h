@@ -45,8 +45,9 @@ struct SimulationReport {
 class Simulation {
  public:
   /// `reach` is known to all simulations of a part: as many as cells, filled as it is asked for.
+  /// `sway`: how far each place of the cutter may lie from the sweeps; all bounds hold for that.
   Simulation(const Part& part, const SurfaceCells& cells, std::vector<Nearest>& reach,
-             std::size_t threads);
+             std::size_t threads, double sway = 0.0);
 
   void cut(const std::vector<Sweep>& sweeps);
   /// Where more than `limit` stays though the cutter can touch the part: one place of each cell at
@@ -106,6 +107,7 @@ class Simulation {
   const Part& part_;
   const SurfaceCells& cells_;
   std::size_t threads_;
+  double sway_;
   std::vector<Sweep> sweeps_;
   std::vector<Numbers> of_tile_;
   std::vector<std::uint32_t> tile_of_;

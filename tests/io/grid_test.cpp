@@ -2,12 +2,15 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cstdlib>
 #include <filesystem>
+#include <fstream>
 #include <string>
 
 #include "../common/shared_data.h"
 #include "obvid/io/read_grid.h"
+#include "output_folder.h"
 
 namespace obvid {
 namespace {
@@ -94,6 +97,50 @@ TEST(ReadGrid, FilesOfAHullTouchTheirMatrices) {
   EXPECT_EQ(grid->name, "Series60Offset");
   EXPECT_EQ(grid->at(0, 0).x, -15.904);
   EXPECT_EQ(grid->at(1, 0).x, -15.796971);
+}
+
+/// Three matrices of coordinates, with one, two and three decimals.
+class ReadGridFiles : public OutputFolder {
+ protected:
+  std::string write(const std::string& name, const std::string& text) const {
+    const fs::path file = folder_ / name;
+    std::ofstream(file) << text;
+    return file.string();
+  }
+  std::string write_three(const std::string& before, const std::string& after) const {
+    write(before + "y" + after, "0.00 0.00 0.25\n1.00 1.00 1.25\n");
+    write(before + "z" + after, "5.000 6.125 7.000\n8.000 9.000 9.500\n");
+    return write(before + "x" + after, "0.5 1.0 2.0\n0.5 1.0 2.0\n");
+  }
+};
+
+TEST_F(ReadGridFiles, MatricesAreToldByOneLetterOfTheirNames) {
+  for (const auto& [before, after, together] : {std::array<std::string, 3>{"hull_", ".dat", "hull"},
+                                                {"ship_", "_in.dat", "ship_in"},
+                                                {"BOAT-", "-out.txt", "BOAT-out"}}) {
+    const auto grid = read_grid({write_three(before, after)});
+    ASSERT_TRUE(grid) << to_line(grid.error());
+    EXPECT_EQ(grid->name, together);
+    EXPECT_EQ(grid->count_u, 3u);
+    EXPECT_EQ(grid->count_v, 2u);
+    EXPECT_EQ(grid->at(1, 0), (Vec3{1.0, 0.0, 6.125}));
+    EXPECT_EQ(grid->at(2, 1), (Vec3{2.0, 1.25, 9.5}));
+    EXPECT_DOUBLE_EQ(grid->rounding.x, 0.05);
+    EXPECT_DOUBLE_EQ(grid->rounding.y, 0.005);
+    EXPECT_DOUBLE_EQ(grid->rounding.z, 0.0005);
+  }
+}
+
+TEST_F(ReadGridFiles, OneMatrixOfCoordinatesIsNotTakenForHeights) {
+  const std::string rows = "0 1 2 3 4\n0 1 2 3 4\n";
+  for (const char* name : {"hull_x_in.dat", "hull_y_in.dat"}) {
+    const auto grid = read_grid({write(name, rows)});
+    ASSERT_FALSE(grid) << name;
+    EXPECT_EQ(grid.error().code, ErrorCode::kBadCount);
+    fs::remove(folder_ / name);
+  }
+  EXPECT_TRUE(read_grid({write("depth_z_in.dat", rows)}));  // heights may well be called z
+  EXPECT_TRUE(read_grid({write("relax.dat", rows)}));       // no letter that stands by itself
 }
 
 TEST(ReadGrid, FilesOfDifferentHullsAreNotMixed) {

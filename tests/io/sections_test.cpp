@@ -8,6 +8,7 @@
 #include <string>
 
 #include "../common/shared_data.h"
+#include "blade_table.h"
 #include "obvid/io/read_sections.h"
 
 namespace obvid {
@@ -120,6 +121,44 @@ TEST(ReadSections, NothingIsTakenForAThirdCoordinateSilently) {
   const auto named = parse_sections("y,x,z\n0,9,5\n1,8,5\n2,9,5\n", "s");
   ASSERT_TRUE(named) << to_line(named.error());
   EXPECT_EQ(named->sections[0].points[1], (Vec3{8, 1, 5}));
+}
+
+void expect_half_units(Vec3 rounding, Vec3 expected) {
+  EXPECT_DOUBLE_EQ(rounding.x, expected.x);
+  EXPECT_DOUBLE_EQ(rounding.y, expected.y);
+  EXPECT_DOUBLE_EQ(rounding.z, expected.z);
+}
+
+TEST(ReadSections, KnowHalfAUnitOfTheirLastDigits) {
+  const auto spatial = parse_sections("0.25 0.125 1.5\n1.75 2.625 1.5\n2.25 0.5 1.5\n", "s");
+  ASSERT_TRUE(spatial) << to_line(spatial.error());
+  expect_half_units(spatial->sections[0].rounding, {0.005, 0.0005, 0.05});
+  const auto parted =
+      parse_sections("section,x,y,z\n7,0.25,0.125,1.5\n7,1.75,2.625,1.5\n9,2.25,0.5,3.5\n", "s");
+  ASSERT_TRUE(parted) << to_line(parted.error());
+  for (const SpaceSeries& section : parted->sections) {
+    expect_half_units(section.rounding, {0.005, 0.0005, 0.05});
+  }
+  // where sections stand without z is chosen, not printed
+  const auto flat = parse_sections("0.25 0.125\n1.75 2.625\n2.25 0.5\n", "s");
+  ASSERT_TRUE(flat) << to_line(flat.error());
+  expect_half_units(flat->sections[0].rounding, {0.005, 0.0005, 0.0});
+}
+
+TEST(ReadSections, AirfoilsOfBladesKeepTheirDigitsWithTheirChordsAndTwists) {
+  const auto airfoil = parse_airfoil_of_blade(
+      "5 NumCoords\n0.25 0.000\n1.00 0.000\n0.50 0.125\n0.00 0.000\n0.50 0.075\n", "a");
+  ASSERT_TRUE(airfoil) << to_line(airfoil.error());
+  EXPECT_DOUBLE_EQ(airfoil->rounding.x, 0.005);
+  EXPECT_DOUBLE_EQ(airfoil->rounding.y, 0.0005);
+  BladeStation station;
+  station.chord = 4.0;
+  expect_half_units(placed(*airfoil, station, "straight").rounding, {0.002, 0.02, 0.0});
+  station.twist = std::numbers::pi / 6.0;  // sine 1/2
+  const double c = std::sqrt(0.75);
+  const Vec3 turned = placed(*airfoil, station, "turned").rounding;
+  EXPECT_NEAR(turned.x, 0.002 * c + 0.01, 1e-15);
+  EXPECT_NEAR(turned.y, 0.001 + 0.02 * c, 1e-15);
 }
 
 }  // namespace

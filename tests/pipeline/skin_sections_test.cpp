@@ -179,6 +179,65 @@ TEST(SkinSections, TakesCirclesInFullPrecisionInAnyPlane) {
   }
 }
 
+/// A quarter of an ellipse, printed with two decimals, in the plane x = 0 turned by `lean` about y.
+SpaceSeries printed_ellipse(double along, double lean) {
+  SpaceSeries out{"ellipse", {}};
+  for (int k = 0; k < 16; ++k) {
+    const double t = 0.05 + 1.4 * k / 15.0;
+    const double y = std::round(200.0 * std::cos(t)) / 100.0;
+    const double z = std::round(100.0 * std::sin(t)) / 100.0;
+    out.points.push_back({along + std::sin(lean) * z, y, std::cos(lean) * z});
+  }
+  return out;
+}
+
+TEST(SkinSections, PointsMoveByTheRoundingOfTheirDigits) {
+  std::vector<SpaceSeries> sections = {printed_ellipse(0.0, 0.0), printed_ellipse(1.0, 0.3)};
+  SkinJob job;
+  const auto met = fit_skin(sections, job);
+  ASSERT_TRUE(met) << met.error().what;
+  job.sections.noise_from_rounding = true;
+  const auto nothing_known = fit_skin(sections, job);
+  ASSERT_TRUE(nothing_known) << nothing_known.error().what;
+  sections[0].rounding = {0.0, 0.005, 0.005};
+  sections[1].rounding = {0.005 * std::sin(0.3), 0.005, 0.005 * std::cos(0.3)};
+  const auto moved = fit_skin(sections, job);
+  ASSERT_TRUE(moved) << moved.error().what;
+  EXPECT_EQ(moved->proved, 2u);
+  for (std::size_t k = 0; k < 2; ++k) {
+    EXPECT_GT(met->skin.sections[k].runs, 1u);
+    EXPECT_EQ(nothing_known->skin.sections[k].runs, met->skin.sections[k].runs);
+    EXPECT_EQ(moved->skin.sections[k].runs, 1u);  // as a quarter of an ellipse
+  }
+  // half a unit in both coordinates, and the skin from its contours
+  const double allowed = 0.005 * std::numbers::sqrt2 + moved->tolerance;
+  const NurbsSurface& s = moved->skin.patches[0].surface;
+  for (std::size_t k = 0; k < 2; ++k) {
+    for (const Vec3& p : sections[k].points) {
+      double nearest = 1.0;
+      for (int i = 0; i <= 4000; ++i) {
+        nearest = std::min(
+            nearest,
+            norm(evaluate(s, domain_u(s).at(i / 4000.0), static_cast<double>(k)).point - p));
+      }
+      EXPECT_LE(nearest, allowed + 1e-6);  // 4000 places are half a thousandth apart
+    }
+  }
+}
+
+TEST(PlaneOf, RoundingIsSeenAlongItsAxes) {
+  const Frame level = plane_of({{0, 0, 3}, {1, 0, 3}, {0, 1, 3}});
+  const PlaneRounding flat = rounding_in(level, {0.5, 0.05, 0.005});
+  EXPECT_EQ(flat.within, (Vec2{0.5, 0.05}));
+  EXPECT_EQ(flat.across, 0.005);
+  // the box of what is known reaches as far along a direction as the sum of its sides' shares
+  const double h = std::numbers::sqrt2 / 2.0;
+  const PlaneRounding askew = rounding_in(Frame{{}, {h, h, 0}, {0, 0, 1}}, {0.5, 0.25, 0.125});
+  EXPECT_NEAR(askew.within.x, 0.75 * h, 1e-15);
+  EXPECT_EQ(askew.within.y, 0.125);
+  EXPECT_NEAR(askew.across, 0.75 * h, 1e-15);
+}
+
 TEST(PlaneOf, IsTheCoordinatePlaneWhereThereIsOneElseLeastSquares) {
   const Frame flat = plane_of({{0, 0, 3}, {1, 0, 3}, {0, 1, 3}});
   EXPECT_EQ(flat.normal(), (Vec3{0, 0, 1}));

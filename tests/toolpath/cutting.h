@@ -92,14 +92,19 @@ class Cut {
   double left(const Sample& s, double most) {
     double left = most;
     tips_.near(s.point, mill_.radius + most, [&](Vec3 tip) {
+      // distances from convex bodies are convex along the normal: Newton's method comes from
+      // outside, and where it comes no nearer the body is never met
+      constexpr double kNear = 1e-5, kAlong = 1e-7;
       double up = 0.0;
-      for (int k = 0; k < 200 && up < left; ++k) {  // as far as the body is, again and again
+      for (int k = 0; k < 50 && up < left; ++k) {
         const double gap = mill_.gap(s.point + up * s.normal - tip);
-        if (gap <= 1e-5) {
+        if (gap <= kNear) {
           left = up;
           break;
         }
-        up += gap;
+        const double nearer = gap - mill_.gap(s.point + (up + kAlong) * s.normal - tip);
+        if (!(nearer > 0.0)) break;
+        up += std::max(1.0, kAlong / nearer) * gap;
       }
     });
     return left;

@@ -37,6 +37,13 @@ struct FittedSkin {
 /// one, else the plane of least squares through them.
 [[nodiscard]] Frame plane_of(const std::vector<Vec3>& points);
 
+/// How far places in the plane are known that were printed in space: along its axes, and across it.
+struct PlaneRounding {
+  Vec2 within;
+  double across = 0.0;
+};
+[[nodiscard]] PlaneRounding rounding_in(const Frame& plane, Vec3 rounding);
+
 /// Forms a fair contour through each section in its plane and a skin through the contours.
 /// Consecutive points that are the same are one point of the contour. Sections whose first and last
 /// point are the same, or nearer than the tolerance (a warning tells), are closed (with

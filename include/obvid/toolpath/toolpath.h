@@ -82,7 +82,7 @@ struct ToolpathReport {
   /// itself. `found`: at a place that was looked at; `most`: nowhere more, by the bends of cutter
   /// and surface around those places.
   struct Measured {
-    double found = 0.0, most = 0.0;  ///< units
+    double found = 0.0, most = 0.0;  ///< units; `most` is infinite where no bound is known
     Vec3 place;                      ///< where it was found
   };
   Measured gouge;    ///< depth of a point of the surface in the cutter's body
@@ -95,7 +95,8 @@ struct ToolpathReport {
   std::size_t lifted_points = 0;
   double surface_area = 0.0;  ///< of the model
   double hidden_area = 0.0;   ///< not seen from above: not cut
-  /// Seen, but no place of the cutter comes within the tolerance without cutting elsewhere.
+  /// Seen, but no place of the cutter comes within the tolerance without cutting elsewhere. Told by
+  /// the middles of places `spacing` apart, as is the hidden area.
   double unreached_area = 0.0;
   double unreached_depth = 0.0;  ///< how far from the surface the cutter stays there at most, units
   Vec3 unreached_place;
