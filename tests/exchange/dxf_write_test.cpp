@@ -175,7 +175,8 @@ TEST_F(DxfFilesByEzdxf, TheAuditFindsWhatIsWrong) {
 
 TEST_F(DxfFilesByEzdxf, AreTheSameCurveInEveryExactProfile) {
   for (const char* name :
-       {"spirals_open", "spirals_closed", "spirals_corner", "conics_open", "arcs_closed"}) {
+       {"spirals_open.json", "spirals_closed.json", "spirals_corner.json", "conics_open.json",
+        "arcs_closed.json"}) {
     const Contour contour = stored(name);
     const std::vector<Vec2> found = points(written(contour, DxfProfile::kExact, 1e-3).text, 5);
     ASSERT_GE(found.size(), 5 * contour.pieces.size()) << name;
@@ -216,7 +217,8 @@ TEST_F(DxfFilesByEzdxf, StayWithinTheToleranceElsewhere) {
 
 TEST(DxfRoundTrip, ExactContoursComeBackAsTheyWere) {
   for (const char* name :
-       {"spirals_open", "spirals_closed", "spirals_corner", "conics_open", "arcs_closed"}) {
+       {"spirals_open.json", "spirals_closed.json", "spirals_corner.json", "conics_open.json",
+        "arcs_closed.json"}) {
     const Contour contour = stored(name);
     const DxfText dxf = written(contour, DxfProfile::kExact, 1e-3);
     EXPECT_EQ(dxf.deviation, 0.0);

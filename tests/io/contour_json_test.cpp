@@ -220,7 +220,7 @@ Piece random_piece(Numbers& numbers) {
     case 0:
       return LinePiece{start, end};
     case 1:
-      return ArcPiece{start, end, numbers.heading(), curvature(), length};
+      return ArcPiece{start, end, numbers.heading(), numbers.between(1e-9, 60.0) / length, length};
     case 2:
       return ClothoidPiece{start, end, numbers.heading(), curvature(), curvature(), length};
     default:
@@ -274,7 +274,7 @@ FitReport random_report(Numbers& numbers, std::size_t points, std::size_t segmen
                                {numbers.any(), numbers.any()},
                                numbers.below(9)});
   }
-  report.tolerance = numbers.positive();
+  report.tolerance = numbers.between(1e90, 1e300);  // 1e-12 of any size at least
   report.largest_width = numbers.any();
   report.largest_deviation = numbers.any();
   report.largest_move = numbers.any();

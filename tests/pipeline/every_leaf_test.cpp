@@ -10,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include "obvid/curve/clothoid.h"
 #include "obvid/io/contour_json.h"
 #include "obvid/pipeline/fit.h"
 
@@ -55,7 +56,43 @@ struct LeafCase {
   double noise = 0.0;
   double tolerance = 0.0;  ///< 0: the default
   Closing closing = Closing::kAutomatic;
+  std::vector<FixedData> fixed{};
+  std::vector<KeptPiece> kept{};
 };
+
+/// The heading and the curvature of the spiral at one of its points, by its closed form.
+std::vector<FixedData> given_on_the_spiral() {
+  std::vector<FixedData> out(7);
+  out[3].theta = 0.4 * 3 + std::atan2(1.0, 0.3);
+  out[5].kappa = 1.0 / (std::exp(0.12 * 5) * std::hypot(1.0, 0.3));
+  return out;
+}
+
+/// A line, half a circle, a clothoid, a quarter of an ellipse, a corner, and points behind it.
+LeafCase a_drawing() {
+  LeafCase out{"drawn", Carrier::kSpiral, {{0, 0}, {3, 0}, {3, 2}}};
+  const double pi = 3.141592653589793;
+  const ClothoidPiece bend{{3, 2}, {}, pi, 0.0, 0.5, 2.0};
+  const Vec2 end = bend.start + clothoid_step(bend.theta0, bend.kappa0, bend.kappa1, bend.length);
+  const Vec2 tip = end + Vec2{-1.0, -2.0};
+  RationalBezier ellipse;
+  ellipse.degree = 2;
+  ellipse.origin = end;
+  ellipse.offset = {Vec2{}, Vec2{0.0, -1.2}, tip - end};
+  ellipse.weight = {1.0, std::sqrt(0.5), 1.0};
+  out.kept = {{0, LinePiece{{0, 0}, {3, 0}}},
+              {1, ArcPiece{{3, 0}, {3, 2}, 0.0, 1.0, pi}},
+              {2, ClothoidPiece{bend.start, end, bend.theta0, bend.kappa0, bend.kappa1, 2.0}},
+              {3, ellipse}};
+  out.points.push_back(end);
+  out.points.push_back(tip);
+  for (int i = 1; i < 6; ++i) {
+    out.points.push_back(tip + Vec2{-0.05 * i * (5 - i) - 0.3 * i, -1.0 * i});
+  }
+  out.fixed.resize(out.points.size());
+  out.fixed[3].corner = out.fixed[4].corner = true;
+  return out;
+}
 
 std::vector<LeafCase> leaf_cases() {
   return {{"spirals", Carrier::kSpiral, a_wave()},
@@ -69,12 +106,17 @@ std::vector<LeafCase> leaf_cases() {
           {"closed", Carrier::kSpiral, an_oval(), 0.0, 0.0, Closing::kClosed},
           {"closed arcs", Carrier::kArcs, an_oval(), 0.0, 0.03, Closing::kClosed},
           {"corner", Carrier::kSpiral, a_corner()},
-          {"within tolerances", Carrier::kSpiral, a_wave(), 0.01}};
+          {"within tolerances", Carrier::kSpiral, a_wave(), 0.01},
+          {"given", Carrier::kSpiral, a_spiral(), 0.0, 0.0, Closing::kAutomatic,
+           given_on_the_spiral()},
+          a_drawing()};
 }
 
 std::string file_of(const LeafCase& c) {
   PointSeries series;
   series.points = c.points;
+  series.fixed = c.fixed;
+  series.kept = c.kept;
   FitJob job;
   job.carrier = c.carrier;
   job.closing = c.closing;
@@ -148,6 +190,7 @@ bool listed(const std::vector<std::string>& not_checked, const std::string& path
 /// room that bounds have.
 std::vector<json> changes_of(const json& value, const std::string& path, double size) {
   if (value.is_boolean()) return {!value.get<bool>(), nullptr, "x"};
+  if (path == "/units_source") return {"file", "given", "assumed", "other", 1, nullptr};
   if (value.is_string()) return {"other", 1, nullptr};
   if (value.is_null()) return {0, 1.5, "x"};
   std::vector<json> out = {nullptr, "1"};
