@@ -160,8 +160,8 @@ std::optional<ForeignPiece> foreign_piece(const Contour& contour) {
     if (belongs(kept ? kDrawn : kinds, contour.pieces[i])) continue;
     const std::string what = name_of(contour.pieces[i]);
     if (kept) return ForeignPiece{i, fmt::format("drawings have {}, not {}", kDrawn.text, what)};
-    return ForeignPiece{i, fmt::format("carrier {} has {}, not {}", to_string(contour.carrier),
-                                       kinds.text, what)};
+    return ForeignPiece{
+        i, fmt::format("carrier {} has {}, not {}", to_string(contour.carrier), kinds.text, what)};
   }
   return std::nullopt;
 }

@@ -202,11 +202,14 @@ RationalBezier random_bezier(Numbers& numbers) {
   bezier.degree = 1 + static_cast<int>(numbers.below(kMaxBezierDegree));
   const bool far = numbers.coin();
   const bool weighted = numbers.coin();
+  const auto [first, last] = numbers.two_points();
   if (far) bezier.origin = {1234.5, -8.25e6};
   for (std::size_t j = 0; j <= static_cast<std::size_t>(bezier.degree); ++j) {
-    bezier.offset[j] = far ? Vec2{1e-7 * static_cast<double>(numbers.below(1000) + 1000 * j),
-                                  -1e-9 / 3}
-                           : numbers.point();
+    bezier.offset[j] =
+        far ? Vec2{1e-7 * static_cast<double>(numbers.below(1000) + 1000 * j), -1e-9 / 3}
+            : (j == 0   ? first
+               : j == 1 ? last
+                        : numbers.point());
     bezier.weight[j] = weighted ? numbers.weight() : 1.0;
   }
   return bezier;
@@ -245,9 +248,8 @@ Contour random_contour(Numbers& numbers) {
   contour.closed = numbers.coin();
   const std::size_t joints = contour.closed && numbers.coin() ? pieces : pieces + 1;
   for (std::size_t i = 0; i < joints; ++i) {
-    Joint joint{{numbers.point(), numbers.heading(), numbers.within(1e130)},
-                std::nullopt,
-                std::nullopt};
+    Joint joint{
+        {numbers.point(), numbers.heading(), numbers.within(1e130)}, std::nullopt, std::nullopt};
     if (numbers.coin()) joint.source = numbers.below(contour.points.size());
     const bool inner = contour.closed || (i > 0 && i < pieces);
     if (inner && numbers.below(4) == 0) {

@@ -68,11 +68,12 @@ std::vector<FixedData> given_on_the_spiral() {
   return out;
 }
 
-/// A line, half a circle, a clothoid, a quarter of an ellipse, a corner, and points behind it.
+/// A line, a quarter of a circle, a clothoid, a quarter of an ellipse, a corner, and points behind
+/// it.
 LeafCase a_drawing() {
-  LeafCase out{"drawn", Carrier::kSpiral, {{0, 0}, {3, 0}, {3, 2}}};
+  LeafCase out{"drawn", Carrier::kSpiral, {{0, 0}, {3, 0}, {4, 1}}};
   const double pi = 3.141592653589793;
-  const ClothoidPiece bend{{3, 2}, {}, pi, 0.0, 0.5, 2.0};
+  const ClothoidPiece bend{{4, 1}, {}, 0.5 * pi, 0.0, 0.5, 2.0};
   const Vec2 end = bend.start + clothoid_step(bend.theta0, bend.kappa0, bend.kappa1, bend.length);
   const Vec2 tip = end + Vec2{-1.0, -2.0};
   RationalBezier ellipse;
@@ -81,7 +82,7 @@ LeafCase a_drawing() {
   ellipse.offset = {Vec2{}, Vec2{0.0, -1.2}, tip - end};
   ellipse.weight = {1.0, std::sqrt(0.5), 1.0};
   out.kept = {{0, LinePiece{{0, 0}, {3, 0}}},
-              {1, ArcPiece{{3, 0}, {3, 2}, 0.0, 1.0, pi}},
+              {1, ArcPiece{{3, 0}, {4, 1}, 0.0, 1.0, 0.5 * pi}},
               {2, ClothoidPiece{bend.start, end, bend.theta0, bend.kappa0, bend.kappa1, 2.0}},
               {3, ellipse}};
   out.points.push_back(end);
@@ -95,21 +96,21 @@ LeafCase a_drawing() {
 }
 
 std::vector<LeafCase> leaf_cases() {
-  return {{"spirals", Carrier::kSpiral, a_wave()},
-          {"arcs", Carrier::kArcs, a_spiral(), 0.0, 0.01},
-          {"conics", Carrier::kConics, a_spiral()},
-          {"parabolas", Carrier::kBeziers, a_spiral(), 0.0, 0.01},
-          {"clothoids", Carrier::kClothoids, a_wave()},
-          {"one B-spline", Carrier::kBspline, a_spiral(), 0.0, 0.01},
-          {"one cubic", Carrier::kCubic, a_spiral(), 0.0, 0.01},
-          {"baseline", Carrier::kBaseline, a_wave()},
-          {"closed", Carrier::kSpiral, an_oval(), 0.0, 0.0, Closing::kClosed},
-          {"closed arcs", Carrier::kArcs, an_oval(), 0.0, 0.03, Closing::kClosed},
-          {"corner", Carrier::kSpiral, a_corner()},
-          {"within tolerances", Carrier::kSpiral, a_wave(), 0.01},
-          {"given", Carrier::kSpiral, a_spiral(), 0.0, 0.0, Closing::kAutomatic,
-           given_on_the_spiral()},
-          a_drawing()};
+  return {
+      {"spirals", Carrier::kSpiral, a_wave()},
+      {"arcs", Carrier::kArcs, a_spiral(), 0.0, 0.01},
+      {"conics", Carrier::kConics, a_spiral()},
+      {"parabolas", Carrier::kBeziers, a_spiral(), 0.0, 0.01},
+      {"clothoids", Carrier::kClothoids, a_wave()},
+      {"one B-spline", Carrier::kBspline, a_spiral(), 0.0, 0.01},
+      {"one cubic", Carrier::kCubic, a_spiral(), 0.0, 0.01},
+      {"baseline", Carrier::kBaseline, a_wave()},
+      {"closed", Carrier::kSpiral, an_oval(), 0.0, 0.0, Closing::kClosed},
+      {"closed arcs", Carrier::kArcs, an_oval(), 0.0, 0.03, Closing::kClosed},
+      {"corner", Carrier::kSpiral, a_corner()},
+      {"within tolerances", Carrier::kSpiral, a_wave(), 0.01},
+      {"given", Carrier::kSpiral, a_spiral(), 0.0, 0.0, Closing::kAutomatic, given_on_the_spiral()},
+      a_drawing()};
 }
 
 std::string file_of(const LeafCase& c) {
@@ -186,8 +187,8 @@ bool listed(const std::vector<std::string>& not_checked, const std::string& path
   return false;
 }
 
-/// What a leaf may be changed to. Numbers by a thousandth; gaps, which are bounds, by more than the
-/// room that bounds have.
+/// What a leaf may be changed to. Numbers by a thousandth; gaps, which are bounds, and misses of
+/// given data, which are rounding, by more than the room that these have.
 std::vector<json> changes_of(const json& value, const std::string& path, double size) {
   if (value.is_boolean()) return {!value.get<bool>(), nullptr, "x"};
   if (path == "/units_source") return {"file", "given", "assumed", "other", 1, nullptr};
@@ -197,6 +198,8 @@ std::vector<json> changes_of(const json& value, const std::string& path, double 
   const double number = value.get<double>();
   if (path.find("joint_gaps") != std::string::npos) {
     out.insert(out.end(), {3.0 * number + 1e-13, 0.3 * number - 1e-13});
+  } else if (path.find("_miss") != std::string::npos) {
+    out.push_back(3.0 * number + 1e-12);
   } else if (value.is_number_integer() && path.find("/points") != 0) {
     out.insert(out.end(), {value.get<long long>() + 1, value.get<long long>() - 1});
   } else {
