@@ -75,12 +75,16 @@ LeafCase a_drawing() {
   const double pi = 3.141592653589793;
   const ClothoidPiece bend{{4, 1}, {}, 0.5 * pi, 0.0, 0.5, 2.0};
   const Vec2 end = bend.start + clothoid_step(bend.theta0, bend.kappa0, bend.kappa1, bend.length);
-  const Vec2 tip = end + Vec2{-1.0, -2.0};
+  // the ellipse (cos t, 2 sin t) between its vertices, from t = 0.2 to 1.2
+  const auto on_ellipse = [](double t) { return Vec2{std::cos(t), 2.0 * std::sin(t)}; };
+  const double half = std::cos(0.5);
   RationalBezier ellipse;
   ellipse.degree = 2;
   ellipse.origin = end;
-  ellipse.offset = {Vec2{}, Vec2{0.0, -1.2}, tip - end};
-  ellipse.weight = {1.0, std::sqrt(0.5), 1.0};
+  ellipse.offset = {Vec2{}, on_ellipse(0.7) / half - on_ellipse(0.2),
+                    on_ellipse(1.2) - on_ellipse(0.2)};
+  ellipse.weight = {1.0, half, 1.0};
+  const Vec2 tip = end + ellipse.offset[2];
   out.kept = {{0, LinePiece{{0, 0}, {3, 0}}},
               {1, ArcPiece{{3, 0}, {4, 1}, 0.0, 1.0, 0.5 * pi}},
               {2, ClothoidPiece{bend.start, end, bend.theta0, bend.kappa0, bend.kappa1, 2.0}},
