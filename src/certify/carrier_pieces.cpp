@@ -140,6 +140,10 @@ Kinds kinds_of(Carrier carrier) {
   return {"any curve", true, true, true, [](const RationalBezier&) { return true; }};
 }
 
+/// What drawings draw and contours take over, whatever their carrier is.
+constexpr Kinds kDrawn = {"lines, arcs, ellipse arcs and clothoids", true, true, true,
+                          [](const RationalBezier& b) { return b.degree == 2 && is_ellipse(b); }};
+
 bool belongs(const Kinds& kinds, const Piece& piece) {
   if (std::holds_alternative<LinePiece>(piece)) return kinds.lines;
   if (std::holds_alternative<ArcPiece>(piece)) return kinds.arcs;
@@ -152,9 +156,12 @@ bool belongs(const Kinds& kinds, const Piece& piece) {
 std::optional<ForeignPiece> foreign_piece(const Contour& contour) {
   const Kinds kinds = kinds_of(contour.carrier);
   for (std::size_t i = 0; i < contour.pieces.size(); ++i) {
-    if (belongs(kinds, contour.pieces[i])) continue;
-    return ForeignPiece{i, fmt::format("carrier {} has {}, not {}", to_string(contour.carrier),
-                                       kinds.text, name_of(contour.pieces[i]))};
+    const bool kept = std::binary_search(contour.kept.begin(), contour.kept.end(), i);
+    if (belongs(kept ? kDrawn : kinds, contour.pieces[i])) continue;
+    const std::string what = name_of(contour.pieces[i]);
+    if (kept) return ForeignPiece{i, fmt::format("drawings have {}, not {}", kDrawn.text, what)};
+    return ForeignPiece{
+        i, fmt::format("carrier {} has {}, not {}", to_string(contour.carrier), kinds.text, what)};
   }
   return std::nullopt;
 }

@@ -391,6 +391,15 @@ GivenReport ContourReader::given_report(const Node& node) {
   return out;
 }
 
+/// What the rows imply for a file that does not claim it.
+double largest_deviation(Carrier carrier, const std::vector<SegmentReport>& rows) {
+  double most = promises_monotone(carrier) ? 0.0 : kNoClaim;
+  for (const SegmentReport& row : rows) {
+    if (row.deviation > most) most = row.deviation;
+  }
+  return most;
+}
+
 FitReport ContourReader::report(const Node& node) {
   FitReport report;
   const Node segments = field(node, "segments");
@@ -405,7 +414,8 @@ FitReport ContourReader::report(const Node& node) {
     refuse(tolerance, "the tolerance is below 1e-12 of the size or the rounding of coordinates");
   }
   report.largest_width = figure(node, "largest_width");
-  report.largest_deviation = optional_figure(node, "largest_deviation", kNoClaim);
+  report.largest_deviation = optional_figure(
+      node, "largest_deviation", largest_deviation(stored_.contour.carrier, report.segments));
   report.largest_move = figure(node, "largest_move");
   if (const auto list = optional_field(node, "moves")) report.moves = moves(*list);
   report.vertices = small_count(node, "vertices");

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -23,6 +24,10 @@ constexpr double kSameFigure = 1e-9;
 /// Widths far below the contour's size are differences of its coordinates.
 constexpr double kNegligible = 1e-13;
 
+std::string shown_figure(double value) {
+  return std::isnan(value) ? "null" : fmt::format("{:.9g}", value);
+}
+
 class ClaimCheck {
  public:
   explicit ClaimCheck(double size) : size_(size) {}
@@ -39,7 +44,8 @@ class ClaimCheck {
   void refuse(const std::string& name, double claimed, double found) {
     if (refused_) return;
     refused_ = Error{ErrorCode::kFalseClaim,
-                     fmt::format("the file claims {} = {:.9g}, found {:.9g}", name, claimed, found),
+                     fmt::format("the file claims {} = {}, found {}", name, shown_figure(claimed),
+                                 shown_figure(found)),
                      "report",
                      "form the contour again",
                      -1,
@@ -94,9 +100,7 @@ void compare_report(const FitReport& claimed, const FitReport& found, ClaimCheck
     c.count("inserted" + at, static_cast<double>(a.inserted), static_cast<double>(b.inserted));
   }
   c.length("largest_width", claimed.largest_width, found.largest_width);
-  if (!std::isnan(claimed.largest_deviation)) {
-    c.length("largest_deviation", claimed.largest_deviation, found.largest_deviation);
-  }
+  c.length("largest_deviation", claimed.largest_deviation, found.largest_deviation);
   compare_given(claimed.given, found.given, c);
   c.length("largest_move", claimed.largest_move, found.largest_move);
   if (!claimed.moves.empty()) {
@@ -159,11 +163,46 @@ int direction_of(Verdict verdict) {
   return verdict == Verdict::kIncreasing ? 1 : (verdict == Verdict::kDecreasing ? -1 : 0);
 }
 
+/// Spirals follow nothing: no figure says how far from their spirals they are.
+void compare_with_spirals(const Contour& contour, const FitReport& claimed, ClaimCheck& c) {
+  if (contour.carrier != Carrier::kSpiral) return;
+  constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
+  if (claimed.carrier_deviation) c.refuse("carrier_deviation", *claimed.carrier_deviation, kNone);
+  if (claimed.outside_spirals_region) {
+    c.refuse("outside_spirals_region", *claimed.outside_spirals_region, kNone);
+  }
+}
+
+/// An open contour leads from the first point to the last one.
+void compare_ends(const Contour& contour, ClaimCheck& c) {
+  if (contour.closed || contour.joints.empty() || contour.points.empty()) return;
+  const auto end = [&](const char* name, const Joint& joint, std::size_t point) {
+    const double claimed = joint.source ? static_cast<double>(*joint.source)
+                                        : std::numeric_limits<double>::quiet_NaN();
+    c.count(name, claimed, static_cast<double>(point));
+  };
+  end("source of the first element", contour.joints.front(), 0);
+  end("source of the last element", contour.joints.back(), contour.points.size() - 1);
+}
+
+/// The proof looks at runs of carriers that promise monotone curvature; of all others the pieces
+/// are to lie in runs too, each in one.
+void compare_cover(const Contour& contour, ClaimCheck& c) {
+  std::size_t next = 0;
+  for (std::size_t r = 0; r < contour.runs.size(); ++r) {
+    c.count("first piece of run " + std::to_string(r),
+            static_cast<double>(contour.runs[r].first_piece), static_cast<double>(next));
+    next = contour.runs[r].last_piece + 1;
+  }
+  c.count("pieces in runs", static_cast<double>(next), static_cast<double>(contour.pieces.size()));
+}
+
 /// A run that claims a direction has a piece whose curvature changes. (The certificate allows
 /// lines and circles inside a run; arcs change at their joints only, by any amount.) Carriers that
 /// promise no monotone curvature have runs of pieces that are proved, all others in runs of 0.
 void compare_runs(const Contour& contour, const Certificate& found, ClaimCheck& c) {
   if (contour.carrier == Carrier::kArcs) return;
+  if (!promises_monotone(contour.carrier)) compare_cover(contour, c);
   for (std::size_t r = 0; r < contour.runs.size(); ++r) {
     const Run& run = contour.runs[r];
     if (!promises_monotone(contour.carrier)) {
@@ -183,13 +222,19 @@ void compare_runs(const Contour& contour, const Certificate& found, ClaimCheck& 
 
 /// What stands in the file and is taken as it stands.
 std::vector<std::string> not_checked(const StoredContour& stored) {
-  std::vector<std::string> out = {"/units"};
+  std::vector<std::string> out = {"/units", "/units_source"};
   if (!stored.contour.point_tolerance.empty()) out.emplace_back("/point_tolerance");
+  if (!stored.contour.kept.empty()) {
+    out.emplace_back("/kept (only that such pieces are lines, arcs, ellipse arcs or clothoids)");
+  }
   if (stored.contour.carrier == Carrier::kArcs) {
     out.emplace_back("/elements/*/kappa (only that it lies between both arcs)");
   }
   if (stored.report) {
-    if (stored.report->carrier_deviation) out.emplace_back("/report/carrier_deviation");
+    if (stored.contour.carrier != Carrier::kSpiral) {  // the spirals are not in the file
+      out.emplace_back("/report/carrier_deviation");
+      out.emplace_back("/report/outside_spirals_region");
+    }
     out.emplace_back("/report/tolerance (only that the widths keep it)");
     out.emplace_back("/report/seconds");
     out.emplace_back("/report/chain");
@@ -239,12 +284,14 @@ Verification verify(const StoredContour& stored) {
     pipeline_detail::settle_with(out.certificate, stored.contour, found);
     compare_bound(*stored.report, out.certificate, comparison);
     compare_report(*stored.report, found, comparison);
+    compare_with_spirals(stored.contour, *stored.report, comparison);
     const bool bounded = promises_monotone(stored.contour.carrier);
     if (bounded && !(found.largest_width <= stored.report->tolerance)) {
       comparison.refuse("a tolerance above the largest width", stored.report->tolerance,
                         found.largest_width);
     }
   }
+  compare_ends(stored.contour, comparison);
   compare_runs(stored.contour, out.certificate, comparison);
   if (stored.certificate) compare_certificate(*stored.certificate, out.certificate, comparison);
   out.false_claim = comparison.refused();

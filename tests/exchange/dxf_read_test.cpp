@@ -169,7 +169,7 @@ TEST(DxfReads, OldPolylinesWithTheirVertices) {
   EXPECT_NEAR(length_of(d.curves[0]), 2.0 * kPi, 1e-12);
 }
 
-TEST(DxfReads, PolylinesWithoutArcsAsPoints) {
+TEST(DxfReads, PolylinesThatTurnLikePolygonsAsLines) {
   const Drawing d = read_dxf_text(dxf({{0, "LWPOLYLINE"},
                                        {8, "A"},
                                        {90, "3"},
@@ -180,10 +180,36 @@ TEST(DxfReads, PolylinesWithoutArcsAsPoints) {
                                        {20, "0"},
                                        {10, "2"},
                                        {20, "1"}}));
+  EXPECT_TRUE(d.series.empty());
+  ASSERT_EQ(d.curves.size(), 1u);
+  EXPECT_TRUE(d.curves[0].closed);
+  const std::vector<Vec2> corners = {{0, 0}, {2, 0}, {2, 1}, {0, 0}};
+  ASSERT_EQ(d.curves[0].pieces.size(), 3u);
+  for (std::size_t i = 0; i < 3; ++i) {
+    const auto& side = std::get<LinePiece>(d.curves[0].pieces[i]);
+    EXPECT_EQ(side.start, corners[i]);
+    EXPECT_EQ(side.end, corners[i + 1]);
+  }
+}
+
+TEST(DxfReads, PolylinesOfManyChordsOfACurveAsPoints) {
+  Tags tags = {{0, "LWPOLYLINE"}, {8, "A"}, {90, "60"}, {70, "1"}};
+  std::vector<Vec2> points;
+  for (int k = 0; k < 60; ++k) {
+    const double angle = 2.0 * kPi * k / 60.0;
+    char x[32], y[32];
+    std::snprintf(x, sizeof x, "%.17g", 2.0 * std::cos(angle));
+    std::snprintf(y, sizeof y, "%.17g", std::sin(angle));
+    tags.push_back({10, x});
+    tags.push_back({20, y});
+    points.push_back({std::atof(x), std::atof(y)});
+  }
+  points.push_back(points.front());
+  const Drawing d = read_dxf_text(dxf(tags));
   EXPECT_TRUE(d.curves.empty());
   ASSERT_EQ(d.series.size(), 1u);
-  EXPECT_EQ(d.series[0].points, (std::vector<Vec2>{{0, 0}, {2, 0}, {2, 1}, {0, 0}}));
-  EXPECT_EQ(d.series[0].units, "mm");
+  EXPECT_EQ(d.series[0].points, points);
+  EXPECT_EQ(d.series[0].units, d.units);
 }
 
 TEST(DxfReads, AllPointsAsOneSeries) {
@@ -252,12 +278,16 @@ TEST(DxfReads, UnitsAndConvertsThoseWithoutName) {
   EXPECT_EQ(read_unit("1").units, "in");
   EXPECT_EQ(read_unit("6").units, "m");
   const Drawing yards = read_unit("10");
-  EXPECT_EQ(yards.units, "m");
-  expect_near(end_point(yards.curves[0].pieces[0]), {9.144, 0});
-  EXPECT_THAT(yards.warnings, Contains(HasSubstr("converted")));
+  EXPECT_EQ(yards.units, "yd");
+  expect_near(end_point(yards.curves[0].pieces[0]), {10, 0});
+  EXPECT_TRUE(yards.warnings.empty());
+  const Drawing angstroms = read_unit("11");  // of 0.1 nm
+  EXPECT_EQ(angstroms.units, "nm");
+  expect_near(end_point(angstroms.curves[0].pieces[0]), {1, 0});
+  EXPECT_THAT(angstroms.warnings, Contains(HasSubstr("converted")));
   const Drawing none = read_unit("0");
-  EXPECT_EQ(none.units, "mm");
-  EXPECT_THAT(none.warnings, Contains(HasSubstr("mm assumed")));
+  EXPECT_EQ(none.units, Units("mm", UnitSource::kAssumed));
+  EXPECT_THAT(none.warnings, Contains(HasSubstr("the file states no known unit")));
 }
 
 // ---- blocks -----------------------------------------------------------------------------------
@@ -594,8 +624,9 @@ TEST(DxfFiles, AMillionVerticesAreReadInOneGo) {
     text += "10\n" + std::to_string(i) + "\n20\n" + std::to_string(i % 7) + "\n";
   }
   const Drawing d = read_dxf_text(text + test::ascii({{0, "ENDSEC"}, {0, "EOF"}}));
-  ASSERT_EQ(d.series.size(), 1u);
-  EXPECT_EQ(d.series[0].points.size(), static_cast<std::size_t>(kCount));
+  // its vertices lie on seven lines: no chords of a curve
+  ASSERT_EQ(d.curves.size(), 1u);
+  EXPECT_EQ(d.curves[0].pieces.size(), static_cast<std::size_t>(kCount) - 1);
 }
 
 TEST(DxfFiles, CrowdedEndsTakeNoLonger) {

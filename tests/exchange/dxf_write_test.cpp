@@ -17,7 +17,7 @@
 #include <vector>
 
 #include "obvid/exchange/dxf_read.h"
-#include "obvid/io/contour_json.h"
+#include "road_contours.h"
 
 namespace obvid {
 namespace {
@@ -26,18 +26,9 @@ namespace fs = std::filesystem;
 
 const DxfProfile kProfiles[] = {DxfProfile::kExact, DxfProfile::kArcs, DxfProfile::kCubic,
                                 DxfProfile::kArcsR12};
-const char* const kStored[] = {"spirals_open",   "spirals_closed",  "spirals_corner",
-                               "conics_open",    "arcs_closed",     "clothoids_open",
-                               "clothoids_wave", "clothoids_closed"};
-
-Contour stored(const std::string& name) {
-  std::ifstream in(fs::path(OBVID_TEST_DATA) / "contours" / (name + ".json"));
-  std::ostringstream text;
-  text << in.rdbuf();
-  const auto contour = contour_from_json(text.str(), name);
-  EXPECT_TRUE(contour) << name;
-  return contour ? contour->contour : Contour{};
-}
+const char* const kStored[] = {"spirals_open.json",   "spirals_closed.json",  "spirals_corner.json",
+                               "conics_open.json",    "arcs_closed.json",     "clothoids_open.json",
+                               "clothoids_wave.json", "clothoids_closed.json"};
 
 Contour of_pieces(std::vector<Piece> pieces, bool closed) {
   Contour c;
@@ -175,7 +166,7 @@ TEST_F(DxfFilesByEzdxf, PassTheAuditInEveryProfile) {
 }
 
 TEST_F(DxfFilesByEzdxf, TheAuditFindsWhatIsWrong) {
-  std::string text = written(stored("spirals_open"), DxfProfile::kExact, 1e-3).text;
+  std::string text = written(stored("spirals_open.json"), DxfProfile::kExact, 1e-3).text;
   const std::size_t owner = text.find("330\n1F\n100\nAcDbEntity\n  8\nCONTOUR");
   ASSERT_NE(owner, std::string::npos);
   text.replace(text.find("CONTOUR", owner), 7, "CON<OUR");
@@ -184,7 +175,8 @@ TEST_F(DxfFilesByEzdxf, TheAuditFindsWhatIsWrong) {
 
 TEST_F(DxfFilesByEzdxf, AreTheSameCurveInEveryExactProfile) {
   for (const char* name :
-       {"spirals_open", "spirals_closed", "spirals_corner", "conics_open", "arcs_closed"}) {
+       {"spirals_open.json", "spirals_closed.json", "spirals_corner.json", "conics_open.json",
+        "arcs_closed.json"}) {
     const Contour contour = stored(name);
     const std::vector<Vec2> found = points(written(contour, DxfProfile::kExact, 1e-3).text, 5);
     ASSERT_GE(found.size(), 5 * contour.pieces.size()) << name;
@@ -196,7 +188,7 @@ TEST_F(DxfFilesByEzdxf, AreTheSameCurveInEveryExactProfile) {
 
 TEST_F(DxfFilesByEzdxf, ArcsComeBackWithin1e9) {
   for (const DxfProfile profile : {DxfProfile::kArcs, DxfProfile::kArcsR12}) {
-    const Contour contour = stored("arcs_closed");
+    const Contour contour = stored("arcs_closed.json");
     const std::vector<Vec2> found = points(written(contour, profile, 1e-3).text, 5);
     ASSERT_GE(found.size(), 5 * contour.pieces.size());
     double most = 0.0;
@@ -225,7 +217,8 @@ TEST_F(DxfFilesByEzdxf, StayWithinTheToleranceElsewhere) {
 
 TEST(DxfRoundTrip, ExactContoursComeBackAsTheyWere) {
   for (const char* name :
-       {"spirals_open", "spirals_closed", "spirals_corner", "conics_open", "arcs_closed"}) {
+       {"spirals_open.json", "spirals_closed.json", "spirals_corner.json", "conics_open.json",
+        "arcs_closed.json"}) {
     const Contour contour = stored(name);
     const DxfText dxf = written(contour, DxfProfile::kExact, 1e-3);
     EXPECT_EQ(dxf.deviation, 0.0);
@@ -273,12 +266,12 @@ TEST(DxfRoundTrip, UnitsAreKeptEvenInR12) {
 }
 
 TEST(DxfWrites, OneEntityPerSmoothPart) {
-  EXPECT_EQ(written(stored("spirals_open"), DxfProfile::kExact, 1e-3).entities, 1u);
-  EXPECT_EQ(written(stored("spirals_closed"), DxfProfile::kExact, 1e-3).entities, 1u);
+  EXPECT_EQ(written(stored("spirals_open.json"), DxfProfile::kExact, 1e-3).entities, 1u);
+  EXPECT_EQ(written(stored("spirals_closed.json"), DxfProfile::kExact, 1e-3).entities, 1u);
   // before the corner two arcs, after it a spline
-  EXPECT_EQ(written(stored("spirals_corner"), DxfProfile::kExact, 1e-3).entities, 3u);
-  EXPECT_EQ(written(stored("spirals_corner"), DxfProfile::kCubic, 1e-3).entities, 2u);
-  EXPECT_EQ(written(stored("spirals_corner"), DxfProfile::kArcs, 1e-3).entities, 1u);
+  EXPECT_EQ(written(stored("spirals_corner.json"), DxfProfile::kExact, 1e-3).entities, 3u);
+  EXPECT_EQ(written(stored("spirals_corner.json"), DxfProfile::kCubic, 1e-3).entities, 2u);
+  EXPECT_EQ(written(stored("spirals_corner.json"), DxfProfile::kArcs, 1e-3).entities, 1u);
 }
 
 TEST(DxfWrites, AClosedContourOfOneCornerFromThatCornerAround) {
@@ -326,8 +319,8 @@ TEST(DxfWrites, ArcsThatAreNearlyStraightWithoutLoss) {
 }
 
 TEST(DxfWrites, ConicsAsEllipsesAndNearParabolasAsSplines) {
-  const DxfText ellipses = written(stored("conics_open"), DxfProfile::kExact, 1e-3);
-  EXPECT_EQ(ellipses.entities, stored("conics_open").pieces.size());
+  const DxfText ellipses = written(stored("conics_open.json"), DxfProfile::kExact, 1e-3);
+  EXPECT_EQ(ellipses.entities, stored("conics_open.json").pieces.size());
   EXPECT_THAT(ellipses.text, testing::HasSubstr("AcDbEllipse"));
   RationalBezier conic;
   conic.degree = 2;

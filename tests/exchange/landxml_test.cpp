@@ -51,13 +51,13 @@ TEST(LandXmlRead, NorthingComesFirstAndPointsMayBeNamed) {
 
 TEST(LandXmlRead, UnitsAreThoseOfTheFile) {
   for (const auto& [theirs, ours] :
-       {std::pair{"meter", "m"}, {"millimeter", "mm"}, {"foot", "ft"}, {"inch", "in"}}) {
+       {std::pair{"meter", "m"}, {"millimeter", "mm"}, {"foot", "ft"}, {"USSurveyFoot", "usft"},
+        {"inch", "in"}}) {
     EXPECT_EQ(read_landxml_text(file_of(line("0 0", "1 1"), theirs)).units, ours);
   }
-  const Drawing survey = read_landxml_text(file_of(line("0 0", "1 1"), "USSurveyFoot"));
-  EXPECT_EQ(survey.units, "ft");
-  EXPECT_TRUE(warns(survey, "survey"));
-  EXPECT_TRUE(warns(read_landxml_text(file_of(line("0 0", "1 1"), "league")), "taken as metres"));
+  const Drawing unknown = read_landxml_text(file_of(line("0 0", "1 1"), "league"));
+  EXPECT_EQ(unknown.units, Units("m", UnitSource::kAssumed));
+  EXPECT_TRUE(warns(unknown, "metres are assumed"));
 }
 
 /// Around (100, 200) in x, y: from east to north and the long way round.

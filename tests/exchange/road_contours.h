@@ -44,16 +44,19 @@ class Road {
           ClothoidPiece{here_.point, end, here_.theta, kappa0, kappa1, length});
     }
     Joint joint;
-    joint.element = {here_.point, here_.theta, kappa0};
-    if (turned_) joint.leaving = joint.element;
-    turned_ = false;
+    joint.element = {here_.point, here_.theta - turned_, kappa0};
+    if (turned_ != 0.0) {
+      joint.element.kappa = here_.kappa;
+      joint.leaving = Element{here_.point, here_.theta, kappa0};
+    }
+    turned_ = 0.0;
     contour_.joints.push_back(joint);
     here_ = {end, here_.theta + 0.5 * (kappa0 + kappa1) * length, kappa1};
     return *this;
   }
   Road& turn(double angle) {
     here_.theta += angle;
-    turned_ = true;
+    turned_ = angle;
     return *this;
   }
   [[nodiscard]] Contour take() {
@@ -66,7 +69,7 @@ class Road {
  private:
   Contour contour_;
   Element here_;
-  bool turned_ = false;
+  double turned_ = 0.0;  // rad, since the last piece
 };
 
 /// Everything that a road has: a line, both senses, an S, a spiral of several turns, a long arc.

@@ -145,6 +145,7 @@ TEST(Samples, CsvReadsBackToTheSameDoubles) {
 
 TEST(Polylines, ObjAndPlyHoldEveryVertexOnce) {
   Contour c;
+  c.units = "mm";
   c.closed = true;
   c.pieces = {LinePiece{{0, 0}, {1, 0}}, LinePiece{{1, 0}, {1, 1}}, LinePiece{{1, 1}, {0, 0}}};
   const auto obj = obj_text(c, {}), ply = ply_text(c, {});

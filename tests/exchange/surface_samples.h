@@ -94,6 +94,7 @@ inline Mesh raster_mesh(const NurbsSurface& surface, std::size_t n, std::size_t 
 inline SurfaceModel model_of(std::vector<SurfacePatch> patches, std::string name = "sample") {
   SurfaceModel model;
   model.name = std::move(name);
+  model.units = "mm";
   model.patches = std::move(patches);
   return model;
 }

@@ -154,6 +154,11 @@ TEST(SurfacePicture, PlaneFromAboveKeepsItsProportions) {
   EXPECT_NEAR(u.size().y, 284.0, 0.2);
   EXPECT_TRUE(drawing.says("60 × 20 × 0 mm"));
   EXPECT_TRUE(drawing.says("5 mm")) << "the longest round bar within 130 px of 14.2 px/mm";
+  SurfaceModel unknown = model_of({{"plate", rectangle(60, 20)}});
+  unknown.units = {};
+  EXPECT_TRUE(DrawnPicture(picture(unknown, picture_with(SurfaceColouring::kIsolines,
+                                                         SurfaceView::kTop)))
+                  .says("60 × 20 × 0 units"));
 }
 
 TEST(SurfacePicture, ViewsLookFromWhereTheirNamesSay) {

@@ -166,7 +166,30 @@ class Numbers {
     const double value = std::fabs(any());
     return value > 0.0 ? value : 1.0;
   }
-  Vec2 point() { return {any(), any()}; }
+  /// Limits of the numbers of a contour: docs/methods/certify.md, section 4.
+  double within(double limit) {
+    for (;;) {
+      const double value = any();
+      if (std::fabs(value) <= limit) return value;
+    }
+  }
+  double between(double low, double high) {
+    for (;;) {
+      const double value = positive();
+      if (value >= low && value <= high) return value;
+    }
+  }
+  Vec2 point() { return {within(1e100), within(1e100)}; }
+  /// At least 1e-100 apart.
+  std::pair<Vec2, Vec2> two_points() {
+    for (;;) {
+      const Vec2 a = point(), b = point();
+      if (std::max(std::fabs(a.x - b.x), std::fabs(a.y - b.y)) >= 1e-100) return {a, b};
+    }
+  }
+  double length() { return between(1e-100, 1e100); }
+  double heading() { return within(25.0); }  // rad
+  double weight() { return between(1e-50, 1e50); }
   std::size_t below(std::size_t n) { return random_() % n; }
   bool coin() { return random_() % 2 == 0; }
 
@@ -179,25 +202,30 @@ RationalBezier random_bezier(Numbers& numbers) {
   bezier.degree = 1 + static_cast<int>(numbers.below(kMaxBezierDegree));
   const bool far = numbers.coin();
   const bool weighted = numbers.coin();
+  const auto [first, last] = numbers.two_points();
   if (far) bezier.origin = {1234.5, -8.25e6};
   for (std::size_t j = 0; j <= static_cast<std::size_t>(bezier.degree); ++j) {
     bezier.offset[j] =
-        far ? Vec2{1e-7 * static_cast<double>(numbers.below(1000)), -1e-9 / 3} : numbers.point();
-    bezier.weight[j] = weighted ? numbers.positive() : 1.0;
+        far ? Vec2{1e-7 * static_cast<double>(numbers.below(1000) + 1000 * j), -1e-9 / 3}
+            : (j == 0   ? first
+               : j == 1 ? last
+                        : numbers.point());
+    bezier.weight[j] = weighted ? numbers.weight() : 1.0;
   }
   return bezier;
 }
 
 Piece random_piece(Numbers& numbers) {
+  const auto [start, end] = numbers.two_points();
+  const double length = numbers.length();
+  const auto curvature = [&] { return numbers.within(60.0) / length; };  // ten turns at the most
   switch (numbers.below(4)) {
     case 0:
-      return LinePiece{numbers.point(), numbers.point()};
+      return LinePiece{start, end};
     case 1:
-      return ArcPiece{numbers.point(), numbers.point(), numbers.any(), numbers.positive(),
-                      numbers.positive()};
+      return ArcPiece{start, end, numbers.heading(), numbers.between(1e-9, 60.0) / length, length};
     case 2:
-      return ClothoidPiece{numbers.point(), numbers.point(), numbers.any(),
-                           numbers.any(),   numbers.any(),   numbers.positive()};
+      return ClothoidPiece{start, end, numbers.heading(), curvature(), curvature(), length};
     default:
       return random_bezier(numbers);
   }
@@ -210,20 +238,22 @@ Contour random_contour(Numbers& numbers) {
   contour.carrier = kCarriers[numbers.below(3)];
   const std::size_t pieces = 1 + numbers.below(6);
   for (std::size_t i = 0; i < pieces; ++i) contour.pieces.push_back(random_piece(numbers));
-  for (std::size_t i = 0; i < 2 + numbers.below(6); ++i) contour.points.push_back(numbers.point());
+  contour.points = {{0.0, -0.0}, {1.0 / 3.0, 1e-300}};  // no contour is smaller than 1e-100
+  for (std::size_t i = 0; i < numbers.below(6); ++i) contour.points.push_back(numbers.point());
   if (numbers.coin()) {
     for (std::size_t i = 0; i < contour.points.size(); ++i) {
-      contour.point_tolerance.push_back(numbers.coin() ? 0.0 : numbers.positive());
+      contour.point_tolerance.push_back(numbers.coin() ? 0.0 : numbers.length());
     }
   }
   contour.closed = numbers.coin();
   const std::size_t joints = contour.closed && numbers.coin() ? pieces : pieces + 1;
   for (std::size_t i = 0; i < joints; ++i) {
-    Joint joint{{numbers.point(), numbers.any(), numbers.any()}, std::nullopt, std::nullopt};
+    Joint joint{
+        {numbers.point(), numbers.heading(), numbers.within(1e130)}, std::nullopt, std::nullopt};
     if (numbers.coin()) joint.source = numbers.below(contour.points.size());
     const bool inner = contour.closed || (i > 0 && i < pieces);
     if (inner && numbers.below(4) == 0) {
-      joint.leaving = Element{joint.element.point, numbers.any(), numbers.any()};
+      joint.leaving = Element{joint.element.point, numbers.heading(), numbers.within(1e130)};
     }
     contour.joints.push_back(joint);
   }
@@ -246,7 +276,7 @@ FitReport random_report(Numbers& numbers, std::size_t points, std::size_t segmen
                                {numbers.any(), numbers.any()},
                                numbers.below(9)});
   }
-  report.tolerance = numbers.positive();
+  report.tolerance = numbers.between(1e90, 1e300);  // 1e-12 of any size at least
   report.largest_width = numbers.any();
   report.largest_deviation = numbers.any();
   report.largest_move = numbers.any();

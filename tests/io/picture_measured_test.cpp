@@ -254,6 +254,7 @@ TEST(PictureMoves, AreMissingWhereNoPointHasATolerance) {
 
 TEST(Picture, SaysThatPointsLieWithinTheirTolerancesAndWhereCornersAre) {
   StoredContour stored{lens(0.5, 0.5), std::nullopt, Certificate{}};
+  stored.contour.units = "mm";
   stored.contour.point_tolerance = {0.1, 0.1};
   stored.certificate->proved = true;
   stored.certificate->corners = 2;
@@ -307,7 +308,8 @@ TEST(PictureComparison, CountsTheVerticesOfBoth) {
 }
 
 TEST(PictureComparison, CutsAxesThatASharpBendWouldFlattenAndSaysSo) {
-  const Contour sharp = arc_chain({0.1, 100.0, 0.1}, 1.0).contour;
+  Contour sharp = arc_chain({0.1, 100.0, 0.1}, 1.0).contour;
+  sharp.units = "mm";
   const Contour calm = arc_chain({0.1, 0.2, 0.1}, 1.0).contour;
   const std::string svg = comparison_svg(sharp, calm, {"Edge", "a", "b"});
   EXPECT_NE(svg.find("cut off: the largest is 100 1/mm"), std::string::npos);

@@ -10,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include "obvid/curve/clothoid.h"
 #include "obvid/io/contour_json.h"
 #include "obvid/pipeline/fit.h"
 
@@ -55,26 +56,72 @@ struct LeafCase {
   double noise = 0.0;
   double tolerance = 0.0;  ///< 0: the default
   Closing closing = Closing::kAutomatic;
+  std::vector<FixedData> fixed{};
+  std::vector<KeptPiece> kept{};
 };
 
+/// The heading and the curvature of the spiral at one of its points, by its closed form.
+std::vector<FixedData> given_on_the_spiral() {
+  std::vector<FixedData> out(7);
+  out[3].theta = 0.4 * 3 + std::atan2(1.0, 0.3);
+  out[5].kappa = 1.0 / (std::exp(0.12 * 5) * std::hypot(1.0, 0.3));
+  return out;
+}
+
+/// A line, a quarter of a circle, a clothoid, a quarter of an ellipse, a corner, and points behind
+/// it.
+LeafCase a_drawing() {
+  LeafCase out{"drawn", Carrier::kSpiral, {{0, 0}, {3, 0}, {4, 1}}};
+  const double pi = 3.141592653589793;
+  const ClothoidPiece bend{{4, 1}, {}, 0.5 * pi, 0.0, 0.5, 2.0};
+  const Vec2 end = bend.start + clothoid_step(bend.theta0, bend.kappa0, bend.kappa1, bend.length);
+  // the ellipse (cos t, 2 sin t) between its vertices, from t = 0.2 to 1.2
+  const auto on_ellipse = [](double t) { return Vec2{std::cos(t), 2.0 * std::sin(t)}; };
+  const double half = std::cos(0.5);
+  RationalBezier ellipse;
+  ellipse.degree = 2;
+  ellipse.origin = end;
+  ellipse.offset = {Vec2{}, on_ellipse(0.7) / half - on_ellipse(0.2),
+                    on_ellipse(1.2) - on_ellipse(0.2)};
+  ellipse.weight = {1.0, half, 1.0};
+  const Vec2 tip = end + ellipse.offset[2];
+  out.kept = {{0, LinePiece{{0, 0}, {3, 0}}},
+              {1, ArcPiece{{3, 0}, {4, 1}, 0.0, 1.0, 0.5 * pi}},
+              {2, ClothoidPiece{bend.start, end, bend.theta0, bend.kappa0, bend.kappa1, 2.0}},
+              {3, ellipse}};
+  out.points.push_back(end);
+  out.points.push_back(tip);
+  for (int i = 1; i < 6; ++i) {
+    out.points.push_back(tip + Vec2{-0.05 * i * (5 - i) - 0.3 * i, -1.0 * i});
+  }
+  out.fixed.resize(out.points.size());
+  out.fixed[3].corner = out.fixed[4].corner = true;
+  return out;
+}
+
 std::vector<LeafCase> leaf_cases() {
-  return {{"spirals", Carrier::kSpiral, a_wave()},
-          {"arcs", Carrier::kArcs, a_spiral(), 0.0, 0.01},
-          {"conics", Carrier::kConics, a_spiral()},
-          {"parabolas", Carrier::kBeziers, a_spiral(), 0.0, 0.01},
-          {"clothoids", Carrier::kClothoids, a_wave()},
-          {"one B-spline", Carrier::kBspline, a_spiral(), 0.0, 0.01},
-          {"one cubic", Carrier::kCubic, a_spiral(), 0.0, 0.01},
-          {"baseline", Carrier::kBaseline, a_wave()},
-          {"closed", Carrier::kSpiral, an_oval(), 0.0, 0.0, Closing::kClosed},
-          {"closed arcs", Carrier::kArcs, an_oval(), 0.0, 0.03, Closing::kClosed},
-          {"corner", Carrier::kSpiral, a_corner()},
-          {"within tolerances", Carrier::kSpiral, a_wave(), 0.01}};
+  return {
+      {"spirals", Carrier::kSpiral, a_wave()},
+      {"arcs", Carrier::kArcs, a_spiral(), 0.0, 0.01},
+      {"conics", Carrier::kConics, a_spiral()},
+      {"parabolas", Carrier::kBeziers, a_spiral(), 0.0, 0.01},
+      {"clothoids", Carrier::kClothoids, a_wave()},
+      {"one B-spline", Carrier::kBspline, a_spiral(), 0.0, 0.01},
+      {"one cubic", Carrier::kCubic, a_spiral(), 0.0, 0.01},
+      {"baseline", Carrier::kBaseline, a_wave()},
+      {"closed", Carrier::kSpiral, an_oval(), 0.0, 0.0, Closing::kClosed},
+      {"closed arcs", Carrier::kArcs, an_oval(), 0.0, 0.03, Closing::kClosed},
+      {"corner", Carrier::kSpiral, a_corner()},
+      {"within tolerances", Carrier::kSpiral, a_wave(), 0.01},
+      {"given", Carrier::kSpiral, a_spiral(), 0.0, 0.0, Closing::kAutomatic, given_on_the_spiral()},
+      a_drawing()};
 }
 
 std::string file_of(const LeafCase& c) {
   PointSeries series;
   series.points = c.points;
+  series.fixed = c.fixed;
+  series.kept = c.kept;
   FitJob job;
   job.carrier = c.carrier;
   job.closing = c.closing;
@@ -144,16 +191,19 @@ bool listed(const std::vector<std::string>& not_checked, const std::string& path
   return false;
 }
 
-/// What a leaf may be changed to. Numbers by a thousandth; gaps, which are bounds, by more than the
-/// room that bounds have.
+/// What a leaf may be changed to. Numbers by a thousandth; gaps, which are bounds, and misses of
+/// given data, which are rounding, by more than the room that these have.
 std::vector<json> changes_of(const json& value, const std::string& path, double size) {
   if (value.is_boolean()) return {!value.get<bool>(), nullptr, "x"};
+  if (path == "/units_source") return {"file", "given", "assumed", "other", 1, nullptr};
   if (value.is_string()) return {"other", 1, nullptr};
   if (value.is_null()) return {0, 1.5, "x"};
   std::vector<json> out = {nullptr, "1"};
   const double number = value.get<double>();
   if (path.find("joint_gaps") != std::string::npos) {
     out.insert(out.end(), {3.0 * number + 1e-13, 0.3 * number - 1e-13});
+  } else if (path.find("_miss") != std::string::npos) {
+    out.push_back(3.0 * number + 1e-12);
   } else if (value.is_number_integer() && path.find("/points") != 0) {
     out.insert(out.end(), {value.get<long long>() + 1, value.get<long long>() - 1});
   } else {

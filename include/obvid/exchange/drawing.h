@@ -21,7 +21,8 @@ struct Drawing {
   std::string name;                   ///< of the file
   Units units;                        ///< as the file says; assumed when it does not
   std::vector<DrawnCurve> curves;     ///< in the order of the file
-  std::vector<PointSeries> series;    ///< polylines and lists of points, in the order of the file
+  std::vector<PointSeries> series;    ///< lists of points, and polylines whose lines are
+                                      ///< chords of a curve, in the order of the file
   std::vector<std::string> warnings;  ///< what was left out and why, in sentences
 };
 
