@@ -102,10 +102,9 @@ class Notary {
   void add_parts(std::size_t i) {
     const auto* bezier = std::get_if<RationalBezier>(&contour_.pieces[i]);
     if (bezier == nullptr) return;
-    const auto& parts = parts_.emplace(i, monotone_parts(*bezier)).first->second;
-    // the proof of one vertex does not say how the curvature changes at both ends
-    before_[i] = static_cast<std::int8_t>(parts.front().first_change);
-    after_[i] = static_cast<std::int8_t>(parts.back().last_change);
+    parts_.emplace(i, monotone_parts(*bezier));
+    // the proof of one vertex does not say how many there are
+    changes_.emplace(i, curvature_changes(*bezier));
   }
 
   void report_verdict(std::size_t i, const PieceProof& proof) {
@@ -220,13 +219,11 @@ class Notary {
     DirectionChanges changes;
     for (std::size_t i = 0; i < contour_.pieces.size(); ++i) {
       changes.add(joints_.jump[i]);
-      changes.add(before_[i]);
-      if (const auto parts = parts_.find(i); parts != parts_.end()) {
-        for (const MonotonePart& part : parts->second) {
-          changes.add(part.first_change);
-          changes.add(part.last_change);
-        }
+      if (const auto found = changes_.find(i); found != changes_.end()) {
+        for (const int sign : found->second) changes.add(sign);
+        continue;
       }
+      changes.add(before_[i]);
       changes.add(after_[i]);
     }
     if (contour_.closed) changes.close();
@@ -237,6 +234,7 @@ class Notary {
   Certificate certificate_;
   JointSurvey joints_;
   MonotoneParts parts_;
+  std::map<std::size_t, std::vector<int>> changes_;  ///< of pieces with vertices
   std::vector<std::int8_t> before_;  ///< sign of d kappa at the start of each piece
   std::vector<std::int8_t> after_;   ///< and at its end; they differ around a vertex
   bool monotone_ = true;

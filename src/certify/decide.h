@@ -38,6 +38,27 @@ template <class S>
   }
 }
 
+/// Bernstein coefficients from scaled ones, with what rounding may have done to them.
+template <class S, std::size_t Count>
+[[nodiscard]] typename SignSearch<S>::Coefficients plain_form(
+    const std::array<S, Count>& c, const std::array<double, Count>& majorant, int roundings) {
+  typename SignSearch<S>::Coefficients plain;
+  plain.value.reserve(Count);
+  plain.bound.reserve(Count);
+  for (std::size_t j = 0; j < Count; ++j) {
+    if constexpr (Arithmetic<S>::kExact) {
+      plain.value.push_back(
+          Arithmetic<S>::unscaled(c[j], static_cast<int>(Count) - 1, static_cast<int>(j)));
+      plain.bound.push_back(0.0);
+    } else {
+      const double scale = binomial(static_cast<int>(Count) - 1, static_cast<int>(j));
+      plain.value.push_back(Arithmetic<S>::divided(c[j], scale));
+      plain.bound.push_back(error_bound<S>(roundings + 1, majorant[j]) / scale);
+    }
+  }
+  return plain;
+}
+
 /// Sign of a polynomial in scaled form: at a glance where all coefficients agree, else by search.
 template <class S, std::size_t Count>
 [[nodiscard]] SignProof prove_sign(const std::array<S, Count>& c,
@@ -54,21 +75,7 @@ template <class S, std::size_t Count>
   if (positive == Count) return {SignVerdict::kPositive};
   if (negative == Count) return {SignVerdict::kNegative};
 
-  typename SignSearch<S>::Coefficients plain;
-  plain.value.reserve(Count);
-  plain.bound.reserve(Count);
-  for (std::size_t j = 0; j < Count; ++j) {
-    const double scale = binomial(static_cast<int>(Count) - 1, static_cast<int>(j));
-    if constexpr (Arithmetic<S>::kExact) {
-      plain.value.push_back(
-          Arithmetic<S>::unscaled(c[j], static_cast<int>(Count) - 1, static_cast<int>(j)));
-      plain.bound.push_back(0.0);
-    } else {
-      plain.value.push_back(Arithmetic<S>::divided(c[j], scale));
-      plain.bound.push_back(error_bound<S>(roundings + 1, majorant[j]) / scale);
-    }
-  }
-  return SignSearch<S>{}.run(plain);
+  return SignSearch<S>{}.run(plain_form(c, majorant, roundings));
 }
 
 template <int N, class S>
@@ -155,6 +162,17 @@ template <int N, class S>
   if (speed == Speed::kOpen) return {};
   return facts_of(prove_sign(f.test, majorant.test, form::Roundings<N>::kTest),
                   speed == Speed::kForward);
+}
+
+/// Signs of the test polynomial from 0 to 1; false where they are not sure.
+template <int N, class S>
+[[nodiscard]] bool sign_changes(const ControlDifferences<N, S>& p,
+                                const CurvatureForm<N, double>& majorant,
+                                std::vector<int>& signs) {
+  const CurvatureForm<N, S> f = curvature_form<false>(p);
+  signs.clear();
+  return SignSearch<S>{}.sequence(plain_form(f.test, majorant.test, form::Roundings<N>::kTest),
+                                  signs);
 }
 
 }  // namespace

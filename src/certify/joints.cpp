@@ -20,6 +20,7 @@ constexpr double kCurvatureBound = 1e-6;  // of the curvature at the joint
 
 /// Coordinates far from the origin cannot say a position better than this, at the most; beyond,
 /// nobody would call a joint continuous.
+constexpr double kZeroEnd = 1e-9;           // of the larger curvature of the piece
 constexpr double kPositionCeiling = 1e-6;  // of the contour's size
 
 // How far an element may be outside of what lies between the two ends that meet at its joint.
@@ -107,9 +108,10 @@ class JointWalk {
       const bool seam = i == 0 && contour_.closed;
       if (!seam && !compare_with_element(i, i > 0 ? &before : nullptr, &here)) break;
       compare_stored_ends(i, here.end);
-      follow_sign(here.start);
-      follow_parts(i);
-      follow_sign(here.end);
+      const double largest = std::max(std::abs(here.start.kappa), std::abs(here.end.kappa));
+      follow_sign(here.start, largest);
+      follow_parts(i, largest);
+      follow_sign(here.end, largest);
       before = here;
     }
     if (n > 0) finish(before, first);
@@ -279,16 +281,19 @@ class JointWalk {
     check_position(distance(end, stored), end.point_rounding, i + 1);
   }
 
-  void follow_parts(std::size_t i) {
+  void follow_parts(std::size_t i, double largest) {
     const auto parts = parts_.find(i);
     if (parts == parts_.end()) return;
-    for (const MonotonePart& part : parts->second) follow_sign(ends_of(Piece{part.piece}).end);
+    for (const MonotonePart& part : parts->second) {
+      follow_sign(ends_of(Piece{part.piece}).end, largest);
+    }
   }
 
   /// Curvature is monotone on each proved piece, so signs at the ends tell all its sign changes.
-  void follow_sign(const EndData& end) {
-    const int sign =
-        end.kappa > end.kappa_rounding ? 1 : (end.kappa < -end.kappa_rounding ? -1 : 0);
+  /// One that is small beside the larger end of its piece is a zero that was rounded.
+  void follow_sign(const EndData& end, double largest) {
+    const double zero = end.kappa_error + kZeroEnd * largest;
+    const int sign = end.kappa > zero ? 1 : (end.kappa < -zero ? -1 : 0);
     if (sign == 0) return;
     if (last_sign_ != 0 && sign != last_sign_) ++survey_.inflections;
     if (first_sign_ == 0) first_sign_ = sign;

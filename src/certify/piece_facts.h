@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <vector>
+
 #include "obvid/certify/certificate.h"
 #include "obvid/curve/pieces.h"
 
@@ -19,6 +21,14 @@ struct PieceFacts {
 /// The same in exact integers, for the pieces that floating point cannot decide (or hides: the
 /// tests call it to cross-check). Slow, about a millisecond.
 [[nodiscard]] PieceFacts examine_exactly(const RationalBezier& piece);
+
+/// How the curvature of a piece changes from its start on: +1 where it grows, -1 where it falls,
+/// nothing twice in a row. Double-doubles, and exact integers where these leave anything open;
+/// changes closer to each other than 2^-40 of the parameter count as two or as none.
+[[nodiscard]] std::vector<int> curvature_changes(const RationalBezier& piece);
+
+/// The same in exact integers.
+[[nodiscard]] std::vector<int> curvature_changes_exactly(const RationalBezier& piece);
 
 /// In double-double numbers only; undecided where those do not suffice.
 [[nodiscard]] PieceFacts examine_in_double_double(const RationalBezier& piece);

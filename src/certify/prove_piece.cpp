@@ -239,6 +239,20 @@ PieceFacts examine_in_double_double(const RationalBezier& piece) {
   });
 }
 
+std::vector<int> curvature_changes(const RationalBezier& piece) {
+  if (piece.degree < 2 || piece.degree > kMaxBezierDegree) return {};
+  const auto unit = scaled(piece);
+  if (!unit) return {};
+  std::vector<int> signs;
+  bool sure = false;
+  with_degree(piece.degree, [&]<int N>() -> PieceFacts {
+    const auto majorant = majorant_of(differences_in_doubles<N>(*unit));
+    sure = sign_changes(exact_differences<N>(*unit), majorant, signs);
+    return {};
+  });
+  return sure ? signs : curvature_changes_exactly(piece);
+}
+
 PieceProof prove_piece(const Piece& piece) { return examine_piece(piece).proof; }
 
 }  // namespace obvid

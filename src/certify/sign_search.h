@@ -86,7 +86,36 @@ class SignSearch {
     return {seen_ > 0 ? SignVerdict::kPositive : SignVerdict::kNegative, 0.0, 1.0, 0};
   }
 
+  /// Strict signs from 0 to 1, none twice in a row. False when they are not sure: rounding hides
+  /// signs somewhere, or the search was long.
+  bool sequence(const Coefficients& whole, std::vector<int>& signs) {
+    sequence_parts_ = kSequenceParts;
+    return follow(whole, kSequenceDepth, signs);
+  }
+
  private:
+  static constexpr int kSequenceDepth = 40;  ///< halvings: closer changes count as none or as two
+  static constexpr int kSequenceParts = 2000;
+
+  bool follow(const Coefficients& c, int depth, std::vector<int>& signs) {
+    int positive = 0, negative = 0, unknown = 0;
+    for (std::size_t j = 0; j < c.value.size(); ++j) {
+      const int sign = sign_of(c, j);
+      positive += sign > 0;
+      negative += sign < 0;
+      unknown += sign == 0 && c.bound[j] > 0.0;
+    }
+    if (unknown == 0 && (positive == 0 || negative == 0)) {
+      const int sign = positive > 0 ? 1 : -1;
+      if (positive + negative > 0 && (signs.empty() || signs.back() != sign)) signs.push_back(sign);
+      return true;
+    }
+    if (depth == 0) return true;
+    if (positive + negative == 0 || sequence_parts_-- <= 0) return false;
+    const auto [left, right] = halves(c);
+    return follow(left, depth - 1, signs) && follow(right, depth - 1, signs);
+  }
+
   static std::size_t last(const Coefficients& c) { return c.value.size() - 1; }
   static int sign_of(const Coefficients& c, std::size_t j) {
     return Arithmetic<S>::sign(c.value[j], c.bound[j]);
@@ -167,6 +196,7 @@ class SignSearch {
   static constexpr double kBoundRounding = 1.0 + 0x1p-48;
 
   int parts_left_ = Arithmetic<S>::kParts;
+  int sequence_parts_ = 0;
   bool both_ = false;
   bool open_ = false;
   int seen_ = 0;
