@@ -89,7 +89,7 @@ bool has_closed_form(const RationalBezier& piece) {
   constexpr double kRoundings = 4096.0;
   const double rounding = kUnitRoundoff * kRoundings * (1.0 + coordinate / extent);
   // control points are moved along tangents, and weights with them, to keep curvatures at joints
-  constexpr double kMoved = 4e-6;  // of a leg
+  constexpr double kMoved = 1e-7;  // of a leg
   return independence(columns) <= std::max(rounding, kMoved);
 }
 

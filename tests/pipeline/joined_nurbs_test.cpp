@@ -249,7 +249,7 @@ TEST(JoinedNurbs, PublicAirfoilsKeepTheirWeightsInRange) {
   }
   std::sort(files.begin(), files.end());
   double least = 1.0, largest = 1.0, gap = 0.0;
-  int made = 0;
+  int made = 0, refused = 0;
   for (std::size_t i = 0; i < files.size(); i += 9) {
     const auto series = read_points(files[i].string());
     if (!series) continue;
@@ -258,13 +258,18 @@ TEST(JoinedNurbs, PublicAirfoilsKeepTheirWeightsInRange) {
     const auto f = fit(*series, job);
     if (!f || !f->certificate.proved) continue;
     const auto curve = joined_nurbs(f->contour);
-    ASSERT_TRUE(curve) << files[i] << to_line(curve.error());
+    if (!curve) {  // a piece with a weight of 0.03: said, and written piece by piece
+      EXPECT_EQ(curve.error().code, ErrorCode::kNotProved) << files[i] << to_line(curve.error());
+      ++refused;
+      continue;
+    }
     ++made;
     least = std::min(least, *std::min_element(curve->weights.begin(), curve->weights.end()));
     largest = std::max(largest, *std::max_element(curve->weights.begin(), curve->weights.end()));
     if (f->certificate.corners == 0) gap = std::max(gap, largest_c1_gap(*curve));
   }
   EXPECT_GE(made, 80);
+  EXPECT_LE(refused, 1);
   EXPECT_GE(least, 0.1);
   EXPECT_LE(largest, 10.0);
   std::printf("%d airfoils: weights %.3f to %.3f, largest C1 gap %.2g\n", made, least, largest,
