@@ -16,10 +16,13 @@ using region_detail::TwoArcs;
 
 /// Equal steps of a piece between which the distance is taken to have one peak at the most. A lone
 /// piece takes more of them than one among many.
-constexpr std::size_t kStepsAlone = 8;
-constexpr std::size_t kStepsAmongMany = 6;
+constexpr std::size_t kStepsAlone = 6;
+constexpr std::size_t kStepsAmongMany = 4;
 /// Peaks of the samples this near to the largest are looked at closely.
 constexpr double kCouldBeMore = 0.8;
+/// Steps into which the neighbourhood of such a peak is cut first: the nearer arc of a boundary may
+/// change there, which bends the distance.
+constexpr std::size_t kFinerSteps = 8;
 /// Steps of a climb: parabolas converge faster than geometrically.
 constexpr int kMostSteps = 16;
 /// Places this close, of the three samples that a climb begins with, enclose the top: what can lie
@@ -153,6 +156,20 @@ PathSample climb(AlongPath& distance, PathSample a, PathSample b, PathSample c) 
   return {b.u, ceiling_of(a, b, c)};
 }
 
+/// Climbs from the largest of finer samples between `a` and `c`.
+PathSample climb_within(AlongPath& distance, const PathSample& a, const PathSample& c) {
+  std::array<PathSample, kFinerSteps + 1> fine;
+  std::size_t top = 0;
+  for (std::size_t i = 0; i <= kFinerSteps; ++i) {
+    const double part = static_cast<double>(i) / static_cast<double>(kFinerSteps);
+    const double u = a.u + part * (c.u - a.u);
+    fine[i] = i == 0 ? a : i == kFinerSteps ? c : PathSample{u, distance(u)};
+    if (fine[i].value > fine[top].value) top = i;
+  }
+  top = std::clamp<std::size_t>(top, 1, kFinerSteps - 1);
+  return climb(distance, fine[top - 1], fine[top], fine[top + 1]);
+}
+
 /// Equal steps along the path, in order; looks at three neighbours at a time.
 PathSample highest(AlongPath& distance, std::size_t steps, std::vector<PathSample>& samples) {
   PathSample best{distance.first(), 0.0};
@@ -167,7 +184,7 @@ PathSample highest(AlongPath& distance, std::size_t steps, std::vector<PathSampl
   for (std::size_t i = 1; i < steps; ++i) {
     const PathSample &a = samples[i - 1], &b = samples[i], &c = samples[i + 1];
     if (!(b.value > close && b.value >= a.value && b.value >= c.value)) continue;
-    const PathSample top = climb(distance, a, b, c);
+    const PathSample top = climb_within(distance, a, c);
     if (top.value > best.value) best = top;
   }
   return best;
