@@ -22,7 +22,8 @@ constexpr std::size_t kStepsAmongMany = 4;
 constexpr double kCouldBeMore = 0.8;
 /// Steps into which the neighbourhood of such a peak is cut first: the nearer arc of a boundary may
 /// change there, which bends the distance.
-constexpr std::size_t kFinerSteps = 8;
+constexpr std::size_t kFinerSteps = 12;
+constexpr double kFinerCouldBeMore = 0.98;
 /// Steps of a climb: parabolas converge faster than geometrically.
 constexpr int kMostSteps = 16;
 /// Places this close, of the three samples that a climb begins with, enclose the top: what can lie
@@ -81,7 +82,8 @@ class AlongPath {
         placed_(placed),
         from_start_(placed.frame, placed.region.from_start),
         to_end_(placed.frame, placed.region.to_end),
-        local_(path.pieces.front(), placed.start, placed.along) {}
+        local_(path.pieces.front(), placed.start, placed.along),
+        wide_(dot(placed.frame.start_tangent, placed.frame.end_tangent) <= 0.0) {}
 
   [[nodiscard]] double first() const { return path_.t0; }
   [[nodiscard]] double last() const {
@@ -94,7 +96,9 @@ class AlongPath {
       at_ = k;
     }
     const Vec2 p = local_.at(u - static_cast<double>(k));
-    return std::max(from_start_.distance_from_near(p), to_end_.distance_from_near(p));
+    // over a right angle the common normal does not tell which arc is near
+    return wide_ ? std::max(from_start_.distance(p), to_end_.distance(p))
+                 : std::max(from_start_.distance_from_near(p), to_end_.distance_from_near(p));
   }
   [[nodiscard]] Vec2 point(double u) const {
     const std::size_t k = piece_at(u);
@@ -110,6 +114,7 @@ class AlongPath {
   const PlacedRegion& placed_;
   TwoArcs from_start_, to_end_;
   LocalPiece local_;
+  bool wide_;
   std::size_t at_ = 0;
 };
 
@@ -156,18 +161,25 @@ PathSample climb(AlongPath& distance, PathSample a, PathSample b, PathSample c) 
   return {b.u, ceiling_of(a, b, c)};
 }
 
-/// Climbs from the largest of finer samples between `a` and `c`.
+/// Climbs from the largest of finer samples strictly between `a` and `c`.
 PathSample climb_within(AlongPath& distance, const PathSample& a, const PathSample& c) {
   std::array<PathSample, kFinerSteps + 1> fine;
-  std::size_t top = 0;
+  double most = 0.0;
   for (std::size_t i = 0; i <= kFinerSteps; ++i) {
     const double part = static_cast<double>(i) / static_cast<double>(kFinerSteps);
     const double u = a.u + part * (c.u - a.u);
     fine[i] = i == 0 ? a : i == kFinerSteps ? c : PathSample{u, distance(u)};
-    if (fine[i].value > fine[top].value) top = i;
+    most = std::max(most, fine[i].value);
   }
-  top = std::clamp<std::size_t>(top, 1, kFinerSteps - 1);
-  return climb(distance, fine[top - 1], fine[top], fine[top + 1]);
+  PathSample best = a.value > c.value ? a : c;
+  for (std::size_t i = 1; i < kFinerSteps; ++i) {
+    const double here = fine[i].value;
+    if (here < kFinerCouldBeMore * most) continue;
+    if (here < fine[i - 1].value || here < fine[i + 1].value) continue;
+    const PathSample top = climb(distance, fine[i - 1], fine[i], fine[i + 1]);
+    if (top.value > best.value) best = top;
+  }
+  return best;
 }
 
 /// Equal steps along the path, in order; looks at three neighbours at a time.

@@ -15,23 +15,18 @@ struct Arc {
   double kappa = 0.0;
 
   /// Whether the foot of p on the line or circle lies on the arc, which turns by less than pi.
-  [[nodiscard]] bool abreast(Vec2 from_start, Vec2 from_end, Vec2 radius) const {
-    if (kappa == 0.0)
-      return dot(from_start, start_tangent) > 0.0 && dot(from_end, end_tangent) < 0.0;
-    // radius vectors p - centre, kappa-fold: minus the left normals of the tangents at the ends
-    const double side = cross(start_tangent, end_tangent) >= 0.0 ? 1.0 : -1.0;
-    return side * cross(-left_normal(start_tangent), radius) >= 0.0 &&
-           side * cross(radius, -left_normal(end_tangent)) >= 0.0;
+  [[nodiscard]] bool abreast(Vec2 from_start, Vec2 from_end) const {
+    return dot(from_start, start_tangent) > 0.0 && dot(from_end, end_tangent) < 0.0;
   }
 
   [[nodiscard]] double distance(Vec2 p) const {
     const Vec2 from_start = p - start, from_end = p - end;
     const double ends = std::sqrt(std::min(dot(from_start, from_start), dot(from_end, from_end)));
     if (std::isinf(kappa)) return ends;
-    const Vec2 radius = kappa * from_start - left_normal(start_tangent);
-    if (!abreast(from_start, from_end, radius)) return ends;
+    if (!abreast(from_start, from_end)) return ends;
     if (kappa == 0.0) return std::abs(cross(start_tangent, from_start));
     // |p - centre| - R without the cancellation of a large circle
+    const Vec2 radius = kappa * from_start - left_normal(start_tangent);  // kappa-fold
     const double offset =
         dot(from_start, from_start) * kappa - 2.0 * dot(from_start, left_normal(start_tangent));
     return std::abs(offset) / (norm(radius) + 1.0);
