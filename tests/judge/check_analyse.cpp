@@ -17,7 +17,7 @@ constexpr Real kSameFigure = 1e-9L;
 
 class AnalyseCheck {
  public:
-  AnalyseCheck(const Input& input, Sheet& sheet) : sheet_(sheet), unit_(input.units) {
+  AnalyseCheck(const Input& input, Sheet& sheet) : sheet_(sheet), unit_(input.printed_unit()) {
     const Point origin = input.points.front().point;
     for (const GivenPoint& p : input.points) {
       p_.push_back(seen(p.point, origin));

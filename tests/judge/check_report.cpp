@@ -116,6 +116,11 @@ class ReportCheck {
     const char* claim = "segments.points_only_error";
     const Figure stated = figure(row, "points_only_error");
     if (!stated.present) return sheet_.missing(claim, where(part));
+    if (!file_.promises_monotone()) {
+      sheet_.expect(stated.null(), claim, shown(stated.value.value_or(0.0)),
+                    std::string("null: the carrier promises no monotone curvature"), where(part));
+      return;
+    }
     // a monotone curve along four points of one circle is that circle
     const bool circular = file_.tolerance.empty() && on_circle(part);
     if (circular && (stated.null() || stated.value == 0.0)) return sheet_.holds(claim);
