@@ -221,9 +221,8 @@ class Work {
       return;
     }
     if (unit_kept) {
-      out_.sheet.expect(read.contour.unit_known() == course.file.unit_known(),
-                        "convert back unit", read.contour.units_source, course.file.units_source,
-                        "");
+      out_.sheet.expect(read.contour.unit_known() == course.file.unit_known(), "convert back unit",
+                        read.contour.units_source, course.file.units_source, "");
     }
     const auto mine = metres_of(course.file.units), other = metres_of(read.contour.units);
     if ((mine.has_value() != other.has_value()) && part > 0.0) {
