@@ -260,6 +260,11 @@ class Work {
 
   void refusal(const Run& fit) {
     check_exit(nullptr, fit, out_.sheet);
+    for (const std::string& file : exports_) {
+      const bool untouched = text_of_file(path(file)).empty();
+      out_.sheet.expect(untouched, "refusal leaves files untouched", file,
+                        untouched ? "nothing" : "written", "");
+    }
     const std::string within = "within a tolerance of ";
     const std::size_t at = fit.err.find(within);
     if (at == std::string::npos || !dice_.chance(0.25)) return;
