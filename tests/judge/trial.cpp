@@ -164,7 +164,8 @@ class Work {
       if (stopped_) return;
       check_fit_json(course, json, out_.sheet);
     }
-    if (dice_.chance(0.05) && series_.points < 60) compare(course);
+    // it forms all carriers again and again, to time them
+    if (dice_.chance(0.02) && series_.points < 60) compare(course);
     if (!stopped_ && dice_.chance(0.1)) convert(course);
   }
 
