@@ -60,11 +60,21 @@ class Notary {
     certificate_.inside_region = monotone_ && forward_ && joints_.within_bounds;
     certificate_.proved = monotone_ && forward_ && certificate_.gaps_within_bounds &&
                           certificate_.through_points && certificate_.inside_region;
-    if (contour_.runs.size() > 1) certificate_.self_intersections = count_crossings(contour_);
+    certificate_.self_intersections = self_intersections();
     return std::move(certificate_);
   }
 
  private:
+  [[nodiscard]] int self_intersections() const {
+    std::vector<std::size_t> turning;
+    for (std::size_t i = 0; i < certificate_.pieces.size(); ++i) {
+      const Verdict verdict = certificate_.pieces[i].verdict;
+      if (verdict == Verdict::kHasVertex || verdict == Verdict::kUndecided) turning.push_back(i);
+    }
+    if (turning.empty() && contour_.runs.size() < 2) return 0;
+    return count_crossings(contour_, turning);
+  }
+
   /// Why nothing can be proved of this contour here and now.
   [[nodiscard]] std::string unfit() const {
     if (const char* fault = fault_of_arithmetic()) {

@@ -6,6 +6,7 @@
 #include <bit>
 #include <cmath>
 #include <limits>
+#include <span>
 #include <vector>
 
 #include "box.h"
@@ -13,7 +14,8 @@
 namespace obvid {
 namespace {
 
-constexpr double kFlatness = 1e-9;          // of the contour's size: a part this flat is its chord
+constexpr double kFlatness = 1e-9;  // of the contour's size: a part this flat is its chord
+constexpr double kRounding = 4.0 * std::numeric_limits<double>::epsilon();  // of the coordinates
 constexpr int kDeepest = 60;                // halvings of a pair: beyond the digits of a double
 constexpr std::size_t kWorkPerPiece = 400;  // pairs looked at, before a tangle is given up
 constexpr double kLargestArcTurn = 1.0;     // rad, per conic that stands in for an arc
@@ -174,9 +176,19 @@ bool advance_together(const Part& a, const Part& b) {
   return true;
 }
 
+/// Every leg of the polygon advances along its chord: the curve does not meet itself.
+bool advances(const Part& part) {
+  const Vec2 chord = part.to() - part.from();
+  for (std::size_t j = 0; j < last(part.curve); ++j) {
+    if (!(dot(part.curve.offset[j + 1] - part.curve.offset[j], chord) > 0.0)) return false;
+  }
+  return true;
+}
+
 class CrossingCount {
  public:
-  explicit CrossingCount(const Contour& contour) : contour_(contour) {
+  CrossingCount(const Contour& contour, std::span<const std::size_t> turning)
+      : contour_(contour), turning_(turning) {
     const std::size_t n = contour.pieces.size();
     leaves_ = std::bit_ceil(n);
     boxes_.resize(2 * leaves_);
@@ -194,17 +206,34 @@ class CrossingCount {
         run_[i] = r;
       }
     }
-    tolerance_ = kFlatness *
-                 std::max(boxes_[1].high.x - boxes_[1].low.x, boxes_[1].high.y - boxes_[1].low.y);
+    part_runs_that_turn();
+    const Vec2 low = boxes_[1].low, high = boxes_[1].high;
+    const double coordinate =
+        std::max({std::abs(low.x), std::abs(low.y), std::abs(high.x), std::abs(high.y)});
+    tolerance_ =
+        std::max(kFlatness * std::max(high.x - low.x, high.y - low.y), kRounding * coordinate);
     work_left_ = kWorkPerPiece * (n + 16);
   }
 
   int run() {
     within(1, 0, leaves_);
+    for (const std::size_t i : turning_) {
+      for (const Part& part : parts_of(contour_.pieces[i])) alone(part, kDeepest);
+    }
     return count_;
   }
 
  private:
+  /// A run of pieces that are not all monotone is none: each of its pieces stands for itself.
+  void part_runs_that_turn() {
+    const std::size_t n = contour_.pieces.size();
+    std::vector<bool> turns(contour_.runs.size() + 1, false);
+    for (const std::size_t i : turning_) turns[run_[i]] = true;
+    for (std::size_t i = 0; i < n; ++i) {
+      if (turns[run_[i]]) run_[i] = contour_.runs.size() + 1 + i;
+    }
+  }
+
   /// Node of the tree of boxes over pieces [first, first + width).
   struct Node {
     std::size_t id, first, width;
@@ -261,6 +290,16 @@ class CrossingCount {
     }
   }
 
+  /// Where a piece meets itself.
+  void alone(const Part& part, int depth) {
+    if (work_left_ == 0 || depth == 0 || advances(part)) return;
+    --work_left_;
+    const auto half = part.halves();
+    alone(half[0], depth - 1);
+    alone(half[1], depth - 1);
+    adjacent(half[0], half[1], depth - 1);
+  }
+
   /// `a` ends where `b` begins; that joint is no crossing.
   void adjacent(const Part& a, const Part& b, int depth) {
     if (work_left_ == 0 || depth == 0 || advance_together(a, b)) return;
@@ -291,6 +330,7 @@ class CrossingCount {
   }
 
   const Contour& contour_;
+  std::span<const std::size_t> turning_;
   std::size_t leaves_ = 0;
   std::vector<Box> boxes_;
   std::vector<std::size_t> run_;
@@ -301,9 +341,9 @@ class CrossingCount {
 
 }  // namespace
 
-int count_crossings(const Contour& contour) {
-  if (contour.pieces.size() < 2) return 0;
-  return CrossingCount(contour).run();
+int count_crossings(const Contour& contour, std::span<const std::size_t> turning) {
+  if (contour.pieces.empty() || (contour.pieces.size() < 2 && turning.empty())) return 0;
+  return CrossingCount(contour, turning).run();
 }
 
 }  // namespace obvid

@@ -132,8 +132,10 @@ constexpr std::array kTexts{
     ErrorText{ErrorCode::kToleranceNotReached, "Tolerance not reached",
               "The region in which the contour is known to lie could not be made as narrow as the "
               "tolerance asks for, usually because the tolerance is near the rounding of the "
-              "coordinates.",
-              "Use a larger `--tolerance`."},
+              "coordinates. Or a carrier could not follow within it, or the digits of a file "
+              "format do not keep it; then no file was written.",
+              "Use a larger `--tolerance` (of a file: `--output-tolerance`), or another carrier "
+              "or format."},
     ErrorText{ErrorCode::kFalseClaim, "The contour file claims something false",
               "A figure or a verdict in the file does not agree with what its curve really is. The "
               "file was changed after it was written, or written by a faulty program.",

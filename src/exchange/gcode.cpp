@@ -73,7 +73,7 @@ class Program {
       path.start_at(start_point(contour_.pieces.front()));
       if (const auto done = follow(path, within); !done) return fail(done.error());
       deviation = path_distance(contour_.pieces, path.pieces());
-      if (path.pieces().empty()) break;
+      if (path.pieces().empty()) return fail(nothing_left());
       if (deviation <= options_.tolerance) return finished(path, deviation);
       within -= deviation - kOfBlockTolerance * options_.tolerance;
     }
@@ -84,6 +84,15 @@ class Program {
   }
 
  private:
+  /// All ends are printed as one place.
+  [[nodiscard]] Error nothing_left() const {
+    return {ErrorCode::kToleranceNotReached,
+            fmt::format("the contour is smaller than {} decimals can print", decimals_),
+            "",
+            "--units says what a unit is",
+            -1,
+            unit_};
+  }
   [[nodiscard]] int fewest_decimals() const {
     const int least = kLeastDecimals + (inches_ ? 1 : 0);
     const double digits = -std::log10(kDigitsOfTolerance * options_.tolerance * scale_);

@@ -135,7 +135,11 @@ void add_section(const SectionChain& section, Formed& formed) {
 class SectionForming {
  public:
   SectionForming(const Prepared& series, const FitJob& job, double tolerance, Watch& watch)
-      : series_(series), job_(job), tolerance_(tolerance), watch_(watch) {}
+      : series_(series),
+        job_(job),
+        tolerance_(tolerance),
+        watch_(watch),
+        have_spirals_(job.measure_against_spirals) {}
 
   Result<Formed> run() {
     for (std::size_t k = 0; k < series_.split.sections.size(); ++k) {
@@ -199,7 +203,7 @@ class SectionForming {
   }
 
   void keep(Result<Contour> spirals) {
-    have_spirals_ = have_spirals_ && job_.measure_against_spirals && spirals.has_value();
+    have_spirals_ = have_spirals_ && spirals.has_value();
     if (have_spirals_) spirals_.append(std::move(*spirals));
   }
 
@@ -219,7 +223,7 @@ class SectionForming {
   Watch& watch_;
   Formed out_;
   Assembly assembly_, spirals_;
-  bool have_spirals_ = true;
+  bool have_spirals_;  // as long as they are asked for, and all sections have them
 };
 
 Result<Formed> form_sections(const Prepared& series, const FitJob& job, double tolerance,
@@ -292,11 +296,12 @@ Result<void> keeps_convex(const Contour& contour, const Certificate& certificate
 Result<double> tolerance_of(const FitJob& job, const std::vector<Vec2>& points, double least) {
   if (!job.tolerance) return std::max(least, default_tolerance(points));
   if (std::isfinite(*job.tolerance) && *job.tolerance >= least) return *job.tolerance;
-  return fail({ErrorCode::kBadOption,
-               fmt::format("the tolerance must be finite and at least {:.2g} (1e-12 of the size, or "
-                           "the rounding of coordinates)",
-                           least),
-               "", "give a larger one, or none for the default", -1, *job.tolerance});
+  return fail(
+      {ErrorCode::kBadOption,
+       fmt::format("the tolerance must be finite and at least {:.2g} (1e-12 of the size, or "
+                   "the rounding of coordinates)",
+                   least),
+       "", "give a larger one, or none for the default", -1, *job.tolerance});
 }
 
 /// The contour, formed again with narrower reaches as long as it passes points too far.

@@ -244,7 +244,7 @@ void forget_beside_vertices(const std::vector<int>& direction, bool loop, FitRep
   const std::size_t n = direction.size();
   for (std::size_t k = 0; k < n; ++k) {
     double& error = report.segments[k].points_only_error;
-    if (direction[k] == 0) continue;  // points of one circle or line
+    if (error == 0.0) continue;  // points of one circle or line, and the contour is that
     const bool inner = k > 0 && k + 1 < n;
     if (!inner && !loop) continue;
     const int before = direction[(k + n - 1) % n], after = direction[(k + 1) % n];
@@ -284,17 +284,42 @@ std::vector<std::vector<std::size_t>> sections_of(const Contour& contour) {
   return out;
 }
 
+/// Errors of chords; `direction` is that of the contour beside each of them. Points of one circle
+/// leave nothing open where the contour is monotone along all of them: it is that circle.
+std::vector<double> errors_of(const Analysis& analysis, const std::vector<int>& direction) {
+  std::vector<double> errors;
+  for (std::size_t i = 0; i < analysis.chords.size(); ++i) {
+    errors.push_back(four_point_error(analysis, i));
+  }
+  for (const CircularStretch& s : analysis.stretches) {
+    int common = 0;
+    for (std::size_t i = s.first; i < s.last && common != kNotMonotone; ++i) {
+      common = common_direction(common, direction[i]);
+    }
+    for (std::size_t i = s.first; i < s.last && common != kNotMonotone; ++i) {
+      if (analysis.points_only_error[i] == 0.0) errors[i] = 0.0;
+    }
+  }
+  return errors;
+}
+
 /// Errors of the chords that the points of one section alone determine, where the contour meets
-/// them exactly.
+/// them exactly. `direction`: of the contour, row by row.
 Result<void> say_points(const Contour& contour, std::vector<std::size_t> section, bool loop,
-                        FitReport& report, std::size_t first_row) {
+                        const std::vector<int>& direction, FitReport& report,
+                        std::size_t first_row) {
   if (!promises_monotone(contour.carrier)) return {};
   if (loop) section.pop_back();  // its first point again
   std::vector<Vec2> points;
   for (const std::size_t i : section) points.push_back(contour.points[i]);
   const auto analysis = analyse(points);
   if (!analysis) return tl::unexpected(analysis.error());
-  std::vector<double> errors = analysis->points_only_error;
+  const auto rows_from = [&](std::size_t row, std::size_t count) {
+    std::vector<int> out;
+    for (std::size_t i = 0; i < count; ++i) out.push_back(direction[(row + i) % direction.size()]);
+    return out;
+  };
+  std::vector<double> errors = errors_of(*analysis, rows_from(first_row, section.size()));
   if (loop &&
       points.size() > kAroundSeam) {  // every chord has neighbours: once around and some more
     std::vector<Vec2> around = points;
@@ -302,8 +327,9 @@ Result<void> say_points(const Contour& contour, std::vector<std::size_t> section
     around.insert(around.end(), points.begin(), points.begin() + kAroundSeam + 1);
     const auto more = analyse(around);
     if (!more) return tl::unexpected(more.error());
-    errors.assign(more->points_only_error.begin() + kAroundSeam,
-                  more->points_only_error.end() - kAroundSeam);
+    const std::size_t before = points.size() - kAroundSeam;  // the row with which `around` begins
+    const std::vector<double> all = errors_of(*more, rows_from(before, around.size()));
+    errors.assign(all.begin() + kAroundSeam, all.end() - kAroundSeam);
   }
   for (std::size_t i = 0; i < errors.size(); ++i) {
     if (first_row + i >= report.segments.size()) break;
@@ -363,7 +389,7 @@ Result<FitReport> measure(const Contour& contour, double tolerance) {
       continue;
     }
     if (contour.point_tolerance.empty()) {
-      const auto said = say_points(contour, section, loop, report, row);
+      const auto said = say_points(contour, section, loop, direction, report, row);
       if (!said) return tl::unexpected(said.error());
     }
     report.vertices_lower_bound += forced(contour, section, loop);

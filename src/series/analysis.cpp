@@ -183,10 +183,9 @@ void bound_error(Analysis& a) {
   for (std::size_t i = 1; i + 1 < a.chords.size(); ++i) {
     // both circles reach over three points: they bound a curve that is monotone over three chords
     const int d = a.direction[i];
-    if (d == 0 || a.direction[i - 1] != d || a.direction[i + 1] != d) continue;
-    const double sag_before = std::tan(0.5 * a.circles[i].eta_out);
-    const double sag_after = std::tan(0.5 * a.circles[i + 1].eta_in);
-    a.points_only_error[i] = 0.5 * a.chords[i].length * std::abs(sag_after - sag_before);
+    const auto against = [d](int neighbour) { return neighbour != d && neighbour != 0; };
+    if (d == 0 || against(a.direction[i - 1]) || against(a.direction[i + 1])) continue;
+    a.points_only_error[i] = four_point_error(a, i);
   }
   for (const CircularStretch& s : a.stretches) {
     // two or three points lie on a circle whatever the curve; four say that it is the curve
@@ -209,6 +208,13 @@ Result<void> check_turning(Analysis& a) {
 }
 
 }  // namespace
+
+double four_point_error(const Analysis& a, std::size_t chord) {
+  if (chord == 0 || chord + 1 >= a.chords.size()) return std::numeric_limits<double>::quiet_NaN();
+  const double sag_before = std::tan(0.5 * a.circles[chord].eta_out);
+  const double sag_after = std::tan(0.5 * a.circles[chord + 1].eta_in);
+  return 0.5 * a.chords[chord].length * std::abs(sag_after - sag_before);
+}
 
 std::vector<Chord> measure_chords(const std::vector<Vec2>& points) {
   std::vector<Chord> chords(points.size() - 1);

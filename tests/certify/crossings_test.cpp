@@ -29,6 +29,36 @@ TEST(CountCrossings, PiecesOfOneRunAreNotCompared) {
   EXPECT_EQ(count_crossings(contour), 0);
 }
 
+TEST(CountCrossings, PiecesOfOneRunThatIsNotMonotoneAreCompared) {
+  Contour contour = each_its_own_run(
+      {LinePiece{{0, 0}, {1, 1}}, LinePiece{{1, 1}, {1, 0}}, LinePiece{{1, 0}, {0, 1}}});
+  contour.runs = {{0, 2, 0}};
+  EXPECT_EQ(count_crossings(contour, std::vector<std::size_t>{1}), 1);
+}
+
+TEST(CountCrossings, APieceThatIsNotMonotoneMayMeetItself) {
+  // y(t) = y(1 - t), and x(t) - x(1 - t) has one zero beside t = 1/2 there: a loop
+  const RationalBezier loop{{}, 3, {Vec2{0, 0}, {3, 2}, {-2, 2}, {1, 0}}, {1, 1, 1, 1}};
+  const Contour one = each_its_own_run({loop});
+  EXPECT_EQ(count_crossings(one, std::vector<std::size_t>{0}), 1);
+  const RationalBezier plain{{}, 3, {Vec2{0, 0}, {0.2, 2}, {0.8, 2}, {1, 0}}, {1, 1, 1, 1}};
+  EXPECT_EQ(count_crossings(each_its_own_run({plain}), std::vector<std::size_t>{0}), 0);
+}
+
+TEST(CountCrossings, CrossingsFarFromTheOriginAreFound) {
+  // digits of the coordinates end at 1e-7 of the size
+  const Vec2 far{0x1p23, 0x1p23};
+  const auto cubic = [&](Vec2 a, Vec2 b, Vec2 c, Vec2 d) {
+    return RationalBezier{{}, 3, {far + a, far + b, far + c, far + d}, {1, 1, 1, 1}};
+  };
+  constexpr double k = 0x1p-13;
+  EXPECT_EQ(
+      count_crossings(each_its_own_run({cubic({0, 0}, {k, 2 * k}, {2 * k, 3 * k}, {3 * k, 3 * k}),
+                                        LinePiece{far + Vec2{3 * k, 3 * k}, far + Vec2{3 * k, 0}},
+                                        cubic({3 * k, 0}, {2 * k, 0}, {k, k}, {0, 3 * k})})),
+      1);
+}
+
 TEST(CountCrossings, SharedJointIsNoCrossing) {
   EXPECT_EQ(
       count_crossings(each_its_own_run({LinePiece{{0, 0}, {1, 0}}, LinePiece{{1, 0}, {2, 1}}})), 0);

@@ -17,7 +17,7 @@ constexpr Real kSameFigure = 1e-9L;
 
 class AnalyseCheck {
  public:
-  AnalyseCheck(const Input& input, Sheet& sheet) : sheet_(sheet), unit_(input.units) {
+  AnalyseCheck(const Input& input, Sheet& sheet) : sheet_(sheet), unit_(input.printed_unit()) {
     const Point origin = input.points.front().point;
     for (const GivenPoint& p : input.points) {
       p_.push_back(seen(p.point, origin));
@@ -280,7 +280,11 @@ void check_compare(const Run& json, const Run& text, const Course& fit, Sheet& s
   }
   for (const std::string& line : lines_of(text.out)) {
     const std::vector<std::string> words = words_of(line);
-    if (words.size() < 11 || !rows.contains(words[0])) continue;
+    // sentences below the table begin with a carrier's name too
+    if (words.size() < 11 || !rows.contains(words[0]) ||
+        words[1].find_first_not_of("0123456789") != std::string::npos) {
+      continue;
+    }
     const Json& one = *rows[words[0]];
     if (member(one, "refusal").is_object()) continue;
     const char* names[] = {"pieces",      "control_points", "",          "vertices",

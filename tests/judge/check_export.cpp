@@ -56,7 +56,7 @@ class ExportCheck {
 
  private:
   void read_note(const std::string& text) {
-    const Sentence s = sentence_of(text, course_.file.units);
+    const Sentence s = sentence_of(text, course_.file.printed_unit());
     if (s.shape == "# block, # of them arcs, at most # U from the contour") {
       blocks_ = s.number(0);
       arcs_ = s.number(1);
@@ -65,6 +65,9 @@ class ExportCheck {
       allowed(s.figures[1]);
     } else if (s.shape.ends_with("follows them within # U")) {
       allowed(s.figures.back());
+    } else if (s.shape.starts_with("no unit is stated")) {
+      sheet_.expect(!course_.file.unit_known(), "export " + kind_ + " unit note", text,
+                    course_.file.units, name_);
     } else if (s.shape == "# entity, exact" || s.shape.starts_with("one NURBS curve of degree")) {
       return;
     } else if (!s.figures.empty()) {
@@ -86,10 +89,12 @@ class ExportCheck {
     }
     const auto unit = metres_of(course_.file.units);
     if (unit && kind_ != "nc") {
-      const bool same = drawing.metres && std::abs(*drawing.metres / *unit - 1.0) < 1e-9;
-      // another unit is no fault as long as coordinates are converted; none at all is
-      sheet_.expect(drawing.metres.has_value() || same, claim + " unit", std::string("none"),
-                    course_.file.units, name_);
+      // STEP needs one and converts; DXF states none that nobody said (docs/formats.md). Another
+      // unit is no fault as long as coordinates are converted
+      const bool stated = kind_ != "dxf" || course_.file.unit_known();
+      sheet_.expect(drawing.metres.has_value() == stated, claim + " unit",
+                    drawing.metres ? fmt::format("{} m", *drawing.metres) : std::string("none"),
+                    stated ? course_.file.units : "none: nobody said the unit", name_);
     }
     const Path path(drawing.spans);
     const Real scale = course_.ends.coordinate;

@@ -260,6 +260,9 @@ void check_input(const Course& course, const Input& input, Sheet& sheet) {
   const ContourFile& file = course.file;
   const Expected expected = expected_of(input);
   sheet.expect(file.units == input.units, "units", file.units, input.units, "");
+  // points without named columns: the user says the unit, or nobody does (docs/formats.md)
+  const std::string source = input.units_given ? "given" : "assumed";
+  sheet.expect(file.units_source == source, "units_source", file.units_source, source, "");
   sheet.expect(file.carrier == input.carrier, "carrier", file.carrier, input.carrier, "");
   sheet.expect(file.closed == expected.closed, "closed", file.closed ? "true" : "false",
                expected.closed ? "true" : "false", "");

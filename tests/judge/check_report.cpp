@@ -116,7 +116,12 @@ class ReportCheck {
     const char* claim = "segments.points_only_error";
     const Figure stated = figure(row, "points_only_error");
     if (!stated.present) return sheet_.missing(claim, where(part));
-    // a monotone curve along four points of one circle is that circle
+    if (!file_.promises_monotone()) {
+      sheet_.expect(stated.null(), claim, shown(stated.value.value_or(0.0)),
+                    std::string("null: the carrier promises no monotone curvature"), where(part));
+      return;
+    }
+    // a contour that is monotone along four points of one circle is that circle
     const bool circular = file_.tolerance.empty() && on_circle(part);
     if (circular && (stated.null() || stated.value == 0.0)) return sheet_.holds(claim);
     const auto four = four_points(part);
@@ -145,7 +150,8 @@ class ReportCheck {
                   claim, *stated.value, found, where(part));
   }
 
-  /// Whether four neighbouring points around the part's chord lie on one circle, within rounding.
+  /// Whether four neighbouring points around the part's chord lie on one circle, within rounding,
+  /// and the contour is monotone along them.
   [[nodiscard]] bool on_circle(const Part& part) const {
     const std::size_t n = file_.points.size();
     for (std::size_t back = 0; back < 3 && n >= 4; ++back) {
@@ -156,7 +162,8 @@ class ReportCheck {
       const auto [k0, k1, h] = adjacent(four);
       const Real shortest = std::min({norm(p(1) - p(0)), h, norm(p(3) - p(2))});
       const Real blur = rounding_of_circles(four) / (shortest * shortest);
-      if (std::abs(k1 - k0) <= blur + 1e-12L * std::abs(k0)) return true;
+      const bool circle = std::abs(k1 - k0) <= blur + 1e-12L * std::abs(k0);
+      if (circle && monotone_along(part, back)) return true;
     }
     return false;
   }
@@ -179,14 +186,17 @@ class ReportCheck {
     return {kappa(p(0), p(1), p(2)), kappa(p(1), p(2), p(3)), norm(p(2) - p(1))};
   }
 
-  [[nodiscard]] bool monotone_around(const Part& part) const {
-    const auto k = static_cast<std::size_t>(&part - course_.parts.data());
+  [[nodiscard]] bool monotone_around(const Part& part) const { return monotone_along(part, 1); }
+  /// Along three parts of which `back` lie before this one.
+  [[nodiscard]] bool monotone_along(const Part& part, std::size_t back) const {
+    const auto own = static_cast<std::size_t>(&part - course_.parts.data());
     const std::size_t n = course_.parts.size();
-    if (!file_.closed && (k == 0 || k + 1 >= n)) return false;
+    if (n < 3 || (!file_.closed && (own < back || own + 2 - back >= n))) return false;
+    const std::size_t k = (own + n + 1 - back) % n;  // the one in the middle
     const Part &before = course_.parts[(k + n - 1) % n], &after = course_.parts[(k + 1) % n];
     if (k > 0 && k + 1 < n) return course_.monotone(before.from, after.to);
     // over the seam: both sides, and both the same way
-    if (n < 3 || file_.corner_at(0)) return false;
+    if (file_.corner_at(0)) return false;
     const Real end = course_.path.end();
     const Real rise = course_.element(end, false).kappa - course_.element(before.from, true).kappa;
     const Real then = course_.element(after.to, false).kappa - course_.element(0.0L, true).kappa;

@@ -86,6 +86,10 @@ ContourFile contour_of(const Json& json) {
     throw std::runtime_error("not a contour file of version 1");
   }
   out.units = json.at("units").string();
+  out.units_source = json.contains("units_source") ? json.at("units_source").string() : "file";
+  if (out.units_source != "file" && out.units_source != "given" && out.units_source != "assumed") {
+    throw std::runtime_error("units_source is none of file, given, assumed");
+  }
   out.carrier = json.at("carrier").string();
   out.closed = json.at("closed").truth();
   out.points = points_of(json.at("points"));

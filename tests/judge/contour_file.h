@@ -32,6 +32,7 @@ struct FileSpline {
 
 struct ContourFile {
   std::string units, carrier;
+  std::string units_source;  ///< file, given, assumed
   bool closed = false;
   std::vector<Point> points;
   std::vector<double> tolerance;  ///< empty: points are met exactly
@@ -41,6 +42,11 @@ struct ContourFile {
   std::optional<FileSpline> spline;
   Json report, certificate;
   Json given;  ///< what the user fixed; null where the file has no such list
+
+  /// Somebody said what a unit is.
+  [[nodiscard]] bool unit_known() const { return units_source != "assumed"; }
+  /// What stands behind lengths in texts.
+  [[nodiscard]] std::string printed_unit() const { return unit_known() ? units : "units"; }
 
   /// Joint that stands between piece i - 1 and piece i; nullptr past an end.
   [[nodiscard]] const FileElement* joint(std::size_t i) const;

@@ -113,7 +113,10 @@ class Options {
   void set(const std::string& name, const std::string& value) {
     const double number = std::strtod(value.c_str(), nullptr);
     if (name == "--carrier") input_.carrier = value;
-    if (name == "--units") input_.units = value;
+    if (name == "--units") {
+      input_.units = value;
+      input_.units_given = true;
+    }
     if (name == "--tolerance") input_.tolerance = number;
     if (name == "--noise" && value == "rounding") input_.rounding = true;
     if (name == "--noise" && value != "rounding") input_.noise = number;

@@ -29,6 +29,9 @@ struct Truth {
 struct Input {
   std::vector<GivenPoint> points;  ///< repeats merged
   std::string units = "mm", carrier = "spiral";
+  bool units_given = false;
+  /// What stands behind lengths in texts.
+  [[nodiscard]] std::string printed_unit() const { return units_given ? units : "units"; }
   std::optional<double> tolerance, noise;
   bool rounding = false, closed = false, open = false, convex = false, primitives = false;
   std::optional<Truth> truth;

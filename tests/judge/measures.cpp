@@ -127,6 +127,9 @@ std::optional<int> count_crossings(const Course& course) {
   }
   const auto low = [](const Chord& c) { return std::min(c.a.x, c.b.x); };
   const auto high = [](const Chord& c) { return std::max(c.a.x, c.b.x); };
+  // a curve that returns to its start is there once, whatever rounding makes of it
+  const bool returns = norm(chords.front().a - chords.back().b) <= course.resolution();
+  const std::size_t all = chords.size();
   std::sort(chords.begin(), chords.end(),
             [&](const Chord& a, const Chord& b) { return low(a) < low(b); });
   int count = 0;
@@ -135,7 +138,7 @@ std::optional<int> count_crossings(const Course& course) {
       const std::size_t apart = chords[i].index > chords[j].index
                                     ? chords[i].index - chords[j].index
                                     : chords[j].index - chords[i].index;
-      const bool neighbours = apart == 1 || (course.file.closed && apart == chords.size() - 1);
+      const bool neighbours = apart == 1 || ((course.file.closed || returns) && apart == all - 1);
       if (!neighbours && crosses(chords[i], chords[j])) ++count;
     }
   }

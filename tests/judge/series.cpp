@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
 
@@ -69,18 +70,24 @@ Motion make_motion(Dice& dice, Real shape_size) {
 
 class SeriesMaker {
  public:
-  SeriesMaker(std::uint64_t seed, std::uint64_t index) : dice_(seed * 0x100000001B3ULL ^ index) {
-    for (int i = 0; i < 4; ++i) dice_.next();
+  SeriesMaker(std::uint64_t seed, std::uint64_t index)
+      : dice_(seed * 0x100000001B3ULL ^ index), thinning_(~seed * 0x100000001B3ULL ^ index) {
+    for (int i = 0; i < 4; ++i) {
+      dice_.next();
+      thinning_.next();
+    }
   }
 
   Series run() {
     Shape shape = make_shape(dice_);
+    while (shape.points.size() < 3 && !keeps_what_is_refused()) shape = make_shape(dice_);
     const Motion motion = make_motion(dice_, size_of(shape.points));
     std::vector<Vec> points;
     for (const Vec p : shape.points) points.push_back(motion.of(p));
     size_ = static_cast<double>(size_of(points));
     out_.family = shape.family;
     choose_options(shape);
+    drop_contradictions(shape);
     if (shape.truth) move_truth(*shape.truth, motion);
     if (dice_.chance(0.1)) disturb(points);
     write(points);
@@ -119,6 +126,41 @@ class SeriesMaker {
     if (dice_.chance(0.05)) add("--no-corners");
   }
 
+  /// What no contour can keep must be refused, which one in three such series shows.
+  bool keeps_what_is_refused() { return thinning_.chance(1.0 / 3.0); }
+
+  /// Options that the shape itself contradicts.
+  void drop_contradictions(const Shape& shape) {
+    const bool bends = !turns_one_way(shape.points);
+    const bool closed = has("--closed") || (shape.closed && !has("--open"));
+    const std::string carrier = carrier_of_options();
+    const bool no_chain =
+        (carrier == "beziers" && bends) || (carrier == "conics" && (bends || closed));
+    if (no_chain && !keeps_what_is_refused()) drop("--carrier", 2);
+    if (has("--convex") && bends && !keeps_what_is_refused()) drop("--convex", 1);
+  }
+  [[nodiscard]] bool has(const std::string& option) const {
+    return std::find(out_.options.begin(), out_.options.end(), option) != out_.options.end();
+  }
+  [[nodiscard]] std::string carrier_of_options() const {
+    const auto at = std::find(out_.options.begin(), out_.options.end(), "--carrier");
+    return at == out_.options.end() ? "spiral" : *(at + 1);
+  }
+  void drop(const std::string& option, std::ptrdiff_t words) {
+    const auto at = std::find(out_.options.begin(), out_.options.end(), option);
+    if (at != out_.options.end()) out_.options.erase(at, at + words);
+  }
+  static bool turns_one_way(const std::vector<Vec>& points) {
+    int side = 0;
+    for (std::size_t i = 1; i + 1 < points.size(); ++i) {
+      const Real turn = cross(points[i] - points[i - 1], points[i + 1] - points[i]);
+      const int now = turn > 0.0L ? 1 : turn < 0.0L ? -1 : 0;
+      if (now * side < 0) return false;
+      if (now != 0) side = now;
+    }
+    return true;
+  }
+
   void move_truth(const Truth& truth, const Motion& motion) {
     Truth moved = truth;
     moved.at = [at = truth.at, motion](Real t) { return motion.of(at(t)); };
@@ -141,7 +183,9 @@ class SeriesMaker {
     const bool rounded = dice_.chance(0.15);
     const int decimals = 6 - static_cast<int>(std::floor(std::log10(size_)));
     if (rounded && decimals >= 0 && decimals < 15) {
-      if (dice_.chance(0.6)) add("--noise", "rounding");
+      const bool wanted = dice_.chance(0.6);
+      // twice is an error
+      if (wanted && (!has("--noise") || keeps_what_is_refused())) add("--noise", "rounding");
       out_.truth.reset();
     }
     const bool tolerances = dice_.chance(0.05);
@@ -168,6 +212,9 @@ class SeriesMaker {
       const int i = kind < 4 ? (kind % 2 == 0 ? 1 : n) : dice_.whole(1, n);
       const bool honest = out_.truth.has_value() && dice_.chance(0.7);
       const auto [heading, kappa] = honest ? true_data(i) : random_data(points, i);
+      if (!honest && !keeps_what_is_refused()) continue;  // mostly contradictory
+      if (wished_[static_cast<std::size_t>(kind)] && !keeps_what_is_refused()) continue;  // twice
+      wished_[static_cast<std::size_t>(kind)] = true;
       const std::string radius = kappa == 0.0 ? "inf" : digits(1.0 / kappa);
       if (kind == 0) add("--start-heading=" + digits(heading));
       if (kind == 1) add("--end-heading=" + digits(heading));
@@ -206,6 +253,8 @@ class SeriesMaker {
   }
 
   Dice dice_;
+  Dice thinning_;  // of its own: the series that stay are the same
+  std::array<bool, 7> wished_{};
   Series out_;
   double size_ = 1.0;
 };

@@ -164,7 +164,8 @@ class Work {
       if (stopped_) return;
       check_fit_json(course, json, out_.sheet);
     }
-    if (dice_.chance(0.05) && series_.points < 60) compare(course);
+    // it forms all carriers again and again, to time them
+    if (dice_.chance(0.02) && series_.points < 60) compare(course);
     if (!stopped_ && dice_.chance(0.1)) convert(course);
   }
 
@@ -198,7 +199,7 @@ class Work {
       return;
     }
     const std::string text = text_of_file(path(other));
-    if (other == "d.json") return back(course, text, 0.0);
+    if (other == "d.json") return back(course, text, 0.0, true);
     check_export(course, other, text, notes_of(there.out, other), out_.sheet);
     if (other == "d.nc") return;
     const bool approximate = there.out.find("follows them") != std::string::npos ||
@@ -210,14 +211,19 @@ class Work {
                        again.err.substr(0, 200));
       return;
     }
-    back(course, text_of_file(path("e.json")), 1e-9);
+    // STEP must have a unit, assumed or not; DXF states none that nobody said
+    back(course, text_of_file(path("e.json")), 1e-9, other == "d.dxf");
   }
 
-  void back(const Course& course, const std::string& text, double part) {
+  void back(const Course& course, const std::string& text, double part, bool unit_kept) {
     const ReadContour read = read_contour(text);
     if (!read.fault.empty()) {
       out_.sheet.fails("convert back", "a contour", read.fault, "");
       return;
+    }
+    if (unit_kept) {
+      out_.sheet.expect(read.contour.unit_known() == course.file.unit_known(), "convert back unit",
+                        read.contour.units_source, course.file.units_source, "");
     }
     const auto mine = metres_of(course.file.units), other = metres_of(read.contour.units);
     if ((mine.has_value() != other.has_value()) && part > 0.0) {
@@ -244,7 +250,9 @@ class Work {
   }
 
   void analyse(const Input& input) {
-    const Run text = program("analyse", {"analyse", kPoints, "--units", input.units});
+    std::vector<std::string> words{"analyse", kPoints};
+    if (input.units_given) words.insert(words.end(), {"--units", input.units});
+    const Run text = program("analyse", words);
     if (stopped_ || text.code != 0) return;
     const Run json = program("analyse --json", {"analyse", kPoints, "--json"});
     if (stopped_ || json.code != 0) return;
@@ -253,6 +261,11 @@ class Work {
 
   void refusal(const Run& fit) {
     check_exit(nullptr, fit, out_.sheet);
+    for (const std::string& file : exports_) {
+      const bool untouched = text_of_file(path(file)).empty();
+      out_.sheet.expect(untouched, "refusal leaves files untouched", file,
+                        untouched ? "nothing" : "written", "");
+    }
     const std::string within = "within a tolerance of ";
     const std::size_t at = fit.err.find(within);
     if (at == std::string::npos || !dice_.chance(0.25)) return;

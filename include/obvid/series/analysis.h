@@ -71,6 +71,10 @@ struct Analysis {
 /// degrees or more, naming the point. Cost O(n).
 [[nodiscard]] Result<Analysis> analyse(const std::vector<Vec2>& points);
 
+/// Largest distance between two curves of monotone curvature through the chord's ends and their
+/// neighbours: between both adjacent circles. NaN on the first and last chord.
+[[nodiscard]] double four_point_error(const Analysis& analysis, std::size_t chord);
+
 /// Chords and adjacent circles alone, for distinct points (at least 2). Cost O(n).
 [[nodiscard]] std::vector<Chord> measure_chords(const std::vector<Vec2>& points);
 [[nodiscard]] std::vector<AdjacentCircle> measure_circles(const std::vector<Vec2>& points,

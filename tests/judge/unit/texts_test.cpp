@@ -163,6 +163,60 @@ TEST(JudgeTexts, FindsDxfOfAnotherCurve) {
             0);
 }
 
+/// The sound contour, with a unit that nobody stated.
+struct AssumedUnit {
+  ReadContour read = read_contour(changed(
+      data("judge/series10.json"), "\"units_source\": \"given\"", "\"units_source\": \"assumed\""));
+  Course course{read.contour};
+};
+
+TEST(JudgeTexts, AUnitThatNobodyStatedIsNotPrinted) {
+  const AssumedUnit one;
+  const Course& course = one.course;
+  judge::Run run;
+  run.input_name = "points.csv";
+  run.out = "lengths in units\nlargest move  0 units\n";
+  Sheet right;
+  check_fit_text(course, run, right);
+  EXPECT_EQ(all_false(right), "");
+  EXPECT_EQ(right.counts().at("text: largest move").judged, 1);
+  run.out = "lengths in mm\n";
+  Sheet wrong;
+  check_fit_text(course, run, wrong);
+  EXPECT_TRUE(wrong.has("text: unit"));
+}
+
+TEST(JudgeTexts, DxfStatesNoUnitThatNobodyStated) {
+  const AssumedUnit one;
+  const Course& course = one.course;
+  const std::string sound = data("judge/series10.dxf");
+  Sheet stated, none, note;
+  check_export(course, "c.dxf", sound, {"1 entity, exact"}, stated);
+  EXPECT_TRUE(stated.has("export dxf unit"));
+  check_export(course, "c.dxf", changed(sound, "$INSUNITS", "$NOTHING"),
+               {"1 entity, exact", "no unit is stated in the DXF file"}, none);
+  EXPECT_EQ(all_false(none), "");
+  const Case known;
+  check_export(known.course, "c.dxf", sound, {"no unit is stated in the DXF file"}, note);
+  EXPECT_TRUE(note.has("export dxf unit note"));
+}
+
+TEST(JudgeTexts, WithoutAFileTheExitCodeAndTheMessageSayWhy) {
+  const auto of_exit = [](int code, const std::string& err) {
+    judge::Run run;
+    run.code = code;
+    run.err = err;
+    Sheet sheet;
+    check_exit(nullptr, run, sheet);
+    return sheet.has("exit code");
+  };
+  EXPECT_FALSE(of_exit(4, "obvid: error E401: no"));
+  EXPECT_FALSE(of_exit(5, "obvid: error E502: 4 decimals do not keep a tolerance"));
+  EXPECT_TRUE(of_exit(5, "obvid: error E501: not proved"));
+  EXPECT_TRUE(of_exit(0, ""));
+  EXPECT_TRUE(of_exit(4, ""));
+}
+
 Sheet of_input(const std::string& points, const std::vector<std::string>& options) {
   const Case one;
   Sheet sheet;
@@ -172,8 +226,9 @@ Sheet of_input(const std::string& points, const std::vector<std::string>& option
 
 TEST(JudgeTexts, FindsGivenDataThatAreNotKept) {
   const std::string points = data("judge/points.csv");
-  EXPECT_EQ(all_false(of_input(points, {})), "");
+  EXPECT_EQ(all_false(of_input(points, {"--units", "mm"})), "");
   EXPECT_TRUE(of_input(points, {"--units", "in"}).has("units"));
+  EXPECT_TRUE(of_input(points, {}).has("units_source"));  // nobody said mm
   EXPECT_TRUE(of_input(points, {"--closed"}).has("closed"));
   EXPECT_TRUE(of_input(points, {"--carrier", "arcs"}).has("carrier"));
   EXPECT_TRUE(of_input(points, {"--tolerance", "0.01"}).has("report.tolerance"));
