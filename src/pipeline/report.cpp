@@ -401,7 +401,40 @@ Result<FitReport> measure(const Contour& contour, double tolerance) {
   return report;
 }
 
+namespace {
+
+/// A figure of a part speaks of curves that are monotone as its pieces were meant to be. Where the
+/// proof found them otherwise it speaks of nothing.
+void forget_unproved(const Certificate& certificate, const Contour& contour, FitReport& report) {
+  if (certificate.proved || !promises_monotone(contour.carrier)) return;
+  if (contour.carrier == Carrier::kArcs) return;  // every piece is an arc: nothing to prove
+  const std::vector<int> direction = piece_directions(contour);
+  const std::vector<Part> parts = parts_of(contour);
+  for (std::size_t r = 0; r < parts.size() && r < report.segments.size(); ++r) {
+    bool as_meant = true;
+    for (std::size_t k = parts[r].first_piece; k <= parts[r].last_piece; ++k) {
+      if (is_kept(contour, k) || k >= certificate.pieces.size()) continue;
+      const Verdict verdict = certificate.pieces[k].verdict;
+      const int found = verdict == Verdict::kIncreasing   ? 1
+                        : verdict == Verdict::kDecreasing ? -1
+                                                          : 0;
+      as_meant = as_meant && (verdict == Verdict::kConstant || (found != 0 && found == direction[k]));
+    }
+    if (as_meant) continue;
+    SegmentReport& row = report.segments[r];
+    row.points_only_error = row.width = row.width_unrefined = row.deviation = kUnknown;
+    report.largest_width = kUnknown;
+  }
+  report.largest_deviation = 0.0;
+  for (const SegmentReport& row : report.segments) {
+    if (row.deviation > report.largest_deviation) report.largest_deviation = row.deviation;
+  }
+}
+
+}  // namespace
+
 void settle_with(const Certificate& certificate, const Contour& contour, FitReport& report) {
+  forget_unproved(certificate, contour, report);
   report.vertices = certificate.vertices;
   report.inflections = certificate.inflections;
   report.largest_move = certificate.largest_move;

@@ -286,7 +286,7 @@ Verification verify(const StoredContour& stored) {
     compare_report(*stored.report, found, comparison);
     compare_with_spirals(stored.contour, *stored.report, comparison);
     const bool bounded = promises_monotone(stored.contour.carrier);
-    if (bounded && !(found.largest_width <= stored.report->tolerance)) {
+    if (bounded && found.largest_width > stored.report->tolerance) {
       comparison.refuse("a tolerance above the largest width", stored.report->tolerance,
                         found.largest_width);
     }

@@ -72,27 +72,41 @@ Real outside_region(const Course& course, Real a, Real b) {
 
 ElementGap worst_element_gap(const Course& course) {
   ElementGap out;
-  const auto compare = [&](std::size_t j, const End& end, Point point, double heading,
-                           double kappa) {
-    const double position = norm(end.point - BallVec{point.x, point.y}).lower() / course.ends.size;
+  // what an element says lies between both ends that meet there: how far these are apart is what
+  // `joint_gaps` tells
+  const auto compare = [&](std::size_t j, const End& left, const End& right, Point point,
+                           double heading, double kappa) {
     BallVec direction;
     sin_cos(Ball(heading), direction.y, direction.x);
-    const double angle = abs(angle_between(direction, end.tangent)).lower();
-    const Ball scale = larger(abs(end.kappa), Ball(std::abs(kappa)));
-    const double bend = scale.sign() == 1 ? (abs(end.kappa - Ball(kappa)) / scale).lower() : 0.0;
+    const auto turned = [](const BallVec& a, const BallVec& b) {
+      return abs(angle_between(a, b));
+    };
+    const Ball beyond = turned(direction, left.tangent) + turned(direction, right.tangent) -
+                        turned(left.tangent, right.tangent);
+    const double angle = (Ball(0.5) * beyond).lower();
+    double bend = 0.0;
+    const Ball to_left = left.kappa - Ball(kappa), to_right = right.kappa - Ball(kappa);
+    if (to_left.sign() * to_right.sign() == 1) {
+      const Ball scale = larger(larger(abs(left.kappa), abs(right.kappa)), Ball(std::abs(kappa)));
+      bend = std::min((abs(to_left) / scale).lower(), (abs(to_right) / scale).lower());
+    }
     if (angle > out.heading) out.at = j;
-    out.position = std::max(out.position, position);
+    for (const End* end : {&left, &right}) {
+      const double far = norm(end->point - BallVec{point.x, point.y}).lower() / course.ends.size;
+      out.position = std::max(out.position, far);
+    }
     out.heading = std::max(out.heading, angle);
     if (course.file.carrier != "arcs") out.curvature = std::max(out.curvature, bend);
   };
-  for (std::size_t i = 0; i < course.file.pieces.size(); ++i) {
-    if (const FileElement* e = course.file.joint(i)) {
-      compare(i, course.ends.start[i], e->point, e->corner ? e->heading_out : e->heading,
-              e->corner ? e->kappa_out : e->kappa);
-    }
-    if (const FileElement* e = course.file.joint(i + 1)) {
-      compare(i + 1, course.ends.end[i], e->point, e->heading, e->kappa);
-    }
+  const std::size_t n = course.file.pieces.size();
+  for (std::size_t j = 0; j <= n; ++j) {
+    const FileElement* e = course.file.joint(j);
+    if (e == nullptr || (course.file.closed && j == n)) continue;
+    const bool comes = j > 0 || course.file.closed, goes = j < n;
+    const End& left = comes ? course.ends.end[(j + n - 1) % n] : course.ends.start[0];
+    const End& right = goes ? course.ends.start[j] : left;
+    compare(j, left, e->corner ? left : right, e->point, e->heading, e->kappa);
+    if (e->corner) compare(j, right, right, e->point, e->heading_out, e->kappa_out);
   }
   return out;
 }
