@@ -289,7 +289,8 @@ std::vector<std::vector<std::size_t>> sections_of(const Contour& contour) {
 std::vector<double> errors_of(const Analysis& analysis, const std::vector<int>& direction) {
   std::vector<double> errors;
   for (std::size_t i = 0; i < analysis.chords.size(); ++i) {
-    errors.push_back(four_point_error(analysis, i));
+    const double error = four_point_error(analysis, i);
+    errors.push_back(error > 0.0 ? error : kUnknown);  // on one circle: below
   }
   for (const CircularStretch& s : analysis.stretches) {
     int common = 0;
@@ -425,9 +426,9 @@ void forget_unproved(const Certificate& certificate, const Contour& contour, Fit
     row.points_only_error = row.width = row.width_unrefined = row.deviation = kUnknown;
     report.largest_width = kUnknown;
   }
-  report.largest_deviation = 0.0;
+  report.largest_deviation = kUnknown;
   for (const SegmentReport& row : report.segments) {
-    if (row.deviation > report.largest_deviation) report.largest_deviation = row.deviation;
+    report.largest_deviation = std::fmax(report.largest_deviation, row.deviation);
   }
 }
 

@@ -22,15 +22,15 @@ constexpr std::size_t kStepsAmongMany = 4;
 constexpr double kCouldBeMore = 0.8;
 /// Steps into which the neighbourhood of such a peak is cut first: the nearer arc of a boundary may
 /// change there, which bends the distance.
-constexpr std::size_t kFinerSteps = 12;
+constexpr std::size_t kFinerSteps = 24;
 constexpr double kFinerCouldBeMore = 0.98;
 /// Steps of a climb: parabolas converge faster than geometrically.
 constexpr int kMostSteps = 16;
 /// Places this close, of the three samples that a climb begins with, enclose the top: what can lie
 /// between them is some 1e-5 of it.
 constexpr double kClose = 2e-3;
-/// Added for what rounding leaves of a flat top, of the distance.
-constexpr double kUpward = 1e-9;
+/// Added for what may lie between two places where the nearer arc changes, of the distance.
+constexpr double kUpward = 3e-4;
 /// Roundings of a point seen from the start of its chord, each 2^-53 of the coordinates' size.
 constexpr double kPointRoundings = 8.0 * 0x1p-53;
 
