@@ -6,10 +6,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <complex>
 
 #include "double_double.h"
-#include "obvid/numeric/internal/bernstein.h"
 
 namespace obvid {
 namespace {
@@ -27,70 +25,6 @@ bool is_ellipse(const RationalBezier& piece) {
                                    scale * piece.weight[2]};
   const DoubleDouble square = two_product(w[1], w[1]), ends = two_product(w[0], w[2]);
   return square.hi != ends.hi ? square.hi < ends.hi : square.lo < ends.lo;
-}
-
-// A rational quartic N/W is the Moebius image of a conic, as the spirals in closed form are, when
-// it is a quotient M/D of complex quadratics: N and W have a common factor of degree two. Then N D
-// - W M = 0 has a solution, which are seven linear equations for the six coefficients of D and M.
-constexpr std::size_t kEquations = 7;
-constexpr std::size_t kUnknowns = 6;
-using Column = std::array<std::complex<double>, kEquations>;
-
-std::complex<double> product(const Column& a, const Column& b) {
-  std::complex<double> sum = 0.0;
-  for (std::size_t i = 0; i < kEquations; ++i) sum += std::conj(a[i]) * b[i];
-  return sum;
-}
-
-double squared(const Column& a) {
-  double sum = 0.0;
-  for (const std::complex<double>& z : a) sum += std::norm(z);
-  return sum;
-}
-
-/// How far the columns are from being dependent: what is left of the last of them, the longest
-/// first, once the parts along the others are taken away.
-double independence(std::array<Column, kUnknowns> columns) {
-  double left = 0.0;
-  for (std::size_t k = 0; k < kUnknowns; ++k) {
-    const auto longest =
-        std::max_element(columns.begin() + static_cast<std::ptrdiff_t>(k), columns.end(),
-                         [](const Column& a, const Column& b) { return squared(a) < squared(b); });
-    std::swap(columns[k], *longest);
-    left = std::sqrt(squared(columns[k]));
-    if (left == 0.0) return 0.0;
-    for (std::complex<double>& z : columns[k]) z /= left;
-    for (std::size_t j = k + 1; j < kUnknowns; ++j) {
-      const std::complex<double> along = product(columns[k], columns[j]);
-      for (std::size_t i = 0; i < kEquations; ++i) columns[j][i] -= along * columns[k][i];
-    }
-  }
-  return left;
-}
-
-bool has_closed_form(const RationalBezier& piece) {
-  constexpr std::size_t kDegree = 4;
-  double extent = 0.0, coordinate = 0.0, heaviest = 0.0;
-  for (std::size_t j = 0; j <= kDegree; ++j) {
-    extent = std::max(extent, norm(piece.offset[j] - piece.offset[0]));
-    coordinate = std::max(coordinate, norm(piece.offset[j]));
-    heaviest = std::max(heaviest, piece.weight[j]);
-  }
-  std::array<Column, kUnknowns> columns{};
-  for (std::size_t j = 0; j <= kDegree; ++j) {
-    const double w = binomial(kDegree, static_cast<int>(j)) * (piece.weight[j] / heaviest);
-    const Vec2 q = (piece.offset[j] - piece.offset[0]) / extent;
-    for (std::size_t shift = 0; shift < kUnknowns / 2; ++shift) {
-      columns[shift][j + shift] = {w * q.x, w * q.y};
-      columns[kUnknowns / 2 + shift][j + shift] = -w;
-    }
-  }
-  // what rounded control points and weights leave of an exact solution, with room
-  constexpr double kRoundings = 4096.0;
-  const double rounding = kUnitRoundoff * kRoundings * (1.0 + coordinate / extent);
-  // control points are moved along tangents, and weights with them, to keep curvatures at joints
-  constexpr double kMoved = 1e-7;  // of a leg
-  return independence(columns) <= std::max(rounding, kMoved);
 }
 
 std::string name_of(const Piece& piece) {
@@ -116,8 +50,9 @@ struct Kinds {
 Kinds kinds_of(Carrier carrier) {
   switch (carrier) {
     case Carrier::kSpiral:
-      return {"rational quartics in the closed form, arcs and lines", true, true, false,
-              [](const RationalBezier& b) { return b.degree == 4 && has_closed_form(b); }};
+      // in closed form but for what keeps the digits of curvature at joints (curve/end_curvatures.h)
+      return {"rational quartics, arcs and lines", true, true, false,
+              [](const RationalBezier& b) { return b.degree == 4; }};
     case Carrier::kArcs:
       return {"arcs and lines", true, true, false, nullptr};
     case Carrier::kConics:

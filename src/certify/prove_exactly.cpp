@@ -89,10 +89,10 @@ PieceFacts examine_exactly(const RationalBezier& piece) {
 
 std::vector<int> curvature_changes_exactly(const RationalBezier& piece) {
   std::vector<int> signs;
-  with_degree(piece.degree, [&]<int N>() -> PieceFacts {
+  static_cast<void>(with_degree(piece.degree, [&]<int N>() -> PieceFacts {
     static_cast<void>(sign_changes(whole_differences<N>(piece), CurvatureForm<N, double>{}, signs));
     return {};
-  });
+  }));
   return signs;
 }
 

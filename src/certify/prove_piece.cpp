@@ -245,11 +245,11 @@ std::vector<int> curvature_changes(const RationalBezier& piece) {
   if (!unit) return {};
   std::vector<int> signs;
   bool sure = false;
-  with_degree(piece.degree, [&]<int N>() -> PieceFacts {
+  static_cast<void>(with_degree(piece.degree, [&]<int N>() -> PieceFacts {
     const auto majorant = majorant_of(differences_in_doubles<N>(*unit));
     sure = sign_changes(exact_differences<N>(*unit), majorant, signs);
     return {};
-  });
+  }));
   return sure ? signs : curvature_changes_exactly(piece);
 }
 
