@@ -103,6 +103,7 @@ class CornerSearch {
   [[nodiscard]] bool is_corner(std::size_t i, double turn, double noise, double chord) const;
   [[nodiscard]] bool ends_arc_at_edge(std::size_t i) const;
   [[nodiscard]] bool is_base(const Arm& beside, const Arm& other, double total) const;
+  [[nodiscard]] static bool is_edge(const Arm& beside, const Arm& other, double turn);
   [[nodiscard]] std::optional<Forecast> forecast(const Arm& arm, std::size_t skip) const;
   [[nodiscard]] bool is_bent(std::size_t i, bool forwards, const Arm& arm, double noise) const;
 
@@ -199,6 +200,19 @@ bool CornerSearch::is_base(const Arm& beside, const Arm& other, double total) co
   return total >= kSharpTurn && base <= kSmallBase * size_;
 }
 
+/// Whether the first chord of `beside` is an edge between two calm sides, with a corner at either
+/// end that a bend which goes on along the edge does not explain.
+bool CornerSearch::is_edge(const Arm& beside, const Arm& other, double turn) {
+  if (std::max(std::abs(beside.turn[1]), std::abs(other.turn[0])) > kCalmTurn) return false;
+  const double edge = beside.length[0];
+  if (edge * kShortBase < std::max(beside.length[1], other.length[0])) return false;
+  const double here = std::abs(other.turn[0]) / (other.length[0] + other.length[1]);
+  const double there = std::abs(beside.turn[1]) / (beside.length[1] + beside.length[2]);
+  const double foretold = edge * std::max(here, there);  // half of the turn along it, at either end
+  return std::min(std::abs(turn), std::abs(beside.turn[0])) >=
+         kEdgeTurn + kExplainFactor * foretold;
+}
+
 /// Whether points passed by the first chord lie off it by more than noise and its own bend: a round
 /// corner that the long chord cuts off.
 bool CornerSearch::is_bent(std::size_t i, bool forwards, const Arm& arm, double noise) const {
@@ -239,6 +253,8 @@ bool CornerSearch::is_corner(std::size_t i, double turn, double noise, double ch
       if (is_base(a, arms[1 - side], both)) {
         skip = 1;
         total = both;
+      } else if (is_edge(a, arms[1 - side], turn)) {
+        continue;  // straight: it foretells no turn
       }
     }
     const auto expected = forecast(a, skip);

@@ -17,6 +17,19 @@ CHILDREN = {"Line": ["Start", "End"], "Curve": ["Start", "Center", "End"],
             "Spiral": ["Start", "PI", "End"]}
 REQUIRED = {"Line": [], "Curve": ["rot"],
             "Spiral": ["length", "radiusStart", "radiusEnd", "rot", "spiType"]}
+# What the schema allows for each attribute of the one or the other system.
+UNITS = {
+    "Metric": {"linearUnit": ["millimeter", "centimeter", "meter", "kilometer"],
+               "areaUnit": ["hectare", "squareMeter", "squareMillimeter", "squareCentimeter"],
+               "volumeUnit": ["cubicMeter", "liter", "hectareMeter"],
+               "temperatureUnit": ["celsius", "kelvin"],
+               "pressureUnit": ["HPA", "milliBars", "mmHG", "millimeterHG"]},
+    "Imperial": {"linearUnit": ["foot", "USSurveyFoot", "inch", "mile"],
+                 "areaUnit": ["acre", "squareFoot", "squareInch", "squareMiles"],
+                 "volumeUnit": ["US_gallon", "IMP_gallon", "cubicInch", "cubicFeet", "cubicYard",
+                                "acreFeet"],
+                 "temperatureUnit": ["fahrenheit", "kelvin"],
+                 "pressureUnit": ["inHG", "inchHG"]}}
 GAUSS = [(-0.9061798459386640, 0.2369268850561891), (-0.5384693101056831, 0.4786286704993665),
          (0.0, 0.5688888888888889), (0.5384693101056831, 0.4786286704993665),
          (0.9061798459386640, 0.2369268850561891)]
@@ -113,6 +126,17 @@ def check_alignment(alignment):
         faults.append(f"length {total}, elements {walked}")
 
 
+def check_units(root):
+    """One child of Units, Metric or Imperial, with units of its own system."""
+    systems = [node for parent in root.findall(SCHEMA + "Units") for node in parent]
+    if len(systems) != 1 or systems[0].tag[len(SCHEMA):] not in UNITS:
+        faults.append(f"Units has {[node.tag for node in systems]}")
+        return
+    for name, allowed in UNITS[systems[0].tag[len(SCHEMA):]].items():
+        if systems[0].get(name) not in allowed:
+            faults.append(f"{systems[0].tag} has {name} {systems[0].get(name)}")
+
+
 def main():
     root = ElementTree.parse(sys.argv[1]).getroot()
     if root.tag != SCHEMA + "LandXML":
@@ -120,10 +144,7 @@ def main():
     for name in ("version", "date", "time"):
         if name not in root.attrib:
             faults.append(f"LandXML lacks {name}")
-    metric = root.find(f"{SCHEMA}Units/{SCHEMA}Metric")
-    for name in ("areaUnit", "linearUnit", "volumeUnit", "temperatureUnit", "pressureUnit"):
-        if metric is None or name not in metric.attrib:
-            faults.append(f"units lack {name}")
+    check_units(root)
     alignments = root.findall(f"{SCHEMA}Alignments/{SCHEMA}Alignment")
     if len(alignments) != 1:
         faults.append(f"{len(alignments)} alignments")

@@ -7,6 +7,7 @@
 #include <array>
 #include <numbers>
 #include <string>
+#include <tuple>
 #include <vector>
 
 #include "road_contours.h"
@@ -50,9 +51,11 @@ TEST(LandXmlRead, NorthingComesFirstAndPointsMayBeNamed) {
 }
 
 TEST(LandXmlRead, UnitsAreThoseOfTheFile) {
-  for (const auto& [theirs, ours] :
-       {std::pair{"meter", "m"}, {"millimeter", "mm"}, {"foot", "ft"}, {"USSurveyFoot", "usft"},
-        {"inch", "in"}}) {
+  for (const auto& [theirs, ours] : {std::pair{"meter", "m"},
+                                     {"millimeter", "mm"},
+                                     {"foot", "ft"},
+                                     {"USSurveyFoot", "usft"},
+                                     {"inch", "in"}}) {
     EXPECT_EQ(read_landxml_text(file_of(line("0 0", "1 1"), theirs)).units, ours);
   }
   const Drawing unknown = read_landxml_text(file_of(line("0 0", "1 1"), "league"));
@@ -203,37 +206,63 @@ TEST(LandXmlPublicFiles, CutAnywhereTheyAreRefused) {
 // ---- writer
 // --------------------------------------------------------------------------------------
 
-std::vector<std::pair<Contour, double>> contours() {
-  return {{stored("clothoids_open.json"), 1e-3},
-          {stored("clothoids_closed.json"), 1.0},
-          {stored("clothoids_wave.json"), 0.3048},
-          {every_kind(), 1.0}};
+/// A contour, the unit of its file, and what one of its own units is in that unit.
+struct Written {
+  Contour contour;
+  std::string unit;
+  double factor = 1.0;
+};
+
+/// Units that the format has stay; of the others: 1 dm = 10 cm, 1 yd = 3 ft, 1 mil = in/1000 and
+/// 1 um = mm/1000, all by definition.
+std::vector<Written> contours_to_write() {
+  std::vector<Written> out = {{stored("clothoids_open.json"), "mm"},
+                              {stored("clothoids_closed.json"), "m"},
+                              {stored("clothoids_wave.json"), "ft"}};
+  for (const char* unit : {"mm", "cm", "m", "km", "in", "ft", "usft", "mi"}) {
+    out.push_back({every_kind(), unit});
+    out.back().contour.units = unit;
+  }
+  for (const auto& [unit, theirs, factor] :
+       {std::tuple{"dm", "cm", 10.0}, {"yd", "ft", 3.0}, {"mil", "in", 1e-3}, {"um", "mm", 1e-3}}) {
+    out.push_back({every_kind(), theirs, factor});
+    out.back().contour.units = unit;
+  }
+  return out;
 }
 
-TEST(LandXmlWrite, ContoursComeBackTheSame) {
-  for (const auto& [contour, metres] : contours()) {
+TEST(LandXmlWrite, ContoursComeBackTheSameInTheirUnit) {
+  for (const auto& [contour, unit, factor] : contours_to_write()) {
+    SCOPED_TRACE(std::string(contour.units.name) + " in " + unit);
     const auto text = landxml_text(contour);
     ASSERT_TRUE(text.has_value()) << text.error().what;
     const Drawing d = read_landxml_text(*text);
     ASSERT_EQ(d.curves.size(), 1U);
+    EXPECT_EQ(d.units, unit);
     EXPECT_EQ(d.curves[0].closed, contour.closed);
     for (const std::string& warning : d.warnings) ADD_FAILURE() << warning;
-    expect_same_curve(contour, d.curves[0].pieces, metres);
+    expect_same_curve(contour, d.curves[0].pieces, factor);
   }
 }
 
-TEST(LandXmlWrite, FilesFollowTheSchemaAndAreSmooth) {
+TEST(LandXmlWrite, FilesFollowTheSchemaAndAreSmoothInEveryUnit) {
   if (!has_python()) GTEST_SKIP() << "python3 is not here";
-  for (const auto& [contour, metres] : contours()) {
-    auto text = landxml_text(contour, {"a <name> & \"more\"", "2024-02-29", "12:00:00"});
+  for (const Written& one : contours_to_write()) {
+    SCOPED_TRACE(std::string(one.contour.units.name) + " in " + one.unit);
+    auto text = landxml_text(one.contour, {"a <name> & \"more\"", "2024-02-29", "12:00:00"});
     ASSERT_TRUE(text.has_value());
     EXPECT_EQ(judged("check_landxml.py", *text), "");
-    // The judge sees what is wrong.
+    // The judge sees what is wrong: a turn to the other side, and a unit of the other system.
     std::string turned = *text;
     const std::size_t rotation = turned.find("rot=\"c") + 6;
     const bool left = turned.compare(rotation, 2, "cc") == 0;
     turned.replace(rotation, left ? 1 : 0, left ? "" : "c");
     EXPECT_NE(judged("check_landxml.py", turned), "");
+    std::string mixed = *text;
+    const bool metric = mixed.find("<Metric ") != std::string::npos;
+    mixed.replace(mixed.find(metric ? "<Metric " : "<Imperial ") + 1, metric ? 6 : 8,
+                  metric ? "Imperial" : "Metric");
+    EXPECT_NE(judged("check_landxml.py", mixed), "");
   }
 }
 

@@ -99,9 +99,10 @@ inline Element at_length(const std::vector<Piece>& pieces, double s) {
   }
 }
 
-/// The same points, headings and curvatures at the same lengths. `metres` in the unit of the
-/// contour. Tolerances: the size of the contour, radians, the largest curvature.
-inline void expect_same_curve(const Contour& contour, const std::vector<Piece>& read, double metres,
+/// The same points, headings and curvatures at the same lengths. `factor`: what one unit of the
+/// contour is in the unit of the file. Tolerances: the size of the contour, radians, the largest
+/// curvature.
+inline void expect_same_curve(const Contour& contour, const std::vector<Piece>& read, double factor,
                               double tolerance = 1e-9) {
   double length = 0.0, size = 0.0, largest = 0.0, read_length = 0.0, far = 0.0;
   for (const Piece& piece : contour.pieces) {
@@ -111,20 +112,20 @@ inline void expect_same_curve(const Contour& contour, const std::vector<Piece>& 
     far = std::max(far, norm(end_point(piece)));
   }
   for (const Piece& piece : read) read_length += arc_length(piece, 0.0);
-  ASSERT_NEAR(read_length, metres * length, tolerance * metres * length);
+  ASSERT_NEAR(read_length, factor * length, tolerance * factor * length);
   // Coordinates far from the origin carry their own rounding.
-  const double place = metres * (tolerance * size + 4.0 * far * 2.3e-16);
+  const double place = factor * (tolerance * size + 4.0 * far * 2.3e-16);
   double before = 0.0;
   for (const Piece& piece : contour.pieces) {
     const double own = arc_length(piece, 0.0);
     for (const double t :
          {0.1, 0.35, 0.5, 0.8}) {  // at joints of arcs the curvature has two values
-      const Element here = at(piece, t), there = at_length(read, metres * (before + t * own));
-      EXPECT_NEAR(there.point.x, metres * here.point.x, place);
-      EXPECT_NEAR(there.point.y, metres * here.point.y, place);
+      const Element here = at(piece, t), there = at_length(read, factor * (before + t * own));
+      EXPECT_NEAR(there.point.x, factor * here.point.x, place);
+      EXPECT_NEAR(there.point.y, factor * here.point.y, place);
       EXPECT_NEAR(std::remainder(there.theta - here.theta, 2.0 * std::numbers::pi), 0.0,
-                  tolerance + place / (metres * size));
-      EXPECT_NEAR(there.kappa * metres, here.kappa, tolerance * largest);
+                  tolerance + place / (factor * size));
+      EXPECT_NEAR(there.kappa * factor, here.kappa, tolerance * largest);
     }
     before += own;
   }

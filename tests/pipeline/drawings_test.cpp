@@ -196,6 +196,19 @@ TEST(Drawings, ArcsOfAnyEllipseAreProved) {
   }
 }
 
+// Two half ellipses of the axes 4, 2 and 4, 3 about one centre, meeting at the vertices that they
+// share with a common tangent, are two ellipses: not what is smooth is one, but what lies on it.
+TEST(Drawings, HalvesOfTwoEllipsesAreTwo) {
+  const auto half = [](double b, bool upper) {
+    const std::string minor = std::to_string(b / 4.0);
+    return "0\nELLIPSE\n8\n0\n10\n0\n20\n0\n11\n4\n21\n0\n40\n" + minor + "\n41\n" +
+           (upper ? "0\n42\n3.14159265358979312\n"
+                  : "3.14159265358979312\n42\n6.28318530717958623\n");
+  };
+  EXPECT_EQ(kept_pieces(fit_of_dxf(half(2.0, true) + half(3.0, false)).contour).ellipses, 2U);
+  EXPECT_EQ(kept_pieces(fit_of_dxf(half(2.0, true) + half(2.0, false)).contour).ellipses, 1U);
+}
+
 // A closed outline of two lines, an arc, and a spline that is tangent to both its neighbours.
 TEST(Drawings, LinesAndArcsStayBesideASpline) {
   const Fit made = fit_of_svg("<path d='M10 10 H60 C80 10 90 20 90 40 V80 H10 Z'/>");

@@ -5,7 +5,10 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <filesystem>
+#include <fstream>
 #include <functional>
+#include <iterator>
 #include <nlohmann/json.hpp>
 #include <numbers>
 #include <string>
@@ -138,6 +141,18 @@ std::string refusal(const std::string& text) {
   const Verification v = verify(*stored);
   if (v.false_claim) return v.false_claim->what;
   return v.certificate.proved ? std::string() : "not proved: " + v.certificate.reason;
+}
+
+TEST(VerifyStored, EveryFileOfTheTestContoursIsAsItClaims) {
+  std::size_t files = 0;
+  for (const auto& entry :
+       std::filesystem::directory_iterator(std::string(OBVID_TEST_DATA) + "/contours")) {
+    std::ifstream file(entry.path());
+    const std::string text{std::istreambuf_iterator<char>(file), {}};
+    EXPECT_EQ(refusal(text), "") << entry.path().filename();
+    ++files;
+  }
+  EXPECT_GT(files, 0U);
 }
 
 std::string refusal(const StoredContour& stored) { return refusal(contour_to_json(stored)); }

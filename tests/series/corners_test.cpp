@@ -131,6 +131,37 @@ TEST(Corners, SpacingThatJumpsAThousandfoldNeitherMakesNorHidesThem) {
   }
 }
 
+// A tooth: two flanks of ten chords of a parabola, and an edge at the root and at the tip, longer
+// than their chords by ten and by six times.
+TEST(Corners, EdgesBetweenRowsOfShortChordsEndInCorners) {
+  Points points;
+  for (int k = 0; k <= 10; ++k) points.push_back({1.0 - 0.004 * k * k, 0.2 * k});
+  for (int k = 10; k >= 0; --k) points.push_back({-1.0 + 0.004 * k * k, 0.2 * k});
+  for (std::size_t first = 0; first < points.size(); ++first) {
+    Points turned = points;
+    std::rotate(turned.begin(), turned.begin() + static_cast<std::ptrdiff_t>(first), turned.end());
+    Indices expected;
+    for (const std::size_t corner : {0U, 10U, 11U, 21U}) {
+      expected.push_back((corner + points.size() - first) % points.size());
+    }
+    std::sort(expected.begin(), expected.end());
+    EXPECT_EQ(corners_of(turned, true), expected) << first;
+  }
+}
+
+// A circle measured finely, but for a part of it: the bend may go on there. (Equal chords are a
+// drawing; their edge is one from 90 degrees on.)
+TEST(Corners, HolesInTheMeasurementOfARoundCurveAreNoEdges) {
+  for (const int hole : {30, 60, 90, 120, 180}) {  // of 360 points
+    Points points;
+    for (int k = 0; k <= 360 - hole; ++k) {
+      const double angle = k * kDeg + 0.2 * kDeg * std::sin(3.0 * k);
+      points.push_back({std::cos(angle), std::sin(angle)});
+    }
+    EXPECT_EQ(corners_of(points, true), Indices{}) << hole;
+  }
+}
+
 TEST(Corners, AKinkBetweenTwoArcsIsFoundWhenItStandsOut) {
   for (const double each : {0.0, 1.0, 3.0}) {
     EXPECT_EQ(corners_of(bent_row(each, 45.0), false), Indices{8}) << each;
