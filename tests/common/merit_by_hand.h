@@ -50,7 +50,7 @@ struct ConeMerit {
   Long reserve = 1.0L, direction = 1.0L, size = 1.0L;
   LinkEnergy form;
   Long weight = 0.0L, barrier = 0.0L;
-  std::optional<Long> linear_at;  ///< S goes on straight from this sigma
+  std::optional<Long> linear_at{};  ///< S goes on straight from this sigma
 
   [[nodiscard]] ConeMerit with_linear_width_at(Long sigma) const {
     ConeMerit out = *this;

@@ -48,7 +48,9 @@ void expect_sound(const WhyNot& why, const PointSeries& series, const FitJob& jo
   EXPECT_LE(why.fit.report.largest_move, why.tolerance);
   EXPECT_LT(why.refused, why.tolerance);
   // 2 % and a third digit, unless the least tolerance of which anybody speaks will do
-  if (why.refused > 0.0) EXPECT_LE(why.tolerance, 1.03 * why.refused);
+  if (why.refused > 0.0) {
+    EXPECT_LE(why.tolerance, 1.03 * why.refused);
+  }
   const auto made = again(series, job, why.tolerance);
   ASSERT_TRUE(made) << made.error().what;
   EXPECT_TRUE(made->certificate.proved);

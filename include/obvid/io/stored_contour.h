@@ -68,7 +68,7 @@ struct StoredContour {
   Contour contour;
   std::optional<FitReport> report;
   std::optional<Certificate> certificate;
-  std::vector<std::string> unread;  ///< fields of the file that mean nothing to this program, each
+  std::vector<std::string> unread{};  ///< fields of the file that mean nothing to this program, each
                                     ///< once: "/pieces/*/colour"
 };
 
