@@ -9,8 +9,7 @@
 namespace obvid {
 namespace {
 
-constexpr int kSamples = 16;      // of a piece
-constexpr double kMissed = 1.02;  // what samples may have missed is added
+constexpr int kSamples = 16;  // of a piece
 constexpr int kThirds = 6;    // of the search between samples: to a tenth of their spacing
 
 /// The nearest point of a path to points that move along it.
@@ -101,7 +100,7 @@ double largest_from(std::span<const Piece> from, std::span<const Piece> to) {
 
 double path_distance(std::span<const Piece> a, std::span<const Piece> b) {
   if (a.empty() || b.empty()) return 0.0;
-  return kMissed * std::max(largest_from(a, b), largest_from(b, a));
+  return std::max(largest_from(a, b), largest_from(b, a));
 }
 
 }  // namespace obvid

@@ -21,6 +21,12 @@
 namespace obvid {
 namespace {
 
+/// What is printed of a deviation that was found along samples: more than these may have missed.
+double at_most(double found) {
+  constexpr double kMissed = 1.02;
+  return kMissed * found;
+}
+
 struct Ending {
   const char* ending;
   FileFormat format;
@@ -160,7 +166,7 @@ class Exporter {
     if (made->deviation > 0.0) {
       out.remarks.push_back(
           fmt::format("clothoids are no NURBS curves: a C2 cubic follows them within {:.3g} {}",
-                      made->deviation, contour_.units.text()));
+                      at_most(made->deviation), contour_.units.text()));
     }
     return std::move(made->curve);
   }
@@ -202,7 +208,7 @@ class Exporter {
         fmt::format("{} {}", made->entities, made->entities == 1 ? "entity" : "entities");
     out.remarks.push_back(made->deviation > 0.0
                               ? fmt::format("{}, at most {:.3g} {} from the contour", entities,
-                                            made->deviation, contour_.units.text())
+                                            at_most(made->deviation), contour_.units.text())
                               : entities + ", exact");
     return out;
   }
@@ -226,7 +232,7 @@ class Exporter {
     Exported out = one_file(std::move(made->text));
     out.remarks.push_back(
         fmt::format("{} blocks, {} of them arcs, at most {:.3g} {} from the contour", made->blocks,
-                    made->arc_blocks, made->deviation, contour_.units.text()));
+                    made->arc_blocks, at_most(made->deviation), contour_.units.text()));
     return out;
   }
 
@@ -237,7 +243,7 @@ class Exporter {
     if (!made) return tl::unexpected(made.error());
     Exported out = one_file(std::move(made->text));
     out.remarks.push_back(fmt::format("true scale, at most {:.3g} {} from the contour",
-                                      made->deviation, contour_.units.text()));
+                                      at_most(made->deviation), contour_.units.text()));
     return out;
   }
 
