@@ -8,11 +8,13 @@
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
+#include <iterator>
 
 #include "built_cad.h"
 #include "obvid/cad/cad.h"
 #include "obvid/curve/bspline.h"
 #include "obvid/curve/joined_nurbs.h"
+#include "obvid/io/contour_json.h"
 #include "obvid/io/read_points.h"
 #include "obvid/pipeline/audit.h"
 #include "obvid/pipeline/export.h"
@@ -110,6 +112,35 @@ class ContourFiles : public testing::Test {
   fs::path folder_;
 };
 
+/// Whether the file holds circle arcs with the ends, lengths and curvatures of these. A set of
+/// curves in STEP does not say where a closed one begins.
+void expect_arcs_found(const std::string& file, const Contour& contour) {
+  const auto drawing = read_cad(file);
+  ASSERT_TRUE(drawing) << to_line(drawing.error());
+  ASSERT_EQ(drawing->curves.size(), 1U);
+  EXPECT_EQ(drawing->curves.front().closed, contour.closed);
+  std::vector<Piece> read = drawing->curves.front().pieces;
+  ASSERT_EQ(read.size(), contour.pieces.size());
+  const double size = size_from_start(contour);
+  if (contour.closed) {
+    const Vec2 first = start_point(contour.pieces.front());
+    const auto begin = std::find_if(read.begin(), read.end(), [&](const Piece& piece) {
+      return norm(start_point(piece) - first) <= 1e-9 * size;
+    });
+    ASSERT_NE(begin, read.end());
+    std::rotate(read.begin(), begin, read.end());
+  }
+  for (std::size_t i = 0; i < read.size(); ++i) {
+    const auto& arc = std::get<ArcPiece>(contour.pieces[i]);
+    EXPECT_LE(norm(start_point(read[i]) - arc.start), 1e-9 * size) << i;
+    EXPECT_LE(norm(end_point(read[i]) - arc.end), 1e-9 * size) << i;
+    EXPECT_NEAR(arc_length(read[i], 1e-12 * size), arc.length, 1e-9 * size) << i;
+    for (const double t : {0.0, 0.3, 1.0}) {
+      EXPECT_NEAR(curvature(evaluate(read[i], t)), arc.kappa, 1e-6 * std::abs(arc.kappa)) << i;
+    }
+  }
+}
+
 Contour fitted_in(PointSeries series, FitJob job, const std::string& units) {
   auto made = fit(series, job);
   EXPECT_TRUE(made) << to_line(made.error());
@@ -132,6 +163,26 @@ TEST_F(ContourFiles, FindsContoursOfEveryCarrierThatIsOneCurve) {
     FitJob job;
     job.carrier = carrier;
     expect_round_trips(fitted_in(series10(1.0, {}), job, "mm"), 1.0, to_string(carrier));
+  }
+}
+
+TEST_F(ContourFiles, FindsArcsAsArcsInOpenAndClosedContours) {
+  std::ifstream stored(std::string(OBVID_TEST_DATA) + "/contours/arcs_closed.json");
+  const std::string text{std::istreambuf_iterator<char>(stored), {}};
+  const auto closed = contour_from_json(text, "arcs_closed.json");
+  ASSERT_TRUE(closed) << to_line(closed.error());
+  ASSERT_TRUE(closed->contour.closed);
+  FitJob job;
+  job.carrier = Carrier::kArcs;
+  for (const Contour& contour : {closed->contour, fitted_in(series10(1.0, {}), job, "mm")}) {
+    for (const FileFormat format : {FileFormat::kStep, FileFormat::kIges, FileFormat::kBrep}) {
+      const auto made = export_contour({contour, {}, {}, {}}, format, {});
+      ASSERT_TRUE(made) << to_line(made.error());
+      const fs::path file = folder_ / "arcs";
+      std::ofstream(file, std::ios::binary) << made->files.front().text;
+      SCOPED_TRACE(static_cast<int>(format));
+      expect_arcs_found(file.string(), contour);
+    }
   }
 }
 

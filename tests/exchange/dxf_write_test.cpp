@@ -174,9 +174,8 @@ TEST_F(DxfFilesByEzdxf, TheAuditFindsWhatIsWrong) {
 }
 
 TEST_F(DxfFilesByEzdxf, AreTheSameCurveInEveryExactProfile) {
-  for (const char* name :
-       {"spirals_open.json", "spirals_closed.json", "spirals_corner.json", "conics_open.json",
-        "arcs_closed.json"}) {
+  for (const char* name : {"spirals_open.json", "spirals_closed.json", "spirals_corner.json",
+                           "conics_open.json", "arcs_closed.json"}) {
     const Contour contour = stored(name);
     const std::vector<Vec2> found = points(written(contour, DxfProfile::kExact, 1e-3).text, 5);
     ASSERT_GE(found.size(), 5 * contour.pieces.size()) << name;
@@ -216,15 +215,14 @@ TEST_F(DxfFilesByEzdxf, StayWithinTheToleranceElsewhere) {
 // ---- our own reader ---------------------------------------------------------------------------
 
 TEST(DxfRoundTrip, ExactContoursComeBackAsTheyWere) {
-  for (const char* name :
-       {"spirals_open.json", "spirals_closed.json", "spirals_corner.json", "conics_open.json",
-        "arcs_closed.json"}) {
+  for (const char* name : {"spirals_open.json", "spirals_closed.json", "spirals_corner.json",
+                           "conics_open.json", "arcs_closed.json"}) {
     const Contour contour = stored(name);
     const DxfText dxf = written(contour, DxfProfile::kExact, 1e-3);
     EXPECT_EQ(dxf.deviation, 0.0);
     const auto drawing = parse_dxf(dxf.text, name);
     ASSERT_TRUE(drawing) << to_line(drawing.error());
-    EXPECT_EQ(drawing->units, contour.units);
+    EXPECT_EQ(drawing->units, Units(contour.units.name, UnitSource::kFile));  // the file says so
     EXPECT_TRUE(drawing->warnings.empty()) << drawing->warnings[0];
     ASSERT_EQ(drawing->curves.size(), 1u) << name;  // joined over corners and entities
     EXPECT_EQ(drawing->curves[0].closed, contour.closed) << name;
