@@ -99,6 +99,7 @@ ElementGap worst_element_gap(const Course& course) {
     if (course.file.carrier != "arcs") out.curvature = std::max(out.curvature, bend);
   };
   const std::size_t n = course.file.pieces.size();
+  if (n == 0) return out;
   for (std::size_t j = 0; j <= n; ++j) {
     const FileElement* e = course.file.joint(j);
     if (e == nullptr || (course.file.closed && j == n)) continue;

@@ -32,7 +32,6 @@ TEST(JudgeContour, FindsAWeightMovedByAMillionthAtTheJoints) {
   EXPECT_TRUE(sheet.has("certificate.joint_gaps.curvature")) << all_false(sheet);
   EXPECT_TRUE(sheet.has("certificate.gaps_within_bounds"));
   EXPECT_TRUE(sheet.has("bspline"));
-  EXPECT_TRUE(sheet.has("elements"));
 }
 
 TEST(JudgeContour, FindsFalseCounts) {
