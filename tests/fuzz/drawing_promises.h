@@ -15,8 +15,6 @@ inline void require(bool promise) {
   if (!promise) std::abort();
 }
 
-inline bool is_finite(Vec2 p) { return std::isfinite(p.x) && std::isfinite(p.y); }
-
 /// What every reader of drawings keeps, whatever it was given.
 inline void require_promises(const Result<Drawing>& drawing) {
   if (!drawing) {
@@ -35,7 +33,7 @@ inline void require_promises(const Result<Drawing>& drawing) {
     }
   }
   for (const PointSeries& series : drawing->series) {
-    require(!series.points.empty() && !series.units.empty());
+    require(!series.points.empty() && !series.units.name.empty());
     for (const Vec2 p : series.points) require(is_finite(p));
   }
 }
