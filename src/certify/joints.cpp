@@ -284,8 +284,8 @@ class JointWalk {
   void follow_parts(std::size_t i, double largest) {
     const auto parts = parts_.find(i);
     if (parts == parts_.end()) return;
-    for (const MonotonePart& part : parts->second) {
-      follow_sign(ends_of(Piece{part.piece}).end, largest);
+    for (const RationalBezier& part : parts->second) {
+      follow_sign(ends_of(Piece{part}).end, largest);
     }
   }
 

@@ -27,11 +27,11 @@ RationalBezier seen_from_start(RationalBezier piece) {
 }
 
 void halve(const RationalBezier& part, int halvings, int& parts_left,
-           std::vector<MonotonePart>& out) {
+           std::vector<RationalBezier>& out) {
   const PieceFacts facts = examine_in_doubles(part);
   // what doubles cannot decide (a vertex at an end, a flat piece) is halved too
   if (halvings == 0 || parts_left-- <= 0 || facts.first_change * facts.last_change > 0) {
-    out.push_back({part, facts.first_change, facts.last_change});
+    out.push_back(part);
     return;
   }
   for (const RationalBezier& half : split(part, 0.5)) halve(half, halvings - 1, parts_left, out);
@@ -39,8 +39,8 @@ void halve(const RationalBezier& part, int halvings, int& parts_left,
 
 }  // namespace
 
-std::vector<MonotonePart> monotone_parts(const RationalBezier& piece) {
-  std::vector<MonotonePart> parts;
+std::vector<RationalBezier> monotone_parts(const RationalBezier& piece) {
+  std::vector<RationalBezier> parts;
   int parts_left = kMostPartsOfPiece;
   halve(seen_from_start(piece), kMostHalvings, parts_left, parts);
   return parts;

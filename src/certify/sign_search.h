@@ -97,21 +97,34 @@ class SignSearch {
   static constexpr int kSequenceDepth = 40;  ///< halvings: closer changes count as none or as two
   static constexpr int kSequenceParts = 2000;
 
-  bool follow(const Coefficients& c, int depth, std::vector<int>& signs) {
+  /// Signs of all coefficients; unknown are those that rounding hides.
+  struct SignCount {
     int positive = 0, negative = 0, unknown = 0;
+    [[nodiscard]] bool none() const { return positive + negative == 0; }
+    [[nodiscard]] bool agree() const { return unknown == 0 && (positive == 0 || negative == 0); }
+    [[nodiscard]] int common() const { return none() ? 0 : (positive > 0 ? 1 : -1); }
+  };
+
+  static SignCount count_signs(const Coefficients& c) {
+    SignCount out;
     for (std::size_t j = 0; j < c.value.size(); ++j) {
       const int sign = sign_of(c, j);
-      positive += sign > 0;
-      negative += sign < 0;
-      unknown += sign == 0 && c.bound[j] > 0.0;
+      out.positive += sign > 0;
+      out.negative += sign < 0;
+      out.unknown += sign == 0 && c.bound[j] > 0.0;
     }
-    if (unknown == 0 && (positive == 0 || negative == 0)) {
-      const int sign = positive > 0 ? 1 : -1;
-      if (positive + negative > 0 && (signs.empty() || signs.back() != sign)) signs.push_back(sign);
+    return out;
+  }
+
+  bool follow(const Coefficients& c, int depth, std::vector<int>& signs) {
+    const SignCount found = count_signs(c);
+    if (found.agree()) {
+      const int sign = found.common();
+      if (sign != 0 && (signs.empty() || signs.back() != sign)) signs.push_back(sign);
       return true;
     }
     if (depth == 0) return true;
-    if (positive + negative == 0 || sequence_parts_-- <= 0) return false;
+    if (found.none() || sequence_parts_-- <= 0) return false;
     const auto [left, right] = halves(c);
     return follow(left, depth - 1, signs) && follow(right, depth - 1, signs);
   }
@@ -122,20 +135,12 @@ class SignSearch {
   }
 
   void visit(const Coefficients& c, double t0, double t1, int depth) {
-    int positive = 0;
-    int negative = 0;
-    int unknown = 0;
-    for (std::size_t j = 0; j < c.value.size(); ++j) {
-      const int sign = sign_of(c, j);
-      positive += sign > 0;
-      negative += sign < 0;
-      unknown += sign == 0 && c.bound[j] > 0.0;
-    }
-    if (unknown == 0 && (positive == 0 || negative == 0)) {
-      if (positive + negative > 0) note(positive > 0 ? 1 : -1, c, t0, t1);
+    const SignCount found = count_signs(c);
+    if (found.agree()) {
+      if (found.common() != 0) note(found.common(), c, t0, t1);
       return;
     }
-    if (depth == 0 || positive + negative == 0 || parts_left_ == 0) {
+    if (depth == 0 || found.none() || parts_left_ == 0) {
       leave_open(t0, t1);
       return;
     }

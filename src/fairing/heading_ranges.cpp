@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "node_ends.h"
+#include "obvid/geom/angle.h"
 
 namespace obvid::fairing_detail {
 namespace {
@@ -17,19 +18,6 @@ constexpr double kBeside = 1.0, kBeyondEnds = 3.0;
 /// Moves of the points turn a circle's tangent by a few times reach over chord.
 constexpr double kPerReach = 4.0;
 constexpr double kLeast = 0.02;  ///< rad, room for what lies on one circle
-
-/// Headings, rad, against some direction.
-struct Range {
-  double low = std::numeric_limits<double>::infinity();
-  double high = -std::numeric_limits<double>::infinity();
-
-  void take(double angle) {
-    low = std::min(low, angle);
-    high = std::max(high, angle);
-  }
-  [[nodiscard]] bool empty() const { return low > high; }
-  [[nodiscard]] double width() const { return empty() ? 0.0 : high - low; }
-};
 
 class Ranges {
  public:
@@ -109,7 +97,7 @@ class Ranges {
   Tube& tube_;
   const State& x_;
   std::vector<Station> stations_;
-  std::vector<Range> range_;
+  std::vector<AngleRange> range_;
 };
 
 }  // namespace

@@ -6,6 +6,7 @@
 #include <limits>
 #include <numbers>
 
+#include "obvid/geom/angle.h"
 #include "obvid/geom/vec2.h"
 
 namespace obvid::pipeline_detail {
@@ -35,7 +36,7 @@ class Parts {
     Wandering out;
     for (std::size_t k = 0; k + 1 < station_.size(); ++k) {
       if (given_[station_[k]] || given_[station_[k + 1]]) continue;
-      const Range asked = circles_over(k), taken = headings_over(k);
+      const AngleRange asked = circles_over(k), taken = headings_over(k);
       if (asked.empty()) continue;
       WanderingPart part{station_[k], station_[k + 1], 0.0, taken.width()};
       part.beyond = std::max({0.0, asked.low - taken.low, taken.high - asked.high});
@@ -49,18 +50,6 @@ class Parts {
   }
 
  private:
-  struct Range {
-    double low = std::numeric_limits<double>::infinity();
-    double high = -std::numeric_limits<double>::infinity();
-
-    void take(double angle) {
-      low = std::min(low, angle);
-      high = std::max(high, angle);
-    }
-    [[nodiscard]] bool empty() const { return low > high; }
-    [[nodiscard]] double width() const { return high - low; }
-  };
-
   /// Station `k` counted on beyond the ends of a loop; nothing beyond those of an open chain.
   [[nodiscard]] const Vec2* at(std::ptrdiff_t k) const {
     const auto turn = static_cast<std::ptrdiff_t>(station_.size()) - 1;
@@ -76,12 +65,12 @@ class Parts {
 
   /// Headings at both ends of the chord of all circles through three neighbouring points that pass
   /// them, against the chord.
-  [[nodiscard]] Range circles_over(std::size_t part) const {
+  [[nodiscard]] AngleRange circles_over(std::size_t part) const {
     const auto k = static_cast<std::ptrdiff_t>(part);
     const Vec2 *z = at(k - 2), *a = at(k - 1), *b = at(k), *c = at(k + 1), *d = at(k + 2),
                *e = at(k + 3);
     const Vec2 over = *c - *b;
-    Range out;
+    AngleRange out;
     const auto both_ways = [&](double inscribed) {
       out.take(inscribed);
       out.take(-inscribed);
@@ -98,11 +87,11 @@ class Parts {
   }
 
   /// Headings of the elements over a part, against its chord; a link turns by beta - alpha.
-  [[nodiscard]] Range headings_over(std::size_t part) const {
+  [[nodiscard]] AngleRange headings_over(std::size_t part) const {
     const std::size_t first = station_[part], last = station_[part + 1];
     const Element& begin = chain_.elements[first];
     double heading = turning(chain_.elements[last].point - begin.point, unit_at(begin.theta));
-    Range out;
+    AngleRange out;
     out.take(heading);
     for (std::size_t i = first; i < last; ++i) {
       heading += chain_.links[i].beta - chain_.links[i].alpha;

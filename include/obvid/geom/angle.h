@@ -1,11 +1,26 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <algorithm>
+#include <limits>
 #include <numbers>
 
 namespace obvid {
 
 inline constexpr double kFullTurn = 2.0 * std::numbers::pi;   ///< rad
 inline constexpr double kOneDegree = std::numbers::pi / 180;  ///< rad
+
+/// Least and largest of some angles against one direction, rad.
+struct AngleRange {
+  double low = std::numeric_limits<double>::infinity();
+  double high = -std::numeric_limits<double>::infinity();
+
+  void take(double angle) {
+    low = std::min(low, angle);
+    high = std::max(high, angle);
+  }
+  [[nodiscard]] bool empty() const { return low > high; }
+  [[nodiscard]] double width() const { return empty() ? 0.0 : high - low; }
+};
 
 }  // namespace obvid
