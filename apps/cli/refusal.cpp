@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <filesystem>
+#include <numbers>
 #include <optional>
 #include <string>
 #include <vector>
@@ -11,6 +12,7 @@
 #include "json_text.h"
 #include "obvid/io/contour_json.h"
 #include "obvid/io/picture_svg.h"
+#include "obvid/pipeline/feasible_range.h"
 #include "obvid/pipeline/why_not.h"
 #include "outputs.h"
 #include "table.h"
@@ -38,6 +40,34 @@ Error with_tolerance(Error error, const std::optional<WhyNot>& why, const std::s
         significant(why->refused, kToleranceDigits), units);
   }
   return error;
+}
+
+/// "heading of 41.2 or 52.9 deg at point 3".
+std::string range_text(const FeasibleRange& range, const std::string& units) {
+  const bool heading = range.datum == FeasibleRange::Datum::kHeading;
+  const double unit = heading ? std::numbers::pi / 180.0 : 1.0;
+  // the ends of a range are short decimal fractions
+  return fmt::format("{} of {:.12g} or {:.12g} {} at point {}", heading ? "heading" : "curvature",
+                     range.least / unit, range.greatest / unit,
+                     heading ? "deg" : fmt::format("1/{}", units), range.point + 1);
+}
+
+Error with_range(Error error, const std::optional<FeasibleRange>& range, const std::string& units) {
+  if (!range) return error;
+  if (!error.hint.empty()) error.hint += "; ";
+  error.hint += "with a " + range_text(*range, units) + " there is one";
+  return error;
+}
+
+void add_range(JsonText& json, const std::optional<FeasibleRange>& range) {
+  if (!range) {
+    json.null();
+    return;
+  }
+  const bool heading = range->datum == FeasibleRange::Datum::kHeading;
+  json.begin_object().pair("index", range->point).pair("datum", heading ? "heading" : "curvature");
+  json.pair("asked", range->asked).pair("least", range->least);
+  json.pair("greatest", range->greatest).end_object();
 }
 
 std::string moves_table(const WhyNot& why) {
@@ -110,6 +140,7 @@ void add_why_not(JsonText& json, const WhyNot& why) {
 
 std::string refusal_json(const Error& error, const PointSeries& series,
                          const std::optional<WhyNot>& why,
+                         const std::optional<FeasibleRange>& range,
                          const std::vector<std::string>& written) {
   JsonText json;
   json.begin_object();
@@ -123,6 +154,8 @@ std::string refusal_json(const Error& error, const PointSeries& series,
   } else {
     json.null();
   }
+  json.key("feasible_range");
+  add_range(json, range);
   json.key("warnings").begin_array();
   for (const std::string& warning : series.warnings) json.value(warning);
   json.end_array().key("written").begin_array();
@@ -157,17 +190,21 @@ int tell_refusal(const FitOptions& options, const PointSeries& series, const Err
   const bool by_points = refusal.code != ErrorCode::kCarrierCannotKeep;
   const std::optional<WhyNot> why =
       by_points ? why_not(series, options.job, refusal, bar.progress()) : std::nullopt;
+  const std::optional<FeasibleRange> range =
+      feasible_range(series, options.job, refusal, bar.progress());
   Result<std::vector<std::string>> written;
   if (why && why->found) written = write_refusal_pictures(options, series.name, *why);
   bar.clear();
   warn(series.warnings);  // a formed contour carries them itself
-  const Error told = by_points ? with_tolerance(refusal, why, series.units.text()) : refusal;
+  const Error told =
+      with_range(by_points ? with_tolerance(refusal, why, series.units.text()) : refusal, range,
+                 series.units.text());
   const int code = report(told);
   const std::vector<std::string> names = written ? *written : std::vector<std::string>{};
   if (!written) warn({written.error().what + " (" + written.error().where + ")"});
   std::string text;
   if (options.json) {
-    text = refusal_json(told, series, why, names);
+    text = refusal_json(told, series, why, range, names);
   } else if (why && why->found && !options.quiet) {
     text = refusal_text(series, *why, names);
   }

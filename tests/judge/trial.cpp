@@ -7,6 +7,7 @@
 #include <ctime>
 #include <filesystem>
 #include <optional>
+#include <regex>
 
 #include "checks.h"
 #include "process.h"
@@ -266,6 +267,7 @@ class Work {
       out_.sheet.expect(untouched, "refusal leaves files untouched", file,
                         untouched ? "nothing" : "written", "");
     }
+    range_of_a_datum(fit.err);
     const std::string within = "within a tolerance of ";
     const std::size_t at = fit.err.find(within);
     if (at == std::string::npos || !dice_.chance(0.25)) return;
@@ -284,6 +286,53 @@ class Work {
     if (stopped_) return;
     out_.sheet.expect(again.code == 0, "refusal: within a tolerance there is one", tolerance,
                       fmt::format("exit {}: {}", again.code, again.err.substr(0, 200)), "");
+  }
+
+  /// "with a heading of A or B deg at point I there is one": with both there must be.
+  void range_of_a_datum(const std::string& said) {
+    std::smatch found;
+    const std::regex sentence(
+        "with a (heading|curvature) of (\\S+) or (\\S+) \\S+ at point (\\d+)");
+    if (stopped_ || !std::regex_search(said, found, sentence)) return;
+    const std::string at = found[1] == "heading" ? "--heading-at" : "--kappa-at";
+    for (const std::string& value : {found[2].str(), found[3].str()}) {
+      std::vector<std::string> words{"fit", kPoints, "--quiet"};
+      for (const std::string& word : without_datum(found[1] == "heading", found[4].str())) {
+        words.push_back(word);
+      }
+      words.push_back(fmt::format("{}={}={}", at, found[4].str(), value));
+      const Run again = program("fit", words);
+      if (stopped_) return;
+      out_.sheet.expect(again.code == 0, "refusal: with another datum there is one", words.back(),
+                        fmt::format("exit {}: {}", again.code, again.err.substr(0, 200)), "");
+    }
+  }
+
+  /// The options of the series but for those that give a heading (or a bend) at one point.
+  [[nodiscard]] std::vector<std::string> without_datum(bool heading,
+                                                       const std::string& point) const {
+    std::vector<std::string> out;
+    const auto& all = series_.options;
+    for (std::size_t i = 0; i < all.size(); ++i) {
+      const std::string& word = all[i];
+      const std::size_t first = word.find('=');
+      const std::string name = word.substr(0, first);
+      const bool alike = heading ? name.ends_with("heading") || name == "--heading-at"
+                                 : name.ends_with("radius") || name.ends_with("kappa") ||
+                                       name == "--kappa-at" || name == "--radius-at";
+      const bool apart = alike && first == std::string::npos;  // its value is the next word
+      const std::string value =
+          apart ? (i + 1 < all.size() ? all[i + 1] : "") : word.substr(first + 1);
+      const bool of_point = name.ends_with("-at")         ? value.starts_with(point + "=")
+                            : name.starts_with("--start") ? point == "1"
+                                                          : point == std::to_string(series_.points);
+      if (alike && of_point) {
+        i += apart ? 1 : 0;
+        continue;
+      }
+      out.push_back(word);
+    }
+    return out;
   }
 
   void classify(bool refused) {
