@@ -43,7 +43,7 @@ Error with_tolerance(Error error, const std::optional<WhyNot>& why, const std::s
 }
 
 /// "heading of 41.2 or 52.9 deg at point 3".
-std::string range_text(const FeasibleRange& range, const std::string& units) {
+std::string feasible_text(const FeasibleRange& range, const std::string& units) {
   const bool heading = range.datum == FeasibleRange::Datum::kHeading;
   const double unit = heading ? std::numbers::pi / 180.0 : 1.0;
   // the ends of a range are short decimal fractions
@@ -55,7 +55,7 @@ std::string range_text(const FeasibleRange& range, const std::string& units) {
 Error with_range(Error error, const std::optional<FeasibleRange>& range, const std::string& units) {
   if (!range) return error;
   if (!error.hint.empty()) error.hint += "; ";
-  error.hint += "with a " + range_text(*range, units) + " there is one";
+  error.hint += "with a " + feasible_text(*range, units) + " there is one";
   return error;
 }
 

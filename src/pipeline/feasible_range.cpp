@@ -15,9 +15,9 @@ namespace {
 using namespace pipeline_detail;
 using Datum = FeasibleRange::Datum;
 
-constexpr double kDegree = std::numbers::pi / 180.0;
-constexpr double kAccuracy = 0.01;  // of the range, to which its ends are sought and rounded
-constexpr int kMostDoublings = 24;  // of a step away from a value that does
+constexpr double kDegreeStep = std::numbers::pi / 180.0;
+constexpr double kRangeAccuracy = 0.01;  // of the range, to which its ends are sought and rounded
+constexpr int kMostDoublings = 24;       // of a step away from a value that does
 constexpr int kMostHalvings = 40;
 constexpr double kFirstStep = 1e-3;  // of the way from what does to what was asked
 constexpr std::size_t kMostCandidates = 8;
@@ -126,7 +126,7 @@ class RangeSearch {
   double bisected(const Given& given, double good, double bad) {
     const double from = good;
     for (int k = 0; k < kMostHalvings; ++k) {
-      if (std::abs(bad - good) <= kAccuracy * std::abs(good - from)) break;
+      if (std::abs(bad - good) <= kRangeAccuracy * std::abs(good - from)) break;
       const double middle = 0.5 * (good + bad);
       if (middle == good || middle == bad) break;
       (does(given, middle) ? good : bad) = middle;
@@ -154,8 +154,8 @@ class RangeSearch {
 
   /// Rounded towards `inside` to a place of which the range has hundreds, and tried.
   std::optional<double> printed(const Given& given, double end, double inside, double width) {
-    const double unit = given.datum == Datum::kHeading ? kDegree : 1.0;
-    const double place = std::pow(10.0, std::floor(std::log10(kAccuracy * width / unit)));
+    const double unit = given.datum == Datum::kHeading ? kDegreeStep : 1.0;
+    const double place = std::pow(10.0, std::floor(std::log10(kRangeAccuracy * width / unit)));
     if (!(place > 0.0) || !std::isfinite(place)) return std::nullopt;
     const double towards = inside > end ? 1.0 : -1.0;
     double steps = towards > 0.0 ? std::ceil(end / unit / place) : std::floor(end / unit / place);
