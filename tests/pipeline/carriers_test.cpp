@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "../common/angles.h"
+#include "../common/long_runs.h"
 #include "../common/ten_points.h"
 #include "obvid/certify/certify.h"
 #include "obvid/io/contour_json.h"
@@ -104,7 +105,7 @@ TEST(Carriers, VerticesInsidePiecesAreCountedOnRandomPoints) {
 TEST(Carriers, BsplineIsProvedOnRandomSeriesAndStaysWithinItsTolerance) {
   std::mt19937_64 rng(20260131);
   int proved = 0;
-  constexpr int kSeries = 600;
+  const int kSeries = test::cases_of(600, 4);
   for (int i = 0; i < kSeries; ++i) {
     const Sampled s = random_series(static_cast<Oracle>(i % kOracleCount), rng, kRightAngle);
     const auto f = fit_with(Carrier::kBspline, s.points);
@@ -122,7 +123,7 @@ TEST(Carriers, ConicsAndParabolasAreProvedOnRandomConvexSpirals) {
   std::mt19937_64 rng(99);
   for (const Carrier carrier : {Carrier::kConics, Carrier::kBeziers}) {
     int proved = 0;
-    constexpr int kSeries = 100;
+    const int kSeries = test::cases_of(100, 2);
     for (int i = 0; i < kSeries; ++i) {
       const Oracle kinds[] = {Oracle::kLogSpiral, Oracle::kInvolute, Oracle::kParabola,
                               Oracle::kEllipse};

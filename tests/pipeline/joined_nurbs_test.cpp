@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "../common/angles.h"
+#include "../common/long_runs.h"
 #include "../common/ten_points.h"
 #include "obvid/curve/bspline.h"
 #include "obvid/curve/joined_nurbs.h"
@@ -150,7 +151,7 @@ TEST(JoinedNurbs, ReferenceSeriesIsOneCurveOfDegreeSixWithWeightsNearOne) {
 
 TEST(JoinedNurbs, RandomSpiralsKeepTheirCurve) {
   std::mt19937_64 rng(5);
-  for (int i = 0; i < 60; ++i) {
+  for (int i = 0; i < test::cases_of(60, 2); ++i) {
     const Sampled s = random_series(static_cast<Oracle>(i % kOracleCount), rng, 0.4 * kPi);
     if (s.points.size() > 60) continue;
     const Contour contour = contour_through(s.points);

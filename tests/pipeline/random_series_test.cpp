@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "../common/angles.h"
+#include "../common/long_runs.h"
 #include "obvid/pipeline/fit.h"
 #include "oracle_curves.h"
 #include "rounding_words.h"
@@ -20,7 +21,7 @@ namespace {
 
 using namespace test;
 
-constexpr int kRandomSeries = 2000;
+const int kRandomSeries = test::cases_of(2000, 5);
 constexpr double kCoarseTurning = 170.0 * std::numbers::pi / 180.0;
 constexpr unsigned kSeed = 20260131;
 

@@ -103,7 +103,7 @@ TEST_P(Hull, HalfOfSeries60IsNotGougedAndItsCuspsStayBelowTheScallop) {
   const auto run = test::NcInterpreter(kHullStep).run(path->program.text);
   ASSERT_TRUE(run.faults.empty()) << run.faults.front();
 
-  const auto samples = hull_samples(surface, 300, 300);
+  const auto samples = hull_samples(surface, 200, 200);
   const FoundOnHull found = simulated(samples, run);
   RecordProperty("gouge", std::to_string(found.gouge));
   RecordProperty("cusp", std::to_string(found.cusp));
