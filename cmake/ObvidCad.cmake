@@ -7,6 +7,7 @@ file(GLOB obvid_cad_agreed CONFIGURE_DEPENDS "${PROJECT_SOURCE_DIR}/src/cad/clie
      "${PROJECT_SOURCE_DIR}/src/cad/helper/*")
 list(APPEND obvid_cad_agreed "${PROJECT_SOURCE_DIR}/include/obvid/cad/cad.h"
      "${PROJECT_SOURCE_DIR}/include/obvid/core/error.h"
+     "${PROJECT_SOURCE_DIR}/include/obvid/exchange/cad_curve.h"
      "${PROJECT_SOURCE_DIR}/include/obvid/core/units.h")
 set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${obvid_cad_agreed})
 set(digests "")

@@ -12,9 +12,9 @@
 #include "dxf_file.h"
 #include "dxf_parts.h"
 #include "dxf_units.h"
+#include "exact_conics.h"
 #include "obvid/contour/arcs/arcs_along.h"
 #include "obvid/contour/bsplines/cubic_along.h"
-#include "obvid/contour/conics.h"
 #include "obvid/curve/joined_nurbs.h"
 #include "obvid/geom/angle.h"
 
@@ -23,9 +23,6 @@ namespace {
 
 using exchange::DxfWriter;
 using exchange::kModelSpace;
-
-/// What rounding of a centre and of angles may cost, of the size: a tenth of what readers must get.
-constexpr double kArcRounding = 1e-10;
 
 /// $INSUNITS of a unit that is known; 0: the file states none.
 int unit_code(const Units& units) { return units.known() ? dxf::insunits_of(units.name) : 0; }
@@ -77,9 +74,8 @@ class DxfDrawer {
     }
     if (!done) return fail(done.error());
     if (options_.profile == DxfProfile::kArcsR12) {
-      result_.text =
-          exchange::r12_head(layer_, dxf_unit(contour_.units), low_, high_) +
-          out_.take() + "  0\nENDSEC\n  0\nEOF\n";
+      result_.text = exchange::r12_head(layer_, dxf_unit(contour_.units), low_, high_) +
+                     out_.take() + "  0\nENDSEC\n  0\nEOF\n";
     } else {
       const std::string seed = out_.next_handle();
       result_.text = exchange::r2000_head(layer_, unit_code(contour_.units), seed, low_, high_) +
@@ -174,40 +170,19 @@ class DxfDrawer {
     std::vector<Ellipse> out;
     for (const Piece& piece : part.pieces) {
       const auto* bezier = std::get_if<RationalBezier>(&piece);
-      if (bezier == nullptr || bezier->degree != 2) return std::nullopt;
-      const auto one = ellipse_of(*bezier);
-      if (!one || !is_near(*one, piece)) return std::nullopt;
+      if (bezier == nullptr) return std::nullopt;
+      const auto one = exchange::ellipse_within(*bezier, norm(high_ - low_));
+      if (!one) return std::nullopt;
       out.push_back(*one);
     }
     return out;
   }
 
-  [[nodiscard]] bool is_near(const Ellipse& e, const Piece& piece) const {
-    const Vec2 axis = unit_at(e.rotation);
-    const auto at = [&](double angle) {
-      return e.centre + (e.semi_major * std::cos(angle)) * axis +
-             (e.semi_minor * std::sin(angle)) * left_normal(axis);
-    };
-    const double off =
-        std::max({norm(at(e.from) - start_point(piece)), norm(at(e.to) - end_point(piece)),
-                  norm(at(0.5 * (e.from + e.to)) - shoulder(piece))});
-    return off <= kArcRounding * norm(high_ - low_);
-  }
-
-  /// Where a conic is parallel to its chord: its middle by the eccentric angle.
-  [[nodiscard]] static Vec2 shoulder(const Piece& piece) {
-    const auto& b = std::get<RationalBezier>(piece);
-    const double t = 1.0 / (1.0 + std::sqrt(b.weight[2] / b.weight[0]));
-    return evaluate(b, t).point;
-  }
-
   /// LINE and ARC lose digits where the centre lies far away; bulges do not.
   [[nodiscard]] bool centres_are_near(const Contour& part) const {
-    constexpr double kFar = 1e5;  // sizes: 1e5 roundings of a double are below kArcRounding
-    const double far = kFar * norm(high_ - low_);
     return std::all_of(part.pieces.begin(), part.pieces.end(), [&](const Piece& piece) {
       const auto* one = std::get_if<ArcPiece>(&piece);
-      return one == nullptr || std::abs(one->kappa) * far >= 1.0;
+      return one == nullptr || exchange::centre_is_near(*one, norm(high_ - low_));
     });
   }
 

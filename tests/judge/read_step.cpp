@@ -234,11 +234,28 @@ class StepReader {
 
   void curve(long id) {
     if (const auto* trimmed = record(id, "TRIMMED_CURVE")) return trimmed_curve(*trimmed);
+    if (const auto* composite = record(id, "COMPOSITE_CURVE")) return composite_curve(*composite);
+    if (const auto* circle = record(id, "CIRCLE")) return whole_circle(*circle);
     const auto found = file_.all.find(id);
     if (found == file_.all.end()) throw std::runtime_error("no curve");
     const Instance& one = found->second;
     if (!one.contains("B_SPLINE_CURVE_WITH_KNOTS")) throw std::runtime_error("unknown curve");
     spline(one);
+  }
+
+  void composite_curve(const std::vector<Value>& composite) {
+    for (const Value& one : composite.at(1).list) {
+      const auto* segment = record(one.id(), "COMPOSITE_CURVE_SEGMENT");
+      if (segment == nullptr) throw std::runtime_error("composite curve without segments");
+      if (segment->at(1).text != ".T.") throw std::runtime_error("segment against its curve");
+      curve(segment->at(2).id());
+    }
+  }
+
+  void whole_circle(const std::vector<Value>& circle) {
+    const Placement at = placement(circle.at(1).id());
+    out_.spans.push_back(arc_span(at.centre, circle.at(2).real() * scale_, at.angle,
+                                  at.sense * 2.0L * std::numbers::pi_v<Real>));
   }
 
   static Real trim(const Value& list) {

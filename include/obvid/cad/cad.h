@@ -1,18 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <array>
 #include <functional>
 #include <optional>
 #include <string>
 #include <string_view>
-#include <variant>
 #include <vector>
 
 #include "obvid/core/result.h"
-#include "obvid/core/units.h"
-#include "obvid/curve/nurbs.h"
-#include "obvid/curve/pieces.h"
+#include "obvid/exchange/cad_curve.h"
 #include "obvid/exchange/drawing.h"
 #include "obvid/surface/surface.h"
 
@@ -27,8 +23,8 @@ namespace obvid {
 // (or shared library) that holds this code, and in ../libexec/obvid seen from there; nowhere else.
 // Before it is started it must be a plain file that not everybody may write to, belong to root, to
 // the user or to the owner of the program, and hold the mark of this very build. What is found
-// first decides. Where none fits, the command $OBVID_CAD_BUILDER, if set, is run to build it, as the
-// launcher of a source folder has it. E310 says what is wrong, or that there is none.
+// first decides. Where none fits, the command $OBVID_CAD_BUILDER, if set, is run to build it, as
+// the launcher of a source folder has it. E310 says what is wrong, or that there is none.
 //
 // Reading is limited: 4 GiB of memory, 20 s of processor time (E306 says which), and the time on
 // the clock below. The helper gets no environment but the settings of the dynamic linker, writes no
@@ -45,23 +41,6 @@ struct CadRun {
 /// Formats of files.
 enum class CadFormat { kStepAp214, kStepAp242, kIges, kBrep };
 
-/// A curve to write: one NURBS curve becomes one edge; pieces become one edge each (lines, circles
-/// and rational curves as such), joined in one wire. No clothoids.
-struct CadCurve {
-  std::string name;
-  std::variant<NurbsCurve, std::vector<Piece>> geometry;
-};
-
-/// Units that STEP and IGES files are written in.
-inline constexpr std::array<std::string_view, 9> kCadUnits = {"um", "mm",  "cm", "m", "km",
-                                                              "mil", "in", "ft", "mi"};
-
-/// The unit of a STEP or IGES file for lengths in `unit`: itself, or the next one of its system,
-/// into which lengths are converted. Empty for units without a length.
-[[nodiscard]] inline std::string_view cad_unit(std::string_view unit) {
-  return unit_for_file(unit, kCadUnits);
-}
-
 struct CadWriteOptions {
   CadFormat format = CadFormat::kStepAp214;
   std::string units = "mm";  ///< of the curves, and of the file as `cad_unit` says. BREP files have
@@ -70,17 +49,19 @@ struct CadWriteOptions {
                             ///< systems that show no wires
 };
 
-/// The text of a file in the plane z = 0; the same curves give the same bytes.
-/// Errors: E203 a unit that these formats do not know; E310 when the kernel's helper is not there
-/// (the hint says how to get it) or a piece is a clothoid; E101 when the kernel fails; E103.
+/// The text of a file in the plane z = 0; the same curves give the same bytes. STEP is written
+/// without the kernel and its helper, as `step_text` says.
+/// Errors: those of `step_text`; of IGES and BREP: E203 a unit that these formats do not know; E310
+/// when the kernel's helper is not there (the hint says how to get it) or a piece is a clothoid;
+/// E101 when the kernel fails; E103.
 [[nodiscard]] Result<std::string> cad_text(const std::vector<CadCurve>& curves,
                                            const CadWriteOptions& options, const CadRun& run = {});
 
 /// Curves of a STEP, IGES or BREP file, of edges and wires of all kinds; format by content. Lengths
-/// in mm (of BREP files as they are, the unit assumed). Curves in a plane z = const are taken as they lie; other
-/// plane curves each in its own plane, which a warning names; others are left out with a warning.
-/// Errors: E301, E310 as above, E306 when the kernel cannot read the file, E304 when there are no
-/// curves, E103.
+/// in mm (of BREP files as they are, the unit assumed). Curves in a plane z = const are taken as
+/// they lie; other plane curves each in its own plane, which a warning names; others are left out
+/// with a warning. Errors: E301, E310 as above, E306 when the kernel cannot read the file, E304
+/// when there are no curves, E103.
 [[nodiscard]] Result<Drawing> read_cad(const std::string& path, const CadRun& run = {});
 
 /// The text of a file of faces: each patch one face on its own B-spline surface (degrees, knots,

@@ -12,6 +12,7 @@
 #include "helper_file.h"
 #include "helper_process.h"
 #include "message.h"
+#include "obvid/exchange/step_write.h"
 
 namespace obvid {
 namespace {
@@ -77,6 +78,11 @@ CadRun for_reading(CadRun run) {
 
 Result<std::string> cad_text(const std::vector<CadCurve>& curves, const CadWriteOptions& options,
                              const CadRun& run) {
+  if (options.format == CadFormat::kStepAp214 || options.format == CadFormat::kStepAp242) {
+    const bool ap242 = options.format == CadFormat::kStepAp242;
+    return step_text(curves, {ap242 ? StepSchema::kAp242 : StepSchema::kAp214, options.units,
+                              options.face_width});
+  }
   return asked(cad::WriteCurves{curves, options}, "", run, &cad::unpacked_text);
 }
 

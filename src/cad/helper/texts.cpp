@@ -30,7 +30,7 @@
 #include <sstream>
 
 #include "obvid/core/version.h"
-#include "step_letters.h"
+#include "obvid/exchange/step_letters.h"
 #include "units.h"
 
 namespace obvid::cad {
@@ -84,7 +84,7 @@ Result<std::string> step_text(const FileContent& content, const Unit& unit, bool
   Interface_Static::SetCVal("write.step.product.name", content.name.c_str());
   Interface_Static::SetIVal("write.surfacecurve.mode", 0);
   // of what the kernel repairs before it writes, faces need nothing; copies would lose their names
-  Interface_Static::SetCVal("write.step.sequence", content.faces.empty() ? "ToSTEP" : "Nothing");
+  Interface_Static::SetCVal("write.step.sequence", "Nothing");
   STEPControl_Writer writer;
   if (writer.Transfer(content.shape, STEPControl_AsIs) != IFSelect_RetDone) {
     return fail(failed("STEP"));

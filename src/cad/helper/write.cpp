@@ -1,28 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "write.h"
 
-#include <algorithm>
 #include <utility>
 
 #include "faces.h"
+#include "obvid/exchange/step_letters.h"
 #include "shapes.h"
 #include "texts.h"
 
 namespace obvid::cad {
-namespace {
-
-/// Names of files have no line ends and other signs of control.
-std::string on_one_line(std::string name) {
-  const auto is_control = [](char c) {
-    const auto byte = static_cast<unsigned char>(c);
-    return byte < 0x20 || byte == 0x7F;
-  };
-  std::replace_if(name.begin(), name.end(), is_control, ' ');
-  return name;
-}
-
-}  // namespace
-
 Result<std::string> write_text(const std::vector<CadCurve>& curves,
                                const CadWriteOptions& options) {
   const auto scale = scale_of(options.format, options.units);

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "step_letters.h"
+#include "obvid/exchange/step_letters.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cstdint>
 
-namespace obvid::cad {
+namespace obvid {
 namespace {
 
 std::uint32_t byte_at(const std::string& text, std::size_t i) {
@@ -64,4 +64,13 @@ std::string in_step_letters(const std::string& text) {
   return out;
 }
 
-}  // namespace obvid::cad
+std::string on_one_line(std::string name) {
+  const auto is_control = [](char c) {
+    const auto byte = static_cast<unsigned char>(c);
+    return byte < 0x20 || byte == 0x7F;
+  };
+  std::replace_if(name.begin(), name.end(), is_control, ' ');
+  return name;
+}
+
+}  // namespace obvid
