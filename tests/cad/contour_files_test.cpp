@@ -112,8 +112,8 @@ class ContourFiles : public testing::Test {
   fs::path folder_;
 };
 
-/// Whether the file holds circle arcs with the ends, lengths and curvatures of these. A set of
-/// curves in STEP does not say where a closed one begins.
+/// Whether the file holds circle arcs with the ends, lengths and curvatures of these. Readers may
+/// begin a closed curve with another piece.
 void expect_arcs_found(const std::string& file, const Contour& contour) {
   const auto drawing = read_cad(file);
   ASSERT_TRUE(drawing) << to_line(drawing.error());

@@ -72,9 +72,9 @@ TEST_F(CadIsolation, ThreadsWriteAndReadAtOnceInDifferentUnitsAndFormats) {
     double millimetres;
   };
   const Kind kinds[] = {{CadFormat::kStepAp214, "mm", 1.0},
-                        {CadFormat::kStepAp242, "in", 25.4},
+                        {CadFormat::kIges, "in", 25.4},
                         {CadFormat::kIges, "m", 1000.0},
-                        {CadFormat::kStepAp214, "km", 1e6}};
+                        {CadFormat::kIges, "km", 1e6}};
   std::atomic<bool> done = false;
   std::thread busy([&] {  // holds the allocator's locks as often as it can
     while (!done) std::vector<std::string>(100, std::string(1000, 'x'));
@@ -116,7 +116,7 @@ TEST_F(CadIsolation, AHostWithMuchMemoryReadsAsWell) {
 }
 
 TEST_F(CadIsolation, NothingOfTheKernelIsInThisProcess) {
-  ASSERT_TRUE(cad_text(line_of(2.0), {}));
+  ASSERT_TRUE(cad_text(line_of(2.0), {CadFormat::kIges, "mm", 0.0}));
   const std::string maps = told("/proc/self/maps");
   ASSERT_NE(maps.find("libc.so"), std::string::npos);
   EXPECT_EQ(maps.find("libTK"), std::string::npos);

@@ -52,12 +52,12 @@ class Helper(unittest.TestCase):
             shutil.copy(self.library, folder / "obvid_cad.so")
             shutil.copy(self.hostile, folder / "obvid-cad")
 
-    def fit(self, cwd=None, **env):
-        """Exit code and error line of a run that has to write STEP."""
+    def fit(self, cwd=None, ending="igs", **env):
+        """Exit code and error line of a run that has to write IGES."""
         ours = ("OBVID_PLUGINS", "OBVID_CAD_BUILDER")
         clean = {k: v for k, v in os.environ.items() if k not in ours}
         done = subprocess.run(
-            [self.program, "fit", f"{EXAMPLES}/series10.csv", "-o", self.folder / "out.step",
+            [self.program, "fit", f"{EXAMPLES}/series10.csv", "-o", self.folder / f"out.{ending}",
              "--quiet"], cwd=cwd or self.folder, env=clean | env, capture_output=True, text=True)
         return done.returncode, done.stderr
 
@@ -67,7 +67,7 @@ class Helper(unittest.TestCase):
         for word in ("E310", *words):
             self.assertIn(word, told)
         self.assertFalse(self.trace.exists(), "hostile code ran")
-        self.assertFalse((self.folder / "out.step").exists())
+        self.assertFalse((self.folder / "out.igs").exists())
 
     def test_the_traps_work(self):
         subprocess.run([self.hostile], check=True)
@@ -118,9 +118,22 @@ class Helper(unittest.TestCase):
             shutil.copy(HELPER, folder / "obvid-cad")
             code, told = self.fit(**env)
             self.assertEqual(code, 0, told)
-            self.assertTrue((self.folder / "out.step").read_text().startswith("ISO-10303-21"))
-            (self.folder / "out.step").unlink()
+            self.assertIn("126,", (self.folder / "out.igs").read_text())
+            (self.folder / "out.igs").unlink()
             (folder / "obvid-cad").unlink()
+
+    def test_step_of_curves_needs_no_helper(self):
+        builder = self.folder / "builder"
+        builder.write_text("#!/bin/sh\necho building >&2\nexit 1\n")
+        builder.chmod(0o755)
+        self.put(self.bin)
+        for ending in ("step", "stp"):
+            code, told = self.fit(ending=ending, OBVID_CAD_BUILDER=str(builder))
+            self.assertEqual(code, 0, told)
+            self.assertNotIn("building", told)
+            self.assertFalse(self.trace.exists(), "hostile code ran")
+            text = (self.folder / f"out.{ending}").read_text()
+            self.assertTrue(text.startswith("ISO-10303-21"))
 
     def test_a_helper_that_is_missing_or_stale_is_built_when_it_is_needed(self):
         if not HELPER:

@@ -139,6 +139,39 @@ TEST(JudgeTexts, FindsStepFilesOfAnotherCurveOrUnit) {
   EXPECT_GT(of_export("a.step", changed(step, "DATA;", "NOTHING;"), note).wrong(), 0);
 }
 
+// A line of 2, a quarter of a circle of radius 1 to the left, and a whole circle of radius 5 that runs
+// to the right, by the definitions of ISO 10303-42.
+TEST(JudgeTexts, ReadsCompositeCurvesAndWholeCirclesOfStep) {
+  const std::string head =
+      "ISO-10303-21;\nHEADER;\nENDSEC;\nDATA;\n#1=DIRECTION('',(0.,0.,1.));\n"
+      "#2=DIRECTION('',(1.,0.,0.));\n#3=(LENGTH_UNIT()NAMED_UNIT(*)SI_UNIT(.MILLI.,.METRE.));\n"
+      "#4=CARTESIAN_POINT('',(0.,0.,0.));\n#5=VECTOR('',#2,1.);\n#6=LINE('',#4,#5);\n"
+      "#7=TRIMMED_CURVE('',#6,(PARAMETER_VALUE(0.)),(PARAMETER_VALUE(2.)),.T.,.PARAMETER.);\n"
+      "#8=CARTESIAN_POINT('',(2.,1.,0.));\n#9=DIRECTION('',(0.,-1.,0.));\n"
+      "#10=AXIS2_PLACEMENT_3D('',#8,#1,#9);\n#11=CIRCLE('',#10,1.);\n"
+      "#12=TRIMMED_CURVE('',#11,(PARAMETER_VALUE(0.)),(PARAMETER_VALUE(1.5707963267948966)),.T.,"
+      ".PARAMETER.);\n#13=COMPOSITE_CURVE_SEGMENT(.CONTINUOUS.,.T.,#7);\n"
+      "#14=COMPOSITE_CURVE_SEGMENT(.DISCONTINUOUS.,.T.,#12);\n"
+      "#15=COMPOSITE_CURVE('',(#13,#14),.U.);\n#16=DIRECTION('',(0.,0.,-1.));\n"
+      "#17=AXIS2_PLACEMENT_3D('',#4,#16,#2);\n#18=CIRCLE('',#17,5.);\n";
+  const auto drawn = [&](const std::string& curve) {
+    return judge::read_step(head + "#19=GEOMETRIC_CURVE_SET('',(" + curve +
+                                "));\nENDSEC;\nEND-ISO-10303-21;\n",
+                            {0, 0}, "mm");
+  };
+  const judge::Drawing joined = drawn("#15");
+  ASSERT_EQ(joined.fault, "");
+  ASSERT_EQ(joined.spans.size(), 2U);
+  EXPECT_NEAR(static_cast<double>(joined.spans[0].at(1.0L).x), 2.0, 1e-15);
+  EXPECT_NEAR(static_cast<double>(joined.spans[1].at(1.0L).x), 3.0, 1e-15);
+  EXPECT_NEAR(static_cast<double>(joined.spans[1].at(1.0L).y), 1.0, 1e-15);
+  const judge::Drawing whole = drawn("#18");
+  ASSERT_EQ(whole.fault, "");
+  ASSERT_EQ(whole.spans.size(), 1U);
+  EXPECT_NEAR(static_cast<double>(whole.spans[0].at(0.25L).y), -5.0, 1e-14);
+  EXPECT_NEAR(static_cast<double>(whole.spans[0].at(1.0L).x), 5.0, 1e-14);
+}
+
 TEST(JudgeTexts, FindsGcodeThatLeavesTheContourOrMiscounts) {
   const std::string nc = data("judge/series10.nc");
   const std::string note = "30 blocks, 30 of them arcs, at most 0.00473 mm from the contour";
