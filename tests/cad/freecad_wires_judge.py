@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: Apache-2.0
 """Tells what FreeCAD finds in CAD files: run by freecadcmd, OBVID_JUDGE names a list of files, one
-a line. Prints one line per file: FOUND name edges wires faces shells valid length area free: length of
-the curves and area of the faces in mm, edges of
-shells that belong to one face. A last line JUDGE DONE.
+a line. Prints one line per file: FOUND name edges wires faces shells valid length area free, and a
+last line JUDGE DONE. Edges, wires and length are those of the curves beside the faces, in mm; free
+edges of shells belong to one face.
 """
 import os
 

@@ -62,11 +62,11 @@ Result<fs::path> installed_helper() {
     return file;
   }
   return fail({ErrorCode::kUnsupported,
-               "STEP, IGES and BREP need the helper program " + std::string(kHelperFile) +
+               "this needs the helper program " + std::string(kHelperFile) +
                    ", which is not installed",
                "",
-               "install libocct-data-exchange-dev and libtbb-dev and build with -DOBVID_CAD=ON, or "
-               "write .dxf or .svg instead",
+               "install libocct-data-exchange-dev and libtbb-dev and build with -DOBVID_CAD=ON; "
+               "contours leave as .step, .dxf or .svg without it",
                -1, 0.0});
 }
 

@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "doctored.h"
+#include "drawing.h"
 #include "sentences.h"
 #include "series.h"
 
@@ -162,14 +163,14 @@ TEST(JudgeTexts, ReadsCompositeCurvesAndWholeCirclesOfStep) {
   const judge::Drawing joined = drawn("#15");
   ASSERT_EQ(joined.fault, "");
   ASSERT_EQ(joined.spans.size(), 2U);
-  EXPECT_NEAR(static_cast<double>(joined.spans[0].at(1.0L).x), 2.0, 1e-15);
-  EXPECT_NEAR(static_cast<double>(joined.spans[1].at(1.0L).x), 3.0, 1e-15);
-  EXPECT_NEAR(static_cast<double>(joined.spans[1].at(1.0L).y), 1.0, 1e-15);
+  EXPECT_NEAR(static_cast<double>(joined.spans[0].point(1.0L).x), 2.0, 1e-15);
+  EXPECT_NEAR(static_cast<double>(joined.spans[1].point(1.0L).x), 3.0, 1e-15);
+  EXPECT_NEAR(static_cast<double>(joined.spans[1].point(1.0L).y), 1.0, 1e-15);
   const judge::Drawing whole = drawn("#18");
   ASSERT_EQ(whole.fault, "");
   ASSERT_EQ(whole.spans.size(), 1U);
-  EXPECT_NEAR(static_cast<double>(whole.spans[0].at(0.25L).y), -5.0, 1e-14);
-  EXPECT_NEAR(static_cast<double>(whole.spans[0].at(1.0L).x), 5.0, 1e-14);
+  EXPECT_NEAR(static_cast<double>(whole.spans[0].point(0.25L).y), -5.0, 1e-14);
+  EXPECT_NEAR(static_cast<double>(whole.spans[0].point(1.0L).x), 5.0, 1e-14);
 }
 
 TEST(JudgeTexts, FindsGcodeThatLeavesTheContourOrMiscounts) {
