@@ -14,10 +14,10 @@
 
 namespace obvid {
 
-// Formats that need the CAD kernel Open CASCADE. The kernel runs in a helper program of its own,
-// `obvid-cad`, one process for each call, and never in the process that calls: its crashes, its
-// global settings and its memory stay there. Every function below may be called from several
-// threads at once, in a process that uses the kernel itself, too.
+// Formats that need the CAD kernel Open CASCADE, all but STEP files of curves. The kernel runs in a
+// helper program of its own, `obvid-cad`, one process for each call, and never in the process that
+// calls: its crashes, its global settings and its memory stay there. Every function below may be
+// called from several threads at once, in a process that uses the kernel itself, too.
 //
 // The helper is looked for in the folder that $OBVID_PLUGINS names, in the folder of the program
 // (or shared library) that holds this code, and in ../libexec/obvid seen from there; nowhere else.
