@@ -140,8 +140,8 @@ TEST(JudgeTexts, FindsStepFilesOfAnotherCurveOrUnit) {
   EXPECT_GT(of_export("a.step", changed(step, "DATA;", "NOTHING;"), note).wrong(), 0);
 }
 
-// A line of 2, a quarter of a circle of radius 1 to the left, and a whole circle of radius 5 that runs
-// to the right, by the definitions of ISO 10303-42.
+// A line of 2, a quarter of a circle of radius 1 to the left, and a whole circle of radius 5 that
+// runs to the right, by the definitions of ISO 10303-42.
 TEST(JudgeTexts, ReadsCompositeCurvesAndWholeCirclesOfStep) {
   const std::string head =
       "ISO-10303-21;\nHEADER;\nENDSEC;\nDATA;\n#1=DIRECTION('',(0.,0.,1.));\n"
@@ -156,9 +156,9 @@ TEST(JudgeTexts, ReadsCompositeCurvesAndWholeCirclesOfStep) {
       "#15=COMPOSITE_CURVE('',(#13,#14),.U.);\n#16=DIRECTION('',(0.,0.,-1.));\n"
       "#17=AXIS2_PLACEMENT_3D('',#4,#16,#2);\n#18=CIRCLE('',#17,5.);\n";
   const auto drawn = [&](const std::string& curve) {
-    return judge::read_step(head + "#19=GEOMETRIC_CURVE_SET('',(" + curve +
-                                "));\nENDSEC;\nEND-ISO-10303-21;\n",
-                            {0, 0}, "mm");
+    return judge::read_step(
+        head + "#19=GEOMETRIC_CURVE_SET('',(" + curve + "));\nENDSEC;\nEND-ISO-10303-21;\n", {0, 0},
+        "mm");
   };
   const judge::Drawing joined = drawn("#15");
   ASSERT_EQ(joined.fault, "");
