@@ -3,6 +3,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "obvid/core/version.h"
 #include "obvid/exchange/step_letters.h"
 

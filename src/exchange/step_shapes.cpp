@@ -106,19 +106,28 @@ bool all_numbers_finite(const StepShape& shape) {
   return sound;
 }
 
-bool lists_agree(const NurbsCurve& curve) {
+/// Lists of the right lengths, knots that ascend without tearing the curve, positive weights. What
+/// is not a number passes: that is another error.
+bool makes_a_curve(const NurbsCurve& curve) {
   const std::size_t n = curve.points.size();
-  return curve.degree >= 1 && n > static_cast<std::size_t>(curve.degree) &&
-         curve.weights.size() == n &&
-         curve.knots.size() == n + static_cast<std::size_t>(curve.degree) + 1;
+  if (curve.degree < 1 || n <= static_cast<std::size_t>(curve.degree)) return false;
+  const auto p = static_cast<std::size_t>(curve.degree);
+  if (curve.weights.size() != n || curve.knots.size() != n + p + 1) return false;
+  for (std::size_t i = 0; i + 1 < curve.knots.size(); ++i) {
+    if (curve.knots[i] > curve.knots[i + 1]) return false;
+  }
+  for (std::size_t i = 1; i < n; ++i) {
+    if (curve.knots[i] >= curve.knots[i + p]) return false;
+  }
+  return std::none_of(curve.weights.begin(), curve.weights.end(),
+                      [](double w) { return w <= 0.0; });
 }
 
 Result<std::vector<StepShape>> shapes_of(const CadCurve& curve, double scale) {
   std::vector<StepShape> out;
   if (const auto* nurbs = std::get_if<NurbsCurve>(&curve.geometry)) {
-    if (!lists_agree(*nurbs)) {
-      return refused_curve(ErrorCode::kInternal,
-                           "the lists of a NURBS curve contradict each other");
+    if (!makes_a_curve(*nurbs)) {
+      return refused_curve(ErrorCode::kInternal, "knots, points and weights make no NURBS curve");
     }
     out.push_back(StepShaper(scale, 0.0).shape(*nurbs));
     return out;

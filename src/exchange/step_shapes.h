@@ -36,8 +36,8 @@ struct StepChain {
 };
 
 /// Lengths times `scale`. Points nearer than `same` (units of the file) are one. Errors: E303 a
-/// number that is not finite, E304 no pieces, E310 a clothoid, E101 lists that contradict each
-/// other, pieces that do not meet.
+/// number that is not finite, E304 no pieces, E310 a clothoid, E101 lists that make no NURBS
+/// curve, pieces that do not meet.
 [[nodiscard]] Result<StepChain> step_chain(const CadCurve& curve, double scale, double same);
 
 }  // namespace obvid::exchange

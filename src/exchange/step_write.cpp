@@ -72,10 +72,12 @@ class StepDocument {
   }
 
  private:
-  /// A record of texts and other instances.
+  template <class>
+  using AsText = std::string;
+
+  /// A record with values and other instances in its places.
   template <class... Part>
-  StepId add(fmt::format_string<std::conditional_t<true, std::string, Part>...> form,
-             const Part&... parts) {
+  StepId add(fmt::format_string<AsText<Part>...> form, const Part&... parts) {
     return file_.add(fmt::format(form, as_text(parts)...));
   }
   static std::string as_text(StepId id) { return step_value(id); }

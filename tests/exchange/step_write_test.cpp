@@ -212,9 +212,16 @@ TEST(StepWrite, WhatStepCannotSayIsRefused) {
   expect_refused(
       {{"gap", std::vector<Piece>{LinePiece{{0, 0}, {1, 0}}, LinePiece{{2, 0}, {3, 0}}}}},
       ErrorCode::kInternal);
-  NurbsCurve broken = step_cubic();
-  broken.knots.pop_back();
-  expect_refused({{"knots", broken}}, ErrorCode::kInternal);
+  NurbsCurve few = step_cubic(), back = step_cubic(), torn = step_cubic(), weight = step_cubic();
+  few.knots.pop_back();
+  back.knots[4] = 2.0;
+  torn.points.insert(torn.points.end(), 3, Vec2{7, 1});
+  torn.weights.assign(8, 1.0);
+  torn.knots = {0, 0, 0, 0, 0.5, 0.5, 0.5, 0.5, 1, 1, 1, 1};
+  weight.weights[2] = 0.0;
+  for (const NurbsCurve& none : {few, back, torn, weight}) {
+    expect_refused({{"none", none}}, ErrorCode::kInternal);
+  }
   for (const double bad :
        {std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity()}) {
     NurbsCurve point = step_cubic(), knot = step_cubic();

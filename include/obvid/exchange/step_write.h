@@ -26,8 +26,8 @@ struct StepOptions {
 /// (docs/methods/step.md). Numbers have the fewest digits that give them back. The name of the
 /// product is that of the first curve. The same curves give the same bytes.
 /// Linear time. Errors: E203 a unit that STEP does not know; E303 a number that is not finite; E304
-/// no curves or no pieces; E310 a clothoid; E101 pieces that do not meet, and lists of a NURBS
-/// curve that contradict each other.
+/// no curves or no pieces; E310 a clothoid; E101 pieces that do not meet, and knots, points and
+/// weights that make no NURBS curve.
 [[nodiscard]] Result<std::string> step_text(const std::vector<CadCurve>& curves,
                                             const StepOptions& options = {});
 
