@@ -275,7 +275,20 @@ PictureTrack make_track(const Contour& contour) {
     return a.at.s < b.at.s;
   };
   std::stable_sort(track.features.begin(), track.features.end(), earlier);
+  track.counts = {count_features(track, PictureFeature::Kind::kVertex),
+                  count_features(track, PictureFeature::Kind::kInflection),
+                  count_features(track, PictureFeature::Kind::kCorner)};
   return track;
+}
+
+void take_counts(PictureTrack& track, const Certificate& certificate) {
+  const auto count = [](int n) { return static_cast<std::size_t>(std::max(n, 0)); };
+  track.counts.vertices = count(certificate.vertices);
+  track.counts.inflections = count(certificate.inflections);
+  std::erase_if(track.features, [&](const PictureFeature& f) {
+    return (f.kind == PictureFeature::Kind::kVertex && track.counts.vertices == 0) ||
+           (f.kind == PictureFeature::Kind::kInflection && track.counts.inflections == 0);
+  });
 }
 
 std::size_t count_features(const PictureTrack& track, PictureFeature::Kind kind) {

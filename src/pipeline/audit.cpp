@@ -217,24 +217,28 @@ class Auditor {
     return count;
   }
 
-  /// Calls `found` for each extremum that the curvature leaves by more than `least` on both sides.
+  /// Calls `found` for each extremum that the curvature leaves by more than `least` on both sides,
+  /// around the seam of a closed curve too.
   template <class Found>
   void extrema(double least, Found found) {
     Sample low = samples_.front(), high = low;
-    int direction = 0;
+    Sample first = low;  // the extremum that the first swing leaves
+    int direction = 0, first_direction = 0;
     for (const Sample& now : samples_) {
       if (now.kappa < low.kappa) low = now;
       if (now.kappa > high.kappa) high = now;
-      if (direction >= 0 && now.kappa < high.kappa - least) {
-        if (direction > 0) found(high);
-        direction = -1;
-        low = now;
-      } else if (direction <= 0 && now.kappa > low.kappa + least) {
-        if (direction < 0) found(low);
-        direction = 1;
-        high = now;
-      }
+      const bool falls = direction >= 0 && now.kappa < high.kappa - least;
+      if (!falls && !(direction <= 0 && now.kappa > low.kappa + least)) continue;
+      const Sample& left = falls ? high : low;
+      if (direction != 0) found(left);
+      if (direction == 0) first = left;
+      direction = falls ? -1 : 1;
+      if (first_direction == 0) first_direction = direction;
+      (falls ? low : high) = now;
     }
+    if (!out_.contour.closed || direction == first_direction) return;
+    found(direction > 0 ? (high.kappa > first.kappa ? high : first)
+                        : (low.kappa < first.kappa ? low : first));
   }
 
   /// The extremum nearest to a sample inside its piece, where the rate of curvature is 0.
@@ -257,9 +261,10 @@ class Auditor {
   }
 
   void place_inflections() {
-    const Sample* last = nullptr;
+    const Sample *last = nullptr, *first = nullptr;
     for (const Sample& now : samples_) {
       if (std::abs(now.kappa) <= rounding_) continue;
+      if (first == nullptr) first = &now;
       if (last != nullptr && last->kappa * now.kappa < 0.0) {
         const double part = last->kappa / (last->kappa - now.kappa);
         Sample at = now;
@@ -270,6 +275,10 @@ class Auditor {
       }
       last = &now;
     }
+    if (!out_.contour.closed || last == nullptr || !(last->kappa * first->kappa < 0.0)) return;
+    Sample seam = samples_.front();
+    seam.kappa = 0.0;
+    place(AuditPlace::Kind::kInflection, seam);
   }
 
   CurveAudit out_;

@@ -47,6 +47,7 @@ class Search {
     if (!(highest_ > lowest_)) return std::nullopt;
     if (bracket()) {
       bisect();
+      out_.next_to_nothing = out_.found && out_.tolerance <= lowest_ * kAccuracy;
       rank();
     }
     if (!out_.found && !out_.stopped) return std::nullopt;

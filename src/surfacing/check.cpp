@@ -11,6 +11,9 @@
 namespace obvid {
 namespace {
 
+/// A number of cells is not rounded up for the rounding of a quotient.
+constexpr double kCellRounding = 1e-9;
+
 /// Order of continuity that the multiplicities of inner knots leave.
 int order_of(const std::vector<double>& knots, int degree) {
   int order = degree;
@@ -28,17 +31,32 @@ void widen(Extent& extent, double value, bool first) {
   extent.most = first ? value : std::max(extent.most, value);
 }
 
+/// About `n` cells, none of them over a knot: a short span has a curvature of its own.
+std::vector<Range> cells_of(const std::vector<double>& knots, const Range& domain, std::size_t n) {
+  std::vector<Range> cells;
+  double from = domain.from;
+  for (const double knot : knots) {
+    const double to = std::min(knot, domain.to);
+    if (!(to > from)) continue;
+    const double parts =
+        std::ceil(static_cast<double>(n) * (to - from) / domain.length() * (1.0 - kCellRounding));
+    for (double k = 0.0; k < parts; k += 1.0) {
+      const Range span{from, to};
+      cells.push_back({span.at(k / parts), span.at((k + 1.0) / parts)});
+    }
+    from = to;
+  }
+  return cells;
+}
+
 void measure_curvature(const NurbsSurface& s, std::size_t n, PatchReport& report) {
-  const Range u = domain_u(s), v = domain_v(s);
+  const std::vector<Range> along_u = cells_of(s.knots_u, domain_u(s), n);
   bool first = true;
-  for (std::size_t j = 0; j < n; ++j) {
-    for (std::size_t i = 0; i < n; ++i) {
+  for (const Range& v : cells_of(s.knots_v, domain_v(s), n)) {
+    for (const Range& u : along_u) {
       // middles of cells: the same samples serve the area
-      const double a = (static_cast<double>(i) + 0.5) / static_cast<double>(n);
-      const double b = (static_cast<double>(j) + 0.5) / static_cast<double>(n);
-      const SurfaceJet jet = evaluate(s, u.at(a), v.at(b));
-      const double cell = u.length() * v.length() / static_cast<double>(n * n);
-      report.area += norm(cross(jet.du, jet.dv)) * cell;
+      const SurfaceJet jet = evaluate(s, u.at(0.5), v.at(0.5));
+      report.area += norm(cross(jet.du, jet.dv)) * u.length() * v.length();
       const SurfaceCurvature k = curvature(jet);
       if (k.normal == Vec3{}) {
         ++report.without_normal;
