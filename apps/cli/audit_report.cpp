@@ -36,6 +36,10 @@ std::string least_radius(const CurveAudit& a) {
   return radius_text(left ? a.largest_kappa : a.least_kappa);
 }
 
+std::string count_text(const CurveAudit& a, int count) {
+  return a.counted ? std::to_string(count) : "-";
+}
+
 std::string curve_table(const std::vector<CurveAudit>& audits) {
   Table table;
   table.column("curve");
@@ -56,8 +60,8 @@ std::string curve_table(const std::vector<CurveAudit>& audits) {
     before = i + 1;
     const CurveAudit& a = audits[i];
     table.row({std::to_string(i + 1), a.label, std::to_string(a.contour.pieces.size()),
-               significant(a.length), audit_continuity(a.continuity), std::to_string(a.vertices),
-               std::to_string(a.visible_vertices), std::to_string(a.inflections), least_radius(a)});
+               significant(a.length), audit_continuity(a.continuity), count_text(a, a.vertices),
+               count_text(a, a.visible_vertices), count_text(a, a.inflections), least_radius(a)});
   }
   return table.text() + shown_note(shown.size(), audits.size(), "least fair", "curves");
 }
@@ -167,7 +171,7 @@ std::string unplaced_text(const CurveAudit& a) {
   };
   const auto vertices = listed_of(AuditPlace::Kind::kVertex);
   const auto inflections = listed_of(AuditPlace::Kind::kInflection);
-  if (vertices >= a.vertices && inflections >= a.inflections) return {};
+  if (!a.counted || (vertices >= a.vertices && inflections >= a.inflections)) return {};
   return fmt::format(
       "{} of {} and {} of {} have a place; at the others the curvature does not stand out of the "
       "rounding\n",
@@ -231,8 +235,13 @@ std::string audit_json(const Drawing& drawing, const std::vector<CurveAudit>& au
   for (const CurveAudit& a : audits) {
     json.begin_object().pair("label", a.label).pair("pieces", a.contour.pieces.size());
     json.pair("length", a.length).pair("continuity", a.continuity);
-    json.pair("closed", a.contour.closed).pair("vertices", a.vertices);
-    json.pair("visible_vertices", a.visible_vertices).pair("inflections", a.inflections);
+    json.pair("closed", a.contour.closed);
+    for (const auto& [name, count] :
+         {std::pair{"vertices", a.vertices}, std::pair{"visible_vertices", a.visible_vertices},
+          std::pair{"inflections", a.inflections}}) {
+      json.key(name);
+      a.counted ? json.value(count) : json.null();
+    }
     json.pair("least_kappa", a.least_kappa).pair("largest_kappa", a.largest_kappa);
     json.pair("straightened", a.straightened).pair("flat_curvature", a.flat_curvature);
     add_places(json, a);

@@ -71,6 +71,9 @@ class Auditor {
     out_.certificate = certify(out_.contour);
     out_.vertices = out_.certificate.vertices;
     out_.inflections = out_.certificate.inflections;
+    out_.counted =
+        std::none_of(out_.certificate.pieces.begin(), out_.certificate.pieces.end(),
+                     [](const PieceProof& piece) { return piece.verdict == Verdict::kUndecided; });
     place_vertices();
     place_inflections();
     out_.visible_vertices = swings(kVisible * (out_.largest_kappa - out_.least_kappa));
@@ -208,7 +211,12 @@ class Auditor {
 
   /// Extrema of the sampled curvature that stand out of the rounding.
   void place_vertices() {
-    extrema(rounding_, [&](const Sample& at) { place(AuditPlace::Kind::kVertex, refined(at)); });
+    extrema(rounding_, [&](const Sample& at) {
+      const Sample there = refined(at);
+      out_.least_kappa = std::min(out_.least_kappa, there.kappa);
+      out_.largest_kappa = std::max(out_.largest_kappa, there.kappa);
+      place(AuditPlace::Kind::kVertex, there);
+    });
   }
 
   [[nodiscard]] int swings(double least) {
@@ -304,8 +312,10 @@ std::string as_drawn(const CurveAudit& a) {
     jumps += place.kind == AuditPlace::Kind::kCurvatureJump ? 1 : 0;
     gaps += place.kind == AuditPlace::Kind::kGap ? 1 : 0;
   }
-  std::string text = "as drawn: " + counted(a.vertices, "vertex", "vertices") + ", " +
-                     counted(a.inflections, "inflection", "inflections");
+  std::string text = "as drawn: ";
+  text += a.counted ? counted(a.vertices, "vertex", "vertices") + ", " +
+                          counted(a.inflections, "inflection", "inflections")
+                    : "vertices not counted, the curvature has no bound";
   if (corners > 0) text += ", " + counted(corners, "corner", "corners");
   if (jumps > 0) text += ", " + counted(jumps, "jump", "jumps") + " of the curvature";
   if (gaps > 0) text += ", " + counted(gaps, "gap", "gaps");

@@ -72,6 +72,17 @@ TEST(Audit, AnEllipseHasItsFourVerticesAtItsAxes) {
   EXPECT_EQ(count(a, AuditPlace::Kind::kInflection), 0);
 }
 
+TEST(Audit, NothingIsCountedWhereTheCurvatureHasNoBound) {
+  // the first leg of the cubic has no length: its curvature grows as 1 / t towards the start
+  RationalBezier cubic;
+  cubic.degree = 3;
+  cubic.offset = {Vec2{0, 0}, Vec2{0, 0}, Vec2{2, 3}, Vec2{-8, 5}};
+  cubic.weight = {1, 1, 1, 1};
+  const CurveAudit a = audit({"path", {LinePiece{{-5, 0}, {0, 0}}, cubic}, false}, "mm");
+  EXPECT_FALSE(a.counted);
+  EXPECT_EQ(as_drawn(a).find("0 vertices"), std::string::npos);
+}
+
 TEST(Audit, TheSplineOfCadSystemsShowsItsVerticesAndItsInflection) {
   const std::vector<Vec2> points = {
       {0, 0},          {0.21, -5.28},  {-5.11, -10.13}, {-20.48, -7.65}, {-28.68, 16.23},
