@@ -69,7 +69,8 @@ inline constexpr int kNoRun = 2;
 [[nodiscard]] std::size_t count_features(const PictureTrack& track, PictureFeature::Kind kind);
 
 /// Texts of a picture give the counts of the certificate, not of the samples between which small
-/// swings of the curvature are lost. Nothing is marked of which there is none.
+/// swings of the curvature are lost. Nothing is marked of which there is none. A
+/// certificate with an undecided piece has not counted.
 void take_counts(PictureTrack& track, const Certificate& certificate);
 
 /// About `count` teeth, half of them even in arc length, half even in curvature change.
