@@ -308,7 +308,9 @@ PictureTrack make_track(const Contour& contour) {
 
 void take_counts(PictureTrack& track, const Certificate& certificate) {
   const auto open = [](const PieceProof& piece) { return piece.verdict == Verdict::kUndecided; };
-  if (std::any_of(certificate.pieces.begin(), certificate.pieces.end(), open)) return;
+  const bool counted = !certificate.pieces.empty() &&
+                       std::none_of(certificate.pieces.begin(), certificate.pieces.end(), open);
+  if (!counted) return;
   const auto count = [](int n) { return static_cast<std::size_t>(std::max(n, 0)); };
   track.counts.vertices = count(certificate.vertices);
   track.counts.inflections = count(certificate.inflections);

@@ -70,7 +70,7 @@ inline constexpr int kNoRun = 2;
 
 /// Texts of a picture give the counts of the certificate, not of the samples between which small
 /// swings of the curvature are lost. Nothing is marked of which there is none. A
-/// certificate with an undecided piece has not counted.
+/// certificate without pieces, or with an undecided one, has not counted.
 void take_counts(PictureTrack& track, const Certificate& certificate);
 
 /// About `count` teeth, half of them even in arc length, half even in curvature change.
