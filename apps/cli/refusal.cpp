@@ -29,7 +29,7 @@ std::string tolerance_text(const WhyNot& why, const std::string& units) {
   return fmt::format("tolerance of {} {}", significant(why.tolerance, kToleranceDigits), units);
 }
 
-std::string counts_text(const Fit& fit) {
+std::string counts_of_fit(const Fit& fit) {
   const auto count = [](int n) { return static_cast<std::size_t>(std::max(n, 0)); };
   return counted(count(fit.report.vertices), "vertex", "vertices") + " and " +
          counted(count(fit.report.inflections), "inflection", "inflections");
@@ -40,7 +40,7 @@ Error with_tolerance(Error error, const std::optional<WhyNot>& why, const std::s
   if (!why) {
     error.hint += "moving every point by up to a tenth of the size does not help";
   } else if (why->found && why->next_to_nothing) {
-    error.hint += "no point is in the way: with " + counts_text(why->fit) +
+    error.hint += "no point is in the way: with " + counts_of_fit(why->fit) +
                   " there is one, --noise " + significant(why->tolerance, kToleranceDigits) +
                   " allows them";
   } else if (why->found) {
@@ -120,7 +120,7 @@ std::string refusal_text(const PointSeries& series, const WhyNot& why,
   if (why.next_to_nothing) {
     text += fmt::format(
         "No point is in the way. A contour with {} exists and is proved: {} allows them.\n",
-        counts_text(why.fit), noise_option(why.tolerance, why.fit.contour.closed, series.points));
+        counts_of_fit(why.fit), noise_option(why.tolerance, why.fit.contour.closed, series.points));
   } else {
     text += points_in_the_way_text(series, why);
   }
