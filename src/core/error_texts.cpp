@@ -94,8 +94,8 @@ constexpr std::array kTexts{
         ErrorCode::kFixedDataContradict, "Fixed headings or curvatures contradict the points",
         "Contours run through the points, but with as few vertices as these show none also has "
         "the headings, radii or curvatures that were fixed.",
-        "Free the named values one after another, or type the `--noise` that the error line "
-        "names: within it points may move, and there may be more vertices."},
+        "Free the named values, take one from the range that the error line names, or type its "
+        "`--noise`: within it points may move, and there may be more vertices."},
     ErrorText{
         ErrorCode::kNoRoomForTransition, "No room for a curvature-continuous transition",
         "Four or more points lie exactly on one line or circle, and the points beside them are "
