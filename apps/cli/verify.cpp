@@ -74,12 +74,13 @@ const char* yes_no(bool flag) { return flag ? "yes" : "no"; }
 /// The claims of the file beside what was found now.
 void add_claims(Facts& facts, const StoredContour& stored, const Certificate& found) {
   if (stored.report) {
-    facts.add(
-        "report claims",
-        fmt::format("{}, {}, largest width {} {}",
-                    counted(stored.report->vertices, "vertex", "vertices"),
-                    counted(stored.report->inflections, "inflection", "inflections"),
-                    significant(stored.report->largest_width, 4), stored.contour.units.text()));
+    facts.add("report claims",
+              fmt::format(
+                  "{}, {}, largest width {} {}",
+                  counted(static_cast<std::size_t>(stored.report->vertices), "vertex", "vertices"),
+                  counted(static_cast<std::size_t>(stored.report->inflections), "inflection",
+                          "inflections"),
+                  significant(stored.report->largest_width, 4), stored.contour.units.text()));
   } else {
     facts.add("report claims", "the file holds no report");
   }
