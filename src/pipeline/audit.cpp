@@ -209,13 +209,30 @@ class Auditor {
         {kind, at.s, evaluate(out_.contour.pieces[at.piece], at.t).point, at.kappa, at.kappa, 0.0});
   }
 
+  /// Calls `find` with larger and larger limits until no more is found than the proof counts: what
+  /// there is more are ripples of rounding.
+  template <class Find>
+  void find_proved(int proved, Find find) {
+    constexpr double kCoarser = 10.0;
+    const std::size_t before = out_.places.size();
+    for (double least = rounding_;; least *= kCoarser) {
+      out_.places.erase(out_.places.begin() + static_cast<std::ptrdiff_t>(before),
+                        out_.places.end());
+      find(least);
+      const std::size_t found = out_.places.size() - before;
+      if (!out_.counted || found <= static_cast<std::size_t>(proved) || !(least > 0.0)) return;
+    }
+  }
+
   /// Extrema of the sampled curvature that stand out of the rounding.
   void place_vertices() {
-    extrema(rounding_, [&](const Sample& at) {
-      const Sample there = refined(at);
-      out_.least_kappa = std::min(out_.least_kappa, there.kappa);
-      out_.largest_kappa = std::max(out_.largest_kappa, there.kappa);
-      place(AuditPlace::Kind::kVertex, there);
+    find_proved(out_.vertices, [this](double least) {
+      extrema(least, [this](const Sample& at) {
+        const Sample there = refined(at);
+        out_.least_kappa = std::min(out_.least_kappa, there.kappa);
+        out_.largest_kappa = std::max(out_.largest_kappa, there.kappa);
+        place(AuditPlace::Kind::kVertex, there);
+      });
     });
   }
 
@@ -269,9 +286,13 @@ class Auditor {
   }
 
   void place_inflections() {
+    find_proved(out_.inflections, [this](double least) { sign_changes(least); });
+  }
+
+  void sign_changes(double least) {
     const Sample *last = nullptr, *first = nullptr;
     for (const Sample& now : samples_) {
-      if (std::abs(now.kappa) <= rounding_) continue;
+      if (std::abs(now.kappa) <= least) continue;
       if (first == nullptr) first = &now;
       if (last != nullptr && last->kappa * now.kappa < 0.0) {
         const double part = last->kappa / (last->kappa - now.kappa);
