@@ -100,8 +100,8 @@ def labels_of(picture):
     raised = str.maketrans("⁰¹²³⁴⁵⁶⁷⁸⁹⁻−", "0123456789--")
     found = [html.unescape(re.sub(r"<[^>]*>", "", t)) for t in re.findall(
         r"<text[^>]*>(.*?)</text>", picture, re.S)]
-    found = [re.sub(r"·10([⁰¹²³⁴⁵⁶⁷⁸⁹⁻]+)", lambda m: "e" + m[1].translate(raised), t)
-             for t in found]
+    found = [re.sub(r"(·?)10([⁰¹²³⁴⁵⁶⁷⁸⁹⁻]+)",
+                    lambda m: ("e" if m[1] else "1e") + m[2].translate(raised), t) for t in found]
     return [t for t in found if not re.fullmatch(NUMBER, t)]
 
 
