@@ -72,6 +72,7 @@ class Auditor {
     out_.vertices = out_.certificate.vertices;
     out_.inflections = out_.certificate.inflections;
     out_.counted =
+        !unbounded_ &&
         std::none_of(out_.certificate.pieces.begin(), out_.certificate.pieces.end(),
                      [](const PieceProof& piece) { return piece.verdict == Verdict::kUndecided; });
     place_vertices();
@@ -155,6 +156,10 @@ class Auditor {
       Joint joint{before, std::nullopt, {}};
       joint.element.theta = theta + std::remainder(before.theta - theta, 2.0 * std::numbers::pi);
       theta = joint.element.theta;
+      const bool bounded = std::isfinite(before.kappa) && std::isfinite(after.kappa);
+      unbounded_ = unbounded_ || !bounded;
+      // no more is known there than that the pieces meet: they have no tangent of their own either
+      if (!bounded) out_.continuity = std::min(out_.continuity, 0);
       if (!first && !last && compare(j, before, after)) joint.leaving = after;
       joint.source = j;  // a drawn curve passes the ends of its pieces
       out_.contour.points.push_back(before.point);
@@ -312,6 +317,7 @@ class Auditor {
 
   CurveAudit out_;
   double size_ = 0.0, rounding_ = 0.0;
+  bool unbounded_ = false;      // some end of a piece has no curvature
   std::vector<double> starts_;  // arc length at the start of each piece
   std::vector<Sample> samples_;
 };

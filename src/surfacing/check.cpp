@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numbers>
 #include <optional>
 
 #include "check_lines.h"
@@ -31,32 +32,40 @@ void widen(Extent& extent, double value, bool first) {
   extent.most = first ? value : std::max(extent.most, value);
 }
 
-/// About `n` cells, none of them over a knot: a short span has a curvature of its own.
-std::vector<Range> cells_of(const std::vector<double>& knots, const Range& domain, std::size_t n) {
-  std::vector<Range> cells;
+/// A parameter and the part of the domain that it stands for.
+struct Node {
+  double at = 0.0;
+  double weight = 0.0;
+};
+
+/// About `n` nodes of Gauss's rule, two in each cell, no cell over a knot: a short span has a
+/// curvature of its own, and areas are exact to the third degree.
+std::vector<Node> nodes_of(const std::vector<double>& knots, const Range& domain, std::size_t n) {
+  const double apart = 0.5 / std::numbers::sqrt3;  // of a cell, from its middle
+  std::vector<Node> nodes;
   double from = domain.from;
   for (const double knot : knots) {
-    const double to = std::min(knot, domain.to);
-    if (!(to > from)) continue;
-    const double parts =
-        std::ceil(static_cast<double>(n) * (to - from) / domain.length() * (1.0 - kCellRounding));
-    for (double k = 0.0; k < parts; k += 1.0) {
-      const Range span{from, to};
-      cells.push_back({span.at(k / parts), span.at((k + 1.0) / parts)});
+    const Range span{from, std::min(knot, domain.to)};
+    if (!(span.length() > 0.0)) continue;
+    const double share = span.length() / domain.length() * (1.0 - kCellRounding);
+    const double cells = std::ceil(0.5 * static_cast<double>(n) * share);
+    for (double k = 0.0; k < cells; k += 1.0) {
+      for (const double side : {-apart, apart}) {
+        nodes.push_back({span.at((k + 0.5 + side) / cells), 0.5 * span.length() / cells});
+      }
     }
-    from = to;
+    from = span.to;
   }
-  return cells;
+  return nodes;
 }
 
 void measure_curvature(const NurbsSurface& s, std::size_t n, PatchReport& report) {
-  const std::vector<Range> along_u = cells_of(s.knots_u, domain_u(s), n);
+  const std::vector<Node> along_u = nodes_of(s.knots_u, domain_u(s), n);
   bool first = true;
-  for (const Range& v : cells_of(s.knots_v, domain_v(s), n)) {
-    for (const Range& u : along_u) {
-      // middles of cells: the same samples serve the area
-      const SurfaceJet jet = evaluate(s, u.at(0.5), v.at(0.5));
-      report.area += norm(cross(jet.du, jet.dv)) * u.length() * v.length();
+  for (const Node& v : nodes_of(s.knots_v, domain_v(s), n)) {
+    for (const Node& u : along_u) {
+      const SurfaceJet jet = evaluate(s, u.at, v.at);
+      report.area += norm(cross(jet.du, jet.dv)) * u.weight * v.weight;
       const SurfaceCurvature k = curvature(jet);
       if (k.normal == Vec3{}) {
         ++report.without_normal;

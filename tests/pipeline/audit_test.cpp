@@ -80,6 +80,7 @@ TEST(Audit, NothingIsCountedWhereTheCurvatureHasNoBound) {
   cubic.weight = {1, 1, 1, 1};
   const CurveAudit a = audit({"path", {LinePiece{{-5, 0}, {0, 0}}, cubic}, false}, "mm");
   EXPECT_FALSE(a.counted);
+  EXPECT_EQ(a.continuity, 0) << "the heading turns by 56 degrees";
   EXPECT_EQ(as_drawn(a).find("0 vertices"), std::string::npos);
 }
 
