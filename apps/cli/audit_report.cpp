@@ -36,6 +36,10 @@ std::string least_radius(const CurveAudit& a) {
   return radius_text(left ? a.largest_kappa : a.least_kappa);
 }
 
+std::string count_text(const CurveAudit& a, int count) {
+  return a.counted ? std::to_string(count) : "-";
+}
+
 std::string curve_table(const std::vector<CurveAudit>& audits) {
   Table table;
   table.column("curve");
@@ -56,8 +60,8 @@ std::string curve_table(const std::vector<CurveAudit>& audits) {
     before = i + 1;
     const CurveAudit& a = audits[i];
     table.row({std::to_string(i + 1), a.label, std::to_string(a.contour.pieces.size()),
-               significant(a.length), audit_continuity(a.continuity), std::to_string(a.vertices),
-               std::to_string(a.visible_vertices), std::to_string(a.inflections), least_radius(a)});
+               significant(a.length), audit_continuity(a.continuity), count_text(a, a.vertices),
+               count_text(a, a.visible_vertices), count_text(a, a.inflections), least_radius(a)});
   }
   return table.text() + shown_note(shown.size(), audits.size(), "least fair", "curves");
 }
@@ -87,9 +91,10 @@ std::string place_table(const CurveAudit& a) {
     if (i > before) table.gap();
     before = i + 1;
     const AuditPlace& place = a.places[i];
-    table.row({coordinate(place.s, a.length), to_string(place.kind), coordinate(place.point.x, a.length),
-               coordinate(place.point.y, a.length), radius_text(place.kappa_before),
-               radius_text(place.kappa_after), size_text(place, a.contour.units.text())});
+    table.row({coordinate(place.s, a.length), to_string(place.kind),
+               coordinate(place.point.x, a.length), coordinate(place.point.y, a.length),
+               radius_text(place.kappa_before), radius_text(place.kappa_after),
+               size_text(place, a.contour.units.text())});
   }
   return table.text() + shown_note(shown.size(), a.places.size(), "largest", "places");
 }
@@ -158,8 +163,24 @@ void add_straightened(const CurveAudit& a, std::string& out) {
                      a.contour.units.text());
 }
 
+/// Counts are proved; places are found on samples, where the curvature stands out of its rounding.
+std::string unplaced_text(const CurveAudit& a) {
+  const auto listed_of = [&a](AuditPlace::Kind kind) {
+    return std::count_if(a.places.begin(), a.places.end(),
+                         [kind](const AuditPlace& place) { return place.kind == kind; });
+  };
+  const auto vertices = listed_of(AuditPlace::Kind::kVertex);
+  const auto inflections = listed_of(AuditPlace::Kind::kInflection);
+  if (!a.counted || (vertices >= a.vertices && inflections >= a.inflections)) return {};
+  return fmt::format(
+      "{} of {} and {} of {} have a place; at the others the curvature does not stand out of the "
+      "rounding\n",
+      vertices, counted(static_cast<std::size_t>(a.vertices), "vertex", "vertices"), inflections,
+      counted(static_cast<std::size_t>(a.inflections), "inflection", "inflections"));
+}
+
 std::string audit_text(const Drawing& drawing, const std::vector<CurveAudit>& audits,
-                        const std::optional<std::size_t>& asked) {
+                       const std::optional<std::size_t>& asked) {
   std::string out = bold(drawing.name) + "\n";
   out += fmt::format("lengths in {}", drawing.units.text());
   if (!audits.empty()) {
@@ -176,7 +197,8 @@ std::string audit_text(const Drawing& drawing, const std::vector<CurveAudit>& au
     if (audits[i].places.empty() && audits[i].straightened == 0) continue;
     out += fmt::format("\ncurve {}, {}\n", i + 1, audits[i].label);
     add_straightened(audits[i], out);
-    if (!audits[i].places.empty()) out += place_table(audits[i]);
+    if (audits[i].places.empty()) continue;
+    out += place_table(audits[i]) + unplaced_text(audits[i]);
   }
   return out;
 }
@@ -205,7 +227,7 @@ void add_places(JsonText& json, const CurveAudit& a) {
 }
 
 std::string audit_json(const Drawing& drawing, const std::vector<CurveAudit>& audits,
-                        const std::string& points) {
+                       const std::string& points) {
   JsonText json;
   json.begin_object().pair("name", drawing.name);
   add_units(json, drawing.units);
@@ -213,8 +235,13 @@ std::string audit_json(const Drawing& drawing, const std::vector<CurveAudit>& au
   for (const CurveAudit& a : audits) {
     json.begin_object().pair("label", a.label).pair("pieces", a.contour.pieces.size());
     json.pair("length", a.length).pair("continuity", a.continuity);
-    json.pair("closed", a.contour.closed).pair("vertices", a.vertices);
-    json.pair("visible_vertices", a.visible_vertices).pair("inflections", a.inflections);
+    json.pair("closed", a.contour.closed);
+    for (const auto& [name, count] :
+         {std::pair{"vertices", a.vertices}, std::pair{"visible_vertices", a.visible_vertices},
+          std::pair{"inflections", a.inflections}}) {
+      json.key(name);
+      a.counted ? json.value(count) : json.null();
+    }
     json.pair("least_kappa", a.least_kappa).pair("largest_kappa", a.largest_kappa);
     json.pair("straightened", a.straightened).pair("flat_curvature", a.flat_curvature);
     add_places(json, a);
@@ -247,8 +274,8 @@ Result<std::vector<std::string>> write_audit_pictures(const AnalyseOptions& opti
                    output.path, "name an .svg"});
     }
     const CurveAudit& a = pictured(audits, options.import);
-    output.text = picture_svg({a.contour, std::nullopt, a.certificate},
-                              {name + ": " + a.label, as_drawn(a)});
+    output.text =
+        picture_svg({a.contour, std::nullopt, a.certificate}, {name + ": " + a.label, as_drawn(a)});
   }
   return write_files(*outputs, options.input);
 }

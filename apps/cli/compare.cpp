@@ -166,7 +166,7 @@ std::string report_csv(const PointSeries&, const Comparison& compared) {
 std::string picture(const PointSeries& series, const Comparison& compared) {
   std::vector<NamedContour> contours;
   for (const ComparedCarrier& row : compared.carriers) {
-    NamedContour one{to_string(row.carrier), {}, row.fit.contour};
+    NamedContour one{to_string(row.carrier), {}, row.fit.contour, row.fit.certificate};
     if (row.refusal) {
       one.remark = row.refusal->what;
     } else {

@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <numbers>
 #include <optional>
@@ -28,10 +29,20 @@ std::string tolerance_text(const WhyNot& why, const std::string& units) {
   return fmt::format("tolerance of {} {}", significant(why.tolerance, kToleranceDigits), units);
 }
 
+std::string counts_of_fit(const Fit& fit) {
+  const auto count = [](int n) { return static_cast<std::size_t>(std::max(n, 0)); };
+  return counted(count(fit.report.vertices), "vertex", "vertices") + " and " +
+         counted(count(fit.report.inflections), "inflection", "inflections");
+}
+
 Error with_tolerance(Error error, const std::optional<WhyNot>& why, const std::string& units) {
   if (!error.hint.empty()) error.hint += "; ";
   if (!why) {
     error.hint += "moving every point by up to a tenth of the size does not help";
+  } else if (why->found && why->next_to_nothing) {
+    error.hint += "no point is in the way: with " + counts_of_fit(why->fit) +
+                  " there is one, --noise " + significant(why->tolerance, kToleranceDigits) +
+                  " allows them";
   } else if (why->found) {
     error.hint += "within a " + tolerance_text(*why, units) + " there is one";
   } else {
@@ -88,12 +99,9 @@ std::string moves_table(const WhyNot& why) {
   return text;
 }
 
-std::string refusal_text(const PointSeries& series, const WhyNot& why,
-                         const std::vector<std::string>& written) {
-  std::string text;
-  if (!series.name.empty()) text += bold(series.name) + "\n";
-  text += fmt::format("points that would have to move, the farthest first; lengths in {}\n\n",
-                      series.units.text());
+std::string points_in_the_way_text(const PointSeries& series, const WhyNot& why) {
+  std::string text = fmt::format(
+      "points that would have to move, the farthest first; lengths in {}\n\n", series.units.text());
   text += moves_table(why);
   text += fmt::format("\nWithin a {} for every point such a contour exists and is proved: {}.\n",
                       tolerance_text(why, series.units.text()),
@@ -101,6 +109,20 @@ std::string refusal_text(const PointSeries& series, const WhyNot& why,
   if (why.refused > 0.0) {
     text += fmt::format("Within {} {} none was found.\n",
                         significant(why.refused, kToleranceDigits), series.units.text());
+  }
+  return text;
+}
+
+std::string refusal_text(const PointSeries& series, const WhyNot& why,
+                         const std::vector<std::string>& written) {
+  std::string text;
+  if (!series.name.empty()) text += bold(series.name) + "\n";
+  if (why.next_to_nothing) {
+    text += fmt::format(
+        "No point is in the way. A contour with {} exists and is proved: {} allows them.\n",
+        counts_of_fit(why.fit), noise_option(why.tolerance, why.fit.contour.closed, series.points));
+  } else {
+    text += points_in_the_way_text(series, why);
   }
   if (why.stopped) {
     text += "The search ended at its limit of work: a tolerance between them may do as well.\n";
@@ -125,7 +147,7 @@ void add_why_not(JsonText& json, const WhyNot& why) {
     json.null().end_object();
     return;
   }
-  json.value(why.tolerance);
+  json.value(why.tolerance).pair("next_to_nothing", why.next_to_nothing);
   json.key("points").begin_array();
   for (const std::size_t i : why.moved) {
     const Vec2 p = why.fit.contour.points[i];

@@ -89,7 +89,7 @@ std::string suggestion_json(const TradeOff& t, const std::vector<std::string>& w
   JsonText json;
   json.begin_object();
   add_units(json, t.units);
-  json.key("rows").begin_array();
+  json.pair("closed", t.closed).key("rows").begin_array();
   for (const TradeOffRow& row : t.rows) {
     json.begin_object().pair("tolerance", row.tolerance);
     json.pair("formed", row.formed).pair("proved", row.proved).pair("carried", row.carried);

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
+#include <cmath>
 #include <numbers>
 #include <string>
 #include <vector>
@@ -132,6 +134,19 @@ Result<std::vector<SurfaceOutput>> pictures_of(const SurfaceCheckOptions& option
   return outputs;
 }
 
+/// Of all patches together, as the table has them for each.
+CurvatureExtremes extremes_of(const SurfaceCheck& check) {
+  const auto over_all = [&check](Extent PatchReport::*quantity) {
+    Range all{HUGE_VAL, -HUGE_VAL};
+    for (const PatchReport& p : check.patches) {
+      all = {std::min(all.from, (p.*quantity).least), std::max(all.to, (p.*quantity).most)};
+    }
+    return all;
+  };
+  return {over_all(&PatchReport::gaussian), over_all(&PatchReport::mean),
+          over_all(&PatchReport::k1), over_all(&PatchReport::k2)};
+}
+
 }  // namespace
 
 std::string surface_check_text(const SurfaceModel& model, const SurfaceCheck& check,
@@ -195,6 +210,7 @@ int run(const SurfaceCheckOptions& options) {
   const SurfaceCheck check = check_surface(*model, how, bar.progress());
   SurfaceExportOptions formats;
   formats.colouring = SurfaceColouring::kGaussian;
+  if (!check.patches.empty()) formats.extremes = extremes_of(check);
   SurfaceWritten written;
   if (auto done = write_surface(*model, *outputs, formats, bar.progress(), written); !done) {
     bar.clear();

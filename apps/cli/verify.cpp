@@ -75,9 +75,12 @@ const char* yes_no(bool flag) { return flag ? "yes" : "no"; }
 void add_claims(Facts& facts, const StoredContour& stored, const Certificate& found) {
   if (stored.report) {
     facts.add("report claims",
-              fmt::format("{} vertices, {} inflections, largest width {} {}",
-                          stored.report->vertices, stored.report->inflections,
-                          significant(stored.report->largest_width, 4), stored.contour.units.text()));
+              fmt::format(
+                  "{}, {}, largest width {} {}",
+                  counted(static_cast<std::size_t>(stored.report->vertices), "vertex", "vertices"),
+                  counted(static_cast<std::size_t>(stored.report->inflections), "inflection",
+                          "inflections"),
+                  significant(stored.report->largest_width, 4), stored.contour.units.text()));
   } else {
     facts.add("report claims", "the file holds no report");
   }

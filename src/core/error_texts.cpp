@@ -90,11 +90,12 @@ constexpr std::array kTexts{
               "there to say which way the contour turns.",
               "Put more points around the named one, or split the series at a corner. Neighbouring "
               "chords should turn by less than 90 degrees."},
-    ErrorText{ErrorCode::kFixedDataContradict, "Fixed headings or curvatures contradict the points",
-              "A contour exists through the points, but none that also has the headings, radii or "
-              "curvatures that were fixed.",
-              "Free the named values one after another, or compare them with the ranges that "
-              "`obvid region` prints."},
+    ErrorText{
+        ErrorCode::kFixedDataContradict, "Fixed headings or curvatures contradict the points",
+        "Contours run through the points, but with as few vertices as these show none also has "
+        "the headings, radii or curvatures that were fixed.",
+        "Free the named values, take one from the range that the error line names, or type its "
+        "`--noise`: within it points may move, and there may be more vertices."},
     ErrorText{
         ErrorCode::kNoRoomForTransition, "No room for a curvature-continuous transition",
         "Four or more points lie exactly on one line or circle, and the points beside them are "

@@ -263,7 +263,12 @@ Result<std::string> surface_page(const SurfaceModel& model, const std::vector<Me
   if (auto good = check_lines(options.lines); !good) return fail(good.error());
   const auto triangles = count_triangles(model, meshes, options.most_triangles);
   if (!triangles) return fail(triangles.error());
-  const auto data = exchange::page_data(model, meshes, options.lines, progress);
+  auto data = exchange::page_data(model, meshes, options.lines, progress);
+  for (std::size_t q = 0; options.extremes && q < data.scales.size(); ++q) {
+    const Range& told = options.extremes->of(exchange::kPageQuantities[q]);
+    data.scales[q].least = told.from;
+    data.scales[q].most = told.to;
+  }
   if (!(data.radius >= kLeastRadius && data.radius <= kMostRadius)) {
     return fail({ErrorCode::kSizeOutOfRange, "the size of the surface cannot be shown in a browser",
                  "", "change the unit", -1, data.radius});

@@ -47,6 +47,19 @@ std::size_t character(std::string_view text) {
 
 }  // namespace
 
+const Range& CurvatureExtremes::of(SurfaceColouring colouring) const {
+  switch (colouring) {
+    case SurfaceColouring::kMean:
+      return mean;
+    case SurfaceColouring::kK1:
+      return k1;
+    case SurfaceColouring::kK2:
+      return k2;
+    default:
+      return gaussian;
+  }
+}
+
 std::string_view name_of(SurfaceColouring colouring) {
   return kColourings[static_cast<std::size_t>(colouring)];
 }

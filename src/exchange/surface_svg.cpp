@@ -116,6 +116,10 @@ Colours colours_of(const std::vector<DrawnPatch>& patches, const SurfacePictureO
   Colours colours{options.colouring, {}, options.zebra_stripes};
   if (!is_curvature(options.colouring)) return colours;
   colours.scale = scale_of(patches, options.colouring);
+  if (options.extremes) {
+    colours.scale.least = options.extremes->of(options.colouring).from;
+    colours.scale.most = options.extremes->of(options.colouring).to;
+  }
   if (options.range) {
     colours.scale.low = options.range->from;
     colours.scale.high = options.range->to;

@@ -86,7 +86,8 @@ std::string carriers_svg(const std::vector<NamedContour>& contours, const std::s
   std::vector<PictureSide> sides;
   std::string units, description;
   for (const NamedContour& one : contours) {
-    sides.push_back(make_picture_side(one.contour, one.name));
+    sides.push_back(
+        make_picture_side(one.contour, one.name, one.certificate ? &*one.certificate : nullptr));
     if (units.empty() && !one.contour.pieces.empty()) units = one.contour.units.text();
     description += (description.empty() ? "" : "; ") + one.name + ": " + one.remark;
   }

@@ -69,22 +69,22 @@ void legend_points(PictureCanvas& canvas, LegendRow& legend, std::size_t unmarke
 
 struct FeatureName {
   PictureFeature::Kind kind;
+  std::size_t PictureCounts::*count;
   const char* one;
   const char* many;
 };
 
 constexpr FeatureName kFeatureNames[] = {
-    {PictureFeature::Kind::kVertex, "vertex", "vertices"},
-    {PictureFeature::Kind::kInflection, "inflection", "inflections"},
-    {PictureFeature::Kind::kCorner, "corner", "corners"}};
+    {PictureFeature::Kind::kVertex, &PictureCounts::vertices, "vertex", "vertices"},
+    {PictureFeature::Kind::kInflection, &PictureCounts::inflections, "inflection", "inflections"},
+    {PictureFeature::Kind::kCorner, &PictureCounts::corners, "corner", "corners"}};
 
 void legend_features(PictureCanvas& canvas, LegendRow& legend, const PictureTrack& track) {
-  for (const auto& [kind, one, many] : kFeatureNames) {
-    const std::size_t count = count_features(track, kind);
-    if (count == 0) continue;
+  for (const auto& [kind, count, one, many] : kFeatureNames) {
+    if (count_features(track, kind) == 0) continue;
     std::string text = one;
     if (track.features.size() > kMostSymbols) {
-      text = std::to_string(count) + " " + many + ", not marked";
+      text = std::to_string(track.counts.*count) + " " + many + ", not marked";
     }
     add_feature(canvas, kind, legend.entry(text, text.size(), 10.0));
   }

@@ -47,17 +47,18 @@ PictureRange usual_range(std::span<const PictureSide> sides) {
 
 }  // namespace
 
-PictureSide make_picture_side(const Contour& contour, const std::string& title) {
+PictureSide make_picture_side(const Contour& contour, const std::string& title,
+                              const Certificate* certificate) {
   PictureSide side{make_track(contour),
                    promises_monotone(contour.carrier) && contour.runs.size() <= kMostColouredRuns,
                    title};
-  side.caption +=
-      (title.empty() ? "" : ": ") +
-      counted(count_features(side.track, PictureFeature::Kind::kVertex), "vertex", "vertices");
-  const std::size_t bends = count_features(side.track, PictureFeature::Kind::kInflection);
-  if (bends > 0) side.caption += ", " + counted(bends, "inflection", "inflections");
-  const std::size_t corners = count_features(side.track, PictureFeature::Kind::kCorner);
-  if (corners > 0) side.caption += ", " + counted(corners, "corner", "corners");
+  if (certificate != nullptr) take_counts(side.track, *certificate);
+  const PictureCounts& counts = side.track.counts;
+  side.caption += (title.empty() ? "" : ": ") + counted(counts.vertices, "vertex", "vertices");
+  if (counts.inflections > 0) {
+    side.caption += ", " + counted(counts.inflections, "inflection", "inflections");
+  }
+  if (counts.corners > 0) side.caption += ", " + counted(counts.corners, "corner", "corners");
   return side;
 }
 

@@ -16,8 +16,10 @@ struct PictureSide {
   std::string caption;
 };
 
-/// `title`, and what the curvature does: "clothoids: 0 vertices, 1 inflection".
-[[nodiscard]] PictureSide make_picture_side(const Contour& contour, const std::string& title);
+/// `title`, and what the curvature does: "clothoids: 0 vertices, 1 inflection", as the certificate
+/// counts; without one, as the samples tell.
+[[nodiscard]] PictureSide make_picture_side(const Contour& contour, const std::string& title,
+                                            const Certificate* certificate = nullptr);
 
 /// Curvature axis that all sides share.
 struct PictureScale {

@@ -75,7 +75,8 @@ std::size_t corner_count(const Contour& contour) {
 
 bool is_measured(const StoredContour& stored) {
   return !stored.contour.point_tolerance.empty() || corner_count(stored.contour) > 0 ||
-         !stored.contour.kept.empty();
+         !stored.contour.kept.empty() ||
+         (stored.certificate && stored.certificate->largest_move > 0.0);
 }
 
 bool has_region(const StoredContour& stored) {
@@ -99,7 +100,7 @@ std::string facts_of(const StoredContour& stored) {
   return text;
 }
 
-/// A second line where points have tolerances or the contour has corners.
+/// A second line where points are not met exactly or the contour has corners.
 std::string measured_facts(const StoredContour& stored) {
   if (!is_measured(stored)) return {};
   std::vector<std::string> facts;
@@ -120,7 +121,8 @@ std::string measured_facts(const StoredContour& stored) {
 
 std::string picture_svg(const StoredContour& stored, const PictureTitles& titles) {
   const Contour& contour = stored.contour;
-  const PictureTrack track = make_track(contour);
+  PictureTrack track = make_track(contour);
+  if (stored.certificate) take_counts(track, *stored.certificate);
   const bool coloured = track.runs_tell && contour.runs.size() <= kMostColouredRuns;
   const VerdictLine verdict =
       titles.verdict.empty() ? verdict_of(stored) : VerdictLine{"open", titles.verdict};

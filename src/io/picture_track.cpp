@@ -22,6 +22,9 @@ constexpr double kStraightLineAngle = 1e-12;
 /// Curvatures that differ by less, relatively, are the same on both sides of a corner.
 constexpr double kSameCurvature = 1e-7;
 constexpr int kBisections = 48;
+/// Each leaves two thirds of the bracket of an extremum: 1e-7 of it in the end, a square root of
+/// what rounding leaves of its height.
+constexpr int kThirds = 40;
 
 struct Mover {
   Vec2 reference;
@@ -95,6 +98,27 @@ void sample_pieces(PictureTrack& track) {
     }
   }
   track.first.push_back(track.samples.size());
+}
+
+/// The longest tooth is that of the curve, not of the sample beside it.
+void refine_largest(PictureTrack& track) {
+  const auto smaller = [](const PictureSample& a, const PictureSample& b) {
+    return std::fabs(a.kappa) < std::fabs(b.kappa);
+  };
+  for (std::size_t i = 0; i < track.pieces.size(); ++i) {
+    const auto first = track.samples.begin() + static_cast<std::ptrdiff_t>(track.first[i]);
+    const auto last = track.samples.begin() + static_cast<std::ptrdiff_t>(track.first[i + 1]) - 1;
+    const auto at = std::max_element(first, last + 1, smaller);
+    // below a neighbour by half a step of the largest it may still be the largest in between
+    if (at == first || at == last || 2.0 * std::fabs(at->kappa) < track.largest_kappa) continue;
+    const auto kappa = [&](double t) { return std::fabs(sample_at(track.pieces[i], t).kappa); };
+    double low = (at - 1)->t, high = (at + 1)->t;
+    for (int k = 0; k < kThirds; ++k) {
+      const double a = low + (high - low) / 3.0, b = high - (high - low) / 3.0;
+      (kappa(a) < kappa(b) ? low : high) = kappa(a) < kappa(b) ? a : b;
+    }
+    track.largest_kappa = std::max(track.largest_kappa, kappa(0.5 * (low + high)));
+  }
 }
 
 void set_directions(PictureTrack& track, const std::vector<Run>& runs) {
@@ -267,6 +291,7 @@ PictureTrack make_track(const Contour& contour) {
   }
   track.runs_tell = promises_monotone(contour.carrier);
   sample_pieces(track);
+  refine_largest(track);
   set_directions(track, contour.runs);
   set_corners(track, contour);
   find_vertices(track);
@@ -275,7 +300,24 @@ PictureTrack make_track(const Contour& contour) {
     return a.at.s < b.at.s;
   };
   std::stable_sort(track.features.begin(), track.features.end(), earlier);
+  track.counts = {count_features(track, PictureFeature::Kind::kVertex),
+                  count_features(track, PictureFeature::Kind::kInflection),
+                  count_features(track, PictureFeature::Kind::kCorner)};
   return track;
+}
+
+void take_counts(PictureTrack& track, const Certificate& certificate) {
+  const auto open = [](const PieceProof& piece) { return piece.verdict == Verdict::kUndecided; };
+  const bool counted = !certificate.pieces.empty() &&
+                       std::none_of(certificate.pieces.begin(), certificate.pieces.end(), open);
+  if (!counted) return;
+  const auto count = [](int n) { return static_cast<std::size_t>(std::max(n, 0)); };
+  track.counts.vertices = count(certificate.vertices);
+  track.counts.inflections = count(certificate.inflections);
+  std::erase_if(track.features, [&](const PictureFeature& f) {
+    return (f.kind == PictureFeature::Kind::kVertex && track.counts.vertices == 0) ||
+           (f.kind == PictureFeature::Kind::kInflection && track.counts.inflections == 0);
+  });
 }
 
 std::size_t count_features(const PictureTrack& track, PictureFeature::Kind kind) {

@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <vector>
 
+#include "obvid/certify/certificate.h"
 #include "obvid/curve/contour.h"
 
 namespace obvid {
@@ -34,6 +35,13 @@ struct PictureBox {
   [[nodiscard]] double diagonal() const { return norm(high - low); }
 };
 
+/// Features by kind.
+struct PictureCounts {
+  std::size_t vertices = 0;
+  std::size_t inflections = 0;
+  std::size_t corners = 0;
+};
+
 /// The contour sampled densely enough for a picture.
 struct PictureTrack {
   Vec2 reference;                      ///< subtracted from all coordinates before any arithmetic
@@ -45,8 +53,9 @@ struct PictureTrack {
   std::vector<bool> corner;            ///< per piece, whether it starts at a corner
   bool closed = false;
   bool runs_tell = true;  ///< vertices lie between runs; else wherever the samples turn back
-  std::vector<PictureFeature> features;
-  PictureBox box;  ///< curve and points, without the comb
+  std::vector<PictureFeature> features;  ///< where marks go: as far as samples tell
+  PictureCounts counts;                  ///< what texts say: see take_counts
+  PictureBox box;                        ///< curve and points, without the comb
   double length = 0.0;
   double largest_kappa = 0.0;  ///< absolute
 };
@@ -58,6 +67,11 @@ inline constexpr int kNoRun = 2;
 [[nodiscard]] PictureTrack make_track(const Contour& contour);
 
 [[nodiscard]] std::size_t count_features(const PictureTrack& track, PictureFeature::Kind kind);
+
+/// Texts of a picture give the counts of the certificate, not of the samples between which small
+/// swings of the curvature are lost. Nothing is marked of which there is none. A
+/// certificate without pieces, or with an undecided one, has not counted.
+void take_counts(PictureTrack& track, const Certificate& certificate);
 
 /// About `count` teeth, half of them even in arc length, half even in curvature change.
 [[nodiscard]] std::vector<PictureTooth> comb_teeth(const PictureTrack& track, int count);

@@ -71,6 +71,10 @@ class Auditor {
     out_.certificate = certify(out_.contour);
     out_.vertices = out_.certificate.vertices;
     out_.inflections = out_.certificate.inflections;
+    out_.counted =
+        !unbounded_ &&
+        std::none_of(out_.certificate.pieces.begin(), out_.certificate.pieces.end(),
+                     [](const PieceProof& piece) { return piece.verdict == Verdict::kUndecided; });
     place_vertices();
     place_inflections();
     out_.visible_vertices = swings(kVisible * (out_.largest_kappa - out_.least_kappa));
@@ -152,6 +156,10 @@ class Auditor {
       Joint joint{before, std::nullopt, {}};
       joint.element.theta = theta + std::remainder(before.theta - theta, 2.0 * std::numbers::pi);
       theta = joint.element.theta;
+      const bool bounded = std::isfinite(before.kappa) && std::isfinite(after.kappa);
+      unbounded_ = unbounded_ || !bounded;
+      // no more is known there than that the pieces meet: they have no tangent of their own either
+      if (!bounded) out_.continuity = std::min(out_.continuity, 0);
       if (!first && !last && compare(j, before, after)) joint.leaving = after;
       joint.source = j;  // a drawn curve passes the ends of its pieces
       out_.contour.points.push_back(before.point);
@@ -206,9 +214,31 @@ class Auditor {
         {kind, at.s, evaluate(out_.contour.pieces[at.piece], at.t).point, at.kappa, at.kappa, 0.0});
   }
 
+  /// Calls `find` with larger and larger limits until no more is found than the proof counts: what
+  /// there is more are ripples of rounding.
+  template <class Find>
+  void find_proved(int proved, Find find) {
+    constexpr double kCoarser = 10.0;
+    const std::size_t before = out_.places.size();
+    for (double least = rounding_;; least *= kCoarser) {
+      out_.places.erase(out_.places.begin() + static_cast<std::ptrdiff_t>(before),
+                        out_.places.end());
+      find(least);
+      const std::size_t found = out_.places.size() - before;
+      if (!out_.counted || found <= static_cast<std::size_t>(proved) || !(least > 0.0)) return;
+    }
+  }
+
   /// Extrema of the sampled curvature that stand out of the rounding.
   void place_vertices() {
-    extrema(rounding_, [&](const Sample& at) { place(AuditPlace::Kind::kVertex, refined(at)); });
+    find_proved(out_.vertices, [this](double least) {
+      extrema(least, [this](const Sample& at) {
+        const Sample there = refined(at);
+        out_.least_kappa = std::min(out_.least_kappa, there.kappa);
+        out_.largest_kappa = std::max(out_.largest_kappa, there.kappa);
+        place(AuditPlace::Kind::kVertex, there);
+      });
+    });
   }
 
   [[nodiscard]] int swings(double least) {
@@ -217,24 +247,28 @@ class Auditor {
     return count;
   }
 
-  /// Calls `found` for each extremum that the curvature leaves by more than `least` on both sides.
+  /// Calls `found` for each extremum that the curvature leaves by more than `least` on both sides,
+  /// around the seam of a closed curve too.
   template <class Found>
   void extrema(double least, Found found) {
     Sample low = samples_.front(), high = low;
-    int direction = 0;
+    Sample first = low;  // the extremum that the first swing leaves
+    int direction = 0, first_direction = 0;
     for (const Sample& now : samples_) {
       if (now.kappa < low.kappa) low = now;
       if (now.kappa > high.kappa) high = now;
-      if (direction >= 0 && now.kappa < high.kappa - least) {
-        if (direction > 0) found(high);
-        direction = -1;
-        low = now;
-      } else if (direction <= 0 && now.kappa > low.kappa + least) {
-        if (direction < 0) found(low);
-        direction = 1;
-        high = now;
-      }
+      const bool falls = direction >= 0 && now.kappa < high.kappa - least;
+      if (!falls && !(direction <= 0 && now.kappa > low.kappa + least)) continue;
+      const Sample& left = falls ? high : low;
+      if (direction != 0) found(left);
+      if (direction == 0) first = left;
+      direction = falls ? -1 : 1;
+      if (first_direction == 0) first_direction = direction;
+      (falls ? low : high) = now;
     }
+    if (!out_.contour.closed || direction == first_direction) return;
+    found(direction > 0 ? (high.kappa > first.kappa ? high : first)
+                        : (low.kappa < first.kappa ? low : first));
   }
 
   /// The extremum nearest to a sample inside its piece, where the rate of curvature is 0.
@@ -257,9 +291,14 @@ class Auditor {
   }
 
   void place_inflections() {
-    const Sample* last = nullptr;
+    find_proved(out_.inflections, [this](double least) { sign_changes(least); });
+  }
+
+  void sign_changes(double least) {
+    const Sample *last = nullptr, *first = nullptr;
     for (const Sample& now : samples_) {
-      if (std::abs(now.kappa) <= rounding_) continue;
+      if (std::abs(now.kappa) <= least) continue;
+      if (first == nullptr) first = &now;
       if (last != nullptr && last->kappa * now.kappa < 0.0) {
         const double part = last->kappa / (last->kappa - now.kappa);
         Sample at = now;
@@ -270,10 +309,15 @@ class Auditor {
       }
       last = &now;
     }
+    if (!out_.contour.closed || last == nullptr || !(last->kappa * first->kappa < 0.0)) return;
+    Sample seam = samples_.front();
+    seam.kappa = 0.0;
+    place(AuditPlace::Kind::kInflection, seam);
   }
 
   CurveAudit out_;
   double size_ = 0.0, rounding_ = 0.0;
+  bool unbounded_ = false;      // some end of a piece has no curvature
   std::vector<double> starts_;  // arc length at the start of each piece
   std::vector<Sample> samples_;
 };
@@ -295,8 +339,10 @@ std::string as_drawn(const CurveAudit& a) {
     jumps += place.kind == AuditPlace::Kind::kCurvatureJump ? 1 : 0;
     gaps += place.kind == AuditPlace::Kind::kGap ? 1 : 0;
   }
-  std::string text = "as drawn: " + counted(a.vertices, "vertex", "vertices") + ", " +
-                     counted(a.inflections, "inflection", "inflections");
+  std::string text = "as drawn: ";
+  text += a.counted ? counted(a.vertices, "vertex", "vertices") + ", " +
+                          counted(a.inflections, "inflection", "inflections")
+                    : "vertices not counted, the curvature has no bound";
   if (corners > 0) text += ", " + counted(corners, "corner", "corners");
   if (jumps > 0) text += ", " + counted(jumps, "jump", "jumps") + " of the curvature";
   if (gaps > 0) text += ", " + counted(gaps, "gap", "gaps");

@@ -146,6 +146,7 @@ Result<std::string> SurfaceExporter::made(SurfaceFormat format, std::vector<std:
       page.colouring = options_.colouring;
       page.view = options_.view;
       page.lines = options_.lines;
+      page.extremes = options_.extremes;
       return surface_page(model_, meshes_, page, progress_);
     }
     case SurfaceFormat::kPicture: {
@@ -153,6 +154,7 @@ Result<std::string> SurfaceExporter::made(SurfaceFormat format, std::vector<std:
       picture.colouring = options_.colouring;
       picture.view = options_.view;
       picture.lines = options_.lines;
+      picture.extremes = options_.extremes;
       return surface_svg(model_, picture);
     }
   }

@@ -47,6 +47,7 @@ class Search {
     if (!(highest_ > lowest_)) return std::nullopt;
     if (bracket()) {
       bisect();
+      out_.next_to_nothing = out_.found && exact() && out_.tolerance <= lowest_ * kAccuracy;
       rank();
     }
     if (!out_.found && !out_.stopped) return std::nullopt;
@@ -61,6 +62,13 @@ class Search {
       lowest_ = std::max(lowest_, std::min(series_.rounding.x, series_.rounding.y));
     }
     highest_ = printable(kLargestMove * size_of(series_.points));
+  }
+
+  /// Whether the job leaves every point where it is, and so allows no vertices but those of points.
+  [[nodiscard]] bool exact() const {
+    const bool asked = job_.noise_from_rounding || (job_.noise && *job_.noise > 0.0);
+    return !asked && std::none_of(series_.fixed.begin(), series_.fixed.end(),
+                                  [](const auto& fixed) { return fixed.tolerance.has_value(); });
   }
 
   /// A tolerance to begin with: what the refusal says, what the file's digits say, or the usual.

@@ -11,6 +11,7 @@ Every case runs in a folder of its own that holds copies of the examples. Keys o
   edit          [file, old, new]: doctors a file after `before`; old must occur
   stdin         text for standard input
   files         table of files to write first
+  data          files of tests/data to copy first, "folder/name"
   exit          exit code (default 0)
   stdout        whole standard output
   stdout_has    texts that standard output holds
@@ -42,9 +43,10 @@ import tomllib
 import xml.etree.ElementTree
 
 ERROR_LINE = re.compile(r"^obvid: error E([1-5]\d\d): \S.*$")
-KEYS = set("name args before edit stdin files exit stdout stdout_has stdout_last stderr stderr_has "
+KEYS = set("name args before edit stdin files data exit stdout stdout_has stdout_last stderr stderr_has "
            "stderr_count json svg contour contour_values untouched absent terminal env holds cad".split())
 TIMEOUT_S = 60
+DATA = pathlib.Path(__file__).resolve().parent.parent / "data"
 
 
 def run(program, args, folder, stdin="", env=None, terminal=False):
@@ -99,6 +101,8 @@ class Case:
     def prepare(self, folder):
         for example in self.examples.glob("**/*.csv"):
             shutil.copy(example, folder)
+        for name in self.data.get("data", []):
+            shutil.copy(DATA / name, folder)
         for name, text in self.data.get("files", {}).items():
             (folder / name).write_text(text)
         for args in self.data.get("before", []):

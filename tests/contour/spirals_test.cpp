@@ -235,5 +235,29 @@ TEST(Spirals, PiecesThatTurnFarComeInPartsOfTheSameCurve) {
   EXPECT_GT(parted, 2);
 }
 
+TEST(Spirals, EveryPartTurnsByLessThanHalfATurnHoweverFarTheWholeDoes) {
+  double farthest = 0.0;
+  for (double alpha = -1.5; alpha > -2.9; alpha -= 0.1) {
+    for (const double skew : {0.02, 1.0, 50.0}) {
+      const LinkState l = link_of(1.0, 0.3, alpha, 0.2, 2.0, skew);
+      std::vector<RationalBezier> pieces;
+      if (!append_spiral(l, 1, {0, 0}, unit_at(0.3), pieces)) continue;
+      farthest = std::max(farthest, l.beta - l.alpha);
+      double sum = 0.0;
+      for (const RationalBezier& piece : pieces) {
+        double turn = 0.0;  // of the control polygon: no less than that of the curve
+        for (std::size_t j = 1; j < 4; ++j) {
+          turn +=
+              turning(piece.offset[j] - piece.offset[j - 1], piece.offset[j + 1] - piece.offset[j]);
+        }
+        EXPECT_LT(std::abs(turn), std::numbers::pi) << alpha << ' ' << skew;
+        sum += turn;
+      }
+      EXPECT_NEAR(sum, l.beta - l.alpha, 1e-9) << alpha << ' ' << skew;
+    }
+  }
+  EXPECT_GT(farthest, 1.3 * std::numbers::pi);
+}
+
 }  // namespace
 }  // namespace obvid

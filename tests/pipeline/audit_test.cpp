@@ -65,10 +65,23 @@ TEST(Audit, AnEllipseHasItsFourVerticesAtItsAxes) {
   }
   const CurveAudit a = audit(curve, "mm");
   EXPECT_EQ(a.vertices, 4);
+  EXPECT_EQ(count(a, AuditPlace::Kind::kVertex), 4) << "one of them at the seam";
   EXPECT_EQ(a.continuity, 2);
   EXPECT_NEAR(a.largest_kappa, 3.0 / 4.0, 1e-9);
   EXPECT_NEAR(a.least_kappa, 2.0 / 9.0, 1e-9);
   EXPECT_EQ(count(a, AuditPlace::Kind::kInflection), 0);
+}
+
+TEST(Audit, NothingIsCountedWhereTheCurvatureHasNoBound) {
+  // the first leg of the cubic has no length: its curvature grows as 1 / t towards the start
+  RationalBezier cubic;
+  cubic.degree = 3;
+  cubic.offset = {Vec2{0, 0}, Vec2{0, 0}, Vec2{2, 3}, Vec2{-8, 5}};
+  cubic.weight = {1, 1, 1, 1};
+  const CurveAudit a = audit({"path", {LinePiece{{-5, 0}, {0, 0}}, cubic}, false}, "mm");
+  EXPECT_FALSE(a.counted);
+  EXPECT_EQ(a.continuity, 0) << "the heading turns by 56 degrees";
+  EXPECT_EQ(as_drawn(a).find("0 vertices"), std::string::npos);
 }
 
 TEST(Audit, TheSplineOfCadSystemsShowsItsVerticesAndItsInflection) {

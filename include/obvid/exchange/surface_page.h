@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -22,8 +23,9 @@ struct PageOptions {
   bool orthographic = false;
   int isolines_u = 10;  ///< cells of each patch between isolines
   int isolines_v = 10;
-  int zebra_stripes = 10;                  ///< dark stripes over half a turn of the reflected ray
-  std::vector<ScenePolyline> lines;        ///< sections, tool paths
+  int zebra_stripes = 10;            ///< dark stripes over half a turn of the reflected ray
+  std::vector<ScenePolyline> lines;  ///< sections, tool paths
+  std::optional<CurvatureExtremes> extremes;  ///< told; else those of the triangles' corners
   std::size_t most_triangles = 2'000'000;  ///< of all patches, E502 beyond: 80 bytes each at most
 };
 

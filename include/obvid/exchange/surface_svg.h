@@ -18,6 +18,12 @@ enum class SurfaceColouring { kShaded, kIsolines, kGaussian, kMean, kK1, kK2, kZ
 /// (against x), back, bottom.
 enum class SurfaceView { kIso, kFront, kTop, kSide, kBack, kBottom };
 
+/// Least and greatest curvatures as another report states them: a picture beside it says the same.
+struct CurvatureExtremes {
+  Range gaussian, mean, k1, k2;
+  [[nodiscard]] const Range& of(SurfaceColouring colouring) const;
+};
+
 [[nodiscard]] std::string_view name_of(SurfaceColouring colouring);
 [[nodiscard]] std::string_view name_of(SurfaceView view);
 [[nodiscard]] std::optional<SurfaceColouring> colouring_named(std::string_view name);
@@ -37,13 +43,14 @@ struct SurfacePictureOptions {
   std::optional<double> elevation_deg;  ///< instead of the view's: 90 from above
   int isolines_u = 8;                   ///< cells of each patch between isolines; 1: none
   int isolines_v = 8;
-  int zebra_stripes = 10;            ///< dark stripes over half a turn of the reflected ray
-  std::optional<Range> range;        ///< of the curvature colours; else by percentiles
-  double width = 900.0;              ///< px
-  double height = 620.0;             ///< px
-  std::size_t most_facets = 12'000;  ///< cells that the patches are divided into; fewer
-                                     ///< where the file would exceed 1.5 MB
-  std::vector<ScenePolyline> lines;  ///< drawn over the surface, hidden behind it
+  int zebra_stripes = 10;      ///< dark stripes over half a turn of the reflected ray
+  std::optional<Range> range;  ///< of the curvature colours; else by percentiles
+  std::optional<CurvatureExtremes> extremes;  ///< told; else those of the picture's own places
+  double width = 900.0;                       ///< px
+  double height = 620.0;                      ///< px
+  std::size_t most_facets = 12'000;           ///< cells that the patches are divided into; fewer
+                                              ///< where the file would exceed 1.5 MB
+  std::vector<ScenePolyline> lines;           ///< drawn over the surface, hidden behind it
 };
 
 /// Static picture in parallel projection, one self-contained SVG file on white: shaded, isolines,

@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
+#include "obvid/certify/certificate.h"
 #include "obvid/curve/contour.h"
 
 namespace obvid {
@@ -14,6 +16,7 @@ struct NamedContour {
   std::string name;
   std::string remark;
   Contour contour;
+  std::optional<Certificate> certificate;  ///< whose counts are told; none: as the samples tell
 };
 
 /// Curvature over arc length of contours through the same points, one plot above the other, all in

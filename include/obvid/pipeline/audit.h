@@ -36,12 +36,14 @@ struct CurveAudit {
   Certificate certificate;  ///< proved verdict of each piece, gaps, counts
   double length = 0.0;      ///< units
   double least_kappa = 0.0, largest_kappa = 0.0;  ///< signed, 1/unit, sampled
-  int vertices = 0;                               ///< all of them, as the certificate counts
+  bool counted = true;  ///< false where a piece has no curvature somewhere (a control point on an
+                        ///< end): then nobody counted the three figures that follow
+  int vertices = 0;     ///< all of them, as the certificate counts
   int visible_vertices = 0;  ///< those that swing by more than 1 % of the range of the curvature
   int inflections = 0;
-  std::size_t straightened = 0;  ///< ends and pieces that are straight but for rounding, and were
-                                 ///< taken so
-  double flat_curvature = 0.0;   ///< largest curvature that counted as rounding there, 1/unit
+  std::size_t straightened = 0;    ///< ends and pieces that are straight but for rounding, and were
+                                   ///< taken so
+  double flat_curvature = 0.0;     ///< largest curvature that counted as rounding there, 1/unit
   int continuity = 2;              ///< of all joints: 2 curvature, 1 heading, 0 position, -1 gaps
   std::vector<AuditPlace> places;  ///< in order along the curve; tiny swings of rounding left out
 };
@@ -51,9 +53,10 @@ struct CurveAudit {
 
 /// Audits a connected curve. A piece whose height over its chord is below eight roundings of its
 /// coordinates is straight: curvature below 64 2^-53 times the largest coordinate over the squared
-/// length is none, and neither are such curvatures at the ends of clothoids. Gaps, corners and jumps are what the numbers say beyond rounding: gaps
-/// above 1e-9 of the size, turns above 1e-6 rad, jumps above 1e-6 of the larger curvature. Places
-/// are found at 200 samples of each piece and refined: narrower swings are counted, not placed.
+/// length is none, and neither are such curvatures at the ends of clothoids. Gaps, corners and
+/// jumps are what the numbers say beyond rounding: gaps above 1e-9 of the size, turns above 1e-6
+/// rad, jumps above 1e-6 of the larger curvature. Places are found at 200 samples of each piece and
+/// refined: narrower swings are counted, not placed.
 [[nodiscard]] CurveAudit audit(const DrawnCurve& curve, const Units& units);
 
 }  // namespace obvid

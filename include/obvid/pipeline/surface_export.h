@@ -39,7 +39,8 @@ struct SurfaceExportOptions {
   double angle = 0.0;                     ///< rad, between normals along an edge [15 degrees]
   SurfaceColouring colouring = SurfaceColouring::kShaded;
   SurfaceView view = SurfaceView::kIso;
-  std::vector<ScenePolyline> lines;  ///< drawn on page and picture
+  std::vector<ScenePolyline> lines;           ///< drawn on page and picture
+  std::optional<CurvatureExtremes> extremes;  ///< told by page and picture [of their own places]
 };
 
 /// A surface in all formats that were asked for; triangles are made once for all of them.

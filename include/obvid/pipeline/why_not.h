@@ -16,8 +16,11 @@ struct WhyNot {
   bool found = false;      ///< whether a tolerance that does was found
   bool stopped = false;    ///< the search ended at its limit of work, not because it was done
   double tolerance = 0.0;  ///< units, of three digits: `fit` with it as noise keeps all promises
-  double refused = 0.0;    ///< largest smaller tolerance that was tried in vain; 0: none was
-  Fit fit;                 ///< the contour within `tolerance`, when one was found
+  bool next_to_nothing = false;  ///< `tolerance` is the least that is tried (1e-9 of the size, or
+                                 ///< the rounding): it is not the points that are in the way, but
+                                 ///< the vertices that exact points do not allow
+  double refused = 0.0;          ///< largest smaller tolerance that was tried in vain; 0: none was
+  Fit fit;                       ///< the contour within `tolerance`, when one was found
   std::vector<std::size_t> moved;  ///< the points that it moves, the farthest first; how far:
                                    ///< `fit.report.moves`
 };

@@ -89,12 +89,27 @@ RationalBezier placed(const Homogeneous& h, double d, Vec2 origin, Vec2 half_cho
   return piece;
 }
 
-void append_parts(Homogeneous h, int splits_left, bool must_split, double d, Vec2 origin,
-                  Vec2 half_chord, std::vector<RationalBezier>& pieces) {
-  if (splits_left > 0 && (must_split || !weights_positive(h))) {
+/// Whether the legs of the control polygon turn by no more than the limit in all: then so does a
+/// curve with positive weights.
+bool polygon_turns_little(const Homogeneous& h) {
+  double turn = 0.0;
+  Vec2 before;
+  for (std::size_t j = 1; j < 5; ++j) {
+    const Vec2 leg = h.point[j] / h.weight[j] - h.point[j - 1] / h.weight[j - 1];
+    if (j > 1) turn += std::abs(turning(before, leg));
+    before = leg;
+  }
+  return turn <= kLargestTurn;
+}
+
+/// `far`: the whole turns so far that its parts have to be looked at, however their weights are.
+void append_parts(Homogeneous h, int splits_left, bool far, double d, Vec2 origin, Vec2 half_chord,
+                  std::vector<RationalBezier>& pieces) {
+  const bool too_much = !weights_positive(h) || (far && !polygon_turns_little(h));
+  if (splits_left > 0 && too_much) {
     const Homogeneous first = cut_off_first(h, balanced_middle(h));
-    append_parts(first, splits_left - 1, false, d, origin, half_chord, pieces);
-    append_parts(h, splits_left - 1, false, d, origin, half_chord, pieces);
+    append_parts(first, splits_left - 1, far, d, origin, half_chord, pieces);
+    append_parts(h, splits_left - 1, far, d, origin, half_chord, pieces);
     return;
   }
   pieces.push_back(placed(h, d, origin, half_chord));
