@@ -198,9 +198,8 @@ int tell_refusal(const FitOptions& options, const PointSeries& series, const Err
   if (why && why->found) written = write_refusal_pictures(options, series.name, *why);
   bar.clear();
   warn(series.warnings);  // a formed contour carries them itself
-  const Error told =
-      with_range(by_points ? with_tolerance(refusal, why, series) : refusal, range,
-                 series.units.text());
+  const Error told = with_range(by_points ? with_tolerance(refusal, why, series) : refusal, range,
+                                series.units.text());
   const int code = report(told);
   const std::vector<std::string> names = written ? *written : std::vector<std::string>{};
   if (!written) warn({written.error().what + " (" + written.error().where + ")"});

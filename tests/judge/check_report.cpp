@@ -171,22 +171,31 @@ class ReportCheck {
     for (const Part* one : around(part)) sum += course_.turning(one->from, one->to);
     return sum;
   }
-  /// Whether the certificate proves the pieces to be what the runs say.
+  /// Whether the runs mean one direction, and the certificate proves the pieces to have it.
   [[nodiscard]] bool as_meant_around(const Part& part) const {
-    const Json& proofs = member(file_.certificate, "monotone");
+    bool rises = false, falls = false;
     for (const Part* one : around(part)) {
       for (auto i = static_cast<std::size_t>(one->from); static_cast<Real>(i) < one->to; ++i) {
-        if (i >= proofs.size() || file_.carrier == "arcs") continue;
-        const std::string verdict = text_of(proofs[i], "verdict");
-        const int proved = verdict == "increasing" ? 1 : verdict == "decreasing" ? -1 : 0;
-        const bool meant =
-            std::any_of(file_.runs.begin(), file_.runs.end(), [&](const FileRun& run) {
-              return run.first <= i && i <= run.last && run.direction == proved;
-            });
-        if (verdict != "constant" && (proved == 0 || !meant)) return false;
+        const int meant = meant_direction(i);
+        rises = rises || meant > 0;
+        falls = falls || meant < 0;
+        if (!proved_as(i, meant)) return false;
       }
     }
-    return true;
+    return !(rises && falls);
+  }
+  [[nodiscard]] int meant_direction(std::size_t piece) const {
+    for (const FileRun& run : file_.runs) {
+      if (run.first <= piece && piece <= run.last) return run.direction;
+    }
+    return 0;
+  }
+  [[nodiscard]] bool proved_as(std::size_t piece, int meant) const {
+    const Json& proofs = member(file_.certificate, "monotone");
+    if (file_.carrier == "arcs" || piece >= proofs.size()) return true;
+    const std::string verdict = text_of(proofs[piece], "verdict");
+    const int proved = verdict == "increasing" ? 1 : verdict == "decreasing" ? -1 : 0;
+    return verdict == "constant" || (proved != 0 && proved == meant);
   }
 
   /// Whether four neighbouring points around the part's chord lie on one circle, within rounding,
