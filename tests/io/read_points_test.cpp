@@ -153,7 +153,7 @@ TEST(ReadPoints, ColumnsThatMeanNothingAreNamedInAWarning) {
   EXPECT_NE(series->warnings[0].find("heading_deg"), std::string::npos);
   const auto ours = parse_points(
       "s,x,y,heading_deg,curvature_1_per_mm,normal_x,normal_y\n0,0,0,0,0,0,1\n"
-      "1,1,0,0,0,0,1\n",
+      "1,1,0,0,0,0,1\n2,2,0,0,0,0,1\n",
       "f");
   ASSERT_TRUE(ours.has_value()) << to_line(ours.error());
   EXPECT_TRUE(ours->warnings.empty());
