@@ -5,8 +5,8 @@
 #include <vector>
 
 #include "obvid/core/result.h"
-#include "obvid/geom/vec2.h"
 #include "obvid/pipeline/export.h"
+#include "obvid/series/point_series.h"
 
 namespace obvid {
 
@@ -42,10 +42,9 @@ struct FileNotes {
 [[nodiscard]] Result<std::vector<std::string>> write_files(const std::vector<Output>& outputs,
                                                            const std::string& input);
 
-/// "--noise 0.01", as it was tried: with " --open" where the ends would meet within it.
-[[nodiscard]] std::string noise_option(double tolerance, bool closed,
-                                       const std::vector<Vec2>& points);
-
+/// "--noise 0.01", as it was tried: with " --open" where the ends would meet within it, and with a
+/// word where points have a smaller tolerance of their own, which `--noise` does not widen.
+[[nodiscard]] std::string noise_option(double tolerance, bool closed, const PointSeries& series);
 /// "a.svg, b.json"
 [[nodiscard]] std::string listed(const std::vector<std::string>& names);
 

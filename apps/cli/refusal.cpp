@@ -35,16 +35,17 @@ std::string counts_of_fit(const Fit& fit) {
          counted(count(fit.report.inflections), "inflection", "inflections");
 }
 
-Error with_tolerance(Error error, const std::optional<WhyNot>& why, const std::string& units) {
+Error with_tolerance(Error error, const std::optional<WhyNot>& why, const PointSeries& series) {
+  const std::string units = series.units.text();
   if (!error.hint.empty()) error.hint += "; ";
   if (!why) {
     error.hint += "moving every point by up to a tenth of the size does not help";
   } else if (why->found && why->next_to_nothing) {
-    error.hint += "no point is in the way: with " + counts_of_fit(why->fit) +
-                  " there is one, --noise " + significant(why->tolerance, kToleranceDigits) +
-                  " allows them";
+    error.hint += "no point is in the way: with " + counts_of_fit(why->fit) + " there is one: " +
+                  noise_option(why->tolerance, why->fit.contour.closed, series) + " allows them";
   } else if (why->found) {
-    error.hint += "within a " + tolerance_text(*why, units) + " there is one";
+    error.hint += "within a " + tolerance_text(*why, units) +
+                  " there is one: " + noise_option(why->tolerance, why->fit.contour.closed, series);
   } else {
     error.hint += fmt::format(
         "the search for a tolerance that would do ended at its limit: up to {} {} none was found",
@@ -105,7 +106,7 @@ std::string points_in_the_way_text(const PointSeries& series, const WhyNot& why)
   text += moves_table(why);
   text += fmt::format("\nWithin a {} for every point such a contour exists and is proved: {}.\n",
                       tolerance_text(why, series.units.text()),
-                      noise_option(why.tolerance, why.fit.contour.closed, series.points));
+                      noise_option(why.tolerance, why.fit.contour.closed, series));
   if (why.refused > 0.0) {
     text += fmt::format("Within {} {} none was found.\n",
                         significant(why.refused, kToleranceDigits), series.units.text());
@@ -218,9 +219,8 @@ int tell_refusal(const FitOptions& options, const PointSeries& series, const Err
   if (why && why->found) written = write_refusal_pictures(options, series.name, *why);
   bar.clear();
   warn(series.warnings);  // a formed contour carries them itself
-  const Error told =
-      with_range(by_points ? with_tolerance(refusal, why, series.units.text()) : refusal, range,
-                 series.units.text());
+  const Error told = with_range(by_points ? with_tolerance(refusal, why, series) : refusal, range,
+                                series.units.text());
   const int code = report(told);
   const std::vector<std::string> names = written ? *written : std::vector<std::string>{};
   if (!written) warn({written.error().what + " (" + written.error().where + ")"});

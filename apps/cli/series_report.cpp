@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <optional>
 
 #include "json_text.h"
 #include "table.h"
@@ -16,6 +17,11 @@ namespace obvid {
 namespace {
 
 constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
+
+/// A chord whose direction rounding decides has none.
+const char* change_text(const std::optional<int>& change) {
+  return change ? direction_text(*change) : "undecided";
+}
 
 double degrees(double rad) { return rad * 180.0 / std::numbers::pi; }
 
@@ -47,7 +53,7 @@ Table point_table(const Analysis& analysis) {
     const bool end = i == 0 || i + 1 == analysis.circles.size();
     table.row({std::to_string(i + 1), end ? "-" : radius_text(analysis.circles[i].kappa),
                significant(degrees(turning_at(analysis, i)), 4), to_next(analysis, i),
-               chord ? direction_text(analysis.direction[i]) : "",
+               chord ? change_text(analysis.change[i]) : "",
                chord ? significant(analysis.points_only_error[i], 4) : ""});
   }
   return table;
@@ -105,7 +111,7 @@ void add_points(JsonText& json, const Analysis& analysis) {
   for (std::size_t i = 0; i < analysis.chords.size(); ++i) {
     json.begin_object().pair("chord", analysis.chords[i].length);
     json.pair("heading", analysis.chords[i].omega);
-    json.pair("direction", static_cast<int>(analysis.direction[i]));
+    json.pair("direction", analysis.change[i] ? static_cast<double>(*analysis.change[i]) : kNan);
     json.pair("points_only_error", analysis.points_only_error[i]).end_object();
   }
   json.end_array();

@@ -69,7 +69,7 @@ std::string recommendation(const TradeOff& t, const PointSeries& series) {
   if (!t.recommended) return "No tolerance gave a proved contour.\n";
   const TradeOffRow& row = t.rows[*t.recommended];
   return fmt::format("Recommended: {} ({}, moves up to {} {})\nRule: {}.\n",
-                     noise_option(row.tolerance, t.closed, series.points),
+                     noise_option(row.tolerance, t.closed, series),
                      counted(static_cast<std::size_t>(row.vertices), "vertex", "vertices"),
                      significant(row.largest_move, kSuggestedDigits), t.units.text(), kRule);
 }

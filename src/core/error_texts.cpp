@@ -111,10 +111,10 @@ constexpr std::array kTexts{
     ErrorText{
         ErrorCode::kCarrierCannotKeep, "This carrier cannot keep what was given",
         "The contour could be formed with spirals, but the carrier that was asked for has too "
-        "little freedom to have the heading, radius or corner given at the named point. "
-        "Nothing was written.",
-        "Use `--carrier spiral` or `clothoids`, which keep everything that a contour can have, "
-        "or give less at this point."},
+        "little freedom to have the heading, radius or corner given at the named point, or to lead "
+        "from it to the next one as the spirals do. Nothing was written.",
+        "Use `--carrier spiral`, which keeps everything that a contour can have, or give less at "
+        "this point."},
     ErrorText{
         ErrorCode::kWanders, "The contour would wander between two points",
         "Between two neighbouring points the contour would leave the directions of all circles "

@@ -98,6 +98,7 @@ std::vector<PictureLens> points_only_region(const PictureTrack& track, const Con
     // reach, which is one chord further on either side.
     const int common = merged(merged(direction[i - 1], direction[i]), direction[i + 1]);
     if ((common != 1 && common != -1) || common != analysis->direction[i]) continue;
+    if (std::isnan(analysis->points_only_error[i])) continue;
     region.push_back({points[i],
                       points[i + 1],
                       {analysis->circles[i].eta_out, analysis->circles[i + 1].eta_in},

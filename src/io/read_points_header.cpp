@@ -20,6 +20,19 @@ using std::string_view;
 constexpr std::array<string_view, 9> kToleranceNames{
     "tol", "tolerance", "u95", "ci95", "uncertainty", "unc", "+-", "+/-", "\xC2\xB1"};
 
+/// Names of columns without a meaning.
+std::vector<std::string> unused_names(const std::vector<ColumnName>& names, const Columns& used) {
+  std::vector<std::string> out;
+  for (std::size_t i = 0; i < names.size(); ++i) {
+    const std::optional<std::size_t> here = i;
+    const bool means = i == used.x || i == used.y || used.z == here || used.heading_deg == here ||
+                       used.radius == here || used.kappa == here || used.tolerance == here ||
+                       used.corner == here;
+    if (!means && !names[i].name.empty()) out.push_back(names[i].name);
+  }
+  return out;
+}
+
 std::string lower(string_view text) {
   std::string out;
   for (const char c : text) out += static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
@@ -137,6 +150,11 @@ std::vector<ColumnName> column_names(string_view line) {
   return names;
 }
 
+string_view known_columns() {
+  return "x, y, z, heading_deg, radius, kappa, corner, and tol, tolerance, u95, ci95, "
+         "uncertainty, unc, +-, +/- or \xC2\xB1";
+}
+
 std::optional<Columns> read_header(string_view line) {
   const std::vector<ColumnName> names = column_names(line);
   const auto find = [&](string_view name) -> std::optional<std::size_t> {
@@ -164,6 +182,7 @@ std::optional<Columns> read_header(string_view line) {
   for (const string_view name : kToleranceNames) {
     if (!columns.tolerance) columns.tolerance = find(name);
   }
+  if (!columns.our_samples) columns.unused = unused_names(names, columns);
   columns.radius_scale = scale_of(names, columns.radius, columns.unit_x);
   columns.kappa_scale = 1.0 / scale_of(names, columns.kappa, columns.unit_x);
   columns.tolerance_scale = scale_of(names, columns.tolerance, columns.unit_x);

@@ -27,13 +27,17 @@ struct Columns {
   std::optional<std::size_t> z, heading_deg, radius, kappa, tolerance, corner;
   /// Columns in another unit than x: what their numbers become in that of x.
   double radius_scale = 1.0, kappa_scale = 1.0, tolerance_scale = 1.0;
-  bool tab_separated = false;  ///< header with tabs: a tab ends a cell, cells may be empty
-  bool our_samples = false;    ///< columns of `samples_csv`: headings show corners
+  std::vector<std::string> unused;  ///< names that mean nothing here
+  bool tab_separated = false;       ///< header with tabs: a tab ends a cell, cells may be empty
+  bool our_samples = false;         ///< columns of `samples_csv`: headings show corners
 
   [[nodiscard]] bool has_fixed_data() const {
     return heading_deg || radius || kappa || tolerance || corner;
   }
 };
+
+/// The names that mean something, for messages.
+[[nodiscard]] std::string_view known_columns();
 
 /// Reads a line that names the columns; nothing when it names no x and y.
 [[nodiscard]] std::optional<Columns> read_header(std::string_view line);

@@ -58,6 +58,7 @@ class RowReader {
   void watch_third(double value);
   void watch_length(const std::array<double, 3>& row);
   void warn_about_meaning();
+  void warn_about_names();
   void take_unknown_names();
   void push(Vec2 point, const text::PrintedDigits& x, const text::PrintedDigits& y);
 

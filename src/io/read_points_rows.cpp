@@ -197,7 +197,8 @@ bool RowReader::drop_grid_bounds(std::size_t count) {
 // Three columns without names may be s, x and y: then the first one grows by the distance of the
 // points that the other two give.
 void RowReader::watch_length(const std::array<double, 3>& row) {
-  constexpr double kSame = 0.02;  // of a step: a chord is that much shorter when it turns by 40 degrees
+  constexpr double kSame =
+      0.02;  // of a step: a chord is that much shorter when it turns by 40 degrees
   if (row_before_ && first_is_length_) {
     const std::array<double, 3>& before = *row_before_;
     const double step = row[0] - before[0];
@@ -217,6 +218,7 @@ void RowReader::warn_about_meaning() {
         "like an arc length, but is taken as x. Name the columns to change that: a first line "
         "`s x y`.");
   }
+  warn_about_names();
   if (raw_.points.empty() || raw_.units.known()) return;
   Vec2 low = raw_.points.front(), high = low;
   for (const Vec2 p : raw_.points) {
@@ -237,6 +239,21 @@ void RowReader::warn_about_meaning() {
         "The coordinates look like longitude and latitude in degrees, which are no lengths: as GPX "
         "or GeoJSON they are projected to metres.");
   }
+}
+
+// A heading that is not fixed because its column has another name would go unnoticed.
+void RowReader::warn_about_names() {
+  constexpr std::size_t kMostNames = 5;
+  if (!raw_.named || layout_.unused.empty()) return;
+  const std::size_t count = layout_.unused.size();
+  std::string names;
+  for (std::size_t i = 0; i < std::min(count, kMostNames); ++i) {
+    names += (i == 0 ? "" : ", ") + shown(layout_.unused[i]);
+  }
+  if (count > kMostNames) names += " and " + std::to_string(count - kMostNames) + " more";
+  raw_.warnings.push_back((count == 1 ? "The column " : "The columns ") + names +
+                          (count == 1 ? " is" : " are") + " not used: known are " +
+                          std::string(known_columns()) + ".");
 }
 
 // A third column that changes may be a height or a width: say that it is not used.

@@ -9,7 +9,7 @@ namespace {
 
 tl::unexpected<Error> not_carried(const SeriesChain& chain, std::size_t link) {
   const std::size_t point = chain.source[link].value_or(chain.source[link + 1].value_or(0));
-  return fail({ErrorCode::kNotProved, "three clothoids do not carry the curve between two points",
+  return fail({ErrorCode::kCarrierCannotKeep, "three clothoids do not carry the curve between two points",
                "point " + std::to_string(point + 1), "use --carrier spiral",
                static_cast<std::ptrdiff_t>(point), chain.links[link].sigma});
 }

@@ -94,7 +94,31 @@ class PartMeasure {
     return common;
   }
 
+  /// How far a part turns, to both sides together, rad.
+  [[nodiscard]] double turning_of(const Part& part) const {
+    double turn = 0.0;
+    for (std::size_t k = part.first_piece; k <= part.last_piece; ++k) {
+      const double a = k == part.first_piece ? part.t0 : 0.0;
+      const double b = k == part.last_piece ? part.t1 : 1.0;
+      const Piece& piece = contour_.pieces[k];
+      Jet before = evaluate(piece, a);
+      const Jet end = evaluate(piece, b);
+      // a piece turns by less than half a turn; only one with an inflection turns back
+      const bool bends_both_ways = curvature(before) * curvature(end) < 0.0;
+      const int steps = bends_both_ways ? kStepsOfInflection : 1;
+      for (int i = 1; i <= steps; ++i) {
+        const Jet now = i == steps ? end : evaluate(piece, a + (b - a) * i / steps);
+        turn += std::abs(turning(before.d1, now.d1));
+        before = now;
+      }
+    }
+    return turn;
+  }
+
  private:
+  /// A step across the inflection hides what it turns both ways: a few hundredths of its piece.
+  static constexpr int kStepsOfInflection = 16;
+
   /// Copies the pieces of a part to where their coordinates are small: rounded ones blur what is
   /// measured.
   void see_from_near(const Part& part) {
@@ -239,18 +263,21 @@ class PartMeasure {
   Vec2 reference_;            // where they are seen from
 };
 
-/// Says nothing about points around which the contour itself is not monotone.
-void forget_beside_vertices(const std::vector<int>& direction, bool loop, FitReport& report) {
+/// Says nothing about points around which the contour itself is not monotone, or turns by half a
+/// turn: it is none of the curves of which the figure speaks. By rows.
+void forget_around(const std::vector<int>& direction, const std::vector<double>& turn, bool loop,
+                   FitReport& report) {
   const std::size_t n = direction.size();
   for (std::size_t k = 0; k < n; ++k) {
     double& error = report.segments[k].points_only_error;
     if (error == 0.0) continue;  // points of one circle or line, and the contour is that
     const bool inner = k > 0 && k + 1 < n;
     if (!inner && !loop) continue;
-    const int before = direction[(k + n - 1) % n], after = direction[(k + 1) % n];
-    if (common_direction(common_direction(before, direction[k]), after) == kNotMonotone) {
-      error = kUnknown;
-    }
+    const std::size_t before = (k + n - 1) % n, after = (k + 1) % n;
+    const int common =
+        common_direction(common_direction(direction[before], direction[k]), direction[after]);
+    const bool turns_far = !(turn[before] + turn[k] + turn[after] < std::numbers::pi);
+    if (common == kNotMonotone || turns_far) error = kUnknown;
   }
 }
 
@@ -372,9 +399,11 @@ Result<FitReport> measure(const Contour& contour, double tolerance) {
   report.largest_deviation = promises_monotone(contour.carrier) ? 0.0 : kUnknown;
   PartMeasure measure_part(contour, tolerance);
   std::vector<int> direction;
+  std::vector<double> turn;
   for (const Part& part : parts_of(contour)) {
     const SegmentReport& s = report.segments.emplace_back(measure_part(part));
     direction.push_back(measure_part.direction_of(part));
+    turn.push_back(measure_part.turning_of(part));
     report.largest_width = std::isnan(s.width) ? s.width : std::max(report.largest_width, s.width);
     if (s.deviation > report.largest_deviation) report.largest_deviation = s.deviation;
     report.inserted_points += s.inserted;
@@ -396,7 +425,7 @@ Result<FitReport> measure(const Contour& contour, double tolerance) {
     report.vertices_lower_bound += forced(contour, section, loop);
     row += section.size() - 1;
   }
-  forget_beside_vertices(direction, loop, report);
+  forget_around(direction, turn, loop, report);
   // around a closed contour the curvature returns to where it began, leaps at corners included
   if (contour.closed) report.vertices_lower_bound += report.vertices_lower_bound % 2;
   return report;
@@ -411,7 +440,8 @@ void forget_unproved(const Certificate& certificate, const Contour& contour, Fit
   if (contour.carrier == Carrier::kArcs) return;  // every piece is an arc: nothing to prove
   const std::vector<int> direction = piece_directions(contour);
   const std::vector<Part> parts = parts_of(contour);
-  for (std::size_t r = 0; r < parts.size() && r < report.segments.size(); ++r) {
+  const std::size_t rows = std::min(parts.size(), report.segments.size());
+  for (std::size_t r = 0; r < rows; ++r) {
     bool as_meant = true;
     for (std::size_t k = parts[r].first_piece; k <= parts[r].last_piece; ++k) {
       if (is_kept(contour, k) || k >= certificate.pieces.size()) continue;
@@ -419,12 +449,17 @@ void forget_unproved(const Certificate& certificate, const Contour& contour, Fit
       const int found = verdict == Verdict::kIncreasing   ? 1
                         : verdict == Verdict::kDecreasing ? -1
                                                           : 0;
-      as_meant = as_meant && (verdict == Verdict::kConstant || (found != 0 && found == direction[k]));
+      as_meant =
+          as_meant && (verdict == Verdict::kConstant || (found != 0 && found == direction[k]));
     }
     if (as_meant) continue;
     SegmentReport& row = report.segments[r];
-    row.points_only_error = row.width = row.width_unrefined = row.deviation = kUnknown;
+    row.width = row.width_unrefined = row.deviation = kUnknown;
     report.largest_width = kUnknown;
+    // the points speak of curves that are monotone along the neighbouring parts too
+    for (const std::size_t around : {(r + rows - 1) % rows, r, (r + 1) % rows}) {
+      report.segments[around].points_only_error = kUnknown;
+    }
   }
   report.largest_deviation = kUnknown;
   for (const SegmentReport& row : report.segments) {

@@ -93,6 +93,24 @@ std::vector<CircularStretch> find_stretches(const std::vector<Vec2>& points,
 
 std::int8_t sign_of(double value) { return value >= 0.0 ? std::int8_t{1} : std::int8_t{-1}; }
 
+/// The curve must arrive at, and leave, a stretch with the curvature of the stretch. Where rounding
+/// hides how that differs from the circle at its end, the adjacent circles have decided.
+void direct_beside(const Analysis& a, std::size_t stretch, std::vector<std::int8_t>& direction) {
+  const CircularStretch& s = a.stretches[stretch];
+  const auto surely = [](const AdjacentCircle& c, double kappa) {
+    return std::abs(c.kappa - kappa) > c.rounding;
+  };
+  const bool touches = stretch > 0 && a.stretches[stretch - 1].last + 1 == s.first;
+  if (touches && s.kappa != a.stretches[stretch - 1].kappa) {
+    direction[s.first - 1] = sign_of(s.kappa - a.stretches[stretch - 1].kappa);
+  } else if (s.first > 0 && surely(a.circles[s.first], s.kappa)) {
+    direction[s.first - 1] = sign_of(s.kappa - a.circles[s.first].kappa);
+  }
+  if (s.last < a.chords.size() && surely(a.circles[s.last], s.kappa)) {
+    direction[s.last] = sign_of(a.circles[s.last].kappa - s.kappa);
+  }
+}
+
 /// +1, -1 or 0 for every chord; chords without two circles of their own take the neighbour's.
 std::vector<std::int8_t> choose_directions(const Analysis& a) {
   const std::size_t m = a.chords.size();
@@ -109,10 +127,8 @@ std::vector<std::int8_t> choose_directions(const Analysis& a) {
   }
   for (const CircularStretch& s : a.stretches) {
     for (std::size_t i = s.first; i < s.last; ++i) direction[i] = 0;
-    // the curve must arrive at, and leave, the stretch with the curvature of the stretch
-    if (s.first > 0) direction[s.first - 1] = sign_of(s.kappa - a.circles[s.first].kappa);
-    if (s.last < m) direction[s.last] = sign_of(a.circles[s.last].kappa - s.kappa);
   }
+  for (std::size_t k = 0; k < a.stretches.size(); ++k) direct_beside(a, k, direction);
   return direction;
 }
 
@@ -130,13 +146,34 @@ void count_undecided(Analysis& a) {
   }
 }
 
+/// What the adjacent circles say beyond rounding. The first and the last chord have one circle
+/// alone: they go with their neighbours.
+void compare_circles_along(Analysis& a) {
+  const std::size_t m = a.chords.size();
+  std::vector<bool> circular(m, false);
+  for (const CircularStretch& s : a.stretches) {
+    for (std::size_t i = s.first; i < s.last; ++i) circular[i] = true;
+  }
+  a.change.assign(m, std::nullopt);
+  for (std::size_t i = 0; i < m; ++i) {
+    if (direction_is_certain(a, i)) {
+      a.change[i] = a.circles[i + 1].kappa > a.circles[i].kappa ? 1 : -1;
+    } else if (circular[i]) {
+      a.change[i] = 0;
+    }
+  }
+  if (m < kFewestThatTell) return;
+  if (!a.change.front()) a.change.front() = a.change[1];
+  if (!a.change.back()) a.change.back() = a.change[m - 2];
+}
+
 void collect_runs(Analysis& a) {
-  for (std::size_t i = 0; i < a.direction.size(); ++i) {
-    const int d = a.direction[i];
-    if (!a.runs.empty() && a.runs.back().direction == d) {
+  for (std::size_t i = 0; i < a.change.size(); ++i) {
+    const std::optional<int> d = a.change[i];
+    if (!a.runs.empty() && (!d || a.runs.back().direction == *d)) {
       a.runs.back().last_chord = i;
-    } else {
-      a.runs.push_back({i, i, d});
+    } else if (d) {
+      a.runs.push_back({a.runs.empty() ? 0 : i, i, *d});
     }
   }
   int before = 0;
@@ -167,12 +204,14 @@ void bound_singular_points(const std::vector<Vec2>& points, Analysis& a) {
   const std::size_t n = a.circles.size();
   if (n < 4) return;
   a.vertices_lower_bound = forced_vertices(points, {}, false);
+  // wide windows may show what rounding hides between neighbours
+  a.vertices = std::max(a.vertices, a.vertices_lower_bound);
   a.inflections_lower_bound = forced_inflections(points, a);
   int before = 0;
   for (std::size_t i = 1; i + 1 < n; ++i) {
     const double k = a.circles[i].kappa;
-    const int s = k > 0.0 ? 1 : k < 0.0 ? -1 : 0;
-    if (s == 0) continue;
+    if (std::abs(k) <= a.circles[i].rounding) continue;
+    const int s = k > 0.0 ? 1 : -1;
     if (before != 0 && s != before) ++a.inflections;
     before = s;
   }
@@ -182,9 +221,11 @@ void bound_error(Analysis& a) {
   a.points_only_error.assign(a.chords.size(), std::numeric_limits<double>::quiet_NaN());
   for (std::size_t i = 1; i + 1 < a.chords.size(); ++i) {
     // both circles reach over three points: they bound a curve that is monotone over three chords
-    const int d = a.direction[i];
-    const auto against = [d](int neighbour) { return neighbour != d && neighbour != 0; };
-    if (d == 0 || against(a.direction[i - 1]) || against(a.direction[i + 1])) continue;
+    const int d = a.change[i].value_or(0);
+    const auto against = [d](const std::optional<int>& beside) {
+      return d * beside.value_or(0) < 0;
+    };
+    if (against(a.change[i - 1]) || against(a.change[i + 1])) continue;
     a.points_only_error[i] = four_point_error(a, i);
   }
   for (const CircularStretch& s : a.stretches) {
@@ -210,10 +251,19 @@ Result<void> check_turning(Analysis& a) {
 }  // namespace
 
 double four_point_error(const Analysis& a, std::size_t chord) {
-  if (chord == 0 || chord + 1 >= a.chords.size()) return std::numeric_limits<double>::quiet_NaN();
-  const double sag_before = std::tan(0.5 * a.circles[chord].eta_out);
-  const double sag_after = std::tan(0.5 * a.circles[chord + 1].eta_in);
-  return 0.5 * a.chords[chord].length * std::abs(sag_after - sag_before);
+  constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
+  /// Rounding of an inscribed angle from two rounded differences, rad, and of what follows.
+  constexpr double kAngle = 16.0 * kUnitRoundoff;
+  if (chord == 0 || chord + 1 >= a.chords.size()) return kNone;
+  const AdjacentCircle &before = a.circles[chord], &after = a.circles[chord + 1];
+  // whatever turns by less than half a turn through four points turns no less than their chords do
+  const double turn =
+      std::abs(before.eta_in + before.eta_out) + std::abs(after.eta_in + after.eta_out);
+  if (!(turn < std::numbers::pi)) return kNone;
+  const double sag_before = std::tan(0.5 * before.eta_out);
+  const double sag_after = std::tan(0.5 * after.eta_in);
+  const double rounding = kAngle * (1.0 + 0.5 * (sag_before * sag_before + sag_after * sag_after));
+  return 0.5 * a.chords[chord].length * (std::abs(sag_after - sag_before) + rounding);
 }
 
 std::vector<Chord> measure_chords(const std::vector<Vec2>& points) {
@@ -284,6 +334,7 @@ Result<Analysis> analyse(const std::vector<Vec2>& points) {
   a.stretches = find_stretches(points, a.circles);
   a.direction = choose_directions(a);
   count_undecided(a);
+  compare_circles_along(a);
   collect_runs(a);
   bound_singular_points(points, a);
   bound_error(a);

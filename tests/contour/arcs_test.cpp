@@ -131,5 +131,21 @@ TEST(Arcs, TheSecondCurvatureMakesTheBoundOfExistenceAnEquality) {
   }
 }
 
+TEST(Arcs, ThatAreOneCircleButForRoundingMeetHalfWay) {
+  // points of a line in a series of size 1e4: the curvatures differ by 1e-24
+  const Element start{{-1672.9548960637867, -1371.6693237174768}, -2.4548299381523524, 5.5e-18};
+  const Element end{{-3345.9097921275584, -2743.338647434972}, -2.4548299381523417, 4.3e-18};
+  const auto straight = biarc(start, end, {4.900407021343041e-18, 4.900405470815518e-18});
+  const Vec2 middle = 0.5 * (start.point + end.point);
+  EXPECT_LT(norm(end_point(straight[0]) - middle), 1e-11);
+  // a quarter of the unit circle: the joint is on it at 45 degrees
+  const double quarter = 0.5 * std::numbers::pi;
+  const auto round =
+      biarc({{1.0, 0.0}, quarter, 1.0}, {{0.0, 1.0}, 2.0 * quarter, 1.0}, {1.0, 1.0 + 0x1p-51});
+  EXPECT_LT(norm(end_point(round[0]) - unit_at(0.5 * quarter)), 1e-15);
+  EXPECT_NEAR(std::get<ArcPiece>(round[0]).length, 0.5 * quarter, 1e-15);
+  EXPECT_NEAR(std::get<ArcPiece>(round[1]).length, 0.5 * quarter, 1e-15);
+}
+
 }  // namespace
 }  // namespace obvid

@@ -144,6 +144,21 @@ TEST(ReadPoints, NamedColumnsFixDataAtTheirPoints) {
   EXPECT_TRUE(parse_points("x,y\n0,0\n1,1\n2,1\n", "f")->fixed.empty());
 }
 
+TEST(ReadPoints, ColumnsThatMeanNothingAreNamedInAWarning) {
+  const auto series = parse_points("id,x,y,heading\n1,0,0,90\n2,1,1,\n3,2,1,\n", "f");
+  ASSERT_TRUE(series.has_value()) << to_line(series.error());
+  ASSERT_EQ(series->warnings.size(), 1U);
+  EXPECT_NE(series->warnings[0].find("\"id\", \"heading\" are not used"), std::string::npos)
+      << series->warnings[0];
+  EXPECT_NE(series->warnings[0].find("heading_deg"), std::string::npos);
+  const auto ours = parse_points(
+      "s,x,y,heading_deg,curvature_1_per_mm,normal_x,normal_y\n0,0,0,0,0,0,1\n"
+      "1,1,0,0,0,0,1\n2,2,0,0,0,0,1\n",
+      "f");
+  ASSERT_TRUE(ours.has_value()) << to_line(ours.error());
+  EXPECT_TRUE(ours->warnings.empty());
+}
+
 TEST(ReadPoints, EmptyCellsBetweenTabsAreNotFixed) {
   const auto series =
       parse_points("x\ty\theading_deg\tkappa\n0\t0\t\t2\n1\t1\t45\t\n2\t1\t\t\n", "f");

@@ -15,6 +15,8 @@ namespace {
 
 /// Lengths are told apart from what is found here only beyond this part of them.
 constexpr Real kSame = 1e-9L;
+/// Turns that are not told apart from half a turn, rad.
+constexpr Real kNearlyHalf = 1e-6L;
 /// A bound may be this much above the least one (docs/claims.md: it is not padded).
 constexpr Real kPadding = 1e-3L;
 /// Elements that are all needed leave no play: how near a step comes to the farthest one, and how
@@ -126,28 +128,74 @@ class ReportCheck {
     if (circular && (stated.null() || stated.value == 0.0)) return sheet_.holds(claim);
     const auto four = four_points(part);
     const bool exists = four && file_.tolerance.empty() && file_.points.size() >= 4;
+    const std::optional<Lens> lens = exists ? std::optional(lens_of(*four)) : std::nullopt;
+    const bool defined = lens && lens->holds() && monotone_around(part);
+    const Real turning = defined ? turning_around(part) : 0.0L;
     if (stated.null()) {
       // null claims nothing, but is promised only where the figure is not defined
       const bool seam = &part == &course_.parts.front() || &part == &course_.parts.back();
-      const bool monotone = exists && !seam && monotone_around(part);
-      sheet_.expect(!monotone, "segments.points_only_error null", std::string("null"),
+      const bool promised = defined && !seam && turning < kStraightAngle - kNearlyHalf &&
+                            lens->turning < kStraightAngle - kNearlyHalf && as_meant_around(part);
+      sheet_.expect(!promised, "segments.points_only_error null", std::string("null"),
                     std::string("defined here"), where(part));
       return;
     }
-    if (!exists || !monotone_around(part)) {
-      return sheet_.fails(claim, shown(*stated.value),
-                          !exists ? "null: four points of one section, met exactly, are needed"
-                                  : "null: the contour is not monotone around this part",
-                          where(part));
+    if (!defined || turning > kStraightAngle + kNearlyHalf) {
+      const char* reason = !exists ? "null: four points of one section, met exactly, are needed"
+                           : defined || !lens->holds()
+                               ? "null: half a turn or more around this part"
+                               : "null: the contour is not monotone around this part";
+      return sheet_.fails(claim, shown(*stated.value), reason, where(part));
     }
-    const auto [k0, k1, h] = adjacent(*four);
-    const Real found = between_arcs(k0, k1, h);
-    const bool short_arcs = std::abs(k0 * h) <= 2.0L && std::abs(k1 * h) <= 2.0L;
-    if (!short_arcs) return sheet_.unjudged(claim, "chord longer than the diameter", where(part));
-    const Real slack = rounding_of_circles(*four);
-    sheet_.expect(*stated.value >= found * (1.0L - kSame) - slack &&
-                      *stated.value <= found * (1.0L + kPadding) + slack,
+    const Real found = lens->height(), slack = lens->growth() * kRoundedDirection;
+    const Real seen_from_afar = lens->growth() * 0x1p-60L * coordinate(*four) / lens->shortest;
+    sheet_.expect(*stated.value >= found * (1.0L - kSame) - seen_from_afar &&
+                      *stated.value <= found * (1.0L + kSame) + slack + seen_from_afar,
                   claim, *stated.value, found, where(part));
+  }
+
+  [[nodiscard]] Lens lens_of(const std::array<std::size_t, 4>& four) const {
+    const auto p = [&](std::size_t j) { return seen(file_.points[four[j]], course_.origin); };
+    return Lens::of(p(0), p(1), p(2), p(3));
+  }
+
+  /// The parts before and behind one, around the seam of a closed contour too.
+  [[nodiscard]] std::vector<const Part*> around(const Part& part) const {
+    const auto own = static_cast<std::size_t>(&part - course_.parts.data());
+    const std::size_t n = course_.parts.size();
+    if (n < 3 || (!file_.closed && (own < 1 || own + 1 >= n))) return {&part};
+    return {&course_.parts[(own + n - 1) % n], &part, &course_.parts[(own + 1) % n]};
+  }
+  [[nodiscard]] Real turning_around(const Part& part) const {
+    Real sum = 0.0L;
+    for (const Part* one : around(part)) sum += course_.turning(one->from, one->to);
+    return sum;
+  }
+  /// Whether the runs mean one direction, and the certificate proves the pieces to have it.
+  [[nodiscard]] bool as_meant_around(const Part& part) const {
+    bool rises = false, falls = false;
+    for (const Part* one : around(part)) {
+      for (auto i = static_cast<std::size_t>(one->from); static_cast<Real>(i) < one->to; ++i) {
+        const int meant = meant_direction(i);
+        rises = rises || meant > 0;
+        falls = falls || meant < 0;
+        if (!proved_as(i, meant)) return false;
+      }
+    }
+    return !(rises && falls);
+  }
+  [[nodiscard]] int meant_direction(std::size_t piece) const {
+    for (const FileRun& run : file_.runs) {
+      if (run.first <= piece && piece <= run.last) return run.direction;
+    }
+    return 0;
+  }
+  [[nodiscard]] bool proved_as(std::size_t piece, int meant) const {
+    const Json& proofs = member(file_.certificate, "monotone");
+    if (file_.carrier == "arcs" || piece >= proofs.size()) return true;
+    const std::string verdict = text_of(proofs[piece], "verdict");
+    const int proved = verdict == "increasing" ? 1 : verdict == "decreasing" ? -1 : 0;
+    return verdict == "constant" || (proved != 0 && proved == meant);
   }
 
   /// Whether four neighbouring points around the part's chord lie on one circle, within rounding,
@@ -168,14 +216,17 @@ class ReportCheck {
     return false;
   }
 
-  /// What the rounding of the coordinates does to heights over a chord.
-  [[nodiscard]] Real rounding_of_circles(const std::array<std::size_t, 4>& four) const {
+  [[nodiscard]] Real coordinate(const std::array<std::size_t, 4>& four) const {
     Real most = 0.0L;
     for (const std::size_t i : four) {
       most = std::max({most, std::abs(static_cast<Real>(file_.points[i].x)),
                        std::abs(static_cast<Real>(file_.points[i].y))});
     }
-    return 64.0L * 0x1p-52L * most + 1e-13L * course_.ends.size;
+    return most;
+  }
+  /// What the rounding of the coordinates does to heights over a chord.
+  [[nodiscard]] Real rounding_of_circles(const std::array<std::size_t, 4>& four) const {
+    return 64.0L * 0x1p-52L * coordinate(four) + 1e-13L * course_.ends.size;
   }
 
   [[nodiscard]] std::array<Real, 3> adjacent(const std::array<std::size_t, 4>& four) const {

@@ -193,7 +193,7 @@ bool Course::monotone(Real a, Real b) const {
 Real Course::turning(Real a, Real b) const {
   Real sum = 0.0L;
   for (auto i = static_cast<std::size_t>(a); static_cast<Real>(i) < b && i < laws.size(); ++i) {
-    sum += std::abs(path.spans()[i].turning());
+    sum += path.spans()[i].turning();
   }
   return sum;
 }

@@ -159,4 +159,23 @@ Input read_input(const std::string& text, const std::vector<std::string>& option
   return out;
 }
 
+std::string with_tolerances_from(const std::string& text, const std::string& tolerance) {
+  std::string out;
+  std::istringstream lines(text);
+  std::optional<std::size_t> column;
+  for (std::string line; std::getline(lines, line);) {
+    std::vector<std::string> cells = cells_of(line);
+    for (std::size_t i = 0; i < cells.size() && !is_number(cells[0]); ++i) {
+      if (cells[i] == "tol") column = i;
+    }
+    if (column && *column < cells.size() && is_number(cells[*column]) &&
+        std::strtod(cells[*column].c_str(), nullptr) < std::strtod(tolerance.c_str(), nullptr)) {
+      cells[*column] = tolerance;
+    }
+    for (std::size_t i = 0; i < cells.size(); ++i) out += (i == 0 ? "" : ",") + cells[i];
+    out += "\n";
+  }
+  return out;
+}
+
 }  // namespace judge

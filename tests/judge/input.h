@@ -41,4 +41,7 @@ struct Input {
 /// Simple text: x and y, or named columns x, y, heading_deg, radius, kappa, tol, corner.
 Input read_input(const std::string& text, const std::vector<std::string>& options);
 
+/// The same points, none with a smaller tolerance of its own (column tol) than this one.
+std::string with_tolerances_from(const std::string& text, const std::string& tolerance);
+
 }  // namespace judge

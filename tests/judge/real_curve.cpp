@@ -161,14 +161,17 @@ Jet Span::at(Real t) const {
 
 Real Span::turning() const {
   if (const auto* s = std::get_if<SpiralForm>(&form_)) {
-    return 0.5L * (s->kappa0 + s->kappa1) * s->length;
+    const Real a = std::abs(s->kappa0), b = std::abs(s->kappa1);
+    // over an inflection there are two triangles of curvature
+    const bool both = (s->kappa0 < 0.0L) != (s->kappa1 < 0.0L) && a + b > 0.0L;
+    return 0.5L * s->length * (both ? (a * a + b * b) / (a + b) : a + b);
   }
   constexpr int kSteps = 32;
   Real sum = 0.0L;
   Vec before = at(0.0L).d;
   for (int i = 1; i <= kSteps; ++i) {
     const Vec now = at(static_cast<Real>(i) / kSteps).d;
-    sum += std::atan2(cross(before, now), dot(before, now));
+    sum += std::abs(std::atan2(cross(before, now), dot(before, now)));
     before = now;
   }
   return sum;

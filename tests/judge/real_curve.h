@@ -61,7 +61,7 @@ class Span {
 
   [[nodiscard]] Jet at(Real t) const;
   [[nodiscard]] Vec point(Real t) const { return at(t).p; }
-  /// Angle that the tangent turns over the whole span, unwrapped.
+  /// Angle that the tangent turns over the whole span, to both sides together.
   [[nodiscard]] Real turning() const;
 
  private:

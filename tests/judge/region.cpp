@@ -225,12 +225,24 @@ Real Region::outside(Vec p) const {
   return nearer(p);
 }
 
-Real between_arcs(Real k0, Real k1, Real h) {
-  const auto sag = [h](Real k) {
-    const Real half = 0.5L * k * h;
-    return 0.25L * k * h * h / (1.0L + std::sqrt(std::max(0.0L, 1.0L - half * half)));
-  };
-  return std::abs(sag(k0) - sag(k1));
+Lens Lens::of(Vec a, Vec b, Vec c, Vec d) {
+  const auto between = [](Vec u, Vec v) { return std::atan2(cross(u, v), dot(u, v)); };
+  // inscribed angles over the chord, seen from the points beside it
+  Lens out{between(b - a, c - a), between(d - b, d - c), norm(c - b), 0.0L, 0.0L};
+  out.shortest = std::min({norm(b - a), out.chord, norm(d - c)});
+  out.turning = std::abs(between(b - a, c - b)) + std::abs(between(c - b, d - c));
+  return out;
+}
+
+bool Lens::holds() const { return turning < kPi; }
+
+Real Lens::height() const {
+  return 0.5L * chord * std::abs(std::tan(0.5L * after) - std::tan(0.5L * before));
+}
+
+Real Lens::growth() const {
+  const Real u = std::tan(0.5L * before), v = std::tan(0.5L * after);
+  return 0.5L * chord * (2.0L + u * u + v * v);
 }
 
 }  // namespace judge

@@ -2,6 +2,7 @@
 // The region of two elements (Kurnosenko, "Biarcs and bilens", 2013): what lies between two biarcs.
 #pragma once
 
+#include <numbers>
 #include <optional>
 
 #include "real_curve.h"
@@ -51,8 +52,25 @@ class Region {
   Biarc from_start_, to_end_;
 };
 
-/// Largest distance between curves that lie between two arcs over the same chord, each from one to
-/// the other; `k0`, `k1` curvatures, `h` the chord, both arcs less than half a turn.
-Real between_arcs(Real k0, Real k1, Real h);
+constexpr Real kStraightAngle = std::numbers::pi_v<Real>;
+/// Rounding of directions of chords in doubles, rad.
+constexpr Real kRoundedDirection = 64.0L * 0x1p-53L;
+
+/// What four points say of the curve between the inner two: it lies between two arcs over their
+/// chord, those of the circles through the first three and through the last three.
+struct Lens {
+  Real before = 0.0L, after = 0.0L;  ///< half the turns of both arcs, rad
+  Real chord = 0.0L, shortest = 0.0L;
+  Real turning = 0.0L;  ///< of the four points at the inner two, to both sides together, rad
+
+  static Lens of(Vec a, Vec b, Vec c, Vec d);
+  /// Curves that turn by half a turn or more are not held by the arcs.
+  [[nodiscard]] bool holds() const;
+  /// Largest distance of two curves in it: the arcs lie farthest apart over the middle of the
+  /// chord.
+  [[nodiscard]] Real height() const;
+  /// How much the height grows when the directions of the chords change by one radian.
+  [[nodiscard]] Real growth() const;
+};
 
 }  // namespace judge

@@ -273,7 +273,12 @@ class Work {
     if (at == std::string::npos || !dice_.chance(0.25)) return;
     const std::string tolerance = fit.err.substr(
         at + within.size(), fit.err.find(' ', at + within.size()) - at - within.size());
-    std::vector<std::string> words{"fit", kPoints, "--quiet"};
+    std::string points = kPoints;
+    if (fit.err.find("no smaller tolerance of a point", at) != std::string::npos) {
+      points = "widened.csv";
+      write_file(path(points), with_tolerances_from(series_.text, tolerance));
+    }
+    std::vector<std::string> words{"fit", points, "--quiet"};
     for (std::size_t i = 0; i < series_.options.size(); ++i) {
       if (series_.options[i] == "--noise") {
         ++i;
@@ -282,6 +287,7 @@ class Work {
       }
     }
     words.insert(words.end(), {"--noise", tolerance});
+    if (fit.err.find(" --open", at) != std::string::npos) words.emplace_back("--open");
     const Run again = program("fit", words);
     if (stopped_) return;
     out_.sheet.expect(again.code == 0, "refusal: within a tolerance there is one", tolerance,

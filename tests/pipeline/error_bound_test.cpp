@@ -262,6 +262,35 @@ TEST(PointsOnlyError, IsUnknownBetweenCornersThreePointsApart) {
   EXPECT_TRUE(all_unknown(f->report));
 }
 
+/// Known rows of the spiral r = exp(t / 10) through points so far apart, and that it keeps to them.
+std::size_t known_rows_of_spiral(double step) {
+  const auto spiral = [](double t) { return std::exp(0.1 * t) * unit_at(t); };
+  std::vector<Vec2> points;
+  for (int i = 0; i < 8; ++i) points.push_back(spiral(step * i));
+  const auto f = fit_carrier(points, Carrier::kSpiral);
+  EXPECT_TRUE(f && f->certificate.proved);
+  std::size_t known = 0;
+  for (std::size_t i = 0; f && i < f->report.segments.size(); ++i) {
+    const double bound = f->report.segments[i].points_only_error;
+    if (std::isnan(bound)) continue;
+    ++known;
+    for (int k = 1; k < 20; ++k) {
+      const Vec2 p = spiral(step * (static_cast<double>(i) + k / 20.0));
+      double away = 1e300;
+      for (int j = 0; j <= 4000; ++j) {
+        away = std::min(away, norm(evaluate(f->contour.pieces[i], j / 4000.0).point - p));
+      }
+      EXPECT_LE(away, bound + 1e-3 * step) << step << ' ' << i;  // places are so far apart
+    }
+  }
+  return known;
+}
+
+TEST(PointsOnlyError, IsUnknownWhereTheContourTurnsByHalfATurnOverThreeChords) {
+  EXPECT_EQ(known_rows_of_spiral(0.9), 5U);  // 155 degrees
+  EXPECT_EQ(known_rows_of_spiral(1.1), 0U);  // 189 degrees
+}
+
 TEST(PointsOnlyError, IsNothingOnFourPointsOfOneCircle) {
   const std::vector<Vec2> circle = {{5, 0}, {4, 3}, {3, 4}, {0, 5}, {-3, 4}};
   const auto f = fit_carrier(circle, Carrier::kSpiral);

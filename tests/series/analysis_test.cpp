@@ -118,6 +118,61 @@ TEST(Analysis, SpiralStaysBetweenTheArcsOfItsAdjacentCircles) {
   EXPECT_TRUE(std::isnan(a.points_only_error.back()));
 }
 
+TEST(Analysis, PointsOnlyErrorReachesOverArcsOfMoreThanHalfACircle) {
+  // over the chord from (0, 0) to (2, 0): three quarters of a circle of radius sqrt 2 around (1,
+  // -1), and a sixth of one of radius 2 around (1, sqrt 3); their heights below it by Pythagoras
+  const auto on = [](Vec2 centre, double radius, double degrees) {
+    return centre + radius * unit_at(degrees * kPi / 180.0);
+  };
+  const Vec2 small{1.0, -1.0}, large{1.0, std::sqrt(3.0)};
+  const auto before = on(small, std::sqrt(2.0), 120.0);
+  const double expected = (std::sqrt(2.0) + 1.0) - (2.0 - std::sqrt(3.0));
+  const auto near = analyse({before, {0, 0}, {2, 0}, on(large, 2.0, -55.0)}).value();
+  EXPECT_NEAR(near.points_only_error[1], expected, 1e-13);  // the chords turn by 175 degrees
+  // by 182.5: no curve turns by less than half a turn through these points
+  const auto far = analyse({before, {0, 0}, {2, 0}, on(large, 2.0, -40.0)}).value();
+  EXPECT_TRUE(std::isnan(far.points_only_error[1]));
+}
+
+TEST(Analysis, ALineBesideAnArcRisesToItsCurvature) {
+  // a line of 4 points and an arc of radius 0.5 that touches it, of which the line has the first
+  std::vector<Vec2> points{{-3.0, 0.1}, {-2.0, 0.1}, {-1.0, 0.1}, {0.0, 0.1}};
+  for (int i = 1; i <= 5; ++i) {
+    const double t = 0.3 * i;
+    points.push_back({0.5 * std::sin(t), 0.6 - 0.5 * std::cos(t)});
+  }
+  for (const double back : {1.0, 0.1, 1e-3}) {  // coordinates that round differently
+    for (const double turned : {0.0, 0.4, 1.1, 2.5, 4.0}) {
+      std::vector<Vec2> moved = points;
+      for (Vec2& p : moved) p = back * complex_product(p, unit_at(turned));
+      const auto a = analyse(moved).value();
+      EXPECT_EQ(a.direction[3], 1) << back << ' ' << turned;
+      EXPECT_EQ(a.change[3], 1) << back << ' ' << turned;
+      EXPECT_EQ(a.vertices, 0) << back << ' ' << turned;
+    }
+  }
+}
+
+TEST(Analysis, DirectionsThatRoundingDecidesAreUndecidedAndCountForNothing) {
+  // two sides of a polygon, an ulp or so beside the lines: a triangle of a drawing
+  const std::vector<Vec2> points{{0, 0},
+                                 {1.6843055207991688e-09, -5.4187872047280697e-09},
+                                 {3.3686110415983376e-09, -1.0837574409456139e-08},
+                                 {5.0529165623975064e-09, -1.6256361614184208e-08},
+                                 {8.5457935657803781e-09, -1.2199523595180838e-08},
+                                 {1.203867056916325e-08, -8.1426855761774692e-09},
+                                 {1.5531547572546121e-08, -4.0858475571740989e-09},
+                                 {1.0354365048364079e-08, -2.7238983714493996e-09}};
+  const auto a = analyse(points).value();
+  EXPECT_EQ(a.change[2], 1);  // from the side into the corner, whatever the last digits are
+  EXPECT_EQ(a.change[3], -1);
+  EXPECT_FALSE(a.change[4]);
+  EXPECT_EQ(a.change[5], 1);
+  EXPECT_GE(a.rounding_decided, 1U);
+  EXPECT_EQ(a.vertices, 2);  // up, down, up
+  EXPECT_EQ(a.inflections, 0);
+}
+
 TEST(Analysis, EllipseForcesAtMostItsFourVertices) {
   for (const int n : {13, 24, 50, 101, 400}) {
     // from inside a quarter to the same place: all four vertices lie inside

@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <limits>
+#include <optional>
 #include <vector>
 
 #include "obvid/core/result.h"
@@ -40,7 +41,8 @@ struct CircularStretch {
   double kappa = 0.0;  ///< 0 for a line
 };
 
-/// Maximal part of the series whose adjacent circles change one way.
+/// Maximal part of the series whose adjacent circles change one way. Chords that rounding decides
+/// belong to the run before them, those at the beginning to the first one.
 struct SeriesRun {
   std::size_t first_chord = 0;
   std::size_t last_chord = 0;
@@ -49,16 +51,20 @@ struct SeriesRun {
 
 /// What the points alone say about any fair curve through them (docs/methods/series.md).
 struct Analysis {
-  std::vector<Chord> chords;              ///< n - 1
-  std::vector<AdjacentCircle> circles;    ///< n
-  std::vector<std::int8_t> direction;     ///< n - 1: +1, -1, or 0 inside a circular stretch
-  std::vector<double> points_only_error;  ///< n - 1; NaN where it is not defined: on the first
-                                          ///< and last chord and beside a vertex
-  std::vector<SeriesRun> runs;
+  std::vector<Chord> chords;               ///< n - 1
+  std::vector<AdjacentCircle> circles;     ///< n
+  std::vector<std::int8_t> direction;      ///< n - 1: what a contour begins with: +1, -1, or 0
+                                           ///< inside a circular stretch
+  std::vector<std::optional<int>> change;  ///< n - 1: how the adjacent circles change, +1, -1, or 0
+                                           ///< on one circle; none where rounding decides
+  std::vector<double> points_only_error;   ///< n - 1; NaN where it is not defined: on the first
+                                           ///< and last chord, beside a vertex and where the points
+                                           ///< turn by half a turn or more
+  std::vector<SeriesRun> runs;             ///< of `change`; none where rounding decides every chord
   std::vector<CircularStretch> stretches;
-  int vertices = 0;              ///< changes of direction: what the contour will have
+  int vertices = 0;              ///< changes of direction between runs, or what is forced if more
   int vertices_lower_bound = 0;  ///< what the points force (forced_vertices.h)
-  int inflections = 0;           ///< sign changes of the adjacent curvatures
+  int inflections = 0;  ///< sign changes of the adjacent curvatures, as rounding leaves them
   int inflections_lower_bound = 0;
   std::size_t rounding_decided = 0;  ///< chords whose direction lies within coordinate rounding
   std::size_t first_rounding_decided = 0;
@@ -72,7 +78,8 @@ struct Analysis {
 [[nodiscard]] Result<Analysis> analyse(const std::vector<Vec2>& points);
 
 /// Largest distance between two curves of monotone curvature through the chord's ends and their
-/// neighbours: between both adjacent circles. NaN on the first and last chord.
+/// neighbours that turn by less than half a turn there: between both adjacent circles, rounded
+/// upward. NaN on the first and last chord, and where the points themselves turn by half a turn.
 [[nodiscard]] double four_point_error(const Analysis& analysis, std::size_t chord);
 
 /// Chords and adjacent circles alone, for distinct points (at least 2). Cost O(n).

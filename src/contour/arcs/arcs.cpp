@@ -142,14 +142,19 @@ std::array<Piece, 2> biarc(const Element& start, const Element& end, const Biarc
   // closing the chord: (b - a) e^{i theta} = 2 i a b u + b t0 - a t1, u along the chord
   const Vec2 v = (2.0 * a * b / h) * left_normal(chord) + b * t0 - a * t1;
   const double length = norm(v);
-  const Vec2 middle = t0 + t1;  // one circle: its tangent half way
-  const Vec2 tangent = length > 0.0 ? v / std::copysign(length, b - a) : middle / norm(middle);
+  // the rounding of both headings moves the joint by u / |b - a| of the chord: where that is a part
+  // of the chord that can be seen, the arcs are one circle, and meet half way
+  constexpr double kOneCircle = 64.0 * 0x1p-53;
+  const bool one_circle = std::abs(b - a) <= kOneCircle || !(length > 0.0);
+  const Vec2 middle = t0 + t1;
+  const Vec2 tangent = one_circle ? middle / norm(middle) : v / std::copysign(length, b - a);
   const ArcTurn first = arc_turn(t0, tangent);
   const ArcTurn second = remaining_turn(tangent, t1, end.theta - start.theta, first.angle);
   // the joint from the arc that bends more: its turning is known best
-  const Vec2 joint = std::abs(a) >= std::abs(b)
-                         ? start.point + (first.half_tangent / k.first) * (t0 + tangent)
-                         : end.point - (second.half_tangent / k.second) * (tangent + t1);
+  const Vec2 joint =
+      one_circle ? start.point + 0.5 * (chord - first.half_tangent * left_normal(chord))
+      : std::abs(a) >= std::abs(b) ? start.point + (first.half_tangent / k.first) * (t0 + tangent)
+                                   : end.point - (second.half_tangent / k.second) * (tangent + t1);
   const auto piece = [](Vec2 from, Vec2 to, double theta, double kappa, ArcTurn turn) -> Piece {
     if (kappa == 0.0) return LinePiece{from, to};
     return ArcPiece{from, to, theta, kappa, arc_length_of(to - from, kappa, turn)};

@@ -108,6 +108,27 @@ TEST(JudgeArithmetic, DistancesFromArcsAreThoseFromCircles) {
   EXPECT_NEAR(static_cast<double>(line.distance({5.0L, 4.0L})), 5.0, 1e-17);
 }
 
+TEST(JudgeArithmetic, WhatLiesBetweenTwoArcsIsAsHighAsTheyAreApart) {
+  // arcs below the chord from (0, 0) to (2, 0): three quarters of a circle of radius sqrt 2 around
+  // (1, -1), a sixth of one of radius 2 around (1, sqrt 3)
+  const Real degree = std::numbers::pi_v<Real> / 180.0L;
+  const Vec small{1.0L, -1.0L}, large{1.0L, std::sqrt(3.0L)};
+  const Vec before = small + std::sqrt(2.0L) * unit_at(120.0L * degree);
+  const Lens lens =
+      Lens::of(before, {0.0L, 0.0L}, {2.0L, 0.0L}, large + 2.0L * unit_at(-55.0L * degree));
+  EXPECT_NEAR(static_cast<double>(lens.height()), std::sqrt(2.0) - 1.0 + std::sqrt(3.0), 1e-15);
+  EXPECT_NEAR(static_cast<double>(lens.turning / degree), 142.5 + 32.5, 1e-12);
+  EXPECT_TRUE(lens.holds());
+  EXPECT_FALSE(Lens::of(before, {0.0L, 0.0L}, {2.0L, 0.0L}, large + 2.0L * unit_at(-40.0L * degree))
+                   .holds());
+}
+
+TEST(JudgeArithmetic, BothTurnsOfAClothoidWithAnInflectionCount) {
+  // curvature from -2 to 1 over the length 3: triangles of 2 * 2 / 2 and 1 * 1 / 2
+  const Clothoid c{{}, {}, 0.0, -2.0, 1.0, 3.0};
+  EXPECT_NEAR(static_cast<double>(Span(c, {}).turning()), 2.5, 1e-15);
+}
+
 TEST(JudgeArithmetic, NurbsSpansAreThoseOfTheWholeCurve) {
   // a full circle of four quarters, degree 2 (Piegl and Tiller, example 7.2)
   const Real w = std::numbers::sqrt2_v<Real> / 2.0L;
