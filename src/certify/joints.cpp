@@ -285,8 +285,24 @@ class JointWalk {
     const auto parts = parts_.find(i);
     if (parts == parts_.end()) return;
     for (const RationalBezier& part : parts->second) {
-      follow_sign(ends_of(Piece{part}).end, largest);
+      EndData end = ends_of(Piece{part}).end;
+      end.kappa_error += blur_of(part, parts->second);
+      follow_sign(end, largest);
     }
+  }
+
+  /// What the rounding of halves (`monotone_parts`) makes of the curvature at the end of one: each
+  /// halving rounds the offsets, and the last leg of the part tells the curvature.
+  static double blur_of(const RationalBezier& part, const std::vector<RationalBezier>& all) {
+    constexpr double kHalvedRoundings = 32.0;  // of the largest offset: ten halvings, two legs
+    double reach = 0.0;
+    for (const RationalBezier& one : all) {
+      for (const Vec2 p : one.offset) reach = std::max({reach, std::abs(p.x), std::abs(p.y)});
+    }
+    const auto n = static_cast<std::size_t>(part.degree);
+    const Vec2 leg = part.offset[n] - part.offset[n - 1];
+    const double square = dot(leg, leg);
+    return square > 0.0 ? kHalvedRoundings * kUnitRoundoff * reach / square : HUGE_VAL;
   }
 
   /// Curvature is monotone on each proved piece, so signs at the ends tell all its sign changes.

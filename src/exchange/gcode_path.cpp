@@ -35,12 +35,30 @@ std::string fixed(double value, int decimals) {
 GcodePath::GcodePath(double scale, int decimals)
     : scale_(scale), unit_(std::pow(10.0, -decimals)), decimals_(decimals) {}
 
-Vec2 GcodePath::printed(Vec2 machine) const {
-  return {round_to(machine.x, decimals_), round_to(machine.y, decimals_)};
+bool GcodePath::holds(double coordinate) const {
+  constexpr double kMostLastDigits = 0x1p60;  // of a 64-bit number, with room for differences
+  return std::abs(scale_ * coordinate) < kMostLastDigits * unit_;
 }
 
-std::string GcodePath::place(Vec2 machine) const {
-  return "X" + fixed(machine.x, decimals_) + " Y" + fixed(machine.y, decimals_);
+GridPlace GcodePath::printed(Vec2 machine) const {
+  const double places = std::pow(10.0, decimals_);
+  return {std::llround(machine.x * places), std::llround(machine.y * places)};
+}
+
+std::string GcodePath::number(std::int64_t last_digits) const {
+  std::int64_t one = 1;
+  for (int i = 0; i < decimals_; ++i) one *= 10;
+  const std::int64_t size = std::abs(last_digits);
+  return fmt::format("{}{}.{:0{}}", last_digits < 0 ? "-" : "", size / one, size % one, decimals_);
+}
+
+std::string GcodePath::place(GridPlace at) const {
+  return "X" + number(at.x) + " Y" + number(at.y);
+}
+
+Vec2 GcodePath::between(GridPlace from, GridPlace to) const {
+  const double places = std::pow(10.0, decimals_);  // exact, unlike a last digit
+  return {static_cast<double>(to.x - from.x) / places, static_cast<double>(to.y - from.y) / places};
 }
 
 std::string GcodePath::start() const { return place(start_); }
@@ -49,10 +67,10 @@ void GcodePath::start_at(Vec2 point) { start_ = at_ = printed(scale_ * point); }
 
 void GcodePath::line_to(Vec2 point) { line(printed(scale_ * point)); }
 
-void GcodePath::line(Vec2 end) {
+void GcodePath::line(GridPlace end) {
   if (end == at_) return;  // the next block starts where the tool stands: nothing drifts
   format_into(text_, "G1 {}\n", place(end));
-  pieces_.emplace_back(LinePiece{at_ / scale_, end / scale_});
+  pieces_.emplace_back(LinePiece{in_contour(at_), in_contour(end)});
   at_ = end;
 }
 
@@ -60,20 +78,20 @@ void GcodePath::follow_arc(const ArcPiece& arc_piece) {
   const double turn = std::abs(arc_piece.kappa * arc_piece.length);
   const int parts = std::max(1, static_cast<int>(std::ceil(turn / kMostBlockTurn)));
   for (int k = 1; k <= parts; ++k) {
-    const Vec2 middle = evaluate(arc_piece, (k - 0.5) / parts).point;
+    const Vec2 middle = scale_ * evaluate(arc_piece, (k - 0.5) / parts).point;
     const Vec2 end = evaluate(arc_piece, static_cast<double>(k) / parts).point;
-    arc(scale_ * middle, printed(scale_ * end), arc_piece.kappa > 0.0);
+    arc(middle, printed(scale_ * end), arc_piece.kappa > 0.0);
   }
 }
 
 /// The arc over the printed chord with the height of the exact one: of all that can be kept it
 /// moves the arc least.
-void GcodePath::arc(Vec2 middle, Vec2 end, bool left) {
-  const Vec2 chord = end - at_;
+void GcodePath::arc(Vec2 middle, GridPlace end, bool left) {
+  const Vec2 chord = between(at_, end);
   const double length = norm(chord);
   if (length < kShortestChord * unit_) return line(end);
   const Vec2 across = left_normal(chord) / length;
-  const double height = dot(middle - at_, across);  // of the middle, below the chord: negative
+  const double height = dot(middle - between({}, at_), across);  // of the middle, below the chord: negative
   const double radius = 0.5 * std::abs(height) + 0.125 * length * length / std::abs(height);
   const bool wrong_side = (height < 0.0) != left;
   if (wrong_side || std::abs(height) < kLowestArc * unit_ || radius < kSmallestRadius) {
@@ -87,23 +105,28 @@ void GcodePath::arc(Vec2 middle, Vec2 end, bool left) {
   const Vec2 tangent = (left ? 1.0 : -1.0) * left_normal(-ij);
   const double angle = turning(tangent, chord);
   const double own_kappa = 2.0 * std::sin(angle) / length;
-  pieces_.emplace_back(ArcPiece{at_ / scale_, end / scale_, heading(tangent), own_kappa * scale_,
-                                2.0 * angle / own_kappa / scale_});
+  pieces_.emplace_back(ArcPiece{in_contour(at_), in_contour(end), heading(tangent),
+                                own_kappa * scale_, 2.0 * angle / own_kappa / scale_});
+  // |ij|^2 - |ij - chord|^2 over the sum of the roots
+  const double squares = dot(2.0 * ij - chord, chord);
+  radius_mismatch_ = std::max(radius_mismatch_,
+                              std::abs(squares) / (norm(ij) + norm(ij - chord)) / scale_);
   ++arcs_;
   at_ = end;
 }
 
 void GcodePath::follow_cubic(const RationalBezier& cubic) {
   const auto point = [&](std::size_t j) { return scale_ * (cubic.origin + cubic.offset[j]); };
-  const Vec2 end = printed(point(3));
-  const Vec2 first = printed(point(1) - at_), second = printed(point(2) - end);
+  const GridPlace end = printed(point(3));
   if (end == at_) return;
-  format_into(text_, "G5 I{} J{} P{} Q{} {}\n", fixed(first.x, decimals_),
-              fixed(first.y, decimals_), fixed(second.x, decimals_), fixed(second.y, decimals_),
-              place(end));
+  const GridPlace first = printed(point(1) - between({}, at_));
+  const GridPlace second = printed(point(2) - between({}, end));
+  format_into(text_, "G5 I{} J{} P{} Q{} {}\n", number(first.x), number(first.y),
+              number(second.x), number(second.y), place(end));
   RationalBezier path;
   path.degree = 3;
-  path.offset = {at_ / scale_, (at_ + first) / scale_, (end + second) / scale_, end / scale_};
+  path.offset = {in_contour(at_), in_contour(at_) + in_contour(first),
+                 in_contour(end) + in_contour(second), in_contour(end)};
   path.weight = {1.0, 1.0, 1.0, 1.0};
   pieces_.emplace_back(path);
   at_ = end;

@@ -106,7 +106,7 @@ class ReportCheck {
     }
     for (const std::size_t inner : {four[1], four[2]}) {
       for (const FileElement& e : file_.elements) {
-        if (e.corner && e.source == inner) return std::nullopt;
+        if (e.parted() && e.source == inner) return std::nullopt;
       }
     }
     return four;
@@ -196,7 +196,7 @@ class ReportCheck {
     const Part &before = course_.parts[(k + n - 1) % n], &after = course_.parts[(k + 1) % n];
     if (k > 0 && k + 1 < n) return course_.monotone(before.from, after.to);
     // over the seam: both sides, and both the same way
-    if (file_.corner_at(0)) return false;
+    if (file_.parted_at(0)) return false;
     const Real end = course_.path.end();
     const Real rise = course_.element(end, false).kappa - course_.element(before.from, true).kappa;
     const Real then = course_.element(after.to, false).kappa - course_.element(0.0L, true).kappa;

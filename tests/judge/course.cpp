@@ -135,7 +135,7 @@ std::vector<Real> Course::cuts_of(Real from, Real to) const {
   int before = 0;
   for (auto i = static_cast<std::size_t>(from); static_cast<Real>(i) < to; ++i) {
     const bool inner = static_cast<Real>(i) > from;
-    bool turns = inner && file.corner_at(i);
+    bool turns = inner && file.parted_at(i);
     if (turns) before = 0;
     for (const int sign :
          {inner && joints[i].clear_jump ? joints[i].jump : 0, laws[i].direction()}) {
@@ -143,7 +143,7 @@ std::vector<Real> Course::cuts_of(Real from, Real to) const {
       turns = turns || (inner && before != 0 && sign != before);
       before = sign;
     }
-    if (file.carrier == "arcs" && inner && !file.corner_at(i)) {
+    if (file.carrier == "arcs" && inner && !file.parted_at(i)) {
       turns = std::any_of(file.runs.begin(), file.runs.end(),
                           [i](const FileRun& run) { return run.first == i; });
     }
@@ -169,7 +169,7 @@ Element Course::element(Real order, bool behind) const {
   out.kappa = end.kappa.middle();
   const FileElement* stored = file.joint(joint);
   if (arcs && stored != nullptr)
-    out.kappa = behind && stored->corner ? stored->kappa_out : stored->kappa;
+    out.kappa = behind && stored->parted() ? stored->kappa_out : stored->kappa;
   return out;
 }
 
@@ -179,7 +179,7 @@ bool Course::monotone(Real a, Real b) const {
   for (std::size_t i = first; static_cast<Real>(i) < b && i < laws.size(); ++i) {
     if (!laws[i].one_way()) return false;
     const bool inner_joint = i > first || static_cast<Real>(i) > a;
-    if (inner_joint && file.corner_at(i)) return false;
+    if (inner_joint && file.parted_at(i)) return false;
     for (const int sign :
          {inner_joint && joints[i].clear_jump ? joints[i].jump : 0, laws[i].direction()}) {
       if (sign == 0) continue;

@@ -106,8 +106,8 @@ ElementGap worst_element_gap(const Course& course) {
     const bool comes = j > 0 || course.file.closed, goes = j < n;
     const End& left = comes ? course.ends.end[(j + n - 1) % n] : course.ends.start[0];
     const End& right = goes ? course.ends.start[j] : left;
-    compare(j, left, e->corner ? left : right, e->point, e->heading, e->kappa);
-    if (e->corner) compare(j, right, right, e->point, e->heading_out, e->kappa_out);
+    compare(j, left, e->parted() ? left : right, e->point, e->heading, e->kappa);
+    if (e->parted()) compare(j, right, right, e->point, e->heading_out, e->kappa_out);
   }
   return out;
 }
