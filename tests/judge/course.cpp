@@ -193,7 +193,8 @@ bool Course::monotone(Real a, Real b) const {
 Real Course::turning(Real a, Real b) const {
   Real sum = 0.0L;
   for (auto i = static_cast<std::size_t>(a); static_cast<Real>(i) < b && i < laws.size(); ++i) {
-    sum += std::abs(path.spans()[i].turning());
+    const auto start = static_cast<Real>(i);
+    sum += std::abs(path.spans()[i].turning(std::max(a - start, 0.0L), std::min(b - start, 1.0L)));
   }
   return sum;
 }

@@ -159,15 +159,16 @@ Jet Span::at(Real t) const {
   return at_rational(std::get<RationalForm>(form_), t);
 }
 
-Real Span::turning() const {
+Real Span::turning(Real from, Real to) const {
   if (const auto* s = std::get_if<SpiralForm>(&form_)) {
-    return 0.5L * (s->kappa0 + s->kappa1) * s->length;
+    const Real middle = s->kappa0 + 0.5L * (from + to) * (s->kappa1 - s->kappa0);
+    return middle * (to - from) * s->length;
   }
   constexpr int kSteps = 32;
   Real sum = 0.0L;
-  Vec before = at(0.0L).d;
+  Vec before = at(from).d;
   for (int i = 1; i <= kSteps; ++i) {
-    const Vec now = at(static_cast<Real>(i) / kSteps).d;
+    const Vec now = at(from + (to - from) * static_cast<Real>(i) / kSteps).d;
     sum += std::atan2(cross(before, now), dot(before, now));
     before = now;
   }

@@ -62,7 +62,8 @@ class Span {
   [[nodiscard]] Jet at(Real t) const;
   [[nodiscard]] Vec point(Real t) const { return at(t).p; }
   /// Angle that the tangent turns over the whole span, unwrapped.
-  [[nodiscard]] Real turning() const;
+  /// Between two parameters, signed.
+  [[nodiscard]] Real turning(Real from = 0.0L, Real to = 1.0L) const;
 
  private:
   std::variant<SpiralForm, RationalForm> form_;
