@@ -20,7 +20,7 @@ constexpr double kCurvatureBound = 1e-6;  // of the curvature at the joint
 
 /// Coordinates far from the origin cannot say a position better than this, at the most; beyond,
 /// nobody would call a joint continuous.
-constexpr double kZeroEnd = 1e-9;           // of the larger curvature of the piece
+constexpr double kZeroEnd = 1e-9;          // of the larger curvature of the piece
 constexpr double kPositionCeiling = 1e-6;  // of the contour's size
 
 // How far an element may be outside of what lies between the two ends that meet at its joint.

@@ -11,9 +11,10 @@
 namespace obvid {
 namespace {
 
-constexpr int kSamples = 16;         // of a piece, to begin with
-constexpr int kMostHalvings = 24;    // of the spans between them
-constexpr double kMoreThanFound = 1e-3;  // of the largest distance found: what a bound may exceed it
+constexpr int kSamples = 16;       // of a piece, to begin with
+constexpr int kMostHalvings = 24;  // of the spans between them
+constexpr double kMoreThanFound =
+    1e-3;  // of the largest distance found: what a bound may exceed it
 /// Roundings of a coordinate that the bound of a span may exceed what was found there.
 constexpr double kSpanRounding = 16.0 * std::numeric_limits<double>::epsilon();
 /// What the largest rate between places of a span may be more than at its ends and in its middle.

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
 #include <iterator>
 
 #include "obvid/core/format_into.h"
@@ -19,17 +20,44 @@ constexpr double kShortestChord = 20.0;  // last digits: below, rounding turns a
 /// A radius that LinuxCNC takes for none (0.00127 mm), and some.
 constexpr double kSmallestRadius = 0.002;
 
-double round_to(double value, int decimals) {
-  const double places = std::pow(10.0, decimals);
-  return std::round(value * places) / places;
+std::string never_minus_zero(std::string text) {
+  const bool zero = text.find_first_not_of("-0.") == std::string::npos;
+  return zero && text[0] == '-' ? text.substr(1) : text;
+}
+
+/// What the radii of an arc may differ at its ends, mm or inches: what five decimals of the centre
+/// can make of it. Where digits are missing for that it becomes a line.
+constexpr double kMostMismatch = 1.6e-5;
+
+/// A centre seen from the start of an arc, as printed.
+struct Centre {
+  std::string i, j;
+  Vec2 ij;
+  double mismatch = 0.0;  ///< of the radii at both ends
+};
+
+/// `above`: height of the centre over the middle of the chord. Extended digits: a centre far away
+/// has to lie on the chord's bisector in all decimals that are printed.
+Centre centre_over(Vec2 chord, double above) {
+  using Extended = long double;
+  const Extended x = chord.x, y = chord.y, length = std::hypot(x, y), part = above / length;
+  Centre out{never_minus_zero(fmt::format("{:.{}f}", 0.5L * x - part * y, kCentreDecimals)),
+             never_minus_zero(fmt::format("{:.{}f}", 0.5L * y + part * x, kCentreDecimals)),
+             {},
+             0.0};
+  const Extended i = std::strtold(out.i.c_str(), nullptr), j = std::strtold(out.j.c_str(), nullptr);
+  out.ij = {static_cast<double>(i), static_cast<double>(j)};
+  // |ij|^2 - |ij - chord|^2 over the sum of the roots
+  const Extended squares = (2.0L * i - x) * x + (2.0L * j - y) * y;
+  out.mismatch =
+      static_cast<double>(std::abs(squares) / (std::hypot(i, j) + std::hypot(i - x, j - y)));
+  return out;
 }
 
 }  // namespace
 
 std::string fixed(double value, int decimals) {
-  std::string text = fmt::format("{:.{}f}", value, decimals);
-  const bool zero = text.find_first_not_of("-0.") == std::string::npos;
-  return zero && text[0] == '-' ? text.substr(1) : text;
+  return never_minus_zero(fmt::format("{:.{}f}", value, decimals));
 }
 
 GcodePath::GcodePath(double scale, int decimals)
@@ -91,26 +119,24 @@ void GcodePath::arc(Vec2 middle, GridPlace end, bool left) {
   const double length = norm(chord);
   if (length < kShortestChord * unit_) return line(end);
   const Vec2 across = left_normal(chord) / length;
-  const double height = dot(middle - between({}, at_), across);  // of the middle, below the chord: negative
+  const double height =
+      dot(middle - between({}, at_), across);  // of the middle, below the chord: negative
   const double radius = 0.5 * std::abs(height) + 0.125 * length * length / std::abs(height);
   const bool wrong_side = (height < 0.0) != left;
   if (wrong_side || std::abs(height) < kLowestArc * unit_ || radius < kSmallestRadius) {
     return line(end);
   }
-  const Vec2 to_centre = 0.5 * chord + (height + (left ? radius : -radius)) * across;
-  const Vec2 ij = {round_to(to_centre.x, kCentreDecimals), round_to(to_centre.y, kCentreDecimals)};
-  format_into(text_, "{} {} I{} J{}\n", left ? "G3" : "G2", place(end),
-              fixed(ij.x, kCentreDecimals), fixed(ij.y, kCentreDecimals));
+  const Centre centre = centre_over(chord, height + (left ? radius : -radius));
+  if (!(centre.mismatch <= kMostMismatch)) return line(end);
+  radius_mismatch_ = std::max(radius_mismatch_, centre.mismatch / scale_);
+  const Vec2 ij = centre.ij;
+  format_into(text_, "{} {} I{} J{}\n", left ? "G3" : "G2", place(end), centre.i, centre.j);
   // the controller's arc: it leaves square to its radius, and its chord says the rest
   const Vec2 tangent = (left ? 1.0 : -1.0) * left_normal(-ij);
   const double angle = turning(tangent, chord);
   const double own_kappa = 2.0 * std::sin(angle) / length;
   pieces_.emplace_back(ArcPiece{in_contour(at_), in_contour(end), heading(tangent),
                                 own_kappa * scale_, 2.0 * angle / own_kappa / scale_});
-  // |ij|^2 - |ij - chord|^2 over the sum of the roots
-  const double squares = dot(2.0 * ij - chord, chord);
-  radius_mismatch_ = std::max(radius_mismatch_,
-                              std::abs(squares) / (norm(ij) + norm(ij - chord)) / scale_);
   ++arcs_;
   at_ = end;
 }
@@ -121,8 +147,8 @@ void GcodePath::follow_cubic(const RationalBezier& cubic) {
   if (end == at_) return;
   const GridPlace first = printed(point(1) - between({}, at_));
   const GridPlace second = printed(point(2) - between({}, end));
-  format_into(text_, "G5 I{} J{} P{} Q{} {}\n", number(first.x), number(first.y),
-              number(second.x), number(second.y), place(end));
+  format_into(text_, "G5 I{} J{} P{} Q{} {}\n", number(first.x), number(first.y), number(second.x),
+              number(second.y), place(end));
   RationalBezier path;
   path.degree = 3;
   path.offset = {in_contour(at_), in_contour(at_) + in_contour(first),

@@ -14,8 +14,8 @@ namespace obvid::exchange {
 /// Fixed decimals, never "-0.000".
 [[nodiscard]] std::string fixed(double value, int decimals);
 
-/// A place as it is printed: whole numbers of the last digit. Where coordinates are large doubles do
-/// not hold that digit, and what the program says would not be what it was reckoned with.
+/// A place as it is printed: whole numbers of the last digit. Where coordinates are large doubles
+/// do not hold that digit, and what the program says would not be what it was reckoned with.
 struct GridPlace {
   std::int64_t x = 0, y = 0;
   friend bool operator==(const GridPlace&, const GridPlace&) = default;

@@ -28,7 +28,8 @@ struct Arc {
 
   /// Whether the foot of p on the line or circle lies on the arc.
   [[nodiscard]] bool abreast(Vec2 from_start, Vec2 from_end) const {
-    const bool after = dot(from_start, start_tangent) > 0.0, before = dot(from_end, end_tangent) < 0.0;
+    const bool after = dot(from_start, start_tangent) > 0.0,
+               before = dot(from_end, end_tangent) < 0.0;
     return turns_over_half(start_tangent, end_tangent, kappa) ? after || before : after && before;
   }
 

@@ -51,7 +51,8 @@ CountRange count_vertices(const Course& course) {
     if (!course.laws[i].decided || !course.laws[i].regular) return {0, 0, false};
     const JointFacts& joint = course.joints[i];
     // at a smooth joint only a jump beyond what the gaps may be is a change of curvature
-    const bool counted = joint.corner || joint.step || course.file.carrier == "arcs" || joint.clear_jump;
+    const bool counted =
+        joint.corner || joint.step || course.file.carrier == "arcs" || joint.clear_jump;
     if (counted) items.push_back({joint.jump, joint.clear_jump});
     for (const int sign : course.laws[i].signs) items.push_back({sign, true});
   }

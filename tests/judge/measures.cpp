@@ -78,9 +78,7 @@ ElementGap worst_element_gap(const Course& course) {
                            double heading, double kappa) {
     BallVec direction;
     sin_cos(Ball(heading), direction.y, direction.x);
-    const auto turned = [](const BallVec& a, const BallVec& b) {
-      return abs(angle_between(a, b));
-    };
+    const auto turned = [](const BallVec& a, const BallVec& b) { return abs(angle_between(a, b)); };
     const Ball beyond = turned(direction, left.tangent) + turned(direction, right.tangent) -
                         turned(left.tangent, right.tangent);
     const double angle = (Ball(0.5) * beyond).lower();

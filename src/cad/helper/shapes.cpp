@@ -200,8 +200,8 @@ class PieceWire {
     std::vector<double> size(count, Precision::Confusion());
     std::vector<gp_Pnt> place;
     for (std::size_t k = 0; k < count; ++k) {
-      place.push_back(at(k < pieces_.size() ? start_point(pieces_[k]) : end_point(pieces_.back()),
-                         scale_));
+      place.push_back(
+          at(k < pieces_.size() ? start_point(pieces_[k]) : end_point(pieces_.back()), scale_));
     }
     constexpr double kSome = 1.0 + 1e-6;  // the kernel compares squares
     for (std::size_t i = 0; i < pieces_.size(); ++i) {
