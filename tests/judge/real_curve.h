@@ -61,8 +61,7 @@ class Span {
 
   [[nodiscard]] Jet at(Real t) const;
   [[nodiscard]] Vec point(Real t) const { return at(t).p; }
-  /// Angle that the tangent turns over the whole span, unwrapped.
-  /// Between two parameters, signed.
+  /// Angle that the tangent turns between two parameters, unwrapped and signed.
   [[nodiscard]] Real turning(Real from = 0.0L, Real to = 1.0L) const;
 
  private:
