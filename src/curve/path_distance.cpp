@@ -11,7 +11,9 @@
 namespace obvid {
 namespace {
 
-constexpr int kSamples = 16;       // of a piece, to begin with
+constexpr int kSamples = 16;  // of a piece, to begin with
+/// Spans and halves that are looked at: many more than smooth paths ask for, and an end to it.
+constexpr std::size_t kSpareLooks = 1000, kLooksPerSpan = 64;
 constexpr int kMostHalvings = 24;  // of the spans between them
 constexpr double kMoreThanFound =
     1e-3;  // of the largest distance found: what a bound may exceed it
@@ -136,12 +138,14 @@ class DistanceBound {
   }
 
   void bound(const Piece& piece, const Match& first, const Match& last, int halvings) {
-    const double ends = std::max(first.distance, last.distance);
+    ++looked_at_;
     const Vec2 place = evaluate(piece, first.t).point;
+    const double ends = std::max(first.distance, last.distance);
     const double more = between(piece, first, last);
     const double rounding = kSpanRounding * std::max(std::abs(place.x), std::abs(place.y));
     const bool known = ends + more <= (1.0 + kMoreThanFound) * found_ || more <= rounding;
-    if (known || halvings == kMostHalvings) {
+    const bool enough = looked_at_ > kSpareLooks + kLooksPerSpan * spans_.size();
+    if (known || enough || halvings == kMostHalvings) {
       bound_ = std::max(bound_, ends + more);
       return;
     }
@@ -158,21 +162,26 @@ class DistanceBound {
     bound(piece, middle, last, halvings + 1);
   }
 
-  /// What a difference may be more between two places than at them.
+  /// What the distance may be more between two places than at them.
   [[nodiscard]] double between(const Piece& piece, const Match& first, const Match& last) const {
     const double dt = last.t - first.t, du = last.u - first.u;
-    double rate = 0.0;
+    double rate = 0.0, speed = 0.0;
     for (const double part : {0.0, 0.5, 1.0}) {
       const Vec2 mine = (dt * dt) * evaluate(piece, first.t + part * dt).d2;
       const Vec2 others = (du * du) * evaluate(to_[first.piece], first.u + part * du).d2;
       rate = std::max(rate, norm(mine - others));
+      speed = std::max(speed, norm(evaluate(piece, first.t + part * dt).d1));
     }
-    return 0.125 * kRateBetween * rate;
+    // a distance grows by the way at most: what holds where the matches leap (a closed circle)
+    const double way = kRateBetween * speed * dt;
+    const double apart = std::abs(first.distance - last.distance);
+    return std::min(0.125 * kRateBetween * rate, 0.5 * std::max(0.0, way - apart));
   }
 
   std::span<const Piece> from_, to_;
   std::vector<Between> spans_;
   double found_ = 0.0, bound_ = 0.0;
+  std::size_t looked_at_ = 0;
 };
 
 }  // namespace
