@@ -339,7 +339,7 @@ struct Tolerances {
   double formed, asked;
 };
 
-Result<Measured> form_and_measure(const Prepared& prepared, const FitJob& job, const Units& units,
+Result<Measured> form_and_measure(Prepared& prepared, const FitJob& job, const Units& units,
                                   const Tolerances& within, Watch& watch) {
   Result<Formed> formed = [&] {
     const Stretch stretch(watch, 0.0, kFormedAt);
