@@ -81,7 +81,7 @@ std::string GcodePath::number(std::int64_t last_digits) const {
 }
 
 std::string GcodePath::place(GridPlace at) const {
-  return "X" + number(at.x) + " Y" + number(at.y);
+  return fmt::format("X{} Y{}", number(at.x), number(at.y));
 }
 
 Vec2 GcodePath::between(GridPlace from, GridPlace to) const {
