@@ -127,6 +127,8 @@ class DistanceBound {
       cut.u = on ? 1.0 : 0.0;
       const Vec2 here = evaluate(piece, cut.t).point;
       cut.distance = norm(here - joint);
+      const double most = 0.5 * (first.distance + last.distance + way(piece, first, last));
+      if (cut.distance > most) return leap(piece, first, last, 0);  // another way round
       bound(piece, first, cut, 0);
       first = cut;
       first.piece = on ? cut.piece + 1 : cut.piece - 1;
@@ -135,6 +137,38 @@ class DistanceBound {
       first.distance = norm(here - evaluate(to_[first.piece], first.u).point);
     }
     bound(piece, first, last, 0);
+  }
+
+  /// The way along a piece, at least.
+  static double way(const Piece& piece, const Match& first, const Match& last) {
+    double speed = 0.0;
+    for (const double part : {0.0, 0.5, 1.0}) {
+      const double t = first.t + part * (last.t - first.t);
+      speed = std::max(speed, norm(evaluate(piece, t).d1));
+    }
+    return kRateBetween * speed * (last.t - first.t);
+  }
+
+  /// Between matches that no joint of the other path joins (the seam of a closed one): a distance
+  /// grows by the way at most.
+  void leap(const Piece& piece, const Match& first, const Match& last, int halvings) {
+    if (first.piece == last.piece) return bound(piece, first, last, halvings);
+    ++looked_at_;
+    const double most = 0.5 * (first.distance + last.distance + way(piece, first, last));
+    if (most <= (1.0 + kMoreThanFound) * found_ || halvings == kMostHalvings) {
+      bound_ = std::max(bound_, most);
+      return;
+    }
+    const double t = 0.5 * (first.t + last.t);
+    const Vec2 here = evaluate(piece, t).point;
+    Match middle{t, first.piece, 0.0, HUGE_VAL};
+    for (const Match& end : {first, last}) {
+      const double u = nearest_parameter(to_[end.piece], here, end.u);
+      const double away = norm(here - evaluate(to_[end.piece], u).point);
+      if (away < middle.distance) middle = {t, end.piece, u, away};
+    }
+    leap(piece, first, middle, halvings + 1);
+    leap(piece, middle, last, halvings + 1);
   }
 
   void bound(const Piece& piece, const Match& first, const Match& last, int halvings) {
@@ -165,17 +199,16 @@ class DistanceBound {
   /// What the distance may be more between two places than at them.
   [[nodiscard]] double between(const Piece& piece, const Match& first, const Match& last) const {
     const double dt = last.t - first.t, du = last.u - first.u;
-    double rate = 0.0, speed = 0.0;
+    double rate = 0.0;
     for (const double part : {0.0, 0.5, 1.0}) {
       const Vec2 mine = (dt * dt) * evaluate(piece, first.t + part * dt).d2;
       const Vec2 others = (du * du) * evaluate(to_[first.piece], first.u + part * du).d2;
       rate = std::max(rate, norm(mine - others));
-      speed = std::max(speed, norm(evaluate(piece, first.t + part * dt).d1));
     }
     // a distance grows by the way at most: what holds where the matches leap (a closed circle)
-    const double way = kRateBetween * speed * dt;
     const double apart = std::abs(first.distance - last.distance);
-    return std::min(0.125 * kRateBetween * rate, 0.5 * std::max(0.0, way - apart));
+    return std::min(0.125 * kRateBetween * rate,
+                    0.5 * std::max(0.0, way(piece, first, last) - apart));
   }
 
   std::span<const Piece> from_, to_;
