@@ -229,7 +229,7 @@ Result<TopoDS_Wire> wire_of(const CadCurve& curve, double scale) {
     if (pieces->empty()) return fail(refused("a curve without pieces"));
     return PieceWire(*pieces, scale).run();
   }
-  const BRepBuilderAPI_MakeEdge edge(spline_of(std::get<NurbsCurve>(curve.geometry), scale));
+  BRepBuilderAPI_MakeEdge edge(spline_of(std::get<NurbsCurve>(curve.geometry), scale));
   if (!edge.IsDone()) return fail(refused("the curve"));
   TopoDS_Wire wire;
   BRep_Builder builder;
