@@ -211,6 +211,7 @@ class ReportCheck {
     return Region::of(from, to, to.kappa > from.kappa ? 1 : -1);
   }
   [[nodiscard]] Real region_width(Real a, Real b) const {
+    if (course_.element(a, true).kappa == course_.element(b, false).kappa) return 0.0L;  // a circle
     // of curves that turn by half a turn or more there is no region
     if (course_.turning(a, b) >= std::numbers::pi_v<Real>) return HUGE_VALL;
     const auto one = region(a, b);
