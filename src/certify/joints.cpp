@@ -20,7 +20,7 @@ constexpr double kCurvatureBound = 1e-6;  // of the curvature at the joint
 
 /// Coordinates far from the origin cannot say a position better than this, at the most; beyond,
 /// nobody would call a joint continuous.
-constexpr double kZeroEnd = 1e-9;           // of the larger curvature of the piece
+constexpr double kZeroEnd = 1e-9;          // of the larger curvature of the piece
 constexpr double kPositionCeiling = 1e-6;  // of the contour's size
 
 // How far an element may be outside of what lies between the two ends that meet at its joint.
@@ -285,8 +285,24 @@ class JointWalk {
     const auto parts = parts_.find(i);
     if (parts == parts_.end()) return;
     for (const RationalBezier& part : parts->second) {
-      follow_sign(ends_of(Piece{part}).end, largest);
+      EndData end = ends_of(Piece{part}).end;
+      end.kappa_error += blur_of(part, parts->second);
+      follow_sign(end, largest);
     }
+  }
+
+  /// What the rounding of halves (`monotone_parts`) makes of the curvature at the end of one: each
+  /// halving rounds the offsets, and the last leg of the part tells the curvature.
+  static double blur_of(const RationalBezier& part, const std::vector<RationalBezier>& all) {
+    constexpr double kHalvedRoundings = 32.0;  // of the largest offset: ten halvings, two legs
+    double reach = 0.0;
+    for (const RationalBezier& one : all) {
+      for (const Vec2 p : one.offset) reach = std::max({reach, std::abs(p.x), std::abs(p.y)});
+    }
+    const auto n = static_cast<std::size_t>(part.degree);
+    const Vec2 leg = part.offset[n] - part.offset[n - 1];
+    const double square = dot(leg, leg);
+    return square > 0.0 ? kHalvedRoundings * kUnitRoundoff * reach / square : HUGE_VAL;
   }
 
   /// Curvature is monotone on each proved piece, so signs at the ends tell all its sign changes.

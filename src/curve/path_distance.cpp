@@ -3,21 +3,46 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <vector>
 
 #include "obvid/curve/nearest.h"
 
 namespace obvid {
 namespace {
 
-constexpr int kSamples = 16;  // of a piece
-constexpr int kThirds = 6;    // of the search between samples: to a tenth of their spacing
+constexpr int kSamples = 16;  // of a piece, to begin with
+/// Spans and halves that are looked at: many more than smooth paths ask for, and an end to it.
+constexpr std::size_t kSpareLooks = 1000, kLooksPerSpan = 64;
+constexpr int kMostHalvings = 24;  // of the spans between them
+constexpr double kMoreThanFound =
+    1e-3;  // of the largest distance found: what a bound may exceed it
+/// Roundings of a coordinate that the bound of a span may exceed what was found there.
+constexpr double kSpanRounding = 16.0 * std::numeric_limits<double>::epsilon();
+/// What the largest rate between places of a span may be more than at its ends and in its middle.
+/// Spans that matter are halved until the rate hardly changes along them.
+constexpr double kRateBetween = 2.0;
+
+/// A place of one path and the place of the other that it is compared with.
+struct Match {
+  double t = 0.0;         ///< on the piece that is followed
+  std::size_t piece = 0;  ///< of the other path
+  double u = 0.0;         ///< on that piece
+  double distance = 0.0;
+};
 
 /// The nearest point of a path to points that move along it.
 class Follower {
  public:
   explicit Follower(std::span<const Piece> path) : path_(path) {}
 
-  /// Distance of `p`; neighbouring pieces are tried when it is larger than `known`.
+  /// The place nearest to `p`; neighbouring pieces are tried when it is larger than `known`.
+  Match match(double t, Vec2 p, double known) {
+    const double away = distance(p, known);
+    return {t, at_, t_, away};
+  }
+
+ private:
   double distance(Vec2 p, double known) {
     double here = settle(at_, t_, p);
     while (t_ == 1.0 && at_ + 1 < path_.size() && step_to(at_ + 1, 0.0, p, here)) {
@@ -32,7 +57,6 @@ class Follower {
     return here;
   }
 
- private:
   double settle(std::size_t piece, double& t, Vec2 p) const {
     t = nearest_parameter(path_[piece], p, t);
     return norm(evaluate(path_[piece], t).point - p);
@@ -58,49 +82,146 @@ class Follower {
   double t_ = 0.0;
 };
 
-/// Largest distance between t0 and t1 of a piece, where a sample between them is the largest.
-double refine(const Piece& piece, double t0, double t1, Follower follower, double known) {
-  double best = known;
-  const auto away = [&](double t) {
-    const double d = follower.distance(evaluate(piece, t).point, known);
-    best = std::max(best, d);
-    return d;
-  };
-  for (int i = 0; i < kThirds; ++i) {
-    const double a = t0 + (t1 - t0) / 3.0, b = t1 - (t1 - t0) / 3.0;
-    const bool rises = away(a) < away(b);
-    (rises ? t0 : t1) = rises ? a : b;
-  }
-  return best;
-}
+/// Upper bound of the distances of one path from another. Between two matches t0 and t1 on one
+/// pair of pieces every place is compared with the one that lies as far between u0 and u1: the
+/// difference of the two has lengths d0 and d1 at the ends, and between them at most the larger one
+/// and an eighth of the largest second derivative. That sinks with the square of the span, so spans
+/// whose bound is above what was found are halved.
+class DistanceBound {
+ public:
+  DistanceBound(std::span<const Piece> from, std::span<const Piece> to) : from_(from), to_(to) {}
 
-double largest_from(std::span<const Piece> from, std::span<const Piece> to) {
-  constexpr double kCouldBeMore = 0.9;  // samples this near to the largest are looked at closely
-  Follower follower(to);
-  double most = 0.0;
-  for (const Piece& piece : from) {
-    double before = 0.0, here = 0.0;
-    for (int k = 0; k <= kSamples; ++k) {
-      const Follower start = follower;
-      const double next = follower.distance(
-          evaluate(piece, static_cast<double>(k) / kSamples).point, kCouldBeMore * most);
-      if (k >= 2 && here >= before && here >= next && here > kCouldBeMore * most) {
-        most = refine(piece, (k - 2.0) / kSamples, static_cast<double>(k) / kSamples, start,
-                      std::max(most, here));
+  double run() {
+    constexpr double kCouldBeMore = 0.9;  // nearer than this to the largest, neighbours are tried
+    Follower follower(to_);
+    for (const Piece& piece : from_) {
+      Match before;
+      for (int k = 0; k <= kSamples; ++k) {
+        const double t = static_cast<double>(k) / kSamples;
+        const Match here = follower.match(t, evaluate(piece, t).point, kCouldBeMore * found_);
+        found_ = std::max(found_, here.distance);
+        if (k > 0) spans_.push_back({&piece, before, here});
+        before = here;
       }
-      most = std::max(most, next);
-      before = here;
-      here = next;
     }
+    bound_ = found_;
+    for (const Between& span : spans_) cut_at_joints(*span.piece, span.first, span.last);
+    return bound_;
   }
-  return most;
-}
+
+ private:
+  struct Between {
+    const Piece* piece;
+    Match first, last;
+  };
+
+  /// Spans whose ends are compared with two pieces are cut where a joint of these is nearest: a
+  /// place of the span may be compared with any other, the bound holds for each.
+  void cut_at_joints(const Piece& piece, Match first, const Match& last) {
+    while (first.piece != last.piece) {
+      const bool on = first.piece < last.piece;
+      const Vec2 joint = evaluate(to_[first.piece], on ? 1.0 : 0.0).point;
+      Match cut;
+      cut.t = std::clamp(nearest_parameter(piece, joint, first.t), first.t, last.t);
+      cut.piece = first.piece;
+      cut.u = on ? 1.0 : 0.0;
+      const Vec2 here = evaluate(piece, cut.t).point;
+      cut.distance = norm(here - joint);
+      const double most = 0.5 * (first.distance + last.distance + way(piece, first, last));
+      if (cut.distance > most) return leap(piece, first, last, 0);  // another way round
+      bound(piece, first, cut, 0);
+      first = cut;
+      first.piece = on ? cut.piece + 1 : cut.piece - 1;
+      first.u = on ? 0.0 : 1.0;
+      // pieces may leave a gap between them
+      first.distance = norm(here - evaluate(to_[first.piece], first.u).point);
+    }
+    bound(piece, first, last, 0);
+  }
+
+  /// The way along a piece, at least.
+  static double way(const Piece& piece, const Match& first, const Match& last) {
+    double speed = 0.0;
+    for (const double part : {0.0, 0.5, 1.0}) {
+      const double t = first.t + part * (last.t - first.t);
+      speed = std::max(speed, norm(evaluate(piece, t).d1));
+    }
+    return kRateBetween * speed * (last.t - first.t);
+  }
+
+  /// Between matches that no joint of the other path joins (the seam of a closed one): a distance
+  /// grows by the way at most.
+  void leap(const Piece& piece, const Match& first, const Match& last, int halvings) {
+    if (first.piece == last.piece) return bound(piece, first, last, halvings);
+    ++looked_at_;
+    const double most = 0.5 * (first.distance + last.distance + way(piece, first, last));
+    if (most <= (1.0 + kMoreThanFound) * found_ || halvings == kMostHalvings) {
+      bound_ = std::max(bound_, most);
+      return;
+    }
+    const double t = 0.5 * (first.t + last.t);
+    const Vec2 here = evaluate(piece, t).point;
+    Match middle{t, first.piece, 0.0, HUGE_VAL};
+    for (const Match& end : {first, last}) {
+      const double u = nearest_parameter(to_[end.piece], here, end.u);
+      const double away = norm(here - evaluate(to_[end.piece], u).point);
+      if (away < middle.distance) middle = {t, end.piece, u, away};
+    }
+    leap(piece, first, middle, halvings + 1);
+    leap(piece, middle, last, halvings + 1);
+  }
+
+  void bound(const Piece& piece, const Match& first, const Match& last, int halvings) {
+    ++looked_at_;
+    const Vec2 place = evaluate(piece, first.t).point;
+    const double ends = std::max(first.distance, last.distance);
+    const double more = between(piece, first, last);
+    const double rounding = kSpanRounding * std::max(std::abs(place.x), std::abs(place.y));
+    const bool known = ends + more <= (1.0 + kMoreThanFound) * found_ || more <= rounding;
+    const bool enough = looked_at_ > kSpareLooks + kLooksPerSpan * spans_.size();
+    if (known || enough || halvings == kMostHalvings) {
+      bound_ = std::max(bound_, ends + more);
+      return;
+    }
+    const Piece& other = to_[first.piece];
+    Match middle;
+    middle.t = 0.5 * (first.t + last.t);
+    middle.piece = first.piece;
+    const Vec2 here = evaluate(piece, middle.t).point;
+    middle.u = nearest_parameter(other, here, 0.5 * (first.u + last.u));
+    middle.distance = norm(here - evaluate(other, middle.u).point);
+    // the nearest of all may be on another piece: what was found is never above a true distance
+    if (middle.u > 0.0 && middle.u < 1.0) found_ = std::max(found_, middle.distance);
+    bound(piece, first, middle, halvings + 1);
+    bound(piece, middle, last, halvings + 1);
+  }
+
+  /// What the distance may be more between two places than at them.
+  [[nodiscard]] double between(const Piece& piece, const Match& first, const Match& last) const {
+    const double dt = last.t - first.t, du = last.u - first.u;
+    double rate = 0.0;
+    for (const double part : {0.0, 0.5, 1.0}) {
+      const Vec2 mine = (dt * dt) * evaluate(piece, first.t + part * dt).d2;
+      const Vec2 others = (du * du) * evaluate(to_[first.piece], first.u + part * du).d2;
+      rate = std::max(rate, norm(mine - others));
+    }
+    // a distance grows by the way at most: what holds where the matches leap (a closed circle)
+    const double apart = std::abs(first.distance - last.distance);
+    return std::min(0.125 * kRateBetween * rate,
+                    0.5 * std::max(0.0, way(piece, first, last) - apart));
+  }
+
+  std::span<const Piece> from_, to_;
+  std::vector<Between> spans_;
+  double found_ = 0.0, bound_ = 0.0;
+  std::size_t looked_at_ = 0;
+};
 
 }  // namespace
 
 double path_distance(std::span<const Piece> a, std::span<const Piece> b) {
   if (a.empty() || b.empty()) return 0.0;
-  return std::max(largest_from(a, b), largest_from(b, a));
+  return std::max(DistanceBound(a, b).run(), DistanceBound(b, a).run());
 }
 
 }  // namespace obvid

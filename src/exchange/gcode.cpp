@@ -70,9 +70,10 @@ class Program {
     double deviation = unit_;
     for (int trial = 0; trial < kToleranceTrials && within > 0.0; ++trial) {
       GcodePath path(scale_, decimals_);
+      if (!path.holds(largest_coordinate())) return fail(too_large());
       path.start_at(start_point(contour_.pieces.front()));
       if (const auto done = follow(path, within); !done) return fail(done.error());
-      deviation = path_distance(contour_.pieces, path.pieces());
+      deviation = path_distance(contour_.pieces, path.pieces()) + path.radius_mismatch();
       if (path.pieces().empty()) return fail(nothing_left());
       if (deviation <= options_.tolerance) return finished(path, deviation);
       within -= deviation - kOfBlockTolerance * options_.tolerance;
@@ -84,6 +85,24 @@ class Program {
   }
 
  private:
+  /// Of the ends of the pieces: twice as much is room enough for what lies between.
+  [[nodiscard]] double largest_coordinate() const {
+    double most = 0.0;
+    for (const Piece& piece : contour_.pieces) {
+      for (const Vec2 p : {start_point(piece), end_point(piece)}) {
+        most = std::max({most, std::abs(p.x), std::abs(p.y)});
+      }
+    }
+    return most;
+  }
+  [[nodiscard]] Error too_large() const {
+    return {ErrorCode::kToleranceNotReached,
+            fmt::format("the coordinates are too large for {} decimals", decimals_),
+            "",
+            "move the contour near the origin; --units says what a unit is",
+            -1,
+            largest_coordinate()};
+  }
   /// All ends are printed as one place.
   [[nodiscard]] Error nothing_left() const {
     return {ErrorCode::kToleranceNotReached,

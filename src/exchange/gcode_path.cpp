@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
 #include <iterator>
 
 #include "obvid/core/format_into.h"
@@ -19,28 +20,73 @@ constexpr double kShortestChord = 20.0;  // last digits: below, rounding turns a
 /// A radius that LinuxCNC takes for none (0.00127 mm), and some.
 constexpr double kSmallestRadius = 0.002;
 
-double round_to(double value, int decimals) {
-  const double places = std::pow(10.0, decimals);
-  return std::round(value * places) / places;
+std::string never_minus_zero(std::string text) {
+  const bool zero = text.find_first_not_of("-0.") == std::string::npos;
+  return zero && text[0] == '-' ? text.substr(1) : text;
+}
+
+/// What the radii of an arc may differ at its ends, mm or inches: what five decimals of the centre
+/// can make of it. Where digits are missing for that it becomes a line.
+constexpr double kMostMismatch = 1.6e-5;
+
+/// A centre seen from the start of an arc, as printed.
+struct Centre {
+  std::string i, j;
+  Vec2 ij;
+  double mismatch = 0.0;  ///< of the radii at both ends
+};
+
+/// `above`: height of the centre over the middle of the chord. Extended digits: a centre far away
+/// has to lie on the chord's bisector in all decimals that are printed.
+Centre centre_over(Vec2 chord, double above) {
+  using Extended = long double;
+  const Extended x = chord.x, y = chord.y, length = std::hypot(x, y), part = above / length;
+  Centre out{never_minus_zero(fmt::format("{:.{}f}", 0.5L * x - part * y, kCentreDecimals)),
+             never_minus_zero(fmt::format("{:.{}f}", 0.5L * y + part * x, kCentreDecimals)),
+             {},
+             0.0};
+  const Extended i = std::strtold(out.i.c_str(), nullptr), j = std::strtold(out.j.c_str(), nullptr);
+  out.ij = {static_cast<double>(i), static_cast<double>(j)};
+  // |ij|^2 - |ij - chord|^2 over the sum of the roots
+  const Extended squares = (2.0L * i - x) * x + (2.0L * j - y) * y;
+  out.mismatch =
+      static_cast<double>(std::abs(squares) / (std::hypot(i, j) + std::hypot(i - x, j - y)));
+  return out;
 }
 
 }  // namespace
 
 std::string fixed(double value, int decimals) {
-  std::string text = fmt::format("{:.{}f}", value, decimals);
-  const bool zero = text.find_first_not_of("-0.") == std::string::npos;
-  return zero && text[0] == '-' ? text.substr(1) : text;
+  return never_minus_zero(fmt::format("{:.{}f}", value, decimals));
 }
 
 GcodePath::GcodePath(double scale, int decimals)
     : scale_(scale), unit_(std::pow(10.0, -decimals)), decimals_(decimals) {}
 
-Vec2 GcodePath::printed(Vec2 machine) const {
-  return {round_to(machine.x, decimals_), round_to(machine.y, decimals_)};
+bool GcodePath::holds(double coordinate) const {
+  constexpr double kMostLastDigits = 0x1p60;  // of a 64-bit number, with room for differences
+  return std::abs(scale_ * coordinate) < kMostLastDigits * unit_;
 }
 
-std::string GcodePath::place(Vec2 machine) const {
-  return "X" + fixed(machine.x, decimals_) + " Y" + fixed(machine.y, decimals_);
+GridPlace GcodePath::printed(Vec2 machine) const {
+  const double places = std::pow(10.0, decimals_);
+  return {std::llround(machine.x * places), std::llround(machine.y * places)};
+}
+
+std::string GcodePath::number(std::int64_t last_digits) const {
+  std::int64_t one = 1;
+  for (int i = 0; i < decimals_; ++i) one *= 10;
+  const std::int64_t size = std::abs(last_digits);
+  return fmt::format("{}{}.{:0{}}", last_digits < 0 ? "-" : "", size / one, size % one, decimals_);
+}
+
+std::string GcodePath::place(GridPlace at) const {
+  return fmt::format("X{} Y{}", number(at.x), number(at.y));
+}
+
+Vec2 GcodePath::between(GridPlace from, GridPlace to) const {
+  const double places = std::pow(10.0, decimals_);  // exact, unlike a last digit
+  return {static_cast<double>(to.x - from.x) / places, static_cast<double>(to.y - from.y) / places};
 }
 
 std::string GcodePath::start() const { return place(start_); }
@@ -49,10 +95,10 @@ void GcodePath::start_at(Vec2 point) { start_ = at_ = printed(scale_ * point); }
 
 void GcodePath::line_to(Vec2 point) { line(printed(scale_ * point)); }
 
-void GcodePath::line(Vec2 end) {
+void GcodePath::line(GridPlace end) {
   if (end == at_) return;  // the next block starts where the tool stands: nothing drifts
   format_into(text_, "G1 {}\n", place(end));
-  pieces_.emplace_back(LinePiece{at_ / scale_, end / scale_});
+  pieces_.emplace_back(LinePiece{in_contour(at_), in_contour(end)});
   at_ = end;
 }
 
@@ -60,50 +106,53 @@ void GcodePath::follow_arc(const ArcPiece& arc_piece) {
   const double turn = std::abs(arc_piece.kappa * arc_piece.length);
   const int parts = std::max(1, static_cast<int>(std::ceil(turn / kMostBlockTurn)));
   for (int k = 1; k <= parts; ++k) {
-    const Vec2 middle = evaluate(arc_piece, (k - 0.5) / parts).point;
+    const Vec2 middle = scale_ * evaluate(arc_piece, (k - 0.5) / parts).point;
     const Vec2 end = evaluate(arc_piece, static_cast<double>(k) / parts).point;
-    arc(scale_ * middle, printed(scale_ * end), arc_piece.kappa > 0.0);
+    arc(middle, printed(scale_ * end), arc_piece.kappa > 0.0);
   }
 }
 
 /// The arc over the printed chord with the height of the exact one: of all that can be kept it
 /// moves the arc least.
-void GcodePath::arc(Vec2 middle, Vec2 end, bool left) {
-  const Vec2 chord = end - at_;
+void GcodePath::arc(Vec2 middle, GridPlace end, bool left) {
+  const Vec2 chord = between(at_, end);
   const double length = norm(chord);
   if (length < kShortestChord * unit_) return line(end);
   const Vec2 across = left_normal(chord) / length;
-  const double height = dot(middle - at_, across);  // of the middle, below the chord: negative
+  const double height =
+      dot(middle - between({}, at_), across);  // of the middle, below the chord: negative
   const double radius = 0.5 * std::abs(height) + 0.125 * length * length / std::abs(height);
   const bool wrong_side = (height < 0.0) != left;
   if (wrong_side || std::abs(height) < kLowestArc * unit_ || radius < kSmallestRadius) {
     return line(end);
   }
-  const Vec2 to_centre = 0.5 * chord + (height + (left ? radius : -radius)) * across;
-  const Vec2 ij = {round_to(to_centre.x, kCentreDecimals), round_to(to_centre.y, kCentreDecimals)};
-  format_into(text_, "{} {} I{} J{}\n", left ? "G3" : "G2", place(end),
-              fixed(ij.x, kCentreDecimals), fixed(ij.y, kCentreDecimals));
+  const Centre centre = centre_over(chord, height + (left ? radius : -radius));
+  if (!(centre.mismatch <= kMostMismatch)) return line(end);
+  radius_mismatch_ = std::max(radius_mismatch_, centre.mismatch / scale_);
+  const Vec2 ij = centre.ij;
+  format_into(text_, "{} {} I{} J{}\n", left ? "G3" : "G2", place(end), centre.i, centre.j);
   // the controller's arc: it leaves square to its radius, and its chord says the rest
   const Vec2 tangent = (left ? 1.0 : -1.0) * left_normal(-ij);
   const double angle = turning(tangent, chord);
   const double own_kappa = 2.0 * std::sin(angle) / length;
-  pieces_.emplace_back(ArcPiece{at_ / scale_, end / scale_, heading(tangent), own_kappa * scale_,
-                                2.0 * angle / own_kappa / scale_});
+  pieces_.emplace_back(ArcPiece{in_contour(at_), in_contour(end), heading(tangent),
+                                own_kappa * scale_, 2.0 * angle / own_kappa / scale_});
   ++arcs_;
   at_ = end;
 }
 
 void GcodePath::follow_cubic(const RationalBezier& cubic) {
   const auto point = [&](std::size_t j) { return scale_ * (cubic.origin + cubic.offset[j]); };
-  const Vec2 end = printed(point(3));
-  const Vec2 first = printed(point(1) - at_), second = printed(point(2) - end);
+  const GridPlace end = printed(point(3));
   if (end == at_) return;
-  format_into(text_, "G5 I{} J{} P{} Q{} {}\n", fixed(first.x, decimals_),
-              fixed(first.y, decimals_), fixed(second.x, decimals_), fixed(second.y, decimals_),
-              place(end));
+  const GridPlace first = printed(point(1) - between({}, at_));
+  const GridPlace second = printed(point(2) - between({}, end));
+  format_into(text_, "G5 I{} J{} P{} Q{} {}\n", number(first.x), number(first.y), number(second.x),
+              number(second.y), place(end));
   RationalBezier path;
   path.degree = 3;
-  path.offset = {at_ / scale_, (at_ + first) / scale_, (end + second) / scale_, end / scale_};
+  path.offset = {in_contour(at_), in_contour(at_) + in_contour(first),
+                 in_contour(end) + in_contour(second), in_contour(end)};
   path.weight = {1.0, 1.0, 1.0, 1.0};
   pieces_.emplace_back(path);
   at_ = end;

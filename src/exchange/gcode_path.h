@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <string>
 #include <vector>
 
@@ -12,6 +13,13 @@ namespace obvid::exchange {
 
 /// Fixed decimals, never "-0.000".
 [[nodiscard]] std::string fixed(double value, int decimals);
+
+/// A place as it is printed: whole numbers of the last digit. Where coordinates are large doubles
+/// do not hold that digit, and what the program says would not be what it was reckoned with.
+struct GridPlace {
+  std::int64_t x = 0, y = 0;
+  friend bool operator==(const GridPlace&, const GridPlace&) = default;
+};
 
 /// Blocks of a program, and the path that a controller makes of what is printed.
 class GcodePath {
@@ -29,16 +37,27 @@ class GcodePath {
   [[nodiscard]] std::size_t arcs() const { return arcs_; }
   /// In units of the contour, as printed.
   [[nodiscard]] const std::vector<Piece>& pieces() const { return pieces_; }
+  /// How far the radii of an arc as printed are apart at its two ends, units of the contour, at
+  /// most: controllers make of them what they like, and are that far from `pieces`.
+  [[nodiscard]] double radius_mismatch() const { return radius_mismatch_; }
+  /// Whether places of such coordinates (units of the contour) can be printed.
+  [[nodiscard]] bool holds(double coordinate) const;
 
  private:
-  [[nodiscard]] Vec2 printed(Vec2 machine) const;
-  [[nodiscard]] std::string place(Vec2 machine) const;
-  void line(Vec2 end);
-  void arc(Vec2 middle, Vec2 end, bool left);
+  [[nodiscard]] GridPlace printed(Vec2 machine) const;
+  [[nodiscard]] std::string place(GridPlace at) const;
+  [[nodiscard]] std::string number(std::int64_t last_digits) const;
+  /// Machine units.
+  [[nodiscard]] Vec2 between(GridPlace from, GridPlace to) const;
+  /// Units of the contour.
+  [[nodiscard]] Vec2 in_contour(GridPlace at) const { return between({}, at) / scale_; }
+  void line(GridPlace end);
+  void arc(Vec2 middle, GridPlace end, bool left);
 
   double scale_, unit_;
   int decimals_;
-  Vec2 start_, at_;  ///< machine units, as printed
+  GridPlace start_, at_;
+  double radius_mismatch_ = 0.0;
   std::string text_;
   std::size_t arcs_ = 0;
   std::vector<Piece> pieces_;

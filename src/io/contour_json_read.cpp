@@ -354,7 +354,9 @@ bool ContourReader::rows_fit(std::size_t rows) const {
   for (std::size_t i = 1; i < contour.pieces.size(); ++i) {
     if (contour.joints[i].source) ++parts;
   }
-  return rows == parts;
+  // points between joints have a row each where the contour passes them in order
+  const bool between = contour.carrier == Carrier::kBspline || contour.carrier == Carrier::kCubic;
+  return between ? rows >= parts && rows <= chords : rows == parts;
 }
 
 std::vector<double> ContourReader::moves(const Node& node) {

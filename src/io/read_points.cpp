@@ -23,10 +23,13 @@ string_view base_name(string_view path) {
   return slash == string_view::npos ? path : path.substr(slash + 1);
 }
 
+// Of two tolerances of one point the contour keeps both with the smaller one.
 void fill_missing(FixedData& kept, const FixedData& other) {
   if (!kept.theta) kept.theta = other.theta;
   if (!kept.kappa) kept.kappa = other.kappa;
-  if (!kept.tolerance) kept.tolerance = other.tolerance;
+  if (other.tolerance) {
+    kept.tolerance = std::min(kept.tolerance.value_or(*other.tolerance), *other.tolerance);
+  }
   kept.corner = kept.corner || other.corner;
 }
 

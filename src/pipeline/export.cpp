@@ -17,15 +17,13 @@
 #include "obvid/io/contour_json.h"
 #include "obvid/io/picture_svg.h"
 #include "report.h"
+#include "uniform_tolerance.h"
 
 namespace obvid {
 namespace {
 
-/// What is printed of a deviation that was found along samples: more than these may have missed.
-double at_most(double found) {
-  constexpr double kMissed = 1.02;
-  return kMissed * found;
-}
+/// A bound as it is printed: three digits, and never less than it is.
+double at_most(double bound) { return pipeline_detail::printable(bound); }
 
 struct Ending {
   const char* ending;

@@ -33,6 +33,9 @@ constexpr double kNarrowed = 0.95;  ///< of what would just do
 /// were spent: a hundred times what a contour takes as a rule.
 constexpr double kMostFitSteps = 1e4, kSpareWork = 1e6;
 constexpr double kFormedAt = 0.7;  ///< part of the bar when all sections are formed
+/// Arcs whose regions came out wider than asked, by the rounding of their ends, are formed again.
+constexpr int kArcTrials = 2;
+constexpr double kNarrowedArcs = 0.99;  ///< of what would just do
 
 Result<Carried> as_carried(Result<Contour> contour) {
   if (!contour) return tl::unexpected(contour.error());
@@ -325,6 +328,38 @@ Result<Formed> form_within(Prepared& series, const FitJob& job, double tolerance
   return formed;
 }
 
+/// A contour with the figures that follow from it alone.
+struct Measured {
+  Formed formed;
+  FitReport report;
+};
+
+/// What carriers are formed within, and what widths are to keep.
+struct Tolerances {
+  double formed, asked;
+};
+
+Result<Measured> form_and_measure(Prepared& prepared, const FitJob& job, const Units& units,
+                                  const Tolerances& within, Watch& watch) {
+  Result<Formed> formed = [&] {
+    const Stretch stretch(watch, 0.0, kFormedAt);
+    return form_within(prepared, job, within.formed, watch);
+  }();
+  if (!formed) {
+    Error error = formed.error();
+    if (!prepared.polygon.empty()) {
+      error.hint += (error.hint.empty() ? "" : "; ") + prepared.polygon;
+    }
+    return fail(std::move(error));
+  }
+  take_piece_ends(formed->contour);
+  if (auto kept = keeps_given(formed->contour); !kept) return fail(kept.error());
+  formed->contour.units = units;
+  auto report = measure(formed->contour, within.asked);
+  if (!report) return tl::unexpected(report.error());
+  return Measured{std::move(*formed), std::move(*report)};
+}
+
 }  // namespace
 
 Result<Fit> fit(const PointSeries& series, const FitJob& job, Watch& watch) {
@@ -337,31 +372,24 @@ Result<Fit> fit(const PointSeries& series, const FitJob& job, Watch& watch) {
   if (!asked) return tl::unexpected(asked.error());
   const double tolerance =
       passes_between_joints(job.carrier) ? share_tolerance(*prepared, *asked, least) : *asked;
-  Result<Formed> formed = [&] {
-    const Stretch stretch(watch, 0.0, kFormedAt);
-    return form_within(*prepared, job, tolerance, watch);
-  }();
-  if (!formed) {
-    Error error = formed.error();
-    if (!prepared->polygon.empty()) {
-      error.hint += (error.hint.empty() ? "" : "; ") + prepared->polygon;
-    }
-    return fail(std::move(error));
+  auto measured = form_and_measure(*prepared, job, series.units, {tolerance, *asked}, watch);
+  // what rounding makes of arcs shows in their regions only
+  for (int k = 0; k < kArcTrials && measured && job.carrier == Carrier::kArcs &&
+                  measured->report.largest_width > *asked;
+       ++k) {
+    const double aim = kNarrowedArcs * tolerance * *asked / measured->report.largest_width;
+    measured = form_and_measure(*prepared, job, series.units, {aim, *asked}, watch);
   }
-  take_piece_ends(formed->contour);
-  if (auto kept = keeps_given(formed->contour); !kept) return fail(kept.error());
+  if (!measured) return fail(measured.error());
+  Formed* formed = &measured->formed;
   Fit out;
   out.contour = std::move(formed->contour);
-  out.contour.units = series.units;
   watch.tell("proving", kFormedAt);
   out.certificate = certify(out.contour);
   if (job.convex) {
     if (auto kept = keeps_convex(out.contour, out.certificate); !kept) return fail(kept.error());
   }
-  watch.tell("bounding the error", 0.9);
-  auto report = measure(out.contour, *asked);
-  if (!report) return tl::unexpected(report.error());
-  out.report = std::move(*report);
+  out.report = std::move(measured->report);
   settle_with(out.certificate, out.contour, out.report);
   if (formed->spirals) {
     measure_against(*formed->spirals, out.contour, out.report);

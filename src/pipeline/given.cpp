@@ -112,6 +112,14 @@ class GivenCheck {
   std::vector<std::size_t> joint_;  // on each point, or the number of joints
 };
 
+/// Misses are told in steps of this, upward: what rounding of their own evaluation hides (1e-12
+/// rad, or of the curvature) is added, and nothing below it means anything.
+constexpr double kMissStep = 1e-12;
+
+double told(double miss) {
+  return miss > 0.0 ? (std::floor(miss / kMissStep) + 1.0) * kMissStep : 0.0;
+}
+
 }  // namespace
 
 GivenReport measure_given(const Contour& contour) {
@@ -123,8 +131,8 @@ GivenReport measure_given(const Contour& contour) {
     out.headings += given.theta ? 1 : 0;
     out.curvatures += given.kappa ? 1 : 0;
     out.corners += given.corner ? 1 : 0;
-    out.heading_miss = std::max(out.heading_miss, miss.heading);
-    out.curvature_miss = std::max(out.curvature_miss, miss.curvature);
+    out.heading_miss = std::max(out.heading_miss, told(miss.heading));
+    out.curvature_miss = std::max(out.curvature_miss, told(miss.curvature));
   }
   return out;
 }

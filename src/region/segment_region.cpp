@@ -5,8 +5,13 @@
 #include <cmath>
 #include <limits>
 
+#include "two_arcs.h"
+
 namespace obvid {
 namespace {
+
+using region_detail::turns_back;
+using region_detail::turns_over_half;
 
 constexpr double kUnitRoundoff = 0x1p-53;
 /// Rounding of A and B relative to the terms that cancel in them.
@@ -21,8 +26,28 @@ double rise_to_parallel(Vec2 tangent, double kappa) {
   return tangent.y * tangent.y / ((1.0 + tangent.x) * kappa);
 }
 
-/// Whether an arc that turns the tangent from a to b becomes parallel to the chord on the way.
-bool passes_parallel(Vec2 a, Vec2 b) { return (a.y < 0.0) != (b.y < 0.0) && a.x + b.x > 0.0; }
+/// Whether an arc of curvature `kappa` that turns the tangent from a to b becomes parallel to the
+/// chord on the way: along it, or against it.
+struct Parallels {
+  bool along = false, against = false;
+};
+
+Parallels parallels_of(Vec2 a, Vec2 b, double kappa) {
+  // for arcs to the left; the others are mirror images
+  const double side = kappa < 0.0 ? -1.0 : 1.0;
+  const bool below = side * a.y < 0.0, then_below = side * b.y < 0.0;
+  const bool over_half = turns_over_half(a, b, kappa);
+  if (below == then_below) return {over_half, over_half};
+  if (turns_back(a, b, kappa)) return {a.x + b.x > 0.0, a.x + b.x < 0.0};  // rounding
+  return {below, then_below};
+}
+
+/// Ordinate that an arc rises by until it runs against the chord.
+double rise_to_opposite(Vec2 tangent, double kappa) {
+  if (kappa == 0.0 || std::isinf(kappa)) return 0.0;
+  if (tangent.x >= 0.0) return (1.0 + tangent.x) / kappa;
+  return tangent.y * tangent.y / ((1.0 - tangent.x) * kappa);
+}
 
 /// Tangent at the joint of the two arcs, by closing the chord (theory 4).
 Vec2 joint_tangent(const ChordFrame& f, double k0, double k1) {
@@ -43,13 +68,14 @@ Boundary make_boundary(const ChordFrame& f, double k0, double k1) {
     b.lowest = std::min(b.lowest, y);
   };
   if (!std::isinf(k0)) {
-    if (passes_parallel(f.start_tangent, b.joint_tangent)) {
-      reach(-rise_to_parallel(f.start_tangent, k0));
-    }
+    const Parallels first = parallels_of(f.start_tangent, b.joint_tangent, k0);
+    if (first.along) reach(-rise_to_parallel(f.start_tangent, k0));
+    if (first.against) reach(rise_to_opposite(f.start_tangent, k0));
   }
   if (!std::isinf(k1)) {
-    if (passes_parallel(b.joint_tangent, f.end_tangent))
-      reach(-rise_to_parallel(f.end_tangent, k1));
+    const Parallels second = parallels_of(b.joint_tangent, f.end_tangent, k1);
+    if (second.along) reach(-rise_to_parallel(f.end_tangent, k1));
+    if (second.against) reach(rise_to_opposite(f.end_tangent, k1));
   }
   return b;
 }

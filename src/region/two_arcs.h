@@ -8,15 +8,29 @@
 
 namespace obvid::region_detail {
 
+/// Whether the short way from one tangent to the other goes against the curvature because of
+/// rounding: a small turn is never nearly a whole one.
+[[nodiscard]] inline bool turns_back(Vec2 from, Vec2 to, double kappa) {
+  constexpr double kSmallTurn = 0.5;  // cosine
+  return cross(from, to) * kappa < 0.0 && dot(from, to) > kSmallTurn;
+}
+
+/// Whether an arc of this curvature turns by more than half a turn between two tangents.
+[[nodiscard]] inline bool turns_over_half(Vec2 from, Vec2 to, double kappa) {
+  return cross(from, to) * kappa < 0.0 && !turns_back(from, to, kappa);
+}
+
 /// Circle arc, or line when kappa is 0, from a point with a unit tangent to the next one.
 struct Arc {
   Vec2 start, end;
   Vec2 start_tangent, end_tangent;
   double kappa = 0.0;
 
-  /// Whether the foot of p on the line or circle lies on the arc, which turns by less than pi.
+  /// Whether the foot of p on the line or circle lies on the arc.
   [[nodiscard]] bool abreast(Vec2 from_start, Vec2 from_end) const {
-    return dot(from_start, start_tangent) > 0.0 && dot(from_end, end_tangent) < 0.0;
+    const bool after = dot(from_start, start_tangent) > 0.0,
+               before = dot(from_end, end_tangent) < 0.0;
+    return turns_over_half(start_tangent, end_tangent, kappa) ? after || before : after && before;
   }
 
   [[nodiscard]] double distance(Vec2 p) const {

@@ -15,6 +15,7 @@
 #include "obvid/cad/cad.h"
 #include "obvid/curve/bspline.h"
 #include "obvid/curve/joined_nurbs.h"
+#include "obvid/curve/path_distance.h"
 #include "obvid/io/read_points.h"
 #include "obvid/pipeline/audit.h"
 #include "obvid/pipeline/fit.h"
@@ -156,6 +157,44 @@ TEST_F(CadFiles, LinesAndArcsStayWhatTheyAre) {
     EXPECT_NEAR(norm(arc->end - Vec2{3, 1}), 0.0, 1e-12) << one.name;
     const CurveAudit a = audit(drawing->curves[0], "mm");
     EXPECT_EQ(a.continuity, 1) << one.name;
+  }
+}
+
+TEST_F(CadFiles, EveryPieceOfAWireIsWrittenHoweverFarItsCentreAndHoweverLargeTheCoordinates) {
+  // curvature -1e-4, 1e-6 and 1e-12 per km: ends that are reckoned from the centre miss each other
+  // by more than the kernel's 1e-7 mm, and the last one by more than a file may
+  std::vector<Piece> pieces;
+  Vec2 at = {2.4, -12.1};
+  double theta = 0.3;
+  for (const double kappa : {-0.08, -1e-4, 1e-6, 1e-12, 0.05}) {
+    const double turn = 2.0 * kappa;
+    // the chord of an arc of length 2: sin(turn/2)/(turn/2) by its series where it cancels
+    const double half = 0.5 * turn,
+                 chord = 2.0 * (1.0 - half * half / 6.0 * (1.0 - half * half / 20.0));
+    const Vec2 end = at + chord * unit_at(theta + half);
+    pieces.emplace_back(ArcPiece{at, end, theta, kappa, 2.0});
+    theta += turn;
+    at = end;
+  }
+  for (const Format& one : kFormats) {
+    CadWriteOptions options;
+    options.format = one.format;
+    options.units = "km";
+    const auto drawing = there_and_back({{"outline", pieces}}, options);
+    ASSERT_TRUE(drawing) << one.name << to_line(drawing.error());
+    std::vector<Piece> read;
+    for (const auto& curve : drawing->curves) {
+      read.insert(read.end(), curve.pieces.begin(), curve.pieces.end());
+    }
+    const double scale =
+        norm(end_point(read.back()) - start_point(read.front())) / norm(at - Vec2{2.4, -12.1});
+    std::vector<Piece> written;
+    for (const Piece& piece : pieces) {
+      const auto& arc = std::get<ArcPiece>(piece);
+      written.emplace_back(ArcPiece{scale * arc.start, scale * arc.end, arc.theta0,
+                                    arc.kappa / scale, arc.length * scale});
+    }
+    EXPECT_LE(path_distance(written, read), 1e-9 * 10.0 * scale) << one.name;
   }
 }
 

@@ -230,6 +230,15 @@ TEST(ReadPoints, ConsecutiveDuplicatesMergeWithAWarning) {
   EXPECT_NE(series->warnings[0].find("line 4"), std::string::npos);
 }
 
+TEST(ReadPoints, OfTwoTolerancesOfAPointThatRepeatsTheSmallerOneHolds) {
+  for (const char* rows : {"1,1,0.5\n1,1,0.2\n", "1,1,0.2\n1,1,0.5\n"}) {
+    const auto series = parse_points(std::string("x,y,tol\n0,0,0.1\n") + rows + "2,0,0.3\n", "f");
+    ASSERT_TRUE(series) << rows;
+    ASSERT_EQ(series->fixed.size(), 3U);
+    EXPECT_EQ(series->fixed[1].tolerance, 0.2) << rows;
+  }
+}
+
 TEST(ReadPoints, DataFixedAtADuplicateStayWithThePoint) {
   const auto series = parse_points("x,y,kappa\n0,0,\n1,1,\n1,1,2\n2,0,\n", "f");
   ASSERT_TRUE(series.has_value());

@@ -199,14 +199,18 @@ void check_counts(const Course& course, Sheet& sheet) {
     one(std::string(group) + ".vertices", figure(*object, "vertices"), vertices);
     one(std::string(group) + ".inflections", figure(*object, "inflections"), inflections);
   }
-  int corners = 0;
+  int corners = 0, steps = 0;
   for (std::size_t j = course.file.closed ? 0 : 1; j < course.joints.size(); ++j) {
-    corners += course.file.corner_at(j) ? 1 : 0;
+    corners += course.joints[j].corner ? 1 : 0;
+    steps += course.joints[j].step ? 1 : 0;
   }
   const Figure stated = figure(course.file.certificate, "corners");
   if (!stated.present) return sheet.missing("certificate.corners");
   sheet.expect(stated.value == corners, "certificate.corners", stated.value.value_or(-1), corners,
                "");
+  const Figure said = figure(course.file.certificate, "curvature_steps");
+  sheet.expect(said.value.value_or(0.0) == steps, "certificate.curvature_steps",
+               said.value.value_or(0.0), steps, "");
 }
 
 void check_crossings(const Course& course, Sheet& sheet) {

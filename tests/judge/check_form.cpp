@@ -82,7 +82,8 @@ void check_runs(const Course& course, Sheet& sheet) {
     for (std::size_t i = run.first; i <= run.last; ++i) {
       const CurvatureLaw& law = course.laws[i];
       const JointFacts& joint = course.joints[i];
-      const bool inner = i > run.first && !joint.corner && joint.clear_jump && file.promises_monotone();
+      const bool inner = i > run.first && !joint.corner && !joint.step && joint.clear_jump &&
+                         file.promises_monotone();
       for (const int sign : {inner ? joint.jump : 0, law.direction()}) {
         if (sign == 0) continue;
         changes = true;

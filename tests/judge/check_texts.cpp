@@ -140,7 +140,7 @@ class TextCheck {
     const auto fits = [&](double kappa) {
       return kappa == 0.0 ? printed == "straight" : prints(printed, 1.0 / kappa);
     };
-    say(fits(e->kappa) || (e->corner && fits(e->kappa_out)), "table radius", printed,
+    say(fits(e->kappa) || (e->parted() && fits(e->kappa_out)), "table radius", printed,
         e->kappa == 0.0 ? 0.0 : 1.0 / e->kappa);
   }
 

@@ -62,8 +62,9 @@ FileElement element_of(const Json& json) {
   out.kappa = number(json, "kappa");
   const Json& source = member(json, "source");
   if (!source.is_null()) out.source = source.index();
-  if (flag(json, "corner").value_or(false)) {
-    out.corner = true;
+  out.corner = flag(json, "corner").value_or(false);
+  out.step = flag(json, "curvature_step").value_or(false);
+  if (out.parted()) {
     out.heading_out = number(json, "heading_out");
     out.kappa_out = number(json, "kappa_out");
   }
@@ -120,6 +121,11 @@ const FileElement* ContourFile::joint(std::size_t i) const {
 bool ContourFile::corner_at(std::size_t joint_index) const {
   const FileElement* element = joint(joint_index);
   return element != nullptr && element->corner;
+}
+
+bool ContourFile::parted_at(std::size_t joint_index) const {
+  const FileElement* element = joint(joint_index);
+  return element != nullptr && element->parted();
 }
 
 ReadContour read_contour(const std::string& text) {

@@ -16,6 +16,8 @@ struct FileElement {
   double heading = 0.0, kappa = 0.0;
   std::optional<std::size_t> source;
   bool corner = false;
+  bool step = false;  ///< a common tangent, and two curvatures
+  [[nodiscard]] bool parted() const { return corner || step; }
   double heading_out = 0.0, kappa_out = 0.0;
 };
 
@@ -51,6 +53,8 @@ struct ContourFile {
   /// Joint that stands between piece i - 1 and piece i; nullptr past an end.
   [[nodiscard]] const FileElement* joint(std::size_t i) const;
   [[nodiscard]] bool corner_at(std::size_t joint_index) const;
+  /// A corner, or a step of the curvature.
+  [[nodiscard]] bool parted_at(std::size_t joint_index) const;
   [[nodiscard]] bool promises_monotone() const {
     return carrier != "cubic" && carrier != "baseline";
   }

@@ -26,6 +26,19 @@ int changes(const std::vector<Item>& items, bool all, bool closed) {
   return count;
 }
 
+/// The curvature at a vertex, which is the only one between two parameters.
+double extreme_kappa(const Span& span, const Turn& turn, bool highest) {
+  const auto height = [&](Real t) { return (highest ? 1.0L : -1.0L) * span.at(t).kappa(); };
+  constexpr int kThirds = 110;  // (2/3)^110 is a rounding of long double
+  Real low = turn.from, high = turn.to;
+  for (int i = 0; i < kThirds; ++i) {
+    const Real a = low + (high - low) / 3.0L, b = high - (high - low) / 3.0L;
+    const bool rises = height(a) < height(b);
+    (rises ? low : high) = rises ? a : b;
+  }
+  return static_cast<double>(span.at(0.5L * (low + high)).kappa());
+}
+
 CountRange range_of(const std::vector<Item>& items, bool closed) {
   return {changes(items, false, closed), changes(items, true, closed), true};
 }
@@ -38,7 +51,8 @@ CountRange count_vertices(const Course& course) {
     if (!course.laws[i].decided || !course.laws[i].regular) return {0, 0, false};
     const JointFacts& joint = course.joints[i];
     // at a smooth joint only a jump beyond what the gaps may be is a change of curvature
-    const bool counted = joint.corner || course.file.carrier == "arcs" || joint.clear_jump;
+    const bool counted =
+        joint.corner || joint.step || course.file.carrier == "arcs" || joint.clear_jump;
     if (counted) items.push_back({joint.jump, joint.clear_jump});
     for (const int sign : course.laws[i].signs) items.push_back({sign, true});
   }
@@ -56,9 +70,9 @@ CountRange count_inflections(const Course& course) {
           {kappa > 0.0 ? 1 : (kappa < 0.0 ? -1 : 0), std::abs(kappa) > kFlatEnd * most});
     };
     meet(static_cast<double>(a.kappa.middle()));
-    for (const Turn& turn : course.laws[i].turns) {
-      const Real t = 0.5L * (static_cast<Real>(turn.from) + turn.to);
-      meet(static_cast<double>(course.path.spans()[i].at(t).kappa()));
+    const CurvatureLaw& law = course.laws[i];
+    for (std::size_t k = 0; k < law.turns.size(); ++k) {
+      meet(extreme_kappa(course.path.spans()[i], law.turns[k], law.signs[k] > 0));
     }
     meet(static_cast<double>(b.kappa.middle()));
   }

@@ -27,16 +27,17 @@ struct Station {
   Real order = 0.0L;
 };
 
-/// The first place behind `from` that is near enough to the point, else the nearest.
-Real place_behind(const Path& path, Vec p, Real from, Real to, Real reach) {
+/// The nearest place behind `from`, up to where a piece leads away (docs/claims.md).
+Real place_behind(const Path& path, Vec p, Real from, Real to) {
+  constexpr Real kAway = 8.0L;  // times the least distance so far
   Place best;
   best.distance = std::numeric_limits<Real>::max();
   for (Real at = from; at < to; at = std::floor(at) + 1.0L) {
     const Place here = path.nearest(p, at, std::min(to, std::floor(at) + 1.0L));
     if (here.distance < best.distance) {
       best = here;
-    } else if (best.distance <= reach) {
-      break;  // the distance grows again
+    } else if (here.distance > kAway * best.distance) {
+      break;
     }
   }
   return best.distance < std::numeric_limits<Real>::max() ? best.order() : from;
@@ -75,8 +76,7 @@ std::vector<Station> stations_of(const ContourFile& contour, const Path& path, P
           break;
         }
       }
-      const Real reach = contour.tolerance.empty() ? 0.0L : contour.tolerance[i] * (1.0L + 1e-9L);
-      order = place_behind(path, seen(contour.points[i], origin), before, to, reach);
+      order = place_behind(path, seen(contour.points[i], origin), before, to);
     }
     out.push_back({i, std::max(order, before)});
     before = out.back().order;
@@ -113,8 +113,11 @@ Course::Course(const ContourFile& contour)
   const std::vector<Station> stations = named_by_rows(contour, stations_of(contour, path, origin));
   for (std::size_t k = 0; k + 1 < stations.size(); ++k) {
     Part part{
-        stations[k].point, stations[k + 1].point, stations[k].order, stations[k + 1].order, {}};
-    part.cuts = cuts_of(part.from, part.to);
+        stations[k].point, stations[k + 1].point, stations[k].order, stations[k + 1].order, {}, {}};
+    // over half a turn or more a region is none: there all joints count (docs/claims.md)
+    const bool far = turning(part.from, part.to) >= std::numbers::pi_v<Real>;
+    part.turns = cuts_of(part.from, part.to, false);
+    part.cuts = cuts_of(part.from, part.to, far);
     parts.push_back(std::move(part));
   }
   for (const Point p : contour.points) away.push_back(path.nearest(seen(p, origin)).distance);
@@ -128,14 +131,12 @@ Real Course::resolution() const {
 
 /// Joints inside a part where a new direction begins, corners too. The vertex of arcs is a whole
 /// arc: there the runs of the file say which of its ends counts (the runs are judged on their own).
-std::vector<Real> Course::cuts_of(Real from, Real to) const {
+std::vector<Real> Course::cuts_of(Real from, Real to, bool all_joints) const {
   std::vector<Real> out{from};
-  // over half a turn or more a region is none: there all joints count (docs/claims.md)
-  const bool far = turning(from, to) >= std::numbers::pi_v<Real>;
   int before = 0;
   for (auto i = static_cast<std::size_t>(from); static_cast<Real>(i) < to; ++i) {
     const bool inner = static_cast<Real>(i) > from;
-    bool turns = inner && file.corner_at(i);
+    bool turns = inner && file.parted_at(i);
     if (turns) before = 0;
     for (const int sign :
          {inner && joints[i].clear_jump ? joints[i].jump : 0, laws[i].direction()}) {
@@ -143,11 +144,11 @@ std::vector<Real> Course::cuts_of(Real from, Real to) const {
       turns = turns || (inner && before != 0 && sign != before);
       before = sign;
     }
-    if (file.carrier == "arcs" && inner && !file.corner_at(i)) {
+    if (file.carrier == "arcs" && inner && !file.parted_at(i)) {
       turns = std::any_of(file.runs.begin(), file.runs.end(),
                           [i](const FileRun& run) { return run.first == i; });
     }
-    if (turns || (far && inner)) out.push_back(static_cast<Real>(i));
+    if (turns || (all_joints && inner)) out.push_back(static_cast<Real>(i));
   }
   out.push_back(to);
   return out;
@@ -169,7 +170,7 @@ Element Course::element(Real order, bool behind) const {
   out.kappa = end.kappa.middle();
   const FileElement* stored = file.joint(joint);
   if (arcs && stored != nullptr)
-    out.kappa = behind && stored->corner ? stored->kappa_out : stored->kappa;
+    out.kappa = behind && stored->parted() ? stored->kappa_out : stored->kappa;
   return out;
 }
 
@@ -179,7 +180,7 @@ bool Course::monotone(Real a, Real b) const {
   for (std::size_t i = first; static_cast<Real>(i) < b && i < laws.size(); ++i) {
     if (!laws[i].one_way()) return false;
     const bool inner_joint = i > first || static_cast<Real>(i) > a;
-    if (inner_joint && file.corner_at(i)) return false;
+    if (inner_joint && file.parted_at(i)) return false;
     for (const int sign :
          {inner_joint && joints[i].clear_jump ? joints[i].jump : 0, laws[i].direction()}) {
       if (sign == 0) continue;
@@ -193,7 +194,16 @@ bool Course::monotone(Real a, Real b) const {
 Real Course::turning(Real a, Real b) const {
   Real sum = 0.0L;
   for (auto i = static_cast<std::size_t>(a); static_cast<Real>(i) < b && i < laws.size(); ++i) {
-    sum += path.spans()[i].turning();
+    const auto start = static_cast<Real>(i);
+    sum += std::abs(path.spans()[i].turning(std::max(a - start, 0.0L), std::min(b - start, 1.0L)));
+  }
+  return sum;
+}
+
+Real Course::turning_both_ways(Real a, Real b) const {
+  Real sum = 0.0L;
+  for (auto i = static_cast<std::size_t>(a); static_cast<Real>(i) < b && i < laws.size(); ++i) {
+    sum += path.spans()[i].turning_both_ways();
   }
   return sum;
 }

@@ -16,7 +16,9 @@ namespace judge {
 struct Part {
   std::size_t from_point = 0, to_point = 0;
   Real from = 0.0L, to = 0.0L;
-  std::vector<Real> cuts;  ///< from, vertices and corners inside, to
+  std::vector<Real>
+      cuts;  ///< from, vertices and corners inside (all joints where it turns far), to
+  std::vector<Real> turns;  ///< from, vertices and corners inside, to
 };
 
 struct Course {
@@ -36,10 +38,12 @@ struct Course {
   [[nodiscard]] Real resolution() const;
   /// Element of the contour at an order; at a joint that of the piece behind or before it.
   [[nodiscard]] Element element(Real order, bool behind) const;
-  [[nodiscard]] std::vector<Real> cuts_of(Real from, Real to) const;
+  [[nodiscard]] std::vector<Real> cuts_of(Real from, Real to, bool all_joints) const;
   /// Whether curvature changes one way from order a to order b.
   [[nodiscard]] bool monotone(Real a, Real b) const;
   [[nodiscard]] Real turning(Real a, Real b) const;
+  /// The same of the pieces that reach into the stretch, to both sides together.
+  [[nodiscard]] Real turning_both_ways(Real a, Real b) const;
 };
 
 }  // namespace judge

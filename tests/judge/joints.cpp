@@ -36,6 +36,7 @@ JointFacts between(const ContourFile& contour, const ContourEnds& ends, std::siz
   const End &a = ends.end[left], &b = ends.start[right];
   JointFacts out;
   out.corner = contour.corner_at(right);
+  out.step = contour.parted_at(right) && !out.corner;
   out.position = norm(b.point - a.point);
   const Ball jump = b.kappa - a.kappa;
   Ball larger_kappa = larger(abs(a.kappa), abs(b.kappa));
@@ -45,6 +46,7 @@ JointFacts between(const ContourFile& contour, const ContourEnds& ends, std::siz
   out.clear_jump = (abs(jump) - Ball(kClearJump) * scale).sign() == 1;
   if (out.corner) return out;
   out.heading = abs(angle_between(a.tangent, b.tangent));
+  if (out.step) return out;
   if (jump.sign() != 0 && scale.sign() == 1) out.curvature = abs(jump) / scale;
   return out;
 }

@@ -12,9 +12,10 @@ namespace judge {
 
 struct JointFacts {
   bool corner = false;
+  bool step = false;        ///< of the curvature: said by the file
   Ball position;            ///< distance of the ends that meet, contour units
   Ball heading;             ///< rad; 0 at corners
-  Ball curvature;           ///< of the larger of both (docs/claims.md); 0 at corners
+  Ball curvature;           ///< of the larger of both (docs/claims.md); 0 at corners and steps
   int jump = 0;             ///< sign of the curvature behind less that before
   bool clear_jump = false;  ///< too large to be rounding
 };

@@ -78,9 +78,7 @@ ElementGap worst_element_gap(const Course& course) {
                            double heading, double kappa) {
     BallVec direction;
     sin_cos(Ball(heading), direction.y, direction.x);
-    const auto turned = [](const BallVec& a, const BallVec& b) {
-      return abs(angle_between(a, b));
-    };
+    const auto turned = [](const BallVec& a, const BallVec& b) { return abs(angle_between(a, b)); };
     const Ball beyond = turned(direction, left.tangent) + turned(direction, right.tangent) -
                         turned(left.tangent, right.tangent);
     const double angle = (Ball(0.5) * beyond).lower();
@@ -106,8 +104,8 @@ ElementGap worst_element_gap(const Course& course) {
     const bool comes = j > 0 || course.file.closed, goes = j < n;
     const End& left = comes ? course.ends.end[(j + n - 1) % n] : course.ends.start[0];
     const End& right = goes ? course.ends.start[j] : left;
-    compare(j, left, e->corner ? left : right, e->point, e->heading, e->kappa);
-    if (e->corner) compare(j, right, right, e->point, e->heading_out, e->kappa_out);
+    compare(j, left, e->parted() ? left : right, e->point, e->heading, e->kappa);
+    if (e->parted()) compare(j, right, right, e->point, e->heading_out, e->kappa_out);
   }
   return out;
 }

@@ -159,7 +159,23 @@ Jet Span::at(Real t) const {
   return at_rational(std::get<RationalForm>(form_), t);
 }
 
-Real Span::turning() const {
+Real Span::turning(Real from, Real to) const {
+  if (const auto* s = std::get_if<SpiralForm>(&form_)) {
+    const Real middle = s->kappa0 + 0.5L * (from + to) * (s->kappa1 - s->kappa0);
+    return middle * (to - from) * s->length;
+  }
+  constexpr int kSteps = 32;
+  Real sum = 0.0L;
+  Vec before = at(from).d;
+  for (int i = 1; i <= kSteps; ++i) {
+    const Vec now = at(from + (to - from) * static_cast<Real>(i) / kSteps).d;
+    sum += std::atan2(cross(before, now), dot(before, now));
+    before = now;
+  }
+  return sum;
+}
+
+Real Span::turning_both_ways() const {
   if (const auto* s = std::get_if<SpiralForm>(&form_)) {
     const Real a = std::abs(s->kappa0), b = std::abs(s->kappa1);
     // over an inflection there are two triangles of curvature
@@ -168,11 +184,8 @@ Real Span::turning() const {
   }
   constexpr int kSteps = 32;
   Real sum = 0.0L;
-  Vec before = at(0.0L).d;
-  for (int i = 1; i <= kSteps; ++i) {
-    const Vec now = at(static_cast<Real>(i) / kSteps).d;
-    sum += std::abs(std::atan2(cross(before, now), dot(before, now)));
-    before = now;
+  for (int i = 0; i < kSteps; ++i) {
+    sum += std::abs(turning(static_cast<Real>(i) / kSteps, static_cast<Real>(i + 1) / kSteps));
   }
   return sum;
 }

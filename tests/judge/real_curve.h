@@ -61,8 +61,10 @@ class Span {
 
   [[nodiscard]] Jet at(Real t) const;
   [[nodiscard]] Vec point(Real t) const { return at(t).p; }
-  /// Angle that the tangent turns over the whole span, to both sides together.
-  [[nodiscard]] Real turning() const;
+  /// Angle that the tangent turns between two parameters, unwrapped and signed.
+  [[nodiscard]] Real turning(Real from = 0.0L, Real to = 1.0L) const;
+  /// The same over the whole span, to both sides together.
+  [[nodiscard]] Real turning_both_ways() const;
 
  private:
   std::variant<SpiralForm, RationalForm> form_;

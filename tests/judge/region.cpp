@@ -169,6 +169,9 @@ std::optional<Region> Region::of(const Element& from, const Element& to, int dir
   const Real noise_b = kRounding * (std::abs(k1 * half) + std::abs(std::sin(beta)));
   if (a > noise_a || b < -noise_b) return std::nullopt;
   const Real slack = kRounding + noise_a + noise_b;
+  // Vogt: a curve of increasing curvature ends steeper over its chord than it begins. Elements that
+  // do not are joined only by curves that turn by a whole turn more
+  if (std::sin(0.5L * (alpha + beta)) < -slack) return std::nullopt;
   if (-a * b < square && std::sqrt(square) > std::sqrt(std::max(0.0L, -a * b)) + slack) {
     return std::nullopt;
   }

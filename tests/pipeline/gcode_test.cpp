@@ -366,6 +366,44 @@ TEST(Gcode, CirclesAreCutBelowHalfATurn) {
   for (const Vec2 p : run.path) EXPECT_NEAR(norm(p), 5.0, 7.1e-4);  // half of 0.001, both ways
 }
 
+TEST(Gcode, RadiiAgreeAsPrintedWhereDoublesDoNotHoldTheLastDigit) {
+  // 1.6e13 mm from the origin a double holds 0.002 mm; 0.001 mm are printed
+  Contour contour;
+  contour.units = {"mm", UnitSource::kGiven};
+  const Vec2 centre = {16432391099802.398, 14245241658702.629};
+  Vec2 at = centre + Vec2{3e6, 0.0};
+  for (int k = 0; k < 12; ++k) {
+    const double from = 0.1 * k, to = 0.1 * (k + 1);
+    const Vec2 end = centre + 3e6 * unit_at(to);
+    contour.joints.push_back({{at, from + 0.5 * kPi, 1.0 / 3e6}, std::nullopt});
+    contour.pieces.emplace_back(ArcPiece{at, end, from + 0.5 * kPi, 1.0 / 3e6, 3e5});
+    at = end;
+  }
+  contour.joints.push_back({{at, 1.2 + 0.5 * kPi, 1.0 / 3e6}, std::nullopt});
+  GcodeOptions options;
+  options.tolerance = 10.0;
+  options.decimals = 3;
+  const auto text = gcode_text(contour, options);
+  ASSERT_TRUE(text) << to_line(text.error());
+  EXPECT_GT(text->arc_blocks, 0U);
+  // all coordinates as whole thousandths, all centres as whole hundred thousandths
+  std::istringstream lines(text->text);
+  long double x = 0, y = 0;
+  for (std::string line; std::getline(lines, line);) {
+    const auto word = [&line](char letter) {
+      const std::size_t place = line.find(std::string(" ") + letter);
+      return place == std::string::npos ? 0.0L : std::strtold(line.c_str() + place + 2, nullptr);
+    };
+    const bool arc = line.starts_with("G2 ") || line.starts_with("G3 ");
+    if (!arc && !line.starts_with("G0 X") && !line.starts_with("G1 X")) continue;
+    const long double to_x = word('X'), to_y = word('Y'), i = word('I'), j = word('J');
+    const long double before = std::hypot(i, j), after = std::hypot(i - (to_x - x), j - (to_y - y));
+    if (arc) EXPECT_LT(std::abs(before - after), 5e-5L) << line;
+    x = to_x;
+    y = to_y;
+  }
+}
+
 TEST(Gcode, ArcsSmallerThanTheLastDigitsAreLinesOrLeftOut) {
   GcodeOptions options;
   options.decimals = 3;

@@ -7,6 +7,7 @@
 #include <limits>
 #include <random>
 
+#include "../common/angles.h"
 #include "known_spirals.h"
 
 namespace obvid {
@@ -136,6 +137,46 @@ TEST(SegmentRegion, MirrorImageAndReversalHaveTheSameSize) {
     EXPECT_NEAR(mirrored->width, region->width, 1e-15);
     EXPECT_NEAR(reversed->width, region->width, 1e-14);
   }
+}
+
+TEST(SegmentRegion, BoundariesThatRunBackOverTheChordAreAsWideAsTheirArcs) {
+  // headings of -65 and 109 degrees, curvatures far apart: arcs of the boundaries turn beyond the
+  // opposite of the chord. Their heights by small steps along them
+  const ChordFrame f = chord_frame({{0.0, 0.0}, -1.1535, -0.157}, {{65.4062, 0.0}, 1.8992, 0.2572});
+  const auto region = segment_region(f, 1);
+  ASSERT_TRUE(region);
+  struct Reach {
+    double high = 0.0, low = 0.0;
+  };
+  const auto walk = [&](const Boundary& b) {
+    Reach reach;
+    Vec2 at = {};
+    double theta = -1.1535;
+    const auto arc = [&](double kappa, Vec2 until) {
+      const double to = std::atan2(until.y, until.x);
+      double turn = std::fmod(to - theta, 2.0 * kPi);
+      if (turn * kappa < 0.0) turn += std::copysign(2.0 * kPi, kappa);
+      constexpr int kSteps = 20000;
+      for (int k = 1; k <= kSteps; ++k) {
+        const double now = theta + turn * k / kSteps;
+        const double y = at.y + (std::cos(theta) - std::cos(now)) / kappa;
+        reach.high = std::max(reach.high, y);
+        reach.low = std::min(reach.low, y);
+      }
+      at = at + Vec2{(std::sin(theta + turn) - std::sin(theta)) / kappa,
+                     (std::cos(theta) - std::cos(theta + turn)) / kappa};
+      theta += turn;
+    };
+    arc(b.kappa_first, b.joint_tangent);
+    arc(b.kappa_second, f.end_tangent);
+    EXPECT_NEAR(at.x, f.h, 1e-3 * f.h);  // the headings are rounded
+    EXPECT_NEAR(at.y, 0.0, 1e-3 * f.h);
+    return reach;
+  };
+  const Reach a = walk(region->from_start), b = walk(region->to_end);
+  const double width = std::max(std::abs(a.high - b.high), std::abs(a.low - b.low));
+  EXPECT_GT(width, 20.0);
+  EXPECT_NEAR(region->width, width, 1e-6 * width);
 }
 
 TEST(SegmentRegion, WrongDirectionHasNoRegion) {

@@ -42,7 +42,7 @@ struct GcodeText {
   std::size_t blocks = 0;      ///< that move along the contour
   std::size_t arc_blocks = 0;  ///< of them G2 and G3
   double deviation = 0.0;      ///< largest distance, both ways, of the path as printed from the
-                               ///< contour, units of the contour: measured, good to some 1 %
+                               ///< contour, units of the contour: an upper bound
 };
 
 /// G21 and millimetres, or G20 for contours in inches; other units are converted to millimetres,

@@ -2,23 +2,27 @@
 #include "shapes.h"
 
 #include <BRepBuilderAPI_MakeEdge.hxx>
-#include <BRepBuilderAPI_MakeWire.hxx>
 #include <BRepPrimAPI_MakePrism.hxx>
 #include <BRep_Builder.hxx>
 #include <Geom_BSplineCurve.hxx>
 #include <Geom_Circle.hxx>
 #include <Geom_Ellipse.hxx>
+#include <Precision.hxx>
 #include <TColStd_Array1OfInteger.hxx>
 #include <TColStd_Array1OfReal.hxx>
 #include <TColgp_Array1OfPnt.hxx>
 #include <TopoDS_Compound.hxx>
 #include <TopoDS_Edge.hxx>
+#include <TopoDS_Vertex.hxx>
 #include <TopoDS_Wire.hxx>
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <optional>
+#include <utility>
 
 #include "obvid/contour/conics.h"
+#include "obvid/curve/joined_nurbs.h"
 #include "splines.h"
 
 namespace obvid::cad {
@@ -66,21 +70,42 @@ NurbsCurve nurbs_of(const RationalBezier& piece) {
   return out;
 }
 
-TopoDS_Edge edge_of(const ArcPiece& arc, double scale) {
+/// A curve and the parameters at which an edge begins and ends.
+struct Drawn {
+  Handle(Geom_Curve) curve;
+  double from = 0.0, to = 1.0;
+};
+
+/// Below this angle the kernel takes both ends of an arc for one place, and draws the whole turn
+/// (Precision::PConfusion, 1e-9); some more, so that angles keep digits.
+constexpr double kLeastAngle = 1e-7;
+/// What centre and radius may miss of the ends, of the length of the arc: a hundredth of what files
+/// promise (1e-9 of the size, docs/formats.md).
+constexpr double kCircleMiss = 1e-11;
+
+Drawn spline_piece(const NurbsCurve& curve, double scale) {
+  return {spline_of(curve, scale), curve.knots.front(), curve.knots.back()};
+}
+
+/// The arc as a circle; nothing where the centre lies so far away that the ends lose digits.
+std::optional<Drawn> circle_of(const ArcPiece& arc, double scale) {
+  const double turn = std::abs(arc.kappa * arc.length), radius = 1.0 / std::abs(arc.kappa);
   const Vec2 centre = arc.start + left_normal(unit_at(arc.theta0)) / arc.kappa;
   const double sign = arc.kappa > 0.0 ? 1.0 : -1.0;
-  const Vec2 from = arc.start - centre;
+  const Vec2 from = arc.start - centre, x = from / norm(from), y = sign * left_normal(x);
+  const Vec2 end = centre + (radius * std::cos(turn)) * x + (radius * std::sin(turn)) * y;
+  const double miss = std::max(std::abs(norm(from) - radius), norm(end - arc.end));
+  if (turn < kLeastAngle || !(miss <= kCircleMiss * arc.length)) return std::nullopt;
   const gp_Ax2 axes(at(centre, scale), gp_Dir(0.0, 0.0, sign), gp_Dir(from.x, from.y, 0.0));
-  const Handle(Geom_Circle) circle = new Geom_Circle(axes, scale / std::abs(arc.kappa));
-  return BRepBuilderAPI_MakeEdge(circle, 0.0, std::abs(arc.kappa * arc.length));
+  return Drawn{new Geom_Circle(axes, scale * radius), 0.0, turn};
 }
 
 /// Part of an ellipse; nothing for other pieces, and where centre and axes say less than the
 /// control points do (nearly parabolas).
-std::optional<TopoDS_Edge> ellipse_edge(const RationalBezier& piece, double scale) {
+std::optional<Drawn> ellipse_piece(const RationalBezier& piece, double scale) {
   constexpr double kExact = 1e-12;  // of the larger axis: what rounding leaves of a good ellipse
   const auto ellipse = ellipse_of(piece);
-  if (!ellipse) return std::nullopt;
+  if (!ellipse || std::abs(ellipse->to - ellipse->from) < kLeastAngle) return std::nullopt;
   const Vec2 u = unit_at(ellipse->rotation), v = left_normal(u);
   const auto point = [&](double e) {
     return ellipse->centre + ellipse->semi_major * std::cos(e) * u +
@@ -91,37 +116,126 @@ std::optional<TopoDS_Edge> ellipse_edge(const RationalBezier& piece, double scal
   if (!(away <= kExact * ellipse->semi_major)) return std::nullopt;
   const double sign = ellipse->from < ellipse->to ? 1.0 : -1.0;
   const gp_Ax2 axes(at(ellipse->centre, scale), gp_Dir(0.0, 0.0, sign), gp_Dir(u.x, u.y, 0.0));
-  const Handle(Geom_Ellipse) curve =
-      new Geom_Ellipse(axes, scale * ellipse->semi_major, scale * ellipse->semi_minor);
-  return TopoDS_Edge(BRepBuilderAPI_MakeEdge(curve, sign * ellipse->from, sign * ellipse->to));
+  return Drawn{new Geom_Ellipse(axes, scale * ellipse->semi_major, scale * ellipse->semi_minor),
+               sign * ellipse->from, sign * ellipse->to};
 }
 
-Result<TopoDS_Edge> edge_of(const Piece& piece, double scale) {
-  if (const auto* line = std::get_if<LinePiece>(&piece)) {
-    return TopoDS_Edge(BRepBuilderAPI_MakeEdge(at(line->start, scale), at(line->end, scale)));
+/// One piece as a NURBS curve: what needs no centre.
+Result<Drawn> drawn_by_points(const Piece& piece, double scale) {
+  Contour only;
+  only.pieces.push_back(piece);
+  only.joints.resize(2);
+  const auto curve = joined_nurbs(only);
+  if (!curve) return fail(curve.error());
+  return spline_piece(*curve, scale);
+}
+
+Result<Drawn> drawn(const Piece& piece, double scale) {
+  if (const auto* arc = std::get_if<ArcPiece>(&piece)) {
+    if (const auto circle = circle_of(*arc, scale)) return *circle;
+    return drawn_by_points(piece, scale);
   }
-  if (const auto* arc = std::get_if<ArcPiece>(&piece)) return edge_of(*arc, scale);
   if (const auto* bezier = std::get_if<RationalBezier>(&piece)) {
-    if (const auto ellipse = ellipse_edge(*bezier, scale)) return *ellipse;
-    return TopoDS_Edge(BRepBuilderAPI_MakeEdge(spline_of(nurbs_of(*bezier), scale)));
+    if (const auto ellipse = ellipse_piece(*bezier, scale)) return *ellipse;
+    return spline_piece(nurbs_of(*bezier), scale);
   }
   return fail({ErrorCode::kUnsupported, "CAD files know no clothoids", "",
                "form the contour with --carrier spiral or bspline", -1, 0.0});
 }
 
-Result<TopoDS_Wire> wire_of(const CadCurve& curve, double scale) {
-  BRepBuilderAPI_MakeWire wire;
-  if (const auto* nurbs = std::get_if<NurbsCurve>(&curve.geometry)) {
-    wire.Add(BRepBuilderAPI_MakeEdge(spline_of(*nurbs, scale)));
-  } else {
-    for (const Piece& piece : std::get<std::vector<Piece>>(curve.geometry)) {
-      const auto edge = edge_of(piece, scale);
-      if (!edge) return fail(edge.error());
-      wire.Add(*edge);
+/// A wire of pieces that share their vertices: whether neighbours meet is known here, and is not
+/// left to the kernel's precision, which is a length in mm whatever the size of the contour.
+class PieceWire {
+ public:
+  PieceWire(const std::vector<Piece>& pieces, double scale) : pieces_(pieces), scale_(scale) {}
+
+  Result<TopoDS_Wire> run() {
+    if (const auto done = draw_all(); !done) return fail(done.error());
+    place_vertices();
+    TopoDS_Wire wire;
+    builder_.MakeWire(wire);
+    for (std::size_t i = 0; i < pieces_.size(); ++i) {
+      const TopoDS_Vertex &from = vertices_[i], &to = vertices_[(i + 1) % vertices_.size()];
+      BRepBuilderAPI_MakeEdge edge;
+      if (drawn_[i]) {
+        edge.Init(drawn_[i]->curve, from, to, drawn_[i]->from, drawn_[i]->to);
+      } else {
+        edge = BRepBuilderAPI_MakeEdge(from, to);
+      }
+      if (!edge.IsDone()) return fail(refused("a piece of the curve"));
+      builder_.Add(wire, edge.Edge());
     }
+    wire.Closed(is_closed());
+    return wire;
   }
-  if (!wire.IsDone()) return fail(refused("the curve: its pieces do not meet"));
-  return wire.Wire();
+
+ private:
+  /// Lines are left to their vertices.
+  Result<void> draw_all() {
+    for (const Piece& piece : pieces_) {
+      if (std::holds_alternative<LinePiece>(piece)) {
+        drawn_.emplace_back();
+        continue;
+      }
+      auto one = drawn(piece, scale_);
+      if (!one) return fail(one.error());
+      drawn_.emplace_back(std::move(*one));
+    }
+    return {};
+  }
+
+  /// One place for the kernel, or for doubles.
+  [[nodiscard]] bool is_closed() const {
+    constexpr double kRoundings = 4.0;
+    const gp_Pnt first = at(start_point(pieces_.front()), scale_);
+    const gp_Pnt last = at(end_point(pieces_.back()), scale_);
+    const double coordinate = std::max(std::abs(first.X()), std::abs(first.Y()));
+    const double rounding = kRoundings * std::numeric_limits<double>::epsilon() * coordinate;
+    return first.Distance(last) <= std::max(Precision::Confusion(), rounding);
+  }
+
+  /// As large as the ends of the two curves at the vertex need it.
+  void place_vertices() {
+    const std::size_t count = pieces_.size() + (is_closed() ? 0 : 1);
+    std::vector<double> size(count, Precision::Confusion());
+    std::vector<gp_Pnt> place;
+    for (std::size_t k = 0; k < count; ++k) {
+      place.push_back(
+          at(k < pieces_.size() ? start_point(pieces_[k]) : end_point(pieces_.back()), scale_));
+    }
+    constexpr double kSome = 1.0 + 1e-6;  // the kernel compares squares
+    for (std::size_t i = 0; i < pieces_.size(); ++i) {
+      if (!drawn_[i]) continue;
+      const std::size_t next = (i + 1) % count;
+      const auto miss = [&](std::size_t k, double t) {
+        size[k] = std::max(size[k], kSome * place[k].Distance(drawn_[i]->curve->Value(t)));
+      };
+      miss(i, drawn_[i]->from);
+      miss(next, drawn_[i]->to);
+    }
+    vertices_.resize(count);
+    for (std::size_t k = 0; k < count; ++k) builder_.MakeVertex(vertices_[k], place[k], size[k]);
+  }
+
+  const std::vector<Piece>& pieces_;
+  double scale_;
+  BRep_Builder builder_;
+  std::vector<std::optional<Drawn>> drawn_;
+  std::vector<TopoDS_Vertex> vertices_;
+};
+
+Result<TopoDS_Wire> wire_of(const CadCurve& curve, double scale) {
+  if (const auto* pieces = std::get_if<std::vector<Piece>>(&curve.geometry)) {
+    if (pieces->empty()) return fail(refused("a curve without pieces"));
+    return PieceWire(*pieces, scale).run();
+  }
+  BRepBuilderAPI_MakeEdge edge(spline_of(std::get<NurbsCurve>(curve.geometry), scale));
+  if (!edge.IsDone()) return fail(refused("the curve"));
+  TopoDS_Wire wire;
+  BRep_Builder builder;
+  builder.MakeWire(wire);
+  builder.Add(wire, edge.Edge());
+  return wire;
 }
 
 }  // namespace

@@ -9,6 +9,7 @@
 
 #include "contour_length.h"
 #include "obvid/contour/bsplines.h"
+#include "obvid/curve/path_distance.h"
 
 namespace obvid {
 namespace {
@@ -19,9 +20,11 @@ constexpr std::size_t kMostSpans = 65536;
 /// Cells per piece over which the density of knots is taken for constant.
 constexpr std::size_t kDensityCells = 8;
 constexpr int kSpanSamples = 8;  // per span
-/// What the largest sampled deviation may be, so that nothing between the samples exceeds the
-/// tolerance: eight samples see the flat maximum of a quartic error within 4 %.
+/// What the largest sampled deviation is aimed at, so that nothing between the samples exceeds the
+/// tolerance: eight samples see the flat maximum of a quartic error within 4 %. Where the bound
+/// says that it does, the aim is lowered by as much.
 constexpr double kOfCubicTolerance = 0.95;
+constexpr int kCubicTrials = 8;
 /// Integral of the density that the contour has by its length alone: straight parts get knots too.
 constexpr double kLeastDensity = 0.2;
 
@@ -170,6 +173,11 @@ Result<CubicAlong> search(const CubicBuilder& builder, double tolerance) {
   return found;
 }
 
+double distance_of(const Contour& contour, const CubicSpline& spline) {
+  const std::vector<RationalBezier> spans = bezier_pieces(spline);
+  return path_distance(contour.pieces, std::vector<Piece>(spans.begin(), spans.end()));
+}
+
 }  // namespace
 
 Result<CubicAlong> cubic_along(const Contour& contour, double tolerance) {
@@ -186,7 +194,17 @@ Result<CubicAlong> cubic_along(const Contour& contour, double tolerance) {
                  "joint " + std::to_string(i + 1), "split it there", static_cast<std::ptrdiff_t>(i),
                  0.0});
   }
-  return search(CubicBuilder(contour), kOfCubicTolerance * tolerance);
+  const CubicBuilder builder(contour);
+  double aim = kOfCubicTolerance * tolerance, bound = 0.0;
+  for (int trial = 0; trial < kCubicTrials; ++trial) {
+    auto found = search(builder, aim);
+    if (!found) return found;
+    found->deviation = bound = distance_of(contour, found->spline);
+    if (bound <= tolerance) return found;
+    aim *= kOfCubicTolerance * tolerance / bound;
+  }
+  return fail({ErrorCode::kToleranceNotReached, "no cubic was found within the tolerance", "",
+               "allow more", -1, bound});
 }
 
 }  // namespace obvid

@@ -97,6 +97,24 @@ TEST(JudgeArithmetic, ARegionHoldsTheClothoidWithItsElements) {
   EXPECT_FALSE(Region::of(element(0.0L), element(1.0L), -1).has_value());
 }
 
+TEST(JudgeArithmetic, ElementsThatNoShortCurveJoinsHaveNoRegion) {
+  // Vogt: increasing curvature ends steeper over its chord than it begins; this does not, by 1e-5
+  const Element from{{0.0L, 0.0L}, -0.44284L, 0.8L}, to{{1.0L, 0.0L}, 0.44283L, 0.9L};
+  EXPECT_FALSE(Region::of(from, to, 1).has_value());
+  const Element steeper{{1.0L, 0.0L}, 0.44285L, 0.9L};
+  EXPECT_TRUE(Region::of(from, steeper, 1).has_value());
+}
+
+TEST(JudgeArithmetic, APartOfASpanTurnsByItsPart) {
+  const Span arc({0.0L, 0.0L}, 0.3L, 2.0L, 1.5L);  // 3 rad
+  EXPECT_NEAR(static_cast<double>(arc.turning()), 3.0, 1e-15);
+  EXPECT_NEAR(static_cast<double>(arc.turning(0.25L, 0.5L)), 0.75, 1e-15);
+  // y = x^2 from x = 0 to 1: atan 2 in all, atan 1 to its middle
+  const Span parabola({{0.0L, 0.0L}, {0.5L, 0.0L}, {1.0L, 1.0L}}, {1.0L, 1.0L, 1.0L});
+  EXPECT_NEAR(static_cast<double>(parabola.turning(0.0L, 0.5L)), std::atan(1.0), 1e-15);
+  EXPECT_NEAR(static_cast<double>(parabola.turning()), std::atan(2.0), 1e-15);
+}
+
 TEST(JudgeArithmetic, DistancesFromArcsAreThoseFromCircles) {
   const BoundaryArc arc{
       {0, 0}, {2, 0}, std::numbers::pi_v<Real> / 2, -1.0L, -std::numbers::pi_v<Real>};
@@ -126,7 +144,7 @@ TEST(JudgeArithmetic, WhatLiesBetweenTwoArcsIsAsHighAsTheyAreApart) {
 TEST(JudgeArithmetic, BothTurnsOfAClothoidWithAnInflectionCount) {
   // curvature from -2 to 1 over the length 3: triangles of 2 * 2 / 2 and 1 * 1 / 2
   const Clothoid c{{}, {}, 0.0, -2.0, 1.0, 3.0};
-  EXPECT_NEAR(static_cast<double>(Span(c, {}).turning()), 2.5, 1e-15);
+  EXPECT_NEAR(static_cast<double>(Span(c, {}).turning_both_ways()), 2.5, 1e-15);
 }
 
 TEST(JudgeArithmetic, NurbsSpansAreThoseOfTheWholeCurve) {

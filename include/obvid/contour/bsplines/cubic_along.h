@@ -10,8 +10,8 @@ namespace obvid {
 /// A cubic spline in place of a contour.
 struct CubicAlong {
   CubicSpline spline;      ///< C2; `as_nurbs` makes it a B-spline
-  double deviation = 0.0;  ///< largest distance of 8 points of the contour per span from the
-                           ///< spline: measured, not proved
+  double deviation = 0.0;  ///< upper bound of the distance of either from the other: see
+                           ///< path_distance
 };
 
 /// C2 cubic spline within `tolerance` (units) of a contour, for systems that read nothing else: it
