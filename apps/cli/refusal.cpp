@@ -121,7 +121,7 @@ std::string refusal_text(const PointSeries& series, const WhyNot& why,
   if (why.next_to_nothing) {
     text += fmt::format(
         "No point is in the way. A contour with {} exists and is proved: {} allows them.\n",
-        counts_of_fit(why.fit), noise_option(why.tolerance, why.fit.contour.closed, series.points));
+        counts_of_fit(why.fit), noise_option(why.tolerance, why.fit.contour.closed, series));
   } else {
     text += points_in_the_way_text(series, why);
   }

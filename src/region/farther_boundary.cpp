@@ -148,14 +148,14 @@ class Highest {
     for (std::size_t k = 0; k < pieces; ++k) {
       const double from = k == 0 ? t0 : 0.0, to = k + 1 == pieces ? t1 : 1.0;
       FromArcs before = look(k, static_cast<double>(k) + from);
-      double at = static_cast<double>(k) + from;
+      double last = static_cast<double>(k) + from;
       for (std::size_t i = 1; i <= steps; ++i) {
         const double part = static_cast<double>(i) / static_cast<double>(steps);
         const double u = static_cast<double>(k) + from + part * (to - from);
         const FromArcs here = look(k, u);
-        all.push_back({k, at, u, before, here});
+        all.push_back({k, last, u, before, here});
         before = here;
-        at = u;
+        last = u;
       }
     }
     for (const Step& step : all) bound_step(step, 0);
