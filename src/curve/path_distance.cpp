@@ -155,7 +155,8 @@ class DistanceBound {
     if (first.piece == last.piece) return bound(piece, first, last, halvings);
     ++looked_at_;
     const double most = 0.5 * (first.distance + last.distance + way(piece, first, last));
-    if (most <= (1.0 + kMoreThanFound) * found_ || halvings == kMostHalvings) {
+    const bool enough = looked_at_ > kSpareLooks + kLooksPerSpan * spans_.size();
+    if (most <= (1.0 + kMoreThanFound) * found_ || enough || halvings == kMostHalvings) {
       bound_ = std::max(bound_, most);
       return;
     }
@@ -196,19 +197,32 @@ class DistanceBound {
     bound(piece, middle, last, halvings + 1);
   }
 
-  /// What the distance may be more between two places than at them.
+  /// What the distance may be more between two places than at them: by what the difference of the
+  /// compared places bends away from its chord across the other path. What it bends along that path
+  /// counts by the turning of the path alone: the nearest place moves along with it.
   [[nodiscard]] double between(const Piece& piece, const Match& first, const Match& last) const {
     const double dt = last.t - first.t, du = last.u - first.u;
-    double rate = 0.0;
+    double across = 0.0, along = 0.0, length = 0.0;
+    Vec2 start_tangent, end_tangent;
     for (const double part : {0.0, 0.5, 1.0}) {
-      const Vec2 mine = (dt * dt) * evaluate(piece, first.t + part * dt).d2;
-      const Vec2 others = (du * du) * evaluate(to_[first.piece], first.u + part * du).d2;
-      rate = std::max(rate, norm(mine - others));
+      const Jet mine = evaluate(piece, first.t + part * dt);
+      const Jet others = evaluate(to_[first.piece], first.u + part * du);
+      const double speed = norm(others.d1);
+      if (!(speed > 0.0)) return 0.5 * kRateBetween * norm(mine.d1) * std::abs(dt);
+      const Vec2 tangent = others.d1 / speed, rate = (dt * dt) * mine.d2 - (du * du) * others.d2;
+      across = std::max(across, std::abs(cross(tangent, rate)));
+      along = std::max(along, std::abs(dot(tangent, rate)));
+      length = std::max(length, speed * std::abs(du));
+      if (part == 0.0) start_tangent = tangent;
+      end_tangent = tangent;
     }
+    const double turn = std::abs(cross(start_tangent, end_tangent));
+    const double slip = 0.125 * kRateBetween * along;
+    const double most = 0.125 * kRateBetween * across + slip * kRateBetween * turn +
+                        (length > 0.0 ? 0.5 * kRateBetween * turn / length * slip * slip : slip);
     // a distance grows by the way at most: what holds where the matches leap (a closed circle)
     const double apart = std::abs(first.distance - last.distance);
-    return std::min(0.125 * kRateBetween * rate,
-                    0.5 * std::max(0.0, way(piece, first, last) - apart));
+    return std::min(most, 0.5 * std::max(0.0, way(piece, first, last) - apart));
   }
 
   std::span<const Piece> from_, to_;

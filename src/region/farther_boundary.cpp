@@ -14,15 +14,23 @@ namespace {
 
 using region_detail::TwoArcs;
 
-/// Equal steps of a piece to begin with. A lone piece takes more of them than one among many.
+/// Equal steps of a piece between which the distance is taken to have one peak at the most. A lone
+/// piece takes more of them than one among many.
 constexpr std::size_t kStepsAlone = 6;
-constexpr std::size_t kStepsAmongMany = 3;
-/// What the bound may exceed the largest distance found, as its part.
+constexpr std::size_t kStepsAmongMany = 4;
+/// Peaks of the samples this near to the largest are looked at closely.
+constexpr double kCouldBeMore = 0.8;
+/// Steps into which the neighbourhood of such a peak is cut first: the nearer arc of a boundary may
+/// change there, which bends the distance.
+constexpr std::size_t kFinerSteps = 24;
+constexpr double kFinerCouldBeMore = 0.98;
+/// Steps of a climb: parabolas converge faster than geometrically.
+constexpr int kMostSteps = 16;
+/// Places this close, of the three samples that a climb begins with, enclose the top: what can lie
+/// between them is some 1e-5 of it.
+constexpr double kClose = 2e-3;
+/// Added for what may lie between two places where the nearer arc changes, of the distance.
 constexpr double kUpward = 3e-4;
-/// What the distance from an arc may bend more between two places of a step than these and the
-/// middle tell. Steps that matter are halved until it bends evenly.
-constexpr double kBendBetween = 2.0;
-constexpr int kMostHalvings = 12;
 /// Roundings of a point seen from the start of its chord, each 2^-53 of the coordinates' size.
 constexpr double kPointRoundings = 8.0 * 0x1p-53;
 
@@ -66,17 +74,7 @@ class LocalPiece {
   std::array<double, kMaxBezierDegree + 1> weight_;
 };
 
-/// Distances of one point from the four arcs of both boundaries.
-struct FromArcs {
-  std::array<double, 4> arc{};
-
-  /// From the farther boundary.
-  [[nodiscard]] double farther() const {
-    return std::max(std::min(arc[0], arc[1]), std::min(arc[2], arc[3]));
-  }
-};
-
-/// Distances along a path; its parameter counts pieces.
+/// The distance from the farther boundary along a path; its parameter counts pieces.
 class AlongPath {
  public:
   AlongPath(const PieceSpan& path, const PlacedRegion& placed)
@@ -84,21 +82,23 @@ class AlongPath {
         placed_(placed),
         from_start_(placed.frame, placed.region.from_start),
         to_end_(placed.frame, placed.region.to_end),
-        local_(path.pieces.front(), placed.start, placed.along) {}
+        local_(path.pieces.front(), placed.start, placed.along),
+        wide_(dot(placed.frame.start_tangent, placed.frame.end_tangent) <= 0.0) {}
 
   [[nodiscard]] double first() const { return path_.t0; }
   [[nodiscard]] double last() const {
     return static_cast<double>(path_.pieces.size() - 1) + path_.t1;
   }
-  /// `k`: the piece, which `u` alone does not tell at a joint.
-  FromArcs operator()(std::size_t k, double u) {
+  double operator()(double u) {
+    const std::size_t k = piece_at(u);
     if (k != at_) {
       local_ = LocalPiece(path_.pieces[k], placed_.start, placed_.along);
       at_ = k;
     }
     const Vec2 p = local_.at(u - static_cast<double>(k));
-    return {{from_start_.first.distance(p), from_start_.second.distance(p),
-             to_end_.first.distance(p), to_end_.second.distance(p)}};
+    // over a right angle the common normal does not tell which arc is near
+    return wide_ ? std::max(from_start_.distance(p), to_end_.distance(p))
+                 : std::max(from_start_.distance_from_near(p), to_end_.distance_from_near(p));
   }
   [[nodiscard]] Vec2 point(double u) const {
     const std::size_t k = piece_at(u);
@@ -114,93 +114,105 @@ class AlongPath {
   const PlacedRegion& placed_;
   TwoArcs from_start_, to_end_;
   LocalPiece local_;
+  bool wide_;
   std::size_t at_ = 0;
 };
 
-/// Part of one piece between two places.
-struct Step {
-  std::size_t piece = 0;
-  double from = 0.0, to = 0.0;
-  FromArcs at_from, at_to;
+struct PathSample {
+  double u = 0.0;
+  double value = 0.0;
 };
 
-/// Upper bound of the distance from the farther boundary on a step. The distance from one arc of a
-/// boundary is never less than that from the boundary; between three places it is at most the
-/// largest of them and an eighth of its second derivative, which their second difference tells.
-double ceiling_of(const FromArcs& a, const FromArcs& middle, const FromArcs& b) {
-  FromArcs top;
-  for (std::size_t i = 0; i < top.arc.size(); ++i) {
-    const double bend = std::abs(a.arc[i] - 2.0 * middle.arc[i] + b.arc[i]);
-    top.arc[i] = std::max({a.arc[i], middle.arc[i], b.arc[i]}) + 0.125 * kBendBetween * bend;
-  }
-  return top.farther();
+/// Abscissa of the top of the parabola through three samples, within them.
+double top_of(const PathSample& a, const PathSample& b, const PathSample& c) {
+  const double left = (b.u - a.u) * (b.value - c.value), right = (b.u - c.u) * (b.value - a.value);
+  const double twice = 2.0 * (left - right);
+  if (twice == 0.0) return b.u;
+  const double u = b.u - ((b.u - a.u) * left - (b.u - c.u) * right) / twice;
+  return std::isfinite(u) ? std::clamp(u, a.u, c.u) : b.u;
 }
 
-/// The largest distance along a path, by halving the steps whose ceiling is above what was found.
-class Highest {
- public:
-  Highest(AlongPath& distance, double rounding) : distance_(distance), rounding_(rounding) {}
+/// What a function that bends down can reach between three samples whose middle one is the largest:
+/// it stays below the lines through two of them, beyond these.
+double ceiling_of(const PathSample& a, const PathSample& b, const PathSample& c) {
+  const double rise = (b.value - a.value) / (b.u - a.u), fall = (b.value - c.value) / (c.u - b.u);
+  return b.value + std::max(rise * (c.u - b.u), fall * (b.u - a.u));
+}
 
-  void run(std::size_t pieces, double t0, double t1) {
-    const std::size_t steps = pieces == 1 ? kStepsAlone : kStepsAmongMany;
-    std::vector<Step> all;
-    all.reserve(pieces * steps);
-    for (std::size_t k = 0; k < pieces; ++k) {
-      const double from = k == 0 ? t0 : 0.0, to = k + 1 == pieces ? t1 : 1.0;
-      FromArcs before = look(k, static_cast<double>(k) + from);
-      double last = static_cast<double>(k) + from;
-      for (std::size_t i = 1; i <= steps; ++i) {
-        const double part = static_cast<double>(i) / static_cast<double>(steps);
-        const double u = static_cast<double>(k) + from + part * (to - from);
-        const FromArcs here = look(k, u);
-        all.push_back({k, last, u, before, here});
-        before = here;
-        last = u;
-      }
+/// Climbs from three samples whose middle one is the largest: parabolas, then places close to the
+/// top on both sides of it. The value is raised to what can lie between them.
+PathSample climb(AlongPath& distance, PathSample a, PathSample b, PathSample c) {
+  const double close = kClose * (c.u - a.u);
+  for (int i = 0; i < kMostSteps && c.u - a.u > 2.0 * close; ++i) {
+    double u = top_of(a, b, c);
+    if (std::abs(u - b.u) < close) {
+      // the farther neighbour comes close; a parabola would lead back to a known place
+      u = c.u - b.u > b.u - a.u ? std::min(b.u + close, c.u) : std::max(b.u - close, a.u);
+      if (u == a.u || u == c.u) break;
     }
-    for (const Step& step : all) bound_step(step, 0);
-  }
-
-  double found = 0.0, bound = 0.0, at = 0.0;
-
- private:
-  FromArcs look(std::size_t piece, double u) {
-    const FromArcs here = distance_(piece, u);
-    const double away = here.farther();
-    if (away > found) {
-      found = away;
-      at = u;
+    const PathSample next = {u, distance(u)};
+    if (next.value > b.value) {
+      (next.u > b.u ? a : c) = b;
+      b = next;
+    } else {
+      (next.u > b.u ? c : a) = next;
     }
-    return here;
   }
+  return {b.u, ceiling_of(a, b, c)};
+}
 
-  void bound_step(const Step& step, int halvings) {
-    const double u = 0.5 * (step.from + step.to);
-    const FromArcs middle = look(step.piece, u);
-    const double ceiling = ceiling_of(step.at_from, middle, step.at_to);
-    if (ceiling <= std::max((1.0 + kUpward) * found, found + rounding_) ||
-        halvings == kMostHalvings) {
-      bound = std::max(bound, ceiling);
-      return;
-    }
-    bound_step({step.piece, step.from, u, step.at_from, middle}, halvings + 1);
-    bound_step({step.piece, u, step.to, middle, step.at_to}, halvings + 1);
+/// Climbs from the largest of finer samples strictly between `a` and `c`.
+PathSample climb_within(AlongPath& distance, const PathSample& a, const PathSample& c) {
+  std::array<PathSample, kFinerSteps + 1> fine;
+  double most = 0.0;
+  for (std::size_t i = 0; i <= kFinerSteps; ++i) {
+    const double part = static_cast<double>(i) / static_cast<double>(kFinerSteps);
+    const double u = a.u + part * (c.u - a.u);
+    fine[i] = i == 0 ? a : i == kFinerSteps ? c : PathSample{u, distance(u)};
+    most = std::max(most, fine[i].value);
   }
+  PathSample best = a.value > c.value ? a : c;
+  for (std::size_t i = 1; i < kFinerSteps; ++i) {
+    const double here = fine[i].value;
+    if (here < kFinerCouldBeMore * most) continue;
+    if (here < fine[i - 1].value || here < fine[i + 1].value) continue;
+    const PathSample top = climb(distance, fine[i - 1], fine[i], fine[i + 1]);
+    if (top.value > best.value) best = top;
+  }
+  return best;
+}
 
-  AlongPath& distance_;
-  double rounding_;
-};
+/// Equal steps along the path, in order; looks at three neighbours at a time.
+PathSample highest(AlongPath& distance, std::size_t steps, std::vector<PathSample>& samples) {
+  PathSample best{distance.first(), 0.0};
+  samples.resize(steps + 1);
+  for (std::size_t i = 0; i <= steps; ++i) {
+    const double part = static_cast<double>(i) / static_cast<double>(steps);
+    const double u = distance.first() + part * (distance.last() - distance.first());
+    samples[i] = {u, i == 0 || i == steps ? 0.0 : distance(u)};  // ends lie on both boundaries
+    if (samples[i].value > best.value) best = samples[i];
+  }
+  const double close = kCouldBeMore * best.value;
+  for (std::size_t i = 1; i < steps; ++i) {
+    const PathSample &a = samples[i - 1], &b = samples[i], &c = samples[i + 1];
+    if (!(b.value > close && b.value >= a.value && b.value >= c.value)) continue;
+    const PathSample top = climb_within(distance, a, c);
+    if (top.value > best.value) best = top;
+  }
+  return best;
+}
 
 }  // namespace
 
 FartherBoundary farther_boundary(const PieceSpan& path, const PlacedRegion& placed) {
   AlongPath distance(path, placed);
-  const Vec2 middle = distance.point(0.5 * (distance.first() + distance.last()));
-  const double rounding =
-      kPointRoundings * (std::abs(middle.x) + std::abs(middle.y) + placed.frame.h);
-  Highest highest(distance, rounding);
-  highest.run(path.pieces.size(), path.t0, path.t1);
-  return {highest.bound + rounding, distance.point(highest.at)};
+  const std::size_t count = path.pieces.size();
+  std::vector<PathSample> samples;
+  const PathSample best =
+      highest(distance, count == 1 ? kStepsAlone : kStepsAmongMany * count, samples);
+  const Vec2 at = distance.point(best.u);
+  const double rounding = kPointRoundings * (std::abs(at.x) + std::abs(at.y) + placed.frame.h);
+  return {best.value * (1.0 + kUpward) + rounding, at};
 }
 
 }  // namespace obvid

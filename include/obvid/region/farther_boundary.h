@@ -34,11 +34,10 @@ struct FartherBoundary {
 /// with these end elements gets farther from any point of it: the other curve lies between the
 /// boundaries, and the way to one of them crosses it.
 ///
-/// An upper bound, at most 3e-4 of it and some roundings above the largest distance found. Steps of
-/// the pieces are halved while what may lie between their ends exceeds that; it takes for granted
-/// that the distance from a circle bends between three places at most twice as much as they tell.
-/// Coordinates should be near the curve: their rounding is part of the bound. Cost: some seven
-/// evaluations per piece, and forty for the largest.
+/// Searched among the ends of the pieces and inner places, then refined by parabolas; what can lie
+/// between the last places (some 1e-5 of it) and rounding are added. An upper bound as far as the
+/// distance has no two peaks between neighbouring places and bends down at them. Coordinates should be near the curve: their rounding is part
+/// of the bound. Cost: some ten evaluations per piece.
 [[nodiscard]] FartherBoundary farther_boundary(const PieceSpan& path, const PlacedRegion& placed);
 
 }  // namespace obvid
