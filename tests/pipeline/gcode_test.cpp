@@ -398,7 +398,9 @@ TEST(Gcode, RadiiAgreeAsPrintedWhereDoublesDoNotHoldTheLastDigit) {
     if (!arc && !line.starts_with("G0 X") && !line.starts_with("G1 X")) continue;
     const long double to_x = word('X'), to_y = word('Y'), i = word('I'), j = word('J');
     const long double before = std::hypot(i, j), after = std::hypot(i - (to_x - x), j - (to_y - y));
-    if (arc) EXPECT_LT(std::abs(before - after), 5e-5L) << line;
+    if (arc) {
+      EXPECT_LT(std::abs(before - after), 5e-5L) << line;
+    }
     x = to_x;
     y = to_y;
   }
