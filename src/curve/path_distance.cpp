@@ -105,6 +105,7 @@ class DistanceBound {
       }
     }
     bound_ = found_;
+    most_looks_ = kSpareLooks + kLooksPerSpan * (spans_.size() + to_.size());
     for (const Between& span : spans_) cut_at_joints(*span.piece, span.first, span.last);
     return bound_;
   }
@@ -155,7 +156,7 @@ class DistanceBound {
     if (first.piece == last.piece) return bound(piece, first, last, halvings);
     ++looked_at_;
     const double most = 0.5 * (first.distance + last.distance + way(piece, first, last));
-    const bool enough = looked_at_ > kSpareLooks + kLooksPerSpan * spans_.size();
+    const bool enough = looked_at_ > most_looks_;
     if (most <= (1.0 + kMoreThanFound) * found_ || enough || halvings == kMostHalvings) {
       bound_ = std::max(bound_, most);
       return;
@@ -179,7 +180,7 @@ class DistanceBound {
     const double more = between(piece, first, last);
     const double rounding = kSpanRounding * std::max(std::abs(place.x), std::abs(place.y));
     const bool known = ends + more <= (1.0 + kMoreThanFound) * found_ || more <= rounding;
-    const bool enough = looked_at_ > kSpareLooks + kLooksPerSpan * spans_.size();
+    const bool enough = looked_at_ > most_looks_;
     if (known || enough || halvings == kMostHalvings) {
       bound_ = std::max(bound_, ends + more);
       return;
@@ -208,8 +209,12 @@ class DistanceBound {
       const Jet mine = evaluate(piece, first.t + part * dt);
       const Jet others = evaluate(to_[first.piece], first.u + part * du);
       const double speed = norm(others.d1);
-      if (!(speed > 0.0)) return 0.5 * kRateBetween * norm(mine.d1) * std::abs(dt);
-      const Vec2 tangent = others.d1 / speed, rate = (dt * dt) * mine.d2 - (du * du) * others.d2;
+      const Vec2 rate = (dt * dt) * mine.d2 - (du * du) * others.d2;
+      if (!(speed > 0.0)) {  // a place with no direction: whatever bends away counts
+        across = std::max(across, norm(rate));
+        continue;
+      }
+      const Vec2 tangent = others.d1 / speed;
       across = std::max(across, std::abs(cross(tangent, rate)));
       along = std::max(along, std::abs(dot(tangent, rate)));
       length = std::max(length, speed * std::abs(du));
@@ -228,7 +233,7 @@ class DistanceBound {
   std::span<const Piece> from_, to_;
   std::vector<Between> spans_;
   double found_ = 0.0, bound_ = 0.0;
-  std::size_t looked_at_ = 0;
+  std::size_t looked_at_ = 0, most_looks_ = 0;
 };
 
 }  // namespace

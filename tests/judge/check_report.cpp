@@ -18,7 +18,7 @@ constexpr Real kSame = 1e-9L;
 /// Turns that are not told apart from half a turn, rad.
 constexpr Real kNearlyHalf = 1e-6L;
 /// A bound may be this much above the least one (docs/claims.md: it is not padded).
-constexpr Real kPadding = 1e-2L;
+constexpr Real kPadding = 1e-3L;
 /// Elements that are all needed leave no play: how near a step comes to the farthest one, and how
 /// much wider than stated a region may be for it.
 constexpr Real kStep = 1e-9L;
