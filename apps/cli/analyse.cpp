@@ -4,6 +4,8 @@
 #include "audit_report.h"
 #include "commands.h"
 #include "obvid/io/read_points.h"
+#include "obvid/pipeline/analyse.h"
+#include "obvid/pipeline/report_json.h"
 #include "obvid/series/analysis.h"
 #include "series_report.h"
 #include "terminal.h"
@@ -26,8 +28,8 @@ int run(const AnalyseOptions& options) {
   }
   add_rounding_warning(*series, *analysis);
   warn(series->warnings);
-  const std::string text =
-      options.json ? series_report_json(*series, *analysis) : series_report_text(*series, *analysis);
+  const std::string text = options.json ? series_report_json(*series, *analysis)
+                                        : series_report_text(*series, *analysis);
   if (auto done = put(text); !done) return report(done.error());
   return 0;
 }

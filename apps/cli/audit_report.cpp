@@ -9,10 +9,10 @@
 #include <numeric>
 #include <vector>
 
-#include "json_text.h"
 #include "obvid/geom/angle.h"
 #include "obvid/io/picture_svg.h"
-#include "obvid/pipeline/audit.h"
+#include "obvid/pipeline/analyse.h"
+#include "obvid/pipeline/report_json.h"
 #include "obvid/series/analysis.h"
 #include "outputs.h"
 #include "series_report.h"
@@ -99,26 +99,6 @@ std::string place_table(const CurveAudit& a) {
   return table.text() + shown_note(shown.size(), a.places.size(), "largest", "places");
 }
 
-double length_of(const std::vector<Vec2>& points) {
-  double length = 0.0;
-  for (std::size_t i = 1; i < points.size(); ++i) length += norm(points[i] - points[i - 1]);
-  return length;
-}
-
-Vec2 box_of(const std::vector<Vec2>& points) {
-  Vec2 low = points.front(), high = low;
-  for (const Vec2 p : points) {
-    low = {std::min(low.x, p.x), std::min(low.y, p.y)};
-    high = {std::max(high.x, p.x), std::max(high.y, p.y)};
-  }
-  return high - low;
-}
-
-const char* kind_text(const PointSeries& series) {
-  constexpr const char* kSeriesKinds[] = {"points", "route", "single points", "waypoints"};
-  return kSeriesKinds[static_cast<int>(series.kind)];
-}
-
 /// Series of points go on counting where the curves end.
 std::string series_table(const Drawing& drawing) {
   Table table;
@@ -130,19 +110,19 @@ std::string series_table(const Drawing& drawing) {
   table.column("width");
   table.column("height");
   std::vector<double> length;
-  for (const PointSeries& series : drawing.series) length.push_back(length_of(series.points));
+  for (const PointSeries& series : drawing.series) length.push_back(figures_of(series).length);
   const std::vector<std::size_t> shown = rows_worth_showing(length);
   std::size_t before = 0;
   for (const std::size_t i : shown) {
     if (i > before) table.gap();
     before = i + 1;
     const PointSeries& series = drawing.series[i];
-    const Vec2 box = box_of(series.points);
-    const bool closed = series.points.size() > 2 && series.points.front() == series.points.back();
+    const SeriesFigures figures = figures_of(series);
     table.row({std::to_string(drawing.curves.size() + i + 1),
-               fmt::format("{} ({})", series.name, kind_text(series)),
-               std::to_string(series.points.size()), significant(length[i]), closed ? "yes" : "no",
-               significant(box.x), significant(box.y)});
+               fmt::format("{} ({})", series.name, figures.kind),
+               std::to_string(series.points.size()), significant(length[i]),
+               figures.closed ? "yes" : "no", significant(figures.box.x),
+               significant(figures.box.y)});
   }
   return table.text() + shown_note(shown.size(), drawing.series.size(), "longest", "series");
 }
@@ -203,58 +183,6 @@ std::string audit_text(const Drawing& drawing, const std::vector<CurveAudit>& au
   return out;
 }
 
-void add_series(JsonText& json, const Drawing& drawing) {
-  json.key("series").begin_array();
-  for (const PointSeries& series : drawing.series) {
-    const Vec2 box = box_of(series.points);
-    json.begin_object().pair("label", series.name).pair("kind", kind_text(series));
-    json.pair("points", series.points.size()).pair("length", length_of(series.points));
-    json.pair("closed", series.points.size() > 2 && series.points.front() == series.points.back());
-    json.pair("width", box.x).pair("height", box.y).end_object();
-  }
-  json.end_array();
-}
-
-void add_places(JsonText& json, const CurveAudit& a) {
-  json.key("places").begin_array();
-  for (const AuditPlace& place : a.places) {
-    json.begin_object().pair("kind", to_string(place.kind)).pair("s", place.s);
-    json.pair("x", place.point.x).pair("y", place.point.y);
-    json.pair("kappa_before", place.kappa_before).pair("kappa_after", place.kappa_after);
-    json.pair("size", place.size).end_object();
-  }
-  json.end_array();
-}
-
-std::string audit_json(const Drawing& drawing, const std::vector<CurveAudit>& audits,
-                       const std::string& points) {
-  JsonText json;
-  json.begin_object().pair("name", drawing.name);
-  add_units(json, drawing.units);
-  json.key("curves").begin_array();
-  for (const CurveAudit& a : audits) {
-    json.begin_object().pair("label", a.label).pair("pieces", a.contour.pieces.size());
-    json.pair("length", a.length).pair("continuity", a.continuity);
-    json.pair("closed", a.contour.closed);
-    for (const auto& [name, count] :
-         {std::pair{"vertices", a.vertices}, std::pair{"visible_vertices", a.visible_vertices},
-          std::pair{"inflections", a.inflections}}) {
-      json.key(name);
-      a.counted ? json.value(count) : json.null();
-    }
-    json.pair("least_kappa", a.least_kappa).pair("largest_kappa", a.largest_kappa);
-    json.pair("straightened", a.straightened).pair("flat_curvature", a.flat_curvature);
-    add_places(json, a);
-    json.end_object();
-  }
-  json.end_array();
-  add_series(json, drawing);
-  if (!points.empty()) json.key("points").raw(points);
-  json.key("warnings").begin_array();
-  for (const std::string& warning : drawing.warnings) json.value(warning);
-  return json.end_array().end_object().take();
-}
-
 /// The picture is of one curve: the one that was asked for, else the longest.
 const CurveAudit& pictured(const std::vector<CurveAudit>& audits, const ImportOptions& options) {
   if (options.curve && *options.curve < audits.size()) return audits[*options.curve];
@@ -280,20 +208,6 @@ Result<std::vector<std::string>> write_audit_pictures(const AnalyseOptions& opti
   return write_files(*outputs, options.input);
 }
 
-/// What the points of the chosen series say; a warning instead where they say nothing.
-std::string points_report(Drawing& drawing, std::size_t number, bool json) {
-  PointSeries series = drawing.series[number];
-  series.units = drawing.units;
-  const auto analysis = analyse(series.points);
-  if (!analysis) {
-    drawing.warnings.push_back(fmt::format("{}: {}", series.name, analysis.error().what));
-    return {};
-  }
-  add_rounding_warning(series, *analysis);
-  drawing.warnings.insert(drawing.warnings.end(), series.warnings.begin(), series.warnings.end());
-  return json ? series_report_json(series, *analysis) : series_report_text(series, *analysis);
-}
-
 }  // namespace
 
 int audit_drawing(const AnalyseOptions& options) {
@@ -302,24 +216,21 @@ int audit_drawing(const AnalyseOptions& options) {
   if (options.units) {
     if (auto told = take_units(drawing->units, *options.units)) drawing->warnings.push_back(*told);
   }
-  const auto chosen = chosen_curve(*drawing, options.import.curve, options.input);
-  if (!chosen && options.import.curve) return report(chosen.error());
-  std::vector<CurveAudit> audits;
-  for (const DrawnCurve& curve : drawing->curves) audits.push_back(audit(curve, drawing->units));
-  const auto written = write_audit_pictures(options, drawing->name, audits);
-  if (!written) {
-    warn(drawing->warnings);
-    return report(written.error());
+  const auto analysed = analyse_drawing(std::move(*drawing), options.import.curve, options.input);
+  if (!analysed) return report(analysed.error());
+  const auto& [all, audits, points] = *analysed;
+  const auto written = write_audit_pictures(options, all.name, audits);
+  warn(all.warnings);
+  if (!written) return report(written.error());
+  std::string text;
+  if (options.json) {
+    text =
+        audit_json(all, audits, points ? series_report_json(points->series, points->analysis) : "");
+  } else {
+    text = audit_text(all, audits, options.import.curve);
+    if (points) text += "\n" + series_report_text(points->series, points->analysis);
+    if (!written->empty()) text += "\nwritten  " + listed(*written) + "\n";
   }
-  std::string points;
-  if (chosen && *chosen >= audits.size()) {
-    points = points_report(*drawing, *chosen - audits.size(), options.json);
-  }
-  warn(drawing->warnings);
-  std::string text = options.json ? audit_json(*drawing, audits, points)
-                                  : audit_text(*drawing, audits, options.import.curve) +
-                                        (points.empty() ? "" : "\n" + points);
-  if (!written->empty() && !options.json) text += "\nwritten  " + listed(*written) + "\n";
   if (auto done = put(text); !done) return report(done.error());
   return 0;
 }

@@ -3,19 +3,10 @@
 
 #include <utility>
 
-#include "near_name.h"
-#include "option_values.h"
-
 namespace obvid {
 
 Error usage(std::string what, std::string hint) {
   return {ErrorCode::kUsage, std::move(what), {}, std::move(hint)};
-}
-
-std::string did_you_mean(const std::string& typed, const std::vector<std::string>& names,
-                         const std::string& otherwise) {
-  const std::string near = nearest_name(typed, names);
-  return near.empty() ? otherwise : "did you mean " + near + "?";
 }
 
 std::vector<std::string> option_names(const CLI::App& app) {
@@ -46,13 +37,6 @@ Error from_cli(const CLI::ParseError& error, const std::string& name) {
                      dynamic_cast<const CLI::ValidationError*>(&error) != nullptr;
   if (value) return bad_option(what, "", "`obvid " + name + " --help` shows units and defaults");
   return usage(what, "see obvid --help");
-}
-
-Error unknown_name(const std::string& typed, const std::vector<std::string>& names,
-                   const char* option) {
-  std::string all;
-  for (const std::string& name : names) all += (all.empty() ? "available are " : ", ") + name;
-  return bad_option("unknown name '" + typed + "'", option, did_you_mean(typed, names, all));
 }
 
 }  // namespace obvid

@@ -2,21 +2,29 @@
 // Shared by the units that describe commands to CLI11, which is slow to compile.
 #pragma once
 
-#include <CLI/CLI.hpp>
-#include <map>
+#include <CLI/TypeTools.hpp>
+#include <cstdlib>
 #include <string>
+
+/// The double nearest to what was typed. CLI11 itself reads a long double and rounds that again,
+/// which is another number for one value in some thousands. Known before anything of CLI11 uses it.
+template <>
+inline bool CLI::detail::lexical_cast<double>(const std::string& typed, double& value) {
+  char* end = nullptr;
+  value = std::strtod(typed.c_str(), &end);
+  return !typed.empty() && end == typed.c_str() + typed.size();
+}
+
+#include <CLI/CLI.hpp>
 #include <vector>
 
+#include "obvid/core/near_name.h"
 #include "obvid/core/result.h"
+#include "obvid/pipeline/job_values.h"
 
 namespace obvid {
 
 [[nodiscard]] Error usage(std::string what, std::string hint);
-
-/// "did you mean NAME?", or `otherwise` when no name is near.
-[[nodiscard]] std::string did_you_mean(const std::string& typed,
-                                       const std::vector<std::string>& names,
-                                       const std::string& otherwise);
 
 [[nodiscard]] std::vector<std::string> option_names(const CLI::App& app);
 
@@ -27,20 +35,5 @@ namespace obvid {
 
 /// An error of CLI11 in the words of this program.
 [[nodiscard]] Error from_cli(const CLI::ParseError& error, const std::string& name);
-
-/// E203: `typed` is none of the names that an option knows.
-[[nodiscard]] Error unknown_name(const std::string& typed, const std::vector<std::string>& names,
-                                 const char* option);
-
-/// What a name stands for. Error: E203 with the nearest name.
-template <class Value>
-[[nodiscard]] Result<Value> value_named(const std::map<std::string, Value>& values,
-                                        const std::string& typed, const char* option) {
-  const auto at = values.find(typed);
-  if (at != values.end()) return at->second;
-  std::vector<std::string> names;
-  for (const auto& [name, value] : values) names.push_back(name);
-  return fail(unknown_name(typed, names, option));
-}
 
 }  // namespace obvid

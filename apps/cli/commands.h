@@ -15,6 +15,8 @@ int run(const VerifyOptions& options);
 int run(const ExplainOptions& options);
 int run(const SurfaceOptions& options);
 int run(const SurfaceCheckOptions& options);
+int run(const SplineOptions& options);
+int run(const NurbsOptions& options);
 int run(const ToolpathCommand& command);
 
 }  // namespace obvid

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "obvid/pipeline/compare.h"
+#include "interrupt.h"
 
 #include <fmt/format.h>
 
@@ -10,10 +11,10 @@
 #include <vector>
 
 #include "commands.h"
-#include "json_text.h"
 #include "obvid/io/atomic_file.h"
 #include "obvid/io/carriers_svg.h"
 #include "obvid/pipeline/import.h"
+#include "obvid/pipeline/report_json.h"
 #include "outputs.h"
 #include "table.h"
 #include "terminal.h"
@@ -89,14 +90,27 @@ std::string more_vertices_text(const Comparison& compared) {
   return out;
 }
 
+/// Carriers that do better by other spirals than those of the first row.
+std::string other_spirals_text(const Comparison& compared) {
+  const Continuity shown = compared.carriers.front().followed;
+  std::string out;
+  for (const ComparedCarrier& row : compared.carriers) {
+    if (row.refusal || row.followed == shown) continue;
+    out += fmt::format("\n{} follows the {} spirals, and is measured against them",
+                       to_string(row.carrier), to_string(row.followed));
+  }
+  return out;
+}
+
 std::string comparison_text(const PointSeries& series, const Comparison& compared) {
   const Fit& spirals = compared.carriers.front().fit;
   std::string out = series.name.empty() ? "" : bold(series.name) + "\n";
   out += fmt::format(
       "{} points, lengths in {}, tolerance {}\n"
       "error bound: no monotone curve with this one's own tangents and curvatures at the points\n"
-      "is farther from it; joints G1 common tangent, G2 continuous curvature\n\n",
-      spirals.contour.points.size(), series.units.text(), length_text(spirals.report.tolerance));
+      "is farther from it; joints G1 common tangent, G2 continuous curvature{}\n\n",
+      spirals.contour.points.size(), series.units.text(), length_text(spirals.report.tolerance),
+      spirals.contour.continuity == Continuity::kG3 ? ", G3 its slope too" : "");
   out += carrier_table(compared).text();
   for (const ComparedCarrier& row : compared.carriers) {
     if (!row.refusal) continue;
@@ -105,37 +119,8 @@ std::string comparison_text(const PointSeries& series, const Comparison& compare
                        e.where.empty() ? "" : " (" + e.where + ")");
   }
   out += more_vertices_text(compared);
+  out += other_spirals_text(compared);
   return out + (out.back() == '\n' ? "" : "\n");
-}
-
-void add_row(JsonText& json, const ComparedCarrier& row) {
-  json.begin_object().pair("carrier", to_string(row.carrier)).key("refusal");
-  if (row.refusal) {
-    json.begin_object().pair("code", fmt::format("E{}", static_cast<int>(row.refusal->code)));
-    json.pair("what", row.refusal->what).pair("where", row.refusal->where).end_object();
-    json.end_object();
-    return;
-  }
-  const Certificate& certificate = row.fit.certificate;
-  const FitReport& report = row.fit.report;
-  json.null().pair("pieces", row.fit.contour.pieces.size()).key("control_points");
-  row.control_points == 0 ? json.null() : json.value(row.control_points);
-  json.pair("continuity", row.continuity).pair("vertices", certificate.vertices);
-  json.pair("inflections", certificate.inflections).pair("error_bound", report.largest_deviation);
-  json.pair("deviation", or_unknown(report.carrier_deviation));
-  json.pair("outside", or_unknown(report.outside_spirals_region));
-  json.pair("seconds", row.seconds).pair("monotone", certificate.proved);
-  json.pair("reason", certificate.reason).end_object();
-}
-
-std::string comparison_json(const PointSeries& series, const Comparison& compared) {
-  JsonText json;
-  json.begin_object().pair("name", series.name);
-  add_units(json, series.units);
-  json.pair("tolerance", compared.carriers.front().fit.report.tolerance);
-  json.key("carriers").begin_array();
-  for (const ComparedCarrier& row : compared.carriers) add_row(json, row);
-  return json.end_array().end_object().take();
 }
 
 /// Figures that are not defined are empty cells.
@@ -213,10 +198,21 @@ int run(const CompareOptions& options) {
     return report(series.error());
   }
   if (options.units) take_units(*series, *options.units);
-  const Result<Comparison> compared = compare_carriers(*series, options.job, bar.progress());
+  Comparison finished;
+  const Result<Comparison> compared = [&] {
+    const Interrupt interrupt;
+    const RunContext context(bar.progress(), [&interrupt] { return interrupt.asked(); });
+    return compare_carriers(*series, options.job, context, &finished);
+  }();
   bar.clear();
   warn(series->warnings);
-  if (!compared) return report(compared.error());
+  if (!compared) {
+    if (!finished.carriers.empty()) {
+      const auto shown = put(comparison_text(*series, finished));
+      if (!shown) return report(shown.error());
+    }
+    return report(compared.error());
+  }
   std::vector<Output> outputs;
   for (std::size_t i = 0; i < makers.size(); ++i) {
     outputs.push_back({options.outputs[i], {}, makers[i](*series, *compared)});

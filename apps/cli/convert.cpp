@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <fmt/format.h>
-
 #include <filesystem>
 #include <string>
 #include <vector>
@@ -8,7 +6,7 @@
 #include "commands.h"
 #include "obvid/io/contour_json.h"
 #include "obvid/io/read_file.h"
-#include "obvid/pipeline/audit.h"
+#include "obvid/pipeline/drawn_contour.h"
 #include "obvid/pipeline/import.h"
 #include "outputs.h"
 #include "terminal.h"
@@ -24,23 +22,12 @@ Result<StoredContour> from_drawing(const ConvertOptions& options, ExportOptions&
                                    std::vector<std::string>& remarks) {
   const Result<Drawing> drawing = read_drawing(options.input);
   if (!drawing) return fail(drawing.error());
-  const auto chosen = chosen_curve(*drawing, options.import.curve, options.input);
-  if (!chosen) return fail(chosen.error());
-  const std::size_t curves = drawing->curves.size();
-  if (*chosen >= curves && options.import.use != DrawnUse::kExact) {
-    return fail({ErrorCode::kUnsupported, "this is a series of points, not a curve", options.input,
-                 "use `obvid fit`, --drawing exact for its edges, or --curve N for another one", -1,
-                 0.0});
-  }
-  remarks = drawing->warnings;
-  remarks.push_back(options.input + ": " +
-                    chosen_text(*drawing, *chosen, options.import.curve.has_value()));
-  CurveAudit audited = audit(*chosen < curves ? drawing->curves[*chosen]
-                                              : edges_of(drawing->series[*chosen - curves]),
-                             drawing->units);
-  formats.name = audited.label;
-  formats.picture = {drawing->name + ": " + audited.label, as_drawn(audited)};
-  return StoredContour{std::move(audited.contour), std::nullopt, std::move(audited.certificate)};
+  auto drawn = drawn_contour(*drawing, options.import, options.input);
+  if (!drawn) return fail(drawn.error());
+  remarks = std::move(drawn->remarks);
+  formats.name = std::move(drawn->name);
+  formats.picture = std::move(drawn->picture);
+  return std::move(drawn->stored);
 }
 
 Result<StoredContour> from_contour(const ConvertOptions& options) {

@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "commands.h"
-#include "json_text.h"
-#include "near_name.h"
+#include "obvid/core/near_name.h"
+#include "obvid/io/json_text.h"
 #include "terminal.h"
 
 namespace obvid {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "obvid/pipeline/fit.h"
-
-#include <fmt/format.h>
+#include "obvid/pipeline/construction_fit.h"
+#include "obvid/pipeline/refusal.h"
 
 #include <optional>
 #include <string>
@@ -12,6 +12,7 @@
 #include "obvid/pipeline/import.h"
 #include "outputs.h"
 #include "refusal.h"
+#include "space_fit.h"
 #include "suggest.h"
 #include "terminal.h"
 #include "text.h"
@@ -36,9 +37,16 @@ Outcome read_and_fit(const FitOptions& options, ExportOptions& formats, Progress
   if (options.units) take_units(*series, *options.units);
   formats.picture.name = series->name;
   if (!series->label.empty()) formats.name = series->label;
-  Result<Fit> made = fit(*series, options.job, bar.progress());
+  Result<Fit> made = options.construction
+                         ? fit_construction(*series, *options.construction, bar.progress())
+                         : fit(*series, options.job, bar.progress());
   if (made) return {std::move(*made), 0};
-  if (exit_code(made.error().code) == exit_code(ErrorCode::kNoSpiral)) {
+  if (options.construction && made.error().code == ErrorCode::kFixedDataContradict) {
+    const auto range =
+        explain_refusal(*series, options.construction->job, made.error(), bar.progress());
+    return stop(range ? range->error : made.error());
+  }
+  if (!options.construction && exit_code(made.error().code) == exit_code(ErrorCode::kNoSpiral)) {
     return {std::nullopt, tell_refusal(options, *series, made.error(), bar)};
   }
   bar.clear();
@@ -48,24 +56,16 @@ Outcome read_and_fit(const FitOptions& options, ExportOptions& formats, Progress
 
 /// Exit code 5 for what was formed but does not keep its promise.
 int judge_fit(const Fit& made, bool files) {
-  const std::string hint = files ? "the files were written, with this verdict in them" : "";
-  if (!keeps_promise(made.contour.carrier, made.certificate)) {
-    return report({ErrorCode::kNotProved,
-                   "the contour was formed but not proved: " + made.certificate.reason, "", hint});
-  }
-  if (made.report.largest_width > made.report.tolerance) {
-    return report({ErrorCode::kToleranceNotReached,
-                   fmt::format("the region is {} wide, the tolerance is {}",
-                               significant(made.report.largest_width, 4),
-                               significant(made.report.tolerance, 4)),
-                   "", hint});
-  }
-  return 0;
+  auto broken = broken_promise(made);
+  if (!broken) return 0;
+  if (files) broken->hint = "the files were written, with this verdict in them";
+  return report(*broken);
 }
 
 }  // namespace
 
 int run(const FitOptions& options) {
+  if (const auto done = run_in_space(options)) return *done;
   if (options.suggest) return suggest(options);
   Result<std::vector<Output>> outputs = outputs_of(options.outputs, options.input);
   if (!outputs) return report(outputs.error());
@@ -103,6 +103,8 @@ int run(const FitOptions& options) {
     text = fit_report_text(formats.picture.name, *made, written);
   }
   if (auto done = put(text); !done) return report(done.error());
+  // a construction promises nothing: its verdict says what it is
+  if (options.construction) return 0;
   return judge_fit(*made, !written.files.empty());
 }
 

@@ -6,8 +6,7 @@
 #include <cmath>
 #include <limits>
 
-#include "json_text.h"
-#include "obvid/io/contour_json.h"
+#include "obvid/io/verdict.h"
 #include "outputs.h"
 #include "table.h"
 #include "terminal.h"
@@ -88,9 +87,11 @@ std::string time_text(double seconds) {
 
 struct LargestError {
   double value = 0.0;
+  bool known = false;                      // on any segment
   const SegmentReport* segment = nullptr;  // none: not known on any segment, or 0 on all
 
   void meet(double other, const SegmentReport& at) {
+    known = known || !std::isnan(other);
     if (!(other > value)) return;  // unknown ones are not met
     value = other;
     segment = &at;
@@ -101,19 +102,18 @@ struct LargestError {
 std::string error_text(const FitReport& report, const std::string& units) {
   LargestError points_only;
   LargestError chosen;
-  bool known = false;
   for (const SegmentReport& segment : report.segments) {
-    known = known || !std::isnan(segment.points_only_error);
     points_only.meet(segment.points_only_error, segment);
     chosen.meet(segment.deviation, segment);
   }
-  std::string text = known ? significant(points_only.value, 4) + " " + units : "unknown";
-  text += " from the points alone";
+  const auto text_of = [&units](const LargestError& error) {
+    return error.known ? known_length(error.value, units) : "unknown";
+  };
+  std::string text = text_of(points_only) + " from the points alone";
   if (points_only.segment != nullptr) {
     text += fmt::format(" (points {})", points_text(*points_only.segment));
   }
-  text += fmt::format("; {} {} with these tangents and curvatures", significant(chosen.value, 4),
-                      units);
+  text += fmt::format("; {} with these tangents and curvatures", text_of(chosen));
   if (chosen.segment != nullptr) {
     const Vec2 at = chosen.segment->deviation_at;
     text += fmt::format(" (points {}, at {}, {})", points_text(*chosen.segment), significant(at.x),
@@ -127,21 +127,36 @@ std::string given_text(const GivenReport& given) {
   if (given.headings > 0) kinds.push_back(counted(given.headings, "heading", "headings"));
   if (given.curvatures > 0) kinds.push_back(counted(given.curvatures, "radius", "radii"));
   if (given.corners > 0) kinds.push_back(counted(given.corners, "corner", "corners"));
+  const std::size_t ranges = given.heading_ranges + given.curvature_ranges;
+  if (ranges > 0) kinds.push_back(counted(ranges, "range", "ranges"));
   std::string text = listed(kinds) + " met";
   std::vector<std::string> misses;
-  if (given.headings > 0) misses.push_back(significant(given.heading_miss, 2) + " rad");
-  if (given.curvatures > 0) {
+  if (given.headings + given.heading_ranges > 0)
+    misses.push_back(significant(given.heading_miss, 2) + " rad");
+  if (given.curvatures + given.curvature_ranges > 0) {
     misses.push_back(significant(given.curvature_miss, 2) + " of the curvature");
   }
   return misses.empty() ? text : text + "; largest miss " + listed(misses);
 }
 
+/// "at point 5 the greatest heading, at point 10 the least curvature"; "none" where the contour
+/// lies inside all ranges.
+std::string active_text(const std::vector<ActiveRange>& active) {
+  std::string text;
+  for (const ActiveRange& one : active) {
+    text += fmt::format("{}at point {} the {} {}", text.empty() ? "" : ", ", one.point + 1,
+                        one.high ? "greatest" : "least", one.heading ? "heading" : "curvature");
+  }
+  return text.empty() ? "none: the contour lies inside all ranges" : text;
+}
+
 void add_bounds(Facts& facts, const Fit& fit) {
   const FitReport& report = fit.report;
   facts.add("largest error", error_text(report, fit.contour.units.text()));
-  facts.add("largest width",
-            fmt::format("{} {} (tolerance {})", significant(report.largest_width, 4),
-                        fit.contour.units.text(), significant(report.tolerance, 4)));
+  facts.add(
+      "largest width",
+      fmt::format("{} (tolerance {})", known_length(report.largest_width, fit.contour.units.text()),
+                  significant(report.tolerance, 4)));
   facts.add("bound needed",
             counted(report.inserted_points, "inserted element", "inserted elements"));
 }
@@ -159,8 +174,8 @@ std::string kept_text(const Contour& contour, const Certificate& certificate) {
   add(kept.clothoids, "clothoid", "clothoids");
   if (text.empty()) return text;
   const std::size_t made = contour.pieces.size() - contour.kept.size();
-  text += " as drawn; " +
-          counted(static_cast<std::size_t>(certificate.corners), "corner", "corners");
+  text +=
+      " as drawn; " + counted(static_cast<std::size_t>(certificate.corners), "corner", "corners");
   if (certificate.curvature_steps > 0) {
     text += fmt::format(", {} with a step of the curvature",
                         counted(static_cast<std::size_t>(certificate.curvature_steps),
@@ -188,9 +203,11 @@ Facts summary(const Fit& fit, const Written& written) {
   facts.add("fairness", fairness_text(report));
   if (promises_monotone(contour.carrier)) add_bounds(facts, fit);
   const GivenReport& given = report.given;
-  if (given.headings + given.curvatures + given.corners > 0) {
+  const std::size_t ranges = given.heading_ranges + given.curvature_ranges;
+  if (given.headings + given.curvatures + given.corners + ranges > 0) {
     facts.add("given data", given_text(given));
   }
+  if (ranges > 0) facts.add("at an end", active_text(given.active));
   if (report.carrier_deviation && report.outside_spirals_region) {
     const double outside = *report.outside_spirals_region;
     facts.add("from the spirals",
@@ -203,6 +220,19 @@ Facts summary(const Fit& fit, const Written& written) {
     facts.add("largest move", significant(report.largest_move, 4) + " " + contour.units.text());
   }
   add_gaps(facts, fit.certificate, contour.carrier);
+  if (report.waviness) {
+    facts.add("waviness", fmt::format("{} hills of the slope of curvature on a run",
+                                      significant(*report.waviness, 4)));
+  }
+  if (const auto before = report.chain.slope_step_g2) {
+    std::string text =
+        fmt::format("the slope of curvature would step by {} of the largest beside it",
+                    significant(*before, 2));
+    if (const auto waviness = report.chain.waviness_g2) {
+      text += fmt::format(", waviness {}", significant(*waviness, 4));
+    }
+    facts.add("as G2 contour", text);
+  }
   facts.add("time", time_text(report.seconds));
   for (const std::string& remark : written.remarks) facts.add("note", remark);
   if (!written.files.empty()) facts.add("written", listed(written.files));
@@ -217,35 +247,15 @@ void add_gaps(Facts& facts, const Certificate& certificate, Carrier carrier) {
                                  significant(gaps.position, 2), significant(gaps.heading, 2));
   text += carrier == Carrier::kArcs
               ? fmt::format("; curvature steps up to {} (arcs)", significant(gaps.curvature, 2))
+          : !std::isfinite(gaps.curvature)
+              ? ", curvature unknown"
               : fmt::format(", curvature {} of the larger", significant(gaps.curvature, 2));
+  if (gaps.slope) text += fmt::format(", slope of curvature {}", significant(*gaps.slope, 2));
   facts.add("joint gaps", text);
 }
 
-bool keeps_promise(Carrier carrier, const Certificate& certificate) {
-  if (promises_monotone(carrier)) return certificate.proved;
-  return certificate.gaps_within_bounds && certificate.through_points;
-}
-
-namespace {
-
-/// Gaps above are named: what the bounds of certificates call continuous is a number.
-constexpr double kNamedGap = 1e-9;
-
-/// "G2 joints", with the largest gaps where these are worth a word.
-std::string joints_text(Carrier carrier, const JointGaps& gaps) {
-  const bool arcs = carrier == Carrier::kArcs;
-  std::string text = arcs ? "G1 joints" : "G2 joints";
-  const double curvature = arcs ? 0.0 : gaps.curvature;
-  if (gaps.heading <= kNamedGap && curvature <= kNamedGap) return text;
-  text += fmt::format(" within {} rad of heading", significant(gaps.heading, 2));
-  if (!arcs) text += fmt::format(" and {} of curvature", significant(gaps.curvature, 2));
-  return text;
-}
-
-}  // namespace
-
 std::string verdict_line(Carrier carrier, const Certificate& certificate) {
-  const std::string joints = joints_text(carrier, certificate.gaps);
+  const std::string joints = joints_claim(carrier, certificate);
   if (!certificate.proved) {
     const std::string& reason = certificate.reason;
     if (keeps_promise(carrier, certificate)) {
@@ -254,13 +264,8 @@ std::string verdict_line(Carrier carrier, const Certificate& certificate) {
     }
     return fmt::format("NOT proved: {}", reason.empty() ? "no reason recorded" : reason);
   }
-  std::string parted;
-  if (certificate.curvature_steps > 0) {
-    parted = fmt::format(" but for {} of the drawing, G1 with a step of the curvature",
-                         certificate.curvature_steps);
-  }
-  return fmt::format("proved: monotone {} on every run, {}{}, inside the region",
-                     carrier == Carrier::kArcs ? "radii" : "curvature", joints, parted);
+  return fmt::format("proved: monotone {} on every run, {}, inside the region",
+                     carrier == Carrier::kArcs ? "radii" : "curvature", joints);
 }
 
 std::string fit_report_text(const std::string& name, const Fit& fit, const Written& written) {
@@ -276,34 +281,6 @@ std::string fit_report_text(const std::string& name, const Fit& fit, const Writt
   out += fmt::format("\n{}", summary(fit, written).text());
   const std::string verdict = verdict_line(fit.contour.carrier, fit.certificate);
   return out + (fit.certificate.proved ? good(verdict) : bad(verdict)) + "\n";
-}
-
-std::string fit_report_json(const Fit& fit, const Written& written) {
-  // The writer of the contour file decides how report and certificate look; pieces are left out.
-  StoredContour bare;
-  bare.contour.units = fit.contour.units;
-  bare.contour.carrier = fit.contour.carrier;
-  bare.report = fit.report;
-  bare.certificate = fit.certificate;
-  const std::string stored = contour_to_json(bare);
-  JsonText json;
-  json.begin_object();
-  add_units(json, fit.contour.units);
-  json.pair("carrier", to_string(fit.contour.carrier));
-  json.pair("points", fit.contour.points.size()).pair("pieces", fit.contour.pieces.size());
-  const KeptPieces kept = kept_pieces(fit.contour);
-  json.key("taken_over").begin_object().pair("lines", kept.lines).pair("arcs", kept.arcs);
-  json.pair("ellipse_arcs", kept.ellipses).pair("clothoids", kept.clothoids).end_object();
-  json.key("report").raw(top_level_value(stored, "report"));
-  json.key("certificate").raw(top_level_value(stored, "certificate"));
-  json.key("warnings").begin_array();
-  for (const std::string& warning : fit.warnings) json.value(warning);
-  json.end_array().key("written").begin_array();
-  for (const std::string& file : written.files) json.value(file);
-  json.end_array().key("remarks").begin_array();
-  for (const std::string& remark : written.remarks) json.value(remark);
-  json.end_array().end_object();
-  return json.take();
 }
 
 }  // namespace obvid

@@ -2,12 +2,15 @@
 #include "options.h"
 
 #include <algorithm>
+#include <array>
+#include <cctype>
+#include <charconv>
 #include <cmath>
 
 #include "cli_app.h"
-#include "format_values.h"
 #include "obvid/core/version.h"
-#include "option_values.h"
+#include "obvid/pipeline/format_values.h"
+#include "obvid/pipeline/job_values.h"
 
 namespace obvid {
 namespace {
@@ -20,6 +23,8 @@ constexpr const char* kShortHelp =
   obvid region POINTS                                where every such contour must lie
   obvid compare POINTS                               all curve families side by side
   obvid surface skin SECTIONS... -o hull.step        surfaces: skin, revolve, ruled, grid, ...
+  obvid spline TABLE -o spline.csv                   splines that keep given integrals
+  obvid nurbs TABLE --weight-at 4=3 -o curve.step    control points, weights and knots
   obvid toolpath hull.json -o hull.nc                milling with three axes, without gouges
   obvid convert contour.json -o OUT                  another format: STEP, IGES, DXF, G-code, ...
   obvid verify contour.json                          prove a stored contour again
@@ -46,6 +51,11 @@ struct Raw {
   std::string carrier = "spiral";
   TypedValues typed;
   bool no_progress = false;
+  std::string prefer = "fair";
+  std::string construction;
+  std::optional<int> fixation;
+  std::string along;
+  std::vector<std::size_t> insert;
   std::optional<double> tolerance;
   std::optional<std::string> units;
 };
@@ -61,19 +71,22 @@ void add_fixed_data(CLI::App& fit, TypedValues& typed) {
     return fit.add_option(name, value, help)->type_name(type)->group(group);
   };
   add("--start-heading", typed.start_heading, "DEG",
-      "Heading at the first point, degrees counter-clockwise from +x, or natural [natural: free]");
+      "Heading at the first point, degrees counter-clockwise from +x, or a range 40..45, or "
+      "natural "
+      "[natural: free]");
   add("--end-heading", typed.end_heading, "DEG", "Heading at the last point, likewise [natural]");
   add("--start-radius", typed.start_radius, "R",
-      "Radius at the first point, input units, positive turning left, inf straight [free]");
+      "Radius at the first point, input units, positive turning left, inf straight, or a range "
+      "20..30, 20.. or ..30 [free]");
   add("--end-radius", typed.end_radius, "R", "Radius at the last point, likewise [free]");
   const auto add_at = [&](const char* name, auto& value, const char* type, const char* help) {
     add(name, value, type, help)->allow_extra_args(false);
   };
   add_at("--heading-at", typed.heading_at, "I=DEG",
-         "Heading at point I, degrees; points count from 1; may be repeated");
-  add_at("--radius-at", typed.radius_at, "I=R", "Radius at point I, likewise");
+         "Heading at point I, degrees, or a range 40..45; points count from 1; may be repeated");
+  add_at("--radius-at", typed.radius_at, "I=R", "Radius at point I, or a range 20..30, likewise");
   add_at("--kappa-at", typed.kappa_at, "I=K",
-         "Curvature at point I, 1/input unit, positive turning left, likewise");
+         "Curvature at point I, 1/input unit, positive turning left, or a range, likewise");
   add_at("--corner-at", typed.corner_at, "I", "Corner at point I; may be repeated");
 }
 
@@ -105,6 +118,25 @@ void add_real_points(CLI::App& fit, Raw& raw) {
   fit.add_flag("--no-corners", raw.typed.no_corners,
                "Search no corners; marked ones stay (--corner-at, column corner)")
       ->group(group);
+}
+
+void add_space(CLI::App& fit, Raw& raw) {
+  const char* group = "Points in space (x, y, z)";
+  fit.add_option("--along", raw.along,
+                 "Direction of the projection in which the curve is fair: X, Y, Z or three numbers "
+                 "1,0,0.5 [points of a plane: that plane; else the best of its normal, Z, Y, X]")
+      ->type_name("D")
+      ->group(group);
+  fit.add_flag("--flat", raw.fit.flat, "Heights are not used: the contour in the plane of x and y")
+      ->group(group);
+}
+
+void add_fixation(CLI::App& command, Raw& raw) {
+  command
+      .add_option("--fixation", raw.fixation,
+                  "Order of --construction parabolas: 1 points and tangents are met, 2 radii too "
+                  "[1 where every segment has curves with it, else 2]")
+      ->type_name("N");
 }
 
 void add_tolerance(CLI::App& fit, Raw& raw) {
@@ -142,7 +174,7 @@ void add_formats(CLI::App& command, FormatValues& values) {
   command
       .add_option("--output-tolerance", values.tolerance,
                   "Of curves that a format cannot hold exactly, units of the contour [1e-6 of its "
-                  "size]")
+                  "size; arcs and G-code 2e-5, G-code no less than 0.002 mm]")
       ->type_name("T")
       ->group(group);
   command
@@ -181,6 +213,12 @@ void add_formats(CLI::App& command, FormatValues& values) {
                   "plotters [picture]")
       ->type_name("NAME")
       ->group(group);
+  command
+      .add_option("--plot", values.plot,
+                  "What a picture shows over arc length beside the radius: curvature, or slope: "
+                  "d kappa/ds too [curvature]")
+      ->type_name("NAME")
+      ->group(group);
   command.add_option("--step", values.step, "Schema of STEP files: ap214 or ap242 [ap214]")
       ->type_name("NAME")
       ->group(group);
@@ -212,11 +250,31 @@ void add_fit(CLI::App& app, Raw& raw) {
          "(degree 5), all monotone; cubic (near the spirals) and baseline (what CAD systems "
          "draw), not promised to be monotone [spiral]")
       ->type_name("NAME");
+  fit.add_option("--continuity", raw.typed.continuity,
+                 "Spirals with continuous curvature (G2), or with a continuous slope of curvature "
+                 "too: no kinks in its plot (G3) [G2]")
+      ->type_name("NAME");
+  fit.add_option("--prefer", raw.typed.prefer,
+                 "What decides where the data leave a choice: fair (curvature changes as the "
+                 "points show), centre (each heading and radius in the middle of what is left to "
+                 "it), least-change (least integral of the squared change of curvature), "
+                 "least-curvature (least largest curvature) [fair]")
+      ->type_name("NAME");
+  fit.add_option(
+         "--construction", raw.construction,
+         "Instead of a carrier a construction of the papers at the tangents that are given, or "
+         "chosen by --prefer (which then knows neighbours too): arcs (two per segment), "
+         "ellipses (the first through K, equal curvatures), clothoids (one per segment), "
+         "spline (cubic, through points and tangents), parabolas (condensed triangles); its "
+         "table is that of region; --tolerance inserts points [none]")
+      ->type_name("NAME");
+  add_fixation(fit, raw);
   add_tolerance(fit, raw);
   fit.add_flag("--convex", raw.fit.job.convex, "Refuse a contour with inflections");
   add_real_points(fit, raw);
   add_suggest(fit, raw);
   add_fixed_data(fit, raw.typed);
+  add_space(fit, raw);
   add_import(fit, raw.formats);
   add_formats(fit, raw.formats);
   fit.add_option("--units", raw.units, kUnitsHelp)->type_name("NAME");
@@ -247,11 +305,55 @@ void add_readers(CLI::App& app, Raw& raw) {
   add_import(analyse, raw.formats);
   analyse.add_option("--units", raw.units, kUnitsHelp)->type_name("NAME");
   analyse.add_flag("--json", raw.analyse.json, "JSON on standard output instead of the table");
+}
+
+void add_region(CLI::App& app, Raw& raw) {
   CLI::App& region = *app.add_subcommand(
-      "region", "Tangents, radius ranges, heights and widths of the region, per segment");
+      "region",
+      "Worksheet of points and tangents: ranges of headings and radii, heights and widths");
   region.add_option("INPUT", raw.region.input, kInputHelp);
+  region
+      .add_option("-o,--output", raw.region.outputs,
+                  "File to write: .csv, .tex or .json the tables; .svg or .dxf the limiting arcs, "
+                  "adjacent circles, tangents and triangles; may be repeated")
+      ->type_name("OUT")
+      ->allow_extra_args(false);
+  region
+      .add_option("--prefer", raw.prefer,
+                  "Tangents that are not given: fair (as fit chooses them) or centre (each in the "
+                  "middle of what is left to it, point after point) or neighbours (along the chord "
+                  "between both neighbours) or least-change (least integral of the squared change "
+                  "of curvature) or least-curvature (least largest curvature) [fair]")
+      ->type_name("NAME");
+  region
+      .add_option(
+          "--construction", raw.construction,
+          "Also a table (and drawing) of the papers' curves at these tangents: arcs (two per "
+          "segment), ellipses (the first through K, equal curvatures), clothoids (one per "
+          "segment), spline (cubic, through points and tangents), parabolas (condensed triangles) "
+          "[none]")
+      ->type_name("NAME");
+  add_fixation(region, raw);
+  region
+      .add_option("--tolerance", raw.tolerance,
+                  "Insert points until no delta is larger, input units [none inserted]")
+      ->type_name("T");
+  region
+      .add_option("--insert", raw.insert,
+                  "Insert a point in the middle of segment I, which begins at point I; may be "
+                  "repeated")
+      ->type_name("I")
+      ->allow_extra_args(false);
+  add_real_points(region, raw);
+  add_fixed_data(region, raw.typed);
+  add_import(region, raw.formats);
   region.add_option("--units", raw.units, kUnitsHelp)->type_name("NAME");
-  region.add_flag("--json", raw.region.json, "JSON on standard output instead of the table");
+  region.add_flag("--json", raw.region.json, "JSON on standard output instead of the tables");
+  region.footer(
+      "Examples:\n"
+      "  obvid region points.csv -o region.svg -o region.csv\n"
+      "  obvid region points.csv --heading-at 5=80 --end-radius=-500\n"
+      "  obvid region points.csv --prefer centre --insert 9");
 }
 
 void add_compare(CLI::App& app, Raw& raw) {
@@ -264,6 +366,12 @@ void add_compare(CLI::App& app, Raw& raw) {
                   "repeated")
       ->type_name("OUT")
       ->allow_extra_args(false);
+  compare
+      .add_option(
+          "--continuity", raw.typed.continuity,
+          "Of the spirals: continuous curvature (G2), or a continuous slope of curvature too "
+          "(G3); the other carriers follow them where they can [G2]")
+      ->type_name("NAME");
   add_tolerance(compare, raw);
   add_real_points(compare, raw);
   add_fixed_data(compare, raw.typed);
@@ -348,40 +456,134 @@ Result<void> set_units(const std::optional<std::string>& typed, std::optional<Un
 }
 
 Result<void> set_carrier(Raw& raw) {
-  const std::optional<Carrier> carrier = carrier_of(raw.carrier);
-  if (carrier) {
-    raw.fit.job.carrier = *carrier;
-    return {};
-  }
-  std::vector<std::string> names;
-  std::string all;
-  for (const Carrier one : kAllCarriers) {
-    names.emplace_back(to_string(one));
-    all += (all.empty() ? "available are " : ", ") + names.back();
-  }
-  return fail(bad_option("unknown carrier '" + raw.carrier + "'", "--carrier",
-                         did_you_mean(raw.carrier, names, all)));
+  return carrier_named(raw.carrier).map([&](Carrier carrier) { raw.fit.job.carrier = carrier; });
 }
 
 Result<void> set_job(Raw& raw) {
-  if (raw.tolerance && !(*raw.tolerance > 0.0 && std::isfinite(*raw.tolerance))) {
-    return fail(bad_option("the tolerance must be a positive length", "--tolerance",
-                           "give it in the units of the input"));
+  return set_tolerance(raw.tolerance, raw.fit.job).and_then([&] {
+    return set_values(raw.typed, raw.fit.job);
+  });
+}
+
+/// Two points are a curve when the options give headings at both.
+void allow_two_points(const FitJob& job, ImportOptions& import) {
+  if (has_both_headings(job)) import.two_points = TwoPoints::kDo;
+}
+
+/// Tangents that are not given, by name, for constructions and the worksheet.
+struct TangentChoice {
+  TangentRule rule;
+  Prefer prefer;
+};
+
+Result<TangentChoice> tangents_named(const std::string& typed) {
+  return value_named<TangentChoice>(
+      {{"fair", {TangentRule::kFair, Prefer::kFair}},
+       {"centre", {TangentRule::kCentral, Prefer::kFair}},
+       {"neighbours", {TangentRule::kNeighbours, Prefer::kFair}},
+       {"least-change", {TangentRule::kFair, Prefer::kLeastChange}},
+       {"least-curvature", {TangentRule::kFair, Prefer::kLeastCurvature}}},
+      typed, "--prefer");
+}
+
+Result<Construction> construction_named(const std::string& typed) {
+  return value_named<Construction>({{"arcs", Construction::kArcs},
+                                    {"ellipses", Construction::kEllipses},
+                                    {"clothoids", Construction::kClothoids},
+                                    {"spline", Construction::kSpline},
+                                    {"parabolas", Construction::kParabolas}},
+                                   typed, "--construction");
+}
+
+/// Orders are those of parabolas.
+Result<void> check_fixation(const Raw& raw) {
+  if (!raw.fixation) return {};
+  if (*raw.fixation == 0) {
+    return fail(bad_option("order 0 leaves tangents and radii free", "--fixation",
+                           "`fit --carrier beziers` forms such chains"));
   }
-  raw.fit.job.tolerance = raw.tolerance;
-  return set_values(raw.typed, raw.fit.job);
+  if (*raw.fixation != 1 && *raw.fixation != 2) {
+    return fail(bad_option("the order is 1 (tangents) or 2 (radii too)", "--fixation", ""));
+  }
+  if (raw.construction == "parabolas") return {};
+  return fail(
+      bad_option("an order belongs to parabolas", "--fixation", "add --construction parabolas"));
+}
+
+/// The job of a construction; nothing without one. `--prefer` then knows the worksheet's names.
+Result<void> set_construction(Raw& raw) {
+  if (auto done = check_fixation(raw); !done) return done;
+  if (raw.construction.empty()) return {};
+  const auto which = construction_named(raw.construction);
+  if (!which) return fail(which.error());
+  const auto choice = tangents_named(raw.typed.prefer);
+  if (!choice) return fail(choice.error());
+  if (raw.carrier != "spiral") {
+    return fail(bad_option("a construction is its own carrier", "--carrier",
+                           "leave --carrier out, or --construction"));
+  }
+  raw.typed.prefer = "fair";
+  RegionJob job;
+  job.construction = *which;
+  job.fixation = raw.fixation;
+  job.rule = choice->rule;
+  job.job.prefer = choice->prefer;
+  raw.fit.construction = job;
+  return {};
+}
+
+/// X, Y, Z, or three numbers with commas.
+Result<void> set_along(const std::string& typed, std::optional<Vec3>& along) {
+  if (typed.empty()) return {};
+  constexpr std::pair<char, Vec3> kAxes[] = {{'x', {1, 0, 0}}, {'y', {0, 1, 0}}, {'z', {0, 0, 1}}};
+  for (const auto& [letter, axis] : kAxes) {
+    if (typed.size() == 1 && std::tolower(static_cast<unsigned char>(typed[0])) == letter) {
+      along = axis;
+      return {};
+    }
+  }
+  std::array<double, 3> d{};
+  std::size_t count = 0, from = 0;
+  bool fine = true;
+  while (fine && from <= typed.size()) {
+    const std::size_t to = std::min(typed.find(',', from), typed.size());
+    const char *begin = typed.data() + from, *end = typed.data() + to;
+    fine = count < d.size();
+    if (!fine) break;
+    const auto read = std::from_chars(begin, end, d[count++]);
+    fine = read.ec == std::errc{} && read.ptr == end;
+    from = to + 1;
+  }
+  const Vec3 made{d[0], d[1], d[2]};
+  if (!fine || count != d.size() || !(norm(made) > 0.0) || !is_finite(made)) {
+    return fail(bad_option("'" + typed + "' is no direction", "--along",
+                           "X, Y, Z, or three numbers: 1,0,0.5"));
+  }
+  along = made;
+  return {};
 }
 
 Result<Command> checked_fit(Raw& raw) {
   raw.fit.progress = !raw.no_progress;
+  if (auto done = set_along(raw.along, raw.fit.along); !done) return fail(done.error());
   const Result<void> done =
-      set_job(raw)
+      set_construction(raw)
+          .and_then([&] { return set_job(raw); })
           .and_then([&] { return set_carrier(raw); })
           .and_then([&] { return set_formats(raw.formats, raw.fit.formats, raw.fit.profile); })
           .and_then([&] { return set_import(raw.formats, raw.fit.import); })
           .and_then([&] { return set_units(raw.units, raw.fit.units); })
           .and_then([&] { return need(raw.fit.input, "fit", "a file with points"); });
   if (!done) return fail(done.error());
+  allow_two_points(raw.fit.job, raw.fit.import);
+  if (raw.fit.construction) {
+    const Prefer prefer = raw.fit.construction->job.prefer;
+    raw.fit.construction->job = raw.fit.job;
+    raw.fit.construction->job.prefer = prefer;
+    if (raw.fit.suggest) {
+      return fail(bad_option("a construction has no tolerances to suggest", "--suggest", ""));
+    }
+  }
   return Command{raw.fit};
 }
 
@@ -393,6 +595,7 @@ Result<Command> checked_compare(Raw& raw) {
           .and_then([&] { return need(raw.compare.input, "compare", "a file with points"); });
   if (!done) return fail(done.error());
   raw.compare.job = raw.fit.job;
+  allow_two_points(raw.fit.job, raw.compare.import);
   raw.compare.progress = !raw.no_progress && !raw.compare.json && !raw.compare.csv;
   return Command{raw.compare};
 }
@@ -427,6 +630,29 @@ Result<Command> checked_analyse(Raw& raw) {
   return checked_points(raw.analyse, raw, "analyse");
 }
 
+Result<Command> checked_region(Raw& raw) {
+  const auto choice = tangents_named(raw.prefer);
+  if (!choice) return fail(choice.error());
+  raw.region.job.rule = choice->rule;
+  if (auto done = check_fixation(raw); !done) return fail(done.error());
+  if (!raw.construction.empty()) {
+    const auto made = construction_named(raw.construction);
+    if (!made) return fail(made.error());
+    raw.region.job.construction = *made;
+    raw.region.job.fixation = raw.fixation;
+  }
+  for (const std::size_t segment : raw.insert) {
+    if (segment == 0) return fail(bad_option("segments count from 1", "--insert", ""));
+    raw.region.job.insert.push_back(segment - 1);
+  }
+  if (auto done = set_job(raw); !done) return fail(done.error());
+  if (auto done = set_import(raw.formats, raw.region.import); !done) return fail(done.error());
+  raw.region.job.job = raw.fit.job;
+  raw.region.job.job.prefer = choice->prefer;
+  allow_two_points(raw.fit.job, raw.region.import);
+  return checked_points(raw.region, raw, "region");
+}
+
 Result<Command> checked(const CLI::App& app, Raw& raw) {
   if (auto done = check_command(app); !done) return fail(done.error());
   if (auto done = check_all_extras(app); !done) return fail(done.error());
@@ -434,7 +660,7 @@ Result<Command> checked(const CLI::App& app, Raw& raw) {
   if (name == "fit") return checked_fit(raw);
   if (name == "analyse") return checked_analyse(raw);
   if (name == "convert") return checked_convert(raw);
-  if (name == "region") return checked_points(raw.region, raw, "region");
+  if (name == "region") return checked_region(raw);
   if (name == "compare") return checked_compare(raw);
   if (name == "explain") return Command{raw.explain};
   if (auto done = need(raw.verify.input, "verify", "a contour file"); !done) {
@@ -455,6 +681,8 @@ Result<Command> parse_command_line(int argc, const char* const* argv) {
   if (argc < 2) return Command{ShowText{kShortHelp}};
   try {
     if (std::string_view(argv[1]) == "surface") return parse_surface(argc - 1, argv + 1);
+    if (std::string_view(argv[1]) == "spline") return parse_spline(argc - 1, argv + 1);
+    if (std::string_view(argv[1]) == "nurbs") return parse_nurbs(argc - 1, argv + 1);
     if (std::string_view(argv[1]) == "toolpath") return parse_toolpath(argc - 1, argv + 1);
     CLI::App app("Points in, a curvature-continuous, monotone and proved contour out", "obvid");
     app.set_version_flag("--version", std::string("obvid ") + kVersion);
@@ -464,12 +692,15 @@ Result<Command> parse_command_line(int argc, const char* const* argv) {
     Raw raw;
     add_fit(app, raw);
     add_readers(app, raw);
+    add_region(app, raw);
     add_compare(app, raw);
     add_convert(app, raw);
     add_checkers(app, raw);
     // understood apart, listed here
     app.add_subcommand("surface",
                        "Surfaces: skin, ruled, revolve, coons, gordon, grid, offset, check, ...");
+    app.add_subcommand("spline", "Integro-differential splines of one variable, and along points");
+    app.add_subcommand("nurbs", "Curves and surfaces of control points, weights and knots");
     app.add_subcommand("toolpath", "Three-axis milling of a surface as G-code");
     allow_extras(app);
     try {

@@ -6,10 +6,14 @@
 #include <variant>
 #include <vector>
 
+#include "nurbs_options.h"
 #include "obvid/core/result.h"
+#include "obvid/geom/vec3.h"
 #include "obvid/pipeline/export.h"
 #include "obvid/pipeline/fit.h"
 #include "obvid/pipeline/import.h"
+#include "obvid/pipeline/region_table.h"
+#include "spline_options.h"
 #include "surface_options.h"
 #include "toolpath_options.h"
 
@@ -23,7 +27,10 @@ struct FitOptions {
   ExportOptions formats;
   std::string profile;  ///< what --for chose, in words; empty without it
   std::optional<Units> units;
-  bool suggest = false;  ///< how many vertices which tolerance would need
+  std::optional<RegionJob> construction;  ///< of the papers, in place of the job
+  std::optional<Vec3> along;              ///< of points in space: direction of the projection
+  bool flat = false;                      ///< of points in space: heights are not used
+  bool suggest = false;                   ///< how many vertices which tolerance would need
   bool json = false;
   bool quiet = false;
   bool progress = true;
@@ -49,6 +56,9 @@ struct AnalyseOptions {
 
 struct RegionOptions {
   std::string input;
+  std::vector<std::string> outputs;
+  ImportOptions import;
+  RegionJob job;
   std::optional<Units> units;
   bool json = false;
 };
@@ -82,13 +92,15 @@ struct ShowText {
 
 using Command = std::variant<ShowText, FitOptions, AnalyseOptions, RegionOptions, CompareOptions,
                              ConvertOptions, VerifyOptions, ExplainOptions, SurfaceOptions,
-                             SurfaceCheckOptions, ToolpathCommand>;
+                             SurfaceCheckOptions, SplineOptions, NurbsOptions, ToolpathCommand>;
 
 /// Understands the command line. Errors: E201 wrong usage, E203 option not possible.
 [[nodiscard]] Result<Command> parse_command_line(int argc, const char* const* argv);
 
 /// The same for what follows `obvid`: surface KIND ..., toolpath ...
 [[nodiscard]] Result<Command> parse_surface(int argc, const char* const* argv);
+[[nodiscard]] Result<Command> parse_spline(int argc, const char* const* argv);
+[[nodiscard]] Result<Command> parse_nurbs(int argc, const char* const* argv);
 [[nodiscard]] Result<Command> parse_toolpath(int argc, const char* const* argv);
 
 }  // namespace obvid

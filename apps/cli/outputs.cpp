@@ -68,21 +68,4 @@ Result<std::vector<std::string>> write_files(const std::vector<Output>& outputs,
   return names;
 }
 
-std::string noise_option(double tolerance, bool closed, const PointSeries& series) {
-  constexpr int kDigits = 3;  // of tolerances that the library names
-  const std::vector<Vec2>& points = series.points;
-  const bool returns = points.size() > 2 && norm(points.back() - points.front()) <= 2.0 * tolerance;
-  const bool narrower = std::any_of(
-      series.fixed.begin(), series.fixed.end(),
-      [&](const FixedData& data) { return data.tolerance && *data.tolerance < tolerance; });
-  return "--noise " + significant(tolerance, kDigits) + (returns && !closed ? " --open" : "") +
-         (narrower ? " and no smaller tolerance of a point" : "");
-}
-
-std::string listed(const std::vector<std::string>& names) {
-  std::string text;
-  for (const std::string& name : names) text += (text.empty() ? "" : ", ") + name;
-  return text;
-}
-
 }  // namespace obvid

@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "obvid/core/figures.h"
 #include "obvid/core/result.h"
 #include "obvid/pipeline/export.h"
 #include "obvid/series/point_series.h"
@@ -30,22 +31,15 @@ struct FileNotes {
                                                      const std::string& input);
 
 /// Texts of all outputs, in the order of the outputs; a format that makes several files gives
-/// several outputs, their names by suffixes. `notes` get a sentence each for what the formats cannot
-/// hold, and for what may be wrong.
+/// several outputs, their names by suffixes. `notes` get a sentence each for what the formats
+/// cannot hold, and for what may be wrong.
 [[nodiscard]] Result<std::vector<Output>> exported(const std::vector<Output>& outputs,
                                                    const StoredContour& stored,
-                                                   const ExportOptions& options,
-                                                   FileNotes& notes);
+                                                   const ExportOptions& options, FileNotes& notes);
 
 /// Writes all texts, each file whole or not at all; names what was written. Errors: E102; E203, and
 /// nothing is written, where the input or another output would be replaced.
 [[nodiscard]] Result<std::vector<std::string>> write_files(const std::vector<Output>& outputs,
                                                            const std::string& input);
-
-/// "--noise 0.01", as it was tried: with " --open" where the ends would meet within it, and with a
-/// word where points have a smaller tolerance of their own, which `--noise` does not widen.
-[[nodiscard]] std::string noise_option(double tolerance, bool closed, const PointSeries& series);
-/// "a.svg, b.json"
-[[nodiscard]] std::string listed(const std::vector<std::string>& names);
 
 }  // namespace obvid

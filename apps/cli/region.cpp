@@ -1,13 +1,20 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "obvid/pipeline/region_table.h"
+
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <filesystem>
+#include <optional>
 
 #include "commands.h"
-#include "json_text.h"
-#include "obvid/io/read_points.h"
-#include "obvid/pipeline/region_table.h"
+#include "obvid/geom/angle.h"
+#include "obvid/io/atomic_file.h"
+#include "obvid/pipeline/refusal.h"
+#include "obvid/pipeline/region_files.h"
+#include "obvid/pipeline/report_json.h"
 #include "table.h"
 #include "terminal.h"
 #include "text.h"
@@ -15,13 +22,27 @@
 namespace obvid {
 namespace {
 
+constexpr int kHeightDigits = 5, kWidthDigits = 4;
+/// Headings are told to a hundred-thousandth of a degree: their ranges are known to some 1e-6.
+constexpr double kHeadingStep = 1e-5;
+constexpr int kHeadingDigits = 8;
+/// Ranges of headings are known to this (`feasible_data`), rad: only what is farther is outside.
+constexpr double kRangeKnownTo = 1e-6;
+
+std::string degrees_text(double degrees) {
+  const double rounded = std::round(degrees / kHeadingStep) * kHeadingStep;
+  return significant(rounded == 0.0 ? 0.0 : rounded, kHeadingDigits);
+}
+
 /// Least and greatest radius of a range of signed curvatures, each with its sign.
 struct RadiusRange {
   std::string least;
   std::string greatest;
 };
 
-RadiusRange radius_range(double kappa_low, double kappa_high) {
+RadiusRange radius_range(const std::optional<CurvatureRange>& kappa) {
+  if (!kappa) return {"-", "-"};
+  const double kappa_low = kappa->low, kappa_high = kappa->high;
   const bool low_is_larger = std::fabs(kappa_low) > std::fabs(kappa_high);
   const double larger = low_is_larger ? kappa_low : kappa_high;
   const double smaller = low_is_larger ? kappa_high : kappa_low;
@@ -30,86 +51,233 @@ RadiusRange radius_range(double kappa_low, double kappa_high) {
           crosses ? "straight" : radius_text(smaller)};
 }
 
-Table region_segments(const RegionTable& region) {
+std::string measured(const std::optional<double>& length, int digits = kWidthDigits) {
+  return length ? significant(*length, digits) : "-";
+}
+
+std::string heading_text(double theta) {
+  return degrees_text(std::remainder(theta, kFullTurn) / kOneDegree);
+}
+
+/// Both ends near the heading that was taken, so that they can be compared; an end that the points
+/// leave open is marked.
+std::array<std::string, 2> heading_range(const RegionPoint& p) {
+  if (!p.headings) return {"-", "-"};
+  const double turns = std::remainder(p.theta, kFullTurn) - p.theta;
+  const auto text = [&](double theta, bool open) {
+    return degrees_text((theta + turns) / kOneDegree) + (open ? "*" : "");
+  };
+  return {text(p.headings->low, p.headings->low_is_open),
+          text(p.headings->high, p.headings->high_is_open)};
+}
+
+std::vector<double> widths(const RegionPart& part) {
+  std::vector<double> out;
+  for (const RegionRow& row : part.rows) out.push_back(row.width.value_or(0.0));
+  return out;
+}
+
+/// Names of inserted points hold a dot that is no decimal point.
+Table::Align name_align(const RegionPart& part) {
+  const bool inserted = std::any_of(part.points.begin(), part.points.end(),
+                                    [](const RegionPoint& p) { return p.inserted > 0; });
+  return inserted ? Table::Align::kLeft : Table::Align::kDecimal;
+}
+
+std::string how_it_came(const RegionPoint& p) {
+  if (p.inserted > 0) return "inserted";
+  std::string out = p.theta_given ? "given" : "chosen";
+  if (p.kappa_given) out += p.theta_given ? ", radius too" : ", radius given";
+  const bool outside = p.headings && (p.theta < p.headings->low - kRangeKnownTo ||
+                                      p.theta > p.headings->high + kRangeKnownTo);
+  // on an arc there is one heading, and it is that
+  if (outside && p.headings->low < p.headings->high) out += ", OUTSIDE its range";
+  return out;
+}
+
+Table region_points(const RegionPart& part, double size) {
   Table table;
-  table.column("points");
-  table.column("chord");
-  table.column("|i,T|");
-  table.column("|T,i+1|");
-  table.column("least\nradius at i");
-  table.column("greatest\nradius at i");
-  table.column("least\nradius at i+1");
-  table.column("greatest\nradius at i+1");
-  table.column("height\nh");
-  table.column("width\ndelta");
-  std::vector<double> width;
-  for (const RegionRow& row : region.rows) width.push_back(row.width);
+  table.column("point", name_align(part));
+  for (const char* head : {"x", "y", "adjacent\nradius", "heading\ndegrees", "range of\nheadings",
+                           "\nto", "least\nradius", "greatest\nradius"}) {
+    table.column(head);
+  }
+  table.column("heading\nis", Table::Align::kLeft);
+  std::vector<double> value(part.points.size(), 0.0);
+  for (std::size_t i = 0; i < part.rows.size(); ++i) {
+    value[part.rows[i].from] = part.rows[i].width.value_or(0.0);
+  }
   std::size_t before = 0;
-  for (const std::size_t i : rows_worth_showing(width)) {
+  for (const std::size_t i : rows_worth_showing(value)) {
     if (i > before) table.gap();
     before = i + 1;
-    const RegionRow& row = region.rows[i];
-    const RadiusRange start = radius_range(row.kappa_start_low, row.kappa_start_high);
-    const RadiusRange end = radius_range(row.kappa_end_low, row.kappa_end_high);
-    table.row({fmt::format("{}-{}", i + 1, i + 2), significant(row.chord), significant(row.to_apex),
-               significant(row.from_apex), start.least, start.greatest, end.least, end.greatest,
-               significant(row.lower_height, 4), significant(row.width, 4)});
+    const RegionPoint& p = part.points[i];
+    const bool first_again = i > 0 && i + 1 == part.points.size() && p.inserted == 0 &&
+                             p.number == part.points.front().number;
+    if (first_again) break;
+    const RadiusRange radius = radius_range(p.curvatures);
+    const auto headings = heading_range(p);
+    table.row({region_point_name(p), coordinate(p.point.x, size), coordinate(p.point.y, size),
+               p.adjacent_kappa ? radius_text(*p.adjacent_kappa) : "-", heading_text(p.theta),
+               headings[0], headings[1], radius.least, radius.greatest, how_it_came(p)});
   }
   return table;
 }
 
-std::string region_text(const PointSeries& series, const RegionTable& region) {
-  std::vector<double> width;
-  double largest = 0.0;
-  for (const RegionRow& row : region.rows) {
-    width.push_back(row.width);
-    if (row.width > largest) largest = row.width;
+Table region_segments(const RegionPart& part) {
+  Table table;
+  table.column("points", name_align(part));
+  for (const char* head : {"chord", "points-only\nerror", "|i,T|", "|T,i+1|", "height\nh",
+                           "width\ndelta", "\nH", "\nHt", "\nDelta", "\nDelta t", "\nf"}) {
+    table.column(head);
   }
+  std::size_t before = 0;
+  for (const std::size_t i : rows_worth_showing(widths(part))) {
+    if (i > before) table.gap();
+    before = i + 1;
+    const RegionRow& row = part.rows[i];
+    table.row({region_segment_name(part, row), significant(row.chord),
+               measured(row.points_only_error), significant(row.to_apex),
+               significant(row.from_apex), measured(row.lower_height, kHeightDigits),
+               measured(row.width), measured(row.apex_height, kHeightDigits),
+               measured(row.tangent_height, kHeightDigits), measured(row.apex_gap, kHeightDigits),
+               measured(row.tangent_gap, kHeightDigits), measured(row.spline_distance)});
+  }
+  return table;
+}
+
+std::string region_part_text(const PointSeries& series, const RegionPart& part) {
+  double largest = 0.0;
+  std::size_t unknown = 0;
+  for (const RegionRow& row : part.rows) {
+    largest = std::max(largest, row.width.value_or(0.0));
+    if (!row.width) ++unknown;
+  }
+  const double size = bounding_diagonal(series.points);
+  std::string out = region_points(part, size).text() + "\n" + region_segments(part).text();
+  out +=
+      shown_note(rows_worth_showing(widths(part)).size(), part.rows.size(), "widest", "segments");
+  out += fmt::format("\nlargest delta  {} {}\n", significant(largest, kWidthDigits),
+                     series.units.text());
+  if (unknown > 0) {
+    out += fmt::format(
+        "unknown        over {}, where a vertex or half a turn lies between points, or where the "
+        "headings leave no curve\n",
+        counted(unknown, "segment", "segments"));
+  }
+  const bool open = std::any_of(part.points.begin(), part.points.end(), [](const RegionPoint& p) {
+    return p.headings && (p.headings->low_is_open || p.headings->high_is_open);
+  });
+  if (open) {
+    out += "*              the points leave this end open: a right angle from the chord\n";
+  }
+  return out;
+}
+
+std::string construction_text(const RegionTable& region) {
+  const ConstructionTable& made = *region.construction;
+  Table table;
+  table.column("points", name_align(region.last()));
+  for (const std::string& column : made.columns) table.column(column);
+  table.column("", Table::Align::kLeft);
+  for (const ConstructionRow& row : made.rows) {
+    std::vector<std::string> cells{
+        region_segment_name(region.last(), region.last().rows[row.segment])};
+    for (const double value : row.values) {
+      cells.push_back(std::isnan(value) ? "-" : significant(value, kHeightDigits));
+    }
+    cells.push_back(row.remark);
+    table.row(cells);
+  }
+  std::string out = "\n" + table.text();
+  for (const std::string& remark : made.remarks) out += remark + "\n";
+  return out;
+}
+
+std::string region_text(const PointSeries& series, const RegionTable& region) {
   std::string out = series.name.empty() ? "" : bold(series.name) + "\n";
   out += fmt::format(
       "lengths in {}; radius positive where the contour turns left\n"
+      "range of headings: {};\n"
+      "radii: with the headings of the table\n"
       "T: where the tangents at points i and i+1 meet; h: height of the lower boundary above the\n"
-      "chord, delta: width of the region, both over the middle of the chord\n\n",
-      series.units.text());
-  out += region_segments(region).text();
-  out += shown_note(rows_worth_showing(width).size(), width.size(), "widest", "segments");
-  return out + fmt::format("\nlargest delta  {} {}\n", significant(largest, 4), series.units.text());
+      "chord, delta: width of the region, both over the middle of the chord; H, Ht: height of the\n"
+      "triangle of the neighbouring chords, of the tangents; Delta, Delta t: the same above the\n"
+      "lower boundary; f: of the cubic spline through the points from the farther boundary\n\n",
+      series.units.text(),
+      region.closed ? "a curve that keeps all else that is given has none beyond; near the ends\n"
+                      "of the range there may be none that closes"
+                    : "with each of them a curve exists that keeps all else that is given");
+  out += region_part_text(series, region.user);
+  if (region.refined) {
+    const std::size_t more = region.refined->points.size() - region.user.points.size();
+    out += fmt::format("\nwith {} inserted\n\n", counted(more, "point", "points")) +
+           region_part_text(series, *region.refined);
+  }
+  if (region.construction) out += construction_text(region);
+  return out;
 }
 
-std::string region_json(const PointSeries& series, const RegionTable& region) {
-  JsonText json;
-  json.begin_object().pair("name", series.name);
-  add_units(json, series.units);
-  json.key("segments").begin_array();
-  for (const RegionRow& row : region.rows) {
-    json.begin_object().pair("chord", row.chord);
-    json.pair("heading_start", row.theta_start).pair("heading_end", row.theta_end);
-    json.pair("to_apex", row.to_apex).pair("from_apex", row.from_apex);
-    json.pair("kappa_start_low", row.kappa_start_low);
-    json.pair("kappa_start_high", row.kappa_start_high);
-    json.pair("kappa_end_low", row.kappa_end_low).pair("kappa_end_high", row.kappa_end_high);
-    json.pair("lower_height", row.lower_height).pair("width", row.width).end_object();
+/// A file of the worksheet, and what is to be said about it.
+struct RegionFile {
+  std::string path, text;
+  std::string remark;
+};
+
+Result<RegionFile> region_file(const std::string& path, const PointSeries& series,
+                               const RegionTable& region) {
+  std::string ending = std::filesystem::path(path).extension().string();
+  std::transform(ending.begin(), ending.end(), ending.begin(),
+                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  if (ending == ".csv") {
+    return RegionFile{path, region.construction ? construction_csv(region) : region_csv(region),
+                      ""};
   }
-  json.end_array().key("elements").begin_array();
-  for (const Element& element : region.elements) {
-    json.begin_object().key("point").begin_array().value(element.point.x).value(element.point.y);
-    json.end_array().pair("heading", element.theta).pair("kappa", element.kappa).end_object();
+  if (ending == ".tex") return RegionFile{path, region_latex(series, region), ""};
+  if (ending == ".json") return RegionFile{path, region_json(series, region) + "\n", ""};
+  if (ending == ".svg" || ending == ".dxf") {
+    const RegionDrawing drawing = region_drawing(series, region);
+    return RegionFile{path,
+                      ending == ".svg" ? sketch_svg(drawing.sketch) : sketch_dxf(drawing.sketch),
+                      fmt::format("{}: the region is drawn {:g} times wider across its chords",
+                                  path, drawing.magnified)};
   }
-  json.end_array().end_object();
-  return json.take();
+  return fail({ErrorCode::kUnknownFormat, "region writes no such file", path,
+               "possible are .csv, .tex, .json (tables), .svg and .dxf (drawings)"});
 }
 
 }  // namespace
 
 int run(const RegionOptions& options) {
-  Result<PointSeries> series = read_points(options.input);
+  if (auto free = check_outputs(options.outputs, {&options.input, 1}); !free) {
+    return report(free.error());
+  }
+  Result<PointSeries> series = read_series(options.input, options.import);
   if (!series) return report(series.error());
   if (options.units) take_units(*series, *options.units);
   warn(series->warnings);
-  const Result<RegionTable> region = region_table(*series);
+  const Result<RegionTable> region = region_table(*series, options.job);
+  if (!region && region.error().code == ErrorCode::kFixedDataContradict) {
+    const auto range = explain_refusal(*series, options.job.job, region.error(), {});
+    return report(range ? range->error : region.error());
+  }
   if (!region) return report(region.error());
-  const std::string text =
-      options.json ? region_json(*series, *region) : region_text(*series, *region);
+  warn(region->warnings);
+  std::vector<RegionFile> files;
+  for (const std::string& path : options.outputs) {
+    auto file = region_file(path, *series, *region);
+    if (!file) return report(file.error());
+    files.push_back(std::move(*file));
+  }
+  for (const RegionFile& file : files) {
+    if (auto done = write_file(file.path, file.text); !done) return report(done.error());
+  }
+  std::string text = options.json ? region_json(*series, *region) : region_text(*series, *region);
+  if (!options.json) {
+    for (const RegionFile& file : files) {
+      text += fmt::format("written        {}\n", file.remark.empty() ? file.path : file.remark);
+    }
+  }
   if (auto done = put(text); !done) return report(done.error());
   return 0;
 }

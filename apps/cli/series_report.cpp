@@ -8,7 +8,6 @@
 #include <numbers>
 #include <optional>
 
-#include "json_text.h"
 #include "table.h"
 #include "terminal.h"
 #include "text.h"
@@ -24,12 +23,6 @@ const char* change_text(const std::optional<int>& change) {
 }
 
 double degrees(double rad) { return rad * 180.0 / std::numbers::pi; }
-
-/// Turning of the polyline at a point; NaN at the two ends.
-double turning_at(const Analysis& analysis, std::size_t point) {
-  if (point == 0 || point >= analysis.chords.size()) return kNan;
-  return analysis.chords[point].omega - analysis.chords[point - 1].omega;
-}
 
 std::string to_next(const Analysis& analysis, std::size_t point) {
   return point < analysis.chords.size() ? significant(analysis.chords[point].length) : "";
@@ -96,65 +89,6 @@ std::string series_report_text(const PointSeries& series, const Analysis& analys
   out += point_table(analysis).text();
   out += shown_note(rows_worth_showing(worst).size(), worst.size(), "least certain", "points");
   return out + "\n" + facts.text();
-}
-
-namespace {
-
-void add_points(JsonText& json, const Analysis& analysis) {
-  json.key("points").begin_array();
-  for (std::size_t i = 0; i < analysis.circles.size(); ++i) {
-    json.begin_object().pair("kappa", analysis.circles[i].kappa);
-    json.pair("kappa_rounding", analysis.circles[i].rounding);
-    json.pair("turning", turning_at(analysis, i)).end_object();
-  }
-  json.end_array().key("segments").begin_array();
-  for (std::size_t i = 0; i < analysis.chords.size(); ++i) {
-    json.begin_object().pair("chord", analysis.chords[i].length);
-    json.pair("heading", analysis.chords[i].omega);
-    json.pair("direction", analysis.change[i] ? static_cast<double>(*analysis.change[i]) : kNan);
-    json.pair("points_only_error", analysis.points_only_error[i]).end_object();
-  }
-  json.end_array();
-}
-
-}  // namespace
-
-std::string series_report_json(const PointSeries& series, const Analysis& analysis) {
-  JsonText json;
-  json.begin_object().pair("name", series.name);
-  add_units(json, series.units);
-  json.pair("size", analysis.size);
-  add_points(json, analysis);
-  json.key("runs").begin_array();
-  for (const SeriesRun& run : analysis.runs) {
-    json.begin_object().pair("first_point", run.first_chord).pair("last_point", run.last_chord + 1);
-    json.pair("direction", run.direction).end_object();
-  }
-  json.end_array().key("circular").begin_array();
-  for (const CircularStretch& stretch : analysis.stretches) {
-    json.begin_object().pair("first_point", stretch.first).pair("last_point", stretch.last);
-    json.pair("kappa", stretch.kappa).end_object();
-  }
-  json.end_array();
-  json.pair("vertices", analysis.vertices);
-  json.pair("vertices_lower_bound", analysis.vertices_lower_bound);
-  json.pair("inflections", analysis.inflections);
-  json.pair("inflections_lower_bound", analysis.inflections_lower_bound);
-  json.pair("rounding_decided", analysis.rounding_decided);
-  json.pair("largest_turning", analysis.largest_turning);
-  json.key("warnings").begin_array();
-  for (const std::string& warning : series.warnings) json.value(warning);
-  json.end_array().end_object();
-  return json.take();
-}
-
-void add_rounding_warning(PointSeries& series, const Analysis& analysis) {
-  if (analysis.rounding_decided == 0) return;
-  const std::size_t first = analysis.first_rounding_decided;
-  series.warnings.push_back(fmt::format(
-      "the rounding of the coordinates decides which way curvature changes on {}, first between "
-      "points {} and {}",
-      counted(analysis.rounding_decided, "chord", "chords"), first + 1, first + 2));
 }
 
 }  // namespace obvid

@@ -11,10 +11,4 @@ namespace obvid {
 /// What the points of a series alone say: tables and figures.
 [[nodiscard]] std::string series_report_text(const PointSeries& series, const Analysis& analysis);
 
-/// The same as one object.
-[[nodiscard]] std::string series_report_json(const PointSeries& series, const Analysis& analysis);
-
-/// Says where the rounding of the coordinates decides which way the curvature changes.
-void add_rounding_warning(PointSeries& series, const Analysis& analysis);
-
 }  // namespace obvid

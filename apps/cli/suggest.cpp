@@ -7,8 +7,10 @@
 #include <string>
 #include <vector>
 
-#include "json_text.h"
+#include "interrupt.h"
 #include "obvid/io/read_points.h"
+#include "obvid/pipeline/refusal.h"
+#include "obvid/pipeline/report_json.h"
 #include "obvid/pipeline/trade_off.h"
 #include "outputs.h"
 #include "table.h"
@@ -20,11 +22,6 @@ namespace {
 
 constexpr int kSuggestedDigits = 3;
 constexpr double kMilli = 1e3;  // s to ms
-
-constexpr const char* kRule =
-    "of the proved rows the one farthest below the straight line from the first to the last, in a "
-    "chart of vertices over the logarithm of the tolerance; beyond it the vertices fall more "
-    "slowly than on average";
 
 Result<std::vector<Output>> charts_of(const FitOptions& options) {
   Result<std::vector<Output>> outputs = outputs_of(options.outputs, options.input);
@@ -71,7 +68,8 @@ std::string recommendation(const TradeOff& t, const PointSeries& series) {
   return fmt::format("Recommended: {} ({}, moves up to {} {})\nRule: {}.\n",
                      noise_option(row.tolerance, t.closed, series),
                      counted(static_cast<std::size_t>(row.vertices), "vertex", "vertices"),
-                     significant(row.largest_move, kSuggestedDigits), t.units.text(), kRule);
+                     significant(row.largest_move, kSuggestedDigits), t.units.text(),
+                     trade_off_rule());
 }
 
 std::string suggestion_text(const TradeOff& t, const PointSeries& series,
@@ -82,38 +80,6 @@ std::string suggestion_text(const TradeOff& t, const PointSeries& series,
   text += rows_text(t) + "\n" + recommendation(t, series);
   if (!written.empty()) text += fmt::format("written  {}\n", listed(written));
   return text;
-}
-
-std::string suggestion_json(const TradeOff& t, const std::vector<std::string>& warnings,
-                            const std::vector<std::string>& written) {
-  JsonText json;
-  json.begin_object();
-  add_units(json, t.units);
-  json.pair("closed", t.closed).key("rows").begin_array();
-  for (const TradeOffRow& row : t.rows) {
-    json.begin_object().pair("tolerance", row.tolerance);
-    json.pair("formed", row.formed).pair("proved", row.proved).pair("carried", row.carried);
-    json.pair("refusal", row.refusal);
-    if (row.formed) {
-      json.pair("vertices", row.vertices).pair("vertices_lower_bound", row.vertices_lower_bound);
-      json.pair("inflections", row.inflections).pair("pieces", row.pieces);
-      json.pair("largest_move", row.largest_move).pair("seconds", row.seconds);
-    }
-    json.end_object();
-  }
-  json.end_array().key("recommended");
-  if (t.recommended) {
-    json.value(*t.recommended);
-  } else {
-    json.null();
-  }
-  json.pair("rule", kRule);
-  json.key("warnings").begin_array();
-  for (const std::string& warning : warnings) json.value(warning);
-  json.end_array().key("written").begin_array();
-  for (const std::string& file : written) json.value(file);
-  json.end_array().end_object();
-  return json.take();
 }
 
 /// Exit code of a table without any proved row.
@@ -135,10 +101,17 @@ int suggest(const FitOptions& options) {
   bar.tell("reading", 0.0);
   Result<PointSeries> series = read_points(options.input);
   if (series && options.units) take_units(*series, *options.units);
-  const Result<TradeOff> found = series.and_then(
-      [&](const PointSeries& s) { return trade_off(s, options.job, bar.progress()); });
+  TradeOff finished;
+  const Result<TradeOff> found = series.and_then([&](const PointSeries& s) {
+    const Interrupt interrupt;
+    const RunContext context(bar.progress(), [&interrupt] { return interrupt.asked(); });
+    return trade_off(s, options.job, context, &finished);
+  });
   if (!found) {
     bar.clear();
+    if (!finished.rows.empty()) {
+      if (auto done = put(rows_text(finished)); !done) return report(done.error());
+    }
     return report(found.error());
   }
   for (Output& chart : *charts) chart.text = trade_off_svg(*found);
@@ -148,7 +121,7 @@ int suggest(const FitOptions& options) {
   warn(series->warnings);
   std::string text;
   if (options.json) {
-    text = suggestion_json(*found, series->warnings, *written);
+    text = trade_off_json(*found, series->warnings, *written);
   } else if (!options.quiet) {
     text = suggestion_text(*found, *series, *written);
   }

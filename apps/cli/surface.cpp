@@ -8,6 +8,7 @@
 
 #include "commands.h"
 #include "obvid/pipeline/surface_job.h"
+#include "obvid/pipeline/surface_report_json.h"
 #include "outputs.h"
 #include "surface_outputs.h"
 #include "surface_report.h"
@@ -43,22 +44,19 @@ int run(const SurfaceOptions& options) {
   }
   SurfaceExportOptions formats = options.formats;
   formats.lines = made->lines;
-  SurfaceWritten written;
-  if (auto done = write_surface(made->model, *outputs, formats, bar.progress(), written); !done) {
-    bar.clear();
-    return report(done.error());
-  }
+  const auto written =
+      write_surface(made->model, *outputs, formats, bar.progress(), made->warnings);
   bar.clear();
-  made->warnings.insert(made->warnings.end(), written.warnings.begin(), written.warnings.end());
+  if (!written) return report(written.error());
   warn(made->warnings);
   std::string text;
   if (options.json) {
-    text = surface_report_json(*made, written);
+    text = surface_report_json(*made, *written);
   } else if (!options.quiet) {
-    text = surface_report_text(*made, written);
+    text = surface_report_text(*made, *written);
   }
   if (auto done = put(text); !done) return report(done.error());
-  return judge_surface(*made, !written.files.empty());
+  return judge_surface(*made, !written->files.empty());
 }
 
 }  // namespace obvid

@@ -1,15 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <array>
-#include <cmath>
 #include <numbers>
 #include <string>
 #include <vector>
 
 #include "commands.h"
-#include "json_text.h"
+#include "obvid/pipeline/surface_report_json.h"
 #include "obvid/surfacing/check.h"
 #include "outputs.h"
 #include "surface_outputs.h"
@@ -20,8 +17,6 @@
 
 namespace obvid {
 namespace {
-
-constexpr std::array kSides = {"u start", "u end", "v start", "v end"};
 
 std::string range_text(const Extent& extent) {
   return fmt::format("{} to {}", significant(extent.least, 3), significant(extent.most, 3));
@@ -101,24 +96,13 @@ Table joint_table(const SurfaceModel& model, const SurfaceCheck& check) {
     before = i + 1;
     const JointReport& j = check.joints[i];
     const auto side = [&](std::size_t k) {
-      return fmt::format("{}, {}", model.patches[j.patch[k]].name,
-                         kSides[static_cast<std::size_t>(j.side[k])]);
+      return fmt::format("{}, {}", model.patches[j.patch[k]].name, border_name(j.side[k]));
     };
     table.row({side(0), side(1), significant(j.gap, 3),
                significant(j.angle * 180.0 / std::numbers::pi, 3),
                significant(100.0 * j.curvature, 3) + " %", fmt::format("G{}", j.order)});
   }
   return table;
-}
-
-void add_extent(JsonText& json, const char* name, const Extent& extent) {
-  json.key(name).begin_array().value(extent.least).value(extent.most).end_array();
-}
-
-void add_lines(JsonText& json, const char* name, const LineReport& lines) {
-  json.key(name).begin_object().pair("lines", lines.lines).pair("monotone", lines.monotone);
-  json.pair("vertices", lines.vertices).pair("most_vertices", lines.most_vertices);
-  json.pair("inflections", lines.inflections).end_object();
 }
 
 Result<std::vector<SurfaceOutput>> pictures_of(const SurfaceCheckOptions& options) {
@@ -134,23 +118,10 @@ Result<std::vector<SurfaceOutput>> pictures_of(const SurfaceCheckOptions& option
   return outputs;
 }
 
-/// Of all patches together, as the table has them for each.
-CurvatureExtremes extremes_of(const SurfaceCheck& check) {
-  const auto over_all = [&check](Extent PatchReport::*quantity) {
-    Range all{HUGE_VAL, -HUGE_VAL};
-    for (const PatchReport& p : check.patches) {
-      all = {std::min(all.from, (p.*quantity).least), std::max(all.to, (p.*quantity).most)};
-    }
-    return all;
-  };
-  return {over_all(&PatchReport::gaussian), over_all(&PatchReport::mean),
-          over_all(&PatchReport::k1), over_all(&PatchReport::k2)};
-}
-
 }  // namespace
 
 std::string surface_check_text(const SurfaceModel& model, const SurfaceCheck& check,
-                               const SurfaceWritten& written) {
+                               const Written& written) {
   std::string text = patch_table(check).text() + "\n" + line_table(check).text() + "\n";
   if (!check.joints.empty()) text += joint_table(model, check).text() + "\n";
   Facts facts;
@@ -159,39 +130,6 @@ std::string surface_check_text(const SurfaceModel& model, const SurfaceCheck& ch
   for (const std::string& remark : written.remarks) facts.add("note", remark);
   if (!written.files.empty()) facts.add("written", listed(written.files));
   return text + facts.text();
-}
-
-std::string surface_check_json(const SurfaceModel& model, const SurfaceCheck& check,
-                               const SurfaceWritten& written) {
-  JsonText json;
-  json.begin_object().pair("name", model.name);
-  add_units(json, model.units);
-  json.pair("size", check.size).key("patches").begin_array();
-  for (const PatchReport& p : check.patches) {
-    json.begin_object().pair("name", p.name).pair("degree_u", p.degree_u);
-    json.pair("degree_v", p.degree_v).pair("count_u", p.count_u).pair("count_v", p.count_v);
-    json.pair("order_u", p.order_u).pair("order_v", p.order_v).pair("rational", p.rational);
-    json.pair("area", p.area).pair("without_normal", p.without_normal);
-    add_extent(json, "gaussian", p.gaussian);
-    add_extent(json, "mean", p.mean);
-    add_extent(json, "k1", p.k1);
-    add_extent(json, "k2", p.k2);
-    add_lines(json, "along_u", p.along_u);
-    add_lines(json, "along_v", p.along_v);
-    json.end_object();
-  }
-  json.end_array().key("joints").begin_array();
-  for (const JointReport& j : check.joints) {
-    json.begin_object();
-    json.key("patches").begin_array().value(j.patch[0]).value(j.patch[1]).end_array();
-    json.key("sides").begin_array();
-    for (const int side : j.side) json.value(kSides[static_cast<std::size_t>(side)]);
-    json.end_array().pair("gap", j.gap).pair("angle", j.angle).pair("curvature", j.curvature);
-    json.pair("order", j.order).end_object();
-  }
-  json.end_array().key("written").begin_array();
-  for (const std::string& file : written.files) json.value(file);
-  return json.end_array().end_object().take() + "\n";
 }
 
 int run(const SurfaceCheckOptions& options) {
@@ -211,15 +149,12 @@ int run(const SurfaceCheckOptions& options) {
   SurfaceExportOptions formats;
   formats.colouring = SurfaceColouring::kGaussian;
   if (!check.patches.empty()) formats.extremes = extremes_of(check);
-  SurfaceWritten written;
-  if (auto done = write_surface(*model, *outputs, formats, bar.progress(), written); !done) {
-    bar.clear();
-    return report(done.error());
-  }
+  const auto written = write_surface(*model, *outputs, formats, bar.progress(), warnings);
   bar.clear();
+  if (!written) return report(written.error());
   warn(warnings);
-  const std::string text = options.json ? surface_check_json(*model, check, written)
-                                        : surface_check_text(*model, check, written);
+  const std::string text = options.json ? surface_check_json(*model, check, *written)
+                                        : surface_check_text(*model, check, *written);
   if (auto done = put(text); !done) return report(done.error());
   return 0;
 }

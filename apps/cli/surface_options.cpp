@@ -7,9 +7,9 @@
 #include <numbers>
 
 #include "cli_app.h"
-#include "format_values.h"
 #include "obvid/geom/angle.h"
-#include "option_values.h"
+#include "obvid/pipeline/format_values.h"
+#include "obvid/pipeline/job_values.h"
 #include "options.h"
 
 namespace obvid {
@@ -126,6 +126,12 @@ void add_contours(CLI::App& app, RawSurface& raw) {
       ->type_name("DEG")
       ->group(group);
   app.add_flag("--no-corners", raw.typed.no_corners, "Search no corners")->group(group);
+  app.add_option(
+         "--continuity", raw.typed.continuity,
+         "Continuous curvature (G2), or a continuous slope of curvature too, where a contour "
+         "has one (G3) [G2]")
+      ->type_name("NAME")
+      ->group(group);
   app.add_flag("--plain", raw.make.job.plain_when_refused,
                "Sections without a fair contour take the C2 cubic through their points, which is "
                "said [refused]")

@@ -22,22 +22,23 @@ Result<std::vector<SurfaceOutput>> surface_outputs_of(const std::vector<std::str
   return outputs;
 }
 
-Result<void> write_surface(const SurfaceModel& model, const std::vector<SurfaceOutput>& outputs,
-                           const SurfaceExportOptions& options, const Progress& progress,
-                           SurfaceWritten& written) {
+Result<Written> write_surface(const SurfaceModel& model, const std::vector<SurfaceOutput>& outputs,
+                              const SurfaceExportOptions& options, const Progress& progress,
+                              std::vector<std::string>& warnings) {
   SurfaceExporter exporter(model, options, progress);
+  Written written;
   std::vector<std::string> texts;
   for (const SurfaceOutput& output : outputs) {
     auto text = exporter.text(output.format, written.remarks);
     if (!text) return fail(text.error());
     texts.push_back(std::move(*text));
   }
-  written.warnings = exporter.warnings();
+  warnings.insert(warnings.end(), exporter.warnings().begin(), exporter.warnings().end());
   for (std::size_t i = 0; i < outputs.size(); ++i) {
-    if (auto done = write_file(outputs[i].path, texts[i]); !done) return done;
+    if (auto done = write_file(outputs[i].path, texts[i]); !done) return fail(done.error());
     written.files.push_back(outputs[i].path);
   }
-  return {};
+  return written;
 }
 
 }  // namespace obvid

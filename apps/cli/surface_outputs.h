@@ -6,6 +6,7 @@
 
 #include "obvid/core/progress.h"
 #include "obvid/core/result.h"
+#include "obvid/pipeline/report_json.h"
 #include "obvid/pipeline/surface_export.h"
 
 namespace obvid {
@@ -15,22 +16,17 @@ struct SurfaceOutput {
   SurfaceFormat format = SurfaceFormat::kSurface;
 };
 
-/// What was written, and what the user should know about it.
-struct SurfaceWritten {
-  std::vector<std::string> files;
-  std::vector<std::string> remarks;
-  std::vector<std::string> warnings;
-};
-
 /// Formats by endings. Errors: E202 for endings without format, E203 where an input would be
 /// replaced.
 [[nodiscard]] Result<std::vector<SurfaceOutput>> surface_outputs_of(
     const std::vector<std::string>& paths, const std::vector<std::string>& inputs);
 
-/// Forms all texts, then writes all files, each whole or not at all.
-[[nodiscard]] Result<void> write_surface(const SurfaceModel& model,
-                                         const std::vector<SurfaceOutput>& outputs,
-                                         const SurfaceExportOptions& options,
-                                         const Progress& progress, SurfaceWritten& written);
+/// Forms all texts, then writes all files, each whole or not at all. `warnings` get what may be
+/// wrong about them.
+[[nodiscard]] Result<Written> write_surface(const SurfaceModel& model,
+                                            const std::vector<SurfaceOutput>& outputs,
+                                            const SurfaceExportOptions& options,
+                                            const Progress& progress,
+                                            std::vector<std::string>& warnings);
 
 }  // namespace obvid

@@ -5,7 +5,6 @@
 
 #include <algorithm>
 
-#include "json_text.h"
 #include "outputs.h"
 #include "table.h"
 #include "text.h"
@@ -67,6 +66,7 @@ void add_skin_report(const FittedSkin& fitted, const std::string& units, Facts& 
   const Skin& skin = fitted.skin;
   const std::size_t contours = skin.sections.size() - fitted.points;
   std::string text = fmt::format("{} of {} contours proved", fitted.proved, contours);
+  if (fitted.smooth > 0) text += fmt::format(", {} of them G3", fitted.smooth);
   if (fitted.plain > 0) text += fmt::format(", {} plain cubics", fitted.plain);
   if (fitted.points > 0) text += fmt::format(", {} points", fitted.points);
   facts.add("sections", text);
@@ -75,52 +75,14 @@ void add_skin_report(const FittedSkin& fitted, const std::string& units, Facts& 
   if (skin.across.isolines > 0) facts.add("across", across_text(skin.across));
 }
 
-void add_written(const SurfaceWritten& written, Facts& facts) {
+void add_written(const Written& written, Facts& facts) {
   for (const std::string& remark : written.remarks) facts.add("note", remark);
   if (!written.files.empty()) facts.add("written", listed(written.files));
 }
 
-JsonText& add_list(JsonText& json, const char* name, const std::vector<std::string>& list) {
-  json.key(name).begin_array();
-  for (const std::string& one : list) json.value(one);
-  return json.end_array();
-}
-
-void add_patches(const SurfaceModel& model, JsonText& json) {
-  json.key("patches").begin_array();
-  for (const SurfacePatch& patch : model.patches) {
-    json.begin_object().pair("name", patch.name);
-    json.pair("degree_u", patch.surface.degree_u).pair("degree_v", patch.surface.degree_v);
-    json.pair("count_u", patch.surface.count_u()).pair("count_v", patch.surface.count_v());
-    json.pair("rational", !patch.surface.weights.empty()).end_object();
-  }
-  json.end_array();
-}
-
-void add_skin_report(const FittedSkin& fitted, JsonText& json) {
-  json.key("skin").begin_object();
-  json.pair("proved", fitted.proved).pair("plain", fitted.plain).pair("points", fitted.points);
-  json.pair("tolerance", fitted.tolerance);
-  json.pair("matched_by", fitted.skin.matching == SkinMatching::kByPoints ? "points" : "length");
-  json.key("sections").begin_array();
-  for (const SkinSectionReport& s : fitted.skin.sections) {
-    json.begin_object().pair("name", s.name).pair("v", s.parameter).pair("deviation", s.deviation);
-    json.pair("from_points", s.from_points).pair("runs", s.runs).pair("ripple", s.ripple);
-    json.end_object();
-  }
-  json.end_array();
-  const AcrossReport& across = fitted.skin.across;
-  json.key("across").begin_object().pair("isolines", across.isolines).pair("found", across.found);
-  json.pair("forced", across.forced)
-      .pair("beyond", across.beyond)
-      .pair("worst", across.worst)
-      .end_object();
-  json.end_object();
-}
-
 }  // namespace
 
-std::string surface_report_text(const MadeSurface& made, const SurfaceWritten& written) {
+std::string surface_report_text(const MadeSurface& made, const Written& written) {
   const std::string units = made.model.units.text();
   Facts facts;
   facts.add("surface", made.kind);
@@ -136,21 +98,6 @@ std::string surface_report_text(const MadeSurface& made, const SurfaceWritten& w
   std::string text;
   if (made.skin) text = section_table(made.skin->skin.sections).text() + "\n";
   return text + facts.text();
-}
-
-std::string surface_report_json(const MadeSurface& made, const SurfaceWritten& written) {
-  JsonText json;
-  json.begin_object().pair("kind", made.kind).pair("name", made.model.name);
-  add_units(json, made.model.units);
-  json.pair("size", size_of(made.model));
-  json.pair("deviation", made.deviation);
-  for (const auto& [name, value] : made.facts) json.pair(name, value);
-  add_patches(made.model, json);
-  if (made.skin) add_skin_report(*made.skin, json);
-  add_list(json, "warnings", made.warnings);
-  add_list(json, "remarks", written.remarks);
-  add_list(json, "written", written.files);
-  return json.end_object().take() + "\n";
 }
 
 }  // namespace obvid

@@ -9,16 +9,11 @@
 
 namespace obvid {
 
-/// What was made, for the eye and for programs.
-[[nodiscard]] std::string surface_report_text(const MadeSurface& made,
-                                              const SurfaceWritten& written);
-[[nodiscard]] std::string surface_report_json(const MadeSurface& made,
-                                              const SurfaceWritten& written);
+/// What was made, for the eye; for programs: obvid/pipeline/surface_report_json.h.
+[[nodiscard]] std::string surface_report_text(const MadeSurface& made, const Written& written);
 
 /// What was measured.
 [[nodiscard]] std::string surface_check_text(const SurfaceModel& model, const SurfaceCheck& check,
-                                             const SurfaceWritten& written);
-[[nodiscard]] std::string surface_check_json(const SurfaceModel& model, const SurfaceCheck& check,
-                                             const SurfaceWritten& written);
+                                             const Written& written);
 
 }  // namespace obvid

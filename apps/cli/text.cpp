@@ -8,16 +8,8 @@
 
 namespace obvid {
 
-std::string significant(double value, int digits) {
-  if (std::isnan(value)) return "-";
-  if (std::isinf(value)) return value < 0.0 ? "-inf" : "inf";
-  if (value == 0.0) return "0";
-  constexpr double kPlainFrom = 1e-4;
-  constexpr double kPlainTo = 1e7;
-  const double size = std::fabs(value);
-  if (size < kPlainFrom || size >= kPlainTo) return fmt::format("{:.{}e}", value, digits - 1);
-  const int before = static_cast<int>(std::floor(std::log10(size))) + 1;
-  return fmt::format("{:.{}f}", value, std::clamp(digits - before, 0, digits + 3));
+std::string known_length(double value, const std::string& unit) {
+  return std::isnan(value) ? "unknown" : significant(value, 4) + " " + unit;
 }
 
 std::string coordinate(double value, double size) {
@@ -32,10 +24,6 @@ std::string coordinate(double value, double size) {
 
 std::string radius_text(double kappa) {
   return kappa == 0.0 ? "straight" : significant(1.0 / kappa);
-}
-
-std::string counted(std::size_t count, const char* one, const char* many) {
-  return fmt::format("{} {}", count, count == 1 ? one : many);
 }
 
 const char* direction_text(int direction) {

@@ -6,22 +6,19 @@
 #include <string_view>
 #include <vector>
 
+#include "obvid/core/figures.h"
 #include "obvid/core/result.h"
 
 namespace obvid {
 
-/// Number for a table: `digits` significant digits, plain between 1e-4 and 1e7, else with an
-/// exponent; "-" for NaN, "inf" for infinity.
-[[nodiscard]] std::string significant(double value, int digits = 5);
+/// A length with its unit, four digits; NaN as "unknown".
+[[nodiscard]] std::string known_length(double value, const std::string& unit);
 
 /// Coordinate of a place on something of this size: as many decimals as tell a millionth of it.
 [[nodiscard]] std::string coordinate(double value, double size);
 
 /// Radius of a signed curvature for a table; "straight" for 0.
 [[nodiscard]] std::string radius_text(double kappa);
-
-/// "1 vertex", "2 vertices".
-[[nodiscard]] std::string counted(std::size_t count, const char* one, const char* many);
 
 /// Direction of curvature along the way: increasing, decreasing, constant.
 [[nodiscard]] const char* direction_text(int direction);

@@ -1,19 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "obvid/toolpath/toolpath.h"
-
 #include <fmt/format.h>
 
 #include <cmath>
-#include <optional>
 #include <string>
 #include <vector>
 
 #include "commands.h"
-#include "json_text.h"
 #include "obvid/io/atomic_file.h"
 #include "obvid/pipeline/export.h"
 #include "obvid/pipeline/surface_export.h"
 #include "obvid/pipeline/surface_job.h"
+#include "obvid/pipeline/surface_report_json.h"
+#include "obvid/pipeline/toolpath_job.h"
 #include "outputs.h"
 #include "terminal.h"
 #include "text.h"
@@ -49,27 +47,16 @@ Result<std::vector<ToolpathOutput>> outputs_of(const ToolpathCommand& command) {
   return outputs;
 }
 
-/// The path as it is drawn over the surface.
-std::vector<ScenePolyline> drawn(const Toolpath& path) {
-  constexpr double kThinned = 4.0;  // tolerances: not seen in a picture
-  std::vector<ScenePolyline> lines;
-  for (auto& points : cutting_lines(path, kThinned * path.tolerance)) {
-    lines.push_back({std::move(points), "toolpath"});
-  }
-  for (auto& points : rapid_lines(path)) lines.push_back({std::move(points), "rapid"});
-  return lines;
-}
-
 struct Made {
   SurfaceModel model;
-  Toolpath path;
+  MadeToolpath job;
   std::vector<std::string> remarks;
   std::vector<std::string> warnings;
 };
 
 Result<void> fill(ToolpathOutput& output, Made& made, SurfaceExporter& exporter) {
   if (output.kind == Kind::kProgram) {
-    output.text = made.path.program.text;
+    output.text = made.job.path.program.text;
     return {};
   }
   const bool page = output.kind == Kind::kPage;
@@ -79,43 +66,6 @@ Result<void> fill(ToolpathOutput& output, Made& made, SurfaceExporter& exporter)
   return {};
 }
 
-/// Distance of passes on a level place.
-double level_step(const ToolpathOptions& plan) {
-  if (plan.step_over) return *plan.step_over;
-  if (plan.cutter.kind == CutterKind::kFlat) return plan.cutter.diameter / 2.0;
-  const bool ball = plan.cutter.kind == CutterKind::kBall;
-  const double r = ball ? plan.cutter.diameter / 2.0 : plan.cutter.corner_radius;
-  return 2.0 * std::sqrt(2.0 * r * plan.scallop.value_or(r));
-}
-
-/// What is not typed, in the units of the surface.
-ToolpathOptions options_for(const ToolpathCommand& command, const std::string& units) {
-  constexpr double kDiameter = 6.0, kTolerance = 0.01;  // mm
-  constexpr double kScallop = 0.01, kCorner = 0.25;     // diameters
-  ToolpathOptions plan = command.plan;
-  const double mm = millimetres_of(units);
-  const double unit = mm > 0.0 ? mm : 1.0;  // units that machines do not know are refused
-  plan.cutter.diameter = command.diameter.value_or(kDiameter / unit);
-  plan.tolerance = command.tolerance.value_or(kTolerance / unit);
-  if (!plan.scallop && !plan.step_over) plan.scallop = kScallop * plan.cutter.diameter;
-  if (plan.cutter.kind == CutterKind::kBullNose) {
-    plan.cutter.corner_radius = command.corner_radius.value_or(kCorner * plan.cutter.diameter);
-  }
-  return plan;
-}
-
-/// Refuses work without end: a typing error in a length, most likely.
-Result<void> check_effort(const SurfaceModel& model, const ToolpathOptions& plan) {
-  constexpr double kMostPasses = 20'000.0;
-  const double passes = size_of(model) / level_step(plan);
-  if (!(passes > kMostPasses)) return {};  // sizes that are no sizes are refused by the plan
-  return fail({ErrorCode::kBadOption,
-               fmt::format("that would be some {:.2g} passes over {} {}", passes,
-                           significant(size_of(model), 4), model.units.text()),
-               "", "check the units of the surface, --diameter, --scallop and --step-over", -1,
-               passes});
-}
-
 Result<Made> made_from(const ToolpathCommand& command, std::vector<ToolpathOutput>& outputs,
                        ProgressBar& bar) {
   Made made;
@@ -123,19 +73,13 @@ Result<Made> made_from(const ToolpathCommand& command, std::vector<ToolpathOutpu
   auto model = read_surface(command.input, made.warnings);
   if (!model) return fail(model.error());
   made.model = std::move(*model);
-  const ToolpathOptions options = options_for(command, made.model.units.name);
-  if (auto good = check_effort(made.model, options); !good) return fail(good.error());
-  auto path = plan(made.model, options, bar.progress());
+  auto path = make_toolpath(made.model, command.job, bar.progress());
   if (!path) return fail(path.error());
-  made.path = std::move(*path);
-  if (!made.model.units.known()) {
-    made.warnings.push_back("nothing says what a unit is: " + made.model.units.name +
-                            " assumed; `obvid surface convert --units` states it");
-  }
-  made.warnings.insert(made.warnings.end(), made.path.warnings.begin(), made.path.warnings.end());
+  made.job = std::move(*path);
+  made.warnings.insert(made.warnings.end(), made.job.warnings.begin(), made.job.warnings.end());
   SurfaceExportOptions formats;
   formats.view = *surface_view_named(command.view);
-  formats.lines = drawn(made.path);
+  formats.lines = drawn(made.job.path);
   SurfaceExporter exporter(made.model, formats, bar.progress());
   bar.tell("writing", 1.0);
   for (ToolpathOutput& output : outputs) {
@@ -154,8 +98,8 @@ std::string toolpath_place(Vec3 p) {
 }
 
 std::string toolpath_text(const Made& made, const std::vector<std::string>& files) {
-  const ToolpathReport& r = made.path.report;
-  const std::string& unit = made.path.units;
+  const ToolpathReport& r = made.job.path.report;
+  const std::string& unit = made.job.path.units;
   Facts facts;
   facts.add("passes", fmt::format("{}, {} of them between others that left too much", r.passes,
                                   r.added_passes));
@@ -183,49 +127,17 @@ std::string toolpath_text(const Made& made, const std::vector<std::string>& file
                      : ""));
   facts.add("program", fmt::format("{} blocks, {} of them arcs; read back and simulated at places "
                                    "{} {} apart and nearer",
-                                   made.path.program.blocks, made.path.program.arc_blocks,
+                                   made.job.path.program.blocks, made.job.path.program.arc_blocks,
                                    significant(r.spacing, 2), unit));
   for (const std::string& remark : made.remarks) facts.add("note", remark);
   facts.add("written", listed(files));
   return facts.text();
 }
 
-/// Found at a place, and what is nowhere exceeded.
-void add_measured(JsonText& json, const char* name, const ToolpathReport::Measured& measured) {
-  json.key(name).begin_object().pair("found", measured.found).pair("most", measured.most);
-  json.key("place").begin_array();
-  for (const double x : {measured.place.x, measured.place.y, measured.place.z}) json.value(x);
-  json.end_array().end_object();
-}
-
-std::string toolpath_json(const Made& made, const std::vector<std::string>& files) {
-  const ToolpathReport& r = made.path.report;
-  JsonText json;
-  json.begin_object().pair("units", made.path.units).pair("passes", r.passes);
-  json.pair("added_passes", r.added_passes).pair("cutting_length", r.cutting_length);
-  json.pair("plunge_length", r.plunge_length).pair("rapid_length", r.rapid_length);
-  json.pair("minutes", r.minutes).pair("tolerance", made.path.tolerance);
-  add_measured(json, "scallop", r.scallop);
-  add_measured(json, "gouge", r.gouge);
-  json.pair("spacing", r.spacing);
-  json.pair("lifted_points", r.lifted_points).pair("surface_area", r.surface_area);
-  json.pair("hidden_area", r.hidden_area).pair("unreached_area", r.unreached_area);
-  json.pair("unreached_depth", r.unreached_depth).pair("safe_z", r.safe_z);
-  json.pair("blocks", made.path.program.blocks).pair("arc_blocks", made.path.program.arc_blocks);
-  json.key("not_kept").begin_array();
-  for (const Error& error : made.path.not_kept) json.value(error.what);
-  json.end_array();
-  json.key("warnings").begin_array();
-  for (const std::string& warning : made.warnings) json.value(warning);
-  json.end_array().key("written").begin_array();
-  for (const std::string& file : files) json.value(file);
-  return json.end_array().end_object().take() + "\n";
-}
-
 /// Exit code 5 where something is not so that was asked for; the files are written all the same.
 int judge_toolpath(const Made& made) {
   int code = 0;
-  for (Error error : made.path.not_kept) {
+  for (Error error : made.job.path.not_kept) {
     error.hint = "the files were written" + (error.hint.empty() ? "" : "; " + error.hint);
     code = report(error);
   }
@@ -238,7 +150,7 @@ int run(const ToolpathCommand& command) {
   auto outputs = outputs_of(command);
   if (!outputs) return report(outputs.error());
   ProgressBar bar(command.progress);
-  const Result<Made> made = made_from(command, *outputs, bar);
+  Result<Made> made = made_from(command, *outputs, bar);
   if (!made) {
     bar.clear();
     return report(made.error());
@@ -255,7 +167,8 @@ int run(const ToolpathCommand& command) {
   warn(made->warnings);
   std::string text;
   if (command.json) {
-    text = toolpath_json(*made, files);
+    made->job.warnings = made->warnings;
+    text = toolpath_report_json(made->job, {files, made->remarks});
   } else if (!command.quiet) {
     text = toolpath_text(*made, files);
   }

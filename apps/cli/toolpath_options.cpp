@@ -6,7 +6,7 @@
 
 #include "cli_app.h"
 #include "obvid/exchange/surface_svg.h"
-#include "option_values.h"
+#include "obvid/pipeline/job_values.h"
 #include "options.h"
 
 namespace obvid {
@@ -28,10 +28,10 @@ void add_cutter(CLI::App& app, RawToolpath& raw) {
   app.add_option("--cutter", raw.cutter, "ball, flat or bull (rounded corners) [ball]")
       ->type_name("NAME")
       ->group(group);
-  app.add_option("--diameter", command.diameter, "Diameter, units of the surface [6 mm]")
+  app.add_option("--diameter", command.job.diameter, "Diameter, units of the surface [6 mm]")
       ->type_name("D")
       ->group(group);
-  app.add_option("--corner-radius", command.corner_radius,
+  app.add_option("--corner-radius", command.job.corner_radius,
                  "Of a bull-nose cutter, units [a quarter of the diameter]")
       ->type_name("R")
       ->group(group);
@@ -39,7 +39,7 @@ void add_cutter(CLI::App& app, RawToolpath& raw) {
 
 void add_passes(CLI::App& app, RawToolpath& raw) {
   const char* group = "Passes";
-  ToolpathOptions& plan = raw.command.plan;
+  ToolpathOptions& plan = raw.command.job.plan;
   app.add_option("--strategy", raw.strategy,
                  "zigzag (parallel planes), isoparametric (along the patches' parameters) or "
                  "scallop (constant height between passes) [zigzag]")
@@ -57,7 +57,7 @@ void add_passes(CLI::App& app, RawToolpath& raw) {
       ->group(group);
   app.add_flag("--along-v", plan.along_v, "Isoparametric passes along v [along u]")->group(group);
   app.add_flag("--one-way", plan.one_way, "All passes in the same direction")->group(group);
-  app.add_option("--tolerance", raw.command.tolerance,
+  app.add_option("--tolerance", raw.command.job.tolerance,
                  "Deepest gouge of the printed program, units [0.01 mm]")
       ->type_name("T")
       ->group(group);
@@ -69,7 +69,7 @@ void add_passes(CLI::App& app, RawToolpath& raw) {
 
 void add_program(CLI::App& app, RawToolpath& raw) {
   const char* group = "Program";
-  ToolpathOptions& plan = raw.command.plan;
+  ToolpathOptions& plan = raw.command.job.plan;
   app.add_option("--feed", plan.feed, "Feed along passes [1000 mm/min; inches: 40 in/min]")
       ->type_name("F")
       ->group(group);
@@ -94,7 +94,7 @@ Result<void> pick(const std::map<std::string, Value>& values, const std::string&
 
 Result<void> set_toolpath_names(RawToolpath& raw) {
   ToolpathCommand& command = raw.command;
-  ToolpathOptions& plan = command.plan;
+  ToolpathOptions& plan = command.job.plan;
   return pick<CutterKind>({{"ball", CutterKind::kBall},
                            {"flat", CutterKind::kFlat},
                            {"bull", CutterKind::kBullNose}},
@@ -109,11 +109,12 @@ Result<void> set_toolpath_names(RawToolpath& raw) {
         return pick<GcodeController>({{"grbl", GcodeController::kGrbl},
                                       {"linuxcnc", GcodeController::kLinuxCnc},
                                       {"fanuc", GcodeController::kFanuc}},
-                                     raw.controller, "--controller", command.plan.gcode.controller);
+                                     raw.controller, "--controller",
+                                     command.job.plan.gcode.controller);
       })
       .and_then([&] {
         return pick<bool>({{"arcs", true}, {"lines", false}}, raw.motion, "--motion",
-                          command.plan.gcode.arcs);
+                          command.job.plan.gcode.arcs);
       });
 }
 

@@ -5,9 +5,10 @@
 
 #include "commands.h"
 #include "fit_report.h"
-#include "json_text.h"
 #include "obvid/io/contour_json.h"
 #include "obvid/io/read_file.h"
+#include "obvid/pipeline/promise.h"
+#include "obvid/pipeline/report_json.h"
 #include "table.h"
 #include "terminal.h"
 #include "text.h"
@@ -76,11 +77,11 @@ void add_claims(Facts& facts, const StoredContour& stored, const Certificate& fo
   if (stored.report) {
     facts.add("report claims",
               fmt::format(
-                  "{}, {}, largest width {} {}",
+                  "{}, {}, largest width {}",
                   counted(static_cast<std::size_t>(stored.report->vertices), "vertex", "vertices"),
                   counted(static_cast<std::size_t>(stored.report->inflections), "inflection",
                           "inflections"),
-                  significant(stored.report->largest_width, 4), stored.contour.units.text()));
+                  known_length(stored.report->largest_width, stored.contour.units.text())));
   } else {
     facts.add("report claims", "the file holds no report");
   }
@@ -94,20 +95,17 @@ void add_claims(Facts& facts, const StoredContour& stored, const Certificate& fo
   facts.add("gaps within bounds", yes_no(found.gaps_within_bounds));
   facts.add("through all points", yes_no(found.through_points));
   facts.add("inside the region", yes_no(found.inside_region));
+  if (found.corners > 0) facts.add("corners", std::to_string(found.corners));
   facts.add("vertices", std::to_string(found.vertices));
   facts.add("inflections", std::to_string(found.inflections));
   facts.add("self-intersections", std::to_string(found.self_intersections));
-}
-
-bool as_promised(const StoredContour& stored, const Verification& found) {
-  return keeps_promise(stored.contour.carrier, found.certificate) && !found.false_claim;
 }
 
 std::string verification_text(const StoredContour& stored, const Verification& found) {
   Facts facts;
   add_claims(facts, stored, found.certificate);
   facts.add("not checked", listed(found.not_checked));
-  const bool holds = as_promised(stored, found);
+  const bool holds = !broken_promise(stored, found);
   const std::string verdict = found.false_claim
                                   ? "NOT as claimed: " + found.false_claim->what
                                   : verdict_line(stored.contour.carrier, found.certificate);
@@ -115,39 +113,12 @@ std::string verification_text(const StoredContour& stored, const Verification& f
          (holds ? good(verdict) : bad(verdict)) + "\n";
 }
 
-std::string verification_json(const StoredContour& stored, const Verification& found) {
-  StoredContour bare;
-  bare.contour.units = stored.contour.units;
-  bare.contour.carrier = stored.contour.carrier;
-  bare.certificate = found.certificate;
-  const std::string text = contour_to_json(bare);
-  JsonText json;
-  json.begin_object().pair("holds", as_promised(stored, found));
-  json.key("false_claim");
-  if (found.false_claim) {
-    json.begin_object();
-    json.pair("code", fmt::format("E{}", static_cast<int>(found.false_claim->code)));
-    json.pair("what", found.false_claim->what).pair("where", found.false_claim->where).end_object();
-  } else {
-    json.null();
-  }
-  json.key("not_checked").begin_array();
-  for (const std::string& field : found.not_checked) json.value(field);
-  json.end_array().key("certificate").raw(top_level_value(text, "certificate")).end_object();
-  return json.take();
-}
-
 /// What the file says wrongly comes before what could not be proved.
 int judge_contour_file(const StoredContour& stored, const Verification& found,
                        const std::string& input) {
-  if (found.false_claim) {
-    Error error = *found.false_claim;
-    if (error.where.empty()) error.where = input;
-    return report(error);
-  }
-  if (!keeps_promise(stored.contour.carrier, found.certificate)) {
-    return report({ErrorCode::kNotProved, "the contour is not proved: " + found.certificate.reason,
-                   input, ""});
+  if (auto error = broken_promise(stored, found)) {
+    if (error->where.empty()) error->where = input;
+    return report(*error);
   }
   return 0;
 }

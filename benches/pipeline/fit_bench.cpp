@@ -9,6 +9,7 @@
 #include "obvid/contour/arcs.h"
 #include "obvid/contour/spirals.h"
 #include "obvid/pipeline/fit.h"
+#include "obvid/pipeline/live_fit.h"
 #include "obvid/series/analysis.h"
 
 namespace {
@@ -53,6 +54,48 @@ void fit_of_a_spiral(benchmark::State& state) {
       benchmark::Counter::kIsIterationInvariantRate | benchmark::Counter::kInvert);
 }
 BENCHMARK(fit_of_a_spiral)->RangeMultiplier(10)->Range(10, 1000000)->Unit(benchmark::kMicrosecond);
+
+/// The same with continuous slopes of curvature.
+void smooth_fit_of_a_spiral(benchmark::State& state) {
+  PointSeries series;
+  series.points = spiral_points(static_cast<std::size_t>(state.range(0)));
+  FitJob job;
+  job.continuity = Continuity::kG3;
+  bool proved = true;
+  double gap = 0.0, steps = 0.0;
+  for (auto _ : state) {
+    const auto result = fit(series, job);
+    proved = proved && result && result->certificate.proved && result->certificate.gaps.slope;
+    if (!proved) break;
+    gap = *result->certificate.gaps.slope;
+    steps = result->certificate.slope_steps;
+  }
+  if (!proved) state.SkipWithError("not proved");
+  state.counters["slope_gap"] = gap;
+  state.counters["slope_steps"] = steps;
+}
+BENCHMARK(smooth_fit_of_a_spiral)->Arg(10)->Arg(1000)->Arg(100000)->Unit(benchmark::kMicrosecond);
+
+/// One point of many moves to and fro, directions as they are: its neighbourhood is chosen again,
+/// everything proved.
+void refit_after_a_move(benchmark::State& state) {
+  PointSeries series;
+  series.points = spiral_points(static_cast<std::size_t>(state.range(0)));
+  FitJob job;
+  job.continuity = state.range(1) == 3 ? Continuity::kG3 : Continuity::kG2;
+  Watch watch;
+  auto live = LiveFit::form(series, job, watch);
+  const std::size_t i = series.points.size() / 2;
+  const Vec2 at = series.points[i], by = 1e-5 * (series.points[i + 1] - at);
+  bool done = live && live->move_point(i, at, watch).has_value();
+  int round = 0;
+  for (auto _ : state) {
+    const auto change = live->move_point(i, at + (++round % 2) * left_normal(by), watch);
+    done = done && change && !change->whole && live->certificate().proved;
+  }
+  if (!done) state.SkipWithError("the whole was formed again");
+}
+BENCHMARK(refit_after_a_move)->ArgsProduct({{1000, 100000}, {2, 3}})->Unit(benchmark::kMicrosecond);
 
 void fit_of_the_reference_series(benchmark::State& state) {
   PointSeries series;

@@ -50,14 +50,15 @@ struct Kinds {
 Kinds kinds_of(Carrier carrier) {
   switch (carrier) {
     case Carrier::kSpiral:
-      // in closed form but for what keeps the digits of curvature at joints (curve/end_curvatures.h)
+      // in closed form but for what keeps the digits of curvature at joints
+      // (curve/end_curvatures.h)
       return {"rational quartics, arcs and lines", true, true, false,
               [](const RationalBezier& b) { return b.degree == 4; }};
     case Carrier::kArcs:
       return {"arcs and lines", true, true, false, nullptr};
     case Carrier::kConics:
-      return {"ellipse arcs, arcs and lines", true, true, false,
-              [](const RationalBezier& b) { return b.degree == 2 && is_ellipse(b); }};
+      return {"arcs of ellipses and hyperbolas, arcs and lines", true, true, false,
+              [](const RationalBezier& b) { return b.degree == 2 && !is_polynomial(b); }};
     case Carrier::kBeziers:
       return {"parabolas and lines", true, false, false,
               [](const RationalBezier& b) { return b.degree == 2 && is_polynomial(b); }};
@@ -99,6 +100,13 @@ std::optional<ForeignPiece> foreign_piece(const Contour& contour) {
         i, fmt::format("carrier {} has {}, not {}", to_string(contour.carrier), kinds.text, what)};
   }
   return std::nullopt;
+}
+
+bool keeps_foreign_pieces(const Contour& contour) {
+  const Kinds kinds = kinds_of(contour.carrier);
+  return std::any_of(contour.kept.begin(), contour.kept.end(), [&](std::size_t i) {
+    return i < contour.pieces.size() && !belongs(kinds, contour.pieces[i]);
+  });
 }
 
 }  // namespace obvid

@@ -8,7 +8,7 @@
 
 #include "crossings.h"
 #include "joints.h"
-#include "monotone_parts.h"
+#include "known_pieces.h"
 #include "obvid/certify/limits.h"
 #include "obvid/numeric/internal/strict_arithmetic.h"
 #include "piece_facts.h"
@@ -43,7 +43,8 @@ class DirectionChanges {
 /// Collects the claims of a contour one after the other; the first that fails is the reason.
 class Notary {
  public:
-  explicit Notary(const Contour& contour) : contour_(contour) {}
+  Notary(const Contour& contour, Watch& watch, PieceMemory::Pieces* known = nullptr)
+      : contour_(contour), watch_(watch), known_(known) {}
 
   Certificate run() {
     if (std::string reason = unfit(); !reason.empty()) {
@@ -51,8 +52,11 @@ class Notary {
       certificate_.reason = std::move(reason);
       return std::move(certificate_);
     }
+    if (known_ != nullptr) known_->learn(contour_, watch_);
+    if (watch_.was_cancelled()) return {};
     examine_pieces();
-    joints_ = survey_joints(contour_, parts_);
+    if (watch_.was_cancelled()) return {};
+    joints_ = survey_joints(contour_, bends_, known_ != nullptr ? &known_->list : nullptr);
     check_joints();
     check_points();
     check_runs();
@@ -82,7 +86,10 @@ class Notary {
     }
     if (contour_.pieces.empty()) return "the contour has no pieces";
     const auto number = out_of_range(contour_);
-    if (!number) return {};
+    if (!number) {
+      const auto joint = joint_without_curvature(contour_);
+      return joint ? fmt::format("element {} has no curvature", *joint + 1) : "";
+    }
     return number->list.empty()
                ? number->what
                : fmt::format("{} ({} {})", number->what, number->list, number->index);
@@ -95,35 +102,41 @@ class Notary {
   void examine_pieces() {
     const std::size_t n = contour_.pieces.size();
     certificate_.pieces.reserve(n);
-    for (std::size_t i = 0; i < n; ++i) {
-      const PieceFacts facts = examine_piece(contour_.pieces[i]);
+    for (std::size_t i = 0; i < n && !watch_.cancelled(); ++i) {
+      const PieceFacts facts =
+          known_ != nullptr ? known_->list[i].facts : examine_piece(contour_.pieces[i]);
       certificate_.pieces.push_back(facts.proof);
+      certificate_.pieces.back().turns_below_half = facts.turns_below_pi;
       before_.push_back(static_cast<std::int8_t>(facts.first_change));
       after_.push_back(static_cast<std::int8_t>(facts.last_change));
       report_verdict(i, facts.proof);
-      if (facts.proof.verdict == Verdict::kHasVertex) add_parts(i);
+      if (facts.proof.verdict == Verdict::kHasVertex) follow_inside(i);
       if (!facts.turns_below_pi) {
         forward_ = false;
-        fail(fmt::format("piece {} is not proved to turn by less than half a turn", i));
+        fail(fmt::format("piece {} is not proved to turn by less than half a turn", i + 1));
       }
     }
   }
 
-  void add_parts(std::size_t i) {
+  /// The proof of one vertex does not say how many there are.
+  void follow_inside(std::size_t i) {
     const auto* bezier = std::get_if<RationalBezier>(&contour_.pieces[i]);
     if (bezier == nullptr) return;
-    parts_.emplace(i, monotone_parts(*bezier));
-    // the proof of one vertex does not say how many there are
+    bends_.emplace(i, curvature_signs(*bezier));
     changes_.emplace(i, curvature_changes(*bezier));
+  }
+
+  static std::string place_of(const PieceProof& proof) {
+    const std::string from = fmt::format("{:.6g}", proof.t0), to = fmt::format("{:.6g}", proof.t1);
+    return from == to ? "at t = " + from : fmt::format("between t = {} and {}", from, to);
   }
 
   void report_verdict(std::size_t i, const PieceProof& proof) {
     const bool vertex = proof.verdict == Verdict::kHasVertex;
     if (!vertex && proof.verdict != Verdict::kUndecided) return;
     monotone_ = false;
-    fail(vertex ? fmt::format("piece {} has a vertex between t = {:.6g} and {:.6g}", i, proof.t0,
-                              proof.t1)
-                : fmt::format("the curvature of piece {} could not be decided", i));
+    fail(vertex ? fmt::format("piece {} has a vertex {}", i + 1, place_of(proof))
+                : fmt::format("the curvature of piece {} could not be decided", i + 1));
   }
 
   void check_joints() {
@@ -133,6 +146,7 @@ class Notary {
     certificate_.inflections = joints_.inflections;
     certificate_.corners = joints_.corners;
     certificate_.curvature_steps = joints_.curvature_steps;
+    certificate_.slope_steps = joints_.slope_steps;
     certificate_.gaps_within_bounds = joints_.within_bounds;
     if (contour_.joints.size() != expected) {
       certificate_.gaps_within_bounds = joints_.within_bounds = false;
@@ -147,16 +161,20 @@ class Notary {
     if (contour_.point_tolerance.size() != contour_.points.size()) {
       return "there is not one tolerance for every point";
     }
-    const std::vector<Nearest> places = nearest_places(contour_);
+    const std::vector<Nearest> places = nearest_places(contour_, watch_);
     std::string reason;
     for (std::size_t i = 0; i < places.size(); ++i) {
       const double distance = places[i].distance;
       certificate_.largest_move = std::max(certificate_.largest_move, distance);
       if (distance <= allowed_distance(contour_, i) || !reason.empty()) continue;
-      reason = fmt::format("the contour passes point {} at {:.9g}, its tolerance is {:.9g}", i,
+      reason = fmt::format("the contour passes point {} at {:.9g}, its tolerance is {:.9g}", i + 1,
                            distance, contour_.point_tolerance[i]);
     }
-    return reason.empty() ? out_of_order(contour_, places) : reason;
+    if (!reason.empty()) return reason;
+    const std::vector<std::size_t> disorder = out_of_order(contour_, places);
+    if (disorder.empty()) return {};
+    return fmt::format("the contour does not pass point {} after the points before it",
+                       disorder.front() + 1);
   }
 
   void check_points() {
@@ -172,14 +190,14 @@ class Notary {
       const Run& run = contour_.runs[r];
       if (run.first_piece != next || run.last_piece < run.first_piece ||
           run.last_piece >= contour_.pieces.size()) {
-        return refuse_runs(fmt::format("run {} does not continue the run before it", r));
+        return refuse_runs(fmt::format("run {} does not continue the run before it", r + 1));
       }
       for (std::size_t i = run.first_piece; i <= run.last_piece; ++i) check_piece_in_run(r, i);
       check_jump_before_run(r);
       next = run.last_piece + 1;
     }
     if (next != contour_.pieces.size()) {
-      refuse_runs(fmt::format("no run covers piece {}", next));
+      refuse_runs(fmt::format("no run covers piece {}", next + 1));
     }
   }
 
@@ -196,19 +214,20 @@ class Notary {
     const Run& run = contour_.runs[r];
     const auto against = [&run](int sign) { return sign != 0 && sign != run.direction; };
     if (against(before_[i]) || against(after_[i])) {
-      refuse_runs(fmt::format("run {} claims {} curvature, piece {} is {}", r, word(run.direction),
-                              i, to_string(certificate_.pieces[i].verdict)));
+      refuse_runs(fmt::format("run {} claims {} curvature, piece {} is {}", r + 1,
+                              word(run.direction), i + 1,
+                              to_string(certificate_.pieces[i].verdict)));
     }
     if (i == run.first_piece) return;
     if (is_parted(i)) {
-      refuse_runs(fmt::format("run {} continues over the {} at joint {}", r,
+      refuse_runs(fmt::format("run {} continues over the {} at joint {}", r + 1,
                               is_corner(contour_.joints[i]) ? "corner" : "step of the curvature",
-                              i));
+                              i + 1));
     }
     if (against(joints_.jump[i])) {
       refuse_runs(
-          fmt::format("run {} claims {} curvature, which jumps the other way before piece {}", r,
-                      word(run.direction), i));
+          fmt::format("run {} claims {} curvature, which jumps the other way before piece {}",
+                      r + 1, word(run.direction), i + 1));
     }
   }
 
@@ -220,8 +239,8 @@ class Notary {
     const int jump = joints_.jump[run.first_piece];
     if (!is_parted(run.first_piece) && jump != 0 && jump != run.direction &&
         jump != before.direction) {
-      refuse_runs(
-          fmt::format("curvature jumps before piece {} against both its runs", run.first_piece));
+      refuse_runs(fmt::format("curvature jumps before piece {} against both its runs",
+                              run.first_piece + 1));
     }
   }
 
@@ -230,7 +249,7 @@ class Notary {
     for (std::size_t i = 0; i < contour_.pieces.size(); ++i) {
       changes.add(joints_.jump[i]);
       if (const auto found = changes_.find(i); found != changes_.end()) {
-        for (const int sign : found->second) changes.add(sign);
+        for (const SignFrom& change : found->second) changes.add(change.sign);
         continue;
       }
       changes.add(before_[i]);
@@ -241,10 +260,12 @@ class Notary {
   }
 
   const Contour& contour_;
+  Watch& watch_;
+  PieceMemory::Pieces* known_;  ///< null: nothing
   Certificate certificate_;
   JointSurvey joints_;
-  MonotoneParts parts_;
-  std::map<std::size_t, std::vector<int>> changes_;  ///< of pieces with vertices
+  PieceBends bends_;                                      ///< of pieces with vertices
+  std::map<std::size_t, std::vector<SignFrom>> changes_;  ///< of the same
   std::vector<std::int8_t> before_;  ///< sign of d kappa at the start of each piece
   std::vector<std::int8_t> after_;   ///< and at its end; they differ around a vertex
   bool monotone_ = true;
@@ -253,6 +274,15 @@ class Notary {
 
 }  // namespace
 
-Certificate certify(const Contour& contour) { return Notary(contour).run(); }
+Certificate certify(const Contour& contour) {
+  Watch nobody;
+  return certify(contour, nobody);
+}
+
+Certificate certify(const Contour& contour, Watch& watch) { return Notary(contour, watch).run(); }
+
+Certificate certify(const Contour& contour, PieceMemory& memory, Watch& watch) {
+  return Notary(contour, watch, memory.pieces_.get()).run();
+}
 
 }  // namespace obvid

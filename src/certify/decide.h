@@ -164,11 +164,21 @@ template <int N, class S>
                   speed == Speed::kForward);
 }
 
+/// Signs of the curvature from 0 to 1; false where they are not sure.
+template <int N, class S>
+[[nodiscard]] bool bend_signs(const ControlDifferences<N, S>& p,
+                              const std::array<double, 3 * N - 5>& majorant,
+                              std::vector<SignFrom>& signs) {
+  signs.clear();
+  return SignSearch<S>{}.sequence(
+      plain_form(determinant<false>(p), majorant, form::Roundings<N>::kDeterminant), signs);
+}
+
 /// Signs of the test polynomial from 0 to 1; false where they are not sure.
 template <int N, class S>
-[[nodiscard]] bool sign_changes(const ControlDifferences<N, S>& p,
+[[nodiscard]] bool change_signs(const ControlDifferences<N, S>& p,
                                 const CurvatureForm<N, double>& majorant,
-                                std::vector<int>& signs) {
+                                std::vector<SignFrom>& signs) {
   const CurvatureForm<N, S> f = curvature_form<false>(p);
   signs.clear();
   return SignSearch<S>{}.sequence(plain_form(f.test, majorant.test, form::Roundings<N>::kTest),

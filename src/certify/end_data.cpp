@@ -39,7 +39,8 @@ PieceEnds ends_of(const LinePiece& line) {
   end.direction = line.end - line.start;
   const double length = std::hypot(end.direction.x, end.direction.y);
   end.heading_error = kOfDifference * kUnitRoundoff;
-  end.heading_rounding = kStored * (1.0 + (largest_coordinate(line.start) + largest_coordinate(line.end)) / length);
+  end.heading_rounding =
+      kStored * (1.0 + (largest_coordinate(line.start) + largest_coordinate(line.end)) / length);
   ends.end = end;
   ends.start.point = line.start;
   ends.end.point = line.end;
@@ -135,6 +136,11 @@ PieceEnds ends_of(const ClothoidPiece& piece) {
   ends.end.kappa = piece.kappa1;
   for (EndData* end : {&ends.start, &ends.end}) {
     end->kappa_rounding = kStored * std::abs(end->kappa);
+    constexpr double kOfSlope = 2.0;
+    end->slope = (piece.kappa1 - piece.kappa0) / piece.length;
+    end->slope_error = kOfSlope * kUnitRoundoff * std::abs(end->slope);
+    end->slope_rounding =
+        kStored * (std::abs(piece.kappa0) + std::abs(piece.kappa1)) / piece.length;
   }
   return ends;
 }
@@ -153,10 +159,48 @@ Leg leg_of(const RationalBezier& piece, std::size_t from, std::size_t to, double
   return {difference(a.x, b.x), difference(a.y, b.y)};
 }
 
+/// With v1, v2, v3 from the end on and L = |v1|, at either end (a curve read backwards has the same
+/// slope): d kappa/ds = (n-1) w0 / (n^2 w1^4 L^6) F,
+/// F = (n-2) w0 w1 w3 L^2 v1 x v3 - 3 w2 (v1 x v2) ((n-1) w0 w2 v1 . v2 - n w1^2 L^2).
+/// F is a small difference where curvature changes slowly: double doubles, with a bound of the
+/// error by the sum of the terms.
+void add_slope(EndData& end, const RationalBezier& piece, bool at_start, double scale,
+               const Leg& one, const Leg& two, double moved) {
+  const int n = piece.degree;
+  const auto at = [&](int j) { return static_cast<std::size_t>(at_start ? j : n - j); };
+  const auto weight = [&](int j) { return DoubleDouble{piece.weight[at(j)], 0.0}; };
+  const DoubleDouble w0 = weight(0), w1 = weight(1), w2 = weight(2);
+  const DoubleDouble w3 = n > 2 ? weight(3) : DoubleDouble{};
+  const Leg three = n > 2 ? leg_of(piece, at(0), at(3), scale) : Leg{};
+  const auto cross_of = [&](const Leg& v) { return one.x * v.y - one.y * v.x; };
+  const auto dot_of = [&](const Leg& v) { return one.x * v.x + one.y * v.y; };
+  const auto reach = [](const Leg& v) { return std::abs(v.x.hi) + std::abs(v.y.hi); };
+  const DoubleDouble square = dot_of(one);
+  const DoubleDouble first = w0 * w1 * w3 * square * cross_of(three) * (n - 2);
+  const DoubleDouble second =
+      w2 * cross_of(two) * (w0 * w2 * dot_of(two) * (n - 1) - w1 * w1 * square * n) * 3;
+  const DoubleDouble form = first - second;
+  // the same with all terms positive
+  const double l = reach(one), most0 = std::abs(w0.hi), most1 = std::abs(w1.hi);
+  const double terms =
+      (n - 2) * most0 * most1 * std::abs(w3.hi) * l * l * l * reach(three) +
+      3.0 * std::abs(w2.hi) * l * reach(two) *
+          ((n - 1) * most0 * std::abs(w2.hi) * l * reach(two) + n * most1 * most1 * l * l);
+  constexpr double kOperations = 32.0;
+  const double quad = most1 * most1 * most1 * most1, cube = square.hi * square.hi * square.hi;
+  const double factor = (n - 1.0) * most0 / (static_cast<double>(n) * n * quad * cube);
+  constexpr double kOfSlope = 32.0;
+  end.slope = scale * scale * (factor * form.hi);
+  end.slope_error = kOfSlope * kUnitRoundoff * std::abs(end.slope) +
+                    scale * scale * (factor * kOperations * kDoubleDoubleRoundoff * terms);
+  constexpr double kMovedTerms = 32.0;  // control points and weights of all terms
+  end.slope_rounding = scale * scale * factor * kMovedTerms * terms * (moved + kStored);
+}
+
 /// kappa = (n-1)/n (w0 w2 / w1^2) cross(leg1, leg2) / |leg1|^3 from the three control points at one
 /// end, legs from that end on, seen at the size of the first leg: nothing leaves the range of
 /// doubles, whatever the size of the piece and its weights.
-EndData bezier_end(const RationalBezier& piece, bool at_start) {
+EndData bezier_end(const RationalBezier& piece, bool at_start, bool slopes) {
   const auto n = static_cast<std::size_t>(piece.degree);
   const auto at = [&](std::size_t j) { return at_start ? j : n - j; };
   const Vec2 first_leg = piece.offset[at(1)] - piece.offset[at(0)];
@@ -173,7 +217,8 @@ EndData bezier_end(const RationalBezier& piece, bool at_start) {
   const double side = at_start ? 1.0 : -1.0;
   end.direction = {side * one.x.hi, side * one.y.hi};
   const double length = norm(end.direction), cube = length * length * length;
-  double coordinate = std::max(largest_coordinate(piece.offset[at(0)]), largest_coordinate(piece.offset[at(1)]));
+  double coordinate =
+      std::max(largest_coordinate(piece.offset[at(0)]), largest_coordinate(piece.offset[at(1)]));
   if (n >= 2) coordinate = std::max(coordinate, largest_coordinate(piece.offset[at(2)]));
   const double moved = kStored * (*scale * coordinate) / length;  // of a control point, by leg 1
   end.heading_rounding = kStored + 2.0 * moved;
@@ -193,17 +238,26 @@ EndData bezier_end(const RationalBezier& piece, bool at_start) {
       1.0 + std::hypot(two.x.hi, two.y.hi) / length;  // turning leg 1 sweeps point 2
   end.kappa_rounding = std::abs(end.kappa) * 4.0 * (kStored + moved) +
                        *scale * std::abs(factor) * 2.0 * reach * (moved + kStored) / length;
+  if (slopes) add_slope(end, piece, at_start, *scale, one, two, moved);
   return end;
 }
 
-PieceEnds ends_of(const RationalBezier& piece) {
-  return {bezier_end(piece, true), bezier_end(piece, false)};
+PieceEnds ends_of(const RationalBezier& piece, bool slopes) {
+  return {bezier_end(piece, true, slopes), bezier_end(piece, false, slopes)};
 }
 
 }  // namespace
 
-PieceEnds ends_of(const Piece& piece) {
-  return std::visit([](const auto& kind) { return ends_of(kind); }, piece);
+PieceEnds ends_of(const Piece& piece, bool slopes) {
+  if (const auto* bezier = std::get_if<RationalBezier>(&piece)) return ends_of(*bezier, slopes);
+  return std::visit(
+      [](const auto& kind) -> PieceEnds {
+        if constexpr (std::is_same_v<std::decay_t<decltype(kind)>, RationalBezier>)
+          return {};
+        else
+          return ends_of(kind);
+      },
+      piece);
 }
 
 }  // namespace obvid

@@ -17,10 +17,14 @@ namespace {
 constexpr double kPositionBound = 1e-12;  // of the contour's size
 constexpr double kHeadingBound = 1e-6;    // rad
 constexpr double kCurvatureBound = 1e-6;  // of the curvature at the joint
+constexpr double kSlopeBound = 1e-6;      // of the largest slope of the two pieces
+/// Beyond, nobody would call the slope continuous, whatever rounding explains.
+constexpr double kSlopeCeiling = 1e-2;
 
 /// Coordinates far from the origin cannot say a position better than this, at the most; beyond,
 /// nobody would call a joint continuous.
 constexpr double kZeroEnd = 1e-9;          // of the larger curvature of the piece
+constexpr double kBesideEnd = 0x1p-10;     // of the parameter
 constexpr double kPositionCeiling = 1e-6;  // of the contour's size
 
 // How far an element may be outside of what lies between the two ends that meet at its joint.
@@ -52,7 +56,7 @@ constexpr double kBroken = std::numeric_limits<double>::max();
 
 double known(double gap) { return is_nan(gap) ? kBroken : gap; }
 
-double size_of_box(const Contour& contour) {
+double size_of_box(const Contour& contour, const std::vector<KnownPiece>* known) {
   double low_x = kBroken, low_y = kBroken, high_x = -kBroken, high_y = -kBroken;
   const auto grow = [&](Vec2 p) {
     low_x = std::min(low_x, p.x);
@@ -60,10 +64,12 @@ double size_of_box(const Contour& contour) {
     high_x = std::max(high_x, p.x);
     high_y = std::max(high_y, p.y);
   };
-  for (const Piece& piece : contour.pieces) {
+  for (std::size_t i = 0; i < contour.pieces.size(); ++i) {
+    const Piece& piece = contour.pieces[i];
     grow(start_point(piece));
     grow(end_point(piece));
-    grow(evaluate(piece, 0.5).point);  // a single closed arc has no other extent
+    // a single closed arc has no other extent
+    grow(known != nullptr ? (*known)[i].middle : evaluate(piece, 0.5).point);
   }
   return std::hypot(high_x - low_x, high_y - low_y);
 }
@@ -93,15 +99,16 @@ double largest_kappa(const PieceEnds& piece) {
 /// Walks along the contour, comparing neighbours with each other and with the joint's element.
 class JointWalk {
  public:
-  JointWalk(const Contour& contour, const MonotoneParts& parts)
-      : contour_(contour), parts_(parts), size_(size_of_box(contour)) {}
+  JointWalk(const Contour& contour, const PieceBends& bends, const std::vector<KnownPiece>* known)
+      : contour_(contour), bends_(bends), known_(known), size_(size_of_box(contour, known)) {}
 
   JointSurvey run() {
     const std::size_t n = contour_.pieces.size();
     survey_.jump.assign(n, 0);
+    if (contour_.continuity == Continuity::kG3) survey_.gaps.slope = 0.0;
     PieceEnds first, before;
     for (std::size_t i = 0; i < n; ++i) {
-      const PieceEnds here = ends_of(contour_.pieces[i]);
+      const PieceEnds here = ends_at(i);
       if (i == 0) first = here;
       if (i > 0) survey_.jump[i] = compare(i, before, here);
       // the seam is compared when the contour comes round to it
@@ -109,9 +116,12 @@ class JointWalk {
       if (!seam && !compare_with_element(i, i > 0 ? &before : nullptr, &here)) break;
       compare_stored_ends(i, here.end);
       const double largest = std::max(std::abs(here.start.kappa), std::abs(here.end.kappa));
-      follow_sign(here.start, largest);
-      follow_parts(i, largest);
-      follow_sign(here.end, largest);
+      if (const auto bends = bends_.find(i); bends != bends_.end()) {
+        follow_bends(bends->second, here, largest);
+      } else {
+        follow_end(here.start, largest);
+        follow_end(here.end, largest);
+      }
       before = here;
     }
     if (n > 0) finish(before, first);
@@ -119,6 +129,11 @@ class JointWalk {
   }
 
  private:
+  [[nodiscard]] PieceEnds ends_at(std::size_t i) const {
+    if (known_ != nullptr) return (*known_)[i].ends;
+    return ends_of(contour_.pieces[i], contour_.continuity == Continuity::kG3);
+  }
+
   void finish(const PieceEnds& last, const PieceEnds& first) {
     const std::size_t n = contour_.pieces.size();
     if (!contour_.closed) {
@@ -134,7 +149,7 @@ class JointWalk {
     if ((gap <= bound && gap < kBroken) || !survey_.within_bounds) return;
     survey_.within_bounds = false;
     survey_.reason =
-        fmt::format("{} at joint {} is {:.3g}, its bound {:.3g}", what, joint, gap, bound);
+        fmt::format("{} at joint {} is {:.3g}, its bound {:.3g}", what, joint + 1, gap, bound);
   }
 
   void check_position(double far, double rounding, std::size_t joint) {
@@ -196,11 +211,43 @@ class JointWalk {
     const double gap = scale_at(&before, &after)
                            .of(outward(std::abs(jump)) + left.kappa_error + right.kappa_error);
     survey_.gaps.curvature = std::max(survey_.gaps.curvature, gap);
+    compare_slopes(joint, before, after);
     const bool arcs = may_jump(joint);
     if (!arcs) check(gap, kCurvatureBound, joint, "the curvature gap");
     return static_cast<std::int8_t>(gap <= (arcs ? kSameArc : kCurvatureBound) ? 0
                                     : jump > 0.0                               ? 1
                                                                                : -1);
+  }
+
+  /// Of those at the ends of a piece and the mean one over its chord: a slope may vanish at both
+  /// ends.
+  static double largest_slope(const PieceEnds& piece) {
+    const Vec2 chord = piece.end.point - piece.start.point;
+    const double mean =
+        std::abs(piece.end.kappa - piece.start.kappa) / std::hypot(chord.x, chord.y);
+    const double ends = std::max(std::abs(piece.start.slope), std::abs(piece.end.slope));
+    return std::isfinite(mean) ? std::max(ends, mean) : ends;
+  }
+
+  /// Slopes of curvature, where the contour claims that they are continuous.
+  void compare_slopes(std::size_t joint, const PieceEnds& before, const PieceEnds& after) {
+    if (contour_.continuity != Continuity::kG3) return;
+    if (contour_.joints[joint].slope_step) {
+      ++survey_.slope_steps;
+      return;
+    }
+    const EndData &left = before.end, &right = after.start;
+    const double largest = std::max(largest_slope(before), largest_slope(after));
+    const auto of_largest = [largest](double difference) {
+      return difference == 0.0 ? 0.0 : known(outward(difference / largest));
+    };
+    const double gap = of_largest(outward(std::abs(right.slope - left.slope)) + left.slope_error +
+                                  right.slope_error);
+    survey_.gaps.slope = std::max(*survey_.gaps.slope, gap);
+    check(
+        gap,
+        allowed(kSlopeBound, of_largest(left.slope_rounding + right.slope_rounding), kSlopeCeiling),
+        joint, "the gap of the slope of curvature");
   }
 
   /// Whether the joint says something else for the piece that leaves it.
@@ -281,35 +328,31 @@ class JointWalk {
     check_position(distance(end, stored), end.point_rounding, i + 1);
   }
 
-  void follow_parts(std::size_t i, double largest) {
-    const auto parts = parts_.find(i);
-    if (parts == parts_.end()) return;
-    for (const RationalBezier& part : parts->second) {
-      EndData end = ends_of(Piece{part}).end;
-      end.kappa_error += blur_of(part, parts->second);
-      follow_sign(end, largest);
-    }
+  /// Signs of the curvature along a piece whose ends do not tell them. One beside an end that is a
+  /// rounded zero is rounding too, if the piece soon bends the other way.
+  void follow_bends(const std::vector<SignFrom>& bends, const PieceEnds& here, double largest) {
+    const auto rounded = [largest](const EndData& end) {
+      return std::abs(end.kappa) <= zero_beside(end, largest);
+    };
+    std::size_t first = 0, last = bends.size();
+    if (last > 1 && bends[1].t < kBesideEnd && rounded(here.start)) ++first;
+    if (last - first > 1 && bends[last - 1].t > 1.0 - kBesideEnd && rounded(here.end)) --last;
+    for (std::size_t k = first; k < last; ++k) follow(bends[k].sign);
   }
 
-  /// What the rounding of halves (`monotone_parts`) makes of the curvature at the end of one: each
-  /// halving rounds the offsets, and the last leg of the part tells the curvature.
-  static double blur_of(const RationalBezier& part, const std::vector<RationalBezier>& all) {
-    constexpr double kHalvedRoundings = 32.0;  // of the largest offset: ten halvings, two legs
-    double reach = 0.0;
-    for (const RationalBezier& one : all) {
-      for (const Vec2 p : one.offset) reach = std::max({reach, std::abs(p.x), std::abs(p.y)});
-    }
-    const auto n = static_cast<std::size_t>(part.degree);
-    const Vec2 leg = part.offset[n] - part.offset[n - 1];
-    const double square = dot(leg, leg);
-    return square > 0.0 ? kHalvedRoundings * kUnitRoundoff * reach / square : HUGE_VAL;
+  /// What of an end's curvature is a rounded zero: what is small beside the larger end of its
+  /// piece.
+  static double zero_beside(const EndData& end, double largest) {
+    return end.kappa_error + kZeroEnd * largest;
   }
 
   /// Curvature is monotone on each proved piece, so signs at the ends tell all its sign changes.
-  /// One that is small beside the larger end of its piece is a zero that was rounded.
-  void follow_sign(const EndData& end, double largest) {
-    const double zero = end.kappa_error + kZeroEnd * largest;
-    const int sign = end.kappa > zero ? 1 : (end.kappa < -zero ? -1 : 0);
+  void follow_end(const EndData& end, double largest) {
+    const double zero = zero_beside(end, largest);
+    follow(end.kappa > zero ? 1 : (end.kappa < -zero ? -1 : 0));
+  }
+
+  void follow(int sign) {
     if (sign == 0) return;
     if (last_sign_ != 0 && sign != last_sign_) ++survey_.inflections;
     if (first_sign_ == 0) first_sign_ = sign;
@@ -317,7 +360,8 @@ class JointWalk {
   }
 
   const Contour& contour_;
-  const MonotoneParts& parts_;
+  const PieceBends& bends_;
+  const std::vector<KnownPiece>* known_;
   double size_;
   int first_sign_ = 0;
   int last_sign_ = 0;
@@ -326,8 +370,9 @@ class JointWalk {
 
 }  // namespace
 
-JointSurvey survey_joints(const Contour& contour, const MonotoneParts& parts) {
-  return JointWalk(contour, parts).run();
+JointSurvey survey_joints(const Contour& contour, const PieceBends& bends,
+                          const std::vector<KnownPiece>* known) {
+  return JointWalk(contour, bends, known).run();
 }
 
 std::string missed_point(const Contour& contour) {
@@ -338,7 +383,7 @@ std::string missed_point(const Contour& contour) {
   }
   for (std::size_t i = 1; i < n; ++i) {
     if (contour.points[i] == contour.points[i - 1]) {
-      return fmt::format("point {} repeats the point before it", i);
+      return fmt::format("point {} repeats the point before it", i + 1);
     }
   }
   const bool exact = contour.point_tolerance.empty();
@@ -346,20 +391,20 @@ std::string missed_point(const Contour& contour) {
   for (std::size_t j = 0; j < contour.joints.size(); ++j) {
     const Joint& joint = contour.joints[j];
     if (!joint.source) continue;
-    if (*joint.source >= n) return fmt::format("joint {} claims a point that is not there", j);
+    if (*joint.source >= n) return fmt::format("joint {} claims a point that is not there", j + 1);
     if (met == 0 && contour.closed) first = *joint.source;
     const std::size_t place = (*joint.source + n - first) % n;
     if (exact ? place != due : place < due) {
-      return fmt::format("joint {} claims point {} where point {} is due", j, *joint.source,
-                         (due + first) % n);
+      return fmt::format("joint {} claims point {} where point {} is due", j + 1,
+                         *joint.source + 1, (due + first) % n + 1);
     }
     if (exact && !(joint.element.point == contour.points[*joint.source])) {
-      return fmt::format("joint {} does not stand on point {}", j, *joint.source);
+      return fmt::format("joint {} does not stand on point {}", j + 1, *joint.source + 1);
     }
     due = place + 1;
     ++met;
   }
-  if (exact && met < n) return fmt::format("no joint stands on point {}", (met + first) % n);
+  if (exact && met < n) return fmt::format("no joint stands on point {}", (met + first) % n + 1);
   return {};
 }
 

@@ -3,12 +3,14 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <map>
 #include <string>
 #include <vector>
 
-#include "monotone_parts.h"
+#include "known_pieces.h"
 #include "obvid/certify/certificate.h"
 #include "obvid/curve/contour.h"
+#include "piece_facts.h"
 
 namespace obvid {
 
@@ -21,10 +23,15 @@ struct JointSurvey {
   int inflections = 0;
   int corners = 0;
   int curvature_steps = 0;
+  int slope_steps = 0;
 };
 
-/// `parts`: for pieces with vertices the parts of them whose curvature is monotone.
-[[nodiscard]] JointSurvey survey_joints(const Contour& contour, const MonotoneParts& parts = {});
+/// How pieces bend whose ends do not tell it, by their indices.
+using PieceBends = std::map<std::size_t, std::vector<SignFrom>>;
+
+/// `bends`: of the pieces with vertices. `known`: null, or what is known of every piece.
+[[nodiscard]] JointSurvey survey_joints(const Contour& contour, const PieceBends& bends = {},
+                                        const std::vector<KnownPiece>* known = nullptr);
 
 /// There are points, no two neighbours the same; joints stand on them in their order, around the
 /// end of the list in a closed contour. Without tolerances every point is the source of one joint,

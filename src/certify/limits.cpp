@@ -140,7 +140,9 @@ class Limits {
     for (const Element* e : {&joint.element, joint.leaving ? &*joint.leaving : nullptr}) {
       if (e == nullptr) continue;
       if (!within(e->point, kLargestCoordinate)) return kCoordinate;
-      if (!within(e->kappa, kMostTurning / kShortestPiece)) return "the curvature is out of range";
+      if (!std::isnan(e->kappa) && !within(e->kappa, kMostTurning / kShortestPiece)) {
+        return "the curvature is out of range";
+      }
       if (const char* what = fault_of_heading(e->theta)) return what;
     }
     return nullptr;
@@ -177,5 +179,14 @@ class Limits {
 }  // namespace
 
 std::optional<OutOfRange> out_of_range(const Contour& contour) { return Limits(contour).run(); }
+
+std::optional<std::size_t> joint_without_curvature(const Contour& contour) {
+  const auto undefined = [](const Joint& joint) {
+    return std::isnan(joint.element.kappa) || (joint.leaving && std::isnan(joint.leaving->kappa));
+  };
+  const auto found = std::find_if(contour.joints.begin(), contour.joints.end(), undefined);
+  if (found == contour.joints.end()) return std::nullopt;
+  return static_cast<std::size_t>(found - contour.joints.begin());
+}
 
 }  // namespace obvid

@@ -16,6 +16,12 @@ struct PieceFacts {
   int last_change = 0;
 };
 
+/// A strict sign, and the parameter from which on it was found.
+struct SignFrom {
+  int sign = 0;
+  double t = 0.0;
+};
+
 [[nodiscard]] PieceFacts examine_piece(const Piece& piece);
 
 /// The same in exact integers, for the pieces that floating point cannot decide (or hides: the
@@ -25,10 +31,14 @@ struct PieceFacts {
 /// How the curvature of a piece changes from its start on: +1 where it grows, -1 where it falls,
 /// nothing twice in a row. Double-doubles, and exact integers where these leave anything open;
 /// changes closer to each other than 2^-40 of the parameter count as two or as none.
-[[nodiscard]] std::vector<int> curvature_changes(const RationalBezier& piece);
+[[nodiscard]] std::vector<SignFrom> curvature_changes(const RationalBezier& piece);
+
+/// Likewise how a piece of positive weights bends: +1 to the left, -1 to the right.
+[[nodiscard]] std::vector<SignFrom> curvature_signs(const RationalBezier& piece);
 
 /// The same in exact integers.
-[[nodiscard]] std::vector<int> curvature_changes_exactly(const RationalBezier& piece);
+[[nodiscard]] std::vector<SignFrom> curvature_changes_exactly(const RationalBezier& piece);
+[[nodiscard]] std::vector<SignFrom> curvature_signs_exactly(const RationalBezier& piece);
 
 /// In double-double numbers only; undecided where those do not suffice.
 [[nodiscard]] PieceFacts examine_in_double_double(const RationalBezier& piece);

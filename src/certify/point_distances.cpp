@@ -13,14 +13,14 @@ namespace {
 /// Any point of the contour bounds a distance from above: the smallest of those tried.
 class Distances {
  public:
-  explicit Distances(const Contour& contour) : contour_(contour) {}
+  Distances(const Contour& contour, Watch& watch) : contour_(contour), watch_(watch) {}
 
   std::vector<Nearest> run() {
     const std::size_t n = contour_.points.size();
     std::vector<Nearest> out(n);
     if (contour_.pieces.empty()) return out;
     find_pieces();
-    for (std::size_t i = 0; i < n; ++i) out[i] = nearest(i);
+    for (std::size_t i = 0; i < n && !watch_.cancelled(); ++i) out[i] = nearest(i);
     return out;
   }
 
@@ -85,6 +85,7 @@ class Distances {
   }
 
   const Contour& contour_;
+  Watch& watch_;
   std::vector<Range> range_;
   std::vector<std::size_t> own_;  // joint on each point, or the number of joints
   std::optional<PieceTree> tree_;
@@ -92,12 +93,19 @@ class Distances {
 
 }  // namespace
 
-std::vector<Nearest> nearest_places(const Contour& contour) { return Distances(contour).run(); }
+std::vector<Nearest> nearest_places(const Contour& contour, Watch& watch) {
+  return Distances(contour, watch).run();
+}
 
 std::vector<double> point_distances(const Contour& contour) {
+  Watch nobody;
+  return point_distances(contour, nobody);
+}
+
+std::vector<double> point_distances(const Contour& contour, Watch& watch) {
   std::vector<double> out;
   out.reserve(contour.points.size());
-  for (const Nearest& place : nearest_places(contour)) out.push_back(place.distance);
+  for (const Nearest& place : nearest_places(contour, watch)) out.push_back(place.distance);
   return out;
 }
 

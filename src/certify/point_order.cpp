@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
 #include <optional>
 
 #include "double_double.h"
+#include "obvid/certify/certify.h"
 #include "obvid/curve/pieces.h"
 #include "point_places.h"
 
@@ -112,7 +111,7 @@ double allowed_distance(const Contour& contour, std::size_t i) {
   return tolerance + kRoundings * (std::abs(p.x) + std::abs(p.y));
 }
 
-std::string out_of_order(const Contour& contour, const std::vector<Nearest>& places) {
+std::vector<std::size_t> out_of_order(const Contour& contour, const std::vector<Nearest>& places) {
   if (places.empty() || contour.pieces.empty()) return {};
   const Along first = contour.closed ? Along{places[0].piece, places[0].t} : Along{};
   Passage quick(contour, first);
@@ -121,11 +120,16 @@ std::string out_of_order(const Contour& contour, const std::vector<Nearest>& pla
   if (met == places.size()) return {};
   // the nearest places may stand against the order where tolerances are wide: take the first ones
   Passage careful(contour, contour.closed ? before_reach(contour, places[0]) : first);
+  std::vector<std::size_t> out;
   for (std::size_t i = 0; i < places.size(); ++i) {
-    if (careful.meet_first(i)) continue;
-    return fmt::format("the contour does not pass point {} after the points before it", i);
+    if (!careful.meet_first(i)) out.push_back(i);
   }
-  return {};
+  return out;
+}
+
+std::vector<std::size_t> points_out_of_order(const Contour& contour, Watch& watch) {
+  if (contour.point_tolerance.empty()) return {};
+  return out_of_order(contour, nearest_places(contour, watch));
 }
 
 }  // namespace obvid

@@ -87,10 +87,19 @@ PieceFacts examine_exactly(const RationalBezier& piece) {
   });
 }
 
-std::vector<int> curvature_changes_exactly(const RationalBezier& piece) {
-  std::vector<int> signs;
+std::vector<SignFrom> curvature_changes_exactly(const RationalBezier& piece) {
+  std::vector<SignFrom> signs;
   static_cast<void>(with_degree(piece.degree, [&]<int N>() -> PieceFacts {
-    static_cast<void>(sign_changes(whole_differences<N>(piece), CurvatureForm<N, double>{}, signs));
+    static_cast<void>(change_signs(whole_differences<N>(piece), CurvatureForm<N, double>{}, signs));
+    return {};
+  }));
+  return signs;
+}
+
+std::vector<SignFrom> curvature_signs_exactly(const RationalBezier& piece) {
+  std::vector<SignFrom> signs;
+  static_cast<void>(with_degree(piece.degree, [&]<int N>() -> PieceFacts {
+    static_cast<void>(bend_signs(whole_differences<N>(piece), {}, signs));
     return {};
   }));
   return signs;

@@ -239,18 +239,32 @@ PieceFacts examine_in_double_double(const RationalBezier& piece) {
   });
 }
 
-std::vector<int> curvature_changes(const RationalBezier& piece) {
+std::vector<SignFrom> curvature_changes(const RationalBezier& piece) {
   if (piece.degree < 2 || piece.degree > kMaxBezierDegree) return {};
   const auto unit = scaled(piece);
   if (!unit) return {};
-  std::vector<int> signs;
+  std::vector<SignFrom> signs;
   bool sure = false;
   static_cast<void>(with_degree(piece.degree, [&]<int N>() -> PieceFacts {
     const auto majorant = majorant_of(differences_in_doubles<N>(*unit));
-    sure = sign_changes(exact_differences<N>(*unit), majorant, signs);
+    sure = change_signs(exact_differences<N>(*unit), majorant, signs);
     return {};
   }));
   return sure ? signs : curvature_changes_exactly(piece);
+}
+
+std::vector<SignFrom> curvature_signs(const RationalBezier& piece) {
+  if (piece.degree < 2 || piece.degree > kMaxBezierDegree) return {};
+  const auto unit = scaled(piece);
+  if (!unit) return {};
+  std::vector<SignFrom> signs;
+  bool sure = false;
+  static_cast<void>(with_degree(piece.degree, [&]<int N>() -> PieceFacts {
+    const auto majorant = determinant<true>(absolute(differences_in_doubles<N>(*unit)));
+    sure = bend_signs(exact_differences<N>(*unit), majorant, signs);
+    return {};
+  }));
+  return sure ? signs : curvature_signs_exactly(piece);
 }
 
 PieceProof prove_piece(const Piece& piece) { return examine_piece(piece).proof; }

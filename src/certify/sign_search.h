@@ -3,10 +3,12 @@
 
 #include <cmath>
 #include <cstddef>
+#include <limits>
 #include <vector>
 
 #include "double_double.h"
 #include "obvid/numeric/internal/bernstein.h"
+#include "piece_facts.h"
 
 namespace obvid {
 namespace {  // see strict_arithmetic.h
@@ -16,7 +18,7 @@ enum class SignVerdict { kPositive, kNegative, kZero, kBoth, kOpen };
 
 struct SignProof {
   SignVerdict verdict = SignVerdict::kOpen;
-  double t0 = 0.0;  ///< kBoth: opposite strict signs at t0 and t1; kOpen: first part left open
+  double t0 = 0.0;  ///< kBoth: the sign changes between t0 and t1; kOpen: first part left open
   double t1 = 1.0;
   int first_sign = 0;  ///< kBoth: sign at t0
 };
@@ -80,7 +82,12 @@ class SignSearch {
       return {};  // no halving sharpens the value at an end
     }
     visit(whole, 0.0, 1.0, Arithmetic<S>::kDepth);
-    if (both_) return {SignVerdict::kBoth, seen_at_, other_at_, seen_};
+    if (both_) {
+      // beyond the digits of a double the places are rounded, to one double perhaps
+      const double outwards = beyond_double_ ? 1.0 : 0.0;
+      return {SignVerdict::kBoth, std::nextafter(seen_at_, seen_at_ - outwards),
+              std::nextafter(other_at_, other_at_ + outwards), seen_};
+    }
     if (open_) return {SignVerdict::kOpen, open0_, open1_, 0};
     if (seen_ == 0) return {SignVerdict::kZero, 0.0, 1.0, 0};
     return {seen_ > 0 ? SignVerdict::kPositive : SignVerdict::kNegative, 0.0, 1.0, 0};
@@ -88,9 +95,9 @@ class SignSearch {
 
   /// Strict signs from 0 to 1, none twice in a row. False when they are not sure: rounding hides
   /// signs somewhere, or the search was long.
-  bool sequence(const Coefficients& whole, std::vector<int>& signs) {
+  bool sequence(const Coefficients& whole, std::vector<SignFrom>& signs) {
     sequence_parts_ = kSequenceParts;
-    return follow(whole, kSequenceDepth, signs);
+    return follow(whole, 0.0, 1.0, kSequenceDepth, signs);
   }
 
  private:
@@ -116,17 +123,20 @@ class SignSearch {
     return out;
   }
 
-  bool follow(const Coefficients& c, int depth, std::vector<int>& signs) {
+  bool follow(const Coefficients& c, double t0, double t1, int depth,
+              std::vector<SignFrom>& signs) {
     const SignCount found = count_signs(c);
     if (found.agree()) {
       const int sign = found.common();
-      if (sign != 0 && (signs.empty() || signs.back() != sign)) signs.push_back(sign);
+      if (sign != 0 && (signs.empty() || signs.back().sign != sign)) signs.push_back({sign, t0});
       return true;
     }
     if (depth == 0) return true;
     if (found.none() || sequence_parts_-- <= 0) return false;
     const auto [left, right] = halves(c);
-    return follow(left, depth - 1, signs) && follow(right, depth - 1, signs);
+    const double middle = 0.5 * (t0 + t1);
+    return follow(left, t0, middle, depth - 1, signs) &&
+           follow(right, middle, t1, depth - 1, signs);
   }
 
   static std::size_t last(const Coefficients& c) { return c.value.size() - 1; }
@@ -145,6 +155,9 @@ class SignSearch {
       return;
     }
     --parts_left_;
+    // halves of (0, 1), and the middle of one, are doubles as long as they have as many digits
+    beyond_double_ =
+        beyond_double_ || Arithmetic<S>::kDepth - depth + 2 > std::numeric_limits<double>::digits;
     const auto [left, right] = halves(c);
     const double middle = 0.5 * (t0 + t1);
     visit(left, t0, middle, depth - 1);
@@ -204,6 +217,7 @@ class SignSearch {
   int sequence_parts_ = 0;
   bool both_ = false;
   bool open_ = false;
+  bool beyond_double_ = false;
   int seen_ = 0;
   double seen_at_ = 0.0;
   double other_at_ = 1.0;

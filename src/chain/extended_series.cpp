@@ -14,6 +14,8 @@ constexpr double kThinMargin = 0.02;
 
 Extended with_free_elements(const Extended& before, const ChainSolution& solution) {
   Extended out;
+  out.least_sigma = before.least_sigma;
+  out.problem.least_change = before.problem.least_change;
   const std::size_t n = before.points.size();
   for (std::size_t i = 0; i < n; ++i) {
     out.points.push_back(before.points[i]);
@@ -48,13 +50,31 @@ Extended slice(const Extended& series, std::size_t from, std::size_t to) {
   };
   const ChainProblem& p = series.problem;
   Extended out;
+  out.least_sigma = series.least_sigma;
   out.points = part(series.points, 1);
   out.source = part(series.source, 1);
-  out.problem = {part(p.chords, 0), part(p.circles, 1), part(p.direction, 0), part(p.cone, 0),
-                 part(p.nodes, 1)};
+  out.problem = {part(p.chords, 0), part(p.circles, 1), part(p.direction, 0),
+                 part(p.cone, 0),   part(p.nodes, 1),   p.least_change};
   out.turned = part(series.turned, 0);
   for (Cone& c : out.problem.cone) c = c == Cone::kNone ? c : Cone::kSpiral;
   return out;
+}
+
+std::optional<std::size_t> leaping_link(const ChainProblem& problem, const ChainSolution& s,
+                                        double least) {
+  std::optional<std::size_t> worst;
+  for (std::size_t i = 0; i < s.links.size(); ++i) {
+    if (problem.cone[i] == Cone::kNone) continue;
+    const double ratio = s.links[i].sigma / (s.links[i].B - s.links[i].A);
+    if (ratio >= least) continue;
+    least = ratio;
+    worst = i;
+  }
+  return worst;
+}
+
+bool carried(const ChainProblem& problem, const ChainSolution& s, double least_sigma) {
+  return s.feasible && s.smallest_margin > 0.0 && !leaping_link(problem, s, least_sigma);
 }
 
 SeriesChain collect(const Extended& e, ChainSolution solution, int steps) {
@@ -64,6 +84,7 @@ SeriesChain collect(const Extended& e, ChainSolution solution, int steps) {
   out.source = e.source;
   out.direction = e.problem.direction;
   out.cone = e.problem.cone;
+  out.nodes = e.problem.nodes;
   out.newton_steps = steps;
   out.smallest_margin = solution.smallest_margin;
   out.converged = solution.converged;

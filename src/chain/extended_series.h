@@ -15,6 +15,8 @@ struct Extended {
   std::vector<std::optional<std::size_t>> source;
   ChainProblem problem;
   std::vector<bool> turned;  ///< links whose direction was turned
+  /// Least part of B - A that a sigma may be: below it the curvature leaps.
+  double least_sigma = 1e-3;
 };
 
 /// The usual limits, with somebody who counts.
@@ -32,6 +34,14 @@ inline constexpr std::size_t kWindow = 4;
 
 /// Links from..to of a series as a series of their own, with the cones of mere existence.
 [[nodiscard]] Extended slice(const Extended& series, std::size_t from, std::size_t to);
+
+/// Index of the worst link whose curvature leaps, its sigma below `least` of its B - A, or nothing.
+[[nodiscard]] std::optional<std::size_t> leaping_link(const ChainProblem& problem,
+                                                      const ChainSolution& solution, double least);
+
+/// All cones with room, by the true cone of the closed form, and no leaps.
+[[nodiscard]] bool carried(const ChainProblem& problem, const ChainSolution& solution,
+                           double least_sigma);
 
 /// The chain's outcome for the caller.
 [[nodiscard]] SeriesChain collect(const Extended& e, ChainSolution solution, int steps);

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 #include "obvid/chain/series_chain.h"
+#include "obvid/geom/angle.h"
 
 namespace obvid {
 namespace {
@@ -22,7 +22,7 @@ BiarcJoint biarc_joint(double alpha, double beta, double k0, double k1) {
   // closing the chord: (k1 - k0) e^{i theta} = 2 i k0 k1 + k1 e^{i alpha} - k0 e^{i beta}
   const Vec2 v = Vec2{0.0, 2.0 * k0 * k1} + k1 * unit_at(alpha) - k0 * unit_at(beta);
   const double middle = 0.5 * (alpha + beta);
-  const double theta = middle + std::remainder(heading(v) - middle, 2.0 * std::numbers::pi);
+  const double theta = nearest_angle(heading(v), middle);
   if (std::abs(k0) >= std::abs(k1)) {
     const double half_turn = 0.5 * (theta - alpha);
     return {theta, Vec2{-1.0, 0.0} + 2.0 * std::sin(half_turn) / k0 * unit_at(alpha + half_turn)};

@@ -81,6 +81,7 @@ void LinkModel::set_sizes(const ChainProblem& problem) {
     l.energy = l.inverse_size * l.inverse_size;
     total_weight_ += l.cone == Cone::kNone ? 0.0 : 1.0;
   }
+  if (problem.least_change) weigh_by_change();
   for (std::size_t i = 0; i < nodes_.size(); ++i) {
     Node& n = nodes_[i];
     const bool first = i == 0, last = i == m;
@@ -92,6 +93,17 @@ void LinkModel::set_sizes(const ChainProblem& problem) {
     n.sign_size = links_[first ? 0 : i - 1].size + links_[last ? m - 1 : i].size;
     if (n.sign != 0.0) total_weight_ += kSignWeight;
   }
+}
+
+/// The form of a link over h^3 is its integral of (d kappa / d s)^2; all together weigh as much as
+/// they did.
+void LinkModel::weigh_by_change() {
+  double sum = 0.0, cubes = 0.0;
+  for (const Link& l : links_) {
+    sum += l.energy;
+    cubes += 1.0 / (l.h * l.h * l.h);
+  }
+  for (Link& l : links_) l.energy = sum / cubes / (l.h * l.h * l.h);
 }
 
 void LinkModel::set_fixed(const ChainProblem& problem) {
@@ -333,6 +345,18 @@ std::vector<LinkState> LinkModel::links(const std::vector<double>& x) const {
     out[i] = {l.h, l.omega, l.alpha + pa, l.beta + pb, s.A, s.B, s.sigma};
   }
   return out;
+}
+
+LinkModel::LinkJet LinkModel::jet(std::size_t link, const std::vector<double>& x) const {
+  const Link& l = links_[link];
+  const double pa = x[2 * link], pb = x[2 * link + 2];
+  const State s = state(l, trig(pa), trig(pb), pa, x[2 * link + 1], pb, x[2 * link + 3]);
+  return {{l.h, l.omega, l.alpha + pa, l.beta + pb, s.A, s.B, s.sigma}, s.dA, l.ka, -s.dB, l.kb};
+}
+
+double LinkModel::curvature_room(std::size_t node, const std::vector<double>& x) const {
+  const Node& n = nodes_[node];
+  return n.sign == 0.0 ? 1.0 : signed_curvature(n, x[2 * node + 1], 0.0);
 }
 
 std::vector<double> LinkModel::link_forces(const std::vector<double>& x, double slack) const {

@@ -35,6 +35,22 @@ class LinkModel {
   [[nodiscard]] std::vector<Element> elements(const std::vector<Vec2>& points,
                                               const std::vector<double>& x) const;
   [[nodiscard]] std::vector<LinkState> links(const std::vector<double>& x) const;
+  /// A link at x with the derivatives of its A, B by the unknowns of its nodes; sigma grows with
+  /// both headings.
+  struct LinkJet {
+    LinkState state;
+    double A_by_phi = 0.0, A_by_p = 0.0;  ///< of the node at its start
+    double B_by_phi = 0.0, B_by_p = 0.0;  ///< of the node at its end
+  };
+  [[nodiscard]] LinkJet jet(std::size_t link, const std::vector<double>& x) const;
+  /// Expected B - A of a link: the unit of the unknowns beside it.
+  [[nodiscard]] double link_size(std::size_t link) const { return links_[link].size; }
+  [[nodiscard]] bool heading_fixed(std::size_t node) const { return nodes_[node].fix_phi; }
+  [[nodiscard]] bool curvature_fixed(std::size_t node) const { return nodes_[node].fix_p; }
+  /// Curvature at x in units of the node's length, positive where it has the wanted sign; 1 where
+  /// none is wanted.
+  [[nodiscard]] double curvature_room(std::size_t node, const std::vector<double>& x) const;
+  [[nodiscard]] double wanted_sign(std::size_t node) const { return nodes_[node].sign; }
   /// Force of each link's barrier against the common slack: who keeps it from closing.
   [[nodiscard]] std::vector<double> link_forces(const std::vector<double>& x, double slack) const;
   /// Move of a point, in units, that changes a link's cone by its own size.
@@ -86,6 +102,7 @@ class LinkModel {
                                    double p_a, double phi_b, double p_b);
   void set_lengths(const ChainProblem& problem);
   void set_sizes(const ChainProblem& problem);
+  void weigh_by_change();
   void set_fixed(const ChainProblem& problem);
 
   std::vector<Link> links_;

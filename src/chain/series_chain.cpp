@@ -18,28 +18,11 @@ using namespace chain_detail;
 /// Rounds of inserting free elements; each starts inside all cones, so one normally suffices.
 constexpr int kInsertionRounds = 4;
 
-/// Below this part of B - A a link's sigma says that the curvature leaps at both its ends and
-/// stays put between them: formally monotone, of no use to anybody, and beyond proof.
-constexpr double kLeapingSigma = 1e-3;
-
-/// Index of the worst link whose curvature leaps, or nothing.
-std::optional<std::size_t> leaping_link(const ChainProblem& problem, const ChainSolution& s) {
-  std::optional<std::size_t> worst;
-  double least = kLeapingSigma;
-  for (std::size_t i = 0; i < s.links.size(); ++i) {
-    if (problem.cone[i] == Cone::kNone) continue;
-    const double ratio = s.links[i].sigma / (s.links[i].B - s.links[i].A);
-    if (ratio >= least) continue;
-    least = ratio;
-    worst = i;
-  }
-  return worst;
-}
-
-/// All cones with room, by the true cone of the closed form, and no leaps.
-bool carried(const ChainProblem& problem, const ChainSolution& s) {
-  return s.feasible && s.smallest_margin > 0.0 && !leaping_link(problem, s);
-}
+/// Where somebody asked for the edge of what there is, a link's sigma may be this part of B - A.
+/// Below the usual least one (`Extended`) the curvature leaps at both its ends and stays put
+/// between them: formally monotone, of no use to anybody who did not ask for it, and soon beyond
+/// proof.
+constexpr double kLeastSigmaAtEdge = 1e-5;
 
 /// Elements for given directions, or why there are none.
 struct Attempt {
@@ -53,15 +36,16 @@ Attempt refuse(Infeasibility why, int steps) { return {std::nullopt, why, steps}
 Infeasibility blame(std::size_t link) { return {link, link + 1, 0.0, 0.0}; }
 
 Attempt insert_and_solve(Extended current, ChainSolution solution, int steps, Watch& watch) {
+  const double least = current.least_sigma;
   for (int round = 0; round < kInsertionRounds; ++round) {
     current = with_free_elements(current, solution);
     solution = solve_chain(current.points, current.problem, watched(watch), &current.start);
     steps += solution.newton_steps;
-    if (carried(current.problem, solution)) {
+    if (carried(current.problem, solution, least)) {
       return {collect(current, std::move(solution), steps), {}, steps};
     }
     if (!solution.feasible) return refuse(solution.infeasibility, steps);
-    if (const auto link = leaping_link(current.problem, solution)) {
+    if (const auto link = leaping_link(current.problem, solution, least)) {
       std::size_t point = 0;  // of the series, before the link
       for (std::size_t i = 0; i <= *link; ++i) point = current.source[i].value_or(point);
       return refuse(blame(point), steps);
@@ -77,13 +61,13 @@ Attempt attempt(Extended current, bool convex, Watch& watch) {
   const std::vector<Element>* start = given.empty() ? nullptr : &given;
   ChainSolution solution = solve_chain(current.points, current.problem, watched(watch), start);
   int steps = solution.newton_steps;
-  if (carried(current.problem, solution)) {
+  const double least = current.least_sigma;
+  if (carried(current.problem, solution, least)) {
     return {collect(current, std::move(solution), steps), {}, steps};
   }
-  if (solution.feasible) {
-    if (const auto link = leaping_link(current.problem, solution))
-      return refuse(blame(*link), steps);
-  }
+  // where one piece to a link would have to leap, two may not
+  const auto leaping =
+      solution.feasible ? leaping_link(current.problem, solution, least) : std::nullopt;
   for (Cone& c : current.problem.cone) c = c == Cone::kNone ? c : Cone::kSpiral;
   solution = solve_chain(current.points, current.problem, watched(watch), start);
   steps += solution.newton_steps;
@@ -98,6 +82,7 @@ Attempt attempt(Extended current, bool convex, Watch& watch) {
   }
   if (!solution.feasible) return refuse(solution.infeasibility, steps);
   Attempt out = insert_and_solve(std::move(current), std::move(solution), steps, watch);
+  if (!out.chain && leaping) out.why = blame(*leaping);
   if (out.chain) out.chain->unforced_inflection = unforced_inflection;
   return out;
 }
@@ -133,6 +118,7 @@ Result<SeriesChain> choose_elements(const std::vector<Vec2>& points, const Analy
   Extended current;
   current.points = points;
   current.problem = std::move(*problem);
+  if (wishes.to_the_edge) current.least_sigma = kLeastSigmaAtEdge;
   for (std::size_t i = 0; i < points.size(); ++i) current.source.emplace_back(i);
 
   current.turned.assign(current.problem.direction.size(), false);
@@ -172,16 +158,23 @@ namespace {
 /// chosen, in links that one piece cannot carry.
 std::optional<SeriesChain> keep_elements(const Extended& given, Watch& watch) {
   ChainSolution solution = judge_chain(given.points, given.problem, given.start);
-  if (carried(given.problem, solution)) return collect(given, std::move(solution), 0);
+  const double least = given.least_sigma;
+  if (carried(given.problem, solution, least)) return collect(given, std::move(solution), 0);
   Extended halved = with_free_elements(given, solution);
+  std::vector<NodeData> nodes = halved.problem.nodes;  // as given, without what is held here
   for (std::size_t i = 0; i < halved.points.size(); ++i) {
     if (!halved.source[i]) continue;
     halved.problem.nodes[i].theta = halved.start[i].theta;
     halved.problem.nodes[i].kappa = halved.start[i].kappa;
   }
   solution = solve_chain(halved.points, halved.problem, watched(watch), &halved.start);
-  if (!carried(halved.problem, solution)) return std::nullopt;
   const int steps = solution.newton_steps;
+  // at the edge of what there is the search may leave the free elements that it began with
+  if (!carried(halved.problem, solution, least)) {
+    solution = judge_chain(halved.points, halved.problem, halved.start);
+  }
+  if (!carried(halved.problem, solution, least)) return std::nullopt;
+  halved.problem.nodes = std::move(nodes);
   return collect(halved, std::move(solution), steps);
 }
 
@@ -189,6 +182,7 @@ std::optional<SeriesChain> keep_elements(const Extended& given, Watch& watch) {
 
 Result<SeriesChain> follow_directions(DirectedSeries series, Watch& watch) {
   Extended e;
+  if (series.to_the_edge) e.least_sigma = kLeastSigmaAtEdge;
   e.problem.chords = measure_chords(series.points);
   e.problem.circles = measure_circles(series.points, e.problem.chords);
   for (const std::int8_t d : series.direction) {
@@ -207,7 +201,8 @@ Result<SeriesChain> follow_directions(DirectedSeries series, Watch& watch) {
                "no curve with curvature changing as wanted runs through the nodes",
                "nodes " + std::to_string(tried.why.first_point + 1) + " to " +
                    std::to_string(tried.why.last_point + 1),
-               "", static_cast<std::ptrdiff_t>(tried.why.first_point), tried.why.slack});
+               "", static_cast<std::ptrdiff_t>(tried.why.first_point), tried.why.slack,
+               static_cast<std::ptrdiff_t>(tried.why.last_point)});
 }
 
 }  // namespace obvid

@@ -72,14 +72,14 @@ double rounding_move(const std::vector<Vec2>& points, const Infeasibility& why) 
 }  // namespace
 
 bool anything_wished(const ChainWishes& wishes) {
-  return wishes.convex ||
-         std::any_of(wishes.fixed.begin(), wishes.fixed.end(),
-                     [](const FixedData& f) { return f.theta.has_value() || f.kappa.has_value(); });
+  return wishes.convex || std::any_of(wishes.fixed.begin(), wishes.fixed.end(),
+                                      [](const FixedData& f) { return f.says_how(); });
 }
 
 Error explain(const std::vector<Vec2>& points, const Analysis& a, const ChainWishes& wishes,
               const Infeasibility& why) {
   const auto index = static_cast<std::ptrdiff_t>(why.first_point);
+  const auto last = static_cast<std::ptrdiff_t>(why.last_point);
   const std::string where = point_range(why);
   const bool leaps = why.slack == 0.0;
   if (!leaps && why.move <= kRoundingsThatDecide * rounding_move(points, why)) {
@@ -89,7 +89,8 @@ Error explain(const std::vector<Vec2>& points, const Analysis& a, const ChainWis
             "give coordinates relative to a nearer origin, or leave out points that lie "
             "closer together than their digits can tell",
             index,
-            why.move};
+            why.move,
+            last};
   }
   if (touches_stretch(a, why)) {
     return {ErrorCode::kNoRoomForTransition,
@@ -97,7 +98,8 @@ Error explain(const std::vector<Vec2>& points, const Analysis& a, const ChainWis
             where,
             "remove a point at the end of the stretch, or move one off it",
             index,
-            why.move};
+            why.move,
+            last};
   }
   if (anything_wished(wishes)) {
     return {ErrorCode::kFixedDataContradict,
@@ -105,7 +107,8 @@ Error explain(const std::vector<Vec2>& points, const Analysis& a, const ChainWis
             where,
             "free the data there",
             index,
-            why.move};
+            why.move,
+            last};
   }
   if (leaps) {
     return {ErrorCode::kNoSpiral,
@@ -113,14 +116,16 @@ Error explain(const std::vector<Vec2>& points, const Analysis& a, const ChainWis
             where,
             "move points there, or add points",
             index,
-            why.move};
+            why.move,
+            last};
   }
   return {ErrorCode::kNoSpiral,
           "no curve with curvature changing as the points demand runs through them",
           where,
           "move points there, or add points",
           index,
-          why.move};
+          why.move,
+          last};
 }
 
 }  // namespace obvid::chain_detail
@@ -130,6 +135,7 @@ namespace obvid {
 Result<ChainProblem> chain_problem(const Analysis& a, const ChainWishes& wishes) {
   using namespace chain_detail;
   ChainProblem p{a.chords, a.circles, a.direction, {}, std::vector<NodeData>(a.circles.size())};
+  p.least_change = wishes.least_change;
   for (const std::int8_t d : a.direction)
     p.cone.push_back(d == 0 ? Cone::kNone : Cone::kClosedForm);
   int turns = 0;

@@ -74,6 +74,7 @@ class Solver {
     system_.slack_gradient = with_slack ? system_.slack_gradient + slack_cost : 0.0;
     ++steps_;
     if (options_.watch != nullptr) options_.watch->spend(static_cast<double>(points_.size()));
+    if (cancelled()) return -1.0;
     system_.solve(direction_, slack_direction_, with_slack);
     const double decrement = system_.decrement(direction_, slack_direction_);
     if (!(decrement > 0.0)) return -1.0;
@@ -92,6 +93,11 @@ class Solver {
       t *= t == 1.0 ? 0.5 : 0.4;
     }
     return -1.0;
+  }
+
+  /// Then whatever was found is thrown away.
+  [[nodiscard]] bool cancelled() const {
+    return options_.watch != nullptr && options_.watch->was_cancelled();
   }
 
   /// Changes of the merit function below its own rounding are no reason to refuse a step.
@@ -116,7 +122,7 @@ class Solver {
           return model_.inside(x_, 0.0);
         }
         centred = decrement < kCentred;
-        if (steps_ >= options_.largest_steps) return false;
+        if (steps_ >= options_.largest_steps || cancelled()) return false;
       }
       // the least slack cannot be below this by more than the barrier's duality gap
       if (centred && slack_ > kDualityGap * mu && mu < kNegligibleBarrier * slack_) return false;

@@ -77,14 +77,13 @@ constexpr std::array kTexts{
               "The file was recognised, but its kind, its version or one of its parts cannot be "
               "read by this version of the program.",
               "Export the points as text, or update the program if a newer one wrote the file."},
-    ErrorText{ErrorCode::kNoSpiral, "No contour with monotone curvature exists here",
-              "The named points cannot be joined by a curve whose curvature changes in the "
-              "direction that the data ask for: every smooth curve through them has a further "
-              "vertex. This is a property of the points, proved for them, not a failure of the "
-              "search.",
-              "Check the named points for a typing or measuring error; the error says how far they "
-              "would have to move. Otherwise add points where the shape turns quickly, or allow "
-              "one more vertex."},
+    ErrorText{ErrorCode::kNoSpiral, "No contour with monotone curvature was found here",
+              "No curve was found that joins the named points and whose curvature changes in the "
+              "direction that the data ask for, or the carrier has no such curve: conics and "
+              "parabolas have no inflection. That none was found is no proof that none exists.",
+              "Check the named points for a typing or measuring error; the error line says within "
+              "which tolerance there is a contour, where one was found. Otherwise add points where "
+              "the shape turns quickly, let points move (`--noise`), or take `--carrier spiral`."},
     ErrorText{ErrorCode::kChordReversal, "The series turns back on itself",
               "Two neighbouring chords point in nearly opposite directions. The points are too few "
               "there to say which way the contour turns.",

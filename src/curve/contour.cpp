@@ -41,6 +41,14 @@ std::optional<Carrier> carrier_of(std::string_view name) {
   return std::nullopt;
 }
 
+const char* to_string(Continuity continuity) { return continuity == Continuity::kG3 ? "G3" : "G2"; }
+
+std::optional<Continuity> continuity_of(std::string_view name) {
+  if (name == "G2") return Continuity::kG2;
+  if (name == "G3") return Continuity::kG3;
+  return std::nullopt;
+}
+
 namespace {
 
 /// Arcs of one circle have the same curvature but for this part, and no turn of so many rad between

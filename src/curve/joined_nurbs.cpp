@@ -5,16 +5,20 @@
 #include <cmath>
 #include <optional>
 #include <string>
+#include <utility>
 
 namespace obvid {
 namespace {
 
 constexpr double kLargestWeight = 10.0;  // and the least is its inverse
 constexpr int kMostCuts = 12;            // halvings of a piece, one after the other
-constexpr double kMostDrift = 20.0;      // of the speed along the curve, against that at its start
-constexpr int kRaisedEven = 3;           // likewise where it makes the speeds equal
-constexpr int kRaised = 2;               // degrees that the factor adds
-constexpr double kMostTurn = 1.3;        // of one conic that stands for an arc, rad: weights near 1
+/// Legs that turn by more are no common tangent, whatever the contour says of its joint: a curve
+/// that is C1 there would leave the joint. The bound of a certificate, rad.
+constexpr double kSmoothTurn = 1e-6;
+constexpr double kMostDrift = 20.0;  // of the speed along the curve, against that at its start
+constexpr int kRaisedEven = 3;       // likewise where it makes the speeds equal
+constexpr int kRaised = 2;           // degrees that the factor adds
+constexpr double kMostTurn = 1.3;    // of one conic that stands for an arc, rad: weights near 1
 
 /// Homogeneous Bezier curve whose weight is 1 and stands still at both ends.
 struct Segment {
@@ -23,10 +27,34 @@ struct Segment {
   bool corner_before = false;
 };
 
+/// Speeds at the ends, in units of the degree: 0 where a control point stands on the end.
+double start_speed(const Segment& s) { return norm(s.points[1] - s.points[0]); }
+double end_speed(const Segment& s) {
+  const std::size_t last = s.points.size() - 1;
+  return norm(s.points[last] - s.points[last - 1]);
+}
+
 tl::unexpected<Error> refuse(ErrorCode code, const char* what, std::size_t piece,
                              const char* hint) {
   return fail({code, what, "piece " + std::to_string(piece + 1), hint,
                static_cast<std::ptrdiff_t>(piece), 0.0});
+}
+
+/// Whether a curve that is C1 where `b` begins would leave that point, by more than rounding.
+bool would_leave_joint(const Segment& a, const Segment& b) {
+  constexpr double kJointRoundings = 16.0 * 0x1p-53;
+  const std::size_t last = a.points.size() - 1;
+  const Vec2 joint = b.points[0];
+  const Vec2 in = a.points[last] - a.points[last - 1], out = b.points[1] - joint;
+  const double turn = std::abs(cross(in, out)) / (norm(in) * norm(out));
+  const double away = turn * std::min(norm(in), norm(out));
+  return turn > kSmoothTurn && away > kJointRoundings * (std::abs(joint.x) + std::abs(joint.y));
+}
+
+double polygon_length(const Segment& s) {
+  double length = 0.0;
+  for (std::size_t j = 1; j < s.points.size(); ++j) length += norm(s.points[j] - s.points[j - 1]);
+  return length;
 }
 
 /// Ratios of weight and of its rate at both ends, after the parameter t -> t / (t + (1-t) /
@@ -212,9 +240,10 @@ class Joiner {
   Result<NurbsCurve> run() {
     if (auto done = add_all(); !done) return fail(done.error());
     if (speed_drift() > kMostDrift) {  // kernels take small derivatives for singular points
+      std::vector<Segment> uneven = std::exchange(segments_, {});
       even_ = true;
-      segments_.clear();
-      if (auto done = add_all(); !done) return fail(done.error());
+      // beside an end that is nearly singular no cut makes the speeds equal
+      if (!add_all()) segments_ = std::move(uneven);
     }
     raise_all();
     return assemble();
@@ -225,9 +254,15 @@ class Joiner {
     for (std::size_t i = 0; i < contour_.pieces.size(); ++i) {
       const std::size_t first = segments_.size();
       if (auto added = add(i, contour_.pieces[i]); !added) return fail(added.error());
-      const bool corner =
-          i > 0 && i < contour_.joints.size() && is_corner(contour_.joints[i]);
+      const bool corner = i > 0 && i < contour_.joints.size() && is_corner(contour_.joints[i]);
       segments_[first].corner_before = corner;
+    }
+    // no ratio of speeds joins what stands still: there the curve is continuous in position only
+    for (std::size_t i = 1; i < segments_.size(); ++i) {
+      if (!(end_speed(segments_[i - 1]) > 0.0 && start_speed(segments_[i]) > 0.0) ||
+          would_leave_joint(segments_[i - 1], segments_[i])) {
+        segments_[i].corner_before = true;
+      }
     }
     return {};
   }
@@ -237,8 +272,8 @@ class Joiner {
     double speed = 1.0, least = 1.0, most = 1.0, drift = 1.0;
     for (const Segment& s : segments_) {
       if (s.corner_before) speed = least = most = 1.0;
-      const std::size_t degree = s.points.size() - 1;
-      speed *= norm(s.points[degree] - s.points[degree - 1]) / norm(s.points[1] - s.points[0]);
+      if (!(start_speed(s) > 0.0 && end_speed(s) > 0.0)) continue;
+      speed *= end_speed(s) / start_speed(s);
       least = std::min(least, speed);
       most = std::max(most, speed);
       drift = std::max(drift, most / least);
@@ -286,8 +321,11 @@ class Joiner {
       keep(bezier, {points_of(bezier), std::vector<double>(std::size_t(bezier.degree) + 1, 1.0)});
       return {};
     }
+    // speeds of which one is 0 cannot be made equal
+    const bool even =
+        even_ && !is_singular_end(Piece{bezier}, 0.0) && !is_singular_end(Piece{bezier}, 1.0);
     const bool too_high = bezier.degree + kRaisedEven > kMaxBezierDegree;
-    if (stands_still(bezier) && (!even_ || too_high)) {  // from here, through other systems
+    if (stands_still(bezier) && (!even || too_high)) {  // from here, through other systems
       Segment segment{points_of(bezier), {}, false};
       for (int j = 0; j <= bezier.degree; ++j) {
         segment.weights.push_back(bezier.weight[static_cast<std::size_t>(j)] / bezier.weight[0]);
@@ -297,12 +335,12 @@ class Joiner {
         return {};
       }
     }
-    const int raised = even_ ? kRaisedEven : kRaised;
+    const int raised = even ? kRaisedEven : kRaised;
     if (bezier.degree + raised > kMaxBezierDegree) {
       return refuse(ErrorCode::kUnsupported, "a rational piece has degree 6 or more", i,
                     "approximate it by a spline first");
     }
-    if (const auto segment = even_ ? even_segment(bezier) : best_segment(bezier)) {
+    if (const auto segment = even ? even_segment(bezier) : best_segment(bezier)) {
       keep(bezier, *segment);
       return {};
     }
@@ -335,7 +373,8 @@ class Joiner {
 
   /// Knot spans in the ratio of the speeds at each joint; the joint's own control point follows
   /// from its neighbours and is left out, but at corners.
-  [[nodiscard]] NurbsCurve assemble() const {
+  [[nodiscard]] Result<NurbsCurve> assemble() const {
+    constexpr double kLeastSpan = 8.0 * 0x1p-53;  // of the knot: kernels take less for nothing
     NurbsCurve curve;
     const std::size_t degree = segments_.front().points.size() - 1;
     curve.degree = static_cast<int>(degree);
@@ -343,12 +382,15 @@ class Joiner {
     double knot = 0.0, speed = 1.0;
     for (std::size_t i = 0; i < segments_.size(); ++i) {
       const Segment& s = segments_[i];
-      const double at_start = norm(s.points[1] - s.points[0]);
-      const double at_end = norm(s.points[degree] - s.points[degree - 1]);
       if (i == 0 || s.corner_before) speed = 1.0 / static_cast<double>(degree);
-      const double span = at_start / speed;
-      speed = at_end / span;
+      const double at_start = start_speed(s);
+      const double span = at_start > 0.0 ? at_start / speed : polygon_length(s);
+      speed = end_speed(s) / span;
       knot += span;
+      if (!(span > kLeastSpan * knot)) {
+        return fail({ErrorCode::kNotProved, "a piece is too short beside the others for a knot", "",
+                     "merge the points that nearly coincide", -1, span / knot});
+      }
       const bool last = i + 1 == segments_.size();
       const bool corner_after = !last && segments_[i + 1].corner_before;
       const std::size_t from = i == 0 ? 0 : 1;

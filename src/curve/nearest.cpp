@@ -3,7 +3,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
+
+#include "obvid/geom/angle.h"
 
 namespace obvid {
 namespace {
@@ -23,7 +24,7 @@ double nearest_on(const ArcPiece& arc, Vec2 p, double) {
   const double whole = arc.kappa * arc.length;
   double turn = std::atan2(arc.kappa * along, 1.0 - arc.kappa * across);
   // of the turns that mean the same direction the one nearest to the middle of the arc
-  turn = 0.5 * whole + std::remainder(turn - 0.5 * whole, 2.0 * std::numbers::pi);
+  turn = nearest_angle(turn, 0.5 * whole);
   const double t = whole != 0.0 ? turn / whole : along / arc.length;
   return std::isfinite(t) ? std::clamp(t, 0.0, 1.0) : 0.0;
 }

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "obvid/curve/nearest.h"
+#include "obvid/curve/nearest_along.h"
 
 namespace obvid {
 namespace {
@@ -31,57 +32,6 @@ struct Match {
   double distance = 0.0;
 };
 
-/// The nearest point of a path to points that move along it.
-class Follower {
- public:
-  explicit Follower(std::span<const Piece> path) : path_(path) {}
-
-  /// The place nearest to `p`; neighbouring pieces are tried when it is larger than `known`.
-  Match match(double t, Vec2 p, double known) {
-    const double away = distance(p, known);
-    return {t, at_, t_, away};
-  }
-
- private:
-  double distance(Vec2 p, double known) {
-    double here = settle(at_, t_, p);
-    while (t_ == 1.0 && at_ + 1 < path_.size() && step_to(at_ + 1, 0.0, p, here)) {
-    }
-    while (t_ == 0.0 && at_ > 0 && step_to(at_ - 1, 1.0, p, here)) {
-    }
-    if (here <= known) return here;
-    while (at_ + 1 < path_.size() && improve(at_ + 1, 0.0, p, here)) {
-    }
-    while (at_ > 0 && improve(at_ - 1, 1.0, p, here)) {
-    }
-    return here;
-  }
-
-  double settle(std::size_t piece, double& t, Vec2 p) const {
-    t = nearest_parameter(path_[piece], p, t);
-    return norm(evaluate(path_[piece], t).point - p);
-  }
-
-  /// Goes on to a neighbour that is not farther.
-  bool step_to(std::size_t piece, double t, Vec2 p, double& here) {
-    const double there = settle(piece, t, p);
-    if (there > here) return false;
-    here = there;
-    at_ = piece;
-    t_ = t;
-    return true;
-  }
-
-  bool improve(std::size_t piece, double t, Vec2 p, double& here) {
-    const double before = here;
-    return step_to(piece, t, p, here) && here < before;
-  }
-
-  std::span<const Piece> path_;
-  std::size_t at_ = 0;
-  double t_ = 0.0;
-};
-
 /// Upper bound of the distances of one path from another. Between two matches t0 and t1 on one
 /// pair of pieces every place is compared with the one that lies as far between u0 and u1: the
 /// difference of the two has lengths d0 and d1 at the ends, and between them at most the larger one
@@ -93,12 +43,13 @@ class DistanceBound {
 
   double run() {
     constexpr double kCouldBeMore = 0.9;  // nearer than this to the largest, neighbours are tried
-    Follower follower(to_);
+    NearestAlong follower(to_);
     for (const Piece& piece : from_) {
       Match before;
       for (int k = 0; k <= kSamples; ++k) {
         const double t = static_cast<double>(k) / kSamples;
-        const Match here = follower.match(t, evaluate(piece, t).point, kCouldBeMore * found_);
+        const auto place = follower.next(evaluate(piece, t).point, kCouldBeMore * found_);
+        const Match here{t, place.piece, place.t, place.distance};
         found_ = std::max(found_, here.distance);
         if (k > 0) spans_.push_back({&piece, before, here});
         before = here;
@@ -123,11 +74,17 @@ class DistanceBound {
       const bool on = first.piece < last.piece;
       const Vec2 joint = evaluate(to_[first.piece], on ? 1.0 : 0.0).point;
       Match cut;
-      cut.t = std::clamp(nearest_parameter(piece, joint, first.t), first.t, last.t);
       cut.piece = first.piece;
       cut.u = on ? 1.0 : 0.0;
+      cut.distance = HUGE_VAL;
+      for (const double from : {first.t, last.t}) {  // a sharp turn may lie between them
+        const double t = std::clamp(nearest_parameter(piece, joint, from), first.t, last.t);
+        const double away = norm(evaluate(piece, t).point - joint);
+        if (away >= cut.distance) continue;
+        cut.t = t;
+        cut.distance = away;
+      }
       const Vec2 here = evaluate(piece, cut.t).point;
-      cut.distance = norm(here - joint);
       const double most = 0.5 * (first.distance + last.distance + way(piece, first, last));
       if (cut.distance > most) return leap(piece, first, last, 0);  // another way round
       bound(piece, first, cut, 0);

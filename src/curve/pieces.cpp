@@ -4,10 +4,13 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
+#include <limits>
 #include <type_traits>
+#include <utility>
 
 #include "homogeneous.h"
 #include "obvid/curve/clothoid.h"
+#include "obvid/numeric/internal/gauss.h"
 #include "obvid/numeric/internal/strict_arithmetic.h"
 
 namespace obvid {
@@ -15,10 +18,38 @@ namespace {
 
 using curve_detail::Homogeneous;
 
-using ControlNet = std::array<Homogeneous, kMaxBezierDegree + 1>;
+/// Value and the first three derivatives of one coordinate.
+using CoordinateJet = std::array<double, 4>;
+
+/// De Casteljau for one coordinate, in registers: the degree is known when this is compiled.
+/// Derivatives beyond it are zero.
+template <std::size_t Degree>
+CoordinateJet coordinate_jet(std::array<double, Degree + 1> c, double t) {
+  constexpr int n = static_cast<int>(Degree);
+  CoordinateJet jet{};
+  for (std::size_t left = Degree;; --left) {
+    // `left` steps remain, so c[0..left] yields the derivative of that order.
+    if (left == 0) jet[0] = c[0];
+    if constexpr (Degree >= 1) {
+      if (left == 1) jet[1] = n * (c[1] - c[0]);
+    }
+    if constexpr (Degree >= 2) {
+      if (left == 2) jet[2] = (n * (n - 1)) * (c[2] - c[1] - (c[1] - c[0]));
+    }
+    if constexpr (Degree >= 3) {
+      if (left == 3) {
+        jet[3] = (n * (n - 1) * (n - 2)) * ((c[3] - c[2]) - 2.0 * (c[2] - c[1]) + (c[1] - c[0]));
+      }
+    }
+    if (left == 0) return jet;
+    for (std::size_t j = 0; j < left; ++j) c[j] = (1.0 - t) * c[j] + t * c[j + 1];
+  }
+}
 
 /// Control points relative to `reference`: the products with the weights then carry the size of
 /// the piece, not of its coordinates, so curvature survives a piece far from the origin.
+using ControlNet = std::array<Homogeneous, kMaxBezierDegree + 1>;
+
 ControlNet control_net(const RationalBezier& piece, Vec2 reference) {
   ControlNet net{};
   for (std::size_t j = 0; j <= static_cast<std::size_t>(piece.degree); ++j) {
@@ -28,25 +59,28 @@ ControlNet control_net(const RationalBezier& piece, Vec2 reference) {
   return net;
 }
 
-/// Value and derivatives of the homogeneous curve; those beyond the degree are zero.
-std::array<Homogeneous, 4> homogeneous_jet(ControlNet net, int degree, double t) {
-  std::array<Homogeneous, 4> jet{};
-  for (int left = degree; left >= 0; --left) {
-    // `left` steps of de Casteljau remain, so net[0..left] yields the derivative of that order.
-    const Homogeneous first = net[1] - net[0];
-    const Homogeneous second = net[2] - net[1] - first;
-    if (left == 0) jet[0] = net[0];
-    if (left == 1) jet[1] = degree * first;
-    if (left == 2) jet[2] = (degree * (degree - 1)) * second;
-    if (left == 3) {
-      const Homogeneous third = (net[3] - net[2]) - 2.0 * (net[2] - net[1]) + first;
-      jet[3] = (degree * (degree - 1) * (degree - 2)) * third;
-    }
-    for (std::size_t j = 0; j < static_cast<std::size_t>(left); ++j) {
-      net[j] = (1.0 - t) * net[j] + t * net[j + 1];
-    }
+/// Value and derivatives of the homogeneous curve.
+template <std::size_t Degree>
+std::array<Homogeneous, 4> homogeneous_jet(const RationalBezier& piece, Vec2 reference, double t) {
+  std::array<double, Degree + 1> x{}, y{}, w{};
+  for (std::size_t j = 0; j <= Degree; ++j) {
+    const Vec2 q = piece.offset[j] - reference;
+    w[j] = piece.weight[j];
+    x[j] = w[j] * q.x;
+    y[j] = w[j] * q.y;
   }
+  const CoordinateJet jx = coordinate_jet<Degree>(x, t), jy = coordinate_jet<Degree>(y, t),
+                      jw = coordinate_jet<Degree>(w, t);
+  std::array<Homogeneous, 4> jet{};
+  for (std::size_t r = 0; r < 4; ++r) jet[r] = {jx[r], jy[r], jw[r]};
   return jet;
+}
+
+template <std::size_t... Degrees>
+std::array<Homogeneous, 4> jet_by_degree(const RationalBezier& piece, Vec2 reference, double t,
+                                         std::index_sequence<Degrees...>) {
+  constexpr std::array kOfDegree = {&homogeneous_jet<Degrees>...};
+  return kOfDegree[static_cast<std::size_t>(piece.degree)](piece, reference, t);
 }
 
 /// sin(x)/x without a hole at 0.
@@ -58,21 +92,8 @@ Vec2 arc_step(double theta, double kappa, double s) {
   return s * sinc(half) * unit_at(theta + half);
 }
 
-// Gauss-Legendre nodes and weights on [-1, 1], 8 points (Abramowitz and Stegun, table 25.4).
-constexpr std::array<double, 4> kGaussNode = {0.1834346424956498, 0.5255324099163290,
-                                              0.7966664774136267, 0.9602898564975363};
-constexpr std::array<double, 4> kGaussWeight = {0.3626837833783620, 0.3137066458778873,
-                                                0.2223810344533745, 0.1012285362903763};
-
 double speed_integral(const RationalBezier& piece, double a, double b) {
-  const double middle = 0.5 * (a + b);
-  const double half = 0.5 * (b - a);
-  double sum = 0.0;
-  for (std::size_t j = 0; j < kGaussNode.size(); ++j) {
-    sum += kGaussWeight[j] * (norm(evaluate(piece, middle - half * kGaussNode[j]).d1) +
-                              norm(evaluate(piece, middle + half * kGaussNode[j]).d1));
-  }
-  return half * sum;
+  return gauss_integral<8>(a, b, [&](double t) { return norm(evaluate(piece, t).d1); });
 }
 
 constexpr int kMaxHalvings = 40;               // a speed that is smooth converges in less than ten
@@ -89,6 +110,17 @@ double refined_length(const RationalBezier& piece, double a, double b, double wh
   }
   return refined_length(piece, a, middle, left, 0.5 * tolerance, halvings - 1) +
          refined_length(piece, middle, b, right, 0.5 * tolerance, halvings - 1);
+}
+
+/// Along the first leg from an end of the control polygon that has a length; nothing when none has.
+Vec2 limit_direction(const RationalBezier& piece, bool at_end) {
+  const auto n = static_cast<std::size_t>(piece.degree);
+  const Vec2 end = piece.offset[at_end ? n : 0];
+  for (std::size_t k = 1; k <= n; ++k) {
+    const Vec2 leg = piece.offset[at_end ? n - k : k] - end;
+    if (!(leg == Vec2{})) return at_end ? -1.0 * leg : leg;
+  }
+  return {};
 }
 
 }  // namespace
@@ -113,7 +145,8 @@ Jet evaluate(const RationalBezier& piece, double t) {
   assert(piece.degree >= 1 && piece.degree <= kMaxBezierDegree);
   // The nearer end is the reference: the end itself is then met exactly.
   const Vec2 reference = piece.offset[t <= 0.5 ? 0 : static_cast<std::size_t>(piece.degree)];
-  const auto h = homogeneous_jet(control_net(piece, reference), piece.degree, t);
+  const auto h =
+      jet_by_degree(piece, reference, t, std::make_index_sequence<kMaxBezierDegree + 1>{});
   const double inverse = 1.0 / h[0].w;
   const Vec2 q = inverse * Vec2{h[0].x, h[0].y};
   const Vec2 d1 = inverse * (Vec2{h[1].x, h[1].y} - h[1].w * q);
@@ -148,6 +181,44 @@ double curvature(const Jet& jet) {
   return cross(jet.d1 / speed, jet.d2 / speed) / speed;
 }
 
+namespace {
+
+double turning_both_ways(const LinePiece& /*piece*/, double /*t0*/, double /*t1*/) { return 0.0; }
+
+double turning_both_ways(const ArcPiece& p, double t0, double t1) {
+  return std::abs(p.kappa) * p.length * (t1 - t0);
+}
+
+double turning_both_ways(const ClothoidPiece& p, double t0, double t1) {
+  const double length = p.length * (t1 - t0);
+  const double from = p.kappa0 + (p.kappa1 - p.kappa0) * t0;
+  const double to = p.kappa0 + (p.kappa1 - p.kappa0) * t1;
+  if (from * to >= 0.0) return 0.5 * (std::abs(from) + std::abs(to)) * length;
+  const double part = from / (from - to);  // up to the inflection
+  return 0.5 * (std::abs(from) * part + std::abs(to) * (1.0 - part)) * length;
+}
+
+double turning_both_ways(const RationalBezier& p, double t0, double t1) {
+  constexpr int kStepsAcrossInflection = 16;  // the step with the inflection hides what it turns
+  Jet before = evaluate(p, t0);
+  const Jet end = evaluate(p, t1);
+  const bool bends_both_ways = curvature(before) * curvature(end) < 0.0;
+  const int steps = bends_both_ways ? kStepsAcrossInflection : 1;
+  double sum = 0.0;
+  for (int i = 1; i <= steps; ++i) {
+    const Jet now = i == steps ? end : evaluate(p, t0 + (t1 - t0) * i / steps);
+    sum += std::abs(turning(before.d1, now.d1));
+    before = now;
+  }
+  return sum;
+}
+
+}  // namespace
+
+double turning_both_ways(const Piece& piece, double t0, double t1) {
+  return std::visit([&](const auto& p) { return turning_both_ways(p, t0, t1); }, piece);
+}
+
 double curvature_rate(const Jet& jet) {
   const double speed = norm(jet.d1);
   const Vec2 tangent = jet.d1 / speed;
@@ -155,6 +226,21 @@ double curvature_rate(const Jet& jet) {
   const Vec2 third = jet.d3 / speed;
   const double bend = cross(tangent, second);
   return (cross(tangent, third) - 3.0 * bend * dot(tangent, second)) / speed / speed;
+}
+
+bool is_singular_end(const Piece& piece, double t) {
+  const auto* bezier = std::get_if<RationalBezier>(&piece);
+  if (bezier == nullptr || (t != 0.0 && t != 1.0)) return false;
+  const auto n = static_cast<std::size_t>(bezier->degree);
+  return t == 0.0 ? bezier->offset[1] == bezier->offset[0]
+                  : bezier->offset[n - 1] == bezier->offset[n];
+}
+
+Element element_at(const Piece& piece, double t) {
+  const Jet jet = evaluate(piece, t);
+  if (!is_singular_end(piece, t)) return {jet.point, heading(jet.d1), curvature(jet)};
+  return {jet.point, heading(limit_direction(std::get<RationalBezier>(piece), t == 1.0)),
+          std::numeric_limits<double>::quiet_NaN()};
 }
 
 Piece moved(const Piece& piece, Vec2 by) {

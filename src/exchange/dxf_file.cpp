@@ -115,14 +115,19 @@ void add_linetypes(DxfWriter& out, Tables& tables) {
   tables.end();
 }
 
-void add_layers(DxfWriter& out, Tables& tables, const std::string& layer) {
-  tables.begin("LAYER", "2", 2);
-  const std::pair<const char*, std::string> layers[] = {{"10", "0"}, {"11", layer}};
-  for (const auto& [handle, name] : layers) {
-    if (name == "0" && handle != std::string("10")) continue;
-    tables.entry("LAYER", handle, "AcDbLayerTableRecord", name);
+void add_layers(DxfWriter& out, Tables& tables, const std::vector<DxfLayer>& more) {
+  std::vector<std::pair<std::string, DxfLayer>> layers{{"10", {"0", kWhiteOrBlack}}};
+  constexpr unsigned kFirstHandle = 0x80;  // free among those of the tables
+  for (const DxfLayer& layer : more) {
+    if (layer.name == "0") continue;
+    const auto number = static_cast<unsigned>(layers.size()) - 1;
+    layers.emplace_back(number == 0 ? "11" : fmt::format("{:X}", kFirstHandle + number), layer);
+  }
+  tables.begin("LAYER", "2", static_cast<int>(std::max<std::size_t>(layers.size(), 2)));
+  for (const auto& [handle, layer] : layers) {
+    tables.entry("LAYER", handle.c_str(), "AcDbLayerTableRecord", layer.name);
     out.pair(70, 0);
-    out.pair(62, 7);
+    out.pair(62, layer.color);
     out.pair(6, "Continuous");
     out.pair(390, "F");
   }
@@ -189,18 +194,18 @@ void end_section(DxfWriter& out) { out.pair(0, "ENDSEC"); }
 
 }  // namespace
 
-std::string r2000_head(const std::string& layer, int units, const std::string& seed, Vec2 low,
-                       Vec2 high) {
+std::string r2000_head(const std::vector<DxfLayer>& layers, int units, const std::string& seed,
+                       Vec2 low, Vec2 high) {
   DxfWriter out;
   out.append(fmt::format(fmt::runtime(kHead), fmt::arg("seed", seed), fmt::arg("units", units),
-                         fmt::arg("metric", dxf::measurement_of(units)),
-                         fmt::arg("low_x", low.x), fmt::arg("low_y", low.y),
-                         fmt::arg("high_x", high.x), fmt::arg("high_y", high.y)));
+                         fmt::arg("metric", dxf::measurement_of(units)), fmt::arg("low_x", low.x),
+                         fmt::arg("low_y", low.y), fmt::arg("high_x", high.x),
+                         fmt::arg("high_y", high.y)));
   begin_section(out, "TABLES");
   Tables tables(out);
   add_vport(out, tables, low, high);
   add_linetypes(out, tables);
-  add_layers(out, tables, layer);
+  add_layers(out, tables, layers);
   add_small_tables(out, tables);
   tables.begin("BLOCK_RECORD", "1", 2);
   tables.entry("BLOCK_RECORD", kModelSpace, "AcDbBlockTableRecord", "*Model_Space");

@@ -6,6 +6,7 @@
 #include <iterator>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "obvid/core/format_into.h"
 #include "obvid/geom/vec2.h"
@@ -40,9 +41,17 @@ class DxfWriter {
   unsigned next_ = 0x100;  // those below are of the tables
 };
 
+/// AutoCAD colour index that is black on white and white on black.
+inline constexpr int kWhiteOrBlack = 7;
+
+struct DxfLayer {
+  std::string name;
+  int color = kWhiteOrBlack;
+};
+
 /// What stands around the entities of an R2000 file: header, tables, blocks, objects.
-[[nodiscard]] std::string r2000_head(const std::string& layer, int units, const std::string& seed,
-                                     Vec2 low, Vec2 high);
+[[nodiscard]] std::string r2000_head(const std::vector<DxfLayer>& layers, int units,
+                                     const std::string& seed, Vec2 low, Vec2 high);
 [[nodiscard]] std::string r2000_tail();
 /// Handle of the model space, owner of all entities.
 inline constexpr const char* kModelSpace = "1F";

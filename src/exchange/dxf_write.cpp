@@ -78,7 +78,7 @@ class DxfDrawer {
                      out_.take() + "  0\nENDSEC\n  0\nEOF\n";
     } else {
       const std::string seed = out_.next_handle();
-      result_.text = exchange::r2000_head(layer_, unit_code(contour_.units), seed, low_, high_) +
+      result_.text = exchange::r2000_head({{layer_}}, unit_code(contour_.units), seed, low_, high_) +
                      out_.take() + exchange::r2000_tail();
     }
     return std::move(result_);

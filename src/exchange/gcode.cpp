@@ -76,6 +76,7 @@ class Program {
       deviation = path_distance(contour_.pieces, path.pieces()) + path.radius_mismatch();
       if (path.pieces().empty()) return fail(nothing_left());
       if (deviation <= options_.tolerance) return finished(path, deviation);
+      if (path.lost_arcs()) return fail(too_large());
       within -= deviation - kOfBlockTolerance * options_.tolerance;
     }
     return fail({ErrorCode::kToleranceNotReached,

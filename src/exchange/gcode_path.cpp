@@ -7,6 +7,7 @@
 #include <cmath>
 #include <cstdlib>
 #include <iterator>
+#include <limits>
 
 #include "obvid/core/format_into.h"
 
@@ -36,11 +37,13 @@ struct Centre {
   double mismatch = 0.0;  ///< of the radii at both ends
 };
 
-/// `above`: height of the centre over the middle of the chord. Extended digits: a centre far away
-/// has to lie on the chord's bisector in all decimals that are printed.
-Centre centre_over(Vec2 chord, double above) {
-  using Extended = long double;
-  const Extended x = chord.x, y = chord.y, length = std::hypot(x, y), part = above / length;
+/// Digits of a double do not do: a centre far away has to lie on the chord's bisector in all
+/// decimals that are printed, and last digits of large coordinates are more than 53 bits.
+using Extended = long double;
+
+/// `above`: height of the centre over the middle of the chord (`x`, `y`).
+Centre centre_over(Extended x, Extended y, double above) {
+  const Extended length = std::hypot(x, y), part = above / length;
   Centre out{never_minus_zero(fmt::format("{:.{}f}", 0.5L * x - part * y, kCentreDecimals)),
              never_minus_zero(fmt::format("{:.{}f}", 0.5L * y + part * x, kCentreDecimals)),
              {},
@@ -49,8 +52,10 @@ Centre centre_over(Vec2 chord, double above) {
   out.ij = {static_cast<double>(i), static_cast<double>(j)};
   // |ij|^2 - |ij - chord|^2 over the sum of the roots
   const Extended squares = (2.0L * i - x) * x + (2.0L * j - y) * y;
-  out.mismatch =
-      static_cast<double>(std::abs(squares) / (std::hypot(i, j) + std::hypot(i - x, j - y)));
+  const Extended radii = std::hypot(i, j) + std::hypot(i - x, j - y);
+  // what rounding of these lines hides: of i, j, x, y, the products and the sum, half an ulp each
+  constexpr Extended kRoundings = 3.0L * std::numeric_limits<Extended>::epsilon();
+  out.mismatch = static_cast<double>(std::abs(squares) / radii + kRoundings * radii);
   return out;
 }
 
@@ -126,8 +131,14 @@ void GcodePath::arc(Vec2 middle, GridPlace end, bool left) {
   if (wrong_side || std::abs(height) < kLowestArc * unit_ || radius < kSmallestRadius) {
     return line(end);
   }
-  const Centre centre = centre_over(chord, height + (left ? radius : -radius));
-  if (!(centre.mismatch <= kMostMismatch)) return line(end);
+  const Extended places = std::pow(10.0, decimals_);
+  const Centre centre = centre_over(static_cast<Extended>(end.x - at_.x) / places,
+                                    static_cast<Extended>(end.y - at_.y) / places,
+                                    height + (left ? radius : -radius));
+  if (!(centre.mismatch <= kMostMismatch)) {
+    lost_arcs_ = true;
+    return line(end);
+  }
   radius_mismatch_ = std::max(radius_mismatch_, centre.mismatch / scale_);
   const Vec2 ij = centre.ij;
   format_into(text_, "{} {} I{} J{}\n", left ? "G3" : "G2", place(end), centre.i, centre.j);

@@ -40,6 +40,8 @@ class GcodePath {
   /// How far the radii of an arc as printed are apart at its two ends, units of the contour, at
   /// most: controllers make of them what they like, and are that far from `pieces`.
   [[nodiscard]] double radius_mismatch() const { return radius_mismatch_; }
+  /// Whether arcs became lines because their centres cannot be printed: they are too far away.
+  [[nodiscard]] bool lost_arcs() const { return lost_arcs_; }
   /// Whether places of such coordinates (units of the contour) can be printed.
   [[nodiscard]] bool holds(double coordinate) const;
 
@@ -58,6 +60,7 @@ class GcodePath {
   int decimals_;
   GridPlace start_, at_;
   double radius_mismatch_ = 0.0;
+  bool lost_arcs_ = false;
   std::string text_;
   std::size_t arcs_ = 0;
   std::vector<Piece> pieces_;

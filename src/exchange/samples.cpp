@@ -9,7 +9,9 @@
 #include <numbers>
 
 #include "obvid/core/format_into.h"
-#include "obvid/region/refine.h"
+#include "obvid/curve/contour_path.h"
+#include "obvid/curve/flatten.h"
+#include "obvid/geom/angle.h"
 
 namespace obvid {
 namespace {
@@ -23,113 +25,38 @@ Error bad(const char* what, double value) {
   return {ErrorCode::kBadOption, what, "", "give a positive number", -1, value};
 }
 
-/// Pieces by their lengths, and places on them by arc length.
-class Track {
- public:
-  explicit Track(std::span<const Piece> pieces) : pieces_(pieces) {
-    starts_.push_back(0.0);
-    double rough = 0.0;
-    for (const Piece& piece : pieces) rough += norm(end_point(piece) - start_point(piece));
-    constexpr double kExact = 1e-13;
-    for (const Piece& piece : pieces) {
-      starts_.push_back(starts_.back() + arc_length(piece, kExact * rough));
-    }
-    tolerance_ = kExact * rough;
-  }
+/// Sample at a parameter of a piece, its heading near `theta`.
+CurveSample sample_at(const ContourPath& path, ContourPath::Parameter at, double s, double theta) {
+  const Element e = element_at(path.pieces()[at.piece], at.t);
+  return {e.point, s, nearest_angle(e.theta, theta), e.kappa};
+}
 
-  [[nodiscard]] double length() const { return starts_.back(); }
-  [[nodiscard]] double start(std::size_t piece) const { return starts_[piece]; }
-
-  /// Sample at a parameter of a piece, its heading near `theta`.
-  [[nodiscard]] CurveSample at(std::size_t piece, double t, double s, double theta) const {
-    const Element e = element_at(pieces_[piece], t);
-    return {e.point, s, theta + std::remainder(e.theta - theta, 2.0 * std::numbers::pi), e.kappa};
-  }
-
-  [[nodiscard]] CurveSample at_length(double s, double theta) const {
-    const auto next = std::upper_bound(starts_.begin() + 1, starts_.end() - 1, s);
-    const auto piece = static_cast<std::size_t>(next - starts_.begin()) - 1;
-    return at(piece, parameter(piece, s - starts_[piece]), s, theta);
-  }
-
-  /// Arc length of the first part of a piece.
-  [[nodiscard]] double partial(std::size_t piece, double t) const {
-    if (t <= 0.0) return 0.0;
-    if (const auto* bezier = std::get_if<RationalBezier>(&pieces_[piece])) {
-      return t >= 1.0 ? starts_[piece + 1] - starts_[piece]
-                      : arc_length(Piece{split(*bezier, t)[0]}, tolerance_);
-    }
-    return t * (starts_[piece + 1] - starts_[piece]);  // lines, arcs, clothoids run evenly
-  }
-
- private:
-  /// Newton's method for the parameter at which a piece has this length, kept between bounds.
-  [[nodiscard]] double parameter(std::size_t piece, double length) const {
-    const double whole = starts_[piece + 1] - starts_[piece];
-    if (!(length > 0.0) || whole == 0.0) return 0.0;
-    if (length >= whole) return 1.0;
-    double low = 0.0, high = 1.0, t = length / whole;
-    if (!std::holds_alternative<RationalBezier>(pieces_[piece])) return t;
-    constexpr int kSteps = 40;
-    for (int k = 0; k < kSteps; ++k) {
-      const double error = partial(piece, t) - length;
-      if (std::abs(error) <= 4.0 * tolerance_) break;
-      (error > 0.0 ? high : low) = t;
-      const double newton = t - error / norm(evaluate(pieces_[piece], t).d1);
-      t = newton > low && newton < high ? newton : 0.5 * (low + high);
-    }
-    return t;
-  }
-
-  std::span<const Piece> pieces_;
-  std::vector<double> starts_;
-  double tolerance_ = 0.0;
-};
-
-std::vector<CurveSample> at_lengths(const Track& track, std::size_t count, double step) {
+std::vector<CurveSample> at_lengths(const ContourPath& path, std::size_t count, double step) {
   std::vector<CurveSample> out;
   out.reserve(count);
   double theta = 0.0;
   for (std::size_t i = 0; i < count; ++i) {
-    const double s = i + 1 == count ? track.length() : static_cast<double>(i) * step;
-    out.push_back(track.at_length(s, theta));
+    const double s = i + 1 == count ? path.length() : static_cast<double>(i) * step;
+    out.push_back(sample_at(path, path.parameter(s), s, theta));
     theta = out.back().theta;
   }
   return out;
 }
 
-/// Equal steps of the parameter so many that each chord is near enough, measured at its middle.
-int chords_of(const Piece& piece, double tolerance) {
-  int n = std::holds_alternative<LinePiece>(piece) ? 1 : 2;
-  for (; n < kMostChords; n *= 2) {
-    double most = 0.0;
-    Vec2 before = start_point(piece);
-    for (int k = 1; k <= n && most <= tolerance; ++k) {
-      const Vec2 here = evaluate(piece, static_cast<double>(k) / n).point;
-      const Vec2 middle = evaluate(piece, (k - 0.5) / n).point, chord = here - before;
-      const double length = norm(chord);
-      most = std::max(most, length > 0.0 ? std::abs(cross(chord, middle - before)) / length
-                                         : norm(middle - before));
-      before = here;
-    }
-    if (n == 1 || most <= tolerance) break;
-  }
-  return n;
-}
-
-Result<std::vector<CurveSample>> by_chords(std::span<const Piece> pieces, const Track& track,
-                                           double tolerance) {
+Result<std::vector<CurveSample>> by_chords(const ContourPath& path, double tolerance) {
   std::vector<CurveSample> out;
   double theta = 0.0;
-  for (std::size_t i = 0; i < pieces.size(); ++i) {
-    const int n = chords_of(pieces[i], tolerance);
+  for (std::size_t i = 0; i < path.pieces().size(); ++i) {
+    const Piece& piece = path.pieces()[i];
+    const int fewest = std::holds_alternative<LinePiece>(piece) ? 1 : 2;
+    const int n = chord_steps(piece, tolerance, fewest, fewest == 1 ? 1 : kMostChords);
     if (out.size() + static_cast<std::size_t>(n) > kMostSamples) {
       return fail({ErrorCode::kBadOption, "this tolerance asks for more than ten million samples",
                    "", "choose a larger one", -1, tolerance});
     }
     for (int k = 0; k <= n; ++k) {
       const double t = static_cast<double>(k) / n;
-      const CurveSample one = track.at(i, t, track.start(i) + track.partial(i, t), theta);
+      const CurveSample one = sample_at(path, {i, t}, path.length_at(i, t), theta);
       theta = one.theta;
       const bool joint = k == 0 && !out.empty();
       const bool corner = joint && std::abs(one.theta - out.back().theta) > kNoCorner;
@@ -148,6 +75,11 @@ std::string plain(const Units& units) {
   return out.empty() ? "unit" : out;
 }
 
+/// An empty cell for a figure that is not defined.
+std::string figure_or_nothing(double value) {
+  return std::isnan(value) ? std::string() : fmt::format("{}", value);
+}
+
 std::vector<Vec2> distinct(const std::vector<CurveSample>& samples, bool closed) {
   std::vector<Vec2> out;
   for (const CurveSample& one : samples) {
@@ -159,32 +91,80 @@ std::vector<Vec2> distinct(const std::vector<CurveSample>& samples, bool closed)
 
 }  // namespace
 
+namespace {
+
+Error no_pieces() {
+  return {ErrorCode::kTooFewPoints, "the contour has no pieces", "", "", -1, 0.0};
+}
+
+Error beyond_the_curve(double place, double end) {
+  return {ErrorCode::kBadOption,
+          fmt::format("the place {} is not in 0 to {}", place, end),
+          "",
+          "ask for places on the contour",
+          -1,
+          place};
+}
+
+}  // namespace
+
+Result<std::vector<CurveSample>> sample_at_lengths(std::span<const Piece> pieces,
+                                                   std::span<const double> lengths) {
+  if (pieces.empty()) return fail(no_pieces());
+  const ContourPath path(pieces);
+  std::vector<CurveSample> out;
+  double theta = 0.0;
+  for (const double s : lengths) {
+    if (!(s >= 0.0 && s <= path.length())) return fail(beyond_the_curve(s, path.length()));
+    out.push_back(sample_at(path, path.parameter(s), s, theta));
+    theta = out.back().theta;
+  }
+  return out;
+}
+
+Result<std::vector<CurveSample>> sample_at_parameters(std::span<const Piece> pieces,
+                                                      std::span<const double> parameters) {
+  if (pieces.empty()) return fail(no_pieces());
+  const ContourPath path(pieces);
+  const auto end = static_cast<double>(pieces.size());
+  std::vector<CurveSample> out;
+  double theta = 0.0;
+  for (const double place : parameters) {
+    if (!(place >= 0.0 && place <= end)) return fail(beyond_the_curve(place, end));
+    const auto piece = std::min(static_cast<std::size_t>(place), pieces.size() - 1);
+    const double t = place - static_cast<double>(piece);
+    out.push_back(sample_at(path, {piece, t}, path.length_at(piece, t), theta));
+    theta = out.back().theta;
+  }
+  return out;
+}
+
 Result<std::vector<CurveSample>> sample(std::span<const Piece> pieces,
                                         const SampleOptions& options) {
   if (pieces.empty()) {
     return fail({ErrorCode::kTooFewPoints, "there is no curve to sample", "", "", -1, 0.0});
   }
-  const Track track(pieces);
+  const ContourPath path(pieces);
   if (options.count) {
     if (*options.count < 2 || *options.count > kMostSamples) {
       return fail(
           bad("two to ten million samples are possible", static_cast<double>(*options.count)));
     }
-    return at_lengths(track, *options.count,
-                      track.length() / static_cast<double>(*options.count - 1));
+    return at_lengths(path, *options.count,
+                      path.length() / static_cast<double>(*options.count - 1));
   }
   if (options.step) {
-    const double count = std::ceil(track.length() / *options.step * (1.0 - 1e-12)) + 1.0;
+    const double count = std::ceil(path.length() / *options.step * (1.0 - 1e-12)) + 1.0;
     if (!(*options.step > 0.0) || !(count <= static_cast<double>(kMostSamples))) {
       return fail(bad("the step must be positive, and not for more than ten million samples",
                       *options.step));
     }
-    return at_lengths(track, std::max<std::size_t>(2, static_cast<std::size_t>(count)),
+    return at_lengths(path, std::max<std::size_t>(2, static_cast<std::size_t>(count)),
                       *options.step);
   }
-  const double tolerance = options.chord_tolerance.value_or(kDefaultChord * track.length());
+  const double tolerance = options.chord_tolerance.value_or(kDefaultChord * path.length());
   if (!(tolerance > 0.0)) return fail(bad("the chord tolerance must be positive", tolerance));
-  return by_chords(pieces, track, tolerance);
+  return by_chords(path, tolerance);
 }
 
 Result<std::string> samples_csv(const Contour& contour, const SampleOptions& options) {
@@ -199,7 +179,8 @@ Result<std::string> samples_csv(const Contour& contour, const SampleOptions& opt
   for (const CurveSample& one : *samples) {
     const Vec2 normal = left_normal(unit_at(one.theta));
     format_into(out, "{},{},{},{},{},{},{}\n", one.s, one.point.x, one.point.y,
-                one.theta * 180.0 / std::numbers::pi, one.kappa, normal.x, normal.y);
+                one.theta * 180.0 / std::numbers::pi, figure_or_nothing(one.kappa), normal.x,
+                normal.y);
   }
   return out;
 }

@@ -33,7 +33,8 @@ class Macro {
 
   Result<std::string> run() {
     out_ =
-        "' Draws an Obvid contour into the active sketch. Tools > Macro > Run.\n"
+        "' Draws an Obvid contour into the active sketch. Tools > Macro > Edit, take this file\n"
+        "' (.swb; a .bas is imported in the editor: File > Import File), then Run (F5).\n"
         "Dim swApp As Object\nDim model As Object\nDim sketch As Object\nDim item As Object\n"
         "Dim points() As Double\n\nSub main()\n"
         "  Set swApp = Application.SldWorks\n  Set model = swApp.ActiveDoc\n"

@@ -81,6 +81,18 @@ StepId StepCurves::conic(const StepConic& one, double z) {
 StepId StepCurves::spline(const NurbsCurve& curve, bool closed, double z) {
   std::vector<StepId> points;
   for (const Vec2 p : curve.points) points.push_back(point(p, z));
+  return spline_through(curve, points, closed);
+}
+
+StepId StepCurves::spline(const SpaceCurve& curve) {
+  std::vector<StepId> points;
+  for (const Vec3& p : curve.points) points.push_back(point({p.x, p.y}, p.z));
+  return spline_through(curve, points, curve.points.front() == curve.points.back());
+}
+
+template <class Curve>
+StepId StepCurves::spline_through(const Curve& curve, const std::vector<StepId>& points,
+                                  bool closed) {
   const KnotRows knots = knot_rows(curve.knots);
   const std::string general = fmt::format("{},{},.UNSPECIFIED.,{},.U.", curve.degree,
                                           list_of(points), closed ? ".T." : ".F.");

@@ -22,6 +22,8 @@ class StepCurves {
   StepId basis(const StepShape& shape, double z);
   /// Just the shape: trimmed unless it is a spline.
   StepId trimmed(const StepShape& shape);
+  /// A NURBS curve in space.
+  StepId spline(const SpaceCurve& curve);
   /// All of a chain as one curve.
   StepId whole(const StepChain& chain);
 
@@ -33,6 +35,8 @@ class StepCurves {
   StepId conic(const StepConic& one, double z);
   StepId down();
   StepId spline(const NurbsCurve& curve, bool closed, double z);
+  template <class Curve>
+  StepId spline_through(const Curve& curve, const std::vector<StepId>& points, bool closed);
 
   StepFile& file_;
   StepId up_, origin_;

@@ -56,9 +56,10 @@ class StepDocument {
   StepDocument(std::string name, const StepOptions& options, const StepUnit& unit, double mm)
       : name_(std::move(name)), options_(options), unit_(unit), mm_(mm), curves_(file_) {}
 
-  std::string run(const std::vector<StepChain>& chains, double width) {
+  std::string run(const std::vector<StepChain>& chains, const std::vector<SpaceCurve>& spatial,
+                  double width) {
     context();
-    const StepId wires = wireframe(chains);
+    const StepId wires = wireframe(chains, spatial);
     const StepId product = product_shape();
     if (width > 0.0) {
       const StepId both = add("SHAPE_REPRESENTATION('',({}),{})", curves_.origin(), context_);
@@ -110,9 +111,10 @@ class StepDocument {
             accuracy, length, angle, solid);
   }
 
-  StepId wireframe(const std::vector<StepChain>& chains) {
+  StepId wireframe(const std::vector<StepChain>& chains, const std::vector<SpaceCurve>& spatial) {
     std::vector<StepId> all;
     for (const StepChain& chain : chains) all.push_back(curves_.whole(chain));
+    for (const SpaceCurve& curve : spatial) all.push_back(curves_.spline(curve));
     const StepId set = add("GEOMETRIC_CURVE_SET('',{})", step_list<StepId>(all));
     return add("GEOMETRICALLY_BOUNDED_WIREFRAME_SHAPE_REPRESENTATION('',({},{}),{})",
                curves_.origin(), set, context_);
@@ -166,14 +168,25 @@ Result<std::string> step_text(const std::vector<CadCurve>& curves, const StepOpt
   const double scale = written == options.units ? 1.0 : *unit_ratio(options.units, written);
   const double mm = *unit_ratio(written, "mm");
   std::vector<StepChain> chains;
+  std::vector<SpaceCurve> spatial;
   for (const CadCurve& curve : curves) {
+    if (const auto* one = std::get_if<SpaceCurve>(&curve.geometry)) {
+      if (auto good = check(*one); !good) return fail(good.error());
+      if (options.face_width > 0.0) {
+        return fail({ErrorCode::kUnsupported, "faces are made of plane curves only", "",
+                     "leave --face out", -1, 0.0});
+      }
+      spatial.push_back(*one);
+      for (Vec3& point : spatial.back().points) point = scale * point;
+      continue;
+    }
     auto chain = exchange::step_chain(curve, scale, kSamePoint / mm);
     if (!chain) return fail(chain.error());
     chains.push_back(std::move(*chain));
   }
   const std::string& name = curves.front().name;
   return StepDocument(name.empty() ? "contour" : name, options, *unit, mm)
-      .run(chains, scale * options.face_width);
+      .run(chains, spatial, scale * options.face_width);
 }
 
 }  // namespace obvid

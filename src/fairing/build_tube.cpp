@@ -8,6 +8,7 @@
 
 #include "find_primitives.h"
 #include "heading_ranges.h"
+#include "obvid/geom/angle.h"
 #include "obvid/series/analysis.h"
 #include "tube_ends.h"
 #include "tube_solver.h"
@@ -321,7 +322,7 @@ class Builder {
       node.sign = d.curvature_sign;
       node.fix_theta = d.theta.has_value();
       node.fix_kappa = d.kappa.has_value();
-      if (d.theta) node.theta += std::remainder(*d.theta - node.theta, 2.0 * std::numbers::pi);
+      if (d.theta) node.theta = nearest_angle(*d.theta, node.theta);
       if (d.kappa) node.kappa = *d.kappa;
     }
     node.normal = left_normal(unit_at(node.theta));

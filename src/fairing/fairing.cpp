@@ -172,7 +172,7 @@ std::optional<std::size_t> nearest_primitive_end(const FairedSeries& faired, std
 }
 
 FairedSeries fair(const MeasuredSeries& series, Watch& watch) {
-  const int lower_bound = forced_vertices(series.points, series.reach, series.closed);
+  const int lower_bound = forced_vertices(series.points, series.reach, series.closed, watch);
   if (series.primitives) {
     if (auto out = keep_primitives(series, lower_bound, watch)) return std::move(*out);
   }

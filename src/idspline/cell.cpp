@@ -5,6 +5,8 @@
 #include <cassert>
 #include <cstddef>
 
+#include "obvid/numeric/internal/gauss.h"
+
 namespace obvid {
 namespace {
 
@@ -16,15 +18,6 @@ constexpr std::array<double, 4> kPerMoment = {1.0, 6.0, 30.0, 140.0};
 double line(const CellPolynomial& cell, std::size_t k, double u) {
   return (1.0 - u) * cell.left[k] + u * cell.right[k];
 }
-
-/// Four Gauss points on [-1, 1]: exact up to degree 7, the largest that a cell can have.
-struct GaussPoint {
-  double place, weight;
-};
-constexpr std::array<GaussPoint, 2> kGauss = {{
-    {0.33998104358485626, 0.65214515486254614},
-    {0.86113631159405258, 0.34785484513745386},
-}};
 
 }  // namespace
 
@@ -88,12 +81,8 @@ double mean(const CellPolynomial& cell) {
 }
 
 double integral(const CellPolynomial& cell, double a, double b) {
-  const double middle = 0.5 * (a + b), half = 0.5 * (b - a);
-  double sum = 0.0;
-  for (const auto& [place, weight] : kGauss) {
-    sum += weight * (value(cell, middle - half * place) + value(cell, middle + half * place));
-  }
-  return half * sum;
+  // four points are exact up to degree 7, the largest that a cell can have
+  return gauss_integral<4>(a, b, [&](double x) { return value(cell, x); });
 }
 
 std::array<double, 8> power_coefficients(const CellPolynomial& cell) {

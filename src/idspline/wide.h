@@ -1,9 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "double_double.h"
+#include "obvid/numeric/internal/double_double.h"
 
 namespace obvid::idspline {
+
+using numeric::DoubleDouble;
+using numeric::kDoubleDoubleRoundoff;
+using numeric::kUnitRoundoff;
+using numeric::quick_two_sum;
+using numeric::two_product;
 
 /// A number of 106 bits, the same on every machine (`long double` has 53, 64 or 113 bits,
 /// depending on machine and compiler).

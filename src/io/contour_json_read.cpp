@@ -50,6 +50,8 @@ class ContourReader : private JsonValues {
   [[nodiscard]] bool rows_fit(std::size_t rows) const;
   std::vector<double> moves(const Node& node);
   GivenDatum given(const Node& node);
+  ValueRange range(const Node& node);
+  ActiveRange active(const Node& node);
   GivenReport given_report(const Node& node);
   FitReport report(const Node& node);
   SegmentReport segment(const Node& node);
@@ -78,6 +80,12 @@ void ContourReader::read_head(const Node& root) {
     contour.carrier = *one;
   } else {
     refuse(carrier, ErrorCode::kUnsupported, "carrier " + text::shown(kind) + " is not known");
+  }
+  if (const auto node = optional_field(root, "continuity")) {
+    const std::string name = word(*node);
+    const auto continuity = continuity_of(name);
+    if (!continuity) refuse(*node, text::shown(name) + " is no continuity: G2 or G3");
+    contour.continuity = continuity.value_or(Continuity::kG2);
   }
 }
 
@@ -149,12 +157,13 @@ Joint ContourReader::joint(const Node& node) {
   Joint joint;
   joint.element.point = point(field(node, "point"));
   joint.element.theta = number(field(node, "heading"));
-  joint.element.kappa = number(field(node, "kappa"));
+  joint.element.kappa = number_or_nan(field(node, "kappa"));
   const auto source = optional_field(node, "source");
   if (source && !source->value->is_null()) {
     joint.source = index(*source, stored_.contour.points.size(), "points");
   }
   corner(node, joint);
+  joint.slope_step = optional_flag(node, "slope_step", false);
   return joint;
 }
 
@@ -163,7 +172,7 @@ Joint ContourReader::joint(const Node& node) {
 void ContourReader::corner(const Node& node, Joint& joint) {
   if (optional_flag(node, "corner", false) || optional_flag(node, "curvature_step", false)) {
     joint.leaving = Element{joint.element.point, number(field(node, "heading_out")),
-                            number(field(node, "kappa_out"))};
+                            number_or_nan(field(node, "kappa_out"))};
     return;
   }
   for (const string_view key : {"heading_out", "kappa_out"}) {
@@ -179,7 +188,8 @@ void ContourReader::check_ends(const Node& elements) {
   if (failed() || stored_.contour.closed) return;
   for (const std::size_t i : {std::size_t{0}, joints.size() - 1}) {
     if (!joints[i].leaving) continue;
-    refuse({&(*elements.value)[i], &elements, {}, i}, "an open contour has no corner and no step at its ends");
+    refuse({&(*elements.value)[i], &elements, {}, i},
+           "an open contour has no corner and no step at its ends");
   }
 }
 
@@ -375,12 +385,43 @@ GivenDatum ContourReader::given(const Node& node) {
   one.point = index(field(node, "point"), stored_.contour.points.size(), "points");
   if (const auto theta = optional_field(node, "heading")) one.theta = number(*theta);
   if (const auto kappa = optional_field(node, "kappa")) one.kappa = number(*kappa);
+  if (const auto thetas = optional_field(node, "heading_range")) one.thetas = range(*thetas);
+  if (const auto kappas = optional_field(node, "kappa_range")) one.kappas = range(*kappas);
   one.corner = optional_flag(node, "corner", false);
   const std::vector<GivenDatum>& before = stored_.contour.given;
   if (!before.empty() && !failed() && one.point <= before.back().point) {
     refuse(node, "given data stand in the order of their points");
   }
   return one;
+}
+
+/// Two ends, null where there is none.
+ValueRange ContourReader::range(const Node& node) {
+  std::vector<double> ends;
+  each(node, [&](const Node& end) { ends.push_back(number_or_nan(end)); });
+  ValueRange out;
+  if (failed()) return out;
+  if (ends.size() != 2) {
+    refuse(node, "a range has two ends");
+    return out;
+  }
+  if (!std::isnan(ends[0])) out.low = ends[0];
+  if (!std::isnan(ends[1])) out.high = ends[1];
+  if (out.empty()) refuse(node, "the least value of a range is larger than the greatest");
+  return out;
+}
+
+ActiveRange ContourReader::active(const Node& node) {
+  ActiveRange out;
+  out.point = index(field(node, "point"), stored_.contour.points.size(), "points");
+  const Node datum = field(node, "datum"), end = field(node, "end");
+  const std::string what = word(datum), which = word(end);
+  if (failed()) return out;
+  if (what != "heading" && what != "curvature") refuse(datum, "heading or curvature is expected");
+  if (which != "least" && which != "greatest") refuse(end, "least or greatest is expected");
+  out.heading = what == "heading";
+  out.high = which == "greatest";
+  return out;
 }
 
 GivenReport ContourReader::given_report(const Node& node) {
@@ -390,6 +431,11 @@ GivenReport ContourReader::given_report(const Node& node) {
   out.corners = optional_count(node, "corners");
   out.heading_miss = optional_figure(node, "heading_miss", 0.0);
   out.curvature_miss = optional_figure(node, "curvature_miss", 0.0);
+  out.heading_ranges = optional_count(node, "heading_ranges");
+  out.curvature_ranges = optional_count(node, "curvature_ranges");
+  if (const auto list = optional_field(node, "active")) {
+    each(*list, [&](const Node& one) { out.active.push_back(active(one)); });
+  }
   return out;
 }
 
@@ -425,11 +471,14 @@ FitReport ContourReader::report(const Node& node) {
   report.inflections = small_count(node, "inflections");
   report.inserted_points =
       static_cast<std::size_t>(integer(field(node, "inserted_points"), 0, kMaxInteger));
-  const auto measured = [&](string_view key) -> std::optional<double> {
-    const auto found = optional_field(node, key);
+  const auto measured_in = [&](const Node& in, string_view key) -> std::optional<double> {
+    const auto found = optional_field(in, key);
     if (!found || found->value->is_null()) return std::nullopt;
     return number(*found);
   };
+  const auto measured = [&](string_view key) { return measured_in(node, key); };
+  // null says that it is not known (NaN); a file without the field says nothing
+  if (optional_field(node, "waviness")) report.waviness = figure(node, "waviness");
   report.carrier_deviation = measured("carrier_deviation");
   report.outside_spirals_region = measured("outside_spirals_region");
   if (const auto given = optional_field(node, "given")) report.given = given_report(*given);
@@ -438,6 +487,10 @@ FitReport ContourReader::report(const Node& node) {
     report.chain.newton_steps = small_count(*chain, "newton_steps");
     report.chain.smallest_margin = figure(*chain, "smallest_margin");
     report.chain.free_elements = optional_count(*chain, "free_elements");
+    if (optional_field(*chain, "slope_step_g2")) {
+      report.chain.slope_step_g2 = figure(*chain, "slope_step_g2");
+      report.chain.waviness_g2 = measured_in(*chain, "waviness_g2");
+    }
   }
   return report;
 }
@@ -476,6 +529,7 @@ Certificate ContourReader::certificate(const Node& node) {
   claims.gaps.position = figure(gaps, "position");
   claims.gaps.heading = figure(gaps, "heading");
   claims.gaps.curvature = figure(gaps, "curvature");
+  if (optional_field(gaps, "slope")) claims.gaps.slope = figure(gaps, "slope");
   claims.inside_region = flag(field(node, "inside_region"));
   claims.proved = flag(field(node, "proved"));
   claims.gaps_within_bounds = optional_flag(node, "gaps_within_bounds", claims.proved);
@@ -492,6 +546,9 @@ Certificate ContourReader::certificate(const Node& node) {
                                     [](const Joint& joint) { return joint.leaving.has_value(); });
   claims.corners = count("corners", static_cast<int>(corners));
   claims.curvature_steps = count("curvature_steps", static_cast<int>(parted - corners));
+  const auto slope_steps = std::count_if(joints.begin(), joints.end(),
+                                         [](const Joint& joint) { return joint.slope_step; });
+  claims.slope_steps = count("slope_steps", static_cast<int>(slope_steps));
   claims.vertices = count("vertices", stored_.report ? stored_.report->vertices : 0);
   claims.inflections = count("inflections", stored_.report ? stored_.report->inflections : 0);
   claims.self_intersections = count("self_intersections", 0);

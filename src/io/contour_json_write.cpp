@@ -23,6 +23,8 @@ namespace {
 class Writer {
  public:
   std::string write(const StoredContour& stored);
+  std::string write(const FitReport& value);
+  std::string write(const Certificate& value);
 
  private:
   void raw(std::string_view text) { buffer_.append(text); }
@@ -47,6 +49,7 @@ class Writer {
   void piece(const ClothoidPiece& clothoid);
   void piece(const RationalBezier& bezier);
   void given(const GivenDatum& one);
+  void range(std::string_view name, const ValueRange& range);
   void given(const GivenReport& report);
   void segment(const SegmentReport& row);
   void proof(std::size_t index, const PieceProof& proof);
@@ -148,6 +151,7 @@ void Writer::element(const Joint& joint) {
     raw(", ");
     figure("kappa_out", joint.leaving->kappa);
   }
+  if (joint.slope_step) raw(", \"slope_step\": true");
   raw("}");
 }
 
@@ -246,8 +250,21 @@ void Writer::given(const GivenDatum& one) {
     raw(", ");
     figure("kappa", *one.kappa);
   }
+  if (one.thetas) range("heading_range", *one.thetas);
+  if (one.kappas) range("kappa_range", *one.kappas);
   if (one.corner) raw(", \"corner\": true");
   raw("}");
+}
+
+/// Ends that are none are null.
+void Writer::range(std::string_view name, const ValueRange& range) {
+  raw(", \"");
+  raw(name);
+  raw("\": [");
+  number(range.low);
+  raw(", ");
+  number(range.high);
+  raw("]");
 }
 
 void Writer::given(const GivenReport& report) {
@@ -261,11 +278,26 @@ void Writer::given(const GivenReport& report) {
   figure("heading_miss", report.heading_miss);
   raw(", ");
   figure("curvature_miss", report.curvature_miss);
+  if (report.heading_ranges + report.curvature_ranges > 0) {
+    raw(", ");
+    count("heading_ranges", static_cast<long long>(report.heading_ranges));
+    raw(", ");
+    count("curvature_ranges", static_cast<long long>(report.curvature_ranges));
+    raw(", \"active\": [");
+    for (std::size_t k = 0; k < report.active.size(); ++k) {
+      const ActiveRange& one = report.active[k];
+      raw(k > 0 ? ", {" : "{");
+      count("point", static_cast<long long>(one.point));
+      raw(one.heading ? ", \"datum\": \"heading\"" : ", \"datum\": \"curvature\"");
+      raw(one.high ? ", \"end\": \"greatest\"}" : ", \"end\": \"least\"}");
+    }
+    raw("]");
+  }
   raw("}");
 }
 
 void Writer::report(const FitReport& report) {
-  raw(",\n  \"report\": {\n");
+  raw("{\n");
   line_list("segments", report.segments, "    ", [&](const SegmentReport& row) { segment(row); });
   raw(",\n    ");
   figure("tolerance", report.tolerance);
@@ -288,6 +320,8 @@ void Writer::report(const FitReport& report) {
   raw(",\n    ");
   count("inserted_points", static_cast<long long>(report.inserted_points));
   raw(",\n    ");
+  optional_figure("waviness", report.waviness);
+  raw(",\n    ");
   given(report.given);
   raw(",\n    ");
   optional_figure("carrier_deviation", report.carrier_deviation);
@@ -301,6 +335,12 @@ void Writer::report(const FitReport& report) {
   figure("smallest_margin", report.chain.smallest_margin);
   raw(", ");
   count("free_elements", static_cast<long long>(report.chain.free_elements));
+  if (report.chain.slope_step_g2) {
+    raw(", ");
+    figure("slope_step_g2", *report.chain.slope_step_g2);
+    raw(", ");
+    optional_figure("waviness_g2", report.chain.waviness_g2);
+  }
   raw("}\n  }");
 }
 
@@ -319,7 +359,7 @@ void Writer::proof(std::size_t index, const PieceProof& proof) {
 }
 
 void Writer::certificate(const Certificate& certificate) {
-  raw(",\n  \"certificate\": {\n");
+  raw("{\n");
   std::size_t index = 0;
   line_list("monotone", certificate.pieces, "    ",
             [&](const PieceProof& one) { proof(index++, one); });
@@ -329,6 +369,10 @@ void Writer::certificate(const Certificate& certificate) {
   figure("heading", certificate.gaps.heading);
   raw(", ");
   figure("curvature", certificate.gaps.curvature);
+  if (certificate.gaps.slope) {
+    raw(", ");
+    figure("slope", *certificate.gaps.slope);
+  }
   raw("},\n    ");
   claim("gaps_within_bounds", certificate.gaps_within_bounds);
   raw(",\n    ");
@@ -342,6 +386,10 @@ void Writer::certificate(const Certificate& certificate) {
   raw(",\n    ");
   count("curvature_steps", certificate.curvature_steps);
   raw(",\n    ");
+  if (certificate.gaps.slope) {
+    count("slope_steps", certificate.slope_steps);
+    raw(",\n    ");
+  }
   count("vertices", certificate.vertices);
   raw(",\n    ");
   count("inflections", certificate.inflections);
@@ -377,6 +425,9 @@ std::string Writer::write(const StoredContour& stored) {
   raw(",\n  \"closed\": ");
   flag(contour.closed);
   format_into(buffer_, ",\n  \"carrier\": \"{}\",\n", to_string(contour.carrier));
+  if (contour.continuity != Continuity::kG2) {
+    format_into(buffer_, "  \"continuity\": \"{}\",\n", to_string(contour.continuity));
+  }
   line_list("points", contour.points, "  ", [&](Vec2 p) { point(p); });
   raw(",\n");
   if (!contour.point_tolerance.empty()) {
@@ -403,13 +454,35 @@ std::string Writer::write(const StoredContour& stored) {
     inline_list(contour.kept,
                 [&](std::size_t i) { fmt::format_to(std::back_inserter(buffer_), "{}", i); });
   }
-  if (stored.report) report(*stored.report);
-  if (stored.certificate) certificate(*stored.certificate);
+  if (stored.report) {
+    raw(",\n  \"report\": ");
+    report(*stored.report);
+  }
+  if (stored.certificate) {
+    raw(",\n  \"certificate\": ");
+    certificate(*stored.certificate);
+  }
   raw("\n}\n");
   return std::move(buffer_);
 }
 
+std::string Writer::write(const FitReport& value) {
+  report(value);
+  return std::move(buffer_);
+}
+
+std::string Writer::write(const Certificate& value) {
+  certificate(value);
+  return std::move(buffer_);
+}
+
 }  // namespace
+
+std::string report_to_json(const FitReport& report) { return Writer().write(report); }
+
+std::string certificate_to_json(const Certificate& certificate) {
+  return Writer().write(certificate);
+}
 
 std::string contour_to_json(const StoredContour& stored) { return Writer().write(stored); }
 

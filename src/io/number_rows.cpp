@@ -129,9 +129,7 @@ class NumberRowReader {
         name_, number,
         word.empty() ? "fill the cell in, or leave out its row or column"
                      : "correct the field, or begin the line with # when it is a remark");
-    if (!word.empty()) {
-      error.where = text::position(name_, number, text::column_of(line, word.data()));
-    }
+    error.where = text::position(name_, number, text::column_of(line, word.data()));
     return error;
   }
 

@@ -81,10 +81,13 @@ constexpr FeatureName kFeatureNames[] = {
 
 void legend_features(PictureCanvas& canvas, LegendRow& legend, const PictureTrack& track) {
   for (const auto& [kind, count, one, many] : kFeatureNames) {
-    if (count_features(track, kind) == 0) continue;
+    const std::size_t marked = count_features(track, kind), all = track.counts.*count;
+    if (std::max(marked, all) == 0) continue;
     std::string text = one;
     if (track.features.size() > kMostSymbols) {
-      text = std::to_string(track.counts.*count) + " " + many + ", not marked";
+      text = std::to_string(all) + " " + many + ", not marked";
+    } else if (marked != all) {  // what swings by rounding alone has no place of its own
+      text = fmt::format("{}, {} of {} marked", many, marked, all);
     }
     add_feature(canvas, kind, legend.entry(text, text.size(), 10.0));
   }

@@ -3,6 +3,7 @@
 
 #include <string>
 
+#include "obvid/io/stored_contour.h"
 #include "picture_canvas.h"
 #include "picture_track.h"
 
@@ -20,7 +21,7 @@ inline constexpr std::size_t kMostColouredRuns = 2000;
 inline constexpr std::size_t kMostSymbols = 400;
 
 /// Upper panel: shape, comb, points, symbols, scale bar, legend. Returns the y of its lower end.
-double shape_panel(PictureCanvas& canvas, const PictureTrack& track, const Contour& contour,
+double shape_panel(PictureCanvas& canvas, const PictureTrack& track, const StoredContour& stored,
                    bool coloured, double top);
 
 }  // namespace obvid

@@ -28,6 +28,9 @@ constexpr double kLogRoom = 1.15;
 /// Clip paths of the plots.
 constexpr int kCurvatureClip = 1;
 constexpr int kRadiusClip = 2;
+constexpr int kSlopeClip = 3;
+/// Slopes below this part of 1/size^2 are flat: what rounding makes of a circle.
+constexpr double kFlatSlope = 1e-9;
 
 void draw_curvature(PictureCanvas& canvas, const PictureTrack& track, PictureFrame frame,
                     const std::string& units, bool coloured) {
@@ -40,6 +43,31 @@ void draw_curvature(PictureCanvas& canvas, const PictureTrack& track, PictureFra
   const double zero = frame.px_y(0.0);
   if (zero < frame.bottom - 1.0) canvas.line({frame.left, zero}, {frame.right, zero}, "axis");
   draw_plot_features(canvas, frame, track);
+}
+
+/// d kappa/ds: steps of a G2 contour are upright lines.
+void draw_slope(PictureCanvas& canvas, const PictureTrack& track, PictureFrame frame,
+                const std::string& units, bool coloured) {
+  double low = 0.0, high = 0.0;
+  for (const PictureSample& sample : track.samples) {
+    low = std::min(low, sample.slope);
+    high = std::max(high, sample.slope);
+  }
+  const double diagonal = track.box.diagonal();
+  if (diagonal <= 0.0 || (high - low) * diagonal * diagonal < kFlatSlope) {
+    const double shown = diagonal > 0.0 ? round_down(1.0 / (diagonal * diagonal)) : 1.0;
+    frame.y = round_axis(-shown, shown, 4);
+  } else {
+    frame.y = round_axis(low, high, 4);
+  }
+  canvas.label({kPictureMargin, frame.top - 11.0}, "start", "axis-title",
+               "Slope of the curvature, " + power_prefix(frame.y.exponent) + "1/" + units + "²");
+  draw_grid(canvas, frame, false);
+  draw_joints(canvas, frame, track);
+  draw_graph(
+      canvas, frame, track, [](const PictureSample& s) { return s.slope; }, coloured, kSlopeClip);
+  const double zero = frame.px_y(0.0);
+  if (zero < frame.bottom - 1.0) canvas.line({frame.left, zero}, {frame.right, zero}, "axis");
 }
 
 /// Radius that ends the axis: what is beyond looks straight.
@@ -117,17 +145,22 @@ std::string curvature_title(const PictureAxis& axis, const std::string& units) {
 
 double curvature_of(const PictureSample& sample) { return sample.kappa; }
 
-double plot_panels(PictureCanvas& canvas, const PictureTrack& track, const PictureMoves& moves,
+double plot_panels(PictureCanvas& canvas, const PictureTrack& track, const PlotsBetween& between,
                    const std::string& units, bool coloured, double top) {
   PictureFrame frame;
   frame.x = tight_axis(0.0, track.length, 8);
   frame.top = top + kPlotsTitleRoom;
   frame.bottom = frame.top + kOnePlotHeight;
   draw_curvature(canvas, track, frame, units, coloured);
-  if (!moves.points.empty()) {
+  if (between.slope) {
+    frame.top = frame.bottom + kPlotsTitleRoom + kPlotsApart;
+    frame.bottom = frame.top + kOnePlotHeight;
+    draw_slope(canvas, track, frame, units, coloured);
+  }
+  if (!between.moves.points.empty()) {
     frame.top = frame.bottom + kPlotsTitleRoom + kPlotsApart;
     frame.bottom = frame.top + kMovesHeight;
-    draw_moves(canvas, frame, track, moves, units);
+    draw_moves(canvas, frame, track, between.moves, units);
   }
   frame.top = frame.bottom + kPlotsTitleRoom + kPlotsApart;
   frame.bottom = frame.top + kOnePlotHeight;

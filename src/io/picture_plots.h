@@ -22,9 +22,15 @@ struct PictureRange {
 [[nodiscard]] std::string curvature_title(const PictureAxis& axis, const std::string& units);
 [[nodiscard]] double curvature_of(const PictureSample& sample);
 
-/// Lower panels: curvature, moves where points have tolerances, and radius over arc length. Returns
-/// the y of their lower end.
-double plot_panels(PictureCanvas& canvas, const PictureTrack& track, const PictureMoves& moves,
+/// What stands between the plots of curvature and of radius.
+struct PlotsBetween {
+  const PictureMoves& moves;  ///< shown where points have tolerances
+  bool slope = false;         ///< of the curvature
+};
+
+/// Lower panels over arc length: curvature, its slope, moves, and radius. Returns the y of their
+/// lower end.
+double plot_panels(PictureCanvas& canvas, const PictureTrack& track, const PlotsBetween& between,
                    const std::string& units, bool coloured, double top);
 
 }  // namespace obvid

@@ -80,9 +80,21 @@ void add_arc(PicturePath& path, Vec2 start, Vec2 chord, double half_turn, const 
   }
 }
 
+/// Chords of which the report says an error from the points alone; all where there is no report.
+std::vector<bool> reported_chords(const FitReport* report, std::size_t points) {
+  std::vector<bool> out(points, report == nullptr);
+  if (report == nullptr) return out;
+  for (const SegmentReport& s : report->segments) {
+    const bool known = s.from && s.to && *s.from < points && !std::isnan(s.points_only_error);
+    if (known && *s.to == *s.from + 1) out[*s.from] = true;
+  }
+  return out;
+}
+
 }  // namespace
 
-std::vector<PictureLens> points_only_region(const PictureTrack& track, const Contour& contour) {
+std::vector<PictureLens> points_only_region(const PictureTrack& track, const Contour& contour,
+                                            const FitReport* report) {
   std::vector<PictureLens> region;
   const std::vector<Vec2>& points = track.points;
   if (!contour.point_tolerance.empty()) return region;  // the contour need not meet the points
@@ -92,8 +104,9 @@ std::vector<PictureLens> points_only_region(const PictureTrack& track, const Con
   if (!analysis) return region;
   const std::vector<int> direction = chord_directions(track, contour);
   const std::vector<bool> corner = corner_marks(contour);
+  const std::vector<bool> told = reported_chords(report, points.size());
   for (std::size_t i = 1; i + 1 < direction.size(); ++i) {
-    if (corner[i] || corner[i + 1]) continue;
+    if (corner[i] || corner[i + 1] || !told[i]) continue;
     // The circles of both points bound a curve only where it is monotone as far as these circles
     // reach, which is one chord further on either side.
     const int common = merged(merged(direction[i - 1], direction[i]), direction[i + 1]);

@@ -3,6 +3,7 @@
 
 #include <vector>
 
+#include "obvid/io/stored_contour.h"
 #include "picture_canvas.h"
 #include "picture_track.h"
 #include "picture_view.h"
@@ -20,10 +21,11 @@ struct PictureLens {
 
 /// Lenses in which every monotone curve through the points lies, as far as the contour itself is
 /// monotone over a chord and both its neighbours; none when the points cannot be analysed or are
-/// too many for a lens to be seen, nor where points have tolerances or chords end at corners. Cost
-/// O(points).
+/// too many for a lens to be seen, nor where points have tolerances or chords end at corners. With
+/// a report only those that it says an error of. Cost O(points).
 [[nodiscard]] std::vector<PictureLens> points_only_region(const PictureTrack& track,
-                                                          const Contour& contour);
+                                                          const Contour& contour,
+                                                          const FitReport* report = nullptr);
 
 /// Outline of one lens, a closed subpath.
 void add_lens(PicturePath& path, const PictureLens& lens, const PictureView& view);

@@ -39,11 +39,12 @@ PictureView make_view(const PictureTrack& track, const PictureComb& comb, double
 
 /// Points-only region where it is wide enough to be seen, under everything else. Returns its
 /// largest width in units, 0 when nothing was drawn.
-double draw_region(PictureCanvas& canvas, const PictureTrack& track, const Contour& contour,
+double draw_region(PictureCanvas& canvas, const PictureTrack& track, const StoredContour& stored,
                    const PictureView& view, double top, double bottom) {
   PicturePath path;
   double widest = 0.0;
-  for (const PictureLens& lens : points_only_region(track, contour)) {
+  for (const PictureLens& lens :
+       points_only_region(track, stored.contour, stored.report ? &*stored.report : nullptr)) {
     if (!(lens.width * view.scale >= kLeastRegion)) continue;
     add_lens(path, lens, view);
     widest = std::max(widest, lens.width);
@@ -59,12 +60,12 @@ double draw_region(PictureCanvas& canvas, const PictureTrack& track, const Conto
 
 }  // namespace
 
-double shape_panel(PictureCanvas& canvas, const PictureTrack& track, const Contour& contour,
+double shape_panel(PictureCanvas& canvas, const PictureTrack& track, const StoredContour& stored,
                    bool coloured, double top) {
   const PictureComb comb = make_comb(track);
   double bottom = top;
   const PictureView view = make_view(track, comb, top, bottom);
-  const double widest = draw_region(canvas, track, contour, view, top, bottom);
+  const double widest = draw_region(canvas, track, stored, view, top, bottom);
   draw_comb(canvas, track, comb, view, coloured);
   if (widest > 0.0) canvas.add("<g class=\"fine\">\n");  // a thick curve would hide the region
   draw_curve(canvas, track, view, coloured);
@@ -73,8 +74,8 @@ double shape_panel(PictureCanvas& canvas, const PictureTrack& track, const Conto
   draw_features(canvas, track, view);
   draw_start(canvas, track, view);
   const double strip = bottom + 22.0;
-  draw_scale_bar(canvas, view, contour.units.text(), strip);
-  PictureLegend legend{track, contour.units.text(), coloured, widest};
+  draw_scale_bar(canvas, view, stored.contour.units.text(), strip);
+  PictureLegend legend{track, stored.contour.units.text(), coloured, widest};
   legend.dots = dot_radius(track, view) > 0.0;
   if (comb.per_kappa != 0.0) legend.longest_tooth = track.largest_kappa;
   return draw_legend(canvas, legend, kPictureMargin + kScaleBarRoom, strip) + 16.0;

@@ -6,13 +6,11 @@
 #include <utility>
 #include <vector>
 
-#include "counted.h"
+#include "obvid/core/figures.h"
 #include "picture_panels.h"
 
 namespace obvid {
 namespace {
-
-using picture_detail::counted;
 
 /// The axis leaves out curvatures of this part of the length when that makes it ...
 constexpr double kLeftOut = 0.12;

@@ -5,7 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "counted.h"
+#include "obvid/core/figures.h"
+#include "obvid/io/verdict.h"
 #include "picture_axis.h"
 #include "picture_moves.h"
 #include "picture_panels.h"
@@ -14,8 +15,6 @@
 
 namespace obvid {
 namespace {
-
-using picture_detail::counted;
 
 /// Verdicts longer than this are cut: the file tells the whole reason.
 constexpr std::size_t kLongestReason = 105;
@@ -50,12 +49,16 @@ struct VerdictLine {
 VerdictLine verdict_of(const StoredContour& stored) {
   if (!stored.certificate) return {"open", "no certificate: nothing is claimed about this contour"};
   if (stored.certificate->proved) {
-    std::string text = stored.contour.carrier == Carrier::kArcs
-                           ? "✓ monotone radii and G1 joints"
-                           : "✓ monotone curvature and G2 joints";
-    if (stored.certificate->corners > 0) text += " between corners";
-    if (!stored.contour.point_tolerance.empty()) text += ", every point within its tolerance";
-    return {"good", text + (stored.contour.point_tolerance.empty() ? " proved" : ": proved")};
+    const Carrier carrier = stored.contour.carrier;
+    std::string text =
+        carrier == Carrier::kArcs ? "✓ proved: monotone radii, " : "✓ proved: monotone curvature, ";
+    text += joints_claim(carrier, *stored.certificate);
+    // beside the steps of slopes there is no room for it; the line below tells how far points are
+    const bool room = !stored.certificate->gaps.slope;
+    if (room && !stored.contour.point_tolerance.empty()) {
+      text += ", every point within its tolerance";
+    }
+    return {"good", text};
   }
   std::string reason = stored.certificate->reason;
   if (reason.size() > kLongestReason) {
@@ -119,7 +122,8 @@ std::string measured_facts(const StoredContour& stored) {
 
 }  // namespace
 
-std::string picture_svg(const StoredContour& stored, const PictureTitles& titles) {
+std::string picture_svg(const StoredContour& stored, const PictureTitles& titles,
+                        const PicturePlots& plots) {
   const Contour& contour = stored.contour;
   PictureTrack track = make_track(contour);
   if (stored.certificate) take_counts(track, *stored.certificate);
@@ -136,9 +140,10 @@ std::string picture_svg(const StoredContour& stored, const PictureTitles& titles
   if (!titles.name.empty()) more = kind + (more.empty() ? "" : " · " + more);
   if (!more.empty()) body.label({kPictureMargin, 85.0}, "start", "fact", more);
   const double top = more.empty() ? 78.0 : 99.0;
-  const double below = shape_panel(body, track, contour, coloured, top);
+  const double below = shape_panel(body, track, stored, coloured, top);
   const PictureMoves moves = make_moves(track, stored);
-  const double height = plot_panels(body, track, moves, contour.units.text(), coloured, below);
+  const double height =
+      plot_panels(body, track, {moves, plots.slope}, contour.units.text(), coloured, below);
   return picture_sheet(title, verdict.text, body.take(), height);
 }
 

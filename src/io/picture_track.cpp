@@ -5,6 +5,8 @@
 #include <cmath>
 #include <numeric>
 
+#include "obvid/curve/contour_path.h"
+
 namespace obvid {
 namespace {
 
@@ -21,42 +23,11 @@ constexpr double kStraightPart = 1e-9;
 constexpr double kStraightLineAngle = 1e-12;
 /// Curvatures that differ by less, relatively, are the same on both sides of a corner.
 constexpr double kSameCurvature = 1e-7;
+constexpr double kLengthAccuracy = 1e-6;  // of a piece: far below a pixel
 constexpr int kBisections = 48;
 /// Each leaves two thirds of the bracket of an extremum: 1e-7 of it in the end, a square root of
 /// what rounding leaves of its height.
 constexpr int kThirds = 40;
-
-struct Mover {
-  Vec2 reference;
-
-  Piece operator()(LinePiece p) const {
-    p.start = p.start - reference;
-    p.end = p.end - reference;
-    return p;
-  }
-  Piece operator()(ArcPiece p) const {
-    p.start = p.start - reference;
-    p.end = p.end - reference;
-    return p;
-  }
-  Piece operator()(ClothoidPiece p) const {
-    p.start = p.start - reference;
-    p.end = p.end - reference;
-    return p;
-  }
-  /// Moves the origin where the piece has one, so that small offsets keep their digits.
-  Piece operator()(RationalBezier p) const {
-    if (p.origin == Vec2{}) {
-      for (int j = 0; j <= p.degree; ++j) {
-        auto& offset = p.offset[static_cast<std::size_t>(j)];
-        offset = offset - reference;
-      }
-    } else {
-      p.origin = p.origin - reference;
-    }
-    return p;
-  }
-};
 
 PictureSample sample_at(const Piece& piece, double t) {
   const Jet jet = evaluate(piece, t);
@@ -64,15 +35,10 @@ PictureSample sample_at(const Piece& piece, double t) {
   const Vec2 tangent = speed > 0.0 ? jet.d1 / speed : Vec2{1.0, 0.0};
   const bool straight = std::holds_alternative<LinePiece>(piece);
   const double kappa = straight ? 0.0 : curvature(jet);
-  return {jet.point, tangent, 0.0, std::isfinite(kappa) ? kappa : 0.0, t};
-}
-
-/// Arc length between two samples from their chord and mean curvature; the error is of fourth
-/// order in the turning between them, far below a pixel.
-double step_length(const PictureSample& a, const PictureSample& b) {
-  const double chord = norm(b.point - a.point);
-  const double half_turn = 0.5 * (a.kappa + b.kappa) * chord;
-  return chord * (1.0 + std::min(half_turn * half_turn, 1.0) / 24.0);
+  const double slope = straight ? 0.0 : curvature_rate(jet);
+  return {jet.point, tangent,
+          0.0,       std::isfinite(kappa) ? kappa : 0.0,
+          t,         std::isfinite(slope) ? slope : 0.0};
 }
 
 std::size_t steps_for(const Piece& piece, std::size_t pieces, double diagonal) {
@@ -85,13 +51,15 @@ std::size_t steps_for(const Piece& piece, std::size_t pieces, double diagonal) {
 
 void sample_pieces(PictureTrack& track) {
   const double diagonal = track.box.diagonal();
-  for (const Piece& piece : track.pieces) {
+  const ContourPath path(track.pieces, kLengthAccuracy);
+  track.length = path.length();
+  for (std::size_t i = 0; i < track.pieces.size(); ++i) {
+    const Piece& piece = track.pieces[i];
     track.first.push_back(track.samples.size());
     const std::size_t steps = steps_for(piece, track.pieces.size(), diagonal);
     for (std::size_t j = 0; j <= steps; ++j) {
       PictureSample next = sample_at(piece, static_cast<double>(j) / static_cast<double>(steps));
-      if (j > 0) track.length += step_length(track.samples.back(), next);
-      next.s = track.length;
+      next.s = path.length_at(i, next.t);
       track.samples.push_back(next);
       track.box.add(next.point);
       track.largest_kappa = std::max(track.largest_kappa, std::fabs(next.kappa));
@@ -281,7 +249,7 @@ PictureTrack make_track(const Contour& contour) {
   }
   track.pieces.reserve(contour.pieces.size());
   for (const Piece& piece : contour.pieces) {
-    track.pieces.push_back(std::visit(Mover{track.reference}, piece));
+    track.pieces.push_back(moved(piece, -track.reference));
     track.box.add(start_point(track.pieces.back()));
     track.box.add(end_point(track.pieces.back()));
   }

@@ -16,6 +16,7 @@ struct PictureSample {
   double s = 0.0;      ///< arc length from the start, units
   double kappa = 0.0;  ///< 1/unit
   double t = 0.0;      ///< native parameter inside its piece
+  double slope = 0.0;  ///< d kappa/ds, 1/unit^2; 0 where it has no bound
 };
 
 /// Vertex, inflection or corner.

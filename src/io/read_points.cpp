@@ -23,14 +23,41 @@ string_view base_name(string_view path) {
   return slash == string_view::npos ? path : path.substr(slash + 1);
 }
 
+/// Another value of one heading or curvature.
+bool contradicts(const std::optional<double>& one, const std::optional<double>& other) {
+  return one && other && *one != *other;
+}
+
 // Of two tolerances of one point the contour keeps both with the smaller one.
-void fill_missing(FixedData& kept, const FixedData& other) {
+Result<void> fill_missing(FixedData& kept, const FixedData& other, std::string where) {
+  const bool heading = contradicts(kept.theta, other.theta);
+  if (heading || contradicts(kept.kappa, other.kappa)) {
+    Error error;
+    error.code = ErrorCode::kFixedDataContradict;
+    error.what = std::string("the point repeats the one before with another ") +
+                 (heading ? "heading" : "radius or curvature");
+    error.where = std::move(where);
+    error.hint = "give one of them";
+    return fail(std::move(error));
+  }
   if (!kept.theta) kept.theta = other.theta;
   if (!kept.kappa) kept.kappa = other.kappa;
+  for (const auto field : {&FixedData::thetas, &FixedData::kappas}) {
+    if (!(other.*field)) continue;
+    kept.*field = kept.*field ? common(*(kept.*field), *(other.*field)) : *(other.*field);
+    if (!(kept.*field)->empty()) continue;
+    Error error;
+    error.code = ErrorCode::kFixedDataContradict;
+    error.what = "the point repeats the one before with a range that shares nothing with its own";
+    error.where = std::move(where);
+    error.hint = "give one of them";
+    return fail(std::move(error));
+  }
   if (other.tolerance) {
     kept.tolerance = std::min(kept.tolerance.value_or(*other.tolerance), *other.tolerance);
   }
   kept.corner = kept.corner || other.corner;
+  return {};
 }
 
 // Samples that we wrote hold a corner twice, with the headings before and after it. The headings
@@ -56,14 +83,22 @@ void mark_corners(RawPoints& raw) {
 }
 
 // Keeps the first of equal neighbours; data fixed at either of them hold for the one kept.
-void merge_duplicates(RawPoints& raw) {
-  if (raw.our_samples) return mark_corners(raw);
+Result<void> merge_duplicates(RawPoints& raw, string_view name) {
+  if (raw.our_samples) {
+    mark_corners(raw);
+    return {};
+  }
   std::size_t merged = 0;
   std::uint32_t first_line = 0;
   std::size_t kept = 0;
   for (std::size_t i = 1; i < raw.points.size(); ++i) {
     if (raw.points[i] == raw.points[kept]) {
-      if (!raw.fixed.empty()) fill_missing(raw.fixed[kept], raw.fixed[i]);
+      if (!raw.fixed.empty()) {
+        if (auto done =
+                fill_missing(raw.fixed[kept], raw.fixed[i], text::position(name, raw.lines[i], 1));
+            !done)
+          return done;
+      }
       if (merged++ == 0) first_line = raw.lines[i];
       continue;
     }
@@ -71,12 +106,13 @@ void merge_duplicates(RawPoints& raw) {
     raw.points[kept] = raw.points[i];
     if (!raw.fixed.empty()) raw.fixed[kept] = raw.fixed[i];
   }
-  if (merged == 0) return;
+  if (merged == 0) return {};
   raw.points.resize(kept + 1);
   if (!raw.fixed.empty()) raw.fixed.resize(kept + 1);
   raw.warnings.push_back(
       std::to_string(merged) + (merged == 1 ? " point that repeats" : " points that repeat") +
       " the point before merged into it, first in line " + std::to_string(first_line) + ".");
+  return {};
 }
 
 void warn_about_blank_lines(RawPoints& raw) {
@@ -84,6 +120,13 @@ void warn_about_blank_lines(RawPoints& raw) {
   raw.warnings.push_back("Blank line inside the points, before line " +
                          std::to_string(raw.lines[raw.breaks.front()]) +
                          ": the points on both sides are one series.");
+}
+
+/// Two points are a curve when the headings at both are told.
+bool has_two_with_headings(const RawPoints& raw) {
+  const auto has_heading = [](const FixedData& data) { return data.theta || data.thetas; };
+  return raw.points.size() == 2 && raw.fixed.size() == 2 && has_heading(raw.fixed[0]) &&
+         has_heading(raw.fixed[1]);
 }
 
 bool has_enough_distinct(const std::vector<Vec2>& points) {
@@ -108,13 +151,16 @@ Error too_few(const RawPoints& raw, string_view name) {
   error.what = "a contour needs 3 distinct points, the file holds " +
                std::to_string(std::min<std::size_t>(raw.points.size(), 2));
   error.where = std::string(name);
+  if (raw.points.size() == 2)
+    error.hint =
+        "two do when both have a heading: --start-heading and --end-heading, or column heading_deg";
   error.value = static_cast<double>(raw.points.size());
   return error;
 }
 
 }  // namespace
 
-Result<PointSeries> parse_points(string_view text, string_view name) {
+Result<PointSeries> parse_points(string_view text, string_view name, TwoPoints two) {
   constexpr string_view kUtf8Mark = "\xEF\xBB\xBF";
   if (text.substr(0, kUtf8Mark.size()) == kUtf8Mark) text.remove_prefix(kUtf8Mark.size());
   if (auto kind = text::check_text_kind(text, name); !kind) return fail(std::move(kind.error()));
@@ -124,8 +170,11 @@ Result<PointSeries> parse_points(string_view text, string_view name) {
   if (!raw) return fail(std::move(raw.error()));
   if (auto done = resolve_layout(*raw, name); !done) return fail(std::move(done.error()));
   warn_about_blank_lines(*raw);
-  merge_duplicates(*raw);
-  if (!has_enough_distinct(raw->points)) return fail(too_few(*raw, name));
+  if (auto done = merge_duplicates(*raw, name); !done) return fail(std::move(done.error()));
+  const bool two_do = raw->points.size() == 2 && two == TwoPoints::kDo;
+  if (!has_enough_distinct(raw->points) && !two_do && !has_two_with_headings(*raw)) {
+    return fail(too_few(*raw, name));
+  }
   PointSeries series;
   series.name = raw->title.empty() ? text::to_utf8(base_name(name)) : std::move(raw->title);
   series.units = std::move(raw->units);
@@ -136,10 +185,10 @@ Result<PointSeries> parse_points(string_view text, string_view name) {
   return series;
 }
 
-Result<PointSeries> read_points(const std::string& path) {
+Result<PointSeries> read_points(const std::string& path, TwoPoints two) {
   const Result<std::string> text = read_file(path);
   if (!text) return fail(text.error());
-  return parse_points(*text, path == "-" ? string_view("standard input") : string_view(path));
+  return parse_points(*text, path == "-" ? string_view("standard input") : string_view(path), two);
 }
 
 }  // namespace obvid

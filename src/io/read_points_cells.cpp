@@ -82,6 +82,60 @@ Result<std::optional<double>> RowReader::read_curvature(string_view line) {
   return std::optional<double>(curvature);
 }
 
+Result<std::optional<ValueRange>> RowReader::read_range(string_view line,
+                                                        std::optional<std::size_t> low,
+                                                        std::optional<std::size_t> high,
+                                                        bool infinite_allowed) {
+  const auto least = optional_cell(line, low, infinite_allowed);
+  if (!least) return fail(least.error());
+  const auto greatest = optional_cell(line, high, infinite_allowed);
+  if (!greatest) return fail(greatest.error());
+  if (!*least && !*greatest) return std::optional<ValueRange>();
+  ValueRange out;
+  if (*least) out.low = **least;
+  if (*greatest) out.high = **greatest;
+  if (out.empty()) {
+    return fail(error(ErrorCode::kBadNumber, "the least value is larger than the greatest",
+                      {line, fields_.cell[*low].data()}));
+  }
+  return std::optional(out);
+}
+
+Result<std::optional<ValueRange>> RowReader::read_heading_range(string_view line) {
+  const auto degrees = read_range(line, layout_.heading_min, layout_.heading_max, false);
+  if (!degrees || !*degrees) return degrees;
+  const ValueRange& range = **degrees;
+  if (!(range.high - range.low <= 180.0)) {
+    const auto column = is_given(layout_.heading_min) ? layout_.heading_min : layout_.heading_max;
+    return fail(error(ErrorCode::kBadNumber,
+                      "a range of headings needs heading_min and heading_max, at most 180 degrees "
+                      "apart",
+                      {line, fields_.cell[*column].data()}));
+  }
+  constexpr double kDegree = std::numbers::pi / 180.0;
+  return std::optional(ValueRange{range.low * kDegree, range.high * kDegree});
+}
+
+Result<std::optional<ValueRange>> RowReader::read_curvature_range(string_view line) {
+  auto radii = read_range(line, layout_.radius_min, layout_.radius_max, true);
+  if (!radii) return radii;
+  auto kappas = read_range(line, layout_.kappa_min, layout_.kappa_max, false);
+  if (kappas && *kappas) {
+    (*kappas)->low *= layout_.kappa_min_scale;
+    (*kappas)->high *= layout_.kappa_max_scale;
+  }
+  if (!kappas || !*radii) return kappas;
+  (*radii)->low *= layout_.radius_min_scale;
+  (*radii)->high *= layout_.radius_max_scale;
+  const auto of_radii = curvatures_of_radii(**radii);
+  if (of_radii && !*kappas) return std::optional(*of_radii);
+  const auto column = is_given(layout_.radius_min) ? layout_.radius_min : layout_.radius_max;
+  return fail(error(ErrorCode::kBadNumber,
+                    of_radii ? "ranges of radius and of kappa are both given"
+                             : "both ends of a range of radii have one sign",
+                    {line, fields_.cell[*column].data()}));
+}
+
 Result<bool> RowReader::read_corner(string_view line) {
   static constexpr std::array<string_view, 3> kYes{"1", "yes", "true"};
   static constexpr std::array<string_view, 3> kNo{"0", "no", "false"};
@@ -115,6 +169,12 @@ Result<FixedData> RowReader::read_fixed(string_view line) {
   fixed.kappa = *kappa;
   if (*tolerance) fixed.tolerance = **tolerance * layout_.tolerance_scale;
   fixed.corner = *corner;
+  const auto thetas = read_heading_range(line);
+  if (!thetas) return fail(thetas.error());
+  fixed.thetas = *thetas;
+  const auto kappas = read_curvature_range(line);
+  if (!kappas) return fail(kappas.error());
+  fixed.kappas = *kappas;
   return fixed;
 }
 

@@ -27,7 +27,9 @@ std::vector<std::string> unused_names(const std::vector<ColumnName>& names, cons
     const std::optional<std::size_t> here = i;
     const bool means = i == used.x || i == used.y || used.z == here || used.heading_deg == here ||
                        used.radius == here || used.kappa == here || used.tolerance == here ||
-                       used.corner == here;
+                       used.corner == here || used.heading_min == here ||
+                       used.heading_max == here || used.radius_min == here ||
+                       used.radius_max == here || used.kappa_min == here || used.kappa_max == here;
     if (!means && !names[i].name.empty()) out.push_back(names[i].name);
   }
   return out;
@@ -151,7 +153,8 @@ std::vector<ColumnName> column_names(string_view line) {
 }
 
 string_view known_columns() {
-  return "x, y, z, heading_deg, radius, kappa, corner, and tol, tolerance, u95, ci95, "
+  return "x, y, z, heading_deg, radius, kappa, corner, heading_min, heading_max, radius_min, "
+         "radius_max, kappa_min, kappa_max, and tol, tolerance, u95, ci95, "
          "uncertainty, unc, +-, +/- or \xC2\xB1";
 }
 
@@ -179,12 +182,22 @@ std::optional<Columns> read_header(string_view line) {
   columns.heading_deg = find("heading_deg");
   columns.radius = find("radius");
   columns.kappa = find("kappa");
+  columns.heading_min = find("heading_min");
+  columns.heading_max = find("heading_max");
+  columns.radius_min = find("radius_min");
+  columns.radius_max = find("radius_max");
+  columns.kappa_min = find("kappa_min");
+  columns.kappa_max = find("kappa_max");
   for (const string_view name : kToleranceNames) {
     if (!columns.tolerance) columns.tolerance = find(name);
   }
   if (!columns.our_samples) columns.unused = unused_names(names, columns);
   columns.radius_scale = scale_of(names, columns.radius, columns.unit_x);
+  columns.radius_min_scale = scale_of(names, columns.radius_min, columns.unit_x);
+  columns.radius_max_scale = scale_of(names, columns.radius_max, columns.unit_x);
   columns.kappa_scale = 1.0 / scale_of(names, columns.kappa, columns.unit_x);
+  columns.kappa_min_scale = 1.0 / scale_of(names, columns.kappa_min, columns.unit_x);
+  columns.kappa_max_scale = 1.0 / scale_of(names, columns.kappa_max, columns.unit_x);
   columns.tolerance_scale = scale_of(names, columns.tolerance, columns.unit_x);
   return columns;
 }

@@ -25,14 +25,19 @@ struct Columns {
   std::size_t y = 1;
   std::string unit_x, unit_y;  ///< canonical; empty: none is stated
   std::optional<std::size_t> z, heading_deg, radius, kappa, tolerance, corner;
+  /// Ends of ranges.
+  std::optional<std::size_t> heading_min, heading_max, radius_min, radius_max, kappa_min, kappa_max;
   /// Columns in another unit than x: what their numbers become in that of x.
   double radius_scale = 1.0, kappa_scale = 1.0, tolerance_scale = 1.0;
+  double radius_min_scale = 1.0, radius_max_scale = 1.0;
+  double kappa_min_scale = 1.0, kappa_max_scale = 1.0;
   std::vector<std::string> unused;  ///< names that mean nothing here
   bool tab_separated = false;       ///< header with tabs: a tab ends a cell, cells may be empty
   bool our_samples = false;         ///< columns of `samples_csv`: headings show corners
 
   [[nodiscard]] bool has_fixed_data() const {
-    return heading_deg || radius || kappa || tolerance || corner;
+    return heading_deg || radius || kappa || tolerance || corner || heading_min || heading_max ||
+           radius_min || radius_max || kappa_min || kappa_max;
   }
 };
 

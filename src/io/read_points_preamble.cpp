@@ -138,8 +138,10 @@ Result<void> RowReader::take_text(string_view line) {
   const bool row_like =
       first_is_number && fields_.count > 1 && (comma_like || starts_like_number(fields_.cell[1]));
   if (row_like) {
-    return fail(error(ErrorCode::kBadNumber, shown(fields_.cell[1]) + " is not a number",
-                      {line, fields_.cell[1].data()}));
+    const string_view cell = fields_.cell[1];
+    return fail(error(ErrorCode::kBadNumber,
+                      cell.empty() ? "a number is missing" : shown(cell) + " is not a number",
+                      {line, cell.data()}));
   }
   // "1,2,3;4,5,6": several points in one line.
   if (separator_ == Separator::kSemicolon && starts_like_number(fields_.cell[0])) {

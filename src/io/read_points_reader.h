@@ -51,6 +51,12 @@ class RowReader {
   [[nodiscard]] bool is_given(std::optional<std::size_t> column) const;
   Result<FixedData> read_fixed(std::string_view line);
   Result<std::optional<double>> read_curvature(std::string_view line);
+  Result<std::optional<ValueRange>> read_range(std::string_view line,
+                                               std::optional<std::size_t> low,
+                                               std::optional<std::size_t> high,
+                                               bool infinite_allowed);
+  Result<std::optional<ValueRange>> read_heading_range(std::string_view line);
+  Result<std::optional<ValueRange>> read_curvature_range(std::string_view line);
   Result<bool> read_corner(std::string_view line);
 
   Result<void> check_columns(Place place, std::size_t count);
@@ -59,6 +65,7 @@ class RowReader {
   void watch_length(const std::array<double, 3>& row);
   void warn_about_meaning();
   void warn_about_names();
+  void warn_about_level();
   void take_unknown_names();
   void push(Vec2 point, const text::PrintedDigits& x, const text::PrintedDigits& y);
 

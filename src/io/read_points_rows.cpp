@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The rows themselves.
 #include <fast_float/fast_float.h>
+#include <fmt/format.h>
 
 #include <algorithm>
 #include <array>
@@ -219,6 +220,7 @@ void RowReader::warn_about_meaning() {
         "`s x y`.");
   }
   warn_about_names();
+  warn_about_level();
   if (raw_.points.empty() || raw_.units.known()) return;
   Vec2 low = raw_.points.front(), high = low;
   for (const Vec2 p : raw_.points) {
@@ -256,6 +258,13 @@ void RowReader::warn_about_names() {
                           std::string(known_columns()) + ".");
 }
 
+// Heights that are all the same are left out as well.
+void RowReader::warn_about_level() {
+  if (!raw_.named || third_changes_ || third_.value_or(0.0) == 0.0) return;
+  raw_.warnings.push_back("The column z is " + fmt::format("{}", *third_) +
+                          " at every point: the contour is formed and written in x and y, at z 0.");
+}
+
 // A third column that changes may be a height or a width: say that it is not used.
 void RowReader::watch_third(double value) {
   if (!third_) third_ = value;
@@ -263,7 +272,9 @@ void RowReader::watch_third(double value) {
   third_changes_ = true;
   raw_.warnings.push_back(std::string(raw_.named ? "The column z" : "The third column") +
                           " is not used although it changes, first in line " +
-                          std::to_string(cursor_.line_number()) + ".");
+                          std::to_string(cursor_.line_number()) +
+                          ": the contour lies in the plane of x and y. `obvid fit` forms points "
+                          "with named columns x, y, z, or with --along Z, as a curve in space.");
 }
 
 Result<void> RowReader::read_named_row(Place place) {

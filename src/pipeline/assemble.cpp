@@ -38,7 +38,11 @@ void Assembly::append(Contour section) {
   const bool drawn = keeps_last(whole_) || keeps_first(section);
   const Element& next = section.joints.front().element;
   const bool smooth = drawn && continues(whole_.joints.back().element, next);
-  if (!smooth) whole_.joints.back().leaving = next;
+  if (!smooth) {
+    Joint& joint = whole_.joints.back();
+    joint.leaving = next;
+    joint.leaving->point = joint.element.point;  // one point: sections give it to the last digit
+  }
   whole_.joints.insert(whole_.joints.end(), section.joints.begin() + 1, section.joints.end());
   whole_.pieces.insert(whole_.pieces.end(), section.pieces.begin(), section.pieces.end());
   for (const Run& run : section.runs) {
@@ -58,8 +62,10 @@ void Assembly::close(bool smooth) {
   whole_.joints.pop_back();
   const bool drawn = keeps_first(whole_) || keeps_last(whole_);
   if (smooth || (drawn && continues(last.element, whole_.joints.front().element))) return;
-  whole_.joints.front().leaving = whole_.joints.front().element;
-  whole_.joints.front().element = last.element;
+  Joint& first = whole_.joints.front();
+  first.leaving = first.element;
+  first.element = last.element;
+  first.element.point = first.leaving->point;
 }
 
 }  // namespace obvid::pipeline_detail

@@ -4,9 +4,13 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <optional>
 
 #include "obvid/certify/certify.h"
-#include "obvid/region/refine.h"
+#include "obvid/curve/contour_path.h"
+#include "obvid/curve/runs.h"
+#include "obvid/geom/angle.h"
+#include "obvid/series/analysis.h"
 #include "report.h"
 
 namespace obvid {
@@ -48,7 +52,7 @@ double size_of_pieces(const std::vector<Piece>& pieces) {
   for (const Piece& piece : pieces) {
     for (const double t : {0.0, 0.25, 0.5, 0.75, 1.0}) points.push_back(evaluate(piece, t).point);
   }
-  return pipeline_detail::size_of(points);
+  return bounding_diagonal(points);
 }
 
 class Auditor {
@@ -59,7 +63,7 @@ class Auditor {
     out_.contour.carrier = Carrier::kBaseline;
     out_.contour.closed = curve.closed;
     out_.contour.pieces = curve.pieces;
-    for (Piece& piece : out_.contour.pieces) straighten(piece);
+    straighten_all();
     size_ = size_of_pieces(out_.contour.pieces);
   }
 
@@ -78,25 +82,66 @@ class Auditor {
     place_vertices();
     place_inflections();
     out_.visible_vertices = swings(kVisible * (out_.largest_kappa - out_.least_kappa));
+    if (unbounded_) out_.least_kappa = out_.largest_kappa = std::nan("");
     std::stable_sort(out_.places.begin(), out_.places.end(),
                      [](const AuditPlace& a, const AuditPlace& b) { return a.s < b.s; });
     return std::move(out_);
   }
 
  private:
-  /// Curvature that rounding alone explains is none: left in, its signs would be counted.
-  void straighten(Piece& piece) {
+  /// Curvature at an end of a piece, and whether it is more than rounding.
+  struct FlatEnd {
+    double kappa = 0.0;
+    bool meant = false;
+  };
+
+  /// Curvature that rounding alone explains is none: left in, its signs would be counted. What goes
+  /// on continuously from a curvature that is more, without falling to a rounding of that, is
+  /// meant, however short the piece.
+  void straighten_all() {
+    std::vector<Piece>& pieces = out_.contour.pieces;
+    std::vector<FlatEnd> ends;  // two of each piece
+    for (const Piece& piece : pieces) {
+      const double flat = flat_curvature(piece);
+      for (const double t : {0.0, 1.0}) {
+        const double kappa = element_at(piece, t).kappa;
+        ends.push_back({kappa, std::abs(kappa) > flat});
+      }
+    }
+    const std::size_t n = ends.size();
+    const auto pass_on = [&](std::size_t from, std::size_t to) {
+      const FlatEnd &known = ends[from], &next = ends[to];
+      if (!known.meant || next.meant) return;
+      const bool same_piece = from / 2 == to / 2;
+      const double most = std::max(std::abs(known.kappa), std::abs(next.kappa));
+      ends[to].meant = same_piece ? std::abs(next.kappa) > kLargestJump * most
+                                  : std::abs(next.kappa - known.kappa) <= kLargestJump * most;
+    };
+    for (std::size_t k = 0; k < 2 * n; ++k) {  // twice around: a closed curve has no start
+      if (k % n + 1 < n || out_.contour.closed) pass_on(k % n, (k + 1) % n);
+    }
+    for (std::size_t k = 2 * n; k-- > 0;) {
+      if (k % n + 1 < n || out_.contour.closed) pass_on((k + 1) % n, k % n);
+    }
+    for (std::size_t i = 0; i < pieces.size(); ++i) {
+      straighten(pieces[i], ends[2 * i].meant, ends[2 * i + 1].meant);
+    }
+  }
+
+  void straighten(Piece& piece, bool start_meant, bool end_meant) {
     const double flat = flat_curvature(piece);
     if (auto* c = std::get_if<ClothoidPiece>(&piece)) {
-      for (double* kappa : {&c->kappa0, &c->kappa1}) {
-        if (*kappa == 0.0 || std::abs(*kappa) > flat) continue;
+      for (const auto& [kappa, meant] :
+           {std::pair{&c->kappa0, start_meant}, std::pair{&c->kappa1, end_meant}}) {
+        if (*kappa == 0.0 || meant) continue;
         *kappa = 0.0;
         note_flat(flat);
       }
       if (c->kappa0 == 0.0 && c->kappa1 == 0.0) piece = LinePiece{c->start, c->end};
       return;
     }
-    if (std::holds_alternative<LinePiece>(piece) || !is_flat(piece, flat)) return;
+    if (start_meant || end_meant || std::holds_alternative<LinePiece>(piece)) return;
+    if (!is_flat(piece, flat)) return;
     piece = LinePiece{start_point(piece), end_point(piece)};
     note_flat(flat);
   }
@@ -106,8 +151,26 @@ class Auditor {
     out_.flat_curvature = std::max(out_.flat_curvature, flat);
   }
 
+  /// A curve with a control point on its end is straight when its polygon is, never more beside its
+  /// chord than an arc of the curvature that cannot be told from none.
+  static bool has_flat_polygon(const RationalBezier& piece, double flat) {
+    const auto n = static_cast<std::size_t>(piece.degree);
+    const Vec2 chord = piece.offset[n] - piece.offset[0];
+    const double length = norm(chord);
+    const double height = flat * length * length / 8.0;
+    for (std::size_t j = 0; j < n; ++j) {
+      if (!(dot(piece.offset[j + 1] - piece.offset[j], chord) >= 0.0)) return false;
+      const double beside = cross(piece.offset[j] - piece.offset[0], chord) / length;
+      if (!(std::abs(beside) <= height)) return false;
+    }
+    return true;
+  }
+
   /// An arc, or a curve of the chord's length, that nowhere is more curved than that.
   static bool is_flat(const Piece& piece, double flat) {
+    if (is_singular_end(piece, 0.0) || is_singular_end(piece, 1.0)) {
+      return has_flat_polygon(std::get<RationalBezier>(piece), flat);
+    }
     if (const auto* arc = std::get_if<ArcPiece>(&piece)) {
       const double most = std::abs(arc->kappa * arc->length);
       return std::abs(arc->kappa) <= flat && most < 1.0;
@@ -124,15 +187,13 @@ class Auditor {
     const std::vector<Piece>& pieces = out_.contour.pieces;
     out_.least_kappa = HUGE_VAL;
     out_.largest_kappa = -HUGE_VAL;
+    path_.emplace(pieces);
+    out_.length = path_->length();
     for (std::size_t i = 0; i < pieces.size(); ++i) {
-      starts_.push_back(out_.length);
-      Vec2 before = start_point(pieces[i]);
       for (int k = 0; k <= kPieceSamples; ++k) {
         const double t = static_cast<double>(k) / kPieceSamples;
         const Element e = element_at(pieces[i], t);
-        out_.length += norm(e.point - before);
-        before = e.point;
-        samples_.push_back({i, t, out_.length, e.kappa});
+        samples_.push_back({i, t, path_->length_at(i, t), e.kappa});
         out_.least_kappa = std::min(out_.least_kappa, e.kappa);
         out_.largest_kappa = std::max(out_.largest_kappa, e.kappa);
       }
@@ -154,12 +215,11 @@ class Auditor {
       const Element before = first ? end_of(0, 0.0) : end_of((j + n - 1) % n, 1.0);
       const Element after = last ? before : end_of(j, 0.0);
       Joint joint{before, std::nullopt, {}};
-      joint.element.theta = theta + std::remainder(before.theta - theta, 2.0 * std::numbers::pi);
+      joint.element.theta = nearest_angle(before.theta, theta);
       theta = joint.element.theta;
       const bool bounded = std::isfinite(before.kappa) && std::isfinite(after.kappa);
       unbounded_ = unbounded_ || !bounded;
-      // no more is known there than that the pieces meet: they have no tangent of their own either
-      if (!bounded) out_.continuity = std::min(out_.continuity, 0);
+      if (!bounded) out_.continuity = std::min(out_.continuity, 1);
       if (!first && !last && compare(j, before, after)) joint.leaving = after;
       joint.source = j;  // a drawn curve passes the ends of its pieces
       out_.contour.points.push_back(before.point);
@@ -167,15 +227,16 @@ class Auditor {
     }
   }
 
-  /// Notes what is not continuous at a joint; true at a corner and where the curvature jumps.
+  /// Notes what is not continuous at a joint; true at a corner and where the curvature jumps, or is
+  /// not defined on a side.
   bool compare(std::size_t j, const Element& before, const Element& after) {
     const double gap = norm(after.point - before.point);
     const double turn =
         std::abs(std::remainder(after.theta - before.theta, 2.0 * std::numbers::pi));
     const double jump = std::abs(after.kappa - before.kappa);
     const double larger = std::max(std::abs(after.kappa), std::abs(before.kappa));
-    AuditPlace place{AuditPlace::Kind::kGap, starts_[j],  before.point,
-                     before.kappa,           after.kappa, gap};
+    AuditPlace place{AuditPlace::Kind::kGap, path_->joint(j), before.point,
+                     before.kappa,           after.kappa,     gap};
     if (gap > kLargestGap * size_) add(place, -1);
     place.kind = AuditPlace::Kind::kCorner;
     place.size = turn;
@@ -185,7 +246,7 @@ class Auditor {
     place.size = 0.0;
     const bool jumps = !corner && jump > std::max(kLargestJump * larger, rounding_);
     if (jumps) add(place, 1);
-    return corner || jumps;
+    return corner || jumps || !std::isfinite(jump);
   }
 
   void add(const AuditPlace& place, int continuity) {
@@ -194,19 +255,12 @@ class Auditor {
   }
 
   void lay_runs() {
-    for (std::size_t i = 0; i < out_.contour.pieces.size(); ++i) {
-      const Verdict verdict = prove_piece(out_.contour.pieces[i]).verdict;
-      const int direction = verdict == Verdict::kIncreasing   ? 1
-                            : verdict == Verdict::kDecreasing ? -1
-                                                              : 0;
-      std::vector<Run>& runs = out_.contour.runs;
-      const bool goes_on = !out_.contour.joints[i].leaving;
-      if (!runs.empty() && goes_on && runs.back().direction == direction) {
-        runs.back().last_piece = i;
-      } else {
-        runs.push_back({i, i, direction});
-      }
+    std::vector<int> direction;
+    for (const Piece& piece : out_.contour.pieces) {
+      direction.push_back(pipeline_detail::direction_of(prove_piece(piece).verdict));
     }
+    out_.contour.runs = collect_runs(
+        direction, [this](std::size_t i) { return out_.contour.joints[i].leaving.has_value(); });
   }
 
   void place(AuditPlace::Kind kind, const Sample& at) {
@@ -233,6 +287,7 @@ class Auditor {
   void place_vertices() {
     find_proved(out_.vertices, [this](double least) {
       extrema(least, [this](const Sample& at) {
+        if (beside_singular_end(at)) return;  // no extremum: it grows without bound
         const Sample there = refined(at);
         out_.least_kappa = std::min(out_.least_kappa, there.kappa);
         out_.largest_kappa = std::max(out_.largest_kappa, there.kappa);
@@ -271,6 +326,13 @@ class Auditor {
                         : (low.kappa < first.kappa ? low : first));
   }
 
+  [[nodiscard]] bool beside_singular_end(const Sample& at) const {
+    const Piece& piece = out_.contour.pieces[at.piece];
+    constexpr double kStep = 1.0 / kPieceSamples;
+    return (at.t <= kStep && is_singular_end(piece, 0.0)) ||
+           (at.t >= 1.0 - kStep && is_singular_end(piece, 1.0));
+  }
+
   /// The extremum nearest to a sample inside its piece, where the rate of curvature is 0.
   [[nodiscard]] Sample refined(Sample at) const {
     const Piece& piece = out_.contour.pieces[at.piece];
@@ -285,7 +347,7 @@ class Auditor {
       ((rate(middle) > 0.0) == rises ? low : high) = middle;
     }
     at.kappa = curvature(evaluate(piece, low));
-    at.s += norm(evaluate(piece, low).point - evaluate(piece, at.t).point) * (low < at.t ? -1 : 1);
+    at.s = path_->length_at(at.piece, low);
     at.t = low;
     return at;
   }
@@ -317,8 +379,8 @@ class Auditor {
 
   CurveAudit out_;
   double size_ = 0.0, rounding_ = 0.0;
-  bool unbounded_ = false;      // some end of a piece has no curvature
-  std::vector<double> starts_;  // arc length at the start of each piece
+  bool unbounded_ = false;  // some end of a piece has no curvature
+  std::optional<ContourPath> path_;
   std::vector<Sample> samples_;
 };
 

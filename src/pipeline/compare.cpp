@@ -2,7 +2,6 @@
 #include "obvid/pipeline/compare.h"
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <limits>
 
@@ -15,36 +14,37 @@ namespace {
 constexpr double kLongEnough = 0.1;  // s
 constexpr int kMostCalls = 9;
 
-double seconds_since(std::chrono::steady_clock::time_point begin) {
-  return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
-}
-
 /// Median time of the calls, without what is measured against the spirals; the contour is the same
-/// every time.
-Result<Fit> timed_fit(const PointSeries& series, const FitJob& job, double& median) {
+/// every time. A call that takes long enough is the only one.
+Result<Fit> timed_fit(const PointSeries& series, const FitJob& job, Watch& watch, double& median) {
+  auto made = fit(series, job, watch);
+  if (!made) return made;
+  median = made->report.seconds - made->report.comparing_seconds;
+  // a baseline needs spirals for nothing but the comparison
+  if (median >= kLongEnough && job.carrier != Carrier::kBaseline) return made;
   FitJob alone = job;
   alone.measure_against_spirals = false;
   std::vector<double> times;
-  Result<Fit> made;
   double all = 0.0;
   while (times.empty() || (all < kLongEnough && times.size() < kMostCalls)) {
-    const auto begin = std::chrono::steady_clock::now();
-    made = fit(series, alone);
-    times.push_back(seconds_since(begin));
+    const auto one = fit(series, alone, watch);
+    if (!one) break;
+    times.push_back(one->report.seconds);
     all += times.back();
-    if (!made) return made;
   }
+  if (times.empty()) return made;
   std::nth_element(times.begin(), times.begin() + static_cast<std::ptrdiff_t>(times.size() / 2),
                    times.end());
   median = times[times.size() / 2];
-  return job.carrier == Carrier::kSpiral ? made : fit(series, job);
+  return made;
 }
 
-int continuity_of(const Certificate& certificate) {
+int continuity_of(const Contour& contour, const Certificate& certificate) {
   // gaps below these are what rounding leaves (docs/methods/certify.md)
   constexpr double kSameHeading = 1e-7, kSameCurvature = 1e-4;
   if (certificate.gaps.heading > kSameHeading) return 0;
-  return certificate.gaps.curvature > kSameCurvature ? 1 : 2;
+  if (certificate.gaps.curvature > kSameCurvature) return 1;
+  return contour.continuity == Continuity::kG3 && certificate.slope_steps == 0 ? 3 : 2;
 }
 
 std::size_t control_points_of(const Piece& piece) {
@@ -58,6 +58,22 @@ std::size_t control_points_of(const Piece& piece) {
   constexpr double kQuarter = 1.5707963267948966;
   const double quarters = std::ceil(std::abs(arc->kappa * arc->length) / kQuarter);
   return 2 * static_cast<std::size_t>(std::max(quarters, 1.0)) + 1;
+}
+
+/// Whether one contour is to be preferred to another: one that is made, then one that keeps its
+/// promise, then one with fewer vertices.
+bool is_better(const Result<Fit>& one, const Result<Fit>& other) {
+  if (!one || !other) return one.has_value();
+  const Certificate &a = one->certificate, &b = other->certificate;
+  if (a.proved != b.proved) return a.proved;
+  return a.vertices < b.vertices;
+}
+
+/// Whether another carrier lacks something that it might have with other spirals.
+bool wants_other_spirals(const Result<Fit>& made, Carrier carrier, const Fit& spirals) {
+  if (!made) return true;
+  return promises_monotone(carrier) &&
+         (!made->certificate.proved || made->certificate.vertices > spirals.certificate.vertices);
 }
 
 /// Control points that a joint saves: one is shared, and each order of continuity by the parameter
@@ -91,29 +107,52 @@ std::size_t control_points(const Contour& contour) {
 }
 
 Result<Comparison> compare_carriers(const PointSeries& series, const FitJob& job,
-                                    const Progress& progress) {
+                                    const RunContext& run, Comparison* finished) {
   Comparison out;
+  Watch watch({{}, run.cancelled});  // the bar shows carriers
   for (const Carrier carrier : kAllCarriers) {
-    if (progress) {
-      progress(to_string(carrier),
-               static_cast<double>(out.carriers.size()) / static_cast<double>(kAllCarriers.size()));
+    const auto done = static_cast<double>(out.carriers.size());
+    if (run.progress) {
+      run.progress(to_string(carrier), done / static_cast<double>(kAllCarriers.size()));
     }
     FitJob one = job;
     one.carrier = carrier;
     ComparedCarrier row;
     row.carrier = carrier;
-    auto made = timed_fit(series, one, row.seconds);
+    if (carrier != Carrier::kSpiral) {
+      // those that were made: they may have given way to G2
+      one.followed = out.carriers.front().fit.contour.continuity;
+      one.continuity = Continuity::kG2;
+    }
+    auto made = timed_fit(series, one, watch, row.seconds);
+    if (one.followed == Continuity::kG3 && !watch.was_cancelled() &&
+        wants_other_spirals(made, carrier, out.carriers.front().fit)) {
+      one.followed = Continuity::kG2;
+      double seconds = 0.0;
+      auto other = timed_fit(series, one, watch, seconds);
+      if (is_better(other, made)) {
+        made = std::move(other);
+        row.seconds = seconds;
+      } else {
+        one.followed = Continuity::kG3;
+      }
+    }
+    row.followed = carrier == Carrier::kSpiral && made ? made->contour.continuity : one.followed;
+    if (watch.was_cancelled()) {
+      if (finished != nullptr) *finished = std::move(out);
+      return fail(cancelled_error());
+    }
     if (!made && carrier == Carrier::kSpiral) return tl::unexpected(made.error());
     if (made) {
       row.fit = std::move(*made);
       row.control_points = control_points(row.fit.contour);
-      row.continuity = continuity_of(row.fit.certificate);
+      row.continuity = continuity_of(row.fit.contour, row.fit.certificate);
     } else {
       row.refusal = made.error();
     }
     out.carriers.push_back(std::move(row));
   }
-  if (progress) progress("done", 1.0);
+  if (run.progress) run.progress("done", 1.0);
   return out;
 }
 

@@ -9,7 +9,9 @@
 #include <numbers>
 
 #include "drawn_pieces.h"
+#include "obvid/curve/flatten.h"
 #include "obvid/region/refine.h"
+#include "obvid/series/analysis.h"
 #include "obvid/series/sections.h"
 #include "report.h"
 
@@ -39,22 +41,6 @@ std::vector<Vec2> places_on(const DrawnCurve& curve) {
   return out;
 }
 
-/// Largest distance of the middles between equal steps from their chords.
-double largest_sagitta(const Piece& piece, int steps) {
-  double most = 0.0;
-  Vec2 before = start_point(piece);
-  for (int k = 1; k <= steps; ++k) {
-    const Vec2 here = evaluate(piece, static_cast<double>(k) / steps).point;
-    const Vec2 middle = evaluate(piece, (k - 0.5) / steps).point, chord = here - before;
-    const double length = norm(chord);
-    const double away =
-        length > 0.0 ? std::abs(cross(chord, middle - before)) / length : norm(middle - before);
-    most = std::max(most, away);
-    before = here;
-  }
-  return most;
-}
-
 double turn_between(double from, double to) {
   return std::abs(std::remainder(to - from, 2.0 * std::numbers::pi));
 }
@@ -63,8 +49,8 @@ class SeriesOfDrawing {
  public:
   SeriesOfDrawing(std::vector<DrawnPiece> pieces, bool closed, double chord)
       : pieces_(std::move(pieces)), closed_(closed), chord_(chord) {
-    any_kept_ = std::any_of(pieces_.begin(), pieces_.end(),
-                            [](const DrawnPiece& one) { return one.kept; });
+    any_kept_ =
+        std::any_of(pieces_.begin(), pieces_.end(), [](const DrawnPiece& one) { return one.kept; });
   }
 
   PointSeries run() {
@@ -90,7 +76,7 @@ class SeriesOfDrawing {
       steps = any_kept_ ? kFewestSteps : 2;
       const double own = kOwnTolerance * norm(end_point(piece) - start_point(piece));
       const double within = any_kept_ && own > 0.0 ? std::min(chord_, own) : chord_;
-      while (steps < kMostSteps && largest_sagitta(piece, steps) > within) steps *= 2;
+      steps = chord_steps(piece, within, steps, kMostSteps);
     }
     out_.points.push_back(start_point(piece));
     for (int k = 1; k < steps; ++k) {
@@ -114,8 +100,7 @@ class SeriesOfDrawing {
     const DrawnPiece& curve = before.kept ? after : before;
     const Element& kept = before.kept ? in : out;
     const Element& other = before.kept ? out : in;
-    const double allowed =
-        is_chord(curve) ? kChordTurns * next_turn(j, before.kept) : kTangent;
+    const double allowed = is_chord(curve) ? kChordTurns * next_turn(j, before.kept) : kTangent;
     fixed.corner = !(turn <= allowed);  // also where the curve has no heading there
     if (fixed.corner) return;
     fixed.theta = kept.theta;
@@ -163,9 +148,9 @@ void cut_into_three(std::vector<DrawnPiece>& pieces) {
       if (const auto* arc = std::get_if<ArcPiece>(&one.piece)) {
         const double half = 0.5 * arc->length;
         parts.push_back({ArcPiece{arc->start, middle, arc->theta0, arc->kappa, half}, one.kept});
-        parts.push_back({ArcPiece{middle, arc->end, arc->theta0 + half * arc->kappa, arc->kappa,
-                                  half},
-                         one.kept});
+        parts.push_back(
+            {ArcPiece{middle, arc->end, arc->theta0 + half * arc->kappa, arc->kappa, half},
+             one.kept});
       } else if (const auto* line = std::get_if<LinePiece>(&one.piece)) {
         parts.push_back({LinePiece{line->start, middle}, one.kept});
         parts.push_back({LinePiece{middle, line->end}, one.kept});
@@ -181,7 +166,7 @@ void cut_into_three(std::vector<DrawnPiece>& pieces) {
 }  // namespace
 
 PointSeries series_of(const DrawnCurve& curve, DrawnUse use, std::optional<double> chord) {
-  const double size = size_of(places_on(curve));
+  const double size = bounding_diagonal(places_on(curve));
   const double tolerance = chord.value_or(kChordTolerance * size);
   if (use == DrawnUse::kPoints) {
     return SeriesOfDrawing(nothing_kept(curve), curve.closed, tolerance).run();

@@ -16,6 +16,7 @@
 #include "obvid/exchange/svg_drawing.h"
 #include "obvid/io/contour_json.h"
 #include "obvid/io/picture_svg.h"
+#include "obvid/series/analysis.h"
 #include "report.h"
 #include "uniform_tolerance.h"
 
@@ -48,7 +49,8 @@ constexpr std::array kEndings = {
     Ending{".xml", FileFormat::kLandXml, "LandXML"},
     Ending{".csv", FileFormat::kSamples, "samples"},
     Ending{".sldcrv", FileFormat::kSldcrv, "SolidWorks points"},
-    Ending{".bas", FileFormat::kMacro, "SolidWorks macro"},
+    Ending{".swb", FileFormat::kMacro, "SolidWorks macro"},
+    Ending{".bas", FileFormat::kMacro, ""},
     Ending{".obj", FileFormat::kObj, "OBJ polyline"},
     Ending{".ply", FileFormat::kPly, "PLY polyline"},
 };
@@ -72,7 +74,7 @@ class Exporter {
  public:
   Exporter(const StoredContour& stored, const ExportOptions& options)
       : stored_(stored), contour_(stored.contour), options_(options) {
-    size_ = pipeline_detail::size_of(places_of(contour_));
+    size_ = bounding_diagonal(places_of(contour_));
     tolerance_ = options.tolerance.value_or(kExportTolerance * size_);
     arc_tolerance_ = options.tolerance.value_or(kDefaultForArcs * size_);
   }
@@ -123,7 +125,9 @@ class Exporter {
       case FileFormat::kContour:
         return one_file(contour_to_json(stored_));
       case FileFormat::kPicture:
-        return options_.drawing ? drawing() : Result<Exported>(one_file(picture_svg(stored_, options_.picture)));
+        return options_.drawing ? drawing()
+                                : Result<Exported>(one_file(
+                                      picture_svg(stored_, options_.picture, options_.plots)));
       case FileFormat::kStep:
         return cad(options_.step);
       case FileFormat::kIges:
@@ -179,10 +183,17 @@ class Exporter {
       curve.geometry = contour_.pieces;
     } else {
       auto joined = one_curve(out);
-      if (!joined) return tl::unexpected(joined.error());
-      out.remarks.push_back(fmt::format("one NURBS curve of degree {}, {} control points",
-                                        joined->degree, joined->points.size()));
-      curve.geometry = std::move(*joined);
+      if (joined) {
+        out.remarks.push_back(fmt::format("one NURBS curve of degree {}, {} control points",
+                                          joined->degree, joined->points.size()));
+        curve.geometry = std::move(*joined);
+      } else if (joined.error().code == ErrorCode::kNotProved) {
+        out.remarks.push_back(
+            fmt::format("no one NURBS curve, as {}: written piece by piece", joined.error().what));
+        curve.geometry = contour_.pieces;
+      } else {
+        return tl::unexpected(joined.error());
+      }
     }
     CadWriteOptions write;
     write.format = format;

@@ -7,6 +7,10 @@
 #include <numbers>
 #include <vector>
 
+#include "obvid/geom/angle.h"
+#include "obvid/series/analysis.h"
+#include "prepare.h"
+#include "series_ranges.h"
 #include "uniform_tolerance.h"
 
 namespace obvid {
@@ -23,8 +27,16 @@ constexpr double kFirstStep = 1e-3;  // of the way from what does to what was as
 constexpr std::size_t kMostCandidates = 8;
 /// Narrower ranges are left to rounding: rad, and of the curvature. As much as joints may differ.
 constexpr double kNarrowest = 1e-6;
+/// In closed form narrower ones are told too: their ends are tried.
+constexpr double kNarrowestExact = 1e-10;
+/// A hundredth of these is what `feasible_data` knows.
+constexpr double kToldExactly = 1e-5;
+/// Series of so many points have their ranges in closed form, or none.
+constexpr std::size_t kTooLongForTrials = 1000;
 /// No further trial begins when so many steps on every point, and some more, were spent.
 constexpr double kRangeSteps = 5000.0, kSpareRange = 2e6;
+/// A piece is formed, proved and measured in the time of so many steps.
+constexpr double kStepsOfPiece = 6.0;
 
 /// Where a datum was given: in the series, as a wish of the job, or for an end.
 struct Given {
@@ -33,6 +45,12 @@ struct Given {
   double value;
 };
 
+/// In the middle of a range, or at its one end.
+double some_value(const ValueRange& range) {
+  if (std::isinf(range.low)) return range.high;
+  return std::isinf(range.high) ? range.low : 0.5 * (range.low + range.high);
+}
+
 double in_first_turn(double angle) {
   constexpr double kTurn = 2.0 * std::numbers::pi;
   return angle - kTurn * std::floor(angle / kTurn);
@@ -40,11 +58,11 @@ double in_first_turn(double angle) {
 
 class RangeSearch {
  public:
-  RangeSearch(const PointSeries& series, const FitJob& job, const Progress& progress)
+  RangeSearch(const PointSeries& series, const FitJob& job, const RunContext& run)
       : series_(series),
         job_(with_closing(series, job)),
+        watch_(run),
         most_(kSpareRange + kRangeSteps * static_cast<double>(series.points.size())) {
-    if (progress) watch_ = Watch(progress);
     gather();
   }
 
@@ -54,6 +72,9 @@ class RangeSearch {
     };
     std::stable_sort(given_.begin(), given_.end(),
                      [&](const Given& a, const Given& b) { return away(a) < away(b); });
+    if (const auto exact = closed_form()) return exact;
+    // every trial forms the whole series
+    if (series_.points.size() >= kTooLongForTrials) return std::nullopt;
     if (given_.size() > kMostCandidates) given_.resize(kMostCandidates);
     for (const Given& one : given_) {
       if (auto found = range_of(one)) return found;
@@ -70,37 +91,59 @@ class RangeSearch {
       if (wish.index >= n) continue;
       if (wish.theta) all[wish.index].theta = wish.theta;
       if (wish.kappa) all[wish.index].kappa = wish.kappa;
+      if (wish.thetas) all[wish.index].thetas = wish.thetas;
+      if (wish.kappas) all[wish.index].kappas = wish.kappas;
     }
     if (n == 0) return;
     if (job_.start_heading) all.front().theta = job_.start_heading;
     if (job_.start_kappa) all.front().kappa = job_.start_kappa;
     if (job_.end_heading) all.back().theta = job_.end_heading;
     if (job_.end_kappa) all.back().kappa = job_.end_kappa;
+    if (job_.start_thetas) all.front().thetas = job_.start_thetas;
+    if (job_.start_kappas) all.front().kappas = job_.start_kappas;
+    if (job_.end_thetas) all.back().thetas = job_.end_thetas;
+    if (job_.end_kappas) all.back().kappas = job_.end_kappas;
     for (std::size_t i = 0; i < n; ++i) {
       if (all[i].theta) given_.push_back({i, Datum::kHeading, *all[i].theta});
       if (all[i].kappa) given_.push_back({i, Datum::kCurvature, *all[i].kappa});
+      if (all[i].thetas && !all[i].theta) {
+        given_.push_back({i, Datum::kHeading, some_value(*all[i].thetas)});
+      }
+      if (all[i].kappas && !all[i].kappa) {
+        given_.push_back({i, Datum::kCurvature, some_value(*all[i].kappas)});
+      }
     }
   }
 
   /// The contour with one datum freed, or set to a value.
   std::optional<Fit> with(const Given& given, std::optional<double> value) {
-    if (watch_.spent() >= most_) return std::nullopt;
+    if (watch_.spent() >= most_ || watch_.cancelled()) return std::nullopt;
     PointSeries series = series_;
     FitJob job = job_;
+    job.measure_against_spirals = false;  // asked for is whether there is one
     const bool heading = given.datum == Datum::kHeading;
-    const auto drop = [heading](FixedData& data) { (heading ? data.theta : data.kappa).reset(); };
+    const auto drop = [heading](auto& data) {
+      (heading ? data.theta : data.kappa).reset();
+      (heading ? data.thetas : data.kappas).reset();
+    };
     if (given.point < series.fixed.size()) drop(series.fixed[given.point]);
     for (PointWish& wish : job.wishes) {
-      if (wish.index == given.point) (heading ? wish.theta : wish.kappa).reset();
+      if (wish.index == given.point) drop(wish);
     }
-    if (given.point == 0) (heading ? job.start_heading : job.start_kappa).reset();
-    if (given.point + 1 == series.points.size())
+    if (given.point == 0) {
+      (heading ? job.start_heading : job.start_kappa).reset();
+      (heading ? job.start_thetas : job.start_kappas).reset();
+    }
+    if (given.point + 1 == series.points.size()) {
       (heading ? job.end_heading : job.end_kappa).reset();
+      (heading ? job.end_thetas : job.end_kappas).reset();
+    }
     if (value) {
       series.fixed.resize(series.points.size());
       (heading ? series.fixed[given.point].theta : series.fixed[given.point].kappa) = value;
     }
     auto made = fit(series, job, watch_);
+    if (made) watch_.spend(kStepsOfPiece * static_cast<double>(made->contour.pieces.size()));
     if (!made || !keeps_promises(*made)) return std::nullopt;
     return std::move(*made);
   }
@@ -167,12 +210,65 @@ class RangeSearch {
     return std::nullopt;
   }
 
+  /// The series as its ranges are told in closed form: points that are met, open, without corners.
+  std::optional<std::vector<FeasibleData>> closed_form_ranges(
+      const pipeline_detail::Prepared& series) const {
+    const bool one = series.split.sections.size() == 1 && !series.closed && series.kept.empty();
+    if (!one || !series.exact() || series.points.size() != series_.points.size()) {
+      return std::nullopt;
+    }
+    const auto analysis = analyse(series.points);
+    if (!analysis) return std::nullopt;
+    auto ranges = series_ranges(*analysis, {series.fixed, series.convex});
+    if (!ranges) return std::nullopt;
+    return std::move(*ranges);
+  }
+
+  /// The nearest datum that has a range which leaves all others alone; `fit` tries both its ends.
+  std::optional<FeasibleRange> closed_form() {
+    const auto series = prepare(series_, job_);
+    if (!series) return std::nullopt;
+    const auto ranges = closed_form_ranges(*series);
+    if (!ranges) return std::nullopt;
+    for (const Given& given : given_) {
+      const FeasibleData& here = (*ranges)[given.point];
+      const bool heading = given.datum == Datum::kHeading;
+      if (heading ? !here.heading : !here.kappa) continue;
+      double low = heading ? here.heading->low : here.kappa->low;
+      double high = heading ? here.heading->high : here.kappa->high;
+      if (std::isinf(low) && std::isinf(high)) continue;
+      // an end that is none is told as far away as the other one is large
+      if (std::isinf(low)) low = high - std::max(std::abs(high), kNarrowest);
+      if (std::isinf(high)) high = low + std::max(std::abs(low), kNarrowest);
+      const double size = heading ? 1.0 : std::max(std::abs(low), std::abs(high));
+      if (!(high - low > kNarrowestExact * size)) continue;
+      if (heading) {
+        const double turns = in_first_turn(0.5 * (low + high)) - 0.5 * (low + high);
+        low += turns;
+        high += turns;
+      }
+      const auto least = printed(given, low, high, high - low);
+      const auto greatest = printed(given, high, low, high - low);
+      // between points that lie close together rounding decides, beside the ends and inside
+      const bool told =
+          least && greatest && *least <= *greatest && does(given, 0.5 * (*least + *greatest));
+      if (!told) {
+        const auto middle = printed(given, 0.5 * (low + high), high, high - low);
+        if (!middle) continue;
+        return FeasibleRange{given.point, given.datum, given.value, *middle, *middle, false};
+      }
+      return FeasibleRange{given.point, given.datum, given.value,
+                           *least,      *greatest,   high - low > kToldExactly * size};
+    }
+    return std::nullopt;
+  }
+
   std::optional<FeasibleRange> range_of(Given given) {
     const auto free = free_value(given);
     if (!free) return std::nullopt;
     const double asked = given.value;
     if (given.datum == Datum::kHeading) {
-      given.value = *free + std::remainder(asked - *free, 2.0 * std::numbers::pi);
+      given.value = nearest_angle(asked, *free);
     }
     const double way = given.value - *free;
     if (!does(given, *free)) return std::nullopt;
@@ -185,6 +281,7 @@ class RangeSearch {
     const auto least = printed(given, low, high, width);
     const auto greatest = printed(given, high, low, width);
     if (!least || !greatest || *least > *greatest) return std::nullopt;
+    if (!does(given, 0.5 * (*least + *greatest))) return std::nullopt;
     return FeasibleRange{given.point, given.datum, asked, *least, *greatest};
   }
 
@@ -198,10 +295,10 @@ class RangeSearch {
 }  // namespace
 
 std::optional<FeasibleRange> feasible_range(const PointSeries& series, const FitJob& job,
-                                            const Error& refusal, const Progress& progress) {
+                                            const Error& refusal, const RunContext& run) {
   if (refusal.code != ErrorCode::kFixedDataContradict) return std::nullopt;
   const auto near = refusal.index < 0 ? std::size_t{0} : static_cast<std::size_t>(refusal.index);
-  return RangeSearch(series, job, progress).run(near);
+  return RangeSearch(series, job, run).run(near);
 }
 
 }  // namespace obvid

@@ -10,15 +10,19 @@
 
 #include "against_spirals.h"
 #include "assemble.h"
+#include "excursion.h"
 #include "form.h"
 #include "given.h"
 #include "keep_joints.h"
 #include "obvid/certify/certify.h"
+#include "obvid/chain/smooth_chain.h"
 #include "obvid/region/refine.h"
 #include "parts.h"
+#include "pass_points.h"
 #include "prepare.h"
 #include "report.h"
 #include "section_chain.h"
+#include "waviness.h"
 
 namespace obvid {
 namespace {
@@ -29,6 +33,9 @@ using namespace pipeline_detail;
 /// nodes the search knows the contour only to first order.
 constexpr int kNarrowings = 6;
 constexpr double kNarrowed = 0.95;  ///< of what would just do
+/// Of the reach, where within the whole of it points change places or the contour swings out: one
+/// that passes them nearer passes them near enough.
+constexpr int kReachHalvings = 4;
 /// No further round begins when so many steps on every point (and some more where there are few)
 /// were spent: a hundred times what a contour takes as a rule.
 constexpr double kMostFitSteps = 1e4, kSpareWork = 1e6;
@@ -45,16 +52,17 @@ Result<Carried> as_carried(Result<Contour> contour) {
 /// A section in its carrier; `spirals` are those that carry the same elements.
 Result<Carried> form_carrier(const std::vector<Vec2>& points, const SeriesChain& chain,
                              const Contour& spirals, const Prepared& series, Carrier carrier,
-                             double tolerance) {
+                             double tolerance, Watch& watch) {
   switch (carrier) {
     case Carrier::kClothoids:
-      return as_carried(form_clothoids(points, chain));
+      return as_carried(form_clothoids(points, chain, watch));
     case Carrier::kArcs:
-      return as_carried(form_arcs(spirals, tolerance, series.given));
+      return as_carried(
+          form_arcs(spirals, tolerance, series.given, series.split.smooth_loop, watch));
     case Carrier::kConics:
       return form_conics(spirals, series.given);
     case Carrier::kBeziers:
-      return form_beziers(spirals, tolerance);
+      return form_beziers(spirals, tolerance, watch);
     case Carrier::kBspline:
       return form_bspline(spirals, tolerance, series.given);
     case Carrier::kCubic:
@@ -64,6 +72,11 @@ Result<Carried> form_carrier(const std::vector<Vec2>& points, const SeriesChain&
   }
 }
 
+/// How often runs are given back their G2 spirals where the smooth ones are not proved.
+constexpr int kKeptRounds = 4;
+/// How often a smooth contour is led nearer to points that it passes too far.
+constexpr int kMostPassings = 16;
+
 /// A carrier that promises continuous curvature keeps its digits at the joints.
 bool keeps_curvature(Carrier carrier) {
   return carrier == Carrier::kConics || carrier == Carrier::kBeziers ||
@@ -72,8 +85,8 @@ bool keeps_curvature(Carrier carrier) {
 
 Result<Carried> form(const std::vector<Vec2>& points, const SeriesChain& chain,
                      const Contour& spirals, const Prepared& series, Carrier carrier,
-                     double tolerance) {
-  auto out = form_carrier(points, chain, spirals, series, carrier, tolerance);
+                     double tolerance, Watch& watch) {
+  auto out = form_carrier(points, chain, spirals, series, carrier, tolerance, watch);
   if (out && keeps_curvature(carrier)) keep_joint_curvatures(out->contour);
   if (out && carrier == Carrier::kConics) chain_conic_weights(out->contour);
   return out;
@@ -82,7 +95,9 @@ Result<Carried> form(const std::vector<Vec2>& points, const SeriesChain& chain,
 /// Spirals whose stored numbers have the curvatures of their joints.
 Result<Contour> exact_spirals(const std::vector<Vec2>& points, const SeriesChain& chain) {
   auto out = form_spirals(points, chain);
-  if (out) keep_joint_curvatures(*out);
+  if (!out) return out;
+  keep_joint_curvatures(*out);
+  keep_joint_slopes(chain, *out);
   return out;
 }
 
@@ -134,6 +149,56 @@ void add_section(const SectionChain& section, Formed& formed) {
   formed.warnings.insert(formed.warnings.end(), section.warnings.begin(), section.warnings.end());
 }
 
+/// Step of the slope of curvature where a piece begins, of the largest slope at the ends of both
+/// pieces that meet there.
+double slope_step_before(const Contour& spirals, std::size_t piece) {
+  const std::size_t n = spirals.pieces.size(), before = (piece + n - 1) % n;
+  const auto slope = [&](std::size_t i, double t) {
+    const Piece& one = spirals.pieces[i];
+    const bool even =
+        std::holds_alternative<LinePiece>(one) || std::holds_alternative<ArcPiece>(one);
+    return even ? 0.0 : curvature_rate(evaluate(one, t));
+  };
+  const double left = slope(before, 1.0), right = slope(piece, 0.0);
+  const double scale = std::max(
+      {std::abs(slope(before, 0.0)), std::abs(left), std::abs(right), std::abs(slope(piece, 1.0))});
+  return scale > 0.0 ? std::abs(right - left) / scale : 0.0;
+}
+
+double largest_slope_step(const Contour& spirals, bool loop) {
+  double largest = 0.0;
+  for (std::size_t i = loop ? 0 : 1; i < spirals.pieces.size(); ++i) {
+    largest = std::max(largest, slope_step_before(spirals, i));
+  }
+  return largest;
+}
+
+/// Where G3 could not be had, for the user.
+std::string slope_steps_text(const SeriesChain& chain, const SmoothedSlopes& slopes) {
+  std::size_t point = 0;  // at the first of them, or before it
+  for (std::size_t i = 0; i <= slopes.stepped.front(); ++i) point = chain.source[i].value_or(point);
+  return fmt::format(
+      "no common slope of curvature was found at {} of {} joints, first beside point {}: G2 there",
+      slopes.stepped.size(), slopes.joints, point + 1);
+}
+
+/// Parts of a series whose runs stay G2 where slopes are made continuous.
+struct KeptParts {
+  std::vector<bool> around;   ///< points that the runs pass between their elements
+  std::vector<bool> leaving;  ///< points at which a part between two elements begins
+
+  [[nodiscard]] bool empty() const { return around.empty(); }
+  void make(std::size_t points) {
+    around.resize(points, false);
+    leaving.resize(points, false);
+  }
+};
+
+/// Whether the slopes of the spirals' curvature are made continuous.
+bool makes_slopes_continuous(const FitJob& job) {
+  return (job.carrier == Carrier::kSpiral ? job.continuity : job.followed) == Continuity::kG3;
+}
+
 /// Forms the sections one after the other, and beside them the spirals of the same elements.
 class SectionForming {
  public:
@@ -144,11 +209,18 @@ class SectionForming {
         watch_(watch),
         have_spirals_(job.measure_against_spirals) {}
 
+  /// Runs of these parts keep their G2 spirals.
+  SectionForming& keeping(const KeptParts& parts) {
+    kept_ = parts;
+    return *this;
+  }
+
   Result<Formed> run() {
-    for (std::size_t k = 0; k < series_.split.sections.size(); ++k) {
+    for (std::size_t k = 0; k < series_.split.sections.size() && !watch_.cancelled(); ++k) {
       if (auto done = form_one(k); !done) return tl::unexpected(done.error());
     }
     out_.contour = finished(assembly_, job_.carrier);
+    if (out_.chain.slope_step_g2) out_.chain.waviness_g2 = waviness_g2_.value();
     if (have_spirals_ && job_.carrier != Carrier::kSpiral) {
       out_.spirals = finished(spirals_, Carrier::kSpiral);
     }
@@ -164,9 +236,9 @@ class SectionForming {
     const Section& section = series_.split.sections[k];
     if (form_drawn(section)) return {};
     if (job_.carrier == Carrier::kBaseline) return form_baseline_alone(section);
-    const auto chain = chain_section(series_, section, watch_);
+    auto chain = chain_section(series_, section, watch_);
     if (!chain) return tl::unexpected(chain.error());
-    auto spirals = exact_spirals(series_.points, chain->chain);
+    auto spirals = spirals_of(*chain);
     if (!spirals && job_.carrier != Carrier::kClothoids) return tl::unexpected(spirals.error());
     if (job_.carrier == Carrier::kSpiral) {
       assembly_.append(std::move(*spirals));
@@ -174,12 +246,89 @@ class SectionForming {
       return {};
     }
     auto carried = form(series_.points, chain->chain, spirals ? *spirals : Contour{}, series_,
-                        job_.carrier, tolerance_);
+                        job_.carrier, tolerance_, watch_);
     if (!carried) return tl::unexpected(carried.error());
     out_.add(std::move(*carried), assembly_);
     add_section(*chain, out_);
     keep(std::move(spirals));
     return {};
+  }
+
+  /// The spirals of a section's elements, which become others where slopes are made continuous.
+  Result<Contour> spirals_of(SectionChain& section) {
+    auto spirals = exact_spirals(series_.points, section.chain);
+    return spirals && makes_slopes_continuous(job_) ? smoothed(section, *spirals) : spirals;
+  }
+
+  /// The spirals with continuous slopes, as far as there are any. Where they pass points too far
+  /// that the G2 spirals pass within their tolerances, they are led through the places of these.
+  Result<Contour> smoothed(SectionChain& section, const Contour& spirals) {
+    note_slope_step(spirals);
+    const std::vector<bool> keep = kept_links(section.chain);
+    PassingChain passing(section.chain, spirals, series_.points);
+    SeriesChain chain = section.chain;
+    SmoothedSlopes slopes = smooth_slopes(chain, series_.split.smooth_loop, watch_, keep);
+    auto smooth = exact_spirals(series_.points, chain);
+    for (int k = 0; smooth && !series_.exact() && k < kMostPassings; ++k) {
+      if (!passing.pass(excess(*smooth)) || watch_.was_cancelled()) break;
+      chain = passing.chain();
+      slopes = smooth_slopes(chain, series_.split.smooth_loop, watch_, passing.in_links(keep));
+      smooth = exact_spirals(series_.points, chain);
+    }
+    if (!smooth) return smooth;
+    section.chain = std::move(chain);
+    if (!slopes.stepped.empty() && job_.continuity == Continuity::kG3) {
+      section.warnings.push_back(slope_steps_text(section.chain, slopes));
+    }
+    return smooth;
+  }
+
+  /// How much too far the points of a section are passed; 0 for all others.
+  [[nodiscard]] std::vector<double> excess(const Contour& section) const {
+    Contour seen = section;
+    seen.points = series_.points;
+    seen.point_tolerance = series_.tolerance;
+    const std::vector<double> distance = point_distances(seen, watch_);
+    std::vector<double> out(distance.size(), 0.0);
+    const auto mark = [&](std::size_t i) {
+      out[i] = std::max(0.0, distance[i] - series_.tolerance[i]);
+    };
+    const std::size_t n = out.size();
+    const Joint *first = &section.joints.front(), *last = &section.joints.back();
+    if (!first->source || !last->source) return out;
+    const std::size_t over = (*last->source + n - *first->source) % n;
+    for (std::size_t i = 0; i <= (over > 0 ? over : n - 1); ++i) mark((*first->source + i) % n);
+    return out;
+  }
+
+  /// Links whose runs stay as they are; empty when there are none.
+  [[nodiscard]] std::vector<bool> kept_links(const SeriesChain& chain) const {
+    std::vector<bool> out;
+    const std::size_t n = series_.points.size();
+    std::size_t begun = 0;  // the first link behind a point
+    for (std::size_t k = 1; k < chain.elements.size() && !kept_.empty(); ++k) {
+      if (!chain.source[k]) continue;
+      const std::size_t from = *chain.source[begun], over = (*chain.source[k] + n - from) % n;
+      bool keep = kept_.leaving[from];
+      for (std::size_t i = 1; i < (over > 0 ? over : n) && !keep; ++i) {
+        keep = kept_.around[(from + i) % n];
+      }
+      if (keep) {
+        out.resize(chain.links.size(), false);
+        std::fill(out.begin() + static_cast<std::ptrdiff_t>(begun),
+                  out.begin() + static_cast<std::ptrdiff_t>(k), true);
+      }
+      begun = k;
+    }
+    return out;
+  }
+
+  /// Remembers how far the slopes of the G2 contour step, and how they wave.
+  void note_slope_step(const Contour& spirals) {
+    if (job_.continuity != Continuity::kG3) return;
+    double& largest = out_.chain.slope_step_g2.emplace(out_.chain.slope_step_g2.value_or(0.0));
+    largest = std::max(largest, largest_slope_step(spirals, series_.split.smooth_loop));
+    waviness_g2_.add(spirals, series_.split.smooth_loop);
   }
 
   /// A piece of a drawing stays as it is. False where there is none.
@@ -199,9 +348,8 @@ class SectionForming {
     if (!carried) return tl::unexpected(carried.error());
     out_.add(std::move(*carried), assembly_);
     if (!job_.measure_against_spirals) return {};
-    const auto chain = chain_section(series_, section, watch_);
-    keep(chain ? exact_spirals(series_.points, chain->chain)
-               : Result<Contour>(tl::unexpected(chain.error())));
+    auto chain = chain_section(series_, section, watch_);
+    keep(chain ? spirals_of(*chain) : Result<Contour>(tl::unexpected(chain.error())));
     return {};
   }
 
@@ -210,13 +358,30 @@ class SectionForming {
     if (have_spirals_) spirals_.append(std::move(*spirals));
   }
 
+  /// Pieces of drawings go on as they are drawn.
+  static void claim_slopes(Contour& contour, bool continuous) {
+    contour.continuity = continuous ? Continuity::kG3 : Continuity::kG2;
+    if (!continuous) {  // what follows spirals has their joints
+      for (Joint& joint : contour.joints) joint.slope_step = false;
+      return;
+    }
+    const std::size_t n = contour.pieces.size();
+    for (const std::size_t i : contour.kept) {
+      for (const std::size_t j : {i, contour.closed ? (i + 1) % n : i + 1}) {
+        const bool end = !contour.closed && (j == 0 || j == n);
+        contour.joints[j].slope_step = !end && !contour.joints[j].leaving;
+      }
+    }
+  }
+
   [[nodiscard]] Contour finished(Assembly& assembly, Carrier carrier) const {
     if (series_.closed) assembly.close(series_.split.smooth_loop);
     Contour contour = assembly.take();
     contour.points = series_.points;
     contour.point_tolerance = point_tolerance(series_, carrier, tolerance_);
-    contour.given = series_.given;
+    contour.given = series_.asked;
     contour.carrier = carrier;
+    claim_slopes(contour, carrier == Carrier::kSpiral && makes_slopes_continuous(job_));
     return contour;
   }
 
@@ -226,6 +391,8 @@ class SectionForming {
   Watch& watch_;
   Formed out_;
   Assembly assembly_, spirals_;
+  Waviness waviness_g2_;
+  KeptParts kept_;
   bool have_spirals_;  // as long as they are asked for, and all sections have them
 };
 
@@ -250,19 +417,41 @@ double share_tolerance(Prepared& series, double tolerance, double least) {
   return own;
 }
 
-bool misses_a_point(const Contour& contour) {
+bool misses_a_point(const Contour& contour, Watch& watch) {
   if (contour.point_tolerance.empty()) return false;
-  const std::vector<double> distance = point_distances(contour);
+  const std::vector<double> distance = point_distances(contour, watch);
   for (std::size_t i = 0; i < distance.size(); ++i) {
     if (distance[i] > contour.point_tolerance[i]) return true;
   }
   return false;
 }
 
-/// Narrows the reach of points that the contour passes too far. False when there are none.
-bool narrow(const Contour& contour, Prepared& series) {
+/// Points that moved so far that they change places, or turn the contour round between them.
+bool lost_by_moves(const Result<Formed>& formed, Watch& watch) {
+  if (formed) return !points_out_of_order(formed->contour, watch).empty();
+  return formed.error().code == ErrorCode::kChordReversal ||
+         formed.error().code == ErrorCode::kWanders;
+}
+
+/// Halves the reach of points that the contour does not pass after those before them, and of these:
+/// nearer to its points it has their order. False when there are none.
+bool narrow_disorder(const Contour& contour, Watch& watch, Prepared& series) {
+  bool any = false;
+  const std::size_t n = series.reach.size();
+  for (const std::size_t i : points_out_of_order(contour, watch)) {
+    for (const std::size_t k : {i, i > 0 ? i - 1 : n - 1}) {
+      any = any || series.reach[k] > 0.0;
+      series.reach[k] *= 0.5;
+    }
+  }
+  return any;
+}
+
+/// Narrows the reach of points that the contour passes too far or out of order. False when there
+/// are none.
+bool narrow(const Contour& contour, Watch& watch, Prepared& series) {
   if (series.exact()) return false;
-  const std::vector<double> distance = point_distances(contour);
+  const std::vector<double> distance = point_distances(contour, watch);
   bool any = false;
   for (std::size_t i = 0; i < distance.size(); ++i) {
     const double allowed = contour.point_tolerance[i];
@@ -270,7 +459,7 @@ bool narrow(const Contour& contour, Prepared& series) {
     series.reach[i] *= kNarrowed * allowed / distance[i];
     any = true;
   }
-  return any;
+  return any || narrow_disorder(contour, watch, series);
 }
 
 /// A convex contour turns one way all along; the search within tolerances may have missed that.
@@ -318,14 +507,100 @@ Result<Formed> form_within(Prepared& series, const FitJob& job, double tolerance
   };
   auto formed = again();
   while (formed && round <= kNarrowings && watch.spent() < most &&
-         narrow(formed->contour, series)) {
+         narrow(formed->contour, watch, series)) {
     formed = again();
   }
-  if (formed && series.thin && misses_a_point(formed->contour)) {
+  if (formed && series.thin && misses_a_point(formed->contour, watch)) {
     series.thin = false;  // every point a joint: each is met by construction
     formed = again();
   }
+  int halvings = 0;
+  while (halvings < kReachHalvings && !series.exact() && watch.spent() < most &&
+         !watch.was_cancelled() && lost_by_moves(formed, watch)) {
+    ++halvings;
+    for (double& reach : series.reach) reach *= 0.5;
+    formed = again();
+  }
+  if (formed && halvings > 0) {
+    formed->warnings.push_back(
+        fmt::format("within the whole of their tolerances points would change places, or the "
+                    "contour swing out between them: 1/{} of each tolerance was used",
+                    1 << halvings));
+  }
   return formed;
+}
+
+/// Changes of direction and of sign along a contour whose pieces are monotone.
+struct Turns {
+  int vertices = 0, inflections = 0;
+
+  [[nodiscard]] bool more_than(const Turns& other) const {
+    return vertices > other.vertices || inflections > other.inflections;
+  }
+};
+
+Turns turns_of(const Contour& contour) {
+  Turns out;
+  int direction = 0, sign = 0;
+  const auto follow_run = [&](const Run& run) {
+    if (run.direction == 0) return;
+    if (direction != 0 && run.direction != direction) ++out.vertices;
+    direction = run.direction;
+  };
+  const auto follow_joint = [&](const Joint& joint) {
+    const double kappa = joint.element.kappa;
+    const int now = kappa > 0.0 ? 1 : kappa < 0.0 ? -1 : 0;
+    if (now == 0) return;
+    if (sign != 0 && now != sign) ++out.inflections;
+    sign = now;
+  };
+  for (const Run& run : contour.runs) follow_run(run);
+  for (const Joint& joint : contour.joints) follow_joint(joint);
+  if (!contour.closed || contour.runs.empty()) return out;
+  follow_run(contour.runs.front());
+  follow_joint(contour.joints.front());
+  return out;
+}
+
+/// Points that a contour does not pass within their tolerances.
+std::vector<bool> missed_points(const Contour& contour, Watch& watch) {
+  const std::vector<double> distance = point_distances(contour, watch);
+  std::vector<bool> out(distance.size());
+  for (std::size_t i = 0; i < distance.size(); ++i) {
+    out[i] = distance[i] > contour.point_tolerance[i];
+  }
+  for (const std::size_t i : points_out_of_order(contour, watch)) out[i] = true;
+  return out;
+}
+
+/// Continuous slopes within tolerances: those of the G2 contour's elements, so that no vertex and
+/// no inflection is added. Runs that miss points whatever was tried keep their G2 spirals.
+Result<Formed> smooth_within(Prepared& series, const FitJob& job, double tolerance, KeptParts kept,
+                             Watch& watch) {
+  const auto form = [&] {
+    return SectionForming(series, job, tolerance, watch).keeping(kept).run();
+  };
+  if (series.exact()) return form();
+  FitJob plain = job;
+  plain.continuity = Continuity::kG2;
+  auto flat = form_within(series, plain, tolerance, watch);
+  if (!flat) return flat;
+  const Turns most = turns_of(flat->contour);
+  auto smooth = form();
+  for (int round = 0; smooth && round < kNarrowings && !watch.was_cancelled(); ++round) {
+    const std::vector<bool> missed = missed_points(smooth->contour, watch);
+    if (std::find(missed.begin(), missed.end(), true) == missed.end()) {
+      if (turns_of(smooth->contour).more_than(most)) break;
+      return smooth;
+    }
+    kept.make(missed.size());
+    for (std::size_t i = 0; i < missed.size(); ++i) kept.around[i] = kept.around[i] || missed[i];
+    smooth = form();
+  }
+  flat->warnings.emplace_back(
+      "within the tolerances no contour with continuous slopes of the curvature was found that has "
+      "no more vertices and inflections: it is G2");
+  return flat;
 }
 
 /// A contour with the figures that follow from it alone.
@@ -339,12 +614,43 @@ struct Tolerances {
   double formed, asked;
 };
 
+/// From now on these are given.
+void hold_at_ends(const std::vector<GivenDatum>& ends, Prepared& series) {
+  for (const GivenDatum& end : ends) {
+    FixedData& fixed = series.fixed[end.point];
+    const auto given = std::find_if(series.given.begin(), series.given.end(),
+                                    [&](const GivenDatum& one) { return one.point == end.point; });
+    if (end.theta) fixed.theta = given->theta = end.theta;
+    if (end.kappa) fixed.kappa = given->kappa = end.kappa;
+  }
+}
+
 Result<Measured> form_and_measure(Prepared& prepared, const FitJob& job, const Units& units,
-                                  const Tolerances& within, Watch& watch) {
+                                  const Tolerances& within, const KeptParts& kept, Watch& watch) {
   Result<Formed> formed = [&] {
     const Stretch stretch(watch, 0.0, kFormedAt);
-    return form_within(prepared, job, within.formed, watch);
+    return job.continuity == Continuity::kG3
+               ? smooth_within(prepared, job, within.formed, kept, watch)
+               : form_within(prepared, job, within.formed, watch);
   }();
+  // a carrier that chooses headings of its own is held at the end of a range that it passes
+  std::vector<GivenDatum> passed;
+  for (std::size_t round = 0; formed && round <= 2 * prepared.asked.size(); ++round) {
+    take_piece_ends(formed->contour);
+    const auto now = passed_ends(formed->contour);
+    if (now.empty()) break;
+    passed = now;
+    hold_at_ends(passed, prepared);
+    formed = form_within(prepared, job, within.formed, watch);
+  }
+  if (!formed && !passed.empty()) {
+    const std::size_t at = passed.front().point;
+    return fail({ErrorCode::kCarrierCannotKeep,
+                 fmt::format("{} cannot keep the range given there", to_string(job.carrier)),
+                 fmt::format("point {}", at + 1),
+                 "widen the range there, or use carrier spiral or clothoids",
+                 static_cast<std::ptrdiff_t>(at), 0.0});
+  }
   if (!formed) {
     Error error = formed.error();
     if (!prepared.polygon.empty()) {
@@ -353,16 +659,42 @@ Result<Measured> form_and_measure(Prepared& prepared, const FitJob& job, const U
     return fail(std::move(error));
   }
   take_piece_ends(formed->contour);
-  if (auto kept = keeps_given(formed->contour); !kept) return fail(kept.error());
+  if (auto met = keeps_given(formed->contour); !met) return fail(met.error());
   formed->contour.units = units;
-  auto report = measure(formed->contour, within.asked);
+  auto report = measure(formed->contour, within.asked, watch);
   if (!report) return tl::unexpected(report.error());
   return Measured{std::move(*formed), std::move(*report)};
 }
 
-}  // namespace
+/// Whether the heading or curvature of a point is given.
+std::vector<bool> has_given_data(const Prepared& prepared) {
+  std::vector<bool> out;
+  for (const FixedData& fixed : prepared.fixed) out.push_back(fixed.theta || fixed.kappa);
+  return out;
+}
 
-Result<Fit> fit(const PointSeries& series, const FitJob& job, Watch& watch) {
+double seconds_since(std::chrono::steady_clock::time_point begin) {
+  return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+}
+
+/// Curves that promise nothing may end so that doubles hold no curvature there.
+Result<void> has_curvatures(const Contour& contour) {
+  const auto lost = [](const Element& e) {
+    return !std::isfinite(e.theta) || !std::isfinite(e.kappa);
+  };
+  for (const Joint& joint : contour.joints) {
+    if (!lost(joint.element) && !(joint.leaving && lost(*joint.leaving))) continue;
+    const auto point = static_cast<std::ptrdiff_t>(joint.source.value_or(0));
+    return fail({ErrorCode::kRoundingDecides,
+                 fmt::format("{} has no curvature in doubles there", to_string(contour.carrier)),
+                 fmt::format("point {}", point + 1),
+                 "merge points that nearly coincide, or choose another --carrier", point, 0.0});
+  }
+  return {};
+}
+
+Result<Fit> formed_and_proved(const PointSeries& series, const FitJob& job, Watch& watch,
+                              const KeptParts& kept = {}) {
   const auto begin = std::chrono::steady_clock::now();
   watch.tell("analysing", 0.0);
   auto prepared = prepare(series, job);
@@ -372,41 +704,132 @@ Result<Fit> fit(const PointSeries& series, const FitJob& job, Watch& watch) {
   if (!asked) return tl::unexpected(asked.error());
   const double tolerance =
       passes_between_joints(job.carrier) ? share_tolerance(*prepared, *asked, least) : *asked;
-  auto measured = form_and_measure(*prepared, job, series.units, {tolerance, *asked}, watch);
+  auto measured = form_and_measure(*prepared, job, series.units, {tolerance, *asked}, kept, watch);
   // what rounding makes of arcs shows in their regions only
   for (int k = 0; k < kArcTrials && measured && job.carrier == Carrier::kArcs &&
                   measured->report.largest_width > *asked;
        ++k) {
     const double aim = kNarrowedArcs * tolerance * *asked / measured->report.largest_width;
-    measured = form_and_measure(*prepared, job, series.units, {aim, *asked}, watch);
+    measured = form_and_measure(*prepared, job, series.units, {aim, *asked}, kept, watch);
   }
   if (!measured) return fail(measured.error());
   Formed* formed = &measured->formed;
+  if (auto told = has_curvatures(formed->contour); !told) return fail(told.error());
   Fit out;
   out.contour = std::move(formed->contour);
   watch.tell("proving", kFormedAt);
-  out.certificate = certify(out.contour);
+  out.certificate = certify(out.contour, watch);
   if (job.convex) {
-    if (auto kept = keeps_convex(out.contour, out.certificate); !kept) return fail(kept.error());
+    if (auto met = keeps_convex(out.contour, out.certificate); !met) return fail(met.error());
   }
   out.report = std::move(measured->report);
-  settle_with(out.certificate, out.contour, out.report);
+  settle_with(out.certificate, out.contour, out.report, watch);
   if (formed->spirals) {
-    measure_against(*formed->spirals, out.contour, out.report);
+    const auto formed_at = std::chrono::steady_clock::now();
+    measure_against(*formed->spirals, out.contour, watch, out.report);
+    out.report.comparing_seconds = seconds_since(formed_at);
   }
   out.report.chain = formed->chain;
   out.warnings = series.warnings;
   for (const auto* more : {&prepared->warnings, &formed->warnings}) {
     out.warnings.insert(out.warnings.end(), more->begin(), more->end());
   }
-  out.report.seconds =
-      std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+  if (auto warning = warn_of_excursion(out.contour, has_given_data(*prepared))) {
+    out.warnings.push_back(std::move(*warning));
+  }
+  out.report.seconds = seconds_since(begin);
   watch.tell("done", 1.0);
   return out;
 }
 
-Result<Fit> fit(const PointSeries& series, const FitJob& job, const Progress& progress) {
-  Watch watch(progress);
+/// Parts between two points with a piece that is not proved to be monotone. False where no more are
+/// found.
+bool keep_unproved(const Fit& fit, KeptParts& kept) {
+  kept.make(fit.contour.points.size());
+  bool any = false;
+  std::optional<std::size_t> begun;
+  for (std::size_t i = 0; i < fit.certificate.pieces.size(); ++i) {
+    begun = fit.contour.joints[i].source ? fit.contour.joints[i].source : begun;
+    const Verdict verdict = fit.certificate.pieces[i].verdict;
+    const bool monotone = verdict != Verdict::kHasVertex && verdict != Verdict::kUndecided;
+    if (monotone || !begun || kept.leaving[*begun]) continue;
+    kept.leaving[*begun] = any = true;
+  }
+  return any;
+}
+
+/// Joints at which rounding leaves more of a step of the slope than is called continuous are said
+/// to step. False where there are none.
+bool tell_steps(Contour& contour) {
+  constexpr double kClearlyContinuous = 5e-7;
+  bool any = false;
+  for (std::size_t i = contour.closed ? 0 : 1; i < contour.pieces.size(); ++i) {
+    Joint& joint = contour.joints[i];
+    if (joint.slope_step || joint.leaving) continue;
+    joint.slope_step = slope_step_before(contour, i) > kClearlyContinuous;
+    any = any || joint.slope_step;
+  }
+  return any;
+}
+
+/// The contour that says so, if it is proved.
+std::optional<Fit> with_told_steps(const Fit& smooth, Watch& watch) {
+  Fit out = smooth;
+  if (!tell_steps(out.contour)) return std::nullopt;
+  out.certificate = certify(out.contour, watch);
+  if (!out.certificate.proved) return std::nullopt;
+  auto report = measure(out.contour, smooth.report.tolerance, watch);
+  if (!report) return std::nullopt;
+  settle_with(out.certificate, out.contour, *report, watch);
+  report->chain = smooth.report.chain;
+  report->seconds = smooth.report.seconds;
+  out.report = std::move(*report);
+  out.warnings.push_back(
+      fmt::format("rounding leaves a step of the slope of curvature at {} of the joints: G2 there",
+                  out.certificate.slope_steps));
+  return out;
+}
+
+/// Runs whose smooth spirals are not proved keep their G2 ones; if that does not help, the whole
+/// contour does, if that is proved.
+Result<Fit> proved_without_slopes(const PointSeries& series, FitJob job, Fit smooth, Watch& watch) {
+  if (auto told = with_told_steps(smooth, watch)) return std::move(*told);
+  KeptParts kept;
+  std::optional<Fit> now = smooth;
+  for (int round = 0; round < kKeptRounds && now && keep_unproved(*now, kept); ++round) {
+    auto made = formed_and_proved(series, job, watch, kept);
+    if (made && made->certificate.proved) return made;
+    now.reset();
+    if (made) now = std::move(*made);
+  }
+  job.continuity = Continuity::kG2;
+  auto made = formed_and_proved(series, job, watch);
+  if (!made || !made->certificate.proved) return smooth;
+  made->warnings.push_back("the G3 contour was not proved, so this one is G2: " +
+                           smooth.certificate.reason);
+  return made;
+}
+
+}  // namespace
+
+Result<Fit> fit(const PointSeries& series, const FitJob& job, Watch& watch) {
+  if (watch.cancelled()) return fail(cancelled_error());
+  if (job.continuity == Continuity::kG3 && job.carrier != Carrier::kSpiral) {
+    return fail(
+        {ErrorCode::kBadOption,
+         fmt::format("carrier {} has no continuous slope of curvature", to_string(job.carrier)),
+         "--continuity", "G3 is for --carrier spiral", -1, 0.0});
+  }
+  auto made = formed_and_proved(series, job, watch);
+  if (made && job.continuity == Continuity::kG3 && !made->certificate.proved) {
+    made = proved_without_slopes(series, job, std::move(*made), watch);
+  }
+  if (watch.was_cancelled()) return fail(cancelled_error());  // whatever it made do with
+  return made;
+}
+
+Result<Fit> fit(const PointSeries& series, const FitJob& job, const RunContext& run) {
+  Watch watch(run);
   return fit(series, job, watch);
 }
 

@@ -8,8 +8,10 @@
 
 #include "obvid/contour/arcs.h"
 #include "obvid/contour/spirals.h"
+#include "obvid/geom/angle.h"
 #include "obvid/region/refine.h"
 #include "parts.h"
+#include "series_ranges.h"
 
 namespace obvid::pipeline_detail {
 namespace {
@@ -18,18 +20,22 @@ namespace {
 /// this part of its curvature (a quarter of what is called continuous); where it blurs more, the
 /// piece keeps its start as origin and its offsets their own digits.
 constexpr double kLargestBlurOfChange = 1e-3;
+constexpr double kLargestBlurOfChangeG3 = 1e-11;  // slopes feel it some ten times as much, and are
+                                                  // as small as 1e-9 at vertices
 constexpr double kLargestBlur = 2.5e-10;
+constexpr std::size_t kFewPoints = 3;  // they lie on one circle, whatever curve was meant
 /// Curvature error at an end per rounding of a control point, over the square of the end's leg.
 constexpr double kCurvaturePerRounding = 8.0;
 
-bool fits_global_coordinates(const RationalBezier& piece, double kappa_start, double kappa_end) {
+bool fits_global_coordinates(const RationalBezier& piece, double kappa_start, double kappa_end,
+                             double largest_blur_of_change) {
   const Vec2 a = piece.origin + piece.offset[0], b = piece.origin + piece.offset[4];
   const double extent = std::max(std::abs(a.x) + std::abs(a.y), std::abs(b.x) + std::abs(b.y));
   const Vec2 first = piece.offset[1] - piece.offset[0], last = piece.offset[4] - piece.offset[3];
   const double leg2 = std::min(dot(first, first), dot(last, last));
   const double blur = kCurvaturePerRounding * 0x1p-53 * extent / leg2;
   const double kappa = std::max(std::abs(kappa_start), std::abs(kappa_end));
-  return blur <= kLargestBlurOfChange * std::abs(kappa_end - kappa_start) &&
+  return blur <= largest_blur_of_change * std::abs(kappa_end - kappa_start) &&
          blur <= kLargestBlur * kappa;
 }
 
@@ -85,7 +91,7 @@ namespace {
 Element element_between(const RationalBezier& part, double theta_before, double theta_after) {
   Element e = element_at(Piece{part}, 0.0);
   const double middle = 0.5 * (theta_before + theta_after);
-  e.theta = middle + std::remainder(e.theta - middle, 2.0 * std::numbers::pi);
+  e.theta = nearest_angle(e.theta, middle);
   return e;
 }
 
@@ -96,31 +102,103 @@ bool wholly_circular(const std::vector<Vec2>& points, const Analysis& a) {
 
 bool anything_fixed(const ChainWishes& wishes) {
   return std::any_of(wishes.fixed.begin(), wishes.fixed.end(),
+                     [](const FixedData& f) { return f.says_how(); });
+}
+
+/// Values, not ranges: one circle may lie inside these.
+bool any_value_fixed(const ChainWishes& wishes) {
+  return std::any_of(wishes.fixed.begin(), wishes.fixed.end(),
                      [](const FixedData& f) { return f.theta || f.kappa; });
 }
 
-/// Three points lie on one circle, but fixed data ask for another curve through them: it may
-/// increase or decrease its curvature.
-Result<SeriesChain> three_points_with_fixed_data(const std::vector<Vec2>& points, Analysis analysis,
-                                                 const ChainWishes& wishes, Watch& watch) {
+/// The fairest elements; near the ends of what the points allow the search for them may miss the
+/// ones that the ranges of headings and curvatures tell of.
+Result<SeriesChain> chosen_elements(const std::vector<Vec2>& points, const Analysis& analysis,
+                                    const ChainWishes& wishes, Watch& watch) {
+  if (wishes.central) {
+    if (auto central = central_chain(points, analysis, wishes, watch)) return std::move(*central);
+    return fail({ErrorCode::kFixedDataContradict,
+                 "what is given leaves no headings and curvatures with which a monotone contour "
+                 "exists",
+                 "", "free some of it", 0, 0.0});
+  }
+  auto chosen = choose_elements(points, analysis, wishes, watch);
+  if (!wishes.to_the_edge || !anything_fixed(wishes)) return chosen;
+  if (chosen && chosen->turned_directions == 0 && !chosen->unforced_inflection) return chosen;
+  const bool asked_too_much = !chosen && chosen.error().code == ErrorCode::kFixedDataContradict;
+  if (!chosen && !asked_too_much && chosen.error().code != ErrorCode::kNoSpiral) return chosen;
+  if (auto central = central_chain(points, analysis, wishes, watch)) return std::move(*central);
+  return chosen;
+}
+
+/// Two points whose headings lie alike on both sides of their chord: the arc, or line, that has
+/// them. Nothing for other headings, and where a curvature is given that is not its own.
+std::optional<SeriesChain> arc_between(const std::vector<Vec2>& points, const Analysis& analysis,
+                                       const ChainWishes& wishes) {
+  constexpr double kArcHeading = 1e-12;    // rad: what typed degrees leave of their sum
+  constexpr double kArcCurvature = 1e-12;  // of the arc's
+  constexpr double kMostArcTurn = 2.5;     // rad, of one piece: below half a turn
+  const FixedData &first = wishes.fixed.front(), &last = wishes.fixed.back();
+  if (points.size() != 2 || !first.theta || !last.theta) return std::nullopt;
+  const double omega = analysis.chords.front().omega, h = analysis.chords.front().length;
+  const double alpha = nearest_angle(*first.theta, omega) - omega;
+  const double beta = nearest_angle(*last.theta, omega) - omega;
+  if (std::abs(alpha + beta) > kArcHeading) return std::nullopt;
+  const double kappa = -2.0 * std::sin(alpha) / h;
+  for (const FixedData* given : {&first, &last}) {
+    const double off = given->kappa ? std::abs(*given->kappa - kappa) : 0.0;
+    if (off > kArcCurvature * std::abs(kappa)) return std::nullopt;
+  }
+  const auto parts =
+      static_cast<std::size_t>(std::max(std::ceil(2.0 * std::abs(alpha) / kMostArcTurn), 1.0));
+  const double turn = -2.0 * alpha / static_cast<double>(parts);
+  const double length = kappa == 0.0 ? h : 2.0 * std::abs(std::sin(0.5 * turn) / kappa);
+  SeriesChain out;
+  out.converged = true;
+  out.smallest_margin = 1.0;
+  out.elements = {{points[0], omega + alpha, kappa}};
+  out.source = {std::size_t{0}};
+  for (std::size_t k = 1; k <= parts; ++k) {
+    const double before = out.elements.back().theta, chord = before + 0.5 * turn;
+    const Vec2 start = out.elements.back().point;
+    const bool last_one = k == parts;
+    out.cone.push_back(Cone::kNone);
+    out.direction.push_back(0);
+    out.elements.push_back(
+        {last_one ? points[1] : start + length * Vec2{std::cos(chord), std::sin(chord)},
+         last_one ? omega - alpha : before + turn, kappa});
+    out.source.push_back(last_one ? std::optional<std::size_t>(1) : std::nullopt);
+    out.links.push_back({length, chord, -0.5 * turn, 0.5 * turn, 0.0, 0.0, 0.0});
+  }
+  return out;
+}
+
+/// Two or three points lie on one circle, but fixed data ask for another curve through them: it may
+/// increase or decrease its curvature. Where it may do both, it turns one way if it can.
+Result<SeriesChain> few_points_with_fixed_data(const std::vector<Vec2>& points, Analysis analysis,
+                                               const ChainWishes& wishes, Watch& watch) {
+  if (auto arc = arc_between(points, analysis, wishes)) return std::move(*arc);
   analysis.stretches.clear();
-  analysis.direction.assign(2, std::int8_t{1});
-  auto increasing = choose_elements(points, analysis, wishes, watch);
-  if (increasing) return increasing;
-  analysis.direction.assign(2, std::int8_t{-1});
-  auto decreasing = choose_elements(points, analysis, wishes, watch);
-  return decreasing ? decreasing : increasing;
+  std::optional<Result<SeriesChain>> first;
+  for (const int direction : {1, -1}) {
+    analysis.direction.assign(points.size() - 1, static_cast<std::int8_t>(direction));
+    auto chain = chosen_elements(points, analysis, wishes, watch);
+    if (chain && chain->turned_directions == 0 && !chain->unforced_inflection) return chain;
+    const bool better = !first || (chain && !*first);
+    if (better) first = std::move(chain);
+  }
+  return std::move(*first);
 }
 
 }  // namespace
 
 Result<SeriesChain> form_elements(const std::vector<Vec2>& points, const Analysis& analysis,
                                   const ChainWishes& wishes, Watch& watch) {
-  if (!wholly_circular(points, analysis)) return choose_elements(points, analysis, wishes, watch);
-  if (anything_fixed(wishes) && points.size() == 3) {
-    return three_points_with_fixed_data(points, analysis, wishes, watch);
+  if (!wholly_circular(points, analysis)) return chosen_elements(points, analysis, wishes, watch);
+  if (any_value_fixed(wishes) && points.size() <= kFewPoints) {
+    return few_points_with_fixed_data(points, analysis, wishes, watch);
   }
-  if (anything_fixed(wishes)) {
+  if (any_value_fixed(wishes)) {
     return fail(
         {ErrorCode::kFixedDataContradict,
          "the points lie on one circle or line, which leaves no heading or radius to choose", "",
@@ -132,22 +210,26 @@ Result<SeriesChain> form_elements(const std::vector<Vec2>& points, const Analysi
 Result<Contour> form_spirals(const std::vector<Vec2>& points, const SeriesChain& chain) {
   Contour contour;
   contour.points = points;
+  contour.continuity = chain.smooth ? Continuity::kG3 : Continuity::kG2;
   contour.pieces.reserve(chain.links.size());
   contour.joints.reserve(chain.elements.size());
   std::vector<int> direction;
   direction.reserve(chain.links.size());
   std::vector<RationalBezier> parts;
+  const double blur = chain.smooth ? kLargestBlurOfChangeG3 : kLargestBlurOfChange;
   for (std::size_t i = 0; i < chain.links.size(); ++i) {
     const Element& a = chain.elements[i];
     const Element& b = chain.elements[i + 1];
     contour.joints.push_back({a, chain.source[i]});
+    contour.joints.back().slope_step = chain.smooth && chain.slope_step[i];
     direction.push_back(chain.direction[i]);
     if (chain.cone[i] == Cone::kNone) {
       contour.pieces.push_back(arc_over_chord(chain.links[i], a, b));
       continue;
     }
     parts.clear();
-    if (!append_spiral(chain.links[i], chain.direction[i], a.point, b.point, parts)) {
+    const SpiralForm form = chain.form.empty() ? SpiralForm::kOneSided : chain.form[i];
+    if (!append_spiral(chain.links[i], chain.direction[i], form, a.point, b.point, parts)) {
       return fail({ErrorCode::kInternal, "a link of the chain left its cone",
                    "piece " + std::to_string(i), "report this series",
                    static_cast<std::ptrdiff_t>(i), chain.links[i].sigma});
@@ -157,7 +239,7 @@ Result<Contour> form_spirals(const std::vector<Vec2>& points, const SeriesChain&
         contour.joints.push_back({element_between(parts[j], a.theta, b.theta), std::nullopt});
         direction.push_back(chain.direction[i]);
       }
-      const bool global = fits_global_coordinates(parts[j], a.kappa, b.kappa);
+      const bool global = fits_global_coordinates(parts[j], a.kappa, b.kappa, blur);
       const bool last = j + 1 == parts.size();
       const Vec2 to = last ? b.point : parts[j].origin + parts[j].offset[4];
       contour.pieces.emplace_back(global ? in_global_coordinates(parts[j], to) : parts[j]);
@@ -168,25 +250,14 @@ Result<Contour> form_spirals(const std::vector<Vec2>& points, const SeriesChain&
   return contour;
 }
 
-std::vector<Run> collect_runs(const std::vector<int>& direction) {
-  std::vector<Run> runs;
-  for (std::size_t i = 0; i < direction.size(); ++i) {
-    if (!runs.empty() && runs.back().direction == direction[i]) {
-      runs.back().last_piece = i;
-    } else {
-      runs.push_back({i, i, direction[i]});
-    }
-  }
-  return runs;
-}
-
 namespace {
 
 /// Arcs in place of spirals, piece by piece.
 class ArcBuilder {
  public:
-  ArcBuilder(const Contour& spirals, double tolerance, const std::vector<GivenDatum>& given)
-      : spirals_(spirals), tolerance_(tolerance) {
+  ArcBuilder(const Contour& spirals, double tolerance, const std::vector<GivenDatum>& given,
+             bool loop)
+      : spirals_(spirals), tolerance_(tolerance), loop_(loop) {
     start_given_ = curvature_given(spirals.joints.front(), given);
     end_given_ = curvature_given(spirals.joints.back(), given);
     contour_.units = spirals.units;
@@ -194,9 +265,10 @@ class ArcBuilder {
     contour_.points = spirals.points;
   }
 
-  Result<Contour> run() {
+  Result<Contour> run(Watch& watch) {
     const std::vector<int> directions = piece_directions(spirals_);
     for (std::size_t i = 0; i < spirals_.pieces.size(); ++i) {
+      if (watch.cancelled()) return fail(cancelled_error());
       contour_.joints.push_back(spirals_.joints[i]);
       const auto* spiral = std::get_if<RationalBezier>(&spirals_.pieces[i]);
       if (spiral == nullptr) {
@@ -230,7 +302,7 @@ class ArcBuilder {
     last.point = last.point - anchor;
     for (std::size_t j = 1; j < steps.size(); ++j) {
       Element to = j + 1 == steps.size() ? last : element_at(local, steps[j]);
-      to.theta = from.theta + std::remainder(to.theta - from.theta, 2.0 * std::numbers::pi);
+      to.theta = nearest_angle(to.theta, from.theta);
       const bool begins = start_given_ && i == 0 && j == 1;
       const bool ends = end_given_ && i + 1 == spirals_.pieces.size() && j + 1 == steps.size();
       const auto k = choose_arcs(chord_frame(from, to), direction, begins, ends);
@@ -305,8 +377,8 @@ class ArcBuilder {
     };
     const std::size_t n = contour_.pieces.size();
     for (std::size_t j = 0; j <= n; ++j) {
-      const double before = kappa_of(contour_.pieces[j > 0 ? j - 1 : 0]);
-      const double after = kappa_of(contour_.pieces[j < n ? j : n - 1]);
+      const double before = kappa_of(contour_.pieces[j > 0 ? j - 1 : (loop_ ? n - 1 : 0)]);
+      const double after = kappa_of(contour_.pieces[j < n ? j : (loop_ ? 0 : n - 1)]);
       double& kappa = contour_.joints[j].element.kappa;
       kappa = std::clamp(kappa, std::min(before, after), std::max(before, after));
     }
@@ -314,6 +386,7 @@ class ArcBuilder {
 
   const Contour& spirals_;
   double tolerance_;
+  bool loop_;  // the end is the start
   bool start_given_ = false, end_given_ = false;
   Contour contour_;
   std::vector<int> direction_;
@@ -322,8 +395,8 @@ class ArcBuilder {
 }  // namespace
 
 Result<Contour> form_arcs(const Contour& spirals, double tolerance,
-                          const std::vector<GivenDatum>& given) {
-  return ArcBuilder(spirals, tolerance, given).run();
+                          const std::vector<GivenDatum>& given, bool loop, Watch& watch) {
+  return ArcBuilder(spirals, tolerance, given, loop).run(watch);
 }
 
 }  // namespace obvid::pipeline_detail

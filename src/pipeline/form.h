@@ -7,7 +7,9 @@
 
 #include "obvid/chain/series_chain.h"
 #include "obvid/core/result.h"
+#include "obvid/core/watch.h"
 #include "obvid/curve/contour.h"
+#include "obvid/curve/runs.h"
 #include "obvid/series/analysis.h"
 
 namespace obvid::pipeline_detail {
@@ -24,15 +26,17 @@ namespace obvid::pipeline_detail {
                                            const SeriesChain& chain);
 
 /// Arcs in place of spirals: elements on each spiral piece as far apart as the tolerance allows,
-/// two arcs between neighbours. A curvature given at an end is that of its arc. Error E502 when the
+/// two arcs between neighbours. A curvature given at an end is that of its arc. `loop`: the end is
+/// the start, with one curvature. Error E502 when the
 /// tolerance asks for too many arcs.
 [[nodiscard]] Result<Contour> form_arcs(const Contour& spirals, double tolerance,
-                                        const std::vector<GivenDatum>& given);
+                                        const std::vector<GivenDatum>& given, bool loop,
+                                        Watch& watch);
 
 /// Clothoids over the elements, three to a link, and arcs or lines over circular stretches. Error
 /// E501 when a link is carried by no such three.
 [[nodiscard]] Result<Contour> form_clothoids(const std::vector<Vec2>& points,
-                                             const SeriesChain& chain);
+                                             const SeriesChain& chain, Watch& watch);
 
 /// A section in another carrier, and what is to be said about it.
 struct Carried {
@@ -51,7 +55,8 @@ struct Carried {
 
 /// Parabolas: every piece condensed until the region between their elements is as narrow as the
 /// tolerance. Errors: E401 at inflections, arcs; E502.
-[[nodiscard]] Result<Carried> form_beziers(const Contour& spirals, double tolerance);
+[[nodiscard]] Result<Carried> form_beziers(const Contour& spirals, double tolerance,
+                                            Watch& watch);
 
 /// Monotone polynomial B-spline within the tolerance of the spirals; points that are no knots are
 /// passed within it; those with given data are knots. Circular stretches stay arcs: no polynomial
@@ -76,8 +81,5 @@ struct Carried {
 
 /// Circle or line over a chord: heading from chord and curvature, so that the arc ends on its end.
 [[nodiscard]] Piece arc_over_chord(const LinkState& link, const Element& a, const Element& b);
-
-/// Runs of a contour from the direction of each piece.
-[[nodiscard]] std::vector<Run> collect_runs(const std::vector<int>& direction);
 
 }  // namespace obvid::pipeline_detail

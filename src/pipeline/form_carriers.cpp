@@ -11,8 +11,10 @@
 #include "obvid/contour/bsplines/cubic_along.h"
 #include "obvid/contour/bsplines/monotone.h"
 #include "obvid/contour/conics.h"
+#include "obvid/geom/angle.h"
 #include "obvid/region/refine.h"
 #include "parts.h"
+#include "report.h"
 
 namespace obvid::pipeline_detail {
 namespace {
@@ -28,7 +30,7 @@ Contour like(const Contour& spirals, Carrier carrier) {
 /// Element of a piece, its heading unwrapped to be near another one.
 Element element_near(const Piece& piece, double t, double theta) {
   Element e = element_at(piece, t);
-  e.theta = theta + std::remainder(e.theta - theta, 2.0 * std::numbers::pi);
+  e.theta = nearest_angle(e.theta, theta);
   return e;
 }
 
@@ -85,10 +87,7 @@ constexpr const char* kOtherCarriers = "use --carrier spiral, arcs or clothoids"
 std::vector<Run> proved_runs(const std::vector<Piece>& pieces) {
   std::vector<int> direction;
   for (const Piece& piece : pieces) {
-    const Verdict verdict = prove_piece(piece).verdict;
-    direction.push_back(verdict == Verdict::kIncreasing   ? 1
-                        : verdict == Verdict::kDecreasing ? -1
-                                                          : 0);
+    direction.push_back(direction_of(prove_piece(piece).verdict));
   }
   return collect_runs(direction);
 }
@@ -281,7 +280,7 @@ Result<Carried> form_conics(const Contour& spirals, const std::vector<GivenDatum
   return out;
 }
 
-Result<Carried> form_beziers(const Contour& spirals, double tolerance) {
+Result<Carried> form_beziers(const Contour& spirals, double tolerance, Watch& watch) {
   if (const auto joint = inflection(spirals)) {
     return at_point(
         {ErrorCode::kNoSpiral, "the contour has an inflection, which no chain of parabolas has", "",
@@ -292,6 +291,7 @@ Result<Carried> form_beziers(const Contour& spirals, double tolerance) {
   const std::vector<int> direction = piece_directions(spirals);
   std::vector<int> directions;
   for (std::size_t i = 0; i < spirals.pieces.size(); ++i) {
+    if (watch.cancelled()) return fail(cancelled_error());
     out.contour.joints.push_back(spirals.joints[i]);
     if (std::holds_alternative<LinePiece>(spirals.pieces[i])) {
       out.contour.pieces.push_back(spirals.pieces[i]);

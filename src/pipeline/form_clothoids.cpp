@@ -16,13 +16,15 @@ tl::unexpected<Error> not_carried(const SeriesChain& chain, std::size_t link) {
 
 }  // namespace
 
-Result<Contour> form_clothoids(const std::vector<Vec2>& points, const SeriesChain& chain) {
+Result<Contour> form_clothoids(const std::vector<Vec2>& points, const SeriesChain& chain,
+                               Watch& watch) {
   Contour contour;
   contour.carrier = Carrier::kClothoids;
   contour.points = points;
   std::vector<int> direction;
   std::vector<ClothoidPiece> parts;
   for (std::size_t i = 0; i < chain.links.size(); ++i) {
+    if (watch.cancelled()) return fail(cancelled_error());
     const Element &a = chain.elements[i], &b = chain.elements[i + 1];
     contour.joints.push_back({a, chain.source[i], {}});
     direction.push_back(chain.direction[i]);

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <cmath>
-#include <numbers>
 
 #include "form.h"
 #include "obvid/contour/conics.h"
+#include "obvid/geom/angle.h"
 #include "obvid/region/refine.h"
 
 namespace obvid::pipeline_detail {
@@ -27,7 +27,7 @@ Contour form_kept(const Piece& piece, const std::vector<Vec2>& points, std::size
   first.point = points[from];
   last.point = points[to];
   // unwrapped along the piece, which turns by less than half a turn
-  last.theta = first.theta + std::remainder(last.theta - first.theta, 2.0 * std::numbers::pi);
+  last.theta = nearest_angle(last.theta, first.theta);
   out.points = points;
   out.pieces.push_back(piece);
   out.joints = {{first, from}, {last, to}};

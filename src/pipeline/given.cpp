@@ -8,6 +8,7 @@
 #include <numbers>
 #include <vector>
 
+#include "obvid/curve/end_curvatures.h"
 #include "obvid/curve/nearest.h"
 
 namespace obvid::pipeline_detail {
@@ -26,6 +27,39 @@ struct Miss {
 struct Side {
   const Piece* piece;
   double t;
+};
+
+/// With all digits at an end: nearly straight pieces lose them on the way to their curvature.
+double curvature_at(const Side& side) {
+  const auto* bezier = std::get_if<RationalBezier>(side.piece);
+  const bool at_end = side.t == 0.0 || side.t == 1.0;
+  if (bezier != nullptr && bezier->degree > 1 && at_end) {
+    return stored_curvature(*bezier, side.t == 0.0);
+  }
+  return curvature(evaluate(*side.piece, side.t));
+}
+
+/// How far a value is beyond the ends of a range; 0 inside.
+double beyond(const ValueRange& range, double value) {
+  return std::max({0.0, range.low - value, value - range.high});
+}
+
+/// A heading on the turn nearest to the middle of a range.
+double turned_to(const ValueRange& thetas, double theta) {
+  const double middle = 0.5 * (thetas.low + thetas.high);
+  return middle + std::remainder(theta - middle, 2.0 * std::numbers::pi);
+}
+
+/// The size against which a curvature is measured that passes the end of a range: that end's, and
+/// of 0 and of ends that are none, its own.
+double scale_at(const ValueRange& kappas, double kappa) {
+  const double end = kappa < kappas.low ? kappas.low : kappas.high;
+  return end != 0.0 && std::isfinite(end) ? std::abs(end) : std::abs(kappa);
+}
+
+/// Where the curvatures on both sides of a point lie, as a range.
+struct AtPoint {
+  double low = HUGE_VAL, high = -HUGE_VAL;
 };
 
 class GivenCheck {
@@ -52,7 +86,63 @@ class GivenCheck {
     const std::vector<Side> sides = sides_of(given.point);
     if (given.theta) miss.heading = heading_miss(sides, *given.theta);
     if (given.kappa) miss.curvature = curvature_miss(sides, *given.kappa);
+    if (given.thetas) {
+      for (const Side& side : sides) {
+        const double here = turned_to(*given.thetas, heading(evaluate(*side.piece, side.t).d1));
+        miss.heading = std::max(miss.heading, beyond(*given.thetas, here));
+      }
+    }
+    if (given.kappas) {
+      const double here = nearest_curvature(sides, *given.kappas);
+      const double off = beyond(*given.kappas, here);
+      if (off > 0.0) {
+        const double scale = range_scale(sides, *given.kappas, here);
+        miss.curvature = std::max(miss.curvature, off / scale);
+      }
+    }
     return miss;
+  }
+
+  /// Values at the ends of its range, where they lie there as nearly as given values are kept.
+  void add_active(const GivenDatum& given, std::vector<ActiveRange>& out) const {
+    if (given.point >= joint_.size()) return;
+    const std::vector<Side> sides = sides_of(given.point);
+    if (given.thetas) {
+      double low = HUGE_VAL, high = HUGE_VAL;
+      for (const Side& side : sides) {
+        const double here = turned_to(*given.thetas, heading(evaluate(*side.piece, side.t).d1));
+        low = std::min(low, std::abs(here - given.thetas->low));
+        high = std::min(high, std::abs(here - given.thetas->high));
+      }
+      if (std::min(low, high) <= kKeptHeading) out.push_back({given.point, true, high < low});
+    }
+    if (given.kappas) {
+      const double here = nearest_curvature(sides, *given.kappas);
+      const double scale = range_scale(sides, *given.kappas, here);
+      const double low = std::abs(here - given.kappas->low);
+      const double high = std::abs(here - given.kappas->high);
+      if (std::min(low, high) <= kSameCurvature * scale) {
+        out.push_back({given.point, false, high < low});
+      }
+    }
+  }
+
+  /// What the contour has at a point of a range, when it passes an end of it.
+  [[nodiscard]] FixedData passed_ends(const GivenDatum& given) const {
+    FixedData out;
+    if (given.point >= joint_.size()) return out;
+    const std::vector<Side> sides = sides_of(given.point);
+    for (const Side& side : sides) {
+      if (!given.thetas || given.theta || out.theta) break;
+      out.theta = passed_heading(*given.thetas, heading(evaluate(*side.piece, side.t).d1));
+    }
+    if (!given.kappas || given.kappa) return out;
+    const double here = nearest_curvature(sides, *given.kappas);
+    const double off = beyond(*given.kappas, here);
+    if (off > kSameCurvature * range_scale(sides, *given.kappas, here)) {
+      out.kappa = here < given.kappas->low ? given.kappas->low : given.kappas->high;
+    }
+    return out;
   }
 
  private:
@@ -90,10 +180,41 @@ class GivenCheck {
     return miss;
   }
 
+  /// Of the curvatures on both sides the one that is farthest from a range; of arcs, whose point
+  /// has all curvatures between both, one that the range holds too, if there is any.
+  [[nodiscard]] double nearest_curvature(const std::vector<Side>& sides,
+                                         const ValueRange& kappas) const {
+    AtPoint at;
+    for (const Side& side : sides) {
+      const double here = curvature_at(side);
+      at.low = std::min(at.low, here);
+      at.high = std::max(at.high, here);
+    }
+    if (contour_.carrier == Carrier::kArcs) {
+      const double from = std::max(at.low, kappas.low), to = std::min(at.high, kappas.high);
+      if (from > to) return at.high < kappas.low ? at.high : at.low;
+      return 0.5 * (from + to);
+    }
+    return beyond(kappas, at.low) > beyond(kappas, at.high) ? at.low : at.high;
+  }
+
+  /// As `curvature_miss` has it for a given 0.
+  static double range_scale(const std::vector<Side>& sides, const ValueRange& kappas,
+                            double kappa) {
+    double scale = scale_at(kappas, kappa);
+    if (kappas.low != 0.0 && kappas.high != 0.0) return scale;
+    for (const Side& side : sides) {
+      for (const double end : {0.0, 1.0}) {
+        scale = std::max(scale, std::abs(curvature(evaluate(*side.piece, end))));
+      }
+    }
+    return scale;
+  }
+
   [[nodiscard]] double curvature_miss(const std::vector<Side>& sides, double kappa) const {
     double low = HUGE_VAL, high = -HUGE_VAL, scale = std::abs(kappa);
     for (const Side& side : sides) {
-      const double here = curvature(evaluate(*side.piece, side.t));
+      const double here = curvature_at(side);
       low = std::min(low, here);
       high = std::max(high, here);
       if (kappa != 0.0) continue;
@@ -122,6 +243,29 @@ double told(double miss) {
 
 }  // namespace
 
+std::optional<double> passed_heading(const ValueRange& thetas, double theta) {
+  const double here = turned_to(thetas, theta);
+  if (beyond(thetas, here) <= kKeptHeading) return std::nullopt;
+  return here < thetas.low ? thetas.low : thetas.high;
+}
+
+std::optional<double> passed_end(const ValueRange& kappas, double kappa) {
+  if (beyond(kappas, kappa) <= kSameCurvature * scale_at(kappas, kappa)) return std::nullopt;
+  return kappa < kappas.low ? kappas.low : kappas.high;
+}
+
+std::vector<GivenDatum> passed_ends(const Contour& contour) {
+  std::vector<GivenDatum> out;
+  if (contour.given.empty()) return out;
+  const GivenCheck check(contour);
+  for (const GivenDatum& given : contour.given) {
+    if (!given.thetas && !given.kappas) continue;
+    const FixedData passed = check.passed_ends(given);
+    if (passed.theta || passed.kappa) out.push_back({given.point, passed.theta, passed.kappa});
+  }
+  return out;
+}
+
 GivenReport measure_given(const Contour& contour) {
   GivenReport out;
   if (contour.given.empty()) return out;
@@ -131,6 +275,9 @@ GivenReport measure_given(const Contour& contour) {
     out.headings += given.theta ? 1 : 0;
     out.curvatures += given.kappa ? 1 : 0;
     out.corners += given.corner ? 1 : 0;
+    out.heading_ranges += given.thetas ? 1 : 0;
+    out.curvature_ranges += given.kappas ? 1 : 0;
+    miss_of.add_active(given, out.active);
     out.heading_miss = std::max(out.heading_miss, told(miss.heading));
     out.curvature_miss = std::max(out.curvature_miss, told(miss.curvature));
   }

@@ -117,7 +117,7 @@ void tell(const Drawing& drawing, std::size_t chosen, bool asked, PointSeries& o
 }
 
 Result<PointSeries> points_of_drawing(const Drawing& drawing, const ImportOptions& options,
-                              const std::string& path) {
+                                      const std::string& path) {
   const auto found = chosen_curve(drawing, options.curve, path);
   if (!found) return tl::unexpected(found.error());
   const std::size_t chosen = *found;
@@ -155,9 +155,9 @@ Result<std::size_t> chosen_curve(const Drawing& drawing, const std::optional<std
                  fmt::format("there are {} curves, no curve {}", count, chosen + 1), path,
                  "`obvid analyse FILE` lists them", -1, 0.0});
   }
-  const bool waypoints = chosen >= drawing.curves.size() &&
-                         drawing.series[chosen - drawing.curves.size()].kind ==
-                             SeriesKind::kWaypoints;
+  const bool waypoints =
+      chosen >= drawing.curves.size() &&
+      drawing.series[chosen - drawing.curves.size()].kind == SeriesKind::kWaypoints;
   if (asked || !waypoints) return chosen;
   return fail({ErrorCode::kTooFewPoints,
                "the file holds waypoints only, no track and no route: places are no curve", path,
@@ -170,8 +170,8 @@ std::string chosen_text(const Drawing& drawing, std::size_t chosen, bool asked) 
       chosen < curves ? drawing.curves[chosen].label : drawing.series[chosen - curves].name;
   std::string text = fmt::format("curve {} of {} was taken, {}", chosen + 1, count, name);
   if (asked || count == 1) return text;
-  return text + fmt::format(", the longest of its kind; --curve N takes one of the other {}",
-                            count - 1);
+  return text +
+         fmt::format(", the longest of its kind; --curve N takes one of the other {}", count - 1);
 }
 
 DrawnCurve edges_of(const PointSeries& series) {
@@ -197,10 +197,32 @@ Result<Drawing> read_drawing(const std::string& path) {
   return from_text(kind, *text, path);
 }
 
+bool is_drawing_text(std::string_view text) {
+  const FileKind kind = file_kind(text.substr(0, kHead));
+  return kind != FileKind::kPoints && kind != FileKind::kOther;
+}
+
+bool needs_cad(std::string_view text) { return is_cad(file_kind(text.substr(0, kHead))); }
+
+Result<Drawing> parse_drawing(const std::string& text, const std::string& name) {
+  return from_text(file_kind(std::string_view(text).substr(0, kHead)), text, name);
+}
+
+Result<PointSeries> parse_series(const std::string& text, const std::string& name,
+                                 const ImportOptions& options) {
+  const FileKind kind = file_kind(std::string_view(text).substr(0, kHead));
+  if (!is_drawing_text(text) || kind == FileKind::kContour) {
+    return parse_points(text, name, options.two_points);
+  }
+  auto drawing = parse_drawing(text, name);
+  if (!drawing) return tl::unexpected(drawing.error());
+  return points_of_drawing(*drawing, options, name);
+}
+
 Result<PointSeries> read_series(const std::string& path, const ImportOptions& options) {
   const FileKind kind = path == "-" ? FileKind::kPoints : file_kind(head_of(path));
   if (kind == FileKind::kPoints || kind == FileKind::kOther || kind == FileKind::kContour) {
-    return read_points(path);
+    return read_points(path, options.two_points);
   }
   auto drawing = read_drawing(path);
   if (!drawing) return tl::unexpected(drawing.error());

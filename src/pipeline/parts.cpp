@@ -60,8 +60,9 @@ class Stations {
     double least = HUGE_VAL;
     const std::size_t last = next.t > 0.0 ? next.piece : next.piece - 1;
     for (std::size_t k = stations_.back().piece; k <= last; ++k) {
-      const double t = nearest_parameter(contour_.pieces[k], p);
-      const double away = norm(evaluate(contour_.pieces[k], t).point - p);
+      const Piece near = moved(contour_.pieces[k], Vec2{} - p);  // large coordinates blur distances
+      const double t = nearest_parameter(near, {});
+      const double away = norm(evaluate(near, t).point);
       if (away < least) {
         least = away;
         best = {point, k, t};

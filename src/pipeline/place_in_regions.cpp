@@ -111,7 +111,8 @@ class Regions {
 
 }  // namespace
 
-double distance_outside_regions(const Contour& spirals, const std::vector<CurvePoint>& points) {
+double distance_outside_regions(const Contour& spirals, const std::vector<CurvePoint>& points,
+                                Watch& watch) {
   if (spirals.pieces.empty()) return 0.0;
   const std::size_t links = spirals.pieces.size();
   std::vector<std::size_t> link_of(spirals.points.size(), links);  // that starts at an input point
@@ -129,7 +130,7 @@ double distance_outside_regions(const Contour& spirals, const std::vector<CurveP
     end[i - 1] = link < links ? link : end[i];
   }
   Regions regions(spirals);
-  for (std::size_t i = 0; i < points.size(); ++i) {
+  for (std::size_t i = 0; i < points.size() && !watch.cancelled(); ++i) {
     if (const std::size_t link = link_at(points[i]); link < links) regions.enter(link);
     regions.add(points[i].point, end[i]);
   }

@@ -5,6 +5,7 @@
 #include <optional>
 #include <vector>
 
+#include "obvid/core/watch.h"
 #include "obvid/curve/contour.h"
 
 namespace obvid::pipeline_detail {
@@ -20,6 +21,7 @@ struct CurvePoint {
 /// the joints do. The region of a circular link is its arc. Returns the largest distance from the
 /// region; 0: all inside, or no farther out than rounding.
 [[nodiscard]] double distance_outside_regions(const Contour& spirals,
-                                              const std::vector<CurvePoint>& points);
+                                              const std::vector<CurvePoint>& points,
+                                              Watch& watch);
 
 }  // namespace obvid::pipeline_detail

@@ -8,18 +8,11 @@
 #include <iterator>
 #include <numbers>
 
+#include "fixed_once.h"
 #include "obvid/series/coarse_polygon.h"
 
 namespace obvid::pipeline_detail {
 namespace {
-
-FixedData merged(FixedData a, const FixedData& b) {
-  if (!a.theta) a.theta = b.theta;
-  if (!a.kappa) a.kappa = b.kappa;
-  if (b.tolerance) a.tolerance = a.tolerance ? std::min(*a.tolerance, *b.tolerance) : b.tolerance;
-  a.corner = a.corner || b.corner;
-  return a;
-}
 
 /// Moves below this cannot be told from the rounding of the coordinates.
 double least_move(Vec2 p) {
@@ -33,41 +26,74 @@ class Preparation {
 
   Result<Prepared> run() {
     out_.convex = job_.convex;
+    out_.prefer = job_.prefer;
     out_.primitives = job_.primitives;
     if (auto done = gather(); !done) return fail(done.error());
-    give_ends();
+    if (auto done = give_ends(); !done) return fail(done.error());
     set_tolerances();
-    close();
+    if (auto done = close(); !done) return fail(done.error());
+    for (const FixedOnce& one : fixed_) out_.fixed.push_back(one.data);
     cut();
     if (out_.points.size() < 2) {
       return fail({ErrorCode::kTooFewPoints, "a contour needs at least two distinct points", "",
                    "add points", -1, static_cast<double>(out_.points.size())});
     }
+    if (auto possible = can_prefer(); !possible) return fail(possible.error());
     return std::move(out_);
   }
 
  private:
-  [[nodiscard]] Result<std::vector<FixedData>> all_fixed() const {
-    std::vector<FixedData> fixed = series_.fixed;
-    fixed.resize(series_.points.size());
-    for (const PointWish& wish : job_.wishes) {
-      if (wish.index >= fixed.size()) {
-        return fail({ErrorCode::kBadOption, "there is no such point",
-                     fmt::format("point {}", wish.index + 1),
-                     fmt::format("the series has {} points", fixed.size()),
-                     static_cast<std::ptrdiff_t>(wish.index), 0.0});
-      }
-      FixedData& data = fixed[wish.index];
-      if (wish.theta) data.theta = wish.theta;
-      if (wish.kappa) data.kappa = wish.kappa;
-      data.corner = data.corner || wish.corner;
+  /// Choices other than the fairest chain are made among curves through the points.
+  [[nodiscard]] Result<void> can_prefer() const {
+    if (job_.prefer == Prefer::kFair) return {};
+    const auto refused = [](const char* why) {
+      return fail(
+          {ErrorCode::kBadOption, why, "--prefer", "leave it out: the fairest is taken", -1, 0.0});
+    };
+    if (job_.carrier == Carrier::kBaseline) {
+      return refused("the spline of CAD systems leaves nothing to prefer");
     }
-    return fixed;
+    if (!out_.exact())
+      return refused("only where points are met, without noise, is there a choice");
+    if (out_.split.smooth_loop && job_.prefer != Prefer::kLeastChange) {
+      return refused("this choice needs an open series, or corners");
+    }
+    return {};
+  }
+
+  [[nodiscard]] Result<void> has_wished_points() const {
+    const std::size_t n = series_.points.size();
+    for (const PointWish& wish : job_.wishes) {
+      if (wish.index < n) continue;
+      return fail({ErrorCode::kBadOption, "there is no such point",
+                   fmt::format("point {}", wish.index + 1),
+                   fmt::format("the series has {} points", n),
+                   static_cast<std::ptrdiff_t>(wish.index), 0.0});
+    }
+    return {};
+  }
+
+  [[nodiscard]] FixedOnce of_series(std::size_t i) const {
+    FixedOnce out;
+    if (i < series_.fixed.size()) out.data = series_.fixed[i];
+    return out;
+  }
+
+  /// `place`: of each point of the series among those that are left.
+  Result<void> give_wishes(const std::vector<std::size_t>& place) {
+    for (const PointWish& wish : job_.wishes) {
+      FixedOnce more = fixed_by(FixedBy::kPoint, wish.theta, wish.kappa);
+      more.data.thetas = wish.thetas;
+      more.data.kappas = wish.kappas;
+      more.data.corner = wish.corner;
+      auto done = add_fixed(fixed_[place[wish.index]], more, wish.index);
+      if (!done) return done;
+    }
+    return {};
   }
 
   Result<void> gather() {
-    const auto fixed = all_fixed();
-    if (!fixed) return fail(fixed.error());
+    if (auto done = has_wished_points(); !done) return done;
     std::size_t merges = 0;
     std::vector<std::size_t> place;  // of each point among those that are left
     for (std::size_t i = 0; i < series_.points.size(); ++i) {
@@ -79,13 +105,13 @@ class Preparation {
       }
       if (!out_.points.empty() && out_.points.back() == p) {
         ++merges;
-        out_.fixed.back() = merged(out_.fixed.back(), (*fixed)[i]);
+        if (auto done = add_fixed(fixed_.back(), of_series(i), i); !done) return done;
         place.push_back(out_.points.size() - 1);
         continue;
       }
       place.push_back(out_.points.size());
       out_.points.push_back(p);
-      out_.fixed.push_back((*fixed)[i]);
+      fixed_.push_back(of_series(i));
     }
     if (merges > 0) {
       out_.warnings.push_back(std::to_string(merges) +
@@ -95,10 +121,12 @@ class Preparation {
       return fail({ErrorCode::kTooFewPoints, "a contour needs at least two distinct points", "",
                    "add points", -1, static_cast<double>(out_.points.size())});
     }
-    if (series_.kept.empty()) return {};
-    out_.kept.resize(out_.points.size());
-    for (const KeptPiece& one : series_.kept) out_.kept[place[one.from]] = one.piece;
-    return keeps_wishes(place);
+    if (!series_.kept.empty()) {
+      out_.kept.resize(out_.points.size());
+      for (const KeptPiece& one : series_.kept) out_.kept[place[one.from]] = one.piece;
+      if (auto done = keeps_wishes(place); !done) return done;
+    }
+    return give_wishes(place);
   }
 
   /// Whether a piece that stays as it is begins or ends at a point.
@@ -119,22 +147,33 @@ class Preparation {
                    static_cast<std::ptrdiff_t>(point), 0.0});
     };
     for (const PointWish& wish : job_.wishes) {
-      if ((wish.theta || wish.kappa) && beside_kept(place[wish.index])) return refused(wish.index);
+      const bool says_how = wish.theta || wish.kappa || wish.thetas || wish.kappas;
+      if (says_how && beside_kept(place[wish.index])) return refused(wish.index);
     }
     const std::size_t last = out_.points.size() - 1;
-    if ((job_.start_heading || job_.start_kappa) && out_.kept.front()) return refused(0);
-    if ((job_.end_heading || job_.end_kappa) && last > 0 && out_.kept[last - 1]) {
+    if (fixed_start().data.says_how() && out_.kept.front()) return refused(0);
+    if (fixed_end().data.says_how() && last > 0 && out_.kept[last - 1]) {
       return refused(last);
     }
     return {};
   }
 
-  void give_ends() {
-    FixedData &first = out_.fixed.front(), &last = out_.fixed.back();
-    if (job_.start_heading) first.theta = job_.start_heading;
-    if (job_.start_kappa) first.kappa = job_.start_kappa;
-    if (job_.end_heading) last.theta = job_.end_heading;
-    if (job_.end_kappa) last.kappa = job_.end_kappa;
+  Result<void> give_ends() {
+    if (auto done = add_fixed(fixed_.front(), fixed_start(), 0); !done) return done;
+    return add_fixed(fixed_.back(), fixed_end(), fixed_.size() - 1);
+  }
+
+  [[nodiscard]] FixedOnce fixed_start() const {
+    FixedOnce out = fixed_by(FixedBy::kStart, job_.start_heading, job_.start_kappa);
+    out.data.thetas = job_.start_thetas;
+    out.data.kappas = job_.start_kappas;
+    return out;
+  }
+  [[nodiscard]] FixedOnce fixed_end() const {
+    FixedOnce out = fixed_by(FixedBy::kEnd, job_.end_heading, job_.end_kappa);
+    out.data.thetas = job_.end_thetas;
+    out.data.kappas = job_.end_kappas;
+    return out;
   }
 
   void set_tolerances() {
@@ -143,7 +182,7 @@ class Preparation {
     double least = 0.0;
     for (const Vec2 p : out_.points) least = std::max(least, least_move(p));
     for (std::size_t i = 0; i < out_.points.size(); ++i) {
-      const FixedData& f = out_.fixed[i];
+      const FixedData& f = fixed_[i].data;
       const double reach = beside_kept(i) ? 0.0 : f.tolerance ? *f.tolerance : across(i, common);
       out_.tolerance.push_back(reach < least ? 0.0 : reach);
     }
@@ -159,26 +198,38 @@ class Preparation {
     return norm(normal) / std::hypot(normal.x / axes.x, normal.y / axes.y);
   }
 
-  void close() {
+  Result<void> close() {
     const std::size_t n = out_.points.size();
-    const bool returns =
-        n > 2 && returns_to_start(out_.points, out_.tolerance.front(), out_.tolerance.back());
+    const bool again =
+        n > 2 && norm(out_.points.back() - out_.points.front()) <= least_move(out_.points.front());
+    const bool returns = n > 2 && (again || returns_to_start(out_.points, out_.tolerance.front(),
+                                                             out_.tolerance.back()));
     out_.closed =
         job_.closing == Closing::kClosed || (job_.closing == Closing::kAutomatic && returns);
-    if (!out_.closed || !returns) return;
-    const JoinedPoint joined = join_points(out_.points.front(), out_.tolerance.front(),
-                                           out_.points.back(), out_.tolerance.back());
-    if (out_.points.front() != out_.points.back()) {
+    if (!out_.closed || !returns) return {};
+    if (again && out_.points.front() != out_.points.back()) {
+      out_.warnings.emplace_back(
+          "the last point is the first one again but for rounding: the first one stands for both");
+    }
+    if (again) {
+      out_.tolerance.front() = std::min(out_.tolerance.front(), out_.tolerance.back());
+    } else {
+      const JoinedPoint joined = join_points(out_.points.front(), out_.tolerance.front(),
+                                             out_.points.back(), out_.tolerance.back());
       out_.points.front() = joined.point;
       out_.tolerance.front() = joined.tolerance;
       out_.warnings.emplace_back(
           "the last point lies within its tolerance of the first one: both became one");
     }
-    out_.fixed.front() = merged(out_.fixed.front(), out_.fixed.back());
+    if (auto done = add_fixed(fixed_.front(), fixed_.back(), 0); !done) {
+      done.error().hint += ", or ask for an open contour (--open): the last point is the first one";
+      return done;
+    }
     out_.points.pop_back();
     out_.tolerance.pop_back();
-    out_.fixed.pop_back();
+    fixed_.pop_back();
     if (!out_.kept.empty()) out_.kept.pop_back();
+    return {};
   }
 
   /// The printed rounding where it is one: few digits beside the chords belong to nominal sizes.
@@ -217,7 +268,7 @@ class Preparation {
     }
     list_given();
     const bool nothing = std::all_of(out_.fixed.begin(), out_.fixed.end(),
-                                     [](const FixedData& f) { return !f.theta && !f.kappa; });
+                                     [](const FixedData& f) { return !f.says_how(); });
     if (nothing) out_.fixed.clear();
   }
 
@@ -225,8 +276,10 @@ class Preparation {
     for (std::size_t i = 0; i < out_.fixed.size(); ++i) {
       const FixedData& f = out_.fixed[i];
       const bool corner = f.corner && !beside_kept(i);  // nobody asked for those of a drawing
-      if (f.theta || f.kappa || corner) out_.given.push_back({i, f.theta, f.kappa, corner});
+      if (!f.says_how() && !corner) continue;
+      out_.asked.push_back({i, f.theta, f.kappa, corner, f.thetas, f.kappas});
     }
+    out_.given = out_.asked;
   }
 
   /// Corners of a polygon, when an angle was asked for; else a word that there may be some.
@@ -245,7 +298,8 @@ class Preparation {
     constexpr double kDegree = std::numbers::pi / 180.0;
     out_.polygon = fmt::format(
         "the points turn by {:.0f} degrees, and {} of {} that turn so were not taken for corners: "
-        "they may be a coarse curve; --corner-angle {:.0f} makes corners of all of them, --corner-at "
+        "they may be a coarse curve; --corner-angle {:.0f} makes corners of all of them, "
+        "--corner-at "
         "of single ones, --no-corners says that there are none",
         polygon.turn / kDegree, all.size() - corners.size(), polygon.corners.size(),
         std::floor(angle / kDegree));
@@ -270,7 +324,8 @@ class Preparation {
     return cuts;
   }
 
-  /// Corners inside the points from `first` to the next piece that stays, an open series of its own.
+  /// Corners inside the points from `first` to the next piece that stays, an open series of its
+  /// own.
   void add_corners_from(std::size_t first, const std::vector<double>& blur,
                         const CornerWishes& wishes, std::vector<std::size_t>& cuts) const {
     const std::size_t n = out_.points.size();
@@ -293,6 +348,7 @@ class Preparation {
 
   const PointSeries& series_;
   const FitJob& job_;
+  std::vector<FixedOnce> fixed_;  // of each point
   Prepared out_;
 };
 

@@ -17,10 +17,13 @@ struct Prepared {
   std::vector<double>
       tolerance;  ///< how far the contour may pass it; empty when all are met exactly
   std::vector<FixedData> fixed;   ///< empty, or one entry per point
-  std::vector<GivenDatum> given;  ///< the same headings and curvatures, and the marked corners
+  std::vector<GivenDatum> asked;  ///< the same headings and curvatures, and the marked corners
+  std::vector<GivenDatum> given;  ///< those that carriers are to meet: `asked`, and ends of ranges
   /// Empty, or per point the piece that leaves it and stays as it is.
   std::vector<std::optional<Piece>> kept;
   bool convex = false;
+  Prefer prefer = Prefer::kFair;
+  bool central = false;  ///< each in the middle of what is left to it, when ranges ask for it
   bool primitives = false;
   bool thin = true;  ///< fewer joints than points where points with tolerances are dense
   bool closed = false;
@@ -33,7 +36,8 @@ struct Prepared {
 
 /// Merges equal neighbours, gathers fixed data and tolerances from series and job, decides whether
 /// the series is closed, and finds its corners.
-/// Errors: E203 for wishes at points that do not exist; E303, E304.
+/// Errors: E203 for wishes at points that do not exist, or where something else is fixed already;
+/// E303, E304; E403 where the series fixes two headings or curvatures at one point.
 [[nodiscard]] Result<Prepared> prepare(const PointSeries& series, const FitJob& job);
 
 }  // namespace obvid::pipeline_detail

@@ -1,36 +1,68 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "obvid/pipeline/region_table.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
-#include <optional>
+#include <numbers>
+#include <tuple>
+#include <utility>
 
 #include "form.h"
-#include "obvid/region/curvature_chains.h"
-#include "obvid/region/segment_region.h"
+#include "obvid/contour/clothoids.h"
+#include "obvid/geom/angle.h"
+#include "obvid/region/boundary_distance.h"
+#include "obvid/region/convex_triangle.h"
 #include "obvid/series/analysis.h"
+#include "prepare.h"
+#include "region_constructions.h"
+#include "section_chain.h"
 
 namespace obvid {
 namespace {
 
-struct Span {
-  std::size_t first, last;  // elements
-  int direction;
+using namespace pipeline_detail;
+
+constexpr std::size_t kMostInserted = 1000;
+/// Fewer points lie on one circle.
+constexpr std::size_t kFewestThatTell = 4;
+/// Points of a loop that are looked at beyond its seam, on both sides.
+constexpr std::size_t kSeamOverlap = 16;
+
+/// A section of the series on its way to the table: points, what is given at them, and how the
+/// curvature goes between them.
+struct Worksheet {
+  std::vector<Vec2> points;
+  std::vector<std::size_t> number, inserted;
+  std::vector<FixedData> given;
+  std::vector<double> theta;  ///< chosen or given, unwrapped
+  std::vector<double> kappa;
+  std::vector<std::optional<int>> direction;  ///< of each segment; nothing: a vertex lies inside
+  std::vector<int> sign;                      ///< that the curvature keeps; 0: none
+  bool loop = false;                          ///< the last point is the first one again
+
+  [[nodiscard]] Element element(std::size_t i) const { return {points[i], theta[i], kappa[i]}; }
 };
 
-std::vector<Span> spans_of(const SeriesChain& chain) {
-  std::vector<Span> spans;
-  for (std::size_t i = 0; i < chain.direction.size(); ++i) {
-    if (!spans.empty() && spans.back().direction == chain.direction[i]) {
-      spans.back().last = i + 1;
-    } else {
-      spans.push_back({i, i + 1, chain.direction[i]});
+/// Sign of the curvature at the points between two changes of direction, where it is one and the
+/// same at all of them.
+std::vector<int> signs_of_spans(const std::vector<double>& kappa,
+                                const std::vector<std::optional<int>>& direction) {
+  std::vector<int> out(kappa.size(), 0);
+  for (std::size_t i = 0; i < direction.size();) {
+    std::size_t last = i + 1;
+    while (direction[i] && last < direction.size() && direction[last] == direction[i]) ++last;
+    const double first_kappa = kappa[i], last_kappa = kappa[last];
+    if (first_kappa * last_kappa > 0.0) {
+      for (std::size_t k = i; k <= last; ++k) out[k] = first_kappa > 0.0 ? 1 : -1;
     }
+    i = last;
   }
-  return spans;
+  return out;
 }
 
-/// Ordinate over the middle of the chord, where 000_... measures (docs/methods/region.md).
+/// Ordinate over the middle of the chord, where [000] measures (docs/methods/region.md).
 std::optional<double> middle_ordinate(const ChordFrame& frame, const Boundary& boundary) {
   // an infinite curvature shrinks its arc to a point: the other one spans the whole chord
   if (std::isinf(boundary.kappa_first)) return -sagitta(boundary.kappa_second, frame.h);
@@ -38,8 +70,8 @@ std::optional<double> middle_ordinate(const ChordFrame& frame, const Boundary& b
   return boundary_ordinate(frame, boundary, 0.5 * frame.h);
 }
 
-RegionRow make_row(const Element& a, const Element& b, CurvatureRange ka, CurvatureRange kb,
-                   int direction) {
+/// What the tangents at both points say, whatever lies between them.
+RegionRow bare_row(const Element& a, const Element& b) {
   RegionRow row;
   const Vec2 chord = b.point - a.point;
   row.chord = norm(chord);
@@ -49,52 +81,526 @@ RegionRow make_row(const Element& a, const Element& b, CurvatureRange ka, Curvat
   const double apex = std::sin(beta - alpha);
   row.to_apex = row.chord * std::sin(beta) / apex;
   row.from_apex = -row.chord * std::sin(alpha) / apex;
-  row.kappa_start_low = ka.low;
-  row.kappa_start_high = ka.high;
-  row.kappa_end_low = kb.low;
-  row.kappa_end_high = kb.high;
-  if (direction == 0) return row;
-  // tangents alone: the extreme circle of either chain bounds the region
-  ChordFrame frame = chord_frame(a, b);
-  frame.kappa_start = direction > 0 ? ka.low : ka.high;
-  frame.kappa_end = direction > 0 ? kb.high : kb.low;
-  const auto region = segment_region(frame, direction);
-  if (!region) return row;
-  const auto start = middle_ordinate(frame, region->from_start);
-  const auto end = middle_ordinate(frame, region->to_end);
-  if (start && end) {
-    row.lower_height = std::min(std::abs(*start), std::abs(*end));
-    row.width = std::abs(*start - *end);
-  } else {  // a heading a right angle or more from the chord: nothing stands over its middle
-    row.lower_height = region->lower_height;
-    row.width = region->parallel_width;
-  }
   return row;
+}
+
+/// Links and nodes of a worksheet for `feasible_data`; headings all given when `fixed`.
+class Ranges {
+ public:
+  explicit Ranges(const Worksheet& sheet) : sheet_(sheet), chords_(measure_chords(sheet.points)) {}
+
+  [[nodiscard]] std::vector<FeasibleData> operator()(bool all_headings) const {
+    const std::size_t n = sheet_.points.size();
+    if (!sheet_.loop) return feasible_data(links(0, n), nodes(0, n, all_headings));
+    // once around and some more, so that the seam has neighbours on both sides
+    const std::size_t turn = n - 1, overlap = std::min(turn, kSeamOverlap);
+    const auto all = feasible_data(links(turn - overlap, n + 2 * overlap),
+                                   nodes(turn - overlap, n + 2 * overlap, all_headings));
+    return {all.begin() + static_cast<std::ptrdiff_t>(overlap),
+            all.begin() + static_cast<std::ptrdiff_t>(overlap + n)};
+  }
+
+  [[nodiscard]] std::vector<RangeLink> links(std::size_t first, std::size_t count) const {
+    std::vector<RangeLink> out;
+    for (std::size_t k = 0; k + 1 < count; ++k) {
+      const std::size_t i = (first + k) % chords_.size();
+      out.push_back({chords_[i].length, chords_[i].omega, sheet_.direction[i]});
+      if (k == 0) continue;
+      out.back().omega = nearest_angle(out.back().omega, out[k - 1].omega);
+    }
+    return out;
+  }
+
+  [[nodiscard]] std::vector<RangeNode> nodes(std::size_t first, std::size_t count,
+                                             bool all_headings) const {
+    const std::vector<RangeLink> along = links(first, count);
+    std::vector<RangeNode> out;
+    for (std::size_t k = 0; k < count; ++k) {
+      const std::size_t i = sheet_.loop ? (first + k) % chords_.size() : k;
+      RangeNode node{sheet_.given[i].theta, sheet_.given[i].kappa, sheet_.sign[i]};
+      const bool arc = (i > 0 && sheet_.direction[i - 1] == 0) ||
+                       (i < sheet_.direction.size() && sheet_.direction[i] == 0);
+      node.thetas = sheet_.given[i].thetas;
+      node.kappas = sheet_.given[i].kappas;
+      if (all_headings || arc) node.theta = sheet_.theta[i];
+      if (arc) node.kappa = sheet_.kappa[i];
+      const double before = along[k > 0 ? k - 1 : 0].omega;
+      const double after = nearest_angle(along[std::min(k, along.size() - 1)].omega, before);
+      const double near = 0.5 * (before + after);
+      if (node.theta) node.theta = nearest_angle(*node.theta, near);
+      if (node.thetas) {
+        const double middle = 0.5 * (node.thetas->low + node.thetas->high);
+        const double turns = nearest_angle(middle, near) - middle;
+        node.thetas = ValueRange{node.thetas->low + turns, node.thetas->high + turns};
+      }
+      out.push_back(node);
+    }
+    return out;
+  }
+
+ private:
+  const Worksheet& sheet_;
+  std::vector<Chord> chords_;
+};
+
+/// Curvature for a point whose range alone is known.
+double some_curvature(const std::optional<CurvatureRange>& range) {
+  if (!range) return 0.0;
+  if (std::isinf(range->low) && std::isinf(range->high)) return 0.0;
+  if (std::isinf(range->low)) return range->high - std::abs(range->high);
+  if (std::isinf(range->high)) return range->low + std::abs(range->low);
+  return 0.5 * (range->low + range->high);
+}
+
+/// Points and rows of one worksheet.
+class PartMaker {
+ public:
+  PartMaker(const Worksheet& sheet, const Analysis* analysis) : s_(sheet), analysis_(analysis) {}
+
+  RegionPart run() {
+    const Ranges ranges(s_);
+    const auto headings = ranges(false), curvatures = ranges(true);
+    for (std::size_t i = 0; i < s_.points.size(); ++i) {
+      RegionPoint p;
+      p.point = s_.points[i];
+      p.number = s_.number[i];
+      p.inserted = s_.inserted[i];
+      p.theta = s_.theta[i];
+      p.kappa = s_.kappa[i];
+      p.theta_given = s_.given[i].theta.has_value();
+      p.kappa_given = s_.given[i].kappa.has_value();
+      p.headings = headings[i].heading;
+      if (p.headings) turn_to(p.theta, *p.headings);
+      p.curvatures = curvatures[i].kappa;
+      const bool inner = i > 0 && i + 1 < s_.points.size();
+      if (analysis_ != nullptr && inner) p.adjacent_kappa = analysis_->circles[i].kappa;
+      if (analysis_ != nullptr && !inner && s_.loop) p.adjacent_kappa = seam_circle();
+      out_.points.push_back(p);
+    }
+    for (std::size_t i = 0; i + 1 < s_.points.size(); ++i) out_.rows.push_back(row(i));
+    if (analysis_ != nullptr) add_spline();
+    return std::move(out_);
+  }
+
+ private:
+  /// Ranges of a loop count turns from another point than its headings do.
+  static void turn_to(double theta, HeadingRange& range) {
+    const double middle = 0.5 * (range.low + range.high);
+    const double turns = nearest_angle(middle, theta) - middle;
+    range.low += turns;
+    range.high += turns;
+  }
+
+  /// Circle through the first point of a loop and both its neighbours.
+  [[nodiscard]] double seam_circle() const {
+    const std::vector<Vec2> around{s_.points[s_.points.size() - 2], s_.points[0], s_.points[1]};
+    return measure_circles(around, measure_chords(around))[1].kappa;
+  }
+
+  RegionRow row(std::size_t i) {
+    RegionRow row = bare_row(s_.element(i), s_.element(i + 1));
+    row.from = i;
+    row.to = i + 1;
+    row.direction = s_.direction[i];
+    if (analysis_ != nullptr && std::isfinite(analysis_->points_only_error[i])) {
+      row.points_only_error = analysis_->points_only_error[i];
+    }
+    if (const auto t = tangents(i)) row.tangent_height = t->height;
+    if (const auto t = chords(i)) row.apex_height = t->height;
+    if (row.direction) {
+      row.kappa_start = out_.points[i].curvatures;
+      row.kappa_end = out_.points[i + 1].curvatures;
+      if (!row.kappa_start || !row.kappa_end) {
+        row.kappa_start = row.kappa_end = std::nullopt;
+      } else {
+        add_region(row, i);
+      }
+    }
+    return row;
+  }
+
+  /// Curvatures that bound the region of a segment: those given, else the ends of their ranges.
+  [[nodiscard]] std::pair<double, double> bounding(const RegionRow& row, std::size_t i) const {
+    const bool grows = *row.direction > 0;
+    const double start = grows ? row.kappa_start->low : row.kappa_start->high;
+    const double end = grows ? row.kappa_end->high : row.kappa_end->low;
+    return {s_.given[i].kappa.value_or(start), s_.given[i + 1].kappa.value_or(end)};
+  }
+
+  void add_region(RegionRow& row, std::size_t i) {
+    Element a = s_.element(i), b = s_.element(i + 1);
+    if (*row.direction == 0) {
+      row.lower_height = std::abs(sagitta(a.kappa, row.chord));
+      row.width = 0.0;
+      return;
+    }
+    std::tie(a.kappa, b.kappa) = bounding(row, i);
+    const ChordFrame frame = chord_frame(a, b);
+    const auto region = segment_region(frame, *row.direction);
+    if (!region) return;
+    row.region = PlacedBoundaries{frame, *region, a.point, (b.point - a.point) / row.chord};
+    const auto start = middle_ordinate(frame, region->from_start);
+    const auto end = middle_ordinate(frame, region->to_end);
+    if (start && end) {
+      row.lower_height = std::min(std::abs(*start), std::abs(*end));
+      row.width = std::abs(*start - *end);
+    } else {  // a heading a right angle or more from the chord: nothing stands over its middle
+      row.lower_height = region->lower_height;
+      row.width = region->parallel_width;
+    }
+    add_convex(row, a, b, i);
+  }
+
+  void add_convex(RegionRow& row, const Element& a, const Element& b, std::size_t i) const {
+    if (const auto t = chords(i)) {
+      if (const auto e = convex_errors(a, b, *row.direction, *t)) {
+        row.apex_gap = e->apex_gap;
+        row.apex_bound = e->bound;
+      }
+    }
+    if (const auto t = tangents(i)) {
+      if (const auto e = convex_errors(a, b, *row.direction, *t)) {
+        row.tangent_gap = e->apex_gap;
+        row.tangent_bound = e->bound;
+      }
+    }
+  }
+
+  [[nodiscard]] std::optional<ConvexTriangle> tangents(std::size_t i) const {
+    return tangent_triangle(s_.points[i], unit_at(s_.theta[i]), s_.points[i + 1],
+                            unit_at(s_.theta[i + 1]));
+  }
+
+  /// Over the neighbouring chords; at an end of the series both angles are that of the inner one.
+  [[nodiscard]] std::optional<ConvexTriangle> chords(std::size_t i) const {
+    const std::size_t n = s_.points.size();
+    const Vec2 start = s_.points[i], end = s_.points[i + 1], chord = end - start;
+    std::optional<Vec2> before, after;
+    if (i > 0) before = start - s_.points[i - 1];
+    if (i + 2 < n) after = s_.points[i + 2] - end;
+    if (s_.loop && i == 0) before = start - s_.points[n - 2];
+    if (s_.loop && i + 2 == n) after = s_.points[1] - end;
+    if (!before && !after) return std::nullopt;
+    const auto mirrored =
+        [&](Vec2 v) {  // in the perpendicular bisector of the chord, run backwards
+          const Vec2 u = chord / norm(chord);
+          return 2.0 * dot(u, v) * u - v;
+        };
+    if (!before) before = mirrored(*after);
+    if (!after) after = mirrored(*before);
+    return tangent_triangle(start, *before, end, *after);
+  }
+
+  /// The spline of CAD systems has one piece to a segment.
+  void add_spline() {
+    if (s_.loop || s_.points.size() < 4) return;
+    std::vector<std::size_t> source;
+    for (std::size_t i = 0; i < s_.points.size(); ++i) source.push_back(i);
+    const auto spline = form_baseline(s_.points, source, false, std::nullopt, std::nullopt);
+    if (!spline || spline->contour.pieces.size() + 1 != s_.points.size()) return;
+    for (RegionRow& row : out_.rows) {
+      if (!row.region || row.direction == 0) continue;
+      Element a = s_.element(row.from), b = s_.element(row.to);
+      std::tie(a.kappa, b.kappa) = bounding(row, row.from);
+      const auto placed = place_in_region(spline->contour.pieces[row.from], a, b, *row.direction);
+      if (placed) row.spline_distance = placed->farther;
+    }
+  }
+
+  const Worksheet& s_;
+  const Analysis* analysis_;
+  RegionPart out_;
+};
+
+/// Inserts points until every segment is narrow enough.
+class Inserter {
+ public:
+  explicit Inserter(Worksheet sheet) : s_(std::move(sheet)) {}
+
+  Result<Worksheet> run(std::optional<double> tolerance, const std::vector<std::size_t>& segments) {
+    // those between the inserted points keep what was chosen
+    for (std::size_t i = 0; i < s_.points.size(); ++i) s_.given[i].theta = s_.theta[i];
+    for (const std::size_t segment : segments) {
+      if (auto done = insert_into(widest(PartMaker(s_, nullptr).run(), segment)); !done) {
+        return fail(done.error());
+      }
+    }
+    while (tolerance) {
+      const RegionPart part = PartMaker(s_, nullptr).run();
+      const auto row = widest(part, std::nullopt);
+      if (!row || *part.rows[*row].width <= *tolerance) break;
+      if (s_.points.size() > kMostInserted) {
+        return fail({ErrorCode::kToleranceNotReached,
+                     "the width asked for needs more than a thousand points", "",
+                     "choose a larger --tolerance", -1, *tolerance});
+      }
+      if (auto done = insert_into(row); !done) return fail(done.error());
+    }
+    return std::move(s_);
+  }
+
+ private:
+  /// The widest segment with a region, of the whole series or of one segment of the user's.
+  [[nodiscard]] std::optional<std::size_t> widest(const RegionPart& part,
+                                                  std::optional<std::size_t> of) const {
+    std::optional<std::size_t> best;
+    for (std::size_t i = 0; i < part.rows.size(); ++i) {
+      if (of && s_.number[i] != *of) continue;
+      const RegionRow& row = part.rows[i];
+      if (!row.width || !row.region || row.direction == 0) continue;
+      if (!best || *row.width > *part.rows[*best].width) best = i;
+    }
+    return best;
+  }
+
+  Result<void> insert_into(std::optional<std::size_t> at) {
+    const auto nowhere = [](std::size_t point) {
+      return fail({ErrorCode::kRoundingDecides,
+                   "no point can be inserted there: the region has no width that coordinates tell",
+                   fmt::format("segment {}", point + 1), "choose a larger --tolerance",
+                   static_cast<std::ptrdiff_t>(point), 0.0});
+    };
+    if (!at) return nowhere(0);
+    const std::size_t i = *at;
+    const RegionPart part = PartMaker(s_, nullptr).run();
+    const PlacedBoundaries& placed = *part.rows[i].region;
+    const auto low = middle_ordinate(placed.frame, placed.region.from_start);
+    const auto high = middle_ordinate(placed.frame, placed.region.to_end);
+    if (!low || !high) return nowhere(s_.number[i]);
+    const Vec2 middle = placed.start + 0.5 * placed.frame.h * placed.along +
+                        0.5 * (*low + *high) * left_normal(placed.along);
+    put(i, middle);
+    const auto range = Ranges(s_)(false)[i + 1].heading;
+    if (!range) return nowhere(s_.number[i]);
+    s_.theta[i + 1] = 0.5 * (range->low + range->high);
+    s_.given[i + 1].theta = s_.theta[i + 1];
+    return {};
+  }
+
+  void put(std::size_t i, Vec2 point) {
+    const auto after = static_cast<std::ptrdiff_t>(i) + 1;
+    s_.points.insert(s_.points.begin() + after, point);
+    s_.number.insert(s_.number.begin() + after, s_.number[i]);
+    s_.inserted.insert(s_.inserted.begin() + after, 0);
+    s_.given.insert(s_.given.begin() + after, FixedData{});
+    s_.theta.insert(s_.theta.begin() + after, 0.5 * (s_.theta[i] + s_.theta[i + 1]));
+    s_.kappa.insert(s_.kappa.begin() + after, 0.5 * (s_.kappa[i] + s_.kappa[i + 1]));
+    s_.direction.insert(s_.direction.begin() + after, s_.direction[i]);
+    s_.sign.insert(s_.sign.begin() + after, s_.sign[i] == s_.sign[i + 1] ? s_.sign[i] : 0);
+    std::size_t count = 0;
+    for (std::size_t k = 0; k < s_.points.size(); ++k) {
+      const bool same = k > 0 && s_.number[k] == s_.number[k - 1];
+      count = same ? count + 1 : 0;
+      s_.inserted[k] = count;
+    }
+  }
+
+  Worksheet s_;
+};
+
+/// One section of the series as a worksheet.
+class SheetMaker {
+ public:
+  SheetMaker(const Prepared& series, const Section& section, TangentRule rule)
+      : series_(series), section_(section), rule_(rule), loop_(series.split.smooth_loop) {}
+
+  Result<Worksheet> run(std::vector<std::string>& warnings) {
+    const std::size_t last = loop_ ? series_.points.size() : section_.last;
+    bool all_given = series_.exact();
+    for (std::size_t k = section_.first; k <= last; ++k) {
+      const std::size_t i = series_.split.point_at(k) % series_.points.size();
+      sheet_.points.push_back(series_.points[i]);
+      sheet_.number.push_back(i);
+      sheet_.given.push_back(series_.fixed.empty() ? FixedData{} : series_.fixed[i]);
+      all_given = all_given && sheet_.given.back().theta.has_value();
+    }
+    sheet_.loop = loop_;
+    const bool central = rule_ == TangentRule::kCentral;
+    if (!all_given && rule_ == TangentRule::kNeighbours) {
+      take_neighbour_headings();
+      all_given = true;
+    }
+    if (!all_given && !central) return follow_chain(warnings);
+    if (central && loop_ && !all_given) {
+      return fail({ErrorCode::kBadOption,
+                   "tangents at the centres of their ranges need an open series", "",
+                   "give the headings, or leave the choice to the program"});
+    }
+    const auto analysis = analyse(sheet_.points);
+    if (!analysis) return fail(analysis.error());
+    ChainWishes wishes;
+    wishes.convex = series_.convex;
+    for (const FixedData& f : sheet_.given) {
+      wishes.fixed.push_back(all_given ? FixedData{} : f);
+    }
+    const auto problem = chain_problem(*analysis, wishes);
+    if (!problem) return fail(problem.error());
+    for (const std::int8_t d : analysis->direction) sheet_.direction.emplace_back(d);
+    for (std::size_t i = 0; i < sheet_.points.size(); ++i) {
+      sheet_.sign.push_back(problem->nodes[i].curvature_sign);
+      sheet_.theta.push_back(
+          sheet_.given[i].theta.value_or(neighbour_.empty() ? 0.0 : neighbour_[i]));
+      sheet_.kappa.push_back(sheet_.given[i].kappa.value_or(analysis->circles[i].kappa));
+    }
+    if (central && !all_given) {
+      if (auto done = take_centres(); !done) return fail(done.error());
+    }
+    unwrap(*analysis);
+    if (all_given && sheet_.points.size() < kFewestThatTell) follow_headings();
+    if (!central || all_given) take_curvatures();
+    sheet_.inserted.assign(sheet_.points.size(), 0);
+    return std::move(sheet_);
+  }
+
+ private:
+  Result<void> take_centres() {
+    const Ranges ranges(sheet_);
+    const std::size_t n = sheet_.points.size();
+    const auto central = central_data(ranges.links(0, n), ranges.nodes(0, n, false));
+    if (!central) {
+      return fail({ErrorCode::kFixedDataContradict,
+                   "what is given leaves no headings with which a monotone curve exists", "",
+                   "free some of the given data; see the ranges of `obvid region` without them"});
+    }
+    for (std::size_t i = 0; i < n; ++i) {
+      sheet_.theta[i] = *(*central)[i].theta;
+      sheet_.kappa[i] = *(*central)[i].kappa;
+    }
+    return {};
+  }
+
+  /// [002]: a heading that is not given is that of the chord between both neighbours.
+  void take_neighbour_headings() {
+    const std::size_t n = sheet_.points.size();
+    std::vector<Vec2> around = sheet_.points;
+    EndHeadings ends{sheet_.given.front().theta, sheet_.given.back().theta};
+    if (loop_) {
+      const double seam = heading(sheet_.points[1] - sheet_.points[n - 2]);
+      ends = {ends.start.value_or(seam), ends.end.value_or(seam)};
+    }
+    neighbour_ = neighbour_headings(around, ends);
+  }
+
+  /// Given headings count modulo a full turn: as they go along with the chords.
+  void unwrap(const Analysis& a) {
+    for (std::size_t i = 0; i < sheet_.theta.size(); ++i) {
+      const double before = a.chords[i > 0 ? i - 1 : 0].omega;
+      const double after = a.chords[std::min(i, a.chords.size() - 1)].omega;
+      sheet_.theta[i] = nearest_angle(sheet_.theta[i], 0.5 * (before + after));
+    }
+  }
+
+  /// Two or three points lie on one circle: their headings alone say how the curvature goes. It
+  /// keeps its sign where they let it.
+  void follow_headings() {
+    for (std::size_t i = 0; i + 1 < sheet_.points.size(); ++i) {
+      const Vec2 chord = sheet_.points[i + 1] - sheet_.points[i];
+      const double alpha = turning(chord, unit_at(sheet_.theta[i]));
+      const double beta = turning(chord, unit_at(sheet_.theta[i + 1]));
+      const double sigma = alpha + beta;
+      sheet_.direction[i] = sigma > 0.0 ? 1 : sigma < 0.0 ? -1 : 0;
+      const int turn = alpha > 0.0 && beta < 0.0 ? -1 : alpha < 0.0 && beta > 0.0 ? 1 : 0;
+      sheet_.sign[i] = i > 0 && sheet_.sign[i] != turn ? 0 : turn;
+      sheet_.sign[i + 1] = turn;
+    }
+  }
+
+  /// In the middle of their ranges, where nothing else is known.
+  void take_curvatures() {
+    const auto ranges = Ranges(sheet_)(true);
+    for (std::size_t i = 0; i < sheet_.kappa.size(); ++i) {
+      if (!sheet_.given[i].kappa && ranges[i].kappa)
+        sheet_.kappa[i] = some_curvature(ranges[i].kappa);
+    }
+  }
+
+  /// Elements that a chain has between points carry its freedom; the region of points and tangents
+  /// does not know them.
+  Result<Worksheet> follow_chain(std::vector<std::string>& warnings) {
+    Watch nobody;
+    const auto found = chain_section(series_, section_, nobody);
+    if (!found) return fail(found.error());
+    warnings.insert(warnings.end(), found->warnings.begin(), found->warnings.end());
+    const SeriesChain& chain = found->chain;
+    Worksheet out;
+    out.loop = loop_;
+    for (std::size_t e = 0; e < chain.elements.size(); ++e) {
+      if (chain.source[e]) {
+        const std::size_t i = *chain.source[e] % series_.points.size();
+        out.points.push_back(chain.elements[e].point);
+        out.number.push_back(i);
+        out.inserted.push_back(0);
+        out.given.push_back(series_.fixed.empty() ? FixedData{} : series_.fixed[i]);
+        out.theta.push_back(chain.elements[e].theta);
+        out.kappa.push_back(chain.elements[e].kappa);
+        if (e < chain.direction.size()) out.direction.emplace_back(chain.direction[e]);
+      } else if (out.direction.back() && *out.direction.back() != chain.direction[e]) {
+        out.direction.back() = std::nullopt;
+      }
+    }
+    out.sign = signs_of_spans(out.kappa, out.direction);
+    return out;
+  }
+
+  const Prepared& series_;
+  const Section& section_;
+  TangentRule rule_;
+  bool loop_;
+  Worksheet sheet_;
+  std::vector<double> neighbour_;  // headings by the neighbours' rule; empty: not asked for
+};
+
+void append(RegionPart part, RegionPart& to) {
+  const std::size_t before = to.points.size();
+  for (RegionRow& row : part.rows) {
+    row.from += before;
+    row.to += before;
+    to.rows.push_back(std::move(row));
+  }
+  to.points.insert(to.points.end(), part.points.begin(), part.points.end());
 }
 
 }  // namespace
 
-Result<RegionTable> region_table(const PointSeries& series) {
-  const auto analysis = analyse(series.points);
-  if (!analysis) return tl::unexpected(analysis.error());
-  Watch nobody;
-  const auto chain =
-      pipeline_detail::form_elements(series.points, *analysis, {series.fixed, false}, nobody);
-  if (!chain) return tl::unexpected(chain.error());
+Result<RegionTable> region_table(const PointSeries& series, const RegionJob& job) {
+  const auto prepared = prepare(series, job.job);
+  if (!prepared) return tl::unexpected(prepared.error());
   RegionTable table;
-  table.elements = chain->elements;
-  for (const Span& span : spans_of(*chain)) {
-    const std::vector<Element> part(
-        table.elements.begin() + static_cast<std::ptrdiff_t>(span.first),
-        table.elements.begin() + static_cast<std::ptrdiff_t>(span.last) + 1);
-    const double first = part.front().kappa, last = part.back().kappa;
-    const bool convex = first * last > 0.0;
-    const auto ranges = curvature_chains(part, span.direction == 0 ? 1 : span.direction, convex,
-                                         first > 0.0 ? 1 : -1);
-    for (std::size_t i = 0; i + 1 < part.size(); ++i) {
-      table.rows.push_back(
-          make_row(part[i], part[i + 1], ranges[i], ranges[i + 1], span.direction));
+  table.warnings = prepared->warnings;
+  table.closed = prepared->closed;
+  for (const std::size_t segment : job.insert) {
+    if (segment + (prepared->closed ? 0 : 1) < prepared->points.size()) continue;
+    return fail({ErrorCode::kBadOption, "there is no such segment",
+                 fmt::format("segment {}", segment + 1), "", static_cast<std::ptrdiff_t>(segment),
+                 0.0});
+  }
+  const bool inserts = job.job.tolerance.has_value() || !job.insert.empty();
+  if (inserts) table.refined.emplace();
+  for (const Section& section : prepared->split.sections) {
+    auto sheet = SheetMaker(*prepared, section, job.rule).run(table.warnings);
+    if (!sheet) return tl::unexpected(sheet.error());
+    const auto analysis = analyse(sheet->points);
+    append(PartMaker(*sheet, analysis ? &*analysis : nullptr).run(), table.user);
+    if (!inserts) continue;
+    std::vector<std::size_t> here;
+    for (const std::size_t segment : job.insert) {
+      if (std::find(sheet->number.begin(), sheet->number.end(), segment) != sheet->number.end()) {
+        here.push_back(segment);
+      }
     }
+    auto finer = Inserter(*sheet).run(job.job.tolerance, here);
+    if (!finer) return tl::unexpected(finer.error());
+    const auto finer_analysis = analyse(finer->points);
+    append(PartMaker(*finer, finer_analysis ? &*finer_analysis : nullptr).run(), *table.refined);
+  }
+  if (job.construction) {
+    auto made = construct(table.last(), *job.construction, job.fixation);
+    if (!made) return fail(made.error());
+    table.construction = std::move(*made);
+  }
+  table.rows = table.user.rows;
+  for (const RegionPoint& p : table.user.points) {
+    table.elements.push_back({p.point, p.theta, p.kappa});
   }
   return table;
 }

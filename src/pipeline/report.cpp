@@ -15,6 +15,7 @@
 #include "obvid/series/analysis.h"
 #include "obvid/series/forced_vertices.h"
 #include "parts.h"
+#include "waviness.h"
 
 namespace obvid::pipeline_detail {
 namespace {
@@ -100,25 +101,12 @@ class PartMeasure {
     for (std::size_t k = part.first_piece; k <= part.last_piece; ++k) {
       const double a = k == part.first_piece ? part.t0 : 0.0;
       const double b = k == part.last_piece ? part.t1 : 1.0;
-      const Piece& piece = contour_.pieces[k];
-      Jet before = evaluate(piece, a);
-      const Jet end = evaluate(piece, b);
-      // a piece turns by less than half a turn; only one with an inflection turns back
-      const bool bends_both_ways = curvature(before) * curvature(end) < 0.0;
-      const int steps = bends_both_ways ? kStepsOfInflection : 1;
-      for (int i = 1; i <= steps; ++i) {
-        const Jet now = i == steps ? end : evaluate(piece, a + (b - a) * i / steps);
-        turn += std::abs(turning(before.d1, now.d1));
-        before = now;
-      }
+      turn += turning_both_ways(contour_.pieces[k], a, b);
     }
     return turn;
   }
 
  private:
-  /// A step across the inflection hides what it turns both ways: a few hundredths of its piece.
-  static constexpr int kStepsOfInflection = 16;
-
   /// Copies the pieces of a part to where their coordinates are small: rounded ones blur what is
   /// measured.
   void see_from_near(const Part& part) {
@@ -192,7 +180,8 @@ class PartMeasure {
   void bound_between_stations(const Part& part, SegmentReport& row) const {
     Stretch stretch{part.first_piece, part.first_piece, part.t0, 1.0};
     int common = direction_[stretch.first];
-    const bool far = part.first_piece != part.last_piece && turns_far(part);
+    // regions are those of curves that turn by less than half a turn, to both sides together
+    const bool far = part.first_piece != part.last_piece && !(turning_of(part) < std::numbers::pi);
     for (std::size_t k = part.first_piece + 1; k <= part.last_piece; ++k) {
       const int next = common_direction(common, direction_[k]);
       const bool cut = far || next == kNotMonotone;
@@ -205,18 +194,6 @@ class PartMeasure {
     }
     stretch.t1 = part.t1;
     bound_stretch(stretch, common, row);
-  }
-
-  /// Regions are those of curves that turn by less than half a turn, either way. A piece turns by
-  /// less than that.
-  [[nodiscard]] bool turns_far(const Part& part) const {
-    double turn = 0.0;
-    for (std::size_t k = part.first_piece; k <= part.last_piece; ++k) {
-      const Vec2 from = evaluate(local(k), k == part.first_piece ? part.t0 : 0.0).d1;
-      const Vec2 to = evaluate(local(k), k == part.last_piece ? part.t1 : 1.0).d1;
-      turn += std::abs(turning(from, to));
-    }
-    return !(turn < std::numbers::pi);
   }
 
   void bound_stretch(const Stretch& stretch, int direction, SegmentReport& row) const {
@@ -366,33 +343,28 @@ Result<void> say_points(const Contour& contour, std::vector<std::size_t> section
   return {};
 }
 
-int forced(const Contour& contour, const std::vector<std::size_t>& section, bool loop) {
+int forced(const Contour& contour, const std::vector<std::size_t>& section, bool loop,
+           Watch& watch) {
   std::vector<Vec2> points;
   std::vector<double> reach;
   for (std::size_t k = 0; k + (loop ? 1 : 0) < section.size(); ++k) {
     points.push_back(contour.points[section[k]]);
     if (!contour.point_tolerance.empty()) reach.push_back(contour.point_tolerance[section[k]]);
   }
-  return forced_vertices(points, reach, loop);
+  return forced_vertices(points, reach, loop, watch);
 }
 
 }  // namespace
 
-double size_of(const std::vector<Vec2>& points) {
-  if (points.empty()) return 0.0;
-  Vec2 low = points.front(), high = low;
-  for (const Vec2 p : points) {
-    low = {std::min(low.x, p.x), std::min(low.y, p.y)};
-    high = {std::max(high.x, p.x), std::max(high.y, p.y)};
-  }
-  return norm(high - low);
+int direction_of(Verdict verdict) {
+  return verdict == Verdict::kIncreasing ? 1 : (verdict == Verdict::kDecreasing ? -1 : 0);
 }
 
 double default_tolerance(const std::vector<Vec2>& points) {
-  return kRegionTolerance * size_of(points);
+  return kRegionTolerance * bounding_diagonal(points);
 }
 
-Result<FitReport> measure(const Contour& contour, double tolerance) {
+Result<FitReport> measure(const Contour& contour, double tolerance, Watch& watch) {
   FitReport report;
   report.tolerance = tolerance;
   report.given = measure_given(contour);
@@ -401,6 +373,7 @@ Result<FitReport> measure(const Contour& contour, double tolerance) {
   std::vector<int> direction;
   std::vector<double> turn;
   for (const Part& part : parts_of(contour)) {
+    if (watch.cancelled()) return fail(cancelled_error());
     const SegmentReport& s = report.segments.emplace_back(measure_part(part));
     direction.push_back(measure_part.direction_of(part));
     turn.push_back(measure_part.turning_of(part));
@@ -422,10 +395,11 @@ Result<FitReport> measure(const Contour& contour, double tolerance) {
       const auto said = say_points(contour, section, loop, direction, report, row);
       if (!said) return tl::unexpected(said.error());
     }
-    report.vertices_lower_bound += forced(contour, section, loop);
+    report.vertices_lower_bound += forced(contour, section, loop, watch);
     row += section.size() - 1;
   }
   forget_around(direction, turn, loop, report);
+  report.waviness = waviness(contour);
   // around a closed contour the curvature returns to where it began, leaps at corners included
   if (contour.closed) report.vertices_lower_bound += report.vertices_lower_bound % 2;
   return report;
@@ -433,8 +407,8 @@ Result<FitReport> measure(const Contour& contour, double tolerance) {
 
 namespace {
 
-/// A figure of a part speaks of curves that are monotone as its pieces were meant to be. Where the
-/// proof found them otherwise it speaks of nothing.
+/// A figure of a part speaks of curves that are monotone as its pieces were meant to be, across
+/// their joints too. Where the proof found them otherwise it speaks of nothing.
 void forget_unproved(const Certificate& certificate, const Contour& contour, FitReport& report) {
   if (certificate.proved || !promises_monotone(contour.carrier)) return;
   if (contour.carrier == Carrier::kArcs) return;  // every piece is an arc: nothing to prove
@@ -446,16 +420,17 @@ void forget_unproved(const Certificate& certificate, const Contour& contour, Fit
     for (std::size_t k = parts[r].first_piece; k <= parts[r].last_piece; ++k) {
       if (is_kept(contour, k) || k >= certificate.pieces.size()) continue;
       const Verdict verdict = certificate.pieces[k].verdict;
-      const int found = verdict == Verdict::kIncreasing   ? 1
-                        : verdict == Verdict::kDecreasing ? -1
-                                                          : 0;
-      as_meant =
-          as_meant && (verdict == Verdict::kConstant || (found != 0 && found == direction[k]));
+      const int found = direction_of(verdict);
+      as_meant = as_meant && certificate.pieces[k].turns_below_half &&
+                 (verdict == Verdict::kConstant || (found != 0 && found == direction[k]));
     }
-    if (as_meant) continue;
+    const bool joined =
+        certificate.gaps_within_bounds || parts[r].first_piece == parts[r].last_piece;
+    if (as_meant && joined) continue;
     SegmentReport& row = report.segments[r];
     row.width = row.width_unrefined = row.deviation = kUnknown;
     report.largest_width = kUnknown;
+    if (as_meant) continue;
     // the points speak of curves that are monotone along the neighbouring parts too
     for (const std::size_t around : {(r + rows - 1) % rows, r, (r + 1) % rows}) {
       report.segments[around].points_only_error = kUnknown;
@@ -469,12 +444,13 @@ void forget_unproved(const Certificate& certificate, const Contour& contour, Fit
 
 }  // namespace
 
-void settle_with(const Certificate& certificate, const Contour& contour, FitReport& report) {
+void settle_with(const Certificate& certificate, const Contour& contour, FitReport& report,
+                 Watch& watch) {
   forget_unproved(certificate, contour, report);
   report.vertices = certificate.vertices;
   report.inflections = certificate.inflections;
   report.largest_move = certificate.largest_move;
-  if (!contour.point_tolerance.empty()) report.moves = point_distances(contour);
+  if (!contour.point_tolerance.empty()) report.moves = point_distances(contour, watch);
   // a contour may turn more between its points than the curves of which the bound speaks: what it
   // does with fewer vertices no longer bounds anything
   if (certificate.proved) {

@@ -4,13 +4,19 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <map>
 #include <numbers>
+#include <set>
 #include <utility>
 
 #include "form.h"
+#include "given.h"
 #include "more_vertices.h"
+#include "obvid/core/figures.h"
 #include "obvid/fairing/fairing.h"
+#include "obvid/geom/angle.h"
 #include "obvid/series/analysis.h"
+#include "series_ranges.h"
 #include "wandering.h"
 
 namespace obvid::pipeline_detail {
@@ -27,28 +33,56 @@ constexpr std::size_t kFewestForFairing = 4;
 constexpr double kPrimitiveSteps = 3000.0, kPrimitiveWork = 2e5;
 /// Long chords that are named when the points leave open what happens over them.
 constexpr std::size_t kMostGuesses = 3;
+/// Headings that are held where the fairest chain swings out, and the work of finding them: in
+/// steps on a point, beside a multiple of what the fairest chain took.
+constexpr int kMostHeld = 3;
+constexpr double kHoldWork = 1e6, kHoldFactor = 3.0;
 constexpr double kDegrees = 180.0 / std::numbers::pi;
+/// What the least largest curvature is exceeded by, so that there is room to choose the rest.
+constexpr double kAboveLeastCurvature = 1.005;
 
-std::vector<std::string> warn(const Analysis& a, const SeriesChain& chain) {
+/// `whole`: the numbers that the points of the analysis have in the series; a segment may be there
+/// twice.
+std::vector<std::string> warn(const Analysis& a, const SeriesChain& chain,
+                              const std::vector<std::size_t>& whole) {
   std::vector<std::string> out;
-  if (a.rounding_decided > 0) {
-    out.push_back(
-        "the rounding of the coordinates decides whether the curvature grows or falls on " +
-        std::to_string(a.rounding_decided) + " segments, first between points " +
-        std::to_string(a.first_rounding_decided + 1) + " and " +
-        std::to_string(a.first_rounding_decided + 2) +
-        "; vertices there come from the rounding, not from the curve");
+  std::set<std::pair<std::size_t, std::size_t>> decided;  // by their points
+  for (const std::size_t chord : a.rounding_decided) {
+    decided.insert({whole[chord], whole[chord + 1]});
+  }
+  if (!decided.empty()) {
+    out.push_back(fmt::format(
+        "the rounding of the coordinates decides whether the curvature grows or falls on {}, first "
+        "between points {} and {}; vertices there come from the rounding, not from the curve",
+        counted(decided.size(), "segment", "segments"), decided.begin()->first + 1,
+        decided.begin()->second + 1));
   }
   if (chain.turned_directions > 0) {
     out.push_back(
         "no curve with the vertices of the adjacent circles runs through the points: the "
         "curvature was let turn back on " +
-        std::to_string(chain.turned_directions) + " segments");
+        counted(static_cast<std::size_t>(chain.turned_directions), "piece", "pieces"));
   }
   if (chain.unforced_inflection) {
     out.push_back("the contour needs an inflection that the adjacent circles do not show");
   }
   return out;
+}
+
+/// The same error with the points that it is about numbered anew.
+template <class Number>
+Error renumbered(Error error, Number&& number) {
+  if (error.index < 0) return error;
+  const auto renumber = [&](std::ptrdiff_t i) {
+    return i < 0 ? i : static_cast<std::ptrdiff_t>(number(static_cast<std::size_t>(i)));
+  };
+  error.index = renumber(error.index);
+  error.last = renumber(error.last);
+  if (error.where.starts_with("point") || error.where.starts_with("nodes ")) {
+    error.where = error.last < 0 ? fmt::format("point {}", error.index + 1)
+                                 : fmt::format("points {} to {}", error.index + 1, error.last + 1);
+  }
+  return error;
 }
 
 class SectionChooser {
@@ -64,84 +98,303 @@ class SectionChooser {
   }
 
   Result<SectionChain> run() {
+    const double before = watch_.spent();
+    auto best = formed();
+    if (!best) return best;
+    Wandering found = wandering_of(best->chain);
+    if (!found.senseless.empty()) {
+      const Allowance allowance(watch_, kHoldWork + kHoldFactor * (watch_.spent() - before));
+      for (int k = 0; k < kMostHeld && !found.senseless.empty(); ++k) {
+        if (!hold_a_heading(*best, found)) break;
+      }
+    }
+    if (!found.senseless.empty()) return fail(swings_out(best->chain, worst_of(found)));
+    tell_held(*best);
+    tell_guessed(*best, found);
+    return best;
+  }
+
+ private:
+  [[nodiscard]] Error in_whole_series(const Error& error) const {
+    return renumbered(error, [this](std::size_t i) { return index_[i % index_.size()]; });
+  }
+
+  /// The fairest chain with the data that are given or held, inside their ranges: what leaves its
+  /// range is held at the end that it passed, until nothing does. Where that leads nowhere, the
+  /// chain in the middle of the ranges.
+  Result<SectionChain> formed() {
+    bounds_.clear();
+    if (auto done = prefer(); !done) return fail(done.error());
+    auto chain = formed_once();
+    std::size_t ranges = 0;
+    for (const std::size_t i : index_) {
+      const FixedData data = data_of(i);
+      ranges += (data.thetas ? 1U : 0U) + (data.kappas ? 1U : 0U);
+    }
+    if (ranges == 0 || central_) return chain;
+    std::size_t first = index_.front();
+    const std::size_t turned = chain ? chain->chain.turned_directions : 0;
+    for (std::size_t round = 0; chain && round <= ranges; ++round) {
+      const auto passed = hold_at_ends(chain->chain);
+      if (!passed) return chain;
+      if (round == 0) first = *passed;
+      chain = formed_once();
+      // no vertex comes of what is held
+      if (chain && chain->chain.turned_directions > turned) break;
+    }
+    if (!chain && bounds_.empty()) return chain;
+    bounds_.clear();
+    if (!moves_ && !loop_) {
+      central_ = true;
+      auto middle = formed_once();
+      central_ = false;
+      if (middle) return middle;
+    }
+    return fail({ErrorCode::kFixedDataContradict,
+                 "no monotone contour was found inside the ranges that are given",
+                 fmt::format("first left at point {}", first + 1),
+                 "widen the range there, or free others", static_cast<std::ptrdiff_t>(first), 0.0});
+  }
+
+  /// What the user prefers beyond the fairest chain.
+  Result<void> prefer() {
+    central_ = series_.prefer == Prefer::kCentre;
+    if (series_.prefer != Prefer::kLeastCurvature || cap_) return {};
+    const auto analysis = analyse(points_);
+    if (!analysis) return fail(analysis.error());
+    const auto least = least_largest_curvature(*analysis, wishes());
+    if (!least) {
+      return fail({ErrorCode::kFixedDataContradict,
+                   "what is given leaves no headings and curvatures with which a monotone contour "
+                   "exists",
+                   "", "free some of it", static_cast<std::ptrdiff_t>(index_.front()), 0.0});
+    }
+    cap_ = kAboveLeastCurvature * *least;
+    return {};
+  }
+
+  /// An end that a point passes, and how far: rad, or of the curvature.
+  struct Passed {
+    std::optional<double> end;
+    double by = 0.0;
+  };
+
+  /// Holds what leaves its range at the end that it passed, of neighbours the one that passes it by
+  /// most: the others may follow it. The first point where anything does; nothing when nothing
+  /// does.
+  std::optional<std::size_t> hold_at_ends(const SeriesChain& chain) {
+    std::vector<std::size_t> points;
+    std::vector<Passed> headings, kappas;
+    for (std::size_t e = 0; e < chain.elements.size(); ++e) {
+      if (!chain.source[e]) continue;
+      const Element& here = chain.elements[e];
+      const FixedData data = data_of(*chain.source[e]);
+      points.push_back(*chain.source[e]);
+      headings.emplace_back();
+      kappas.emplace_back();
+      if (data.thetas && !data.theta) {
+        Passed& one = headings.back();
+        one.end = passed_heading(*data.thetas, here.theta);
+        if (one.end) one.by = std::abs(std::remainder(here.theta - *one.end, kFullTurn));
+      }
+      if (data.kappas && !data.kappa) {
+        Passed& one = kappas.back();
+        one.end = passed_end(*data.kappas, here.kappa);
+        const double scale = one.end ? std::max(std::abs(*one.end), std::abs(here.kappa)) : 0.0;
+        if (one.end) one.by = std::abs(here.kappa - *one.end) / scale;
+      }
+    }
+    std::optional<std::size_t> first;
+    for (std::size_t k = 0; k < points.size(); ++k) {
+      const bool heading = passes_most(headings, k), kappa = passes_most(kappas, k);
+      if (!heading && !kappa) continue;
+      FixedData& bound = bounds_[points[k]];
+      if (heading) bound.theta = headings[k].end;
+      if (kappa) bound.kappa = kappas[k].end;
+      if (!first) first = points[k];
+    }
+    return first;
+  }
+
+  static bool passes_most(const std::vector<Passed>& all, std::size_t k) {
+    if (!all[k].end) return false;
+    const bool before = k == 0 || all[k].by >= all[k - 1].by;
+    return before && (k + 1 == all.size() || all[k].by > all[k + 1].by);
+  }
+
+  Result<SectionChain> formed_once() {
+    const auto points = points_;
+    const auto index = index_;
+    out_ = {};
     moves_ = std::any_of(index_.begin(), index_.end(),
                          [&](std::size_t i) { return series_.reach[i] > 0.0; });
     auto chain = moves_ && points_.size() >= kFewestForFairing ? within_tolerances()
-                 : loop_                                      ? around_loop()
-                                                              : through_points(points_, wishes());
-    if (!chain) return fail(in_whole_series(chain.error()));
+                 : loop_                                       ? around_loop()
+                         : through_points(points_, wishes(), index_);
+    if (!chain) chain = fail(in_whole_series(chain.error()));
+    if (chain) {
+      for (auto& source : chain->source) {
+        if (source) source = index_[*source % index_.size()];
+      }
+    }
+    points_ = points;
+    index_ = index;
+    if (!chain) return fail(chain.error());
     if (!chain->converged) {
       out_.warnings.emplace_back(
           "the headings and curvatures are valid but not quite the fairest: the solver stopped at "
           "its limit of steps");
     }
-    for (auto& source : chain->source) {
-      if (source) source = index_[*source % index_.size()];
-    }
     out_.chain = std::move(*chain);
-    if (const auto sensible = judge_sense(); !sensible) return fail(sensible.error());
     return std::move(out_);
   }
 
- private:
-  [[nodiscard]] Error in_whole_series(Error error) const {
-    if (error.index >= 0 && static_cast<std::size_t>(error.index) < index_.size()) {
-      error.index = static_cast<std::ptrdiff_t>(index_[static_cast<std::size_t>(error.index)]);
-    }
-    return error;
-  }
-
-  /// Refuses a chain that swings out between points; warns where the points leave it open.
-  Result<void> judge_sense() {
+  [[nodiscard]] Wandering wandering_of(const SeriesChain& chain) const {
     std::vector<double> reach;
     std::vector<bool> given;
-    for (const auto& source : out_.chain.source) {
+    for (const auto& source : chain.source) {
       reach.push_back(source ? series_.reach[*source] : 0.0);
-      const bool fixed = source && !series_.fixed.empty() &&
-                         (series_.fixed[*source].theta || series_.fixed[*source].kappa);
+      const bool fixed = source && !series_.fixed.empty() && series_.fixed[*source].says_how();
       given.push_back(fixed);
     }
-    const Wandering found = find_wandering(out_.chain, reach, given, loop_);
-    const auto range = [&](const WanderingPart& part) {
-      return fmt::format("points {} to {}", *out_.chain.source[part.first] + 1,
-                         *out_.chain.source[part.last] + 1);
-    };
-    if (!found.senseless.empty()) {
-      const WanderingPart& worst =
-          *std::max_element(found.senseless.begin(), found.senseless.end(),
-                            [](const auto& a, const auto& b) { return a.beyond < b.beyond; });
-      const auto index = static_cast<std::ptrdiff_t>(*out_.chain.source[worst.first]);
-      return fail({ErrorCode::kWanders,
-                   fmt::format("the contour would swing out by {:.0f} degrees more than the points "
-                               "ask for",
-                               worst.beyond * kDegrees),
-                   range(worst), "mark corners there, or put points between them", index,
-                   worst.beyond});
+    return find_wandering(chain, reach, given, loop_);
+  }
+
+  static const WanderingPart& worst_of(const Wandering& found) {
+    return *std::max_element(found.senseless.begin(), found.senseless.end(),
+                             [](const auto& a, const auto& b) { return a.beyond < b.beyond; });
+  }
+
+  /// A heading that is held, and what it leads to.
+  struct Held {
+    std::size_t point = 0;
+    double heading = 0.0;
+    SectionChain formed;
+    Wandering found;
+
+    [[nodiscard]] bool done() const {
+      return found.senseless.empty() && formed.chain.turned_directions == 0;
     }
+    [[nodiscard]] bool better_than(const Held& other) const {
+      return std::pair(found.senseless.size(), formed.chain.turned_directions) <
+             std::pair(other.found.senseless.size(), other.formed.chain.turned_directions);
+    }
+  };
+
+  /// The fairest chain swings out: a heading that does not is held at one end of the worst part.
+  /// False when that mends nothing.
+  bool hold_a_heading(SectionChain& best, Wandering& found) {
+    std::optional<Held> calmest;
+    const WanderingPart worst = worst_of(found);
+    for (const std::size_t e : {worst.first, worst.last}) {
+      const std::size_t i = *best.chain.source[e];
+      if (free_to_hold(i)) try_headings(i, calmest);
+    }
+    if (!calmest || calmest->found.senseless.size() >= found.senseless.size()) return false;
+    held_[calmest->point] = calmest->heading;
+    best = std::move(calmest->formed);
+    found = std::move(calmest->found);
+    return true;
+  }
+
+  void try_headings(std::size_t i, std::optional<Held>& calmest) {
+    const auto around = neighbours(i);
+    if (!around) return;
+    for (const double heading : calm_headings(series_.points[around->first], series_.points[i],
+                                              series_.points[around->second])) {
+      if ((calmest && calmest->done()) || !watch_.may_go_on()) return;
+      held_[i] = heading;
+      auto calmer = formed();
+      held_.erase(i);
+      if (!calmer) continue;
+      Held now{i, heading, std::move(*calmer), {}};
+      now.found = wandering_of(now.formed.chain);
+      if (!calmest || now.better_than(*calmest)) calmest = std::move(now);
+    }
+  }
+
+  [[nodiscard]] bool free_to_hold(std::size_t i) const {
+    if (held_.count(i) > 0) return false;
+    return series_.fixed.empty() || !series_.fixed[i].says_how();
+  }
+
+  /// Points before and after one of the section.
+  [[nodiscard]] std::optional<std::pair<std::size_t, std::size_t>> neighbours(std::size_t i) const {
+    const auto at = std::find(index_.begin(), index_.end(), i);
+    const std::size_t n = index_.size(), k = static_cast<std::size_t>(at - index_.begin());
+    if (k >= n || (!loop_ && (k == 0 || k + 1 == n))) return std::nullopt;
+    return std::pair(index_[(k + n - 1) % n], index_[(k + 1) % n]);
+  }
+
+  static std::string range(const SeriesChain& chain, const WanderingPart& part) {
+    return fmt::format("{} to {}", *chain.source[part.first] + 1, *chain.source[part.last] + 1);
+  }
+
+  static Error swings_out(const SeriesChain& chain, const WanderingPart& worst) {
+    return {
+        ErrorCode::kWanders,
+        fmt::format("the contour would swing out by {:.0f} degrees more than the points ask for",
+                    worst.beyond * kDegrees),
+        "points " + range(chain, worst),
+        "mark corners there, or put points between them",
+        static_cast<std::ptrdiff_t>(*chain.source[worst.first]),
+        worst.beyond};
+  }
+
+  void tell_held(SectionChain& best) const {
+    for (const auto& [point, heading] : held_) {
+      best.warnings.push_back(
+          fmt::format("the fairest contour would swing out beside point {}: its heading there was "
+                      "held at {:.4g} "
+                      "degrees; --heading-at gives another",
+                      point + 1, std::remainder(heading * kDegrees, 360.0)));
+    }
+  }
+
+  /// Where the points leave open what the contour does.
+  static void tell_guessed(SectionChain& best, const Wandering& found) {
     for (std::size_t k = 0; k < std::min(found.guessed.size(), kMostGuesses); ++k) {
-      out_.warnings.push_back(fmt::format(
-          "the points leave open what the contour does over the long chord from point {} to {}: it "
+      best.warnings.push_back(fmt::format(
+          "the points leave open what the contour does over the long chord from point {}: it "
           "turns by {:.0f} degrees there; mark corners (--corner-at) if it should be straight",
-          *out_.chain.source[found.guessed[k].first] + 1,
-          *out_.chain.source[found.guessed[k].last] + 1, found.guessed[k].turn * kDegrees));
+          range(best.chain, found.guessed[k]), found.guessed[k].turn * kDegrees));
     }
-    return {};
+  }
+
+  /// Data of a point: as they are given, and the heading that is held.
+  [[nodiscard]] FixedData data_of(std::size_t i) const {
+    FixedData out = series_.fixed.empty() ? FixedData{} : series_.fixed[i];
+    if (const auto held = held_.find(i); held != held_.end()) out.theta = held->second;
+    if (cap_) out.kappas = common(out.kappas.value_or(ValueRange{}), ValueRange{-*cap_, *cap_});
+    if (const auto bound = bounds_.find(i); bound != bounds_.end()) {
+      if (bound->second.theta) out.theta = bound->second.theta;
+      if (bound->second.kappa) out.kappa = bound->second.kappa;
+    }
+    return out;
+  }
+  [[nodiscard]] bool has_data() const {
+    return !series_.fixed.empty() || !held_.empty() || cap_.has_value();
   }
 
   [[nodiscard]] ChainWishes wishes() const {
     ChainWishes out;
     out.convex = series_.convex;
-    if (series_.fixed.empty()) return out;
-    for (const std::size_t i : index_) out.fixed.push_back(series_.fixed[i]);
+    out.least_change = series_.prefer == Prefer::kLeastChange;
+    out.central = central_;
+    out.to_the_edge = (!series_.fixed.empty() || cap_) && held_.empty();
+    if (!has_data()) return out;
+    for (const std::size_t i : index_) out.fixed.push_back(data_of(i));
     return out;
   }
 
-  Result<SeriesChain> through_points(const std::vector<Vec2>& points, const ChainWishes& wishes) {
+  /// `whole`: the numbers of the points in the whole series.
+  Result<SeriesChain> through_points(const std::vector<Vec2>& points, const ChainWishes& wishes,
+                                     const std::vector<std::size_t>& whole) {
     const auto analysis = analyse(points);
     if (!analysis) return tl::unexpected(analysis.error());
     auto chain = form_elements(points, *analysis, wishes, watch_);
     if (chain || moves_) {
-      if (chain) out_.warnings = warn(*analysis, *chain);
+      if (chain) out_.warnings = warn(*analysis, *chain, whole);
       return chain;
     }
     // where the points alone have a curve, it is the given data that are in the way: more vertices
@@ -149,7 +402,7 @@ class SectionChooser {
     if (chain.error().code == ErrorCode::kFixedDataContradict) return chain;
     auto mended = with_more_vertices(points, *analysis, wishes, watch_);
     if (!mended || bends_back(*mended)) return chain;
-    out_.warnings = warn(*analysis, *mended);
+    out_.warnings = warn(*analysis, *mended, whole);
     return mended;
   }
 
@@ -170,15 +423,21 @@ class SectionChooser {
   Result<SeriesChain> around_loop() {
     const std::size_t n = points_.size(), overlap = std::min(n, kOverlap);
     std::vector<Vec2> unrolled;
+    std::vector<std::size_t> whole;
     ChainWishes all = wishes(), more;
     more.convex = all.convex;
+    more.to_the_edge = all.to_the_edge;
+    more.least_change = all.least_change;
     for (std::size_t k = 0; k < n + 2 * overlap + 1; ++k) {
       const std::size_t i = (k + n - overlap) % n;
       unrolled.push_back(points_[i]);
+      whole.push_back(index_[i]);
       if (!all.fixed.empty()) more.fixed.push_back(all.fixed[i]);
     }
-    auto chain = through_points(unrolled, more);
-    if (!chain) return chain;
+    auto chain = through_points(unrolled, more, whole);
+    if (!chain) {
+      return fail(renumbered(chain.error(), [&](std::size_t k) { return (k + n - overlap) % n; }));
+    }
     DirectedSeries turn;
     for (std::size_t e = 0; e < chain->elements.size(); ++e) {
       const auto source = chain->source[e];
@@ -202,7 +461,14 @@ class SectionChooser {
       turn.direction.push_back(chain->cone[e] == Cone::kNone ? std::int8_t{0}
                                                              : chain->direction[e]);
     }
-    return close_at_seam(std::move(turn));
+    const auto source = turn.source;
+    auto closed = close_at_seam(std::move(turn));
+    if (closed) return closed;
+    Error error = renumbered(closed.error(), [&](std::size_t node) {  // the point at or before it
+      while (!source[node] && node > 0) --node;
+      return source[node].value_or(0);
+    });
+    return fail(std::move(error));
   }
 
   /// Fixes the same element at both ends of one turn and solves it.
@@ -258,14 +524,13 @@ class SectionChooser {
   }
 
   void give_nodes(MeasuredSeries& measured) const {
-    if (series_.fixed.empty() && !series_.convex) return;
+    if (!has_data() && !series_.convex) return;
     const int sign = series_.convex ? turning_sign() : 0;
     for (const std::size_t i : index_) {
       NodeData node;
-      if (!series_.fixed.empty()) {
-        node.theta = series_.fixed[i].theta;
-        node.kappa = series_.fixed[i].kappa;
-      }
+      const FixedData data = data_of(i);
+      node.theta = data.theta;
+      node.kappa = data.kappa;
       node.curvature_sign = sign;
       measured.nodes.push_back(node);
     }
@@ -318,7 +583,7 @@ class SectionChooser {
     std::vector<std::size_t> original;
     for (const std::size_t k : kept) original.push_back(whole[k]);
     index_ = original;
-    return loop_ ? around_loop() : through_points(points_, wishes());
+    return loop_ ? around_loop() : through_points(points_, wishes(), index_);
   }
 
   const Prepared& series_;
@@ -327,6 +592,10 @@ class SectionChooser {
   Watch& watch_;
   std::vector<std::size_t> index_;  // of each point in the whole series
   std::vector<Vec2> points_;
+  std::map<std::size_t, double> held_;       // headings by points of the whole series, rad
+  std::map<std::size_t, FixedData> bounds_;  // ends of ranges that hold, likewise
+  std::optional<double> cap_;                // largest curvature at any point
+  bool central_ = false;
   SectionChain out_;
 };
 

@@ -85,6 +85,11 @@ void close(SkinSection& section) {
   section.on_contour.push_back(0);
 }
 
+bool has_continuous_slopes(const Fit& fit) {
+  return fit.contour.continuity == Continuity::kG3 && fit.certificate.proved &&
+         fit.certificate.slope_steps == 0;
+}
+
 /// The contour of one section (`moved` grows to what its points were allowed to move), plain where
 /// that is allowed and nothing better exists.
 Result<Fit> fit_section(const Flat& flat, const SkinJob& job, std::size_t number, double& moved,
@@ -104,6 +109,7 @@ Result<Fit> fit_section(const Flat& flat, const SkinJob& job, std::size_t number
   if (!made && job.plain_when_refused && exit_code(made.error().code) == 4) {
     FitJob plain = job.sections;
     plain.carrier = Carrier::kBaseline;
+    plain.continuity = Continuity::kG2;
     plain.noise.reset();
     plain.noise_from_rounding = false;
     warnings.push_back(
@@ -152,6 +158,7 @@ Result<FittedSkin> fit_skin(const std::vector<SpaceSeries>& given, const SkinJob
       auto contour = fit_section(section, job, k + 1, moved, result.warnings);
       if (!contour) return fail(contour.error());
       result.proved += contour->certificate.proved ? 1 : 0;
+      result.smooth += has_continuous_slopes(*contour) ? 1 : 0;
       result.plain += contour->contour.carrier == Carrier::kBaseline ? 1 : 0;
       section.section.contour = std::move(contour->contour);
       close(section.section);

@@ -10,6 +10,7 @@
 #include <numbers>
 #include <utility>
 
+#include "obvid/geom/box.h"
 #include "obvid/surfacing/network.h"
 #include "obvid/surfacing/offset.h"
 
@@ -117,9 +118,9 @@ Error folds(const SurfacePatch& patch, const OffsetCheck& found, double distance
 }  // namespace
 
 double size_of(const std::vector<Vec3>& points) {
-  NurbsSurface box;
-  box.points = points;
-  return obvid::size_of(box);
+  Box3 box;
+  for (const Vec3& p : points) box.add(p);
+  return points.empty() ? 0.0 : norm(box.size());
 }
 
 ScenePolyline drawn(const SpaceCurve& curve, const char* role) {

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "obvid/series/analysis.h"
 #include "report.h"
 #include "uniform_tolerance.h"
 
@@ -23,7 +24,7 @@ constexpr double kLeastSpan = 10.0;  // where the file is printed coarsely: larg
 std::vector<double> tolerances_for(const PointSeries& series) {
   const double printed = std::max(series.rounding.x, series.rounding.y);
   const double low = std::max(printed, coordinate_rounding(series));
-  const double high = std::max(kLargest * size_of(series.points), kLeastSpan * low);
+  const double high = std::max(kLargest * bounding_diagonal(series.points), kLeastSpan * low);
   std::vector<double> out;
   for (int k = 0; k < kRows; ++k) {
     out.push_back(printable(low * std::pow(high / low, static_cast<double>(k) / (kRows - 1))));
@@ -57,11 +58,11 @@ TradeOffRow row_of(double tolerance, const Error& refusal) {
 }
 
 /// A contour within smaller tolerances is one within larger ones; only the points force less then.
-void carry_on(Fit& best, double tolerance, TradeOffRow& row) {
+void carry_on(Fit& best, double tolerance, Watch& watch, TradeOffRow& row) {
   for (double& own : best.contour.point_tolerance) own = std::max(own, tolerance);
-  auto measured = measure(best.contour, best.report.tolerance);
+  auto measured = measure(best.contour, best.report.tolerance, watch);
   if (!measured) return;
-  settle_with(best.certificate, best.contour, *measured);
+  settle_with(best.certificate, best.contour, *measured, watch);
   best.report.vertices_lower_bound = measured->vertices_lower_bound;
   const double seconds = row.seconds;
   row = row_of(tolerance, best);
@@ -70,6 +71,13 @@ void carry_on(Fit& best, double tolerance, TradeOffRow& row) {
 }
 
 }  // namespace
+
+const char* trade_off_rule() {
+  return "of the proved rows the one farthest below the straight line from the first to the last, "
+         "in a "
+         "chart of vertices over the logarithm of the tolerance; beyond it the vertices fall more "
+         "slowly than on average";
+}
 
 std::optional<std::size_t> recommended_row(const std::vector<TradeOffRow>& rows) {
   std::vector<std::size_t> proved;
@@ -99,13 +107,14 @@ std::optional<std::size_t> recommended_row(const std::vector<TradeOffRow>& rows)
   return best;
 }
 
-Result<TradeOff> trade_off(const PointSeries& series, const FitJob& job, const Progress& progress) {
+Result<TradeOff> trade_off(const PointSeries& series, const FitJob& job, const RunContext& run,
+                           TradeOff* finished) {
   TradeOff out;
   out.name = series.name;
   out.units = series.units;
   const FitJob kept = with_closing(series, job);
   out.closed = kept.closing == Closing::kClosed;
-  Watch watch(progress);
+  Watch watch(run);
   const double most = kSpareTrials + kTrialSteps * static_cast<double>(series.points.size());
   std::optional<Fit> best;  // what larger tolerances allow as well
   for (const double tolerance : tolerances_for(series)) {
@@ -114,16 +123,21 @@ Result<TradeOff> trade_off(const PointSeries& series, const FitJob& job, const P
     Result<Fit> made = watch.spent() < most
                            ? fit_within(series, kept, tolerance, watch)
                            : Result<Fit>(fail({ErrorCode::kNoSpiral, kNotTried, "", "", -1, 0.0}));
+    if (watch.was_cancelled()) break;  // whatever it made do with
     if (!made && exit_code(made.error().code) != exit_code(ErrorCode::kNoSpiral)) {
       return fail(made.error());
     }
     out.rows.push_back(made ? row_of(tolerance, *made) : row_of(tolerance, made.error()));
     TradeOffRow& now = out.rows.back();
     if (best && (!now.proved || now.vertices > best->report.vertices)) {
-      carry_on(*best, tolerance, now);
+      carry_on(*best, tolerance, watch, now);
     } else if (now.proved) {
       best = std::move(*made);
     }
+  }
+  if (watch.was_cancelled()) {
+    if (finished != nullptr) *finished = std::move(out);
+    return fail(cancelled_error());
   }
   out.recommended = recommended_row(out.rows);
   return out;

@@ -40,6 +40,13 @@ class ClaimCheck {
   void count(const std::string& name, double claimed, double found) {
     if (claimed != found) refuse(name, claimed, found);
   }
+  /// Beyond the contract's fields: a file need not claim it. NaN: said not to be known.
+  void waviness(const std::optional<double>& claimed, const std::optional<double>& found) {
+    constexpr double kSameWaviness = 1e-4;  // a tenth of what it is told to
+    const double now = found.value_or(std::numeric_limits<double>::quiet_NaN());
+    if (!claimed || (std::isnan(*claimed) && std::isnan(now))) return;
+    if (!(std::abs(*claimed - now) <= kSameWaviness * now)) refuse("waviness", *claimed, now);
+  }
   [[nodiscard]] const std::optional<Error>& refused() const { return refused_; }
   void refuse(const std::string& name, double claimed, double found) {
     if (refused_) return;
@@ -65,6 +72,18 @@ void compare_given(const GivenReport& claimed, const GivenReport& found, ClaimCh
           static_cast<double>(found.curvatures));
   c.count("given corners", static_cast<double>(claimed.corners),
           static_cast<double>(found.corners));
+  c.count("given ranges of headings", static_cast<double>(claimed.heading_ranges),
+          static_cast<double>(found.heading_ranges));
+  c.count("given ranges of curvatures", static_cast<double>(claimed.curvature_ranges),
+          static_cast<double>(found.curvature_ranges));
+  c.count("ranges at an end of which the contour lies", static_cast<double>(claimed.active.size()),
+          static_cast<double>(found.active.size()));
+  for (std::size_t k = 0; k < std::min(claimed.active.size(), found.active.size()); ++k) {
+    const ActiveRange &a = claimed.active[k], &b = found.active[k];
+    if (a == b) continue;
+    c.refuse("active range " + std::to_string(k), static_cast<double>(a.point),
+             static_cast<double>(b.point));
+  }
   constexpr double kRounding = 1e-13;
   const auto miss = [&](const char* name, double a, double b) {
     if (!(b <= 2.0 * a + kRounding && a <= 2.0 * b + kRounding)) c.refuse(name, a, b);
@@ -115,6 +134,7 @@ void compare_report(const FitReport& claimed, const FitReport& found, ClaimCheck
   c.count("inflections", claimed.inflections, found.inflections);
   c.count("inserted_points", static_cast<double>(claimed.inserted_points),
           static_cast<double>(found.inserted_points));
+  c.waviness(claimed.waviness, found.waviness);
 }
 
 /// Gaps are upper bounds: a claim below what is found is false, but for sines that another library
@@ -130,6 +150,10 @@ void compare_certificate(const Certificate& claimed, const Certificate& found, C
   gap("joint gap position", claimed.gaps.position, found.gaps.position);
   gap("joint gap heading", claimed.gaps.heading, found.gaps.heading);
   gap("joint gap curvature", claimed.gaps.curvature, found.gaps.curvature);
+  if (claimed.gaps.slope && found.gaps.slope) {
+    gap("joint gap slope", *claimed.gaps.slope, *found.gaps.slope);
+  }
+  c.count("a gap of slopes", claimed.gaps.slope.has_value(), found.gaps.slope.has_value());
   c.count("the number of verdicts", static_cast<double>(claimed.pieces.size()),
           static_cast<double>(found.pieces.size()));
   for (std::size_t i = 0; i < std::min(claimed.pieces.size(), found.pieces.size()); ++i) {
@@ -145,6 +169,7 @@ void compare_certificate(const Certificate& claimed, const Certificate& found, C
   c.length("largest_move in the certificate", claimed.largest_move, found.largest_move);
   c.count("corners", claimed.corners, found.corners);
   c.count("curvature_steps", claimed.curvature_steps, found.curvature_steps);
+  c.count("slope_steps", claimed.slope_steps, found.slope_steps);
   c.count("vertices in the certificate", claimed.vertices, found.vertices);
   c.count("inflections in the certificate", claimed.inflections, found.inflections);
   c.count("self_intersections", claimed.self_intersections, found.self_intersections);
@@ -157,10 +182,6 @@ void compare_bound(const FitReport& claimed, const Certificate& found, ClaimChec
   if (!found.proved || claimed.vertices_lower_bound <= found.vertices) return;
   c.refuse("vertices_lower_bound beyond the vertices of a proved contour",
            claimed.vertices_lower_bound, found.vertices);
-}
-
-int direction_of(Verdict verdict) {
-  return verdict == Verdict::kIncreasing ? 1 : (verdict == Verdict::kDecreasing ? -1 : 0);
 }
 
 /// Spirals follow nothing: no figure says how far from their spirals they are.
@@ -225,6 +246,9 @@ std::vector<std::string> not_checked(const StoredContour& stored) {
   std::vector<std::string> out = {"/units", "/units_source"};
   if (!stored.contour.point_tolerance.empty()) out.emplace_back("/point_tolerance");
   if (!stored.contour.kept.empty()) {
+    if (keeps_foreign_pieces(stored.contour)) {
+      out.emplace_back("/carrier (only the pieces that are not kept)");
+    }
     out.emplace_back("/kept (only that such pieces are lines, arcs, ellipse arcs or clothoids)");
   }
   if (stored.contour.carrier == Carrier::kArcs) {
@@ -263,30 +287,30 @@ std::optional<Error> wrong_carrier(const Contour& contour) {
                0.0};
 }
 
-}  // namespace
-
-Verification verify(const StoredContour& stored) {
+Verification verified(const StoredContour& stored, Watch& watch) {
   Verification out;
   out.not_checked = not_checked(stored);
   out.false_claim = wrong_carrier(stored.contour);
-  out.certificate = certify(stored.contour);
+  out.certificate = certify(stored.contour, watch);
   // the figures of a report are not looked for on a contour whose numbers make no sense
-  if (out.false_claim || out_of_range(stored.contour)) return out;
-  ClaimCheck comparison(pipeline_detail::size_of(stored.contour.points));
+  if (out.false_claim || out_of_range(stored.contour) || joint_without_curvature(stored.contour)) {
+    return out;
+  }
+  ClaimCheck comparison(bounding_diagonal(stored.contour.points));
   if (stored.report) {
-    auto measured =
-        pipeline_detail::measure(stored.contour, stored.report->tolerance);
+    auto measured = pipeline_detail::measure(stored.contour, stored.report->tolerance, watch);
     if (!measured) {
       out.false_claim = measured.error();
       return out;
     }
     FitReport found = std::move(*measured);
-    pipeline_detail::settle_with(out.certificate, stored.contour, found);
+    pipeline_detail::settle_with(out.certificate, stored.contour, found, watch);
     compare_bound(*stored.report, out.certificate, comparison);
     compare_report(*stored.report, found, comparison);
     compare_with_spirals(stored.contour, *stored.report, comparison);
     const bool bounded = promises_monotone(stored.contour.carrier);
-    if (bounded && found.largest_width > stored.report->tolerance) {
+    const bool said = stored.report->largest_width > stored.report->tolerance;
+    if (bounded && !said && found.largest_width > stored.report->tolerance) {
       comparison.refuse("a tolerance above the largest width", stored.report->tolerance,
                         found.largest_width);
     }
@@ -295,6 +319,21 @@ Verification verify(const StoredContour& stored) {
   compare_runs(stored.contour, out.certificate, comparison);
   if (stored.certificate) compare_certificate(*stored.certificate, out.certificate, comparison);
   out.false_claim = comparison.refused();
+  return out;
+}
+
+}  // namespace
+
+Verification verify(const StoredContour& stored) {
+  Watch nobody;
+  return verified(stored, nobody);
+}
+
+Result<Verification> verify(const StoredContour& stored, const RunContext& run) {
+  Watch watch(run);
+  watch.tell("proving", 0.0);
+  Verification out = verified(stored, watch);
+  if (watch.was_cancelled()) return fail(cancelled_error());
   return out;
 }
 

@@ -14,9 +14,11 @@ namespace {
 
 constexpr double kRightAngle = 0.5 * std::numbers::pi;
 /// A part is senseless when it leaves the circles' headings by more than they differ among each
-/// other and half a right angle: it then stands a fifth of its chord away from all of them. No
-/// contour of the public data leaves them by more than they differ and 32 degrees.
+/// other and half a right angle: it then stands a fifth of its chord away from all of them. Circles
+/// that differ by more than a right angle say nothing about what is farther off. No contour of the
+/// public data leaves them by more than they differ and 32 degrees.
 constexpr double kFarBeyond = 0.5 * kRightAngle;
+constexpr double kMostDoubt = kRightAngle;
 /// Moves of the points turn a circle's tangent by a few times reach over chord.
 constexpr double kTurnPerReach = 4.0;
 /// A chord this many times as long as those beside it stands alone.
@@ -40,7 +42,7 @@ class Parts {
       if (asked.empty()) continue;
       WanderingPart part{station_[k], station_[k + 1], 0.0, taken.width()};
       part.beyond = std::max({0.0, asked.low - taken.low, taken.high - asked.high});
-      if (part.beyond > asked.width() + blur(k) + kFarBeyond) {
+      if (part.beyond > std::min(asked.width(), kMostDoubt) + blur(k) + kFarBeyond) {
         out.senseless.push_back(part);
       } else if (part.turn > kRightAngle && stands_alone(k)) {
         out.guessed.push_back(part);
@@ -123,6 +125,18 @@ class Parts {
 Wandering find_wandering(const SeriesChain& chain, const std::vector<double>& reach,
                          const std::vector<bool>& given, bool loop) {
   return Parts(chain, reach, given, loop).run();
+}
+
+std::vector<double> calm_headings(Vec2 before, Vec2 at, Vec2 after) {
+  const double in = std::atan2((at - before).y, (at - before).x);
+  const double whole = turning(at - before, after - at);
+  const double circle = turning(before - after, at - after);  // half of the arc before
+  std::vector<double> out = {in + circle};
+  for (const double part : {0.5, 0.25}) {
+    out.push_back(in + part * circle);
+    out.push_back(in + whole - part * (whole - circle));
+  }
+  return out;
 }
 
 }  // namespace obvid::pipeline_detail

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "obvid/chain/series_chain.h"
+#include "obvid/geom/vec2.h"
 
 namespace obvid::pipeline_detail {
 
@@ -27,5 +28,9 @@ struct Wandering {
 /// `loop`: the last element is the first one again. O(n).
 [[nodiscard]] Wandering find_wandering(const SeriesChain& chain, const std::vector<double>& reach,
                                        const std::vector<bool>& given, bool loop);
+
+/// Headings at a point that do not swing out: that of the circle through it and its neighbours,
+/// then others between both chords, the nearer to the circle's first.
+[[nodiscard]] std::vector<double> calm_headings(Vec2 before, Vec2 at, Vec2 after);
 
 }  // namespace obvid::pipeline_detail

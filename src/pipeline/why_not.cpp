@@ -6,6 +6,7 @@
 #include <numeric>
 #include <utility>
 
+#include "obvid/series/analysis.h"
 #include "report.h"
 #include "uniform_tolerance.h"
 
@@ -26,18 +27,25 @@ constexpr double kUsualGuess = 1e-5;   // of the size, where nothing says more
 constexpr double kUsualTrials = 14.0;  // for the progress bar
 /// No further trial begins when so many steps on every point, and some more where there are few,
 /// were spent.
-constexpr double kSearchSteps = 5000.0, kSpareSearch = 2e6;
+constexpr double kSearchSteps = 2500.0, kSpareSearch = 1.5e6;
 constexpr double kNoMove = 1e-6;  // of the tolerance: the rounding of a distance
 
 bool says_no_contour(ErrorCode code) { return exit_code(code) == exit_code(ErrorCode::kNoSpiral); }
 
+FitJob unmeasured(FitJob job) {
+  job.measure_against_spirals = false;
+  return job;
+}
+
 class Search {
  public:
   Search(const PointSeries& series, const FitJob& job, const Error& refusal,
-         const Progress& progress)
+         const RunContext& run)
       : series_(series),
-        job_(with_closing(series, job)),
-        progress_(progress),
+        job_(unmeasured(with_closing(series, job))),
+        measured_(job.measure_against_spirals),
+        progress_(run.progress),
+        watch_({{}, run.cancelled}),
         most_(kSpareSearch + kSearchSteps * static_cast<double>(series.points.size())) {
     out_.refusal = refusal;
   }
@@ -48,20 +56,23 @@ class Search {
     if (bracket()) {
       bisect();
       out_.next_to_nothing = out_.found && exact() && out_.tolerance <= lowest_ * kAccuracy;
+      advise();
+      measure();
       rank();
     }
-    if (!out_.found && !out_.stopped) return std::nullopt;
+    if (watch_.was_cancelled() || (!out_.found && !out_.stopped)) return std::nullopt;
     return std::move(out_);
   }
 
  private:
   void set_limits() {
-    lowest_ = std::max(coordinate_rounding(series_), kLeastAdvice * size_of(series_.points));
+    lowest_ =
+        std::max(coordinate_rounding(series_), kLeastAdvice * bounding_diagonal(series_.points));
     if (job_.noise) lowest_ = std::max(lowest_, *job_.noise);
     if (job_.noise_from_rounding) {
       lowest_ = std::max(lowest_, std::min(series_.rounding.x, series_.rounding.y));
     }
-    highest_ = printable(kLargestMove * size_of(series_.points));
+    highest_ = printable(kLargestMove * bounding_diagonal(series_.points));
   }
 
   /// Whether the job leaves every point where it is, and so allows no vertices but those of points.
@@ -73,7 +84,7 @@ class Search {
 
   /// A tolerance to begin with: what the refusal says, what the file's digits say, or the usual.
   [[nodiscard]] double guess() const {
-    const double size = size_of(series_.points);
+    const double size = bounding_diagonal(series_.points);
     if (long_series()) return std::clamp(printable(kLongGuess * size), lowest_, highest_);
     const double printed = std::max(series_.rounding.x, series_.rounding.y);
     double first = kUsualGuess * size;
@@ -89,7 +100,7 @@ class Search {
 
   /// Whether another trial may begin.
   bool may_go_on() {
-    if (watch_.spent() >= most_) out_.stopped = true;
+    if (watch_.spent() >= most_ || watch_.cancelled()) out_.stopped = true;
     return !out_.stopped;
   }
 
@@ -135,10 +146,49 @@ class Search {
     }
   }
 
+  /// What the user can type. Tolerances far below the digits of the file are true, and nobody's.
+  void advise() {
+    if (!out_.found) return;
+    out_.advised = out_.tolerance;
+    const double printed = std::min(series_.rounding.x, series_.rounding.y);
+    if (!job_.noise_from_rounding && out_.tolerance < printed) {
+      FitJob job = job_;
+      job.noise.reset();
+      job.noise_from_rounding = true;
+      auto made = fit(series_, job, watch_);
+      out_.rounding_does = made && keeps_promises(*made);
+      if (out_.rounding_does) out_.fit = std::move(*made);
+    }
+    if (out_.rounding_does || !out_.next_to_nothing) return;
+    const double least = out_.tolerance;
+    for (double t = printable(out_.fit.report.tolerance); t > least && may_go_on();
+         t = printable(t / kBracketStep)) {
+      auto made = fit_within(series_, job_, t, watch_);
+      if (!made || !keeps_promises(*made)) continue;
+      out_.advised = t;
+      out_.fit = std::move(*made);
+      return;
+    }
+  }
+
+  /// The trials did without what only the answer is asked for.
+  void measure() {
+    if (!out_.found || !measured_ || job_.carrier == Carrier::kSpiral) return;
+    FitJob job = job_;
+    job.measure_against_spirals = true;
+    if (out_.rounding_does) {
+      job.noise.reset();
+      job.noise_from_rounding = true;
+    }
+    auto made = out_.rounding_does ? fit(series_, job, watch_)
+                                   : fit_within(series_, job, out_.advised, watch_);
+    if (made) out_.fit = std::move(*made);
+  }
+
   void rank() {
     const std::vector<double>& moves = out_.fit.report.moves;
     for (std::size_t i = 0; i < moves.size(); ++i) {
-      if (moves[i] > kNoMove * out_.tolerance) out_.moved.push_back(i);
+      if (moves[i] > kNoMove * out_.advised) out_.moved.push_back(i);
     }
     std::stable_sort(out_.moved.begin(), out_.moved.end(),
                      [&](std::size_t a, std::size_t b) { return moves[a] > moves[b]; });
@@ -146,6 +196,7 @@ class Search {
 
   const PointSeries& series_;
   const FitJob job_;
+  const bool measured_;
   const Progress& progress_;
   double lowest_ = 0.0, highest_ = 0.0;
   double trials_ = 0.0;
@@ -157,16 +208,16 @@ class Search {
 }  // namespace
 
 std::optional<WhyNot> why_not(const PointSeries& series, const FitJob& job, const Error& refusal,
-                              const Progress& progress) {
+                              const RunContext& run) {
   if (!says_no_contour(refusal.code)) return std::nullopt;
-  return Search(series, job, refusal, progress).run();
+  return Search(series, job, refusal, run).run();
 }
 
 std::optional<WhyNot> why_not(const PointSeries& series, const FitJob& job,
-                              const Progress& progress) {
-  const auto asked = fit(series, job);
+                              const RunContext& run) {
+  const auto asked = fit(series, job, RunContext({}, run.cancelled));
   if (asked) return std::nullopt;
-  return why_not(series, job, asked.error(), progress);
+  return why_not(series, job, asked.error(), run);
 }
 
 }  // namespace obvid

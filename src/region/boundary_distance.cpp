@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "obvid/region/farther_boundary.h"
 #include "two_arcs.h"
 
 namespace obvid {
@@ -26,6 +25,10 @@ class Placement {
         to_end_(frame, region.to_end) {}
 
   [[nodiscard]] Vec2 at(double t) const { return evaluate(piece_, t).point; }
+  [[nodiscard]] double farther(double t) const {
+    const Vec2 p = local(t);
+    return std::max(from_start_.distance(p), to_end_.distance(p));
+  }
   [[nodiscard]] double outside(double t) const {
     const Vec2 p = local(t);
     const double x = std::clamp(p.x, 0.0, frame_.h);
@@ -96,10 +99,9 @@ std::optional<RegionPlacement> place_in_region(const Piece& piece, const Element
   if (!region) return std::nullopt;
   const Vec2 along = (end.point - start.point) / frame.h;
   const Placement place(piece, frame, *region, start.point, along);
-  const FartherBoundary farther =
-      farther_boundary({{&piece, 1}, 0.0, 1.0}, {frame, *region, start.point, along});
+  const double t0 = largest_at([&](double t) { return place.farther(t); }, samples);
   const double t1 = largest_at([&](double t) { return place.outside(t); }, samples);
-  return RegionPlacement{farther.distance, place.outside(t1), farther.at, place.at(t1)};
+  return RegionPlacement{place.farther(t0), place.outside(t1), place.at(t0), place.at(t1)};
 }
 
 std::optional<ConvexErrors> convex_errors(const Element& start, const Element& end, int direction,

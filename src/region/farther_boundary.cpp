@@ -3,34 +3,29 @@
 
 #include <algorithm>
 #include <array>
+#include <boost/math/tools/minima.hpp>
+#include <boost/math/tools/toms748_solve.hpp>
 #include <cmath>
 #include <cstddef>
-#include <vector>
+#include <cstdint>
 
 #include "two_arcs.h"
 
 namespace obvid {
 namespace {
 
+using region_detail::Arc;
 using region_detail::TwoArcs;
 
-/// Equal steps of a piece between which the distance is taken to have one peak at the most. A lone
-/// piece takes more of them than one among many.
-constexpr std::size_t kStepsAlone = 6;
-constexpr std::size_t kStepsAmongMany = 4;
-/// Peaks of the samples this near to the largest are looked at closely.
-constexpr double kCouldBeMore = 0.8;
-/// Steps into which the neighbourhood of such a peak is cut first: the nearer arc of a boundary may
-/// change there, which bends the distance.
-constexpr std::size_t kFinerSteps = 24;
-constexpr double kFinerCouldBeMore = 0.98;
-/// Steps of a climb: parabolas converge faster than geometrically.
-constexpr int kMostSteps = 16;
-/// Places this close, of the three samples that a climb begins with, enclose the top: what can lie
-/// between them is some 1e-5 of it.
-constexpr double kClose = 2e-3;
-/// Added for what may lie between two places where the nearer arc changes, of the distance.
-constexpr double kUpward = 3e-4;
+/// Binary digits to which the place of the farthest point is sought: the distance is flat there.
+constexpr int kDigits = 18;
+/// Where the distance has a corner at its top it is not flat.
+constexpr int kDigitsOfCorner = 26;
+constexpr std::uintmax_t kMostLooks = 60;
+/// Part of the way to the end after which the distance is looked at again.
+constexpr double kAside = 0.25;
+/// Added for what lies between the place found and the farthest one, of the distance.
+constexpr double kUpward = 1e-5;
 /// Roundings of a point seen from the start of its chord, each 2^-53 of the coordinates' size.
 constexpr double kPointRoundings = 8.0 * 0x1p-53;
 
@@ -74,33 +69,31 @@ class LocalPiece {
   std::array<double, kMaxBezierDegree + 1> weight_;
 };
 
-/// The distance from the farther boundary along a path; its parameter counts pieces.
-class AlongPath {
+/// A path seen from the chord; its parameter counts pieces.
+class LocalPath {
  public:
-  AlongPath(const PieceSpan& path, const PlacedRegion& placed)
-      : path_(path),
-        placed_(placed),
-        from_start_(placed.frame, placed.region.from_start),
-        to_end_(placed.frame, placed.region.to_end),
-        local_(path.pieces.front(), placed.start, placed.along),
-        wide_(dot(placed.frame.start_tangent, placed.frame.end_tangent) <= 0.0) {}
+  LocalPath(const PieceSpan& path, const PlacedRegion& placed)
+      : path_(path), placed_(placed), local_(path.pieces.front(), placed.start, placed.along) {}
 
   [[nodiscard]] double first() const { return path_.t0; }
   [[nodiscard]] double last() const {
     return static_cast<double>(path_.pieces.size() - 1) + path_.t1;
   }
-  double operator()(double u) {
+  [[nodiscard]] Vec2 at(double u) {
     const std::size_t k = piece_at(u);
     if (k != at_) {
       local_ = LocalPiece(path_.pieces[k], placed_.start, placed_.along);
       at_ = k;
     }
-    const Vec2 p = local_.at(u - static_cast<double>(k));
-    // over a right angle the common normal does not tell which arc is near
-    return wide_ ? std::max(from_start_.distance(p), to_end_.distance(p))
-                 : std::max(from_start_.distance_from_near(p), to_end_.distance_from_near(p));
+    return local_.at(u - static_cast<double>(k));
   }
-  [[nodiscard]] Vec2 point(double u) const {
+  /// Of the tangent, any length.
+  [[nodiscard]] Vec2 direction(double u) const {
+    const std::size_t k = piece_at(u);
+    const Vec2 d = evaluate(path_.pieces[k], u - static_cast<double>(k)).d1;
+    return {dot(placed_.along, d), cross(placed_.along, d)};
+  }
+  [[nodiscard]] Vec2 in_plane(double u) const {
     const std::size_t k = piece_at(u);
     return evaluate(path_.pieces[k], u - static_cast<double>(k)).point;
   }
@@ -112,107 +105,89 @@ class AlongPath {
 
   const PieceSpan& path_;
   const PlacedRegion& placed_;
-  TwoArcs from_start_, to_end_;
   LocalPiece local_;
-  bool wide_;
   std::size_t at_ = 0;
 };
 
-struct PathSample {
+struct Farthest {
   double u = 0.0;
-  double value = 0.0;
+  double distance = 0.0;
 };
 
-/// Abscissa of the top of the parabola through three samples, within them.
-double top_of(const PathSample& a, const PathSample& b, const PathSample& c) {
-  const double left = (b.u - a.u) * (b.value - c.value), right = (b.u - c.u) * (b.value - a.value);
-  const double twice = 2.0 * (left - right);
-  if (twice == 0.0) return b.u;
-  const double u = b.u - ((b.u - a.u) * left - (b.u - c.u) * right) / twice;
-  return std::isfinite(u) ? std::clamp(u, a.u, c.u) : b.u;
+/// Largest value between `a` and `b` of a distance that rises to it and falls from it.
+template <typename Distance>
+Farthest top_between(const Distance& distance, double a, double b, int digits) {
+  std::uintmax_t looks = kMostLooks;
+  const auto [u, negative] = boost::math::tools::brent_find_minima(
+      [&](double x) { return -distance(x); }, a, b, digits, looks);
+  return {u, -negative};
 }
 
-/// What a function that bends down can reach between three samples whose middle one is the largest:
-/// it stays below the lines through two of them, beyond these.
-double ceiling_of(const PathSample& a, const PathSample& b, const PathSample& c) {
-  const double rise = (b.value - a.value) / (b.u - a.u), fall = (b.value - c.value) / (c.u - b.u);
-  return b.value + std::max(rise * (c.u - b.u), fall * (b.u - a.u));
+/// Where the path crosses the common normal of both arcs. Its tangents keep within a right angle of
+/// theirs: it crosses once.
+double crossing(LocalPath& path, const TwoArcs& arcs) {
+  const auto beyond = [&](double u) {
+    return dot(path.at(u) - arcs.second.start, arcs.second.start_tangent);
+  };
+  const double a = path.first(), b = path.last();
+  const double at_a = beyond(a), at_b = beyond(b);
+  if (!(at_a < 0.0)) return a;
+  if (!(at_b > 0.0)) return b;
+  std::uintmax_t looks = kMostLooks;
+  const auto [low, high] =
+      boost::math::tools::toms748_solve(beyond, a, b, at_a, at_b,
+                                        boost::math::tools::eps_tolerance<double>(kDigitsOfCorner),
+                                        looks);
+  return 0.5 * (low + high);
 }
 
-/// Climbs from three samples whose middle one is the largest: parabolas, then places close to the
-/// top on both sides of it. The value is raised to what can lie between them.
-PathSample climb(AlongPath& distance, PathSample a, PathSample b, PathSample c) {
-  const double close = kClose * (c.u - a.u);
-  for (int i = 0; i < kMostSteps && c.u - a.u > 2.0 * close; ++i) {
-    double u = top_of(a, b, c);
-    if (std::abs(u - b.u) < close) {
-      // the farther neighbour comes close; a parabola would lead back to a known place
-      u = c.u - b.u > b.u - a.u ? std::min(b.u + close, c.u) : std::max(b.u - close, a.u);
-      if (u == a.u || u == c.u) break;
+/// Largest distance of the path from one boundary. One of the arcs, `osculating`, has the path's own
+/// curvature at its end, the other one only its tangent. A circle meets a curve of monotone
+/// curvature three times at the most, counted with multiplicity: so the distance from the osculating
+/// circle grows all the way to the common normal, and that from the other circle has one top at the
+/// most from there to the end of the path.
+Farthest from_boundary(LocalPath& path, const TwoArcs& arcs, bool first_osculates, bool wide) {
+  const double a = path.first(), b = path.last();
+  if (wide) {  // over a right angle the normal does not tell which arc is near
+    return top_between([&](double u) { return arcs.distance(path.at(u)); }, a, b, kDigitsOfCorner);
+  }
+  const Arc& other = first_osculates ? arcs.second : arcs.first;
+  const double joint = crossing(path, arcs), end = first_osculates ? b : a;
+  const Vec2 there = path.at(joint);
+  const Vec2 ahead = first_osculates ? path.direction(joint) : -path.direction(joint);
+  const Farthest corner{joint, other.circle_distance(there)};
+  const bool grows = other.growth(there, ahead) > 0.0 ||  // rounding decides where it is 0
+                     other.circle_distance(path.at(joint + kAside * (end - joint))) > corner.distance;
+  if (!grows) return corner;
+  const Farthest top = top_between([&](double way) { return other.circle_distance(path.at(joint + way)); },
+                                   std::min(end - joint, 0.0), std::max(end - joint, 0.0), kDigits);
+  return top.distance > corner.distance ? Farthest{joint + top.u, top.distance} : corner;
+}
+
+bool spans_right_angle(const std::array<Vec2, 4>& directions) {
+  for (const Vec2 a : directions) {
+    for (const Vec2 b : directions) {
+      if (dot(a, b) <= 0.0) return true;
     }
-    const PathSample next = {u, distance(u)};
-    if (next.value > b.value) {
-      (next.u > b.u ? a : c) = b;
-      b = next;
-    } else {
-      (next.u > b.u ? c : a) = next;
-    }
   }
-  return {b.u, ceiling_of(a, b, c)};
-}
-
-/// Climbs from the largest of finer samples strictly between `a` and `c`.
-PathSample climb_within(AlongPath& distance, const PathSample& a, const PathSample& c) {
-  std::array<PathSample, kFinerSteps + 1> fine;
-  double most = 0.0;
-  for (std::size_t i = 0; i <= kFinerSteps; ++i) {
-    const double part = static_cast<double>(i) / static_cast<double>(kFinerSteps);
-    const double u = a.u + part * (c.u - a.u);
-    fine[i] = i == 0 ? a : i == kFinerSteps ? c : PathSample{u, distance(u)};
-    most = std::max(most, fine[i].value);
-  }
-  PathSample best = a.value > c.value ? a : c;
-  for (std::size_t i = 1; i < kFinerSteps; ++i) {
-    const double here = fine[i].value;
-    if (here < kFinerCouldBeMore * most) continue;
-    if (here < fine[i - 1].value || here < fine[i + 1].value) continue;
-    const PathSample top = climb(distance, fine[i - 1], fine[i], fine[i + 1]);
-    if (top.value > best.value) best = top;
-  }
-  return best;
-}
-
-/// Equal steps along the path, in order; looks at three neighbours at a time.
-PathSample highest(AlongPath& distance, std::size_t steps, std::vector<PathSample>& samples) {
-  PathSample best{distance.first(), 0.0};
-  samples.resize(steps + 1);
-  for (std::size_t i = 0; i <= steps; ++i) {
-    const double part = static_cast<double>(i) / static_cast<double>(steps);
-    const double u = distance.first() + part * (distance.last() - distance.first());
-    samples[i] = {u, i == 0 || i == steps ? 0.0 : distance(u)};  // ends lie on both boundaries
-    if (samples[i].value > best.value) best = samples[i];
-  }
-  const double close = kCouldBeMore * best.value;
-  for (std::size_t i = 1; i < steps; ++i) {
-    const PathSample &a = samples[i - 1], &b = samples[i], &c = samples[i + 1];
-    if (!(b.value > close && b.value >= a.value && b.value >= c.value)) continue;
-    const PathSample top = climb_within(distance, a, c);
-    if (top.value > best.value) best = top;
-  }
-  return best;
+  return false;
 }
 
 }  // namespace
 
 FartherBoundary farther_boundary(const PieceSpan& path, const PlacedRegion& placed) {
-  AlongPath distance(path, placed);
-  const std::size_t count = path.pieces.size();
-  std::vector<PathSample> samples;
-  const PathSample best =
-      highest(distance, count == 1 ? kStepsAlone : kStepsAmongMany * count, samples);
-  const Vec2 at = distance.point(best.u);
-  const double rounding = kPointRoundings * (std::abs(at.x) + std::abs(at.y) + placed.frame.h);
-  return {best.value * (1.0 + kUpward) + rounding, at};
+  LocalPath local(path, placed);
+  const ChordFrame& frame = placed.frame;
+  const bool wide = spans_right_angle({frame.start_tangent, frame.end_tangent,
+                                       placed.region.from_start.joint_tangent,
+                                       placed.region.to_end.joint_tangent});
+  const Farthest one =
+      from_boundary(local, TwoArcs(frame, placed.region.from_start), true, wide);
+  const Farthest two = from_boundary(local, TwoArcs(frame, placed.region.to_end), false, wide);
+  const Farthest& best = one.distance > two.distance ? one : two;
+  const Vec2 at = local.in_plane(best.u);
+  const double rounding = kPointRoundings * (std::abs(at.x) + std::abs(at.y) + frame.h);
+  return {best.distance * (1.0 + kUpward) + rounding, at};
 }
 
 }  // namespace obvid

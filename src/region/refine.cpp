@@ -45,11 +45,6 @@ double least_tolerance(const std::vector<Vec2>& points) {
   return std::max(kOfSize * bounding_diagonal(points), kOfCoordinates * largest);
 }
 
-Element element_at(const Piece& piece, double t) {
-  const Sample s = sample(piece, t);
-  return {s.point, heading(s.tangent), s.kappa};
-}
-
 PieceBound bound_piece(const Piece& piece, double t0, double t1, int direction, double tolerance,
                        std::optional<double> unrefined) {
   PieceBound bound;

@@ -49,7 +49,7 @@ double rise_to_opposite(Vec2 tangent, double kappa) {
   return tangent.y * tangent.y / ((1.0 - tangent.x) * kappa);
 }
 
-/// Tangent at the joint of the two arcs, by closing the chord (theory 4).
+/// Tangent at the joint of the two arcs, by closing the chord ([Kurnosenko 2013]).
 Vec2 joint_tangent(const ChordFrame& f, double k0, double k1) {
   const double a = 0.5 * k0 * f.h, b = 0.5 * k1 * f.h;
   if (std::isinf(a)) return b == 0.0 ? f.end_tangent : Vec2{f.end_tangent.x, -f.end_tangent.y};
@@ -157,7 +157,8 @@ std::optional<SegmentRegion> segment_region(const ChordFrame& f, int direction) 
   const double noise_b = kCancellation * (std::abs(b) + std::abs(sb));
   const double half_sine = std::max(0.0, std::sqrt(half_sine_squared) - kCancellation);
   const double room_a = -(a + sa) + noise_a, room_b = (b - sb) + noise_b;
-  // existence (theory 4): A < 0 < B and -A B > sin^2(sigma/2), each within its own rounding
+  // existence ([Kurnosenko 2013]): A < 0 < B and -A B > sin^2(sigma/2), each within its own
+  // rounding
   if (!(room_a >= 0.0 && room_b >= 0.0 && room_a * room_b >= half_sine * half_sine)) {
     return std::nullopt;
   }

@@ -35,15 +35,27 @@ struct Arc {
 
   [[nodiscard]] double distance(Vec2 p) const {
     const Vec2 from_start = p - start, from_end = p - end;
-    const double ends = std::sqrt(std::min(dot(from_start, from_start), dot(from_end, from_end)));
-    if (std::isinf(kappa)) return ends;
-    if (!abreast(from_start, from_end)) return ends;
+    if (!std::isinf(kappa) && abreast(from_start, from_end)) return circle_distance(p);
+    return std::sqrt(std::min(dot(from_start, from_start), dot(from_end, from_end)));
+  }
+
+  /// From the whole line or circle. A circle of radius 0 is its point.
+  [[nodiscard]] double circle_distance(Vec2 p) const {
+    const Vec2 from_start = p - start, left = left_normal(start_tangent);
+    if (std::isinf(kappa)) return norm(from_start);
     if (kappa == 0.0) return std::abs(cross(start_tangent, from_start));
     // |p - centre| - R without the cancellation of a large circle
-    const Vec2 radius = kappa * from_start - left_normal(start_tangent);  // kappa-fold
-    const double offset =
-        dot(from_start, from_start) * kappa - 2.0 * dot(from_start, left_normal(start_tangent));
+    const Vec2 radius = kappa * from_start - left;  // kappa-fold
+    const double offset = dot(from_start, from_start) * kappa - 2.0 * dot(from_start, left);
     return std::abs(offset) / (norm(radius) + 1.0);
+  }
+
+  /// Positive where the distance from the line or circle grows on the way `ahead` from p.
+  [[nodiscard]] double growth(Vec2 p, Vec2 ahead) const {
+    const Vec2 from_start = p - start, left = left_normal(start_tangent);
+    const double offset = dot(from_start, from_start) * kappa - 2.0 * dot(from_start, left);
+    const double away = dot(kappa * from_start - left, ahead);
+    return offset > 0.0 ? away : -away;
   }
 };
 

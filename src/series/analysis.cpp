@@ -5,6 +5,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "obvid/geom/box.h"
 #include "obvid/series/forced_vertices.h"
 
 namespace obvid {
@@ -13,9 +14,20 @@ namespace {
 constexpr double kUnitRoundoff = 0x1p-53;
 /// Neighbouring chords that turn by more than this say nothing about the curve between them.
 constexpr double kLargestTurning = 170.0 * std::numbers::pi / 180.0;
-/// A circle through three rounded points misses the points between by a small multiple of the
-/// rounding of one point (the interpolation factors of a quadratic sum to at most 3).
-constexpr double kStretchRoundings = 4.0;
+/// Points that a program computed lie on their circle within some four roundings: those of a cosine,
+/// of its product with the radius, and of the sum with the centre. Their adjacent curvatures miss it
+/// by as many, and a circle through three of them misses the others by four times that (the
+/// interpolation factors of a quadratic through uneven points), and by their own.
+constexpr double kFewRoundings = 4.0;
+constexpr double kStretchRoundings = 20.0;
+/// Where so many roundings are more than this, of the chord, coordinates are too coarse to be
+/// generous: points stand on their circle as nearly as one rounding lets them.
+constexpr double kCoarse = 1e-6;
+constexpr double kStretchOfCoarse = 4.0;
+/// Roundings by which two points beside a chord can be moved across it, with those of computing.
+constexpr double kPointsApart = 16.0;
+/// Curves that differ by less than this, of the chord, are told to be one (docs/claims.md).
+constexpr double kNothingOpen = 1e-9;
 
 /// Chords of the shortest stretch that a curve of monotone curvature cannot leave.
 constexpr std::size_t kFewestThatTell = 3;
@@ -53,6 +65,15 @@ double distance_from_circle(const std::vector<Vec2>& points, std::size_t first, 
   return worst;
 }
 
+/// How far three points, a chord apart, may miss a circle that they lie on: in roundings.
+struct Generosity {
+  double kappa, distance;
+};
+Generosity generosity(double rounding, double chord) {
+  const bool coarse = kStretchRoundings * rounding > kCoarse * chord;
+  return coarse ? Generosity{1.0, kStretchOfCoarse} : Generosity{kFewRoundings, kStretchRoundings};
+}
+
 /// Longest stretches of at least four points whose adjacent circles agree within rounding.
 std::vector<CircularStretch> find_stretches(const std::vector<Vec2>& points,
                                             const std::vector<AdjacentCircle>& circles) {
@@ -61,14 +82,17 @@ std::vector<CircularStretch> find_stretches(const std::vector<Vec2>& points,
   if (n == 2) return {{0, 1, 0.0}};
   if (n == 3) return {{0, 2, circles[1].kappa}};
   for (std::size_t i = 1; i + 2 < n;) {
-    double low = circles[i].kappa - circles[i].rounding;
-    double high = circles[i].kappa + circles[i].rounding;
     double rounding = std::max(point_rounding(points[i - 1]), point_rounding(points[i]));
+    const double chord =
+        std::min(norm(points[i] - points[i - 1]), norm(points[i + 1] - points[i]));
+    const Generosity of = generosity(rounding, chord);
+    double low = circles[i].kappa - of.kappa * circles[i].rounding;
+    double high = circles[i].kappa + of.kappa * circles[i].rounding;
     std::size_t j = i;
     while (j + 2 < n) {
       const AdjacentCircle& next = circles[j + 1];
-      const double l = std::max(low, next.kappa - next.rounding);
-      const double h = std::min(high, next.kappa + next.rounding);
+      const double l = std::max(low, next.kappa - of.kappa * next.rounding);
+      const double h = std::min(high, next.kappa + of.kappa * next.rounding);
       if (l > h) break;
       low = l;
       high = h;
@@ -79,7 +103,7 @@ std::vector<CircularStretch> find_stretches(const std::vector<Vec2>& points,
     // a point has one heading and one curvature: stretches do not share it
     const bool apart = stretches.empty() || i - 1 > stretches.back().last;
     const bool fits = apart && j > i &&
-                      distance_from_circle(points, i - 1, j + 1) <= kStretchRoundings * rounding;
+                      distance_from_circle(points, i - 1, j + 1) <= of.distance * rounding;
     if (fits) {
       const double kappa = low <= 0.0 && high >= 0.0 ? 0.0 : 0.5 * (low + high);
       stretches.push_back({i - 1, j + 1, kappa});
@@ -142,7 +166,7 @@ bool direction_is_certain(const Analysis& a, std::size_t chord) {
 void count_undecided(Analysis& a) {
   for (std::size_t i = 1; i + 1 < a.chords.size(); ++i) {
     if (a.direction[i] == 0 || direction_is_certain(a, i)) continue;
-    if (a.rounding_decided++ == 0) a.first_rounding_decided = i;
+    a.rounding_decided.push_back(i);
   }
 }
 
@@ -217,7 +241,23 @@ void bound_singular_points(const std::vector<Vec2>& points, Analysis& a) {
   }
 }
 
-void bound_error(Analysis& a) {
+/// Whether rounding of the points turns curves through them by so little that points of one circle
+/// leave nothing open on this chord: close neighbours far from the origin leave much.
+bool tells_circle(const std::vector<Vec2>& points, const Analysis& a, std::size_t chord) {
+  const double sag_before = std::tan(0.5 * a.circles[chord].eta_out);
+  const double sag_after = std::tan(0.5 * a.circles[chord + 1].eta_in);
+  const double shortest =
+      std::min({a.chords[chord - 1].length, a.chords[chord].length, a.chords[chord + 1].length});
+  double rounding = 0.0;
+  for (std::size_t k = chord - 1; k <= chord + 2; ++k) {
+    rounding = std::max(rounding, point_rounding(points[k]));
+  }
+  const double turned =
+      (2.0 + sag_before * sag_before + sag_after * sag_after) * kPointsApart * rounding / shortest;
+  return turned <= kNothingOpen;
+}
+
+void bound_error(const std::vector<Vec2>& points, Analysis& a) {
   a.points_only_error.assign(a.chords.size(), std::numeric_limits<double>::quiet_NaN());
   for (std::size_t i = 1; i + 1 < a.chords.size(); ++i) {
     // both circles reach over three points: they bound a curve that is monotone over three chords
@@ -231,7 +271,11 @@ void bound_error(Analysis& a) {
   for (const CircularStretch& s : a.stretches) {
     // two or three points lie on a circle whatever the curve; four say that it is the curve
     if (s.last - s.first < kFewestThatTell) continue;
-    for (std::size_t i = s.first; i < s.last; ++i) a.points_only_error[i] = 0.0;
+    for (std::size_t i = s.first; i < s.last; ++i) {
+      // beside the ends the nearest four points of the circle tell
+      const std::size_t inner = std::clamp(i, s.first + 1, s.last - 2);
+      if (tells_circle(points, a, inner)) a.points_only_error[i] = 0.0;
+    }
   }
 }
 
@@ -302,12 +346,9 @@ std::vector<AdjacentCircle> measure_circles(const std::vector<Vec2>& points,
 
 double bounding_diagonal(const std::vector<Vec2>& points) {
   if (points.empty()) return 0.0;
-  Vec2 low = points.front(), high = points.front();
-  for (const Vec2 p : points) {
-    low = {std::min(low.x, p.x), std::min(low.y, p.y)};
-    high = {std::max(high.x, p.x), std::max(high.y, p.y)};
-  }
-  return std::hypot(high.x - low.x, high.y - low.y);
+  Box2 box;
+  for (const Vec2 p : points) box.add(p);
+  return std::hypot(box.high.x - box.low.x, box.high.y - box.low.y);
 }
 
 double sagitta(double kappa, double h) {
@@ -337,8 +378,13 @@ Result<Analysis> analyse(const std::vector<Vec2>& points) {
   compare_circles_along(a);
   collect_runs(a);
   bound_singular_points(points, a);
-  bound_error(a);
+  bound_error(points, a);
   return a;
+}
+
+double turning_at(const Analysis& analysis, std::size_t point) {
+  if (point == 0 || point >= analysis.chords.size()) return std::numeric_limits<double>::quiet_NaN();
+  return analysis.chords[point].omega - analysis.chords[point - 1].omega;
 }
 
 }  // namespace obvid

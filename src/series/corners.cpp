@@ -6,6 +6,7 @@
 #include <limits>
 #include <optional>
 
+#include "obvid/series/analysis.h"
 #include "obvid/series/sections.h"
 
 namespace obvid {
@@ -89,12 +90,11 @@ class CornerSearch {
         closed_(closed),
         angle_(angle),
         rough_(std::max(kRoughTurn, 0.5 * angle)),
-        size_(diagonal()) {}
+        size_(bounding_diagonal(points)) {}
 
   [[nodiscard]] std::vector<Candidate> candidates() const;
 
  private:
-  [[nodiscard]] double diagonal() const;
   [[nodiscard]] double noise_at(std::size_t i) const;
   /// Index `steps` points away, forwards or backwards.
   [[nodiscard]] std::optional<std::size_t> at(std::size_t i, std::size_t steps,
@@ -114,15 +114,6 @@ class CornerSearch {
   double rough_;
   double size_;
 };
-
-double CornerSearch::diagonal() const {
-  Vec2 low = points_.front(), high = points_.front();
-  for (const Vec2 p : points_) {
-    low = {std::min(low.x, p.x), std::min(low.y, p.y)};
-    high = {std::max(high.x, p.x), std::max(high.y, p.y)};
-  }
-  return norm(high - low);
-}
 
 double CornerSearch::noise_at(std::size_t i) const {
   if (tolerance_.empty()) return 0.0;

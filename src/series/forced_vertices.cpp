@@ -74,8 +74,8 @@ bool neighbours_compare(const Disc& a, const Disc& b, const Disc& c, const Disc&
 class StrideSearch {
  public:
   /// `last[i]`: up to there points from i on may be compared.
-  StrideSearch(const std::vector<Disc>& discs, const std::vector<std::size_t>& last)
-      : discs_(discs), last_(last), best_(kRing * kCount * kCount) {}
+  StrideSearch(const std::vector<Disc>& discs, const std::vector<std::size_t>& last, Watch& watch)
+      : discs_(discs), last_(last), watch_(watch), best_(kRing * kCount * kCount) {}
 
   /// All points, not every so many-th alone.
   StrideSearch& with_neighbours() {
@@ -85,7 +85,7 @@ class StrideSearch {
 
   int run() {
     std::int32_t most = 0;
-    for (std::size_t c = 0; c < discs_.size(); ++c) {
+    for (std::size_t c = 0; c < discs_.size() && !watch_.cancelled(); ++c) {
       look_behind(c);
       for (std::size_t i = 0; i < kCount; ++i) {
         for (std::size_t j = low(i); j <= high(i); ++j) {
@@ -140,6 +140,7 @@ class StrideSearch {
 
   const std::vector<Disc>& discs_;
   const std::vector<std::size_t>& last_;
+  Watch& watch_;
   std::vector<Best> best_;
   std::array<std::array<Side, kChoices>, kCount> behind_{};
   bool neighbours_ = false;
@@ -156,12 +157,12 @@ void thin_out(std::vector<Disc>& discs, std::vector<std::size_t>& last) {
   last.resize(n);
 }
 
-int within_reaches(std::vector<Disc> discs) {
+int within_reaches(std::vector<Disc> discs, Watch& watch) {
   std::vector<std::size_t> last = right_angle_stretches(discs);
-  int most = StrideSearch(discs, last).with_neighbours().run();
+  int most = StrideSearch(discs, last, watch).with_neighbours().run();
   while (discs.size() >= kThinning * kFewest) {
     thin_out(discs, last);
-    most = std::max(most, StrideSearch(discs, last).run());
+    most = std::max(most, StrideSearch(discs, last, watch).run());
   }
   return most;
 }
@@ -185,6 +186,12 @@ int of_neighbours(const std::vector<Disc>& discs) {
 
 int forced_vertices(const std::vector<Vec2>& points, const std::vector<double>& reach,
                     bool closed) {
+  Watch nobody;
+  return forced_vertices(points, reach, closed, nobody);
+}
+
+int forced_vertices(const std::vector<Vec2>& points, const std::vector<double>& reach, bool closed,
+                    Watch& watch) {
   const std::size_t n = points.size();
   std::vector<Disc> discs;
   discs.reserve(n + kOverSeam);
@@ -196,7 +203,7 @@ int forced_vertices(const std::vector<Vec2>& points, const std::vector<double>& 
     discs.push_back({p, own + rounding});
     exact = exact && own == 0.0;
   }
-  const int forced = exact ? of_neighbours(discs) : within_reaches(std::move(discs));
+  const int forced = exact ? of_neighbours(discs) : within_reaches(std::move(discs), watch);
   return closed ? forced + forced % 2 : forced;  // around a loop curvature returns to its value
 }
 

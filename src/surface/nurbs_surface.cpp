@@ -6,6 +6,7 @@
 #include "control_points.h"
 #include "homogeneous.h"
 #include "knots.h"
+#include "obvid/geom/box.h"
 #include "obvid/surface/basis.h"
 
 namespace obvid {
@@ -51,12 +52,9 @@ SurfaceJet evaluate(const NurbsSurface& s, double u, double v) {
 
 double size_of(const NurbsSurface& surface) {
   if (surface.points.empty()) return 0.0;
-  Vec3 low = surface.points.front(), high = low;
-  for (const Vec3& p : surface.points) {
-    low = {std::min(low.x, p.x), std::min(low.y, p.y), std::min(low.z, p.z)};
-    high = {std::max(high.x, p.x), std::max(high.y, p.y), std::max(high.z, p.z)};
-  }
-  return norm(high - low);
+  Box3 box;
+  for (const Vec3& p : surface.points) box.add(p);
+  return norm(box.size());
 }
 
 }  // namespace obvid

@@ -4,30 +4,6 @@
 
 namespace obvid {
 
-std::array<Vec3, 6> quintic(const Hermite& from, const Hermite& to, double length) {
-  const double h = length / 5.0, q = length * length / 20.0;
-  std::array<Vec3, 6> b;
-  b[0] = from.point;
-  b[1] = from.point + h * from.d1;
-  b[2] = from.point + 2.0 * h * from.d1 + q * from.d2;
-  b[3] = to.point - 2.0 * h * to.d1 + q * to.d2;
-  b[4] = to.point - h * to.d1;
-  b[5] = to.point;
-  return b;
-}
-
-Hermite evaluate(const std::array<Vec3, 6>& piece, double part, double length) {
-  std::array<Vec3, 6> b = piece;
-  Hermite result;
-  for (std::size_t n = 5; n > 0; --n) {
-    if (n == 2) result.d2 = (20.0 / (length * length)) * (b[2] - 2.0 * b[1] + b[0]);
-    if (n == 1) result.d1 = (5.0 / length) * (b[1] - b[0]);
-    for (std::size_t j = 0; j < n; ++j) b[j] = (1.0 - part) * b[j] + part * b[j + 1];
-  }
-  result.point = b[0];
-  return result;
-}
-
 std::vector<double> quintic_knots(const std::vector<double>& breaks) {
   std::vector<double> knots(6, breaks.front());
   for (std::size_t i = 1; i + 1 < breaks.size(); ++i) knots.insert(knots.end(), 3, breaks[i]);

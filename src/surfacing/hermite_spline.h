@@ -8,18 +8,41 @@
 
 namespace obvid {
 
-/// Point and two derivatives by a parameter.
-struct Hermite {
-  Vec3 point;
-  Vec3 d1;
-  Vec3 d2;
+/// Value and two derivatives by a parameter.
+template <class V>
+struct HermiteOf {
+  V point{};
+  V d1{};
+  V d2{};
 };
+using Hermite = HermiteOf<Vec3>;
 
 /// Control points of the Bezier piece of degree 5 over a span of this length with these ends.
-[[nodiscard]] std::array<Vec3, 6> quintic(const Hermite& from, const Hermite& to, double length);
+template <class V>
+[[nodiscard]] std::array<V, 6> quintic(const HermiteOf<V>& from, const HermiteOf<V>& to,
+                                       double length) {
+  const double h = length / 5.0, q = length * length / 20.0;
+  return {from.point,
+          from.point + h * from.d1,
+          from.point + 2.0 * h * from.d1 + q * from.d2,
+          to.point - 2.0 * h * to.d1 + q * to.d2,
+          to.point - h * to.d1,
+          to.point};
+}
 
-/// Point and two derivatives of the piece at a share of its span.
-[[nodiscard]] Hermite evaluate(const std::array<Vec3, 6>& piece, double part, double length);
+/// Value and two derivatives of the piece at a share of its span.
+template <class V>
+[[nodiscard]] HermiteOf<V> evaluate(const std::array<V, 6>& piece, double part, double length) {
+  std::array<V, 6> b = piece;
+  HermiteOf<V> result;
+  for (std::size_t n = 5; n > 0; --n) {
+    if (n == 2) result.d2 = (20.0 / (length * length)) * (b[2] - 2.0 * b[1] + b[0]);
+    if (n == 1) result.d1 = (5.0 / length) * (b[1] - b[0]);
+    for (std::size_t j = 0; j < n; ++j) b[j] = (1.0 - part) * b[j] + part * b[j + 1];
+  }
+  result.point = b[0];
+  return result;
+}
 
 inline constexpr int kSkinDegree = 5;
 

@@ -75,10 +75,22 @@ SectionCurve::Length SectionCurve::length_at(double u) const {
   const auto above = std::upper_bound(u_.begin() + 1, u_.end() - 1, u);
   const auto i = static_cast<std::size_t>(above - u_.begin()) - 1;
   const double h = u_[i + 1] - u_[i];
-  const Hermite from{{s_[i], 0, 0}, {slope_[i], 0, 0}, {}};
-  const Hermite to{{s_[i + 1], 0, 0}, {slope_[i + 1], 0, 0}, {}};
-  const Hermite here = evaluate(quintic(from, to, h), (u - u_[i]) / h, h);
-  return {here.point.x, here.d1.x, here.d2.x};
+  const HermiteOf<double> from{s_[i], slope_[i], 0.0}, to{s_[i + 1], slope_[i + 1], 0.0};
+  const HermiteOf<double> here = evaluate(quintic(from, to, h), (u - u_[i]) / h, h);
+  return {here.point, here.d1, here.d2};
+}
+
+double SectionCurve::parameter_of(double s) const {
+  const auto mark = std::lower_bound(s_.begin(), s_.end(), s);
+  if (mark == s_.end()) return u_.back();
+  const auto i = static_cast<std::size_t>(mark - s_.begin());
+  if (*mark == s || i == 0) return u_[i];
+  double low = u_[i - 1], high = u_[i];
+  for (double middle = 0.5 * (low + high); middle > low && middle < high;
+       middle = 0.5 * (low + high)) {
+    (length_at(middle).s < s ? low : high) = middle;
+  }
+  return high;
 }
 
 Hermite SectionCurve::at(double u) const {

@@ -27,6 +27,8 @@ class SectionCurve {
     double s = 0.0, ds = 0.0, dds = 0.0;
   };
   [[nodiscard]] Length length_at(double u) const;
+  /// Common parameter of an arc length; of a mark exactly.
+  [[nodiscard]] double parameter_of(double s) const;
   [[nodiscard]] const Frame& frame() const { return frame_; }
   [[nodiscard]] bool is_point() const { return path_ == nullptr; }
 

@@ -42,6 +42,12 @@ Result<void> check_sections(const std::vector<SkinSection>& sections, const Skin
   return {};
 }
 
+Error of_section(Error error, const std::vector<SkinSection>& sections, std::size_t k) {
+  error.what = fmt::format("section {} ({}): {}", k + 1, sections[k].name, error.what);
+  error.index = static_cast<std::ptrdiff_t>(k);
+  return error;
+}
+
 /// Control points of all sections of a stretch, section after section.
 struct Net {
   std::vector<double> breaks;
@@ -120,15 +126,12 @@ Result<Skin> skin(const std::vector<SkinSection>& given, const SkinOptions& opti
   std::vector<MeasuredSection> measured_sections;
   for (std::size_t k = 0; k < sections.size(); ++k) {
     tell("measuring sections", static_cast<double>(k) / static_cast<double>(sections.size()));
-    if (auto begun = begun_at_first_point(sections[k].contour); begun) {
-      sections[k].contour = std::move(*begun);
-    } else {
-      Error error = begun.error();
-      error.what = fmt::format("section {} ({}): {}", k + 1, sections[k].name, error.what);
-      error.index = static_cast<std::ptrdiff_t>(k);
-      return fail(error);
-    }
-    measured_sections.push_back(measured(sections[k]));
+    auto begun = begun_at_first_point(sections[k].contour);
+    if (!begun) return fail(of_section(begun.error(), sections, k));
+    sections[k].contour = std::move(*begun);
+    auto section = measured(sections[k]);
+    if (!section) return fail(of_section(section.error(), sections, k));
+    measured_sections.push_back(std::move(*section));
   }
   auto match = matched(measured_sections, options.matching);
   if (!match) return fail(match.error());

@@ -10,9 +10,9 @@
 namespace obvid {
 namespace {
 
-constexpr int kBreakSamples = 16;        ///< steps of a span at which it is compared
-constexpr double kShare = 0.1;           ///< of the change of curvature over a span
-constexpr double kShareAtVertex = 1e-3;  ///< the same where the contour has a vertex in the span
+constexpr std::size_t kBreakSamples = 16;  ///< steps of a span at which it is compared
+constexpr double kShare = 0.1;             ///< of the change of curvature over a span
+constexpr double kShareAtVertex = 1e-3;    ///< the same where the contour has a vertex in the span
 constexpr double kKept = 1e-6;  ///< of the curvature: for circular stretches, which do not change
 
 /// Halvings between two marks for the sake of points, and of curvature: where a contour's curvature
@@ -55,11 +55,12 @@ Following following(const SectionCurve& section, double a, double b, double tole
   const double length = b - a;
   const std::array<Vec3, 6> piece = quintic(section.at(a), section.at(b), length);
   std::array<double, kBreakSamples + 1> wanted{}, found{};
-  for (int k = 0; k <= kBreakSamples; ++k) {
-    const double part = static_cast<double>(k) / kBreakSamples;
+  for (std::size_t k = 0; k <= kBreakSamples; ++k) {
+    // from the middle on, where most spans that are too long show it
+    const std::size_t i = (k + kBreakSamples / 2) % (kBreakSamples + 1);
+    const double part = static_cast<double>(i) / kBreakSamples;
     const Hermite here = evaluate(piece, part, length), there = section.at(a + part * length);
     if (norm(here.point - there.point) > tolerance) return Following::kNot;
-    const auto i = static_cast<std::size_t>(k);
     wanted[i] = plane_curvature(there, section.frame());
     found[i] = plane_curvature(here, section.frame());
   }
@@ -104,10 +105,16 @@ class Halving {
   std::vector<double> breaks_ = {0.0};
 
  private:
-  [[nodiscard]] Following worst(double a, double b) const {
+  /// The section that was not followed last is asked first: it needs short spans.
+  [[nodiscard]] Following worst(double a, double b) {
     Following least = Following::kWhole;
-    for (std::size_t k = 0; k < sections_.size() && least != Following::kNot; ++k) {
+    const std::size_t first = hardest_;
+    for (std::size_t i = 0; i < sections_.size(); ++i) {
+      const std::size_t k = (first + i) % sections_.size();
       least = std::min(least, following(sections_[k], a, b, goals_.tolerance, size_[k]));
+      if (least != Following::kNot) continue;
+      hardest_ = k;
+      break;
     }
     return least;
   }
@@ -128,6 +135,7 @@ class Halving {
   const std::vector<double>& marks_;
   BreakGoals goals_;
   std::vector<double> size_;
+  std::size_t hardest_ = 0;
 };
 
 }  // namespace

@@ -201,10 +201,12 @@ Result<Matched> by_length(const std::vector<MeasuredSection>& sections) {
 
 }  // namespace
 
-MeasuredSection measured(const SkinSection& section) {
+Result<MeasuredSection> measured(const SkinSection& section) {
   MeasuredSection result{&section, std::nullopt, {}};
   if (section.contour.pieces.empty()) return result;
-  result.path.emplace(section.contour);
+  auto path = ContourPath::without_cusps(section.contour.pieces);
+  if (!path) return fail(path.error());
+  result.path = std::move(*path);
   const std::vector<double> at = contour_points_at(section.contour, *result.path);
   for (const std::size_t i : section.on_contour) result.point_at.push_back(at[i]);
   const bool returns = section.contour.closed && section.on_contour.size() > 1 &&

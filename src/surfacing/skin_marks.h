@@ -5,8 +5,8 @@
 #include <optional>
 #include <vector>
 
-#include "contour_path.h"
 #include "obvid/core/result.h"
+#include "obvid/curve/contour_path.h"
 #include "obvid/surfacing/skin.h"
 
 namespace obvid {
@@ -32,7 +32,8 @@ struct MeasuredSection {
   std::vector<double> point_at;  ///< arc length of each point of the section
 };
 
-[[nodiscard]] MeasuredSection measured(const SkinSection& section);
+/// E402 where the contour has a cusp.
+[[nodiscard]] Result<MeasuredSection> measured(const SkinSection& section);
 
 [[nodiscard]] Result<Matched> matched(const std::vector<MeasuredSection>& sections,
                                       SkinMatching matching);

@@ -136,6 +136,21 @@ TEST_F(CadFiles, UnitsKeepTheLengths) {
   EXPECT_EQ(refused.error().code, ErrorCode::kBadOption);
 }
 
+TEST_F(CadFiles, KnotsNearerThanTheToleranceOfParametersKeepTheirSpans) {
+  constexpr double kSmall = 3e-12;  // Open CASCADE takes knots nearer than 1e-9 for one
+  std::vector<Vec2> points;
+  for (const Vec2 p : kTenPoints) points.push_back(kSmall * p);
+  const auto curve = joined_nurbs(contour_of(points, Carrier::kSpiral));
+  ASSERT_TRUE(curve);
+  ASSERT_LT(curve->knots.back(), 1e-8);
+  CadWriteOptions options;
+  options.units = "km";
+  const auto drawing = there_and_back({{"contour", *curve}}, options);
+  ASSERT_TRUE(drawing) << to_line(drawing.error());
+  ASSERT_EQ(drawing->curves.at(0).pieces.size(), bezier_spans(*curve).size());
+  expect_same(*curve, drawing->curves[0], 1e6, kSmall * 300.0, "km");
+}
+
 TEST_F(CadFiles, LinesAndArcsStayWhatTheyAre) {
   const double turn = 0.5 * std::numbers::pi;
   const std::vector<Piece> pieces = {LinePiece{{0, 0}, {2, 0}},

@@ -58,7 +58,7 @@ TEST(CarrierPieces, EachCarrierHasItsOwnKindsOnly) {
   const std::vector<std::pair<Carrier, std::vector<std::string>>> has = {
       {Carrier::kSpiral, {"arc", "spiral", "quartic"}},
       {Carrier::kArcs, {"arc"}},
-      {Carrier::kConics, {"arc", "ellipse"}},
+      {Carrier::kConics, {"arc", "ellipse", "hyperbola"}},
       {Carrier::kBeziers, {"parabola"}},
       {Carrier::kClothoids, {"arc", "clothoid"}},
       {Carrier::kBspline, {"arc", "quintic"}},
@@ -72,11 +72,23 @@ TEST(CarrierPieces, EachCarrierHasItsOwnKindsOnly) {
   for (const auto& [name, piece] : pieces) EXPECT_TRUE(belongs(Carrier::kBaseline, piece)) << name;
 }
 
-TEST(CarrierPieces, EllipsesEndExactlyWhereParabolasBegin) {
+TEST(CarrierPieces, ConicsAreEllipsesAndHyperbolasParabolasAreBeziers) {
   EXPECT_TRUE(belongs(Carrier::kConics, conic_with(std::nextafter(1.0, 0.0))));
   EXPECT_FALSE(belongs(Carrier::kConics, conic_with(1.0)));
-  EXPECT_FALSE(belongs(Carrier::kConics, conic_with(std::nextafter(1.0, 2.0))));
+  EXPECT_TRUE(belongs(Carrier::kConics, conic_with(std::nextafter(1.0, 2.0))));
+  EXPECT_TRUE(belongs(Carrier::kBeziers, conic_with(1.0)));
   EXPECT_FALSE(belongs(Carrier::kBeziers, conic_with(std::nextafter(1.0, 2.0))));
+}
+
+TEST(CarrierPieces, TellsAKeptPieceThatIsNotTheCarriers) {
+  Contour contour;
+  contour.carrier = Carrier::kArcs;
+  contour.pieces = {ClothoidPiece{{0, 0}, {1, 0}, 0.0, 0.0, 0.1, 1.0}};
+  EXPECT_FALSE(keeps_foreign_pieces(contour));  // not kept: refused by `foreign_piece`
+  contour.kept = {0};
+  EXPECT_TRUE(keeps_foreign_pieces(contour));
+  contour.carrier = Carrier::kClothoids;
+  EXPECT_FALSE(keeps_foreign_pieces(contour));
 }
 
 }  // namespace

@@ -157,7 +157,7 @@ TEST(Certify, HiddenVertexIsRefusedAndNamed) {
   EXPECT_FALSE(certificate.proved);
   EXPECT_FALSE(certificate.inside_region);
   EXPECT_GE(certificate.vertices, 2);
-  EXPECT_NE(certificate.reason.find("piece 1 has a vertex"), std::string::npos)
+  EXPECT_NE(certificate.reason.find("piece 2 has a vertex"), std::string::npos)
       << certificate.reason;
 }
 

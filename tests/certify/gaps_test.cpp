@@ -252,7 +252,7 @@ TEST(Gaps, AreThoseOfTheFourEndsAtTheJointHoweverStronglyAnotherPieceIsCurved) {
     const Certificate certificate = certify(bad);
     EXPECT_FALSE(certificate.proved);
     EXPECT_NEAR(certificate.gaps.curvature, step, 1e-9);
-    EXPECT_NE(certificate.reason.find("the curvature gap at joint 2"), std::string::npos)
+    EXPECT_NE(certificate.reason.find("the curvature gap at joint 3"), std::string::npos)
         << certificate.reason;
   }
 }
@@ -310,7 +310,7 @@ TEST(Gaps, JumpsOfArcsAreJudgedAgainstBothNeighboursOnly) {
   const Certificate certificate = certify(contour);
   EXPECT_FALSE(certificate.proved);
   EXPECT_EQ(certificate.vertices, 2);
-  EXPECT_NE(certificate.reason.find("jumps the other way before piece 3"), std::string::npos)
+  EXPECT_NE(certificate.reason.find("jumps the other way before piece 4"), std::string::npos)
       << certificate.reason;
 }
 

@@ -99,10 +99,28 @@ TEST(Limits, RefuseEveryNumberOfAPieceThatIsNoneOrTooLarge) {
     };
     element([&](Joint& j) { j.element.theta = value; });
     element([&](Joint& j) { j.element.point.x = value; });
-    if (!(std::abs(value) < kUnbounded)) element([&](Joint& j) { j.element.kappa = value; });
+    if (std::isinf(value)) element([&](Joint& j) { j.element.kappa = value; });
     Contour bad = two_arcs();
     bad.points[0].y = value;
     expect_out(bad, "points", why);
+  }
+}
+
+TEST(Limits, AJointThatSaysOfNoCurvatureIsNamedAndNothingIsProvedOfIt) {
+  EXPECT_FALSE(joint_without_curvature(two_arcs()).has_value());
+  for (const bool leaving : {false, true}) {
+    Contour contour = two_arcs();
+    Joint& joint = contour.joints[1];
+    if (leaving) joint.leaving = joint.element;
+    (leaving ? joint.leaving->kappa : joint.element.kappa) = std::nan("");
+    EXPECT_FALSE(out_of_range(contour).has_value());
+    EXPECT_EQ(joint_without_curvature(contour), std::size_t{1});
+    const Certificate certificate = certify(contour);
+    EXPECT_FALSE(certificate.proved);
+    EXPECT_EQ(certificate.reason, "element 2 has no curvature");
+    for (const PieceProof& piece : certificate.pieces) {
+      EXPECT_EQ(piece.verdict, Verdict::kUndecided);
+    }
   }
 }
 

@@ -47,7 +47,15 @@ TEST(PointOrder, APointThatStandsBeforeItsPredecessorIsNotMet) {
   const Certificate certificate = certify(circle(6, points_at({0.1, 1.0, 0.9, 2.2, 2.9}), 0.01));
   EXPECT_FALSE(certificate.through_points);
   EXPECT_FALSE(certificate.proved);
-  EXPECT_NE(certificate.reason.find("point 2 after"), std::string::npos) << certificate.reason;
+  EXPECT_NE(certificate.reason.find("point 3 after"), std::string::npos) << certificate.reason;
+}
+
+TEST(PointOrder, EachPointThatStandsBackIsNamedOnce) {
+  Watch nobody;
+  const Contour contour = circle(6, points_at({0.1, 1.0, 0.9, 2.2, 2.9, 2.7}), 0.01);
+  EXPECT_EQ(points_out_of_order(contour, nobody), (std::vector<std::size_t>{2, 5}));
+  EXPECT_TRUE(points_out_of_order(circle(6, points_at({0.1, 1.0, 2.2}), 0.01), nobody).empty());
+  EXPECT_TRUE(points_out_of_order(circle(6, points_at({1.0, 0.1}), 6.0), nobody).empty());
 }
 
 TEST(PointOrder, ReversedPointsAreNotMet) {

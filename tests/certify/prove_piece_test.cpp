@@ -54,6 +54,21 @@ TEST(ProvePiece, DegeneratePiecesAreNotProved) {
   EXPECT_EQ(verdict(no_degree), Verdict::kUndecided);
 }
 
+TEST(ProvePiece, AVertexNarrowerThanADoubleStandsBetweenTwo) {
+  // goes out and back on nearly one line: the bend is narrower than the steps of t
+  const RationalBezier fold{{},
+                            3,
+                            {Vec2{197670.74784752462, 354792.6831125179},
+                             {249052.3659154773, 447015.84890246234},
+                             {-51381.618107847156, -92223.16576771751},
+                             {-4.5179931449640594e-07, 2.517174469027928e-07}},
+                            {1, 1, 1, 1}};
+  const PieceProof proof = prove_piece(fold);
+  ASSERT_EQ(proof.verdict, Verdict::kHasVertex);
+  EXPECT_LT(proof.t0, proof.t1);
+  EXPECT_NEAR(proof.t0, proof.t1, 0x1p-50);
+}
+
 TEST(ProvePiece, ExactCircleIsConstantByExactArithmetic) {
   const PieceProof proof = prove_piece(conic({1, 0}, {1, 1}, {0, 1}, 1, 1, 2));
   EXPECT_EQ(proof.verdict, Verdict::kConstant);
@@ -158,8 +173,8 @@ TEST(ProvePiece, SizeAndPlaceDoNotMatter) {
 }
 
 TEST(ProvePiece, QuadraticsAgreeWithTheCriterionOfSapidisAndFrey) {
-  // theory 5.3: with a = P1 - P0, b = P2 - P1 monotone iff a.b >= min(|a|^2, |b|^2)... for the
-  // legs; small integers make every side exact.
+  // [Sapidis, Frey 1992]: with a = P1 - P0, b = P2 - P1 monotone iff a.b >= min(|a|^2, |b|^2)...
+  // for the legs; small integers make every side exact.
   std::mt19937_64 rng(11);
   std::uniform_int_distribution<int> digit(-12, 12);
   int monotone = 0, other = 0;
@@ -179,7 +194,7 @@ TEST(ProvePiece, QuadraticsAgreeWithTheCriterionOfSapidisAndFrey) {
 }
 
 TEST(ProvePiece, RationalQuadraticsAgreeWithTheFiveCoefficientTest) {
-  // theory 5.2, weights 1, w, 1: all five of one sign proves monotone |kappa|.
+  // docs/methods/conics.md, 2, weights 1, w, 1: all five of one sign proves monotone |kappa|.
   std::mt19937_64 rng(12);
   std::uniform_int_distribution<int> digit(-12, 12);
   std::uniform_int_distribution<int> eighths(1, 24);
@@ -277,6 +292,48 @@ TEST(PieceFacts, TurningBelowHalfATurnIsProvedAndMoreIsNot) {
   // Half ellipse of degree 4 turns by exactly pi: the open half plane does not hold both ends.
   const RationalBezier loop{{}, 3, {Vec2{0, 0}, {3, 2}, {-2, 2}, {1, 0}}, {1, 1, 1, 1}};
   EXPECT_FALSE(examine_piece(loop).turns_below_pi);
+}
+
+std::vector<int> bends(const RationalBezier& piece) {
+  std::vector<int> signs, exact;
+  for (const SignFrom& one : curvature_signs(piece)) signs.push_back(one.sign);
+  for (const SignFrom& one : curvature_signs_exactly(piece)) exact.push_back(one.sign);
+  EXPECT_EQ(signs, exact);
+  return signs;
+}
+
+TEST(CurvatureSigns, AreThoseOfKnownPolynomials) {
+  using Signs = std::vector<int>;
+  // y = x - x^3 over [-1, 1] bends to the left, then to the right
+  const RationalBezier cubic{
+      {}, 3, {Vec2{-1, 0}, {-1.0 / 3, -4.0 / 3}, {1.0 / 3, 4.0 / 3}, {1, 0}}, {1, 1, 1, 1}};
+  EXPECT_EQ(bends(cubic), (Signs{1, -1}));
+  EXPECT_EQ(bends(mirrored(cubic)), (Signs{-1, 1}));
+  EXPECT_NEAR(curvature_signs(cubic)[1].t, 0.5, 1e-9);
+  // y'' = 12 x^2 - 3 changes its sign twice: y = x^4 - 1.5 x^2 over [-1, 1]
+  const RationalBezier quartic{
+      {}, 4, {Vec2{-1, -0.5}, {-0.5, -1}, {0, 1.5}, {0.5, -1}, {1, -0.5}}, {1, 1, 1, 1, 1}};
+  EXPECT_EQ(bends(quartic), (Signs{1, -1, 1}));
+  // half a circle by a conic
+  EXPECT_EQ(bends(conic({1, 0}, {1, 1}, {0, 1}, 1, std::sqrt(0.5), 1)), Signs{1});
+}
+
+TEST(CurvatureSigns, OfATinyFlatPieceWithAVertexAreExact) {
+  // between two points 2.5e-9 apart: curvature -0.00253 all along, by fractions
+  RationalBezier piece{{},
+                       4,
+                       {Vec2{0, 0},
+                        {5.780985553380543e-10, 2.4127501631602144e-10},
+                        {1.1510246586487956e-09, 4.803912598128141e-10},
+                        {1.7193061282236038e-09, 7.175690205528199e-10},
+                        {2.2824151457712105e-09, 9.525880084737537e-10}},
+                       {1, 0.9741549873119714, 0.96598529487404, 0.974155004021827, 1}};
+  EXPECT_EQ(verdict(piece), Verdict::kHasVertex);
+  EXPECT_EQ(bends(piece), std::vector<int>{-1});
+  Contour contour;
+  contour.points = {start_point(piece), end_point(piece)};
+  contour.pieces = {piece};
+  EXPECT_EQ(certify(contour).inflections, 0);
 }
 
 }  // namespace

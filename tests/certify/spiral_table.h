@@ -6,9 +6,9 @@
 
 #include "obvid/curve/pieces.h"
 
-// Control points of the closed-form spiral (theory 6.1) computed with numpy in complex
-// arithmetic, from the data (heading and curvature at both ends of the chord (-1,0)-(1,0)) of
-// clothoids with theta = km s + kp s^2 / 2, s in [-1, 1].
+// Control points of the closed-form spiral (docs/methods/chain.md, 1) computed with numpy in
+// complex arithmetic, from the data (heading and curvature at both ends of the chord (-1,0)-(1,0))
+// of clothoids with theta = km s + kp s^2 / 2, s in [-1, 1].
 
 namespace obvid::testing_data {
 

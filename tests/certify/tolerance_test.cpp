@@ -195,7 +195,7 @@ TEST(Tolerance, OnePointBeyondItIsRefusedAndNamed) {
     const Certificate certificate = certify(arc_chain(points_beside(d), tolerance));
     EXPECT_FALSE(certificate.proved) << k;
     EXPECT_FALSE(certificate.through_points) << k;
-    EXPECT_NE(certificate.reason.find("point " + std::to_string(k) + " at"), std::string::npos)
+    EXPECT_NE(certificate.reason.find("point " + std::to_string(k + 1) + " at"), std::string::npos)
         << certificate.reason;
   }
 }

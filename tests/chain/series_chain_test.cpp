@@ -28,7 +28,7 @@ Result<SeriesChain> chain_of(const std::vector<Vec2>& points, const ChainWishes&
   return choose_elements(points, *analysis, wishes, nobody);
 }
 
-/// Whether a spiral exists between two elements (theory 4, Kurnosenko), from their numbers alone.
+/// Whether a spiral exists between two elements ([Kurnosenko 2013]), from their numbers alone.
 /// Headings belong to the turn that lies within half a turn of the expected angle at the start.
 bool spiral_exists(const Element& a, const Element& b, int direction, double alpha_expected) {
   const long double dx = static_cast<long double>(b.point.x) - static_cast<long double>(a.point.x);
@@ -36,9 +36,11 @@ bool spiral_exists(const Element& a, const Element& b, int direction, double alp
   const long double h = std::hypot(dx, dy), omega = std::atan2(dy, dx);
   const long double full = 2.0L * std::numbers::pi_v<long double>;
   const long double raw = static_cast<long double>(a.theta) - omega;
-  const long double turns = full * std::round((raw - static_cast<long double>(alpha_expected)) / full);
+  const long double turns =
+      full * std::round((raw - static_cast<long double>(alpha_expected)) / full);
   const long double alpha = raw - turns, beta = static_cast<long double>(b.theta) - omega - turns;
-  const long double A = direction * (static_cast<long double>(a.kappa) * h / 2.0L + std::sin(alpha));
+  const long double A =
+      direction * (static_cast<long double>(a.kappa) * h / 2.0L + std::sin(alpha));
   const long double B = direction * (static_cast<long double>(b.kappa) * h / 2.0L - std::sin(beta));
   const long double half = std::sin((alpha + beta) / 2.0L);
   return A < 0.0L && B > 0.0L && direction * (alpha + beta) > 0.0L && A * B + half * half < 0.0L;

@@ -2,7 +2,11 @@
 # SPDX-License-Identifier: Apache-2.0
 """Runs the program on cases that stand as data in a TOML file (Python's standard library only).
 
-usage: run_cases.py PROGRAM EXAMPLES CASES.toml
+usage: run_cases.py PROGRAM EXAMPLES CASES.toml [PUBLIC [--slow]]
+
+PUBLIC  folder of public data sets that are not among the sources; where it is not there, cases
+        that need one of them are skipped, and that is said
+--slow  the program is built to find faults, not to be fast: `cpu_seconds` is not looked at
 
 Every case runs in a folder of its own that holds copies of the examples. Keys of a [[case]]:
   name          sentence that says what holds
@@ -12,6 +16,7 @@ Every case runs in a folder of its own that holds copies of the examples. Keys o
   stdin         text for standard input
   files         table of files to write first
   data          files of tests/data to copy first, "folder/name"
+  public        files of PUBLIC to copy first, likewise
   exit          exit code (default 0)
   stdout        whole standard output
   stdout_has    texts that standard output holds
@@ -19,7 +24,11 @@ Every case runs in a folder of its own that holds copies of the examples. Keys o
   stderr        whole standard error, or
   stderr_has    texts that standard error holds (in any order)
   stderr_count  table of texts to how often standard error holds them
+  stdout_lacks  texts that standard output does not hold; stderr_lacks likewise
+  cpu_seconds   most processor time of the run
   json          table of paths "a.b.0" to values in standard output read as JSON; "" asks nothing
+  json_between  table of paths to [least, greatest] of numbers there
+  program_box   [file, xmin, ymin, xmax, ymax]: no block of this G-code moves beyond
   svg           files that must be well-formed SVG
   contour       files that must be contour files
   contour_values  table of paths to numbers in the first of them (within 1e-12)
@@ -35,6 +44,7 @@ import json
 import os
 import pathlib
 import re
+import resource
 import shutil
 import subprocess
 import sys
@@ -44,8 +54,10 @@ import xml.etree.ElementTree
 
 ERROR_LINE = re.compile(r"^obvid: error E([1-5]\d\d): \S.*$")
 KEYS = set("name args before edit stdin files data exit stdout stdout_has stdout_last stderr stderr_has "
-           "stderr_count json svg contour contour_values untouched absent terminal env holds cad".split())
+           "stderr_count json svg contour contour_values untouched absent terminal env holds cad public "
+           "stdout_lacks stderr_lacks cpu_seconds json_between program_box".split())
 TIMEOUT_S = 60
+SLOW = "--slow" in sys.argv
 DATA = pathlib.Path(__file__).resolve().parent.parent / "data"
 
 
@@ -73,6 +85,12 @@ def run(program, args, folder, stdin="", env=None, terminal=False):
     return child.wait(TIMEOUT_S), text.decode().replace("\r\n", "\n"), ""
 
 
+def processor_time():
+    """Of the runs that have ended, seconds."""
+    used = resource.getrusage(resource.RUSAGE_CHILDREN)
+    return used.ru_utime + used.ru_stime
+
+
 def has_terminals():
     """False in containers without a mounted devpts, and on systems that know no such thing."""
     try:
@@ -90,8 +108,9 @@ def at_path(value, path):
 
 
 class Case:
-    def __init__(self, data, program, examples):
-        self.data, self.program, self.examples = data, program, examples
+    def __init__(self, data, program, examples, public):
+        self.data, self.program = data, program
+        self.examples, self.public = examples, public
         self.faults = []
 
     def check(self, holds, text):
@@ -103,6 +122,9 @@ class Case:
             shutil.copy(example, folder)
         for name in self.data.get("data", []):
             shutil.copy(DATA / name, folder)
+        for name in self.data.get("public", []):
+            shutil.copy(self.public / name, folder)
+            (folder / pathlib.Path(name).name).chmod(0o644)
         for name, text in self.data.get("files", {}).items():
             (folder / name).write_text(text)
         for args in self.data.get("before", []):
@@ -122,6 +144,8 @@ class Case:
                 self.check(text == data[stream], f"{stream} is not {data[stream]!r}")
             for part in data.get(stream + "_has", []):
                 self.check(part in text, f"{stream} does not hold {part!r}")
+            for part in data.get(stream + "_lacks", []):
+                self.check(part not in text, f"{stream} holds {part!r}")
         for part, times in data.get("stderr_count", {}).items():
             self.check(err.count(part) == times, f"stderr holds {part!r} {err.count(part)} times")
         if "stdout_last" in data:
@@ -136,18 +160,42 @@ class Case:
             self.check(match, "the error line has not the form of the contract")
             self.check(match and int(match[1]) // 100 == code, "code and exit code disagree")
 
+    def found_at(self, value, path):
+        try:
+            return at_path(value, path)
+        except (KeyError, IndexError, TypeError, ValueError):
+            self.check(False, f"there is no {path}")
+            return None
+
     def check_json(self, out):
-        if "json" not in self.data:
+        if "json" not in self.data and "json_between" not in self.data:
             return
         try:
             value = json.loads(out)
         except ValueError as error:
             self.check(False, f"stdout is no JSON: {error}")
             return
-        for path, expected in self.data["json"].items():
+        for path, expected in self.data.get("json", {}).items():
             if path:
-                found = at_path(value, path)
+                found = self.found_at(value, path)
                 self.check(found == expected, f"{path} is {found!r}, not {expected!r}")
+        for path, (least, greatest) in self.data.get("json_between", {}).items():
+            found = self.found_at(value, path)
+            self.check(found is not None and least <= found <= greatest,
+                       f"{path} is {found!r}, not {least!r} to {greatest!r}")
+
+    def check_program(self, folder):
+        if "program_box" not in self.data:
+            return
+        name, *box = self.data["program_box"]
+        blocks = [dict((letter, float(value)) for letter, value in
+                       re.findall(r"([XY])(-?[\d.]+)", line))
+                  for line in (folder / name).read_text().splitlines()
+                  if re.match(r"(N\d+ )?G0?[0123]\b", line)]
+        self.check(any("X" in block for block in blocks), f"{name} moves nowhere")
+        for k, letter in enumerate("XY"):
+            for value in (block[letter] for block in blocks if letter in block):
+                self.check(box[k] <= value <= box[k + 2], f"{name} moves to {letter}{value}")
 
     def check_files(self, folder, before):
         data = self.data
@@ -184,11 +232,16 @@ class Case:
             folder = pathlib.Path(name)
             self.prepare(folder)
             before = {p.name: p.read_bytes() for p in folder.iterdir() if p.is_file()}
+            used = processor_time()
             code, out, err = run(self.program, self.data["args"], folder,
                                  self.data.get("stdin", ""), self.data.get("env"),
                                  self.data.get("terminal", False))
+            used = processor_time() - used
+            most = None if SLOW else self.data.get("cpu_seconds")
+            self.check(most is None or used <= most, f"{used:.1f} s of processor time")
             self.check_streams(code, out, err)
             self.check_json(out)
+            self.check_program(folder)
             self.check_files(folder, before)
             if self.faults:
                 print(f"--- stdout\n{out[-2000:]}\n--- stderr\n{err[-2000:]}\n---")
@@ -197,6 +250,7 @@ class Case:
 
 def main():
     program, examples, case_file = sys.argv[1:4]
+    public = pathlib.Path(sys.argv[4] if len(sys.argv) > 4 else "")
     with open(case_file, "rb") as file:
         cases = tomllib.load(file)["case"]
     assert cases, "a file of cases must hold a case"
@@ -213,7 +267,13 @@ def main():
             print("skipped: " + data["name"] + " (the helper for CAD files is not built)")
             skipped += 1
             continue
-        faults = Case(data, str(pathlib.Path(program).resolve()), pathlib.Path(examples)).run()
+        missing = [name for name in data.get("public", []) if not (public / name).is_file()]
+        if missing:
+            print("skipped: " + data["name"] + f" ({', '.join(missing)} is not among the public data)")
+            skipped += 1
+            continue
+        faults = Case(data, str(pathlib.Path(program).resolve()), pathlib.Path(examples),
+                      public).run()
         print(("FAILED: " if faults else "passed: ") + data["name"])
         for fault in faults:
             print("    " + fault)

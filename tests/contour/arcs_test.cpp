@@ -118,7 +118,7 @@ TEST(Arcs, ThereAreNoneWhereNoSpiralExists) {
 }
 
 TEST(Arcs, TheSecondCurvatureMakesTheBoundOfExistenceAnEquality) {
-  // theory 4: A B + sin^2(sigma/2) = 0 exactly for one biarc
+  // [Kurnosenko 2013]: A B + sin^2(sigma/2) = 0 exactly for one biarc
   std::mt19937_64 rng(32);
   for (int i = 0; i < 1000; ++i) {
     const double alpha = uniform(rng, -1.2, 1.2), beta = uniform(rng, -1.2, 1.2);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // G1 Hermite by one clothoid: millions of random data, closed forms, and the minimisation of
-// 002_... as an independent way to the same curve.
+// [002] as an independent way to the same curve.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -102,7 +102,7 @@ TEST(ClothoidBetween, HasAnAnswerWhereBothHeadingsPointHalfATurnFromTheChord) {
   }
 }
 
-/// 002_...: curvature a s + b; the end heading fixes a, the search of Hooke and Jeeves finds b and
+/// [002]: curvature a s + b; the end heading fixes a, the search of Hooke and Jeeves finds b and
 /// the length S that bring the end point to its place.
 class HookeJeeves {
  public:

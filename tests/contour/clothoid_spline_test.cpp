@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The G2 clothoid spline: the series of 000_... as theory and prototype have it, curves that it
+// The G2 clothoid spline: the series of [000] as theory and prototype have it, curves that it
 // must reproduce, continuity, and what it refuses.
 #include <gtest/gtest.h>
 

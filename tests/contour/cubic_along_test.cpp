@@ -7,6 +7,8 @@
 #include <cmath>
 #include <numbers>
 #include <random>
+#include <string>
+#include <variant>
 #include <vector>
 
 #include "clothoid_data.h"
@@ -118,6 +120,21 @@ TEST(CubicAlong, SaysWhyThereIsNone) {
   const auto hopeless = cubic_along(c, 1e-30);  // below the rounding of the coordinates
   ASSERT_FALSE(hopeless);
   EXPECT_EQ(hopeless.error().code, ErrorCode::kToleranceNotReached);
+}
+
+TEST(CubicAlong, EndsItsSearchWhereMoreSpansCannotBeTold) {
+  Contour far = arc_contour(300.0, 2.0);
+  auto& arc = std::get<ArcPiece>(far.pieces[0]);
+  const Vec2 away{459e6, 257e6};  // doubles are 6e-8 and 3e-8 apart there
+  for (Vec2* p :
+       {&arc.start, &arc.end, &far.joints[0].element.point, &far.joints[1].element.point}) {
+    *p = *p + away;
+  }
+  const auto cubic = cubic_along(far, 2e-8);
+  ASSERT_FALSE(cubic);
+  EXPECT_EQ(cubic.error().code, ErrorCode::kToleranceNotReached);
+  EXPECT_NE(cubic.error().what.find("rounding"), std::string::npos) << cubic.error().what;
+  EXPECT_TRUE(cubic_along(far, 1e-5));
 }
 
 }  // namespace

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // The C2 cubic spline: against an independent solver, closed forms, and its published singular
-// points on the ten points of 000_....
+// points on the ten points of [000].
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -229,7 +229,7 @@ Singular singular_points(const CubicSpline& s, double part_of_range) {
 }
 
 TEST(CubicSplineThroughPoints, HasThePublishedSevenExtremaAndOneInflectionOnTheTenPoints) {
-  // 000_... and 003_...: seven extrema and one inflection as a CAD system draws it. Nine extrema
+  // [000] and [003]: seven extrema and one inflection as a CAD system draws it. Nine extrema
   // exist; one pair of them differs by a ten-thousandth of the range, which no plot shows.
   const auto s = cubic_spline(kTenPoints);
   ASSERT_TRUE(s.has_value());

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Last column of Table 1 of 003_...: a CAD system's spline and the farther boundary of the region.
+// Last column of Table 1 of [003]: a CAD system's spline and the farther boundary of the region.
 #include <gtest/gtest.h>
 
 #include <cmath>

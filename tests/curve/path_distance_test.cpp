@@ -110,6 +110,21 @@ TEST(PathDistance, OfTheSameCurveCutInManyPiecesIsRounding) {
   EXPECT_LT(path_distance(whole, parts), 1e-12);
 }
 
+/// What is left behind when the other path turns back within less than a sample.
+TEST(PathDistance, FollowsACurveAroundAHairpinAndPastItsStart) {
+  RationalBezier rest = cubic({0.0, 0.0}, {-0.18, 0.0111}, {0.26, -0.0435}, {0.53, -0.08});
+  const Pieces whole = {rest, LinePiece{{0.53, -0.08}, {2.0, -0.3}}};
+  Pieces parts;
+  for (int i = 0; i < 40; ++i) {
+    const auto [first, second] = split(rest, 0.05);
+    parts.emplace_back(first);
+    rest = second;
+  }
+  parts.emplace_back(rest);
+  parts.push_back(whole.back());
+  EXPECT_LT(path_distance(whole, parts), 1e-12);
+}
+
 TEST(PathDistance, SurvivesPiecesOfNoLengthAndEmptyPaths) {
   const Pieces point = {LinePiece{{0.0, 0.0}, {0.0, 0.0}}};
   EXPECT_NEAR(path_distance(point, Pieces{LinePiece{{0.0, 0.0}, {3.0, 4.0}}}), 5.0, 1e-12);

@@ -21,6 +21,22 @@ RationalBezier quarter_circle() {
   return {{}, 2, {Vec2{2.0, 0.0}, {2.0, 2.0}, {0.0, 2.0}}, {1.0, 1.0, 2.0}};
 }
 
+TEST(Pieces, TurningCountsFullTurnsAndBothSides) {
+  constexpr double kPi = 3.14159265358979323846;
+  EXPECT_EQ(turning_both_ways(LinePiece{{0, 0}, {3, 1}}, 0.0, 1.0), 0.0);
+  const ArcPiece most_of_a_circle{{0, 0}, {1, 1}, 0.0, -1.0, 1.5 * kPi};
+  EXPECT_NEAR(turning_both_ways(most_of_a_circle, 0.0, 1.0), 1.5 * kPi, 1e-15);
+  EXPECT_NEAR(turning_both_ways(most_of_a_circle, 0.25, 0.75), 0.75 * kPi, 1e-15);
+  // curvature -1 .. 3 along 8: a quarter of the way to one side, the rest to the other
+  const ClothoidPiece both_ways{{0, 0}, {0, 0}, 0.0, -1.0, 3.0, 8.0};
+  EXPECT_NEAR(turning_both_ways(both_ways, 0.0, 1.0), 0.5 * 2.0 + 0.5 * 3.0 * 6.0, 1e-14);
+  EXPECT_NEAR(turning_both_ways(both_ways, 0.5, 1.0), 0.5 * (1.0 + 3.0) * 4.0, 1e-14);
+  EXPECT_NEAR(turning_both_ways(parabola({0.0, 0.0}), 0.0, 1.0), std::atan(2.0), 1e-15);
+  // y = 3 t - 9 t^2 + 6 t^3 over x = 3 t: slopes 1, -1/2, 1
+  const RationalBezier wave{{}, 3, {Vec2{0, 0}, {1, 1}, {2, -1}, {3, 0}}, {1, 1, 1, 1}};
+  EXPECT_NEAR(turning_both_ways(wave, 0.0, 1.0), 2.0 * (std::atan(1.0) + std::atan(0.5)), 0.02);
+}
+
 TEST(Pieces, ParabolaHasItsClosedFormJet) {
   for (const double t : {0.0, 0.2, 0.5, 0.75, 1.0}) {
     const Jet jet = evaluate(parabola({0.0, 0.0}), t);
@@ -66,6 +82,24 @@ TEST(Pieces, EndsAreMetExactly) {
   const LinePiece line{{1, 2}, {3, 2.7}};
   EXPECT_EQ(evaluate(line, 0.0).point, line.start);
   EXPECT_EQ(evaluate(line, 1.0).point, line.end);
+}
+
+TEST(Pieces, ASingularEndHasTheLimitOfHeadingsAndNoCurvature) {
+  // both inner control points on the ends' neighbours: headings from the closed form of the limit
+  const RationalBezier at_start{
+      {75.0, 50.0}, 3, {Vec2{0, 0}, {0, 0}, {10, -15}, {-40, -25}}, {1, 1, 1, 1}};
+  EXPECT_TRUE(is_singular_end(at_start, 0.0));
+  EXPECT_FALSE(is_singular_end(at_start, 1.0));
+  EXPECT_FALSE(is_singular_end(at_start, 0.5));
+  EXPECT_NEAR(element_at(at_start, 0.0).theta, std::atan2(-15.0, 10.0), 1e-15);
+  EXPECT_NEAR(element_at(at_start, 1e-9).theta, std::atan2(-15.0, 10.0), 1e-8);
+  EXPECT_TRUE(std::isnan(element_at(at_start, 0.0).kappa));
+  EXPECT_NEAR(element_at(at_start, 1.0).theta, std::atan2(-10.0, -50.0), 1e-15);
+  const RationalBezier at_end{{}, 2, {Vec2{0.1, 0.3}, {3.3, 0.7}, {3.3, 0.7}}, {1.0, 0.7, 1.9}};
+  EXPECT_TRUE(is_singular_end(at_end, 1.0));
+  EXPECT_NEAR(element_at(at_end, 1.0).theta, std::atan2(0.4, 3.2), 1e-15);
+  EXPECT_TRUE(std::isnan(element_at(at_end, 1.0).kappa));
+  EXPECT_FALSE(is_singular_end(LinePiece{{0, 0}, {1, 0}}, 0.0));
 }
 
 TEST(Pieces, SmallPieceFarFromTheOriginKeepsItsCurvature) {

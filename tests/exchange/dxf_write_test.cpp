@@ -2,6 +2,7 @@
 // DXF files of contours: no entry in ezdxf's audit, and the same curve through ezdxf and back.
 #include "obvid/exchange/dxf_write.h"
 #include "../common/angles.h"
+#include "../common/arcs.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -44,12 +45,6 @@ Contour of_pieces(std::vector<Piece> pieces, bool closed) {
   c.pieces = std::move(pieces);
   c.runs = {{0, c.pieces.size() - 1, 0}};
   return c;
-}
-
-ArcPiece arc_from(Vec2 start, double theta, double kappa, double length) {
-  const double turn = kappa * length;
-  const Vec2 chord = (2.0 * std::sin(0.5 * turn) / kappa) * unit_at(theta + 0.5 * turn);
-  return {start, start + chord, theta, kappa, length};
 }
 
 /// Two lines and two half circles, clockwise.

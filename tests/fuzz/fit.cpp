@@ -68,6 +68,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   if ((options & 4U) != 0 && bytes.take(angle)) job.start_heading = 0.05 * angle;
   if ((options & 8U) != 0 && bytes.take(angle)) job.end_kappa = 0.01 * angle;
   job.tolerance = (options & 16U) != 0 ? std::optional(1e-2) : std::nullopt;
+  if ((options & 128U) != 0) job.continuity = obvid::Continuity::kG3;
   std::uint8_t measured = 0, reach = 0;
   if ((options & 64U) != 0 && bytes.take(measured) && bytes.take(reach)) {
     job.noise = 0.05 * (reach + 1);

@@ -22,7 +22,10 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     require(!series.error().what.empty() && !series.error().where.empty());
     return 0;
   }
-  require(series->points.size() >= 3);
+  require(series->points.size() >= 2);
+  if (series->points.size() == 2) {
+    require(series->fixed.size() == 2 && series->fixed[0].theta && series->fixed[1].theta);
+  }
   require(series->fixed.empty() || series->fixed.size() == series->points.size());
   for (std::size_t i = 0; i < series->points.size(); ++i) {
     require(std::isfinite(series->points[i].x) && std::isfinite(series->points[i].y));

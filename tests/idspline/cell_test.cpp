@@ -63,7 +63,7 @@ TEST(CellPolynomial, PartsOfTheIntegralAreThoseOfThePolynomial) {
 }
 
 TEST(CellPolynomial, CoefficientsOfTheParabolaAreThePublishedOnes) {
-  // 004_..., formula (20), with dI = I - f_i h and df = f_{i+1} - f_i
+  // [004], formula (20), with dI = I - f_i h and df = f_{i+1} - f_i
   const double f0 = 1.7, f1 = -0.4, area = 0.9, h = 0.35;
   const double d_area = area - f0 * h, df = f1 - f0;
   const auto c = power_coefficients(integral_cell(5.0, h, 1, {f0}, {f1}, area / h));

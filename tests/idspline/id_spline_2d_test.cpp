@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Two variables: conditions met, biquadratics reproduced, C1, sections, the domain of 004_...
+// Two variables: conditions met, biquadratics reproduced, C1, sections, the domain of [004]
 #include "obvid/idspline/id_spline_2d.h"
 
 #include <gtest/gtest.h>

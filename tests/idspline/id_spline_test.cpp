@@ -173,7 +173,7 @@ TEST(IdSpline, ReproducesPolynomialsOfItsDegreeFromValuesAlone) {
 }
 
 TEST(IdSpline, FreeValuesSolveThePublishedEquations) {
-  // 004_..., system (21)
+  // [004], system (21)
   const IdSplineData data = random_data(15, 2, 8);
   const IdSpline s = made(data, 2, kFree);
   const auto& f = s.values;

@@ -37,7 +37,7 @@ TEST(ScalarCubic, GlobalFormsReproduceCubicsAndTheLocalOneParabolas) {
 }
 
 TEST(ScalarCubic, SlopesAtEqualStepsAreThePublishedOnes) {
-  // 004_..., formula (13)
+  // [004], formula (13)
   const std::vector<double> x = {0.0, 0.5, 1.0, 1.5}, f = {1.0, 3.0, 2.0, 7.0};
   const auto s = local_cubic(x, f);
   ASSERT_TRUE(s);

@@ -282,6 +282,7 @@ FitReport random_report(Numbers& numbers, std::size_t points, std::size_t segmen
   report.largest_move = numbers.any();
   report.given = {numbers.below(5), numbers.below(5), numbers.below(5), numbers.positive(),
                   numbers.positive()};
+  if (numbers.coin()) report.waviness = numbers.positive();
   if (numbers.coin()) report.carrier_deviation = numbers.positive();
   if (numbers.coin()) report.outside_spirals_region = numbers.positive();
   report.vertices = static_cast<int>(numbers.below(5));
@@ -289,7 +290,13 @@ FitReport random_report(Numbers& numbers, std::size_t points, std::size_t segmen
   report.inflections = static_cast<int>(numbers.below(5));
   report.inserted_points = numbers.below(1000);
   report.seconds = numbers.any();
-  report.chain = {static_cast<int>(numbers.below(50)), numbers.any(), numbers.below(4)};
+  report.chain.newton_steps = static_cast<int>(numbers.below(50));
+  report.chain.smallest_margin = numbers.any();
+  report.chain.free_elements = numbers.below(4);
+  if (numbers.coin()) {
+    report.chain.slope_step_g2 = numbers.positive();
+    if (numbers.coin()) report.chain.waviness_g2 = numbers.positive();
+  }
   return report;
 }
 

@@ -62,8 +62,8 @@ void expect_grid_refused(std::string_view text, ErrorCode code, std::string_view
 
 TEST(ReadGrid, FaultsAreNamedWithTheirPlace) {
   expect_grid_refused("", ErrorCode::kTooFewPoints, "f");
-  expect_grid_refused("wl,0,10,25\n0,0.1,,0.3\n", ErrorCode::kBadNumber, "f:2");
-  expect_grid_refused("wl,0,10,25\n0,0.1,0.2,0.3\n4,,,\n", ErrorCode::kBadNumber, "f:3");
+  expect_grid_refused("wl,0,10,25\n0,0.1,,0.3\n", ErrorCode::kBadNumber, "f:2:7");
+  expect_grid_refused("wl,0,10,25\n0,0.1,0.2,0.3\n4,,,\n", ErrorCode::kBadNumber, "f:3:3");
   expect_grid_refused("wl,0,10,5\n0,0.1,0.2,0.3\n4,1,1,1\n", ErrorCode::kBadNumber, "f");
   expect_grid_refused("0 0 5\n1 0 x6\n2 0 7\n", ErrorCode::kBadNumber, "f:2:5");
   expect_grid_refused("0 0 nan\n1 0 6\n", ErrorCode::kNotFinite, "f:1");

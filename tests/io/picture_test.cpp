@@ -2,10 +2,12 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <limits>
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "obvid/curve/clothoid.h"
 #include "obvid/io/picture_svg.h"
 #include "picture_axis.h"
 #include "picture_canvas.h"
@@ -94,14 +96,38 @@ TEST(Picture, CopesWithNothingALineAndAPoint) {
   EXPECT_EQ(svg.find("nan"), std::string::npos);
 }
 
+TEST(Picture, ShowsTheSlopeOfTheCurvatureWhenAskedTo) {
+  // a clothoid whose curvature goes from 0 to 3 over a length of 6: its slope is 1/2
+  StoredContour stored;
+  ClothoidPiece piece{{0.0, 0.0}, {}, 0.0, 0.0, 3.0, 6.0};
+  piece.end = clothoid_step(0.0, 0.0, 3.0, 6.0);
+  stored.contour.carrier = Carrier::kClothoids;
+  stored.contour.pieces = {piece};
+  stored.contour.runs = {{0, 0, 1}};
+  const char* title = "Slope of the curvature, ";
+  EXPECT_EQ(picture_svg(stored).find(title), std::string::npos);
+  const std::string svg = picture_svg(stored, {}, {.slope = true});
+  const std::size_t at = svg.find(title);
+  ASSERT_NE(at, std::string::npos);
+  EXPECT_NE(svg.find("²", at), std::string::npos);
+  // its axis begins with 0 and ends at 1/2 or just above
+  const std::string plot = svg.substr(at, svg.find("Radius", at) - at);
+  EXPECT_NE(plot.find(">0.4"), std::string::npos) << plot;
+  EXPECT_EQ(plot.find(">1.0"), std::string::npos) << plot;
+  EXPECT_EQ(svg.find("nan"), std::string::npos);
+}
+
 TEST(Picture, SaysWhatIsProvedAndWhatIsNot) {
   StoredContour stored = semicircle(1.0, {0.0, 0.0});
   EXPECT_NE(picture_svg(stored).find("no certificate"), std::string::npos);
   stored.certificate = Certificate{};
   stored.certificate->proved = true;
-  EXPECT_NE(picture_svg(stored).find("monotone curvature and G2 joints proved"), std::string::npos);
+  EXPECT_NE(picture_svg(stored).find("proved: monotone curvature, G2 joints"), std::string::npos);
+  stored.certificate->gaps.slope = 1e-12;
+  EXPECT_NE(picture_svg(stored).find("proved: monotone curvature, G3 joints"), std::string::npos);
+  stored.certificate->gaps.slope.reset();
   stored.contour.carrier = Carrier::kArcs;
-  EXPECT_NE(picture_svg(stored).find("G1 joints proved"), std::string::npos);
+  EXPECT_NE(picture_svg(stored).find("proved: monotone radii, G1 joints"), std::string::npos);
   EXPECT_EQ(picture_svg(stored).find("G2"), std::string::npos);
   stored.certificate->proved = false;
   stored.certificate->reason = "gap <3> & more";
@@ -240,6 +266,20 @@ TEST(PictureRegion, EndsWhereTheContourHasAVertexOrTurnsTheOtherWay) {
   EXPECT_EQ(count({{0, 1, -1}, {2, 4, 1}}), 0U);
   EXPECT_EQ(count({{0, 4, 1}}), 0U) << "not what the circles say";
   EXPECT_EQ(count({}), 0U);
+}
+
+TEST(PictureRegion, SaysNoMoreThanTheReport) {
+  StoredContour stored = on_points(parabola_points(), {{0, 4, -1}});
+  FitReport& report = stored.report.emplace();
+  for (std::size_t i = 0; i < 5; ++i) {
+    SegmentReport& segment = report.segments.emplace_back();
+    segment.from = i;
+    segment.to = i + 1;
+    segment.points_only_error = i == 2 ? 0.01 : std::numeric_limits<double>::quiet_NaN();
+  }
+  const auto region = points_only_region(make_track(stored.contour), stored.contour, &report);
+  ASSERT_EQ(region.size(), 1U);
+  EXPECT_EQ(region[0].start, stored.contour.points[2]);
 }
 
 TEST(PictureRegion, IsSilentlyMissingWherePointsCannotBeAnalysed) {

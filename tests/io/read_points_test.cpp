@@ -168,6 +168,13 @@ TEST(ReadPoints, EmptyCellsBetweenTabsAreNotFixed) {
   EXPECT_DOUBLE_EQ(series->fixed[1].theta.value(), std::numbers::pi / 4);
 }
 
+TEST(ReadPoints, RepeatedPointsWithTwoHeadingsOrRadiiAreRefused) {
+  const std::string rows = "x,y,heading_deg,radius\n0,0,,\n1,1,30,7\n";
+  expect_error(rows + "1,1,31,7\n2,1,,\n", ErrorCode::kFixedDataContradict, "f:4:1");
+  expect_error(rows + "1,1,30,8\n2,1,,\n", ErrorCode::kFixedDataContradict, "f:4:1");
+  EXPECT_TRUE(parse_points(rows + "1,1,30,7\n2,1,,\n", "f"));
+}
+
 TEST(ReadPoints, ImpossibleFixedDataAreRefused) {
   expect_error("x,y,radius\n0,0,0\n1,1,\n", ErrorCode::kNotFinite, "f:2:5");
   expect_error("x,y,kappa\n0,0,inf\n1,1,\n", ErrorCode::kNotFinite, "f:2:5");
@@ -427,6 +434,53 @@ TEST(ReadAirfoil, ABlankLineInsideThePointsIsSaid) {
   ASSERT_TRUE(series.has_value());
   ASSERT_EQ(series->warnings.size(), 1U);
   EXPECT_NE(series->warnings[0].find("line 4"), std::string::npos);
+}
+
+TEST(ReadPoints, ColumnsGiveRangesOfHeadingsAndRadii) {
+  const auto series = parse_points(
+      "x,y,heading_min,heading_max,radius_min,radius_max,kappa_min,kappa_max\n"
+      "0,0,40,45,,,,\n1,1,,,20,40,,\n2,1,,,20,,,\n3,0,,,,-20,,\n4,-2,,,,,-0.5,0.25\n5,-3,,,,,,0\n"
+      "6,-3,,,-40,-20,,\n7,-4,,,,,,\n",
+      "f");
+  ASSERT_TRUE(series) << to_line(series.error());
+  const auto& fixed = series->fixed;
+  EXPECT_DOUBLE_EQ(fixed[0].thetas->low, 40.0 * std::numbers::pi / 180.0);
+  EXPECT_DOUBLE_EQ(fixed[0].thetas->high, 45.0 * std::numbers::pi / 180.0);
+  EXPECT_FALSE(fixed[0].kappas);
+  EXPECT_DOUBLE_EQ(fixed[1].kappas->low, 0.025);
+  EXPECT_DOUBLE_EQ(fixed[1].kappas->high, 0.05);
+  EXPECT_EQ(fixed[2].kappas->low, 0.0);
+  EXPECT_DOUBLE_EQ(fixed[2].kappas->high, 0.05);
+  EXPECT_DOUBLE_EQ(fixed[3].kappas->low, -0.05);
+  EXPECT_EQ(fixed[3].kappas->high, 0.0);
+  EXPECT_EQ(fixed[4].kappas->low, -0.5);
+  EXPECT_EQ(fixed[4].kappas->high, 0.25);
+  EXPECT_EQ(fixed[5].kappas->low, -HUGE_VAL);
+  EXPECT_DOUBLE_EQ(fixed[6].kappas->low, -0.05);
+  EXPECT_DOUBLE_EQ(fixed[6].kappas->high, -0.025);
+  EXPECT_FALSE(fixed[7].thetas || fixed[7].kappas);
+}
+
+TEST(ReadPoints, RangesThatHoldNothingAreRefused) {
+  const auto refused = [](std::string_view columns, std::string_view cells) {
+    const std::string text =
+        "x,y," + std::string(columns) + "\n0,0," + std::string(cells) + "\n1,0,,\n2,1,,\n";
+    expect_error(text, ErrorCode::kBadNumber, "f:2:5");
+  };
+  refused("heading_min,heading_max", "45,40");
+  refused("heading_min,heading_max", "0,181");
+  refused("heading_min,heading_max", "40,");
+  refused("radius_min,radius_max", "-20,30");
+  refused("radius_min,radius_max", "30,20");
+  refused("kappa_min,kappa_max", "1,-1");
+  refused("radius_min,kappa_min", "20,0.1");
+}
+
+TEST(ReadPoints, TwoPointsDoWhenHeadingsComeFromElsewhere) {
+  EXPECT_TRUE(parse_points("0 0\n1 1\n", "f", TwoPoints::kDo));
+  EXPECT_FALSE(parse_points("0 0\n1 1\n", "f"));
+  EXPECT_FALSE(parse_points("0 0\n0 0\n", "f", TwoPoints::kDo));
+  EXPECT_TRUE(parse_points("x,y,heading_min,heading_max\n0,0,0,5\n1,1,60,70\n", "f"));
 }
 
 }  // namespace

@@ -293,9 +293,10 @@ void check_compare(const Run& json, const Run& text, const Course& fit, Sheet& s
     same("vertices", figure(file.certificate, "vertices").value);
     same("inflections", figure(file.certificate, "inflections").value);
     if (file.promises_monotone()) {
-      double most = 0.0;
+      std::optional<double> most;  // of what is known
       for (const Json& one : member(file.report, "segments")) {
-        most = std::max(most, figure(one, "deviation").value.value_or(0.0));
+        const Figure deviation = figure(one, "deviation");
+        if (deviation.known()) most = std::max(most.value_or(0.0), *deviation.value);
       }
       same("error_bound", most);
     }

@@ -16,12 +16,15 @@ namespace {
 constexpr double kPositionBound = 1e-12;  // of the size
 constexpr double kAngleBound = 1e-6;      // rad
 constexpr double kCurvatureBound = 1e-6;  // of the larger curvature
+constexpr double kSlopeBound = 1e-6;      // of the largest slope of both pieces
+constexpr double kSlopeCeiling = 1e-2;    // whatever rounding explains
 /// Figures stated as bounds may be this much below in the last digits of their own text.
 constexpr double kLastDigit = 1e-12;
 
 struct Gaps {
-  double position = 0.0, heading = 0.0, curvature = 0.0;  // lower bounds of the true ones
-  std::size_t at_position = 0, at_heading = 0, at_curvature = 0;
+  double position = 0.0, heading = 0.0, curvature = 0.0,
+         slope = 0.0;  // lower bounds of the true ones
+  std::size_t at_position = 0, at_heading = 0, at_curvature = 0, at_slope = 0;
 };
 
 void meet(double& most, std::size_t& at, double value, std::size_t joint) {
@@ -41,6 +44,7 @@ Gaps gaps_of(const Course& course) {
     if (joint.corner) continue;
     meet(out.heading, out.at_heading, joint.heading.lower(), j);
     meet(out.curvature, out.at_curvature, joint.curvature.lower(), j);
+    meet(out.slope, out.at_slope, joint.slope.lower(), j);
   }
   for (std::size_t i = 0; i < course.file.pieces.size(); ++i) {
     const Point stored = stored_end(course.file.pieces[i]);
@@ -128,6 +132,7 @@ void check_gaps(const Course& course, const Gaps& gaps, Sheet& sheet) {
   one("position", gaps.position, gaps.at_position);
   one("heading", gaps.heading, gaps.at_heading);
   one("curvature", gaps.curvature, gaps.at_curvature);
+  if (course.file.continuity == "G3") one("slope", gaps.slope, gaps.at_slope);
 }
 
 /// A flag that is stated true must be true; one stated false must not be plainly true.
@@ -147,9 +152,11 @@ void check_bounds_flag(const Course& course, const Gaps& gaps, Sheet& sheet) {
   const double position = std::max(kPositionBound, position_rounding(course));
   const bool arcs = course.file.carrier == "arcs";
   const bool can = gaps.position <= position && gaps.heading <= kAngleBound &&
-                   (arcs || gaps.curvature <= kCurvatureBound);
+                   (arcs || gaps.curvature <= kCurvatureBound) &&
+                   (course.file.continuity != "G3" || gaps.slope <= kSlopeCeiling);
   const bool plainly = gaps.position <= 0.1 * kPositionBound && gaps.heading <= 1e-10 &&
-                       (arcs || gaps.curvature <= 1e-10);
+                       (arcs || gaps.curvature <= 1e-10) &&
+                       (course.file.continuity != "G3" || gaps.slope <= 0.1 * kSlopeBound);
   // elements may disagree with the pieces; that is judged on its own and also makes the flag false
   const bool elements_fit = worst_element_gap(course).heading < 1e-10;
   check_flag(course, "gaps_within_bounds", can, plainly && elements_fit,
@@ -208,6 +215,13 @@ void check_counts(const Course& course, Sheet& sheet) {
   if (!stated.present) return sheet.missing("certificate.corners");
   sheet.expect(stated.value == corners, "certificate.corners", stated.value.value_or(-1), corners,
                "");
+  if (course.file.continuity == "G3") {
+    int slope_steps = 0;
+    for (const JointFacts& joint : course.joints) slope_steps += joint.slope_step ? 1 : 0;
+    const Figure stepped = figure(course.file.certificate, "slope_steps");
+    sheet.expect(stepped.value.value_or(-1.0) == slope_steps, "certificate.slope_steps",
+                 stepped.value.value_or(-1.0), slope_steps, "");
+  }
   const Figure said = figure(course.file.certificate, "curvature_steps");
   sheet.expect(said.value.value_or(0.0) == steps, "certificate.curvature_steps",
                said.value.value_or(0.0), steps, "");

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Whether the contour is what was asked for: points, unit, closing, tolerances, given data.
 #include <fmt/format.h>
+#include <cstdlib>
 
 #include <algorithm>
 #include <cmath>
@@ -26,19 +27,40 @@ double reach_of(const GivenPoint& p, const Input& input) {
   return p.tolerance.value_or(input.noise.value_or(0.0));
 }
 
+/// Half a unit of the last decimal that any coordinate of the points shows.
+double rounding_of(const std::vector<GivenPoint>& points) {
+  constexpr int kMostDecimals = 15;
+  for (int decimals = 0; decimals < kMostDecimals; ++decimals) {
+    const auto shows = [decimals](double x) {
+      return std::strtod(fmt::format("{:.{}f}", x, decimals).c_str(), nullptr) == x;
+    };
+    if (std::all_of(points.begin(), points.end(),
+                    [&](const GivenPoint& p) { return shows(p.point.x) && shows(p.point.y); })) {
+      return 0.5 * std::pow(10.0, -decimals);
+    }
+  }
+  return 0.0;
+}
+
 Expected expected_of(const Input& input) {
   Expected out{input.points, input.closed, false};
   if (out.points.size() < 3 || input.open) return out;
   const GivenPoint first = out.points.front(), last = out.points.back();
   const double apart = std::hypot(first.point.x - last.point.x, first.point.y - last.point.y);
-  const bool exact = first.point == last.point;
-  const bool near = apart <= reach_of(first, input) + reach_of(last, input);
+  // the first point again, as sums and products of doubles give it
+  const bool exact = apart <= 16.0 * 0x1p-53 * (std::abs(first.point.x) + std::abs(first.point.y));
+  const double rounding = input.rounding ? rounding_of(input.points) : 0.0;
+  const double reach = std::max(2.0 * rounding, reach_of(first, input) + reach_of(last, input));
+  constexpr double kLastDigits = 1.0 + 1e-9;
+  const bool near = apart <= reach * kLastDigits;
   if (!exact && !near) return out;
   out.closed = true;
   out.joined = !exact;
   GivenPoint& kept = out.points.front();
   if (!kept.heading) kept.heading = last.heading;
   if (!kept.kappa) kept.kappa = last.kappa;
+  if (!kept.headings) kept.headings = last.headings;
+  if (!kept.kappas) kept.kappas = last.kappas;
   out.points.pop_back();
   return out;
 }
@@ -143,14 +165,126 @@ bool is_corner(const ContourFile& file, std::size_t point) {
 }
 
 struct GivenCounts {
-  int headings = 0, curvatures = 0, corners = 0;
+  int headings = 0, curvatures = 0, corners = 0, heading_ranges = 0, curvature_ranges = 0;
   double heading_miss = 0.0, curvature_miss = 0.0;
 };
+
+constexpr double kLastDigits = 1.0 + 1e-6;
+
+/// Value against a range: how far beyond, and from the nearer end.
+struct Placed {
+  double beyond = 0.0, from_end = 0.0;
+  bool at_greatest = false;
+};
+
+Placed placed(double value, const Ends& ends) {
+  const double low = std::abs(value - ends.least), high = std::abs(value - ends.greatest);
+  return {std::max({0.0, ends.least - value, value - ends.greatest}), std::min(low, high),
+          high < low};
+}
+
+/// Headings that may be a whole turn away.
+double turned_into(double heading, const Ends& ends) {
+  const double middle = 0.5 * (ends.least + ends.greatest);
+  return middle + std::remainder(heading - middle, 2.0 * std::numbers::pi);
+}
+
+/// A range that is given at a point: kept by the contour, and named when it lies at an end.
+class RangeCheck {
+ public:
+  RangeCheck(const Course& course, const Json& active, Sheet& sheet)
+      : course_(course), active_(active), sheet_(sheet) {}
+
+  void headings(std::size_t point, const Ends& ends, double& worst) {
+    const Sides sides = sides_at(course_, point);
+    const std::string where = fmt::format("point {}", point + 1);
+    if (sides.heading_kappa.empty())
+      return sheet_.unjudged("given.heading_range", "no station", where);
+    double nearest = std::numeric_limits<double>::max();
+    bool greatest = false;
+    for (const auto& [heading, kappa] : sides.heading_kappa) {
+      const Placed at = placed(turned_into(heading, ends), ends);
+      sheet_.expect(at.beyond <= kGivenHeading * kLastDigits, "given.heading_range", heading,
+                    at.at_greatest ? ends.greatest : ends.least, where);
+      worst = std::max(worst, at.beyond);
+      if (at.from_end < nearest) greatest = at.at_greatest;
+      nearest = std::min(nearest, at.from_end);
+    }
+    named("heading", point, greatest, nearest, kGivenHeading);
+  }
+
+  void kappas(std::size_t point, const Ends& ends, double& worst) {
+    const Sides sides = sides_at(course_, point);
+    const std::string where = fmt::format("point {}", point + 1);
+    if (sides.heading_kappa.empty())
+      return sheet_.unjudged("given.kappa_range", "no station", where);
+    double low = std::numeric_limits<double>::max(), high = -low;
+    for (const auto& [heading, kappa] : sides.heading_kappa) {
+      low = std::min(low, kappa);
+      high = std::max(high, kappa);
+    }
+    double value = placed(low, ends).beyond > placed(high, ends).beyond ? low : high;
+    // arcs: any curvature between both belongs to their common point
+    const bool arcs = course_.file.carrier == "arcs";
+    if (arcs)
+      value =
+          std::clamp(0.5 * (std::max(low, ends.least) + std::min(high, ends.greatest)), low, high);
+    const Placed at = placed(value, ends);
+    const double end = value < ends.least || !at.at_greatest ? ends.least : ends.greatest;
+    double scale = end != 0.0 && std::isfinite(end) ? std::abs(end) : std::abs(value);
+    if (ends.least == 0.0 || ends.greatest == 0.0) scale = std::max(scale, sides.largest_kappa);
+    const double off = at.beyond > 0.0 ? at.beyond / scale : 0.0;
+    sheet_.expect(off <= kGivenCurvature * kLastDigits, "given.kappa_range", value, end, where);
+    worst = std::max(worst, off);
+    const double from_end = at.from_end > 0.0 ? at.from_end / scale : 0.0;  // straight: scale 0
+    if (!arcs) named("curvature", point, at.at_greatest, from_end, kGivenCurvature);
+  }
+
+ private:
+  /// What lies at an end stands in the list, and nothing else; both do where rounding decides.
+  void named(const char* datum, std::size_t point, bool greatest, double away, double kept) {
+    if (active_.is_null()) return;
+    bool listed = false;
+    for (const Json& one : active_) {
+      listed = listed || (figure(one, "point").value == static_cast<double>(point) &&
+                          text_of(one, "datum") == datum &&
+                          text_of(one, "end") == (greatest ? "greatest" : "least"));
+    }
+    if (away > 0.5 * kept && away < 2.0 * kept) return;
+    sheet_.expect(listed == (away <= kept), "given.active", std::string(listed ? "listed" : "not"),
+                  fmt::format("{:.3g} from its end", away),
+                  fmt::format("{} at point {}", datum, point + 1));
+  }
+
+  const Course& course_;
+  const Json& active_;
+  Sheet& sheet_;
+};
+
+/// Two numbers, null where a range has no end.
+std::optional<Ends> listed_range(const Json& one, const char* name) {
+  const Json& list = member(one, name);
+  if (!list.is_array() || list.size() != 2) return std::nullopt;
+  const double none = std::numeric_limits<double>::infinity();
+  return Ends{list[0].is_number() ? list[0].real() : -none,
+              list[1].is_number() ? list[1].real() : none};
+}
+
+bool same_range(const std::optional<Ends>& one, const std::optional<Ends>& other, bool turns) {
+  if (!one || !other) return one.has_value() == other.has_value();
+  constexpr double kSameText = 1e-12;
+  const auto same = [&](double a, double b) {
+    if (a == b) return true;
+    const double off =
+        turns ? std::abs(std::remainder(a - b, 2.0 * std::numbers::pi)) : std::abs(a - b);
+    return off <= kSameText * (turns ? 1.0 : std::max(std::abs(a), std::abs(b)));
+  };
+  return same(one->least, other->least) && same(one->greatest, other->greatest);
+}
 
 /// One fixed point: met, or found false.
 void check_datum(const Course& course, std::size_t i, const std::optional<double>& heading,
                  const std::optional<double>& kappa, GivenCounts& counts, Sheet& sheet) {
-  constexpr double kLastDigits = 1.0 + 1e-6;
   const std::string where = fmt::format("point {}", i + 1);
   const Sides sides = sides_at(course, i);
   if (sides.heading_kappa.empty()) return sheet.unjudged("given.heading", "no station", where);
@@ -174,6 +308,7 @@ void check_datum(const Course& course, std::size_t i, const std::optional<double
 /// What the file lists as given must be what was asked for.
 void check_list(const ContourFile& file, const Expected& expected, Sheet& sheet) {
   std::vector<bool> heading(expected.points.size()), kappa(expected.points.size());
+  std::vector<bool> ranged(expected.points.size());
   for (const Json& one : file.given) {
     const auto i = static_cast<std::size_t>(figure(one, "point").value.value_or(-1.0));
     if (i >= expected.points.size()) {
@@ -190,12 +325,16 @@ void check_list(const ContourFile& file, const Expected& expected, Sheet& sheet)
                                                            2.0 * std::numbers::pi)) < kSameText)) &&
                     (!k.known() ||
                      (p.kappa && std::abs(*k.value - *p.kappa) <= kSameText * std::abs(*p.kappa)));
-    sheet.expect(ok, "given", std::string("listed"), std::string("not what was asked for"),
-                 fmt::format("point {}", i + 1));
+    const bool ranges = same_range(listed_range(one, "heading_range"), p.headings, true) &&
+                        same_range(listed_range(one, "kappa_range"), p.kappas, false);
+    ranged[i] = true;
+    sheet.expect(ok && ranges, "given", std::string("listed"),
+                 std::string("not what was asked for"), fmt::format("point {}", i + 1));
   }
   for (std::size_t i = 0; i < expected.points.size(); ++i) {
     const GivenPoint& p = expected.points[i];
-    const bool listed = (!p.heading || heading[i]) && (!p.kappa || kappa[i]);
+    const bool listed = (!p.heading || heading[i]) && (!p.kappa || kappa[i]) &&
+                        (!(p.headings || p.kappas) || ranged[i]);
     if (!listed) {
       sheet.fails("given", "not listed", "asked for", fmt::format("point {}", i + 1));
     }
@@ -207,9 +346,16 @@ void check_given(const Course& course, const Expected& expected, Sheet& sheet) {
   for (std::size_t i = 0; i < expected.points.size(); ++i) {
     const GivenPoint& p = expected.points[i];
     if (p.heading || p.kappa) check_datum(course, i, p.heading, p.kappa, counts, sheet);
+    RangeCheck range(course, member(member(course.file.report, "given"), "active"), sheet);
+    if (p.headings) range.headings(i, *p.headings, counts.heading_miss);
+    if (p.kappas) range.kappas(i, *p.kappas, counts.curvature_miss);
+    counts.heading_ranges += p.headings ? 1 : 0;
+    counts.curvature_ranges += p.kappas ? 1 : 0;
   }
   if (!course.file.given.is_null()) return check_list(course.file, expected, sheet);
-  if (counts.headings + counts.curvatures > 0) sheet.missing("given", "list of what was fixed");
+  const int ranges = counts.heading_ranges + counts.curvature_ranges;
+  if (counts.headings + counts.curvatures + ranges > 0)
+    sheet.missing("given", "list of what was fixed");
 }
 
 void check_convex(const Course& course, Sheet& sheet) {
@@ -238,6 +384,16 @@ void check_given_list(const Course& course, Sheet& sheet) {
     counts.corners += flag(one, "corner").value_or(false) ? 1 : 0;
   }
   const Json& report = member(course.file.report, "given");
+  RangeCheck range(course, member(report, "active"), sheet);
+  for (const Json& one : course.file.given) {
+    const auto i = static_cast<std::size_t>(figure(one, "point").value.value_or(0.0));
+    const auto headings = listed_range(one, "heading_range");
+    const auto kappas = listed_range(one, "kappa_range");
+    if (headings) range.headings(i, *headings, counts.heading_miss);
+    if (kappas) range.kappas(i, *kappas, counts.curvature_miss);
+    counts.heading_ranges += headings ? 1 : 0;
+    counts.curvature_ranges += kappas ? 1 : 0;
+  }
   if (report.is_null()) return;
   const auto count = [&](const char* name, int found) {
     sheet.expect(figure(report, name).value == found, std::string("report.given.") + name,
@@ -246,6 +402,10 @@ void check_given_list(const Course& course, Sheet& sheet) {
   count("headings", counts.headings);
   count("curvatures", counts.curvatures);
   count("corners", counts.corners);
+  if (counts.heading_ranges + counts.curvature_ranges > 0) {
+    count("heading_ranges", counts.heading_ranges);
+    count("curvature_ranges", counts.curvature_ranges);
+  }
   const auto miss = [&](const char* name, double found) {
     constexpr double kNoise = 1e-15;  // the list's own last digits
     const double stated = figure(report, name).value.value_or(0.0);

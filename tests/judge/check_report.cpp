@@ -23,6 +23,8 @@ constexpr Real kPadding = 1e-3L;
 /// much wider than stated a region may be for it.
 constexpr Real kStep = 1e-9L;
 constexpr Real kWidth = 1e-6L;
+/// To what part of itself the waviness is told.
+constexpr double kWaviness = 1e-3;
 
 class ReportCheck {
  public:
@@ -148,7 +150,8 @@ class ReportCheck {
       return sheet_.fails(claim, shown(*stated.value), reason, where(part));
     }
     const Real found = lens->height(), slack = lens->growth() * kRoundedDirection;
-    const Real seen_from_afar = lens->growth() * 0x1p-60L * coordinate(*four) / lens->shortest;
+    const Real seen_from_afar =
+        lens->growth() * 0x1p-60L * course_.ends.coordinate / lens->shortest;
     sheet_.expect(*stated.value >= found * (1.0L - kSame) - seen_from_afar &&
                       *stated.value <= found * (1.0L + kSame) + slack + seen_from_afar,
                   claim, *stated.value, found, where(part));
@@ -266,7 +269,16 @@ class ReportCheck {
     // of curves that turn by half a turn or more there is no region
     if (course_.turning(a, b) >= std::numbers::pi_v<Real>) return HUGE_VALL;
     const auto one = region(a, b);
-    return one ? one->width() : 0.0L;
+    return one ? std::max(0.0L, one->width() - region_blur(a, b)) : 0.0L;
+  }
+  /// What rounding of long doubles makes of the joint of a boundary, where both curvatures are
+  /// nearly the same: its heading is that of their difference.
+  [[nodiscard]] Real region_blur(Real a, Real b) const {
+    constexpr Real kRoundings = 16.0L * 0x1p-64L;
+    const Element from = course_.element(a, true), to = course_.element(b, false);
+    const Real h = norm(to.point - from.point);
+    const Real bent = 0.5L * h * (std::abs(from.kappa) + std::abs(to.kappa));
+    return kRoundings * bent * (1.0L + bent) / std::abs(to.kappa - from.kappa);
   }
 
   void width(const Json& row, const Part& part) {
@@ -294,8 +306,20 @@ class ReportCheck {
     for (std::size_t k = 0; k + 1 < part.cuts.size(); ++k) {
       found = std::max(found, region_width(part.cuts[k], part.cuts[k + 1]));
     }
-    sheet_.expect(*stated.value >= found * (1.0L - 1e-6L) - course_.resolution(), claim,
-                  *stated.value, found, where(part));
+    const Real slack = course_.resolution() + joint_blur(part);
+    sheet_.expect(*stated.value >= found * (1.0L - 1e-6L) - slack, claim, *stated.value, found,
+                  where(part));
+  }
+
+  /// Which of the two pieces at a joint tells its heading is left open by the gap between them.
+  [[nodiscard]] Real joint_blur(const Part& part) const {
+    Real gaps = 0.0L;
+    for (std::size_t i = 0; i < course_.joints.size(); ++i) {
+      const auto order = static_cast<Real>(i);
+      if (order < part.from || order > part.to) continue;
+      if (!course_.joints[i].corner) gaps += course_.joints[i].heading.upper();
+    }
+    return gaps * norm(course_.path.at(part.to) - course_.path.at(part.from));
   }
 
   /// Fewest elements inside a part so that no region is wider; joints count too when `joints`.
@@ -472,6 +496,49 @@ class ReportCheck {
     largest_deviation(rows);
     tolerance(largest);
     carrier_deviation();
+    waviness();
+  }
+
+  /// Hills of the slope of curvature on a run, from nine places of each piece (docs/claims.md).
+  void waviness() {
+    const char* claim = "report.waviness";
+    const Figure stated = figure(report_, "waviness");
+    if (!stated.present) return sheet_.missing(claim);
+    if (stated.null()) return sheet_.unjudged(claim, "null");
+    const std::size_t n = file_.pieces.size();
+    const bool loop = file_.closed && n > 0 && !file_.parted_at(0);
+    std::vector<FileRun> runs = file_.runs;
+    if (loop && runs.size() > 1 && runs.front().direction == runs.back().direction) {
+      runs.back().last = n + runs.front().last;
+      runs.erase(runs.begin());
+    }
+    double hills = 0.0, count = 0.0;
+    for (const FileRun& run : runs) {
+      if (run.direction == 0 || run.last >= 2 * n) continue;
+      hills += hills_of(run, n);
+      count += 1.0;
+    }
+    if (count == 0.0) return sheet_.fails(claim, shown(*stated.value), "no run has a slope", "");
+    const double found = hills / count;
+    sheet_.expect(std::abs(*stated.value - found) <= kWaviness * found, claim, *stated.value, found,
+                  "");
+  }
+
+  [[nodiscard]] double hills_of(const FileRun& run, std::size_t pieces) const {
+    constexpr int kSteps = 8;
+    Ball variation(0.0), largest(0.0), before(0.0);
+    const auto meet = [&](const Ball& slope) {
+      variation += abs(slope - before);
+      largest = larger(largest, abs(slope));
+      before = slope;
+    };
+    for (std::size_t i = run.first; i <= run.last; ++i) {
+      for (int k = 0; k <= kSteps; ++k) {
+        meet(slope_at(file_.pieces[i % pieces], static_cast<double>(k) / kSteps));
+      }
+    }
+    meet(Ball(0.0));
+    return static_cast<double>((variation / (Ball(2.0) * largest)).middle());
   }
 
   void largest_deviation(const Json& rows) {

@@ -4,6 +4,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <regex>
+#include <string>
 
 #include "sentences.h"
 #include "texts.h"
@@ -162,6 +164,7 @@ class TextCheck {
     if (!fact) return plain(line, command);
     if (is_idle(*fact) || fact->label == "note") return;
     if (fact->label == "given data") return given(*fact);
+    if (fact->label == "at an end") return at_an_end(*fact);
     for (const std::string& part : split(fact->value, "; ")) {
       judge(fact->label, sentence_of(part, file_.printed_unit()), command);
     }
@@ -194,9 +197,45 @@ class TextCheck {
       if (!named) sheet_.unjudged("text: verdict", sentence_of(line, file_.printed_unit()).shape);
       return;
     }
-    const bool g2 = line.find("G2 joints") != std::string::npos;
-    const bool g1 = line.find("G1 joints") != std::string::npos;
-    sheet_.expect(arcs ? g1 && !g2 : g2, "text: verdict", line, arcs ? "G1" : "G2", "");
+    const Figure steps_of_slope = figure(member(certificate_, "joint_gaps"), "slope");
+    const bool slope = steps_of_slope.present && !steps_of_slope.null();
+    const std::string own = arcs ? "G1 joints" : slope ? "G3 joints" : "G2 joints";
+    for (const char* one : {"G1 joints", "G2 joints", "G3 joints"}) {
+      sheet_.expect((line.find(one) != std::string::npos) == (own == one), "text: verdict", line,
+                    own, "");
+    }
+    const auto count = [&](const char* name) {
+      return static_cast<long>(figure(certificate_, name).value.value_or(0.0));
+    };
+    const long corners = count("corners"), steps = count("curvature_steps");
+    says_if(line, corners > 0, " between ",
+            fmt::format("joints between {} corner{}", corners, corners == 1 ? "" : "s"));
+    says_if(line, steps > 0, " G1 with ",
+            fmt::format("for {} that {} G1 with", steps, steps == 1 ? "is" : "are"));
+    slope_step(line, steps_of_slope);
+  }
+
+  /// Such words are there when they have to be, as they have to be, and not otherwise.
+  void says_if(const std::string& line, bool needed, const char* words, const std::string& whole) {
+    const bool right =
+        needed ? line.find(whole) != std::string::npos : line.find(words) == std::string::npos;
+    sheet_.expect(right, "text: verdict", line, needed ? whole : "nothing of it", words);
+  }
+
+  /// The largest step of the slope is told.
+  void slope_step(const std::string& line, const Figure& stated) {
+    const char* claim = "text: verdict of slopes";
+    const std::string told = " (the slope of curvature steps by ";
+    const std::size_t at = line.find(told);
+    const bool steps = stated.value.value_or(0.0) > 0.0;
+    if ((at != std::string::npos) != steps) {
+      return sheet_.fails(claim, line, steps ? "the step of the slope" : "no step of the slope",
+                          "");
+    }
+    if (!steps) return;
+    const std::size_t from = at + told.size();
+    const std::string printed = line.substr(from, line.find(' ', from) - from);
+    sheet_.expect(prints(printed, stated.value), claim, printed, shown(*stated.value), "");
   }
 
   /// docs/claims.md: the verdict names the gaps when either exceeds 1e-9.
@@ -209,8 +248,24 @@ class TextCheck {
         file_.carrier == "arcs" ? 0.0 : figure(gaps, "curvature").value.value_or(0.0);
     if (heading <= kNamed && curvature <= kNamed) return;
     const Sentence s = sentence_of(verdict_, file_.printed_unit());
-    sheet_.expect(has_figure(s), "text: verdict names gaps", verdict_,
+    const bool named = file_.continuity == "G3"  // which has a figure of its own
+                           ? verdict_.find(" rad of heading") != std::string::npos
+                           : has_figure(s);
+    sheet_.expect(named, "text: verdict names gaps", verdict_,
                   fmt::format("heading {:.3g}, curvature {:.3g}", heading, curvature), "");
+  }
+
+  /// "at point 5 the greatest heading, at point 10 the least curvature"
+  void at_an_end(const Fact& fact) {
+    const Json& active = member(member(report_, "given"), "active");
+    std::string expected;
+    for (const Json& one : active) {
+      expected += fmt::format("{}at point {:.0f} the {} {}", expected.empty() ? "" : ", ",
+                              figure(one, "point").value.value_or(-1.0) + 1.0, text_of(one, "end"),
+                              text_of(one, "datum"));
+    }
+    if (expected.empty()) expected = "none: the contour lies inside all ranges";
+    sheet_.expect(fact.value == expected, "text: at an end", fact.value, expected, "");
   }
 
   /// "2 headings and 1 radius met; largest miss 1e-12 rad and 2e-11 of the curvature"
@@ -230,7 +285,11 @@ class TextCheck {
                            : is("# corner")                      ? "corners"
                                                                  : "";
         const Figure value = figure(report, name);
-        if (!value.present) {
+        if (!misses && is("# range")) {
+          figure_is("given ranges", s.figures[i],
+                    figure(report, "heading_ranges").value.value_or(0.0) +
+                        figure(report, "curvature_ranges").value.value_or(0.0));
+        } else if (!value.present) {
           sheet_.unjudged("text: given data", s.shape);
         } else {
           figure_is(std::string("given ") + name, s.figures[i], value.value);
@@ -270,7 +329,7 @@ class TextCheck {
 
   void gaps(const Sentence& s, std::size_t count) {
     const Json& gaps = member(certificate_, "joint_gaps");
-    const char* names[] = {"position", "heading", "curvature"};
+    const char* names[] = {"position", "heading", "curvature", "slope"};
     for (std::size_t i = 0; i < count; ++i) {
       figure_is(std::string("joint gaps ") + names[i], s.figures.at(i),
                 figure(gaps, names[i]).value);
@@ -298,8 +357,15 @@ class TextCheck {
           largest("points_only_error").value);
     } else if (key.starts_with("largest error: # U from the point alone")) {
       error(s, "points_only_error", "from the points");
+    } else if (key == "largest error: unknown with these tangents and curvature") {
+      say(!largest("deviation").value, "largest error with tangents", "unknown",
+          largest("deviation").value);
     } else if (key.starts_with("largest error: # U with these tangents and curvature")) {
       error(s, "deviation", "with tangents");
+    } else if (key == "largest width: unknown (tolerance #)") {
+      say(figure(report_, "largest_width").null(), "largest width", "unknown",
+          figure(report_, "largest_width").value);
+      figure_is("tolerance", s.figures[0], figure(report_, "tolerance").value);
     } else if (key == "largest width: # U (tolerance #)") {
       figure_is("largest width", s.figures[0], figure(report_, "largest_width").value);
       figure_is("tolerance", s.figures[1], figure(report_, "tolerance").value);
@@ -317,16 +383,38 @@ class TextCheck {
       } else {
         say(outside.value == 0.0, "outside their region", "inside", outside.value);
       }
+    } else if (key == "waviness: # hills of the slope of curvature on a run") {
+      figure_is("waviness", s.figures[0], figure(report_, "waviness").value);
+    } else if (key.starts_with("as G2 contour: the slope of curvature would step by #")) {
+      const Json& chain = member(report_, "chain");
+      figure_is("as G2 contour step", s.figures[0], figure(chain, "slope_step_g2").value);
+      if (s.figures.size() == 2) {
+        figure_is("as G2 contour waviness", s.figures[1], figure(chain, "waviness_g2").value);
+      }
     } else if (key == "largest move: # U") {
       figure_is("largest move", s.figures[0], figure(report_, "largest_move").value);
     } else if (key ==
                "joint gaps: position # of the size, heading # rad, curvature # of the larger") {
       gaps(s, 3);
+    } else if (key ==
+               "joint gaps: position # of the size, heading # rad, curvature # of the larger, "
+               "slope "
+               "of curvature #") {
+      gaps(s, 4);
+    } else if (key == "joint gaps: position # of the size, heading # rad, curvature unknown") {
+      gaps(s, 2);
+      say(figure(member(certificate_, "joint_gaps"), "curvature").null(), "joint gaps curvature",
+          "unknown", figure(member(certificate_, "joint_gaps"), "curvature").value);
     } else if (key == "joint gaps: position # of the size, heading # rad") {
       gaps(s, 2);
     } else if (key == "joint gaps: curvature steps up to # (arcs)") {
       figure_is("joint gaps curvature", s.figures[0],
                 figure(member(certificate_, "joint_gaps"), "curvature").value);
+    } else if (key == "report claims: # vertex, # inflection, largest width unknown") {
+      figure_is("report claims", s.figures[0], figure(report_, "vertices").value);
+      figure_is("report claims", s.figures[1], figure(report_, "inflections").value);
+      say(figure(report_, "largest_width").null(), "report claims", "unknown",
+          figure(report_, "largest_width").value);
     } else if (key == "report claims: # vertex, # inflection, largest width # U") {
       figure_is("report claims", s.figures[0], figure(report_, "vertices").value);
       figure_is("report claims", s.figures[1], figure(report_, "inflections").value);
@@ -335,7 +423,7 @@ class TextCheck {
       return;  // words of the file, judged with `fit`
     } else if (label == "curvature") {
       verdict_counts(s);
-    } else if (label == "vertices" || label == "inflections") {
+    } else if (label == "vertices" || label == "inflections" || label == "corners") {
       figure_is("verify " + label, s.figures.empty() ? "" : s.figures[0],
                 figure(certificate_, label.c_str()).value);
     } else if (label == "self-intersections") {
@@ -431,6 +519,20 @@ void check_fit_json(const Course& course, const Run& run, Sheet& sheet) {
                static_cast<double>(file.pieces.size()), "");
   same_json(member(json, "report"), file.report, "", sheet);
   same_json(member(json, "certificate"), file.certificate, "", sheet);
+}
+
+void check_named_points(const Run& run, std::size_t points, Sheet& sheet) {
+  static const std::regex kNamed(R"(\bpoints? (\d+)(?:(?: to | and |-)(\d+))?)");
+  for (std::sregex_iterator it(run.err.begin(), run.err.end(), kNamed), end; it != end; ++it) {
+    for (const std::size_t group : {1U, 2U}) {
+      if (!(*it)[group].matched) continue;
+      const std::string number = (*it)[group].str();
+      const bool there =
+          number.size() < 10 && std::stoul(number) >= 1 && std::stoul(number) <= points;
+      sheet.expect(there, "named points", number, fmt::format("1 to {}", points),
+                   run.err.substr(0, 200));
+    }
+  }
 }
 
 void check_exit(const Course* course, const Run& run, Sheet& sheet) {

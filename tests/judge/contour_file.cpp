@@ -64,6 +64,7 @@ FileElement element_of(const Json& json) {
   if (!source.is_null()) out.source = source.index();
   out.corner = flag(json, "corner").value_or(false);
   out.step = flag(json, "curvature_step").value_or(false);
+  out.slope_step = flag(json, "slope_step").value_or(false);
   if (out.parted()) {
     out.heading_out = number(json, "heading_out");
     out.kappa_out = number(json, "kappa_out");
@@ -92,6 +93,7 @@ ContourFile contour_of(const Json& json) {
     throw std::runtime_error("units_source is none of file, given, assumed");
   }
   out.carrier = json.at("carrier").string();
+  out.continuity = json.contains("continuity") ? json.at("continuity").string() : "G2";
   out.closed = json.at("closed").truth();
   out.points = points_of(json.at("points"));
   if (json.contains("point_tolerance")) {
@@ -121,6 +123,11 @@ const FileElement* ContourFile::joint(std::size_t i) const {
 bool ContourFile::corner_at(std::size_t joint_index) const {
   const FileElement* element = joint(joint_index);
   return element != nullptr && element->corner;
+}
+
+bool ContourFile::slope_step_at(std::size_t joint_index) const {
+  const FileElement* element = joint(joint_index);
+  return element != nullptr && element->slope_step;
 }
 
 bool ContourFile::parted_at(std::size_t joint_index) const {

@@ -18,6 +18,7 @@ struct FileElement {
   bool corner = false;
   bool step = false;  ///< a common tangent, and two curvatures
   [[nodiscard]] bool parted() const { return corner || step; }
+  bool slope_step = false;  ///< of a G3 contour: G2 only
   double heading_out = 0.0, kappa_out = 0.0;
 };
 
@@ -34,6 +35,7 @@ struct FileSpline {
 
 struct ContourFile {
   std::string units, carrier;
+  std::string continuity;    ///< G2, G3
   std::string units_source;  ///< file, given, assumed
   bool closed = false;
   std::vector<Point> points;
@@ -53,6 +55,7 @@ struct ContourFile {
   /// Joint that stands between piece i - 1 and piece i; nullptr past an end.
   [[nodiscard]] const FileElement* joint(std::size_t i) const;
   [[nodiscard]] bool corner_at(std::size_t joint_index) const;
+  [[nodiscard]] bool slope_step_at(std::size_t joint_index) const;
   /// A corner, or a step of the curvature.
   [[nodiscard]] bool parted_at(std::size_t joint_index) const;
   [[nodiscard]] bool promises_monotone() const {

@@ -26,6 +26,15 @@ int changes(const std::vector<Item>& items, bool all, bool closed) {
   return count;
 }
 
+/// From its own start: of a tiny piece far away the curvature would drown in the digits.
+Span seen_from_start(const Piece& piece) {
+  const auto* bezier = std::get_if<Bezier>(&piece);
+  if (bezier == nullptr) return Span(piece, stored_start(piece));
+  std::vector<Vec> points;
+  for (const Point p : bezier->offset) points.push_back(seen(p, bezier->offset.front()));
+  return Span(std::move(points), {bezier->weight.begin(), bezier->weight.end()});
+}
+
 /// The curvature at a vertex, which is the only one between two parameters.
 double extreme_kappa(const Span& span, const Turn& turn, bool highest) {
   const auto height = [&](Real t) { return (highest ? 1.0L : -1.0L) * span.at(t).kappa(); };
@@ -72,7 +81,7 @@ CountRange count_inflections(const Course& course) {
     meet(static_cast<double>(a.kappa.middle()));
     const CurvatureLaw& law = course.laws[i];
     for (std::size_t k = 0; k < law.turns.size(); ++k) {
-      meet(extreme_kappa(course.path.spans()[i], law.turns[k], law.signs[k] > 0));
+      meet(extreme_kappa(seen_from_start(course.file.pieces[i]), law.turns[k], law.signs[k] > 0));
     }
     meet(static_cast<double>(b.kappa.middle()));
   }

@@ -115,7 +115,7 @@ Course::Course(const ContourFile& contour)
     Part part{
         stations[k].point, stations[k + 1].point, stations[k].order, stations[k + 1].order, {}, {}};
     // over half a turn or more a region is none: there all joints count (docs/claims.md)
-    const bool far = turning(part.from, part.to) >= std::numbers::pi_v<Real>;
+    const bool far = turning_both_ways(part.from, part.to) >= std::numbers::pi_v<Real>;
     part.turns = cuts_of(part.from, part.to, false);
     part.cuts = cuts_of(part.from, part.to, far);
     parts.push_back(std::move(part));
@@ -203,7 +203,8 @@ Real Course::turning(Real a, Real b) const {
 Real Course::turning_both_ways(Real a, Real b) const {
   Real sum = 0.0L;
   for (auto i = static_cast<std::size_t>(a); static_cast<Real>(i) < b && i < laws.size(); ++i) {
-    sum += path.spans()[i].turning_both_ways();
+    const auto start = static_cast<Real>(i);
+    sum += path.spans()[i].turning_both_ways(std::max(a - start, 0.0L), std::min(b - start, 1.0L));
   }
   return sum;
 }

@@ -2,6 +2,8 @@
 #include "ends.h"
 
 #include <cmath>
+#include <utility>
+#include <vector>
 
 namespace judge {
 namespace {
@@ -71,6 +73,67 @@ BallVec relative(const Bezier& bezier, std::size_t of, std::size_t from) {
   return exact(bezier.offset[of]) - exact(bezier.offset[from]);
 }
 
+/// d kappa/ds at the start of a curve of degree n, 2 or more, by the quotient rule: derivatives of
+/// the weighted points, seen from the start, and of the weights give those of the curve.
+Ball slope_by_quotient(std::size_t n, std::vector<BallVec> weighted, std::vector<Ball> weight) {
+  if (n == 2) {  // a third difference that the degree does not have
+    weight.emplace_back(0.0);
+    weighted.push_back({0.0, 0.0});
+  }
+  const auto d = static_cast<double>(n);
+  const Ball one(d), two(d * (d - 1.0)), three(d * (d - 1.0) * (d - 2.0));
+  const Ball w = weight[0], w1 = one * (weight[1] - weight[0]),
+             w2 = two * (weight[2] - Ball(2.0) * weight[1] + weight[0]);
+  const BallVec q1 = one * weighted[1], q2 = two * (weighted[2] - Ball(2.0) * weighted[1]);
+  const BallVec q3 = three * (weighted[3] - Ball(3.0) * weighted[2] + Ball(3.0) * weighted[1]);
+  const Ball over = Ball(1.0) / w;
+  const BallVec c1 = over * q1;
+  const BallVec c2 = over * (q2 - Ball(2.0) * w1 * c1);
+  const BallVec c3 = over * (q3 - Ball(3.0) * w1 * c2 - Ball(3.0) * w2 * c1);
+  const Ball speed2 = dot(c1, c1), speed4 = speed2 * speed2;
+  return (cross(c1, c3) * speed2 - Ball(3.0) * cross(c1, c2) * dot(c1, c2)) / (speed4 * speed2);
+}
+
+/// Backwards the curvature changes its sign and the arc length too.
+Ball bezier_slope(const Bezier& bezier, bool at_start) {
+  const std::size_t n = bezier.offset.size() - 1;
+  if (n < 2) return 0.0;
+  const auto at = [&](std::size_t j) { return at_start ? j : n - j; };
+  std::vector<BallVec> weighted;
+  std::vector<Ball> weight;
+  for (std::size_t j = 0; j <= std::min<std::size_t>(n, 3); ++j) {
+    weight.emplace_back(bezier.weight[at(j)]);
+    weighted.push_back(weight[j] * relative(bezier, at(j), at(0)));
+  }
+  return slope_by_quotient(n, std::move(weighted), std::move(weight));
+}
+
+/// Of the part behind t, by de Casteljau's construction.
+Ball bezier_slope_at(const Bezier& bezier, const Ball& t) {
+  const std::size_t n = bezier.offset.size() - 1;
+  if (n < 2) return 0.0;
+  std::vector<BallVec> q;
+  std::vector<Ball> w;
+  for (std::size_t j = 0; j <= n; ++j) {
+    w.emplace_back(bezier.weight[j]);
+    q.push_back(w[j] * relative(bezier, j, 0));
+  }
+  const Ball rest = Ball(1.0) - t;
+  // place j is blended n - j times: the control points of the part behind t
+  for (std::size_t last = n; last-- > 0;) {
+    for (std::size_t j = 0; j <= last; ++j) {
+      q[j] = rest * q[j] + t * q[j + 1];
+      w[j] = rest * w[j] + t * w[j + 1];
+    }
+  }
+  const BallVec start = (Ball(1.0) / w[0]) * q[0];
+  const std::size_t kept = std::min<std::size_t>(n, 3) + 1;
+  for (std::size_t j = 0; j < kept; ++j) q[j] = q[j] - w[j] * start;
+  q.resize(kept);
+  w.resize(kept);
+  return slope_by_quotient(n, std::move(q), std::move(w));
+}
+
 End bezier_end(const Bezier& bezier, bool at_start) {
   const std::size_t n = bezier.offset.size() - 1;
   const auto at = [&](std::size_t j) { return at_start ? j : n - j; };
@@ -87,7 +150,12 @@ End bezier_end(const Bezier& bezier, bool at_start) {
   const Ball area = cross(leg, relative(bezier, at(2), at(0)));
   end.kappa = factor * area / (length * length * length);
   if (!at_start) end.kappa = -end.kappa;
+  end.slope = bezier_slope(bezier, at_start);
   return end;
+}
+
+Ball clothoid_slope(const Clothoid& c) {
+  return (Ball(c.kappa1) - Ball(c.kappa0)) / Ball(c.length);
 }
 
 }  // namespace
@@ -100,13 +168,21 @@ Ball turning_of(const Clothoid& c) {
   return Ball(0.5) * (Ball(c.kappa0) + Ball(c.kappa1)) * Ball(c.length);
 }
 
+Ball slope_at(const Piece& piece, double t) {
+  if (const auto* bezier = std::get_if<Bezier>(&piece)) {
+    return t == 1.0 ? bezier_slope(*bezier, false) : bezier_slope_at(*bezier, Ball(t));
+  }
+  const auto* clothoid = std::get_if<Clothoid>(&piece);
+  return clothoid != nullptr ? clothoid_slope(*clothoid) : Ball(0.0);
+}
+
 End start_of(const Piece& piece) {
   if (const auto* bezier = std::get_if<Bezier>(&piece)) return bezier_end(*bezier, true);
   if (const auto* arc = std::get_if<Arc>(&piece)) {
     return {exact(arc->start), direction(arc->theta0), arc->kappa};
   }
   if (const auto* one = std::get_if<Clothoid>(&piece)) {
-    return {exact(one->start), direction(one->theta0), one->kappa0};
+    return {exact(one->start), direction(one->theta0), one->kappa0, clothoid_slope(*one)};
   }
   const auto& line = std::get<Line>(piece);
   return {exact(line.start), exact(line.end) - exact(line.start), 0.0};
@@ -121,7 +197,7 @@ End end_of(const Piece& piece) {
   if (const auto* one = std::get_if<Clothoid>(&piece)) {
     const Ball theta(one->theta0), k0(one->kappa0), k1(one->kappa1), s(one->length);
     return {exact(one->start) + clothoid_chord(theta, k0, k1, s),
-            direction(theta + turning_of(*one)), k1};
+            direction(theta + turning_of(*one)), k1, clothoid_slope(*one)};
   }
   const auto& line = std::get<Line>(piece);
   return {exact(line.end), exact(line.end) - exact(line.start), 0.0};

@@ -3,6 +3,7 @@
 
 #include <cmath>
 #include <cstdlib>
+#include <limits>
 #include <map>
 #include <numbers>
 #include <sstream>
@@ -14,6 +15,61 @@ double radians(double degrees) { return degrees * std::numbers::pi / 180.0; }
 
 double curvature_of(const std::string& radius) {
   return radius == "inf" ? 0.0 : 1.0 / std::strtod(radius.c_str(), nullptr);
+}
+
+constexpr double kNoEnd = std::numeric_limits<double>::infinity();
+
+/// Curvatures of radii from one end to the other, either of which may be missing.
+std::optional<Ends> bends_of(const std::string& least, const std::string& greatest) {
+  const auto radius = [](const std::string& text) {
+    return text.find("inf") != std::string::npos ? kNoEnd : std::strtod(text.c_str(), nullptr);
+  };
+  if (least.empty() && greatest.empty()) return std::nullopt;
+  // a missing end is as far as the sign of the other one goes
+  const bool left = !least.empty() ? radius(least) >= 0.0 && least[0] != '-' : radius(greatest) > 0;
+  const auto bend = [&](const std::string& text, double missing) {
+    if (text.empty()) return missing;
+    const double r = radius(text);
+    return std::isinf(r) ? 0.0 : r == 0.0 ? (left ? kNoEnd : -kNoEnd) : 1.0 / r;
+  };
+  if (left) return Ends{bend(greatest, 0.0), bend(least, kNoEnd)};
+  return Ends{bend(greatest, -kNoEnd), bend(least, 0.0)};
+}
+
+/// "LOW..HIGH", either of which may be missing.
+std::optional<std::pair<std::string, std::string>> ends_of(const std::string& text) {
+  const std::size_t at = text.find("..");
+  if (at == std::string::npos) return std::nullopt;
+  return std::pair(text.substr(0, at), text.substr(at + 2));
+}
+
+std::optional<Ends> headings_of(const std::string& text) {
+  const auto ends = ends_of(text);
+  if (!ends) return std::nullopt;
+  return Ends{radians(std::strtod(ends->first.c_str(), nullptr)),
+              radians(std::strtod(ends->second.c_str(), nullptr))};
+}
+
+std::optional<Ends> kappas_of(const std::string& text) {
+  const auto ends = ends_of(text);
+  if (!ends) return std::nullopt;
+  return Ends{ends->first.empty() ? -kNoEnd : std::strtod(ends->first.c_str(), nullptr),
+              ends->second.empty() ? kNoEnd : std::strtod(ends->second.c_str(), nullptr)};
+}
+
+/// A heading, or the headings between two.
+void give_heading(GivenPoint& p, const std::string& text) {
+  p.headings = headings_of(text);
+  if (!p.headings) p.heading = radians(std::strtod(text.c_str(), nullptr));
+}
+
+void give_radius(GivenPoint& p, const std::string& text) {
+  const auto ends = ends_of(text);
+  if (ends) {
+    p.kappas = bends_of(ends->first, ends->second);
+  } else {
+    p.kappa = curvature_of(text);
+  }
 }
 
 std::vector<std::string> cells_of(std::string line) {
@@ -55,6 +111,15 @@ class Reader {
     if (const auto heading = number(cells, "heading_deg")) p.heading = radians(*heading);
     if (const std::string* radius = cell(cells, "radius")) p.kappa = curvature_of(*radius);
     if (const auto kappa = number(cells, "kappa")) p.kappa = kappa;
+    const auto words = [&](const char* name) {
+      const std::string* found = cell(cells, name);
+      return found == nullptr ? std::string() : *found;
+    };
+    const auto least = number(cells, "heading_min"), greatest = number(cells, "heading_max");
+    if (least && greatest) p.headings = Ends{radians(*least), radians(*greatest)};
+    p.kappas = bends_of(words("radius_min"), words("radius_max"));
+    const auto low = number(cells, "kappa_min"), high = number(cells, "kappa_max");
+    if (low || high) p.kappas = Ends{low.value_or(-kNoEnd), high.value_or(kNoEnd)};
     p.tolerance = number(cells, "tol");
     if (const std::string* corner = cell(cells, "corner")) p.corner = *corner == "1";
     merge(p);
@@ -126,10 +191,10 @@ class Options {
     if (name == "--primitives") input_.primitives = true;
     if (input_.points.empty()) return;
     GivenPoint &first = input_.points.front(), &last = input_.points.back();
-    if (name == "--start-heading" && value != "natural") first.heading = radians(number);
-    if (name == "--end-heading" && value != "natural") last.heading = radians(number);
-    if (name == "--start-radius") first.kappa = curvature_of(value);
-    if (name == "--end-radius") last.kappa = curvature_of(value);
+    if (name == "--start-heading" && value != "natural") give_heading(first, value);
+    if (name == "--end-heading" && value != "natural") give_heading(last, value);
+    if (name == "--start-radius") give_radius(first, value);
+    if (name == "--end-radius") give_radius(last, value);
     at_point(name, value);
   }
   void at_point(const std::string& name, const std::string& value) {
@@ -140,9 +205,12 @@ class Options {
     if (name == "--corner-at") p.corner = true;
     if (equals == std::string::npos) return;
     const std::string what = value.substr(equals + 1);
-    if (name == "--heading-at") p.heading = radians(std::strtod(what.c_str(), nullptr));
-    if (name == "--radius-at") p.kappa = curvature_of(what);
-    if (name == "--kappa-at") p.kappa = std::strtod(what.c_str(), nullptr);
+    if (name == "--heading-at") give_heading(p, what);
+    if (name == "--radius-at") give_radius(p, what);
+    if (name == "--kappa-at") {
+      p.kappas = kappas_of(what);
+      if (!p.kappas) p.kappa = std::strtod(what.c_str(), nullptr);
+    }
   }
   Input& input_;
 };
@@ -174,6 +242,31 @@ std::string with_tolerances_from(const std::string& text, const std::string& tol
     }
     for (std::size_t i = 0; i < cells.size(); ++i) out += (i == 0 ? "" : ",") + cells[i];
     out += "\n";
+  }
+  return out;
+}
+
+std::vector<std::string> without_datum(const std::vector<std::string>& options, bool heading,
+                                       std::size_t point, std::size_t points) {
+  std::vector<std::string> out;
+  for (std::size_t i = 0; i < options.size(); ++i) {
+    const std::string& word = options[i];
+    const std::size_t first = word.find('=');
+    const std::string name = word.substr(0, first);
+    const bool alike = heading ? name.ends_with("heading") || name == "--heading-at"
+                               : name.ends_with("radius") || name.ends_with("kappa") ||
+                                     name == "--kappa-at" || name == "--radius-at";
+    const bool apart = alike && first == std::string::npos;  // its value is the next word
+    const std::string value =
+        apart ? (i + 1 < options.size() ? options[i + 1] : "") : word.substr(first + 1);
+    const bool of_point = name.ends_with("-at") ? value.starts_with(std::to_string(point) + "=")
+                          : name.starts_with("--start") ? point == 1
+                                                        : point == points;
+    if (alike && of_point) {
+      i += apart ? 1 : 0;
+      continue;
+    }
+    out.push_back(word);
   }
   return out;
 }

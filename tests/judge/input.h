@@ -11,10 +11,16 @@
 
 namespace judge {
 
+/// Least and greatest value that do; infinite where there is no end.
+struct Ends {
+  double least = 0.0, greatest = 0.0;
+};
+
 struct GivenPoint {
   Point point;
   std::optional<double> heading, kappa, tolerance;  // rad, 1/unit, unit
   bool corner = false;
+  std::optional<Ends> headings, kappas;  // rad, 1/unit
 };
 
 /// The curve that the points were taken from.
@@ -38,10 +44,16 @@ struct Input {
   std::string fault;  ///< of the reading
 };
 
-/// Simple text: x and y, or named columns x, y, heading_deg, radius, kappa, tol, corner.
+/// Simple text: x and y, or named columns x, y, heading_deg, radius, kappa, tol, corner, and
+/// heading_min, heading_max, radius_min, radius_max, kappa_min, kappa_max.
 Input read_input(const std::string& text, const std::vector<std::string>& options);
 
 /// The same points, none with a smaller tolerance of its own (column tol) than this one.
 std::string with_tolerances_from(const std::string& text, const std::string& tolerance);
+
+/// Options of fit but for those that give a heading (or a bend) at one point, from 1; `points`: how
+/// many there are, repeats merged.
+std::vector<std::string> without_datum(const std::vector<std::string>& options, bool heading,
+                                       std::size_t point, std::size_t points);
 
 }  // namespace judge

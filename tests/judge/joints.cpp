@@ -31,6 +31,14 @@ struct Box {
   }
 };
 
+/// At the ends of a piece, and the mean over its chord.
+Ball largest_slope(const ContourEnds& ends, std::size_t piece) {
+  const End &a = ends.start[piece], &b = ends.end[piece];
+  const Ball at_ends = larger(abs(a.slope), abs(b.slope));
+  const Ball chord = norm(b.point - a.point);
+  return chord.sign() == 1 ? larger(at_ends, abs(b.kappa - a.kappa) / chord) : at_ends;
+}
+
 JointFacts between(const ContourFile& contour, const ContourEnds& ends, std::size_t left,
                    std::size_t right) {
   const End &a = ends.end[left], &b = ends.start[right];
@@ -48,6 +56,9 @@ JointFacts between(const ContourFile& contour, const ContourEnds& ends, std::siz
   out.heading = abs(angle_between(a.tangent, b.tangent));
   if (out.step) return out;
   if (jump.sign() != 0 && scale.sign() == 1) out.curvature = abs(jump) / scale;
+  out.slope_step = contour.slope_step_at(right);
+  const Ball largest = larger(largest_slope(ends, left), largest_slope(ends, right));
+  if (!out.slope_step && largest.sign() == 1) out.slope = abs(b.slope - a.slope) / largest;
   return out;
 }
 

@@ -16,7 +16,9 @@ struct JointFacts {
   Ball position;            ///< distance of the ends that meet, contour units
   Ball heading;             ///< rad; 0 at corners
   Ball curvature;           ///< of the larger of both (docs/claims.md); 0 at corners and steps
-  int jump = 0;             ///< sign of the curvature behind less that before
+  bool slope_step = false;  ///< said by the file
+  Ball slope;    ///< gap of d kappa/ds, of the largest slope of both pieces (docs/claims.md)
+  int jump = 0;  ///< sign of the curvature behind less that before
   bool clear_jump = false;  ///< too large to be rounding
 };
 

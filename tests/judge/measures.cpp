@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <limits>
 #include <numbers>
+#include <optional>
 
 #include "checks.h"
 
@@ -30,6 +31,33 @@ std::string missed_exactly(const Course& course) {
   return "";
 }
 
+/// The first place between two orders, counted on around a closed path, that is at most so far from
+/// a point. Pieces are looked at by parts, so that a place that is left again is not passed over
+/// for a nearer one.
+std::optional<Real> first_within(const Path& path, Vec p, Real from, Real to, Real reach) {
+  constexpr Real kParts = 8.0L;
+  constexpr int kHalvings = 40;
+  const auto away = [&](Real order) {
+    return norm(path.at(order > path.end() ? order - path.end() : order) - p);
+  };
+  if (away(from) <= reach) return from;
+  while (from < to) {
+    const Real end = std::min(to, (std::floor(from * kParts) + 1.0L) / kParts);
+    const Real rounds = from >= path.end() ? path.end() : 0.0L;
+    const Place near = path.nearest(p, from - rounds, end - rounds);
+    if (near.distance <= reach) {
+      Real inside = near.order() + rounds;
+      for (int k = 0; k < kHalvings; ++k) {
+        const Real middle = 0.5L * (from + inside);
+        (away(middle) <= reach ? inside : from) = middle;
+      }
+      return inside;
+    }
+    from = end;
+  }
+  return std::nullopt;
+}
+
 }  // namespace
 
 std::string missed_point(const Course& course) {
@@ -43,16 +71,20 @@ std::string missed_point(const Course& course) {
       return fmt::format("point {} is {:.6Lg} away", i + 1, away[i]);
     }
   }
-  // in order: each near a place between the stations of its neighbours
-  for (std::size_t k = 0; k < course.parts.size(); ++k) {
-    const Part& part = course.parts[k];
-    const Vec p = seen(file.points[part.from_point], course.origin);
-    const Real from = k > 0 ? course.parts[k - 1].from : part.from;
-    const Real off = course.path.nearest(p, from, part.to).distance;
-    if (off > file.tolerance[part.from_point] * (1.0L + 1e-6L) + course.resolution()) {
-      return fmt::format("the contour does not pass the points in their order: point {}",
-                         part.from_point + 1);
+  // in order: each is met at the first place that is near enough, behind that of the one before
+  const std::size_t n = file.points.size();
+  const std::size_t first = file.closed ? course.parts.front().from_point : 0;
+  Real at = file.closed ? course.parts.front().from : 0.0L;
+  const Real last = at + course.path.end();
+  for (std::size_t k = 0; k < n; ++k) {
+    const std::size_t i = (first + k) % n;
+    const Vec p = seen(file.points[i], course.origin);
+    const Real reach = file.tolerance[i] * (1.0L + 1e-6L) + course.resolution();
+    const auto met = first_within(course.path, p, at, last, reach);
+    if (!met) {
+      return fmt::format("the contour does not pass the points in their order: point {}", i + 1);
     }
+    at = *met;
   }
   return "";
 }

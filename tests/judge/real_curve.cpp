@@ -41,73 +41,100 @@ Vec gauss(const Heading& heading, Real from, Real to) {
   return half * sum;
 }
 
+Vec turned_by(Vec v, Vec unit) {
+  return {v.x * unit.x - v.y * unit.y, v.x * unit.y + v.y * unit.x};
+}
+
+/// Heading along a panel less that at its start: small angles need no reduction by turns.
+struct PanelHeading {
+  Real kappa = 0.0L, half_rate = 0.0L;
+
+  Real operator()(Real v) const { return v * (kappa + half_rate * v); }
+};
+
+PanelHeading panel_heading(const SpiralForm& s, std::size_t i) {
+  const Real rate = (s.kappa1 - s.kappa0) / s.length;
+  const Real from = s.length * static_cast<Real>(i) / static_cast<Real>(s.panel.size() - 1);
+  return {s.kappa0 + rate * from, 0.5L * rate};
+}
+
 void lay_panels(SpiralForm& s) {
+  s.ahead.assign(1, unit_at(s.theta0));
   if (s.kappa0 == s.kappa1) return;
   const Real turn = std::max(std::abs(s.kappa0), std::abs(s.kappa1)) * std::abs(s.length);
-  const int panels = 1 + static_cast<int>(std::min(kMostPanels, turn / kPanelTurn));
-  const Real rate = (s.kappa1 - s.kappa0) / s.length, step = s.length / panels;
-  const auto heading = [&](Real u) { return s.theta0 + u * (s.kappa0 + 0.5L * rate * u); };
-  s.panel.assign(1, {});
-  for (int i = 0; i < panels; ++i) {
-    s.panel.push_back(s.panel.back() + gauss(heading, step * i, step * (i + 1)));
+  const auto panels = 1 + static_cast<std::size_t>(std::min(kMostPanels, turn / kPanelTurn));
+  const Real rate = (s.kappa1 - s.kappa0) / s.length;
+  const Real step = s.length / static_cast<Real>(panels);
+  s.panel.assign(panels + 1, {});
+  s.ahead.clear();
+  for (std::size_t i = 0; i < panels; ++i) {
+    const Real u = step * static_cast<Real>(i);
+    s.ahead.push_back(unit_at(s.theta0 + u * (s.kappa0 + 0.5L * rate * u)));
+    s.panel[i + 1] = s.panel[i] + turned_by(gauss(panel_heading(s, i), 0.0L, step), s.ahead.back());
   }
 }
 
-Jet at_spiral(const SpiralForm& s, Real t) {
+Jet at_spiral(const SpiralForm& s, Real t, bool point_alone = false) {
   const Real u = t * s.length;
   Jet out;
-  Real kappa = s.kappa0, heading = s.theta0 + s.kappa0 * u;
+  Real kappa = s.kappa0;
+  Vec tangent;
   if (s.panel.empty()) {
     const Real half = 0.5L * s.kappa0 * u;
     const Real sinc = std::abs(half) > 1e-10L ? std::sin(half) / half : 1.0L - half * half / 6.0L;
-    out.p = s.start + (u * sinc) * unit_at(s.theta0 + half);
+    const Vec halfway = unit_at(half);
+    out.p = s.start + (u * sinc) * turned_by(halfway, s.ahead[0]);
+    tangent = turned_by(turned_by(halfway, halfway), s.ahead[0]);
   } else {
-    const Real rate = (s.kappa1 - s.kappa0) / s.length;
-    const auto at = [&](Real v) { return s.theta0 + v * (s.kappa0 + 0.5L * rate * v); };
     const auto panels = static_cast<Real>(s.panel.size() - 1);
     const auto i = static_cast<std::size_t>(std::clamp(std::floor(t * panels), 0.0L, panels - 1));
-    out.p = s.start + s.panel[i] + gauss(at, s.length * static_cast<Real>(i) / panels, u);
-    kappa = s.kappa0 + rate * u;
-    heading = at(u);
+    const PanelHeading heading = panel_heading(s, i);
+    const Real v = u - s.length * static_cast<Real>(i) / panels;
+    out.p = s.start + s.panel[i] + turned_by(gauss(heading, 0.0L, v), s.ahead[i]);
+    if (point_alone) return out;
+    kappa = heading.kappa + 2.0L * heading.half_rate * v;
+    tangent = turned_by(unit_at(heading(v)), s.ahead[i]);
   }
-  const Vec tangent = unit_at(heading);
   out.d = s.length * tangent;
   out.dd = (kappa * s.length * s.length) * left_of(tangent);
   return out;
 }
 
+/// Coefficients of the derivative, binomials included.
+std::vector<Homogeneous> derivative_of(const std::vector<Homogeneous>& c) {
+  std::vector<Homogeneous> out;
+  // d/dt of t^j s^(m-j), s = 1 - t: j t^(j-1) s^(m-j) - (m-j) t^j s^(m-j-1)
+  for (std::size_t j = 0; j + 1 < c.size(); ++j) {
+    const auto up = static_cast<Real>(j + 1), down = static_cast<Real>(c.size() - 1 - j);
+    out.push_back({up * c[j + 1].p - down * c[j].p, up * c[j + 1].w - down * c[j].w});
+  }
+  return out;
+}
+
+/// Sum of c_j t^j (1-t)^(m-j), by Horner's rule in the smaller of t/(1-t) and its reciprocal.
+Homogeneous sum_of(const std::vector<Homogeneous>& c, Real t) {
+  if (c.empty()) return {};
+  const Real s = 1.0L - t;
+  const bool early = t < s;
+  const Real ratio = early ? t / s : s / t, whole = early ? s : t;
+  const std::size_t m = c.size() - 1;
+  Homogeneous out = early ? c[m] : c[0];
+  Real scale = 1.0L;
+  for (std::size_t i = 1; i <= m; ++i) {
+    const Homogeneous& next = early ? c[m - i] : c[i];
+    out.p = ratio * out.p + next.p;
+    out.w = ratio * out.w + next.w;
+    scale *= whole;
+  }
+  return {scale * out.p, scale * out.w};
+}
+
 Jet at_rational(const RationalForm& r, Real t) {
-  // derivatives of the homogeneous polynomials: sums over t^j (1-t)^(n-j)
-  const std::size_t n = r.weight.size() - 1;
-  constexpr std::size_t kMost = 26;
-  std::array<Real, kMost> power{}, rest{};
-  power[0] = rest[0] = 1.0L;
-  for (std::size_t j = 1; j <= n; ++j) {
-    power[j] = power[j - 1] * t;
-    rest[j] = rest[j - 1] * (1.0L - t);
-  }
-  Vec a, a1, a2;
-  Real w = 0.0L, w1 = 0.0L, w2 = 0.0L;
-  for (std::size_t j = 0; j <= n; ++j) {
-    const auto m = static_cast<Real>(n), k = static_cast<Real>(j);
-    const Real b = power[j] * rest[n - j];
-    Real b1 = 0.0L, b2 = 0.0L;
-    if (j > 0) b1 += k * power[j - 1] * rest[n - j];
-    if (j < n) b1 -= (m - k) * power[j] * rest[n - j - 1];
-    if (j > 1) b2 += k * (k - 1.0L) * power[j - 2] * rest[n - j];
-    if (j > 0 && j < n) b2 -= 2.0L * k * (m - k) * power[j - 1] * rest[n - j - 1];
-    if (j + 1 < n) b2 += (m - k) * (m - k - 1.0L) * power[j] * rest[n - j - 2];
-    a = a + b * r.numerator[j];
-    a1 = a1 + b1 * r.numerator[j];
-    a2 = a2 + b2 * r.numerator[j];
-    w += b * r.weight[j];
-    w1 += b1 * r.weight[j];
-    w2 += b2 * r.weight[j];
-  }
+  const Homogeneous a = sum_of(r.point, t), a1 = sum_of(r.first, t), a2 = sum_of(r.second, t);
   Jet out;
-  out.p = (1.0L / w) * a;
-  out.d = (1.0L / w) * (a1 - w1 * out.p);
-  out.dd = (1.0L / w) * (a2 - (2.0L * w1) * out.d - w2 * out.p);
+  out.p = (1.0L / a.w) * a.p;
+  out.d = (1.0L / a.w) * (a1.p - a1.w * out.p);
+  out.dd = (1.0L / a.w) * (a2.p - (2.0L * a1.w) * out.d - a2.w * out.p);
   return out;
 }
 
@@ -118,14 +145,15 @@ Span::Span(std::vector<Vec> points, std::vector<Real> weights) {
   const std::size_t n = points.size() - 1;
   for (std::size_t j = 0; j <= n; ++j) {
     const Real w = binomial(n, j) * weights[j];
-    out.weight.push_back(w);
-    out.numerator.push_back(w * points[j]);
+    out.point.push_back({w * points[j], w});
   }
+  out.first = derivative_of(out.point);
+  out.second = derivative_of(out.first);
   form_ = std::move(out);
 }
 
 Span::Span(Vec start, Real theta0, Real kappa, Real length) {
-  SpiralForm out{start, theta0, kappa, kappa, length, {}};
+  SpiralForm out{start, theta0, kappa, kappa, length, {}, {}};
   lay_panels(out);
   form_ = std::move(out);
 }
@@ -143,12 +171,13 @@ Span::Span(const Piece& piece, Point origin) {
   SpiralForm out;
   if (const auto* line = std::get_if<Line>(&piece)) {
     const Vec chord = seen(line->end, line->start);
-    out = {seen(line->start, origin), std::atan2(chord.y, chord.x), 0.0L, 0.0L, norm(chord), {}};
+    out = {
+        seen(line->start, origin), std::atan2(chord.y, chord.x), 0.0L, 0.0L, norm(chord), {}, {}};
   } else if (const auto* arc = std::get_if<Arc>(&piece)) {
-    out = {seen(arc->start, origin), arc->theta0, arc->kappa, arc->kappa, arc->length, {}};
+    out = {seen(arc->start, origin), arc->theta0, arc->kappa, arc->kappa, arc->length, {}, {}};
   } else {
     const auto& one = std::get<Clothoid>(piece);
-    out = {seen(one.start, origin), one.theta0, one.kappa0, one.kappa1, one.length, {}};
+    out = {seen(one.start, origin), one.theta0, one.kappa0, one.kappa1, one.length, {}, {}};
   }
   lay_panels(out);
   form_ = std::move(out);
@@ -157,6 +186,12 @@ Span::Span(const Piece& piece, Point origin) {
 Jet Span::at(Real t) const {
   if (const auto* spiral = std::get_if<SpiralForm>(&form_)) return at_spiral(*spiral, t);
   return at_rational(std::get<RationalForm>(form_), t);
+}
+
+Vec Span::point(Real t) const {
+  if (const auto* spiral = std::get_if<SpiralForm>(&form_)) return at_spiral(*spiral, t, true).p;
+  const Homogeneous a = sum_of(std::get<RationalForm>(form_).point, t);
+  return (1.0L / a.w) * a.p;
 }
 
 Real Span::turning(Real from, Real to) const {
@@ -175,17 +210,19 @@ Real Span::turning(Real from, Real to) const {
   return sum;
 }
 
-Real Span::turning_both_ways() const {
+Real Span::turning_both_ways(Real from, Real to) const {
   if (const auto* s = std::get_if<SpiralForm>(&form_)) {
-    const Real a = std::abs(s->kappa0), b = std::abs(s->kappa1);
+    const auto kappa_at = [s](Real t) { return s->kappa0 + t * (s->kappa1 - s->kappa0); };
+    const Real a = std::abs(kappa_at(from)), b = std::abs(kappa_at(to));
     // over an inflection there are two triangles of curvature
-    const bool both = (s->kappa0 < 0.0L) != (s->kappa1 < 0.0L) && a + b > 0.0L;
-    return 0.5L * s->length * (both ? (a * a + b * b) / (a + b) : a + b);
+    const bool both = (kappa_at(from) < 0.0L) != (kappa_at(to) < 0.0L) && a + b > 0.0L;
+    return 0.5L * (to - from) * s->length * (both ? (a * a + b * b) / (a + b) : a + b);
   }
   constexpr int kSteps = 32;
   Real sum = 0.0L;
   for (int i = 0; i < kSteps; ++i) {
-    sum += std::abs(turning(static_cast<Real>(i) / kSteps, static_cast<Real>(i + 1) / kSteps));
+    const Real a = from + (to - from) * i / kSteps, b = from + (to - from) * (i + 1) / kSteps;
+    sum += std::abs(turning(a, b));
   }
   return sum;
 }
@@ -194,7 +231,10 @@ Path::Path(std::vector<Span> spans, int places_per_span)
     : spans_(std::move(spans)), per_span_(places_per_span) {
   for (const Span& span : spans_) {
     for (int k = 0; k < per_span_; ++k) {
-      places_.push_back(span.point(static_cast<Real>(k) / per_span_));
+      const Real t = static_cast<Real>(k) / per_span_;
+      const Jet jet = span.at(t);
+      places_.push_back(jet.p);
+      legs_.push_back(std::max(norm(jet.d), norm(span.at(t + 1.0L / per_span_).d)) / per_span_);
     }
   }
   if (!spans_.empty()) places_.push_back(spans_.back().point(1.0L));
@@ -217,6 +257,13 @@ Place Path::refined(Vec p, Real from, Real to) const {
   // Newton on the derivative of the squared distance, kept inside a shrinking bracket
   const auto slope = [&](const Jet& jet) { return dot(jet.p - p, jet.d); };
   const Jet a = curve.at(low), b = curve.at(high);
+  // round a hairpin there is more than one nearest place: each leg by itself, and the tip
+  constexpr Real kLeastPart = 0x1p-24L;
+  const Vec middle = curve.at(t).d;
+  if (high - low > kLeastPart && (dot(a.d, middle) < 0.0L || dot(middle, b.d) < 0.0L)) {
+    const Place one = refined(p, base + low, base + t), other = refined(p, base + t, base + high);
+    return one.distance <= other.distance ? one : other;
+  }
   Place best{span, low, norm(a.p - p)};
   if (const Real other = norm(b.p - p); other < best.distance) best = {span, high, other};
   if (!(slope(a) < 0.0L && slope(b) > 0.0L)) {
@@ -257,8 +304,10 @@ Place Path::nearest(Vec p, Real from, Real to) const {
   Place best{0, 0.0L, std::numeric_limits<Real>::max()};
   for (std::size_t k = first; k < last; ++k) {
     const Real chord = norm(places_[k + 1] - places_[k]);
-    // an arc of less than half a turn stays within its chord's length of the chord's ends
-    if (std::min(away[k - first], away[k - first + 1]) > std::min(bound, best.distance) + chord) {
+    // an arc of less than half a turn stays within its chord's length of the chord's ends, and a
+    // hairpin within the length of its legs
+    const Real reach = std::max(chord, legs_[k]);
+    if (std::min(away[k - first], away[k - first + 1]) > std::min(bound, best.distance) + reach) {
       continue;
     }
     const Place here = refined(p, std::max(from, static_cast<Real>(k) / per),

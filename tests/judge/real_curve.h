@@ -43,11 +43,18 @@ struct Jet {
 struct SpiralForm {
   Vec start;
   Real theta0 = 0.0L, kappa0 = 0.0L, kappa1 = 0.0L, length = 0.0L;
-  std::vector<Vec> panel;  ///< chord vector up to each panel
+  std::vector<Vec> panel;    ///< chord vector up to each panel
+  std::vector<Vec> ahead{};  ///< tangent at the start of each
+};
+/// Coefficients of a polynomial at t^j (1-t)^(m-j), and of a weight.
+struct Homogeneous {
+  Vec p;
+  Real w = 0.0L;
 };
 struct RationalForm {
-  std::vector<Vec> numerator;  ///< times binomial and weight
-  std::vector<Real> weight;    ///< times binomial
+  std::vector<Homogeneous> point;  ///< numerator and weight
+  std::vector<Homogeneous> first;  ///< of their first derivatives, one degree lower
+  std::vector<Homogeneous> second;
 };
 
 /// One piece over t in [0, 1], seen from an origin.
@@ -60,11 +67,11 @@ class Span {
   Span(Vec start, Real theta0, Real kappa, Real length);
 
   [[nodiscard]] Jet at(Real t) const;
-  [[nodiscard]] Vec point(Real t) const { return at(t).p; }
+  [[nodiscard]] Vec point(Real t) const;
   /// Angle that the tangent turns between two parameters, unwrapped and signed.
   [[nodiscard]] Real turning(Real from = 0.0L, Real to = 1.0L) const;
   /// The same over the whole span, to both sides together.
-  [[nodiscard]] Real turning_both_ways() const;
+  [[nodiscard]] Real turning_both_ways(Real from = 0.0L, Real to = 1.0L) const;
 
  private:
   std::variant<SpiralForm, RationalForm> form_;
@@ -98,6 +105,8 @@ class Path {
   std::vector<Span> spans_;
   int per_span_;
   std::vector<Vec> places_;
+  std::vector<Real>
+      legs_;  ///< behind each place: length of the way to the next at the faster end's rate
 };
 
 /// Largest value of f on [from, to]: the best of equal steps, then golden sections around it.

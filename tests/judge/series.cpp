@@ -215,6 +215,10 @@ class SeriesMaker {
       if (!honest && !keeps_what_is_refused()) continue;  // mostly contradictory
       if (wished_[static_cast<std::size_t>(kind)] && !keeps_what_is_refused()) continue;  // twice
       wished_[static_cast<std::size_t>(kind)] = true;
+      if (dice_.chance(0.3)) {
+        add_range(kind, i, heading, kappa);
+        continue;
+      }
       const std::string radius = kappa == 0.0 ? "inf" : digits(1.0 / kappa);
       if (kind == 0) add("--start-heading=" + digits(heading));
       if (kind == 1) add("--end-heading=" + digits(heading));
@@ -224,6 +228,28 @@ class SeriesMaker {
       if (kind == 5) add(fmt::format("--radius-at={}={}", i, radius));
       if (kind == 6) add(fmt::format("--kappa-at={}={}", i, digits(kappa)));
     }
+  }
+
+  /// The value anywhere in a range, mostly a narrow one.
+  void add_range(int kind, int i, double heading, double kappa) {
+    const auto width = [&](double size) { return size * std::pow(10.0, -dice_.between(0.0, 3.0)); };
+    if (kind == 0 || kind == 1 || kind == 4) {
+      const std::string range =
+          digits(heading - width(20.0)) + ".." + digits(heading + width(20.0));
+      if (kind == 0) add("--start-heading=" + range);
+      if (kind == 1) add("--end-heading=" + range);
+      if (kind == 4) add(fmt::format("--heading-at={}={}", i, range));
+      return;
+    }
+    const double low = kappa - width(std::abs(kappa)), high = kappa + width(std::abs(kappa));
+    if (kind == 6 || low * high <= 0.0) {
+      if (kind >= 4) add(fmt::format("--kappa-at={}={}..{}", i, digits(low), digits(high)));
+      return;
+    }
+    const std::string range = digits(1.0 / high) + ".." + digits(1.0 / low);
+    if (kind == 2) add("--start-radius=" + range);
+    if (kind == 3) add("--end-radius=" + range);
+    if (kind == 5) add(fmt::format("--radius-at={}={}", i, range));
   }
 
   struct Data {

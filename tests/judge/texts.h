@@ -28,6 +28,8 @@ void check_fit_json(const Course& course, const Run& run, Sheet& sheet);
 /// `fit_code`: what `fit` ended with when it wrote the file; -1: not known.
 void check_verify_text(const Course& course, const Run& run, Sheet& sheet, int fit_code = -1);
 /// The exit code against the file; without a file the texts of a refusal.
+/// Points that messages name, counted from 1, are points of the series.
+void check_named_points(const Run& run, std::size_t points, Sheet& sheet);
 void check_exit(const Course* course, const Run& run, Sheet& sheet);
 /// Files of other formats against the contour; `note` is what the report says of the file.
 void check_export(const Course& course, const std::string& file, const std::string& text,

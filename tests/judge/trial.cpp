@@ -48,9 +48,10 @@ class Work {
     fit_code_ = fit.code;
     if (stopped_) return std::move(out_);
     const double start = own_seconds();
+    check_named_points(fit, series_.points, out_.sheet);
     const std::string stored = text_of_file(path("c.json"));
     if (stored.empty()) {
-      refusal(fit);
+      refusal(fit, input);
     } else {
       contour(stored, fit, input);
     }
@@ -212,8 +213,12 @@ class Work {
                        again.err.substr(0, 200));
       return;
     }
+    // an entity as short as drawings are exact is not told from a gap: then another one is named
+    const std::string told = again.out + again.err;
+    const bool left = told.find(" was taken") != std::string::npos &&
+                      told.find(" of 1 was taken") == std::string::npos;
     // STEP must have a unit, assumed or not; DXF states none that nobody said
-    back(course, text_of_file(path("e.json")), 1e-9, other == "d.dxf");
+    back(course, text_of_file(path("e.json")), left ? 1e-6 : 1e-9, other == "d.dxf");
   }
 
   void back(const Course& course, const std::string& text, double part, bool unit_kept) {
@@ -260,14 +265,14 @@ class Work {
     check_analyse(input, json, text, out_.sheet);
   }
 
-  void refusal(const Run& fit) {
+  void refusal(const Run& fit, const Input& input) {
     check_exit(nullptr, fit, out_.sheet);
     for (const std::string& file : exports_) {
       const bool untouched = text_of_file(path(file)).empty();
       out_.sheet.expect(untouched, "refusal leaves files untouched", file,
                         untouched ? "nothing" : "written", "");
     }
-    range_of_a_datum(fit.err);
+    range_of_a_datum(fit.err, input);
     const std::string within = "within a tolerance of ";
     const std::size_t at = fit.err.find(within);
     if (at == std::string::npos || !dice_.chance(0.25)) return;
@@ -294,51 +299,31 @@ class Work {
                       fmt::format("exit {}: {}", again.code, again.err.substr(0, 200)), "");
   }
 
-  /// "with a heading of A or B deg at point I there is one": with both there must be.
-  void range_of_a_datum(const std::string& said) {
+  /// "with a heading of A or B deg at point I there is one": with both there must be. "between A
+  /// and B": with what lies in the middle, too.
+  void range_of_a_datum(const std::string& said, const Input& input) {
     std::smatch found;
     const std::regex sentence(
-        "with a (heading|curvature) of (\\S+) or (\\S+) \\S+ at point (\\d+)");
+        "with a (heading|curvature) (of|between) (\\S+) (?:or|and) (\\S+) \\S+ at point (\\d+)");
     if (stopped_ || !std::regex_search(said, found, sentence)) return;
     const std::string at = found[1] == "heading" ? "--heading-at" : "--kappa-at";
-    for (const std::string& value : {found[2].str(), found[3].str()}) {
+    std::vector<std::string> values{found[3].str(), found[4].str()};
+    if (found[2] == "between") {
+      values.push_back(fmt::format("{}", 0.5 * (std::stod(values[0]) + std::stod(values[1]))));
+    }
+    for (const std::string& value : values) {
       std::vector<std::string> words{"fit", kPoints, "--quiet"};
-      for (const std::string& word : without_datum(found[1] == "heading", found[4].str())) {
+      for (const std::string& word :
+           without_datum(series_.options, found[1] == "heading", std::stoul(found[5].str()),
+                         input.points.size())) {
         words.push_back(word);
       }
-      words.push_back(fmt::format("{}={}={}", at, found[4].str(), value));
+      words.push_back(fmt::format("{}={}={}", at, found[5].str(), value));
       const Run again = program("fit", words);
       if (stopped_) return;
       out_.sheet.expect(again.code == 0, "refusal: with another datum there is one", words.back(),
                         fmt::format("exit {}: {}", again.code, again.err.substr(0, 200)), "");
     }
-  }
-
-  /// The options of the series but for those that give a heading (or a bend) at one point.
-  [[nodiscard]] std::vector<std::string> without_datum(bool heading,
-                                                       const std::string& point) const {
-    std::vector<std::string> out;
-    const auto& all = series_.options;
-    for (std::size_t i = 0; i < all.size(); ++i) {
-      const std::string& word = all[i];
-      const std::size_t first = word.find('=');
-      const std::string name = word.substr(0, first);
-      const bool alike = heading ? name.ends_with("heading") || name == "--heading-at"
-                                 : name.ends_with("radius") || name.ends_with("kappa") ||
-                                       name == "--kappa-at" || name == "--radius-at";
-      const bool apart = alike && first == std::string::npos;  // its value is the next word
-      const std::string value =
-          apart ? (i + 1 < all.size() ? all[i + 1] : "") : word.substr(first + 1);
-      const bool of_point = name.ends_with("-at")         ? value.starts_with(point + "=")
-                            : name.starts_with("--start") ? point == "1"
-                                                          : point == std::to_string(series_.points);
-      if (alike && of_point) {
-        i += apart ? 1 : 0;
-        continue;
-      }
-      out.push_back(word);
-    }
-    return out;
   }
 
   void classify(bool refused) {

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "../common/angles.h"
+#include "../common/arcs.h"
 #include "obvid/contour/bsplines.h"
 #include "obvid/pipeline/audit.h"
 
@@ -18,15 +19,9 @@ int count(const CurveAudit& a, AuditPlace::Kind kind) {
                                         [&](const AuditPlace& p) { return p.kind == kind; }));
 }
 
-ArcPiece arc(Vec2 start, double theta, double kappa, double length) {
-  const double turn = kappa * length;
-  const Vec2 end = start + Vec2{(std::sin(theta + turn) - std::sin(theta)) / kappa,
-                                (std::cos(theta) - std::cos(theta + turn)) / kappa};
-  return {start, end, theta, kappa, length};
-}
-
 TEST(Audit, LineAndArcHaveACurvatureJumpAndNoVertex) {
-  DrawnCurve curve{"LINE, ARC", {LinePiece{{0, 0}, {2, 0}}, arc({2, 0}, 0.0, 0.5, kPi)}, false};
+  DrawnCurve curve{
+      "LINE, ARC", {LinePiece{{0, 0}, {2, 0}}, arc_from({2, 0}, 0.0, 0.5, kPi)}, false};
   const CurveAudit a = audit(curve, "mm");
   EXPECT_EQ(a.continuity, 1);
   ASSERT_EQ(a.places.size(), 1U);
@@ -109,12 +104,48 @@ TEST(Audit, TheSplineOfCadSystemsShowsItsVerticesAndItsInflection) {
 TEST(Audit, ACircleHasNoVerticesWhateverItsRounding) {
   DrawnCurve curve{"CIRCLE", {}, true};
   for (int k = 0; k < 4; ++k) {
-    curve.pieces.emplace_back(arc(1e5 * Vec2{1, 1} + unit_at(0.5 * kPi * k) * 1e-3,
-                                  0.5 * kPi * (k + 1), 1e3, 0.5 * kPi * 1e-3));
+    curve.pieces.emplace_back(arc_from(1e5 * Vec2{1, 1} + unit_at(0.5 * kPi * k) * 1e-3,
+                                       0.5 * kPi * (k + 1), 1e3, 0.5 * kPi * 1e-3));
   }
   const CurveAudit a = audit(curve, "mm");
   EXPECT_EQ(count(a, AuditPlace::Kind::kVertex), 0);
   EXPECT_EQ(a.visible_vertices, 0);
+}
+
+/// A nearly straight clothoid: x is the length, the third power of the turning is nothing.
+ClothoidPiece gentle(Vec2 start, double theta, double kappa0, double kappa1, double length) {
+  const double turn = theta * length + (2.0 * kappa0 + kappa1) * length * length / 6.0;
+  return {start, start + Vec2{length, turn}, theta, kappa0, kappa1, length};
+}
+
+TEST(Audit, AShortPieceIsAsCurvedAsThoseThatItJoins) {
+  // the middle one is so short that its height over the chord is rounding: 64 2^-53 / 1e-8 > 2e-7
+  const double kappa[] = {1e-7, 2e-7, 2.01e-7, 3e-7}, length[] = {0.5, 1e-4, 0.5};
+  DrawnCurve curve{"transition", {}, false};
+  Vec2 at{0.5, 0.0};
+  double theta = 0.0;
+  for (int i = 0; i < 3; ++i) {
+    const ClothoidPiece piece = gentle(at, theta, kappa[i], kappa[i + 1], length[i]);
+    curve.pieces.emplace_back(piece);
+    at = piece.end;
+    theta += 0.5 * (kappa[i] + kappa[i + 1]) * length[i];
+  }
+  const CurveAudit meant = audit(curve, "mm");
+  EXPECT_EQ(meant.straightened, 0U);
+  EXPECT_EQ(meant.continuity, 2);
+  EXPECT_EQ(meant.vertices, 0);
+  // alone it says nothing
+  curve.pieces = {curve.pieces[1]};
+  EXPECT_EQ(audit(curve, "mm").straightened, 2U);
+}
+
+TEST(Audit, WhatRoundingLeavesOfALineBesideATransitionIsStraight) {
+  const ClothoidPiece line = gentle({0, 0}, 0.0, -1e-17, 1e-17, 1.0);
+  DrawnCurve curve{"transition", {line, gentle(line.end, 0.0, 1e-17, 1e-3, 1.0)}, false};
+  const CurveAudit a = audit(curve, "mm");
+  EXPECT_EQ(a.straightened, 3U);
+  EXPECT_EQ(a.inflections, 0);
+  EXPECT_EQ(a.vertices, 0);
 }
 
 TEST(Audit, NothingIsNothing) {

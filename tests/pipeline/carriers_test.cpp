@@ -286,6 +286,45 @@ TEST(Compare, EveryCarrierHasItsRow) {
   EXPECT_EQ(c->carriers[7].control_points, 12U);  // C2 cubic: points + 2
 }
 
+TEST(Compare, CarriersFollowSpiralsWithContinuousSlopes) {
+  PointSeries series;
+  series.points = kTenPoints;
+  FitJob job;
+  job.continuity = Continuity::kG3;
+  const auto c = compare_carriers(series, job);
+  ASSERT_TRUE(c);
+  const auto spirals = fit(series, job);
+  ASSERT_TRUE(spirals);
+  for (const ComparedCarrier& row : c->carriers) {
+    const std::string name = to_string(row.carrier);
+    ASSERT_FALSE(row.refusal) << name;
+    EXPECT_EQ(row.followed, Continuity::kG3) << name;
+    EXPECT_EQ(row.fit.contour.continuity == Continuity::kG3, row.carrier == Carrier::kSpiral);
+    EXPECT_EQ(row.continuity, row.carrier == Carrier::kSpiral ? 3
+                              : row.carrier == Carrier::kArcs ? 1
+                                                              : 2)
+        << name;
+    EXPECT_FALSE(verify({row.fit.contour, row.fit.report, row.fit.certificate}).false_claim)
+        << name;
+  }
+  const Contour &first = c->carriers[0].fit.contour, &alone = spirals->contour;
+  ASSERT_EQ(first.pieces.size(), alone.pieces.size());
+  for (std::size_t i = 0; i < alone.pieces.size(); ++i) {
+    EXPECT_EQ(evaluate(first.pieces[i], 0.5).point, evaluate(alone.pieces[i], 0.5).point);
+  }
+  // arcs stay within the tolerance of these spirals, not of the G2 ones, which are farther away
+  const ComparedCarrier& arcs = c->carriers[1];
+  EXPECT_LT(*arcs.fit.report.carrier_deviation, arcs.fit.report.tolerance);
+  const auto flat = fit(series, {});
+  ASSERT_TRUE(flat);
+  double away = 0.0;
+  for (std::size_t i = 0; i < alone.pieces.size(); ++i) {
+    away = std::max(away, norm(evaluate(flat->contour.pieces[i], 0.5).point -
+                               evaluate(alone.pieces[i], 0.5).point));
+  }
+  EXPECT_GT(away, 10.0 * arcs.fit.report.tolerance);
+}
+
 TEST(Compare, DistancesOfAKnownCurveComeOut) {
   // points of a circle, one of them pushed in: spirals, and a baseline whose deviation is that of
   // the sampled distance between both contours
@@ -372,6 +411,21 @@ TEST(Compare, OutsideTheRegionOfACircleIsTheDistanceFromIt) {
     }
   }
   EXPECT_NEAR(*baseline.report.carrier_deviation, most, 1e-3 * most);
+}
+
+TEST(Compare, GivesTheCarriersThatWereDoneWhenItIsCancelled) {
+  PointSeries series;
+  for (int i = 0; i < 12; ++i) series.points.push_back({0.5 * i, 0.02 * i * i});
+  std::string stage;
+  const RunContext run([&stage](std::string_view told, double) { stage = told; },
+                       [&stage] { return stage == to_string(Carrier::kConics); });
+  Comparison finished;
+  const auto c = compare_carriers(series, {}, run, &finished);
+  ASSERT_FALSE(c);
+  EXPECT_EQ(c.error().code, ErrorCode::kCancelled);
+  ASSERT_EQ(finished.carriers.size(), 2U);  // spiral, arcs
+  EXPECT_EQ(finished.carriers[0].carrier, Carrier::kSpiral);
+  EXPECT_EQ(finished.carriers[1].carrier, Carrier::kArcs);
 }
 
 }  // namespace

@@ -30,7 +30,9 @@ Fit fit_of(const std::string& path, const FitJob& job = {}, const ImportOptions&
   return made ? std::move(*made) : Fit{};
 }
 
-Fit fit_of_svg(const std::string& shapes) { return fit_of(file_with("drawing.svg", svg_of(shapes))); }
+Fit fit_of_svg(const std::string& shapes) {
+  return fit_of(file_with("drawing.svg", svg_of(shapes)));
+}
 Fit fit_of_dxf(const std::string& entities, const FitJob& job = {},
                const ImportOptions& import = {}) {
   return fit_of(file_with("drawing.dxf", dxf_of(entities)), job, import);
@@ -111,9 +113,8 @@ TEST(Drawings, ARoundedRectangleIsFourLinesAndFourArcs) {
 }
 
 TEST(Drawings, ACircleIsACircle) {
-  for (const Fit& made :
-       {fit_of_dxf("0\nCIRCLE\n8\n0\n10\n0\n20\n0\n40\n0.5\n"),
-        fit_of_svg("<circle cx='50' cy='40' r='0.5'/>")}) {
+  for (const Fit& made : {fit_of_dxf("0\nCIRCLE\n8\n0\n10\n0\n20\n0\n40\n0.5\n"),
+                          fit_of_svg("<circle cx='50' cy='40' r='0.5'/>")}) {
     expect_drawn<ArcPiece>(made, 0, 0);
     EXPECT_EQ(kept_pieces(made.contour).arcs, 1U);
     EXPECT_TRUE(made.contour.closed);
@@ -137,12 +138,8 @@ TEST(Drawings, ASlotIsTwoLinesAndTwoArcs) {
 
 TEST(Drawings, BulgesAreArcs) {
   const double quarter = std::tan(kPi / 8.0);
-  const Fit made = fit_of_dxf(dxf_polyline({{{0, 0, 0}},
-                                            {{4, 0, quarter}},
-                                            {{5, 1, 0}},
-                                            {{5, 3, 1}},
-                                            {{0, 3, 0}}},
-                                           true));
+  const Fit made = fit_of_dxf(
+      dxf_polyline({{{0, 0, 0}}, {{4, 0, quarter}}, {{5, 1, 0}}, {{5, 3, 1}}, {{0, 3, 0}}}, true));
   EXPECT_TRUE(made.certificate.proved) << made.certificate.reason;
   const KeptPieces kept = kept_pieces(made.contour);
   EXPECT_EQ(kept.lines, 3U);
@@ -185,9 +182,9 @@ TEST(Drawings, ArcsOfAnyEllipseAreProved) {
       std::snprintf(text, sizeof text, "%.17g", v);
       return std::string(text) + "\n";
     };
-    const std::string entity =
-        "0\nELLIPSE\n8\n0\n10\n" + n(3.0) + "20\n" + n(-2.0) + "11\n" + n(u.x) + "21\n" + n(u.y) +
-        "40\n" + n(b / a) + "41\n" + n(whole ? 0.0 : from) + "42\n" + n(whole ? sweep : from + sweep);
+    const std::string entity = "0\nELLIPSE\n8\n0\n10\n" + n(3.0) + "20\n" + n(-2.0) + "11\n" +
+                               n(u.x) + "21\n" + n(u.y) + "40\n" + n(b / a) + "41\n" +
+                               n(whole ? 0.0 : from) + "42\n" + n(whole ? sweep : from + sweep);
     const Fit made = fit_of_dxf(entity);
     EXPECT_TRUE(made.certificate.proved) << k << " " << made.certificate.reason;
     EXPECT_EQ(made.contour.kept.size(), made.contour.pieces.size()) << k;
@@ -248,7 +245,8 @@ TEST(Drawings, APolylineOfManyChordsIsPointsOfACurve) {
 }
 
 TEST(Drawings, FlanksOfChordsBetweenArcsBecomeCurvesWithTheirCorners) {
-  // a tooth: root arc, a flank of ten chords of a parabola, tip arc, and the mirror image of the flank
+  // a tooth: root arc, a flank of ten chords of a parabola, tip arc, and the mirror image of the
+  // flank
   std::string entities;
   const auto flank = [](double t) { return Vec2{1.0 - 0.4 * t * t, 2.0 * t}; };
   for (int k = 0; k < 10; ++k) {
@@ -299,12 +297,12 @@ TEST(Drawings, EndsThatNearlyMeetAreJoinedAndOthersAreNot) {
   const auto& arc = std::get<ArcPiece>(near.contour.pieces[1]);
   EXPECT_EQ(arc.kappa, 1.0);
   EXPECT_NEAR(arc.start.y, 0.0, 1e-15);
-  const auto apart = read_series(file_with(
-      "gap.xodr",
-      "<OpenDRIVE><road id='1' length='20'><planView>"
-      "<geometry s='0' x='0' y='0' hdg='0' length='10'><line/></geometry>"
-      "<geometry s='10' x='10' y='0.5' hdg='0' length='10'><line/></geometry>"
-      "</planView></road></OpenDRIVE>"));
+  const auto apart =
+      read_series(file_with("gap.xodr",
+                            "<OpenDRIVE><road id='1' length='20'><planView>"
+                            "<geometry s='0' x='0' y='0' hdg='0' length='10'><line/></geometry>"
+                            "<geometry s='10' x='10' y='0.5' hdg='0' length='10'><line/></geometry>"
+                            "</planView></road></OpenDRIVE>"));
   ASSERT_TRUE(apart) << to_line(apart.error());
   EXPECT_TRUE(apart->kept.empty());
   const bool told = std::any_of(apart->warnings.begin(), apart->warnings.end(), [](const auto& w) {
@@ -315,13 +313,15 @@ TEST(Drawings, EndsThatNearlyMeetAreJoinedAndOthersAreNot) {
 
 TEST(Drawings, GcodeOfARectangleIsFourStraightBlocks) {
   const Fit made = fit_of_svg("<rect x='10' y='20' width='40' height='30'/>");
-  const auto out = export_contour({made.contour, made.report, made.certificate}, FileFormat::kGcode);
+  const auto out =
+      export_contour({made.contour, made.report, made.certificate}, FileFormat::kGcode);
   ASSERT_TRUE(out) << to_line(out.error());
   const std::string& text = out->files.front().text;
   EXPECT_EQ(text.find("G2 "), std::string::npos);
   EXPECT_EQ(text.find("G3 "), std::string::npos);
   std::size_t moves = 0;
-  for (std::size_t at = text.find("G1 X"); at != std::string::npos; at = text.find("G1 X", at + 1)) {
+  for (std::size_t at = text.find("G1 X"); at != std::string::npos;
+       at = text.find("G1 X", at + 1)) {
     ++moves;
   }
   EXPECT_EQ(moves, 4U) << text;
@@ -354,9 +354,7 @@ TEST(Drawings, ClothoidsOfRoadsStay) {
 
 // ---- which curve ------------------------------------------------------------------------------
 
-std::string gpx_of(const std::string& inside) {
-  return "<gpx version='1.1'>" + inside + "</gpx>";
-}
+std::string gpx_of(const std::string& inside) { return "<gpx version='1.1'>" + inside + "</gpx>"; }
 const std::string kWaypoints = "<wpt lat='46.0' lon='14.0'/><wpt lat='46.2' lon='14.3'/>";
 const std::string kTrack =
     "<trk><name>walk</name><trkseg><trkpt lat='46.0' lon='14.0'/><trkpt lat='46.001' lon='14.001'/>"

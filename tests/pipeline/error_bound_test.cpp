@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The error bound of a report against what another construction of the region says: arcs laid out by
-// their turning, polylines and brute force instead of closed forms.
+// The error bound of a report against what another construction of the region says: arcs laid out
+// by their turning, polylines and brute force instead of closed forms.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -137,7 +137,8 @@ TEST(ErrorBound, IsTheDistanceFromTheFartherBoundaryForEveryCarrierWithJointsAtT
     for (const SegmentReport& row : f->report.segments) {
       const double found = deviation_by_force(f->contour, row);
       EXPECT_GE(row.deviation, found * (1.0 - 1e-5)) << to_string(carrier) << " at " << *row.from;
-      EXPECT_LE(row.deviation, found * (1.0 + kBruteForce)) << to_string(carrier) << " at " << *row.from;
+      EXPECT_LE(row.deviation, found * (1.0 + kBruteForce))
+          << to_string(carrier) << " at " << *row.from;
       largest = std::max(largest, row.deviation);
     }
     EXPECT_EQ(f->report.largest_deviation, largest);
@@ -227,9 +228,8 @@ TEST(ErrorBound, ACarrierPassingPointsBetweenItsJointsHasARowForEachChord) {
 }
 
 bool all_unknown(const FitReport& report) {
-  return std::all_of(report.segments.begin(), report.segments.end(), [](const SegmentReport& row) {
-    return std::isnan(row.points_only_error);
-  });
+  return std::all_of(report.segments.begin(), report.segments.end(),
+                     [](const SegmentReport& row) { return std::isnan(row.points_only_error); });
 }
 
 TEST(PointsOnlyError, IsUnknownWhereThreePointsAreAll) {
@@ -315,6 +315,27 @@ TEST(PointsOnlyError, IsUnknownWhereTheContourIsNotMonotone) {
     EXPECT_EQ(verdict[i].verdict, verdict[i + 1].verdict);
   }
   EXPECT_GT(known, 8U);
+}
+
+TEST(ErrorBound, ArcsAroundASeamAtAVertexHaveItsCurvature) {
+  std::vector<Vec2> points;
+  constexpr int kPoints = 14;
+  for (int i = 0; i < kPoints; ++i) {
+    const double t = 0.02 + 2.0 * std::numbers::pi * i / kPoints;  // curvature is largest at 0
+    points.push_back({3.0 * std::cos(t), 2.0 * std::sin(t)});
+  }
+  FitJob job;
+  job.carrier = Carrier::kArcs;
+  job.tolerance = 0.02;
+  PointSeries series;
+  series.points = points;
+  job.closing = Closing::kClosed;
+  const Contour contour = fit(series, job).value().contour;
+  const auto kappa_of = [](const Piece& piece) { return std::get<ArcPiece>(piece).kappa; };
+  const double seam = contour.joints.front().element.kappa;
+  ASSERT_EQ(contour.runs.back().direction, 1);
+  EXPECT_GE(seam, kappa_of(contour.pieces.back()));
+  EXPECT_GE(seam, kappa_of(contour.pieces.front()));
 }
 
 }  // namespace

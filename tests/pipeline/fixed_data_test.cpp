@@ -4,6 +4,7 @@
 
 #include <cmath>
 #include <numbers>
+#include <string>
 #include <vector>
 
 #include "obvid/pipeline/fit.h"
@@ -135,6 +136,72 @@ TEST(FixedData, MergedPointsKeepTheDataOfTheFirst) {
     met = met || (joint.source == 4U && joint.element.kappa == *series.fixed[4].kappa);
   EXPECT_TRUE(met);
   EXPECT_EQ(f.warnings.size(), 1U);
+}
+
+/// What one of several sources fixes at the first and the last of some points.
+using Source = void (*)(PointSeries&, FitJob&, double value);
+
+/// Both of a pair say it once with the same value, and once with two.
+void expect_one_value(const PointSeries& points, Source one, Source other, double value) {
+  for (const double factor : {1.0, 1.25}) {
+    PointSeries series = points;
+    series.fixed.resize(series.points.size());
+    FitJob job;
+    one(series, job, value);
+    other(series, job, factor * value);
+    const auto made = fit(series, job);
+    if (factor == 1.0) {
+      EXPECT_TRUE(made) << to_line(made.error());
+      continue;
+    }
+    ASSERT_FALSE(made);
+    EXPECT_EQ(made.error().code, ErrorCode::kBadOption) << to_line(made.error());
+    EXPECT_NE(made.error().what.find("fixed at one point"), std::string::npos);
+  }
+}
+
+TEST(FixedData, TwoValuesOfOneDatumAreRefusedWhereverTheyComeFrom) {
+  const PointSeries points = involute();
+  constexpr std::size_t kLast = 8;
+  const double first = involute_parameter(0), last = involute_parameter(kLast);
+  using S = PointSeries;
+  using J = FitJob;
+  const Source file_theta = [](S& s, J&, double v) { s.fixed[0].theta = v; };
+  const Source point_theta = [](S&, J& j, double v) { j.wishes.push_back({0, v, {}, false}); };
+  const Source start_theta = [](S&, J& j, double v) { j.start_heading = v; };
+  expect_one_value(points, file_theta, point_theta, first);
+  expect_one_value(points, file_theta, start_theta, first);
+  expect_one_value(points, point_theta, start_theta, first);
+  const Source file_kappa = [](S& s, J&, double v) { s.fixed[kLast].kappa = v; };
+  const Source point_kappa = [](S&, J& j, double v) { j.wishes.push_back({kLast, {}, v, false}); };
+  const Source end_kappa = [](S&, J& j, double v) { j.end_kappa = v; };
+  expect_one_value(points, file_kappa, point_kappa, 1.0 / last);
+  expect_one_value(points, file_kappa, end_kappa, 1.0 / last);
+  expect_one_value(points, point_kappa, end_kappa, 1.0 / last);
+}
+
+TEST(FixedData, AWholeTurnMoreIsTheSameHeading) {
+  FitJob job;
+  job.start_heading = involute_parameter(0);
+  job.wishes.push_back({0, involute_parameter(0) - 2.0 * std::numbers::pi, {}, false});
+  EXPECT_TRUE(fit(involute(), job));
+}
+
+TEST(FixedData, AClosedSeriesHasOneHeadingWhereItBegins) {
+  PointSeries series;
+  for (int i = 0; i <= 12; ++i) {
+    const Vec2 p = unit_at(i * std::numbers::pi / 6.0);
+    series.points.push_back({2.0 * p.x, p.y});
+  }
+  series.points.back() = series.points.front();
+  FitJob job;
+  job.start_heading = 0.5 * std::numbers::pi;
+  job.end_heading = 0.6 * std::numbers::pi;
+  const auto made = fit(series, job);
+  ASSERT_FALSE(made);
+  EXPECT_EQ(made.error().code, ErrorCode::kBadOption);
+  job.end_heading = job.start_heading;
+  EXPECT_TRUE(fit(series, job));
 }
 
 }  // namespace

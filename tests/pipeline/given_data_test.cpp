@@ -142,7 +142,8 @@ TEST(GivenData, StandInTheFile) {
   job.wishes.push_back({4, 80.0 * kDegree, -1.0 / 33.0, false});
   const auto f = fit(ten_points(), job);
   ASSERT_TRUE(f) << to_line(f.error());
-  const auto stored = contour_from_json(contour_to_json({f->contour, f->report, f->certificate}), "x");
+  const auto stored =
+      contour_from_json(contour_to_json({f->contour, f->report, f->certificate}), "x");
   ASSERT_TRUE(stored) << to_line(stored.error());
   ASSERT_EQ(stored->contour.given.size(), 1U);
   EXPECT_EQ(stored->contour.given.front().point, 4U);

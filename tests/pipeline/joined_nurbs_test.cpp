@@ -142,7 +142,7 @@ TEST(JoinedNurbs, ReferenceSeriesIsOneCurveOfDegreeSixWithWeightsNearOne) {
   EXPECT_EQ(curve->degree, 6);
   expect_joined(contour, *curve, "series10");
   EXPECT_LT(largest_c1_gap(*curve), 1e-12);
-  // theory 6.5: between 0.65 and 1.07 on this series
+  // docs/methods/curve.md: between 0.65 and 1.07 on this series
   EXPECT_GT(*std::min_element(curve->weights.begin(), curve->weights.end()), 0.6);
   EXPECT_LT(*std::max_element(curve->weights.begin(), curve->weights.end()), 1.1);
   // knots of multiplicity 5 inside: 9 pieces leave 7 + 8 * 5 + ... control points
@@ -224,6 +224,45 @@ TEST(JoinedNurbs, CornersAreKnotsOfFullMultiplicity) {
   ASSERT_TRUE(curve);
   expect_joined(contour, *curve, "corner");
   EXPECT_NE(std::find(curve->points.begin(), curve->points.end(), points[8]), curve->points.end());
+}
+
+TEST(JoinedNurbs, EndsThatStandStillAreKnotsOfFullMultiplicity) {
+  // control points on the ends of their pieces, as drawings have them: the first starts from rest,
+  // the second ends at rest, the third does both and is straight
+  const auto cubic = [](Vec2 a, Vec2 b, Vec2 c, Vec2 d) {
+    return RationalBezier{{}, 3, {a, b, c, d}, {1.0, 1.0, 1.0, 1.0}};
+  };
+  Contour contour;
+  contour.pieces = {cubic({0, 0}, {0, 0}, {1, 2}, {3, 2}), cubic({3, 2}, {5, 2}, {6, 1}, {6, 1}),
+                    cubic({6, 1}, {6, 1}, {6, -3}, {6, -3}), LinePiece{{6, -3}, {0, -3}}};
+  contour.points = {{0, 0}, {3, 2}, {6, 1}, {6, -3}, {0, -3}};
+  const auto curve = joined_nurbs(contour);
+  ASSERT_TRUE(curve) << to_line(curve.error());
+  EXPECT_EQ(curve->knots.size(), curve->points.size() + 4);
+  for (std::size_t i = 0; i + 1 < curve->knots.size(); ++i) {
+    ASSERT_TRUE(std::isfinite(curve->knots[i + 1]));
+    EXPECT_LE(curve->knots[i], curve->knots[i + 1]);
+  }
+  const auto spans = bezier_spans(*curve);
+  ASSERT_EQ(spans.size(), 4u);
+  // each span is its piece: the same places at the same parameters of the piece
+  for (std::size_t i = 0; i < 4; ++i) {
+    for (const double t : {0.0, 0.25, 0.5, 0.75, 1.0}) {
+      const Vec2 there = evaluate(contour.pieces[i], t).point;
+      EXPECT_LT(norm(evaluate(spans[i].piece, t).point - there), 1e-14) << i << " at " << t;
+    }
+  }
+}
+
+TEST(JoinedNurbs, APieceWithoutRoomForAKnotIsRefused) {
+  Contour contour;
+  contour.pieces = {LinePiece{{-1.0, 0.0}, {-1e-18, 0.0}}, LinePiece{{-1e-18, 0.0}, {0.0, 0.0}}};
+  contour.joints.resize(3);
+  const auto curve = joined_nurbs(contour);
+  ASSERT_FALSE(curve);
+  EXPECT_EQ(curve.error().code, ErrorCode::kNotProved);
+  contour.pieces = {LinePiece{{-1.0, 0.0}, {-1e-9, 0.0}}, LinePiece{{-1e-9, 0.0}, {0.0, 0.0}}};
+  EXPECT_TRUE(joined_nurbs(contour));
 }
 
 TEST(JoinedNurbs, EveryCarrierButClothoidsIsOneCurve) {

@@ -22,6 +22,7 @@ namespace {
 using namespace test;
 
 const int kRandomSeries = test::cases_of(2000, 5);
+const int kSmoothSeries = test::cases_of(2000, 20);
 constexpr double kCoarseTurning = 170.0 * std::numbers::pi / 180.0;
 constexpr unsigned kSeed = 20260131;
 
@@ -152,6 +153,90 @@ TEST(RandomSeries, EveryOneGetsAProvedMonotoneContourNearerToTheTruthThanThePoin
   std::printf("over the points-only error: median %.3f, 95 %% %.3f, largest %.3f\n",
               quantile(ratios, 0.5), quantile(ratios, 0.95), quantile(ratios, 1.0));
   EXPECT_GE(proved, kRandomSeries * 99 / 100);
+}
+
+/// Largest distance of places of one contour from another through the same points, of the longest
+/// chord.
+double distance_of_contours(const Contour& one, const Contour& other) {
+  std::size_t k = 0;
+  double far = 0.0, chord = 0.0;
+  for (std::size_t i = 1; i < one.points.size(); ++i) {
+    chord = std::max(chord, norm(one.points[i] - one.points[i - 1]));
+  }
+  for (std::size_t i = 0; i < one.pieces.size(); ++i) {
+    const auto source = one.joints[i].source;
+    while (source && other.joints[k].source != source) ++k;
+    const Vec2 p = evaluate(one.pieces[i], 0.5).point;
+    double least = INFINITY;
+    for (std::size_t j = k; j < other.pieces.size() && (j == k || !other.joints[j].source); ++j) {
+      double u = 0.5;
+      for (int step = 0; step < 12; ++step) {
+        const Jet jet = evaluate(other.pieces[j], u);
+        u = std::clamp(u - dot(jet.point - p, jet.d1) / dot(jet.d1, jet.d1), 0.0, 1.0);
+      }
+      least = std::min(least, norm(evaluate(other.pieces[j], u).point - p));
+    }
+    far = std::max(far, least);
+  }
+  return far / chord;
+}
+
+void print_both(const char* what, const std::vector<double>& flat,
+                const std::vector<double>& smooth) {
+  std::printf("%s: G2 median %.3g, 95 %% %.3g, largest %.3g; G3 %.3g, %.3g, %.3g\n", what,
+              quantile(flat, 0.5), quantile(flat, 0.95), quantile(flat, 1.0), quantile(smooth, 0.5),
+              quantile(smooth, 0.95), quantile(smooth, 1.0));
+}
+
+TEST(RandomSeries, WithContinuousSlopesHaveNoVertexMoreAndAreNearerToTheTruth) {
+  std::mt19937_64 rng(kSeed);
+  std::vector<double> flat_far, smooth_far, flat_waves, smooth_waves, between, gaps, ratios;
+  int both = 0, lost = 0;
+  std::size_t joints = 0, steps = 0;
+  for (int i = 0; i < kSmoothSeries; ++i) {
+    const Sampled s = random_series(static_cast<Oracle>(i % kOracleCount), rng, kRightAngle);
+    FitJob job;
+    const auto flat = fit(series_of(s), job);
+    if (!flat || !flat->certificate.proved || flat->certificate.vertices != 0) continue;
+    job.continuity = Continuity::kG3;
+    const auto smooth = fit(series_of(s), job);
+    const std::string what = std::to_string(i) + ": " + name_of(s.curve.kind) + ", " +
+                             std::to_string(s.points.size()) + " points";
+    ASSERT_TRUE(smooth) << what;
+    EXPECT_TRUE(smooth->certificate.proved) << what << ": " << smooth->certificate.reason;
+    EXPECT_EQ(smooth->certificate.vertices, flat->certificate.vertices) << what;
+    EXPECT_EQ(smooth->certificate.inflections, flat->certificate.inflections) << what;
+    joints += smooth->contour.joints.size() - 2;
+    if (smooth->contour.continuity != Continuity::kG3) {
+      ++lost;
+      steps += smooth->contour.joints.size() - 2;
+      continue;
+    }
+    ++both;
+    steps += static_cast<std::size_t>(smooth->certificate.slope_steps);
+    gaps.push_back(*smooth->certificate.gaps.slope);
+    flat_far.push_back(deviation_from_truth(s, *flat).of_chord);
+    smooth_far.push_back(deviation_from_truth(s, *smooth).of_chord);
+    ratios.push_back(smooth_far.back() / flat_far.back());
+    between.push_back(distance_of_contours(smooth->contour, flat->contour));
+    if (!flat->report.waviness || !smooth->report.waviness) continue;
+    flat_waves.push_back(*flat->report.waviness);
+    smooth_waves.push_back(*smooth->report.waviness);
+  }
+  std::printf("%d series in both, %d gave way to G2; %zu of %zu joints step\n", both, lost, steps,
+              joints);
+  std::printf("gap of the slope: median %.2g, 99 %% %.2g, largest %.2g\n", quantile(gaps, 0.5),
+              quantile(gaps, 0.99), quantile(gaps, 1.0));
+  print_both("distance from the truth over the chord", flat_far, smooth_far);
+  print_both("waviness", flat_waves, smooth_waves);
+  std::printf("distance, G3 over G2: median %.2g, 95 %% %.2g\n", quantile(ratios, 0.5),
+              quantile(ratios, 0.95));
+  std::printf("G3 from G2, of the longest chord: median %.2g, 95 %% %.2g, largest %.2g\n",
+              quantile(between, 0.5), quantile(between, 0.95), quantile(between, 1.0));
+  EXPECT_LE(static_cast<double>(steps), 0.01 * static_cast<double>(joints));
+  EXPECT_LE(quantile(gaps, 0.99), 1e-6);
+  EXPECT_LT(quantile(smooth_far, 0.5), quantile(flat_far, 0.5));
+  EXPECT_LT(quantile(smooth_waves, 0.5), quantile(flat_waves, 0.5));
 }
 
 TEST(RandomSeries, ArcsAreProvedWithMonotoneRadiiAndKeepTheTolerance) {

@@ -40,8 +40,8 @@ std::string words_of_refusal(const std::string& text) {
 
 TEST(RefusedFiles, EachIsRefusedForItsOwnReason) {
   const std::vector<std::array<std::string, 3>> expected = {
-      {"A_scale_clothoids.json", "E501", "the curvature gap at joint 2 is 0.44"},
-      {"A2_scale_arcs.json", "E501", "jumps the other way before piece 3"},
+      {"A_scale_clothoids.json", "E501", "the curvature gap at joint 3 is 0.44"},
+      {"A2_scale_arcs.json", "E501", "jumps the other way before piece 4"},
       {"B_theta.json", "E308", "the heading is turns beyond its contour (file: /pieces/0)"},
       {"C_exact_origin.json", "E308", "the origin lies farther from the contour"},
       {"C_exact_kink.json", "E308", "not the rounded sum of origin and offset"},
@@ -133,7 +133,7 @@ TEST(RefusedFiles, ControlsWithSoundNumbersPass) {
   EXPECT_EQ(words_of_refusal(arcs.dump()), "");
 }
 
-/// A fit of the ten points of 000_..., with its report.
+/// A fit of the ten points of [000], with its report.
 json fit_of_ten_points() {
   PointSeries series;
   series.points = {{0, 0},          {0.21, -5.28},   {-5.11, -10.13}, {-20.48, -7.65},

@@ -50,6 +50,30 @@ TEST(SkinSections, FollowsWigleysHull) {
   EXPECT_EQ(made->skin.across.found, 0u);
 }
 
+TEST(SkinSections, TakesSectionsWithContinuousSlopes) {
+  const auto flat = fit_skin(wigley(), {});
+  SkinJob job;
+  job.sections.continuity = Continuity::kG3;
+  const auto made = fit_skin(wigley(), job);
+  ASSERT_TRUE(made && flat);
+  EXPECT_EQ(made->proved, 9u);
+  // the first and the last station are straight lines: no slope to be continuous, and none steps
+  EXPECT_EQ(made->smooth, 9u);
+  EXPECT_EQ(flat->smooth, 0u);
+  const NurbsSurface& s = made->skin.patches[0].surface;
+  const NurbsSurface& other = flat->skin.patches[0].surface;
+  double most = 0.0, most_flat = 0.0;
+  for (double u = 0.0; u <= 1.0; u += 0.02) {
+    const Vec3 p = evaluate(s, u, 0.5).point, q = evaluate(other, u, 0.5).point;
+    most = std::max(most, std::abs(p.y - half_breadth(p.x, p.z)));
+    most_flat = std::max(most_flat, std::abs(q.y - half_breadth(q.x, q.z)));
+  }
+  EXPECT_LT(most, most_flat);
+  for (const SkinSectionReport& section : made->skin.sections) {
+    EXPECT_LE(section.deviation, made->tolerance);
+  }
+}
+
 TEST(SkinSections, IsTheSameAtAnySizeAndPlace) {
   const auto plain = fit_skin(wigley(), {});
   ASSERT_TRUE(plain);

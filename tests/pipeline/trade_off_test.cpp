@@ -6,6 +6,7 @@
 
 #include <cmath>
 #include <random>
+#include <string_view>
 #include <vector>
 
 namespace obvid {
@@ -37,6 +38,24 @@ std::vector<TradeOffRow> rows_of(const std::vector<int>& vertices) {
     rows.push_back(row);
   }
   return rows;
+}
+
+TEST(TradeOff, GivesTheRowsThatWereDoneWhenItIsCancelled) {
+  const PointSeries series = noisy_quarter();
+  double told = 0.0;
+  const RunContext run([&told](std::string_view, double done) { told = done; },
+                       [&told] { return told > 2.5 / 8.0; });
+  TradeOff finished;
+  const auto t = trade_off(series, {}, run, &finished);
+  ASSERT_FALSE(t);
+  EXPECT_EQ(t.error().code, ErrorCode::kCancelled);
+  const auto whole = trade_off(series, {});
+  ASSERT_TRUE(whole);
+  ASSERT_EQ(finished.rows.size(), 2U);
+  for (std::size_t i = 0; i < finished.rows.size(); ++i) {
+    EXPECT_EQ(finished.rows[i].tolerance, whole->rows[i].tolerance);
+    EXPECT_EQ(finished.rows[i].vertices, whole->rows[i].vertices);
+  }
 }
 
 TEST(TradeOff, RunsFromTheRoundingToOnePercentInEqualRatios) {

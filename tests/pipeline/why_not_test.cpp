@@ -10,6 +10,8 @@
 #include <string>
 #include <vector>
 
+#include "obvid/io/read_points.h"
+
 namespace obvid {
 namespace {
 
@@ -45,15 +47,21 @@ Result<Fit> again(const PointSeries& series, FitJob job, double tolerance) {
 /// What holds for every answer.
 void expect_sound(const WhyNot& why, const PointSeries& series, const FitJob& job) {
   EXPECT_TRUE(why.fit.certificate.proved);
-  EXPECT_LE(why.fit.report.largest_move, why.tolerance);
+  EXPECT_LE(why.fit.report.largest_move, why.advised);
+  EXPECT_GE(why.advised, why.tolerance);
+  if (!why.next_to_nothing) {
+    EXPECT_EQ(why.advised, why.tolerance);
+  }
   EXPECT_LT(why.refused, why.tolerance);
   // 2 % and a third digit, unless the least tolerance of which anybody speaks will do
   if (why.refused > 0.0) {
     EXPECT_LE(why.tolerance, 1.03 * why.refused);
   }
-  const auto made = again(series, job, why.tolerance);
-  ASSERT_TRUE(made) << made.error().what;
-  EXPECT_TRUE(made->certificate.proved);
+  for (const double noise : {why.tolerance, why.advised}) {
+    const auto made = again(series, job, noise);
+    ASSERT_TRUE(made) << made.error().what;
+    EXPECT_TRUE(made->certificate.proved);
+  }
   const auto below = again(series, job, why.refused);
   EXPECT_FALSE(below && below->certificate.proved);
   ASSERT_FALSE(why.moved.empty());
@@ -140,6 +148,23 @@ TEST(WhyNot, RaisesTheTolerancesThatPointsHaveOfTheirOwn) {
   const auto why = why_not(series, convex_job());
   ASSERT_TRUE(why);
   for (const double t : why->fit.contour.point_tolerance) EXPECT_EQ(t, why->tolerance);
+}
+
+TEST(WhyNot, WhatIsNextToNothingIsAdvisedBesideTheWidthOfTheRegion) {
+  // a spiral with a heading against it: it takes vertices between points, not room at them
+  const auto series = read_points(std::string(OBVID_TEST_DATA) + "/found/coil_85.csv");
+  ASSERT_TRUE(series);
+  FitJob job;
+  PointWish wish;
+  wish.index = 1;
+  wish.theta = 0.0;  // the tangent there is near 109 degrees
+  job.wishes.push_back(wish);
+  const auto why = why_not(*series, job);
+  ASSERT_TRUE(why);
+  ASSERT_TRUE(why->next_to_nothing);
+  EXPECT_FALSE(why->rounding_does);  // the file has all digits of its doubles
+  constexpr double kLeast = 2e-3;    // a hundredth of the width, and a digit's rounding
+  EXPECT_GT(why->advised, kLeast * why->fit.report.tolerance);
 }
 
 TEST(WhyNot, TellsProgress) {

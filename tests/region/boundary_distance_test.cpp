@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Distances from the boundaries of a region, and the errors of convex contours of 003_....
+// Distances from the boundaries of a region, and the errors of convex contours of [003].
 #include "obvid/region/boundary_distance.h"
 #include "../common/angles.h"
 

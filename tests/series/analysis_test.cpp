@@ -94,7 +94,7 @@ TEST(Analysis, SpiralHasOneRunAndNoVertex) {
   EXPECT_EQ(a.inflections, 0);
   ASSERT_EQ(a.runs.size(), 1u);
   EXPECT_EQ(a.runs[0].direction, -1);
-  EXPECT_EQ(a.rounding_decided, 0u);
+  EXPECT_TRUE(a.rounding_decided.empty());
 }
 
 TEST(Analysis, SpiralStaysBetweenTheArcsOfItsAdjacentCircles) {
@@ -168,7 +168,7 @@ TEST(Analysis, DirectionsThatRoundingDecidesAreUndecidedAndCountForNothing) {
   EXPECT_EQ(a.change[3], -1);
   EXPECT_FALSE(a.change[4]);
   EXPECT_EQ(a.change[5], 1);
-  EXPECT_GE(a.rounding_decided, 1U);
+  EXPECT_GE(a.rounding_decided.size(), 1U);
   EXPECT_EQ(a.vertices, 2);  // up, down, up
   EXPECT_EQ(a.inflections, 0);
 }
@@ -229,6 +229,41 @@ TEST(Analysis, CocircularAndCollinearPointsAreStretches) {
   EXPECT_EQ(a.direction[0], 0);
   EXPECT_EQ(a.direction[7], 0);
   EXPECT_EQ(a.points_only_error[1], 0.0);
+}
+
+TEST(Analysis, CloseCocircularPointsFarFromTheOriginLeaveCurvesOpen) {
+  const auto on = [](Vec2 centre, double degrees) {
+    return centre + 10.0 * unit_at(degrees * kPi / 180.0);
+  };
+  // the middle two 1e-4 apart: rounding of coordinates of 5e6 turns the chord between them by 1e-5
+  const Vec2 away{3e6, 4e6}, near{3.0, 4.0};
+  const auto far = analyse({on(away, 0.0), on(away, 15.0), on(away, 15.0006), on(away, 30.0)});
+  ASSERT_EQ(far->stretches.size(), 1u);
+  EXPECT_NE(far->points_only_error[1], 0.0);
+  EXPECT_TRUE(std::isnan(far->points_only_error[0]));
+  EXPECT_TRUE(std::isnan(far->points_only_error[2]));
+  const auto even = analyse({on(near, 0.0), on(near, 10.0), on(near, 20.0), on(near, 30.0)});
+  for (const double error : even->points_only_error) EXPECT_EQ(error, 0.0);
+}
+
+TEST(Analysis, ComputedPointsOfACircleAreOneStretch) {
+  std::mt19937_64 rng(5);
+  std::uniform_real_distribution<double> draw(-1.0, 1.0);
+  for (int trial = 0; trial < 300; ++trial) {
+    const double radius = std::pow(10.0, 3.0 * draw(rng)), start = 4.0 * draw(rng);
+    const double x = trial % 3 == 0 ? 2.0 * radius * draw(rng) : 0.0, y = trial % 2 == 0 ? x : 0.0;
+    const int n = 17 + static_cast<int>(12.0 * draw(rng));
+    const double step = (trial % 4 == 0 ? 3.0 + 2.9 * draw(rng) : 2.0 * kPi * (n - 1) / n) / (n - 1);
+    std::vector<Vec2> points;
+    for (int i = 0; i < n; ++i) {
+      const double t = start + i * step;
+      points.push_back({x + radius * std::cos(t), y + radius * std::sin(t)});
+    }
+    const auto a = analyse(points).value();
+    ASSERT_EQ(a.stretches.size(), 1u) << trial;
+    EXPECT_EQ(a.stretches[0].first, 0u) << trial;
+    EXPECT_EQ(a.stretches[0].last + 1, points.size()) << trial;
+  }
 }
 
 TEST(Analysis, ThreePointsAreOneCircleAndTwoALine) {

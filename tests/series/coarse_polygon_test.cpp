@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "../common/ten_points.h"
 #include "obvid/series/coarse_polygon.h"
+#include "../common/ten_points.h"
 
 #include <gtest/gtest.h>
 
@@ -40,7 +40,7 @@ TEST(CoarsePolygon, PointsOnItsEdgesDoNotHideIt) {
 }
 
 TEST(CoarsePolygon, ASpiralOfFewPointsIsNone) {
-  // 000_..., Table 1: turns of some 50 degrees, curvatures that only fall
+  // [000], Table 1: turns of some 50 degrees, curvatures that only fall
   EXPECT_FALSE(coarse_polygon(kTenPoints, {}, false, 0.3).found());
 }
 
@@ -50,8 +50,7 @@ TEST(CoarsePolygon, StairsOfPixelsWithinTheirToleranceAreNone) {
     stairs.push_back({0.5 * (k / 2) * 2.0, 0.5 * ((k + 1) / 2) * 2.0});
   }
   EXPECT_TRUE(coarse_polygon(stairs, {}, false, 20.0 * kDegree).found());
-  EXPECT_FALSE(
-      coarse_polygon(stairs, std::vector<double>(20, 0.5), false, 20.0 * kDegree).found());
+  EXPECT_FALSE(coarse_polygon(stairs, std::vector<double>(20, 0.5), false, 20.0 * kDegree).found());
 }
 
 }  // namespace

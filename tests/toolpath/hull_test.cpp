@@ -11,7 +11,9 @@
 #include <vector>
 
 #include "cutting.h"
+#include "obvid/io/read_file.h"
 #include "obvid/io/read_grid.h"
+#include "obvid/io/surface_json.h"
 #include "obvid/toolpath/toolpath.h"
 #include "shapes.h"
 
@@ -124,6 +126,33 @@ TEST_P(Hull, HalfOfSeries60IsNotGougedAndItsCuspsStayBelowTheScallop) {
 INSTANTIATE_TEST_SUITE_P(Balls, Hull,
                          testing::Values(ToolpathStrategy::kZigzag,
                                          ToolpathStrategy::kConstantScallop));
+
+TEST(LongGentleHull, IsNotGougedByArcsThatArePrintedAsLines) {
+  const auto file = shared_data() / "found" / "files" / "gouge_case_surface.json";
+  if (!std::filesystem::exists(file)) {
+    GTEST_SKIP() << "the public data sets are missing (OBVID_SHARED_DATA)";
+  }
+  const auto text = read_file(file.string());
+  ASSERT_TRUE(text);
+  const auto stored = surface_from_json(*text, file.string());
+  ASSERT_TRUE(stored);
+  constexpr double kGentleTolerance = 0.01,
+                   kGentleScallop = 0.05;  // mm, with which it was gouged by 0.0184
+  ToolpathOptions options;
+  options.cutter = {CutterKind::kBall, 2.0 * kHullRadius, 0.0};
+  options.tolerance = kGentleTolerance;
+  options.scallop = kGentleScallop;
+  const auto path = plan(*stored, options);
+  ASSERT_TRUE(path) << to_line(path.error());
+  const auto run = test::NcInterpreter(kHullStep).run(path->program.text);
+  ASSERT_TRUE(run.faults.empty()) << run.faults.front();
+  const auto samples = hull_samples(stored->patches.front().surface, 400, 60);
+  const FoundOnHull found = simulated(samples, run);
+  EXPECT_GT(found.looked, static_cast<int>(samples.size() / 2));
+  EXPECT_LE(found.gouge, path->report.gouge.most + kSampleError);
+  EXPECT_LE(path->report.gouge.most, kGentleTolerance);
+  EXPECT_LE(path->report.scallop.found, kGentleScallop);
+}
 
 }  // namespace
 }  // namespace obvid

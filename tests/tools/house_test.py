@@ -40,7 +40,7 @@ def project_files(root):
 
 def is_data(path):
     inside = any(str(path).startswith(folder + "/") for folder in DATA_FOLDERS)
-    return inside and path.suffix not in (".cpp", ".h", ".py", ".md")
+    return inside and path.suffix not in (".c", ".cpp", ".h", ".py", ".md")
 
 
 def without_licence(root, files):

@@ -21,4 +21,8 @@ struct ForeignPiece {
 /// `baseline` promises nothing.
 [[nodiscard]] std::optional<ForeignPiece> foreign_piece(const Contour& contour);
 
+/// Whether pieces that were kept from a drawing are others than the carrier's: then its name says
+/// nothing of them.
+[[nodiscard]] bool keeps_foreign_pieces(const Contour& contour);
+
 }  // namespace obvid

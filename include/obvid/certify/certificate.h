@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -18,15 +19,19 @@ struct PieceProof {
   bool exact_arithmetic = false;  ///< the fast floating-point bound could not decide
   double t0 = 0.0;                ///< has-vertex, undecided: parameter interval in question
   double t1 = 1.0;
+  bool turns_below_half = true;  ///< proved: the piece turns by less than half a turn
 };
 
 /// Upper bounds of the gaps at the joints of the numbers as they stand. Position relative to the
 /// contour's size, heading in radians, curvature relative to the larger of the two at the joint
-/// (but not less than 1e-6 of the largest at the four ends of the two pieces).
+/// (but not less than 1e-6 of the largest at the four ends of the two pieces). Slope of curvature,
+/// d kappa/ds, relative to the largest of the two pieces (at their ends, and the mean over their
+/// chords), where G3 is claimed.
 struct JointGaps {
   double position = 0.0;
   double heading = 0.0;
   double curvature = 0.0;
+  std::optional<double> slope{};
 };
 
 /// Everything that was proved about a contour (docs/methods/certify.md).
@@ -34,13 +39,15 @@ struct Certificate {
   std::vector<PieceProof> pieces;
   JointGaps gaps;
   bool gaps_within_bounds = false;  ///< position 1e-12 (or what the coordinates' rounding
-                                    ///< explains), heading and curvature 1e-6
+                                    ///< explains), heading and curvature 1e-6, slope 1e-6 (or what
+                                    ///< rounding explains, up to 1e-2)
   bool inside_region = false;
   bool through_points = false;  ///< every input point is met in order, exactly or within its
                                 ///< tolerance where it has one
   double largest_move = 0.0;    ///< proved bound of the distance of a point with a tolerance, units
   int corners = 0;              ///< joints that are continuous in position only
   int curvature_steps = 0;      ///< joints with a common tangent whose curvature is said to step
+  int slope_steps = 0;          ///< joints of a G3 contour that are said to be G2 only
   int vertices = 0;
   int inflections = 0;
   int self_intersections = 0;

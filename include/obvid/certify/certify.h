@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstddef>
+#include <memory>
 #include <vector>
 
 #include "obvid/certify/certificate.h"
+#include "obvid/core/watch.h"
 #include "obvid/curve/contour.h"
 
 namespace obvid {
@@ -22,10 +25,43 @@ namespace obvid {
 /// nearest. `self_intersections` are counted, not proved, and do not make a contour unproved. Cost
 /// O(n log n), about a microsecond per piece.
 [[nodiscard]] Certificate certify(const Contour& contour);
+/// The same as part of some longer work; when that is cancelled, it is no certificate.
+[[nodiscard]] Certificate certify(const Contour& contour, Watch& watch);
+
+/// What proofs found out about the single pieces of a contour, for contours that change in parts.
+/// A moved-from one can only be assigned to.
+class PieceMemory {
+ public:
+  PieceMemory();
+  ~PieceMemory();
+  PieceMemory(PieceMemory&&) noexcept;
+  PieceMemory& operator=(PieceMemory&&) noexcept;
+
+  /// `count` other pieces stand now where first..end - 1 were: nothing is known of them.
+  void replace(std::size_t first, std::size_t end, std::size_t count);
+  /// Nothing is known of any piece.
+  void clear();
+
+  struct Pieces;
+
+ private:
+  friend Certificate certify(const Contour& contour, PieceMemory& memory, Watch& watch);
+  std::unique_ptr<Pieces> pieces_;
+};
+
+/// The same certificate, bit for bit, as that without a memory, which must be of this contour: its
+/// pieces were told by `replace` wherever they changed. Pieces that it does not know are examined;
+/// joints, points and runs always are. It knows all pieces afterwards.
+[[nodiscard]] Certificate certify(const Contour& contour, PieceMemory& memory, Watch& watch);
 
 /// Proved upper bound of every input point's distance from the contour, units: the distance to some
 /// point of the contour near it, with the rounding of its evaluation. Infinite without pieces.
 /// Not guaranteed to be the smallest distance. Cost O(n) for points in the order of the contour.
 [[nodiscard]] std::vector<double> point_distances(const Contour& contour);
+[[nodiscard]] std::vector<double> point_distances(const Contour& contour, Watch& watch);
+
+/// Points with tolerances that the contour, followed from its start, does not pass within them
+/// after the points before; empty when it passes all in order. Cost as above.
+[[nodiscard]] std::vector<std::size_t> points_out_of_order(const Contour& contour, Watch& watch);
 
 }  // namespace obvid

@@ -23,7 +23,12 @@ struct OutOfRange {
 /// leaves the range of doubles. Coordinates: as large as a contour within the limits of its size
 /// can have. Lengths, weights and turnings: docs/methods/certify.md, section 4. Headings: four
 /// turns more than the pieces and corners can make. An origin: no farther from the contour than the
-/// contour is large. Nothing when all are within. Cost O(n).
+/// contour is large. A curvature that is NaN says that there is none: see below. Nothing when all
+/// are within. Cost O(n).
 [[nodiscard]] std::optional<OutOfRange> out_of_range(const Contour& contour);
+
+/// The first joint that says of itself that it has no curvature on one side (NaN), as where a drawn
+/// curve has a control point on its end. `fit` forms none, and nothing is proved of such a contour.
+[[nodiscard]] std::optional<std::size_t> joint_without_curvature(const Contour& contour);
 
 }  // namespace obvid

@@ -33,11 +33,14 @@ struct ChainProblem {
   std::vector<std::int8_t> direction;   ///< n - 1; 0 exactly where the cone is kNone
   std::vector<Cone> cone;               ///< n - 1
   std::vector<NodeData> nodes;          ///< n
+  /// Energy: the integral of (d kappa / d s)^2, instead of the change of curvature in units of what
+  /// the adjacent circles of each link show.
+  bool least_change = false;
 };
 
 /// A link between two elements, seen from its chord. `A`, `B` are the distances of the end
-/// curvatures from the circles through both points (theory 4), kept to full relative precision
-/// even where the curve is nearly a circle.
+/// curvatures from the circles through both points ([Kurnosenko 2013]), kept to full relative
+/// precision even where the curve is nearly a circle.
 struct LinkState {
   double h = 0.0;      ///< chord
   double omega = 0.0;  ///< heading of the chord

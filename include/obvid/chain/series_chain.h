@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "obvid/chain/chain.h"
+#include "obvid/chain/spiral_shape.h"
 #include "obvid/series/point_series.h"
 
 namespace obvid {
@@ -13,6 +14,10 @@ namespace obvid {
 struct ChainWishes {
   std::vector<FixedData> fixed;  ///< empty, or one entry per point
   bool convex = false;           ///< no inflection anywhere
+  bool least_change = false;     ///< as `ChainProblem` has it
+  bool central = false;          ///< each heading and curvature in the middle of what is left to it
+  bool to_the_edge = false;  ///< what is fixed is what somebody asked for: it is met as far as a
+                             ///< proof reaches, however unevenly the curvature then changes
 };
 
 /// Elements of a whole series, with free elements between its points where one closed-form
@@ -22,7 +27,11 @@ struct SeriesChain {
   std::vector<std::optional<std::size_t>> source;  ///< point index, or nothing for free elements
   std::vector<LinkState> links;
   std::vector<std::int8_t> direction;
-  std::vector<Cone> cone;  ///< kClosedForm, or kNone inside circular stretches
+  std::vector<Cone> cone;        ///< kClosedForm, or kNone inside circular stretches
+  std::vector<SpiralForm> form;  ///< of each link; empty: kOneSided everywhere
+  bool smooth = false;           ///< slopes of curvature were made equal (`smooth_slopes`)
+  std::vector<bool> slope_step;  ///< then: elements at which the slope still steps
+  std::vector<NodeData> nodes;   ///< what was given at the elements; empty: nothing
   std::size_t free_elements = 0;
   int newton_steps = 0;
   double smallest_margin = 0.0;
@@ -57,6 +66,7 @@ struct DirectedSeries {
   std::vector<std::int8_t> direction;              ///< n - 1; 0: arc or line, its ends given
   std::vector<NodeData> nodes;                     ///< n
   std::vector<Element> start;                      ///< n: headings and curvatures to begin with
+  bool to_the_edge = false;                        ///< as `ChainWishes` has it
 };
 
 /// Elements for nodes whose directions are known (from a fairing, or one turn of a closed series).

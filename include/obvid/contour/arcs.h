@@ -17,10 +17,11 @@ struct BiarcCurvatures {
 };
 
 /// Curvature of the second arc when the first one is chosen: tangent to the first arc and to the
-/// end tangent (theory 4, Q = 0). Infinite first curvature gives the circle through the start.
+/// end tangent ([Kurnosenko 2013], Q = 0). Infinite first curvature gives the circle through the
+/// start.
 [[nodiscard]] double second_curvature(const ChordFrame& frame, double first);
 
-/// Choice of 000_...: the arcs pass, with whichever of them gets there, through the middle of the
+/// Choice of [000]: the arcs pass, with whichever of them gets there, through the middle of the
 /// piece that the region cuts out of the median of the triangle of chord and tangents. Both
 /// curvatures stay between those of the frame, so they are monotone along a whole contour whose
 /// segments share one curvature at each point. Where there is no such triangle (headings a right

@@ -15,11 +15,14 @@ namespace obvid {
 /// Four parabolas that replace one link.
 struct Condensation {
   std::array<RationalBezier, 4> parabolas;  ///< quadratic, origin at the start of the link
-  double cut = 0.0;     ///< where the first tangent cuts the triangle's sides, 0 at its ends
-  double margin = 0.0;  ///< of the tightest parabola: a.b / |a|^2 - 1, a its shorter leg; > 0
+  double cut = 0.0;    ///< where the first tangent cuts the triangle's sides, 0 at its ends
+  double shift = 0.0;  ///< d of [001]: of the point of contact from the middle of that tangent
+  double k1 = 0.0, k2 = 0.0;  ///< factors by which the second cuts change the radii of the two new
+                              ///< triangles: k1 and k2 of [001]
+  double margin = 0.0;        ///< of the tightest parabola: a.b / |a|^2 - 1, a its shorter leg; > 0
 };
 
-/// The condensation of 001_...: a tangent parallel to the chord cuts the triangle of chord and end
+/// The condensation of [001]: a tangent parallel to the chord cuts the triangle of chord and end
 /// tangents in two, its point of contact is shifted so that both can meet the given curvatures, and
 /// a second cut of each makes them do so. The chain meets both elements, is continuous in curvature
 /// and each parabola has monotone curvature (Sapidis, Frey, "Controlling the curvature of a

@@ -28,7 +28,7 @@ struct EndHeadings {
   std::optional<double> end;
 };
 
-/// Headings by the neighbour rule of 002_...: at an inner point the heading of the chord between
+/// Headings by the neighbour rule of [002]: at an inner point the heading of the chord between
 /// its neighbours; at an end the given one, or that of the circle which leads to the neighbour's.
 /// Unwrapped along the series. At least two distinct points, neighbours distinct.
 [[nodiscard]] std::vector<double> neighbour_headings(const std::vector<Vec2>& points,

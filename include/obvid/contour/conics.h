@@ -44,7 +44,7 @@ struct WeightRange {
 /// the elements are not used.
 [[nodiscard]] std::optional<WeightRange> monotone_weights(const Element& start, const Element& end);
 
-/// Middle weight of the conic through the point K of 003_...: on the median of the triangle, in the
+/// Middle weight of the conic through the point K of [003]: on the median of the triangle, in the
 /// middle of what the region of a spiral with these elements cuts out of it. Curvatures may be
 /// infinite or 0 as in `segment_region`. Nothing where there is no such region or triangle.
 [[nodiscard]] std::optional<double> median_weight(const Element& start, const Element& end);
@@ -67,8 +67,7 @@ struct ConicWhyNot {
 
 /// How to choose the first weight, which decides all others.
 struct ConicOptions {
-  std::optional<double>
-      first_weight;  ///< given; 003_... takes `median_weight` of the first segment
+  std::optional<double> first_weight;  ///< given; [003] takes `median_weight` of the first segment
   std::optional<std::size_t>
       curvature_of{};  ///< the element whose own curvature is met: it decides the first weight
 };
@@ -84,12 +83,12 @@ struct ConicChain {
 };
 
 /// Conics over a convex series with headings given, joined with equal curvature: the weights of all
-/// others follow from the first (003_..., theory 5.2). Unless it is given, the first weight is such
-/// that all arcs are elliptic and monotone, if there is one, and that no arc is farther from the
-/// middle of its region than need be, measured in widths of the region. Curvatures of the elements
-/// say what those regions are and nothing else; segments without a region do not count.
-/// Cost O(n). Errors: E304 fewer than two elements; E401 a segment without triangle; E203 a given
-/// weight that is not positive.
+/// others follow from the first ([003]; docs/methods/conics.md). Unless it is given, the first
+/// weight is such that all arcs are elliptic and monotone, if there is one, and that no arc is
+/// farther from the middle of its region than need be, measured in widths of the region. Curvatures
+/// of the elements say what those regions are and nothing else; segments without a region do not
+/// count. Cost O(n). Errors: E304 fewer than two elements; E401 a segment without triangle; E203 a
+/// given weight that is not positive.
 [[nodiscard]] Result<ConicChain> conic_chain(const std::vector<Element>& elements,
                                              const ConicOptions& options = {});
 

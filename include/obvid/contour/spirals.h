@@ -4,11 +4,13 @@
 #include <vector>
 
 #include "obvid/chain/chain.h"
+#include "obvid/chain/spiral_shape.h"
 #include "obvid/curve/pieces.h"
 
 namespace obvid {
 
-/// Appends the spiral with given end points, headings and curvatures in closed form (theory 6.1):
+/// Appends the spiral with given end points, headings and curvatures in closed form
+/// (docs/methods/chain.md, 1):
 /// the Moebius image of a hyperbola arc, as a rational quartic Bezier with both end weights 1.
 /// `direction` is +1 when the signed curvature increases from start to end, -1 when it decreases.
 /// Where the piece turns so far that a weight is not positive, or by more than about 140 degrees,
@@ -20,5 +22,11 @@ namespace obvid {
 /// monotonicity holds in exact arithmetic; it is for `certify` to prove it of the rounded numbers.
 [[nodiscard]] bool append_spiral(const LinkState& link, int direction, Vec2 start, Vec2 end,
                                  std::vector<RationalBezier>& pieces);
+
+/// The same in any form (docs/methods/g3.md). All but kOneSided need no more than that some spiral
+/// exists, `cone_margin(link, direction, kSpiral) > 0`; those at rest need more
+/// (`spiral_slopes`), and false says too that there is none.
+[[nodiscard]] bool append_spiral(const LinkState& link, int direction, SpiralForm form, Vec2 start,
+                                 Vec2 end, std::vector<RationalBezier>& pieces);
 
 }  // namespace obvid

@@ -47,6 +47,7 @@ struct Error {
   std::string hint;           ///< what to do next; may be empty
   std::ptrdiff_t index = -1;  ///< first point (zero based) the error is about, or -1
   double value = 0.0;         ///< the figure that decided, in the unit that `what` names
+  std::ptrdiff_t last = -1;   ///< last of the points, where they are a range; else -1
 };
 
 /// Exit code of the command line for this error (formats: 1, 2, 3, 4 or 5).

@@ -7,38 +7,47 @@
 #include <string_view>
 #include <utility>
 
-#include "obvid/core/progress.h"
+#include "obvid/core/run_context.h"
 
 namespace obvid {
 
 /// Looks after long work: tells whoever listens how far it is, counts it, and says when to stop.
 /// Work is counted in units that no machine changes (one step of a solver on one point is one), so
-/// that a limit has the same result everywhere.
+/// that a limit has the same result everywhere. Work that was cancelled stops in the same way; what
+/// it has by then is no result, and whoever made the watch throws it away.
 class Watch {
  public:
   Watch() = default;
-  explicit Watch(Progress progress) : progress_(std::move(progress)) {}
+  explicit Watch(RunContext run) : run_(std::move(run)) {}
 
   /// So much was done. False: stop, and make do with what there is.
   bool spend(double units) {
     spent_ += units;
     return may_go_on();
   }
-  [[nodiscard]] bool may_go_on() const { return spent_ < limit_; }
+  [[nodiscard]] bool may_go_on() { return spent_ < limit_ && !cancelled(); }
+  /// Whether the work shall stop for good: asks, unless the answer was yes before.
+  [[nodiscard]] bool cancelled() {
+    if (!cancelled_ && run_.cancelled) cancelled_ = run_.cancelled();
+    return cancelled_;
+  }
+  /// Whether that was the answer before: then what was made is worth nothing.
+  [[nodiscard]] bool was_cancelled() const { return cancelled_; }
   [[nodiscard]] double spent() const { return spent_; }
 
   /// `done` of the present stretch, in [0, 1]. What is told never goes back.
   void tell(std::string_view stage, double done) {
-    if (!progress_) return;
+    if (!run_.progress) return;
     told_ = std::max(told_, from_ + (to_ - from_) * std::clamp(done, 0.0, 1.0));
-    progress_(stage, told_);
+    run_.progress(stage, told_);
   }
 
  private:
   friend class Allowance;
   friend class Stretch;
 
-  Progress progress_;
+  RunContext run_;
+  bool cancelled_ = false;
   double spent_ = 0.0, limit_ = std::numeric_limits<double>::infinity();
   double from_ = 0.0, to_ = 1.0, told_ = 0.0;
 };

@@ -10,6 +10,7 @@
 #include "obvid/core/units.h"
 #include "obvid/curve/pieces.h"
 #include "obvid/geom/element.h"
+#include "obvid/geom/value_range.h"
 
 namespace obvid {
 
@@ -17,7 +18,7 @@ namespace obvid {
 enum class Carrier {
   kSpiral,     ///< rational quartics in closed form
   kArcs,       ///< circle arcs, G1
-  kConics,     ///< ellipse arcs, one to a link
+  kConics,     ///< conic arcs, nearly all of ellipses, one to a link
   kBeziers,    ///< parabolas, by condensation
   kClothoids,  ///< curvature piecewise linear in arc length
   kBspline,    ///< one polynomial B-spline of degree 5, monotone, within a tolerance of the points
@@ -40,6 +41,15 @@ inline constexpr std::array kAllCarriers = {
   return carrier != Carrier::kCubic && carrier != Carrier::kBaseline;
 }
 
+/// What a contour claims to be continuous at its joints that are no corners.
+enum class Continuity {
+  kG2,  ///< heading and curvature
+  kG3,  ///< the slope of curvature too: the plot of curvature over arc length has no kinks
+};
+/// G2 or G3.
+[[nodiscard]] const char* to_string(Continuity continuity);
+[[nodiscard]] std::optional<Continuity> continuity_of(std::string_view name);
+
 /// A joint of the contour: point, heading, curvature, and the input point it stands on, if any.
 struct Joint {
   Element element;
@@ -47,14 +57,17 @@ struct Joint {
   std::optional<Element> leaving{};   ///< heading and curvature after it where they are others:
                                       ///< at a corner, and where the curvature steps between pieces
                                       ///< that the input drew
+  bool slope_step = false;            ///< in a contour that is G3 elsewhere: G2 only
 };
 
 /// What the user fixed at a point.
 struct GivenDatum {
-  std::size_t point = 0;          ///< index into `Contour::points`
-  std::optional<double> theta{};  ///< heading, rad, modulo a full turn
-  std::optional<double> kappa{};  ///< signed curvature, 1/unit
-  bool corner = false;            ///< the contour may turn here at once
+  std::size_t point = 0;               ///< index into `Contour::points`
+  std::optional<double> theta{};       ///< heading, rad, modulo a full turn
+  std::optional<double> kappa{};       ///< signed curvature, 1/unit
+  bool corner = false;                 ///< the contour may turn here at once
+  std::optional<ValueRange> thetas{};  ///< range of headings, rad, modulo a full turn
+  std::optional<ValueRange> kappas{};  ///< range of signed curvatures, 1/unit
 };
 
 /// Neighbouring pieces that turn by no more have a common tangent, rad.
@@ -78,6 +91,7 @@ struct Contour {
   Units units;
   bool closed = false;
   Carrier carrier = Carrier::kSpiral;
+  Continuity continuity = Continuity::kG2;
   std::vector<Vec2> points;             ///< input points as read (consecutive duplicates merged)
   std::vector<double> point_tolerance;  ///< per point: how far from it the contour may pass, units;
                                         ///< empty: it passes through all of them

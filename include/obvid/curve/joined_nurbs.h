@@ -7,19 +7,21 @@
 namespace obvid {
 
 /// The whole contour as one NURBS curve whose homogeneous form is C1 at every joint but corners:
-/// inner knots of multiplicity degree - 1 (degree at corners), so that CAD kernels keep it as one
-/// edge. The curve is that of the pieces, apart from rounding; its parameter runs at one speed on
+/// inner knots of multiplicity degree - 1 (degree at corners, and where neighbours turn by more than
+/// 1e-6 rad), so that CAD kernels keep it as one edge. The curve is that of the pieces, apart from rounding; its parameter runs at one speed on
 /// both sides of a joint. Continuous curvature of the contour stays continuous curvature.
 ///
 /// Pieces with weights are multiplied by a quadratic factor that makes the weight stand still at
 /// both ends (docs/methods/curve.md): quartic spirals become degree 6, conics and arcs degree 4,
-/// one more where the speed would otherwise change by more than 20 along the curve; all are raised
-/// to the largest degree. Weights lie within [0.1, 10]: pieces are cut where they do not. A closed
+/// one more where the speed would otherwise change by more than 20 along the curve (not where a
+/// piece ends with next to no speed of its own: cutting does not help it); all are raised to the
+/// largest degree. Weights lie within [0.1, 10]: pieces are cut where they do not. A closed
 /// contour gives a clamped curve that ends in its first point.
 ///
 /// Errors: E304 no pieces; E310 clothoids, which are no NURBS curves, and rational pieces of degree
 /// 6 and more (`index`: the piece); E501 where cutting does not bring the weights into their range
-/// (weights of both signs). Cost O(pieces).
+/// (weights of both signs), and where a piece is too short beside the others for a knot of its own.
+/// Cost O(pieces).
 [[nodiscard]] Result<NurbsCurve> joined_nurbs(const Contour& contour);
 
 }  // namespace obvid

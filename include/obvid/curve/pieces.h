@@ -4,7 +4,7 @@
 #include <array>
 #include <variant>
 
-#include "obvid/geom/vec2.h"
+#include "obvid/geom/element.h"
 
 namespace obvid {
 
@@ -70,6 +70,20 @@ struct Jet {
 [[nodiscard]] double curvature(const Jet& jet);
 /// Derivative of the curvature by arc length, 1/unit^2.
 [[nodiscard]] double curvature_rate(const Jet& jet);
+
+/// How far a piece turns between two parameters, 0 <= t0 <= t1 <= 1, to both sides together, rad, 0
+/// or more: exact, to rounding, for lines, arcs and clothoids, however often they go around. A
+/// Bezier piece must turn by less than half a turn; across an inflection its turning is missed by
+/// some hundredths of it.
+[[nodiscard]] double turning_both_ways(const Piece& piece, double t0, double t1);
+
+/// Whether the control point beside this end (t = 0 or 1) of a Bezier piece stands on it: the
+/// derivative is zero there, and the curvature has no bound in general. False elsewhere.
+[[nodiscard]] bool is_singular_end(const Piece& piece, double t);
+
+/// Element of a piece at parameter t; heading in (-pi, pi]. At a singular end the heading is the
+/// limit of those beside it, and the curvature NaN: undefined.
+[[nodiscard]] Element element_at(const Piece& piece, double t);
 
 [[nodiscard]] Vec2 start_point(const Piece& piece);
 [[nodiscard]] Vec2 end_point(const Piece& piece);

@@ -11,14 +11,16 @@
 #include "obvid/core/units.h"
 #include "obvid/curve/nurbs.h"
 #include "obvid/curve/pieces.h"
+#include "obvid/surface/space_curve.h"
 
 namespace obvid {
 
-/// A curve for STEP, IGES and BREP: one NURBS curve becomes one edge; pieces become one edge each
-/// (lines, circles and rational curves as such), joined in one wire. No clothoids.
+/// A curve for STEP, IGES and BREP: one NURBS curve, of the plane z = 0 or of space, becomes one
+/// edge; pieces become one edge each (lines, circles and rational curves as such), joined in one
+/// wire. No clothoids.
 struct CadCurve {
   std::string name;
-  std::variant<NurbsCurve, std::vector<Piece>> geometry;
+  std::variant<NurbsCurve, std::vector<Piece>, SpaceCurve> geometry;
 };
 
 /// Units that STEP and IGES files are written in.

@@ -34,6 +34,14 @@ struct SampleOptions {
 [[nodiscard]] Result<std::vector<CurveSample>> sample(std::span<const Piece> pieces,
                                                       const SampleOptions& options);
 
+/// Places along connected pieces, each heading near the one before. Errors: E203 beyond the curve;
+/// E304 no pieces. Cost O(pieces) and some microseconds for each place.
+[[nodiscard]] Result<std::vector<CurveSample>> sample_at_lengths(std::span<const Piece> pieces,
+                                                                 std::span<const double> lengths);
+/// The same for parameters: 2.5 is the middle of the third piece, by its own parameter.
+[[nodiscard]] Result<std::vector<CurveSample>> sample_at_parameters(
+    std::span<const Piece> pieces, std::span<const double> parameters);
+
 /// Columns `s_mm,x_mm,y_mm,heading_deg,curvature_1_per_mm,normal_x,normal_y` (the unit is the
 /// contour's; without it, `s,x,y,...,curvature,...`, when that is merely assumed; the normal is the
 /// left one). `parse_points` knows samples by these names. Numbers read back to the same doubles.

@@ -21,8 +21,8 @@ struct SldcrvFile {
 [[nodiscard]] Result<std::vector<SldcrvFile>> sldcrv_files(const Contour& contour,
                                                            const SampleOptions& options);
 
-/// A macro in the text form of SolidWorks (VBA, .bas) that draws the contour into an active sketch:
-/// CreateLine, CreateArc, CreateEllipticalArc (for conics) and CreateSpline2 through
+/// A macro in the text form of SolidWorks (VBA; .swb, .bas) that draws the contour into an active
+/// sketch: CreateLine, CreateArc, CreateEllipticalArc (for conics) and CreateSpline2 through
 /// samples for all others. Lengths in metres, as that interface wants them: contours in um, mm, cm,
 /// m, km, in and ft are converted, others taken as mm.
 [[nodiscard]] Result<std::string> solidworks_macro(const Contour& contour,

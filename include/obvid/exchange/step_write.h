@@ -19,15 +19,16 @@ struct StepOptions {
                             ///< systems that show no wires
 };
 
-/// A STEP file (ISO 10303-21) of curves in the plane z = 0, without a CAD kernel: a NURBS curve as
+/// A STEP file (ISO 10303-21) of curves in the plane z = 0, and of NURBS curves in space, without a
+/// CAD kernel: a NURBS curve as
 /// B_SPLINE_CURVE_WITH_KNOTS, rational where its weights differ; lines, arcs and arcs of ellipses
 /// as trimmed LINE, CIRCLE and ELLIPSE, several of them as one COMPOSITE_CURVE; other rational
 /// pieces, and arcs whose centre lies too far away for its digits, as splines
 /// (docs/methods/step.md). Numbers have the fewest digits that give them back. The name of the
 /// product is that of the first curve. The same curves give the same bytes.
 /// Linear time. Errors: E203 a unit that STEP does not know; E303 a number that is not finite; E304
-/// no curves or no pieces; E310 a clothoid; E101 pieces that do not meet, and knots, points and
-/// weights that make no NURBS curve.
+/// no curves or no pieces; E310 a clothoid, and faces of a curve in space; what `check` finds of
+/// one; E101 pieces that do not meet, and knots, points and weights that make no NURBS curve.
 [[nodiscard]] Result<std::string> step_text(const std::vector<CadCurve>& curves,
                                             const StepOptions& options = {});
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <numbers>
 
@@ -9,6 +10,12 @@ namespace obvid {
 
 inline constexpr double kFullTurn = 2.0 * std::numbers::pi;   ///< rad
 inline constexpr double kOneDegree = std::numbers::pi / 180;  ///< rad
+
+/// The angle that means the same direction as `theta` and lies nearest to another one, rad: at most
+/// half a turn from it.
+[[nodiscard]] inline double nearest_angle(double theta, double to) {
+  return to + std::remainder(theta - to, kFullTurn);
+}
 
 /// Least and largest of some angles against one direction, rad.
 struct AngleRange {

@@ -10,7 +10,7 @@
 namespace obvid {
 
 /// Curve in the plane (N = 2) or in space (N = 3): one integro-differential spline per coordinate
-/// over the chord length summed up along its points (004_..., formula (22)).
+/// over the chord length summed up along its points ([004], formula (22)).
 template <std::size_t N>
 struct IdCurve {
   std::array<IdSpline, N> part;  ///< all with the same nodes, from 0 on

@@ -10,7 +10,7 @@
 namespace obvid {
 
 /// Cubic spline of one variable by values and slopes, the usual choice that integro-differential
-/// splines are compared with (004_..., formulas (12) to (17)). It interpolates; the integral over a
+/// splines are compared with ([004], formulas (12) to (17)). It interpolates; the integral over a
 /// cell is what it happens to be. For curves in the plane see `CubicSpline`.
 struct ScalarCubic {
   std::vector<double> nodes;  ///< ascending, at least two

@@ -12,6 +12,10 @@ namespace obvid {
 /// The contour file of docs/formats.md. Every number reads back to the same double.
 [[nodiscard]] std::string contour_to_json(const StoredContour& stored);
 
+/// The values of its fields "report" and "certificate", as they stand in the file.
+[[nodiscard]] std::string report_to_json(const FitReport& report);
+[[nodiscard]] std::string certificate_to_json(const Certificate& certificate);
+
 /// Reads a contour file. `name` stands in errors. Errors: E308 with line and column or the path of
 /// the field, E309 for numbers beyond what `fit` forms (`out_of_range`), E310 for a version or
 /// piece type that this program does not know. Never throws on any input.

@@ -13,12 +13,17 @@ struct PictureTitles {
   std::string verdict;  ///< of curves that nobody here promised anything about
 };
 
+/// Plots that are drawn on request.
+struct PicturePlots {
+  bool slope = false;  ///< d kappa/ds over arc length, below the curvature
+};
+
 /// Picture of a contour for a report: contour, points, curvature comb, vertices, inflections and
 /// corners, scale bar, and below it curvature and radius over arc length; where points have
 /// tolerances also where the contour passes within them. One self-contained SVG file that
 /// follows the viewer's light or dark scheme.
-[[nodiscard]] std::string picture_svg(const StoredContour& stored,
-                                      const PictureTitles& titles = {});
+[[nodiscard]] std::string picture_svg(const StoredContour& stored, const PictureTitles& titles = {},
+                                      const PicturePlots& plots = {});
 
 /// Texts of a comparison.
 struct ComparisonTitles {

@@ -9,13 +9,19 @@
 
 namespace obvid {
 
+/// Whether two distinct points are enough: they are when somebody else gives headings at both.
+enum class TwoPoints { kTooFew, kDo };
+
 /// Reads a file, or standard input for "-". Errors: E301 and those of `parse_points`.
-[[nodiscard]] Result<PointSeries> read_points(const std::string& path);
+[[nodiscard]] Result<PointSeries> read_points(const std::string& path,
+                                              TwoPoints two = TwoPoints::kTooFew);
 
 /// Reads points from text in any of the forms of docs/formats.md. `name` stands in errors as
 /// `name:line:column`. Consecutive duplicates are merged with a warning.
-/// Errors: E302 bad number, E303 NaN or infinite, E304 fewer than 3 distinct points, E305 fewer
-/// than 2 columns, E306 not text, E307 a stated count does not match. Cost O(size).
-[[nodiscard]] Result<PointSeries> parse_points(std::string_view text, std::string_view name);
+/// Errors: E302 bad number, E303 NaN or infinite, E304 fewer than 3 distinct points (2 with
+/// headings at both suffice), E305 fewer than 2 columns, E306 not text, E307 a stated count does
+/// not match. Cost O(size).
+[[nodiscard]] Result<PointSeries> parse_points(std::string_view text, std::string_view name,
+                                               TwoPoints two = TwoPoints::kTooFew);
 
 }  // namespace obvid

@@ -24,13 +24,25 @@ struct SegmentReport {
   std::size_t inserted = 0;        ///< elements that the bound needed inside this part
 };
 
+/// A given range at an end of which the contour lies: it would go on if it might.
+struct ActiveRange {
+  std::size_t point = 0;
+  bool heading = true;  ///< else of the curvature
+  bool high = false;    ///< at the greatest value, else at the least
+
+  bool operator==(const ActiveRange&) const = default;
+};
+
 /// How well the contour keeps what the user fixed.
 struct GivenReport {
   std::size_t headings = 0;  ///< how many were given
   std::size_t curvatures = 0;
   std::size_t corners = 0;
-  double heading_miss = 0.0;    ///< largest, rad
-  double curvature_miss = 0.0;  ///< largest, of the given curvature
+  double heading_miss = 0.0;          ///< largest, rad; of ranges: how far beyond an end
+  double curvature_miss = 0.0;        ///< largest, of the given curvature; likewise
+  std::size_t heading_ranges = 0;     ///< how many were given
+  std::size_t curvature_ranges = 0;   ///< likewise
+  std::vector<ActiveRange> active{};  ///< by points, the heading's first
 };
 
 /// How the headings and curvatures were found.
@@ -38,6 +50,11 @@ struct ChainReport {
   int newton_steps = 0;
   double smallest_margin = 0.0;   ///< smallest relative distance of a segment from its cone, > 0
   std::size_t free_elements = 0;  ///< joints inserted between points where one piece cannot do
+  std::optional<double> slope_step_g2;  ///< of a G3 contour: the largest step of the slope of
+                                        ///< curvature that the G2 contour has, of the largest slope
+                                        ///< at the ends of both pieces
+  std::optional<double> waviness_g2;    ///< of a G3 contour: the waviness that the G2 contour has;
+                                        ///< nothing where it has none
 };
 
 /// Figures about the whole contour, as they stand in the contour file.
@@ -48,18 +65,22 @@ struct FitReport {
   double largest_deviation = 0.0;  ///< of all parts; NaN where none is known
   double largest_move = 0.0;       ///< how far a point was moved; 0 when interpolated exactly
   std::vector<double> moves;       ///< per point, an upper bound of its distance from the contour,
-                              ///< units; empty when interpolated exactly
+                                   ///< units; empty when interpolated exactly
   int vertices = 0;
   int vertices_lower_bound = 0;
   int inflections = 0;
   std::size_t inserted_points = 0;
+  std::optional<double> waviness;  ///< hills of the slope of curvature on a run (docs/claims.md);
+                                   ///< nothing for lines and arcs, and where rounding hides it
   GivenReport given;
   std::optional<double>
       carrier_deviation;  ///< largest distance from the spirals as measured, units;
                           ///< nothing for the spirals, and where there are none
   std::optional<double> outside_spirals_region;  ///< largest distance from the regions of the
                                                  ///< spirals as measured, units; likewise
-  double seconds = 0.0;
+  double seconds = 0.0;  ///< of forming, proving and measuring, on the clock
+  double comparing_seconds =
+      0.0;  ///< of these for what is measured against the spirals; not stored
   ChainReport chain;
 };
 
@@ -68,8 +89,8 @@ struct StoredContour {
   Contour contour;
   std::optional<FitReport> report;
   std::optional<Certificate> certificate;
-  std::vector<std::string> unread{};  ///< fields of the file that mean nothing to this program, each
-                                    ///< once: "/pieces/*/colour"
+  std::vector<std::string> unread{};  ///< fields of the file that mean nothing to this program,
+                                      ///< each once: "/pieces/*/colour"
 };
 
 }  // namespace obvid

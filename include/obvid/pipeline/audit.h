@@ -35,7 +35,8 @@ struct CurveAudit {
   Contour contour;          ///< the pieces with joints; promises nothing (carrier `baseline`)
   Certificate certificate;  ///< proved verdict of each piece, gaps, counts
   double length = 0.0;      ///< units
-  double least_kappa = 0.0, largest_kappa = 0.0;  ///< signed, 1/unit, sampled
+  /// Signed, 1/unit, sampled. NaN where an end of a piece has no curvature: it has no bound then.
+  double least_kappa = 0.0, largest_kappa = 0.0;
   bool counted = true;  ///< false where a piece has no curvature somewhere (a control point on an
                         ///< end): then nobody counted the three figures that follow
   int vertices = 0;     ///< all of them, as the certificate counts
@@ -53,10 +54,11 @@ struct CurveAudit {
 
 /// Audits a connected curve. A piece whose height over its chord is below eight roundings of its
 /// coordinates is straight: curvature below 64 2^-53 times the largest coordinate over the squared
-/// length is none, and neither are such curvatures at the ends of clothoids. Gaps, corners and
-/// jumps are what the numbers say beyond rounding: gaps above 1e-9 of the size, turns above 1e-6
-/// rad, jumps above 1e-6 of the larger curvature. Places are found at 200 samples of each piece and
-/// refined: narrower swings are counted, not placed.
+/// length is none, and neither are such curvatures at the ends of clothoids, unless they go on
+/// continuously (as below) from a curvature that is more. Gaps, corners and jumps are what the
+/// numbers say beyond rounding: gaps above 1e-9 of the size, turns above 1e-6 rad, jumps above 1e-6
+/// of the larger curvature. Places are found at 200 samples of each piece and refined: narrower
+/// swings are counted, not placed.
 [[nodiscard]] CurveAudit audit(const DrawnCurve& curve, const Units& units);
 
 }  // namespace obvid

@@ -29,7 +29,7 @@ enum class FileFormat {
   kLandXml,    ///< .xml
   kSamples,    ///< .csv
   kSldcrv,     ///< .sldcrv, one file per run
-  kMacro,      ///< .bas, of SolidWorks
+  kMacro,      ///< .swb, .bas, of SolidWorks
   kObj,        ///< .obj
   kPly,        ///< .ply
 };
@@ -44,6 +44,7 @@ enum class FileFormat {
 struct ExportOptions {
   std::string name = "contour";     ///< of the curve, where a format has a place for it
   PictureTitles picture{};          ///< of .svg pictures
+  PicturePlots plots{};             ///< that .svg pictures have on request
   std::optional<double> tolerance;  ///< of curves that a format cannot hold exactly [1e-6 of the
                                     ///< size; of arcs and G-code 2e-5 of it, of G-code at least
                                     ///< 0.002 mm]

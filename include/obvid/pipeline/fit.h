@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "obvid/certify/certificate.h"
-#include "obvid/core/progress.h"
 #include "obvid/core/result.h"
+#include "obvid/core/run_context.h"
 #include "obvid/core/watch.h"
 #include "obvid/curve/contour.h"
 #include "obvid/io/stored_contour.h"
@@ -25,21 +25,37 @@ enum class Closing {
 
 /// What is wished at one point beyond what the series itself fixes.
 struct PointWish {
-  std::size_t index = 0;        ///< of the point as it was read, from 0
-  std::optional<double> theta;  ///< heading, rad
-  std::optional<double> kappa;  ///< signed curvature, 1/unit
-  bool corner = false;          ///< the contour may turn here at once (G0)
+  std::size_t index = 0;               ///< of the point as it was read, from 0
+  std::optional<double> theta;         ///< heading, rad
+  std::optional<double> kappa;         ///< signed curvature, 1/unit
+  bool corner = false;                 ///< the contour may turn here at once (G0)
+  std::optional<ValueRange> thetas{};  ///< headings that do, rad, at most half a turn apart
+  std::optional<ValueRange> kappas{};  ///< signed curvatures that do, 1/unit
+};
+
+/// By what the headings and curvatures are chosen that the data leave open.
+enum class Prefer {
+  kFair,           ///< the fairest chain: change of curvature in units of what the points show
+  kCentre,         ///< each in the middle of what is left to it, point after point ([003])
+  kLeastChange,    ///< least integral of (d kappa / d s)^2 along the contour
+  kLeastCurvature  ///< least largest curvature, within a hundredth of the possible
 };
 
 /// What to form. Unset values take the defaults named here.
 struct FitJob {
   Carrier carrier = Carrier::kSpiral;
+  Continuity continuity = Continuity::kG2;  ///< G3: of the spirals only
+  Continuity followed = Continuity::kG2;    ///< other carriers: of the spirals that they follow and
+                                            ///< are measured against
   std::optional<double> tolerance;      ///< largest region width, units; default 3e-6 of the size
   bool convex = false;                  ///< refuse inflections
   std::optional<double> start_heading;  ///< rad
   std::optional<double> end_heading;    ///< rad
   std::optional<double> start_kappa;    ///< 1/unit
   std::optional<double> end_kappa;      ///< 1/unit
+  std::optional<ValueRange> start_thetas, end_thetas;  ///< ranges of the same
+  std::optional<ValueRange> start_kappas, end_kappas;
+  Prefer prefer = Prefer::kFair;     ///< others: open series of points that are met, one section
   std::optional<double> noise;       ///< how far every point may move, units; default: not at all
   bool noise_from_rounding = false;  ///< as far as half a unit of the last printed digit
   Closing closing = Closing::kAutomatic;
@@ -62,16 +78,16 @@ struct Fit {
 /// the region, form the pieces, prove them. Same input, same result, bit for bit (apart from
 /// `seconds`). Cost O(n): every search ends after a number of steps per point.
 /// Errors: E203 for a tolerance below 1e-12 of the size; E304, E309, E402 for the data; E401, E403,
-/// E404, E405 when no such contour exists, E406 when the carrier cannot keep what was given, E407 when it would swing out between two points.
-/// A contour that was formed but not proved is returned with
-/// `certificate.proved == false` and its reason: never hidden.
+/// E404, E405 when no such contour exists, E406 when the carrier cannot keep what was given, E407
+/// when it would swing out between two points. A contour that was formed but not proved is returned
+/// with `certificate.proved == false` and its reason: never hidden.
 [[nodiscard]] Result<Fit> fit(const PointSeries& series, const FitJob& job,
-                              const Progress& progress = {});
+                              const RunContext& run = {});
 /// The same as part of some longer work.
 [[nodiscard]] Result<Fit> fit(const PointSeries& series, const FitJob& job, Watch& watch);
 
-/// What `verify` found: the new proof, the first claim of the file that is false (if any), and which
-/// fields it took as they stand.
+/// What `verify` found: the new proof, the first claim of the file that is false (if any), and
+/// which fields it took as they stand.
 struct Verification {
   Certificate certificate;
   std::optional<Error> false_claim;
@@ -80,5 +96,7 @@ struct Verification {
 
 /// Proves a stored contour again from its own numbers and compares every claim of its report.
 [[nodiscard]] Verification verify(const StoredContour& stored);
+/// The same; error E103 when it was cancelled.
+[[nodiscard]] Result<Verification> verify(const StoredContour& stored, const RunContext& run);
 
 }  // namespace obvid

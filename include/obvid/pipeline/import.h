@@ -3,9 +3,11 @@
 
 #include <optional>
 #include <string>
+#include <string_view>
 
 #include "obvid/core/result.h"
 #include "obvid/exchange/drawing.h"
+#include "obvid/io/read_points.h"
 #include "obvid/series/point_series.h"
 
 namespace obvid {
@@ -18,10 +20,16 @@ namespace obvid {
 /// Errors: those of the formats.
 [[nodiscard]] Result<Drawing> read_drawing(const std::string& path);
 
+/// The same for a text in memory; `name` stands in errors. STEP, IGES and BREP are read by path
+/// alone: E310.
+[[nodiscard]] bool is_drawing_text(std::string_view text);
+[[nodiscard]] Result<Drawing> parse_drawing(const std::string& text, const std::string& name);
+[[nodiscard]] bool needs_cad(std::string_view text);
+
 /// Number of the curve that is taken: the asked one, else the longest of curves, tracks and
 /// polylines, else of routes, else of points drawn one by one; curves come before series. Waypoints
-/// are taken only when they are asked for. Errors: E203 when there is no such curve, E304 when there
-/// is none at all.
+/// are taken only when they are asked for. Errors: E203 when there is no such curve, E304 when
+/// there is none at all.
 [[nodiscard]] Result<std::size_t> chosen_curve(const Drawing& drawing,
                                                const std::optional<std::size_t>& asked,
                                                const std::string& path);
@@ -46,11 +54,14 @@ struct ImportOptions {
   DrawnUse use = DrawnUse::kAutomatic;
   std::optional<double>
       tolerance;  ///< largest distance of a chord from its curve [1e-4 of the size]
+  TwoPoints two_points = TwoPoints::kTooFew;  ///< of lists of points
 };
 
 /// Points to fit: of a text file as they are, of a drawing its longest series or curve, sampled.
 /// Warnings say what was chosen. Errors: those of the formats; E203 when there is no such curve.
 [[nodiscard]] Result<PointSeries> read_series(const std::string& path,
                                               const ImportOptions& options = {});
+[[nodiscard]] Result<PointSeries> parse_series(const std::string& text, const std::string& name,
+                                               const ImportOptions& options = {});
 
 }  // namespace obvid

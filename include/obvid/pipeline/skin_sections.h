@@ -27,6 +27,7 @@ struct SkinJob {
 struct FittedSkin {
   Skin skin;
   std::size_t proved = 0;  ///< sections whose contour is proved
+  std::size_t smooth = 0;  ///< those of them whose slope of curvature is continuous at every joint
   std::size_t plain = 0;   ///< sections with the C2 cubic
   std::size_t points = 0;  ///< sections that are a point
   double tolerance = 0.0;  ///< that was used, units

@@ -34,15 +34,15 @@ enum class GridUse { kThrough, kNear, kControl };
 
 struct SurfaceJob {
   SurfaceKind kind = SurfaceKind::kSkin;
-  std::vector<std::string> inputs;   ///< files
-  std::vector<std::string> across;   ///< Gordon: curves that cross those of `inputs`
-  std::optional<Units> units;        ///< stated by the user; default as the files say
-  std::optional<double> tolerance;   ///< units: of what NURBS do not hold exactly, of skins from
-                                     ///< their contours, of grids that are approximated, of
-                                     ///< curves that have to meet [1e-5 of the size]
-  ImportOptions import;              ///< of curves of drawings
-  FitJob sections;                   ///< how contours of point files are formed
-  bool plain_when_refused = false;   ///< as in `SkinJob`
+  std::vector<std::string> inputs;  ///< files
+  std::vector<std::string> across;  ///< Gordon: curves that cross those of `inputs`
+  std::optional<Units> units;       ///< stated by the user; default as the files say
+  std::optional<double> tolerance;  ///< units: of what NURBS do not hold exactly, of skins from
+                                    ///< their contours, of grids that are approximated, of
+                                    ///< curves that have to meet [1e-5 of the size]
+  ImportOptions import;             ///< of curves of drawings
+  FitJob sections;                  ///< how contours of point files are formed
+  bool plain_when_refused = false;  ///< as in `SkinJob`
   SkinMatching matching = SkinMatching::kAutomatic;
   bool straight_across = false;
   std::optional<Vec3> direction;       ///< ruled: from the curve by this vector

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "obvid/core/progress.h"
 #include "obvid/core/result.h"
+#include "obvid/core/run_context.h"
 #include "obvid/io/trade_off_svg.h"
 #include "obvid/pipeline/fit.h"
 
@@ -15,9 +15,14 @@ namespace obvid {
 /// of them to the last in a chart of vertices over the logarithm of the tolerance, both scaled to
 /// the same length; the smaller tolerance where two are equal. Beyond it the vertices fall more
 /// slowly than on the average.
-/// Errors: those of `fit` that do not depend on the tolerance (exit codes 2 and 3).
+/// When the work is cancelled (E103), `finished` takes the rows that were done by then, with
+/// nothing recommended. Errors: those of `fit` that do not depend on the tolerance (exit codes 2
+/// and 3).
 [[nodiscard]] Result<TradeOff> trade_off(const PointSeries& series, const FitJob& job,
-                                         const Progress& progress = {});
+                                         const RunContext& run = {}, TradeOff* finished = nullptr);
+
+/// How the recommended row is found, in words for the user.
+[[nodiscard]] const char* trade_off_rule();
 
 /// The row that `trade_off` recommends.
 [[nodiscard]] std::optional<std::size_t> recommended_row(const std::vector<TradeOffRow>& rows);

@@ -5,7 +5,7 @@
 #include <optional>
 #include <vector>
 
-#include "obvid/core/progress.h"
+#include "obvid/core/run_context.h"
 #include "obvid/pipeline/fit.h"
 
 namespace obvid {
@@ -19,9 +19,13 @@ struct WhyNot {
   bool next_to_nothing = false;  ///< `tolerance` is the least that is tried (1e-9 of the size, or
                                  ///< the rounding): it is not the points that are in the way, but
                                  ///< the vertices that exact points do not allow
-  double refused = 0.0;          ///< largest smaller tolerance that was tried in vain; 0: none was
-  Fit fit;                       ///< the contour within `tolerance`, when one was found
-  std::vector<std::size_t> moved;  ///< the points that it moves, the farthest first; how far:
+  bool rounding_does = false;    ///< `tolerance` is below the rounding of the file's digits, within
+                                 ///< which `fit` keeps all promises too (`noise_from_rounding`)
+  double advised = 0.0;  ///< units: `tolerance`; where it is next to nothing the width that the
+                         ///< region may have, or a tenth, a hundredth of it, whatever does first
+  double refused = 0.0;  ///< largest smaller tolerance that was tried in vain; 0: none was
+  Fit fit;               ///< the contour that the advice leads to, when one was found
+  std::vector<std::size_t> moved;  ///< the points that `fit` moves, the farthest first; how far:
                                    ///< `fit.report.moves`
 };
 
@@ -33,9 +37,9 @@ struct WhyNot {
 /// grows with the points: then it says what it knows. Nothing when `fit` does not refuse, refuses
 /// for another reason, or when moves of a tenth of the size do not help either.
 [[nodiscard]] std::optional<WhyNot> why_not(const PointSeries& series, const FitJob& job,
-                                            const Progress& progress = {});
+                                            const RunContext& run = {});
 /// The same when the refusal is known already.
 [[nodiscard]] std::optional<WhyNot> why_not(const PointSeries& series, const FitJob& job,
-                                            const Error& refusal, const Progress& progress = {});
+                                            const Error& refusal, const RunContext& run = {});
 
 }  // namespace obvid

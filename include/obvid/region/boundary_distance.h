@@ -22,7 +22,7 @@ namespace obvid {
 
 /// How a piece of a contour lies with respect to the region of the segment that it carries.
 struct RegionPlacement {
-  double farther = 0.0;  ///< largest distance to the farther of the two boundaries (f of 003_...)
+  double farther = 0.0;  ///< largest distance to the farther of the two boundaries (f of [003])
   double outside = 0.0;  ///< largest distance from the region; 0 when it stays inside
   Vec2 farther_at;       ///< where the former is taken
   Vec2 outside_at;       ///< where the latter is taken
@@ -38,12 +38,13 @@ struct RegionPlacement {
                                                              const Element& end, int direction,
                                                              int samples = 64);
 
-/// How far a convex contour and a monotone one can be apart on one segment (003_..., theory 4).
+/// How far a convex contour and a monotone one can be apart on one segment ([003]; [Kurnosenko
+/// 2013]).
 struct ConvexErrors {
   double upper_height = 0.0;  ///< a: farther boundary of the monotone curve above the chord
   double lower_height = 0.0;  ///< nearer boundary above the chord, between parallel lines
   double apex_height = 0.0;  ///< H (chords) or H^t (tangents): apex of the triangle above the chord
-  double apex_gap = 0.0;     ///< H - h as 003_... prints it: apex to the parallel line that touches
+  double apex_gap = 0.0;     ///< H - h as [003] prints it: apex to the parallel line that touches
                              ///< the nearer boundary. No boundary point is closer to the apex
   double apex_distance =
       0.0;             ///< b or b': apex to the nearest point of that boundary, >= `apex_gap`

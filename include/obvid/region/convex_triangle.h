@@ -7,7 +7,7 @@
 
 namespace obvid {
 
-/// Triangle over a chord in which every convex curve with the given data lies (003_..., figure 2).
+/// Triangle over a chord in which every convex curve with the given data lies ([003], figure 2).
 struct ConvexTriangle {
   Vec2 apex;               ///< where both sides meet
   double height = 0.0;     ///< distance of the apex from the chord, > 0 (H_i of the sources)

@@ -14,7 +14,7 @@ struct CurvatureRange {
 };
 
 /// Chains of least and greatest curvature along one run of a spiral with given points and headings
-/// (000_..., equations (9), (10) and the two schemes after them; theory 4 in closed form).
+/// ([000], equations (9), (10) and the two schemes after them; [Kurnosenko 2013] in closed form).
 /// `elements` give points and headings, their curvatures are not used. `direction` +1: signed
 /// curvature increases. `convex`: curvature keeps its sign, so it is zero at most (the seeds'
 /// infinite radius at the flat end); otherwise both ends are unbounded.

@@ -30,14 +30,14 @@ struct FartherBoundary {
 };
 
 /// Largest distance of a monotone curve from the farther boundary of the region of its own end
-/// elements. No other monotone curve
-/// with these end elements gets farther from any point of it: the other curve lies between the
-/// boundaries, and the way to one of them crosses it.
+/// elements. No other monotone curve with these end elements gets farther from any point of it: the
+/// other curve lies between the boundaries, and the way to one of them crosses it.
 ///
-/// Searched among the ends of the pieces and inner places, then refined by parabolas; what can lie
-/// between the last places (some 1e-5 of it) and rounding are added. An upper bound as far as the
-/// distance has no two peaks between neighbouring places and bends down at them. Coordinates should be near the curve: their rounding is part
-/// of the bound. Cost: some ten evaluations per piece.
+/// A circle meets a curve of monotone curvature three times at the most. So the distance from each
+/// boundary rises to one top and falls from it, which is searched until the place is known to some
+/// 1e-6 of a piece; 1e-5 of the distance and the rounding of a point are added. An upper bound for
+/// curves that are monotone; not guaranteed for others. Coordinates should be near the curve: their
+/// rounding is part of the bound. Cost: some forty evaluations, however many the pieces are.
 [[nodiscard]] FartherBoundary farther_boundary(const PieceSpan& path, const PlacedRegion& placed);
 
 }  // namespace obvid

@@ -6,7 +6,6 @@
 #include <vector>
 
 #include "obvid/curve/pieces.h"
-#include "obvid/geom/element.h"
 #include "obvid/region/segment_region.h"
 
 namespace obvid {
@@ -14,9 +13,6 @@ namespace obvid {
 /// Least tolerance that widths may be asked to keep, units: 1e-12 of the size of the series, and
 /// eight roundings of its largest coordinate. Widths below are what is left of coordinates.
 [[nodiscard]] double least_tolerance(const std::vector<Vec2>& points);
-
-/// Element of a piece at parameter t; heading in (-pi, pi].
-[[nodiscard]] Element element_at(const Piece& piece, double t);
 
 /// Error bound of a part of one piece of a spiral contour.
 struct PieceBound {

@@ -32,8 +32,8 @@ struct Boundary {
   double lowest = 0.0;   ///< smallest ordinate, <= 0
 };
 
-/// The region in which every spiral with the data of both elements lies (000_..., section
-/// "Forming the region"; theory 4), and its size.
+/// The region in which every spiral with the data of both elements lies ([000], section
+/// "Forming the region"; [Kurnosenko 2013]), and its size.
 struct SegmentRegion {
   Boundary from_start;  ///< osculating circle at the start, then the arc tangent to it and the end
   Boundary to_end;      ///< arc tangent to the start, then the osculating circle at the end
@@ -43,8 +43,16 @@ struct SegmentRegion {
                        ///< of `parallel_width` and of the largest gap across the chord
 };
 
+/// The boundaries of a region at their place in the plane.
+struct PlacedBoundaries {
+  ChordFrame frame;
+  SegmentRegion region;
+  Vec2 start;  ///< of the chord
+  Vec2 along;  ///< unit vector of the chord
+};
+
 /// Region of two elements of a spiral of this direction (+1 curvature increases). Nothing when no
-/// such spiral exists (theory 4, existence) beyond rounding. Infinite curvatures are allowed at
+/// such spiral exists ([Kurnosenko 2013]) beyond rounding. Infinite curvatures are allowed at
 /// one end each: they stand for "unknown" and give the region of the tangents alone.
 [[nodiscard]] std::optional<SegmentRegion> segment_region(const ChordFrame& frame, int direction);
 

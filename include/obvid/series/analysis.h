@@ -24,7 +24,7 @@ struct Chord {
   double omega = 0.0;  ///< heading, rad, unwrapped along the series
 };
 
-/// Circle through point i and both neighbours (000_...: adjacent circle). At the two ends the
+/// Circle through point i and both neighbours ([000]: adjacent circle). At the two ends the
 /// circle of the inner neighbour is taken over.
 struct AdjacentCircle {
   double kappa = 0.0;     ///< signed curvature, 1/unit; 0 for three points in line
@@ -66,10 +66,10 @@ struct Analysis {
   int vertices_lower_bound = 0;  ///< what the points force (forced_vertices.h)
   int inflections = 0;  ///< sign changes of the adjacent curvatures, as rounding leaves them
   int inflections_lower_bound = 0;
-  std::size_t rounding_decided = 0;  ///< chords whose direction lies within coordinate rounding
-  std::size_t first_rounding_decided = 0;
-  double size = 0.0;             ///< diagonal of the bounding box
-  double largest_turning = 0.0;  ///< between neighbouring chords, rad
+  std::vector<std::size_t> rounding_decided;  ///< chords whose direction lies within coordinate
+                                              ///< rounding, ascending
+  double size = 0.0;                          ///< diagonal of the bounding box
+  double largest_turning = 0.0;               ///< between neighbouring chords, rad
 };
 
 /// Analyses distinct points (no two neighbours equal, at least 2).
@@ -86,6 +86,9 @@ struct Analysis {
 [[nodiscard]] std::vector<Chord> measure_chords(const std::vector<Vec2>& points);
 [[nodiscard]] std::vector<AdjacentCircle> measure_circles(const std::vector<Vec2>& points,
                                                           const std::vector<Chord>& chords);
+
+/// Turning of the polyline at a point, rad; NaN at the two ends.
+[[nodiscard]] double turning_at(const Analysis& analysis, std::size_t point);
 
 /// Height of a circle of curvature `kappa` above its chord of length `h` (theory: sag).
 [[nodiscard]] double sagitta(double kappa, double h);

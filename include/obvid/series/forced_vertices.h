@@ -3,6 +3,7 @@
 
 #include <vector>
 
+#include "obvid/core/watch.h"
 #include "obvid/geom/vec2.h"
 
 namespace obvid {
@@ -26,5 +27,8 @@ namespace obvid {
 /// neighbours equal. O(n) time; for exact points few, otherwise some 300 comparisons per point.
 [[nodiscard]] int forced_vertices(const std::vector<Vec2>& points, const std::vector<double>& reach,
                                   bool closed);
+/// The same as part of some longer work; when that is cancelled, it is no bound.
+[[nodiscard]] int forced_vertices(const std::vector<Vec2>& points, const std::vector<double>& reach,
+                                  bool closed, Watch& watch);
 
 }  // namespace obvid

@@ -9,16 +9,22 @@
 
 #include "obvid/core/units.h"
 #include "obvid/curve/pieces.h"
+#include "obvid/geom/value_range.h"
 #include "obvid/geom/vec2.h"
 
 namespace obvid {
 
 /// Data that a designer fixes at one point, beyond its position.
 struct FixedData {
-  std::optional<double> theta;      ///< heading, rad
-  std::optional<double> kappa;      ///< signed curvature, 1/unit
-  std::optional<double> tolerance;  ///< how far the point may move, units
-  bool corner = false;              ///< the contour may turn here at once (G0)
+  std::optional<double> theta;         ///< heading, rad
+  std::optional<double> kappa;         ///< signed curvature, 1/unit
+  std::optional<double> tolerance;     ///< how far the point may move, units
+  bool corner = false;                 ///< the contour may turn here at once (G0)
+  std::optional<ValueRange> thetas{};  ///< headings that do, rad, at most half a turn apart
+  std::optional<ValueRange> kappas{};  ///< signed curvatures that do, 1/unit
+
+  /// Whether a heading or a curvature is fixed, or its range.
+  [[nodiscard]] bool says_how() const { return theta || kappa || thetas || kappas; }
 };
 
 /// A piece that a drawing has between two neighbouring points: it stays as it is.
@@ -43,8 +49,8 @@ struct PointSeries {
   SeriesKind kind = SeriesKind::kLine;
   Units units;
   std::vector<Vec2> points;
-  std::vector<FixedData> fixed;       ///< empty, or one entry per point
-  std::vector<KeptPiece> kept;        ///< of drawings, ascending; empty for lists of points
+  std::vector<FixedData> fixed;  ///< empty, or one entry per point
+  std::vector<KeptPiece> kept;   ///< of drawings, ascending; empty for lists of points
   Vec2 rounding;  ///< half a unit of the last printed digit of x and of y; 0 when not from text
   std::vector<std::string> warnings;  ///< sentences for the user, e.g. merged duplicates
 };

@@ -44,6 +44,7 @@ void fields(auto& io, IsA<RationalBezier> auto& p) {
 }
 void fields(auto& io, IsA<DrawnCurve> auto& c) { io(c.label, c.pieces, c.closed); }
 void fields(auto& io, IsA<NurbsCurve> auto& c) { io(c.degree, c.knots, c.points, c.weights); }
+void fields(auto& io, IsA<SpaceCurve> auto& c) { io(c.degree, c.knots, c.points, c.weights); }
 void fields(auto& io, IsA<CadCurve> auto& c) { io(c.name, c.geometry); }
 void fields(auto& io, IsA<NurbsSurface> auto& s) {
   io(s.degree_u, s.degree_v, s.knots_u, s.knots_v, s.points, s.weights);

@@ -11,6 +11,7 @@
 #include <Geom_TrimmedCurve.hxx>
 #include <Precision.hxx>
 #include <Standard_Failure.hxx>
+#include <TColStd_Array1OfReal.hxx>
 #include <TColgp_Array1OfPnt.hxx>
 #include <algorithm>
 #include <cmath>
@@ -33,6 +34,32 @@ struct EdgeCurve {
   double turn = 0.0;  ///< of the circle, rad, positive about its axis
 };
 
+/// The part of a curve between two parameters. Open CASCADE takes knots nearer to the ends than
+/// Precision::PConfusion for them and leaves out the span between: splines keep all of theirs, and
+/// get knots about one apart where they are cut.
+Handle(Geom_BSplineCurve) part_of(const Handle(Geom_Curve) & curve, double first, double last) {
+  Handle(Geom_Curve) basis = curve;
+  if (const auto trimmed = Handle(Geom_TrimmedCurve)::DownCast(curve); !trimmed.IsNull()) {
+    basis = trimmed->BasisCurve();
+  }
+  auto spline = Handle(Geom_BSplineCurve)::DownCast(basis);
+  if (!spline.IsNull() && !spline->IsPeriodic()) {
+    spline = Handle(Geom_BSplineCurve)::DownCast(spline->Copy());
+    const double start = spline->FirstParameter();
+    if (first <= start && last >= spline->LastParameter()) return spline;
+    TColStd_Array1OfReal knots(1, spline->NbKnots());
+    spline->Knots(knots);
+    const double scale = (spline->NbKnots() - 1) / (spline->LastParameter() - start);
+    for (double& knot : knots) knot = scale * (knot - start);
+    spline->SetKnots(knots);
+    basis = spline;
+    first = scale * (first - start);
+    last = scale * (last - start);
+  }
+  return GeomConvert::CurveToBSplineCurve(new Geom_TrimmedCurve(basis, first, last),
+                                          Convert_TgtThetaOver2);  // conics stay quadratic
+}
+
 std::optional<EdgeCurve> curve_of(const TopoDS_Edge& edge, std::string& why) {
   const BRepAdaptor_Curve adaptor(edge);
   double first = 0.0, last = 0.0;
@@ -46,8 +73,7 @@ std::optional<EdgeCurve> curve_of(const TopoDS_Edge& edge, std::string& why) {
     return std::nullopt;
   }
   EdgeCurve out;
-  out.spline = GeomConvert::CurveToBSplineCurve(new Geom_TrimmedCurve(curve, first, last),
-                                                Convert_TgtThetaOver2);  // conics stay quadratic
+  out.spline = part_of(curve, first, last);
   if (out.spline.IsNull()) {
     why = "is no spline";
     return std::nullopt;

@@ -229,7 +229,15 @@ Result<TopoDS_Wire> wire_of(const CadCurve& curve, double scale) {
     if (pieces->empty()) return fail(refused("a curve without pieces"));
     return PieceWire(*pieces, scale).run();
   }
-  BRepBuilderAPI_MakeEdge edge(spline_of(std::get<NurbsCurve>(curve.geometry), scale));
+  const auto spline = [&]() -> Handle(Geom_BSplineCurve) {
+    if (const auto* plane = std::get_if<NurbsCurve>(&curve.geometry)) {
+      return spline_of(*plane, scale);
+    }
+    SpaceCurve spatial = std::get<SpaceCurve>(curve.geometry);
+    for (Vec3& point : spatial.points) point = scale * point;
+    return cad::spline_of(spatial);
+  }();
+  BRepBuilderAPI_MakeEdge edge(spline);
   if (!edge.IsDone()) return fail(refused("the curve"));
   TopoDS_Wire wire;
   BRep_Builder builder;

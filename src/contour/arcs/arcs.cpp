@@ -67,7 +67,8 @@ double half_turn_sine_squared(const ChordFrame& f) {
   return turn.x > 0.0 ? turn.y * turn.y / (2.0 * (1.0 + turn.x)) : 0.5 * (1.0 - turn.x);
 }
 
-/// Tangent at the joint of the arcs with these curvatures, by closing the chord (theory 4).
+/// Tangent at the joint of the arcs with these curvatures, by closing the chord ([Kurnosenko
+/// 2013]).
 Vec2 joint_tangent(const ChordFrame& f, double first, double second) {
   const double a = 0.5 * first * f.h, b = 0.5 * second * f.h;
   const Vec2 v = Vec2{0.0, 2.0 * a * b} + b * f.start_tangent - a * f.end_tangent;

@@ -1,20 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "track.h"
 
-#include <algorithm>
-
 namespace obvid::arcs {
-namespace {
-
-/// Length between two parameters, by Simpson's rule.
-double cell_length(const Piece& piece, double t0, double t1) {
-  const double sum = norm(evaluate(piece, t0).d1) +
-                     4.0 * norm(evaluate(piece, 0.5 * (t0 + t1)).d1) + norm(evaluate(piece, t1).d1);
-  return (t1 - t0) * sum / 6.0;
-}
-
-}  // namespace
-
 bool is_circular(const Piece& piece) {
   if (const auto* clothoid = std::get_if<ClothoidPiece>(&piece)) {
     return clothoid->kappa0 == clothoid->kappa1;
@@ -27,32 +14,6 @@ Piece as_circular(const Piece& piece) {
   if (c == nullptr) return piece;
   if (c->kappa0 == 0.0) return LinePiece{c->start, c->end};
   return ArcPiece{c->start, c->end, c->theta0, c->kappa0, c->length};
-}
-
-Track::Track(const Contour& contour) : contour_(contour), cell_(1, 0.0) {
-  cell_.reserve(kCells * contour.pieces.size() + 1);
-  constexpr double kStep = 1.0 / kCells;
-  for (const Piece& piece : contour.pieces) {
-    for (std::size_t k = 0; k < kCells; ++k) {
-      const double t = static_cast<double>(k) * kStep;
-      cell_.push_back(cell_.back() + cell_length(piece, t, t + kStep));
-    }
-  }
-}
-
-Track::Place Track::place(double s, bool from_left) const {
-  const auto inner_begin = cell_.begin() + 1, inner_end = cell_.end() - 1;
-  const auto after = from_left ? std::lower_bound(inner_begin, inner_end, s)
-                               : std::upper_bound(inner_begin, inner_end, s);
-  const auto cell = static_cast<std::size_t>(after - inner_begin);
-  const double length = cell_[cell + 1] - cell_[cell];
-  const double part = length > 0.0 ? std::clamp((s - cell_[cell]) / length, 0.0, 1.0) : 0.0;
-  return {cell / kCells, (static_cast<double>(cell % kCells) + part) / kCells};
-}
-
-Jet Track::jet(double s, bool from_left) const {
-  const Place p = place(s, from_left);
-  return evaluate(contour_.pieces[p.piece], p.t);
 }
 
 bool Track::corner_before(std::size_t piece) const {

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "obvid/curve/contour.h"
+#include "obvid/curve/contour_path.h"
 
 namespace obvid::arcs {
 
@@ -16,25 +17,23 @@ struct Stretch {
   bool closed = false;  ///< the whole of a closed contour that is smooth at its start too
 };
 
-/// Places along a contour by one number near to arc length: each piece is cut at even steps of its
-/// parameter, and the parameter runs evenly over the length of each part.
+/// A contour by its arc length, and its parts. The contour must outlive it.
 class Track {
  public:
-  explicit Track(const Contour& contour);
+  explicit Track(const Contour& contour) : contour_(contour), path_(contour.pieces, kAccuracy) {}
 
-  struct Place {
-    std::size_t piece = 0;
-    double t = 0.0;
-  };
+  using Place = ContourPath::Parameter;
 
   [[nodiscard]] const Piece& piece(std::size_t i) const { return contour_.pieces[i]; }
-  [[nodiscard]] double start_of(std::size_t piece) const { return cell_[kCells * piece]; }
+  [[nodiscard]] double start_of(std::size_t piece) const { return path_.joint(piece); }
 
-  [[nodiscard]] double length() const { return cell_.back(); }
+  [[nodiscard]] double length() const { return path_.length(); }
 
   /// `from_left`: at a joint the end of the piece before it.
-  [[nodiscard]] Place place(double s, bool from_left) const;
-  [[nodiscard]] Jet jet(double s, bool from_left) const;
+  [[nodiscard]] Place place(double s, bool from_left) const {
+    return path_.parameter(s, from_left);
+  }
+  [[nodiscard]] Jet jet(double s, bool from_left) const { return path_.jet(s, from_left); }
 
   /// Maximal parts without corners; each exact line or arc is a part of its own.
   [[nodiscard]] std::vector<Stretch> stretches() const;
@@ -46,8 +45,9 @@ class Track {
   [[nodiscard]] bool corner_before(std::size_t piece) const;
 
   const Contour& contour_;
-  static constexpr std::size_t kCells = 8;  ///< of a piece
-  std::vector<double> cell_;                ///< start of every cell, and the end
+  /// Of a piece: places are tried, and what is built on them is measured.
+  static constexpr double kAccuracy = 1e-6;
+  ContourPath path_;
 };
 
 /// Whether a piece is a line or a circle arc. Clothoids of constant curvature are.

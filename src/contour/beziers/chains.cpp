@@ -95,7 +95,7 @@ std::optional<EndCurvatures> parabola_curvatures(Vec2 p, double theta0, Vec2 q, 
 
 tl::unexpected<Error> refuse(std::size_t i, const char* what, double value) {
   return fail({ErrorCode::kNoSpiral, what, "point " + std::to_string(i + 1),
-               "choose other headings, or order of fixation 0", static_cast<std::ptrdiff_t>(i),
+               "choose other headings, or another order of fixation", static_cast<std::ptrdiff_t>(i),
                value});
 }
 

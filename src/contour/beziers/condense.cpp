@@ -37,17 +37,32 @@ double cut_for(double factor) { return 0.25 * (std::sqrt(factor * (factor + 8.0)
 
 using Chain = std::array<std::array<Vec2, 3>, 4>;
 
+/// The first tangent: its legs on both sides of where it touches, and the factors of radii that the
+/// second cuts have to bring.
+struct FirstCut {
+  double before = 0.0, behind = 0.0, k1 = 0.0, k2 = 0.0;
+};
+
+FirstCut first_cut(const Triangle& t, double cut) {
+  // legs such that the curvatures of both sides agree where it touches
+  const double q = std::cbrt(t.kappa0 / t.kappa1) * (t.a / t.b);
+  const double width = (1.0 - cut) * norm(t.chord);
+  const double c = cut * t.a, f = cut * t.b, rise = cut * t.height;
+  FirstCut out;
+  out.before = width * q / (1.0 + q);
+  out.behind = width / (1.0 + q);
+  out.k1 = out.before * rise / (2.0 * t.kappa0 * c * c * c);
+  out.k2 = out.behind * rise / (2.0 * t.kappa1 * f * f * f);
+  return out;
+}
+
 /// Control points of the four parabolas when the first tangent cuts the sides at `cut`.
 Chain chain_at(const Triangle& t, double cut) {
-  const double h = norm(t.chord);
-  const Vec2 along = t.chord / h;
-  // legs on the first tangent such that the curvatures of both sides agree where it touches
-  const double q = std::cbrt(t.kappa0 / t.kappa1) * (t.a / t.b);
-  const double width = (1.0 - cut) * h;
-  const double before = width * q / (1.0 + q), behind = width / (1.0 + q);
-  const double c = cut * t.a, f = cut * t.b, rise = cut * t.height;
-  const double m1 = cut_for(before * rise / (2.0 * t.kappa0 * c * c * c));
-  const double m2 = cut_for(behind * rise / (2.0 * t.kappa1 * f * f * f));
+  const Vec2 along = t.chord / norm(t.chord);
+  const auto [before, behind, k1, k2] = first_cut(t, cut);
+  const double c = cut * t.a, f = cut * t.b;
+  const double m1 = cut_for(k1);
+  const double m2 = cut_for(k2);
   const Vec2 touch = c * t.u + before * along;
   const Vec2 x1 = (m1 * c) * t.u, y1 = touch - (m1 * before) * along;
   const Vec2 x2 = touch + (m2 * behind) * along, y2 = t.chord - (m2 * f) * t.v;
@@ -111,6 +126,10 @@ std::optional<Condensation> condense(const Element& start, const Element& end, i
   const Chain chain = chain_at(*t, out.cut);
   out.margin = margin_of(*t, chain);
   if (!(out.margin > 0.0)) return std::nullopt;
+  const FirstCut cut = first_cut(*t, out.cut);
+  out.k1 = cut.k1;
+  out.k2 = cut.k2;
+  out.shift = 0.5 * (cut.before - cut.behind);
   for (std::size_t i = 0; i < chain.size(); ++i) {
     RationalBezier& piece = out.parabolas[i];
     piece.origin = t->start;

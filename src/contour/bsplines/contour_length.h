@@ -1,19 +1,21 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <vector>
-
 #include "obvid/curve/contour.h"
+#include "obvid/curve/contour_path.h"
 
 namespace obvid::bsplines {
 
 /// Arc length along a whole contour. Places are numbers: piece plus parameter on it.
 class ContourLength {
  public:
-  explicit ContourLength(const Contour& contour);
+  explicit ContourLength(const Contour& contour) : contour_(contour), path_(contour.pieces) {}
 
   /// Arc length from the start of the contour.
-  [[nodiscard]] double at(double place) const;
+  [[nodiscard]] double at(double place) const {
+    const Place p = split(place);
+    return path_.length_at(p.piece, p.t);
+  }
 
   /// Point, heading (unwrapped from the start of its piece) and curvature. Joints are taken from
   /// the contour's own table.
@@ -22,14 +24,11 @@ class ContourLength {
   [[nodiscard]] Vec2 point(double place) const;
 
  private:
-  struct Place {
-    std::size_t piece;
-    double t;
-  };
+  using Place = ContourPath::Parameter;
   [[nodiscard]] Place split(double place) const;
 
   const Contour& contour_;
-  std::vector<double> cells_;  ///< arc length at the start of every cell, and at the end
+  ContourPath path_;
 };
 
 }  // namespace obvid::bsplines

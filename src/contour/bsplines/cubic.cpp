@@ -123,7 +123,15 @@ Result<CubicSpline> cubic_spline(const std::vector<Vec2>& points,
   CubicSpline spline{{}, points, {}};
   if (periodic && !points.empty()) spline.points.push_back(points.front());
   auto knots = bsplines::spline_knots(spline.points, options.parameter, periodic ? 4 : 2);
-  if (!knots) return tl::unexpected(knots.error());
+  if (!knots) {
+    Error error = std::move(knots.error());
+    if (periodic && error.index + 1 == static_cast<std::ptrdiff_t>(spline.points.size())) {
+      error.where = "points " + std::to_string(points.size()) + " and 1";
+      error.index = static_cast<std::ptrdiff_t>(points.size()) - 1;
+      error.last = 0;
+    }
+    return fail(std::move(error));
+  }
   spline.knots = std::move(*knots);
   const std::size_t few = options.end == SplineEnd::kNotAKnot  ? 3
                           : options.end == SplineEnd::kNatural ? 2

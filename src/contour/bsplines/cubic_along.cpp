@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -25,6 +26,10 @@ constexpr int kSpanSamples = 8;  // per span
 /// says that it does, the aim is lowered by as much.
 constexpr double kOfCubicTolerance = 0.95;
 constexpr int kCubicTrials = 8;
+/// Spans that err so little, in roundings of the largest coordinate, and no less than half of what
+/// half as many did, will not do better.
+constexpr double kSpanRoundings = 16.0 * std::numeric_limits<double>::epsilon();
+constexpr double kLeastGain = 0.5;
 /// Integral of the density that the contour has by its length alone: straight parts get knots too.
 constexpr double kLeastDensity = 0.2;
 
@@ -99,9 +104,17 @@ double distance_from(const CubicSpline& spline, Vec2 p, double u) {
 class CubicBuilder {
  public:
   explicit CubicBuilder(const Contour& contour)
-      : closed_(contour.closed), length_(contour), density_(knot_density(contour, length_)) {}
+      : closed_(contour.closed), length_(contour), density_(knot_density(contour, length_)) {
+    for (const Joint& joint : contour.joints) {
+      const Vec2 p = joint.element.point;
+      largest_ = std::max({largest_, std::abs(p.x), std::abs(p.y)});
+    }
+  }
 
   [[nodiscard]] std::size_t fewest_spans() const { return closed_ ? 4 : 2; }
+
+  /// What rounding of the coordinates may be to blame for.
+  [[nodiscard]] double blur() const { return kSpanRoundings * largest_; }
 
   Result<CubicAlong> with_spans(std::size_t n) const {
     const std::vector<double> places = density_.knots(n);
@@ -139,18 +152,28 @@ class CubicBuilder {
   bool closed_;
   ContourLength length_;
   Density density_;
+  double largest_ = 0.0;  // coordinate
 };
 
 /// Fewest spans, nearly: grown by the fourth root of what is missing, then cut in halves of what is
 /// left between a number that does and one that does not.
 Result<CubicAlong> search(const CubicBuilder& builder, double tolerance) {
   const std::size_t least = builder.fewest_spans();
-  std::size_t failed = 0, n = least;
+  std::size_t failed = 0, n = least, gained_with = least;
+  double gained = HUGE_VAL;  // the deviation when it last fell by much
   auto found = builder.with_spans(n);
   while (found && !(found->deviation <= tolerance)) {
     if (n >= kMostSpans) {
       return fail({ErrorCode::kToleranceNotReached, "65,536 cubic spans do not reach the tolerance",
                    "", "allow more", -1, found->deviation});
+    }
+    if (found->deviation < kLeastGain * gained) {
+      gained = found->deviation;
+      gained_with = n;
+    } else if (n >= 2 * gained_with && found->deviation <= builder.blur()) {
+      return fail({ErrorCode::kToleranceNotReached,
+                   "rounding of the coordinates keeps cubic spans from the tolerance", "",
+                   "allow more, or move the contour near the origin", -1, found->deviation});
     }
     failed = n;
     constexpr double kMostGrowth = 4.0;

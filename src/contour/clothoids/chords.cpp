@@ -6,6 +6,7 @@
 #include <string>
 
 #include "obvid/contour/clothoids.h"
+#include "obvid/geom/angle.h"
 
 namespace obvid {
 namespace clothoids {
@@ -43,9 +44,7 @@ std::vector<double> neighbour_headings(const std::vector<Vec2>& points, const En
   for (std::size_t i = 1; i + 1 < n; ++i) {
     theta[i] = omega[i - 1] + turning(points[i] - points[i - 1], points[i + 1] - points[i - 1]);
   }
-  const auto unwrapped = [](double given, double near) {
-    return near + std::remainder(given - near, 2.0 * std::numbers::pi);
-  };
+  const auto unwrapped = [](double given, double near) { return nearest_angle(given, near); };
   const double first = n > 2 ? 2.0 * omega.front() - theta[1] : omega.front();
   const double last = n > 2 ? 2.0 * omega.back() - theta[n - 2] : omega.back();
   theta.front() = ends.start ? unwrapped(*ends.start, first) : first;

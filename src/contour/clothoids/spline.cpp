@@ -8,6 +8,7 @@
 #include "chord_clothoid.h"
 #include "chords.h"
 #include "obvid/contour/clothoids.h"
+#include "obvid/geom/angle.h"
 
 namespace obvid {
 namespace {
@@ -84,9 +85,7 @@ class SplineSolver {
     for (std::size_t i = 1; i + 1 < n; ++i) {
       theta_[i] = (w[i - 1] * h(i) + w[i] * h(i - 1)) / (h(i - 1) + h(i));
     }
-    const auto near = [](double given, double own) {
-      return own + std::remainder(given - own, 2.0 * std::numbers::pi);
-    };
+    const auto near = [](double given, double own) { return nearest_angle(given, own); };
     const double first = 2.0 * w.front() - theta_[1], last = 2.0 * w.back() - theta_[n - 2];
     theta_.front() = ends_.start ? near(*ends_.start, w.front()) : first;
     theta_.back() = ends_.end ? near(*ends_.end, w.back()) : last;

@@ -6,26 +6,13 @@
 
 #include "links.h"
 #include "obvid/contour/conics.h"
+#include "obvid/region/boundary_distance.h"
 #include "obvid/region/segment_region.h"
 #include "triangle.h"
 
 namespace obvid {
 namespace conics {
 namespace {
-
-/// Ordinate of a boundary. A circle of radius 0 leaves the other arc alone, as the circle over the
-/// whole chord that keeps its tangent.
-std::optional<double> ordinate(const ChordFrame& frame, const Boundary& b, double x) {
-  if (!std::isinf(b.kappa_first) && !std::isinf(b.kappa_second)) {
-    return boundary_ordinate(frame, b, x);
-  }
-  const bool second_alone = std::isinf(b.kappa_first);
-  const double kappa = second_alone ? b.kappa_second : b.kappa_first;
-  ChordFrame circle = frame;
-  if (second_alone) circle.start_tangent = {frame.end_tangent.x, -frame.end_tangent.y};
-  if (!second_alone) circle.end_tangent = {frame.start_tangent.x, -frame.start_tangent.y};
-  return boundary_ordinate(circle, {kappa, kappa, circle.end_tangent, 0.0, 0.0}, x);
-}
 
 /// Where the median from the middle of the chord (0) to the apex (1) leaves a boundary behind.
 std::optional<double> on_median(const ChordFrame& frame, const Boundary& b, Vec2 apex) {
@@ -35,7 +22,7 @@ std::optional<double> on_median(const ChordFrame& frame, const Boundary& b, Vec2
   for (int i = 0; i < kBisections; ++i) {
     const double s = 0.5 * (low + high);
     const Vec2 p = foot + s * (apex - foot);
-    const auto y = ordinate(frame, b, p.x);
+    const auto y = ordinate_over_chord(frame, b, p.x);
     if (!y) return std::nullopt;
     (std::abs(p.y) > std::abs(*y) ? high : low) = s;
   }

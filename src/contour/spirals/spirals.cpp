@@ -48,6 +48,20 @@ Homogeneous homogeneous_piece(double rho, double sine, double sigma, double beta
   return h;
 }
 
+/// The same from the shape of any form: D = (1 - x)(1 - x + g e^{i trail} x) + mu x (g e^{i lead}
+/// (1 - x) + x), z + 1 = 2 mu x (g e^{i lead} (1 - x) + x) / D (docs/methods/g3.md).
+Homogeneous homogeneous_piece(const SpiralShape& shape, double alpha) {
+  const double g = std::sqrt(shape.gain);
+  const Vec2 mu = shape.mu * unit_at(alpha - shape.lead);
+  const Vec2 lead = complex_product(mu, g * unit_at(shape.lead)), trail = g * unit_at(shape.trail);
+  const ComplexQuadratic denominator = {Vec2{1.0, 0.0}, 0.5 * (lead + trail), mu};
+  const ComplexQuadratic from_start = {Vec2{0.0, 0.0}, lead, 2.0 * mu};
+  const std::array<Vec2, 5> weights = product_with_conjugate(denominator, denominator);
+  Homogeneous h{{}, product_with_conjugate(from_start, denominator)};
+  for (std::size_t j = 0; j < 5; ++j) h.weight[j] = weights[j].x;
+  return h;
+}
+
 /// de Casteljau at t: the first part is returned, `h` becomes the second.
 Homogeneous cut_off_first(Homogeneous& h, double t) {
   Homogeneous first = h;
@@ -117,20 +131,31 @@ void append_parts(Homogeneous h, int splits_left, bool far, double d, Vec2 origi
 
 }  // namespace
 
-bool append_spiral(const LinkState& link, int direction, Vec2 start, Vec2 end,
+bool append_spiral(const LinkState& link, int direction, SpiralForm form, Vec2 start, Vec2 end,
                    std::vector<RationalBezier>& pieces) {
-  if (!(cone_margin(link, direction, Cone::kClosedForm) > 0.0)) return false;
+  const Cone cone = form == SpiralForm::kOneSided ? Cone::kClosedForm : Cone::kSpiral;
+  if (!(cone_margin(link, direction, cone) > 0.0)) return false;
   const double d = direction;
-  const double sigma = d * link.sigma, beta = d * link.beta;
-  const double A = d * link.A, B = d * link.B;
-  const double sine = std::sin(sigma);
-  const Homogeneous whole = homogeneous_piece(sine * sine / (-A * B), sine, sigma, beta, B);
+  Homogeneous whole;
+  if (form == SpiralForm::kOneSided) {
+    const double sigma = d * link.sigma, A = d * link.A, B = d * link.B, sine = std::sin(sigma);
+    whole = homogeneous_piece(sine * sine / (-A * B), sine, sigma, d * link.beta, B);
+  } else {
+    const SpiralShape shape = spiral_shape(link, direction, form);
+    if (!(shape.gain > 0.0) || !std::isfinite(shape.gain)) return false;
+    whole = homogeneous_piece(shape, d * link.alpha);
+  }
   const std::size_t before = pieces.size();
   const bool turns_far = std::abs(link.beta - link.alpha) > kLargestTurn;
   append_parts(whole, kMostSplits, turns_far, d, start, 0.5 * (end - start), pieces);
   pieces[before].offset[0] = {0.0, 0.0};
   pieces.back().offset[4] = end - start;
   return true;
+}
+
+bool append_spiral(const LinkState& link, int direction, Vec2 start, Vec2 end,
+                   std::vector<RationalBezier>& pieces) {
+  return append_spiral(link, direction, SpiralForm::kOneSided, start, end, pieces);
 }
 
 }  // namespace obvid

@@ -45,6 +45,20 @@ TEST(JudgeArithmetic, ACircleInDoublesIsNotConstantAndIsDecided) {
   EXPECT_EQ(law.signs.size(), 2U);  // symmetric: its vertex is in the middle
 }
 
+TEST(JudgeArithmetic, SlopesOfCurvatureAreThoseOfParabolaAndEllipse) {
+  // y = x^2: kappa = 2 (1 + 4 x^2)^(-3/2), d kappa/ds = -24 x/(1 + 4 x^2)^3
+  const Piece parabola = bezier({{-1, 1}, {0, -1}, {1, 1}});
+  for (const double t : {0.0, 0.25, 0.5, 0.75, 1.0}) {
+    const double x = 2.0 * t - 1.0;
+    EXPECT_NEAR(static_cast<double>(slope_at(parabola, t).middle()),
+                -24.0 * x / std::pow(1.0 + 4.0 * x * x, 3.0), 1e-15);
+  }
+  // a quarter of the ellipse (2 cos, sin), at (1.2, 0.8): -3 a b (a^2 - b^2) sin cos/(...)^3
+  const Piece ellipse = bezier({{2, 0}, {2, 1}, {0, 1}}, {1, 1, 2});
+  EXPECT_NEAR(static_cast<double>(slope_at(ellipse, 0.5).middle()),
+              -3.0 * 2.0 * 3.0 * 0.48 / std::pow(4.0 * 0.64 + 0.36, 3.0), 1e-15);
+}
+
 TEST(JudgeArithmetic, ACuspIsNotRegular) {
   // control polygon of a cross: the derivative is zero at t = 1/2
   EXPECT_FALSE(curvature_law(bezier({{0, 0}, {1, 1}, {0, 1}, {1, 0}})).regular);
@@ -113,6 +127,19 @@ TEST(JudgeArithmetic, APartOfASpanTurnsByItsPart) {
   const Span parabola({{0.0L, 0.0L}, {0.5L, 0.0L}, {1.0L, 1.0L}}, {1.0L, 1.0L, 1.0L});
   EXPECT_NEAR(static_cast<double>(parabola.turning(0.0L, 0.5L)), std::atan(1.0), 1e-15);
   EXPECT_NEAR(static_cast<double>(parabola.turning()), std::atan(2.0), 1e-15);
+}
+
+TEST(JudgeArithmetic, PlacesOfAHairpinLieOnIt) {
+  const std::vector<Real> one(4, 1.0L);
+  const Span start(
+      {{0.0L, 0.0L}, {-18411.0L, 9879.0L}, {-22735.0L, 12548.0L}, {-20203.0L, 11639.0L}}, one);
+  const Span tip(
+      {{-20203.0L, 11639.0L}, {-17602.0L, 10705.0L}, {-7769.0L, 5996.0L}, {1464.0L, 1446.0L}}, one);
+  const Path path({start, tip});
+  for (int k = 0; k <= 400; ++k) {
+    const Real order = path.end() * k / 400;
+    EXPECT_LT(static_cast<double>(path.nearest(path.at(order)).distance), 1e-6) << k;
+  }
 }
 
 TEST(JudgeArithmetic, DistancesFromArcsAreThoseFromCircles) {

@@ -4,6 +4,7 @@
 
 #include "doctored.h"
 #include "drawing.h"
+#include "input.h"
 #include "sentences.h"
 #include "series.h"
 
@@ -269,6 +270,13 @@ TEST(JudgeTexts, FindsGivenDataThatAreNotKept) {
   EXPECT_TRUE(of_input(points, {"--heading-at", "5=90"}).has("given.heading"));
   EXPECT_TRUE(of_input(points, {"--start-radius=-5"}).has("given.curvature"));
   EXPECT_TRUE(of_input(points, {"--kappa-at=10=0"}).has("given.curvature"));
+  EXPECT_TRUE(of_input(points, {"--heading-at", "5=85..90"}).has("given.heading_range"));
+  EXPECT_FALSE(of_input(points, {"--heading-at", "5=75..90"}).has("given.heading_range"));
+  EXPECT_TRUE(of_input(points, {"--start-radius=-5..-4"}).has("given.kappa_range"));
+  EXPECT_FALSE(of_input(points, {"--start-radius=-6..-5"}).has("given.kappa_range"));
+  EXPECT_FALSE(of_input(points, {"--start-radius=..-5"}).has("given.kappa_range"));
+  EXPECT_TRUE(of_input(points, {"--kappa-at=10=-1..-0.1"}).has("given.kappa_range"));
+  EXPECT_FALSE(of_input(points, {"--kappa-at=10=..0"}).has("given.kappa_range"));
   EXPECT_TRUE(of_input(points + "240,-60\n", {}).has("points"));
   EXPECT_TRUE(of_input(changed(points, "-20.48", "-20.49"), {}).has("points"));
 }
@@ -289,6 +297,20 @@ TEST(JudgeTexts, FindsAnErrorThatTheTrueCurveExceeds) {
   Sheet sheet;
   check_truth(one.course, input, sheet);
   EXPECT_TRUE(sheet.has("segments.points_only_error truth"));
+}
+
+TEST(JudgeTexts, TakesTheDatumOfOnePointOutOfTheOptions) {
+  using Words = std::vector<std::string>;
+  // a point that is there twice is one: the end is point 2
+  const Input input = read_input("x,y\n0,0\n1,1\n1,1\n", {});
+  const Words options = {"--primitives", "--end-radius=inf", "--start-radius", "3",
+                         "--heading-at=2=40"};
+  EXPECT_EQ(without_datum(options, false, 2, input.points.size()),
+            (Words{"--primitives", "--start-radius", "3", "--heading-at=2=40"}));
+  EXPECT_EQ(without_datum(options, false, 1, input.points.size()),
+            (Words{"--primitives", "--end-radius=inf", "--heading-at=2=40"}));
+  EXPECT_EQ(without_datum(options, true, 2, input.points.size()),
+            (Words{"--primitives", "--end-radius=inf", "--start-radius", "3"}));
 }
 
 TEST(JudgeTexts, MakesTheSameSeriesFromTheSameSeed) {

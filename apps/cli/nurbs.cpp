@@ -1,0 +1,135 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "obvid/pipeline/nurbs_job.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cctype>
+#include <filesystem>
+
+#include "commands.h"
+#include "obvid/cad/cad.h"
+#include "obvid/exchange/space_dxf.h"
+#include "obvid/io/atomic_file.h"
+#include "obvid/io/read_columns.h"
+#include "surface_outputs.h"
+#include "table.h"
+#include "terminal.h"
+#include "text.h"
+
+namespace obvid {
+namespace {
+
+constexpr int kWeightDigits = 4;
+
+std::string nurbs_number(double value) { return significant(value, kWeightDigits); }
+
+std::string place_text(Vec3 p, bool spatial) {
+  const std::string flat = nurbs_number(p.x) + ", " + nurbs_number(p.y);
+  return spatial ? flat + ", " + nurbs_number(p.z) : flat;
+}
+
+std::string curve_text(const NurbsReport& report, const SpaceCurve& curve) {
+  std::string out = bold(report.table.name) + "\n";
+  out += fmt::format("NURBS curve of degree {}, {}, u from {} to {}\n", curve.degree,
+                     counted(curve.points.size(), "control point", "control points"),
+                     nurbs_number(curve.knots.front()), nurbs_number(curve.knots.back()));
+  out +=
+      "B: the curve at u without the point, N: with weight 1, C: as it is; parts a, b of the "
+      "way from B to P\n\n";
+  Table table;
+  for (const char* head : {"point", "w", "u"}) table.column(head);
+  for (const char* head : {"P", "B", "N", "C"}) table.column(head, Table::Align::kLeft);
+  for (const char* head : {"a", "b", "from B\nto P"}) table.column(head);
+  const bool spatial = report.table.spatial;
+  for (const WeightRow& row : report.rows) {
+    table.row({std::to_string(row.point + 1), nurbs_number(row.weight), nurbs_number(row.u),
+               place_text(curve.points[row.point], spatial), place_text(row.without, spatial),
+               place_text(row.even, spatial), place_text(row.now, spatial), nurbs_number(row.a),
+               nurbs_number(row.b), nurbs_number(row.swing)});
+  }
+  return out + table.text();
+}
+
+std::string surface_text(const NurbsReport& report, const NurbsSurface& surface) {
+  return bold(report.table.name) +
+         fmt::format("\nNURBS surface of degrees {} and {}, {} x {} control points\n",
+                     surface.degree_u, surface.degree_v, surface.count_u(), surface.count_v());
+}
+
+Result<std::string> curve_file(const std::string& path, const NurbsReport& report,
+                               const SpaceCurve& curve, const NurbsOptions& options) {
+  std::string ending = std::filesystem::path(path).extension().string();
+  std::transform(ending.begin(), ending.end(), ending.begin(),
+                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  const Units units = options.units.value_or(Units{});
+  if (ending == ".json") return nurbs_json(report);
+  if (ending == ".csv") return nurbs_samples_csv(curve, options.samples);
+  if (ending == ".dxf") return space_dxf({curve}, curve.points, units);
+  CadWriteOptions write;
+  write.units = units.name;
+  const bool step = ending == ".step" || ending == ".stp";
+  const bool iges = ending == ".iges" || ending == ".igs";
+  if (iges) write.format = CadFormat::kIges;
+  if (ending == ".brep") write.format = CadFormat::kBrep;
+  if (step || iges || ending == ".brep") return cad_text({{"curve", curve}}, write);
+  return fail({ErrorCode::kUnknownFormat, "nurbs writes no such file of a curve", path,
+               "possible are .json, .csv, .step, .iges, .brep and .dxf"});
+}
+
+Result<std::vector<std::string>> write_nurbs(const NurbsReport& report,
+                                             const NurbsOptions& options) {
+  if (const auto* surface = std::get_if<NurbsSurface>(&report.shape)) {
+    const auto outputs = surface_outputs_of(options.outputs, {options.input});
+    if (!outputs) return fail(outputs.error());
+    SurfaceModel model;
+    model.units = options.units.value_or(Units{});
+    model.patches.push_back({"surface", *surface});
+    std::vector<std::string> warnings;
+    const auto written = write_surface(model, *outputs, {}, {}, warnings);
+    if (!written) return fail(written.error());
+    warn(warnings);
+    return written->files;
+  }
+  std::vector<std::string> texts;
+  for (const std::string& path : options.outputs) {
+    auto text = curve_file(path, report, std::get<SpaceCurve>(report.shape), options);
+    if (!text) return fail(text.error());
+    texts.push_back(std::move(*text));
+  }
+  for (std::size_t i = 0; i < texts.size(); ++i) {
+    if (auto done = write_file(options.outputs[i], texts[i]); !done) return fail(done.error());
+  }
+  return options.outputs;
+}
+
+}  // namespace
+
+int run(const NurbsOptions& options) {
+  if (auto free = check_outputs(options.outputs, {&options.input, 1}); !free) {
+    return report(free.error());
+  }
+  const auto table = read_columns(options.input);
+  if (!table) return report(table.error());
+  auto points = control_table(*table, options.input == "-" ? "standard input" : options.input);
+  if (!points) return report(points.error());
+  const auto made = nurbs_report(std::move(*points), options.job);
+  if (!made) return report(made.error());
+  const auto files = write_nurbs(*made, options);
+  if (!files) return report(files.error());
+  std::string text;
+  if (options.json) {
+    text = nurbs_json(*made);
+  } else if (const auto* curve = std::get_if<SpaceCurve>(&made->shape)) {
+    text = curve_text(*made, *curve);
+  } else {
+    text = surface_text(*made, std::get<NurbsSurface>(made->shape));
+  }
+  for (const std::string& path : *files) {
+    if (!options.json) text += fmt::format("written        {}\n", path);
+  }
+  if (auto done = put(text); !done) return report(done.error());
+  return 0;
+}
+
+}  // namespace obvid

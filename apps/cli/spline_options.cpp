@@ -1,0 +1,111 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "spline_options.h"
+
+#include <cmath>
+
+#include "cli_app.h"
+#include "obvid/pipeline/job_values.h"
+#include "options.h"
+
+namespace obvid {
+namespace {
+
+struct RawSpline {
+  SplineOptions options;
+  std::string smooth;
+  std::optional<int> degree;
+};
+
+void add_options(CLI::App& app, RawSpline& raw) {
+  SplineOptions& options = raw.options;
+  app.add_option("TABLE", options.input,
+                 "File with columns x and f (and integral over the cell that a row begins, slope, "
+                 "second: the second derivative); x, y and f are a function of two variables "
+                 "(integral over the cell, integral_x and integral_y along the lines that a place "
+                 "begins); with --curve points x, y (and z); - is standard input");
+  app.add_option(
+         "-o,--output", options.outputs,
+         "File to write: .csv values, derivatives and integrals; .json everything; .svg and "
+         ".dxf the drawing; of two variables .csv, .json and the graph as .step, .stl, ...; may be "
+         "repeated")
+      ->type_name("OUT")
+      ->allow_extra_args(false);
+  app.add_flag("--curve", options.job.curve,
+               "The table holds points of a curve in the plane or in space: one spline per "
+               "coordinate over the summed chords");
+  app.add_option("--degree", raw.degree, "2, 4 or 6 [2; 4 with --curve]")->type_name("N");
+  app.add_option("--smooth", raw.smooth,
+                 "none (all data kept, C0, C1, C2), values-kept (inner derivatives give way, C2, "
+                 "C4; from degree 4 on) or values-free (inner values too, C1, C3, C5) [none; "
+                 "values-kept with --curve]")
+      ->type_name("NAME");
+  app.add_option("--against", options.finer,
+                 "File with more of the same function, or of the same curve: errors are measured "
+                 "against it")
+      ->type_name("FILE");
+  app.add_flag("--compare", options.job.compare,
+               "Beside it the other degrees, the local and both global cubic splines");
+  app.add_option("--tolerance", options.job.tolerance,
+                 "Of straight moves along the spline on a machine, units [1e-4 of the size]")
+      ->type_name("T");
+  app.add_option("--samples", options.samples, "Rows of the .csv, equal steps [200]")
+      ->type_name("N");
+  app.add_flag("--json", options.json, "JSON on standard output instead of the table");
+  app.footer(
+      "Examples:\n"
+      "  obvid spline profile.csv -o profile.svg\n"
+      "  obvid spline means.csv --degree 4 --smooth values-free --against fine.csv --compare\n"
+      "  obvid spline rail.csv --curve --degree 6 -o rail.json");
+}
+
+Result<void> check(RawSpline& raw) {
+  SplineOptions& options = raw.options;
+  if (options.input.empty()) {
+    return fail(usage("spline needs a table", "see obvid spline --help"));
+  }
+  const bool curve = options.job.curve;
+  options.job.options.degree = raw.degree.value_or(curve ? 4 : 2);
+  const std::string smooth =
+      raw.smooth.empty() ? (curve && options.job.options.degree > 2 ? "values-kept" : "none")
+                         : raw.smooth;
+  const auto smoothing = value_named<IdSmoothing>({{"none", IdSmoothing::kNone},
+                                                   {"values-kept", IdSmoothing::kValuesKept},
+                                                   {"values-free", IdSmoothing::kValuesFree}},
+                                                  smooth, "--smooth");
+  if (!smoothing) return fail(smoothing.error());
+  options.job.options.smoothing = *smoothing;
+  const auto& tolerance = options.job.tolerance;
+  if (tolerance && !(*tolerance > 0.0 && std::isfinite(*tolerance))) {
+    return fail(bad_option("the tolerance must be a positive length", "--tolerance",
+                           "give it in the units of the table"));
+  }
+  constexpr std::size_t kMostSamples = 10'000'000;
+  if (options.samples < 2 || options.samples > kMostSamples) {
+    return fail(bad_option("between 2 and 10,000,000 rows are possible", "--samples", ""));
+  }
+  return {};
+}
+
+}  // namespace
+
+Result<Command> parse_spline(int argc, const char* const* argv) {
+  CLI::App app(
+      "Splines of even degree that keep values, derivatives and the integral over every cell",
+      "obvid spline");
+  app.get_formatter()->column_width(28);
+  app.allow_extras();
+  RawSpline raw;
+  add_options(app, raw);
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::CallForHelp&) {
+    return Command{ShowText{app.help()}};
+  } catch (const CLI::ParseError& error) {
+    return fail(from_cli(error, "spline"));
+  }
+  if (auto done = check_extras(app, app.remaining(), "spline"); !done) return fail(done.error());
+  if (auto done = check(raw); !done) return fail(done.error());
+  return Command{raw.options};
+}
+
+}  // namespace obvid

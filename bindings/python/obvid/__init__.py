@@ -1,0 +1,54 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Obvid: fair contours through points, proved.
+
+>>> import obvid
+>>> c = obvid.fit([(0, 0), (10, 1), (19, 4), (26, 9), (30, 16)], noise=0.01)
+>>> c.proved, c.certificate.vertices, c.certificate.inflections
+(True, 0, 0)
+
+Lengths are in units of the points, angles of arrays in radians, of options in degrees, indices count
+from 0. docs/python.md explains it with pictures.
+"""
+from ._library import version as __version__
+from .contour import BSpline, Contour, Piece, Samples
+from .errors import (
+    CancelledError,
+    InputError,
+    InternalError,
+    NoContourError,
+    NotProvedError,
+    ObvidError,
+    UsageError,
+)
+from .jobs import (
+    Source,
+    analyse,
+    compare,
+    fit,
+    fit_many,
+    read,
+    read_contour,
+    read_text,
+    region,
+    suggest,
+    why_not,
+)
+from .reports import (
+    Analysis,
+    CarrierRow,
+    Certificate,
+    DrawingAnalysis,
+    FitReport,
+    Segment,
+    Suggestion,
+    Table,
+    Verification,
+)
+
+__all__ = [
+    "Analysis", "BSpline", "CancelledError", "CarrierRow", "Certificate", "Contour",
+    "DrawingAnalysis", "FitReport", "InputError", "InternalError", "NoContourError",
+    "NotProvedError", "ObvidError", "Piece", "Samples", "Segment", "Source", "Suggestion", "Table",
+    "UsageError", "Verification", "__version__", "analyse", "compare", "fit", "fit_many", "read",
+    "read_contour", "read_text", "region", "suggest", "why_not",
+]  # fmt: skip

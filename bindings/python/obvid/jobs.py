@@ -1,0 +1,388 @@
+# SPDX-License-Identifier: Apache-2.0
+"""The jobs of the program: read, fit, analyse, region, compare, suggest, why_not."""
+from __future__ import annotations
+
+import concurrent.futures
+import ctypes as C
+import json
+import math
+import os
+from typing import Any, Dict, Iterable, List, Mapping, Optional, Sequence, Union
+
+import numpy as np
+import numpy.typing as npt
+
+from ._library import (
+    CancelledFunction,
+    ErrorStruct,
+    ProgressFunction,
+    Run,
+    lib,
+    options_text,
+    raise_error,
+    taken_text,
+)
+from .contour import Contour
+from .errors import CancelledError, NoContourError, NotProvedError, ObvidError
+from .reports import (
+    Analysis,
+    CarrierRow,
+    DrawingAnalysis,
+    Json,
+    Suggestion,
+    Table,
+    carrier_rows,
+    suggestions,
+)
+
+#: Heading, radius or curvature of some points: {index: value}, indices from 0, negative from the end.
+AtPoints = Mapping[int, Union[float, str, Sequence[Optional[float]]]]
+
+
+class Source:
+    """What jobs read: points in memory, or a file (`read`). May be used by several threads."""
+
+    __slots__ = ("_handle", "count")
+
+    def __init__(self, handle: int, count: Optional[int] = None) -> None:
+        self._handle = handle
+        self.count = count  #: points that were given, None for files
+
+    def __del__(self) -> None:
+        handle, self._handle = getattr(self, "_handle", 0), 0
+        if handle and lib is not None:
+            lib.obvid_input_free(handle)
+
+    def contour(self, *, curve: Optional[int] = None, drawing: Optional[str] = None) -> Contour:
+        """The contour of a contour file, or a curve of a drawing as it is drawn."""
+        out, error = C.c_void_p(), C.POINTER(ErrorStruct)()
+        options = options_text({"curve": curve, "drawing": drawing})
+        with Run(None, None) as run:
+            if lib.obvid_stored(self._handle, options, run, C.byref(out), C.byref(error)):
+                raise raise_error(error)
+        assert out.value is not None
+        return Contour(out.value)
+
+
+#: n x 2 numbers, a `Source`, or the path of a file.
+Points = Union[Source, str, "os.PathLike[str]", npt.ArrayLike]
+
+
+def read(path: Union[str, "os.PathLike[str]"]) -> Source:
+    """Opens a file of points, a contour file or a drawing (DXF, SVG, GPX, GeoJSON, LandXML,
+    OpenDRIVE; STEP, IGES and BREP where obvid-cad is installed)."""
+    out, error = C.c_void_p(), C.POINTER(ErrorStruct)()
+    if lib.obvid_read_file(os.fsencode(path), C.byref(out), C.byref(error)):
+        raise raise_error(error)
+    assert out.value is not None
+    return Source(out.value)
+
+
+def read_text(text: Union[str, bytes], name: str = "text") -> Source:
+    """The same from memory; `name` stands in errors."""
+    data = text.encode() if isinstance(text, str) else bytes(text)
+    out, error = C.c_void_p(), C.POINTER(ErrorStruct)()
+    if lib.obvid_read_text(data, len(data), name.encode(), C.byref(out), C.byref(error)):
+        raise raise_error(error)
+    assert out.value is not None
+    return Source(out.value)
+
+
+def read_contour(path: Union[str, "os.PathLike[str]"]) -> Contour:
+    """The contour of a contour file, or the curve of a drawing that has one."""
+    return read(path).contour()
+
+
+def _array_of(points: npt.ArrayLike) -> npt.NDArray[np.float64]:
+    array = np.ascontiguousarray(points, dtype=np.float64)
+    if array.ndim != 2 or array.shape[1] not in (2, 3):
+        raise ValueError(f"points are an array of n x 2 numbers, not of shape {array.shape}")
+    if array.shape[1] == 3:
+        if array.shape[0] and np.ptp(array[:, 2]) != 0.0:
+            raise ValueError("z changes: only plane series are read, give points[:, :2]")
+        array = np.ascontiguousarray(array[:, :2])
+    return array
+
+
+def _source_of_array(array: npt.NDArray[np.float64]) -> Source:
+    out, error = C.c_void_p(), C.POINTER(ErrorStruct)()
+    n = array.shape[0]
+    if lib.obvid_points(array.ctypes.data, n, C.byref(out), C.byref(error)):
+        raise raise_error(error)
+    assert out.value is not None
+    return Source(out.value, n)
+
+
+def _source(points: Points) -> Source:
+    if isinstance(points, Source):
+        return points
+    if isinstance(points, (str, os.PathLike)):
+        return read(points)
+    return _source_of_array(_array_of(points))
+
+
+def _with_tolerances(points: Points, noise: npt.ArrayLike) -> Source:
+    if isinstance(points, (Source, str, os.PathLike)):
+        raise ValueError("a tolerance for each point goes with an array of points")
+    array = _array_of(points)
+    each = np.asarray(noise, dtype=float).ravel()
+    if each.shape != (array.shape[0],):
+        raise ValueError(f"{each.size} tolerances for {array.shape[0]} points")
+    rows = [f"{x!r},{y!r},{t!r}" for (x, y), t in zip(array.tolist(), each.tolist())]
+    made = read_text("\n".join(["x,y,tol", *rows]) + "\n", "points")
+    made.count = array.shape[0]
+    return made
+
+
+def _range_text(ends: Sequence[Optional[float]]) -> str:
+    """(40, 45) as "40..45"; None, or infinity, where there is no end."""
+    low, high = ends
+    if any(end is not None and math.isnan(end) for end in ends):
+        raise ValueError("a range has no end that is not a number")
+    words = ["" if end is None or math.isinf(end) else repr(float(end)) for end in (low, high)]
+    return "..".join(words)
+
+
+def _radius(value: Union[float, str, Sequence[Optional[float]]]) -> Union[float, str]:
+    if isinstance(value, str):
+        return value
+    if isinstance(value, (int, float)):
+        return "inf" if math.isinf(value) else value
+    return _range_text(value)
+
+
+def _at(values: Optional[AtPoints], source: Source) -> Optional[Dict[str, Any]]:
+    if not values:
+        return None
+    out: Dict[str, Any] = {}
+    for index, value in values.items():
+        if index < 0 and source.count is None:
+            raise ValueError("indices from the end need points in memory")
+        at = index if index >= 0 else index + (source.count or 0)
+        if at < 0:
+            raise IndexError(f"there is no point {index}")
+        out[str(at + 1)] = _radius(value)
+    return out
+
+
+def _fit_options(source: Source, o: Mapping[str, Any]) -> Optional[bytes]:
+    known = {
+        "carrier", "noise", "tolerance", "convex", "primitives", "closed", "corners",
+        "corner_angle", "start_heading", "end_heading", "start_radius", "end_radius", "heading",
+        "radius", "curvature", "units", "curve", "drawing", "chord_tolerance", "prefer",
+        "continuity",
+    }  # fmt: skip
+    unknown = sorted(set(o) - known)
+    if unknown:
+        raise TypeError(f"unknown option {unknown[0]!r}; there are {', '.join(sorted(known))}")
+    closed, corners = o.get("closed"), o.get("corners")
+    if isinstance(corners, (int, np.integer)) and not isinstance(corners, bool):
+        corners = [corners]
+    options: Dict[str, Any] = {
+        name.replace("_", "-"): o.get(name)
+        for name in ("carrier", "noise", "tolerance", "corner_angle", "units", "curve", "drawing",
+                     "chord_tolerance", "prefer", "continuity")
+    }  # fmt: skip
+    options["convex"] = True if o.get("convex") else None
+    options["primitives"] = True if o.get("primitives") else None
+    options["closed"] = True if closed is True else None
+    options["open"] = True if closed is False else None
+    options["no-corners"] = True if corners is False else None
+    if corners is not None and not isinstance(corners, bool):
+        options["corner-at"] = [int(i) + 1 for i in corners]
+    for name in ("start_heading", "end_heading", "start_radius", "end_radius"):
+        if o.get(name) is not None:
+            options[name.replace("_", "-")] = _radius(o[name])
+    options["heading-at"] = _at(o.get("heading"), source)
+    options["radius-at"] = _at(o.get("radius"), source)
+    options["kappa-at"] = _at(o.get("curvature"), source)
+    return options_text(options)
+
+
+def _prepared(points: Points, options: Dict[str, Any]) -> Source:
+    noise = options.get("noise")
+    if noise is not None and not isinstance(noise, str) and np.ndim(noise) == 1:
+        del options["noise"]
+        return _with_tolerances(points, noise)
+    if isinstance(noise, np.number):
+        options["noise"] = float(noise)
+    return _source(points)
+
+
+#: Series of so many points take milliseconds: Ctrl-C waits for them.
+_SHORT = 300
+
+
+def _fitted(source: Source, text: Optional[bytes], run: Any) -> Contour:
+    out, error = C.c_void_p(), C.POINTER(ErrorStruct)()
+    code = lib.obvid_fit(source._handle, text, run, C.byref(out), None, C.byref(error))
+    made = Contour(out.value) if out.value else None
+    if code:
+        raised = raise_error(error)
+        if isinstance(raised, NotProvedError):
+            raised.contour = made
+        raise raised
+    assert made is not None
+    return made
+
+
+def fit(
+    points: Points,
+    *,
+    progress: Optional[ProgressFunction] = None,
+    cancelled: Optional[CancelledFunction] = None,
+    **options: Any,
+) -> Contour:
+    """Forms a contour of monotone curvature through points, and proves it.
+
+    Args:
+        points: n x 2 numbers (anything numpy takes), a path, or what `read` returned.
+        carrier: "spiral" (default), "arcs", "conics", "beziers", "clothoids", "bspline", "cubic",
+            "baseline".
+        continuity: "G2" (default): of the curvature; "G3": of its slope too, spirals only.
+        noise: how far points may move, units; "rounding": half a unit of the last digit; an array:
+            one for each point. Default: points are met exactly.
+        tolerance: width of the region within which the error bound is found, units; default 3e-6 of
+            the size.
+        closed: True or False; default: as the points say.
+        corners: indices of points where the contour may turn at once; False: none.
+        corner_angle: chords that turn by more make a corner, degrees.
+        primitives: True takes lines and arcs over where points lie on them.
+        convex: True allows no inflection.
+        start_heading, end_heading: degrees, or "natural"; start_radius, end_radius: units, inf is
+            straight.
+        heading, radius, curvature: {index: value} of single points; degrees, units, 1/units. Indices
+            count from 0, negative ones from the end.
+            All of these take a range (low, high) too, None for an end of a radius or curvature that
+            is none: heading={4: (76, 78)}, end_radius=(None, -400).
+        prefer: "fair" (default), "centre", "least-change", "least-curvature".
+        units: "mm", "in", ... of the points.
+        curve, drawing, chord_tolerance: of a drawing, as the program takes them.
+        progress: called with a stage and a fraction; cancelled: asked often, True ends the work.
+
+    Raises:
+        NoContourError: there is no such contour; `points` of the error are those in the way.
+        NotProvedError: formed, but it does not keep its promise; `contour` of the error is it.
+        InputError, UsageError, CancelledError.
+
+    >>> import obvid
+    >>> c = obvid.fit([(0, 0), (10, 1), (19, 4), (26, 9), (30, 16)], heading={0: 0})
+    >>> c.report.headings_given, round(float(c.heading(0.0)), 12)
+    (1, 0.0)
+    """
+    source = _prepared(points, options) if options else _source(points)
+    text = _fit_options(source, options) if options else None
+    short = source.count is not None and source.count <= _SHORT
+    if short and progress is None and cancelled is None:
+        return _fitted(source, text, None)
+    with Run(progress, cancelled) as run:
+        return _fitted(source, text, run)
+
+
+def _report(name: str, source: Source, text: Optional[bytes], watched: Dict[str, Any]) -> Json:
+    out, error = C.c_void_p(), C.POINTER(ErrorStruct)()
+    with Run(watched.get("progress"), watched.get("cancelled")) as run:
+        code = getattr(lib, "obvid_" + name)(
+            source._handle, text, run, C.byref(out), C.byref(error)
+        )
+        said = taken_text(out)
+        if code:
+            raise raise_error(error, said)
+    values: Json = json.loads(said) if said is not None else {}
+    return values
+
+
+def analyse(
+    points: Points,
+    *,
+    units: Optional[str] = None,
+    curve: Optional[int] = None,
+    drawing: Optional[str] = None,
+    **watched: Any,
+) -> Union[Analysis, DrawingAnalysis]:
+    """What points say before a curve is formed; of a drawing, what a comb of its curves would show.
+
+    >>> import obvid
+    >>> a = obvid.analyse([(0, 0), (10, 1), (19, 4), (26, 9), (30, 16)])
+    >>> a.vertices, a.runs[0].direction
+    (0, 1)
+    """
+    options = options_text({"units": units, "curve": curve, "drawing": drawing})
+    values = _report("analyse", _source(points), options, watched)
+    return Analysis.of(values) if "segments" in values else DrawingAnalysis.of(values)
+
+
+def region(points: Points, *, units: Optional[str] = None, **watched: Any) -> Table:
+    """Where every fair contour through the points must lie: a row for each segment.
+
+    >>> import obvid
+    >>> r = obvid.region([(0, 0), (10, 1), (19, 4), (26, 9), (30, 16)])
+    >>> len(r), bool(r["width"].max() < 0.5)
+    (4, True)
+    """
+    values = _report("region", _source(points), options_text({"units": units}), watched)
+    return Table(tuple(values["segments"]), values)
+
+
+def compare(points: Points, **options: Any) -> List[CarrierRow]:
+    """All curve families through the same points, side by side. Options of `fit`."""
+    watched = {name: options.pop(name, None) for name in ("progress", "cancelled")}
+    source = _prepared(points, options)
+    return carrier_rows(_report("compare", source, _fit_options(source, options), watched))
+
+
+def suggest(points: Points, **options: Any) -> List[Suggestion]:
+    """How many vertices which tolerance would need. Options of `fit`."""
+    watched = {name: options.pop(name, None) for name in ("progress", "cancelled")}
+    source = _prepared(points, options)
+    return suggestions(_report("suggest", source, _fit_options(source, options), watched))
+
+
+def why_not(points: Points, **options: Any) -> Optional[NoContourError]:
+    """Why `fit` finds no contour and what would do (`advice`, `points`); None where there is one.
+    Takes some 15 times as long as `fit`."""
+    watched = {name: options.pop(name, None) for name in ("progress", "cancelled")}
+    source = _prepared(points, options)
+    try:
+        _report("why_not", source, _fit_options(source, options), watched)
+    except NoContourError as reason:
+        return reason
+    return None
+
+
+def fit_many(
+    series: Iterable[Points],
+    *,
+    workers: Optional[int] = None,
+    errors: str = "raise",
+    options: Optional[Sequence[Mapping[str, Any]]] = None,
+    **common: Any,
+) -> List[Union[Contour, ObvidError, ValueError]]:
+    """Contours of many series on several threads, in the order of the series.
+
+    workers: threads, default one for each processor. errors: "raise" raises the first one in order,
+    "return" puts exceptions in the places of their series. options: one mapping for each series, on
+    top of the common options of `fit`.
+    """
+    if errors not in ("raise", "return"):
+        raise ValueError('errors is "raise" or "return"')
+    all_series = list(series)
+    each = list(options) if options is not None else [{} for _ in all_series]
+    if len(each) != len(all_series):
+        raise ValueError(f"{len(each)} options for {len(all_series)} series")
+
+    def one(k: int) -> Union[Contour, ObvidError, ValueError]:
+        try:
+            return fit(all_series[k], **{**common, **each[k]})
+        except CancelledError:
+            raise
+        except (ObvidError, ValueError) as error:
+            return error
+
+    with concurrent.futures.ThreadPoolExecutor(workers or os.cpu_count() or 1) as pool:
+        made = list(pool.map(one, range(len(all_series))))
+    if errors == "raise":
+        for result in made:
+            if isinstance(result, Exception):
+                raise result
+    return made

@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <vector>
+
+namespace obvid {
+
+/// Number for people: `digits` significant digits, plain between 1e-4 and 1e7, else with an
+/// exponent; "-" for NaN, "inf" for infinity.
+[[nodiscard]] std::string significant(double value, int digits = 5);
+
+/// "1 vertex", "2 vertices".
+[[nodiscard]] std::string counted(std::size_t count, const char* one, const char* many);
+
+/// "a.svg, b.json"
+[[nodiscard]] std::string listed(const std::vector<std::string>& names);
+
+}  // namespace obvid

@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <functional>
+#include <string_view>
+#include <type_traits>
+#include <utility>
+
+#include "obvid/core/error.h"
+#include "obvid/core/progress.h"
+
+namespace obvid {
+
+/// What long work asks of whoever started it. Both functions are called by the thread that called,
+/// between steps that take some milliseconds at most (docs/methods/pipeline.md has the figures), so
+/// they have to be quick themselves.
+struct RunContext {
+  Progress progress;                ///< told how far the work is; empty: nobody listens
+  std::function<bool()> cancelled;  ///< true: stop, there shall be no result (E103); empty: never.
+                                    ///< Not asked again once it said so
+
+  RunContext() = default;
+  RunContext(Progress told, std::function<bool()> asked)
+      : progress(std::move(told)), cancelled(std::move(asked)) {}
+  /// Progress alone.
+  template <class Told>
+    requires std::is_invocable_v<Told&, std::string_view, double>
+  RunContext(Told told) : progress(std::move(told)) {}  // NOLINT: implicit on purpose
+};
+
+/// What cancelled work returns.
+[[nodiscard]] inline Error cancelled_error() {
+  return {ErrorCode::kCancelled, "the work was cancelled", "", ""};
+}
+
+}  // namespace obvid

@@ -1,0 +1,168 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/* The C interface of Obvid: fair contours through points, proved. docs/c.md explains it.
+ *
+ * - Every call may be made from any thread; a handle may be read by several threads at once.
+ * - A function that can fail returns 0, or the code of its error (401 for E401). `error`, unless it
+ *   is NULL, then gets the error; nothing else that the call returns is set.
+ * - Texts are UTF-8 and end with a zero. What a call returns is the caller's: texts are freed with
+ *   obvid_free, handles and errors with the function of their name. NULL may be freed.
+ * - Options are one JSON object with the names of the command line, {"noise": 0.01}; NULL: none.
+ * - Reports are one JSON object, the same as the command line prints with --json.
+ * - Lengths are in units of the input, angles of arrays in radians, curvatures positive to the
+ * left.
+ */
+#ifndef OBVID_H
+#define OBVID_H
+
+#include <stddef.h>
+
+#if defined(OBVID_BUILDING) && defined(__GNUC__)
+#define OBVID_API __attribute__((visibility("default")))
+#else
+#define OBVID_API
+#endif
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/* Changes when a program that was compiled with an older header no longer runs. */
+#define OBVID_ABI 1
+
+OBVID_API int obvid_abi(void);
+/* "0.1.0"; the library's, never freed. */
+OBVID_API const char* obvid_version(void);
+
+typedef struct obvid_input obvid_input;
+typedef struct obvid_contour obvid_contour;
+typedef struct obvid_files obvid_files;
+
+/* ---- errors ---------------------------------------------------------------------------------- */
+
+typedef enum obvid_category {
+  OBVID_INTERNAL = 1,   /* ours, the machine's, or cancelled */
+  OBVID_USAGE = 2,      /* an option or a call that is not possible */
+  OBVID_INPUT = 3,      /* the input cannot be read */
+  OBVID_NO_CONTOUR = 4, /* no such contour exists */
+  OBVID_NOT_PROVED = 5  /* formed, but it does not keep its promise */
+} obvid_category;
+
+enum { OBVID_CANCELLED = 103 };
+
+typedef struct obvid_error {
+  int code;                /* 401 for E401, `obvid explain E401` */
+  obvid_category category; /* code / 100 */
+  const char* message;     /* one sentence without a full stop */
+  const char* where;       /* "file.csv:12:7", "point 3", a field of the options; may be "" */
+  const char* advice;      /* what to do; may be "" */
+  const size_t* points;    /* points it is about, from 0; NULL when there are none */
+  size_t point_count;
+} obvid_error;
+
+OBVID_API void obvid_error_free(obvid_error* error);
+OBVID_API void obvid_free(char* text);
+
+/* ---- progress and cancellation ----------------------------------------------------------------
+ */
+
+/* Both functions may be NULL, and so may the pointer to a run. They are called by the thread that
+ * called, and must not throw or jump. */
+typedef struct obvid_run {
+  void* user; /* handed back */
+  void (*progress)(void* user, const char* stage, double fraction);
+  int (*cancelled)(
+      void* user); /* not 0: stop, with OBVID_CANCELLED; asked every few milliseconds */
+} obvid_run;
+
+/* ---- input ------------------------------------------------------------------------------------
+ */
+
+/* n points, x and y one after the other. */
+OBVID_API int obvid_points(const double* xy, size_t n, obvid_input** input, obvid_error** error);
+/* A file in memory: a list of points, a contour file, DXF, SVG, GPX, GeoJSON, LandXML, OpenDRIVE.
+ * `name` stands in errors. */
+OBVID_API int obvid_read_text(const char* text, size_t size, const char* name, obvid_input** input,
+                              obvid_error** error);
+/* The same from a file; STEP, IGES and BREP, too, where the helper obvid-cad is installed. */
+OBVID_API int obvid_read_file(const char* path, obvid_input** input, obvid_error** error);
+OBVID_API void obvid_input_free(obvid_input* input);
+
+/* ---- jobs -------------------------------------------------------------------------------------
+ */
+
+/* Forms a contour and proves it. Both results may be there although the call fails with
+ * OBVID_NOT_PROVED: the contour was formed and does not keep its promise. `contour`, `report` may
+ * be NULL: not wanted. */
+OBVID_API int obvid_fit(const obvid_input* input, const char* options, const obvid_run* run,
+                        obvid_contour** contour, char** report, obvid_error** error);
+/* Why obvid_fit finds no contour (OBVID_NO_CONTOUR), and what would do: takes some 15 times as
+ * long. The error is that of obvid_fit, its points those that would have to move, its advice what
+ * would do; `report` is set beside it. 0 and a report of NULL: there is a contour. */
+OBVID_API int obvid_why_not(const obvid_input* input, const char* options, const obvid_run* run,
+                            char** report, obvid_error** error);
+/* How many vertices which tolerance would need. */
+OBVID_API int obvid_suggest(const obvid_input* input, const char* options, const obvid_run* run,
+                            char** report, obvid_error** error);
+/* What the points say; of a drawing: what a curvature comb would show of its curves. */
+OBVID_API int obvid_analyse(const obvid_input* input, const char* options, const obvid_run* run,
+                            char** report, obvid_error** error);
+/* Where every fair contour through the points must lie. */
+OBVID_API int obvid_region(const obvid_input* input, const char* options, const obvid_run* run,
+                           char** report, obvid_error** error);
+/* All curve families side by side. */
+OBVID_API int obvid_compare(const obvid_input* input, const char* options, const obvid_run* run,
+                            char** report, obvid_error** error);
+/* The contour of a contour file, or a curve of a drawing as it is drawn. */
+OBVID_API int obvid_stored(const obvid_input* input, const char* options, const obvid_run* run,
+                           obvid_contour** contour, obvid_error** error);
+/* Proves a contour again from its numbers alone. Fails with OBVID_NOT_PROVED, and the report is
+ * set, when it does not keep its promise or its file makes a false claim. */
+OBVID_API int obvid_verify(const obvid_contour* contour, const obvid_run* run, char** report,
+                           obvid_error** error);
+
+/* ---- contours ---------------------------------------------------------------------------------
+ */
+
+OBVID_API size_t obvid_contour_pieces(const obvid_contour* contour);
+OBVID_API int obvid_contour_closed(const obvid_contour* contour);
+OBVID_API double obvid_contour_length(const obvid_contour* contour);
+/* What was to be warned of when it was formed; NULL beyond the last. */
+OBVID_API const char* obvid_contour_warning(const obvid_contour* contour, size_t warning);
+OBVID_API void obvid_contour_free(obvid_contour* contour);
+
+typedef enum obvid_place {
+  OBVID_BY_LENGTH = 0,   /* arc length from the start */
+  OBVID_BY_PARAMETER = 1 /* piece + t, t in [0, 1]: 2.5 is the middle of the third piece */
+} obvid_place;
+
+/* Points, headings and curvatures at `n` places; each array may be NULL. `xy` holds 2 n numbers.
+ * E203 for places beyond the contour. */
+OBVID_API int obvid_evaluate(const obvid_contour* contour, obvid_place by, const double* at,
+                             size_t n, double* xy, double* heading, double* curvature,
+                             obvid_error** error);
+
+/* Derivatives of the point by the parameter t of its piece, of order 1, 2 or 3, at `n` parameters
+ * (OBVID_BY_PARAMETER). `xy` holds 2 n numbers. E203 for places beyond the contour and other
+ * orders. */
+OBVID_API int obvid_derivatives(const obvid_contour* contour, const double* at, size_t n, int order,
+                                double* xy, obvid_error** error);
+
+/* ---- files ------------------------------------------------------------------------------------
+ */
+
+/* The contour in a format, named by its ending: "json", "svg", "step", "dxf", "nc", "csv", ... */
+OBVID_API int obvid_export(const obvid_contour* contour, const char* ending, const char* options,
+                           obvid_files** files, obvid_error** error);
+/* Most formats are one file. `suffix` goes between name and ending; the texts are the handle's. */
+OBVID_API size_t obvid_files_count(const obvid_files* files);
+OBVID_API const char* obvid_files_suffix(const obvid_files* files, size_t file);
+OBVID_API const char* obvid_files_data(const obvid_files* files, size_t file, size_t* size);
+/* What the format could not hold, and what may be wrong; NULL beyond the last. */
+OBVID_API const char* obvid_files_remark(const obvid_files* files, size_t remark);
+OBVID_API void obvid_files_free(obvid_files* files);
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif

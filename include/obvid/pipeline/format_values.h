@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "obvid/core/result.h"
+#include "obvid/pipeline/export.h"
+#include "obvid/pipeline/import.h"
+
+namespace obvid {
+
+/// Options of the formats as they were typed.
+struct FormatValues {
+  std::optional<long> curve;
+  std::optional<double> chord_tolerance;
+  std::string drawing = "auto";
+  std::optional<double> tolerance;
+  std::optional<double> face_width;
+  std::optional<std::string> profile;
+  std::optional<std::string> step;
+  std::optional<std::string> dxf;
+  std::optional<std::string> controller;
+  std::optional<std::string> motion;
+  std::optional<double> feed;
+  std::optional<long> samples;
+  std::optional<double> sample_step;
+  std::optional<std::string> svg;
+  std::optional<std::string> plot;
+};
+
+/// Error: E203.
+[[nodiscard]] Result<void> set_import(const FormatValues& typed, ImportOptions& options);
+/// A profile first, then what was typed beside it. `profile_text` gets what the profile chose.
+[[nodiscard]] Result<void> set_formats(const FormatValues& typed, ExportOptions& options,
+                                       std::string& profile_text);
+
+}  // namespace obvid

@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <optional>
+
+#include "obvid/pipeline/fit.h"
+
+namespace obvid {
+
+/// Whether a contour is what its carrier promises: proved, or without gaps through its points.
+[[nodiscard]] bool keeps_promise(Carrier carrier, const Certificate& certificate);
+
+/// What a contour that was formed does not keep: E501 the promise of its carrier, E502 the
+/// tolerance. Nothing when it keeps both.
+[[nodiscard]] std::optional<Error> broken_promise(const Fit& made);
+
+/// The same of a stored contour: E503 what it says wrongly comes before E501 what is not proved,
+/// and that before E502, a tolerance that it says itself not to keep.
+[[nodiscard]] std::optional<Error> broken_promise(const StoredContour& stored,
+                                                  const Verification& found);
+
+}  // namespace obvid

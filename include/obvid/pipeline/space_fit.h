@@ -1,0 +1,96 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "obvid/core/result.h"
+#include "obvid/core/run_context.h"
+#include "obvid/exchange/samples.h"
+#include "obvid/pipeline/fit.h"
+#include "obvid/surface/point_grid.h"
+#include "obvid/surface/space_curve.h"
+
+namespace obvid {
+
+/// A list of points x, y, z whose z changes; nothing for all other files (drawings, points of the
+/// plane, several series, pipes). `any_third`: a third column without a name is z. Errors: E301.
+[[nodiscard]] Result<std::optional<SpaceSeries>> space_series(const std::string& path,
+                                                              bool any_third = false);
+
+/// How a spatial series becomes a curve.
+struct SpaceJob {
+  FitJob fit;                      ///< of the projection; headings and radii are those in its frame
+  std::vector<FixedData> fixed{};  ///< columns of the file, one entry per point; of a projection
+                                   ///< along z only
+  std::optional<Vec3> along{};     ///< direction of the projection, any length but 0; with it a
+                                   ///< planar series is a space curve like all others
+};
+
+/// Heading, curvature and torsion of the curve at a given point.
+struct SpacePoint {
+  double plan_length = 0.0;         ///< arc length of the projection
+  double height = 0.0;              ///< along the direction of the projection
+  double curvature = 0.0;           ///< of the space curve, >= 0, 1/unit
+  std::optional<double> torsion{};  ///< before the point, 1/unit, right-handed positive; nothing
+                                    ///< where the curvature is 0
+  std::optional<double> torsion_after{};
+};
+
+/// A fair curve in space, as a fair contour in a plane and, unless the points lie in that plane, a
+/// second fair contour: height over the arc length of the first. The curve lies on the cylinder
+/// over the first contour; the second is what it becomes when that cylinder is unrolled, so both
+/// have its arc length and, where both are G2, so has it.
+struct SpaceFit {
+  std::string name;
+  Units units;
+  std::vector<Vec3> points;     ///< as read
+  Frame frame;                  ///< of the first contour; its normal is the direction of heights
+  double flatness = 0.0;        ///< largest distance of a point from the plane of the frame; of
+                                ///< planar series
+  Fit plan;                     ///< the contour in the plane, or of the projection
+  std::optional<Fit> unrolled;  ///< x: arc length of the projection, y: height; none: planar
+  double largest_move = 0.0;    ///< upper bound of the distance of a point from the curve
+  std::vector<SpacePoint> at_points{};                    ///< of spatial curves
+  double least_curvature = 0.0, largest_curvature = 0.0;  ///< enclose the curvature everywhere
+  std::size_t torsion_places = 0;                         ///< where the torsion was looked at
+  double least_torsion = 0.0, largest_torsion = 0.0;      ///< at these places; not a bound
+  double torsion_step = 0.0;  ///< largest step of the torsion at a joint, 1/unit
+  std::vector<std::string> warnings;
+};
+
+/// Forms the curve. Planar: largest distance from the plane of least squares at most the noise (of
+/// the job, or half a unit of the last printed digit), at least 1e-9 of the size. Else projected
+/// along `along`, or along the one of four directions (normal of the plane of least squares, z, y,
+/// x) whose projection and heights together have the fewest vertices and inflections; of equals the
+/// first. The noise is shared by projection and heights, so that no point moves by more; heights
+/// may always move by the rounding of their print, as the lengths below them are computed.
+/// Errors: E203 a direction without length, headings or radii without a direction, another carrier
+/// than spirals of a curve that is not planar; E310 closed curves and corners that are not planar,
+/// projections that run back on themselves; those of `fit`, with the part they belong to in front.
+[[nodiscard]] Result<SpaceFit> fit_space(const SpaceSeries& series, const SpaceJob& job,
+                                         const RunContext& run = {});
+
+/// The curve as one NURBS curve.
+struct SpaceNurbs {
+  SpaceCurve curve;
+  double deviation = 0.0;  ///< units, an upper bound apart from rounding; 0: exact
+};
+/// A planar curve exactly, as its contour is; others as a C2 cubic by arc length within the
+/// tolerance (> 0, units). Errors: E502 where a hundred thousand spans are not enough.
+[[nodiscard]] Result<SpaceNurbs> space_nurbs(const SpaceFit& fit, double tolerance);
+
+/// Largest extent of the points, units.
+[[nodiscard]] double size_of(const SpaceFit& fit);
+
+/// Everything: frame, both contours as contour files, the NURBS curve, the figures.
+[[nodiscard]] std::string space_fit_json(const SpaceFit& fit, const SpaceNurbs& nurbs);
+
+/// Places along the curve at equal steps of arc length: s, x, y, z, curvature, torsion.
+[[nodiscard]] std::string space_samples_csv(const SpaceFit& fit, std::size_t count);
+/// The same places as x y z: "Curve Through XYZ Points" of SolidWorks and others.
+[[nodiscard]] std::string space_points_text(const SpaceFit& fit, std::size_t count);
+
+}  // namespace obvid

@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "obvid/core/progress.h"
+#include "obvid/core/result.h"
+#include "obvid/exchange/surface_svg.h"
+#include "obvid/toolpath/toolpath.h"
+
+namespace obvid {
+
+/// A tool path as it is asked for. Lengths in units of the surface; what is not given is so many
+/// millimetres of it.
+struct ToolpathJob {
+  ToolpathOptions plan;                 ///< but for what follows; a scallop of 0.01 diameters when
+                                        ///< neither scallop nor step-over is given
+  std::optional<double> diameter;       ///< [6 mm]
+  std::optional<double> corner_radius;  ///< of bull noses [a quarter of the diameter]
+  std::optional<double> tolerance;      ///< [0.01 mm]
+};
+
+struct MadeToolpath {
+  Toolpath path;
+  std::vector<std::string> warnings;  ///< those of the path, and a unit that is merely assumed
+};
+
+/// The tool path of a surface. Errors: those of `plan`; E203 where it would take more than 20,000
+/// passes: a typing error in a length, most likely (`value`: the passes). A surface in a unit that
+/// machines do not know is refused by `plan`. Reentrant; uses as many threads as `plan.threads`
+/// says.
+[[nodiscard]] Result<MadeToolpath> make_toolpath(const SurfaceModel& model, const ToolpathJob& job,
+                                                 const Progress& progress = {});
+
+/// The path as it is drawn over the surface: thinned out within four tolerances.
+[[nodiscard]] std::vector<ScenePolyline> drawn(const Toolpath& path);
+
+}  // namespace obvid

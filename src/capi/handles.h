@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "obvid/io/picture_svg.h"
+#include "obvid/io/stored_contour.h"
+#include "obvid/obvid.h"
+#include "obvid/pipeline/export.h"
+#include "obvid/series/point_series.h"
+
+// What stands behind the opaque types of obvid.h.
+
+/// What jobs read: points as they were given, or a text, or the path of a file that only the helper
+/// of the CAD kernel reads.
+struct obvid_input {
+  std::string name;
+  std::optional<obvid::PointSeries> points;
+  std::string text;
+  bool by_path = false;
+};
+
+struct obvid_contour {
+  obvid::StoredContour stored;
+  std::string name = "contour";  ///< of the curve, where a format has a place for it
+  obvid::PictureTitles picture;
+  std::vector<std::string> warnings;  ///< of the fit
+};
+
+struct obvid_files {
+  std::vector<obvid::ExportedFile> files;
+  std::vector<std::string> remarks;
+};

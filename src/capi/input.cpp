@@ -1,0 +1,93 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <cmath>
+#include <memory>
+#include <string>
+#include <utility>
+
+#include "door.h"
+#include "handles.h"
+#include "obvid/io/read_file.h"
+#include "obvid/pipeline/import.h"
+
+namespace obvid::capi {
+namespace {
+
+constexpr std::size_t kFewestPoints = 3;
+
+/// Points of an array, checked as those of files are: finite, no two neighbours equal, three of
+/// them.
+Result<PointSeries> series_of_array(const double* xy, std::size_t n) {
+  PointSeries out;
+  std::size_t merged = 0;
+  for (std::size_t i = 0; i < n; ++i) {
+    const Vec2 p{xy[2 * i], xy[2 * i + 1]};
+    if (!std::isfinite(p.x) || !std::isfinite(p.y)) {
+      return fail({ErrorCode::kNotFinite, "a coordinate is not finite",
+                   "point " + std::to_string(i + 1), "", static_cast<std::ptrdiff_t>(i)});
+    }
+    if (!out.points.empty() && out.points.back() == p) {
+      ++merged;
+    } else {
+      out.points.push_back(p);
+    }
+  }
+  if (out.points.size() < kFewestPoints) {
+    return fail({ErrorCode::kTooFewPoints, "a contour needs 3 distinct points", "", ""});
+  }
+  if (merged > 0) {
+    out.warnings.push_back(std::to_string(merged) +
+                           (merged == 1 ? " point that repeats" : " points that repeat") +
+                           " the point before merged into it");
+  }
+  return out;
+}
+
+}  // namespace
+}  // namespace obvid::capi
+
+using obvid::capi::guarded;
+
+extern "C" {
+
+int obvid_points(const double* xy, size_t n, obvid_input** input, obvid_error** error) {
+  return guarded(error, [&]() -> obvid::Result<void> {
+    auto series = obvid::capi::series_of_array(xy, n);
+    if (!series) return obvid::fail(series.error());
+    auto out = std::make_unique<obvid_input>();
+    out->points = std::move(*series);
+    *input = out.release();
+    return {};
+  });
+}
+
+int obvid_read_text(const char* text, size_t size, const char* name, obvid_input** input,
+                    obvid_error** error) {
+  return guarded(error, [&]() -> obvid::Result<void> {
+    auto out = std::make_unique<obvid_input>();
+    out->name = name == nullptr ? "text" : name;
+    out->text.assign(text, size);
+    if (obvid::needs_cad(out->text)) {
+      return obvid::fail({obvid::ErrorCode::kUnsupported,
+                          "STEP, IGES and BREP are read from files, not from memory", out->name,
+                          "write the text to a file and read that"});
+    }
+    *input = out.release();
+    return {};
+  });
+}
+
+int obvid_read_file(const char* path, obvid_input** input, obvid_error** error) {
+  return guarded(error, [&]() -> obvid::Result<void> {
+    auto text = obvid::read_file(path);
+    if (!text) return obvid::fail(text.error());
+    auto out = std::make_unique<obvid_input>();
+    out->name = path;
+    out->text = std::move(*text);
+    out->by_path = obvid::needs_cad(out->text);
+    *input = out.release();
+    return {};
+  });
+}
+
+void obvid_input_free(obvid_input* input) { delete input; }
+}

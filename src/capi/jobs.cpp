@@ -1,0 +1,234 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <utility>
+
+#include "door.h"
+#include "handles.h"
+#include "obvid/io/contour_json.h"
+#include "obvid/io/file_kind.h"
+#include "obvid/io/read_points.h"
+#include "obvid/pipeline/analyse.h"
+#include "obvid/pipeline/drawn_contour.h"
+#include "obvid/pipeline/promise.h"
+#include "obvid/pipeline/refusal.h"
+#include "obvid/pipeline/report_json.h"
+#include "options.h"
+
+namespace obvid::capi {
+namespace {
+
+constexpr Known kFitting{.fit = true, .import = true};
+constexpr Known kImporting{.import = true};
+
+Result<PointSeries> series_of(const obvid_input& input, const Request& request, bool drawings) {
+  Result<PointSeries> series = [&]() -> Result<PointSeries> {
+    if (input.points) return *input.points;
+    if (!drawings) return parse_points(input.text, input.name);
+    return input.by_path ? read_series(input.name, request.import)
+                         : parse_series(input.text, input.name, request.import);
+  }();
+  if (series && request.units) take_units(*series, *request.units);
+  return series;
+}
+
+Result<Drawing> drawing_of(const obvid_input& input) {
+  return input.by_path ? read_drawing(input.name) : parse_drawing(input.text, input.name);
+}
+
+void hand_out_text(const std::string& text, char** out) {
+  if (out != nullptr) *out = text_of(text);
+}
+
+/// A job on a series of points: what is made of them is the report.
+template <class Make>
+int report_on_points(const obvid_input* input, const char* options, const Known& known,
+                     char** report, obvid_error** error, Make&& make) {
+  return guarded(error, [&]() -> Result<void> {
+    const Result<Request> request = request_of(options, known);
+    if (!request) return fail(request.error());
+    Result<PointSeries> series = series_of(*input, *request, known.import);
+    if (!series) return fail(series.error());
+    const Result<std::string> text = make(*series, *request);
+    if (!text) return fail(text.error());
+    hand_out_text(*text, report);
+    return {};
+  });
+}
+
+Result<std::string> drawing_report(const obvid_input& input, const Request& request) {
+  Result<Drawing> drawing = drawing_of(input);
+  if (!drawing) return fail(drawing.error());
+  if (request.units) {
+    if (auto told = take_units(drawing->units, *request.units)) drawing->warnings.push_back(*told);
+  }
+  const auto all = analyse_drawing(std::move(*drawing), request.import.curve, input.name);
+  if (!all) return fail(all.error());
+  const auto& points = all->points;
+  return audit_json(all->drawing, all->audits,
+                    points ? series_report_json(points->series, points->analysis) : "");
+}
+
+Result<std::string> points_report(PointSeries& series) {
+  const Result<Analysis> analysis = analyse(series.points);
+  if (!analysis) return fail(analysis.error());
+  add_rounding_warning(series, *analysis);
+  return series_report_json(series, *analysis);
+}
+
+Result<std::unique_ptr<obvid_contour>> stored_of(const obvid_input& input, const Request& request) {
+  auto out = std::make_unique<obvid_contour>();
+  const bool foreign = input.by_path || (!input.points && is_drawing_text(input.text) &&
+                                         file_kind(input.text) != FileKind::kContour);
+  if (foreign) {
+    const Result<Drawing> drawing = drawing_of(input);
+    if (!drawing) return fail(drawing.error());
+    auto drawn = drawn_contour(*drawing, request.import, input.name);
+    if (!drawn) return fail(drawn.error());
+    out->stored = std::move(drawn->stored);
+    out->name = std::move(drawn->name);
+    out->picture = std::move(drawn->picture);
+  } else {
+    auto stored = contour_from_json(input.text, input.name);
+    if (!stored) return fail(stored.error());
+    out->stored = std::move(*stored);
+    out->picture.name = std::filesystem::path(input.name).filename().string();
+  }
+  return out;
+}
+
+/// The points that would have to move, else those that the refusal names.
+std::vector<std::size_t> points_in_the_way(const Refusal& refusal) {
+  return refusal.why && refusal.why->found ? refusal.why->moved : std::vector<std::size_t>{};
+}
+
+}  // namespace
+}  // namespace obvid::capi
+
+using namespace obvid;
+using namespace obvid::capi;
+
+extern "C" {
+
+int obvid_fit(const obvid_input* input, const char* options, const obvid_run* run,
+              obvid_contour** contour, char** report, obvid_error** error) {
+  return guarded(error, [&]() -> Result<void> {
+    const Result<Request> request = request_of(options, kFitting);
+    if (!request) return fail(request.error());
+    const Result<PointSeries> series = series_of(*input, *request, true);
+    if (!series) return fail(series.error());
+    Result<Fit> made = fit(*series, request->job, context_of(run));
+    if (!made) return fail(made.error());
+    const std::optional<Error> broken = broken_promise(*made);
+    auto out = std::make_unique<obvid_contour>();
+    char* const text = report == nullptr ? nullptr : text_of(fit_report_json(*made, {}));
+    out->stored = {std::move(made->contour), std::move(made->report), std::move(made->certificate)};
+    out->warnings = std::move(made->warnings);
+    out->picture.name = series->name;
+    if (!series->label.empty()) out->name = series->label;
+    if (report != nullptr) *report = text;
+    if (contour != nullptr) *contour = out.release();
+    if (broken) return fail(*broken);
+    return {};
+  });
+}
+
+int obvid_why_not(const obvid_input* input, const char* options, const obvid_run* run,
+                  char** report, obvid_error** error) {
+  int code = 0;
+  const int failed = guarded(error, [&]() -> Result<void> {
+    const Result<Request> request = request_of(options, kFitting);
+    if (!request) return fail(request.error());
+    const Result<PointSeries> series = series_of(*input, *request, true);
+    if (!series) return fail(series.error());
+    if (report != nullptr) *report = nullptr;
+    const RunContext context = context_of(run);
+    const Result<Fit> made = fit(*series, request->job, RunContext({}, context.cancelled));
+    if (made) return {};
+    if (exit_code(made.error().code) != OBVID_NO_CONTOUR) return fail(made.error());
+    const Result<Refusal> found = explain_refusal(*series, request->job, made.error(), context);
+    if (!found) return fail(found.error());
+    hand_out_text(refusal_json(found->error, *series, found->why, found->range, {}), report);
+    code = hand_out(found->error, error, points_in_the_way(*found));
+    return {};
+  });
+  return failed != 0 ? failed : code;
+}
+
+int obvid_suggest(const obvid_input* input, const char* options, const obvid_run* run,
+                  char** report, obvid_error** error) {
+  return report_on_points(
+      input, options, kFitting, report, error, [&](PointSeries& series, const Request& request) {
+        return trade_off(series, request.job, context_of(run)).map([&](const TradeOff& found) {
+          return trade_off_json(found, series.warnings, {});
+        });
+      });
+}
+
+int obvid_analyse(const obvid_input* input, const char* options, const obvid_run* run,
+                  char** report, obvid_error** error) {
+  (void)run;  // takes no longer than reading
+  return guarded(error, [&]() -> Result<void> {
+    const Result<Request> request = request_of(options, kImporting);
+    if (!request) return fail(request.error());
+    Result<std::string> text = [&]() -> Result<std::string> {
+      const bool drawing = input->by_path || (!input->points && is_drawing_text(input->text));
+      if (drawing) return drawing_report(*input, *request);
+      Result<PointSeries> series = series_of(*input, *request, false);
+      if (!series) return fail(series.error());
+      return points_report(*series);
+    }();
+    if (!text) return fail(text.error());
+    hand_out_text(*text, report);
+    return {};
+  });
+}
+
+int obvid_region(const obvid_input* input, const char* options, const obvid_run* run, char** report,
+                 obvid_error** error) {
+  (void)run;
+  return report_on_points(input, options, kFitting, report, error,
+                          [&](PointSeries& series, const Request& request) {
+                            RegionJob job;
+                            job.job = request.job;
+                            return region_table(series, job).map([&](const RegionTable& found) {
+                              return region_json(series, found);
+                            });
+                          });
+}
+
+int obvid_compare(const obvid_input* input, const char* options, const obvid_run* run,
+                  char** report, obvid_error** error) {
+  return report_on_points(
+      input, options, kFitting, report, error, [&](PointSeries& series, const Request& request) {
+        return compare_carriers(series, request.job, context_of(run))
+            .map([&](const Comparison& found) { return comparison_json(series, found); });
+      });
+}
+
+int obvid_stored(const obvid_input* input, const char* options, const obvid_run* run,
+                 obvid_contour** contour, obvid_error** error) {
+  (void)run;
+  return guarded(error, [&]() -> Result<void> {
+    const Result<Request> request = request_of(options, kImporting);
+    if (!request) return fail(request.error());
+    auto out = stored_of(*input, *request);
+    if (!out) return fail(out.error());
+    if (request->units) (void)take_units((*out)->stored.contour.units, *request->units);
+    *contour = out->release();
+    return {};
+  });
+}
+
+int obvid_verify(const obvid_contour* contour, const obvid_run* run, char** report,
+                 obvid_error** error) {
+  return guarded(error, [&]() -> Result<void> {
+    const Result<Verification> found = verify(contour->stored, context_of(run));
+    if (!found) return fail(found.error());
+    hand_out_text(verification_json(contour->stored, *found), report);
+    if (const auto broken = broken_promise(contour->stored, *found)) return fail(*broken);
+    return {};
+  });
+}
+}

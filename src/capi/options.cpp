@@ -1,0 +1,189 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "options.h"
+
+#include <cmath>
+#include <cstdint>
+#include <functional>
+#include <map>
+#include <nlohmann/json.hpp>
+#include <utility>
+#include <vector>
+
+#include "obvid/core/near_name.h"
+#include "obvid/pipeline/format_values.h"
+#include "obvid/pipeline/job_values.h"
+
+namespace obvid::capi {
+namespace {
+
+using Json = nlohmann::json;
+using Setter = std::function<bool(const Json&)>;  // false: another type of value is meant
+
+Setter flag(bool& to) {
+  return [&to](const Json& value) {
+    if (value.is_boolean()) to = value.get<bool>();
+    return value.is_boolean();
+  };
+}
+
+template <class To>
+Setter number(To& to) {
+  return [&to](const Json& value) {
+    if (value.is_number()) to = value.get<double>();
+    return value.is_number();
+  };
+}
+
+Setter count(std::optional<long>& to) {
+  return [&to](const Json& value) {
+    if (value.is_number_integer()) to = static_cast<long>(value.get<std::int64_t>());
+    return value.is_number_integer();
+  };
+}
+
+/// A text, or a number in its place; dumped numbers read back to the same double.
+std::string typed(const Json& value) {
+  return value.is_string() ? value.get<std::string>() : value.dump();
+}
+
+bool is_typed(const Json& value) { return value.is_string() || value.is_number(); }
+
+template <class To>
+Setter text(To& to) {
+  return [&to](const Json& value) {
+    if (is_typed(value)) to = typed(value);
+    return is_typed(value);
+  };
+}
+
+/// {"5": 90}: a value for each of some points.
+Setter at_points(std::vector<std::string>& to) {
+  return [&to](const Json& value) {
+    if (!value.is_object()) return false;
+    for (const auto& [point, one] : value.items()) {
+      if (!is_typed(one)) return false;
+      to.push_back(point + "=" + typed(one));
+    }
+    return true;
+  };
+}
+
+/// [3, 7]
+Setter points(std::vector<std::string>& to) {
+  return [&to](const Json& value) {
+    if (!value.is_array()) return false;
+    for (const Json& one : value) {
+      if (!is_typed(one)) return false;
+      to.push_back(typed(one));
+    }
+    return true;
+  };
+}
+
+/// Values as they stand, before they are checked.
+struct Written {
+  TypedValues typed;
+  FormatValues formats;
+  std::string carrier = "spiral";
+  std::optional<double> tolerance;
+  std::optional<std::string> units;
+};
+
+std::map<std::string, Setter> setters(Written& w, Request& out, const Known& known) {
+  std::map<std::string, Setter> all{{"units", text(w.units)}};
+  TypedValues& t = w.typed;
+  FormatValues& f = w.formats;
+  if (known.fit) {
+    all.insert({{"carrier", text(w.carrier)},
+                {"tolerance", number(w.tolerance)},
+                {"convex", flag(out.job.convex)},
+                {"noise", text(t.noise)},
+                {"primitives", flag(out.job.primitives)},
+                {"closed", flag(t.closed)},
+                {"open", flag(t.open)},
+                {"corner-angle", number(t.corner_angle_deg)},
+                {"no-corners", flag(t.no_corners)},
+                {"start-heading", text(t.start_heading)},
+                {"end-heading", text(t.end_heading)},
+                {"start-radius", text(t.start_radius)},
+                {"end-radius", text(t.end_radius)},
+                {"heading-at", at_points(t.heading_at)},
+                {"radius-at", at_points(t.radius_at)},
+                {"kappa-at", at_points(t.kappa_at)},
+                {"corner-at", points(t.corner_at)},
+                {"continuity", text(t.continuity)},
+                {"prefer", text(t.prefer)}});
+  }
+  if (known.import) {
+    all.insert({{"curve", count(f.curve)},
+                {"chord-tolerance", number(f.chord_tolerance)},
+                {"drawing", text(f.drawing)}});
+  }
+  if (known.formats) {
+    all.insert({{"output-tolerance", number(f.tolerance)},
+                {"for", text(f.profile)},
+                {"controller", text(f.controller)},
+                {"motion", text(f.motion)},
+                {"feed", number(f.feed)},
+                {"samples", count(f.samples)},
+                {"sample-step", number(f.sample_step)},
+                {"svg", text(f.svg)},
+                {"plot", text(f.plot)},
+                {"step", text(f.step)},
+                {"dxf", text(f.dxf)},
+                {"face", number(f.face_width)}});
+  }
+  return all;
+}
+
+Result<void> take(const Json& object, const std::map<std::string, Setter>& known) {
+  for (const auto& [name, value] : object.items()) {
+    const auto at = known.find(name);
+    if (at == known.end()) {
+      std::vector<std::string> names;
+      std::string all;
+      for (const auto& [one, setter] : known) {
+        names.push_back(one);
+        all += (all.empty() ? "available are " : ", ") + one;
+      }
+      return fail({ErrorCode::kUsage, "unknown option '" + name + "'", "options",
+                   did_you_mean(name, names, all)});
+    }
+    if (!at->second(value)) {
+      return fail(bad_option("another type of value is expected", name, "docs/c.md has the types"));
+    }
+  }
+  return {};
+}
+
+Result<void> check(const Written& w, Request& out) {
+  return set_tolerance(w.tolerance, out.job)
+      .and_then([&] { return set_values(w.typed, out.job); })
+      .and_then(
+          [&] { return carrier_named(w.carrier).map([&](Carrier one) { out.job.carrier = one; }); })
+      .and_then([&] { return set_formats(w.formats, out.formats, out.profile); })
+      .and_then([&] { return set_import(w.formats, out.import); })
+      .and_then([&]() -> Result<void> {
+        if (has_both_headings(out.job)) out.import.two_points = TwoPoints::kDo;
+        if (!w.units) return {};
+        return given_units(*w.units, "units").map([&](Units given) { out.units = given; });
+      });
+}
+
+}  // namespace
+
+Result<Request> request_of(const char* options, const Known& known) {
+  Request out;
+  if (options == nullptr || *options == '\0') return out;
+  const Json object = Json::parse(options, nullptr, false);
+  if (!object.is_object()) {
+    return fail({ErrorCode::kBadJson, "the options are no JSON object", "options",
+                 "write {\"noise\": 0.01}"});
+  }
+  Written written;
+  if (auto done = take(object, setters(written, out, known)); !done) return fail(done.error());
+  if (auto done = check(written, out); !done) return fail(done.error());
+  return out;
+}
+
+}  // namespace obvid::capi

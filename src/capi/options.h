@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "obvid/core/result.h"
+#include "obvid/core/units.h"
+#include "obvid/pipeline/export.h"
+#include "obvid/pipeline/fit.h"
+#include "obvid/pipeline/import.h"
+
+namespace obvid::capi {
+
+/// What the options of a call ask for.
+struct Request {
+  FitJob job;
+  ImportOptions import;
+  ExportOptions formats;
+  std::string profile;  ///< what "for" chose, in words
+  std::optional<Units> units;
+};
+
+/// Which options a job knows.
+struct Known {
+  bool fit = false;      ///< carrier, tolerance, fixed data, ...
+  bool import = false;   ///< curve, drawing, chord-tolerance
+  bool formats = false;  ///< of files
+};
+
+/// Reads a JSON object with the names of the command line; NULL and "" are no options. Errors: E308
+/// no JSON object; E201 a name that the job does not know; E203 a value that is not possible.
+[[nodiscard]] Result<Request> request_of(const char* options, const Known& known);
+
+}  // namespace obvid::capi

@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <vector>
+
+#include "link_model.h"
+#include "obvid/chain/chain.h"
+#include "obvid/chain/spiral_shape.h"
+#include "obvid/core/watch.h"
+#include "slope_system.h"
+
+namespace obvid::chain_detail {
+
+/// Weights of a link's squared unevenness, and of the logarithm of curvatures that keep their sign
+/// (docs/methods/g3.md: statistics of random spirals decided).
+struct SlopeWeights {
+  double change = 1.0, bend = 10.0, sign = 0.15;
+};
+
+/// What a chain with continuous slopes has to be.
+struct SlopeProblem {
+  ChainProblem chain;
+  std::vector<SpiralForm> form;   ///< of each link
+  std::vector<bool> equal_slope;  ///< whether the slopes of both links at a node shall be equal
+};
+
+/// Headings and curvatures with equal slopes at the joints of a chain, the most even ones: Newton's
+/// method for the equations of Lagrange, with Gauss-Newton's Hessian of the unevenness.
+class SlopeSolver {
+ public:
+  explicit SlopeSolver(const SlopeProblem& problem, const SlopeWeights& weights = {});
+
+  struct Outcome {
+    bool valid = false;      ///< all forms exist at the start
+    bool converged = false;  ///< no step changes anything but by rounding
+    int steps = 0;
+    double largest_gap = 0.0;  ///< of the logarithms of slopes that shall be equal
+  };
+  [[nodiscard]] Outcome run(const std::vector<Element>& start, int most_steps, Watch& watch);
+
+  [[nodiscard]] std::vector<Element> elements(const std::vector<Vec2>& points) const {
+    return model_.elements(points, x_);
+  }
+  [[nodiscard]] std::vector<LinkState> links() const { return model_.links(x_); }
+  /// Logarithm of the slope before over the slope after each node, where they shall be equal.
+  [[nodiscard]] const std::vector<double>& gaps() const { return gap_; }
+
+ private:
+  struct Value {
+    double energy = 0.0, gaps = 0.0;
+  };
+  [[nodiscard]] Value evaluate(const std::vector<double>& x, std::vector<double>* gap) const;
+  void set_units();
+  void assemble();
+  void add_sign_and_fixed(std::size_t node);
+  /// The unknowns moved by a part of the solution of the equations.
+  void move_trial(double part);
+
+  const SlopeProblem& problem_;
+  LinkModel model_;
+  SlopeWeights weights_;
+  SlopeSystem system_;
+  std::vector<double> x_, trial_, unit_, gap_;
+};
+
+}  // namespace obvid::chain_detail

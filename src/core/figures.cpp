@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "obvid/core/figures.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace obvid {
+
+std::string significant(double value, int digits) {
+  if (std::isnan(value)) return "-";
+  if (std::isinf(value)) return value < 0.0 ? "-inf" : "inf";
+  if (value == 0.0) return "0";
+  constexpr double kPlainFrom = 1e-4;
+  constexpr double kPlainTo = 1e7;
+  const double size = std::fabs(value);
+  if (size < kPlainFrom || size >= kPlainTo) return fmt::format("{:.{}e}", value, digits - 1);
+  const int before = static_cast<int>(std::floor(std::log10(size))) + 1;
+  return fmt::format("{:.{}f}", value, std::clamp(digits - before, 0, digits + 3));
+}
+
+std::string counted(std::size_t count, const char* one, const char* many) {
+  return fmt::format("{} {}", count, count == 1 ? one : many);
+}
+
+std::string listed(const std::vector<std::string>& names) {
+  std::string text;
+  for (const std::string& name : names) text += (text.empty() ? "" : ", ") + name;
+  return text;
+}
+
+}  // namespace obvid

@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "obvid/curve/contour.h"
+
+namespace obvid::pipeline_detail {
+
+/// A warning about the part of a contour that runs farthest from both of its points, when it runs
+/// farther than the points reach from their middle to both sides: where so much is left open, the
+/// curve is a guess. `given` holds for each point whether the user fixed its heading or curvature:
+/// parts beside it do what was asked for. Invariant under motions and scaling. Cost O(pieces).
+[[nodiscard]] std::optional<std::string> warn_of_excursion(const Contour& contour,
+                                                           const std::vector<bool>& given);
+
+}  // namespace obvid::pipeline_detail

@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "obvid/chain/series_chain.h"
+#include "obvid/core/result.h"
+#include "obvid/core/watch.h"
+#include "obvid/region/feasible_data.h"
+#include "obvid/series/analysis.h"
+
+namespace obvid::pipeline_detail {
+
+/// What every point of an open series may have while the curvature changes as its adjacent circles
+/// say and all other wishes stay: the curves among which `form_elements` chooses before it turns a
+/// direction. Error: E403 as `chain_problem` has it.
+[[nodiscard]] Result<std::vector<FeasibleData>> series_ranges(const Analysis& analysis,
+                                                              const ChainWishes& wishes);
+
+/// The least curvature (unsigned, 1/unit) that no point of an open series need exceed, good to a
+/// thousandth of it and rounded upward, while all wishes stay. Nothing where they leave no curve.
+[[nodiscard]] std::optional<double> least_largest_curvature(const Analysis& analysis,
+                                                            const ChainWishes& wishes);
+
+/// Elements in the middle of these ranges (`central_data`), joined by spirals with the directions
+/// of the analysis. Nothing when there are none, or when rounding leaves no room for them.
+[[nodiscard]] std::optional<SeriesChain> central_chain(const std::vector<Vec2>& points,
+                                                       const Analysis& analysis,
+                                                       const ChainWishes& wishes, Watch& watch);
+
+}  // namespace obvid::pipeline_detail

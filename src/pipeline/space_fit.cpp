@@ -1,0 +1,369 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "obvid/pipeline/space_fit.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <utility>
+
+#include "obvid/io/file_kind.h"
+#include "obvid/io/read_columns.h"
+#include "obvid/io/read_file.h"
+#include "obvid/io/read_sections.h"
+#include "obvid/pipeline/skin_sections.h"
+#include "space_shape.h"
+
+namespace obvid {
+namespace {
+
+using pipeline_detail::SpacePlace;
+using pipeline_detail::SpaceShape;
+
+/// Planar is what leaves its plane by no more than this part of its size: rounding of doubles.
+constexpr double kPlanarPart = 1e-9;
+/// Between two joints: places where curvature and torsion are looked at.
+constexpr int kPlacesOfSpan = 32;
+/// Places among which the one nearest to a moved point is sought before it is refined.
+constexpr int kGuesses = 32;
+constexpr std::size_t kHeadBytes = 4096;  // that tell the kind of a file
+
+double largest_extent(const std::vector<Vec3>& points) {
+  double out = 0.0;
+  for (const Vec3& p : points) out = std::max(out, norm(p - points.front()));
+  return out;
+}
+
+/// Frame whose normal is the direction that is looked along, or its opposite: x to the right and y
+/// upward as drawings have them.
+Frame frame_along(Vec3 direction, Vec3 origin) {
+  const Vec3 d = unit(direction);
+  const Vec3 up{0, 0, 1};
+  if (norm(cross(up, d)) == 0.0) return {origin, {1, 0, 0}, {0, 1, 0}};
+  Vec3 x = unit(cross(up, d));
+  // seen along y, x points to the right
+  if (x.x < 0.0 || (x.x == 0.0 && x.y < 0.0)) x = -x;
+  const Vec3 y = unit(cross(d, x));
+  return {origin, x, dot(y, up) < 0.0 ? -y : y};
+}
+
+PointSeries flat_series(const SpaceSeries& series, const Frame& frame) {
+  PointSeries out;
+  out.name = series.name;
+  out.units = series.units;
+  out.rounding = rounding_in(frame, series.rounding).within;
+  for (const Vec3& p : series.points) out.points.push_back(frame.in_plane(p));
+  return out;
+}
+
+bool fixes_data(const FitJob& job) {
+  return job.start_heading || job.end_heading || job.start_kappa || job.end_kappa ||
+         job.start_thetas || job.end_thetas || job.start_kappas || job.end_kappas ||
+         !job.wishes.empty();
+}
+
+Error within_part(Error error, const char* part) {
+  error.what = fmt::format("{}: {}", part, error.what);
+  return error;
+}
+
+Error of_space(ErrorCode code, std::string what, std::string hint) {
+  return {code, std::move(what), "", std::move(hint), -1, 0.0};
+}
+
+/// Arc lengths of a contour at its points, and how far each is from it at most.
+std::vector<double> lengths_at_points(const Contour& contour, const ContourPath& path) {
+  std::vector<std::optional<double>> at(contour.points.size());
+  for (std::size_t k = 0; k < contour.joints.size(); ++k) {
+    if (const auto source = contour.joints[k].source) at[*source] = path.joint(k);
+  }
+  std::vector<double> out(at.size(), 0.0);
+  for (std::size_t i = 0; i < at.size(); ++i) {
+    if (at[i]) {
+      out[i] = *at[i];
+      continue;
+    }
+    const double from = i > 0 ? out[i - 1] : 0.0;
+    double to = path.length();
+    for (std::size_t j = i + 1; j < at.size(); ++j) {
+      if (at[j]) {
+        to = *at[j];
+        break;
+      }
+    }
+    double guess = from, least = norm(path.at(from).point - contour.points[i]);
+    for (int k = 1; k <= kGuesses; ++k) {
+      const double s = from + (to - from) * k / kGuesses;
+      const double far = norm(path.at(s).point - contour.points[i]);
+      if (far >= least) continue;
+      least = far;
+      guess = s;
+    }
+    out[i] = path.nearest(contour.points[i], guess, from, to);
+  }
+  return out;
+}
+
+double largest_of(const std::vector<double>& values) {
+  return values.empty() ? 0.0 : *std::max_element(values.begin(), values.end());
+}
+
+/// A curve that does not lie in a plane, in one projection.
+class SpatialForming {
+ public:
+  SpatialForming(const SpaceSeries& series, const SpaceJob& job, const RunContext& run)
+      : series_(series), job_(job), run_(run) {}
+
+  Result<SpaceFit> along(Vec3 direction) const {
+    SpaceFit out;
+    out.name = series_.name;
+    out.units = series_.units;
+    out.points = series_.points;
+    out.frame = frame_along(direction, {});
+    const PlaneRounding rounding = rounding_in(out.frame, series_.rounding);
+    PointSeries plan = flat_series(series_, out.frame);
+    plan.fixed = job_.fixed;
+    FitJob plan_job = job_.fit;
+    // both parts move a point: together no further than the noise
+    if (plan_job.noise) plan_job.noise = std::numbers::sqrt2 / 2.0 * *plan_job.noise;
+    auto first = fit(plan, plan_job, run_);
+    if (!first) return fail(within_part(first.error(), "projection"));
+    out.plan = std::move(*first);
+    if (out.plan.contour.closed || out.plan.certificate.corners > 0) {
+      return fail(of_space(ErrorCode::kUnsupported,
+                           out.plan.contour.closed
+                               ? "the projection is closed: closed curves must lie in a plane"
+                               : "the projection has a corner: corners must lie in a plane",
+                           "split the series there, or give --open"));
+    }
+    auto second = heights(out, rounding.across);
+    if (!second) return fail(second.error());
+    out.unrolled = std::move(*second);
+    if (auto done = measure(out); !done) return fail(done.error());
+    return out;
+  }
+
+ private:
+  Result<Fit> heights(const SpaceFit& so_far, double across) const {
+    const Contour& plan = so_far.plan.contour;
+    const ContourPath path(plan.pieces);
+    const std::vector<double> lengths = lengths_at_points(plan, path);
+    if (lengths.size() != series_.points.size()) {
+      return fail(of_space(ErrorCode::kChordReversal,
+                           "neighbouring points have one place in the projection",
+                           "choose another direction with --along"));
+    }
+    PointSeries unrolled;
+    unrolled.name = series_.name;
+    unrolled.units = series_.units;
+    // the lengths are computed, not given: heights need not be met better than they are printed
+    const double noise = std::max(across, std::numbers::sqrt2 / 2.0 * job_.fit.noise.value_or(0.0));
+    for (std::size_t i = 0; i < lengths.size(); ++i) {
+      if (i > 0 && !(lengths[i] > lengths[i - 1])) {
+        return fail(of_space(
+            ErrorCode::kChordReversal,
+            fmt::format("the projection does not get on between points {} and {}", i, i + 1),
+            "choose another direction with --along"));
+      }
+      unrolled.points.push_back({lengths[i], so_far.frame.height(series_.points[i])});
+      FixedData free;
+      const bool end = i == 0 || i + 1 == lengths.size();
+      if (noise > 0.0 && !end) free.tolerance = noise;
+      unrolled.fixed.push_back(free);
+    }
+    FitJob job = job_.fit;
+    job.noise.reset();
+    job.noise_from_rounding = false;
+    job.start_heading.reset();
+    job.end_heading.reset();
+    job.start_kappa.reset();
+    job.end_kappa.reset();
+    job.start_thetas.reset();
+    job.end_thetas.reset();
+    job.start_kappas.reset();
+    job.end_kappas.reset();
+    job.wishes.clear();
+    job.closing = Closing::kOpen;
+    if (noise == 0.0) unrolled.fixed.clear();
+    auto made = fit(unrolled, job, run_);
+    if (!made) return fail(within_part(made.error(), "heights over the arc length"));
+    if (made->certificate.corners > 0) {
+      return fail(of_space(ErrorCode::kUnsupported,
+                           "the heights have a corner: corners must lie in a plane",
+                           "split the series there"));
+    }
+    return made;
+  }
+
+  static Result<void> measure(SpaceFit& out) {
+    const SpaceShape shape(out.frame, out.plan.contour, out.unrolled->contour);
+    const std::vector<double> joints = shape.joints();
+    bool torsion_begun = false;
+    for (std::size_t k = 0; k + 1 < joints.size(); ++k) {
+      const double width = (joints[k + 1] - joints[k]) / kPlacesOfSpan;
+      for (int j = 0; j < kPlacesOfSpan; ++j) {
+        const double from = joints[k] + width * j,
+                     to = j + 1 < kPlacesOfSpan ? joints[k] + width * (j + 1) : joints[k + 1];
+        const auto a = shape.curvatures(from, false), b = shape.curvatures(to, true);
+        enclose(a, b, to - from, k == 0 && j == 0, out);
+        // headings within the cell: between both ends, and further by what it may turn
+        const double turn = (to - from) * std::max(std::abs(a.unrolled), std::abs(b.unrolled));
+        if (std::max(std::abs(a.slope), std::abs(b.slope)) + turn >= 0.5 * std::numbers::pi) {
+          return fail(of_space(ErrorCode::kWanders,
+                               "the curve rises so steeply that its projection may run back",
+                               "choose another direction with --along"));
+        }
+        for (const auto& torsion : {shape.at(from).torsion, shape.at(to, true).torsion}) {
+          ++out.torsion_places;
+          if (!torsion) continue;
+          out.least_torsion = torsion_begun ? std::min(out.least_torsion, *torsion) : *torsion;
+          out.largest_torsion = torsion_begun ? std::max(out.largest_torsion, *torsion) : *torsion;
+          torsion_begun = true;
+        }
+      }
+      if (k == 0) continue;
+      const auto before = shape.at(joints[k], true).torsion, after = shape.at(joints[k]).torsion;
+      if (before && after)
+        out.torsion_step = std::max(out.torsion_step, std::abs(*after - *before));
+    }
+    at_points(shape, out);
+    out.largest_move = largest_of(out.plan.report.moves) + largest_of(out.unrolled->report.moves);
+    return {};
+  }
+
+  /// Curvatures of both contours are monotone on their pieces, so that ends of a cell bound them.
+  static void enclose(const SpaceShape::Curvatures& a, const SpaceShape::Curvatures& b,
+                      double width, bool first, SpaceFit& out) {
+    const auto largest = [](double x, double y) { return std::max(std::abs(x), std::abs(y)); };
+    const auto least = [](double x, double y) {
+      return (x < 0.0) != (y < 0.0) ? 0.0 : std::min(std::abs(x), std::abs(y));
+    };
+    const double turn = width * largest(a.unrolled, b.unrolled);
+    const double steep = largest(a.slope, b.slope) + turn;
+    const double level = std::max(0.0, least(a.slope, b.slope) - turn);
+    const double high = std::hypot(largest(a.unrolled, b.unrolled),
+                                   largest(a.plan, b.plan) * std::pow(std::cos(level), 2));
+    const double cosine = std::max(0.0, std::cos(std::min(steep, 0.5 * std::numbers::pi)));
+    const double low =
+        std::hypot(least(a.unrolled, b.unrolled), least(a.plan, b.plan) * cosine * cosine);
+    out.least_curvature = first ? low : std::min(out.least_curvature, low);
+    out.largest_curvature = first ? high : std::max(out.largest_curvature, high);
+  }
+
+  static void at_points(const SpaceShape& shape, SpaceFit& out) {
+    const std::vector<double> lengths = lengths_at_points(out.unrolled->contour, shape.unrolled());
+    for (const double sigma : lengths) {
+      const SpacePlace before = shape.at(sigma, true), after = shape.at(sigma);
+      out.at_points.push_back(
+          {after.plan_length, after.height, after.curvature, before.torsion, after.torsion});
+    }
+  }
+
+  const SpaceSeries& series_;
+  const SpaceJob& job_;
+  const RunContext& run_;
+};
+
+int bends_of(const SpaceFit& one) {
+  const auto count = [](const Fit& part) { return part.report.vertices + part.report.inflections; };
+  return count(one.plan) + count(*one.unrolled);
+}
+
+Result<SpaceFit> planar_fit(const SpaceSeries& series, const SpaceJob& job, const Frame& frame,
+                            double flatness, const RunContext& run) {
+  SpaceFit out;
+  out.name = series.name;
+  out.units = series.units;
+  out.points = series.points;
+  out.frame = frame;
+  out.flatness = flatness;
+  auto made = fit(flat_series(series, frame), job.fit, run);
+  if (!made) return fail(made.error());
+  out.plan = std::move(*made);
+  out.largest_move = flatness + largest_of(out.plan.report.moves);
+  out.warnings = out.plan.warnings;
+  return out;
+}
+
+/// The fewest vertices and inflections of the directions that give a curve.
+Result<SpaceFit> best_projection(const SpaceSeries& series, const SpaceJob& job, Vec3 normal,
+                                 const RunContext& run) {
+  std::optional<SpaceFit> best;
+  std::optional<Error> refused;
+  for (const Vec3 direction : {normal, Vec3{0, 0, 1}, Vec3{0, 1, 0}, Vec3{1, 0, 0}}) {
+    auto one = SpatialForming(series, job, run).along(direction);
+    if (!one && one.error().code == ErrorCode::kCancelled) return fail(one.error());
+    if (!one && !refused) refused = one.error();
+    if (one && (!best || bends_of(*one) < bends_of(*best))) best = std::move(*one);
+  }
+  if (best) return std::move(*best);
+  return fail(*refused);
+}
+
+}  // namespace
+
+Result<std::optional<SpaceSeries>> space_series(const std::string& path, bool any_third) {
+  // what can be read only once is left to whoever reads it next
+  const std::string head = head_of_file(path, kHeadBytes);
+  if (head.empty() || file_kind(head) != FileKind::kPoints) return std::nullopt;
+  const auto text = read_file(path);
+  if (!text) return fail(text.error());
+  const auto table = parse_columns(*text, path);
+  const bool named = table && !table->names.empty();
+  if (named ? !table->column({"z"}) : !any_third) return std::nullopt;
+  auto parsed = parse_sections(*text, path);
+  if (!parsed || parsed->flat || parsed->sections.size() != 1) return std::nullopt;
+  SpaceSeries& series = parsed->sections.front();
+  std::vector<Vec3> points;
+  for (const Vec3& p : series.points) {
+    if (points.empty() || !(points.back() == p)) points.push_back(p);
+  }
+  series.points = std::move(points);
+  const double z = series.points.empty() ? 0.0 : series.points.front().z;
+  const bool level = std::all_of(series.points.begin(), series.points.end(),
+                                 [&](const Vec3& p) { return p.z == z; });
+  if (level) return std::nullopt;
+  return std::optional(std::move(series));
+}
+
+double size_of(const SpaceFit& fit) { return largest_extent(fit.points); }
+
+Result<SpaceFit> fit_space(const SpaceSeries& series, const SpaceJob& job, const RunContext& run) {
+  if (job.along && !(is_finite(*job.along) && norm(*job.along) > 0.0)) {
+    return fail(of_space(ErrorCode::kBadOption, "the direction has no length",
+                         "X, Y, Z, or three numbers: 1,0,0.5"));
+  }
+  const double size = largest_extent(series.points);
+  const Frame plane = plane_of(series.points);
+  const PlaneRounding printed = rounding_in(plane, series.rounding);
+  const double allowed =
+      std::max({kPlanarPart * size, printed.across, job.fit.noise.value_or(0.0)});
+  double flatness = 0.0;
+  for (const Vec3& p : series.points) flatness = std::max(flatness, std::abs(plane.height(p)));
+  if (!job.along && flatness <= allowed && job.fixed.empty()) {
+    return planar_fit(series, job, plane, flatness, run);
+  }
+  if (job.fit.carrier != Carrier::kSpiral) {
+    return fail(of_space(ErrorCode::kBadOption, "a curve that lies in no plane is made of spirals",
+                         "leave --carrier out"));
+  }
+  if (!job.along && (fixes_data(job.fit) || !job.fixed.empty())) {
+    return fail(of_space(ErrorCode::kBadOption,
+                         "headings, radii and corners of points in space are those of a projection",
+                         "--along Z takes them as seen in the plane of x and y, --flat forms the "
+                         "contour in that plane alone"));
+  }
+  auto out = job.along ? SpatialForming(series, job, run).along(*job.along)
+                       : best_projection(series, job, plane.normal(), run);
+  if (!out) return out;
+  for (const Fit* part : {&out->plan, &*out->unrolled}) {
+    const char* name = part == &out->plan ? "projection" : "heights";
+    for (const std::string& one : part->warnings) {
+      out->warnings.push_back(fmt::format("{}: {}", name, one));
+    }
+  }
+  return out;
+}
+
+}  // namespace obvid

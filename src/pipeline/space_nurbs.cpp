@@ -1,0 +1,199 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "contour_nurbs.h"
+#include "obvid/io/contour_json.h"
+#include "obvid/io/json_text.h"
+#include "obvid/pipeline/space_fit.h"
+#include "space_shape.h"
+
+namespace obvid {
+namespace {
+
+using pipeline_detail::SpacePlace;
+using pipeline_detail::SpaceShape;
+
+constexpr std::size_t kMostSpans = 100'000;
+/// Of the tolerance, for what happens between the places that are looked at.
+constexpr double kBetweenPart = 0.25;
+
+/// The C2 cubic through places of a curve, and how far it is from it.
+class CubicOfSpace {
+ public:
+  CubicOfSpace(const SpaceShape& shape, double tolerance)
+      : shape_(shape), tolerance_(tolerance), joints_(shape.joints()) {}
+
+  Result<SpaceNurbs> run() const {
+    for (std::size_t parts = 1; parts * joints_.size() < kMostSpans; parts *= 2) {
+      const std::vector<double> nodes = nodes_of(parts);
+      std::vector<Vec3> points;
+      for (const double sigma : nodes) points.push_back(shape_.at(sigma).point);
+      auto curve = interpolated(points, nodes);
+      if (!curve) return fail(curve.error());
+      const double deviation = bound(*curve, nodes);
+      if (deviation <= tolerance_) return SpaceNurbs{std::move(*curve), deviation};
+    }
+    return fail({ErrorCode::kToleranceNotReached,
+                 fmt::format("no cubic of {} spans follows the curve within {:.3g}", kMostSpans,
+                             tolerance_),
+                 "", "give a larger --output-tolerance", -1, tolerance_});
+  }
+
+ private:
+  [[nodiscard]] std::vector<double> nodes_of(std::size_t parts) const {
+    std::vector<double> out;
+    for (std::size_t k = 0; k + 1 < joints_.size(); ++k) {
+      for (std::size_t j = 0; j < parts; ++j) {
+        const double t = static_cast<double>(j) / static_cast<double>(parts);
+        out.push_back(joints_[k] + t * (joints_[k + 1] - joints_[k]));
+      }
+    }
+    out.push_back(joints_.back());
+    return out;
+  }
+
+  /// Between two places a distance d apart the distance of both curves, by the same parameter, is
+  /// above the chord over its values there by at most (largest second derivatives) d^2 / 8. The
+  /// cubic's is linear on a span; that of the curve is bounded by the curvatures of both contours,
+  /// which are monotone on their pieces.
+  [[nodiscard]] double bound(const SpaceCurve& curve, const std::vector<double>& nodes) const {
+    double largest = 0.0;
+    for (std::size_t k = 0; k + 1 < nodes.size(); ++k) {
+      const double from = nodes[k], to = nodes[k + 1], width = to - from;
+      const auto a = shape_.curvatures(from, false), b = shape_.curvatures(to, true);
+      const double bend = std::hypot(std::max(std::abs(a.plan), std::abs(b.plan)),
+                                     std::max(std::abs(a.unrolled), std::abs(b.unrolled))) +
+                          std::max(norm(evaluate(curve, from).d2), second_before(curve, to, from));
+      const double wanted = std::sqrt(8.0 * kBetweenPart * tolerance_ / std::max(bend, 1e-300));
+      const double steps = std::clamp(std::ceil(width / wanted), 2.0, 1e6);
+      const double step = width / steps;
+      double here = 0.0;
+      for (int j = 1; j < static_cast<int>(steps); ++j) {
+        const double sigma = from + step * j;
+        here = std::max(here, norm(evaluate(curve, sigma).point - shape_.at(sigma).point));
+      }
+      largest = std::max(largest, here + bend * step * step / 8.0);
+    }
+    return largest;
+  }
+
+  /// Second derivative at the end of a span, where the next one begins: it is continuous there, and
+  /// at the end of the domain linear from the middle on.
+  [[nodiscard]] double second_before(const SpaceCurve& curve, double to, double from) const {
+    if (to < domain(curve).to) return norm(evaluate(curve, to).d2);
+    const double middle = 0.5 * (from + to);
+    const SpaceJet jet = evaluate(curve, middle);
+    return norm(jet.d2 + (to - middle) * jet.d3);
+  }
+
+  const SpaceShape& shape_;
+  double tolerance_;
+  std::vector<double> joints_;
+};
+
+void add_vec3(JsonText& json, const char* name, Vec3 v) {
+  json.key(name).begin_array().value(v.x).value(v.y).value(v.z).end_array();
+}
+
+/// Places of a curve at equal steps of its arc length.
+std::vector<std::pair<double, SpacePlace>> equal_places(const SpaceFit& fit, std::size_t count) {
+  std::vector<std::pair<double, SpacePlace>> out;
+  const std::size_t steps = std::max<std::size_t>(count, 2) - 1;
+  const auto add_all = [&](double length, const auto& at) {
+    for (std::size_t k = 0; k <= steps; ++k) {
+      const double s = length * static_cast<double>(k) / static_cast<double>(steps);
+      out.emplace_back(s, at(s));
+    }
+  };
+  if (fit.unrolled) {
+    const SpaceShape shape(fit.frame, fit.plan.contour, fit.unrolled->contour);
+    add_all(shape.length(), [&](double s) { return shape.at(s, s >= shape.length()); });
+    return out;
+  }
+  const ContourPath path(fit.plan.contour.pieces);
+  add_all(path.length(), [&](double s) {
+    const auto place = path.at(s, s >= path.length());
+    return SpacePlace{fit.frame.at(place.point), s, 0.0, std::abs(place.kappa), 0.0};
+  });
+  return out;
+}
+
+}  // namespace
+
+Result<SpaceNurbs> space_nurbs(const SpaceFit& fit, double tolerance) {
+  if (!(tolerance > 0.0 && std::isfinite(tolerance))) {
+    return fail(
+        {ErrorCode::kBadOption, "the tolerance must be a positive length", "", "", -1, tolerance});
+  }
+  if (fit.unrolled) {
+    const SpaceShape shape(fit.frame, fit.plan.contour, fit.unrolled->contour);
+    return CubicOfSpace(shape, tolerance).run();
+  }
+  const auto made = pipeline_detail::contour_nurbs(fit.plan.contour, tolerance);
+  if (!made) return fail(made.error());
+  return SpaceNurbs{placed(made->curve, fit.frame), made->deviation};
+}
+
+std::string space_fit_json(const SpaceFit& fit, const SpaceNurbs& nurbs) {
+  JsonText json;
+  json.begin_object().pair("format", "obvid-space-curve").pair("version", 1);
+  json.pair("name", fit.name);
+  add_units(json, fit.units);
+  json.pair("planar", !fit.unrolled);
+  json.key("frame").begin_object();
+  add_vec3(json, "origin", fit.frame.origin);
+  add_vec3(json, "x", fit.frame.x);
+  add_vec3(json, "y", fit.frame.y);
+  add_vec3(json, "normal", fit.frame.normal());
+  json.end_object().pair("flatness", fit.flatness).pair("largest_move", fit.largest_move);
+  json.key("points").begin_array();
+  for (const Vec3& p : fit.points) {
+    json.begin_array().value(p.x).value(p.y).value(p.z).end_array();
+  }
+  json.end_array();
+  const auto contour = [](const Fit& part) {
+    return contour_to_json({part.contour, part.report, part.certificate});
+  };
+  json.key(fit.unrolled ? "projection" : "contour").raw(contour(fit.plan));
+  if (fit.unrolled) {
+    json.key("heights").raw(contour(*fit.unrolled));
+    json.pair("least_curvature", fit.least_curvature);
+    json.pair("largest_curvature", fit.largest_curvature);
+    json.pair("torsion_places", fit.torsion_places).pair("least_torsion", fit.least_torsion);
+    json.pair("largest_torsion", fit.largest_torsion).pair("torsion_step", fit.torsion_step);
+  }
+  json.key("curve").begin_object().pair("degree", nurbs.curve.degree);
+  json.pair("deviation", nurbs.deviation).key("knots").begin_array();
+  for (const double knot : nurbs.curve.knots) json.value(knot);
+  json.end_array().key("points").begin_array();
+  for (const Vec3& p : nurbs.curve.points) {
+    json.begin_array().value(p.x).value(p.y).value(p.z).end_array();
+  }
+  json.end_array().key("weights").begin_array();
+  for (const double weight : nurbs.curve.weights) json.value(weight);
+  json.end_array().end_object().end_object();
+  return json.take() + "\n";
+}
+
+std::string space_samples_csv(const SpaceFit& fit, std::size_t count) {
+  std::string out = "s,x,y,z,curvature,torsion\n";
+  for (const auto& [s, place] : equal_places(fit, count)) {
+    const Vec3 p = place.point;
+    out += fmt::format("{},{},{},{},{},", s, p.x, p.y, p.z, place.curvature);
+    out += place.torsion ? fmt::format("{}\n", *place.torsion) : "\n";
+  }
+  return out;
+}
+
+std::string space_points_text(const SpaceFit& fit, std::size_t count) {
+  std::string out;
+  for (const auto& [s, place] : equal_places(fit, count)) {
+    out += fmt::format("{} {} {}\n", place.point.x, place.point.y, place.point.z);
+  }
+  return out;
+}
+
+}  // namespace obvid

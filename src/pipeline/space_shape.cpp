@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "space_shape.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace obvid::pipeline_detail {
+namespace {
+
+constexpr int kHalvingsOfLength = 100;
+/// Joints nearer than this part of the length are one.
+constexpr double kSameJoint = 1e-9;
+
+double slope_of_unrolled(const Jet& jet) { return std::atan2(jet.d1.y, jet.d1.x); }
+
+}  // namespace
+
+SpacePlace SpaceShape::at(double sigma, bool before_joint) const {
+  const Jet rolled = unrolled_.jet(sigma, before_joint);
+  const double phi = slope_of_unrolled(rolled), c = std::cos(phi), s = std::sin(phi);
+  const double g = obvid::curvature(rolled), g_rate = curvature_rate(rolled);
+  const double far = std::clamp(rolled.point.x, 0.0, plan_.length());
+  const Jet plane = plan_.jet(far, before_joint);
+  const double kappa = obvid::curvature(plane), kappa_rate = curvature_rate(plane);
+
+  SpacePlace out;
+  out.point = frame_.at(plane.point) + rolled.point.y * frame_.normal();
+  out.plan_length = rolled.point.x;
+  out.height = rolled.point.y;
+  const double b = c * c * kappa;
+  const double squared = g * g + b * b;
+  out.curvature = std::sqrt(squared);
+  if (squared > 0.0) {
+    const double e = g_rate + s * c * c * c * kappa * kappa;
+    const double f = -3.0 * s * c * g * kappa + c * c * c * kappa_rate;
+    out.torsion = (b * e - g * f) / squared;
+  }
+  return out;
+}
+
+SpaceShape::Curvatures SpaceShape::curvatures(double sigma, bool before_joint) const {
+  const Jet rolled = unrolled_.jet(sigma, before_joint);
+  const double far = std::clamp(rolled.point.x, 0.0, plan_.length());
+  return {obvid::curvature(plan_.jet(far, before_joint)), obvid::curvature(rolled),
+          slope_of_unrolled(rolled)};
+}
+
+double SpaceShape::where(double plan_length) const {
+  double low = 0.0, high = length();
+  for (int k = 0; k < kHalvingsOfLength && low < high; ++k) {
+    const double middle = 0.5 * (low + high);
+    if (middle <= low || middle >= high) break;
+    (unrolled_.jet(middle).point.x < plan_length ? low : high) = middle;
+  }
+  return 0.5 * (low + high);
+}
+
+std::vector<double> SpaceShape::joints() const {
+  std::vector<double> all = {0.0, length()};
+  for (std::size_t k = 1; k < unrolled_.pieces().size(); ++k) all.push_back(unrolled_.joint(k));
+  for (std::size_t k = 1; k < plan_.pieces().size(); ++k) all.push_back(where(plan_.joint(k)));
+  std::sort(all.begin(), all.end());
+  std::vector<double> out = {0.0};
+  for (const double one : all) {
+    if (one > out.back() + kSameJoint * length() && one < (1.0 - kSameJoint) * length()) {
+      out.push_back(one);
+    }
+  }
+  out.push_back(length());
+  return out;
+}
+
+}  // namespace obvid::pipeline_detail

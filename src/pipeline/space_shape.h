@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "obvid/curve/contour_path.h"
+#include "obvid/pipeline/space_fit.h"
+
+namespace obvid::pipeline_detail {
+
+/// Place of a space curve with what its arc length's derivatives say.
+struct SpacePlace {
+  Vec3 point;
+  double plan_length = 0.0;
+  double height = 0.0;
+  double curvature = 0.0;
+  std::optional<double> torsion;  ///< nothing where the curvature is 0
+};
+
+/// The curve on the cylinder over a plane contour whose unrolled shape is another one, by its arc
+/// length. Outlived by both contours.
+///
+/// With t, n tangent and left normal of the plane contour, kappa its curvature, d the direction of
+/// heights, phi and g heading and curvature of the unrolled curve: T = cos(phi) t + sin(phi) d,
+/// T' = g E + cos(phi)^2 kappa n with E = -sin(phi) t + cos(phi) d.
+class SpaceShape {
+ public:
+  SpaceShape(const Frame& frame, const Contour& plan, const Contour& unrolled)
+      : frame_(frame), plan_(plan.pieces), unrolled_(unrolled.pieces) {}
+
+  [[nodiscard]] double length() const { return unrolled_.length(); }
+  [[nodiscard]] SpacePlace at(double sigma, bool before_joint = false) const;
+  /// Arc length at which the projection has run so far; the unrolled curve must not run back.
+  [[nodiscard]] double where(double plan_length) const;
+  /// Joints of both contours, ascending, with both ends.
+  [[nodiscard]] std::vector<double> joints() const;
+  /// Curvature of both contours at a place.
+  struct Curvatures {
+    double plan = 0.0, unrolled = 0.0, slope = 0.0;  ///< slope: phi, rad
+  };
+  [[nodiscard]] Curvatures curvatures(double sigma, bool before_joint) const;
+
+  [[nodiscard]] const ContourPath& plan() const { return plan_; }
+  [[nodiscard]] const ContourPath& unrolled() const { return unrolled_; }
+
+ private:
+  Frame frame_;
+  ContourPath plan_, unrolled_;
+};
+
+}  // namespace obvid::pipeline_detail

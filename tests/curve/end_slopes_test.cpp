@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: Apache-2.0
+// Slopes of curvature at the ends of stored pieces, and weights that make up for the rounding of
+// control points.
+#include "obvid/curve/end_slopes.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstddef>
+
+namespace obvid {
+namespace {
+
+/// A quartic that turns by `turn`: a parabola, which hardly changes its curvature when it turns by
+/// little, and some growth.
+RationalBezier flat_quartic(double turn, double growth) {
+  RationalBezier out;
+  out.degree = 4;
+  constexpr double kRise[] = {0.0, 1.0, 4.0 / 3.0, 1.0, 0.0};
+  for (std::size_t j = 0; j < 5; ++j) {
+    const double x = static_cast<double>(j) / 4.0;
+    out.offset[j] = {x, 0.25 * turn * kRise[j] * (1.0 + growth * x)};
+    out.weight[j] = 1.0;
+  }
+  return out;
+}
+
+TEST(EndSlopes, AreTheDerivativeOfTheCurvature) {
+  for (const double turn : {0.9, 0.1, 1e-3}) {
+    const RationalBezier piece = flat_quartic(turn, 0.2);
+    const double start = curvature_rate(evaluate(Piece{piece}, 0.0));
+    const double end = curvature_rate(evaluate(Piece{piece}, 1.0));
+    EXPECT_NEAR(stored_slope(piece, true), start, 1e-10 * turn);
+    EXPECT_NEAR(stored_slope(piece, false), end, 1e-10 * turn);
+  }
+}
+
+TEST(EndSlopes, AreKeptWhereRoundingOfPointsMovedThem) {
+  const RationalBezier meant = flat_quartic(1e-4, 1e-6);
+  const WantedSlopes wanted{stored_slope(meant, true), stored_slope(meant, false)};
+  RationalBezier rounded = meant;
+  constexpr double kLastBits = 3e-16;  // what four operations on coordinates of this size leave
+  rounded.offset[1].y += kLastBits;
+  rounded.offset[2].y -= kLastBits;
+  rounded.offset[3].y -= kLastBits;
+  const double unit = std::max(std::abs(wanted.start), std::abs(wanted.end));
+  EXPECT_GT(std::abs(stored_slope(rounded, true) - wanted.start), 1e-7 * unit);
+  keep_end_slopes(rounded, wanted);
+  EXPECT_NEAR(stored_slope(rounded, true), wanted.start, 1e-8 * unit);
+  EXPECT_NEAR(stored_slope(rounded, false), wanted.end, 1e-8 * unit);
+  for (std::size_t j = 0; j < 5; ++j) {
+    EXPECT_NEAR(rounded.weight[j], meant.weight[j], 1e-9);
+    EXPECT_EQ(rounded.weight[j] == meant.weight[j], j == 0 || j == 4) << j;
+  }
+}
+
+TEST(EndSlopes, OfAnotherCurveAreNotForcedUponIt) {
+  const RationalBezier before = flat_quartic(1e-2, 0.3);
+  RationalBezier piece = before;
+  keep_end_slopes(piece, {1.01 * stored_slope(piece, true), stored_slope(piece, false)});
+  for (std::size_t j = 0; j < 5; ++j) EXPECT_EQ(piece.weight[j], before.weight[j]);
+}
+
+}  // namespace
+}  // namespace obvid

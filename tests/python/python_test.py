@@ -1,0 +1,513 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
+"""The Python package against the program and against figures computed here.
+
+usage: python_test.py PACKAGE_FOLDER LIBRARY PROGRAM SOURCE_FOLDER [unittest options]
+"""
+import copy
+import doctest
+import glob
+import json
+import os
+import pathlib
+import pickle
+import re
+import shutil
+import signal
+import subprocess
+import sys
+import tempfile
+import threading
+import time
+import unittest
+import zipfile
+
+PACKAGE, LIBRARY, PROGRAM, SOURCES = sys.argv[1:5]
+os.environ["OBVID_LIBRARY"] = LIBRARY
+SOURCES = os.path.abspath(SOURCES)
+sys.path.insert(0, PACKAGE)
+sys.dont_write_bytecode = True
+
+import numpy as np  # noqa: E402
+
+import obvid  # noqa: E402
+import obvid.contour  # noqa: E402
+import obvid.jobs  # noqa: E402
+
+SERIES = os.path.join(SOURCES, "examples/series10.csv")
+SECONDS = re.compile(r'"seconds": [0-9.e+-]+')
+POINTS = np.loadtxt(SERIES, delimiter=",", skiprows=1)
+
+
+def program(*arguments):
+    done = subprocess.run([PROGRAM, *arguments], capture_output=True, text=True, timeout=120)
+    return done.stdout, done.returncode
+
+
+def spiral(n, growth=0.1, step=0.3):
+    """Points of a logarithmic spiral: curvature is monotone."""
+    t = step * np.arange(n)
+    r = np.exp(growth * t)
+    return np.column_stack([r * np.cos(t), r * np.sin(t)])
+
+
+class AgainstTheProgram(unittest.TestCase):
+    def test_a_contour_file_has_the_same_bytes(self):
+        with tempfile.TemporaryDirectory() as folder:
+            for carrier in ("spiral", "arcs", "conics", "clothoids", "bspline"):
+                path = os.path.join(folder, "c.json")
+                program("fit", SERIES, "--carrier", carrier, "-o", path)
+                ours = obvid.fit(obvid.read(SERIES), carrier=carrier).text("json")
+                theirs = pathlib.Path(path).read_text()
+                self.assertEqual(SECONDS.sub("", ours), SECONDS.sub("", theirs), carrier)
+
+    def test_every_format_has_the_same_bytes(self):
+        contour = obvid.fit(obvid.read(SERIES))
+        with tempfile.TemporaryDirectory() as folder:
+            for ending in ("svg", "dxf", "step", "igs", "nc", "csv", "sldcrv", "geojson"):
+                theirs = os.path.join(folder, "theirs." + ending)
+                _, code = program("fit", SERIES, "-o", theirs)
+                ours = os.path.join(folder, "ours." + ending)
+                if code == 2:
+                    with self.assertRaises(obvid.UsageError):
+                        contour.write(ours)
+                    continue
+                contour.write(ours)
+                self.assertEqual(
+                    pathlib.Path(ours).read_bytes(), pathlib.Path(theirs).read_bytes(), ending
+                )
+
+    def test_public_series_have_the_vertices_of_the_program(self):
+        files = sorted(glob.glob(os.path.join(SOURCES, "tests/data/published/*.csv")))
+        public = os.path.join(SOURCES, "../shared/data/airfoils_uiuc_selig/*.dat")
+        airfoils = sorted(glob.glob(public))[::100]
+        if not airfoils:
+            print("public airfoils are not there: only series of the sources are compared")
+        compared = 0
+        for path, options in [(f, {}) for f in files] + [
+            (f, {"noise": "rounding"}) for f in airfoils
+        ]:
+            more = [f"--{name}={value}" for name, value in options.items()]
+            out, code = program("fit", path, "--json", *more)
+            if code in (3, 4):
+                with self.assertRaises((obvid.NoContourError, obvid.InputError), msg=path):
+                    obvid.fit(path, **options)
+                continue
+            try:
+                contour = obvid.fit(path, **options)
+            except obvid.NotProvedError as error:
+                self.assertEqual(code, 5)
+                contour = error.contour
+            theirs = json.loads(out)
+            self.assertEqual(contour.certificate.vertices, theirs["certificate"]["vertices"], path)
+            self.assertEqual(contour.proved, theirs["certificate"]["proved"], path)
+            self.assertEqual(contour.report.largest_width, theirs["report"]["largest_width"], path)
+            compared += 1
+        self.assertGreater(compared, 3)
+
+    def test_reports_hold_what_the_program_prints(self):
+        analysis = obvid.analyse(SERIES)
+        theirs = json.loads(program("analyse", SERIES, "--json")[0])
+        self.assertEqual(analysis.json, theirs)
+        self.assertEqual(analysis.vertices, theirs["vertices"])
+        np.testing.assert_array_equal(analysis.chord, [s["chord"] for s in theirs["segments"]])
+        self.assertTrue(np.isnan(analysis.points_only_error[0]))
+        region = obvid.region(SERIES)
+        theirs = json.loads(program("region", SERIES, "--json")[0])
+        self.assertEqual(region.json, theirs)
+        self.assertEqual(region["width"].tolist(), [s["width"] for s in theirs["segments"]])
+        with self.assertRaises(KeyError):
+            region["no such column"]
+        rows = obvid.compare(SERIES)
+        theirs = json.loads(program("compare", SERIES, "--json")[0])
+        self.assertEqual([r.carrier for r in rows], [c["carrier"] for c in theirs["carriers"]])
+        self.assertEqual([r.vertices for r in rows], [c["vertices"] for c in theirs["carriers"]])
+        table = obvid.suggest(SERIES)
+        theirs = json.loads(program("fit", SERIES, "--suggest", "--json")[0])
+        self.assertEqual([r.tolerance for r in table], [r["tolerance"] for r in theirs["rows"]])
+
+    def test_drawings_are_read(self):
+        drawing = os.path.join(SOURCES, "tests/data/judge/series10.dxf")
+        analysis = obvid.analyse(drawing)
+        self.assertIsInstance(analysis, obvid.DrawingAnalysis)
+        self.assertEqual(len(analysis.curves), 1)
+        contour = obvid.read_contour(drawing)
+        self.assertGreater(contour.length, 300.0)
+        self.assertIsNone(contour.report)
+
+
+class Curves(unittest.TestCase):
+    def setUp(self):
+        self.contour = obvid.fit(POINTS)
+
+    def test_passes_the_points(self):
+        c = self.contour
+        np.testing.assert_allclose(c(np.arange(10)), POINTS, atol=1e-9)
+        self.assertEqual(c(0.0).shape, (2,))
+        self.assertEqual(c(np.zeros((3, 4))).shape, (3, 4, 2))
+        self.assertEqual(c.domain, (0.0, 9.0))
+        self.assertEqual(len(c.pieces), 9)
+        np.testing.assert_array_equal(c.points, POINTS)
+
+    def test_derivatives_are_those_of_differences(self):
+        c, t, h = self.contour, np.linspace(0.05, 8.95, 41), 1e-5
+        t = t[np.abs(t - np.round(t)) > 0.01]
+        first = (c(t + h) - c(t - h)) / (2 * h)
+        np.testing.assert_allclose(c(t, 1), first, rtol=1e-6, atol=1e-5)
+        second = (c(t + h, 1) - c(t - h, 1)) / (2 * h)
+        np.testing.assert_allclose(c(t, 2), second, rtol=1e-6, atol=1e-3)
+        third = (c(t + h, 2) - c(t - h, 2)) / (2 * h)
+        np.testing.assert_allclose(c(t, 3), third, rtol=1e-5, atol=1e-1)
+        d, dd = c(t, 1), c(t, 2)
+        kappa = (d[:, 0] * dd[:, 1] - d[:, 1] * dd[:, 0]) / np.hypot(*d.T) ** 3
+        np.testing.assert_allclose(c.curvature(t), kappa, rtol=1e-9)
+        np.testing.assert_allclose(
+            np.exp(1j * c.heading(t)), (d[:, 0] + 1j * d[:, 1]) / np.hypot(*d.T), atol=1e-12
+        )
+        with self.assertRaises(obvid.UsageError):
+            c(t, 4)
+        with self.assertRaises(obvid.UsageError):
+            c(9.1)
+
+    def test_arc_lengths_are_those_of_a_fine_polygon(self):
+        c = self.contour
+        fine = c(np.linspace(0, 9, 200_001))
+        self.assertAlmostEqual(c.length / np.hypot(*np.diff(fine, axis=0).T).sum(), 1.0, places=8)
+        s = np.linspace(0, c.length, 1001)
+        chords = np.hypot(*np.diff(c.at_length(s), axis=0).T)
+        self.assertLess(np.ptp(chords) / chords.mean(), 1e-3)
+
+    def test_curvature_is_monotone(self):
+        kappa = self.contour.curvature(np.linspace(0, 9, 5001))
+        self.assertTrue((np.diff(kappa) > -1e-9).all() or (np.diff(kappa) < 1e-9).all())
+
+    def test_samples(self):
+        c = self.contour
+        for spacing in ("uniform", "cosine", "curvature"):
+            places = c.sample(101, spacing)
+            self.assertEqual(places.points.shape, (101, 2))
+            self.assertEqual((places.s[0], places.s[-1]), (0.0, c.length))
+            self.assertTrue((np.diff(places.s) > 0).all(), spacing)
+        steps = np.diff(c.sample(101, "curvature").s)
+        self.assertGreater(steps.max() / steps.min(), 2.0)
+        self.assertGreaterEqual(len(np.asarray(c)), 200)
+        for wrong in (lambda: c.sample(1), lambda: c.sample(5, "dense")):
+            with self.assertRaises(ValueError):
+                wrong()
+
+    def test_the_bspline_is_the_same_curve(self):
+        for carrier in ("spiral", "conics", "bspline"):
+            c = obvid.fit(POINTS, carrier=carrier)
+            spline = c.to_bspline()
+            t, points, k, weights = spline
+            self.assertEqual(len(t), len(points) + k + 1)
+            ours = spline(np.linspace(t[k], t[-k - 1], 400))
+            fine = c(np.linspace(0, c.piece_count, 400_001))
+            for p in ours[::23]:
+                self.assertLess(np.hypot(*(fine - p).T).min(), 0.002, carrier)
+            np.testing.assert_allclose(ours[[0, -1]], POINTS[[0, -1]], atol=1e-9)
+        try:
+            import scipy.interpolate
+        except ImportError:
+            return
+        spline = obvid.fit(POINTS, carrier="bspline").to_bspline()
+        if np.ptp(spline.weights) == 0.0:
+            u = np.linspace(spline.t[spline.k], spline.t[-spline.k - 1], 50)
+            theirs = scipy.interpolate.BSpline(spline.t, spline.c, spline.k)(u)
+            np.testing.assert_allclose(spline(u), theirs, atol=1e-9)
+
+    def test_a_curve_without_bspline_says_so(self):
+        with self.assertRaises(obvid.UsageError):
+            obvid.fit(POINTS, carrier="clothoids").to_bspline()
+
+    def test_verify_copy_and_pickle(self):
+        self.assertTrue(self.contour.verify().holds)
+        for other in (pickle.loads(pickle.dumps(self.contour)), copy.deepcopy(self.contour)):
+            self.assertEqual(other.text("json"), self.contour.text("json"))
+        tampered = self.contour.to_dict()
+        tampered["report"] = dict(tampered["report"], vertices=3)
+        verification = obvid.Contour.from_json(json.dumps(tampered)).verify()
+        self.assertFalse(verification.holds)
+        self.assertIn("vertices", verification.false_claim)
+        tampered = self.contour.to_dict()
+        tampered["bspline"] = dict(tampered["bspline"], degree=3)
+        with self.assertRaises(obvid.InputError):
+            obvid.Contour.from_json(json.dumps(tampered))
+
+    def test_pictures(self):
+        self.assertTrue(self.contour._repr_svg_().lstrip().startswith("<"))
+        self.assertIn("proved", repr(self.contour))
+
+
+class Options(unittest.TestCase):
+    def test_given_data_are_kept(self):
+        free = np.degrees(float(obvid.fit(POINTS).heading(4.0)))
+        given = round(free, 1)
+        c = obvid.fit(POINTS, heading={4: given}, end_radius=float("inf"))
+        self.assertAlmostEqual(np.degrees(float(c.heading(4.0))), given, places=9)
+        self.assertAlmostEqual(float(c.curvature(c.piece_count)), 0.0, places=12)
+        self.assertEqual(c.report.headings_given, 1)
+        first = obvid.fit(POINTS, heading={0: -60.0})
+        last = obvid.fit(POINTS[::-1], heading={-1: 120.0})
+        self.assertAlmostEqual(first.length, last.length, places=1)
+
+    def test_given_ranges_are_kept(self):
+        free = np.degrees(float(obvid.fit(POINTS).heading(4.0)))
+        c = obvid.fit(POINTS, heading={4: (free - 3.0, free - 1.0)}, end_radius=(-500, -400))
+        self.assertAlmostEqual(np.degrees(float(c.heading(4.0))), free - 1.0, places=6)
+        self.assertEqual(c.report.ranges_given, 2)
+        self.assertIn((4, "heading", "greatest"), c.report.ranges_active)
+        wide = obvid.fit(POINTS, heading={4: (free - 1.0, free + 1.0)}, prefer="fair")
+        self.assertEqual(wide.report.ranges_active, ())
+        with self.assertRaises(obvid.UsageError):
+            obvid.fit(POINTS, end_radius=(-20, 30))
+        with self.assertRaises(obvid.UsageError):
+            obvid.fit(POINTS, prefer="best")
+
+    def test_noise_for_each_point(self):
+        rng = np.random.default_rng(1)
+        points = spiral(40) + rng.uniform(-1e-3, 1e-3, (40, 2))
+        for noise in (0.002, np.full(40, 0.002), np.float32(0.002)):
+            c = obvid.fit(points, noise=noise)
+            self.assertEqual(c.certificate.vertices, 0)
+            self.assertLessEqual(c.report.largest_move, 0.002)
+        with self.assertRaises(ValueError):
+            obvid.fit(points, noise=np.full(39, 0.002))
+
+    def test_closed_and_corners(self):
+        square = [(0, 0), (4, 0), (4, 4), (0, 4)]
+        ring = obvid.fit(np.array([(np.cos(t), 0.7 * np.sin(t)) for t in np.arange(24) * np.pi / 12]),
+                         closed=True)
+        self.assertTrue(ring.closed)
+        self.assertEqual(ring.certificate.vertices, 4)
+        c = obvid.fit(square, closed=True, corners=[0, 1, 2, 3])
+        self.assertEqual(c.certificate.corners, 4)
+
+    def test_what_is_not_there_is_refused(self):
+        with self.assertRaises(TypeError):
+            obvid.fit(POINTS, carier="arcs")
+        with self.assertRaises(obvid.UsageError):
+            obvid.fit(POINTS, carrier="splines")
+        with self.assertRaises((obvid.UsageError, obvid.InputError)):
+            obvid.fit(POINTS, heading={99: 0.0})
+        with self.assertRaises(IndexError):
+            obvid.fit(POINTS, heading={-11: 0.0})
+
+
+class Errors(unittest.TestCase):
+    ZIGZAG = [(0, 0), (1, 5), (2, 0), (3, 5), (4, 0)]
+
+    def test_a_refusal_says_what_and_where(self):
+        with self.assertRaises(obvid.NoContourError) as caught:
+            obvid.fit(self.ZIGZAG, convex=True)
+        error = caught.exception
+        self.assertEqual(error.code // 100, 4)
+        self.assertTrue(error.message)
+        self.assertIn(f"E{error.code}", str(error))
+        again = pickle.loads(pickle.dumps(error))
+        self.assertEqual((again.code, again.advice, again.points),
+                         (error.code, error.advice, error.points))
+        reason = obvid.why_not(self.ZIGZAG, convex=True)
+        self.assertEqual(reason.code // 100, 4)
+        self.assertIsNone(obvid.why_not(POINTS))
+
+    def test_files(self):
+        with self.assertRaises(obvid.ObvidError):
+            obvid.read("/no/such/file.csv")
+        with self.assertRaises(obvid.InputError):
+            obvid.fit(obvid.read_text("x,y\n1,2\nnot,numbers\n"))
+        with self.assertRaises(obvid.UsageError):
+            obvid.fit(POINTS).write("contour.nothing")
+
+    def test_a_broken_promise_brings_the_contour(self):
+        # a cubic spline promises nothing; a B-spline that cannot keep its promise says so
+        try:
+            contour = obvid.fit(os.path.join(SOURCES, "tests/data/found/against_run_143.csv"),
+                                carrier="bspline")
+        except obvid.NotProvedError as error:
+            contour = error.contour
+            self.assertFalse(contour.proved)
+            self.assertTrue(contour.certificate.reason)
+        self.assertIsNotNone(contour)
+
+
+class Arrays(unittest.TestCase):
+    def test_everything_that_numpy_takes(self):
+        base = obvid.fit(POINTS).length
+        wide = np.zeros((20, 6))
+        wide[::2, 1:4:2] = POINTS
+        frozen = POINTS.copy()
+        frozen.flags.writeable = False
+        for points in (POINTS.tolist(), [tuple(p) for p in POINTS], np.asfortranarray(POINTS),
+                       wide[::2, 1:4:2], frozen, POINTS.astype(">f8"), POINTS.astype(object),
+                       np.column_stack([POINTS, np.full(10, 3.0)])):
+            self.assertEqual(obvid.fit(points).length, base)
+        self.assertAlmostEqual(obvid.fit(POINTS.astype(np.float32)).length, base, places=3)
+        self.assertAlmostEqual(obvid.fit(POINTS[::-1]).length, base, places=1)
+
+    def test_hostile_arrays_are_refused_or_fitted(self):
+        rng = np.random.default_rng(7)
+        fitted = refused = 0
+        for trial in range(3000):
+            n = int(rng.integers(0, 9))
+            points = rng.normal(size=(n, 2)) * 10.0 ** rng.integers(-12, 13)
+            kind = trial % 8
+            if kind == 1 and n:
+                points[rng.integers(n), rng.integers(2)] = rng.choice([np.nan, np.inf, -np.inf])
+            if kind == 2 and n > 1:
+                points[-1] = points[-2]
+            if kind == 3:
+                points = points.astype(np.float32)
+            if kind == 4:
+                points = points.T
+            if kind == 5 and n:
+                with np.errstate(over="ignore"):
+                    points = points * 1e300
+            if kind == 6:
+                points = np.round(points)
+            if kind == 7 and n > 2:
+                points[:, 1] = 0.0
+            try:
+                contour = obvid.fit(points)
+                self.assertGreater(contour.length, 0.0)
+                fitted += 1
+            except (obvid.ObvidError, ValueError):
+                refused += 1
+        self.assertGreater(fitted, 300)
+        self.assertGreater(refused, 300)
+
+    def test_what_is_no_series_is_refused(self):
+        for wrong in ([], [1, 2, 3], [[1, 2, 3, 4]], np.zeros((3, 2, 2)), "/no/such/file",
+                      np.zeros((0, 2)), [[0, 0], [1, 1]], np.zeros((5, 2)),
+                      [(0, 0, 0), (1, 0, 1), (2, 1, 0)]):
+            with self.assertRaises((obvid.ObvidError, ValueError)):
+                obvid.fit(wrong)
+
+
+class Work(unittest.TestCase):
+    def test_progress_and_cancellation(self):
+        stages = []
+        rng = np.random.default_rng(3)
+        t = np.linspace(0, 30, 3000)
+        points = np.column_stack([t, np.sin(t)]) + rng.uniform(-1e-3, 1e-3, (3000, 2))
+        obvid.fit(points, noise=2e-3, progress=lambda stage, part: stages.append((stage, part)))
+        self.assertTrue(stages)
+        self.assertTrue(all(0.0 <= part <= 1.0 for _, part in stages))
+        with self.assertRaises(obvid.CancelledError):
+            obvid.fit(points, noise=2e-3, cancelled=lambda: True)
+
+        def fails(stage, part):
+            raise RuntimeError("from the callback")
+
+        with self.assertRaisesRegex(RuntimeError, "from the callback"):
+            obvid.fit(points, noise=2e-3, progress=fails)
+
+    def test_ctrl_c_ends_the_work(self):
+        rng = np.random.default_rng(3)
+        t = np.linspace(0, 300, 30_000)
+        points = np.column_stack([t, np.sin(t)]) + rng.uniform(-1e-3, 1e-3, (30_000, 2))
+        timer = threading.Timer(0.3, os.kill, (os.getpid(), signal.SIGINT))
+        before = signal.getsignal(signal.SIGINT)
+        timer.start()
+        started = time.process_time()
+        with self.assertRaises(KeyboardInterrupt):
+            for _ in range(100):
+                obvid.fit(points, noise=2e-3)
+        timer.join()
+        self.assertLess(time.process_time() - started, 20.0)
+        self.assertIs(signal.getsignal(signal.SIGINT), before)
+
+    def test_threads_give_the_same_contours(self):
+        series = [spiral(12, 0.05 + 0.001 * k) for k in range(60)] + [[(0, 0), (1, 1)]]
+        one = obvid.fit_many(series, workers=1, errors="return")
+        four = obvid.fit_many(series, workers=4, errors="return")
+        for a, b in zip(one[:-1], four[:-1]):
+            self.assertEqual(SECONDS.sub("", a.text("json")), SECONDS.sub("", b.text("json")))
+        self.assertIsInstance(one[-1], obvid.ObvidError)
+        with self.assertRaises(obvid.ObvidError):
+            obvid.fit_many(series)
+
+    def test_one_contour_from_many_threads(self):
+        contour, seen = obvid.fit(POINTS), []
+
+        def look():
+            seen.append(contour(np.linspace(0, 9, 100)).tobytes())
+
+        threads = [threading.Thread(target=look) for _ in range(8)]
+        for thread in threads:
+            thread.start()
+        for thread in threads:
+            thread.join()
+        self.assertEqual(len(set(seen)), 1)
+
+
+class Wheel(unittest.TestCase):
+    def test_is_small_and_needs_numpy_only(self):
+        with tempfile.TemporaryDirectory() as folder:
+            built = subprocess.run(
+                [os.path.join(SOURCES, "tools/build_wheel"), LIBRARY, folder],
+                capture_output=True, text=True, env={**os.environ, "PYTHON": sys.executable},
+            )
+            self.assertEqual(built.returncode, 0, built.stderr)
+            wheel = built.stdout.strip()
+            self.assertRegex(os.path.basename(wheel), r"^obvid-.*-py3-none-linux_\w+\.whl$")
+            self.assertLess(os.path.getsize(wheel), 4_000_000)
+            unpacked = os.path.join(folder, "unpacked")
+            zipfile.ZipFile(wheel).extractall(unpacked)
+            code = (
+                "import obvid, sys; c = obvid.fit([(0, 0), (10, 1), (19, 4), (26, 9), (30, 16)]); "
+                "assert c.proved and c.certificate.vertices == 0; "
+                "print(sorted(m for m in ('matplotlib', 'scipy') if m in sys.modules))"
+            )
+            environment = {k: v for k, v in os.environ.items() if k != "OBVID_LIBRARY"}
+            environment["PYTHONPATH"] = unpacked
+            ran = []
+            for name in ["3"] + [f"3.{minor}" for minor in range(8, 15)]:
+                python = shutil.which("python" + name) if name != "3" else sys.executable
+                if python is None:
+                    continue
+                here = [python, "-B", "-c"]
+                numpy = subprocess.run([*here, "import numpy"], capture_output=True, env=environment)
+                if numpy.returncode != 0:
+                    continue
+                done = subprocess.run([*here, code], capture_output=True, text=True,
+                                      env=environment, cwd=folder)
+                self.assertEqual((done.returncode, done.stdout.strip()), (0, "[]"),
+                                 python + done.stderr)
+                ran.append(name)
+            print("wheel tried with Python", ", ".join(ran))
+            self.assertTrue(ran)
+
+
+class Documents(unittest.TestCase):
+    def test_examples_of_the_docstrings(self):
+        for module in (obvid, obvid.jobs, obvid.contour):
+            result = doctest.testmod(module)
+            self.assertEqual(result.failed, 0, module.__name__)
+
+    def test_examples_of_the_page(self):
+        page = os.path.join(SOURCES, "docs/python.md")
+        before = os.getcwd()
+        with tempfile.TemporaryDirectory() as folder:
+            os.chdir(folder)
+            try:
+                os.symlink(os.path.join(SOURCES, "examples"), "examples")
+                result = doctest.testfile(page, module_relative=False)
+            finally:
+                os.chdir(before)
+        self.assertEqual(result.failed, 0)
+        self.assertGreater(result.attempted, 20)
+
+    def test_types(self):
+        try:
+            from mypy import api
+        except ImportError:
+            self.skipTest("mypy is not installed")
+        with tempfile.TemporaryDirectory() as cache:
+            out, err, code = api.run(["--strict", "--cache-dir", cache,
+                                      os.path.join(PACKAGE, "obvid")])
+        self.assertEqual(code, 0, out + err)
+
+
+if __name__ == "__main__":
+    unittest.main(argv=[sys.argv[0], *sys.argv[5:]])
