@@ -216,7 +216,8 @@ class Case:
             self.check(abs(found - expected) < 1e-12, f"{path} is {found!r}, not {expected!r}")
         for name in data.get("untouched", []):
             self.check(name in before, f"{name} did not exist before")
-            self.check((folder / name).read_bytes() == before.get(name), f"{name} was changed")
+            kept = (folder / name).is_file() and (folder / name).read_bytes() == before.get(name)
+            self.check(kept, f"{name} was changed")
         for name, part in data.get("holds", {}).items():
             written = (folder / name).read_text(errors="replace") if (folder / name).exists() else ""
             self.check(part in written, f"{name} does not hold {part!r}")
