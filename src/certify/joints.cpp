@@ -223,10 +223,9 @@ class JointWalk {
   /// Lower bound of the largest of those at the ends of a piece and the mean one over its chord: a
   /// slope may vanish at both ends.
   static double largest_slope(const PieceEnds& piece) {
-    const Vec2 chord = piece.end.point - piece.start.point;
     const double error = outward(piece.start.kappa_error + piece.end.kappa_error);
     const double change = inward(std::abs(piece.end.kappa - piece.start.kappa)) - error;
-    const double mean = inward(std::max(0.0, change) / std::hypot(chord.x, chord.y));
+    const double mean = inward(std::max(0.0, change) / distance(piece.start, piece.end));
     const double ends = std::max(std::abs(piece.start.slope) - piece.start.slope_error,
                                  std::abs(piece.end.slope) - piece.end.slope_error);
     return std::max(0.0, std::isfinite(mean) ? std::max(ends, mean) : ends);
