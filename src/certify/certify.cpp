@@ -147,6 +147,7 @@ class Notary {
     certificate_.corners = joints_.corners;
     certificate_.curvature_steps = joints_.curvature_steps;
     certificate_.slope_steps = joints_.slope_steps;
+    certificate_.loose_slopes = joints_.loose_slopes;
     certificate_.gaps_within_bounds = joints_.within_bounds;
     if (contour_.joints.size() != expected) {
       certificate_.gaps_within_bounds = joints_.within_bounds = false;

@@ -139,8 +139,6 @@ PieceEnds ends_of(const ClothoidPiece& piece) {
     constexpr double kOfSlope = 2.0;
     end->slope = (piece.kappa1 - piece.kappa0) / piece.length;
     end->slope_error = kOfSlope * kUnitRoundoff * std::abs(end->slope);
-    end->slope_rounding =
-        kStored * (std::abs(piece.kappa0) + std::abs(piece.kappa1)) / piece.length;
   }
   return ends;
 }
@@ -165,7 +163,7 @@ Leg leg_of(const RationalBezier& piece, std::size_t from, std::size_t to, double
 /// F is a small difference where curvature changes slowly: double doubles, with a bound of the
 /// error by the sum of the terms.
 void add_slope(EndData& end, const RationalBezier& piece, bool at_start, double scale,
-               const Leg& one, const Leg& two, double moved) {
+               const Leg& one, const Leg& two) {
   const int n = piece.degree;
   const auto at = [&](int j) { return static_cast<std::size_t>(at_start ? j : n - j); };
   const auto weight = [&](int j) { return DoubleDouble{piece.weight[at(j)], 0.0}; };
@@ -193,8 +191,6 @@ void add_slope(EndData& end, const RationalBezier& piece, bool at_start, double 
   end.slope = scale * scale * (factor * form.hi);
   end.slope_error = kOfSlope * kUnitRoundoff * std::abs(end.slope) +
                     scale * scale * (factor * kOperations * kDoubleDoubleRoundoff * terms);
-  constexpr double kMovedTerms = 32.0;  // control points and weights of all terms
-  end.slope_rounding = scale * scale * factor * kMovedTerms * terms * (moved + kStored);
 }
 
 /// kappa = (n-1)/n (w0 w2 / w1^2) cross(leg1, leg2) / |leg1|^3 from the three control points at one
@@ -238,7 +234,7 @@ EndData bezier_end(const RationalBezier& piece, bool at_start, bool slopes) {
       1.0 + std::hypot(two.x.hi, two.y.hi) / length;  // turning leg 1 sweeps point 2
   end.kappa_rounding = std::abs(end.kappa) * 4.0 * (kStored + moved) +
                        *scale * std::abs(factor) * 2.0 * reach * (moved + kStored) / length;
-  if (slopes) add_slope(end, piece, at_start, *scale, one, two, moved);
+  if (slopes) add_slope(end, piece, at_start, *scale, one, two);
   return end;
 }
 

@@ -21,7 +21,6 @@ struct EndData {
   double point_rounding = 0.0;
   double heading_rounding = 0.0;
   double kappa_rounding = 0.0;
-  double slope_rounding = 0.0;
 };
 
 struct PieceEnds {

@@ -24,6 +24,7 @@ struct JointSurvey {
   int corners = 0;
   int curvature_steps = 0;
   int slope_steps = 0;
+  std::vector<std::size_t> loose_slopes;  ///< joints of a G3 contour with a gap beyond its bound
 };
 
 /// How pieces bend whose ends do not tell it, by their indices.

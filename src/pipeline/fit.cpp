@@ -149,6 +149,9 @@ void add_section(const SectionChain& section, Formed& formed) {
   formed.warnings.insert(formed.warnings.end(), section.warnings.begin(), section.warnings.end());
 }
 
+/// Steps of the slope of curvature up to this are called none: a half of what a proof allows.
+constexpr double kClearlyContinuous = 5e-7;
+
 /// Step of the slope of curvature where a piece begins, of the largest slope at the ends of both
 /// pieces that meet there.
 double slope_step_before(const Contour& spirals, std::size_t piece) {
@@ -374,7 +377,8 @@ class SectionForming {
     for (const std::size_t i : contour.kept) {
       for (const std::size_t j : {i, contour.closed ? (i + 1) % n : i + 1}) {
         const bool end = !contour.closed && (j == 0 || j == n);
-        contour.joints[j].slope_step = !end && !contour.joints[j].leaving;
+        contour.joints[j].slope_step = !end && !contour.joints[j].leaving &&
+                                       slope_step_before(contour, j % n) > kClearlyContinuous;
       }
     }
   }
@@ -775,24 +779,12 @@ bool keep_unproved(const Fit& fit, KeptParts& kept) {
   return any;
 }
 
-/// Joints at which rounding leaves more of a step of the slope than is called continuous are said
-/// to step. False where there are none.
-bool tell_steps(Contour& contour) {
-  constexpr double kClearlyContinuous = 5e-7;
-  bool any = false;
-  for (std::size_t i = contour.closed ? 0 : 1; i < contour.pieces.size(); ++i) {
-    Joint& joint = contour.joints[i];
-    if (joint.slope_step || joint.leaving) continue;
-    joint.slope_step = slope_step_before(contour, i) > kClearlyContinuous;
-    any = any || joint.slope_step;
-  }
-  return any;
-}
-
-/// The contour that says so, if it is proved.
+/// The contour with its loose slopes, which rounding may leave, said to step; if it is proved so.
 std::optional<Fit> with_told_steps(const Fit& smooth, bool warns, Watch& watch) {
+  if (smooth.certificate.loose_slopes.empty()) return std::nullopt;
   Fit out = smooth;
-  if (!tell_steps(out.contour)) return std::nullopt;
+  for (const std::size_t i : smooth.certificate.loose_slopes)
+    out.contour.joints[i].slope_step = true;
   out.certificate = certify(out.contour, watch);
   if (!out.certificate.proved) return std::nullopt;
   auto report = measure(out.contour, smooth.report.tolerance, watch);
@@ -825,7 +817,8 @@ Result<Fit> proved_without_slopes(const PointSeries& series, FitJob job, Fit smo
   }
   job.continuity = Continuity::kG2;
   auto made = formed_and_proved(series, job, chains, watch);
-  if (!made || !made->certificate.proved) return smooth;
+  if (!made) return smooth;
+  if (!made->certificate.proved) return made;  // the simpler of two that are not
   if (asked) {
     made->warnings.push_back("the G3 contour was not proved, so this one is G2: " +
                              smooth.certificate.reason);

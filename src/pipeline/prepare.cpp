@@ -178,9 +178,12 @@ class Preparation {
 
   void set_tolerances() {
     const double noise = job_.noise.value_or(0.0);
-    const Vec2 common = job_.noise_from_rounding ? series_.rounding : Vec2{noise, noise};
+    Vec2 common = job_.noise_from_rounding ? series_.rounding : Vec2{noise, noise};
     double least = 0.0;
     for (const Vec2 p : out_.points) least = std::max(least, least_move(p));
+    // all alike: some points that are met and some that move by roundings would be no contour's gain
+    constexpr double kWorthMoving = 4.0;
+    if (std::max(common.x, common.y) < kWorthMoving * least) common = {};
     for (std::size_t i = 0; i < out_.points.size(); ++i) {
       const FixedData& f = fixed_[i].data;
       const double reach = beside_kept(i) ? 0.0 : f.tolerance ? *f.tolerance : across(i, common);

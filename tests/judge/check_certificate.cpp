@@ -17,7 +17,6 @@ constexpr double kPositionBound = 1e-12;  // of the size
 constexpr double kAngleBound = 1e-6;      // rad
 constexpr double kCurvatureBound = 1e-6;  // of the larger curvature
 constexpr double kSlopeBound = 1e-6;      // of the largest slope of both pieces
-constexpr double kSlopeCeiling = 1e-2;    // whatever rounding explains
 /// Figures stated as bounds may be this much below in the last digits of their own text.
 constexpr double kLastDigit = 1e-12;
 
@@ -153,7 +152,7 @@ void check_bounds_flag(const Course& course, const Gaps& gaps, Sheet& sheet) {
   const bool arcs = course.file.carrier == "arcs";
   const bool can = gaps.position <= position && gaps.heading <= kAngleBound &&
                    (arcs || gaps.curvature <= kCurvatureBound) &&
-                   (course.file.continuity != "G3" || gaps.slope <= kSlopeCeiling);
+                   (course.file.continuity != "G3" || gaps.slope <= kSlopeBound);
   const bool plainly = gaps.position <= 0.1 * kPositionBound && gaps.heading <= 1e-10 &&
                        (arcs || gaps.curvature <= 1e-10) &&
                        (course.file.continuity != "G3" || gaps.slope <= 0.1 * kSlopeBound);

@@ -39,8 +39,7 @@ struct Certificate {
   std::vector<PieceProof> pieces;
   JointGaps gaps;
   bool gaps_within_bounds = false;  ///< position 1e-12 (or what the coordinates' rounding
-                                    ///< explains), heading and curvature 1e-6, slope 1e-6 (or what
-                                    ///< rounding explains, up to 1e-2)
+                                    ///< explains), heading and curvature and slope 1e-6
   bool inside_region = false;
   bool through_points = false;  ///< every input point is met in order, exactly or within its
                                 ///< tolerance where it has one
@@ -48,6 +47,7 @@ struct Certificate {
   int corners = 0;              ///< joints that are continuous in position only
   int curvature_steps = 0;      ///< joints with a common tangent whose curvature is said to step
   int slope_steps = 0;          ///< joints of a G3 contour that are said to be G2 only
+  std::vector<std::size_t> loose_slopes{};  ///< joints of one whose gap is beyond its bound
   int vertices = 0;
   int inflections = 0;
   int self_intersections = 0;
