@@ -14,7 +14,6 @@
 #include "construction_section.h"
 #include "obvid/contour/beziers.h"
 #include "obvid/region/boundary_distance.h"
-#include "obvid/region/feasible_data.h"
 
 namespace obvid::pipeline_detail {
 namespace {
@@ -180,19 +179,19 @@ class CondensedTriangles {
     return out;
   }
 
-  /// Curvature of the end without one: in the middle between none and what the other end allows.
+  /// Curvature of the end without one: half of what a biarc from the other end has there, which is
+  /// the most that a spiral may have ([Kurnosenko 2013]; docs/methods/region.md).
   static double towards_inflection(const Bend& bend, int direction, bool at_end) {
     const Vec2 chord = bend.end.point - bend.start.point;
-    const double omega = bend.start.theta - turning(chord, unit_at(bend.start.theta));
-    const double known = at_end ? bend.start.kappa : bend.end.kappa;
-    RangeNode a, b;
-    a.theta = bend.start.theta;
-    b.theta = bend.end.theta;
-    (at_end ? a : b).kappa = known;
-    (at_end ? b : a).curvature_sign = known > 0.0 ? 1 : -1;
-    const auto ranges = feasible_data({{norm(chord), omega, direction}}, {a, b});
-    const auto& range = ranges[at_end ? 1 : 0].kappa;
-    return range ? 0.5 * (range->low + range->high) : 0.0;
+    const double d = direction, half = 0.5 * norm(chord);
+    const double alpha = d * turning(chord, unit_at(bend.start.theta));
+    const double beta = d * turning(chord, unit_at(bend.end.theta));
+    const double sine = std::sin(0.5 * (alpha + beta));
+    const double a = d * bend.start.kappa * half + std::sin(alpha);
+    const double b = d * bend.end.kappa * half - std::sin(beta);
+    const double most =
+        at_end ? std::sin(beta) - sine * sine / a : -std::sin(alpha) - sine * sine / b;
+    return 0.5 * d * most / half;
   }
 
   Result<void> add_segment(const ConstructionSection& section, std::size_t k, double start,

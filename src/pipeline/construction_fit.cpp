@@ -22,8 +22,11 @@ namespace {
 
 using namespace pipeline_detail;
 
-/// Neighbouring pieces that agree so far are one curve: rad, and of the larger curvature.
+/// Neighbouring pieces that agree so far are one curve: rad.
 constexpr double kSameAtJoint = 1e-9;
+/// And of the larger curvature: a tenth of the gap that certificates allow, beyond the rounding of
+/// short parabolas.
+constexpr double kSameCurvatureAtJoint = 1e-7;
 
 /// Conics of a contour are arcs of ellipses.
 Result<void> only_ellipses(const ConstructionTable& made, const RegionPart& part) {
@@ -118,7 +121,7 @@ class ConstructionContour {
     const double larger =
         std::max({std::abs(before), std::abs(after), std::abs(element(piece, 0.0, 0.0).kappa),
                   std::abs(element(next, 1.0, 0.0).kappa)});
-    return std::abs(after - before) > kSameAtJoint * larger;
+    return std::abs(after - before) > kSameCurvatureAtJoint * larger;
   }
 
   void close() {
