@@ -13,6 +13,7 @@
 
 #include "construction_section.h"
 #include "obvid/contour/beziers.h"
+#include "obvid/pipeline/region_files.h"
 #include "obvid/region/boundary_distance.h"
 
 namespace obvid::pipeline_detail {
@@ -121,7 +122,7 @@ class CondensedTriangles {
     for (std::size_t i = 0; i < wanted.size(); ++i) {
       if (section.loop && i + 1 == wanted.size()) break;
       if (wanted[i] == (*kappa)[i]) continue;
-      moved_.push_back(section.point(section.first_point() + i).number + 1);
+      moved_.push_back(region_point_name(section.point(section.first_point() + i)));
     }
     return std::nullopt;
   }
@@ -295,7 +296,7 @@ class CondensedTriangles {
   }
 
   bool by_triangles_;
-  std::vector<std::size_t> moved_;  // points whose radius is not that of the triangles
+  std::vector<std::string> moved_;  // points whose radius is not that of the triangles
   bool inflection_ = false;
   ConstructionTable out_;
 };

@@ -9,6 +9,7 @@
 #include "form.h"
 #include "obvid/chain/series_chain.h"
 #include "obvid/geom/angle.h"
+#include "obvid/pipeline/region_files.h"
 #include "obvid/region/feasible_data.h"
 
 namespace obvid::pipeline_detail {
@@ -52,8 +53,8 @@ std::pair<Element, Element> ConstructionSection::bounded(std::size_t k) const {
 }
 
 std::string ConstructionSection::segment(std::size_t k) const {
-  return fmt::format("points {} to {}", point(row(k).from).number + 1,
-                     point(row(k).to).number + 1);
+  return fmt::format("points {} to {}", region_point_name(point(row(k).from)),
+                     region_point_name(point(row(k).to)));
 }
 
 Error ConstructionSection::no_region(std::size_t k) const {

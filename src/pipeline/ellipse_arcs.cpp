@@ -12,6 +12,7 @@
 
 #include "construction_section.h"
 #include "obvid/contour/conics.h"
+#include "obvid/pipeline/region_files.h"
 #include "obvid/region/boundary_distance.h"
 #include "obvid/region/convex_triangle.h"
 
@@ -173,7 +174,7 @@ class EllipseArcs {
         arcs_[i].weight = chain->weights[i - from];
       }
       if (next < to) {
-        steps_.push_back(section_->point(section_->row(arcs_[next].row).from).number + 1);
+        steps_.push_back(region_point_name(section_->point(section_->row(arcs_[next].row).from)));
       }
       from = next;
     }
@@ -228,7 +229,7 @@ class EllipseArcs {
     const double k0 = curvature(evaluate(Piece{*before.made}, 1.0));
     const double k1 = curvature(evaluate(Piece{*behind.made}, 0.0));
     if (std::abs(k1 - k0) <= kSameConicCurvature * std::max(std::abs(k0), std::abs(k1))) return;
-    steps_.push_back(section_->point(section_->row(behind.row).from).number + 1);
+    steps_.push_back(region_point_name(section_->point(section_->row(behind.row).from)));
   }
 
   void put_all() {
@@ -274,7 +275,7 @@ class EllipseArcs {
 
   const ConstructionSection* section_ = nullptr;
   std::vector<ConicArc> arcs_;
-  std::vector<std::size_t> steps_;  // points where the curvature is not carried on
+  std::vector<std::string> steps_;  // points where the curvature is not carried on
   bool inflection_ = false, moved_k_ = false;
   ConstructionTable out_;
 };
