@@ -90,10 +90,10 @@ class CondensedTriangles {
                       : "points, tangents and radii are met (order of fixation 2); radii that are "
                         "not given stand in the middle of their ranges");
     if (!moved_.empty()) {
-      out_.remarks.push_back(
-          fmt::format("at {} {} the mean is missing or was given up so that all segments have monotone "
-                      "parabolas: the radius is taken inside its range",
-                      moved_.size() == 1 ? "point" : "points", fmt::join(moved_, ", ")));
+      out_.remarks.push_back(fmt::format(
+          "at {} {} the mean is missing or was given up so that all segments have monotone "
+          "parabolas: the radius is taken inside its range",
+          moved_.size() == 1 ? "point" : "points", fmt::join(moved_, ", ")));
     }
     if (inflection_) {
       out_.remarks.emplace_back(
@@ -266,19 +266,19 @@ class CondensedTriangles {
     add_step(k, kNoFigure, kNoFigure, link.shift, touch.point, radius / link.k1, radius / link.k2,
              of + "step 1");
     const Element before = end_of_parabola(link.parabolas[0], 1.0);
-    add_step(k, link.k1, kNoFigure, kNoFigure, before.point, 1.0 / before.kappa,
-             1.0 / before.kappa, of + "step 2, before it");
+    add_step(k, link.k1, kNoFigure, kNoFigure, before.point, 1.0 / before.kappa, 1.0 / before.kappa,
+             of + "step 2, before it");
     const Element behind = end_of_parabola(link.parabolas[2], 1.0);
-    add_step(k, kNoFigure, link.k2, kNoFigure, behind.point, 1.0 / behind.kappa,
-             1.0 / behind.kappa, of + "step 2, behind it");
+    add_step(k, kNoFigure, link.k2, kNoFigure, behind.point, 1.0 / behind.kappa, 1.0 / behind.kappa,
+             of + "step 2, behind it");
   }
 
   void add_step(std::size_t k, double k1, double k2, double shift, Vec2 p, double radius_before,
                 double radius_behind, std::string remark) {
-    add_row(out_, k,
-            {kNoFigure, kNoFigure, k1, k2, shift, p.x, p.y, radius_before, radius_behind,
-             kNoFigure},
-            std::move(remark));
+    add_row(
+        out_, k,
+        {kNoFigure, kNoFigure, k1, k2, shift, p.x, p.y, radius_before, radius_behind, kNoFigure},
+        std::move(remark));
     out_.rows.back().detail = true;
   }
 

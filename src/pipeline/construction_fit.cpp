@@ -115,8 +115,7 @@ class ConstructionContour {
   }
 
   /// Measured by what both pieces have: at an inflection curvatures are rounding.
-  [[nodiscard]] bool steps(std::size_t piece, double before, std::size_t next,
-                           double after) const {
+  [[nodiscard]] bool steps(std::size_t piece, double before, std::size_t next, double after) const {
     if (out_.carrier == Carrier::kArcs) return false;
     const double larger =
         std::max({std::abs(before), std::abs(after), std::abs(element(piece, 0.0, 0.0).kappa),

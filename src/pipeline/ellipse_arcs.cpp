@@ -25,8 +25,8 @@ constexpr double kSameConicCurvature = 1e-9;
 /// One conic: over a segment, or over the part of one up to an inflection.
 struct ConicArc {
   std::size_t row = 0;
-  Element start, end;                  ///< with the curvatures that bound its region
-  bool begins = false;                 ///< behind an inflection, or at an end: nothing is carried on
+  Element start, end;   ///< with the curvatures that bound its region
+  bool begins = false;  ///< behind an inflection, or at an end: nothing is carried on
   std::optional<RationalBezier> made;
   double weight = 0.0;
 };
@@ -77,7 +77,8 @@ class EllipseArcs {
     }
     if (inflection_) {
       out_.remarks.emplace_back(
-          "no ellipse has curvature 0: at an inflection the curvature steps (G1), and the next part "
+          "no ellipse has curvature 0: at an inflection the curvature steps (G1), and the next "
+          "part "
           "begins with a K of its own");
     }
     return std::move(out_);
@@ -89,9 +90,9 @@ class EllipseArcs {
     for (std::size_t k = section_->first; k < section_->last; ++k) {
       if (!section_->row(k).region) return fail(section_->no_region(k));
       const auto [start, end] = section_->bounded(k);
-      const bool convex = tangent_triangle(start.point, unit_at(start.theta), end.point,
-                                           unit_at(end.theta))
-                              .has_value();
+      const bool convex =
+          tangent_triangle(start.point, unit_at(start.theta), end.point, unit_at(end.theta))
+              .has_value();
       if (convex) {
         append({k, start, end, false, {}, 0.0});
         continue;
@@ -119,8 +120,8 @@ class EllipseArcs {
     a.kappa = kappa[k - section_->first];
     b.kappa = kappa[k - section_->first + 1];
     const double chord = norm(b.point - a.point);
-    const bool turns = a.kappa * b.kappa < 0.0 && !is_straight(a.kappa, chord) &&
-                       !is_straight(b.kappa, chord);
+    const bool turns =
+        a.kappa * b.kappa < 0.0 && !is_straight(a.kappa, chord) && !is_straight(b.kappa, chord);
     const auto middle = turns ? inflection_between(a, b, *section_->row(k).direction)
                               : fail(section_->no_region(k));
     if (!middle) return fail(middle.error());
@@ -254,8 +255,9 @@ class EllipseArcs {
     const Piece piece{*arc.made};
     const auto [start, end] = section_->bounded(arc.row);
     const auto placed = place_in_region(piece, start, end, direction(arc));
-    return {arc.weight, 1.0 / curvature(evaluate(piece, 0.0)), 1.0 / curvature(evaluate(piece, 1.0)),
-            placed ? placed->farther : kNoFigure, placed ? placed->outside : kNoFigure};
+    return {arc.weight, 1.0 / curvature(evaluate(piece, 0.0)),
+            1.0 / curvature(evaluate(piece, 1.0)), placed ? placed->farther : kNoFigure,
+            placed ? placed->outside : kNoFigure};
   }
 
   void put(const ConicArc& arc, bool part) {

@@ -227,8 +227,7 @@ class TangentSpline {
     }
     const double start = curvature(evaluate(Piece{spans.front()}, 0.0));
     const double end = curvature(evaluate(Piece{spans.back()}, 1.0));
-    add_row(out_, k,
-            {static_cast<double>(spans.size()), 1.0 / start, 1.0 / end, farther, outside},
+    add_row(out_, k, {static_cast<double>(spans.size()), 1.0 / start, 1.0 / end, farther, outside},
             vertices > 0 ? "vertex inside" : "monotone");
     vertices_ += vertices;
   }
@@ -238,7 +237,8 @@ class TangentSpline {
 };
 
 template <class Maker>
-Result<ConstructionTable> made_by(Maker maker, const std::vector<ConstructionSection>& sections) {
+Result<ConstructionTable> along_sections(Maker maker,
+                                         const std::vector<ConstructionSection>& sections) {
   for (const ConstructionSection& section : sections) {
     if (auto done = maker.add(section); !done) return fail(done.error());
   }
@@ -267,13 +267,13 @@ Result<ConstructionTable> construct(const RegionPart& part, Construction which,
   const auto sections = sections_of(part);
   switch (which) {
     case Construction::kArcs:
-      return made_by(TwoArcs(), sections);
+      return along_sections(TwoArcs(), sections);
     case Construction::kEllipses:
       return ellipse_arcs(sections);
     case Construction::kClothoids:
-      return made_by(OneClothoid(), sections);
+      return along_sections(OneClothoid(), sections);
     case Construction::kSpline:
-      return made_by(TangentSpline(), sections);
+      return along_sections(TangentSpline(), sections);
     default:
       return condensed_triangles(sections, fixation);
   }

@@ -478,9 +478,8 @@ class SheetMaker {
   Result<void> take_centres() {
     const Ranges ranges(sheet_);
     const std::size_t n = sheet_.points.size();
-    const auto central =
-        loop_ ? central_loop(ranges.links(0, n), ranges.nodes(0, n - 1, false))
-              : central_data(ranges.links(0, n), ranges.nodes(0, n, false));
+    const auto central = loop_ ? central_loop(ranges.links(0, n), ranges.nodes(0, n - 1, false))
+                               : central_data(ranges.links(0, n), ranges.nodes(0, n, false));
     if (!central) {
       return fail({ErrorCode::kFixedDataContradict,
                    "what is given leaves no headings with which a monotone curve exists", "",

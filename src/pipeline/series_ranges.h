@@ -37,8 +37,8 @@ struct LoopProblem {
   std::vector<RangeNode> range_nodes;
 };
 
-/// `points` and `wishes.fixed` have each point once. Errors: those of `analyse` and `chain_problem`,
-/// points numbered along more than one turn.
+/// `points` and `wishes.fixed` have each point once. Errors: those of `analyse` and
+/// `chain_problem`, points numbered along more than one turn.
 [[nodiscard]] Result<LoopProblem> loop_problem(const std::vector<Vec2>& points,
                                                const ChainWishes& wishes);
 

@@ -76,8 +76,8 @@ class LoopTurn {
       }
       RangeNode node = all_nodes_[i];
       if (node.theta) *node.theta += turned;
-      if (node.thetas) node.thetas = ValueRange{node.thetas->low + turned,
-                                                node.thetas->high + turned};
+      if (node.thetas)
+        node.thetas = ValueRange{node.thetas->low + turned, node.thetas->high + turned};
       nodes_.push_back(node);
       if (!all_wanted_.empty()) wanted_.push_back(all_wanted_[i]);
     }
@@ -175,8 +175,8 @@ class LoopTurn {
     }
     CurvatureRange left = both;
     (peak() > 0 ? left.low : left.high) = bluntest;
-    return closes(theta, region_detail::chosen_curvature(left, wanted_.empty() ? std::nullopt
-                                                                               : wanted_.front()));
+    return closes(theta, region_detail::chosen_curvature(
+                             left, wanted_.empty() ? std::nullopt : wanted_.front()));
   }
 
   [[nodiscard]] Nodes in_order(const Nodes& made) const {

@@ -321,7 +321,7 @@ TEST(Preferences, TheCentreIsThatOfTheWorksheet) {
 }
 
 /// Twelve points of an ellipse, closed, the first one not at a vertex.
-PointSeries closed_ellipse() {
+PointSeries twelve_of_an_ellipse() {
   PointSeries out;
   for (int i = 0; i < 12; ++i) {
     const double t = std::numbers::pi * i / 6.0 + 0.2;
@@ -331,7 +331,7 @@ PointSeries closed_ellipse() {
 }
 
 TEST(Preferences, OfAClosedSeriesCloseAndKeepTheirWord) {
-  const PointSeries series = closed_ellipse();
+  const PointSeries series = twelve_of_an_ellipse();
   FitJob job;
   job.closing = Closing::kClosed;
   const auto fair = fit(series, job);

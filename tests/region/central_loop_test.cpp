@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Data around closed series: each chord has a spiral by Kurnosenko's inequality, written here again.
+// Data around closed series: each chord has a spiral by Kurnosenko's inequality, written here
+// again.
 #include <gtest/gtest.h>
 
 #include <algorithm>

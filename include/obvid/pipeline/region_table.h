@@ -95,7 +95,7 @@ struct ConstructionRow {
 
 struct ConstructionTable {
   Construction construction = Construction::kArcs;
-  std::vector<std::string> columns;  ///< short names: R, R', H, ...
+  std::vector<std::string> columns;    ///< short names: R, R', H, ...
   std::vector<ConstructionRow> rows;   ///< of a segment one, behind it those of its steps
   std::vector<Piece> pieces;           ///< in order
   std::vector<std::size_t> piece_row;  ///< row of the part that each of them belongs to
