@@ -120,8 +120,10 @@ Result<Comparison> compare_carriers(const PointSeries& series, const FitJob& job
     ComparedCarrier row;
     row.carrier = carrier;
     if (carrier != Carrier::kSpiral) {
-      // those that were made: they may have given way to G2
-      one.followed = out.carriers.front().fit.contour.continuity;
+      if (job.continuity ==
+          Continuity::kG3) {  // those that were made: they may have given way to G2
+        one.followed = out.carriers.front().fit.contour.continuity;
+      }
       one.continuity = Continuity::kG2;
     }
     auto made = timed_fit(series, one, watch, row.seconds);

@@ -194,9 +194,11 @@ struct KeptParts {
   }
 };
 
+bool is_made_g3(const FitJob& job) { return wanted_continuity(job) == Continuity::kG3; }
+
 /// Whether the slopes of the spirals' curvature are made continuous.
 bool makes_slopes_continuous(const FitJob& job) {
-  return (job.carrier == Carrier::kSpiral ? job.continuity : job.followed) == Continuity::kG3;
+  return is_made_g3(job) || (job.carrier != Carrier::kSpiral && job.followed == Continuity::kG3);
 }
 
 /// Forms the sections one after the other, and beside them the spirals of the same elements.
@@ -219,6 +221,7 @@ class SectionForming {
     for (std::size_t k = 0; k < series_.split.sections.size() && !watch_.cancelled(); ++k) {
       if (auto done = form_one(k); !done) return tl::unexpected(done.error());
     }
+    if (watch_.was_cancelled()) return fail(cancelled_error());  // sections are missing
     out_.contour = finished(assembly_, job_.carrier);
     if (out_.chain.slope_step_g2) out_.chain.waviness_g2 = waviness_g2_.value();
     if (have_spirals_ && job_.carrier != Carrier::kSpiral) {
@@ -325,7 +328,7 @@ class SectionForming {
 
   /// Remembers how far the slopes of the G2 contour step, and how they wave.
   void note_slope_step(const Contour& spirals) {
-    if (job_.continuity != Continuity::kG3) return;
+    if (!is_made_g3(job_)) return;
     double& largest = out_.chain.slope_step_g2.emplace(out_.chain.slope_step_g2.value_or(0.0));
     largest = std::max(largest, largest_slope_step(spirals, series_.split.smooth_loop));
     waviness_g2_.add(spirals, series_.split.smooth_loop);
@@ -573,6 +576,14 @@ std::vector<bool> missed_points(const Contour& contour, Watch& watch) {
   return out;
 }
 
+/// What is said of the tolerances that both were formed within.
+void take_warnings(const Formed& flat, Formed& smooth) {
+  for (const std::string& one : flat.warnings) {
+    const auto& said = smooth.warnings;
+    if (std::find(said.begin(), said.end(), one) == said.end()) smooth.warnings.push_back(one);
+  }
+}
+
 /// Continuous slopes within tolerances: those of the G2 contour's elements, so that no vertex and
 /// no inflection is added. Runs that miss points whatever was tried keep their G2 spirals.
 Result<Formed> smooth_within(Prepared& series, const FitJob& job, double tolerance, KeptParts kept,
@@ -591,15 +602,18 @@ Result<Formed> smooth_within(Prepared& series, const FitJob& job, double toleran
     const std::vector<bool> missed = missed_points(smooth->contour, watch);
     if (std::find(missed.begin(), missed.end(), true) == missed.end()) {
       if (turns_of(smooth->contour).more_than(most)) break;
+      take_warnings(*flat, *smooth);
       return smooth;
     }
     kept.make(missed.size());
     for (std::size_t i = 0; i < missed.size(); ++i) kept.around[i] = kept.around[i] || missed[i];
     smooth = form();
   }
-  flat->warnings.emplace_back(
-      "within the tolerances no contour with continuous slopes of the curvature was found that has "
-      "no more vertices and inflections: it is G2");
+  if (job.continuity) {
+    flat->warnings.emplace_back(
+        "within the tolerances no contour with continuous slopes of the curvature was found that "
+        "has no more vertices and inflections: it is G2");
+  }
   return flat;
 }
 
@@ -629,9 +643,8 @@ Result<Measured> form_and_measure(Prepared& prepared, const FitJob& job, const U
                                   const Tolerances& within, const KeptParts& kept, Watch& watch) {
   Result<Formed> formed = [&] {
     const Stretch stretch(watch, 0.0, kFormedAt);
-    return job.continuity == Continuity::kG3
-               ? smooth_within(prepared, job, within.formed, kept, watch)
-               : form_within(prepared, job, within.formed, watch);
+    return is_made_g3(job) ? smooth_within(prepared, job, within.formed, kept, watch)
+                           : form_within(prepared, job, within.formed, watch);
   }();
   // a carrier that chooses headings of its own is held at the end of a range that it passes
   std::vector<GivenDatum> passed;
@@ -773,7 +786,7 @@ bool tell_steps(Contour& contour) {
 }
 
 /// The contour that says so, if it is proved.
-std::optional<Fit> with_told_steps(const Fit& smooth, Watch& watch) {
+std::optional<Fit> with_told_steps(const Fit& smooth, bool warns, Watch& watch) {
   Fit out = smooth;
   if (!tell_steps(out.contour)) return std::nullopt;
   out.certificate = certify(out.contour, watch);
@@ -784,16 +797,19 @@ std::optional<Fit> with_told_steps(const Fit& smooth, Watch& watch) {
   report->chain = smooth.report.chain;
   report->seconds = smooth.report.seconds;
   out.report = std::move(*report);
-  out.warnings.push_back(
-      fmt::format("rounding leaves a step of the slope of curvature at {} of the joints: G2 there",
-                  out.certificate.slope_steps));
+  if (warns) {
+    out.warnings.push_back(fmt::format(
+        "rounding leaves a step of the slope of curvature at {} of the joints: G2 there",
+        out.certificate.slope_steps));
+  }
   return out;
 }
 
 /// Runs whose smooth spirals are not proved keep their G2 ones; if that does not help, the whole
 /// contour does, if that is proved.
 Result<Fit> proved_without_slopes(const PointSeries& series, FitJob job, Fit smooth, Watch& watch) {
-  if (auto told = with_told_steps(smooth, watch)) return std::move(*told);
+  const bool asked = job.continuity.has_value();
+  if (auto told = with_told_steps(smooth, asked, watch)) return std::move(*told);
   KeptParts kept;
   std::optional<Fit> now = smooth;
   for (int round = 0; round < kKeptRounds && now && keep_unproved(*now, kept); ++round) {
@@ -805,12 +821,20 @@ Result<Fit> proved_without_slopes(const PointSeries& series, FitJob job, Fit smo
   job.continuity = Continuity::kG2;
   auto made = formed_and_proved(series, job, watch);
   if (!made || !made->certificate.proved) return smooth;
-  made->warnings.push_back("the G3 contour was not proved, so this one is G2: " +
-                           smooth.certificate.reason);
+  if (asked) {
+    made->warnings.push_back("the G3 contour was not proved, so this one is G2: " +
+                             smooth.certificate.reason);
+  }
   return made;
 }
 
 }  // namespace
+
+Continuity wanted_continuity(const FitJob& job) {
+  // what is preferred holds of the headings of the G2 contour
+  const bool smooth = job.carrier == Carrier::kSpiral && job.prefer == Prefer::kFair;
+  return smooth ? job.continuity.value_or(Continuity::kG3) : Continuity::kG2;
+}
 
 Result<Fit> fit(const PointSeries& series, const FitJob& job, Watch& watch) {
   if (watch.cancelled()) return fail(cancelled_error());
@@ -820,8 +844,12 @@ Result<Fit> fit(const PointSeries& series, const FitJob& job, Watch& watch) {
          fmt::format("carrier {} has no continuous slope of curvature", to_string(job.carrier)),
          "--continuity", "G3 is for --carrier spiral", -1, 0.0});
   }
+  if (job.continuity == Continuity::kG3 && job.prefer != Prefer::kFair) {
+    return fail({ErrorCode::kBadOption, "continuous slopes move the headings that are preferred",
+                 "--continuity", "leave out --continuity G3, or --prefer", -1, 0.0});
+  }
   auto made = formed_and_proved(series, job, watch);
-  if (made && job.continuity == Continuity::kG3 && !made->certificate.proved) {
+  if (made && is_made_g3(job) && !made->certificate.proved) {
     made = proved_without_slopes(series, job, std::move(*made), watch);
   }
   if (watch.was_cancelled()) return fail(cancelled_error());  // whatever it made do with
