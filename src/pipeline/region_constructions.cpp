@@ -8,6 +8,7 @@
 #include <cmath>
 #include <optional>
 #include <utility>
+#include <variant>
 
 #include "construction_section.h"
 #include "obvid/certify/certify.h"
@@ -16,6 +17,7 @@
 #include "obvid/contour/clothoids.h"
 #include "obvid/curve/bspline.h"
 #include "obvid/region/boundary_distance.h"
+#include "obvid/series/analysis.h"
 
 namespace obvid::pipeline_detail {
 namespace {
@@ -38,11 +40,20 @@ class TwoArcs {
     for (std::size_t k = section.first; k < section.last; ++k) {
       const RegionRow& row = section.row(k);
       Element a = section.start_of(k), b = section.end_of(k);
+      if (const auto one = one_arc(a, b)) {
+        add_row(out_, k,
+                {1.0 / one->kappa, 1.0 / one->kappa, std::abs(sagitta(one->kappa, row.chord)), 0.0},
+                "one arc");
+        put_piece(out_, k, *one);
+        before = one->kappa;
+        continue;
+      }
       a.kappa = (*kappa)[k - section.first];
       b.kappa = (*kappa)[k - section.first + 1];
       const auto chosen = choose_biarc(chord_frame(a, b), *row.direction);
       if (!chosen) return fail(section.no_region(k));
       const auto pair = biarc(a, b, *chosen);
+      if (!std::all_of(pair.begin(), pair.end(), is_an_arc)) return fail(turns_back(section, k));
       const double d = *row.direction;
       const bool one_run = k > section.first && section.row(k - 1).direction == row.direction;
       grows_ = grows_ && d * chosen->first < d * chosen->second &&
@@ -72,6 +83,30 @@ class TwoArcs {
   }
 
  private:
+  /// Headings alike on both sides of the chord.
+  [[nodiscard]] static std::optional<ArcPiece> one_arc(const Element& a, const Element& b) {
+    constexpr double kAlike = 1e-12;  // rad: what the coordinates leave of their sum
+    const Vec2 chord = b.point - a.point;
+    const double alpha = turning(chord, unit_at(a.theta)), beta = turning(chord, unit_at(b.theta));
+    const double kappa = 2.0 * std::sin(beta) / norm(chord);
+    if (std::abs(alpha + beta) > kAlike || kappa == 0.0) return std::nullopt;
+    return ArcPiece{a.point, b.point, a.theta, kappa, 2.0 * beta / kappa};
+  }
+
+  static bool is_an_arc(const Piece& piece) {
+    const auto* arc = std::get_if<ArcPiece>(&piece);
+    return arc == nullptr || (std::isfinite(arc->kappa) && arc->length > 0.0);
+  }
+
+  [[nodiscard]] static Error turns_back(const ConstructionSection& section, std::size_t k) {
+    return {ErrorCode::kNoSpiral,
+            "two arcs would turn by half a turn or more there",
+            section.segment(k),
+            "put a point between them, or choose other headings",
+            static_cast<std::ptrdiff_t>(section.point(section.row(k).from).number),
+            0.0};
+  }
+
   /// Of the arc that stands over the middle of the chord.
   [[nodiscard]] static double height_over_middle(const ChordFrame& frame,
                                                  const std::array<Piece, 2>& pair) {

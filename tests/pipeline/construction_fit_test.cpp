@@ -307,6 +307,25 @@ TEST(ConstructionFit, TwoArcsPerSegmentGoOneWayAndMeetTheTangents) {
   EXPECT_TRUE(f->certificate.proved) << f->certificate.reason;
 }
 
+/// By the neighbours' rule an end has the heading of the circle through it that is tangent to the
+/// heading of its neighbour: one arc, of curvature 2 sin(angle to the chord) / chord.
+TEST(ConstructionFit, HeadingsOfACircleMakeOneArc) {
+  RegionJob job;
+  job.construction = Construction::kArcs;
+  job.rule = TangentRule::kNeighbours;
+  const std::vector<Vec2> points{{0.0, 0.29552}, {0.5, 0.71736}, {1.0, 0.96356}, {1.5, 0.97385}};
+  const auto f = fit_construction(series_of_shape(points), job);
+  ASSERT_TRUE(f) << to_line(f.error());
+  EXPECT_TRUE(f->certificate.proved) << f->certificate.reason;
+  ASSERT_EQ(f->contour.pieces.size(), 4U);
+  const auto twice_sine = [](Vec2 from, Vec2 to) { return 2.0 * std::sin(turning(from, to)); };
+  const Vec2 first = points[1] - points[0], last = points[3] - points[2];
+  EXPECT_NEAR(std::get<ArcPiece>(f->contour.pieces.front()).kappa,
+              twice_sine(first, points[2] - points[0]) / norm(first), 1e-12);
+  EXPECT_NEAR(std::get<ArcPiece>(f->contour.pieces.back()).kappa,
+              twice_sine(points[3] - points[1], last) / norm(last), 1e-12);
+}
+
 TEST(ConstructionFit, OneClothoidPerSegmentIsTheClothoidBetweenItsTangents) {
   RegionJob job;
   job.construction = Construction::kClothoids;
