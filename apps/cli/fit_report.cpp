@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 
+#include "obvid/curve/nearest.h"
 #include "obvid/io/verdict.h"
 #include "outputs.h"
 #include "table.h"
@@ -27,8 +28,24 @@ std::vector<std::size_t> joints_of_points(const Contour& contour) {
   return joint;
 }
 
-std::string radius_at(const Contour& contour, std::size_t joint) {
-  return joint == kNone ? "-" : radius_text(contour.joints[joint].element.kappa);
+/// Curvature where a contour passes a point that is no joint of it.
+double curvature_beside(const Contour& contour, Vec2 p) {
+  double nearest = std::numeric_limits<double>::infinity(), kappa = 0.0;
+  for (const Piece& piece : contour.pieces) {
+    for (const double start : {0.0, 0.5, 1.0}) {
+      const Jet jet = evaluate(piece, nearest_parameter(piece, p, start));
+      const double distance = norm(jet.point - p);
+      if (!(distance < nearest)) continue;
+      nearest = distance;
+      kappa = curvature(jet);
+    }
+  }
+  return kappa;
+}
+
+std::string radius_at(const Contour& contour, std::size_t joint, std::size_t point) {
+  if (joint != kNone) return radius_text(contour.joints[joint].element.kappa);
+  return radius_text(curvature_beside(contour, contour.points[point]));
 }
 
 /// Pieces from one joint to another; around the seam of a closed contour the last joint is the
@@ -62,11 +79,12 @@ Table fit_segments(const Fit& fit) {
     if (i > before) table.gap();
     before = i + 1;
     const SegmentReport& segment = fit.report.segments[i];
-    const std::size_t from = joint[segment.from.value_or(0)], to = joint[segment.to.value_or(0)];
+    const std::size_t first = segment.from.value_or(0), last = segment.to.value_or(0);
+    const std::size_t from = joint[first], to = joint[last];
     table.row({points_text(segment), significant(segment.chord),
                significant(segment.points_only_error, 4), significant(segment.width, 4),
                std::to_string(segment.inserted), pieces_text(contour, from, to),
-               radius_at(contour, from), radius_at(contour, to)});
+               radius_at(contour, from, first), radius_at(contour, to, last)});
   }
   return table;
 }

@@ -23,6 +23,8 @@ namespace obvid {
 namespace {
 
 constexpr int kHeightDigits = 5, kWidthDigits = 4;
+/// More steps of a construction are left to files.
+constexpr std::ptrdiff_t kMostSteps = 60;
 /// Headings are told to a hundred-thousandth of a degree: their ranges are known to some 1e-6.
 constexpr double kHeadingStep = 1e-5;
 constexpr int kHeadingDigits = 8;
@@ -180,7 +182,11 @@ std::string construction_text(const RegionTable& region) {
   table.column("points", name_align(region.last()));
   for (const std::string& column : made.columns) table.column(column);
   table.column("", Table::Align::kLeft);
+  const auto details = std::count_if(made.rows.begin(), made.rows.end(),
+                                     [](const ConstructionRow& row) { return row.detail; });
+  const bool all = details <= kMostSteps;
   for (const ConstructionRow& row : made.rows) {
+    if (row.detail && !all) continue;
     std::vector<std::string> cells{
         region_segment_name(region.last(), region.last().rows[row.segment])};
     for (const double value : row.values) {
@@ -190,6 +196,7 @@ std::string construction_text(const RegionTable& region) {
     table.row(cells);
   }
   std::string out = "\n" + table.text();
+  if (!all) out += fmt::format("{} rows of steps: in -o NAME.csv, .tex and --json\n", details);
   for (const std::string& remark : made.remarks) out += remark + "\n";
   return out;
 }

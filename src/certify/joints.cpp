@@ -392,8 +392,8 @@ std::string missed_point(const Contour& contour) {
     if (met == 0 && contour.closed) first = *joint.source;
     const std::size_t place = (*joint.source + n - first) % n;
     if (exact ? place != due : place < due) {
-      return fmt::format("joint {} claims point {} where point {} is due", j + 1,
-                         *joint.source + 1, (due + first) % n + 1);
+      return fmt::format("joint {} claims point {} where point {} is due", j + 1, *joint.source + 1,
+                         (due + first) % n + 1);
     }
     if (exact && !(joint.element.point == contour.points[*joint.source])) {
       return fmt::format("joint {} does not stand on point {}", j + 1, *joint.source + 1);

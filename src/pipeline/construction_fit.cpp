@@ -22,8 +22,11 @@ namespace {
 
 using namespace pipeline_detail;
 
-/// Neighbouring pieces that agree so far are one curve: rad, and of the larger curvature.
+/// Neighbouring pieces that agree so far are one curve: rad.
 constexpr double kSameAtJoint = 1e-9;
+/// And of the larger curvature: a tenth of the gap that certificates allow, beyond the rounding of
+/// short parabolas.
+constexpr double kSameCurvatureAtJoint = 1e-7;
 
 /// Conics of a contour are arcs of ellipses.
 Result<void> only_ellipses(const ConstructionTable& made, const RegionPart& part) {
@@ -32,12 +35,12 @@ Result<void> only_ellipses(const ConstructionTable& made, const RegionPart& part
     if (made.construction != Construction::kEllipses || conic == nullptr) return {};
     const double w2 = conic->weight[1] * conic->weight[1] / (conic->weight[0] * conic->weight[2]);
     if (w2 < 1.0) continue;
-    const RegionRow& row = part.rows[made.rows[made.piece_row[k]].segment];
+    const RegionRow& row = part.rows[made.piece_row[k]];
     const std::size_t from = part.points[row.from].number, to = part.points[row.to].number;
     return fail(
         {ErrorCode::kNoSpiral,
-         "no ellipse arc there carries on the curvature of those before it: it would be a "
-         "parabola or hyperbola",
+         "no ellipse arc there lies in the region of monotone curves: it would be a parabola or "
+         "hyperbola",
          fmt::format("points {} to {}", from + 1, to + 1),
          "change the tangents there; `obvid region --construction ellipses` shows the weights",
          static_cast<std::ptrdiff_t>(from), std::sqrt(w2)});
@@ -77,7 +80,7 @@ class ConstructionContour {
 
  private:
   [[nodiscard]] const RegionRow& row_of(std::size_t piece) const {
-    return part_.rows[made_.rows[made_.piece_row[piece]].segment];
+    return part_.rows[made_.piece_row[piece]];
   }
 
   /// The first piece of a segment starts at its point.
@@ -104,14 +107,20 @@ class ConstructionContour {
   /// Where the pieces differ the joint has both elements; arcs step anyway.
   void part_at(Joint& joint, std::size_t k) const {
     const Element after = joint.element, before = element(k - 1, 1.0, after.theta);
-    const double larger = std::max(std::abs(before.kappa), std::abs(after.kappa));
     const bool turns = std::abs(after.theta - before.theta) > kSameAtJoint;
-    const bool steps = out_.carrier != Carrier::kArcs &&
-                       std::abs(after.kappa - before.kappa) > kSameAtJoint * larger;
-    if (!turns && !steps) return;
+    if (!turns && !steps(k - 1, before.kappa, k, after.kappa)) return;
     joint.element = before;
     joint.element.point = after.point;
     joint.leaving = after;
+  }
+
+  /// Measured by what both pieces have: at an inflection curvatures are rounding.
+  [[nodiscard]] bool steps(std::size_t piece, double before, std::size_t next, double after) const {
+    if (out_.carrier == Carrier::kArcs) return false;
+    const double larger =
+        std::max({std::abs(before), std::abs(after), std::abs(element(piece, 0.0, 0.0).kappa),
+                  std::abs(element(next, 1.0, 0.0).kappa)});
+    return std::abs(after - before) > kSameCurvatureAtJoint * larger;
   }
 
   void close() {
@@ -120,10 +129,10 @@ class ConstructionContour {
     out_.joints.pop_back();
     Joint& first = out_.joints.front();
     const double turn = std::remainder(last.element.theta - first.element.theta, kFullTurn);
-    const double larger = std::max(std::abs(last.element.kappa), std::abs(first.element.kappa));
-    const bool steps = out_.carrier != Carrier::kArcs &&
-                       std::abs(last.element.kappa - first.element.kappa) > kSameAtJoint * larger;
-    if (std::abs(turn) <= kSameAtJoint && !steps) return;
+    if (std::abs(turn) <= kSameAtJoint &&
+        !steps(made_.pieces.size() - 1, last.element.kappa, 0, first.element.kappa)) {
+      return;
+    }
     first.leaving = first.element;
     first.element = last.element;
     first.element.point = first.leaving->point;

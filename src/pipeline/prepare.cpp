@@ -55,9 +55,6 @@ class Preparation {
     }
     if (!out_.exact())
       return refused("only where points are met, without noise, is there a choice");
-    if (out_.split.smooth_loop && job_.prefer != Prefer::kLeastChange) {
-      return refused("this choice needs an open series, or corners");
-    }
     return {};
   }
 

@@ -8,11 +8,13 @@
 
 namespace obvid::pipeline_detail {
 
-/// The construction over all segments of a part that have a region (clothoids: over all).
-/// Errors: E401 where a segment has none, or no triangle of tangents; E203 closed series of
-/// ellipses, which come back with another curvature; E502 parabolas where the curvature hardly
-/// changes; E401, E203 order of fixation 1 where the triangles leave none.
-/// `fixation`: of parabolas, as RegionJob has it.
+/// The construction over all segments of a part, section after section between corners; around a
+/// loop it comes back with the curvature that it began with, but for clothoids and arcs, which step
+/// anyway, and ellipses, whose curvatures the tangents decide. At an inflection parabolas and
+/// ellipses step in curvature. All but clothoids and splines need regions. Errors: E401 where a
+/// segment has none, or with these headings no radii do; E502 parabolas where the curvature hardly
+/// changes; E203 order of fixation 1 with given radii. `fixation`: of parabolas, as RegionJob has
+/// it.
 [[nodiscard]] Result<ConstructionTable> construct(const RegionPart& part, Construction which,
                                                   std::optional<int> fixation = {});
 

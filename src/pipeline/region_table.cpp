@@ -18,6 +18,7 @@
 #include "prepare.h"
 #include "region_constructions.h"
 #include "section_chain.h"
+#include "series_ranges.h"
 
 namespace obvid {
 namespace {
@@ -179,6 +180,7 @@ class PartMaker {
     }
     for (std::size_t i = 0; i + 1 < s_.points.size(); ++i) out_.rows.push_back(row(i));
     if (analysis_ != nullptr) add_spline();
+    out_.loop = s_.loop;
     return std::move(out_);
   }
 
@@ -421,31 +423,18 @@ class SheetMaker {
       all_given = true;
     }
     if (!all_given && !central) return follow_chain(warnings);
-    if (central && loop_ && !all_given) {
-      return fail({ErrorCode::kBadOption,
-                   "tangents at the centres of their ranges need an open series", "",
-                   "give the headings, or leave the choice to the program"});
-    }
-    const auto analysis = analyse(sheet_.points);
-    if (!analysis) return fail(analysis.error());
     ChainWishes wishes;
     wishes.convex = series_.convex;
     for (const FixedData& f : sheet_.given) {
       wishes.fixed.push_back(all_given ? FixedData{} : f);
     }
-    const auto problem = chain_problem(*analysis, wishes);
-    if (!problem) return fail(problem.error());
-    for (const std::int8_t d : analysis->direction) sheet_.direction.emplace_back(d);
-    for (std::size_t i = 0; i < sheet_.points.size(); ++i) {
-      sheet_.sign.push_back(problem->nodes[i].curvature_sign);
-      sheet_.theta.push_back(
-          sheet_.given[i].theta.value_or(neighbour_.empty() ? 0.0 : neighbour_[i]));
-      sheet_.kappa.push_back(sheet_.given[i].kappa.value_or(analysis->circles[i].kappa));
+    if (auto done = loop_ ? start_loop(std::move(wishes)) : start_open(wishes); !done) {
+      return fail(done.error());
     }
     if (central && !all_given) {
       if (auto done = take_centres(); !done) return fail(done.error());
     }
-    unwrap(*analysis);
+    unwrap();
     if (all_given && sheet_.points.size() < kFewestThatTell) follow_headings();
     if (!central || all_given) take_curvatures();
     sheet_.inserted.assign(sheet_.points.size(), 0);
@@ -453,10 +442,44 @@ class SheetMaker {
   }
 
  private:
+  Result<void> start_open(const ChainWishes& wishes) {
+    const auto analysis = analyse(sheet_.points);
+    if (!analysis) return fail(analysis.error());
+    const auto problem = chain_problem(*analysis, wishes);
+    if (!problem) return fail(problem.error());
+    for (const std::int8_t d : analysis->direction) sheet_.direction.emplace_back(d);
+    for (std::size_t i = 0; i < sheet_.points.size(); ++i) {
+      start_at(i, problem->nodes[i], analysis->circles[i].kappa);
+    }
+    return {};
+  }
+
+  Result<void> start_loop(ChainWishes wishes) {
+    const std::size_t n = sheet_.points.size() - 1;
+    wishes.fixed.resize(n);
+    const std::vector<Vec2> once(sheet_.points.begin(), sheet_.points.end() - 1);
+    const auto problem = loop_problem(once, wishes);
+    if (!problem) return fail(problem.error());
+    for (const std::int8_t d : problem->direction) sheet_.direction.emplace_back(d);
+    for (std::size_t i = 0; i <= n; ++i) {
+      start_at(i, problem->nodes[i % n], problem->adjacent_kappa[i % n]);
+    }
+    return {};
+  }
+
+  /// Before anything is chosen: what is given, what the rule says, what an arc has.
+  void start_at(std::size_t i, const NodeData& node, double adjacent_kappa) {
+    const double theta = neighbour_.empty() ? node.theta.value_or(0.0) : neighbour_[i];
+    sheet_.sign.push_back(node.curvature_sign);
+    sheet_.theta.push_back(sheet_.given[i].theta.value_or(theta));
+    sheet_.kappa.push_back(sheet_.given[i].kappa.value_or(adjacent_kappa));
+  }
+
   Result<void> take_centres() {
     const Ranges ranges(sheet_);
     const std::size_t n = sheet_.points.size();
-    const auto central = central_data(ranges.links(0, n), ranges.nodes(0, n, false));
+    const auto central = loop_ ? central_loop(ranges.links(0, n), ranges.nodes(0, n - 1, false))
+                               : central_data(ranges.links(0, n), ranges.nodes(0, n, false));
     if (!central) {
       return fail({ErrorCode::kFixedDataContradict,
                    "what is given leaves no headings with which a monotone curve exists", "",
@@ -482,10 +505,11 @@ class SheetMaker {
   }
 
   /// Given headings count modulo a full turn: as they go along with the chords.
-  void unwrap(const Analysis& a) {
+  void unwrap() {
+    const std::vector<Chord> chords = measure_chords(sheet_.points);
     for (std::size_t i = 0; i < sheet_.theta.size(); ++i) {
-      const double before = a.chords[i > 0 ? i - 1 : 0].omega;
-      const double after = a.chords[std::min(i, a.chords.size() - 1)].omega;
+      const double before = chords[i > 0 ? i - 1 : 0].omega;
+      const double after = chords[std::min(i, chords.size() - 1)].omega;
       sheet_.theta[i] = nearest_angle(sheet_.theta[i], 0.5 * (before + after));
     }
   }
@@ -558,6 +582,7 @@ void append(RegionPart part, RegionPart& to) {
     to.rows.push_back(std::move(row));
   }
   to.points.insert(to.points.end(), part.points.begin(), part.points.end());
+  to.loop = part.loop;  // a loop is the only part
 }
 
 }  // namespace

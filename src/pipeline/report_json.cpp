@@ -183,6 +183,12 @@ void add_region_points(JsonText& json, const std::vector<RegionPoint>& points) {
   json.end_array();
 }
 
+void add_construction_row(JsonText& json, const ConstructionRow& row) {
+  json.begin_object().pair("segment", row.segment + 1).key("values").begin_array();
+  for (const double value : row.values) json.value(value);
+  json.end_array().pair("remark", row.remark).end_object();
+}
+
 }  // namespace
 
 std::string region_json(const PointSeries& series, const RegionTable& region) {
@@ -209,9 +215,12 @@ std::string region_json(const PointSeries& series, const RegionTable& region) {
     add_texts(json, "columns", made.columns);
     json.key("segments").begin_array();
     for (const ConstructionRow& row : made.rows) {
-      json.begin_object().key("values").begin_array();
-      for (const double value : row.values) json.value(value);
-      json.end_array().pair("remark", row.remark).end_object();
+      if (row.detail) continue;
+      add_construction_row(json, row);
+    }
+    json.end_array().key("steps").begin_array();
+    for (const ConstructionRow& row : made.rows) {
+      if (row.detail) add_construction_row(json, row);
     }
     json.end_array();
     add_texts(json, "remarks", made.remarks);

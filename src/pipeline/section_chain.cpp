@@ -145,7 +145,7 @@ class SectionChooser {
     }
     if (!chain && bounds_.empty()) return chain;
     bounds_.clear();
-    if (!moves_ && !loop_) {
+    if (!moves_) {
       central_ = true;
       auto middle = formed_once();
       central_ = false;
@@ -163,7 +163,8 @@ class SectionChooser {
     if (series_.prefer != Prefer::kLeastCurvature || cap_) return {};
     const auto analysis = analyse(points_);
     if (!analysis) return fail(analysis.error());
-    const auto least = least_largest_curvature(*analysis, wishes());
+    const auto least = loop_ ? least_largest_curvature_of_loop(points_, wishes())
+                             : least_largest_curvature(*analysis, wishes());
     if (!least) {
       return fail({ErrorCode::kFixedDataContradict,
                    "what is given leaves no headings and curvatures with which a monotone contour "
@@ -426,6 +427,7 @@ class SectionChooser {
     std::vector<Vec2> unrolled;
     std::vector<std::size_t> whole;
     ChainWishes all = wishes(), more;
+    if (all.central) return central_turn(all);
     more.convex = all.convex;
     more.to_the_edge = all.to_the_edge;
     more.least_change = all.least_change;
@@ -470,6 +472,14 @@ class SectionChooser {
       return source[node].value_or(0);
     });
     return fail(std::move(error));
+  }
+
+  Result<SeriesChain> central_turn(const ChainWishes& all) const {
+    if (auto central = central_chain_of_loop(points_, all, watch_)) return std::move(*central);
+    return fail({ErrorCode::kFixedDataContradict,
+                 "no closed monotone contour has headings and curvatures in the middle of what is "
+                 "left",
+                 "", "free some of what is given, or leave the choice to the program", 0, 0.0});
   }
 
   /// Fixes the same element at both ends of one turn and solves it.

@@ -8,6 +8,8 @@
 #include <numbers>
 #include <utility>
 
+#include "range_middle.h"
+
 namespace obvid {
 namespace {
 
@@ -614,27 +616,6 @@ void end_open(HeadingRange& range, double omega) {
   range.high = std::min(range.high, high);
 }
 
-/// The middle of a range of radii; of curvatures where a radius is infinite or changes sign.
-double middle_curvature(const CurvatureRange& range) {
-  // open at one end and over zero at the other: between straight and the end that is known
-  if (std::isinf(range.low) && std::isfinite(range.high) && range.high > 0.0) {
-    return 0.5 * range.high;
-  }
-  if (std::isinf(range.high) && std::isfinite(range.low) && range.low < 0.0) {
-    return 0.5 * range.low;
-  }
-  if (range.low * range.high > 0.0 || std::isinf(range.low) || std::isinf(range.high)) {
-    const double low = 1.0 / range.low, high = 1.0 / range.high;
-    if (std::isfinite(low) && std::isfinite(high)) {
-      if (low != 0.0 || high != 0.0) return 2.0 / (low + high);
-      return 0.0;
-    }
-    if (std::isinf(range.low)) return range.high > 0.0 ? 0.0 : -1.0;  // all of one sign
-    if (std::isinf(range.high)) return range.low < 0.0 ? 0.0 : 1.0;
-  }
-  return 0.5 * (range.low + range.high);
-}
-
 /// Gives a heading, or else a curvature, at every point in turn.
 template <class Choose>
 bool give_in_turn(const std::vector<RangeLink>& links, std::vector<RangeNode>& nodes,
@@ -650,8 +631,9 @@ bool give_in_turn(const std::vector<RangeLink>& links, std::vector<RangeNode>& n
 
 }  // namespace
 
-std::optional<std::vector<RangeNode>> central_data(const std::vector<RangeLink>& links,
-                                                   std::vector<RangeNode> nodes) {
+std::optional<std::vector<RangeNode>> central_data(
+    const std::vector<RangeLink>& links, std::vector<RangeNode> nodes,
+    const std::vector<std::optional<double>>& wanted) {
   if (nodes.size() < 2) return std::nullopt;
   const auto heading = [&](std::size_t i, const Side& left, const Side& right) {
     auto range = Both(left, right, nodes[i], {true, true}).headings();
@@ -666,7 +648,8 @@ std::optional<std::vector<RangeNode>> central_data(const std::vector<RangeLink>&
     if (nodes[i].kappa) return true;
     const auto range = Both(left, right, nodes[i], {true, true}).curvatures(nodes[i]);
     if (!range || !(range->low < range->high)) return false;
-    nodes[i].kappa = middle_curvature(*range);
+    nodes[i].kappa =
+        region_detail::chosen_curvature(*range, wanted.empty() ? std::nullopt : wanted[i]);
     return true;
   };
   if (!give_in_turn(links, nodes, heading) || !give_in_turn(links, nodes, curvature)) {

@@ -234,7 +234,7 @@ TEST(CondensedPieces, SayWhyThereAreNone) {
   EXPECT_EQ(circle.error().code, ErrorCode::kToleranceNotReached);
 }
 
-TEST(ElementsOfTriangles, HaveTheRadiiOfALogarithmicSpiral) {
+TEST(CurvaturesOfTriangles, AreThoseOfALogarithmicSpiral) {
   std::vector<Vec2> points;
   std::vector<double> headings, kappa;
   constexpr double kStep = 0.2;
@@ -244,34 +244,48 @@ TEST(ElementsOfTriangles, HaveTheRadiiOfALogarithmicSpiral) {
     headings.push_back(e.theta);
     kappa.push_back(e.kappa);
   }
-  const auto elements = elements_of_triangles(points, headings, -1);
-  ASSERT_TRUE(elements);
+  const auto found = curvatures_of_triangles(points, headings);
+  ASSERT_EQ(found.size(), points.size());
   for (std::size_t i = 0; i < points.size(); ++i) {
+    ASSERT_TRUE(found[i]) << i;
     // curvature linear in arc length has (b/a)^3 = kappa_0 / kappa_1 up to third order of the step
-    EXPECT_NEAR((*elements)[i].kappa / kappa[i], 1.0, 4.0 * kStep * kStep * kStep) << i;
-    EXPECT_EQ((*elements)[i].point, points[i]);
-    EXPECT_EQ((*elements)[i].theta, headings[i]);
-    const std::size_t before = i == 0 ? 0 : i - 1;
-    EXPECT_EQ(condense((*elements)[before], (*elements)[i], -1).has_value(), i > 0) << i;
+    EXPECT_NEAR(*found[i] / kappa[i], 1.0, 4.0 * kStep * kStep * kStep) << i;
+    if (i == 0) continue;
+    const Element before{points[i - 1], headings[i - 1], *found[i - 1]};
+    EXPECT_TRUE(condense(before, {points[i], headings[i], *found[i]}, -1)) << i;
   }
 }
 
-TEST(ElementsOfTriangles, NameThePointThatSpoilsTheOrder) {
+TEST(CurvaturesOfTriangles, AreMissingWhereTheSeriesTurnsTheOtherWay) {
+  // y = x^3: an inflection at the point in the middle, and none of the tangents elsewhere
   std::vector<Vec2> points;
   std::vector<double> headings;
-  for (int i = 0; i < 8; ++i) {
-    points.push_back(log_spiral(1.0, 0.2 * i).point);
-    headings.push_back(log_spiral(1.0, 0.2 * i).theta);
+  for (int i = -2; i <= 2; ++i) {
+    const double x = 0.5 * i;
+    points.push_back({x, x * x * x});
+    headings.push_back(std::atan(3.0 * x * x));
   }
-  EXPECT_TRUE(elements_of_triangles(points, headings, -1));
-  EXPECT_FALSE(elements_of_triangles(points, headings, 1));
-  headings[4] += 0.09;  // its triangles swap their longer sides
-  const auto spoilt = elements_of_triangles(points, headings, -1);
-  ASSERT_FALSE(spoilt);
-  EXPECT_EQ(spoilt.error().code, ErrorCode::kNoSpiral);
-  EXPECT_NEAR(static_cast<double>(spoilt.error().index), 4.0, 1.0);
-  headings.pop_back();
-  EXPECT_EQ(elements_of_triangles(points, headings, -1).error().code, ErrorCode::kUsage);
+  const auto found = curvatures_of_triangles(points, headings);
+  EXPECT_FALSE(found[2]);
+  EXPECT_LT(found[1].value_or(0.0), 0.0);
+  EXPECT_GT(found[3].value_or(0.0), 0.0);
+}
+
+TEST(CurvaturesOfTriangles, GoRoundAClosedSeries) {
+  // a circle of radius 2 by eight points: 2 S / (a^3 b^3)^(1/2) with a = b = 2 tan(22.5 degrees)
+  std::vector<Vec2> points;
+  std::vector<double> headings;
+  for (int i = 0; i <= 8; ++i) {
+    const double t = 0.25 * std::numbers::pi * i;
+    points.push_back({2.0 * std::cos(t), 2.0 * std::sin(t)});
+    headings.push_back(t + 0.5 * std::numbers::pi);
+  }
+  const double side = 2.0 * std::tan(std::numbers::pi / 8.0);
+  const double area = 0.5 * side * side * std::sin(std::numbers::pi / 4.0);
+  for (const auto& kappa : curvatures_of_triangles(points, headings, true)) {
+    ASSERT_TRUE(kappa);
+    EXPECT_NEAR(*kappa, area / (side * side * side), 1e-13);
+  }
 }
 
 }  // namespace

@@ -320,6 +320,55 @@ TEST(Preferences, TheCentreIsThatOfTheWorksheet) {
   }
 }
 
+/// Twelve points of an ellipse, closed, the first one not at a vertex.
+PointSeries twelve_of_an_ellipse() {
+  PointSeries out;
+  for (int i = 0; i < 12; ++i) {
+    const double t = std::numbers::pi * i / 6.0 + 0.2;
+    out.points.push_back({3.0 * std::cos(t), 2.0 * std::sin(t)});
+  }
+  return out;
+}
+
+TEST(Preferences, OfAClosedSeriesCloseAndKeepTheirWord) {
+  const PointSeries series = twelve_of_an_ellipse();
+  FitJob job;
+  job.closing = Closing::kClosed;
+  const auto fair = fit(series, job);
+  ASSERT_TRUE(fair) << to_line(fair.error());
+  job.prefer = Prefer::kCentre;
+  const auto centre = fit(series, job);
+  job.prefer = Prefer::kLeastCurvature;
+  const auto least = fit(series, job);
+  ASSERT_TRUE(centre && least);
+  for (const auto* f : {&*centre, &*least}) {
+    EXPECT_TRUE(f->certificate.proved) << f->certificate.reason;
+    EXPECT_EQ(f->certificate.vertices, 4);
+    EXPECT_EQ(f->certificate.curvature_steps, 0);
+  }
+  RegionJob sheet;
+  sheet.job.closing = Closing::kClosed;
+  sheet.rule = TangentRule::kCentral;
+  const auto table = region_table(series, sheet);
+  ASSERT_TRUE(table) << to_line(table.error());
+  for (const Joint& joint : centre->contour.joints) {
+    if (!joint.source) continue;
+    EXPECT_NEAR(std::remainder(joint.element.theta - table->elements[*joint.source].theta,
+                               2.0 * std::numbers::pi),
+                0.0, 1e-9);
+  }
+  const double most = largest_curvature(least->contour);
+  EXPECT_LT(most, 0.95 * largest_curvature(fair->contour));
+  FitJob below;
+  below.closing = Closing::kClosed;
+  for (std::size_t i = 0; i < series.points.size(); ++i) {
+    below.wishes.push_back(kappa_range(i, -0.98 * most, 0.98 * most));
+  }
+  const auto none = fit(series, below);
+  ASSERT_FALSE(none);
+  EXPECT_EQ(none.error().code, ErrorCode::kFixedDataContradict);
+}
+
 TEST(Preferences, WithNoiseThereAreNone) {
   FitJob job;
   job.prefer = Prefer::kCentre;

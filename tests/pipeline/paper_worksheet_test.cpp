@@ -263,6 +263,14 @@ TEST(PaperConstructions, RadiiOfTwoArcsGrowAlongTheContourAsInTableFour) {
   }
 }
 
+/// Weight with which the conic over a segment begins with a curvature: S/(w^2 a^3).
+double weight_for_start(const RegionTable& table, std::size_t i, double kappa) {
+  const RegionRow& row = table.user.rows[i];
+  const double area = 0.5 * row.chord * *row.tangent_height;
+  return std::sqrt(area / (std::pow(row.to_apex, 3.0) * std::abs(kappa)));
+}
+
+/// But where no ellipse has the curvature of the one before.
 TEST(PaperConstructions, EllipsesHaveOneCurvatureAtEachPointAndTellTheirVertices) {
   const RegionTable table = constructed("paper_series10.csv", Construction::kEllipses);
   ASSERT_TRUE(table.construction);
@@ -272,7 +280,11 @@ TEST(PaperConstructions, EllipsesHaveOneCurvatureAtEachPointAndTellTheirVertices
     const auto curvature_at = [&](double t) { return curvature(evaluate(made.pieces[i], t)); };
     if (i > 0) {
       const double before = curvature(evaluate(made.pieces[i - 1], 1.0));
-      EXPECT_NEAR(curvature_at(0.0), before, 1e-9 * std::abs(before)) << i + 1;
+      const bool carries_on = weight_for_start(table, i, before) < 1.0;
+      EXPECT_EQ(carries_on, i != 7) << i + 1;
+      if (carries_on) {
+        EXPECT_NEAR(curvature_at(0.0), before, 1e-9 * std::abs(before)) << i + 1;
+      }
     }
     const double heading_here = heading(evaluate(made.pieces[i], 0.0).d1);
     EXPECT_LT(

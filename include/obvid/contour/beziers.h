@@ -52,13 +52,13 @@ struct ParabolaChain {
 [[nodiscard]] Result<ParabolaChain> condense_piece(const Piece& piece, int direction,
                                                    double tolerance);
 
-/// Curvatures for points with given headings (rad) along one convex spiral, order of fixation 1:
-/// at an inner point the geometric mean of what the parabolas of both neighbouring triangles have
-/// there; the ends lie beyond their triangle's by as much as their neighbours do.
-/// Errors: E304 fewer than three points; E201 when headings and points differ in number; E401,
-/// naming the first point, where a triangle is missing or these curvatures do not change in
-/// `direction`.
-[[nodiscard]] Result<std::vector<Element>> elements_of_triangles(
-    const std::vector<Vec2>& points, const std::vector<double>& headings, int direction);
+/// Signed curvatures for points with given headings (rad), order of fixation 1: at an inner point
+/// the geometric mean of what the parabolas of both neighbouring triangles have there; the ends lie
+/// beyond their triangle's by as much as their neighbours do. `closed`: the last point is the first
+/// one again, and its mean goes round. Nothing at a point where a triangle is missing or both turn
+/// different ways. They need not change in one way: `central_data` takes them where a spiral has
+/// them. At least two points, one heading for each.
+[[nodiscard]] std::vector<std::optional<double>> curvatures_of_triangles(
+    const std::vector<Vec2>& points, const std::vector<double>& headings, bool closed = false);
 
 }  // namespace obvid

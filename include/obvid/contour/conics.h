@@ -49,6 +49,10 @@ struct WeightRange {
 /// infinite or 0 as in `segment_region`. Nothing where there is no such region or triangle.
 [[nodiscard]] std::optional<double> median_weight(const Element& start, const Element& end);
 
+/// Middle weights of the conics through both ends of what the region cuts out of the median, as
+/// `median_weight` has it. The larger may be infinite.
+[[nodiscard]] std::optional<WeightRange> region_weights(const Element& start, const Element& end);
+
 /// Why a chain of conics is not all that it could be.
 enum class ConicObstacle {
   kNone,

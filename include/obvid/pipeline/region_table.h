@@ -65,6 +65,7 @@ struct RegionPoint {
 struct RegionPart {
   std::vector<RegionPoint> points;
   std::vector<RegionRow> rows;
+  bool loop = false;  ///< closed without corners: the last point is the first one again
 };
 
 /// How tangents that are not given are chosen.
@@ -87,14 +88,15 @@ enum class Construction {
 /// What a construction has over one segment; lengths in units, radii signed.
 struct ConstructionRow {
   std::size_t segment = 0;     ///< row of the part
+  bool detail = false;         ///< of a step, or of a part of the segment, behind its own row
   std::vector<double> values;  ///< one per column; NaN where nothing is known
   std::string remark;          ///< "monotone", "vertex inside", ...
 };
 
 struct ConstructionTable {
   Construction construction = Construction::kArcs;
-  std::vector<std::string> columns;  ///< short names: R, R', H, ...
-  std::vector<ConstructionRow> rows;
+  std::vector<std::string> columns;    ///< short names: R, R', H, ...
+  std::vector<ConstructionRow> rows;   ///< of a segment one, behind it those of its steps
   std::vector<Piece> pieces;           ///< in order
   std::vector<std::size_t> piece_row;  ///< row of the part that each of them belongs to
   std::vector<std::string> remarks;    ///< sentences about the whole
@@ -109,8 +111,9 @@ struct RegionJob {
                                     ///< point at its middle; one that is named twice gets it twice
   std::optional<Construction> construction;  ///< over the segments of the last series of the table
   std::optional<int> fixation{};  ///< order of parabolas: 1 points and tangents are met, radii are
-                                  ///< the means of the triangles'; 2 radii too. Nothing: 1 where
-                                  ///< every segment has curves with it, else 2 ([001])
+                                  ///< the means of the triangles', or inside their ranges where no
+                                  ///< monotone curve has those; 2 radii too. Nothing: 1 where all
+                                  ///< means do, else 2 ([001])
 };
 
 /// Region per segment between neighbouring points, with the tangents that are given and those that

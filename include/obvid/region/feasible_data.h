@@ -57,8 +57,21 @@ struct FeasibleData {
 /// headings from point to point, then the curvatures at these headings, by the middle of the radii
 /// where both ends of their range are finite and of one sign (the rule of [003] for both). What
 /// is given stays. Every chord then has a curve of monotone curvature with these ends. Nothing when
-/// there is no such curve through all points.
+/// there is no such curve through all points. `wanted`, empty or one per node: curvatures that are
+/// taken where the range that is left holds them and they do not lie beside an end of it; else
+/// halfway from that end to its middle.
 [[nodiscard]] std::optional<std::vector<RangeNode>> central_data(
-    const std::vector<RangeLink>& links, std::vector<RangeNode> nodes);
+    const std::vector<RangeLink>& links, std::vector<RangeNode> nodes,
+    const std::vector<std::optional<double>>& wanted = {});
+
+/// The same around a closed series: `links` and `nodes` are equally many, the last link leads back
+/// to the first node. The result has one node more, the first one again, a turn later. The heading
+/// at a vertex (or beside an arc, or behind a link with a vertex inside) is chosen first, in the
+/// middle of those with which one turn closes; there the curvature may always be sharper, so one
+/// turn from it, with equal curvatures at its ends, is all that closing asks for. Nothing when no
+/// such curve closes, or when the curvature grows, or falls, all around.
+[[nodiscard]] std::optional<std::vector<RangeNode>> central_loop(
+    const std::vector<RangeLink>& links, const std::vector<RangeNode>& nodes,
+    const std::vector<std::optional<double>>& wanted = {});
 
 }  // namespace obvid

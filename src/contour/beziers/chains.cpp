@@ -2,6 +2,7 @@
 // Condensation of whole pieces, and curvatures from triangles: docs/methods/beziers.md, sections 3
 // and 4.
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 #include <string>
 
@@ -93,10 +94,10 @@ std::optional<EndCurvatures> parabola_curvatures(Vec2 p, double theta0, Vec2 q, 
                        area / (t->from_apex * t->from_apex * t->from_apex)};
 }
 
-tl::unexpected<Error> refuse(std::size_t i, const char* what, double value) {
-  return fail({ErrorCode::kNoSpiral, what, "point " + std::to_string(i + 1),
-               "choose other headings, or another order of fixation", static_cast<std::ptrdiff_t>(i),
-               value});
+/// Geometric mean; nothing where the curvature would change its sign.
+std::optional<double> mean_curvature(double before, double behind) {
+  if (!(before * behind > 0.0)) return std::nullopt;
+  return std::copysign(std::sqrt(before * behind), before);
 }
 
 }  // namespace
@@ -105,43 +106,35 @@ Result<ParabolaChain> condense_piece(const Piece& piece, int direction, double t
   return PieceCondenser(piece, direction, tolerance).run();
 }
 
-Result<std::vector<Element>> elements_of_triangles(const std::vector<Vec2>& points,
-                                                   const std::vector<double>& headings,
-                                                   int direction) {
+std::vector<std::optional<double>> curvatures_of_triangles(const std::vector<Vec2>& points,
+                                                           const std::vector<double>& headings,
+                                                           bool closed) {
   const std::size_t n = points.size();
-  if (headings.size() != n) {
-    return fail({ErrorCode::kUsage, "one heading for each point is expected", "", "", -1,
-                 static_cast<double>(headings.size())});
-  }
-  if (n < 3) {
-    return fail({ErrorCode::kTooFewPoints, "at least 3 points are needed", "", "add points", -1,
-                 static_cast<double>(n)});
-  }
-  std::vector<EndCurvatures> own(n - 1);
+  assert(n >= 2 && headings.size() == n);
+  std::vector<std::optional<EndCurvatures>> own;
   for (std::size_t i = 0; i + 1 < n; ++i) {
-    const auto k = parabola_curvatures(points[i], headings[i], points[i + 1], headings[i + 1]);
-    if (!k) return refuse(i, "the tangents do not meet between two neighbouring points", 0.0);
-    own[i] = *k;
+    own.push_back(parabola_curvatures(points[i], headings[i], points[i + 1], headings[i + 1]));
   }
-  std::vector<Element> elements(n);
-  double first_ratio = 1.0, last_ratio = 1.0;
-  for (std::size_t i = 0; i < n; ++i) elements[i] = {points[i], headings[i], 0.0};
-  for (std::size_t i = 1; i + 1 < n; ++i) {
-    const double before = own[i - 1].end, behind = own[i].start;
-    if (before * behind <= 0.0) return refuse(i, "the tangents ask for an inflection", 0.0);
-    elements[i].kappa = std::copysign(std::sqrt(before * behind), before);
-    last_ratio = std::sqrt(behind / before);
-    if (i == 1) first_ratio = std::sqrt(before / behind);
+  const auto mean_at = [&own](std::size_t before, std::size_t behind) {
+    if (!own[before] || !own[behind]) return std::optional<double>{};
+    return mean_curvature(own[before]->end, own[behind]->start);
+  };
+  std::vector<std::optional<double>> out(n);
+  for (std::size_t i = 1; i + 1 < n; ++i) out[i] = mean_at(i - 1, i);
+  if (closed) {
+    out.front() = out.back() = mean_at(n - 2, 0);
+    return out;
   }
-  elements.front().kappa = own.front().start * first_ratio;
-  elements.back().kappa = own.back().end * last_ratio;
-  for (std::size_t i = 1; i < n; ++i) {
-    const double change = elements[i].kappa - elements[i - 1].kappa;
-    if (!(direction * change > 0.0)) {
-      return refuse(i, "the radii of neighbouring triangles are not in order", change);
-    }
+  // the ends lie beyond their triangle's by as much as their neighbours do
+  if (own.front()) {
+    const double ratio = out[1] && n > 2 ? own.front()->end / *out[1] : 1.0;
+    out.front() = own.front()->start * ratio;
   }
-  return elements;
+  if (own.back()) {
+    const double ratio = out[n - 2] && n > 2 ? own.back()->start / *out[n - 2] : 1.0;
+    out.back() = own.back()->end * ratio;
+  }
+  return out;
 }
 
 }  // namespace obvid

@@ -55,6 +55,12 @@ std::optional<double> median_weight(const Element& start, const Element& end) {
   return s / (1.0 - s);
 }
 
+std::optional<WeightRange> region_weights(const Element& start, const Element& end) {
+  const auto cut = conics::median_cut(start, end);
+  if (!cut) return std::nullopt;
+  return WeightRange{cut->low / (1.0 - cut->low), cut->high / (1.0 - cut->high)};
+}
+
 std::optional<WeightRange> monotone_weights(const Element& start, const Element& end) {
   const auto t = conics::triangle_over(start, end);
   if (!t) return std::nullopt;
