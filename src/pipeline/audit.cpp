@@ -12,6 +12,7 @@
 #include "obvid/geom/angle.h"
 #include "obvid/series/analysis.h"
 #include "report.h"
+#include "slope_step.h"
 
 namespace obvid {
 namespace {
@@ -246,6 +247,10 @@ class Auditor {
     place.size = 0.0;
     const bool jumps = !corner && jump > std::max(kLargestJump * larger, rounding_);
     if (jumps) add(place, 1);
+    const double step = pipeline_detail::slope_step_before(out_.contour.pieces, j);
+    if (!(step <= pipeline_detail::kClearlyContinuous)) {
+      out_.continuity = std::min(out_.continuity, 2);
+    }
     return corner || jumps || !std::isfinite(jump);
   }
 

@@ -22,6 +22,7 @@
 #include "prepare.h"
 #include "report.h"
 #include "section_chain.h"
+#include "slope_step.h"
 #include "waviness.h"
 
 namespace obvid {
@@ -149,29 +150,10 @@ void add_section(const SectionChain& section, Formed& formed) {
   formed.warnings.insert(formed.warnings.end(), section.warnings.begin(), section.warnings.end());
 }
 
-/// Steps of the slope of curvature up to this are called none: a half of what a proof allows.
-constexpr double kClearlyContinuous = 5e-7;
-
-/// Step of the slope of curvature where a piece begins, of the largest slope at the ends of both
-/// pieces that meet there.
-double slope_step_before(const Contour& spirals, std::size_t piece) {
-  const std::size_t n = spirals.pieces.size(), before = (piece + n - 1) % n;
-  const auto slope = [&](std::size_t i, double t) {
-    const Piece& one = spirals.pieces[i];
-    const bool even =
-        std::holds_alternative<LinePiece>(one) || std::holds_alternative<ArcPiece>(one);
-    return even ? 0.0 : curvature_rate(evaluate(one, t));
-  };
-  const double left = slope(before, 1.0), right = slope(piece, 0.0);
-  const double scale = std::max(
-      {std::abs(slope(before, 0.0)), std::abs(left), std::abs(right), std::abs(slope(piece, 1.0))});
-  return scale > 0.0 ? std::abs(right - left) / scale : 0.0;
-}
-
 double largest_slope_step(const Contour& spirals, bool loop) {
   double largest = 0.0;
   for (std::size_t i = loop ? 0 : 1; i < spirals.pieces.size(); ++i) {
-    largest = std::max(largest, slope_step_before(spirals, i));
+    largest = std::max(largest, slope_step_before(spirals.pieces, i));
   }
   return largest;
 }
@@ -377,8 +359,9 @@ class SectionForming {
     for (const std::size_t i : contour.kept) {
       for (const std::size_t j : {i, contour.closed ? (i + 1) % n : i + 1}) {
         const bool end = !contour.closed && (j == 0 || j == n);
-        contour.joints[j].slope_step = !end && !contour.joints[j].leaving &&
-                                       slope_step_before(contour, j % n) > kClearlyContinuous;
+        contour.joints[j].slope_step =
+            !end && !contour.joints[j].leaving &&
+            slope_step_before(contour.pieces, j % n) > kClearlyContinuous;
       }
     }
   }

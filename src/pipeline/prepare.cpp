@@ -178,7 +178,8 @@ class Preparation {
     Vec2 common = job_.noise_from_rounding ? series_.rounding : Vec2{noise, noise};
     double least = 0.0;
     for (const Vec2 p : out_.points) least = std::max(least, least_move(p));
-    // all alike: some points that are met and some that move by roundings would be no contour's gain
+    // all alike: some points that are met and some that move by roundings would be no contour's
+    // gain
     constexpr double kWorthMoving = 4.0;
     if (std::max(common.x, common.y) < kWorthMoving * least) common = {};
     for (std::size_t i = 0; i < out_.points.size(); ++i) {

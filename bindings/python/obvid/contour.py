@@ -137,6 +137,11 @@ class Contour:
         return str(self.to_dict()["carrier"])
 
     @property
+    def continuity(self) -> str:
+        """"G3" where slopes of curvature are continuous but at `certificate.slope_steps` joints."""
+        return str(self.to_dict().get("continuity", "G2"))
+
+    @property
     def points(self) -> Array:
         """Points of the series, n x 2."""
         return np.array(self.to_dict()["points"], dtype=float).reshape(-1, 2)

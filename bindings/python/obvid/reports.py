@@ -42,16 +42,19 @@ class Certificate:
     position_gap: float  #: largest at a joint, of the size
     heading_gap: float  #: rad
     curvature_gap: float  #: of the larger curvature at the joint
+    slope_gap: Optional[float]  #: of the largest slope beside the joint; None: not G3
+    slope_steps: Optional[int]  #: joints of a G3 contour that are G2 only; None: not G3
 
     @classmethod
     def of(cls, values: Json) -> "Certificate":
         gaps = values["joint_gaps"]
         return _taken(
             cls,
-            {"self_intersections": None, **values},
+            {"self_intersections": None, "slope_steps": None, **values},
             position_gap=gaps["position"],
             heading_gap=gaps["heading"],
             curvature_gap=gaps["curvature"],
+            slope_gap=gaps.get("slope"),
         )
 
 
@@ -81,6 +84,7 @@ class FitReport:
     vertices_lower_bound: int  #: what the points force on any smooth curve
     inflections: int
     inserted_points: int
+    waviness: Optional[float]  #: hills of the slope of curvature on a run, 1 at least
     carrier_deviation: Optional[float]
     seconds: float
     headings_given: int
@@ -101,7 +105,7 @@ class FitReport:
         )
         return _taken(
             cls,
-            {"carrier_deviation": None, "seconds": 0.0, **values},
+            {"carrier_deviation": None, "waviness": None, "seconds": 0.0, **values},
             segments=segments,
             headings_given=given.get("headings", 0),
             curvatures_given=given.get("curvatures", 0),

@@ -45,7 +45,8 @@ struct CurveAudit {
   std::size_t straightened = 0;    ///< ends and pieces that are straight but for rounding, and were
                                    ///< taken so
   double flat_curvature = 0.0;     ///< largest curvature that counted as rounding there, 1/unit
-  int continuity = 2;              ///< of all joints: 2 curvature, 1 heading, 0 position, -1 gaps
+  int continuity = 3;              ///< of all joints: 3 slope of curvature, 2 curvature, 1 heading,
+                                   ///< 0 position, -1 gaps
   std::vector<AuditPlace> places;  ///< in order along the curve; tiny swings of rounding left out
 };
 
