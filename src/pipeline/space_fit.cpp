@@ -228,8 +228,21 @@ class SpatialForming {
         out.torsion_step = std::max(out.torsion_step, std::abs(*after - *before));
     }
     at_points(shape, out);
-    out.largest_move = largest_of(out.plan.report.moves) + largest_of(out.unrolled->report.moves);
+    out.largest_move = farthest_from_places(out.plan) + largest_of(out.unrolled->report.moves);
     return {};
+  }
+
+  /// From the places whose lengths the heights stand on; these need not be the nearest ones.
+  static double farthest_from_places(const Fit& plan) {
+    const ContourPath path(plan.contour.pieces);
+    const std::vector<double> lengths = lengths_at_points(plan.contour, path);
+    double farthest = 0.0;
+    for (std::size_t i = 0; i < lengths.size() && i < plan.report.moves.size(); ++i) {
+      if (plan.report.moves[i] == 0.0) continue;
+      const double away = norm(path.at(lengths[i]).point - plan.contour.points[i]);
+      farthest = std::max({farthest, plan.report.moves[i], away});
+    }
+    return farthest;
   }
 
   /// Curvatures of both contours are monotone on their pieces, so that ends of a cell bound them.

@@ -45,6 +45,9 @@ class SpaceShape {
   [[nodiscard]] const ContourPath& unrolled() const { return unrolled_; }
 
  private:
+  /// Of the plane contour; a place that is a joint of it but for rounding is that joint.
+  [[nodiscard]] Jet below(double plan_length, bool before_joint) const;
+
   Frame frame_;
   ContourPath plan_, unrolled_;
 };
