@@ -92,7 +92,7 @@ std::vector<Real> longs(const Json& json) {
   return {all.begin(), all.end()};
 }
 
-GridSpline spline_of(const Json& json) {
+GridSpline grid_spline_of(const Json& json) {
   return {longs(json.at("x")),           longs(json.at("y")),
           longs(json.at("values")),      longs(json.at("integrals_x")),
           longs(json.at("integrals_y")), longs(json.at("integrals"))};
@@ -101,7 +101,7 @@ GridSpline spline_of(const Json& json) {
 class GridCheck {
  public:
   GridCheck(const Json& json, const GridInput& input, Sheet& sheet)
-      : json_(json), in_(input), sheet_(sheet), s_(spline_of(json)) {}
+      : json_(json), in_(input), sheet_(sheet), s_(grid_spline_of(json)) {}
 
   void run() {
     sheet_.expect(
@@ -328,7 +328,7 @@ void check_grid_spline(const Json& json, const GridInput& input, Sheet& sheet) {
 
 void check_grid_samples(const Json& json, const std::string& text, std::size_t count,
                         Sheet& sheet) {
-  const GridSpline s = spline_of(json);
+  const GridSpline s = grid_spline_of(json);
   std::string names;
   const auto rows = csv_rows(text, names);
   sheet.expect(names == "x,y,f,f_x,f_y", "spline samples", names, "", "names");

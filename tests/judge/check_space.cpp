@@ -56,7 +56,8 @@ struct TorsionPlaces {
   long count = 0;
   Real least = std::numeric_limits<Real>::max(), largest = -std::numeric_limits<Real>::max();
   Real step = 0.0L;
-  Real blur = 0.0L;  ///< how much these are rounding
+  Real blur = 0.0L;    ///< how much these are rounding
+  Real change = 0.0L;  ///< over a length that joints are known to
 };
 
 class SpaceCheck {
@@ -203,6 +204,9 @@ class SpaceCheck {
           out.blur,
           1e-9L * (std::abs(value) + norm(jet.ddd) / (norm(jet.d) * norm(jet.d) * norm(jet.d)) /
                                          std::max(bend, 1e-300L)));
+      const Real step = std::min(1e-3L, 1e-11L * along.whole() / norm(jet.d));
+      const Real beside = c_.at(before ? order - step : order + step, before).torsion();
+      if (std::isfinite(beside)) out.change = std::max(out.change, std::abs(beside - value));
       return std::optional(value);
     };
     for (std::size_t k = 0; k + 1 < joints.size(); ++k) {
@@ -226,7 +230,7 @@ class SpaceCheck {
   void torsion() {
     const TorsionPlaces found = torsion_places();
     const Real scale = std::max(std::abs(found.least), std::abs(found.largest));
-    const Real near = 1e-6L * scale + 1e3L * found.blur;
+    const Real near = 1e-6L * scale + 1e3L * found.blur + found.change;
     const Figure places = figure(json_, "torsion_places");
     expect(places.known() && static_cast<long>(*places.value) == found.count,
            "space.torsion_places", places.value.value_or(-1.0), static_cast<Real>(found.count));

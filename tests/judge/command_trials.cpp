@@ -157,7 +157,7 @@ class SpaceTrial : public ProgramRuns {
       const Vec3 q{printed(p.x, digits), printed(p.y, digits), printed(p.z, digits)};
       text_ += fmt::format("{},{},{}\n", static_cast<double>(q.x), static_cast<double>(q.y),
                            static_cast<double>(q.z));
-      points_.push_back(q);
+      if (points_.empty() || norm(points_.back() - q) > 0.0L) points_.push_back(q);
     }
     out_.points = points_.size();
     write_file(path(kPoints), text_);
@@ -211,14 +211,30 @@ class SpaceTrial : public ProgramRuns {
     check_space_samples(curve, text_of_file(path("c.csv")), samples_, false, sheet);
     check_space_samples(curve, text_of_file(path("c.sldcrv")), samples_, true, sheet);
     check_space_spline(curve.nurbs, "c.dxf", text_of_file(path("c.dxf")), "space DXF", sheet);
-    if (fit.code != 0) sheet.fails("exit code", std::to_string(fit.code), "a curve", fit.err);
+    check_codes(curve, fit);
     std::vector<std::string> words = fit_words();
     words.emplace_back("--json");
     const Run again = program("fit --json", words);
     if (stopped_) return;
     const bool same = without_times(again.out) == without_times(stored);
     sheet.expect(same, "space --json", "the file", same ? "the file" : "another text", "");
-    if (!along_ && !curve.planar && dice_.chance(0.5)) directions(curve);
+    if (dice_.chance(0.5)) verify(curve);
+    if (!stopped_ && !along_ && !curve.planar && dice_.chance(0.5)) directions(curve);
+  }
+
+  /// 0 where both contours are proved within their widths, else 5.
+  void check_codes(const SpaceCourse& curve, const Run& fit) {
+    fit_code_ = fit.code;
+    bool kept = true;
+    for (const OwnedCourse* part : {curve.plan.get(), curve.heights.get()}) {
+      if (part == nullptr) continue;
+      const Figure width = figure(part->file.report, "largest_width"),
+                   tolerance = figure(part->file.report, "tolerance");
+      const bool wide = width.known() && tolerance.known() && *width.value > *tolerance.value;
+      kept = kept && flag(part->file.certificate, "proved").value_or(false) && !wide;
+    }
+    out_.sheet.expect(fit.code == (kept ? 0 : 5), "exit code", std::to_string(fit.code),
+                      kept ? "proved" : "not proved", fit.err.substr(0, 200));
   }
 
   /// The one figure that differs from run to run.
@@ -229,6 +245,27 @@ class SpaceTrial : public ProgramRuns {
       text.erase(from, text.find_first_of(",}\n", from) - from);
     }
     return text;
+  }
+
+  /// Proved again; and written again, the same curve.
+  void verify(const SpaceCourse& curve) {
+    const Run run = program("verify", {"verify", "c.json"});
+    if (stopped_) return;
+    out_.sheet.expect(run.code == fit_code_, "space verify", fmt::format("exit {}", fit_code_),
+                      fmt::format("exit {}", run.code),
+                      run.err.substr(0, 200) + run.out.substr(0, 200));
+    const Run other = program("convert", {"convert", "c.json", "-o", "d.json", "-o", "d.sldcrv",
+                                          "--samples", std::to_string(samples_)});
+    if (stopped_) return;
+    out_.sheet.expect(other.code == 0, "space convert", "exit 0",
+                      fmt::format("exit {}", other.code), other.err.substr(0, 200));
+    check_space_samples(curve, text_of_file(path("d.sldcrv")), samples_, true, out_.sheet);
+    const ReadJson json = read_json(text_of_file(path("d.json")));
+    const ReadSpace again = read_space(json.value);
+    if (!again.fault.empty()) {
+      return out_.sheet.fails("space convert", "a curve in space", again.fault, "d.json");
+    }
+    check_space(*again.curve, json.value, out_.sheet);
   }
 
   /// No axis gives fewer vertices and inflections than the direction that was found.
@@ -264,6 +301,7 @@ class SpaceTrial : public ProgramRuns {
   std::optional<Vec3> along_;
   std::vector<std::string> options_given_;
   std::size_t samples_ = 200;
+  int fit_code_ = 0;
 };
 
 class NurbsTrial : public ProgramRuns {

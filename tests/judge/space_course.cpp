@@ -73,8 +73,8 @@ Real Lengths::of(Real order) const {
 }
 
 Place Lengths::place(Real length, bool before) const {
-  constexpr Real kSame = 1e-12L;  // of the whole: joints of both contours at one point
-  const Real near = kSame * whole();
+  constexpr Real kOneJoint = 1e-12L;  // of the whole: joints of both contours at one point
+  const Real near = kOneJoint * whole();
   std::size_t k = 0;
   while (k + 1 < path_.spans().size() &&
          (before ? length > at_joint_[k + 1] + near : length >= at_joint_[k + 1] - near)) {
@@ -128,8 +128,8 @@ std::vector<Real> SpaceCourse::joints() const {
   const Path& unrolled = heights->course.path;
   std::vector<Real> out;
   for (std::size_t k = 0; k <= unrolled.spans().size(); ++k) out.push_back(static_cast<Real>(k));
-  constexpr Real kSame = 1e-12L;  // of the length: joints of both contours at one point
-  const Real near = kSame * heights->lengths.whole();
+  constexpr Real kOneJoint = 1e-12L;  // of the length: joints of both contours at one point
+  const Real near = kOneJoint * heights->lengths.whole();
   for (std::size_t k = 1; k < plan->course.path.spans().size(); ++k) {
     // the unrolled contour does not run back: halve
     const Real wanted = plan->lengths.joint(k) - heights->course.origin.x;
