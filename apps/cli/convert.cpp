@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "commands.h"
+#include "obvid/io/atomic_file.h"
 #include "obvid/io/contour_json.h"
 #include "obvid/io/read_file.h"
 #include "obvid/io/space_json.h"
@@ -60,6 +61,9 @@ int convert(const ConvertOptions& options, Result<StoredContour> stored,
 }  // namespace
 
 int run(const ConvertOptions& options) {
+  if (auto free = check_outputs(options.outputs, {&options.input, 1}); !free) {
+    return report(free.error());
+  }
   ExportOptions formats = options.formats;
   if (options.input != "-") {
     formats.picture.name = std::filesystem::path(options.input).filename().string();

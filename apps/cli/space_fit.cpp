@@ -154,7 +154,7 @@ Result<std::string> space_file(const std::string& path, const SpaceFit& fit,
   if (iges) write.format = CadFormat::kIges;
   if (ending == ".brep") write.format = CadFormat::kBrep;
   if (step || iges || ending == ".brep") return cad_text({{"contour", nurbs.curve}}, write);
-  return fail({ErrorCode::kUnknownFormat, "no file of this ending holds a curve in space", path,
+  return fail({ErrorCode::kUnknownFormat, "no file with this extension holds a curve in space", path,
                std::string("possible are ") + kSpaceEndings +
                    "; --flat forms the contour in the plane of x and y"});
 }
@@ -267,9 +267,6 @@ int verify_in_space(const std::string& text, const std::string& name,
 
 int convert_in_space(const std::string& text, const std::string& name,
                      const ConvertOptions& options) {
-  if (auto free = check_outputs(options.outputs, {&options.input, 1}); !free) {
-    return report(free.error());
-  }
   const Result<StoredSpace> stored = space_from_json(text, name);
   if (!stored) return report(stored.error());
   SpaceFit fit = space_fit_of(*stored);

@@ -206,15 +206,19 @@ class SpatialForming {
     FitJob plan_job = job_.fit;
     // both parts move a point: together no further than the noise
     if (plan_job.noise) plan_job.noise = std::numbers::sqrt2 / 2.0 * *plan_job.noise;
+    // what ends elsewhere is open, also where its projection returns
+    if (plan_job.closing == Closing::kAutomatic && !returns()) plan_job.closing = Closing::kOpen;
     auto first = fit(plan, plan_job, run_);
     if (!first) return fail(within_part(first.error(), "projection"));
     out.plan = std::move(*first);
     if (out.plan.contour.closed || out.plan.certificate.corners > 0) {
-      return fail(of_space(ErrorCode::kUnsupported,
-                           out.plan.contour.closed
-                               ? "the projection is closed: closed curves must lie in a plane"
-                               : "the projection has a corner: corners must lie in a plane",
-                           "split the series there, or give --open"));
+      return fail(of_space(
+          ErrorCode::kUnsupported,
+          out.plan.contour.closed ? "a closed curve must lie in a plane: heights round it are not "
+                                    "joined with one tangent and curvature"
+                                  : "the projection has a corner: corners must lie in a plane",
+          out.plan.contour.closed ? "--open forms it with ends that meet, without a common tangent"
+                                  : "split the series there"));
     }
     auto second = heights(out, rounding.across);
     if (!second) return fail(second.error());
@@ -224,6 +228,13 @@ class SpatialForming {
   }
 
  private:
+  /// Whether the last point is the first one again but for noise and print.
+  [[nodiscard]] bool returns() const {
+    const double near = std::max(
+        {series_.rounding.x, series_.rounding.y, series_.rounding.z, job_.fit.noise.value_or(0.0)});
+    return norm(series_.points.back() - series_.points.front()) <= near;
+  }
+
   Result<Fit> heights(const SpaceFit& so_far, double across) const {
     const Contour& plan = so_far.plan.contour;
     const ContourPath path(plan.pieces);

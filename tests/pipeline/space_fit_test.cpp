@@ -211,6 +211,29 @@ TEST(SpaceFitTest, WhatIsNotFormedIsRefusedByName) {
   EXPECT_EQ(made.error().code, ErrorCode::kUnsupported);
 }
 
+TEST(SpaceFitTest, AHelixOfAWholeTurnIsOpenAlthoughItsProjectionReturns) {
+  const double r = 40.0, b = 5.0;
+  const auto helix = series_on(
+      [&](double u) {
+        const double t = 2.0 * std::numbers::pi * u;
+        return Vec3{r * std::cos(t), r * std::sin(t), b * t};
+      },
+      17);
+  SpaceSeries whole = helix;
+  whole.points.back().x = r;  // cos and sin of a whole turn, without their rounding
+  whole.points.back().y = 0.0;
+  SpaceJob job;
+  job.along = Vec3{0, 0, 1};
+  const auto made = fit_space(whole, job);
+  ASSERT_TRUE(made) << to_line(made.error());
+  EXPECT_FALSE(made->plan.contour.closed);
+  const double curvature = r / (r * r + b * b), torsion = b / (r * r + b * b);
+  EXPECT_LE(made->least_curvature, curvature * (1 + 1e-9));
+  EXPECT_GE(made->largest_curvature, curvature * (1 - 1e-9));
+  EXPECT_NEAR(made->least_torsion, torsion, 1e-6 * torsion);
+  EXPECT_NEAR(made->largest_torsion, torsion, 1e-6 * torsion);
+}
+
 /// A curve of a known cone, as its file has it.
 StoredSpace stored_conical() {
   const auto made = fit_space(series_on(conical, 9), {});
