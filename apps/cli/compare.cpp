@@ -90,16 +90,23 @@ std::string more_vertices_text(const Comparison& compared) {
   return out;
 }
 
-/// Carriers that do better by other spirals than those of the first row.
+/// Carriers that follow other spirals than those of the first row.
 std::string other_spirals_text(const Comparison& compared) {
   const Continuity shown = compared.carriers.front().followed;
-  std::string out;
+  std::string out, last;
+  std::size_t others = 0, followers = 0;
   for (const ComparedCarrier& row : compared.carriers) {
-    if (row.refusal || row.followed == shown) continue;
+    if (row.refusal || row.carrier == Carrier::kSpiral) continue;
+    ++followers;
+    if (row.followed == shown) continue;
+    ++others;
+    last = to_string(row.followed);
     out += fmt::format("\n{} follows the {} spirals, and is measured against them",
-                       to_string(row.carrier), to_string(row.followed));
+                       to_string(row.carrier), last);
   }
-  return out;
+  if (others < 2 || others < followers) return out;
+  return fmt::format("\nthe other carriers follow the {} spirals, and are measured against them",
+                     last);
 }
 
 std::string comparison_text(const PointSeries& series, const Comparison& compared) {

@@ -252,8 +252,9 @@ void add_fit(CLI::App& app, Raw& raw) {
          "draw), not promised to be monotone [spiral]")
       ->type_name("NAME");
   fit.add_option("--continuity", raw.typed.continuity,
-                 "Spirals with continuous curvature (G2), or with a continuous slope of curvature "
-                 "too: no kinks in its plot (G3) [G2]")
+                 "Of spirals: the curvature is continuous (G2), or its slope too: no kinks in its "
+                 "plot (G3) [G3 wherever it costs no vertex; G3 given: joints where it would are "
+                 "named]")
       ->type_name("NAME");
   fit.add_option("--prefer", raw.typed.prefer,
                  "What decides where the data leave a choice: fair (curvature changes as the "
@@ -370,8 +371,9 @@ void add_compare(CLI::App& app, Raw& raw) {
   compare
       .add_option(
           "--continuity", raw.typed.continuity,
-          "Of the spirals: continuous curvature (G2), or a continuous slope of curvature too "
-          "(G3); the other carriers follow them where they can [G2]")
+          "Of the spirals: the curvature is continuous (G2), or its slope too (G3); the other "
+          "carriers follow them where they can [G3 for the spirals wherever it costs no vertex, "
+          "G2 spirals for the others to follow]")
       ->type_name("NAME");
   add_tolerance(compare, raw);
   add_real_points(compare, raw);

@@ -128,8 +128,8 @@ void add_contours(CLI::App& app, RawSurface& raw) {
   app.add_flag("--no-corners", raw.typed.no_corners, "Search no corners")->group(group);
   app.add_option(
          "--continuity", raw.typed.continuity,
-         "Continuous curvature (G2), or a continuous slope of curvature too, where a contour "
-         "has one (G3) [G2]")
+         "The curvature is continuous (G2), or its slope too, where a contour has one (G3) [G3 "
+         "wherever it costs no vertex]")
       ->type_name("NAME")
       ->group(group);
   app.add_flag("--plain", raw.make.job.plain_when_refused,

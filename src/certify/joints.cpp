@@ -76,6 +76,7 @@ double size_of_box(const Contour& contour, const std::vector<KnownPiece>* known)
 
 /// Rounded outward: at least what it would be without the roundings of its own evaluation.
 double outward(double figure) { return figure * (1.0 + kOfQuotient * kUnitRoundoff); }
+double inward(double figure) { return figure * (1.0 - kOfQuotient * kUnitRoundoff); }
 
 /// At least the angle between two directions that are known to `error`.
 double heading_gap(Vec2 a, Vec2 b, double error) {
@@ -219,14 +220,15 @@ class JointWalk {
                                                                                : -1);
   }
 
-  /// Of those at the ends of a piece and the mean one over its chord: a slope may vanish at both
-  /// ends.
+  /// Lower bound of the largest of those at the ends of a piece and the mean one over its chord: a
+  /// slope may vanish at both ends.
   static double largest_slope(const PieceEnds& piece) {
-    const Vec2 chord = piece.end.point - piece.start.point;
-    const double mean =
-        std::abs(piece.end.kappa - piece.start.kappa) / std::hypot(chord.x, chord.y);
-    const double ends = std::max(std::abs(piece.start.slope), std::abs(piece.end.slope));
-    return std::isfinite(mean) ? std::max(ends, mean) : ends;
+    const double error = outward(piece.start.kappa_error + piece.end.kappa_error);
+    const double change = inward(std::abs(piece.end.kappa - piece.start.kappa)) - error;
+    const double mean = inward(std::max(0.0, change) / distance(piece.start, piece.end));
+    const double ends = std::max(std::abs(piece.start.slope) - piece.start.slope_error,
+                                 std::abs(piece.end.slope) - piece.end.slope_error);
+    return std::max(0.0, std::isfinite(mean) ? std::max(ends, mean) : ends);
   }
 
   /// Slopes of curvature, where the contour claims that they are continuous.

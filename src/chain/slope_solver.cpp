@@ -37,8 +37,11 @@ std::array<std::size_t, 4> places(std::size_t link) {
   return {a, a + 1, b, b + 1};
 }
 
-/// Logarithm of the unit of slope of a link, (h/2)^2.
-double slope_unit(const LinkState& link) { return 2.0 * std::log(0.5 * link.h); }
+/// Logarithm of the units of slope, (h/2)^2, of a link over that of the link before: of a ratio, so
+/// that it is the same at any size.
+double slope_units(const LinkState& link, const LinkState& before) {
+  return 2.0 * std::log(link.h / before.h);
+}
 
 }  // namespace
 
@@ -52,7 +55,8 @@ SlopeSolver::Value SlopeSolver::evaluate(const std::vector<double>& x,
   const std::size_t n = problem_.equal_slope.size();
   Value out;
   if (gap != nullptr) gap->assign(n, 0.0);
-  double before = 0.0;
+  double end_before = 0.0;
+  LinkState before;
   for (std::size_t i = 0; i + 1 < n; ++i) {
     if (problem_.chain.cone[i] == Cone::kNone) continue;
     const LinkState link = model_.jet(i, x).state;
@@ -61,11 +65,12 @@ SlopeSolver::Value SlopeSolver::evaluate(const std::vector<double>& x,
                          weights_.bend * s.bend.value * s.bend.value);
     if (!std::isfinite(out.energy) || std::isnan(s.start.value + s.end.value)) return kOutside;
     if (problem_.equal_slope[i]) {
-      const double c = before - (s.start.value - slope_unit(link));
+      const double c = end_before - s.start.value + slope_units(link, before);
       out.gaps += std::abs(c);
       if (gap != nullptr) (*gap)[i] = c;
     }
-    before = s.end.value - slope_unit(link);
+    end_before = s.end.value;
+    before = link;
   }
   for (std::size_t i = 0; i < n; ++i) {
     if (model_.wanted_sign(i) == 0.0) continue;
@@ -80,6 +85,7 @@ void SlopeSolver::assemble() {
   const std::size_t n = problem_.equal_slope.size();
   system_.reset(n);
   NodeGradient before;
+  LinkState link_before;
   for (std::size_t i = 0; i + 1 < n; ++i) {
     if (problem_.chain.cone[i] == Cone::kNone) continue;
     const LinkModel::LinkJet l = model_.jet(i, x_);
@@ -99,7 +105,7 @@ void SlopeSolver::assemble() {
     if (problem_.equal_slope[i]) {
       const std::size_t row = kNodeUnknowns * i + 2;
       const std::array<std::size_t, 4> was = places(i - 1);
-      system_.right(row) = start.value - slope_unit(l.state) - before.value;
+      system_.right(row) = start.value - before.value - slope_units(l.state, link_before);
       for (std::size_t a = 0; a < 4; ++a) {
         system_.at(row, was[a]) += before.by[a];
         system_.at(was[a], row) += before.by[a];
@@ -108,7 +114,7 @@ void SlopeSolver::assemble() {
       }
     }
     before = graded(s.end);
-    before.value -= slope_unit(l.state);
+    link_before = l.state;
   }
   for (std::size_t i = 0; i < n; ++i) add_sign_and_fixed(i);
 }

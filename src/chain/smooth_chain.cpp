@@ -149,6 +149,20 @@ Ends ends_of_chain(const SeriesChain& chain, bool loop) {
   return out;
 }
 
+/// Whether every link that is to be a spiral is one in doubles too.
+bool are_spirals(const SeriesChain& chain) {
+  for (std::size_t i = 0; i < chain.links.size(); ++i) {
+    if (!is_spiral(chain, i)) continue;
+    const SpiralForm form = chain.form.empty() ? SpiralForm::kOneSided : chain.form[i];
+    const Cone cone = form == SpiralForm::kOneSided ? Cone::kClosedForm : Cone::kSpiral;
+    if (!(cone_margin(chain.links[i], chain.direction[i], cone) > 0.0)) return false;
+    if (form == SpiralForm::kOneSided) continue;
+    const double gain = spiral_shape(chain.links[i], chain.direction[i], form).gain;
+    if (!(gain > 0.0) || !std::isfinite(gain)) return false;
+  }
+  return true;
+}
+
 /// The problem of the slopes of a chain, and its solution.
 class Slopes {
  public:
@@ -177,7 +191,7 @@ class Slopes {
       if (!found.valid) return false;
       if (found.largest_gap <= kEqualSlopes) {
         take(solver, problem, found, out);
-        return true;
+        return are_spirals(work_);
       }
       const std::vector<double>& gap = solver.gaps();
       for (std::size_t i = 0; i < gap.size(); ++i) {

@@ -48,6 +48,14 @@ std::string unit_in(string_view text) {
   return canonical_unit(text).value_or("");
 }
 
+// What brackets behind a name say.
+void set_unit(string_view text, ColumnName& out) {
+  out.unit = unit_in(text);
+  if (!out.unit.empty()) return;
+  const string_view said = text::trim(text.substr(0, text.find_first_of(")]")));
+  if (said != "-" && said != "1") out.no_unit = said;  // these say that there is none
+}
+
 // Name and unit of a column. Lower case, without quotes, brackets and the words that programs put
 // around x and y: "X [mm]", "x_mm", "x(mm)", "X / mm", "[X-Coordinate]", "x/c" are all x.
 ColumnName column_name(string_view cell) {
@@ -58,7 +66,7 @@ ColumnName column_name(string_view cell) {
   if (!name.empty() && (name[0] == '[' || name[0] == '(')) name.erase(0, 1);
   ColumnName out;
   if (const std::size_t open = name.find_first_of("[("); open != std::string::npos) {
-    out.unit = unit_in(string_view(name).substr(open + 1));
+    set_unit(string_view(name).substr(open + 1), out);
     name.erase(open);
   }
   if (const std::size_t slash = name.find('/'); slash != std::string::npos && slash > 0) {
@@ -102,7 +110,7 @@ std::vector<ColumnName> names_between_blanks(const text::Fields& fields) {
   for (std::size_t i = 0; i < fields.count; ++i) {
     const string_view cell = fields.cell[i];
     if (is_unit(cell) && !names.empty()) {
-      names.back().unit = unit_in(cell.substr(1));
+      set_unit(cell.substr(1), names.back());
     } else if (cell == "/" && !names.empty() && i + 1 < fields.count) {
       names.back().unit = unit_in(fields.cell[++i]);
     } else {
@@ -175,6 +183,7 @@ std::optional<Columns> read_header(string_view line) {
   columns.y = *y;
   columns.unit_x = names[*x].unit;
   columns.unit_y = names[*y].unit;
+  columns.no_unit = names[*x].no_unit.empty() ? names[*y].no_unit : names[*x].no_unit;
   columns.z = find("z");
   columns.corner = find("corner");
   columns.tab_separated = header_separator(text::trim(line)) == text::Separator::kTab;

@@ -13,6 +13,7 @@ namespace obvid {
 struct ColumnName {
   std::string name;  ///< lower case
   std::string unit;  ///< canonical; empty: none is stated
+  std::string no_unit{};  ///< what stands in brackets in place of a unit and is none
 };
 
 /// The cells of a line as names of columns.
@@ -32,6 +33,7 @@ struct Columns {
   double radius_min_scale = 1.0, radius_max_scale = 1.0;
   double kappa_min_scale = 1.0, kappa_max_scale = 1.0;
   std::vector<std::string> unused;  ///< names that mean nothing here
+  std::string no_unit;              ///< in brackets behind x or y, and none that is known
   bool tab_separated = false;       ///< header with tabs: a tab ends a cell, cells may be empty
   bool our_samples = false;         ///< columns of `samples_csv`: headings show corners
 

@@ -221,6 +221,10 @@ void RowReader::warn_about_meaning() {
   }
   warn_about_names();
   warn_about_level();
+  if (!layout_.no_unit.empty()) {
+    raw_.warnings.push_back(fmt::format("{} is no unit that is known ({}): the lengths have none.",
+                                        shown(layout_.no_unit), known_units()));
+  }
   if (raw_.points.empty() || raw_.units.known()) return;
   Vec2 low = raw_.points.front(), high = low;
   for (const Vec2 p : raw_.points) {

@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "obvid/certify/certify.h"
+#include "section_chain.h"
 
 namespace obvid {
 namespace {
@@ -15,11 +16,14 @@ constexpr double kLongEnough = 0.1;  // s
 constexpr int kMostCalls = 9;
 
 /// Median time of the calls, without what is measured against the spirals; the contour is the same
-/// every time. A call that takes long enough is the only one.
-Result<Fit> timed_fit(const PointSeries& series, const FitJob& job, Watch& watch, double& median) {
-  auto made = fit(series, job, watch);
+/// every time. A call that takes long enough is the only one; what it found done counts with its
+/// time.
+Result<Fit> timed_fit(const PointSeries& series, const FitJob& job,
+                      pipeline_detail::FoundChains& chains, Watch& watch, double& median) {
+  chains.begin_another();
+  auto made = pipeline_detail::fit_with(series, job, chains, watch);
   if (!made) return made;
-  median = made->report.seconds - made->report.comparing_seconds;
+  median = made->report.seconds - made->report.comparing_seconds + chains.spared_seconds();
   // a baseline needs spirals for nothing but the comparison
   if (median >= kLongEnough && job.carrier != Carrier::kBaseline) return made;
   FitJob alone = job;
@@ -110,6 +114,7 @@ Result<Comparison> compare_carriers(const PointSeries& series, const FitJob& job
                                     const RunContext& run, Comparison* finished) {
   Comparison out;
   Watch watch({{}, run.cancelled});  // the bar shows carriers
+  pipeline_detail::FoundChains chains;
   for (const Carrier carrier : kAllCarriers) {
     const auto done = static_cast<double>(out.carriers.size());
     if (run.progress) {
@@ -120,16 +125,18 @@ Result<Comparison> compare_carriers(const PointSeries& series, const FitJob& job
     ComparedCarrier row;
     row.carrier = carrier;
     if (carrier != Carrier::kSpiral) {
-      // those that were made: they may have given way to G2
-      one.followed = out.carriers.front().fit.contour.continuity;
+      if (job.continuity ==
+          Continuity::kG3) {  // those that were made: they may have given way to G2
+        one.followed = out.carriers.front().fit.contour.continuity;
+      }
       one.continuity = Continuity::kG2;
     }
-    auto made = timed_fit(series, one, watch, row.seconds);
+    auto made = timed_fit(series, one, chains, watch, row.seconds);
     if (one.followed == Continuity::kG3 && !watch.was_cancelled() &&
         wants_other_spirals(made, carrier, out.carriers.front().fit)) {
       one.followed = Continuity::kG2;
       double seconds = 0.0;
-      auto other = timed_fit(series, one, watch, seconds);
+      auto other = timed_fit(series, one, chains, watch, seconds);
       if (is_better(other, made)) {
         made = std::move(other);
         row.seconds = seconds;

@@ -194,18 +194,22 @@ struct KeptParts {
   }
 };
 
+bool is_made_g3(const FitJob& job) { return wanted_continuity(job) == Continuity::kG3; }
+
 /// Whether the slopes of the spirals' curvature are made continuous.
 bool makes_slopes_continuous(const FitJob& job) {
-  return (job.carrier == Carrier::kSpiral ? job.continuity : job.followed) == Continuity::kG3;
+  return is_made_g3(job) || (job.carrier != Carrier::kSpiral && job.followed == Continuity::kG3);
 }
 
 /// Forms the sections one after the other, and beside them the spirals of the same elements.
 class SectionForming {
  public:
-  SectionForming(const Prepared& series, const FitJob& job, double tolerance, Watch& watch)
+  SectionForming(const Prepared& series, const FitJob& job, double tolerance, FoundChains& chains,
+                 Watch& watch)
       : series_(series),
         job_(job),
         tolerance_(tolerance),
+        chains_(chains),
         watch_(watch),
         have_spirals_(job.measure_against_spirals) {}
 
@@ -219,6 +223,7 @@ class SectionForming {
     for (std::size_t k = 0; k < series_.split.sections.size() && !watch_.cancelled(); ++k) {
       if (auto done = form_one(k); !done) return tl::unexpected(done.error());
     }
+    if (watch_.was_cancelled()) return fail(cancelled_error());  // sections are missing
     out_.contour = finished(assembly_, job_.carrier);
     if (out_.chain.slope_step_g2) out_.chain.waviness_g2 = waviness_g2_.value();
     if (have_spirals_ && job_.carrier != Carrier::kSpiral) {
@@ -236,7 +241,7 @@ class SectionForming {
     const Section& section = series_.split.sections[k];
     if (form_drawn(section)) return {};
     if (job_.carrier == Carrier::kBaseline) return form_baseline_alone(section);
-    auto chain = chain_section(series_, section, watch_);
+    auto chain = chains_.chain(series_, section, watch_);
     if (!chain) return tl::unexpected(chain.error());
     auto spirals = spirals_of(*chain);
     if (!spirals && job_.carrier != Carrier::kClothoids) return tl::unexpected(spirals.error());
@@ -325,7 +330,7 @@ class SectionForming {
 
   /// Remembers how far the slopes of the G2 contour step, and how they wave.
   void note_slope_step(const Contour& spirals) {
-    if (job_.continuity != Continuity::kG3) return;
+    if (!is_made_g3(job_)) return;
     double& largest = out_.chain.slope_step_g2.emplace(out_.chain.slope_step_g2.value_or(0.0));
     largest = std::max(largest, largest_slope_step(spirals, series_.split.smooth_loop));
     waviness_g2_.add(spirals, series_.split.smooth_loop);
@@ -348,7 +353,7 @@ class SectionForming {
     if (!carried) return tl::unexpected(carried.error());
     out_.add(std::move(*carried), assembly_);
     if (!job_.measure_against_spirals) return {};
-    auto chain = chain_section(series_, section, watch_);
+    auto chain = chains_.chain(series_, section, watch_);
     keep(chain ? spirals_of(*chain) : Result<Contour>(tl::unexpected(chain.error())));
     return {};
   }
@@ -388,6 +393,7 @@ class SectionForming {
   const Prepared& series_;
   const FitJob& job_;
   double tolerance_;
+  FoundChains& chains_;
   Watch& watch_;
   Formed out_;
   Assembly assembly_, spirals_;
@@ -397,8 +403,8 @@ class SectionForming {
 };
 
 Result<Formed> form_sections(const Prepared& series, const FitJob& job, double tolerance,
-                             Watch& watch) {
-  return SectionForming(series, job, tolerance, watch).run();
+                             FoundChains& chains, Watch& watch) {
+  return SectionForming(series, job, tolerance, chains, watch).run();
 }
 
 /// Part of a point's tolerance that a carrier which follows the spirals takes for itself: what it
@@ -497,13 +503,14 @@ Result<double> tolerance_of(const FitJob& job, const std::vector<Vec2>& points, 
 }
 
 /// The contour, formed again with narrower reaches as long as it passes points too far.
-Result<Formed> form_within(Prepared& series, const FitJob& job, double tolerance, Watch& watch) {
+Result<Formed> form_within(Prepared& series, const FitJob& job, double tolerance,
+                           FoundChains& chains, Watch& watch) {
   const double most =
       watch.spent() + kSpareWork + kMostFitSteps * static_cast<double>(series.points.size());
   int round = 0;
   const auto again = [&] {
     const Stretch stretch = Stretch::next_of_many(watch, round++);
-    return form_sections(series, job, tolerance, watch);
+    return form_sections(series, job, tolerance, chains, watch);
   };
   auto formed = again();
   while (formed && round <= kNarrowings && watch.spent() < most &&
@@ -573,17 +580,25 @@ std::vector<bool> missed_points(const Contour& contour, Watch& watch) {
   return out;
 }
 
+/// What is said of the tolerances that both were formed within.
+void take_warnings(const Formed& flat, Formed& smooth) {
+  for (const std::string& one : flat.warnings) {
+    const auto& said = smooth.warnings;
+    if (std::find(said.begin(), said.end(), one) == said.end()) smooth.warnings.push_back(one);
+  }
+}
+
 /// Continuous slopes within tolerances: those of the G2 contour's elements, so that no vertex and
 /// no inflection is added. Runs that miss points whatever was tried keep their G2 spirals.
 Result<Formed> smooth_within(Prepared& series, const FitJob& job, double tolerance, KeptParts kept,
-                             Watch& watch) {
+                             FoundChains& chains, Watch& watch) {
   const auto form = [&] {
-    return SectionForming(series, job, tolerance, watch).keeping(kept).run();
+    return SectionForming(series, job, tolerance, chains, watch).keeping(kept).run();
   };
   if (series.exact()) return form();
   FitJob plain = job;
   plain.continuity = Continuity::kG2;
-  auto flat = form_within(series, plain, tolerance, watch);
+  auto flat = form_within(series, plain, tolerance, chains, watch);
   if (!flat) return flat;
   const Turns most = turns_of(flat->contour);
   auto smooth = form();
@@ -591,15 +606,18 @@ Result<Formed> smooth_within(Prepared& series, const FitJob& job, double toleran
     const std::vector<bool> missed = missed_points(smooth->contour, watch);
     if (std::find(missed.begin(), missed.end(), true) == missed.end()) {
       if (turns_of(smooth->contour).more_than(most)) break;
+      take_warnings(*flat, *smooth);
       return smooth;
     }
     kept.make(missed.size());
     for (std::size_t i = 0; i < missed.size(); ++i) kept.around[i] = kept.around[i] || missed[i];
     smooth = form();
   }
-  flat->warnings.emplace_back(
-      "within the tolerances no contour with continuous slopes of the curvature was found that has "
-      "no more vertices and inflections: it is G2");
+  if (job.continuity) {
+    flat->warnings.emplace_back(
+        "within the tolerances no contour with continuous slopes of the curvature was found that "
+        "has no more vertices and inflections: it is G2");
+  }
   return flat;
 }
 
@@ -626,12 +644,12 @@ void hold_at_ends(const std::vector<GivenDatum>& ends, Prepared& series) {
 }
 
 Result<Measured> form_and_measure(Prepared& prepared, const FitJob& job, const Units& units,
-                                  const Tolerances& within, const KeptParts& kept, Watch& watch) {
+                                  const Tolerances& within, const KeptParts& kept,
+                                  FoundChains& chains, Watch& watch) {
   Result<Formed> formed = [&] {
     const Stretch stretch(watch, 0.0, kFormedAt);
-    return job.continuity == Continuity::kG3
-               ? smooth_within(prepared, job, within.formed, kept, watch)
-               : form_within(prepared, job, within.formed, watch);
+    return is_made_g3(job) ? smooth_within(prepared, job, within.formed, kept, chains, watch)
+                           : form_within(prepared, job, within.formed, chains, watch);
   }();
   // a carrier that chooses headings of its own is held at the end of a range that it passes
   std::vector<GivenDatum> passed;
@@ -641,7 +659,7 @@ Result<Measured> form_and_measure(Prepared& prepared, const FitJob& job, const U
     if (now.empty()) break;
     passed = now;
     hold_at_ends(passed, prepared);
-    formed = form_within(prepared, job, within.formed, watch);
+    formed = form_within(prepared, job, within.formed, chains, watch);
   }
   if (!formed && !passed.empty()) {
     const std::size_t at = passed.front().point;
@@ -693,9 +711,8 @@ Result<void> has_curvatures(const Contour& contour) {
   return {};
 }
 
-Result<Fit> formed_and_proved(const PointSeries& series, const FitJob& job, Watch& watch,
-                              const KeptParts& kept = {}) {
-  const auto begin = std::chrono::steady_clock::now();
+Result<Fit> formed_and_proved(const PointSeries& series, const FitJob& job, FoundChains& chains,
+                              Watch& watch, const KeptParts& kept = {}) {
   watch.tell("analysing", 0.0);
   auto prepared = prepare(series, job);
   if (!prepared) return tl::unexpected(prepared.error());
@@ -704,13 +721,14 @@ Result<Fit> formed_and_proved(const PointSeries& series, const FitJob& job, Watc
   if (!asked) return tl::unexpected(asked.error());
   const double tolerance =
       passes_between_joints(job.carrier) ? share_tolerance(*prepared, *asked, least) : *asked;
-  auto measured = form_and_measure(*prepared, job, series.units, {tolerance, *asked}, kept, watch);
+  auto measured =
+      form_and_measure(*prepared, job, series.units, {tolerance, *asked}, kept, chains, watch);
   // what rounding makes of arcs shows in their regions only
   for (int k = 0; k < kArcTrials && measured && job.carrier == Carrier::kArcs &&
                   measured->report.largest_width > *asked;
        ++k) {
     const double aim = kNarrowedArcs * tolerance * *asked / measured->report.largest_width;
-    measured = form_and_measure(*prepared, job, series.units, {aim, *asked}, kept, watch);
+    measured = form_and_measure(*prepared, job, series.units, {aim, *asked}, kept, chains, watch);
   }
   if (!measured) return fail(measured.error());
   Formed* formed = &measured->formed;
@@ -737,7 +755,6 @@ Result<Fit> formed_and_proved(const PointSeries& series, const FitJob& job, Watc
   if (auto warning = warn_of_excursion(out.contour, has_given_data(*prepared))) {
     out.warnings.push_back(std::move(*warning));
   }
-  out.report.seconds = seconds_since(begin);
   watch.tell("done", 1.0);
   return out;
 }
@@ -773,7 +790,7 @@ bool tell_steps(Contour& contour) {
 }
 
 /// The contour that says so, if it is proved.
-std::optional<Fit> with_told_steps(const Fit& smooth, Watch& watch) {
+std::optional<Fit> with_told_steps(const Fit& smooth, bool warns, Watch& watch) {
   Fit out = smooth;
   if (!tell_steps(out.contour)) return std::nullopt;
   out.certificate = certify(out.contour, watch);
@@ -784,35 +801,48 @@ std::optional<Fit> with_told_steps(const Fit& smooth, Watch& watch) {
   report->chain = smooth.report.chain;
   report->seconds = smooth.report.seconds;
   out.report = std::move(*report);
-  out.warnings.push_back(
-      fmt::format("rounding leaves a step of the slope of curvature at {} of the joints: G2 there",
-                  out.certificate.slope_steps));
+  if (warns) {
+    out.warnings.push_back(fmt::format(
+        "rounding leaves a step of the slope of curvature at {} of the joints: G2 there",
+        out.certificate.slope_steps));
+  }
   return out;
 }
 
 /// Runs whose smooth spirals are not proved keep their G2 ones; if that does not help, the whole
 /// contour does, if that is proved.
-Result<Fit> proved_without_slopes(const PointSeries& series, FitJob job, Fit smooth, Watch& watch) {
-  if (auto told = with_told_steps(smooth, watch)) return std::move(*told);
+Result<Fit> proved_without_slopes(const PointSeries& series, FitJob job, Fit smooth,
+                                  FoundChains& chains, Watch& watch) {
+  const bool asked = job.continuity.has_value();
+  if (auto told = with_told_steps(smooth, asked, watch)) return std::move(*told);
   KeptParts kept;
   std::optional<Fit> now = smooth;
   for (int round = 0; round < kKeptRounds && now && keep_unproved(*now, kept); ++round) {
-    auto made = formed_and_proved(series, job, watch, kept);
+    auto made = formed_and_proved(series, job, chains, watch, kept);
     if (made && made->certificate.proved) return made;
     now.reset();
     if (made) now = std::move(*made);
   }
   job.continuity = Continuity::kG2;
-  auto made = formed_and_proved(series, job, watch);
+  auto made = formed_and_proved(series, job, chains, watch);
   if (!made || !made->certificate.proved) return smooth;
-  made->warnings.push_back("the G3 contour was not proved, so this one is G2: " +
-                           smooth.certificate.reason);
+  if (asked) {
+    made->warnings.push_back("the G3 contour was not proved, so this one is G2: " +
+                             smooth.certificate.reason);
+  }
   return made;
 }
 
 }  // namespace
 
-Result<Fit> fit(const PointSeries& series, const FitJob& job, Watch& watch) {
+Continuity wanted_continuity(const FitJob& job) {
+  // what is preferred holds of the headings of the G2 contour
+  const bool smooth = job.carrier == Carrier::kSpiral && job.prefer == Prefer::kFair;
+  return smooth ? job.continuity.value_or(Continuity::kG3) : Continuity::kG2;
+}
+
+Result<Fit> pipeline_detail::fit_with(const PointSeries& series, const FitJob& job,
+                                      FoundChains& chains, Watch& watch) {
   if (watch.cancelled()) return fail(cancelled_error());
   if (job.continuity == Continuity::kG3 && job.carrier != Carrier::kSpiral) {
     return fail(
@@ -820,12 +850,23 @@ Result<Fit> fit(const PointSeries& series, const FitJob& job, Watch& watch) {
          fmt::format("carrier {} has no continuous slope of curvature", to_string(job.carrier)),
          "--continuity", "G3 is for --carrier spiral", -1, 0.0});
   }
-  auto made = formed_and_proved(series, job, watch);
-  if (made && job.continuity == Continuity::kG3 && !made->certificate.proved) {
-    made = proved_without_slopes(series, job, std::move(*made), watch);
+  if (job.continuity == Continuity::kG3 && job.prefer != Prefer::kFair) {
+    return fail({ErrorCode::kBadOption, "continuous slopes move the headings that are preferred",
+                 "--continuity", "leave out --continuity G3, or --prefer", -1, 0.0});
+  }
+  const auto begin = std::chrono::steady_clock::now();
+  auto made = formed_and_proved(series, job, chains, watch);
+  if (made && is_made_g3(job) && !made->certificate.proved) {
+    made = proved_without_slopes(series, job, std::move(*made), chains, watch);
   }
   if (watch.was_cancelled()) return fail(cancelled_error());  // whatever it made do with
+  if (made) made->report.seconds = seconds_since(begin);
   return made;
+}
+
+Result<Fit> fit(const PointSeries& series, const FitJob& job, Watch& watch) {
+  FoundChains chains;
+  return pipeline_detail::fit_with(series, job, chains, watch);
 }
 
 Result<Fit> fit(const PointSeries& series, const FitJob& job, const RunContext& run) {

@@ -310,6 +310,7 @@ Result<void> set_prefer(const std::string& typed, FitJob& job) {
 }
 
 Result<void> set_continuity(const std::string& typed, FitJob& job) {
+  if (typed.empty()) return {};
   const auto continuity = continuity_of(typed);
   if (!continuity) return fail(unknown_name(typed, {"G2", "G3"}, "--continuity"));
   job.continuity = *continuity;

@@ -109,14 +109,15 @@ Result<LiveFit> LiveFit::form(PointSeries series, const FitJob& job, Watch& watc
 void LiveFit::know_chains(Watch& watch) {
   if (chains_known_) return;
   chains_known_ = true;
-  if (!certificate_.proved || contour_.continuity != job_.continuity) return;
+  const Continuity wanted = wanted_continuity(job_);
+  if (!certificate_.proved || contour_.continuity != wanted) return;
   auto prepared = prepare(series_, job_);
   if (!prepared || !follows_points(series_, job_, *prepared)) return;
   auto section = chain_section(*prepared, prepared->split.sections.front(), watch);
   if (!section || !section->warnings.empty()) return;
   Chains chains;
   chains.loop = prepared->split.smooth_loop;
-  if (job_.continuity == Continuity::kG3) {
+  if (wanted == Continuity::kG3) {
     chains.g3 = section->chain;
     if (!smooth_slopes(*chains.g3, chains.loop, watch).stepped.empty()) return;
   }

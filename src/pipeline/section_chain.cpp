@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <chrono>
 #include <map>
 #include <numbers>
 #include <set>
@@ -603,6 +604,31 @@ class SectionChooser {
 
 Result<SectionChain> chain_section(const Prepared& series, const Section& section, Watch& watch) {
   return SectionChooser(series, section, watch).run();
+}
+
+void FoundChains::begin_another() {
+  spared_ = 0.0;
+  for (Found& one : found_) one.counts = true;
+}
+
+Result<SectionChain> FoundChains::chain(const Prepared& series, const Section& section,
+                                        Watch& watch) {
+  using Clock = std::chrono::steady_clock;
+  if (series.exact()) return chain_section(series, section, watch);  // quick, and asked once
+  Asked asked{section.first, section.last, series.split.smooth_loop, series.thin, series.points,
+              series.reach,  series.fixed};
+  for (Found& one : found_) {
+    if (!(one.asked == asked)) continue;
+    spared_ += std::exchange(one.counts, false) ? one.seconds : 0.0;
+    return one.chain;
+  }
+  const auto begin = Clock::now();
+  auto chain = chain_section(series, section, watch);
+  if (chain && !watch.was_cancelled()) {
+    const double seconds = std::chrono::duration<double>(Clock::now() - begin).count();
+    found_.push_back({std::move(asked), *chain, seconds, false});
+  }
+  return chain;
 }
 
 }  // namespace obvid::pipeline_detail

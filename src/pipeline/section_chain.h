@@ -22,4 +22,42 @@ struct SectionChain {
 [[nodiscard]] Result<SectionChain> chain_section(const Prepared& series, const Section& section,
                                                  Watch& watch);
 
+/// Chains of sections within tolerances that were found already: one search serves all that is made
+/// of its result, the G2 and the G3 contour, and carriers of one comparison. Not for two threads.
+class FoundChains {
+ public:
+  /// `chain_section`, unless the same was asked before.
+  [[nodiscard]] Result<SectionChain> chain(const Prepared& series, const Section& section,
+                                           Watch& watch);
+
+  /// From now on another contour is formed: what was found is at hand for it.
+  void begin_another();
+  /// What the searches took that it would have made by itself.
+  [[nodiscard]] double spared_seconds() const { return spared_; }
+
+ private:
+  struct Asked {
+    std::size_t first, last;
+    bool loop, thin;
+    std::vector<Vec2> points;
+    std::vector<double> reach;
+    std::vector<FixedData> fixed;
+
+    bool operator==(const Asked&) const = default;
+  };
+  struct Found {
+    Asked asked;
+    SectionChain chain;
+    double seconds;
+    bool counts;  ///< its time, when it is used
+  };
+
+  std::vector<Found> found_;
+  double spared_ = 0.0;
+};
+
+/// `fit`, with chains that were found before and those that will be of use later.
+[[nodiscard]] Result<Fit> fit_with(const PointSeries& series, const FitJob& job,
+                                   FoundChains& chains, Watch& watch);
+
 }  // namespace obvid::pipeline_detail

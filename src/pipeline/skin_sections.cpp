@@ -109,7 +109,7 @@ Result<Fit> fit_section(const Flat& flat, const SkinJob& job, std::size_t number
   if (!made && job.plain_when_refused && exit_code(made.error().code) == 4) {
     FitJob plain = job.sections;
     plain.carrier = Carrier::kBaseline;
-    plain.continuity = Continuity::kG2;
+    plain.continuity.reset();
     plain.noise.reset();
     plain.noise_from_rounding = false;
     warnings.push_back(

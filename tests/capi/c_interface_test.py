@@ -334,7 +334,7 @@ class Cancelled(unittest.TestCase):
         self.in_time(lambda run: job("suggest", handle, {}, run), 0.1)
 
     def test_a_fit_with_clothoids(self):
-        handle = points(wave(10000))
+        handle = points(wave(20000))
         self.in_time(lambda run: fit(handle, {"carrier": "clothoids"}, run), 0.3)
 
     def test_a_comparison(self):

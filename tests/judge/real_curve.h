@@ -2,6 +2,7 @@
 // Curves in long double: quick evaluation, nearest points. What they find is decided elsewhere.
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <variant>
@@ -111,21 +112,10 @@ class Path {
       legs_;  ///< behind each place: length of the way to the next at the faster end's rate
 };
 
-/// Largest value of f on [from, to]: the best of equal steps, then golden sections around it.
+/// Where f is largest on [low, high], on which it has one top: golden sections.
 template <class F>
-Real largest_place(const F& f, Real from, Real to, int steps) {
-  int best = 0;
-  Real most = f(from);
-  for (int i = 1; i <= steps; ++i) {
-    const Real value = f(from + (to - from) * i / steps);
-    if (value > most) {
-      most = value;
-      best = i;
-    }
-  }
+Real climbed(const F& f, Real low, Real high) {
   constexpr Real kGolden = 0.6180339887498948482L;
-  Real low = from + (to - from) * std::max(0, best - 1) / steps;
-  Real high = from + (to - from) * std::min(steps, best + 1) / steps;
   Real a = high - kGolden * (high - low), b = low + kGolden * (high - low);
   Real fa = f(a), fb = f(b);
   constexpr int kSections = 44;  // 0.618^44 = 6e-10 of a step: the value is flat there
@@ -144,8 +134,39 @@ Real largest_place(const F& f, Real from, Real to, int steps) {
       fa = f(a);
     }
   }
-  const Real middle = 0.5L * (low + high), first = from + (to - from) * best / steps;
-  return f(middle) >= most ? middle : first;
+  return 0.5L * (low + high);
+}
+
+/// Where f is largest: climbed to from the highest samples that have none higher beside them.
+template <class F>
+Real largest_place(const F& f, Real from, Real to, int steps) {
+  constexpr std::size_t kMostTops = 3;
+  std::vector<Real> seen;
+  for (int i = 0; i <= steps; ++i) seen.push_back(f(from + (to - from) * i / steps));
+  std::vector<std::size_t> tops;
+  for (std::size_t i = 0; i < seen.size(); ++i) {
+    const bool rising = i == 0 || seen[i] > seen[i - 1];
+    if (rising && (i + 1 == seen.size() || !(seen[i + 1] > seen[i]))) tops.push_back(i);
+  }
+  std::stable_sort(tops.begin(), tops.end(),
+                   [&](std::size_t a, std::size_t b) { return seen[a] > seen[b]; });
+  if (tops.size() > kMostTops) tops.resize(kMostTops);
+  Real best = from, most = f(from);
+  const auto take = [&](Real place) {
+    const Real value = f(place);
+    if (!(value > most)) return;
+    most = value;
+    best = place;
+  };
+  for (const std::size_t top : tops) {
+    const auto at = [&](std::size_t i) {
+      return from + (to - from) * static_cast<Real>(i) / steps;
+    };
+    take(at(top));
+    take(
+        climbed(f, at(top > 0 ? top - 1 : 0), at(std::min<std::size_t>(top + 1, seen.size() - 1))));
+  }
+  return best;
 }
 
 }  // namespace judge

@@ -276,7 +276,11 @@ TEST(Compare, EveryCarrierHasItsRow) {
   ASSERT_EQ(c->carriers.size(), kAllCarriers.size());
   for (const ComparedCarrier& row : c->carriers) {
     ASSERT_FALSE(row.refusal) << to_string(row.carrier);
-    EXPECT_EQ(row.continuity, row.carrier == Carrier::kArcs ? 1 : 2) << to_string(row.carrier);
+    EXPECT_EQ(row.continuity, row.carrier == Carrier::kSpiral ? 3
+                              : row.carrier == Carrier::kArcs ? 1
+                                                              : 2)
+        << to_string(row.carrier);
+    EXPECT_EQ(row.followed, row.carrier == Carrier::kSpiral ? Continuity::kG3 : Continuity::kG2);
     EXPECT_GT(row.seconds, 0.0);
     EXPECT_EQ(row.fit.report.carrier_deviation.has_value(), row.carrier != Carrier::kSpiral);
   }
@@ -315,7 +319,8 @@ TEST(Compare, CarriersFollowSpiralsWithContinuousSlopes) {
   // arcs stay within the tolerance of these spirals, not of the G2 ones, which are farther away
   const ComparedCarrier& arcs = c->carriers[1];
   EXPECT_LT(*arcs.fit.report.carrier_deviation, arcs.fit.report.tolerance);
-  const auto flat = fit(series, {});
+  job.continuity = Continuity::kG2;
+  const auto flat = fit(series, job);
   ASSERT_TRUE(flat);
   double away = 0.0;
   for (std::size_t i = 0; i < alone.pieces.size(); ++i) {
@@ -330,7 +335,9 @@ TEST(Compare, DistancesOfAKnownCurveComeOut) {
   // the sampled distance between both contours
   PointSeries series;
   series.points = kTenPoints;
-  const auto c = compare_carriers(series, {});
+  FitJob job;
+  job.continuity = Continuity::kG2;
+  const auto c = compare_carriers(series, job);
   ASSERT_TRUE(c);
   const Contour& spirals = c->carriers[0].fit.contour;
   const Contour& baseline = c->carriers[7].fit.contour;

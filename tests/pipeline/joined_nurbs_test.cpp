@@ -136,7 +136,9 @@ void expect_joined(const Contour& contour, const NurbsCurve& curve, const std::s
 }
 
 TEST(JoinedNurbs, ReferenceSeriesIsOneCurveOfDegreeSixWithWeightsNearOne) {
-  const Contour contour = contour_through(kTenPoints);
+  FitJob job;
+  job.continuity = Continuity::kG2;
+  const Contour contour = contour_through(kTenPoints, Carrier::kSpiral, job);
   const auto curve = joined_nurbs(contour);
   ASSERT_TRUE(curve) << to_line(curve.error());
   EXPECT_EQ(curve->degree, 6);
@@ -147,6 +149,18 @@ TEST(JoinedNurbs, ReferenceSeriesIsOneCurveOfDegreeSixWithWeightsNearOne) {
   EXPECT_LT(*std::max_element(curve->weights.begin(), curve->weights.end()), 1.1);
   // knots of multiplicity 5 inside: 9 pieces leave 7 + 8 * 5 + ... control points
   EXPECT_EQ(curve->points.size(), 7U + 8U * 5U);
+}
+
+TEST(JoinedNurbs, ReferenceSeriesWithContinuousSlopesIsOneCurveToo) {
+  const Contour contour = contour_through(kTenPoints);
+  ASSERT_EQ(contour.continuity, Continuity::kG3);
+  const auto curve = joined_nurbs(contour);
+  ASSERT_TRUE(curve) << to_line(curve.error());
+  expect_joined(contour, *curve, "series10");
+  EXPECT_LT(largest_c1_gap(*curve), 1e-12);
+  EXPECT_LE(curve->degree, 7);
+  const auto degree = static_cast<std::size_t>(curve->degree);
+  EXPECT_EQ(curve->points.size(), degree + 1 + 8 * (degree - 1));
 }
 
 TEST(JoinedNurbs, RandomSpiralsKeepTheirCurve) {

@@ -196,6 +196,7 @@ TEST(RandomSeries, WithContinuousSlopesHaveNoVertexMoreAndAreNearerToTheTruth) {
   for (int i = 0; i < kSmoothSeries; ++i) {
     const Sampled s = random_series(static_cast<Oracle>(i % kOracleCount), rng, kRightAngle);
     FitJob job;
+    job.continuity = Continuity::kG2;
     const auto flat = fit(series_of(s), job);
     if (!flat || !flat->certificate.proved || flat->certificate.vertices != 0) continue;
     job.continuity = Continuity::kG3;

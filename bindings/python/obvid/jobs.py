@@ -239,7 +239,8 @@ def fit(
         points: n x 2 numbers (anything numpy takes), a path, or what `read` returned.
         carrier: "spiral" (default), "arcs", "conics", "beziers", "clothoids", "bspline", "cubic",
             "baseline".
-        continuity: "G2" (default): of the curvature; "G3": of its slope too, spirals only.
+        continuity: of spirals. "G2": of the curvature; "G3": of its slope too. Default: G3 as far as
+            it costs no vertex, G2 where `prefer` chooses headings.
         noise: how far points may move, units; "rounding": half a unit of the last digit; an array:
             one for each point. Default: points are met exactly.
         tolerance: width of the region within which the error bound is found, units; default 3e-6 of
@@ -267,7 +268,7 @@ def fit(
 
     >>> import obvid
     >>> c = obvid.fit([(0, 0), (10, 1), (19, 4), (26, 9), (30, 16)], heading={0: 0})
-    >>> c.report.headings_given, round(float(c.heading(0.0)), 12)
+    >>> c.report.headings_given, round(abs(float(c.heading(0.0))), 12)
     (1, 0.0)
     """
     source = _prepared(points, options) if options else _source(points)

@@ -14,6 +14,7 @@ struct ValueRange {
   double high = std::numeric_limits<double>::infinity();
 
   [[nodiscard]] bool empty() const { return !(low <= high); }
+  bool operator==(const ValueRange&) const = default;
 };
 
 /// What lies in both; empty when nothing does.

@@ -44,15 +44,18 @@ enum class Prefer {
 /// What to form. Unset values take the defaults named here.
 struct FitJob {
   Carrier carrier = Carrier::kSpiral;
-  Continuity continuity = Continuity::kG2;  ///< G3: of the spirals only
-  Continuity followed = Continuity::kG2;    ///< other carriers: of the spirals that they follow and
-                                            ///< are measured against
-  std::optional<double> tolerance;      ///< largest region width, units; default 3e-6 of the size
-  bool convex = false;                  ///< refuse inflections
-  std::optional<double> start_heading;  ///< rad
-  std::optional<double> end_heading;    ///< rad
-  std::optional<double> start_kappa;    ///< 1/unit
-  std::optional<double> end_kappa;      ///< 1/unit
+  /// Of the spirals only. Unset: G3 as far as it costs no vertex and no inflection, G2 at the
+  /// joints where it would, and G2 where `prefer` chooses headings. G3: the same, with a warning
+  /// that names such joints; E203 with `prefer`.
+  std::optional<Continuity> continuity{};
+  Continuity followed = Continuity::kG2;  ///< other carriers: of the spirals that they follow and
+                                          ///< are measured against
+  std::optional<double> tolerance;        ///< largest region width, units; default 3e-6 of the size
+  bool convex = false;                    ///< refuse inflections
+  std::optional<double> start_heading;    ///< rad
+  std::optional<double> end_heading;      ///< rad
+  std::optional<double> start_kappa;      ///< 1/unit
+  std::optional<double> end_kappa;        ///< 1/unit
   std::optional<ValueRange> start_thetas, end_thetas;  ///< ranges of the same
   std::optional<ValueRange> start_kappas, end_kappas;
   Prefer prefer = Prefer::kFair;     ///< others: open series of points that are met, one section
@@ -65,6 +68,9 @@ struct FitJob {
   std::vector<PointWish> wishes;        ///< ascending, at most one per point; range not checked
   bool measure_against_spirals = true;  ///< other carriers: how far they are from the spirals
 };
+
+/// What `fit` tries to make of the contour's own joints.
+[[nodiscard]] Continuity wanted_continuity(const FitJob& job);
 
 /// A contour with its report and its proof.
 struct Fit {

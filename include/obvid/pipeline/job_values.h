@@ -26,7 +26,7 @@ struct TypedValues {
   bool closed = false;
   bool open = false;
   bool no_corners = false;
-  std::string continuity = "G2";
+  std::string continuity;  ///< "G2", "G3", or empty: as FitJob has it
   std::string prefer = "fair";
 };
 

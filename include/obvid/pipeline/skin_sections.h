@@ -13,9 +13,16 @@
 
 namespace obvid {
 
+/// Contours of surfaces are G2 unless more is asked for: the surface between them is C2.
+[[nodiscard]] inline FitJob section_job() {
+  FitJob job;
+  job.continuity = Continuity::kG2;
+  return job;
+}
+
 /// How sections become a skin.
 struct SkinJob {
-  FitJob sections;  ///< how the contour of each section is formed
+  FitJob sections = section_job();  ///< how the contour of each section is formed
   Units units;
   std::optional<double> tolerance;  ///< units: of the surface from the contours [1e-5 of the size]
   SkinMatching matching = SkinMatching::kAutomatic;

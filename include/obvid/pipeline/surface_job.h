@@ -41,7 +41,7 @@ struct SurfaceJob {
                                     ///< their contours, of grids that are approximated, of
                                     ///< curves that have to meet [1e-5 of the size]
   ImportOptions import;             ///< of curves of drawings
-  FitJob sections;                  ///< how contours of point files are formed
+  FitJob sections = section_job();  ///< how contours of point files are formed
   bool plain_when_refused = false;  ///< as in `SkinJob`
   SkinMatching matching = SkinMatching::kAutomatic;
   bool straight_across = false;

@@ -23,6 +23,8 @@ struct FixedData {
   std::optional<ValueRange> thetas{};  ///< headings that do, rad, at most half a turn apart
   std::optional<ValueRange> kappas{};  ///< signed curvatures that do, 1/unit
 
+  bool operator==(const FixedData&) const = default;
+
   /// Whether a heading or a curvature is fixed, or its range.
   [[nodiscard]] bool says_how() const { return theta || kappa || thetas || kappas; }
 };
