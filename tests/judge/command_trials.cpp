@@ -175,7 +175,10 @@ class SpaceTrial : public ProgramRuns {
       }
       options_given_.push_back("--along=" + words);
     }
-    if (dice_.chance(0.3)) options_given_.insert(options_given_.end(), {"--continuity", "G3"});
+    if (dice_.chance(0.7)) {
+      const char* smooth = dice_.chance(0.5) ? "G2" : "G3";
+      options_given_.insert(options_given_.end(), {"--continuity", smooth});
+    }
     if (dice_.chance(0.25)) {
       const double noise = static_cast<double>(size) * dice_.logarithmic(1e-6, 1e-2);
       options_given_.insert(options_given_.end(), {"--noise", fmt::format("{:.3g}", noise)});
