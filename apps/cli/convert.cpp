@@ -4,11 +4,14 @@
 #include <vector>
 
 #include "commands.h"
+#include "obvid/io/atomic_file.h"
 #include "obvid/io/contour_json.h"
 #include "obvid/io/read_file.h"
+#include "obvid/io/space_json.h"
 #include "obvid/pipeline/drawn_contour.h"
 #include "obvid/pipeline/import.h"
 #include "outputs.h"
+#include "space_fit.h"
 #include "terminal.h"
 #include "text.h"
 
@@ -30,24 +33,10 @@ Result<StoredContour> from_drawing(const ConvertOptions& options, ExportOptions&
   return std::move(drawn->stored);
 }
 
-Result<StoredContour> from_contour(const ConvertOptions& options) {
-  const Result<std::string> text = read_file(options.input);
-  if (!text) return fail(text.error());
-  return contour_from_json(*text, options.input == "-" ? "standard input" : options.input);
-}
-
-}  // namespace
-
-int run(const ConvertOptions& options) {
+int convert(const ConvertOptions& options, Result<StoredContour> stored,
+            std::vector<std::string> remarks, ExportOptions formats) {
   Result<std::vector<Output>> outputs = outputs_of(options.outputs, options.input);
   if (!outputs) return report(outputs.error());
-  std::vector<std::string> remarks;
-  ExportOptions formats = options.formats;
-  if (options.input != "-") {
-    formats.picture.name = std::filesystem::path(options.input).filename().string();
-  }
-  Result<StoredContour> stored =
-      is_foreign(options.input) ? from_drawing(options, formats, remarks) : from_contour(options);
   if (!stored) return report(stored.error());
   if (options.units) {
     if (auto told = take_units(stored->contour.units, *options.units)) warn({*told});
@@ -67,6 +56,28 @@ int run(const ConvertOptions& options) {
   }
   if (auto done = put(shown); !done) return report(done.error());
   return 0;
+}
+
+}  // namespace
+
+int run(const ConvertOptions& options) {
+  if (auto free = check_outputs(options.outputs, {&options.input, 1}); !free) {
+    return report(free.error());
+  }
+  ExportOptions formats = options.formats;
+  if (options.input != "-") {
+    formats.picture.name = std::filesystem::path(options.input).filename().string();
+  }
+  if (!is_foreign(options.input)) {
+    const Result<std::string> text = read_file(options.input);
+    if (!text) return report(text.error());
+    const std::string name = options.input == "-" ? "standard input" : options.input;
+    if (is_space_json(*text)) return convert_in_space(*text, name, options);
+    return convert(options, contour_from_json(*text, name), {}, std::move(formats));
+  }
+  std::vector<std::string> remarks;
+  auto stored = from_drawing(options, formats, remarks);
+  return convert(options, std::move(stored), std::move(remarks), std::move(formats));
 }
 
 }  // namespace obvid

@@ -9,6 +9,7 @@
 
 #include "commands.h"
 #include "fit_report.h"
+#include "obvid/io/read_file.h"
 #include "obvid/pipeline/import.h"
 #include "outputs.h"
 #include "refusal.h"
@@ -32,7 +33,9 @@ Outcome read_and_fit(const FitOptions& options, ExportOptions& formats, Progress
     return Outcome{std::nullopt, report(error)};
   };
   bar.tell("reading", 0.0);
-  Result<PointSeries> series = read_series(options.input, options.import);
+  Result<PointSeries> series = options.text
+                                   ? parse_series(*options.text, options.name(), options.import)
+                                   : read_series(options.input, options.import);
   if (!series) return stop(series.error());
   if (options.units) take_units(*series, *options.units);
   formats.picture.name = series->name;
@@ -64,7 +67,13 @@ int judge_fit(const Fit& made, bool files) {
 
 }  // namespace
 
-int run(const FitOptions& options) {
+int run(const FitOptions& given) {
+  FitOptions options = given;
+  if (options.input == "-") {
+    Result<std::string> text = read_file(options.input);
+    if (!text) return report(text.error());
+    options.text = std::move(*text);
+  }
   if (const auto done = run_in_space(options)) return *done;
   if (options.suggest) return suggest(options);
   Result<std::vector<Output>> outputs = outputs_of(options.outputs, options.input);

@@ -240,8 +240,9 @@ void add_formats(CLI::App& command, FormatValues& values) {
 void add_fit(CLI::App& app, Raw& raw) {
   CLI::App& fit = *app.add_subcommand("fit", "Form a contour through points and prove it");
   fit.add_option("INPUT", raw.fit.input, kInputHelp);
-  fit.add_option("-o,--output", raw.fit.outputs,
-                 "File to write, format by ending: " + known_endings() + "; may be repeated")
+  fit.add_option(
+         "-o,--output", raw.fit.outputs,
+         "File to write, format by file extension: " + known_endings() + "; may be repeated")
       ->type_name("OUT")
       ->allow_extra_args(false);
   fit.add_option(
@@ -394,8 +395,9 @@ void add_convert(CLI::App& app, Raw& raw) {
       "CONTOUR", raw.convert.input,
       "Contour file (.json), - for standard input, or a drawing (STEP, DXF, SVG, ...)");
   convert
-      .add_option("-o,--output", raw.convert.outputs,
-                  "File to write, format by ending: " + known_endings() + "; may be repeated")
+      .add_option(
+          "-o,--output", raw.convert.outputs,
+          "File to write, format by file extension: " + known_endings() + "; may be repeated")
       ->type_name("OUT")
       ->allow_extra_args(false);
   convert
@@ -622,7 +624,7 @@ Result<Command> checked_convert(Raw& raw) {
   }
   if (raw.convert.outputs.empty()) {
     return fail(usage("convert needs a file to write",
-                      "add -o NAME; possible endings are " + known_endings()));
+                      "add -o NAME; possible file extensions are " + known_endings()));
   }
   return Command{raw.convert};
 }

@@ -21,6 +21,7 @@ namespace obvid {
 
 struct FitOptions {
   std::string input;
+  std::optional<std::string> text{};  ///< of standard input, which is read once
   std::vector<std::string> outputs;
   FitJob job;
   ImportOptions import;
@@ -34,6 +35,9 @@ struct FitOptions {
   bool json = false;
   bool quiet = false;
   bool progress = true;
+
+  /// Of the input, in messages.
+  [[nodiscard]] std::string name() const { return input == "-" ? "standard input" : input; }
 };
 
 struct ConvertOptions {

@@ -13,8 +13,8 @@ Result<Output> output_of(const std::string& path) {
   if (const auto format = format_of(path)) return Output{path, *format, {}};
   const std::string ending = std::filesystem::path(path).extension().string();
   return fail({ErrorCode::kUnknownFormat,
-               ending.empty() ? "the name has no ending that tells a format"
-                              : "no format is known for the ending " + ending,
+               ending.empty() ? "the name has no file extension that determines a format"
+                              : "no format is known for the file extension " + ending,
                path, "possible are " + known_endings()});
 }
 

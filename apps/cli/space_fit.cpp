@@ -138,31 +138,33 @@ std::string ending_of(const std::string& path) {
 
 /// One output of a space curve.
 Result<std::string> space_file(const std::string& path, const SpaceFit& fit,
-                               const SpaceNurbs& nurbs, const FitOptions& options) {
+                               const SpaceNurbs& nurbs, const ExportOptions& formats) {
   const std::string ending = ending_of(path);
-  const std::size_t samples = options.formats.samples.count.value_or(kDefaultSamples);
+  const std::size_t samples = formats.samples.count.value_or(kDefaultSamples);
   if (ending == ".json") return space_fit_json(fit, nurbs);
   if (ending == ".dxf") return space_dxf({nurbs.curve}, fit.points, fit.units);
   if (ending == ".csv") return space_samples_csv(fit, samples);
   if (ending == ".sldcrv") return space_points_text(fit, samples);
   CadWriteOptions write;
   write.units = fit.units.name;
-  write.face_width = options.formats.face_width;
-  write.format = options.formats.step;
+  write.face_width = formats.face_width;
+  write.format = formats.step;
   const bool step = ending == ".step" || ending == ".stp";
   const bool iges = ending == ".iges" || ending == ".igs";
   if (iges) write.format = CadFormat::kIges;
   if (ending == ".brep") write.format = CadFormat::kBrep;
   if (step || iges || ending == ".brep") return cad_text({{"contour", nurbs.curve}}, write);
-  return fail({ErrorCode::kUnknownFormat, "no file of this ending holds a curve in space", path,
+  return fail({ErrorCode::kUnknownFormat, "no file with this extension holds a curve in space", path,
                std::string("possible are ") + kSpaceEndings +
                    "; --flat forms the contour in the plane of x and y"});
 }
 
-Result<std::vector<std::string>> written_files(const SpaceFit& fit, const FitOptions& options,
+Result<std::vector<std::string>> written_files(const SpaceFit& fit,
+                                               const std::vector<std::string>& outputs,
+                                               const ExportOptions& formats,
                                                std::vector<std::string>& remarks) {
-  if (options.outputs.empty()) return std::vector<std::string>{};
-  const double tolerance = options.formats.tolerance.value_or(kSpaceTolerance * size_of(fit));
+  if (outputs.empty()) return outputs;
+  const double tolerance = formats.tolerance.value_or(kSpaceTolerance * size_of(fit));
   const auto nurbs = space_nurbs(fit, tolerance);
   if (!nurbs) return fail(nurbs.error());
   if (nurbs->deviation > 0.0) {
@@ -172,15 +174,15 @@ Result<std::vector<std::string>> written_files(const SpaceFit& fit, const FitOpt
                     nurbs->curve.points.size(), number(nurbs->deviation), fit.units.text()));
   }
   std::vector<std::string> texts;
-  for (const std::string& path : options.outputs) {
-    auto text = space_file(path, fit, *nurbs, options);
+  for (const std::string& path : outputs) {
+    auto text = space_file(path, fit, *nurbs, formats);
     if (!text) return fail(text.error());
     texts.push_back(std::move(*text));
   }
   for (std::size_t i = 0; i < texts.size(); ++i) {
-    if (auto done = write_file(options.outputs[i], texts[i]); !done) return fail(done.error());
+    if (auto done = write_file(outputs[i], texts[i]); !done) return fail(done.error());
   }
-  return options.outputs;
+  return outputs;
 }
 
 Result<SpaceJob> space_job(const FitOptions& options, const SpaceSeries& series) {
@@ -192,27 +194,105 @@ Result<SpaceJob> space_job(const FitOptions& options, const SpaceSeries& series)
                  options.suggest ? "--suggest" : "--construction",
                  "--flat forms the contour in the plane of x and y"});
   }
-  const auto plane = read_points(options.input, TwoPoints::kDo);
+  const auto plane = options.text ? parse_points(*options.text, options.name(), TwoPoints::kDo)
+                                  : read_points(options.input, TwoPoints::kDo);
   if (!plane || plane->fixed.empty()) return job;
   if (plane->points.size() != series.points.size()) {
     return fail({ErrorCode::kBadOption,
                  "headings and radii of points that lie above each other have no projection",
-                 options.input, "--flat forms the contour in the plane of x and y"});
+                 options.name(), "--flat forms the contour in the plane of x and y"});
   }
   job.fixed = plane->fixed;
   const bool plan_view = options.along && options.along->x == 0.0 && options.along->y == 0.0;
   if (plan_view) return job;
   return fail({ErrorCode::kBadOption,
-               "the file fixes headings, radii or tolerances of points in space", options.input,
+               "the file fixes headings, radii or tolerances of points in space", options.name(),
                "--along Z takes them as seen in the plane of x and y, --flat forms the contour in "
                "that plane alone"});
 }
 
+std::string verdict_of_part(const StoredContour& stored, const Verification& found) {
+  return found.false_claim ? "NOT as claimed: " + found.false_claim->what
+                           : verdict_line(stored.contour.carrier, found.certificate);
+}
+
+std::string verification_in_space(const StoredSpace& stored, const SpaceVerification& found) {
+  const std::string unit = stored.units.text();
+  Facts facts;
+  facts.add(stored.heights ? "projection" : "contour", verdict_of_part(stored.plan, found.plan));
+  if (stored.heights) facts.add("heights", verdict_of_part(*stored.heights, *found.heights));
+  facts.add("file claims", "below, compared with what follows from frame, points and contours");
+  facts.add("flatness", fmt::format("{} {}", number(stored.flatness), unit));
+  facts.add("largest move", fmt::format("at most {} {}", number(stored.largest_move), unit));
+  if (stored.heights) {
+    const SpaceFigures& f = stored.figures;
+    facts.add("curvature", fmt::format("between {} and {} 1/{}", number(f.least_curvature),
+                                       number(f.largest_curvature), unit));
+    facts.add("torsion", fmt::format("{} to {} 1/{} at {} places, steps by up to {} at joints",
+                                     number(f.least_torsion), number(f.largest_torsion), unit,
+                                     f.torsion_places, number(f.torsion_step)));
+  }
+  facts.add("NURBS curve", stored.deviation > 0.0 ? fmt::format("at most {} {} from the curve",
+                                                                number(stored.deviation), unit)
+                                                  : std::string("the contour itself"));
+  facts.add("not checked", listed(found.not_checked));
+  const auto broken = broken_promise(stored, found);
+  const std::string verdict = !broken ? "as claimed, and proved"
+                              : broken->code == ErrorCode::kFalseClaim
+                                  ? "NOT as claimed: " + broken->what
+                                  : broken->what;
+  return facts.text() + (broken ? bad(verdict) : good(verdict)) + "\n";
+}
+
 }  // namespace
+
+int verify_in_space(const std::string& text, const std::string& name,
+                    const VerifyOptions& options) {
+  const Result<StoredSpace> stored = space_from_json(text, name);
+  if (!stored) return report(stored.error());
+  const SpaceVerification found = verify(*stored);
+  std::string shown;
+  if (options.json) {
+    shown = space_verification_json(*stored, found) + "\n";
+  } else if (!options.quiet) {
+    shown = verification_in_space(*stored, found);
+  }
+  if (auto done = put(shown); !done) return report(done.error());
+  if (auto error = broken_promise(*stored, found)) {
+    error->where = name + (error->where.empty() ? "" : ": " + error->where);
+    return report(*error);
+  }
+  return 0;
+}
+
+int convert_in_space(const std::string& text, const std::string& name,
+                     const ConvertOptions& options) {
+  const Result<StoredSpace> stored = space_from_json(text, name);
+  if (!stored) return report(stored.error());
+  SpaceFit fit = space_fit_of(*stored);
+  if (options.units) {
+    if (auto told = take_units(fit.units, *options.units)) warn({*told});
+    fit.plan.contour.units = fit.units;
+    if (fit.unrolled) fit.unrolled->contour.units = fit.units;
+  }
+  std::vector<std::string> remarks;
+  const auto files = written_files(fit, options.outputs, options.formats, remarks);
+  if (!files) return report(files.error());
+  std::string shown;
+  if (!options.quiet) {
+    if (!options.profile.empty()) shown += options.profile + "\n";
+    for (const std::string& remark : remarks) shown += remark + "\n";
+    shown += "written  " + listed(*files) + "\n";
+  }
+  if (auto done = put(shown); !done) return report(done.error());
+  return 0;
+}
 
 std::optional<int> run_in_space(const FitOptions& options) {
   if (options.flat) return std::nullopt;
-  auto series = space_series(options.input, options.along.has_value());
+  auto series = options.text
+                    ? parse_space_series(*options.text, options.name(), options.along.has_value())
+                    : space_series(options.input, options.along.has_value());
   if (options.along && series && !*series) {
     return report({ErrorCode::kBadOption, "there are no points x, y, z whose z changes", "--along",
                    "it is for a list of points whose rows have all their cells", -1, 0.0});
@@ -229,7 +309,7 @@ std::optional<int> run_in_space(const FitOptions& options) {
   bar.clear();
   if (!made) return report(made.error());
   std::vector<std::string> remarks;
-  const auto files = written_files(*made, options, remarks);
+  const auto files = written_files(*made, options.outputs, options.formats, remarks);
   if (!files) return report(files.error());
   warn(made->warnings);
   std::string text;

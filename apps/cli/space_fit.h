@@ -2,6 +2,7 @@
 #pragma once
 
 #include <optional>
+#include <string>
 
 #include "options.h"
 
@@ -10,5 +11,11 @@ namespace obvid {
 /// `obvid fit` of points x, y, z that leave the plane of x and y: the exit code; nothing for all
 /// other input.
 [[nodiscard]] std::optional<int> run_in_space(const FitOptions& options);
+
+/// `obvid verify` and `obvid convert` of a file of such a curve: the exit code.
+[[nodiscard]] int verify_in_space(const std::string& text, const std::string& name,
+                                  const VerifyOptions& options);
+[[nodiscard]] int convert_in_space(const std::string& text, const std::string& name,
+                                   const ConvertOptions& options);
 
 }  // namespace obvid

@@ -99,7 +99,8 @@ int suggest(const FitOptions& options) {
   if (!charts) return report(charts.error());
   ProgressBar bar(options.progress && !options.quiet);
   bar.tell("reading", 0.0);
-  Result<PointSeries> series = read_points(options.input);
+  Result<PointSeries> series =
+      options.text ? parse_points(*options.text, options.name()) : read_points(options.input);
   if (series && options.units) take_units(*series, *options.units);
   TradeOff finished;
   const Result<TradeOff> found = series.and_then([&](const PointSeries& s) {

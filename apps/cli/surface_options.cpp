@@ -86,7 +86,7 @@ const char* const kLengthHelp = "input units";
 
 void add_outputs(CLI::App& app, std::vector<std::string>& outputs, const std::string& endings) {
   app.add_option("-o,--output", outputs,
-                 "File to write, format by ending: " + endings + "; may be repeated")
+                 "File to write, format by file extension: " + endings + "; may be repeated")
       ->type_name("OUT")
       ->allow_extra_args(false);
 }

@@ -14,8 +14,8 @@ Result<std::vector<SurfaceOutput>> surface_outputs_of(const std::vector<std::str
   for (const std::string& path : paths) {
     const auto format = surface_format_of(path);
     if (!format) {
-      return fail({ErrorCode::kUnknownFormat, "no format has this ending", path,
-                   "possible endings are " + known_surface_endings(), -1, 0.0});
+      return fail({ErrorCode::kUnknownFormat, "no format has this file extension", path,
+                   "possible file extensions are " + known_surface_endings(), -1, 0.0});
     }
     outputs.push_back({path, *format});
   }

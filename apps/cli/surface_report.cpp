@@ -40,7 +40,7 @@ Table section_table(const std::vector<SkinSectionReport>& sections) {
   table.column("from its\ncontour");
   table.column("from its\npoints");
   table.column("runs");
-  table.column("curvature\nagainst its run");
+  table.column("monotonicity\nviolation");
   std::vector<double> worst;
   for (const SkinSectionReport& s : sections) worst.push_back(s.ripple);
   std::size_t before = 0;

@@ -40,8 +40,8 @@ Result<std::vector<ToolpathOutput>> outputs_of(const ToolpathCommand& command) {
       outputs.push_back(
           {path, surface == SurfaceFormat::kPicture ? Kind::kPicture : Kind::kPage, {}});
     } else {
-      return fail({ErrorCode::kUnknownFormat, "no format of tool paths has this ending", path,
-                   "possible are .nc, .ngc, .gcode, .tap, .svg, .html", -1, 0.0});
+      return fail({ErrorCode::kUnknownFormat, "no format of tool paths has this file extension",
+                   path, "possible are .nc, .ngc, .gcode, .tap, .svg, .html", -1, 0.0});
     }
   }
   return outputs;

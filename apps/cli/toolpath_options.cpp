@@ -46,7 +46,7 @@ void add_passes(CLI::App& app, RawToolpath& raw) {
       ->type_name("NAME")
       ->group(group);
   app.add_option("--scallop", plan.scallop,
-                 "Greatest height left between passes, units [0.01 diameters]")
+                 "Greatest residual scallop height between passes, units [0.01 diameters]")
       ->type_name("H")
       ->group(group);
   app.add_option("--step-over", plan.step_over, "Greatest distance of passes, units [by scallop]")

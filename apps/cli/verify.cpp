@@ -7,8 +7,10 @@
 #include "fit_report.h"
 #include "obvid/io/contour_json.h"
 #include "obvid/io/read_file.h"
+#include "obvid/io/space_json.h"
 #include "obvid/pipeline/promise.h"
 #include "obvid/pipeline/report_json.h"
+#include "space_fit.h"
 #include "table.h"
 #include "terminal.h"
 #include "text.h"
@@ -129,6 +131,7 @@ int run(const VerifyOptions& options) {
   const Result<std::string> text = read_file(options.input);
   if (!text) return report(text.error());
   const std::string name = options.input == "-" ? "standard input" : options.input;
+  if (is_space_json(*text)) return verify_in_space(*text, name, options);
   const Result<StoredContour> stored = contour_from_json(*text, name);
   if (!stored) return report(stored.error());
   const Verification found = verify(*stored);

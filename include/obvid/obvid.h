@@ -150,7 +150,7 @@ OBVID_API int obvid_derivatives(const obvid_contour* contour, const double* at, 
 /* ---- files ------------------------------------------------------------------------------------
  */
 
-/* The contour in a format, named by its ending: "json", "svg", "step", "dxf", "nc", "csv", ... */
+/* The contour in a format, named by its file extension: "json", "svg", "step", "dxf", "nc", "csv", ... */
 OBVID_API int obvid_export(const obvid_contour* contour, const char* ending, const char* options,
                            obvid_files** files, obvid_error** error);
 /* Most formats are one file. `suffix` goes between name and ending; the texts are the handle's. */

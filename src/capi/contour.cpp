@@ -23,7 +23,7 @@ Result<std::unique_ptr<obvid_files>> files_of(const obvid_contour& contour, cons
   const auto format = format_of("contour." + std::string(ending));
   if (!format) {
     return fail({ErrorCode::kUnknownFormat,
-                 "no format is known for the ending ." + std::string(ending), "",
+                 "no format is known for the file extension ." + std::string(ending), "",
                  "possible are " + known_endings()});
   }
   ExportOptions& formats = request->formats;

@@ -27,9 +27,9 @@ constexpr std::array kTexts{
               "knows.",
               "See `obvid --help` or `obvid COMMAND --help` for what is possible."},
     ErrorText{ErrorCode::kUnknownFormat, "Unknown output format",
-              "The format of an output file is told by the ending of its name, and this ending "
+              "The format of an output file is determined by its file extension, and this one "
               "stands for no format that the program writes.",
-              "Use one of the endings that the error lists, for example .json or .svg."},
+              "Use one of the extensions that the error lists, for example .json or .svg."},
     ErrorText{ErrorCode::kBadOption, "Option not possible",
               "An option has a value outside its range, contradicts another one, or asks for "
               "something that this version cannot do. It is refused instead of ignored, because a "

@@ -241,7 +241,7 @@ class Shaper {
     const bool weights =
         std::all_of(e_.weights.begin(), e_.weights.end(), [](double w) { return w > 0.0; });
     if (!ascending) refuse("its knots do not ascend");
-    if (ascending && broken) refuse("it has a gap, at a knot repeated more often than its degree");
+    if (ascending && broken) refuse("it has a gap, at a knot whose multiplicity exceeds the degree");
     if (ascending && !broken && !weights) refuse("one of its weights is not positive");
     return shape_.fault.reason == nullptr;
   }

@@ -39,7 +39,7 @@ Result<PointGrid> grid_of(const std::vector<std::vector<Vec3>>& rows, string_vie
   if (grid.count_u >= 2 && grid.count_v >= 2) return grid;
   return fail({ErrorCode::kTooFewPoints,
                fmt::format("{} rows of {} points are no grid", grid.count_v, grid.count_u),
-               std::string(name), "give at least 2 x 2 points; rows are told by blank lines", -1,
+               std::string(name), "give at least 2 x 2 points; rows are separated by blank lines", -1,
                0.0});
 }
 

@@ -100,8 +100,8 @@ void align_sections(std::vector<SpaceSeries>& sections, std::vector<std::string>
     constexpr double kBack = -0.87;  // cosine of 150 degrees
     if (dot(step, last_step) < kBack * norm(step) * norm(last_step)) {
       warnings.push_back(
-          fmt::format("section {} ({}) lies back along the body: are the sections in order?", k + 1,
-                      sections[k].name));
+          fmt::format("section {} ({}) runs backwards along the body: are the sections in order?",
+                      k + 1, sections[k].name));
     }
     last_step = step;
   }

@@ -59,6 +59,9 @@ class WeightOfPoint {
     find_greatest();
   }
 
+  /// Whether the curve runs through the point whatever its weight: all knots inside the support of
+  /// its basis function are one, as at the ends and everywhere in degree 1.
+  [[nodiscard]] bool passes() const { return passes_; }
   /// Part of the way from B to the point that a weight leads to.
   [[nodiscard]] double part(double weight) const {
     const double pull = weight * basis();
@@ -73,8 +76,7 @@ class WeightOfPoint {
     out.weight = curve_.weights[point_];
     out.u = u_;
     const Vec3 p = curve_.points[point_];
-    // an end of the curve is its control point, whatever its weight
-    out.without = rest() > 0.0 ? evaluate(others_, u_).point / rest() : p;
+    out.without = passes_ ? p : evaluate(others_, u_).point / rest();
     out.a = part(1.0);
     out.b = part(out.weight);
     out.even = (1.0 - out.a) * out.without + out.a * p;
@@ -84,11 +86,16 @@ class WeightOfPoint {
   }
 
  private:
-  [[nodiscard]] double basis() const { return evaluate(own_, u_).point.x; }
-  [[nodiscard]] double rest() const { return evaluate(rest_, u_).point.x; }
+  [[nodiscard]] double basis() const { return passes_ ? 1.0 : evaluate(own_, u_).point.x; }
+  [[nodiscard]] double rest() const { return passes_ ? 0.0 : evaluate(rest_, u_).point.x; }
 
   void find_greatest() {
     const auto d = static_cast<std::size_t>(curve_.degree);
+    passes_ = curve_.knots[point_ + 1] == curve_.knots[point_ + d];
+    if (passes_) {
+      u_ = curve_.knots[point_ + 1];
+      return;
+    }
     double low = curve_.knots[point_], high = curve_.knots[point_ + d + 1];
     const auto height = [&](double u) { return evaluate(own_, u).point.x; };
     for (int k = 0; k < kThirdsOfSupport; ++k) {
@@ -96,14 +103,13 @@ class WeightOfPoint {
       (height(a) < height(b) ? low : high) = height(a) < height(b) ? a : b;
     }
     u_ = 0.5 * (low + high);
-    if (point_ == 0) u_ = curve_.knots.front();
-    if (point_ + 1 == curve_.points.size()) u_ = curve_.knots.back();
   }
 
   const SpaceCurve& curve_;
   std::size_t point_;
   SpaceCurve own_, rest_, others_;
   double u_ = 0.0;
+  bool passes_ = false;
 };
 
 Result<void> take_weights(const NurbsJob& job, SpaceCurve& curve) {
@@ -121,12 +127,19 @@ Result<void> take_weights(const NurbsJob& job, SpaceCurve& curve) {
   if (auto good = check(curve); !good) return good;
   for (const auto& [point, part] : job.moves) {
     if (auto done = known(point, "--move"); !done) return done;
-    if (!(part > 0.0 && part < 1.0) || point == 0 || point + 1 == curve.points.size()) {
+    const WeightOfPoint weight(curve, point);
+    if (weight.passes()) {
+      return fail(nurbs_error(
+          ErrorCode::kBadOption,
+          fmt::format("the curve runs through control point {} whatever its weight", point + 1),
+          "--move", "a higher degree, or knots that differ there, leave it free", part));
+    }
+    if (!(part > 0.0 && part < 1.0)) {
       return fail(nurbs_error(ErrorCode::kBadOption,
-                              "a weight leads between 0 and 1 of the way from B to an inner point",
+                              "a weight leads between 0 and 1 of the way from B to a point",
                               "--move", "3=0.7 leads 0.7 of the way to point 3", part));
     }
-    curve.weights[point] = WeightOfPoint(curve, point).weight(part);
+    curve.weights[point] = weight.weight(part);
   }
   return check(curve);
 }

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
 #include <numbers>
 #include <utility>
 
@@ -109,6 +110,84 @@ double largest_of(const std::vector<double>& values) {
   return values.empty() ? 0.0 : *std::max_element(values.begin(), values.end());
 }
 
+/// From the places whose lengths the heights stand on; these need not be the nearest ones.
+double farthest_from_places(const Fit& plan) {
+  const ContourPath path(plan.contour.pieces);
+  const std::vector<double> lengths = lengths_at_points(plan.contour, path);
+  double farthest = 0.0;
+  for (std::size_t i = 0; i < lengths.size() && i < plan.report.moves.size(); ++i) {
+    if (plan.report.moves[i] == 0.0) continue;
+    const double away = norm(path.at(lengths[i]).point - plan.contour.points[i]);
+    farthest = std::max({farthest, plan.report.moves[i], away});
+  }
+  return farthest;
+}
+
+/// Curvatures of both contours are monotone on their pieces, so that ends of a cell bound them.
+void enclose(const SpaceShape::Curvatures& a, const SpaceShape::Curvatures& b, double width,
+             bool first, SpaceFit& out) {
+  const auto largest = [](double x, double y) { return std::max(std::abs(x), std::abs(y)); };
+  const auto least = [](double x, double y) {
+    return (x < 0.0) != (y < 0.0) ? 0.0 : std::min(std::abs(x), std::abs(y));
+  };
+  const double turn = width * largest(a.unrolled, b.unrolled);
+  const double steep = largest(a.slope, b.slope) + turn;
+  const double level = std::max(0.0, least(a.slope, b.slope) - turn);
+  const double high = std::hypot(largest(a.unrolled, b.unrolled),
+                                 largest(a.plan, b.plan) * std::pow(std::cos(level), 2));
+  const double cosine = std::max(0.0, std::cos(std::min(steep, 0.5 * std::numbers::pi)));
+  const double low =
+      std::hypot(least(a.unrolled, b.unrolled), least(a.plan, b.plan) * cosine * cosine);
+  out.least_curvature = first ? low : std::min(out.least_curvature, low);
+  out.largest_curvature = first ? high : std::max(out.largest_curvature, high);
+}
+
+void at_points(const SpaceShape& shape, SpaceFit& out) {
+  const std::vector<double> lengths = lengths_at_points(out.unrolled->contour, shape.unrolled());
+  for (const double sigma : lengths) {
+    const SpacePlace before = shape.at(sigma, true), after = shape.at(sigma);
+    out.at_points.push_back(
+        {after.plan_length, after.height, after.curvature, before.torsion, after.torsion});
+  }
+}
+
+Result<void> measure_space(SpaceFit& out) {
+  const SpaceShape shape(out.frame, out.plan.contour, out.unrolled->contour);
+  const std::vector<double> joints = shape.joints();
+  out.torsion_places = 0;
+  out.torsion_step = 0.0;
+  bool torsion_begun = false;
+  for (std::size_t k = 0; k + 1 < joints.size(); ++k) {
+    const double width = (joints[k + 1] - joints[k]) / kPlacesOfSpan;
+    for (int j = 0; j < kPlacesOfSpan; ++j) {
+      const double from = joints[k] + width * j,
+                   to = j + 1 < kPlacesOfSpan ? joints[k] + width * (j + 1) : joints[k + 1];
+      const auto a = shape.curvatures(from, false), b = shape.curvatures(to, true);
+      enclose(a, b, to - from, k == 0 && j == 0, out);
+      // headings within the cell: between both ends, and further by what it may turn
+      const double turn = (to - from) * std::max(std::abs(a.unrolled), std::abs(b.unrolled));
+      if (std::max(std::abs(a.slope), std::abs(b.slope)) + turn >= 0.5 * std::numbers::pi) {
+        return fail(of_space(ErrorCode::kWanders,
+                             "the curve rises so steeply that its projection may run back",
+                             "choose another direction with --along"));
+      }
+      for (const auto& torsion : {shape.at(from).torsion, shape.at(to, true).torsion}) {
+        ++out.torsion_places;
+        if (!torsion) continue;
+        out.least_torsion = torsion_begun ? std::min(out.least_torsion, *torsion) : *torsion;
+        out.largest_torsion = torsion_begun ? std::max(out.largest_torsion, *torsion) : *torsion;
+        torsion_begun = true;
+      }
+    }
+    if (k == 0) continue;
+    const auto before = shape.at(joints[k], true).torsion, after = shape.at(joints[k]).torsion;
+    if (before && after) out.torsion_step = std::max(out.torsion_step, std::abs(*after - *before));
+  }
+  at_points(shape, out);
+  out.largest_move = farthest_from_places(out.plan) + largest_of(out.unrolled->report.moves);
+  return {};
+}
+
 /// A curve that does not lie in a plane, in one projection.
 class SpatialForming {
  public:
@@ -127,24 +206,35 @@ class SpatialForming {
     FitJob plan_job = job_.fit;
     // both parts move a point: together no further than the noise
     if (plan_job.noise) plan_job.noise = std::numbers::sqrt2 / 2.0 * *plan_job.noise;
+    // what ends elsewhere is open, also where its projection returns
+    if (plan_job.closing == Closing::kAutomatic && !returns()) plan_job.closing = Closing::kOpen;
     auto first = fit(plan, plan_job, run_);
     if (!first) return fail(within_part(first.error(), "projection"));
     out.plan = std::move(*first);
     if (out.plan.contour.closed || out.plan.certificate.corners > 0) {
-      return fail(of_space(ErrorCode::kUnsupported,
-                           out.plan.contour.closed
-                               ? "the projection is closed: closed curves must lie in a plane"
-                               : "the projection has a corner: corners must lie in a plane",
-                           "split the series there, or give --open"));
+      return fail(of_space(
+          ErrorCode::kUnsupported,
+          out.plan.contour.closed ? "a closed curve must lie in a plane: heights round it are not "
+                                    "joined with one tangent and curvature"
+                                  : "the projection has a corner: corners must lie in a plane",
+          out.plan.contour.closed ? "--open forms it with ends that meet, without a common tangent"
+                                  : "split the series there"));
     }
     auto second = heights(out, rounding.across);
     if (!second) return fail(second.error());
     out.unrolled = std::move(*second);
-    if (auto done = measure(out); !done) return fail(done.error());
+    if (auto done = measure_space(out); !done) return fail(done.error());
     return out;
   }
 
  private:
+  /// Whether the last point is the first one again but for noise and print.
+  [[nodiscard]] bool returns() const {
+    const double near = std::max(
+        {series_.rounding.x, series_.rounding.y, series_.rounding.z, job_.fit.noise.value_or(0.0)});
+    return norm(series_.points.back() - series_.points.front()) <= near;
+  }
+
   Result<Fit> heights(const SpaceFit& so_far, double across) const {
     const Contour& plan = so_far.plan.contour;
     const ContourPath path(plan.pieces);
@@ -196,70 +286,6 @@ class SpatialForming {
     return made;
   }
 
-  static Result<void> measure(SpaceFit& out) {
-    const SpaceShape shape(out.frame, out.plan.contour, out.unrolled->contour);
-    const std::vector<double> joints = shape.joints();
-    bool torsion_begun = false;
-    for (std::size_t k = 0; k + 1 < joints.size(); ++k) {
-      const double width = (joints[k + 1] - joints[k]) / kPlacesOfSpan;
-      for (int j = 0; j < kPlacesOfSpan; ++j) {
-        const double from = joints[k] + width * j,
-                     to = j + 1 < kPlacesOfSpan ? joints[k] + width * (j + 1) : joints[k + 1];
-        const auto a = shape.curvatures(from, false), b = shape.curvatures(to, true);
-        enclose(a, b, to - from, k == 0 && j == 0, out);
-        // headings within the cell: between both ends, and further by what it may turn
-        const double turn = (to - from) * std::max(std::abs(a.unrolled), std::abs(b.unrolled));
-        if (std::max(std::abs(a.slope), std::abs(b.slope)) + turn >= 0.5 * std::numbers::pi) {
-          return fail(of_space(ErrorCode::kWanders,
-                               "the curve rises so steeply that its projection may run back",
-                               "choose another direction with --along"));
-        }
-        for (const auto& torsion : {shape.at(from).torsion, shape.at(to, true).torsion}) {
-          ++out.torsion_places;
-          if (!torsion) continue;
-          out.least_torsion = torsion_begun ? std::min(out.least_torsion, *torsion) : *torsion;
-          out.largest_torsion = torsion_begun ? std::max(out.largest_torsion, *torsion) : *torsion;
-          torsion_begun = true;
-        }
-      }
-      if (k == 0) continue;
-      const auto before = shape.at(joints[k], true).torsion, after = shape.at(joints[k]).torsion;
-      if (before && after)
-        out.torsion_step = std::max(out.torsion_step, std::abs(*after - *before));
-    }
-    at_points(shape, out);
-    out.largest_move = largest_of(out.plan.report.moves) + largest_of(out.unrolled->report.moves);
-    return {};
-  }
-
-  /// Curvatures of both contours are monotone on their pieces, so that ends of a cell bound them.
-  static void enclose(const SpaceShape::Curvatures& a, const SpaceShape::Curvatures& b,
-                      double width, bool first, SpaceFit& out) {
-    const auto largest = [](double x, double y) { return std::max(std::abs(x), std::abs(y)); };
-    const auto least = [](double x, double y) {
-      return (x < 0.0) != (y < 0.0) ? 0.0 : std::min(std::abs(x), std::abs(y));
-    };
-    const double turn = width * largest(a.unrolled, b.unrolled);
-    const double steep = largest(a.slope, b.slope) + turn;
-    const double level = std::max(0.0, least(a.slope, b.slope) - turn);
-    const double high = std::hypot(largest(a.unrolled, b.unrolled),
-                                   largest(a.plan, b.plan) * std::pow(std::cos(level), 2));
-    const double cosine = std::max(0.0, std::cos(std::min(steep, 0.5 * std::numbers::pi)));
-    const double low =
-        std::hypot(least(a.unrolled, b.unrolled), least(a.plan, b.plan) * cosine * cosine);
-    out.least_curvature = first ? low : std::min(out.least_curvature, low);
-    out.largest_curvature = first ? high : std::max(out.largest_curvature, high);
-  }
-
-  static void at_points(const SpaceShape& shape, SpaceFit& out) {
-    const std::vector<double> lengths = lengths_at_points(out.unrolled->contour, shape.unrolled());
-    for (const double sigma : lengths) {
-      const SpacePlace before = shape.at(sigma, true), after = shape.at(sigma);
-      out.at_points.push_back(
-          {after.plan_length, after.height, after.curvature, before.torsion, after.torsion});
-    }
-  }
-
   const SpaceSeries& series_;
   const SpaceJob& job_;
   const RunContext& run_;
@@ -303,18 +329,31 @@ Result<SpaceFit> best_projection(const SpaceSeries& series, const SpaceJob& job,
 
 }  // namespace
 
+namespace pipeline_detail {
+
+Result<void> measure(SpaceFit& fit) { return measure_space(fit); }
+
+}  // namespace pipeline_detail
+
 Result<std::optional<SpaceSeries>> space_series(const std::string& path, bool any_third) {
-  // what can be read only once is left to whoever reads it next
+  // what can be read only once is for whoever reads it: `parse_space_series`
   const std::string head = head_of_file(path, kHeadBytes);
   if (head.empty() || file_kind(head) != FileKind::kPoints) return std::nullopt;
   const auto text = read_file(path);
   if (!text) return fail(text.error());
-  const auto table = parse_columns(*text, path);
+  return parse_space_series(*text, path, any_third);
+}
+
+Result<std::optional<SpaceSeries>> parse_space_series(const std::string& text,
+                                                      const std::string& name, bool any_third) {
+  if (file_kind(text) != FileKind::kPoints) return std::nullopt;
+  const auto table = parse_columns(text, name);
   const bool named = table && !table->names.empty();
   if (named ? !table->column({"z"}) : !any_third) return std::nullopt;
-  auto parsed = parse_sections(*text, path);
+  auto parsed = parse_sections(text, name);
   if (!parsed || parsed->flat || parsed->sections.size() != 1) return std::nullopt;
   SpaceSeries& series = parsed->sections.front();
+  series.name = std::filesystem::path(name).filename().string();
   std::vector<Vec3> points;
   for (const Vec3& p : series.points) {
     if (points.empty() || !(points.back() == p)) points.push_back(p);

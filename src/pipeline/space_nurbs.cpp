@@ -33,7 +33,8 @@ class CubicOfSpace {
       for (const double sigma : nodes) points.push_back(shape_.at(sigma).point);
       auto curve = interpolated(points, nodes);
       if (!curve) return fail(curve.error());
-      const double deviation = bound(*curve, nodes);
+      const double deviation =
+          pipeline_detail::distance_bound(shape_, *curve, kBetweenPart * tolerance_);
       if (deviation <= tolerance_) return SpaceNurbs{std::move(*curve), deviation};
     }
     return fail({ErrorCode::kToleranceNotReached,
@@ -55,44 +56,19 @@ class CubicOfSpace {
     return out;
   }
 
-  /// Between two places a distance d apart the distance of both curves, by the same parameter, is
-  /// above the chord over its values there by at most (largest second derivatives) d^2 / 8. The
-  /// cubic's is linear on a span; that of the curve is bounded by the curvatures of both contours,
-  /// which are monotone on their pieces.
-  [[nodiscard]] double bound(const SpaceCurve& curve, const std::vector<double>& nodes) const {
-    double largest = 0.0;
-    for (std::size_t k = 0; k + 1 < nodes.size(); ++k) {
-      const double from = nodes[k], to = nodes[k + 1], width = to - from;
-      const auto a = shape_.curvatures(from, false), b = shape_.curvatures(to, true);
-      const double bend = std::hypot(std::max(std::abs(a.plan), std::abs(b.plan)),
-                                     std::max(std::abs(a.unrolled), std::abs(b.unrolled))) +
-                          std::max(norm(evaluate(curve, from).d2), second_before(curve, to, from));
-      const double wanted = std::sqrt(8.0 * kBetweenPart * tolerance_ / std::max(bend, 1e-300));
-      const double steps = std::clamp(std::ceil(width / wanted), 2.0, 1e6);
-      const double step = width / steps;
-      double here = 0.0;
-      for (int j = 1; j < static_cast<int>(steps); ++j) {
-        const double sigma = from + step * j;
-        here = std::max(here, norm(evaluate(curve, sigma).point - shape_.at(sigma).point));
-      }
-      largest = std::max(largest, here + bend * step * step / 8.0);
-    }
-    return largest;
-  }
-
-  /// Second derivative at the end of a span, where the next one begins: it is continuous there, and
-  /// at the end of the domain linear from the middle on.
-  [[nodiscard]] double second_before(const SpaceCurve& curve, double to, double from) const {
-    if (to < domain(curve).to) return norm(evaluate(curve, to).d2);
-    const double middle = 0.5 * (from + to);
-    const SpaceJet jet = evaluate(curve, middle);
-    return norm(jet.d2 + (to - middle) * jet.d3);
-  }
-
   const SpaceShape& shape_;
   double tolerance_;
   std::vector<double> joints_;
 };
+
+/// Second derivative at the end of a span, where the next one begins: it is continuous there, and
+/// at the end of the domain linear from the middle on.
+double second_before(const SpaceCurve& curve, double to, double from) {
+  if (to < domain(curve).to) return norm(evaluate(curve, to).d2);
+  const double middle = 0.5 * (from + to);
+  const SpaceJet jet = evaluate(curve, middle);
+  return norm(jet.d2 + (to - middle) * jet.d3);
+}
 
 void add_vec3(JsonText& json, const char* name, Vec3 v) {
   json.key(name).begin_array().value(v.x).value(v.y).value(v.z).end_array();
@@ -122,6 +98,39 @@ std::vector<std::pair<double, SpacePlace>> equal_places(const SpaceFit& fit, std
 }
 
 }  // namespace
+
+namespace pipeline_detail {
+
+double distance_bound(const SpaceShape& shape, const SpaceCurve& cubic, double between) {
+  // the second derivative of the cubic is linear between knots, and that of the curve is bounded by
+  // the curvatures of both contours, which are monotone on their pieces
+  std::vector<double> nodes = shape.joints();
+  nodes.insert(nodes.end(), cubic.knots.begin(), cubic.knots.end());
+  for (double& node : nodes) node = std::clamp(node, 0.0, shape.length());
+  std::sort(nodes.begin(), nodes.end());
+  nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
+  double largest = 0.0;
+  for (std::size_t k = 0; k + 1 < nodes.size(); ++k) {
+    const double from = nodes[k], to = nodes[k + 1], width = to - from;
+    const auto a = shape.curvatures(from, false), b = shape.curvatures(to, true);
+    const double bend = std::hypot(std::max(std::abs(a.plan), std::abs(b.plan)),
+                                   std::max(std::abs(a.unrolled), std::abs(b.unrolled))) +
+                        std::max(norm(evaluate(cubic, from).d2), second_before(cubic, to, from));
+    const double wanted = std::sqrt(8.0 * between / std::max(bend, 1e-300));
+    const double steps = std::clamp(std::ceil(width / wanted), 2.0, 1e6);
+    const double step = width / steps;
+    double here = 0.0;
+    for (int j = 0; j <= static_cast<int>(steps); ++j) {
+      const double sigma = j < static_cast<int>(steps) ? from + step * j : to;
+      const Vec3 place = shape.at(sigma, sigma >= to).point;
+      here = std::max(here, norm(evaluate(cubic, sigma).point - place));
+    }
+    largest = std::max(largest, here + bend * step * step / 8.0);
+  }
+  return largest;
+}
+
+}  // namespace pipeline_detail
 
 Result<SpaceNurbs> space_nurbs(const SpaceFit& fit, double tolerance) {
   if (!(tolerance > 0.0 && std::isfinite(tolerance))) {

@@ -8,19 +8,28 @@ namespace obvid::pipeline_detail {
 namespace {
 
 constexpr int kHalvingsOfLength = 100;
-/// Joints nearer than this part of the length are one.
-constexpr double kSameJoint = 1e-9;
+/// Joints nearer than this part of the length are one: lengths are known to some 1e-14.
+constexpr double kSameJoint = 1e-12;
 
 double slope_of_unrolled(const Jet& jet) { return std::atan2(jet.d1.y, jet.d1.x); }
 
 }  // namespace
 
+Jet SpaceShape::below(double plan_length, bool before_joint) const {
+  const double near = kSameJoint * plan_.length();
+  double s = std::clamp(plan_length, 0.0, plan_.length());
+  const ContourPath::Parameter here = plan_.parameter(s);
+  for (const std::size_t k : {here.piece, here.piece + 1}) {
+    if (std::abs(plan_.joint(k) - s) <= near) s = plan_.joint(k);
+  }
+  return plan_.jet(s, before_joint);
+}
+
 SpacePlace SpaceShape::at(double sigma, bool before_joint) const {
   const Jet rolled = unrolled_.jet(sigma, before_joint);
   const double phi = slope_of_unrolled(rolled), c = std::cos(phi), s = std::sin(phi);
   const double g = obvid::curvature(rolled), g_rate = curvature_rate(rolled);
-  const double far = std::clamp(rolled.point.x, 0.0, plan_.length());
-  const Jet plane = plan_.jet(far, before_joint);
+  const Jet plane = below(rolled.point.x, before_joint);
   const double kappa = obvid::curvature(plane), kappa_rate = curvature_rate(plane);
 
   SpacePlace out;
@@ -40,8 +49,7 @@ SpacePlace SpaceShape::at(double sigma, bool before_joint) const {
 
 SpaceShape::Curvatures SpaceShape::curvatures(double sigma, bool before_joint) const {
   const Jet rolled = unrolled_.jet(sigma, before_joint);
-  const double far = std::clamp(rolled.point.x, 0.0, plan_.length());
-  return {obvid::curvature(plan_.jet(far, before_joint)), obvid::curvature(rolled),
+  return {obvid::curvature(below(rolled.point.x, before_joint)), obvid::curvature(rolled),
           slope_of_unrolled(rolled)};
 }
 
@@ -56,17 +64,16 @@ double SpaceShape::where(double plan_length) const {
 }
 
 std::vector<double> SpaceShape::joints() const {
-  std::vector<double> all = {0.0, length()};
-  for (std::size_t k = 1; k < unrolled_.pieces().size(); ++k) all.push_back(unrolled_.joint(k));
-  for (std::size_t k = 1; k < plan_.pieces().size(); ++k) all.push_back(where(plan_.joint(k)));
-  std::sort(all.begin(), all.end());
-  std::vector<double> out = {0.0};
-  for (const double one : all) {
-    if (one > out.back() + kSameJoint * length() && one < (1.0 - kSameJoint) * length()) {
-      out.push_back(one);
-    }
+  std::vector<double> out;
+  for (std::size_t k = 0; k <= unrolled_.pieces().size(); ++k) out.push_back(unrolled_.joint(k));
+  const std::vector<double> own = out;
+  const double near = kSameJoint * length();
+  for (std::size_t k = 1; k < plan_.pieces().size(); ++k) {
+    const double one = where(plan_.joint(k));
+    const auto behind = std::lower_bound(own.begin(), own.end(), one - near);
+    if (behind == own.end() || *behind > one + near) out.push_back(one);
   }
-  out.push_back(length());
+  std::sort(out.begin(), out.end());
   return out;
 }
 

@@ -45,8 +45,21 @@ class SpaceShape {
   [[nodiscard]] const ContourPath& unrolled() const { return unrolled_; }
 
  private:
+  /// Of the plane contour; a place that is a joint of it but for rounding is that joint.
+  [[nodiscard]] Jet below(double plan_length, bool before_joint) const;
+
   Frame frame_;
   ContourPath plan_, unrolled_;
 };
+
+/// How far a cubic by arc length is from the curve at most, apart from rounding. Between two places
+/// a distance d apart the distance of both, by the same parameter, is above the chord over its
+/// values there by at most (largest second derivatives) d^2 / 8: the places are so close that this
+/// is at most `between`.
+[[nodiscard]] double distance_bound(const SpaceShape& shape, const SpaceCurve& cubic,
+                                    double between);
+
+/// Everything that follows from frame, points and both contours: the figures of `fit`.
+[[nodiscard]] Result<void> measure(SpaceFit& fit);
 
 }  // namespace obvid::pipeline_detail

@@ -109,8 +109,8 @@ void judge(Toolpath& out, const ToolpathOptions& options) {
         r.gouge.found, "do not run it; a smaller --tolerance may keep it");
   }
   if (options.scallop && r.scallop.found > *options.scallop) {
-    add(fmt::format("{:.3g} {} stay at {}, where {:.3g} were asked for", r.scallop.found, out.units,
-                    place_text(r.scallop.place), *options.scallop),
+    add(fmt::format("the residual scallop height is {:.3g} {} at {}, where {:.3g} was asked for",
+                    r.scallop.found, out.units, place_text(r.scallop.place), *options.scallop),
         r.scallop.found,
         "a ball cutter, another strategy or angle, or a smaller --step-over "
         "leaves less");

@@ -28,6 +28,8 @@ void check_form(const Course& course, Sheet& sheet);
 void check_certificate(const Course& course, Sheet& sheet);
 void check_report(const Course& course, Sheet& sheet);
 void check_given_list(const Course& course, Sheet& sheet);
+/// All claims of a contour file itself.
+void judge_course(const Course& course, Sheet& sheet);
 /// Against what the user gave.
 void check_input(const Course& course, const Input& input, Sheet& sheet);
 /// Against the curve that the points were taken from.

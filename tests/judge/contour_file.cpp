@@ -136,12 +136,14 @@ bool ContourFile::parted_at(std::size_t joint_index) const {
 }
 
 ReadContour read_contour(const std::string& text) {
-  ReadContour out;
   const ReadJson read = read_json(text);
-  out.fault = read.fault;
-  if (!out.fault.empty()) return out;
+  return read.fault.empty() ? read_contour(read.value) : ReadContour{{}, read.fault};
+}
+
+ReadContour read_contour(const Json& json) {
+  ReadContour out;
   try {
-    out.contour = contour_of(read.value);
+    out.contour = contour_of(json);
   } catch (const std::exception& error) {
     out.fault = error.what();
   }

@@ -68,5 +68,6 @@ struct ReadContour {
   std::string fault;  ///< empty: the file can be read
 };
 ReadContour read_contour(const std::string& text);
+ReadContour read_contour(const Json& json);
 
 }  // namespace judge

@@ -24,8 +24,9 @@ namespace judge {
 namespace {
 
 constexpr const char* kUsage =
-    "usage: judge --series N [--seed S] [--first I] [--jobs J] [--obvid PROGRAM] [--keep FOLDER]\n"
-    "             [--json FILE] [--limit SECONDS] [--most FINDINGS] [--open FILE]\n"
+    "usage: judge --series N [--of fit|space|nurbs|spline] [--seed S] [--first I] [--jobs J]\n"
+    "             [--obvid PROGRAM] [--keep FOLDER] [--json FILE] [--limit SECONDS] [--most "
+    "FINDINGS] [--open FILE]\n"
     "       judge CONTOUR.json [--points FILE] [--options \"OPTIONS OF fit\"] [--text FILE]\n"
     "             [--verify FILE] [--export FILE]... [--json FILE]\n"
     "Exit code 0: nothing false; 1: something is; 2: wrong usage.\n";
@@ -56,6 +57,8 @@ Settings settings_of(int argc, char** argv) {
     const std::string value = argv[i];
     if (name == "--series")
       out.series = std::strtoull(value.c_str(), nullptr, 10);
+    else if (name == "--of")
+      out.trial.of = value;
     else if (name == "--seed")
       out.trial.seed = std::strtoull(value.c_str(), nullptr, 10);
     else if (name == "--first")
@@ -87,7 +90,9 @@ Settings settings_of(int argc, char** argv) {
     else
       out.wrong = true;
   }
-  out.wrong = out.wrong || (out.series == 0) == out.contour.empty();
+  const std::set<std::string> kinds = {"fit", "space", "nurbs", "spline"};
+  out.wrong =
+      out.wrong || (out.series == 0) == out.contour.empty() || !kinds.contains(out.trial.of);
   return out;
 }
 
@@ -144,15 +149,15 @@ void print_finding(const Finding& f) {
 
 int judge_file(const Settings& settings) {
   Sheet sheet;
-  const ReadContour read = read_contour(text_of_file(settings.contour));
-  if (!read.fault.empty()) {
+  const std::string stored = text_of_file(settings.contour);
+  const ReadContour read = read_contour(stored);
+  if (stored.find("obvid-space-curve") != std::string::npos) {
+    judge_space(stored, settings.text.empty() ? "" : text_of_file(settings.text), sheet);
+  } else if (!read.fault.empty()) {
     sheet.fails("file", settings.contour, read.fault, "");
   } else {
     const Course course(read.contour);
-    check_form(course, sheet);
-    check_certificate(course, sheet);
-    check_report(course, sheet);
-    check_given_list(course, sheet);
+    judge_course(course, sheet);
     if (!settings.points.empty()) {
       check_input(course, read_input(text_of_file(settings.points), words_of(settings.options)),
                   sheet);

@@ -38,12 +38,12 @@ Form derivative(const Form& c) {
   return out;
 }
 
-struct Homogeneous {
+struct BallForms {
   Form x, y, w;
 };
 
-Homogeneous forms_of(const Bezier& bezier) {
-  Homogeneous out;
+BallForms forms_of(const Bezier& bezier) {
+  BallForms out;
   const std::size_t n = bezier.offset.size() - 1;
   double binomial = 1.0;
   for (std::size_t j = 0; j <= n; ++j) {
@@ -64,7 +64,7 @@ struct Tests {
 };
 
 Tests tests_of(const Bezier& bezier) {
-  const Homogeneous h = forms_of(bezier);
+  const BallForms h = forms_of(bezier);
   const Form w1 = derivative(h.w);
   const Form u = difference(product(derivative(h.x), h.w), product(h.x, w1));
   const Form v = difference(product(derivative(h.y), h.w), product(h.y, w1));

@@ -194,6 +194,18 @@ Vec Span::point(Real t) const {
   return (1.0L / a.w) * a.p;
 }
 
+Vec Span::third(Real t) const {
+  const Jet jet = at(t);
+  if (const auto* s = std::get_if<SpiralForm>(&form_)) {
+    const Real kappa = s->kappa0 + t * (s->kappa1 - s->kappa0), turn = kappa * s->length;
+    return (s->length * (s->kappa1 - s->kappa0)) * left_of(jet.d) - (turn * turn) * jet.d;
+  }
+  const auto& r = std::get<RationalForm>(form_);
+  const Homogeneous a = sum_of(r.point, t), a1 = sum_of(r.first, t), a2 = sum_of(r.second, t),
+                    a3 = sum_of(derivative_of(r.second), t);
+  return (1.0L / a.w) * (a3.p - (3.0L * a1.w) * jet.dd - (3.0L * a2.w) * jet.d - a3.w * jet.p);
+}
+
 Real Span::turning(Real from, Real to) const {
   if (const auto* s = std::get_if<SpiralForm>(&form_)) {
     const Real middle = s->kappa0 + 0.5L * (from + to) * (s->kappa1 - s->kappa0);

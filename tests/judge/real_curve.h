@@ -69,6 +69,8 @@ class Span {
 
   [[nodiscard]] Jet at(Real t) const;
   [[nodiscard]] Vec point(Real t) const;
+  /// Third derivative by the parameter.
+  [[nodiscard]] Vec third(Real t) const;
   /// Angle that the tangent turns between two parameters, unwrapped and signed.
   [[nodiscard]] Real turning(Real from = 0.0L, Real to = 1.0L) const;
   /// The same over the whole span, to both sides together.

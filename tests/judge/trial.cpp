@@ -4,13 +4,13 @@
 #include <fmt/format.h>
 
 #include <cmath>
-#include <ctime>
 #include <filesystem>
 #include <optional>
 #include <regex>
 
 #include "checks.h"
 #include "process.h"
+#include "program_runs.h"
 #include "sentences.h"
 #include "series.h"
 #include "texts.h"
@@ -18,29 +18,17 @@
 namespace judge {
 namespace {
 
-/// Processor time of this thread: what judging costs, programs that it runs left out.
-double own_seconds() {
-  timespec t{};
-  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &t);
-  return static_cast<double>(t.tv_sec) + 1e-9 * static_cast<double>(t.tv_nsec);
-}
-
-constexpr const char* kPoints = "points.csv";
-
-class Work {
+class Work : public ProgramRuns {
  public:
   Work(const TrialOptions& options, std::uint64_t index)
-      : options_(options),
+      : ProgramRuns(options, index),
         series_(make_series(options.seed, index)),
         dice_(options.seed * 31 + index * 7 + 1) {
-    out_.index = index;
     out_.family = series_.family;
     out_.points = series_.points;
   }
 
   Trial run() {
-    std::filesystem::remove_all(options_.folder);
-    std::filesystem::create_directories(options_.folder);
     write_file(path(kPoints), series_.text);
     Input input = read_input(series_.text, series_.options);
     input.truth = series_.truth;
@@ -62,10 +50,6 @@ class Work {
   }
 
  private:
-  [[nodiscard]] std::string path(const std::string& name) const {
-    return options_.folder + "/" + name;
-  }
-
   std::vector<std::string> fit_words() {
     std::vector<std::string> words{"fit", kPoints};
     words.insert(words.end(), series_.options.begin(), series_.options.end());
@@ -78,40 +62,6 @@ class Work {
     return words;
   }
 
-  Run program(const std::string& command, std::vector<std::string> words) {
-    words.insert(words.begin(), options_.obvid);
-    const Finished done = run_program(words, options_.folder, options_.limit);
-    out_.program_seconds += done.seconds;
-    out_.slowest = std::max(out_.slowest, done.seconds);
-    if (out_.command.empty()) {
-      for (std::size_t i = 1; i < words.size(); ++i) out_.command += (i > 1 ? " " : "") + words[i];
-    }
-    std::string line;
-    for (std::size_t i = 1; i < words.size(); ++i) line += words[i] + " ";
-    if (done.out_of_time) {
-      stop(Trial::Outcome::kTimeout, "time limit", line, fmt::format("{:.1f} s", done.seconds));
-    } else if (done.signal != 0 || done.code < 0 || done.code > 5) {
-      stop(Trial::Outcome::kCrash, "crash", line,
-           fmt::format("exit {}, signal {}: {}", done.code, done.signal, done.err.substr(0, 200)));
-    } else if (done.code == 1) {
-      stop(Trial::Outcome::kFalse, "exit 1", line, done.err.substr(0, 200));
-    }
-    Run run;
-    run.command = command;
-    run.code = done.code;
-    run.out = done.out;
-    run.err = done.err;
-    run.input_name = kPoints;
-    return run;
-  }
-
-  void stop(Trial::Outcome outcome, const std::string& claim, const std::string& line,
-            const std::string& found) {
-    if (!stopped_) out_.outcome = outcome;
-    stopped_ = true;
-    out_.sheet.fails(claim, line, found, "");
-  }
-
   void contour(const std::string& stored, const Run& fit, const Input& input) {
     const ReadContour read = read_contour(stored);
     if (!read.fault.empty()) {
@@ -120,10 +70,7 @@ class Work {
     }
     const Course course(read.contour);
     Sheet& sheet = out_.sheet;
-    check_form(course, sheet);
-    check_certificate(course, sheet);
-    check_report(course, sheet);
-    check_given_list(course, sheet);
+    judge_course(course, sheet);
     check_input(course, input, sheet);
     check_truth(course, input, sheet);
     check_fit_text(course, fit, sheet);
@@ -335,12 +282,9 @@ class Work {
     }
   }
 
-  const TrialOptions& options_;
   Series series_;
   Dice dice_;
-  Trial out_;
   std::vector<std::string> exports_;
-  bool stopped_ = false;
   int fit_code_ = 0;
 };
 
@@ -353,13 +297,19 @@ const char* name_of(Trial::Outcome outcome) {
 }
 
 Trial run_trial(const TrialOptions& options, std::uint64_t index) {
+  if (options.of == "space") return run_space_trial(options, index);
+  if (options.of == "nurbs") return run_nurbs_trial(options, index);
+  if (options.of == "spline") return run_grid_trial(options, index);
   return Work(options, index).run();
 }
 
 void judge_contour(const std::string& text, Sheet& sheet) {
   const ReadContour read = read_contour(text);
   if (!read.fault.empty()) return sheet.fails("file", "a contour file", read.fault, "");
-  const Course course(read.contour);
+  judge_course(Course(read.contour), sheet);
+}
+
+void judge_course(const Course& course, Sheet& sheet) {
   check_form(course, sheet);
   check_certificate(course, sheet);
   check_report(course, sheet);

@@ -11,8 +11,9 @@
 namespace judge {
 
 struct TrialOptions {
-  std::string obvid;   ///< the program
-  std::string folder;  ///< to work in; emptied
+  std::string obvid;       ///< the program
+  std::string folder;      ///< to work in; emptied
+  std::string of = "fit";  ///< what is tried: fit, space, nurbs, spline
   std::uint64_t seed = 1;
   double limit = 10.0;  ///< seconds of processor time of one run
 };
@@ -29,7 +30,13 @@ struct Trial {
 const char* name_of(Trial::Outcome outcome);
 
 Trial run_trial(const TrialOptions& options, std::uint64_t index);
+/// Points in space for `fit`, control points for `nurbs`, tables of x, y, f for `spline`.
+Trial run_space_trial(const TrialOptions& options, std::uint64_t index);
+Trial run_nurbs_trial(const TrialOptions& options, std::uint64_t index);
+Trial run_grid_trial(const TrialOptions& options, std::uint64_t index);
 
+/// All claims of a file of format obvid-space-curve, and of the printed report if there is one.
+void judge_space(const std::string& stored, const std::string& report, Sheet& sheet);
 /// All claims of a contour file itself.
 void judge_contour(const std::string& text, Sheet& sheet);
 

@@ -84,6 +84,27 @@ TEST(NurbsJobTest, NetsComeInAnyOrder) {
   EXPECT_EQ(surface.weights[1], 2.0);
 }
 
+TEST(NurbsJobTest, ACurveThatRunsThroughAPointDoesSoWhateverItsWeight) {
+  NurbsJob job;
+  job.degree = 1;  // a polyline: weights move nothing but the parameter
+  job.knots = {-1.11472, -1.11472, 0.1, 0.3, 0.7, 1.9, 2.3, 2.3};
+  job.weights = {{2, 7.0}};
+  const auto made = nurbs_report(controls(kSix), job);
+  ASSERT_TRUE(made) << to_line(made.error());
+  for (const WeightRow& row : made->rows) {
+    const Vec3 p = made->table.points[row.point];
+    EXPECT_EQ(row.u, job.knots[row.point + 1]);
+    EXPECT_EQ(row.a, 1.0);
+    EXPECT_EQ(row.b, 1.0);
+    EXPECT_EQ(row.swing, 0.0);
+    for (const Vec3& place : {row.without, row.even, row.now}) EXPECT_LT(norm(place - p), 1e-14);
+  }
+  job.moves = {{2, 0.5}};
+  const auto refused = nurbs_report(controls(kSix), job);
+  ASSERT_FALSE(refused);
+  EXPECT_EQ(refused.error().what, "the curve runs through control point 3 whatever its weight");
+}
+
 TEST(NurbsJobTest, WhatCannotBeIsRefused) {
   NurbsJob job;
   job.weights = {{9, 1.0}};

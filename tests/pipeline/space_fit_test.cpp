@@ -211,6 +211,78 @@ TEST(SpaceFitTest, WhatIsNotFormedIsRefusedByName) {
   EXPECT_EQ(made.error().code, ErrorCode::kUnsupported);
 }
 
+TEST(SpaceFitTest, AHelixOfAWholeTurnIsOpenAlthoughItsProjectionReturns) {
+  const double r = 40.0, b = 5.0;
+  const auto helix = series_on(
+      [&](double u) {
+        const double t = 2.0 * std::numbers::pi * u;
+        return Vec3{r * std::cos(t), r * std::sin(t), b * t};
+      },
+      17);
+  SpaceSeries whole = helix;
+  whole.points.back().x = r;  // cos and sin of a whole turn, without their rounding
+  whole.points.back().y = 0.0;
+  SpaceJob job;
+  job.along = Vec3{0, 0, 1};
+  const auto made = fit_space(whole, job);
+  ASSERT_TRUE(made) << to_line(made.error());
+  EXPECT_FALSE(made->plan.contour.closed);
+  const double curvature = r / (r * r + b * b), torsion = b / (r * r + b * b);
+  EXPECT_LE(made->least_curvature, curvature * (1 + 1e-9));
+  EXPECT_GE(made->largest_curvature, curvature * (1 - 1e-9));
+  EXPECT_NEAR(made->least_torsion, torsion, 1e-6 * torsion);
+  EXPECT_NEAR(made->largest_torsion, torsion, 1e-6 * torsion);
+}
+
+/// A curve of a known cone, as its file has it.
+StoredSpace stored_conical() {
+  const auto made = fit_space(series_on(conical, 9), {});
+  EXPECT_TRUE(made);
+  const auto nurbs = space_nurbs(*made, 1e-4);
+  EXPECT_TRUE(nurbs);
+  auto stored = space_from_json(space_fit_json(*made, *nurbs), "curve.json");
+  EXPECT_TRUE(stored) << to_line(stored.error());
+  return std::move(*stored);
+}
+
+std::string false_claim(const StoredSpace& stored) {
+  const auto found = verify(stored);
+  return found.false_claim ? found.false_claim->where : "";
+}
+
+TEST(SpaceFitTest, AFileIsProvedAgainAndEveryFalseFigureIsFound) {
+  const StoredSpace sound = stored_conical();
+  const auto found = verify(sound);
+  EXPECT_FALSE(broken_promise(sound, found));
+  EXPECT_TRUE(found.plan.certificate.proved);
+  ASSERT_TRUE(found.heights);
+  EXPECT_TRUE(found.heights->certificate.proved);
+  const auto doctored = [&](auto change) {
+    StoredSpace one = sound;
+    change(one);
+    return false_claim(one);
+  };
+  using Stored = StoredSpace;
+  EXPECT_EQ(doctored([](Stored& s) { s.normal.x += 1e-6; }), "/frame");
+  EXPECT_EQ(doctored([](Stored& s) { s.frame.x = 1.001 * s.frame.x; }), "/frame");
+  EXPECT_EQ(doctored([](Stored& s) { s.points[3].x += 1e-6; }).substr(0, 1), "/");
+  EXPECT_EQ(doctored([](Stored& s) { s.flatness = 1e-3; }), "/flatness");
+  EXPECT_EQ(doctored([](Stored& s) { s.figures.least_curvature *= 1.001; }), "/least_curvature");
+  EXPECT_EQ(doctored([](Stored& s) { s.figures.largest_curvature *= 0.999; }),
+            "/largest_curvature");
+  EXPECT_EQ(doctored([](Stored& s) { s.figures.torsion_places += 1; }), "/torsion_places");
+  EXPECT_EQ(doctored([](Stored& s) { s.figures.least_torsion *= 0.999; }), "/least_torsion");
+  EXPECT_EQ(doctored([](Stored& s) { s.figures.largest_torsion *= 1.001; }), "/largest_torsion");
+  EXPECT_EQ(doctored([](Stored& s) { s.figures.torsion_step += 1e-3; }), "/torsion_step");
+  EXPECT_EQ(doctored([](Stored& s) { s.deviation *= 0.05; }), "/curve/deviation");
+  EXPECT_EQ(doctored([](Stored& s) { s.deviation = 0.0; }), "/curve/deviation");
+  EXPECT_EQ(doctored([](Stored& s) { s.curve.points[2].z += 1e-2; }), "/curve/deviation");
+  // a contour that is none is found by its own proof
+  Stored bent = sound;
+  std::get<RationalBezier>(bent.heights->contour.pieces.front()).offset[1].y += 1.0;
+  EXPECT_TRUE(broken_promise(bent, verify(bent)));
+}
+
 /// Numbers in the files are those of the curve.
 TEST(SpaceFitTest, StepAndDxfHoldTheCurve) {
   SpaceJob job;

@@ -315,7 +315,7 @@ class Contour:
         return files, tuple(remarks)
 
     def text(self, ending: str, **options: Any) -> str:
-        """The contour in a text format, by its ending: "json", "svg", "dxf", "step", "nc", ...
+        """The contour in a text format, by its file extension: "json", "svg", "dxf", "step", "nc", ...
 
         Options are those of the program: output_tolerance, samples, sample_step, feed, controller,
         motion, svg, plot, step, dxf, face, units, profile (`--for`).
@@ -326,7 +326,7 @@ class Contour:
         return files[0][1].decode()
 
     def write(self, path: Union[str, "os.PathLike[str]"], **options: Any) -> List[str]:
-        """Writes the contour to a file whose ending names the format; returns what is to be said of
+        """Writes the contour to a file whose extension determines the format; returns what is to be said of
         it. Options as of `text`. Files are written whole or not at all."""
         target = pathlib.Path(path)
         files, remarks = self._exported(target.suffix.lstrip("."), options)

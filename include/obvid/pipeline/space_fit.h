@@ -9,6 +9,7 @@
 #include "obvid/core/result.h"
 #include "obvid/core/run_context.h"
 #include "obvid/exchange/samples.h"
+#include "obvid/io/space_json.h"
 #include "obvid/pipeline/fit.h"
 #include "obvid/surface/point_grid.h"
 #include "obvid/surface/space_curve.h"
@@ -19,6 +20,10 @@ namespace obvid {
 /// plane, several series, pipes). `any_third`: a third column without a name is z. Errors: E301.
 [[nodiscard]] Result<std::optional<SpaceSeries>> space_series(const std::string& path,
                                                               bool any_third = false);
+/// The same of a text that was read already.
+[[nodiscard]] Result<std::optional<SpaceSeries>> parse_space_series(const std::string& text,
+                                                                    const std::string& name,
+                                                                    bool any_third = false);
 
 /// How a spatial series becomes a curve.
 struct SpaceJob {
@@ -87,6 +92,25 @@ struct SpaceNurbs {
 
 /// Everything: frame, both contours as contour files, the NURBS curve, the figures.
 [[nodiscard]] std::string space_fit_json(const SpaceFit& fit, const SpaceNurbs& nurbs);
+
+/// The curve of a file.
+[[nodiscard]] SpaceFit space_fit_of(const StoredSpace& stored);
+
+/// What was found of a stored curve in space.
+struct SpaceVerification {
+  Verification plan;
+  std::optional<Verification> heights;
+  std::optional<Error> false_claim;      ///< of the curve itself, E503
+  std::vector<std::string> not_checked;  ///< fields that were taken as they stand
+};
+/// Proves both contours again, each as a contour file, and compares what the file says of frame,
+/// points, heights, curvature, torsion, moves and the NURBS curve with what follows from them.
+[[nodiscard]] SpaceVerification verify(const StoredSpace& stored);
+/// What the curve fails in: a false claim first.
+[[nodiscard]] std::optional<Error> broken_promise(const StoredSpace& stored,
+                                                  const SpaceVerification& found);
+[[nodiscard]] std::string space_verification_json(const StoredSpace& stored,
+                                                  const SpaceVerification& found);
 
 /// Places along the curve at equal steps of arc length: s, x, y, z, curvature, torsion.
 [[nodiscard]] std::string space_samples_csv(const SpaceFit& fit, std::size_t count);

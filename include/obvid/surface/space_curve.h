@@ -41,7 +41,7 @@ struct SpaceJet {
 };
 
 /// Why the curve breaks the rules above, as an error: E203 numbers that do not belong together,
-/// knots that descend, are not clamped or stand more often than degree (+ 1 at the ends), weights
+/// knots that descend, are not clamped or have a multiplicity above the degree (+ 1 at the ends), weights
 /// <= 0, degree outside 1..kMaxSurfaceDegree; E303 what is not finite.
 [[nodiscard]] Result<void> check(const SpaceCurve& curve);
 

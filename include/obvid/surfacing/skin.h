@@ -46,8 +46,9 @@ struct SkinSectionReport {
   double deviation = 0.0;    ///< largest distance from the contour, measured, units
   double from_points = 0.0;  ///< largest distance of a data point from the surface's section
   std::size_t runs = 0;      ///< of the contour: stretches of monotone curvature
-  double ripple = 0.0;       ///< largest change of curvature against its run, as a share of the
-                             ///< section's largest curvature; 0: monotone wherever the contour is
+  double ripple = 0.0;       ///< monotonicity violation: largest change of curvature against its
+                             ///< run, as a share of the section's largest curvature; 0: monotone
+                             ///< wherever the contour is
 };
 
 /// Waves across the sections, along one isoline u = const of a patch: changes of sign of the normal

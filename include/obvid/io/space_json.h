@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "obvid/core/result.h"
+#include "obvid/geom/vec3.h"
+#include "obvid/io/stored_contour.h"
+#include "obvid/surface/space_curve.h"
+
+namespace obvid {
+
+/// What the file of a curve in space says of its shape; lengths in its units.
+struct SpaceFigures {
+  double least_curvature = 0.0, largest_curvature = 0.0;  ///< enclose the curvature, 1/unit
+  std::size_t torsion_places = 0;
+  double least_torsion = 0.0, largest_torsion = 0.0;  ///< at these places, 1/unit
+  double torsion_step = 0.0;                          ///< largest at a joint, 1/unit
+};
+
+/// A curve in space as its file has it (docs/formats.md).
+struct StoredSpace {
+  std::string name;
+  Units units;
+  Frame frame;
+  Vec3 normal;  ///< as stated; `frame.normal()` follows from the other two
+  double flatness = 0.0, largest_move = 0.0;
+  std::vector<Vec3> points;
+  StoredContour plan;                    ///< in the plane, or of the projection
+  std::optional<StoredContour> heights;  ///< none: the curve is planar
+  SpaceFigures figures;                  ///< of curves that are not planar
+  SpaceCurve curve;
+  double deviation = 0.0;           ///< of `curve`
+  std::vector<std::string> unread;  ///< fields that mean nothing to this program
+};
+
+/// Whether a text is such a file rather than that of a contour: an object that names the format.
+[[nodiscard]] bool is_space_json(std::string_view text);
+
+/// Errors: E308 with the path of the field, E309, E310 as for contours; those of `check` for the
+/// NURBS curve.
+[[nodiscard]] Result<StoredSpace> space_from_json(std::string_view text, std::string_view name);
+
+}  // namespace obvid

@@ -1,0 +1,152 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "obvid/io/space_json.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <utility>
+
+#include "contour_json_names.h"
+#include "contour_json_values.h"
+#include "obvid/io/contour_json.h"
+#include "text_lines.h"
+
+namespace obvid {
+namespace {
+
+constexpr std::string_view kSpaceFormat = "obvid-space-curve";
+constexpr std::size_t kPlacesOfFormat = 4096;  // bytes within which a file names its format
+
+class SpaceReader : private JsonValues {
+ public:
+  explicit SpaceReader(std::string_view name) : JsonValues(name), file_(name) {}
+
+  Result<StoredSpace> read(const nlohmann::json& document) {
+    const Node root{&document, nullptr, {}, 0};
+    head(root);
+    frame(root);
+    each(field(root, "points"), [&](const Node& one) { out_.points.push_back(vector(one)); });
+    if (!failed() && out_.points.size() < 2) refuse(root, "a curve needs at least two points");
+    if (planar_) {
+      out_.plan = contour(root, "contour");
+    } else {
+      out_.plan = contour(root, "projection");
+      out_.heights = contour(root, "heights");
+      figures(root);
+    }
+    curve(root);
+    if (error_) return fail(std::move(*error_));
+    for (std::string& one : unread_fields(document)) {
+      if (!is_of_contour(one)) out_.unread.push_back(std::move(one));
+    }
+    if (auto good = check(out_.curve); !good) {
+      Error error = good.error();
+      error.code = ErrorCode::kBadJson;
+      error.where = file_ + ": /curve";
+      return fail(std::move(error));
+    }
+    return std::move(out_);
+  }
+
+ private:
+  void head(const Node& root) {
+    const Node format = field(root, "format");
+    if (!failed() && word(format) != kSpaceFormat) refuse(format, "this is no curve in space");
+    const Node version = field(root, "version");
+    if (!failed() && integer(version, 1, kMaxInteger) != 1) {
+      refuse(version, ErrorCode::kUnsupported, "this version of the format is not known");
+    }
+    if (const auto name = optional_field(root, "name")) out_.name = word(*name);
+    out_.units.name = word(field(root, "units"));
+    if (const auto node = optional_field(root, "units_source")) {
+      const std::string name = word(*node);
+      if (const auto source = unit_source_of(name)) {
+        out_.units.source = *source;
+      } else {
+        refuse(*node, text::shown(name) + " is no source of a unit: file, given or assumed");
+      }
+    }
+    planar_ = flag(field(root, "planar"));
+    out_.flatness = number(field(root, "flatness"));
+    out_.largest_move = number(field(root, "largest_move"));
+  }
+
+  void frame(const Node& root) {
+    const Node node = field(root, "frame");
+    out_.frame.origin = vector(field(node, "origin"));
+    out_.frame.x = vector(field(node, "x"));
+    out_.frame.y = vector(field(node, "y"));
+    out_.normal = vector(field(node, "normal"));
+  }
+
+  void figures(const Node& root) {
+    SpaceFigures& f = out_.figures;
+    f.least_curvature = number(field(root, "least_curvature"));
+    f.largest_curvature = number(field(root, "largest_curvature"));
+    const Node places = field(root, "torsion_places");
+    if (!failed()) f.torsion_places = static_cast<std::size_t>(integer(places, 0, kMaxInteger));
+    f.least_torsion = number(field(root, "least_torsion"));
+    f.largest_torsion = number(field(root, "largest_torsion"));
+    f.torsion_step = number(field(root, "torsion_step"));
+  }
+
+  void curve(const Node& root) {
+    const Node node = field(root, "curve");
+    const Node degree = field(node, "degree");
+    if (!failed()) out_.curve.degree = static_cast<int>(integer(degree, 1, kMaxSurfaceDegree));
+    out_.deviation = number(field(node, "deviation"));
+    each(field(node, "knots"), [&](const Node& one) { out_.curve.knots.push_back(number(one)); });
+    each(field(node, "points"), [&](const Node& one) { out_.curve.points.push_back(vector(one)); });
+    each(field(node, "weights"),
+         [&](const Node& one) { out_.curve.weights.push_back(number(one)); });
+  }
+
+  Vec3 vector(const Node& node) {
+    std::vector<double> values;
+    each(node, [&](const Node& one) { values.push_back(number(one)); });
+    if (!failed() && values.size() != 3) refuse(node, "a point has three coordinates");
+    return failed() ? Vec3{} : Vec3{values[0], values[1], values[2]};
+  }
+
+  /// Contours are whole files.
+  StoredContour contour(const Node& root, std::string_view key) {
+    const Node node = field(root, key);
+    if (failed()) return {};
+    auto stored = contour_from_json(node.value->dump(), fmt::format("{}: /{}", file_, key));
+    if (!stored) {
+      error_ = stored.error();
+      return {};
+    }
+    return std::move(*stored);
+  }
+
+  static bool is_of_contour(const std::string& path) {
+    return std::any_of(kParts.begin(), kParts.end(), [&](std::string_view part) {
+      return path == part || path.starts_with(std::string(part) + "/");
+    });
+  }
+
+  static constexpr std::array<std::string_view, 3> kParts = {"/contour", "/projection", "/heights"};
+
+  std::string file_;
+  StoredSpace out_;
+  bool planar_ = false;
+};
+
+}  // namespace
+
+bool is_space_json(std::string_view text) {
+  const std::string_view head = text.substr(0, kPlacesOfFormat);
+  const std::size_t begin = head.find_first_not_of(" \t\r\n\xEF\xBB\xBF");
+  return begin != std::string_view::npos && head[begin] == '{' &&
+         head.find(fmt::format("\"{}\"", kSpaceFormat)) != std::string_view::npos;
+}
+
+Result<StoredSpace> space_from_json(std::string_view text, std::string_view name) {
+  const auto document = parse_json(text, name);
+  if (!document) return fail(document.error());
+  return SpaceReader(name).read(*document);
+}
+
+}  // namespace obvid

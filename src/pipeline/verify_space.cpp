@@ -1,0 +1,273 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "contour_nurbs.h"
+#include "obvid/io/json_text.h"
+#include "obvid/pipeline/promise.h"
+#include "obvid/pipeline/report_json.h"
+#include "obvid/pipeline/space_fit.h"
+#include "space_shape.h"
+
+namespace obvid {
+namespace {
+
+using pipeline_detail::SpaceShape;
+
+/// Figures follow again from the same numbers; sines may be rounded otherwise elsewhere.
+constexpr double kSameSpaceFigure = 1e-9;
+/// Torsion is a quotient of third derivatives, of the largest one.
+constexpr double kSameTorsion = 1e-6;
+/// Lengths are rounding below this part of the size, and this many roundings of a coordinate.
+constexpr double kRoundedPart = 1e-12, kRoundingsOfSpace = 64.0;
+constexpr double kUnitVector = 1e-12;
+/// The bound of the file has a part for what lies between places; here that part is small.
+constexpr double kBetweenPlaces = 0.05;
+
+class SpaceClaims {
+ public:
+  explicit SpaceClaims(const StoredSpace& stored) : stored_(stored), fit_(space_fit_of(stored)) {
+    double coordinate = 0.0;
+    for (const Vec3& p : stored.points) {
+      coordinate = std::max({coordinate, std::abs(p.x), std::abs(p.y), std::abs(p.z)});
+    }
+    near_ = kRoundedPart * size_of(fit_) + kRoundingsOfSpace * 0x1p-53 * coordinate;
+  }
+
+  std::optional<Error> run() {
+    frame();
+    points();
+    if (refused_) return refused_;
+    if (stored_.heights) {
+      figures();
+      if (!refused_) cubic();
+    } else {
+      planar();
+    }
+    return refused_;
+  }
+
+ private:
+  void refuse(const std::string& name, double claimed, double found) {
+    if (refused_) return;
+    refused_ = Error{ErrorCode::kFalseClaim,
+                     fmt::format("the file claims {} = {:.9g}, found {:.9g}", name, claimed, found),
+                     "/" + name,
+                     "form the curve again",
+                     -1,
+                     found};
+  }
+  void same(const std::string& name, double claimed, double found, double scale) {
+    if (!(std::abs(claimed - found) <= kSameSpaceFigure * std::abs(found) + scale)) {
+      refuse(name, claimed, found);
+    }
+  }
+
+  void frame() {
+    const Frame& f = stored_.frame;
+    const double off = std::max({std::abs(norm(f.x) - 1.0), std::abs(norm(f.y) - 1.0),
+                                 std::abs(dot(f.x, f.y)), norm(f.normal() - stored_.normal)});
+    if (!(off <= kUnitVector)) refuse("frame", 0.0, off);
+  }
+
+  /// Each contour is one of the points.
+  void points() {
+    const std::vector<Vec2>& flat = stored_.plan.contour.points;
+    const std::size_t n = stored_.points.size();
+    const bool round = stored_.plan.contour.closed && flat.size() + 1 == n;
+    if (flat.size() != n && !round) {
+      return refuse("points", static_cast<double>(n), static_cast<double>(flat.size()));
+    }
+    if (stored_.heights && stored_.heights->contour.points.size() != n) {
+      return refuse("points", static_cast<double>(n),
+                    static_cast<double>(stored_.heights->contour.points.size()));
+    }
+    double flatness = 0.0;
+    for (std::size_t i = 0; i < n; ++i) {
+      const Vec3 p = stored_.points[i];
+      const double height = stored_.frame.height(p);
+      flatness = std::max(flatness, std::abs(height));
+      const double off = norm(stored_.frame.in_plane(p) - flat[i % flat.size()]);
+      if (!(off <= near_)) refuse(fmt::format("points/{}", i), 0.0, off);
+      if (!stored_.heights) continue;
+      const double claimed = stored_.heights->contour.points[i].y;
+      if (!(std::abs(claimed - height) <= near_)) {
+        refuse(fmt::format("heights/points/{}", i), claimed, height);
+      }
+    }
+    same("flatness", stored_.flatness, stored_.heights ? 0.0 : flatness, near_);
+  }
+
+  void figures() {
+    SpaceFit found = fit_;
+    if (auto done = pipeline_detail::measure(found); !done) {
+      refused_ = done.error();
+      refused_->code = ErrorCode::kFalseClaim;
+      return;
+    }
+    const double length = ContourPath(stored_.plan.contour.pieces).length();
+    const std::vector<Vec2>& unrolled = stored_.heights->contour.points;
+    same("heights/points/0/0", unrolled.front().x, 0.0, kSameSpaceFigure * length);
+    const ContourPath path(stored_.heights->contour.pieces);
+    same("heights", path.at(path.length(), true).point.x, length, kSameSpaceFigure * length);
+    const SpaceFigures& f = stored_.figures;
+    const double bend = kSameSpaceFigure * found.largest_curvature;
+    same("least_curvature", f.least_curvature, found.least_curvature, bend);
+    same("largest_curvature", f.largest_curvature, found.largest_curvature, bend);
+    same("torsion_places", static_cast<double>(f.torsion_places),
+         static_cast<double>(found.torsion_places), 0.0);
+    const double torsion =
+        kSameTorsion * std::max(std::abs(found.least_torsion), std::abs(found.largest_torsion));
+    same("least_torsion", f.least_torsion, found.least_torsion, torsion);
+    same("largest_torsion", f.largest_torsion, found.largest_torsion, torsion);
+    same("torsion_step", f.torsion_step, found.torsion_step, torsion);
+    at_most("largest_move", stored_.largest_move, found.largest_move);
+  }
+
+  void cubic() {
+    const SpaceShape shape(stored_.frame, stored_.plan.contour, stored_.heights->contour);
+    const double length = shape.length();
+    if (stored_.curve.degree != 3 || !stored_.curve.weights.empty()) {
+      return refuse("curve/degree", stored_.curve.degree, 3.0);
+    }
+    same("curve/knots", stored_.curve.knots.back() - stored_.curve.knots.front(), length,
+         kSameSpaceFigure * length);
+    if (refused_) return;
+    if (!(stored_.deviation > near_)) return refuse("curve/deviation", stored_.deviation, near_);
+    const double found =
+        pipeline_detail::distance_bound(shape, stored_.curve, kBetweenPlaces * stored_.deviation);
+    if (!(found <= (1.0 + 2.0 * kBetweenPlaces) * stored_.deviation + near_)) {
+      refuse("curve/deviation", stored_.deviation, found);
+    }
+  }
+
+  void planar() {
+    double farthest = 0.0;
+    if (const auto& report = stored_.plan.report) {
+      for (const double move : report->moves) farthest = std::max(farthest, move);
+    }
+    same("largest_move", stored_.largest_move, stored_.flatness + farthest, near_);
+    if (stored_.deviation != 0.0) return;
+    const auto made = pipeline_detail::contour_nurbs(stored_.plan.contour, near_);
+    if (!made) return refuse("curve", 0.0, 1.0);
+    const SpaceCurve curve = placed(made->curve, stored_.frame);
+    if (curve.points.size() != stored_.curve.points.size() ||
+        curve.knots.size() != stored_.curve.knots.size() ||
+        curve.weights.size() != stored_.curve.weights.size() ||
+        curve.degree != stored_.curve.degree) {
+      return refuse("curve/points", static_cast<double>(stored_.curve.points.size()),
+                    static_cast<double>(curve.points.size()));
+    }
+    for (std::size_t i = 0; i < curve.points.size(); ++i) {
+      const double off = norm(curve.points[i] - stored_.curve.points[i]);
+      if (!(off <= near_)) refuse(fmt::format("curve/points/{}", i), 0.0, off);
+    }
+    for (std::size_t i = 0; i < curve.weights.size(); ++i) {
+      same(fmt::format("curve/weights/{}", i), stored_.curve.weights[i], curve.weights[i], 0.0);
+    }
+    const double range = curve.knots.back() - curve.knots.front();
+    for (std::size_t i = 0; i < curve.knots.size(); ++i) {
+      same(fmt::format("curve/knots/{}", i), stored_.curve.knots[i], curve.knots[i],
+           kRoundedPart * range);
+    }
+  }
+
+  /// A bound that may be wider than what is found.
+  void at_most(const std::string& name, double claimed, double found) {
+    if (!(found <= claimed * (1.0 + kSameSpaceFigure) + near_)) refuse(name, claimed, found);
+  }
+
+  const StoredSpace& stored_;
+  SpaceFit fit_;
+  double near_ = 0.0;
+  std::optional<Error> refused_;
+};
+
+void add_fields_of_part(std::vector<std::string>& out, const char* part,
+                        const std::vector<std::string>& fields) {
+  for (const std::string& one : fields) out.push_back(part + one);
+}
+
+const char* plan_name(const StoredSpace& stored) {
+  return stored.heights ? "/projection" : "/contour";
+}
+
+}  // namespace
+
+SpaceFit space_fit_of(const StoredSpace& stored) {
+  SpaceFit out;
+  out.name = stored.name;
+  out.units = stored.units;
+  out.points = stored.points;
+  out.frame = stored.frame;
+  out.flatness = stored.flatness;
+  const auto part = [](const StoredContour& one) {
+    Fit fit;
+    fit.contour = one.contour;
+    if (one.report) fit.report = *one.report;
+    if (one.certificate) fit.certificate = *one.certificate;
+    return fit;
+  };
+  out.plan = part(stored.plan);
+  if (stored.heights) out.unrolled = part(*stored.heights);
+  out.largest_move = stored.largest_move;
+  out.least_curvature = stored.figures.least_curvature;
+  out.largest_curvature = stored.figures.largest_curvature;
+  out.torsion_places = stored.figures.torsion_places;
+  out.least_torsion = stored.figures.least_torsion;
+  out.largest_torsion = stored.figures.largest_torsion;
+  out.torsion_step = stored.figures.torsion_step;
+  return out;
+}
+
+SpaceVerification verify(const StoredSpace& stored) {
+  SpaceVerification out;
+  out.plan = verify(stored.plan);
+  if (stored.heights) out.heights = verify(*stored.heights);
+  out.false_claim = SpaceClaims(stored).run();
+  out.not_checked = {"/name", "/units", "/units_source"};
+  if (!stored.heights && stored.deviation != 0.0) {
+    out.not_checked.emplace_back("/curve (only that it is a NURBS curve)");
+  }
+  add_fields_of_part(out.not_checked, plan_name(stored), out.plan.not_checked);
+  if (out.heights) add_fields_of_part(out.not_checked, "/heights", out.heights->not_checked);
+  out.not_checked.insert(out.not_checked.end(), stored.unread.begin(), stored.unread.end());
+  return out;
+}
+
+std::optional<Error> broken_promise(const StoredSpace& stored, const SpaceVerification& found) {
+  if (found.false_claim) return found.false_claim;
+  const auto of_part = [](std::optional<Error> error, const char* part) {
+    if (error) error->where = part + error->where;
+    return error;
+  };
+  if (auto error = of_part(broken_promise(stored.plan, found.plan), plan_name(stored))) {
+    return error;
+  }
+  if (!stored.heights) return std::nullopt;
+  return of_part(broken_promise(*stored.heights, *found.heights), "/heights");
+}
+
+std::string space_verification_json(const StoredSpace& stored, const SpaceVerification& found) {
+  JsonText json;
+  const auto broken = broken_promise(stored, found);
+  json.begin_object().pair("holds", !broken);
+  json.key("false_claim");
+  if (broken && broken->code == ErrorCode::kFalseClaim) {
+    json.begin_object().pair("code", fmt::format("E{}", static_cast<int>(broken->code)));
+    json.pair("what", broken->what).pair("where", broken->where).end_object();
+  } else {
+    json.null();
+  }
+  json.key("not_checked").begin_array();
+  for (const std::string& one : found.not_checked) json.value(one);
+  json.end_array();
+  json.key(plan_name(stored) + 1).raw(verification_json(stored.plan, found.plan));
+  if (stored.heights) json.key("heights").raw(verification_json(*stored.heights, *found.heights));
+  json.end_object();
+  return json.take();
+}
+
+}  // namespace obvid
