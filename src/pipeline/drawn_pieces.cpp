@@ -28,7 +28,7 @@ constexpr double kRound = 1e-12;
 /// the coarser programs print.
 constexpr double kMeet = 1e-6;
 
-bool is_straight(const RationalBezier& b) {
+bool draws_a_line(const RationalBezier& b) {
   const auto last = static_cast<std::size_t>(b.degree);
   const Vec2 chord = b.offset[last] - b.offset[0];
   const double square = dot(chord, chord);
@@ -144,7 +144,7 @@ bool add_ellipse(const RationalBezier& conic, std::vector<DrawnPiece>& out) {
 /// What a piece is, whatever it was drawn as.
 Piece plain(const Piece& piece) {
   const auto* bezier = std::get_if<RationalBezier>(&piece);
-  if (bezier != nullptr && is_straight(*bezier)) {
+  if (bezier != nullptr && draws_a_line(*bezier)) {
     return LinePiece{start_point(piece), end_point(piece)};
   }
   if (const auto* c = std::get_if<ClothoidPiece>(&piece); c != nullptr && c->kappa0 == c->kappa1) {

@@ -789,10 +789,11 @@ std::optional<Fit> with_told_steps(const Fit& smooth, bool warns, Watch& watch) 
 Result<Fit> proved_without_slopes(const PointSeries& series, FitJob job, Fit smooth,
                                   FoundChains& chains, Watch& watch) {
   const bool asked = job.continuity.has_value();
-  if (auto told = with_told_steps(smooth, asked, watch)) return std::move(*told);
   KeptParts kept;
   std::optional<Fit> now = smooth;
-  for (int round = 0; round < kKeptRounds && now && keep_unproved(*now, kept); ++round) {
+  for (int round = 0; now; ++round) {
+    if (auto told = with_told_steps(*now, asked, watch)) return std::move(*told);
+    if (round == kKeptRounds || !keep_unproved(*now, kept)) break;
     auto made = formed_and_proved(series, job, chains, watch, kept);
     if (made && made->certificate.proved) return made;
     now.reset();
