@@ -17,6 +17,13 @@ constexpr double kMeritRounding = 1e-14;
 /// The price of a gap in the merit function, against the largest multiplier (must exceed 1).
 constexpr double kGapPrice = 1.5;
 constexpr int kMostHalvings = 30;
+/// Unknowns this near to the solution, in their units, have it to rounding as soon as steps do not
+/// get shorter; the merit is rounded more coarsely than that.
+constexpr double kNear = 1e-3, kShorter = 0.7;
+constexpr double kAsNearAsRounding = 1e-5;
+/// So many steps of at most this part each, in which the gaps hardly close, lead nowhere.
+constexpr int kMostShortSteps = 10;
+constexpr double kShortPart = 0.02, kHardlyClosed = 0.98;
 
 /// A number with its derivatives by heading and curvature at both ends of a link, in units.
 struct NodeGradient {
@@ -167,7 +174,9 @@ SlopeSolver::Outcome SlopeSolver::run(const std::vector<Element>& start, int mos
   Value value = evaluate(x_, &gap_);
   if (!std::isfinite(value.energy)) return out;
   out.valid = true;
-  double price = 1.0;
+  double price = 1.0, before = std::numeric_limits<double>::infinity();
+  double gaps_before = value.gaps;
+  int short_steps = 0;
   while (out.steps < most_steps && watch.spend(static_cast<double>(start.size()))) {
     assemble();
     ++out.steps;
@@ -179,19 +188,35 @@ SlopeSolver::Outcome SlopeSolver::run(const std::vector<Element>& start, int mos
       if (problem_.equal_slope[i]) price = std::max(price, kGapPrice * std::abs(y[2]));
     }
     if (!std::isfinite(largest)) break;
+    const bool near = std::max(largest, before) < kNear;
+    if (near && !(largest < kShorter * before)) {
+      out.converged = largest < kAsNearAsRounding;
+      break;
+    }
+    before = largest;
     double part = 1.0;
     bool taken = false;
     for (int k = 0; k < kMostHalvings && !taken; ++k, part *= taken ? 1.0 : 0.5) {
       move_trial(part);
       const Value there = evaluate(trial_, nullptr);
-      taken = there.energy + price * there.gaps <=
-              value.energy + price * value.gaps + kMeritRounding * (1.0 + std::abs(value.energy));
+      taken = near ? std::isfinite(there.energy)
+                   : there.energy + price * there.gaps <=
+                         value.energy + price * value.gaps +
+                             kMeritRounding * (1.0 + std::abs(value.energy));
     }
     if (!taken) break;
     x_.swap(trial_);
     value = evaluate(x_, &gap_);
     out.converged = largest < kSettled;
     if (out.converged) break;
+    if (part > kShortPart) {
+      short_steps = 0;
+      gaps_before = value.gaps;
+    } else if (++short_steps == kMostShortSteps) {
+      if (value.gaps > kHardlyClosed * gaps_before) break;
+      short_steps = 0;
+      gaps_before = value.gaps;
+    }
   }
   for (const double gap : gap_) out.largest_gap = std::max(out.largest_gap, std::abs(gap));
   return out;

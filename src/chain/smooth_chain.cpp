@@ -418,6 +418,55 @@ SeriesChain smoothed_chain(const SeriesChain& chain, const std::vector<bool>& ke
   return RunByRun(chain, keep, loop, watch).run(out);
 }
 
+/// The element at rest that is farthest from a loop's seam; nothing where there is none.
+std::optional<std::size_t> across_from_seam(const SeriesChain& loop) {
+  const std::size_t m = loop.direction.size();
+  const auto off = [m](std::size_t i) { return i < m - i ? m - 2 * i : 2 * i - m; };
+  std::optional<std::size_t> best;
+  for (std::size_t i = 1; i < m; ++i) {
+    if (rests_at(loop, i, true) && (!best || off(i) < off(*best))) best = i;
+  }
+  return best;
+}
+
+/// How much an element turned and bent, of the turning of its link.
+double change_of(const Element& a, const Element& b, const LinkState& link) {
+  const double turn = std::max(std::abs(link.sigma), std::abs(link.beta - link.alpha));
+  const double heading = std::remainder(a.theta - b.theta, 2.0 * std::numbers::pi);
+  return (std::abs(heading) + std::abs(a.kappa - b.kappa) * link.h) / turn;
+}
+
+/// A seam holds its element as it came. Laid to the other side of the loop it frees that one, and
+/// so to and fro until neither changes: then it does not matter where the loop begins.
+SeriesChain without_seam(SeriesChain loop, Watch& watch, SmoothedSlopes& out) {
+  constexpr int kMostRounds = 24, kSides = 2;
+  constexpr double kStays = 1e-10;
+  const std::size_t m = loop.direction.size();
+  std::size_t way = 0;
+  for (int round = 0, still = 0; round < kMostRounds && still < kSides; ++round) {
+    const auto far = across_from_seam(loop);
+    if (!far) break;
+    const Element before = loop.elements.front();
+    SeriesChain turned = rotated(loop, *far);
+    Ends ends = ends_of_chain(turned, true);
+    Slopes slopes(std::move(turned), std::move(ends), watch);
+    SmoothedSlopes now;
+    const bool done = slopes.run(0, now);
+    out.newton_steps += now.newton_steps;
+    if (!done) break;
+    out.converged = now.converged;
+    loop = std::move(slopes).result();
+    way += *far;
+    const std::size_t old = m - *far;  // where the seam was
+    still = change_of(loop.elements[old], before, loop.links[old]) < kStays ? still + 1 : 0;
+  }
+  const std::size_t back = (m - way % m) % m;
+  if (back > 0) loop = rotated(loop, back);
+  for (std::size_t turns = (way + back) / m; turns > 0; --turns)
+    loop = turned_back(std::move(loop));
+  return loop;
+}
+
 /// Counts what meets and what steps.
 void count_joints(SeriesChain& chain, bool loop, SmoothedSlopes& out) {
   const std::size_t n = chain.elements.size();
@@ -519,10 +568,12 @@ std::optional<ChangedElements> follow_changed_elements(const SeriesChain& before
   }
 }
 
-SmoothedSlopes smooth_slopes(SeriesChain& chain, bool loop, Watch& watch, std::vector<bool> keep) {
+SmoothedSlopes smooth_slopes(SeriesChain& chain, bool loop, Watch& watch, std::vector<bool> keep,
+                             const NodeData& seam_data) {
   SmoothedSlopes out;
   SeriesChain given = chain;
   if (given.nodes.empty()) given.nodes.resize(given.elements.size());
+  if (loop) given.nodes.front() = given.nodes.back() = seam_data;
   std::size_t seam = 0;
   bool rests_somewhere = !loop;
   for (std::size_t i = given.direction.size(); loop && i-- > 0;) {
@@ -536,6 +587,10 @@ SmoothedSlopes smooth_slopes(SeriesChain& chain, bool loop, Watch& watch, std::v
   }
   const std::size_t count = given.direction.size();
   SeriesChain work = smoothed_chain(given, keep, loop, watch, out);
+  const bool whole =
+      work.form.size() == work.links.size() && keep.empty() &&
+      std::find(work.slope_step.begin(), work.slope_step.end(), true) == work.slope_step.end();
+  if (loop && rests_somewhere && whole) work = without_seam(std::move(work), watch, out);
   if (seam > 0) {
     // elements may have been put between; the seam is the one element with its source again
     std::size_t back = work.direction.size();
@@ -548,6 +603,11 @@ SmoothedSlopes smooth_slopes(SeriesChain& chain, bool loop, Watch& watch, std::v
   }
   for (std::size_t i = 0; i < work.links.size(); ++i) {
     if (is_spiral(work, i)) work.cone[i] = Cone::kSpiral;
+  }
+  for (NodeData* end : {&work.nodes.front(), &work.nodes.back()}) {
+    if (!loop) break;
+    end->theta = (end == &work.nodes.front() ? work.elements.front() : work.elements.back()).theta;
+    end->kappa = work.elements.front().kappa;
   }
   if (!rests_somewhere) work.slope_step.front() = work.slope_step.back() = true;
   work.smooth = true;

@@ -257,12 +257,14 @@ class SectionForming {
     const std::vector<bool> keep = kept_links(section.chain);
     PassingChain passing(section.chain, spirals, series_.points);
     SeriesChain chain = section.chain;
-    SmoothedSlopes slopes = smooth_slopes(chain, series_.split.smooth_loop, watch_, keep);
+    SmoothedSlopes slopes =
+        smooth_slopes(chain, series_.split.smooth_loop, watch_, keep, section.seam);
     auto smooth = exact_spirals(series_.points, chain);
     for (int k = 0; smooth && !series_.exact() && k < kMostPassings; ++k) {
       if (!passing.pass(excess(*smooth)) || watch_.was_cancelled()) break;
       chain = passing.chain();
-      slopes = smooth_slopes(chain, series_.split.smooth_loop, watch_, passing.in_links(keep));
+      slopes = smooth_slopes(chain, series_.split.smooth_loop, watch_, passing.in_links(keep),
+                             section.seam);
       smooth = exact_spirals(series_.points, chain);
     }
     if (!smooth) return smooth;

@@ -119,7 +119,7 @@ void LiveFit::know_chains(Watch& watch) {
   chains.loop = prepared->split.smooth_loop;
   if (wanted == Continuity::kG3) {
     chains.g3 = section->chain;
-    if (!smooth_slopes(*chains.g3, chains.loop, watch).stepped.empty()) return;
+    if (!smooth_slopes(*chains.g3, chains.loop, watch, {}, section->seam).stepped.empty()) return;
   }
   chains.g2 = std::move(section->chain);
   chains_ = std::move(chains);

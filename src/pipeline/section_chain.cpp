@@ -483,7 +483,8 @@ class SectionChooser {
   }
 
   /// Fixes the same element at both ends of one turn and solves it.
-  Result<SeriesChain> close_at_seam(DirectedSeries turn) const {
+  Result<SeriesChain> close_at_seam(DirectedSeries turn) {
+    out_.seam = turn.nodes.front();
     for (NodeData* end : {&turn.nodes.front(), &turn.nodes.back()}) {
       end->theta = turn.start.front().theta;
       end->kappa = turn.start.front().kappa;
@@ -557,7 +558,7 @@ class SectionChooser {
   }
 
   [[nodiscard]] Result<SeriesChain> follow(const FairedSeries& faired,
-                                           const MeasuredSeries& measured) const {
+                                           const MeasuredSeries& measured) {
     DirectedSeries nodes;
     nodes.direction = faired.direction;
     nodes.start = faired.elements;

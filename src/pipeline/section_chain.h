@@ -14,6 +14,7 @@ namespace obvid::pipeline_detail {
 /// ends with its first element again.
 struct SectionChain {
   SeriesChain chain;
+  NodeData seam{};  ///< what was given where a smooth loop begins; the chain holds that element
   std::vector<std::string> warnings;
 };
 

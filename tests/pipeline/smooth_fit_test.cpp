@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <map>
 #include <numbers>
 #include <random>
 #include <utility>
@@ -280,6 +281,48 @@ TEST(SmoothFit, HardlyMovesWhenAPointOfItsOwnIsGiven) {
   EXPECT_LT(smooth[smooth.size() / 2], 1e-6);
   EXPECT_LT(smooth.back(), 1e-5);
   EXPECT_LT(smooth.back(), flat.back());
+}
+
+/// Headings and curvatures at the points of a loop, by their angles about its middle.
+std::map<int, Element> by_angle(const Contour& contour) {
+  std::map<int, Element> out;
+  for (const Joint& joint : contour.joints) {
+    if (!joint.source) continue;
+    const Vec2 p = joint.element.point;
+    out[static_cast<int>(std::lround(1e6 * std::atan2(p.y, p.x)))] = joint.element;
+  }
+  return out;
+}
+
+TEST(SmoothFit, ALoopIsTheSameWhereverItBeginsAndWhicheverWayItGoes) {
+  constexpr int kPoints = 40;
+  const auto loop = [](int from, int step, double off) {
+    std::vector<Vec2> out;
+    for (int k = 0; k <= kPoints; ++k) {
+      const int i = ((from + step * k) % kPoints + kPoints) % kPoints;
+      const double t = 2.0 * std::numbers::pi * (i + off) / kPoints;
+      const double r = 1.0 + 0.1 * std::cos(3.0 * t + 0.4);
+      out.push_back({5.0 * r * std::cos(t), 3.0 * r * std::sin(t)});
+    }
+    return out;
+  };
+  for (const double off : {0.0, 0.3}) {
+    const auto first = shaped(loop(0, 1, off), Continuity::kG3);
+    ASSERT_TRUE(first);
+    ASSERT_EQ(first->certificate.slope_steps, 0);
+    const auto is = by_angle(first->contour);
+    for (const auto& [from, step] : std::vector<std::pair<int, int>>{{7, 1}, {23, 1}, {0, -1}}) {
+      const auto other = shaped(loop(from, step, off), Continuity::kG3);
+      ASSERT_TRUE(other);
+      for (const auto& [angle, e] : by_angle(other->contour)) {
+        const Element& there = is.at(angle);
+        const double turn =
+            step > 0 ? e.theta - there.theta : e.theta - there.theta - std::numbers::pi;
+        EXPECT_NEAR(std::remainder(turn, 2.0 * std::numbers::pi), 0.0, 1e-8) << from << " " << step;
+        EXPECT_NEAR(step * e.kappa, there.kappa, 1e-8) << from << " " << step;
+      }
+    }
+  }
 }
 
 TEST(SmoothFit, WithinTolerancesAddsNoVertexAndNoInflection) {

@@ -28,8 +28,10 @@ struct SmoothedSlopes {
 /// Joints for which no common slope was found keep their step and are named. When nothing at all
 /// can be done `chain` stays as it was but for its marks, and all joints are named. `loop`: the
 /// last element is the first again. Deterministic; scale- and motion-invariant; the reversed chain
-/// gives the reversed result. Cost O(n), as a rule about six Newton steps.
+/// gives the reversed result. Cost O(n), as a rule about six Newton steps, for loops twice to
+/// thrice that. `seam`: what was given at the first element of a loop, which the chain holds; where
+/// the loop begins does not matter to the result.
 [[nodiscard]] SmoothedSlopes smooth_slopes(SeriesChain& chain, bool loop, Watch& watch,
-                                           std::vector<bool> keep = {});
+                                           std::vector<bool> keep = {}, const NodeData& seam = {});
 
 }  // namespace obvid
