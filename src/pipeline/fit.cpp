@@ -835,7 +835,12 @@ Result<Fit> pipeline_detail::fit_with(const PointSeries& series, const FitJob& j
   }
   const auto begin = std::chrono::steady_clock::now();
   auto made = formed_and_proved(series, job, chains, watch);
-  if (made && is_made_g3(job) && !made->certificate.proved) {
+  if (!made && made.error().code == ErrorCode::kCarrierCannotKeep && is_made_g3(job) &&
+      !job.continuity) {  // equal slopes cost the last digits of what is given
+    FitJob plain = job;
+    plain.continuity = Continuity::kG2;
+    made = formed_and_proved(series, plain, chains, watch);
+  } else if (made && is_made_g3(job) && !made->certificate.proved) {
     made = proved_without_slopes(series, job, std::move(*made), chains, watch);
   }
   if (watch.was_cancelled()) return fail(cancelled_error());  // whatever it made do with
