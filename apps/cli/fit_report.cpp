@@ -203,6 +203,27 @@ std::string kept_text(const Contour& contour, const Certificate& certificate) {
   return text;
 }
 
+/// Where joints of a G3 contour are G2 only: the points at or before them.
+std::string slope_steps_text(const Contour& contour) {
+  constexpr std::size_t kMostNamed = 8;
+  std::vector<std::size_t> beside;
+  std::optional<std::size_t> last = contour.joints.front().source;
+  for (const Joint& joint : contour.joints) {
+    if (joint.source) last = joint.source;
+    if (!joint.slope_step || !last) continue;
+    if (beside.empty() || beside.back() != *last) beside.push_back(*last);
+  }
+  if (beside.empty()) return {};
+  std::string out = beside.size() == 1 ? "beside point " : "beside points ";
+  for (std::size_t i = 0; i < std::min(beside.size(), kMostNamed); ++i) {
+    out += fmt::format("{}{}", i > 0 ? ", " : "", beside[i] + 1);
+  }
+  if (beside.size() > kMostNamed) {
+    out += fmt::format(" and {} more", beside.size() - kMostNamed);
+  }
+  return out;
+}
+
 Facts summary(const Fit& fit, const Written& written) {
   const Contour& contour = fit.contour;
   const FitReport& report = fit.report;
@@ -250,6 +271,10 @@ Facts summary(const Fit& fit, const Written& written) {
       text += fmt::format(", waviness {}", significant(*waviness, 4));
     }
     facts.add("as G2 contour", text);
+  }
+  if (!report.chain.g2_because.empty()) facts.add("G2 because", report.chain.g2_because);
+  if (const std::string steps = slope_steps_text(contour); !steps.empty()) {
+    facts.add("slope steps", steps);
   }
   facts.add("time", time_text(report.seconds));
   for (const std::string& remark : written.remarks) facts.add("note", remark);

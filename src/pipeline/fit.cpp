@@ -602,11 +602,10 @@ Result<Formed> smooth_within(Prepared& series, const FitJob& job, double toleran
     for (std::size_t i = 0; i < missed.size(); ++i) kept.around[i] = kept.around[i] || missed[i];
     smooth = form();
   }
-  if (job.continuity) {
-    flat->warnings.emplace_back(
-        "within the tolerances no contour with continuous slopes of the curvature was found that "
-        "has no more vertices and inflections: it is G2");
-  }
+  flat->chain.g2_because =
+      "within the tolerances no contour with continuous slopes of the curvature was found that has "
+      "no more vertices and inflections";
+  if (job.continuity) flat->warnings.push_back(flat->chain.g2_because + ": it is G2");
   return flat;
 }
 
@@ -805,6 +804,7 @@ Result<Fit> proved_without_slopes(const PointSeries& series, FitJob job, Fit smo
   auto made = formed_and_proved(series, job, chains, watch);
   if (!made) return smooth;
   if (!made->certificate.proved) return made;  // the simpler of two that are not
+  made->report.chain.g2_because = "the G3 contour was not proved: " + smooth.certificate.reason;
   if (asked) {
     made->warnings.push_back("the G3 contour was not proved, so this one is G2: " +
                              smooth.certificate.reason);
@@ -839,7 +839,9 @@ Result<Fit> pipeline_detail::fit_with(const PointSeries& series, const FitJob& j
       !job.continuity) {  // equal slopes cost the last digits of what is given
     FitJob plain = job;
     plain.continuity = Continuity::kG2;
+    const std::string because = made.error().what;
     made = formed_and_proved(series, plain, chains, watch);
+    if (made) made->report.chain.g2_because = "with continuous slopes " + because;
   } else if (made && is_made_g3(job) && !made->certificate.proved) {
     made = proved_without_slopes(series, job, std::move(*made), chains, watch);
   }

@@ -222,6 +222,28 @@ class TextCheck {
     sheet_.expect(right, "text: verdict", line, needed ? whole : "nothing of it", words);
   }
 
+  /// The points at or before joints that are said to step.
+  void slope_steps_beside(const Sentence& s) {
+    constexpr std::size_t kMostNamed = 8;
+    std::vector<std::size_t> beside;
+    std::optional<std::size_t> last;
+    for (std::size_t i = 0; i < file_.pieces.size() + (file_.closed ? 0U : 1U); ++i) {
+      const FileElement* e = file_.joint(i);
+      if (e == nullptr) continue;
+      if (e->source) last = static_cast<std::size_t>(*e->source);
+      if (!e->slope_step || !last) continue;
+      if (beside.empty() || beside.back() != *last) beside.push_back(*last);
+    }
+    const bool more = beside.size() > kMostNamed;
+    const std::size_t named = std::min(beside.size(), kMostNamed);
+    say(s.figures.size() == named + (more ? 1U : 0U), "slope steps", "places",
+        static_cast<double>(beside.size()));
+    for (std::size_t k = 0; k < named; ++k) {
+      count_is("slope steps", s, k, static_cast<double>(beside[k] + 1));
+    }
+    if (more) count_is("slope steps", s, named, static_cast<double>(beside.size() - named));
+  }
+
   /// The largest step of the slope is told.
   void slope_step(const std::string& line, const Figure& stated) {
     const char* claim = "text: verdict of slopes";
@@ -391,6 +413,10 @@ class TextCheck {
       if (s.figures.size() == 2) {
         figure_is("as G2 contour waviness", s.figures[1], figure(chain, "waviness_g2").value);
       }
+    } else if (key.starts_with("G2 because: ")) {
+      say(file_.continuity == "G2", "G2 because", file_.continuity, std::nullopt);
+    } else if (key.starts_with("slope steps: beside point")) {
+      slope_steps_beside(s);
     } else if (key == "largest move: # U") {
       figure_is("largest move", s.figures[0], figure(report_, "largest_move").value);
     } else if (key ==

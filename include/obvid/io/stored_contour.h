@@ -53,8 +53,9 @@ struct ChainReport {
   std::optional<double> slope_step_g2;  ///< of a G3 contour: the largest step of the slope of
                                         ///< curvature that the G2 contour has, of the largest slope
                                         ///< at the ends of both pieces
-  std::optional<double> waviness_g2;    ///< of a G3 contour: the waviness that the G2 contour has;
-                                        ///< nothing where it has none
+  std::string g2_because{};  ///< why a contour is G2 throughout that was to be G3; not stored
+  std::optional<double> waviness_g2;  ///< of a G3 contour: the waviness that the G2 contour has;
+                                      ///< nothing where it has none
 };
 
 /// Figures about the whole contour, as they stand in the contour file.
