@@ -46,6 +46,13 @@ std::string bends_words(const Fit& part) {
       counted(static_cast<std::size_t>(report.inflections), "inflection", "inflections"));
 }
 
+std::string seam_words(const SpaceSeam& seam) {
+  return fmt::format(
+      "at the first point; the heights meet there within {} of the length, {} rad and {} of the "
+      "curvature",
+      number(seam.position), number(seam.heading), number(seam.curvature));
+}
+
 std::string torsion_cell(const SpacePoint& point) {
   if (!point.torsion || !point.torsion_after) return "-";
   const std::string before = number(*point.torsion), after = number(*point.torsion_after);
@@ -80,8 +87,8 @@ std::string spatial_text(const SpaceFit& fit, const std::vector<std::string>& re
                          const std::vector<std::string>& files) {
   const std::string unit = fit.units.text();
   std::string out = bold(fit.name) + "\n";
-  out += fmt::format("a curve in space: heights over the projection along {}; lengths in {}\n\n",
-                     direction_words(fit.frame.normal()), unit);
+  out += fmt::format("a {}curve in space: heights over the projection along {}; lengths in {}\n\n",
+                     fit.seam ? "closed " : "", direction_words(fit.frame.normal()), unit);
   out += table_of_points(fit).text();
   Facts facts;
   add_frame(facts, fit);
@@ -95,8 +102,10 @@ std::string spatial_text(const SpaceFit& fit, const std::vector<std::string>& re
                                    number(fit.least_torsion), number(fit.largest_torsion), unit,
                                    fit.torsion_places, number(fit.torsion_step)));
   if (fit.plan.contour.continuity == Continuity::kG2) {
-    facts.add("", "--continuity G3 makes the torsion continuous");
+    facts.add("", fit.seam ? "--continuity G3 makes the torsion continuous but at the seam"
+                           : "--continuity G3 makes the torsion continuous");
   }
+  if (fit.seam) facts.add("seam", seam_words(*fit.seam));
   if (fit.largest_move > 0.0) {
     facts.add("largest move", fmt::format("at most {} {}", number(fit.largest_move), unit));
   }
@@ -231,6 +240,7 @@ std::string verification_in_space(const StoredSpace& stored, const SpaceVerifica
     facts.add("torsion", fmt::format("{} to {} 1/{} at {} places, steps by up to {} at joints",
                                      number(f.least_torsion), number(f.largest_torsion), unit,
                                      f.torsion_places, number(f.torsion_step)));
+    if (stored.seam) facts.add("seam", seam_words(*stored.seam));
   }
   facts.add("NURBS curve", stored.deviation > 0.0 ? fmt::format("at most {} {} from the curve",
                                                                 number(stored.deviation), unit)

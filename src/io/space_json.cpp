@@ -34,6 +34,7 @@ class SpaceReader : private JsonValues {
       out_.plan = contour(root, "projection");
       out_.heights = contour(root, "heights");
       figures(root);
+      if (!failed() && out_.plan.contour.closed) seam(field(root, "seam"));
     }
     curve(root);
     if (error_) return fail(std::move(*error_));
@@ -89,6 +90,14 @@ class SpaceReader : private JsonValues {
     f.least_torsion = number(field(root, "least_torsion"));
     f.largest_torsion = number(field(root, "largest_torsion"));
     f.torsion_step = number(field(root, "torsion_step"));
+  }
+
+  void seam(const Node& node) {
+    SpaceSeam one;
+    one.position = number(field(node, "position"));
+    one.heading = number(field(node, "heading"));
+    one.curvature = number(field(node, "curvature"));
+    out_.seam = one;
   }
 
   void curve(const Node& root) {

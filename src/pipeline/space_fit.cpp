@@ -28,6 +28,8 @@ constexpr double kPlanarPart = 1e-9;
 constexpr int kPlacesOfSpan = 32;
 /// Places among which the one nearest to a moved point is sought before it is refined.
 constexpr int kGuesses = 32;
+/// Points of a closed curve that its heights are looked at beyond the seam, on both sides.
+constexpr std::size_t kHeightsOverlap = 16;
 constexpr std::size_t kHeadBytes = 4096;  // that tell the kind of a file
 
 double largest_extent(const std::vector<Vec3>& points) {
@@ -123,6 +125,13 @@ double farthest_from_places(const Fit& plan) {
   return farthest;
 }
 
+/// Points of a closed curve that are its first one again: at most that many units from it.
+double closing_gap(const SpaceFit& out) {
+  const Contour& plan = out.plan.contour;
+  const bool again = plan.closed && plan.points.size() < out.points.size();
+  return again ? norm(out.points.back() - out.points.front()) : 0.0;
+}
+
 /// Curvatures of both contours are monotone on their pieces, so that ends of a cell bound them.
 void enclose(const SpaceShape::Curvatures& a, const SpaceShape::Curvatures& b, double width,
              bool first, SpaceFit& out) {
@@ -143,9 +152,14 @@ void enclose(const SpaceShape::Curvatures& a, const SpaceShape::Curvatures& b, d
 }
 
 void at_points(const SpaceShape& shape, SpaceFit& out) {
-  const std::vector<double> lengths = lengths_at_points(out.unrolled->contour, shape.unrolled());
+  std::vector<double> lengths = lengths_at_points(out.unrolled->contour, shape.unrolled());
+  lengths.resize(out.points.size());
+  const double end = shape.length();
   for (const double sigma : lengths) {
-    const SpacePlace before = shape.at(sigma, true), after = shape.at(sigma);
+    const bool closed = out.plan.contour.closed;
+    const SpacePlace before = shape.at(closed && sigma == 0.0 ? end : sigma, true);
+    SpacePlace after = shape.at(closed && sigma == end ? 0.0 : sigma);
+    if (sigma == end) after.plan_length = before.plan_length;
     out.at_points.push_back(
         {after.plan_length, after.height, after.curvature, before.torsion, after.torsion});
   }
@@ -183,8 +197,14 @@ Result<void> measure_space(SpaceFit& out) {
     const auto before = shape.at(joints[k], true).torsion, after = shape.at(joints[k]).torsion;
     if (before && after) out.torsion_step = std::max(out.torsion_step, std::abs(*after - *before));
   }
+  if (out.plan.contour.closed) {
+    out.seam = shape.seam();
+    const auto before = shape.at(shape.length(), true).torsion, after = shape.at(0.0).torsion;
+    if (before && after) out.torsion_step = std::max(out.torsion_step, std::abs(*after - *before));
+  }
   at_points(shape, out);
-  out.largest_move = farthest_from_places(out.plan) + largest_of(out.unrolled->report.moves);
+  out.largest_move = farthest_from_places(out.plan) + largest_of(out.unrolled->report.moves) +
+                     closing_gap(out);
   return {};
 }
 
@@ -211,19 +231,23 @@ class SpatialForming {
     auto first = fit(plan, plan_job, run_);
     if (!first) return fail(within_part(first.error(), "projection"));
     out.plan = std::move(*first);
-    if (out.plan.contour.closed || out.plan.certificate.corners > 0) {
-      return fail(of_space(
-          ErrorCode::kUnsupported,
-          out.plan.contour.closed ? "a closed curve must lie in a plane: heights round it are not "
-                                    "joined with one tangent and curvature"
-                                  : "the projection has a corner: corners must lie in a plane",
-          out.plan.contour.closed ? "--open forms it with ends that meet, without a common tangent"
-                                  : "split the series there"));
+    if (out.plan.certificate.corners > 0) {
+      return fail(of_space(ErrorCode::kUnsupported,
+                           "the projection has a corner: corners must lie in a plane",
+                           "split the series there"));
     }
     auto second = heights(out, rounding.across);
     if (!second) return fail(second.error());
     out.unrolled = std::move(*second);
     if (auto done = measure_space(out); !done) return fail(done.error());
+    const SpaceShape shape(out.frame, out.plan.contour, out.unrolled->contour);
+    if (out.seam && !pipeline_detail::meets(*out.seam, shape.seam_bounds())) {
+      return fail(of_space(ErrorCode::kNotProved,
+                           fmt::format("the heights do not meet at the first point: gaps of {:.3g} "
+                                       "of the length, {:.3g} rad, {:.3g} of the curvature",
+                                       out.seam->position, out.seam->heading, out.seam->curvature),
+                           "begin the series at another point, or --open"));
+    }
     return out;
   }
 
@@ -239,7 +263,8 @@ class SpatialForming {
     const Contour& plan = so_far.plan.contour;
     const ContourPath path(plan.pieces);
     const std::vector<double> lengths = lengths_at_points(plan, path);
-    if (lengths.size() != series_.points.size()) {
+    const std::size_t n = lengths.size(), all = series_.points.size();
+    if (n != all && !(plan.closed && n + 1 == all)) {
       return fail(of_space(ErrorCode::kChordReversal,
                            "neighbouring points have one place in the projection",
                            "choose another direction with --along"));
@@ -249,7 +274,7 @@ class SpatialForming {
     unrolled.units = series_.units;
     // the lengths are computed, not given: heights need not be met better than they are printed
     const double noise = std::max(across, std::numbers::sqrt2 / 2.0 * job_.fit.noise.value_or(0.0));
-    for (std::size_t i = 0; i < lengths.size(); ++i) {
+    for (std::size_t i = 0; i < n; ++i) {
       if (i > 0 && !(lengths[i] > lengths[i - 1])) {
         return fail(of_space(
             ErrorCode::kChordReversal,
@@ -258,10 +283,11 @@ class SpatialForming {
       }
       unrolled.points.push_back({lengths[i], so_far.frame.height(series_.points[i])});
       FixedData free;
-      const bool end = i == 0 || i + 1 == lengths.size();
+      const bool end = i == 0 || (!plan.closed && i + 1 == n);
       if (noise > 0.0 && !end) free.tolerance = noise;
       unrolled.fixed.push_back(free);
     }
+    if (noise == 0.0) unrolled.fixed.clear();
     FitJob job = job_.fit;
     job.noise.reset();
     job.noise_from_rounding = false;
@@ -275,8 +301,7 @@ class SpatialForming {
     job.end_kappas.reset();
     job.wishes.clear();
     job.closing = Closing::kOpen;
-    if (noise == 0.0) unrolled.fixed.clear();
-    auto made = fit(unrolled, job, run_);
+    auto made = plan.closed ? one_turn(unrolled, path.length(), job) : fit(unrolled, job, run_);
     if (!made) return fail(within_part(made.error(), "heights over the arc length"));
     if (made->certificate.corners > 0) {
       return fail(of_space(ErrorCode::kUnsupported,
@@ -284,6 +309,39 @@ class SpatialForming {
                            "split the series there"));
     }
     return made;
+  }
+
+  /// One turn of heights from the first point to it again. Its heading and curvature there are those
+  /// of the heights of more than a turn, and the same at both ends.
+  Result<Fit> one_turn(PointSeries turn, double length, FitJob job) const {
+    const auto n = static_cast<std::ptrdiff_t>(turn.points.size());
+    const auto overlap = static_cast<std::ptrdiff_t>(std::min(turn.points.size(), kHeightsOverlap));
+    PointSeries longer = turn;
+    longer.points.clear();
+    longer.fixed.clear();
+    for (std::ptrdiff_t k = -overlap; k <= n + overlap; ++k) {
+      const std::ptrdiff_t turns = k < 0 ? -1 : k / n;
+      const auto i = static_cast<std::size_t>(k - turns * n);
+      longer.points.push_back(turn.points[i] + Vec2{static_cast<double>(turns) * length, 0.0});
+      if (!turn.fixed.empty()) longer.fixed.push_back(turn.fixed[i]);
+    }
+    const auto around = fit(longer, job, run_);
+    if (!around) {
+      Error error = around.error();  // its points are not those of the series
+      error.where.clear();
+      error.index = -1;
+      error.last = -1;
+      return fail(std::move(error));
+    }
+    const ContourPath path(around->contour.pieces);
+    const double seam =
+        lengths_at_points(around->contour, path)[static_cast<std::size_t>(overlap)];
+    const ContourPath::Place place = path.at(seam);
+    job.start_heading = job.end_heading = std::atan2(place.tangent.y, place.tangent.x);
+    job.start_kappa = job.end_kappa = place.kappa;
+    turn.points.push_back(turn.points.front() + Vec2{length, 0.0});
+    if (!turn.fixed.empty()) turn.fixed.push_back(turn.fixed.front());
+    return fit(turn, job, run_);
   }
 
   const SpaceSeries& series_;
@@ -307,7 +365,7 @@ Result<SpaceFit> planar_fit(const SpaceSeries& series, const SpaceJob& job, cons
   auto made = fit(flat_series(series, frame), job.fit, run);
   if (!made) return fail(made.error());
   out.plan = std::move(*made);
-  out.largest_move = flatness + largest_of(out.plan.report.moves);
+  out.largest_move = flatness + largest_of(out.plan.report.moves) + closing_gap(out);
   out.warnings = out.plan.warnings;
   return out;
 }

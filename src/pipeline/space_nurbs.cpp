@@ -19,19 +19,21 @@ using pipeline_detail::SpaceShape;
 constexpr std::size_t kMostSpans = 100'000;
 /// Of the tolerance, for what happens between the places that are looked at.
 constexpr double kBetweenPart = 0.25;
+/// Of a cubic beyond the seam of a closed curve: what happens at its ends fades by 2 - sqrt 3 a span.
+constexpr std::ptrdiff_t kSpansBeyond = 40;
 
 /// The C2 cubic through places of a curve, and how far it is from it.
 class CubicOfSpace {
  public:
-  CubicOfSpace(const SpaceShape& shape, double tolerance)
-      : shape_(shape), tolerance_(tolerance), joints_(shape.joints()) {}
+  CubicOfSpace(const SpaceShape& shape, bool closed, double tolerance)
+      : shape_(shape), closed_(closed), tolerance_(tolerance), joints_(shape.joints()) {}
 
   Result<SpaceNurbs> run() const {
     for (std::size_t parts = 1; parts * joints_.size() < kMostSpans; parts *= 2) {
       const std::vector<double> nodes = nodes_of(parts);
       std::vector<Vec3> points;
       for (const double sigma : nodes) points.push_back(shape_.at(sigma).point);
-      auto curve = interpolated(points, nodes);
+      auto curve = closed_ ? round_the_seam(std::move(points), nodes) : interpolated(points, nodes);
       if (!curve) return fail(curve.error());
       const double deviation =
           pipeline_detail::distance_bound(shape_, *curve, kBetweenPart * tolerance_);
@@ -44,6 +46,28 @@ class CubicOfSpace {
   }
 
  private:
+  /// One turn of the cubic through more of them, so far that its ends do not tell; it ends where it
+  /// begins.
+  static Result<SpaceCurve> round_the_seam(std::vector<Vec3> points,
+                                           const std::vector<double>& nodes) {
+    const auto spans = static_cast<std::ptrdiff_t>(nodes.size() - 1);
+    const double length = nodes.back();
+    points.back() = points.front();
+    std::vector<Vec3> longer;
+    std::vector<double> at;
+    for (std::ptrdiff_t k = -kSpansBeyond; k <= spans + kSpansBeyond; ++k) {
+      const std::ptrdiff_t turns = (k < 0 ? k - spans + 1 : k) / spans;
+      const auto i = static_cast<std::size_t>(k - turns * spans);
+      longer.push_back(points[i]);
+      at.push_back(k == spans ? length : nodes[i] + static_cast<double>(turns) * length);
+    }
+    auto curve = interpolated(longer, at);
+    if (!curve) return curve;
+    SpaceCurve turn = split(split(*curve, 0.0)[1], length)[0];
+    turn.points.front() = turn.points.back() = points.front();
+    return turn;
+  }
+
   [[nodiscard]] std::vector<double> nodes_of(std::size_t parts) const {
     std::vector<double> out;
     for (std::size_t k = 0; k + 1 < joints_.size(); ++k) {
@@ -57,6 +81,7 @@ class CubicOfSpace {
   }
 
   const SpaceShape& shape_;
+  bool closed_;
   double tolerance_;
   std::vector<double> joints_;
 };
@@ -139,7 +164,7 @@ Result<SpaceNurbs> space_nurbs(const SpaceFit& fit, double tolerance) {
   }
   if (fit.unrolled) {
     const SpaceShape shape(fit.frame, fit.plan.contour, fit.unrolled->contour);
-    return CubicOfSpace(shape, tolerance).run();
+    return CubicOfSpace(shape, fit.plan.contour.closed, tolerance).run();
   }
   const auto made = pipeline_detail::contour_nurbs(fit.plan.contour, tolerance);
   if (!made) return fail(made.error());
@@ -173,6 +198,10 @@ std::string space_fit_json(const SpaceFit& fit, const SpaceNurbs& nurbs) {
     json.pair("largest_curvature", fit.largest_curvature);
     json.pair("torsion_places", fit.torsion_places).pair("least_torsion", fit.least_torsion);
     json.pair("largest_torsion", fit.largest_torsion).pair("torsion_step", fit.torsion_step);
+    if (fit.seam) {
+      json.key("seam").begin_object().pair("position", fit.seam->position);
+      json.pair("heading", fit.seam->heading).pair("curvature", fit.seam->curvature).end_object();
+    }
   }
   json.key("curve").begin_object().pair("degree", nurbs.curve.degree);
   json.pair("deviation", nurbs.deviation).key("knots").begin_array();

@@ -10,10 +10,44 @@ namespace {
 constexpr int kHalvingsOfLength = 100;
 /// Joints nearer than this part of the length are one: lengths are known to some 1e-14.
 constexpr double kSameJoint = 1e-12;
+/// Of the largest curvature beside a joint: flat there (`JointGaps`).
+constexpr double kFlatSeam = 1e-6;
+constexpr double kSeamPosition = 1e-12, kSeamHeading = 1e-6, kSeamCurvature = 1e-6;
+constexpr double kSeamRoundings = 8.0;  ///< of a height
 
 double slope_of_unrolled(const Jet& jet) { return std::atan2(jet.d1.y, jet.d1.x); }
 
 }  // namespace
+
+bool meets(const SpaceSeam& seam, const SpaceSeam& bounds) {
+  return seam.position <= bounds.position && seam.heading <= bounds.heading &&
+         seam.curvature <= bounds.curvature;
+}
+
+SpaceSeam SpaceShape::seam_bounds() const {
+  const double height = std::abs(unrolled_.jet(0.0).point.y);
+  return {std::max(kSeamPosition, kSeamRoundings * 0x1p-53 * height / plan_.length()), kSeamHeading,
+          kSeamCurvature};
+}
+
+SpaceSeam SpaceShape::seam() const {
+  const std::size_t last = unrolled_.pieces().size() - 1;
+  const Jet begin = unrolled_.jet(0.0), end = unrolled_.jet(length(), true);
+  const double before = obvid::curvature(end), after = obvid::curvature(begin);
+  double beside = 0.0;
+  for (const std::size_t k : {std::size_t{0}, last}) {
+    for (const Jet& jet : {unrolled_.jet(unrolled_.joint(k)),
+                           unrolled_.jet(unrolled_.joint(k + 1), true)}) {
+      beside = std::max(beside, std::abs(obvid::curvature(jet)));
+    }
+  }
+  const double scale = std::max({std::abs(before), std::abs(after), kFlatSeam * beside});
+  SpaceSeam out;
+  out.position = std::abs(end.point.y - begin.point.y) / plan_.length();
+  out.heading = std::abs(turning(end.d1, begin.d1));
+  out.curvature = before == after ? 0.0 : std::abs(after - before) / scale;
+  return out;
+}
 
 Jet SpaceShape::below(double plan_length, bool before_joint) const {
   const double near = kSameJoint * plan_.length();

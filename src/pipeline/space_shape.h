@@ -30,6 +30,11 @@ class SpaceShape {
       : frame_(frame), plan_(plan.pieces), unrolled_(unrolled.pieces) {}
 
   [[nodiscard]] double length() const { return unrolled_.length(); }
+  /// Of a closed curve: gaps between the end of the unrolled one and its start.
+  [[nodiscard]] SpaceSeam seam() const;
+  /// What is called continuous there, as at the joints of a contour (docs/claims.md): position 1e-12
+  /// or the rounding of the height, heading and curvature 1e-6.
+  [[nodiscard]] SpaceSeam seam_bounds() const;
   [[nodiscard]] SpacePlace at(double sigma, bool before_joint = false) const;
   /// Arc length at which the projection has run so far; the unrolled curve must not run back.
   [[nodiscard]] double where(double plan_length) const;
@@ -58,6 +63,9 @@ class SpaceShape {
 /// is at most `between`.
 [[nodiscard]] double distance_bound(const SpaceShape& shape, const SpaceCurve& cubic,
                                     double between);
+
+/// Whether no gap is beyond its bound; not where a gap is no number.
+[[nodiscard]] bool meets(const SpaceSeam& seam, const SpaceSeam& bounds);
 
 /// Everything that follows from frame, points and both contours: the figures of `fit`.
 [[nodiscard]] Result<void> measure(SpaceFit& fit);

@@ -80,24 +80,48 @@ class SpaceClaims {
     if (flat.size() != n && !round) {
       return refuse("points", static_cast<double>(n), static_cast<double>(flat.size()));
     }
-    if (stored_.heights && stored_.heights->contour.points.size() != n) {
-      return refuse("points", static_cast<double>(n),
-                    static_cast<double>(stored_.heights->contour.points.size()));
+    const std::size_t with_end = stored_.plan.contour.closed ? flat.size() + 1 : n;
+    if (stored_.heights && stored_.heights->contour.points.size() != with_end) {
+      return refuse("heights/points",
+                    static_cast<double>(stored_.heights->contour.points.size()),
+                    static_cast<double>(with_end));
     }
     double flatness = 0.0;
     for (std::size_t i = 0; i < n; ++i) {
       const Vec3 p = stored_.points[i];
       const double height = stored_.frame.height(p);
       flatness = std::max(flatness, std::abs(height));
-      const double off = norm(stored_.frame.in_plane(p) - flat[i % flat.size()]);
+      if (i == flat.size()) break;  // the first one again, as far as the largest move allows
+      const double off = norm(stored_.frame.in_plane(p) - flat[i]);
       if (!(off <= near_)) refuse(fmt::format("points/{}", i), 0.0, off);
-      if (!stored_.heights) continue;
-      const double claimed = stored_.heights->contour.points[i].y;
-      if (!(std::abs(claimed - height) <= near_)) {
-        refuse(fmt::format("heights/points/{}", i), claimed, height);
-      }
+      if (stored_.heights) height_of(i, p);
+    }
+    if (stored_.heights && stored_.plan.contour.closed) {
+      height_of(flat.size(), stored_.points.front());
     }
     same("flatness", stored_.flatness, stored_.heights ? 0.0 : flatness, near_);
+  }
+
+  void height_of(std::size_t i, Vec3 p) {
+    const double claimed = stored_.heights->contour.points[i].y, height = stored_.frame.height(p);
+    if (!(std::abs(claimed - height) <= near_)) {
+      refuse(fmt::format("heights/points/{}", i), claimed, height);
+    }
+  }
+
+  /// Gaps are rounding: those of the file may be others than those found, within the bounds.
+  void seam() {
+    if (!stored_.seam) return;
+    const SpaceShape shape(stored_.frame, stored_.plan.contour, stored_.heights->contour);
+    const SpaceSeam found = shape.seam(), bounds = shape.seam_bounds();
+    const auto gap = [&](const char* name, double claimed, double here, double bound) {
+      if (!(std::abs(claimed) <= bound && here <= bound)) refuse(name, claimed, here);
+    };
+    gap("seam/position", stored_.seam->position, found.position, bounds.position);
+    gap("seam/heading", stored_.seam->heading, found.heading, bounds.heading);
+    gap("seam/curvature", stored_.seam->curvature, found.curvature, bounds.curvature);
+    const double apart = norm(stored_.curve.points.front() - stored_.curve.points.back());
+    if (!(apart <= near_)) refuse("curve/points", apart, 0.0);
   }
 
   void figures() {
@@ -124,6 +148,7 @@ class SpaceClaims {
     same("largest_torsion", f.largest_torsion, found.largest_torsion, torsion);
     same("torsion_step", f.torsion_step, found.torsion_step, torsion);
     at_most("largest_move", stored_.largest_move, found.largest_move);
+    seam();
   }
 
   void cubic() {
@@ -147,6 +172,9 @@ class SpaceClaims {
     double farthest = 0.0;
     if (const auto& report = stored_.plan.report) {
       for (const double move : report->moves) farthest = std::max(farthest, move);
+    }
+    if (stored_.plan.contour.closed && stored_.plan.contour.points.size() < stored_.points.size()) {
+      farthest += norm(stored_.points.back() - stored_.points.front());
     }
     same("largest_move", stored_.largest_move, stored_.flatness + farthest, near_);
     if (stored_.deviation != 0.0) return;
@@ -219,6 +247,7 @@ SpaceFit space_fit_of(const StoredSpace& stored) {
   out.least_torsion = stored.figures.least_torsion;
   out.largest_torsion = stored.figures.largest_torsion;
   out.torsion_step = stored.figures.torsion_step;
+  out.seam = stored.seam;
   return out;
 }
 

@@ -22,6 +22,15 @@ struct SpaceFigures {
   double torsion_step = 0.0;                          ///< largest at a joint, 1/unit
 };
 
+/// How well the heights of a closed curve meet where they end and begin, at its first point: upper
+/// bounds but for rounding. The projection is closed itself, and its certificate has its gaps.
+struct SpaceSeam {
+  double position = 0.0;   ///< of the height, relative to the length of the projection
+  double heading = 0.0;    ///< rad
+  double curvature = 0.0;  ///< relative to the larger of the two, but not less than 1e-6 of the
+                           ///< largest at the ends of the two pieces
+};
+
 /// A curve in space as its file has it (docs/formats.md).
 struct StoredSpace {
   std::string name;
@@ -33,6 +42,7 @@ struct StoredSpace {
   StoredContour plan;                    ///< in the plane, or of the projection
   std::optional<StoredContour> heights;  ///< none: the curve is planar
   SpaceFigures figures;                  ///< of curves that are not planar
+  std::optional<SpaceSeam> seam;         ///< of closed curves that are not planar
   SpaceCurve curve;
   double deviation = 0.0;           ///< of `curve`
   std::vector<std::string> unread;  ///< fields that mean nothing to this program

@@ -47,7 +47,8 @@ struct SpacePoint {
 /// A fair curve in space, as a fair contour in a plane and, unless the points lie in that plane, a
 /// second fair contour: height over the arc length of the first. The curve lies on the cylinder
 /// over the first contour; the second is what it becomes when that cylinder is unrolled, so both
-/// have its arc length and, where both are G2, so has it.
+/// have its arc length and, where both are G2, so is it. Of a closed curve the second is one turn
+/// from the first point to it again, with one height, heading and curvature at both ends.
 struct SpaceFit {
   std::string name;
   Units units;
@@ -62,7 +63,9 @@ struct SpaceFit {
   double least_curvature = 0.0, largest_curvature = 0.0;  ///< enclose the curvature everywhere
   std::size_t torsion_places = 0;                         ///< where the torsion was looked at
   double least_torsion = 0.0, largest_torsion = 0.0;      ///< at these places; not a bound
-  double torsion_step = 0.0;  ///< largest step of the torsion at a joint, 1/unit
+  double torsion_step = 0.0;  ///< largest step of the torsion at a joint, 1/unit; of a closed
+                              ///< curve at its seam too
+  std::optional<SpaceSeam> seam{};  ///< of closed curves that are not planar
   std::vector<std::string> warnings;
 };
 
@@ -71,10 +74,13 @@ struct SpaceFit {
 /// along `along`, or along the one of four directions (normal of the plane of least squares, z, y,
 /// x) whose projection and heights together have the fewest vertices and inflections; of equals the
 /// first. The noise is shared by projection and heights, so that no point moves by more; heights
-/// may always move by the rounding of their print, as the lengths below them are computed.
+/// may always move by the rounding of their print, as the lengths below them are computed. Closed
+/// curves are G2 at their first point, whose height is met; the slope of the curvature of the
+/// heights may step there.
 /// Errors: E203 a direction without length, headings or radii without a direction, another carrier
-/// than spirals of a curve that is not planar; E310 closed curves and corners that are not planar,
-/// projections that run back on themselves; those of `fit`, with the part they belong to in front.
+/// than spirals of a curve that is not planar; E310 corners that are not planar; E402 projections
+/// that run back on themselves; E501 heights of a closed curve that do not meet; those of `fit`, with
+/// the part they belong to in front.
 [[nodiscard]] Result<SpaceFit> fit_space(const SpaceSeries& series, const SpaceJob& job,
                                          const RunContext& run = {});
 
