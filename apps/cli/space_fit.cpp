@@ -46,11 +46,11 @@ std::string bends_words(const Fit& part) {
       counted(static_cast<std::size_t>(report.inflections), "inflection", "inflections"));
 }
 
-std::string seam_words(const SpaceSeam& seam) {
+/// `projection`: the seam is where it begins.
+std::string seam_words(const SpaceSeam& seam, const Contour& projection) {
   return fmt::format(
-      "at the first point; the heights meet there within {} of the length, {} rad and {} of the "
-      "curvature",
-      number(seam.position), number(seam.heading), number(seam.curvature));
+      "at point {}: the heights meet there within {} of the length, {} rad and {} of the curvature",
+      projection.joints.front().source.value_or(0) + 1, number(seam.position), number(seam.heading), number(seam.curvature));
 }
 
 std::string torsion_cell(const SpacePoint& point) {
@@ -93,7 +93,8 @@ std::string spatial_text(const SpaceFit& fit, const std::vector<std::string>& re
   Facts facts;
   add_frame(facts, fit);
   facts.add("projection", bends_words(fit.plan));
-  facts.add("heights", bends_words(*fit.unrolled) + ", over the arc length of the projection");
+  facts.add("heights", bends_words(*fit.unrolled) + ", over the arc length of the projection" +
+                           (fit.seam ? ", not counting one at the seam" : ""));
   facts.add("curvature",
             fmt::format("between {} and {} 1/{} everywhere, continuous",
                         number(fit.least_curvature), number(fit.largest_curvature), unit));
@@ -105,7 +106,7 @@ std::string spatial_text(const SpaceFit& fit, const std::vector<std::string>& re
     facts.add("", fit.seam ? "--continuity G3 makes the torsion continuous but at the seam"
                            : "--continuity G3 makes the torsion continuous");
   }
-  if (fit.seam) facts.add("seam", seam_words(*fit.seam));
+  if (fit.seam) facts.add("seam", seam_words(*fit.seam, fit.plan.contour));
   if (fit.largest_move > 0.0) {
     facts.add("largest move", fmt::format("at most {} {}", number(fit.largest_move), unit));
   }
@@ -240,7 +241,7 @@ std::string verification_in_space(const StoredSpace& stored, const SpaceVerifica
     facts.add("torsion", fmt::format("{} to {} 1/{} at {} places, steps by up to {} at joints",
                                      number(f.least_torsion), number(f.largest_torsion), unit,
                                      f.torsion_places, number(f.torsion_step)));
-    if (stored.seam) facts.add("seam", seam_words(*stored.seam));
+    if (stored.seam) facts.add("seam", seam_words(*stored.seam, stored.plan.contour));
   }
   facts.add("NURBS curve", stored.deviation > 0.0 ? fmt::format("at most {} {} from the curve",
                                                                 number(stored.deviation), unit)

@@ -28,6 +28,7 @@ class Preparation {
     out_.convex = job_.convex;
     out_.prefer = job_.prefer;
     out_.primitives = job_.primitives;
+    out_.period = job_.period;
     if (auto done = gather(); !done) return fail(done.error());
     if (auto done = give_ends(); !done) return fail(done.error());
     set_tolerances();

@@ -27,6 +27,7 @@ struct Prepared {
   bool primitives = false;
   bool thin = true;  ///< fewer joints than points where points with tolerances are dense
   bool closed = false;
+  std::optional<Vec2> period{};  ///< as in the job
   SplitSeries split;
   std::vector<std::string> warnings;
   std::string polygon;  ///< what is said when the points may be corners of a polygon; mostly empty

@@ -96,6 +96,7 @@ class SectionChooser {
       index_.push_back(series.split.point_at(k));
       points_.push_back(series.points[index_.back()]);
     }
+    goes_on_ = series_.period && !series_.closed && points_.size() == series_.points.size();
   }
 
   Result<SectionChain> run() {
@@ -231,7 +232,7 @@ class SectionChooser {
     moves_ = std::any_of(index_.begin(), index_.end(),
                          [&](std::size_t i) { return series_.reach[i] > 0.0; });
     auto chain = moves_ && points_.size() >= kFewestForFairing ? within_tolerances()
-                 : loop_                                       ? around_loop()
+                 : loop_ || (goes_on_ && !central_)            ? around_loop()
                          : through_points(points_, wishes(), index_);
     if (!chain) chain = fail(in_whole_series(chain.error()));
     if (chain) {
@@ -420,10 +421,28 @@ class SectionChooser {
     return false;
   }
 
+  /// Points of one turn, the last one not counted where it is the first one again.
+  [[nodiscard]] std::size_t points_of_turn() const {
+    return goes_on_ ? points_.size() - 1 : points_.size();
+  }
+  [[nodiscard]] std::size_t overlap() const { return std::min(points_of_turn(), kOverlap); }
+
+  /// Point k of one turn and some more on both sides.
+  [[nodiscard]] Vec2 unrolled_point(std::size_t k) const {
+    const std::size_t n = points_of_turn(), at = k + n - overlap();
+    if (!goes_on_) return points_[at % n];
+    return points_[at % n] + (static_cast<double>(at / n) - 1.0) * *series_.period;
+  }
+
+  /// Place of an unrolled point in the series.
+  [[nodiscard]] std::size_t place_of(std::size_t k) const {
+    return goes_on_ ? k - overlap() : (k - overlap()) % points_of_turn();
+  }
+
   /// One turn and some more as an open series; the turn from seam to seam is cut out of it and
   /// solved again with one element at both ends.
   Result<SeriesChain> around_loop() {
-    const std::size_t n = points_.size(), overlap = std::min(n, kOverlap);
+    const std::size_t n = points_of_turn(), overlap = this->overlap();
     std::vector<Vec2> unrolled;
     std::vector<std::size_t> whole;
     ChainWishes all = wishes(), more;
@@ -433,7 +452,7 @@ class SectionChooser {
     more.least_change = all.least_change;
     for (std::size_t k = 0; k < n + 2 * overlap + 1; ++k) {
       const std::size_t i = (k + n - overlap) % n;
-      unrolled.push_back(points_[i]);
+      unrolled.push_back(unrolled_point(k));
       whole.push_back(index_[i]);
       if (!all.fixed.empty()) more.fixed.push_back(all.fixed[i]);
     }
@@ -448,7 +467,7 @@ class SectionChooser {
       if (turn.points.empty() && !seam) continue;
       turn.points.push_back(chain->elements[e].point);
       turn.start.push_back(chain->elements[e]);
-      turn.source.push_back(source ? std::optional((*source - overlap) % n) : std::nullopt);
+      turn.source.push_back(source ? std::optional(place_of(*source)) : std::nullopt);
       turn.nodes.emplace_back();
       if (source && !more.fixed.empty()) {
         turn.nodes.back().theta = more.fixed[*source].theta;
@@ -494,12 +513,22 @@ class SectionChooser {
 
   Result<SeriesChain> within_tolerances() {
     MeasuredSeries measured;
-    measured.points = points_;
     measured.closed = loop_;
     measured.primitives = series_.primitives;
     measured.thin = series_.thin;
-    for (const std::size_t i : index_) measured.reach.push_back(series_.reach[i]);
-    give_nodes(measured);
+    std::vector<std::size_t> whole = index_;
+    measured.points = points_;
+    if (goes_on_) {
+      whole.clear();
+      measured.points.clear();
+      const std::size_t n = points_of_turn();
+      for (std::size_t k = 0; k < n + 2 * overlap() + 1; ++k) {
+        whole.push_back(index_[(k + n - overlap()) % n]);
+        measured.points.push_back(unrolled_point(k));
+      }
+    }
+    for (const std::size_t i : whole) measured.reach.push_back(series_.reach[i]);
+    give_nodes(measured, whole);
     FairedSeries faired;
     if (auto chain = follow_runs(measured, faired)) return std::move(*chain);
     if (measured.primitives) {
@@ -511,6 +540,7 @@ class SectionChooser {
     measured.primitives = false;
     measured.thin = false;
     if (auto chain = follow_runs(measured, faired)) return std::move(*chain);
+    if (goes_on_) return around_loop();
     out_.warnings.emplace_back(
         "the points were moved within their tolerances onto a smooth curve, but runs of monotone "
         "curvature along it were not found; the contour runs through the moved points");
@@ -535,10 +565,10 @@ class SectionChooser {
     return std::nullopt;
   }
 
-  void give_nodes(MeasuredSeries& measured) const {
+  void give_nodes(MeasuredSeries& measured, const std::vector<std::size_t>& whole) const {
     if (!has_data() && !series_.convex) return;
     const int sign = series_.convex ? turning_sign() : 0;
-    for (const std::size_t i : index_) {
+    for (const std::size_t i : whole) {
       NodeData node;
       const FixedData data = data_of(i);
       node.theta = data.theta;
@@ -578,7 +608,32 @@ class SectionChooser {
       nodes.nodes.back().theta = nodes.start[k].theta;
       nodes.nodes.back().kappa = nodes.start[k].kappa;
     }
+    if (goes_on_) return follow_one_turn(nodes);
     return loop_ ? close_at_seam(std::move(nodes)) : follow_directions(std::move(nodes), watch_);
+  }
+
+  /// From seam to seam; both are nodes, as their points are met. Errors name nodes of the whole.
+  [[nodiscard]] Result<SeriesChain> follow_one_turn(const DirectedSeries& nodes) {
+    const auto seam = [&](std::size_t k) {
+      return std::find(nodes.source.begin(), nodes.source.end(), std::optional(k)) -
+             nodes.source.begin();
+    };
+    const auto first = seam(overlap()), last = seam(overlap() + points_of_turn());
+    const auto part = [&](const auto& values, std::ptrdiff_t end) {
+      return std::decay_t<decltype(values)>(values.begin() + first, values.begin() + end);
+    };
+    DirectedSeries turn;
+    turn.points = part(nodes.points, last + 1);
+    turn.start = part(nodes.start, last + 1);
+    turn.source = part(nodes.source, last + 1);
+    turn.nodes = part(nodes.nodes, last + 1);
+    turn.direction = part(nodes.direction, last);
+    for (auto& source : turn.source) {
+      if (source) source = place_of(*source);
+    }
+    auto chain = close_at_seam(std::move(turn));
+    if (!chain && chain.error().index >= 0) chain.error().index += first;
+    return chain;
   }
 
   /// Interpolates the moved points, each of which is within its tolerance.
@@ -600,7 +655,8 @@ class SectionChooser {
 
   const Prepared& series_;
   bool loop_;
-  bool moves_ = false;  ///< some point may be moved
+  bool goes_on_ = false;  ///< beyond both ends, moved by the period
+  bool moves_ = false;    ///< some point may be moved
   Watch& watch_;
   std::vector<std::size_t> index_;  // of each point in the whole series
   std::vector<Vec2> points_;

@@ -19,6 +19,7 @@
 namespace obvid {
 namespace {
 
+using pipeline_detail::HeightOrder;
 using pipeline_detail::SpacePlace;
 using pipeline_detail::SpaceShape;
 
@@ -51,12 +52,21 @@ Frame frame_along(Vec3 direction, Vec3 origin) {
   return {origin, x, dot(y, up) < 0.0 ? -y : y};
 }
 
-PointSeries flat_series(const SpaceSeries& series, const Frame& frame) {
+/// Whether the last point is the first one again but for noise and print.
+bool returns(const SpaceSeries& series, const FitJob& job) {
+  const double near = std::max(
+      {series.rounding.x, series.rounding.y, series.rounding.z, job.noise.value_or(0.0)});
+  return norm(series.points.back() - series.points.front()) <= near;
+}
+
+/// A last point that is the first one again but for noise is that one.
+PointSeries flat_series(const SpaceSeries& series, const Frame& frame, const FitJob& job) {
   PointSeries out;
   out.name = series.name;
   out.units = series.units;
   out.rounding = rounding_in(frame, series.rounding).within;
   for (const Vec3& p : series.points) out.points.push_back(frame.in_plane(p));
+  if (job.closing != Closing::kOpen && returns(series, job)) out.points.back() = out.points.front();
   return out;
 }
 
@@ -75,29 +85,31 @@ Error of_space(ErrorCode code, std::string what, std::string hint) {
   return {code, std::move(what), "", std::move(hint), -1, 0.0};
 }
 
-/// Arc lengths of a contour at its points, and how far each is from it at most.
+/// Arc lengths of a contour at its points.
 std::vector<double> lengths_at_points(const Contour& contour, const ContourPath& path) {
+  const HeightOrder order(contour);
   std::vector<std::optional<double>> at(contour.points.size());
   for (std::size_t k = 0; k < contour.joints.size(); ++k) {
     if (const auto source = contour.joints[k].source) at[*source] = path.joint(k);
   }
   std::vector<double> out(at.size(), 0.0);
-  for (std::size_t i = 0; i < at.size(); ++i) {
+  for (std::size_t k = 0; k < at.size(); ++k) {
+    const std::size_t i = order.point(k);
     if (at[i]) {
       out[i] = *at[i];
       continue;
     }
-    const double from = i > 0 ? out[i - 1] : 0.0;
+    const double from = k > 0 ? out[order.point(k - 1)] : 0.0;
     double to = path.length();
-    for (std::size_t j = i + 1; j < at.size(); ++j) {
-      if (at[j]) {
-        to = *at[j];
+    for (std::size_t j = k + 1; j < at.size(); ++j) {
+      if (const auto& next = at[order.point(j)]) {
+        to = *next;
         break;
       }
     }
     double guess = from, least = norm(path.at(from).point - contour.points[i]);
-    for (int k = 1; k <= kGuesses; ++k) {
-      const double s = from + (to - from) * k / kGuesses;
+    for (int guessed = 1; guessed <= kGuesses; ++guessed) {
+      const double s = from + (to - from) * guessed / kGuesses;
       const double far = norm(path.at(s).point - contour.points[i]);
       if (far >= least) continue;
       least = far;
@@ -152,17 +164,18 @@ void enclose(const SpaceShape::Curvatures& a, const SpaceShape::Curvatures& b, d
 }
 
 void at_points(const SpaceShape& shape, SpaceFit& out) {
-  std::vector<double> lengths = lengths_at_points(out.unrolled->contour, shape.unrolled());
-  lengths.resize(out.points.size());
-  const double end = shape.length();
-  for (const double sigma : lengths) {
-    const bool closed = out.plan.contour.closed;
-    const SpacePlace before = shape.at(closed && sigma == 0.0 ? end : sigma, true);
-    SpacePlace after = shape.at(closed && sigma == end ? 0.0 : sigma);
-    if (sigma == end) after.plan_length = before.plan_length;
-    out.at_points.push_back(
-        {after.plan_length, after.height, after.curvature, before.torsion, after.torsion});
+  const std::vector<double> lengths = lengths_at_points(out.unrolled->contour, shape.unrolled());
+  const HeightOrder order(out.plan.contour);
+  const bool closed = out.plan.contour.closed;
+  out.at_points.resize(out.plan.contour.points.size());
+  for (std::size_t k = 0; k < out.at_points.size(); ++k) {
+    const SpacePlace before = shape.at(closed && k == 0 ? shape.length() : lengths[k], true),
+                     after = shape.at(lengths[k]);
+    out.at_points[order.point(k)] = {after.plan_length, after.height, after.curvature,
+                                     before.torsion, after.torsion};
   }
+  // a last point that is the first one again
+  if (out.at_points.size() < out.points.size()) out.at_points.push_back(out.at_points.front());
 }
 
 Result<void> measure_space(SpaceFit& out) {
@@ -208,6 +221,11 @@ Result<void> measure_space(SpaceFit& out) {
   return {};
 }
 
+std::string heights_name(const HeightOrder& order) {
+  if (order.point(0) == 0) return "heights over the arc length";
+  return fmt::format("heights over the arc length (their point 1 is point {})", order.point(0) + 1);
+}
+
 /// A curve that does not lie in a plane, in one projection.
 class SpatialForming {
  public:
@@ -221,13 +239,15 @@ class SpatialForming {
     out.points = series_.points;
     out.frame = frame_along(direction, {});
     const PlaneRounding rounding = rounding_in(out.frame, series_.rounding);
-    PointSeries plan = flat_series(series_, out.frame);
+    PointSeries plan = flat_series(series_, out.frame, job_.fit);
     plan.fixed = job_.fixed;
     FitJob plan_job = job_.fit;
     // both parts move a point: together no further than the noise
     if (plan_job.noise) plan_job.noise = std::numbers::sqrt2 / 2.0 * *plan_job.noise;
     // what ends elsewhere is open, also where its projection returns
-    if (plan_job.closing == Closing::kAutomatic && !returns()) plan_job.closing = Closing::kOpen;
+    if (plan_job.closing == Closing::kAutomatic && !returns(series_, job_.fit)) {
+      plan_job.closing = Closing::kOpen;
+    }
     auto first = fit(plan, plan_job, run_);
     if (!first) return fail(within_part(first.error(), "projection"));
     out.plan = std::move(*first);
@@ -243,22 +263,16 @@ class SpatialForming {
     const SpaceShape shape(out.frame, out.plan.contour, out.unrolled->contour);
     if (out.seam && !pipeline_detail::meets(*out.seam, shape.seam_bounds())) {
       return fail(of_space(ErrorCode::kNotProved,
-                           fmt::format("the heights do not meet at the first point: gaps of {:.3g} "
-                                       "of the length, {:.3g} rad, {:.3g} of the curvature",
+                           fmt::format("the heights do not meet at point {}: gaps of {:.3g} of the "
+                                       "length, {:.3g} rad, {:.3g} of the curvature",
+                                       HeightOrder(out.plan.contour).point(0) + 1,
                                        out.seam->position, out.seam->heading, out.seam->curvature),
-                           "begin the series at another point, or --open"));
+                           "--open forms it with ends that meet, without a common tangent"));
     }
     return out;
   }
 
  private:
-  /// Whether the last point is the first one again but for noise and print.
-  [[nodiscard]] bool returns() const {
-    const double near = std::max(
-        {series_.rounding.x, series_.rounding.y, series_.rounding.z, job_.fit.noise.value_or(0.0)});
-    return norm(series_.points.back() - series_.points.front()) <= near;
-  }
-
   Result<Fit> heights(const SpaceFit& so_far, double across) const {
     const Contour& plan = so_far.plan.contour;
     const ContourPath path(plan.pieces);
@@ -269,21 +283,28 @@ class SpatialForming {
                            "neighbouring points have one place in the projection",
                            "choose another direction with --along"));
     }
+    if (plan.closed && !plan.joints.front().source) {
+      return fail(of_space(ErrorCode::kUnsupported,
+                           "the projection begins between two points: no height stands there",
+                           "--open forms it with ends that meet, without a common tangent"));
+    }
+    const HeightOrder order(plan);
     PointSeries unrolled;
     unrolled.name = series_.name;
     unrolled.units = series_.units;
     // the lengths are computed, not given: heights need not be met better than they are printed
     const double noise = std::max(across, std::numbers::sqrt2 / 2.0 * job_.fit.noise.value_or(0.0));
-    for (std::size_t i = 0; i < n; ++i) {
-      if (i > 0 && !(lengths[i] > lengths[i - 1])) {
-        return fail(of_space(
-            ErrorCode::kChordReversal,
-            fmt::format("the projection does not get on between points {} and {}", i, i + 1),
-            "choose another direction with --along"));
+    for (std::size_t k = 0; k < n; ++k) {
+      const std::size_t i = order.point(k), before = order.point(k > 0 ? k - 1 : 0);
+      if (k > 0 && !(lengths[i] > lengths[before])) {
+        return fail(of_space(ErrorCode::kChordReversal,
+                             fmt::format("the projection does not get on between points {} and {}",
+                                         before + 1, i + 1),
+                             "choose another direction with --along"));
       }
       unrolled.points.push_back({lengths[i], so_far.frame.height(series_.points[i])});
       FixedData free;
-      const bool end = i == 0 || (!plan.closed && i + 1 == n);
+      const bool end = k == 0 || (!plan.closed && k + 1 == n);
       if (noise > 0.0 && !end) free.tolerance = noise;
       unrolled.fixed.push_back(free);
     }
@@ -302,7 +323,11 @@ class SpatialForming {
     job.wishes.clear();
     job.closing = Closing::kOpen;
     auto made = plan.closed ? one_turn(unrolled, path.length(), job) : fit(unrolled, job, run_);
-    if (!made) return fail(within_part(made.error(), "heights over the arc length"));
+    if (!made) {
+      Error error = made.error();
+      if (order.point(0) > 0) error.index = error.last = -1;  // its points are counted from there
+      return fail(within_part(std::move(error), heights_name(order).c_str()));
+    }
     if (made->certificate.corners > 0) {
       return fail(of_space(ErrorCode::kUnsupported,
                            "the heights have a corner: corners must lie in a plane",
@@ -311,7 +336,7 @@ class SpatialForming {
     return made;
   }
 
-  /// One turn of heights from the first point to it again. Its heading and curvature there are those
+  /// One turn of heights from their first point to it again. Its heading and curvature there are those
   /// of the heights of more than a turn, and the same at both ends.
   Result<Fit> one_turn(PointSeries turn, double length, FitJob job) const {
     const auto n = static_cast<std::ptrdiff_t>(turn.points.size());
@@ -339,7 +364,8 @@ class SpatialForming {
     const ContourPath::Place place = path.at(seam);
     job.start_heading = job.end_heading = std::atan2(place.tangent.y, place.tangent.x);
     job.start_kappa = job.end_kappa = place.kappa;
-    turn.points.push_back(turn.points.front() + Vec2{length, 0.0});
+    job.period = Vec2{length, 0.0};
+    turn.points.push_back(turn.points.front() + *job.period);
     if (!turn.fixed.empty()) turn.fixed.push_back(turn.fixed.front());
     return fit(turn, job, run_);
   }
@@ -362,7 +388,7 @@ Result<SpaceFit> planar_fit(const SpaceSeries& series, const SpaceJob& job, cons
   out.points = series.points;
   out.frame = frame;
   out.flatness = flatness;
-  auto made = fit(flat_series(series, frame), job.fit, run);
+  auto made = fit(flat_series(series, frame, job.fit), job.fit, run);
   if (!made) return fail(made.error());
   out.plan = std::move(*made);
   out.largest_move = flatness + largest_of(out.plan.report.moves) + closing_gap(out);
@@ -454,8 +480,13 @@ Result<SpaceFit> fit_space(const SpaceSeries& series, const SpaceJob& job, const
   auto out = job.along ? SpatialForming(series, job, run).along(*job.along)
                        : best_projection(series, job, plane.normal(), run);
   if (!out) return out;
+  if (closing_gap(*out) > 0.0) {
+    out->warnings.emplace_back(
+        "the last point is the first one again but for noise: the first one stands for both");
+  }
   for (const Fit* part : {&out->plan, &*out->unrolled}) {
-    const char* name = part == &out->plan ? "projection" : "heights";
+    const std::string name =
+        part == &out->plan ? "projection" : heights_name(HeightOrder(out->plan.contour));
     for (const std::string& one : part->warnings) {
       out->warnings.push_back(fmt::format("{}: {}", name, one));
     }

@@ -64,6 +64,24 @@ class SpaceShape {
 [[nodiscard]] double distance_bound(const SpaceShape& shape, const SpaceCurve& cubic,
                                     double between);
 
+/// The points of the projection in the order in which their heights stand over it: a closed one may
+/// begin at any of its points, and the last height is that of the first one again.
+class HeightOrder {
+ public:
+  explicit HeightOrder(const Contour& plan)
+      : count_(plan.points.size()),
+        closed_(plan.closed),
+        first_(closed_ ? plan.joints.front().source.value_or(0) : 0) {}
+
+  [[nodiscard]] std::size_t size() const { return closed_ ? count_ + 1 : count_; }
+  [[nodiscard]] std::size_t point(std::size_t k) const { return (first_ + k) % count_; }
+
+ private:
+  std::size_t count_;
+  bool closed_;
+  std::size_t first_;
+};
+
 /// Whether no gap is beyond its bound; not where a gap is no number.
 [[nodiscard]] bool meets(const SpaceSeam& seam, const SpaceSeam& bounds);
 

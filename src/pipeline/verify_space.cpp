@@ -80,7 +80,7 @@ class SpaceClaims {
     if (flat.size() != n && !round) {
       return refuse("points", static_cast<double>(n), static_cast<double>(flat.size()));
     }
-    const std::size_t with_end = stored_.plan.contour.closed ? flat.size() + 1 : n;
+    const std::size_t with_end = pipeline_detail::HeightOrder(stored_.plan.contour).size();
     if (stored_.heights && stored_.heights->contour.points.size() != with_end) {
       return refuse("heights/points",
                     static_cast<double>(stored_.heights->contour.points.size()),
@@ -94,18 +94,19 @@ class SpaceClaims {
       if (i == flat.size()) break;  // the first one again, as far as the largest move allows
       const double off = norm(stored_.frame.in_plane(p) - flat[i]);
       if (!(off <= near_)) refuse(fmt::format("points/{}", i), 0.0, off);
-      if (stored_.heights) height_of(i, p);
     }
-    if (stored_.heights && stored_.plan.contour.closed) {
-      height_of(flat.size(), stored_.points.front());
-    }
+    if (stored_.heights) heights();
     same("flatness", stored_.flatness, stored_.heights ? 0.0 : flatness, near_);
   }
 
-  void height_of(std::size_t i, Vec3 p) {
-    const double claimed = stored_.heights->contour.points[i].y, height = stored_.frame.height(p);
-    if (!(std::abs(claimed - height) <= near_)) {
-      refuse(fmt::format("heights/points/{}", i), claimed, height);
+  void heights() {
+    const pipeline_detail::HeightOrder order(stored_.plan.contour);
+    for (std::size_t k = 0; k < order.size(); ++k) {
+      const double claimed = stored_.heights->contour.points[k].y,
+                   height = stored_.frame.height(stored_.points[order.point(k)]);
+      if (!(std::abs(claimed - height) <= near_)) {
+        refuse(fmt::format("heights/points/{}", k), claimed, height);
+      }
     }
   }
 

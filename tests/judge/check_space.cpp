@@ -142,12 +142,21 @@ class SpaceCheck {
                           std::to_string(up.file.points.size()), "points of the heights");
     }
     const Real whole = c_.plan->lengths.whole();
-    for (std::size_t i = 0; i < c_.points.size(); ++i) {
+    const std::size_t count = c_.plan->file.points.size() + (c_.plan->file.closed ? 1 : 0);
+    if (up.file.points.size() != count) {
+      return sheet_.fails("space.heights", std::to_string(count),
+                          std::to_string(up.file.points.size()), "points of the heights");
+    }
+    for (std::size_t k = 0; k < count; ++k) {
+      const std::size_t i = c_.point_below(k);
       const Real high = c_.frame.height(c_.points[i]);
-      expect(std::abs(high - up.file.points[i].y) <= c_.resolution(), "space.heights.height",
-             up.file.points[i].y, high, fmt::format("point {}", i + 1));
+      expect(std::abs(high - up.file.points[k].y) <= c_.resolution(), "space.heights.height",
+             up.file.points[k].y, high, fmt::format("point {}", i + 1));
       // so far along the projection lies what the point stands for
-      const Real far = up.file.points[i].x;
+      const Real far = up.file.points[k].x;
+      if (c_.plan->file.closed && k + 1 == count) {
+        expect(std::abs(far - whole) <= 1e-11L * whole, "space.heights.length", far, whole, "turn");
+      }
       expect(far >= -1e-11L * whole && far <= (1.0L + 1e-11L) * whole, "space.heights.length", far,
              whole, fmt::format("point {}", i + 1));
       const Place place = c_.plan->lengths.place(far, false);
@@ -160,6 +169,32 @@ class SpaceCheck {
     const Vec end = up.course.path.at(up.course.path.end());
     const Real last = end.x + up.course.origin.x;
     expect(std::abs(last - whole) <= 1e-10L * whole, "space.heights.length", whole, last, "end");
+    if (c_.plan->file.closed) seam();
+  }
+
+  /// Where a closed curve ends it begins: as a curve in space, not as two contours.
+  void seam() {
+    const SpaceJet end = c_.at(c_.heights->course.path.end(), true), begin = c_.at(0.0L, false);
+    const Json& stated = member(json_, "seam");
+    for (const char* name : {"position", "heading", "curvature"}) {
+      const Figure f = figure(stated, name);
+      const Real most = name[0] == 'p' ? 1e-10L : 1e-6L;
+      expect(f.known() && std::abs(*f.value) <= most, fmt::format("space.seam.{}", name).c_str(),
+             f.value.value_or(-1.0), most);
+    }
+    expect(norm(end.p - begin.p) <= c_.resolution(), "space.seam", 0.0L, norm(end.p - begin.p),
+           "place");
+    const auto unit = [](Vec3 v) { return (1.0L / norm(v)) * v; };
+    const Real turn = norm(unit(end.d) - unit(begin.d));
+    expect(turn <= 2e-6L, "space.seam", 0.0L, turn, "tangent");
+    const auto bend = [&](const SpaceJet& jet) {
+      const Vec3 t = unit(jet.d);
+      return (1.0L / dot(jet.d, jet.d)) * (jet.dd - dot(jet.dd, t) * t);
+    };
+    const Real step = norm(bend(end) - bend(begin)), scale = figure_of("largest_curvature");
+    expect(step <= 4e-6L * scale, "space.seam", 0.0L, step, "curvature");
+    const Real apart = norm(c_.nurbs.at(c_.nurbs.from()).p - c_.nurbs.at(c_.nurbs.to()).p);
+    expect(apart <= c_.resolution(), "space.seam", 0.0L, apart, "NURBS curve");
   }
 
   void curvature() {
@@ -209,9 +244,9 @@ class SpaceCheck {
       if (std::isfinite(beside)) out.change = std::max(out.change, std::abs(beside - value));
       return std::optional(value);
     };
+    std::optional<Real> last;
     for (std::size_t k = 0; k + 1 < joints.size(); ++k) {
       const Real a = along.of(joints[k]), b = along.of(joints[k + 1]);
-      std::optional<Real> last;
       for (int j = 0; j <= kPlacesBetweenJoints; ++j) {
         const bool end = j == kPlacesBetweenJoints;
         const Real order = j == 0 ? joints[k]
@@ -220,8 +255,9 @@ class SpaceCheck {
         last = look(order, end);
       }
       out.count += 2L * kPlacesBetweenJoints;
-      if (k + 2 == joints.size()) continue;
-      const auto next = look(joints[k + 1], false);
+      const bool whole = k + 2 == joints.size();
+      if (whole && !c_.plan->file.closed) continue;
+      const auto next = look(whole ? joints.front() : joints[k + 1], false);
       if (last && next) out.step = std::max(out.step, std::abs(*next - *last));
     }
     return out;
@@ -263,7 +299,8 @@ class SpaceCheck {
   [[nodiscard]] Real from_curve(std::size_t i) const {
     const OwnedCourse& up = *c_.heights;
     const Path& path = up.course.path;
-    const Real guess = path.nearest(seen(up.file.points[i], up.course.origin)).order();
+    const Real guess =
+        path.nearest(seen(up.file.points[c_.height_of(i)], up.course.origin)).order();
     const auto nearness = [&](Real order) { return -norm(c_.at(order, false).p - c_.points[i]); };
     const Real from = std::max(0.0L, guess - 0.25L), to = std::min(path.end(), guess + 0.25L);
     return std::min(-nearness(guess), -nearness(largest_place(nearness, from, to, 8)));
@@ -391,8 +428,10 @@ void check_space_text(const SpaceCourse& curve, const Json& json, const std::str
       ++rows;
       const Vec3& p = curve.points[i];
       const OwnedCourse& up = *curve.heights;
-      const Real at = order_of_point(up, i);
-      const SpaceJet before = curve.at(at, at > 0.0L),
+      const Real at = order_of_point(up, curve.height_of(i));
+      const bool seam = curve.plan->file.closed && at == 0.0L;
+      const SpaceJet before = seam ? curve.at(up.course.path.end(), true)
+                                   : curve.at(at, at > 0.0L),
                      after = curve.at(at, at >= up.course.path.end());
       const Vec unrolled = up.course.path.at(at) + Vec{up.course.origin.x, up.course.origin.y};
       const std::vector<Real> wanted = {p.x, p.y, p.z, unrolled.x, unrolled.y, after.curvature()};

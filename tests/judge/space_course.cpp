@@ -148,6 +148,19 @@ std::vector<Real> SpaceCourse::joints() const {
   return out;
 }
 
+std::size_t SpaceCourse::point_below(std::size_t height) const {
+  const std::size_t first = plan->file.closed ? plan->file.elements.front().source.value_or(0) : 0;
+  return (first + height) % plan->file.points.size();
+}
+
+std::size_t SpaceCourse::height_of(std::size_t point) const {
+  const std::size_t count = plan->file.points.size();
+  for (std::size_t k = 0; k < count; ++k) {
+    if (point_below(k) == point % count) return k;
+  }
+  return 0;
+}
+
 Real SpaceCourse::resolution() const {
   constexpr Real kOfSize = 1e-12L, kUlps = 32.0L * 0x1p-52L;
   return kOfSize * size + kUlps * coordinate;

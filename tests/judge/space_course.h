@@ -65,6 +65,10 @@ struct SpaceCourse {
   [[nodiscard]] SpaceJet at(Real order, bool before) const;
   /// Orders of the unrolled contour at which either contour has a joint, with both ends.
   [[nodiscard]] std::vector<Real> joints() const;
+  /// Point over which a height stands: a closed projection may begin at any of its points.
+  [[nodiscard]] std::size_t point_below(std::size_t height) const;
+  /// Height of a point; the first one where there are two.
+  [[nodiscard]] std::size_t height_of(std::size_t point) const;
   /// Distances below this are rounding.
   [[nodiscard]] Real resolution() const;
   [[nodiscard]] std::string printed_unit() const {

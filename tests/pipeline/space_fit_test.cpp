@@ -197,18 +197,108 @@ TEST(SpaceFitTest, WhatIsNotFormedIsRefusedByName) {
   made = fit_space(twisted, job);
   ASSERT_FALSE(made);
   EXPECT_EQ(made.error().code, ErrorCode::kBadOption);
+  SpaceSeries cornered;  // closed, with corners
+  cornered.points = {{0, 0, 0}, {5, 0, 1}, {10, 0, 0}, {10, 5, 1}, {10, 10, 0},
+                     {5, 10, 1}, {0, 10, 0}, {0, 5, 1}, {0, 0, 0}};
   job = {};
-  const auto closed = series_on(
-      [](double u) {
-        const double t = 2.0 * std::numbers::pi * u;
-        return Vec3{50 * std::cos(t), 30 * std::sin(t), 5 * std::cos(2 * t)};
-      },
-      25);
-  SpaceSeries ring = closed;
-  ring.points.back() = ring.points.front();
-  made = fit_space(ring, job);
+  job.along = Vec3{0, 0, 1};
+  job.fit.wishes = {{2, {}, {}, true}};
+  made = fit_space(cornered, job);
   ASSERT_FALSE(made);
   EXPECT_EQ(made.error().code, ErrorCode::kUnsupported);
+}
+
+/// On a cylinder of radius 50, heights 10 cos(2t + phase).
+Vec3 saddle(double t, double phase) {
+  return {50 * std::cos(t), 50 * std::sin(t), 10 * std::cos(2 * t + phase)};
+}
+
+/// Curvature and torsion of `saddle`, by its derivatives.
+std::pair<double, double> shape_of_saddle(double t, double phase) {
+  const double c = std::cos(t), s = std::sin(t), w = 2 * t + phase;
+  const Vec3 d1{-50 * s, 50 * c, -20 * std::sin(w)}, d2{-50 * c, -50 * s, -40 * std::cos(w)},
+      d3{50 * s, -50 * c, 80 * std::sin(w)};
+  const Vec3 b = cross(d1, d2);
+  return {norm(b) / std::pow(norm(d1), 3), dot(b, d3) / dot(b, b)};
+}
+
+/// `repeated`: the first point comes again at the end.
+SpaceSeries saddle_series(int count, double phase, bool repeated) {
+  SpaceSeries out;
+  out.name = "saddle";
+  for (int i = 0; i < count; ++i) {
+    out.points.push_back(saddle(2.0 * std::numbers::pi * i / count, phase));
+  }
+  if (repeated) out.points.push_back(out.points.front());
+  return out;
+}
+
+/// Curvature at the seam, torsion away from it as at every joint.
+TEST(SpaceFitTest, AClosedCurveHasTheCurvatureAndTorsionOfAKnownOneAllRound) {
+  constexpr int kPoints = 64;
+  for (const double phase : {0.0, 0.7}) {
+    for (const bool repeated : {true, false}) {
+      SpaceJob job;
+      job.along = Vec3{0, 0, 1};
+      job.fit.closing = repeated ? Closing::kAutomatic : Closing::kClosed;
+      const auto made = fit_space(saddle_series(kPoints, phase, repeated), job);
+      ASSERT_TRUE(made) << to_line(made.error());
+      ASSERT_TRUE(made->seam);
+      EXPECT_TRUE(made->plan.certificate.proved && made->unrolled->certificate.proved);
+      ASSERT_EQ(made->at_points.size(), made->points.size());
+      for (std::size_t i = 0; i < made->points.size(); ++i) {
+        const auto [curvature, torsion] =
+            shape_of_saddle(2.0 * std::numbers::pi * static_cast<double>(i) / kPoints, phase);
+        const SpacePoint& at = made->at_points[i];
+        EXPECT_NEAR(at.curvature, curvature, 3e-3 * 0.026) << i;
+        ASSERT_TRUE(at.torsion && at.torsion_after);
+        EXPECT_NEAR(*at.torsion, torsion, 0.15 * 0.022) << i;
+        EXPECT_NEAR(*at.torsion_after, torsion, 0.15 * 0.022) << i;
+      }
+      // the seam's own step is among those that are told
+      const SpacePoint& first = made->at_points.front();
+      EXPECT_GE(made->torsion_step, std::abs(*first.torsion_after - *first.torsion) * (1 - 1e-9));
+    }
+  }
+}
+
+/// Where it begins it ends, with one tangent and one curvature: also as the NURBS curve.
+TEST(SpaceFitTest, TheCubicOfAClosedCurveIsSmoothAtItsSeam) {
+  SpaceJob job;
+  const auto made = fit_space(saddle_series(24, 0.7, true), job);
+  ASSERT_TRUE(made) << to_line(made.error());
+  const auto nurbs = space_nurbs(*made, 1e-3);
+  ASSERT_TRUE(nurbs) << to_line(nurbs.error());
+  ASSERT_TRUE(check(nurbs->curve));
+  EXPECT_EQ(nurbs->curve.points.front(), nurbs->curve.points.back());
+  const Range range = domain(nurbs->curve);
+  const SpaceJet begin = evaluate(nurbs->curve, range.from), end = evaluate(nurbs->curve, range.to);
+  EXPECT_LT(norm(end.d1 - begin.d1), 1e-9);
+  EXPECT_LT(norm(end.d2 - begin.d2), 1e-9);
+  const std::string dxf = space_dxf({nurbs->curve}, made->points, made->units);
+  EXPECT_NE(dxf.find(" 70\n1\n"), std::string::npos);  // closed
+}
+
+/// A projection with noise begins where the search for it began: heights follow.
+TEST(SpaceFitTest, ANoisyClosedCurveKeepsItsTolerance) {
+  SpaceSeries series = saddle_series(40, 0.7, true);
+  for (std::size_t i = 0; i < series.points.size(); ++i) {
+    const double wave = 0.004 * (static_cast<double>(i % 3) - 1.0);
+    series.points[i] = series.points[i] + Vec3{wave, -wave, wave};
+  }
+  SpaceJob job;
+  job.along = Vec3{0, 0, 1};
+  job.fit.noise = 0.01;
+  const auto made = fit_space(series, job);
+  ASSERT_TRUE(made) << to_line(made.error());
+  ASSERT_TRUE(made->seam);
+  const auto nurbs = space_nurbs(*made, 1e-5);
+  ASSERT_TRUE(nurbs);
+  EXPECT_LE(farthest_point(*nurbs, made->points), made->largest_move + 1e-3);
+  const auto stored = space_from_json(space_fit_json(*made, *nurbs), "curve.json");
+  ASSERT_TRUE(stored) << to_line(stored.error());
+  const auto broken = broken_promise(*stored, verify(*stored));
+  EXPECT_FALSE(broken) << to_line(*broken);
 }
 
 TEST(SpaceFitTest, AHelixOfAWholeTurnIsOpenAlthoughItsProjectionReturns) {
@@ -281,6 +371,29 @@ TEST(SpaceFitTest, AFileIsProvedAgainAndEveryFalseFigureIsFound) {
   Stored bent = sound;
   std::get<RationalBezier>(bent.heights->contour.pieces.front()).offset[1].y += 1.0;
   EXPECT_TRUE(broken_promise(bent, verify(bent)));
+}
+
+TEST(SpaceFitTest, AClosedFileIsProvedAgainAndAFalseSeamIsFound) {
+  const auto made = fit_space(saddle_series(24, 0.7, true), {});
+  ASSERT_TRUE(made) << to_line(made.error());
+  const auto nurbs = space_nurbs(*made, 1e-4);
+  ASSERT_TRUE(nurbs);
+  const auto sound = space_from_json(space_fit_json(*made, *nurbs), "curve.json");
+  ASSERT_TRUE(sound) << to_line(sound.error());
+  EXPECT_FALSE(broken_promise(*sound, verify(*sound)));
+  const auto doctored = [&](auto change) {
+    StoredSpace one = *sound;
+    change(one);
+    return false_claim(one);
+  };
+  using Stored = StoredSpace;
+  EXPECT_EQ(doctored([](Stored& s) { s.seam->position = 1e-3; }), "/seam/position");
+  EXPECT_EQ(doctored([](Stored& s) { s.seam->heading = 1e-3; }), "/seam/heading");
+  EXPECT_EQ(doctored([](Stored& s) { s.seam->curvature = 1e-3; }), "/seam/curvature");
+  EXPECT_EQ(doctored([](Stored& s) { s.curve.points.back().z += 1e-6; }), "/curve/points");
+  EXPECT_EQ(doctored([](Stored& s) { s.heights->contour.points.back().y += 1e-6; }),
+            fmt::format("/heights/points/{}", sound->heights->contour.points.size() - 1));
+  EXPECT_EQ(doctored([](Stored& s) { s.heights->contour.points.pop_back(); }), "/heights/points");
 }
 
 /// Numbers in the files are those of the curve.

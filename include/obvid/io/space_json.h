@@ -22,8 +22,8 @@ struct SpaceFigures {
   double torsion_step = 0.0;                          ///< largest at a joint, 1/unit
 };
 
-/// How well the heights of a closed curve meet where they end and begin, at its first point: upper
-/// bounds but for rounding. The projection is closed itself, and its certificate has its gaps.
+/// How well the heights of a closed curve meet where they end and begin: where the
+/// projection begins. The projection is closed itself, and its certificate has its gaps.
 struct SpaceSeam {
   double position = 0.0;   ///< of the height, relative to the length of the projection
   double heading = 0.0;    ///< rad

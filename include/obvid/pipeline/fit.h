@@ -62,6 +62,10 @@ struct FitJob {
   std::optional<double> noise;       ///< how far every point may move, units; default: not at all
   bool noise_from_rounding = false;  ///< as far as half a unit of the last printed digit
   Closing closing = Closing::kAutomatic;
+  /// Of open series of one section: it goes on beyond both ends moved by this, as heights over a
+  /// closed curve do; its last point is its first one so moved, and the contour is looked for with
+  /// what lies beyond.
+  std::optional<Vec2> period{};
   bool find_corners = true;             ///< where the series turns at once; else only marked ones
   std::optional<double> corner_angle;   ///< rad, what counts as a corner at least
   bool primitives = false;              ///< exact lines and arcs where the points allow them

@@ -48,7 +48,7 @@ struct SpacePoint {
 /// second fair contour: height over the arc length of the first. The curve lies on the cylinder
 /// over the first contour; the second is what it becomes when that cylinder is unrolled, so both
 /// have its arc length and, where both are G2, so is it. Of a closed curve the second is one turn
-/// from the first point to it again, with one height, heading and curvature at both ends.
+/// from the start of the first to it again, with one height, heading and curvature at both ends.
 struct SpaceFit {
   std::string name;
   Units units;
@@ -59,7 +59,7 @@ struct SpaceFit {
   Fit plan;                     ///< the contour in the plane, or of the projection
   std::optional<Fit> unrolled;  ///< x: arc length of the projection, y: height; none: planar
   double largest_move = 0.0;    ///< upper bound of the distance of a point from the curve
-  std::vector<SpacePoint> at_points{};                    ///< of spatial curves
+  std::vector<SpacePoint> at_points{};                    ///< of spatial curves, as `points`
   double least_curvature = 0.0, largest_curvature = 0.0;  ///< enclose the curvature everywhere
   std::size_t torsion_places = 0;                         ///< where the torsion was looked at
   double least_torsion = 0.0, largest_torsion = 0.0;      ///< at these places; not a bound
@@ -75,8 +75,8 @@ struct SpaceFit {
 /// x) whose projection and heights together have the fewest vertices and inflections; of equals the
 /// first. The noise is shared by projection and heights, so that no point moves by more; heights
 /// may always move by the rounding of their print, as the lengths below them are computed. Closed
-/// curves are G2 at their first point, whose height is met; the slope of the curvature of the
-/// heights may step there.
+/// curves are G2 where the projection begins and ends, at a point whose height is met; the slope of
+/// the curvature of the heights may step there.
 /// Errors: E203 a direction without length, headings or radii without a direction, another carrier
 /// than spirals of a curve that is not planar; E310 corners that are not planar; E402 projections
 /// that run back on themselves; E501 heights of a closed curve that do not meet; those of `fit`, with
