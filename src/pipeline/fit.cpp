@@ -210,7 +210,10 @@ class SectionForming {
     }
     if (watch_.was_cancelled()) return fail(cancelled_error());  // sections are missing
     out_.contour = finished(assembly_, job_.carrier);
-    if (out_.chain.slope_step_g2) out_.chain.waviness_g2 = waviness_g2_.value();
+    // pieces of a drawing have no part in it
+    if (out_.chain.slope_step_g2 && series_.kept.empty()) {
+      out_.chain.waviness_g2 = waviness_g2_.value();
+    }
     if (have_spirals_ && job_.carrier != Carrier::kSpiral) {
       out_.spirals = finished(spirals_, Carrier::kSpiral);
     }
