@@ -50,7 +50,8 @@ std::string bends_words(const Fit& part) {
 std::string seam_words(const SpaceSeam& seam, const Contour& projection) {
   return fmt::format(
       "at point {}: the heights meet there within {} of the length, {} rad and {} of the curvature",
-      projection.joints.front().source.value_or(0) + 1, number(seam.position), number(seam.heading), number(seam.curvature));
+      projection.joints.front().source.value_or(0) + 1, number(seam.position), number(seam.heading),
+      number(seam.curvature));
 }
 
 std::string torsion_cell(const SpacePoint& point) {
@@ -164,7 +165,8 @@ Result<std::string> space_file(const std::string& path, const SpaceFit& fit,
   if (iges) write.format = CadFormat::kIges;
   if (ending == ".brep") write.format = CadFormat::kBrep;
   if (step || iges || ending == ".brep") return cad_text({{"contour", nurbs.curve}}, write);
-  return fail({ErrorCode::kUnknownFormat, "no file with this extension holds a curve in space", path,
+  return fail({ErrorCode::kUnknownFormat, "no file with this extension holds a curve in space",
+               path,
                std::string("possible are ") + kSpaceEndings +
                    "; --flat forms the contour in the plane of x and y"});
 }

@@ -233,7 +233,7 @@ class SectionChooser {
                          [&](std::size_t i) { return series_.reach[i] > 0.0; });
     auto chain = moves_ && points_.size() >= kFewestForFairing ? within_tolerances()
                  : loop_ || (goes_on_ && !central_)            ? around_loop()
-                         : through_points(points_, wishes(), index_);
+                                                    : through_points(points_, wishes(), index_);
     if (!chain) chain = fail(in_whole_series(chain.error()));
     if (chain) {
       for (auto& source : chain->source) {

@@ -54,8 +54,8 @@ Frame frame_along(Vec3 direction, Vec3 origin) {
 
 /// Whether the last point is the first one again but for noise and print.
 bool returns(const SpaceSeries& series, const FitJob& job) {
-  const double near = std::max(
-      {series.rounding.x, series.rounding.y, series.rounding.z, job.noise.value_or(0.0)});
+  const double near =
+      std::max({series.rounding.x, series.rounding.y, series.rounding.z, job.noise.value_or(0.0)});
   return norm(series.points.back() - series.points.front()) <= near;
 }
 
@@ -216,8 +216,8 @@ Result<void> measure_space(SpaceFit& out) {
     if (before && after) out.torsion_step = std::max(out.torsion_step, std::abs(*after - *before));
   }
   at_points(shape, out);
-  out.largest_move = farthest_from_places(out.plan) + largest_of(out.unrolled->report.moves) +
-                     closing_gap(out);
+  out.largest_move =
+      farthest_from_places(out.plan) + largest_of(out.unrolled->report.moves) + closing_gap(out);
   return {};
 }
 
@@ -336,8 +336,8 @@ class SpatialForming {
     return made;
   }
 
-  /// One turn of heights from their first point to it again. Its heading and curvature there are those
-  /// of the heights of more than a turn, and the same at both ends.
+  /// One turn of heights from their first point to it again. Its heading and curvature there are
+  /// those of the heights of more than a turn, and the same at both ends.
   Result<Fit> one_turn(PointSeries turn, double length, FitJob job) const {
     const auto n = static_cast<std::ptrdiff_t>(turn.points.size());
     const auto overlap = static_cast<std::ptrdiff_t>(std::min(turn.points.size(), kHeightsOverlap));
@@ -359,8 +359,7 @@ class SpatialForming {
       return fail(std::move(error));
     }
     const ContourPath path(around->contour.pieces);
-    const double seam =
-        lengths_at_points(around->contour, path)[static_cast<std::size_t>(overlap)];
+    const double seam = lengths_at_points(around->contour, path)[static_cast<std::size_t>(overlap)];
     const ContourPath::Place place = path.at(seam);
     job.start_heading = job.end_heading = std::atan2(place.tangent.y, place.tangent.x);
     job.start_kappa = job.end_kappa = place.kappa;

@@ -19,7 +19,8 @@ using pipeline_detail::SpaceShape;
 constexpr std::size_t kMostSpans = 100'000;
 /// Of the tolerance, for what happens between the places that are looked at.
 constexpr double kBetweenPart = 0.25;
-/// Of a cubic beyond the seam of a closed curve: what happens at its ends fades by 2 - sqrt 3 a span.
+/// Of a cubic beyond the seam of a closed curve: what happens at its ends fades by 2 - sqrt 3 a
+/// span.
 constexpr std::ptrdiff_t kSpansBeyond = 40;
 
 /// The C2 cubic through places of a curve, and how far it is from it.

@@ -36,8 +36,8 @@ SpaceSeam SpaceShape::seam() const {
   const double before = obvid::curvature(end), after = obvid::curvature(begin);
   double beside = 0.0;
   for (const std::size_t k : {std::size_t{0}, last}) {
-    for (const Jet& jet : {unrolled_.jet(unrolled_.joint(k)),
-                           unrolled_.jet(unrolled_.joint(k + 1), true)}) {
+    for (const Jet& jet :
+         {unrolled_.jet(unrolled_.joint(k)), unrolled_.jet(unrolled_.joint(k + 1), true)}) {
       beside = std::max(beside, std::abs(obvid::curvature(jet)));
     }
   }

@@ -32,8 +32,8 @@ class SpaceShape {
   [[nodiscard]] double length() const { return unrolled_.length(); }
   /// Of a closed curve: gaps between the end of the unrolled one and its start.
   [[nodiscard]] SpaceSeam seam() const;
-  /// What is called continuous there, as at the joints of a contour (docs/claims.md): position 1e-12
-  /// or the rounding of the height, heading and curvature 1e-6.
+  /// What is called continuous there, as at the joints of a contour (docs/claims.md): position
+  /// 1e-12 or the rounding of the height, heading and curvature 1e-6.
   [[nodiscard]] SpaceSeam seam_bounds() const;
   [[nodiscard]] SpacePlace at(double sigma, bool before_joint = false) const;
   /// Arc length at which the projection has run so far; the unrolled curve must not run back.

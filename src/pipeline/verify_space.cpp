@@ -82,8 +82,7 @@ class SpaceClaims {
     }
     const std::size_t with_end = pipeline_detail::HeightOrder(stored_.plan.contour).size();
     if (stored_.heights && stored_.heights->contour.points.size() != with_end) {
-      return refuse("heights/points",
-                    static_cast<double>(stored_.heights->contour.points.size()),
+      return refuse("heights/points", static_cast<double>(stored_.heights->contour.points.size()),
                     static_cast<double>(with_end));
     }
     double flatness = 0.0;

@@ -430,8 +430,7 @@ void check_space_text(const SpaceCourse& curve, const Json& json, const std::str
       const OwnedCourse& up = *curve.heights;
       const Real at = order_of_point(up, curve.height_of(i));
       const bool seam = curve.plan->file.closed && at == 0.0L;
-      const SpaceJet before = seam ? curve.at(up.course.path.end(), true)
-                                   : curve.at(at, at > 0.0L),
+      const SpaceJet before = seam ? curve.at(up.course.path.end(), true) : curve.at(at, at > 0.0L),
                      after = curve.at(at, at >= up.course.path.end());
       const Vec unrolled = up.course.path.at(at) + Vec{up.course.origin.x, up.course.origin.y};
       const std::vector<Real> wanted = {p.x, p.y, p.z, unrolled.x, unrolled.y, after.curvature()};

@@ -198,8 +198,8 @@ TEST(SpaceFitTest, WhatIsNotFormedIsRefusedByName) {
   ASSERT_FALSE(made);
   EXPECT_EQ(made.error().code, ErrorCode::kBadOption);
   SpaceSeries cornered;  // closed, with corners
-  cornered.points = {{0, 0, 0}, {5, 0, 1}, {10, 0, 0}, {10, 5, 1}, {10, 10, 0},
-                     {5, 10, 1}, {0, 10, 0}, {0, 5, 1}, {0, 0, 0}};
+  cornered.points = {{0, 0, 0},  {5, 0, 1},  {10, 0, 0}, {10, 5, 1}, {10, 10, 0},
+                     {5, 10, 1}, {0, 10, 0}, {0, 5, 1},  {0, 0, 0}};
   job = {};
   job.along = Vec3{0, 0, 1};
   job.fit.wishes = {{2, {}, {}, true}};

@@ -63,8 +63,8 @@ struct SpaceFit {
   double least_curvature = 0.0, largest_curvature = 0.0;  ///< enclose the curvature everywhere
   std::size_t torsion_places = 0;                         ///< where the torsion was looked at
   double least_torsion = 0.0, largest_torsion = 0.0;      ///< at these places; not a bound
-  double torsion_step = 0.0;  ///< largest step of the torsion at a joint, 1/unit; of a closed
-                              ///< curve at its seam too
+  double torsion_step = 0.0;        ///< largest step of the torsion at a joint, 1/unit; of a closed
+                                    ///< curve at its seam too
   std::optional<SpaceSeam> seam{};  ///< of closed curves that are not planar
   std::vector<std::string> warnings;
 };
@@ -79,8 +79,8 @@ struct SpaceFit {
 /// the curvature of the heights may step there.
 /// Errors: E203 a direction without length, headings or radii without a direction, another carrier
 /// than spirals of a curve that is not planar; E310 corners that are not planar; E402 projections
-/// that run back on themselves; E501 heights of a closed curve that do not meet; those of `fit`, with
-/// the part they belong to in front.
+/// that run back on themselves; E501 heights of a closed curve that do not meet; those of `fit`,
+/// with the part they belong to in front.
 [[nodiscard]] Result<SpaceFit> fit_space(const SpaceSeries& series, const SpaceJob& job,
                                          const RunContext& run = {});
 

@@ -41,6 +41,23 @@ TEST(JudgeSpace, FindsEachFalseFigure) {
   EXPECT_TRUE(of_space(changed(sound, "[71, 64, 12]", "[71, 64.001, 12]")).has("space.points"));
 }
 
+TEST(JudgeSpace, AcceptsAClosedFileAndItsReport) {
+  const Sheet sheet = of_space(data("judge/space_closed.json"), data("judge/space_closed.txt"));
+  EXPECT_EQ(sheet.wrong(), 0) << all_false(sheet);
+  EXPECT_EQ(sheet.counts().at("space.seam").judged, 4);
+}
+
+TEST(JudgeSpace, FindsAFalseSeam) {
+  const std::string sound = data("judge/space_closed.json");
+  EXPECT_TRUE(of_space(changed(sound, "\"seam\": {\"position\": 0", "\"seam\": {\"position\": 1"))
+                  .has("space.seam.position"));
+  // the step at the seam is the largest one
+  EXPECT_TRUE(of_space(with(sound, "torsion_step", "0.0239")).has("space.torsion_step"));
+  // the last piece of the heights comes in with another tangent
+  EXPECT_TRUE(
+      of_space(changed(sound, ", 5.0150509373554]", ", 5.0160509373554]")).has("space.seam"));
+}
+
 TEST(JudgeSpace, FindsAFalseReport) {
   const std::string file = data("judge/space.json"), sound = data("judge/space.txt");
   const std::pair<const char*, const char*> all[] = {
