@@ -29,8 +29,6 @@ constexpr double kPlanarPart = 1e-9;
 constexpr int kPlacesOfSpan = 32;
 /// Places among which the one nearest to a moved point is sought before it is refined.
 constexpr int kGuesses = 32;
-/// Points of a closed curve that its heights are looked at beyond the seam, on both sides.
-constexpr std::size_t kHeightsOverlap = 16;
 constexpr std::size_t kHeadBytes = 4096;  // that tell the kind of a file
 
 double largest_extent(const std::vector<Vec3>& points) {
@@ -336,37 +334,25 @@ class SpatialForming {
     return made;
   }
 
-  /// One turn of heights from their first point to it again. Its heading and curvature there are
-  /// those of the heights of more than a turn, and the same at both ends.
+  /// One turn of heights from their first point to it again. G2 contours are looked for with what
+  /// lies beyond, and have one heading and curvature at both ends; G3 ones are given these.
   Result<Fit> one_turn(PointSeries turn, double length, FitJob job) const {
-    const auto n = static_cast<std::ptrdiff_t>(turn.points.size());
-    const auto overlap = static_cast<std::ptrdiff_t>(std::min(turn.points.size(), kHeightsOverlap));
-    PointSeries longer = turn;
-    longer.points.clear();
-    longer.fixed.clear();
-    for (std::ptrdiff_t k = -overlap; k <= n + overlap; ++k) {
-      const std::ptrdiff_t turns = k < 0 ? -1 : k / n;
-      const auto i = static_cast<std::size_t>(k - turns * n);
-      longer.points.push_back(turn.points[i] + Vec2{static_cast<double>(turns) * length, 0.0});
-      if (!turn.fixed.empty()) longer.fixed.push_back(turn.fixed[i]);
-    }
-    const auto around = fit(longer, job, run_);
-    if (!around) {
-      Error error = around.error();  // its points are not those of the series
-      error.where.clear();
-      error.index = -1;
-      error.last = -1;
-      return fail(std::move(error));
-    }
-    const ContourPath path(around->contour.pieces);
-    const double seam = lengths_at_points(around->contour, path)[static_cast<std::size_t>(overlap)];
-    const ContourPath::Place place = path.at(seam);
-    job.start_heading = job.end_heading = std::atan2(place.tangent.y, place.tangent.x);
-    job.start_kappa = job.end_kappa = place.kappa;
     job.period = Vec2{length, 0.0};
     turn.points.push_back(turn.points.front() + *job.period);
     if (!turn.fixed.empty()) turn.fixed.push_back(turn.fixed.front());
-    return fit(turn, job, run_);
+    FitJob plain = job;
+    plain.continuity = Continuity::kG2;
+    auto around = fit(turn, plain, run_);
+    if (!around || wanted_continuity(job) == Continuity::kG2) return around;
+    const Element& seam = around->contour.joints.front().element;
+    job.start_heading = job.end_heading = seam.theta;
+    job.start_kappa = job.end_kappa = seam.kappa;
+    auto smooth = fit(turn, job, run_);
+    if (smooth && smooth->certificate.proved) return smooth;
+    if (!smooth && smooth.error().code == ErrorCode::kCancelled) return smooth;
+    around->warnings.emplace_back(
+        "with the heading and curvature of the seam no G3 contour was found: it is G2");
+    return around;
   }
 
   const SpaceSeries& series_;
