@@ -538,20 +538,24 @@ struct Turns {
   }
 };
 
+/// Between corners: at one, nothing goes on.
 Turns turns_of(const Contour& contour) {
   Turns out;
   int direction = 0, sign = 0;
   const auto follow_run = [&](const Run& run) {
+    if (contour.joints[run.first_piece].leaving) direction = 0;
     if (run.direction == 0) return;
     if (direction != 0 && run.direction != direction) ++out.vertices;
     direction = run.direction;
   };
   const auto follow_joint = [&](const Joint& joint) {
-    const double kappa = joint.element.kappa;
-    const int now = kappa > 0.0 ? 1 : kappa < 0.0 ? -1 : 0;
-    if (now == 0) return;
-    if (sign != 0 && now != sign) ++out.inflections;
-    sign = now;
+    const auto sign_of = [](double kappa) { return kappa > 0.0 ? 1 : kappa < 0.0 ? -1 : 0; };
+    const int now = sign_of(joint.element.kappa);
+    if (now != 0) {
+      if (sign != 0 && now != sign) ++out.inflections;
+      sign = now;
+    }
+    if (joint.leaving) sign = sign_of(joint.leaving->kappa);
   };
   for (const Run& run : contour.runs) follow_run(run);
   for (const Joint& joint : contour.joints) follow_joint(joint);
@@ -750,7 +754,7 @@ Result<Fit> formed_and_proved(const PointSeries& series, const FitJob& job, Foun
   return out;
 }
 
-/// Parts between two points with a piece that is not proved to be monotone. False where no more are
+/// Parts between two points with a piece that is not proved to be monotone, or not to turn far. False where no more are
 /// found.
 bool keep_unproved(const Fit& fit, KeptParts& kept) {
   kept.make(fit.contour.points.size());
@@ -760,7 +764,8 @@ bool keep_unproved(const Fit& fit, KeptParts& kept) {
     begun = fit.contour.joints[i].source ? fit.contour.joints[i].source : begun;
     const Verdict verdict = fit.certificate.pieces[i].verdict;
     const bool monotone = verdict != Verdict::kHasVertex && verdict != Verdict::kUndecided;
-    if (monotone || !begun || kept.leaving[*begun]) continue;
+    const bool sound = monotone && fit.certificate.pieces[i].turns_below_half;
+    if (sound || !begun || kept.leaving[*begun]) continue;
     kept.leaving[*begun] = any = true;
   }
   return any;
