@@ -43,8 +43,14 @@ double curvature_beside(const Contour& contour, Vec2 p) {
   return kappa;
 }
 
-std::string radius_at(const Contour& contour, std::size_t joint, std::size_t point) {
-  if (joint != kNone) return radius_text(contour.joints[joint].element.kappa);
+enum class Side { kArriving, kLeaving };
+
+std::string radius_at(const Contour& contour, std::size_t joint, std::size_t point, Side side) {
+  if (joint != kNone) {
+    const Joint& here = contour.joints[joint];
+    const bool leaves = side == Side::kLeaving && here.leaving.has_value();
+    return radius_text(leaves ? here.leaving->kappa : here.element.kappa);
+  }
   return radius_text(curvature_beside(contour, contour.points[point]));
 }
 
@@ -84,7 +90,8 @@ Table fit_segments(const Fit& fit) {
     table.row({points_text(segment), significant(segment.chord),
                significant(segment.points_only_error, 4), significant(segment.width, 4),
                std::to_string(segment.inserted), pieces_text(contour, from, to),
-               radius_at(contour, from, first), radius_at(contour, to, last)});
+               radius_at(contour, from, first, Side::kLeaving),
+               radius_at(contour, to, last, Side::kArriving)});
   }
   return table;
 }
@@ -120,10 +127,14 @@ struct LargestError {
 std::string error_text(const FitReport& report, const std::string& units) {
   LargestError points_only;
   LargestError chosen;
+  bool everywhere = true;
   for (const SegmentReport& segment : report.segments) {
     points_only.meet(segment.points_only_error, segment);
     chosen.meet(segment.deviation, segment);
+    everywhere = everywhere && !std::isnan(segment.points_only_error);
   }
+  // lines and circles alone say nothing of what lies between them
+  if (points_only.segment == nullptr && !everywhere) points_only.known = false;
   const auto text_of = [&units](const LargestError& error) {
     return error.known ? known_length(error.value, units) : "unknown";
   };

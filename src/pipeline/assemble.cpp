@@ -9,14 +9,15 @@
 namespace obvid::pipeline_detail {
 namespace {
 
-/// Pieces of a drawing that agree so far at a joint are one curve there: a tenth of the gaps that
-/// the certificate calls continuous, rad and of the larger curvature.
-constexpr double kSameElement = 1e-10;
+/// Pieces of a drawing that agree so far at a joint are one curve there: half of the gaps that the
+/// certificate calls continuous, rad and of the larger curvature.
+constexpr double kSameElement = 5e-7;
 
 bool continues(const Element& before, const Element& after) {
   const double turn = std::remainder(after.theta - before.theta, 2.0 * std::numbers::pi);
   const double larger = std::max(std::abs(before.kappa), std::abs(after.kappa));
-  return std::abs(turn) <= kSameElement && std::abs(after.kappa - before.kappa) <= kSameElement * larger;
+  return std::abs(turn) <= kSameElement &&
+         std::abs(after.kappa - before.kappa) <= kSameElement * larger;
 }
 
 bool keeps_first(const Contour& contour) {

@@ -47,7 +47,7 @@ int continuity_of(const Contour& contour, const Certificate& certificate) {
   // gaps below these are what rounding leaves (docs/methods/certify.md)
   constexpr double kSameHeading = 1e-7, kSameCurvature = 1e-4;
   if (certificate.gaps.heading > kSameHeading) return 0;
-  if (certificate.gaps.curvature > kSameCurvature) return 1;
+  if (certificate.gaps.curvature > kSameCurvature || contour.carrier == Carrier::kArcs) return 1;
   return contour.continuity == Continuity::kG3 && certificate.slope_steps == 0 ? 3 : 2;
 }
 

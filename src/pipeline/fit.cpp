@@ -210,6 +210,10 @@ class SectionForming {
     }
     if (watch_.was_cancelled()) return fail(cancelled_error());  // sections are missing
     out_.contour = finished(assembly_, job_.carrier);
+    if (steps_everywhere(out_.contour)) {
+      claim_slopes(out_.contour, false);
+      out_.chain.slope_step_g2.reset();
+    }
     // pieces of a drawing have no part in it
     if (out_.chain.slope_step_g2 && series_.kept.empty()) {
       out_.chain.waviness_g2 = waviness_g2_.value();
@@ -351,6 +355,17 @@ class SectionForming {
   void keep(Result<Contour> spirals) {
     have_spirals_ = have_spirals_ && spirals.has_value();
     if (have_spirals_) spirals_.append(std::move(*spirals));
+  }
+
+  /// No joint between corners has one slope.
+  static bool steps_everywhere(const Contour& contour) {
+    bool any = false;
+    for (std::size_t j = contour.closed ? 0 : 1; j < contour.pieces.size(); ++j) {
+      const Joint& joint = contour.joints[j];
+      if (!joint.leaving && !joint.slope_step) return false;
+      any = any || joint.slope_step;
+    }
+    return any;
   }
 
   /// Pieces of drawings go on as they are drawn.
@@ -754,8 +769,8 @@ Result<Fit> formed_and_proved(const PointSeries& series, const FitJob& job, Foun
   return out;
 }
 
-/// Parts between two points with a piece that is not proved to be monotone, or not to turn far. False where no more are
-/// found.
+/// Parts between two points with a piece that is not proved to be monotone, or not to turn far.
+/// False where no more are found.
 bool keep_unproved(const Fit& fit, KeptParts& kept) {
   kept.make(fit.contour.points.size());
   bool any = false;

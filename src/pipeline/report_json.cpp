@@ -91,6 +91,9 @@ std::string fit_report_json(const Fit& fit, const Written& written) {
   add_units(json, fit.contour.units);
   json.pair("carrier", to_string(fit.contour.carrier));
   json.pair("continuity", to_string(fit.contour.continuity));
+  if (!fit.report.chain.g2_because.empty()) {
+    json.pair("g2_because", fit.report.chain.g2_because);
+  }
   json.pair("points", fit.contour.points.size()).pair("pieces", fit.contour.pieces.size());
   const KeptPieces kept = kept_pieces(fit.contour);
   json.key("taken_over").begin_object().pair("lines", kept.lines).pair("arcs", kept.arcs);

@@ -14,9 +14,14 @@ double slope_step_before(const std::vector<Piece>& pieces, std::size_t piece) {
         std::holds_alternative<LinePiece>(one) || std::holds_alternative<ArcPiece>(one);
     return even ? 0.0 : curvature_rate(evaluate(one, t));
   };
+  const auto mean = [&](std::size_t i) {
+    const Jet a = evaluate(pieces[i], 0.0), b = evaluate(pieces[i], 1.0);
+    const double change = std::abs(curvature(b) - curvature(a)) / norm(b.point - a.point);
+    return std::isfinite(change) ? change : 0.0;
+  };
   const double left = slope(before, 1.0), right = slope(piece, 0.0);
-  const double scale = std::max(
-      {std::abs(slope(before, 0.0)), std::abs(left), std::abs(right), std::abs(slope(piece, 1.0))});
+  const double scale = std::max({std::abs(slope(before, 0.0)), std::abs(left), std::abs(right),
+                                 std::abs(slope(piece, 1.0)), mean(before), mean(piece)});
   return scale > 0.0 ? std::abs(right - left) / scale : 0.0;
 }
 
