@@ -259,7 +259,10 @@ class Subject:
                           rf"curvatures(?: \(points (\d+)-\d+, at ({NUMBER}), ({NUMBER})\))?$",
                           facts["largest error"])
         if said:
-            alone = largest(row["points_only_error"] for row in report["segments"])
+            each = [row["points_only_error"] for row in report["segments"]]
+            alone = largest(each)
+            if alone == 0 and None in each:
+                alone = None  # lines and circles alone say nothing of what lies between them
             self.shows("points-only error", said[0].replace("unknown", UNKNOWN), alone)
             self.shows("error bound", said[2].replace("unknown", UNKNOWN), report["largest_deviation"])
             for text, key in ((said[1], "points_only_error"), (said[3], "deviation")):
