@@ -164,7 +164,7 @@ std::string audit_text(const Drawing& drawing, const std::vector<CurveAudit>& au
   std::string out = bold(drawing.name) + "\n";
   out += fmt::format("lengths in {}", drawing.units.text());
   if (!audits.empty()) {
-    out += "; joints: G2 continuous curvature, G1 common tangent, G0 corners\n\n";
+    out += "; joints: G3 continuous slope of curvature, G2 curvature, G1 tangent, G0 corners\n\n";
     out += curve_table(audits);
   } else {
     out += "\n";
