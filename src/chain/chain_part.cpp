@@ -106,6 +106,25 @@ bool one_element_to_a_point(const SeriesChain& chain, std::size_t points) {
 
 }  // namespace
 
+SeriesChain slice_of(const SeriesChain& chain, std::size_t first, std::size_t last) {
+  SeriesChain out;
+  const auto cut = [&](const auto& all, auto& into, std::size_t more) {
+    if (all.empty()) return;
+    into.assign(all.begin() + static_cast<std::ptrdiff_t>(first),
+                all.begin() + static_cast<std::ptrdiff_t>(last + more));
+  };
+  cut(chain.elements, out.elements, 1);
+  cut(chain.source, out.source, 1);
+  cut(chain.nodes, out.nodes, 1);
+  cut(chain.links, out.links, 0);
+  cut(chain.direction, out.direction, 0);
+  cut(chain.cone, out.cone, 0);
+  cut(chain.form, out.form, 0);
+  cut(chain.slope_step, out.slope_step, 1);
+  out.smooth = chain.smooth;
+  return out;
+}
+
 std::optional<ChangedElements> follow_moved_point(const std::vector<Vec2>& points,
                                                   std::size_t moved, bool loop, SeriesChain& chain,
                                                   Watch& watch) {

@@ -133,6 +133,12 @@ SeriesChain turned_back(SeriesChain loop) {
   return loop;
 }
 
+/// From now on the element there is given.
+void hold_at(const Element& element, NodeData& node) {
+  node.theta = element.theta;
+  node.kappa = element.kappa;
+}
+
 /// Elements of a chain at which the slope is zero, and which are others' too: they stay as they
 /// are.
 struct Ends {
@@ -154,11 +160,9 @@ bool are_spirals(const SeriesChain& chain) {
   for (std::size_t i = 0; i < chain.links.size(); ++i) {
     if (!is_spiral(chain, i)) continue;
     const SpiralForm form = chain.form.empty() ? SpiralForm::kOneSided : chain.form[i];
-    const Cone cone = form == SpiralForm::kOneSided ? Cone::kClosedForm : Cone::kSpiral;
-    if (!(cone_margin(chain.links[i], chain.direction[i], cone) > 0.0)) return false;
+    if (!(cone_margin(chain.links[i], chain.direction[i], cone_of(form)) > 0.0)) return false;
     if (form == SpiralForm::kOneSided) continue;
-    const double gain = spiral_shape(chain.links[i], chain.direction[i], form).gain;
-    if (!(gain > 0.0) || !std::isfinite(gain)) return false;
+    if (!spiral_shape(chain.links[i], chain.direction[i], form).exists()) return false;
   }
   return true;
 }
@@ -171,8 +175,8 @@ class Slopes {
       : work_(std::move(chain)), ends_(std::move(ends)), watch_(watch) {
     given_ = work_.nodes;
     for (const Element& e : work_.elements) points_.push_back(e.point);
-    if (ends_.hold_first) hold(0);
-    if (ends_.hold_last) hold(work_.elements.size() - 1);
+    if (ends_.hold_first) hold_at(work_.elements.front(), work_.nodes.front());
+    if (ends_.hold_last) hold_at(work_.elements.back(), work_.nodes.back());
     keep_signs();
     set_forms();
   }
@@ -205,8 +209,7 @@ class Slopes {
 
   /// Holds heading and curvature of an element at what they are in another chain.
   void hold_as(std::size_t i, const Element& element) {
-    work_.nodes[i].theta = element.theta;
-    work_.nodes[i].kappa = element.kappa;
+    hold_at(element, work_.nodes[i]);
     held_.push_back(i);
   }
   /// Nothing is asked of slopes between held elements.
@@ -221,11 +224,6 @@ class Slopes {
   }
 
  private:
-  void hold(std::size_t i) {
-    work_.nodes[i].theta = work_.elements[i].theta;
-    work_.nodes[i].kappa = work_.elements[i].kappa;
-  }
-
   /// At vertices and ends the curvature keeps its sign: then so does the number of inflections.
   void keep_signs() {
     for (std::size_t i = 0; i < work_.elements.size(); ++i) {
@@ -291,19 +289,10 @@ class Slopes {
   std::vector<std::size_t> held_;
 };
 
-/// Elements first..last of a chain.
+/// Elements first..last of a chain, before anything was done to their slopes.
 SeriesChain part_of(const SeriesChain& chain, std::size_t first, std::size_t last) {
-  SeriesChain out;
-  const auto cut = [&](const auto& all, auto& into, std::size_t more) {
-    into.assign(all.begin() + static_cast<std::ptrdiff_t>(first),
-                all.begin() + static_cast<std::ptrdiff_t>(last + more));
-  };
-  cut(chain.elements, out.elements, 1);
-  cut(chain.source, out.source, 1);
-  cut(chain.nodes, out.nodes, 1);
-  cut(chain.links, out.links, 0);
-  cut(chain.direction, out.direction, 0);
-  cut(chain.cone, out.cone, 0);
+  SeriesChain out = slice_of(chain, first, last);
+  out.smooth = false;
   out.form.assign(out.links.size(), SpiralForm::kOneSided);
   out.slope_step.assign(out.elements.size(), true);
   return out;
@@ -604,10 +593,9 @@ SmoothedSlopes smooth_slopes(SeriesChain& chain, bool loop, Watch& watch, std::v
   for (std::size_t i = 0; i < work.links.size(); ++i) {
     if (is_spiral(work, i)) work.cone[i] = Cone::kSpiral;
   }
-  for (NodeData* end : {&work.nodes.front(), &work.nodes.back()}) {
-    if (!loop) break;
-    end->theta = (end == &work.nodes.front() ? work.elements.front() : work.elements.back()).theta;
-    end->kappa = work.elements.front().kappa;
+  if (loop) {
+    hold_at(work.elements.front(), work.nodes.front());
+    hold_at(work.elements.back(), work.nodes.back());
   }
   if (!rests_somewhere) work.slope_step.front() = work.slope_step.back() = true;
   work.smooth = true;

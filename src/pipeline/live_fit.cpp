@@ -39,25 +39,6 @@ bool follows_points(const PointSeries& series, const FitJob& job, const Prepared
   return true;
 }
 
-/// Elements first..last of a chain, with the links between them.
-SeriesChain slice_of(const SeriesChain& chain, std::size_t first, std::size_t last) {
-  SeriesChain out;
-  const auto cut = [&](const auto& all, auto& into, std::size_t more) {
-    if (all.empty()) return;
-    into.assign(all.begin() + static_cast<std::ptrdiff_t>(first),
-                all.begin() + static_cast<std::ptrdiff_t>(last + more));
-  };
-  cut(chain.elements, out.elements, 1);
-  cut(chain.source, out.source, 1);
-  cut(chain.links, out.links, 0);
-  cut(chain.direction, out.direction, 0);
-  cut(chain.cone, out.cone, 0);
-  cut(chain.form, out.form, 0);
-  cut(chain.slope_step, out.slope_step, 1);
-  out.smooth = chain.smooth;
-  return out;
-}
-
 /// Whether a changed part does what the points do not ask for.
 bool wanders(const SeriesChain& chain, const ChangedElements& changed) {
   const std::size_t first = changed.first - std::min(changed.first, kWanderingContext);

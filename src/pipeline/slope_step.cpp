@@ -6,23 +6,37 @@
 
 namespace obvid::pipeline_detail {
 
+namespace {
+
+/// Slopes of curvature of a piece.
+struct PieceSlopes {
+  double start = 0.0, end = 0.0;
+  double mean = 0.0;  ///< over the chord; 0 where it has no bound
+};
+
+PieceSlopes slopes_of(const Piece& piece) {
+  const Jet a = evaluate(piece, 0.0), b = evaluate(piece, 1.0);
+  PieceSlopes out;
+  const double mean = std::abs(curvature(b) - curvature(a)) / norm(b.point - a.point);
+  if (std::isfinite(mean)) out.mean = mean;
+  const bool even =
+      std::holds_alternative<LinePiece>(piece) || std::holds_alternative<ArcPiece>(piece);
+  if (even) return out;
+  out.start = curvature_rate(a);
+  out.end = curvature_rate(b);
+  return out;
+}
+
+}  // namespace
+
 double slope_step_before(const std::vector<Piece>& pieces, std::size_t piece) {
-  const std::size_t n = pieces.size(), before = (piece + n - 1) % n;
-  const auto slope = [&](std::size_t i, double t) {
-    const Piece& one = pieces[i];
-    const bool even =
-        std::holds_alternative<LinePiece>(one) || std::holds_alternative<ArcPiece>(one);
-    return even ? 0.0 : curvature_rate(evaluate(one, t));
-  };
-  const auto mean = [&](std::size_t i) {
-    const Jet a = evaluate(pieces[i], 0.0), b = evaluate(pieces[i], 1.0);
-    const double change = std::abs(curvature(b) - curvature(a)) / norm(b.point - a.point);
-    return std::isfinite(change) ? change : 0.0;
-  };
-  const double left = slope(before, 1.0), right = slope(piece, 0.0);
-  const double scale = std::max({std::abs(slope(before, 0.0)), std::abs(left), std::abs(right),
-                                 std::abs(slope(piece, 1.0)), mean(before), mean(piece)});
-  return scale > 0.0 ? std::abs(right - left) / scale : 0.0;
+  const std::size_t n = pieces.size();
+  const PieceSlopes before = slopes_of(pieces[(piece + n - 1) % n]),
+                    after = slopes_of(pieces[piece]);
+  const double scale =
+      std::max({std::abs(before.start), std::abs(before.end), std::abs(after.start),
+                std::abs(after.end), before.mean, after.mean});
+  return scale > 0.0 ? std::abs(after.start - before.end) / scale : 0.0;
 }
 
 }  // namespace obvid::pipeline_detail

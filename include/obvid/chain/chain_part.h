@@ -10,6 +10,10 @@
 
 namespace obvid {
 
+/// Elements first..last of a chain, with what is known of them and of the links between them; counts
+/// of the whole stay behind.
+[[nodiscard]] SeriesChain slice_of(const SeriesChain& chain, std::size_t first, std::size_t last);
+
 /// Elements of a chain that were chosen again, both ends included; all others are as they were.
 struct ChangedElements {
   std::size_t first = 0, last = 0;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cmath>
 #include <cstdint>
 
 #include "obvid/chain/chain.h"
@@ -17,6 +18,11 @@ enum class SpiralForm : std::uint8_t {
   kRestAtEnd,    ///< the slope of curvature is zero at the end
 };
 
+/// The cone that a link needs for a spiral of the form.
+[[nodiscard]] constexpr Cone cone_of(SpiralForm form) {
+  return form == SpiralForm::kOneSided ? Cone::kClosedForm : Cone::kSpiral;
+}
+
 /// A spiral z = (N - M)/(N + M) on the chord from -1 to 1 with
 /// N = mu x (g e^{i lead} (1 - x) + x), M = (1 - x)(1 - x + g e^{i trail} x), x from 0 to 1,
 /// and arg(mu) = alpha - lead. Curvature increases (a falling one is its mirror image).
@@ -25,6 +31,9 @@ struct SpiralShape {
   double trail = 0.0;  ///< rad
   double gain = 1.0;   ///< g^2
   double mu = 1.0;     ///< |mu|
+
+  /// Whether the form has a spiral there.
+  [[nodiscard]] bool exists() const { return gain > 0.0 && std::isfinite(gain); }
 };
 
 /// The spiral of a form over a link, seen with increasing curvature; `direction` as of the chain.

@@ -133,8 +133,7 @@ void append_parts(Homogeneous h, int splits_left, bool far, double d, Vec2 origi
 
 bool append_spiral(const LinkState& link, int direction, SpiralForm form, Vec2 start, Vec2 end,
                    std::vector<RationalBezier>& pieces) {
-  const Cone cone = form == SpiralForm::kOneSided ? Cone::kClosedForm : Cone::kSpiral;
-  if (!(cone_margin(link, direction, cone) > 0.0)) return false;
+  if (!(cone_margin(link, direction, cone_of(form)) > 0.0)) return false;
   const double d = direction;
   Homogeneous whole;
   if (form == SpiralForm::kOneSided) {
@@ -142,7 +141,7 @@ bool append_spiral(const LinkState& link, int direction, SpiralForm form, Vec2 s
     whole = homogeneous_piece(sine * sine / (-A * B), sine, sigma, d * link.beta, B);
   } else {
     const SpiralShape shape = spiral_shape(link, direction, form);
-    if (!(shape.gain > 0.0) || !std::isfinite(shape.gain)) return false;
+    if (!shape.exists()) return false;
     whole = homogeneous_piece(shape, d * link.alpha);
   }
   const std::size_t before = pieces.size();
