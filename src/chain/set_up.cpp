@@ -69,6 +69,18 @@ double rounding_move(const std::vector<Vec2>& points, const Infeasibility& why) 
   return largest;
 }
 
+int sign_of(double value) { return value > 0.0 ? 1 : value < 0.0 ? -1 : 0; }
+
+/// The way in which most points turn, 1 or -1; where they do not tell, that of the fixed curvatures.
+int way_of_turning(const Analysis& a, const ChainWishes& wishes) {
+  int turns = 0;
+  for (const AdjacentCircle& circle : a.circles) turns += sign_of(circle.kappa);
+  for (std::size_t i = 0; turns == 0 && i < wishes.fixed.size(); ++i) {
+    turns = sign_of(wishes.fixed[i].kappa.value_or(0.0));
+  }
+  return turns > 0 ? 1 : -1;
+}
+
 }  // namespace
 
 bool anything_wished(const ChainWishes& wishes) {
@@ -138,16 +150,15 @@ Result<ChainProblem> chain_problem(const Analysis& a, const ChainWishes& wishes)
   p.least_change = wishes.least_change;
   for (const std::int8_t d : a.direction)
     p.cone.push_back(d == 0 ? Cone::kNone : Cone::kClosedForm);
-  int turns = 0;
   for (std::size_t i = 0; i < p.nodes.size(); ++i) {
     p.nodes[i].curvature_sign = forced_sign(a, i);
     if (i < wishes.fixed.size()) {
       p.nodes[i].theta = wishes.fixed[i].theta;
       p.nodes[i].kappa = wishes.fixed[i].kappa;
     }
-    turns += a.circles[i].kappa > 0.0 ? 1 : a.circles[i].kappa < 0.0 ? -1 : 0;
   }
   if (wishes.convex) {
+    const int turns = way_of_turning(a, wishes);
     for (std::size_t i = 0; i < p.nodes.size(); ++i) {
       const AdjacentCircle& c = a.circles[i];
       if (turns * c.kappa < 0.0 && std::abs(c.kappa) > c.rounding) {
@@ -156,7 +167,14 @@ Result<ChainProblem> chain_problem(const Analysis& a, const ChainWishes& wishes)
                      "point " + std::to_string(i + 1), "drop the wish for a convex contour",
                      static_cast<std::ptrdiff_t>(i), c.kappa});
       }
-      p.nodes[i].curvature_sign = turns > 0 ? 1 : -1;
+      if (p.nodes[i].kappa && turns * *p.nodes[i].kappa < 0.0) {
+        return fail({ErrorCode::kFixedDataContradict,
+                     "a convex contour was asked for, but the fixed radius turns the other way here",
+                     "point " + std::to_string(i + 1),
+                     "drop the wish for a convex contour, or change the sign of the radius",
+                     static_cast<std::ptrdiff_t>(i), *p.nodes[i].kappa});
+      }
+      p.nodes[i].curvature_sign = turns;
     }
   }
   for (const CircularStretch& s : a.stretches) {

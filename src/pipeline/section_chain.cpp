@@ -578,11 +578,15 @@ class SectionChooser {
     }
   }
 
-  /// The way in which the section turns as a whole.
+  /// The way in which the section turns as a whole; where its points do not tell, that of the fixed
+  /// curvatures.
   [[nodiscard]] int turning_sign() const {
     double turn = 0.0;
     for (std::size_t i = 1; i + 1 < points_.size(); ++i) {
       turn += turning(points_[i] - points_[i - 1], points_[i + 1] - points_[i]);
+    }
+    for (std::size_t k = 0; turn == 0.0 && k < index_.size(); ++k) {
+      turn = data_of(index_[k]).kappa.value_or(0.0);
     }
     return turn >= 0.0 ? 1 : -1;
   }

@@ -204,5 +204,30 @@ TEST(FixedData, AClosedSeriesHasOneHeadingWhereItBegins) {
   EXPECT_TRUE(fit(series, job));
 }
 
+TEST(FixedData, AConvexContourOfTwoPointsTurnsAsItsRadiusSays) {
+  PointSeries two;
+  two.points = {{42.0, 0.0}, {41.0, -6.0}};
+  for (const Continuity continuity : {Continuity::kG2, Continuity::kG3}) {
+    for (const double kappa : {0.18, -0.18}) {
+      FitJob job;
+      job.convex = true;
+      job.continuity = continuity;
+      job.end_kappa = kappa;
+      const Fit f = proved(two, job);
+      EXPECT_EQ(f.certificate.inflections, 0);
+    }
+  }
+}
+
+TEST(FixedData, AConvexContourRefusesARadiusThatTurnsTheOtherWay) {
+  FitJob job;
+  job.convex = true;
+  job.start_kappa = -1.0 / involute_parameter(0);
+  const auto made = fit(involute(), job);
+  ASSERT_FALSE(made);
+  EXPECT_EQ(made.error().code, ErrorCode::kFixedDataContradict);
+  EXPECT_EQ(made.error().where, "point 1");
+}
+
 }  // namespace
 }  // namespace obvid
