@@ -115,8 +115,7 @@ void judge(Toolpath& out, const ToolpathOptions& options) {
         "a ball cutter, another strategy or angle, or a smaller --step-over "
         "leaves less");
   }
-  const double allowed = std::max(out.tolerance, options.scallop.value_or(0.0));
-  if (r.unreached_area > 0.0 && r.unreached_depth > allowed) {
+  if (r.unreached_area > 0.0) {
     add(fmt::format(
             "about {:.3g} % of the surface is narrower than the cutter: up to {:.3g} {} stay, "
             "most at {}",
