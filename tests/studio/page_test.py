@@ -32,13 +32,14 @@ class Page(Browser):
         self.run("document.querySelector('#tour-end')?.click()")
 
     def settled(self):
-        self.wait("studio.current.value", 60)
+        """What is drawn and said is of the document as it is."""
+        self.wait("studio.current.value && "
+                  "!document.querySelector('#verdict').className.includes('waiting')", 60)
 
     def doc(self):
         return self.run("studio.doc.value")
 
     def verdict(self):
-        self.wait("!document.querySelector('#verdict').className.includes('waiting')")
         return self.run("document.querySelector('#verdict').className")
 
     def point(self, index):
@@ -79,12 +80,14 @@ def opens(page):
 def drags(page):
     """Each contour that is called proved is, says the program from its file alone."""
     chance, drawn, proved = random.Random(5), 0, 0
+    page.click_on("#fit")
     with tempfile.TemporaryDirectory() as folder:
         for _ in range(DRAGS):
             index = chance.randrange(10)
             start = page.point(index)
             far, way = chance.uniform(2, 60), chance.uniform(0, 2 * math.pi)
             page.drag(start, (start[0] + far * math.cos(way), start[1] + far * math.sin(way)))
+            check("the point moved", page.doc()["points"][index] != series10(ROOT)[index], index)
             answer = page.answer()
             if answer.get("contour") is None:
                 check("what is not drawn is refused", answer["error"] and page.verdict() == "bad",
@@ -98,7 +101,7 @@ def drags(page):
                 same = all(theirs[k] == ours[k] for k in ("proved", "vertices", "inflections"))
                 check("the program proves it again", same and good == ours["proved"]
                       and (code == 0) == good, (code, theirs, ours))
-            page.key("z", CTRL)
+            page.click_on("#undo")
             page.settled()
     check("most drags give a contour", drawn > DRAGS / 2, drawn)
     print(f"{DRAGS} drags, {drawn} contours drawn, {proved} proved, each proved again by the program")
@@ -191,8 +194,8 @@ def controls(page):
     check("theme", page.run("document.documentElement.dataset.theme") != theme)
     page.click_on("#theme")
     page.click_on("#language")
-    check("Ukrainian", "Студія" in page.run("document.querySelector('h1').textContent"))
-    check("its verdict", "доведено" in page.run("document.querySelector('#verdict').textContent"))
+    page.wait("document.querySelector('h1').textContent.includes('Студія')")
+    page.wait("document.querySelector('#verdict').textContent.includes('доведено')")
     page.click_on("#language")
     for tab, rows in (("compare", 8), ("noise", 1), ("segments", 9)):
         page.click_on(f"#tab-{tab}")
@@ -313,6 +316,7 @@ with Studio(PROGRAM, FILE) as studio, Page(studio.address) as opened:
         sys.exit(0)
     for part in (controls, points, cursors, drags, undoing, files):
         part(opened)
+        opened.settled()
     check("no error in the page", not opened.trouble, opened.trouble[:3])
 print("\n".join(failures) or "all good")
 sys.exit(1 if failures else 0)

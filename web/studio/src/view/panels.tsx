@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+import { useState } from "preact/hooks";
 import { signal } from "@preact/signals";
 import type { ComponentChildren } from "preact";
 import { CARRIERS, jobOptions, type Carrier, type Closing, type Given } from "../document/document";
@@ -19,14 +20,17 @@ function Row(props: { label: string; hint?: string; children: ComponentChildren 
 
 /** A number that may be left out; nothing is changed by what is no number. */
 function NumberBox(props: { id: string; value: number | null; onValue: (v: number | null) => void; placeholder?: string; min?: number }) {
+  const [typed, setTyped] = useState<string | null>(null); // answers that come meanwhile leave it
   const take = (e: Event) => {
+    setTyped(null);
     const text = (e.currentTarget as HTMLInputElement).value.trim().replace(",", ".");
     if (text === "") return props.onValue(null);
     const value = text === "inf" ? Infinity : Number(text);
     if (!Number.isNaN(value) && (props.min === undefined || value >= props.min)) props.onValue(value);
   };
   const shown = props.value === null ? "" : Number.isFinite(props.value) ? String(props.value) : "inf";
-  return <input id={props.id} inputMode="decimal" value={shown} placeholder={props.placeholder ?? ""} onChange={take} />;
+  return <input id={props.id} inputMode="decimal" value={typed ?? shown} placeholder={props.placeholder ?? ""}
+    onInput={(e) => setTyped(e.currentTarget.value)} onChange={take} />;
 }
 
 export function OptionsPanel() {
@@ -95,19 +99,20 @@ export function PointPanel() {
   return (
     <section class="panel" id="point">
       <h2>{w.point} {at + 1}</h2>
-      <Row label="x"><NumberBox id="x" value={p[0]} onValue={coordinate(0)} /></Row>
-      <Row label="y"><NumberBox id="y" value={p[1]} onValue={coordinate(1)} /></Row>
+      <Row label="x"><NumberBox key={`x${at}`} id="x" value={p[0]} onValue={coordinate(0)} /></Row>
+      <Row label="y"><NumberBox key={`y${at}`} id="y" value={p[1]} onValue={coordinate(1)} /></Row>
       <Row label={w.heading} hint={w.headingHint}>
-        <NumberBox id="heading" value={heading} placeholder={free === null ? "" : inFirstTurn(free * DEGREES).toFixed(2)}
+        <NumberBox key={`h${at}`} id="heading" value={heading} placeholder={free === null ? "" : inFirstTurn(free * DEGREES).toFixed(2)}
           onValue={(v) => setGiven(at, v === null ? without(given, "heading") : { ...given, heading: v })} />
       </Row>
-      {found && found.heading_low !== null && found.heading_high !== null
-        ? <p class="hint" id="headings">{w.feasible}: {headings(found.heading_low * DEGREES, found.heading_high * DEGREES)}</p> : null}
+      <p class="hint" id="headings">{w.feasible}: {found && found.heading_low !== null && found.heading_high !== null
+        ? headings(found.heading_low * DEGREES, found.heading_high * DEGREES) : "-"}</p>
       <Row label={`${w.radius}, ${doc.value.units}`} hint={w.radiusHint}>
-        <NumberBox id="radius" value={given.radius ?? null}
+        <NumberBox key={`r${at}`} id="radius" value={given.radius ?? null}
           onValue={(v) => setGiven(at, v === null || v === 0 ? without(given, "radius") : { ...given, radius: v })} />
       </Row>
-      {found ? <p class="hint" id="radii">{w.feasible}: {radii(found.kappa_low, found.kappa_high)}</p> : null}
+      <p class="hint" id="curvatures">{w.feasible}: {found ? curvatures(found.kappa_low, found.kappa_high) : "-"}</p>
+      <p class="hint" id="radii">R {found ? radii(found.kappa_low, found.kappa_high) : "-"}</p>
       <Row label={w.corner} hint={w.cornerHint}>
         <input id="corner" type="checkbox" checked={given.corner === true}
           onChange={(e) => setGiven(at, e.currentTarget.checked ? { ...given, corner: true } : without(given, "corner"))} />
@@ -123,10 +128,14 @@ function headings(low: number, high: number): string {
   return `${first.toFixed(2)}° ... ${(first + high - low).toFixed(2)}°`;
 }
 
+function curvatures(low: number | null, high: number | null): string {
+  return `κ ${low === null ? "-∞" : figure(low)} ... ${high === null ? "∞" : figure(high)}`;
+}
+
 /** A range of curvatures as radii: what has no end stays open. */
 function radii(low: number | null, high: number | null): string {
-  const radius = (k: number | null, open: string) => (k === null ? open : k === 0 ? "∞" : figure(1 / k));
-  return `κ ${low === null ? "-∞" : figure(low)} ... ${high === null ? "∞" : figure(high)}; R ${radius(low, "0")} ... ${radius(high, "0")}`;
+  const radius = (k: number | null) => (k === null ? "0" : k === 0 ? "∞" : figure(1 / k));
+  return `${radius(low)} ... ${radius(high)}`;
 }
 
 // ---- tables ---------------------------------------------------------------------------------
