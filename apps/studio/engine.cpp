@@ -188,9 +188,12 @@ json fit_of(const json& request, const std::function<bool()>& cancelled) {
   const json& samples = request.value("samples", json(kSamplesOfPiece));
   const int asked = samples.is_number() ? samples.get<int>() : kSamplesOfPiece;
   out["curve"] = curve_of(*contour, std::clamp(asked, 2, kMostSamplesOfPiece));
-  std::vector<json> files;
-  json remarks = json::array(), ignored;
-  out["contour"] = file_of(*contour, "json", remarks, files, ignored, "");
+  const json file = request.value("file", json(true));
+  if (!file.is_boolean() || file.get<bool>()) {
+    std::vector<json> files;
+    json remarks = json::array(), ignored;
+    out["contour"] = file_of(*contour, "json", remarks, files, ignored, "");
+  }
   out["warnings"] = json::array();
   for (std::size_t i = 0;; ++i) {
     const char* warning = obvid_contour_warning(contour.get(), i);

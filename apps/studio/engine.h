@@ -13,7 +13,7 @@ namespace obvid::studio {
 /// A request holds the input, `points` ([[x, y], ...]) or `text` with its `name`, and `options`
 /// with the names of the command line. Kinds and what their answers hold beside `error`:
 ///   series    `report`: the points and what is given at them
-///   fit       `report`, `contour` (text of the contour file), `curve`: `samples` places of every
+///   fit       `report`, `contour` (text of the contour file; not where `file` is false), `curve`: `samples` places of every
 ///             piece with t, x, y, heading (rad), kappa (1/unit), slope (1/unit^2); `warnings`
 ///   region, analyse, compare, suggest, why_not    `report`
 ///   verify    `report`; the request holds `contour`

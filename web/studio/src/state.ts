@@ -62,7 +62,7 @@ export function drag(next: Document): void {
 }
 
 export function drop(): void {
-  if (draft.value) change(draft.value);
+  if (draft.value) change({ ...draft.value }); // another object: the contour file comes with its answer
 }
 
 export function abandonDrag(): void {
@@ -118,27 +118,41 @@ export function removePoint(index: number): void {
 
 // ---- what the engine says -------------------------------------------------------------------
 
-let busy = false, again = false;
+const MOST_PLACES = 4000; // drawn of a contour
 
-/** Asks for the contour of the document as it is; one request at a time, the newest wins. */
-export function compute(): void {
-  if (busy) {
-    again = true;
-    return;
-  }
-  busy = true;
-  void form().finally(() => {
-    busy = false;
-    if (again) {
-      again = false;
-      compute();
+/** Does a piece of work for the document as it is: one at a time, and once more when it changed. */
+function follower(work: () => Promise<void>): () => void {
+  let busy = false, again = false;
+  const follow = (): void => {
+    if (busy) {
+      again = true;
+      return;
     }
-  });
+    busy = true;
+    void work().finally(() => {
+      busy = false;
+      if (again) {
+        again = false;
+        follow();
+      }
+    });
+  };
+  return follow;
+}
+
+const followContour = follower(form);
+const followRegion = follower(formRegion);
+
+/** Asks for the contour of the document as it is, and for what is possible at the selected point. */
+export function compute(): void {
+  followContour();
+  if (selected.value !== null) followRegion();
 }
 
 async function form(): Promise<void> {
   const of = doc.value;
-  const request = { points: of.points, options: jobOptions(of), samples: of.points.length > 200 ? 8 : 20 };
+  const samples = Math.max(3, Math.min(20, Math.floor(MOST_PLACES / of.points.length)));
+  const request = { points: of.points, options: jobOptions(of), samples, file: draft.value === null };
   try {
     const answer = await engine.call<FitAnswer>("fit", request);
     if (answer.error?.code === CANCELLED) return;
@@ -147,28 +161,32 @@ async function form(): Promise<void> {
       fitted.value = { of, answer };
       if (answer.curve) drawn.value = answer;
     });
-    if (!again) await formRegion(of);
   } catch (error) {
     unreachable.value = String(error);
   }
 }
 
 /** What is possible at the selected point, were nothing given there. */
-async function formRegion(of: Document): Promise<void> {
-  const at = selected.value;
+async function formRegion(): Promise<void> {
+  const of = doc.value, at = selected.value;
   if (at === null || of.points.length < 3) return;
   const free = withGiven(of, at, {});
   const request = { points: free.points, options: jobOptions(free) };
-  const answer = await engine.call<Answer<{ points: readonly RegionPoint[] }>>("region", request);
-  if (answer.report) region.value = { of, points: answer.report.points };
-  else if (answer.error?.code !== CANCELLED) region.value = null;
+  try {
+    const answer = await engine.call<Answer<{ points: readonly RegionPoint[] }>>("region", request);
+    if (selected.value !== at) return;
+    if (answer.report) region.value = { of, points: answer.report.points };
+    else if (answer.error?.code !== CANCELLED) region.value = null;
+  } catch (error) {
+    unreachable.value = String(error);
+  }
 }
 
 export function select(index: number | null): void {
   if (selected.value === index) return;
   selected.value = index;
   region.value = null;
-  if (index !== null) compute();
+  if (index !== null) followRegion();
 }
 
 /** Reads a file of points or a drawing. */

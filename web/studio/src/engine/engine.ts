@@ -25,6 +25,8 @@ export interface Request {
   readonly contour?: string;
   readonly format?: string;
   readonly samples?: number;
+  /** Whether `fit` hands out the contour file too. */
+  readonly file?: boolean;
 }
 
 export interface Curve {

@@ -104,7 +104,7 @@ function scene() {
     doc: doc.value, camera: camera.value, curve: drawn.value?.curve ?? null,
     grey: !answer?.curve, error: current.value ? answer?.error ?? null : null,
     selected: at, hovered: hovered.value, shown: shown.value, combHeight: combHeight.value,
-    region: points[0] ?? null, units: doc.value.units,
+    region: points[0] ?? null, stale: found?.of !== doc.value, units: doc.value.units,
   };
 }
 

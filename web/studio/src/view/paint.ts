@@ -23,11 +23,23 @@ export interface Scene {
   readonly shown: Shown;
   readonly combHeight: number;
   readonly region: RegionPoint | null;
+  /** Whether the region is of the document as it was a moment ago. */
+  readonly stale: boolean;
   readonly units: string;
 }
 
+let palette = new Map<string, string>(), paletteOf: string | undefined;
+
+/** A colour of the style sheet; asked for once in each theme. */
 export function colour(name: string): string {
-  return getComputedStyle(document.documentElement).getPropertyValue(`--${name}`).trim();
+  const now = document.documentElement.dataset["theme"];
+  if (now !== paletteOf) [palette, paletteOf] = [new Map(), now];
+  let value = palette.get(name);
+  if (value === undefined) {
+    value = getComputedStyle(document.documentElement).getPropertyValue(`--${name}`).trim();
+    palette.set(name, value);
+  }
+  return value;
 }
 
 export function paint(canvas: HTMLCanvasElement, scene: Scene): void {
@@ -142,10 +154,12 @@ function ranges(c: CanvasRenderingContext2D, s: Scene): void {
   c.moveTo(x, y);
   c.arc(x, y, TANGENT, -low, -high, true);
   c.closePath();
-  c.fill();
+  if (!s.stale) c.fill();
+  c.setLineDash(s.stale ? [3, 5] : []);
   c.beginPath();
   c.arc(x, y, TANGENT, -low, -high, true);
   c.stroke();
+  c.setLineDash([]);
 }
 
 /** Heading at a point, rad: as given, else of the contour. */

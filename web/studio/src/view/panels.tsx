@@ -90,7 +90,7 @@ export function PointPanel() {
   const given = doc.value.given[at] ?? {};
   const heading = typeof given.heading === "number" ? given.heading : null;
   const free = headingAt(doc.value, at, drawn.value?.curve ?? null);
-  const found = region.value?.points.find((one) => one.index === at);
+  const found = region.value?.of !== doc.value ? undefined : region.value.points.find((one) => one.index === at);
   const coordinate = (k: 0 | 1) => (v: number | null) => {
     if (v === null || !Number.isFinite(v)) return;
     movePoint(at, k === 0 ? [v, p[1]] : [p[0], v]);
@@ -140,6 +140,8 @@ function radii(low: number | null, high: number | null): string {
 
 // ---- tables ---------------------------------------------------------------------------------
 
+const MOST_ROWS = 200; // of the table of segments; files have them all
+
 type Tab = "segments" | "compare" | "noise";
 const tab = signal<Tab>("segments");
 
@@ -182,17 +184,18 @@ export function Tables() {
 
 function Segments() {
   const w = words(), report = fitted.value?.answer.report;
-  if (!report || !current.value) return null;
+  if (!report) return null;
   return (
-    <table id="segments">
+    <table id="segments" class={current.value ? "" : "stale"}>
       <thead><tr><th>{w.points}</th><th>{w.chord}</th><th>{w.pointsOnly}</th><th>{w.own}</th></tr></thead>
       <tbody>
-        {report.report.segments.slice(0, 500).map((s) => (
+        {report.report.segments.slice(0, MOST_ROWS).map((s) => (
           <tr onClick={() => { selected.value = s.points[0]; }}>
             <td>{s.points[0] + 1}-{s.points[1] + 1}</td><td>{figure(s.chord)}</td>
             <td>{figure(s.points_only_error)}</td><td>{figure(s.deviation)}</td>
           </tr>
         ))}
+        {report.report.segments.length > MOST_ROWS ? <tr><td>...</td></tr> : null}
       </tbody>
     </table>
   );
