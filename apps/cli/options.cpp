@@ -9,6 +9,7 @@
 
 #include "cli_app.h"
 #include "obvid/core/version.h"
+#include "obvid/pipeline/construction_values.h"
 #include "obvid/pipeline/format_values.h"
 #include "obvid/pipeline/job_values.h"
 
@@ -51,11 +52,8 @@ struct Raw {
   std::string carrier = "spiral";
   TypedValues typed;
   bool no_progress = false;
-  std::string prefer = "fair";
-  std::string construction;
-  std::optional<int> fixation;
+  TypedConstruction construction;  ///< its `prefer` is that of region
   std::string along;
-  std::vector<std::size_t> insert;
   std::optional<double> tolerance;
   std::optional<std::string> units;
 };
@@ -133,7 +131,7 @@ void add_space(CLI::App& fit, Raw& raw) {
 
 void add_fixation(CLI::App& command, Raw& raw) {
   command
-      .add_option("--fixation", raw.fixation,
+      .add_option("--fixation", raw.construction.fixation,
                   "Order of --construction parabolas: 1 points and tangents are met, 2 radii too "
                   "[1 where every segment has curves with it, else 2]")
       ->type_name("N");
@@ -263,7 +261,7 @@ void add_fit(CLI::App& app, Raw& raw) {
                  "least-curvature (least largest curvature) [fair]")
       ->type_name("NAME");
   fit.add_option(
-         "--construction", raw.construction,
+         "--construction", raw.construction.name,
          "Instead of a carrier a construction of the papers at the tangents that are given, or "
          "chosen by --prefer (which then knows neighbours too): arcs (two per segment), "
          "ellipses (the first through K, equal curvatures), clothoids (one per segment), "
@@ -321,7 +319,7 @@ void add_region(CLI::App& app, Raw& raw) {
       ->type_name("OUT")
       ->allow_extra_args(false);
   region
-      .add_option("--prefer", raw.prefer,
+      .add_option("--prefer", raw.construction.prefer,
                   "Tangents that are not given: fair (as fit chooses them) or centre (each in the "
                   "middle of what is left to it, point after point) or neighbours (along the chord "
                   "between both neighbours) or least-change (least integral of the squared change "
@@ -329,7 +327,7 @@ void add_region(CLI::App& app, Raw& raw) {
       ->type_name("NAME");
   region
       .add_option(
-          "--construction", raw.construction,
+          "--construction", raw.construction.name,
           "Also a table (and drawing) of the papers' curves at these tangents: arcs (two per "
           "segment), ellipses (the first through K, equal curvatures), clothoids (one per "
           "segment), spline (cubic, through points and tangents), parabolas (condensed triangles) "
@@ -341,7 +339,7 @@ void add_region(CLI::App& app, Raw& raw) {
                   "Insert points until no delta is larger, input units [none inserted]")
       ->type_name("T");
   region
-      .add_option("--insert", raw.insert,
+      .add_option("--insert", raw.construction.insert,
                   "Insert a point in the middle of segment I, which begins at point I; may be "
                   "repeated")
       ->type_name("I")
@@ -474,65 +472,19 @@ void allow_two_points(const FitJob& job, ImportOptions& import) {
   if (has_both_headings(job)) import.two_points = TwoPoints::kDo;
 }
 
-/// Tangents that are not given, by name, for constructions and the worksheet.
-struct TangentChoice {
-  TangentRule rule;
-  Prefer prefer;
-};
-
-Result<TangentChoice> tangents_named(const std::string& typed) {
-  return value_named<TangentChoice>(
-      {{"fair", {TangentRule::kFair, Prefer::kFair}},
-       {"centre", {TangentRule::kCentral, Prefer::kFair}},
-       {"neighbours", {TangentRule::kNeighbours, Prefer::kFair}},
-       {"least-change", {TangentRule::kFair, Prefer::kLeastChange}},
-       {"least-curvature", {TangentRule::kFair, Prefer::kLeastCurvature}}},
-      typed, "--prefer");
-}
-
-Result<Construction> construction_named(const std::string& typed) {
-  return value_named<Construction>({{"arcs", Construction::kArcs},
-                                    {"ellipses", Construction::kEllipses},
-                                    {"clothoids", Construction::kClothoids},
-                                    {"spline", Construction::kSpline},
-                                    {"parabolas", Construction::kParabolas}},
-                                   typed, "--construction");
-}
-
-/// Orders are those of parabolas.
-Result<void> check_fixation(const Raw& raw) {
-  if (!raw.fixation) return {};
-  if (*raw.fixation == 0) {
-    return fail(bad_option("order 0 leaves tangents and radii free", "--fixation",
-                           "`fit --carrier beziers` forms such chains"));
-  }
-  if (*raw.fixation != 1 && *raw.fixation != 2) {
-    return fail(bad_option("the order is 1 (tangents) or 2 (radii too)", "--fixation", ""));
-  }
-  if (raw.construction == "parabolas") return {};
-  return fail(
-      bad_option("an order belongs to parabolas", "--fixation", "add --construction parabolas"));
-}
-
 /// The job of a construction; nothing without one. `--prefer` then knows the worksheet's names.
 Result<void> set_construction(Raw& raw) {
-  if (auto done = check_fixation(raw); !done) return done;
-  if (raw.construction.empty()) return {};
-  const auto which = construction_named(raw.construction);
-  if (!which) return fail(which.error());
-  const auto choice = tangents_named(raw.typed.prefer);
-  if (!choice) return fail(choice.error());
+  TypedConstruction typed = raw.construction;
+  if (typed.name.empty() && !typed.fixation) return {};
+  typed.prefer = raw.typed.prefer;
+  const auto made = construction_values(typed);
+  if (!made) return fail(made.error());
   if (raw.carrier != "spiral") {
     return fail(bad_option("a construction is its own carrier", "--carrier",
                            "leave --carrier out, or --construction"));
   }
   raw.typed.prefer = "fair";
-  RegionJob job;
-  job.construction = *which;
-  job.fixation = raw.fixation;
-  job.rule = choice->rule;
-  job.job.prefer = choice->prefer;
-  raw.fit.construction = job;
+  raw.fit.construction = *made;
   return {};
 }
 
@@ -581,9 +533,7 @@ Result<Command> checked_fit(Raw& raw) {
   if (!done) return fail(done.error());
   allow_two_points(raw.fit.job, raw.fit.import);
   if (raw.fit.construction) {
-    const Prefer prefer = raw.fit.construction->job.prefer;
-    raw.fit.construction->job = raw.fit.job;
-    raw.fit.construction->job.prefer = prefer;
+    raw.fit.construction = with_job(*raw.fit.construction, raw.fit.job);
     if (raw.fit.suggest) {
       return fail(bad_option("a construction has no tolerances to suggest", "--suggest", ""));
     }
@@ -635,24 +585,11 @@ Result<Command> checked_analyse(Raw& raw) {
 }
 
 Result<Command> checked_region(Raw& raw) {
-  const auto choice = tangents_named(raw.prefer);
-  if (!choice) return fail(choice.error());
-  raw.region.job.rule = choice->rule;
-  if (auto done = check_fixation(raw); !done) return fail(done.error());
-  if (!raw.construction.empty()) {
-    const auto made = construction_named(raw.construction);
-    if (!made) return fail(made.error());
-    raw.region.job.construction = *made;
-    raw.region.job.fixation = raw.fixation;
-  }
-  for (const std::size_t segment : raw.insert) {
-    if (segment == 0) return fail(bad_option("segments count from 1", "--insert", ""));
-    raw.region.job.insert.push_back(segment - 1);
-  }
+  const auto made = construction_values(raw.construction);
+  if (!made) return fail(made.error());
   if (auto done = set_job(raw); !done) return fail(done.error());
   if (auto done = set_import(raw.formats, raw.region.import); !done) return fail(done.error());
-  raw.region.job.job = raw.fit.job;
-  raw.region.job.job.prefer = choice->prefer;
+  raw.region.job = with_job(*made, raw.fit.job);
   allow_two_points(raw.fit.job, raw.region.import);
   return checked_points(raw.region, raw, "region");
 }

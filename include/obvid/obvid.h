@@ -91,8 +91,8 @@ OBVID_API void obvid_input_free(obvid_input* input);
  */
 
 /* Forms a contour and proves it. Both results may be there although the call fails with
- * OBVID_NOT_PROVED: the contour was formed and does not keep its promise. `contour`, `report` may
- * be NULL: not wanted. */
+ * OBVID_NOT_PROVED: the contour was formed and does not keep its promise. A construction of the
+ * papers (option "construction") promises nothing. `contour`, `report` may be NULL: not wanted. */
 OBVID_API int obvid_fit(const obvid_input* input, const char* options, const obvid_run* run,
                         obvid_contour** contour, char** report, obvid_error** error);
 /* Why obvid_fit finds no contour (OBVID_NO_CONTOUR), and what would do: takes some 15 times as
@@ -106,7 +106,8 @@ OBVID_API int obvid_suggest(const obvid_input* input, const char* options, const
 /* What the points say; of a drawing: what a curvature comb would show of its curves. */
 OBVID_API int obvid_analyse(const obvid_input* input, const char* options, const obvid_run* run,
                             char** report, obvid_error** error);
-/* Where every fair contour through the points must lie. */
+/* Where every fair contour through the points must lie; with the option "construction" also the
+ * table of that construction. */
 OBVID_API int obvid_region(const obvid_input* input, const char* options, const obvid_run* run,
                            char** report, obvid_error** error);
 /* All curve families side by side. */

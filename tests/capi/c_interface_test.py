@@ -194,6 +194,30 @@ class SaysWhatTheCommandLineSays(unittest.TestCase):
                   "--tolerance", "0.01", "--json")
         self.same(job("suggest", read(SERIES)), "fit", SERIES, "--suggest", "--json")
 
+    def test_constructions(self):
+        worksheet = os.path.join(SOURCES, "examples/paper_series10.csv")
+        for options, typed in [
+                ({"construction": "arcs", "insert": [9]}, ["--construction", "arcs", "--insert",
+                                                           "9"]),
+                ({"construction": "parabolas", "fixation": 1, "prefer": "neighbours"},
+                 ["--construction", "parabolas", "--fixation", "1", "--prefer", "neighbours"]),
+                ({"prefer": "centre"}, ["--prefer", "centre"]),
+                ({"construction": "ellipses"}, ["--construction", "ellipses"]),
+                ({"construction": "spline", "end-radius": -900},
+                 ["--construction", "spline", "--end-radius=-900"])]:
+            self.same(job("region", read(worksheet), options), "region", worksheet, *typed,
+                      "--json")
+        for options, typed in [
+                ({"construction": "clothoids", "prefer": "neighbours"},
+                 ["--construction", "clothoids", "--prefer", "neighbours"]),
+                ({"construction": "arcs", "tolerance": 0.05},
+                 ["--construction", "arcs", "--tolerance", "0.05"]),
+                ({"construction": "parabolas", "fixation": 2},
+                 ["--construction", "parabolas", "--fixation", "2"])]:
+            contour, report = fit(read(SERIES), options)
+            self.same(report, "fit", SERIES, *typed, "--json")
+            lib.obvid_contour_free(contour)
+
     def test_verify_and_convert(self):
         for name in ["spirals_open", "clothoids_closed"]:
             path = os.path.join(SOURCES, "tests/data/contours", name + ".json")
@@ -291,6 +315,16 @@ class Errors(unittest.TestCase):
         self.assertEqual(failed.advice, "did you mean noise?")
         self.refused(203, lambda: fit(read(SERIES), {"closed": "yes"}))
         self.refused(201, lambda: job("region", read(SERIES), {"feed": 1}))
+        self.refused(203, lambda: fit(read(SERIES), {"construction": "hyperbolas"}))
+        self.refused(203, lambda: fit(read(SERIES), {"construction": "arcs", "carrier": "arcs"}))
+        self.refused(203, lambda: fit(read(SERIES), {"construction": "arcs", "fixation": 1}))
+        self.refused(203, lambda: job("region", read(SERIES), {"insert": [0]}))
+        self.refused(203, lambda: job("region", read(SERIES), {"insert": 1}))
+        self.refused(201, lambda: job("compare", read(SERIES), {"construction": "arcs"}))
+        for work in [fit, lambda *more: job("region", *more)]:
+            failed = self.refused(403, lambda: work(read(SERIES), {
+                "construction": "arcs", "heading-at": {"5": 100}}))
+            self.assertIn("with a heading between", failed.advice)
 
     def test_of_input(self):
         self.refused(301, lambda: read("/nowhere/at/all.csv"))

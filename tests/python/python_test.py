@@ -126,6 +126,20 @@ class AgainstTheProgram(unittest.TestCase):
         theirs = json.loads(program("fit", SERIES, "--suggest", "--json")[0])
         self.assertEqual([r.tolerance for r in table], [r["tolerance"] for r in theirs["rows"]])
 
+    def test_constructions_are_those_of_the_program(self):
+        path = os.path.join(SOURCES, "examples/paper_series10.csv")
+        ours = obvid.region(path, construction="arcs", insert=[8], prefer="centre")
+        typed = ("region", path, "--construction", "arcs", "--insert", "9", "--prefer", "centre")
+        self.assertEqual(ours.json, json.loads(program(*typed, "--json")[0]))
+        made = obvid.fit(POINTS, construction="clothoids", prefer="neighbours")
+        self.assertEqual(made.carrier, "clothoids")
+        made = obvid.fit(path, construction="parabolas", fixation=2, prefer="neighbours")
+        self.assertEqual(made.carrier, "beziers")
+        with self.assertRaises(TypeError):
+            obvid.compare(POINTS, construction="arcs")
+        with self.assertRaises(obvid.UsageError):
+            obvid.fit(POINTS, construction="arcs", carrier="arcs")
+
     def test_drawings_are_read(self):
         drawing = os.path.join(SOURCES, "tests/data/judge/series10.dxf")
         analysis = obvid.analyse(drawing)

@@ -165,12 +165,14 @@ def _at(values: Optional[AtPoints], source: Source) -> Optional[Dict[str, Any]]:
     return out
 
 
-def _fit_options(source: Source, o: Mapping[str, Any]) -> Optional[bytes]:
+def _fit_options(
+    source: Source, o: Mapping[str, Any], more: Iterable[str] = ()
+) -> Optional[bytes]:
     known = {
         "carrier", "noise", "tolerance", "convex", "primitives", "closed", "corners",
         "corner_angle", "start_heading", "end_heading", "start_radius", "end_radius", "heading",
         "radius", "curvature", "units", "curve", "drawing", "chord_tolerance", "prefer",
-        "continuity",
+        "continuity", *more,
     }  # fmt: skip
     unknown = sorted(set(o) - known)
     if unknown:
@@ -181,7 +183,7 @@ def _fit_options(source: Source, o: Mapping[str, Any]) -> Optional[bytes]:
     options: Dict[str, Any] = {
         name.replace("_", "-"): o.get(name)
         for name in ("carrier", "noise", "tolerance", "corner_angle", "units", "curve", "drawing",
-                     "chord_tolerance", "prefer", "continuity")
+                     "chord_tolerance", "prefer", "continuity", "construction", "fixation")
     }  # fmt: skip
     options["convex"] = True if o.get("convex") else None
     options["primitives"] = True if o.get("primitives") else None
@@ -193,6 +195,8 @@ def _fit_options(source: Source, o: Mapping[str, Any]) -> Optional[bytes]:
     for name in ("start_heading", "end_heading", "start_radius", "end_radius"):
         if o.get(name) is not None:
             options[name.replace("_", "-")] = _radius(o[name])
+    if o.get("insert") is not None:
+        options["insert"] = [int(i) + 1 for i in np.ravel(o["insert"])]
     options["heading-at"] = _at(o.get("heading"), source)
     options["radius-at"] = _at(o.get("radius"), source)
     options["kappa-at"] = _at(o.get("curvature"), source)
@@ -208,6 +212,8 @@ def _prepared(points: Points, options: Dict[str, Any]) -> Source:
         options["noise"] = float(noise)
     return _source(points)
 
+
+_CONSTRUCTION = ("construction", "fixation")
 
 #: Series of so many points take milliseconds: Ctrl-C waits for them.
 _SHORT = 300
@@ -257,6 +263,9 @@ def fit(
             All of these take a range (low, high) too, None for an end of a radius or curvature that
             is none: heading={4: (76, 78)}, end_radius=(None, -400).
         prefer: "fair" (default), "centre", "least-change", "least-curvature".
+        construction: in place of a carrier a construction of the papers, which promises nothing:
+            "arcs", "ellipses", "clothoids", "spline", "parabolas"; `prefer` then knows "neighbours"
+            too. fixation: order of parabolas, 1 or 2.
         units: "mm", "in", ... of the points.
         curve, drawing, chord_tolerance: of a drawing, as the program takes them.
         progress: called with a stage and a fraction; cancelled: asked often, True ends the work.
@@ -272,7 +281,7 @@ def fit(
     (1, 0.0)
     """
     source = _prepared(points, options) if options else _source(points)
-    text = _fit_options(source, options) if options else None
+    text = _fit_options(source, options, _CONSTRUCTION) if options else None
     short = source.count is not None and source.count <= _SHORT
     if short and progress is None and cancelled is None:
         return _fitted(source, text, None)
@@ -313,15 +322,29 @@ def analyse(
     return Analysis.of(values) if "segments" in values else DrawingAnalysis.of(values)
 
 
-def region(points: Points, *, units: Optional[str] = None, **watched: Any) -> Table:
+def region(points: Points, **options: Any) -> Table:
     """Where every fair contour through the points must lie: a row for each segment.
 
+    Args:
+        insert: segments, from 0, that get a point in their middle; `tolerance`: insert points until
+            no region is wider.
+        prefer: tangents that are not given: "fair" (default), "centre", "neighbours",
+            "least-change", "least-curvature".
+        construction: "arcs", "ellipses", "clothoids", "spline", "parabolas": `json["construction"]`
+            of the table has the columns and rows of these. fixation: order of parabolas, 1 or 2.
+        Others as of `fit`.
+
     >>> import obvid
-    >>> r = obvid.region([(0, 0), (10, 1), (19, 4), (26, 9), (30, 16)])
+    >>> r = obvid.region([(0, 0), (10, 1), (19, 4), (26, 9), (30, 16)], construction="arcs")
     >>> len(r), bool(r["width"].max() < 0.5)
     (4, True)
+    >>> r.json["construction"]["columns"][:2]
+    ['R', "R'"]
     """
-    values = _report("region", _source(points), options_text({"units": units}), watched)
+    watched = {name: options.pop(name, None) for name in ("progress", "cancelled")}
+    source = _prepared(points, options)
+    text = _fit_options(source, options, (*_CONSTRUCTION, "insert"))
+    values = _report("region", source, text, watched)
     return Table(tuple(values["segments"]), values)
 
 
