@@ -19,6 +19,8 @@ using pipeline_detail::SpaceShape;
 constexpr std::size_t kMostSpans = 100'000;
 /// Of the tolerance, for what happens between the places that are looked at.
 constexpr double kBetweenPart = 0.25;
+/// Shortest span, of the mean one.
+constexpr double kLeastSpanPart = 1e-2;
 /// Of a cubic beyond the seam of a closed curve: what happens at its ends fades by 2 - sqrt 3 a
 /// span.
 constexpr std::ptrdiff_t kSpansBeyond = 40;
@@ -27,7 +29,7 @@ constexpr std::ptrdiff_t kSpansBeyond = 40;
 class CubicOfSpace {
  public:
   CubicOfSpace(const SpaceShape& shape, bool closed, double tolerance)
-      : shape_(shape), closed_(closed), tolerance_(tolerance), joints_(shape.joints()) {}
+      : shape_(shape), closed_(closed), tolerance_(tolerance), joints_(apart(shape.joints())) {}
 
   Result<SpaceNurbs> run() const {
     for (std::size_t parts = 1; parts * joints_.size() < kMostSpans; parts *= 2) {
@@ -47,6 +49,20 @@ class CubicOfSpace {
   }
 
  private:
+  /// Joints of both contours that are meant to be one lie beside each other: differences of places
+  /// so near would be rounding. The cubic need not have a knot at a joint; how far it is from the
+  /// curve is looked at afterwards.
+  static std::vector<double> apart(const std::vector<double>& joints) {
+    const double least =
+        kLeastSpanPart * (joints.back() - joints.front()) / static_cast<double>(joints.size());
+    std::vector<double> out{joints.front()};
+    for (const double joint : joints) {
+      if (joint - out.back() >= least && joints.back() - joint >= least) out.push_back(joint);
+    }
+    out.push_back(joints.back());
+    return out;
+  }
+
   /// One turn of the cubic through more of them, so far that its ends do not tell; it ends where it
   /// begins.
   static Result<SpaceCurve> round_the_seam(std::vector<Vec3> points,
@@ -217,12 +233,19 @@ std::string space_fit_json(const SpaceFit& fit, const SpaceNurbs& nurbs) {
   return json.take() + "\n";
 }
 
-std::string space_samples_csv(const SpaceFit& fit, std::size_t count) {
-  std::string out = "s,x,y,z,curvature,torsion\n";
-  for (const auto& [s, place] : equal_places(fit, count)) {
-    const Vec3 p = place.point;
-    out += fmt::format("{},{},{},{},{},", s, p.x, p.y, p.z, place.curvature);
-    out += place.torsion ? fmt::format("{}\n", *place.torsion) : "\n";
+std::string space_samples_csv(const SpaceChain& chain, std::size_t count) {
+  const bool one = chain.corners.empty();
+  std::string out = one ? "s,x,y,z,curvature,torsion\n" : "s,x,y,z,curvature,torsion,part\n";
+  double before = 0.0;
+  for (std::size_t k = 0; k < chain.parts.size(); ++k) {
+    const auto places = equal_places(chain.parts[k], count);
+    for (const auto& [s, place] : places) {
+      const Vec3 p = place.point;
+      out += fmt::format("{},{},{},{},{},", before + s, p.x, p.y, p.z, place.curvature);
+      if (place.torsion) out += fmt::format("{}", *place.torsion);
+      out += one ? "\n" : fmt::format(",{}\n", k + 1);
+    }
+    before += places.back().first;
   }
   return out;
 }
