@@ -2,9 +2,6 @@
 #include "options.h"
 
 #include <algorithm>
-#include <array>
-#include <cctype>
-#include <charconv>
 #include <cmath>
 
 #include "cli_app.h"
@@ -12,6 +9,7 @@
 #include "obvid/pipeline/construction_values.h"
 #include "obvid/pipeline/format_values.h"
 #include "obvid/pipeline/job_values.h"
+#include "obvid/pipeline/space_values.h"
 
 namespace obvid {
 namespace {
@@ -488,40 +486,11 @@ Result<void> set_construction(Raw& raw) {
   return {};
 }
 
-/// X, Y, Z, or three numbers with commas.
-Result<void> set_along(const std::string& typed, std::optional<Vec3>& along) {
-  if (typed.empty()) return {};
-  constexpr std::pair<char, Vec3> kAxes[] = {{'x', {1, 0, 0}}, {'y', {0, 1, 0}}, {'z', {0, 0, 1}}};
-  for (const auto& [letter, axis] : kAxes) {
-    if (typed.size() == 1 && std::tolower(static_cast<unsigned char>(typed[0])) == letter) {
-      along = axis;
-      return {};
-    }
-  }
-  std::array<double, 3> d{};
-  std::size_t count = 0, from = 0;
-  bool fine = true;
-  while (fine && from <= typed.size()) {
-    const std::size_t to = std::min(typed.find(',', from), typed.size());
-    const char *begin = typed.data() + from, *end = typed.data() + to;
-    fine = count < d.size();
-    if (!fine) break;
-    const auto read = std::from_chars(begin, end, d[count++]);
-    fine = read.ec == std::errc{} && read.ptr == end;
-    from = to + 1;
-  }
-  const Vec3 made{d[0], d[1], d[2]};
-  if (!fine || count != d.size() || !(norm(made) > 0.0) || !is_finite(made)) {
-    return fail(bad_option("'" + typed + "' is no direction", "--along",
-                           "X, Y, Z, or three numbers: 1,0,0.5"));
-  }
-  along = made;
-  return {};
-}
-
 Result<Command> checked_fit(Raw& raw) {
   raw.fit.progress = !raw.no_progress;
-  if (auto done = set_along(raw.along, raw.fit.along); !done) return fail(done.error());
+  const auto along = direction_named(raw.along);
+  if (!along) return fail(along.error());
+  raw.fit.along = *along;
   const Result<void> done =
       set_construction(raw)
           .and_then([&] { return set_job(raw); })

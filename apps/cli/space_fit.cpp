@@ -15,6 +15,7 @@
 #include "obvid/io/read_points.h"
 #include "obvid/io/verdict.h"
 #include "obvid/pipeline/space_fit.h"
+#include "obvid/pipeline/space_values.h"
 #include "outputs.h"
 #include "refusal.h"
 #include "table.h"
@@ -243,22 +244,10 @@ Result<SpaceJob> space_job(const FitOptions& options, const SpaceSeries& series)
   }
   const auto plane = options.text ? parse_points(*options.text, options.name(), TwoPoints::kDo)
                                   : read_points(options.input, TwoPoints::kDo);
-  if (!plane || plane->fixed.empty()) return job;
-  if (plane->points.size() != series.points.size()) {
-    return fail({ErrorCode::kBadOption,
-                 "columns of points that lie above each other have no projection", options.name(),
-                 "--flat forms the contour in the plane of x and y"});
-  }
-  job.fixed = plane->fixed;
-  const bool more = std::any_of(job.fixed.begin(), job.fixed.end(),
-                                [](const FixedData& f) { return f.says_how() || f.tolerance; });
-  if (!more) return job;
-  const bool plan_view = options.along && options.along->x == 0.0 && options.along->y == 0.0;
-  if (plan_view) return job;
-  return fail({ErrorCode::kBadOption,
-               "the file fixes headings, radii or tolerances of points in space", options.name(),
-               "--along Z takes them as seen in the plane of x and y, --flat forms the contour in "
-               "that plane alone"});
+  auto fixed = fixed_in_space(series, plane, options.along, options.name());
+  if (!fixed) return fail(fixed.error());
+  job.fixed = std::move(*fixed);
+  return job;
 }
 
 std::string verdict_of_part(const StoredContour& stored, const Verification& found) {

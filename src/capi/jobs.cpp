@@ -27,6 +27,9 @@ constexpr Known kFitting{.fit = true, .import = true};
 constexpr Known kImporting{.import = true};
 
 Result<PointSeries> series_of(const obvid_input& input, const Request& request, bool drawings) {
+  if (input.space) {
+    return fail({ErrorCode::kBadOption, "points in space are formed by obvid_fit_space", "", ""});
+  }
   Result<PointSeries> series = [&]() -> Result<PointSeries> {
     if (input.points) return *input.points;
     if (!drawings) return parse_points(input.text, input.name);

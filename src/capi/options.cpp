@@ -13,6 +13,7 @@
 #include "obvid/pipeline/construction_values.h"
 #include "obvid/pipeline/format_values.h"
 #include "obvid/pipeline/job_values.h"
+#include "obvid/pipeline/space_values.h"
 
 namespace obvid::capi {
 namespace {
@@ -99,6 +100,7 @@ struct Written {
   TypedConstruction construction;
   FormatValues formats;
   std::string carrier = "spiral";
+  std::string along;
   std::optional<double> tolerance;
   std::optional<std::string> units;
 };
@@ -132,6 +134,7 @@ std::map<std::string, Setter> setters(Written& w, Request& out, const Known& kno
     all.insert({{"construction", text(w.construction.name)},
                 {"fixation", count(w.construction.fixation)}});
   }
+  if (known.space) all.insert({{"along", text(w.along)}});
   if (known.worksheet) all.insert({{"insert", counts(w.construction.insert)}});
   if (known.import) {
     all.insert({{"curve", count(f.curve)},
@@ -202,6 +205,9 @@ Result<void> check(Written& w, const Known& known, Request& out) {
       .and_then([&]() -> Result<void> {
         out.worksheet = with_job(out.worksheet, out.job);
         if (has_both_headings(out.job)) out.import.two_points = TwoPoints::kDo;
+        const auto along = direction_named(w.along);
+        if (!along) return fail(along.error());
+        out.along = *along;
         if (!w.units) return {};
         return given_units(*w.units, "units").map([&](Units given) { out.units = given; });
       });

@@ -116,27 +116,36 @@ void add_vec3(JsonText& json, const char* name, Vec3 v) {
   json.key(name).begin_array().value(v.x).value(v.y).value(v.z).end_array();
 }
 
-/// Places of a curve at equal steps of its arc length.
-std::vector<std::pair<double, SpacePlace>> equal_places(const SpaceFit& fit, std::size_t count) {
+/// Places of a curve at arc lengths, ascending or not, as `lengths_of` its length gives them.
+template <class LengthsOf>
+std::vector<std::pair<double, SpacePlace>> places_at(const SpaceFit& fit, LengthsOf&& lengths_of) {
   std::vector<std::pair<double, SpacePlace>> out;
-  const std::size_t steps = std::max<std::size_t>(count, 2) - 1;
-  const auto add_all = [&](double length, const auto& at) {
-    for (std::size_t k = 0; k <= steps; ++k) {
-      const double s = length * static_cast<double>(k) / static_cast<double>(steps);
-      out.emplace_back(s, at(s));
-    }
-  };
   if (fit.unrolled) {
     const SpaceShape shape(fit.frame, fit.plan.contour, fit.unrolled->contour);
-    add_all(shape.length(), [&](double s) { return shape.at(s, s >= shape.length()); });
+    for (const double s : lengths_of(shape.length())) {
+      out.emplace_back(s, shape.at(s, s >= shape.length()));
+    }
     return out;
   }
   const ContourPath path(fit.plan.contour.pieces);
-  add_all(path.length(), [&](double s) {
+  for (const double s : lengths_of(path.length())) {
     const auto place = path.at(s, s >= path.length());
-    return SpacePlace{fit.frame.at(place.point), s, 0.0, std::abs(place.kappa), 0.0};
-  });
+    out.emplace_back(s, SpacePlace{fit.frame.at(place.point), s, 0.0, std::abs(place.kappa), 0.0,
+                                   place.tangent.x * fit.frame.x + place.tangent.y * fit.frame.y});
+  }
   return out;
+}
+
+/// At equal steps.
+std::vector<std::pair<double, SpacePlace>> equal_places(const SpaceFit& fit, std::size_t count) {
+  return places_at(fit, [&](double length) {
+    std::vector<double> at;
+    const std::size_t steps = std::max<std::size_t>(count, 2) - 1;
+    for (std::size_t k = 0; k <= steps; ++k) {
+      at.push_back(length * static_cast<double>(k) / static_cast<double>(steps));
+    }
+    return at;
+  });
 }
 
 }  // namespace
@@ -231,6 +240,25 @@ std::string space_fit_json(const SpaceFit& fit, const SpaceNurbs& nurbs) {
   for (const double weight : nurbs.curve.weights) json.value(weight);
   json.end_array().end_object().end_object();
   return json.take() + "\n";
+}
+
+double length_of(const SpaceFit& fit) {
+  return ContourPath(fit.unrolled ? fit.unrolled->contour.pieces : fit.plan.contour.pieces)
+      .length();
+}
+
+Result<std::vector<SpaceSample>> sample_space(const SpaceFit& fit, std::span<const double> at) {
+  const double length = length_of(fit);
+  for (std::size_t k = 0; k < at.size(); ++k) {
+    if (at[k] >= 0.0 && at[k] <= length) continue;
+    return fail({ErrorCode::kBadOption, "a place is beyond the curve",
+                 fmt::format("place {}", k + 1), "", -1, at[k]});
+  }
+  std::vector<SpaceSample> out;
+  for (const auto& [s, place] : places_at(fit, [&](double) { return at; })) {
+    out.push_back({place.point, place.tangent, place.curvature, place.torsion});
+  }
+  return out;
 }
 
 std::string space_samples_csv(const SpaceChain& chain, std::size_t count) {

@@ -16,6 +16,7 @@ struct SpacePlace {
   double height = 0.0;
   double curvature = 0.0;
   std::optional<double> torsion;  ///< nothing where the curvature is 0
+  Vec3 tangent{};                 ///< length 1
 };
 
 /// The curve on the cylinder over a plane contour whose unrolled shape is another one, by its arc

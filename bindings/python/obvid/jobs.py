@@ -34,6 +34,7 @@ from .reports import (
     carrier_rows,
     suggestions,
 )
+from .space import SpaceCurve
 
 #: Heading, radius or curvature of some points: {index: value}, indices from 0, negative from the end.
 AtPoints = Mapping[int, Union[float, str, Sequence[Optional[float]]]]
@@ -62,6 +63,15 @@ class Source:
                 raise raise_error(error)
         assert out.value is not None
         return Contour(out.value)
+
+
+    def space_curve(self) -> SpaceCurve:
+        """The curve of a file of a curve in space, or of a chain of them."""
+        out, error = C.c_void_p(), C.POINTER(ErrorStruct)()
+        if lib.obvid_stored_space(self._handle, C.byref(out), C.byref(error)):
+            raise raise_error(error)
+        assert out.value is not None
+        return SpaceCurve(out.value)
 
 
 #: n x 2 numbers, a `Source`, or the path of a file.
@@ -93,13 +103,18 @@ def read_contour(path: Union[str, "os.PathLike[str]"]) -> Contour:
     return read(path).contour()
 
 
+def read_space(path: Union[str, "os.PathLike[str]"]) -> SpaceCurve:
+    """The curve of a file that `fit_space` (or the program) wrote as .json."""
+    return read(path).space_curve()
+
+
 def _array_of(points: npt.ArrayLike) -> npt.NDArray[np.float64]:
     array = np.ascontiguousarray(points, dtype=np.float64)
     if array.ndim != 2 or array.shape[1] not in (2, 3):
         raise ValueError(f"points are an array of n x 2 numbers, not of shape {array.shape}")
     if array.shape[1] == 3:
         if array.shape[0] and np.ptp(array[:, 2]) != 0.0:
-            raise ValueError("z changes: only plane series are read, give points[:, :2]")
+            raise ValueError("z changes: fit_space forms it, points[:, :2] lies in a plane")
         array = np.ascontiguousarray(array[:, :2])
     return array
 
@@ -182,7 +197,7 @@ def _fit_options(
         corners = [corners]
     options: Dict[str, Any] = {
         name.replace("_", "-"): o.get(name)
-        for name in ("carrier", "noise", "tolerance", "corner_angle", "units", "curve", "drawing",
+        for name in ("along", "carrier", "noise", "tolerance", "corner_angle", "units", "curve", "drawing",
                      "chord_tolerance", "prefer", "continuity", "construction", "fixation")
     }  # fmt: skip
     options["convex"] = True if o.get("convex") else None
@@ -287,6 +302,64 @@ def fit(
         return _fitted(source, text, None)
     with Run(progress, cancelled) as run:
         return _fitted(source, text, run)
+
+
+def fit_space(
+    points: Points,
+    *,
+    along: Optional[Union[str, Sequence[float]]] = None,
+    progress: Optional[ProgressFunction] = None,
+    cancelled: Optional[CancelledFunction] = None,
+    **options: Any,
+) -> SpaceCurve:
+    """Forms a fair curve through points in space, and proves it.
+
+    Points of a plane give a contour in it; others a curve whose projection and whose heights over it
+    are fair. Corners cut the series into parts.
+
+    Args:
+        points: n x 3 numbers, the path of a file with columns x, y, z, or what `read` returned.
+        along: direction of the projection, "X", "Y", "Z" or three numbers. Default: the plane of the
+            points, else the best of four.
+        Others as of `fit`, without constructions; headings and radii need `along`.
+
+    Raises:
+        What `fit` raises; NotProvedError has the curve as `contour`.
+
+    >>> import obvid
+    >>> c = obvid.fit_space([(0, 0, 0), (9, 0, 0), (18, 0, 0), (18, 9, 0), (18, 18, 3), (18, 27, 9)],
+    ...                     corners=[2])
+    >>> c.part_count, c.corners[0].point
+    (2, 2)
+    """
+    if isinstance(points, (Source, str, os.PathLike)):
+        source = _source(points)
+    else:
+        array = np.ascontiguousarray(points, dtype=np.float64)
+        if array.ndim != 2 or array.shape[1] != 3:
+            raise ValueError(f"points in space are n x 3 numbers, not of shape {array.shape}")
+        given, failed = C.c_void_p(), C.POINTER(ErrorStruct)()
+        n = array.shape[0]
+        if lib.obvid_space_points(array.ctypes.data, n, C.byref(given), C.byref(failed)):
+            raise raise_error(failed)
+        assert given.value is not None
+        source = Source(given.value, n)
+    if isinstance(options.get("noise"), np.number):
+        options["noise"] = float(options["noise"])
+    if along is not None and not isinstance(along, str):
+        along = ",".join(repr(float(one)) for one in along)
+    text = _fit_options(source, {**options, "along": along}, ("along",))
+    out, error = C.c_void_p(), C.POINTER(ErrorStruct)()
+    with Run(progress, cancelled) as run:
+        code = lib.obvid_fit_space(source._handle, text, run, C.byref(out), None, C.byref(error))
+        made = SpaceCurve(out.value) if out.value else None
+        if code:
+            raised = raise_error(error)
+            if isinstance(raised, NotProvedError):
+                raised.contour = made
+            raise raised
+    assert made is not None
+    return made
 
 
 def _report(name: str, source: Source, text: Optional[bytes], watched: Dict[str, Any]) -> Json:

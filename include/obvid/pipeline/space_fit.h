@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -179,6 +180,19 @@ struct SpaceChainVerification {
                                             const std::vector<SpaceNurbs>& nurbs,
                                             const std::string& ending,
                                             const ExportOptions& options);
+
+/// Place of a curve in space.
+struct SpaceSample {
+  Vec3 point;
+  Vec3 tangent;                     ///< length 1
+  double curvature = 0.0;           ///< >= 0, 1/unit
+  std::optional<double> torsion{};  ///< 1/unit; nothing where the curvature is 0, behind a joint
+                                    ///< where it steps there
+};
+[[nodiscard]] double length_of(const SpaceFit& fit);  ///< arc length, units
+/// At arc lengths from the start, each from 0 to `length_of` it. Error: E203 beyond.
+[[nodiscard]] Result<std::vector<SpaceSample>> sample_space(const SpaceFit& fit,
+                                                            std::span<const double> at);
 
 /// Places along each curve at equal steps of its arc length: s (from the start of the chain), x, y,
 /// z, curvature, torsion; with corners the part, from 1, behind them. `count` places for each part.
