@@ -360,8 +360,8 @@ class NurbsTrial : public ProgramRuns {
     words.emplace_back("--json");
     const auto samples = static_cast<std::size_t>(dice_.whole(2, 60));
     if (!net) {
-      words.insert(words.end(), {"-o", "n.csv", "-o", "n.json", "-o", "n.dxf", "--samples",
-                                 std::to_string(samples)});
+      words.insert(words.end(), {"-o", "n.csv", "-o", "n.json", "-o", "n.dxf", "-o", "n.step",
+                                 "--samples", std::to_string(samples)});
     }
     const Run run = program("nurbs", words);
     if (stopped_) return std::move(out_);
@@ -385,6 +385,9 @@ class NurbsTrial : public ProgramRuns {
     out_.sheet.expect(text_of_file(path("n.json")) == text, "nurbs file", "--json", "the file", "");
     check_nurbs_samples(json.value, text_of_file(path("n.csv")), samples, out_.sheet);
     check_space_spline(nurbs_of(json.value), "n.dxf", text_of_file(path("n.dxf")), "nurbs DXF",
+                       out_.sheet);
+    const SpaceNurbs curve = nurbs_of(json.value);
+    check_space_curves({&curve}, step_curves(text_of_file(path("n.step"))), "n.step", "nurbs STEP",
                        out_.sheet);
   }
 

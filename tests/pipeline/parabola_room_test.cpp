@@ -34,7 +34,7 @@ PointSeries oval(std::uint64_t seed) {
 }
 
 /// At joints: between them the curvature is monotone, as was proved.
-double largest_curvature(const Contour& contour) {
+double most_curved(const Contour& contour) {
   double out = 0.0;
   for (const Joint& joint : contour.joints) out = std::max(out, std::abs(joint.element.kappa));
   return out;
@@ -58,7 +58,7 @@ TEST(ParabolaRoom, ParabolasOfTheLeastLargestCurvatureSayHowFarTheyAreFromIt) {
     job.prefer = Prefer::kLeastCurvature;
     const auto spirals = fit(series, job);
     ASSERT_TRUE(spirals) << seed << ": " << to_line(spirals.error());
-    const double least = largest_curvature(spirals->contour);  // no smaller than the least possible
+    const double least = most_curved(spirals->contour);  // no smaller than the least possible
     job.carrier = Carrier::kBeziers;
     const auto carrier = fit(series, job);
     RegionJob triangles;
@@ -76,7 +76,7 @@ TEST(ParabolaRoom, ParabolasOfTheLeastLargestCurvatureSayHowFarTheyAreFromIt) {
       const double percent = told_percent(one.warnings);
       if (percent > 1.0) ++told;
       if (made == &construction) continue;  // its radii are the triangles'
-      EXPECT_LE(largest_curvature(one.contour), (1.0 + 0.01 * percent) * least) << seed;
+      EXPECT_LE(most_curved(one.contour), (1.0 + 0.01 * percent) * least) << seed;
     }
   }
   EXPECT_GE(formed, 2 * kOvals * 9 / 10);
