@@ -1,7 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "obvid/pipeline/fit.h"
-#include "obvid/pipeline/construction_fit.h"
-#include "obvid/pipeline/refusal.h"
 
 #include <optional>
 #include <string>
@@ -10,7 +8,10 @@
 #include "commands.h"
 #include "fit_report.h"
 #include "obvid/io/read_file.h"
+#include "obvid/pipeline/construction_fit.h"
+#include "obvid/pipeline/construction_values.h"
 #include "obvid/pipeline/import.h"
+#include "obvid/pipeline/refusal.h"
 #include "outputs.h"
 #include "refusal.h"
 #include "space_fit.h"
@@ -44,12 +45,10 @@ Outcome read_and_fit(const FitOptions& options, ExportOptions& formats, Progress
                          ? fit_construction(*series, *options.construction, bar.progress())
                          : fit(*series, options.job, bar.progress());
   if (made) return {std::move(*made), 0};
-  if (options.construction && made.error().code == ErrorCode::kFixedDataContradict) {
-    const auto range =
-        explain_refusal(*series, options.construction->job, made.error(), bar.progress());
-    return stop(range ? range->error : made.error());
+  if (options.construction) {
+    return stop(explained(*series, *options.construction, made.error(), bar.progress()));
   }
-  if (!options.construction && exit_code(made.error().code) == exit_code(ErrorCode::kNoSpiral)) {
+  if (exit_code(made.error().code) == exit_code(ErrorCode::kNoSpiral)) {
     return {std::nullopt, tell_refusal(options, *series, made.error(), bar)};
   }
   bar.clear();

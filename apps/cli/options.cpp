@@ -2,15 +2,14 @@
 #include "options.h"
 
 #include <algorithm>
-#include <array>
-#include <cctype>
-#include <charconv>
 #include <cmath>
 
 #include "cli_app.h"
 #include "obvid/core/version.h"
+#include "obvid/pipeline/construction_values.h"
 #include "obvid/pipeline/format_values.h"
 #include "obvid/pipeline/job_values.h"
+#include "obvid/pipeline/space_values.h"
 
 namespace obvid {
 namespace {
@@ -52,11 +51,8 @@ struct Raw {
   std::string carrier = "spiral";
   TypedValues typed;
   bool no_progress = false;
-  std::string prefer = "fair";
-  std::string construction;
-  std::optional<int> fixation;
+  TypedConstruction construction;  ///< its `prefer` is that of region
   std::string along;
-  std::vector<std::size_t> insert;
   std::optional<double> tolerance;
   std::optional<std::string> units;
 };
@@ -134,7 +130,7 @@ void add_space(CLI::App& fit, Raw& raw) {
 
 void add_fixation(CLI::App& command, Raw& raw) {
   command
-      .add_option("--fixation", raw.fixation,
+      .add_option("--fixation", raw.construction.fixation,
                   "Order of --construction parabolas: 1 points and tangents are met, 2 radii too "
                   "[1 where every segment has curves with it, else 2]")
       ->type_name("N");
@@ -264,7 +260,7 @@ void add_fit(CLI::App& app, Raw& raw) {
                  "least-curvature (least largest curvature) [fair]")
       ->type_name("NAME");
   fit.add_option(
-         "--construction", raw.construction,
+         "--construction", raw.construction.name,
          "Instead of a carrier a construction of the papers at the tangents that are given, or "
          "chosen by --prefer (which then knows neighbours too): arcs (two per segment), "
          "ellipses (the first through K, equal curvatures), clothoids (one per segment), "
@@ -322,7 +318,7 @@ void add_region(CLI::App& app, Raw& raw) {
       ->type_name("OUT")
       ->allow_extra_args(false);
   region
-      .add_option("--prefer", raw.prefer,
+      .add_option("--prefer", raw.construction.prefer,
                   "Tangents that are not given: fair (as fit chooses them) or centre (each in the "
                   "middle of what is left to it, point after point) or neighbours (along the chord "
                   "between both neighbours) or least-change (least integral of the squared change "
@@ -330,7 +326,7 @@ void add_region(CLI::App& app, Raw& raw) {
       ->type_name("NAME");
   region
       .add_option(
-          "--construction", raw.construction,
+          "--construction", raw.construction.name,
           "Also a table (and drawing) of the papers' curves at these tangents: arcs (two per "
           "segment), ellipses (the first through K, equal curvatures), clothoids (one per "
           "segment), spline (cubic, through points and tangents), parabolas (condensed triangles) "
@@ -342,7 +338,7 @@ void add_region(CLI::App& app, Raw& raw) {
                   "Insert points until no delta is larger, input units [none inserted]")
       ->type_name("T");
   region
-      .add_option("--insert", raw.insert,
+      .add_option("--insert", raw.construction.insert,
                   "Insert a point in the middle of segment I, which begins at point I; may be "
                   "repeated")
       ->type_name("I")
@@ -475,102 +471,27 @@ void allow_two_points(const FitJob& job, ImportOptions& import) {
   if (has_both_headings(job)) import.two_points = TwoPoints::kDo;
 }
 
-/// Tangents that are not given, by name, for constructions and the worksheet.
-struct TangentChoice {
-  TangentRule rule;
-  Prefer prefer;
-};
-
-Result<TangentChoice> tangents_named(const std::string& typed) {
-  return value_named<TangentChoice>(
-      {{"fair", {TangentRule::kFair, Prefer::kFair}},
-       {"centre", {TangentRule::kCentral, Prefer::kFair}},
-       {"neighbours", {TangentRule::kNeighbours, Prefer::kFair}},
-       {"least-change", {TangentRule::kFair, Prefer::kLeastChange}},
-       {"least-curvature", {TangentRule::kFair, Prefer::kLeastCurvature}}},
-      typed, "--prefer");
-}
-
-Result<Construction> construction_named(const std::string& typed) {
-  return value_named<Construction>({{"arcs", Construction::kArcs},
-                                    {"ellipses", Construction::kEllipses},
-                                    {"clothoids", Construction::kClothoids},
-                                    {"spline", Construction::kSpline},
-                                    {"parabolas", Construction::kParabolas}},
-                                   typed, "--construction");
-}
-
-/// Orders are those of parabolas.
-Result<void> check_fixation(const Raw& raw) {
-  if (!raw.fixation) return {};
-  if (*raw.fixation == 0) {
-    return fail(bad_option("order 0 leaves tangents and radii free", "--fixation",
-                           "`fit --carrier beziers` forms such chains"));
-  }
-  if (*raw.fixation != 1 && *raw.fixation != 2) {
-    return fail(bad_option("the order is 1 (tangents) or 2 (radii too)", "--fixation", ""));
-  }
-  if (raw.construction == "parabolas") return {};
-  return fail(
-      bad_option("an order belongs to parabolas", "--fixation", "add --construction parabolas"));
-}
-
 /// The job of a construction; nothing without one. `--prefer` then knows the worksheet's names.
 Result<void> set_construction(Raw& raw) {
-  if (auto done = check_fixation(raw); !done) return done;
-  if (raw.construction.empty()) return {};
-  const auto which = construction_named(raw.construction);
-  if (!which) return fail(which.error());
-  const auto choice = tangents_named(raw.typed.prefer);
-  if (!choice) return fail(choice.error());
+  TypedConstruction typed = raw.construction;
+  if (typed.name.empty() && !typed.fixation) return {};
+  typed.prefer = raw.typed.prefer;
+  const auto made = construction_values(typed);
+  if (!made) return fail(made.error());
   if (raw.carrier != "spiral") {
     return fail(bad_option("a construction is its own carrier", "--carrier",
                            "leave --carrier out, or --construction"));
   }
   raw.typed.prefer = "fair";
-  RegionJob job;
-  job.construction = *which;
-  job.fixation = raw.fixation;
-  job.rule = choice->rule;
-  job.job.prefer = choice->prefer;
-  raw.fit.construction = job;
-  return {};
-}
-
-/// X, Y, Z, or three numbers with commas.
-Result<void> set_along(const std::string& typed, std::optional<Vec3>& along) {
-  if (typed.empty()) return {};
-  constexpr std::pair<char, Vec3> kAxes[] = {{'x', {1, 0, 0}}, {'y', {0, 1, 0}}, {'z', {0, 0, 1}}};
-  for (const auto& [letter, axis] : kAxes) {
-    if (typed.size() == 1 && std::tolower(static_cast<unsigned char>(typed[0])) == letter) {
-      along = axis;
-      return {};
-    }
-  }
-  std::array<double, 3> d{};
-  std::size_t count = 0, from = 0;
-  bool fine = true;
-  while (fine && from <= typed.size()) {
-    const std::size_t to = std::min(typed.find(',', from), typed.size());
-    const char *begin = typed.data() + from, *end = typed.data() + to;
-    fine = count < d.size();
-    if (!fine) break;
-    const auto read = std::from_chars(begin, end, d[count++]);
-    fine = read.ec == std::errc{} && read.ptr == end;
-    from = to + 1;
-  }
-  const Vec3 made{d[0], d[1], d[2]};
-  if (!fine || count != d.size() || !(norm(made) > 0.0) || !is_finite(made)) {
-    return fail(bad_option("'" + typed + "' is no direction", "--along",
-                           "X, Y, Z, or three numbers: 1,0,0.5"));
-  }
-  along = made;
+  raw.fit.construction = *made;
   return {};
 }
 
 Result<Command> checked_fit(Raw& raw) {
   raw.fit.progress = !raw.no_progress;
-  if (auto done = set_along(raw.along, raw.fit.along); !done) return fail(done.error());
+  const auto along = direction_named(raw.along);
+  if (!along) return fail(along.error());
+  raw.fit.along = *along;
   const Result<void> done =
       set_construction(raw)
           .and_then([&] { return set_job(raw); })
@@ -582,9 +503,7 @@ Result<Command> checked_fit(Raw& raw) {
   if (!done) return fail(done.error());
   allow_two_points(raw.fit.job, raw.fit.import);
   if (raw.fit.construction) {
-    const Prefer prefer = raw.fit.construction->job.prefer;
-    raw.fit.construction->job = raw.fit.job;
-    raw.fit.construction->job.prefer = prefer;
+    raw.fit.construction = with_job(*raw.fit.construction, raw.fit.job);
     if (raw.fit.suggest) {
       return fail(bad_option("a construction has no tolerances to suggest", "--suggest", ""));
     }
@@ -636,24 +555,11 @@ Result<Command> checked_analyse(Raw& raw) {
 }
 
 Result<Command> checked_region(Raw& raw) {
-  const auto choice = tangents_named(raw.prefer);
-  if (!choice) return fail(choice.error());
-  raw.region.job.rule = choice->rule;
-  if (auto done = check_fixation(raw); !done) return fail(done.error());
-  if (!raw.construction.empty()) {
-    const auto made = construction_named(raw.construction);
-    if (!made) return fail(made.error());
-    raw.region.job.construction = *made;
-    raw.region.job.fixation = raw.fixation;
-  }
-  for (const std::size_t segment : raw.insert) {
-    if (segment == 0) return fail(bad_option("segments count from 1", "--insert", ""));
-    raw.region.job.insert.push_back(segment - 1);
-  }
+  const auto made = construction_values(raw.construction);
+  if (!made) return fail(made.error());
   if (auto done = set_job(raw); !done) return fail(done.error());
   if (auto done = set_import(raw.formats, raw.region.import); !done) return fail(done.error());
-  raw.region.job.job = raw.fit.job;
-  raw.region.job.job.prefer = choice->prefer;
+  raw.region.job = with_job(*made, raw.fit.job);
   allow_two_points(raw.fit.job, raw.region.import);
   return checked_points(raw.region, raw, "region");
 }

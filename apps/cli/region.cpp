@@ -12,7 +12,7 @@
 #include "commands.h"
 #include "obvid/geom/angle.h"
 #include "obvid/io/atomic_file.h"
-#include "obvid/pipeline/refusal.h"
+#include "obvid/pipeline/construction_values.h"
 #include "obvid/pipeline/region_files.h"
 #include "obvid/pipeline/report_json.h"
 #include "table.h"
@@ -264,11 +264,7 @@ int run(const RegionOptions& options) {
   if (options.units) take_units(*series, *options.units);
   warn(series->warnings);
   const Result<RegionTable> region = region_table(*series, options.job);
-  if (!region && region.error().code == ErrorCode::kFixedDataContradict) {
-    const auto range = explain_refusal(*series, options.job.job, region.error(), {});
-    return report(range ? range->error : region.error());
-  }
-  if (!region) return report(region.error());
+  if (!region) return report(explained(*series, options.job, region.error(), {}));
   warn(region->warnings);
   std::vector<RegionFile> files;
   for (const std::string& path : options.outputs) {

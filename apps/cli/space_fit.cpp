@@ -6,15 +6,16 @@
 #include <algorithm>
 #include <cctype>
 #include <filesystem>
+#include <numbers>
 #include <utility>
 
 #include "fit_report.h"
-#include "obvid/cad/cad.h"
-#include "obvid/exchange/space_dxf.h"
 #include "obvid/io/atomic_file.h"
+
 #include "obvid/io/read_points.h"
 #include "obvid/io/verdict.h"
 #include "obvid/pipeline/space_fit.h"
+#include "obvid/pipeline/space_values.h"
 #include "outputs.h"
 #include "refusal.h"
 #include "table.h"
@@ -25,10 +26,6 @@ namespace obvid {
 namespace {
 
 constexpr int kSpaceDigits = 4;
-constexpr std::size_t kDefaultSamples = 200;
-constexpr double kSpaceTolerance = 1e-6;  ///< of the size
-constexpr const char* kSpaceEndings =
-    ".json (everything), .step, .iges, .brep, .dxf, .csv (samples), .sldcrv (points)";
 
 std::string number(double value) { return significant(value, kSpaceDigits); }
 
@@ -60,7 +57,8 @@ std::string torsion_cell(const SpacePoint& point) {
   return before == after ? before : before + " | " + after;
 }
 
-Table table_of_points(const SpaceFit& fit) {
+/// `numbers`: of the points in the file, from 1.
+Table table_of_points(const SpaceFit& fit, const std::vector<std::size_t>& numbers) {
   Table table;
   for (const char* head :
        {"point", "x", "y", "z", "length of\nprojection", "height", "curvature"}) {
@@ -71,7 +69,7 @@ Table table_of_points(const SpaceFit& fit) {
   for (std::size_t i = 0; i < fit.at_points.size() && i < fit.points.size(); ++i) {
     const SpacePoint& at = fit.at_points[i];
     const Vec3& p = fit.points[i];
-    table.row({std::to_string(i + 1), coordinate(p.x, size), coordinate(p.y, size),
+    table.row({std::to_string(numbers[i]), coordinate(p.x, size), coordinate(p.y, size),
                coordinate(p.z, size), coordinate(at.plan_length, size), coordinate(at.height, size),
                number(at.curvature), torsion_cell(at)});
   }
@@ -84,13 +82,20 @@ void add_frame(Facts& facts, const SpaceFit& fit) {
                                  direction_words(fit.frame.origin)));
 }
 
-std::string spatial_text(const SpaceFit& fit, const std::vector<std::string>& remarks,
-                         const std::vector<std::string>& files) {
+std::string written_text(const Written& written) {
+  Facts facts;
+  for (const std::string& one : written.remarks) facts.add("note", one);
+  if (!written.files.empty()) facts.add("written", listed(written.files));
+  return facts.text();
+}
+
+std::string spatial_text(const SpaceFit& fit, const std::vector<std::size_t>& numbers,
+                         const Written& written) {
   const std::string unit = fit.units.text();
   std::string out = bold(fit.name) + "\n";
   out += fmt::format("a {}curve in space: heights over the projection along {}; lengths in {}\n\n",
                      fit.seam ? "closed " : "", direction_words(fit.frame.normal()), unit);
-  out += table_of_points(fit).text();
+  out += table_of_points(fit, numbers).text();
   Facts facts;
   add_frame(facts, fit);
   facts.add("projection", bends_words(fit.plan));
@@ -111,9 +116,7 @@ std::string spatial_text(const SpaceFit& fit, const std::vector<std::string>& re
   if (fit.largest_move > 0.0) {
     facts.add("largest move", fmt::format("at most {} {}", number(fit.largest_move), unit));
   }
-  for (const std::string& one : remarks) facts.add("note", one);
-  if (!files.empty()) facts.add("written", listed(files));
-  out += "\n" + facts.text();
+  out += "\n" + facts.text() + written_text(written);
   const bool proved = fit.plan.certificate.proved && fit.unrolled->certificate.proved;
   if (proved) {
     return out +
@@ -127,17 +130,65 @@ std::string spatial_text(const SpaceFit& fit, const std::vector<std::string>& re
   return out + bad(verdict_line(part.contour.carrier, part.certificate)) + "\n";
 }
 
-std::string planar_text(const SpaceFit& fit, const std::vector<std::string>& remarks,
-                        const std::vector<std::string>& files) {
+std::string planar_text(const SpaceFit& fit, const Written& written) {
   Facts facts;
   facts.add("plane", fmt::format("the points lie in it within {} {}; the contour below is in its x "
                                  "and y",
                                  number(fit.flatness), fit.units.text()));
   add_frame(facts, fit);
-  Written written;
-  written.remarks = remarks;
-  written.files = files;
   return facts.text() + "\n" + fit_report_text(fit.name, fit.plan, written);
+}
+
+std::string corner_words(const SpaceChain& chain) {
+  std::vector<std::string> out;
+  for (const SpaceCorner& corner : chain.corners) {
+    out.push_back(fmt::format("point {} ({} degrees)", corner.point + 1,
+                              number(corner.turn * 180.0 / std::numbers::pi)));
+  }
+  return listed(out);
+}
+
+std::vector<std::size_t> part_numbers(const SpaceChain& chain, std::size_t k) {
+  std::vector<std::size_t> out;
+  if (chain.corners.empty()) {
+    for (std::size_t i = 0; i < chain.points.size(); ++i) out.push_back(i + 1);
+    return out;
+  }
+  out = points_of_part(chain.corners, chain.closed, chain.points.size(), k);
+  for (std::size_t& one : out) ++one;
+  return out;
+}
+
+std::string space_text(const SpaceChain& chain, const Written& written) {
+  const SpaceFit& first = chain.parts.front();
+  if (chain.corners.empty()) {
+    if (!first.unrolled) return planar_text(first, written);
+    return spatial_text(first, part_numbers(chain, 0), written);
+  }
+  Facts facts;
+  facts.add("corners", corner_words(chain));
+  if (chain.largest_move > 0.0) {
+    facts.add("largest move",
+              fmt::format("at most {} {}", number(chain.largest_move), chain.units.text()));
+  }
+  std::string out =
+      bold(chain.name) + "\n" +
+      fmt::format("{} in space, {} {}\n\n", counted(chain.parts.size(), "curve", "curves"),
+                  chain.closed ? "one behind the other all round, joined at" : "joined at",
+                  counted(chain.corners.size(), "corner", "corners")) +
+      facts.text();
+  for (std::size_t k = 0; k < chain.parts.size(); ++k) {
+    const std::vector<std::size_t> numbers = part_numbers(chain, k);
+    const SpaceFit& part = chain.parts[k];
+    out += fmt::format("\npart {}: points {} to {}", k + 1, numbers.front(), numbers.back());
+    if (part.unrolled) {
+      out += "\n" + spatial_text(part, numbers, {});
+    } else {
+      out += ", from 1 below\n" + planar_text(part, {});
+    }
+  }
+  const std::string written_lines = written_text(written);
+  return out + (written_lines.empty() ? "" : "\n" + written_lines);
 }
 
 std::string ending_of(const std::string& path) {
@@ -147,54 +198,39 @@ std::string ending_of(const std::string& path) {
   return ending;
 }
 
-/// One output of a space curve.
-Result<std::string> space_file(const std::string& path, const SpaceFit& fit,
-                               const SpaceNurbs& nurbs, const ExportOptions& formats) {
-  const std::string ending = ending_of(path);
-  const std::size_t samples = formats.samples.count.value_or(kDefaultSamples);
-  if (ending == ".json") return space_fit_json(fit, nurbs);
-  if (ending == ".dxf") return space_dxf({nurbs.curve}, fit.points, fit.units);
-  if (ending == ".csv") return space_samples_csv(fit, samples);
-  if (ending == ".sldcrv") return space_points_text(fit, samples);
-  CadWriteOptions write;
-  write.units = fit.units.name;
-  write.face_width = formats.face_width;
-  write.format = formats.step;
-  const bool step = ending == ".step" || ending == ".stp";
-  const bool iges = ending == ".iges" || ending == ".igs";
-  if (iges) write.format = CadFormat::kIges;
-  if (ending == ".brep") write.format = CadFormat::kBrep;
-  if (step || iges || ending == ".brep") return cad_text({{"contour", nurbs.curve}}, write);
-  return fail({ErrorCode::kUnknownFormat, "no file with this extension holds a curve in space",
-               path,
-               std::string("possible are ") + kSpaceEndings +
-                   "; --flat forms the contour in the plane of x and y"});
-}
-
-Result<std::vector<std::string>> written_files(const SpaceFit& fit,
-                                               const std::vector<std::string>& outputs,
-                                               const ExportOptions& formats,
-                                               std::vector<std::string>& remarks) {
-  if (outputs.empty()) return outputs;
-  const double tolerance = formats.tolerance.value_or(kSpaceTolerance * size_of(fit));
-  const auto nurbs = space_nurbs(fit, tolerance);
+/// Texts first, then files: a failure to form leaves every file as it was.
+Result<Written> written_files(const SpaceChain& chain, const std::vector<std::string>& outputs,
+                              const ExportOptions& formats, const std::string& input) {
+  Written written;
+  if (outputs.empty()) return written;
+  const auto nurbs = chain_nurbs(chain, formats.tolerance);
   if (!nurbs) return fail(nurbs.error());
-  if (nurbs->deviation > 0.0) {
-    remarks.push_back(
-        fmt::format("a C2 cubic of {} points stands for the curve, at most {} {} "
-                    "from it",
-                    nurbs->curve.points.size(), number(nurbs->deviation), fit.units.text()));
+  for (std::size_t k = 0; k < nurbs->size(); ++k) {
+    const SpaceNurbs& one = (*nurbs)[k];
+    if (!(one.deviation > 0.0)) continue;
+    const std::string which = chain.corners.empty() ? "the curve" : fmt::format("part {}", k + 1);
+    written.remarks.push_back(
+        fmt::format("a C2 cubic of {} points stands for {}, at most {} {} from it",
+                    one.curve.points.size(), which, number(one.deviation), chain.units.text()));
   }
-  std::vector<std::string> texts;
+  std::vector<Output> texts;
   for (const std::string& path : outputs) {
-    auto text = space_file(path, fit, *nurbs, formats);
-    if (!text) return fail(text.error());
-    texts.push_back(std::move(*text));
+    auto made = export_space(chain, *nurbs, ending_of(path), formats);
+    if (!made) {
+      if (made.error().where.empty()) made.error().where = path;
+      return fail(made.error());
+    }
+    for (const ExportedFile& file : made->files) {
+      std::filesystem::path name(path);
+      name.replace_filename(name.stem().string() + file.suffix + name.extension().string());
+      texts.push_back({name.string(), FileFormat::kContour, file.text});
+    }
+    for (const std::string& one : made->remarks) written.remarks.push_back(one);
   }
-  for (std::size_t i = 0; i < texts.size(); ++i) {
-    if (auto done = write_file(outputs[i], texts[i]); !done) return fail(done.error());
-  }
-  return outputs;
+  auto done = write_files(texts, input);
+  if (!done) return fail(done.error());
+  written.files = std::move(*done);
+  return written;
 }
 
 Result<SpaceJob> space_job(const FitOptions& options, const SpaceSeries& series) {
@@ -208,19 +244,10 @@ Result<SpaceJob> space_job(const FitOptions& options, const SpaceSeries& series)
   }
   const auto plane = options.text ? parse_points(*options.text, options.name(), TwoPoints::kDo)
                                   : read_points(options.input, TwoPoints::kDo);
-  if (!plane || plane->fixed.empty()) return job;
-  if (plane->points.size() != series.points.size()) {
-    return fail({ErrorCode::kBadOption,
-                 "headings and radii of points that lie above each other have no projection",
-                 options.name(), "--flat forms the contour in the plane of x and y"});
-  }
-  job.fixed = plane->fixed;
-  const bool plan_view = options.along && options.along->x == 0.0 && options.along->y == 0.0;
-  if (plan_view) return job;
-  return fail({ErrorCode::kBadOption,
-               "the file fixes headings, radii or tolerances of points in space", options.name(),
-               "--along Z takes them as seen in the plane of x and y, --flat forms the contour in "
-               "that plane alone"});
+  auto fixed = fixed_in_space(series, plane, options.along, options.name());
+  if (!fixed) return fail(fixed.error());
+  job.fixed = std::move(*fixed);
+  return job;
 }
 
 std::string verdict_of_part(const StoredContour& stored, const Verification& found) {
@@ -228,9 +255,8 @@ std::string verdict_of_part(const StoredContour& stored, const Verification& fou
                            : verdict_line(stored.contour.carrier, found.certificate);
 }
 
-std::string verification_in_space(const StoredSpace& stored, const SpaceVerification& found) {
+void add_verified(Facts& facts, const StoredSpace& stored, const SpaceVerification& found) {
   const std::string unit = stored.units.text();
-  Facts facts;
   facts.add(stored.heights ? "projection" : "contour", verdict_of_part(stored.plan, found.plan));
   if (stored.heights) facts.add("heights", verdict_of_part(*stored.heights, *found.heights));
   facts.add("file claims", "below, compared with what follows from frame, points and contours");
@@ -249,21 +275,38 @@ std::string verification_in_space(const StoredSpace& stored, const SpaceVerifica
                                                                 number(stored.deviation), unit)
                                                   : std::string("the contour itself"));
   facts.add("not checked", listed(found.not_checked));
+}
+
+std::string verification_in_space(const StoredSpaceChain& stored,
+                                  const SpaceChainVerification& found) {
+  std::string out;
+  for (std::size_t k = 0; k < stored.parts.size(); ++k) {
+    Facts facts;
+    add_verified(facts, stored.parts[k], found.parts[k]);
+    if (!stored.corners.empty()) out += fmt::format("part {}\n", k + 1);
+    out += facts.text() + (stored.corners.empty() ? "" : "\n");
+  }
+  if (!stored.corners.empty()) {
+    Facts facts;
+    facts.add("corners", corner_words(space_chain_of(stored)));
+    facts.add("not checked", listed(found.not_checked));
+    out += facts.text();
+  }
   const auto broken = broken_promise(stored, found);
   const std::string verdict = !broken ? "as claimed, and proved"
                               : broken->code == ErrorCode::kFalseClaim
                                   ? "NOT as claimed: " + broken->what
                                   : broken->what;
-  return facts.text() + (broken ? bad(verdict) : good(verdict)) + "\n";
+  return out + (broken ? bad(verdict) : good(verdict)) + "\n";
 }
 
 }  // namespace
 
 int verify_in_space(const std::string& text, const std::string& name,
                     const VerifyOptions& options) {
-  const Result<StoredSpace> stored = space_from_json(text, name);
+  const Result<StoredSpaceChain> stored = space_chain_from_json(text, name);
   if (!stored) return report(stored.error());
-  const SpaceVerification found = verify(*stored);
+  const SpaceChainVerification found = verify(*stored);
   std::string shown;
   if (options.json) {
     shown = space_verification_json(*stored, found) + "\n";
@@ -280,22 +323,19 @@ int verify_in_space(const std::string& text, const std::string& name,
 
 int convert_in_space(const std::string& text, const std::string& name,
                      const ConvertOptions& options) {
-  const Result<StoredSpace> stored = space_from_json(text, name);
+  const Result<StoredSpaceChain> stored = space_chain_from_json(text, name);
   if (!stored) return report(stored.error());
-  SpaceFit fit = space_fit_of(*stored);
+  SpaceChain chain = space_chain_of(*stored);
   if (options.units) {
-    if (auto told = take_units(fit.units, *options.units)) warn({*told});
-    fit.plan.contour.units = fit.units;
-    if (fit.unrolled) fit.unrolled->contour.units = fit.units;
+    if (auto told = take_units(chain, *options.units)) warn({*told});
   }
-  std::vector<std::string> remarks;
-  const auto files = written_files(fit, options.outputs, options.formats, remarks);
-  if (!files) return report(files.error());
+  const auto written = written_files(chain, options.outputs, options.formats, options.input);
+  if (!written) return report(written.error());
   std::string shown;
   if (!options.quiet) {
     if (!options.profile.empty()) shown += options.profile + "\n";
-    for (const std::string& remark : remarks) shown += remark + "\n";
-    shown += "written  " + listed(*files) + "\n";
+    for (const std::string& remark : written->remarks) shown += remark + "\n";
+    shown += "written  " + listed(written->files) + "\n";
   }
   if (auto done = put(shown); !done) return report(done.error());
   return 0;
@@ -318,28 +358,22 @@ std::optional<int> run_in_space(const FitOptions& options) {
   const auto job = space_job(options, **series);
   if (!job) return report(job.error());
   ProgressBar bar(options.progress && !options.quiet);
-  auto made = fit_space(**series, *job, bar.progress());
+  auto made = fit_space_chain(**series, *job, bar.progress());
   bar.clear();
   if (!made) return report(made.error());
-  std::vector<std::string> remarks;
-  const auto files = written_files(*made, options.outputs, options.formats, remarks);
-  if (!files) return report(files.error());
+  const auto written = written_files(*made, options.outputs, options.formats, options.input);
+  if (!written) return report(written.error());
   warn(made->warnings);
   std::string text;
   if (options.json) {
-    const auto nurbs =
-        space_nurbs(*made, options.formats.tolerance.value_or(kSpaceTolerance * size_of(*made)));
+    const auto nurbs = chain_nurbs(*made, options.formats.tolerance);
     if (!nurbs) return report(nurbs.error());
-    text = space_fit_json(*made, *nurbs);
+    text = space_chain_json(*made, *nurbs);
   } else if (!options.quiet) {
-    text =
-        made->unrolled ? spatial_text(*made, remarks, *files) : planar_text(*made, remarks, *files);
+    text = space_text(*made, *written);
   }
   if (auto done = put(text); !done) return report(done.error());
-  for (const Fit* part : {&made->plan, made->unrolled ? &*made->unrolled : nullptr}) {
-    if (part == nullptr) continue;
-    if (auto broken = broken_promise(*part)) return report(*broken);
-  }
+  if (auto broken = broken_promise(*made)) return report(*broken);
   return 0;
 }
 

@@ -36,6 +36,7 @@ OBVID_API const char* obvid_version(void);
 typedef struct obvid_input obvid_input;
 typedef struct obvid_contour obvid_contour;
 typedef struct obvid_files obvid_files;
+typedef struct obvid_space obvid_space; /* curves in space, from corner to corner */
 
 /* ---- errors ---------------------------------------------------------------------------------- */
 
@@ -79,6 +80,9 @@ typedef struct obvid_run {
 
 /* n points, x and y one after the other. */
 OBVID_API int obvid_points(const double* xy, size_t n, obvid_input** input, obvid_error** error);
+/* n points in space, x, y and z one after the other, for obvid_fit_space alone. */
+OBVID_API int obvid_space_points(const double* xyz, size_t n, obvid_input** input,
+                                 obvid_error** error);
 /* A file in memory: a list of points, a contour file, DXF, SVG, GPX, GeoJSON, LandXML, OpenDRIVE.
  * `name` stands in errors. */
 OBVID_API int obvid_read_text(const char* text, size_t size, const char* name, obvid_input** input,
@@ -91,8 +95,8 @@ OBVID_API void obvid_input_free(obvid_input* input);
  */
 
 /* Forms a contour and proves it. Both results may be there although the call fails with
- * OBVID_NOT_PROVED: the contour was formed and does not keep its promise. `contour`, `report` may
- * be NULL: not wanted. */
+ * OBVID_NOT_PROVED: the contour was formed and does not keep its promise. A construction of the
+ * papers (option "construction") promises nothing. `contour`, `report` may be NULL: not wanted. */
 OBVID_API int obvid_fit(const obvid_input* input, const char* options, const obvid_run* run,
                         obvid_contour** contour, char** report, obvid_error** error);
 /* Why obvid_fit finds no contour (OBVID_NO_CONTOUR), and what would do: takes some 15 times as
@@ -111,7 +115,8 @@ OBVID_API int obvid_series(const obvid_input* input, const char* options, const 
 /* What the points say; of a drawing: what a curvature comb would show of its curves. */
 OBVID_API int obvid_analyse(const obvid_input* input, const char* options, const obvid_run* run,
                             char** report, obvid_error** error);
-/* Where every fair contour through the points must lie. */
+/* Where every fair contour through the points must lie; with the option "construction" also the
+ * table of that construction. */
 OBVID_API int obvid_region(const obvid_input* input, const char* options, const obvid_run* run,
                            char** report, obvid_error** error);
 /* All curve families side by side. */
@@ -151,6 +156,36 @@ OBVID_API int obvid_evaluate(const obvid_contour* contour, obvid_place by, const
  * orders. */
 OBVID_API int obvid_derivatives(const obvid_contour* contour, const double* at, size_t n, int order,
                                 double* xy, obvid_error** error);
+
+/* ---- curves in space --------------------------------------------------------------------------
+ */
+
+/* Forms a curve through points x, y, z whose z changes (points of an array: always) and proves it:
+ * planar, or fair over a fair projection; corners cut it into parts. Options are those of obvid_fit
+ * and "along". The report is what the command line prints with --json. Both results may be there
+ * with OBVID_NOT_PROVED. */
+OBVID_API int obvid_fit_space(const obvid_input* input, const char* options, const obvid_run* run,
+                              obvid_space** space, char** report, obvid_error** error);
+/* The curves of a file of format obvid-space-curve or obvid-space-chain. */
+OBVID_API int obvid_stored_space(const obvid_input* input, obvid_space** space,
+                                 obvid_error** error);
+/* Proves them again, as obvid_verify does a contour. */
+OBVID_API int obvid_verify_space(const obvid_space* space, char** report, obvid_error** error);
+
+OBVID_API size_t obvid_space_parts(const obvid_space* space);
+OBVID_API int obvid_space_closed(const obvid_space* space);
+/* Arc length of a part; 0 beyond the last. */
+OBVID_API double obvid_space_length(const obvid_space* space, size_t part);
+OBVID_API const char* obvid_space_warning(const obvid_space* space, size_t warning);
+/* Points (3 n numbers), unit tangents (3 n), curvatures (>= 0) and torsions (n each; nan where the
+ * curvature is 0) at `n` arc lengths of a part; each array may be NULL. E203 beyond the part. */
+OBVID_API int obvid_space_evaluate(const obvid_space* space, size_t part, const double* at,
+                                   size_t n, double* xyz, double* tangent, double* curvature,
+                                   double* torsion, obvid_error** error);
+/* "json", "step", "iges", "brep", "dxf", "csv", "sldcrv". */
+OBVID_API int obvid_space_export(const obvid_space* space, const char* ending, const char* options,
+                                 obvid_files** files, obvid_error** error);
+OBVID_API void obvid_space_free(obvid_space* space);
 
 /* ---- files ------------------------------------------------------------------------------------
  */

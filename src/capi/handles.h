@@ -10,6 +10,7 @@
 #include "obvid/io/stored_contour.h"
 #include "obvid/obvid.h"
 #include "obvid/pipeline/export.h"
+#include "obvid/pipeline/space_fit.h"
 #include "obvid/series/point_series.h"
 
 // What stands behind the opaque types of obvid.h.
@@ -19,6 +20,7 @@
 struct obvid_input {
   std::string name;
   std::optional<obvid::PointSeries> points;
+  std::optional<obvid::SpaceSeries> space;
   std::string text;
   bool by_path = false;
 };
@@ -28,6 +30,11 @@ struct obvid_contour {
   std::string name = "contour";  ///< of the curve, where a format has a place for it
   obvid::PictureTitles picture;
   std::vector<std::string> warnings;  ///< of the fit
+};
+
+struct obvid_space {
+  obvid::SpaceChain chain;
+  std::optional<obvid::StoredSpaceChain> stored;  ///< what a file says of it
 };
 
 struct obvid_files {

@@ -42,6 +42,23 @@ Result<PointSeries> series_of_array(const double* xy, std::size_t n) {
   return out;
 }
 
+/// The same in space.
+Result<SpaceSeries> space_series_of_array(const double* xyz, std::size_t n) {
+  SpaceSeries out;
+  for (std::size_t i = 0; i < n; ++i) {
+    const Vec3 p{xyz[3 * i], xyz[3 * i + 1], xyz[3 * i + 2]};
+    if (!is_finite(p)) {
+      return fail({ErrorCode::kNotFinite, "a coordinate is not finite",
+                   "point " + std::to_string(i + 1), "", static_cast<std::ptrdiff_t>(i)});
+    }
+    if (out.points.empty() || !(out.points.back() == p)) out.points.push_back(p);
+  }
+  if (out.points.size() < kFewestPoints) {
+    return fail({ErrorCode::kTooFewPoints, "a curve in space needs 3 distinct points", "", ""});
+  }
+  return out;
+}
+
 }  // namespace
 }  // namespace obvid::capi
 
@@ -55,6 +72,17 @@ int obvid_points(const double* xy, size_t n, obvid_input** input, obvid_error** 
     if (!series) return obvid::fail(series.error());
     auto out = std::make_unique<obvid_input>();
     out->points = std::move(*series);
+    *input = out.release();
+    return {};
+  });
+}
+
+int obvid_space_points(const double* xyz, size_t n, obvid_input** input, obvid_error** error) {
+  return guarded(error, [&]() -> obvid::Result<void> {
+    auto series = obvid::capi::space_series_of_array(xyz, n);
+    if (!series) return obvid::fail(series.error());
+    auto out = std::make_unique<obvid_input>();
+    out->space = std::move(*series);
     *input = out.release();
     return {};
   });

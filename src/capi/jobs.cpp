@@ -10,6 +10,8 @@
 #include "obvid/io/file_kind.h"
 #include "obvid/io/read_points.h"
 #include "obvid/pipeline/analyse.h"
+#include "obvid/pipeline/construction_fit.h"
+#include "obvid/pipeline/construction_values.h"
 #include "obvid/pipeline/drawn_contour.h"
 #include "obvid/pipeline/promise.h"
 #include "obvid/pipeline/refusal.h"
@@ -19,10 +21,15 @@
 namespace obvid::capi {
 namespace {
 
+constexpr Known kForming{.fit = true, .construction = true, .import = true};
+constexpr Known kWorksheet{.fit = true, .construction = true, .worksheet = true, .import = true};
 constexpr Known kFitting{.fit = true, .import = true};
 constexpr Known kImporting{.import = true};
 
 Result<PointSeries> series_of(const obvid_input& input, const Request& request, bool drawings) {
+  if (input.space) {
+    return fail({ErrorCode::kBadOption, "points in space are formed by obvid_fit_space", "", ""});
+  }
   Result<PointSeries> series = [&]() -> Result<PointSeries> {
     if (input.points) return *input.points;
     if (!drawings) return parse_points(input.text, input.name);
@@ -98,6 +105,13 @@ Result<std::unique_ptr<obvid_contour>> stored_of(const obvid_input& input, const
   return out;
 }
 
+Result<Fit> formed(const PointSeries& series, const Request& request, const RunContext& run) {
+  if (!request.worksheet.construction) return fit(series, request.job, run);
+  auto made = fit_construction(series, request.worksheet, run);
+  if (!made) return fail(explained(series, request.worksheet, made.error(), run));
+  return made;
+}
+
 /// The points that would have to move, else those that the refusal names.
 std::vector<std::size_t> points_in_the_way(const Refusal& refusal) {
   return refusal.why && refusal.why->found ? refusal.why->moved : std::vector<std::size_t>{};
@@ -114,13 +128,15 @@ extern "C" {
 int obvid_fit(const obvid_input* input, const char* options, const obvid_run* run,
               obvid_contour** contour, char** report, obvid_error** error) {
   return guarded(error, [&]() -> Result<void> {
-    const Result<Request> request = request_of(options, kFitting);
+    const Result<Request> request = request_of(options, kForming);
     if (!request) return fail(request.error());
     const Result<PointSeries> series = series_of(*input, *request, true);
     if (!series) return fail(series.error());
-    Result<Fit> made = fit(*series, request->job, context_of(run));
+    Result<Fit> made = formed(*series, *request, context_of(run));
     if (!made) return fail(made.error());
-    const std::optional<Error> broken = broken_promise(*made);
+    // a construction promises nothing: its certificate says what it is
+    const bool promises = !request->worksheet.construction;
+    const std::optional<Error> broken = promises ? broken_promise(*made) : std::nullopt;
     auto out = std::make_unique<obvid_contour>();
     char* const text = report == nullptr ? nullptr : text_of(fit_report_json(*made, {}));
     out->stored = {std::move(made->contour), std::move(made->report), std::move(made->certificate)};
@@ -196,15 +212,15 @@ int obvid_analyse(const obvid_input* input, const char* options, const obvid_run
 
 int obvid_region(const obvid_input* input, const char* options, const obvid_run* run, char** report,
                  obvid_error** error) {
-  (void)run;
-  return report_on_points(input, options, kFitting, report, error,
-                          [&](PointSeries& series, const Request& request) {
-                            RegionJob job;
-                            job.job = request.job;
-                            return region_table(series, job).map([&](const RegionTable& found) {
-                              return region_json(series, found);
-                            });
-                          });
+  return report_on_points(
+      input, options, kWorksheet, report, error,
+      [&](PointSeries& series, const Request& request) -> Result<std::string> {
+        const auto found = region_table(series, request.worksheet);
+        if (!found) {
+          return fail(explained(series, request.worksheet, found.error(), context_of(run)));
+        }
+        return region_json(series, *found);
+      });
 }
 
 int obvid_compare(const obvid_input* input, const char* options, const obvid_run* run,

@@ -10,8 +10,10 @@
 #include <vector>
 
 #include "obvid/core/near_name.h"
+#include "obvid/pipeline/construction_values.h"
 #include "obvid/pipeline/format_values.h"
 #include "obvid/pipeline/job_values.h"
+#include "obvid/pipeline/space_values.h"
 
 namespace obvid::capi {
 namespace {
@@ -80,11 +82,25 @@ Setter points(std::vector<std::string>& to) {
   };
 }
 
+/// [9, 9]
+Setter counts(std::vector<long>& to) {
+  return [&to](const Json& value) {
+    if (!value.is_array()) return false;
+    for (const Json& one : value) {
+      if (!one.is_number_integer()) return false;
+      to.push_back(static_cast<long>(one.get<std::int64_t>()));
+    }
+    return true;
+  };
+}
+
 /// Values as they stand, before they are checked.
 struct Written {
   TypedValues typed;
+  TypedConstruction construction;
   FormatValues formats;
   std::string carrier = "spiral";
+  std::string along;
   std::optional<double> tolerance;
   std::optional<std::string> units;
 };
@@ -114,6 +130,12 @@ std::map<std::string, Setter> setters(Written& w, Request& out, const Known& kno
                 {"continuity", text(t.continuity)},
                 {"prefer", text(t.prefer)}});
   }
+  if (known.construction) {
+    all.insert({{"construction", text(w.construction.name)},
+                {"fixation", count(w.construction.fixation)}});
+  }
+  if (known.space) all.insert({{"along", text(w.along)}});
+  if (known.worksheet) all.insert({{"insert", counts(w.construction.insert)}});
   if (known.import) {
     all.insert({{"curve", count(f.curve)},
                 {"chord-tolerance", number(f.chord_tolerance)},
@@ -156,15 +178,36 @@ Result<void> take(const Json& object, const std::map<std::string, Setter>& known
   return {};
 }
 
-Result<void> check(const Written& w, Request& out) {
-  return set_tolerance(w.tolerance, out.job)
+/// A construction takes the place of the carrier, and `prefer` then has the worksheet's names.
+Result<void> take_construction(Written& w, const Known& known, Request& out) {
+  TypedConstruction& typed = w.construction;
+  const bool asked = !typed.name.empty() || typed.fixation;
+  if (!known.worksheet && !asked) return {};
+  typed.prefer = std::exchange(w.typed.prefer, "fair");
+  auto made = construction_values(typed);
+  if (!made) return fail(made.error());
+  if (asked && w.carrier != "spiral") {
+    return fail(bad_option("a construction is its own carrier", "--carrier",
+                           "leave --carrier out, or --construction"));
+  }
+  out.worksheet = std::move(*made);
+  return {};
+}
+
+Result<void> check(Written& w, const Known& known, Request& out) {
+  return take_construction(w, known, out)
+      .and_then([&] { return set_tolerance(w.tolerance, out.job); })
       .and_then([&] { return set_values(w.typed, out.job); })
       .and_then(
           [&] { return carrier_named(w.carrier).map([&](Carrier one) { out.job.carrier = one; }); })
       .and_then([&] { return set_formats(w.formats, out.formats, out.profile); })
       .and_then([&] { return set_import(w.formats, out.import); })
       .and_then([&]() -> Result<void> {
+        out.worksheet = with_job(out.worksheet, out.job);
         if (has_both_headings(out.job)) out.import.two_points = TwoPoints::kDo;
+        const auto along = direction_named(w.along);
+        if (!along) return fail(along.error());
+        out.along = *along;
         if (!w.units) return {};
         return given_units(*w.units, "units").map([&](Units given) { out.units = given; });
       });
@@ -182,7 +225,7 @@ Result<Request> request_of(const char* options, const Known& known) {
   }
   Written written;
   if (auto done = take(object, setters(written, out, known)); !done) return fail(done.error());
-  if (auto done = check(written, out); !done) return fail(done.error());
+  if (auto done = check(written, known, out); !done) return fail(done.error());
   return out;
 }
 

@@ -6,15 +6,19 @@
 
 #include "obvid/core/result.h"
 #include "obvid/core/units.h"
+#include "obvid/geom/vec3.h"
 #include "obvid/pipeline/export.h"
 #include "obvid/pipeline/fit.h"
 #include "obvid/pipeline/import.h"
+#include "obvid/pipeline/region_table.h"
 
 namespace obvid::capi {
 
 /// What the options of a call ask for.
 struct Request {
   FitJob job;
+  RegionJob worksheet;        ///< the job with what is asked of tangents and constructions
+  std::optional<Vec3> along;  ///< of points in space
   ImportOptions import;
   ExportOptions formats;
   std::string profile;  ///< what "for" chose, in words
@@ -23,9 +27,12 @@ struct Request {
 
 /// Which options a job knows.
 struct Known {
-  bool fit = false;      ///< carrier, tolerance, fixed data, ...
-  bool import = false;   ///< curve, drawing, chord-tolerance
-  bool formats = false;  ///< of files
+  bool fit = false;           ///< carrier, tolerance, fixed data, ...
+  bool construction = false;  ///< of the papers, over the points
+  bool worksheet = false;     ///< `prefer` is that of region, which inserts points too
+  bool space = false;         ///< direction of the projection
+  bool import = false;        ///< curve, drawing, chord-tolerance
+  bool formats = false;       ///< of files
 };
 
 /// Reads a JSON object with the names of the command line; NULL and "" are no options. Errors: E308

@@ -16,6 +16,7 @@ namespace obvid {
 namespace {
 
 constexpr std::string_view kSpaceFormat = "obvid-space-curve";
+constexpr std::string_view kChainFormat = "obvid-space-chain";
 constexpr std::size_t kPlacesOfFormat = 4096;  // bytes within which a file names its format
 
 class SpaceReader : private JsonValues {
@@ -143,19 +144,123 @@ class SpaceReader : private JsonValues {
   bool planar_ = false;
 };
 
+class SpaceChainReader : private JsonValues {
+ public:
+  explicit SpaceChainReader(std::string_view name) : JsonValues(name), file_(name) {}
+
+  Result<StoredSpaceChain> read(const nlohmann::json& document) {
+    const Node root{&document, nullptr, {}, 0};
+    (void)word(field(root, "format"));
+    const Node version = field(root, "version");
+    if (!failed() && integer(version, 1, kMaxInteger) != 1) {
+      refuse(version, ErrorCode::kUnsupported, "this version of the format is not known");
+    }
+    if (const auto name = optional_field(root, "name")) out_.name = word(*name);
+    out_.units.name = word(field(root, "units"));
+    if (const auto node = optional_field(root, "units_source")) {
+      if (const auto source = unit_source_of(word(*node))) out_.units.source = *source;
+    }
+    out_.closed = flag(field(root, "closed"));
+    out_.largest_move = number(field(root, "largest_move"));
+    each(field(root, "points"), [&](const Node& one) { out_.points.push_back(place(one)); });
+    each(field(root, "corners"), [&](const Node& one) { corner(one); });
+    const Node parts = field(root, "parts");
+    each(parts, [&](const Node& one) { part(one); });
+    const std::size_t wanted = out_.corners.size() + (out_.closed ? 0 : 1);
+    if (!failed() && (out_.corners.empty() || out_.parts.size() != wanted)) {
+      refuse(parts, fmt::format("these corners join {} curves, not {}", wanted, out_.parts.size()));
+    }
+    if (error_) return fail(std::move(*error_));
+    for (std::string& one : unread_fields(document)) {
+      if (one != "/parts" && !one.starts_with("/parts/")) out_.unread.push_back(std::move(one));
+    }
+    return std::move(out_);
+  }
+
+ private:
+  void corner(const Node& node) {
+    const std::size_t first = out_.closed ? 0 : 1, count = out_.points.size();
+    const Node point = field(node, "point");
+    if (failed()) return;
+    SpaceCorner one;
+    one.point = static_cast<std::size_t>(integer(point, 0, kMaxInteger));
+    one.turn = number(field(node, "turn"));
+    const std::size_t least = out_.corners.empty() ? first : out_.corners.back().point + 1;
+    if (!failed() && (one.point < least || one.point + first >= count)) {
+      refuse(point, "corners are inner points of the chain, in order");
+    }
+    out_.corners.push_back(one);
+  }
+
+  void part(const Node& node) {
+    if (failed()) return;
+    auto stored =
+        SpaceReader(fmt::format("{}: /parts/{}", file_, out_.parts.size())).read(*node.value);
+    if (!stored) {
+      error_ = stored.error();
+      return;
+    }
+    out_.parts.push_back(std::move(*stored));
+  }
+
+  Vec3 place(const Node& node) {
+    std::vector<double> values;
+    each(node, [&](const Node& one) { values.push_back(number(one)); });
+    if (!failed() && values.size() != 3) refuse(node, "a point has three coordinates");
+    return failed() ? Vec3{} : Vec3{values[0], values[1], values[2]};
+  }
+
+  std::string file_;
+  StoredSpaceChain out_;
+};
+
 }  // namespace
+
+std::vector<std::size_t> points_of_part(const std::vector<SpaceCorner>& corners, bool closed,
+                                        std::size_t count, std::size_t k) {
+  std::size_t from = 0, to = 0;
+  if (closed) {
+    from = corners[k].point;
+    to = k + 1 < corners.size() ? corners[k + 1].point : corners.front().point + count;
+  } else {
+    from = k > 0 ? corners[k - 1].point : 0;
+    to = k < corners.size() ? corners[k].point : count - 1;
+  }
+  std::vector<std::size_t> out;
+  for (std::size_t i = from; i <= to; ++i) out.push_back(i % count);
+  return out;
+}
 
 bool is_space_json(std::string_view text) {
   const std::string_view head = text.substr(0, kPlacesOfFormat);
   const std::size_t begin = head.find_first_not_of(" \t\r\n\xEF\xBB\xBF");
   return begin != std::string_view::npos && head[begin] == '{' &&
-         head.find(fmt::format("\"{}\"", kSpaceFormat)) != std::string_view::npos;
+         (head.find(fmt::format("\"{}\"", kSpaceFormat)) != std::string_view::npos ||
+          head.find(fmt::format("\"{}\"", kChainFormat)) != std::string_view::npos);
 }
 
 Result<StoredSpace> space_from_json(std::string_view text, std::string_view name) {
   const auto document = parse_json(text, name);
   if (!document) return fail(document.error());
   return SpaceReader(name).read(*document);
+}
+
+Result<StoredSpaceChain> space_chain_from_json(std::string_view text, std::string_view name) {
+  const auto document = parse_json(text, name);
+  if (!document) return fail(document.error());
+  const auto format = document->is_object() ? document->find("format") : document->end();
+  if (format != document->end() && *format == kChainFormat) {
+    return SpaceChainReader(name).read(*document);
+  }
+  auto one = SpaceReader(name).read(*document);
+  if (!one) return fail(one.error());
+  StoredSpaceChain out;
+  out.name = one->name;
+  out.units = one->units;
+  out.largest_move = one->largest_move;
+  out.points = one->points;
+  out.parts.push_back(std::move(*one));
+  return out;
 }
 
 }  // namespace obvid

@@ -17,6 +17,7 @@
 #include "obvid/certify/certify.h"
 #include "obvid/chain/smooth_chain.h"
 #include "obvid/region/refine.h"
+#include "parabola_room.h"
 #include "parts.h"
 #include "pass_points.h"
 #include "prepare.h"
@@ -875,8 +876,10 @@ Continuity wanted_continuity(const FitJob& job) {
   return smooth ? job.continuity.value_or(Continuity::kG3) : Continuity::kG2;
 }
 
-Result<Fit> pipeline_detail::fit_with(const PointSeries& series, const FitJob& job,
-                                      FoundChains& chains, Watch& watch) {
+namespace {
+
+Result<Fit> fit_as_asked(const PointSeries& series, const FitJob& job, FoundChains& chains,
+                         Watch& watch) {
   if (watch.cancelled()) return fail(cancelled_error());
   if (job.continuity == Continuity::kG3 && job.carrier != Carrier::kSpiral) {
     return fail(
@@ -907,6 +910,21 @@ Result<Fit> pipeline_detail::fit_with(const PointSeries& series, const FitJob& j
     }
   }
   if (watch.was_cancelled()) return fail(cancelled_error());  // whatever it made do with
+  if (made) made->report.seconds = seconds_since(begin);
+  return made;
+}
+
+}  // namespace
+
+Result<Fit> pipeline_detail::fit_with(const PointSeries& series, const FitJob& job,
+                                      FoundChains& chains, Watch& watch) {
+  const auto begin = std::chrono::steady_clock::now();
+  auto made = fit_as_asked(series, job, chains, watch);
+  if (made || job.carrier != Carrier::kBeziers || !wants_room(job, made.error())) return made;
+  made = with_room(job, "this one is", std::move(made), [&](const FitJob& wider) {
+    FoundChains others;
+    return fit_as_asked(series, wider, others, watch);
+  });
   if (made) made->report.seconds = seconds_since(begin);
   return made;
 }

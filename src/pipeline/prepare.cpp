@@ -20,6 +20,9 @@ double least_move(Vec2 p) {
   return kRoundings * 0x1p-53 * (std::abs(p.x) + std::abs(p.y));
 }
 
+/// What the least largest curvature is exceeded by, so that there is room to choose the rest.
+constexpr double kAboveLeastCurvature = 1.005;
+
 class Preparation {
  public:
   Preparation(const PointSeries& series, const FitJob& job) : series_(series), job_(job) {}
@@ -27,6 +30,7 @@ class Preparation {
   Result<Prepared> run() {
     out_.convex = job_.convex;
     out_.prefer = job_.prefer;
+    out_.above_least = job_.above_least.value_or(kAboveLeastCurvature);
     out_.primitives = job_.primitives;
     out_.period = job_.period;
     if (auto done = gather(); !done) return fail(done.error());

@@ -23,6 +23,7 @@ struct Prepared {
   std::vector<std::optional<Piece>> kept;
   bool convex = false;
   Prefer prefer = Prefer::kFair;
+  double above_least = 0.0;  ///< as in the job, with its default
   bool central = false;  ///< each in the middle of what is left to it, when ranges ask for it
   bool primitives = false;
   bool thin = true;  ///< fewer joints than points where points with tolerances are dense

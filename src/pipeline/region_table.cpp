@@ -15,6 +15,7 @@
 #include "obvid/region/boundary_distance.h"
 #include "obvid/region/convex_triangle.h"
 #include "obvid/series/analysis.h"
+#include "parabola_room.h"
 #include "prepare.h"
 #include "region_constructions.h"
 #include "section_chain.h"
@@ -585,9 +586,7 @@ void append(RegionPart part, RegionPart& to) {
   to.loop = part.loop;  // a loop is the only part
 }
 
-}  // namespace
-
-Result<RegionTable> region_table(const PointSeries& series, const RegionJob& job) {
+Result<RegionTable> table_as_asked(const PointSeries& series, const RegionJob& job) {
   const auto prepared = prepare(series, job.job);
   if (!prepared) return tl::unexpected(prepared.error());
   RegionTable table;
@@ -628,6 +627,20 @@ Result<RegionTable> region_table(const PointSeries& series, const RegionJob& job
     table.elements.push_back({p.point, p.theta, p.kappa});
   }
   return table;
+}
+
+}  // namespace
+
+Result<RegionTable> region_table(const PointSeries& series, const RegionJob& job) {
+  auto made = table_as_asked(series, job);
+  const bool parabolas = job.construction == Construction::kParabolas;
+  if (made || !parabolas || !pipeline_detail::wants_room(job.job, made.error())) return made;
+  return pipeline_detail::with_room(job.job, "the tangents are those of one", std::move(made),
+                                    [&](const FitJob& wider) {
+                                      RegionJob other = job;
+                                      other.job = wider;
+                                      return table_as_asked(series, other);
+                                    });
 }
 
 }  // namespace obvid

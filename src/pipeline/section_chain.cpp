@@ -39,8 +39,6 @@ constexpr std::size_t kMostGuesses = 3;
 constexpr int kMostHeld = 3;
 constexpr double kHoldWork = 1e6, kHoldFactor = 3.0;
 constexpr double kDegrees = 180.0 / std::numbers::pi;
-/// What the least largest curvature is exceeded by, so that there is room to choose the rest.
-constexpr double kAboveLeastCurvature = 1.005;
 
 /// `whole`: the numbers that the points of the analysis have in the series; a segment may be there
 /// twice.
@@ -172,7 +170,7 @@ class SectionChooser {
                    "exists",
                    "", "free some of it", static_cast<std::ptrdiff_t>(index_.front()), 0.0});
     }
-    cap_ = kAboveLeastCurvature * *least;
+    cap_ = series_.above_least * *least;
     return {};
   }
 

@@ -20,6 +20,7 @@ namespace obvid {
 namespace {
 
 using pipeline_detail::HeightOrder;
+using pipeline_detail::SpaceEnds;
 using pipeline_detail::SpacePlace;
 using pipeline_detail::SpaceShape;
 
@@ -57,21 +58,59 @@ bool returns(const SpaceSeries& series, const FitJob& job) {
   return norm(series.points.back() - series.points.front()) <= near;
 }
 
-/// A last point that is the first one again but for noise is that one.
-PointSeries flat_series(const SpaceSeries& series, const Frame& frame, const FitJob& job) {
+/// A last point that is the first one again but for noise is that one. Ends at corners stay.
+PointSeries flat_series(const SpaceSeries& series, const Frame& frame, const SpaceJob& space,
+                        const SpaceEnds& ends) {
+  const FitJob& job = space.fit;
   PointSeries out;
+  out.fixed = space.fixed;
   out.name = series.name;
   out.units = series.units;
   out.rounding = rounding_in(frame, series.rounding).within;
   for (const Vec3& p : series.points) out.points.push_back(frame.in_plane(p));
   if (job.closing != Closing::kOpen && returns(series, job)) out.points.back() = out.points.front();
+  if (ends.first_is_corner || ends.last_is_corner) out.fixed.resize(out.points.size());
+  if (ends.first_is_corner) out.fixed.front().tolerance = 0.0;
+  if (ends.last_is_corner) out.fixed.back().tolerance = 0.0;
   return out;
+}
+
+/// The plane through both ends (one, where they are the same) that the others are nearest to.
+Frame plane_through_ends(const std::vector<Vec3>& points) {
+  const Vec3 start = points.front(), chord = points.back() - start;
+  const double length = norm(chord), size = largest_extent(points);
+  const Vec3 along = length > 0.0 ? chord / length : Vec3{};
+  std::vector<Vec3> around;
+  for (const Vec3& p : points) {
+    const Vec3 off = (p - start) - dot(p - start, along) * along;
+    around.push_back(off);
+    around.push_back(-off);
+  }
+  // spread along the chord so far that no other direction is before it
+  const double far = static_cast<double>(points.size()) * size;
+  if (length > 0.0) {
+    around.push_back(far * along);
+    around.push_back(-far * along);
+  }
+  Frame frame = plane_of(around);
+  frame.origin = start;
+  return frame;
+}
+
+/// More than a mark of a corner.
+bool fixes_more(const PointWish& wish) {
+  return wish.theta || wish.kappa || wish.thetas || wish.kappas;
+}
+
+bool fixes_columns(const SpaceJob& job) {
+  return std::any_of(job.fixed.begin(), job.fixed.end(),
+                     [](const FixedData& f) { return f.says_how() || f.tolerance; });
 }
 
 bool fixes_data(const FitJob& job) {
   return job.start_heading || job.end_heading || job.start_kappa || job.end_kappa ||
          job.start_thetas || job.end_thetas || job.start_kappas || job.end_kappas ||
-         !job.wishes.empty();
+         std::any_of(job.wishes.begin(), job.wishes.end(), fixes_more);
 }
 
 Error within_part(Error error, const char* part) {
@@ -227,8 +266,9 @@ std::string heights_name(const HeightOrder& order) {
 /// A curve that does not lie in a plane, in one projection.
 class SpatialForming {
  public:
-  SpatialForming(const SpaceSeries& series, const SpaceJob& job, const RunContext& run)
-      : series_(series), job_(job), run_(run) {}
+  SpatialForming(const SpaceSeries& series, const SpaceJob& job, const SpaceEnds& ends,
+                 const RunContext& run)
+      : series_(series), job_(job), ends_(ends), run_(run) {}
 
   Result<SpaceFit> along(Vec3 direction) const {
     SpaceFit out;
@@ -237,8 +277,7 @@ class SpatialForming {
     out.points = series_.points;
     out.frame = frame_along(direction, {});
     const PlaneRounding rounding = rounding_in(out.frame, series_.rounding);
-    PointSeries plan = flat_series(series_, out.frame, job_.fit);
-    plan.fixed = job_.fixed;
+    PointSeries plan = flat_series(series_, out.frame, job_, ends_);
     FitJob plan_job = job_.fit;
     // both parts move a point: together no further than the noise
     if (plan_job.noise) plan_job.noise = std::numbers::sqrt2 / 2.0 * *plan_job.noise;
@@ -251,8 +290,8 @@ class SpatialForming {
     out.plan = std::move(*first);
     if (out.plan.certificate.corners > 0) {
       return fail(of_space(ErrorCode::kUnsupported,
-                           "the projection has a corner: corners must lie in a plane",
-                           "split the series there"));
+                           "the projection has a corner where the points in space have none",
+                           "choose another direction with --along, or mark it with --corner-at"));
     }
     auto second = heights(out, rounding.across);
     if (!second) return fail(second.error());
@@ -328,8 +367,8 @@ class SpatialForming {
     }
     if (made->certificate.corners > 0) {
       return fail(of_space(ErrorCode::kUnsupported,
-                           "the heights have a corner: corners must lie in a plane",
-                           "split the series there"));
+                           "the heights have a corner where the points in space have none",
+                           "choose another direction with --along, or mark it with --corner-at"));
     }
     return made;
   }
@@ -357,6 +396,7 @@ class SpatialForming {
 
   const SpaceSeries& series_;
   const SpaceJob& job_;
+  const SpaceEnds& ends_;
   const RunContext& run_;
 };
 
@@ -365,15 +405,21 @@ int bends_of(const SpaceFit& one) {
   return count(one.plan) + count(*one.unrolled);
 }
 
-Result<SpaceFit> planar_fit(const SpaceSeries& series, const SpaceJob& job, const Frame& frame,
-                            double flatness, const RunContext& run) {
+Result<SpaceFit> planar_fit(const SpaceSeries& series, const SpaceJob& job, const SpaceEnds& ends,
+                            const Frame& frame, double flatness, const RunContext& run) {
   SpaceFit out;
   out.name = series.name;
   out.units = series.units;
   out.points = series.points;
   out.frame = frame;
   out.flatness = flatness;
-  auto made = fit(flat_series(series, frame, job.fit), job.fit, run);
+  const PointSeries flat = flat_series(series, frame, job, ends);
+  FitJob plane_job = job.fit;
+  const bool line = flat.points.size() == 2 && (ends.first_is_corner || ends.last_is_corner);
+  if (line) {
+    plane_job.start_heading = plane_job.end_heading = heading(flat.points[1] - flat.points[0]);
+  }
+  auto made = fit(flat, plane_job, run);
   if (!made) return fail(made.error());
   out.plan = std::move(*made);
   out.largest_move = flatness + largest_of(out.plan.report.moves) + closing_gap(out);
@@ -382,12 +428,12 @@ Result<SpaceFit> planar_fit(const SpaceSeries& series, const SpaceJob& job, cons
 }
 
 /// The fewest vertices and inflections of the directions that give a curve.
-Result<SpaceFit> best_projection(const SpaceSeries& series, const SpaceJob& job, Vec3 normal,
-                                 const RunContext& run) {
+Result<SpaceFit> best_projection(const SpaceSeries& series, const SpaceJob& job,
+                                 const SpaceEnds& ends, Vec3 normal, const RunContext& run) {
   std::optional<SpaceFit> best;
   std::optional<Error> refused;
   for (const Vec3 direction : {normal, Vec3{0, 0, 1}, Vec3{0, 1, 0}, Vec3{1, 0, 0}}) {
-    auto one = SpatialForming(series, job, run).along(direction);
+    auto one = SpatialForming(series, job, ends, run).along(direction);
     if (!one && one.error().code == ErrorCode::kCancelled) return fail(one.error());
     if (!one && !refused) refused = one.error();
     if (one && (!best || bends_of(*one) < bends_of(*best))) best = std::move(*one);
@@ -401,6 +447,24 @@ Result<SpaceFit> best_projection(const SpaceSeries& series, const SpaceJob& job,
 namespace pipeline_detail {
 
 Result<void> measure(SpaceFit& fit) { return measure_space(fit); }
+
+bool returns_in_space(const SpaceSeries& series, const FitJob& job) { return returns(series, job); }
+
+bool fixes_space_data(const SpaceJob& job) { return fixes_data(job.fit) || fixes_columns(job); }
+
+PlaneOfSpace plane_of_space(const SpaceSeries& series, const SpaceJob& job, const SpaceEnds& ends) {
+  const bool pinned = ends.first_is_corner || ends.last_is_corner;
+  PlaneOfSpace out{pinned ? plane_through_ends(series.points) : plane_of(series.points)};
+  const double across = rounding_in(out.frame, series.rounding).across;
+  const double allowed =
+      std::max({kPlanarPart * largest_extent(series.points), across, job.fit.noise.value_or(0.0)});
+  for (const Vec3& p : series.points) {
+    out.flatness = std::max(out.flatness, std::abs(out.frame.height(p)));
+  }
+  const bool line = pinned && series.points.size() == 2;
+  out.holds = line || (!job.along && out.flatness <= allowed && !fixes_columns(job));
+  return out;
+}
 
 }  // namespace pipeline_detail
 
@@ -437,33 +501,24 @@ Result<std::optional<SpaceSeries>> parse_space_series(const std::string& text,
 
 double size_of(const SpaceFit& fit) { return largest_extent(fit.points); }
 
-Result<SpaceFit> fit_space(const SpaceSeries& series, const SpaceJob& job, const RunContext& run) {
-  if (job.along && !(is_finite(*job.along) && norm(*job.along) > 0.0)) {
-    return fail(of_space(ErrorCode::kBadOption, "the direction has no length",
-                         "X, Y, Z, or three numbers: 1,0,0.5"));
-  }
-  const double size = largest_extent(series.points);
-  const Frame plane = plane_of(series.points);
-  const PlaneRounding printed = rounding_in(plane, series.rounding);
-  const double allowed =
-      std::max({kPlanarPart * size, printed.across, job.fit.noise.value_or(0.0)});
-  double flatness = 0.0;
-  for (const Vec3& p : series.points) flatness = std::max(flatness, std::abs(plane.height(p)));
-  if (!job.along && flatness <= allowed && job.fixed.empty()) {
-    return planar_fit(series, job, plane, flatness, run);
-  }
+namespace pipeline_detail {
+
+Result<SpaceFit> form_in_space(const SpaceSeries& series, const SpaceJob& job,
+                               const SpaceEnds& ends, const RunContext& run) {
+  const PlaneOfSpace plane = plane_of_space(series, job, ends);
+  if (plane.holds) return planar_fit(series, job, ends, plane.frame, plane.flatness, run);
   if (job.fit.carrier != Carrier::kSpiral) {
     return fail(of_space(ErrorCode::kBadOption, "a curve that lies in no plane is made of spirals",
                          "leave --carrier out"));
   }
-  if (!job.along && (fixes_data(job.fit) || !job.fixed.empty())) {
+  if (!job.along && fixes_space_data(job)) {
     return fail(of_space(ErrorCode::kBadOption,
                          "headings, radii and corners of points in space are those of a projection",
                          "--along Z takes them as seen in the plane of x and y, --flat forms the "
                          "contour in that plane alone"));
   }
-  auto out = job.along ? SpatialForming(series, job, run).along(*job.along)
-                       : best_projection(series, job, plane.normal(), run);
+  auto out = job.along ? SpatialForming(series, job, ends, run).along(*job.along)
+                       : best_projection(series, job, ends, plane.frame.normal(), run);
   if (!out) return out;
   if (closing_gap(*out) > 0.0) {
     out->warnings.emplace_back(
@@ -477,6 +532,16 @@ Result<SpaceFit> fit_space(const SpaceSeries& series, const SpaceJob& job, const
     }
   }
   return out;
+}
+
+}  // namespace pipeline_detail
+
+Result<SpaceFit> fit_space(const SpaceSeries& series, const SpaceJob& job, const RunContext& run) {
+  if (job.along && !(is_finite(*job.along) && norm(*job.along) > 0.0)) {
+    return fail(of_space(ErrorCode::kBadOption, "the direction has no length",
+                         "X, Y, Z, or three numbers: 1,0,0.5"));
+  }
+  return pipeline_detail::form_in_space(series, job, {}, run);
 }
 
 }  // namespace obvid

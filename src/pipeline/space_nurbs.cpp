@@ -19,6 +19,8 @@ using pipeline_detail::SpaceShape;
 constexpr std::size_t kMostSpans = 100'000;
 /// Of the tolerance, for what happens between the places that are looked at.
 constexpr double kBetweenPart = 0.25;
+/// Shortest span, of the mean one.
+constexpr double kLeastSpanPart = 1e-2;
 /// Of a cubic beyond the seam of a closed curve: what happens at its ends fades by 2 - sqrt 3 a
 /// span.
 constexpr std::ptrdiff_t kSpansBeyond = 40;
@@ -27,7 +29,7 @@ constexpr std::ptrdiff_t kSpansBeyond = 40;
 class CubicOfSpace {
  public:
   CubicOfSpace(const SpaceShape& shape, bool closed, double tolerance)
-      : shape_(shape), closed_(closed), tolerance_(tolerance), joints_(shape.joints()) {}
+      : shape_(shape), closed_(closed), tolerance_(tolerance), joints_(apart(shape.joints())) {}
 
   Result<SpaceNurbs> run() const {
     for (std::size_t parts = 1; parts * joints_.size() < kMostSpans; parts *= 2) {
@@ -47,6 +49,20 @@ class CubicOfSpace {
   }
 
  private:
+  /// Joints of both contours that are meant to be one lie beside each other: differences of places
+  /// so near would be rounding. The cubic need not have a knot at a joint; how far it is from the
+  /// curve is looked at afterwards.
+  static std::vector<double> apart(const std::vector<double>& joints) {
+    const double least =
+        kLeastSpanPart * (joints.back() - joints.front()) / static_cast<double>(joints.size());
+    std::vector<double> out{joints.front()};
+    for (const double joint : joints) {
+      if (joint - out.back() >= least && joints.back() - joint >= least) out.push_back(joint);
+    }
+    out.push_back(joints.back());
+    return out;
+  }
+
   /// One turn of the cubic through more of them, so far that its ends do not tell; it ends where it
   /// begins.
   static Result<SpaceCurve> round_the_seam(std::vector<Vec3> points,
@@ -100,27 +116,36 @@ void add_vec3(JsonText& json, const char* name, Vec3 v) {
   json.key(name).begin_array().value(v.x).value(v.y).value(v.z).end_array();
 }
 
-/// Places of a curve at equal steps of its arc length.
-std::vector<std::pair<double, SpacePlace>> equal_places(const SpaceFit& fit, std::size_t count) {
+/// Places of a curve at arc lengths, ascending or not, as `lengths_of` its length gives them.
+template <class LengthsOf>
+std::vector<std::pair<double, SpacePlace>> places_at(const SpaceFit& fit, LengthsOf&& lengths_of) {
   std::vector<std::pair<double, SpacePlace>> out;
-  const std::size_t steps = std::max<std::size_t>(count, 2) - 1;
-  const auto add_all = [&](double length, const auto& at) {
-    for (std::size_t k = 0; k <= steps; ++k) {
-      const double s = length * static_cast<double>(k) / static_cast<double>(steps);
-      out.emplace_back(s, at(s));
-    }
-  };
   if (fit.unrolled) {
     const SpaceShape shape(fit.frame, fit.plan.contour, fit.unrolled->contour);
-    add_all(shape.length(), [&](double s) { return shape.at(s, s >= shape.length()); });
+    for (const double s : lengths_of(shape.length())) {
+      out.emplace_back(s, shape.at(s, s >= shape.length()));
+    }
     return out;
   }
   const ContourPath path(fit.plan.contour.pieces);
-  add_all(path.length(), [&](double s) {
+  for (const double s : lengths_of(path.length())) {
     const auto place = path.at(s, s >= path.length());
-    return SpacePlace{fit.frame.at(place.point), s, 0.0, std::abs(place.kappa), 0.0};
-  });
+    out.emplace_back(s, SpacePlace{fit.frame.at(place.point), s, 0.0, std::abs(place.kappa), 0.0,
+                                   place.tangent.x * fit.frame.x + place.tangent.y * fit.frame.y});
+  }
   return out;
+}
+
+/// At equal steps.
+std::vector<std::pair<double, SpacePlace>> equal_places(const SpaceFit& fit, std::size_t count) {
+  return places_at(fit, [&](double length) {
+    std::vector<double> at;
+    const std::size_t steps = std::max<std::size_t>(count, 2) - 1;
+    for (std::size_t k = 0; k <= steps; ++k) {
+      at.push_back(length * static_cast<double>(k) / static_cast<double>(steps));
+    }
+    return at;
+  });
 }
 
 }  // namespace
@@ -217,12 +242,38 @@ std::string space_fit_json(const SpaceFit& fit, const SpaceNurbs& nurbs) {
   return json.take() + "\n";
 }
 
-std::string space_samples_csv(const SpaceFit& fit, std::size_t count) {
-  std::string out = "s,x,y,z,curvature,torsion\n";
-  for (const auto& [s, place] : equal_places(fit, count)) {
-    const Vec3 p = place.point;
-    out += fmt::format("{},{},{},{},{},", s, p.x, p.y, p.z, place.curvature);
-    out += place.torsion ? fmt::format("{}\n", *place.torsion) : "\n";
+double length_of(const SpaceFit& fit) {
+  return ContourPath(fit.unrolled ? fit.unrolled->contour.pieces : fit.plan.contour.pieces)
+      .length();
+}
+
+Result<std::vector<SpaceSample>> sample_space(const SpaceFit& fit, std::span<const double> at) {
+  const double length = length_of(fit);
+  for (std::size_t k = 0; k < at.size(); ++k) {
+    if (at[k] >= 0.0 && at[k] <= length) continue;
+    return fail({ErrorCode::kBadOption, "a place is beyond the curve",
+                 fmt::format("place {}", k + 1), "", -1, at[k]});
+  }
+  std::vector<SpaceSample> out;
+  for (const auto& [s, place] : places_at(fit, [&](double) { return at; })) {
+    out.push_back({place.point, place.tangent, place.curvature, place.torsion});
+  }
+  return out;
+}
+
+std::string space_samples_csv(const SpaceChain& chain, std::size_t count) {
+  const bool one = chain.corners.empty();
+  std::string out = one ? "s,x,y,z,curvature,torsion\n" : "s,x,y,z,curvature,torsion,part\n";
+  double before = 0.0;
+  for (std::size_t k = 0; k < chain.parts.size(); ++k) {
+    const auto places = equal_places(chain.parts[k], count);
+    for (const auto& [s, place] : places) {
+      const Vec3 p = place.point;
+      out += fmt::format("{},{},{},{},{},", before + s, p.x, p.y, p.z, place.curvature);
+      if (place.torsion) out += fmt::format("{}", *place.torsion);
+      out += one ? "\n" : fmt::format(",{}\n", k + 1);
+    }
+    before += places.back().first;
   }
   return out;
 }

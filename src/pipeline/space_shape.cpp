@@ -70,6 +70,8 @@ SpacePlace SpaceShape::at(double sigma, bool before_joint) const {
   out.point = frame_.at(plane.point) + rolled.point.y * frame_.normal();
   out.plan_length = rolled.point.x;
   out.height = rolled.point.y;
+  const Vec2 along = (1.0 / norm(plane.d1)) * plane.d1;
+  out.tangent = c * (along.x * frame_.x + along.y * frame_.y) + s * frame_.normal();
   const double b = c * c * kappa;
   const double squared = g * g + b * b;
   out.curvature = std::sqrt(squared);

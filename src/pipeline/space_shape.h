@@ -16,6 +16,7 @@ struct SpacePlace {
   double height = 0.0;
   double curvature = 0.0;
   std::optional<double> torsion;  ///< nothing where the curvature is 0
+  Vec3 tangent{};                 ///< length 1
 };
 
 /// The curve on the cylinder over a plane contour whose unrolled shape is another one, by its arc
@@ -87,5 +88,30 @@ class HeightOrder {
 
 /// Everything that follows from frame, points and both contours: the figures of `fit`.
 [[nodiscard]] Result<void> measure(SpaceFit& fit);
+
+/// Ends of a series that are corners of a chain: neither they nor the curve move there.
+struct SpaceEnds {
+  bool first_is_corner = false, last_is_corner = false;
+};
+
+/// Whether a series is formed in a plane, and which: that of least squares, with corners the one
+/// through both ends.
+struct PlaneOfSpace {
+  Frame frame;
+  double flatness = 0.0;  ///< largest distance of a point from it
+  bool holds = false;
+};
+[[nodiscard]] PlaneOfSpace plane_of_space(const SpaceSeries& series, const SpaceJob& job,
+                                          const SpaceEnds& ends);
+
+/// Whether the last point is the first one again but for noise and print.
+[[nodiscard]] bool returns_in_space(const SpaceSeries& series, const FitJob& job);
+
+/// Whether more than corners is asked for at points.
+[[nodiscard]] bool fixes_space_data(const SpaceJob& job);
+
+/// One curve without corners, or a planar one; errors as `fit_space`. Two points are a line.
+[[nodiscard]] Result<SpaceFit> form_in_space(const SpaceSeries& series, const SpaceJob& job,
+                                             const SpaceEnds& ends, const RunContext& run);
 
 }  // namespace obvid::pipeline_detail

@@ -108,9 +108,10 @@ class Parts {
     return kTurnPerReach * reach / std::min({chord(k - 1), chord(k), chord(k + 1)});
   }
 
+  /// A whole circle has one station, and no chord.
   [[nodiscard]] bool stands_alone(std::size_t part) const {
     const auto k = static_cast<std::ptrdiff_t>(part);
-    return chord(k) >= kAlone * std::max(chord(k - 1), chord(k + 1));
+    return chord(k) > 0.0 && chord(k) >= kAlone * std::max(chord(k - 1), chord(k + 1));
   }
 
   const SeriesChain& chain_;

@@ -46,6 +46,8 @@ lib.obvid_contour_length.restype = C.c_double
 lib.obvid_contour_pieces.restype = C.c_size_t
 lib.obvid_files_count.restype = C.c_size_t
 lib.obvid_files_data.restype = C.c_void_p
+lib.obvid_space_length.restype = C.c_double
+lib.obvid_space_parts.restype = C.c_size_t
 lib.obvid_free.argtypes = [C.c_void_p]
 
 
@@ -132,6 +134,59 @@ def export(contour, ending, options=None):
     return out.decode()
 
 
+def space_points(rows):
+    handle = C.c_void_p()
+    flat = [number for row in rows for number in row]
+    call(lib.obvid_space_points, (C.c_double * len(flat))(*flat), C.c_size_t(len(rows)),
+         C.byref(handle))
+    return handle
+
+
+def fit_space(handle, options=None, run=None):
+    """Curves in space and report."""
+    space, report = C.c_void_p(), C.c_void_p()
+    chosen = json.dumps(options).encode() if options is not None else None
+    text = call(lib.obvid_fit_space, handle, chosen, C.byref(run) if run else None,
+                C.byref(space), C.byref(report), report=report)
+    return space, text
+
+
+def export_space(space, ending, options=None):
+    """Texts of the files, by their suffixes."""
+    files, size, out = C.c_void_p(), C.c_size_t(), {}
+    chosen = json.dumps(options).encode() if options is not None else None
+    call(lib.obvid_space_export, space, ending.encode(), chosen, C.byref(files))
+    for i in range(lib.obvid_files_count(files)):
+        data = lib.obvid_files_data(files, C.c_size_t(i), C.byref(size))
+        suffix = lib.obvid_files_suffix
+        suffix.restype = C.c_char_p
+        out[suffix(files, C.c_size_t(i)).decode()] = C.string_at(data, size.value).decode()
+    lib.obvid_files_free(files)
+    return out
+
+
+def rail():
+    """A line along x, then a quarter of a circle of radius 30 upright beside its end."""
+    rows = [(10.0 * i, 0.0, 0.0) for i in range(5)]
+    for i in range(1, 9):
+        a = 0.5 * math.pi * i / 8
+        rows.append((40.0, 30 * math.sin(a), 30 * (1 - math.cos(a))))
+    return rows
+
+
+def cone():
+    """Curvature falls and torsion falls along it; it lies in no plane."""
+    rows = []
+    for i in range(9):
+        r, a = 50 * math.exp(0.5 * i / 8), 2 * i / 8
+        rows.append((r * math.cos(a), r * math.sin(a), 0.8 * r))
+    return rows
+
+
+def table(rows):
+    return "x,y,z\n" + "".join(f"{x!r},{y!r},{z!r}\n" for x, y, z in rows)
+
+
 def program(*arguments):
     """What the command line prints, and its exit code."""
     done = subprocess.run([PROGRAM, *arguments], capture_output=True, text=True, timeout=120)
@@ -193,6 +248,56 @@ class SaysWhatTheCommandLineSays(unittest.TestCase):
         self.same(job("compare", read(SERIES), {"tolerance": 0.01}), "compare", SERIES,
                   "--tolerance", "0.01", "--json")
         self.same(job("suggest", read(SERIES)), "fit", SERIES, "--suggest", "--json")
+
+    def test_constructions(self):
+        worksheet = os.path.join(SOURCES, "examples/paper_series10.csv")
+        for options, typed in [
+                ({"construction": "arcs", "insert": [9]}, ["--construction", "arcs", "--insert",
+                                                           "9"]),
+                ({"construction": "parabolas", "fixation": 1, "prefer": "neighbours"},
+                 ["--construction", "parabolas", "--fixation", "1", "--prefer", "neighbours"]),
+                ({"prefer": "centre"}, ["--prefer", "centre"]),
+                ({"construction": "ellipses"}, ["--construction", "ellipses"]),
+                ({"construction": "spline", "end-radius": -900},
+                 ["--construction", "spline", "--end-radius=-900"])]:
+            self.same(job("region", read(worksheet), options), "region", worksheet, *typed,
+                      "--json")
+        for options, typed in [
+                ({"construction": "clothoids", "prefer": "neighbours"},
+                 ["--construction", "clothoids", "--prefer", "neighbours"]),
+                ({"construction": "arcs", "tolerance": 0.05},
+                 ["--construction", "arcs", "--tolerance", "0.05"]),
+                ({"construction": "parabolas", "fixation": 2},
+                 ["--construction", "parabolas", "--fixation", "2"])]:
+            contour, report = fit(read(SERIES), options)
+            self.same(report, "fit", SERIES, *typed, "--json")
+            lib.obvid_contour_free(contour)
+
+    def test_curves_in_space(self):
+        with tempfile.TemporaryDirectory() as folder:
+            name = os.path.join(folder, "p.csv")
+            for rows, options, typed in [
+                    (rail(), {}, []), (cone(), {"along": "Z"}, ["--along", "Z"]),
+                    (cone(), {"along": "0,0.2,1", "corner-at": [5], "units": "in"},
+                     ["--along", "0,0.2,1", "--corner-at", "5", "--units", "in"])]:
+                with open(name, "w", encoding="utf-8") as file:
+                    file.write(table(rows))
+                space, report = fit_space(read(name), options)
+                self.same(report, "fit", name, *typed, "--json")
+                stem = os.path.join(folder, "curve")
+                for ending in ["json", "dxf", "step", "csv", "sldcrv"]:
+                    program("fit", name, *typed, "-o", f"{stem}.{ending}")
+                    for suffix, ours in export_space(space, ending).items():
+                        with open(f"{stem}{suffix}.{ending}", newline="") as file:
+                            self.assertEqual(timeless(ours), timeless(file.read()), ending)
+                verified = C.c_void_p()
+                again = C.c_void_p()
+                call(lib.obvid_stored_space, read(stem + ".json"), C.byref(again))
+                for one in [space, again]:
+                    text = call(lib.obvid_verify_space, one, C.byref(verified), report=verified)
+                    self.same(text + "\n", "verify", stem + ".json", "--json")
+                lib.obvid_space_free(again)
+                lib.obvid_space_free(space)
 
     def test_verify_and_convert(self):
         for name in ["spirals_open", "clothoids_closed"]:
@@ -277,6 +382,88 @@ class Contours(unittest.TestCase):
         lib.obvid_contour_free(contour)
 
 
+class CurvesInSpace(unittest.TestCase):
+    def at(self, space, part, places):
+        n = len(places)
+        xyz, tangent = (C.c_double * (3 * n))(), (C.c_double * (3 * n))()
+        bend, torsion = (C.c_double * n)(), (C.c_double * n)()
+        call(lib.obvid_space_evaluate, space, C.c_size_t(part), (C.c_double * n)(*places),
+             C.c_size_t(n), xyz, tangent, bend, torsion)
+        return ([tuple(xyz[3 * i:3 * i + 3]) for i in range(n)],
+                [tuple(tangent[3 * i:3 * i + 3]) for i in range(n)], list(bend), list(torsion))
+
+    def close(self, a, b, places=8):
+        for x, y in zip(a, b):
+            self.assertAlmostEqual(x, y, places=places)
+
+    def test_parts_are_the_line_and_the_circle(self):
+        space, report = fit_space(space_points(rail()))
+        self.assertEqual(lib.obvid_space_parts(space), 2)
+        self.assertEqual(lib.obvid_space_closed(space), 0)
+        corner, = json.loads(report)["corners"]
+        self.assertEqual(corner["point"], 4)
+        self.assertAlmostEqual(corner["turn"], 0.5 * math.pi, places=6)
+        self.assertAlmostEqual(lib.obvid_space_length(space, C.c_size_t(0)), 40.0, places=9)
+        length = lib.obvid_space_length(space, C.c_size_t(1))
+        self.assertAlmostEqual(length, 15 * math.pi, places=6)
+        angle = 0.4 * 0.5 * math.pi
+        (start, place), (_, along), bends, _ = self.at(space, 1, [0.0, 0.4 * length])
+        self.close(start, (40, 0, 0))
+        self.close(place, (40, 30 * math.sin(angle), 30 * (1 - math.cos(angle))), 6)
+        self.close(along, (0, math.cos(angle), math.sin(angle)), 6)
+        self.assertAlmostEqual(bends[1], 1 / 30, places=8)
+        (place,), (along,), _, _ = self.at(space, 0, [40.0 * 0.3])
+        self.close(place, (12, 0, 0))
+        self.close(along, (1, 0, 0))
+        lib.obvid_space_free(space)
+
+    def test_a_helix_has_its_curvature_and_torsion(self):
+        r, pitch = 20.0, 6.0
+        rows = [(r * math.cos(0.3 * i), r * math.sin(0.3 * i), pitch * 0.3 * i)
+                for i in range(11)]
+        space, _ = fit_space(space_points(rows), {"along": "z"})
+        steep = math.hypot(r, pitch)
+        self.assertAlmostEqual(lib.obvid_space_length(space, C.c_size_t(0)), 3.0 * steep, places=6)
+        places, along, bends, torsions = self.at(space, 0, [0.0, steep, 2.2 * steep])
+        for a, place, tangent, bend, torsion in zip([0, 1, 2.2], places, along, bends, torsions):
+            self.close(place, (r * math.cos(a), r * math.sin(a), pitch * a), 6)
+            self.close(tangent, (-r * math.sin(a) / steep, r * math.cos(a) / steep,
+                                 pitch / steep), 6)
+            self.assertAlmostEqual(bend, r / steep**2, places=8)
+            self.assertAlmostEqual(torsion, pitch / steep**2, places=6)
+        lib.obvid_space_free(space)
+
+    def test_what_is_refused(self):
+        def refused(code, work):
+            with self.assertRaises(Failed) as caught:
+                work()
+            self.assertEqual(caught.exception.code, code)
+            return caught.exception
+
+        space, _ = fit_space(space_points(rail()))
+        refused(203, lambda: self.at(space, 0, [41.0]))
+        refused(203, lambda: self.at(space, 2, [0.0]))
+        refused(202, lambda: export_space(space, "nc"))
+        refused(203, lambda: fit(space_points(rail())))
+        refused(203, lambda: fit_space(points([(0, 0), (1, 1), (3, 2)])))
+        refused(203, lambda: fit_space(text_input("x,y\n0,0\n1,1\n3,2\n")))
+        refused(203, lambda: fit_space(space_points(cone()), {"along": "up"}))
+        refused(203, lambda: fit_space(space_points(cone()), {"start-heading": 10}))
+        refused(201, lambda: fit_space(space_points(cone()), {"construction": "arcs"}))
+        refused(303, lambda: space_points([(0, 0, 0), (1, math.inf, 2), (2, 0, 0)]))
+        refused(304, lambda: space_points([(0, 0, 0), (0, 0, 0), (2, 0, 0)]))
+        refused(308, lambda: call(lib.obvid_stored_space, text_input("{}"),
+                                  C.byref(C.c_void_p())))
+        said = C.c_void_p()
+        text = export_space(space, "json")[""].replace('"turn": 1.57', '"turn": 1.58')
+        again = C.c_void_p()
+        call(lib.obvid_stored_space, text_input(text), C.byref(again))
+        failed = refused(503, lambda: call(lib.obvid_verify_space, again, C.byref(said),
+                                           report=said))
+        self.assertFalse(json.loads(failed.report)["holds"])
+        self.assertEqual(failed.category, 5)
+
+
 class Errors(unittest.TestCase):
     def refused(self, code, work):
         with self.assertRaises(Failed) as caught:
@@ -291,6 +478,16 @@ class Errors(unittest.TestCase):
         self.assertEqual(failed.advice, "did you mean noise?")
         self.refused(203, lambda: fit(read(SERIES), {"closed": "yes"}))
         self.refused(201, lambda: job("region", read(SERIES), {"feed": 1}))
+        self.refused(203, lambda: fit(read(SERIES), {"construction": "hyperbolas"}))
+        self.refused(203, lambda: fit(read(SERIES), {"construction": "arcs", "carrier": "arcs"}))
+        self.refused(203, lambda: fit(read(SERIES), {"construction": "arcs", "fixation": 1}))
+        self.refused(203, lambda: job("region", read(SERIES), {"insert": [0]}))
+        self.refused(203, lambda: job("region", read(SERIES), {"insert": 1}))
+        self.refused(201, lambda: job("compare", read(SERIES), {"construction": "arcs"}))
+        for work in [fit, lambda *more: job("region", *more)]:
+            failed = self.refused(403, lambda: work(read(SERIES), {
+                "construction": "arcs", "heading-at": {"5": 100}}))
+            self.assertIn("with a heading between", failed.advice)
 
     def test_of_input(self):
         self.refused(301, lambda: read("/nowhere/at/all.csv"))

@@ -15,13 +15,17 @@ void demand(bool promise) {
 }  // namespace
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
-  const auto stored = obvid::space_from_json({reinterpret_cast<const char*>(data), size}, "fuzz");
+  const auto stored =
+      obvid::space_chain_from_json({reinterpret_cast<const char*>(data), size}, "fuzz");
   if (!stored) {
     demand(obvid::exit_code(stored.error().code) == 3);
     demand(!stored.error().what.empty() && !stored.error().where.empty());
     return 0;
   }
-  demand(stored->points.size() >= 2);
-  demand(obvid::check(stored->curve).has_value());
+  demand(!stored->parts.empty());
+  for (const obvid::StoredSpace& part : stored->parts) {
+    demand(part.points.size() >= 2);
+    demand(obvid::check(part.curve).has_value());
+  }
   return 0;
 }

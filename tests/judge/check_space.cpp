@@ -62,8 +62,8 @@ struct TorsionPlaces {
 
 class SpaceCheck {
  public:
-  SpaceCheck(const SpaceCourse& curve, const Json& json, Sheet& sheet)
-      : c_(curve), json_(json), sheet_(sheet) {}
+  SpaceCheck(const SpaceCourse& curve, const Json& json, Sheet& sheet, bool part)
+      : c_(curve), json_(json), sheet_(sheet), part_(part) {}
 
   void run() {
     frame();
@@ -126,6 +126,13 @@ class SpaceCheck {
     }
     const Real stated = figure_of("flatness"), near = c_.resolution();
     expect(std::abs(stated - largest) <= near, "space.flatness", stated, largest);
+    if (part_) {
+      for (const Vec3& end : {c_.points.front(), c_.points.back()}) {
+        const Real off = std::abs(c_.frame.height(end));
+        expect(off <= near, "space.plane", 0.0L, off, "plane through both ends");
+      }
+      return;
+    }
     // the plane of least squares, though rounding decides where all but lie in it
     const Real best = std::sqrt(std::max(0.0L, least_moment(c_.points)));
     const Real most = best * (1.0L + 1e-6L) + near * std::sqrt(Real(c_.points.size()));
@@ -358,12 +365,13 @@ class SpaceCheck {
   const SpaceCourse& c_;
   const Json& json_;
   Sheet& sheet_;
+  bool part_;
 };
 
 }  // namespace
 
-void check_space(const SpaceCourse& curve, const Json& json, Sheet& sheet) {
-  SpaceCheck(curve, json, sheet).run();
+void check_space(const SpaceCourse& curve, const Json& json, Sheet& sheet, bool part) {
+  SpaceCheck(curve, json, sheet, part).run();
 }
 
 void check_space_input(const SpaceCourse& curve, const std::vector<Vec3>& points,
@@ -601,31 +609,50 @@ std::vector<SplineTags> dxf_splines(const std::string& text) {
 
 }  // namespace
 
+std::vector<SpaceNurbs> dxf_curves(const std::string& text) {
+  std::vector<SpaceNurbs> out;
+  for (const SplineTags& one : dxf_splines(text)) {
+    SpaceNurbs read{one.degree, one.knots, one.weights, {}};
+    const std::size_t n = std::min({one.x.size(), one.y.size(), one.z.size()});
+    for (std::size_t i = 0; i < n; ++i) read.points.push_back({one.x[i], one.y[i], one.z[i]});
+    if (read.weights.empty()) read.weights.assign(n, 1.0L);
+    out.push_back(std::move(read));
+  }
+  return out;
+}
+
+void check_space_curves(const std::vector<const SpaceNurbs*>& curves,
+                        const std::vector<SpaceNurbs>& found, const std::string& name,
+                        const std::string& claim, Sheet& sheet) {
+  if (found.size() != curves.size()) {
+    return sheet.fails(claim, std::to_string(curves.size()), std::to_string(found.size()),
+                       name + ": curves");
+  }
+  for (std::size_t k = 0; k < curves.size(); ++k) {
+    const SpaceNurbs &nurbs = *curves[k], &read = found[k];
+    const std::size_t n = nurbs.points.size();
+    if (read.degree != nurbs.degree || read.points.size() != n ||
+        read.knots.size() != nurbs.knots.size() || read.weights.size() != n) {
+      sheet.fails(claim, "the numbers of the curve", "others", name);
+      continue;
+    }
+    const Real allowed =
+        4e-15L * largest_coordinate(nurbs.points) + 1e-12L * extent_of(nurbs.points);
+    Real worst = 0.0L;
+    constexpr int kPlaces = 200;
+    for (int j = 0; j <= kPlaces; ++j) {
+      const Real t = static_cast<Real>(j) / kPlaces;
+      const Real at = nurbs.from() + t * (nurbs.to() - nurbs.from()),
+                 there = read.from() + t * (read.to() - read.from());
+      worst = std::max(worst, norm(nurbs.at(at).p - read.at(there).p));
+    }
+    sheet.expect(worst <= allowed, claim, 0.0L, worst, name);
+  }
+}
+
 void check_space_spline(const SpaceNurbs& nurbs, const std::string& name, const std::string& text,
                         const std::string& claim, Sheet& sheet) {
-  const std::vector<SplineTags> splines = dxf_splines(text);
-  if (splines.size() != 1) {
-    return sheet.fails(claim, "one spline", std::to_string(splines.size()), name);
-  }
-  const SplineTags& one = splines.front();
-  const std::size_t n = nurbs.points.size();
-  if (one.degree != nurbs.degree || one.x.size() != n || one.y.size() != n || one.z.size() != n ||
-      one.knots.size() != nurbs.knots.size() || (!one.weights.empty() && one.weights.size() != n)) {
-    return sheet.fails(claim, "the numbers of the curve", "others", name);
-  }
-  SpaceNurbs read{one.degree, one.knots, one.weights, {}};
-  for (std::size_t i = 0; i < n; ++i) read.points.push_back({one.x[i], one.y[i], one.z[i]});
-  if (read.weights.empty()) read.weights.assign(n, 1.0L);
-  const Real allowed = 4e-15L * largest_coordinate(nurbs.points) + 1e-12L * extent_of(nurbs.points);
-  Real worst = 0.0L;
-  constexpr int kPlaces = 200;
-  for (int k = 0; k <= kPlaces; ++k) {
-    const Real t = static_cast<Real>(k) / kPlaces;
-    const Real a = nurbs.from() + t * (nurbs.to() - nurbs.from()),
-               b = read.from() + t * (read.to() - read.from());
-    worst = std::max(worst, norm(nurbs.at(a).p - read.at(b).p));
-  }
-  sheet.expect(worst <= allowed, claim, 0.0L, worst, name);
+  check_space_curves({&nurbs}, dxf_curves(text), name, claim, sheet);
 }
 
 }  // namespace judge

@@ -55,7 +55,7 @@ struct SpaceShape {
 SpaceShape space_shape(Dice& dice) {
   const Real a = dice.between(0.3, 2.0), b = dice.between(0.05, 1.5), c = dice.between(-1.0, 1.0);
   const Real from = dice.between(0.0, kTurn);
-  const auto whole = dice.whole(0, 7);
+  const auto whole = dice.whole(0, 8);
   switch (whole) {
     case 0:
       return {"helix",
@@ -95,6 +95,15 @@ SpaceShape space_shape(Dice& dice) {
                 return Vec3{std::cos(up) * std::cos(t), std::cos(up) * std::sin(t), std::sin(up)};
               },
               from, from + static_cast<Real>(dice.between(0.5, 4.0))};
+    case 8:
+      return {"arcs with a corner",
+              [=](Real t) {  // a circle, and a helix that leaves it upright
+                if (t <= 1.0L)
+                  return Vec3{2.0L * std::sin(t - 1.0L), 2.0L - 2.0L * std::cos(t - 1.0L), 0.0L};
+                const Real u = t - 1.0L;
+                return Vec3{0.4L * b * u, a * (1.0L - std::cos(u)), a * std::sin(u)};
+              },
+              0.0L, 2.0L};
     case 6:
       return {"plane spiral",
               [=](Real t) {
@@ -120,6 +129,7 @@ class SpaceTrial : public ProgramRuns {
     make();
     std::vector<std::string> words = fit_words();
     words.insert(words.end(), {"-o", "c.json", "-o", "c.csv", "-o", "c.sldcrv", "-o", "c.dxf"});
+    words.insert(words.end(), {"-o", "c.step"});
     words.insert(words.end(), {"--samples", std::to_string(samples_)});
     const Run fit = program("fit", words);
     if (stopped_) return std::move(out_);
@@ -205,6 +215,7 @@ class SpaceTrial : public ProgramRuns {
     if (text_of(json.value, "format") == "obvid-contour") {  // all of one height
       return sheet.unjudged("space", "a contour of the plane");
     }
+    if (text_of(json.value, "format") == "obvid-space-chain") return chain(json.value, fit);
     const ReadSpace read = read_space(json.value);
     if (!read.fault.empty()) return sheet.fails("file", "a curve in space", read.fault, "c.json");
     const SpaceCourse& curve = *read.curve;
@@ -214,6 +225,8 @@ class SpaceTrial : public ProgramRuns {
     check_space_samples(curve, text_of_file(path("c.csv")), samples_, false, sheet);
     check_space_samples(curve, text_of_file(path("c.sldcrv")), samples_, true, sheet);
     check_space_spline(curve.nurbs, "c.dxf", text_of_file(path("c.dxf")), "space DXF", sheet);
+    check_space_curves({&curve.nurbs}, step_curves(text_of_file(path("c.step"))), "c.step",
+                       "space STEP", sheet);
     check_codes(curve, fit);
     std::vector<std::string> words = fit_words();
     words.emplace_back("--json");
@@ -223,6 +236,31 @@ class SpaceTrial : public ProgramRuns {
     sheet.expect(same, "space --json", "the file", same ? "the file" : "another text", "");
     if (dice_.chance(0.5)) verify(curve);
     if (!stopped_ && !along_ && !curve.planar && dice_.chance(0.5)) directions(curve);
+  }
+
+  /// Cut at corners.
+  void chain(const Json& json, const Run& fit) {
+    Sheet& sheet = out_.sheet;
+    const ReadChain read = read_chain(json);
+    if (!read.fault.empty()) return sheet.fails("file", "curves in space", read.fault, "c.json");
+    check_chain(*read.chain, json, sheet);
+    check_chain_input(*read.chain, points_, sheet);
+    std::vector<const SpaceNurbs*> curves;
+    for (const auto& part : read.chain->parts) curves.push_back(&part->nurbs);
+    check_space_curves(curves, dxf_curves(text_of_file(path("c.dxf"))), "c.dxf", "space DXF",
+                       sheet);
+    check_space_curves(curves, step_curves(text_of_file(path("c.step"))), "c.step", "space STEP",
+                       sheet);
+    for (const auto& part : read.chain->parts) {
+      if (along_ && !part->planar) {
+        const Real off = norm(cross(*along_, part->frame.normal)) / norm(*along_);
+        sheet.expect(off <= 1e-14L, "space.along", 0.0L, off, "");
+      }
+    }
+    const Run verified = program("verify", {"verify", "c.json"});
+    if (stopped_) return;
+    sheet.expect(verified.code == fit.code, "space verify", fmt::format("exit {}", fit.code),
+                 fmt::format("exit {}", verified.code), verified.err.substr(0, 200));
   }
 
   /// 0 where both contours are proved within their widths, else 5.
@@ -322,8 +360,8 @@ class NurbsTrial : public ProgramRuns {
     words.emplace_back("--json");
     const auto samples = static_cast<std::size_t>(dice_.whole(2, 60));
     if (!net) {
-      words.insert(words.end(), {"-o", "n.csv", "-o", "n.json", "-o", "n.dxf", "--samples",
-                                 std::to_string(samples)});
+      words.insert(words.end(), {"-o", "n.csv", "-o", "n.json", "-o", "n.dxf", "-o", "n.step",
+                                 "--samples", std::to_string(samples)});
     }
     const Run run = program("nurbs", words);
     if (stopped_) return std::move(out_);
@@ -347,6 +385,9 @@ class NurbsTrial : public ProgramRuns {
     out_.sheet.expect(text_of_file(path("n.json")) == text, "nurbs file", "--json", "the file", "");
     check_nurbs_samples(json.value, text_of_file(path("n.csv")), samples, out_.sheet);
     check_space_spline(nurbs_of(json.value), "n.dxf", text_of_file(path("n.dxf")), "nurbs DXF",
+                       out_.sheet);
+    const SpaceNurbs curve = nurbs_of(json.value);
+    check_space_curves({&curve}, step_curves(text_of_file(path("n.step"))), "n.step", "nurbs STEP",
                        out_.sheet);
   }
 
@@ -600,6 +641,11 @@ Trial run_grid_trial(const TrialOptions& options, std::uint64_t index) {
 void judge_space(const std::string& stored, const std::string& report, Sheet& sheet) {
   const ReadJson json = read_json(stored);
   if (!json.fault.empty()) return sheet.fails("file", "JSON", json.fault, "");
+  if (text_of(json.value, "format") == "obvid-space-chain") {
+    const ReadChain chain = read_chain(json.value);
+    if (!chain.fault.empty()) return sheet.fails("file", "curves in space", chain.fault, "");
+    return check_chain(*chain.chain, json.value, sheet);
+  }
   const ReadSpace read = read_space(json.value);
   if (!read.fault.empty()) return sheet.fails("file", "a curve in space", read.fault, "");
   check_space(*read.curve, json.value, sheet);

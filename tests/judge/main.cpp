@@ -151,7 +151,7 @@ int judge_file(const Settings& settings) {
   Sheet sheet;
   const std::string stored = text_of_file(settings.contour);
   const ReadContour read = read_contour(stored);
-  if (stored.find("obvid-space-curve") != std::string::npos) {
+  if (stored.find("obvid-space-c") != std::string::npos) {
     judge_space(stored, settings.text.empty() ? "" : text_of_file(settings.text), sheet);
   } else if (!read.fault.empty()) {
     sheet.fails("file", settings.contour, read.fault, "");

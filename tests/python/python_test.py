@@ -126,6 +126,42 @@ class AgainstTheProgram(unittest.TestCase):
         theirs = json.loads(program("fit", SERIES, "--suggest", "--json")[0])
         self.assertEqual([r.tolerance for r in table], [r["tolerance"] for r in theirs["rows"]])
 
+    def test_constructions_are_those_of_the_program(self):
+        path = os.path.join(SOURCES, "examples/paper_series10.csv")
+        ours = obvid.region(path, construction="arcs", insert=[8], prefer="centre")
+        typed = ("region", path, "--construction", "arcs", "--insert", "9", "--prefer", "centre")
+        self.assertEqual(ours.json, json.loads(program(*typed, "--json")[0]))
+        made = obvid.fit(POINTS, construction="clothoids", prefer="neighbours")
+        self.assertEqual(made.carrier, "clothoids")
+        made = obvid.fit(path, construction="parabolas", fixation=2, prefer="neighbours")
+        self.assertEqual(made.carrier, "beziers")
+        with self.assertRaises(TypeError):
+            obvid.compare(POINTS, construction="arcs")
+        with self.assertRaises(obvid.UsageError):
+            obvid.fit(POINTS, construction="arcs", carrier="arcs")
+
+    def test_curves_in_space_have_the_same_bytes(self):
+        t = 0.3 * np.arange(12)
+        helix = np.column_stack([20 * np.cos(t), 20 * np.sin(t), 6 * t])
+        with tempfile.TemporaryDirectory() as folder:
+            points = os.path.join(folder, "p.csv")
+            pathlib.Path(points).write_text(
+                "x,y,z\n" + "".join(f"{x!r},{y!r},{z!r}\n" for x, y, z in helix.tolist())
+            )
+            for options, typed in [
+                ({}, []),
+                ({"along": "Z", "corners": [5]}, ["--along", "Z", "--corner-at", "6"]),
+                ({"along": (0, 0.1, 1), "noise": 0.01}, ["--along", "0,0.1,1", "--noise", "0.01"]),
+            ]:
+                made = obvid.fit_space(obvid.read(points), **options)
+                for ending in ("json", "dxf", "step", "csv"):
+                    theirs = os.path.join(folder, "theirs." + ending)
+                    program("fit", points, *typed, "-o", theirs)
+                    ours = os.path.join(folder, "ours." + ending)
+                    made.write(ours)
+                    a, b = (SECONDS.sub("", pathlib.Path(p).read_text()) for p in (ours, theirs))
+                    self.assertEqual(a, b, ending)
+
     def test_drawings_are_read(self):
         drawing = os.path.join(SOURCES, "tests/data/judge/series10.dxf")
         analysis = obvid.analyse(drawing)
@@ -237,6 +273,60 @@ class Curves(unittest.TestCase):
     def test_pictures(self):
         self.assertTrue(self.contour._repr_svg_().lstrip().startswith("<"))
         self.assertIn("proved", repr(self.contour))
+
+
+class CurvesInSpace(unittest.TestCase):
+    T = 0.3 * np.arange(12)
+    HELIX = np.column_stack([20 * np.cos(T), 20 * np.sin(T), 6 * T])
+
+    def test_a_helix(self):
+        c = obvid.fit_space(self.HELIX, along="Z")
+        steep = np.hypot(20, 6)
+        self.assertAlmostEqual(c.length, 3.3 * steep, places=6)
+        s, points, tangent, curvature, torsion = c.sample(40)
+        a = s / steep
+        wanted = np.column_stack([20 * np.cos(a), 20 * np.sin(a), 6 * a])
+        np.testing.assert_allclose(points, wanted, atol=1e-6)
+        np.testing.assert_allclose(np.linalg.norm(tangent, axis=1), 1.0, atol=1e-12)
+        np.testing.assert_allclose(curvature, 20 / steep**2, rtol=1e-6)
+        np.testing.assert_allclose(torsion, 6 / steep**2, rtol=1e-4)
+        self.assertEqual(c.at_length(np.zeros((2, 3))).shape, (2, 3, 3))
+        with self.assertRaises(ValueError):
+            c.at_length(c.length + 1.0)
+
+    def test_corners_files_and_copies(self):
+        c = obvid.fit_space(self.HELIX, along="Z", corners=[5], heading={2: (110, 140)})
+        self.assertEqual((c.part_count, c.corners[0].point, c.closed), (2, 5, False))
+        self.assertLess(c.corners[0].turn, 0.01)
+        np.testing.assert_allclose(c.at_length(c.part_lengths[0]), self.HELIX[5], atol=1e-9)
+        self.assertTrue(c.verify().holds)
+        again = pickle.loads(pickle.dumps(c))
+        self.assertEqual(again.text("json"), c.text("json"))
+        with tempfile.TemporaryDirectory() as folder:
+            said = c.write(os.path.join(folder, "c.sldcrv"))
+            self.assertEqual(sorted(os.listdir(folder)), ["c-1.sldcrv", "c-2.sldcrv"])
+            self.assertIn("would round corners", said[-1])
+            c.write(os.path.join(folder, "c.json"))
+            self.assertEqual(obvid.read_space(os.path.join(folder, "c.json")).part_count, 2)
+        with self.assertRaises(obvid.UsageError):
+            c.text("sldcrv")
+
+    def test_what_is_refused(self):
+        for wrong in (POINTS, np.zeros(5)):
+            with self.assertRaises(ValueError):
+                obvid.fit_space(wrong)
+        with self.assertRaises(obvid.UsageError):
+            obvid.fit_space(self.HELIX, start_heading=10)
+        with self.assertRaises(ValueError):
+            obvid.fit(self.HELIX)
+        with self.assertRaises(TypeError):
+            obvid.fit_space(self.HELIX, construction="arcs")
+        with self.assertRaises(obvid.CancelledError):
+            obvid.fit_space(self.HELIX, cancelled=lambda: True)
+        file = obvid.fit_space(self.HELIX, corners=[5]).to_dict()
+        self.assertTrue(obvid.SpaceCurve.from_json(json.dumps(file)).verify().holds)
+        file["corners"][0]["turn"] += 0.1
+        self.assertFalse(obvid.SpaceCurve.from_json(json.dumps(file)).verify().holds)
 
 
 class Options(unittest.TestCase):

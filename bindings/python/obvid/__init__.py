@@ -26,8 +26,10 @@ from .jobs import (
     compare,
     fit,
     fit_many,
+    fit_space,
     read,
     read_contour,
+    read_space,
     read_text,
     region,
     suggest,
@@ -44,11 +46,13 @@ from .reports import (
     Table,
     Verification,
 )
+from .space import Corner, SpaceCurve, SpaceSamples, SpaceVerification
 
 __all__ = [
     "Analysis", "BSpline", "CancelledError", "CarrierRow", "Certificate", "Contour",
-    "DrawingAnalysis", "FitReport", "InputError", "InternalError", "NoContourError",
-    "NotProvedError", "ObvidError", "Piece", "Samples", "Segment", "Source", "Suggestion", "Table",
-    "UsageError", "Verification", "__version__", "analyse", "compare", "fit", "fit_many", "read",
-    "read_contour", "read_text", "region", "suggest", "why_not",
+    "Corner", "DrawingAnalysis", "FitReport", "InputError", "InternalError", "NoContourError",
+    "NotProvedError", "ObvidError", "Piece", "Samples", "Segment", "Source", "SpaceCurve",
+    "SpaceSamples", "SpaceVerification", "Suggestion", "Table", "UsageError", "Verification",
+    "__version__", "analyse", "compare", "fit", "fit_many", "fit_space", "read", "read_contour",
+    "read_space", "read_text", "region", "suggest", "why_not",
 ]  # fmt: skip

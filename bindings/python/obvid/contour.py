@@ -61,6 +61,55 @@ class Piece(NamedTuple):
     values: Json
 
 
+Exported = Tuple[List[Tuple[str, bytes]], Tuple[str, ...]]
+
+
+def exported(function: Any, handle: int, ending: str, options: Json) -> Exported:
+    """Files of an export, each with the suffix of its name, and what is to be said of them."""
+    out, error = C.c_void_p(), C.POINTER(ErrorStruct)()
+    names = {k.replace("_", "-"): v for k, v in options.items()}
+    if "profile" in names:
+        names["for"] = names.pop("profile")
+    if function(handle, ending.encode(), options_text(names), C.byref(out), C.byref(error)):
+        raise raise_error(error)
+    try:
+        files, size = [], C.c_size_t()
+        for i in range(lib.obvid_files_count(out)):
+            data = lib.obvid_files_data(out, i, C.byref(size))
+            files.append((lib.obvid_files_suffix(out, i).decode(), C.string_at(data, size.value)))
+        remarks: List[str] = []
+        while (remark := lib.obvid_files_remark(out, len(remarks))) is not None:
+            remarks.append(remark.decode())
+    finally:
+        lib.obvid_files_free(out)
+    return files, tuple(remarks)
+
+
+def only_text(made: Exported) -> str:
+    """The text of an export that is one file."""
+    if len(made[0]) != 1:
+        raise UsageError(203, f"this format makes {len(made[0])} files", advice="write()")
+    return made[0][0][1].decode()
+
+
+def write_all(target: pathlib.Path, made: Exported) -> List[str]:
+    """Writes the files, each whole or not at all; returns what is to be said of them."""
+    files, remarks = made
+    for suffix, data in files:
+        file = target.with_name(target.stem + suffix + target.suffix)
+        temporary = file.with_name(f".{file.name}.{os.getpid()}.tmp")
+        try:
+            with open(temporary, "wb") as out:
+                out.write(data)
+                out.flush()
+                os.fsync(out.fileno())
+            os.replace(temporary, file)
+        except BaseException:
+            temporary.unlink(missing_ok=True)
+            raise
+    return list(remarks)
+
+
 def _places(at: Places) -> Tuple[Array, Tuple[int, ...]]:
     array = np.asarray(at, dtype=float)
     return np.ascontiguousarray(array.ravel()), array.shape
@@ -292,57 +341,20 @@ class Contour:
 
     # ---- files and proofs ---------------------------------------------------------------------
 
-    def _exported(
-        self, ending: str, options: Json
-    ) -> Tuple[List[Tuple[str, bytes]], Tuple[str, ...]]:
-        out, error = C.c_void_p(), C.POINTER(ErrorStruct)()
-        names = {k.replace("_", "-"): v for k, v in options.items()}
-        if "profile" in names:
-            names["for"] = names.pop("profile")
-        text = options_text(names)
-        if lib.obvid_export(self._handle, ending.encode(), text, C.byref(out), C.byref(error)):
-            raise raise_error(error)
-        try:
-            files, size = [], C.c_size_t()
-            for i in range(lib.obvid_files_count(out)):
-                data = lib.obvid_files_data(out, i, C.byref(size))
-                files.append((lib.obvid_files_suffix(out, i).decode(), C.string_at(data, size.value)))
-            remarks: List[str] = []
-            while (remark := lib.obvid_files_remark(out, len(remarks))) is not None:
-                remarks.append(remark.decode())
-        finally:
-            lib.obvid_files_free(out)
-        return files, tuple(remarks)
-
     def text(self, ending: str, **options: Any) -> str:
         """The contour in a text format, by its file extension: "json", "svg", "dxf", "step", "nc", ...
 
         Options are those of the program: output_tolerance, samples, sample_step, feed, controller,
         motion, svg, plot, step, dxf, face, units, profile (`--for`).
         """
-        files, _ = self._exported(ending.lstrip("."), options)
-        if len(files) != 1:
-            raise UsageError(203, f"a contour is {len(files)} files in this format", advice="write()")
-        return files[0][1].decode()
+        return only_text(exported(lib.obvid_export, self._handle, ending.lstrip("."), options))
 
     def write(self, path: Union[str, "os.PathLike[str]"], **options: Any) -> List[str]:
         """Writes the contour to a file whose extension determines the format; returns what is to be said of
         it. Options as of `text`. Files are written whole or not at all."""
         target = pathlib.Path(path)
-        files, remarks = self._exported(target.suffix.lstrip("."), options)
-        for suffix, data in files:
-            file = target.with_name(target.stem + suffix + target.suffix)
-            temporary = file.with_name(f".{file.name}.{os.getpid()}.tmp")
-            try:
-                with open(temporary, "wb") as out:
-                    out.write(data)
-                    out.flush()
-                    os.fsync(out.fileno())
-                os.replace(temporary, file)
-            except BaseException:
-                temporary.unlink(missing_ok=True)
-                raise
-        return list(remarks)
+        ending = target.suffix.lstrip(".")
+        return write_all(target, exported(lib.obvid_export, self._handle, ending, options))
 
     def verify(self) -> Verification:
         """Proves the contour again from its numbers alone. A contour that does not keep its promise

@@ -34,6 +34,7 @@ from .reports import (
     carrier_rows,
     suggestions,
 )
+from .space import SpaceCurve
 
 #: Heading, radius or curvature of some points: {index: value}, indices from 0, negative from the end.
 AtPoints = Mapping[int, Union[float, str, Sequence[Optional[float]]]]
@@ -62,6 +63,15 @@ class Source:
                 raise raise_error(error)
         assert out.value is not None
         return Contour(out.value)
+
+
+    def space_curve(self) -> SpaceCurve:
+        """The curve of a file of a curve in space, or of a chain of them."""
+        out, error = C.c_void_p(), C.POINTER(ErrorStruct)()
+        if lib.obvid_stored_space(self._handle, C.byref(out), C.byref(error)):
+            raise raise_error(error)
+        assert out.value is not None
+        return SpaceCurve(out.value)
 
 
 #: n x 2 numbers, a `Source`, or the path of a file.
@@ -93,13 +103,18 @@ def read_contour(path: Union[str, "os.PathLike[str]"]) -> Contour:
     return read(path).contour()
 
 
+def read_space(path: Union[str, "os.PathLike[str]"]) -> SpaceCurve:
+    """The curve of a file that `fit_space` (or the program) wrote as .json."""
+    return read(path).space_curve()
+
+
 def _array_of(points: npt.ArrayLike) -> npt.NDArray[np.float64]:
     array = np.ascontiguousarray(points, dtype=np.float64)
     if array.ndim != 2 or array.shape[1] not in (2, 3):
         raise ValueError(f"points are an array of n x 2 numbers, not of shape {array.shape}")
     if array.shape[1] == 3:
         if array.shape[0] and np.ptp(array[:, 2]) != 0.0:
-            raise ValueError("z changes: only plane series are read, give points[:, :2]")
+            raise ValueError("z changes: fit_space forms it, points[:, :2] lies in a plane")
         array = np.ascontiguousarray(array[:, :2])
     return array
 
@@ -165,12 +180,14 @@ def _at(values: Optional[AtPoints], source: Source) -> Optional[Dict[str, Any]]:
     return out
 
 
-def _fit_options(source: Source, o: Mapping[str, Any]) -> Optional[bytes]:
+def _fit_options(
+    source: Source, o: Mapping[str, Any], more: Iterable[str] = ()
+) -> Optional[bytes]:
     known = {
         "carrier", "noise", "tolerance", "convex", "primitives", "closed", "corners",
         "corner_angle", "start_heading", "end_heading", "start_radius", "end_radius", "heading",
         "radius", "curvature", "units", "curve", "drawing", "chord_tolerance", "prefer",
-        "continuity",
+        "continuity", *more,
     }  # fmt: skip
     unknown = sorted(set(o) - known)
     if unknown:
@@ -180,8 +197,8 @@ def _fit_options(source: Source, o: Mapping[str, Any]) -> Optional[bytes]:
         corners = [corners]
     options: Dict[str, Any] = {
         name.replace("_", "-"): o.get(name)
-        for name in ("carrier", "noise", "tolerance", "corner_angle", "units", "curve", "drawing",
-                     "chord_tolerance", "prefer", "continuity")
+        for name in ("along", "carrier", "noise", "tolerance", "corner_angle", "units", "curve", "drawing",
+                     "chord_tolerance", "prefer", "continuity", "construction", "fixation")
     }  # fmt: skip
     options["convex"] = True if o.get("convex") else None
     options["primitives"] = True if o.get("primitives") else None
@@ -193,6 +210,8 @@ def _fit_options(source: Source, o: Mapping[str, Any]) -> Optional[bytes]:
     for name in ("start_heading", "end_heading", "start_radius", "end_radius"):
         if o.get(name) is not None:
             options[name.replace("_", "-")] = _radius(o[name])
+    if o.get("insert") is not None:
+        options["insert"] = [int(i) + 1 for i in np.ravel(o["insert"])]
     options["heading-at"] = _at(o.get("heading"), source)
     options["radius-at"] = _at(o.get("radius"), source)
     options["kappa-at"] = _at(o.get("curvature"), source)
@@ -208,6 +227,8 @@ def _prepared(points: Points, options: Dict[str, Any]) -> Source:
         options["noise"] = float(noise)
     return _source(points)
 
+
+_CONSTRUCTION = ("construction", "fixation")
 
 #: Series of so many points take milliseconds: Ctrl-C waits for them.
 _SHORT = 300
@@ -257,6 +278,9 @@ def fit(
             All of these take a range (low, high) too, None for an end of a radius or curvature that
             is none: heading={4: (76, 78)}, end_radius=(None, -400).
         prefer: "fair" (default), "centre", "least-change", "least-curvature".
+        construction: in place of a carrier a construction of the papers, which promises nothing:
+            "arcs", "ellipses", "clothoids", "spline", "parabolas"; `prefer` then knows "neighbours"
+            too. fixation: order of parabolas, 1 or 2.
         units: "mm", "in", ... of the points.
         curve, drawing, chord_tolerance: of a drawing, as the program takes them.
         progress: called with a stage and a fraction; cancelled: asked often, True ends the work.
@@ -272,12 +296,70 @@ def fit(
     (1, 0.0)
     """
     source = _prepared(points, options) if options else _source(points)
-    text = _fit_options(source, options) if options else None
+    text = _fit_options(source, options, _CONSTRUCTION) if options else None
     short = source.count is not None and source.count <= _SHORT
     if short and progress is None and cancelled is None:
         return _fitted(source, text, None)
     with Run(progress, cancelled) as run:
         return _fitted(source, text, run)
+
+
+def fit_space(
+    points: Points,
+    *,
+    along: Optional[Union[str, Sequence[float]]] = None,
+    progress: Optional[ProgressFunction] = None,
+    cancelled: Optional[CancelledFunction] = None,
+    **options: Any,
+) -> SpaceCurve:
+    """Forms a fair curve through points in space, and proves it.
+
+    Points of a plane give a contour in it; others a curve whose projection and whose heights over it
+    are fair. Corners cut the series into parts.
+
+    Args:
+        points: n x 3 numbers, the path of a file with columns x, y, z, or what `read` returned.
+        along: direction of the projection, "X", "Y", "Z" or three numbers. Default: the plane of the
+            points, else the best of four.
+        Others as of `fit`, without constructions; headings and radii need `along`.
+
+    Raises:
+        What `fit` raises; NotProvedError has the curve as `contour`.
+
+    >>> import obvid
+    >>> c = obvid.fit_space([(0, 0, 0), (9, 0, 0), (18, 0, 0), (18, 9, 0), (18, 18, 3), (18, 27, 9)],
+    ...                     corners=[2])
+    >>> c.part_count, c.corners[0].point
+    (2, 2)
+    """
+    if isinstance(points, (Source, str, os.PathLike)):
+        source = _source(points)
+    else:
+        array = np.ascontiguousarray(points, dtype=np.float64)
+        if array.ndim != 2 or array.shape[1] != 3:
+            raise ValueError(f"points in space are n x 3 numbers, not of shape {array.shape}")
+        given, failed = C.c_void_p(), C.POINTER(ErrorStruct)()
+        n = array.shape[0]
+        if lib.obvid_space_points(array.ctypes.data, n, C.byref(given), C.byref(failed)):
+            raise raise_error(failed)
+        assert given.value is not None
+        source = Source(given.value, n)
+    if isinstance(options.get("noise"), np.number):
+        options["noise"] = float(options["noise"])
+    if along is not None and not isinstance(along, str):
+        along = ",".join(repr(float(one)) for one in along)
+    text = _fit_options(source, {**options, "along": along}, ("along",))
+    out, error = C.c_void_p(), C.POINTER(ErrorStruct)()
+    with Run(progress, cancelled) as run:
+        code = lib.obvid_fit_space(source._handle, text, run, C.byref(out), None, C.byref(error))
+        made = SpaceCurve(out.value) if out.value else None
+        if code:
+            raised = raise_error(error)
+            if isinstance(raised, NotProvedError):
+                raised.contour = made
+            raise raised
+    assert made is not None
+    return made
 
 
 def _report(name: str, source: Source, text: Optional[bytes], watched: Dict[str, Any]) -> Json:
@@ -313,15 +395,29 @@ def analyse(
     return Analysis.of(values) if "segments" in values else DrawingAnalysis.of(values)
 
 
-def region(points: Points, *, units: Optional[str] = None, **watched: Any) -> Table:
+def region(points: Points, **options: Any) -> Table:
     """Where every fair contour through the points must lie: a row for each segment.
 
+    Args:
+        insert: segments, from 0, that get a point in their middle; `tolerance`: insert points until
+            no region is wider.
+        prefer: tangents that are not given: "fair" (default), "centre", "neighbours",
+            "least-change", "least-curvature".
+        construction: "arcs", "ellipses", "clothoids", "spline", "parabolas": `json["construction"]`
+            of the table has the columns and rows of these. fixation: order of parabolas, 1 or 2.
+        Others as of `fit`.
+
     >>> import obvid
-    >>> r = obvid.region([(0, 0), (10, 1), (19, 4), (26, 9), (30, 16)])
+    >>> r = obvid.region([(0, 0), (10, 1), (19, 4), (26, 9), (30, 16)], construction="arcs")
     >>> len(r), bool(r["width"].max() < 0.5)
     (4, True)
+    >>> r.json["construction"]["columns"][:2]
+    ['R', "R'"]
     """
-    values = _report("region", _source(points), options_text({"units": units}), watched)
+    watched = {name: options.pop(name, None) for name in ("progress", "cancelled")}
+    source = _prepared(points, options)
+    text = _fit_options(source, options, (*_CONSTRUCTION, "insert"))
+    values = _report("region", source, text, watched)
     return Table(tuple(values["segments"]), values)
 
 

@@ -48,11 +48,41 @@ struct StoredSpace {
   std::vector<std::string> unread;  ///< fields that mean nothing to this program
 };
 
+/// Where two curves of a chain meet.
+struct SpaceCorner {
+  std::size_t point = 0;  ///< index among the points of the chain
+  double turn = 0.0;      ///< angle between both tangents, rad, 0 to pi
+};
+
+/// Curves in space from corner to corner. A closed chain does not repeat its first point. An open
+/// chain has one part more than corners, the first from its first point; the parts of a closed one
+/// begin at its corners in order, and the last of them ends at the first corner.
+struct StoredSpaceChain {
+  std::string name;
+  Units units;
+  bool closed = false;  ///< of a chain with corners
+  double largest_move = 0.0;
+  std::vector<Vec3> points;
+  std::vector<SpaceCorner> corners;
+  std::vector<StoredSpace> parts;   ///< one and no corners: the file of a single curve
+  std::vector<std::string> unread;  ///< beside those of the parts
+};
+
+/// Points of part `k` of a chain of `count` points: their indices, in order.
+[[nodiscard]] std::vector<std::size_t> points_of_part(const std::vector<SpaceCorner>& corners,
+                                                      bool closed, std::size_t count,
+                                                      std::size_t k);
+
 /// Whether a text is such a file rather than that of a contour: an object that names the format.
 [[nodiscard]] bool is_space_json(std::string_view text);
 
 /// Errors: E308 with the path of the field, E309, E310 as for contours; those of `check` for the
 /// NURBS curve.
 [[nodiscard]] Result<StoredSpace> space_from_json(std::string_view text, std::string_view name);
+
+/// A curve in space, or a chain of them. Errors: those of `space_from_json`; E308 where corners do
+/// not ascend or the number of parts does not belong to them.
+[[nodiscard]] Result<StoredSpaceChain> space_chain_from_json(std::string_view text,
+                                                             std::string_view name);
 
 }  // namespace obvid

@@ -38,7 +38,7 @@ enum class Prefer {
   kFair,           ///< the fairest chain: change of curvature in units of what the points show
   kCentre,         ///< each in the middle of what is left to it, point after point ([003])
   kLeastChange,    ///< least integral of (d kappa / d s)^2 along the contour
-  kLeastCurvature  ///< least largest curvature, within a hundredth of the possible
+  kLeastCurvature  ///< least largest curvature, within a hundredth of the possible (`above_least`)
 };
 
 /// What to form. Unset values take the defaults named here.
@@ -59,6 +59,9 @@ struct FitJob {
   std::optional<ValueRange> start_thetas, end_thetas;  ///< ranges of the same
   std::optional<ValueRange> start_kappas, end_kappas;
   Prefer prefer = Prefer::kFair;     ///< others: open series of points that are met, one section
+  /// Of kLeastCurvature: the largest curvature is at most so many times the least possible one, > 1.
+  /// Unset: 1.005; of parabolas that follow no such contour more, up to 2, with a warning.
+  std::optional<double> above_least{};
   std::optional<double> noise;       ///< how far every point may move, units; default: not at all
   bool noise_from_rounding = false;  ///< as far as half a unit of the last printed digit
   Closing closing = Closing::kAutomatic;

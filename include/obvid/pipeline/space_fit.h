@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -10,6 +11,7 @@
 #include "obvid/core/run_context.h"
 #include "obvid/exchange/samples.h"
 #include "obvid/io/space_json.h"
+#include "obvid/pipeline/export.h"
 #include "obvid/pipeline/fit.h"
 #include "obvid/surface/point_grid.h"
 #include "obvid/surface/space_curve.h"
@@ -78,11 +80,34 @@ struct SpaceFit {
 /// curves are G2 where the projection begins and ends, at a point whose height is met; the slope of
 /// the curvature of the heights may step there.
 /// Errors: E203 a direction without length, headings or radii without a direction, another carrier
-/// than spirals of a curve that is not planar; E310 corners that are not planar; E402 projections
+/// than spirals of a curve that is not planar; E310 where the projection or the heights have a
+/// corner; E402 projections
 /// that run back on themselves; E501 heights of a closed curve that do not meet; those of `fit`,
 /// with the part they belong to in front.
 [[nodiscard]] Result<SpaceFit> fit_space(const SpaceSeries& series, const SpaceJob& job,
                                          const RunContext& run = {});
+
+/// Curves in space from corner to corner, or one without corners; each keeps what `SpaceFit` says
+/// of it. Parts begin and end in the points of the corners.
+struct SpaceChain {
+  std::string name;
+  Units units;
+  bool closed = false;       ///< of a chain with corners; one curve says so itself
+  std::vector<Vec3> points;  ///< of a chain with corners: without its first one again
+  std::vector<SpaceCorner> corners;
+  std::vector<SpaceFit> parts;
+  double largest_move = 0.0;  ///< upper bound of the distance of a point from its curve
+  std::vector<std::string> warnings;
+};
+
+/// Cuts a series at its corners and forms each part as `fit_space` does, planar ones in the plane
+/// through both of their ends, two points as a line. Corners are those that are marked (`wishes`,
+/// `fixed`) and those of the series laid into a plane with its chords and turns, found there as in
+/// a contour. A planar series is one contour with its corners.
+/// Errors: those of `fit_space`, of a part with its points; E203 headings or radii at a corner, at
+/// the ends of a closed chain or of a line.
+[[nodiscard]] Result<SpaceChain> fit_space_chain(const SpaceSeries& series, const SpaceJob& job,
+                                                 const RunContext& run = {});
 
 /// The curve as one NURBS curve.
 struct SpaceNurbs {
@@ -93,14 +118,27 @@ struct SpaceNurbs {
 /// tolerance (> 0, units). Errors: E502 where a hundred thousand spans are not enough.
 [[nodiscard]] Result<SpaceNurbs> space_nurbs(const SpaceFit& fit, double tolerance);
 
+/// One curve for each part; `tolerance` in units, default 1e-6 of the size of the chain.
+[[nodiscard]] Result<std::vector<SpaceNurbs>> chain_nurbs(const SpaceChain& chain,
+                                                          std::optional<double> tolerance);
+
 /// Largest extent of the points, units.
 [[nodiscard]] double size_of(const SpaceFit& fit);
+[[nodiscard]] double size_of(const SpaceChain& chain);
 
 /// Everything: frame, both contours as contour files, the NURBS curve, the figures.
 [[nodiscard]] std::string space_fit_json(const SpaceFit& fit, const SpaceNurbs& nurbs);
 
+/// The same of a chain: the file of its curve where it has no corners.
+[[nodiscard]] std::string space_chain_json(const SpaceChain& chain,
+                                           const std::vector<SpaceNurbs>& nurbs);
+
 /// The curve of a file.
 [[nodiscard]] SpaceFit space_fit_of(const StoredSpace& stored);
+[[nodiscard]] SpaceChain space_chain_of(const StoredSpaceChain& stored);
+
+/// Another unit for all of the chain; what is to be warned of, as of a contour.
+std::optional<std::string> take_units(SpaceChain& chain, const Units& given);
 
 /// What was found of a stored curve in space.
 struct SpaceVerification {
@@ -118,9 +156,48 @@ struct SpaceVerification {
 [[nodiscard]] std::string space_verification_json(const StoredSpace& stored,
                                                   const SpaceVerification& found);
 
-/// Places along the curve at equal steps of arc length: s, x, y, z, curvature, torsion.
-[[nodiscard]] std::string space_samples_csv(const SpaceFit& fit, std::size_t count);
-/// The same places as x y z: "Curve Through XYZ Points" of SolidWorks and others.
+/// What was found of a stored chain.
+struct SpaceChainVerification {
+  std::vector<SpaceVerification> parts;
+  std::optional<Error> false_claim;      ///< of the chain itself, E503
+  std::vector<std::string> not_checked;  ///< of a chain with corners, beside those of its parts
+};
+/// Verifies every part, that the parts have the points of the chain and meet in its corners, and
+/// the angles there.
+[[nodiscard]] SpaceChainVerification verify(const StoredSpaceChain& stored);
+[[nodiscard]] std::optional<Error> broken_promise(const StoredSpaceChain& stored,
+                                                  const SpaceChainVerification& found);
+/// Of one curve as above.
+[[nodiscard]] std::string space_verification_json(const StoredSpaceChain& stored,
+                                                  const SpaceChainVerification& found);
+/// What a chain fails in that was just formed.
+[[nodiscard]] std::optional<Error> broken_promise(const SpaceChain& chain);
+
+/// The chain in a format by its file extension (".step"); `nurbs` as `chain_nurbs` gives them.
+/// Formats that join what they are given have a file for each part. Errors: E202; those of the
+/// formats.
+[[nodiscard]] Result<Exported> export_space(const SpaceChain& chain,
+                                            const std::vector<SpaceNurbs>& nurbs,
+                                            const std::string& ending,
+                                            const ExportOptions& options);
+
+/// Place of a curve in space.
+struct SpaceSample {
+  Vec3 point;
+  Vec3 tangent;                     ///< length 1
+  double curvature = 0.0;           ///< >= 0, 1/unit
+  std::optional<double> torsion{};  ///< 1/unit; nothing where the curvature is 0, behind a joint
+                                    ///< where it steps there
+};
+[[nodiscard]] double length_of(const SpaceFit& fit);  ///< arc length, units
+/// At arc lengths from the start, each from 0 to `length_of` it. Error: E203 beyond.
+[[nodiscard]] Result<std::vector<SpaceSample>> sample_space(const SpaceFit& fit,
+                                                            std::span<const double> at);
+
+/// Places along each curve at equal steps of its arc length: s (from the start of the chain), x, y,
+/// z, curvature, torsion; with corners the part, from 1, behind them. `count` places for each part.
+[[nodiscard]] std::string space_samples_csv(const SpaceChain& chain, std::size_t count);
+/// The same places of one curve as x y z: "Curve Through XYZ Points" of SolidWorks and others.
 [[nodiscard]] std::string space_points_text(const SpaceFit& fit, std::size_t count);
 
 }  // namespace obvid

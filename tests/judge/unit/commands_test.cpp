@@ -58,6 +58,35 @@ TEST(JudgeSpace, FindsAFalseSeam) {
       of_space(changed(sound, ", 5.0150509373554]", ", 5.0160509373554]")).has("space.seam"));
 }
 
+TEST(JudgeSpace, AcceptsAChainAndFindsEachFalseFigure) {
+  const std::string sound = data("judge/space_chain.json");
+  const Sheet sheet = of_space(sound);
+  EXPECT_EQ(sheet.wrong(), 0) << all_false(sheet);
+  EXPECT_EQ(sheet.counts().at("chain.turn").judged, 1);
+  EXPECT_EQ(sheet.counts().at("chain.corner").judged, 4);
+  EXPECT_TRUE(of_space(changed(sound, "\"turn\": 1.57", "\"turn\": 1.58")).has("chain.turn"));
+  EXPECT_TRUE(of_space(changed(sound, "\"point\": 3", "\"point\": 4")).has("chain.points"));
+  EXPECT_TRUE(of_space(changed(sound, "[10, 0, 0]", "[10, 0, 0.001]")).has("chain.points"));
+  EXPECT_TRUE(of_space(changed(sound, "\"largest_move\": 0", "\"largest_move\": -1"))
+                  .has("chain.largest_move"));
+}
+
+TEST(JudgeSpace, FindsFalseCurvesOfAStepFile) {
+  const ReadChain read = read_chain(read_json(data("judge/space_chain.json")).value);
+  ASSERT_EQ(read.fault, "");
+  const std::string sound = data("judge/space_chain.step");
+  const auto wrong = [&](const std::string& text) {
+    Sheet sheet;
+    check_space_curves({&read.chain->parts[0]->nurbs, &read.chain->parts[1]->nurbs},
+                       step_curves(text), "c.step", "space STEP", sheet);
+    return sheet.wrong();
+  };
+  EXPECT_EQ(wrong(sound), 0);
+  EXPECT_GT(wrong(changed(sound, "(30.,20.,20.)", "(30.,20.,20.001)")), 0);
+  EXPECT_GT(wrong(changed(sound, "B_SPLINE_CURVE_WITH_KNOTS(", "B_SPLINE_CURVE_WITHOUT_KNOTS(")),
+            0);
+}
+
 TEST(JudgeSpace, FindsAFalseReport) {
   const std::string file = data("judge/space.json"), sound = data("judge/space.txt");
   const std::pair<const char*, const char*> all[] = {

@@ -1,0 +1,186 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+#include <cctype>
+#include <limits>
+#include <memory>
+#include <string>
+#include <utility>
+
+#include "door.h"
+#include "handles.h"
+#include "obvid/io/read_points.h"
+#include "obvid/pipeline/space_values.h"
+#include "options.h"
+
+namespace obvid::capi {
+namespace {
+
+constexpr Known kSpace{.fit = true, .space = true};
+constexpr Known kSpaceFiles{.formats = true};
+
+Result<SpaceSeries> space_series_of(const obvid_input& input, const Request& request) {
+  if (input.space) return *input.space;
+  if (!input.points && !input.by_path) {
+    auto found = parse_space_series(input.text, input.name, request.along.has_value());
+    if (!found) return fail(found.error());
+    if (*found) return std::move(**found);
+  }
+  return fail({ErrorCode::kBadOption, "there are no points x, y, z whose z changes", input.name,
+               "obvid_fit forms contours of the plane"});
+}
+
+Result<SpaceJob> space_job_of(const obvid_input& input, const SpaceSeries& series,
+                              const Request& request) {
+  SpaceJob job;
+  job.fit = request.job;
+  job.along = request.along;
+  if (input.space) return job;
+  auto fixed = fixed_in_space(series, parse_points(input.text, input.name, TwoPoints::kDo),
+                              request.along, input.name);
+  if (!fixed) return fail(fixed.error());
+  job.fixed = std::move(*fixed);
+  return job;
+}
+
+/// What a file of the curves would say of them.
+Result<StoredSpaceChain> as_stored(const obvid_space& space) {
+  if (space.stored) return *space.stored;
+  const auto nurbs = chain_nurbs(space.chain, std::nullopt);
+  if (!nurbs) return fail(nurbs.error());
+  return space_chain_from_json(space_chain_json(space.chain, *nurbs), "curve");
+}
+
+}  // namespace
+}  // namespace obvid::capi
+
+using namespace obvid;
+using namespace obvid::capi;
+
+extern "C" {
+
+int obvid_fit_space(const obvid_input* input, const char* options, const obvid_run* run,
+                    obvid_space** space, char** report, obvid_error** error) {
+  return guarded(error, [&]() -> Result<void> {
+    const Result<Request> request = request_of(options, kSpace);
+    if (!request) return fail(request.error());
+    Result<SpaceSeries> series = space_series_of(*input, *request);
+    if (!series) return fail(series.error());
+    if (request->units) series->units = *request->units;
+    const Result<SpaceJob> job = space_job_of(*input, *series, *request);
+    if (!job) return fail(job.error());
+    Result<SpaceChain> made = fit_space_chain(*series, *job, context_of(run));
+    if (!made) return fail(made.error());
+    const std::optional<Error> broken = broken_promise(*made);
+    std::string text;
+    if (report != nullptr) {
+      const auto nurbs = chain_nurbs(*made, std::nullopt);
+      if (!nurbs) return fail(nurbs.error());
+      text = space_chain_json(*made, *nurbs);
+    }
+    auto out = std::make_unique<obvid_space>();
+    out->chain = std::move(*made);
+    if (report != nullptr) *report = text_of(text);
+    if (space != nullptr) *space = out.release();
+    if (broken) return fail(*broken);
+    return {};
+  });
+}
+
+int obvid_stored_space(const obvid_input* input, obvid_space** space, obvid_error** error) {
+  return guarded(error, [&]() -> Result<void> {
+    auto stored = space_chain_from_json(input->text, input->name);
+    if (!stored) return fail(stored.error());
+    auto out = std::make_unique<obvid_space>();
+    out->chain = space_chain_of(*stored);
+    out->stored = std::move(*stored);
+    *space = out.release();
+    return {};
+  });
+}
+
+int obvid_verify_space(const obvid_space* space, char** report, obvid_error** error) {
+  return guarded(error, [&]() -> Result<void> {
+    const auto stored = as_stored(*space);
+    if (!stored) return fail(stored.error());
+    const SpaceChainVerification found = verify(*stored);
+    if (report != nullptr) *report = text_of(space_verification_json(*stored, found));
+    if (const auto broken = broken_promise(*stored, found)) return fail(*broken);
+    return {};
+  });
+}
+
+size_t obvid_space_parts(const obvid_space* space) { return space->chain.parts.size(); }
+
+int obvid_space_closed(const obvid_space* space) {
+  const SpaceChain& chain = space->chain;
+  const bool one = chain.corners.empty() && chain.parts.front().plan.contour.closed;
+  return chain.closed || one ? 1 : 0;
+}
+
+double obvid_space_length(const obvid_space* space, size_t part) {
+  double length = 0.0;
+  (void)guarded(nullptr, [&]() -> Result<void> {
+    if (part < space->chain.parts.size()) length = length_of(space->chain.parts[part]);
+    return {};
+  });
+  return length;
+}
+
+const char* obvid_space_warning(const obvid_space* space, size_t warning) {
+  const auto& warnings = space->chain.warnings;
+  return warning < warnings.size() ? warnings[warning].c_str() : nullptr;
+}
+
+int obvid_space_evaluate(const obvid_space* space, size_t part, const double* at, size_t n,
+                         double* xyz, double* tangent, double* curvature, double* torsion,
+                         obvid_error** error) {
+  return guarded(error, [&]() -> Result<void> {
+    if (part >= space->chain.parts.size()) {
+      return fail({ErrorCode::kBadOption, "there is no such part", "part", "", -1,
+                   static_cast<double>(part)});
+    }
+    const auto found = sample_space(space->chain.parts[part], {at, n});
+    if (!found) return fail(found.error());
+    const auto put = [](double* to, std::size_t i, Vec3 v) {
+      if (to == nullptr) return;
+      to[3 * i] = v.x;
+      to[3 * i + 1] = v.y;
+      to[3 * i + 2] = v.z;
+    };
+    for (std::size_t i = 0; i < n; ++i) {
+      const SpaceSample& one = (*found)[i];
+      put(xyz, i, one.point);
+      put(tangent, i, one.tangent);
+      if (curvature != nullptr) curvature[i] = one.curvature;
+      if (torsion != nullptr) {
+        torsion[i] = one.torsion.value_or(std::numeric_limits<double>::quiet_NaN());
+      }
+    }
+    return {};
+  });
+}
+
+int obvid_space_export(const obvid_space* space, const char* ending, const char* options,
+                       obvid_files** files, obvid_error** error) {
+  return guarded(error, [&]() -> Result<void> {
+    const Result<Request> request = request_of(options, kSpaceFiles);
+    if (!request) return fail(request.error());
+    SpaceChain chain = space->chain;
+    if (request->units) (void)take_units(chain, *request->units);
+    const auto nurbs = chain_nurbs(chain, request->formats.tolerance);
+    if (!nurbs) return fail(nurbs.error());
+    std::string dotted = "." + std::string(ending);
+    std::transform(dotted.begin(), dotted.end(), dotted.begin(),
+                   [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+    Result<Exported> made = export_space(chain, *nurbs, dotted, request->formats);
+    if (!made) return fail(made.error());
+    auto out = std::make_unique<obvid_files>();
+    out->files = std::move(made->files);
+    out->remarks = std::move(made->remarks);
+    *files = out.release();
+    return {};
+  });
+}
+
+void obvid_space_free(obvid_space* space) { delete space; }
+}
