@@ -28,7 +28,7 @@ constexpr std::uintmax_t kLargestFile = 64U << 20U;
 struct Asked {
   std::string file, page;
   int port = 0;
-  bool browser = true;
+  bool no_browser = false;
 };
 
 int fail(int code, const std::string& what, const std::string& where, const std::string& hint) {
@@ -100,7 +100,7 @@ int serve(const Asked& asked, const char* program) {
   fmt::print("{}\nCtrl-C ends it\n", *address);
   std::fflush(stdout);
   std::thread serving([&server] { server.run(); });
-  if (asked.browser) open_browser(*address);
+  if (!asked.no_browser) open_browser(*address);
   int signal = 0;
   sigwait(&ends, &signal);
   server.stop();
@@ -116,8 +116,9 @@ int run(int argc, char** argv) {
   Asked asked;
   app.add_option("FILE", asked.file, "Points, a contour or a drawing to begin with");
   app.add_option("--port", asked.port, "Port on 127.0.0.1 [any that is free]")
-      ->check(CLI::Range(1, 65535));
-  app.add_flag("!--no-browser", asked.browser, "Only print the address");
+      ->check(CLI::Range(1, 65535))
+      ->option_text("N");
+  app.add_flag("--no-browser", asked.no_browser, "Only print the address");
   app.add_option("--page", asked.page, "The page, another than the program's own")->group("");
   app.footer("\nExample: obvid studio points.csv");
   try {
