@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """The studio's page in a real browser: every control, drags whose contours the program proves
 again, operations undone, pasted and dropped files, refusals.
-usage: page_test.py OBVID PROJECT_FOLDER [PICTURE_FOLDER]"""
+usage: page_test.py OBVID PROJECT_FOLDER AXE_SCRIPT | OBVID PROJECT_FOLDER --pictures FOLDER"""
 import json
 import math
 import random
@@ -14,7 +14,8 @@ from browser import CTRL, Browser
 from studio import Studio, series10
 
 PROGRAM, ROOT = sys.argv[1], Path(sys.argv[2])
-PICTURES = Path(sys.argv[3]) if len(sys.argv) > 3 else None
+PICTURES = Path(sys.argv[4]) if sys.argv[3] == "--pictures" else None
+AXE = Path(sys.argv[3])
 FILE = ROOT / "examples/series10.csv"
 DRAGS, OPERATIONS = 200, 1000
 failures = []
@@ -295,6 +296,21 @@ def files(page):
     page.click_on("#message")
 
 
+def accessible(page, axe):
+    """No serious finding of axe, in both looks and languages."""
+    page.run(axe.read_text())
+    for look in ("light", "dark"):
+        for language in ("en", "uk"):
+            rules, found = page.run(
+                "axe.run().then((r) => [r.passes.length, r.violations.map((v) => [v.impact, v.id,"
+                " v.nodes.map((n) => n.target.join(' ')).slice(0, 3)])])")
+            check("axe looked", rules > 10, rules)
+            serious = [v for v in found if v[0] in ("serious", "critical")]
+            check(f"axe, {look}, {language}", not serious, serious)
+            page.click_on("#language")
+        page.click_on("#theme")
+
+
 def pictures(page, folder):
     folder.mkdir(parents=True, exist_ok=True)
     page.click(*page.point(5))
@@ -314,6 +330,8 @@ with Studio(PROGRAM, FILE) as studio, Page(studio.address) as opened:
     if PICTURES:
         pictures(opened, PICTURES)
         sys.exit(0)
+    opened.click(*opened.point(4))
+    accessible(opened, AXE)
     for part in (controls, points, cursors, drags, undoing, files):
         part(opened)
         opened.settled()
