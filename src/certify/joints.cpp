@@ -372,6 +372,22 @@ JointSurvey survey_joints(const Contour& contour, const PieceBends& bends,
   return JointWalk(contour, bends, known).run();
 }
 
+namespace {
+
+/// Whether a joint is where the point that it names may be.
+bool stands_on(Vec2 place, const Contour& contour, std::size_t point) {
+  const Vec2 meant = contour.points[point];
+  if (place == meant) return true;
+  if (point >= contour.point_tolerance.size()) return false;
+  // twice the rounding of both coordinates, of their difference and of the distance
+  const double size =
+      std::max({std::abs(place.x), std::abs(place.y), std::abs(meant.x), std::abs(meant.y)});
+  const double allowed = contour.point_tolerance[point];
+  return allowed > 0.0 && norm(place - meant) <= allowed * (1.0 + 0x1p-50) + 0x1p-51 * size;
+}
+
+}  // namespace
+
 std::string missed_point(const Contour& contour) {
   const std::size_t n = contour.points.size();
   // one closed piece has one joint, all others two at least
@@ -395,7 +411,7 @@ std::string missed_point(const Contour& contour) {
       return fmt::format("joint {} claims point {} where point {} is due", j + 1, *joint.source + 1,
                          (due + first) % n + 1);
     }
-    if (exact && !(joint.element.point == contour.points[*joint.source])) {
+    if (!stands_on(joint.element.point, contour, *joint.source)) {
       return fmt::format("joint {} does not stand on point {}", j + 1, *joint.source + 1);
     }
     due = place + 1;
