@@ -281,6 +281,16 @@ TEST(JudgeTexts, FindsGivenDataThatAreNotKept) {
   EXPECT_TRUE(of_input(changed(points, "-20.48", "-20.49"), {}).has("points"));
 }
 
+TEST(JudgeTexts, AValueAndRangesOfOnePointHoldTogether) {
+  const Input input = read_input(
+      "0,0\n1,0\n2,1\n", {"--end-heading=10..60", "--heading-at=3=45", "--heading-at", "3=40..90"});
+  const GivenPoint& last = input.points.back();
+  ASSERT_TRUE(last.heading && last.headings);
+  EXPECT_NEAR(*last.heading, 0.25 * std::numbers::pi, 1e-15);
+  EXPECT_NEAR(last.headings->least, std::numbers::pi * 2.0 / 9.0, 1e-15);
+  EXPECT_NEAR(last.headings->greatest, std::numbers::pi / 3.0, 1e-15);
+}
+
 TEST(JudgeTexts, FindsAnErrorThatTheTrueCurveExceeds) {
   const Case one;
   Input input = read_input(data("judge/points.csv"), {});
