@@ -136,14 +136,28 @@ class TextCheck {
     return x == y;
   }
   void radius(const std::string& printed, Real order, bool leaving) {
-    if (printed == "-" || order != std::floor(order)) return;
-    const FileElement* e = file_.joint(static_cast<std::size_t>(order));
-    if (e == nullptr) return;
-    const auto fits = [&](double kappa) {
-      return kappa == 0.0 ? printed == "straight" : prints(printed, 1.0 / kappa);
-    };
+    if (printed == "-") return;
+    const FileElement* e =
+        order == std::floor(order) ? file_.joint(static_cast<std::size_t>(order)) : nullptr;
+    if (e == nullptr || !(e->source || e->parted())) return radius_beside(printed, order);
     const double kappa = leaving && e->parted() ? e->kappa_out : e->kappa;
-    say(fits(kappa), "table radius", printed, kappa == 0.0 ? 0.0 : 1.0 / kappa);
+    say(radius_of(printed, kappa), "table radius", printed, kappa == 0.0 ? 0.0 : 1.0 / kappa);
+  }
+  static bool radius_of(const std::string& printed, double kappa) {
+    return kappa == 0.0 ? printed == "straight" : prints(printed, 1.0 / kappa);
+  }
+  /// At a point that is no joint: of a place that rounding of the coordinates does not tell from
+  /// the nearest one (docs/claims.md), as doubles evaluate it.
+  void radius_beside(const std::string& printed, Real order) {
+    auto [least, most] = course_.curvatures_near(order, course_.resolution());
+    const Real blur = course_.curvature_rounding(order);
+    least -= blur;
+    most += blur;
+    const bool straight = printed == "straight";
+    const double kappa = straight ? 0.0 : 1.0 / std::strtod(printed.c_str(), nullptr);
+    say((kappa >= least && kappa <= most) || radius_of(printed, static_cast<double>(least)) ||
+            radius_of(printed, static_cast<double>(most)),
+        "table radius", printed, static_cast<double>(1.0L / least));
   }
 
   void piece_row(const std::vector<std::string>& words) {
