@@ -18,6 +18,9 @@
 namespace judge {
 namespace {
 
+/// The accuracy of lengths that STEP files state, m.
+constexpr Real kStepAccuracy = 1e-10L;
+
 class Work : public ProgramRuns {
  public:
   Work(const TrialOptions& options, std::uint64_t index)
@@ -164,6 +167,9 @@ class Work : public ProgramRuns {
     const std::string told = again.out + again.err;
     const bool left = told.find(" was taken") != std::string::npos &&
                       told.find(" of 1 was taken") == std::string::npos;
+    if (told.find(" on others and w") != std::string::npos) {
+      return out_.sheet.unjudged("convert back", "a piece that lies on another one was taken once");
+    }
     // STEP must have a unit, assumed or not; DXF states none that nobody said
     back(course, text_of_file(path("e.json")), left ? 1e-6 : 1e-9, other == "d.dxf");
   }
@@ -191,7 +197,10 @@ class Work : public ProgramRuns {
     }
     if (spans.empty()) return out_.sheet.fails("convert back", "a curve", "no pieces", "");
     const Path path(std::move(spans));
-    const Real limit = static_cast<Real>(part) * course.ends.size +
+    // STEP says how exact it is: kernels leave shorter edges out
+    const bool step = !unit_kept && mine;
+    const Real accuracy = step ? kStepAccuracy / static_cast<Real>(*mine) : 0.0L;
+    const Real limit = std::max(static_cast<Real>(part) * course.ends.size, accuracy) +
                        4e-15L * course.ends.coordinate + course.resolution() * 1e-3L;
     Real most = 0.0L;
     const int count = 200;
