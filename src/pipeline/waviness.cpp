@@ -14,8 +14,8 @@ constexpr int kSlopeSteps = 8;
 constexpr double kToldTo = 1e-3;
 /// Second and third derivatives of coordinates of size 1 have an error of so many roundings at the
 /// most: the binomial sums of degree 5 and their products. First derivatives have a tenth of them.
-constexpr double kRoundings = 100.0 * 0x1p-53;
-constexpr double kFirstRoundings = 10.0 * 0x1p-53;
+constexpr double kSlopeRoundings = 100.0 * 0x1p-53;
+constexpr double kTangentRoundings = 10.0 * 0x1p-53;
 
 /// A piece seen from one of its ends, where coordinates beside it are small; from its end it runs
 /// back, which leaves d kappa/ds as it is.
@@ -55,8 +55,8 @@ std::array<double, 3> coordinates_at(const Piece& piece, double t) {
 double slope_rounding(const Piece& local, double t, const Jet& jet) {
   const double speed = norm(jet.d1), bend = norm(jet.d2) / speed, third = norm(jet.d3) / speed;
   const auto size = coordinates_at(local, t);
-  const double first = kFirstRoundings * size[0], second = kRoundings * size[1];
-  return (kRoundings * size[2] + 6.0 * bend * second + (third + 3.0 * bend * bend) * first) /
+  const double first = kTangentRoundings * size[0], second = kSlopeRoundings * size[1];
+  return (kSlopeRoundings * size[2] + 6.0 * bend * second + (third + 3.0 * bend * bend) * first) /
          (speed * speed * speed);
 }
 

@@ -63,7 +63,7 @@ std::size_t first_point(const Course& course) {
 }
 
 /// How near the contour must come to a point.
-Real reach_of(const Course& course, std::size_t point) {
+Real needed_nearness(const Course& course, std::size_t point) {
   return course.file.tolerance[point] * (1.0L + 1e-6L) + course.resolution();
 }
 
@@ -76,7 +76,7 @@ std::size_t met_in_order(const Course& course, Real start) {
   for (std::size_t k = 0; k < n; ++k) {
     const std::size_t i = (first_point(course) + k) % n;
     const Vec p = seen(course.file.points[i], course.origin);
-    const auto met = first_within(course.path, p, at, last, reach_of(course, i));
+    const auto met = first_within(course.path, p, at, last, needed_nearness(course, i));
     if (!met) return k;
     at = *met;
   }
@@ -92,7 +92,7 @@ std::optional<Real> next_visit(const Course& course, Real start) {
   for (Real from = (std::floor(start * kParts) + 1.0L) / kParts; from < course.path.end();
        from += 1.0L / kParts) {
     const Real to = from + 1.0L / kParts;
-    if (course.path.nearest(p, from, to).distance <= reach_of(course, i)) return from;
+    if (course.path.nearest(p, from, to).distance <= needed_nearness(course, i)) return from;
   }
   return std::nullopt;
 }
