@@ -71,7 +71,8 @@ double rounding_move(const std::vector<Vec2>& points, const Infeasibility& why) 
 
 int sign_of(double value) { return value > 0.0 ? 1 : value < 0.0 ? -1 : 0; }
 
-/// The way in which most points turn, 1 or -1; where they do not tell, that of the fixed curvatures.
+/// The way in which most points turn, 1 or -1; where they do not tell, that of the fixed
+/// curvatures.
 int way_of_turning(const Analysis& a, const ChainWishes& wishes) {
   int turns = 0;
   for (const AdjacentCircle& circle : a.circles) turns += sign_of(circle.kappa);
@@ -168,11 +169,12 @@ Result<ChainProblem> chain_problem(const Analysis& a, const ChainWishes& wishes)
                      static_cast<std::ptrdiff_t>(i), c.kappa});
       }
       if (p.nodes[i].kappa && turns * *p.nodes[i].kappa < 0.0) {
-        return fail({ErrorCode::kFixedDataContradict,
-                     "a convex contour was asked for, but the fixed radius turns the other way here",
-                     "point " + std::to_string(i + 1),
-                     "drop the wish for a convex contour, or change the sign of the radius",
-                     static_cast<std::ptrdiff_t>(i), *p.nodes[i].kappa});
+        return fail(
+            {ErrorCode::kFixedDataContradict,
+             "a convex contour was asked for, but the fixed radius turns the other way here",
+             "point " + std::to_string(i + 1),
+             "drop the wish for a convex contour, or change the sign of the radius",
+             static_cast<std::ptrdiff_t>(i), *p.nodes[i].kappa});
       }
       p.nodes[i].curvature_sign = turns;
     }

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "obvid/exchange/sketch.h"
+#include "obvid/core/picture_mark.h"
 
 #include <fmt/format.h>
 
@@ -140,9 +141,9 @@ class SketchSvg {
                                    top_ + kLine * static_cast<double>(sketch_.layers.size() + 1));
     text_ = fmt::format(
         "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{0:.0f}\" height=\"{1:.0f}\" "
-        "viewBox=\"0 0 {0:.0f} {1:.0f}\" font-family=\"sans-serif\" font-size=\"13\">\n"
+        "viewBox=\"0 0 {0:.0f} {1:.0f}\" font-family=\"sans-serif\" font-size=\"13\" {2}=\"{3}\">\n"
         "<rect width=\"100%\" height=\"100%\" fill=\"white\"/>\n",
-        width, height);
+        width, height, kPictureAttribute, kPictureValue);
     word({kMargin, kMargin + 0.3 * kLine}, sketch_.title, "font-size=\"16\"");
     for (std::size_t k = 0; k < sketch_.remarks.size(); ++k) {
       word({kMargin, kMargin + kLine * (static_cast<double>(k) + 1.3)}, sketch_.remarks[k],

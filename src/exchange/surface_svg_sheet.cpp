@@ -9,6 +9,7 @@
 #include <numeric>
 #include <string_view>
 
+#include "obvid/core/picture_mark.h"
 #include "xml_text.h"
 
 namespace obvid::exchange {
@@ -159,9 +160,11 @@ std::string sheet(const SheetTexts& texts, const SurfacePictureOptions& options,
   return fmt::format(
       "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n"
       "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 {0:.0f} {1:.0f}\" "
-      "width=\"{0:.0f}\" height=\"{1:.0f}\" role=\"img\">\n<title>{2}</title>\n<desc>{3}</desc>\n"
+      "width=\"{0:.0f}\" height=\"{1:.0f}\" role=\"img\" "
+      "{6}=\"{7}\">\n<title>{2}</title>\n<desc>{3}</desc>\n"
       "{4}<rect width=\"{0:.0f}\" height=\"{1:.0f}\" fill=\"#fff\"/>\n{5}</svg>\n",
-      options.width, options.height, escaped(texts.title), escaped(texts.facts), kStyle, body);
+      options.width, options.height, escaped(texts.title), escaped(texts.facts), kStyle, body,
+      kPictureAttribute, kPictureValue);
 }
 
 }  // namespace obvid::exchange

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "obvid/exchange/svg_read.h"
+#include "obvid/core/picture_mark.h"
 
 #include <fmt/format.h>
 
@@ -312,6 +313,13 @@ class SvgReader {
 Result<Drawing> parse_svg(string_view text, string_view name) {
   XmlFile file(text, name);
   if (auto done = file.parse("svg"); !done) return fail(std::move(done.error()));
+  if (string_view(file.root().attribute(kPictureAttribute).value()) == kPictureValue) {
+    return fail({ErrorCode::kUnsupported, "a picture to look at is no drawing of a curve",
+                 std::string(name),
+                 "read the .json that was written with it, or write the curve alone with "
+                 "--svg drawing",
+                 -1, 0.0});
+  }
   return SvgReader(file, text.size()).run();
 }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "picture_sheet.h"
 
+#include "obvid/core/picture_mark.h"
 #include "picture_canvas.h"
 #include "picture_panels.h"
 
@@ -44,9 +45,10 @@ std::string picture_sheet(const std::string& title, const std::string& descripti
   PictureCanvas picture;
   picture.add(
       "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 {0} {1}\" width=\"{0}\" "
-      "height=\"{1}\" role=\"img\">\n<title>{2}</title>\n<desc>{3}</desc>\n{4}"
+      "height=\"{1}\" role=\"img\" {6}=\"{7}\">\n<title>{2}</title>\n<desc>{3}</desc>\n{4}"
       "<rect class=\"paper\" width=\"{0}\" height=\"{1}\"/>\n{5}</svg>\n",
-      px(kPictureWidth), px(height), xml_text(title), xml_text(description), kStyle, body);
+      px(kPictureWidth), px(height), xml_text(title), xml_text(description), kStyle, body,
+      kPictureAttribute, kPictureValue);
   return picture.take();
 }
 

@@ -721,11 +721,18 @@ Result<void> has_curvatures(const Contour& contour) {
   return {};
 }
 
+enum class Passing { kWithinTolerances, kExactly };
+
 Result<Fit> formed_and_proved(const PointSeries& series, const FitJob& job, FoundChains& chains,
-                              Watch& watch, const KeptParts& kept = {}) {
+                              Watch& watch, const KeptParts& kept = {},
+                              Passing passing = Passing::kWithinTolerances) {
   watch.tell("analysing", 0.0);
   auto prepared = prepare(series, job);
   if (!prepared) return tl::unexpected(prepared.error());
+  if (passing == Passing::kExactly) {
+    prepared->reach.assign(prepared->points.size(), 0.0);
+    prepared->tolerance.clear();
+  }
   const double least = least_tolerance(prepared->points);
   const auto asked = tolerance_of(job, prepared->points, least);
   if (!asked) return tl::unexpected(asked.error());
@@ -835,6 +842,31 @@ Result<Fit> proved_without_slopes(const PointSeries& series, FitJob job, Fit smo
   return made;
 }
 
+bool has_tolerances(const PointSeries& series, const FitJob& job) {
+  const auto prepared = prepare(series, job);
+  return prepared && !prepared->exact();
+}
+
+/// The contour through the points as they are, where none within their tolerances is proved: it is
+/// within them too. Only where it has no more vertices and inflections than spirals within them.
+std::optional<Fit> through_points_as_they_are(const PointSeries& series, const FitJob& job,
+                                              FoundChains& chains, Watch& watch) {
+  if (!has_tolerances(series, job)) return std::nullopt;
+  auto exact = formed_and_proved(series, job, chains, watch, {}, Passing::kExactly);
+  if (!exact || !exact->certificate.proved) return std::nullopt;
+  FitJob plain = job;
+  plain.carrier = Carrier::kSpiral;
+  plain.continuity = Continuity::kG2;
+  const auto spirals = formed_and_proved(series, plain, chains, watch);
+  if (spirals && turns_of(exact->contour).more_than(turns_of(spirals->contour))) {
+    return std::nullopt;
+  }
+  exact->warnings.emplace_back(
+      "the points are met as they are: no contour of this carrier that moves them within their "
+      "tolerances was found and proved");
+  return std::move(*exact);
+}
+
 }  // namespace
 
 Continuity wanted_continuity(const FitJob& job) {
@@ -867,6 +899,12 @@ Result<Fit> pipeline_detail::fit_with(const PointSeries& series, const FitJob& j
     if (made) made->report.chain.g2_because = "with continuous slopes " + because;
   } else if (made && is_made_g3(job) && !made->certificate.proved) {
     made = proved_without_slopes(series, job, std::move(*made), chains, watch);
+  }
+  if ((!made || !made->certificate.proved) && promises_monotone(job.carrier) &&
+      !watch.was_cancelled()) {
+    if (auto exact = through_points_as_they_are(series, job, chains, watch)) {
+      made = std::move(*exact);
+    }
   }
   if (watch.was_cancelled()) return fail(cancelled_error());  // whatever it made do with
   if (made) made->report.seconds = seconds_since(begin);

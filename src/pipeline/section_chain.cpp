@@ -528,9 +528,17 @@ class SectionChooser {
       }
     }
     for (const std::size_t i : whole) measured.reach.push_back(series_.reach[i]);
-    give_nodes(measured, whole);
+    give_nodes(measured, whole, series_.convex);
     FairedSeries faired;
-    if (auto chain = follow_runs(measured, faired)) return std::move(*chain);
+    if (auto chain = follow_runs(measured, faired)) {
+      if (bends_without_need(*chain)) {
+        give_nodes(measured, whole, true);
+        FairedSeries one_way;
+        auto convex = follow_runs(measured, one_way);
+        if (convex && runs_of(*convex) <= runs_of(*chain)) return std::move(*convex);
+      }
+      return std::move(*chain);
+    }
     if (measured.primitives) {
       out_.warnings.emplace_back(
           "no contour was found that keeps the lines and arcs among the points: it is formed "
@@ -565,9 +573,36 @@ class SectionChooser {
     return std::nullopt;
   }
 
-  void give_nodes(MeasuredSeries& measured, const std::vector<std::size_t>& whole) const {
-    if (!has_data() && !series_.convex) return;
-    const int sign = series_.convex ? turning_sign() : 0;
+  /// Whether the curvature changes its sign although all points turn one way.
+  [[nodiscard]] bool bends_without_need(const SeriesChain& chain) const {
+    const int sign = turning_sign();
+    const auto against = [sign](const Element& e) { return sign * e.kappa < 0.0; };
+    if (series_.convex || std::none_of(chain.elements.begin(), chain.elements.end(), against)) {
+      return false;
+    }
+    const std::size_t n = points_.size();
+    for (std::size_t i = loop_ ? 0 : 1; i + 1 < n || (loop_ && i < n); ++i) {
+      const Vec2 before = points_[i] - points_[(i + n - 1) % n];
+      if (!(sign * turning(before, points_[(i + 1) % n] - points_[i]) > 0.0)) return false;
+    }
+    return true;
+  }
+
+  static std::ptrdiff_t runs_of(const SeriesChain& chain) {
+    std::ptrdiff_t runs = 1;
+    std::int8_t last = 0;
+    for (const std::int8_t d : chain.direction) {
+      runs += d != 0 && last != 0 && d != last ? 1 : 0;
+      if (d != 0) last = d;
+    }
+    return runs;
+  }
+
+  void give_nodes(MeasuredSeries& measured, const std::vector<std::size_t>& whole,
+                  bool convex) const {
+    measured.nodes.clear();
+    if (!has_data() && !convex) return;
+    const int sign = convex ? turning_sign() : 0;
     for (const std::size_t i : whole) {
       NodeData node;
       const FixedData data = data_of(i);

@@ -108,15 +108,19 @@ void judge(Toolpath& out, const ToolpathOptions& options) {
                     r.gouge.found, out.units, place_text(r.gouge.place), out.tolerance),
         r.gouge.found, "do not run it; a smaller --tolerance may keep it");
   }
-  if (options.scallop && r.scallop.found > *options.scallop) {
+  if (options.scallop && !std::isfinite(r.scallop.found)) {
+    add(fmt::format("no pass comes to the surface from outside at {}: what stays beside it is not "
+                    "bounded",
+                    place_text(r.scallop.place)),
+        r.scallop.found, "a ball cutter or another angle leaves less");
+  } else if (options.scallop && r.scallop.found > *options.scallop) {
     add(fmt::format("the residual scallop height is {:.3g} {} at {}, where {:.3g} was asked for",
                     r.scallop.found, out.units, place_text(r.scallop.place), *options.scallop),
         r.scallop.found,
         "a ball cutter, another strategy or angle, or a smaller --step-over "
         "leaves less");
   }
-  const double allowed = std::max(out.tolerance, options.scallop.value_or(0.0));
-  if (r.unreached_area > 0.0 && r.unreached_depth > allowed) {
+  if (r.unreached_area > 0.0) {
     add(fmt::format(
             "about {:.3g} % of the surface is narrower than the cutter: up to {:.3g} {} stay, "
             "most at {}",
@@ -193,7 +197,8 @@ Result<Toolpath> planned(const SurfaceModel& model, const ToolpathOptions& optio
     if (auto done = finish(*part, cells, reach, options, progress, out); !done) {
       return fail(done.error());
     }
-    const bool high = options.scallop && out.report.scallop.found > *options.scallop;
+    const bool high = options.scallop && out.report.scallop.found > *options.scallop &&
+                      std::isfinite(out.report.scallop.found);  // else more passes help no more
     if (!high || attempt == kMostAttempts) break;
   }
   judge(out, options);

@@ -201,5 +201,60 @@ TEST(Noise, FewOrUnevenPointsComeBackAsOneRunToo) {
   EXPECT_GE(out.one_run, kNoisySeries * 99 / 100);
 }
 
+/// Nearly a circle of radius 1, with points that lie close together.
+const std::vector<Vec2> kNearCircle = {
+    {0.99323074, 0.08856864},  {0.99166208, 0.12885689},  {0.87269698, 0.48853201},
+    {0.42952111, 0.90166977},  {0.38016299, 0.92399598},  {0.38003360, 0.92616107},
+    {0.25129504, 0.96790882},  {0.10192947, 0.99301932},  {0.04674127, 0.99788720},
+    {0.00842008, 0.99884137},  {-0.20821844, 0.97789343}, {-0.51168257, 0.85874038},
+    {-0.69280316, 0.72142241}, {-0.98277032, 0.19081732}};
+
+std::vector<Vec2> uneven_ellipse() {
+  std::vector<Vec2> points;
+  for (const double t : {0.13, 0.37, 0.72, 2.203, 2.204, 2.54, 3.403, 3.73, 3.78}) {
+    points.push_back({std::cos(t), 0.47 * std::sin(t)});
+  }
+  return points;
+}
+
+// The points themselves are within every tolerance.
+TEST(Noise, ToleranceNeverRefusesWhatThePointsThemselvesHave) {
+  for (const auto& points : {kNearCircle, uneven_ellipse()}) {
+    PointSeries series;
+    series.points = points;
+    for (const Carrier carrier : {Carrier::kSpiral, Carrier::kArcs, Carrier::kConics,
+                                  Carrier::kBeziers, Carrier::kBspline, Carrier::kClothoids}) {
+      FitJob job;
+      job.carrier = carrier;
+      const auto exact = fit(series, job);
+      if (!exact || !exact->certificate.proved) continue;
+      for (const double noise : {1e-9, 1e-6, 1e-4}) {
+        job.noise = noise;
+        const auto made = fit(series, job);
+        ASSERT_TRUE(made) << to_string(carrier) << ' ' << noise << ' ' << to_line(made.error());
+        EXPECT_TRUE(made->certificate.proved)
+            << to_string(carrier) << ' ' << noise << ' ' << made->certificate.reason;
+        EXPECT_LE(made->certificate.largest_move, noise);
+        EXPECT_LE(made->certificate.vertices, exact->certificate.vertices);
+      }
+    }
+  }
+}
+
+TEST(Noise, PointsThatTurnOneWayGetNoInflection) {
+  PointSeries series;  // the ten points of the papers
+  series.points = {{0, 0},          {0.21, -5.28},   {-5.11, -10.13}, {-20.48, -7.65},
+                   {-28.68, 16.23}, {-13.87, 40.95}, {17.95, 55.28},  {54.24, 53.04},
+                   {100.94, 36.19}, {230.38, -50.82}};
+  for (const double noise : {1e-5, 1e-3, 1e-2}) {
+    FitJob job;
+    job.noise = noise;
+    const auto made = fit(series, job);
+    ASSERT_TRUE(made) << to_line(made.error());
+    EXPECT_TRUE(made->certificate.proved) << made->certificate.reason;
+    EXPECT_EQ(made->certificate.inflections, 0) << noise;
+  }
+}
+
 }  // namespace
 }  // namespace obvid
