@@ -42,7 +42,8 @@ double rounding_of(const std::vector<GivenPoint>& points) {
   return 0.0;
 }
 
-Expected expected_of(const Input& input) {
+/// Where the ends are as far apart as their tolerances reach, to the last digits, rounding decides.
+Expected expected_of(const Input& input, bool closed_in_file) {
   Expected out{input.points, input.closed, false};
   if (out.points.size() < 3 || input.open) return out;
   const GivenPoint first = out.points.front(), last = out.points.back();
@@ -52,7 +53,7 @@ Expected expected_of(const Input& input) {
   const double rounding = input.rounding ? rounding_of(input.points) : 0.0;
   const double reach = std::max(2.0 * rounding, reach_of(first, input) + reach_of(last, input));
   constexpr double kLastDigits = 1.0 + 1e-9;
-  const bool near = apart <= reach * kLastDigits;
+  const bool near = apart * kLastDigits < reach || (apart <= reach * kLastDigits && closed_in_file);
   if (!exact && !near) return out;
   out.closed = true;
   out.joined = !exact;
@@ -422,7 +423,7 @@ void check_given_list(const Course& course, Sheet& sheet) {
 
 void check_input(const Course& course, const Input& input, Sheet& sheet) {
   const ContourFile& file = course.file;
-  const Expected expected = expected_of(input);
+  const Expected expected = expected_of(input, file.closed);
   sheet.expect(file.units == input.units, "units", file.units, input.units, "");
   // points without named columns: the user says the unit, or nobody does (docs/formats.md)
   const std::string source = input.units_given ? "given" : "assumed";
