@@ -18,5 +18,6 @@ int run(const SurfaceCheckOptions& options);
 int run(const SplineOptions& options);
 int run(const NurbsOptions& options);
 int run(const ToolpathCommand& command);
+int run(const StudioOptions& options);
 
 }  // namespace obvid

@@ -18,6 +18,7 @@ namespace {
 constexpr const char* kShortHelp =
     R"(obvid: points in, a curvature-continuous, monotone and proved contour out
 
+  obvid studio POINTS                                drag points in the browser, see, prove
   obvid fit POINTS -o contour.svg -o contour.json    form and prove a contour
   obvid analyse POINTS                               what the points alone say
   obvid region POINTS                                where every such contour must lie
@@ -687,6 +688,9 @@ Result<Command> parse_command_line(int argc, const char* const* argv) {
     if (std::string_view(argv[1]) == "surface") return parse_surface(argc - 1, argv + 1);
     if (std::string_view(argv[1]) == "spline") return parse_spline(argc - 1, argv + 1);
     if (std::string_view(argv[1]) == "nurbs") return parse_nurbs(argc - 1, argv + 1);
+    if (std::string_view(argv[1]) == "studio") {
+      return Command{StudioOptions{{argv + 2, argv + argc}}};
+    }
     if (std::string_view(argv[1]) == "toolpath") return parse_toolpath(argc - 1, argv + 1);
     CLI::App app("Points in, a curvature-continuous, monotone and proved contour out", "obvid");
     app.set_version_flag("--version", std::string("obvid ") + kVersion);
@@ -706,6 +710,7 @@ Result<Command> parse_command_line(int argc, const char* const* argv) {
     app.add_subcommand("spline", "Integro-differential splines of one variable, and along points");
     app.add_subcommand("nurbs", "Curves and surfaces of control points, weights and knots");
     app.add_subcommand("toolpath", "Three-axis milling of a surface as G-code");
+    app.add_subcommand("studio", "A page in the browser: drag points, see what is possible, prove");
     allow_extras(app);
     try {
       app.parse(argc, argv);

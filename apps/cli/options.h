@@ -94,9 +94,15 @@ struct ShowText {
   std::string text;
 };
 
-using Command = std::variant<ShowText, FitOptions, AnalyseOptions, RegionOptions, CompareOptions,
-                             ConvertOptions, VerifyOptions, ExplainOptions, SurfaceOptions,
-                             SurfaceCheckOptions, SplineOptions, NurbsOptions, ToolpathCommand>;
+/// What follows `obvid studio`: a program of its own understands it.
+struct StudioOptions {
+  std::vector<std::string> arguments;
+};
+
+using Command =
+    std::variant<ShowText, StudioOptions, FitOptions, AnalyseOptions, RegionOptions, CompareOptions,
+                 ConvertOptions, VerifyOptions, ExplainOptions, SurfaceOptions, SurfaceCheckOptions,
+                 SplineOptions, NurbsOptions, ToolpathCommand>;
 
 /// Understands the command line. Errors: E201 wrong usage, E203 option not possible.
 [[nodiscard]] Result<Command> parse_command_line(int argc, const char* const* argv);

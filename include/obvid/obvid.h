@@ -103,6 +103,11 @@ OBVID_API int obvid_why_not(const obvid_input* input, const char* options, const
 /* How many vertices which tolerance would need. */
 OBVID_API int obvid_suggest(const obvid_input* input, const char* options, const obvid_run* run,
                             char** report, obvid_error** error);
+/* The points that were read and what is given at them; of a drawing those of the
+ * curve that is taken. */
+OBVID_API int obvid_series(const obvid_input* input, const char* options, const obvid_run* run,
+                           char** report, obvid_error** error);
+
 /* What the points say; of a drawing: what a curvature comb would show of its curves. */
 OBVID_API int obvid_analyse(const obvid_input* input, const char* options, const obvid_run* run,
                             char** report, obvid_error** error);
@@ -150,7 +155,8 @@ OBVID_API int obvid_derivatives(const obvid_contour* contour, const double* at, 
 /* ---- files ------------------------------------------------------------------------------------
  */
 
-/* The contour in a format, named by its file extension: "json", "svg", "step", "dxf", "nc", "csv", ... */
+/* The contour in a format, named by its file extension: "json", "svg", "step", "dxf", "nc", "csv",
+ * ... */
 OBVID_API int obvid_export(const obvid_contour* contour, const char* ending, const char* options,
                            obvid_files** files, obvid_error** error);
 /* Most formats are one file. `suffix` goes between name and ending; the texts are the handle's. */

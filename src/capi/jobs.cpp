@@ -166,6 +166,15 @@ int obvid_suggest(const obvid_input* input, const char* options, const obvid_run
       });
 }
 
+int obvid_series(const obvid_input* input, const char* options, const obvid_run* run, char** report,
+                 obvid_error** error) {
+  (void)run;  // takes no longer than reading
+  return report_on_points(input, options, kImporting, report, error,
+                          [](PointSeries& series, const Request& /*request*/) {
+                            return Result<std::string>(series_json(series));
+                          });
+}
+
 int obvid_analyse(const obvid_input* input, const char* options, const obvid_run* run,
                   char** report, obvid_error** error) {
   (void)run;  // takes no longer than reading

@@ -53,7 +53,46 @@ void add_places(JsonText& json, const CurveAudit& a) {
   json.end_array();
 }
 
+void add_given_range(JsonText& json, const char* name, const std::optional<ValueRange>& range) {
+  if (!range) return;
+  json.key(name).begin_array();
+  json.value(range->low).value(range->high).end_array();
+}
+
+void add_given(JsonText& json, const PointSeries& series) {
+  json.key("given").begin_array();
+  for (std::size_t i = 0; i < series.fixed.size(); ++i) {
+    const FixedData& data = series.fixed[i];
+    if (!data.says_how() && !data.corner && !data.tolerance) continue;
+    json.begin_object().pair("point", i);
+    if (data.theta) json.pair("heading", *data.theta);
+    if (data.kappa) json.pair("kappa", *data.kappa);
+    add_given_range(json, "headings", data.thetas);
+    add_given_range(json, "kappas", data.kappas);
+    if (data.corner) json.pair("corner", true);
+    if (data.tolerance) json.pair("tolerance", *data.tolerance);
+    json.end_object();
+  }
+  json.end_array();
+}
+
 }  // namespace
+
+std::string series_json(const PointSeries& series) {
+  JsonText json;
+  json.begin_object().pair("name", series.name).pair("label", series.label);
+  add_units(json, series.units);
+  json.key("rounding").begin_array().value(series.rounding.x).value(series.rounding.y).end_array();
+  json.key("points").begin_array();
+  for (const Vec2 p : series.points) json.begin_array().value(p.x).value(p.y).end_array();
+  json.end_array();
+  add_given(json, series);
+  json.pair("pieces_as_drawn", series.kept.size());
+  json.key("warnings").begin_array();
+  for (const std::string& one : series.warnings) json.value(one);
+  json.end_array().end_object();
+  return json.take() + "\n";
+}
 
 std::string series_report_json(const PointSeries& series, const Analysis& analysis) {
   JsonText json;

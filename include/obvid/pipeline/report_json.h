@@ -18,7 +18,7 @@
 namespace obvid {
 
 // What each job found, as one JSON object and a line feed: the same for every front end
-// (docs/reports.md). Figures that are not known are null.
+// (docs/formats.md). Figures that are not known are null.
 
 /// Files that were written, and what their formats could not hold.
 struct Written {
@@ -51,6 +51,9 @@ struct Written {
 
 /// What the points of a series alone say.
 [[nodiscard]] std::string series_report_json(const PointSeries& series, const Analysis& analysis);
+
+/// The series itself: its points and what is given at them.
+[[nodiscard]] std::string series_json(const PointSeries& series);
 
 /// What a curvature comb would show of each curve of a drawing. `points`: what `series_report_json`
 /// says of the series that was asked for, if one was.

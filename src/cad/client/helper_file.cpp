@@ -12,7 +12,7 @@
 #include <utility>
 
 #include "cad_build_mark.h"
-#include "helper_build.h"
+#include "obvid/core/named_builder.h"
 
 namespace obvid::cad {
 namespace {
@@ -61,13 +61,12 @@ Result<fs::path> installed_helper() {
     if (auto good = check_helper(file, own, mark); !good) return fail(good.error());
     return file;
   }
-  return fail({ErrorCode::kUnsupported,
-               "this needs the helper program " + std::string(kHelperFile) +
-                   ", which is not installed",
-               "",
-               "install libocct-data-exchange-dev and libtbb-dev and build with -DOBVID_CAD=ON; "
-               "contours leave as .step, .dxf or .svg without it",
-               -1, 0.0});
+  return fail(
+      {ErrorCode::kUnsupported,
+       "this needs the helper program " + std::string(kHelperFile) + ", which is not installed", "",
+       "install libocct-data-exchange-dev and libtbb-dev and build with -DOBVID_CAD=ON; "
+       "contours leave as .step, .dxf or .svg without it",
+       -1, 0.0});
 }
 
 }  // namespace
@@ -122,7 +121,7 @@ Result<void> check_helper(const fs::path& file, const fs::path& own, std::string
 
 Result<fs::path> helper_file() {
   auto helper = installed_helper();
-  return helper || !build_helper() ? helper : installed_helper();
+  return helper || !run_named_builder("OBVID_CAD_BUILDER") ? helper : installed_helper();
 }
 
 }  // namespace obvid::cad

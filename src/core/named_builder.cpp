@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "helper_build.h"
+#include "obvid/core/named_builder.h"
 
 #include <spawn.h>
 #include <stdlib.h>
@@ -11,10 +11,10 @@
 
 extern char** environ;  // NOLINT: POSIX declares it nowhere
 
-namespace obvid::cad {
+namespace obvid {
 
-bool build_helper() {
-  const char* named = ::secure_getenv("OBVID_CAD_BUILDER");
+bool run_named_builder(const char* variable) {
+  const char* named = ::secure_getenv(variable);
   if (named == nullptr || *named == '\0') return false;
   std::string builder = named;
   char* const arguments[] = {builder.data(), nullptr};
@@ -32,4 +32,4 @@ bool build_helper() {
   return WIFEXITED(status) && WEXITSTATUS(status) == 0;
 }
 
-}  // namespace obvid::cad
+}  // namespace obvid

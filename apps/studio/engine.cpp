@@ -1,0 +1,282 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "engine.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <initializer_list>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <vector>
+
+#include "obvid/obvid.h"
+
+namespace obvid::studio {
+namespace {
+
+using nlohmann::json;
+
+constexpr std::size_t kMostSamples = 200'000;  // of one answer
+constexpr int kSamplesOfPiece = 16, kMostSamplesOfPiece = 256;
+
+struct Free {
+  void operator()(obvid_input* p) const { obvid_input_free(p); }
+  void operator()(obvid_contour* p) const { obvid_contour_free(p); }
+  void operator()(obvid_files* p) const { obvid_files_free(p); }
+  void operator()(obvid_error* p) const { obvid_error_free(p); }
+  void operator()(char* p) const { obvid_free(p); }
+};
+template <class T>
+using Held = std::unique_ptr<T, Free>;
+
+json told(const obvid_error& error) {
+  json points = json::array();
+  for (std::size_t i = 0; i < error.point_count; ++i) points.push_back(error.points[i]);
+  return {{"code", error.code},   {"category", error.category}, {"message", error.message},
+          {"where", error.where}, {"advice", error.advice},     {"points", std::move(points)}};
+}
+
+json usage(const char* message) {
+  return {{"code", 201},  {"category", OBVID_USAGE}, {"message", message}, {"where", ""},
+          {"advice", ""}, {"points", json::array()}};
+}
+
+/// Takes what a call hands out.
+class Call {
+ public:
+  explicit Call(const std::function<bool()>& cancelled) : cancelled_(cancelled) {
+    run_.user = this;
+    run_.cancelled = [](void* user) {
+      const auto& asked = static_cast<Call*>(user)->cancelled_;
+      return asked && asked() ? 1 : 0;
+    };
+  }
+
+  const obvid_run* run() const { return &run_; }
+  obvid_error** error() { return &error_; }
+  char** report() { return &report_; }
+
+  /// `report` and `error` of the answer.
+  void put_into(json& out) {
+    const Held<obvid_error> error(error_);
+    const Held<char> report(report_);
+    error_ = nullptr;
+    report_ = nullptr;
+    out["error"] = error ? told(*error) : json(nullptr);
+    if (report) out["report"] = json::parse(report.get(), nullptr, false);
+  }
+
+ private:
+  const std::function<bool()>& cancelled_;
+  obvid_run run_{};
+  obvid_error* error_ = nullptr;
+  char* report_ = nullptr;
+};
+
+/// Points of the request as one array of x and y; empty: they are not what they should be.
+std::vector<double> coordinates(const json& points) {
+  std::vector<double> out;
+  for (const json& p : points) {
+    if (!p.is_array() || p.size() != 2 || !p[0].is_number() || !p[1].is_number()) return {};
+    out.push_back(p[0].get<double>());
+    out.push_back(p[1].get<double>());
+  }
+  return out;
+}
+
+Held<obvid_input> input_of(const json& request, obvid_error** error) {
+  obvid_input* input = nullptr;
+  if (request.contains("points") && request["points"].is_array()) {
+    const std::vector<double> xy = coordinates(request["points"]);
+    obvid_points(xy.data(), xy.size() / 2, &input, error);
+  } else if (request.contains("text") && request["text"].is_string()) {
+    const auto& text = request["text"].get_ref<const std::string&>();
+    const std::string name = request.value("name", "text");
+    obvid_read_text(text.data(), text.size(), name.c_str(), &input, error);
+  } else {
+    obvid_points(nullptr, 0, &input, error);
+  }
+  return Held<obvid_input>(input);
+}
+
+std::string options_of(const json& request) {
+  const auto found = request.find("options");
+  return found == request.end() || found->is_null() ? "{}" : found->dump();
+}
+
+/// Derivative of the curvature by arc length.
+double slope(const double* d1, const double* d2, const double* d3) {
+  const double speed2 = d1[0] * d1[0] + d1[1] * d1[1], speed = std::sqrt(speed2);
+  const double turn = d1[0] * d2[1] - d1[1] * d2[0];
+  const double along = d1[0] * d2[0] + d1[1] * d2[1];
+  const double by_t = (d1[0] * d3[1] - d1[1] * d3[0]) / (speed2 * speed) -
+                      3.0 * turn * along / (speed2 * speed2 * speed);
+  return by_t / speed;
+}
+
+json curve_of(const obvid_contour& contour, int asked) {
+  const std::size_t pieces = obvid_contour_pieces(&contour);
+  const auto each = std::clamp<std::size_t>(kMostSamples / std::max<std::size_t>(pieces, 1), 2,
+                                            static_cast<std::size_t>(asked));
+  std::vector<double> at;
+  for (std::size_t i = 0; i < pieces; ++i) {
+    for (std::size_t k = 0; k <= each; ++k) {
+      at.push_back(static_cast<double>(i) + static_cast<double>(k) / static_cast<double>(each));
+    }
+  }
+  // both ends of a piece are looked at within it: curvatures may step between pieces
+  for (std::size_t i = 0; i < pieces; ++i) {
+    double& last = at[i * (each + 1) + each];
+    last = std::nextafter(last, 0.0);
+  }
+  const std::size_t n = at.size();
+  std::vector<double> xy(2 * n), heading(n), kappa(n), d1(2 * n), d2(2 * n), d3(2 * n), slopes(n);
+  const bool good = obvid_evaluate(&contour, OBVID_BY_PARAMETER, at.data(), n, xy.data(),
+                                   heading.data(), kappa.data(), nullptr) == 0 &&
+                    obvid_derivatives(&contour, at.data(), n, 1, d1.data(), nullptr) == 0 &&
+                    obvid_derivatives(&contour, at.data(), n, 2, d2.data(), nullptr) == 0 &&
+                    obvid_derivatives(&contour, at.data(), n, 3, d3.data(), nullptr) == 0;
+  if (!good) return nullptr;
+  for (std::size_t i = 0; i < n; ++i) slopes[i] = slope(&d1[2 * i], &d2[2 * i], &d3[2 * i]);
+  return {{"pieces", pieces},
+          {"samples", each + 1},
+          {"t", at},
+          {"xy", xy},
+          {"heading", heading},
+          {"kappa", kappa},
+          {"slope", slopes},
+          {"length", obvid_contour_length(&contour)},
+          {"closed", obvid_contour_closed(&contour) != 0}};
+}
+
+std::string file_of(const obvid_contour& contour, const char* format, json& remarks,
+                    std::vector<json>& files, json& error, const std::string& options) {
+  obvid_files* made = nullptr;
+  obvid_error* failed = nullptr;
+  obvid_export(&contour, format, options.empty() ? nullptr : options.c_str(), &made, &failed);
+  const Held<obvid_files> held(made);
+  const Held<obvid_error> held_error(failed);
+  if (failed != nullptr) error = told(*failed);
+  std::string first;
+  for (std::size_t i = 0; made != nullptr && i < obvid_files_count(made); ++i) {
+    std::size_t size = 0;
+    const char* data = obvid_files_data(made, i, &size);
+    if (i == 0) first.assign(data, size);
+    files.push_back({{"suffix", obvid_files_suffix(made, i)}, {"text", std::string(data, size)}});
+  }
+  for (std::size_t i = 0; made != nullptr; ++i) {
+    const char* remark = obvid_files_remark(made, i);
+    if (remark == nullptr) break;
+    remarks.push_back(remark);
+  }
+  return first;
+}
+
+json fit_of(const json& request, const std::function<bool()>& cancelled) {
+  json out;
+  Call call(cancelled);
+  const Held<obvid_input> input = input_of(request, call.error());
+  Held<obvid_contour> contour;
+  if (input) {
+    obvid_contour* made = nullptr;
+    obvid_fit(input.get(), options_of(request).c_str(), call.run(), &made, call.report(),
+              call.error());
+    contour.reset(made);
+  }
+  call.put_into(out);
+  if (!contour) return out;
+  const json& samples = request.value("samples", json(kSamplesOfPiece));
+  const int asked = samples.is_number() ? samples.get<int>() : kSamplesOfPiece;
+  out["curve"] = curve_of(*contour, std::clamp(asked, 2, kMostSamplesOfPiece));
+  std::vector<json> files;
+  json remarks = json::array(), ignored;
+  out["contour"] = file_of(*contour, "json", remarks, files, ignored, "");
+  out["warnings"] = json::array();
+  for (std::size_t i = 0;; ++i) {
+    const char* warning = obvid_contour_warning(contour.get(), i);
+    if (warning == nullptr) break;
+    out["warnings"].push_back(warning);
+  }
+  return out;
+}
+
+using Job = int (*)(const obvid_input*, const char*, const obvid_run*, char**, obvid_error**);
+
+json report_of(Job job, const json& request, const std::function<bool()>& cancelled) {
+  json out;
+  Call call(cancelled);
+  const Held<obvid_input> input = input_of(request, call.error());
+  if (input) {
+    job(input.get(), options_of(request).c_str(), call.run(), call.report(), call.error());
+  }
+  call.put_into(out);
+  return out;
+}
+
+/// The contour of a contour file that the request holds.
+Held<obvid_contour> stored_of(const json& request, obvid_error** error) {
+  const auto found = request.find("contour");
+  const std::string text = found != request.end() && found->is_string() ? *found : json("");
+  obvid_input* input = nullptr;
+  obvid_contour* contour = nullptr;
+  if (obvid_read_text(text.data(), text.size(), "contour.json", &input, error) == 0) {
+    obvid_stored(input, nullptr, nullptr, &contour, error);
+    obvid_input_free(input);
+  }
+  return Held<obvid_contour>(contour);
+}
+
+json verified(const json& request, const std::function<bool()>& cancelled) {
+  json out;
+  Call call(cancelled);
+  const Held<obvid_contour> contour = stored_of(request, call.error());
+  if (contour) obvid_verify(contour.get(), call.run(), call.report(), call.error());
+  call.put_into(out);
+  return out;
+}
+
+json exported(const json& request) {
+  json out;
+  obvid_error* failed = nullptr;
+  const Held<obvid_contour> contour = stored_of(request, &failed);
+  const Held<obvid_error> held(failed);
+  out["error"] = failed != nullptr ? told(*failed) : json(nullptr);
+  if (!contour) return out;
+  std::vector<json> files;
+  json remarks = json::array();
+  const json format = request.value("format", json("json"));
+  if (!format.is_string()) return {{"error", usage("the format is no text")}};
+  file_of(*contour, format.get_ref<const std::string&>().c_str(), remarks, files, out["error"],
+          options_of(request));
+  out["files"] = files;
+  out["remarks"] = remarks;
+  return out;
+}
+
+json answered(std::string_view kind, const std::string& text,
+              const std::function<bool()>& cancelled) {
+  const json request = json::parse(text, nullptr, false);
+  if (!request.is_object()) return {{"error", usage("the request is no JSON object")}};
+  if (kind == "fit") return fit_of(request, cancelled);
+  if (kind == "verify") return verified(request, cancelled);
+  if (kind == "export") return exported(request);
+  struct Named {
+    std::string_view kind;
+    Job job;
+  };
+  for (const Named& one : {Named{"series", obvid_series}, Named{"region", obvid_region},
+                           Named{"analyse", obvid_analyse}, Named{"compare", obvid_compare},
+                           Named{"suggest", obvid_suggest}, Named{"why_not", obvid_why_not}}) {
+    if (kind == one.kind) return report_of(one.job, request, cancelled);
+  }
+  return {{"error", usage("there is no such job")}};
+}
+
+}  // namespace
+
+std::string answer(std::string_view kind, const std::string& request,
+                   const std::function<bool()>& cancelled) {
+  return answered(kind, request, cancelled).dump(-1, ' ', false, json::error_handler_t::replace);
+}
+
+}  // namespace obvid::studio

@@ -1,0 +1,322 @@
+# SPDX-License-Identifier: Apache-2.0
+"""The studio's page in a real browser: every control, drags whose contours the program proves
+again, operations undone, pasted and dropped files, refusals.
+usage: page_test.py OBVID PROJECT_FOLDER [PICTURE_FOLDER]"""
+import json
+import math
+import random
+import subprocess
+import sys
+import tempfile
+from pathlib import Path
+
+from browser import CTRL, Browser
+from studio import Studio, series10
+
+PROGRAM, ROOT = sys.argv[1], Path(sys.argv[2])
+PICTURES = Path(sys.argv[3]) if len(sys.argv) > 3 else None
+FILE = ROOT / "examples/series10.csv"
+DRAGS, OPERATIONS = 200, 1000
+failures = []
+
+
+def check(what, holds, seen=""):
+    if not holds:
+        failures.append(f"{what}: {str(seen)[:300]}")
+
+
+class Page(Browser):
+    def __init__(self, address):
+        super().__init__(address)
+        self.wait("window.studio && studio.fitted.value && studio.current.value")
+        self.run("document.querySelector('#tour-end')?.click()")
+
+    def settled(self):
+        """What is drawn and said is of the document as it is."""
+        self.wait("studio.current.value && "
+                  "!document.querySelector('#verdict').className.includes('waiting')", 60)
+
+    def doc(self):
+        return self.run("studio.doc.value")
+
+    def verdict(self):
+        return self.run("document.querySelector('#verdict').className")
+
+    def point(self, index):
+        return self.run(f"studio.place(studio.doc.value.points[{index}])")
+
+    def answer(self):
+        return self.run("({error: studio.fitted.value.answer.error,"
+                        " report: studio.fitted.value.answer.report,"
+                        " contour: studio.fitted.value.answer.contour})")
+
+    def drag(self, start, end, steps=3):
+        self.press(*start)
+        for k in range(1, steps + 1):
+            self.mouse("mouseMoved", start[0] + (end[0] - start[0]) * k / steps,
+                       start[1] + (end[1] - start[1]) * k / steps, button="left", buttons=1)
+        self.release(*end)
+        self.settled()
+
+
+def proves(text, folder):
+    path = Path(folder) / "drawn.json"
+    path.write_text(text)
+    made = subprocess.run([PROGRAM, "verify", path, "--json"], capture_output=True, text=True)
+    return made.returncode, json.loads(made.stdout)
+
+
+def opens(page):
+    check("opens with its file", page.doc()["points"] == series10(ROOT), page.doc())
+    check("proved", page.verdict() == "good", page.verdict())
+    check("the drawing is not empty", page.run(
+        "[...document.querySelector('#drawing').getContext('2d').getImageData(0, 0, 600, 400).data]"
+        ".some((v) => v > 0)"))
+    check("the plot is drawn", page.run("document.querySelector('#plot canvas') !== null"))
+    check("as many rows as segments",
+          page.run("document.querySelectorAll('#segments tbody tr').length") == 9)
+
+
+def drags(page):
+    """Each contour that is called proved is, says the program from its file alone."""
+    chance, drawn, proved = random.Random(5), 0, 0
+    page.click_on("#fit")
+    with tempfile.TemporaryDirectory() as folder:
+        for _ in range(DRAGS):
+            index = chance.randrange(10)
+            start = page.point(index)
+            far, way = chance.uniform(2, 60), chance.uniform(0, 2 * math.pi)
+            page.drag(start, (start[0] + far * math.cos(way), start[1] + far * math.sin(way)))
+            check("the point moved", page.doc()["points"][index] != series10(ROOT)[index], index)
+            answer = page.answer()
+            if answer.get("contour") is None:
+                check("what is not drawn is refused", answer["error"] and page.verdict() == "bad",
+                      page.verdict())
+            else:
+                drawn += 1
+                good = page.verdict() == "good"
+                proved += good
+                code, again = proves(answer["contour"], folder)
+                theirs, ours = again["certificate"], answer["report"]["certificate"]
+                same = all(theirs[k] == ours[k] for k in ("proved", "vertices", "inflections"))
+                check("the program proves it again", same and good == ours["proved"]
+                      and (code == 0) == good, (code, theirs, ours))
+            page.click_on("#undo")
+            page.settled()
+    check("most drags give a contour", drawn > DRAGS / 2, drawn)
+    print(f"{DRAGS} drags, {drawn} contours drawn, {proved} proved, each proved again by the program")
+    check("undone to the file", page.doc()["points"] == series10(ROOT), page.doc()["points"])
+
+
+def undoing(page):
+    """Random operations by the keyboard and the controls, then all of them undone."""
+    chance = random.Random(6)
+    before = page.doc()
+    page.run("document.querySelector('#drawing').focus()")
+    steps = page.run(f"""(async () => {{
+      const canvas = document.querySelector('#drawing');
+      let seed = 7;
+      const next = (n) => {{ seed = (seed * 1103515245 + 12345) % 2147483648; return seed % n; }};
+      const key = (name, more = {{}}) => canvas.dispatchEvent(
+        new KeyboardEvent('keydown', {{key: name, bubbles: true, ...more}}));
+      const set = (id, value) => {{ const e = document.querySelector(id);
+        e.value = value; e.dispatchEvent(new Event('change', {{bubbles: true}})); }};
+      for (let i = 0; i < {OPERATIONS}; ++i) {{
+        const kind = next(8);
+        if (kind < 3) {{ key('Tab'); key(['ArrowLeft', 'ArrowUp', 'ArrowRight', 'ArrowDown'][next(4)]); }}
+        else if (kind === 3) {{ key('Tab'); key('c'); }}
+        else if (kind === 4) set('#carrier', ['spiral', 'arcs', 'conics'][next(3)]);
+        else if (kind === 5) set('#noise', String(next(5) / 100));
+        else if (kind === 6) set('#closing', ['auto', 'open'][next(2)]);
+        else if (studio.doc.value.points.length > 6) {{ key('Tab'); key('Delete'); }}
+        if (i % 50 === 0) await new Promise((r) => setTimeout(r));
+      }}
+      let undone = 0;
+      while (!document.querySelector('#undo').disabled && undone < 5000) {{
+        window.dispatchEvent(new KeyboardEvent('keydown', {{key: 'z', ctrlKey: true}}));
+        ++undone;
+        if (undone % 20 === 0) await new Promise((r) => setTimeout(r));
+        else await Promise.resolve();
+      }}
+      return undone;
+    }})()""", 120)
+    check("operations were done", steps > OPERATIONS / 2, steps)
+    # the first step that can be undone is the opening of the file
+    page.key("y", CTRL)
+    page.settled()
+    check("undone to the very document", page.doc() == before, "differs")
+    del chance
+
+
+def controls(page):
+    def options():
+        return page.doc()["options"]
+    for carrier in ("arcs", "conics", "beziers", "clothoids", "bspline", "cubic", "baseline", "spiral"):
+        page.choose("#carrier", carrier)
+        page.settled()
+        answer = page.answer()
+        check(f"carrier {carrier}", options()["carrier"] == carrier and (
+            answer.get("report") is None or answer["report"]["carrier"] == carrier), answer["error"])
+    page.choose("#continuity", "G2")
+    page.settled()
+    check("G2", page.answer()["report"]["continuity"] == "G2", page.answer()["report"]["continuity"])
+    page.choose("#continuity", "G3")
+    page.write("#noise", "0,05")
+    page.settled()
+    check("noise with a decimal comma", options()["noise"] == 0.05, options())
+    page.write("#noise", "")
+    page.write("#tolerance", "0.01")
+    page.settled()
+    check("tolerance", page.answer()["report"]["report"]["tolerance"] == 0.01, options())
+    page.write("#tolerance", "")
+    for box in ("#convex", "#primitives", "#corners"):
+        before = page.run(f"document.querySelector('{box}').checked")
+        page.click_on(box)
+        page.settled()
+        check(f"{box} by mouse", page.run(f"document.querySelector('{box}').checked") != before)
+        page.run(f"document.querySelector('{box}').focus()")
+        page.key(" ")
+        page.settled()
+        check(f"{box} by keyboard", page.run(f"document.querySelector('{box}').checked") == before)
+    page.choose("#closing", "open")
+    page.settled()
+    check("open", options()["closing"] == "open")
+    page.choose("#units", "in")
+    page.settled()
+    check("inches", page.answer()["report"]["units"] == "in", page.answer()["report"])
+    page.choose("#units", "mm")
+    page.choose("#closing", "auto")
+    for what in ("slope", "radius", "curvature"):
+        page.choose("#what", what)
+        check(f"plot of {what}", page.run("document.querySelector('#plot canvas') !== null"))
+    theme = page.run("document.documentElement.dataset.theme")
+    page.click_on("#theme")
+    check("theme", page.run("document.documentElement.dataset.theme") != theme)
+    page.click_on("#theme")
+    page.click_on("#language")
+    page.wait("document.querySelector('h1').textContent.includes('Студія')")
+    page.wait("document.querySelector('#verdict').textContent.includes('доведено')")
+    page.click_on("#language")
+    for tab, rows in (("compare", 8), ("noise", 1), ("segments", 9)):
+        page.click_on(f"#tab-{tab}")
+        table = {"compare": "#compared", "noise": "#suggested", "segments": "#segments"}[tab]
+        page.wait(f"document.querySelectorAll('{table} tbody tr').length >= {rows}", 60)
+
+
+def points(page):
+    page.click(*page.point(4))
+    page.settled()
+    check("selected by a click", page.run("studio.selected.value") == 4)
+    page.wait("studio.region.value")
+    low, high = page.run("(() => { const p = studio.region.value.points.find((p) => p.index === 4);"
+                         "return [p.heading_low, p.heading_high]; })()")
+    low, high = math.degrees(low), math.degrees(high)
+    inside = low + 0.3 * (high - low)
+    page.write("#heading", repr(inside))
+    page.settled()
+    check("a heading inside the range does", page.verdict() == "good", page.verdict())
+    page.write("#heading", repr(high + 0.5 * (high - low)))
+    page.settled()
+    check("beyond it is refused", page.verdict() == "bad" and page.answer()["error"]["code"] == 403,
+          page.answer()["error"])
+    page.wait("document.querySelector('#shown .hint')")  # the last contour stays, greyed
+    page.click_on("#why")
+    page.wait("document.querySelector('#message')?.textContent.includes('point')", 30)
+    page.click_on("#message")
+    page.write("#heading", "")
+    page.settled()
+    check("free again", page.verdict() == "good", page.verdict())
+    before = page.doc()["points"][4]
+    page.write("#x", repr(before[0] + 1.5))
+    page.settled()
+    check("x by number", page.doc()["points"][4][0] == before[0] + 1.5, page.doc()["points"][4])
+    page.click_on("#undo")
+    page.settled()
+    check("undo by mouse", page.doc()["points"][4] == before)
+    page.click_on("#redo")
+    page.settled()
+    check("redo by mouse", page.doc()["points"][4][0] == before[0] + 1.5)
+    page.click_on("#undo")
+    page.settled()
+    x, y = page.point(9)
+    page.click(x - 60, y - 45, 2)
+    page.settled()
+    check("a double click adds a point", len(page.doc()["points"]) == 11, len(page.doc()["points"]))
+    page.click_on("#remove")
+    page.settled()
+    check("and a button removes it", page.doc()["points"] == series10(ROOT), page.doc()["points"])
+
+
+def cursors(page):
+    """The place under the cursor of the plot is marked in the drawing, and the other way."""
+    box = page.run("(() => { const b = document.querySelector('#plot .u-over').getBoundingClientRect();"
+                   "return [b.left, b.top, b.width, b.height]; })()")
+    for share in (0.1, 0.35, 0.8):
+        page.mouse("mouseMoved", box[0] + share * box[2], box[1] + 0.5 * box[3])
+        page.wait("studio.hovered.value !== null")
+        i = page.run("studio.hovered.value")
+        xy = page.run(f"studio.fitted.value.answer.curve.xy.slice(2 * {i}, 2 * {i} + 2)")
+        place = page.run(f"studio.place({json.dumps(xy)})")
+        page.mouse("mouseMoved", *place)
+        page.wait("studio.hovered.value !== null")
+        j = page.run("studio.hovered.value")
+        back = page.run(f"studio.place(studio.fitted.value.answer.curve.xy.slice(2 * {j}, 2 * {j} + 2))")
+        check("both cursors agree within a pixel", math.dist(place, back) < 1, (place, back))
+
+
+def files(page):
+    page.run("""(() => { const data = new DataTransfer();
+      data.setData('text/plain', '0\\t0\\n10\\t4\\n20\\t5\\n32\\t3\\n40\\t-2\\n');
+      document.querySelector('#drawing').dispatchEvent(
+        new ClipboardEvent('paste', {clipboardData: data, bubbles: true})); })()""")
+    page.wait("studio.doc.value.points.length === 5")
+    page.settled()
+    check("pasted from a spreadsheet", page.verdict() == "good", page.verdict())
+
+    def dropped(name, text):
+        page.run(f"""(() => {{ const data = new DataTransfer();
+          data.items.add(new File([{json.dumps(text)}], {json.dumps(name)}));
+          document.querySelector('main').dispatchEvent(
+            new DragEvent('drop', {{dataTransfer: data, bubbles: true, cancelable: true}})); }})()""")
+    dxf = "0\nSECTION\n2\nENTITIES\n0\nSPLINE\n70\n8\n71\n3\n72\n8\n73\n4\n" + "".join(
+        f"40\n{k}\n" for k in (0, 0, 0, 0, 1, 1, 1, 1)) + "".join(
+        f"10\n{x}\n20\n{y}\n30\n0\n" for x, y in ((0, 0), (5, 4), (12, 5), (20, 0))) + \
+        "0\nENDSEC\n0\nEOF\n"
+    dropped("curve.dxf", dxf)
+    page.wait("studio.doc.value.points.length > 6")
+    dropped("p.svg", "<svg xmlns='http://www.w3.org/2000/svg' width='100mm' height='80mm' "
+                     "viewBox='0 0 100 80'><path d='M5 5C20 60 60 70 95 60'/></svg>")
+    page.wait("studio.doc.value.points.length > 6 && studio.doc.value.points[0][0] === 5")
+    page.settled()
+    before = page.doc()
+    dropped("nothing.txt", "no points here")
+    page.wait("document.querySelector('#message')")
+    check("what cannot be read leaves the document", page.doc() == before)
+    page.click_on("#message")
+
+
+def pictures(page, folder):
+    folder.mkdir(parents=True, exist_ok=True)
+    page.click(*page.point(5))
+    page.wait("studio.region.value")
+    page.picture(folder / "studio-light.png")
+    page.click_on("#theme")
+    page.choose("#what", "slope")
+    page.picture(folder / "studio-dark.png")
+    page.click_on("#language")
+    page.choose("#what", "curvature")
+    page.click_on("#theme")
+    page.picture(folder / "studio-uk.png")
+
+
+with Studio(PROGRAM, FILE) as studio, Page(studio.address) as opened:
+    opens(opened)
+    if PICTURES:
+        pictures(opened, PICTURES)
+        sys.exit(0)
+    for part in (controls, points, cursors, drags, undoing, files):
+        part(opened)
+        opened.settled()
+    check("no error in the page", not opened.trouble, opened.trouble[:3])
+print("\n".join(failures) or "all good")
+sys.exit(1 if failures else 0)

@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: Apache-2.0
+import { render } from "preact";
+import "./studio.css";
+import { LocalEngine } from "./engine/local";
+import {
+  compute, current, doc, fitted, hovered, open, region, selected, unreachable, useEngine,
+} from "./state";
+import { App, keys, pasted } from "./view/app";
+import { onScreen as place, showAll } from "./view/drawing";
+
+const engine = new LocalEngine(new URL(window.location.href));
+useEngine(engine);
+render(<App />, document.getElementById("app")!);
+window.addEventListener("keydown", keys);
+window.addEventListener("paste", pasted);
+engine.opened().then(
+  async (file) => {
+    if (file) await open(file.name, file.text);
+    else compute();
+    showAll();
+  },
+  (error: unknown) => { unreachable.value = String(error); },
+);
+
+// for tests and for scripts in the console: what the page knows, to read
+Object.assign(window, { studio: { doc, fitted, current, hovered, selected, region, place } });

@@ -1,0 +1,133 @@
+// SPDX-License-Identifier: Apache-2.0
+import { signal } from "@preact/signals";
+import { pointsCsv } from "../document/document";
+import {
+  canRedo, canUndo, combHeight, current, doc, drawn, exported, fitted, message, open, redo, shown, theEngine,
+  undo, type Shown,
+} from "../state";
+import { jobOptions } from "../document/document";
+import type { Answer } from "../engine/engine";
+import { Drawing, showAll } from "./drawing";
+import { OptionsPanel, PointPanel, Tables } from "./panels";
+import { Plot } from "./plot";
+import { theme } from "./theme";
+import { Verdict } from "./verdict";
+import { language, words } from "../words/words";
+
+const FORMATS = ["json", "step", "dxf", "svg", "csv", "nc", "xodr", "xml", "sldcrv", "swb", "obj", "ply"];
+const tourStep = signal<number | null>(null);
+try {
+  if (window.localStorage.getItem("obvid-tour") !== "done") tourStep.value = 0;
+} catch {
+  tourStep.value = null; // a page from a folder may have no storage
+}
+
+function save(name: string, text: string): void {
+  const link = document.createElement("a");
+  link.href = URL.createObjectURL(new Blob([text], { type: "application/octet-stream" }));
+  link.download = name;
+  link.click();
+  setTimeout(() => URL.revokeObjectURL(link.href), 10_000);
+}
+
+async function saveAs(format: string): Promise<void> {
+  const answer = await exported(format), base = doc.value.name.replace(/\.[^.]*$/, "") || "contour";
+  if (answer.error) message.value = `${answer.error.message}; ${answer.error.advice}`;
+  else if (answer.remarks && answer.remarks.length > 0) message.value = answer.remarks.join("; ");
+  for (const file of answer.files ?? []) save(`${base}${file.suffix}.${format}`, file.text);
+}
+
+async function take(file: File): Promise<void> {
+  await open(file.name, await file.text());
+  showAll();
+}
+
+async function whyNot(): Promise<void> {
+  message.value = words().computing;
+  const answer = await theEngine().call<Answer<unknown>>("why_not", { points: doc.value.points, options: jobOptions(doc.value) });
+  message.value = answer.error ? `${answer.error.message} (${answer.error.where}); ${answer.error.advice}` : null;
+}
+
+export function keys(e: KeyboardEvent): void {
+  const typing = e.target instanceof HTMLInputElement || e.target instanceof HTMLSelectElement;
+  if (!(e.ctrlKey || e.metaKey) || typing) return;
+  const name = e.key.toLowerCase();
+  if (name === "z" && !e.shiftKey) undo();
+  else if (name === "y" || (name === "z" && e.shiftKey)) redo();
+  else return;
+  e.preventDefault();
+}
+
+export function pasted(e: ClipboardEvent): void {
+  if (e.target instanceof HTMLInputElement) return;
+  const text = e.clipboardData?.getData("text/plain") ?? "";
+  if (text.trim() !== "") void open("pasted.csv", text).then(showAll);
+}
+
+export function App() {
+  const w = words();
+  const dropped = (e: DragEvent) => {
+    e.preventDefault();
+    const file = e.dataTransfer?.files[0];
+    if (file) void take(file);
+  };
+  return (
+    <main onDragOver={(e) => e.preventDefault()} onDrop={dropped}>
+      <header>
+        <h1>{w.title}</h1>
+        <span id="name">{doc.value.name}</span>
+        <label class="button" title={w.openHint}>{w.open}
+          <input id="file" type="file" onChange={(e) => { const f = e.currentTarget.files?.[0]; if (f) void take(f); e.currentTarget.value = ""; }} />
+        </label>
+        <select id="save" aria-label={w.save} disabled={!current.value || !fitted.value?.answer.contour} value=""
+          onChange={(e) => { const format = e.currentTarget.value; e.currentTarget.value = ""; if (format) void saveAs(format); }}>
+          <option value="">{w.save} ...</option>
+          {FORMATS.map((f) => <option value={f}>.{f}</option>)}
+        </select>
+        <button id="copy" onClick={() => { void navigator.clipboard.writeText(pointsCsv(doc.value)).then(() => { message.value = w.copied; }); }}>{w.copyPoints}</button>
+        <button id="undo" disabled={!canUndo.value} onClick={undo} title="Ctrl+Z">{w.undo}</button>
+        <button id="redo" disabled={!canRedo.value} onClick={redo} title="Ctrl+Y">{w.redo}</button>
+        <button id="fit" onClick={showAll} title="0">{w.fit}</button>
+        <span class="space" />
+        <button id="theme" onClick={() => { theme.value = theme.value === "dark" ? "light" : "dark"; }}>{w.theme}</button>
+        <button id="language" onClick={() => { language.value = language.value === "en" ? "uk" : "en"; document.documentElement.lang = language.value; }}>{w.language}</button>
+      </header>
+      <Verdict />
+      {message.value ? <p id="message" role="alert" onClick={() => { message.value = null; }}>{message.value} ✕</p> : null}
+      <div id="work">
+        <div id="pictures">
+          <Drawing />
+          <div id="shown">
+            <select id="what" aria-label={w.comb} value={shown.value} onChange={(e) => { shown.value = e.currentTarget.value as Shown; }}>
+              <option value="curvature">{w.curvature}</option><option value="slope">{w.slope}</option><option value="radius">{w.radiusPlot}</option>
+            </select>
+            <label title={w.combScale}>{w.comb} <input id="comb" type="range" min="0" max="3" step="0.05" value={combHeight.value} onInput={(e) => { combHeight.value = Number(e.currentTarget.value); }} /></label>
+            {fitted.value && current.value && !fitted.value.answer.curve && drawn.value ? <span class="hint">{w.greyed}</span> : null}
+            {fitted.value?.answer.error && fitted.value.answer.error.category === 4
+              ? <button id="why" title={w.whyNotHint} onClick={() => void whyNot()}>{w.whyNot}</button> : null}
+          </div>
+          <Plot />
+        </div>
+        <aside><OptionsPanel /><PointPanel /><Tables /></aside>
+      </div>
+      <Tour />
+    </main>
+  );
+}
+
+function Tour() {
+  const w = words(), step = tourStep.value;
+  if (step === null) return null;
+  const last = step + 1 === w.tour.length;
+  const end = () => {
+    tourStep.value = null;
+    try { window.localStorage.setItem("obvid-tour", "done"); } catch { /* then it comes again */ }
+  };
+  return (
+    <div id="tour" role="dialog" aria-label={w.title}>
+      <p>{w.tour[step]}</p>
+      <button id="tour-next" onClick={() => (last ? end() : (tourStep.value = step + 1))}>{last ? w.done : w.next}</button>
+      {last ? null : <button id="tour-end" onClick={end}>✕</button>}
+    </div>
+  );
+}

@@ -1,0 +1,189 @@
+// SPDX-License-Identifier: Apache-2.0
+import { useEffect, useRef } from "preact/hooks";
+import { effect, signal } from "@preact/signals";
+import { withGiven, type Vec } from "../document/document";
+import {
+  abandonDrag, change, combHeight, current, doc, drag, drawn, drop, fitted, hovered, insertPoint,
+  movePoint, region, removePoint, select, selected, shown,
+} from "../state";
+import { around, fromScreen, panned, toScreen, zoomed, type Camera } from "./camera";
+import { HANDLE, paint, tangentTip } from "./paint";
+import { theme } from "./theme";
+import { words } from "../words/words";
+
+const camera = signal<Camera>({ scale: 1, x: 0, y: 0 });
+const REACH = 2 * HANDLE; // pixels from a handle within which it is meant
+
+export function showAll(): void {
+  const canvas = document.querySelector<HTMLCanvasElement>("#drawing");
+  if (canvas) camera.value = around(doc.value.points, canvas.clientWidth, canvas.clientHeight);
+}
+
+/** Where a point of the document lies in the window, pixels. */
+export function onScreen(p: Vec): Vec {
+  const box = document.querySelector("#drawing")!.getBoundingClientRect(), [x, y] = toScreen(camera.value, p);
+  return [box.left + x, box.top + y];
+}
+
+type Grip = { kind: "point" | "tangent"; index: number } | { kind: "view" };
+
+export function Drawing() {
+  const ref = useRef<HTMLCanvasElement>(null);
+  useEffect(() => {
+    const canvas = ref.current!;
+    showAll();
+    let frame = 0;
+    const draw = () => {
+      cancelAnimationFrame(frame);
+      frame = requestAnimationFrame(() => paint(canvas, scene()));
+    };
+    const stop = effect(() => {
+      scene();
+      void theme.value;
+      draw();
+    });
+    const resized = new ResizeObserver(draw);
+    resized.observe(canvas);
+    const wheel = (e: WheelEvent) => {
+      e.preventDefault();
+      camera.value = zoomed(camera.value, place(canvas, e), Math.exp(-0.0015 * e.deltaY));
+    };
+    canvas.addEventListener("wheel", wheel, { passive: false });
+    return () => {
+      stop();
+      resized.disconnect();
+      canvas.removeEventListener("wheel", wheel);
+    };
+  }, []);
+
+  const grip = useRef<Grip | null>(null), last = useRef<Vec>([0, 0]);
+  const down = (e: PointerEvent) => {
+    const canvas = ref.current!, at = place(canvas, e);
+    canvas.focus();
+    canvas.setPointerCapture(e.pointerId);
+    grip.current = gripAt(at);
+    last.current = at;
+    if (grip.current.kind === "point") select(grip.current.index);
+  };
+  const move = (e: PointerEvent) => {
+    const at = place(ref.current!, e), held = grip.current;
+    if (!held) {
+      hover(at);
+      return;
+    }
+    if (held.kind === "view") camera.value = panned(camera.value, [at[0] - last.current[0], at[1] - last.current[1]]);
+    if (held.kind === "point") movePoint(held.index, fromScreen(camera.value, at));
+    if (held.kind === "tangent") turn(held.index, at);
+    last.current = at;
+  };
+  const up = () => {
+    if (grip.current && grip.current.kind !== "view") drop();
+    grip.current = null;
+  };
+  const twice = (e: MouseEvent) => {
+    const at = place(ref.current!, e);
+    if (gripAt(at).kind === "view") addAt(at);
+  };
+  return (
+    <canvas id="drawing" ref={ref} tabIndex={0} role="application" aria-label={words().title}
+      onPointerDown={down} onPointerMove={move} onPointerUp={up}
+      onPointerCancel={() => { grip.current = null; abandonDrag(); }}
+      onPointerLeave={() => { hovered.value = null; }} onDblClick={twice} onKeyDown={key} />
+  );
+}
+
+function place(canvas: HTMLCanvasElement, e: MouseEvent): Vec {
+  const box = canvas.getBoundingClientRect();
+  return [e.clientX - box.left, e.clientY - box.top];
+}
+
+function scene() {
+  const at = selected.value, found = region.value, answer = fitted.value?.answer;
+  const points = at === null || !found ? [] : found.points.filter((p) => p.index === at);
+  return {
+    doc: doc.value, camera: camera.value, curve: drawn.value?.curve ?? null,
+    grey: !answer?.curve, error: current.value ? answer?.error ?? null : null,
+    selected: at, hovered: hovered.value, shown: shown.value, combHeight: combHeight.value,
+    region: points[0] ?? null, units: doc.value.units,
+  };
+}
+
+function gripAt(at: Vec): Grip {
+  const s = scene();
+  if (s.selected !== null) {
+    const tip = tangentTip(s, s.selected);
+    if (tip && Math.hypot(tip[0] - at[0], tip[1] - at[1]) < REACH) return { kind: "tangent", index: s.selected };
+  }
+  let best = REACH, index = -1;
+  s.doc.points.forEach((p, i) => {
+    const [x, y] = toScreen(s.camera, p), d = Math.hypot(x - at[0], y - at[1]);
+    if (d < best) [best, index] = [d, i];
+  });
+  return index < 0 ? { kind: "view" } : { kind: "point", index };
+}
+
+function turn(index: number, at: Vec): void {
+  const p = doc.value.points[index];
+  if (!p) return;
+  const [x, y] = toScreen(camera.value, p);
+  const heading = Math.round((Math.atan2(y - at[1], at[0] - x) * 180) / Math.PI * 10) / 10;
+  drag(withGiven(doc.value, index, { ...doc.value.given[index], heading }));
+}
+
+/** Between the two neighbours that it lies nearest to; beyond an end, at that end. */
+function addAt(at: Vec): void {
+  const points = doc.value.points, screen = points.map((p) => toScreen(camera.value, p));
+  let best = Infinity, index = points.length;
+  for (let i = 0; i + 1 < screen.length; ++i) {
+    const a = screen[i]!, b = screen[i + 1]!, dx = b[0] - a[0], dy = b[1] - a[1];
+    const t = ((at[0] - a[0]) * dx + (at[1] - a[1]) * dy) / (dx * dx + dy * dy || 1);
+    const within = Math.max(0, Math.min(1, t)), d = Math.hypot(a[0] + within * dx - at[0], a[1] + within * dy - at[1]);
+    if (d >= best) continue;
+    best = d;
+    index = t < 0 && i === 0 ? 0 : t > 1 && i + 2 === screen.length ? points.length : i + 1;
+  }
+  insertPoint(index, fromScreen(camera.value, at));
+}
+
+function hover(at: Vec): void {
+  const curve = drawn.value?.curve;
+  if (!curve) return;
+  const [x, y] = fromScreen(camera.value, at);
+  let best = 14 / camera.value.scale, found: number | null = null;
+  for (let i = 0; i < curve.t.length; ++i) {
+    const d = Math.hypot(curve.xy[2 * i]! - x, curve.xy[2 * i + 1]! - y);
+    if (d < best) [best, found] = [d, i];
+  }
+  hovered.value = found;
+}
+
+const ARROWS: Record<string, Vec> = { ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowUp: [0, 1], ArrowDown: [0, -1] };
+
+function key(e: KeyboardEvent): void {
+  const n = doc.value.points.length, at = selected.value;
+  const arrow = ARROWS[e.key];
+  if (e.key === "Tab" && !(at === null && e.shiftKey) && !(at === n - 1 && !e.shiftKey) && !(at === 0 && e.shiftKey)) {
+    select(at === null ? 0 : at + (e.shiftKey ? -1 : 1));
+    e.preventDefault();
+  } else if (e.key === "Escape") {
+    select(null);
+  } else if ((e.key === "Delete" || e.key === "Backspace") && at !== null) {
+    removePoint(at);
+  } else if (arrow && at !== null) {
+    const step = (e.shiftKey ? 10 : 1) / camera.value.scale, p = doc.value.points[at]!;
+    movePoint(at, [p[0] + arrow[0] * step, p[1] + arrow[1] * step]);
+    drop();
+    e.preventDefault();
+  } else if (arrow) {
+    camera.value = panned(camera.value, [-40 * arrow[0], 40 * arrow[1]]);
+    e.preventDefault();
+  } else if (e.key === "+" || e.key === "-") {
+    const canvas = e.currentTarget as HTMLCanvasElement;
+    camera.value = zoomed(camera.value, [canvas.clientWidth / 2, canvas.clientHeight / 2], e.key === "+" ? 1.25 : 0.8);
+  } else if (e.key === "0") {
+    showAll();
+  } else if (e.key === "c" && at !== null && !e.ctrlKey && !e.metaKey) {
+    const { corner, ...rest } = doc.value.given[at] ?? {};
+    change(withGiven(doc.value, at, corner ? rest : { ...rest, corner: true }));
+  }
+}

@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: Apache-2.0
+// The curvature over arc length, with one cursor for the plot and the drawing.
+import { useEffect, useRef } from "preact/hooks";
+import { effect } from "@preact/signals";
+import uPlot from "uplot";
+import "uplot/dist/uPlot.min.css";
+import { doc, drawn, hovered, shown } from "../state";
+import { lengths, values } from "./comb";
+import { colour } from "./paint";
+import { theme } from "./theme";
+import { language, words } from "../words/words";
+import { figure } from "../words/figures";
+
+function unitOf(units: string): string {
+  return shown.value === "curvature" ? `1/${units}` : shown.value === "slope" ? `1/${units}²` : units;
+}
+
+function options(width: number, height: number): uPlot.Options {
+  const w = words(), what = shown.value === "curvature" ? w.curvature : shown.value === "slope" ? w.slope : w.radiusPlot;
+  const axis = { stroke: colour("ink"), grid: { stroke: colour("grid") }, ticks: { stroke: colour("grid") } };
+  return {
+    width, height, legend: { show: false },
+    scales: { x: { time: false } },
+    axes: [
+      { ...axis, label: `${w.arcLength}, ${doc.value.units}`, labelSize: 18, size: 34, values: (_, ticks) => ticks.map((t) => figure(t, 3)) },
+      { ...axis, label: `${what}, ${unitOf(doc.value.units)}`, labelSize: 18, size: 72, values: (_, ticks) => ticks.map((t) => figure(t, 3)) },
+    ],
+    series: [{}, { stroke: colour("rising"), width: 1.8, pxAlign: 0, points: { show: false } }],
+    cursor: { drag: { x: false, y: false }, points: { size: 8, fill: colour("accent") } },
+    hooks: { setCursor: [(u) => { if (!moving) hovered.value = u.cursor.idx ?? null; }] },
+  };
+}
+
+let moving = false; // the cursor of the plot is put where the drawing says
+
+export function Plot() {
+  const ref = useRef<HTMLDivElement>(null);
+  useEffect(() => {
+    const box = ref.current!;
+    let plot: uPlot | null = null, made = "";
+    const draw = () => {
+      const curve = drawn.value?.curve;
+      const look = [theme.value, language.value, shown.value, doc.value.units].join();
+      if (!curve || box.clientWidth === 0) return;
+      const data: uPlot.AlignedData = [lengths(curve), values(curve, shown.value).map((v) => (Number.isFinite(v) ? v : null))];
+      if (!plot || look !== made) {
+        plot?.destroy();
+        plot = new uPlot(options(box.clientWidth, box.clientHeight), data, box);
+        made = look;
+      } else {
+        plot.setData(data);
+      }
+    };
+    const stop = effect(draw);
+    const stopCursor = effect(() => {
+      const i = hovered.value;
+      if (!plot || plot.cursor.idx === i) return;
+      moving = true;
+      const x = i === null ? undefined : plot.data[0]?.[i], y = i === null ? undefined : plot.data[1]?.[i];
+      plot.setCursor(x === undefined ? { left: -10, top: -10 }
+        : { left: plot.valToPos(x, "x"), top: plot.valToPos(y ?? 0, "y") });
+      moving = false;
+    });
+    const resized = new ResizeObserver(() => plot?.setSize({ width: box.clientWidth, height: box.clientHeight }));
+    resized.observe(box);
+    return () => {
+      stop();
+      stopCursor();
+      resized.disconnect();
+      plot?.destroy();
+    };
+  }, []);
+  return <div id="plot" ref={ref} />;
+}
