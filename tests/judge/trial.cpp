@@ -266,12 +266,21 @@ class Work : public ProgramRuns {
     if (!std::regex_search(fit.err, found, advice)) {
       if (fit.err.find("none was found either where every point may move by up to a tenth") !=
           std::string::npos) {
-        refuses_within(fmt::format("{:.3g}", 0.1 * diagonal_of(input)), input);
+        const Point first = input.points.front().point, last = input.points.back().point;
+        const double size = diagonal_of(input);
+        const double apart = std::hypot(last.x - first.x, last.y - first.y);
+        // ends that meet, or nearly, are left to the series: whether it is closed is its own matter
+        if (apart < 0.3 * size) {
+          return out_.sheet.unjudged("refusal: none was found within a tolerance",
+                                     "ends nearly meet");
+        }
+        refuses_within(fmt::format("{:.3g}", 0.1 * size), false, input);
       }
       return;
     }
     const std::string tolerance = found[1];
-    const Run again = within(tolerance, found[2].matched, found[3].matched, "advised.json");
+    const bool open = found[2].matched;
+    const Run again = within(tolerance, open, found[3].matched, "advised.json");
     if (stopped_) return;
     if (!out_.sheet.expect(again.code == 0, "refusal: within a tolerance there is one", tolerance,
                            fmt::format("exit {}: {}", again.code, again.err.substr(0, 200)), "")) {
@@ -281,17 +290,18 @@ class Work : public ProgramRuns {
     if (!read.fault.empty()) return out_.sheet.fails("file", "a contour", read.fault, "advised");
     check_advised(fit, read.contour, out_.sheet);
     const std::regex none("Within (\\S+) \\S+ none was found");
-    if (std::regex_search(fit.out, found, none)) refuses_within(found[1], input);
+    if (std::regex_search(fit.out, found, none)) {
+      refuses_within(found[1], open, input);
+    }
   }
 
-  void refuses_within(const std::string& tolerance, const Input& input) {
+  /// `open`: larger tolerances do not close a series that is open without them.
+  void refuses_within(const std::string& tolerance, bool open, const Input& input) {
     const double t = std::strtod(tolerance.c_str(), nullptr);
-    const Point first = input.points.front().point, last = input.points.back().point;
-    const bool meet = std::hypot(last.x - first.x, last.y - first.y) <= 2.0 * t;
     const bool own =
         std::any_of(input.points.begin(), input.points.end(),
                     [t](const GivenPoint& p) { return p.tolerance && *p.tolerance < t; });
-    const Run again = within(tolerance, meet && !input.closed && !input.open, own, "");
+    const Run again = within(tolerance, open, own, "");
     if (stopped_) return;
     out_.sheet.expect(again.code != 0, "refusal: none was found within a tolerance", tolerance,
                       std::string("there is one"), "");
