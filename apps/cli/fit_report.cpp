@@ -6,8 +6,8 @@
 #include <cmath>
 #include <limits>
 
-#include "obvid/curve/nearest.h"
 #include "obvid/io/verdict.h"
+#include "obvid/pipeline/end_curvatures.h"
 #include "outputs.h"
 #include "table.h"
 #include "terminal.h"
@@ -26,32 +26,6 @@ std::vector<std::size_t> joints_of_points(const Contour& contour) {
     if (source && *source < joint.size() && joint[*source] == kNone) joint[*source] = j;
   }
   return joint;
-}
-
-/// Curvature where a contour passes a point that is no joint of it.
-double curvature_beside(const Contour& contour, Vec2 p) {
-  double nearest = std::numeric_limits<double>::infinity(), kappa = 0.0;
-  for (const Piece& piece : contour.pieces) {
-    for (const double start : {0.0, 0.5, 1.0}) {
-      const Jet jet = evaluate(piece, nearest_parameter(piece, p, start));
-      const double distance = norm(jet.point - p);
-      if (!(distance < nearest)) continue;
-      nearest = distance;
-      kappa = curvature(jet);
-    }
-  }
-  return kappa;
-}
-
-enum class Side { kArriving, kLeaving };
-
-std::string radius_at(const Contour& contour, std::size_t joint, std::size_t point, Side side) {
-  if (joint != kNone) {
-    const Joint& here = contour.joints[joint];
-    const bool leaves = side == Side::kLeaving && here.leaving.has_value();
-    return radius_text(leaves ? here.leaving->kappa : here.element.kappa);
-  }
-  return radius_text(curvature_beside(contour, contour.points[point]));
 }
 
 /// Pieces from one joint to another; around the seam of a closed contour the last joint is the
@@ -80,18 +54,17 @@ Table fit_segments(const Fit& fit) {
   table.column("radius\nat end");
   std::vector<double> width;
   for (const SegmentReport& segment : fit.report.segments) width.push_back(segment.width);
+  const std::vector<EndCurvatures> curvatures = end_curvatures(contour);
   std::size_t before = 0;
   for (const std::size_t i : rows_worth_showing(width)) {
     if (i > before) table.gap();
     before = i + 1;
     const SegmentReport& segment = fit.report.segments[i];
-    const std::size_t first = segment.from.value_or(0), last = segment.to.value_or(0);
-    const std::size_t from = joint[first], to = joint[last];
+    const std::size_t from = joint[segment.from.value_or(0)], to = joint[segment.to.value_or(0)];
     table.row({points_text(segment), significant(segment.chord),
                significant(segment.points_only_error, 4), significant(segment.width, 4),
                std::to_string(segment.inserted), pieces_text(contour, from, to),
-               radius_at(contour, from, first, Side::kLeaving),
-               radius_at(contour, to, last, Side::kArriving)});
+               radius_text(curvatures[i].start), radius_text(curvatures[i].end)});
   }
   return table;
 }

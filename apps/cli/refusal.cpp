@@ -40,12 +40,18 @@ std::string moves_table(const WhyNot& why) {
   return text;
 }
 
+/// `cubic` and `baseline` promise no proof.
+std::string exists_text(const WhyNot& why) {
+  return why.fit.certificate.proved ? "exists and is proved" : "exists";
+}
+
 std::string points_in_the_way_text(const PointSeries& series, const WhyNot& why) {
   std::string text = fmt::format(
       "points that would have to move, the farthest first; lengths in {}\n\n", series.units.text());
   text += moves_table(why);
-  text += fmt::format("\nWithin {} for every point such a contour exists and is proved: {}.\n",
-                      room_within(why, series.units.text()), advised_option(why, series));
+  text += fmt::format("\nWithin {} for every point such a contour {}: {}.\n",
+                      room_within(why, series.units.text()), exists_text(why),
+                      advised_option(why, series));
   if (why.refused > 0.0) {
     text += fmt::format("Within {} {} none was found.\n", significant(why.refused, kAdvisedDigits),
                         series.units.text());
@@ -58,9 +64,8 @@ std::string refusal_text(const PointSeries& series, const WhyNot& why,
   std::string text;
   if (!series.name.empty()) text += bold(series.name) + "\n";
   if (why.next_to_nothing) {
-    text += fmt::format(
-        "No point is in the way. A contour with {} exists and is proved: {} allows them.\n",
-        counts_of_fit(why.fit), advised_option(why, series));
+    text += fmt::format("No point is in the way. A contour with {} {}: {} allows them.\n",
+                        counts_of_fit(why.fit), exists_text(why), advised_option(why, series));
   } else {
     text += points_in_the_way_text(series, why);
   }

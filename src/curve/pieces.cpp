@@ -198,19 +198,22 @@ double turning_both_ways(const ClothoidPiece& p, double t0, double t1) {
   return 0.5 * (std::abs(from) * part + std::abs(to) * (1.0 - part)) * length;
 }
 
-double turning_both_ways(const RationalBezier& p, double t0, double t1) {
-  constexpr int kStepsAcrossInflection = 16;  // the step with the inflection hides what it turns
-  Jet before = evaluate(p, t0);
-  const Jet end = evaluate(p, t1);
-  const bool bends_both_ways = curvature(before) * curvature(end) < 0.0;
-  const int steps = bends_both_ways ? kStepsAcrossInflection : 1;
-  double sum = 0.0;
-  for (int i = 1; i <= steps; ++i) {
-    const Jet now = i == steps ? end : evaluate(p, t0 + (t1 - t0) * i / steps);
-    sum += std::abs(turning(before.d1, now.d1));
-    before = now;
+/// Where a curvature that has one sign at t0 and another one at t1 changes it.
+double inflection_between(const RationalBezier& p, double t0, double t1) {
+  const double start = curvature(evaluate(p, t0));
+  double low = t0, high = t1, middle = 0.5 * (low + high);
+  while (middle > low && middle < high) {
+    (start * curvature(evaluate(p, middle)) > 0.0 ? low : high) = middle;
+    middle = 0.5 * (low + high);
   }
-  return sum;
+  return middle;
+}
+
+double turning_both_ways(const RationalBezier& p, double t0, double t1) {
+  const Jet start = evaluate(p, t0), end = evaluate(p, t1);
+  if (!(curvature(start) * curvature(end) < 0.0)) return std::abs(turning(start.d1, end.d1));
+  const Vec2 between = evaluate(p, inflection_between(p, t0, t1)).d1;
+  return std::abs(turning(start.d1, between)) + std::abs(turning(between, end.d1));
 }
 
 }  // namespace

@@ -166,9 +166,11 @@ void DrawingBuilder::add_fit_points(const Shape& shape, const Source& source) {
 void DrawingBuilder::take_chains() {
   const Chains joined = join(links_);
   if (joined.duplicates > 0) {
-    drawing_.warnings.push_back(
-        fmt::format("{} {} on others and were taken once", joined.duplicates,
-                    joined.duplicates == 1 ? "entity lies" : "entities lie"));
+    drawing_.warnings.push_back(fmt::format("{} on others and {} taken once",
+                                            joined.duplicates == 1
+                                                ? "1 entity lies"
+                                                : fmt::format("{} entities lie", joined.duplicates),
+                                            joined.duplicates == 1 ? "was" : "were"));
   }
   for (const Chain& chain : joined.chains) {
     const std::size_t first = chain.members.front().link;

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 
 namespace obvid::exchange {
 namespace {
@@ -25,6 +26,22 @@ KnotRows knot_rows(const std::vector<double>& knots) {
     }
   }
   return out;
+}
+
+/// Kernels take knots nearer than 1e-9 for one, whatever the unit of the drawing makes of them.
+constexpr double kKnotsApart = 1e-6;
+
+/// The knots, by a power of two farther apart where they are nearer: the curve is the same.
+std::vector<double> told_apart(std::vector<double> knots) {
+  double least = knots.back() - knots.front();
+  for (std::size_t i = 1; i < knots.size(); ++i) {
+    const double step = knots[i] - knots[i - 1];
+    if (step > 0.0) least = std::min(least, step);
+  }
+  if (!(least > 0.0 && least < kKnotsApart)) return knots;
+  const int doublings = static_cast<int>(std::ceil(std::log2(kKnotsApart / least)));
+  for (double& knot : knots) knot = std::ldexp(knot, doublings);
+  return knots;
 }
 
 template <class Value>
@@ -93,7 +110,7 @@ StepId StepCurves::spline(const SpaceCurve& curve) {
 template <class Curve>
 StepId StepCurves::spline_through(const Curve& curve, const std::vector<StepId>& points,
                                   bool closed) {
-  const KnotRows knots = knot_rows(curve.knots);
+  const KnotRows knots = knot_rows(told_apart(curve.knots));
   const std::string general = fmt::format("{},{},.UNSPECIFIED.,{},.U.", curve.degree,
                                           list_of(points), closed ? ".T." : ".F.");
   const std::string with_knots =

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "obvid/geom/angle.h"
+#include "obvid/pipeline/promise.h"
 #include "obvid/series/analysis.h"
 #include "prepare.h"
 #include "series_ranges.h"
@@ -145,7 +146,7 @@ class RangeSearch {
     }
     auto made = fit(series, job, watch_);
     if (made) watch_.spend(kStepsOfPiece * static_cast<double>(made->contour.pieces.size()));
-    if (!made || !keeps_promises(*made)) return std::nullopt;
+    if (!made || broken_promise(*made)) return std::nullopt;
     return std::move(*made);
   }
 

@@ -50,10 +50,15 @@ double turned_to(const ValueRange& thetas, double theta) {
   return middle + std::remainder(theta - middle, 2.0 * std::numbers::pi);
 }
 
+/// The end of a range that a curvature outside it has passed.
+double crossed_end(const ValueRange& kappas, double kappa) {
+  return kappa < kappas.low ? kappas.low : kappas.high;
+}
+
 /// The size against which a curvature is measured that passes the end of a range: that end's, and
 /// of 0 and of ends that are none, its own.
 double scale_at(const ValueRange& kappas, double kappa) {
-  const double end = kappa < kappas.low ? kappas.low : kappas.high;
+  const double end = crossed_end(kappas, kappa);
   return end != 0.0 && std::isfinite(end) ? std::abs(end) : std::abs(kappa);
 }
 
@@ -96,33 +101,26 @@ class GivenCheck {
       const double here = nearest_curvature(sides, *given.kappas);
       const double off = beyond(*given.kappas, here);
       if (off > 0.0) {
-        const double scale = range_scale(sides, *given.kappas, here);
+        const double scale = end_scale(sides, crossed_end(*given.kappas, here));
         miss.curvature = std::max(miss.curvature, off / scale);
       }
     }
     return miss;
   }
 
-  /// Values at the ends of its range, where they lie there as nearly as given values are kept.
+  /// The ends of its ranges at which the contour lies on one of its sides (at a corner it may lie
+  /// at both), as nearly as given values are kept.
   void add_active(const GivenDatum& given, std::vector<ActiveRange>& out) const {
     if (given.point >= joint_.size()) return;
     const std::vector<Side> sides = sides_of(given.point);
-    if (given.thetas) {
-      double low = HUGE_VAL, high = HUGE_VAL;
-      for (const Side& side : sides) {
-        const double here = turned_to(*given.thetas, heading(evaluate(*side.piece, side.t).d1));
-        low = std::min(low, std::abs(here - given.thetas->low));
-        high = std::min(high, std::abs(here - given.thetas->high));
+    for (const bool high : {false, true}) {
+      if (given.thetas && at_heading(sides, *given.thetas, high)) {
+        out.push_back({given.point, true, high});
       }
-      if (std::min(low, high) <= kKeptHeading) out.push_back({given.point, true, high < low});
     }
-    if (given.kappas) {
-      const double here = nearest_curvature(sides, *given.kappas);
-      const double scale = range_scale(sides, *given.kappas, here);
-      const double low = std::abs(here - given.kappas->low);
-      const double high = std::abs(here - given.kappas->high);
-      if (std::min(low, high) <= kSameCurvature * scale) {
-        out.push_back({given.point, false, high < low});
+    for (const bool high : {false, true}) {
+      if (given.kappas && at_curvature(sides, *given.kappas, high)) {
+        out.push_back({given.point, false, high});
       }
     }
   }
@@ -139,9 +137,8 @@ class GivenCheck {
     if (!given.kappas || given.kappa) return out;
     const double here = nearest_curvature(sides, *given.kappas);
     const double off = beyond(*given.kappas, here);
-    if (off > kSameCurvature * range_scale(sides, *given.kappas, here)) {
-      out.kappa = here < given.kappas->low ? given.kappas->low : given.kappas->high;
-    }
+    const double end = crossed_end(*given.kappas, here);
+    if (off > 0.0 && off > kSameCurvature * end_scale(sides, end)) out.kappa = end;
     return out;
   }
 
@@ -155,6 +152,27 @@ class GivenCheck {
     }
     if (joint < n) out.push_back({&contour_.pieces[joint], 0.0});
     return out;
+  }
+
+  [[nodiscard]] static bool at_heading(const std::vector<Side>& sides, const ValueRange& thetas,
+                                       bool high) {
+    const double end = high ? thetas.high : thetas.low;
+    return std::any_of(sides.begin(), sides.end(), [&](const Side& side) {
+      const double here = turned_to(thetas, heading(evaluate(*side.piece, side.t).d1));
+      return std::abs(here - end) <= kKeptHeading;
+    });
+  }
+
+  [[nodiscard]] bool at_curvature(const std::vector<Side>& sides, const ValueRange& kappas,
+                                  bool high) const {
+    const double end = high ? kappas.high : kappas.low;
+    if (!std::isfinite(end)) return false;
+    const double within = kSameCurvature * end_scale(sides, end);
+    const auto at_end = [&](double here) { return std::abs(here - end) <= within; };
+    // the point of arcs has all curvatures between both
+    if (contour_.carrier == Carrier::kArcs) return at_end(nearest_curvature(sides, kappas));
+    return std::any_of(sides.begin(), sides.end(),
+                       [&](const Side& side) { return at_end(curvature_at(side)); });
   }
 
   /// At the place of the contour nearest to a point that is no joint.
@@ -198,14 +216,13 @@ class GivenCheck {
     return beyond(kappas, at.low) > beyond(kappas, at.high) ? at.low : at.high;
   }
 
-  /// As `curvature_miss` has it for a given 0.
-  static double range_scale(const std::vector<Side>& sides, const ValueRange& kappas,
-                            double kappa) {
-    double scale = scale_at(kappas, kappa);
-    if (kappas.low != 0.0 && kappas.high != 0.0) return scale;
+  /// What a curvature at an end of a range is measured against: that end, and of 0 the largest one
+  /// around, as `curvature_miss` has it for a given 0.
+  static double end_scale(const std::vector<Side>& sides, double end) {
+    double scale = std::abs(end);
     for (const Side& side : sides) {
-      for (const double end : {0.0, 1.0}) {
-        scale = std::max(scale, std::abs(curvature(evaluate(*side.piece, end))));
+      for (const double t : {0.0, 1.0}) {
+        if (end == 0.0) scale = std::max(scale, std::abs(curvature(evaluate(*side.piece, t))));
       }
     }
     return scale;
@@ -237,9 +254,7 @@ class GivenCheck {
 /// rad, or of the curvature) is added, and nothing below it means anything.
 constexpr double kMissStep = 1e-12;
 
-double told(double miss) {
-  return miss > 0.0 ? (std::floor(miss / kMissStep) + 1.0) * kMissStep : 0.0;
-}
+double told(double miss) { return (std::floor(miss / kMissStep) + 1.0) * kMissStep; }
 
 }  // namespace
 
@@ -251,7 +266,7 @@ std::optional<double> passed_heading(const ValueRange& thetas, double theta) {
 
 std::optional<double> passed_end(const ValueRange& kappas, double kappa) {
   if (beyond(kappas, kappa) <= kSameCurvature * scale_at(kappas, kappa)) return std::nullopt;
-  return kappa < kappas.low ? kappas.low : kappas.high;
+  return crossed_end(kappas, kappa);
 }
 
 std::vector<GivenDatum> passed_ends(const Contour& contour) {
@@ -277,9 +292,19 @@ GivenReport measure_given(const Contour& contour) {
     out.corners += given.corner ? 1 : 0;
     out.heading_ranges += given.thetas ? 1 : 0;
     out.curvature_ranges += given.kappas ? 1 : 0;
+    const std::size_t before = out.active.size();
     miss_of.add_active(given, out.active);
-    out.heading_miss = std::max(out.heading_miss, told(miss.heading));
-    out.curvature_miss = std::max(out.curvature_miss, told(miss.curvature));
+    const auto at_end = [&](bool heading) {
+      return std::any_of(out.active.begin() + static_cast<std::ptrdiff_t>(before), out.active.end(),
+                         [heading](const ActiveRange& one) { return one.heading == heading; });
+    };
+    // a miss of 0 is one that rounding hides, but inside a range
+    if (given.theta || miss.heading > 0.0 || at_end(true)) {
+      out.heading_miss = std::max(out.heading_miss, told(miss.heading));
+    }
+    if (given.kappa || miss.curvature > 0.0 || at_end(false)) {
+      out.curvature_miss = std::max(out.curvature_miss, told(miss.curvature));
+    }
   }
   return out;
 }

@@ -61,7 +61,7 @@ class Stations {
     const std::size_t last = next.t > 0.0 ? next.piece : next.piece - 1;
     for (std::size_t k = stations_.back().piece; k <= last; ++k) {
       const Piece near = moved(contour_.pieces[k], Vec2{} - p);  // large coordinates blur distances
-      const double t = nearest_parameter(near, {});
+      const double t = nearest_on(near);
       const double away = norm(evaluate(near, t).point);
       if (away < least) {
         least = away;
@@ -69,6 +69,19 @@ class Stations {
       } else if (away > kPassed * least) {
         break;
       }
+    }
+    return best;
+  }
+
+  /// Where a piece comes nearest to the origin: a long one may come near it and leave it again.
+  static double nearest_on(const Piece& piece) {
+    double best = 0.0, least = HUGE_VAL;
+    for (const double start : {0.5, 0.0, 1.0}) {
+      const double t = nearest_parameter(piece, {}, start);
+      const double away = norm(evaluate(piece, t).point);
+      if (away >= least) continue;
+      least = away;
+      best = t;
     }
     return best;
   }

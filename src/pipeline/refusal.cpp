@@ -30,8 +30,9 @@ std::string open_option(double tolerance, bool closed, const PointSeries& series
 }
 
 /// Where one run meets the next: ", with vertices at point 5 and at points 6-7"; empty where no two
-/// do.
+/// do, and where runs are no more than what was aimed at.
 std::string places_of_vertices(const Contour& contour) {
+  if (!promises_monotone(contour.carrier)) return "";
   constexpr std::size_t kMostPlaces = 4;
   const std::size_t n = contour.joints.size();
   std::vector<std::string> places;

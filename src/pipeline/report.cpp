@@ -60,6 +60,20 @@ std::vector<bool> begins_kept(const Contour& contour) {
   return begins;
 }
 
+/// A piece seen from a place. Its control points are seen from its own start: differences of
+/// coordinates that were rounded once more would be other curvatures.
+Piece seen_from(const Piece& piece, Vec2 place) {
+  const auto* bezier = std::get_if<RationalBezier>(&piece);
+  if (bezier == nullptr || !(bezier->origin == Vec2{})) return moved(piece, -place);
+  RationalBezier local = *bezier;
+  const Vec2 start = local.offset[0];
+  local.origin = start - place;
+  for (std::size_t j = 0; j <= static_cast<std::size_t>(local.degree); ++j) {
+    local.offset[j] = local.offset[j] - start;
+  }
+  return local;
+}
+
 /// What a contour leaves open between its stations (docs/claims.md).
 class PartMeasure {
  public:
@@ -116,7 +130,7 @@ class PartMeasure {
     first_ = part.first_piece;
     local_.clear();
     for (std::size_t k = part.first_piece; k <= part.last_piece; ++k) {
-      local_.push_back(moved(contour_.pieces[k], -reference_));
+      local_.push_back(seen_from(contour_.pieces[k], reference_));
     }
   }
 
@@ -411,6 +425,9 @@ namespace {
 /// their joints too. Where the proof found them otherwise it speaks of nothing.
 void forget_unproved(const Certificate& certificate, const Contour& contour, FitReport& report) {
   if (certificate.proved || !promises_monotone(contour.carrier)) return;
+  if (!certificate.gaps_within_bounds) {  // a kink is no part of a curve of monotone curvature
+    for (SegmentReport& row : report.segments) row.points_only_error = kUnknown;
+  }
   if (contour.carrier == Carrier::kArcs) return;  // every piece is an arc: nothing to prove
   const std::vector<int> direction = piece_directions(contour);
   const std::vector<Part> parts = parts_of(contour);

@@ -2,6 +2,7 @@
 #include "waviness.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 namespace obvid::pipeline_detail {
@@ -11,33 +12,52 @@ namespace {
 constexpr int kSlopeSteps = 8;
 /// The figure is told to this part of itself.
 constexpr double kToldTo = 1e-3;
-/// Third derivatives of coordinates of size 1 have an error of so many roundings at the most: the
-/// binomial sums of degree 5 and their products.
+/// Second and third derivatives of coordinates of size 1 have an error of so many roundings at the
+/// most: the binomial sums of degree 5 and their products. First derivatives have a tenth of them.
 constexpr double kSlopeRoundings = 100.0 * 0x1p-53;
+constexpr double kTangentRoundings = 10.0 * 0x1p-53;
 
-/// A piece seen from its own start, where its coordinates are as small as it is.
-Piece seen_from_start(const Piece& piece) {
+/// A piece seen from one of its ends, where coordinates beside it are small; from its end it runs
+/// back, which leaves d kappa/ds as it is.
+Piece seen_from_end(const Piece& piece, bool start) {
   const auto* bezier = std::get_if<RationalBezier>(&piece);
   if (bezier == nullptr) return piece;
   RationalBezier local = *bezier;
-  const Vec2 start = local.offset[0];
+  const auto last = static_cast<std::size_t>(local.degree);
+  const Vec2 origin = local.offset[start ? 0 : last];
   local.origin = {};
-  for (int j = 0; j <= local.degree; ++j) {
-    Vec2& offset = local.offset[static_cast<std::size_t>(j)];
-    offset = offset - start;
+  for (std::size_t j = 0; j <= last; ++j) {
+    const std::size_t from = start ? j : last - j;
+    local.offset[j] = bezier->offset[from] - origin;
+    local.weight[j] = bezier->weight[from];
   }
   return local;
 }
 
-/// Size of the coordinates of a piece that is seen from its own start.
-double coordinates_of(const Piece& piece) {
+/// Sizes of the coordinates from whose differences the first three derivatives at a place are made.
+std::array<double, 3> coordinates_at(const Piece& piece, double t) {
+  std::array<double, 3> out{};
   const auto* bezier = std::get_if<RationalBezier>(&piece);
-  if (bezier == nullptr) return 0.0;
-  double largest = 0.0;
-  for (int j = 1; j <= bezier->degree; ++j) {
-    largest = std::max(largest, norm(bezier->offset[static_cast<std::size_t>(j)]));
+  if (bezier == nullptr) return out;
+  std::array<double, kMaxBezierDegree + 1> size{};
+  auto left = static_cast<std::size_t>(bezier->degree);
+  for (std::size_t j = 0; j <= left; ++j) size[j] = bezier->weight[j] * norm(bezier->offset[j]);
+  for (; left > 0; --left) {
+    const auto kept = size.begin() + static_cast<std::ptrdiff_t>(left) + 1;
+    if (left <= out.size()) out[left - 1] = *std::max_element(size.begin(), kept);
+    for (std::size_t j = 0; j < left; ++j) size[j] = (1.0 - t) * size[j] + t * size[j + 1];
   }
-  return largest;
+  return out;
+}
+
+/// Bound of the rounding of the slope of curvature, (d1 x d3 / v^3 - 3 kappa d1 d2 / v^2) / v with
+/// v = |d1|: each derivative is wrong by its roundings.
+double slope_rounding(const Piece& local, double t, const Jet& jet) {
+  const double speed = norm(jet.d1), bend = norm(jet.d2) / speed, third = norm(jet.d3) / speed;
+  const auto size = coordinates_at(local, t);
+  const double first = kTangentRoundings * size[0], second = kSlopeRoundings * size[1];
+  return (kSlopeRoundings * size[2] + 6.0 * bend * second + (third + 3.0 * bend * bend) * first) /
+         (speed * speed * speed);
 }
 
 }  // namespace
@@ -75,13 +95,14 @@ void Waviness::add_run(const Contour& contour, std::size_t first, std::size_t la
       meet((clothoid->kappa1 - clothoid->kappa0) / clothoid->length);
       continue;
     }
-    const Piece local = seen_from_start(piece);
-    const double size = coordinates_of(local);
+    const std::array<Piece, 2> local = {seen_from_end(piece, true), seen_from_end(piece, false)};
     for (int k = 0; k <= kSlopeSteps; ++k) {
-      const Jet jet = evaluate(local, static_cast<double>(k) / kSlopeSteps);
+      const bool back = 2 * k > kSlopeSteps;
+      const Piece& near = local[back ? 1 : 0];
+      const double t = static_cast<double>(back ? kSlopeSteps - k : k) / kSlopeSteps;
+      const Jet jet = evaluate(near, t);
       meet(curvature_rate(jet));
-      const double speed = norm(jet.d1);
-      rounding += 2.0 * kSlopeRoundings * size / (speed * speed * speed);
+      rounding += 2.0 * slope_rounding(near, t, jet);
     }
   }
   meet(0.0);

@@ -6,6 +6,7 @@
 #include <numeric>
 #include <utility>
 
+#include "obvid/pipeline/promise.h"
 #include "obvid/series/analysis.h"
 #include "report.h"
 #include "uniform_tolerance.h"
@@ -110,7 +111,7 @@ class Search {
     }
     trials_ += 1.0;
     auto made = fit_within(series_, job_, tolerance, watch_);
-    if (!made || !keeps_promises(*made)) {
+    if (!made || broken_promise(*made)) {
       out_.refused = tolerance;
       return false;
     }
@@ -156,7 +157,7 @@ class Search {
       job.noise.reset();
       job.noise_from_rounding = true;
       auto made = fit(series_, job, watch_);
-      out_.rounding_does = made && keeps_promises(*made);
+      out_.rounding_does = made && !broken_promise(*made);
       if (out_.rounding_does) out_.fit = std::move(*made);
     }
     if (out_.rounding_does || !out_.next_to_nothing) return;
@@ -164,7 +165,7 @@ class Search {
     for (double t = printable(out_.fit.report.tolerance); t > least && may_go_on();
          t = printable(t / kBracketStep)) {
       auto made = fit_within(series_, job_, t, watch_);
-      if (!made || !keeps_promises(*made)) continue;
+      if (!made || broken_promise(*made)) continue;
       out_.advised = t;
       out_.fit = std::move(*made);
       return;

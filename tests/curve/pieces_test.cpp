@@ -34,7 +34,7 @@ TEST(Pieces, TurningCountsFullTurnsAndBothSides) {
   EXPECT_NEAR(turning_both_ways(parabola({0.0, 0.0}), 0.0, 1.0), std::atan(2.0), 1e-15);
   // y = 3 t - 9 t^2 + 6 t^3 over x = 3 t: slopes 1, -1/2, 1
   const RationalBezier wave{{}, 3, {Vec2{0, 0}, {1, 1}, {2, -1}, {3, 0}}, {1, 1, 1, 1}};
-  EXPECT_NEAR(turning_both_ways(wave, 0.0, 1.0), 2.0 * (std::atan(1.0) + std::atan(0.5)), 0.02);
+  EXPECT_NEAR(turning_both_ways(wave, 0.0, 1.0), 2.0 * (std::atan(1.0) + std::atan(0.5)), 1e-14);
 }
 
 TEST(Pieces, ParabolaHasItsClosedFormJet) {

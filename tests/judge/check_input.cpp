@@ -42,7 +42,8 @@ double rounding_of(const std::vector<GivenPoint>& points) {
   return 0.0;
 }
 
-Expected expected_of(const Input& input) {
+/// Where the ends are as far apart as their tolerances reach, to the last digits, rounding decides.
+Expected expected_of(const Input& input, bool closed_in_file) {
   Expected out{input.points, input.closed, false};
   if (out.points.size() < 3 || input.open) return out;
   const GivenPoint first = out.points.front(), last = out.points.back();
@@ -52,15 +53,15 @@ Expected expected_of(const Input& input) {
   const double rounding = input.rounding ? rounding_of(input.points) : 0.0;
   const double reach = std::max(2.0 * rounding, reach_of(first, input) + reach_of(last, input));
   constexpr double kLastDigits = 1.0 + 1e-9;
-  const bool near = apart <= reach * kLastDigits;
+  const bool near = apart * kLastDigits < reach || (apart <= reach * kLastDigits && closed_in_file);
   if (!exact && !near) return out;
   out.closed = true;
   out.joined = !exact;
   GivenPoint& kept = out.points.front();
   if (!kept.heading) kept.heading = last.heading;
   if (!kept.kappa) kept.kappa = last.kappa;
-  if (!kept.headings) kept.headings = last.headings;
-  if (!kept.kappas) kept.kappas = last.kappas;
+  narrow(kept.headings, last.headings);
+  narrow(kept.kappas, last.kappas);
   out.points.pop_back();
   return out;
 }
@@ -171,16 +172,9 @@ struct GivenCounts {
 
 constexpr double kLastDigits = 1.0 + 1e-6;
 
-/// Value against a range: how far beyond, and from the nearer end.
-struct Placed {
-  double beyond = 0.0, from_end = 0.0;
-  bool at_greatest = false;
-};
-
-Placed placed(double value, const Ends& ends) {
-  const double low = std::abs(value - ends.least), high = std::abs(value - ends.greatest);
-  return {std::max({0.0, ends.least - value, value - ends.greatest}), std::min(low, high),
-          high < low};
+/// How far a value lies beyond a range.
+double beyond(double value, const Ends& ends) {
+  return std::max({0.0, ends.least - value, value - ends.greatest});
 }
 
 /// Headings that may be a whole turn away.
@@ -200,17 +194,18 @@ class RangeCheck {
     const std::string where = fmt::format("point {}", point + 1);
     if (sides.heading_kappa.empty())
       return sheet_.unjudged("given.heading_range", "no station", where);
-    double nearest = std::numeric_limits<double>::max();
-    bool greatest = false;
+    constexpr double kFar = std::numeric_limits<double>::max();
+    double from_least = kFar, from_greatest = kFar;
     for (const auto& [heading, kappa] : sides.heading_kappa) {
-      const Placed at = placed(turned_into(heading, ends), ends);
-      sheet_.expect(at.beyond <= kGivenHeading * kLastDigits, "given.heading_range", heading,
-                    at.at_greatest ? ends.greatest : ends.least, where);
-      worst = std::max(worst, at.beyond);
-      if (at.from_end < nearest) greatest = at.at_greatest;
-      nearest = std::min(nearest, at.from_end);
+      const double here = turned_into(heading, ends);
+      sheet_.expect(beyond(here, ends) <= kGivenHeading * kLastDigits, "given.heading_range",
+                    heading, here < ends.least ? ends.least : ends.greatest, where);
+      worst = std::max(worst, beyond(here, ends));
+      from_least = std::min(from_least, std::abs(here - ends.least));
+      from_greatest = std::min(from_greatest, std::abs(here - ends.greatest));
     }
-    named("heading", point, greatest, nearest, kGivenHeading);
+    named("heading", point, "least", from_least, kGivenHeading);
+    named("heading", point, "greatest", from_greatest, kGivenHeading);
   }
 
   void kappas(std::size_t point, const Ends& ends, double& worst) {
@@ -223,37 +218,47 @@ class RangeCheck {
       low = std::min(low, kappa);
       high = std::max(high, kappa);
     }
-    double value = placed(low, ends).beyond > placed(high, ends).beyond ? low : high;
+    double value = beyond(low, ends) > beyond(high, ends) ? low : high;
     // arcs: any curvature between both belongs to their common point
     const bool arcs = course_.file.carrier == "arcs";
     if (arcs)
       value =
           std::clamp(0.5 * (std::max(low, ends.least) + std::min(high, ends.greatest)), low, high);
-    const Placed at = placed(value, ends);
-    const double end = value < ends.least || !at.at_greatest ? ends.least : ends.greatest;
-    double scale = end != 0.0 && std::isfinite(end) ? std::abs(end) : std::abs(value);
-    if (ends.least == 0.0 || ends.greatest == 0.0) scale = std::max(scale, sides.largest_kappa);
-    const double off = at.beyond > 0.0 ? at.beyond / scale : 0.0;
+    const double end = value < ends.least ? ends.least : ends.greatest;
+    const double past = beyond(value, ends);
+    const double off = past > 0.0 ? past / scale_of(end, sides) : 0.0;
     sheet_.expect(off <= kGivenCurvature * kLastDigits, "given.kappa_range", value, end, where);
     worst = std::max(worst, off);
-    const double from_end = at.from_end > 0.0 ? at.from_end / scale : 0.0;  // straight: scale 0
-    if (!arcs) named("curvature", point, at.at_greatest, from_end, kGivenCurvature);
+    if (arcs) return;
+    for (const bool greatest : {false, true}) {
+      const double at = greatest ? ends.greatest : ends.least;
+      double away = std::numeric_limits<double>::max();
+      for (const auto& [heading, kappa] : sides.heading_kappa) {
+        away = std::min(away, std::abs(kappa - at));
+      }
+      if (away > 0.0) away = std::isfinite(at) ? away / scale_of(at, sides) : HUGE_VAL;
+      named("curvature", point, greatest ? "greatest" : "least", away, kGivenCurvature);
+    }
   }
 
  private:
+  /// What curvatures are told apart by a part of: the end, or the largest around where it is 0.
+  static double scale_of(double end, const Sides& sides) {
+    return end != 0.0 ? std::abs(end) : sides.largest_kappa;
+  }
+
   /// What lies at an end stands in the list, and nothing else; both do where rounding decides.
-  void named(const char* datum, std::size_t point, bool greatest, double away, double kept) {
+  void named(const char* datum, std::size_t point, const char* end, double away, double kept) {
     if (active_.is_null()) return;
     bool listed = false;
     for (const Json& one : active_) {
       listed = listed || (figure(one, "point").value == static_cast<double>(point) &&
-                          text_of(one, "datum") == datum &&
-                          text_of(one, "end") == (greatest ? "greatest" : "least"));
+                          text_of(one, "datum") == datum && text_of(one, "end") == end);
     }
     if (away > 0.5 * kept && away < 2.0 * kept) return;
     sheet_.expect(listed == (away <= kept), "given.active", std::string(listed ? "listed" : "not"),
-                  fmt::format("{:.3g} from its end", away),
-                  fmt::format("{} at point {}", datum, point + 1));
+                  fmt::format("{:.3g} away", away),
+                  fmt::format("{} {} at point {}", end, datum, point + 1));
   }
 
   const Course& course_;
@@ -418,7 +423,7 @@ void check_given_list(const Course& course, Sheet& sheet) {
 
 void check_input(const Course& course, const Input& input, Sheet& sheet) {
   const ContourFile& file = course.file;
-  const Expected expected = expected_of(input);
+  const Expected expected = expected_of(input, file.closed);
   sheet.expect(file.units == input.units, "units", file.units, input.units, "");
   // points without named columns: the user says the unit, or nobody does (docs/formats.md)
   const std::string source = input.units_given ? "given" : "assumed";

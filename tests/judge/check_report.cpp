@@ -136,7 +136,8 @@ class ReportCheck {
     if (stated.null()) {
       // null claims nothing, but is promised only where the figure is not defined
       const bool seam = &part == &course_.parts.front() || &part == &course_.parts.back();
-      const bool promised = defined && !seam && turning < kStraightAngle - kNearlyHalf &&
+      const bool joined = flag(file_.certificate, "gaps_within_bounds").value_or(true);
+      const bool promised = joined && defined && !seam && turning < kStraightAngle - kNearlyHalf &&
                             lens->turning < kStraightAngle - kNearlyHalf && as_meant_around(part);
       sheet_.expect(!promised, "segments.points_only_error null", std::string("null"),
                     std::string("defined here"), where(part));

@@ -4,6 +4,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
+#include <limits>
 #include <regex>
 #include <string>
 
@@ -136,14 +138,28 @@ class TextCheck {
     return x == y;
   }
   void radius(const std::string& printed, Real order, bool leaving) {
-    if (printed == "-" || order != std::floor(order)) return;
-    const FileElement* e = file_.joint(static_cast<std::size_t>(order));
-    if (e == nullptr) return;
-    const auto fits = [&](double kappa) {
-      return kappa == 0.0 ? printed == "straight" : prints(printed, 1.0 / kappa);
-    };
+    if (printed == "-") return;
+    const FileElement* e =
+        order == std::floor(order) ? file_.joint(static_cast<std::size_t>(order)) : nullptr;
+    if (e == nullptr || !(e->source || e->parted())) return radius_beside(printed, order);
     const double kappa = leaving && e->parted() ? e->kappa_out : e->kappa;
-    say(fits(kappa), "table radius", printed, kappa == 0.0 ? 0.0 : 1.0 / kappa);
+    say(radius_of(printed, kappa), "table radius", printed, kappa == 0.0 ? 0.0 : 1.0 / kappa);
+  }
+  static bool radius_of(const std::string& printed, double kappa) {
+    return kappa == 0.0 ? printed == "straight" : prints(printed, 1.0 / kappa);
+  }
+  /// At a point that is no joint: of a place that rounding of the coordinates does not tell from
+  /// the nearest one (docs/claims.md), as doubles evaluate it.
+  void radius_beside(const std::string& printed, Real order) {
+    auto [least, most] = course_.curvatures_near(order, course_.resolution());
+    const Real blur = course_.curvature_rounding(order);
+    least -= blur;
+    most += blur;
+    const bool straight = printed == "straight";
+    const double kappa = straight ? 0.0 : 1.0 / std::strtod(printed.c_str(), nullptr);
+    say((kappa >= least && kappa <= most) || radius_of(printed, static_cast<double>(least)) ||
+            radius_of(printed, static_cast<double>(most)),
+        "table radius", printed, static_cast<double>(1.0L / least));
   }
 
   void piece_row(const std::vector<std::string>& words) {
@@ -593,6 +609,41 @@ void check_exit(const Course* course, const Run& run, Sheet& sheet) {
   const bool ok = run.code == 0 ? kept : run.code == 5 && (!kept || !file.promises_monotone());
   sheet.expect(ok, claim, stated,
                fmt::format("proved: {}, width within the tolerance: {}", proved, !wide), "");
+}
+
+void check_advised(const Run& refused, const ContourFile& advised, Sheet& sheet) {
+  std::smatch found;
+  const std::regex counts("with (\\d+) vert\\S+ and (\\d+) inflections? there is one");
+  if (std::regex_search(refused.err, found, counts)) {
+    for (const auto& [name, printed] :
+         {std::pair{"vertices", found[1].str()}, std::pair{"inflections", found[2].str()}}) {
+      const Figure count = figure(advised.report, name);
+      const double said = std::strtod(printed.c_str(), nullptr);
+      sheet.expect(count.value == said, std::string("refusal: ") + name, printed,
+                   shown(count.value.value_or(-1.0)), "of the contour that is advised");
+    }
+  }
+  // point, x, y, move: the farthest first
+  const Json& moves = member(advised.report, "moves");
+  bool table = false;
+  double before = std::numeric_limits<double>::infinity();
+  for (const std::string& line : lines_of(refused.out)) {
+    table = table || line.starts_with("points that would have to move");
+    const std::vector<std::string> words = words_of(line);
+    const std::size_t i = words.size() == 4 ? std::strtoul(words[0].c_str(), nullptr, 10) : 0;
+    if (!table || i == 0) continue;
+    if (i > advised.points.size() || i > moves.size()) {
+      sheet.fails("refusal: moves", words[0], "no such point", "");
+      continue;
+    }
+    const double move = moves[i - 1].number;
+    const Point p = advised.points[i - 1];
+    sheet.expect(
+        prints(words[1], p.x) && prints(words[2], p.y) && prints(words[3], move) && move <= before,
+        "refusal: moves", line, fmt::format("{:.9g}, {:.9g} moves by {:.9g}", p.x, p.y, move),
+        "of the contour that is advised");
+    before = move;
+  }
 }
 
 }  // namespace judge

@@ -43,6 +43,20 @@ Real place_behind(const Path& path, Vec p, Real from, Real to) {
   return best.distance < std::numeric_limits<Real>::max() ? best.order() : from;
 }
 
+/// The points that rows of the report name; empty: they name none. Only those are stations: points
+/// with tolerances need not have a place of their own that follows those before it.
+std::set<std::size_t> named_by_rows(const ContourFile& contour) {
+  std::set<std::size_t> named;
+  for (const Json& row : member(contour.report, "segments")) {
+    for (const Json& point : member(row, "points")) {
+      if (point.is_number() && point.number >= 0.0) {
+        named.insert(static_cast<std::size_t>(point.number));
+      }
+    }
+  }
+  return named;
+}
+
 std::vector<Station> stations_of(const ContourFile& contour, const Path& path, Point origin) {
   std::vector<Station> out;
   const std::size_t n = contour.points.size();
@@ -58,9 +72,11 @@ std::vector<Station> stations_of(const ContourFile& contour, const Path& path, P
       if (known[i] == 0.0L) first = i;
     }
   }
+  const std::set<std::size_t> named = named_by_rows(contour);
   Real before = 0.0L;
   for (std::size_t k = 0; k < n; ++k) {
     const std::size_t i = (first + k) % n;
+    if (!named.empty() && !named.contains(i)) continue;
     Real order = before;
     if (known[i]) {
       order = *known[i];
@@ -81,24 +97,10 @@ std::vector<Station> stations_of(const ContourFile& contour, const Path& path, P
     out.push_back({i, std::max(order, before)});
     before = out.back().order;
   }
-  if (contour.closed) out.push_back({first, path.end()});
-  return out;
-}
-
-/// Where the rows of the report name their points, only those that they name are stations: points
-/// with tolerances need not have a joint of their own.
-std::vector<Station> named_by_rows(const ContourFile& contour, std::vector<Station> stations) {
-  std::set<std::size_t> named;
-  for (const Json& row : member(contour.report, "segments")) {
-    for (const Json& point : member(row, "points")) {
-      if (point.is_number() && point.number >= 0.0) {
-        named.insert(static_cast<std::size_t>(point.number));
-      }
-    }
+  if (contour.closed && (named.empty() || named.contains(first))) {
+    out.push_back({first, path.end()});
   }
-  if (named.empty()) return stations;
-  std::erase_if(stations, [&](const Station& s) { return !named.contains(s.point); });
-  return stations;
+  return out;
 }
 
 }  // namespace
@@ -110,7 +112,7 @@ Course::Course(const ContourFile& contour)
       joints(joints_of(contour, ends)),
       path(path_of(contour, origin)) {
   for (const Piece& piece : contour.pieces) laws.push_back(curvature_law(piece));
-  const std::vector<Station> stations = named_by_rows(contour, stations_of(contour, path, origin));
+  const std::vector<Station> stations = stations_of(contour, path, origin);
   for (std::size_t k = 0; k + 1 < stations.size(); ++k) {
     Part part{
         stations[k].point, stations[k + 1].point, stations[k].order, stations[k + 1].order, {}, {}};
@@ -172,6 +174,37 @@ Element Course::element(Real order, bool behind) const {
   if (arcs && stored != nullptr)
     out.kappa = behind && stored->parted() ? stored->kappa_out : stored->kappa;
   return out;
+}
+
+std::pair<Real, Real> Course::curvatures_near(Real order, Real length) const {
+  constexpr int kPlaces = 16;
+  std::pair<Real, Real> range{HUGE_VALL, -HUGE_VALL};
+  const auto first = static_cast<std::size_t>(std::min(order, path.end() - 1.0L));
+  for (const bool onward : {true, false}) {
+    Real left = length, t = order - static_cast<Real>(first);
+    for (std::size_t i = first; i < path.spans().size(); onward ? ++i : --i) {
+      const Span& span = path.spans()[i];
+      const Real side = onward ? 1.0L - t : t, step = std::min(left / norm(span.at(t).d), side);
+      for (int k = 0; k <= kPlaces; ++k) {
+        const Real kappa = span.at(t + (onward ? step : -step) * k / kPlaces).kappa();
+        range = {std::min(range.first, kappa), std::max(range.second, kappa)};
+      }
+      if (step < side || (!onward && i == 0)) break;
+      left -= side * norm(span.at(t).d);
+      if (left < 0.0L) break;
+      t = onward ? 0.0L : 1.0L;
+    }
+  }
+  return range;
+}
+
+Real Course::curvature_rounding(Real order) const {
+  constexpr Real kRoundings = 64.0L * 0x1p-53L;  // 4 n (n - 1) / 2 for degree 6, and a little more
+  const Real start = std::min(std::floor(order), path.end() - 1.0L);
+  const Span& span = path.spans()[static_cast<std::size_t>(start)];
+  const Real speed = norm(span.at(order - start).d);
+  const Real size = std::max(speed, norm(span.point(1.0L) - span.point(0.0L)));
+  return kRoundings * size / (speed * speed);
 }
 
 bool Course::monotone(Real a, Real b) const {

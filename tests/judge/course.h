@@ -3,6 +3,7 @@
 #pragma once
 
 #include <optional>
+#include <utility>
 #include <vector>
 
 #include "contour_file.h"
@@ -38,6 +39,11 @@ struct Course {
   [[nodiscard]] Real resolution() const;
   /// Element of the contour at an order; at a joint that of the piece behind or before it.
   [[nodiscard]] Element element(Real order, bool behind) const;
+  /// Least and greatest curvature within a length of an order, to both sides.
+  [[nodiscard]] std::pair<Real, Real> curvatures_near(Real order, Real length) const;
+  /// Rounding of a curvature that doubles evaluate: the second derivative of a Bezier piece is a
+  /// sum of differences, each wrong by roundings of the piece's own size.
+  [[nodiscard]] Real curvature_rounding(Real order) const;
   [[nodiscard]] std::vector<Real> cuts_of(Real from, Real to, bool all_joints) const;
   /// Whether curvature changes one way from order a to order b.
   [[nodiscard]] bool monotone(Real a, Real b) const;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "input.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstdlib>
 #include <limits>
@@ -59,14 +60,14 @@ std::optional<Ends> kappas_of(const std::string& text) {
 
 /// A heading, or the headings between two.
 void give_heading(GivenPoint& p, const std::string& text) {
-  p.headings = headings_of(text);
-  if (!p.headings) p.heading = radians(std::strtod(text.c_str(), nullptr));
+  narrow(p.headings, headings_of(text));
+  if (!headings_of(text)) p.heading = radians(std::strtod(text.c_str(), nullptr));
 }
 
 void give_radius(GivenPoint& p, const std::string& text) {
   const auto ends = ends_of(text);
   if (ends) {
-    p.kappas = bends_of(ends->first, ends->second);
+    narrow(p.kappas, bends_of(ends->first, ends->second));
   } else {
     p.kappa = curvature_of(text);
   }
@@ -147,6 +148,8 @@ class Reader {
     GivenPoint& before = points.back();
     if (!before.heading) before.heading = p.heading;
     if (!before.kappa) before.kappa = p.kappa;
+    narrow(before.headings, p.headings);
+    narrow(before.kappas, p.kappas);
     if (p.tolerance)
       before.tolerance = std::min(before.tolerance.value_or(*p.tolerance), *p.tolerance);
     before.corner = before.corner || p.corner;
@@ -208,14 +211,21 @@ class Options {
     if (name == "--heading-at") give_heading(p, what);
     if (name == "--radius-at") give_radius(p, what);
     if (name == "--kappa-at") {
-      p.kappas = kappas_of(what);
-      if (!p.kappas) p.kappa = std::strtod(what.c_str(), nullptr);
+      narrow(p.kappas, kappas_of(what));
+      if (!kappas_of(what)) p.kappa = std::strtod(what.c_str(), nullptr);
     }
   }
   Input& input_;
 };
 
 }  // namespace
+
+void narrow(std::optional<Ends>& range, const std::optional<Ends>& more) {
+  if (!more) return;
+  range = range
+              ? Ends{std::max(range->least, more->least), std::min(range->greatest, more->greatest)}
+              : *more;
+}
 
 Input read_input(const std::string& text, const std::vector<std::string>& options) {
   Input out;

@@ -16,6 +16,9 @@ struct Ends {
   double least = 0.0, greatest = 0.0;
 };
 
+/// Where a range is given twice for one point, what both hold is meant.
+void narrow(std::optional<Ends>& range, const std::optional<Ends>& more);
+
 struct GivenPoint {
   Point point;
   std::optional<double> heading, kappa, tolerance;  // rad, 1/unit, unit

@@ -58,6 +58,45 @@ std::optional<Real> first_within(const Path& path, Vec p, Real from, Real to, Re
   return std::nullopt;
 }
 
+std::size_t first_point(const Course& course) {
+  return course.file.closed ? course.parts.front().from_point : 0;
+}
+
+/// How near the contour must come to a point.
+Real needed_nearness(const Course& course, std::size_t point) {
+  return course.file.tolerance[point] * (1.0L + 1e-6L) + course.resolution();
+}
+
+/// How many points from the first one on are met in order behind an order: each at the first place
+/// that is near enough, behind that of the one before.
+std::size_t met_in_order(const Course& course, Real start) {
+  const std::size_t n = course.file.points.size();
+  const Real last = start + course.path.end();
+  Real at = start;
+  for (std::size_t k = 0; k < n; ++k) {
+    const std::size_t i = (first_point(course) + k) % n;
+    const Vec p = seen(course.file.points[i], course.origin);
+    const auto met = first_within(course.path, p, at, last, needed_nearness(course, i));
+    if (!met) return k;
+    at = *met;
+  }
+  return n;
+}
+
+/// The next part of the contour, an eighth of a piece, behind an order that comes near enough to
+/// the first point.
+std::optional<Real> next_visit(const Course& course, Real start) {
+  const std::size_t i = first_point(course);
+  const Vec p = seen(course.file.points[i], course.origin);
+  constexpr Real kParts = 8.0L;
+  for (Real from = (std::floor(start * kParts) + 1.0L) / kParts; from < course.path.end();
+       from += 1.0L / kParts) {
+    const Real to = from + 1.0L / kParts;
+    if (course.path.nearest(p, from, to).distance <= needed_nearness(course, i)) return from;
+  }
+  return std::nullopt;
+}
+
 }  // namespace
 
 std::string missed_point(const Course& course) {
@@ -71,22 +110,16 @@ std::string missed_point(const Course& course) {
       return fmt::format("point {} is {:.6Lg} away", i + 1, away[i]);
     }
   }
-  // in order: each is met at the first place that is near enough, behind that of the one before
-  const std::size_t n = file.points.size();
-  const std::size_t first = file.closed ? course.parts.front().from_point : 0;
-  Real at = file.closed ? course.parts.front().from : 0.0L;
-  const Real last = at + course.path.end();
-  for (std::size_t k = 0; k < n; ++k) {
-    const std::size_t i = (first + k) % n;
-    const Vec p = seen(file.points[i], course.origin);
-    const Real reach = file.tolerance[i] * (1.0L + 1e-6L) + course.resolution();
-    const auto met = first_within(course.path, p, at, last, reach);
-    if (!met) {
-      return fmt::format("the contour does not pass the points in their order: point {}", i + 1);
-    }
-    at = *met;
+  // around a closed contour the first point may be met anywhere
+  std::size_t furthest = 0;
+  for (std::optional<Real> start = 0.0L; start; start = next_visit(course, *start)) {
+    const std::size_t met = met_in_order(course, *start);
+    if (met == file.points.size()) return "";
+    furthest = std::max(furthest, met);
+    if (!file.closed) break;
   }
-  return "";
+  return fmt::format("the contour does not pass the points in their order: point {}",
+                     (first_point(course) + furthest) % file.points.size() + 1);
 }
 
 Real outside_region(const Course& course, Real a, Real b) {

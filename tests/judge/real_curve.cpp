@@ -230,11 +230,18 @@ Real Span::turning_both_ways(Real from, Real to) const {
     const bool both = (kappa_at(from) < 0.0L) != (kappa_at(to) < 0.0L) && a + b > 0.0L;
     return 0.5L * (to - from) * s->length * (both ? (a * a + b * b) / (a + b) : a + b);
   }
-  constexpr int kSteps = 32;
+  constexpr int kSteps = 32, kHalvings = 60;
   Real sum = 0.0L;
   for (int i = 0; i < kSteps; ++i) {
     const Real a = from + (to - from) * i / kSteps, b = from + (to - from) * (i + 1) / kSteps;
-    sum += std::abs(turning(a, b));
+    const auto left = [this](Real t) { return at(t).kappa() > 0.0L; };
+    Real low = a, high = b;  // of the step with an inflection both sides
+    for (int k = 0; left(a) != left(b) && k < kHalvings; ++k) {
+      const Real middle = 0.5L * (low + high);
+      (left(middle) == left(a) ? low : high) = middle;
+    }
+    sum += left(a) == left(b) ? std::abs(turning(a, b))
+                              : std::abs(turning(a, low)) + std::abs(turning(low, b));
   }
   return sum;
 }

@@ -36,7 +36,10 @@ Biarc closing(Real h, Real alpha, Real beta, Real k0, Real k1) {
   Vec v = Vec{0.0L, 2.0L * a * b} + b * unit_at(alpha) - a * unit_at(beta);
   if (b < a) v = -1.0L * v;
   const bool circle = norm(v) <= kRounding * (std::abs(a) + std::abs(b));
-  const Real theta = circle ? alpha : std::atan2(v.y, v.x);
+  Real theta = circle ? alpha : std::atan2(v.y, v.x);
+  // a turn against its curvature is rounding: then the arcs touch at an end of the chord
+  if (in_sense_of(k0, theta - alpha) * k0 < 0.0L) theta = alpha;
+  if (in_sense_of(k1, beta - theta) * k1 < 0.0L) theta = beta;
   Biarc out;
   const Vec end{h, 0.0L};
   const Real turn0 = in_sense_of(k0, theta - alpha), turn1 = in_sense_of(k1, beta - theta);
@@ -46,8 +49,8 @@ Biarc closing(Real h, Real alpha, Real beta, Real k0, Real k1) {
   } else {
     joint = end - arc_vector(theta, k1, turn1);
   }
-  out.first = {{}, joint, alpha, k0, turn0};
-  out.second = {joint, end, theta, k1, turn1};
+  out.first = {{}, joint, alpha, k0, turn0, false};
+  out.second = {joint, end, theta, k1, turn1, true};
   return out;
 }
 
@@ -62,9 +65,9 @@ struct Extent {
       const Real turned = parallel - arc.theta;
       const bool passed = arc.turn >= 0.0L ? turned > 0.0L && turned < arc.turn
                                            : turned < 0.0L && turned > arc.turn;
-      if (passed && arc.kappa != 0.0L) {
-        meet(arc.start.y + arc_vector(arc.theta, arc.kappa, turned).y);
-      }
+      if (!passed || arc.kappa == 0.0L) continue;
+      meet(arc.from_end ? arc.end.y - arc_vector(parallel, arc.kappa, arc.turn - turned).y
+                        : arc.start.y + arc_vector(arc.theta, arc.kappa, turned).y);
     }
   }
   void meet(Real y) {
@@ -130,16 +133,17 @@ Real largest_gap(const Biarc& first, const Biarc& second) {
 }  // namespace
 
 Real BoundaryArc::distance(Vec p) const {
-  const Vec from_start = p - start, from_end = p - end;
-  const Real ends = std::min(norm(from_start), norm(from_end));
-  const Vec tangent = unit_at(theta);
-  // left_of(tangent) points to the centre; this is kappa (p - centre)
-  const Vec radius = kappa * from_start - left_of(tangent);
+  const Vec from_start = p - start, behind = p - end;
+  const Real ends = std::min(norm(from_start), norm(behind));
+  const Vec tangent = unit_at(theta), end_tangent = unit_at(theta + turn);
+  const Vec from = from_end ? behind : from_start, ahead = from_end ? end_tangent : tangent;
+  // left_of(ahead) points to the centre; this is kappa (p - centre)
+  const Vec radius = kappa * from - left_of(ahead);
   const Vec along = left_of(radius);  // tangent of the circle abreast of p
   constexpr Real kGentle = 1e-3L;
   bool abreast = false;
   if (std::abs(turn) < kGentle) {
-    abreast = dot(from_start, tangent) >= 0.0L && dot(from_end, unit_at(theta + turn)) <= 0.0L;
+    abreast = dot(from_start, tangent) >= 0.0L && dot(behind, end_tangent) <= 0.0L;
   } else {
     Real passed = std::atan2(cross(tangent, along), dot(tangent, along));
     if (turn > 0.0L && passed < 0.0L) passed += 2.0L * kPi;
@@ -148,7 +152,7 @@ Real BoundaryArc::distance(Vec p) const {
   }
   if (!abreast) return ends;
   // | |p - centre| - R | without the cancellation of a large circle
-  const Real power = kappa * dot(from_start, from_start) - 2.0L * cross(tangent, from_start);
+  const Real power = kappa * dot(from, from) - 2.0L * cross(ahead, from);
   return std::min(ends, std::abs(power) / (norm(radius) + 1.0L));
 }
 

@@ -14,10 +14,12 @@ struct Element {
   Real theta = 0.0L, kappa = 0.0L;
 };
 
-/// Circle arc, or straight for kappa = 0.
+/// Circle arc, or straight for kappa = 0. Where two arcs of nearly the same curvature touch is
+/// known as badly as their curvatures differ: each is measured from the element at its other end.
 struct BoundaryArc {
   Vec start, end;
   Real theta = 0.0L, kappa = 0.0L, turn = 0.0L;
+  bool from_end = false;  ///< its end is that of the chord, its start touches the other arc
 
   [[nodiscard]] Real distance(Vec p) const;
 };

@@ -31,6 +31,9 @@ void check_verify_text(const Course& course, const Run& run, Sheet& sheet, int f
 /// Points that messages name, counted from 1, are points of the series.
 void check_named_points(const Run& run, std::size_t points, Sheet& sheet);
 void check_exit(const Course* course, const Run& run, Sheet& sheet);
+/// What a refusal says of the contour that it advises, against that contour: counts, and the table
+/// of the points that would have to move.
+void check_advised(const Run& refused, const ContourFile& advised, Sheet& sheet);
 /// Files of other formats against the contour; `note` is what the report says of the file.
 void check_export(const Course& course, const std::string& file, const std::string& text,
                   const std::vector<std::string>& notes, Sheet& sheet);

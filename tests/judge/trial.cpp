@@ -3,7 +3,9 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
+#include <cstdlib>
 #include <filesystem>
 #include <optional>
 #include <regex>
@@ -17,6 +19,9 @@
 
 namespace judge {
 namespace {
+
+/// The accuracy of lengths that STEP files state, m.
+constexpr Real kStepAccuracy = 1e-10L;
 
 class Work : public ProgramRuns {
  public:
@@ -164,6 +169,9 @@ class Work : public ProgramRuns {
     const std::string told = again.out + again.err;
     const bool left = told.find(" was taken") != std::string::npos &&
                       told.find(" of 1 was taken") == std::string::npos;
+    if (told.find(" on others and w") != std::string::npos) {
+      return out_.sheet.unjudged("convert back", "a piece that lies on another one was taken once");
+    }
     // STEP must have a unit, assumed or not; DXF states none that nobody said
     back(course, text_of_file(path("e.json")), left ? 1e-6 : 1e-9, other == "d.dxf");
   }
@@ -191,7 +199,10 @@ class Work : public ProgramRuns {
     }
     if (spans.empty()) return out_.sheet.fails("convert back", "a curve", "no pieces", "");
     const Path path(std::move(spans));
-    const Real limit = static_cast<Real>(part) * course.ends.size +
+    // STEP says how exact it is: kernels leave shorter edges out
+    const bool step = !unit_kept && mine;
+    const Real accuracy = step ? kStepAccuracy / static_cast<Real>(*mine) : 0.0L;
+    const Real limit = std::max(static_cast<Real>(part) * course.ends.size, accuracy) +
                        4e-15L * course.ends.coordinate + course.resolution() * 1e-3L;
     Real most = 0.0L;
     const int count = 200;
@@ -220,13 +231,13 @@ class Work : public ProgramRuns {
                         untouched ? "nothing" : "written", "");
     }
     range_of_a_datum(fit.err, input);
-    const std::string within = "within a tolerance of ";
-    const std::size_t at = fit.err.find(within);
-    if (at == std::string::npos || !dice_.chance(0.25)) return;
-    const std::string tolerance = fit.err.substr(
-        at + within.size(), fit.err.find(' ', at + within.size()) - at - within.size());
+    if (dice_.chance(0.25)) advised_tolerance(fit, input);
+  }
+
+  /// The same job within another tolerance; "rounding" too.
+  Run within(const std::string& tolerance, bool open, bool widened, const std::string& output) {
     std::string points = kPoints;
-    if (fit.err.find("no smaller tolerance of a point", at) != std::string::npos) {
+    if (widened) {
       points = "widened.csv";
       write_file(path(points), with_tolerances_from(series_.text, tolerance));
     }
@@ -239,11 +250,72 @@ class Work : public ProgramRuns {
       }
     }
     words.insert(words.end(), {"--noise", tolerance});
-    if (fit.err.find(" --open", at) != std::string::npos) words.emplace_back("--open");
-    const Run again = program("fit", words);
+    if (open) words.emplace_back("--open");
+    if (!output.empty()) words.insert(words.end(), {"-o", output});
+    return program("fit", words);
+  }
+
+  /// "within ... there is one: OPTION", "with 2 vertices and 1 inflection there is one ...: OPTION
+  /// allows them": there must be, with these counts and the moves of the table; and none where none
+  /// was found.
+  void advised_tolerance(const Run& fit, const Input& input) {
+    std::smatch found;
+    const std::regex advice(
+        "there is one(?:, with [^:]*)?: --noise ([^\\s,;]+)( --open)?(?: allows them)?"
+        "( and no smaller tolerance of a point)?");
+    if (!std::regex_search(fit.err, found, advice)) {
+      if (fit.err.find("none was found either where every point may move by up to a tenth") !=
+          std::string::npos) {
+        const Point first = input.points.front().point, last = input.points.back().point;
+        const double size = diagonal_of(input);
+        const double apart = std::hypot(last.x - first.x, last.y - first.y);
+        // ends that meet, or nearly, are left to the series: whether it is closed is its own matter
+        if (apart < 0.3 * size) {
+          return out_.sheet.unjudged("refusal: none was found within a tolerance",
+                                     "ends nearly meet");
+        }
+        refuses_within(fmt::format("{:.3g}", 0.1 * size), false, input);
+      }
+      return;
+    }
+    const std::string tolerance = found[1];
+    const bool open = found[2].matched;
+    const Run again = within(tolerance, open, found[3].matched, "advised.json");
     if (stopped_) return;
-    out_.sheet.expect(again.code == 0, "refusal: within a tolerance there is one", tolerance,
-                      fmt::format("exit {}: {}", again.code, again.err.substr(0, 200)), "");
+    if (!out_.sheet.expect(again.code == 0, "refusal: within a tolerance there is one", tolerance,
+                           fmt::format("exit {}: {}", again.code, again.err.substr(0, 200)), "")) {
+      return;
+    }
+    const ReadContour read = read_contour(text_of_file(path("advised.json")));
+    if (!read.fault.empty()) return out_.sheet.fails("file", "a contour", read.fault, "advised");
+    check_advised(fit, read.contour, out_.sheet);
+    const std::regex none("Within (\\S+) \\S+ none was found");
+    if (std::regex_search(fit.out, found, none)) {
+      refuses_within(found[1], open, input);
+    }
+  }
+
+  /// `open`: larger tolerances do not close a series that is open without them.
+  void refuses_within(const std::string& tolerance, bool open, const Input& input) {
+    const double t = std::strtod(tolerance.c_str(), nullptr);
+    const bool own =
+        std::any_of(input.points.begin(), input.points.end(),
+                    [t](const GivenPoint& p) { return p.tolerance && *p.tolerance < t; });
+    const Run again = within(tolerance, open, own, "");
+    if (stopped_) return;
+    out_.sheet.expect(again.code != 0, "refusal: none was found within a tolerance", tolerance,
+                      std::string("there is one"), "");
+  }
+
+  static double diagonal_of(const Input& input) {
+    double lx = HUGE_VAL, ly = HUGE_VAL, hx = -HUGE_VAL, hy = -HUGE_VAL;
+    for (const GivenPoint& p : input.points) {
+      lx = std::min(lx, p.point.x);
+      ly = std::min(ly, p.point.y);
+      hx = std::max(hx, p.point.x);
+      hy = std::max(hy, p.point.y);
+    }
+    return std::hypot(hx - lx, hy - ly);
   }
 
   /// "with a heading of A or B deg at point I there is one": with both there must be. "between A

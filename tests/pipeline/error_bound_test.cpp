@@ -5,11 +5,16 @@
 
 #include <algorithm>
 #include <cmath>
+#include <fstream>
 #include <numbers>
 #include <random>
+#include <sstream>
+#include <string>
 #include <vector>
 
+#include "../../src/pipeline/report.h"
 #include "../common/ten_points.h"
+#include "obvid/io/contour_json.h"
 #include "obvid/pipeline/compare.h"
 #include "obvid/pipeline/fit.h"
 #include "oracle_curves.h"
@@ -229,9 +234,38 @@ TEST(ErrorBound, ACarrierPassingPointsBetweenItsJointsHasARowForEachChord) {
   }
 }
 
+TEST(ErrorBound, ShortPiecesAtTheOriginAreSeenWithAllTheirDigits) {
+  // the last part ends with a piece of 0.0003 at the origin, 4 from the start of the part, where a
+  // coordinate as exact as its own would need 13 bits more. The width by 50 digits from the
+  // coordinates in the file
+  std::ifstream file(std::string(OBVID_TEST_DATA) + "/contours/bspline_polygon.json");
+  std::stringstream text;
+  text << file.rdbuf();
+  const auto stored = contour_from_json(text.str(), "bspline_polygon.json");
+  ASSERT_TRUE(stored) << to_line(stored.error());
+  Watch watch;
+  const auto report = pipeline_detail::measure(stored->contour, 6.402e-6, watch);
+  ASSERT_TRUE(report);
+  EXPECT_NEAR(report->segments.back().width_unrefined, 0.000389737829385, 1e-12);
+}
+
 bool all_unknown(const FitReport& report) {
   return std::all_of(report.segments.begin(), report.segments.end(),
                      [](const SegmentReport& row) { return std::isnan(row.points_only_error); });
+}
+
+TEST(PointsOnlyError, IsUnknownBesideAKink) {
+  // far from the origin, two points 0.0001 apart: coordinates of 3e-8 leave the conic between them
+  // another heading than those beside it
+  const std::vector<Vec2> points = {
+      {276387635.72123647, 132915439.38776717}, {276387618.06345326, 132915540.64540584},
+      {276387570.86265743, 132915619.00660035}, {276387494.11884892, 132915674.47135065},
+      {276387494.11875218, 132915674.47139718}, {276387387.83189982, 132915707.0396791},
+      {276387252.00203484, 132915716.71151683}};
+  const auto f = fit_carrier(points, Carrier::kConics);
+  ASSERT_TRUE(f) << to_line(f.error());
+  ASSERT_FALSE(f->certificate.gaps_within_bounds);
+  EXPECT_TRUE(all_unknown(f->report));
 }
 
 TEST(PointsOnlyError, IsUnknownWhereThreePointsAreAll) {

@@ -10,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include "../../src/pipeline/given.h"
 #include "../../src/pipeline/series_ranges.h"
 #include "../common/ten_points.h"
 #include "obvid/curve/nearest.h"
@@ -132,6 +133,49 @@ TEST(GivenRanges, TheEndAtWhichTheContourLiesIsNamed) {
   ASSERT_TRUE(f) << to_line(f.error());
   const std::vector<ActiveRange> expected{{4, true, true}, {9, false, true}};
   EXPECT_EQ(f->report.given.active, expected);
+}
+
+TEST(GivenRanges, ACornerMayLieAtBothEndsOfItsRange) {
+  // a lens of two quarter circles: it comes to the corner at the origin with 225 degrees and leaves
+  // it with 315
+  const double radius = std::numbers::sqrt2, quarter = 0.5 * std::numbers::pi;
+  Contour lens;
+  lens.closed = true;
+  lens.points = {{0.0, 0.0}, {2.0, 0.0}};
+  lens.pieces = {
+      ArcPiece{{0.0, 0.0}, {2.0, 0.0}, -45.0 * kOneDegree, 1.0 / radius, radius * quarter},
+      ArcPiece{{2.0, 0.0}, {0.0, 0.0}, 135.0 * kOneDegree, 1.0 / radius, radius * quarter}};
+  const auto corner = [&](std::size_t point, double arriving_deg, double leaving_deg) {
+    const Vec2 p = lens.points[point];
+    return Joint{{p, arriving_deg * kOneDegree, 1.0 / radius},
+                 point,
+                 Element{p, leaving_deg * kOneDegree, 1.0 / radius}};
+  };
+  lens.joints = {corner(0, 225.0, 315.0), corner(1, 45.0, 135.0)};
+  GivenDatum given;
+  given.thetas = ValueRange{225.0 * kOneDegree, 315.0 * kOneDegree};
+  lens.given = {given};
+  const std::vector<ActiveRange> both{{0, true, false}, {0, true, true}};
+  EXPECT_EQ(pipeline_detail::measure_given(lens).active, both);
+  lens.given[0].thetas = ValueRange{225.0 * kOneDegree, 320.0 * kOneDegree};
+  EXPECT_EQ(pipeline_detail::measure_given(lens).active,
+            (std::vector<ActiveRange>{{0, true, false}}));
+}
+
+TEST(GivenRanges, OnlyTheEndItselfSaysHowNearIsAtTheEnd) {
+  // radius 1,000 in the range of curvatures 0.000999 to 100: a thousandth of its least end away
+  Contour arc;
+  arc.points = {{0.0, 0.0}, {1.0, 0.0}};
+  const double kappa = 1e-3, half = std::asin(0.5 * kappa);
+  arc.pieces = {ArcPiece{{0.0, 0.0}, {1.0, 0.0}, -half, kappa, 2.0 * half / kappa}};
+  arc.joints = {Joint{{{0.0, 0.0}, -half, kappa}, 0}, Joint{{{1.0, 0.0}, half, kappa}, 1}};
+  GivenDatum given;
+  given.kappas = ValueRange{0.000999, 100.0};
+  arc.given = {given};
+  EXPECT_TRUE(pipeline_detail::measure_given(arc).active.empty());
+  arc.given[0].kappas = ValueRange{kappa * (1.0 - 1e-7), 100.0};
+  EXPECT_EQ(pipeline_detail::measure_given(arc).active,
+            (std::vector<ActiveRange>{{0, false, false}}));
 }
 
 TEST(GivenRanges, ThoseThatHoldTheFairestContourChangeNothing) {

@@ -12,6 +12,7 @@
 #include <utility>
 #include <vector>
 
+#include "../../src/pipeline/waviness.h"
 #include "obvid/curve/clothoid.h"
 #include "obvid/pipeline/fit.h"
 
@@ -339,6 +340,34 @@ TEST(SmoothFit, WithinTolerancesAddsNoVertexAndNoInflection) {
     ASSERT_TRUE(smooth->certificate.gaps.slope.has_value());
     EXPECT_EQ(smooth->certificate.slope_steps, 0);
     EXPECT_LE(smooth->certificate.largest_move, 4.0 * kMeasured);
+  }
+}
+
+TEST(Waviness, IsTrueOrNotToldWhereAPieceRunsOutSharply) {
+  // the speed falls to a fiftieth towards the end, where the slope of curvature returns to 0 from
+  // 5e-4: one hill, by 50 digits (8.6e-11 is left at the end), whichever way it runs. Doubles leave
+  // 4e-6 there, which would be another hundredth of a hill
+  const std::vector<Vec2> offsets = {{0, 0},
+                                     {-0.0562082846788177, -0.015111647055570814},
+                                     {-0.09490103707500258, -0.035155580768179415},
+                                     {-0.10811918247104478, -0.04202514437729919},
+                                     {-0.10835755406633174, -0.04214903185902469}};
+  const std::vector<double> weights = {1, 1.2061011594499873, 1.3125302360148536,
+                                       1.2131471515517098, 1};
+  for (const bool back : {false, true}) {
+    RationalBezier piece;
+    piece.degree = 4;
+    for (std::size_t j = 0; j < 5; ++j) {
+      piece.offset[j] = offsets[back ? 4 - j : j];
+      piece.weight[j] = weights[back ? 4 - j : j];
+    }
+    Contour contour;
+    contour.pieces = {piece};
+    contour.joints = {Joint{{start_point(piece), 0.0, 0.0}, 0},
+                      Joint{{end_point(piece), 0.0, 0.0}, 1}};
+    contour.runs.push_back({0, 0, 1});
+    const auto hills = pipeline_detail::waviness(contour);
+    EXPECT_NEAR(hills.value_or(1.0), 1.0, 1e-3) << back;
   }
 }
 

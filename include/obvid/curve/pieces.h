@@ -73,8 +73,8 @@ struct Jet {
 
 /// How far a piece turns between two parameters, 0 <= t0 <= t1 <= 1, to both sides together, rad, 0
 /// or more: exact, to rounding, for lines, arcs and clothoids, however often they go around. A
-/// Bezier piece must turn by less than half a turn; across an inflection its turning is missed by
-/// some hundredths of it.
+/// Bezier piece must have one inflection at the most and turn by less than half a turn to either
+/// side of it.
 [[nodiscard]] double turning_both_ways(const Piece& piece, double t0, double t1);
 
 /// Whether the control point beside this end (t = 0 or 1) of a Bezier piece stands on it: the

@@ -153,6 +153,19 @@ TEST(JudgeArithmetic, DistancesFromArcsAreThoseFromCircles) {
   EXPECT_NEAR(static_cast<double>(line.distance({5.0L, 4.0L})), 5.0, 1e-17);
 }
 
+TEST(JudgeArithmetic, BetweenElementsOfOneCircleThereIsOnlyTheCircle) {
+  // 1,000 arcs, nearly flat, whose curvature is that of the element at the end (Vogt: a curve whose
+  // curvature rises ends steeper over its chord than it begins)
+  for (int i = 1; i <= 1000; ++i) {
+    const Real kappa = -0.9L / i, length = 1e-4L, theta = 0.006L * i, turn = kappa * length;
+    const Real chord = 2.0L * std::sin(0.5L * turn) / kappa;
+    const Element from{{0.3L, -0.2L}, theta, 1.5L * kappa};
+    const Element to{from.point + chord * unit_at(theta + 0.5L * turn), theta + turn, kappa};
+    const auto region = Region::of(from, to, 1);
+    EXPECT_LT(region ? static_cast<double>(region->width()) : 0.0, 1e-14 * 1e-4) << i;
+  }
+}
+
 TEST(JudgeArithmetic, WhatLiesBetweenTwoArcsIsAsHighAsTheyAreApart) {
   // arcs below the chord from (0, 0) to (2, 0): three quarters of a circle of radius sqrt 2 around
   // (1, -1), a sixth of one of radius 2 around (1, sqrt 3)
@@ -172,6 +185,16 @@ TEST(JudgeArithmetic, BothTurnsOfAClothoidWithAnInflectionCount) {
   // curvature from -2 to 1 over the length 3: triangles of 2 * 2 / 2 and 1 * 1 / 2
   const Clothoid c{{}, {}, 0.0, -2.0, 1.0, 3.0};
   EXPECT_NEAR(static_cast<double>(Span(c, {}).turning_both_ways()), 2.5, 1e-15);
+}
+
+TEST(JudgeArithmetic, BothTurnsOfACubicWithAnInflectionCount) {
+  // y = 3 t - 9 t^2 + 6 t^3 over x = 3 t: slopes 1, -1/2, 1
+  const Span wave({{0, 0}, {1, 1}, {2, -1}, {3, 0}}, {1, 1, 1, 1});
+  const double found = static_cast<double>(wave.turning_both_ways());
+  EXPECT_NEAR(found, 2.0 * (std::atan(1.0) + std::atan(0.5)), 1e-15);
+  const double part = static_cast<double>(wave.turning_both_ways(0.1L, 0.97L));
+  const auto heading = [](double t) { return std::atan(1.0 - 6.0 * t + 6.0 * t * t); };
+  EXPECT_NEAR(part, heading(0.1) + heading(0.97) + 2.0 * std::atan(0.5), 1e-15);
 }
 
 TEST(JudgeArithmetic, NurbsSpansAreThoseOfTheWholeCurve) {

@@ -281,6 +281,45 @@ TEST(JudgeTexts, FindsGivenDataThatAreNotKept) {
   EXPECT_TRUE(of_input(changed(points, "-20.48", "-20.49"), {}).has("points"));
 }
 
+TEST(JudgeTexts, AValueAndRangesOfOnePointHoldTogether) {
+  const Input input = read_input(
+      "0,0\n1,0\n2,1\n", {"--end-heading=10..60", "--heading-at=3=45", "--heading-at", "3=40..90"});
+  const GivenPoint& last = input.points.back();
+  ASSERT_TRUE(last.heading && last.headings);
+  EXPECT_NEAR(*last.heading, 0.25 * std::numbers::pi, 1e-15);
+  EXPECT_NEAR(last.headings->least, std::numbers::pi * 2.0 / 9.0, 1e-15);
+  EXPECT_NEAR(last.headings->greatest, std::numbers::pi / 3.0, 1e-15);
+}
+
+TEST(JudgeTexts, FindsMovesAndCountsThatTheAdvisedContourHasNot) {
+  ContourFile advised;
+  advised.points = {{0.0, 0.0}, {1.0, 2.0}, {3.0, 1.0}};
+  advised.report =
+      read_json(R"({"vertices": 2, "inflections": 1, "moves": [0.125, 0, 0.25]})").value;
+  judge::Run refused;
+  refused.err = "no point is in the way: with 2 vertices and 1 inflection there is one: --noise 1";
+  refused.out =
+      "points that would have to move, the farthest first; lengths in mm\n\n"
+      "point  x  y  move\n    3  3.000  1.000  0.25000\n    1  0  0  0.1250\n";
+  const auto judged = [&] {
+    Sheet sheet;
+    check_advised(refused, advised, sheet);
+    return all_false(sheet);
+  };
+  EXPECT_EQ(judged(), "");
+  const judge::Run sound = refused;
+  refused.out = changed(sound.out, "0.25000", "0.26000");
+  EXPECT_NE(judged(), "");
+  refused.out = changed(sound.out, "3.000  1.000", "3.000  1.010");
+  EXPECT_NE(judged(), "");
+  refused.out =
+      changed(sound.out, "1  0  0  0.1250\n", "1  0  0  0.1250\n    3  3.000  1.000  0.2500\n");
+  EXPECT_NE(judged(), "");
+  refused = sound;
+  refused.err = changed(sound.err, "2 vertices", "3 vertices");
+  EXPECT_NE(judged(), "");
+}
+
 TEST(JudgeTexts, FindsAnErrorThatTheTrueCurveExceeds) {
   const Case one;
   Input input = read_input(data("judge/points.csv"), {});
