@@ -374,16 +374,19 @@ JointSurvey survey_joints(const Contour& contour, const PieceBends& bends,
 
 namespace {
 
-/// Whether a joint is where the point that it names may be.
+/// Whether a joint is where the point that it names may be: on it, or where points have tolerances
+/// within that of it or nearer to it than to its neighbours (ends of arcs may lie farther along).
 bool stands_on(Vec2 place, const Contour& contour, std::size_t point) {
-  const Vec2 meant = contour.points[point];
-  if (place == meant) return true;
-  if (point >= contour.point_tolerance.size()) return false;
-  // twice the rounding of both coordinates, of their difference and of the distance
-  const double size =
-      std::max({std::abs(place.x), std::abs(place.y), std::abs(meant.x), std::abs(meant.y)});
-  const double allowed = contour.point_tolerance[point];
-  return allowed > 0.0 && norm(place - meant) <= allowed * (1.0 + 0x1p-50) + 0x1p-51 * size;
+  const auto& points = contour.points;
+  if (place == points[point]) return true;
+  if (point >= contour.point_tolerance.size() || contour.point_tolerance[point] == 0.0)
+    return false;
+  const std::size_t n = points.size();
+  const double off = norm(place - points[point]);
+  if (off <= contour.point_tolerance[point]) return true;
+  const std::size_t before = point > 0 ? point - 1 : contour.closed ? n - 1 : point;
+  const std::size_t behind = point + 1 < n ? point + 1 : contour.closed ? 0 : point;
+  return off <= norm(place - points[before]) && off <= norm(place - points[behind]);
 }
 
 }  // namespace

@@ -228,9 +228,21 @@ TEST(Tolerance, PointWithoutAnyIsMetWithinRounding) {
 
 TEST(Tolerance, JointsStandOnTheirPointsInOrder) {
   Contour contour = arc_chain(points_beside(distances()), std::vector<double>(250, 0.02));
-  contour.joints[1].source = 41;
-  contour.joints[3].source = 125;
+  const auto beside = [&](std::size_t joint) {
+    const auto farther = [&](Vec2 a, Vec2 b) {
+      return norm(a - contour.joints[joint].element.point) <
+             norm(b - contour.joints[joint].element.point);
+    };
+    const auto& points = contour.points;
+    return static_cast<std::size_t>(std::min_element(points.begin(), points.end(), farther) -
+                                    points.begin());
+  };
+  contour.joints[1].source = beside(1);
+  contour.joints[3].source = beside(3);
   EXPECT_TRUE(certify(contour).proved) << certify(contour).reason;
+  ++*contour.joints[3].source;
+  expect_refused(contour, "beside its point");
+  --*contour.joints[3].source;
   std::swap(contour.joints[1].source, contour.joints[3].source);
   expect_refused(contour, "out of order");
   contour.joints[1].source = contour.joints[3].source;

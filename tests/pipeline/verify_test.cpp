@@ -15,6 +15,7 @@
 #include <vector>
 
 #include "../common/ten_points.h"
+#include "obvid/certify/certify.h"
 #include "obvid/io/contour_json.h"
 #include "obvid/pipeline/fit.h"
 #include "obvid/pipeline/promise.h"
@@ -524,6 +525,34 @@ TEST(Verify, ATooWideRegionThatTheFileTellsIsNoFalseClaim) {
   EXPECT_EQ(broken->code, ErrorCode::kToleranceNotReached);
   stored.report->tolerance = 3.0;
   EXPECT_FALSE(broken_promise(stored, found));
+}
+
+TEST(Verify, AJointThatNamesAnotherPointThanItStandsOnIsRefused) {
+  PointSeries series;
+  for (int i = 0; i < 14; ++i) {
+    const double t = 0.25 * i, off = i % 2 == 0 ? 0.001 : -0.001;
+    series.points.push_back({(3.0 + off) * std::cos(t), 2.0 * std::sin(t)});
+  }
+  FitJob job;
+  job.noise = 0.005;
+  const auto made = fit(series, job);
+  ASSERT_TRUE(made && made->certificate.proved);
+  Contour contour = made->contour;
+  ASSERT_GT(contour.joints.size(), 2U);
+  ASSERT_TRUE(certify(contour).proved);
+  // the last but one joint that stands on a point names the one behind it, where no other does
+  std::size_t at = contour.joints.size() - 2;
+  while (at > 0 && !contour.joints[at].source) --at;
+  ASSERT_TRUE(contour.joints[at].source);
+  const std::size_t named = *contour.joints[at].source + 1;
+  ASSERT_LT(named, series.points.size());
+  for (std::size_t k = at + 1; k < contour.joints.size(); ++k) {
+    if (contour.joints[k].source == named) contour.joints[k].source.reset();
+  }
+  contour.joints[at].source = named;
+  const Certificate c = obvid::certify(contour);
+  EXPECT_FALSE(c.proved);
+  EXPECT_FALSE(c.through_points);
 }
 
 }  // namespace
