@@ -37,7 +37,7 @@ constexpr double kLoop = -1.0;  ///< stands for the room of a loop
 /// Closed-form margin with which the chain carries a link in one piece.
 constexpr double kOnePiece = 0.02;
 /// Newton steps times links, some microseconds each: the search gives up beyond.
-constexpr double kWork = 200'000.0, kWorkPerLink = 20'000.0;
+constexpr double kWork = 200'000.0, kWorkPerLink = 14'000.0;
 
 /// What a window of a draft came to.
 struct Trial {
