@@ -60,7 +60,9 @@ Error with_tolerance(Error error, const std::optional<WhyNot>& why, const PointS
   const std::string units = series.units.text();
   if (!error.hint.empty()) error.hint += "; ";
   if (!why) {
-    error.hint += "none was found either where every point may move by up to a tenth of the size";
+    error.hint += fmt::format(
+        "none was found either within a tolerance of {} {} for every point, a tenth of the size",
+        significant(largest_tolerance_tried(series), kAdvisedDigits), units);
   } else if (why->found && why->next_to_nothing) {
     error.hint += "no point is in the way: with " + counts_of_fit(why->fit) + " there is one" +
                   places_of_vertices(why->fit.contour) + ": " + advised_option(*why, series) +

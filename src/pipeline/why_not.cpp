@@ -73,7 +73,7 @@ class Search {
     if (job_.noise_from_rounding) {
       lowest_ = std::max(lowest_, std::min(series_.rounding.x, series_.rounding.y));
     }
-    highest_ = printable(kLargestMove * bounding_diagonal(series_.points));
+    highest_ = largest_tolerance_tried(series_);
   }
 
   /// Whether the job leaves every point where it is, and so allows no vertices but those of points.
@@ -207,6 +207,10 @@ class Search {
 };
 
 }  // namespace
+
+double largest_tolerance_tried(const PointSeries& series) {
+  return printable(kLargestMove * bounding_diagonal(series.points));
+}
 
 std::optional<WhyNot> why_not(const PointSeries& series, const FitJob& job, const Error& refusal,
                               const RunContext& run) {

@@ -264,8 +264,8 @@ class Work : public ProgramRuns {
         "there is one(?:, with [^:]*)?: --noise ([^\\s,;]+)( --open)?(?: allows them)?"
         "( and no smaller tolerance of a point)?");
     if (!std::regex_search(fit.err, found, advice)) {
-      if (fit.err.find("none was found either where every point may move by up to a tenth") !=
-          std::string::npos) {
+      const std::regex nowhere("none was found either within a tolerance of (\\S+) ");
+      if (std::regex_search(fit.err, found, nowhere)) {
         const Point first = input.points.front().point, last = input.points.back().point;
         const double size = diagonal_of(input);
         const double apart = std::hypot(last.x - first.x, last.y - first.y);
@@ -274,7 +274,7 @@ class Work : public ProgramRuns {
           return out_.sheet.unjudged("refusal: none was found within a tolerance",
                                      "ends nearly meet");
         }
-        refuses_within(fmt::format("{:.3g}", 0.1 * size), false, input);
+        refuses_within(found[1], false, input);
       }
       return;
     }

@@ -29,6 +29,10 @@ struct WhyNot {
                                    ///< `fit.report.moves`
 };
 
+/// The largest tolerance that `why_not` tries, units: a tenth of the diagonal of the points, of
+/// three digits.
+[[nodiscard]] double largest_tolerance_tried(const PointSeries& series);
+
 /// For a job that `fit` refuses because no such contour exists (E401 to E405): the smallest
 /// tolerance, the same for all points, within which one does, every wish of the job kept. Points
 /// with larger tolerances of their own keep those; an open series stays open. Found by long steps
