@@ -19,7 +19,8 @@ class Browser:
         to_read, self.out = os.pipe()
         self.into, to_write = os.pipe()
         command = (f"exec chromium --headless=new --no-sandbox --no-first-run --disable-gpu "
-                   f"--disable-extensions --remote-debugging-pipe --window-size={width},{height} "
+                   f"--disable-extensions --disable-quic --disable-background-networking "
+                   f"--disable-component-update --disable-sync --remote-debugging-pipe --window-size={width},{height} "
                    f"--user-data-dir={self.profile.name} about:blank 3<&{to_read} 4>&{to_write}")
         self.process = subprocess.Popen(["bash", "-c", command], pass_fds=(to_read, to_write),
                                         stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
