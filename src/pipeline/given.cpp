@@ -250,11 +250,11 @@ class GivenCheck {
   std::vector<std::size_t> joint_;  // on each point, or the number of joints
 };
 
-/// Misses are told in steps of this, upward: what rounding of their own evaluation hides (1e-12
-/// rad, or of the curvature) is added, and nothing below it means anything.
+/// Misses are told in steps of this (rad, or of the curvature), upward by half a step at least: the
+/// rounding of their own evaluation stays below that, and nothing below it means anything.
 constexpr double kMissStep = 1e-12;
 
-double told(double miss) { return (std::floor(miss / kMissStep) + 1.0) * kMissStep; }
+double told(double miss) { return (std::floor(miss / kMissStep + 0.5) + 1.0) * kMissStep; }
 
 }  // namespace
 
