@@ -36,7 +36,6 @@ class ContourReader : private JsonValues {
   void read_contour(const Node& root);
   std::vector<double> point_tolerance(const Node& node);
   Joint joint(const Node& node);
-  void units_source(const Node& node);
   void kept(const Node& node);
   void corner(const Node& node, Joint& joint);
   void check_ends(const Node& elements);
@@ -72,7 +71,7 @@ void ContourReader::read_head(const Node& root) {
   }
   Contour& contour = stored_.contour;
   contour.units = word(field(root, "units"));
-  if (const auto source = optional_field(root, "units_source")) units_source(*source);
+  unit_source(root, stored_.contour.units);
   contour.closed = flag(field(root, "closed"));
   const Node carrier = field(root, "carrier");
   const std::string kind = word(carrier);
@@ -86,15 +85,6 @@ void ContourReader::read_head(const Node& root) {
     const auto continuity = continuity_of(name);
     if (!continuity) refuse(*node, text::shown(name) + " is no continuity: G2 or G3");
     contour.continuity = continuity.value_or(Continuity::kG2);
-  }
-}
-
-void ContourReader::units_source(const Node& node) {
-  const std::string name = word(node);
-  if (const auto source = unit_source_of(name)) {
-    stored_.contour.units.source = *source;
-  } else {
-    refuse(node, text::shown(name) + " is no source of a unit: file, given or assumed");
   }
 }
 

@@ -290,6 +290,17 @@ std::string JsonValues::word(const Node& node) {
   return failed() ? std::string() : node.value->get<std::string>();
 }
 
+void JsonValues::unit_source(const Node& object, Units& units) {
+  const auto node = optional_field(object, "units_source");
+  if (!node) return;
+  const std::string name = word(*node);
+  if (const auto source = unit_source_of(name)) {
+    units.source = *source;
+  } else {
+    refuse(*node, text::shown(name) + " is no source of a unit: file, given or assumed");
+  }
+}
+
 Vec2 JsonValues::point(const Node& node) {
   if (failed()) return {};
   if (!node.value->is_array() || node.value->size() != 2) {

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "obvid/core/result.h"
+#include "obvid/core/units.h"
 #include "obvid/geom/vec2.h"
 
 namespace obvid {
@@ -56,6 +57,8 @@ class JsonValues {
   std::size_t index(const Node& node, std::size_t size, std::string_view what);
   bool flag(const Node& node);
   std::string word(const Node& node);
+  /// "units_source", where it is there: how the unit is known.
+  void unit_source(const Node& object, Units& units);
   Vec2 point(const Node& node);
   double figure(const Node& object, std::string_view key);
   double optional_figure(const Node& object, std::string_view key, double otherwise);

@@ -61,14 +61,7 @@ class SpaceReader : private JsonValues {
     }
     if (const auto name = optional_field(root, "name")) out_.name = word(*name);
     out_.units.name = word(field(root, "units"));
-    if (const auto node = optional_field(root, "units_source")) {
-      const std::string name = word(*node);
-      if (const auto source = unit_source_of(name)) {
-        out_.units.source = *source;
-      } else {
-        refuse(*node, text::shown(name) + " is no source of a unit: file, given or assumed");
-      }
-    }
+    unit_source(root, out_.units);
     planar_ = flag(field(root, "planar"));
     out_.flatness = number(field(root, "flatness"));
     out_.largest_move = number(field(root, "largest_move"));
@@ -157,9 +150,7 @@ class SpaceChainReader : private JsonValues {
     }
     if (const auto name = optional_field(root, "name")) out_.name = word(*name);
     out_.units.name = word(field(root, "units"));
-    if (const auto node = optional_field(root, "units_source")) {
-      if (const auto source = unit_source_of(word(*node))) out_.units.source = *source;
-    }
+    unit_source(root, out_.units);
     out_.closed = flag(field(root, "closed"));
     out_.largest_move = number(field(root, "largest_move"));
     each(field(root, "points"), [&](const Node& one) { out_.points.push_back(place(one)); });

@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "false_claim.h"
 #include "obvid/io/contour_json.h"
 #include "obvid/io/json_text.h"
 #include "obvid/pipeline/audit.h"
@@ -237,14 +238,7 @@ std::string region_json(const PointSeries& series, const RegionTable& region) {
 std::string verification_json(const StoredContour& stored, const Verification& found) {
   JsonText json;
   json.begin_object().pair("holds", !broken_promise(stored, found));
-  json.key("false_claim");
-  if (found.false_claim) {
-    json.begin_object();
-    json.pair("code", fmt::format("E{}", static_cast<int>(found.false_claim->code)));
-    json.pair("what", found.false_claim->what).pair("where", found.false_claim->where).end_object();
-  } else {
-    json.null();
-  }
+  pipeline_detail::add_false_claim(json, found.false_claim ? &*found.false_claim : nullptr);
   add_texts(json, "not_checked", found.not_checked);
   add_certificate(json, found.certificate);
   json.end_object();

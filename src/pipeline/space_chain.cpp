@@ -6,6 +6,7 @@
 #include <numbers>
 #include <utility>
 
+#include "false_claim.h"
 #include "obvid/io/json_text.h"
 #include "obvid/pipeline/promise.h"
 #include "obvid/pipeline/report_json.h"
@@ -283,13 +284,7 @@ class ChainClaims {
 
  private:
   void refuse(const std::string& name, double claimed, double found) {
-    if (refused_) return;
-    refused_ = Error{ErrorCode::kFalseClaim,
-                     fmt::format("the file claims {} = {:.9g}, found {:.9g}", name, claimed, found),
-                     "/" + name,
-                     "form the curve again",
-                     -1,
-                     found};
+    if (!refused_) refused_ = pipeline_detail::false_claim_in_space(name, claimed, found);
   }
 
   void points(std::size_t k) {
@@ -428,15 +423,7 @@ std::string space_verification_json(const StoredSpaceChain& stored,
   }
   JsonText json;
   json.begin_object().pair("holds", !broken_promise(stored, found));
-  json.key("false_claim");
-  if (found.false_claim) {
-    json.begin_object();
-    json.pair("code", fmt::format("E{}", static_cast<int>(found.false_claim->code)));
-    json.pair("what", found.false_claim->what).pair("where", found.false_claim->where);
-    json.end_object();
-  } else {
-    json.null();
-  }
+  pipeline_detail::add_false_claim(json, found.false_claim ? &*found.false_claim : nullptr);
   json.key("not_checked").begin_array();
   for (const std::string& one : found.not_checked) json.value(one);
   json.end_array().key("parts").begin_array();

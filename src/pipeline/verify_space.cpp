@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "contour_nurbs.h"
+#include "false_claim.h"
 #include "obvid/io/json_text.h"
 #include "obvid/pipeline/promise.h"
 #include "obvid/pipeline/report_json.h"
@@ -51,13 +52,7 @@ class SpaceClaims {
 
  private:
   void refuse(const std::string& name, double claimed, double found) {
-    if (refused_) return;
-    refused_ = Error{ErrorCode::kFalseClaim,
-                     fmt::format("the file claims {} = {:.9g}, found {:.9g}", name, claimed, found),
-                     "/" + name,
-                     "form the curve again",
-                     -1,
-                     found};
+    if (!refused_) refused_ = pipeline_detail::false_claim_in_space(name, claimed, found);
   }
   void same(const std::string& name, double claimed, double found, double scale) {
     if (!(std::abs(claimed - found) <= kSameSpaceFigure * std::abs(found) + scale)) {
@@ -283,13 +278,8 @@ std::string space_verification_json(const StoredSpace& stored, const SpaceVerifi
   JsonText json;
   const auto broken = broken_promise(stored, found);
   json.begin_object().pair("holds", !broken);
-  json.key("false_claim");
-  if (broken && broken->code == ErrorCode::kFalseClaim) {
-    json.begin_object().pair("code", fmt::format("E{}", static_cast<int>(broken->code)));
-    json.pair("what", broken->what).pair("where", broken->where).end_object();
-  } else {
-    json.null();
-  }
+  const bool is_false = broken && broken->code == ErrorCode::kFalseClaim;
+  pipeline_detail::add_false_claim(json, is_false ? &*broken : nullptr);
   json.key("not_checked").begin_array();
   for (const std::string& one : found.not_checked) json.value(one);
   json.end_array();

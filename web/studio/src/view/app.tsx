@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 import { signal } from "@preact/signals";
-import { pointsCsv } from "../document/document";
+import { jobOptions, pointsCsv } from "../document/document";
 import {
   canRedo, canUndo, combHeight, current, doc, drawn, exported, fitted, message, open, redo, shown, theEngine,
   undo, type Shown,
 } from "../state";
-import { jobOptions } from "../document/document";
 import type { Answer } from "../engine/engine";
 import { Drawing, showAll } from "./drawing";
 import { OptionsPanel, PointPanel, Tables } from "./panels";

@@ -2,7 +2,7 @@
 import { useState } from "preact/hooks";
 import { signal } from "@preact/signals";
 import type { ComponentChildren } from "preact";
-import { CARRIERS, jobOptions, type Carrier, type Closing, type Given } from "../document/document";
+import { CARRIERS, jobOptions, type Carrier, type Closing, type Document, type Given } from "../document/document";
 import type { Answer } from "../engine/engine";
 import {
   current, doc, drawn, fitted, movePoint, drop, region, removePoint, selected, setGiven, setOptions,
@@ -149,19 +149,19 @@ interface CompareRow {
   readonly carrier: string;
   readonly [name: string]: unknown;
 }
-const compared = signal<{ readonly key: string; readonly rows: readonly CompareRow[] } | null>(null);
-const suggested = signal<{ readonly key: string; readonly rows: readonly Record<string, unknown>[] } | null>(null);
+const compared = signal<{ readonly of: Document; readonly rows: readonly CompareRow[] } | null>(null);
+const suggested = signal<{ readonly of: Document; readonly rows: readonly Record<string, unknown>[] } | null>(null);
 
 async function ask(kind: "compare" | "suggest"): Promise<void> {
-  const of = doc.value, key = JSON.stringify([of.points, of.given, of.options]);
+  const of = doc.value;
   const options = jobOptions(of);
   delete options["carrier"];
   if (kind === "suggest") delete options["noise"];
   const answer = await theEngine().call<Answer<Record<string, unknown>>>(kind, { points: of.points, options });
   const report = answer.report ?? {};
   const rows = (report["carriers"] ?? report["rows"] ?? report["steps"] ?? []) as CompareRow[];
-  if (kind === "compare") compared.value = { key, rows };
-  else suggested.value = { key, rows };
+  if (kind === "compare") compared.value = { of, rows };
+  else suggested.value = { of, rows };
 }
 
 export function Tables() {
@@ -205,7 +205,7 @@ function Compared() {
   const w = words();
   if (!compared.value) return <p class="hint">{w.computing}</p>;
   return (
-    <table id="compared">
+    <table id="compared" class={compared.value.of === doc.value ? "" : "stale"}>
       <thead><tr><th>{w.family}</th><th>{w.pieces}</th><th>{w.vertices}</th><th>{w.error}</th></tr></thead>
       <tbody>
         {compared.value.rows.map((row) => (
@@ -222,7 +222,7 @@ function Suggested() {
   const w = words();
   if (!suggested.value) return <p class="hint">{w.computing}</p>;
   return (
-    <table id="suggested" title={w.suggestHint}>
+    <table id="suggested" class={suggested.value.of === doc.value ? "" : "stale"} title={w.suggestHint}>
       <thead><tr><th>{w.noise}</th><th>{w.vertices}</th></tr></thead>
       <tbody>
         {suggested.value.rows.map((row) => (
