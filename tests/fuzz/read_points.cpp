@@ -24,7 +24,8 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   }
   require(series->points.size() >= 2);
   if (series->points.size() == 2) {
-    require(series->fixed.size() == 2 && series->fixed[0].theta && series->fixed[1].theta);
+    const auto heading = [](const obvid::FixedData& data) { return data.theta || data.thetas; };
+    require(series->fixed.size() == 2 && heading(series->fixed[0]) && heading(series->fixed[1]));
   }
   require(series->fixed.empty() || series->fixed.size() == series->points.size());
   for (std::size_t i = 0; i < series->points.size(); ++i) {
