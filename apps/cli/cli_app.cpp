@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "cli_app.h"
 
+#include <algorithm>
+#include <optional>
+#include <string>
 #include <utility>
 
 namespace obvid {
@@ -30,12 +33,38 @@ Result<void> check_extras(const CLI::App& command, const std::vector<std::string
   return fail(usage("one argument too many: '" + extras.front() + "'", see));
 }
 
+namespace {
+
+/// `--option = value`, as the parser ends its sentence about a value that it cannot read.
+std::optional<Error> unreadable_value(const std::string& what, const std::string& help) {
+  const auto colon = what.find(": "), equals = what.find(" = ");
+  if (colon == std::string::npos || equals == std::string::npos || equals < colon) {
+    return std::nullopt;
+  }
+  const std::string option = what.substr(colon + 2, equals - colon - 2);
+  std::string value = what.substr(equals + 3);
+  std::string hint = help;
+  if (value.find_first_not_of("0123456789,+-eE") == std::string::npos &&
+      std::count(value.begin(), value.end(), ',') == 1) {
+    std::string point = value;
+    std::replace(point.begin(), point.end(), ',', '.');
+    hint = "write it with a decimal point: " + point + "; " + help;
+  }
+  return bad_option("'" + value + "' is no value of " + option, "", hint);
+}
+
+}  // namespace
+
 Error from_cli(const CLI::ParseError& error, const std::string& name) {
   std::string what = error.what();
   while (!what.empty() && (what.back() == '\n' || what.back() == '.')) what.pop_back();
+  const std::string help = "`obvid " + name + " --help` shows units and defaults";
+  if (dynamic_cast<const CLI::ConversionError*>(&error) != nullptr) {
+    if (auto told = unreadable_value(what, help)) return *told;
+  }
   const bool value = dynamic_cast<const CLI::ConversionError*>(&error) != nullptr ||
                      dynamic_cast<const CLI::ValidationError*>(&error) != nullptr;
-  if (value) return bad_option(what, "", "`obvid " + name + " --help` shows units and defaults");
+  if (value) return bad_option(what, "", help);
   return usage(what, "see obvid --help");
 }
 

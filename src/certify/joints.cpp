@@ -212,9 +212,8 @@ class JointWalk {
     compare_slopes(joint, before, after);
     const bool arcs = may_jump(joint);
     if (!arcs) check(gap, kCurvatureBound, joint, "the curvature gap");
-    return static_cast<std::int8_t>(gap <= (arcs ? kSameArc : kCurvatureBound) ? 0
-                                    : jump > 0.0                               ? 1
-                                                                               : -1);
+    if (gap <= (arcs ? kSameArc : kCurvatureBound)) return 0;
+    return static_cast<std::int8_t>(jump > 0.0 ? 1 : jump < 0.0 ? -1 : 0);
   }
 
   /// Lower bound of the largest of those at the ends of a piece and the mean one over its chord: a

@@ -268,9 +268,7 @@ PictureTrack make_track(const Contour& contour) {
     return a.at.s < b.at.s;
   };
   std::stable_sort(track.features.begin(), track.features.end(), earlier);
-  track.counts = {count_features(track, PictureFeature::Kind::kVertex),
-                  count_features(track, PictureFeature::Kind::kInflection),
-                  count_features(track, PictureFeature::Kind::kCorner)};
+  track.counts = counts_of_marks(track);
   return track;
 }
 
@@ -286,6 +284,12 @@ void take_counts(PictureTrack& track, const Certificate& certificate) {
     return (f.kind == PictureFeature::Kind::kVertex && track.counts.vertices == 0) ||
            (f.kind == PictureFeature::Kind::kInflection && track.counts.inflections == 0);
   });
+}
+
+PictureCounts counts_of_marks(const PictureTrack& track) {
+  return {count_features(track, PictureFeature::Kind::kVertex),
+          count_features(track, PictureFeature::Kind::kInflection),
+          count_features(track, PictureFeature::Kind::kCorner)};
 }
 
 std::size_t count_features(const PictureTrack& track, PictureFeature::Kind kind) {

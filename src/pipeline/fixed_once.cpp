@@ -10,6 +10,7 @@
 #include <string>
 
 #include "obvid/geom/angle.h"
+#include "obvid/geom/value_range.h"
 
 namespace obvid::pipeline_detail {
 namespace {
@@ -54,6 +55,15 @@ bool holds(const ValueRange& thetas, double theta) {
   const double middle = 0.5 * (thetas.low + thetas.high), half = 0.5 * (thetas.high - thetas.low);
   return std::abs(std::remainder(theta - middle, 2.0 * std::numbers::pi)) <=
          half + kFixedRounding * std::max(1.0, std::abs(theta));
+}
+
+Error two_ranges_left(std::size_t point) {
+  return {ErrorCode::kFixedDataContradict,
+          "what is given for the heading here leaves two ranges apart from each other",
+          fmt::format("point {}", point + 1),
+          "give one range",
+          static_cast<std::ptrdiff_t>(point),
+          0.0};
 }
 
 Error no_common_value(bool heading, std::size_t point) {
@@ -110,10 +120,14 @@ Result<void> add_fixed(FixedOnce& into, const FixedOnce& more, std::size_t point
     a.kappa = b.kappa;
     into.kappa_by = more.kappa_by;
   }
-  for (const auto field : {&FixedData::thetas, &FixedData::kappas}) {
-    if (!(b.*field)) continue;
-    a.*field = a.*field ? common(*(a.*field), *(b.*field)) : *(b.*field);
-    if ((a.*field)->empty()) return fail(no_common_value(field == &FixedData::thetas, point));
+  if (b.thetas) {
+    a.thetas = a.thetas ? common_headings(*a.thetas, *b.thetas) : *b.thetas;
+    if (!a.thetas) return fail(two_ranges_left(point));
+    if (a.thetas->empty()) return fail(no_common_value(true, point));
+  }
+  if (b.kappas) {
+    a.kappas = a.kappas ? common(*a.kappas, *b.kappas) : *b.kappas;
+    if (a.kappas->empty()) return fail(no_common_value(false, point));
   }
   if (a.theta && a.thetas && !holds(*a.thetas, *a.theta)) return fail(no_common_value(true, point));
   if (a.kappa && a.kappas && !(a.kappas->low <= *a.kappa && *a.kappa <= a.kappas->high)) {

@@ -10,6 +10,8 @@
 
 #include "obvid/curve/end_curvatures.h"
 #include "obvid/curve/nearest.h"
+#include "obvid/geom/angle.h"
+#include "obvid/geom/value_range.h"
 
 namespace obvid::pipeline_detail {
 namespace {
@@ -46,8 +48,7 @@ double beyond(const ValueRange& range, double value) {
 
 /// A heading on the turn nearest to the middle of a range.
 double turned_to(const ValueRange& thetas, double theta) {
-  const double middle = 0.5 * (thetas.low + thetas.high);
-  return middle + std::remainder(theta - middle, 2.0 * std::numbers::pi);
+  return nearest_angle(theta, 0.5 * (thetas.low + thetas.high));
 }
 
 /// The end of a range that a curvature outside it has passed.

@@ -5,12 +5,13 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
+#include <cstdlib>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include "obvid/core/figures.h"
+#include "obvid/geom/angle.h"
 
 namespace obvid {
 
@@ -88,20 +89,29 @@ std::string radii_text(const FeasibleRange& range, const std::string& units) {
                      significant(first ? other : one, 5), units);
 }
 
+/// The shortest number of a unit that means this value: ends of a range are short decimal fractions.
+std::string typed_number(double value, double unit) {
+  constexpr int kFew = 6, kAll = 17;  // digits
+  for (int digits = kFew; digits < kAll; ++digits) {
+    std::string text = fmt::format("{:.{}g}", value / unit, digits);
+    if (std::strtod(text.c_str(), nullptr) * unit == value) return text;
+  }
+  return fmt::format("{:.{}g}", value / unit, kAll);
+}
+
 /// "heading between 41.2 and 52.9 deg at point 3"; where only the two were tried: "heading of 41.2
 /// or 52.9 deg at point 3".
 std::string feasible_text(const FeasibleRange& range, const std::string& units) {
   const bool heading = range.datum == FeasibleRange::Datum::kHeading;
-  const double unit = heading ? std::numbers::pi / 180.0 : 1.0;
-  // the ends of a range are short decimal fractions
+  const double unit = heading ? kOneDegree : 1.0;
+  const std::string least = typed_number(range.least, unit);
+  const std::string kind = heading ? "heading" : "curvature";
+  const std::string of = heading ? "deg" : fmt::format("1/{}", units);
   if (range.least == range.greatest) {
-    return fmt::format("{} of {:.12g} {} at point {}", heading ? "heading" : "curvature",
-                       range.least / unit, heading ? "deg" : fmt::format("1/{}", units),
-                       range.point + 1);
+    return fmt::format("{} of {} {} at point {}", kind, least, of, range.point + 1);
   }
-  return fmt::format("{} {} {:.12g} {} {:.12g} {} at point {}{}", heading ? "heading" : "curvature",
-                     range.exact ? "between" : "of", range.least / unit, range.exact ? "and" : "or",
-                     range.greatest / unit, heading ? "deg" : fmt::format("1/{}", units),
+  return fmt::format("{} {} {} {} {} {} at point {}{}", kind, range.exact ? "between" : "of", least,
+                     range.exact ? "and" : "or", typed_number(range.greatest, unit), of,
                      range.point + 1, heading ? "" : radii_text(range, units));
 }
 

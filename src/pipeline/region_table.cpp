@@ -12,6 +12,7 @@
 #include "form.h"
 #include "obvid/contour/clothoids.h"
 #include "obvid/geom/angle.h"
+#include "obvid/geom/value_range.h"
 #include "obvid/region/boundary_distance.h"
 #include "obvid/region/convex_triangle.h"
 #include "obvid/series/analysis.h"
@@ -130,11 +131,7 @@ class Ranges {
       const double after = nearest_angle(along[std::min(k, along.size() - 1)].omega, before);
       const double near = 0.5 * (before + after);
       if (node.theta) node.theta = nearest_angle(*node.theta, near);
-      if (node.thetas) {
-        const double middle = 0.5 * (node.thetas->low + node.thetas->high);
-        const double turns = nearest_angle(middle, near) - middle;
-        node.thetas = ValueRange{node.thetas->low + turns, node.thetas->high + turns};
-      }
+      if (node.thetas) node.thetas = turned_near(*node.thetas, near);
       out.push_back(node);
     }
     return out;

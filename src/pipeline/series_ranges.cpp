@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "obvid/geom/angle.h"
+#include "obvid/geom/value_range.h"
 
 namespace obvid::pipeline_detail {
 namespace {
@@ -21,12 +22,6 @@ struct RangeProblem {
   std::vector<RangeLink> links;
   std::vector<RangeNode> nodes;
 };
-
-ValueRange turned_near(const ValueRange& thetas, double near) {
-  const double middle = 0.5 * (thetas.low + thetas.high);
-  const double turns = nearest_angle(middle, near) - middle;
-  return {thetas.low + turns, thetas.high + turns};
-}
 
 RangeProblem range_problem(const Analysis& analysis, const ChainProblem& problem,
                            const std::vector<FixedData>& fixed) {

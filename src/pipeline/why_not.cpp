@@ -73,6 +73,7 @@ class Search {
     if (job_.noise_from_rounding) {
       lowest_ = std::max(lowest_, std::min(series_.rounding.x, series_.rounding.y));
     }
+    lowest_ = printable(lowest_);
     highest_ = largest_tolerance_tried(series_);
   }
 

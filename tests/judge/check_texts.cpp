@@ -396,7 +396,9 @@ class TextCheck {
         count_is("contour free joints", s, 2,
                  figure(member(report_, "chain"), "free_elements").value.value_or(0.0));
       }
-    } else if (key == "fairness: # vertex (the point force at least #), # inflection") {
+    } else if (key ==
+               "fairness: # vertex (at least # unless a curve winds between the point), # "
+               "inflection") {
       figure_is("fairness vertices", s.figures[0], figure(report_, "vertices").value);
       figure_is("fairness bound", s.figures[1], figure(report_, "vertices_lower_bound").value);
       figure_is("fairness inflections", s.figures[2], figure(report_, "inflections").value);

@@ -125,6 +125,25 @@ TEST(GivenRanges, EveryCarrierKeepsThemOrRefuses) {
   EXPECT_GT(refused, 0U);
 }
 
+TEST(GivenRanges, OfTwoThatAreAFullTurnApartTheCommonPartHolds) {
+  FitJob job;
+  for (const double turns : {-720.0, 0.0, 360.0}) {
+    job.wishes = {heading_range(4, 70.0 + turns, 78.0 + turns), heading_range(4, 76.0, 90.0)};
+    const auto f = fit(reference_series(), job);
+    ASSERT_TRUE(f) << to_line(f.error());
+    expect_inside(f->contour, heading_range(4, 76.0, 78.0));
+  }
+  job.wishes = {heading_range(4, 350.0, 430.0), heading_range(4, 80.0, 100.0)};
+  EXPECT_EQ(fit(reference_series(), job).error().code, ErrorCode::kFixedDataContradict);
+  job.wishes = {heading_range(4, 0.0, 300.0), heading_range(4, 250.0, 380.0)};
+  EXPECT_EQ(fit(reference_series(), job).error().code, ErrorCode::kFixedDataContradict)
+      << "0..20 and 250..300 are left";
+  job.wishes = {heading_range(4, 0.0, 400.0), heading_range(4, 76.0, 78.0)};
+  const auto free = fit(reference_series(), job);
+  ASSERT_TRUE(free) << to_line(free.error());
+  expect_inside(free->contour, heading_range(4, 76.0, 78.0));
+}
+
 TEST(GivenRanges, TheEndAtWhichTheContourLiesIsNamed) {
   FitJob job;
   job.wishes.push_back(heading_range(4, 76.0, 78.0));

@@ -5,6 +5,8 @@
 #include <limits>
 #include <optional>
 
+#include "obvid/geom/angle.h"
+
 namespace obvid {
 
 /// Ends between which a heading or a curvature may lie, both included; an end that is none is
@@ -20,6 +22,30 @@ struct ValueRange {
 /// What lies in both; empty when nothing does.
 [[nodiscard]] inline ValueRange common(const ValueRange& a, const ValueRange& b) {
   return {std::max(a.low, b.low), std::min(a.high, b.high)};
+}
+
+/// The range of the same headings whose middle lies nearest to an angle, rad.
+[[nodiscard]] inline ValueRange turned_near(const ValueRange& thetas, double near) {
+  const double middle = 0.5 * (thetas.low + thetas.high);
+  const double turns = nearest_angle(middle, near) - middle;
+  return {thetas.low + turns, thetas.high + turns};
+}
+
+/// Headings in both ranges, rad, on a turn of `a`: headings count modulo a full turn. Empty when
+/// there are none; nothing where two ranges apart from each other are left.
+[[nodiscard]] inline std::optional<ValueRange> common_headings(const ValueRange& a,
+                                                               const ValueRange& b) {
+  if (b.high - b.low >= kFullTurn) return a;
+  if (a.high - a.low >= kFullTurn) return b;
+  const ValueRange near = turned_near(b, 0.5 * (a.low + a.high));
+  ValueRange found{1.0, 0.0};
+  for (const double turn : {-kFullTurn, 0.0, kFullTurn}) {
+    const ValueRange both = common(a, {near.low + turn, near.high + turn});
+    if (both.empty()) continue;
+    if (!found.empty()) return std::nullopt;
+    found = both;
+  }
+  return found;
 }
 
 /// Curvatures of a range of radii, both ends of one sign: `20..30` is 1/30..1/20, `20..` (a large

@@ -30,6 +30,9 @@ constexpr int kCubicTrials = 8;
 /// half as many did, will not do better.
 constexpr double kSpanRoundings = 16.0 * std::numeric_limits<double>::epsilon();
 constexpr double kLeastGain = 0.5;
+/// Knots that are known to a rounding r only leave the curvature of spans of length h uncertain by
+/// as many r / h^2: the second difference of three of them.
+constexpr double kOfSecondDifference = 4.0;
 /// Integral of the density that the contour has by its length alone: straight parts get knots too.
 constexpr double kLeastDensity = 0.2;
 
@@ -116,6 +119,21 @@ class CubicBuilder {
   /// What rounding of the coordinates may be to blame for.
   [[nodiscard]] double blur() const { return kSpanRoundings * largest_; }
 
+  /// Whether on most of the curved spans the rounding of the knots bends the spline more than the contour.
+  [[nodiscard]] bool rounding_bends(std::size_t n) const {
+    const std::vector<double> places = density_.knots(n);
+    const double rounding = std::numeric_limits<double>::epsilon() * largest_;
+    std::size_t bent = 0, curved = 0;
+    for (std::size_t i = 0; i + 1 < places.size(); ++i) {
+      const double h = length_.at(places[i + 1]) - length_.at(places[i]);
+      const double kappa = std::max(std::abs(length_.element(places[i]).kappa),
+                                    std::abs(length_.element(places[i + 1]).kappa));
+      curved += kappa > 0.0 ? 1 : 0;
+      bent += kappa > 0.0 && kOfSecondDifference * rounding > kappa * h * h ? 1 : 0;
+    }
+    return 2 * bent > curved;
+  }
+
   Result<CubicAlong> with_spans(std::size_t n) const {
     const std::vector<double> places = density_.knots(n);
     std::vector<Vec2> points;
@@ -155,6 +173,15 @@ class CubicBuilder {
   double largest_ = 0.0;  // coordinate
 };
 
+Error rounding_keeps_off(double deviation) {
+  return {ErrorCode::kToleranceNotReached,
+          "rounding of the coordinates keeps cubic spans from the tolerance",
+          "",
+          "allow more, or move the contour near the origin",
+          -1,
+          deviation};
+}
+
 /// Fewest spans, nearly: grown by the fourth root of what is missing, then cut in halves of what is
 /// left between a number that does and one that does not.
 Result<CubicAlong> search(const CubicBuilder& builder, double tolerance) {
@@ -171,9 +198,7 @@ Result<CubicAlong> search(const CubicBuilder& builder, double tolerance) {
       gained = found->deviation;
       gained_with = n;
     } else if (n >= 2 * gained_with && found->deviation <= builder.blur()) {
-      return fail({ErrorCode::kToleranceNotReached,
-                   "rounding of the coordinates keeps cubic spans from the tolerance", "",
-                   "allow more, or move the contour near the origin", -1, found->deviation});
+      return fail(rounding_keeps_off(found->deviation));
     }
     failed = n;
     constexpr double kMostGrowth = 4.0;
@@ -193,6 +218,7 @@ Result<CubicAlong> search(const CubicBuilder& builder, double tolerance) {
       failed = middle;
     }
   }
+  if (found && builder.rounding_bends(n)) return fail(rounding_keeps_off(found->deviation));
   return found;
 }
 
