@@ -328,6 +328,14 @@ def on_a_tablet(page, axe):
             serious = page.run("axe.run().then((r) => r.violations.filter((v) => ['serious', 'critical'].includes("
                                "v.impact)).map((v) => [v.id, v.nodes.map((n) => n.target.join(' ')).slice(0, 3)]))")
             check(f"axe at {width} pixels, {language}", not serious, serious)
+            page.run("window.heights = new Set(); new ResizeObserver((all) => all.forEach((e) =>"
+                     " heights.add(e.contentRect.height))).observe(document.querySelector('#drawing'))")
+            x, y = page.point(6)
+            page.drag((x, y), (x + 4, y - 3), 8)
+            page.click_on("#undo")
+            page.settled()
+            seen = page.run("[...heights]")
+            check(f"the drawing stays as it is during a drag, {width} pixels, {language}", len(seen) == 1, seen)
             page.click_on("#language")
     page.call("Emulation.clearDeviceMetricsOverride")
 
