@@ -311,6 +311,27 @@ def accessible(page, axe):
         page.click_on("#theme")
 
 
+def on_a_tablet(page, axe):
+    """Nothing is cut off at the width of a tablet, upright or not, and axe finds nothing serious."""
+    page.run(axe.read_text())
+    for width, height in ((768, 1024), (1024, 768)):
+        page.call("Emulation.setDeviceMetricsOverride", width=width, height=height, deviceScaleFactor=1,
+                  mobile=False)
+        page.wait(f"innerWidth === {width}")
+        page.run("new Promise((r) => setTimeout(r, 300))")  # the plot follows
+        for language in ("en", "uk"):
+            wide = page.run("[...document.querySelectorAll('body *')].filter((e) => e.getBoundingClientRect().right"
+                            f" > {width} + 1).map((e) => e.tagName + '#' + e.id).slice(0, 5)")
+            check(f"all within {width} pixels, {language}", not wide, wide)
+            tall = page.run("document.querySelector('#drawing').clientHeight")
+            check(f"a drawing of a third of {height} pixels, {language}", tall > height / 3, tall)
+            serious = page.run("axe.run().then((r) => r.violations.filter((v) => ['serious', 'critical'].includes("
+                               "v.impact)).map((v) => [v.id, v.nodes.map((n) => n.target.join(' ')).slice(0, 3)]))")
+            check(f"axe at {width} pixels, {language}", not serious, serious)
+            page.click_on("#language")
+    page.call("Emulation.clearDeviceMetricsOverride")
+
+
 def pictures(page, folder):
     folder.mkdir(parents=True, exist_ok=True)
     page.click(*page.point(5))
@@ -323,6 +344,10 @@ def pictures(page, folder):
     page.choose("#what", "curvature")
     page.click_on("#theme")
     page.picture(folder / "studio-uk.png")
+    page.click_on("#language")
+    page.call("Emulation.setDeviceMetricsOverride", width=768, height=1024, deviceScaleFactor=1, mobile=False)
+    page.click_on("#fit")
+    page.picture(folder / "studio-tablet.png")
 
 
 with Studio(PROGRAM, FILE) as studio, Page(studio.address) as opened:
@@ -332,6 +357,7 @@ with Studio(PROGRAM, FILE) as studio, Page(studio.address) as opened:
         sys.exit(0)
     opened.click(*opened.point(4))
     accessible(opened, AXE)
+    on_a_tablet(opened, AXE)
     for part in (controls, points, cursors, drags, undoing, files):
         part(opened)
         opened.settled()

@@ -36,7 +36,13 @@ async function saveAs(format: string): Promise<void> {
   for (const file of answer.files ?? []) save(`${base}${file.suffix}.${format}`, file.text);
 }
 
+const NEEDS_PROGRAM = /\.(step|stp|iges|igs|brep|brp)$/i;
+
 async function take(file: File): Promise<void> {
+  if (NEEDS_PROGRAM.test(file.name)) {
+    message.value = words().needsProgram.replace("{file}", file.name);
+    return;
+  }
   await open(file.name, await file.text());
   showAll();
 }
@@ -107,7 +113,8 @@ export function App() {
           </div>
           <Plot />
         </div>
-        <aside><OptionsPanel /><PointPanel /><Tables /></aside>
+        <aside><OptionsPanel /><PointPanel /><Tables />
+          {theEngine().inPage ? <p class="panel hint" id="in-page">{w.inPage}</p> : null}</aside>
       </div>
       <Tour />
     </main>

@@ -41,6 +41,8 @@ const EN = {
   tour: ["Drag a point: the contour follows and is proved again.", "Teeth show the curvature: they grow or shrink without waves.",
     "Select a point to give it a heading or a radius; the arc shows what is possible.", "The line at the top says what is proved, and what is not."],
   next: "Next", done: "Done",
+  inPage: "Computed within this page; nothing leaves it. STEP, IGES and BREP files are opened by the program obvid on your machine.",
+  needsProgram: "STEP, IGES and BREP are not opened here; form the contour with: obvid fit {file}",
 };
 
 type Words = typeof EN;
@@ -81,6 +83,8 @@ const UK: Words = {
   tour: ["Потягніть точку: обвід іде за нею і доводиться знову.", "Зубці показують кривину: вони ростуть чи спадають без хвиль.",
     "Виберіть точку, щоб задати напрям або радіус; дуга показує, що можливо.", "Рядок угорі каже, що доведено, а що ні."],
   next: "Далі", done: "Готово",
+  inPage: "Обчислено в самій сторінці; ніщо її не залишає. Файли STEP, IGES і BREP відкриває програма obvid на вашому комп’ютері.",
+  needsProgram: "STEP, IGES і BREP тут не відкриваються; обвід утворить: obvid fit {file}",
 };
 
 const ALL: Record<Language, Words> = { en: EN, uk: UK };
