@@ -1,17 +1,28 @@
 // SPDX-License-Identifier: Apache-2.0
 import { useEffect, useRef } from "preact/hooks";
-import { effect, signal } from "@preact/signals";
+import { computed, effect, signal } from "@preact/signals";
 import { withGiven, type Vec } from "../document/document";
 import {
   abandonDrag, change, combHeight, current, doc, drag, drawn, drop, fitted, hovered, insertPoint,
-  movePoint, region, removePoint, select, selected, shown,
+  movePoint, region, removePoint, select, selected, shadesRegion, shown, snaps,
 } from "../state";
-import { around, fromScreen, panned, toScreen, zoomed, type Camera } from "./camera";
-import { HANDLE, paint, tangentTip } from "./paint";
+import { around, fromScreen, gridStep, panned, toScreen, zoomed, type Camera } from "./camera";
+import { barOf, GRID, HANDLE, onBar, paint, radiusOnBar, regionOf, tangentTip } from "./paint";
 import { theme } from "./theme";
 import { words } from "../words/words";
 
 const camera = signal<Camera>({ scale: 1, x: 0, y: 0 });
+/** By how much the width of the region is drawn larger; null: there is none to be drawn. */
+export const magnification = computed(() => {
+  const curve = shadesRegion.value ? drawn.value?.curve : null, carrier = drawn.value?.report?.carrier;
+  return curve && !promisesNothing(carrier) ? regionOf(curve, camera.value).factor : null;
+});
+
+/** Curves whose curvature goes every way have no region. */
+function promisesNothing(carrier: string | undefined): boolean {
+  return carrier === "cubic" || carrier === "baseline";
+}
+
 const REACH = 2 * HANDLE; // pixels from a handle within which it is meant
 
 export function showAll(): void {
@@ -25,7 +36,7 @@ export function onScreen(p: Vec): Vec {
   return [box.left + x, box.top + y];
 }
 
-type Grip = { kind: "point" | "tangent"; index: number } | { kind: "view" };
+type Grip = { kind: "point" | "tangent" | "bend"; index: number } | { kind: "view" };
 
 export function Drawing() {
   const ref = useRef<HTMLCanvasElement>(null);
@@ -72,7 +83,8 @@ export function Drawing() {
       return;
     }
     if (held.kind === "view") camera.value = panned(camera.value, [at[0] - last.current[0], at[1] - last.current[1]]);
-    if (held.kind === "point") movePoint(held.index, fromScreen(camera.value, at));
+    if (held.kind === "point") movePoint(held.index, snapped(fromScreen(camera.value, at)));
+    if (held.kind === "bend") bend(held.index, at);
     if (held.kind === "tangent") turn(held.index, at);
     last.current = at;
   };
@@ -105,6 +117,8 @@ function scene() {
     grey: !answer?.curve, error: current.value ? answer?.error ?? null : null,
     selected: at, hovered: hovered.value, shown: shown.value, combHeight: combHeight.value,
     region: points[0] ?? null, stale: found?.of !== doc.value, units: doc.value.units,
+    noise: typeof doc.value.options.noise === "number" ? doc.value.options.noise : 0,
+    shadesRegion: shadesRegion.value && !promisesNothing(drawn.value?.report?.carrier),
   };
 }
 
@@ -113,6 +127,8 @@ function gripAt(at: Vec): Grip {
   if (s.selected !== null) {
     const tip = tangentTip(s, s.selected);
     if (tip && Math.hypot(tip[0] - at[0], tip[1] - at[1]) < REACH) return { kind: "tangent", index: s.selected };
+    const bar = barOf(s, s.selected), square = bar ? onBar(bar, bar.kappa) : null;
+    if (square && Math.hypot(square[0] - at[0], square[1] - at[1]) < REACH) return { kind: "bend", index: s.selected };
   }
   let best = REACH, index = -1;
   s.doc.points.forEach((p, i) => {
@@ -128,6 +144,19 @@ function turn(index: number, at: Vec): void {
   const [x, y] = toScreen(camera.value, p);
   const heading = Math.round((Math.atan2(y - at[1], at[0] - x) * 180) / Math.PI * 10) / 10;
   drag(withGiven(doc.value, index, { ...doc.value.given[index], heading }));
+}
+
+function bend(index: number, at: Vec): void {
+  const bar = barOf(scene(), index);
+  if (bar) drag(withGiven(doc.value, index, { ...doc.value.given[index], radius: radiusOnBar(bar, at) }));
+}
+
+/** On a tenth of the grid, where that is asked for. */
+function snapped(p: Vec): Vec {
+  if (!snaps.value) return p;
+  const step = gridStep(camera.value, GRID) / 10, places = Math.max(0, 1 - Math.floor(Math.log10(step)));
+  return [Number((Math.round(p[0] / step) * step).toFixed(Math.min(100, places))),
+    Number((Math.round(p[1] / step) * step).toFixed(Math.min(100, places)))];
 }
 
 /** Between the two neighbours that it lies nearest to; beyond an end, at that end. */

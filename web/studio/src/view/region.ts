@@ -82,28 +82,49 @@ export interface Magnified {
   readonly outlines: readonly Vec[][];
 }
 
+interface Offset {
+  readonly p: Vec;
+  readonly n: Vec;
+  readonly away: number;
+}
+interface Measured {
+  readonly sides: readonly (readonly Offset[][])[];
+  readonly widest: number;
+}
+const known = new WeakMap<Curve, Measured>(); // a curve is drawn in many frames
+
+function measured(curve: Curve): Measured {
+  const before = known.get(curve);
+  if (before) return before;
+  let widest = 0;
+  const sides: Offset[][][] = [];
+  regions(curve).forEach((both, piece) => {
+    if (!both) return;
+    sides.push(both.map((side) => side.map((q) => {
+      const found = offset(curve, piece, q);
+      widest = Math.max(widest, Math.abs(found.away));
+      return found;
+    })));
+  });
+  const now = { sides, widest };
+  known.set(curve, now);
+  return now;
+}
+
 /** Regions so far from the contour that the widest is as wide as asked for, in the same units. */
 export function magnified(curve: Curve, wanted: number): Magnified {
-  const all = regions(curve);
-  let widest = 0;
-  const offsets = all.map((sides, piece) => sides?.map((side) => side.map((q) => {
-    const found = offset(curve, piece, q);
-    widest = Math.max(widest, Math.abs(found.away));
-    return found;
-  })));
+  const { sides, widest } = measured(curve);
   const factor = widest > 0 ? nice(wanted / widest) : 1;
-  const outlines: Vec[][] = [];
-  for (const sides of offsets) {
-    if (!sides) continue;
-    const [one, other] = sides.map((side) => side.map(({ p, n, away }): Vec =>
+  const outlines = sides.map((both) => {
+    const [one, other] = both.map((side) => side.map(({ p, n, away }): Vec =>
       [p[0] + factor * away * n[0], p[1] + factor * away * n[1]]));
-    outlines.push([...one!, ...other!.reverse()]);
-  }
+    return [...one!, ...other!.reverse()];
+  });
   return { factor, outlines };
 }
 
 /** The place of a piece that a point lies beside, and how far to the left. */
-function offset(curve: Curve, piece: number, q: Vec): { p: Vec; n: Vec; away: number } {
+function offset(curve: Curve, piece: number, q: Vec): Offset {
   const first = piece * curve.samples, last = first + curve.samples - 1;
   let best = Infinity, at = first, p: Vec = q;
   for (let i = first; i < last; ++i) {
