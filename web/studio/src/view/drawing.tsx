@@ -7,7 +7,7 @@ import {
   movePoint, region, removePoint, select, selected, shadesRegion, shown, snaps,
 } from "../state";
 import { around, fromScreen, gridStep, panned, toScreen, zoomed, type Camera } from "./camera";
-import { barOf, GRID, HANDLE, onBar, paint, radiusOnBar, regionOf, tangentTip } from "./paint";
+import { barOf, GRID, HANDLE, kappaAt, onBar, paint, radiusOnBar, regionOf, tangentTip, type Bar } from "./paint";
 import { theme } from "./theme";
 import { words } from "../words/words";
 
@@ -23,6 +23,8 @@ function promisesNothing(carrier: string | undefined): boolean {
   return carrier === "cubic" || carrier === "baseline";
 }
 
+/** The bar of curvatures that is dragged along stays as it was. */
+const held = signal<Bar | null>(null);
 const REACH = 2 * HANDLE; // pixels from a handle within which it is meant
 
 export function showAll(): void {
@@ -36,7 +38,15 @@ export function onScreen(p: Vec): Vec {
   return [box.left + x, box.top + y];
 }
 
-type Grip = { kind: "point" | "tangent" | "bend"; index: number } | { kind: "view" };
+/** Where a curvature stands on the bar of the selected point, pixels of the window. */
+export function bendPlace(kappa?: number): Vec | null {
+  const { bar } = scene();
+  if (!bar) return null;
+  const box = document.querySelector("#drawing")!.getBoundingClientRect(), [x, y] = onBar(bar, kappa ?? bar.kappa);
+  return [box.left + x, box.top + y];
+}
+
+type Grip = { kind: "point" | "tangent"; index: number } | { kind: "bend"; index: number; bar: Bar } | { kind: "view" };
 
 export function Drawing() {
   const ref = useRef<HTMLCanvasElement>(null);
@@ -73,6 +83,7 @@ export function Drawing() {
     canvas.focus();
     canvas.setPointerCapture(e.pointerId);
     grip.current = gripAt(at);
+    held.value = grip.current.kind === "bend" ? grip.current.bar : null;
     last.current = at;
     if (grip.current.kind === "point") select(grip.current.index);
   };
@@ -84,13 +95,14 @@ export function Drawing() {
     }
     if (held.kind === "view") camera.value = panned(camera.value, [at[0] - last.current[0], at[1] - last.current[1]]);
     if (held.kind === "point") movePoint(held.index, snapped(fromScreen(camera.value, at)));
-    if (held.kind === "bend") bend(held.index, at);
+    if (held.kind === "bend") bend(held.index, held.bar, at);
     if (held.kind === "tangent") turn(held.index, at);
     last.current = at;
   };
   const up = () => {
     if (grip.current && grip.current.kind !== "view") drop();
     grip.current = null;
+    held.value = null;
   };
   const twice = (e: MouseEvent) => {
     const at = place(ref.current!, e);
@@ -99,7 +111,7 @@ export function Drawing() {
   return (
     <canvas id="drawing" ref={ref} tabIndex={0} role="application" aria-label={words().title}
       onPointerDown={down} onPointerMove={move} onPointerUp={up}
-      onPointerCancel={() => { grip.current = null; abandonDrag(); }}
+      onPointerCancel={() => { grip.current = null; held.value = null; abandonDrag(); }}
       onPointerLeave={() => { hovered.value = null; }} onDblClick={twice} onKeyDown={key} />
   );
 }
@@ -112,7 +124,10 @@ function place(canvas: HTMLCanvasElement, e: MouseEvent): Vec {
 function scene() {
   const at = selected.value, found = region.value, answer = fitted.value?.answer;
   const points = at === null || !found ? [] : found.points.filter((p) => p.index === at);
+  const curve = drawn.value?.curve ?? null;
   return {
+    bar: held.value ? { ...held.value, kappa: kappaAt(doc.value, at!, curve) ?? held.value.kappa }
+      : at === null ? null : barOf({ doc: doc.value, camera: camera.value, curve, region: points[0] ?? null }, at),
     doc: doc.value, camera: camera.value, curve: drawn.value?.curve ?? null,
     grey: !answer?.curve, error: current.value ? answer?.error ?? null : null,
     selected: at, hovered: hovered.value, shown: shown.value, combHeight: combHeight.value,
@@ -124,18 +139,17 @@ function scene() {
 
 function gripAt(at: Vec): Grip {
   const s = scene();
+  let best = REACH, found: Grip = { kind: "view" };
+  const offer = (p: Vec | null, grip: Grip) => {
+    const away = p ? Math.hypot(p[0] - at[0], p[1] - at[1]) : Infinity;
+    if (away < best) [best, found] = [away, grip];
+  };
+  s.doc.points.forEach((p, index) => offer(toScreen(s.camera, p), { kind: "point", index }));
   if (s.selected !== null) {
-    const tip = tangentTip(s, s.selected);
-    if (tip && Math.hypot(tip[0] - at[0], tip[1] - at[1]) < REACH) return { kind: "tangent", index: s.selected };
-    const bar = barOf(s, s.selected), square = bar ? onBar(bar, bar.kappa) : null;
-    if (square && Math.hypot(square[0] - at[0], square[1] - at[1]) < REACH) return { kind: "bend", index: s.selected };
+    offer(tangentTip(s, s.selected), { kind: "tangent", index: s.selected });
+    if (s.bar) offer(onBar(s.bar, s.bar.kappa), { kind: "bend", index: s.selected, bar: s.bar });
   }
-  let best = REACH, index = -1;
-  s.doc.points.forEach((p, i) => {
-    const [x, y] = toScreen(s.camera, p), d = Math.hypot(x - at[0], y - at[1]);
-    if (d < best) [best, index] = [d, i];
-  });
-  return index < 0 ? { kind: "view" } : { kind: "point", index };
+  return found;
 }
 
 function turn(index: number, at: Vec): void {
@@ -146,9 +160,8 @@ function turn(index: number, at: Vec): void {
   drag(withGiven(doc.value, index, { ...doc.value.given[index], heading }));
 }
 
-function bend(index: number, at: Vec): void {
-  const bar = barOf(scene(), index);
-  if (bar) drag(withGiven(doc.value, index, { ...doc.value.given[index], radius: radiusOnBar(bar, at) }));
+function bend(index: number, bar: Bar, at: Vec): void {
+  drag(withGiven(doc.value, index, { ...doc.value.given[index], radius: radiusOnBar(bar, at) }));
 }
 
 /** On a tenth of the grid, where that is asked for. */

@@ -13,7 +13,7 @@ export const HANDLE = 6;       // pixels: radius of points
 export const GRID = 80;        // least distance of its lines
 export const TANGENT = 64;     // length of the handle of a heading
 const BACK = 34;               // from the point to the bar of its curvature
-const USUAL_BEND = 45;         // height of a usual curvature on that bar
+const LARGEST_BEND = 60;       // height of the largest of what is and what is possible on that bar
 const MOST_BEND = 90;
 const REGION_WIDTH = 26;       // of the widest region, as it is drawn
 const COMB_SHARE = 0.13;       // of the smaller side of the canvas
@@ -35,6 +35,8 @@ export interface Scene {
   /** How far points may move, in units; 0: they are met. */
   readonly noise: number;
   readonly shadesRegion: boolean;
+  /** Of the selected point. */
+  readonly bar: Bar | null;
 }
 
 /** Distances from the contour to the boundaries, and by how much they are drawn larger. */
@@ -228,6 +230,14 @@ export function headingAt(doc: Document, index: number, curve: Curve | null): nu
   return i === null ? null : curve!.heading[i]!;
 }
 
+/** Curvature at a point: as given, else of the contour. */
+export function kappaAt(doc: Document, index: number, curve: Curve | null): number | null {
+  const given = doc.given[index]?.radius;
+  if (given !== undefined) return 1 / given;
+  const i = sampleAt(doc, index, curve);
+  return i === null ? null : curve!.kappa[i]!;
+}
+
 /** The bar of curvatures behind a point: where 0 stands, the way in which they grow, pixels of one. */
 export interface Bar {
   readonly zero: Vec;
@@ -236,17 +246,18 @@ export interface Bar {
   readonly kappa: number;
 }
 
-export function barOf(s: Pick<Scene, "doc" | "camera" | "curve">, index: number): Bar | null {
-  const p = s.doc.points[index], heading = headingAt(s.doc, index, s.curve), i = sampleAt(s.doc, index, s.curve);
-  if (!p || heading === null || i === null) return null;
-  const usual = usualSize(s.curve!.kappa), given = s.doc.given[index]?.radius;
-  if (!(usual > 0)) return null;
+export function barOf(s: Pick<Scene, "doc" | "camera" | "curve" | "region">, index: number): Bar | null {
+  const p = s.doc.points[index], heading = headingAt(s.doc, index, s.curve), kappa = kappaAt(s.doc, index, s.curve);
+  if (!p || heading === null || kappa === null || !s.curve) return null;
+  const sizes = [kappa, s.region?.kappa_low ?? 0, s.region?.kappa_high ?? 0].map(Math.abs);
+  const largest = Math.max(...sizes) || usualSize(s.curve.kappa);
+  if (!(largest > 0)) return null;
   const [x, y] = toScreen(s.camera, p);
   return {
     zero: [x - BACK * Math.cos(heading), y + BACK * Math.sin(heading)],
     way: [-Math.sin(heading), -Math.cos(heading)],
-    scale: USUAL_BEND / usual,
-    kappa: given === undefined ? s.curve!.kappa[i]! : 1 / given,
+    scale: LARGEST_BEND / largest,
+    kappa,
   };
 }
 
@@ -264,7 +275,7 @@ export function radiusOnBar(bar: Bar, at: Vec): number {
 /** The curvature at the selected point on its bar; thick: what is possible. */
 function bends(c: CanvasRenderingContext2D, s: Scene): void {
   if (s.selected === null) return;
-  const bar = barOf(s, s.selected);
+  const bar = s.bar;
   if (!bar) return;
   const stroke = (from: number, to: number, width: number) => {
     const a = onBar(bar, from), b = onBar(bar, to);
