@@ -306,6 +306,39 @@ def shades(page):
     page.settled()
 
 
+def below(page):
+    """A picture below the points, its scale by two clicks; an earlier contour beside the one drawn."""
+    page.run("""(async () => { const c = document.createElement('canvas'); c.width = 200; c.height = 100;
+      c.getContext('2d').fillRect(10, 10, 50, 50);
+      const blob = await new Promise((r) => c.toBlob(r, 'image/png')), data = new DataTransfer();
+      data.items.add(new File([blob], 'scan.png', {type: 'image/png'}));
+      document.querySelector('main').dispatchEvent(
+        new DragEvent('drop', {dataTransfer: data, bubbles: true, cancelable: true})); })()""")
+    page.wait("document.querySelector('#scale')")
+    check("points stay", page.doc()["points"] == series10(ROOT))
+    unit = page.run("studio.picture.value.unit")
+    page.click_on("#scale")
+    for index in (0, 9):
+        page.click(*page.point(index))
+    page.wait("document.querySelector('#length')")
+    page.write("#length", "40")
+    page.wait(f"studio.picture.value.unit !== {unit!r}")
+    by = page.run("studio.picture.value.unit") / unit
+    check("two clicks and a length are the scale", abs(by * math.dist(series10(ROOT)[0], series10(ROOT)[9]) - 40) < 0.5, by)
+    page.click_on("#no-picture")
+    page.wait("!document.querySelector('#scale')")
+    page.click_on("#keep")
+    page.wait("document.querySelector('#apart')?.textContent.includes(' 0 ')")
+    start = page.point(4)
+    page.drag(start, (start[0] + 12, start[1]))
+    away = float(page.run("document.querySelector('#apart').textContent").split()[-2])
+    moved = math.dist(page.doc()["points"][4], series10(ROOT)[4])
+    check("how far apart", 0.2 * moved < away <= 1.5 * moved, (away, moved))
+    page.click_on("#undo")
+    page.click_on("#keep")
+    page.settled()
+
+
 def bend(three):
     (ax, ay), (bx, by), (cx, cy) = three
     turn = (bx - ax) * (cy - by) - (by - ay) * (cx - bx)
@@ -437,7 +470,7 @@ with Studio(PROGRAM, FILE) as studio, Page(studio.address) as opened:
     opened.click(*opened.point(4))
     accessible(opened, AXE)
     on_a_tablet(opened, AXE)
-    for part in (controls, points, bends, shades, cursors, drags, undoing, files):
+    for part in (controls, points, bends, shades, below, cursors, drags, undoing, files):
         part(opened)
         opened.settled()
     check("no error in the page", not opened.trouble, opened.trouble[:3])

@@ -9,6 +9,7 @@ import {
 import { around, fromScreen, gridStep, panned, toScreen, zoomed, type Camera } from "./camera";
 import { barOf, GRID, HANDLE, kappaAt, onBar, paint, radiusOnBar, regionOf, tangentTip, type Bar } from "./paint";
 import { theme } from "./theme";
+import { kept, picture, scaling } from "./underlay";
 import { words } from "../words/words";
 
 const camera = signal<Camera>({ scale: 1, x: 0, y: 0 });
@@ -30,6 +31,15 @@ const REACH = 2 * HANDLE; // pixels from a handle within which it is meant
 export function showAll(): void {
   const canvas = document.querySelector<HTMLCanvasElement>("#drawing");
   if (canvas) camera.value = around(doc.value.points, canvas.clientWidth, canvas.clientHeight);
+}
+
+/** Lays a picture below the drawing, as large as that. */
+export async function layPicture(file: File): Promise<void> {
+  const canvas = document.querySelector<HTMLCanvasElement>("#drawing"), image = await createImageBitmap(file);
+  if (!canvas) return;
+  const fill = 0.9 * Math.min(canvas.clientWidth / image.width, canvas.clientHeight / image.height);
+  const corner: Vec = [(canvas.clientWidth - fill * image.width) / 2, (canvas.clientHeight - fill * image.height) / 2];
+  picture.value = { image, at: fromScreen(camera.value, corner), unit: fill / camera.value.scale };
 }
 
 /** Where a point of the document lies in the window, pixels. */
@@ -82,6 +92,11 @@ export function Drawing() {
     const canvas = ref.current!, at = place(canvas, e);
     canvas.focus();
     canvas.setPointerCapture(e.pointerId);
+    if (scaling.value && scaling.value.length < 2) {
+      scaling.value = [...scaling.value, fromScreen(camera.value, at)];
+      grip.current = null;
+      return;
+    }
     grip.current = gripAt(at);
     held.value = grip.current.kind === "bend" ? grip.current.bar : null;
     last.current = at;
@@ -133,6 +148,7 @@ function scene() {
     selected: at, hovered: hovered.value, shown: shown.value, combHeight: combHeight.value,
     region: points[0] ?? null, stale: found?.of !== doc.value, units: doc.value.units,
     noise: typeof doc.value.options.noise === "number" ? doc.value.options.noise : 0,
+    picture: picture.value, scaling: scaling.value, kept: kept.value,
     shadesRegion: shadesRegion.value && !promisesNothing(drawn.value?.report?.carrier),
   };
 }

@@ -7,6 +7,7 @@ import type { Shown } from "../state";
 import { gridStep, toScreen, type Camera } from "./camera";
 import { marks, usualSize, values } from "./comb";
 import { magnified } from "./region";
+import type { Picture } from "./underlay";
 import { figure } from "../words/figures";
 
 export const HANDLE = 6;       // pixels: radius of points
@@ -37,6 +38,11 @@ export interface Scene {
   readonly shadesRegion: boolean;
   /** Of the selected point. */
   readonly bar: Bar | null;
+  readonly picture: Picture | null;
+  /** Places clicked to tell its scale. */
+  readonly scaling: readonly Vec[] | null;
+  /** An earlier contour. */
+  readonly kept: Curve | null;
 }
 
 /** Distances from the contour to the boundaries, and by how much they are drawn larger. */
@@ -68,7 +74,9 @@ export function paint(canvas: HTMLCanvasElement, scene: Scene): void {
   }
   context.setTransform(ratio, 0, 0, ratio, 0, 0);
   context.clearRect(0, 0, width, height);
+  picture(context, scene);
   grid(context, scene, width, height);
+  if (scene.kept) line(context, scene, scene.kept, () => colour("faint"), 1.4);
   if (scene.curve && scene.shadesRegion && !scene.grey) shade(context, scene, scene.curve);
   discs(context, scene);
   if (scene.curve) {
@@ -155,13 +163,31 @@ function comb(c: CanvasRenderingContext2D, s: Scene, curve: Curve, high: number)
   c.stroke();
 }
 
+function picture(c: CanvasRenderingContext2D, s: Scene): void {
+  if (!s.picture) return;
+  const { image, at: corner, unit } = s.picture, [x, y] = toScreen(s.camera, corner), scale = unit * s.camera.scale;
+  c.globalAlpha = 0.55;
+  c.drawImage(image, x, y, scale * image.width, scale * image.height);
+  c.globalAlpha = 1;
+  c.strokeStyle = colour("accent");
+  c.lineWidth = 2;
+  for (const p of s.scaling ?? []) {
+    const [px, py] = toScreen(s.camera, p);
+    c.beginPath(); c.moveTo(px - 7, py); c.lineTo(px + 7, py); c.moveTo(px, py - 7); c.lineTo(px, py + 7); c.stroke();
+  }
+}
+
 function contour(c: CanvasRenderingContext2D, s: Scene, curve: Curve): void {
+  line(c, s, curve, (slope) => (s.grey ? colour("faint") : colour(slope >= 0 ? "rising" : "falling")), 2.4);
+}
+
+function line(c: CanvasRenderingContext2D, s: Scene, curve: Curve, tint: (slope: number) => string, width: number): void {
   const each = curve.samples;
-  c.lineWidth = 2.4;
+  c.lineWidth = width;
   c.lineJoin = c.lineCap = "round";
   for (let piece = 0; piece < curve.pieces; ++piece) {
     const first = piece * each, middle = first + (each >> 1);
-    c.strokeStyle = s.grey ? colour("faint") : colour(curve.slope[middle]! >= 0 ? "rising" : "falling");
+    c.strokeStyle = tint(curve.slope[middle]!);
     c.beginPath();
     for (let k = 0; k < each; ++k) {
       const p = at(curve, s.camera, first + k);

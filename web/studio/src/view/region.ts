@@ -123,9 +123,27 @@ export function magnified(curve: Curve, wanted: number): Magnified {
   return { factor, outlines };
 }
 
+const MOST_PLACES = 400; // of a curve whose distance from another is measured
+
+/** Largest distance of some places of a curve from another one. */
+export function largestDistance(of: Curve, from: Curve): number {
+  const n = of.t.length, step = Math.max(1, Math.floor(n / MOST_PLACES));
+  let most = 0;
+  for (let i = 0; i < n; i += step) {
+    const q: Vec = [of.xy[2 * i]!, of.xy[2 * i + 1]!], { p } = nearest(from, 0, from.t.length - 1, q);
+    most = Math.max(most, Math.hypot(q[0] - p[0], q[1] - p[1]));
+  }
+  return most;
+}
+
 /** The place of a piece that a point lies beside, and how far to the left. */
 function offset(curve: Curve, piece: number, q: Vec): Offset {
-  const first = piece * curve.samples, last = first + curve.samples - 1;
+  const first = piece * curve.samples;
+  return nearest(curve, first, first + curve.samples - 1, q);
+}
+
+/** The nearest place between two samples. */
+function nearest(curve: Curve, first: number, last: number, q: Vec): Offset {
   let best = Infinity, at = first, p: Vec = q;
   for (let i = first; i < last; ++i) {
     const a: Vec = [curve.xy[2 * i]!, curve.xy[2 * i + 1]!], d = minus([curve.xy[2 * i + 2]!, curve.xy[2 * i + 3]!], a);
