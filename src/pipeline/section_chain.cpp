@@ -544,9 +544,12 @@ class SectionChooser {
           "without "
           "them");
     }
+    const bool searched = is_node_each(faired, measured.points.size());
     measured.primitives = false;
     measured.thin = false;
-    if (auto chain = follow_runs(measured, faired)) return std::move(*chain);
+    if (!searched) {
+      if (auto chain = follow_runs(measured, faired)) return std::move(*chain);
+    }
     if (goes_on_) return around_loop();
     out_.warnings.emplace_back(
         "the points were moved within their tolerances onto a smooth curve, but runs of monotone "
@@ -571,6 +574,14 @@ class SectionChooser {
     }
     const auto analysis = analyse(points);
     return analysis && is_one_circle(points, *analysis, all);
+  }
+
+  /// Whether every point was a node of its own, and none on a line or arc.
+  static bool is_node_each(const FairedSeries& faired, std::size_t points) {
+    const auto nodes = static_cast<std::size_t>(
+        std::count_if(faired.source.begin(), faired.source.end(),
+                      [](const auto& source) { return source.has_value(); }));
+    return faired.primitives == 0 && nodes == points;
   }
 
   /// Nothing when no runs were found, or no chain along them.

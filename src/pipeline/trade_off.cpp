@@ -17,7 +17,7 @@ constexpr int kRows = 8;
 constexpr double kLargest = 0.01;  // of the size
 /// No further trial begins when so many steps on every point, and some more where there are few,
 /// were spent.
-constexpr double kTrialSteps = 1e4, kSpareTrials = 2e6;
+constexpr double kTrialSteps = 5e3, kSpareTrials = 2e6;
 constexpr const char* kNotTried = "not tried: the search ended at its limit of work";
 constexpr double kLeastSpan = 10.0;  // where the file is printed coarsely: largest / smallest
 
