@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "interrupt.h"
-#include "obvid/io/read_points.h"
+#include "obvid/pipeline/import.h"
 #include "obvid/pipeline/refusal.h"
 #include "obvid/pipeline/report_json.h"
 #include "obvid/pipeline/trade_off.h"
@@ -100,7 +100,8 @@ int suggest(const FitOptions& options) {
   ProgressBar bar(options.progress && !options.quiet);
   bar.tell("reading", 0.0);
   Result<PointSeries> series =
-      options.text ? parse_points(*options.text, options.name()) : read_points(options.input);
+      options.text ? parse_series(*options.text, options.name(), options.import)
+                   : read_series(options.input, options.import);
   if (series && options.units) take_units(*series, *options.units);
   TradeOff finished;
   const Result<TradeOff> found = series.and_then([&](const PointSeries& s) {

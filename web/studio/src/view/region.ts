@@ -82,29 +82,68 @@ export interface Magnified {
   readonly outlines: readonly Vec[][];
 }
 
+interface Offset {
+  readonly p: Vec;
+  readonly n: Vec;
+  readonly away: number;
+}
+interface Measured {
+  readonly sides: readonly (readonly Offset[][])[];
+  readonly widest: number;
+}
+const known = new WeakMap<Curve, Measured>(); // a curve is drawn in many frames
+
+function measured(curve: Curve): Measured {
+  const before = known.get(curve);
+  if (before) return before;
+  let widest = 0;
+  const sides: Offset[][][] = [];
+  regions(curve).forEach((both, piece) => {
+    if (!both) return;
+    sides.push(both.map((side) => side.map((q) => {
+      const found = offset(curve, piece, q);
+      widest = Math.max(widest, Math.abs(found.away));
+      return found;
+    })));
+  });
+  const now = { sides, widest };
+  known.set(curve, now);
+  return now;
+}
+
 /** Regions so far from the contour that the widest is as wide as asked for, in the same units. */
 export function magnified(curve: Curve, wanted: number): Magnified {
-  const all = regions(curve);
-  let widest = 0;
-  const offsets = all.map((sides, piece) => sides?.map((side) => side.map((q) => {
-    const found = offset(curve, piece, q);
-    widest = Math.max(widest, Math.abs(found.away));
-    return found;
-  })));
+  const { sides, widest } = measured(curve);
   const factor = widest > 0 ? nice(wanted / widest) : 1;
-  const outlines: Vec[][] = [];
-  for (const sides of offsets) {
-    if (!sides) continue;
-    const [one, other] = sides.map((side) => side.map(({ p, n, away }): Vec =>
+  const outlines = sides.map((both) => {
+    const [one, other] = both.map((side) => side.map(({ p, n, away }): Vec =>
       [p[0] + factor * away * n[0], p[1] + factor * away * n[1]]));
-    outlines.push([...one!, ...other!.reverse()]);
-  }
+    return [...one!, ...other!.reverse()];
+  });
   return { factor, outlines };
 }
 
+const MOST_PLACES = 400; // of a curve whose distance from another is measured
+
+/** Largest distance of some places of a curve from another one. */
+export function largestDistance(of: Curve, from: Curve): number {
+  const n = of.t.length, step = Math.max(1, Math.floor(n / MOST_PLACES));
+  let most = 0;
+  for (let i = 0; i < n; i += step) {
+    const q: Vec = [of.xy[2 * i]!, of.xy[2 * i + 1]!], { p } = nearest(from, 0, from.t.length - 1, q);
+    most = Math.max(most, Math.hypot(q[0] - p[0], q[1] - p[1]));
+  }
+  return most;
+}
+
 /** The place of a piece that a point lies beside, and how far to the left. */
-function offset(curve: Curve, piece: number, q: Vec): { p: Vec; n: Vec; away: number } {
-  const first = piece * curve.samples, last = first + curve.samples - 1;
+function offset(curve: Curve, piece: number, q: Vec): Offset {
+  const first = piece * curve.samples;
+  return nearest(curve, first, first + curve.samples - 1, q);
+}
+
+/** The nearest place between two samples. */
+function nearest(curve: Curve, first: number, last: number, q: Vec): Offset {
   let best = Infinity, at = first, p: Vec = q;
   for (let i = first; i < last; ++i) {
     const a: Vec = [curve.xy[2 * i]!, curve.xy[2 * i + 1]!], d = minus([curve.xy[2 * i + 2]!, curve.xy[2 * i + 3]!], a);
