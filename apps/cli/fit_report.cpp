@@ -71,9 +71,8 @@ Table fit_segments(const Fit& fit) {
 
 std::string fairness_text(const FitReport& report) {
   return fmt::format(
-      "{} (the points force at least {}), {}",
-      counted(static_cast<std::size_t>(report.vertices), "vertex", "vertices"),
-      report.vertices_lower_bound,
+      "{} ({}), {}", counted(static_cast<std::size_t>(report.vertices), "vertex", "vertices"),
+      bound_text(report.vertices_lower_bound),
       counted(static_cast<std::size_t>(report.inflections), "inflection", "inflections"));
 }
 
@@ -268,15 +267,23 @@ Facts summary(const Fit& fit, const Written& written) {
 
 }  // namespace
 
+std::string bound_text(int bound) {
+  return fmt::format("at least {} unless a curve winds between the points", bound);
+}
+
 void add_gaps(Facts& facts, const Certificate& certificate, Carrier carrier) {
   const JointGaps& gaps = certificate.gaps;
   std::string text = fmt::format("position {} of the size, heading {} rad",
                                  significant(gaps.position, 2), significant(gaps.heading, 2));
-  text += carrier == Carrier::kArcs
-              ? fmt::format("; curvature steps up to {} (arcs)", significant(gaps.curvature, 2))
-          : !std::isfinite(gaps.curvature)
-              ? ", curvature unknown"
-              : fmt::format(", curvature {} of the larger", significant(gaps.curvature, 2));
+  if (carrier == Carrier::kArcs) {
+    // where the curvature is drawn to step, the verdict tells it
+    if (gaps.curvature > 0.0)
+      text += fmt::format("; curvature steps up to {} (arcs)", significant(gaps.curvature, 2));
+  } else if (!std::isfinite(gaps.curvature)) {
+    text += ", curvature unknown";
+  } else {
+    text += fmt::format(", curvature {} of the larger", significant(gaps.curvature, 2));
+  }
   if (gaps.slope) text += fmt::format(", slope of curvature {}", significant(*gaps.slope, 2));
   facts.add("joint gaps", text);
 }

@@ -17,6 +17,9 @@ namespace obvid {
 /// The last line: what is proved, or why not.
 [[nodiscard]] std::string verdict_line(Carrier carrier, const Certificate& certificate);
 
+/// What the points force, and on which curves (docs/claims.md, `vertices_lower_bound`).
+[[nodiscard]] std::string bound_text(int bound);
+
 /// Lines about joint gaps, vertices and the like that `fit` and `verify` share.
 class Facts;
 void add_gaps(Facts& facts, const Certificate& certificate, Carrier carrier);

@@ -166,6 +166,15 @@ void add_import(CLI::App& command, FormatValues& values) {
       ->group(group);
 }
 
+void add_plot(CLI::App& command, FormatValues& values, const std::string& group) {
+  command
+      .add_option("--plot", values.plot,
+                  "What a picture shows over arc length beside the radius: curvature, or slope: "
+                  "d kappa/ds too [curvature]")
+      ->type_name("NAME")
+      ->group(group);
+}
+
 void add_formats(CLI::App& command, FormatValues& values) {
   const char* group = "Output formats";
   command
@@ -210,12 +219,7 @@ void add_formats(CLI::App& command, FormatValues& values) {
                   "plotters [picture]")
       ->type_name("NAME")
       ->group(group);
-  command
-      .add_option("--plot", values.plot,
-                  "What a picture shows over arc length beside the radius: curvature, or slope: "
-                  "d kappa/ds too [curvature]")
-      ->type_name("NAME")
-      ->group(group);
+  add_plot(command, values, group);
   command.add_option("--step", values.step, "Schema of STEP files: ap214 or ap242 [ap214]")
       ->type_name("NAME")
       ->group(group);
@@ -303,6 +307,7 @@ void add_readers(CLI::App& app, Raw& raw) {
       ->allow_extra_args(false);
   add_import(analyse, raw.formats);
   analyse.add_option("--units", raw.units, kUnitsHelp)->type_name("NAME");
+  add_plot(analyse, raw.formats, "Pictures");
   analyse.add_flag("--json", raw.analyse.json, "JSON on standard output instead of the table");
 }
 
@@ -551,6 +556,7 @@ Result<Command> checked_convert(Raw& raw) {
 
 Result<Command> checked_analyse(Raw& raw) {
   if (auto done = set_import(raw.formats, raw.analyse.import); !done) return fail(done.error());
+  if (auto done = set_plots(raw.formats, raw.analyse.plots); !done) return fail(done.error());
   return checked_points(raw.analyse, raw, "analyse");
 }
 

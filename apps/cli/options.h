@@ -54,6 +54,7 @@ struct AnalyseOptions {
   std::string input;
   std::vector<std::string> outputs;
   ImportOptions import;
+  PicturePlots plots;
   std::optional<Units> units;
   bool json = false;
 };

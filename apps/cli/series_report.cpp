@@ -8,6 +8,7 @@
 #include <numbers>
 #include <optional>
 
+#include "fit_report.h"
 #include "table.h"
 #include "terminal.h"
 #include "text.h"
@@ -64,8 +65,8 @@ std::string runs_text(const Analysis& analysis) {
   return text;
 }
 
-std::string bound_text(int now, int bound) {
-  return fmt::format("{} (any smooth curve: at least {})", now, bound);
+std::string with_bound(int now, int bound) {
+  return fmt::format("{} ({})", now, bound_text(bound));
 }
 
 }  // namespace
@@ -76,8 +77,8 @@ std::string series_report_text(const PointSeries& series, const Analysis& analys
   Facts facts;
   facts.add("size", significant(analysis.size) + " " + series.units.text());
   facts.add("curvature", runs_text(analysis));
-  facts.add("vertices", bound_text(analysis.vertices, analysis.vertices_lower_bound));
-  facts.add("inflections", bound_text(analysis.inflections, analysis.inflections_lower_bound));
+  facts.add("vertices", with_bound(analysis.vertices, analysis.vertices_lower_bound));
+  facts.add("inflections", with_bound(analysis.inflections, analysis.inflections_lower_bound));
   facts.add("largest turning", significant(degrees(analysis.largest_turning), 4) + " degrees");
   for (const CircularStretch& stretch : analysis.stretches) {
     facts.add(stretch.kappa == 0.0 ? "straight" : "circular",

@@ -36,10 +36,9 @@ std::string direction_words(Vec3 d) {
 std::string bends_words(const Fit& part) {
   const FitReport& report = part.report;
   return fmt::format(
-      "{}, {} (the points force at least {}), {}",
-      counted(part.contour.pieces.size(), "piece", "pieces"),
+      "{}, {} ({}), {}", counted(part.contour.pieces.size(), "piece", "pieces"),
       counted(static_cast<std::size_t>(report.vertices), "vertex", "vertices"),
-      report.vertices_lower_bound,
+      bound_text(report.vertices_lower_bound),
       counted(static_cast<std::size_t>(report.inflections), "inflection", "inflections"));
 }
 

@@ -111,13 +111,12 @@ std::string toolpath_text(const Made& made, const std::vector<std::string>& file
     return std::isfinite(most) ? fmt::format(fmt::runtime(words), significant(most, 3))
                                : std::string("no bound is known");
   };
-  facts.add("scallop",
-            fmt::format("{} where the cutter reaches, at {}; {}",
-                        std::isfinite(r.scallop.found)
-                            ? fmt::format("{} {}", significant(r.scallop.found, 3), unit)
-                            : std::string("unbounded"),
-                        toolpath_place(r.scallop.place),
-                        bound("{} nowhere exceeded", r.scallop.most)));
+  facts.add("scallop", fmt::format("{} where the cutter reaches, at {}; {}",
+                                   std::isfinite(r.scallop.found)
+                                       ? fmt::format("{} {}", significant(r.scallop.found, 3), unit)
+                                       : std::string("unbounded"),
+                                   toolpath_place(r.scallop.place),
+                                   bound("{} nowhere exceeded", r.scallop.most)));
   facts.add("gouges", fmt::format("{} {} the deepest found, {}; avoided by lifting at {} points",
                                   significant(r.gouge.found, 3), unit,
                                   bound("none beyond {}", r.gouge.most), r.lifted_points));

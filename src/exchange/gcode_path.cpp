@@ -30,6 +30,14 @@ std::string never_minus_zero(std::string text) {
 /// can make of it. Where digits are missing for that it becomes a line.
 constexpr double kMostMismatch = 1.6e-5;
 
+/// A whole number of last digits as a decimal fraction.
+std::string decimal(std::int64_t last_digits, int decimals) {
+  std::int64_t one = 1;
+  for (int i = 0; i < decimals; ++i) one *= 10;
+  const std::int64_t size = std::abs(last_digits);
+  return fmt::format("{}{}.{:0{}}", last_digits < 0 ? "-" : "", size / one, size % one, decimals);
+}
+
 /// A centre seen from the start of an arc, as printed.
 struct Centre {
   std::string i, j;
@@ -44,11 +52,15 @@ using Extended = long double;
 /// `above`: height of the centre over the middle of the chord (`x`, `y`).
 Centre centre_over(Extended x, Extended y, double above) {
   const Extended length = std::hypot(x, y), part = above / length;
-  Centre out{never_minus_zero(fmt::format("{:.{}f}", 0.5L * x - part * y, kCentreDecimals)),
-             never_minus_zero(fmt::format("{:.{}f}", 0.5L * y + part * x, kCentreDecimals)),
-             {},
-             0.0};
-  const Extended i = std::strtold(out.i.c_str(), nullptr), j = std::strtold(out.j.c_str(), nullptr);
+  const Extended places = std::pow(10.0L, static_cast<Extended>(kCentreDecimals));
+  const Extended wanted_i = (0.5L * x - part * y) * places;
+  const Extended wanted_j = (0.5L * y + part * x) * places;
+  constexpr Extended kMostLastDigits = 0x1p62L;
+  if (!(std::hypot(wanted_i, wanted_j) < kMostLastDigits)) return {{}, {}, {}, HUGE_VAL};
+  const std::int64_t last_i = std::llround(wanted_i), last_j = std::llround(wanted_j);
+  const Extended i = static_cast<Extended>(last_i) / places;
+  const Extended j = static_cast<Extended>(last_j) / places;
+  Centre out{decimal(last_i, kCentreDecimals), decimal(last_j, kCentreDecimals), {}, 0.0};
   out.ij = {static_cast<double>(i), static_cast<double>(j)};
   // |ij|^2 - |ij - chord|^2 over the sum of the roots
   const Extended squares = (2.0L * i - x) * x + (2.0L * j - y) * y;
@@ -79,10 +91,7 @@ GridPlace GcodePath::printed(Vec2 machine) const {
 }
 
 std::string GcodePath::number(std::int64_t last_digits) const {
-  std::int64_t one = 1;
-  for (int i = 0; i < decimals_; ++i) one *= 10;
-  const std::int64_t size = std::abs(last_digits);
-  return fmt::format("{}{}.{:0{}}", last_digits < 0 ? "-" : "", size / one, size % one, decimals_);
+  return decimal(last_digits, decimals_);
 }
 
 std::string GcodePath::place(GridPlace at) const {

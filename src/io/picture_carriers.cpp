@@ -69,6 +69,7 @@ double legend_of_all(PictureCanvas& canvas, const std::vector<PictureSide>& side
     all.features.insert(all.features.end(), side.track.features.begin(), side.track.features.end());
   }
   all.features.resize(std::min(all.features.size(), kMostSymbols));
+  all.counts = counts_of_marks(all);
   return draw_legend(canvas,
                      {.track = all,
                       .units = units,

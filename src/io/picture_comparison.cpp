@@ -142,6 +142,7 @@ double draw_common_legend(PictureCanvas& canvas, const Sides& sides, const Pictu
     both.features.insert(both.features.end(), features.begin(), features.end());
   }
   both.features.resize(std::min(both.features.size(), kMostSymbols));
+  both.counts = counts_of_marks(both);
   PictureLegend legend{both, units};
   if (comb.per_kappa != 0.0) {
     const double all = std::max(sides[0].track.largest_kappa, sides[1].track.largest_kappa);

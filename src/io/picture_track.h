@@ -67,6 +67,8 @@ inline constexpr int kNoRun = 2;
 /// Samples the contour. Cost O(pieces).
 [[nodiscard]] PictureTrack make_track(const Contour& contour);
 
+/// As many as are marked: of a track whose counts nothing else tells.
+[[nodiscard]] PictureCounts counts_of_marks(const PictureTrack& track);
 [[nodiscard]] std::size_t count_features(const PictureTrack& track, PictureFeature::Kind kind);
 
 /// Texts of a picture give the counts of the certificate, not of the samples between which small

@@ -307,28 +307,46 @@ class Auditor {
     return count;
   }
 
-  /// Calls `found` for each extremum that the curvature leaves by more than `least` on both sides,
-  /// around the seam of a closed curve too.
+  /// Neighbouring samples of one curvature but for rounding, the first and the last; counted on
+  /// past the seam.
+  struct Level {
+    std::size_t first, last;
+  };
+
+  [[nodiscard]] const Sample& sample(std::size_t i) const { return samples_[i % samples_.size()]; }
+
+  /// Calls `found` for each extremum that the curvature leaves by more than `least` on both sides:
+  /// with the middle sample where the curvature stays as it is. A closed curve is followed from its
+  /// least curvature around to it.
   template <class Found>
   void extrema(double least, Found found) {
-    Sample low = samples_.front(), high = low;
-    Sample first = low;  // the extremum that the first swing leaves
-    int direction = 0, first_direction = 0;
-    for (const Sample& now : samples_) {
-      if (now.kappa < low.kappa) low = now;
-      if (now.kappa > high.kappa) high = now;
-      const bool falls = direction >= 0 && now.kappa < high.kappa - least;
-      if (!falls && !(direction <= 0 && now.kappa > low.kappa + least)) continue;
-      const Sample& left = falls ? high : low;
-      if (direction != 0) found(left);
-      if (direction == 0) first = left;
+    const bool closed = out_.contour.closed;
+    const auto below = [](const Sample& a, const Sample& b) { return a.kappa < b.kappa; };
+    const std::size_t from =
+        closed ? static_cast<std::size_t>(
+                     std::min_element(samples_.begin(), samples_.end(), below) - samples_.begin())
+               : 0;
+    const auto tell = [&](const Level& at) { found(sample((at.first + at.last) / 2)); };
+    Level low{from, from}, high = low;
+    std::optional<Level> start;  // what a closed curve comes back to
+    int direction = 0;
+    for (std::size_t i = from; i < from + samples_.size() + (closed ? 1 : 0); ++i) {
+      const double now = sample(i).kappa;
+      const auto follow = [&](Level& level, double beyond) {
+        if (beyond > rounding_) level = {i, i};
+        if (std::abs(beyond) <= rounding_ && level.last + 1 == i) level.last = i;
+      };
+      follow(low, sample(low.first).kappa - now);
+      follow(high, now - sample(high.first).kappa);
+      const bool falls = direction >= 0 && now < sample(high.first).kappa - least;
+      if (!falls && !(direction <= 0 && now > sample(low.first).kappa + least)) continue;
+      const Level& left = falls ? high : low;
+      if (direction != 0) tell(left);
+      if (direction == 0) start = left;
       direction = falls ? -1 : 1;
-      if (first_direction == 0) first_direction = direction;
-      (falls ? low : high) = now;
+      (falls ? low : high) = {i, i};
     }
-    if (!out_.contour.closed || direction == first_direction) return;
-    found(direction > 0 ? (high.kappa > first.kappa ? high : first)
-                        : (low.kappa < first.kappa ? low : first));
+    if (closed && start) tell(*start);
   }
 
   [[nodiscard]] bool beside_singular_end(const Sample& at) const {

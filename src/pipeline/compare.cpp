@@ -47,7 +47,8 @@ int continuity_of(const Contour& contour, const Certificate& certificate) {
   // gaps below these are what rounding leaves (docs/methods/certify.md)
   constexpr double kSameHeading = 1e-7, kSameCurvature = 1e-4;
   if (certificate.gaps.heading > kSameHeading) return 0;
-  if (certificate.gaps.curvature > kSameCurvature || contour.carrier == Carrier::kArcs) return 1;
+  const bool steps = certificate.curvature_steps > 0 || contour.carrier == Carrier::kArcs;
+  if (certificate.gaps.curvature > kSameCurvature || steps) return 1;
   return contour.continuity == Continuity::kG3 && certificate.slope_steps == 0 ? 3 : 2;
 }
 
@@ -102,8 +103,8 @@ std::size_t control_points(const Contour& contour) {
     const std::size_t own = control_points_of(contour.pieces[i]);
     if (own == 0) return 0;
     const bool corner = i < contour.joints.size() && contour.joints[i].leaving.has_value();
-    const bool alike = i > 0 && contour.pieces[i].index() == contour.pieces[i - 1].index() &&
-                       !std::holds_alternative<LinePiece>(contour.pieces[i]);
+    const bool alike = i > 0 && std::holds_alternative<RationalBezier>(contour.pieces[i]) &&
+                       std::holds_alternative<RationalBezier>(contour.pieces[i - 1]);
     const std::size_t saved = i == 0 ? 0 : corner || !alike ? 1 : saved_by_joint(contour.carrier);
     count += own - std::min(saved, own);
   }

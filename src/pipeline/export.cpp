@@ -195,6 +195,12 @@ class Exporter {
         return tl::unexpected(joined.error());
       }
     }
+    if (std::holds_alternative<std::vector<Piece>>(curve.geometry)) {
+      if (auto remark = pipeline_detail::below_kernels(contour_.pieces, contour_.units,
+                                                       format == CadFormat::kBrep)) {
+        out.remarks.push_back(std::move(*remark));
+      }
+    }
     CadWriteOptions write;
     write.format = format;
     write.units = contour_.units.name;

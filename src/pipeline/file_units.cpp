@@ -3,8 +3,16 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cstddef>
+#include <variant>
+
+#include "obvid/core/figures.h"
+
 namespace obvid::pipeline_detail {
 namespace {
+
+constexpr double kKernelPrecision = 1e-7;  // mm: CAD kernels take points that are nearer for one
 
 Error assumed(const Units& units, std::string_view kind) {
   return {ErrorCode::kBadOption,
@@ -38,10 +46,26 @@ Result<UnitNotes> unit_notes(const Units& units, UnitRule rule, std::string_view
   return notes;
 }
 
+std::optional<std::string> below_kernels(const std::vector<Piece>& pieces, const Units& units,
+                                         bool plain) {
+  const double scale = plain ? 1.0 : unit_ratio(units.name, "mm").value_or(1.0);
+  const auto length = [](const Piece& piece) {
+    const auto* arc = std::get_if<ArcPiece>(&piece);
+    return arc != nullptr ? arc->length : norm(end_point(piece) - start_point(piece));
+  };
+  const auto count = std::count_if(pieces.begin(), pieces.end(), [&](const Piece& piece) {
+    return scale * length(piece) < kKernelPrecision;
+  });
+  if (count == 0) return std::nullopt;
+  return fmt::format("{} shorter than {:g} {}: CAD kernels may leave {} out",
+                     counted(static_cast<std::size_t>(count), "piece", "pieces"), kKernelPrecision,
+                     plain ? "units" : "mm", count == 1 ? "it" : "them");
+}
+
 Result<void> kernel_holds(double size, const Units& units, bool plain, std::string_view instead) {
-  // kernels take points nearer than 1e-7 mm for one: a thousand times that is the least that keeps
-  // its shape, and doubles of 1e8 the largest with steps below it
-  constexpr double kLeast = 1e-4, kMost = 1e8;
+  // a thousand times their precision is the least that keeps its shape, and doubles of 1e8 the
+  // largest with steps below it
+  constexpr double kLeast = 1e3 * kKernelPrecision, kMost = 1e8;
   const double held = plain ? size : size * unit_ratio(units.name, "mm").value_or(1.0);
   if (held >= kLeast && held <= kMost) return {};
   return fail({ErrorCode::kSizeOutOfRange,

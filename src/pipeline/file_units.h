@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
 
 #include "obvid/core/units.h"
+#include "obvid/curve/pieces.h"
 
 namespace obvid::pipeline_detail {
 
@@ -32,5 +34,9 @@ struct UnitNotes {
 /// else can be done. `plain`: the format has no unit, numbers are taken for millimetres.
 [[nodiscard]] Result<void> kernel_holds(double size, const Units& units, bool plain,
                                         std::string_view instead);
+
+/// What is to be said where single pieces are below the precision of CAD kernels.
+[[nodiscard]] std::optional<std::string> below_kernels(const std::vector<Piece>& pieces,
+                                                       const Units& units, bool plain);
 
 }  // namespace obvid::pipeline_detail

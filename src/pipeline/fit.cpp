@@ -856,19 +856,35 @@ bool has_tolerances(const PointSeries& series, const FitJob& job) {
 std::optional<Fit> through_points_as_they_are(const PointSeries& series, const FitJob& job,
                                               FoundChains& chains, Watch& watch) {
   if (!has_tolerances(series, job)) return std::nullopt;
-  auto exact = formed_and_proved(series, job, chains, watch, {}, Passing::kExactly);
-  if (!exact || !exact->certificate.proved) return std::nullopt;
   FitJob plain = job;
-  plain.carrier = Carrier::kSpiral;
   plain.continuity = Continuity::kG2;
-  const auto spirals = formed_and_proved(series, plain, chains, watch);
-  if (spirals && turns_of(exact->contour).more_than(turns_of(spirals->contour))) {
-    return std::nullopt;
+  FitJob followed = plain;
+  followed.carrier = Carrier::kSpiral;
+  const auto spirals = formed_and_proved(series, followed, chains, watch);
+  const auto through = [&](const FitJob& asked) -> std::optional<Fit> {
+    auto made = formed_and_proved(series, asked, chains, watch, {}, Passing::kExactly);
+    if (!made || !made->certificate.proved) return std::nullopt;
+    if (spirals && turns_of(made->contour).more_than(turns_of(spirals->contour))) {
+      return std::nullopt;
+    }
+    return std::move(*made);
+  };
+  auto exact = through(job);
+  if (!exact && is_made_g3(job)) {
+    exact = through(plain);
+    if (exact) {
+      exact->report.chain.g2_because =
+          "through the points as they are none with continuous slopes of the curvature was proved";
+      if (job.continuity) {
+        exact->warnings.push_back(exact->report.chain.g2_because + ": it is G2");
+      }
+    }
   }
+  if (!exact) return std::nullopt;
   exact->warnings.emplace_back(
       "the points are met as they are: no contour of this carrier that moves them within their "
       "tolerances was found and proved");
-  return std::move(*exact);
+  return exact;
 }
 
 }  // namespace

@@ -70,6 +70,10 @@ Result<void> choose(const std::optional<std::string>& typed, const Names& names,
 
 }  // namespace
 
+Result<void> set_plots(const FormatValues& typed, PicturePlots& plots) {
+  return choose(typed.plot, kPlots, "--plot", plots.slope);
+}
+
 Result<void> set_formats(const FormatValues& typed, ExportOptions& options,
                          std::string& profile_text) {
   if (typed.profile) {
@@ -97,7 +101,7 @@ Result<void> set_formats(const FormatValues& typed, ExportOptions& options,
         return choose(typed.controller, kControllers, "--controller", options.controller);
       })
       .and_then([&] { return choose(typed.svg, kSvg, "--svg", options.drawing); })
-      .and_then([&] { return choose(typed.plot, kPlots, "--plot", options.plots.slope); })
+      .and_then([&] { return set_plots(typed, options.plots); })
       .and_then([&] { return choose(typed.motion, kMotions, "--motion", options.motion); });
 }
 

@@ -47,10 +47,17 @@ AdjacentCircle circle_through(Vec2 p, Vec2 q, Vec2 r, double pq, double qr) {
   return {k, turning(c, b), turning(a, c), across + along + computing};
 }
 
-/// Largest distance of the points first..last from the circle (or line) through the first, the
-/// middle and the last of them.
+/// Largest distance of the points first..last from the circle (or line) through the first and two
+/// others, the middle and the last one unless these close a full turn.
 double distance_from_circle(const std::vector<Vec2>& points, std::size_t first, std::size_t last) {
-  const Vec2 p = points[first], q = points[(first + last) / 2], r = points[last];
+  const Vec2 p = points[first];
+  Vec2 q = points[(first + last) / 2], r = points[last];
+  const std::size_t third = (last - first) / 3;
+  const Vec2 q3 = points[first + third], r3 = points[last - third];
+  if (std::abs(cross(q3 - p, r3 - p)) > std::abs(cross(q - p, r - p))) {
+    q = q3;
+    r = r3;
+  }
   const Vec2 a = q - p, c = r - p;
   const double scale = norm(a) * norm(r - q) * norm(c);
   const double kappa = 2.0 * cross(a, r - q) / scale;
@@ -135,7 +142,28 @@ void direct_beside(const Analysis& a, std::size_t stretch, std::vector<std::int8
   }
 }
 
-/// +1, -1 or 0 for every chord; chords without two circles of their own take the neighbour's.
+/// Circles that are equal to the last bit, and no stretch: the way of the next chords that have one,
+/// or of the curvature beside them.
+void direct_equal_circles(const Analysis& a, std::vector<std::int8_t>& direction) {
+  std::vector<bool> inside(direction.size(), false);
+  for (const CircularStretch& s : a.stretches) {
+    std::fill(inside.begin() + static_cast<std::ptrdiff_t>(s.first),
+              inside.begin() + static_cast<std::ptrdiff_t>(s.last), true);
+  }
+  std::int8_t after = 1;
+  for (std::size_t i = direction.size(); i-- > 0;) {
+    if (inside[i]) {
+      const bool beside = i > 0 && !inside[i - 1];
+      if (beside) after = sign_of(a.circles[i + 1].kappa - a.circles[i].kappa);
+      continue;
+    }
+    if (direction[i] == 0) direction[i] = after;
+    after = direction[i];
+  }
+}
+
+/// +1, -1 or 0 for every chord, 0 in stretches alone; chords without two circles of their own take
+/// the neighbour's.
 std::vector<std::int8_t> choose_directions(const Analysis& a) {
   const std::size_t m = a.chords.size();
   std::vector<std::int8_t> direction(m, 0);
@@ -153,6 +181,7 @@ std::vector<std::int8_t> choose_directions(const Analysis& a) {
     for (std::size_t i = s.first; i < s.last; ++i) direction[i] = 0;
   }
   for (std::size_t k = 0; k < a.stretches.size(); ++k) direct_beside(a, k, direction);
+  direct_equal_circles(a, direction);
   return direction;
 }
 

@@ -219,7 +219,7 @@ class Subject:
             self.same("contour", [int(n or 0) for n in said],
                       [len(stored["pieces"]), len(stored["points"]),
                        report["chain"]["free_elements"], len(stored["runs"])])
-        self.same("fairness", facts.get("fairness"), "{} (the points force at least {}), {}".format(
+        self.same("fairness", facts.get("fairness"), "{} (at least {} unless a curve winds between the points), {}".format(
             plural(certificate["vertices"], "vertex", "vertices"), report["vertices_lower_bound"],
             plural(certificate["inflections"], "inflection", "inflections")))
         self.bounds_of_fit(facts, stored)
@@ -471,7 +471,7 @@ class Subject:
             return  # a drawing with several series
         self.shows("analyse: size", facts.get("size", "").split(" ")[0], answer["size"])
         for key in ("vertices", "inflections"):
-            self.same("analyse: " + key, facts.get(key), "{} (any smooth curve: at least {})".format(
+            self.same("analyse: " + key, facts.get(key), "{} (at least {} unless a curve winds between the points)".format(
                 answer[key], answer[key + "_lower_bound"]))
         for i, alone in re.findall(r"^ *(\d+) .*  +(\S+)$", table.out, re.M):
             if int(i) <= len(answer["segments"]) and alone not in ("increasing", "decreasing"):
@@ -483,7 +483,8 @@ class Subject:
             return  # points that stand twice were merged
         for row in stored["report"]["segments"]:
             alone = answer["segments"][row["points"][0]]["points_only_error"]
-            if row["points_only_error"] is not None:
+            # a contour that turns back elsewhere than the points is known where they tell nothing
+            if row["points_only_error"] is not None and alone is not None:
                 self.same(f"points-only error of fit and analyse at {row['points']}",
                           row["points_only_error"], alone)
         self.same("bounds of fit and analyse", stored["report"]["vertices_lower_bound"],

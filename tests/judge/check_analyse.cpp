@@ -222,10 +222,10 @@ class AnalyseCheck {
     const std::string key = fact->label + ": " + s.shape;
     if (key == "size: # U") {
       printed("size", s.figures[0], figure(json, "size").value);
-    } else if (key == "vertices: # (any smooth curve: at least #)") {
+    } else if (key == "vertices: # (at least # unless a curve winds between the point)") {
       printed("vertices", s.figures[0], figure(json, "vertices").value);
       printed("vertices bound", s.figures[1], figure(json, "vertices_lower_bound").value);
-    } else if (key == "inflections: # (any smooth curve: at least #)") {
+    } else if (key == "inflections: # (at least # unless a curve winds between the point)") {
       printed("inflections", s.figures[0], figure(json, "inflections").value);
       printed("inflections bound", s.figures[1], figure(json, "inflections_lower_bound").value);
     } else if (key == "largest turning: # degrees") {

@@ -23,8 +23,9 @@ struct Farthest {
 /// Largest distance of places of one path from the other.
 Farthest farthest(const Path& from, const Path& to) {
   Farthest out;
-  const Real most = 3000.0L;
-  const Real per = std::max(2.0L, std::min(kPlacesPerPiece, most / from.end()));
+  constexpr Real kMostPlaces = 3000.0L, kMostSearches = 1e7L;  // each looks at every piece
+  const Real most = std::min(kMostPlaces, kMostSearches / to.end());
+  const Real per = std::min(kPlacesPerPiece, most / from.end());
   const auto count = static_cast<long>(std::ceil(from.end() * per));
   for (long k = 0; k <= count; ++k) {
     const Real order = from.end() * static_cast<Real>(k) / static_cast<Real>(count);

@@ -48,6 +48,12 @@ class Interpreter {
       char* end = nullptr;
       const Real value = std::strtold(text.c_str() + i + 1, &end);
       if (end == text.c_str() + i + 1) throw std::runtime_error("a letter without number");
+      const std::string number(text, i + 1, static_cast<std::size_t>(end - text.c_str()) - i - 1);
+      constexpr std::size_t kMostDecimals = 6;  // what controllers take
+      const std::size_t point = number.find('.');
+      if (point != std::string::npos && number.size() > point + 1 + kMostDecimals) {
+        throw std::runtime_error("a number with too many digits: " + number);
+      }
       out[static_cast<char>(std::toupper(static_cast<unsigned char>(c)))].push_back(value);
       i = static_cast<std::size_t>(end - text.c_str());
     }

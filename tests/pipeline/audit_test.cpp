@@ -32,6 +32,29 @@ TEST(Audit, LineAndArcHaveACurvatureJumpAndNoVertex) {
   EXPECT_NEAR(a.length, 2.0 + kPi, 1e-4);
 }
 
+/// Two lines of length 4 and two half circles of radius 1: the curvature is 0 and 1 in turns.
+TEST(Audit, EveryPieceOfASlotIsAVertexInItsMiddle) {
+  const std::vector<Piece> slot = {LinePiece{{0, 0}, {4, 0}}, arc_from({4, 0}, 0.0, 1.0, kPi),
+                                   LinePiece{{4, 2}, {0, 2}}, arc_from({0, 2}, kPi, 1.0, kPi)};
+  const double half = 4.0 + kPi;
+  for (std::size_t seam = 0; seam < slot.size(); ++seam) {
+    DrawnCurve curve{"slot", slot, true};
+    std::rotate(curve.pieces.begin(), curve.pieces.begin() + static_cast<std::ptrdiff_t>(seam),
+                curve.pieces.end());
+    const CurveAudit a = audit(curve, "mm");
+    EXPECT_EQ(a.vertices, 4);
+    EXPECT_EQ(a.visible_vertices, 4);
+    std::vector<double> at;
+    for (const AuditPlace& place : a.places) {
+      if (place.kind == AuditPlace::Kind::kVertex) at.push_back(place.s);
+    }
+    const double first = seam % 2 == 0 ? 2.0 : 0.5 * kPi;
+    const std::vector<double> expected{first, first + 0.5 * half, first + half, first + 1.5 * half};
+    ASSERT_EQ(at.size(), expected.size());
+    for (std::size_t k = 0; k < at.size(); ++k) EXPECT_NEAR(at[k], expected[k], 1e-6);
+  }
+}
+
 TEST(Audit, CornersAndGapsAreNamedWithTheirSizes) {
   DrawnCurve curve{
       "polyline",

@@ -311,5 +311,49 @@ TEST(Analysis, SagittaIsTheHeightOfTheArc) {
   EXPECT_NEAR(sagitta(1e-9, 1.0), 0.125e-9, 1e-24);
 }
 
+/// The first and the last of them nearly meet: they tell little of the circle.
+TEST(Analysis, PointsOfNearlyAWholeCircleAreOneStretch) {
+  std::mt19937 random(7);
+  std::uniform_real_distribution<double> any(0.0, 1.0);
+  for (int trial = 0; trial < 300; ++trial) {
+    const double radius = std::pow(10.0, 12.0 * any(random) - 6.0), from = 6.3 * any(random);
+    const int count = 5 + static_cast<int>(20.0 * any(random));
+    const double step = (2.0 * std::numbers::pi - 0.02 * any(random)) / (count - 1);
+    std::vector<Vec2> points;
+    for (int i = 0; i < count; ++i) points.push_back(radius * unit_at(from + i * step));
+    const auto a = analyse(points);
+    ASSERT_TRUE(a) << to_line(a.error());
+    ASSERT_EQ(a->stretches.size(), 1U) << trial;
+    EXPECT_EQ(a->stretches[0].first, 0U) << trial;
+    EXPECT_EQ(a->stretches[0].last + 1, points.size()) << trial;
+  }
+}
+
+/// Where rounding makes circles equal to the last bit beside a stretch, the curve has some way to go.
+TEST(Analysis, OnlyChordsOfStretchesHaveNoDirection) {
+  std::mt19937 random(11);
+  std::uniform_real_distribution<double> any(-1.0, 1.0);
+  int between = 0;
+  for (int trial = 0; trial < 3000; ++trial) {
+    const double blur = std::pow(10.0, -13.0 - 3.0 * std::abs(any(random)));
+    const double most = trial % 3 == 0 ? -4.0 : 0.0;
+    double along = 3.0 * any(random);
+    std::vector<Vec2> points;
+    for (int i = 0; i < 6; ++i, along += std::pow(10.0, most * std::abs(any(random)))) {
+      points.push_back((1.0 + (trial % 2 == 0 ? blur * any(random) : 0.0)) * unit_at(along));
+    }
+    const auto a = analyse(points);
+    ASSERT_TRUE(a) << to_line(a.error());
+    for (std::size_t i = 0; i < a->direction.size(); ++i) {
+      const bool inside =
+          std::any_of(a->stretches.begin(), a->stretches.end(),
+                      [i](const auto& s) { return i >= s.first && i < s.last; });
+      EXPECT_EQ(a->direction[i] == 0, inside) << trial << ", chord " << i + 1;
+      between += !inside && !a->stretches.empty() ? 1 : 0;
+    }
+  }
+  EXPECT_GT(between, 0);
+}
+
 }  // namespace
 }  // namespace obvid

@@ -81,7 +81,7 @@ class FitReport:
     largest_deviation: Optional[float]
     largest_move: float
     vertices: int
-    vertices_lower_bound: int  #: what the points force on any smooth curve
+    vertices_lower_bound: int  #: what the points force on curves that do not wind between them
     inflections: int
     inserted_points: int
     waviness: Optional[float]  #: hills of the slope of curvature on a run, 1 at least

@@ -31,6 +31,8 @@ struct FormatValues {
 
 /// Error: E203.
 [[nodiscard]] Result<void> set_import(const FormatValues& typed, ImportOptions& options);
+/// Error: E203.
+[[nodiscard]] Result<void> set_plots(const FormatValues& typed, PicturePlots& plots);
 /// A profile first, then what was typed beside it. `profile_text` gets what the profile chose.
 [[nodiscard]] Result<void> set_formats(const FormatValues& typed, ExportOptions& options,
                                        std::string& profile_text);

@@ -119,18 +119,19 @@ class CubicBuilder {
   /// What rounding of the coordinates may be to blame for.
   [[nodiscard]] double blur() const { return kSpanRoundings * largest_; }
 
-  /// Whether on most of the spans the rounding of the knots bends the spline more than the contour.
+  /// Whether on most of the curved spans the rounding of the knots bends the spline more than the contour.
   [[nodiscard]] bool rounding_bends(std::size_t n) const {
     const std::vector<double> places = density_.knots(n);
     const double rounding = std::numeric_limits<double>::epsilon() * largest_;
-    std::size_t bent = 0;
+    std::size_t bent = 0, curved = 0;
     for (std::size_t i = 0; i + 1 < places.size(); ++i) {
       const double h = length_.at(places[i + 1]) - length_.at(places[i]);
       const double kappa = std::max(std::abs(length_.element(places[i]).kappa),
                                     std::abs(length_.element(places[i + 1]).kappa));
-      if (kOfSecondDifference * rounding > kappa * h * h) ++bent;
+      curved += kappa > 0.0 ? 1 : 0;
+      bent += kappa > 0.0 && kOfSecondDifference * rounding > kappa * h * h ? 1 : 0;
     }
-    return 2 * bent > places.size();
+    return 2 * bent > curved;
   }
 
   Result<CubicAlong> with_spans(std::size_t n) const {

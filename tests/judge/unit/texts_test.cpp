@@ -54,7 +54,7 @@ TEST(JudgeTexts, FindsEveryDoctoredFigureOfTheReport) {
                    {"10 points in", "11 points in"},
                    {"1 run\n", "2 runs\n"},
                    {"0 vertices (", "1 vertices ("},
-                   {"at least 0)", "at least 1)"},
+                   {"at least 0 unless", "at least 1 unless"},
                    {"), 0 inflections", "), 2 inflections"},
                    {"1.885 mm from", "1.883 mm from"},
                    {"(points 4-5); ", "(points 3-4); "},
