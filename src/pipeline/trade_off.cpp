@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "obvid/pipeline/refusal.h"
 #include "obvid/series/analysis.h"
 #include "prepare.h"
 #include "report.h"
@@ -60,7 +61,9 @@ TradeOffRow row_of(double tolerance, const Error& refusal) {
 }
 
 /// A contour within smaller tolerances is one within larger ones; only the points force less then.
-void carry_on(Fit& best, double tolerance, Watch& watch, TradeOffRow& row) {
+/// `option`: what it is formed with.
+void carry_on(Fit& best, const std::string& option, double tolerance, Watch& watch,
+              TradeOffRow& row) {
   for (double& own : best.contour.point_tolerance) own = std::max(own, tolerance);
   auto measured = measure(best.contour, best.report.tolerance, watch);
   if (!measured) return;
@@ -68,6 +71,7 @@ void carry_on(Fit& best, double tolerance, Watch& watch, TradeOffRow& row) {
   best.report.vertices_lower_bound = measured->vertices_lower_bound;
   const double seconds = row.seconds;
   row = row_of(tolerance, best);
+  row.option = option;
   row.carried = true;
   row.seconds = seconds;
 }
@@ -143,6 +147,7 @@ Result<TradeOff> trade_off(const PointSeries& series, const FitJob& job, const R
   Watch watch(run);
   const double most = kSpareTrials + kTrialSteps * static_cast<double>(series.points.size());
   std::optional<Fit> best;  // what larger tolerances allow as well
+  std::string option;       // that it is formed with
   for (const double tolerance : tolerances_for(series)) {
     const auto row = static_cast<double>(out.rows.size());
     const Stretch stretch(watch, row / kRows, (row + 1.0) / kRows);
@@ -154,10 +159,12 @@ Result<TradeOff> trade_off(const PointSeries& series, const FitJob& job, const R
     }
     out.rows.push_back(made ? row_of(tolerance, *made) : row_of(tolerance, made.error()));
     TradeOffRow& now = out.rows.back();
+    if (now.formed) now.option = noise_option(tolerance, out.closed, series);
     if (best && (!now.proved || now.vertices > best->report.vertices)) {
-      carry_on(*best, tolerance, watch, now);
+      carry_on(*best, option, tolerance, watch, now);
     } else if (now.proved) {
       best = std::move(*made);
+      option = now.option;
     }
   }
   if (watch.was_cancelled()) {
