@@ -101,7 +101,7 @@ class SignSearch {
   }
 
  private:
-  static constexpr int kSequenceDepth = 40;  ///< halvings: of closer changes an even number counts as none
+  static constexpr int kSequenceDepth = 40;  ///< halvings: closer changes count as none or as two
   static constexpr int kSequenceParts = 2000;
 
   /// Signs of all coefficients; unknown are those that rounding hides.
@@ -126,18 +126,12 @@ class SignSearch {
   bool follow(const Coefficients& c, double t0, double t1, int depth,
               std::vector<SignFrom>& signs) {
     const SignCount found = count_signs(c);
-    const auto note = [&signs, t0](int sign) {
-      if (sign != 0 && (signs.empty() || signs.back().sign != sign)) signs.push_back({sign, t0});
-    };
     if (found.agree()) {
-      note(found.common());
+      const int sign = found.common();
+      if (sign != 0 && (signs.empty() || signs.back().sign != sign)) signs.push_back({sign, t0});
       return true;
     }
-    if (depth == 0) {  // both ends of what is left say whether the changes in it are odd
-      note(sign_of(c, 0));
-      note(sign_of(c, last(c)));
-      return true;
-    }
+    if (depth == 0) return true;
     if (found.none() || sequence_parts_-- <= 0) return false;
     const auto [left, right] = halves(c);
     const double middle = 0.5 * (t0 + t1);

@@ -56,7 +56,7 @@ PointSeries of_line() {
   return series;
 }
 
-constexpr double kQuarter = 0.5 * std::numbers::pi;
+constexpr double kQuarterTurn = 0.5 * std::numbers::pi;
 
 PointWish heading_at(std::size_t i, double theta) {
   PointWish out;
@@ -65,7 +65,7 @@ PointWish heading_at(std::size_t i, double theta) {
   return out;
 }
 
-PointWish curvature_at(std::size_t i, double kappa) {
+PointWish curvature_beside(std::size_t i, double kappa) {
   PointWish out;
   out.index = i;
   out.kappa = kappa;
@@ -82,12 +82,12 @@ TEST(WholeCircle, KeepsGivenDataThatItHas) {
   const PointSeries line = of_line();
   const GivenOnCircle cases[] = {{line, heading_at(0, 0.0), Closing::kOpen},
                                  {line, heading_at(1, 0.0), Closing::kOpen},
-                                 {line, curvature_at(3, 0.0), Closing::kOpen},
-                                 {arc, heading_at(0, kQuarter), Closing::kOpen},
-                                 {arc, heading_at(4, kQuarter + 0.4 + 5e-7), Closing::kOpen},
-                                 {arc, curvature_at(9, 1.0 / 7.0), Closing::kOpen},
-                                 {around, heading_at(0, kQuarter), Closing::kClosed},
-                                 {around, curvature_at(2, 1.0 / 7.0), Closing::kClosed}};
+                                 {line, curvature_beside(3, 0.0), Closing::kOpen},
+                                 {arc, heading_at(0, kQuarterTurn), Closing::kOpen},
+                                 {arc, heading_at(4, kQuarterTurn + 0.4 + 5e-7), Closing::kOpen},
+                                 {arc, curvature_beside(9, 1.0 / 7.0), Closing::kOpen},
+                                 {around, heading_at(0, kQuarterTurn), Closing::kClosed},
+                                 {around, curvature_beside(2, 1.0 / 7.0), Closing::kClosed}};
   for (const GivenOnCircle& one : cases) {
     for (const double noise : {0.0, 0.01}) {
       for (const Carrier carrier : {Carrier::kSpiral, Carrier::kArcs, Carrier::kConics,
@@ -115,13 +115,13 @@ TEST(WholeCircle, RefusesOtherDataAndNamesThePoint) {
   const PointSeries arc = of_circle(10, 0.1);
   PointWish other_headings, other_curvatures, own;
   other_headings.index = other_curvatures.index = own.index = 3;
-  other_headings.thetas = ValueRange{kQuarter + 0.31, kQuarter + 0.4};
+  other_headings.thetas = ValueRange{kQuarterTurn + 0.31, kQuarterTurn + 0.4};
   other_curvatures.kappas = ValueRange{0.15, 0.2};
-  own.thetas = ValueRange{kQuarter + 0.29, kQuarter + 0.31};
+  own.thetas = ValueRange{kQuarterTurn + 0.29, kQuarterTurn + 0.31};
   own.kappas = ValueRange{0.14, 0.15};
-  for (const PointWish& wish : {heading_at(3, kQuarter + 0.3 + 1e-5),
-                                heading_at(3, -kQuarter + 0.3), curvature_at(3, -1.0 / 7.0),
-                                curvature_at(3, 1.0001 / 7.0), other_headings, other_curvatures}) {
+  for (const PointWish& wish : {heading_at(3, kQuarterTurn + 0.3 + 1e-5),
+                                heading_at(3, -kQuarterTurn + 0.3), curvature_beside(3, -1.0 / 7.0),
+                                curvature_beside(3, 1.0001 / 7.0), other_headings, other_curvatures}) {
     FitJob job;
     job.wishes = {wish};
     const auto made = fit(arc, job);
@@ -140,14 +140,14 @@ TEST(WholeCircle, RefusesOtherDataAndNamesThePoint) {
 TEST(WholeCircle, ThreePointsKeepTheirCircleWhereItHasWhatIsGiven) {
   const PointSeries arc = of_circle(3, 0.5);
   FitJob job;
-  job.wishes = {heading_at(1, kQuarter + 0.5)};
+  job.wishes = {heading_at(1, kQuarterTurn + 0.5)};
   const auto own = fit(arc, job);
   ASSERT_TRUE(own) << to_line(own.error());
   for (const Piece& piece : own->contour.pieces) {
     ASSERT_TRUE(std::holds_alternative<ArcPiece>(piece));
     EXPECT_NEAR(std::get<ArcPiece>(piece).kappa, 1.0 / 7.0, 1e-12);
   }
-  job.wishes = {heading_at(1, kQuarter + 0.49)};  // another curve has that
+  job.wishes = {heading_at(1, kQuarterTurn + 0.49)};  // another curve has that
   const auto other = fit(arc, job);
   ASSERT_TRUE(other) << to_line(other.error());
   EXPECT_FALSE(std::holds_alternative<ArcPiece>(other->contour.pieces.front()));
