@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <optional>
 #include <utility>
 #include <vector>
@@ -33,13 +34,14 @@ std::optional<double> radius_of(std::optional<double> kappa) {
   return std::isinf(*kappa) ? 0.0 : 1.0 / *kappa;  // infinite for a line
 }
 
-/// Ends of a range of curvatures as radii, the smaller one first.
+/// Least and greatest radius of a range of curvatures, each with its sign; a line has any.
 std::pair<std::optional<double>, std::optional<double>> radii(
     const std::optional<CurvatureRange>& range) {
   if (!range) return {};
-  auto low = radius_of(range->low), high = radius_of(range->high);
-  if (std::abs(*low) > std::abs(*high)) std::swap(low, high);
-  return {low, high};
+  auto least = radius_of(range->low), greatest = radius_of(range->high);
+  if (std::abs(*least) > std::abs(*greatest)) std::swap(least, greatest);
+  if (range->low <= 0.0 && range->high >= 0.0) greatest = std::numeric_limits<double>::infinity();
+  return {least, greatest};
 }
 
 void add_csv(const RegionPart& part, const char* series, std::string& out) {

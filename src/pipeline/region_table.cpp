@@ -39,6 +39,7 @@ struct Worksheet {
   std::vector<Vec2> points;
   std::vector<std::size_t> number, inserted;
   std::vector<FixedData> given;
+  std::vector<bool> kept;  ///< its heading was chosen before points were inserted; empty: none was
   std::vector<double> theta;  ///< chosen or given, unwrapped
   std::vector<double> kappa;
   std::vector<std::optional<int>> direction;  ///< of each segment; nothing: a vertex lies inside
@@ -67,10 +68,7 @@ std::vector<int> signs_of_spans(const std::vector<double>& kappa,
 
 /// Ordinate over the middle of the chord, where [000] measures (docs/methods/region.md).
 std::optional<double> middle_ordinate(const ChordFrame& frame, const Boundary& boundary) {
-  // an infinite curvature shrinks its arc to a point: the other one spans the whole chord
-  if (std::isinf(boundary.kappa_first)) return -sagitta(boundary.kappa_second, frame.h);
-  if (std::isinf(boundary.kappa_second)) return -sagitta(boundary.kappa_first, frame.h);
-  return boundary_ordinate(frame, boundary, 0.5 * frame.h);
+  return ordinate_over_chord(frame, boundary, 0.5 * frame.h);
 }
 
 /// What the tangents at both points say, whatever lies between them.
@@ -166,7 +164,7 @@ class PartMaker {
       p.inserted = s_.inserted[i];
       p.theta = s_.theta[i];
       p.kappa = s_.kappa[i];
-      p.theta_given = s_.given[i].theta.has_value();
+      p.theta_given = s_.given[i].theta.has_value() && (s_.kept.empty() || !s_.kept[i]);
       p.kappa_given = s_.given[i].kappa.has_value();
       p.headings = headings[i].heading;
       if (p.headings) turn_to(p.theta, *p.headings);
@@ -319,7 +317,10 @@ class Inserter {
 
   Result<Worksheet> run(std::optional<double> tolerance, const std::vector<std::size_t>& segments) {
     // those between the inserted points keep what was chosen
-    for (std::size_t i = 0; i < s_.points.size(); ++i) s_.given[i].theta = s_.theta[i];
+    for (std::size_t i = 0; i < s_.points.size(); ++i) {
+      s_.kept.push_back(!s_.given[i].theta);
+      s_.given[i].theta = s_.theta[i];
+    }
     for (const std::size_t segment : segments) {
       if (auto done = insert_into(widest(PartMaker(s_, nullptr).run(), segment)); !done) {
         return fail(done.error());
@@ -383,6 +384,7 @@ class Inserter {
     s_.number.insert(s_.number.begin() + after, s_.number[i]);
     s_.inserted.insert(s_.inserted.begin() + after, 0);
     s_.given.insert(s_.given.begin() + after, FixedData{});
+    s_.kept.insert(s_.kept.begin() + after, true);
     s_.theta.insert(s_.theta.begin() + after, 0.5 * (s_.theta[i] + s_.theta[i + 1]));
     s_.kappa.insert(s_.kappa.begin() + after, 0.5 * (s_.kappa[i] + s_.kappa[i + 1]));
     s_.direction.insert(s_.direction.begin() + after, s_.direction[i]);
@@ -434,6 +436,7 @@ class SheetMaker {
     }
     unwrap();
     if (all_given && sheet_.points.size() < kFewestThatTell) follow_headings();
+    if (all_given) leave_circles();
     if (!central || all_given) take_curvatures();
     sheet_.inserted.assign(sheet_.points.size(), 0);
     return std::move(sheet_);
@@ -524,6 +527,23 @@ class SheetMaker {
       const int turn = alpha > 0.0 && beta < 0.0 ? -1 : alpha < 0.0 && beta > 0.0 ? 1 : 0;
       sheet_.sign[i] = i > 0 && sheet_.sign[i] != turn ? 0 : turn;
       sheet_.sign[i + 1] = turn;
+    }
+  }
+
+  /// Points lie on a circle that their headings do not keep: no arc of it stands there.
+  void leave_circles() {
+    constexpr double kHeadingsKept = 1e-6;  // rad, as contours keep given ones (docs/claims.md)
+    for (std::size_t i = 0; i + 1 < sheet_.points.size(); ++i) {
+      if (sheet_.direction[i] != 0) continue;
+      const Vec2 chord = sheet_.points[i + 1] - sheet_.points[i];
+      const double alpha = turning(chord, unit_at(sheet_.theta[i]));
+      const double beta = turning(chord, unit_at(sheet_.theta[i + 1])), sigma = alpha + beta;
+      const auto off = [&](double kappa) {
+        return std::abs(2.0 * std::sin(beta) - kappa * norm(chord)) > kHeadingsKept;
+      };
+      const bool bends = std::abs(sigma) > kHeadingsKept;
+      if (!bends && !off(sheet_.kappa[i]) && !off(sheet_.kappa[i + 1])) continue;
+      sheet_.direction[i] = bends ? std::optional(sigma > 0.0 ? 1 : -1) : std::nullopt;
     }
   }
 

@@ -28,6 +28,18 @@ struct LowSample {
   double theta = 0.0, low = 0.0, slope = 0.0;
 };
 
+/// The element before a chord where it is the only one: what follows from it needs no samples.
+struct OneBefore {
+  double h = 0.0, omega = 0.0, theta = 0.0, low = 0.0;
+
+  /// Least curvature after the chord: that of one biarc.
+  [[nodiscard]] double low_after(double theta_after) const {
+    const double alpha = theta - omega, beta = theta_after - omega;
+    const double half = std::sin(0.5 * (alpha + beta)), a = 0.5 * low * h + std::sin(alpha);
+    return 2.0 / h * (std::sin(beta) + (std::isinf(low) ? 0.0 : half * half / -a));
+  }
+};
+
 /// Elements of a point that can be reached from one side, in the mirror image where curvature
 /// grows: the headings between `first` and `last`, and above each of them every curvature beyond
 /// `low`.
@@ -35,6 +47,7 @@ struct Reached {
   bool any = false;
   double first = 0.0, last = 0.0;
   std::vector<LowSample> samples;  ///< none: every curvature at every heading
+  std::optional<OneBefore> from;   ///< the samples are those of this one
 
   [[nodiscard]] bool holds(double theta) const { return any && theta >= first && theta <= last; }
 };
@@ -62,6 +75,7 @@ LowSample sample_between(const LowSample& a, const LowSample& b, double theta) {
 /// Least curvature with a heading of the range.
 double low_at(const Reached& r, double theta) {
   if (r.samples.empty()) return -kUnbounded;
+  if (r.from) return r.from->low_after(theta);
   const auto after = std::upper_bound(r.samples.begin(), r.samples.end(), theta,
                                       [](double t, const LowSample& s) { return t < s.theta; });
   if (after == r.samples.begin()) return r.samples.front().low;
@@ -153,7 +167,11 @@ class Step {
 
   Reached operator()(const Reached& from) {
     if (!from.any) return {};
-    if (from.samples.empty()) return over_circles(from.first, from.last);
+    if (from.samples.empty()) {
+      Reached out = over_circles(from.first, from.last);
+      if (from.first == from.last) out.from = OneBefore{h_, omega_, from.first, -kUnbounded};
+      return out;
+    }
     bool root_first = false, root_last = false;
     const std::vector<LowSample> part = part_below(
         within_half_turn(from.samples), [this](double theta, double low) { return A(theta, low); },
@@ -161,7 +179,9 @@ class Step {
     if (part.empty()) return {};
     add_circles(part.front().theta, part.back().theta);
     follow(part, root_first, root_last);
-    return finished();
+    Reached out = finished();
+    if (from.first == from.last) out.from = OneBefore{h_, omega_, from.first, part.front().low};
+    return out;
   }
 
  private:
@@ -303,6 +323,7 @@ Reached of_samples(std::vector<LowSample> samples) {
 
 /// The same curvature at every heading of a range.
 Reached constant(double first, double last, double kappa) {
+  if (first == last) return of_samples({{first, kappa, 0.0}});
   std::vector<LowSample> samples;
   for (int k = 0; k <= kPartSamples; ++k) {
     samples.push_back({first + (last - first) * k / kPartSamples, kappa, 0.0});
@@ -382,6 +403,15 @@ struct Held {
 /// A point's own data, in a mirror image: `d` for headings, `e` for curvatures.
 Reached with_node(Reached r, const RangeNode& node, int d, int e, Held held) {
   if (!r.any) return r;
+  if (r.any && held.theta && node.theta) {
+    const double theta = d * *node.theta;
+    if (!r.holds(theta)) return {};
+    if (r.samples.empty()) {
+      r.first = r.last = theta;
+    } else {
+      r = of_samples({{theta, low_at(r, theta), 0.0}});
+    }
+  }
   if (node.curvature_sign != 0 && !(held.kappa && node.kappa)) {
     r = e * node.curvature_sign < 0 ? below(r, 0.0) : at_least(r, 0.0);
   }
@@ -393,15 +423,6 @@ Reached with_node(Reached r, const RangeNode& node, int d, int e, Held held) {
   if (r.any && held.theta && node.thetas && !node.theta) {
     const ValueRange thetas = mirrored(*node.thetas, d);
     r = between(std::move(r), thetas.low, thetas.high);
-  }
-  if (r.any && held.theta && node.theta) {
-    const double theta = d * *node.theta;
-    if (!r.holds(theta)) return {};
-    if (r.samples.empty()) {
-      r.first = r.last = theta;
-    } else {
-      r = of_samples({{theta, low_at(r, theta), 0.0}});
-    }
   }
   return r;
 }

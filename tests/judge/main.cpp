@@ -24,7 +24,7 @@ namespace judge {
 namespace {
 
 constexpr const char* kUsage =
-    "usage: judge --series N [--of fit|space|nurbs|spline] [--seed S] [--first I] [--jobs J]\n"
+    "usage: judge --series N [--of fit|space|nurbs|spline|region] [--seed S] [--first I] [--jobs J]\n"
     "             [--obvid PROGRAM] [--keep FOLDER] [--json FILE] [--limit SECONDS] [--most "
     "FINDINGS] [--open FILE]\n"
     "       judge CONTOUR.json [--points FILE] [--options \"OPTIONS OF fit\"] [--text FILE]\n"
@@ -90,7 +90,7 @@ Settings settings_of(int argc, char** argv) {
     else
       out.wrong = true;
   }
-  const std::set<std::string> kinds = {"fit", "space", "nurbs", "spline"};
+  const std::set<std::string> kinds = {"fit", "space", "nurbs", "spline", "region"};
   out.wrong =
       out.wrong || (out.series == 0) == out.contour.empty() || !kinds.contains(out.trial.of);
   return out;

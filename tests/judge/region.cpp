@@ -54,9 +54,18 @@ Biarc closing(Real h, Real alpha, Real beta, Real k0, Real k1) {
   return out;
 }
 
-struct Extent {
-  Real high = 0.0L, low = 0.0L;
+/// A circle of radius 0 at one end: the arc that keeps the other tangent spans the chord.
+Biarc behind_a_point(Real h, Real beta) {
+  const Real kappa = 2.0L * std::sin(beta) / h;
+  return {{{}, {}, -beta, kappa, 0.0L, false}, {{}, {h, 0.0L}, -beta, kappa, 2.0L * beta, true}};
+}
+Biarc before_a_point(Real h, Real alpha) {
+  const Real kappa = -2.0L * std::sin(alpha) / h;
+  const Vec end{h, 0.0L};
+  return {{{}, end, alpha, kappa, -2.0L * alpha, false}, {end, end, -alpha, kappa, 0.0L, true}};
+}
 
+struct Reach : Extent {
   void reach(const BoundaryArc& arc) {
     meet(arc.start.y);
     meet(arc.end.y);
@@ -169,21 +178,27 @@ std::optional<Region> Region::of(const Element& from, const Element& to, int dir
   const Real k0 = d * from.kappa, k1 = d * to.kappa;
   const Real square = std::pow(std::sin(0.5L * (alpha + beta)), 2);
   Real a = k0 * half + std::sin(alpha), b = k1 * half - std::sin(beta);
-  const Real noise_a = kRounding * (std::abs(k0 * half) + std::abs(std::sin(alpha)));
-  const Real noise_b = kRounding * (std::abs(k1 * half) + std::abs(std::sin(beta)));
+  const bool any_start = std::isinf(k0), any_end = std::isinf(k1);
+  const auto noise = [&](bool any, Real kappa, Real angle) {
+    return kRounding * ((any ? 0.0L : std::abs(kappa * half)) + std::abs(std::sin(angle)));
+  };
+  const Real noise_a = noise(any_start, k0, alpha), noise_b = noise(any_end, k1, beta);
   if (a > noise_a || b < -noise_b) return std::nullopt;
   const Real slack = kRounding + noise_a + noise_b;
   // Vogt: a curve of increasing curvature ends steeper over its chord than it begins. Elements that
   // do not are joined only by curves that turn by a whole turn more
   if (std::sin(0.5L * (alpha + beta)) < -slack) return std::nullopt;
-  if (-a * b < square && std::sqrt(square) > std::sqrt(std::max(0.0L, -a * b)) + slack) {
+  if (!any_start && !any_end && -a * b < square &&
+      std::sqrt(square) > std::sqrt(std::max(0.0L, -a * b)) + slack) {
     return std::nullopt;
   }
-  const bool flat_a = -a <= noise_a, flat_b = b <= noise_b;
+  const bool flat_a = !any_start && -a <= noise_a, flat_b = !any_end && b <= noise_b;
   const Real end_of_first = flat_a ? k1 : (std::sin(beta) + square / -a) / half;
   const Real start_of_second = flat_b ? k0 : (-std::sin(alpha) - square / b) / half;
-  out.from_start_ = closing(out.h_, alpha, beta, k0, end_of_first);
-  out.to_end_ = closing(out.h_, alpha, beta, start_of_second, k1);
+  out.from_start_ = any_start ? behind_a_point(out.h_, beta)
+                              : closing(out.h_, alpha, beta, k0, end_of_first);
+  out.to_end_ = any_end ? before_a_point(out.h_, alpha)
+                        : closing(out.h_, alpha, beta, start_of_second, k1);
   if (direction < 0) {  // mirror the boundaries back
     for (Biarc* biarc : {&out.from_start_, &out.to_end_}) {
       for (BoundaryArc* arc : {&biarc->first, &biarc->second}) {
@@ -214,12 +229,37 @@ Real Region::nearer(Vec p) const {
 }
 
 Real Region::width() const {
-  Extent a, b;
-  for (const BoundaryArc* arc : {&from_start_.first, &from_start_.second}) a.reach(*arc);
-  for (const BoundaryArc* arc : {&to_end_.first, &to_end_.second}) b.reach(*arc);
+  const auto [a, b] = extents();
   const Real parallels = std::max(std::abs(a.high - b.high), std::abs(a.low - b.low));
   if (!is_graph(from_start_) || !is_graph(to_end_)) return parallels;
   return std::max(parallels, largest_gap(from_start_, to_end_));
+}
+
+std::optional<std::array<Real, 2>> Region::over_middle() const {
+  if (!is_graph(from_start_) || !is_graph(to_end_)) return std::nullopt;
+  return std::array{Graph(from_start_).ordinate(0.5L * h_), Graph(to_end_).ordinate(0.5L * h_)};
+}
+
+std::array<Extent, 2> Region::extents() const {
+  Reach a, b;
+  for (const BoundaryArc* arc : {&from_start_.first, &from_start_.second}) a.reach(*arc);
+  for (const BoundaryArc* arc : {&to_end_.first, &to_end_.second}) b.reach(*arc);
+  return {a, b};
+}
+
+std::array<Span, 2> Region::arcs(std::size_t boundary) const {
+  const Biarc& both = boundary == 0 ? from_start_ : to_end_;
+  const Real omega = std::atan2(along_.y, along_.x);
+  const auto placed = [&](const BoundaryArc& arc) {
+    const Vec start = origin_ + arc.start.x * along_ + arc.start.y * left_of(along_);
+    const Real length = arc.kappa == 0.0L ? norm(arc.end - arc.start) : arc.turn / arc.kappa;
+    return Span(start, arc.theta + omega, arc.kappa, length);
+  };
+  return {placed(both.first), placed(both.second)};
+}
+
+Real Region::distance(Vec p, std::size_t boundary) const {
+  return (boundary == 0 ? from_start_ : to_end_).distance(local(p));
 }
 
 Real Region::outside(Vec p) const {

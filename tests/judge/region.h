@@ -2,6 +2,8 @@
 // The region of two elements (Kurnosenko, "Biarcs and bilens", 2013): what lies between two biarcs.
 #pragma once
 
+#include <array>
+#include <cstddef>
 #include <numbers>
 #include <optional>
 
@@ -33,9 +35,15 @@ struct Biarc {
   }
 };
 
+/// Largest and least ordinate over a chord; both ends of it count.
+struct Extent {
+  Real high = 0.0L, low = 0.0L;
+};
+
 class Region {
  public:
-  /// None where no monotone curve of this direction (1, -1) has both elements.
+  /// None where no monotone curve of this direction (1, -1) has both elements. A curvature may be
+  /// infinite where it is unknown, at the start against the direction, at the end along it.
   static std::optional<Region> of(const Element& from, const Element& to, int direction);
 
   /// Distance from a point (contour coordinates) to the farther boundary.
@@ -45,6 +53,14 @@ class Region {
   [[nodiscard]] Real width() const;
   /// 0 inside; unknown (0) where a boundary is no graph over the chord.
   [[nodiscard]] Real outside(Vec p) const;
+  /// Ordinates of both boundaries over the middle of the chord; none where one is no graph over it.
+  [[nodiscard]] std::optional<std::array<Real, 2>> over_middle() const;
+  /// Of the boundary from the start, and of that to the end.
+  [[nodiscard]] std::array<Extent, 2> extents() const;
+  /// Both arcs of a boundary in the plane, 0: that from the start, 1: that to the end.
+  [[nodiscard]] std::array<Span, 2> arcs(std::size_t boundary) const;
+  /// Distance from one of both boundaries, 0: from the start, 1: to the end.
+  [[nodiscard]] Real distance(Vec p, std::size_t boundary) const;
 
  private:
   [[nodiscard]] Vec local(Vec p) const;

@@ -1,0 +1,595 @@
+// SPDX-License-Identifier: Apache-2.0
+// The worksheet of `region`: every figure again, from points and headings alone.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <numbers>
+
+#include "region_checks.h"
+
+namespace judge {
+namespace {
+
+constexpr Real kSameAsStated = 1e-9L;
+/// Ranges of curvature: of the larger end, and over the chords.
+constexpr Real kSameRange = 1e-9L;
+/// Rounding of an angle between a chord and a heading in doubles, rad.
+constexpr Real kAngleRounding = 1e-15L;
+/// Places found are not the farthest ones but for this.
+constexpr Real kFarthestPlace = 1e-3L;
+constexpr Real kCircleTurn = 2.0L * std::numbers::pi_v<Real>;
+
+/// Two lines through the ends of a chord: where they meet.
+struct Meeting {
+  Real to = 0.0L, from = 0.0L;  ///< along both tangents; negative behind the start, ahead of the end
+  Real height = 0.0L;           ///< over the chord
+  Real sine = 0.0L;  ///< of the smallest angle between the lines and the chord
+  Vec apex;
+  int side = 1;  ///< 1: left of the chord
+
+  static Meeting of(Vec a, Vec u, Vec b, Vec v) {
+    Meeting out;
+    const Vec chord = b - a;
+    u = (1.0L / norm(u)) * u;
+    v = (1.0L / norm(v)) * v;
+    const Real turn = cross(u, v);
+    out.to = cross(chord, v) / turn;
+    out.from = cross(u, chord) / turn;
+    out.apex = a + out.to * u;
+    const Real sine = cross(chord, u) / norm(chord);
+    out.height = std::abs(out.to * sine);
+    out.side = sine > 0.0L ? 1 : -1;
+    const Real other = cross(chord, v) / norm(chord);
+    out.sine = std::min({std::abs(sine), std::abs(other), std::abs(turn)});
+    return out;
+  }
+  [[nodiscard]] bool is_triangle() const {
+    return std::isfinite(to) && std::isfinite(from) && to > 0.0L && from > 0.0L;
+  }
+};
+
+/// Figures of a region; NaN: there is none.
+struct RegionFigures {
+  Real lower = NAN, width = NAN;
+  bool graphs = false;
+  Real chord_gap = NAN, chord_bound = NAN, tangent_gap = NAN, tangent_bound = NAN;
+};
+
+class RegionCheck {
+ public:
+  RegionCheck(const SheetPart& part, const Input& input, Sheet& sheet)
+      : p_(part), input_(input), sheet_(sheet) {}
+
+  void run() {
+    points();
+    ranges();
+    for (std::size_t k = 0; k < p_.rows.size(); ++k) row(k);
+    for (std::size_t k = 0; k < p_.rows.size(); k = p_.section(k)[1]) spline(k);
+  }
+
+ private:
+  [[nodiscard]] std::string where(const SheetRow& row) const { return "points " + p_.name(row); }
+
+  void near(const std::string& claim, const Figure& stated, Real found, Real slack,
+            const std::string& where) {
+    if (!stated.present) return sheet_.missing(claim, where);
+    if (!std::isfinite(found)) {
+      sheet_.expect(stated.null(), claim, stated.value.value_or(NAN), found, where);
+      return;
+    }
+    sheet_.expect(stated.known() && std::abs(*stated.value - found) <= slack, claim,
+                  stated.value.value_or(NAN), found, where);
+  }
+
+  // points
+
+  void points() {
+    for (std::size_t i = 0; i < p_.points.size(); ++i) {
+      const SheetPoint& p = p_.points[i];
+      const std::string at = "point " + p.name();
+      if (p.inserted == 0) given(p, at);
+      adjacent(i, at);
+      if (!p.headings || p.headings->empty() || p_.loop) continue;
+      // a heading that the user has is the user's
+      if (p.heading_given || input_.points.at(p.index).heading) continue;
+      chosen_inside(p, at);
+    }
+  }
+
+  void given(const SheetPoint& p, const std::string& at) {
+    if (!sheet_.expect(p.index < input_.points.size(), "region.index",
+                       static_cast<Real>(p.index), static_cast<Real>(input_.points.size()), at)) {
+      return;
+    }
+    const GivenPoint& g = input_.points[p.index];
+    const Vec place = seen(g.point, p_.origin);
+    sheet_.expect(norm(place - p.point) == 0.0L, "region.point", norm(p.point), norm(place), at);
+    sheet_.expect(p.heading_given == g.heading.has_value(), "region.heading_given",
+                  std::string(p.heading_given ? "given" : "chosen"),
+                  std::string(g.heading ? "given" : "chosen"), at);
+    sheet_.expect(p.curvature_given == g.kappa.has_value(), "region.curvature_given",
+                  std::string(p.curvature_given ? "given" : "not"),
+                  std::string(g.kappa ? "given" : "not"), at);
+    if (g.heading) {
+      const Real off = std::remainder(p.heading - *g.heading, kCircleTurn);
+      sheet_.expect(std::abs(off) <= kSameAsStated, "region.heading", p.heading, *g.heading, at);
+    }
+  }
+
+  /// Ranges of headings are known to some 1e-6 rad.
+  void chosen_inside(const SheetPoint& p, const std::string& at) {
+    constexpr Real kKnownTo = 2e-6L;
+    const bool inside =
+        p.heading >= p.headings->low - kKnownTo && p.heading <= p.headings->high + kKnownTo;
+    if (by_neighbours || p.low_is_open || p.high_is_open) return;  // beyond an open end it may lie
+    sheet_.expect(inside, "region.heading in its range", p.heading,
+                  p.heading < p.headings->low ? p.headings->low : p.headings->high, at);
+  }
+
+  void adjacent(std::size_t i, const std::string& at) {
+    const std::size_t n = p_.points.size();
+    std::size_t before = i - 1, after = i + 1;
+    const bool seam = p_.loop && (i == 0 || i + 1 == n);
+    if (seam) {
+      before = n - 2;
+      after = 1;
+    } else if (ends_section(i) || starts_section(i)) {
+      return;
+    }
+    const Figure stated{true, p_.points[i].adjacent_kappa};
+    const Vec a = p_.points[i].point - p_.points[before].point,
+              b = p_.points[after].point - p_.points[i].point;
+    const Real shortest = std::min({norm(a), norm(b), norm(a + b)});
+    const Real kappa = 2.0L * cross(a, b) / (norm(a) * norm(b) * norm(a + b));
+    near("region.adjacent_kappa", stated, kappa,
+         kSameAsStated * std::abs(kappa) + 16.0L * 0x1p-53L * (norm(a) + norm(b)) / (shortest * shortest),
+         at);
+  }
+  [[nodiscard]] bool starts_section(std::size_t i) const {
+    return std::none_of(p_.rows.begin(), p_.rows.end(),
+                        [i](const SheetRow& row) { return row.to == i; });
+  }
+  [[nodiscard]] bool ends_section(std::size_t i) const {
+    return std::none_of(p_.rows.begin(), p_.rows.end(),
+                        [i](const SheetRow& row) { return row.from == i; });
+  }
+
+  // ranges of curvature
+
+  void ranges() {
+    const auto found = curvature_ranges(p_, input_, 0.0L);
+    const auto more = curvature_ranges(p_, input_, kAngleRounding),
+               less = curvature_ranges(p_, input_, -kAngleRounding);
+    for (std::size_t i = 0; i < p_.points.size(); ++i) {
+      const SheetPoint& p = p_.points[i];
+      if (!p.kappas) continue;
+      const std::string at = "point " + p.name();
+      const char* claim = "region.range of curvature";
+      if (!found[i] || !more[i] || !less[i]) {
+        if (found[i] || more[i] || less[i]) {
+          sheet_.unjudged(claim, "rounding decides", at);
+        } else {
+          sheet_.fails(claim, fmt::format("{} to {}", shown(p.kappas->low), shown(p.kappas->high)),
+                       "none", at);
+        }
+        continue;
+      }
+      const Real scale = range_scale(i);
+      const auto end = [&](Real stated, Real sought, Real one, Real other, const char* which) {
+        if (std::isinf(sought) || std::isinf(stated)) {
+          sheet_.expect(sought == stated, claim, stated, sought, at + which);
+          return;
+        }
+        const Real slack = 8.0L * std::abs(one - other) + kSameRange * scale;
+        sheet_.expect(std::abs(stated - sought) <= slack, claim, stated, sought, at + which);
+      };
+      end(p.kappas->low, found[i]->low, more[i]->low, less[i]->low, ", least");
+      end(p.kappas->high, found[i]->high, more[i]->high, less[i]->high, ", greatest");
+      if (i < p_.kappas.size()) element_inside(i, scale, at);
+    }
+    for (const SheetRow& row : p_.rows) {
+      const auto same = [&](const std::optional<Limits>& range, std::size_t i) {
+        if (!range) return;
+        const std::optional<Limits>& of_point = p_.points[i].kappas;
+        const bool ok = of_point && range->low == of_point->low && range->high == of_point->high;
+        sheet_.expect(ok, "region.range of a segment", range->low, of_point ? of_point->low : NAN,
+                      where(row));
+      };
+      same(row.start, row.from);
+      same(row.end, row.to);
+    }
+  }
+
+  [[nodiscard]] Real range_scale(std::size_t i) const {
+    Real scale = 0.0L;
+    for (const Real end : {p_.points[i].kappas->low, p_.points[i].kappas->high}) {
+      if (std::isfinite(end)) scale = std::max(scale, std::abs(end));
+    }
+    for (const SheetRow& row : p_.rows) {
+      if (row.from != i && row.to != i) continue;
+      const Vec chord = p_.points[row.to].point - p_.points[row.from].point;
+      const Real turn = p_.points[row.to].heading - p_.points[row.from].heading;
+      scale = std::max(scale, std::abs(std::remainder(turn, kCircleTurn)) / norm(chord));
+    }
+    return scale;
+  }
+
+  /// The curve that was taken has curvatures of its ranges, and where one ends with the sign that
+  /// is kept, that sign.
+  void element_inside(std::size_t i, Real scale, const std::string& at) {
+    const Limits& range = *p_.points[i].kappas;
+    const Real kappa = p_.kappas[i], slack = 1e-6L * scale;
+    sheet_.expect(kappa >= range.low - slack && kappa <= range.high + slack,
+                  "region.curvature in its range", kappa,
+                  kappa < range.low ? range.low : range.high, at);
+  }
+
+  // segments
+
+  void row(std::size_t k) {
+    const SheetRow& row = p_.rows[k];
+    const Json& f = *row.figures;
+    const SheetPoint &a = p_.points[row.from], &b = p_.points[row.to];
+    const Vec chord = b.point - a.point;
+    const Real h = norm(chord);
+    near("region.chord", figure(f, "chord"), h, kSameAsStated * h, where(row));
+    headings(row);
+    const Meeting t = Meeting::of(a.point, unit_at(a.heading), b.point, unit_at(b.heading));
+    // the sine of the angle at the apex is that of a difference of headings
+    const Real sine =
+        std::abs(cross(unit_at(a.heading), unit_at(b.heading)));
+    const Real slack = kSameAsStated + 8.0L * kAngleRounding / sine;
+    if (slack < 1e-3L) {
+      const Real own = 8.0L * kAngleRounding * h / sine;
+      near("region.to_apex", figure(f, "to_apex"), t.to, slack * std::abs(t.to) + own, where(row));
+      near("region.from_apex", figure(f, "from_apex"), t.from, slack * std::abs(t.from) + own,
+           where(row));
+    } else {
+      sheet_.unjudged("region.to_apex", "tangents are parallel within rounding", where(row));
+    }
+    points_only(k);
+    const std::optional<Meeting> c = chords(k);
+    height("region.tangent_apex_height", figure(f, "tangent_apex_height"), t, h,
+           64.0L * kAngleRounding, where(row));
+    const Real blur = chords_blur(k);
+    if (c) {
+      height("region.chord_apex_height", figure(f, "chord_apex_height"), *c, h, blur, where(row));
+    }
+    if (!c) {
+      sheet_.expect(figure(f, "chord_apex_height").null(), "region.chord_apex_height",
+                    std::string("a height"), std::string("null: no neighbour"), where(row));
+    }
+    region(k, t, c);
+  }
+
+  void headings(const SheetRow& row) {
+    const auto same = [&](const char* name, Real heading) {
+      const Figure stated = figure(*row.figures, name);
+      const Real off = stated.known() ? std::remainder(*stated.value - heading, kCircleTurn) : NAN;
+      sheet_.expect(std::abs(off) <= kSameAsStated, fmt::format("region.{}", name),
+                    stated.value.value_or(NAN), heading, where(row));
+    };
+    same("heading_start", p_.points[row.from].heading);
+    same("heading_end", p_.points[row.to].heading);
+  }
+
+  /// Rounding decides whether lines that nearly keep the chord's direction make a triangle.
+  void height(const char* claim, const Figure& stated, const Meeting& t, Real h,
+              Real blur, const std::string& where) {
+    const Real least = std::min(std::abs(t.to), std::abs(t.from)) / h;
+    const Real most = std::max(std::abs(t.to), std::abs(t.from)) / h;
+    if (!(least > 1e-9L && most < 1e9L) || std::abs(t.sine) <= blur) {
+      return sheet_.unjudged(claim, "no angle there", where);
+    }
+    const Real found = t.is_triangle() ? t.height : NAN;
+    near(claim, stated, found, kSameAsStated * t.height + 64.0L * kAngleRounding * h * most * most, where);
+  }
+
+  [[nodiscard]] std::optional<Meeting> chords(std::size_t k) const {
+    const SheetRow& row = p_.rows[k];
+    const auto [first, behind] = p_.section(k);
+    const Vec a = p_.points[row.from].point, b = p_.points[row.to].point, chord = b - a;
+    std::optional<Vec> before, after;
+    const std::size_t n = p_.points.size();
+    if (k > first) before = a - p_.points[row.from - 1].point;
+    if (k + 1 < behind) after = p_.points[row.to + 1].point - b;
+    if (p_.loop && k == first) before = a - p_.points[n - 2].point;
+    if (p_.loop && k + 1 == behind) after = p_.points[1].point - b;
+    if (!before && !after) return std::nullopt;
+    // the same angle on the other side: the mirror image in the chord, its sine changed
+    const auto alike = [&](Vec v) {
+      const Vec u = (1.0L / norm(chord)) * chord;
+      return dot(u, v) * u - cross(u, v) * left_of(u);
+    };
+    if (!before) before = alike(*after);
+    if (!after) after = alike(*before);
+    return Meeting::of(a, *before, b, *after);
+  }
+
+  /// What rounding makes of the directions of the chords around, rad.
+  [[nodiscard]] Real chords_blur(std::size_t k) const {
+    Real shortest = HUGE_VALL;
+    const auto [first, behind] = p_.section(k);
+    for (std::size_t j = k > first ? k - 1 : k; j <= std::min(k + 1, behind - 1); ++j) {
+      const SheetRow& row = p_.rows[j];
+      shortest = std::min(shortest, norm(p_.points[row.to].point - p_.points[row.from].point));
+    }
+    return 64.0L * kAngleRounding + 256.0L * 0x1p-53L * p_.coordinate / shortest;
+  }
+
+  /// Of the points of the section alone, as `analyse` has it.
+  void points_only(std::size_t k) {
+    const char* claim = "region.points_only_error";
+    const SheetRow& row = p_.rows[k];
+    const Figure stated = figure(*row.figures, "points_only_error");
+    const auto [first, behind] = p_.section(k);
+    if (k == first || k + 1 == behind) {
+      if (stated.value == 0.0) return sheet_.unjudged(claim, "0 on a circle", where(row));
+      sheet_.expect(stated.null(), "region.points_only_error null", stated.value.value_or(0.0),
+                    NAN, where(row));
+      return;
+    }
+    const auto at = [&](std::size_t i) { return p_.points[i].point; };
+    const std::size_t i = row.from;
+    const Lens lens = Lens::of(at(i - 1), at(i), at(i + 1), at(i + 2));
+    if (!stated.known()) return nothing_known(k, lens);
+    if (*stated.value == 0.0) {
+      sheet_.expect(on_circle(k), "region.points_only_error 0", 0.0L, lens.height(), where(row));
+      return;
+    }
+    if (!lens.holds() && lens.turning > kStraightAngle + kRoundedDirection) {
+      return sheet_.fails(claim, shown(*stated.value), "null: the points turn by half a turn",
+                          where(row));
+    }
+    const Real afar = lens.growth() * 0x1p-60L * p_.coordinate / lens.shortest;
+    const Real found = lens.height(), slack = lens.growth() * kRoundedDirection;
+    sheet_.expect(*stated.value >= found * (1.0L - kSameAsStated) - afar &&
+                      *stated.value <= found * (1.0L + kSameAsStated) + slack + afar,
+                  claim, *stated.value, found, where(row));
+  }
+
+  /// Whether four neighbouring points around a chord lie on one circle, within rounding.
+  [[nodiscard]] bool on_circle(std::size_t k) const {
+    const auto [first, behind] = p_.section(k);
+    for (std::size_t j = std::max(first + 1, k - std::min<std::size_t>(k, 1)); j <= k + 1; ++j) {
+      if (j + 1 >= behind) break;
+      const auto [a, blur_a] = circle(p_.rows[j].from);
+      const auto [b, blur_b] = circle(p_.rows[j].to);
+      if (std::abs(a - b) <= 4.0L * (blur_a + blur_b)) return true;
+    }
+    return false;
+  }
+
+  /// Where the circles of all points around go one way, and far enough, the figure is known.
+  void nothing_known(std::size_t k, const Lens& lens) {
+    const auto [first, behind] = p_.section(k);
+    const std::size_t from = std::max(first + 1, k - 1) , to = std::min(behind - 2, k + 1);
+    if (!(lens.turning < kStraightAngle - 1e-6L)) return;
+    int all = 0;
+    bool one_way = true;
+    for (std::size_t j = from; j <= to; ++j) {  // chord j lies between the circles of its points
+      const std::size_t i = p_.rows[j].from;
+      const auto [a, blur_a] = circle(i);
+      const auto [b, blur_b] = circle(i + 1);
+      const int way = b - a > 4.0L * (blur_a + blur_b) ? 1 : a - b > 4.0L * (blur_a + blur_b) ? -1 : 0;
+      one_way = one_way && way != 0 && (all == 0 || way == all);
+      all = way;
+    }
+    if (!one_way) return;
+    sheet_.fails("region.points_only_error null", "null", shown(lens.height()),
+                 where(p_.rows[k]) + ": the circles around go one way");
+  }
+  [[nodiscard]] std::pair<Real, Real> circle(std::size_t i) const {
+    const Vec a = p_.points[i].point - p_.points[i - 1].point,
+              b = p_.points[i + 1].point - p_.points[i].point;
+    const Real shortest = std::min({norm(a), norm(b), norm(a + b)});
+    const Real kappa = 2.0L * cross(a, b) / (norm(a) * norm(b) * norm(a + b));
+    return {kappa, 64.0L * 0x1p-53L * p_.coordinate / (shortest * shortest) + kSameAsStated * std::abs(kappa)};
+  }
+
+  // the region of a segment
+
+  [[nodiscard]] RegionFigures figures(const std::array<Element, 2>& ends, int d, const Meeting& t,
+                                      const std::optional<Meeting>& c) const {
+    RegionFigures out;
+    const auto region = Region::of(ends[0], ends[1], d);
+    if (!region) return out;
+    const auto [first, second] = region->extents();
+    if (const auto y = region->over_middle()) {
+      out.graphs = true;
+      out.lower = std::min(std::abs((*y)[0]), std::abs((*y)[1]));
+      out.width = std::abs((*y)[0] - (*y)[1]);
+    } else {
+      out.width =
+          std::max(std::abs(first.high - second.high), std::abs(first.low - second.low));
+      const bool above = first.high + second.high >= -first.low - second.low;
+      out.lower = above ? std::min(first.high, second.high) : std::min(-first.low, -second.low);
+    }
+    const auto convex = [&](const Meeting& m, Real& gap, Real& bound) {
+      if (!m.is_triangle()) return;
+      const Real one = m.side > 0 ? first.high : -first.low,
+                 other = m.side > 0 ? second.high : -second.low;
+      gap = m.height - std::min(one, other);
+      bound = std::max(std::max(one, other), region->distance(m.apex, one <= other ? 0 : 1));
+    };
+    convex(t, out.tangent_gap, out.tangent_bound);
+    if (c) convex(*c, out.chord_gap, out.chord_bound);
+    return out;
+  }
+
+  void region(std::size_t k, const Meeting& t, const std::optional<Meeting>& c) {
+    const SheetRow& row = p_.rows[k];
+    const Json& f = *row.figures;
+    const std::optional<int> d = p_.direction(row);
+    if (!d) {
+      for (const char* name : {"lower_height", "width", "chord_apex_gap", "tangent_apex_gap",
+                               "chord_convex_bound", "tangent_convex_bound", "spline_distance"}) {
+        sheet_.expect(figure(f, name).null(), fmt::format("region.{} null", name),
+                      figure(f, name).value.value_or(0.0), NAN, where(row));
+      }
+      return;
+    }
+    if (*d == 0) return arc(row);
+    const std::array<Element, 2> ends = p_.bounding(row, input_);
+    const Real h = norm(ends[1].point - ends[0].point);
+    const RegionFigures here = figures(ends, *d, t, c);
+    std::vector<RegionFigures> around;
+    for (int which = 0; which < 4; ++which) {
+      std::array<Element, 2> other = ends;
+      Element& e = other[static_cast<std::size_t>(which % 2)];
+      if (which < 2) {
+        e.theta += kAngleRounding;
+      } else {
+        e.kappa *= 1.0L + 0x1p-52L;
+      }
+      around.push_back(figures(other, *d, t, c));
+    }
+    const auto told = [&](const char* name, Real RegionFigures::*member) {
+      // places of an apex are rounded like the coordinates
+      Real slack = kSameAsStated * std::abs(here.*member) + 16.0L * 0x1p-53L * (h + p_.coordinate);
+      for (const RegionFigures& other : around) {
+        slack += 8.0L * std::abs(other.*member - here.*member);
+        if (other.graphs != here.graphs || std::isnan(other.*member) != std::isnan(here.*member)) {
+          return sheet_.unjudged(fmt::format("region.{}", name), "rounding decides", where(row));
+        }
+      }
+      near(fmt::format("region.{}", name), figure(f, name), here.*member, slack, where(row));
+    };
+    told("lower_height", &RegionFigures::lower);
+    told("width", &RegionFigures::width);
+    if (c && std::abs(c->sine) <= chords_blur(k)) {
+      sheet_.unjudged("region.chord_apex_gap", "no angle there", where(row));
+    } else {
+      told("chord_apex_gap", &RegionFigures::chord_gap);
+      told("chord_convex_bound", &RegionFigures::chord_bound);
+    }
+    if (std::abs(t.sine) <= 64.0L * kAngleRounding) {
+      return sheet_.unjudged("region.tangent_apex_gap", "no angle there", where(row));
+    }
+    told("tangent_apex_gap", &RegionFigures::tangent_gap);
+    told("tangent_convex_bound", &RegionFigures::tangent_bound);
+  }
+
+  /// On an arc there is one curve: the height over its chord, and no width.
+  void arc(const SheetRow& row) {
+    const SheetPoint &a = p_.points[row.from], &b = p_.points[row.to];
+    const Real h = norm(b.point - a.point);
+    const Real turn = std::remainder(b.heading - a.heading, kCircleTurn);
+    const Vec chord = b.point - a.point;
+    const Real omega = std::atan2(chord.y, chord.x);
+    const Real sigma = std::remainder(a.heading - omega, kCircleTurn) +
+                       std::remainder(b.heading - omega, kCircleTurn);
+    const Real blur = kSameAsStated + 64.0L * 0x1p-53L * p_.coordinate / h;
+    sheet_.expect(std::abs(sigma) <= blur, "region.arc", 0.0L, sigma, where(row));
+    const Real kappa = 2.0L * std::sin(0.5L * turn) / h;
+    sheet_.expect(std::abs(row.start->low - kappa) <= 4.0L * blur / h + 1e-6L * std::abs(kappa),
+                  "region.arc curvature", row.start->low, kappa, where(row));
+    near("region.lower_height", figure(*row.figures, "lower_height"),
+         0.5L * h * std::abs(std::tan(0.25L * turn)), 1e-6L * h * std::abs(turn) + h * blur,
+         where(row));
+    near("region.width", figure(*row.figures, "width"), 0.0L, 0.0L, where(row));
+  }
+
+  // f
+
+  void spline(std::size_t k) {
+    const auto [first, behind] = p_.section(k);
+    const std::size_t n = behind - first + 1;
+    std::vector<Vec> points;
+    for (std::size_t i = 0; i < n; ++i) points.push_back(p_.points[p_.rows[first].from + i].point);
+    const bool drawn = n >= 4 && !p_.loop;
+    std::vector<Span> spans, rounded;
+    if (drawn) {
+      spans = cubic_through(points);
+      for (std::size_t i = 0; i < n; ++i) {  // other last digits
+        const Real ulp = 0x1p-52L * p_.coordinate * (i % 2 == 0 ? 1.0L : -1.0L);
+        points[i] = points[i] + Vec{ulp, i % 3 == 0 ? ulp : -ulp};
+      }
+      rounded = cubic_through(points);
+    }
+    for (std::size_t j = first; j < behind; ++j) {
+      const SheetRow& row = p_.rows[j];
+      const Figure stated = figure(*row.figures, "spline_distance");
+      const auto region = p_.region(row, input_);
+      if (!drawn || !region) {
+        if (p_.direction(row).value_or(0) == 0 || !drawn) {
+          sheet_.expect(stated.null(), "region.spline_distance null", stated.value.value_or(0.0),
+                        NAN, where(row));
+        }
+        continue;
+      }
+      const auto farthest = [&](const Span& span) {
+        const auto away = [&](Real t) { return region->farther(span.point(t)); };
+        return away(largest_place(away, 0.0L, 1.0L, 96));
+      };
+      const Real found = farthest(spans[j - first]);
+      const Real blur = 8.0L * std::abs(farthest(rounded[j - first]) - found);
+      const Real h = norm(points[j - first + 1] - points[j - first]);
+      near("region.spline_distance", stated, found,
+           kFarthestPlace * found + blur + 1e-12L * h + 64.0L * 0x1p-53L * p_.coordinate,
+           where(row));
+    }
+  }
+
+  const SheetPart& p_;
+  const Input& input_;
+  Sheet& sheet_;
+
+ public:
+  bool by_neighbours = false;  ///< headings that no range was asked about
+};
+
+/// A point inserted into a segment of the user's: on the bisector, in the middle of the region.
+void one_inserted(const Worksheet& w, const Input& input, Sheet& sheet) {
+  const SheetPart &user = w.user, &finer = *w.refined;
+  if (finer.points.size() != user.points.size() + 1) return;
+  for (std::size_t i = 1; i + 1 < finer.points.size(); ++i) {
+    const SheetPoint& p = finer.points[i];
+    if (p.inserted == 0) continue;
+    const auto row = std::find_if(user.rows.begin(), user.rows.end(), [&](const SheetRow& r) {
+      return user.points[r.from].index == p.index;
+    });
+    if (row == user.rows.end()) return sheet.fails("region.inserted", p.name(), "no segment", "");
+    const auto region = user.region(*row, input);
+    const auto y = region ? region->over_middle() : std::nullopt;
+    if (!y) return sheet.unjudged("region.inserted", "nothing over the middle", p.name());
+    const Vec a = user.points[row->from].point, b = user.points[row->to].point, chord = b - a;
+    const Vec middle = a + 0.5L * chord +
+                       (0.5L * ((*y)[0] + (*y)[1]) / norm(chord)) * left_of(chord);
+    const Vec found = p.point;  // the first points of both tables are the same
+    const Real slack = 1e-6L * std::abs((*y)[0] - (*y)[1]) + 1e-12L * norm(chord) +
+                       8.0L * 0x1p-53L * user.coordinate;
+    sheet.expect(norm(found - middle) <= slack, "region.inserted", norm(found), norm(middle),
+                 p.name());
+    if (!p.headings || p.headings->empty()) continue;
+    const Real centre = 0.5L * (p.headings->low + p.headings->high);
+    sheet.expect(std::abs(p.heading - centre) <=
+                     2e-6L + 1e-3L * (p.headings->high - p.headings->low),
+                 "region.inserted heading", p.heading, centre, p.name());
+  }
+}
+
+}  // namespace
+
+void check_worksheet(const Worksheet& worksheet, const Input& input, bool by_neighbours,
+                     Sheet& sheet) {
+  RegionCheck user(worksheet.user, input, sheet);
+  user.by_neighbours = by_neighbours;
+  user.run();
+  if (!worksheet.refined) return;
+  RegionCheck finer(*worksheet.refined, input, sheet);
+  finer.by_neighbours = by_neighbours;
+  finer.run();
+  one_inserted(worksheet, input, sheet);
+  if (!input.tolerance) return;
+  for (const SheetRow& row : worksheet.refined->rows) {
+    const Figure width = figure(*row.figures, "width");
+    if (!width.known()) continue;
+    sheet.expect(*width.value <= *input.tolerance, "region.tolerance", *width.value,
+                 *input.tolerance, worksheet.refined->name(row));
+  }
+}
+
+}  // namespace judge
