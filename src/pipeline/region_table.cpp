@@ -71,6 +71,12 @@ std::optional<double> middle_ordinate(const ChordFrame& frame, const Boundary& b
   return ordinate_over_chord(frame, boundary, 0.5 * frame.h);
 }
 
+/// Whether a boundary is one arc, its other circle unknown, that turns by half a turn or more.
+bool turns_half(const ChordFrame& frame, const Boundary& boundary) {
+  return (std::isinf(boundary.kappa_first) && frame.end_tangent.x <= 0.0) ||
+         (std::isinf(boundary.kappa_second) && frame.start_tangent.x <= 0.0);
+}
+
 /// What the tangents at both points say, whatever lies between them.
 RegionRow bare_row(const Element& a, const Element& b) {
   RegionRow row;
@@ -237,6 +243,7 @@ class PartMaker {
     const auto region = segment_region(frame, *row.direction);
     if (!region) return;
     row.region = PlacedBoundaries{frame, *region, a.point, (b.point - a.point) / row.chord};
+    if (turns_half(frame, region->from_start) || turns_half(frame, region->to_end)) return;
     const auto start = middle_ordinate(frame, region->from_start);
     const auto end = middle_ordinate(frame, region->to_end);
     if (start && end) {

@@ -167,8 +167,14 @@ class RegionCheck {
       if (!p.kappas) continue;
       const std::string at = "point " + p.name();
       const char* claim = "region.range of curvature";
+      if (beside_an_arc(i)) {  // one value, judged with the arc
+        sheet_.expect(p.kappas->low == p.kappas->high, "region.arc curvature", p.kappas->low,
+                      p.kappas->high, at);
+        continue;
+      }
       if (!found[i] || !more[i] || !less[i]) {
-        if (found[i] || more[i] || less[i]) {
+        const bool thin = p.kappas->high - p.kappas->low <= kSameRange * range_scale(i);
+        if (found[i] || more[i] || less[i] || thin) {
           sheet_.unjudged(claim, "rounding decides", at);
         } else {
           sheet_.fails(claim, fmt::format("{} to {}", shown(p.kappas->low), shown(p.kappas->high)),
@@ -200,6 +206,12 @@ class RegionCheck {
       same(row.start, row.from);
       same(row.end, row.to);
     }
+  }
+
+  [[nodiscard]] bool beside_an_arc(std::size_t i) const {
+    return std::any_of(p_.rows.begin(), p_.rows.end(), [&](const SheetRow& row) {
+      return (row.from == i || row.to == i) && p_.direction(row) == 0;
+    });
   }
 
   [[nodiscard]] Real range_scale(std::size_t i) const {
@@ -395,7 +407,7 @@ class RegionCheck {
                                       const std::optional<Meeting>& c) const {
     RegionFigures out;
     const auto region = Region::of(ends[0], ends[1], d);
-    if (!region) return out;
+    if (!region || region->turns_half()) return out;
     const auto [first, second] = region->extents();
     if (const auto y = region->over_middle()) {
       out.graphs = true;
@@ -432,6 +444,9 @@ class RegionCheck {
       return;
     }
     if (*d == 0) return arc(row);
+    if (std::abs(p_.bending(row)) <= kRoundedBending) {
+      return sheet_.unjudged("region.width", "a circle fits both headings", where(row));
+    }
     const std::array<Element, 2> ends = p_.bounding(row, input_);
     const Real h = norm(ends[1].point - ends[0].point);
     const RegionFigures here = figures(ends, *d, t, c);
@@ -476,14 +491,14 @@ class RegionCheck {
   void arc(const SheetRow& row) {
     const SheetPoint &a = p_.points[row.from], &b = p_.points[row.to];
     const Real h = norm(b.point - a.point);
-    const Real turn = std::remainder(b.heading - a.heading, kCircleTurn);
     const Vec chord = b.point - a.point;
     const Real omega = std::atan2(chord.y, chord.x);
     const Real sigma = std::remainder(a.heading - omega, kCircleTurn) +
                        std::remainder(b.heading - omega, kCircleTurn);
     const Real blur = kSameAsStated + 64.0L * 0x1p-53L * p_.coordinate / h;
     sheet_.expect(std::abs(sigma) <= blur, "region.arc", 0.0L, sigma, where(row));
-    const Real kappa = 2.0L * std::sin(0.5L * turn) / h;
+    const Real beta = std::remainder(b.heading - omega, kCircleTurn), turn = 2.0L * beta;
+    const Real kappa = 2.0L * std::sin(beta) / h;
     sheet_.expect(std::abs(row.start->low - kappa) <= 4.0L * blur / h + 1e-6L * std::abs(kappa),
                   "region.arc curvature", row.start->low, kappa, where(row));
     near("region.lower_height", figure(*row.figures, "lower_height"),

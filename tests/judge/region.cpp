@@ -240,6 +240,15 @@ std::optional<std::array<Real, 2>> Region::over_middle() const {
   return std::array{Graph(from_start_).ordinate(0.5L * h_), Graph(to_end_).ordinate(0.5L * h_)};
 }
 
+bool Region::turns_half() const {
+  const auto far = [](const Biarc& both) {
+    const BoundaryArc &first = both.first, &second = both.second;
+    return (norm(first.end - first.start) == 0.0L && std::abs(second.turn) >= kPi) ||
+           (norm(second.end - second.start) == 0.0L && std::abs(first.turn) >= kPi);
+  };
+  return far(from_start_) || far(to_end_);
+}
+
 std::array<Extent, 2> Region::extents() const {
   Reach a, b;
   for (const BoundaryArc* arc : {&from_start_.first, &from_start_.second}) a.reach(*arc);

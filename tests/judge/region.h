@@ -55,6 +55,8 @@ class Region {
   [[nodiscard]] Real outside(Vec p) const;
   /// Ordinates of both boundaries over the middle of the chord; none where one is no graph over it.
   [[nodiscard]] std::optional<std::array<Real, 2>> over_middle() const;
+  /// Whether a boundary with one unknown circle turns by half a turn or more.
+  [[nodiscard]] bool turns_half() const;
   /// Of the boundary from the start, and of that to the end.
   [[nodiscard]] std::array<Extent, 2> extents() const;
   /// Both arcs of a boundary in the plane, 0: that from the start, 1: that to the end.

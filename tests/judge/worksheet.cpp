@@ -17,8 +17,6 @@ constexpr Real kTurnAround = 2.0L * std::numbers::pi_v<Real>;
 constexpr Real kSameHeading = 1e-9L;
 /// Curvatures at both ends of one arc, relative.
 constexpr Real kSameArc = 1e-6L;
-/// Sums of two angles that rounding makes, rad.
-constexpr Real kRoundedBending = 1e-13L;
 
 Real angle_of(Vec v) { return std::atan2(v.y, v.x); }
 
@@ -129,8 +127,8 @@ class RangeMaker {
       if (given.kappas) out = {given.kappas->least, given.kappas->greatest};
       if (given.kappa) out = {*given.kappa, *given.kappa};
     }
-    if (p.kappas && p.kappas->low == 0.0L && p.kappas->high > 0.0L) out = meet(out, {0.0L});
-    if (p.kappas && p.kappas->high == 0.0L && p.kappas->low < 0.0L) {
+    if (p.kappas && p.kappas->low == 0.0L) out = meet(out, {0.0L});
+    if (p.kappas && p.kappas->high == 0.0L) {
       out = meet(out, {-HUGE_VALL, 0.0L});
     }
     for (std::size_t k = 0; k < part_.rows.size(); ++k) {
@@ -262,16 +260,8 @@ std::optional<int> SheetPart::direction(const SheetRow& row) const {
   if (one && figure(*row.figures, "width").value == 0.0) return 0;
   const Real sigma = bending(row);
   if (std::abs(sigma) > kRoundedBending) return sigma > 0.0L ? 1 : -1;
-  // a circle fits both headings: the rows beside it tell
-  const auto at = static_cast<std::size_t>(&row - rows.data());
-  const auto [first, behind] = section(at);
-  for (std::size_t k = at + 1; k < behind; ++k) {
-    if (std::abs(bending(rows[k])) > kRoundedBending) return bending(rows[k]) > 0.0L ? 1 : -1;
-  }
-  for (std::size_t k = at; k-- > first;) {
-    if (std::abs(bending(rows[k])) > kRoundedBending) return bending(rows[k]) > 0.0L ? 1 : -1;
-  }
-  return sigma > 0.0L ? 1 : -1;
+  // a circle fits both headings: the ranges tell
+  return row.start->low <= row.end->low && row.start->high <= row.end->high ? 1 : -1;
 }
 
 /// Both angles between the chord and the headings.

@@ -39,6 +39,9 @@ struct SheetRow {
   const Json* figures = nullptr;
 };
 
+/// Sums of two angles that rounding makes, rad.
+constexpr Real kRoundedBending = 1e-13L;
+
 /// One of the two tables.
 struct SheetPart {
   std::vector<SheetPoint> points;
