@@ -20,7 +20,7 @@ constexpr Real kSameArc = 1e-6L;
 
 Real angle_of(Vec v) { return std::atan2(v.y, v.x); }
 
-std::optional<Limits> range_of(const Json& object, const char* low, const char* high) {
+std::optional<Limits> range_between(const Json& object, const char* low, const char* high) {
   const Figure a = figure(object, low), b = figure(object, high);
   if (!a.known() && !b.known()) return std::nullopt;
   Limits out;
@@ -47,10 +47,10 @@ SheetPart read_part(const Json& json) {
     p.heading_given = one.at("heading_given").truth();
     p.curvature_given = one.at("curvature_given").truth();
     p.adjacent_kappa = figure(one, "adjacent_kappa").value;
-    p.headings = range_of(one, "heading_low", "heading_high");
+    p.headings = range_between(one, "heading_low", "heading_high");
     p.low_is_open = one.at("heading_low_open").truth();
     p.high_is_open = one.at("heading_high_open").truth();
-    p.kappas = range_of(one, "kappa_low", "kappa_high");
+    p.kappas = range_between(one, "kappa_low", "kappa_high");
     out.points.push_back(p);
   }
   for (const Json& one : rows) {
@@ -60,8 +60,8 @@ SheetPart read_part(const Json& json) {
     if (row.to != row.from + 1 || row.to >= out.points.size()) {
       throw std::runtime_error("a segment between other points");
     }
-    row.start = range_of(one, "kappa_start_low", "kappa_start_high");
-    row.end = range_of(one, "kappa_end_low", "kappa_end_high");
+    row.start = range_between(one, "kappa_start_low", "kappa_start_high");
+    row.end = range_between(one, "kappa_end_low", "kappa_end_high");
     row.figures = &one;
     out.rows.push_back(row);
   }
@@ -74,7 +74,7 @@ SheetPart read_part(const Json& json) {
 }
 
 /// What may be at a point; empty where `low` is not below `high`.
-Limits meet(const Limits& a, const Limits& b) {
+Limits crossing(const Limits& a, const Limits& b) {
   return {std::max(a.low, b.low), std::min(a.high, b.high)};
 }
 Limits mirrored(const Limits& range, int d) {
@@ -127,9 +127,9 @@ class RangeMaker {
       if (given.kappas) out = {given.kappas->least, given.kappas->greatest};
       if (given.kappa) out = {*given.kappa, *given.kappa};
     }
-    if (p.kappas && p.kappas->low == 0.0L) out = meet(out, {0.0L});
+    if (p.kappas && p.kappas->low == 0.0L) out = crossing(out, {0.0L});
     if (p.kappas && p.kappas->high == 0.0L) {
-      out = meet(out, {-HUGE_VALL, 0.0L});
+      out = crossing(out, {-HUGE_VALL, 0.0L});
     }
     for (std::size_t k = 0; k < part_.rows.size(); ++k) {
       const SheetRow& row = part_.rows[k];
@@ -173,16 +173,16 @@ class RangeMaker {
         right[count] = right[0];
       }
       for (std::size_t k = 0; k < count; ++k) {
-        left[k + 1] = ahead(first + k, meet(left[k], own_[start + k]));
+        left[k + 1] = ahead(first + k, crossing(left[k], own_[start + k]));
       }
       for (std::size_t k = count; k-- > 0;) {
-        right[k] = back(first + k, meet(right[k + 1], own_[start + k + 1]));
+        right[k] = back(first + k, crossing(right[k + 1], own_[start + k + 1]));
       }
     }
     for (std::size_t k = 0; k <= count; ++k) {
       const bool known = !std::isnan(left[k].low) && !std::isnan(left[k].high) &&
                          !std::isnan(right[k].low) && !std::isnan(right[k].high);
-      const Limits all = meet(meet(left[k], right[k]), own_[start + k]);
+      const Limits all = crossing(crossing(left[k], right[k]), own_[start + k]);
       out_[start + k] = known && !all.empty() ? std::optional(all) : std::nullopt;
     }
   }
