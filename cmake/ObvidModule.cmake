@@ -6,7 +6,7 @@ configure_file("${PROJECT_SOURCE_DIR}/cmake/version.h.in"
 
 # For targets that make texts, not figures: a release build spends a third less time on them.
 function(obvid_for_words target)
-  if(NOT MSVC)
+  if(NOT MSVC AND NOT EMSCRIPTEN)
     target_compile_options(${target} PRIVATE $<$<CONFIG:Release>:-O1>)
   endif()
 endfunction()
@@ -27,6 +27,9 @@ function(obvid_module)
     set(M_BATCH ${OBVID_BATCH})
   endif()
   file(GLOB_RECURSE sources CONFIGURE_DEPENDS "${PROJECT_SOURCE_DIR}/src/${M_FOLDER}/*.cpp")
+  if(EMSCRIPTEN)
+    list(FILTER sources EXCLUDE REGEX "/(helper_file|helper_process|named_builder)\\.cpp$")  # apps/web has others
+  endif()
   set(target obvid_${M_NAME})
   if(sources)
     obvid_unity(units ${target} ${M_BATCH} ${sources})
@@ -38,6 +41,9 @@ function(obvid_module)
       target_link_libraries(${target} PRIVATE $<BUILD_INTERFACE:${library}>)
     endforeach()
     set_target_properties(${target} PROPERTIES POSITION_INDEPENDENT_CODE ON)
+    if(EMSCRIPTEN)  # where a page is loaded, size is time
+      set_target_properties(${target} PROPERTIES POSITION_INDEPENDENT_CODE OFF)
+    endif()
     if(M_WORDS)
       obvid_for_words(${target})
     endif()

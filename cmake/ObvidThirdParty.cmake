@@ -1,6 +1,10 @@
 # SPDX-License-Identifier: Apache-2.0
 # Libraries of other people, all from Debian's packages (tools/packages names them).
 # Imported targets are SYSTEM: their warnings are not ours.
+if(EMSCRIPTEN)
+  include(ObvidWebThirdParty)
+  return()
+endif()
 find_package(tl-expected REQUIRED)
 find_package(fmt 9 REQUIRED)
 find_package(Boost 1.74 REQUIRED)

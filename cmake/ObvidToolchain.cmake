@@ -8,6 +8,9 @@ if(NOT CMAKE_BUILD_TYPE AND NOT CMAKE_CONFIGURATION_TYPES)
   set(CMAKE_BUILD_TYPE Release CACHE STRING "" FORCE)
 endif()
 set(CMAKE_CXX_FLAGS_RELEASE "-O3 -DNDEBUG")
+if(EMSCRIPTEN)
+  set(CMAKE_CXX_FLAGS_RELEASE -DNDEBUG)  # -O2 or -Oz: cmake/ObvidWeb.cmake
+endif()
 set(CMAKE_CXX_FLAGS_DEBUG "-O1 -g")
 
 find_program(OBVID_CCACHE ccache)
@@ -16,7 +19,7 @@ if(OBVID_CCACHE AND NOT CMAKE_CXX_COMPILER_LAUNCHER)
 endif()
 
 find_program(OBVID_MOLD mold)
-if(OBVID_MOLD)
+if(OBVID_MOLD AND NOT EMSCRIPTEN)
   add_link_options(-fuse-ld=mold)
 endif()
 

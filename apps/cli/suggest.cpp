@@ -8,8 +8,7 @@
 #include <vector>
 
 #include "interrupt.h"
-#include "obvid/io/read_points.h"
-#include "obvid/pipeline/refusal.h"
+#include "obvid/pipeline/import.h"
 #include "obvid/pipeline/report_json.h"
 #include "obvid/pipeline/trade_off.h"
 #include "outputs.h"
@@ -43,18 +42,19 @@ std::string rows_text(const TradeOff& t) {
   table.column("pieces");
   table.column("largest\nmove");
   table.column("time\nms");
+  table.column("option of fit", Table::Align::kLeft);
   table.column("proved", Table::Align::kLeft);
   for (std::size_t i = 0; i < t.rows.size(); ++i) {
     const TradeOffRow& row = t.rows[i];
     const std::string tolerance = significant(row.tolerance, kSuggestedDigits);
     if (!row.formed) {
-      table.row({tolerance, "-", "-", "-", "-", "-", "-", "no: " + row.refusal});
+      table.row({tolerance, "-", "-", "-", "-", "-", "-", "-", "no: " + row.refusal});
       continue;
     }
     table.row({tolerance, std::to_string(row.vertices), std::to_string(row.vertices_lower_bound),
                std::to_string(row.inflections), std::to_string(row.pieces),
                significant(row.largest_move, kSuggestedDigits),
-               fmt::format("{:.1f}", kMilli * row.seconds),
+               fmt::format("{:.1f}", kMilli * row.seconds), row.option,
                row.carried  ? "yes, as the row before"
                : row.proved ? "yes"
                             : "no: " + row.refusal});
@@ -62,22 +62,20 @@ std::string rows_text(const TradeOff& t) {
   return table.text();
 }
 
-std::string recommendation(const TradeOff& t, const PointSeries& series) {
+std::string recommendation(const TradeOff& t) {
   if (!t.recommended) return "No tolerance gave a proved contour.\n";
   const TradeOffRow& row = t.rows[*t.recommended];
-  return fmt::format("Recommended: {} ({}, moves up to {} {})\nRule: {}.\n",
-                     noise_option(row.tolerance, t.closed, series),
+  return fmt::format("Recommended: {} ({}, moves up to {} {})\nRule: {}.\n", row.option,
                      counted(static_cast<std::size_t>(row.vertices), "vertex", "vertices"),
                      significant(row.largest_move, kSuggestedDigits), t.units.text(),
                      trade_off_rule());
 }
 
-std::string suggestion_text(const TradeOff& t, const PointSeries& series,
-                            const std::vector<std::string>& written) {
+std::string suggestion_text(const TradeOff& t, const std::vector<std::string>& written) {
   std::string text;
   if (!t.name.empty()) text += bold(t.name) + "\n";
   text += fmt::format("one tolerance for every point; lengths in {}\n\n", t.units.text());
-  text += rows_text(t) + "\n" + recommendation(t, series);
+  text += rows_text(t) + "\n" + recommendation(t);
   if (!written.empty()) text += fmt::format("written  {}\n", listed(written));
   return text;
 }
@@ -99,8 +97,9 @@ int suggest(const FitOptions& options) {
   if (!charts) return report(charts.error());
   ProgressBar bar(options.progress && !options.quiet);
   bar.tell("reading", 0.0);
-  Result<PointSeries> series =
-      options.text ? parse_points(*options.text, options.name()) : read_points(options.input);
+  Result<PointSeries> series = options.text
+                                   ? parse_series(*options.text, options.name(), options.import)
+                                   : read_series(options.input, options.import);
   if (series && options.units) take_units(*series, *options.units);
   TradeOff finished;
   const Result<TradeOff> found = series.and_then([&](const PointSeries& s) {
@@ -124,7 +123,7 @@ int suggest(const FitOptions& options) {
   if (options.json) {
     text = trade_off_json(*found, series->warnings, *written);
   } else if (!options.quiet) {
-    text = suggestion_text(*found, *series, *written);
+    text = suggestion_text(*found, *written);
   }
   if (auto done = put(text); !done) return report(done.error());
   return judge_trade_off(*found);

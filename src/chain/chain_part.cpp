@@ -49,8 +49,8 @@ class MovedPart {
       problem->nodes[k].kappa = start[k].kappa;
     }
     ChainSolution solution = solve_chain(points_, *problem, watched(watch), &start);
-    constexpr double kLeastSigma = Extended{}.least_sigma;
-    if (!solution.converged || !carried(*problem, solution, kLeastSigma)) return std::nullopt;
+    const double least_sigma = Extended{}.least_sigma;
+    if (!solution.converged || !carried(*problem, solution, least_sigma)) return std::nullopt;
     directions_ = std::move(problem->direction);
     nodes_ = std::move(problem->nodes);
     return solution;

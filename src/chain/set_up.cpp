@@ -8,6 +8,8 @@
 #include <numbers>
 #include <string>
 
+#include "obvid/geom/angle.h"
+
 namespace obvid::chain_detail {
 namespace {
 
@@ -37,15 +39,22 @@ int forced_sign(const Analysis& a, std::size_t i) {
   return before == -own || after == -own ? 0 : own;
 }
 
-/// Whether data fixed at a point of a stretch are others than the stretch's own.
-bool contradicts(const NodeData& node, double theta, double kappa, double rounding) {
-  constexpr double kSameHeading = 1e-9;    // rad: far below what a user can give
+/// Whether a value lies outside a range by more than `off`.
+bool leaves(const std::optional<ValueRange>& range, double value, double off) {
+  return range && (value < range->low - off || value > range->high + off);
+}
+
+/// Whether data given at a point of a stretch are others than the stretch's own.
+bool contradicts(const FixedData& data, double theta, double kappa, double rounding) {
+  // as nearly as given data are kept (docs/methods/certify.md)
+  constexpr double kSameHeading = 1e-6;    // rad
   constexpr double kSameCurvature = 1e-6;  // of the stretch's curvature
-  const bool turned = node.theta && std::abs(std::remainder(*node.theta - theta,
-                                                            2.0 * std::numbers::pi)) > kSameHeading;
-  const bool bent = node.kappa && std::abs(*node.kappa - kappa) >
-                                      std::max(kSameCurvature * std::abs(kappa), rounding);
-  return turned || bent;
+  const double off = std::max(kSameCurvature * std::abs(kappa), rounding);
+  if (data.theta && std::abs(theta - nearest_angle(*data.theta, theta)) > kSameHeading) return true;
+  if (data.kappa && std::abs(*data.kappa - kappa) > off) return true;
+  const double middle = data.thetas ? 0.5 * (data.thetas->low + data.thetas->high) : theta;
+  return leaves(data.thetas, nearest_angle(theta, middle), kSameHeading) ||
+         leaves(data.kappas, kappa, off);
 }
 
 std::string point_range(const Infeasibility& why) {
@@ -181,14 +190,16 @@ Result<ChainProblem> chain_problem(const Analysis& a, const ChainWishes& wishes)
   }
   for (const CircularStretch& s : a.stretches) {
     for (std::size_t i = s.first; i <= s.last; ++i) {
-      if (contradicts(p.nodes[i], heading_on_stretch(a, s, i), s.kappa, a.circles[i].rounding)) {
+      const double theta = heading_on_stretch(a, s, i);
+      if (i < wishes.fixed.size() &&
+          contradicts(wishes.fixed[i], theta, s.kappa, a.circles[i].rounding)) {
         return fail({ErrorCode::kFixedDataContradict,
                      "the points lie on one circle or line here, with another heading or radius "
                      "than the fixed one",
                      fmt::format("point {}", i + 1), "free the heading and radius there",
                      static_cast<std::ptrdiff_t>(i), s.kappa});
       }
-      p.nodes[i].theta = heading_on_stretch(a, s, i);
+      p.nodes[i].theta = theta;
       p.nodes[i].kappa = s.kappa;
       p.nodes[i].curvature_sign = 0;
     }

@@ -34,7 +34,9 @@ constexpr StepUnit kStepUnits[] = {
     {"um", ".MICRO.", nullptr}, {"mm", ".MILLI.", nullptr}, {"cm", ".CENTI.", nullptr},
     {"m", "$", nullptr},        {"km", ".KILO.", nullptr},  {"mil", nullptr, "MIL"},
     {"in", nullptr, "INCH"},    {"ft", nullptr, "FOOT"},    {"mi", nullptr, "MILE"}};
-static_assert(std::ranges::equal(kStepUnits, kCadUnits, {}, &StepUnit::name));
+static_assert(std::equal(std::begin(kStepUnits), std::end(kStepUnits), std::begin(kCadUnits),
+                         std::end(kCadUnits),
+                         [](const StepUnit& a, std::string_view b) { return a.name == b; }));
 
 struct SchemaText {
   const char* schema;    ///< of the header
@@ -164,7 +166,8 @@ Result<std::string> step_text(const std::vector<CadCurve>& curves, const StepOpt
   if (curves.empty()) {
     return fail({ErrorCode::kTooFewPoints, "there are no curves to write", "", "", -1, 0.0});
   }
-  const auto* unit = std::ranges::find(kStepUnits, written, &StepUnit::name);
+  const auto* unit = std::find_if(std::begin(kStepUnits), std::end(kStepUnits),
+                                  [&](const StepUnit& one) { return one.name == written; });
   const double scale = written == options.units ? 1.0 : *unit_ratio(options.units, written);
   const double mm = *unit_ratio(written, "mm");
   std::vector<StepChain> chains;

@@ -148,7 +148,9 @@ std::optional<FairedSeries> keep_primitives(const MeasuredSeries& series, int lo
     const Stretch stretch = Stretch::next_of_many(watch, k);
     FairedSeries out = attempt(series, lower_bound, loose, watch);
     out.loose = loose;
-    if (out.feasible || out.primitives == 0) return out;
+    const bool broken_off = !out.feasible && !watch.may_go_on();
+    if (out.feasible || (out.primitives == 0 && !broken_off)) return out;
+    if (out.primitives == 0) break;
     loose.push_back(*nearest_primitive_end(out, out.trouble));
   }
   return std::nullopt;

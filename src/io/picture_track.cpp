@@ -69,6 +69,8 @@ void sample_pieces(PictureTrack& track) {
 }
 
 /// The longest tooth is that of the curve, not of the sample beside it.
+/// The largest curvature lies near the sample where it is largest, or, on a piece that nearly stops,
+/// near the slowest one.
 void refine_largest(PictureTrack& track) {
   const auto smaller = [](const PictureSample& a, const PictureSample& b) {
     return std::fabs(a.kappa) < std::fabs(b.kappa);
@@ -76,16 +78,29 @@ void refine_largest(PictureTrack& track) {
   for (std::size_t i = 0; i < track.pieces.size(); ++i) {
     const auto first = track.samples.begin() + static_cast<std::ptrdiff_t>(track.first[i]);
     const auto last = track.samples.begin() + static_cast<std::ptrdiff_t>(track.first[i + 1]) - 1;
-    const auto at = std::max_element(first, last + 1, smaller);
-    // below a neighbour by half a step of the largest it may still be the largest in between
-    if (at == first || at == last || 2.0 * std::fabs(at->kappa) < track.largest_kappa) continue;
+    const auto speed = [&](double t) { return norm(evaluate(track.pieces[i], t).d1); };
     const auto kappa = [&](double t) { return std::fabs(sample_at(track.pieces[i], t).kappa); };
-    double low = (at - 1)->t, high = (at + 1)->t;
-    for (int k = 0; k < kThirds; ++k) {
-      const double a = low + (high - low) / 3.0, b = high - (high - low) / 3.0;
-      (kappa(a) < kappa(b) ? low : high) = kappa(a) < kappa(b) ? a : b;
+    // walks to the place between the neighbours of a sample where `higher` says it is
+    const auto look = [&](auto at, const auto& higher) {
+      double low = (at == first ? at : at - 1)->t, high = (at == last ? at : at + 1)->t;
+      for (int k = 0; k < kThirds; ++k) {
+        const double a = low + (high - low) / 3.0, b = high - (high - low) / 3.0;
+        (higher(b, a) ? low : high) = higher(b, a) ? a : b;
+      }
+      track.largest_kappa = std::max(track.largest_kappa, kappa(0.5 * (low + high)));
+    };
+    const auto largest = std::max_element(first, last + 1, smaller);
+    // below a neighbour by half a step of the largest it may still be the largest in between
+    if (2.0 * std::fabs(largest->kappa) >= track.largest_kappa) {
+      look(largest, [&](double a, double b) { return kappa(a) > kappa(b); });
     }
-    track.largest_kappa = std::max(track.largest_kappa, kappa(0.5 * (low + high)));
+    const auto [slow, fast] = std::minmax_element(
+        first, last + 1,
+        [&](const PictureSample& a, const PictureSample& b) { return speed(a.t) < speed(b.t); });
+    constexpr double kNearlyStops = 0.25;  // of the largest speed
+    if (speed(slow->t) < kNearlyStops * speed(fast->t)) {
+      look(slow, [&](double a, double b) { return speed(a) < speed(b); });
+    }
   }
 }
 

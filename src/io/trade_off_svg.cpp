@@ -102,8 +102,8 @@ void draw_legend(PictureCanvas& canvas, const TradeOff& t, double y) {
 std::string recommendation(const TradeOff& t) {
   if (!t.recommended) return "No tolerance gave a proved contour.";
   const TradeOffRow& row = t.rows[*t.recommended];
-  return "Recommended (diamond): " + readable_number(row.tolerance, 3) + " " + t.units.text() + ", " +
-         std::to_string(row.vertices) + (row.vertices == 1 ? " vertex" : " vertices");
+  return "Recommended (diamond): " + row.option + ", " + std::to_string(row.vertices) +
+         (row.vertices == 1 ? " vertex" : " vertices");
 }
 
 }  // namespace
@@ -120,9 +120,9 @@ std::string trade_off_svg(const TradeOff& t) {
   draw_steps(body, frame, t, &TradeOffRow::vertices_lower_bound, "curve down");
   draw_steps(body, frame, t, &TradeOffRow::vertices, "graph up");
   draw_rows(body, frame, t);
-  body.label(
-      {0.5 * (frame.left + frame.right), frame.bottom + 38.0}, "middle", "axis-title",
-      "Tolerance of every point, " + power_prefix(frame.x.exponent) + t.units.text() + ", logarithmic");
+  body.label({0.5 * (frame.left + frame.right), frame.bottom + 38.0}, "middle", "axis-title",
+             "Tolerance of every point, " + power_prefix(frame.x.exponent) + t.units.text() +
+                 ", logarithmic");
   draw_legend(body, t, frame.bottom + 66.0);
   return picture_sheet(title, recommendation(t), body.take(), frame.bottom + kBelow);
 }

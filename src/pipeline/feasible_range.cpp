@@ -28,6 +28,8 @@ constexpr double kFirstStep = 1e-3;  // of the way from what does to what was as
 constexpr std::size_t kMostCandidates = 8;
 /// Narrower ranges are left to rounding: rad, and of the curvature. As much as joints may differ.
 constexpr double kNarrowest = 1e-6;
+/// Of a value that is kept as nearly as joints may differ there is a range of twice that width.
+constexpr double kKeptOnBothSides = 3.0 * kNarrowest;
 /// In closed form narrower ones are told too: their ends are tried.
 constexpr double kNarrowestExact = 1e-10;
 /// A hundredth of these is what `feasible_data` knows.
@@ -55,6 +57,12 @@ double some_value(const ValueRange& range) {
 double in_first_turn(double angle) {
   constexpr double kTurn = 2.0 * std::numbers::pi;
   return angle - kTurn * std::floor(angle / kTurn);
+}
+
+/// To a power of ten that is at most `place`.
+double rounded_to_place(double value, double place) {
+  const double power = std::pow(10.0, std::ceil(-std::log10(place)));
+  return std::round(value * power) / power;
 }
 
 class RangeSearch {
@@ -280,6 +288,12 @@ class RangeSearch {
     const double size =
         given.datum == Datum::kHeading ? 1.0 : std::max(std::abs(low), std::abs(high));
     if (!(width > kNarrowest * size)) return std::nullopt;
+    if (width < kKeptOnBothSides * size) {
+      const double unit = given.datum == Datum::kHeading ? kDegreeStep : 1.0;
+      const double only = rounded_to_place(*free / unit, kRangeAccuracy * width / unit) * unit;
+      if (!does(given, only)) return std::nullopt;
+      return FeasibleRange{given.point, given.datum, asked, only, only, false};
+    }
     const auto least = printed(given, low, high, width);
     const auto greatest = printed(given, high, low, width);
     if (!least || !greatest || *least > *greatest) return std::nullopt;

@@ -41,6 +41,8 @@ constexpr int kReachHalvings = 4;
 /// No further round begins when so many steps on every point (and some more where there are few)
 /// were spent: a hundred times what a contour takes as a rule.
 constexpr double kMostFitSteps = 1e4, kSpareWork = 1e6;
+/// The same, of halving the reach a second time and more often.
+constexpr double kMostHalvingSteps = 500.0;
 constexpr double kFormedAt = 0.7;  ///< part of the bar when all sections are formed
 /// Arcs whose regions came out wider than asked, by the rounding of their ends, are formed again.
 constexpr int kArcTrials = 2;
@@ -513,8 +515,8 @@ Result<double> tolerance_of(const FitJob& job, const std::vector<Vec2>& points, 
 /// The contour, formed again with narrower reaches as long as it passes points too far.
 Result<Formed> form_within(Prepared& series, const FitJob& job, double tolerance,
                            FoundChains& chains, Watch& watch) {
-  const double most =
-      watch.spent() + kSpareWork + kMostFitSteps * static_cast<double>(series.points.size());
+  const auto points = static_cast<double>(series.points.size());
+  const double spare = watch.spent() + kSpareWork, most = spare + kMostFitSteps * points;
   int round = 0;
   const auto again = [&] {
     const Stretch stretch = Stretch::next_of_many(watch, round++);
@@ -530,8 +532,9 @@ Result<Formed> form_within(Prepared& series, const FitJob& job, double tolerance
     formed = again();
   }
   int halvings = 0;
-  while (halvings < kReachHalvings && !series.exact() && watch.spent() < most &&
-         !watch.was_cancelled() && lost_by_moves(formed, watch)) {
+  while (halvings < kReachHalvings && !series.exact() && !watch.was_cancelled() &&
+         watch.spent() < (halvings == 0 ? most : spare + kMostHalvingSteps * points) &&
+         lost_by_moves(formed, watch)) {
     ++halvings;
     for (double& reach : series.reach) reach *= 0.5;
     formed = again();

@@ -190,21 +190,31 @@ Result<SeriesChain> few_points_with_fixed_data(const std::vector<Vec2>& points, 
   return std::move(*first);
 }
 
+/// Whether the circle or line of a wholly circular series has what is given.
+Result<void> has_wishes(const Analysis& analysis, const ChainWishes& wishes) {
+  if (!anything_fixed(wishes)) return {};
+  const auto problem = chain_problem(analysis, wishes);
+  if (!problem) return fail(problem.error());
+  return {};
+}
+
 }  // namespace
 
 Result<SeriesChain> form_elements(const std::vector<Vec2>& points, const Analysis& analysis,
                                   const ChainWishes& wishes, Watch& watch) {
   if (!wholly_circular(points, analysis)) return chosen_elements(points, analysis, wishes, watch);
-  if (any_value_fixed(wishes) && points.size() <= kFewPoints) {
-    return few_points_with_fixed_data(points, analysis, wishes, watch);
-  }
-  if (any_value_fixed(wishes)) {
-    return fail(
-        {ErrorCode::kFixedDataContradict,
-         "the points lie on one circle or line, which leaves no heading or radius to choose", "",
-         "drop the fixed data, or add points", 0, analysis.stretches.front().kappa});
-  }
-  return one_circle(points, analysis);
+  const auto has_them = has_wishes(analysis, wishes);
+  if (has_them) return one_circle(points, analysis);
+  if (points.size() > kFewPoints) return fail(has_them.error());
+  // fewer may be asked for another curve, but not by ranges: what holds in them is found first
+  if (!any_value_fixed(wishes)) return one_circle(points, analysis);
+  return few_points_with_fixed_data(points, analysis, wishes, watch);
+}
+
+bool is_one_circle(const std::vector<Vec2>& points, const Analysis& analysis,
+                   const ChainWishes& wishes) {
+  return points.size() > kFewPoints && wholly_circular(points, analysis) &&
+         has_wishes(analysis, wishes);
 }
 
 Result<Contour> form_spirals(const std::vector<Vec2>& points, const SeriesChain& chain) {

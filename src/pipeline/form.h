@@ -20,6 +20,11 @@ namespace obvid::pipeline_detail {
                                                 const Analysis& analysis, const ChainWishes& wishes,
                                                 Watch& watch);
 
+/// Whether more than 3 points lie on one circle or line that has all that is given: to 1e-6 rad and
+/// 1e-6 of the curvature, or to what the rounding of the coordinates leaves of it.
+[[nodiscard]] bool is_one_circle(const std::vector<Vec2>& points, const Analysis& analysis,
+                                 const ChainWishes& wishes);
+
 /// Pieces over the elements: closed-form spirals, and arcs or lines over circular stretches.
 /// Error E501 when a piece came out with a weight that is not positive.
 [[nodiscard]] Result<Contour> form_spirals(const std::vector<Vec2>& points,

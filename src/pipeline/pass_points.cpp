@@ -86,7 +86,7 @@ bool PassingChain::put(std::size_t link, Vec2 p) {
 std::vector<bool> PassingChain::in_links(const std::vector<bool>& given) const {
   std::vector<bool> out;
   for (std::size_t i = 0; i < given.size(); ++i) {
-    out.insert(out.end(), places_[i].size() + 1, given[i]);
+    out.resize(out.size() + places_[i].size() + 1, given[i]);
   }
   return out;
 }

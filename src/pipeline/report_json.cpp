@@ -259,6 +259,7 @@ std::string trade_off_json(const TradeOff& t, const std::vector<std::string>& wa
       json.pair("vertices", row.vertices).pair("vertices_lower_bound", row.vertices_lower_bound);
       json.pair("inflections", row.inflections).pair("pieces", row.pieces);
       json.pair("largest_move", row.largest_move).pair("seconds", row.seconds);
+      json.pair("option", row.option);
     }
     json.end_object();
   }

@@ -229,8 +229,9 @@ class SectionChooser {
     out_ = {};
     moves_ = std::any_of(index_.begin(), index_.end(),
                          [&](std::size_t i) { return series_.reach[i] > 0.0; });
-    auto chain = moves_ && points_.size() >= kFewestForFairing ? within_tolerances()
-                 : loop_ || (goes_on_ && !central_)            ? around_loop()
+    auto chain = moves_ && points_.size() >= kFewestForFairing && !lies_on_one_circle()
+                     ? within_tolerances()
+                 : loop_ || (goes_on_ && !central_) ? around_loop()
                                                     : through_points(points_, wishes(), index_);
     if (!chain) chain = fail(in_whole_series(chain.error()));
     if (chain) {
@@ -543,14 +544,44 @@ class SectionChooser {
           "without "
           "them");
     }
+    const bool searched = is_node_each(faired, measured.points.size());
     measured.primitives = false;
     measured.thin = false;
-    if (auto chain = follow_runs(measured, faired)) return std::move(*chain);
+    if (!searched) {
+      if (auto chain = follow_runs(measured, faired)) return std::move(*chain);
+    }
     if (goes_on_) return around_loop();
     out_.warnings.emplace_back(
         "the points were moved within their tolerances onto a smooth curve, but runs of monotone "
         "curvature along it were not found; the contour runs through the moved points");
     return through_moved(faired);
+  }
+
+  /// Whether the points, none of which need move then, lie on one circle or line that has what is
+  /// given.
+  [[nodiscard]] bool lies_on_one_circle() const {
+    const ChainWishes once = wishes();
+    ChainWishes all = once;
+    std::vector<Vec2> points = points_;
+    if (loop_ || goes_on_) {
+      points.clear();
+      all.fixed.clear();
+      const std::size_t n = points_of_turn();
+      for (std::size_t k = 0; k < n + 2 * overlap() + 1; ++k) {
+        points.push_back(unrolled_point(k));
+        if (!once.fixed.empty()) all.fixed.push_back(once.fixed[(k + n - overlap()) % n]);
+      }
+    }
+    const auto analysis = analyse(points);
+    return analysis && is_one_circle(points, *analysis, all);
+  }
+
+  /// Whether every point was a node of its own, and none on a line or arc.
+  static bool is_node_each(const FairedSeries& faired, std::size_t points) {
+    const auto nodes = static_cast<std::size_t>(
+        std::count_if(faired.source.begin(), faired.source.end(),
+                      [](const auto& source) { return source.has_value(); }));
+    return faired.primitives == 0 && nodes == points;
   }
 
   /// Nothing when no runs were found, or no chain along them.

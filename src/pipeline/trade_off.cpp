@@ -4,7 +4,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "obvid/pipeline/refusal.h"
 #include "obvid/series/analysis.h"
+#include "prepare.h"
 #include "report.h"
 #include "uniform_tolerance.h"
 
@@ -15,10 +17,11 @@ using namespace pipeline_detail;
 
 constexpr int kRows = 8;
 constexpr double kLargest = 0.01;  // of the size
-/// No further trial begins when so many steps on every point, and some more where there are few,
-/// were spent.
-constexpr double kTrialSteps = 1e4, kSpareTrials = 2e6;
-constexpr const char* kNotTried = "not tried: the search ended at its limit of work";
+/// All trials end when so many steps on every point, and some more where there are few, were spent;
+/// one of them when it took so many times its share of what was left.
+constexpr double kTrialSteps = 5e3, kSpareTrials = 2e6;
+constexpr double kMostShares = 2.0;
+constexpr const char* kNotTried = "not tried to the end: the search has a limit of work";
 constexpr double kLeastSpan = 10.0;  // where the file is printed coarsely: largest / smallest
 
 std::vector<double> tolerances_for(const PointSeries& series) {
@@ -58,7 +61,9 @@ TradeOffRow row_of(double tolerance, const Error& refusal) {
 }
 
 /// A contour within smaller tolerances is one within larger ones; only the points force less then.
-void carry_on(Fit& best, double tolerance, Watch& watch, TradeOffRow& row) {
+/// `option`: what it is formed with.
+void carry_on(Fit& best, const std::string& option, double tolerance, Watch& watch,
+              TradeOffRow& row) {
   for (double& own : best.contour.point_tolerance) own = std::max(own, tolerance);
   auto measured = measure(best.contour, best.report.tolerance, watch);
   if (!measured) return;
@@ -66,8 +71,28 @@ void carry_on(Fit& best, double tolerance, Watch& watch, TradeOffRow& row) {
   best.report.vertices_lower_bound = measured->vertices_lower_bound;
   const double seconds = row.seconds;
   row = row_of(tolerance, best);
+  row.option = option;
   row.carried = true;
   row.seconds = seconds;
+}
+
+/// Nothing that `fit`, which has more time, might find otherwise.
+Result<Fit> fit_in(double work, const PointSeries& series, const FitJob& job, double tolerance,
+                   Watch& watch) {
+  const Allowance allowance(watch, work);
+  auto made = fit_within(series, job, tolerance, watch);
+  if (watch.may_go_on() || watch.was_cancelled()) return made;
+  return fail({ErrorCode::kNoSpiral, kNotTried, "", "", -1, 0.0});
+}
+
+/// Whether all pieces are those of a drawing that stay as they are.
+bool stays_as_drawn(const PointSeries& series, const FitJob& job) {
+  const auto prepared = prepare(series, job);
+  if (!prepared || prepared->kept.empty()) return false;
+  const SplitSeries& split = prepared->split;
+  return std::all_of(split.sections.begin(), split.sections.end(), [&](const Section& section) {
+    return prepared->kept[split.point_at(section.first)].has_value();
+  });
 }
 
 }  // namespace
@@ -112,27 +137,34 @@ Result<TradeOff> trade_off(const PointSeries& series, const FitJob& job, const R
   TradeOff out;
   out.name = series.name;
   out.units = series.units;
+  if (stays_as_drawn(series, job)) {
+    return fail({ErrorCode::kBadOption,
+                 "all pieces of the drawing stay as they are drawn: no tolerance changes them",
+                 "--suggest", "--drawing points takes points of them instead", -1, 0.0});
+  }
   const FitJob kept = with_closing(series, job);
   out.closed = kept.closing == Closing::kClosed;
   Watch watch(run);
   const double most = kSpareTrials + kTrialSteps * static_cast<double>(series.points.size());
   std::optional<Fit> best;  // what larger tolerances allow as well
+  std::string option;       // that it is formed with
   for (const double tolerance : tolerances_for(series)) {
     const auto row = static_cast<double>(out.rows.size());
     const Stretch stretch(watch, row / kRows, (row + 1.0) / kRows);
-    Result<Fit> made = watch.spent() < most
-                           ? fit_within(series, kept, tolerance, watch)
-                           : Result<Fit>(fail({ErrorCode::kNoSpiral, kNotTried, "", "", -1, 0.0}));
+    const double share = kMostShares * (most - watch.spent()) / (kRows - row);
+    Result<Fit> made = fit_in(share, series, kept, tolerance, watch);
     if (watch.was_cancelled()) break;  // whatever it made do with
     if (!made && exit_code(made.error().code) != exit_code(ErrorCode::kNoSpiral)) {
       return fail(made.error());
     }
     out.rows.push_back(made ? row_of(tolerance, *made) : row_of(tolerance, made.error()));
     TradeOffRow& now = out.rows.back();
+    if (now.formed) now.option = noise_option(tolerance, out.closed, series);
     if (best && (!now.proved || now.vertices > best->report.vertices)) {
-      carry_on(*best, tolerance, watch, now);
+      carry_on(*best, option, tolerance, watch, now);
     } else if (now.proved) {
       best = std::move(*made);
+      option = now.option;
     }
   }
   if (watch.was_cancelled()) {

@@ -287,6 +287,19 @@ std::optional<Error> wrong_carrier(const Contour& contour) {
                0.0};
 }
 
+/// Before any figure, since all of them are about other points then.
+std::optional<Error> other_points(const StoredContour& stored, const Certificate& found) {
+  if (!stored.certificate || !stored.certificate->through_points || found.through_points) {
+    return std::nullopt;
+  }
+  return Error{ErrorCode::kFalseClaim,
+               "the file claims through_points, but " + found.reason,
+               "/points",
+               "form the contour again",
+               -1,
+               0.0};
+}
+
 Verification verified(const StoredContour& stored, Watch& watch) {
   Verification out;
   out.not_checked = not_checked(stored);
@@ -296,6 +309,8 @@ Verification verified(const StoredContour& stored, Watch& watch) {
   if (out.false_claim || out_of_range(stored.contour) || joint_without_curvature(stored.contour)) {
     return out;
   }
+  out.false_claim = other_points(stored, out.certificate);
+  if (out.false_claim) return out;
   ClaimCheck comparison(bounding_diagonal(stored.contour.points));
   if (stored.report) {
     auto measured = pipeline_detail::measure(stored.contour, stored.report->tolerance, watch);

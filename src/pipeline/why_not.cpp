@@ -26,8 +26,8 @@ constexpr double kLeastAdvice = 1e-9;  // of the size: nobody measures less
 constexpr double kLargestMove = 0.1;   // of the size: beyond, it is another shape
 constexpr double kUsualGuess = 1e-5;   // of the size, where nothing says more
 constexpr double kUsualTrials = 14.0;  // for the progress bar
-/// No further trial begins when so many steps on every point, and some more where there are few,
-/// were spent.
+/// The search ends when so many steps on every point, and some more where there are few, were
+/// spent.
 constexpr double kSearchSteps = 2500.0, kSpareSearch = 1.5e6;
 constexpr double kNoMove = 1e-6;  // of the tolerance: the rounding of a distance
 
@@ -40,8 +40,7 @@ FitJob unmeasured(FitJob job) {
 
 class Search {
  public:
-  Search(const PointSeries& series, const FitJob& job, const Error& refusal,
-         const RunContext& run)
+  Search(const PointSeries& series, const FitJob& job, const Error& refusal, const RunContext& run)
       : series_(series),
         job_(unmeasured(with_closing(series, job))),
         measured_(job.measure_against_spirals),
@@ -106,12 +105,29 @@ class Search {
     return !out_.stopped;
   }
 
+  /// Whether a trial would do again what the job was refused for.
+  [[nodiscard]] bool is_what_was_refused(double tolerance) const {
+    const bool own =
+        std::any_of(series_.fixed.begin(), series_.fixed.end(),
+                    [](const FixedData& fixed) { return fixed.tolerance.has_value(); });
+    return !own && !job_.noise_from_rounding && job_.noise == tolerance;
+  }
+
   bool possible(double tolerance) {
     if (progress_) {
       progress_("searching the tolerance", std::min(trials_ / kUsualTrials, 1.0));
     }
     trials_ += 1.0;
+    if (is_what_was_refused(tolerance)) {
+      out_.refused = tolerance;
+      return false;
+    }
+    const Allowance allowance(watch_, most_ - watch_.spent());
     auto made = fit_within(series_, job_, tolerance, watch_);
+    if (!watch_.may_go_on()) {  // `fit` has more time, and may find another answer
+      out_.stopped = true;
+      return false;
+    }
     if (!made || broken_promise(*made)) {
       out_.refused = tolerance;
       return false;
@@ -219,8 +235,7 @@ std::optional<WhyNot> why_not(const PointSeries& series, const FitJob& job, cons
   return Search(series, job, refusal, run).run();
 }
 
-std::optional<WhyNot> why_not(const PointSeries& series, const FitJob& job,
-                              const RunContext& run) {
+std::optional<WhyNot> why_not(const PointSeries& series, const FitJob& job, const RunContext& run) {
   const auto asked = fit(series, job, RunContext({}, run.cancelled));
   if (asked) return std::nullopt;
   return why_not(series, job, asked.error(), run);

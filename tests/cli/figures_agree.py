@@ -609,20 +609,19 @@ class Subject:
             return
         answer = json.loads(done.out)
         rows = answer["rows"]
-        lines = re.findall(rf"^ *({NUMBER}) +(\S+) +(\S+) +(\S+) +(\S+) +(\S+) +\S+  (yes|no)",
+        lines = re.findall(rf"^ *({NUMBER}) +(\S+) +(\S+) +(\S+) +(\S+) +(\S+) +\S+  (\S.*?)  +(yes|no)",
                            table.out, re.M)
         self.same("rows of --suggest", len(lines), len(rows))
         for cells, row in zip(lines, rows):
             self.shows("tolerance of --suggest", cells[0], row["tolerance"])
-            self.same("proved by --suggest", cells[6] == "yes", row["proved"])
+            self.same("proved by --suggest", cells[7] == "yes", row["proved"])
+            self.same("option of --suggest", cells[6].strip(), row.get("option", "-"))
             for cell, key in zip(cells[1:5], ("vertices", "vertices_lower_bound", "inflections",
                                               "pieces")):
                 self.same("--suggest: " + key, cell, str(row.get(key, UNKNOWN)))
             self.shows("--suggest: largest move", cells[5], row.get("largest_move"))
-        again = [str(self.path), "--closed" if answer["closed"] else "--open",
-                 *(o for o in self.options if o == "--primitives")]
         for number in self.rows_to_repeat(answer):
-            self.row_of_suggest(rows[number], again)
+            self.row_of_suggest(rows[number], source)
         if answer["recommended"] is None:
             return
         row = rows[answer["recommended"]]
@@ -633,7 +632,7 @@ class Subject:
             self.shows("recommended tolerance", said[0], row["tolerance"])
             self.same("vertices of the recommendation", int(said[1]), row["vertices"])
             self.shows("move of the recommendation", said[2], row["largest_move"])
-        said = self.found("chart", rf"Recommended \(diamond\): ({NUMBER}) \S+, (\d+) vert",
+        said = self.found("chart", rf"Recommended \(diamond\): --noise ({NUMBER})(?: --open)?, (\d+) vert",
                           " ".join(labels_of(self.read("chart.svg"))))
         if said:
             self.shows("tolerance in the chart", said[0], row["tolerance"])
@@ -645,10 +644,10 @@ class Subject:
         return [] if answer["recommended"] is None else [answer["recommended"]]
 
     def row_of_suggest(self, row, source):
-        """`source` says whether the contour is closed, as the recommendation does."""
-        if not row["formed"] or row["carried"]:
+        """What a user types who reads the row."""
+        if not row["formed"] or row["carried"] or "no smaller" in row["option"]:
             return
-        done = self.run("fit", *source, "--noise", repr(row["tolerance"]), "--json")
+        done = self.run("fit", *source, *row["option"].split(), "--json")
         if not done.out:
             self.same(f"fit --noise {row['tolerance']!r}", done.err, "a contour")
             return

@@ -115,8 +115,8 @@ class TextCheck {
               std::strtod(words[5].c_str(), nullptr) == static_cast<double>(part.to - part.from),
           "table pieces", words[5], static_cast<double>(part.to - part.from));
     }
-    radius(words[6], part.from, true);
-    radius(words[7], part.to, false);
+    radius(words[6], part.from, part.from_point, true);
+    radius(words[7], part.to, part.to_point, false);
   }
   /// The part that leads between the points of a row's name.
   [[nodiscard]] std::size_t row_of(const std::string& name) const {
@@ -137,11 +137,11 @@ class TextCheck {
     std::sort(y.begin(), y.end());
     return x == y;
   }
-  void radius(const std::string& printed, Real order, bool leaving) {
+  void radius(const std::string& printed, Real order, std::size_t point, bool leaving) {
     if (printed == "-") return;
     const FileElement* e =
         order == std::floor(order) ? file_.joint(static_cast<std::size_t>(order)) : nullptr;
-    if (e == nullptr || !(e->source || e->parted())) return radius_beside(printed, order);
+    if (e == nullptr || !(e->source || e->parted())) return radius_beside(printed, order, point);
     const double kappa = leaving && e->parted() ? e->kappa_out : e->kappa;
     say(radius_of(printed, kappa), "table radius", printed, kappa == 0.0 ? 0.0 : 1.0 / kappa);
   }
@@ -150,8 +150,12 @@ class TextCheck {
   }
   /// At a point that is no joint: of a place that rounding of the coordinates does not tell from
   /// the nearest one (docs/claims.md), as doubles evaluate it.
-  void radius_beside(const std::string& printed, Real order) {
-    auto [least, most] = course_.curvatures_near(order, course_.resolution());
+  void radius_beside(const std::string& printed, Real order, std::size_t point) {
+    // distances from a point at D differ by s^2 / (2 D): doubles do not tell them apart below
+    constexpr Real kRoundings = 4.0L * 0x1p-52L;
+    const Real away = norm(course_.path.at(order) - seen(file_.points[point], course_.origin));
+    const Real flat = std::sqrt(2.0L * away * kRoundings * course_.ends.coordinate);
+    auto [least, most] = course_.curvatures_near(order, std::max(course_.resolution(), flat));
     const Real blur = course_.curvature_rounding(order);
     least -= blur;
     most += blur;

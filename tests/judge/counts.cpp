@@ -9,6 +9,9 @@ namespace {
 /// Curvatures below this part of the largest around a joint may be rounding of zero.
 constexpr double kFlatEnd = 1e-9;
 
+/// Parameters of pieces that are not monotone are told apart down to this (docs/claims.md).
+constexpr double kSamePlace = 1e-12;
+
 struct Item {
   int sign = 0;
   bool certain = true;
@@ -63,7 +66,15 @@ CountRange count_vertices(const Course& course) {
     const bool counted =
         joint.corner || joint.step || course.file.carrier == "arcs" || joint.clear_jump;
     if (counted) items.push_back({joint.jump, joint.clear_jump});
-    for (const int sign : course.laws[i].signs) items.push_back({sign, true});
+    const CurvatureLaw& law = course.laws[i];
+    const auto* bezier = std::get_if<Bezier>(&course.file.pieces[i]);
+    for (std::size_t k = 0; k < law.signs.size(); ++k) {
+      const bool turns = bezier != nullptr && law.signs.size() > 1;
+      const bool at_start = turns && k == 0 && slope_sign(*bezier, kSamePlace) != law.signs[k];
+      const bool at_end = turns && k + 1 == law.signs.size() &&
+                          slope_sign(*bezier, 1.0 - kSamePlace) != law.signs[k];
+      items.push_back({law.signs[k], !at_start && !at_end});
+    }
   }
   return range_of(items, course.file.closed);
 }

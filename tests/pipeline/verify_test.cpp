@@ -555,5 +555,15 @@ TEST(Verify, AJointThatNamesAnotherPointThanItStandsOnIsRefused) {
   EXPECT_FALSE(c.through_points);
 }
 
+TEST(Verify, PointsInAnotherOrderAreTheReasonAndNotTheFiguresBesideThem) {
+  StoredContour stored = form(cases().front());
+  std::reverse(stored.contour.points.begin(), stored.contour.points.end());
+  const Verification reversed = verify(stored);
+  ASSERT_TRUE(reversed.false_claim);
+  EXPECT_EQ(reversed.false_claim->where, "/points");
+  EXPECT_EQ(reversed.false_claim->what,
+            "the file claims through_points, but joint 1 does not stand on point 1");
+}
+
 }  // namespace
 }  // namespace obvid

@@ -41,5 +41,117 @@ TEST(WholeCircle, BeginsAtThePointThatItsFirstJointNames) {
   EXPECT_GE(circles, 5);
 }
 
+/// Points of a circle of radius 7, or of the x-axis, ten units apart.
+PointSeries of_circle(int count, double step) {
+  PointSeries series;
+  for (int i = 0; i < count; ++i) {
+    series.points.push_back({7.0 * std::cos(step * i), 7.0 * std::sin(step * i)});
+  }
+  return series;
+}
+
+PointSeries of_line() {
+  PointSeries series;
+  series.points = {{0, 0}, {10, 0}, {20, 0}, {30, 0}};
+  return series;
+}
+
+constexpr double kQuarterTurn = 0.5 * std::numbers::pi;
+
+PointWish heading_at(std::size_t i, double theta) {
+  PointWish out;
+  out.index = i;
+  out.theta = theta;
+  return out;
+}
+
+PointWish curvature_beside(std::size_t i, double kappa) {
+  PointWish out;
+  out.index = i;
+  out.kappa = kappa;
+  return out;
+}
+
+TEST(WholeCircle, KeepsGivenDataThatItHas) {
+  const PointSeries arc = of_circle(10, 0.1), around = of_circle(24, std::numbers::pi / 12.0);
+  struct GivenOnCircle {
+    const PointSeries& series;
+    PointWish wish;
+    Closing closing;
+  };
+  const PointSeries line = of_line();
+  const GivenOnCircle cases[] = {{line, heading_at(0, 0.0), Closing::kOpen},
+                                 {line, heading_at(1, 0.0), Closing::kOpen},
+                                 {line, curvature_beside(3, 0.0), Closing::kOpen},
+                                 {arc, heading_at(0, kQuarterTurn), Closing::kOpen},
+                                 {arc, heading_at(4, kQuarterTurn + 0.4 + 5e-7), Closing::kOpen},
+                                 {arc, curvature_beside(9, 1.0 / 7.0), Closing::kOpen},
+                                 {around, heading_at(0, kQuarterTurn), Closing::kClosed},
+                                 {around, curvature_beside(2, 1.0 / 7.0), Closing::kClosed}};
+  for (const GivenOnCircle& one : cases) {
+    for (const double noise : {0.0, 0.01}) {
+      for (const Carrier carrier : {Carrier::kSpiral, Carrier::kArcs, Carrier::kConics,
+                                    Carrier::kClothoids, Carrier::kBspline}) {
+        FitJob job;
+        job.closing = one.closing;
+        job.carrier = carrier;
+        job.noise = noise;
+        job.wishes = {one.wish};
+        const auto made = fit(one.series, job);
+        ASSERT_TRUE(made) << to_line(made.error());
+        EXPECT_TRUE(made->certificate.proved);
+        EXPECT_EQ(made->certificate.vertices, 0);
+        EXPECT_EQ(made->certificate.inflections, 0);
+        EXPECT_EQ(made->report.given.headings, one.wish.theta ? 1 : 0);
+        EXPECT_EQ(made->report.given.curvatures, one.wish.kappa ? 1 : 0);
+        EXPECT_LE(made->report.given.heading_miss, 1e-6);
+        EXPECT_LE(made->report.given.curvature_miss, 1e-6);
+      }
+    }
+  }
+}
+
+TEST(WholeCircle, RefusesOtherDataAndNamesThePoint) {
+  const PointSeries arc = of_circle(10, 0.1);
+  PointWish other_headings, other_curvatures, own;
+  other_headings.index = other_curvatures.index = own.index = 3;
+  other_headings.thetas = ValueRange{kQuarterTurn + 0.31, kQuarterTurn + 0.4};
+  other_curvatures.kappas = ValueRange{0.15, 0.2};
+  own.thetas = ValueRange{kQuarterTurn + 0.29, kQuarterTurn + 0.31};
+  own.kappas = ValueRange{0.14, 0.15};
+  for (const PointWish& wish : {heading_at(3, kQuarterTurn + 0.3 + 1e-5),
+                                heading_at(3, -kQuarterTurn + 0.3), curvature_beside(3, -1.0 / 7.0),
+                                curvature_beside(3, 1.0001 / 7.0), other_headings, other_curvatures}) {
+    FitJob job;
+    job.wishes = {wish};
+    const auto made = fit(arc, job);
+    ASSERT_FALSE(made);
+    EXPECT_EQ(made.error().code, ErrorCode::kFixedDataContradict);
+    EXPECT_EQ(made.error().where, "point 4");
+  }
+  FitJob job;
+  job.wishes = {own};
+  const auto made = fit(arc, job);
+  ASSERT_TRUE(made) << to_line(made.error());
+  EXPECT_EQ(made->report.given.heading_ranges, 1);
+  EXPECT_EQ(made->report.given.curvature_ranges, 1);
+}
+
+TEST(WholeCircle, ThreePointsKeepTheirCircleWhereItHasWhatIsGiven) {
+  const PointSeries arc = of_circle(3, 0.5);
+  FitJob job;
+  job.wishes = {heading_at(1, kQuarterTurn + 0.5)};
+  const auto own = fit(arc, job);
+  ASSERT_TRUE(own) << to_line(own.error());
+  for (const Piece& piece : own->contour.pieces) {
+    ASSERT_TRUE(std::holds_alternative<ArcPiece>(piece));
+    EXPECT_NEAR(std::get<ArcPiece>(piece).kappa, 1.0 / 7.0, 1e-12);
+  }
+  job.wishes = {heading_at(1, kQuarterTurn + 0.49)};  // another curve has that
+  const auto other = fit(arc, job);
+  ASSERT_TRUE(other) << to_line(other.error());
+  EXPECT_FALSE(std::holds_alternative<ArcPiece>(other->contour.pieces.front()));
+}
+
 }  // namespace
 }  // namespace obvid

@@ -8,12 +8,14 @@ import subprocess
 import tempfile
 import time
 
+from driven import Driven
+
 KEYS = {"Tab": 9, "Enter": 13, "Escape": 27, "Delete": 46, "ArrowLeft": 37, "ArrowUp": 38,
         "ArrowRight": 39, "ArrowDown": 40, " ": 32}
 SHIFT, CTRL = 8, 2
 
 
-class Browser:
+class Browser(Driven):
     def __init__(self, address, width=1300, height=860):
         self.profile = tempfile.TemporaryDirectory(ignore_cleanup_errors=True)
         to_read, self.out = os.pipe()
@@ -34,10 +36,7 @@ class Browser:
         self.call("Page.enable")
         self.call("Page.navigate", url=address)
 
-    def __enter__(self):
-        return self
-
-    def __exit__(self, *_):
+    def end(self):
         self.process.kill()
         self.process.wait(10)
         os.close(self.out)
@@ -83,34 +82,8 @@ class Browser:
             raise RuntimeError(f"{script}: {got['exceptionDetails']}")
         return got["result"].get("value")
 
-    def wait(self, condition, seconds=20):
-        until = time.monotonic() + seconds
-        while not self.run(f"Boolean({condition})"):
-            if time.monotonic() > until:
-                raise TimeoutError(condition)
-            time.sleep(0.005)
-
     def mouse(self, kind, x, y, **more):
         self.call("Input.dispatchMouseEvent", type=kind, x=x, y=y, **more)
-
-    def press(self, x, y, count=1):
-        self.mouse("mouseMoved", x, y)
-        self.mouse("mousePressed", x, y, button="left", clickCount=count, buttons=1)
-
-    def release(self, x, y, count=1):
-        self.mouse("mouseReleased", x, y, button="left", clickCount=count)
-
-    def click(self, x, y, count=1):
-        for k in range(1, count + 1):
-            self.press(x, y, k)
-            self.release(x, y, k)
-
-    def click_on(self, selector):
-        self.wait(f"document.querySelector({json.dumps(selector)})")
-        x, y = self.run(f"(() => {{ const e = document.querySelector({json.dumps(selector)});"
-                        "e.scrollIntoView({block: 'nearest'}); const b = e.getBoundingClientRect();"
-                        "return [b.left + b.width / 2, b.top + b.height / 2]; })()")
-        self.click(x, y)
 
     def key(self, name, modifiers=0):
         code = KEYS.get(name, ord(name[0].upper()))
@@ -127,10 +100,6 @@ class Browser:
             self.key("Delete")
         self.call("Input.insertText", text=text)
         self.run("document.activeElement.blur()")
-
-    def choose(self, selector, value):
-        self.run(f"(() => {{ const e = document.querySelector({json.dumps(selector)}); e.value = "
-                 f"{json.dumps(value)}; e.dispatchEvent(new Event('change', {{bubbles: true}})); }})()")
 
     def picture(self, path):
         data = self.call("Page.captureScreenshot", format="png")["data"]

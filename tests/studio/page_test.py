@@ -248,6 +248,118 @@ def points(page):
     check("and a button removes it", page.doc()["points"] == series10(ROOT), page.doc()["points"])
 
 
+def bends(page):
+    """The radius by the mouse: inside the range it is proved, beyond it refused."""
+    page.click(*page.point(4))
+    page.wait("studio.region.value && studio.region.value.of === studio.doc.value")
+    low, high = page.run("(() => { const p = studio.region.value.points.find((p) => p.index === 4);"
+                         "return [p.kappa_low, p.kappa_high]; })()")
+    start, inside = page.run("studio.bendPlace()"), page.run(f"studio.bendPlace({low + 0.5 * (high - low)!r})")
+    page.drag(start, inside)
+    radius = page.doc()["given"][4]["radius"]
+    check("a radius by the mouse", low < 1 / radius < high, (low, 1 / radius, high))
+    check("inside the range it does", page.verdict() == "good", page.verdict())
+    page.drag(page.run("studio.bendPlace()"), page.run(f"studio.bendPlace({low - 2 * (high - low)!r})"))
+    radius = page.doc()["given"][4]["radius"]
+    check("a radius beyond", 1 / radius < low, (radius, low))
+    check("beyond it is refused", page.verdict() == "bad" and page.answer()["error"]["code"] == 403, page.answer()["error"])
+    for _ in range(2):
+        page.click_on("#undo")
+        page.settled()
+    check("both undone", page.doc()["given"][4] == {}, page.doc()["given"][4])
+
+
+def shades(page):
+    """The region is drawn, as wide as it is told; the contour lies inside it."""
+    page.click_on("#shade")
+    page.wait("document.querySelector('#magnified')?.textContent.includes('×')")
+    sides = page.run("studio.regions(studio.fitted.value.answer.curve)")
+    curve = page.run("studio.fitted.value.answer.curve")
+    check("a region for each piece", len(sides) == 9 and all(sides), len(sides))
+    each = curve["samples"]
+    for piece, (one, other) in enumerate(sides):
+        xy = [curve["xy"][2 * i:2 * i + 2] for i in range(piece * each, (piece + 1) * each)]
+        for side in (one, other):
+            check("from end to end", math.dist(side[0], xy[0]) < 1e-9 and math.dist(side[-1], xy[-1]) < 1e-9,
+                  (piece, side[0], side[-1]))
+            # both arcs: curvature of three neighbours is that of the osculating circle at one end
+            kappa = [bend(side[i:i + 3]) for i in (1, len(side) - 4)]
+            ends = [curve["kappa"][piece * each], curve["kappa"][(piece + 1) * each - 1]]
+            check("an osculating circle at one end", any(abs(k - e) < 1e-6 * abs(e) for k, e in zip(kappa, ends)),
+                  (piece, kappa, ends))
+        sagitta = max(abs(k) for k in ends) * max(math.dist(a, b) for a, b in zip(one, one[1:])) ** 2 / 8
+        for p in xy[1:-1]:
+            away = beside(one, p), beside(other, p)
+            check("the contour inside", away[0] * away[1] <= 0 or min(map(abs, away)) <= sagitta, (piece, p, away))
+    page.click_on("#shade")
+    page.write("#noise", "2")
+    page.settled()
+    page.write("#noise", "")
+    page.settled()
+    page.click_on("#snap")
+    start = page.point(3)
+    page.drag(start, (start[0] + 17.3, start[1] + 9.1))
+    x, y = page.doc()["points"][3]
+    check("snapped to a round place", len(repr(x)) < 8 and len(repr(y)) < 8, (x, y))
+    page.click_on("#undo")
+    page.click_on("#snap")
+    page.settled()
+
+
+def below(page):
+    """A picture below the points, its scale by two clicks; an earlier contour beside the one drawn."""
+    page.run("""(async () => { const c = document.createElement('canvas'); c.width = 200; c.height = 100;
+      c.getContext('2d').fillRect(10, 10, 50, 50);
+      const blob = await new Promise((r) => c.toBlob(r, 'image/png')), data = new DataTransfer();
+      data.items.add(new File([blob], 'scan.png', {type: 'image/png'}));
+      document.querySelector('main').dispatchEvent(
+        new DragEvent('drop', {dataTransfer: data, bubbles: true, cancelable: true})); })()""")
+    page.wait("document.querySelector('#scale')")
+    check("points stay", page.doc()["points"] == series10(ROOT))
+    unit = page.run("studio.picture.value.unit")
+    page.click_on("#scale")
+    for index in (0, 9):
+        page.click(*page.point(index))
+    page.wait("document.querySelector('#length')")
+    page.write("#length", "40")
+    page.wait(f"studio.picture.value.unit !== {unit!r}")
+    by = page.run("studio.picture.value.unit") / unit
+    check("two clicks and a length are the scale", abs(by * math.dist(series10(ROOT)[0], series10(ROOT)[9]) - 40) < 0.5, by)
+    page.click_on("#no-picture")
+    page.wait("!document.querySelector('#scale')")
+    page.click_on("#keep")
+    page.wait("document.querySelector('#apart')?.textContent.includes(' 0 ')")
+    start = page.point(4)
+    page.drag(start, (start[0] + 12, start[1]))
+    away = float(page.run("document.querySelector('#apart').textContent").split()[-2])
+    moved = math.dist(page.doc()["points"][4], series10(ROOT)[4])
+    check("how far apart", 0.2 * moved < away <= 1.5 * moved, (away, moved))
+    page.click_on("#undo")
+    page.click_on("#keep")
+    page.settled()
+
+
+def bend(three):
+    (ax, ay), (bx, by), (cx, cy) = three
+    turn = (bx - ax) * (cy - by) - (by - ay) * (cx - bx)
+    return 2 * turn / (math.dist(three[0], three[1]) * math.dist(three[1], three[2]) * math.dist(three[0], three[2]))
+
+
+def beside(side, p):
+    """How far a place lies to the left of a boundary, by the chord that it is nearest to."""
+    best, found = math.inf, 0.0
+    for a, b in zip(side, side[1:]):
+        dx, dy = b[0] - a[0], b[1] - a[1]
+        whole = dx * dx + dy * dy
+        if whole == 0:
+            continue
+        t = max(0.0, min(1.0, ((p[0] - a[0]) * dx + (p[1] - a[1]) * dy) / whole))
+        away = math.dist(p, (a[0] + t * dx, a[1] + t * dy))
+        if away < best:
+            best, found = away, (dx * (p[1] - a[1]) - dy * (p[0] - a[0])) / math.sqrt(whole)
+    return found
+
+
 def cursors(page):
     """The place under the cursor of the plot is marked in the drawing, and the other way."""
     box = page.run("(() => { const b = document.querySelector('#plot .u-over').getBoundingClientRect();"
@@ -311,6 +423,35 @@ def accessible(page, axe):
         page.click_on("#theme")
 
 
+def on_a_tablet(page, axe):
+    """Nothing is cut off at the width of a tablet, upright or not, and axe finds nothing serious."""
+    page.run(axe.read_text())
+    for width, height in ((768, 1024), (1024, 768)):
+        page.call("Emulation.setDeviceMetricsOverride", width=width, height=height, deviceScaleFactor=1,
+                  mobile=False)
+        page.wait(f"innerWidth === {width}")
+        page.run("new Promise((r) => setTimeout(r, 300))")  # the plot follows
+        for language in ("en", "uk"):
+            wide = page.run("[...document.querySelectorAll('body *')].filter((e) => e.getBoundingClientRect().right"
+                            f" > {width} + 1).map((e) => e.tagName + '#' + e.id).slice(0, 5)")
+            check(f"all within {width} pixels, {language}", not wide, wide)
+            tall = page.run("document.querySelector('#drawing').clientHeight")
+            check(f"a drawing of a third of {height} pixels, {language}", tall > height / 3, tall)
+            serious = page.run("axe.run().then((r) => r.violations.filter((v) => ['serious', 'critical'].includes("
+                               "v.impact)).map((v) => [v.id, v.nodes.map((n) => n.target.join(' ')).slice(0, 3)]))")
+            check(f"axe at {width} pixels, {language}", not serious, serious)
+            page.run("window.heights = new Set(); new ResizeObserver((all) => all.forEach((e) =>"
+                     " heights.add(e.contentRect.height))).observe(document.querySelector('#drawing'))")
+            x, y = page.point(6)
+            page.drag((x, y), (x + 4, y - 3), 8)
+            page.click_on("#undo")
+            page.settled()
+            seen = page.run("[...heights]")
+            check(f"the drawing stays as it is during a drag, {width} pixels, {language}", len(seen) == 1, seen)
+            page.click_on("#language")
+    page.call("Emulation.clearDeviceMetricsOverride")
+
+
 def pictures(page, folder):
     folder.mkdir(parents=True, exist_ok=True)
     page.click(*page.point(5))
@@ -323,6 +464,10 @@ def pictures(page, folder):
     page.choose("#what", "curvature")
     page.click_on("#theme")
     page.picture(folder / "studio-uk.png")
+    page.click_on("#language")
+    page.call("Emulation.setDeviceMetricsOverride", width=768, height=1024, deviceScaleFactor=1, mobile=False)
+    page.click_on("#fit")
+    page.picture(folder / "studio-tablet.png")
 
 
 with Studio(PROGRAM, FILE) as studio, Page(studio.address) as opened:
@@ -332,7 +477,8 @@ with Studio(PROGRAM, FILE) as studio, Page(studio.address) as opened:
         sys.exit(0)
     opened.click(*opened.point(4))
     accessible(opened, AXE)
-    for part in (controls, points, cursors, drags, undoing, files):
+    on_a_tablet(opened, AXE)
+    for part in (controls, points, bends, shades, below, cursors, drags, undoing, files):
         part(opened)
         opened.settled()
     check("no error in the page", not opened.trouble, opened.trouble[:3])

@@ -220,6 +220,7 @@ class Suggestion:
     proved: bool
     vertices: Optional[int]
     refusal: str = ""
+    option: str = ""  #: of ``obvid fit`` for this contour: ``--noise 0.1 --open``
 
 
 @dataclasses.dataclass(frozen=True)

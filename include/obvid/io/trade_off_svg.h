@@ -17,6 +17,8 @@ struct TradeOffRow {
   bool proved = false;
   bool carried = false;  ///< the contour of the row before: this tolerance allows it as well, and
                          ///< nothing better was found
+  std::string option;    ///< what to give `obvid fit` for this contour, e.g. "--noise 0.1 --open";
+                         ///< empty where none was formed
   std::string refusal;   ///< why it was not formed or not proved
   int vertices = 0;
   int vertices_lower_bound = 0;  ///< what the points force

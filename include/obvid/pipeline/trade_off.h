@@ -16,8 +16,9 @@ namespace obvid {
 /// the same length; the smaller tolerance where two are equal. Beyond it the vertices fall more
 /// slowly than on the average.
 /// When the work is cancelled (E103), `finished` takes the rows that were done by then, with
-/// nothing recommended. Errors: those of `fit` that do not depend on the tolerance (exit codes 2
-/// and 3).
+/// nothing recommended. A row that takes more than twice its share of the work that is left is not
+/// formed. Errors: those of `fit` that do not depend on the tolerance (exit codes 2 and 3); E203 for
+/// a drawing whose pieces all stay as they are.
 [[nodiscard]] Result<TradeOff> trade_off(const PointSeries& series, const FitJob& job,
                                          const RunContext& run = {}, TradeOff* finished = nullptr);
 

@@ -113,7 +113,7 @@ Result<void> check_helper(const fs::path& file, const fs::path& own, std::string
   std::ostringstream bytes;
   bytes << stream.rdbuf();
   if (!stream) return fail(unusable(name + " cannot be read", rebuild));
-  if (bytes.view().find(mark) == std::string_view::npos) {
+  if (bytes.str().find(mark) == std::string::npos) {
     return fail(unusable(name + " belongs to another build of the program", rebuild));
   }
   return {};

@@ -2,13 +2,17 @@
 import { render } from "preact";
 import "./studio.css";
 import { LocalEngine } from "./engine/local";
+import { embedded, WasmEngine } from "./engine/wasm";
 import {
   compute, current, doc, fitted, hovered, open, region, selected, unreachable, useEngine,
 } from "./state";
 import { App, keys, pasted } from "./view/app";
-import { onScreen as place, showAll } from "./view/drawing";
+import { bendPlace, onScreen as place, showAll } from "./view/drawing";
+import { regions } from "./view/region";
+import { picture } from "./view/underlay";
 
-const engine = new LocalEngine(new URL(window.location.href));
+const within = embedded();
+const engine = within ? new WasmEngine(within) : new LocalEngine(new URL(window.location.href));
 useEngine(engine);
 render(<App />, document.getElementById("app")!);
 window.addEventListener("keydown", keys);
@@ -23,4 +27,4 @@ engine.opened().then(
 );
 
 // for tests and for scripts in the console: what the page knows, to read
-Object.assign(window, { studio: { doc, fitted, current, hovered, selected, region, place } });
+Object.assign(window, { studio: { doc, fitted, current, hovered, selected, region, place, bendPlace, regions, picture, engine } });

@@ -24,6 +24,8 @@ export const canRedo = computed(() => history.value.future.length > 0);
 export const selected = signal<number | null>(null);
 export const shown = signal<Shown>("curvature");
 export const combHeight = signal(1);
+/** Whether the region of all monotone curves is shaded, and points move in steps of the grid. */
+export const shadesRegion = signal(false), snaps = signal(false);
 /** Sample under the cursor, in the drawing or in the plot. */
 export const hovered = signal<number | null>(null);
 

@@ -133,6 +133,8 @@ export type Kind =
   | "export";
 
 export interface Engine {
+  /** Whether it needs no program on the machine. */
+  readonly inPage: boolean;
   /** Rejects when the engine cannot be reached; refusals of the engine are answers. */
   call<T>(kind: Kind, request: Request): Promise<T>;
   /** The file that the page was opened with. */

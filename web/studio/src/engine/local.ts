@@ -4,6 +4,7 @@
 import type { Engine, Kind, Request } from "./engine";
 
 export class LocalEngine implements Engine {
+  readonly inPage = false;
   private readonly token: string;
   private readonly page = Math.random().toString(36).slice(2);
 

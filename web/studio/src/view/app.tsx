@@ -2,11 +2,12 @@
 import { signal } from "@preact/signals";
 import { jobOptions, pointsCsv } from "../document/document";
 import {
-  canRedo, canUndo, combHeight, current, doc, drawn, exported, fitted, message, open, redo, shown, theEngine,
-  undo, type Shown,
+  canRedo, canUndo, combHeight, current, doc, drawn, exported, fitted, message, open, redo, shadesRegion, shown,
+  snaps, theEngine, undo, type Shown,
 } from "../state";
 import type { Answer } from "../engine/engine";
-import { Drawing, showAll } from "./drawing";
+import { Below } from "./below";
+import { Drawing, layPicture, magnification, showAll } from "./drawing";
 import { OptionsPanel, PointPanel, Tables } from "./panels";
 import { Plot } from "./plot";
 import { theme } from "./theme";
@@ -36,7 +37,14 @@ async function saveAs(format: string): Promise<void> {
   for (const file of answer.files ?? []) save(`${base}${file.suffix}.${format}`, file.text);
 }
 
+const NEEDS_PROGRAM = /\.(step|stp|iges|igs|brep|brp)$/i;
+
 async function take(file: File): Promise<void> {
+  if (NEEDS_PROGRAM.test(file.name)) {
+    message.value = words().needsProgram.replace("{file}", file.name);
+    return;
+  }
+  if (file.type.startsWith("image/") && file.type !== "image/svg+xml") return layPicture(file);
   await open(file.name, await file.text());
   showAll();
 }
@@ -101,13 +109,18 @@ export function App() {
               <option value="curvature">{w.curvature}</option><option value="slope">{w.slope}</option><option value="radius">{w.radiusPlot}</option>
             </select>
             <label title={w.combScale}>{w.comb} <input id="comb" type="range" min="0" max="3" step="0.05" value={combHeight.value} onInput={(e) => { combHeight.value = Number(e.currentTarget.value); }} /></label>
+            <label title={w.shadeRegionHint}><input id="shade" type="checkbox" checked={shadesRegion.value} onChange={(e) => { shadesRegion.value = e.currentTarget.checked; }} /> {w.shadeRegion}
+              {shadesRegion.value && magnification.value !== null ? <span id="magnified"> × {magnification.value}</span> : null}</label>
+            <label title={w.snapHint}><input id="snap" type="checkbox" checked={snaps.value} onChange={(e) => { snaps.value = e.currentTarget.checked; }} /> {w.snap}</label>
+            <Below />
             {fitted.value && current.value && !fitted.value.answer.curve && drawn.value ? <span class="hint">{w.greyed}</span> : null}
             {fitted.value?.answer.error && fitted.value.answer.error.category === 4
               ? <button id="why" title={w.whyNotHint} onClick={() => void whyNot()}>{w.whyNot}</button> : null}
           </div>
           <Plot />
         </div>
-        <aside><OptionsPanel /><PointPanel /><Tables /></aside>
+        <aside><OptionsPanel /><PointPanel /><Tables />
+          {theEngine().inPage ? <p class="panel hint" id="in-page">{w.inPage}</p> : null}</aside>
       </div>
       <Tour />
     </main>

@@ -1,22 +1,45 @@
 // SPDX-License-Identifier: Apache-2.0
 import { useEffect, useRef } from "preact/hooks";
-import { effect, signal } from "@preact/signals";
+import { computed, effect, signal } from "@preact/signals";
 import { withGiven, type Vec } from "../document/document";
 import {
   abandonDrag, change, combHeight, current, doc, drag, drawn, drop, fitted, hovered, insertPoint,
-  movePoint, region, removePoint, select, selected, shown,
+  movePoint, region, removePoint, select, selected, shadesRegion, shown, snaps,
 } from "../state";
-import { around, fromScreen, panned, toScreen, zoomed, type Camera } from "./camera";
-import { HANDLE, paint, tangentTip } from "./paint";
+import { around, fromScreen, gridStep, panned, toScreen, zoomed, type Camera } from "./camera";
+import { barOf, GRID, HANDLE, kappaAt, onBar, paint, radiusOnBar, regionOf, tangentTip, type Bar } from "./paint";
 import { theme } from "./theme";
+import { kept, picture, scaling } from "./underlay";
 import { words } from "../words/words";
 
 const camera = signal<Camera>({ scale: 1, x: 0, y: 0 });
+/** By how much the width of the region is drawn larger; null: there is none to be drawn. */
+export const magnification = computed(() => {
+  const curve = shadesRegion.value ? drawn.value?.curve : null, carrier = drawn.value?.report?.carrier;
+  return curve && !promisesNothing(carrier) ? regionOf(curve, camera.value).factor : null;
+});
+
+/** Curves whose curvature goes every way have no region. */
+function promisesNothing(carrier: string | undefined): boolean {
+  return carrier === "cubic" || carrier === "baseline";
+}
+
+/** The bar of curvatures that is dragged along stays as it was. */
+const held = signal<Bar | null>(null);
 const REACH = 2 * HANDLE; // pixels from a handle within which it is meant
 
 export function showAll(): void {
   const canvas = document.querySelector<HTMLCanvasElement>("#drawing");
   if (canvas) camera.value = around(doc.value.points, canvas.clientWidth, canvas.clientHeight);
+}
+
+/** Lays a picture below the drawing, as large as that. */
+export async function layPicture(file: File): Promise<void> {
+  const canvas = document.querySelector<HTMLCanvasElement>("#drawing"), image = await createImageBitmap(file);
+  if (!canvas) return;
+  const fill = 0.9 * Math.min(canvas.clientWidth / image.width, canvas.clientHeight / image.height);
+  const corner: Vec = [(canvas.clientWidth - fill * image.width) / 2, (canvas.clientHeight - fill * image.height) / 2];
+  picture.value = { image, at: fromScreen(camera.value, corner), unit: fill / camera.value.scale };
 }
 
 /** Where a point of the document lies in the window, pixels. */
@@ -25,7 +48,15 @@ export function onScreen(p: Vec): Vec {
   return [box.left + x, box.top + y];
 }
 
-type Grip = { kind: "point" | "tangent"; index: number } | { kind: "view" };
+/** Where a curvature stands on the bar of the selected point, pixels of the window. */
+export function bendPlace(kappa?: number): Vec | null {
+  const { bar } = scene();
+  if (!bar) return null;
+  const box = document.querySelector("#drawing")!.getBoundingClientRect(), [x, y] = onBar(bar, kappa ?? bar.kappa);
+  return [box.left + x, box.top + y];
+}
+
+type Grip = { kind: "point" | "tangent"; index: number } | { kind: "bend"; index: number; bar: Bar } | { kind: "view" };
 
 export function Drawing() {
   const ref = useRef<HTMLCanvasElement>(null);
@@ -61,7 +92,13 @@ export function Drawing() {
     const canvas = ref.current!, at = place(canvas, e);
     canvas.focus();
     canvas.setPointerCapture(e.pointerId);
+    if (scaling.value && scaling.value.length < 2) {
+      scaling.value = [...scaling.value, fromScreen(camera.value, at)];
+      grip.current = null;
+      return;
+    }
     grip.current = gripAt(at);
+    held.value = grip.current.kind === "bend" ? grip.current.bar : null;
     last.current = at;
     if (grip.current.kind === "point") select(grip.current.index);
   };
@@ -72,13 +109,15 @@ export function Drawing() {
       return;
     }
     if (held.kind === "view") camera.value = panned(camera.value, [at[0] - last.current[0], at[1] - last.current[1]]);
-    if (held.kind === "point") movePoint(held.index, fromScreen(camera.value, at));
+    if (held.kind === "point") movePoint(held.index, snapped(fromScreen(camera.value, at)));
+    if (held.kind === "bend") bend(held.index, held.bar, at);
     if (held.kind === "tangent") turn(held.index, at);
     last.current = at;
   };
   const up = () => {
     if (grip.current && grip.current.kind !== "view") drop();
     grip.current = null;
+    held.value = null;
   };
   const twice = (e: MouseEvent) => {
     const at = place(ref.current!, e);
@@ -87,7 +126,7 @@ export function Drawing() {
   return (
     <canvas id="drawing" ref={ref} tabIndex={0} role="application" aria-label={words().title}
       onPointerDown={down} onPointerMove={move} onPointerUp={up}
-      onPointerCancel={() => { grip.current = null; abandonDrag(); }}
+      onPointerCancel={() => { grip.current = null; held.value = null; abandonDrag(); }}
       onPointerLeave={() => { hovered.value = null; }} onDblClick={twice} onKeyDown={key} />
   );
 }
@@ -100,26 +139,33 @@ function place(canvas: HTMLCanvasElement, e: MouseEvent): Vec {
 function scene() {
   const at = selected.value, found = region.value, answer = fitted.value?.answer;
   const points = at === null || !found ? [] : found.points.filter((p) => p.index === at);
+  const curve = drawn.value?.curve ?? null;
   return {
+    bar: held.value ? { ...held.value, kappa: kappaAt(doc.value, at!, curve) ?? held.value.kappa }
+      : at === null ? null : barOf({ doc: doc.value, camera: camera.value, curve, region: points[0] ?? null }, at),
     doc: doc.value, camera: camera.value, curve: drawn.value?.curve ?? null,
     grey: !answer?.curve, error: current.value ? answer?.error ?? null : null,
     selected: at, hovered: hovered.value, shown: shown.value, combHeight: combHeight.value,
     region: points[0] ?? null, stale: found?.of !== doc.value, units: doc.value.units,
+    noise: typeof doc.value.options.noise === "number" ? doc.value.options.noise : 0,
+    picture: picture.value, scaling: scaling.value, kept: kept.value,
+    shadesRegion: shadesRegion.value && !promisesNothing(drawn.value?.report?.carrier),
   };
 }
 
 function gripAt(at: Vec): Grip {
   const s = scene();
+  let best = REACH, found: Grip = { kind: "view" };
+  const offer = (p: Vec | null, grip: Grip) => {
+    const away = p ? Math.hypot(p[0] - at[0], p[1] - at[1]) : Infinity;
+    if (away < best) [best, found] = [away, grip];
+  };
+  s.doc.points.forEach((p, index) => offer(toScreen(s.camera, p), { kind: "point", index }));
   if (s.selected !== null) {
-    const tip = tangentTip(s, s.selected);
-    if (tip && Math.hypot(tip[0] - at[0], tip[1] - at[1]) < REACH) return { kind: "tangent", index: s.selected };
+    offer(tangentTip(s, s.selected), { kind: "tangent", index: s.selected });
+    if (s.bar) offer(onBar(s.bar, s.bar.kappa), { kind: "bend", index: s.selected, bar: s.bar });
   }
-  let best = REACH, index = -1;
-  s.doc.points.forEach((p, i) => {
-    const [x, y] = toScreen(s.camera, p), d = Math.hypot(x - at[0], y - at[1]);
-    if (d < best) [best, index] = [d, i];
-  });
-  return index < 0 ? { kind: "view" } : { kind: "point", index };
+  return found;
 }
 
 function turn(index: number, at: Vec): void {
@@ -128,6 +174,18 @@ function turn(index: number, at: Vec): void {
   const [x, y] = toScreen(camera.value, p);
   const heading = Math.round((Math.atan2(y - at[1], at[0] - x) * 180) / Math.PI * 10) / 10;
   drag(withGiven(doc.value, index, { ...doc.value.given[index], heading }));
+}
+
+function bend(index: number, bar: Bar, at: Vec): void {
+  drag(withGiven(doc.value, index, { ...doc.value.given[index], radius: radiusOnBar(bar, at) }));
+}
+
+/** On a tenth of the grid, where that is asked for. */
+function snapped(p: Vec): Vec {
+  if (!snaps.value) return p;
+  const step = gridStep(camera.value, GRID) / 10, places = Math.max(0, 1 - Math.floor(Math.log10(step)));
+  return [Number((Math.round(p[0] / step) * step).toFixed(Math.min(100, places))),
+    Number((Math.round(p[1] / step) * step).toFixed(Math.min(100, places)))];
 }
 
 /** Between the two neighbours that it lies nearest to; beyond an end, at that end. */

@@ -6,10 +6,17 @@ import type { Curve, EngineError, RegionPoint } from "../engine/engine";
 import type { Shown } from "../state";
 import { gridStep, toScreen, type Camera } from "./camera";
 import { marks, usualSize, values } from "./comb";
+import { magnified } from "./region";
+import type { Picture } from "./underlay";
 import { figure } from "../words/figures";
 
 export const HANDLE = 6;       // pixels: radius of points
+export const GRID = 80;        // least distance of its lines
 export const TANGENT = 64;     // length of the handle of a heading
+const BACK = 34;               // from the point to the bar of its curvature
+const LARGEST_BEND = 60;       // height of the largest of what is and what is possible on that bar
+const MOST_BEND = 90;
+const REGION_WIDTH = 26;       // of the widest region, as it is drawn
 const COMB_SHARE = 0.13;       // of the smaller side of the canvas
 
 export interface Scene {
@@ -26,6 +33,21 @@ export interface Scene {
   /** Whether the region is of the document as it was a moment ago. */
   readonly stale: boolean;
   readonly units: string;
+  /** How far points may move, in units; 0: they are met. */
+  readonly noise: number;
+  readonly shadesRegion: boolean;
+  /** Of the selected point. */
+  readonly bar: Bar | null;
+  readonly picture: Picture | null;
+  /** Places clicked to tell its scale. */
+  readonly scaling: readonly Vec[] | null;
+  /** An earlier contour. */
+  readonly kept: Curve | null;
+}
+
+/** Distances from the contour to the boundaries, and by how much they are drawn larger. */
+export function regionOf(curve: Curve, camera: Camera) {
+  return magnified(curve, REGION_WIDTH / camera.scale);
 }
 
 let palette = new Map<string, string>(), paletteOf: string | undefined;
@@ -52,18 +74,23 @@ export function paint(canvas: HTMLCanvasElement, scene: Scene): void {
   }
   context.setTransform(ratio, 0, 0, ratio, 0, 0);
   context.clearRect(0, 0, width, height);
+  picture(context, scene);
   grid(context, scene, width, height);
+  if (scene.kept) line(context, scene, scene.kept, () => colour("faint"), 1.4);
+  if (scene.curve && scene.shadesRegion && !scene.grey) shade(context, scene, scene.curve);
+  discs(context, scene);
   if (scene.curve) {
     comb(context, scene, scene.curve, COMB_SHARE * Math.min(width, height));
     contour(context, scene, scene.curve);
     if (!scene.grey) signs(context, scene, scene.curve);
   }
   ranges(context, scene);
+  bends(context, scene);
   handles(context, scene);
 }
 
 function grid(c: CanvasRenderingContext2D, s: Scene, width: number, height: number): void {
-  const step = gridStep(s.camera, 80), pixels = step * s.camera.scale;
+  const step = gridStep(s.camera, GRID), pixels = step * s.camera.scale;
   const first = (offset: number) => ((offset % pixels) + pixels) % pixels;
   c.strokeStyle = colour("grid");
   c.lineWidth = 1;
@@ -78,6 +105,35 @@ function grid(c: CanvasRenderingContext2D, s: Scene, width: number, height: numb
   c.moveTo(16, height - 20); c.lineTo(16, height - 14); c.lineTo(16 + pixels, height - 14); c.lineTo(16 + pixels, height - 20);
   c.stroke();
   c.fillText(`${figure(step, 1)} ${s.units}`, 22, height - 20);
+}
+
+function shade(c: CanvasRenderingContext2D, s: Scene, curve: Curve): void {
+  c.fillStyle = colour("range");
+  c.strokeStyle = colour("accent");
+  c.lineWidth = 0.7;
+  for (const outline of regionOf(curve, s.camera).outlines) {
+    c.beginPath();
+    outline.forEach((p, i) => {
+      const [x, y] = toScreen(s.camera, p);
+      if (i === 0) c.moveTo(x, y); else c.lineTo(x, y);
+    });
+    c.closePath();
+    c.fill();
+    c.stroke();
+  }
+}
+
+/** How far each point may move. */
+function discs(c: CanvasRenderingContext2D, s: Scene): void {
+  const radius = s.noise * s.camera.scale;
+  if (!(radius >= 1)) return;
+  c.fillStyle = colour("range");
+  for (const p of s.doc.points) {
+    const [x, y] = toScreen(s.camera, p);
+    c.beginPath();
+    c.arc(x, y, radius, 0, 2 * Math.PI);
+    c.fill();
+  }
 }
 
 function at(curve: Curve, camera: Camera, i: number): Vec {
@@ -107,13 +163,31 @@ function comb(c: CanvasRenderingContext2D, s: Scene, curve: Curve, high: number)
   c.stroke();
 }
 
+function picture(c: CanvasRenderingContext2D, s: Scene): void {
+  if (!s.picture) return;
+  const { image, at: corner, unit } = s.picture, [x, y] = toScreen(s.camera, corner), scale = unit * s.camera.scale;
+  c.globalAlpha = 0.55;
+  c.drawImage(image, x, y, scale * image.width, scale * image.height);
+  c.globalAlpha = 1;
+  c.strokeStyle = colour("accent");
+  c.lineWidth = 2;
+  for (const p of s.scaling ?? []) {
+    const [px, py] = toScreen(s.camera, p);
+    c.beginPath(); c.moveTo(px - 7, py); c.lineTo(px + 7, py); c.moveTo(px, py - 7); c.lineTo(px, py + 7); c.stroke();
+  }
+}
+
 function contour(c: CanvasRenderingContext2D, s: Scene, curve: Curve): void {
+  line(c, s, curve, (slope) => (s.grey ? colour("faint") : colour(slope >= 0 ? "rising" : "falling")), 2.4);
+}
+
+function line(c: CanvasRenderingContext2D, s: Scene, curve: Curve, tint: (slope: number) => string, width: number): void {
   const each = curve.samples;
-  c.lineWidth = 2.4;
+  c.lineWidth = width;
   c.lineJoin = c.lineCap = "round";
   for (let piece = 0; piece < curve.pieces; ++piece) {
     const first = piece * each, middle = first + (each >> 1);
-    c.strokeStyle = s.grey ? colour("faint") : colour(curve.slope[middle]! >= 0 ? "rising" : "falling");
+    c.strokeStyle = tint(curve.slope[middle]!);
     c.beginPath();
     for (let k = 0; k < each; ++k) {
       const p = at(curve, s.camera, first + k);
@@ -162,18 +236,91 @@ function ranges(c: CanvasRenderingContext2D, s: Scene): void {
   c.setLineDash([]);
 }
 
+/** The sample of the contour nearest to a point. */
+function sampleAt(doc: Document, index: number, curve: Curve | null): number | null {
+  const p = doc.points[index];
+  if (!p || !curve) return null;
+  let best = Infinity, found: number | null = null;
+  for (let i = 0; i < curve.t.length; ++i) {
+    const d = Math.hypot(curve.xy[2 * i]! - p[0], curve.xy[2 * i + 1]! - p[1]);
+    if (d < best) [best, found] = [d, i];
+  }
+  return found;
+}
+
 /** Heading at a point, rad: as given, else of the contour. */
 export function headingAt(doc: Document, index: number, curve: Curve | null): number | null {
   const given = doc.given[index]?.heading;
   if (typeof given === "number") return (given * Math.PI) / 180;
-  const p = doc.points[index];
-  if (!p || !curve) return null;
-  let best = Infinity, heading: number | null = null;
-  for (let i = 0; i < curve.t.length; ++i) {
-    const d = Math.hypot(curve.xy[2 * i]! - p[0], curve.xy[2 * i + 1]! - p[1]);
-    if (d < best) { best = d; heading = curve.heading[i]!; }
-  }
-  return heading;
+  const i = sampleAt(doc, index, curve);
+  return i === null ? null : curve!.heading[i]!;
+}
+
+/** Curvature at a point: as given, else of the contour. */
+export function kappaAt(doc: Document, index: number, curve: Curve | null): number | null {
+  const given = doc.given[index]?.radius;
+  if (given !== undefined) return 1 / given;
+  const i = sampleAt(doc, index, curve);
+  return i === null ? null : curve!.kappa[i]!;
+}
+
+/** The bar of curvatures behind a point: where 0 stands, the way in which they grow, pixels of one. */
+export interface Bar {
+  readonly zero: Vec;
+  readonly way: Vec;
+  readonly scale: number;
+  readonly kappa: number;
+}
+
+export function barOf(s: Pick<Scene, "doc" | "camera" | "curve" | "region">, index: number): Bar | null {
+  const p = s.doc.points[index], heading = headingAt(s.doc, index, s.curve), kappa = kappaAt(s.doc, index, s.curve);
+  if (!p || heading === null || kappa === null || !s.curve) return null;
+  const sizes = [kappa, s.region?.kappa_low ?? 0, s.region?.kappa_high ?? 0].map(Math.abs);
+  const largest = Math.max(...sizes) || usualSize(s.curve.kappa);
+  if (!(largest > 0)) return null;
+  const [x, y] = toScreen(s.camera, p);
+  return {
+    zero: [x - BACK * Math.cos(heading), y + BACK * Math.sin(heading)],
+    way: [-Math.sin(heading), -Math.cos(heading)],
+    scale: LARGEST_BEND / largest,
+    kappa,
+  };
+}
+
+export function onBar(bar: Bar, kappa: number): Vec {
+  const along = Math.max(-MOST_BEND, Math.min(MOST_BEND, bar.scale * kappa));
+  return [bar.zero[0] + along * bar.way[0], bar.zero[1] + along * bar.way[1]];
+}
+
+/** The radius at a place beside the bar: straight near its zero, four figures. */
+export function radiusOnBar(bar: Bar, at: Vec): number {
+  const along = (at[0] - bar.zero[0]) * bar.way[0] + (at[1] - bar.zero[1]) * bar.way[1];
+  return Math.abs(along) < 1.5 ? Infinity : Number((bar.scale / along).toPrecision(4));
+}
+
+/** The curvature at the selected point on its bar; thick: what is possible. */
+function bends(c: CanvasRenderingContext2D, s: Scene): void {
+  if (s.selected === null) return;
+  const bar = s.bar;
+  if (!bar) return;
+  const stroke = (from: number, to: number, width: number) => {
+    const a = onBar(bar, from), b = onBar(bar, to);
+    c.lineWidth = width;
+    c.beginPath(); c.moveTo(a[0], a[1]); c.lineTo(b[0], b[1]); c.stroke();
+  };
+  c.strokeStyle = colour("faint");
+  stroke(-Infinity, Infinity, 1);
+  c.strokeStyle = colour("accent");
+  if (s.region && !s.stale) stroke(s.region.kappa_low ?? -Infinity, s.region.kappa_high ?? Infinity, 5);
+  const [x, y] = onBar(bar, bar.kappa), given = s.doc.given[s.selected]?.radius !== undefined;
+  c.fillStyle = colour(given ? "accent" : "paper");
+  c.lineWidth = 1.5;
+  c.beginPath();
+  c.rect(x - HANDLE, y - HANDLE, 2 * HANDLE, 2 * HANDLE);
+  c.fill();
+  c.stroke();
+  c.strokeStyle = colour("faint");
+  c.beginPath(); c.moveTo(bar.zero[0] - 4, bar.zero[1]); c.lineTo(bar.zero[0] + 4, bar.zero[1]); c.stroke();
 }
 
 export function tangentTip(s: Pick<Scene, "doc" | "camera" | "curve">, index: number): Vec | null {

@@ -19,7 +19,7 @@ function Row(props: { label: string; hint?: string; children: ComponentChildren 
 }
 
 /** A number that may be left out; nothing is changed by what is no number. */
-function NumberBox(props: { id: string; value: number | null; onValue: (v: number | null) => void; placeholder?: string; min?: number }) {
+export function NumberBox(props: { id: string; value: number | null; onValue: (v: number | null) => void; placeholder?: string; min?: number }) {
   const [typed, setTyped] = useState<string | null>(null); // answers that come meanwhile leave it
   const take = (e: Event) => {
     setTyped(null);

@@ -36,11 +36,17 @@ const EN = {
   family: "family",
   suggestHint: "how many vertices which noise needs; click a row to take it",
   comb: "Comb", curvature: "curvature", slope: "slope of curvature", radiusPlot: "radius",
+  shadeRegion: "Region", shadeRegionHint: "where every monotone curve with these points, tangents and curvatures runs; its width is magnified by the factor beside it",
+  keep: "Keep to compare", keepHint: "the contour as it is stays in grey; how far the next one goes from it is measured", apart: "apart",
+  picture: "Picture", setScale: "Set scale", setScaleHint: "click two places of the picture, then type how far apart they are", clickTwo: "click two places", howFar: "how far apart",
+  snap: "Snap", snapHint: "points that are dragged move in tenths of the grid",
   combScale: "Height of the comb", arcLength: "arc length",
   whyNot: "Why not?", whyNotHint: "what stands in the way, and what would do",
   tour: ["Drag a point: the contour follows and is proved again.", "Teeth show the curvature: they grow or shrink without waves.",
-    "Select a point to give it a heading or a radius; the arc shows what is possible.", "The line at the top says what is proved, and what is not."],
+    "Select a point to give it a heading or a radius; the arc and the bar show what is possible.", "The line at the top says what is proved, and what is not."],
   next: "Next", done: "Done",
+  inPage: "Computed within this page; nothing leaves it. STEP, IGES and BREP files are opened by the program obvid on your machine.",
+  needsProgram: "STEP, IGES and BREP are not opened here; form the contour with: obvid fit {file}",
 };
 
 type Words = typeof EN;
@@ -76,11 +82,17 @@ const UK: Words = {
   family: "вид",
   suggestHint: "скільки вершин потребує який шум; клацніть рядок, щоб узяти його",
   comb: "Гребінь", curvature: "кривина", slope: "похідна кривини", radiusPlot: "радіус",
+  shadeRegion: "Область", shadeRegionHint: "де проходить кожна монотонна крива з цими точками, дотичними й кривинами; ширину збільшено в указану кількість разів",
+  keep: "Лишити для порівняння", keepHint: "обвід лишається сірим; вимірюється, наскільки далеко від нього йде наступний", apart: "відстань",
+  picture: "Малюнок", setScale: "Масштаб", setScaleHint: "клацніть два місця малюнка, тоді введіть, як далеко вони одне від одного", clickTwo: "клацніть два місця", howFar: "відстань між ними",
+  snap: "Прив’язка", snapHint: "точки, які тягнуть, рухаються десятими частинами сітки",
   combScale: "Висота гребеня", arcLength: "довжина дуги",
   whyNot: "Чому ні?", whyNotHint: "що заважає і що допомогло б",
   tour: ["Потягніть точку: обвід іде за нею і доводиться знову.", "Зубці показують кривину: вони ростуть чи спадають без хвиль.",
-    "Виберіть точку, щоб задати напрям або радіус; дуга показує, що можливо.", "Рядок угорі каже, що доведено, а що ні."],
+    "Виберіть точку, щоб задати напрям або радіус; дуга й смуга показують, що можливо.", "Рядок угорі каже, що доведено, а що ні."],
   next: "Далі", done: "Готово",
+  inPage: "Обчислено в самій сторінці; ніщо її не залишає. Файли STEP, IGES і BREP відкриває програма obvid на вашому комп’ютері.",
+  needsProgram: "STEP, IGES і BREP тут не відкриваються; обвід утворить: obvid fit {file}",
 };
 
 const ALL: Record<Language, Words> = { en: EN, uk: UK };
