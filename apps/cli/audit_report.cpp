@@ -204,7 +204,7 @@ Result<std::vector<std::string>> write_audit_pictures(const AnalyseOptions& opti
     const CurveAudit& a = pictured(audits, options.import);
     output.text =
         picture_svg({a.contour, std::nullopt, a.certificate}, {name + ": " + a.label, as_drawn(a)},
-                              options.plots);
+                    options.plots);
   }
   return write_files(*outputs, options.input);
 }

@@ -59,12 +59,11 @@ Error from_cli(const CLI::ParseError& error, const std::string& name) {
   std::string what = error.what();
   while (!what.empty() && (what.back() == '\n' || what.back() == '.')) what.pop_back();
   const std::string help = "`obvid " + name + " --help` shows units and defaults";
-  if (dynamic_cast<const CLI::ConversionError*>(&error) != nullptr) {
-    if (auto told = unreadable_value(what, help)) return *told;
+  const bool unread = dynamic_cast<const CLI::ConversionError*>(&error) != nullptr;
+  if (auto told = unread ? unreadable_value(what, help) : std::nullopt) return *told;
+  if (unread || dynamic_cast<const CLI::ValidationError*>(&error) != nullptr) {
+    return bad_option(what, "", help);
   }
-  const bool value = dynamic_cast<const CLI::ConversionError*>(&error) != nullptr ||
-                     dynamic_cast<const CLI::ValidationError*>(&error) != nullptr;
-  if (value) return bad_option(what, "", help);
   return usage(what, "see obvid --help");
 }
 

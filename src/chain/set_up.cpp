@@ -52,8 +52,7 @@ bool contradicts(const FixedData& data, double theta, double kappa, double round
   const double off = std::max(kSameCurvature * std::abs(kappa), rounding);
   if (data.theta && std::abs(theta - nearest_angle(*data.theta, theta)) > kSameHeading) return true;
   if (data.kappa && std::abs(*data.kappa - kappa) > off) return true;
-  const double middle = data.thetas ? 0.5 * (data.thetas->low + data.thetas->high) : theta;
-  return leaves(data.thetas, nearest_angle(theta, middle), kSameHeading) ||
+  return (data.thetas && leaves(data.thetas, turned_to(*data.thetas, theta), kSameHeading)) ||
          leaves(data.kappas, kappa, off);
 }
 

@@ -68,9 +68,8 @@ void sample_pieces(PictureTrack& track) {
   track.first.push_back(track.samples.size());
 }
 
-/// The longest tooth is that of the curve, not of the sample beside it.
-/// The largest curvature lies near the sample where it is largest, or, on a piece that nearly stops,
-/// near the slowest one.
+/// The longest tooth is that of the curve, not of the sample beside it: the largest curvature lies
+/// near the sample where it is largest, or, on a piece that nearly stops, near the slowest one.
 void refine_largest(PictureTrack& track) {
   const auto smaller = [](const PictureSample& a, const PictureSample& b) {
     return std::fabs(a.kappa) < std::fabs(b.kappa);

@@ -20,7 +20,6 @@ namespace {
 using namespace pipeline_detail;
 using Datum = FeasibleRange::Datum;
 
-constexpr double kDegreeStep = std::numbers::pi / 180.0;
 constexpr double kRangeAccuracy = 0.01;  // of the range, to which its ends are sought and rounded
 constexpr int kMostDoublings = 24;       // of a step away from a value that does
 constexpr int kMostHalvings = 40;
@@ -207,7 +206,7 @@ class RangeSearch {
 
   /// Rounded towards `inside` to a place of which the range has hundreds, and tried.
   std::optional<double> printed(const Given& given, double end, double inside, double width) {
-    const double unit = given.datum == Datum::kHeading ? kDegreeStep : 1.0;
+    const double unit = given.datum == Datum::kHeading ? kOneDegree : 1.0;
     const double place = std::pow(10.0, std::floor(std::log10(kRangeAccuracy * width / unit)));
     if (!(place > 0.0) || !std::isfinite(place)) return std::nullopt;
     const double towards = inside > end ? 1.0 : -1.0;
@@ -289,7 +288,7 @@ class RangeSearch {
         given.datum == Datum::kHeading ? 1.0 : std::max(std::abs(low), std::abs(high));
     if (!(width > kNarrowest * size)) return std::nullopt;
     if (width < kKeptOnBothSides * size) {
-      const double unit = given.datum == Datum::kHeading ? kDegreeStep : 1.0;
+      const double unit = given.datum == Datum::kHeading ? kOneDegree : 1.0;
       const double only = rounded_to_place(*free / unit, kRangeAccuracy * width / unit) * unit;
       if (!does(given, only)) return std::nullopt;
       return FeasibleRange{given.point, given.datum, asked, only, only, false};

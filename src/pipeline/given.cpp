@@ -10,7 +10,6 @@
 
 #include "obvid/curve/end_curvatures.h"
 #include "obvid/curve/nearest.h"
-#include "obvid/geom/angle.h"
 #include "obvid/geom/value_range.h"
 
 namespace obvid::pipeline_detail {
@@ -44,11 +43,6 @@ double curvature_at(const Side& side) {
 /// How far a value is beyond the ends of a range; 0 inside.
 double beyond(const ValueRange& range, double value) {
   return std::max({0.0, range.low - value, value - range.high});
-}
-
-/// A heading on the turn nearest to the middle of a range.
-double turned_to(const ValueRange& thetas, double theta) {
-  return nearest_angle(theta, 0.5 * (thetas.low + thetas.high));
 }
 
 /// The end of a range that a curvature outside it has passed.

@@ -24,6 +24,11 @@ struct ValueRange {
   return {std::max(a.low, b.low), std::min(a.high, b.high)};
 }
 
+/// The angle of the same direction as `theta` that lies nearest to the middle of a range, rad.
+[[nodiscard]] inline double turned_to(const ValueRange& thetas, double theta) {
+  return nearest_angle(theta, 0.5 * (thetas.low + thetas.high));
+}
+
 /// The range of the same headings whose middle lies nearest to an angle, rad.
 [[nodiscard]] inline ValueRange turned_near(const ValueRange& thetas, double near) {
   const double middle = 0.5 * (thetas.low + thetas.high);

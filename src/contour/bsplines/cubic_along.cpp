@@ -119,7 +119,8 @@ class CubicBuilder {
   /// What rounding of the coordinates may be to blame for.
   [[nodiscard]] double blur() const { return kSpanRoundings * largest_; }
 
-  /// Whether on most of the curved spans the rounding of the knots bends the spline more than the contour.
+  /// Whether on most of the curved spans the rounding of the knots bends the spline more than the
+  /// contour.
   [[nodiscard]] bool rounding_bends(std::size_t n) const {
     const std::vector<double> places = density_.knots(n);
     const double rounding = std::numeric_limits<double>::epsilon() * largest_;

@@ -8,12 +8,16 @@
 namespace judge {
 namespace {
 
-Sheet of_worksheet(const std::string& json) {
+Worksheet readable(const std::string& json) {
   Worksheet worksheet;
   read_worksheet(json, worksheet);
   EXPECT_EQ(worksheet.fault, "");
+  return worksheet;
+}
+
+Sheet of_worksheet(const std::string& json) {
   Sheet sheet;
-  check_worksheet(worksheet, read_input(data("judge/region.csv"), {}), false, sheet);
+  check_worksheet(readable(json), read_input(data("judge/region.csv"), {}), false, sheet);
   return sheet;
 }
 
@@ -106,11 +110,8 @@ TEST(JudgeRegion, FindsFalseCellsOfTextAndTable) {
 }
 
 Sheet of_construction(const std::string& json, const std::string& name) {
-  Worksheet worksheet;
-  read_worksheet(json, worksheet);
-  EXPECT_EQ(worksheet.fault, "");
   Sheet sheet;
-  check_construction(worksheet, read_input(data("judge/region.csv"), {}), name, sheet);
+  check_construction(readable(json), read_input(data("judge/region.csv"), {}), name, sheet);
   return sheet;
 }
 

@@ -184,8 +184,8 @@ function bend(index: number, bar: Bar, at: Vec): void {
 function snapped(p: Vec): Vec {
   if (!snaps.value) return p;
   const step = gridStep(camera.value, GRID) / 10, places = Math.max(0, 1 - Math.floor(Math.log10(step)));
-  return [Number((Math.round(p[0] / step) * step).toFixed(Math.min(100, places))),
-    Number((Math.round(p[1] / step) * step).toFixed(Math.min(100, places)))];
+  const rounded = (v: number) => Number((Math.round(v / step) * step).toFixed(Math.min(100, places)));
+  return [rounded(p[0]), rounded(p[1])];
 }
 
 /** Between the two neighbours that it lies nearest to; beyond an end, at that end. */
