@@ -78,7 +78,8 @@ typedef struct obvid_run {
 /* ---- input ------------------------------------------------------------------------------------
  */
 
-/* n points, x and y one after the other. */
+/* n points, x and y one after the other; neighbours that are equal are merged. Two are enough for
+ * obvid_fit where the options have both headings, else E304. */
 OBVID_API int obvid_points(const double* xy, size_t n, obvid_input** input, obvid_error** error);
 /* n points in space, x, y and z one after the other, for obvid_fit_space alone. */
 OBVID_API int obvid_space_points(const double* xyz, size_t n, obvid_input** input,

@@ -12,10 +12,10 @@
 namespace obvid::capi {
 namespace {
 
-constexpr std::size_t kFewestPoints = 3;
+constexpr std::size_t kFewestInSpace = 3;
 
-/// Points of an array, checked as those of files are: finite, no two neighbours equal, three of
-/// them.
+/// Points of an array, checked as those of files are: finite, no two neighbours equal. Whether
+/// two of them do depends on the headings, which are options.
 Result<PointSeries> series_of_array(const double* xy, std::size_t n) {
   PointSeries out;
   std::size_t merged = 0;
@@ -31,8 +31,9 @@ Result<PointSeries> series_of_array(const double* xy, std::size_t n) {
       out.points.push_back(p);
     }
   }
-  if (out.points.size() < kFewestPoints) {
-    return fail({ErrorCode::kTooFewPoints, "a contour needs 3 distinct points", "", ""});
+  if (out.points.size() < 2) {
+    return fail({ErrorCode::kTooFewPoints, "a contour needs 3 distinct points", "",
+                 "two do when both have a heading"});
   }
   if (merged > 0) {
     out.warnings.push_back(std::to_string(merged) +
@@ -53,7 +54,7 @@ Result<SpaceSeries> space_series_of_array(const double* xyz, std::size_t n) {
     }
     if (out.points.empty() || !(out.points.back() == p)) out.points.push_back(p);
   }
-  if (out.points.size() < kFewestPoints) {
+  if (out.points.size() < kFewestInSpace) {
     return fail({ErrorCode::kTooFewPoints, "a curve in space needs 3 distinct points", "", ""});
   }
   return out;

@@ -35,6 +35,7 @@ class Preparation {
     out_.period = job_.period;
     if (auto done = gather(); !done) return fail(done.error());
     if (auto done = give_ends(); !done) return fail(done.error());
+    if (auto enough = has_enough_data(); !enough) return fail(enough.error());
     set_tolerances();
     if (auto done = close(); !done) return fail(done.error());
     for (const FixedOnce& one : fixed_) out_.fixed.push_back(one.data);
@@ -48,6 +49,15 @@ class Preparation {
   }
 
  private:
+  /// Two points leave any curve, and turns, unless both have a heading or a piece stays between.
+  [[nodiscard]] Result<void> has_enough_data() const {
+    if (out_.points.size() != 2 || !out_.kept.empty()) return {};
+    const auto headed = [](const FixedOnce& one) { return one.data.theta || one.data.thetas; };
+    if (headed(fixed_[0]) && headed(fixed_[1])) return {};
+    return fail({ErrorCode::kTooFewPoints, "a contour needs 3 distinct points, the series has 2",
+                 "", "two do when both have a heading", -1, 2.0});
+  }
+
   /// Choices other than the fairest chain are made among curves through the points.
   [[nodiscard]] Result<void> can_prefer() const {
     if (job_.prefer == Prefer::kFair) return {};

@@ -4,15 +4,10 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <cstdlib>
 
-namespace {
+#include "promise.h"
 
-void require(bool promise) {
-  if (!promise) std::abort();
-}
-
-}  // namespace
+using obvid::require;
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   const auto stored = obvid::contour_from_json({reinterpret_cast<const char*>(data), size}, "fuzz");

@@ -4,16 +4,12 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
-#include <cstdlib>
 
 #include "obvid/core/result.h"
 #include "obvid/exchange/drawing.h"
+#include "promise.h"
 
 namespace obvid {
-
-inline void require(bool promise) {
-  if (!promise) std::abort();
-}
 
 /// What every reader of drawings keeps, whatever it was given.
 inline void require_promises(const Result<Drawing>& drawing) {

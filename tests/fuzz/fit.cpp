@@ -6,18 +6,14 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
-#include <cstdlib>
 #include <cstring>
 
 #include "obvid/io/contour_json.h"
+#include "promise.h"
 
 namespace {
 
 constexpr std::size_t kMostPoints = 64;
-
-void require(bool promise) {
-  if (!promise) std::abort();
-}
 
 /// Takes numbers off the front of the bytes.
 class Bytes {
@@ -56,6 +52,8 @@ std::vector<obvid::Vec2> points_from(Bytes& bytes, bool raw) {
 }
 
 }  // namespace
+
+using obvid::require;
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   Bytes bytes(data, size);

@@ -3,19 +3,17 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
-#include <cstdlib>
 
 #include "obvid/exchange/dxf_read.h"
+#include "promise.h"
 
 namespace {
-
-void require(bool promise) {
-  if (!promise) std::abort();
-}
 
 bool sound(obvid::Vec2 p) { return std::abs(p.x) <= 1e100 && std::abs(p.y) <= 1e100; }
 
 }  // namespace
+
+using obvid::require;
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   const auto drawing = obvid::parse_dxf({reinterpret_cast<const char*>(data), size}, "fuzz");

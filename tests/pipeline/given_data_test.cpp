@@ -167,5 +167,21 @@ TEST(GivenData, ASlopeAtOneEndOfTheBaselineLeavesTheOtherAlone) {
               heading(evaluate(free->contour.pieces.back(), 1.0).d1), 1e-9);
 }
 
+TEST(GivenData, TwoPointsNeedBothHeadings) {
+  PointSeries series;
+  series.points = {{20.0, -1.0}, {38.0, 90.0}};
+  FitJob job;
+  job.end_kappa = 0.33;
+  for (int headings = 0; headings < 3; ++headings) {
+    if (headings > 0) job.start_heading = 60.0 * kDegree;
+    if (headings > 1) job.end_heading = 110.0 * kDegree;
+    const auto f = fit(series, job);
+    ASSERT_EQ(f.has_value(), headings == 2);
+    if (!f) {
+      EXPECT_EQ(f.error().code, ErrorCode::kTooFewPoints);
+    }
+  }
+}
+
 }  // namespace
 }  // namespace obvid

@@ -341,6 +341,15 @@ class Options(unittest.TestCase):
         last = obvid.fit(POINTS[::-1], heading={-1: 120.0})
         self.assertAlmostEqual(first.length, last.length, places=1)
 
+    def test_two_points_need_both_headings(self):
+        two = [(20.0, -1.0), (38.0, 90.0)]
+        for some in ({}, {"start_heading": 60}, {"end_heading": 110}, {"end_radius": 3}):
+            with self.assertRaises(obvid.ObvidError) as refused:
+                obvid.fit(two, **some)
+            self.assertIn("two do when both have a heading", str(refused.exception))
+        c = obvid.fit(two, start_heading=60, end_heading=110)
+        self.assertAlmostEqual(np.degrees(float(c.heading(0.0))), 60.0, places=9)
+
     def test_given_ranges_are_kept(self):
         free = np.degrees(float(obvid.fit(POINTS).heading(4.0)))
         c = obvid.fit(POINTS, heading={4: (free - 3.0, free - 1.0)}, end_radius=(-500, -400))
