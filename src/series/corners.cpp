@@ -79,6 +79,7 @@ struct Candidate {
   double step = 0.0;  ///< of kAngleSteps
   double turn = 0.0;
   double reach = 0.0;  ///< length within which it stands for all corners
+  Vec2 outwards;       ///< between both chords, away from them
 };
 
 class CornerSearch {
@@ -294,7 +295,7 @@ std::vector<Candidate> CornerSearch::candidates() const {
   const std::size_t begin = closed_ ? 0 : 1, end = closed_ ? n : n - 1;
   for (std::size_t i = begin; i < end; ++i) {
     if (ends_arc_at_edge(i)) {
-      found.push_back({i, kAngleSteps.front(), std::numbers::pi, 0.0});
+      found.push_back({i, kAngleSteps.front(), std::numbers::pi, 0.0, {}});
       continue;
     }
     const double noise = noise_at(i);
@@ -306,25 +307,45 @@ std::vector<Candidate> CornerSearch::candidates() const {
       if (in.chords == 0 || out.chords == 0) continue;
       const double turn = turning(-in.first, out.first);
       if (std::abs(turn) < wanted || !is_corner(i, turn, noise, chord)) continue;
-      found.push_back({i, step, std::abs(turn), chord});
+      const Vec2 back = (1.0 / norm(in.first)) * in.first + (1.0 / norm(out.first)) * out.first;
+      found.push_back({i, step, std::abs(turn), chord, -back});
       break;
     }
   }
   return found;
 }
 
+/// Near a tip whose sides nearly lie on each other long chords turn alike wherever they begin: the
+/// tip is what lies outermost.
+Candidate outermost(const std::vector<Vec2>& points, const std::vector<Candidate>& found,
+                    const Candidate& sharpest) {
+  if (sharpest.turn < kSharpTurn) return sharpest;
+  Candidate best = sharpest;
+  for (const Candidate& c : found) {
+    const Vec2 away = points[c.index] - points[sharpest.index];
+    const bool beside =
+        c.step == sharpest.step && c.turn >= kSharpTurn && norm(away) < sharpest.reach;
+    if (beside && dot(points[c.index] - points[best.index], sharpest.outwards) > 0.0) best = c;
+  }
+  return best;
+}
+
 /// Of candidates within the noise's reach of each other, the one seen at the shortest chords, and
-/// of those the sharpest, stands for all.
+/// of those the sharpest, stands for all; of those at a tip the outermost.
 void keep_sharpest(const std::vector<Vec2>& points, std::vector<Candidate> found,
                    std::vector<Candidate>& kept) {
   std::stable_sort(found.begin(), found.end(), [](const Candidate& a, const Candidate& b) {
     return a.step != b.step ? a.step > b.step : a.turn > b.turn;
   });
+  std::vector<Candidate> passed = kept;  // and those that another one stands for
   for (const Candidate& c : found) {
-    const bool taken = std::any_of(kept.begin(), kept.end(), [&](const Candidate& k) {
+    const bool taken = std::any_of(passed.begin(), passed.end(), [&](const Candidate& k) {
       return norm(points[c.index] - points[k.index]) < std::max(c.reach, k.reach);
     });
-    if (!taken) kept.push_back(c);
+    if (taken) continue;
+    kept.push_back(outermost(points, found, c));
+    passed.push_back(c);
+    passed.push_back(kept.back());
   }
 }
 
@@ -339,7 +360,7 @@ std::vector<std::size_t> find_corners(const std::vector<Vec2>& points,
   if (n < 3) return {};
   for (std::size_t i = 0; i < fixed.size(); ++i) {
     const bool end = !closed && (i == 0 || i + 1 == n);
-    if (fixed[i].corner && !end) kept.push_back({i, 0.0, 0.0, 0.0});
+    if (fixed[i].corner && !end) kept.push_back({i, 0.0, 0.0, 0.0, {}});
   }
   if (wishes.find) {
     std::vector<Candidate> found =

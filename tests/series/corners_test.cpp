@@ -220,6 +220,20 @@ Points moved(Points points, double noise, unsigned seed) {
   return points;
 }
 
+// Rows 150 to 158 of ag12 (UIUC), its trailing edge as one point, and rows 2 to 10: chords as long
+// as coarse tolerances need turn alike wherever they begin near such a tip.
+TEST(Corners, TheCornerOfASharpTipIsTheTip) {
+  const Points tip{
+      {0.885322, 0.002011},  {0.899184, 0.001798}, {0.913057, 0.001557}, {0.926935, 0.001293},
+      {0.940803, 0.001006},  {0.954669, 0.00069},  {0.968513, 0.000352}, {0.982113, -2e-06},
+      {0.994133, -0.000323}, {1.0, 0.0},           {0.994142, 0.001042}, {0.982204, 0.002222},
+      {0.968696, 0.003522},  {0.95491, 0.004823},  {0.941098, 0.006097}, {0.927274, 0.007345},
+      {0.913441, 0.008575},  {0.899593, 0.009787}, {0.885734, 0.010985}};
+  for (const double noise : {5e-7, 1e-4, 3e-4, 5e-4, 8e-4, 9e-4, 1e-3, 1.2e-3}) {
+    EXPECT_EQ(corners_of(tip, false, noise), Indices{9}) << noise;
+  }
+}
+
 // Whole numbers, as digitised pictures have them, without repeats.
 Points on_grid(const Points& points) {
   Points result;
