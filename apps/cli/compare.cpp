@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "commands.h"
+#include "fit_report.h"
 #include "obvid/io/atomic_file.h"
 #include "obvid/io/carriers_svg.h"
 #include "obvid/pipeline/import.h"
@@ -124,6 +125,9 @@ std::string comparison_text(const PointSeries& series, const Comparison& compare
     const Error& e = *row.refusal;
     out += fmt::format("\n{}: E{}: {}{}", to_string(row.carrier), static_cast<int>(e.code), e.what,
                        e.where.empty() ? "" : " (" + e.where + ")");
+  }
+  if (const std::string drawn = as_drawn_text(spirals.contour); !drawn.empty()) {
+    out += fmt::format("\nevery carrier keeps {}", drawn);
   }
   out += more_vertices_text(compared);
   out += other_spirals_text(compared);

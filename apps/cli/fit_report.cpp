@@ -162,21 +162,12 @@ void add_bounds(Facts& facts, const Fit& fit) {
             counted(report.inserted_points, "inserted element", "inserted elements"));
 }
 
-/// What stays of a drawing; empty for points.
+/// What stays of a drawing, and what stands between; empty for points.
 std::string kept_text(const Contour& contour, const Certificate& certificate) {
-  const KeptPieces kept = kept_pieces(contour);
-  std::string text;
-  const auto add = [&](std::size_t count, const char* one, const char* many) {
-    if (count > 0) text += (text.empty() ? "" : ", ") + counted(count, one, many);
-  };
-  add(kept.lines, "line", "lines");
-  add(kept.arcs, "arc", "arcs");
-  add(kept.ellipses, "arc of an ellipse", "arcs of ellipses");
-  add(kept.clothoids, "clothoid", "clothoids");
+  std::string text = as_drawn_text(contour);
   if (text.empty()) return text;
   const std::size_t made = contour.pieces.size() - contour.kept.size();
-  text +=
-      " as drawn; " + counted(static_cast<std::size_t>(certificate.corners), "corner", "corners");
+  text += "; " + counted(static_cast<std::size_t>(certificate.corners), "corner", "corners");
   if (certificate.curvature_steps > 0) {
     text += fmt::format(", {} with a step of the curvature",
                         counted(static_cast<std::size_t>(certificate.curvature_steps),
@@ -300,6 +291,19 @@ std::string verdict_line(Carrier carrier, const Certificate& certificate) {
   }
   return fmt::format("proved: monotone {} on every run, {}, inside the region",
                      carrier == Carrier::kArcs ? "radii" : "curvature", joints);
+}
+
+std::string as_drawn_text(const Contour& contour) {
+  const KeptPieces kept = kept_pieces(contour);
+  std::string text;
+  const auto add = [&](std::size_t count, const char* one, const char* many) {
+    if (count > 0) text += (text.empty() ? "" : ", ") + counted(count, one, many);
+  };
+  add(kept.lines, "line", "lines");
+  add(kept.arcs, "arc", "arcs");
+  add(kept.ellipses, "arc of an ellipse", "arcs of ellipses");
+  add(kept.clothoids, "clothoid", "clothoids");
+  return text.empty() ? text : text + " as drawn";
 }
 
 std::string fit_report_text(const std::string& name, const Fit& fit, const Written& written) {

@@ -17,6 +17,9 @@ namespace obvid {
 /// The last line: what is proved, or why not.
 [[nodiscard]] std::string verdict_line(Carrier carrier, const Certificate& certificate);
 
+/// What stays of a drawing whatever the carrier ("4 lines, 1 arc as drawn"); empty for points.
+[[nodiscard]] std::string as_drawn_text(const Contour& contour);
+
 /// What the points force, and on which curves (docs/claims.md, `vertices_lower_bound`).
 [[nodiscard]] std::string bound_text(int bound);
 

@@ -84,6 +84,12 @@ void add_row(JsonText& json, const ComparedCarrier& row) {
   json.pair("reason", certificate.reason).end_object();
 }
 
+void add_taken_over(JsonText& json, const Contour& contour) {
+  const KeptPieces kept = kept_pieces(contour);
+  json.key("taken_over").begin_object().pair("lines", kept.lines).pair("arcs", kept.arcs);
+  json.pair("ellipse_arcs", kept.ellipses).pair("clothoids", kept.clothoids).end_object();
+}
+
 }  // namespace
 
 std::string fit_report_json(const Fit& fit, const Written& written) {
@@ -96,9 +102,7 @@ std::string fit_report_json(const Fit& fit, const Written& written) {
     json.pair("g2_because", fit.report.chain.g2_because);
   }
   json.pair("points", fit.contour.points.size()).pair("pieces", fit.contour.pieces.size());
-  const KeptPieces kept = kept_pieces(fit.contour);
-  json.key("taken_over").begin_object().pair("lines", kept.lines).pair("arcs", kept.arcs);
-  json.pair("ellipse_arcs", kept.ellipses).pair("clothoids", kept.clothoids).end_object();
+  add_taken_over(json, fit.contour);
   json.key("report").raw(report_to_json(fit.report));
   add_certificate(json, fit.certificate);
   add_texts(json, "warnings", fit.warnings);
@@ -137,6 +141,7 @@ std::string comparison_json(const PointSeries& series, const Comparison& compare
   json.begin_object().pair("name", series.name);
   add_units(json, series.units);
   json.pair("tolerance", compared.carriers.front().fit.report.tolerance);
+  add_taken_over(json, compared.carriers.front().fit.contour);
   json.key("carriers").begin_array();
   for (const ComparedCarrier& row : compared.carriers) add_row(json, row);
   return json.end_array().end_object().take();
