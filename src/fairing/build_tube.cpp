@@ -193,6 +193,9 @@ class Builder {
     std::vector<Primitive> found = find_primitives(smooth, watch_);
     if (found.empty()) return;
     if (series_.closed && found.front().first == 0 && found.front().last + 1 == order.size()) {
+      const double turn =
+          std::abs(found.front().kappa) * (found.front().before + found.front().after);
+      if (turn < std::numbers::pi) return;  // a line, or a circle that would swing out to close
       // from the first of its points all round
       found.front().after =
           2.0 * std::numbers::pi / std::abs(found.front().kappa) - found.front().before;

@@ -270,7 +270,7 @@ TEST(PointsOnlyError, IsUnknownBesideAKink) {
 
 TEST(PointsOnlyError, IsUnknownWhereThreePointsAreAll) {
   const std::vector<Vec2> bent = {{0, 0}, {1, 0.1}, {2, 0.5}}, straight = {{0, 0}, {1, 1}, {3, 3}};
-  for (const auto& points : {bent, straight, std::vector<Vec2>{{0, 0}, {1, 2}}}) {
+  for (const auto& points : {bent, straight}) {
     const auto f = fit_carrier(points, Carrier::kSpiral);
     ASSERT_TRUE(f);
     EXPECT_TRUE(f->certificate.proved);

@@ -207,12 +207,15 @@ TEST(FixedData, AClosedSeriesHasOneHeadingWhereItBegins) {
 TEST(FixedData, AConvexContourOfTwoPointsTurnsAsItsRadiusSays) {
   PointSeries two;
   two.points = {{42.0, 0.0}, {41.0, -6.0}};
+  const double along = std::atan2(-6.0, -1.0);
   for (const Continuity continuity : {Continuity::kG2, Continuity::kG3}) {
     for (const double kappa : {0.18, -0.18}) {
       FitJob job;
       job.convex = true;
       job.continuity = continuity;
       job.end_kappa = kappa;
+      job.start_heading = along - 2.0 * kappa;
+      job.end_heading = along + 3.0 * kappa;
       const Fit f = proved(two, job);
       EXPECT_EQ(f.certificate.inflections, 0);
     }

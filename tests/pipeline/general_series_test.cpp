@@ -358,7 +358,6 @@ TEST(GeneralSeries, HostileGeometryIsProvedOrRefusedWithTheReason) {
   for (const double height : {0.05, 0.5, 1.0, 2.0, 5.0, 11.0})
     all.push_back(
         {"zigzag " + std::to_string(height), {{0, 0}, {1, height}, {2, 0}, {3, height}, {4, 0}}});
-  all.push_back({"two points", {{0, 0}, {1, 1}}});
   all.push_back({"three points", {{0, 0}, {1, 1}, {3, 1}}});
   all.push_back({"four points", {{0, 0}, {1, 1}, {3, 1}, {3.5, -2}}});
   all.push_back({"back and forth", {{0, 0}, {1, 0}, {0.5, 0}, {2, 0}}});
