@@ -41,9 +41,8 @@ class TwoArcs {
       const RegionRow& row = section.row(k);
       Element a = section.start_of(k), b = section.end_of(k);
       if (const auto one = one_arc(a, b)) {
-        add_row(out_, k,
-                {1.0 / one->kappa, 1.0 / one->kappa, std::abs(sagitta(one->kappa, row.chord)), 0.0},
-                "one arc");
+        const double radius = 1.0 / one->kappa;
+        add_row(out_, k, {radius, radius, height_over_chord(*one), 0.0}, "one arc");
         put_piece(out_, k, *one);
         before = one->kappa;
         continue;
@@ -91,6 +90,11 @@ class TwoArcs {
     const double kappa = 2.0 * std::sin(beta) / norm(chord);
     if (std::abs(alpha + beta) > kAlike || kappa == 0.0) return std::nullopt;
     return ArcPiece{a.point, b.point, a.theta, kappa, 2.0 * beta / kappa};
+  }
+
+  /// Of an arc over the middle of its chord, whatever it turns.
+  [[nodiscard]] static double height_over_chord(const ArcPiece& arc) {
+    return 0.5 * norm(arc.end - arc.start) * std::abs(std::tan(0.25 * arc.kappa * arc.length));
   }
 
   static bool is_an_arc(const Piece& piece) {

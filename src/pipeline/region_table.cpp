@@ -234,7 +234,9 @@ class PartMaker {
   void add_region(RegionRow& row, std::size_t i) {
     Element a = s_.element(i), b = s_.element(i + 1);
     if (*row.direction == 0) {
-      row.lower_height = std::abs(sagitta(a.kappa, row.chord));
+      const double height = std::abs(sagitta(a.kappa, row.chord));
+      const bool over_half = dot(b.point - a.point, unit_at(a.theta)) < 0.0;
+      row.lower_height = over_half ? 2.0 / std::abs(a.kappa) - height : height;
       row.width = 0.0;
       return;
     }
@@ -480,7 +482,7 @@ class SheetMaker {
     const double theta = neighbour_.empty() ? node.theta.value_or(0.0) : neighbour_[i];
     sheet_.sign.push_back(node.curvature_sign);
     sheet_.theta.push_back(sheet_.given[i].theta.value_or(theta));
-    sheet_.kappa.push_back(sheet_.given[i].kappa.value_or(adjacent_kappa));
+    sheet_.kappa.push_back(sheet_.given[i].kappa.value_or(node.kappa.value_or(adjacent_kappa)));
   }
 
   Result<void> take_centres() {
@@ -539,16 +541,19 @@ class SheetMaker {
 
   /// Points lie on a circle that their headings do not keep: no arc of it stands there.
   void leave_circles() {
-    constexpr double kHeadingsKept = 1e-6;  // rad, as contours keep given ones (docs/claims.md)
+    constexpr double kTyped = 1e-10;                  // rad, of headings typed in degrees
+    constexpr double kRoundings = 64.0 * 0x1p-53;     // of directions between coordinates
     for (std::size_t i = 0; i + 1 < sheet_.points.size(); ++i) {
       if (sheet_.direction[i] != 0) continue;
-      const Vec2 chord = sheet_.points[i + 1] - sheet_.points[i];
+      const Vec2 start = sheet_.points[i], chord = sheet_.points[i + 1] - start;
+      const double coordinate = std::abs(start.x) + std::abs(start.y) + norm(chord);
+      const double kept = kTyped + kRoundings * coordinate / norm(chord);
       const double alpha = turning(chord, unit_at(sheet_.theta[i]));
       const double beta = turning(chord, unit_at(sheet_.theta[i + 1])), sigma = alpha + beta;
       const auto off = [&](double kappa) {
-        return std::abs(2.0 * std::sin(beta) - kappa * norm(chord)) > kHeadingsKept;
+        return std::abs(2.0 * std::sin(beta) - kappa * norm(chord)) > kept;
       };
-      const bool bends = std::abs(sigma) > kHeadingsKept;
+      const bool bends = std::abs(sigma) > kept;
       if (!bends && !off(sheet_.kappa[i]) && !off(sheet_.kappa[i + 1])) continue;
       sheet_.direction[i] = bends ? std::optional(sigma > 0.0 ? 1 : -1) : std::nullopt;
     }
