@@ -121,11 +121,11 @@ class RegionCheck {
   /// Ranges of headings are known to some 1e-6 rad.
   void chosen_inside(const SheetPoint& p, const std::string& at) {
     constexpr Real kKnownTo = 2e-6L;
-    const bool inside =
-        p.heading >= p.headings->low - kKnownTo && p.heading <= p.headings->high + kKnownTo;
-    if (by_neighbours || p.low_is_open || p.high_is_open) return;  // beyond an open end it may lie
-    sheet_.expect(inside, "region.heading in its range", p.heading,
-                  p.heading < p.headings->low ? p.headings->low : p.headings->high, at);
+    if (by_neighbours) return;
+    const bool below = !p.low_is_open && p.heading < p.headings->low - kKnownTo;
+    const bool above = !p.high_is_open && p.heading > p.headings->high + kKnownTo;
+    sheet_.expect(!below && !above, "region.heading in its range", p.heading,
+                  below ? p.headings->low : p.headings->high, at);
   }
 
   void adjacent(std::size_t i, const std::string& at) {
