@@ -61,7 +61,7 @@ class TwoArcs {
       ChordFrame own = chord_frame(a, b);
       own.kappa_start = chosen->first;
       own.kappa_end = chosen->second;
-      const auto height = height_over_middle(own, pair);
+      const auto height = height_over_middle(own, pair, *row.direction);
       double error = 0.0;
       const auto [first, last] = section.bounded(k);
       for (const Piece& piece : pair) {
@@ -111,9 +111,14 @@ class TwoArcs {
             0.0};
   }
 
-  /// Of the arc that stands over the middle of the chord.
+  /// Of the arc that stands over the middle of the chord: from angles and curvatures, free of the
+  /// rounding of coordinates, where both arcs are graphs over it.
   [[nodiscard]] static double height_over_middle(const ChordFrame& frame,
-                                                 const std::array<Piece, 2>& pair) {
+                                                 const std::array<Piece, 2>& pair, int direction) {
+    if (const auto region = segment_region(frame, direction)) {
+      const auto y = boundary_ordinate(frame, region->from_start, 0.5 * frame.h);
+      if (y) return std::abs(*y);
+    }
     const Vec2 start = start_point(pair[0]), chord = end_point(pair[1]) - start;
     const Vec2 u = chord / frame.h;
     for (const Piece& piece : pair) {
