@@ -171,8 +171,8 @@ class EllipseArcs {
       std::size_t next = good == to - from ? to : last_vertex(from, from + good);
       if (next == from) next = from + std::max(good, std::size_t{1});
       for (std::size_t i = from; i < next; ++i) {
-        arcs_[i].made = chain->pieces[i - from];
         arcs_[i].weight = chain->weights[i - from];
+        arcs_[i].made = unblurred(arcs_[i], chain->pieces[i - from]);
       }
       if (next < to) {
         steps_.push_back(region_point_name(section_->point(section_->row(arcs_[next].row).from)));
@@ -180,6 +180,23 @@ class EllipseArcs {
       from = next;
     }
     return {};
+  }
+
+  /// The conic with its start as origin where the rounding of coordinates would change its radii.
+  static RationalBezier unblurred(const ConicArc& arc, const RationalBezier& made) {
+    constexpr double kSameCurvature = 1e-9;  // of the curvature
+    const Element start{{}, arc.start.theta, arc.start.kappa};
+    const Element end{arc.end.point - arc.start.point, arc.end.theta, arc.end.kappa};
+    const auto near = conic_chain({start, end}, {arc.weight});
+    if (!near) return made;
+    RationalBezier local = near->pieces.front();
+    const auto same = [&](double t) {
+      const double kappa = curvature(evaluate(Piece{local}, t));
+      return std::abs(curvature(evaluate(Piece{made}, t)) - kappa) <= kSameCurvature * std::abs(kappa);
+    };
+    if (same(0.0) && same(1.0)) return made;
+    local.origin = arc.start.point;
+    return local;
   }
 
   [[nodiscard]] Result<ConicChain> chain_from(std::size_t from, std::size_t to,

@@ -3,9 +3,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
 #include <set>
+#include <utility>
 
 #include "region_checks.h"
 #include "sentences.h"
@@ -389,7 +391,8 @@ class ConstructedRows : public Rows {
       if (spans.empty()) {
         return sheet_.fails(claim_ + "pieces", std::to_string(first), "no pieces left", where(k));
       }
-      segment(k, spans, vertices,
+      const std::array<Real, 2> ends{bend_of(pieces[first], true), bend_of(pieces[piece - 1], false)};
+      segment(k, spans, ends, vertices,
               contour_.curvature_rounding(static_cast<Real>(first)) +
                   contour_.curvature_rounding(static_cast<Real>(piece)));
     }
@@ -398,15 +401,26 @@ class ConstructedRows : public Rows {
   }
 
  private:
-  void segment(std::size_t k, const std::vector<Span>& spans, std::size_t vertices, Real blur) {
-    const Real k0 = spans.front().at(0.0L).kappa(), k1 = spans.back().at(1.0L).kappa();
+  /// Curvature at an end, seen from the piece's own start: afar even long doubles are too short.
+  static Real bend_of(const Piece& piece, bool at_start) {
+    const Real t = at_start ? 0.0L : 1.0L;
+    const auto* bezier = std::get_if<Bezier>(&piece);
+    if (bezier == nullptr) return Span(piece, {}).at(t).kappa();
+    std::vector<Vec> points;
+    for (const Point p : bezier->offset) points.push_back(seen(p, bezier->offset.front()));
+    const std::vector<Real> weights(bezier->weight.begin(), bezier->weight.end());
+    return Span(std::move(points), weights).at(t).kappa();
+  }
+
+  void segment(std::size_t k, const std::vector<Span>& spans, const std::array<Real, 2>& ends,
+               std::size_t vertices, Real blur) {
     const auto bend = [&](const char* column, Real found) {
-      const Real stated = kappa(k, column), scale = std::max(std::abs(k0), std::abs(k1));
+      const Real stated = kappa(k, column), scale = std::max(std::abs(ends[0]), std::abs(ends[1]));
       sheet_.expect(std::abs(stated - found) <= 1e-6L * scale + blur, claim_ + column, stated, found,
                     where(k));
     };
-    bend("R", k0);
-    bend("R'", k1);
+    bend("R", ends[0]);
+    bend("R'", ends[1]);
     const auto count = [&](const char* column) {
       near(column, value(k, column), static_cast<Real>(spans.size()), 0.0L, k);
     };
