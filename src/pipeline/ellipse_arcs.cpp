@@ -12,6 +12,7 @@
 
 #include "construction_section.h"
 #include "obvid/contour/conics.h"
+#include "obvid/curve/end_curvatures.h"
 #include "obvid/pipeline/region_files.h"
 #include "obvid/region/boundary_distance.h"
 #include "obvid/region/convex_triangle.h"
@@ -190,11 +191,11 @@ class EllipseArcs {
     const auto near = conic_chain({start, end}, {arc.weight});
     if (!near) return made;
     RationalBezier local = near->pieces.front();
-    const auto same = [&](double t) {
-      const double kappa = curvature(evaluate(Piece{local}, t));
-      return std::abs(curvature(evaluate(Piece{made}, t)) - kappa) <= kSameCurvature * std::abs(kappa);
+    const auto same = [&](bool at_start) {
+      const double kappa = stored_curvature(local, at_start);
+      return std::abs(stored_curvature(made, at_start) - kappa) <= kSameCurvature * std::abs(kappa);
     };
-    if (same(0.0) && same(1.0)) return made;
+    if (same(true) && same(false)) return made;
     local.origin = arc.start.point;
     return local;
   }
@@ -244,8 +245,8 @@ class EllipseArcs {
 
   void note_step(const ConicArc& before, const ConicArc& behind) {
     if (turns_left(before) != turns_left(behind)) return;
-    const double k0 = curvature(evaluate(Piece{*before.made}, 1.0));
-    const double k1 = curvature(evaluate(Piece{*behind.made}, 0.0));
+    const double k0 = stored_curvature(*before.made, false);
+    const double k1 = stored_curvature(*behind.made, true);
     if (std::abs(k1 - k0) <= kSameConicCurvature * std::max(std::abs(k0), std::abs(k1))) return;
     steps_.push_back(region_point_name(section_->point(section_->row(behind.row).from)));
   }
@@ -272,8 +273,8 @@ class EllipseArcs {
     const Piece piece{*arc.made};
     const auto [start, end] = section_->bounded(arc.row);
     const auto placed = place_in_region(piece, start, end, direction(arc));
-    return {arc.weight, 1.0 / curvature(evaluate(piece, 0.0)),
-            1.0 / curvature(evaluate(piece, 1.0)), placed ? placed->farther : kNoFigure,
+    return {arc.weight, 1.0 / stored_curvature(*arc.made, true),
+            1.0 / stored_curvature(*arc.made, false), placed ? placed->farther : kNoFigure,
             placed ? placed->outside : kNoFigure};
   }
 
