@@ -173,6 +173,11 @@ class OneClothoid {
   }
 
   ConstructionTable told() {
+    constexpr double kNoStep = 1e-12;  // of the curvature: what rounding leaves
+    if (largest_ <= kNoStep) {
+      out_.remarks.emplace_back("common tangents; the curvature goes on at every point");
+      return std::move(out_);
+    }
     out_.remarks.push_back(
         fmt::format("common tangents; curvature steps by up to {:.3g} % of the largest on the two "
                     "segments: `fit --carrier clothoids` joins three to a segment without steps",

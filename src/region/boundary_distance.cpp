@@ -71,7 +71,8 @@ double largest_at(const F& f, int samples) {
     const double a = low + (high - low) / 3.0, b = high - (high - low) / 3.0;
     (f(a) < f(b) ? low : high) = f(a) < f(b) ? a : b;
   }
-  return 0.5 * (low + high);
+  const double t = 0.5 * (low + high);
+  return f(t) < most ? static_cast<double>(best) / samples : t;  // a peak at an end may be narrow
 }
 
 }  // namespace

@@ -197,6 +197,10 @@ class ClothoidRows : public Rows {
       curve(k);
       largest = std::max(largest, step(k));
     }
+    constexpr Real kNoStep = 2e-12L;
+    if (has_remark("the curvature goes on at every point")) {
+      sheet_.expect(largest <= kNoStep, claim_ + "largest step", 0.0L, largest, "");
+    }
     for (const std::string& remark : remarks_) {
       const std::size_t at = remark.find("steps by up to ");
       if (at == std::string::npos) continue;

@@ -487,6 +487,22 @@ class RegionCheck {
     told("tangent_convex_bound", &RegionFigures::tangent_bound);
   }
 
+  /// Of the chords of one circle next to each other: directions over the shortest are rounded most,
+  /// and decide whether it is one.
+  [[nodiscard]] Real shortest_on_circle(const SheetRow& row) const {
+    const auto k = static_cast<std::size_t>(&row - p_.rows.data());
+    const auto [first, behind] = p_.section(k);
+    Real shortest = HUGE_VALL;
+    for (const int way : {-1, 1}) {
+      for (std::size_t j = k; j >= first && j < behind; j += static_cast<std::size_t>(way)) {
+        if (p_.direction(p_.rows[j]) != 0) break;
+        const SheetRow& one = p_.rows[j];
+        shortest = std::min(shortest, norm(p_.points[one.to].point - p_.points[one.from].point));
+      }
+    }
+    return shortest;
+  }
+
   /// On an arc there is one curve: the height over its chord, and no width.
   void arc(const SheetRow& row) {
     const SheetPoint &a = p_.points[row.from], &b = p_.points[row.to];
@@ -495,7 +511,7 @@ class RegionCheck {
     const Real omega = std::atan2(chord.y, chord.x);
     const Real sigma = std::remainder(a.heading - omega, kCircleTurn) +
                        std::remainder(b.heading - omega, kCircleTurn);
-    const Real blur = kSameAsStated + 64.0L * 0x1p-53L * p_.coordinate / h;
+    const Real blur = kSameAsStated + 64.0L * 0x1p-53L * p_.coordinate / shortest_on_circle(row);
     sheet_.expect(std::abs(sigma) <= blur, "region.arc", 0.0L, sigma, where(row));
     const Real beta = std::remainder(b.heading - omega, kCircleTurn), turn = 2.0L * beta;
     const Real kappa = 2.0L * std::sin(beta) / h;

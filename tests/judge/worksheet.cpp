@@ -233,7 +233,9 @@ std::vector<Real> slopes_of(const std::vector<Real>& h, const std::vector<Real>&
   }
   // equal third derivatives on both sides of the second knot and of the last but one
   const auto third = [&](std::size_t row, std::size_t i) {
-    const Real a = 1.0L / (h[i] * h[i]), b = 1.0L / (h[i + 1] * h[i + 1]);
+    // as large as the other rows, or pivots would push it behind all of them
+    const Real both = h[i] + h[i + 1];
+    const Real a = h[i + 1] * h[i + 1] / both, b = h[i] * h[i] / both;
     rows[row][i] += a;
     rows[row][i + 1] += a - b;
     rows[row][i + 2] -= b;
