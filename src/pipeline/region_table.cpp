@@ -125,8 +125,10 @@ class Ranges {
     for (std::size_t k = 0; k < count; ++k) {
       const std::size_t i = sheet_.loop ? (first + k) % chords_.size() : k;
       RangeNode node{sheet_.given[i].theta, sheet_.given[i].kappa, sheet_.sign[i]};
-      const bool arc = (i > 0 && sheet_.direction[i - 1] == 0) ||
-                       (i < sheet_.direction.size() && sheet_.direction[i] == 0);
+      const std::size_t n = sheet_.direction.size();
+      const bool has_before = i > 0 || sheet_.loop;
+      const bool arc = (has_before && sheet_.direction[(i + n - 1) % n] == 0) ||
+                       (i < n && sheet_.direction[i] == 0);
       node.thetas = sheet_.given[i].thetas;
       node.kappas = sheet_.given[i].kappas;
       if (all_headings || arc) node.theta = sheet_.theta[i];

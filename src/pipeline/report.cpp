@@ -161,8 +161,14 @@ class PartMeasure {
   void bound_arcs(const Part& part, SegmentReport& row) const {
     for (std::size_t k = part.first_piece; k <= part.last_piece; ++k) {
       if (direction_[k] == 0 || k == part.last_piece) continue;
-      row.width = std::max(row.width, arc_pair_width(k));
       row.inserted += k > part.first_piece ? 1 : 0;
+      const double turn = turning_both_ways(contour_.pieces[k], 0.0, 1.0) +
+                          turning_both_ways(contour_.pieces[k + 1], 0.0, 1.0);
+      if (turn < std::numbers::pi) {
+        row.width = std::max(row.width, arc_pair_width(k));
+      } else {  // the joint is an element too: an arc is its own region
+        ++row.inserted;
+      }
       ++k;
     }
   }

@@ -210,7 +210,7 @@ class RegionCheck {
 
   [[nodiscard]] bool beside_an_arc(std::size_t i) const {
     return std::any_of(p_.rows.begin(), p_.rows.end(), [&](const SheetRow& row) {
-      return (row.from == i || row.to == i) && p_.direction(row) == 0;
+      return p_.touches(row, i) && p_.direction(row) == 0;
     });
   }
 

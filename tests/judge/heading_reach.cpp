@@ -99,7 +99,7 @@ class Way {
 
   [[nodiscard]] bool beside_an_arc(std::size_t i) const {
     return std::any_of(part_.rows.begin(), part_.rows.end(), [&](const SheetRow& row) {
-      return (row.from == i || row.to == i) && part_.direction(row) == 0;
+      return part_.touches(row, i) && part_.direction(row) == 0;
     });
   }
 

@@ -133,7 +133,7 @@ class RangeMaker {
     }
     for (std::size_t k = 0; k < part_.rows.size(); ++k) {
       const SheetRow& row = part_.rows[k];
-      if ((row.from != i && row.to != i) || direction_[k] != 0) continue;
+      if (!part_.touches(row, i) || direction_[k] != 0) continue;
       const Vec chord = part_.points[row.to].point - part_.points[row.from].point;
       const Real turn =
           std::remainder(part_.points[row.to].heading - part_.points[row.from].heading, kTurnAround);
