@@ -85,7 +85,7 @@ class Printed {
   }
 
   void point(const std::vector<std::string>& words) {
-    const SheetPoint* p = find_point(words[0]);
+    const SheetPoint* p = find_point(words[0], words[4]);
     if (p == nullptr) return;
     const std::string where = "point " + words[0];
     const Turned turned(*p);
@@ -132,10 +132,18 @@ class Printed {
   [[nodiscard]] std::size_t rows() const { return rows_; }
 
  private:
-  /// A corner stands twice: rows go on from the one before.
-  const SheetPoint* find_point(const std::string& name) {
+  /// A corner stands twice: rows go on from the one before. A table that leaves rows out may have
+  /// the second one alone.
+  const SheetPoint* find_point(const std::string& name, const std::string& heading) {
+    const auto off = [&](const SheetPoint& p) {
+      return std::abs(Turned(p).degrees(p.heading) - std::strtod(heading.c_str(), nullptr));
+    };
     for (; at_ < part_.points.size(); ++at_) {
-      if (part_.points[at_].name() == name) return &part_.points[at_++];
+      const SheetPoint& here = part_.points[at_];
+      if (here.name() != name) continue;
+      const bool twice = at_ + 1 < part_.points.size() && part_.points[at_ + 1].name() == name;
+      if (twice && off(part_.points[at_ + 1]) < off(here)) ++at_;
+      return &part_.points[at_++];
     }
     sheet_.fails(claim_ + ": point", name, "no such point", "");
     return nullptr;

@@ -10,7 +10,7 @@
 namespace judge {
 namespace {
 
-constexpr Real kHalfTurn = std::numbers::pi_v<Real>;
+constexpr Real kHalfTurn = std::numbers::pi_v<Real>, kQuarterTurn = 0.5L * kHalfTurn;
 /// Headings looked at of each point: towards both ends of its range ever closer together, down to
 /// 1e-7 of it.
 constexpr int kHeadingsToEachEnd = 48;
@@ -86,7 +86,11 @@ class Way {
     if (p.heading_given || !p.headings || p.headings->empty() || beside_an_arc(point(k))) {
       return {p.heading};
     }
-    const Real low = p.headings->low, width = p.headings->high - low;
+    // at an end of the series the range is told up to a right angle from the chord alone
+    const bool at_end = k == 0;
+    const Real low = p.headings->low - (at_end && p.low_is_open ? kQuarterTurn : 0.0L);
+    const Real high = p.headings->high + (at_end && p.high_is_open ? kQuarterTurn : 0.0L);
+    const Real width = high - low;
     std::vector<Real> out{p.heading, low + 0.5L * width};
     for (int j = 0; j < kHeadingsToEachEnd; ++j) {
       const Real part = 0.5L * std::pow(2.0L * kNearestToEnd, static_cast<Real>(j + 1) / kHeadingsToEachEnd);
