@@ -242,6 +242,9 @@ class PartMaker {
       row.width = 0.0;
       return;
     }
+    const double alpha = turning(b.point - a.point, unit_at(a.theta));
+    const double beta = turning(b.point - a.point, unit_at(b.theta));
+    if (!(std::abs(alpha + beta) < std::numbers::pi)) return;  // nothing bounds what turns on so far
     std::tie(a.kappa, b.kappa) = bounding(row, i);
     const ChordFrame frame = chord_frame(a, b);
     const auto region = segment_region(frame, *row.direction);
@@ -587,7 +590,9 @@ class SheetMaker {
         out.number.push_back(i);
         out.inserted.push_back(0);
         out.given.push_back(series_.fixed.empty() ? FixedData{} : series_.fixed[i]);
-        out.theta.push_back(chain.elements[e].theta);
+        const double theta = chain.elements[e].theta;
+        const std::optional<double> given = out.given.back().theta;
+        out.theta.push_back(given ? nearest_angle(*given, theta) : theta);
         out.kappa.push_back(chain.elements[e].kappa);
         if (e < chain.direction.size()) out.direction.emplace_back(chain.direction[e]);
       } else if (out.direction.back() && *out.direction.back() != chain.direction[e]) {

@@ -177,6 +177,7 @@ class Step {
       if (one) out.from = OneBefore{h_, omega_, from.first, -kUnbounded};
       return out;
     }
+    if (one && !leads_on(from.samples.front())) return {};
     bool root_first = false, root_last = false;
     const std::vector<LowSample> part = part_below(
         within_half_turn(from.samples), [this](double theta, double low) { return A(theta, low); },
@@ -194,6 +195,12 @@ class Step {
  private:
   [[nodiscard]] double A(double theta, double low) const {
     return 0.5 * low * h_ + std::sin(theta - omega_);
+  }
+  /// Whether A is negative beyond the rounding of its two terms.
+  [[nodiscard]] bool leads_on(const LowSample& s) const {
+    constexpr double kRoundings = 8.0 * 0x1p-53;
+    const double bent = 0.5 * s.low * h_, sine = std::sin(s.theta - omega_);
+    return bent + sine < -kRoundings * (std::abs(bent) + std::abs(sine));
   }
   [[nodiscard]] double A_slope(const LowSample& s) const {
     return 0.5 * s.slope * h_ + std::cos(s.theta - omega_);

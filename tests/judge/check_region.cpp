@@ -435,7 +435,7 @@ class RegionCheck {
     const SheetRow& row = p_.rows[k];
     const Json& f = *row.figures;
     const std::optional<int> d = p_.direction(row);
-    if (!d) {
+    if (!d || std::abs(p_.bending(row)) >= kStraightAngle) {
       for (const char* name : {"lower_height", "width", "chord_apex_gap", "tangent_apex_gap",
                                "chord_convex_bound", "tangent_convex_bound", "spline_distance"}) {
         sheet_.expect(figure(f, name).null(), fmt::format("region.{} null", name),

@@ -289,7 +289,7 @@ std::array<Element, 2> SheetPart::bounding(const SheetRow& row, const Input& inp
 
 std::optional<Region> SheetPart::region(const SheetRow& row, const Input& input) const {
   const std::optional<int> d = direction(row);
-  if (!d || *d == 0) return std::nullopt;
+  if (!d || *d == 0 || std::abs(bending(row)) >= kStraightAngle) return std::nullopt;
   const auto [a, b] = bounding(row, input);
   return Region::of(a, b, *d);
 }
