@@ -86,17 +86,19 @@ class Way {
     if (p.heading_given || !p.headings || p.headings->empty() || beside_an_arc(point(k))) {
       return {p.heading};
     }
+    std::vector<Real> out{p.heading};
+    const auto look = [&out](Real low, Real high) {
+      for (int j = 0; j <= kHeadingsToEachEnd; ++j) {
+        const Real part =
+            0.5L * std::pow(2.0L * kNearestToEnd, static_cast<Real>(j) / kHeadingsToEachEnd);
+        out.push_back(low + part * (high - low));
+        out.push_back(high - part * (high - low));
+      }
+    };
+    look(p.headings->low, p.headings->high);
     // at an end of the series the range is told up to a right angle from the chord alone
-    const bool at_end = k == 0;
-    const Real low = p.headings->low - (at_end && p.low_is_open ? kQuarterTurn : 0.0L);
-    const Real high = p.headings->high + (at_end && p.high_is_open ? kQuarterTurn : 0.0L);
-    const Real width = high - low;
-    std::vector<Real> out{p.heading, low + 0.5L * width};
-    for (int j = 0; j < kHeadingsToEachEnd; ++j) {
-      const Real part = 0.5L * std::pow(2.0L * kNearestToEnd, static_cast<Real>(j + 1) / kHeadingsToEachEnd);
-      out.push_back(low + part * width);
-      out.push_back(low + width - part * width);
-    }
+    if (k == 0 && p.low_is_open) look(p.headings->low - kQuarterTurn, p.headings->low);
+    if (k == 0 && p.high_is_open) look(p.headings->high, p.headings->high + kQuarterTurn);
     std::sort(out.begin(), out.end());
     return out;
   }
