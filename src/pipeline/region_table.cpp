@@ -183,12 +183,27 @@ class PartMaker {
       out_.points.push_back(p);
     }
     for (std::size_t i = 0; i + 1 < s_.points.size(); ++i) out_.rows.push_back(row(i));
+    forget_beside_nothing();
     if (analysis_ != nullptr) add_spline();
     out_.loop = s_.loop;
     return std::move(out_);
   }
 
  private:
+  /// A point whose segments all leave no curve has no radii either.
+  void forget_beside_nothing() {
+    std::vector<bool> none(out_.points.size(), false), some = none;
+    for (const RegionRow& row : out_.rows) {
+      for (const std::size_t i : {row.from, row.to}) {
+        none[i] = none[i] || (row.direction && !row.kappa_start);
+        some[i] = some[i] || row.kappa_start;
+      }
+    }
+    for (std::size_t i = 0; i < out_.points.size(); ++i) {
+      if (none[i] && !some[i]) out_.points[i].curvatures = std::nullopt;
+    }
+  }
+
   /// Ranges of a loop count turns from another point than its headings do.
   static void turn_to(double theta, HeadingRange& range) {
     const double middle = 0.5 * (range.low + range.high);

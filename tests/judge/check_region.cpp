@@ -183,6 +183,10 @@ class RegionCheck {
         continue;
       }
       const Real scale = range_scale(i);
+      if (beside_no_curve(i) && p.kappas->low >= found[i]->low && p.kappas->high <= found[i]->high) {
+        sheet_.unjudged(claim, "a segment beside it has no curve, and no direction is told", at);
+        continue;
+      }
       const auto end = [&](Real stated, Real sought, Real one, Real other, const char* which) {
         if (std::isinf(sought) || std::isinf(stated)) {
           sheet_.expect(sought == stated, claim, stated, sought, at + which);
@@ -208,6 +212,11 @@ class RegionCheck {
     }
   }
 
+  [[nodiscard]] bool beside_no_curve(std::size_t i) const {
+    return std::any_of(p_.rows.begin(), p_.rows.end(), [&](const SheetRow& row) {
+      return p_.touches(row, i) && !p_.direction(row);
+    });
+  }
   [[nodiscard]] bool beside_an_arc(std::size_t i) const {
     return std::any_of(p_.rows.begin(), p_.rows.end(), [&](const SheetRow& row) {
       return p_.touches(row, i) && p_.direction(row) == 0;
