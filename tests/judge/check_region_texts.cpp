@@ -142,6 +142,7 @@ class Printed {
   /// A corner stands twice: rows go on from the one before. A table that leaves rows out may have
   /// the second one alone.
   const SheetPoint* find_point(const std::string& name, const std::string& heading) {
+    constexpr double kToldTo = 1e-4;  // degrees
     const auto off = [&](const SheetPoint& p) {
       return std::abs(Turned(p).degrees(p.heading) - std::strtod(heading.c_str(), nullptr));
     };
@@ -149,7 +150,7 @@ class Printed {
       const SheetPoint& here = part_.points[at_];
       if (here.name() != name) continue;
       const bool twice = at_ + 1 < part_.points.size() && part_.points[at_ + 1].name() == name;
-      if (twice && off(part_.points[at_ + 1]) < off(here)) ++at_;
+      if (twice && off(part_.points[at_ + 1]) + kToldTo < off(here)) ++at_;
       return &part_.points[at_++];
     }
     sheet_.fails(claim_ + ": point", name, "no such point", "");
