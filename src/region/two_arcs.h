@@ -27,15 +27,23 @@ enum class Turning {
   if (first_along && second_along) return {Turning::kShort, Turning::kShort};
   const auto angle = [](Vec2 t) { return std::atan2(t.y, t.x); };
   const double alpha = angle(start), beta = angle(end), theta = angle(joint);
-  double least = HUGE_VAL, first = 0.0, second = 0.0;
-  for (const int whole : {0, -1, 1}) {
-    const double at = theta + whole * 2.0 * std::numbers::pi;
-    const double against = std::max({0.0, std::copysign(1.0, kappa_first) * (alpha - at),
-                                     std::copysign(1.0, kappa_second) * (at - beta)});
-    if (against >= least) continue;
-    least = against;
-    first = at - alpha;
-    second = beta - at;
+  // beside an inflection both arcs could turn once more: only what is no rounding makes them
+  constexpr double kNoRounding = 1.0;  // rad
+  const bool inflection = kappa_first * kappa_second < 0.0;
+  double first = theta - alpha, second = beta - theta;
+  const auto off = [](double turn, double kappa) {  // a line does not turn
+    return kappa == 0.0 ? std::abs(turn) : std::max(0.0, -std::copysign(1.0, kappa) * turn);
+  };
+  const auto against = [&](double one, double other) {
+    return std::max(off(one, kappa_first), off(other, kappa_second));
+  };
+  double least = against(first, second);
+  for (const double whole : {-2.0 * std::numbers::pi, 2.0 * std::numbers::pi}) {
+    const double one = theta + whole - alpha, other = beta - theta - whole;
+    if (against(one, other) >= least || (inflection && least < kNoRounding)) continue;
+    least = against(one, other);
+    first = one;
+    second = other;
   }
   const auto kind = [](double turn, double kappa) {
     if (turn * kappa < 0.0) return Turning::kBack;

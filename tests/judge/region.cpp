@@ -29,11 +29,17 @@ Biarc closing(Real h, Real alpha, Real beta, Real k0, Real k1) {
   Real theta = circle ? alpha : std::atan2(v.y, v.x);
   // both turns together are beta - alpha: of the headings that differ by a whole turn the one that
   // goes least against the curvatures
-  const auto against = [&](Real at) {
-    return std::max({0.0L, std::copysign(1.0L, k0) * (alpha - at), std::copysign(1.0L, k1) * (at - beta)});
+  const auto off = [](Real turn, Real k) {  // a line does not turn
+    return k == 0.0L ? std::abs(turn) : std::max(0.0L, -std::copysign(1.0L, k) * turn);
   };
-  for (const Real at : {theta - 2.0L * kPi, theta + 2.0L * kPi}) {
-    if (against(at) < against(theta)) theta = at;
+  const auto against = [&](Real at) { return std::max(off(at - alpha, k0), off(beta - at, k1)); };
+  // beside an inflection both could turn once more: only what is no rounding makes them
+  constexpr Real kNoRounding = 1.0L;  // rad
+  if (!(k0 * k1 < 0.0L) || against(theta) > kNoRounding) {
+    const Real first = theta;
+    for (const Real at : {first - 2.0L * kPi, first + 2.0L * kPi}) {
+      if (against(at) < against(theta)) theta = at;
+    }
   }
   // a turn against its curvature is rounding: then the arcs touch at an end of the chord
   if ((theta - alpha) * k0 < 0.0L) theta = alpha;
