@@ -166,8 +166,9 @@ class CondensedTriangles {
     if (is_straight(start.kappa, chord)) start.kappa = 0.0;
     if (is_straight(end.kappa, chord)) end.kappa = 0.0;
     if (start.kappa == 0.0 && end.kappa == 0.0) {
-      return fail({ErrorCode::kNoSpiral, "a segment is straight within rounding: no parabola is", "",
-                   "leave points of the line out, or use `fit` without --construction", -1, 0.0});
+      return fail({ErrorCode::kNoSpiral, "a segment is straight within rounding: no parabola is",
+                   "", "leave points of the line out, or use `fit` without --construction", -1,
+                   0.0});
     }
     if (start.kappa * end.kappa > 0.0) return std::vector<Bend>{{start, end}};
     const auto middle = inflection_between(start, end, direction);

@@ -259,7 +259,8 @@ class PartMaker {
     }
     const double alpha = turning(b.point - a.point, unit_at(a.theta));
     const double beta = turning(b.point - a.point, unit_at(b.theta));
-    if (!(std::abs(alpha + beta) < std::numbers::pi)) return;  // nothing bounds what turns on so far
+    if (!(std::abs(alpha + beta) < std::numbers::pi))
+      return;  // nothing bounds what turns on so far
     std::tie(a.kappa, b.kappa) = bounding(row, i);
     const ChordFrame frame = chord_frame(a, b);
     const auto region = segment_region(frame, *row.direction);
@@ -561,8 +562,8 @@ class SheetMaker {
 
   /// Points lie on a circle that their headings do not keep: no arc of it stands there.
   void leave_circles() {
-    constexpr double kTyped = 1e-10;                  // rad, of headings typed in degrees
-    constexpr double kRoundings = 64.0 * 0x1p-53;     // of directions between coordinates
+    constexpr double kTyped = 1e-10;               // rad, of headings typed in degrees
+    constexpr double kRoundings = 64.0 * 0x1p-53;  // of directions between coordinates
     for (std::size_t i = 0; i + 1 < sheet_.points.size(); ++i) {
       if (sheet_.direction[i] != 0) continue;
       const Vec2 start = sheet_.points[i], chord = sheet_.points[i + 1] - start;

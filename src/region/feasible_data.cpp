@@ -186,8 +186,7 @@ class Step {
     add_circles(part.front().theta, part.back().theta);
     follow(part, root_first, root_last);
     Reached out = finished();
-    out.first_is_open =
-        !root_last && (from.last_is_open || part.back().theta >= omega_ + kPi);
+    out.first_is_open = !root_last && (from.last_is_open || part.back().theta >= omega_ + kPi);
     if (one) out.from = OneBefore{h_, omega_, from.first, part.front().low};
     return out;
   }

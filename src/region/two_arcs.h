@@ -17,9 +17,9 @@ enum class Turning {
   kOverHalf,  ///< by more than half a turn, along its curvature
 };
 
-/// Both arcs of a boundary, its tangents seen from the chord. Headings lie less than half a turn from
-/// the chord, so both turns together are the difference of those at its ends: that tells an arc of
-/// nearly a whole turn from one that rounding turned back.
+/// Both arcs of a boundary, its tangents seen from the chord. Headings lie less than half a turn
+/// from the chord, so both turns together are the difference of those at its ends: that tells an
+/// arc of nearly a whole turn from one that rounding turned back.
 [[nodiscard]] inline std::array<Turning, 2> turnings(Vec2 start, Vec2 joint, Vec2 end,
                                                      double kappa_first, double kappa_second) {
   const bool first_along = cross(start, joint) * kappa_first >= 0.0,

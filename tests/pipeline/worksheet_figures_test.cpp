@@ -38,17 +38,18 @@ TEST(WorksheetFigures, AnArcOfMoreThanHalfATurnStandsAsHighAsItIs) {
   ASSERT_TRUE(table) << table.error().what;
   ASSERT_TRUE(table->rows[0].lower_height);
   EXPECT_NEAR(*table->rows[0].lower_height, kRadius * (1.0 - std::cos(0.5 * kTurn)), 1e-12);
-  const auto arcs =
-      region_table(places({at(0.0), at(kTurn)}, {0.5 * kPi, 0.5 * kPi + kTurn}), with(Construction::kArcs));
+  const auto arcs = region_table(places({at(0.0), at(kTurn)}, {0.5 * kPi, 0.5 * kPi + kTurn}),
+                                 with(Construction::kArcs));
   ASSERT_TRUE(arcs) << arcs.error().what;
   ASSERT_EQ(arcs->construction->rows[0].remark, "one arc");
-  EXPECT_NEAR(arcs->construction->rows[0].values[2], kRadius * (1.0 - std::cos(0.5 * kTurn)), 1e-12);
+  EXPECT_NEAR(arcs->construction->rows[0].values[2], kRadius * (1.0 - std::cos(0.5 * kTurn)),
+              1e-12);
 }
 
 TEST(WorksheetFigures, HeadingsBesideALineByATenMillionthAreNotItsOwn) {
   constexpr double kOff = 1e-7;
-  const auto table =
-      region_table(places({{0.0, 0.0}, {1.0, 0.0}, {2.0, 0.0}, {3.0, 0.0}}, {0.0, kOff, 0.0, kOff}));
+  const auto table = region_table(
+      places({{0.0, 0.0}, {1.0, 0.0}, {2.0, 0.0}, {3.0, 0.0}}, {0.0, kOff, 0.0, kOff}));
   ASSERT_TRUE(table) << table.error().what;
   ASSERT_EQ(table->rows[0].direction, 1);
   ASSERT_EQ(table->rows[1].direction, 1);
@@ -78,7 +79,8 @@ TEST(WorksheetFigures, ASeamOnAnArcHasTheArcsCurvature) {
     points.push_back({side * 2.0, -side * kRadius});
     points.push_back({0.0, -side * kRadius});
     for (int k = 0; k < 6; ++k) {
-      points.push_back(Vec2{-side * 2.0, 0.0} + kRadius * unit_at(-side * 0.5 * kPi - kPi * k / 6.0));
+      points.push_back(Vec2{-side * 2.0, 0.0} +
+                       kRadius * unit_at(-side * 0.5 * kPi - kPi * k / 6.0));
     }
   }
   RegionJob job;
@@ -162,7 +164,8 @@ TEST(WorksheetFigures, AtAVertexTwoArcsLeaveTheCurvatureThatBothRunsReach) {
 }
 
 TEST(WorksheetFigures, OneClothoidHasNoSteps) {
-  const auto table = region_table(places({{0.0, 0.0}, {1.0, 0.0}}, {-0.2, 0.5}), with(Construction::kClothoids));
+  const auto table =
+      region_table(places({{0.0, 0.0}, {1.0, 0.0}}, {-0.2, 0.5}), with(Construction::kClothoids));
   ASSERT_TRUE(table) << table.error().what;
   EXPECT_EQ(table->construction->remarks.front(),
             "common tangents; the curvature goes on at every point");

@@ -36,7 +36,8 @@ TEST(FeasibleEnds, BeforeAVertexNothingButHalfATurnEndsTheHeadings) {
 TEST(FeasibleEnds, AHeadingThatIsGivenOrHeldIsNoOpenEnd) {
   RangeNode held{{}, {}, 0};
   held.thetas = ValueRange{0.2, 0.6};
-  const auto found = feasible_data({{1.0, 0.0, 1}, {1.0, 1.0, -1}}, {{0.0, {}, 0}, held, {{}, {}, 0}});
+  const auto found =
+      feasible_data({{1.0, 0.0, 1}, {1.0, 1.0, -1}}, {{0.0, {}, 0}, held, {{}, {}, 0}});
   ASSERT_TRUE(found[1].heading);
   EXPECT_FALSE(found[1].heading->low_is_open);
 }

@@ -30,9 +30,9 @@ struct RangeNode {
 struct HeadingRange {
   double low = 0.0;
   double high = 0.0;
-  /// Nothing ends the range there but what is looked at: at the first and the last point headings up
-  /// to a right angle from the chord, elsewhere curves that turn by less than half a turn between
-  /// two points.
+  /// Nothing ends the range there but what is looked at: at the first and the last point headings
+  /// up to a right angle from the chord, elsewhere curves that turn by less than half a turn
+  /// between two points.
   bool low_is_open = false, high_is_open = false;
 };
 
