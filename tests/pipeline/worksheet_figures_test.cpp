@@ -163,6 +163,33 @@ TEST(WorksheetFigures, AtAVertexTwoArcsLeaveTheCurvatureThatBothRunsReach) {
   EXPECT_LE(before.deviation, 1e-12);
 }
 
+TEST(WorksheetFigures, ErrorsOfAClosedContourDoNotDependOnItsFirstPoint) {
+  constexpr std::size_t kPoints = 33, kTurned = 7;
+  std::vector<Vec2> outline;  // a limacon: at the sharp end of its inner loop the ellipses step
+  for (std::size_t i = 0; i < kPoints; ++i) {
+    const double t = 2.0 * kPi * static_cast<double>(i) / kPoints - 0.18;
+    outline.push_back((0.48 + 1.29 * std::cos(t)) * unit_at(t));
+  }
+  RegionJob job = with(Construction::kEllipses);
+  job.job.closing = Closing::kClosed;
+  const auto fit = fit_construction(places(outline), job);
+  std::rotate(outline.begin(), outline.begin() + kTurned, outline.end());
+  const auto turned = fit_construction(places(outline), job);
+  ASSERT_TRUE(fit && turned);
+  int compared = 0, steps = 0;
+  for (const Joint& joint : fit->contour.joints) steps += joint.leaving ? 1 : 0;
+  ASSERT_GT(steps, 0);
+  for (std::size_t i = 0; i < kPoints; ++i) {
+    const double one = fit->report.segments[i].points_only_error;
+    const double other =
+        turned->report.segments[(i + kPoints - kTurned) % kPoints].points_only_error;
+    if (std::isnan(one) || std::isnan(other)) continue;
+    ++compared;
+    EXPECT_NEAR(one, other, 1e-9 * one) << i;
+  }
+  EXPECT_GT(compared, 5);
+}
+
 TEST(WorksheetFigures, OneClothoidHasNoSteps) {
   const auto table =
       region_table(places({{0.0, 0.0}, {1.0, 0.0}}, {-0.2, 0.5}), with(Construction::kClothoids));
