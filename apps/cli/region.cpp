@@ -90,8 +90,9 @@ std::string how_it_came(const RegionPoint& p) {
   if (p.inserted > 0) return "inserted";
   std::string out = p.theta_given ? "given" : "chosen";
   if (p.kappa_given) out += p.theta_given ? ", radius too" : ", radius given";
-  const bool outside = p.headings && (p.theta < p.headings->low - kRangeKnownTo ||
-                                      p.theta > p.headings->high + kRangeKnownTo);
+  const auto beyond = [](double way, bool open) { return !open && way > kRangeKnownTo; };
+  const bool outside = p.headings && (beyond(p.headings->low - p.theta, p.headings->low_is_open) ||
+                                      beyond(p.theta - p.headings->high, p.headings->high_is_open));
   // on an arc there is one heading, and it is that
   if (outside && p.headings->low < p.headings->high) out += ", OUTSIDE its range";
   return out;
@@ -171,7 +172,10 @@ std::string region_part_text(const PointSeries& series, const RegionPart& part) 
     return p.headings && (p.headings->low_is_open || p.headings->high_is_open);
   });
   if (open) {
-    out += "*              the points leave this end open: a right angle from the chord\n";
+    out +=
+        "*              nothing ends the range there: told up to a right angle from the chord at "
+        "an "
+        "end of the series, up to half a turn between points elsewhere\n";
   }
   return out;
 }

@@ -166,8 +166,9 @@ class CondensedTriangles {
     if (is_straight(start.kappa, chord)) start.kappa = 0.0;
     if (is_straight(end.kappa, chord)) end.kappa = 0.0;
     if (start.kappa == 0.0 && end.kappa == 0.0) {
-      return fail({ErrorCode::kNoSpiral, "a segment is straight within rounding: no parabola is", "",
-                   "leave points of the line out, or use `fit` without --construction", -1, 0.0});
+      return fail({ErrorCode::kNoSpiral, "a segment is straight within rounding: no parabola is",
+                   "", "leave points of the line out, or use `fit` without --construction", -1,
+                   0.0});
     }
     if (start.kappa * end.kappa > 0.0) return std::vector<Bend>{{start, end}};
     const auto middle = inflection_between(start, end, direction);
@@ -223,7 +224,7 @@ class CondensedTriangles {
     }
     if (parts->front().start.kappa != start || parts->back().end.kappa != end) inflection_ = true;
     if (!remark.empty()) inflection_ = true;
-    put_segment(section, k, *parts, links, std::move(remark));
+    put_segment(section, k, links, std::move(remark));
     return {};
   }
 
@@ -232,8 +233,8 @@ class CondensedTriangles {
                        behind);
   }
 
-  void put_segment(const ConstructionSection& section, std::size_t k,
-                   const std::vector<Bend>& parts, const Links& links, std::string remark) {
+  void put_segment(const ConstructionSection& section, std::size_t k, const Links& links,
+                   std::string remark) {
     const auto [first, last] = section.bounded(k);
     const int direction = *section.row(k).direction;
     double error = 0.0;
@@ -250,8 +251,9 @@ class CondensedTriangles {
     const Condensation& only = links.front();
     add_row(out_, k,
             {count, count * kParabolasOfLink, one ? only.k1 : kNoFigure, one ? only.k2 : kNoFigure,
-             one ? only.shift : kNoFigure, kNoFigure, kNoFigure, 1.0 / parts.front().start.kappa,
-             1.0 / parts.back().end.kappa, error},
+             one ? only.shift : kNoFigure, kNoFigure, kNoFigure,
+             1.0 / end_of_parabola(links.front().parabolas.front(), 0.0).kappa,
+             1.0 / end_of_parabola(links.back().parabolas.back(), 1.0).kappa, error},
             std::move(remark));
     for (std::size_t n = 0; n < links.size(); ++n) put_steps(k, links[n], one ? 0 : n + 1);
   }

@@ -104,14 +104,24 @@ class ConstructionContour {
     return e;
   }
 
-  /// Where the pieces differ the joint has both elements; arcs step anyway.
+  /// Where the pieces differ the joint has both elements; arcs step anyway, and leave it one
+  /// curvature.
   void part_at(Joint& joint, std::size_t k) const {
     const Element after = joint.element, before = element(k - 1, 1.0, after.theta);
+    if (out_.carrier == Carrier::kArcs) {
+      joint.element.kappa = reached(k - 1, before.kappa, after.kappa);
+    }
     const bool turns = std::abs(after.theta - before.theta) > kSameAtJoint;
     if (!turns && !steps(k - 1, before.kappa, k, after.kappa)) return;
     joint.element = before;
     joint.element.point = after.point;
     joint.leaving = after;
+  }
+
+  /// Between two arcs the curvature that the run before them comes to: on one run that of the arc
+  /// behind, at a vertex that of the arc before, which is the sharper or the blunter one.
+  [[nodiscard]] double reached(std::size_t piece, double before, double after) const {
+    return row_of(piece).direction.value_or(0) * (after - before) < 0.0 ? before : after;
   }
 
   /// Measured by what both pieces have: at an inflection curvatures are rounding.
@@ -129,8 +139,12 @@ class ConstructionContour {
     out_.joints.pop_back();
     Joint& first = out_.joints.front();
     const double turn = std::remainder(last.element.theta - first.element.theta, kFullTurn);
+    const std::size_t piece = made_.pieces.size() - 1;
     if (std::abs(turn) <= kSameAtJoint &&
-        !steps(made_.pieces.size() - 1, last.element.kappa, 0, first.element.kappa)) {
+        !steps(piece, last.element.kappa, 0, first.element.kappa)) {
+      if (out_.carrier == Carrier::kArcs) {
+        first.element.kappa = reached(piece, last.element.kappa, first.element.kappa);
+      }
       return;
     }
     first.leaving = first.element;

@@ -12,6 +12,7 @@
 
 #include "construction_section.h"
 #include "obvid/contour/conics.h"
+#include "obvid/curve/end_curvatures.h"
 #include "obvid/pipeline/region_files.h"
 #include "obvid/region/boundary_distance.h"
 #include "obvid/region/convex_triangle.h"
@@ -171,8 +172,8 @@ class EllipseArcs {
       std::size_t next = good == to - from ? to : last_vertex(from, from + good);
       if (next == from) next = from + std::max(good, std::size_t{1});
       for (std::size_t i = from; i < next; ++i) {
-        arcs_[i].made = chain->pieces[i - from];
         arcs_[i].weight = chain->weights[i - from];
+        arcs_[i].made = unblurred(arcs_[i], chain->pieces[i - from]);
       }
       if (next < to) {
         steps_.push_back(region_point_name(section_->point(section_->row(arcs_[next].row).from)));
@@ -180,6 +181,23 @@ class EllipseArcs {
       from = next;
     }
     return {};
+  }
+
+  /// The conic with its start as origin where the rounding of coordinates would change its radii.
+  static RationalBezier unblurred(const ConicArc& arc, const RationalBezier& made) {
+    constexpr double kSameCurvature = 1e-9;  // of the curvature
+    const Element start{{}, arc.start.theta, arc.start.kappa};
+    const Element end{arc.end.point - arc.start.point, arc.end.theta, arc.end.kappa};
+    const auto near = conic_chain({start, end}, {arc.weight});
+    if (!near) return made;
+    RationalBezier local = near->pieces.front();
+    const auto same = [&](bool at_start) {
+      const double kappa = stored_curvature(local, at_start);
+      return std::abs(stored_curvature(made, at_start) - kappa) <= kSameCurvature * std::abs(kappa);
+    };
+    if (same(true) && same(false)) return made;
+    local.origin = arc.start.point;
+    return local;
   }
 
   [[nodiscard]] Result<ConicChain> chain_from(std::size_t from, std::size_t to,
@@ -227,8 +245,8 @@ class EllipseArcs {
 
   void note_step(const ConicArc& before, const ConicArc& behind) {
     if (turns_left(before) != turns_left(behind)) return;
-    const double k0 = curvature(evaluate(Piece{*before.made}, 1.0));
-    const double k1 = curvature(evaluate(Piece{*behind.made}, 0.0));
+    const double k0 = stored_curvature(*before.made, false);
+    const double k1 = stored_curvature(*behind.made, true);
     if (std::abs(k1 - k0) <= kSameConicCurvature * std::max(std::abs(k0), std::abs(k1))) return;
     steps_.push_back(region_point_name(section_->point(section_->row(behind.row).from)));
   }
@@ -255,8 +273,8 @@ class EllipseArcs {
     const Piece piece{*arc.made};
     const auto [start, end] = section_->bounded(arc.row);
     const auto placed = place_in_region(piece, start, end, direction(arc));
-    return {arc.weight, 1.0 / curvature(evaluate(piece, 0.0)),
-            1.0 / curvature(evaluate(piece, 1.0)), placed ? placed->farther : kNoFigure,
+    return {arc.weight, 1.0 / stored_curvature(*arc.made, true),
+            1.0 / stored_curvature(*arc.made, false), placed ? placed->farther : kNoFigure,
             placed ? placed->outside : kNoFigure};
   }
 

@@ -111,6 +111,27 @@ bool any_value_fixed(const ChainWishes& wishes) {
                      [](const FixedData& f) { return f.theta || f.kappa; });
 }
 
+/// The analysis with the directions of the curve that the points have when no heading and no
+/// curvature is given. Nothing where they are those of the adjacent circles, or where a vertex lies
+/// inside a chord.
+std::optional<Analysis> turned_as_when_free(const std::vector<Vec2>& points,
+                                            const Analysis& analysis, const ChainWishes& wishes,
+                                            Watch& watch) {
+  ChainWishes free = wishes;
+  free.fixed.clear();
+  const auto chain = choose_elements(points, analysis, free, watch);
+  if (!chain || chain->turned_directions == 0 || chain->unforced_inflection) return std::nullopt;
+  Analysis out = analysis;
+  std::size_t chord = 0;
+  for (std::size_t link = 0; link < chain->direction.size(); ++link) {
+    const bool starts = chain->source[link].has_value();
+    if (starts && link > 0) ++chord;
+    if (!starts && out.direction[chord] != chain->direction[link]) return std::nullopt;
+    out.direction[chord] = chain->direction[link];
+  }
+  return out;
+}
+
 /// The fairest elements; near the ends of what the points allow the search for them may miss the
 /// ones that the ranges of headings and curvatures tell of.
 Result<SeriesChain> chosen_elements(const std::vector<Vec2>& points, const Analysis& analysis,
@@ -128,6 +149,10 @@ Result<SeriesChain> chosen_elements(const std::vector<Vec2>& points, const Analy
   const bool asked_too_much = !chosen && chosen.error().code == ErrorCode::kFixedDataContradict;
   if (!chosen && !asked_too_much && chosen.error().code != ErrorCode::kNoSpiral) return chosen;
   if (auto central = central_chain(points, analysis, wishes, watch)) return std::move(*central);
+  if (chosen) return chosen;
+  if (const auto turned = turned_as_when_free(points, analysis, wishes, watch)) {
+    if (auto central = central_chain(points, *turned, wishes, watch)) return std::move(*central);
+  }
   return chosen;
 }
 

@@ -41,9 +41,8 @@ class TwoArcs {
       const RegionRow& row = section.row(k);
       Element a = section.start_of(k), b = section.end_of(k);
       if (const auto one = one_arc(a, b)) {
-        add_row(out_, k,
-                {1.0 / one->kappa, 1.0 / one->kappa, std::abs(sagitta(one->kappa, row.chord)), 0.0},
-                "one arc");
+        const double radius = 1.0 / one->kappa;
+        add_row(out_, k, {radius, radius, height_over_chord(*one), 0.0}, "one arc");
         put_piece(out_, k, *one);
         before = one->kappa;
         continue;
@@ -62,7 +61,7 @@ class TwoArcs {
       ChordFrame own = chord_frame(a, b);
       own.kappa_start = chosen->first;
       own.kappa_end = chosen->second;
-      const auto height = height_over_middle(own, pair);
+      const auto height = height_over_middle(own, pair, *row.direction);
       double error = 0.0;
       const auto [first, last] = section.bounded(k);
       for (const Piece& piece : pair) {
@@ -93,6 +92,11 @@ class TwoArcs {
     return ArcPiece{a.point, b.point, a.theta, kappa, 2.0 * beta / kappa};
   }
 
+  /// Of an arc over the middle of its chord, whatever it turns.
+  [[nodiscard]] static double height_over_chord(const ArcPiece& arc) {
+    return 0.5 * norm(arc.end - arc.start) * std::abs(std::tan(0.25 * arc.kappa * arc.length));
+  }
+
   static bool is_an_arc(const Piece& piece) {
     const auto* arc = std::get_if<ArcPiece>(&piece);
     return arc == nullptr || (std::isfinite(arc->kappa) && arc->length > 0.0);
@@ -107,9 +111,14 @@ class TwoArcs {
             0.0};
   }
 
-  /// Of the arc that stands over the middle of the chord.
+  /// Of the arc that stands over the middle of the chord: from angles and curvatures, free of the
+  /// rounding of coordinates, where both arcs are graphs over it.
   [[nodiscard]] static double height_over_middle(const ChordFrame& frame,
-                                                 const std::array<Piece, 2>& pair) {
+                                                 const std::array<Piece, 2>& pair, int direction) {
+    if (const auto region = segment_region(frame, direction)) {
+      const auto y = boundary_ordinate(frame, region->from_start, 0.5 * frame.h);
+      if (y) return std::abs(*y);
+    }
     const Vec2 start = start_point(pair[0]), chord = end_point(pair[1]) - start;
     const Vec2 u = chord / frame.h;
     for (const Piece& piece : pair) {
@@ -164,6 +173,11 @@ class OneClothoid {
   }
 
   ConstructionTable told() {
+    constexpr double kNoStep = 1e-12;  // of the curvature: what rounding leaves
+    if (largest_ <= kNoStep) {
+      out_.remarks.emplace_back("common tangents; the curvature goes on at every point");
+      return std::move(out_);
+    }
     out_.remarks.push_back(
         fmt::format("common tangents; curvature steps by up to {:.3g} % of the largest on the two "
                     "segments: `fit --carrier clothoids` joins three to a segment without steps",

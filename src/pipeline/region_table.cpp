@@ -125,8 +125,10 @@ class Ranges {
     for (std::size_t k = 0; k < count; ++k) {
       const std::size_t i = sheet_.loop ? (first + k) % chords_.size() : k;
       RangeNode node{sheet_.given[i].theta, sheet_.given[i].kappa, sheet_.sign[i]};
-      const bool arc = (i > 0 && sheet_.direction[i - 1] == 0) ||
-                       (i < sheet_.direction.size() && sheet_.direction[i] == 0);
+      const std::size_t n = sheet_.direction.size();
+      const bool has_before = i > 0 || sheet_.loop;
+      const bool arc = (has_before && sheet_.direction[(i + n - 1) % n] == 0) ||
+                       (i < n && sheet_.direction[i] == 0);
       node.thetas = sheet_.given[i].thetas;
       node.kappas = sheet_.given[i].kappas;
       if (all_headings || arc) node.theta = sheet_.theta[i];
@@ -181,12 +183,27 @@ class PartMaker {
       out_.points.push_back(p);
     }
     for (std::size_t i = 0; i + 1 < s_.points.size(); ++i) out_.rows.push_back(row(i));
+    forget_beside_nothing();
     if (analysis_ != nullptr) add_spline();
     out_.loop = s_.loop;
     return std::move(out_);
   }
 
  private:
+  /// A point whose segments all leave no curve has no radii either.
+  void forget_beside_nothing() {
+    std::vector<bool> none(out_.points.size(), false), some = none;
+    for (const RegionRow& row : out_.rows) {
+      for (const std::size_t i : {row.from, row.to}) {
+        none[i] = none[i] || (row.direction && !row.kappa_start);
+        some[i] = some[i] || row.kappa_start;
+      }
+    }
+    for (std::size_t i = 0; i < out_.points.size(); ++i) {
+      if (none[i] && !some[i]) out_.points[i].curvatures = std::nullopt;
+    }
+  }
+
   /// Ranges of a loop count turns from another point than its headings do.
   static void turn_to(double theta, HeadingRange& range) {
     const double middle = 0.5 * (range.low + range.high);
@@ -234,10 +251,16 @@ class PartMaker {
   void add_region(RegionRow& row, std::size_t i) {
     Element a = s_.element(i), b = s_.element(i + 1);
     if (*row.direction == 0) {
-      row.lower_height = std::abs(sagitta(a.kappa, row.chord));
+      const double height = std::abs(sagitta(a.kappa, row.chord));
+      const bool over_half = dot(b.point - a.point, unit_at(a.theta)) < 0.0;
+      row.lower_height = over_half ? 2.0 / std::abs(a.kappa) - height : height;
       row.width = 0.0;
       return;
     }
+    const double alpha = turning(b.point - a.point, unit_at(a.theta));
+    const double beta = turning(b.point - a.point, unit_at(b.theta));
+    if (!(std::abs(alpha + beta) < std::numbers::pi))
+      return;  // nothing bounds what turns on so far
     std::tie(a.kappa, b.kappa) = bounding(row, i);
     const ChordFrame frame = chord_frame(a, b);
     const auto region = segment_region(frame, *row.direction);
@@ -480,7 +503,7 @@ class SheetMaker {
     const double theta = neighbour_.empty() ? node.theta.value_or(0.0) : neighbour_[i];
     sheet_.sign.push_back(node.curvature_sign);
     sheet_.theta.push_back(sheet_.given[i].theta.value_or(theta));
-    sheet_.kappa.push_back(sheet_.given[i].kappa.value_or(adjacent_kappa));
+    sheet_.kappa.push_back(sheet_.given[i].kappa.value_or(node.kappa.value_or(adjacent_kappa)));
   }
 
   Result<void> take_centres() {
@@ -539,16 +562,19 @@ class SheetMaker {
 
   /// Points lie on a circle that their headings do not keep: no arc of it stands there.
   void leave_circles() {
-    constexpr double kHeadingsKept = 1e-6;  // rad, as contours keep given ones (docs/claims.md)
+    constexpr double kTyped = 1e-10;               // rad, of headings typed in degrees
+    constexpr double kRoundings = 64.0 * 0x1p-53;  // of directions between coordinates
     for (std::size_t i = 0; i + 1 < sheet_.points.size(); ++i) {
       if (sheet_.direction[i] != 0) continue;
-      const Vec2 chord = sheet_.points[i + 1] - sheet_.points[i];
+      const Vec2 start = sheet_.points[i], chord = sheet_.points[i + 1] - start;
+      const double coordinate = std::abs(start.x) + std::abs(start.y) + norm(chord);
+      const double kept = kTyped + kRoundings * coordinate / norm(chord);
       const double alpha = turning(chord, unit_at(sheet_.theta[i]));
       const double beta = turning(chord, unit_at(sheet_.theta[i + 1])), sigma = alpha + beta;
       const auto off = [&](double kappa) {
-        return std::abs(2.0 * std::sin(beta) - kappa * norm(chord)) > kHeadingsKept;
+        return std::abs(2.0 * std::sin(beta) - kappa * norm(chord)) > kept;
       };
-      const bool bends = std::abs(sigma) > kHeadingsKept;
+      const bool bends = std::abs(sigma) > kept;
       if (!bends && !off(sheet_.kappa[i]) && !off(sheet_.kappa[i + 1])) continue;
       sheet_.direction[i] = bends ? std::optional(sigma > 0.0 ? 1 : -1) : std::nullopt;
     }
@@ -580,7 +606,9 @@ class SheetMaker {
         out.number.push_back(i);
         out.inserted.push_back(0);
         out.given.push_back(series_.fixed.empty() ? FixedData{} : series_.fixed[i]);
-        out.theta.push_back(chain.elements[e].theta);
+        const double theta = chain.elements[e].theta;
+        const std::optional<double> given = out.given.back().theta;
+        out.theta.push_back(given ? nearest_angle(*given, theta) : theta);
         out.kappa.push_back(chain.elements[e].kappa);
         if (e < chain.direction.size()) out.direction.emplace_back(chain.direction[e]);
       } else if (out.direction.back() && *out.direction.back() != chain.direction[e]) {

@@ -161,8 +161,14 @@ class PartMeasure {
   void bound_arcs(const Part& part, SegmentReport& row) const {
     for (std::size_t k = part.first_piece; k <= part.last_piece; ++k) {
       if (direction_[k] == 0 || k == part.last_piece) continue;
-      row.width = std::max(row.width, arc_pair_width(k));
       row.inserted += k > part.first_piece ? 1 : 0;
+      const double turn = turning_both_ways(contour_.pieces[k], 0.0, 1.0) +
+                          turning_both_ways(contour_.pieces[k + 1], 0.0, 1.0);
+      if (turn < std::numbers::pi) {
+        row.width = std::max(row.width, arc_pair_width(k));
+      } else {  // the joint is an element too: an arc is its own region
+        ++row.inserted;
+      }
       ++k;
     }
   }
@@ -256,14 +262,14 @@ class PartMeasure {
 
 /// Says nothing about points around which the contour itself is not monotone, or turns by half a
 /// turn: it is none of the curves of which the figure speaks. By rows.
-void forget_around(const std::vector<int>& direction, const std::vector<double>& turn, bool loop,
+void forget_around(const std::vector<int>& direction, const std::vector<double>& turn, bool closed,
                    FitReport& report) {
   const std::size_t n = direction.size();
   for (std::size_t k = 0; k < n; ++k) {
     double& error = report.segments[k].points_only_error;
     if (error == 0.0) continue;  // points of one circle or line, and the contour is that
     const bool inner = k > 0 && k + 1 < n;
-    if (!inner && !loop) continue;
+    if (!inner && !closed) continue;
     const std::size_t before = (k + n - 1) % n, after = (k + 1) % n;
     const int common =
         common_direction(common_direction(direction[before], direction[k]), direction[after]);
@@ -350,9 +356,10 @@ Result<void> say_points(const Contour& contour, std::vector<std::size_t> section
     const std::vector<double> all = errors_of(*more, rows_from(before, around.size()));
     errors.assign(all.begin() + kAroundSeam, all.end() - kAroundSeam);
   }
-  for (std::size_t i = 0; i < errors.size(); ++i) {
-    if (first_row + i >= report.segments.size()) break;
-    report.segments[first_row + i].points_only_error = errors[i];
+  const std::size_t rows = report.segments.size();
+  for (std::size_t i = 0; i < std::min(errors.size(), rows); ++i) {
+    if (!contour.closed && first_row + i >= rows) break;
+    report.segments[(first_row + i) % rows].points_only_error = errors[i];
   }
   return {};
 }
@@ -396,10 +403,19 @@ Result<FitReport> measure(const Contour& contour, double tolerance, Watch& watch
     report.inserted_points += s.inserted;
   }
   const auto sections = sections_of(contour);
-  const bool loop =
-      contour.closed && sections.size() == 1 && !(contour.joints.front().leaving.has_value());
+  const bool parted = !contour.kept.empty() ||
+                      std::any_of(contour.joints.begin(), contour.joints.end(),
+                                  [](const Joint& joint) { return joint.leaving.has_value(); });
+  const bool loop = contour.closed && !parted;
   const std::vector<bool> begins = begins_kept(contour);
-  std::size_t row = 0;
+  // rows begin at the first joint, sections of a closed contour where it is parted
+  const auto begins_section = [&sections](const SegmentReport& s) {
+    return s.from == sections.front().front();
+  };
+  const auto first = std::find_if(report.segments.begin(), report.segments.end(), begins_section);
+  std::size_t row = first == report.segments.end()
+                        ? 0
+                        : static_cast<std::size_t>(first - report.segments.begin());
   for (const auto& section : sections) {
     if (begins[section.front()]) {  // nothing is left open: the piece is what it is
       ++row;
@@ -412,7 +428,7 @@ Result<FitReport> measure(const Contour& contour, double tolerance, Watch& watch
     report.vertices_lower_bound += forced(contour, section, loop, watch);
     row += section.size() - 1;
   }
-  forget_around(direction, turn, loop, report);
+  forget_around(direction, turn, contour.closed, report);
   report.waviness = waviness(contour);
   // around a closed contour the curvature returns to where it began, leaps at corners included
   if (contour.closed) report.vertices_lower_bound += report.vertices_lower_bound % 2;

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "two_arcs.h"
 
@@ -52,26 +53,31 @@ class Placement {
   TwoArcs from_start_, to_end_;
 };
 
-/// Largest value of f on [0, 1]: the best of equal steps, then thirds around it.
+/// Largest value of f on [0, 1]: the best of some places, closer together towards both ends, where
+/// curves leave a region and return at once, then thirds around it.
 template <class F>
 double largest_at(const F& f, int samples) {
+  const auto place = [samples](int i) {
+    const double half = std::sin(0.5 * std::numbers::pi * i / samples);
+    return half * half;
+  };
   int best = 0;
   double most = -1.0;
   for (int i = 0; i <= samples; ++i) {
-    const double value = f(static_cast<double>(i) / samples);
+    const double value = f(place(i));
     if (value > most) {
       most = value;
       best = i;
     }
   }
-  double low = std::max(0, best - 1) / static_cast<double>(samples);
-  double high = std::min(samples, best + 1) / static_cast<double>(samples);
+  double low = place(std::max(0, best - 1)), high = place(std::min(samples, best + 1));
   constexpr int kThirds = 60;  // (2/3)^60 = 3e-11 of a step; the value is flat there
   for (int i = 0; i < kThirds; ++i) {
     const double a = low + (high - low) / 3.0, b = high - (high - low) / 3.0;
     (f(a) < f(b) ? low : high) = f(a) < f(b) ? a : b;
   }
-  return 0.5 * (low + high);
+  const double t = 0.5 * (low + high);
+  return f(t) < most ? place(best) : t;  // a peak at an end may be narrow
 }
 
 }  // namespace

@@ -46,6 +46,8 @@ struct OneBefore {
 struct Reached {
   bool any = false;
   double first = 0.0, last = 0.0;
+  /// Nothing but the half turn up to which curves are looked at ends the headings there.
+  bool first_is_open = false, last_is_open = false;
   std::vector<LowSample> samples;  ///< none: every curvature at every heading
   std::optional<OneBefore> from;   ///< the samples are those of this one
 
@@ -167,11 +169,15 @@ class Step {
 
   Reached operator()(const Reached& from) {
     if (!from.any) return {};
+    const bool one = from.first == from.last;
+    if (one) most_sigma_ = 2.0 * kPi;
     if (from.samples.empty()) {
       Reached out = over_circles(from.first, from.last);
-      if (from.first == from.last) out.from = OneBefore{h_, omega_, from.first, -kUnbounded};
+      out.first_is_open = from.last_is_open || from.last >= omega_ + kPi;
+      if (one) out.from = OneBefore{h_, omega_, from.first, -kUnbounded};
       return out;
     }
+    if (one && !leads_on(from.samples.front())) return {};
     bool root_first = false, root_last = false;
     const std::vector<LowSample> part = part_below(
         within_half_turn(from.samples), [this](double theta, double low) { return A(theta, low); },
@@ -180,13 +186,20 @@ class Step {
     add_circles(part.front().theta, part.back().theta);
     follow(part, root_first, root_last);
     Reached out = finished();
-    if (from.first == from.last) out.from = OneBefore{h_, omega_, from.first, part.front().low};
+    out.first_is_open = !root_last && (from.last_is_open || part.back().theta >= omega_ + kPi);
+    if (one) out.from = OneBefore{h_, omega_, from.first, part.front().low};
     return out;
   }
 
  private:
   [[nodiscard]] double A(double theta, double low) const {
     return 0.5 * low * h_ + std::sin(theta - omega_);
+  }
+  /// Whether A is negative beyond the rounding of its two terms.
+  [[nodiscard]] bool leads_on(const LowSample& s) const {
+    constexpr double kRoundings = 8.0 * 0x1p-53;
+    const double bent = 0.5 * s.low * h_, sine = std::sin(s.theta - omega_);
+    return bent + sine < -kRoundings * (std::abs(bent) + std::abs(sine));
   }
   [[nodiscard]] double A_slope(const LowSample& s) const {
     return 0.5 * s.slope * h_ + std::cos(s.theta - omega_);
@@ -259,7 +272,7 @@ class Step {
       if (!stationary(s)) return;
     }
     const LowSample& last = part.back();
-    if (!root_last) pins(last, sigma_of(A(last.theta, last.low), A_slope(last)), kPi);
+    if (!root_last) pins(last, sigma_of(A(last.theta, last.low), A_slope(last)), most_sigma_);
   }
 
   bool stationary(const LowSample& s) {
@@ -268,18 +281,18 @@ class Step {
     return pin(s.theta, a, sigma_of(a, slope));
   }
 
-  /// One heading before for a range of sigma. False when half a turn is reached.
+  /// One heading before for a range of sigma. False when no more is looked at.
   bool pins(const LowSample& s, double from, double to) {
     const double a = A(s.theta, s.low);
     for (int k = 0; k <= kPartSamples; ++k) {
       if (!pin(s.theta, a, from + (to - from) * k / kPartSamples)) return false;
     }
-    return to < kPi;
+    return to < most_sigma_;
   }
 
   bool pin(double theta, double a, double sigma) {
     const double beta = sigma - (theta - omega_);
-    if (!(beta < kPi) || !(sigma < kPi) || !(a < 0.0)) return false;
+    if (!(beta < kPi) || !(sigma < most_sigma_) || !(a < 0.0)) return false;
     const double half = std::sin(0.5 * sigma);
     put({omega_ + beta, 2.0 / h_ * (std::sin(beta) + half * half / -a),
          2.0 / h_ * (std::cos(beta) + 0.5 * std::sin(sigma) / -a)});
@@ -304,10 +317,13 @@ class Step {
     out_.any = true;
     out_.first = out_.samples.front().theta;
     out_.last = out_.samples.back().theta;
+    out_.last_is_open = true;
     return std::move(out_);
   }
 
   double h_, omega_;
+  /// Of several headings before the best one is known up to half a turn, the only one is.
+  double most_sigma_ = kPi;
   Reached out_;
 };
 
@@ -321,27 +337,36 @@ Reached of_samples(std::vector<LowSample> samples) {
   return out;
 }
 
+/// A part of what is reached: where it keeps an end of the whole, that is as open as it was.
+Reached part_of(const Reached& whole, std::vector<LowSample> samples) {
+  Reached out = of_samples(std::move(samples));
+  out.first_is_open = out.any && whole.first_is_open && out.first == whole.first;
+  out.last_is_open = out.any && whole.last_is_open && out.last == whole.last;
+  return out;
+}
+
 /// The same curvature at every heading of a range.
-Reached constant(double first, double last, double kappa) {
-  if (first == last) return of_samples({{first, kappa, 0.0}});
+Reached constant(const Reached& r, double kappa) {
+  if (r.first == r.last) return part_of(r, {{r.first, kappa, 0.0}});
   std::vector<LowSample> samples;
-  for (int k = 0; k <= kPartSamples; ++k) {
-    samples.push_back({first + (last - first) * k / kPartSamples, kappa, 0.0});
+  for (int k = 0; k < kPartSamples; ++k) {
+    samples.push_back({r.first + (r.last - r.first) * k / kPartSamples, kappa, 0.0});
   }
-  return of_samples(std::move(samples));
+  samples.push_back({r.last, kappa, 0.0});
+  return part_of(r, std::move(samples));
 }
 
 Reached below(const Reached& r, double kappa) {
   if (!r.any || r.samples.empty()) return r;
   bool first = false, last = false;
-  return of_samples(part_below(
-      r.samples, [&](double, double low) { return low - kappa; }, first, last));
+  return part_of(r, part_below(
+                        r.samples, [&](double, double low) { return low - kappa; }, first, last));
 }
 
 /// max(low, kappa).
 Reached at_least(const Reached& r, double kappa) {
   if (!r.any) return r;
-  if (r.samples.empty()) return constant(r.first, r.last, kappa);
+  if (r.samples.empty()) return constant(r, kappa);
   std::vector<LowSample> out;
   for (std::size_t k = 0; k < r.samples.size(); ++k) {
     const LowSample& s = r.samples[k];
@@ -359,7 +384,7 @@ Reached at_least(const Reached& r, double kappa) {
     }
     out.push_back(s.low < kappa ? LowSample{s.theta, kappa, 0.0} : s);
   }
-  return of_samples(std::move(out));
+  return part_of(r, std::move(out));
 }
 
 /// The part between two headings.
@@ -368,6 +393,8 @@ Reached between(Reached r, double from, double to) {
   from = std::max(from, r.first);
   to = std::min(to, r.last);
   if (r.samples.empty()) {
+    r.first_is_open = r.first_is_open && r.first == from;
+    r.last_is_open = r.last_is_open && r.last == to;
     r.first = from;
     r.last = to;
     return r;
@@ -381,7 +408,7 @@ Reached between(Reached r, double from, double to) {
     }
     if (s.theta >= from && s.theta <= to) out.push_back(s);
   }
-  return of_samples(std::move(out));
+  return part_of(r, std::move(out));
 }
 
 /// A range of curvatures in a mirror image.
@@ -408,6 +435,7 @@ Reached with_node(Reached r, const RangeNode& node, int d, int e, Held held) {
     if (!r.holds(theta)) return {};
     if (r.samples.empty()) {
       r.first = r.last = theta;
+      r.first_is_open = r.last_is_open = false;
     } else {
       r = of_samples({{theta, low_at(r, theta), 0.0}});
     }
@@ -418,7 +446,7 @@ Reached with_node(Reached r, const RangeNode& node, int d, int e, Held held) {
   if (held.kappa && node.kappas && !node.kappa) r = within(std::move(r), mirrored(*node.kappas, e));
   if (held.kappa && node.kappa) {
     r = below(r, e * *node.kappa);
-    if (r.any) r = constant(r.first, r.last, e * *node.kappa);
+    if (r.any) r = constant(r, e * *node.kappa);
   }
   if (r.any && held.theta && node.thetas && !node.theta) {
     const ValueRange thetas = mirrored(*node.thetas, d);
@@ -433,6 +461,7 @@ Reached everything(double omega) {
   out.any = true;
   out.first = omega - kPi;
   out.last = omega + kPi;
+  out.first_is_open = out.last_is_open = true;
   return out;
 }
 
@@ -469,6 +498,8 @@ Side advance(const Side& from, const RangeNode& node, const RangeLink& over, int
     turned.any = true;
     turned.first = -start.last;
     turned.last = -start.first;
+    turned.first_is_open = start.last_is_open;
+    turned.last_is_open = start.first_is_open;
     start = with_node(turned, node, d, to.e, {});
   }
   to.reached = Step(over.h, d * over.omega)(start);
@@ -500,6 +531,12 @@ class Both {
     if (!left_.reached.any || !right_.reached.any) return;
     first_ = std::max(from(left_), from(right_));
     last_ = std::min(to(left_), to(right_));
+    for (const Side* side : {&left_, &right_}) {
+      const bool ahead = side->d > 0;
+      const Reached& r = side->reached;
+      first_is_open_ |= from(*side) == first_ && (ahead ? r.first_is_open : r.last_is_open);
+      last_is_open_ |= to(*side) == last_ && (ahead ? r.last_is_open : r.first_is_open);
+    }
     any_ = first_ <= last_;
   }
 
@@ -535,22 +572,25 @@ class Both {
       middle = roomiest(grid, best);
       if (!(room(middle) > 0.0)) return std::nullopt;
     }
-    HeadingRange out{first_, last_};
+    HeadingRange out{first_, last_, first_is_open_, last_is_open_};
     const auto none = [this](double theta) { return -room(theta); };
     for (std::size_t k = best; k-- > 0;) {
       if (room_at[k] > 0.0) continue;
       out.low =
           root_between(grid[k], k + 1 <= best && room_at[k + 1] > 0.0 ? grid[k + 1] : middle, none);
+      out.low_is_open = false;
       break;
     }
     for (std::size_t k = best + 1; k < grid.size(); ++k) {
       if (room_at[k] > 0.0) continue;
       out.high = root_between(grid[k], room_at[k - 1] > 0.0 ? grid[k - 1] : middle, none);
+      out.high_is_open = false;
       break;
     }
     if (!(room_at[best] > 0.0)) {
       out.low = root_between(grid[best > 0 ? best - 1 : 0], middle, none);
       out.high = root_between(grid[std::min(best + 1, grid.size() - 1)], middle, none);
+      out.low_is_open = out.high_is_open = false;
     }
     return out;
   }
@@ -618,6 +658,7 @@ class Both {
   bool kappa_given_;
   bool any_ = false;
   double first_ = 0.0, last_ = 0.0;
+  bool first_is_open_ = false, last_is_open_ = false;
 };
 
 bool beside_an_arc(const std::vector<RangeLink>& links, std::size_t i) {
@@ -631,8 +672,8 @@ bool beside_an_arc(const std::vector<RangeLink>& links, std::size_t i) {
 void end_open(HeadingRange& range, double omega) {
   const double low = omega - 0.5 * kPi, high = omega + 0.5 * kPi;
   if (range.high <= low || range.low >= high) return;
-  range.low_is_open = range.low < low;
-  range.high_is_open = range.high > high;
+  range.low_is_open = range.low_is_open || range.low < low;
+  range.high_is_open = range.high_is_open || range.high > high;
   range.low = std::max(range.low, low);
   range.high = std::min(range.high, high);
 }

@@ -10,8 +10,7 @@
 namespace obvid {
 namespace {
 
-using region_detail::turns_back;
-using region_detail::turns_over_half;
+using region_detail::Turning;
 
 constexpr double kUnitRoundoff = 0x1p-53;
 /// Rounding of A and B relative to the terms that cancel in them.
@@ -32,13 +31,13 @@ struct Parallels {
   bool along = false, against = false;
 };
 
-Parallels parallels_of(Vec2 a, Vec2 b, double kappa) {
+Parallels parallels_of(Vec2 a, Vec2 b, double kappa, Turning turning) {
   // for arcs to the left; the others are mirror images
   const double side = kappa < 0.0 ? -1.0 : 1.0;
   const bool below = side * a.y < 0.0, then_below = side * b.y < 0.0;
-  const bool over_half = turns_over_half(a, b, kappa);
+  const bool over_half = turning == Turning::kOverHalf;
   if (below == then_below) return {over_half, over_half};
-  if (turns_back(a, b, kappa)) return {a.x + b.x > 0.0, a.x + b.x < 0.0};  // rounding
+  if (turning == Turning::kBack) return {a.x + b.x > 0.0, a.x + b.x < 0.0};
   return {below, then_below};
 }
 
@@ -67,13 +66,15 @@ Boundary make_boundary(const ChordFrame& f, double k0, double k1) {
     b.highest = std::max(b.highest, y);
     b.lowest = std::min(b.lowest, y);
   };
+  const auto [one, other] =
+      region_detail::turnings(f.start_tangent, b.joint_tangent, f.end_tangent, k0, k1);
   if (!std::isinf(k0)) {
-    const Parallels first = parallels_of(f.start_tangent, b.joint_tangent, k0);
+    const Parallels first = parallels_of(f.start_tangent, b.joint_tangent, k0, one);
     if (first.along) reach(-rise_to_parallel(f.start_tangent, k0));
     if (first.against) reach(rise_to_opposite(f.start_tangent, k0));
   }
   if (!std::isinf(k1)) {
-    const Parallels second = parallels_of(b.joint_tangent, f.end_tangent, k1);
+    const Parallels second = parallels_of(b.joint_tangent, f.end_tangent, k1, other);
     if (second.along) reach(-rise_to_parallel(f.end_tangent, k1));
     if (second.against) reach(rise_to_opposite(f.end_tangent, k1));
   }

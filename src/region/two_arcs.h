@@ -2,22 +2,54 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <numbers>
 
 #include "obvid/region/segment_region.h"
 
 namespace obvid::region_detail {
 
-/// Whether the short way from one tangent to the other goes against the curvature because of
-/// rounding: a small turn is never nearly a whole one.
-[[nodiscard]] inline bool turns_back(Vec2 from, Vec2 to, double kappa) {
-  constexpr double kSmallTurn = 0.5;  // cosine
-  return cross(from, to) * kappa < 0.0 && dot(from, to) > kSmallTurn;
-}
+/// How an arc goes from one tangent to the next.
+enum class Turning {
+  kShort,     ///< by less than half a turn, along its curvature
+  kBack,      ///< hardly, and against its curvature: rounding
+  kOverHalf,  ///< by more than half a turn, along its curvature
+};
 
-/// Whether an arc of this curvature turns by more than half a turn between two tangents.
-[[nodiscard]] inline bool turns_over_half(Vec2 from, Vec2 to, double kappa) {
-  return cross(from, to) * kappa < 0.0 && !turns_back(from, to, kappa);
+/// Both arcs of a boundary, its tangents seen from the chord. Headings lie less than half a turn
+/// from the chord, so both turns together are the difference of those at its ends: that tells an
+/// arc of nearly a whole turn from one that rounding turned back.
+[[nodiscard]] inline std::array<Turning, 2> turnings(Vec2 start, Vec2 joint, Vec2 end,
+                                                     double kappa_first, double kappa_second) {
+  const bool first_along = cross(start, joint) * kappa_first >= 0.0,
+             second_along = cross(joint, end) * kappa_second >= 0.0;
+  if (first_along && second_along) return {Turning::kShort, Turning::kShort};
+  const auto angle = [](Vec2 t) { return std::atan2(t.y, t.x); };
+  const double alpha = angle(start), beta = angle(end), theta = angle(joint);
+  // beside an inflection both arcs could turn once more: only what is no rounding makes them
+  constexpr double kNoRounding = 1.0;  // rad
+  const bool inflection = kappa_first * kappa_second < 0.0;
+  double first = theta - alpha, second = beta - theta;
+  const auto off = [](double turn, double kappa) {  // a line does not turn
+    return kappa == 0.0 ? std::abs(turn) : std::max(0.0, -std::copysign(1.0, kappa) * turn);
+  };
+  const auto against = [&](double one, double other) {
+    return std::max(off(one, kappa_first), off(other, kappa_second));
+  };
+  double least = against(first, second);
+  for (const double whole : {-2.0 * std::numbers::pi, 2.0 * std::numbers::pi}) {
+    const double one = theta + whole - alpha, other = beta - theta - whole;
+    if (against(one, other) >= least || (inflection && least < kNoRounding)) continue;
+    least = against(one, other);
+    first = one;
+    second = other;
+  }
+  const auto kind = [](double turn, double kappa) {
+    if (turn * kappa < 0.0) return Turning::kBack;
+    return std::abs(turn) > std::numbers::pi ? Turning::kOverHalf : Turning::kShort;
+  };
+  return {kind(first, kappa_first), kind(second, kappa_second)};
 }
 
 /// Circle arc, or line when kappa is 0, from a point with a unit tangent to the next one.
@@ -25,12 +57,13 @@ struct Arc {
   Vec2 start, end;
   Vec2 start_tangent, end_tangent;
   double kappa = 0.0;
+  bool over_half = false;  ///< turns by more than half a turn
 
   /// Whether the foot of p on the line or circle lies on the arc.
   [[nodiscard]] bool abreast(Vec2 from_start, Vec2 from_end) const {
     const bool after = dot(from_start, start_tangent) > 0.0,
                before = dot(from_end, end_tangent) < 0.0;
-    return turns_over_half(start_tangent, end_tangent, kappa) ? after || before : after && before;
+    return over_half ? after || before : after && before;
   }
 
   [[nodiscard]] double distance(Vec2 p) const {
@@ -80,8 +113,10 @@ struct TwoArcs {
     } else {
       joint = end - moved(t, f.end_tangent, b.kappa_second);
     }
-    first = {{}, joint, f.start_tangent, t, b.kappa_first};
-    second = {joint, end, t, f.end_tangent, b.kappa_second};
+    const auto [one, other] =
+        turnings(f.start_tangent, t, f.end_tangent, b.kappa_first, b.kappa_second);
+    first = {{}, joint, f.start_tangent, t, b.kappa_first, one == Turning::kOverHalf};
+    second = {joint, end, t, f.end_tangent, b.kappa_second, other == Turning::kOverHalf};
   }
   [[nodiscard]] double distance(Vec2 p) const {
     return std::min(first.distance(p), second.distance(p));

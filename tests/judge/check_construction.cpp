@@ -3,9 +3,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
 #include <set>
+#include <utility>
 
 #include "region_checks.h"
 #include "sentences.h"
@@ -32,14 +34,9 @@ class Rows {
     const Json& made = member(worksheet.json, "construction");
     for (const Json& column : member(made, "columns")) columns_.push_back(column.text);
     for (const Json& one : member(made, "segments")) {
-      ConstructionRow row;
-      row.row = one.at("segment").index() - 1;
-      for (const Json& value : one.at("values")) {
-        row.values.push_back(value.is_number() ? std::optional(value.number) : std::nullopt);
-      }
-      row.remark = text_of(one, "remark");
-      rows_.push_back(row);
+      rows_.push_back(read_row(one));
     }
+    for (const Json& one : member(made, "steps")) steps_.push_back(read_row(one));
     for (const Json& remark : member(made, "remarks")) remarks_.push_back(remark.text);
     sound_ = rows_.size() == p_.rows.size();
     for (std::size_t k = 0; k < rows_.size(); ++k) {
@@ -50,10 +47,22 @@ class Rows {
   }
 
  protected:
+  static ConstructionRow read_row(const Json& one) {
+    ConstructionRow row;
+    row.row = one.at("segment").index() - 1;
+    for (const Json& value : one.at("values")) {
+      row.values.push_back(value.is_number() ? std::optional(value.number) : std::nullopt);
+    }
+    row.remark = text_of(one, "remark");
+    return row;
+  }
   [[nodiscard]] std::optional<double> value(std::size_t k, const char* column) const {
+    return value(rows_[k], column);
+  }
+  [[nodiscard]] std::optional<double> value(const ConstructionRow& row, const char* column) const {
     const auto at = std::find(columns_.begin(), columns_.end(), column);
-    return at == columns_.end() ? std::nullopt
-                                : rows_[k].values[static_cast<std::size_t>(at - columns_.begin())];
+    const auto place = static_cast<std::size_t>(at - columns_.begin());
+    return place < row.values.size() ? row.values[place] : std::nullopt;
   }
   /// A radius that is not told is that of a line.
   [[nodiscard]] Real kappa(std::size_t k, const char* column) const {
@@ -100,7 +109,7 @@ class Rows {
   std::string claim_;
   Sheet& sheet_;
   std::vector<std::string> columns_, remarks_;
-  std::vector<ConstructionRow> rows_;
+  std::vector<ConstructionRow> rows_, steps_;
   bool sound_ = false;
 };
 
@@ -194,6 +203,10 @@ class ClothoidRows : public Rows {
     for (std::size_t k = 0; k < rows_.size(); ++k) {
       curve(k);
       largest = std::max(largest, step(k));
+    }
+    constexpr Real kNoStep = 2e-12L;
+    if (has_remark("the curvature goes on at every point")) {
+      sheet_.expect(largest <= kNoStep, claim_ + "largest step", 0.0L, largest, "");
     }
     for (const std::string& remark : remarks_) {
       const std::size_t at = remark.find("steps by up to ");
@@ -363,6 +376,137 @@ class EllipseRows : public Rows {
   }
 };
 
+/// Orders of fixation of parabolas: what stands for radii that are not given.
+class ParabolaRows : public Rows {
+ public:
+  using Rows::Rows;
+
+  void run() {
+    if (!sound_) return;
+    const bool one = has_remark("(order of fixation 1)"), two = has_remark("(order of fixation 2)");
+    sheet_.expect(one != two, claim_ + "order", std::string("one order"),
+                  std::string(one ? "both" : "none"), "");
+    for (std::size_t k = 0; k + 1 < rows_.size(); ++k) {
+      if (p_.rows[k].to != p_.rows[k + 1].from) continue;
+      if (two) given_radius(k);
+      if (one) mean_radius(k);
+    }
+  }
+
+ private:
+  /// Order 2 meets the radii that the user has.
+  void given_radius(std::size_t k) {
+    const SheetPoint& p = to(k);
+    if (p.inserted > 0 || p.index >= input_.points.size()) return;
+    const std::optional<double> given = input_.points[p.index].kappa;
+    if (!given || *given == 0.0) return;
+    for (const Real found : {kappa(k, "R'"), kappa(k + 1, "R")}) {
+      sheet_.expect(std::abs(found - *given) <= 1e-6L * std::abs(*given), claim_ + "given radius",
+                    found, static_cast<Real>(*given), "point " + p.name());
+    }
+  }
+
+  /// Curvatures of the parabola in the triangle of the tangents, at both ends, signed.
+  struct Parabola {
+    Real start = 0.0L, end = 0.0L, blur = 0.0L;
+  };
+  [[nodiscard]] std::optional<Parabola> alone(std::size_t k) const {
+    const Vec u = unit_at(from(k).heading), v = unit_at(to(k).heading), c = chord(k);
+    const Real turn = cross(u, v), a = cross(c, v) / turn, b = cross(u, c) / turn;
+    if (!(a > 0.0L && b > 0.0L)) return std::nullopt;
+    const Real area = 0.5L * cross(u, c) * a;
+    const Real blur = kSameCurve + 64.0L * kUlp * (1.0L + p_.coordinate / norm(c)) / std::abs(turn);
+    return Parabola{area / (a * a * a), area / (b * b * b), blur};
+  }
+
+  /// Order 1 takes the geometric mean of both neighbours' where no remark names the point.
+  void mean_radius(std::size_t k) {
+    const std::string claim = claim_ + "mean radius", name = to(k).name();
+    for (const std::string& remark : remarks_) {
+      const std::size_t at = remark.find("the mean is missing or was given up");
+      if (at == std::string::npos) continue;
+      std::string list = remark.substr(0, at);
+      std::replace(list.begin(), list.end(), ',', ' ');
+      if ((list + " ").find(" " + name + " ") != std::string::npos) return;
+    }
+    const auto before = alone(k), behind = alone(k + 1);
+    if (!before || !behind || !(before->end * behind->start > 0.0L)) {
+      return sheet_.unjudged(claim, "an inflection, or no triangle", "point " + name);
+    }
+    const Real mean = std::copysign(std::sqrt(before->end * behind->start), behind->start);
+    const Real blur = 8.0L * (before->blur + behind->blur) + 1e-6L;
+    for (const Real found : {kappa(k, "R'"), kappa(k + 1, "R")}) {
+      sheet_.expect(std::abs(found - mean) <= blur * std::abs(mean), claim, found, mean,
+                    "point " + name);
+    }
+  }
+};
+
+/// A link of four parabolas as the pieces of a contour have it, seen from its start.
+class ParabolaLink {
+ public:
+  static std::optional<ParabolaLink> of(const Piece* pieces) {
+    ParabolaLink out;
+    const auto* first = std::get_if<Bezier>(pieces);
+    if (first == nullptr) return std::nullopt;
+    out.start = Vec{first->origin.x, first->origin.y} +
+                Vec{first->offset.front().x, first->offset.front().y};
+    for (int i = 0; i < 4; ++i) {
+      const auto* one = std::get_if<Bezier>(pieces + i);
+      const bool same = one != nullptr && one->offset.size() == 3 &&
+                        one->origin.x == first->origin.x && one->origin.y == first->origin.y;
+      if (!same) return std::nullopt;
+      for (std::size_t j = 0; j < 3; ++j) {
+        out.p[static_cast<std::size_t>(i)][j] = seen(one->offset[j], first->offset.front());
+      }
+    }
+    out.measure();
+    return out;
+  }
+
+  std::array<std::array<Vec, 3>, 4> p;
+  Vec start;
+  Real h = 0.0L;                ///< its chord
+  Real k1 = 0.0L, k2 = 0.0L;    ///< radii at its ends over those of the first step
+  Real shift = 0.0L;            ///< where the first tangent touches, from its middle
+  Real off_parallel = 0.0L;     ///< of that tangent to the chord, rad
+  Real blur = 0.0L;             ///< rounding of its radii, relative
+  Real blur_shift = 0.0L;
+
+  /// At an end of a parabola, signed.
+  static Real bend(const std::array<Vec, 3>& q, bool at_start) {
+    const Vec a = q[1] - q[0], b = q[2] - q[1];
+    const Real leg = norm(at_start ? a : b);
+    return 0.5L * cross(a, b) / (leg * leg * leg);
+  }
+
+ private:
+  void measure() {
+    const Vec touch = p[1][2], end = p[3][2], along = p[1][2] - p[1][1];
+    const Vec u = p[0][1] - p[0][0], v = p[3][2] - p[3][1];
+    h = norm(end);
+    off_parallel = std::abs(cross(along, end)) / (norm(along) * h);
+    const Vec c = (cross(touch, along) / cross(u, along)) * u;
+    const Vec d = end - (cross(end - touch, along) / cross(v, along)) * v;
+    const auto first = [](Vec a, Vec b) {  // curvature of the first step's parabola at its start
+      const Real leg = norm(a);
+      return 0.5L * std::abs(cross(a, b)) / (leg * leg * leg);
+    };
+    k1 = first(c, touch - c) / std::abs(bend(p[0], true));
+    k2 = first(end - d, d - touch) / std::abs(bend(p[3], false));
+    shift = 0.5L * (norm(touch - c) - norm(d - touch));
+    Real area = HUGE_VALL, leg = HUGE_VALL;
+    for (const auto& q : p) {
+      area = std::min(area, std::abs(cross(q[1] - q[0], q[2] - q[1])));
+      leg = std::min({leg, norm(q[1] - q[0]), norm(q[2] - q[1])});
+    }
+    blur = 1e-9L + 64.0L * kUlp * h * h / area;
+    const Real turn = std::min(std::abs(cross(u, along)) / (norm(u) * norm(along)),
+                               std::abs(cross(v, along)) / (norm(v) * norm(along)));
+    blur_shift = h * (1e-12L + 64.0L * kUlp * h / (leg * turn));
+  }
+};
+
 /// Spans of the contour that `fit --construction` made, segment by segment.
 class ConstructedRows : public Rows {
  public:
@@ -389,7 +533,9 @@ class ConstructedRows : public Rows {
       if (spans.empty()) {
         return sheet_.fails(claim_ + "pieces", std::to_string(first), "no pieces left", where(k));
       }
-      segment(k, spans, vertices,
+      const std::array<Real, 2> ends{bend_of(pieces[first], true), bend_of(pieces[piece - 1], false)};
+      if (name_ == "parabolas") links(k, &pieces[first], piece - first);
+      segment(k, spans, ends, vertices,
               contour_.curvature_rounding(static_cast<Real>(first)) +
                   contour_.curvature_rounding(static_cast<Real>(piece)));
     }
@@ -398,15 +544,26 @@ class ConstructedRows : public Rows {
   }
 
  private:
-  void segment(std::size_t k, const std::vector<Span>& spans, std::size_t vertices, Real blur) {
-    const Real k0 = spans.front().at(0.0L).kappa(), k1 = spans.back().at(1.0L).kappa();
+  /// Curvature at an end, seen from the piece's own start: afar even long doubles are too short.
+  static Real bend_of(const Piece& piece, bool at_start) {
+    const Real t = at_start ? 0.0L : 1.0L;
+    const auto* bezier = std::get_if<Bezier>(&piece);
+    if (bezier == nullptr) return Span(piece, {}).at(t).kappa();
+    std::vector<Vec> points;
+    for (const Point p : bezier->offset) points.push_back(seen(p, bezier->offset.front()));
+    const std::vector<Real> weights(bezier->weight.begin(), bezier->weight.end());
+    return Span(std::move(points), weights).at(t).kappa();
+  }
+
+  void segment(std::size_t k, const std::vector<Span>& spans, const std::array<Real, 2>& ends,
+               std::size_t vertices, Real blur) {
     const auto bend = [&](const char* column, Real found) {
-      const Real stated = kappa(k, column), scale = std::max(std::abs(k0), std::abs(k1));
+      const Real stated = kappa(k, column), scale = std::max(std::abs(ends[0]), std::abs(ends[1]));
       sheet_.expect(std::abs(stated - found) <= 1e-6L * scale + blur, claim_ + column, stated, found,
                     where(k));
     };
-    bend("R", k0);
-    bend("R'", k1);
+    bend("R", ends[0]);
+    bend("R'", ends[1]);
     const auto count = [&](const char* column) {
       near(column, value(k, column), static_cast<Real>(spans.size()), 0.0L, k);
     };
@@ -426,6 +583,72 @@ class ConstructedRows : public Rows {
     }
   }
 
+  /// k1, k2, d and the steps of every link of a segment.
+  void links(std::size_t k, const Piece* pieces, std::size_t count) {
+    std::vector<const ConstructionRow*> told;
+    for (const ConstructionRow& step : steps_) {
+      if (step.row == k) told.push_back(&step);
+    }
+    const std::size_t n = count / 4;
+    std::size_t at = 0;
+    const auto next = [&]() -> const ConstructionRow* {
+      return at < told.size() ? told[at++] : nullptr;
+    };
+    for (std::size_t link = 0; link < n; ++link) {
+      const auto made = ParabolaLink::of(pieces + 4 * link);
+      if (!made) return sheet_.unjudged(claim_ + "steps", "links of other pieces", where(k));
+      if (link > 0) step(k, *made, next(), "its start", made->p[0][0], 0);
+      const ConstructionRow* first = step(k, *made, next(), "step 1", made->p[1][2], 1);
+      const ConstructionRow* before = step(k, *made, next(), "step 2, before it", made->p[0][2], 2);
+      const ConstructionRow* behind = step(k, *made, next(), "step 2, behind it", made->p[2][2], 3);
+      if (first == nullptr || before == nullptr || behind == nullptr) return;
+      near("d", value(*first, "d"), made->shift, made->blur_shift, k);
+      factor(k, "k1", value(*before, "k1"), made->k1, made->blur);
+      factor(k, "k2", value(*behind, "k2"), made->k2, made->blur);
+      if (n == 1) {
+        near("d", value(k, "d"), made->shift, made->blur_shift, k);
+        factor(k, "k1", value(k, "k1"), made->k1, made->blur);
+        factor(k, "k2", value(k, "k2"), made->k2, made->blur);
+      }
+      sheet_.expect(made->off_parallel <= made->blur_shift / made->h, claim_ + "first tangent", 0.0L,
+                    made->off_parallel, where(k));
+    }
+    sheet_.expect(at == told.size(), claim_ + "steps", static_cast<Real>(told.size()),
+                  static_cast<Real>(at), where(k));
+  }
+
+    void factor(std::size_t k, const char* name, std::optional<double> stated, Real found, Real blur) {
+    if (!(blur < 1e-3L)) return sheet_.unjudged(claim_ + name, "rounding", where(k));
+    near(name, stated, found, blur * found, k);
+  }
+
+  /// Place and radii of a step. 0: a start; 1: both first parabolas where they touch; 2, 3: behind
+  /// a parabola of the second step.
+  const ConstructionRow* step(std::size_t k, const ParabolaLink& link, const ConstructionRow* row,
+                              const char* remark, Vec place, int which) {
+    if (row == nullptr || !row->remark.ends_with(remark)) {
+      sheet_.fails(claim_ + "steps", row != nullptr ? row->remark : "no row", remark, where(k));
+      return nullptr;
+    }
+    const Vec found = link.start + place;
+    const Real slack = 1e-12L * link.h + 16.0L * kUlp * p_.coordinate;
+    const auto x = value(*row, "x"), y = value(*row, "y");
+    const bool there = x && y && std::abs(*x - found.x) <= slack && std::abs(*y - found.y) <= slack;
+    sheet_.expect(there, claim_ + "step place", x.value_or(NAN), found.x, where(k));
+    const std::array<Vec, 3>& q = link.p[which == 1 ? 1 : which == 3 ? 2 : 0];
+    const Real bend = ParabolaLink::bend(q, which == 0);
+    if (!(link.blur < 1e-3L)) {
+      sheet_.unjudged(claim_ + "step R", "rounding", where(k));
+      return row;
+    }
+    const Real slack_of_radius = 2.0L * link.blur / std::abs(bend);
+    near("step R", value(*row, "R"), 1.0L / (bend * (which == 1 ? link.k1 : 1.0L)),
+         slack_of_radius, k);
+    near("step R'", value(*row, "R'"), 1.0L / (bend * (which == 1 ? link.k2 : 1.0L)),
+         slack_of_radius, k);
+    return row;
+  }
+
   std::string name_;
   const Course& contour_;
 };
@@ -437,6 +660,7 @@ void check_construction(const Worksheet& worksheet, const Input& input, const st
   if (name == "arcs") return ArcRows(worksheet, input, name, sheet).run();
   if (name == "clothoids") return ClothoidRows(worksheet, input, name, sheet).run();
   if (name == "ellipses") return EllipseRows(worksheet, input, name, sheet).run();
+  if (name == "parabolas") return ParabolaRows(worksheet, input, name, sheet).run();
 }
 
 namespace {

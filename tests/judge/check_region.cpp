@@ -121,11 +121,11 @@ class RegionCheck {
   /// Ranges of headings are known to some 1e-6 rad.
   void chosen_inside(const SheetPoint& p, const std::string& at) {
     constexpr Real kKnownTo = 2e-6L;
-    const bool inside =
-        p.heading >= p.headings->low - kKnownTo && p.heading <= p.headings->high + kKnownTo;
-    if (by_neighbours || p.low_is_open || p.high_is_open) return;  // beyond an open end it may lie
-    sheet_.expect(inside, "region.heading in its range", p.heading,
-                  p.heading < p.headings->low ? p.headings->low : p.headings->high, at);
+    if (by_neighbours) return;
+    const bool below = !p.low_is_open && p.heading < p.headings->low - kKnownTo;
+    const bool above = !p.high_is_open && p.heading > p.headings->high + kKnownTo;
+    sheet_.expect(!below && !above, "region.heading in its range", p.heading,
+                  below ? p.headings->low : p.headings->high, at);
   }
 
   void adjacent(std::size_t i, const std::string& at) {
@@ -183,6 +183,10 @@ class RegionCheck {
         continue;
       }
       const Real scale = range_scale(i);
+      if (beside_no_curve(i) && p.kappas->low >= found[i]->low && p.kappas->high <= found[i]->high) {
+        sheet_.unjudged(claim, "a segment beside it has no curve, and no direction is told", at);
+        continue;
+      }
       const auto end = [&](Real stated, Real sought, Real one, Real other, const char* which) {
         if (std::isinf(sought) || std::isinf(stated)) {
           sheet_.expect(sought == stated, claim, stated, sought, at + which);
@@ -208,9 +212,14 @@ class RegionCheck {
     }
   }
 
+  [[nodiscard]] bool beside_no_curve(std::size_t i) const {
+    return std::any_of(p_.rows.begin(), p_.rows.end(), [&](const SheetRow& row) {
+      return p_.touches(row, i) && !p_.direction(row);
+    });
+  }
   [[nodiscard]] bool beside_an_arc(std::size_t i) const {
     return std::any_of(p_.rows.begin(), p_.rows.end(), [&](const SheetRow& row) {
-      return (row.from == i || row.to == i) && p_.direction(row) == 0;
+      return p_.touches(row, i) && p_.direction(row) == 0;
     });
   }
 
@@ -435,7 +444,7 @@ class RegionCheck {
     const SheetRow& row = p_.rows[k];
     const Json& f = *row.figures;
     const std::optional<int> d = p_.direction(row);
-    if (!d) {
+    if (!d || std::abs(p_.bending(row)) >= kStraightAngle) {
       for (const char* name : {"lower_height", "width", "chord_apex_gap", "tangent_apex_gap",
                                "chord_convex_bound", "tangent_convex_bound", "spline_distance"}) {
         sheet_.expect(figure(f, name).null(), fmt::format("region.{} null", name),
@@ -487,6 +496,22 @@ class RegionCheck {
     told("tangent_convex_bound", &RegionFigures::tangent_bound);
   }
 
+  /// Of the chords of one circle next to each other: directions over the shortest are rounded most,
+  /// and decide whether it is one.
+  [[nodiscard]] Real shortest_on_circle(const SheetRow& row) const {
+    const auto k = static_cast<std::size_t>(&row - p_.rows.data());
+    const auto [first, behind] = p_.section(k);
+    Real shortest = HUGE_VALL;
+    for (const int way : {-1, 1}) {
+      for (std::size_t j = k; j >= first && j < behind; j += static_cast<std::size_t>(way)) {
+        if (p_.direction(p_.rows[j]) != 0) break;
+        const SheetRow& one = p_.rows[j];
+        shortest = std::min(shortest, norm(p_.points[one.to].point - p_.points[one.from].point));
+      }
+    }
+    return shortest;
+  }
+
   /// On an arc there is one curve: the height over its chord, and no width.
   void arc(const SheetRow& row) {
     const SheetPoint &a = p_.points[row.from], &b = p_.points[row.to];
@@ -495,7 +520,7 @@ class RegionCheck {
     const Real omega = std::atan2(chord.y, chord.x);
     const Real sigma = std::remainder(a.heading - omega, kCircleTurn) +
                        std::remainder(b.heading - omega, kCircleTurn);
-    const Real blur = kSameAsStated + 64.0L * 0x1p-53L * p_.coordinate / h;
+    const Real blur = kSameAsStated + 64.0L * 0x1p-53L * p_.coordinate / shortest_on_circle(row);
     sheet_.expect(std::abs(sigma) <= blur, "region.arc", 0.0L, sigma, where(row));
     const Real beta = std::remainder(b.heading - omega, kCircleTurn), turn = 2.0L * beta;
     const Real kappa = 2.0L * std::sin(beta) / h;

@@ -15,10 +15,17 @@ namespace {
 
 constexpr double kDegrees = 180.0 / std::numbers::pi;
 
-/// Radii of a range of curvatures: the least and the greatest, infinite where it holds 0.
-std::array<std::optional<double>, 2> radii_of(const std::optional<Limits>& range) {
+/// Radii of a range of curvatures: the least and the greatest, infinite where it holds 0. Both ends of a range around the straight line may be as sharp
+/// but for the last bits: then the least radius is told with either sign.
+std::array<std::optional<double>, 2> radii_of(const std::optional<Limits>& range,
+                                              const std::string& told) {
   if (!range) return {};
-  if (range->low == -range->high) return {static_cast<double>(1.0L / range->low), HUGE_VAL};
+  constexpr Real kAsSharp = 1e-12L;
+  const bool around = range->low < 0.0L && std::isfinite(range->low) && range->high > 0.0L;
+  if (around && std::abs(range->low + range->high) <= kAsSharp * range->high) {
+    const Real sharp = told.starts_with("-") ? range->low : range->high;
+    return {static_cast<double>(1.0L / sharp), HUGE_VAL};
+  }
   const bool low_is_sharper = std::abs(range->low) > std::abs(range->high);
   const Real sharp = low_is_sharper ? range->low : range->high,
              blunt = low_is_sharper ? range->high : range->low;
@@ -85,7 +92,7 @@ class Printed {
   }
 
   void point(const std::vector<std::string>& words) {
-    const SheetPoint* p = find_point(words[0]);
+    const SheetPoint* p = find_point(words[0], words[4]);
     if (p == nullptr) return;
     const std::string where = "point " + words[0];
     const Turned turned(*p);
@@ -102,7 +109,7 @@ class Printed {
     }
     heading("range of headings", words[5], low, p->low_is_open, where);
     heading("range of headings", words[6], high, p->high_is_open, where);
-    const auto [least, greatest] = radii_of(p->kappas);
+    const auto [least, greatest] = radii_of(p->kappas, words[7]);
     // JSON has null for an end that is open: without both anything goes, or nothing is known
     const bool all = !p->kappas && words[7] == "0" && words[8] == "straight";
     if (!all) radius("least radius", words[7], least, where);
@@ -132,10 +139,19 @@ class Printed {
   [[nodiscard]] std::size_t rows() const { return rows_; }
 
  private:
-  /// A corner stands twice: rows go on from the one before.
-  const SheetPoint* find_point(const std::string& name) {
+  /// A corner stands twice: rows go on from the one before. A table that leaves rows out may have
+  /// the second one alone.
+  const SheetPoint* find_point(const std::string& name, const std::string& heading) {
+    constexpr double kToldTo = 1e-4;  // degrees
+    const auto off = [&](const SheetPoint& p) {
+      return std::abs(Turned(p).degrees(p.heading) - std::strtod(heading.c_str(), nullptr));
+    };
     for (; at_ < part_.points.size(); ++at_) {
-      if (part_.points[at_].name() == name) return &part_.points[at_++];
+      const SheetPoint& here = part_.points[at_];
+      if (here.name() != name) continue;
+      const bool twice = at_ + 1 < part_.points.size() && part_.points[at_ + 1].name() == name;
+      if (twice && off(part_.points[at_ + 1]) + kToldTo < off(here)) ++at_;
+      return &part_.points[at_++];
     }
     sheet_.fails(claim_ + ": point", name, "no such point", "");
     return nullptr;
@@ -247,7 +263,9 @@ void check_region_csv(const Worksheet& worksheet, const std::string& csv, Sheet&
       wanted["heading_min_deg"] = turned.degrees(p.headings->low);
       wanted["heading_max_deg"] = turned.degrees(p.headings->high);
     }
-    const auto [least, greatest] = radii_of(p.kappas);
+    const auto at_least = std::find(names.begin(), names.end(), "least_radius");
+    const auto place = static_cast<std::size_t>(at_least - names.begin());
+    const auto [least, greatest] = radii_of(p.kappas, place < cells.size() ? cells[place] : "");
     wanted["least_radius"] = least;
     wanted["greatest_radius"] = greatest;
     if (row != part.rows.end()) {

@@ -12,17 +12,7 @@ constexpr Real kPi = std::numbers::pi_v<Real>;
 /// Rounding of long double, with a reserve, relative to terms that cancel.
 constexpr Real kRounding = 1e-17L;
 
-constexpr Real kSmallTurn = 1.0L;  // rad
-
 Real wrapped(Real angle) { return std::remainder(angle, 2.0L * kPi); }
-
-/// Angle in the sense of the curvature, between -2 pi and 2 pi. A small one against that sense is
-/// rounding, not nearly a full turn.
-Real in_sense_of(Real kappa, Real turn) {
-  const Real w = wrapped(turn);
-  if (std::abs(w) < kSmallTurn || w * kappa >= 0.0L) return w;
-  return w + (kappa > 0.0L ? 2.0L * kPi : -2.0L * kPi);
-}
 
 /// Chord vector of an arc that turns by `turn` from heading `theta`.
 Vec arc_vector(Real theta, Real kappa, Real turn) {
@@ -37,12 +27,26 @@ Biarc closing(Real h, Real alpha, Real beta, Real k0, Real k1) {
   if (b < a) v = -1.0L * v;
   const bool circle = norm(v) <= kRounding * (std::abs(a) + std::abs(b));
   Real theta = circle ? alpha : std::atan2(v.y, v.x);
+  // both turns together are beta - alpha: of the headings that differ by a whole turn the one that
+  // goes least against the curvatures
+  const auto off = [](Real turn, Real k) {  // a line does not turn
+    return k == 0.0L ? std::abs(turn) : std::max(0.0L, -std::copysign(1.0L, k) * turn);
+  };
+  const auto against = [&](Real at) { return std::max(off(at - alpha, k0), off(beta - at, k1)); };
+  // beside an inflection both could turn once more: only what is no rounding makes them
+  constexpr Real kNoRounding = 1.0L;  // rad
+  if (!(k0 * k1 < 0.0L) || against(theta) > kNoRounding) {
+    const Real first = theta;
+    for (const Real at : {first - 2.0L * kPi, first + 2.0L * kPi}) {
+      if (against(at) < against(theta)) theta = at;
+    }
+  }
   // a turn against its curvature is rounding: then the arcs touch at an end of the chord
-  if (in_sense_of(k0, theta - alpha) * k0 < 0.0L) theta = alpha;
-  if (in_sense_of(k1, beta - theta) * k1 < 0.0L) theta = beta;
+  if ((theta - alpha) * k0 < 0.0L) theta = alpha;
+  if ((beta - theta) * k1 < 0.0L) theta = beta;
   Biarc out;
   const Vec end{h, 0.0L};
-  const Real turn0 = in_sense_of(k0, theta - alpha), turn1 = in_sense_of(k1, beta - theta);
+  const Real turn0 = theta - alpha, turn1 = beta - theta;
   Vec joint;
   if (std::abs(k0) >= std::abs(k1)) {
     joint = k0 == 0.0L ? end : arc_vector(alpha, k0, turn0);
@@ -70,7 +74,7 @@ struct Reach : Extent {
     meet(arc.start.y);
     meet(arc.end.y);
     // where the arc runs along or against the chord
-    for (const Real parallel : {0.0L, kPi, -kPi, 2.0L * kPi, -2.0L * kPi}) {
+    for (const Real parallel : {0.0L, kPi, -kPi, 2.0L * kPi, -2.0L * kPi, 3.0L * kPi, -3.0L * kPi}) {
       const Real turned = parallel - arc.theta;
       const bool passed = arc.turn >= 0.0L ? turned > 0.0L && turned < arc.turn
                                            : turned < 0.0L && turned > arc.turn;

@@ -10,6 +10,7 @@
 
 #include "checks.h"
 #include "course.h"
+#include "heading_reach.h"
 #include "process.h"
 #include "program_runs.h"
 #include "region_checks.h"
@@ -327,23 +328,35 @@ class RegionTrial : public ProgramRuns {
     const auto no_more = [&](const ContourFile& file, const char* name) {
       return counts(file, name) <= counts(*base, name);
     };
+    const auto i = static_cast<std::size_t>(&p - part.points.data());
+    const auto exists = [&](Real theta) {
+      return !part.loop && found_with_heading(part, input, i, theta);
+    };
     if (!part.loop) {
-      const std::string inside = datum(p, end + ahead * 0.01L * width);
+      const Real theta = end + ahead * 0.01L * width;
+      const std::string inside = datum(p, theta);
       const auto found = with_heading(inside, "inside.json");
       if (stopped_) return;
       const bool good = found && no_more(*found, "vertices") && no_more(*found, "inflections");
-      out_.sheet.expect(good, "region.range of headings inside", inside,
+      const bool unproved = !good && exists(theta);
+      out_.sheet.expect(good || unproved, "region.range of headings inside", inside,
                         std::string(found ? "a vertex or inflection more" : "refused"), range);
+      if (unproved) {
+        out_.sheet.unjudged("region.range of headings proved", "exists, and fit has no proof",
+                            range);
+      }
     }
-    const std::string outside = datum(p, end - ahead * 0.01L * width);
+    const Real theta = end - ahead * 0.01L * width;
+    const std::string outside = datum(p, theta);
     const auto found = with_heading(outside, "outside.json");
     if (stopped_) return;
     if (found && bends(*found) != bends(*base)) {  // the signs of the table are kept
       return out_.sheet.unjudged("region.range of headings outside", "bends another way elsewhere");
     }
     const bool same = found && directions(*found) == runs && no_more(*found, "inflections");
-    out_.sheet.expect(!same, "region.range of headings outside", outside,
-                      std::string("a contour of the same runs"), range);
+    out_.sheet.expect(!same && !exists(theta), "region.range of headings outside", outside,
+                      std::string(same ? "a contour of the same runs" : "spirals over every chord"),
+                      range);
   }
   /// Signs of the curvature at the points.
   static std::vector<int> bends(const ContourFile& file) {

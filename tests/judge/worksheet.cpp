@@ -133,7 +133,7 @@ class RangeMaker {
     }
     for (std::size_t k = 0; k < part_.rows.size(); ++k) {
       const SheetRow& row = part_.rows[k];
-      if ((row.from != i && row.to != i) || direction_[k] != 0) continue;
+      if (!part_.touches(row, i) || direction_[k] != 0) continue;
       const Vec chord = part_.points[row.to].point - part_.points[row.from].point;
       const Real turn =
           std::remainder(part_.points[row.to].heading - part_.points[row.from].heading, kTurnAround);
@@ -233,7 +233,9 @@ std::vector<Real> slopes_of(const std::vector<Real>& h, const std::vector<Real>&
   }
   // equal third derivatives on both sides of the second knot and of the last but one
   const auto third = [&](std::size_t row, std::size_t i) {
-    const Real a = 1.0L / (h[i] * h[i]), b = 1.0L / (h[i + 1] * h[i + 1]);
+    // as large as the other rows, or pivots would push it behind all of them
+    const Real both = h[i] + h[i + 1];
+    const Real a = h[i + 1] * h[i + 1] / both, b = h[i] * h[i] / both;
     rows[row][i] += a;
     rows[row][i + 1] += a - b;
     rows[row][i + 2] -= b;
@@ -287,7 +289,7 @@ std::array<Element, 2> SheetPart::bounding(const SheetRow& row, const Input& inp
 
 std::optional<Region> SheetPart::region(const SheetRow& row, const Input& input) const {
   const std::optional<int> d = direction(row);
-  if (!d || *d == 0) return std::nullopt;
+  if (!d || *d == 0 || std::abs(bending(row)) >= kStraightAngle) return std::nullopt;
   const auto [a, b] = bounding(row, input);
   return Region::of(a, b, *d);
 }

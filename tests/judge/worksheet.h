@@ -54,6 +54,12 @@ struct SheetPart {
   [[nodiscard]] std::string name(const SheetRow& row) const {
     return points[row.from].name() + "-" + points[row.to].name();
   }
+  /// Whether a segment has a point at one end; around a loop its first and last are the same.
+  [[nodiscard]] bool touches(const SheetRow& row, std::size_t i) const {
+    const std::size_t last = points.size() - 1;
+    const std::size_t other = !loop ? i : i == 0 ? last : i == last ? 0 : i;
+    return row.from == i || row.to == i || row.from == other || row.to == other;
+  }
   /// 1, -1, 0 on an arc; none where a vertex lies between the points, or nothing is known.
   [[nodiscard]] std::optional<int> direction(const SheetRow& row) const;
   [[nodiscard]] Real bending(const SheetRow& row) const;

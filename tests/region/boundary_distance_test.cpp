@@ -223,6 +223,20 @@ TEST(ConvexTable, NearestBoundaryPointIsNoCloserThanTheParallelLine) {
   }
 }
 
+TEST(BoundaryDistance, SeesAPieceThatBeginsBesideItsElement) {
+  constexpr double kKappa = 0.2, kBeside = 1e-3;
+  const double turn = 2.0 * std::asin(0.5 * kKappa);  // over a chord of length 1
+  const Element start{{0.0, 0.0}, -0.5 * turn, kKappa - 1e-4},
+      end{{1.0, 0.0}, 0.5 * turn, kKappa + 1e-4};
+  const Vec2 centre = left_normal(unit_at(start.theta)) / kKappa;
+  const double before = start.theta - kKappa * kBeside;
+  const Vec2 from = centre - left_normal(unit_at(before)) / kKappa;
+  const ArcPiece arc{from, end.point, before, kKappa, turn / kKappa + kBeside};
+  const auto placed = place_in_region(Piece{arc}, start, end, 1);
+  ASSERT_TRUE(placed);
+  EXPECT_NEAR(placed->farther, norm(from), 1e-9);
+}
+
 }  // namespace
 }  // namespace paper
 }  // namespace obvid

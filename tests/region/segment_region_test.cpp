@@ -219,5 +219,23 @@ TEST(SegmentRegion, BoundariesMeetTheEndsOfTheChord) {
   }
 }
 
+TEST(SegmentRegion, KnowsArcsOfNearlyAWholeTurnFromRounding) {
+  // over a chord of length 40: out backwards, around and in from behind, the curvature falling
+  const double h = 40.0, alpha = -2.66, beta = 2.65, sine = std::sin(0.5 * (alpha + beta));
+  const double k0 = -2.0 * std::sin(alpha) / h * 1.002, k1 = k0 * 0.9;
+  const double B = -0.5 * k1 * h - std::sin(-beta);  // in the mirror image
+  ASSERT_GT(B, 0.0);
+  const double second = -2.0 / h * (-std::sin(-alpha) - sine * sine / B);
+  const ChordFrame frame = chord_frame({{0.0, 0.0}, alpha, k0}, {{h, 0.0}, beta, k1});
+  const auto region = segment_region(frame, -1);
+  ASSERT_TRUE(region);
+  // both first arcs turn by some 300 degrees, to where they run along the chord and on
+  const double rise = 1.0 - std::cos(alpha);
+  EXPECT_NEAR(region->from_start.lowest, -rise / k0, 1e-9);
+  EXPECT_NEAR(region->to_end.lowest, -rise / second, 1e-9);
+  EXPECT_NEAR(region->from_start.highest, 0.0, 1e-9);
+  EXPECT_NEAR(region->to_end.highest, 0.0, 1e-9);
+}
+
 }  // namespace
 }  // namespace obvid

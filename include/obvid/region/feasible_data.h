@@ -30,8 +30,9 @@ struct RangeNode {
 struct HeadingRange {
   double low = 0.0;
   double high = 0.0;
-  /// The points leave that end open: it stands a right angle from the chord, where the search ends
-  /// at the first and the last point.
+  /// Nothing ends the range there but what is looked at: at the first and the last point headings
+  /// up to a right angle from the chord, elsewhere curves that turn by less than half a turn
+  /// between two points.
   bool low_is_open = false, high_is_open = false;
 };
 
@@ -43,7 +44,8 @@ struct FeasibleData {
 
 /// Ranges of heading and curvature at every point in which a curve through all points exists whose
 /// curvature grows and falls over the chords as said and which has everything else that is given
-/// ([Kurnosenko 2013]; headings count as less than half a turn from their chords).
+/// ([Kurnosenko 2013]; headings count as less than half a turn from their chords, and curves turn
+/// by less than half a turn over a chord whose heading before is free).
 ///
 /// Exact in the sense of the theory: the least curvature at each point as a function of its heading
 /// is carried from chord to chord in closed form (docs/methods/region.md), forward and backward;

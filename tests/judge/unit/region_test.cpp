@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "doctored.h"
+#include "heading_reach.h"
 #include "region_checks.h"
 
 namespace judge {
@@ -168,6 +169,42 @@ TEST(JudgeRegion, FindsEachFalseFigureOfAConstruction) {
                                       "up to 14.4 %"),
                               "clothoids")
                   .has("region clothoids.largest step"));
+}
+
+/// Two points on a chord of length 1: the heading before is given, the curvature grows.
+TEST(JudgeRegion, LooksForHeadingsAsFarAsSpiralsExist) {
+  const Worksheet worksheet = readable(data("judge/region.json"));
+  constexpr Real kBefore = -0.3L;
+  SheetPoint a, b;
+  b.point = {1.0L, 0.0L};
+  b.index = 1;
+  a.heading_given = true;
+  a.heading = kBefore;
+  b.heading = 0.5L;
+  b.headings = Limits{0.3L, 1.5L};
+  SheetRow row;
+  row.to = 1;
+  row.start = Limits{-HUGE_VALL, 0.5L};
+  row.end = Limits{0.9L, HUGE_VALL};
+  row.figures = worksheet.user.rows.front().figures;
+  SheetPart part;
+  part.points = {a, b};
+  part.rows = {row};
+  part.kappas = {0.0, 2.0};
+  Input input;
+  input.points.resize(2);
+  EXPECT_TRUE(found_with_heading(part, input, 1, 0.301L));  // beyond the circle
+  EXPECT_FALSE(found_with_heading(part, input, 1, 0.299L));
+  // A B = -sin^2(sigma/2) with curvature 0 before
+  const auto least = [](Real theta) {
+    const Real half = std::sin(0.5L * (kBefore + theta));
+    return 2.0L * (std::sin(theta) + half * half / -std::sin(kBefore));
+  };
+  constexpr Real kLast = 0.7L;
+  input.points[0].kappa = 0.0;
+  input.points[1].kappa = static_cast<double>(least(kLast));
+  EXPECT_TRUE(found_with_heading(part, input, 1, kLast - 1e-3L));
+  EXPECT_FALSE(found_with_heading(part, input, 1, kLast + 1e-3L));
 }
 
 }  // namespace
