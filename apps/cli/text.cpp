@@ -23,7 +23,10 @@ std::string coordinate(double value, double size) {
 }
 
 std::string radius_text(double kappa) {
-  return kappa == 0.0 ? "straight" : significant(1.0 / kappa);
+  constexpr double kPlainTo = 1e5;  // beyond, whole numbers would say more digits than are known
+  if (kappa == 0.0) return "straight";
+  const double radius = 1.0 / kappa;
+  return std::abs(radius) < kPlainTo ? significant(radius) : fmt::format("{:.4e}", radius);
 }
 
 const char* direction_text(int direction) {

@@ -185,7 +185,7 @@ class EllipseArcs {
 
   /// The conic with its start as origin where the rounding of coordinates would change its radii.
   static RationalBezier unblurred(const ConicArc& arc, const RationalBezier& made) {
-    constexpr double kSameCurvature = 1e-9;  // of the curvature
+    constexpr double kMetRadius = 1e-9;  // of the curvature
     const Element start{{}, arc.start.theta, arc.start.kappa};
     const Element end{arc.end.point - arc.start.point, arc.end.theta, arc.end.kappa};
     const auto near = conic_chain({start, end}, {arc.weight});
@@ -193,7 +193,7 @@ class EllipseArcs {
     RationalBezier local = near->pieces.front();
     const auto same = [&](bool at_start) {
       const double kappa = stored_curvature(local, at_start);
-      return std::abs(stored_curvature(made, at_start) - kappa) <= kSameCurvature * std::abs(kappa);
+      return std::abs(stored_curvature(made, at_start) - kappa) <= kMetRadius * std::abs(kappa);
     };
     if (same(true) && same(false)) return made;
     local.origin = arc.start.point;

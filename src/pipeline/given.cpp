@@ -284,7 +284,7 @@ GivenReport measure_given(const Contour& contour) {
     const Miss miss = miss_of(given);
     out.headings += given.theta ? 1 : 0;
     out.curvatures += given.kappa ? 1 : 0;
-    out.corners += given.corner ? 1 : 0;
+    out.corners += given.corner && miss_of.stands_on_corner(given.point) ? 1 : 0;
     out.heading_ranges += given.thetas ? 1 : 0;
     out.curvature_ranges += given.kappas ? 1 : 0;
     const std::size_t before = out.active.size();

@@ -191,6 +191,7 @@ class Preparation {
   void set_tolerances() {
     const double noise = job_.noise.value_or(0.0);
     Vec2 common = job_.noise_from_rounding ? series_.rounding : Vec2{noise, noise};
+    warn_of_own_tolerances();
     double least = 0.0;
     for (const Vec2 p : out_.points) least = std::max(least, least_move(p));
     // all alike: some points that are met and some that move by roundings would be no contour's
@@ -202,6 +203,21 @@ class Preparation {
       const double reach = beside_kept(i) ? 0.0 : f.tolerance ? *f.tolerance : across(i, common);
       out_.tolerance.push_back(reach < least ? 0.0 : reach);
     }
+  }
+
+  /// Tolerances of single points go before one for all.
+  void warn_of_own_tolerances() {
+    const bool asked = job_.noise.has_value() || job_.noise_from_rounding;
+    const auto own = std::count_if(fixed_.begin(), fixed_.end(), [](const FixedOnce& one) {
+      return one.data.tolerance.has_value();
+    });
+    if (!asked || own == 0) return;
+    const auto all = static_cast<std::ptrdiff_t>(fixed_.size());
+    out_.warnings.push_back(
+        own == all ? "--noise says nothing here: the file gives every point a tolerance of its own"
+                   : fmt::format("--noise holds for {} of {} points: the file gives the others a "
+                                 "tolerance of their own",
+                                 all - own, all));
   }
 
   /// How far the ellipse with these semi-axes reaches across the series at a point.
@@ -232,10 +248,16 @@ class Preparation {
     } else {
       const JoinedPoint joined = join_points(out_.points.front(), out_.tolerance.front(),
                                              out_.points.back(), out_.tolerance.back());
+      const double away = std::max(norm(joined.point - out_.points.front()),
+                                   norm(joined.point - out_.points.back()));
       out_.points.front() = joined.point;
       out_.tolerance.front() = joined.tolerance;
-      out_.warnings.emplace_back(
-          "the last point lies within its tolerance of the first one: both became one");
+      out_.warnings.push_back(fmt::format(
+          "the last point lies within its tolerance of the first one: the contour is closed, and "
+          "both became one at {:.9g}, {:.9g}, up to {:.4g} from them, where moves are counted "
+          "from; "
+          "--open keeps both",
+          joined.point.x, joined.point.y, away));
     }
     if (auto done = add_fixed(fixed_.front(), fixed_.back(), 0); !done) {
       done.error().hint += ", or ask for an open contour (--open): the last point is the first one";

@@ -492,7 +492,8 @@ class Errors(unittest.TestCase):
     def test_of_input(self):
         self.refused(301, lambda: read("/nowhere/at/all.csv"))
         self.refused(303, lambda: points([(0, 0), (1, math.nan), (2, 0)]))
-        self.refused(304, lambda: points([(0, 0), (0, 0), (2, 0)]))
+        self.refused(304, lambda: points([(0, 0), (0, 0)]))
+        self.refused(304, lambda: fit(points([(0, 0), (0, 0), (2, 0)])))
         self.refused(302, lambda: fit(text_input("1 2\n3 x\n4 5\n")))
         self.refused(202, lambda: export(fit(read(SERIES))[0], "doc"))
 

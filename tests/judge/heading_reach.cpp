@@ -10,7 +10,7 @@
 namespace judge {
 namespace {
 
-constexpr Real kHalfTurn = std::numbers::pi_v<Real>, kQuarterTurn = 0.5L * kHalfTurn;
+constexpr Real kStraightAngle = std::numbers::pi_v<Real>, kQuarterTurn = 0.5L * kStraightAngle;
 /// Headings looked at of each point: towards both ends of its range ever closer together, down to
 /// 1e-7 of it.
 constexpr int kHeadingsToEachEnd = 48;
@@ -143,9 +143,7 @@ class Way {
   }
 
   /// Whether one of two open ranges leaves more than another one on this way.
-  static bool more(const Limits& a, const Limits& b) {
-    return a.low < b.low || a.high > b.high;
-  }
+  static bool more(const Limits& a, const Limits& b) { return a.low < b.low || a.high > b.high; }
 
   void step(std::size_t k, const Place& from, std::size_t which, Place& to) const {
     if (!from.reached) return;
@@ -169,7 +167,9 @@ class Way {
     if (direction == 0) return Limits{};
     const Vec chord = part_.points[r.to].point - part_.points[r.from].point;
     const Real omega = std::atan2(chord.y, chord.x), h = norm(chord), d = direction;
-    const auto angle = [&](Real theta) { return d * std::remainder(theta - omega, 2.0L * kHalfTurn); };
+    const auto angle = [&](Real theta) {
+      return d * std::remainder(theta - omega, 2.0L * kStraightAngle);
+    };
     const Real alpha = angle(ahead_ ? before : behind), beta = angle(ahead_ ? behind : before);
     if (!(alpha + beta > 0.0L)) return std::nullopt;
     const Real q = std::pow(std::sin(0.5L * (alpha + beta)), 2);

@@ -565,5 +565,22 @@ TEST(Verify, PointsInAnotherOrderAreTheReasonAndNotTheFiguresBesideThem) {
             "the file claims through_points, but joint 1 does not stand on point 1");
 }
 
+TEST(Verify, AGivenCornerStandsWhereTheFileSays) {
+  PointSeries series;
+  series.points = {{0, 0}, {10, 1}, {20, 3}, {30, 7}, {30, 17}, {31, 27}, {34, 37}, {40, 46}};
+  FitJob job;
+  job.wishes = {{3, {}, {}, true}};
+  auto made = fit(series, job);
+  ASSERT_TRUE(made);
+  ASSERT_TRUE(made->certificate.proved);
+  StoredContour stored{made->contour, made->report, made->certificate};
+  ASSERT_FALSE(verify(stored).false_claim);
+  ASSERT_EQ(stored.contour.given.size(), 1U);
+  for (const std::size_t elsewhere : {1, 2, 4, 5}) {
+    stored.contour.given[0].point = elsewhere;
+    EXPECT_TRUE(verify(stored).false_claim) << elsewhere;
+  }
+}
+
 }  // namespace
 }  // namespace obvid

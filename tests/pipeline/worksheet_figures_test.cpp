@@ -25,7 +25,7 @@ PointSeries places(std::vector<Vec2> points, const std::vector<double>& thetas =
   return out;
 }
 
-RegionJob with(Construction construction) {
+RegionJob table_job(Construction construction) {
   RegionJob job;
   job.construction = construction;
   return job;
@@ -39,7 +39,7 @@ TEST(WorksheetFigures, AnArcOfMoreThanHalfATurnStandsAsHighAsItIs) {
   ASSERT_TRUE(table->rows[0].lower_height);
   EXPECT_NEAR(*table->rows[0].lower_height, kRadius * (1.0 - std::cos(0.5 * kTurn)), 1e-12);
   const auto arcs = region_table(places({at(0.0), at(kTurn)}, {0.5 * kPi, 0.5 * kPi + kTurn}),
-                                 with(Construction::kArcs));
+                                 table_job(Construction::kArcs));
   ASSERT_TRUE(arcs) << arcs.error().what;
   ASSERT_EQ(arcs->construction->rows[0].remark, "one arc");
   EXPECT_NEAR(arcs->construction->rows[0].values[2], kRadius * (1.0 - std::cos(0.5 * kTurn)),
@@ -112,8 +112,8 @@ struct Afar {
 TEST(WorksheetFigures, HeightsOfTwoArcsDoNotDependOnThePlace) {
   const Afar pair;
   const std::vector<double> thetas{-0.02, 0.03};
-  const auto one = region_table(places(pair.near, thetas), with(Construction::kArcs));
-  const auto other = region_table(places(pair.far, thetas), with(Construction::kArcs));
+  const auto one = region_table(places(pair.near, thetas), table_job(Construction::kArcs));
+  const auto other = region_table(places(pair.far, thetas), table_job(Construction::kArcs));
   ASSERT_TRUE(one && other);
   const double height = one->construction->rows[0].values[2];
   EXPECT_GT(height, 0.0);
@@ -123,7 +123,8 @@ TEST(WorksheetFigures, HeightsOfTwoArcsDoNotDependOnThePlace) {
 TEST(WorksheetFigures, RadiiOfEllipsesAreThoseOfTheirWeightAfar) {
   const Afar pair;
   const double alpha = -0.02, beta = 0.03, h = pair.near[1].x;
-  const auto table = region_table(places(pair.far, {alpha, beta}), with(Construction::kEllipses));
+  const auto table =
+      region_table(places(pair.far, {alpha, beta}), table_job(Construction::kEllipses));
   ASSERT_TRUE(table) << table.error().what;
   const ConstructionRow& row = table->construction->rows[0];
   const double w = row.values[0];
@@ -133,7 +134,8 @@ TEST(WorksheetFigures, RadiiOfEllipsesAreThoseOfTheirWeightAfar) {
   const double area = -0.5 * h * a * std::sin(alpha);
   EXPECT_NEAR(row.values[1], w * w * a * a * a / area, 1e-9 * row.values[1]);
   EXPECT_NEAR(row.values[2], w * w * b * b * b / area, 1e-9 * row.values[2]);
-  const auto fit = fit_construction(places(pair.far, {alpha, beta}), with(Construction::kEllipses));
+  const auto fit =
+      fit_construction(places(pair.far, {alpha, beta}), table_job(Construction::kEllipses));
   ASSERT_TRUE(fit) << fit.error().what;
   EXPECT_NEAR(fit->contour.joints[0].element.kappa, 1.0 / row.values[1], 1e-9 / row.values[1]);
 }
@@ -144,7 +146,7 @@ TEST(WorksheetFigures, AtAVertexTwoArcsLeaveTheCurvatureThatBothRunsReach) {
     const double t = -1.2 + 0.3 * k;
     points.push_back({3.0 * std::cos(t), 2.0 * std::sin(t)});
   }
-  const auto fit = fit_construction(places(points), with(Construction::kArcs));
+  const auto fit = fit_construction(places(points), table_job(Construction::kArcs));
   ASSERT_TRUE(fit) << fit.error().what;
   const Contour& contour = fit->contour;
   ASSERT_EQ(contour.runs.size(), 2u);
@@ -170,7 +172,7 @@ TEST(WorksheetFigures, ErrorsOfAClosedContourDoNotDependOnItsFirstPoint) {
     const double t = 2.0 * kPi * static_cast<double>(i) / kPoints - 0.18;
     outline.push_back((0.48 + 1.29 * std::cos(t)) * unit_at(t));
   }
-  RegionJob job = with(Construction::kEllipses);
+  RegionJob job = table_job(Construction::kEllipses);
   job.job.closing = Closing::kClosed;
   const auto fit = fit_construction(places(outline), job);
   std::rotate(outline.begin(), outline.begin() + kTurned, outline.end());
@@ -191,8 +193,8 @@ TEST(WorksheetFigures, ErrorsOfAClosedContourDoNotDependOnItsFirstPoint) {
 }
 
 TEST(WorksheetFigures, OneClothoidHasNoSteps) {
-  const auto table =
-      region_table(places({{0.0, 0.0}, {1.0, 0.0}}, {-0.2, 0.5}), with(Construction::kClothoids));
+  const auto table = region_table(places({{0.0, 0.0}, {1.0, 0.0}}, {-0.2, 0.5}),
+                                  table_job(Construction::kClothoids));
   ASSERT_TRUE(table) << table.error().what;
   EXPECT_EQ(table->construction->remarks.front(),
             "common tangents; the curvature goes on at every point");
