@@ -749,9 +749,9 @@ void FoundChains::begin_another() {
 Result<SectionChain> FoundChains::chain(const Prepared& series, const Section& section,
                                         Watch& watch) {
   using Clock = std::chrono::steady_clock;
-  if (series.exact()) return chain_section(series, section, watch);  // quick, and asked once
-  Asked asked{section.first, section.last, series.split.smooth_loop, series.thin, series.points,
-              series.reach,  series.fixed};
+  Asked asked{section.first, section.last,  series.split.smooth_loop,
+              series.thin,   series.convex, series.prefer,
+              series.points, series.reach,  series.fixed};
   for (Found& one : found_) {
     if (!(one.asked == asked)) continue;
     spared_ += std::exchange(one.counts, false) ? one.seconds : 0.0;

@@ -23,8 +23,8 @@ struct SectionChain {
 [[nodiscard]] Result<SectionChain> chain_section(const Prepared& series, const Section& section,
                                                  Watch& watch);
 
-/// Chains of sections within tolerances that were found already: one search serves all that is made
-/// of its result, the G2 and the G3 contour, and carriers of one comparison. Not for two threads.
+/// Chains of sections that were found already: one search serves all that is made of its result,
+/// the G2 and the G3 contour, and carriers of one comparison. Not for two threads.
 class FoundChains {
  public:
   /// `chain_section`, unless the same was asked before.
@@ -39,7 +39,8 @@ class FoundChains {
  private:
   struct Asked {
     std::size_t first, last;
-    bool loop, thin;
+    bool loop, thin, convex;
+    Prefer prefer;
     std::vector<Vec2> points;
     std::vector<double> reach;
     std::vector<FixedData> fixed;
