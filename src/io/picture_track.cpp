@@ -6,6 +6,7 @@
 #include <numeric>
 
 #include "obvid/curve/contour_path.h"
+#include "obvid/curve/curvature_extent.h"
 
 namespace obvid {
 namespace {
@@ -25,9 +26,6 @@ constexpr double kStraightLineAngle = 1e-12;
 constexpr double kSameCurvature = 1e-7;
 constexpr double kLengthAccuracy = 1e-6;  // of a piece: far below a pixel
 constexpr int kBisections = 48;
-/// Each leaves two thirds of the bracket of an extremum: 1e-7 of it in the end, a square root of
-/// what rounding leaves of its height.
-constexpr int kThirds = 40;
 
 PictureSample sample_at(const Piece& piece, double t) {
   const Jet jet = evaluate(piece, t);
@@ -68,38 +66,16 @@ void sample_pieces(PictureTrack& track) {
   track.first.push_back(track.samples.size());
 }
 
-/// The longest tooth is that of the curve, not of the sample beside it: the largest curvature lies
-/// near the sample where it is largest, or, on a piece that nearly stops, near the slowest one.
+/// The longest tooth is that of the curve, not of the sample beside it.
 void refine_largest(PictureTrack& track) {
-  const auto smaller = [](const PictureSample& a, const PictureSample& b) {
-    return std::fabs(a.kappa) < std::fabs(b.kappa);
-  };
   for (std::size_t i = 0; i < track.pieces.size(); ++i) {
-    const auto first = track.samples.begin() + static_cast<std::ptrdiff_t>(track.first[i]);
-    const auto last = track.samples.begin() + static_cast<std::ptrdiff_t>(track.first[i + 1]) - 1;
-    const auto speed = [&](double t) { return norm(evaluate(track.pieces[i], t).d1); };
-    const auto kappa = [&](double t) { return std::fabs(sample_at(track.pieces[i], t).kappa); };
-    // walks to the place between the neighbours of a sample where `higher` says it is
-    const auto look = [&](auto at, const auto& higher) {
-      double low = (at == first ? at : at - 1)->t, high = (at == last ? at : at + 1)->t;
-      for (int k = 0; k < kThirds; ++k) {
-        const double a = low + (high - low) / 3.0, b = high - (high - low) / 3.0;
-        (higher(b, a) ? low : high) = higher(b, a) ? a : b;
-      }
-      track.largest_kappa = std::max(track.largest_kappa, kappa(0.5 * (low + high)));
-    };
-    const auto largest = std::max_element(first, last + 1, smaller);
-    // below a neighbour by half a step of the largest it may still be the largest in between
-    if (2.0 * std::fabs(largest->kappa) >= track.largest_kappa) {
-      look(largest, [&](double a, double b) { return kappa(a) > kappa(b); });
+    std::vector<double> at;
+    for (std::size_t k = track.first[i]; k < track.first[i + 1]; ++k) {
+      at.push_back(track.samples[k].t);
     }
-    const auto [slow, fast] = std::minmax_element(
-        first, last + 1,
-        [&](const PictureSample& a, const PictureSample& b) { return speed(a.t) < speed(b.t); });
-    constexpr double kNearlyStops = 0.25;  // of the largest speed
-    if (speed(slow->t) < kNearlyStops * speed(fast->t)) {
-      look(slow, [&](double a, double b) { return speed(a) < speed(b); });
-    }
+    const CurvatureExtent range = curvature_extent(track.pieces[i], at, track.largest_kappa);
+    track.largest_kappa =
+        std::max({track.largest_kappa, std::fabs(range.least), std::fabs(range.largest)});
   }
 }
 

@@ -8,6 +8,7 @@
 
 #include "obvid/certify/certify.h"
 #include "obvid/curve/contour_path.h"
+#include "obvid/curve/curvature_extent.h"
 #include "obvid/curve/runs.h"
 #include "obvid/geom/angle.h"
 #include "obvid/series/analysis.h"
@@ -190,14 +191,19 @@ class Auditor {
     out_.largest_kappa = -HUGE_VAL;
     path_.emplace(pieces);
     out_.length = path_->length();
+    std::vector<double> at;
+    for (int k = 0; k <= kPieceSamples; ++k) at.push_back(static_cast<double>(k) / kPieceSamples);
     for (std::size_t i = 0; i < pieces.size(); ++i) {
-      for (int k = 0; k <= kPieceSamples; ++k) {
-        const double t = static_cast<double>(k) / kPieceSamples;
-        const Element e = element_at(pieces[i], t);
-        samples_.push_back({i, t, path_->length_at(i, t), e.kappa});
-        out_.least_kappa = std::min(out_.least_kappa, e.kappa);
-        out_.largest_kappa = std::max(out_.largest_kappa, e.kappa);
+      for (const double t : at) {
+        const double kappa = element_at(pieces[i], t).kappa;
+        samples_.push_back({i, t, path_->length_at(i, t), kappa});
+        out_.least_kappa = std::min(out_.least_kappa, kappa);
+        out_.largest_kappa = std::max(out_.largest_kappa, kappa);
       }
+      const double known = std::max(-out_.least_kappa, out_.largest_kappa);
+      const CurvatureExtent range = curvature_extent(pieces[i], at, known);
+      out_.least_kappa = std::min(out_.least_kappa, range.least);
+      out_.largest_kappa = std::max(out_.largest_kappa, range.largest);
     }
     rounding_ =
         kRippleRounding * std::max(std::abs(out_.least_kappa), std::abs(out_.largest_kappa));
