@@ -124,7 +124,7 @@ void add_contours(CLI::App& app, RawSurface& raw) {
   app.add_option(
          "--corner-angle", raw.typed.corner_angle_deg,
          "Least turn of a corner, degrees; when it is given, coarse polygons have corners at all "
-         "points that turn by it [20, where points stand out from smooth neighbours]")
+                 "points that turn by it, else where points stand out from smooth neighbours [20]")
       ->type_name("DEG")
       ->group(group);
   app.add_flag("--no-corners", raw.typed.no_corners, "Search no corners")->group(group);

@@ -26,7 +26,8 @@ std::string radius_text(double kappa) {
   constexpr double kPlainTo = 1e5;  // beyond, whole numbers would say more digits than are known
   if (kappa == 0.0) return "straight";
   const double radius = 1.0 / kappa;
-  return std::abs(radius) < kPlainTo ? significant(radius) : fmt::format("{:.4e}", radius);
+  const bool large = std::isfinite(radius) && std::abs(radius) >= kPlainTo;
+  return large ? fmt::format("{:.4e}", radius) : significant(radius);
 }
 
 const char* direction_text(int direction) {

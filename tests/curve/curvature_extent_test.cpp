@@ -16,7 +16,7 @@ std::vector<double> steps(int n) {
 }
 
 // y = c x^2 from x = -before to x = after: its curvature is 2 c at x = 0, and less elsewhere.
-Piece parabola(double c, double before, double after) {
+Piece dish(double c, double before, double after) {
   RationalBezier b;
   b.degree = 2;
   b.offset[0] = {-before, c * before * before};
@@ -29,9 +29,9 @@ Piece parabola(double c, double before, double after) {
 TEST(CurvatureExtent, FindsThePeakOfAParabolaBetweenParameters) {
   for (const double c : {0.5, 30.0, 1000.0}) {
     for (const double before : {0.3, 0.77, 1.9}) {
-      const CurvatureExtent up = curvature_extent(parabola(c, before, 1.0), steps(8));
+      const CurvatureExtent up = curvature_extent(dish(c, before, 1.0), steps(8));
       EXPECT_NEAR(up.largest, 2.0 * c, 1e-8 * c);
-      const CurvatureExtent down = curvature_extent(parabola(-c, before, 1.0), steps(8));
+      const CurvatureExtent down = curvature_extent(dish(-c, before, 1.0), steps(8));
       EXPECT_NEAR(down.least, -2.0 * c, 1e-8 * c);
       EXPECT_LE(down.largest, 0.0);
       EXPECT_GE(up.least, 0.0);
