@@ -36,4 +36,9 @@ namespace obvid {
 /// An error of CLI11 in the words of this program.
 [[nodiscard]] Error from_cli(const CLI::ParseError& error, const std::string& name);
 
+/// Of `--corner-angle`, wherever points become contours.
+inline constexpr const char* kCornerAngleHelp =
+    "Least turn of a corner, degrees; when it is given, coarse polygons have corners at all points "
+    "that turn by it, else where points stand out from smooth neighbours [20]";
+
 }  // namespace obvid

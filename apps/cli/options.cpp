@@ -108,10 +108,7 @@ void add_real_points(CLI::App& fit, Raw& raw) {
       ->group(group);
   fit.add_flag("--open", raw.typed.open, "It does not, even if the last point is the first again")
       ->group(group);
-  fit.add_option(
-         "--corner-angle", raw.typed.corner_angle_deg,
-         "Least turn of a corner, degrees; when it is given, coarse polygons have corners at all "
-                 "points that turn by it, else where points stand out from smooth neighbours [20]")
+  fit.add_option("--corner-angle", raw.typed.corner_angle_deg, kCornerAngleHelp)
       ->type_name("DEG")
       ->group(group);
   fit.add_flag("--no-corners", raw.typed.no_corners,

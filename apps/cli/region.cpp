@@ -173,8 +173,7 @@ std::string region_part_text(const PointSeries& series, const RegionPart& part) 
   });
   if (open) {
     out +=
-        "*              nothing ends the range there: told up to a right angle from the chord at "
-        "an "
+        "*              nothing ends the range there: told up to a right angle from the chord at an "
         "end of the series, up to half a turn between points elsewhere\n";
   }
   return out;

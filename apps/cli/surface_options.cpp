@@ -121,10 +121,7 @@ void add_contours(CLI::App& app, RawSurface& raw) {
   app.add_flag("--closed", raw.typed.closed, "Contours return to their first points")->group(group);
   app.add_flag("--open", raw.typed.open, "They do not, even if the last point is the first again")
       ->group(group);
-  app.add_option(
-         "--corner-angle", raw.typed.corner_angle_deg,
-         "Least turn of a corner, degrees; when it is given, coarse polygons have corners at all "
-                 "points that turn by it, else where points stand out from smooth neighbours [20]")
+  app.add_option("--corner-angle", raw.typed.corner_angle_deg, kCornerAngleHelp)
       ->type_name("DEG")
       ->group(group);
   app.add_flag("--no-corners", raw.typed.no_corners, "Search no corners")->group(group);

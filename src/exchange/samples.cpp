@@ -154,7 +154,8 @@ Result<std::vector<CurveSample>> sample(std::span<const Piece> pieces,
                       path.length() / static_cast<double>(*options.count - 1));
   }
   if (options.step) {
-    const double count = std::ceil(path.length() / *options.step * (1.0 - 1e-12)) + 1.0;
+    constexpr double kRounding = 1e-12;  // of the length: a whole number of steps stays one
+    const double count = std::ceil(path.length() / *options.step * (1.0 - kRounding)) + 1.0;
     if (!(*options.step > 0.0) || !(count <= static_cast<double>(kMostSamples))) {
       return fail(bad("the step must be positive, and not for more than ten million samples",
                       *options.step));

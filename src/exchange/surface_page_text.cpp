@@ -117,8 +117,8 @@ std::string readable(double value, int digits) {
 
 std::string size_text(Vec3 size, const std::string& units) {
   constexpr int kDigits = 4;
-  // what is this much smaller than the whole is rounding
-  const double nothing = 1e-9 * norm(size);
+  constexpr double kUnseenSize = 1e-9;  // of the whole: what is smaller is rounding
+  const double nothing = kUnseenSize * norm(size);
   const auto edge = [&](double a) { return readable(a > nothing ? a : 0.0, kDigits); };
   return edge(size.x) + " × " + edge(size.y) + " × " + edge(size.z) + " " + units;
 }

@@ -175,9 +175,10 @@ class SvgDrawer {
       const Vec2 p = evaluate(piece, from + part * (to - from)).point;
       double t = part;
       constexpr int kSteps = 6;
+      constexpr double kNoSpeed = 1e-300;  // units^2: the curve stands still there
       for (int step = 0; step < kSteps; ++step) {
         const Vec2 d = slope(cubic, t);
-        t = std::clamp(t + dot(p - at(cubic, t), d) / std::max(dot(d, d), 1e-300), 0.0, 1.0);
+        t = std::clamp(t + dot(p - at(cubic, t), d) / std::max(dot(d, d), kNoSpeed), 0.0, 1.0);
       }
       most = std::max(most, norm(at(cubic, t) - p));
     }

@@ -255,8 +255,7 @@ class Preparation {
       out_.warnings.push_back(fmt::format(
           "the last point lies within its tolerance of the first one: the contour is closed, and "
           "both became one at {:.9g}, {:.9g}, up to {:.4g} from them, where moves are counted "
-          "from; "
-          "--open keeps both",
+          "from; --open keeps both",
           joined.point.x, joined.point.y, away));
     }
     if (auto done = add_fixed(fixed_.front(), fixed_.back(), 0); !done) {

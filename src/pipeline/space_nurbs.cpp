@@ -167,7 +167,8 @@ double distance_bound(const SpaceShape& shape, const SpaceCurve& cubic, double b
     const double bend = std::hypot(std::max(std::abs(a.plan), std::abs(b.plan)),
                                    std::max(std::abs(a.unrolled), std::abs(b.unrolled))) +
                         std::max(norm(evaluate(cubic, from).d2), second_before(cubic, to, from));
-    const double wanted = std::sqrt(8.0 * between / std::max(bend, 1e-300));
+    constexpr double kNoBend = 1e-300;  // 1/unit: straight
+    const double wanted = std::sqrt(8.0 * between / std::max(bend, kNoBend));
     const double steps = std::clamp(std::ceil(width / wanted), 2.0, 1e6);
     const double step = width / steps;
     double here = 0.0;

@@ -42,8 +42,9 @@ double printable(double tolerance) {
   if (!(tolerance > 0.0) || !std::isfinite(tolerance)) return tolerance;
   constexpr double kStep = 0.01;  // of the first digit
   const double unit = kStep * std::pow(10.0, std::floor(std::log10(tolerance)));
+  constexpr double kRounding = 1e-9;  // of a step: a tolerance of three digits stays what it is
   // through text, so that the double is the one that the printed digits mean
-  const std::string text = fmt::format("{:.2e}", std::ceil(tolerance / unit - 1e-9) * unit);
+  const std::string text = fmt::format("{:.2e}", std::ceil(tolerance / unit - kRounding) * unit);
   return std::strtod(text.c_str(), nullptr);
 }
 

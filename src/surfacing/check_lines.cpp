@@ -90,7 +90,8 @@ LineReport check_lines(const NurbsSurface& surface, std::size_t lines) {
         range.at(lines > 1 ? static_cast<double>(j) / static_cast<double>(lines - 1) : 0.5);
     const std::vector<double> values = curvatures(isocurve_at_v(surface, v));
     if (values.empty()) continue;
-    double largest = 1.0 / std::max(size, 1e-300);  // flatter than the model is large: straight
+    constexpr double kNoSize = 1e-300;               // units: below it nothing can be divided by
+    double largest = 1.0 / std::max(size, kNoSize);  // flatter than the model is large: straight
     for (const double value : values) largest = std::max(largest, std::abs(value));
     const std::size_t vertices = extrema(values, kCurvatureRounding * largest);
     ++report.lines;

@@ -82,8 +82,9 @@ class Halving {
   Halving(const std::vector<SectionCurve>& sections, const std::vector<double>& marks,
           const BreakGoals& goals)
       : sections_(sections), marks_(marks), goals_(goals) {
+    constexpr double kNoLength = 1e-300;  // units: below it nothing can be divided by
     for (const SectionCurve& section : sections) {
-      size_.push_back(section.is_point() ? 1.0 : std::max(section.length_at(1.0).s, 1e-300));
+      size_.push_back(section.is_point() ? 1.0 : std::max(section.length_at(1.0).s, kNoLength));
     }
   }
 

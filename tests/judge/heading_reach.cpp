@@ -3,14 +3,15 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <utility>
 #include <vector>
+
+#include "region.h"
 
 namespace judge {
 namespace {
 
-constexpr Real kStraightAngle = std::numbers::pi_v<Real>, kQuarterTurn = 0.5L * kStraightAngle;
+constexpr Real kQuarterTurn = 0.5L * kStraightAngle;
 /// Headings looked at of each point: towards both ends of its range ever closer together, down to
 /// 1e-7 of it.
 constexpr int kHeadingsToEachEnd = 48;

@@ -139,7 +139,8 @@ Plane turned_up(const gp_Pnt& origin, gp_Dir normal) {
   Plane plane;
   plane.origin = origin;
   gp_Dir along = candidates[main];
-  if (along.IsParallel(normal, 1e-3)) along = candidates[(main + 1) % 3];
+  constexpr double kNearlyParallel = 1e-3;  // rad
+  if (along.IsParallel(normal, kNearlyParallel)) along = candidates[(main + 1) % 3];
   plane.y = normal.Crossed(along).Crossed(normal);
   plane.x = plane.y.Crossed(normal);
   return plane;
