@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 import { render } from "preact";
+import "./look/look.css";
 import "./studio.css";
 import { LocalEngine } from "./engine/local";
 import { embedded, WasmEngine } from "./engine/wasm";
