@@ -84,6 +84,12 @@ std::vector<double> coordinates(const json& points) {
   return out;
 }
 
+/// A text of the request; what is no text counts as left out.
+std::string text_in(const json& request, const char* key, const char* otherwise) {
+  const auto found = request.find(key);
+  return found != request.end() && found->is_string() ? found->get<std::string>() : otherwise;
+}
+
 Held<obvid_input> input_of(const json& request, obvid_error** error) {
   obvid_input* input = nullptr;
   if (request.contains("points") && request["points"].is_array()) {
@@ -91,7 +97,7 @@ Held<obvid_input> input_of(const json& request, obvid_error** error) {
     obvid_points(xy.data(), xy.size() / 2, &input, error);
   } else if (request.contains("text") && request["text"].is_string()) {
     const auto& text = request["text"].get_ref<const std::string&>();
-    const std::string name = request.value("name", "text");
+    const std::string name = text_in(request, "name", "text");
     obvid_read_text(text.data(), text.size(), name.c_str(), &input, error);
   } else {
     obvid_points(nullptr, 0, &input, error);
@@ -172,6 +178,12 @@ std::string file_of(const obvid_contour& contour, const char* format, json& rema
   return first;
 }
 
+int samples_of(const json& request) {
+  const auto found = request.find("samples");
+  if (found == request.end() || !found->is_number()) return kSamplesOfPiece;
+  return static_cast<int>(std::clamp<double>(found->get<double>(), 2, kMostSamplesOfPiece));
+}
+
 json fit_of(const json& request, const std::function<bool()>& cancelled) {
   json out;
   Call call(cancelled);
@@ -185,11 +197,9 @@ json fit_of(const json& request, const std::function<bool()>& cancelled) {
   }
   call.put_into(out);
   if (!contour) return out;
-  const json& samples = request.value("samples", json(kSamplesOfPiece));
-  const int asked = samples.is_number() ? samples.get<int>() : kSamplesOfPiece;
-  out["curve"] = curve_of(*contour, std::clamp(asked, 2, kMostSamplesOfPiece));
-  const json file = request.value("file", json(true));
-  if (!file.is_boolean() || file.get<bool>()) {
+  out["curve"] = curve_of(*contour, samples_of(request));
+  const auto file = request.find("file");
+  if (file == request.end() || *file != false) {
     std::vector<json> files;
     json remarks = json::array(), ignored;
     out["contour"] = file_of(*contour, "json", remarks, files, ignored, "");
@@ -218,15 +228,30 @@ json report_of(Job job, const json& request, const std::function<bool()>& cancel
 
 /// The contour of a contour file that the request holds.
 Held<obvid_contour> stored_of(const json& request, obvid_error** error) {
-  const auto found = request.find("contour");
-  const std::string text = found != request.end() && found->is_string() ? *found : json("");
+  const std::string text = text_in(request, "contour", "");
   obvid_input* input = nullptr;
   obvid_contour* contour = nullptr;
-  if (obvid_read_text(text.data(), text.size(), "contour.json", &input, error) == 0) {
+  const std::string name = text_in(request, "name", "contour.json");
+  if (obvid_read_text(text.data(), text.size(), name.c_str(), &input, error) == 0) {
     obvid_stored(input, nullptr, nullptr, &contour, error);
     obvid_input_free(input);
   }
   return Held<obvid_contour>(contour);
+}
+
+json drawn_of(const json& request, const std::function<bool()>& cancelled) {
+  json out;
+  Call call(cancelled);
+  const Held<obvid_input> input = input_of(request, call.error());
+  Held<obvid_contour> contour;
+  if (input) {
+    obvid_contour* made = nullptr;
+    obvid_stored(input.get(), options_of(request).c_str(), call.run(), &made, call.error());
+    contour.reset(made);
+  }
+  call.put_into(out);
+  if (contour) out["curve"] = curve_of(*contour, samples_of(request));
+  return out;
 }
 
 json verified(const json& request, const std::function<bool()>& cancelled) {
@@ -247,10 +272,8 @@ json exported(const json& request) {
   if (!contour) return out;
   std::vector<json> files;
   json remarks = json::array();
-  const json format = request.value("format", json("json"));
-  if (!format.is_string()) return {{"error", usage("the format is no text")}};
-  file_of(*contour, format.get_ref<const std::string&>().c_str(), remarks, files, out["error"],
-          options_of(request));
+  const std::string format = text_in(request, "format", "json");
+  file_of(*contour, format.c_str(), remarks, files, out["error"], options_of(request));
   out["files"] = files;
   out["remarks"] = remarks;
   return out;
@@ -261,6 +284,7 @@ json answered(std::string_view kind, const std::string& text,
   const json request = json::parse(text, nullptr, false);
   if (!request.is_object()) return {{"error", usage("the request is no JSON object")}};
   if (kind == "fit") return fit_of(request, cancelled);
+  if (kind == "drawn") return drawn_of(request, cancelled);
   if (kind == "verify") return verified(request, cancelled);
   if (kind == "export") return exported(request);
   struct Named {

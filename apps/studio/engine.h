@@ -15,6 +15,7 @@ namespace obvid::studio {
 ///   series    `report`: the points and what is given at them
 ///   fit       `report`, `contour` (text of the contour file; not where `file` is false), `curve`: `samples` places of every
 ///             piece with t, x, y, heading (rad), kappa (1/unit), slope (1/unit^2); `warnings`
+///   drawn     `curve`: of a contour file or of a drawing, as it stands there
 ///   region, analyse, compare, suggest, why_not    `report`
 ///   verify    `report`; the request holds `contour`
 ///   export    `files` ([{suffix, text}]), `remarks`; the request holds `contour` and `format`

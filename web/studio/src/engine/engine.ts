@@ -129,7 +129,7 @@ export interface ExportAnswer {
 }
 
 export type Kind =
-  | "series" | "fit" | "region" | "analyse" | "compare" | "suggest" | "why_not" | "verify"
+  | "series" | "fit" | "drawn" | "region" | "analyse" | "compare" | "suggest" | "why_not" | "verify"
   | "export";
 
 export interface Engine {
