@@ -155,27 +155,22 @@ json curve_of(const obvid_contour& contour, int asked) {
           {"closed", obvid_contour_closed(&contour) != 0}};
 }
 
-std::string file_of(const obvid_contour& contour, const char* format, json& remarks,
-                    std::vector<json>& files, json& error, const std::string& options) {
-  obvid_files* made = nullptr;
-  obvid_error* failed = nullptr;
-  obvid_export(&contour, format, options.empty() ? nullptr : options.c_str(), &made, &failed);
+/// What a call made, into `files` and `remarks` of the answer.
+void put_files(obvid_files* made, json& out) {
   const Held<obvid_files> held(made);
-  const Held<obvid_error> held_error(failed);
-  if (failed != nullptr) error = told(*failed);
-  std::string first;
+  out["files"] = json::array();
+  out["remarks"] = json::array();
   for (std::size_t i = 0; made != nullptr && i < obvid_files_count(made); ++i) {
     std::size_t size = 0;
     const char* data = obvid_files_data(made, i, &size);
-    if (i == 0) first.assign(data, size);
-    files.push_back({{"suffix", obvid_files_suffix(made, i)}, {"text", std::string(data, size)}});
+    out["files"].push_back(
+        {{"suffix", obvid_files_suffix(made, i)}, {"text", std::string(data, size)}});
   }
   for (std::size_t i = 0; made != nullptr; ++i) {
     const char* remark = obvid_files_remark(made, i);
     if (remark == nullptr) break;
-    remarks.push_back(remark);
+    out["remarks"].push_back(remark);
   }
-  return first;
 }
 
 int samples_of(const json& request) {
@@ -200,9 +195,13 @@ json fit_of(const json& request, const std::function<bool()>& cancelled) {
   out["curve"] = curve_of(*contour, samples_of(request));
   const auto file = request.find("file");
   if (file == request.end() || *file != false) {
-    std::vector<json> files;
-    json remarks = json::array(), ignored;
-    out["contour"] = file_of(*contour, "json", remarks, files, ignored, "");
+    obvid_files* made = nullptr;
+    obvid_error* failed = nullptr;
+    json files;
+    obvid_export(contour.get(), "json", nullptr, &made, &failed);
+    put_files(made, files);
+    const Held<obvid_error> held(failed);
+    if (failed == nullptr) out["contour"] = files["files"][0]["text"];
   }
   out["warnings"] = json::array();
   for (std::size_t i = 0;; ++i) {
@@ -210,6 +209,20 @@ json fit_of(const json& request, const std::function<bool()>& cancelled) {
     if (warning == nullptr) break;
     out["warnings"].push_back(warning);
   }
+  return out;
+}
+
+json worksheet_of(const json& request, const std::function<bool()>& cancelled) {
+  json out;
+  Call call(cancelled);
+  const Held<obvid_input> input = input_of(request, call.error());
+  obvid_files* made = nullptr;
+  if (input) {
+    obvid_worksheet(input.get(), options_of(request).c_str(),
+                    text_in(request, "format", "csv").c_str(), call.run(), &made, call.error());
+  }
+  call.put_into(out);
+  put_files(made, out);
   return out;
 }
 
@@ -263,19 +276,17 @@ json verified(const json& request, const std::function<bool()>& cancelled) {
   return out;
 }
 
-json exported(const json& request) {
+json exported(const json& request, const std::function<bool()>& cancelled) {
   json out;
-  obvid_error* failed = nullptr;
-  const Held<obvid_contour> contour = stored_of(request, &failed);
-  const Held<obvid_error> held(failed);
-  out["error"] = failed != nullptr ? told(*failed) : json(nullptr);
-  if (!contour) return out;
-  std::vector<json> files;
-  json remarks = json::array();
-  const std::string format = text_in(request, "format", "json");
-  file_of(*contour, format.c_str(), remarks, files, out["error"], options_of(request));
-  out["files"] = files;
-  out["remarks"] = remarks;
+  Call call(cancelled);
+  const Held<obvid_contour> contour = stored_of(request, call.error());
+  obvid_files* made = nullptr;
+  if (contour) {
+    obvid_export(contour.get(), text_in(request, "format", "json").c_str(),
+                 options_of(request).c_str(), &made, call.error());
+  }
+  call.put_into(out);
+  put_files(made, out);
   return out;
 }
 
@@ -286,7 +297,8 @@ json answered(std::string_view kind, const std::string& text,
   if (kind == "fit") return fit_of(request, cancelled);
   if (kind == "drawn") return drawn_of(request, cancelled);
   if (kind == "verify") return verified(request, cancelled);
-  if (kind == "export") return exported(request);
+  if (kind == "export") return exported(request, cancelled);
+  if (kind == "worksheet") return worksheet_of(request, cancelled);
   struct Named {
     std::string_view kind;
     Job job;

@@ -18,6 +18,7 @@ namespace obvid::studio {
 ///   drawn     `curve`: of a contour file or of a drawing, as it stands there
 ///   region, analyse, compare, suggest, why_not    `report`
 ///   verify    `report`; the request holds `contour`
+///   worksheet `files`, `remarks`: the tables and drawings of region; the request holds `format`
 ///   export    `files` ([{suffix, text}]), `remarks`; the request holds `contour` and `format`
 /// `error` is null or {code, category, message, where, advice, points}; `fit` may have both a
 /// contour and an error: it was formed and does not keep its promise.

@@ -120,6 +120,9 @@ OBVID_API int obvid_analyse(const obvid_input* input, const char* options, const
  * table of that construction. */
 OBVID_API int obvid_region(const obvid_input* input, const char* options, const obvid_run* run,
                            char** report, obvid_error** error);
+/* The tables and drawings of obvid_region as a file: "csv", "tex", "json", "svg" or "dxf". */
+OBVID_API int obvid_worksheet(const obvid_input* input, const char* options, const char* ending,
+                              const obvid_run* run, obvid_files** files, obvid_error** error);
 /* All curve families side by side. */
 OBVID_API int obvid_compare(const obvid_input* input, const char* options, const obvid_run* run,
                             char** report, obvid_error** error);

@@ -124,6 +124,12 @@ def says_what_the_program_says(studio):
                                                      timeless(text).split("\n")) if a != b), "lengths")
                 check(f"export {name}: the bytes of the command line",
                       timeless(ours.get(name, "")) == timeless(text), where)
+        for ending in ("tex", "csv", "svg", "dxf"):
+            target = Path(folder) / f"sheet.{ending}"
+            program("region", FILE, "-o", target)
+            made = studio.job("worksheet", {"text": FILE.read_text(), "name": FILE.name, "format": ending})
+            check(f"worksheet {ending}", [one["text"] for one in made["files"]] == [target.read_bytes().decode()],
+                  made["error"])
     for kind, command in (("region", "region"), ("compare", "compare"), ("analyse", "analyse")):
         ours = studio.job(kind, {"text": FILE.read_text(), "name": "series10.csv"})
         told = json.loads(program(command, FILE, "--json"))
