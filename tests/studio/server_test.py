@@ -18,7 +18,7 @@ PROGRAM, ROOT = sys.argv[1], Path(sys.argv[2])
 FILE = ROOT / "examples/series10.csv"
 MALFORMED = 10_000
 # what the page offers
-FORMATS = re.search(r"FORMATS = (\[.*?\])", (ROOT / "web/studio/src/view/app.tsx").read_text()).group(1)
+FORMATS = re.search(r"FORMATS = (\[.*?\])", (ROOT / "web/studio/src/view/preview.tsx").read_text()).group(1)
 FORMATS = json.loads(FORMATS)
 failures = []
 
