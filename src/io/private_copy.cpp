@@ -3,10 +3,9 @@
 
 #include <stdlib.h>  // mkdtemp
 
+#include <fstream>
 #include <system_error>
 #include <utility>
-
-#include "obvid/io/atomic_file.h"
 
 namespace obvid {
 
@@ -21,7 +20,11 @@ Result<PrivateCopy> PrivateCopy::of(std::string_view text, const std::string& na
   std::string called = std::filesystem::path(name).filename().string();
   if (called.empty() || called == "." || called == "..") called = "text";
   PrivateCopy out(folder, std::move(called));
-  if (auto done = write_file(out.path(), text); !done) return fail(done.error());
+  std::ofstream file(out.path(), std::ios::binary);
+  if (!file.write(text.data(), static_cast<std::streamsize>(text.size())).flush()) {
+    return fail({ErrorCode::kWriteFailed, "a file in between could not be written", folder,
+                 "set TMPDIR to a folder with more room"});
+  }
   return out;
 }
 

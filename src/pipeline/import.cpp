@@ -73,6 +73,7 @@ bool is_cad(FileKind kind) {
 
 /// The helper of the CAD kernel reads files alone; errors name what the user named.
 Result<Drawing> cad_of_text(const std::string& text, const std::string& name) {
+  if (auto there = check_cad(); !there) return fail(there.error());
   const auto file = PrivateCopy::of(text, name);
   if (!file) return fail(file.error());
   auto drawing = read_cad(file->path());

@@ -122,24 +122,29 @@ export function removePoint(index: number): void {
 
 const MOST_PLACES = 4000; // drawn of a contour
 
+/** Milliseconds after which work goes on beside a newer piece of its kind; the engine ends it then. */
+const PATIENCE = 400;
+
 /** Does a piece of work for the document as it is: one at a time, and once more when it changed. */
 function follower(work: () => Promise<void>): () => void {
-  let busy = false, again = false;
-  const follow = (): void => {
-    if (busy) {
-      again = true;
-      return;
-    }
-    busy = true;
+  let running: number | null = null, count = 0, again = false, begun = 0, late: ReturnType<typeof setTimeout> | undefined;
+  const start = (): void => {
+    again = false;
+    clearTimeout(late);
+    late = undefined;
+    begun = performance.now();
+    const mine = running = ++count;
     void work().finally(() => {
-      busy = false;
-      if (again) {
-        again = false;
-        follow();
-      }
+      if (mine !== running) return; // a newer one took its place
+      running = null;
+      if (again) start();
     });
   };
-  return follow;
+  return () => {
+    if (running === null) return start();
+    again = true;
+    late ??= setTimeout(() => { late = undefined; if (again && running !== null) start(); }, Math.max(0, PATIENCE - (performance.now() - begun)));
+  };
 }
 
 const followContour = follower(form);
