@@ -123,7 +123,7 @@ export function removePoint(index: number): void {
 const MOST_PLACES = 4000; // drawn of a contour
 
 /** Milliseconds after which work goes on beside a newer piece of its kind; the engine ends it then. */
-const PATIENCE = 400;
+const PATIENCE = 3000;
 
 /** Does a piece of work for the document as it is: one at a time, and once more when it changed. */
 function follower(work: () => Promise<void>): () => void {
