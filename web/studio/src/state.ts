@@ -3,7 +3,7 @@
 
 import { batch, computed, signal } from "@preact/signals";
 import {
-  documentOf, jobOptions, SERIES10, withGiven, withInserted, withOptions, withoutPoint, withPoint,
+  documentIn, documentOf, jobOptions, SERIES10, withGiven, withInserted, withOptions, withoutPoint, withPoint,
   type Document, type Given, type Options, type Vec,
 } from "./document/document";
 import { begun, did, redone, undone } from "./document/history";
@@ -213,6 +213,12 @@ function givenIn(g: SeriesReport["given"][number]): Given {
 
 /** Reads a file of points or a drawing. */
 export async function open(name: string, text: string): Promise<void> {
+  const saved = documentIn(text);
+  if (saved) {
+    selected.value = null;
+    message.value = null;
+    return change({ ...saved, name });
+  }
   const answer = await engine.call<Answer<SeriesReport>>("series", { text, name });
   if (!answer.report) {
     message.value = answer.error ? `${answer.error.message} (${answer.error.where}); ${answer.error.advice}` : null;
