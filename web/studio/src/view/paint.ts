@@ -4,6 +4,7 @@
 import type { Document, Vec } from "../document/document";
 import type { Curve, EngineError, RegionPoint } from "../engine/engine";
 import type { Shown } from "../state";
+import type { Adjacent } from "./adjacent";
 import { gridStep, toScreen, type Camera } from "./camera";
 import { marks, usualSize, values } from "./comb";
 import { magnified } from "./region";
@@ -29,6 +30,10 @@ export interface Scene {
   readonly hovered: number | null;
   readonly shown: Shown;
   readonly combHeight: number;
+  /** Every how manyth place has a tooth. */
+  readonly combEvery: number;
+  /** Of the point under the cursor. */
+  readonly adjacent: Adjacent | null;
   readonly region: RegionPoint | null;
   /** Whether the region is of the document as it was a moment ago. */
   readonly stale: boolean;
@@ -84,6 +89,7 @@ export function paint(canvas: HTMLCanvasElement, scene: Scene): void {
     contour(context, scene, scene.curve);
     if (!scene.grey) signs(context, scene, scene.curve);
   }
+  if (scene.adjacent) neighbours(context, scene, scene.adjacent);
   ranges(context, scene);
   bends(context, scene);
   handles(context, scene);
@@ -123,6 +129,26 @@ function shade(c: CanvasRenderingContext2D, s: Scene, curve: Curve): void {
   }
 }
 
+/** The circle through a point and its neighbours, dashed, and the limiting arcs beside it. */
+function neighbours(c: CanvasRenderingContext2D, s: Scene, { circle, arcs }: Adjacent): void {
+  const draw = (points: readonly Vec[]) => {
+    c.beginPath();
+    points.forEach((p, i) => {
+      const [x, y] = toScreen(s.camera, p);
+      if (i === 0) c.moveTo(x, y); else c.lineTo(x, y);
+    });
+    c.stroke();
+  };
+  c.strokeStyle = colour("faint");
+  c.lineWidth = 1;
+  c.setLineDash([6, 4]);
+  draw(circle);
+  c.setLineDash([]);
+  c.strokeStyle = colour("accent");
+  c.lineWidth = 1.2;
+  arcs.forEach(draw);
+}
+
 /** How far each point may move. */
 function discs(c: CanvasRenderingContext2D, s: Scene): void {
   const radius = s.noise * s.camera.scale;
@@ -153,6 +179,7 @@ function comb(c: CanvasRenderingContext2D, s: Scene, curve: Curve, high: number)
     const tooth = Math.max(-most, Math.min(most, -scale * all[i]!));
     const tip: Vec = [p[0] - tooth * Math.sin(heading), p[1] - tooth * Math.cos(heading)];
     tips.push(tip);
+    if (i % s.combEvery !== 0) continue;
     c.moveTo(p[0], p[1]);
     c.lineTo(tip[0], tip[1]);
   }
@@ -259,7 +286,7 @@ export function headingAt(doc: Document, index: number, curve: Curve | null): nu
 /** Curvature at a point: as given, else of the contour. */
 export function kappaAt(doc: Document, index: number, curve: Curve | null): number | null {
   const given = doc.given[index]?.radius;
-  if (given !== undefined) return 1 / given;
+  if (typeof given === "number") return 1 / given;
   const i = sampleAt(doc, index, curve);
   return i === null ? null : curve!.kappa[i]!;
 }
@@ -355,6 +382,13 @@ function handles(c: CanvasRenderingContext2D, s: Scene): void {
     c.lineWidth = 1.6;
     c.beginPath();
     const r = few ? HANDLE : 3;
+    if (given.heading !== undefined && !given.corner) { // a whisker along the heading that is given
+      const range = given.heading, turn = (Math.PI / 180) * (typeof range === "number" ? range : 0.5 * ((range[0] ?? 0) + (range[1] ?? 0)));
+      c.moveTo(x - 2.2 * r * Math.cos(turn), y + 2.2 * r * Math.sin(turn));
+      c.lineTo(x + 2.2 * r * Math.cos(turn), y - 2.2 * r * Math.sin(turn));
+      c.stroke();
+      c.beginPath();
+    }
     if (given.corner) { c.moveTo(x, y - r - 1); c.lineTo(x + r, y + r); c.lineTo(x - r, y + r); c.closePath(); } else if (given.radius !== undefined) c.rect(x - r, y - r, 2 * r, 2 * r);
     else c.arc(x, y, r, 0, 2 * Math.PI);
     c.fill();
