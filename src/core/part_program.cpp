@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "obvid/core/part_program.h"
+#include "obvid/core/internal/part_program.h"
 
 #include <link.h>
 #include <sys/stat.h>

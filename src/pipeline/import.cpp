@@ -17,9 +17,9 @@
 #include "obvid/exchange/svg_read.h"
 #include "obvid/io/contour_json.h"
 #include "obvid/io/file_kind.h"
+#include "obvid/io/internal/private_copy.h"
 #include "obvid/io/read_file.h"
 #include "obvid/io/read_points.h"
-#include "obvid/io/private_copy.h"
 
 namespace obvid {
 namespace {

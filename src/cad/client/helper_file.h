@@ -5,7 +5,7 @@
 #include <string_view>
 #include <vector>
 
-#include "obvid/core/part_program.h"
+#include "obvid/core/internal/part_program.h"
 #include "obvid/core/result.h"
 
 namespace obvid::cad {
