@@ -17,7 +17,7 @@ from studio import Studio, series10
 PROGRAM, ROOT = sys.argv[1], Path(sys.argv[2])
 PICTURES = Path(sys.argv[4]) if sys.argv[3] == "--pictures" else None
 AXE = Path(sys.argv[3])
-FILE = ROOT / "examples/series10.csv"
+FILE, AIRFOIL = ROOT / "examples/series10.csv", "tests/data/airfoils/ag12.dat"
 DRAGS, OPERATIONS = 200, 1000
 failures = []
 
@@ -359,6 +359,73 @@ def explained(page):
         page.click_on("#language")
 
 
+def by_the_keyboard(page):
+    """Tab reaches every control, one after another."""
+    page.click_on("#tab-segments")
+    wanted = page.run("[...document.querySelectorAll('button, select, input, canvas#drawing, #plot')].filter((e) => !e.disabled"
+                      " && e.offsetParent !== null).map((e) => e.id)")
+    check("controls have names", all(wanted) and len(set(wanted)) == len(wanted), wanted)
+    page.run("document.activeElement.blur(); window.getSelection().removeAllRanges(); document.body.focus()")
+    seen = []
+    for _ in range(len(wanted) + 30):  # the drawing takes a Tab for each point
+        page.key("Tab")
+        seen.append(page.run("document.activeElement.id"))
+    check("reached by the keyboard", not set(wanted) - set(seen), set(wanted) - set(seen))
+    page.run("document.querySelector('#theme').focus()")
+    theme = page.run("document.documentElement.dataset.theme")
+    page.key("Enter")
+    check("and used", page.run("document.documentElement.dataset.theme") != theme)
+    page.key("Enter")
+    page.key("Escape")
+
+
+def by_fingers(page):
+    """Two fingers zoom the drawing about the place between them and drag no point."""
+    before, points_before = page.point(4), page.doc()["points"]
+    far = math.dist(page.point(4), page.point(9))
+    x, y = page.point(5)
+
+    def touch(kind, *at):
+        page.call("Input.dispatchTouchEvent", type=kind, touchPoints=[{"x": px, "y": py, "id": i} for i, (px, py) in enumerate(at)])
+    touch("touchStart", (x, y))
+    touch("touchStart", (x, y), (x + 80, y))
+    for k in range(1, 9):
+        touch("touchMove", (x - 5 * k, y), (x + 80 + 5 * k, y))
+    touch("touchEnd")
+    check("two fingers zoom", 1.6 < math.dist(page.point(4), page.point(9)) / far < 2.4, math.dist(page.point(4), page.point(9)) / far)
+    check("no point was moved", page.doc()["points"] == points_before, before)
+    page.click_on("#fit")
+    page.settled()
+
+
+def documents(page):
+    """The document as a file: points, what is given, options; it comes back as it was."""
+    page.click(*page.point(4))
+    page.write("#heading", "40..80")
+    page.choose("#prefer", "centre")
+    page.write("#noise", "rounding")
+    page.choose("#carrier", "conics")
+    page.settled()
+    wanted = page.doc()
+    page.choose("#save", "job.json")
+    page.wait("document.querySelector('#preview pre')")
+    text = page.run("document.querySelector('#preview pre').textContent")
+    page.click_on("#preview-close")
+    for _ in range(4):
+        page.click_on("#undo")
+    page.settled()
+    check("undone", page.doc() != wanted)
+    page.run(f"""(() => {{ const data = new DataTransfer();
+      data.items.add(new File([{json.dumps(text)}], {json.dumps(wanted['name'])}));
+      document.querySelector('main').dispatchEvent(
+        new DragEvent('drop', {{dataTransfer: data, bubbles: true, cancelable: true}})); }})()""")
+    page.wait("studio.doc.value.options.carrier === 'conics'")
+    page.settled()
+    check("the document again", page.doc() == wanted, page.doc())
+    page.click_on("#undo")
+    page.settled()
+
+
 def around(page):
     """Neighbouring circles and limiting arcs of a point; points, cursor and tables by the keyboard."""
     ink = ("[...document.querySelector('#drawing').getContext('2d').getImageData(0, 0, 900, 600).data]"
@@ -616,6 +683,10 @@ def files(page):
                      "viewBox='0 0 100 80'><path d='M5 5C20 60 60 70 95 60'/></svg>")
     page.wait("studio.doc.value.points.length > 6 && studio.doc.value.points[0][0] === 5")
     page.settled()
+    dropped("naca.dat", (ROOT / AIRFOIL).read_text())
+    page.wait("studio.doc.value.name === 'naca.dat'")
+    page.settled()
+    check("an airfoil", page.verdict() == "good" and len(page.doc()["points"]) > 30, page.answer()["error"])
     before = page.doc()
     dropped("nothing.txt", "no points here")
     page.wait("document.querySelector('#message')")
@@ -693,7 +764,7 @@ with Studio(PROGRAM, FILE) as studio, Page(studio.address) as opened:
     opened.click(*opened.point(4))
     accessible(opened, AXE)
     on_a_tablet(opened, AXE)
-    for part in (controls, points, bends, ranges_are_right, given_ranges, explained, around, writes, overlays, shades, below,
+    for part in (controls, points, bends, ranges_are_right, given_ranges, explained, by_the_keyboard, by_fingers, documents, around, writes, overlays, shades, below,
                  cursors, drags, undoing, files):
         part(opened)
         opened.settled()

@@ -137,7 +137,7 @@ def stays_free(page):
 def gives_up(page):
     """A request that takes long ends for a newer one of its kind, and the next contour is there soon."""
     got = page.run("""(async () => {
-      const many = Array.from({length: 20000}, (_, i) => [i, 300 * Math.sin(0.001 * i) + 0.2 * Math.sin(7.3 * i)]);
+      const many = Array.from({length: 60000}, (_, i) => [i, 300 * Math.sin(0.001 * i) + 0.2 * Math.sin(7.3 * i)]);
       const begin = performance.now(), request = {points: studio.doc.value.points, options: {}, file: false};
       const ask = (points, options) => studio.engine.call('fit', {...request, points, options}).then((a) => a.error ? a.error.code : 0);
       const older = ask(many, {noise: 0.5});
@@ -146,7 +146,7 @@ def gives_up(page):
       return [await older, await newer, performance.now() - begin];
     })()""", 120)
     check("the older one is given up", got[:2] == [103, 0], got)
-    print(f"{NAME}: a contour {got[2]:.0f} ms after one of 20,000 points was begun")
+    print(f"{NAME}: a contour {got[2]:.0f} ms after one of 60,000 points was begun")
 
 
 def recovers(page):

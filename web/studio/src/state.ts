@@ -3,7 +3,7 @@
 
 import { batch, computed, signal } from "@preact/signals";
 import {
-  documentOf, jobOptions, SERIES10, withGiven, withInserted, withOptions, withoutPoint, withPoint,
+  documentIn, documentOf, jobOptions, SERIES10, withGiven, withInserted, withOptions, withoutPoint, withPoint,
   type Document, type Given, type Options, type Vec,
 } from "./document/document";
 import { begun, did, redone, undone } from "./document/history";
@@ -123,7 +123,7 @@ export function removePoint(index: number): void {
 const MOST_PLACES = 4000; // drawn of a contour
 
 /** Milliseconds after which work goes on beside a newer piece of its kind; the engine ends it then. */
-const PATIENCE = 400;
+const PATIENCE = 3000;
 
 /** Does a piece of work for the document as it is: one at a time, and once more when it changed. */
 function follower(work: () => Promise<void>): () => void {
@@ -213,6 +213,12 @@ function givenIn(g: SeriesReport["given"][number]): Given {
 
 /** Reads a file of points or a drawing. */
 export async function open(name: string, text: string): Promise<void> {
+  const saved = documentIn(text);
+  if (saved) {
+    selected.value = null;
+    message.value = null;
+    return change({ ...saved, name });
+  }
   const answer = await engine.call<Answer<SeriesReport>>("series", { text, name });
   if (!answer.report) {
     message.value = answer.error ? `${answer.error.message} (${answer.error.where}); ${answer.error.advice}` : null;

@@ -53,6 +53,8 @@ export const USUAL: Options = {
   convex: false, primitives: false, findCorners: true,
 };
 
+const JOB = "obvid-job";
+
 export function documentOf(name: string, points: readonly Vec[]): Document {
   return { name, units: "mm", points, given: points.map(() => ({})), options: USUAL };
 }
@@ -114,6 +116,45 @@ export function jobOptions(doc: Document): Record<string, unknown> {
   if (Object.keys(bends).length > 0) out["kappa-at"] = bends;
   if (corners.length > 0) out["corner-at"] = corners;
   return out;
+}
+
+/** The document as a file: points and options as the C interface takes them. */
+export function jobText(doc: Document): string {
+  const { name, units, points } = doc;
+  return JSON.stringify({ format: JOB, version: 1, name, units, points, options: jobOptions(doc) }, null, 1) + "\n";
+}
+
+/** What jobText wrote; null: it is another text. */
+export function documentIn(text: string): Document | null {
+  let job: { format?: unknown; name?: unknown; points?: unknown; options?: unknown };
+  try {
+    job = JSON.parse(text);
+  } catch {
+    return null;
+  }
+  if (job === null || typeof job !== "object" || job.format !== JOB || !Array.isArray(job.points)) return null;
+  const isPoint = (p: unknown): p is Vec => Array.isArray(p) && p.length === 2 && p.every((v) => Number.isFinite(v));
+  if (!job.points.every(isPoint)) return null;
+  const o = (job.options ?? {}) as Record<string, unknown>, plain = documentOf(String(job.name ?? "points"), job.points);
+  const at = (name: string, i: number) => (o[name] as Record<string, unknown> | undefined)?.[String(i + 1)];
+  const value = (name: string, i: number) => { const v = at(name, i); return v === undefined ? undefined : givenOf(String(v)); };
+  const one = <T extends string>(name: string, of: readonly T[], otherwise: T): T => of.find((v) => v === o[name]) ?? otherwise;
+  const number = (name: string) => (typeof o[name] === "number" ? (o[name] as number) : null);
+  const given = plain.points.map((_, i): Given => {
+    const heading = value("heading-at", i), radius = value("radius-at", i), kappa = value("kappa-at", i);
+    return {
+      ...(heading === undefined ? {} : { heading }), ...(radius === undefined ? {} : { radius }),
+      ...(kappa === undefined || typeof kappa === "number" ? {} : { kappa }),
+      ...(Array.isArray(o["corner-at"]) && o["corner-at"].includes(i + 1) ? { corner: true } : {}),
+    };
+  });
+  const options: Options = {
+    carrier: one("carrier", CARRIERS, "spiral"), continuity: one("continuity", ["G2", "G3"], "G3"), prefer: one("prefer", PREFER, "fair"),
+    noise: o["noise"] === "rounding" ? "rounding" : number("noise"), tolerance: number("tolerance"),
+    closing: o["closed"] === true ? "closed" : o["open"] === true ? "open" : "auto", convex: o["convex"] === true,
+    primitives: o["primitives"] === true, findCorners: o["no-corners"] !== true,
+  };
+  return { ...plain, units: typeof o["units"] === "string" ? o["units"] : "mm", given, options };
 }
 
 /** As the options have it: a number, "inf", "40..45", "20..", "..30". */

@@ -40,8 +40,9 @@ interface Waiting {
   readonly failed: (reason: Error) => void;
 }
 
-/** Milliseconds after which a request is given up for a newer one of its kind: its worker with it. */
-const PATIENCE = 400;
+/** Milliseconds after which a request is given up for a newer one of its kind: its worker with it. Shorter, a drag
+ * of a contour that takes so long would never show one. */
+const PATIENCE = 3000;
 
 const OLDER: EngineError =
   { code: CANCELLED, category: 1, message: "cancelled", where: "", advice: "", points: [] };

@@ -88,11 +88,18 @@ export function Drawing() {
     };
   }, []);
 
+  const fingers = useRef(new Map<number, Vec>());
   const grip = useRef<Grip | null>(null), last = useRef<Vec>([0, 0]);
   const down = (e: PointerEvent) => {
     const canvas = ref.current!, at = place(canvas, e);
     canvas.focus();
     canvas.setPointerCapture(e.pointerId);
+    fingers.current.set(e.pointerId, at);
+    if (fingers.current.size === 2) { // a pinch, whatever the first finger had taken
+      if (grip.current && grip.current.kind !== "view") abandonDrag();
+      grip.current = held.value = null;
+      return;
+    }
     if (scaling.value && scaling.value.length < 2) {
       scaling.value = [...scaling.value, fromScreen(camera.value, at)];
       grip.current = null;
@@ -105,6 +112,13 @@ export function Drawing() {
   };
   const move = (e: PointerEvent) => {
     const at = place(ref.current!, e), held = grip.current;
+    const before = fingers.current.get(e.pointerId), other = [...fingers.current].find(([id]) => id !== e.pointerId)?.[1];
+    if (before) fingers.current.set(e.pointerId, at);
+    if (before && other) {
+      const wide = (p: Vec) => Math.max(1, Math.hypot(p[0] - other[0], p[1] - other[1]));
+      camera.value = panned(zoomed(camera.value, other, wide(at) / wide(before)), [0.5 * (at[0] - before[0]), 0.5 * (at[1] - before[1])]);
+      return;
+    }
     if (!held) {
       hover(at);
       return;
@@ -115,7 +129,8 @@ export function Drawing() {
     if (held.kind === "tangent") turn(held.index, at);
     last.current = at;
   };
-  const up = () => {
+  const up = (e: PointerEvent) => {
+    fingers.current.delete(e.pointerId);
     if (grip.current && grip.current.kind !== "view") drop();
     grip.current = null;
     held.value = null;
@@ -127,7 +142,7 @@ export function Drawing() {
   return (
     <canvas id="drawing" ref={ref} tabIndex={0} role="application" aria-label={words().title}
       onPointerDown={down} onPointerMove={move} onPointerUp={up}
-      onPointerCancel={() => { grip.current = null; held.value = null; abandonDrag(); }}
+      onPointerCancel={(e) => { fingers.current.delete(e.pointerId); grip.current = null; held.value = null; abandonDrag(); }}
       onPointerLeave={() => { hovered.value = pointed.value = null; }} onDblClick={twice} onKeyDown={key} />
   );
 }

@@ -19,6 +19,7 @@ const LARGEST_BEND = 60;       // height of the largest of what is and what is p
 const MOST_BEND = 90;
 const REGION_WIDTH = 26;       // of the widest region, as it is drawn
 const COMB_SHARE = 0.13;       // of the smaller side of the canvas
+const LEAST_GAP = 3;           // pixels between teeth
 
 export interface Scene {
   readonly doc: Document;
@@ -170,6 +171,8 @@ function comb(c: CanvasRenderingContext2D, s: Scene, curve: Curve, high: number)
   const all = values(curve, s.shown), usual = usualSize(all);
   if (!(usual > 0)) return;
   const scale = (s.combHeight * high) / usual, most = 3 * high;
+  // where places lie closer on the screen than teeth can be told apart, some have none
+  const every = s.combEvery * Math.max(1, Math.ceil((LEAST_GAP * all.length) / (curve.length * s.camera.scale)));
   c.strokeStyle = colour(s.grey ? "grid" : "comb");
   c.lineWidth = 0.8;
   c.beginPath();
@@ -179,7 +182,7 @@ function comb(c: CanvasRenderingContext2D, s: Scene, curve: Curve, high: number)
     const tooth = Math.max(-most, Math.min(most, -scale * all[i]!));
     const tip: Vec = [p[0] - tooth * Math.sin(heading), p[1] - tooth * Math.cos(heading)];
     tips.push(tip);
-    if (i % s.combEvery !== 0) continue;
+    if (i % every !== 0) continue;
     c.moveTo(p[0], p[1]);
     c.lineTo(tip[0], tip[1]);
   }
@@ -208,19 +211,21 @@ function contour(c: CanvasRenderingContext2D, s: Scene, curve: Curve): void {
   line(c, s, curve, (slope) => (s.grey ? colour("faint") : colour(slope >= 0 ? "rising" : "falling")), 2.4);
 }
 
+/** One path for each colour: strokes take time, not places. */
 function line(c: CanvasRenderingContext2D, s: Scene, curve: Curve, tint: (slope: number) => string, width: number): void {
-  const each = curve.samples;
+  const each = curve.samples, { scale, x, y } = s.camera, xy = curve.xy, paths = new Map<string, Path2D>();
+  for (let piece = 0; piece < curve.pieces; ++piece) {
+    const first = piece * each, name = tint(curve.slope[first + (each >> 1)]!);
+    let path = paths.get(name);
+    if (!path) paths.set(name, path = new Path2D());
+    path.moveTo(x + scale * xy[2 * first]!, y - scale * xy[2 * first + 1]!);
+    for (let i = first + 1; i < first + each; ++i) path.lineTo(x + scale * xy[2 * i]!, y - scale * xy[2 * i + 1]!);
+  }
   c.lineWidth = width;
   c.lineJoin = c.lineCap = "round";
-  for (let piece = 0; piece < curve.pieces; ++piece) {
-    const first = piece * each, middle = first + (each >> 1);
-    c.strokeStyle = tint(curve.slope[middle]!);
-    c.beginPath();
-    for (let k = 0; k < each; ++k) {
-      const p = at(curve, s.camera, first + k);
-      if (k === 0) c.moveTo(p[0], p[1]); else c.lineTo(p[0], p[1]);
-    }
-    c.stroke();
+  for (const [name, path] of paths) {
+    c.strokeStyle = name;
+    c.stroke(path);
   }
 }
 
@@ -375,13 +380,22 @@ function handles(c: CanvasRenderingContext2D, s: Scene): void {
   const blamed = new Set(s.error?.points ?? []);
   const few = s.doc.points.length <= 120;
   c.font = "11px system-ui, sans-serif";
+  const isPlain = (i: number) => !few && i !== s.selected && !blamed.has(i) && Object.keys(s.doc.given[i] ?? {}).length === 0;
+  const plain = new Path2D(), r = few ? HANDLE : 3;
+  s.doc.points.forEach((p, i) => {
+    if (!isPlain(i)) return;
+    const [x, y] = toScreen(s.camera, p);
+    plain.rect(x - 2, y - 2, 4, 4);
+  });
+  c.fillStyle = colour("ink");
+  c.fill(plain);
   s.doc.points.forEach((p, i) => {
     const [x, y] = toScreen(s.camera, p), given = s.doc.given[i] ?? {};
+    if (isPlain(i)) return;
     c.fillStyle = colour(blamed.has(i) ? "vertex" : i === s.selected ? "accent" : "paper");
     c.strokeStyle = colour(blamed.has(i) ? "vertex" : i === s.selected ? "accent" : "ink");
     c.lineWidth = 1.6;
     c.beginPath();
-    const r = few ? HANDLE : 3;
     if (given.heading !== undefined && !given.corner) { // a whisker along the heading that is given
       const range = given.heading, turn = (Math.PI / 180) * (typeof range === "number" ? range : 0.5 * ((range[0] ?? 0) + (range[1] ?? 0)));
       c.moveTo(x - 2.2 * r * Math.cos(turn), y + 2.2 * r * Math.sin(turn));

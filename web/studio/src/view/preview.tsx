@@ -3,6 +3,7 @@
 
 import { signal } from "@preact/signals";
 import { useEffect, useRef } from "preact/hooks";
+import { jobText } from "../document/document";
 import type { ExportAnswer } from "../engine/engine";
 import { current, doc, exported, fitted, message, worksheet } from "../state";
 import { words } from "../words/words";
@@ -19,8 +20,8 @@ const preview = signal<{ readonly files: readonly Made[]; readonly remarks: read
 
 async function show(choice: string): Promise<void> {
   const [kind, format] = choice.split(".") as [string, string];
-  const answer: ExportAnswer = kind === "sheet" ? await worksheet(format) : await exported(format);
-  const base = (doc.value.name.replace(/\.[^.]*$/, "") || "contour") + (kind === "sheet" ? "-region" : "");
+  const answer: ExportAnswer = kind === "job" ? { error: null, files: [{ suffix: "", text: jobText(doc.value) }] } : kind === "sheet" ? await worksheet(format) : await exported(format);
+  const base = (doc.value.name.replace(/\.[^.]*$/, "") || "contour") + (kind === "contour" ? "" : `-${kind === "job" ? "job" : "region"}`);
   if (answer.error || !answer.files || answer.files.length === 0) {
     message.value = answer.error ? `${answer.error.message}; ${answer.error.advice}` : words().nothing;
     return;
@@ -42,10 +43,11 @@ function save({ name, text }: Made): void {
 export function SaveChoice() {
   const w = words();
   return (
-    <select id="save" aria-label={w.save} title={w.saveHint} disabled={!current.value || !fitted.value?.answer.contour} value=""
+    <select id="save" aria-label={w.save} title={w.saveHint} value=""
       onChange={(e) => { const choice = e.currentTarget.value; e.currentTarget.value = ""; if (choice) void show(choice); }}>
       <option value="">{w.save} ...</option>
-      <optgroup label={w.contourFiles}>{FORMATS.map((f) => <option value={`contour.${f}`}>.{f}</option>)}</optgroup>
+      <option value="job.json">{w.jobFile}</option>
+      <optgroup label={w.contourFiles} disabled={!current.value || !fitted.value?.answer.contour}>{FORMATS.map((f) => <option value={`contour.${f}`}>.{f}</option>)}</optgroup>
       <optgroup label={w.sheetFiles}>{SHEETS.map((f) => <option value={`sheet.${f}`}>.{f}</option>)}</optgroup>
     </select>
   );
