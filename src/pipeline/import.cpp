@@ -18,6 +18,7 @@
 #include "obvid/exchange/svg_read.h"
 #include "obvid/io/contour_json.h"
 #include "obvid/io/file_kind.h"
+#include "obvid/io/internal/private_copy.h"
 #include "obvid/io/read_file.h"
 #include "obvid/io/read_points.h"
 
