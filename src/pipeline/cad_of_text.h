@@ -6,7 +6,7 @@
 
 #include "obvid/cad/cad.h"
 #include "obvid/core/result.h"
-#include "obvid/io/private_copy.h"
+#include "obvid/io/internal/private_copy.h"
 
 namespace obvid::pipeline_detail {
 
