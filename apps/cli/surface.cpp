@@ -19,13 +19,10 @@ namespace {
 
 /// Exit code 5 for contours that were formed but do not keep their promise.
 int judge_surface(const MadeSurface& made, bool files) {
-  if (!made.skin) return 0;
-  const std::size_t fair = made.skin->skin.sections.size() - made.skin->points - made.skin->plain;
-  if (made.skin->proved == fair) return 0;
-  return report({ErrorCode::kNotProved,
-                 fmt::format("{} of {} section contours were formed but not proved",
-                             fair - made.skin->proved, fair),
-                 "", files ? "the files were written" : "", -1, 0.0});
+  auto error = not_proved(made);
+  if (!error) return 0;
+  if (files) error->hint = "the files were written";
+  return report(*error);
 }
 
 }  // namespace

@@ -10,6 +10,7 @@
 #include "obvid/geom/angle.h"
 #include "obvid/pipeline/format_values.h"
 #include "obvid/pipeline/job_values.h"
+#include "obvid/pipeline/surface_values.h"
 #include "options.h"
 
 namespace obvid {
@@ -21,50 +22,49 @@ struct RawSurface {
   std::vector<std::string> inputs, across;
   SurfaceCheckOptions check;
   TypedValues typed;
-  FormatValues formats;
-  std::optional<double> tolerance, chord, angle_deg, turn_deg, distance, spacing;
-  std::string matching = "auto", spread = "chord", colouring = "shaded", view = "iso";
-  std::string direction, apex, axis = "x", axis_point, step = "ap214";
-  bool near = false, control = false, no_progress = false;
+  SurfaceValues values;
+  SurfaceFormatValues formats;
+  bool no_progress = false;
+  long samples = 65;
   std::optional<std::string> units;
 };
 
 struct KindText {
   const char* name;
-  SurfaceKind kind;
   const char* help;
   const char* inputs;
   const char* example;
 };
 
 constexpr std::array kKinds = {
-    KindText{"skin", SurfaceKind::kSkin, "Through section contours, each of them fair",
+    KindText{"skin", "Through section contours, each of them fair",
              "Section files, one for each section or all in one; point grids; x y z",
              "obvid surface skin stations/*.csv -o hull.step -o hull.html"},
-    KindText{"ruled", SurfaceKind::kRuled, "Between two curves, or from one along lines",
+    KindText{"ruled", "Between two curves, or from one along lines",
              "Two curves, or one with --direction or --apex",
              "obvid surface ruled lower.csv upper.csv -o strip.step"},
-    KindText{"revolve", SurfaceKind::kRevolve, "A profile turned about an axis",
-             "Profile: points or a contour",
+    KindText{"revolve", "A profile turned about an axis", "Profile: points or a contour",
              "obvid surface revolve vase.csv --axis z -o vase.step"},
-    KindText{"coons", SurfaceKind::kCoons, "Between four border curves",
+    KindText{"coons", "Between four border curves",
              "Four curves that meet in the corners, in any order",
              "obvid surface coons a.csv b.csv c.csv d.csv -o patch.step"},
-    KindText{"gordon", SurfaceKind::kGordon, "Through a net of crossing curves",
+    KindText{"gordon", "Through a net of crossing curves",
              "Curves of one family; --across for the other",
              "obvid surface gordon u*.csv --across v*.csv -o net.step"},
-    KindText{"grid", SurfaceKind::kGrid, "Through a grid of points, near it, or controlled by it",
+    KindText{"grid", "Through a grid of points, near it, or controlled by it",
              "Grid: x y z rows, three matrices (_x, _y, _z), heights, offset table",
              "obvid surface grid terrain.csv --near --tolerance 0.5 -o terrain.step"},
-    KindText{"id", SurfaceKind::kId, "Integro-differential spline through a grid", "Grid as above",
+    KindText{"id", "Integro-differential spline through a grid", "Grid as above",
              "obvid surface id grid.csv --smooth -o surface.step"},
-    KindText{"offset", SurfaceKind::kOffset, "At a distance along the normals, folds refused",
+    KindText{"offset", "At a distance along the normals, folds refused",
              "Surface (.json, STEP, IGES, BREP, control points)",
              "obvid surface offset skin.json --distance -2 -o inner.step"},
-    KindText{"convert", SurfaceKind::kConvert, "A stored surface in another format",
+    KindText{"convert", "A stored surface in another format",
              "Surface (.json, STEP, IGES, BREP, control points)",
              "obvid surface convert part.step -o part.glb"},
 };
+
+SurfaceKind kind_of(const KindText& text) { return *surface_kind_named(text.name); }
 
 constexpr const char* kSurfaceHelp =
     R"(obvid surface: surfaces over fair contours
@@ -94,19 +94,19 @@ void add_outputs(CLI::App& app, std::vector<std::string>& outputs, const std::st
 
 void add_pictures(CLI::App& app, RawSurface& raw) {
   const char* group = "Triangles, pages and pictures";
-  app.add_option("--chord-tolerance", raw.chord,
+  app.add_option("--chord-tolerance", raw.formats.chord_tolerance,
                  "Largest distance of triangles from the surface, units [1e-3 of its size]")
       ->type_name("T")
       ->group(group);
-  app.add_option("--mesh-angle", raw.angle_deg,
+  app.add_option("--mesh-angle", raw.formats.mesh_angle_deg,
                  "Largest angle between normals along an edge of a triangle, degrees [15]")
       ->type_name("DEG")
       ->group(group);
-  app.add_option("--colour", raw.colouring,
+  app.add_option("--colour", raw.formats.colour,
                  "shaded, isolines, gaussian, mean, k1, k2 or zebra [shaded]")
       ->type_name("NAME")
       ->group(group);
-  app.add_option("--view", raw.view, "iso, front, top, side, back or bottom [iso]")
+  app.add_option("--view", raw.formats.view, "iso, front, top, side, back or bottom [iso]")
       ->type_name("NAME")
       ->group(group);
 }
@@ -139,18 +139,18 @@ void add_contours(CLI::App& app, RawSurface& raw) {
 }
 
 void add_surface_tolerance(CLI::App& app, RawSurface& raw, const char* what) {
-  app.add_option("--tolerance", raw.tolerance,
+  app.add_option("--tolerance", raw.values.tolerance,
                  std::string(what) + ", " + kLengthHelp + " [1e-5 of the size]")
       ->type_name("T");
 }
 
 void add_skin_options(CLI::App& app, RawSurface& raw) {
   add_surface_tolerance(app, raw, "Largest distance of the surface from the section contours");
-  app.add_option("--match", raw.matching,
+  app.add_option("--match", raw.values.matching,
                  "What belongs together in the sections: points, length or auto (points when all "
                  "sections have equally many) [auto]")
       ->type_name("NAME");
-  app.add_option("--spacing", raw.spacing,
+  app.add_option("--spacing", raw.values.spacing,
                  "Distance of sections whose files have no z, input units [1]")
       ->type_name("D");
   add_contours(app, raw);
@@ -165,17 +165,20 @@ void add_kind(CLI::App& app, RawSurface& raw, SurfaceKind kind) {
       break;
     case SurfaceKind::kRuled:
       add_skin_options(app, raw);
-      app.add_option("--direction", raw.direction, "From one curve by this vector, input units")
+      app.add_option("--direction", raw.values.direction,
+                     "From one curve by this vector, input units")
           ->type_name("X,Y,Z");
-      app.add_option("--apex", raw.apex, "From one curve to this point, input units")
+      app.add_option("--apex", raw.values.apex, "From one curve to this point, input units")
           ->type_name("X,Y,Z");
       break;
     case SurfaceKind::kRevolve:
-      app.add_option("--axis", raw.axis, "Axis: x, y, z or a direction X,Y,Z [x]")
+      app.add_option("--axis", raw.values.axis, "Axis: x, y, z or a direction X,Y,Z [x]")
           ->type_name("AXIS");
-      app.add_option("--axis-point", raw.axis_point, "A point of the axis, input units [0,0,0]")
+      app.add_option("--axis-point", raw.values.axis_point,
+                     "A point of the axis, input units [0,0,0]")
           ->type_name("X,Y,Z");
-      app.add_option("--angle", raw.turn_deg, "Degrees, right-hand rule [360]")->type_name("DEG");
+      app.add_option("--angle", raw.values.angle_deg, "Degrees, right-hand rule [360]")
+          ->type_name("DEG");
       add_contours(app, raw);
       break;
     case SurfaceKind::kGordon:
@@ -187,14 +190,16 @@ void add_kind(CLI::App& app, RawSurface& raw, SurfaceKind kind) {
       add_contours(app, raw);
       break;
     case SurfaceKind::kGrid:
-      app.add_flag("--near", raw.near, "As few knots as the tolerance allows [through all points]");
-      app.add_flag("--control", raw.control, "The points are control points");
+      app.add_flag("--near", raw.values.near,
+                   "As few knots as the tolerance allows [through all points]");
+      app.add_flag("--control", raw.values.control, "The points are control points");
       add_surface_tolerance(app, raw, "With --near: largest distance of the points");
       [[fallthrough]];
     case SurfaceKind::kId:
-      app.add_option("--spread", raw.spread, "Parameters by chord, centripetal or uniform [chord]")
+      app.add_option("--spread", raw.values.spread,
+                     "Parameters by chord, centripetal or uniform [chord]")
           ->type_name("NAME");
-      app.add_option("--spacing", raw.spacing, "Distance of rows and columns of heights [1]")
+      app.add_option("--spacing", raw.values.spacing, "Distance of rows and columns of heights [1]")
           ->type_name("D");
       if (kind == SurfaceKind::kId) {
         app.add_flag("--smooth", job.smooth,
@@ -202,7 +207,7 @@ void add_kind(CLI::App& app, RawSurface& raw, SurfaceKind kind) {
       }
       break;
     case SurfaceKind::kOffset:
-      app.add_option("--distance", raw.distance,
+      app.add_option("--distance", raw.values.distance,
                      "Along the normals, input units; negative: against")
           ->type_name("D");
       add_surface_tolerance(app, raw, "Largest distance from the exact offset");
@@ -216,12 +221,12 @@ CLI::App& add_maker(CLI::App& app, RawSurface& raw, const KindText& text) {
   CLI::App& kind = *app.add_subcommand(text.name, text.help);
   kind.add_option("INPUT", raw.inputs, text.inputs);
   add_outputs(kind, raw.make.outputs, known_surface_endings());
-  add_kind(kind, raw, text.kind);
+  add_kind(kind, raw, kind_of(text));
   kind.add_option("--units", raw.units,
                   "Unit of the lengths: mm, m, in, ft, ...; nothing is converted [as the files "
                   "say; else mm is assumed, with a warning where it matters]")
       ->type_name("NAME");
-  kind.add_option("--step", raw.step, "Schema of STEP files: ap214 or ap242 [ap214]")
+  kind.add_option("--step", raw.formats.step, "Schema of STEP files: ap214 or ap242 [ap214]")
       ->type_name("NAME");
   add_pictures(kind, raw);
   kind.add_flag("--json", raw.make.json, "Report as JSON on standard output");
@@ -235,140 +240,21 @@ void add_check(CLI::App& app, RawSurface& raw) {
   CLI::App& check = *app.add_subcommand("check", "Curvature, joints of patches, monotone sections");
   check.add_option("INPUT", raw.check.input, "Surface (.json, STEP, IGES, BREP, control points)");
   add_outputs(check, raw.check.outputs, ".html (page), .svg (picture), coloured by curvature");
-  check.add_option("--samples", raw.check.samples, "Lines of each family, and points on them [65]")
+  check.add_option("--samples", raw.samples, "Lines of each family, and points on them [65]")
       ->type_name("N");
   check.add_flag("--json", raw.check.json, "JSON on standard output instead of the tables");
   check.add_flag("--no-progress", raw.no_progress, "No progress bar");
   check.footer("Example: obvid surface check hull.step -o hull.svg");
 }
 
-/// "1,2,3" as a vector.
-Result<Vec3> vector_of(const std::string& typed, const char* option) {
-  std::array<double, 3> value{};
-  const char* at = typed.data();
-  const char* const end = at + typed.size();
-  for (std::size_t i = 0; i < 3; ++i) {
-    const auto [stop, code] = std::from_chars(at, end, value[i]);
-    const bool separated = i == 2 ? stop == end : stop != end && *stop == ',';
-    if (code != std::errc() || !separated || !std::isfinite(value[i])) {
-      return fail(
-          bad_option("'" + typed + "' is no vector", option, "give X,Y,Z, for example 0,0,1"));
-    }
-    at = stop + 1;
-  }
-  return Vec3{value[0], value[1], value[2]};
-}
-
-Result<void> set_axis(const RawSurface& raw, SurfaceJob& job) {
-  const std::map<std::string, Vec3> axes = {{"x", {1, 0, 0}}, {"y", {0, 1, 0}}, {"z", {0, 0, 1}}};
-  const auto at = axes.find(raw.axis);
-  const Result<Vec3> direction =
-      at != axes.end() ? Result<Vec3>(at->second) : vector_of(raw.axis, "--axis");
-  if (!direction) return fail(direction.error());
-  if (!(norm(*direction) > 0.0)) {
-    return fail(bad_option("the axis has no direction", "--axis", "give x, y, z or X,Y,Z"));
-  }
-  job.axis_direction = *direction;
-  if (!raw.axis_point.empty()) {
-    const auto point = vector_of(raw.axis_point, "--axis-point");
-    if (!point) return fail(point.error());
-    job.axis_point = *point;
-  }
-  if (raw.turn_deg) {
-    if (!(std::abs(*raw.turn_deg) > 0.0 && std::abs(*raw.turn_deg) <= 360.0)) {
-      return fail(bad_option("the angle must lie in -360 to 360 and not be 0", "--angle", ""));
-    }
-    job.angle = *raw.turn_deg * kOneDegree;
-  }
-  return {};
-}
-
-Result<void> set_ruling(const RawSurface& raw, SurfaceJob& job) {
-  if (!raw.direction.empty() && !raw.apex.empty()) {
-    return fail(bad_option("--direction and --apex contradict each other", "", "give one of them"));
-  }
-  if (!raw.direction.empty()) {
-    const auto direction = vector_of(raw.direction, "--direction");
-    if (!direction) return fail(direction.error());
-    job.direction = *direction;
-  }
-  if (!raw.apex.empty()) {
-    const auto apex = vector_of(raw.apex, "--apex");
-    if (!apex) return fail(apex.error());
-    job.apex = *apex;
-  }
-  return {};
-}
-
-Result<void> positive(const std::optional<double>& value, const char* option) {
-  if (!value || (*value > 0.0 && std::isfinite(*value))) return {};
-  return fail(bad_option("the value must be greater than 0", option, ""));
-}
-
-Result<void> set_surface_names(const RawSurface& raw, SurfaceOptions& make) {
-  if (raw.units) {
-    auto units = given_units(*raw.units, "--units");
-    if (!units) return fail(units.error());
-    make.job.units = std::move(*units);
-  }
-  const auto matching = value_named<SkinMatching>({{"auto", SkinMatching::kAutomatic},
-                                                   {"points", SkinMatching::kByPoints},
-                                                   {"length", SkinMatching::kByLength}},
-                                                  raw.matching, "--match");
-  if (!matching) return fail(matching.error());
-  make.job.matching = *matching;
-  const auto spread = value_named<Spread>({{"chord", Spread::kChord},
-                                           {"centripetal", Spread::kCentripetal},
-                                           {"uniform", Spread::kUniform}},
-                                          raw.spread, "--spread");
-  if (!spread) return fail(spread.error());
-  make.job.spread = *spread;
-  const auto step = value_named<CadFormat>(
-      {{"ap214", CadFormat::kStepAp214}, {"ap242", CadFormat::kStepAp242}}, raw.step, "--step");
-  if (!step) return fail(step.error());
-  make.formats.step = *step;
-  const auto colouring = colouring_named(raw.colouring);
-  if (!colouring) {
-    return fail(bad_option("unknown colouring '" + raw.colouring + "'", "--colour",
-                           "available are shaded, isolines, gaussian, mean, k1, k2, zebra"));
-  }
-  make.formats.colouring = *colouring;
-  const auto view = surface_view_named(raw.view);
-  if (!view) {
-    return fail(bad_option("unknown view '" + raw.view + "'", "--view",
-                           "available are iso, front, top, side, back, bottom"));
-  }
-  make.formats.view = *view;
-  return {};
-}
-
-Result<void> set_numbers(const RawSurface& raw, SurfaceOptions& make) {
-  make.job.tolerance = raw.tolerance;
-  make.job.spacing = raw.spacing;
-  make.formats.chord_tolerance = raw.chord;
-  if (raw.angle_deg) make.formats.angle = *raw.angle_deg * kOneDegree;
-  return positive(raw.tolerance, "--tolerance")
-      .and_then([&] { return positive(raw.spacing, "--spacing"); })
-      .and_then([&] { return positive(raw.chord, "--chord-tolerance"); })
-      .and_then([&] { return positive(raw.angle_deg, "--mesh-angle"); });
-}
-
-Result<void> set_grid(const RawSurface& raw, SurfaceJob& job) {
-  if (raw.near && raw.control) {
-    return fail(bad_option("--near and --control contradict each other", "", "give one of them"));
-  }
-  job.use = raw.near ? GridUse::kNear : raw.control ? GridUse::kControl : GridUse::kThrough;
-  return {};
-}
-
 Result<void> check_needs(const RawSurface& raw, const KindText& text) {
   const std::string name = std::string("surface ") + text.name;
   const std::string see = "see obvid " + name + " --help";
   if (raw.inputs.empty()) return fail(usage(name + " needs input files", see));
-  if (text.kind == SurfaceKind::kGordon && raw.across.empty()) {
+  if (kind_of(text) == SurfaceKind::kGordon && raw.across.empty()) {
     return fail(usage("surface gordon needs the crossing curves after --across", see));
   }
-  if (text.kind == SurfaceKind::kOffset && !(raw.distance && std::isfinite(*raw.distance))) {
+  if (kind_of(text) == SurfaceKind::kOffset && !raw.values.distance) {
     return fail(usage("surface offset needs --distance", see));
   }
   return {};
@@ -377,30 +263,32 @@ Result<void> check_needs(const RawSurface& raw, const KindText& text) {
 Result<Command> checked_maker(RawSurface& raw, const KindText& text) {
   SurfaceOptions& make = raw.make;
   make.command = text.name;
-  make.job.kind = text.kind;
+  make.job.kind = kind_of(text);
   make.job.inputs.assign(raw.inputs.begin(), raw.inputs.end());
   make.job.across.assign(raw.across.begin(), raw.across.end());
-  make.job.distance = raw.distance.value_or(0.0);
   make.progress = !raw.no_progress && !make.quiet && !make.json;
-  const Result<void> done = check_needs(raw, text)
-                                .and_then([&] { return set_numbers(raw, make); })
-                                .and_then([&] { return set_surface_names(raw, make); })
-                                .and_then([&] { return set_values(raw.typed, make.job.sections); })
-                                .and_then([&] { return set_axis(raw, make.job); })
-                                .and_then([&] { return set_ruling(raw, make.job); })
-                                .and_then([&] { return set_grid(raw, make.job); });
+  const Result<void> done =
+      check_needs(raw, text)
+          .and_then([&] { return set_surface(raw.values, make.job); })
+          .and_then([&] { return set_surface_formats(raw.formats, make.formats); })
+          .and_then([&] { return set_values(raw.typed, make.job.sections); })
+          .and_then([&]() -> Result<void> {
+            if (!raw.units) return {};
+            return given_units(*raw.units, "--units").map([&](Units given) {
+              make.job.units = std::move(given);
+            });
+          });
   if (!done) return fail(done.error());
   return Command{make};
 }
 
 Result<Command> checked_check(RawSurface& raw) {
-  constexpr std::size_t kLeast = 3, kMost = 2000;
   if (raw.check.input.empty()) {
     return fail(usage("surface check needs a surface", "see obvid surface check --help"));
   }
-  if (raw.check.samples < kLeast || raw.check.samples > kMost) {
-    return fail(bad_option("the number of samples must lie in 3 to 2000", "--samples", ""));
-  }
+  const auto samples = checked_samples(raw.samples);
+  if (!samples) return fail(samples.error());
+  raw.check.samples = *samples;
   raw.check.progress = !raw.no_progress && !raw.check.json;
   return Command{raw.check};
 }

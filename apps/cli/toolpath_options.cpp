@@ -7,6 +7,7 @@
 #include "cli_app.h"
 #include "obvid/exchange/surface_svg.h"
 #include "obvid/pipeline/job_values.h"
+#include "obvid/pipeline/surface_values.h"
 #include "options.h"
 
 namespace obvid {
@@ -14,7 +15,7 @@ namespace {
 
 struct RawToolpath {
   ToolpathCommand command;
-  std::string cutter = "ball", strategy = "zigzag", controller = "grbl", motion = "arcs";
+  ToolpathValues values;
   bool no_progress = false;
 };
 
@@ -25,7 +26,7 @@ constexpr const char* kOutputHelp =
 void add_cutter(CLI::App& app, RawToolpath& raw) {
   const char* group = "Cutter";
   ToolpathCommand& command = raw.command;
-  app.add_option("--cutter", raw.cutter, "ball, flat or bull (rounded corners) [ball]")
+  app.add_option("--cutter", raw.values.cutter, "ball, flat or bull (rounded corners) [ball]")
       ->type_name("NAME")
       ->group(group);
   app.add_option("--diameter", command.job.diameter, "Diameter, units of the surface [6 mm]")
@@ -40,7 +41,7 @@ void add_cutter(CLI::App& app, RawToolpath& raw) {
 void add_passes(CLI::App& app, RawToolpath& raw) {
   const char* group = "Passes";
   ToolpathOptions& plan = raw.command.job.plan;
-  app.add_option("--strategy", raw.strategy,
+  app.add_option("--strategy", raw.values.strategy,
                  "zigzag (parallel planes), isoparametric (along the patches' parameters) or "
                  "scallop (constant height between passes) [zigzag]")
       ->type_name("NAME")
@@ -77,51 +78,19 @@ void add_program(CLI::App& app, RawToolpath& raw) {
                  "Feed straight down [300 mm/min; inches: 12 in/min]")
       ->type_name("F")
       ->group(group);
-  app.add_option("--controller", raw.controller, "grbl, linuxcnc or fanuc [grbl]")
+  app.add_option("--controller", raw.values.controller, "grbl, linuxcnc or fanuc [grbl]")
       ->type_name("NAME")
       ->group(group);
-  app.add_option("--motion", raw.motion,
+  app.add_option("--motion", raw.values.motion,
                  "arcs (G2, G3 in passes along X or Y) or lines (G1 only) [arcs]")
       ->type_name("NAME")
       ->group(group);
 }
 
-template <class Value>
-Result<void> pick(const std::map<std::string, Value>& values, const std::string& typed,
-                  const char* option, Value& into) {
-  return value_named(values, typed, option).map([&](Value value) { into = value; });
-}
-
-Result<void> set_toolpath_names(RawToolpath& raw) {
-  ToolpathCommand& command = raw.command;
-  ToolpathOptions& plan = command.job.plan;
-  return pick<CutterKind>({{"ball", CutterKind::kBall},
-                           {"flat", CutterKind::kFlat},
-                           {"bull", CutterKind::kBullNose}},
-                          raw.cutter, "--cutter", plan.cutter.kind)
-      .and_then([&] {
-        return pick<ToolpathStrategy>({{"zigzag", ToolpathStrategy::kZigzag},
-                                       {"isoparametric", ToolpathStrategy::kIsoparametric},
-                                       {"scallop", ToolpathStrategy::kConstantScallop}},
-                                      raw.strategy, "--strategy", plan.strategy);
-      })
-      .and_then([&] {
-        return pick<GcodeController>({{"grbl", GcodeController::kGrbl},
-                                      {"linuxcnc", GcodeController::kLinuxCnc},
-                                      {"fanuc", GcodeController::kFanuc}},
-                                     raw.controller, "--controller",
-                                     command.job.plan.gcode.controller);
-      })
-      .and_then([&] {
-        return pick<bool>({{"arcs", true}, {"lines", false}}, raw.motion, "--motion",
-                          command.job.plan.gcode.arcs);
-      });
-}
-
 Result<Command> checked_toolpath(const CLI::App& app, RawToolpath& raw) {
   ToolpathCommand& command = raw.command;
   if (auto done = check_extras(app, app.remaining(), "toolpath"); !done) return fail(done.error());
-  if (auto done = set_toolpath_names(raw); !done) return fail(done.error());
+  if (auto done = set_toolpath(raw.values, command.job); !done) return fail(done.error());
   if (command.input.empty()) {
     return fail(usage("toolpath needs a surface", "see obvid toolpath --help"));
   }

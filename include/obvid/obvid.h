@@ -81,7 +81,8 @@ typedef struct obvid_run {
 /* n points, x and y one after the other; neighbours that are equal are merged. Two are enough for
  * obvid_fit where the options have both headings, else E304. */
 OBVID_API int obvid_points(const double* xy, size_t n, obvid_input** input, obvid_error** error);
-/* n points in space, x, y and z one after the other, for obvid_fit_space alone. */
+/* n points in space, x, y and z one after the other, for surfaces and for obvid_fit_space, which
+ * merges equal neighbours and needs 3 distinct ones (E304). */
 OBVID_API int obvid_space_points(const double* xyz, size_t n, obvid_input** input,
                                  obvid_error** error);
 /* A file in memory: a list of points, a contour file, DXF, SVG, GPX, GeoJSON, LandXML, OpenDRIVE;
@@ -190,6 +191,44 @@ OBVID_API int obvid_space_evaluate(const obvid_space* space, size_t part, const 
 OBVID_API int obvid_space_export(const obvid_space* space, const char* ending, const char* options,
                                  obvid_files** files, obvid_error** error);
 OBVID_API void obvid_space_free(obvid_space* space);
+
+/* ---- surfaces ---------------------------------------------------------------------------------
+ */
+
+typedef struct obvid_surface obvid_surface;
+
+/* A surface of `count` inputs, and of `crossing` ones that cross them (kind "gordon"; else NULL,
+ * 0). Kinds: "skin" (sections), "ruled", "revolve", "coons", "gordon" (curves), "grid", "id" (one
+ * grid; of obvid_space_points with the option "row"), "offset", "convert" (a surface). Inputs are
+ * those of obvid_read_file, obvid_read_text, obvid_space_points and, with z = 0, obvid_points.
+ * Where a skin has contours that are not proved, the call fails with OBVID_NOT_PROVED and surface
+ * and report are there. */
+OBVID_API int obvid_surface_make(const char* kind, const obvid_input* const* inputs, size_t count,
+                                 const obvid_input* const* across, size_t crossing,
+                                 const char* options, const obvid_run* run, obvid_surface** surface,
+                                 char** report, obvid_error** error);
+/* Curvatures, joints of patches, monotone parameter lines. */
+OBVID_API int obvid_surface_check(const obvid_surface* surface, const char* options,
+                                  const obvid_run* run, char** report, obvid_error** error);
+/* "json", "step", "iges", "brep", "stl", "obj", "glb", "ply", "html", "svg"; glb is no text. */
+OBVID_API int obvid_surface_export(const obvid_surface* surface, const char* ending,
+                                   const char* options, const obvid_run* run, obvid_files** files,
+                                   obvid_error** error);
+/* Program of a three-axis mill; `files`: its G-code. Fails with OBVID_NOT_PROVED, files and report
+ * there, where something is not kept that was asked for. */
+OBVID_API int obvid_surface_toolpath(const obvid_surface* surface, const char* options,
+                                     const obvid_run* run, obvid_files** files, char** report,
+                                     obvid_error** error);
+OBVID_API size_t obvid_surface_patches(const obvid_surface* surface);
+/* NULL beyond the last. */
+OBVID_API const char* obvid_surface_warning(const obvid_surface* surface, size_t warning);
+/* Places of a patch at n pairs u, v from 0 to 1: 3 n coordinates, 3 n of the unit normal (du x dv;
+ * 0 where there is none), 2 n principal curvatures, larger first; NULL: not wanted. Fails with
+ * OBVID_USAGE for patches that are not there and parameters outside. */
+OBVID_API int obvid_surface_evaluate(const obvid_surface* surface, size_t patch, const double* uv,
+                                     size_t n, double* xyz, double* normal, double* curvatures,
+                                     obvid_error** error);
+OBVID_API void obvid_surface_free(obvid_surface* surface);
 
 /* ---- files ------------------------------------------------------------------------------------
  */

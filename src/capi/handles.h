@@ -6,12 +6,14 @@
 #include <string>
 #include <vector>
 
+#include "obvid/exchange/surface_svg.h"
 #include "obvid/io/picture_svg.h"
 #include "obvid/io/stored_contour.h"
 #include "obvid/obvid.h"
 #include "obvid/pipeline/export.h"
 #include "obvid/pipeline/space_fit.h"
 #include "obvid/series/point_series.h"
+#include "obvid/surface/surface.h"
 
 // What stands behind the opaque types of obvid.h.
 
@@ -22,6 +24,7 @@ struct obvid_input {
   std::optional<obvid::PointSeries> points;
   std::optional<obvid::SpaceSeries> space;
   std::string text;
+  bool is_file = false;  ///< `name` is its path
   bool by_path = false;
 };
 
@@ -35,6 +38,12 @@ struct obvid_contour {
 struct obvid_space {
   obvid::SpaceChain chain;
   std::optional<obvid::StoredSpaceChain> stored;  ///< what a file says of it
+};
+
+struct obvid_surface {
+  obvid::SurfaceModel model;
+  std::vector<obvid::ScenePolyline> lines;  ///< inputs, drawn on pages and pictures
+  std::vector<std::string> warnings;
 };
 
 struct obvid_files {

@@ -12,8 +12,6 @@
 namespace obvid::capi {
 namespace {
 
-constexpr std::size_t kFewestInSpace = 3;
-
 /// Points of an array, checked as those of files are: finite, no two neighbours equal. Whether
 /// two of them do depends on the headings, which are options.
 Result<PointSeries> series_of_array(const double* xy, std::size_t n) {
@@ -43,7 +41,7 @@ Result<PointSeries> series_of_array(const double* xy, std::size_t n) {
   return out;
 }
 
-/// The same in space.
+/// Points in space as they are: rows of grids and tips of skins may repeat them.
 Result<SpaceSeries> space_series_of_array(const double* xyz, std::size_t n) {
   SpaceSeries out;
   for (std::size_t i = 0; i < n; ++i) {
@@ -52,11 +50,9 @@ Result<SpaceSeries> space_series_of_array(const double* xyz, std::size_t n) {
       return fail({ErrorCode::kNotFinite, "a coordinate is not finite",
                    "point " + std::to_string(i + 1), "", static_cast<std::ptrdiff_t>(i)});
     }
-    if (out.points.empty() || !(out.points.back() == p)) out.points.push_back(p);
+    out.points.push_back(p);
   }
-  if (out.points.size() < kFewestInSpace) {
-    return fail({ErrorCode::kTooFewPoints, "a curve in space needs 3 distinct points", "", ""});
-  }
+  if (out.points.empty()) return fail({ErrorCode::kTooFewPoints, "there are no points", "", ""});
   return out;
 }
 
@@ -106,6 +102,7 @@ int obvid_read_file(const char* path, obvid_input** input, obvid_error** error) 
     if (!text) return obvid::fail(text.error());
     auto out = std::make_unique<obvid_input>();
     out->name = path;
+    out->is_file = true;
     out->text = std::move(*text);
     out->by_path = obvid::needs_cad(out->text);
     *input = out.release();

@@ -14,6 +14,7 @@
 #include "obvid/pipeline/format_values.h"
 #include "obvid/pipeline/job_values.h"
 #include "obvid/pipeline/space_values.h"
+#include "obvid/pipeline/surface_values.h"
 
 namespace obvid::capi {
 namespace {
@@ -103,7 +104,70 @@ struct Written {
   std::string along;
   std::optional<double> tolerance;
   std::optional<std::string> units;
+  SurfaceValues surface;
+  SurfaceFormatValues surface_formats;
+  ToolpathValues toolpath;
+  std::optional<long> samples, row;
 };
+
+void add_surface_setters(Written& w, Request& out, const Known& known,
+                         std::map<std::string, Setter>& all) {
+  SurfaceValues& s = w.surface;
+  if (known.contours) {
+    TypedValues& t = w.typed;
+    all.insert({{"noise", text(t.noise)},
+                {"closed", flag(t.closed)},
+                {"open", flag(t.open)},
+                {"corner-angle", number(t.corner_angle_deg)},
+                {"no-corners", flag(t.no_corners)},
+                {"continuity", text(t.continuity)}});
+  }
+  if (known.surface) {
+    all.insert({{"tolerance", number(s.tolerance)},
+                {"spacing", number(s.spacing)},
+                {"match", text(s.matching)},
+                {"straight", flag(out.surface.straight_across)},
+                {"plain", flag(out.surface.plain_when_refused)},
+                {"direction", text(s.direction)},
+                {"apex", text(s.apex)},
+                {"axis", text(s.axis)},
+                {"axis-point", text(s.axis_point)},
+                {"angle", number(s.angle_deg)},
+                {"near", flag(s.near)},
+                {"control", flag(s.control)},
+                {"spread", text(s.spread)},
+                {"smooth", flag(out.surface.smooth)},
+                {"distance", number(s.distance)},
+                {"row", count(w.row)}});
+  }
+  if (known.surface_formats) {
+    SurfaceFormatValues& f = w.surface_formats;
+    all.insert({{"chord-tolerance", number(f.chord_tolerance)},
+                {"mesh-angle", number(f.mesh_angle_deg)},
+                {"colour", text(f.colour)},
+                {"view", text(f.view)},
+                {"step", text(f.step)}});
+  }
+  if (known.check) all.insert({{"samples", count(w.samples)}});
+  if (known.toolpath) {
+    ToolpathJob& job = out.toolpath;
+    all.insert({{"cutter", text(w.toolpath.cutter)},
+                {"diameter", number(job.diameter)},
+                {"corner-radius", number(job.corner_radius)},
+                {"strategy", text(w.toolpath.strategy)},
+                {"scallop", number(job.plan.scallop)},
+                {"step-over", number(job.plan.step_over)},
+                {"angle", number(job.plan.angle_deg)},
+                {"along-v", flag(job.plan.along_v)},
+                {"one-way", flag(job.plan.one_way)},
+                {"tolerance", number(job.tolerance)},
+                {"safe-z", number(job.plan.safe_z)},
+                {"feed", number(job.plan.feed)},
+                {"plunge-feed", number(job.plan.plunge_feed)},
+                {"controller", text(w.toolpath.controller)},
+                {"motion", text(w.toolpath.motion)}});
+  }
+}
 
 std::map<std::string, Setter> setters(Written& w, Request& out, const Known& known) {
   std::map<std::string, Setter> all{{"units", text(w.units)}};
@@ -155,6 +219,7 @@ std::map<std::string, Setter> setters(Written& w, Request& out, const Known& kno
                 {"dxf", text(f.dxf)},
                 {"face", number(f.face_width)}});
   }
+  add_surface_setters(w, out, known, all);
   return all;
 }
 
@@ -213,18 +278,49 @@ Result<void> check(Written& w, const Known& known, Request& out) {
       });
 }
 
+Result<void> check_surface(Written& w, const Known& known, Request& out) {
+  if (known.surface) {
+    out.surface.kind = *known.surface;
+    out.surface.units = out.units;
+    if (w.row) {
+      if (*w.row < 1) return fail(bad_option("rows have points", "row", "give 2 or more"));
+      out.surface.row = static_cast<std::size_t>(*w.row);
+    }
+    if (auto done = set_surface(w.surface, out.surface); !done) return done;
+    if (auto done = set_values(w.typed, out.surface.sections); !done) return done;
+  }
+  if (auto done = set_surface_formats(w.surface_formats, out.surface_formats); !done) return done;
+  if (w.samples) {
+    const auto samples = checked_samples(*w.samples);
+    if (!samples) return fail(samples.error());
+    out.samples = *samples;
+  }
+  return set_toolpath(w.toolpath, out.toolpath);
+}
+
 }  // namespace
 
 Result<Request> request_of(const char* options, const Known& known) {
   Request out;
-  if (options == nullptr || *options == '\0') return out;
-  const Json object = Json::parse(options, nullptr, false);
+  const bool none = options == nullptr || *options == '\0';
+  const Json object = none ? Json::object() : Json::parse(options, nullptr, false);
   if (!object.is_object()) {
     return fail({ErrorCode::kBadJson, "the options are no JSON object", "options",
                  "write {\"noise\": 0.01}"});
   }
   Written written;
   if (auto done = take(object, setters(written, out, known)); !done) return fail(done.error());
+  if (none && !known.surface) return out;
+  const bool of_surfaces = known.surface || known.surface_formats || known.toolpath || known.check;
+  if (of_surfaces) {
+    if (written.units) {
+      auto given = given_units(*written.units, "units");
+      if (!given) return fail(given.error());
+      out.units = std::move(*given);
+    }
+    if (auto done = check_surface(written, known, out); !done) return fail(done.error());
+    return out;
+  }
   if (auto done = check(written, known, out); !done) return fail(done.error());
   return out;
 }

@@ -18,8 +18,17 @@ namespace {
 constexpr Known kSpace{.fit = true, .space = true};
 constexpr Known kSpaceFiles{.formats = true};
 
+/// Points of an array, of equal neighbours one.
+Result<SpaceSeries> for_a_curve(SpaceSeries series) {
+  constexpr std::size_t kFewest = 3;
+  auto& points = series.points;
+  points.erase(std::unique(points.begin(), points.end()), points.end());
+  if (points.size() >= kFewest) return series;
+  return fail({ErrorCode::kTooFewPoints, "a curve in space needs 3 distinct points", "", ""});
+}
+
 Result<SpaceSeries> space_series_of(const obvid_input& input, const Request& request) {
-  if (input.space) return *input.space;
+  if (input.space) return for_a_curve(*input.space);
   if (!input.points && !input.by_path) {
     auto found = parse_space_series(input.text, input.name, request.along.has_value());
     if (!found) return fail(found.error());

@@ -93,8 +93,9 @@ bool has_continuous_slopes(const Fit& fit) {
 /// The contour of one section (`moved` grows to what its points were allowed to move), plain where
 /// that is allowed and nothing better exists.
 Result<Fit> fit_section(const Flat& flat, const SkinJob& job, std::size_t number, double& moved,
-                        std::vector<std::string>& warnings) {
-  Result<Fit> made = fit(flat.series, job.sections);
+                        std::vector<std::string>& warnings, const RunContext& run) {
+  const RunContext silent({}, run.cancelled);
+  Result<Fit> made = fit(flat.series, job.sections, silent);
   // circles in full precision, and sections turned into their plane: below the last digits of the
   // coordinates nothing is known, so points may move there
   for (double share = kDenseRounding; !made && share < kMostRounding && !job.sections.noise &&
@@ -102,7 +103,7 @@ Result<Fit> fit_section(const Flat& flat, const SkinJob& job, std::size_t number
        share *= 10.0) {
     FitJob within_rounding = job.sections;
     within_rounding.noise = share * flat.extent;
-    made = fit(flat.series, within_rounding);
+    made = fit(flat.series, within_rounding, silent);
     moved = std::max(moved, share * flat.extent);
   }
   const std::string name = fmt::format("section {} ({})", number, flat.section.name);
@@ -115,8 +116,9 @@ Result<Fit> fit_section(const Flat& flat, const SkinJob& job, std::size_t number
     warnings.push_back(
         fmt::format("{}: no fair contour ({}), the C2 cubic through its points stands for it", name,
                     made.error().what));
-    made = fit(flat.series, plain);
+    made = fit(flat.series, plain, silent);
   }
+  if (!made && made.error().code == ErrorCode::kCancelled) return made;
   if (!made) {
     Error error = made.error();
     error.what = fmt::format("{}: {}", name, error.what);
@@ -134,7 +136,7 @@ Result<Fit> fit_section(const Flat& flat, const SkinJob& job, std::size_t number
 }  // namespace
 
 Result<FittedSkin> fit_skin(const std::vector<SpaceSeries>& given, const SkinJob& job,
-                            const Progress& progress) {
+                            const RunContext& run) {
   FittedSkin result;
   if (given.size() < 2) {
     return fail({ErrorCode::kTooFewPoints, "a skin needs at least two sections", "", "", -1,
@@ -150,12 +152,13 @@ Result<FittedSkin> fit_skin(const std::vector<SpaceSeries>& given, const SkinJob
   std::vector<SkinSection> made;
   double moved = 0.0;
   for (std::size_t k = 0; k < sections.size(); ++k) {
-    if (progress) {
-      progress("forming sections", static_cast<double>(k) / static_cast<double>(sections.size()));
+    if (run.progress) {
+      run.progress("forming sections",
+                   static_cast<double>(k) / static_cast<double>(sections.size()));
     }
     Flat section = flat(sections[k], job.units);
     if (section.series.points.size() > 1) {
-      auto contour = fit_section(section, job, k + 1, moved, result.warnings);
+      auto contour = fit_section(section, job, k + 1, moved, result.warnings, run);
       if (!contour) return fail(contour.error());
       result.proved += contour->certificate.proved ? 1 : 0;
       result.smooth += has_continuous_slopes(*contour) ? 1 : 0;
@@ -176,7 +179,7 @@ Result<FittedSkin> fit_skin(const std::vector<SpaceSeries>& given, const SkinJob
   options.tolerance = result.tolerance;
   options.matching = job.matching;
   options.straight_across = job.straight_across;
-  auto surface = skin(made, options, progress);
+  auto surface = skin(made, options, run.progress);
   if (!surface) return fail(surface.error());
   result.skin = std::move(*surface);
   result.warnings.insert(result.warnings.end(), result.skin.warnings.begin(),

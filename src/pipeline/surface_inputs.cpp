@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <filesystem>
 #include <iterator>
 #include <utility>
 
@@ -55,6 +56,10 @@ Result<std::vector<SpaceSeries>> sections_of(const SurfaceJob& job) {
   for (const SurfaceInput& input : job.inputs) {
     auto some = parsed(input, options);
     if (!some) return fail(some.error());
+    const bool named_by_file = !input.points && job.inputs.size() > 1 && some->sections.size() == 1;
+    if (named_by_file) {
+      some->sections.front().name = std::filesystem::path(input.name).filename().string();
+    }
     // texts without z follow each other by the spacing, as files do
     const double height = options.spacing * static_cast<double>(out.size());
     for (SpaceSeries& section : some->sections) {
@@ -69,10 +74,10 @@ Result<SpaceSeries> section_of(const SurfaceInput& input) {
   auto all = parsed(input, {});
   if (!all) return fail(all.error());
   if (all->sections.size() == 1) return std::move(all->sections.front());
-  return fail({ErrorCode::kBadCount,
-               fmt::format("the file holds {} series of points, one curve is needed",
-                           all->sections.size()),
-               input.name, "split the file", -1, static_cast<double>(all->sections.size())});
+  return fail(
+      {ErrorCode::kBadCount,
+       fmt::format("the file holds {} series of points, one curve is needed", all->sections.size()),
+       input.name, "split the file", -1, static_cast<double>(all->sections.size())});
 }
 
 Result<PointGrid> grid_of(const SurfaceJob& job) {
@@ -82,11 +87,15 @@ Result<PointGrid> grid_of(const SurfaceJob& job) {
     return fail({ErrorCode::kUsage, "a grid is one text or one list of points", "", ""});
   }
   const SurfaceInput& input = job.inputs.front();
-  if (input.text) return parse_grid(*input.text, input.name, options);
+  if (input.text) {
+    auto grid = parse_grid(*input.text, input.name, options);
+    if (grid) grid->name = std::filesystem::path(input.name).stem().string();
+    return grid;
+  }
   const std::size_t count = input.points->points.size(), row = job.row.value_or(0);
   if (row < 2 || count % row != 0 || count / row < 2) {
-    return fail({ErrorCode::kBadOption,
-                 fmt::format("{} points do not fill rows of {}", count, row), input.name,
+    return fail({ErrorCode::kBadOption, fmt::format("{} points do not fill rows of {}", count, row),
+                 input.name,
                  "say how many points are in a row, two at least, and give two rows at least", -1,
                  static_cast<double>(count)});
   }

@@ -151,7 +151,7 @@ Result<MadeSurface> made_of(const Surface& surface, const std::string& name, dou
   return made;
 }
 
-Result<MadeSurface> make_ruled(const SurfaceJob& job, const Progress& progress) {
+Result<MadeSurface> make_ruled(const SurfaceJob& job, const RunContext& run) {
   const bool from_one = job.direction || job.apex;
   if (auto good = from_one ? need(job, 1, 1, "one curve with --direction or --apex")
                            : need(job, 2, 2, "two curves");
@@ -161,7 +161,7 @@ Result<MadeSurface> make_ruled(const SurfaceJob& job, const Progress& progress) 
   if (!from_one && are_points(job)) {
     SurfaceJob strips = job;
     strips.straight_across = true;
-    auto made = make_skin(strips, progress);
+    auto made = make_skin(strips, run);
     if (made) made->kind = "ruled surface between two fair contours";
     return made;
   }

@@ -22,12 +22,12 @@ inline constexpr double kSurfaceTolerance = 1e-5;
 }
 
 /// One function for each kind of surface; errors as `make_surface`.
-[[nodiscard]] Result<MadeSurface> make_ruled(const SurfaceJob& job, const Progress& progress);
+[[nodiscard]] Result<MadeSurface> make_ruled(const SurfaceJob& job, const RunContext& run);
 [[nodiscard]] Result<MadeSurface> make_revolution(const SurfaceJob& job);
 [[nodiscard]] Result<MadeSurface> make_coons(const SurfaceJob& job);
 [[nodiscard]] Result<MadeSurface> make_gordon(const SurfaceJob& job);
 [[nodiscard]] Result<MadeSurface> make_grid(const SurfaceJob& job, const Progress& progress);
-[[nodiscard]] Result<MadeSurface> make_skin(const SurfaceJob& job, const Progress& progress);
+[[nodiscard]] Result<MadeSurface> make_skin(const SurfaceJob& job, const RunContext& run);
 [[nodiscard]] Result<MadeSurface> make_offset(const SurfaceJob& job);
 [[nodiscard]] Result<MadeSurface> make_id(const SurfaceJob& job);
 [[nodiscard]] Result<MadeSurface> make_converted(const SurfaceJob& job);

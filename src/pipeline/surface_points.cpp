@@ -88,7 +88,7 @@ Result<MadeSurface> make_id(const SurfaceJob& job) {
   return made;
 }
 
-Result<MadeSurface> make_skin(const SurfaceJob& job, const Progress& progress) {
+Result<MadeSurface> make_skin(const SurfaceJob& job, const RunContext& run) {
   const auto sections = sections_of(job);
   if (!sections) return fail(sections.error());
   std::vector<Units> units;
@@ -102,7 +102,7 @@ Result<MadeSurface> make_skin(const SurfaceJob& job, const Progress& progress) {
   how.matching = job.matching;
   how.straight_across = job.straight_across;
   how.plain_when_refused = job.plain_when_refused;
-  auto fitted = fit_skin(*sections, how, progress);
+  auto fitted = fit_skin(*sections, how, run);
   if (!fitted) return fail(fitted.error());
   MadeSurface made;
   made.kind = fmt::format("skin through {} sections", sections->size());

@@ -48,6 +48,7 @@ lib.obvid_files_count.restype = C.c_size_t
 lib.obvid_files_data.restype = C.c_void_p
 lib.obvid_space_length.restype = C.c_double
 lib.obvid_space_parts.restype = C.c_size_t
+lib.obvid_surface_patches.restype = C.c_size_t
 lib.obvid_free.argtypes = [C.c_void_p]
 
 
@@ -472,7 +473,8 @@ class CurvesInSpace(unittest.TestCase):
         refused(203, lambda: fit_space(space_points(cone()), {"start-heading": 10}))
         refused(201, lambda: fit_space(space_points(cone()), {"construction": "arcs"}))
         refused(303, lambda: space_points([(0, 0, 0), (1, math.inf, 2), (2, 0, 0)]))
-        refused(304, lambda: space_points([(0, 0, 0), (0, 0, 0), (2, 0, 0)]))
+        refused(304, lambda: fit_space(space_points([(0, 0, 0), (0, 0, 0), (2, 0, 0)])))
+        refused(304, lambda: space_points([]))
         refused(308, lambda: call(lib.obvid_stored_space, text_input("{}"),
                                   C.byref(C.c_void_p())))
         said = C.c_void_p()
@@ -593,6 +595,172 @@ class Cancelled(unittest.TestCase):
             with self.assertRaises(Failed) as caught:
                 work()
             self.assertEqual(caught.exception.code, 103)
+
+
+def surface(kind, inputs, options=None, across=(), run=None):
+    """A surface, its report, and the error that came with both."""
+    handle, report = C.c_void_p(), C.c_void_p()
+    chosen = json.dumps(options).encode() if options is not None else None
+    first, second = ((C.c_void_p * len(some))(*[one.value for one in some]) for some in (inputs, across))
+    text, failed = None, None
+    try:
+        text = call(lib.obvid_surface_make, kind.encode(), first, C.c_size_t(len(inputs)), second,
+                    C.c_size_t(len(across)), chosen, C.byref(run) if run else None, C.byref(handle),
+                    C.byref(report), report=report)
+    except Failed as error:
+        if not handle:
+            raise
+        text, failed = error.report, error
+    return handle, text, failed
+
+
+def surface_file(handle, ending, options=None):
+    files, size = C.c_void_p(), C.c_size_t()
+    chosen = json.dumps(options).encode() if options is not None else None
+    call(lib.obvid_surface_export, handle, ending.encode(), chosen, None, C.byref(files))
+    out = C.string_at(lib.obvid_files_data(files, C.c_size_t(0), C.byref(size)), size.value)
+    lib.obvid_files_free(files)
+    return out
+
+
+def places(handle, uv, patch=0):
+    """Points, normals, principal curvatures."""
+    n = len(uv)
+    xyz, normal, kappa = (C.c_double * (3 * n))(), (C.c_double * (3 * n))(), (C.c_double * (2 * n))()
+    call(lib.obvid_surface_evaluate, handle, C.c_size_t(patch), (C.c_double * (2 * n))(*[x for p in uv for x in p]),
+         C.c_size_t(n), xyz, normal, kappa)
+    return ([tuple(some[size * i:size * i + size]) for i in range(n)]
+            for some, size in ((xyz, 3), (normal, 3), (kappa, 2)))
+
+
+class Surfaces(unittest.TestCase):
+    maxDiff = 2000
+    FOLDER = os.path.join(SOURCES, "examples/surfaces")
+    GRID = [(0, 1, 2, 3), (0, 1, 2)]
+
+    def example(self, name):
+        return os.path.join(self.FOLDER, name)
+
+    def kinds(self):
+        edges = [self.example("board_lower.csv"), self.example("board_upper.csv")]
+        yield "skin", [self.example("wigley_stations.csv")], {"noise": "rounding"}, ["--noise", "rounding"]
+        yield "ruled", edges, {"match": "length"}, ["--match", "length"]
+        yield "ruled", edges[:1], {"direction": "0,0,40"}, ["--direction", "0,0,40"]
+        yield "revolve", [self.example("vase_profile.csv")], {"axis": "z", "angle": 180}, ["--axis", "z", "--angle", "180"]
+        yield "grid", [self.example("wavy_grid.csv")], {"near": True, "tolerance": 0.01}, ["--near", "--tolerance", "0.01"]
+        yield "id", [self.example("wavy_grid.csv")], {"smooth": True}, ["--smooth"]
+
+    def test_says_what_the_command_line_says(self):
+        for kind, paths, options, typed in self.kinds():
+            with self.subTest(kind=kind):
+                told, _ = program("surface", kind, *paths, *typed, "--json")
+                for inputs in ([read(path) for path in paths],
+                               [text_input(open(path).read(), path) for path in paths]):
+                    handle, report, failed = surface(kind, inputs, options)
+                    self.assertEqual(timeless(report), timeless(told))
+                    self.assertEqual(failed, None)
+                    lib.obvid_surface_free(handle)
+
+    def test_files_are_those_of_the_command_line(self):
+        path = self.example("wavy_grid.csv")
+        handle, _, _ = surface("grid", [read(path)])
+        with tempfile.TemporaryDirectory() as folder:
+            for ending in ["json", "stl", "obj", "glb", "ply", "html", "svg"]:
+                name = os.path.join(folder, "s." + ending)
+                program("surface", "grid", path, "-o", name, "--chord-tolerance", "0.1")
+                with open(name, "rb") as file:
+                    self.assertEqual(surface_file(handle, ending, {"chord-tolerance": 0.1}), file.read(), ending)
+            stored = os.path.join(folder, "s.json")
+            told, _ = program("surface", "check", stored, "--samples", "20", "--json")
+            report = C.c_void_p()
+            checked = call(lib.obvid_surface_check, handle, b'{"samples": 20}', None, C.byref(report), report=report)
+            self.assertEqual(json.loads(checked), json.loads(told))
+            again, _, _ = surface("convert", [read(stored)])
+            self.assertEqual(surface_file(again, "json"), surface_file(handle, "json"))
+            nc, plan = os.path.join(folder, "s.nc"), {"diameter": 6, "scallop": 0.1, "tolerance": 0.02}
+            told, _ = program("toolpath", stored, "-o", nc, "--json", "--diameter", "6", "--scallop", "0.1",
+                              "--tolerance", "0.02")
+            files, report, size = C.c_void_p(), C.c_void_p(), C.c_size_t()
+            milled = call(lib.obvid_surface_toolpath, handle, json.dumps(plan).encode(), None, C.byref(files),
+                          C.byref(report), report=report)
+            with open(nc, "rb") as file:
+                self.assertEqual(C.string_at(lib.obvid_files_data(files, C.c_size_t(0), C.byref(size)), size.value), file.read())
+            ours, theirs = json.loads(milled), json.loads(told)
+            for one in (ours, theirs):
+                one.pop("written", None)
+            self.assertEqual(ours, theirs)
+
+    def test_cylinder_of_arrays(self):
+        """A straight profile about the z axis: all figures are known."""
+        handle, report, _ = surface("revolve", [space_points([(3, 0, 0), (3, 0, 5)])], {"axis": "z"})
+        uv = [(0, 0), (0.25, 0.5), (0.4, 1)]
+        for (x, y, z), (nx, ny, nz), (k1, k2) in zip(*places(handle, uv)):
+            self.assertAlmostEqual(math.hypot(x, y), 3, 12)
+            self.assertAlmostEqual(abs(nx * x + ny * y) / 3, 1, 12)
+            self.assertAlmostEqual(nz, 0, 12)
+            self.assertAlmostEqual(max(abs(k1), abs(k2)), 1 / 3, 12)
+            self.assertAlmostEqual(min(abs(k1), abs(k2)), 0, 12)
+            self.assertTrue(-1e-12 <= z <= 5 + 1e-12)
+        self.assertEqual(lib.obvid_surface_patches(handle), json.loads(report)["patches"].__len__())
+
+    def test_skin_and_grid_of_arrays(self):
+        def section(z):
+            return [(math.exp(0.1 * t) * math.cos(0.3 * t), math.exp(0.1 * t) * math.sin(0.3 * t), z) for t in range(8)]
+        handle, report, _ = surface("skin", [space_points(section(z)) for z in (0, 1, 2.5)])
+        self.assertEqual(json.loads(report)["skin"]["proved"], 3)
+        heights = {round(p[2], 9) for p in list(places(handle, [(0.3, 0), (0.7, 1)]))[0]}
+        self.assertEqual(heights, {0.0, 2.5})
+        rows = [(x, y, 0.1 * x * y) for y in (0, 1, 2) for x in (0, 1, 2, 3)]
+        handle, _, _ = surface("grid", [space_points(rows)], {"row": 4})
+        for x, y, z in list(places(handle, [(0, 0), (1, 1), (0.37, 0.81)]))[0]:
+            self.assertAlmostEqual(z, 0.1 * x * y, 12)
+        for options in ({"row": 5}, {"row": 0}, {}):
+            with self.assertRaises(Failed) as refused:
+                surface("grid", [space_points(rows)], options)
+            self.assertEqual(refused.exception.code, 203)
+
+    def test_refusals(self):
+        line = space_points([(0, 0, 0), (1, 2, 1), (2, 2, 1)])
+        for kind, inputs, options, code in (("bowl", [line], None, 201), ("skin", [], None, 201), ("offset", [line], {"distance": 1}, 310),
+                                            ("offset", [line], None, 203), ("ruled", [line], {"apex": "1,2"}, 203),
+                                            ("gordon", [line], None, 201), ("skin", [line], None, 304),
+                                            ("skin", [line], {"carrier": "arcs"}, 201), ("revolve", [line], {"axis": "0,0,0"}, 203)):
+            with self.subTest(kind=kind, options=options):
+                with self.assertRaises(Failed) as refused:
+                    surface(kind, inputs, options)
+                self.assertEqual(refused.exception.code, code, refused.exception)
+        handle, _, _ = surface("revolve", [space_points([(3, 0, 0), (3, 0, 5)])], {"axis": "z"})
+        for uv, patch in (((0.5, 1.5), 0), ((math.nan, 0), 0), ((0, 0), 7)):
+            with self.assertRaises(Failed) as refused:
+                list(places(handle, [uv], patch))
+            self.assertEqual(refused.exception.code, 201)
+        with self.assertRaises(Failed) as refused:
+            surface_file(handle, "doc")
+        self.assertEqual(refused.exception.code, 202)
+
+    def test_ends_when_asked(self):
+        def section(z):
+            return [(math.exp(0.01 * t) * math.cos(0.03 * t), math.exp(0.01 * t) * math.sin(0.03 * t), z) for t in range(300)]
+        run = Run(None, PROGRESS(0), CANCELLED(lambda _: 1))
+        with self.assertRaises(Failed) as caught:
+            surface("skin", [space_points(section(z)) for z in range(9)], None, (), run)
+        self.assertEqual(caught.exception.code, 103)
+
+    def test_from_two_threads(self):
+        made = []
+
+        def work():
+            for _ in range(5):
+                handle, report, _ = surface("skin", [read(self.example("wigley_stations.csv"))])
+                made.append((report, surface_file(handle, "json")))
+                lib.obvid_surface_free(handle)
+        threads = [threading.Thread(target=work) for _ in range(2)]
+        for thread in threads:
+            thread.start()
+        for thread in threads:
+            thread.join()
+        self.assertEqual(len(made), 10)
+        self.assertEqual(len(set(made)), 1)
 
 
 class TheFile(unittest.TestCase):

@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "obvid/core/progress.h"
 #include "obvid/core/result.h"
+#include "obvid/core/run_context.h"
 #include "obvid/pipeline/fit.h"
 #include "obvid/surface/point_grid.h"
 #include "obvid/surfacing/skin.h"
@@ -61,6 +61,6 @@ struct PlaneRounding {
 /// and a warning tells; others tell of closed sections that begin elsewhere and of sections out of
 /// order. Errors: of `fit`, with the section's name in front (`index`: the point), and of `skin`.
 [[nodiscard]] Result<FittedSkin> fit_skin(const std::vector<SpaceSeries>& sections,
-                                          const SkinJob& job, const Progress& progress = {});
+                                          const SkinJob& job, const RunContext& run = {});
 
 }  // namespace obvid

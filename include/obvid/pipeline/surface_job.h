@@ -6,7 +6,7 @@
 #include <utility>
 #include <vector>
 
-#include "obvid/core/progress.h"
+#include "obvid/core/run_context.h"
 #include "obvid/core/result.h"
 #include "obvid/exchange/surface_svg.h"
 #include "obvid/pipeline/import.h"
@@ -32,8 +32,8 @@ enum class SurfaceKind {
 
 /// What surfaces are made of: a file, the text of one that is there already, or points.
 struct SurfaceInput {
-  std::string name;                   ///< path of the file; of others what errors call them
-  std::optional<std::string> text{};  ///< content; nothing: the file is read
+  std::string name;                     ///< path of the file; of others what errors call them
+  std::optional<std::string> text{};    ///< content; nothing: the file is read
   std::optional<SpaceSeries> points{};  ///< in place of both; their name counts
 
   SurfaceInput() = default;
@@ -51,13 +51,13 @@ struct SurfaceJob {
   SurfaceKind kind = SurfaceKind::kSkin;
   std::vector<SurfaceInput> inputs;
   std::vector<SurfaceInput> across;  ///< Gordon: curves that cross those of `inputs`
-  std::optional<Units> units;       ///< stated by the user; default as the files say
-  std::optional<double> tolerance;  ///< units: of what NURBS do not hold exactly, of skins from
-                                    ///< their contours, of grids that are approximated, of
-                                    ///< curves that have to meet [1e-5 of the size]
-  ImportOptions import;             ///< of curves of drawings
-  FitJob sections = section_job();  ///< how contours of point files are formed
-  bool plain_when_refused = false;  ///< as in `SkinJob`
+  std::optional<Units> units;        ///< stated by the user; default as the files say
+  std::optional<double> tolerance;   ///< units: of what NURBS do not hold exactly, of skins from
+                                     ///< their contours, of grids that are approximated, of
+                                     ///< curves that have to meet [1e-5 of the size]
+  ImportOptions import;              ///< of curves of drawings
+  FitJob sections = section_job();   ///< how contours of point files are formed
+  bool plain_when_refused = false;   ///< as in `SkinJob`
   SkinMatching matching = SkinMatching::kAutomatic;
   bool straight_across = false;
   std::optional<Vec3> direction;       ///< ruled: from the curve by this vector
@@ -68,9 +68,9 @@ struct SurfaceJob {
   double distance = 0.0;               ///< offset, along the normal du x dv
   GridUse use = GridUse::kThrough;
   Spread spread = Spread::kChord;
-  std::optional<double> spacing;  ///< of rows and columns of height matrices, and between
-                                  ///< sections whose files have no z
-  bool smooth = false;            ///< ID spline: C1 in place of the values
+  std::optional<double> spacing;   ///< of rows and columns of height matrices, and between
+                                   ///< sections whose files have no z
+  bool smooth = false;             ///< ID spline: C1 in place of the values
   std::optional<std::size_t> row;  ///< of a grid that is given as points: how many are in a row
 };
 
@@ -87,9 +87,12 @@ struct MadeSurface {
 
 /// Reads the inputs that are not there yet and makes the surface. Forms of several files (matrices
 /// whose names differ, blades with their table) are known as files alone. Errors: those of the
-/// readers and builders; E201 wrong numbers of inputs; E203 rows that do not fill a grid; E403 an offset that folds (`value`: the largest distance that does not).
-[[nodiscard]] Result<MadeSurface> make_surface(const SurfaceJob& job,
-                                               const Progress& progress = {});
+/// readers and builders; E201 wrong numbers of inputs; E203 rows that do not fill a grid; E403 an
+/// offset that folds (`value`: the largest distance that does not).
+[[nodiscard]] Result<MadeSurface> make_surface(const SurfaceJob& job, const RunContext& run = {});
+
+/// What is to be said where section contours were formed but are not proved (E501).
+[[nodiscard]] std::optional<Error> not_proved(const MadeSurface& made);
 
 /// A surface from a file: stored (.json), STEP, IGES, BREP, control points (.cpt, .cptw, .csv).
 /// `warnings` get what was left out.

@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "obvid/core/result.h"
+#include "obvid/pipeline/surface_export.h"
+#include "obvid/pipeline/surface_job.h"
+#include "obvid/pipeline/toolpath_job.h"
+
+namespace obvid {
+
+// Options of surfaces and tool paths as they are typed, read alike for all front ends. Errors: E203
+// with the name of the option as the command line has it.
+
+/// Kinds of surfaces by name: "skin", "ruled", "revolve", "coons", "gordon", "grid", "id",
+/// "offset", "convert". Error: E201 with the nearest name.
+[[nodiscard]] Result<SurfaceKind> surface_kind_named(const std::string& name);
+[[nodiscard]] std::vector<std::string> surface_kind_names();
+
+struct SurfaceValues {
+  std::optional<double> tolerance, spacing, distance, angle_deg;
+  std::string matching = "auto", spread = "chord";
+  std::string direction, apex, axis = "x", axis_point;  ///< "X,Y,Z"
+  bool near = false, control = false;
+};
+
+/// Into the job, whose kind is known.
+[[nodiscard]] Result<void> set_surface(const SurfaceValues& typed, SurfaceJob& job);
+
+struct SurfaceFormatValues {
+  std::optional<double> chord_tolerance, mesh_angle_deg;
+  std::string colour = "shaded", view = "iso", step = "ap214";
+};
+
+[[nodiscard]] Result<void> set_surface_formats(const SurfaceFormatValues& typed,
+                                               SurfaceExportOptions& formats);
+
+struct ToolpathValues {
+  std::string cutter = "ball", strategy = "zigzag", controller = "grbl", motion = "arcs";
+};
+
+/// The names; numbers go into the job as they are.
+[[nodiscard]] Result<void> set_toolpath(const ToolpathValues& typed, ToolpathJob& job);
+
+/// Lines of each family of a check, and points on them. Error: E203 outside 3 to 2000.
+[[nodiscard]] Result<std::size_t> checked_samples(long samples);
+
+}  // namespace obvid

@@ -1,0 +1,195 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <cmath>
+#include <limits>
+#include <memory>
+#include <string>
+#include <utility>
+
+#include "door.h"
+#include "handles.h"
+#include "obvid/pipeline/surface_export.h"
+#include "obvid/pipeline/surface_job.h"
+#include "obvid/pipeline/surface_report_json.h"
+#include "obvid/pipeline/surface_values.h"
+#include "obvid/pipeline/toolpath_job.h"
+#include "obvid/surfacing/check.h"
+#include "options.h"
+
+namespace obvid::capi {
+namespace {
+
+Known known_for(SurfaceKind kind) {
+  Known out;
+  out.contours = true;
+  out.surface = kind;
+  return out;
+}
+
+constexpr Known kSurfaceFiles{.surface_formats = true};
+constexpr Known kChecking{.check = true};
+constexpr Known kMilling{.toolpath = true};
+
+/// What the library reads surfaces from.
+SurfaceInput surface_input(const obvid_input& input) {
+  if (input.space) return SurfaceInput::of_points(*input.space);
+  if (input.points) {
+    SpaceSeries series;
+    series.name = input.points->name;
+    series.units = input.points->units;
+    for (const Vec2 p : input.points->points) series.points.push_back({p.x, p.y, 0.0});
+    return SurfaceInput::of_points(std::move(series));
+  }
+  if (input.is_file) return {input.name};  // beside it may lie what belongs to it
+  return SurfaceInput::of_text(input.name, input.text);
+}
+
+Progress progress_of(const obvid_run* run) {
+  const RunContext context = context_of(run);
+  return context.progress;
+}
+
+/// Patches take parameters of their own knots.
+double at_share(const std::vector<double>& knots, int degree, double share) {
+  const double from = knots[static_cast<std::size_t>(degree)];
+  const double to = knots[knots.size() - 1 - static_cast<std::size_t>(degree)];
+  return share <= 0.0 ? from : share >= 1.0 ? to : from + share * (to - from);
+}
+
+}  // namespace
+}  // namespace obvid::capi
+
+using namespace obvid;
+using namespace obvid::capi;
+
+extern "C" {
+
+int obvid_surface_make(const char* kind, const obvid_input* const* inputs, size_t count,
+                       const obvid_input* const* across, size_t crossing, const char* options,
+                       const obvid_run* run, obvid_surface** surface, char** report,
+                       obvid_error** error) {
+  if (surface != nullptr) *surface = nullptr;
+  if (report != nullptr) *report = nullptr;
+  return guarded(error, [&]() -> Result<void> {
+    const auto what = surface_kind_named(kind == nullptr ? "" : kind);
+    if (!what) return fail(what.error());
+    auto request = request_of(options, known_for(*what));
+    if (!request) return fail(request.error());
+    SurfaceJob& job = request->surface;
+    for (size_t i = 0; i < count; ++i) job.inputs.push_back(surface_input(*inputs[i]));
+    for (size_t i = 0; i < crossing; ++i) job.across.push_back(surface_input(*across[i]));
+    if (job.inputs.empty() || (*what == SurfaceKind::kGordon && job.across.empty())) {
+      return fail({ErrorCode::kUsage, "a surface needs inputs", std::string("kind ") + kind, ""});
+    }
+    auto made = make_surface(job, context_of(run));
+    if (!made) return fail(made.error());
+    if (report != nullptr) *report = text_of(surface_report_json(*made, {}));
+    const auto failed = not_proved(*made);
+    if (surface != nullptr) {
+      auto out = std::make_unique<obvid_surface>();
+      out->model = std::move(made->model);
+      out->lines = std::move(made->lines);
+      out->warnings = std::move(made->warnings);
+      *surface = out.release();
+    }
+    if (failed) return fail(*failed);
+    return {};
+  });
+}
+
+int obvid_surface_check(const obvid_surface* surface, const char* options, const obvid_run* run,
+                        char** report, obvid_error** error) {
+  return guarded(error, [&]() -> Result<void> {
+    const auto request = request_of(options, kChecking);
+    if (!request) return fail(request.error());
+    CheckOptions how;
+    how.samples = request->samples;
+    const SurfaceCheck check = check_surface(surface->model, how, progress_of(run));
+    if (report != nullptr) *report = text_of(surface_check_json(surface->model, check, {}));
+    return {};
+  });
+}
+
+int obvid_surface_export(const obvid_surface* surface, const char* ending, const char* options,
+                         const obvid_run* run, obvid_files** files, obvid_error** error) {
+  return guarded(error, [&]() -> Result<void> {
+    auto request = request_of(options, kSurfaceFiles);
+    if (!request) return fail(request.error());
+    const std::string name = ending == nullptr ? "" : ending;
+    const auto format = surface_format_of("surface." + name);
+    if (!format) {
+      return fail({ErrorCode::kUnknownFormat, "no format of surfaces has this file extension", name,
+                   "possible are " + known_surface_endings()});
+    }
+    request->surface_formats.lines = surface->lines;
+    SurfaceExporter exporter(surface->model, request->surface_formats, progress_of(run));
+    auto out = std::make_unique<obvid_files>();
+    auto text = exporter.text(*format, out->remarks);
+    if (!text) return fail(text.error());
+    out->files.push_back({"", std::move(*text)});
+    out->remarks.insert(out->remarks.end(), exporter.warnings().begin(), exporter.warnings().end());
+    *files = out.release();
+    return {};
+  });
+}
+
+int obvid_surface_toolpath(const obvid_surface* surface, const char* options, const obvid_run* run,
+                           obvid_files** files, char** report, obvid_error** error) {
+  return guarded(error, [&]() -> Result<void> {
+    const auto request = request_of(options, kMilling);
+    if (!request) return fail(request.error());
+    auto made = make_toolpath(surface->model, request->toolpath, progress_of(run));
+    if (!made) return fail(made.error());
+    if (report != nullptr) *report = text_of(toolpath_report_json(*made, {}));
+    if (files != nullptr) {
+      auto out = std::make_unique<obvid_files>();
+      out->remarks = made->warnings;
+      out->files.push_back({"", std::move(made->path.program.text)});
+      *files = out.release();
+    }
+    if (!made->path.not_kept.empty()) return fail(made->path.not_kept.front());
+    return {};
+  });
+}
+
+size_t obvid_surface_patches(const obvid_surface* surface) { return surface->model.patches.size(); }
+
+const char* obvid_surface_warning(const obvid_surface* surface, size_t warning) {
+  return warning < surface->warnings.size() ? surface->warnings[warning].c_str() : nullptr;
+}
+
+int obvid_surface_evaluate(const obvid_surface* surface, size_t patch, const double* uv, size_t n,
+                           double* xyz, double* normal, double* curvatures, obvid_error** error) {
+  return guarded(error, [&]() -> Result<void> {
+    if (patch >= surface->model.patches.size()) {
+      return fail({ErrorCode::kUsage, "there is no such patch", std::to_string(patch),
+                   "obvid_surface_patches counts them"});
+    }
+    const NurbsSurface& s = surface->model.patches[patch].surface;
+    for (size_t i = 0; i < n; ++i) {
+      const double u = uv[2 * i], v = uv[2 * i + 1];
+      if (!(u >= 0.0 && u <= 1.0 && v >= 0.0 && v <= 1.0)) {
+        return fail({ErrorCode::kUsage, "parameters lie between 0 and 1",
+                     "place " + std::to_string(i + 1), ""});
+      }
+      const SurfaceJet jet =
+          evaluate(s, at_share(s.knots_u, s.degree_u, u), at_share(s.knots_v, s.degree_v, v));
+      const auto put = [i](double* to, Vec3 p) {
+        if (to == nullptr) return;
+        to[3 * i] = p.x;
+        to[3 * i + 1] = p.y;
+        to[3 * i + 2] = p.z;
+      };
+      put(xyz, jet.point);
+      const SurfaceCurvature found = curvature(jet);
+      put(normal, found.normal);
+      if (curvatures != nullptr) {
+        curvatures[2 * i] = found.k1;
+        curvatures[2 * i + 1] = found.k2;
+      }
+    }
+    return {};
+  });
+}
+
+void obvid_surface_free(obvid_surface* surface) { delete surface; }
+}
