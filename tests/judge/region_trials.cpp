@@ -343,7 +343,7 @@ class RegionTrial : public ProgramRuns {
                         std::string(found ? "a vertex or inflection more" : "refused"), range);
       if (unproved) {
         out_.sheet.unjudged("region.range of headings proved", "exists, and fit has no proof",
-                            range);
+                            inside + ", " + range);
       }
     }
     const Real theta = end - ahead * 0.01L * width;
