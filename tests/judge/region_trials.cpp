@@ -140,7 +140,10 @@ class RegionTrial : public ProgramRuns {
   void choose_options(const Shape& shape) {
     if (shape.closed && dice_.chance(0.8)) given_.emplace_back("--closed");
     if (dice_.chance(0.06)) given_.emplace_back("--convex");
-    if (dice_.chance(0.2)) add(given_, "--units", "in");
+    if (dice_.chance(0.2)) {
+      unit_ = "in";
+      add(given_, "--units", unit_);
+    }
     if (dice_.chance(0.5)) {
       static const char* kRules[] = {"fair", "centre", "neighbours", "least-change",
                                      "least-curvature"};
@@ -175,7 +178,7 @@ class RegionTrial : public ProgramRuns {
     }
     if (!rule_.empty()) add(words, "--prefer", rule_);
     add(words, "-o", name + ".json");
-    add(words, "-o", name + ".csv");
+    for (const char* ending : {".csv", ".tex", ".dxf", ".svg"}) add(words, "-o", name + ending);
     return program("region", words);
   }
 
@@ -190,6 +193,9 @@ class RegionTrial : public ProgramRuns {
     check_worksheet(worksheet, input, rule_ == "neighbours", sheet);
     check_region_text(worksheet, table.out, sheet);
     check_region_csv(worksheet, text_of_file(path("t.csv")), sheet);
+    check_region_tex(worksheet, text_of_file(path("t.tex")), sheet);
+    check_region_drawings(worksheet, input, text_of_file(path("t.dxf")),
+                          text_of_file(path("t.svg")), unit_, sheet);
     if (!construction_.empty()) construct(input);
     if (!stopped_ && dice_.chance(0.6)) probe(worksheet.user, input);
   }
@@ -408,7 +414,7 @@ class RegionTrial : public ProgramRuns {
   Real scale_ = 1.0L, turn_ = 0.0L;
   Vec offset_;
   bool two_sign_ = false;
-  std::string text_, rule_, tolerance_, construction_;
+  std::string text_, rule_, tolerance_, construction_, unit_ = "mm";
   std::vector<std::string> given_, inserts_;
 };
 
