@@ -201,7 +201,12 @@ class RegionCheck {
       };
       end(p.kappas->low, found[i]->low, more[i]->low, less[i]->low, ", least");
       end(p.kappas->high, found[i]->high, more[i]->high, less[i]->high, ", greatest");
-      if (i < p_.kappas.size()) element_inside(i, scale, at);
+      const auto apart = [](Real one, Real other) {
+        return std::isfinite(one - other) ? std::abs(one - other) : 0.0L;
+      };
+      const Real rounding =
+          8.0L * std::max(apart(more[i]->low, less[i]->low), apart(more[i]->high, less[i]->high));
+      if (i < p_.kappas.size()) element_inside(i, 1e-6L * scale + rounding, at);
     }
     for (const SheetRow& row : p_.rows) {
       const auto same = [&](const std::optional<Limits>& range, std::size_t i) {
@@ -274,9 +279,9 @@ class RegionCheck {
 
   /// The curve that was taken has curvatures of its ranges, and where one ends with the sign that
   /// is kept, that sign.
-  void element_inside(std::size_t i, Real scale, const std::string& at) {
+  void element_inside(std::size_t i, Real slack, const std::string& at) {
     const Limits& range = *p_.points[i].kappas;
-    const Real kappa = p_.kappas[i], slack = 1e-6L * scale;
+    const Real kappa = p_.kappas[i];
     sheet_.expect(kappa >= range.low - slack && kappa <= range.high + slack,
                   "region.curvature in its range", kappa,
                   kappa < range.low ? range.low : range.high, at);

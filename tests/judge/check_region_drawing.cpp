@@ -330,12 +330,15 @@ class DrawingCheck {
         }
         return true;
       };
-      while (open && at < drawn.size() && !on(drawn[at])) ++at;
-      while (at < drawn.size() && on(drawn[at])) found += length_of(drawn[at++]);
-      sheet_.expect(std::abs(found - wanted) <= 8.0L * near_ + 1e-9L * wanted, claim, found, wanted,
-                    p_.name(row));
-      if (std::abs(found - wanted) > 8.0L * near_ + 1e-9L * wanted) open = true;
-      else open = false;
+      const Real slack = 8.0L * near_ + 1e-9L * wanted;
+      // arcs of segments that rounding decides about may stand in between
+      for (std::size_t k = at; open && k < drawn.size() && found < wanted - slack; ++k) {
+        if (!on(drawn[k])) continue;
+        found += length_of(drawn[k]);
+        at = k + 1;
+      }
+      while (!open && at < drawn.size() && on(drawn[at])) found += length_of(drawn[at++]);
+      open = !sheet_.expect(std::abs(found - wanted) <= slack, claim, found, wanted, p_.name(row));
     }
     if (at < drawn.size() && !open) {
       sheet_.fails(claim, fmt::format("{} arcs more", drawn.size() - at), "none", "");
