@@ -228,33 +228,10 @@ std::string region_text(const PointSeries& series, const RegionTable& region) {
   return out;
 }
 
-/// A file of the worksheet, and what is to be said about it.
-struct RegionFile {
-  std::string path, text;
-  std::string remark;
+struct NamedFile {
+  std::string path;
+  RegionFile file;
 };
-
-Result<RegionFile> region_file(const std::string& path, const PointSeries& series,
-                               const RegionTable& region) {
-  std::string ending = std::filesystem::path(path).extension().string();
-  std::transform(ending.begin(), ending.end(), ending.begin(),
-                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  if (ending == ".csv") {
-    return RegionFile{path, region.construction ? construction_csv(region) : region_csv(region),
-                      ""};
-  }
-  if (ending == ".tex") return RegionFile{path, region_latex(series, region), ""};
-  if (ending == ".json") return RegionFile{path, region_json(series, region) + "\n", ""};
-  if (ending == ".svg" || ending == ".dxf") {
-    const RegionDrawing drawing = region_drawing(series, region);
-    return RegionFile{path,
-                      ending == ".svg" ? sketch_svg(drawing.sketch) : sketch_dxf(drawing.sketch),
-                      fmt::format("{}: the region is drawn {:g} times wider across its chords",
-                                  path, drawing.magnified)};
-  }
-  return fail({ErrorCode::kUnknownFormat, "region writes no such file", path,
-               "possible are .csv, .tex, .json (tables), .svg and .dxf (drawings)"});
-}
 
 }  // namespace
 
@@ -269,19 +246,25 @@ int run(const RegionOptions& options) {
   const Result<RegionTable> region = region_table(*series, options.job);
   if (!region) return report(explained(*series, options.job, region.error(), {}));
   warn(region->warnings);
-  std::vector<RegionFile> files;
+  std::vector<NamedFile> files;
   for (const std::string& path : options.outputs) {
-    auto file = region_file(path, *series, *region);
-    if (!file) return report(file.error());
-    files.push_back(std::move(*file));
+    const std::string ending = std::filesystem::path(path).extension().string();
+    auto file = region_file(ending.empty() ? ending : ending.substr(1), *series, *region);
+    if (!file) {
+      Error error = file.error();
+      error.where = path;
+      return report(error);
+    }
+    files.push_back({path, std::move(*file)});
   }
-  for (const RegionFile& file : files) {
-    if (auto done = write_file(file.path, file.text); !done) return report(done.error());
+  for (const NamedFile& one : files) {
+    if (auto done = write_file(one.path, one.file.text); !done) return report(done.error());
   }
   std::string text = options.json ? region_json(*series, *region) : region_text(*series, *region);
   if (!options.json) {
-    for (const RegionFile& file : files) {
-      text += fmt::format("written        {}\n", file.remark.empty() ? file.path : file.remark);
+    for (const auto& [path, file] : files) {
+      text += fmt::format("written        {}{}\n", path,
+                          file.remark.empty() ? "" : ": " + file.remark);
     }
   }
   if (auto done = put(text); !done) return report(done.error());

@@ -84,6 +84,12 @@ std::vector<double> coordinates(const json& points) {
   return out;
 }
 
+/// A text of the request; what is no text counts as left out.
+std::string text_in(const json& request, const char* key, const char* otherwise) {
+  const auto found = request.find(key);
+  return found != request.end() && found->is_string() ? found->get<std::string>() : otherwise;
+}
+
 Held<obvid_input> input_of(const json& request, obvid_error** error) {
   obvid_input* input = nullptr;
   if (request.contains("points") && request["points"].is_array()) {
@@ -91,7 +97,7 @@ Held<obvid_input> input_of(const json& request, obvid_error** error) {
     obvid_points(xy.data(), xy.size() / 2, &input, error);
   } else if (request.contains("text") && request["text"].is_string()) {
     const auto& text = request["text"].get_ref<const std::string&>();
-    const std::string name = request.value("name", "text");
+    const std::string name = text_in(request, "name", "text");
     obvid_read_text(text.data(), text.size(), name.c_str(), &input, error);
   } else {
     obvid_points(nullptr, 0, &input, error);
@@ -149,27 +155,28 @@ json curve_of(const obvid_contour& contour, int asked) {
           {"closed", obvid_contour_closed(&contour) != 0}};
 }
 
-std::string file_of(const obvid_contour& contour, const char* format, json& remarks,
-                    std::vector<json>& files, json& error, const std::string& options) {
-  obvid_files* made = nullptr;
-  obvid_error* failed = nullptr;
-  obvid_export(&contour, format, options.empty() ? nullptr : options.c_str(), &made, &failed);
+/// What a call made, into `files` and `remarks` of the answer.
+void put_files(obvid_files* made, json& out) {
   const Held<obvid_files> held(made);
-  const Held<obvid_error> held_error(failed);
-  if (failed != nullptr) error = told(*failed);
-  std::string first;
+  out["files"] = json::array();
+  out["remarks"] = json::array();
   for (std::size_t i = 0; made != nullptr && i < obvid_files_count(made); ++i) {
     std::size_t size = 0;
     const char* data = obvid_files_data(made, i, &size);
-    if (i == 0) first.assign(data, size);
-    files.push_back({{"suffix", obvid_files_suffix(made, i)}, {"text", std::string(data, size)}});
+    out["files"].push_back(
+        {{"suffix", obvid_files_suffix(made, i)}, {"text", std::string(data, size)}});
   }
   for (std::size_t i = 0; made != nullptr; ++i) {
     const char* remark = obvid_files_remark(made, i);
     if (remark == nullptr) break;
-    remarks.push_back(remark);
+    out["remarks"].push_back(remark);
   }
-  return first;
+}
+
+int samples_of(const json& request) {
+  const auto found = request.find("samples");
+  if (found == request.end() || !found->is_number()) return kSamplesOfPiece;
+  return static_cast<int>(std::clamp<double>(found->get<double>(), 2, kMostSamplesOfPiece));
 }
 
 json fit_of(const json& request, const std::function<bool()>& cancelled) {
@@ -185,14 +192,16 @@ json fit_of(const json& request, const std::function<bool()>& cancelled) {
   }
   call.put_into(out);
   if (!contour) return out;
-  const json& samples = request.value("samples", json(kSamplesOfPiece));
-  const int asked = samples.is_number() ? samples.get<int>() : kSamplesOfPiece;
-  out["curve"] = curve_of(*contour, std::clamp(asked, 2, kMostSamplesOfPiece));
-  const json file = request.value("file", json(true));
-  if (!file.is_boolean() || file.get<bool>()) {
-    std::vector<json> files;
-    json remarks = json::array(), ignored;
-    out["contour"] = file_of(*contour, "json", remarks, files, ignored, "");
+  out["curve"] = curve_of(*contour, samples_of(request));
+  const auto file = request.find("file");
+  if (file == request.end() || *file != false) {
+    obvid_files* made = nullptr;
+    obvid_error* failed = nullptr;
+    json files;
+    obvid_export(contour.get(), "json", nullptr, &made, &failed);
+    put_files(made, files);
+    const Held<obvid_error> held(failed);
+    if (failed == nullptr) out["contour"] = files["files"][0]["text"];
   }
   out["warnings"] = json::array();
   for (std::size_t i = 0;; ++i) {
@@ -200,6 +209,20 @@ json fit_of(const json& request, const std::function<bool()>& cancelled) {
     if (warning == nullptr) break;
     out["warnings"].push_back(warning);
   }
+  return out;
+}
+
+json worksheet_of(const json& request, const std::function<bool()>& cancelled) {
+  json out;
+  Call call(cancelled);
+  const Held<obvid_input> input = input_of(request, call.error());
+  obvid_files* made = nullptr;
+  if (input) {
+    obvid_worksheet(input.get(), options_of(request).c_str(),
+                    text_in(request, "format", "csv").c_str(), call.run(), &made, call.error());
+  }
+  call.put_into(out);
+  put_files(made, out);
   return out;
 }
 
@@ -218,15 +241,30 @@ json report_of(Job job, const json& request, const std::function<bool()>& cancel
 
 /// The contour of a contour file that the request holds.
 Held<obvid_contour> stored_of(const json& request, obvid_error** error) {
-  const auto found = request.find("contour");
-  const std::string text = found != request.end() && found->is_string() ? *found : json("");
+  const std::string text = text_in(request, "contour", "");
   obvid_input* input = nullptr;
   obvid_contour* contour = nullptr;
-  if (obvid_read_text(text.data(), text.size(), "contour.json", &input, error) == 0) {
+  const std::string name = text_in(request, "name", "contour.json");
+  if (obvid_read_text(text.data(), text.size(), name.c_str(), &input, error) == 0) {
     obvid_stored(input, nullptr, nullptr, &contour, error);
     obvid_input_free(input);
   }
   return Held<obvid_contour>(contour);
+}
+
+json drawn_of(const json& request, const std::function<bool()>& cancelled) {
+  json out;
+  Call call(cancelled);
+  const Held<obvid_input> input = input_of(request, call.error());
+  Held<obvid_contour> contour;
+  if (input) {
+    obvid_contour* made = nullptr;
+    obvid_stored(input.get(), options_of(request).c_str(), call.run(), &made, call.error());
+    contour.reset(made);
+  }
+  call.put_into(out);
+  if (contour) out["curve"] = curve_of(*contour, samples_of(request));
+  return out;
 }
 
 json verified(const json& request, const std::function<bool()>& cancelled) {
@@ -238,21 +276,17 @@ json verified(const json& request, const std::function<bool()>& cancelled) {
   return out;
 }
 
-json exported(const json& request) {
+json exported(const json& request, const std::function<bool()>& cancelled) {
   json out;
-  obvid_error* failed = nullptr;
-  const Held<obvid_contour> contour = stored_of(request, &failed);
-  const Held<obvid_error> held(failed);
-  out["error"] = failed != nullptr ? told(*failed) : json(nullptr);
-  if (!contour) return out;
-  std::vector<json> files;
-  json remarks = json::array();
-  const json format = request.value("format", json("json"));
-  if (!format.is_string()) return {{"error", usage("the format is no text")}};
-  file_of(*contour, format.get_ref<const std::string&>().c_str(), remarks, files, out["error"],
-          options_of(request));
-  out["files"] = files;
-  out["remarks"] = remarks;
+  Call call(cancelled);
+  const Held<obvid_contour> contour = stored_of(request, call.error());
+  obvid_files* made = nullptr;
+  if (contour) {
+    obvid_export(contour.get(), text_in(request, "format", "json").c_str(),
+                 options_of(request).c_str(), &made, call.error());
+  }
+  call.put_into(out);
+  put_files(made, out);
   return out;
 }
 
@@ -261,8 +295,10 @@ json answered(std::string_view kind, const std::string& text,
   const json request = json::parse(text, nullptr, false);
   if (!request.is_object()) return {{"error", usage("the request is no JSON object")}};
   if (kind == "fit") return fit_of(request, cancelled);
+  if (kind == "drawn") return drawn_of(request, cancelled);
   if (kind == "verify") return verified(request, cancelled);
-  if (kind == "export") return exported(request);
+  if (kind == "export") return exported(request, cancelled);
+  if (kind == "worksheet") return worksheet_of(request, cancelled);
   struct Named {
     std::string_view kind;
     Job job;

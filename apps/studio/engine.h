@@ -15,8 +15,10 @@ namespace obvid::studio {
 ///   series    `report`: the points and what is given at them
 ///   fit       `report`, `contour` (text of the contour file; not where `file` is false), `curve`: `samples` places of every
 ///             piece with t, x, y, heading (rad), kappa (1/unit), slope (1/unit^2); `warnings`
+///   drawn     `curve`: of a contour file or of a drawing, as it stands there
 ///   region, analyse, compare, suggest, why_not    `report`
 ///   verify    `report`; the request holds `contour`
+///   worksheet `files`, `remarks`: the tables and drawings of region; the request holds `format`
 ///   export    `files` ([{suffix, text}]), `remarks`; the request holds `contour` and `format`
 /// `error` is null or {code, category, message, where, advice, points}; `fit` may have both a
 /// contour and an error: it was formed and does not keep its promise.

@@ -5,6 +5,7 @@
 #include <sys/random.h>
 
 #include <array>
+#include <chrono>
 #include <cstdint>
 #include <map>
 #include <memory>
@@ -21,6 +22,7 @@ namespace {
 constexpr const char* kHost = "127.0.0.1";
 constexpr std::size_t kMostBytes = 64U << 20U;  // of a request
 constexpr int kSecondsToRead = 10, kSecondsToWrite = 30;
+constexpr std::chrono::seconds kMostToAnswer{120};
 /// With this addition the library does not compress, which takes seconds a megabyte.
 constexpr const char* kJson = "application/json; charset=utf-8";
 constexpr std::size_t kTokenBytes = 16;
@@ -83,7 +85,7 @@ struct Server::Parts {
     return !request.has_header("Origin") || request.get_header_value("Origin") == origin;
   }
 
-  void refuse(httplib::Response& response, int status, const char* why) const {
+  void refuse(httplib::Response& response, int status, const std::string& why) const {
     response.status = status;
     response.set_content(why, "text/plain");
   }
@@ -119,8 +121,19 @@ struct Server::Parts {
       return;
     }
     const auto older = newest.begin(page + ' ' + kind);
-    response.set_content(answer(kind, request.body, [&] { return older() || stopping.load(); }),
-                         kJson);
+    const auto until = std::chrono::steady_clock::now() + kMostToAnswer;
+    bool late = false;
+    std::string text = answer(kind, request.body, [&] {
+      late = late || std::chrono::steady_clock::now() > until;
+      return late || older() || stopping.load();
+    });
+    if (late) {
+      refuse(response, 503,
+             fmt::format("given up after {} s; fewer points, a noise or another curve family may do",
+                         kMostToAnswer.count()));
+      return;
+    }
+    response.set_content(std::move(text), kJson);
   }
 };
 

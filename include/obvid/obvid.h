@@ -84,11 +84,11 @@ OBVID_API int obvid_points(const double* xy, size_t n, obvid_input** input, obvi
 /* n points in space, x, y and z one after the other, for obvid_fit_space alone. */
 OBVID_API int obvid_space_points(const double* xyz, size_t n, obvid_input** input,
                                  obvid_error** error);
-/* A file in memory: a list of points, a contour file, DXF, SVG, GPX, GeoJSON, LandXML, OpenDRIVE.
- * `name` stands in errors. */
+/* A file in memory: a list of points, a contour file, DXF, SVG, GPX, GeoJSON, LandXML, OpenDRIVE;
+ * STEP, IGES and BREP, too, where the helper obvid-cad is installed. `name` stands in errors. */
 OBVID_API int obvid_read_text(const char* text, size_t size, const char* name, obvid_input** input,
                               obvid_error** error);
-/* The same from a file; STEP, IGES and BREP, too, where the helper obvid-cad is installed. */
+/* The same from a file. */
 OBVID_API int obvid_read_file(const char* path, obvid_input** input, obvid_error** error);
 OBVID_API void obvid_input_free(obvid_input* input);
 
@@ -120,6 +120,9 @@ OBVID_API int obvid_analyse(const obvid_input* input, const char* options, const
  * table of that construction. */
 OBVID_API int obvid_region(const obvid_input* input, const char* options, const obvid_run* run,
                            char** report, obvid_error** error);
+/* The tables and drawings of obvid_region as a file: "csv", "tex", "json", "svg" or "dxf". */
+OBVID_API int obvid_worksheet(const obvid_input* input, const char* options, const char* ending,
+                              const obvid_run* run, obvid_files** files, obvid_error** error);
 /* All curve families side by side. */
 OBVID_API int obvid_compare(const obvid_input* input, const char* options, const obvid_run* run,
                             char** report, obvid_error** error);

@@ -95,11 +95,6 @@ int obvid_read_text(const char* text, size_t size, const char* name, obvid_input
     auto out = std::make_unique<obvid_input>();
     out->name = name == nullptr ? "text" : name;
     out->text.assign(text, size);
-    if (obvid::needs_cad(out->text)) {
-      return obvid::fail({obvid::ErrorCode::kUnsupported,
-                          "STEP, IGES and BREP are read from files, not from memory", out->name,
-                          "write the text to a file and read that"});
-    }
     *input = out.release();
     return {};
   });

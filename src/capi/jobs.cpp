@@ -15,6 +15,7 @@
 #include "obvid/pipeline/drawn_contour.h"
 #include "obvid/pipeline/promise.h"
 #include "obvid/pipeline/refusal.h"
+#include "obvid/pipeline/region_files.h"
 #include "obvid/pipeline/report_json.h"
 #include "options.h"
 
@@ -221,6 +222,27 @@ int obvid_region(const obvid_input* input, const char* options, const obvid_run*
         }
         return region_json(series, *found);
       });
+}
+
+int obvid_worksheet(const obvid_input* input, const char* options, const char* ending,
+                    const obvid_run* run, obvid_files** files, obvid_error** error) {
+  return guarded(error, [&]() -> Result<void> {
+    const Result<Request> request = request_of(options, kWorksheet);
+    if (!request) return fail(request.error());
+    const Result<PointSeries> series = series_of(*input, *request, true);
+    if (!series) return fail(series.error());
+    const auto found = region_table(*series, request->worksheet);
+    if (!found) {
+      return fail(explained(*series, request->worksheet, found.error(), context_of(run)));
+    }
+    auto made = region_file(ending == nullptr ? "" : ending, *series, *found);
+    if (!made) return fail(made.error());
+    auto out = std::make_unique<obvid_files>();
+    out->files.push_back({"", std::move(made->text)});
+    if (!made->remark.empty()) out->remarks.push_back(std::move(made->remark));
+    *files = out.release();
+    return {};
+  });
 }
 
 int obvid_compare(const obvid_input* input, const char* options, const obvid_run* run,

@@ -7,8 +7,8 @@
 #include <nlohmann/json.hpp>
 #include <utility>
 
-#include "page/surface_page_parts.h"
 #include "surface_page_data.h"
+#include "surface_page_parts.h"
 #include "xml_text.h"
 
 namespace obvid {
@@ -247,10 +247,7 @@ std::string assembled(const std::string& title, const std::string& facts, const 
   page += "</style>\n</head>\n<body>\n" + markup(title, facts);
   page += "<script type=\"application/json\" id=\"model\">" + header + "</script>\n";
   page += "<script type=\"application/octet-stream\" id=\"data\">" + data + "</script>\n<script>";
-  page += exchange::surface_page_model_script();
-  page += exchange::surface_page_shaders();
-  page += exchange::surface_page_drawing_script();
-  page += exchange::surface_page_controls_script();
+  page += exchange::surface_page_script();
   page += "</script>\n</body>\n</html>\n";
   return page;
 }

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cctype>
 #include <cmath>
 #include <limits>
 #include <optional>
@@ -12,6 +13,7 @@
 
 #include "obvid/core/figures.h"
 #include "obvid/geom/angle.h"
+#include "obvid/pipeline/report_json.h"
 #include "obvid/region/boundary_distance.h"
 #include "obvid/region/convex_triangle.h"
 
@@ -371,6 +373,26 @@ std::string region_latex(const PointSeries& series, const RegionTable& table) {
 
 RegionDrawing region_drawing(const PointSeries& series, const RegionTable& table) {
   return WorksheetDrawing(series, table).run();
+}
+
+Result<RegionFile> region_file(const std::string& ending, const PointSeries& series,
+                               const RegionTable& table) {
+  std::string kind = ending;
+  std::transform(kind.begin(), kind.end(), kind.begin(),
+                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  if (kind == "csv") {
+    return RegionFile{table.construction ? construction_csv(table) : region_csv(table), ""};
+  }
+  if (kind == "tex") return RegionFile{region_latex(series, table), ""};
+  if (kind == "json") return RegionFile{region_json(series, table) + "\n", ""};
+  if (kind == "svg" || kind == "dxf") {
+    const RegionDrawing drawing = region_drawing(series, table);
+    return RegionFile{
+        kind == "svg" ? sketch_svg(drawing.sketch) : sketch_dxf(drawing.sketch),
+        fmt::format("the region is drawn {:g} times wider across its chords", drawing.magnified)};
+  }
+  return fail({ErrorCode::kUnknownFormat, "region writes no such file", ending,
+               "possible are .csv, .tex, .json (tables), .svg and .dxf (drawings)"});
 }
 
 }  // namespace obvid

@@ -274,8 +274,10 @@ class SectionChooser {
     SectionChain formed;
     Wandering found;
 
-    [[nodiscard]] bool done() const {
-      return found.senseless.empty() && formed.chain.turned_directions == 0;
+    /// Nothing swings out, and no more pieces turn back than before.
+    [[nodiscard]] bool mends(const SectionChain& before) const {
+      return found.senseless.empty() &&
+             formed.chain.turned_directions <= before.chain.turned_directions;
     }
     [[nodiscard]] bool better_than(const Held& other) const {
       return std::pair(found.senseless.size(), formed.chain.turned_directions) <
@@ -290,7 +292,7 @@ class SectionChooser {
     const WanderingPart worst = worst_of(found);
     for (const std::size_t e : {worst.first, worst.last}) {
       const std::size_t i = *best.chain.source[e];
-      if (free_to_hold(i)) try_headings(i, calmest);
+      if (free_to_hold(i)) try_headings(i, best, calmest);
     }
     if (!calmest || calmest->found.senseless.size() >= found.senseless.size()) return false;
     held_[calmest->point] = calmest->heading;
@@ -299,12 +301,12 @@ class SectionChooser {
     return true;
   }
 
-  void try_headings(std::size_t i, std::optional<Held>& calmest) {
+  void try_headings(std::size_t i, const SectionChain& before, std::optional<Held>& calmest) {
     const auto around = neighbours(i);
     if (!around) return;
     for (const double heading : calm_headings(series_.points[around->first], series_.points[i],
                                               series_.points[around->second])) {
-      if ((calmest && calmest->done()) || !watch_.may_go_on()) return;
+      if ((calmest && calmest->mends(before)) || !watch_.may_go_on()) return;
       held_[i] = heading;
       auto calmer = formed();
       held_.erase(i);

@@ -134,6 +134,16 @@ def export(contour, ending, options=None):
     return out.decode()
 
 
+def worksheet(handle, ending, options=None):
+    files, size = C.c_void_p(), C.c_size_t()
+    chosen = json.dumps(options).encode() if options is not None else None
+    call(lib.obvid_worksheet, handle, chosen, ending.encode(), None, C.byref(files))
+    data = lib.obvid_files_data(files, C.c_size_t(0), C.byref(size))
+    out = C.string_at(data, size.value)
+    lib.obvid_files_free(files)
+    return out.decode()
+
+
 def space_points(rows):
     handle = C.c_void_p()
     flat = [number for row in rows for number in row]
@@ -248,6 +258,17 @@ class SaysWhatTheCommandLineSays(unittest.TestCase):
         self.same(job("compare", read(SERIES), {"tolerance": 0.01}), "compare", SERIES,
                   "--tolerance", "0.01", "--json")
         self.same(job("suggest", read(SERIES)), "fit", SERIES, "--suggest", "--json")
+
+    def test_worksheets(self):
+        with tempfile.TemporaryDirectory() as folder:
+            for ending in ["csv", "tex", "json", "svg", "dxf"]:
+                name = os.path.join(folder, "sheet." + ending)
+                program("region", SERIES, "--insert", "3", "-o", name)
+                with open(name, newline="") as file:
+                    self.assertEqual(worksheet(read(SERIES), ending, {"insert": [3]}), file.read(), ending)
+        with self.assertRaises(Failed) as refused:
+            worksheet(read(SERIES), "step")
+        self.assertEqual(refused.exception.code, 202)
 
     def test_constructions(self):
         worksheet = os.path.join(SOURCES, "examples/paper_series10.csv")

@@ -7,6 +7,7 @@
 
 #include <cmath>
 #include <cstdint>
+#include <fstream>
 #include <cstring>
 #include <limits>
 #include <nlohmann/json.hpp>
@@ -94,6 +95,19 @@ struct Read {
 
 Vec3 third(const std::vector<float>& numbers, std::size_t i) {
   return {numbers[3 * i], numbers[3 * i + 1], numbers[3 * i + 2]};
+}
+
+TEST(SurfacePage, HasTheLookOfTheStudio) {
+  const auto model = model_of({{"ball", sphere(25.0)}});
+  const std::string page = page_of(model, meshes_of(model, 20));
+  for (const char* name : {"web/look/look.css", "web/surface/page.css", "web/surface/controls.js"}) {
+    std::ifstream file(std::string(OBVID_SOURCE_DIR) + "/" + name);
+    std::string licence, text;
+    std::getline(file, licence);
+    std::getline(file, text, '\0');
+    ASSERT_GT(text.size(), 500U) << name;
+    EXPECT_NE(page.find(text), std::string::npos) << name;
+  }
 }
 
 TEST(SurfacePage, HoldsTheSphereItWasGiven) {

@@ -87,7 +87,7 @@ class Browser(Driven):
 
     def key(self, name, modifiers=0):
         code = KEYS.get(name, ord(name[0].upper()))
-        text = {"text": name} if len(name) == 1 and not modifiers & CTRL else {}
+        text = {"text": "\r"} if name == "Enter" else {"text": name} if len(name) == 1 and not modifiers & CTRL else {}
         for kind in ("keyDown", "keyUp"):
             self.call("Input.dispatchKeyEvent", type=kind, key=name, windowsVirtualKeyCode=code,
                       modifiers=modifiers, **(text if kind == "keyDown" else {}))

@@ -134,6 +134,21 @@ def stays_free(page):
     check("timers run and contours are formed meanwhile", seen[0] > 5 and seen[1] > 5 and seen[2] is None, seen)
 
 
+def gives_up(page):
+    """A request that takes long ends for a newer one of its kind, and the next contour is there soon."""
+    got = page.run("""(async () => {
+      const many = Array.from({length: 60000}, (_, i) => [i, 300 * Math.sin(0.001 * i) + 0.2 * Math.sin(7.3 * i)]);
+      const begin = performance.now(), request = {points: studio.doc.value.points, options: {}, file: false};
+      const ask = (points, options) => studio.engine.call('fit', {...request, points, options}).then((a) => a.error ? a.error.code : 0);
+      const older = ask(many, {noise: 0.5});
+      await new Promise((r) => setTimeout(r, 100));
+      const newer = ask(request.points, {});
+      return [await older, await newer, performance.now() - begin];
+    })()""", 120)
+    check("the older one is given up", got[:2] == [103, 0], got)
+    print(f"{NAME}: a contour {got[2]:.0f} ms after one of 60,000 points was begun")
+
+
 def recovers(page):
     """An engine that breaks down is told of and replaced."""
     got = page.run("""(async () => {
@@ -173,7 +188,7 @@ with tempfile.TemporaryDirectory() as place:
     copied = Path(place) / "studio.html"
     shutil.copy(PAGE, copied)
     with kind(copied.as_uri()) as opened:
-        for part in (opens, drags, stays_free, agrees, recovers, refuses):
+        for part in (opens, drags, stays_free, gives_up, agrees, recovers, refuses):
             part(opened)
         check("no error in the page", not getattr(opened, "trouble", []), getattr(opened, "trouble", [])[:3])
 print("\n".join(failures) or f"all good, {size} bytes compressed")

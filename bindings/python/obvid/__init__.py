@@ -34,6 +34,7 @@ from .jobs import (
     region,
     suggest,
     why_not,
+    worksheet,
 )
 from .reports import (
     Analysis,
@@ -54,5 +55,5 @@ __all__ = [
     "NotProvedError", "ObvidError", "Piece", "Samples", "Segment", "Source", "SpaceCurve",
     "SpaceSamples", "SpaceVerification", "Suggestion", "Table", "UsageError", "Verification",
     "__version__", "analyse", "compare", "fit", "fit_many", "fit_space", "read", "read_contour",
-    "read_space", "read_text", "region", "suggest", "why_not",
+    "read_space", "read_text", "region", "suggest", "why_not", "worksheet",
 ]  # fmt: skip

@@ -83,6 +83,7 @@ def _load() -> C.CDLL:
         "obvid_evaluate": (C.c_int, [handle, C.c_int, handle, size, handle, handle, handle, error]),
         "obvid_derivatives": (C.c_int, [handle, handle, size, C.c_int, handle, error]),
         "obvid_export": (C.c_int, [handle, text, text, out, error]),
+        "obvid_worksheet": (C.c_int, [handle, text, text, run, out, error]),
         "obvid_space_points": (C.c_int, [handle, size, out, error]),
         "obvid_fit_space": (C.c_int, [handle, text, run, out, out, error]),
         "obvid_stored_space": (C.c_int, [handle, out, error]),

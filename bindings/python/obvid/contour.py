@@ -72,6 +72,11 @@ def exported(function: Any, handle: int, ending: str, options: Json) -> Exported
         names["for"] = names.pop("profile")
     if function(handle, ending.encode(), options_text(names), C.byref(out), C.byref(error)):
         raise raise_error(error)
+    return taken_files(out)
+
+
+def taken_files(out: "C.c_void_p") -> Exported:
+    """What a call made, and the end of its handle."""
     try:
         files, size = [], C.c_size_t()
         for i in range(lib.obvid_files_count(out)):

@@ -7,6 +7,7 @@ import ctypes as C
 import json
 import math
 import os
+import pathlib
 from typing import Any, Dict, Iterable, List, Mapping, Optional, Sequence, Union
 
 import numpy as np
@@ -22,7 +23,7 @@ from ._library import (
     raise_error,
     taken_text,
 )
-from .contour import Contour
+from .contour import Contour, taken_files, write_all
 from .errors import CancelledError, NoContourError, NotProvedError, ObvidError
 from .reports import (
     Analysis,
@@ -419,6 +420,24 @@ def region(points: Points, **options: Any) -> Table:
     text = _fit_options(source, options, (*_CONSTRUCTION, "insert"))
     values = _report("region", source, text, watched)
     return Table(tuple(values["segments"]), values)
+
+
+def worksheet(
+    points: Points, path: Union[str, "os.PathLike[str]"], **options: Any
+) -> List[str]:
+    """Writes what `region` finds to a file: .csv, .tex, .json the tables; .svg, .dxf the limiting arcs,
+    adjacent circles, tangents and triangles. Options of `region`. Returns what is to be said of it.
+    """
+    watched = {name: options.pop(name, None) for name in ("progress", "cancelled")}
+    source = _prepared(points, options)
+    text = _fit_options(source, options, (*_CONSTRUCTION, "insert"))
+    target = pathlib.Path(path)
+    out, error = C.c_void_p(), C.POINTER(ErrorStruct)()
+    with Run(watched["progress"], watched["cancelled"]) as run:
+        ending = target.suffix.lstrip(".").encode()
+        if lib.obvid_worksheet(source._handle, text, ending, run, C.byref(out), C.byref(error)):
+            raise raise_error(error)
+    return write_all(target, taken_files(out))
 
 
 def compare(points: Points, **options: Any) -> List[CarrierRow]:

@@ -38,6 +38,9 @@ struct CadRun {
                                     ///< true ends the helper at once and gives E103
 };
 
+/// Whether the helper is there and may be started. Error: E310, as everything below has it.
+[[nodiscard]] Result<void> check_cad();
+
 /// Formats of files.
 enum class CadFormat { kStepAp214, kStepAp242, kIges, kBrep };
 

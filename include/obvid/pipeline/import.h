@@ -20,8 +20,8 @@ namespace obvid {
 /// Errors: those of the formats.
 [[nodiscard]] Result<Drawing> read_drawing(const std::string& path);
 
-/// The same for a text in memory; `name` stands in errors. STEP, IGES and BREP are read by path
-/// alone: E310.
+/// The same for a text in memory; `name` stands in errors. STEP, IGES and BREP go through a file in
+/// the system's folder for such (PrivateCopy).
 [[nodiscard]] bool is_drawing_text(std::string_view text);
 [[nodiscard]] Result<Drawing> parse_drawing(const std::string& text, const std::string& name);
 [[nodiscard]] bool needs_cad(std::string_view text);

@@ -3,6 +3,7 @@
 
 #include <string>
 
+#include "obvid/core/result.h"
 #include "obvid/exchange/sketch.h"
 #include "obvid/pipeline/region_table.h"
 #include "obvid/series/point_series.h"
@@ -34,5 +35,17 @@ struct RegionDrawing {
       1.0;  ///< how many times wider the region is drawn; a power of 10, 2 or 5 times
 };
 [[nodiscard]] RegionDrawing region_drawing(const PointSeries& series, const RegionTable& table);
+
+/// The worksheet in a format, and what is to be said about it ("... 200 times wider ...", or
+/// nothing).
+struct RegionFile {
+  std::string text;
+  std::string remark;
+};
+
+/// `ending`: of the file, without its dot: "csv" (with a construction its own table), "tex", "json"
+/// (tables), "svg", "dxf" (drawings); capitals do not matter. Error: E202, another one.
+[[nodiscard]] Result<RegionFile> region_file(const std::string& ending, const PointSeries& series,
+                                             const RegionTable& table);
 
 }  // namespace obvid

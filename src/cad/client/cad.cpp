@@ -86,6 +86,12 @@ Result<std::string> cad_text(const std::vector<CadCurve>& curves, const CadWrite
   return asked(cad::WriteCurves{curves, options}, "", run, &cad::unpacked_text);
 }
 
+Result<void> check_cad() {
+  const auto helper = cad::helper_file();
+  if (!helper) return fail(helper.error());
+  return {};
+}
+
 Result<Drawing> read_cad(const std::string& path, const CadRun& run) {
   return asked(cad::ReadCurves{path}, path, for_reading(run), &cad::unpacked_drawing);
 }

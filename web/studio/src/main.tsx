@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 import { render } from "preact";
+import "./look/look.css";
 import "./studio.css";
 import { LocalEngine } from "./engine/local";
 import { embedded, WasmEngine } from "./engine/wasm";
@@ -8,8 +9,9 @@ import {
 } from "./state";
 import { App, keys, pasted } from "./view/app";
 import { bendPlace, onScreen as place, showAll } from "./view/drawing";
+import { adjacentOf as adjacent } from "./view/adjacent";
 import { regions } from "./view/region";
-import { picture } from "./view/underlay";
+import { kept, picture } from "./view/underlay";
 
 const within = embedded();
 const engine = within ? new WasmEngine(within) : new LocalEngine(new URL(window.location.href));
@@ -27,4 +29,4 @@ engine.opened().then(
 );
 
 // for tests and for scripts in the console: what the page knows, to read
-Object.assign(window, { studio: { doc, fitted, current, hovered, selected, region, place, bendPlace, regions, picture, engine } });
+Object.assign(window, { studio: { doc, fitted, current, hovered, selected, region, place, bendPlace, regions, adjacent, picture, kept, engine } });

@@ -3,7 +3,7 @@
 
 import { batch, computed, signal } from "@preact/signals";
 import {
-  documentOf, jobOptions, SERIES10, withGiven, withInserted, withOptions, withoutPoint, withPoint,
+  documentIn, documentOf, jobOptions, SERIES10, withGiven, withInserted, withOptions, withoutPoint, withPoint,
   type Document, type Given, type Options, type Vec,
 } from "./document/document";
 import { begun, did, redone, undone } from "./document/history";
@@ -122,24 +122,29 @@ export function removePoint(index: number): void {
 
 const MOST_PLACES = 4000; // drawn of a contour
 
+/** Milliseconds after which work goes on beside a newer piece of its kind; the engine ends it then. */
+const PATIENCE = 3000;
+
 /** Does a piece of work for the document as it is: one at a time, and once more when it changed. */
 function follower(work: () => Promise<void>): () => void {
-  let busy = false, again = false;
-  const follow = (): void => {
-    if (busy) {
-      again = true;
-      return;
-    }
-    busy = true;
+  let running: number | null = null, count = 0, again = false, begun = 0, late: ReturnType<typeof setTimeout> | undefined;
+  const start = (): void => {
+    again = false;
+    clearTimeout(late);
+    late = undefined;
+    begun = performance.now();
+    const mine = running = ++count;
     void work().finally(() => {
-      busy = false;
-      if (again) {
-        again = false;
-        follow();
-      }
+      if (mine !== running) return; // a newer one took its place
+      running = null;
+      if (again) start();
     });
   };
-  return follow;
+  return () => {
+    if (running === null) return start();
+    again = true;
+    late ??= setTimeout(() => { late = undefined; if (again && running !== null) start(); }, Math.max(0, PATIENCE - (performance.now() - begun)));
+  };
 }
 
 const followContour = follower(form);
@@ -191,22 +196,38 @@ export function select(index: number | null): void {
   if (index !== null) followRegion();
 }
 
+function givenIn(g: SeriesReport["given"][number]): Given {
+  const degrees = (v: number) => (v * 180) / Math.PI;
+  const [low, high] = g.kappas ?? [null, null];
+  const oneWay = low !== null && low >= 0 || high !== null && high <= 0;
+  const end = (k: number | null) => (k === null || k === 0 ? null : 1 / k);
+  return {
+    ...(g.headings !== undefined ? { heading: [degrees(g.headings[0]), degrees(g.headings[1])] } : {}),
+    ...(g.heading !== undefined ? { heading: degrees(g.heading) } : {}),
+    ...(g.kappas === undefined ? {} : oneWay && (end(low) !== null || end(high) !== null)
+      ? { radius: [end(high), end(low)] } : { kappa: [low, high] }),
+    ...(g.kappa !== undefined ? { radius: g.kappa === 0 ? Infinity : 1 / g.kappa } : {}),
+    ...(g.corner ? { corner: true } : {}),
+  };
+}
+
 /** Reads a file of points or a drawing. */
 export async function open(name: string, text: string): Promise<void> {
+  const saved = documentIn(text);
+  if (saved) {
+    selected.value = null;
+    message.value = null;
+    return change({ ...saved, name });
+  }
   const answer = await engine.call<Answer<SeriesReport>>("series", { text, name });
   if (!answer.report) {
     message.value = answer.error ? `${answer.error.message} (${answer.error.where}); ${answer.error.advice}` : null;
     return;
   }
   const report = answer.report;
-  let next: Document = { ...documentOf(report.name, report.points), units: report.units };
+  let next: Document = { ...documentOf(name, report.points), units: report.units };
   for (const g of report.given) {
-    const given: Given = {
-      ...(g.heading !== undefined ? { heading: (g.heading * 180) / Math.PI } : {}),
-      ...(g.kappa !== undefined ? { radius: g.kappa === 0 ? Infinity : 1 / g.kappa } : {}),
-      ...(g.corner ? { corner: true } : {}),
-    };
-    next = withGiven(next, g.point, given);
+    next = withGiven(next, g.point, givenIn(g));
   }
   selected.value = null;
   message.value = report.warnings.length > 0 ? report.warnings.join("; ") : null;
@@ -217,5 +238,18 @@ export async function open(name: string, text: string): Promise<void> {
 export async function exported(format: string): Promise<ExportAnswer> {
   const contour = fitted.value?.answer.contour;
   if (contour === undefined) return { error: fitted.value?.answer.error ?? null };
-  return engine.call<ExportAnswer>("export", { contour, format });
+  return engine.call<ExportAnswer>("export", { contour, format, name: doc.value.name });
 }
+
+/** The tables and drawings of the region of the points as they are. */
+export async function worksheet(format: string): Promise<ExportAnswer> {
+  const { points, units, name } = doc.value;
+  const text = [`x_${units},y_${units}`, ...points.map((p) => p.join(",")), ""].join("\n");
+  const request = { text, name, options: jobOptions(doc.value), format };
+  return engine.call<ExportAnswer>("worksheet", request);
+}
+
+/** Every how manyth place has a tooth of the comb. */
+export const combEvery = signal(1);
+/** Point under the cursor, whose neighbouring circles are drawn. */
+export const pointed = signal<number | null>(null);

@@ -112,6 +112,8 @@ export interface SeriesReport {
     readonly point: number;
     readonly heading?: number;
     readonly kappa?: number;
+    readonly headings?: readonly [number, number];
+    readonly kappas?: readonly [number | null, number | null];
     readonly corner?: boolean;
   }[];
   readonly warnings: readonly string[];
@@ -122,6 +124,12 @@ export interface Answer<Report> {
   readonly report?: Report;
 }
 
+/** A curve as it stands in a file. */
+export interface DrawnAnswer {
+  readonly error: EngineError | null;
+  readonly curve?: Curve | null;
+}
+
 export interface ExportAnswer {
   readonly error: EngineError | null;
   readonly files?: readonly { readonly suffix: string; readonly text: string }[];
@@ -129,7 +137,7 @@ export interface ExportAnswer {
 }
 
 export type Kind =
-  | "series" | "fit" | "region" | "analyse" | "compare" | "suggest" | "why_not" | "verify"
+  | "series" | "fit" | "drawn" | "worksheet" | "region" | "analyse" | "compare" | "suggest" | "why_not" | "verify"
   | "export";
 
 export interface Engine {

@@ -4,13 +4,14 @@
 
 import { CANCELLED, type Engine, type EngineError, type Kind, type Request } from "./engine";
 
-/** To a worker: its program first, then requests. */
+/** To a worker: its program first, packed or as another worker compiled it, then requests. */
 export type ToWorker =
   | { readonly packed: string }
+  | { readonly module: WebAssembly.Module }
   | { readonly id: number; readonly kind: Kind; readonly request: string };
-/** From a worker: that it is ready, an answer, or that it broke down. */
+/** From a worker: that it is ready, with its program, an answer, or that it broke down. */
 export type FromWorker =
-  | { readonly ready: number }
+  | { readonly ready: number; readonly module: WebAssembly.Module }
   | { readonly id: number; readonly answer: string }
   | { readonly broken: string };
 
@@ -25,6 +26,12 @@ export function embedded(): Embedded | null {
   return script && packed ? { script: script.textContent ?? "", packed: packed.textContent ?? "" } : null;
 }
 
+/** What workers run, and what the first of them made of it. */
+interface Program {
+  readonly packed: string;
+  module: WebAssembly.Module | null;
+}
+
 interface Waiting {
   readonly id: number;
   readonly kind: Kind;
@@ -33,20 +40,27 @@ interface Waiting {
   readonly failed: (reason: Error) => void;
 }
 
+/** Milliseconds after which a request is given up for a newer one of its kind: its worker with it. Shorter, a drag
+ * of a contour that takes so long would never show one. */
+const PATIENCE = 3000;
+
 const OLDER: EngineError =
   { code: CANCELLED, category: 1, message: "cancelled", where: "", advice: "", points: [] };
 
-/** One worker: answers one request after another; of two that wait, the newer of a kind stays. */
+/** One worker: answers one request after another; of two that wait, the newer of a kind stays. One that
+ * takes long ends when a newer one of its kind comes, or when it is asked to. */
 class Line {
   private worker: Worker | null = null;
   private running: Waiting | null = null;
   private waiting: Waiting[] = [];
   private count = 0;
   private begun = 0;
-  /** Milliseconds from the start of the newest worker until it could answer. */
+  private runningSince = 0;
+  private late: ReturnType<typeof setTimeout> | undefined;
+  /** Milliseconds from the start of the first worker until it could answer. */
   startup: number | null = null;
 
-  constructor(private readonly address: string, private readonly packed: string) {
+  constructor(private readonly address: string, private readonly program: Program) {
     this.start();
   }
 
@@ -55,8 +69,25 @@ class Line {
       for (const older of this.waiting.filter((one) => one.kind === kind)) older.done({ error: OLDER });
       this.waiting = this.waiting.filter((one) => one.kind !== kind);
       this.waiting.push({ id: ++this.count, kind, request, done, failed });
+      if (this.running?.kind === kind) this.endSoon();
       this.next();
     });
+  }
+
+  /** Ends what runs once it has had its time. */
+  private endSoon(): void {
+    if (this.late !== undefined || this.worker === null) return;
+    const left = PATIENCE - (performance.now() - this.runningSince);
+    this.late = setTimeout(() => {
+      this.late = undefined;
+      if (this.program.module === null) return; // the program is compiled once for all: not given up
+      const older = this.running;
+      this.running = null;
+      this.worker?.terminate();
+      this.worker = null;
+      older?.done({ error: OLDER });
+      this.next();
+    }, Math.max(0, left));
   }
 
   private start(): Worker {
@@ -67,7 +98,8 @@ class Line {
       e.preventDefault();
       this.broke(e.message);
     };
-    worker.postMessage({ packed: this.packed } satisfies ToWorker);
+    const { module, packed } = this.program;
+    worker.postMessage((module ? { module } : { packed }) satisfies ToWorker);
     this.worker = worker;
     return worker;
   }
@@ -77,18 +109,22 @@ class Line {
     const one = this.waiting.shift();
     if (!one) return;
     this.running = one;
+    this.runningSince = performance.now();
     const message: ToWorker = { id: one.id, kind: one.kind, request: one.request };
     (this.worker ?? this.start()).postMessage(message);
   }
 
   private heard(message: FromWorker): void {
     if ("ready" in message) {
-      this.startup = performance.now() - this.begun;
+      this.startup ??= performance.now() - this.begun;
+      this.program.module = message.module;
     } else if ("broken" in message) {
       this.broke(message.broken);
     } else if (message.id === this.running?.id) {
       const { done } = this.running;
       this.running = null;
+      clearTimeout(this.late);
+      this.late = undefined;
       done(JSON.parse(message.answer));
       this.next();
     }
@@ -98,6 +134,8 @@ class Line {
   private broke(why: string): void {
     this.worker?.terminate();
     this.worker = null;
+    clearTimeout(this.late);
+    this.late = undefined;
     const lost = this.running;
     this.running = null;
     lost?.failed(new Error(why));
@@ -111,9 +149,11 @@ const WHILE_DRAGGING: readonly Kind[] = ["fit", "region"];
 export class WasmEngine implements Engine {
   readonly inPage = true;
   private readonly quick: Line;
+  private readonly program: Program;
   private slow: Line | null = null;
 
   constructor(private readonly parts: Embedded) {
+    this.program = { packed: parts.packed, module: null };
     this.quick = this.line();
   }
 
@@ -133,6 +173,6 @@ export class WasmEngine implements Engine {
 
   private line(): Line {
     const address = URL.createObjectURL(new Blob([this.parts.script], { type: "text/javascript" }));
-    return new Line(address, this.parts.packed);
+    return new Line(address, this.program);
   }
 }

@@ -10,7 +10,11 @@ interface Program {
   _obvid_web_answer(kind: number, request: number): number;
   UTF8ToString(at: number): string;
 }
-declare function createEngine(options: { wasmBinary: ArrayBuffer; printErr: (text: string) => void }): Promise<Program>;
+interface Options {
+  readonly printErr: (text: string) => void;
+  readonly instantiateWasm: (imports: WebAssembly.Imports, done: (made: WebAssembly.Instance) => void) => object;
+}
+declare function createEngine(options: Options): Promise<Program>;
 
 const WARMING = 25; // fits until browsers have compiled the program for speed
 
@@ -48,16 +52,27 @@ function warm(program: Program, left: number): void {
   setTimeout(() => warm(program, left - 1));
 }
 
+async function started(module: WebAssembly.Module): Promise<Program> {
+  return new Promise((made, failed) => {
+    const instantiateWasm: Options["instantiateWasm"] = (imports, done) => {
+      WebAssembly.instantiate(module, imports).then(done, failed);
+      return {};
+    };
+    createEngine({ printErr: () => undefined, instantiateWasm }).then(made, failed);
+  });
+}
+
 let program: Promise<Program> | null = null;
 
 self.onmessage = (e: MessageEvent<ToWorker>) => {
   const message = e.data;
   const broken = (reason: unknown) => tell({ broken: String(reason) });
-  if ("packed" in message) {
+  if ("packed" in message || "module" in message) {
     const begun = performance.now();
-    program = unpacked(message.packed).then((wasmBinary) => createEngine({ wasmBinary, printErr: () => undefined }));
-    program.then((made) => {
-      tell({ ready: performance.now() - begun });
+    const module = "module" in message ? Promise.resolve(message.module) : unpacked(message.packed).then((bytes) => WebAssembly.compile(bytes));
+    program = module.then(started);
+    Promise.all([program, module]).then(([made, compiled]) => {
+      tell({ ready: performance.now() - begun, module: compiled });
       setTimeout(() => { try { warm(made, WARMING); } catch (reason) { broken(reason); } });
     }).catch(broken);
     return;

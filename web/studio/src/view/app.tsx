@@ -2,19 +2,19 @@
 import { signal } from "@preact/signals";
 import { jobOptions, pointsCsv } from "../document/document";
 import {
-  canRedo, canUndo, combHeight, current, doc, drawn, exported, fitted, message, open, redo, shadesRegion, shown,
-  snaps, theEngine, undo, type Shown,
+  canRedo, canUndo, combEvery, combHeight, current, doc, drawn, fitted, message, open, redo, shadesRegion, shown, snaps,
+  theEngine, undo, type Shown,
 } from "../state";
 import type { Answer } from "../engine/engine";
 import { Below } from "./below";
 import { Drawing, layPicture, magnification, showAll } from "./drawing";
 import { OptionsPanel, PointPanel, Tables } from "./panels";
 import { Plot } from "./plot";
+import { Preview, SaveChoice } from "./preview";
 import { theme } from "./theme";
 import { Verdict } from "./verdict";
 import { language, words } from "../words/words";
 
-const FORMATS = ["json", "step", "dxf", "svg", "csv", "nc", "xodr", "xml", "sldcrv", "swb", "obj", "ply"];
 const tourStep = signal<number | null>(null);
 try {
   if (window.localStorage.getItem("obvid-tour") !== "done") tourStep.value = 0;
@@ -22,25 +22,10 @@ try {
   tourStep.value = null; // a page from a folder may have no storage
 }
 
-function save(name: string, text: string): void {
-  const link = document.createElement("a");
-  link.href = URL.createObjectURL(new Blob([text], { type: "application/octet-stream" }));
-  link.download = name;
-  link.click();
-  setTimeout(() => URL.revokeObjectURL(link.href), 10_000);
-}
-
-async function saveAs(format: string): Promise<void> {
-  const answer = await exported(format), base = doc.value.name.replace(/\.[^.]*$/, "") || "contour";
-  if (answer.error) message.value = `${answer.error.message}; ${answer.error.advice}`;
-  else if (answer.remarks && answer.remarks.length > 0) message.value = answer.remarks.join("; ");
-  for (const file of answer.files ?? []) save(`${base}${file.suffix}.${format}`, file.text);
-}
-
 const NEEDS_PROGRAM = /\.(step|stp|iges|igs|brep|brp)$/i;
 
 async function take(file: File): Promise<void> {
-  if (NEEDS_PROGRAM.test(file.name)) {
+  if (theEngine().inPage && NEEDS_PROGRAM.test(file.name)) {
     message.value = words().needsProgram.replace("{file}", file.name);
     return;
   }
@@ -86,18 +71,14 @@ export function App() {
         <label class="button" title={w.openHint}>{w.open}
           <input id="file" type="file" onChange={(e) => { const f = e.currentTarget.files?.[0]; if (f) void take(f); e.currentTarget.value = ""; }} />
         </label>
-        <select id="save" aria-label={w.save} disabled={!current.value || !fitted.value?.answer.contour} value=""
-          onChange={(e) => { const format = e.currentTarget.value; e.currentTarget.value = ""; if (format) void saveAs(format); }}>
-          <option value="">{w.save} ...</option>
-          {FORMATS.map((f) => <option value={f}>.{f}</option>)}
-        </select>
-        <button id="copy" onClick={() => { void navigator.clipboard.writeText(pointsCsv(doc.value)).then(() => { message.value = w.copied; }); }}>{w.copyPoints}</button>
-        <button id="undo" disabled={!canUndo.value} onClick={undo} title="Ctrl+Z">{w.undo}</button>
-        <button id="redo" disabled={!canRedo.value} onClick={redo} title="Ctrl+Y">{w.redo}</button>
-        <button id="fit" onClick={showAll} title="0">{w.fit}</button>
+        <SaveChoice />
+        <button id="copy" title={w.copyHint} onClick={() => { void navigator.clipboard.writeText(pointsCsv(doc.value)).then(() => { message.value = w.copied; }); }}>{w.copyPoints}</button>
+        <button id="undo" disabled={!canUndo.value} onClick={undo} title={w.undoHint}>{w.undo}</button>
+        <button id="redo" disabled={!canRedo.value} onClick={redo} title={w.redoHint}>{w.redo}</button>
+        <button id="fit" onClick={showAll} title={w.fitHint}>{w.fit}</button>
         <span class="space" />
-        <button id="theme" onClick={() => { theme.value = theme.value === "dark" ? "light" : "dark"; }}>{w.theme}</button>
-        <button id="language" onClick={() => { language.value = language.value === "en" ? "uk" : "en"; document.documentElement.lang = language.value; }}>{w.language}</button>
+        <button id="theme" title={w.themeHint} onClick={() => { theme.value = theme.value === "dark" ? "light" : "dark"; }}>{w.theme}</button>
+        <button id="language" title={w.languageHint} onClick={() => { language.value = language.value === "en" ? "uk" : "en"; document.documentElement.lang = language.value; }}>{w.language}</button>
       </header>
       <Verdict />
       {message.value ? <p id="message" role="alert" onClick={() => { message.value = null; }}>{message.value} ✕</p> : null}
@@ -105,10 +86,11 @@ export function App() {
         <div id="pictures">
           <Drawing />
           <div id="shown">
-            <select id="what" aria-label={w.comb} value={shown.value} onChange={(e) => { shown.value = e.currentTarget.value as Shown; }}>
+            <select id="what" aria-label={w.comb} title={w.whatHint} value={shown.value} onChange={(e) => { shown.value = e.currentTarget.value as Shown; }}>
               <option value="curvature">{w.curvature}</option><option value="slope">{w.slope}</option><option value="radius">{w.radiusPlot}</option>
             </select>
             <label title={w.combScale}>{w.comb} <input id="comb" type="range" min="0" max="3" step="0.05" value={combHeight.value} onInput={(e) => { combHeight.value = Number(e.currentTarget.value); }} /></label>
+            <label title={w.combEveryHint}>{w.combEvery} <input id="every" type="range" min="1" max="8" step="1" value={9 - combEvery.value} onInput={(e) => { combEvery.value = 9 - Number(e.currentTarget.value); }} /></label>
             <label title={w.shadeRegionHint}><input id="shade" type="checkbox" checked={shadesRegion.value} onChange={(e) => { shadesRegion.value = e.currentTarget.checked; }} /> {w.shadeRegion}
               {shadesRegion.value && magnification.value !== null ? <span id="magnified"> × {magnification.value}</span> : null}</label>
             <label title={w.snapHint}><input id="snap" type="checkbox" checked={snaps.value} onChange={(e) => { snaps.value = e.currentTarget.checked; }} /> {w.snap}</label>
@@ -122,6 +104,7 @@ export function App() {
         <aside><OptionsPanel /><PointPanel /><Tables />
           {theEngine().inPage ? <p class="panel hint" id="in-page">{w.inPage}</p> : null}</aside>
       </div>
+      <Preview />
       <Tour />
     </main>
   );

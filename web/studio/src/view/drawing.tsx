@@ -3,9 +3,10 @@ import { useEffect, useRef } from "preact/hooks";
 import { computed, effect, signal } from "@preact/signals";
 import { withGiven, type Vec } from "../document/document";
 import {
-  abandonDrag, change, combHeight, current, doc, drag, drawn, drop, fitted, hovered, insertPoint,
-  movePoint, region, removePoint, select, selected, shadesRegion, shown, snaps,
+  abandonDrag, change, combEvery, combHeight, current, doc, drag, drawn, drop, fitted, hovered, insertPoint,
+  movePoint, pointed, region, removePoint, select, selected, shadesRegion, shown, snaps,
 } from "../state";
+import { adjacentOf } from "./adjacent";
 import { around, fromScreen, gridStep, panned, toScreen, zoomed, type Camera } from "./camera";
 import { barOf, GRID, HANDLE, kappaAt, onBar, paint, radiusOnBar, regionOf, tangentTip, type Bar } from "./paint";
 import { theme } from "./theme";
@@ -87,11 +88,18 @@ export function Drawing() {
     };
   }, []);
 
+  const fingers = useRef(new Map<number, Vec>());
   const grip = useRef<Grip | null>(null), last = useRef<Vec>([0, 0]);
   const down = (e: PointerEvent) => {
     const canvas = ref.current!, at = place(canvas, e);
     canvas.focus();
     canvas.setPointerCapture(e.pointerId);
+    fingers.current.set(e.pointerId, at);
+    if (fingers.current.size === 2) { // a pinch, whatever the first finger had taken
+      if (grip.current && grip.current.kind !== "view") abandonDrag();
+      grip.current = held.value = null;
+      return;
+    }
     if (scaling.value && scaling.value.length < 2) {
       scaling.value = [...scaling.value, fromScreen(camera.value, at)];
       grip.current = null;
@@ -104,6 +112,13 @@ export function Drawing() {
   };
   const move = (e: PointerEvent) => {
     const at = place(ref.current!, e), held = grip.current;
+    const before = fingers.current.get(e.pointerId), other = [...fingers.current].find(([id]) => id !== e.pointerId)?.[1];
+    if (before) fingers.current.set(e.pointerId, at);
+    if (before && other) {
+      const wide = (p: Vec) => Math.max(1, Math.hypot(p[0] - other[0], p[1] - other[1]));
+      camera.value = panned(zoomed(camera.value, other, wide(at) / wide(before)), [0.5 * (at[0] - before[0]), 0.5 * (at[1] - before[1])]);
+      return;
+    }
     if (!held) {
       hover(at);
       return;
@@ -114,7 +129,8 @@ export function Drawing() {
     if (held.kind === "tangent") turn(held.index, at);
     last.current = at;
   };
-  const up = () => {
+  const up = (e: PointerEvent) => {
+    fingers.current.delete(e.pointerId);
     if (grip.current && grip.current.kind !== "view") drop();
     grip.current = null;
     held.value = null;
@@ -126,8 +142,8 @@ export function Drawing() {
   return (
     <canvas id="drawing" ref={ref} tabIndex={0} role="application" aria-label={words().title}
       onPointerDown={down} onPointerMove={move} onPointerUp={up}
-      onPointerCancel={() => { grip.current = null; held.value = null; abandonDrag(); }}
-      onPointerLeave={() => { hovered.value = null; }} onDblClick={twice} onKeyDown={key} />
+      onPointerCancel={(e) => { fingers.current.delete(e.pointerId); grip.current = null; held.value = null; abandonDrag(); }}
+      onPointerLeave={() => { hovered.value = pointed.value = null; }} onDblClick={twice} onKeyDown={key} />
   );
 }
 
@@ -145,7 +161,9 @@ function scene() {
       : at === null ? null : barOf({ doc: doc.value, camera: camera.value, curve, region: points[0] ?? null }, at),
     doc: doc.value, camera: camera.value, curve: drawn.value?.curve ?? null,
     grey: !answer?.curve, error: current.value ? answer?.error ?? null : null,
-    selected: at, hovered: hovered.value, shown: shown.value, combHeight: combHeight.value,
+    selected: at, hovered: hovered.value, shown: shown.value, combHeight: combHeight.value, combEvery: combEvery.value,
+    adjacent: pointed.value === null || pointed.value >= doc.value.points.length ? null
+      : adjacentOf(doc.value, drawn.value?.curve?.closed ?? false, pointed.value),
     region: points[0] ?? null, stale: found?.of !== doc.value, units: doc.value.units,
     noise: typeof doc.value.options.noise === "number" ? doc.value.options.noise : 0,
     picture: picture.value, scaling: scaling.value, kept: kept.value,
@@ -203,7 +221,17 @@ function addAt(at: Vec): void {
   insertPoint(index, fromScreen(camera.value, at));
 }
 
+/** Half-way to the next point; behind the last one as far again. */
+function addBehind(index: number): void {
+  const points = doc.value.points, p = points[index], next = points[index + 1], before = points[index - 1];
+  if (!p || (!next && !before)) return;
+  const [q, share] = next ? [next, 0.5] : [before!, -0.5];
+  insertPoint(index + 1, snapped([p[0] + share * (q[0] - p[0]), p[1] + share * (q[1] - p[1])]));
+}
+
 function hover(at: Vec): void {
+  const over = gripAt(at);
+  pointed.value = over.kind === "point" ? over.index : null;
   const curve = drawn.value?.curve;
   if (!curve) return;
   const [x, y] = fromScreen(camera.value, at);
@@ -240,6 +268,10 @@ function key(e: KeyboardEvent): void {
     camera.value = zoomed(camera.value, [canvas.clientWidth / 2, canvas.clientHeight / 2], e.key === "+" ? 1.25 : 0.8);
   } else if (e.key === "0") {
     showAll();
+  } else if ((e.key === "n" || e.key === "Insert") && !e.ctrlKey && !e.metaKey) {
+    addBehind(at ?? n - 1);
+  } else if (e.key === "a" && at !== null && !e.ctrlKey && !e.metaKey) {
+    pointed.value = pointed.value === at ? null : at;
   } else if (e.key === "c" && at !== null && !e.ctrlKey && !e.metaKey) {
     const { corner, ...rest } = doc.value.given[at] ?? {};
     change(withGiven(doc.value, at, corner ? rest : { ...rest, corner: true }));

@@ -4,6 +4,7 @@
 import type { Document, Vec } from "../document/document";
 import type { Curve, EngineError, RegionPoint } from "../engine/engine";
 import type { Shown } from "../state";
+import type { Adjacent } from "./adjacent";
 import { gridStep, toScreen, type Camera } from "./camera";
 import { marks, usualSize, values } from "./comb";
 import { magnified } from "./region";
@@ -18,6 +19,7 @@ const LARGEST_BEND = 60;       // height of the largest of what is and what is p
 const MOST_BEND = 90;
 const REGION_WIDTH = 26;       // of the widest region, as it is drawn
 const COMB_SHARE = 0.13;       // of the smaller side of the canvas
+const LEAST_GAP = 3;           // pixels between teeth
 
 export interface Scene {
   readonly doc: Document;
@@ -29,6 +31,10 @@ export interface Scene {
   readonly hovered: number | null;
   readonly shown: Shown;
   readonly combHeight: number;
+  /** Every how manyth place has a tooth. */
+  readonly combEvery: number;
+  /** Of the point under the cursor. */
+  readonly adjacent: Adjacent | null;
   readonly region: RegionPoint | null;
   /** Whether the region is of the document as it was a moment ago. */
   readonly stale: boolean;
@@ -84,6 +90,7 @@ export function paint(canvas: HTMLCanvasElement, scene: Scene): void {
     contour(context, scene, scene.curve);
     if (!scene.grey) signs(context, scene, scene.curve);
   }
+  if (scene.adjacent) neighbours(context, scene, scene.adjacent);
   ranges(context, scene);
   bends(context, scene);
   handles(context, scene);
@@ -123,6 +130,26 @@ function shade(c: CanvasRenderingContext2D, s: Scene, curve: Curve): void {
   }
 }
 
+/** The circle through a point and its neighbours, dashed, and the limiting arcs beside it. */
+function neighbours(c: CanvasRenderingContext2D, s: Scene, { circle, arcs }: Adjacent): void {
+  const draw = (points: readonly Vec[]) => {
+    c.beginPath();
+    points.forEach((p, i) => {
+      const [x, y] = toScreen(s.camera, p);
+      if (i === 0) c.moveTo(x, y); else c.lineTo(x, y);
+    });
+    c.stroke();
+  };
+  c.strokeStyle = colour("faint");
+  c.lineWidth = 1;
+  c.setLineDash([6, 4]);
+  draw(circle);
+  c.setLineDash([]);
+  c.strokeStyle = colour("accent");
+  c.lineWidth = 1.2;
+  arcs.forEach(draw);
+}
+
 /** How far each point may move. */
 function discs(c: CanvasRenderingContext2D, s: Scene): void {
   const radius = s.noise * s.camera.scale;
@@ -144,6 +171,8 @@ function comb(c: CanvasRenderingContext2D, s: Scene, curve: Curve, high: number)
   const all = values(curve, s.shown), usual = usualSize(all);
   if (!(usual > 0)) return;
   const scale = (s.combHeight * high) / usual, most = 3 * high;
+  // where places lie closer on the screen than teeth can be told apart, some have none
+  const every = s.combEvery * Math.max(1, Math.ceil((LEAST_GAP * all.length) / (curve.length * s.camera.scale)));
   c.strokeStyle = colour(s.grey ? "grid" : "comb");
   c.lineWidth = 0.8;
   c.beginPath();
@@ -153,6 +182,7 @@ function comb(c: CanvasRenderingContext2D, s: Scene, curve: Curve, high: number)
     const tooth = Math.max(-most, Math.min(most, -scale * all[i]!));
     const tip: Vec = [p[0] - tooth * Math.sin(heading), p[1] - tooth * Math.cos(heading)];
     tips.push(tip);
+    if (i % every !== 0) continue;
     c.moveTo(p[0], p[1]);
     c.lineTo(tip[0], tip[1]);
   }
@@ -181,19 +211,21 @@ function contour(c: CanvasRenderingContext2D, s: Scene, curve: Curve): void {
   line(c, s, curve, (slope) => (s.grey ? colour("faint") : colour(slope >= 0 ? "rising" : "falling")), 2.4);
 }
 
+/** One path for each colour: strokes take time, not places. */
 function line(c: CanvasRenderingContext2D, s: Scene, curve: Curve, tint: (slope: number) => string, width: number): void {
-  const each = curve.samples;
+  const each = curve.samples, { scale, x, y } = s.camera, xy = curve.xy, paths = new Map<string, Path2D>();
+  for (let piece = 0; piece < curve.pieces; ++piece) {
+    const first = piece * each, name = tint(curve.slope[first + (each >> 1)]!);
+    let path = paths.get(name);
+    if (!path) paths.set(name, path = new Path2D());
+    path.moveTo(x + scale * xy[2 * first]!, y - scale * xy[2 * first + 1]!);
+    for (let i = first + 1; i < first + each; ++i) path.lineTo(x + scale * xy[2 * i]!, y - scale * xy[2 * i + 1]!);
+  }
   c.lineWidth = width;
   c.lineJoin = c.lineCap = "round";
-  for (let piece = 0; piece < curve.pieces; ++piece) {
-    const first = piece * each, middle = first + (each >> 1);
-    c.strokeStyle = tint(curve.slope[middle]!);
-    c.beginPath();
-    for (let k = 0; k < each; ++k) {
-      const p = at(curve, s.camera, first + k);
-      if (k === 0) c.moveTo(p[0], p[1]); else c.lineTo(p[0], p[1]);
-    }
-    c.stroke();
+  for (const [name, path] of paths) {
+    c.strokeStyle = name;
+    c.stroke(path);
   }
 }
 
@@ -259,7 +291,7 @@ export function headingAt(doc: Document, index: number, curve: Curve | null): nu
 /** Curvature at a point: as given, else of the contour. */
 export function kappaAt(doc: Document, index: number, curve: Curve | null): number | null {
   const given = doc.given[index]?.radius;
-  if (given !== undefined) return 1 / given;
+  if (typeof given === "number") return 1 / given;
   const i = sampleAt(doc, index, curve);
   return i === null ? null : curve!.kappa[i]!;
 }
@@ -348,13 +380,29 @@ function handles(c: CanvasRenderingContext2D, s: Scene): void {
   const blamed = new Set(s.error?.points ?? []);
   const few = s.doc.points.length <= 120;
   c.font = "11px system-ui, sans-serif";
+  const isPlain = (i: number) => !few && i !== s.selected && !blamed.has(i) && Object.keys(s.doc.given[i] ?? {}).length === 0;
+  const plain = new Path2D(), r = few ? HANDLE : 3;
+  s.doc.points.forEach((p, i) => {
+    if (!isPlain(i)) return;
+    const [x, y] = toScreen(s.camera, p);
+    plain.rect(x - 2, y - 2, 4, 4);
+  });
+  c.fillStyle = colour("ink");
+  c.fill(plain);
   s.doc.points.forEach((p, i) => {
     const [x, y] = toScreen(s.camera, p), given = s.doc.given[i] ?? {};
+    if (isPlain(i)) return;
     c.fillStyle = colour(blamed.has(i) ? "vertex" : i === s.selected ? "accent" : "paper");
     c.strokeStyle = colour(blamed.has(i) ? "vertex" : i === s.selected ? "accent" : "ink");
     c.lineWidth = 1.6;
     c.beginPath();
-    const r = few ? HANDLE : 3;
+    if (given.heading !== undefined && !given.corner) { // a whisker along the heading that is given
+      const range = given.heading, turn = (Math.PI / 180) * (typeof range === "number" ? range : 0.5 * ((range[0] ?? 0) + (range[1] ?? 0)));
+      c.moveTo(x - 2.2 * r * Math.cos(turn), y + 2.2 * r * Math.sin(turn));
+      c.lineTo(x + 2.2 * r * Math.cos(turn), y - 2.2 * r * Math.sin(turn));
+      c.stroke();
+      c.beginPath();
+    }
     if (given.corner) { c.moveTo(x, y - r - 1); c.lineTo(x + r, y + r); c.lineTo(x - r, y + r); c.closePath(); } else if (given.radius !== undefined) c.rect(x - r, y - r, 2 * r, 2 * r);
     else c.arc(x, y, r, 0, 2 * Math.PI);
     c.fill();

@@ -70,5 +70,12 @@ export function Plot() {
       plot?.destroy();
     };
   }, []);
-  return <div id="plot" ref={ref} />;
+  const step = (e: KeyboardEvent) => {
+    const last = (drawn.value?.curve?.t.length ?? 0) - 1, by = e.shiftKey ? 10 : 1, at = hovered.value ?? 0;
+    const to = { ArrowLeft: at - by, ArrowRight: at + by, Home: 0, End: last }[e.key];
+    if (to === undefined || last < 0) return;
+    hovered.value = Math.max(0, Math.min(last, to));
+    e.preventDefault();
+  };
+  return <div id="plot" ref={ref} tabIndex={0} role="application" aria-label={words().plotHint} title={words().plotHint} onKeyDown={step} />;
 }

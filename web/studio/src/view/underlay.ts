@@ -4,7 +4,8 @@
 import { computed, signal } from "@preact/signals";
 import type { Vec } from "../document/document";
 import type { Curve } from "../engine/engine";
-import { drawn } from "../state";
+import type { DrawnAnswer, EngineError, FitAnswer } from "../engine/engine";
+import { drawn, theEngine } from "../state";
 import { largestDistance } from "./region";
 
 export interface Picture {
@@ -29,6 +30,18 @@ export function scaled(p: Picture, [a, b]: readonly Vec[], length: number): Pict
 
 /** An earlier contour, kept to be seen beside the one that is drawn. */
 export const kept = signal<Curve | null>(null);
+
+const PLACES = 256; // of a piece that is kept: enough for four figures of a distance
+
+/** Keeps a curve: of a contour file or drawing as it stands, of points the contour through them; what is
+ * wrong with the text otherwise. */
+export async function keep(text: string, name: string): Promise<EngineError | null> {
+  const request = { text, name, samples: PLACES };
+  const stored = await theEngine().call<DrawnAnswer>("drawn", request);
+  const curve = stored.curve ? stored : await theEngine().call<FitAnswer>("fit", { ...request, options: {}, file: false });
+  if (curve.curve) kept.value = curve.curve;
+  return curve.curve ? null : curve.error;
+}
 
 /** How far the contour goes from the one that was kept, as measured at places of it. */
 export const apart = computed(() => {

@@ -3,6 +3,7 @@
 import { current, fitted, unreachable } from "../state";
 import { words } from "../words/words";
 import { figure } from "../words/figures";
+import { showTab } from "./panels";
 
 export function Verdict() {
   const w = words(), answer = fitted.value?.answer;
@@ -20,15 +21,16 @@ export function Verdict() {
   const gaps = [`${figure(c.joint_gaps.heading, 2)} rad`, `κ ${figure(c.joint_gaps.curvature, 2)}`];
   if (c.joint_gaps.slope !== undefined) gaps.push(`κ′ ${figure(c.joint_gaps.slope, 2)}`);
   return (
-    <p id="verdict" class={c.proved ? "good" : "bad"} role="status">
+    <p id="verdict" class={c.proved ? "good" : "bad"} role="status" onClick={() => showTab("segments")}>
       <b>{c.proved ? w.proved : w.notProved}</b>{" "}
       {c.proved ? <span>{report.continuity ?? ""}</span> : <span>{c.reason}</span>}
       <Fact name={w.vertices} hint={w.verticesHint} value={`${r.vertices} (${w.forced.replace("{n}", String(r.vertices_lower_bound))})`} />
       <Fact name={w.inflections} hint={w.inflectionsHint} value={String(r.inflections)} />
       <Fact name={w.error} hint={w.errorHint} value={`${figure(r.largest_deviation)} ${report.units}`} />
-      <Fact name={w.gaps} hint="" value={gaps.join(", ")} />
+      <Fact name={w.gaps} hint={w.gapsHint} value={gaps.join(", ")} />
       {r.waviness !== null ? <Fact name={w.waviness} hint={w.wavinessHint} value={figure(r.waviness)} /> : null}
-      <Fact name={w.time} hint="" value={`${figure(1000 * r.seconds, 3)} ms`} />
+      <Fact name={w.time} hint={w.timeHint} value={`${figure(1000 * r.seconds, 3)} ms`} />
+      <button id="details" title={w.detailsHint} onClick={() => showTab("segments")}>{w.segments} ▾</button>
     </p>
   );
 }

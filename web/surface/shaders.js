@@ -1,10 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "surface_page_parts.h"
-
-namespace obvid::exchange {
-
-std::string_view surface_page_shaders() {
-  return R"js(
 const surfaceVertex = `#version 300 es
 layout(location=0) in vec3 position; layout(location=1) in vec2 packed; layout(location=2) in vec2 uv; layout(location=3) in vec2 k;
 uniform mat4 toView, toClip; uniform mat3 turn;
@@ -79,7 +73,3 @@ void main() { gl_Position = toClip * (toView * vec4(position, 1.)); gl_Position.
 const lineFragment = `#version 300 es
 precision highp float; uniform vec4 ink; out vec4 colour;
 void main() { colour = vec4(ink.rgb * ink.a, ink.a); }`;
-)js";
-}
-
-}  // namespace obvid::exchange

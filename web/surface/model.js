@@ -1,13 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "surface_page_parts.h"
-
-namespace obvid::exchange {
-
-std::string_view surface_page_model_script() {
-  return R"js("use strict";
+"use strict";
 const byId = id => document.getElementById(id);
 const model = JSON.parse(byId("model").textContent);
 const dark = matchMedia("(prefers-color-scheme: dark)");
+const putOnTheme = () => { document.documentElement.dataset.theme = dark.matches ? "dark" : "light"; };
+putOnTheme();
+dark.addEventListener("change", putOnTheme);
 const calm = matchMedia("(prefers-reduced-motion: reduce)");
 
 function fail(text) {
@@ -131,7 +129,3 @@ function readable(x, digits = 3) {
   const [mantissa, power] = size.toExponential(digits - 1).split("e");
   return `${sign}${Number(mantissa)}·10${raised(Number(power))}`;
 }
-)js";
-}
-
-}  // namespace obvid::exchange

@@ -1,10 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "surface_page_parts.h"
-
-namespace obvid::exchange {
-
-std::string_view surface_page_drawing_script() {
-  return R"js(
 const modes = {shaded: 0, isolines: 1, curvature: 2, zebra: 3};
 const quantities = ["gaussian", "mean", "k1", "k2"];
 const views = {iso: [35, 28], front: [0, 0], top: [0, 90], side: [90, 0], back: [180, 0], bottom: [0, -90]};
@@ -289,7 +283,3 @@ function redraw() {
   if (!pending) requestAnimationFrame(draw);
   pending = true;
 }
-)js";
-}
-
-}  // namespace obvid::exchange

@@ -1,10 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "surface_page_parts.h"
-
-namespace obvid::exchange {
-
-std::string_view surface_page_controls_script() {
-  return R"js(
 const say = text => { byId("said").textContent = text; };
 const whole = (text, least, most) => {
   const n = Math.round(Number(text));
@@ -325,7 +319,3 @@ try {
   console.error(error);
   fail("The surface cannot be drawn in this browser: " + error.message);
 }
-)js";
-}
-
-}  // namespace obvid::exchange
