@@ -337,7 +337,7 @@ class DrawingCheck {
         found += length_of(drawn[k]);
         at = k + 1;
       }
-      while (!open && at < drawn.size() && on(drawn[at])) found += length_of(drawn[at++]);
+      while (at < drawn.size() && on(drawn[at])) found += length_of(drawn[at++]);
       open = !sheet_.expect(std::abs(found - wanted) <= slack, claim, found, wanted, p_.name(row));
     }
     if (at < drawn.size() && !open) {
