@@ -5,17 +5,10 @@ option(OBVID_CAD "build the helper for STEP, IGES and BREP (needs Open CASCADE)"
 # What both programs agree on: the program starts only a helper that was built from the same.
 file(GLOB obvid_cad_agreed CONFIGURE_DEPENDS "${PROJECT_SOURCE_DIR}/src/cad/client/*"
      "${PROJECT_SOURCE_DIR}/src/cad/helper/*")
-list(APPEND obvid_cad_agreed "${PROJECT_SOURCE_DIR}/include/obvid/cad/cad.h"
-     "${PROJECT_SOURCE_DIR}/include/obvid/core/error.h"
-     "${PROJECT_SOURCE_DIR}/include/obvid/exchange/cad_curve.h"
-     "${PROJECT_SOURCE_DIR}/include/obvid/core/units.h")
-set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${obvid_cad_agreed})
-set(digests "")
-foreach(source IN LISTS obvid_cad_agreed)
-  file(SHA256 "${source}" digest)
-  string(APPEND digests "${digest}\n")
-endforeach()
-string(SHA256 obvid_cad_digest "${digests}")
+obvid_digest(obvid_cad_digest ${obvid_cad_agreed} "${PROJECT_SOURCE_DIR}/include/obvid/cad/cad.h"
+             "${PROJECT_SOURCE_DIR}/include/obvid/core/error.h"
+             "${PROJECT_SOURCE_DIR}/include/obvid/exchange/cad_curve.h"
+             "${PROJECT_SOURCE_DIR}/include/obvid/core/units.h")
 configure_file(cmake/cad_build_mark.h.in "${PROJECT_BINARY_DIR}/generated-private/cad_build_mark.h" @ONLY)
 
 obvid_module(NAME cad FOLDER cad/client DEPENDS curve surface exchange)

@@ -9,7 +9,8 @@ install(TARGETS ${obvid_targets} obvid_all EXPORT obvidTargets
 
 set(obvid_config_dir "${CMAKE_INSTALL_LIBDIR}/cmake/obvid")
 install(EXPORT obvidTargets NAMESPACE obvid:: DESTINATION ${obvid_config_dir})
-# Headers below internal/ are code of the proofs: a copy compiled with other options must not exist.
+# Headers below internal/ are for this project alone. Those of the proofs: a copy compiled with other options
+# must not exist.
 install(DIRECTORY include/obvid DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}
         FILES_MATCHING PATTERN "*.h" PATTERN "internal" EXCLUDE)
 install(DIRECTORY "${PROJECT_BINARY_DIR}/generated/obvid" DESTINATION ${CMAKE_INSTALL_INCLUDEDIR})

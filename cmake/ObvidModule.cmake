@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-# obvid_module, obvid_umbrella, obvid_program: targets made from what lies in the folders.
+# obvid_digest, obvid_module, obvid_umbrella, obvid_program: targets made from what lies in the folders.
 
 configure_file("${PROJECT_SOURCE_DIR}/cmake/version.h.in"
                "${PROJECT_BINARY_DIR}/generated/obvid/core/version.h" @ONLY)
@@ -9,6 +9,18 @@ function(obvid_for_words target)
   if(NOT MSVC AND NOT EMSCRIPTEN)
     target_compile_options(${target} PRIVATE $<$<CONFIG:Release>:-O1>)
   endif()
+endfunction()
+
+# obvid_digest(variable file...): one digest of their contents, made anew when one of them changes.
+function(obvid_digest variable)
+  set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${ARGN})
+  set(digests "")
+  foreach(source IN LISTS ARGN)
+    file(SHA256 "${source}" digest)
+    string(APPEND digests "${digest}\n")
+  endforeach()
+  string(SHA256 digest "${digests}")
+  set(${variable} "${digest}" PARENT_SCOPE)
 endfunction()
 
 # obvid_module(NAME x [FOLDER src-folder] [DEPENDS module...] [LIBRARIES target...]
@@ -28,7 +40,7 @@ function(obvid_module)
   endif()
   file(GLOB_RECURSE sources CONFIGURE_DEPENDS "${PROJECT_SOURCE_DIR}/src/${M_FOLDER}/*.cpp")
   if(EMSCRIPTEN)
-    list(FILTER sources EXCLUDE REGEX "/(helper_file|helper_process|named_builder)\\.cpp$")  # apps/web has others
+    list(FILTER sources EXCLUDE REGEX "/(helper_file|helper_process|named_builder|part_program)\\.cpp$")  # apps/web has others
   endif()
   set(target obvid_${M_NAME})
   if(sources)

@@ -77,15 +77,14 @@ Table carrier_table(const Comparison& compared) {
   return table;
 }
 
-/// Carriers that keep monotone runs, but more of them than the spirals.
+/// Carriers that promise monotone runs, with more vertices than the spirals.
 std::string more_vertices_text(const Comparison& compared) {
   const int least = compared.carriers.front().fit.certificate.vertices;
   std::string out;
   for (const ComparedCarrier& row : compared.carriers) {
     const int more = row.refusal ? 0 : row.fit.certificate.vertices - least;
     if (more <= 0 || !promises_monotone(row.carrier)) continue;
-    out += fmt::format("\n{} has {} more than the spirals: it needs a part of the tolerance itself",
-                       to_string(row.carrier),
+    out += fmt::format("\n{} has {} more than the spirals", to_string(row.carrier),
                        counted(static_cast<std::size_t>(more), "vertex", "vertices"));
   }
   return out;

@@ -7,13 +7,13 @@
 #include <vector>
 
 #include "commands.h"
+#include "obvid/core/internal/part_program.h"
 #include "obvid/core/named_builder.h"
+#include "studio_build_mark.h"
 #include "terminal.h"
 
 namespace obvid {
 namespace {
-
-namespace fs = std::filesystem;
 
 /// Without a builder, what was installed serves.
 bool built() {
@@ -21,33 +21,32 @@ bool built() {
          run_named_builder("OBVID_STUDIO_BUILDER");
 }
 
-/// Beside this program, or where the install puts it.
-std::string studio_program() {
-  std::error_code error;
-  const fs::path folder = fs::read_symlink("/proc/self/exe", error).parent_path();
-  for (const fs::path& place :
-       {folder / "obvid-studio", folder / "../libexec/obvid/obvid-studio"}) {
-    if (::access(place.c_str(), X_OK) == 0) return place.string();
+/// Beside this program, or where the install puts it. Error: E310.
+Result<std::filesystem::path> studio_program() {
+  if (built()) {
+    const std::filesystem::path own = own_file();
+    const PartProgram part{"the studio", "obvid-studio", "obvid-studio " OBVID_STUDIO_BUILD_MARK};
+    const auto found = find_part(part_folders(own), own, part);
+    if (!found) return fail(found.error());
+    if (*found) return **found;
   }
-  return {};
+  return fail({ErrorCode::kUnsupported, "the studio was not built with this program", "studio",
+               "build it with tools/build_studio, or install it", -1, 0.0});
 }
 
 }  // namespace
 
 int run(const StudioOptions& options) {
-  const std::string program = built() ? studio_program() : std::string();
-  if (program.empty()) {
-    return report({ErrorCode::kUnsupported, "the studio was not built with this program", "studio",
-                   "build it with tools/build_studio, or install it"});
-  }
+  const auto program = studio_program();
+  if (!program) return report(program.error());
   std::vector<std::string> words{"obvid studio"};
   words.insert(words.end(), options.arguments.begin(), options.arguments.end());
   std::vector<char*> arguments;
   for (std::string& word : words) arguments.push_back(word.data());
   arguments.push_back(nullptr);
-  ::execv(program.c_str(), arguments.data());
-  return report(
-      {ErrorCode::kInternal, "the studio could not be started", program, "build it again"});
+  ::execv(program->c_str(), arguments.data());
+  return report({ErrorCode::kInternal, "the studio could not be started", program->string(),
+                 "build it again"});
 }
 
 }  // namespace obvid

@@ -18,6 +18,7 @@ namespace {
 /// What the command line said, before it is checked.
 struct RawSurface {
   SurfaceOptions make;
+  std::vector<std::string> inputs, across;
   SurfaceCheckOptions check;
   TypedValues typed;
   FormatValues formats;
@@ -178,7 +179,7 @@ void add_kind(CLI::App& app, RawSurface& raw, SurfaceKind kind) {
       add_contours(app, raw);
       break;
     case SurfaceKind::kGordon:
-      app.add_option("--across", job.across, "Curves that cross the others")->type_name("CURVES");
+      app.add_option("--across", raw.across, "Curves that cross the others")->type_name("CURVES");
       [[fallthrough]];
     case SurfaceKind::kCoons:
       add_surface_tolerance(app, raw,
@@ -213,7 +214,7 @@ void add_kind(CLI::App& app, RawSurface& raw, SurfaceKind kind) {
 
 CLI::App& add_maker(CLI::App& app, RawSurface& raw, const KindText& text) {
   CLI::App& kind = *app.add_subcommand(text.name, text.help);
-  kind.add_option("INPUT", raw.make.job.inputs, text.inputs);
+  kind.add_option("INPUT", raw.inputs, text.inputs);
   add_outputs(kind, raw.make.outputs, known_surface_endings());
   add_kind(kind, raw, text.kind);
   kind.add_option("--units", raw.units,
@@ -363,8 +364,8 @@ Result<void> set_grid(const RawSurface& raw, SurfaceJob& job) {
 Result<void> check_needs(const RawSurface& raw, const KindText& text) {
   const std::string name = std::string("surface ") + text.name;
   const std::string see = "see obvid " + name + " --help";
-  if (raw.make.job.inputs.empty()) return fail(usage(name + " needs input files", see));
-  if (text.kind == SurfaceKind::kGordon && raw.make.job.across.empty()) {
+  if (raw.inputs.empty()) return fail(usage(name + " needs input files", see));
+  if (text.kind == SurfaceKind::kGordon && raw.across.empty()) {
     return fail(usage("surface gordon needs the crossing curves after --across", see));
   }
   if (text.kind == SurfaceKind::kOffset && !(raw.distance && std::isfinite(*raw.distance))) {
@@ -377,6 +378,8 @@ Result<Command> checked_maker(RawSurface& raw, const KindText& text) {
   SurfaceOptions& make = raw.make;
   make.command = text.name;
   make.job.kind = text.kind;
+  make.job.inputs.assign(raw.inputs.begin(), raw.inputs.end());
+  make.job.across.assign(raw.across.begin(), raw.across.end());
   make.job.distance = raw.distance.value_or(0.0);
   make.progress = !raw.no_progress && !make.quiet && !make.json;
   const Result<void> done = check_needs(raw, text)

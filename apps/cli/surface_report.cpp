@@ -57,7 +57,7 @@ Table section_table(const std::vector<SkinSectionReport>& sections) {
 
 std::string across_text(const AcrossReport& across) {
   return fmt::format(
-      "{} changes of bending on {} isolines, the sections' points force {}; {} beyond "
+      "{} changes of bending on {} isolines, {} of them in the sections' points; {} beyond "
       "those, at most {} on one isoline",
       across.found, across.isolines, across.forced, across.beyond, across.worst);
 }

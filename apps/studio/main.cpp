@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <pthread.h>
 #include <spawn.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include <CLI/CLI.hpp>
@@ -17,6 +18,13 @@
 #include <thread>
 
 #include "server.h"
+#include "studio_build_mark.h"
+
+/// What the program looks for in this file before it starts it; not folded into other code.
+extern "C" {
+extern const char obvid_studio_mark[];
+const char obvid_studio_mark[] = "obvid-studio " OBVID_STUDIO_BUILD_MARK;
+}
 
 extern char** environ;  // NOLINT: POSIX declares it nowhere
 
@@ -45,17 +53,29 @@ std::optional<std::string> content_of(const std::string& path) {
   return std::string(std::istreambuf_iterator<char>(in), {});
 }
 
-/// Beside the program, or where the install puts it.
-std::string page_beside(const char* program) {
+/// A page is code, too: a file of root's, of the user's or of the owner of the program, which not
+/// everybody may write to.
+bool may_be_served(const std::filesystem::path& page, const std::filesystem::path& self) {
+  struct stat found {
+  }, program{};
+  if (::stat(page.c_str(), &found) != 0 || !S_ISREG(found.st_mode)) return false;
+  const bool programs_owner = ::stat(self.c_str(), &program) == 0 && found.st_uid == program.st_uid;
+  return (found.st_uid == 0 || found.st_uid == ::geteuid() || programs_owner) &&
+         (found.st_mode & S_IWOTH) == 0;
+}
+
+/// Beside the program, or where the install puts it; nothing where no such page may be served.
+std::optional<std::string> page_beside(const char* program) {
   std::error_code error;
   std::filesystem::path self = std::filesystem::read_symlink("/proc/self/exe", error);
   if (error) self = program;
   const std::filesystem::path folder = self.parent_path();
   for (const auto& place : {folder / "studio.html", folder / "../share/obvid/studio.html",
                             folder / "../../share/obvid/studio.html"}) {
-    if (std::filesystem::exists(place, error)) return place.string();
+    if (!std::filesystem::exists(place, error)) continue;
+    return may_be_served(place, self) ? content_of(place.string()) : std::nullopt;
   }
-  return (folder / "studio.html").string();
+  return std::nullopt;
 }
 
 void open_browser(const std::string& address) {
@@ -72,9 +92,12 @@ void open_browser(const std::string& address) {
 }
 
 int serve(const Asked& asked, const char* program) {
-  const std::string place = asked.page.empty() ? page_beside(program) : asked.page;
-  const auto page = content_of(place);
-  if (!page) return fail(301, "the page is missing", place, "build it with tools/build_studio");
+  const auto page = asked.page.empty() ? page_beside(program) : content_of(asked.page);
+  if (!page) {
+    return fail(301, "the page is missing, or anybody may change it",
+                asked.page.empty() ? "studio.html" : asked.page,
+                "build it with tools/build_studio");
+  }
   Settings settings;
   settings.page = *page;
   settings.port = asked.port;
@@ -120,6 +143,7 @@ int run(int argc, char** argv) {
       ->option_text("N");
   app.add_flag("--no-browser", asked.no_browser, "Only print the address");
   app.add_option("--page", asked.page, "The page, another than the program's own")->group("");
+  app.set_version_flag("--version", obvid_studio_mark);
   app.footer("\nExample: obvid studio points.csv");
   try {
     app.parse(argc, argv);

@@ -7,12 +7,14 @@
 #include <cmath>
 #include <cstdlib>
 #include <iterator>
-#include <limits>
 
 #include "obvid/core/format_into.h"
+#include "obvid/numeric/internal/wide.h"
 
 namespace obvid::exchange {
 namespace {
+
+using numeric::Wide;
 
 constexpr int kCentreDecimals = 5;
 constexpr double kMostBlockTurn = 2.8;   // of one block, rad: well below half a turn
@@ -45,29 +47,39 @@ struct Centre {
   double mismatch = 0.0;  ///< of the radii at both ends
 };
 
+/// The nearest whole number; below 2^62.
+std::int64_t rounded(Wide value) {
+  const std::int64_t first = std::llround(static_cast<double>(value));
+  return first + std::llround(static_cast<double>(value - Wide::whole(first)));
+}
+
 /// Digits of a double do not do: a centre far away has to lie on the chord's bisector in all
 /// decimals that are printed, and last digits of large coordinates are more than 53 bits.
-using Extended = long double;
-
 /// `above`: height of the centre over the middle of the chord (`x`, `y`).
-Centre centre_over(Extended x, Extended y, double above) {
-  const Extended length = std::hypot(x, y), part = above / length;
-  const Extended places = std::pow(10.0L, static_cast<Extended>(kCentreDecimals));
-  const Extended wanted_i = (0.5L * x - part * y) * places;
-  const Extended wanted_j = (0.5L * y + part * x) * places;
-  constexpr Extended kMostLastDigits = 0x1p62L;
-  if (!(std::hypot(wanted_i, wanted_j) < kMostLastDigits)) return {{}, {}, {}, HUGE_VAL};
-  const std::int64_t last_i = std::llround(wanted_i), last_j = std::llround(wanted_j);
-  const Extended i = static_cast<Extended>(last_i) / places;
-  const Extended j = static_cast<Extended>(last_j) / places;
+Centre centre_over(Wide x, Wide y, double above) {
+  const double length = std::hypot(static_cast<double>(x), static_cast<double>(y));
+  const double part = above / length;  // wherever it is rounded to, the bisector goes through
+  const Wide places = std::pow(10.0, kCentreDecimals);
+  const Wide wanted_i = (0.5 * x - part * y) * places;
+  const Wide wanted_j = (0.5 * y + part * x) * places;
+  constexpr double kMostLastDigits = 0x1p62;
+  if (!(std::hypot(static_cast<double>(wanted_i), static_cast<double>(wanted_j)) <
+        kMostLastDigits)) {
+    return {{}, {}, {}, HUGE_VAL};
+  }
+  const std::int64_t last_i = rounded(wanted_i), last_j = rounded(wanted_j);
+  const Wide i = Wide::whole(last_i) / places, j = Wide::whole(last_j) / places;
   Centre out{decimal(last_i, kCentreDecimals), decimal(last_j, kCentreDecimals), {}, 0.0};
   out.ij = {static_cast<double>(i), static_cast<double>(j)};
   // |ij|^2 - |ij - chord|^2 over the sum of the roots
-  const Extended squares = (2.0L * i - x) * x + (2.0L * j - y) * y;
-  const Extended radii = std::hypot(i, j) + std::hypot(i - x, j - y);
-  // what rounding of these lines hides: of i, j, x, y, the products and the sum, half an ulp each
-  constexpr Extended kRoundings = 3.0L * std::numeric_limits<Extended>::epsilon();
-  out.mismatch = static_cast<double>(std::abs(squares) / radii + kRoundings * radii);
+  const double squares = std::abs(static_cast<double>((2.0 * i - x) * x + (2.0 * j - y) * y));
+  const double radii =
+      norm(out.ij) + std::hypot(static_cast<double>(i - x), static_cast<double>(j - y));
+  // what rounding of these lines hides: quotients, products and sums of `Wide`, and of the doubles
+  // that tell the rest
+  constexpr double kWideRoundings = 64.0 * numeric::kUnitRoundoff * numeric::kUnitRoundoff;
+  constexpr double kRoundings = 16.0 * numeric::kUnitRoundoff;
+  out.mismatch = (1.0 + kRoundings) * (squares / radii) + kWideRoundings * radii;
   return out;
 }
 
@@ -140,10 +152,10 @@ void GcodePath::arc(Vec2 middle, GridPlace end, bool left) {
   if (wrong_side || std::abs(height) < kLowestArc * unit_ || radius < kSmallestRadius) {
     return line(end);
   }
-  const Extended places = std::pow(10.0, decimals_);
-  const Centre centre = centre_over(static_cast<Extended>(end.x - at_.x) / places,
-                                    static_cast<Extended>(end.y - at_.y) / places,
-                                    height + (left ? radius : -radius));
+  const Wide places = std::pow(10.0, decimals_);
+  const Centre centre =
+      centre_over(Wide::whole(end.x - at_.x) / places, Wide::whole(end.y - at_.y) / places,
+                  height + (left ? radius : -radius));
   if (!(centre.mismatch <= kMostMismatch)) {
     lost_arcs_ = true;
     return line(end);

@@ -5,12 +5,14 @@
 #include <algorithm>
 #include <cmath>
 
+#include "obvid/numeric/internal/wide.h"
 #include "obvid/numeric/tridiagonal.h"
 #include "small_matrix.h"
-#include "wide.h"
 
 namespace obvid::idspline {
 namespace {
+
+using numeric::Wide;
 
 constexpr std::size_t kMostOrders = 3;  // value, slope, second derivative
 

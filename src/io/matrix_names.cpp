@@ -89,7 +89,7 @@ std::optional<MatrixName> lonely_matrix(const std::string& path) {
     const bool inside = name.before.ends_with('_') && name.after.starts_with('_');
     if (inside && name.axis != kZ) return name;
   }
-  return std::nullopt;
+  return matrix_by_ending(path);
 }
 
 }  // namespace obvid

@@ -29,8 +29,8 @@ struct MatrixName {
 /// Whether the name alone says that it is one of three: it ends with _x, _y or _z.
 [[nodiscard]] std::optional<MatrixName> matrix_by_ending(const std::string& path);
 
-/// Whether the name speaks of the coordinate x or y (`_x_` inside), though the other files of the
-/// grid are not there.
+/// Whether the name speaks of a coordinate (`_x_` or `_y_` inside, or `_x`, `_y`, `_z` at its end),
+/// though the other files of the grid are not there.
 [[nodiscard]] std::optional<MatrixName> lonely_matrix(const std::string& path);
 
 }  // namespace obvid

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "obvid/io/private_copy.h"
+#include "obvid/io/internal/private_copy.h"
 
 #include <stdlib.h>  // mkdtemp
 

@@ -382,7 +382,7 @@ Result<PointGrid> read_grid(const std::vector<std::string>& paths, const GridOpt
   if (paths.empty()) return fail({ErrorCode::kUsage, "no file with a grid", "", "", -1, 0.0});
   if (paths.size() == 3) return from_three_names(paths);
   if (paths.size() > 1) return fail(not_one_grid(paths[1]));
-  if (const auto name = matrix_name(paths.front())) return from_three(*name);
+  if (const auto name = matrix_with_siblings(paths.front())) return from_three(*name);
   const auto text = read_file(paths.front());
   if (!text) return fail(text.error());
   auto grid = parse_grid(*text, paths.front(), options);

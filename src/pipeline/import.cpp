@@ -7,6 +7,7 @@
 #include <cmath>
 #include <filesystem>
 
+#include "cad_of_text.h"
 #include "drawn_series.h"
 #include "obvid/cad/cad.h"
 #include "obvid/exchange/dxf_read.h"
@@ -17,9 +18,9 @@
 #include "obvid/exchange/svg_read.h"
 #include "obvid/io/contour_json.h"
 #include "obvid/io/file_kind.h"
+#include "obvid/io/internal/private_copy.h"
 #include "obvid/io/read_file.h"
 #include "obvid/io/read_points.h"
-#include "obvid/io/private_copy.h"
 
 namespace obvid {
 namespace {
@@ -71,21 +72,7 @@ bool is_cad(FileKind kind) {
   return kind == FileKind::kStep || kind == FileKind::kIges || kind == FileKind::kBrep;
 }
 
-/// The helper of the CAD kernel reads files alone; errors name what the user named.
-Result<Drawing> cad_of_text(const std::string& text, const std::string& name) {
-  if (auto there = check_cad(); !there) return fail(there.error());
-  const auto file = PrivateCopy::of(text, name);
-  if (!file) return fail(file.error());
-  auto drawing = read_cad(file->path());
-  if (drawing) return drawing;
-  Error error = drawing.error();
-  for (std::string* part : {&error.what, &error.where, &error.hint}) {
-    for (std::size_t at; (at = part->find(file->path())) != std::string::npos;) {
-      part->replace(at, file->path().size(), name);
-    }
-  }
-  return fail(std::move(error));
-}
+Result<Drawing> read_curves_of_cad(const std::string& path) { return read_cad(path); }
 
 // ---- points of a drawing ----------------------------------------------------------------------
 
@@ -222,7 +209,7 @@ bool is_drawing_text(std::string_view text) {
 bool needs_cad(std::string_view text) { return is_cad(file_kind(text.substr(0, kHead))); }
 
 Result<Drawing> parse_drawing(const std::string& text, const std::string& name) {
-  if (needs_cad(text)) return cad_of_text(text, name);
+  if (needs_cad(text)) return pipeline_detail::cad_of_text(text, name, read_curves_of_cad);
   return from_text(file_kind(std::string_view(text).substr(0, kHead)), text, name);
 }
 

@@ -6,11 +6,11 @@
 #include <utility>
 
 #include "contour_nurbs.h"
-#include "obvid/io/read_sections.h"
 #include "obvid/pipeline/audit.h"
 #include "obvid/pipeline/skin_sections.h"
 #include "obvid/pipeline/surface_job.h"
 #include "report.h"
+#include "surface_inputs.h"
 #include "surface_kinds.h"
 
 namespace obvid {
@@ -34,8 +34,10 @@ Result<ReadCurve> curve_of_contour(const Contour& contour, const Frame& frame, s
   return curve;
 }
 
-Result<ReadCurve> from_drawing(const std::string& path, const SurfaceJob& job) {
-  const Result<Drawing> drawing = read_drawing(path);
+Result<ReadCurve> from_drawing(const SurfaceInput& input, const SurfaceJob& job) {
+  const std::string& path = input.name;
+  const Result<Drawing> drawing =
+      input.text ? parse_drawing(*input.text, path) : read_drawing(path);
   if (!drawing) return fail(drawing.error());
   const auto chosen = chosen_curve(*drawing, job.import.curve, path);
   if (!chosen) return fail(chosen.error());
@@ -67,16 +69,11 @@ Result<ReadCurve> spline_through(const SpaceSeries& series) {
   return ReadCurve{series.name, series.units, std::move(*curve), {}};
 }
 
-Result<ReadCurve> from_points(const std::string& path, const SurfaceJob& job) {
-  const auto sections = read_sections({path});
-  if (!sections) return fail(sections.error());
-  if (sections->size() != 1) {
-    return fail(
-        {ErrorCode::kBadCount,
-         fmt::format("the file holds {} series of points, one curve is needed", sections->size()),
-         path, "split the file", -1, static_cast<double>(sections->size())});
-  }
-  const SpaceSeries& series = sections->front();
+Result<ReadCurve> from_points(const SurfaceInput& input, const SurfaceJob& job) {
+  const std::string& path = input.name;
+  const auto section = pipeline_detail::section_of(input);
+  if (!section) return fail(section.error());
+  const SpaceSeries& series = *section;
   const Frame frame = plane_of(series.points);
   double size = 0.0;
   for (const Vec3& p : series.points) size = std::max(size, norm(p - series.points.front()));
@@ -126,8 +123,10 @@ Result<ReadCurve> from_points(const std::string& path, const SurfaceJob& job) {
 
 }  // namespace
 
-Result<ReadCurve> read_space_curve(const std::string& path, const SurfaceJob& job) {
-  return is_drawing(path) ? from_drawing(path, job) : from_points(path, job);
+Result<ReadCurve> read_space_curve(const SurfaceInput& input, const SurfaceJob& job) {
+  const bool drawing =
+      input.text ? is_drawing_text(*input.text) : input.is_file() && is_drawing(input.name);
+  return drawing ? from_drawing(input, job) : from_points(input, job);
 }
 
 }  // namespace obvid

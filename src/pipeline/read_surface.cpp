@@ -2,6 +2,7 @@
 #include <filesystem>
 #include <utility>
 
+#include "cad_of_text.h"
 #include "obvid/cad/cad.h"
 #include "obvid/io/read_control_net.h"
 #include "obvid/io/read_file.h"
@@ -16,10 +17,16 @@ bool starts_with_brace(const std::string& text) {
   return first != std::string::npos && text[first] == '{';
 }
 
+Result<CadSurfaces> read_faces(const std::string& path) { return read_cad_surfaces(path); }
+
 }  // namespace
 
-Result<SurfaceModel> read_surface(const std::string& path, std::vector<std::string>& warnings) {
-  const Result<std::string> text = read_file(path);
+Result<SurfaceModel> read_surface(const SurfaceInput& input, std::vector<std::string>& warnings) {
+  const std::string& path = input.name;
+  if (input.points) {
+    return fail({ErrorCode::kUnsupported, "points are no surface", path, "give a stored surface"});
+  }
+  const Result<std::string> text = input.text ? *input.text : read_file(path);
   if (!text) return fail(text.error());
   if (starts_with_brace(*text)) return surface_from_json(*text, path);
   if (!is_cad_text(*text)) {
@@ -27,7 +34,8 @@ Result<SurfaceModel> read_surface(const std::string& path, std::vector<std::stri
     if (net) net->name = std::filesystem::path(path).stem().string();
     return net;
   }
-  auto surfaces = read_cad_surfaces(path);
+  auto surfaces = input.text ? pipeline_detail::cad_of_text(*text, path, read_faces)
+                             : read_cad_surfaces(path);
   if (!surfaces) return fail(surfaces.error());
   warnings.insert(warnings.end(), surfaces->warnings.begin(), surfaces->warnings.end());
   return std::move(surfaces->model);

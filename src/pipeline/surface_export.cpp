@@ -12,6 +12,7 @@
 #include "file_units.h"
 #include "obvid/exchange/mesh_files.h"
 #include "obvid/io/surface_json.h"
+#include "obvid/pipeline/surface_report_json.h"
 
 namespace obvid {
 namespace {
@@ -64,6 +65,11 @@ std::string known_surface_endings() {
 SurfaceExporter::SurfaceExporter(const SurfaceModel& model, const SurfaceExportOptions& options,
                                  Progress progress)
     : model_(model), options_(options), progress_(std::move(progress)) {}
+
+const std::optional<CurvatureExtremes>& SurfaceExporter::extremes() {
+  if (!options_.extremes && !model_.patches.empty()) options_.extremes = extremes_of(model_);
+  return options_.extremes;
+}
 
 Result<void> SurfaceExporter::tessellated(std::vector<std::string>& remarks) {
   if (!meshes_.empty()) return {};
@@ -146,7 +152,7 @@ Result<std::string> SurfaceExporter::made(SurfaceFormat format, std::vector<std:
       page.colouring = options_.colouring;
       page.view = options_.view;
       page.lines = options_.lines;
-      page.extremes = options_.extremes;
+      page.extremes = extremes();
       return surface_page(model_, meshes_, page, progress_);
     }
     case SurfaceFormat::kPicture: {
@@ -154,7 +160,7 @@ Result<std::string> SurfaceExporter::made(SurfaceFormat format, std::vector<std:
       picture.colouring = options_.colouring;
       picture.view = options_.view;
       picture.lines = options_.lines;
-      picture.extremes = options_.extremes;
+      picture.extremes = extremes();
       return surface_svg(model_, picture);
     }
   }

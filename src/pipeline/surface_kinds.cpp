@@ -17,11 +17,11 @@
 namespace obvid::pipeline_detail {
 namespace {
 
-Result<std::vector<ReadCurve>> read_curves(const std::vector<std::string>& paths,
+Result<std::vector<ReadCurve>> read_curves(const std::vector<SurfaceInput>& inputs,
                                            const SurfaceJob& job) {
   std::vector<ReadCurve> curves;
-  for (const std::string& path : paths) {
-    auto curve = read_space_curve(path, job);
+  for (const SurfaceInput& input : inputs) {
+    auto curve = read_space_curve(input, job);
     if (!curve) return fail(curve.error());
     curves.push_back(std::move(*curve));
   }
@@ -74,8 +74,9 @@ SpaceCurve shrunk_to(SpaceCurve curve, Vec3 point) {
 
 /// Both inputs lists of points: rulings join places that belong together, as in a skin.
 bool are_points(const SurfaceJob& job) {
-  return std::none_of(job.inputs.begin(), job.inputs.end(),
-                      [](const std::string& path) { return is_drawing(path); });
+  return std::none_of(job.inputs.begin(), job.inputs.end(), [](const SurfaceInput& input) {
+    return input.text ? is_drawing_text(*input.text) : input.is_file() && is_drawing(input.name);
+  });
 }
 
 std::string degrees(double rad) {
@@ -184,7 +185,7 @@ Result<MadeSurface> make_revolution(const SurfaceJob& job) {
   if (!curves) return fail(curves.error());
   const double angle = job.angle != 0.0 ? job.angle : 2.0 * std::numbers::pi;
   const RevolutionSurface surface{curves->front().curve, job.axis_point, job.axis_direction, angle};
-  const std::string stem = std::filesystem::path(job.inputs.front()).stem().string();
+  const std::string stem = std::filesystem::path(job.inputs.front().name).stem().string();
   auto made = made_of(surface, stem, size_of_all(*curves), job);
   if (!made) return made;
   made->facts.emplace_back("angle", degrees(angle));
@@ -192,7 +193,7 @@ Result<MadeSurface> make_revolution(const SurfaceJob& job) {
     made->warnings.push_back(
         fmt::format("{}: the profile lies on both sides of the axis, the surface runs "
                     "through itself; is it half an outline, and --axis right?",
-                    job.inputs.front()));
+                    job.inputs.front().name));
   }
   if (auto done = take_over(*curves, *made); !done) return fail(done.error());
   return made;

@@ -6,9 +6,8 @@
 #include <filesystem>
 #include <utility>
 
-#include "obvid/io/read_grid.h"
-#include "obvid/io/read_sections.h"
 #include "obvid/surfacing/approximate.h"
+#include "surface_inputs.h"
 #include "surface_kinds.h"
 
 namespace obvid::pipeline_detail {
@@ -54,7 +53,7 @@ std::vector<ScenePolyline> drawn_sections(const std::vector<SpaceSeries>& sectio
 }  // namespace
 
 Result<MadeSurface> make_grid(const SurfaceJob& job, const Progress& progress) {
-  const auto grid = read_grid(job.inputs, {job.spacing.value_or(1.0)});
+  const auto grid = grid_of(job);
   if (!grid) return fail(grid.error());
   if (job.use == GridUse::kNear) return near(*grid, job, progress);
   const bool control = job.use == GridUse::kControl;
@@ -66,7 +65,7 @@ Result<MadeSurface> make_grid(const SurfaceJob& job, const Progress& progress) {
 }
 
 Result<MadeSurface> make_id(const SurfaceJob& job) {
-  const auto grid = read_grid(job.inputs, {job.spacing.value_or(1.0)});
+  const auto grid = grid_of(job);
   if (!grid) return fail(grid.error());
   const auto u = grid_parameters(*grid, true, job.spread);
   if (!u) return fail(u.error());
@@ -90,11 +89,11 @@ Result<MadeSurface> make_id(const SurfaceJob& job) {
 }
 
 Result<MadeSurface> make_skin(const SurfaceJob& job, const Progress& progress) {
-  const auto sections = read_sections(job.inputs, {job.spacing.value_or(1.0)});
+  const auto sections = sections_of(job);
   if (!sections) return fail(sections.error());
   std::vector<Units> units;
   for (const SpaceSeries& section : *sections) units.push_back(section.units);
-  auto unit = common_units(units, job.inputs.front());
+  auto unit = common_units(units, job.inputs.front().name);
   if (!unit) return fail(unit.error());
   SkinJob how;
   how.units = *unit;
@@ -107,7 +106,7 @@ Result<MadeSurface> make_skin(const SurfaceJob& job, const Progress& progress) {
   if (!fitted) return fail(fitted.error());
   MadeSurface made;
   made.kind = fmt::format("skin through {} sections", sections->size());
-  const std::string stem = std::filesystem::path(job.inputs.front()).stem().string();
+  const std::string stem = std::filesystem::path(job.inputs.front().name).stem().string();
   made.model.name = job.inputs.size() == 1 ? stem : "skin";
   made.model.units = std::move(*unit);
   made.model.patches = fitted->skin.patches;

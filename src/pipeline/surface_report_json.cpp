@@ -136,6 +136,19 @@ CurvatureExtremes extremes_of(const SurfaceCheck& check) {
           over_all(&PatchReport::k1), over_all(&PatchReport::k2)};
 }
 
+CurvatureExtremes extremes_of(const SurfaceModel& model) {
+  SurfaceCheck check;
+  for (const SurfacePatch& patch : model.patches) {
+    const CurvatureExtents found = curvature_extents(patch.surface);
+    PatchReport& report = check.patches.emplace_back();
+    report.gaussian = found.gaussian;
+    report.mean = found.mean;
+    report.k1 = found.k1;
+    report.k2 = found.k2;
+  }
+  return extremes_of(check);
+}
+
 std::string toolpath_report_json(const MadeToolpath& made, const Written& written) {
   const ToolpathReport& r = made.path.report;
   JsonText json;

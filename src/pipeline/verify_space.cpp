@@ -255,6 +255,7 @@ SpaceVerification verify(const StoredSpace& stored) {
   if (!stored.heights && stored.deviation != 0.0) {
     out.not_checked.emplace_back("/curve (only that it is a NURBS curve)");
   }
+  if (stored.seam) out.not_checked.emplace_back("/seam (only that its gaps are within bounds)");
   add_fields_of_part(out.not_checked, plan_name(stored), out.plan.not_checked);
   if (out.heights) add_fields_of_part(out.not_checked, "/heights", out.heights->not_checked);
   out.not_checked.insert(out.not_checked.end(), stored.unread.begin(), stored.unread.end());

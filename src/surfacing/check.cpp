@@ -2,6 +2,7 @@
 #include "obvid/surfacing/check.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <numbers>
@@ -27,20 +28,18 @@ int order_of(const std::vector<double>& knots, int degree) {
   return order;
 }
 
-void widen(Extent& extent, double value, bool first) {
-  extent.least = first ? value : std::min(extent.least, value);
-  extent.most = first ? value : std::max(extent.most, value);
-}
-
-/// A parameter and the part of the domain that it stands for.
+/// A parameter, the part of the domain that it stands for, and where its neighbours may lie: the
+/// cells beside it in the same span.
 struct Node {
   double at = 0.0;
   double weight = 0.0;
+  Range reach;
 };
 
 /// About `n` nodes of Gauss's rule, two in each cell, no cell over a knot: a short span has a
 /// curvature of its own, and areas are exact to the third degree.
 std::vector<Node> nodes_of(const std::vector<double>& knots, const Range& domain, std::size_t n) {
+  constexpr double kBefore = 1e-9;  // part of the span: behind the knot curvature may be another
   const double apart = 0.5 / std::numbers::sqrt3;  // of a cell, from its middle
   std::vector<Node> nodes;
   double from = domain.from;
@@ -49,9 +48,12 @@ std::vector<Node> nodes_of(const std::vector<double>& knots, const Range& domain
     if (!(span.length() > 0.0)) continue;
     const double share = span.length() / domain.length() * (1.0 - kCellRounding);
     const double cells = std::ceil(0.5 * static_cast<double>(n) * share);
+    const double cell = span.length() / cells, end = span.at(1.0 - kBefore);
     for (double k = 0.0; k < cells; k += 1.0) {
       for (const double side : {-apart, apart}) {
-        nodes.push_back({span.at((k + 0.5 + side) / cells), 0.5 * span.length() / cells});
+        const double at = span.at((k + 0.5 + side) / cells);
+        nodes.push_back(
+            {at, 0.5 * cell, {std::max(span.from, at - cell), std::min(end, at + cell)}});
       }
     }
     from = span.to;
@@ -59,25 +61,89 @@ std::vector<Node> nodes_of(const std::vector<double>& knots, const Range& domain
   return nodes;
 }
 
-void measure_curvature(const NurbsSurface& s, std::size_t n, PatchReport& report) {
+/// The place of a raster where a quantity is greatest (`sign` 1) or least (-1).
+struct Extreme {
+  double SurfaceCurvature::*quantity;
+  double sign;
+  double value = -std::numeric_limits<double>::infinity();  ///< times the sign
+  Node u{}, v{};
+
+  void look_at(const SurfaceCurvature& k, const Node& at_u, const Node& at_v) {
+    if (!(sign * k.*quantity > value)) return;
+    value = sign * k.*quantity;
+    u = at_u;
+    v = at_v;
+  }
+};
+
+/// The extreme near that place: compass steps through the cells around it, halved until they are
+/// far below the raster. Not to where du x dv shrinks to less than half: the surface ends in a
+/// point there, its curvature may have no bound, and nothing but the steps would decide it.
+double climbed(const NurbsSurface& s, Extreme from) {
+  constexpr int kHalvings = 20;  // a millionth of the raster's step: 1e-12 of the curvature's rise
+  constexpr int kMostSteps = 200;
+  constexpr double kLeastArea = 0.5;
+  const auto area_of = [](const SurfaceJet& jet) { return norm(cross(jet.du, jet.dv)); };
+  const double least = kLeastArea * area_of(evaluate(s, from.u.at, from.v.at));
+  double step_u = from.u.weight, step_v = from.v.weight;
+  int halvings = 0;
+  for (int step = 0; step < kMostSteps && halvings < kHalvings; ++step) {
+    Extreme best = from;
+    for (int place = 0; place < 9; ++place) {
+      Node u = from.u, v = from.v;
+      u.at = std::clamp(u.at + (place % 3 - 1) * step_u, u.reach.from, u.reach.to);
+      v.at = std::clamp(v.at + (place / 3 - 1) * step_v, v.reach.from, v.reach.to);
+      const SurfaceJet jet = evaluate(s, u.at, v.at);
+      if (area_of(jet) >= least) best.look_at(curvature(jet), u, v);
+    }
+    if (best.value > from.value) {
+      from = best;
+    } else {
+      ++halvings;
+      step_u /= 2.0;
+      step_v /= 2.0;
+    }
+  }
+  return from.value;
+}
+
+/// Area and curvature of a patch.
+struct Measured {
+  double area = 0.0;
+  CurvatureExtents curvature;
+};
+
+Measured measured(const NurbsSurface& s, std::size_t n) {
+  constexpr std::array kQuantities{&SurfaceCurvature::gaussian, &SurfaceCurvature::mean,
+                                   &SurfaceCurvature::k1, &SurfaceCurvature::k2};
+  std::vector<Extreme> extremes;
+  for (const auto quantity : kQuantities) {
+    extremes.push_back({quantity, -1.0});
+    extremes.push_back({quantity, 1.0});
+  }
+  Measured out;
   const std::vector<Node> along_u = nodes_of(s.knots_u, domain_u(s), n);
-  bool first = true;
   for (const Node& v : nodes_of(s.knots_v, domain_v(s), n)) {
     for (const Node& u : along_u) {
       const SurfaceJet jet = evaluate(s, u.at, v.at);
-      report.area += norm(cross(jet.du, jet.dv)) * u.weight * v.weight;
+      out.area += norm(cross(jet.du, jet.dv)) * u.weight * v.weight;
       const SurfaceCurvature k = curvature(jet);
       if (k.normal == Vec3{}) {
-        ++report.without_normal;
+        ++out.curvature.without_normal;
         continue;
       }
-      widen(report.gaussian, k.gaussian, first);
-      widen(report.mean, k.mean, first);
-      widen(report.k1, k.k1, first);
-      widen(report.k2, k.k2, first);
-      first = false;
+      for (Extreme& one : extremes) one.look_at(k, u, v);
     }
   }
+  if (!std::isfinite(extremes.front().value)) return out;  // no tangent plane anywhere
+  const auto extent = [&](std::size_t q) {
+    return Extent{-climbed(s, extremes[2 * q]), climbed(s, extremes[2 * q + 1])};
+  };
+  out.curvature.gaussian = extent(0);
+  out.curvature.mean = extent(1);
+  out.curvature.k1 = extent(2);
+  out.curvature.k2 = extent(3);
+  return out;
 }
 
 PatchReport report_of(const SurfacePatch& patch, std::size_t samples) {
@@ -91,7 +157,13 @@ PatchReport report_of(const SurfacePatch& patch, std::size_t samples) {
   report.order_u = order_of(s.knots_u, s.degree_u);
   report.order_v = order_of(s.knots_v, s.degree_v);
   report.rational = !s.weights.empty();
-  measure_curvature(s, samples, report);
+  const Measured found = measured(s, samples);
+  report.area = found.area;
+  report.gaussian = found.curvature.gaussian;
+  report.mean = found.curvature.mean;
+  report.k1 = found.curvature.k1;
+  report.k2 = found.curvature.k2;
+  report.without_normal = found.curvature.without_normal;
   report.along_u = check_lines(s, samples);
   report.along_v = check_lines(transposed(s), samples);
   return report;
@@ -212,6 +284,10 @@ std::vector<JointReport> joints_of(const SurfaceModel& model, double nearness) {
 }
 
 }  // namespace
+
+CurvatureExtents curvature_extents(const NurbsSurface& surface, std::size_t samples) {
+  return measured(surface, samples).curvature;
+}
 
 SurfaceCheck check_surface(const SurfaceModel& model, const CheckOptions& options,
                            const Progress& progress) {

@@ -21,7 +21,7 @@ constexpr const char* kMark = "the mark of this build";
 class HelperFile : public TestFolder {
  protected:
   void expect_refused(const fs::path& file, const std::string& why) {
-    const auto good = check_helper(file, own_, kMark);
+    const auto good = check_part(file, own_, helper_with(kMark));
     ASSERT_FALSE(good) << why;
     EXPECT_EQ(good.error().code, ErrorCode::kUnsupported);
     EXPECT_NE(good.error().what.find(why), std::string::npos) << good.error().what;
@@ -48,7 +48,7 @@ TEST_F(HelperFile, OnlyOurFoldersAreLookedAt) {
 
 TEST_F(HelperFile, AFileWithTheMarkIsTaken) {
   const std::string file = program("obvid-cad", std::string("\0\1elf ", 6) + kMark + '\0' + "more");
-  EXPECT_TRUE(check_helper(file, own_, kMark));
+  EXPECT_TRUE(check_part(file, own_, helper_with(kMark)));
 }
 
 TEST_F(HelperFile, WithoutTheWholeMarkItIsOfAnotherBuild) {

@@ -494,7 +494,8 @@ class Subject:
 
     def surface(self, kind, paths):
         """Number of patches, after table, JSON and picture of `surface check` were compared."""
-        made = self.run("surface", kind, *(str(p) for p in paths), *self.options, "-o", "s.json")
+        made = self.run("surface", kind, *(str(p) for p in paths), *self.options, "-o", "s.json",
+                        "--colour", "gaussian", "-o", "made.svg", "-o", "made.html")
         if made.code != 0:
             return 0
         table = self.run("surface", "check", "s.json", "-o", "s.svg")
@@ -512,11 +513,16 @@ class Subject:
             self.same(f"{name}: lines", row and [int(n) for n in row.groups()],
                       [patch[way][key] for way in ("along_u", "along_v") for key in (
                           "monotone", "lines", "vertices", "most_vertices", "inflections")])
-        extremes = re.search(rf"from ({NUMBER}) to ({NUMBER}) in all",
-                             " ".join(labels_of(self.read("s.svg"))))
-        for k in range(2) if extremes else []:
-            self.shows("Gaussian curvature in the picture", extremes[k + 1],
-                       (min, max)[k](p["gaussian"][k] for p in patches.values()))
+        most = [(min, max)[k](p["gaussian"][k] for p in patches.values()) for k in range(2)]
+        for picture in ("s.svg", "made.svg"):
+            extremes = re.search(rf"from ({NUMBER}) to ({NUMBER}) in all",
+                                 " ".join(labels_of(self.read(picture))))
+            for k in range(2) if extremes else []:
+                self.shows(f"Gaussian curvature in {picture}", extremes[k + 1], most[k])
+        page = re.search(r'"least":(-?[\d.e+-]+)[^{}]*?"most":(-?[\d.e+-]+)',
+                         self.read("made.html"))
+        for k in range(2) if most[0] < most[1] else []:
+            self.same("Gaussian curvature of the page", page and float(page[k + 1]), most[k])
         return len(patches)
 
     # compare ------------------------------------------------------------------------------------

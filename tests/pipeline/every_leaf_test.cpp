@@ -203,7 +203,7 @@ std::vector<json> changes_of(const json& value, const std::string& path, double 
   std::vector<json> out = {nullptr, "1"};
   const double number = value.get<double>();
   if (path.find("joint_gaps") != std::string::npos) {
-    out.insert(out.end(), {3.0 * number + 1e-13, 0.3 * number - 1e-13});
+    out.insert(out.end(), {3.0 * number + 1e-13, 0.3 * number, 0.0, -number - 1e-13});
   } else if (path.find("_miss") != std::string::npos) {
     out.push_back(3.0 * number + 1e-12);
   } else if (value.is_number_integer() && path.find("/points") != 0) {

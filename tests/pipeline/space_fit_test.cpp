@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <functional>
 #include <numbers>
@@ -380,7 +381,11 @@ TEST(SpaceFitTest, AClosedFileIsProvedAgainAndAFalseSeamIsFound) {
   ASSERT_TRUE(nurbs);
   const auto sound = space_from_json(space_fit_json(*made, *nurbs), "curve.json");
   ASSERT_TRUE(sound) << to_line(sound.error());
-  EXPECT_FALSE(broken_promise(*sound, verify(*sound)));
+  const SpaceVerification verified = verify(*sound);
+  EXPECT_FALSE(broken_promise(*sound, verified));
+  // gaps at the seam are rounding: those of the file are held against their bounds alone
+  const char* told = "/seam (only that its gaps are within bounds)";
+  EXPECT_EQ(std::count(verified.not_checked.begin(), verified.not_checked.end(), told), 1);
   const auto doctored = [&](auto change) {
     StoredSpace one = *sound;
     change(one);

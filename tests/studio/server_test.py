@@ -2,8 +2,10 @@
 """The studio's server answers its own page alone, says what the command line says, and survives
 whatever is sent. usage: server_test.py OBVID PROJECT_FOLDER"""
 import json
+import os
 import random
 import re
+import shutil
 import signal
 import socket
 import subprocess
@@ -277,6 +279,15 @@ def endings():
     made = subprocess.run([PROGRAM, "studio", "missing.csv", "--no-browser"], capture_output=True,
                           text=True)
     check("a missing file", made.returncode == 3 and "E301" in made.stderr, made.stderr)
+    with tempfile.TemporaryDirectory() as name:
+        folder, ours = Path(name), Path(PROGRAM).parent
+        for part in ("obvid", "obvid-studio", "studio.html"):
+            shutil.copy(ours / part, folder / part)
+        (folder / "studio.html").chmod(0o666)
+        made = subprocess.run([folder / "obvid", "studio", "--no-browser"], capture_output=True,
+                              text=True, timeout=20, env={**os.environ, "LD_LIBRARY_PATH": str(ours)})
+        check("a page that everybody may change is not served",
+              made.returncode == 3 and "E301" in made.stderr and not made.stdout, made.stderr)
     made = subprocess.run([PROGRAM, "studio", "--help"], capture_output=True, text=True)
     check("help", made.returncode == 0 and "--port" in made.stdout, made.stdout)
 

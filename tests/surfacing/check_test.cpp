@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
 
 namespace obvid {
@@ -73,8 +74,8 @@ TEST(CheckSurface, SeesTheStepOfCurvatureFromPlaneToCylinder) {
 }
 
 TEST(CheckSurface, MeasuresShortSpansToo) {
-  // a cylinder over a line of 1000 with a quarter of a circle of radius 1 at its end, whose span of the
-  // parameter is far shorter than a cell of the raster
+  // a cylinder over a line of 1000 with a quarter of a circle of radius 1 at its end, whose span of
+  // the parameter is far shorter than a cell of the raster
   const double length = 1000.0;
   SpaceCurve bend;
   bend.degree = 2;
@@ -88,6 +89,39 @@ TEST(CheckSurface, MeasuresShortSpansToo) {
   EXPECT_NEAR(std::max(std::abs(found.patches[0].mean.least), std::abs(found.patches[0].mean.most)),
               0.5, 1e-9);
   EXPECT_NEAR(found.patches[0].area, length + kPi / 2, 0.1 * kPi);
+}
+
+/// z = (x^2 + y^2) / 2 over [from, to]^2: Gaussian curvature 1 / (1 + x^2 + y^2)^2.
+NurbsSurface paraboloid(double from, double to) {
+  NurbsSurface s;
+  s.degree_u = s.degree_v = 2;
+  s.knots_u = s.knots_v = {0, 0, 0, 1, 1, 1};
+  const std::array<double, 3> at{from, (from + to) / 2, to},
+      square{from * from, from * to, to * to};
+  for (std::size_t j = 0; j < 3; ++j) {
+    for (std::size_t i = 0; i < 3; ++i) {
+      s.points.push_back({at[i], at[j], (square[i] + square[j]) / 2});
+    }
+  }
+  return s;
+}
+
+TEST(CheckSurface, FindsExtremesBetweenItsPlacesAndOnBorders) {
+  const auto gaussian = [](double r2) { return 1.0 / ((1.0 + r2) * (1.0 + r2)); };
+  // half of the sum of 1 and 1 / (1 + r^2), over sqrt(1 + r^2)
+  const auto mean = [](double r2) { return (2.0 + r2) / (2.0 * std::pow(1.0 + r2, 1.5)); };
+  for (const std::size_t samples : {3u, 5u, 65u}) {
+    const CurvatureExtents inside = curvature_extents(paraboloid(-1.0, 0.7), samples);
+    EXPECT_NEAR(inside.gaussian.most, 1.0, 1e-9);
+    EXPECT_NEAR(inside.mean.most, 1.0, 1e-9);
+    EXPECT_NEAR(inside.gaussian.least, gaussian(2.0), 1e-6);
+    const CurvatureExtents border = curvature_extents(paraboloid(0.5, 1.5), samples);
+    EXPECT_NEAR(border.gaussian.most, gaussian(0.5), 1e-6);
+    EXPECT_NEAR(border.gaussian.least, gaussian(4.5), 1e-6);
+    EXPECT_NEAR(border.mean.least, mean(4.5), 1e-6);
+    EXPECT_NEAR(border.k1.most, std::pow(1.5, -0.5), 1e-6);
+    EXPECT_NEAR(border.k2.most, std::pow(1.5, -1.5), 1e-6);
+  }
 }
 
 TEST(CheckSurface, CountsVerticesAndInflectionsOfLines) {

@@ -4,7 +4,7 @@
 
 usage: cad_helper_test.py PROGRAM C_COMPILER EXAMPLES [HELPER]
 Hostile are a library whose constructor leaves a trace, under the names that plugins had, and a
-program that leaves one, under the name of the helper.
+program that leaves one, under the names of the helper and of the studio.
 """
 import os
 import pathlib
@@ -51,6 +51,7 @@ class Helper(unittest.TestCase):
             folder.mkdir(parents=True, exist_ok=True)
             shutil.copy(self.library, folder / "obvid_cad.so")
             shutil.copy(self.hostile, folder / "obvid-cad")
+            shutil.copy(self.hostile, folder / "obvid-studio")
 
     def fit(self, cwd=None, ending="igs", **env):
         """Exit code and error line of a run that has to write IGES."""
@@ -150,6 +151,26 @@ class Helper(unittest.TestCase):
             self.assertFalse(self.trace.exists())
         code, told = self.fit(OBVID_CAD_BUILDER=str(builder))
         self.assertNotIn("building", told)
+
+    def expect_no_studio(self, *words, cwd=None, **env):
+        clean = {k: v for k, v in os.environ.items() if k != "OBVID_STUDIO_BUILDER"}
+        done = subprocess.run([self.program, "studio", "--no-browser"], env=clean | env,
+                              cwd=cwd or self.folder, capture_output=True, text=True, timeout=60)
+        self.assertEqual(done.returncode, 3, done.stderr)
+        for word in ("E310", *words):
+            self.assertIn(word, done.stderr)
+        self.assertFalse(self.trace.exists(), "hostile code ran")
+
+    def test_no_other_studio_than_that_of_this_build_is_started(self):
+        here = self.folder / "here"
+        self.put(self.folder / "top", here)
+        self.expect_no_studio("not built", cwd=here, PATH=str(here), OBVID_PLUGINS=str(here))
+        self.put(self.folder / "top" / "libexec" / "obvid")
+        self.expect_no_studio("the studio is not started", "another build")
+        self.put(self.bin)
+        self.expect_no_studio("another build")
+        (self.bin / "obvid-studio").chmod(0o777)
+        self.expect_no_studio("everybody may write")
 
     def test_a_builder_that_fails_leaves_the_reason(self):
         builder = self.folder / "builder"

@@ -117,6 +117,32 @@ class Launcher(unittest.TestCase):
         self.assertEqual(self.start().stderr, "")
         self.assertEqual(self.steps(), [])
 
+    def test_another_content_of_the_same_size_and_time_is_built(self):
+        for path in SOURCES:  # as archives that can be made again are unpacked
+            os.utime(self.root / path, (10**9, 10**9))
+        self.start()
+        self.steps()
+        self.write("src/a.cpp", "int a = 2;\n")
+        os.utime(self.root / "src/a.cpp", (10**9, 10**9))
+        self.start()
+        self.assertEqual(self.steps(), ["cmake", "ninja obvid"])
+        self.assertEqual(self.start().stderr, "")
+
+    def test_a_copy_that_its_user_may_not_write_to_runs_as_long_as_its_content_is_that(self):
+        self.start()
+        self.steps()
+        shutil.copytree(self.root, self.root.with_name("a copy"))  # other times
+        self.root = self.root.with_name("a copy")
+        folder, builder = self.root / "build/release", self.root / "tools/build_release"
+        text = builder.read_text()
+        self.assertEqual(text.count('[ ! -w "$build" ]'), 1)  # root may write everywhere
+        builder.write_text(text.replace('[ ! -w "$build" ]', "true"))
+        before = sorted((p.name, p.stat().st_mtime_ns) for p in folder.iterdir())
+        self.assertEqual(self.start("x").stdout, "program x\n")
+        self.assertEqual(sorted((p.name, p.stat().st_mtime_ns) for p in folder.iterdir()), before)
+        self.write("src/a.cpp", "int a = 2;\n")
+        self.assertIn("cannot write to", self.start("x", code=1).stderr)
+
     def test_sources_that_cannot_be_made_newer_are_built_from_nothing(self):
         self.start()
         self.steps()

@@ -39,8 +39,9 @@ struct SurfaceExportOptions {
   double angle = 0.0;                     ///< rad, between normals along an edge [15 degrees]
   SurfaceColouring colouring = SurfaceColouring::kShaded;
   SurfaceView view = SurfaceView::kIso;
-  std::vector<ScenePolyline> lines;           ///< drawn on page and picture
-  std::optional<CurvatureExtremes> extremes;  ///< told by page and picture [of their own places]
+  std::vector<ScenePolyline> lines;  ///< drawn on page and picture
+  std::optional<CurvatureExtremes>
+      extremes;  ///< told by page and picture [what `check_surface` finds]
 };
 
 /// A surface in all formats that were asked for; triangles are made once for all of them.
@@ -56,6 +57,8 @@ class SurfaceExporter {
 
  private:
   [[nodiscard]] Result<std::string> made(SurfaceFormat format, std::vector<std::string>& remarks);
+  /// Once, for all pages and pictures.
+  [[nodiscard]] const std::optional<CurvatureExtremes>& extremes();
   [[nodiscard]] Result<void> tessellated(std::vector<std::string>& remarks);
 
   const SurfaceModel& model_;

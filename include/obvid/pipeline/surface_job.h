@@ -11,6 +11,7 @@
 #include "obvid/exchange/surface_svg.h"
 #include "obvid/pipeline/import.h"
 #include "obvid/pipeline/skin_sections.h"
+#include "obvid/surface/point_grid.h"
 #include "obvid/surface/surface.h"
 #include "obvid/surfacing/grid.h"
 
@@ -29,13 +30,27 @@ enum class SurfaceKind {
   kConvert,  ///< a surface as it is
 };
 
+/// What surfaces are made of: a file, the text of one that is there already, or points.
+struct SurfaceInput {
+  std::string name;                   ///< path of the file; of others what errors call them
+  std::optional<std::string> text{};  ///< content; nothing: the file is read
+  std::optional<SpaceSeries> points{};  ///< in place of both; their name counts
+
+  SurfaceInput() = default;
+  SurfaceInput(std::string path) : name(std::move(path)) {}  // NOLINT: a path is an input
+  SurfaceInput(const char* path) : name(path) {}             // NOLINT
+  [[nodiscard]] static SurfaceInput of_text(std::string name, std::string text);
+  [[nodiscard]] static SurfaceInput of_points(SpaceSeries points);
+  [[nodiscard]] bool is_file() const { return !text && !points; }
+};
+
 /// How a grid becomes a surface.
 enum class GridUse { kThrough, kNear, kControl };
 
 struct SurfaceJob {
   SurfaceKind kind = SurfaceKind::kSkin;
-  std::vector<std::string> inputs;  ///< files
-  std::vector<std::string> across;  ///< Gordon: curves that cross those of `inputs`
+  std::vector<SurfaceInput> inputs;
+  std::vector<SurfaceInput> across;  ///< Gordon: curves that cross those of `inputs`
   std::optional<Units> units;       ///< stated by the user; default as the files say
   std::optional<double> tolerance;  ///< units: of what NURBS do not hold exactly, of skins from
                                     ///< their contours, of grids that are approximated, of
@@ -56,6 +71,7 @@ struct SurfaceJob {
   std::optional<double> spacing;  ///< of rows and columns of height matrices, and between
                                   ///< sections whose files have no z
   bool smooth = false;            ///< ID spline: C1 in place of the values
+  std::optional<std::size_t> row;  ///< of a grid that is given as points: how many are in a row
 };
 
 /// A surface with what is known about how it was made.
@@ -69,14 +85,15 @@ struct MadeSurface {
   std::vector<std::string> warnings;
 };
 
-/// Reads the inputs and makes the surface. Errors: those of the readers and builders; E201 wrong
-/// numbers of inputs; E403 an offset that folds (`value`: the largest distance that does not).
+/// Reads the inputs that are not there yet and makes the surface. Forms of several files (matrices
+/// whose names differ, blades with their table) are known as files alone. Errors: those of the
+/// readers and builders; E201 wrong numbers of inputs; E203 rows that do not fill a grid; E403 an offset that folds (`value`: the largest distance that does not).
 [[nodiscard]] Result<MadeSurface> make_surface(const SurfaceJob& job,
                                                const Progress& progress = {});
 
 /// A surface from a file: stored (.json), STEP, IGES, BREP, control points (.cpt, .cptw, .csv).
 /// `warnings` get what was left out.
-[[nodiscard]] Result<SurfaceModel> read_surface(const std::string& path,
+[[nodiscard]] Result<SurfaceModel> read_surface(const SurfaceInput& input,
                                                 std::vector<std::string>& warnings);
 
 /// A curve of space from a file: a contour, a curve of a drawing, or points: in a plane the fair
@@ -87,6 +104,6 @@ struct ReadCurve {
   SpaceCurve curve;
   std::vector<std::string> warnings;
 };
-[[nodiscard]] Result<ReadCurve> read_space_curve(const std::string& path, const SurfaceJob& job);
+[[nodiscard]] Result<ReadCurve> read_space_curve(const SurfaceInput& input, const SurfaceJob& job);
 
 }  // namespace obvid

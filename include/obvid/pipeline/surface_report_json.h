@@ -31,4 +31,7 @@ namespace obvid {
 /// their colours.
 [[nodiscard]] CurvatureExtremes extremes_of(const SurfaceCheck& check);
 
+/// The same without the rest of a check, at its default number of samples.
+[[nodiscard]] CurvatureExtremes extremes_of(const SurfaceModel& model);
+
 }  // namespace obvid

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "obvid/core/progress.h"
+#include "obvid/surface/nurbs_surface.h"
 #include "obvid/surface/surface.h"
 
 namespace obvid {
@@ -16,6 +17,20 @@ struct Extent {
   double least = 0.0;
   double most = 0.0;
 };
+
+/// Least and greatest curvatures of a patch.
+struct CurvatureExtents {
+  Extent gaussian;                 ///< 1/units^2
+  Extent mean, k1, k2;             ///< 1/units
+  std::size_t without_normal = 0;  ///< samples where the surface has no tangent plane (poles)
+};
+
+/// Between which figures the curvatures of a patch lie: looked for at about `samples` places per
+/// direction, two or more in each span, and climbed to from there (the nearest extreme, to some
+/// 1e-9 of it). Not proved: an extreme between the places can be missed. Towards poles, where
+/// curvature may have no bound, what the places show decides. All 0 without a tangent plane.
+[[nodiscard]] CurvatureExtents curvature_extents(const NurbsSurface& surface,
+                                                 std::size_t samples = 65);
 
 /// Curvature along the lines of one family of parameters.
 struct LineReport {
@@ -34,7 +49,7 @@ struct PatchReport {
                                  ///< degree where there are none
   bool rational = false;
   double area = 0.0;               ///< units^2, by quadrature: good to some 1e-4
-  Extent gaussian, mean, k1, k2;   ///< sampled; 1/units^2 and 1/units
+  Extent gaussian, mean, k1, k2;   ///< as of `curvature_extents`; 1/units^2 and 1/units
   std::size_t without_normal = 0;  ///< samples where the surface has no tangent plane (poles)
   LineReport along_u;              ///< lines v = const
   LineReport along_v;              ///< lines u = const
@@ -48,7 +63,7 @@ struct JointReport {
   double angle = 0.0;      ///< largest angle between the tangent planes, rad
   double curvature = 0.0;  ///< largest step of the normal curvature across the border, as a share
                            ///< of the largest curvature beside it
-  int order = 0;  ///< 0 G0, 1 G1, 2 G2, by the limits named below
+  int order = 0;           ///< 0 G0, 1 G1, 2 G2, by the limits named below
 };
 
 /// Up to these a border counts as smooth.

@@ -56,8 +56,8 @@ struct SkinSectionReport {
 struct AcrossReport {
   std::size_t isolines = 0;
   std::size_t found = 0;   ///< sign changes on all isolines together
-  std::size_t forced = 0;  ///< of them in the sections' own points: every smooth surface has them
-  std::size_t beyond = 0;  ///< more than forced, summed over the isolines that have more
+  std::size_t forced = 0;  ///< of them shown by the sections' own points on the same isoline
+  std::size_t beyond = 0;  ///< the others: found - forced
   std::size_t worst = 0;   ///< largest number beyond the forced ones on one isoline
 };
 

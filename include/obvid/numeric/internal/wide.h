@@ -1,15 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstdint>
+
 #include "obvid/numeric/internal/double_double.h"
 
-namespace obvid::idspline {
-
-using numeric::DoubleDouble;
-using numeric::kDoubleDoubleRoundoff;
-using numeric::kUnitRoundoff;
-using numeric::quick_two_sum;
-using numeric::two_product;
+namespace obvid::numeric {
 
 /// A number of 106 bits, the same on every machine (`long double` has 53, 64 or 113 bits,
 /// depending on machine and compiler).
@@ -23,6 +19,13 @@ class Wide {
   Wide() = default;
   // NOLINTNEXTLINE(google-explicit-constructor): a double is such a number
   constexpr Wide(double value) : value_{value, 0.0} {}
+
+  /// Every whole number of 64 bits is one, exactly.
+  [[nodiscard]] static constexpr Wide whole(std::int64_t value) {
+    constexpr std::int64_t kHalf = std::int64_t{1} << 32U;
+    const std::int64_t low = value % kHalf;
+    return Wide(static_cast<double>(value - low)) + Wide(static_cast<double>(low));
+  }
 
   [[nodiscard]] constexpr explicit operator double() const { return value_.hi + value_.lo; }
 
@@ -59,4 +62,4 @@ class Wide {
   DoubleDouble value_;
 };
 
-}  // namespace obvid::idspline
+}  // namespace obvid::numeric

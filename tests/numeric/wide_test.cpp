@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "wide.h"
+#include "obvid/numeric/internal/wide.h"
 
 #include <gtest/gtest.h>
 
@@ -8,7 +8,7 @@
 #include <cmath>
 #include <random>
 
-namespace obvid::idspline {
+namespace obvid::numeric {
 namespace {
 
 using Rational = boost::multiprecision::cpp_rational;
@@ -49,6 +49,17 @@ double relative_error(Wide found, const Rational& truth) {
   return std::abs(static_cast<double>(Rational((value_of(found) - truth) / truth)));
 }
 
+TEST_F(WideTest, HoldsEveryWholeNumberOf64Bits) {
+  std::mt19937_64 random(3);
+  for (int k = 0; k < 1000; ++k) {
+    const auto value = static_cast<std::int64_t>(random()) >> (k % 60);
+    EXPECT_EQ(value_of(Wide::whole(value)), Rational(value)) << value;
+  }
+  for (const std::int64_t value : {INT64_MIN, INT64_MIN + 1, INT64_MAX, std::int64_t{0}}) {
+    EXPECT_EQ(value_of(Wide::whole(value)), Rational(value)) << value;
+  }
+}
+
 TEST_F(WideTest, EveryOperationKeepsItsErrorBound) {
   constexpr double kQuotient = 15.1 * kUnitRoundoff * kUnitRoundoff;
   double worst = 0.0, worst_quotient = 0.0;
@@ -75,4 +86,4 @@ TEST_F(WideTest, OrderAndAbsoluteValueSeeTheLastBit) {
 }
 
 }  // namespace
-}  // namespace obvid::idspline
+}  // namespace obvid::numeric

@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <vector>
+
+#include "obvid/core/result.h"
+#include "obvid/pipeline/surface_job.h"
+
+namespace obvid::pipeline_detail {
+
+/// Sections in the order of the inputs. Errors: of `read_sections`.
+[[nodiscard]] Result<std::vector<SpaceSeries>> sections_of(const SurfaceJob& job);
+/// The one section of an input. Error: E307 there are more.
+[[nodiscard]] Result<SpaceSeries> section_of(const SurfaceInput& input);
+/// Errors: of `read_grid`; E203 points that do not fill rows of `job.row`.
+[[nodiscard]] Result<PointGrid> grid_of(const SurfaceJob& job);
+
+}  // namespace obvid::pipeline_detail
