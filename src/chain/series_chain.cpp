@@ -23,6 +23,9 @@ constexpr int kInsertionRounds = 4;
 /// between them: formally monotone, of no use to anybody who did not ask for it, and soon beyond
 /// proof.
 constexpr double kLeastSigmaAtEdge = 1e-5;
+/// The same where nothing else is left: many such curves are proved all the same. Below this,
+/// rounding of coordinates and headings takes the place of sigma.
+constexpr double kLeastSigmaOfAll = 1e-9;
 
 /// Elements for given directions, or why there are none.
 struct Attempt {
@@ -182,7 +185,6 @@ std::optional<SeriesChain> keep_elements(const Extended& given, Watch& watch) {
 
 Result<SeriesChain> follow_directions(DirectedSeries series, Watch& watch) {
   Extended e;
-  if (series.to_the_edge) e.least_sigma = kLeastSigmaAtEdge;
   e.problem.chords = measure_chords(series.points);
   e.problem.circles = measure_circles(series.points, e.problem.chords);
   for (const std::int8_t d : series.direction) {
@@ -194,15 +196,21 @@ Result<SeriesChain> follow_directions(DirectedSeries series, Watch& watch) {
   e.start = std::move(series.start);
   e.source = std::move(series.source);
   e.turned.assign(e.problem.direction.size(), false);
-  if (auto kept = keep_elements(e, watch)) return std::move(*kept);
-  Attempt tried = attempt(std::move(e), true, watch);
-  if (tried.chain) return std::move(*tried.chain);
-  return fail({ErrorCode::kNoSpiral,
-               "no curve with curvature changing as wanted runs through the nodes",
-               "nodes " + std::to_string(tried.why.first_point + 1) + " to " +
-                   std::to_string(tried.why.last_point + 1),
-               "", static_cast<std::ptrdiff_t>(tried.why.first_point), tried.why.slack,
-               static_cast<std::ptrdiff_t>(tried.why.last_point)});
+  Infeasibility why;
+  std::vector<double> least{e.least_sigma};
+  if (series.to_the_edge) least = {kLeastSigmaAtEdge, kLeastSigmaOfAll};
+  for (const double sigma : least) {
+    e.least_sigma = sigma;
+    if (auto kept = keep_elements(e, watch)) return std::move(*kept);
+    Attempt tried = attempt(e, true, watch);
+    if (tried.chain) return std::move(*tried.chain);
+    why = tried.why;
+  }
+  return fail(
+      {ErrorCode::kNoSpiral, "no curve with curvature changing as wanted runs through the nodes",
+       "nodes " + std::to_string(why.first_point + 1) + " to " + std::to_string(why.last_point + 1),
+       "", static_cast<std::ptrdiff_t>(why.first_point), why.slack,
+       static_cast<std::ptrdiff_t>(why.last_point)});
 }
 
 }  // namespace obvid

@@ -11,6 +11,7 @@
 
 #include "dxf_file.h"
 #include "dxf_units.h"
+#include "exact_conics.h"
 #include "obvid/geom/angle.h"
 #include "obvid/geom/box.h"
 #include "xml_text.h"
@@ -44,12 +45,11 @@ Box2 box_of(const Sketch& sketch) {
 
 class SketchDxf {
  public:
-  explicit SketchDxf(const Sketch& sketch) : sketch_(sketch) {}
+  explicit SketchDxf(const Sketch& sketch) : sketch_(sketch), box_(box_of(sketch)) {}
 
   std::string run() {
-    const Box2 box = box_of(sketch_);
     constexpr double kLetters = 0.012;  // of the drawing's diagonal
-    const double height = kLetters * norm(box.high - box.low);
+    const double height = kLetters * norm(box_.high - box_.low);
     std::vector<DxfLayer> layers;
     for (const SketchLayer& layer : sketch_.layers) {
       layers.push_back({layer.name, layer.dxf_color});
@@ -59,7 +59,7 @@ class SketchDxf {
     for (const SketchWord& word : sketch_.words) text(word, height);
     const int units = sketch_.units.known() ? dxf::insunits_of(sketch_.units.name) : 0;
     const std::string seed = out_.next_handle();
-    return exchange::r2000_head(layers, units, seed, box.low, box.high) + out_.take() +
+    return exchange::r2000_head(layers, units, seed, box_.low, box_.high) + out_.take() +
            exchange::r2000_tail();
   }
 
@@ -98,8 +98,17 @@ class SketchDxf {
     }
   }
 
-  /// DXF arcs run counter-clockwise.
+  /// DXF arcs run counter-clockwise. They lose digits where the centre lies far away; bulges do not.
   void draw(const ArcPiece& arc, const std::string& layer) {
+    if (!exchange::centre_is_near(arc, norm(box_.high - box_.low))) {
+      begin("LWPOLYLINE", "AcDbPolyline", layer);
+      out_.pair(90, 2);
+      out_.pair(70, 0);
+      out_.point(10, arc.start);
+      out_.pair(42, std::tan(0.25 * arc.kappa * arc.length));
+      out_.point(10, arc.end);
+      return;
+    }
     const Vec2 centre = arc.start + left_normal(unit_at(arc.theta0)) / arc.kappa;
     const double turn = arc.kappa * arc.length;
     const double from = arc.theta0 - std::copysign(0.5 * std::numbers::pi, arc.kappa);
@@ -124,6 +133,7 @@ class SketchDxf {
   }
 
   const Sketch& sketch_;
+  Box2 box_;
   DxfWriter out_;
 };
 

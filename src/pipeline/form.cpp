@@ -132,12 +132,27 @@ std::optional<Analysis> turned_as_when_free(const std::vector<Vec2>& points,
   return out;
 }
 
+/// How evenly the curvature changes over the link where it does least: 0 where it leaps at both
+/// ends and rests between them.
+double least_evenness(const SeriesChain& chain) {
+  double least = 1.0;
+  for (std::size_t i = 0; i < chain.links.size(); ++i) {
+    const LinkState& link = chain.links[i];
+    if (chain.cone[i] != Cone::kNone) least = std::min(least, link.sigma / (link.B - link.A));
+  }
+  return least;
+}
+/// As evenly as where nothing is given. Below this rounding may leave no proof.
+constexpr double kEven = 1e-3;
+
 /// The fairest elements; near the ends of what the points allow the search for them may miss the
 /// ones that the ranges of headings and curvatures tell of.
 Result<SeriesChain> chosen_elements(const std::vector<Vec2>& points, const Analysis& analysis,
                                     const ChainWishes& wishes, Watch& watch) {
   if (wishes.central) {
-    if (auto central = central_chain(points, analysis, wishes, watch)) return std::move(*central);
+    if (auto central = central_chain(points, analysis, wishes, ChoiceOrder::kAlong, watch)) {
+      return std::move(*central);
+    }
     return fail({ErrorCode::kFixedDataContradict,
                  "what is given leaves no headings and curvatures with which a monotone contour "
                  "exists",
@@ -145,13 +160,19 @@ Result<SeriesChain> chosen_elements(const std::vector<Vec2>& points, const Analy
   }
   auto chosen = choose_elements(points, analysis, wishes, watch);
   if (!wishes.to_the_edge || !anything_fixed(wishes)) return chosen;
-  if (chosen && chosen->turned_directions == 0 && !chosen->unforced_inflection) return chosen;
+  const bool as_circles = chosen && chosen->turned_directions == 0 && !chosen->unforced_inflection;
+  if (as_circles && least_evenness(*chosen) >= kEven) return chosen;
   const bool asked_too_much = !chosen && chosen.error().code == ErrorCode::kFixedDataContradict;
   if (!chosen && !asked_too_much && chosen.error().code != ErrorCode::kNoSpiral) return chosen;
-  if (auto central = central_chain(points, analysis, wishes, watch)) return std::move(*central);
+  const auto central = [&](const Analysis& directed) {
+    return central_chain(points, directed, wishes, ChoiceOrder::kHalves, watch);
+  };
+  auto found = central(analysis);
+  if (as_circles && (!found || least_evenness(*found) < least_evenness(*chosen))) return chosen;
+  if (found) return std::move(*found);
   if (chosen) return chosen;
   if (const auto turned = turned_as_when_free(points, analysis, wishes, watch)) {
-    if (auto central = central_chain(points, *turned, wishes, watch)) return std::move(*central);
+    if (auto other = central(*turned)) return std::move(*other);
   }
   return chosen;
 }

@@ -92,9 +92,7 @@ std::string tex_text(const std::string& text) {
 int decimals_of(const RegionTable& table) {
   double largest = 0.0;
   for (const RegionRow& row : table.rows) largest = std::max(largest, row.chord);
-  constexpr int kMost = 12;
-  return largest > 0.0 ? std::clamp(6 - static_cast<int>(std::floor(std::log10(largest))), 0, kMost)
-                       : 0;
+  return largest > 0.0 ? std::max(6 - static_cast<int>(std::floor(std::log10(largest))), 0) : 0;
 }
 
 void add_latex(const RegionPart& part, int decimals, std::string& out) {
@@ -197,12 +195,17 @@ class WorksheetDrawing {
     return *slot;
   }
 
-  /// So that the widest region takes a quarter of its chord.
+  /// So that the widest region takes a quarter of its chord. Rounding has no width.
   void choose_factor() {
     constexpr double kOfChord = 0.25;
-    double widest = 0.0;
+    constexpr double kRoundings = 64.0 * 0x1p-53;  // of coordinates, and of what follows from them
+    double widest = 0.0, coordinate = 0.0;
+    for (const RegionPoint& p : part_.points) {
+      coordinate = std::max({coordinate, std::abs(p.point.x), std::abs(p.point.y)});
+    }
     for (const RegionRow& row : part_.rows) {
-      if (row.width) widest = std::max(widest, *row.width / row.chord);
+      if (!row.width || *row.width <= kRoundings * (coordinate + row.chord)) continue;
+      widest = std::max(widest, *row.width / row.chord);
     }
     out_.magnified = widest > 0.0 ? round_factor(kOfChord / widest) : 1.0;
   }
@@ -218,13 +221,9 @@ class WorksheetDrawing {
       to.pieces.emplace_back(LinePiece{a, b});
       return;
     }
-    // tangent at the point, then back to the first one along the circle
-    const double back = -turn_of(m - a, kappa), ahead = turn_of(b - m, kappa);
-    const double heading_here = heading(m - a) + 0.5 * turn_of(m - a, kappa);
-    to.pieces.emplace_back(ArcPiece{a, b, heading_here + back, kappa, (ahead - back) / kappa});
-  }
-  static double turn_of(Vec2 chord, double kappa) {
-    return 2.0 * std::asin(std::clamp(0.5 * kappa * norm(chord), -1.0, 1.0));
+    // the whole arc turns by twice as much as the chords do at the point
+    const double turn = 2.0 * turning(m - a, b - m);
+    to.pieces.emplace_back(ArcPiece{a, b, heading(b - a) - 0.5 * turn, kappa, turn / kappa});
   }
 
   void segment(const RegionRow& row) {
@@ -252,42 +251,15 @@ class WorksheetDrawing {
   }
 
   static void add_arcs(SketchLayer& to, const PlacedBoundaries& r, const Boundary& b) {
-    const double along = heading(r.along);
-    const Vec2 end = in_plane(r, {r.frame.h, 0.0});
-    const auto arc = [&](Vec2 from, Vec2 until, Vec2 tangent, double turn, double kappa) {
-      if (norm(until - from) == 0.0) return;
-      if (kappa == 0.0 || turn == 0.0) {
-        to.pieces.emplace_back(LinePiece{from, until});
-      } else {
-        to.pieces.emplace_back(
-            ArcPiece{from, until, along + heading(tangent), kappa, turn / kappa});
+    for (const Piece& piece : boundary_arcs(r.frame, b)) {
+      if (const auto* line = std::get_if<LinePiece>(&piece)) {
+        to.pieces.emplace_back(LinePiece{in_plane(r, line->start), in_plane(r, line->end)});
+        continue;
       }
-    };
-    const double first_turn = turning(r.frame.start_tangent, b.joint_tangent);
-    const double second_turn = turning(b.joint_tangent, r.frame.end_tangent);
-    if (std::isinf(b.kappa_first)) {  // the second circle alone spans the chord
-      const Vec2 start{r.frame.end_tangent.x, -r.frame.end_tangent.y};
-      arc(r.start, end, start, turning(start, r.frame.end_tangent), b.kappa_second);
-      return;
+      const auto& arc = std::get<ArcPiece>(piece);
+      to.pieces.emplace_back(ArcPiece{in_plane(r, arc.start), in_plane(r, arc.end),
+                                      heading(r.along) + arc.theta0, arc.kappa, arc.length});
     }
-    if (std::isinf(b.kappa_second)) {
-      const Vec2 last{r.frame.start_tangent.x, -r.frame.start_tangent.y};
-      arc(r.start, end, r.frame.start_tangent, turning(r.frame.start_tangent, last), b.kappa_first);
-      return;
-    }
-    Vec2 joint;
-    const auto moved = [](Vec2 from, Vec2 until, double k) {
-      return (cross(from, until) / ((1.0 + dot(from, until)) * k)) * (from + until);
-    };
-    if (std::abs(b.kappa_first) >= std::abs(b.kappa_second)) {
-      if (b.kappa_first != 0.0)
-        joint = moved(r.frame.start_tangent, b.joint_tangent, b.kappa_first);
-    } else {
-      joint = Vec2{r.frame.h, 0.0} - moved(b.joint_tangent, r.frame.end_tangent, b.kappa_second);
-    }
-    const Vec2 middle = in_plane(r, joint);
-    arc(r.start, middle, r.frame.start_tangent, first_turn, b.kappa_first);
-    arc(middle, end, b.joint_tangent, second_turn, b.kappa_second);
   }
 
   void add_magnified(const PlacedBoundaries& r) {

@@ -666,7 +666,7 @@ Result<RegionTable> table_as_asked(const PointSeries& series, const RegionJob& j
     }
     auto finer = Inserter(*sheet).run(job.job.tolerance, here);
     if (!finer) return tl::unexpected(finer.error());
-    const auto finer_analysis = analyse(finer->points);
+    const auto finer_analysis = measure_series(finer->points);
     append(PartMaker(*finer, finer_analysis ? &*finer_analysis : nullptr).run(), *table.refined);
   }
   if (job.construction) {

@@ -153,11 +153,12 @@ std::optional<double> least_largest_curvature_of_loop(const std::vector<Vec2>& p
 }
 
 std::optional<SeriesChain> central_chain(const std::vector<Vec2>& points, const Analysis& analysis,
-                                         const ChainWishes& wishes, Watch& watch) {
+                                         const ChainWishes& wishes, ChoiceOrder order,
+                                         Watch& watch) {
   const auto problem = chain_problem(analysis, wishes);
   if (!problem) return std::nullopt;
   const RangeProblem ranges = range_problem(analysis, *problem, wishes.fixed);
-  const auto central = central_data(ranges.links, ranges.nodes);
+  const auto central = central_data(ranges.links, ranges.nodes, {}, order);
   if (!central) return std::nullopt;
   DirectedSeries series;
   series.points = points;

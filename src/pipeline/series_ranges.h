@@ -46,7 +46,8 @@ struct LoopProblem {
 /// of the analysis. Nothing when there are none, or when rounding leaves no room for them.
 [[nodiscard]] std::optional<SeriesChain> central_chain(const std::vector<Vec2>& points,
                                                        const Analysis& analysis,
-                                                       const ChainWishes& wishes, Watch& watch);
+                                                       const ChainWishes& wishes,
+                                                       ChoiceOrder order, Watch& watch);
 
 /// The same around a closed series (`central_loop`): one turn, whose last element is the first one
 /// again.

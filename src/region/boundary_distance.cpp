@@ -5,12 +5,13 @@
 #include <cmath>
 #include <numbers>
 
+#include "obvid/geom/angle.h"
 #include "two_arcs.h"
 
 namespace obvid {
 namespace {
 
-/// What is asked of one point of the curve.
+using region_detail::Arc;
 using region_detail::TwoArcs;
 
 class Placement {
@@ -84,6 +85,38 @@ double largest_at(const F& f, int samples) {
 
 double boundary_distance(const ChordFrame& frame, const Boundary& boundary, Vec2 local) {
   return TwoArcs(frame, boundary).distance(local);
+}
+
+std::vector<Piece> boundary_arcs(const ChordFrame& f, const Boundary& b) {
+  std::vector<Piece> out;
+  const auto add = [&](Vec2 from, Vec2 to, Vec2 tangent, double turn, double kappa) {
+    if (norm(to - from) == 0.0) return;
+    if (turn * kappa > 0.0) {
+      out.emplace_back(ArcPiece{from, to, heading(tangent), kappa, turn / kappa});
+    } else {  // straight, or turned back by rounding
+      out.emplace_back(LinePiece{from, to});
+    }
+  };
+  const Vec2 end{f.h, 0.0};
+  // beside a circle of radius 0 one arc spans the chord, alike at both ends
+  if (std::isinf(b.kappa_first)) {
+    const Vec2 start{f.end_tangent.x, -f.end_tangent.y};
+    add({}, end, start, 2.0 * heading(f.end_tangent), b.kappa_second);
+    return out;
+  }
+  if (std::isinf(b.kappa_second)) {
+    add({}, end, f.start_tangent, -2.0 * heading(f.start_tangent), b.kappa_first);
+    return out;
+  }
+  const TwoArcs arcs(f, b);
+  for (const Arc* arc : {&arcs.first, &arcs.second}) {
+    const double turn = turning(arc->start_tangent, arc->end_tangent);
+    const double whole = arc->over_half && turn * arc->kappa < 0.0
+                             ? std::copysign(2.0 * std::numbers::pi, arc->kappa)
+                             : 0.0;
+    add(arc->start, arc->end, arc->start_tangent, turn + whole, arc->kappa);
+  }
+  return out;
 }
 
 std::optional<double> ordinate_over_chord(const ChordFrame& frame, const Boundary& b, double x) {

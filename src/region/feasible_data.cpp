@@ -678,24 +678,41 @@ void end_open(HeadingRange& range, double omega) {
   range.high = std::min(range.high, high);
 }
 
-/// Gives a heading, or else a curvature, at every point in turn.
+/// Gives a heading, or else a curvature, at the first point of a way and at every so many after it.
 template <class Choose>
 bool give_in_turn(const std::vector<RangeLink>& links, std::vector<RangeNode>& nodes,
-                  const Choose& choose) {
+                  std::size_t first, std::size_t every, const Choose& choose) {
   const std::vector<Side> right = reach_all(links, nodes, -1);
   Side left = at_first(links.front(), 1);
   for (std::size_t i = 0; i < nodes.size(); ++i) {
     if (i > 0) left = advance(left, nodes[i - 1], links[i - 1], 1);
-    if (!beside_an_arc(links, i) && !choose(i, left, right[i])) return false;
+    const bool now = i >= first && (i - first) % every == 0;
+    if (now && !beside_an_arc(links, i) && !choose(i, left, right[i])) return false;
   }
   return true;
 }
 
+template <class Choose>
+bool give(const std::vector<RangeLink>& links, std::vector<RangeNode>& nodes, ChoiceOrder order,
+          const Choose& choose) {
+  if (order == ChoiceOrder::kHalves) {
+    std::size_t step = 1;
+    while (2 * step < nodes.size()) step *= 2;
+    for (; step > 0; step /= 2) {
+      if (!give_in_turn(links, nodes, step, 2 * step, choose)) return false;
+    }
+  }
+  // where halves begin, the first point is left
+  const std::size_t every = order == ChoiceOrder::kHalves ? nodes.size() : 1;
+  return give_in_turn(links, nodes, 0, every, choose);
+}
+
 }  // namespace
 
-std::optional<std::vector<RangeNode>> central_data(
-    const std::vector<RangeLink>& links, std::vector<RangeNode> nodes,
-    const std::vector<std::optional<double>>& wanted) {
+std::optional<std::vector<RangeNode>> central_data(const std::vector<RangeLink>& links,
+                                                   std::vector<RangeNode> nodes,
+                                                   const std::vector<std::optional<double>>& wanted,
+                                                   ChoiceOrder order) {
   if (nodes.size() < 2) return std::nullopt;
   const auto heading = [&](std::size_t i, const Side& left, const Side& right) {
     auto range = Both(left, right, nodes[i], {true, true}).headings();
@@ -714,7 +731,7 @@ std::optional<std::vector<RangeNode>> central_data(
         region_detail::chosen_curvature(*range, wanted.empty() ? std::nullopt : wanted[i]);
     return true;
   };
-  if (!give_in_turn(links, nodes, heading) || !give_in_turn(links, nodes, curvature)) {
+  if (!give(links, nodes, order, heading) || !give(links, nodes, order, curvature)) {
     return std::nullopt;
   }
   return nodes;

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <utility>
 
 #include "obvid/geom/box.h"
 #include "obvid/series/forced_vertices.h"
@@ -308,10 +309,10 @@ void bound_error(const std::vector<Vec2>& points, Analysis& a) {
   }
 }
 
-Result<void> check_turning(Analysis& a) {
+Result<void> check_turning(const Analysis& a) {
+  if (a.largest_turning < kLargestTurning) return {};
   for (std::size_t i = 1; i < a.chords.size(); ++i) {
     const double turn = std::abs(a.chords[i].omega - a.chords[i - 1].omega);
-    a.largest_turning = std::max(a.largest_turning, turn);
     if (turn < kLargestTurning) continue;
     return fail({ErrorCode::kChordReversal, "the series turns back on itself",
                  "point " + std::to_string(i + 1),
@@ -319,6 +320,37 @@ Result<void> check_turning(Analysis& a) {
                  static_cast<std::ptrdiff_t>(i), turn});
   }
   return {};
+}
+
+Result<Analysis> measured_chords(const std::vector<Vec2>& points) {
+  if (points.size() < 2) {
+    return fail({ErrorCode::kTooFewPoints, "a contour needs at least two distinct points", "", "",
+                 -1, static_cast<double>(points.size())});
+  }
+  Analysis a;
+  a.size = bounding_diagonal(points);
+  if (!(a.size >= kSmallestSeries && a.size <= kLargestSeries)) {
+    return fail({ErrorCode::kSizeOutOfRange, "the size of the series is outside 1e-100 to 1e100",
+                 "", "choose another unit", -1, a.size});
+  }
+  a.chords = measure_chords(points);
+  for (std::size_t i = 1; i < a.chords.size(); ++i) {
+    a.largest_turning =
+        std::max(a.largest_turning, std::abs(a.chords[i].omega - a.chords[i - 1].omega));
+  }
+  return a;
+}
+
+Analysis measured_circles(const std::vector<Vec2>& points, Analysis a) {
+  a.circles = measure_circles(points, a.chords);
+  a.stretches = find_stretches(points, a.circles);
+  a.direction = choose_directions(a);
+  count_undecided(a);
+  compare_circles_along(a);
+  collect_runs(a);
+  bound_singular_points(points, a);
+  bound_error(points, a);
+  return a;
 }
 
 }  // namespace
@@ -385,30 +417,17 @@ double sagitta(double kappa, double h) {
   return 0.5 * x * h / (1.0 + std::sqrt(std::max(0.0, 1.0 - x * x)));
 }
 
+Result<Analysis> measure_series(const std::vector<Vec2>& points) {
+  auto begun = measured_chords(points);
+  if (!begun) return begun;
+  return measured_circles(points, std::move(*begun));
+}
+
 Result<Analysis> analyse(const std::vector<Vec2>& points) {
-  if (points.size() < 2) {
-    return fail({ErrorCode::kTooFewPoints, "a contour needs at least two distinct points", "", "",
-                 -1, static_cast<double>(points.size())});
-  }
-  Analysis a;
-  a.size = bounding_diagonal(points);
-  if (!(a.size >= kSmallestSeries && a.size <= kLargestSeries)) {
-    return fail({ErrorCode::kSizeOutOfRange, "the size of the series is outside 1e-100 to 1e100",
-                 "", "choose another unit", -1, a.size});
-  }
-  a.chords = measure_chords(points);
-  if (const auto turning_ok = check_turning(a); !turning_ok) {
-    return tl::unexpected(turning_ok.error());
-  }
-  a.circles = measure_circles(points, a.chords);
-  a.stretches = find_stretches(points, a.circles);
-  a.direction = choose_directions(a);
-  count_undecided(a);
-  compare_circles_along(a);
-  collect_runs(a);
-  bound_singular_points(points, a);
-  bound_error(points, a);
-  return a;
+  auto begun = measured_chords(points);
+  if (!begun) return begun;
+  if (const auto turning_ok = check_turning(*begun); !turning_ok) return fail(turning_ok.error());
+  return measured_circles(points, std::move(*begun));
 }
 
 double turning_at(const Analysis& analysis, std::size_t point) {

@@ -397,13 +397,37 @@ class ParabolaRows : public Rows {
   /// Order 2 meets the radii that the user has.
   void given_radius(std::size_t k) {
     const SheetPoint& p = to(k);
-    if (p.inserted > 0 || p.index >= input_.points.size()) return;
+    if (p.inserted > 0 || p.index >= input_.points.size()) return chosen_radius(k);
     const std::optional<double> given = input_.points[p.index].kappa;
-    if (!given || *given == 0.0) return;
+    if (!given) return chosen_radius(k);
+    if (*given == 0.0) return;
     for (const Real found : {kappa(k, "R'"), kappa(k + 1, "R")}) {
       sheet_.expect(std::abs(found - *given) <= 1e-6L * std::abs(*given), claim_ + "given radius",
                     found, static_cast<Real>(*given), "point " + p.name());
     }
+  }
+
+  /// Those that it takes itself lie in their ranges; on both sides of a point they are the same.
+  void chosen_radius(std::size_t k) {
+    const SheetPoint& p = to(k);
+    if (!p.kappas) return;
+    const Real before = kappa(k, "R'"), behind = kappa(k + 1, "R");
+    Real scale = std::abs(before);
+    for (const Real end : {p.kappas->low, p.kappas->high}) {
+      if (std::isfinite(end)) scale = std::max(scale, std::abs(end));
+    }
+    Real slack = 1e-6L * scale;
+    for (const std::size_t row : {k, k + 1}) {  // rounding of the sides of short triangles
+      const Real sine = std::abs(cross(unit_at(from(row).heading), unit_at(to(row).heading)));
+      slack += 64.0L * kUlp * (1.0L + p_.coordinate / norm(chord(row))) / sine * scale;
+    }
+    for (const Real found : {before, behind}) {
+      sheet_.expect(found >= p.kappas->low - slack && found <= p.kappas->high + slack,
+                    claim_ + "radius in its range", found,
+                    found < p.kappas->low ? p.kappas->low : p.kappas->high, "point " + p.name());
+    }
+    sheet_.expect(std::abs(before - behind) <= slack, claim_ + "one radius", before, behind,
+                  "point " + p.name());
   }
 
   /// Curvatures of the parabola in the triangle of the tangents, at both ends, signed.

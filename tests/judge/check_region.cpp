@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <map>
 #include <numbers>
 
 #include "region_checks.h"
@@ -183,8 +184,11 @@ class RegionCheck {
         continue;
       }
       const Real scale = range_scale(i);
-      if (beside_no_curve(i) && p.kappas->low >= found[i]->low && p.kappas->high <= found[i]->high) {
-        sheet_.unjudged(claim, "a segment beside it has no curve, and no direction is told", at);
+      if (beside_no_curve(i)) {
+        sheet_.expect(some_way_gives(i), "region.range of curvature beside no curve",
+                      fmt::format("{} to {}", shown(p.kappas->low), shown(p.kappas->high)),
+                      fmt::format("{} to {} and less", shown(found[i]->low), shown(found[i]->high)),
+                      at);
         continue;
       }
       const auto end = [&](Real stated, Real sought, Real one, Real other, const char* which) {
@@ -197,7 +201,12 @@ class RegionCheck {
       };
       end(p.kappas->low, found[i]->low, more[i]->low, less[i]->low, ", least");
       end(p.kappas->high, found[i]->high, more[i]->high, less[i]->high, ", greatest");
-      if (i < p_.kappas.size()) element_inside(i, scale, at);
+      const auto apart = [](Real one, Real other) {
+        return std::isfinite(one - other) ? std::abs(one - other) : 0.0L;
+      };
+      const Real rounding =
+          8.0L * std::max(apart(more[i]->low, less[i]->low), apart(more[i]->high, less[i]->high));
+      if (i < p_.kappas.size()) element_inside(i, 1e-6L * scale + rounding, at);
     }
     for (const SheetRow& row : p_.rows) {
       const auto same = [&](const std::optional<Limits>& range, std::size_t i) {
@@ -215,6 +224,37 @@ class RegionCheck {
   [[nodiscard]] bool beside_no_curve(std::size_t i) const {
     return std::any_of(p_.rows.begin(), p_.rows.end(), [&](const SheetRow& row) {
       return p_.touches(row, i) && !p_.direction(row);
+    });
+  }
+  /// A segment without a curve has no direction in the file: the range beside it is that of one of
+  /// the ways in which the curvature may go over such segments, a vertex inside being one.
+  [[nodiscard]] bool some_way_gives(std::size_t i) const {
+    std::vector<std::size_t> unknown;
+    for (std::size_t k = 0; k < p_.rows.size(); ++k) {
+      if (p_.touches(p_.rows[k], i) && !p_.direction(p_.rows[k])) unknown.push_back(k);
+    }
+    std::vector<std::map<std::size_t, int>> ways{{}};
+    for (const std::size_t k : unknown) {
+      const std::size_t before = ways.size();
+      for (std::size_t w = 0; w < before; ++w) {
+        for (const int d : {1, -1}) {
+          ways.push_back(ways[w]);
+          ways.back()[k] = d;
+        }
+      }
+    }
+    return std::any_of(ways.begin(), ways.end(), [&](const std::map<std::size_t, int>& way) {
+      const auto found = curvature_ranges(p_, input_, 0.0L, way)[i],
+                 more = curvature_ranges(p_, input_, kAngleRounding, way)[i],
+                 less = curvature_ranges(p_, input_, -kAngleRounding, way)[i];
+      if (!found || !more || !less) return false;
+      const auto alike = [&](Real stated, Real sought, Real one, Real other) {
+        if (std::isinf(sought) || std::isinf(stated)) return sought == stated;
+        return std::abs(stated - sought) <=
+               8.0L * std::abs(one - other) + kSameRange * range_scale(i);
+      };
+      return alike(p_.points[i].kappas->low, found->low, more->low, less->low) &&
+             alike(p_.points[i].kappas->high, found->high, more->high, less->high);
     });
   }
   [[nodiscard]] bool beside_an_arc(std::size_t i) const {
@@ -239,9 +279,9 @@ class RegionCheck {
 
   /// The curve that was taken has curvatures of its ranges, and where one ends with the sign that
   /// is kept, that sign.
-  void element_inside(std::size_t i, Real scale, const std::string& at) {
+  void element_inside(std::size_t i, Real slack, const std::string& at) {
     const Limits& range = *p_.points[i].kappas;
-    const Real kappa = p_.kappas[i], slack = 1e-6L * scale;
+    const Real kappa = p_.kappas[i];
     sheet_.expect(kappa >= range.low - slack && kappa <= range.high + slack,
                   "region.curvature in its range", kappa,
                   kappa < range.low ? range.low : range.high, at);
@@ -496,18 +536,18 @@ class RegionCheck {
     told("tangent_convex_bound", &RegionFigures::tangent_bound);
   }
 
-  /// Of the chords of one circle next to each other: directions over the shortest are rounded most,
-  /// and decide whether it is one.
+  /// Shortest of the chords whose ends the headings of a segment on a circle come from: those of the
+  /// inscribed angles of its points, beside the end of the circle of the next ones inside.
   [[nodiscard]] Real shortest_on_circle(const SheetRow& row) const {
+    constexpr std::size_t kAround = 2;
     const auto k = static_cast<std::size_t>(&row - p_.rows.data());
     const auto [first, behind] = p_.section(k);
     Real shortest = HUGE_VALL;
-    for (const int way : {-1, 1}) {
-      for (std::size_t j = k; j >= first && j < behind; j += static_cast<std::size_t>(way)) {
-        if (p_.direction(p_.rows[j]) != 0) break;
-        const SheetRow& one = p_.rows[j];
-        shortest = std::min(shortest, norm(p_.points[one.to].point - p_.points[one.from].point));
-      }
+    for (std::size_t j = std::max(first + kAround, k) - kAround;
+         j <= std::min(k + kAround, behind - 1); ++j) {
+      const SheetRow& one = p_.rows[j];
+      if (p_.direction(one) != 0) continue;
+      shortest = std::min(shortest, norm(p_.points[one.to].point - p_.points[one.from].point));
     }
     return shortest;
   }

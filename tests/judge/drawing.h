@@ -15,6 +15,18 @@ struct Drawing {
   std::optional<double> metres;  ///< of the file's unit
   std::string fault;             ///< empty: read
 
+  // a worksheet in DXF
+  struct Owner {
+    std::string layer;
+    std::size_t entity = 0;
+  };
+  struct Mark {
+    std::string layer, text;  ///< a point has no text
+    Vec at;
+  };
+  std::vector<Owner> owners;  ///< of the spans
+  std::vector<Mark> marks;
+
   // G-code
   long blocks = 0, arc_blocks = 0;
   double worst_radius_mismatch = 0.0;  ///< file units
@@ -25,6 +37,8 @@ std::optional<double> metres_of(const std::string& unit);
 
 Drawing read_step(const std::string& text, Point origin, const std::string& unit);
 Drawing read_dxf(const std::string& text, Point origin, const std::string& unit);
+/// With points and texts, and with the layers of all.
+Drawing read_dxf_sheet(const std::string& text, Point origin, const std::string& unit);
 Drawing read_gcode(const std::string& text, Point origin, const std::string& unit);
 
 /// Bezier spans of a NURBS curve with any knots.

@@ -21,13 +21,13 @@ constexpr int kHeadingsAround = 16, kRounds = 12;
 constexpr Real kCloser = 0.4L;
 
 /// A heading of a point with the curvatures that can be reached with it from one side.
-struct Place {
+struct ReachedPlace {
   Real theta = 0.0L;
   bool reached = false;
   Limits kappas;
   std::size_t before = 0;  ///< the place of the point before that leaves most
 };
-using Places = std::vector<Place>;
+using ReachedPlaces = std::vector<ReachedPlace>;
 
 /// The way from one end of a section to point `i`.
 class Way {
@@ -44,8 +44,8 @@ class Way {
     std::optional<Limits> best;
     Real window = 1.0L;
     for (int round = 0; round < kRounds; ++round, window *= kCloser) {
-      const std::vector<Places> way = walk(headings);
-      const Place& end = way.back().front();
+      const std::vector<ReachedPlaces> way = walk(headings);
+      const ReachedPlace& end = way.back().front();
       if (!end.reached) return best;
       if (!best || more(end.kappas, *best)) best = end.kappas;
       std::size_t at = 0;
@@ -127,11 +127,11 @@ class Way {
     return out;
   }
 
-  [[nodiscard]] std::vector<Places> walk(const std::vector<std::vector<Real>>& headings) const {
-    std::vector<Places> out(headings.size());
+  [[nodiscard]] std::vector<ReachedPlaces> walk(const std::vector<std::vector<Real>>& headings) const {
+    std::vector<ReachedPlaces> out(headings.size());
     for (std::size_t k = 0; k < headings.size(); ++k) {
       for (const Real theta : headings[k]) {
-        Place place;
+        ReachedPlace place;
         place.theta = theta;
         place.reached = k == 0;
         if (k > 0) {
@@ -146,7 +146,7 @@ class Way {
   /// Whether one of two open ranges leaves more than another one on this way.
   static bool more(const Limits& a, const Limits& b) { return a.low < b.low || a.high > b.high; }
 
-  void step(std::size_t k, const Place& from, std::size_t which, Place& to) const {
+  void step(std::size_t k, const ReachedPlace& from, std::size_t which, ReachedPlace& to) const {
     if (!from.reached) return;
     const Limits mine = own(point(k));
     const Limits all{std::max(from.kappas.low, mine.low), std::min(from.kappas.high, mine.high)};

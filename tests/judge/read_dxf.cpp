@@ -33,7 +33,10 @@ std::vector<Tag> tags_of(const std::string& text) {
 
 class DxfReader {
  public:
-  DxfReader(Point origin, const std::string& unit) : origin_(origin), unit_(unit) {}
+  DxfReader(Point origin, const std::string& unit, bool sheet)
+      : origin_(origin), unit_(unit), sheet_(sheet) {}
+
+  using Tags = std::vector<Tag>;
 
   Drawing run(const std::string& text) {
     const std::vector<Tag> tags = tags_of(text);
@@ -46,8 +49,10 @@ class DxfReader {
         inside = i + 1 < tags.size() && tags[i + 1].value == "ENTITIES";
       if (tags[i].value == "ENDSEC") inside = false;
       if (inside && tags[i].value != "SECTION") {
-        entity(tags[i].value, {tags.begin() + static_cast<std::ptrdiff_t>(i) + 1,
-                               tags.begin() + static_cast<std::ptrdiff_t>(end)});
+        const Tags own{tags.begin() + static_cast<std::ptrdiff_t>(i) + 1,
+                       tags.begin() + static_cast<std::ptrdiff_t>(end)};
+        if (!mark(tags[i].value, own)) entity(tags[i].value, own);
+        out_.owners.resize(out_.spans.size(), {word(own, 8), i});
       }
       i = end;
     }
@@ -70,7 +75,6 @@ class DxfReader {
     if (out_.metres && mine) scale_ = *out_.metres / *mine;
   }
 
-  using Tags = std::vector<Tag>;
   static Real value(const Tags& tags, int code, Real otherwise) {
     for (const Tag& tag : tags) {
       if (tag.code == code) return tag.real();
@@ -89,6 +93,20 @@ class DxfReader {
   }
   [[nodiscard]] Vec point(const Tags& tags, int x, int y) const {
     return point(value(tags, x, 0.0L), value(tags, y, 0.0L));
+  }
+
+  static std::string word(const Tags& tags, int code) {
+    for (const Tag& tag : tags) {
+      if (tag.code == code) return tag.value;
+    }
+    return "";
+  }
+
+  bool mark(const std::string& name, const Tags& tags) {
+    const bool text = name == "TEXT";
+    if (!sheet_ || (!text && name != "POINT")) return false;
+    out_.marks.push_back({word(tags, 8), text ? word(tags, 1) : "", point(tags, 10, 20)});
+    return true;
   }
 
   void entity(const std::string& name, const Tags& tags) {
@@ -177,20 +195,29 @@ class DxfReader {
 
   Point origin_;
   std::string unit_;
+  bool sheet_;
   Real scale_ = 1.0L;
   Drawing out_;
 };
 
-}  // namespace
-
-Drawing read_dxf(const std::string& text, Point origin, const std::string& unit) {
+Drawing read(const std::string& text, Point origin, const std::string& unit, bool sheet) {
   try {
-    return DxfReader(origin, unit).run(text);
+    return DxfReader(origin, unit, sheet).run(text);
   } catch (const std::exception& error) {
     Drawing out;
     out.fault = error.what();
     return out;
   }
+}
+
+}  // namespace
+
+Drawing read_dxf(const std::string& text, Point origin, const std::string& unit) {
+  return read(text, origin, unit, false);
+}
+
+Drawing read_dxf_sheet(const std::string& text, Point origin, const std::string& unit) {
+  return read(text, origin, unit, true);
 }
 
 }  // namespace judge

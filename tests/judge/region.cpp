@@ -20,8 +20,9 @@ Vec arc_vector(Real theta, Real kappa, Real turn) {
 }
 
 /// In half chords a = k0 h/2, b = k1 h/2: closing the chord gives the heading at the joint,
-/// (b - a) e^{i theta} = 2 i a b + b e^{i alpha} - a e^{i beta}.
-Biarc closing(Real h, Real alpha, Real beta, Real k0, Real k1) {
+/// (b - a) e^{i theta} = 2 i a b + b e^{i alpha} - a e^{i beta}. `blur0`, `blur1`: rounding of both
+/// curvatures, relative.
+Biarc closing(Real h, Real alpha, Real beta, Real k0, Real k1, Real blur0, Real blur1) {
   const Real a = 0.5L * k0 * h, b = 0.5L * k1 * h;
   Vec v = Vec{0.0L, 2.0L * a * b} + b * unit_at(alpha) - a * unit_at(beta);
   if (b < a) v = -1.0L * v;
@@ -33,9 +34,13 @@ Biarc closing(Real h, Real alpha, Real beta, Real k0, Real k1) {
     return k == 0.0L ? std::abs(turn) : std::max(0.0L, -std::copysign(1.0L, k) * turn);
   };
   const auto against = [&](Real at) { return std::max(off(at - alpha, k0), off(beta - at, k1)); };
-  // beside an inflection both could turn once more: only what is no rounding makes them
-  constexpr Real kNoRounding = 1.0L;  // rad
-  if (!(k0 * k1 < 0.0L) || against(theta) > kNoRounding) {
+  // beside an inflection both could turn once more: only what rounding of the three terms and of
+  // the curvatures in them (derivatives of the right side) cannot have turned makes them
+  const Real rounding =
+      kRounding * (2.0L * std::abs(a * b) + std::abs(a) + std::abs(b)) +
+      blur0 * std::abs(a) * norm(Vec{0.0L, 2.0L * b} - unit_at(beta)) +
+      blur1 * std::abs(b) * norm(Vec{0.0L, 2.0L * a} + unit_at(alpha));
+  if (!(k0 * k1 < 0.0L) || against(theta) * norm(v) > rounding) {
     const Real first = theta;
     for (const Real at : {first - 2.0L * kPi, first + 2.0L * kPi}) {
       if (against(at) < against(theta)) theta = at;
@@ -199,10 +204,18 @@ std::optional<Region> Region::of(const Element& from, const Element& to, int dir
   const bool flat_a = !any_start && -a <= noise_a, flat_b = !any_end && b <= noise_b;
   const Real end_of_first = flat_a ? k1 : (std::sin(beta) + square / -a) / half;
   const Real start_of_second = flat_b ? k0 : (-std::sin(alpha) - square / b) / half;
+  // rounding of A, or of the half angle, in the quotient that makes the other curvature
+  const auto blur = [&](Real rest, Real noise_of_rest, Real kappa) {
+    const Real half_angle = kRounding * std::sqrt(square) + kRounding * kRounding;
+    const Real off = (square * noise_of_rest / std::abs(rest) + 2.0L * half_angle) / std::abs(rest);
+    return kRounding + (off + kRounding) / std::abs(kappa * half);
+  };
   out.from_start_ = any_start ? behind_a_point(out.h_, beta)
-                              : closing(out.h_, alpha, beta, k0, end_of_first);
+                              : closing(out.h_, alpha, beta, k0, end_of_first, 0.0L,
+                                        blur(a, noise_a, end_of_first));
   out.to_end_ = any_end ? before_a_point(out.h_, alpha)
-                        : closing(out.h_, alpha, beta, start_of_second, k1);
+                        : closing(out.h_, alpha, beta, start_of_second, k1,
+                                  blur(b, noise_b, start_of_second), 0.0L);
   if (direction < 0) {  // mirror the boundaries back
     for (Biarc* biarc : {&out.from_start_, &out.to_end_}) {
       for (BoundaryArc* arc : {&biarc->first, &biarc->second}) {

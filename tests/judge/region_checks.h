@@ -17,6 +17,11 @@ void check_worksheet(const Worksheet& worksheet, const Input& input, bool by_nei
 /// The printed tables and those of the `.csv` file against the JSON.
 void check_region_text(const Worksheet& worksheet, const std::string& text, Sheet& sheet);
 void check_region_csv(const Worksheet& worksheet, const std::string& csv, Sheet& sheet);
+/// The tables in LaTeX.
+void check_region_tex(const Worksheet& worksheet, const std::string& tex, Sheet& sheet);
+/// Both drawings, of the last table.
+void check_region_drawings(const Worksheet& worksheet, const Input& input, const std::string& dxf,
+                           const std::string& svg, const std::string& unit, Sheet& sheet);
 
 /// The table of a construction, "arcs" to "parabolas", over the segments of the last table.
 void check_construction(const Worksheet& worksheet, const Input& input, const std::string& name,

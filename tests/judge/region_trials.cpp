@@ -140,7 +140,10 @@ class RegionTrial : public ProgramRuns {
   void choose_options(const Shape& shape) {
     if (shape.closed && dice_.chance(0.8)) given_.emplace_back("--closed");
     if (dice_.chance(0.06)) given_.emplace_back("--convex");
-    if (dice_.chance(0.2)) add(given_, "--units", "in");
+    if (dice_.chance(0.2)) {
+      unit_ = "in";
+      add(given_, "--units", unit_);
+    }
     if (dice_.chance(0.5)) {
       static const char* kRules[] = {"fair", "centre", "neighbours", "least-change",
                                      "least-curvature"};
@@ -175,7 +178,7 @@ class RegionTrial : public ProgramRuns {
     }
     if (!rule_.empty()) add(words, "--prefer", rule_);
     add(words, "-o", name + ".json");
-    add(words, "-o", name + ".csv");
+    for (const char* ending : {".csv", ".tex", ".dxf", ".svg"}) add(words, "-o", name + ending);
     return program("region", words);
   }
 
@@ -190,6 +193,9 @@ class RegionTrial : public ProgramRuns {
     check_worksheet(worksheet, input, rule_ == "neighbours", sheet);
     check_region_text(worksheet, table.out, sheet);
     check_region_csv(worksheet, text_of_file(path("t.csv")), sheet);
+    check_region_tex(worksheet, text_of_file(path("t.tex")), sheet);
+    check_region_drawings(worksheet, input, text_of_file(path("t.dxf")),
+                          text_of_file(path("t.svg")), unit_, sheet);
     if (!construction_.empty()) construct(input);
     if (!stopped_ && dice_.chance(0.6)) probe(worksheet.user, input);
   }
@@ -273,6 +279,39 @@ class RegionTrial : public ProgramRuns {
     return out;
   }
 
+  /// Vertices and inflections between corners, where a range of headings promises no more of them;
+  /// how the curvature steps at a corner it leaves open.
+  struct Counted {
+    double vertices = 0.0, inflections = 0.0;
+
+    [[nodiscard]] bool within(const Counted& other) const {
+      return vertices <= other.vertices && inflections <= other.inflections;
+    }
+  };
+  static Counted counted(const ContourFile& file) {
+    const bool corners = std::any_of(file.elements.begin(), file.elements.end(),
+                                     [](const FileElement& e) { return e.corner; });
+    if (!corners) {
+      return {figure(file.certificate, "vertices").value.value_or(HUGE_VAL),
+              figure(file.certificate, "inflections").value.value_or(HUGE_VAL)};
+    }
+    Counted out;
+    int direction = 0;
+    for (const FileRun& run : file.runs) {
+      if (file.corner_at(run.first)) direction = 0;
+      if (run.direction == 0) continue;
+      if (direction != 0 && run.direction != direction) out.vertices += 1.0;
+      direction = run.direction;
+    }
+    double before = 0.0;  // the last curvature that is not 0
+    for (const FileElement& e : file.elements) {
+      if (e.kappa * before < 0.0) out.inflections += 1.0;
+      const double after = e.corner ? e.kappa_out : e.kappa;
+      if (e.corner || after != 0.0) before = after;
+    }
+    return out;
+  }
+
   /// The contour with the heading at a point; none: refused.
   std::optional<ContourFile> with_heading(const std::string& datum, const std::string& name) {
     std::vector<std::string> words{"fit", kPoints, "--quiet", "--continuity", "G2"};
@@ -322,12 +361,7 @@ class RegionTrial : public ProgramRuns {
     const std::string range =
         fmt::format("range {} to {} deg", all_digits(p.headings->low / kDegree),
                     all_digits(p.headings->high / kDegree));
-    const auto counts = [](const ContourFile& file, const char* name) {
-      return figure(file.certificate, name).value.value_or(HUGE_VAL);
-    };
-    const auto no_more = [&](const ContourFile& file, const char* name) {
-      return counts(file, name) <= counts(*base, name);
-    };
+    const Counted all = counted(*base);
     const auto i = static_cast<std::size_t>(&p - part.points.data());
     const auto exists = [&](Real theta) {
       return !part.loop && found_with_heading(part, input, i, theta);
@@ -337,13 +371,13 @@ class RegionTrial : public ProgramRuns {
       const std::string inside = datum(p, theta);
       const auto found = with_heading(inside, "inside.json");
       if (stopped_) return;
-      const bool good = found && no_more(*found, "vertices") && no_more(*found, "inflections");
+      const bool good = found && counted(*found).within(all);
       const bool unproved = !good && exists(theta);
       out_.sheet.expect(good || unproved, "region.range of headings inside", inside,
                         std::string(found ? "a vertex or inflection more" : "refused"), range);
       if (unproved) {
         out_.sheet.unjudged("region.range of headings proved", "exists, and fit has no proof",
-                            range);
+                            inside + ", " + range);
       }
     }
     const Real theta = end - ahead * 0.01L * width;
@@ -353,7 +387,8 @@ class RegionTrial : public ProgramRuns {
     if (found && bends(*found) != bends(*base)) {  // the signs of the table are kept
       return out_.sheet.unjudged("region.range of headings outside", "bends another way elsewhere");
     }
-    const bool same = found && directions(*found) == runs && no_more(*found, "inflections");
+    const bool same = found && directions(*found) == runs &&
+                      counted(*found).inflections <= all.inflections;
     out_.sheet.expect(!same && !exists(theta), "region.range of headings outside", outside,
                       std::string(same ? "a contour of the same runs" : "spirals over every chord"),
                       range);
@@ -379,7 +414,7 @@ class RegionTrial : public ProgramRuns {
   Real scale_ = 1.0L, turn_ = 0.0L;
   Vec offset_;
   bool two_sign_ = false;
-  std::string text_, rule_, tolerance_, construction_;
+  std::string text_, rule_, tolerance_, construction_, unit_ = "mm";
   std::vector<std::string> given_, inserts_;
 };
 

@@ -104,9 +104,10 @@ class RangeMaker {
   RangeMaker(const SheetPart& part, const Input& input, Real turned)
       : part_(part), input_(input), turned_(turned) {}
 
-  std::vector<std::optional<Limits>> run() {
+  std::vector<std::optional<Limits>> run(const std::map<std::size_t, int>& ways) {
     const std::size_t n = part_.points.size();
     for (const SheetRow& row : part_.rows) direction_.push_back(part_.direction(row));
+    for (const auto& [row, way] : ways) direction_[row] = way;
     for (std::size_t i = 0; i < n; ++i) own_.push_back(own(i));
     out_.assign(n, Limits{});
     for (std::size_t row = 0; row < part_.rows.size();) {
@@ -320,8 +321,9 @@ void read_worksheet(const std::string& text, Worksheet& sheet) {
 }
 
 std::vector<std::optional<Limits>> curvature_ranges(const SheetPart& part, const Input& input,
-                                                   Real turned) {
-  return RangeMaker(part, input, turned).run();
+                                                   Real turned,
+                                                   const std::map<std::size_t, int>& ways) {
+  return RangeMaker(part, input, turned).run(ways);
 }
 
 std::vector<Span> cubic_through(const std::vector<Vec>& points) {

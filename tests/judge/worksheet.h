@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstddef>
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
@@ -84,8 +85,10 @@ void read_worksheet(const std::string& text, Worksheet& sheet);
 
 /// Ranges of curvature that the points and headings of a table leave, by the condition for one
 /// biarc from link to link, out and back (docs/methods/judge.md). None where something contradicts.
+/// `ways`: directions of rows that have none in the file.
 std::vector<std::optional<Limits>> curvature_ranges(const SheetPart& part, const Input& input,
-                                                   Real turned);
+                                                   Real turned,
+                                                   const std::map<std::size_t, int>& ways = {});
 
 /// The C2 cubic through points, parameter the summed chords, not-a-knot at both ends: its pieces.
 std::vector<Span> cubic_through(const std::vector<Vec>& points);

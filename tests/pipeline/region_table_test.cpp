@@ -5,6 +5,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <fstream>
 #include <numbers>
@@ -112,6 +113,35 @@ TEST(RegionTable, HasNoRegionWhereAVertexLiesBetweenPoints) {
   EXPECT_FALSE(table->rows[5].kappa_start);
   EXPECT_TRUE(table->rows[6].width);
   EXPECT_NEAR(table->rows[5].chord, std::hypot(1.0, 0.5), 1e-15);
+}
+
+TEST(RegionTable, KeepsItsFiguresBesideASharpBend) {
+  // once points are inserted neighbouring chords turn by 173 degrees at the third one of the user's
+  PointSeries series;
+  series.points = {{0.4427491, -0.8228107},
+                   {0.9595527, -0.9884242},
+                   {2.975948, 0.8124058},
+                   {-3.193279, -9.118328}};
+  RegionJob job;
+  job.rule = TangentRule::kCentral;
+  job.job.tolerance = 1.96e-4;
+  const auto table = region_table(series, job);
+  ASSERT_TRUE(table) << table.error().what;
+  ASSERT_TRUE(table->refined);
+  const std::vector<RegionPoint>& points = table->refined->points;
+  ASSERT_GT(points.size(), 20u);
+  double sharpest = 0.0;
+  for (std::size_t i = 1; i + 1 < points.size(); ++i) {
+    const Vec2 a = points[i].point - points[i - 1].point, b = points[i + 1].point - points[i].point;
+    const double circle = 2.0 * cross(a, b) / (norm(a) * norm(b) * norm(a + b));
+    sharpest = std::max(sharpest, std::abs(turning(a, b)));
+    ASSERT_TRUE(points[i].adjacent_kappa) << i;
+    EXPECT_NEAR(*points[i].adjacent_kappa, circle, 1e-9 * std::abs(circle)) << i;
+  }
+  EXPECT_GT(sharpest, 170.0 * std::numbers::pi / 180.0);
+  for (const RegionRow& row : table->refined->rows) {
+    EXPECT_EQ(row.region.has_value(), row.spline_distance.has_value()) << row.from;
+  }
 }
 
 }  // namespace

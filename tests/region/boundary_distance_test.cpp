@@ -61,6 +61,24 @@ TEST(BoundaryDistance, StraightArcsAndLargeCirclesLoseNothing) {
 
 /// A piece between circle and region must be told apart: the farther boundary of a circle arc whose
 /// region is itself is nothing away.
+TEST(BoundaryArcs, KeepTheirLengthWhenTheyTurnByMoreThanHalfATurn) {
+  const double turns[][2] = {{0.7, 0.5}, {0.3, 2.9}, {3.6, 0.5}, {0.4, 3.5}};
+  for (const auto& turn : turns) {
+    const Biarc b(turn[0], turn[1]);
+    const std::vector<Piece> arcs = boundary_arcs(b.frame, b.boundary);
+    ASSERT_EQ(arcs.size(), 2u);
+    const auto &first = std::get<ArcPiece>(arcs[0]), &second = std::get<ArcPiece>(arcs[1]);
+    EXPECT_NEAR(first.length, turn[0], 1e-12);
+    EXPECT_NEAR(second.length, 2.0 * turn[1], 1e-12);
+    EXPECT_NEAR(norm(first.end - second.start), 0.0, 1e-15);
+    EXPECT_NEAR(norm(second.end - Vec2{b.frame.h, 0.0}), 0.0, 1e-15);
+    // where the arc leads, by its own heading and curvature
+    const Vec2 led = first.start + 2.0 * std::sin(0.5 * turn[0]) *
+                                       unit_at(first.theta0 + 0.5 * turn[0]);
+    EXPECT_NEAR(norm(led - first.end), 0.0, 1e-12);
+  }
+}
+
 TEST(RegionPlacement, CurvesOfTheBoundaryLieOnItAndTheChordLiesOutside) {
   const Element a = {{0, 0}, 0.5, -1.2}, b = {{1, 0}, -0.4, -0.6};
   const auto region = segment_region(chord_frame(a, b), 1);

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <optional>
+#include <vector>
 
 #include "obvid/curve/pieces.h"
 #include "obvid/geom/element.h"
@@ -19,6 +20,10 @@ namespace obvid {
 /// alone, as the circle over the whole chord that keeps its tangent.
 [[nodiscard]] std::optional<double> ordinate_over_chord(const ChordFrame& frame,
                                                         const Boundary& boundary, double x);
+
+/// The arcs, or lines, of a boundary in the chord's frame, one or two from the start of the chord to
+/// its end; of a circle of radius 0 there is none. They may turn by nearly a whole turn.
+[[nodiscard]] std::vector<Piece> boundary_arcs(const ChordFrame& frame, const Boundary& boundary);
 
 /// How a piece of a contour lies with respect to the region of the segment that it carries.
 struct RegionPlacement {

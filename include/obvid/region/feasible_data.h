@@ -55,8 +55,15 @@ struct FeasibleData {
 [[nodiscard]] std::vector<FeasibleData> feasible_data(const std::vector<RangeLink>& links,
                                                       const std::vector<RangeNode>& nodes);
 
+/// The order in which data are chosen; each choice leaves the others about half of their room.
+enum class ChoiceOrder {
+  kAlong,   ///< from point to point, as [003] does
+  kHalves,  ///< halfway between points chosen before: of n points none is left less room than about
+            ///< 1/n, where one order along them may leave 2^-n. Costs log2(n) times as much
+};
+
 /// Headings and curvatures for a whole series, each in the middle of what is left to it: first the
-/// headings from point to point, then the curvatures at these headings, by the middle of the radii
+/// headings in the order given, then the curvatures at these headings, by the middle of the radii
 /// where both ends of their range are finite and of one sign (the rule of [003] for both). What
 /// is given stays. Every chord then has a curve of monotone curvature with these ends. Nothing when
 /// there is no such curve through all points. `wanted`, empty or one per node: curvatures that are
@@ -64,7 +71,7 @@ struct FeasibleData {
 /// halfway from that end to its middle.
 [[nodiscard]] std::optional<std::vector<RangeNode>> central_data(
     const std::vector<RangeLink>& links, std::vector<RangeNode> nodes,
-    const std::vector<std::optional<double>>& wanted = {});
+    const std::vector<std::optional<double>>& wanted = {}, ChoiceOrder order = ChoiceOrder::kAlong);
 
 /// The same around a closed series: `links` and `nodes` are equally many, the last link leads back
 /// to the first node. The result has one node more, the first one again, a turn later. The heading

@@ -77,6 +77,11 @@ struct Analysis {
 /// degrees or more, naming the point. Cost O(n).
 [[nodiscard]] Result<Analysis> analyse(const std::vector<Vec2>& points);
 
+/// The same where neighbouring chords may turn by anything short of half a turn: points inserted
+/// beside a sharp bend. What such a bend says of the curve there is that of its circle. Points on
+/// both sides of a point must differ. Error: E309. Cost O(n).
+[[nodiscard]] Result<Analysis> measure_series(const std::vector<Vec2>& points);
+
 /// Largest distance between two curves of monotone curvature through the chord's ends and their
 /// neighbours that turn by less than half a turn there: between both adjacent circles, rounded
 /// upward. NaN on the first and last chord, and where the points themselves turn by half a turn.
