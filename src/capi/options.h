@@ -11,9 +11,6 @@
 #include "obvid/pipeline/fit.h"
 #include "obvid/pipeline/import.h"
 #include "obvid/pipeline/region_table.h"
-#include "obvid/pipeline/surface_export.h"
-#include "obvid/pipeline/surface_job.h"
-#include "obvid/pipeline/toolpath_job.h"
 
 namespace obvid::capi {
 
@@ -26,10 +23,6 @@ struct Request {
   ExportOptions formats;
   std::string profile;  ///< what "for" chose, in words
   std::optional<Units> units;
-  SurfaceJob surface;  ///< kind, and how contours are formed, in `surface.sections`
-  SurfaceExportOptions surface_formats;
-  ToolpathJob toolpath;
-  std::size_t samples = 65;  ///< lines of each family of a check
 };
 
 /// Which options a job knows.
@@ -40,11 +33,6 @@ struct Known {
   bool space = false;         ///< direction of the projection
   bool import = false;        ///< curve, drawing, chord-tolerance
   bool formats = false;       ///< of files
-  bool contours = false;      ///< noise, closing, corners, continuity of contours through points
-  std::optional<SurfaceKind> surface{}; ///< what this kind is made with
-  bool surface_formats = false;        ///< of files of surfaces
-  bool toolpath = false;
-  bool check = false;  ///< of surfaces
 };
 
 /// Reads a JSON object with the names of the command line; NULL and "" are no options. Errors: E308

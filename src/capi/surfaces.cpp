@@ -13,21 +13,14 @@
 #include "obvid/pipeline/surface_values.h"
 #include "obvid/pipeline/toolpath_job.h"
 #include "obvid/surfacing/check.h"
-#include "options.h"
+#include "surface_options.h"
 
 namespace obvid::capi {
 namespace {
 
-Known known_for(SurfaceKind kind) {
-  Known out;
-  out.contours = true;
-  out.surface = kind;
-  return out;
-}
-
-constexpr Known kSurfaceFiles{.surface_formats = true};
-constexpr Known kChecking{.check = true};
-constexpr Known kMilling{.toolpath = true};
+constexpr SurfaceKnown kSurfaceFiles{.formats = true};
+constexpr SurfaceKnown kChecking{.check = true};
+constexpr SurfaceKnown kMilling{.toolpath = true};
 
 /// What the library reads surfaces from.
 SurfaceInput surface_input(const obvid_input& input) {
@@ -72,9 +65,9 @@ int obvid_surface_make(const char* kind, const obvid_input* const* inputs, size_
   return guarded(error, [&]() -> Result<void> {
     const auto what = surface_kind_named(kind == nullptr ? "" : kind);
     if (!what) return fail(what.error());
-    auto request = request_of(options, known_for(*what));
+    auto request = surface_request_of(options, {.kind = *what});
     if (!request) return fail(request.error());
-    SurfaceJob& job = request->surface;
+    SurfaceJob& job = request->make;
     for (size_t i = 0; i < count; ++i) job.inputs.push_back(surface_input(*inputs[i]));
     for (size_t i = 0; i < crossing; ++i) job.across.push_back(surface_input(*across[i]));
     if (job.inputs.empty() || (*what == SurfaceKind::kGordon && job.across.empty())) {
@@ -99,7 +92,7 @@ int obvid_surface_make(const char* kind, const obvid_input* const* inputs, size_
 int obvid_surface_check(const obvid_surface* surface, const char* options, const obvid_run* run,
                         char** report, obvid_error** error) {
   return guarded(error, [&]() -> Result<void> {
-    const auto request = request_of(options, kChecking);
+    const auto request = surface_request_of(options, kChecking);
     if (!request) return fail(request.error());
     CheckOptions how;
     how.samples = request->samples;
@@ -112,7 +105,7 @@ int obvid_surface_check(const obvid_surface* surface, const char* options, const
 int obvid_surface_export(const obvid_surface* surface, const char* ending, const char* options,
                          const obvid_run* run, obvid_files** files, obvid_error** error) {
   return guarded(error, [&]() -> Result<void> {
-    auto request = request_of(options, kSurfaceFiles);
+    auto request = surface_request_of(options, kSurfaceFiles);
     if (!request) return fail(request.error());
     const std::string name = ending == nullptr ? "" : ending;
     const auto format = surface_format_of("surface." + name);
@@ -120,8 +113,8 @@ int obvid_surface_export(const obvid_surface* surface, const char* ending, const
       return fail({ErrorCode::kUnknownFormat, "no format of surfaces has this file extension", name,
                    "possible are " + known_surface_endings()});
     }
-    request->surface_formats.lines = surface->lines;
-    SurfaceExporter exporter(surface->model, request->surface_formats, progress_of(run));
+    request->formats.lines = surface->lines;
+    SurfaceExporter exporter(surface->model, request->formats, progress_of(run));
     auto out = std::make_unique<obvid_files>();
     auto text = exporter.text(*format, out->remarks);
     if (!text) return fail(text.error());
@@ -135,7 +128,7 @@ int obvid_surface_export(const obvid_surface* surface, const char* ending, const
 int obvid_surface_toolpath(const obvid_surface* surface, const char* options, const obvid_run* run,
                            obvid_files** files, char** report, obvid_error** error) {
   return guarded(error, [&]() -> Result<void> {
-    const auto request = request_of(options, kMilling);
+    const auto request = surface_request_of(options, kMilling);
     if (!request) return fail(request.error());
     auto made = make_toolpath(surface->model, request->toolpath, progress_of(run));
     if (!made) return fail(made.error());

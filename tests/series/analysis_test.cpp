@@ -286,14 +286,14 @@ TEST(Analysis, TurningBackIsE402AndNamesThePoint) {
 TEST(Analysis, MeasuresPointsThatTurnBackAsCircles) {
   // two chords of length 1 that turn by 175 degrees: their circle has the radius
   // 1 / (2 sin(87.5 deg))
-  constexpr double kTurn = 175.0 * std::numbers::pi / 180.0;
+  constexpr double kSharpTurn = 175.0 * std::numbers::pi / 180.0;
   const std::vector<Vec2> points = {
-      {0.0, 0.0}, {1.0, 0.0}, {1.0 + std::cos(kTurn), std::sin(kTurn)}};
+      {0.0, 0.0}, {1.0, 0.0}, {1.0 + std::cos(kSharpTurn), std::sin(kSharpTurn)}};
   ASSERT_FALSE(analyse(points));
   const auto measured = measure_series(points);
   ASSERT_TRUE(measured);
-  EXPECT_NEAR(measured->largest_turning, kTurn, 1e-15);
-  EXPECT_NEAR(measured->circles[1].kappa, 2.0 * std::sin(0.5 * kTurn), 1e-13);
+  EXPECT_NEAR(measured->largest_turning, kSharpTurn, 1e-15);
+  EXPECT_NEAR(measured->circles[1].kappa, 2.0 * std::sin(0.5 * kSharpTurn), 1e-13);
 }
 
 TEST(Analysis, SizesBeyondDoublesAreE309) {

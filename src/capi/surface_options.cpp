@@ -1,0 +1,122 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "surface_options.h"
+
+#include <map>
+#include <utility>
+
+#include "obvid/pipeline/job_values.h"
+#include "obvid/pipeline/surface_values.h"
+#include "setters.h"
+
+namespace obvid::capi {
+namespace {
+
+/// Values as they stand, before they are checked.
+struct SurfaceWritten {
+  TypedValues typed;
+  SurfaceValues surface;
+  SurfaceFormatValues formats;
+  ToolpathValues toolpath;
+  std::optional<long> samples, row;
+  std::optional<std::string> units;
+};
+
+std::map<std::string, Setter> setters_of(SurfaceWritten& w, SurfaceRequest& out,
+                                         const SurfaceKnown& known) {
+  std::map<std::string, Setter> all;
+  SurfaceValues& s = w.surface;
+  if (known.kind) {
+    TypedValues& t = w.typed;
+    all.insert({{"units", text(w.units)}});
+    all.insert({{"noise", text(t.noise)},
+                {"closed", flag(t.closed)},
+                {"open", flag(t.open)},
+                {"corner-angle", number(t.corner_angle_deg)},
+                {"no-corners", flag(t.no_corners)},
+                {"continuity", text(t.continuity)}});
+  }
+  if (known.kind) {
+    all.insert({{"tolerance", number(s.tolerance)},
+                {"spacing", number(s.spacing)},
+                {"match", text(s.matching)},
+                {"straight", flag(out.make.straight_across)},
+                {"plain", flag(out.make.plain_when_refused)},
+                {"direction", text(s.direction)},
+                {"apex", text(s.apex)},
+                {"axis", text(s.axis)},
+                {"axis-point", text(s.axis_point)},
+                {"angle", number(s.angle_deg)},
+                {"near", flag(s.near)},
+                {"control", flag(s.control)},
+                {"spread", text(s.spread)},
+                {"smooth", flag(out.make.smooth)},
+                {"distance", number(s.distance)},
+                {"row", count(w.row)}});
+  }
+  if (known.formats) {
+    SurfaceFormatValues& f = w.formats;
+    all.insert({{"chord-tolerance", number(f.chord_tolerance)},
+                {"mesh-angle", number(f.mesh_angle_deg)},
+                {"colour", text(f.colour)},
+                {"view", text(f.view)},
+                {"step", text(f.step)}});
+  }
+  if (known.check) all.insert({{"samples", count(w.samples)}});
+  if (known.toolpath) {
+    ToolpathJob& job = out.toolpath;
+    all.insert({{"cutter", text(w.toolpath.cutter)},
+                {"diameter", number(job.diameter)},
+                {"corner-radius", number(job.corner_radius)},
+                {"strategy", text(w.toolpath.strategy)},
+                {"scallop", number(job.plan.scallop)},
+                {"step-over", number(job.plan.step_over)},
+                {"angle", number(job.plan.angle_deg)},
+                {"along-v", flag(job.plan.along_v)},
+                {"one-way", flag(job.plan.one_way)},
+                {"tolerance", number(job.tolerance)},
+                {"safe-z", number(job.plan.safe_z)},
+                {"feed", number(job.plan.feed)},
+                {"plunge-feed", number(job.plan.plunge_feed)},
+                {"controller", text(w.toolpath.controller)},
+                {"motion", text(w.toolpath.motion)}});
+  }
+  return all;
+}
+
+Result<void> check_written(SurfaceWritten& w, const SurfaceKnown& known, SurfaceRequest& out) {
+  if (known.kind) {
+    out.make.kind = *known.kind;
+    if (w.units) {
+      auto given = given_units(*w.units, "units");
+      if (!given) return fail(given.error());
+      out.make.units = std::move(*given);
+    }
+    if (w.row) {
+      if (*w.row < 1) return fail(bad_option("rows have points", "row", "give 2 or more"));
+      out.make.row = static_cast<std::size_t>(*w.row);
+    }
+    if (auto done = set_surface(w.surface, out.make); !done) return done;
+    if (auto done = set_values(w.typed, out.make.sections); !done) return done;
+  }
+  if (auto done = set_surface_formats(w.formats, out.formats); !done) return done;
+  if (w.samples) {
+    const auto samples = checked_samples(*w.samples);
+    if (!samples) return fail(samples.error());
+    out.samples = *samples;
+  }
+  return set_toolpath(w.toolpath, out.toolpath);
+}
+
+}  // namespace
+
+Result<SurfaceRequest> surface_request_of(const char* options, const SurfaceKnown& known) {
+  SurfaceRequest out;
+  const auto object = options_in(options);
+  if (!object) return fail(object.error());
+  SurfaceWritten written;
+  if (auto done = take(*object, setters_of(written, out, known)); !done) return fail(done.error());
+  if (auto done = check_written(written, known, out); !done) return fail(done.error());
+  return out;
+}
+
+}  // namespace obvid::capi
