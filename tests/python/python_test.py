@@ -33,6 +33,8 @@ import numpy as np  # noqa: E402
 import obvid  # noqa: E402
 import obvid.contour  # noqa: E402
 import obvid.jobs  # noqa: E402
+import obvid.space  # noqa: E402
+import obvid.surfaces  # noqa: E402
 
 SERIES = os.path.join(SOURCES, "examples/series10.csv")
 SECONDS = re.compile(r'"seconds": [0-9.e+-]+')
@@ -578,9 +580,64 @@ class Wheel(unittest.TestCase):
             self.assertTrue(ran)
 
 
+class Surfaces(unittest.TestCase):
+    def sections(self):
+        t = np.linspace(0, 2, 9)
+        return [np.column_stack([np.exp(t) * np.cos(t), np.exp(t) * np.sin(t), 0 * t + z]) for z in (0, 1, 3)]
+
+    def test_says_what_the_program_says(self):
+        path = os.path.join(SOURCES, "examples/surfaces/wigley_stations.csv")
+        with tempfile.TemporaryDirectory() as folder:
+            name = os.path.join(folder, "hull.json")
+            told = json.loads(subprocess.run([PROGRAM, "surface", "skin", path, "-o", name, "--json"], check=True,
+                                             capture_output=True, text=True).stdout)
+            hull = obvid.skin([path])
+            ours = dict(hull.report)
+            for one in (ours, told):
+                one.pop("written"), one.pop("remarks")
+            self.assertEqual(ours, told)
+            with open(name, "rb") as file:
+                self.assertEqual(hull.data("json"), file.read())
+            again = obvid.read_surface(name)
+            self.assertEqual(again.data("json"), hull.data("json"))
+            checked = json.loads(subprocess.run([PROGRAM, "surface", "check", name, "--json"], check=True,
+                                                capture_output=True, text=True).stdout)
+            self.assertEqual(again.check(), checked)
+            hull.write(os.path.join(folder, "hull.stl"))
+            self.assertGreater(os.path.getsize(os.path.join(folder, "hull.stl")), 84)
+
+    def test_passes_the_points(self):
+        sections = self.sections()
+        body = obvid.skin(sections, match="points")
+        ends = body([(0, 0), (1, 0), (0, 1), (1, 1)]).points
+        for place, point in zip(ends, (sections[0][0], sections[0][-1], sections[-1][0], sections[-1][-1])):
+            self.assertLess(np.abs(place - point).max(), 1e-9)
+
+    def test_grids_of_arrays(self):
+        x, y = np.meshgrid(np.arange(4.0), np.arange(3.0))
+        grid = obvid.surface("grid", [np.dstack([x, y, 0.1 * x * y])])
+        places = grid(np.random.default_rng(1).random((20, 2))).points
+        self.assertLess(np.abs(places[:, 2] - 0.1 * places[:, 0] * places[:, 1]).max(), 1e-12)
+
+    def test_what_is_refused(self):
+        for work, kind in ((lambda: obvid.surface("bowl", [self.sections()[0]]), obvid.UsageError),
+                           (lambda: obvid.skin([]), obvid.UsageError), (lambda: obvid.skin([[(0, 0)]]), obvid.InputError),
+                           (lambda: obvid.skin([np.zeros((4, 4))]), ValueError),
+                           (lambda: obvid.skin([np.full((4, 3), np.nan)] * 2), obvid.InputError),
+                           (lambda: obvid.skin(self.sections(), carrier="arcs"), obvid.UsageError),
+                           (lambda: obvid.skin(self.sections())([(0, 2)]), obvid.UsageError),
+                           (lambda: obvid.skin(self.sections()).data("doc"), obvid.UsageError)):
+            with self.assertRaises(kind):
+                work()
+
+    def test_cancellation(self):
+        with self.assertRaises(obvid.CancelledError):
+            obvid.skin(self.sections(), cancelled=lambda: True)
+
+
 class Documents(unittest.TestCase):
     def test_examples_of_the_docstrings(self):
-        for module in (obvid, obvid.jobs, obvid.contour):
+        for module in (obvid, obvid.jobs, obvid.contour, obvid.space, obvid.surfaces):
             result = doctest.testmod(module)
             self.assertEqual(result.failed, 0, module.__name__)
 

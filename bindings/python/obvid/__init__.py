@@ -48,12 +48,14 @@ from .reports import (
     Verification,
 )
 from .space import Corner, SpaceCurve, SpaceSamples, SpaceVerification
+from .surfaces import Surface, SurfaceSamples, Toolpath, read_surface, skin, surface
 
 __all__ = [
     "Analysis", "BSpline", "CancelledError", "CarrierRow", "Certificate", "Contour",
     "Corner", "DrawingAnalysis", "FitReport", "InputError", "InternalError", "NoContourError",
     "NotProvedError", "ObvidError", "Piece", "Samples", "Segment", "Source", "SpaceCurve",
-    "SpaceSamples", "SpaceVerification", "Suggestion", "Table", "UsageError", "Verification",
+    "SpaceSamples", "SpaceVerification", "Suggestion", "Surface", "SurfaceSamples", "Table", "Toolpath",
+    "UsageError", "Verification",
     "__version__", "analyse", "compare", "fit", "fit_many", "fit_space", "read", "read_contour",
-    "read_space", "read_text", "region", "suggest", "why_not", "worksheet",
+    "read_space", "read_surface", "read_text", "region", "skin", "suggest", "surface", "why_not", "worksheet",
 ]  # fmt: skip

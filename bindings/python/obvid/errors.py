@@ -73,9 +73,11 @@ class NotProvedError(ObvidError):
 
     Attributes:
         contour: the contour that was formed, or None.
+        surface: the surface, where it was one.
     """
 
     contour: Any = None
+    surface: Any = None
 
 
 _CATEGORIES: Dict[int, Type[ObvidError]] = {
