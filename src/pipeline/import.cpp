@@ -225,7 +225,12 @@ Result<PointSeries> parse_series(const std::string& text, const std::string& nam
 }
 
 Result<PointSeries> read_series(const std::string& path, const ImportOptions& options) {
-  const FileKind kind = path == "-" ? FileKind::kPoints : file_kind(head_of(path));
+  if (path == "-") {  // read once
+    const auto text = read_file(path);
+    if (!text) return tl::unexpected(text.error());
+    return parse_series(*text, "standard input", options);
+  }
+  const FileKind kind = file_kind(head_of(path));
   if (kind == FileKind::kPoints || kind == FileKind::kOther || kind == FileKind::kContour) {
     return read_points(path, options.two_points);
   }
