@@ -145,7 +145,12 @@ int run(const SurfaceCheckOptions& options) {
   }
   CheckOptions how;
   how.samples = options.samples;
-  const SurfaceCheck check = check_surface(*model, how, bar.progress());
+  const auto checked = check_surface(*model, how, bar.progress());
+  if (!checked) {
+    bar.clear();
+    return report(checked.error());
+  }
+  const SurfaceCheck& check = *checked;
   SurfaceExportOptions formats;
   formats.colouring = SurfaceColouring::kGaussian;
   if (!check.patches.empty()) formats.extremes = extremes_of(check);

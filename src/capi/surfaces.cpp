@@ -36,11 +36,6 @@ SurfaceInput surface_input(const obvid_input& input) {
   return SurfaceInput::of_text(input.name, input.text);
 }
 
-Progress progress_of(const obvid_run* run) {
-  const RunContext context = context_of(run);
-  return context.progress;
-}
-
 /// Patches take parameters of their own knots.
 double at_share(const std::vector<double>& knots, int degree, double share) {
   const double from = knots[static_cast<std::size_t>(degree)];
@@ -96,8 +91,9 @@ int obvid_surface_check(const obvid_surface* surface, const char* options, const
     if (!request) return fail(request.error());
     CheckOptions how;
     how.samples = request->samples;
-    const SurfaceCheck check = check_surface(surface->model, how, progress_of(run));
-    if (report != nullptr) *report = text_of(surface_check_json(surface->model, check, {}));
+    const auto check = check_surface(surface->model, how, context_of(run));
+    if (!check) return fail(check.error());
+    if (report != nullptr) *report = text_of(surface_check_json(surface->model, *check, {}));
     return {};
   });
 }
@@ -114,7 +110,7 @@ int obvid_surface_export(const obvid_surface* surface, const char* ending, const
                    "possible are " + known_surface_endings()});
     }
     request->formats.lines = surface->lines;
-    SurfaceExporter exporter(surface->model, request->formats, progress_of(run));
+    SurfaceExporter exporter(surface->model, request->formats, context_of(run));
     auto out = std::make_unique<obvid_files>();
     auto text = exporter.text(*format, out->remarks);
     if (!text) return fail(text.error());
@@ -130,7 +126,7 @@ int obvid_surface_toolpath(const obvid_surface* surface, const char* options, co
   return guarded(error, [&]() -> Result<void> {
     const auto request = surface_request_of(options, kMilling);
     if (!request) return fail(request.error());
-    auto made = make_toolpath(surface->model, request->toolpath, progress_of(run));
+    auto made = make_toolpath(surface->model, request->toolpath, context_of(run));
     if (!made) return fail(made.error());
     if (report != nullptr) *report = text_of(toolpath_report_json(*made, {}));
     if (files != nullptr) {

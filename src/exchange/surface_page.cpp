@@ -255,12 +255,14 @@ std::string assembled(const std::string& title, const std::string& facts, const 
 }  // namespace
 
 Result<std::string> surface_page(const SurfaceModel& model, const std::vector<Mesh>& meshes,
-                                 const PageOptions& options, const Progress& progress) {
+                                 const PageOptions& options, const RunContext& run) {
   if (auto good = check_page_options(options); !good) return fail(good.error());
   if (auto good = check_lines(options.lines); !good) return fail(good.error());
   const auto triangles = count_triangles(model, meshes, options.most_triangles);
   if (!triangles) return fail(triangles.error());
-  auto data = exchange::page_data(model, meshes, options.lines, progress);
+  auto made = exchange::page_data(model, meshes, options.lines, run);
+  if (!made) return fail(made.error());
+  exchange::PageData& data = *made;
   for (std::size_t q = 0; options.extremes && q < data.scales.size(); ++q) {
     const Range& told = options.extremes->of(exchange::kPageQuantities[q]);
     data.scales[q].least = told.from;

@@ -145,8 +145,8 @@ void place(PageData& data, const std::vector<Mesh>& meshes,
 
 }  // namespace
 
-PageData page_data(const SurfaceModel& model, const std::vector<Mesh>& meshes,
-                   const std::vector<ScenePolyline>& lines, const Progress& progress) {
+Result<PageData> page_data(const SurfaceModel& model, const std::vector<Mesh>& meshes,
+                           const std::vector<ScenePolyline>& lines, const RunContext& run) {
   PageData data;
   place(data, meshes, lines);
   Bytes out;
@@ -155,9 +155,8 @@ PageData page_data(const SurfaceModel& model, const std::vector<Mesh>& meshes,
     const auto k = put_patch(out, model.patches[i].surface, meshes[i], data.centre);
     const auto area = areas(meshes[i]);
     for (std::size_t v = 0; v < k.size(); ++v) measured.push_back({k[v], area[v]});
-    if (progress) {
-      progress("page", static_cast<double>(i + 1) / static_cast<double>(meshes.size()));
-    }
+    const double part = static_cast<double>(i + 1) / static_cast<double>(meshes.size());
+    if (auto done = tell(run, "page", part); !done) return fail(done.error());
   }
   for (const ScenePolyline& line : lines) {
     for (const Vec3 p : line.points) out.vector(p - data.centre);

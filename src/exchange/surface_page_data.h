@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "obvid/core/progress.h"
+#include "obvid/core/run_context.h"
 #include "obvid/exchange/surface_svg.h"
 #include "obvid/mesh/mesh.h"
 #include "obvid/surface/surface.h"
@@ -28,8 +28,8 @@ struct PageData {
 };
 
 /// Patches, meshes and lines as `surface_page` has checked them.
-[[nodiscard]] PageData page_data(const SurfaceModel& model, const std::vector<Mesh>& meshes,
-                                 const std::vector<ScenePolyline>& lines, const Progress& progress);
+[[nodiscard]] Result<PageData> page_data(const SurfaceModel& model, const std::vector<Mesh>& meshes,
+                                 const std::vector<ScenePolyline>& lines, const RunContext& run);
 
 [[nodiscard]] std::string base64(const std::string& bytes);
 

@@ -80,8 +80,8 @@ Result<void> check_options(const TessellationOptions& options, double rounding) 
 
 class Tessellator {
  public:
-  Tessellator(const Patches& patches, const TessellationOptions& options, const Progress& progress)
-      : patches_(patches), options_(options), progress_(progress) {}
+  Tessellator(const Patches& patches, const TessellationOptions& options, const RunContext& run)
+      : patches_(patches), options_(options), run_(run) {}
 
   Result<std::vector<Mesh>> run() {
     for (std::size_t p = 0; p < count(); ++p) {
@@ -105,10 +105,6 @@ class Tessellator {
     return fail(std::move(error));
   }
 
-  void tell(double part) const {
-    if (progress_) progress_("triangles", part);
-  }
-
   Result<void> build_trees() {
     samplers_.reserve(count());
     trees_.reserve(count());
@@ -117,7 +113,8 @@ class Tessellator {
     for (std::size_t p = 0; p < count(); ++p) {
       trees_.emplace_back(samplers_[p], options_);
       if (auto done = trees_[p].build(); !done) return named(done.error(), p);
-      tell(0.5 * static_cast<double>(p + 1) / static_cast<double>(count()));
+      const double part = 0.5 * static_cast<double>(p + 1) / static_cast<double>(count());
+      if (auto done = tell(run_, "triangles", part); !done) return fail(done.error());
     }
     return {};
   }
@@ -135,7 +132,9 @@ class Tessellator {
         if (!cut) return named(cut.error(), p);
         changed[p] = *cut;
         again = again || *cut;
-        if (round == 0) tell(0.5 + 0.5 * static_cast<double>(p + 1) / static_cast<double>(count()));
+        const double part = static_cast<double>(p + 1) / static_cast<double>(count());
+        const auto done = round == 0 ? tell(run_, "triangles", 0.5 + 0.5 * part) : may_go_on(run_);
+        if (!done) return fail(done.error());
       }
       if (!again) return meshes;
     }
@@ -170,7 +169,7 @@ class Tessellator {
 
   const Patches& patches_;
   const TessellationOptions& options_;
-  const Progress& progress_;
+  const RunContext& run_;
   std::vector<PatchSampler> samplers_;
   std::vector<CellTree> trees_;
   std::vector<std::vector<mesh::CellSeen>> seen_;  ///< per patch and cell
@@ -185,13 +184,13 @@ Result<Mesh> tessellate(const NurbsSurface& surface, const TessellationOptions& 
 }
 
 Result<std::vector<Mesh>> tessellate(const SurfaceModel& model, const TessellationOptions& options,
-                                     const Progress& progress) {
+                                     const RunContext& run) {
   Patches patches;
   for (const SurfacePatch& patch : model.patches) {
     patches.surfaces.push_back(&patch.surface);
     patches.names.push_back(patch.name);
   }
-  return Tessellator(patches, options, progress).run();
+  return Tessellator(patches, options, run).run();
 }
 
 }  // namespace obvid

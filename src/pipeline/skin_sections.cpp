@@ -179,7 +179,7 @@ Result<FittedSkin> fit_skin(const std::vector<SpaceSeries>& given, const SkinJob
   options.tolerance = result.tolerance;
   options.matching = job.matching;
   options.straight_across = job.straight_across;
-  auto surface = skin(made, options, run.progress);
+  auto surface = skin(made, options, run);
   if (!surface) return fail(surface.error());
   result.skin = std::move(*surface);
   result.warnings.insert(result.warnings.end(), result.skin.warnings.begin(),

@@ -63,8 +63,8 @@ std::string known_surface_endings() {
 }
 
 SurfaceExporter::SurfaceExporter(const SurfaceModel& model, const SurfaceExportOptions& options,
-                                 Progress progress)
-    : model_(model), options_(options), progress_(std::move(progress)) {}
+                                 RunContext run)
+    : model_(model), options_(options), run_(std::move(run)) {}
 
 const std::optional<CurvatureExtremes>& SurfaceExporter::extremes() {
   if (!options_.extremes && !model_.patches.empty()) options_.extremes = extremes_of(model_);
@@ -77,7 +77,7 @@ Result<void> SurfaceExporter::tessellated(std::vector<std::string>& remarks) {
   options.chord_tolerance =
       options_.chord_tolerance.value_or(kDefaultChordTolerance * size_of(model_));
   options.angle = options_.angle > 0.0 ? options_.angle : kDefaultAngle;
-  auto made = tessellate(model_, options, progress_);
+  auto made = tessellate(model_, options, run_);
   if (!made) return fail(made.error());
   meshes_ = std::move(*made);
   std::size_t triangles = 0;
@@ -153,7 +153,7 @@ Result<std::string> SurfaceExporter::made(SurfaceFormat format, std::vector<std:
       page.view = options_.view;
       page.lines = options_.lines;
       page.extremes = extremes();
-      return surface_page(model_, meshes_, page, progress_);
+      return surface_page(model_, meshes_, page, run_);
     }
     case SurfaceFormat::kPicture: {
       SurfacePictureOptions picture;

@@ -21,7 +21,7 @@ Result<MadeSurface> made_by(const SurfaceJob& job, const RunContext& run) {
     case SurfaceKind::kGordon:
       return make_gordon(job);
     case SurfaceKind::kGrid:
-      return make_grid(job, run.progress);
+      return make_grid(job, run);
     case SurfaceKind::kSkin:
       return make_skin(job, run);
     case SurfaceKind::kOffset:

@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "obvid/core/progress.h"
+#include "obvid/core/run_context.h"
 #include "obvid/core/result.h"
 #include "obvid/pipeline/surface_job.h"
 
@@ -26,7 +26,7 @@ inline constexpr double kSurfaceTolerance = 1e-5;
 [[nodiscard]] Result<MadeSurface> make_revolution(const SurfaceJob& job);
 [[nodiscard]] Result<MadeSurface> make_coons(const SurfaceJob& job);
 [[nodiscard]] Result<MadeSurface> make_gordon(const SurfaceJob& job);
-[[nodiscard]] Result<MadeSurface> make_grid(const SurfaceJob& job, const Progress& progress);
+[[nodiscard]] Result<MadeSurface> make_grid(const SurfaceJob& job, const RunContext& run);
 [[nodiscard]] Result<MadeSurface> make_skin(const SurfaceJob& job, const RunContext& run);
 [[nodiscard]] Result<MadeSurface> make_offset(const SurfaceJob& job);
 [[nodiscard]] Result<MadeSurface> make_id(const SurfaceJob& job);

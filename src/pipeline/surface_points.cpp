@@ -22,9 +22,9 @@ MadeSurface of_one_patch(const PointGrid& grid, NurbsSurface surface) {
   return made;
 }
 
-Result<MadeSurface> near(const PointGrid& grid, const SurfaceJob& job, const Progress& progress) {
+Result<MadeSurface> near(const PointGrid& grid, const SurfaceJob& job, const RunContext& run) {
   const double tolerance = job.tolerance.value_or(kSurfaceTolerance * size_of(grid.points));
-  auto surface = approximated(grid, tolerance, progress);
+  auto surface = approximated(grid, tolerance, run);
   if (!surface) return fail(surface.error());
   MadeSurface made = of_one_patch(grid, std::move(surface->surface));
   made.kind = "least squares near a grid of points";
@@ -52,10 +52,10 @@ std::vector<ScenePolyline> drawn_sections(const std::vector<SpaceSeries>& sectio
 
 }  // namespace
 
-Result<MadeSurface> make_grid(const SurfaceJob& job, const Progress& progress) {
+Result<MadeSurface> make_grid(const SurfaceJob& job, const RunContext& run) {
   const auto grid = grid_of(job);
   if (!grid) return fail(grid.error());
-  if (job.use == GridUse::kNear) return near(*grid, job, progress);
+  if (job.use == GridUse::kNear) return near(*grid, job, run);
   const bool control = job.use == GridUse::kControl;
   auto surface = control ? from_control_points(*grid) : interpolated(*grid, job.spread);
   if (!surface) return fail(surface.error());

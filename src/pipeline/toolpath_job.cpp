@@ -51,10 +51,10 @@ Result<void> check_effort(const SurfaceModel& model, const ToolpathOptions& plan
 }  // namespace
 
 Result<MadeToolpath> make_toolpath(const SurfaceModel& model, const ToolpathJob& job,
-                                   const Progress& progress) {
+                                   const RunContext& run) {
   const ToolpathOptions options = options_for(job, model.units.name);
   if (auto good = check_effort(model, options); !good) return fail(good.error());
-  auto path = plan(model, options, progress);
+  auto path = plan(model, options, run);
   if (!path) return fail(path.error());
   MadeToolpath made{std::move(*path), {}};
   if (!model.units.known()) {

@@ -94,10 +94,11 @@ class Approximation {
         along_v_(line_of(data_, std::move(v))) {}
 
   /// Splits and fits until within the tolerance; false when the data cannot carry it.
-  bool run(double tolerance, const Progress& progress) {
+  bool fitted(double tolerance, const RunContext& run) {
     if (!fit_u() || !fit_v() || !fit_both()) return false;
     while (!within(tolerance)) {
-      if (progress) progress("approximating surface", part_used());
+      cancelled_ = !tell(run, "approximating surface", part_used());
+      if (cancelled_) return false;
       const bool refined = refine(tolerance);
       if (!refined) saturate();
       if (!fit_again() || (!refined && !within(tolerance))) return false;
@@ -118,6 +119,7 @@ class Approximation {
     return result;
   }
 
+  [[nodiscard]] bool was_cancelled() const { return cancelled_; }
   [[nodiscard]] NurbsSurface take() { return std::move(surface_); }
 
  private:
@@ -257,12 +259,13 @@ class Approximation {
   Errors from_u_, from_v_, all_;
   Rows shape_;  // points of the surface at the parameters
   NurbsSurface surface_;
+  bool cancelled_ = false;
 };
 
 }  // namespace
 
 Result<ApproximatedSurface> approximated(const PointGrid& grid, double tolerance,
-                                         const Progress& progress) {
+                                         const RunContext& run) {
   if (auto good = check_tolerance(tolerance); !good) return fail(good.error());
   auto u = grid_parameters(grid, true, Spread::kChord);
   if (!u) return fail(u.error());
@@ -270,7 +273,9 @@ Result<ApproximatedSurface> approximated(const PointGrid& grid, double tolerance
   if (!v) return fail(v.error());
   Approximation work(grid, std::move(*u), std::move(*v));
   NurbsSurface surface;
-  if (work.run(tolerance, progress)) {
+  const bool near = work.fitted(tolerance, run);
+  if (work.was_cancelled()) return fail(cancelled_error());
+  if (near) {
     surface = work.take();
   } else {
     Result<NurbsSurface> through = interpolated(grid, Spread::kChord);
@@ -278,7 +283,7 @@ Result<ApproximatedSurface> approximated(const PointGrid& grid, double tolerance
     surface = std::move(*through);
   }
   ApproximatedSurface result = work.measured(std::move(surface));
-  if (progress) progress("approximating surface", 1.0);
+  if (auto done = tell(run, "approximating surface", 1.0); !done) return fail(done.error());
   if (result.deviation <= tolerance) return result;
   return fail({ErrorCode::kToleranceNotReached,
                fmt::format("a surface comes no nearer to all points than {:g}, the tolerance is "

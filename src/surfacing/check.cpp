@@ -289,15 +289,14 @@ CurvatureExtents curvature_extents(const NurbsSurface& surface, std::size_t samp
   return measured(surface, samples).curvature;
 }
 
-SurfaceCheck check_surface(const SurfaceModel& model, const CheckOptions& options,
-                           const Progress& progress) {
+Result<SurfaceCheck> check_surface(const SurfaceModel& model, const CheckOptions& options,
+                                   const RunContext& run) {
   SurfaceCheck result;
   result.size = size_of(model);
   for (const SurfacePatch& patch : model.patches) {
-    if (progress) {
-      progress("measuring", static_cast<double>(result.patches.size()) /
-                                static_cast<double>(model.patches.size()));
-    }
+    const double part =
+        static_cast<double>(result.patches.size()) / static_cast<double>(model.patches.size());
+    if (auto done = tell(run, "measuring", part); !done) return fail(done.error());
     result.patches.push_back(report_of(patch, options.samples));
   }
   result.joints = joints_of(model, options.meeting * result.size);

@@ -117,15 +117,13 @@ NurbsSurface surface_of(const Net& net, const Collocation& across) {
 }  // namespace
 
 Result<Skin> skin(const std::vector<SkinSection>& given, const SkinOptions& options,
-                  const Progress& progress) {
+                  const RunContext& run) {
   if (auto good = check_sections(given, options); !good) return fail(good.error());
-  const auto tell = [&](const char* stage, double part) {
-    if (progress) progress(stage, part);
-  };
   std::vector<SkinSection> sections = given;
   std::vector<MeasuredSection> measured_sections;
   for (std::size_t k = 0; k < sections.size(); ++k) {
-    tell("measuring sections", static_cast<double>(k) / static_cast<double>(sections.size()));
+    const double part = static_cast<double>(k) / static_cast<double>(sections.size());
+    if (auto done = tell(run, "measuring sections", part); !done) return fail(done.error());
     auto begun = begun_at_first_point(sections[k].contour);
     if (!begun) return fail(of_section(begun.error(), sections, k));
     sections[k].contour = std::move(*begun);
@@ -137,8 +135,9 @@ Result<Skin> skin(const std::vector<SkinSection>& given, const SkinOptions& opti
   if (!match) return fail(match.error());
   std::vector<Net> nets;
   for (const Stretch& stretch : match->stretches) {
-    tell("following contours",
-         static_cast<double>(nets.size()) / static_cast<double>(match->stretches.size()));
+    const double part =
+        static_cast<double>(nets.size()) / static_cast<double>(match->stretches.size());
+    if (auto done = tell(run, "following contours", part); !done) return fail(done.error());
     auto net = net_of(measured_sections, stretch, options);
     if (!net) return fail(net.error());
     nets.push_back(std::move(*net));
@@ -156,7 +155,8 @@ Result<Skin> skin(const std::vector<SkinSection>& given, const SkinOptions& opti
         {sections[k].name, (*v)[k], 0.0, 0.0, sections[k].contour.runs.size(), 0.0});
   }
   for (std::size_t n = 0; n < nets.size(); ++n) {
-    tell("checking", static_cast<double>(n) / static_cast<double>(nets.size()));
+    const double part = static_cast<double>(n) / static_cast<double>(nets.size());
+    if (auto done = tell(run, "checking", part); !done) return fail(done.error());
     SkinStretch stretch{std::move(nets[n].curves), nets[n].breaks, surface_of(nets[n], *across)};
     for (std::size_t k = 0; k < sections.size(); ++k) {
       add_section_report(stretch, measured_sections[k], k, (*v)[k], result.sections[k]);

@@ -94,7 +94,7 @@ class Front {
 }  // namespace
 
 Result<Family> constant_scallop(const Part& part, const ToolpathOptions& options,
-                                const StepRule& rule, Walker& walker, const Progress& progress) {
+                                const StepRule& rule, Walker& walker, const RunContext& run) {
   PassFrame frame = pass_frame(part, options.angle_deg);
   Front front(part, rule, frame, walker.threads());
   Family family;
@@ -103,7 +103,8 @@ Result<Family> constant_scallop(const Part& part, const ToolpathOptions& options
     if (!pass) return fail(pass.error());
     if (!pass->empty()) family.push_back(std::move(*pass));
     front.advance();
-    if (progress) progress("passes", (front.lowest() - frame.b0) / (frame.b1 - frame.b0));
+    const double share = (front.lowest() - frame.b0) / (frame.b1 - frame.b0);
+    if (auto done = tell(run, "passes", share); !done) return fail(done.error());
   }
   return family;
 }

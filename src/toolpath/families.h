@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "obvid/core/progress.h"
+#include "obvid/core/run_context.h"
 #include "passes.h"
 #include "steps.h"
 
@@ -14,13 +14,13 @@ namespace obvid::toolpath {
 using Family = std::vector<Pass>;
 
 [[nodiscard]] Result<Family> zigzag(const Part& part, const ToolpathOptions& options,
-                                    const StepRule& rule, Walker& walker, const Progress& progress);
+                                    const StepRule& rule, Walker& walker, const RunContext& run);
 [[nodiscard]] Result<Family> isoparametric(const Part& part, const ToolpathOptions& options,
                                            const StepRule& rule, Walker& walker,
-                                           const Progress& progress);
+                                           const RunContext& run);
 [[nodiscard]] Result<Family> constant_scallop(const Part& part, const ToolpathOptions& options,
                                               const StepRule& rule, Walker& walker,
-                                              const Progress& progress);
+                                              const RunContext& run);
 
 /// The field of the axis in the directions of the passes: a along them, b across.
 struct PassFrame {

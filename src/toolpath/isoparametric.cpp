@@ -30,7 +30,7 @@ double step_of(const Part& part, const StepRule& rule, const Pass& pass, double 
 }  // namespace
 
 Result<Family> isoparametric(const Part& part, const ToolpathOptions& options, const StepRule& rule,
-                             Walker& walker, const Progress& progress) {
+                             Walker& walker, const RunContext& run) {
   Family family;
   const auto& patches = part.model().patches;
   for (std::size_t k = 0; k < patches.size(); ++k) {
@@ -48,10 +48,9 @@ Result<Family> isoparametric(const Part& part, const ToolpathOptions& options, c
       family.push_back(std::move(*pass));
       if (at >= range.to) break;
       at = std::min(at + step, range.to);
-      if (progress) {
-        progress("passes", (static_cast<double>(k) + (at - range.from) / range.length()) /
-                               static_cast<double>(patches.size()));
-      }
+      const double share = (static_cast<double>(k) + (at - range.from) / range.length()) /
+                           static_cast<double>(patches.size());
+      if (auto done = tell(run, "passes", share); !done) return fail(done.error());
     }
     family.emplace_back();  // nothing between patches
   }

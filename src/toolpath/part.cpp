@@ -57,11 +57,11 @@ Vec2 offset_change(const CutterShape& cutter, Vec3 n, Vec3 dn) {
 }  // namespace
 
 Result<Part> Part::make(const SurfaceModel& model, const CutterShape& cutter, double tolerance,
-                        const Progress& progress) {
+                        const RunContext& run) {
   TessellationOptions options;
   options.chord_tolerance = kTriangleShare * tolerance;
   options.angle = kEdgeAngle;
-  auto meshes = tessellate(model, options, progress);
+  auto meshes = tessellate(model, options, run);
   if (!meshes) return fail(meshes.error());
   return Part(model, cutter, tolerance, std::move(*meshes));
 }

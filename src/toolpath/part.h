@@ -38,7 +38,7 @@ struct Place {
 class Part {
  public:
   static Result<Part> make(const SurfaceModel& model, const CutterShape& cutter, double tolerance,
-                           const Progress& progress);
+                           const RunContext& run);
 
   [[nodiscard]] const CutterShape& cutter() const { return cutter_; }
   [[nodiscard]] double tolerance() const { return tolerance_; }

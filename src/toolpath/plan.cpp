@@ -60,16 +60,16 @@ Result<void> check_sizes(const ToolpathOptions& o) {
 }
 
 Result<Family> family_of(const Part& part, const ToolpathOptions& options, const StepRule& rule,
-                         Walker& walker, const Progress& progress) {
+                         Walker& walker, const RunContext& run) {
   switch (options.strategy) {
     case ToolpathStrategy::kZigzag:
-      return zigzag(part, options, rule, walker, progress);
+      return zigzag(part, options, rule, walker, run);
     case ToolpathStrategy::kIsoparametric:
-      return isoparametric(part, options, rule, walker, progress);
+      return isoparametric(part, options, rule, walker, run);
     case ToolpathStrategy::kConstantScallop:
       break;
   }
-  return constant_scallop(part, options, rule, walker, progress);
+  return constant_scallop(part, options, rule, walker, run);
 }
 
 std::size_t lifted_points(const Family& family) {
@@ -137,12 +137,12 @@ void judge(Toolpath& out, const ToolpathOptions& options) {
 
 /// Prints the program, reads it back and reports on that.
 Result<void> finish(const Part& part, const SurfaceCells& cells, std::vector<Nearest>& reach,
-                    const ToolpathOptions& options, const Progress& progress, Toolpath& out) {
+                    const ToolpathOptions& options, const RunContext& run, Toolpath& out) {
   auto program = toolpath_gcode(out, options.gcode);
   if (!program) return fail(program.error());
   out.program = std::move(*program);
-  const auto seen = check_program(part, cells, reach, out.program.text, machine_scale(out.units),
-                                  options, progress);
+  const auto seen =
+      check_program(part, cells, reach, out.program.text, machine_scale(out.units), options, run);
   if (!seen) return fail(seen.error());
   take_over(*seen, cells.spacing(), out.report);
   return {};
@@ -162,8 +162,8 @@ Toolpath begun(const SurfaceModel& model, const ToolpathOptions& options) {
 }
 
 Result<Toolpath> planned(const SurfaceModel& model, const ToolpathOptions& options,
-                         const CutterShape& cutter, const Progress& progress) {
-  const auto part = Part::make(model, cutter, options.tolerance, progress);
+                         const CutterShape& cutter, const RunContext& run) {
+  const auto part = Part::make(model, cutter, options.tolerance, run);
   if (!part) return fail(part.error());
   Toolpath out = begun(model, options);
   const double top = part->field().high().z;
@@ -176,7 +176,7 @@ Result<Toolpath> planned(const SurfaceModel& model, const ToolpathOptions& optio
   const bool straight = options.strategy == ToolpathStrategy::kZigzag;
   const PassFrame frame = pass_frame(*part, options.angle_deg);
   Walker walker(*part, rule.level(), straight ? std::optional(frame.along) : std::nullopt, options);
-  auto family = family_of(*part, options, rule, walker, progress);
+  auto family = family_of(*part, options, rule, walker, run);
   if (!family) return fail(family.error());
   const SurfaceCells cells(*part,
                            std::min(kCellOfRadius * cutter.radius, kCellOfStep * rule.level()),
@@ -187,14 +187,14 @@ Result<Toolpath> planned(const SurfaceModel& model, const ToolpathOptions& optio
   std::size_t all_added = 0;
   double share = kScallopLimit;
   for (int attempt = 1;; ++attempt, share *= kLowerShare) {
-    const auto added = survey.complete(*family, share, progress);
+    const auto added = survey.complete(*family, share, run);
     if (!added) return fail(added.error());
     all_added += *added;
     out.report = fresh;
     out.report.added_passes = all_added;
     out.report.lifted_points = lifted_points(*family);
     lay_moves(*family, options, rule.level(), walker, out);
-    if (auto done = finish(*part, cells, reach, options, progress, out); !done) {
+    if (auto done = finish(*part, cells, reach, options, run, out); !done) {
       return fail(done.error());
     }
     const bool high = options.scallop && out.report.scallop.found > *options.scallop &&
@@ -208,7 +208,7 @@ Result<Toolpath> planned(const SurfaceModel& model, const ToolpathOptions& optio
 }  // namespace
 
 Result<Toolpath> plan(const SurfaceModel& model, const ToolpathOptions& options,
-                      const Progress& progress) {
+                      const RunContext& run) {
   const auto cutter = shape_of(options.cutter);
   if (!cutter) return fail(cutter.error());
   if (const auto good = check_sizes(options); !good) return fail(good.error());
@@ -219,7 +219,7 @@ Result<Toolpath> plan(const SurfaceModel& model, const ToolpathOptions& options,
     return fail({ErrorCode::kUnsupported, "machines do not know the unit " + model.units.name, "",
                  "known are um, mm, cm, m, km, in, ft", -1, 0.0});
   }
-  return planned(model, options, *cutter, progress);
+  return planned(model, options, *cutter, run);
 }
 
 std::vector<std::vector<Vec3>> cutting_lines(const Toolpath& path, double within) {

@@ -32,16 +32,16 @@ std::vector<Sweep> sweeps_of(const NcProgram& program, double scale, double top)
 Result<SimulationReport> check_program(const Part& part, const SurfaceCells& cells,
                                        std::vector<Nearest>& reach, const std::string& text,
                                        double scale, const ToolpathOptions& options,
-                                       const Progress& progress) {
+                                       const RunContext& run) {
   const double within =
       options.scallop ? kScallopWithin * *options.scallop : kWithin * options.tolerance;
   const double chord = std::min(kChordDepth * options.tolerance, kChordOfWithin * within);
   const auto program = read_program(text, chord * scale);
   if (!program) return fail(program.error());
-  if (progress) progress("checking", 0.0);
+  if (auto done = tell(run, "checking", 0.0); !done) return fail(done.error());
   Simulation simulation(part, cells, reach, options.threads, chord);
   simulation.cut(sweeps_of(*program, scale, part.field().high().z));
-  return simulation.report(options.tolerance, within, progress);
+  return simulation.report(options.tolerance, within, run);
 }
 
 }  // namespace obvid::toolpath

@@ -14,6 +14,6 @@ namespace obvid::toolpath {
                                                      std::vector<Nearest>& reach,
                                                      const std::string& text, double scale,
                                                      const ToolpathOptions& options,
-                                                     const Progress& progress);
+                                                     const RunContext& run);
 
 }  // namespace obvid::toolpath

@@ -43,8 +43,7 @@ ScallopSurvey::ScallopSurvey(const Part& part, const ToolpathOptions& options, c
       print_(print_within(options)),
       simulation_(part, cells, reach, options.threads) {}
 
-Result<std::size_t> ScallopSurvey::complete(Family& family, double share,
-                                            const Progress& progress) {
+Result<std::size_t> ScallopSurvey::complete(Family& family, double share, const RunContext& run) {
   std::size_t count = 0;
   if (!(scallop_ > 0.0)) return count;
   std::vector<Sweep> sweeps;
@@ -53,11 +52,13 @@ Result<std::size_t> ScallopSurvey::complete(Family& family, double share,
   }
   begun_ = true;
   for (int round = 0; round < kMostRounds; ++round) {
-    if (progress) progress("scallops", static_cast<double>(round) / kMostRounds);
+    const double part = static_cast<double>(round) / kMostRounds;
+    if (auto done = tell(run, "scallops", part); !done) return fail(done.error());
     simulation_.cut(sweeps);
     sweeps.clear();
     auto extra = wanted(family, share * scallop_);
     for (std::size_t k = extra.size(); k-- > 0;) {  // from the end: numbers before stay
+      if (auto done = may_go_on(run); !done) return fail(done.error());
       auto pass = walker_.walk(extra[k].rail);
       if (!pass) return fail(pass.error());
       if (pass->empty()) continue;

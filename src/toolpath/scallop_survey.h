@@ -15,7 +15,7 @@ class ScallopSurvey {
 
   /// Adds passes to the family where more stays than `share` of the scallop that is asked for;
   /// their number.
-  Result<std::size_t> complete(Family& family, double share, const Progress& progress);
+  Result<std::size_t> complete(Family& family, double share, const RunContext& run);
 
  private:
   struct Wanted {

@@ -55,7 +55,7 @@ class Simulation {
   [[nodiscard]] std::vector<HighSpot> above(double limit, double within);
   /// `allowed`: depth that need not be looked into any closer; `within`: how near bounds come to
   /// what was found, where quartering has not to go too far for it.
-  [[nodiscard]] SimulationReport report(double allowed, double within, const Progress& progress);
+  [[nodiscard]] Result<SimulationReport> report(double allowed, double within, const RunContext& run);
 
  private:
   static constexpr int kMostLevels = 9;  ///< of quarters
@@ -102,7 +102,7 @@ class Simulation {
   [[nodiscard]] bool find_inside(std::size_t node, double limit, double within, HighSpot& spot);
   void report_depth(double allowed, SimulationReport& out) const;
   void report_reach(SimulationReport& out);
-  void report_left(double within, SimulationReport& out, const Progress& progress);
+  Result<void> report_left(double within, SimulationReport& out, const RunContext& run);
 
   const Part& part_;
   const SurfaceCells& cells_;

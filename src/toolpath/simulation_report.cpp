@@ -68,7 +68,7 @@ void Simulation::report_reach(SimulationReport& out) {
 }
 
 // In order of what cells can hide at most, some at a time: what they show counts for the next.
-void Simulation::report_left(double within, SimulationReport& out, const Progress& progress) {
+Result<void> Simulation::report_left(double within, SimulationReport& out, const RunContext& run) {
   std::vector<std::size_t> high;
   for (std::size_t i = 0; i < nodes_.size(); ++i) {
     const Cell& cell = cells_.cells()[i];
@@ -105,19 +105,20 @@ void Simulation::report_left(double within, SimulationReport& out, const Progres
       raise_extreme(out.left, e.found, e.place);
       out.left.most = std::max(out.left.most, e.most);
     }
-    if (progress) {
-      progress("checking", static_cast<double>(begin) / static_cast<double>(high.size()));
-    }
+    const double share = static_cast<double>(begin) / static_cast<double>(high.size());
+    if (auto done = tell(run, "checking", share); !done) return done;
   }
   if (begin < high.size()) out.left.most = std::max(out.left.most, nodes_[high[begin]].left_most);
   out.left.most = std::max(out.left.most, out.left.found);
+  return {};
 }
 
-SimulationReport Simulation::report(double allowed, double within, const Progress& progress) {
+Result<SimulationReport> Simulation::report(double allowed, double within, const RunContext& run) {
   SimulationReport out;
   report_depth(allowed, out);
+  if (auto done = may_go_on(run); !done) return fail(done.error());
   report_reach(out);
-  report_left(within, out, progress);
+  if (auto done = report_left(within, out, run); !done) return fail(done.error());
   return out;
 }
 

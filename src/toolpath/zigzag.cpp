@@ -42,7 +42,7 @@ PassFrame pass_frame(const Part& part, double angle_deg) {
 }
 
 Result<Family> zigzag(const Part& part, const ToolpathOptions& options, const StepRule& rule,
-                      Walker& walker, const Progress& progress) {
+                      Walker& walker, const RunContext& run) {
   const PassFrame frame = pass_frame(part, options.angle_deg);
   Family family;
   for (double b = frame.b0; b <= frame.b1;) {
@@ -59,7 +59,8 @@ Result<Family> zigzag(const Part& part, const ToolpathOptions& options, const St
     }
     if (!pass->empty()) family.push_back(std::move(*pass));
     b += step;
-    if (progress) progress("passes", (b - frame.b0) / (frame.b1 - frame.b0));
+    const double share = (b - frame.b0) / (frame.b1 - frame.b0);
+    if (auto done = tell(run, "passes", share); !done) return fail(done.error());
   }
   return family;
 }

@@ -746,6 +746,19 @@ class Surfaces(unittest.TestCase):
             surface("skin", [space_points(section(z)) for z in range(9)], None, (), run)
         self.assertEqual(caught.exception.code, 103)
 
+    def test_every_job_on_a_surface_ends_when_asked(self):
+        handle, _, _ = surface("grid", [read(self.example("wavy_grid.csv"))])
+        run, out, report = Run(None, PROGRESS(0), CANCELLED(lambda _: 1)), C.c_void_p(), C.c_void_p()
+        for work in (lambda: call(lib.obvid_surface_check, handle, None, C.byref(run), C.byref(report)),
+                     lambda: call(lib.obvid_surface_export, handle, b"html", None, C.byref(run), C.byref(out)),
+                     lambda: call(lib.obvid_surface_export, handle, b"stl", None, C.byref(run), C.byref(out)),
+                     lambda: call(lib.obvid_surface_toolpath, handle, None, C.byref(run), C.byref(out), C.byref(report)),
+                     lambda: surface("grid", [read(self.example("wavy_grid.csv"))], {"near": True, "tolerance": 1e-3}, (), run)):
+            with self.assertRaises(Failed) as caught:
+                work()
+            self.assertEqual(caught.exception.code, 103)
+            self.assertFalse(out or report)
+
     def test_from_two_threads(self):
         made = []
 

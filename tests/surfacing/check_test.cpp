@@ -19,8 +19,14 @@ NurbsSurface sphere_zone() {
       arc_about(start, {0, 0, 0}, {0, -1, 0}, 2 * kPi / 3), {0, 0, 0}, {0, 0, 1}, 2 * kPi});
 }
 
+SurfaceCheck checked(const SurfaceModel& model, const CheckOptions& options = {}) {
+  const auto found = check_surface(model, options);
+  EXPECT_TRUE(found);
+  return found.value_or(SurfaceCheck{});
+}
+
 TEST(CheckSurface, MeasuresASphereAndItsSeam) {
-  const SurfaceCheck found = check_surface({"s", "mm", {{"zone", sphere_zone()}}});
+  const SurfaceCheck found = checked({"s", "mm", {{"zone", sphere_zone()}}});
   ASSERT_EQ(found.patches.size(), 1u);
   const PatchReport& p = found.patches[0];
   EXPECT_NEAR(p.gaussian.least, 0.25, 1e-11);
@@ -43,7 +49,7 @@ TEST(CheckSurface, TellsCornersFromSmoothBorders) {
   const NurbsSurface flat = nurbs(cylinder_over(line_between({0, 0, 0}, {2, 0, 0}), {0, 1, 0}));
   const NurbsSurface wall = nurbs(cylinder_over(line_between({0, 1, 0}, {2, 1, 0}), {0, 0, 1}));
   const auto [left, right] = split_u(flat, 0.25);
-  const SurfaceCheck found = check_surface(
+  const SurfaceCheck found = checked(
       {"s", "mm", {{"left", left}, {"right", reversed_u(right)}, {"whole", flat}, {"wall", wall}}});
   int smooth = 0, square = 0;
   for (const JointReport& j : found.joints) {
@@ -66,7 +72,7 @@ TEST(CheckSurface, SeesTheStepOfCurvatureFromPlaneToCylinder) {
   const SpaceCurve arc = arc_about({0, 0, 0}, {0, 0, 1}, {0, -1, 0}, 1.0);  // leaves along +x, up
   const NurbsSurface round = nurbs(cylinder_over(arc, {0, 3, 0}));
   const NurbsSurface flat = nurbs(cylinder_over(line_between({-2, 0, 0}, {0, 0, 0}), {0, 3, 0}));
-  const SurfaceCheck found = check_surface({"s", "mm", {{"flat", flat}, {"round", round}}});
+  const SurfaceCheck found = checked({"s", "mm", {{"flat", flat}, {"round", round}}});
   ASSERT_EQ(found.joints.size(), 1u);
   EXPECT_LT(found.joints[0].angle, 1e-12);
   EXPECT_NEAR(found.joints[0].curvature, 1.0, 1e-9);
@@ -85,7 +91,7 @@ TEST(CheckSurface, MeasuresShortSpansToo) {
       {0, 0, 0}, {length / 2, 0, 0}, {length, 0, 0}, {length + 1, 0, 0}, {length + 1, 1, 0}};
   bend.weights = {1, 1, 1, w, 1};
   const NurbsSurface s = nurbs(cylinder_over(bend, {0, 0, 1}));
-  const SurfaceCheck found = check_surface({"s", "mm", {{"bend", s}}}, {5, 1e-5});
+  const SurfaceCheck found = checked({"s", "mm", {{"bend", s}}}, {5, 1e-5});
   EXPECT_NEAR(std::max(std::abs(found.patches[0].mean.least), std::abs(found.patches[0].mean.most)),
               0.5, 1e-9);
   EXPECT_NEAR(found.patches[0].area, length + kPi / 2, 0.1 * kPi);
@@ -134,7 +140,7 @@ TEST(CheckSurface, CountsVerticesAndInflectionsOfLines) {
     at.push_back(k / 400.0);
   }
   const NurbsSurface wave = nurbs(cylinder_over(*interpolated(points, at), {0, 0, 1}));
-  const SurfaceCheck found = check_surface({"s", "mm", {{"wave", wave}}}, {5, 1e-5});
+  const SurfaceCheck found = checked({"s", "mm", {{"wave", wave}}}, {5, 1e-5});
   const LineReport& lines = found.patches[0].along_u;
   EXPECT_EQ(lines.lines, 5u);
   EXPECT_EQ(lines.most_vertices, 3u);     // pi/2, 3 pi/2, 5 pi/2
@@ -149,7 +155,7 @@ TEST(CheckSurface, CountsVerticesAndInflectionsOfLines) {
 TEST(CheckSurface, SaysWhereThereIsNoTangentPlane) {
   const SpaceCurve circle = arc_about({1, 0, 0}, {0, 0, 0}, {0, 0, 1}, 2 * kPi);
   SurfaceModel model{"s", "mm", {{"point", nurbs(RuledSurface{circle, circle})}}};
-  const SurfaceCheck found = check_surface(model, {9, 1e-5});
+  const SurfaceCheck found = checked(model, {9, 1e-5});
   EXPECT_GE(found.patches[0].without_normal, 81u);  // a surface of no width
   EXPECT_EQ(found.patches[0].area, 0.0);
 }

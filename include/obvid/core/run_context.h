@@ -8,6 +8,7 @@
 
 #include "obvid/core/error.h"
 #include "obvid/core/progress.h"
+#include "obvid/core/result.h"
 
 namespace obvid {
 
@@ -31,6 +32,19 @@ struct RunContext {
 /// What cancelled work returns.
 [[nodiscard]] inline Error cancelled_error() {
   return {ErrorCode::kCancelled, "the work was cancelled", "", ""};
+}
+
+/// Whether the work goes on; asks. Error: E103.
+[[nodiscard]] inline Result<void> may_go_on(const RunContext& run) {
+  if (run.cancelled && run.cancelled()) return fail(cancelled_error());
+  return {};
+}
+
+/// Tells how far the work is, then asks likewise.
+[[nodiscard]] inline Result<void> tell(const RunContext& run, std::string_view stage,
+                                       double fraction) {
+  if (run.progress) run.progress(stage, fraction);
+  return may_go_on(run);
 }
 
 }  // namespace obvid

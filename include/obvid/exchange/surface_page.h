@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "obvid/core/progress.h"
+#include "obvid/core/run_context.h"
 #include "obvid/core/result.h"
 #include "obvid/exchange/surface_svg.h"
 #include "obvid/mesh/mesh.h"
@@ -38,6 +38,6 @@ struct PageOptions {
 [[nodiscard]] Result<std::string> surface_page(const SurfaceModel& model,
                                                const std::vector<Mesh>& meshes,
                                                const PageOptions& options = {},
-                                               const Progress& progress = {});
+                                               const RunContext& run = {});
 
 }  // namespace obvid

@@ -6,7 +6,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "obvid/core/progress.h"
+#include "obvid/core/run_context.h"
 #include "obvid/core/result.h"
 #include "obvid/surface/nurbs_surface.h"
 #include "obvid/surface/surface.h"
@@ -49,6 +49,6 @@ struct TessellationOptions {
 /// model's size and a tenth of the chord tolerance. `Error::index`: the patch.
 [[nodiscard]] Result<std::vector<Mesh>> tessellate(const SurfaceModel& model,
                                                    const TessellationOptions& options,
-                                                   const Progress& progress = {});
+                                                   const RunContext& run = {});
 
 }  // namespace obvid

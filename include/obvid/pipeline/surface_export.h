@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "obvid/cad/cad.h"
-#include "obvid/core/progress.h"
+#include "obvid/core/run_context.h"
 #include "obvid/core/result.h"
 #include "obvid/exchange/surface_page.h"
 #include "obvid/exchange/surface_svg.h"
@@ -48,7 +48,7 @@ struct SurfaceExportOptions {
 class SurfaceExporter {
  public:
   SurfaceExporter(const SurfaceModel& model, const SurfaceExportOptions& options,
-                  Progress progress = {});
+                  RunContext run = {});
 
   /// Text of one file; `remarks` get what the user should know. Errors: those of the formats.
   [[nodiscard]] Result<std::string> text(SurfaceFormat format, std::vector<std::string>& remarks);
@@ -63,7 +63,7 @@ class SurfaceExporter {
 
   const SurfaceModel& model_;
   SurfaceExportOptions options_;
-  Progress progress_;
+  RunContext run_;
   std::vector<Mesh> meshes_;
   std::vector<std::string> warnings_;
 };

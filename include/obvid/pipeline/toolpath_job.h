@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "obvid/core/progress.h"
+#include "obvid/core/run_context.h"
 #include "obvid/core/result.h"
 #include "obvid/exchange/surface_svg.h"
 #include "obvid/toolpath/toolpath.h"
@@ -32,7 +32,7 @@ struct MadeToolpath {
 /// machines do not know is refused by `plan`. Reentrant; uses as many threads as `plan.threads`
 /// says.
 [[nodiscard]] Result<MadeToolpath> make_toolpath(const SurfaceModel& model, const ToolpathJob& job,
-                                                 const Progress& progress = {});
+                                                 const RunContext& run = {});
 
 /// The path as it is drawn over the surface: thinned out within four tolerances.
 [[nodiscard]] std::vector<ScenePolyline> drawn(const Toolpath& path);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "obvid/core/progress.h"
+#include "obvid/core/run_context.h"
 #include "obvid/core/result.h"
 #include "obvid/surface/nurbs_surface.h"
 #include "obvid/surface/point_grid.h"
@@ -29,6 +29,6 @@ struct ApproximatedSurface {
 /// Errors: those of `interpolated`; E203 tolerance not > 0 and finite; E502 not reached (cannot
 /// happen but for tolerances below rounding: at worst the surface interpolates).
 [[nodiscard]] Result<ApproximatedSurface> approximated(const PointGrid& grid, double tolerance,
-                                                       const Progress& progress = {});
+                                                       const RunContext& run = {});
 
 }  // namespace obvid

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "obvid/core/progress.h"
+#include "obvid/core/run_context.h"
 #include "obvid/surface/nurbs_surface.h"
 #include "obvid/surface/surface.h"
 
@@ -86,8 +86,8 @@ struct CheckOptions {
 /// than a step of the raster can be missed. Borders meet as wholes only: a border that meets parts
 /// of two others is not found. Curvature of lines is that of curves in space, with the sign that
 /// their mean plane gives; steps below 1e-6 of a line's largest curvature are rounding.
-[[nodiscard]] SurfaceCheck check_surface(const SurfaceModel& model,
+[[nodiscard]] Result<SurfaceCheck> check_surface(const SurfaceModel& model,
                                          const CheckOptions& options = {},
-                                         const Progress& progress = {});
+                                         const RunContext& run = {});
 
 }  // namespace obvid

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "obvid/core/progress.h"
+#include "obvid/core/run_context.h"
 #include "obvid/core/result.h"
 #include "obvid/curve/contour.h"
 #include "obvid/surface/surface.h"
@@ -83,6 +83,6 @@ struct Skin {
 /// sections at the same place (`index`); E402 a contour with a cusp (`index`: the section); E502
 /// the tolerance is not reached within 2^10 parts of a stretch.
 [[nodiscard]] Result<Skin> skin(const std::vector<SkinSection>& sections,
-                                const SkinOptions& options, const Progress& progress = {});
+                                const SkinOptions& options, const RunContext& run = {});
 
 }  // namespace obvid

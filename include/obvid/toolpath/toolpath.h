@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "obvid/core/progress.h"
+#include "obvid/core/run_context.h"
 #include "obvid/core/result.h"
 #include "obvid/surface/surface.h"
 #include "obvid/toolpath/toolpath_gcode.h"
@@ -130,7 +130,7 @@ struct Toolpath {
 /// unit that machines do not know; E502 more triangles or points than allowed, or decimals too few
 /// for the tolerance; those of `tessellate`.
 [[nodiscard]] Result<Toolpath> plan(const SurfaceModel& model, const ToolpathOptions& options,
-                                    const Progress& progress = {});
+                                    const RunContext& run = {});
 
 /// For pictures: moves at feed (passes and links) or rapid moves (with plunges), thinned out within
 /// `within` units.
