@@ -224,7 +224,7 @@ def points(page):
     page.wait("document.querySelector('#shown .hint')")  # the last contour stays, greyed
     page.click_on("#why")
     page.wait("document.querySelector('#message')?.textContent.includes('point')", 30)
-    page.click_on("#message")
+    page.click_on("#dismiss")
     page.write("#heading", "")
     page.settled()
     check("free again", page.verdict() == "good", page.verdict())
@@ -691,7 +691,7 @@ def files(page):
     dropped("nothing.txt", "no points here")
     page.wait("document.querySelector('#message')")
     check("what cannot be read leaves the document", page.doc() == before)
-    page.click_on("#message")
+    page.click_on("#dismiss")
 
 
 def accessible(page, axe):
