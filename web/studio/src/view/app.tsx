@@ -47,7 +47,7 @@ function CurveChoice() {
       {list?.of === source.text ? (
         <select id="curve" title={w.whichCurve} aria-label={w.whichCurve} value={String(source.curve ?? 0)}
           onChange={(e) => { const n = Number(e.currentTarget.value); void open(source.name, source.text, n === 0 ? undefined : n).then(showAll); }}>
-          <option value="0">{w.auto}</option>
+          <option value="0">{w.longest}</option>
           {list.names.map((name, i) => <option value={String(i + 1)}>{i + 1}: {name}</option>)}
         </select>
       ) : null}

@@ -10,6 +10,11 @@ export function values(curve: Curve, shown: Shown): readonly number[] {
   return curve.kappa.map((k) => (k === 0 ? Infinity : 1 / k));
 }
 
+/** Whether the figure has no end between a place and the one before: a radius where the curve bends the other way. */
+export function parts(all: readonly number[], shown: Shown, i: number): boolean {
+  return shown === "radius" && i > 0 && !(all[i]! * all[i - 1]! > 0);
+}
+
 /** Arc length at each place, by chords of the places. */
 export function lengths(curve: Curve): Float64Array {
   const n = curve.t.length, out = new Float64Array(n);

@@ -80,7 +80,14 @@ export function Drawing() {
       void theme.value;
       draw();
     });
-    const resized = new ResizeObserver(draw);
+    let [width, height] = [canvas.clientWidth, canvas.clientHeight];
+    const resized = new ResizeObserver(() => {
+      const by = width > 0 ? canvas.clientWidth / width : 1, { scale, x, y } = camera.value;
+      // what was in the middle stays there; another height alone moves nothing
+      if (by !== 1 && by > 0) camera.value = { scale: scale * by, x: x * by, y: canvas.clientHeight / 2 + (y - height / 2) * by };
+      [width, height] = [canvas.clientWidth, canvas.clientHeight];
+      draw();
+    });
     resized.observe(canvas);
     const wheel = (e: WheelEvent) => {
       e.preventDefault();
@@ -129,7 +136,7 @@ export function Drawing() {
       hover(at);
       return;
     }
-    if (held.kind !== "view" && !isDragged.value && Math.hypot(at[0] - last.current[0], at[1] - last.current[1]) < SLACK[handOf(e)]) return;
+    if (held.kind === "point" && !isDragged.value && Math.hypot(at[0] - last.current[0], at[1] - last.current[1]) < SLACK[handOf(e)]) return;
     if (held.kind === "view") camera.value = panned(camera.value, [at[0] - last.current[0], at[1] - last.current[1]]);
     if (held.kind === "point") movePoint(held.index, snapped(fromScreen(camera.value, [at[0] + held.off[0], at[1] + held.off[1]])));
     if (held.kind === "bend") bend(held.index, held.bar, at);

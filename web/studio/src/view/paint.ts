@@ -6,7 +6,7 @@ import type { Curve, EngineError, FitReport, RegionPoint } from "../engine/engin
 import type { Shown } from "../state";
 import type { Adjacent } from "./adjacent";
 import { gridStep, toScreen, type Camera } from "./camera";
-import { marks, usualSize, values, ways } from "./comb";
+import { marks, parts, usualSize, values, ways } from "./comb";
 import { magnified } from "./region";
 import type { Picture } from "./underlay";
 import { figure } from "../words/figures";
@@ -194,7 +194,7 @@ function comb(c: CanvasRenderingContext2D, s: Scene, curve: Curve, high: number)
   c.stroke();
   c.lineWidth = 1.2;
   c.beginPath();
-  tips.forEach((tip, i) => (i === 0 ? c.moveTo(tip[0], tip[1]) : c.lineTo(tip[0], tip[1])));
+  tips.forEach((tip, i) => (i === 0 || parts(all, s.shown, i) ? c.moveTo(tip[0], tip[1]) : c.lineTo(tip[0], tip[1])));
   c.stroke();
 }
 
@@ -279,6 +279,10 @@ function ranges(c: CanvasRenderingContext2D, s: Scene): void {
   c.setLineDash(s.stale ? [3, 5] : []);
   c.beginPath();
   c.arc(x, y, TANGENT, -low, -high, true);
+  for (const end of [low, high]) { // of a narrow range the arc alone is a dot
+    c.moveTo(x + (TANGENT - HANDLE) * Math.cos(end), y - (TANGENT - HANDLE) * Math.sin(end));
+    c.lineTo(x + (TANGENT + 2 * HANDLE) * Math.cos(end), y - (TANGENT + 2 * HANDLE) * Math.sin(end));
+  }
   c.stroke();
   c.setLineDash([]);
 }
