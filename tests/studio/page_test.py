@@ -113,6 +113,9 @@ def drags(page):
 def undoing(page):
     """Random operations by the keyboard and the controls, then all of them undone."""
     chance = random.Random(6)
+    while page.run("!document.querySelector('#undo').disabled"):
+        page.click_on("#undo")
+    page.click_on("#redo")  # as the file was opened
     before = page.doc()
     page.run("document.querySelector('#drawing').focus()")
     steps = page.run(f"""(async () => {{
@@ -224,7 +227,7 @@ def points(page):
     page.wait("document.querySelector('#shown .hint')")  # the last contour stays, greyed
     page.click_on("#why")
     page.wait("document.querySelector('#message')?.textContent.includes('point')", 30)
-    page.click_on("#message")
+    page.click_on("#dismiss")
     page.write("#heading", "")
     page.settled()
     check("free again", page.verdict() == "good", page.verdict())
@@ -691,7 +694,7 @@ def files(page):
     dropped("nothing.txt", "no points here")
     page.wait("document.querySelector('#message')")
     check("what cannot be read leaves the document", page.doc() == before)
-    page.click_on("#message")
+    page.click_on("#dismiss")
 
 
 def accessible(page, axe):
@@ -738,6 +741,137 @@ def on_a_tablet(page, axe):
     page.call("Emulation.clearDeviceMetricsOverride")
 
 
+def drop_file(page, name, text):
+    page.run(f"""(() => {{ const data = new DataTransfer();
+      data.items.add(new File([{json.dumps(text)}], {json.dumps(name)}));
+      document.querySelector('main').dispatchEvent(
+        new DragEvent('drop', {{dataTransfer: data, bubbles: true, cancelable: true}})); }})()""")
+    page.wait(f"studio.doc.value.name === {json.dumps(name)}")
+    page.settled()
+
+
+def said_of(path):
+    """What the program says of a file: the counts of its contour."""
+    made = subprocess.run([PROGRAM, "fit", path, "--json"], capture_output=True, text=True)
+    return figures(json.loads(made.stdout))
+
+
+def figures(report):
+    proof = [report["certificate"][k] for k in ("proved", "vertices", "inflections", "corners", "curvature_steps")]
+    return [report[k] for k in ("continuity", "units", "points", "pieces")] + proof + [report["report"]["largest_deviation"]]
+
+
+STADIUM = "0\nSECTION\n2\nHEADER\n9\n$INSUNITS\n70\n4\n0\nENDSEC\n0\nSECTION\n2\nENTITIES\n" + "".join(
+    f"0\nLINE\n8\n0\n10\n{a}\n20\n{b}\n11\n{c}\n21\n{d}\n" for a, b, c, d in ((0, 0, 40, 0), (40, 20, 0, 20))) + "".join(
+    f"0\nARC\n8\n0\n10\n{x}\n20\n10\n40\n10\n50\n{a}\n51\n{b}\n" for x, a, b in ((40, 270, 90), (0, 90, 270))) + \
+    "0\nLINE\n8\n0\n10\n0\n20\n50\n11\n9\n21\n50\n0\nENDSEC\n0\nEOF\n"
+
+
+def drawn_files(page):
+    """A drawing is what the program makes of it while no point is changed: its lines and arcs stay, tolerances of
+    a file count; afterwards the page says that they no longer do. Another of its curves can be taken."""
+    tolerances = "x_mm,y_mm,tol\n0,0,0.1\n10,4,0.5\n22,5,0.1\n30,7,2\n40,0,0\n"
+    with tempfile.TemporaryDirectory() as folder:
+        for name, text in (("stadium.dxf", STADIUM), ("tol.csv", tolerances)):
+            path = Path(folder) / name
+            path.write_text(text)
+            drop_file(page, name, text)
+            wanted = said_of(path)
+            check(f"{name}: as the program says", figures(page.answer()["report"]) == wanted, (figures(page.answer()["report"]), wanted))
+            check(f"{name}: it is told", page.run("document.querySelector('#as-drawn') !== null"))
+            x, y = page.point(1)
+            page.drag((x, y), (x + 9, y + 7))
+            check(f"{name}: no longer", page.run("document.querySelector('#as-drawn') === null && "
+                                                f"document.querySelector('#message').textContent.includes('{name}')"))
+            page.click_on("#dismiss")
+            page.click_on("#undo")
+            page.settled()
+            check(f"{name}: undone", figures(page.answer()["report"]) == wanted, page.answer()["error"])
+    drop_file(page, "stadium.dxf", STADIUM)
+    check("lines and arcs of a stadium", page.answer()["report"]["certificate"]["curvature_steps"] == 4
+          and abs(page.run("studio.fitted.value.answer.curve.length") - (80 + 20 * math.pi)) < 1e-9)
+    page.wait("document.querySelectorAll('#curve option').length === 3")
+    page.choose("#curve", "2")
+    page.wait("studio.doc.value.source.curve === 2 && studio.current.value")
+    check("the other curve", abs(page.run("studio.fitted.value.answer.curve?.length ?? 9") - 9) < 1e-9)
+    while page.run("studio.doc.value.name !== 'series10.csv'"):
+        page.click_on("#undo")
+    page.settled()
+
+
+def marked(page):
+    """As many marks of vertices and inflections as are proved, whatever the curve is made of."""
+    circle = [[math.cos(k / 2), math.sin(k / 2)] for k in range(12)]
+    wave = [[x, 30 * math.sin(x / 20)] for x in range(0, 130, 8)]
+    seen = 0
+    for name, points, vertices in (("circle.csv", circle, 0), ("wave.csv", wave, 2)):
+        drop_file(page, name, "x_mm,y_mm\n" + "".join(f"{x!r},{y!r}\n" for x, y in points))
+        for carrier in ("arcs", "bspline", "cubic", "spiral"):
+            page.choose("#carrier", carrier)
+            page.settled()
+            marks = page.run("studio.marks(studio.fitted.value.answer.curve, studio.fitted.value.answer.report).map((m) => m.kind)")
+            proof = page.answer()["report"]["certificate"]
+            counts = [marks.count("vertex"), marks.count("inflection")]
+            check(f"marks of {name} as {carrier}", counts == [proof["vertices"], proof["inflections"]], (counts, proof["vertices"], proof["inflections"]))
+            seen += len(marks)
+        check(f"vertices of {name}", marks.count("vertex") == vertices, marks)
+    check("marks were seen", seen > 8, seen)
+    page.choose("#what", "radius")
+    frame = "new Promise((r) => setTimeout(r, 100))"
+    page.run(frame)
+    page.choose("#what", "curvature")
+    while page.run("studio.doc.value.name !== 'series10.csv'"):
+        page.click_on("#undo")
+    page.settled()
+
+
+def anew(page):
+    """No points at first; the first ones by the keyboard and by the mouse; the last change is undone wherever the keyboard is."""
+    page.click_on("#new")
+    page.settled()
+    check("no points", page.doc()["points"] == [] and page.verdict() == "bad", page.verdict())
+    page.run("document.querySelector('#drawing').focus()")
+    page.key("n")
+    page.key("n")
+    page.wait("studio.doc.value.points.length === 2")
+    x, y = page.point(1)
+    page.click(x + 90, y + 40, 2)
+    page.settled()
+    check("three points are a contour", len(page.doc()["points"]) == 3 and page.verdict() == "good", page.verdict())
+    before = page.doc()["points"]
+    x, y = page.point(2)
+    page.press(x + 1, y)
+    page.mouse("mouseMoved", x + 2, y, button="left", buttons=1)
+    page.release(x + 2, y)
+    check("a click that slips by a pixel moves nothing", page.doc()["points"] == before)
+    page.drag((x + 6, y), (x + 36, y))
+    moved = page.point(2)
+    check("a point keeps its distance from the hand", abs(moved[0] - x - 30) < 0.01, (x, moved))
+    page.click_on("#convex")
+    page.run("document.querySelector('#convex').focus()")
+    page.key("z", CTRL)
+    page.key("z", CTRL)
+    page.settled()
+    check("undone with a box in focus", page.doc()["points"] == before, page.doc()["points"])
+    page.run("document.querySelector('#segment-2').focus()")
+    page.key("Enter")
+    page.wait("studio.selected.value === 1 && studio.region.value")
+    while page.run("studio.doc.value.name !== 'series10.csv'"):
+        page.click_on("#undo")
+    page.click_on("#fit")
+    page.settled()
+
+
+def unreadable():
+    """A file that holds no contour leaves a page that says so and works."""
+    with tempfile.TemporaryDirectory() as folder:
+        path = Path(folder) / "two.csv"
+        path.write_text("x,y\n0,0\n10,4\n")
+        with Studio(PROGRAM, path) as studio, Page(studio.address) as page:
+            check("it is said", "two.csv" in page.run("document.querySelector('#message').textContent"))
+            check("and there is a contour", page.verdict() == "good", page.verdict())
+
+
 def pictures(page, folder):
     folder.mkdir(parents=True, exist_ok=True)
     page.click(*page.point(5))
@@ -765,9 +899,10 @@ with Studio(PROGRAM, FILE) as studio, Page(studio.address) as opened:
     accessible(opened, AXE)
     on_a_tablet(opened, AXE)
     for part in (controls, points, bends, ranges_are_right, given_ranges, explained, by_the_keyboard, by_fingers, documents, around, writes, overlays, shades, below,
-                 cursors, drags, undoing, files):
+                 cursors, drawn_files, marked, anew, drags, undoing, files):
         part(opened)
         opened.settled()
     check("no error in the page", not opened.trouble, opened.trouble[:3])
+unreadable()
 print("\n".join(failures) or "all good")
 sys.exit(1 if failures else 0)

@@ -5,11 +5,12 @@ import "./studio.css";
 import { LocalEngine } from "./engine/local";
 import { embedded, WasmEngine } from "./engine/wasm";
 import {
-  compute, current, doc, fitted, hovered, open, region, selected, unreachable, useEngine,
+  compute, current, doc, fitted, hovered, region, selected, unreachable, useEngine,
 } from "./state";
-import { App, keys, pasted } from "./view/app";
+import { App, keys, opened, pasted } from "./view/app";
 import { bendPlace, onScreen as place, showAll } from "./view/drawing";
 import { adjacentOf as adjacent } from "./view/adjacent";
+import { marks } from "./view/comb";
 import { regions } from "./view/region";
 import { kept, picture } from "./view/underlay";
 
@@ -21,12 +22,12 @@ window.addEventListener("keydown", keys);
 window.addEventListener("paste", pasted);
 engine.opened().then(
   async (file) => {
-    if (file) await open(file.name, file.text);
-    else compute();
+    if (file) return opened(file.name, file.text);
+    compute();
     showAll();
   },
   (error: unknown) => { unreachable.value = String(error); },
 );
 
 // for tests and for scripts in the console: what the page knows, to read
-Object.assign(window, { studio: { doc, fitted, current, hovered, selected, region, place, bendPlace, regions, adjacent, picture, kept, engine } });
+Object.assign(window, { studio: { doc, fitted, current, hovered, selected, region, place, bendPlace, regions, marks, adjacent, picture, kept, engine } });

@@ -3,14 +3,15 @@
 
 import { batch, computed, signal } from "@preact/signals";
 import {
-  documentIn, documentOf, jobOptions, SERIES10, withGiven, withInserted, withOptions, withoutPoint, withPoint,
+  documentIn, documentOf, jobOf, SERIES10, withGiven, withInserted, withOptions, withoutPoint, withPoint,
   type Document, type Given, type Options, type Vec,
 } from "./document/document";
 import { begun, did, redone, undone } from "./document/history";
 import {
-  CANCELLED, type Answer, type Engine, type ExportAnswer, type FitAnswer, type RegionPoint,
-  type SeriesReport,
+  CANCELLED, type Answer, type Engine, type EngineError, type ExportAnswer, type FitAnswer, type Kind, type RegionPoint,
+  type Request, type SeriesReport,
 } from "./engine/engine";
+import { words } from "./words/words";
 
 export type Shown = "curvature" | "slope" | "radius";
 
@@ -18,6 +19,8 @@ const history = signal(begun<Document>(SERIES10));
 /** While something is dragged: what it would become. */
 const draft = signal<Document | null>(null);
 export const doc = computed(() => draft.value ?? history.value.now);
+/** Whether something is being dragged. */
+export const isDragged = computed(() => draft.value !== null);
 export const canUndo = computed(() => history.value.past.length > 0);
 export const canRedo = computed(() => history.value.future.length > 0);
 
@@ -50,12 +53,25 @@ export function theEngine(): Engine {
 
 // ---- what the user does ---------------------------------------------------------------------
 
-export function change(next: Document): void {
+function replace(next: Document): void {
   batch(() => {
     draft.value = null;
     history.value = did(history.value, next);
   });
   compute();
+}
+
+export function change(next: Document): void {
+  const left = history.value.now.source;
+  if (left?.holds && !next.source) message.value = words().asPoints.replace("{file}", left.name);
+  replace(next);
+}
+
+/** Another document without points, the unit as it was. */
+export function empty(next: Document): void {
+  selected.value = drawn.value = null;
+  message.value = null;
+  replace({ ...next, units: doc.value.units });
 }
 
 export function drag(next: Document): void {
@@ -159,7 +175,7 @@ export function compute(): void {
 async function form(): Promise<void> {
   const of = doc.value;
   const samples = Math.max(3, Math.min(20, Math.floor(MOST_PLACES / of.points.length)));
-  const request = { points: of.points, options: jobOptions(of), samples, file: draft.value === null };
+  const request = { ...jobOf(of), samples, file: draft.value === null };
   try {
     const answer = await engine.call<FitAnswer>("fit", request);
     if (answer.error?.code === CANCELLED) return;
@@ -178,9 +194,8 @@ async function formRegion(): Promise<void> {
   const of = doc.value, at = selected.value;
   if (at === null || of.points.length < 3) return;
   const free = withGiven(of, at, {});
-  const request = { points: free.points, options: jobOptions(free) };
   try {
-    const answer = await engine.call<Answer<{ points: readonly RegionPoint[] }>>("region", request);
+    const answer = await engine.call<Answer<{ points: readonly RegionPoint[] }>>("region", jobOf(free));
     if (selected.value !== at) return;
     if (answer.report) region.value = { of, points: answer.report.points };
     else if (answer.error?.code !== CANCELLED) region.value = null;
@@ -211,27 +226,58 @@ function givenIn(g: SeriesReport["given"][number]): Given {
   };
 }
 
-/** Reads a file of points or a drawing. */
-export async function open(name: string, text: string): Promise<void> {
+/** What the engine refuses, as the page says it. */
+export function told(error: EngineError): string {
+  const where = error.where ? ` (${error.where})` : "", advice = error.advice ? `; ${error.advice}` : "";
+  return error.message + where + advice;
+}
+
+/** An answer; where there is none, the page says why. */
+export async function asked<T>(kind: Kind, request: Request): Promise<Answer<T> | null> {
+  try {
+    const answer = await engine.call<Answer<T>>(kind, request);
+    if (answer.error) message.value = told(answer.error);
+    return answer;
+  } catch (error) {
+    message.value = String(error);
+    return null;
+  }
+}
+
+/** Reads a file of points or a drawing; of a drawing, one of its curves. */
+export async function open(name: string, text: string, curve?: number): Promise<void> {
   const saved = documentIn(text);
   if (saved) {
     selected.value = null;
     message.value = null;
-    return change({ ...saved, name });
+    return replace({ ...saved, name });
   }
-  const answer = await engine.call<Answer<SeriesReport>>("series", { text, name });
-  if (!answer.report) {
-    message.value = answer.error ? `${answer.error.message} (${answer.error.where}); ${answer.error.advice}` : null;
-    return;
-  }
-  const report = answer.report;
+  const chosen = curve === undefined ? {} : { curve };
+  const report = (await asked<SeriesReport>("series", { text, name, options: chosen }))?.report;
+  if (!report) return compute(); // what was there stays
   let next: Document = { ...documentOf(name, report.points), units: report.units };
   for (const g of report.given) {
     next = withGiven(next, g.point, givenIn(g));
   }
   selected.value = null;
-  message.value = report.warnings.length > 0 ? report.warnings.join("; ") : null;
-  change(next);
+  const notes = report.warnings.filter((warning) => !/^curve \d+ of \d+ was taken/.test(warning));
+  message.value = notes.length > 0 ? notes.join("; ") : null;
+  const holds = report.pieces_as_drawn > 0 || report.given.some((g) => g.tolerance !== undefined);
+  replace({ ...next, source: { text, name, units: report.units, holds, ...chosen } });
+}
+
+interface CurveList {
+  readonly curves?: readonly { readonly label: string }[];
+  readonly series?: readonly { readonly label: string }[];
+}
+/** Names of the curves of a drawing that holds several. */
+export const curves = signal<{ readonly of: string; readonly names: readonly string[] } | null>(null);
+
+/** Asks what else the file holds that the document was opened from. */
+export async function listCurves(text: string, name: string): Promise<void> {
+  const report = (await engine.call<Answer<CurveList>>("analyse", { text, name }).catch(() => null))?.report;
+  const names = [...(report?.curves ?? []), ...(report?.series ?? [])].map((one) => one.label);
+  curves.value = names.length > 1 ? { of: text, names } : null;
 }
 
 /** The files of the contour that is drawn, in a format. */
@@ -243,10 +289,9 @@ export async function exported(format: string): Promise<ExportAnswer> {
 
 /** The tables and drawings of the region of the points as they are. */
 export async function worksheet(format: string): Promise<ExportAnswer> {
-  const { points, units, name } = doc.value;
-  const text = [`x_${units},y_${units}`, ...points.map((p) => p.join(",")), ""].join("\n");
-  const request = { text, name, options: jobOptions(doc.value), format };
-  return engine.call<ExportAnswer>("worksheet", request);
+  const { points, units, name } = doc.value, job = jobOf(doc.value);
+  const text = job.text ?? [`x_${units},y_${units}`, ...points.map((p) => p.join(",")), ""].join("\n");
+  return engine.call<ExportAnswer>("worksheet", { text, name, options: job.options, format });
 }
 
 /** Every how manyth place has a tooth of the comb. */

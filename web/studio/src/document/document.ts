@@ -39,6 +39,17 @@ export interface Options {
   readonly findCorners: boolean;
 }
 
+/** The file that a document was opened from: what it holds beside points is kept while they stay as they are. */
+export interface Source {
+  readonly text: string;
+  readonly name: string;
+  readonly units: string;
+  /** Whether it holds more than points and what is given at them: pieces as drawn, tolerances. */
+  readonly holds: boolean;
+  /** Which of its curves, from 1; left out: the one that the program takes. */
+  readonly curve?: number;
+}
+
 export interface Document {
   readonly name: string;
   readonly units: string;
@@ -46,6 +57,8 @@ export interface Document {
   /** One entry per point. */
   readonly given: readonly Given[];
   readonly options: Options;
+  /** Lines, arcs, clothoids and tolerances of this file count; none: the points alone do. */
+  readonly source?: Source;
 }
 
 export const USUAL: Options = {
@@ -65,12 +78,18 @@ export const SERIES10: Document = documentOf("series10", [
   [-13.87, 40.95], [17.95, 55.28], [54.24, 53.04], [100.94, 36.19], [230.38, -50.82],
 ]);
 
+/** What is left when points or what is given at them change. */
+function ofPoints(doc: Document): Document {
+  const { source: _gone, ...rest } = doc;
+  return rest;
+}
+
 export function withPoint(doc: Document, index: number, at: Vec): Document {
-  return { ...doc, points: doc.points.map((p, i) => (i === index ? at : p)) };
+  return { ...ofPoints(doc), points: doc.points.map((p, i) => (i === index ? at : p)) };
 }
 
 export function withGiven(doc: Document, index: number, given: Given): Document {
-  return { ...doc, given: doc.given.map((g, i) => (i === index ? given : g)) };
+  return { ...ofPoints(doc), given: doc.given.map((g, i) => (i === index ? given : g)) };
 }
 
 export function withOptions(doc: Document, options: Partial<Options>): Document {
@@ -79,7 +98,7 @@ export function withOptions(doc: Document, options: Partial<Options>): Document 
 
 export function withoutPoint(doc: Document, index: number): Document {
   const kept = <T>(all: readonly T[]) => all.filter((_, i) => i !== index);
-  return { ...doc, points: kept(doc.points), given: kept(doc.given) };
+  return { ...ofPoints(doc), points: kept(doc.points), given: kept(doc.given) };
 }
 
 /** A new point before the one at `index`; `index` = number of points: at the end. */
@@ -87,7 +106,16 @@ export function withInserted(doc: Document, index: number, at: Vec): Document {
   const points = [...doc.points], given = [...doc.given];
   points.splice(index, 0, at);
   given.splice(index, 0, {});
-  return { ...doc, points, given };
+  return { ...ofPoints(doc), points, given };
+}
+
+/** Input and options of a job: the file as it is, or points and what is given at them. */
+export function jobOf(doc: Document, without: readonly string[] = []): { text?: string; name?: string; points?: readonly Vec[]; options: Record<string, unknown> } {
+  const { source } = doc, options = jobOptions(source ? { ...doc, given: [] } : doc);
+  if (source?.curve !== undefined) options["curve"] = source.curve;
+  if (source?.units === doc.units) delete options["units"]; // the file says it
+  for (const name of without) delete options[name];
+  return source ? { text: source.text, name: source.name, options } : { points: doc.points, options };
 }
 
 /** Options of the job, with the names of the command line. */
@@ -120,13 +148,13 @@ export function jobOptions(doc: Document): Record<string, unknown> {
 
 /** The document as a file: points and options as the C interface takes them. */
 export function jobText(doc: Document): string {
-  const { name, units, points } = doc;
-  return JSON.stringify({ format: JOB, version: 1, name, units, points, options: jobOptions(doc) }, null, 1) + "\n";
+  const { name, units, points, source } = doc;
+  return JSON.stringify({ format: JOB, version: 1, name, units, points, options: jobOptions(doc), source }, null, 1) + "\n";
 }
 
 /** What jobText wrote; null: it is another text. */
 export function documentIn(text: string): Document | null {
-  let job: { format?: unknown; name?: unknown; points?: unknown; options?: unknown };
+  let job: { format?: unknown; name?: unknown; points?: unknown; options?: unknown; source?: Partial<Record<keyof Source, unknown>> | null };
   try {
     job = JSON.parse(text);
   } catch {
@@ -154,7 +182,10 @@ export function documentIn(text: string): Document | null {
     closing: o["closed"] === true ? "closed" : o["open"] === true ? "open" : "auto", convex: o["convex"] === true,
     primitives: o["primitives"] === true, findCorners: o["no-corners"] !== true,
   };
-  return { ...plain, units: typeof o["units"] === "string" ? o["units"] : "mm", given, options };
+  const units = typeof o["units"] === "string" ? o["units"] : "mm", from = job.source;
+  const source = typeof from?.text === "string" && typeof from.name === "string" && typeof from.units === "string" && typeof from.holds === "boolean"
+    ? { source: { text: from.text, name: from.name, units: from.units, holds: from.holds, ...(typeof from.curve === "number" ? { curve: from.curve } : {}) } } : {};
+  return { ...plain, units, given, options, ...source };
 }
 
 /** As the options have it: a number, "inf", "40..45", "20..", "..30". */

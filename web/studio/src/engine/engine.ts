@@ -77,6 +77,7 @@ export interface FitReport {
     readonly slope_steps?: number;
     readonly vertices: number;
     readonly inflections: number;
+    readonly monotone: readonly { readonly verdict: "increasing" | "decreasing" | "constant" | "has-vertex" | "undecided" }[];
     readonly joint_gaps: {
       readonly position: number;
       readonly heading: number;
@@ -115,7 +116,10 @@ export interface SeriesReport {
     readonly headings?: readonly [number, number];
     readonly kappas?: readonly [number | null, number | null];
     readonly corner?: boolean;
+    readonly tolerance?: number;
   }[];
+  /** Lines, arcs, ... of a drawing that the contour takes over. */
+  readonly pieces_as_drawn: number;
   readonly warnings: readonly string[];
 }
 

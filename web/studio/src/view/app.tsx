@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 import { signal } from "@preact/signals";
-import { jobOptions, pointsCsv } from "../document/document";
+import { documentOf, jobOf, pointsCsv } from "../document/document";
 import {
-  canRedo, canUndo, combEvery, combHeight, current, doc, drawn, fitted, message, open, redo, shadesRegion, shown, snaps,
-  theEngine, undo, type Shown,
+  asked, canRedo, canUndo, combEvery, combHeight, current, curves, doc, drawn, empty, fitted, listCurves, message, open, redo,
+  shadesRegion, shown, snaps, theEngine, undo, type Shown,
 } from "../state";
-import type { Answer } from "../engine/engine";
 import { Below } from "./below";
 import { Drawing, layPicture, magnification, showAll } from "./drawing";
 import { OptionsPanel, PointPanel, Tables } from "./panels";
@@ -30,19 +29,46 @@ async function take(file: File): Promise<void> {
     return;
   }
   if (file.type.startsWith("image/") && file.type !== "image/svg+xml") return layPicture(file);
-  await open(file.name, await file.text());
+  await opened(file.name, await file.text());
+}
+
+/** A text as the document, all of it in view, and what else it holds to choose from. */
+export async function opened(name: string, text: string): Promise<void> {
+  await open(name, text);
   showAll();
+  await listCurves(text, name);
+}
+
+function CurveChoice() {
+  const { source } = doc.value, list = curves.value, w = words();
+  if (!source) return null;
+  return (
+    <>
+      {list?.of === source.text ? (
+        <select id="curve" title={w.whichCurve} aria-label={w.whichCurve} value={String(source.curve ?? 0)}
+          onChange={(e) => { const n = Number(e.currentTarget.value); void open(source.name, source.text, n === 0 ? undefined : n).then(showAll); }}>
+          <option value="0">{w.longest}</option>
+          {list.names.map((name, i) => <option value={String(i + 1)}>{i + 1}: {name}</option>)}
+        </select>
+      ) : null}
+      {source.holds ? <span id="as-drawn" class="hint" title={w.asDrawnHint}>{w.asDrawn}</span> : null}
+    </>
+  );
 }
 
 async function whyNot(): Promise<void> {
   message.value = words().computing;
-  const answer = await theEngine().call<Answer<unknown>>("why_not", { points: doc.value.points, options: jobOptions(doc.value) });
-  message.value = answer.error ? `${answer.error.message} (${answer.error.where}); ${answer.error.advice}` : null;
+  const answer = await asked("why_not", jobOf(doc.value));
+  if (answer && !answer.error) message.value = null;
+}
+
+/** Whether a box of text has the keyboard, which undoes and pastes itself. */
+function isTyping(e: Event): boolean {
+  return e.target instanceof HTMLInputElement && e.target.type === "text";
 }
 
 export function keys(e: KeyboardEvent): void {
-  const typing = e.target instanceof HTMLInputElement || e.target instanceof HTMLSelectElement;
-  if (!(e.ctrlKey || e.metaKey) || typing) return;
+  if (!(e.ctrlKey || e.metaKey) || isTyping(e)) return;
   const name = e.key.toLowerCase();
   if (name === "z" && !e.shiftKey) undo();
   else if (name === "y" || (name === "z" && e.shiftKey)) redo();
@@ -51,9 +77,9 @@ export function keys(e: KeyboardEvent): void {
 }
 
 export function pasted(e: ClipboardEvent): void {
-  if (e.target instanceof HTMLInputElement) return;
+  if (isTyping(e)) return;
   const text = e.clipboardData?.getData("text/plain") ?? "";
-  if (text.trim() !== "") void open("pasted.csv", text).then(showAll);
+  if (text.trim() !== "") void opened("pasted.csv", text);
 }
 
 export function App() {
@@ -68,6 +94,8 @@ export function App() {
       <header>
         <h1>{w.title}</h1>
         <span id="name">{doc.value.name}</span>
+        <CurveChoice />
+        <button id="new" title={w.newHint} onClick={() => empty(documentOf("points", []))}>{w.newDocument}</button>
         <label class="button" title={w.openHint}>{w.open}
           <input id="file" type="file" onChange={(e) => { const f = e.currentTarget.files?.[0]; if (f) void take(f); e.currentTarget.value = ""; }} />
         </label>
@@ -81,7 +109,7 @@ export function App() {
         <button id="language" title={w.languageHint} onClick={() => { language.value = language.value === "en" ? "uk" : "en"; document.documentElement.lang = language.value; }}>{w.language}</button>
       </header>
       <Verdict />
-      {message.value ? <p id="message" role="alert" onClick={() => { message.value = null; }}>{message.value} ✕</p> : null}
+      {message.value ? <p id="message" role="alert"><span>{message.value}</span> <button id="dismiss" title={w.dismiss} aria-label={w.dismiss} onClick={() => { message.value = null; }}>✕</button></p> : null}
       <div id="work">
         <div id="pictures">
           <Drawing />

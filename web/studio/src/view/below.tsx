@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Controls of what lies below the contour.
 
-import { current, doc, fitted, message } from "../state";
+import { current, doc, fitted, message, told } from "../state";
 import { NumberBox } from "./panels";
 import { apart, keep, kept, picture, scaled, scaling } from "./underlay";
 import { figure } from "../words/figures";
@@ -9,7 +9,7 @@ import { words } from "../words/words";
 
 async function overlay(file: File): Promise<void> {
   const error = await keep(await file.text(), file.name);
-  if (error) message.value = `${error.message} (${error.where}); ${error.advice}`;
+  if (error) message.value = told(error);
 }
 
 export function Below() {

@@ -4,7 +4,7 @@ import { computed, effect, signal } from "@preact/signals";
 import { withGiven, type Vec } from "../document/document";
 import {
   abandonDrag, change, combEvery, combHeight, current, doc, drag, drawn, drop, fitted, hovered, insertPoint,
-  movePoint, pointed, region, removePoint, select, selected, shadesRegion, shown, snaps,
+  isDragged, movePoint, pointed, region, removePoint, select, selected, shadesRegion, shown, snaps,
 } from "../state";
 import { adjacentOf } from "./adjacent";
 import { around, fromScreen, gridStep, panned, toScreen, zoomed, type Camera } from "./camera";
@@ -27,7 +27,13 @@ function promisesNothing(carrier: string | undefined): boolean {
 
 /** The bar of curvatures that is dragged along stays as it was. */
 const held = signal<Bar | null>(null);
-const REACH = 2 * HANDLE; // pixels from a handle within which it is meant
+/** Pixels from a handle within which it is meant, and those that a click may slip. */
+const REACH = { mouse: 2 * HANDLE, finger: 4 * HANDLE }, SLACK = { mouse: 2, finger: 6 };
+type Hand = keyof typeof REACH;
+
+function handOf(e: PointerEvent): Hand {
+  return e.pointerType === "touch" ? "finger" : "mouse";
+}
 
 export function showAll(): void {
   const canvas = document.querySelector<HTMLCanvasElement>("#drawing");
@@ -57,7 +63,7 @@ export function bendPlace(kappa?: number): Vec | null {
   return [box.left + x, box.top + y];
 }
 
-type Grip = { kind: "point" | "tangent"; index: number } | { kind: "bend"; index: number; bar: Bar } | { kind: "view" };
+type Grip = { kind: "point"; index: number; off: Vec } | { kind: "tangent"; index: number } | { kind: "bend"; index: number; bar: Bar } | { kind: "view" };
 
 export function Drawing() {
   const ref = useRef<HTMLCanvasElement>(null);
@@ -74,7 +80,14 @@ export function Drawing() {
       void theme.value;
       draw();
     });
-    const resized = new ResizeObserver(draw);
+    let [width, height] = [canvas.clientWidth, canvas.clientHeight];
+    const resized = new ResizeObserver(() => {
+      const by = width > 0 ? canvas.clientWidth / width : 1, { scale, x, y } = camera.value;
+      // what was in the middle stays there; another height alone moves nothing
+      if (by !== 1 && by > 0) camera.value = { scale: scale * by, x: x * by, y: canvas.clientHeight / 2 + (y - height / 2) * by };
+      [width, height] = [canvas.clientWidth, canvas.clientHeight];
+      draw();
+    });
     resized.observe(canvas);
     const wheel = (e: WheelEvent) => {
       e.preventDefault();
@@ -105,7 +118,7 @@ export function Drawing() {
       grip.current = null;
       return;
     }
-    grip.current = gripAt(at);
+    grip.current = gripAt(at, handOf(e));
     held.value = grip.current.kind === "bend" ? grip.current.bar : null;
     last.current = at;
     if (grip.current.kind === "point") select(grip.current.index);
@@ -123,8 +136,9 @@ export function Drawing() {
       hover(at);
       return;
     }
+    if (held.kind === "point" && !isDragged.value && Math.hypot(at[0] - last.current[0], at[1] - last.current[1]) < SLACK[handOf(e)]) return;
     if (held.kind === "view") camera.value = panned(camera.value, [at[0] - last.current[0], at[1] - last.current[1]]);
-    if (held.kind === "point") movePoint(held.index, snapped(fromScreen(camera.value, at)));
+    if (held.kind === "point") movePoint(held.index, snapped(fromScreen(camera.value, [at[0] + held.off[0], at[1] + held.off[1]])));
     if (held.kind === "bend") bend(held.index, held.bar, at);
     if (held.kind === "tangent") turn(held.index, at);
     last.current = at;
@@ -160,7 +174,7 @@ function scene() {
     bar: held.value ? { ...held.value, kappa: kappaAt(doc.value, at!, curve) ?? held.value.kappa }
       : at === null ? null : barOf({ doc: doc.value, camera: camera.value, curve, region: points[0] ?? null }, at),
     doc: doc.value, camera: camera.value, curve: drawn.value?.curve ?? null,
-    grey: !answer?.curve, error: current.value ? answer?.error ?? null : null,
+    report: drawn.value?.report, grey: !answer?.curve, error: current.value ? answer?.error ?? null : null,
     selected: at, hovered: hovered.value, shown: shown.value, combHeight: combHeight.value, combEvery: combEvery.value,
     adjacent: pointed.value === null || pointed.value >= doc.value.points.length ? null
       : adjacentOf(doc.value, drawn.value?.curve?.closed ?? false, pointed.value),
@@ -171,14 +185,17 @@ function scene() {
   };
 }
 
-function gripAt(at: Vec): Grip {
+function gripAt(at: Vec, hand: Hand = "mouse"): Grip {
   const s = scene();
-  let best = REACH, found: Grip = { kind: "view" };
+  let best = REACH[hand], found: Grip = { kind: "view" };
   const offer = (p: Vec | null, grip: Grip) => {
     const away = p ? Math.hypot(p[0] - at[0], p[1] - at[1]) : Infinity;
     if (away < best) [best, found] = [away, grip];
   };
-  s.doc.points.forEach((p, index) => offer(toScreen(s.camera, p), { kind: "point", index }));
+  s.doc.points.forEach((p, index) => {
+    const on = toScreen(s.camera, p);
+    offer(on, { kind: "point", index, off: [on[0] - at[0], on[1] - at[1]] });
+  });
   if (s.selected !== null) {
     offer(tangentTip(s, s.selected), { kind: "tangent", index: s.selected });
     if (s.bar) offer(onBar(s.bar, s.bar.kappa), { kind: "bend", index: s.selected, bar: s.bar });
@@ -224,7 +241,11 @@ function addAt(at: Vec): void {
 /** Half-way to the next point; behind the last one as far again. */
 function addBehind(index: number): void {
   const points = doc.value.points, p = points[index], next = points[index + 1], before = points[index - 1];
-  if (!p || (!next && !before)) return;
+  if (!p) { // the first one stands in the middle
+    const canvas = document.querySelector<HTMLCanvasElement>("#drawing")!;
+    return insertPoint(0, snapped(fromScreen(camera.value, [canvas.clientWidth / 2, canvas.clientHeight / 2])));
+  }
+  if (!next && !before) return insertPoint(1, snapped([p[0] + gridStep(camera.value, GRID), p[1]]));
   const [q, share] = next ? [next, 0.5] : [before!, -0.5];
   insertPoint(index + 1, snapped([p[0] + share * (q[0] - p[0]), p[1] + share * (q[1] - p[1])]));
 }

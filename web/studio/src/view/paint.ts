@@ -2,11 +2,11 @@
 // Draws the document and its contour on a canvas.
 
 import type { Document, Vec } from "../document/document";
-import type { Curve, EngineError, RegionPoint } from "../engine/engine";
+import type { Curve, EngineError, FitReport, RegionPoint } from "../engine/engine";
 import type { Shown } from "../state";
 import type { Adjacent } from "./adjacent";
 import { gridStep, toScreen, type Camera } from "./camera";
-import { marks, usualSize, values } from "./comb";
+import { marks, parts, usualSize, values, ways } from "./comb";
 import { magnified } from "./region";
 import type { Picture } from "./underlay";
 import { figure } from "../words/figures";
@@ -17,6 +17,8 @@ export const TANGENT = 64;     // length of the handle of a heading
 const BACK = 34;               // from the point to the bar of its curvature
 const LARGEST_BEND = 60;       // height of the largest of what is and what is possible on that bar
 const MOST_BEND = 90;
+const MOST_NUMBERED = 120;     // points with a handle and a number each
+const MARK = HANDLE + 2;       // from the contour to the mark of a vertex or an inflection
 const REGION_WIDTH = 26;       // of the widest region, as it is drawn
 const COMB_SHARE = 0.13;       // of the smaller side of the canvas
 const LEAST_GAP = 3;           // pixels between teeth
@@ -25,6 +27,8 @@ export interface Scene {
   readonly doc: Document;
   readonly camera: Camera;
   readonly curve: Curve | null;
+  /** What was proved of it. */
+  readonly report: FitReport | undefined;
   readonly grey: boolean;
   readonly error: EngineError | null;
   readonly selected: number | null;
@@ -85,6 +89,7 @@ export function paint(canvas: HTMLCanvasElement, scene: Scene): void {
   if (scene.kept) line(context, scene, scene.kept, () => colour("faint"), 1.4);
   if (scene.curve && scene.shadesRegion && !scene.grey) shade(context, scene, scene.curve);
   discs(context, scene);
+  dots(context, scene);
   if (scene.curve) {
     comb(context, scene, scene.curve, COMB_SHARE * Math.min(width, height));
     contour(context, scene, scene.curve);
@@ -189,7 +194,7 @@ function comb(c: CanvasRenderingContext2D, s: Scene, curve: Curve, high: number)
   c.stroke();
   c.lineWidth = 1.2;
   c.beginPath();
-  tips.forEach((tip, i) => (i === 0 ? c.moveTo(tip[0], tip[1]) : c.lineTo(tip[0], tip[1])));
+  tips.forEach((tip, i) => (i === 0 || parts(all, s.shown, i) ? c.moveTo(tip[0], tip[1]) : c.lineTo(tip[0], tip[1])));
   c.stroke();
 }
 
@@ -208,14 +213,19 @@ function picture(c: CanvasRenderingContext2D, s: Scene): void {
 }
 
 function contour(c: CanvasRenderingContext2D, s: Scene, curve: Curve): void {
-  line(c, s, curve, (slope) => (s.grey ? colour("faint") : colour(slope >= 0 ? "rising" : "falling")), 2.4);
+  const way = ways(curve, s.report);
+  const tint = (piece: number) => {
+    const slope = way[piece] ?? curve.slope[piece * curve.samples + (curve.samples >> 1)]!;
+    return slope === 0 ? "level" : slope > 0 ? "rising" : "falling";
+  };
+  line(c, s, curve, (piece) => colour(s.grey ? "faint" : tint(piece)), 2.4);
 }
 
 /** One path for each colour: strokes take time, not places. */
-function line(c: CanvasRenderingContext2D, s: Scene, curve: Curve, tint: (slope: number) => string, width: number): void {
+function line(c: CanvasRenderingContext2D, s: Scene, curve: Curve, tint: (piece: number) => string, width: number): void {
   const each = curve.samples, { scale, x, y } = s.camera, xy = curve.xy, paths = new Map<string, Path2D>();
   for (let piece = 0; piece < curve.pieces; ++piece) {
-    const first = piece * each, name = tint(curve.slope[first + (each >> 1)]!);
+    const first = piece * each, name = tint(piece);
     let path = paths.get(name);
     if (!path) paths.set(name, path = new Path2D());
     path.moveTo(x + scale * xy[2 * first]!, y - scale * xy[2 * first + 1]!);
@@ -230,11 +240,16 @@ function line(c: CanvasRenderingContext2D, s: Scene, curve: Curve, tint: (slope:
 }
 
 function signs(c: CanvasRenderingContext2D, s: Scene, curve: Curve): void {
-  for (const mark of marks(curve)) {
-    const [x, y] = at(curve, s.camera, mark.place);
+  for (const mark of marks(curve, s.report)) {
+    // beside the contour, opposite the comb: many stand at points
+    const [x, y] = at(curve, s.camera, mark.place), heading = curve.heading[mark.place]!, side = curve.kappa[mark.place]! < 0 ? -1 : 1;
+    const n: Vec = [-side * Math.sin(heading), -side * Math.cos(heading)], put = (along: number, out: number): Vec =>
+      [x + out * n[0] - along * n[1], y + out * n[1] + along * n[0]];
     c.fillStyle = colour(mark.kind === "vertex" ? "vertex" : "inflection");
     c.beginPath();
-    if (mark.kind === "vertex") { c.moveTo(x, y - 8); c.lineTo(x + 6, y + 4); c.lineTo(x - 6, y + 4); } else c.rect(x - 4, y - 4, 8, 8);
+    const corners = mark.kind === "vertex" ? [put(0, MARK), put(5, MARK + 10), put(-5, MARK + 10)]
+      : [put(4, MARK), put(4, MARK + 8), put(-4, MARK + 8), put(-4, MARK)];
+    corners.forEach(([px, py], i) => (i === 0 ? c.moveTo(px, py) : c.lineTo(px, py)));
     c.fill();
   }
   if (s.hovered === null || s.hovered >= curve.t.length) return;
@@ -264,6 +279,10 @@ function ranges(c: CanvasRenderingContext2D, s: Scene): void {
   c.setLineDash(s.stale ? [3, 5] : []);
   c.beginPath();
   c.arc(x, y, TANGENT, -low, -high, true);
+  for (const end of [low, high]) { // of a narrow range the arc alone is a dot
+    c.moveTo(x + (TANGENT - HANDLE) * Math.cos(end), y - (TANGENT - HANDLE) * Math.sin(end));
+    c.lineTo(x + (TANGENT + 2 * HANDLE) * Math.cos(end), y - (TANGENT + 2 * HANDLE) * Math.sin(end));
+  }
   c.stroke();
   c.setLineDash([]);
 }
@@ -362,6 +381,23 @@ export function tangentTip(s: Pick<Scene, "doc" | "camera" | "curve">, index: nu
   return [x + TANGENT * Math.cos(heading), y - TANGENT * Math.sin(heading)];
 }
 
+/** Whether nothing is to be said of a point but its place. */
+function isPlain(s: Scene, i: number): boolean {
+  return i !== s.selected && !(s.error?.points ?? []).includes(i) && Object.keys(s.doc.given[i] ?? {}).length === 0;
+}
+
+/** Many points, below the contour, which they would hide. */
+function dots(c: CanvasRenderingContext2D, s: Scene): void {
+  if (s.doc.points.length <= MOST_NUMBERED) return;
+  const all = new Path2D();
+  for (const p of s.doc.points) {
+    const [x, y] = toScreen(s.camera, p);
+    all.rect(x - 3, y - 3, 6, 6);
+  }
+  c.fillStyle = colour("comb");
+  c.fill(all);
+}
+
 function handles(c: CanvasRenderingContext2D, s: Scene): void {
   if (s.selected !== null) {
     const p = s.doc.points[s.selected], tip = tangentTip(s, s.selected);
@@ -378,20 +414,12 @@ function handles(c: CanvasRenderingContext2D, s: Scene): void {
     }
   }
   const blamed = new Set(s.error?.points ?? []);
-  const few = s.doc.points.length <= 120;
+  const few = s.doc.points.length <= MOST_NUMBERED;
   c.font = "11px system-ui, sans-serif";
-  const isPlain = (i: number) => !few && i !== s.selected && !blamed.has(i) && Object.keys(s.doc.given[i] ?? {}).length === 0;
-  const plain = new Path2D(), r = few ? HANDLE : 3;
-  s.doc.points.forEach((p, i) => {
-    if (!isPlain(i)) return;
-    const [x, y] = toScreen(s.camera, p);
-    plain.rect(x - 2, y - 2, 4, 4);
-  });
-  c.fillStyle = colour("ink");
-  c.fill(plain);
+  const r = few ? HANDLE : 3;
   s.doc.points.forEach((p, i) => {
     const [x, y] = toScreen(s.camera, p), given = s.doc.given[i] ?? {};
-    if (isPlain(i)) return;
+    if (!few && isPlain(s, i)) return;
     c.fillStyle = colour(blamed.has(i) ? "vertex" : i === s.selected ? "accent" : "paper");
     c.strokeStyle = colour(blamed.has(i) ? "vertex" : i === s.selected ? "accent" : "ink");
     c.lineWidth = 1.6;

@@ -3,13 +3,11 @@ import { useState } from "preact/hooks";
 import { signal } from "@preact/signals";
 import type { ComponentChildren } from "preact";
 import {
-  CARRIERS, givenOf, jobOptions, PREFER, textOf,
+  CARRIERS, givenOf, jobOf, PREFER, textOf,
   type Carrier, type Closing, type Document, type Given, type Prefer, type Range,
 } from "../document/document";
-import type { Answer } from "../engine/engine";
 import {
-  current, doc, drawn, fitted, movePoint, drop, region, removePoint, selected, setGiven, setOptions,
-  setUnits, theEngine,
+  asked, current, doc, drawn, fitted, movePoint, drop, region, removePoint, select, selected, setGiven, setOptions, setUnits,
 } from "../state";
 import { headingAt } from "./paint";
 import { DEGREES, figure, inFirstTurn } from "../words/figures";
@@ -192,11 +190,7 @@ const suggested = signal<{ readonly of: Document; readonly rows: readonly Record
 
 async function ask(kind: "compare" | "suggest"): Promise<void> {
   const of = doc.value;
-  const options = jobOptions(of);
-  delete options["carrier"];
-  if (kind === "suggest") delete options["noise"];
-  const answer = await theEngine().call<Answer<Record<string, unknown>>>(kind, { points: of.points, options });
-  const report = answer.report ?? {};
+  const report = (await asked<Record<string, unknown>>(kind, jobOf(of, kind === "suggest" ? ["carrier", "noise"] : ["carrier"])))?.report ?? {};
   const rows = (report["carriers"] ?? report["rows"] ?? report["steps"] ?? []) as CompareRow[];
   if (kind === "compare") compared.value = { of, rows };
   else suggested.value = { of, rows };
@@ -227,8 +221,8 @@ function Segments() {
       <thead><tr><th title={w.pointsHint}>{w.points}</th><th title={w.chordHint}>{w.chord}</th><th title={w.pointsOnlyHint}>{w.pointsOnly}</th><th title={w.ownHint}>{w.own}</th></tr></thead>
       <tbody>
         {report.report.segments.slice(0, MOST_ROWS).map((s) => (
-          <tr onClick={() => { selected.value = s.points[0]; }}>
-            <td>{s.points[0] + 1}-{s.points[1] + 1}</td><td>{figure(s.chord)}</td>
+          <tr title={w.pointsHint} onClick={() => select(s.points[0])}>
+            <td><button id={`segment-${s.points[0] + 1}`}>{s.points[0] + 1}-{s.points[1] + 1}</button></td><td>{figure(s.chord)}</td>
             <td>{figure(s.points_only_error)}</td><td>{figure(s.deviation)}</td>
           </tr>
         ))}
@@ -246,8 +240,8 @@ function Compared() {
       <thead><tr><th title={w.familyHint}>{w.family}</th><th title={w.piecesHint}>{w.pieces}</th><th title={w.verticesHint}>{w.vertices}</th><th title={w.comparedError}>{w.error}</th></tr></thead>
       <tbody>
         {compared.value.rows.map((row) => (
-          <tr onClick={() => setOptions({ carrier: row.carrier as Carrier })}>
-            <td>{row.carrier}</td><td>{cell(row["pieces"])}</td><td>{cell(row["vertices"])}</td><td>{cell(row["error_bound"])}</td>
+          <tr title={w.compareHint} onClick={() => setOptions({ carrier: row.carrier as Carrier })}>
+            <td><button id={`family-${row.carrier}`}>{row.carrier}</button></td><td>{cell(row["pieces"])}</td><td>{cell(row["vertices"])}</td><td>{cell(row["error_bound"])}</td>
           </tr>
         ))}
       </tbody>
@@ -275,7 +269,7 @@ function Suggested() {
         <thead><tr><th title={w.noiseHint}>{w.noise}</th><th title={w.verticesHint}>{w.vertices}</th></tr></thead>
         <tbody>
           {rows.map((row, i) => (
-            <tr class={i === at ? "taken" : ""} onClick={() => take(row)}><td>{cell(row["tolerance"])}</td><td>{cell(row["vertices"])}</td></tr>
+            <tr class={i === at ? "taken" : ""} onClick={() => take(row)}><td><button id={`noise-${i + 1}`}>{cell(row["tolerance"])}</button></td><td>{cell(row["vertices"])}</td></tr>
           ))}
         </tbody>
       </table>

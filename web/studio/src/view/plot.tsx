@@ -5,14 +5,31 @@ import { effect } from "@preact/signals";
 import uPlot from "uplot";
 import "uplot/dist/uPlot.min.css";
 import { doc, drawn, hovered, shown } from "../state";
-import { lengths, values } from "./comb";
+import { lengths, parts, values } from "./comb";
 import { colour } from "./paint";
 import { theme } from "./theme";
 import { language, words } from "../words/words";
-import { figure } from "../words/figures";
 
 function unitOf(units: string): string {
   return shown.value === "curvature" ? `1/${units}` : shown.value === "slope" ? `1/${units}²` : units;
+}
+
+/** Figures at the ticks, as many digits as tell two of them apart. */
+function marked(_: uPlot, ticks: number[], _axis: number, _space: number, step: number): string[] {
+  const largest = Math.max(...ticks.map(Math.abs), step), digits = Math.min(15, Math.ceil(Math.log10(largest / step)) + 2);
+  return ticks.map((t) => String(Number((Math.round(t / step) * step).toPrecision(digits))));
+}
+
+const MOST_MEDIANS = 4; // of a radius that is shown: those of nearly straight places have no end
+
+/** From the least to the largest radius, but for those that would flatten the others. */
+function heights(all: readonly (number | null | undefined)[]): [number, number] {
+  const radii = all.filter((v): v is number => typeof v === "number"), sizes = radii.map(Math.abs).sort((a, b) => a - b);
+  const most = MOST_MEDIANS * (sizes[sizes.length >> 1] ?? 0);
+  let [low, high] = [most, -most];
+  for (const v of radii) [low, high] = [Math.min(low, Math.max(v, -most)), Math.max(high, Math.min(v, most))];
+  const room = 0.05 * (high - low || Math.abs(high) || 1);
+  return [low - room, high + room];
 }
 
 function options(width: number, height: number): uPlot.Options {
@@ -20,10 +37,10 @@ function options(width: number, height: number): uPlot.Options {
   const axis = { stroke: colour("ink"), grid: { stroke: colour("grid") }, ticks: { stroke: colour("grid") } };
   return {
     width, height, legend: { show: false },
-    scales: { x: { time: false } },
+    scales: { x: { time: false }, y: shown.value === "radius" ? { range: (u) => heights(Array.from(u.data[1] ?? [])) } : {} },
     axes: [
-      { ...axis, label: `${w.arcLength}, ${doc.value.units}`, labelSize: 18, size: 34, values: (_, ticks) => ticks.map((t) => figure(t, 3)) },
-      { ...axis, label: `${what}, ${unitOf(doc.value.units)}`, labelSize: 18, size: 72, values: (_, ticks) => ticks.map((t) => figure(t, 3)) },
+      { ...axis, label: `${w.arcLength}, ${doc.value.units}`, labelSize: 18, size: 34, values: marked },
+      { ...axis, label: `${what}, ${unitOf(doc.value.units)}`, labelSize: 18, size: 78, values: marked },
     ],
     series: [{}, { stroke: colour("rising"), width: 1.8, pxAlign: 0, points: { show: false } }],
     cursor: { drag: { x: false, y: false }, points: { size: 8, fill: colour("accent") } },
@@ -42,7 +59,8 @@ export function Plot() {
       const curve = drawn.value?.curve;
       const look = [theme.value, language.value, shown.value, doc.value.units].join();
       if (!curve || box.clientWidth === 0) return;
-      const data: uPlot.AlignedData = [lengths(curve), values(curve, shown.value).map((v) => (Number.isFinite(v) ? v : null))];
+      const all = values(curve, shown.value);
+      const data: uPlot.AlignedData = [lengths(curve), all.map((v, i) => (Number.isFinite(v) && !parts(all, shown.value, i) ? v : null))];
       if (!plot || look !== made) {
         plot?.destroy();
         plot = new uPlot(options(box.clientWidth, box.clientHeight), data, box);

@@ -5,7 +5,7 @@ import { signal } from "@preact/signals";
 import { useEffect, useRef } from "preact/hooks";
 import { jobText } from "../document/document";
 import type { ExportAnswer } from "../engine/engine";
-import { current, doc, exported, fitted, message, worksheet } from "../state";
+import { current, doc, exported, fitted, message, told, worksheet } from "../state";
 import { words } from "../words/words";
 
 const FORMATS = ["json", "step", "dxf", "svg", "csv", "nc", "xodr", "xml", "sldcrv", "swb", "obj", "ply"];
@@ -23,7 +23,7 @@ async function show(choice: string): Promise<void> {
   const answer: ExportAnswer = kind === "job" ? { error: null, files: [{ suffix: "", text: jobText(doc.value) }] } : kind === "sheet" ? await worksheet(format) : await exported(format);
   const base = (doc.value.name.replace(/\.[^.]*$/, "") || "contour") + (kind === "contour" ? "" : `-${kind === "job" ? "job" : "region"}`);
   if (answer.error || !answer.files || answer.files.length === 0) {
-    message.value = answer.error ? `${answer.error.message}; ${answer.error.advice}` : words().nothing;
+    message.value = answer.error ? told(answer.error) : words().nothing;
     return;
   }
   preview.value = {

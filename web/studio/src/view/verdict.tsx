@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // What is proved of the very contour that is drawn, in one line.
-import { current, fitted, unreachable } from "../state";
+import { current, fitted, told, unreachable } from "../state";
 import { words } from "../words/words";
 import { figure } from "../words/figures";
 import { showTab } from "./panels";
@@ -13,7 +13,7 @@ export function Verdict() {
   if (!report) {
     return (
       <p id="verdict" class="bad" role="status">
-        <b>{w.none}</b> {error?.message}{error?.where ? ` (${error.where})` : ""}; {error?.advice}
+        <b>{w.none}</b> {error ? told(error) : ""}
       </p>
     );
   }

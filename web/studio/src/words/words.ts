@@ -69,6 +69,10 @@ const EN = {
   pictureHint: "the picture below the drawing",
   next: "Next", done: "Done",
   inPage: "Computed within this page; nothing leaves it. STEP, IGES and BREP files are opened by the program obvid on your machine.",
+  newDocument: "New", newHint: "no points: double click where the first ones are to be (over a picture, say); Undo brings the old ones back",
+  longest: "longest curve", whichCurve: "which curve of the drawing", asDrawn: "as drawn", asDrawnHint: "lines, arcs and clothoids of the file stay as they are, its tolerances count; once a point is changed the contour goes through the points alone",
+  asPoints: "from here on the contour goes through the points alone: lines, arcs and tolerances of {file} no longer count; Undo brings them back",
+  dismiss: "closes this line",
   needsProgram: "STEP, IGES and BREP are not opened here; form the contour with: obvid fit {file}",
 };
 
@@ -138,6 +142,10 @@ const UK: Words = {
   pictureHint: "малюнок під кресленням",
   next: "Далі", done: "Готово",
   inPage: "Обчислено в самій сторінці; ніщо її не залишає. Файли STEP, IGES і BREP відкриває програма obvid на вашому комп’ютері.",
+  newDocument: "Новий", newHint: "без точок: двічі клацніть там, де мають бути перші (наприклад, над малюнком); «Скасувати» поверне попередні",
+  longest: "найдовша крива", whichCurve: "котра крива креслення", asDrawn: "як накреслено", asDrawnHint: "прямі, дуги й клотоїди файлу лишаються, його допуски діють; щойно точку змінено, обвід іде через самі точки",
+  asPoints: "відтепер обвід іде через самі точки: прямі, дуги й допуски файлу {file} більше не діють; «Скасувати» поверне їх",
+  dismiss: "закриває цей рядок",
   needsProgram: "STEP, IGES і BREP тут не відкриваються; обвід утворить: obvid fit {file}",
 };
 
