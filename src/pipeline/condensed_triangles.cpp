@@ -34,25 +34,39 @@ Element end_of_parabola(const RationalBezier& parabola, double t) {
   return {jet.point, std::atan2(jet.d1.y, jet.d1.x), curvature(jet)};
 }
 
+/// Elements of the spiral between both ends, each part between two of which can be condensed.
+Result<std::vector<Element>> elements_along(const Bend& bend, int direction) {
+  const auto spirals = spirals_between(bend.start, bend.end, direction);
+  if (!spirals) return fail(spirals.error());
+  std::vector<Element> out{bend.start};
+  for (std::size_t k = 0; k < spirals->size(); ++k) {
+    const Piece& piece = (*spirals)[k];
+    const Element end = k + 1 == spirals->size() ? bend.end : element_at(piece, 1.0);
+    const auto chain =
+        condense_piece(piece, out.back(), end, direction, std::numeric_limits<double>::max());
+    if (!chain) return fail(chain.error());
+    for (std::size_t i = 1; i + 1 < chain->at.size(); ++i) {
+      out.push_back(element_at(piece, chain->at[i]));
+    }
+    out.push_back(end);
+  }
+  return out;
+}
+
 /// In one condensation; where none is monotone in several, of the spiral between the elements.
 Result<Links> condensed(const Bend& bend, int direction) {
   if (const auto one = condense(bend.start, bend.end, direction)) return Links{*one};
-  const auto spirals = spirals_between(bend.start, bend.end, direction);
-  if (!spirals) return fail(spirals.error());
+  const auto along = elements_along(bend, direction);
+  if (!along) return fail(along.error());
   Links out;
-  for (const Piece& piece : *spirals) {
-    const auto chain = condense_piece(piece, direction, std::numeric_limits<double>::max());
-    if (!chain) return fail(chain.error());
-    for (std::size_t i = 0; i + 1 < chain->at.size(); ++i) {
-      const Element a = element_at(piece, chain->at[i]), b = element_at(piece, chain->at[i + 1]);
-      const auto link = condense(a, b, direction);
-      if (!link) {
-        return fail({ErrorCode::kToleranceNotReached,
-                     "rounding decides whether a chain of parabolas is monotone", "",
-                     "curvature hardly changes there: an arc or another carrier does it", -1, 0.0});
-      }
-      out.push_back(*link);
+  for (std::size_t i = 0; i + 1 < along->size(); ++i) {
+    const auto link = condense((*along)[i], (*along)[i + 1], direction);
+    if (!link) {
+      return fail({ErrorCode::kToleranceNotReached,
+                   "rounding decides whether a chain of parabolas is monotone", "",
+                   "curvature hardly changes there: an arc or another carrier does it", -1, 0.0});
     }
+    out.push_back(*link);
   }
   return out;
 }

@@ -225,6 +225,17 @@ TEST(CondensedPieces, GrowFinerWithTheTolerance) {
   EXPECT_LT(before, 1600u);
 }
 
+TEST(CondensedPieces, MeetTheElementsThatAreGivenForTheEnds) {
+  const auto piece = clothoid(0.2, 0.5, 3.0);
+  Element start = element_at(Piece{piece}, 0.0), end = element_at(Piece{piece}, 1.0);
+  start.kappa *= 1.0 + 1e-5;
+  end.kappa *= 1.0 - 1e-5;
+  const auto chain = condense_piece(piece, start, end, 1, 1e-4);
+  ASSERT_TRUE(chain);
+  EXPECT_NEAR(start_curvature(chain->parabolas.front()) / start.kappa, 1.0, kGap);
+  EXPECT_NEAR(end_curvature(chain->parabolas.back()) / end.kappa, 1.0, kGap);
+}
+
 TEST(CondensedPieces, SayWhyThereAreNone) {
   const auto inflected = condense_piece(clothoid(0.0, -0.5, 1.0), 1, 1e-3);
   ASSERT_FALSE(inflected);

@@ -127,6 +127,38 @@ TEST(ConstructionFit, ParabolasAndSplinesOfLoopsHaveNoSeam) {
   EXPECT_EQ(loops, 2U);
 }
 
+/// Points of a parabola at uneven steps: of the spiral between points 7 and 8 the curvature leaps
+/// in the last 1e-4 of it, and its end has it to 1e-5 only.
+TEST(ConstructionFit, ParabolasMeetTheRadiusOfAPointOnBothSides) {
+  const PointSeries series = series_of_shape({
+      {0.97652412538273758, -2.6832964003194748},  {0.86807078639064772, -2.0054562502282276},
+      {0.82401516573425226, -1.8139718989707441},  {0.6255417681977008, -1.1720685730631837},
+      {0.40727093335189246, -0.67241788447582873}, {0.36358210182083722, -0.58735244205902426},
+      {0.07119475695145569, -0.10132511150517974}, {-0.0054012239659908317, 0.0074670222765850468},
+      {-0.36484071973020288, 0.44691766453322646}, {-0.61172623258465786, 0.6971038450415038},
+      {-0.88272270991129476, 0.93594077319948032}, {-1.1765501990835492, 1.1612654330375483},
+      {-1.4573728834740975, 1.3500420197774996},   {-2.0479121349200216, 1.6803982430700519},
+      {-2.2896676720911766, 1.7943875751251366},   {-2.9606871538812629, 2.0596847340378468},
+      {-3.2574897470813333, 2.1567315326401197},   {-3.8808470844866192, 2.3271992830581723},
+      {-4.1473906470245723, 2.3879791647952735},   {-4.4137856271182327, 2.4422847635577871},
+      {-4.7447413882482401, 2.5014823348513273},
+  });
+  RegionJob job;
+  job.construction = Construction::kParabolas;
+  job.fixation = 2;
+  const auto f = fit_construction(series, job);
+  ASSERT_TRUE(f) << to_line(f.error());
+  std::size_t points = 0;
+  for (std::size_t k = 1; k < f->contour.pieces.size(); ++k) {
+    if (!f->contour.joints[k].source) continue;
+    ++points;
+    const double before = curvature(evaluate(f->contour.pieces[k - 1], 1.0));
+    const double behind = curvature(evaluate(f->contour.pieces[k], 0.0));
+    EXPECT_NEAR(before / behind, 1.0, 1e-6) << "point " << *f->contour.joints[k].source + 1;
+  }
+  EXPECT_EQ(points, series.points.size() - 2);
+}
+
 /// On both sides the curvature at the inflection is half of what a biarc from the point beside it
 /// would end with ([Kurnosenko 2013]: there (A)(B) = -sin^2(sigma/2), half-chord units).
 TEST(ConstructionFit, ParabolasStepOnceAtAnInflection) {

@@ -52,6 +52,12 @@ struct ParabolaChain {
 [[nodiscard]] Result<ParabolaChain> condense_piece(const Piece& piece, int direction,
                                                    double tolerance);
 
+/// The same with the elements that the piece joins, where they are known: its own have their
+/// curvatures to rounding only, 1e-5 of them where the curvature leaps in the last 1e-6 of a piece.
+[[nodiscard]] Result<ParabolaChain> condense_piece(const Piece& piece, const Element& start,
+                                                   const Element& end, int direction,
+                                                   double tolerance);
+
 /// Signed curvatures for points with given headings (rad), order of fixation 1: at an inner point
 /// the geometric mean of what the parabolas of both neighbouring triangles have there; the ends lie
 /// beyond their triangle's by as much as their neighbours do. `closed`: the last point is the first

@@ -29,8 +29,7 @@ class PieceCondenser {
   PieceCondenser(const Piece& piece, int direction, double tolerance)
       : piece_(piece), direction_(direction), tolerance_(tolerance) {}
 
-  Result<ParabolaChain> run() {
-    const Element start = element_at(piece_, 0.0), end = element_at(piece_, 1.0);
+  Result<ParabolaChain> run(const Element& start, const Element& end) {
     if (!(start.kappa * end.kappa > 0.0)) {
       return fail({ErrorCode::kNoSpiral, "curvature is zero or changes sign on the piece", "",
                    "parabolas have no inflection: choose another carrier for this contour", -1,
@@ -103,7 +102,13 @@ std::optional<double> mean_curvature(double before, double behind) {
 }  // namespace
 
 Result<ParabolaChain> condense_piece(const Piece& piece, int direction, double tolerance) {
-  return PieceCondenser(piece, direction, tolerance).run();
+  return condense_piece(piece, element_at(piece, 0.0), element_at(piece, 1.0), direction,
+                        tolerance);
+}
+
+Result<ParabolaChain> condense_piece(const Piece& piece, const Element& start, const Element& end,
+                                     int direction, double tolerance) {
+  return PieceCondenser(piece, direction, tolerance).run(start, end);
 }
 
 std::vector<std::optional<double>> curvatures_of_triangles(const std::vector<Vec2>& points,
