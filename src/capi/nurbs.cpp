@@ -5,7 +5,7 @@
 
 #include "door.h"
 #include "handles.h"
-#include "obvid/curve/joined_nurbs.h"
+#include "obvid/curve/internal/joined_nurbs.h"
 
 namespace obvid::capi {
 namespace {

@@ -106,7 +106,7 @@ class AgainstTheProgram(unittest.TestCase):
             self.assertEqual(contour.proved, theirs["certificate"]["proved"], path)
             self.assertEqual(contour.report.largest_width, theirs["report"]["largest_width"], path)
             compared += 1
-        self.assertGreater(compared, 3)
+        self.assertGreater(compared, 2)
 
     def test_reports_hold_what_the_program_prints(self):
         analysis = obvid.analyse(SERIES)
