@@ -12,41 +12,41 @@
 namespace obvid::batch {
 namespace {
 
-using Json = nlohmann::json;
+using ReportJson = nlohmann::json;
 
 constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
 constexpr std::array<std::string_view, 8> kCarriers{
     "spiral", "arcs", "conics", "beziers", "clothoids", "bspline", "cubic", "baseline"};
 constexpr std::size_t kTolerances = 8;  // rows of a table of tolerances
 
-double number_at(const Json& object, const char* name, double otherwise) {
+double number_at(const ReportJson& object, const char* name, double otherwise) {
   if (!object.is_object()) return otherwise;
   const auto at = object.find(name);
   return at != object.end() && at->is_number() ? at->get<double>() : otherwise;
 }
 
-int count_at(const Json& object, const char* name) {
+int count_at(const ReportJson& object, const char* name) {
   return static_cast<int>(number_at(object, name, kUnknownCount));
 }
 
-int size_at(const Json& object, const char* name) {
+int size_at(const ReportJson& object, const char* name) {
   const auto at = object.find(name);
   return at != object.end() && at->is_array() ? static_cast<int>(at->size()) : -1;
 }
 
-double largest_at(const Json& object, const char* rows, const char* name) {
+double largest_at(const ReportJson& object, const char* rows, const char* name) {
   double out = kUnknown;
   const auto at = object.find(rows);
   if (at == object.end() || !at->is_array()) return out;
-  for (const Json& row : *at) out = std::fmax(out, number_at(row, name, kUnknown));
+  for (const ReportJson& row : *at) out = std::fmax(out, number_at(row, name, kUnknown));
   return out;
 }
 
-std::vector<double> of_compare(const Json& report, obvid_figures& figures) {
+std::vector<double> of_compare(const ReportJson& report, obvid_figures& figures) {
   std::vector<double> out(5 * kCarriers.size(), kUnknown);
   const auto rows = report.find("carriers");
   if (rows == report.end()) return out;
-  for (const Json& row : *rows) {
+  for (const ReportJson& row : *rows) {
     const auto name = std::find(kCarriers.begin(), kCarriers.end(), row.value("carrier", ""));
     if (name == kCarriers.end()) continue;
     const std::size_t first = 5 * static_cast<std::size_t>(name - kCarriers.begin());
@@ -68,18 +68,18 @@ std::vector<double> of_compare(const Json& report, obvid_figures& figures) {
   return out;
 }
 
-std::vector<double> of_suggest(const Json& report, std::vector<double> out,
+std::vector<double> of_suggest(const ReportJson& report, std::vector<double> out,
                                obvid_figures& figures) {
   const auto rows = report.find("rows");
   if (rows == report.end()) return out;
   for (std::size_t i = 0; i < std::min(kTolerances, rows->size()); ++i) {
-    const Json& row = (*rows)[i];
+    const ReportJson& row = (*rows)[i];
     out[2 * i] = number_at(row, "tolerance", kUnknown);
     out[2 * i + 1] = row.value("formed", false) ? count_at(row, "vertices") : kUnknownCount;
   }
   const int taken = count_at(report, "recommended");
   if (taken >= 0 && static_cast<std::size_t>(taken) < rows->size()) {
-    const Json& row = (*rows)[static_cast<std::size_t>(taken)];
+    const ReportJson& row = (*rows)[static_cast<std::size_t>(taken)];
     figures.vertices = count_at(row, "vertices");
     figures.bound = count_at(row, "vertices_lower_bound");
     figures.inflections = count_at(row, "inflections");
@@ -90,10 +90,10 @@ std::vector<double> of_suggest(const Json& report, std::vector<double> out,
   return out;
 }
 
-void of_analyse(const Json& report, obvid_figures& figures) {
+void of_analyse(const ReportJson& report, obvid_figures& figures) {
   // of a drawing the points are one part of the report
   const auto within = report.find("points");
-  const Json& points = within != report.end() && within->is_object() ? *within : report;
+  const ReportJson& points = within != report.end() && within->is_object() ? *within : report;
   figures.points = size_at(points, "points");
   figures.vertices = count_at(points, "vertices");
   figures.bound = count_at(points, "vertices_lower_bound");
@@ -101,7 +101,7 @@ void of_analyse(const Json& report, obvid_figures& figures) {
   figures.error = largest_at(points, "segments", "points_only_error");
 }
 
-void of_region(const Json& report, obvid_figures& figures) {
+void of_region(const ReportJson& report, obvid_figures& figures) {
   figures.points = size_at(report, "points");
   figures.width = largest_at(report, "segments", "width");
 }
@@ -139,7 +139,7 @@ std::vector<double> take_report(const std::string& job, const char* text, obvid_
     nothing.push_back(column.type == Column::Type::kNumber ? kUnknown : kUnknownCount);
   }
   if (text == nullptr || job == "fit" || job == "space" || job == "verify") return nothing;
-  const Json report = Json::parse(text, nullptr, false);
+  const ReportJson report = ReportJson::parse(text, nullptr, false);
   if (!report.is_object()) return nothing;
   if (job == "compare") return of_compare(report, figures);
   if (job == "suggest") return of_suggest(report, std::move(nothing), figures);

@@ -8,7 +8,7 @@
 #include <optional>
 #include <utility>
 
-#include "obvid/core/parallel.h"
+#include "obvid/core/internal/parallel.h"
 #include "obvid/exchange/mesh_read.h"
 #include "source.h"
 

@@ -12,13 +12,13 @@
 
 #include "hdf5_file.h"
 #include "obvid/io/atomic_file.h"
-#include "obvid/io/read_file.h"
+#include "obvid/io/internal/read_file.h"
 
 namespace obvid::batch {
 namespace {
 
 namespace fs = std::filesystem;
-using Json = nlohmann::json;
+using ManifestJson = nlohmann::json;
 
 constexpr const char* kManifestName = "batch.json";
 
@@ -53,16 +53,16 @@ std::string difference(const Manifest& a, const Manifest& b) {
 }  // namespace
 
 std::string manifest_text(const Manifest& m) {
-  const Json out{{"format", "obvid-batch"}, {"version", 1},          {"program", m.program},
+  const ManifestJson out{{"format", "obvid-batch"}, {"version", 1},          {"program", m.program},
                  {"job", m.job},            {"options", m.options},  {"formats", m.formats},
                  {"each", m.each},          {"reports", m.reports},  {"item_timeout", m.most_seconds},
                  {"items", m.items},        {"shard_size", m.shard_size},
                  {"sources", m.sources},    {"remark", m.remark}};
-  return out.dump(1, ' ', false, Json::error_handler_t::replace) + "\n";
+  return out.dump(1, ' ', false, ManifestJson::error_handler_t::replace) + "\n";
 }
 
 Result<Manifest> manifest_of(const std::string& text, const std::string& name) {
-  const Json in = Json::parse(text, nullptr, false);
+  const ManifestJson in = ManifestJson::parse(text, nullptr, false);
   const Error wrong{ErrorCode::kBadJson, "this does not describe a batch", name,
                     "remove the folder to begin again"};
   if (!in.is_object() || in.value("format", "") != "obvid-batch" || in.value("version", 0) != 1) {
@@ -83,7 +83,7 @@ Result<Manifest> manifest_of(const std::string& text, const std::string& name) {
     in.at("remark").get_to(out.remark);
     if (out.shard_size == 0) return fail(wrong);
     return out;
-  } catch (const Json::exception&) {
+  } catch (const ManifestJson::exception&) {
     return fail(wrong);
   }
 }

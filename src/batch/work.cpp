@@ -9,7 +9,7 @@
 #include <utility>
 #include <vector>
 
-#include "obvid/core/parallel.h"
+#include "obvid/core/internal/parallel.h"
 
 namespace obvid::batch {
 namespace {

@@ -3,7 +3,7 @@
 
 #include "obvid/certify/certificate.h"
 #include "obvid/curve/contour.h"
-#include "obvid/io/stored_contour.h"
+#include "obvid/report/stored_contour.h"
 #include "obvid/obvid.h"
 
 namespace obvid::capi {

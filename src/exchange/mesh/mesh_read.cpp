@@ -4,9 +4,9 @@
 #include <cstdint>
 #include <cstring>
 
-#include "mesh_builder.h"
-#include "mesh_bytes.h"
-#include "obvid/io/read_file.h"
+#include "mesh/mesh_builder.h"
+#include "mesh/mesh_bytes.h"
+#include "obvid/io/internal/read_file.h"
 
 namespace obvid {
 namespace exchange {

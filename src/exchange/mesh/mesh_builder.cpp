@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "mesh_builder.h"
+#include "mesh/mesh_builder.h"
 
 #include <fast_float/fast_float.h>
 

@@ -5,8 +5,8 @@
 #include <optional>
 #include <utility>
 
-#include "mesh_builder.h"
-#include "mesh_bytes.h"
+#include "mesh/mesh_builder.h"
+#include "mesh/mesh_bytes.h"
 
 namespace obvid::exchange {
 namespace {
