@@ -64,9 +64,10 @@ void add_all(CLI::App& app, std::vector<TypedOption>& options, const std::string
 JobOptions known_options() {
   JobOptions out;
   for (const char* name :
-       {"carrier", "continuity", "prefer", "tolerance", "noise", "corner-angle", "start-heading",
-        "end-heading", "start-radius", "end-radius", "heading-at", "radius-at", "kappa-at",
-        "corner-at", "construction", "fixation", "insert", "along", "units", "curve",
+       {"carrier",         "continuity",    "prefer",      "tolerance",    "noise",
+        "corner-angle",    "start-heading", "end-heading", "start-radius", "end-radius",
+        "heading-at",      "radius-at",     "kappa-at",    "corner-at",    "construction",
+        "fixation",        "insert",        "along",       "units",        "curve",
         "chord-tolerance", "drawing"}) {
     out.job.push_back({name});
   }
@@ -81,7 +82,8 @@ JobOptions known_options() {
 }
 
 void add_job_options(CLI::App& app, JobOptions& options) {
-  add_all(app, options.job, "Options of the job (`obvid fit --help` and the others say what each is)");
+  add_all(app, options.job,
+          "Options of the job (`obvid fit --help` and the others say what each is)");
   add_all(app, options.files, "Options of the files of --each (`obvid convert --help`)");
 }
 

@@ -13,7 +13,7 @@ struct TypedOption {
   std::string name;
   bool is_flag = false;
   bool flag = false;
-  std::vector<std::string> values;
+  std::vector<std::string> values{};
 };
 
 /// What was typed of all options that jobs know; they must not move while `app` lives.

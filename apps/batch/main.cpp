@@ -152,8 +152,9 @@ int run_batch(Asked& asked) {
   if (!share->from.empty()) {  // others are at work on the rest
     const std::size_t left = store->missing().size();
     if (!asked.quiet) {
-      fmt::print("{} items done here, {} of {} shards are missing yet; then obvid batch -o {} --merge\n",
-                 pace.done.load(), left, manifest.shards(), asked.out);
+      fmt::print(
+          "{} items done here, {} of {} shards are missing yet; then obvid batch -o {} --merge\n",
+          pace.done.load(), left, manifest.shards(), asked.out);
     }
     return 0;
   }
@@ -214,12 +215,12 @@ void add_batch(CLI::App& app, Asked& asked) {
       ->option_text("GLOB");
   app.add_option("--id", asked.sources.id_column, "Column that names the series of a table [id]")
       ->option_text("NAME");
-  app.add_option("--cut", asked.cuts,
-                 "Planes that cut meshes, z=FROM:STEP:TO; may be repeated")
+  app.add_option("--cut", asked.cuts, "Planes that cut meshes, z=FROM:STEP:TO; may be repeated")
       ->allow_extra_args(false)
       ->option_text("PLANES");
-  app.add_option("--each", asked.job.each,
-                 "File of every contour, 'curves/{id}.step'; {number} counts from 0; may be repeated")
+  app.add_option(
+         "--each", asked.job.each,
+         "File of every contour, 'curves/{id}.step'; {number} counts from 0; may be repeated")
       ->allow_extra_args(false)
       ->option_text("NAME");
   app.add_option("--reports", asked.job.reports, "Report of every item, 'reports/{id}.json'")
@@ -257,10 +258,11 @@ int run(int argc, char** argv) {
     app.add_flag("--csv", query.csv, "Cells with commas between them");
   } else {
     add_batch(app, asked);
-    app.footer("\nExamples:\n"
-               "  obvid batch sections/ -o out.h5 --noise rounding\n"
-               "  obvid batch hull.stl --cut z=0:0.5:100 -o hull.h5 --each 'curves/{id}.json'\n"
-               "  obvid batch query out.h5 \"vertices > bound\"");
+    app.footer(
+        "\nExamples:\n"
+        "  obvid batch sections/ -o out.h5 --noise rounding\n"
+        "  obvid batch hull.stl --cut z=0:0.5:100 -o hull.h5 --each 'curves/{id}.json'\n"
+        "  obvid batch query out.h5 \"vertices > bound\"");
   }
   try {
     app.parse(queries ? argc - 1 : argc, queries ? argv + 1 : argv);

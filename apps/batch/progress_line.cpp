@@ -20,7 +20,9 @@ std::string spoken_time(double seconds) {
 }
 
 ProgressLine::ProgressLine(const Pace& pace, bool wanted)
-    : pace_(pace), terminal_(::isatty(STDERR_FILENO) == 1), begin_(std::chrono::steady_clock::now()) {
+    : pace_(pace),
+      terminal_(::isatty(STDERR_FILENO) == 1),
+      begin_(std::chrono::steady_clock::now()) {
   if (wanted) thread_ = std::thread([this] { watch(); });
 }
 

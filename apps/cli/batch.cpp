@@ -8,8 +8,8 @@
 
 #include "batch_build_mark.h"
 #include "commands.h"
-#include "obvid/core/internal/part_program.h"
 #include "obvid/core/internal/named_builder.h"
+#include "obvid/core/internal/part_program.h"
 #include "terminal.h"
 
 namespace obvid {

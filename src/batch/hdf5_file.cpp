@@ -30,9 +30,12 @@ Hdf5Id type_of(const Column& column, std::size_t width) {
       H5Tset_cset(type.get(), H5T_CSET_UTF8);
       return type;
     }
-    case Column::Type::kSmall: return {H5Tcopy(H5T_STD_I8LE), &H5Tclose};
-    case Column::Type::kCount: return {H5Tcopy(H5T_STD_I32LE), &H5Tclose};
-    case Column::Type::kNumber: break;
+    case Column::Type::kSmall:
+      return {H5Tcopy(H5T_STD_I8LE), &H5Tclose};
+    case Column::Type::kCount:
+      return {H5Tcopy(H5T_STD_I32LE), &H5Tclose};
+    case Column::Type::kNumber:
+      break;
   }
   return {H5Tcopy(H5T_IEEE_F64LE), &H5Tclose};
 }
@@ -54,8 +57,9 @@ bool put_text(hid_t object, const std::string& name, const std::string& value) {
   H5Tset_strpad(type.get(), H5T_STR_NULLPAD);
   H5Tset_cset(type.get(), H5T_CSET_UTF8);
   const Hdf5Id space(H5Screate(H5S_SCALAR), &H5Sclose);
-  const Hdf5Id at(H5Acreate2(object, name.c_str(), type.get(), space.get(), H5P_DEFAULT,
-                             H5P_DEFAULT), &H5Aclose);
+  const Hdf5Id at(
+      H5Acreate2(object, name.c_str(), type.get(), space.get(), H5P_DEFAULT, H5P_DEFAULT),
+      &H5Aclose);
   const std::string text = value.empty() ? std::string(1, '\0') : value;
   return at && H5Awrite(at.get(), type.get(), text.data()) >= 0;
 }
@@ -90,8 +94,7 @@ std::vector<Number> as_numbers(const std::vector<double>& values, std::size_t ro
   return out;
 }
 
-bool write_rows(hid_t set, const Column& column, std::size_t first, std::size_t rows,
-                hid_t type) {
+bool write_rows(hid_t set, const Column& column, std::size_t first, std::size_t rows, hid_t type) {
   const hsize_t start = first, count = rows;
   const Hdf5Id in_file(H5Dget_space(set), &H5Sclose);
   const Hdf5Id in_memory(H5Screate_simple(1, &count, nullptr), &H5Sclose);
@@ -108,7 +111,8 @@ bool write_rows(hid_t set, const Column& column, std::size_t first, std::size_t 
       return put(H5T_NATIVE_INT8, as_numbers<std::int8_t>(column.numbers, rows).data());
     case Column::Type::kCount:
       return put(H5T_NATIVE_INT32, as_numbers<std::int32_t>(column.numbers, rows).data());
-    case Column::Type::kNumber: break;
+    case Column::Type::kNumber:
+      break;
   }
   return put(H5T_NATIVE_DOUBLE, column.numbers.data());
 }
@@ -135,10 +139,12 @@ bool read_column(hid_t file, const std::string& name, Column& out) {
     return true;
   }
   const bool whole = H5Tget_class(type.get()) == H5T_INTEGER;
-  out.type = !whole ? Column::Type::kNumber : width == 1 ? Column::Type::kSmall : Column::Type::kCount;
+  out.type = !whole       ? Column::Type::kNumber
+             : width == 1 ? Column::Type::kSmall
+                          : Column::Type::kCount;
   out.numbers.resize(sizes[0]);
-  return H5Dread(set.get(), H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT,
-                 out.numbers.data()) >= 0;
+  return H5Dread(set.get(), H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT, out.numbers.data()) >=
+         0;
 }
 
 }  // namespace
@@ -171,8 +177,7 @@ std::vector<hsize_t> sizes_of(hid_t dataset) {
 bool has_link(hid_t file, const char* name) { return H5Lexists(file, name, H5P_DEFAULT) > 0; }
 
 Result<TableWriter> TableWriter::create(const std::string& path, const Columns& like,
-                                        const std::vector<std::size_t>& widths,
-                                        std::size_t rows) {
+                                        const std::vector<std::size_t>& widths, std::size_t rows) {
   const auto lock = hdf5_lock();
   H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);
   TableWriter out;
@@ -194,7 +199,8 @@ Result<TableWriter> TableWriter::create(const std::string& path, const Columns& 
     const Column& column = like.all[k];
     Hdf5Id type = type_of(column, widths[k]);
     Hdf5Id set(H5Dcreate2(out.file_.get(), column.name.c_str(), type.get(), space.get(),
-                          H5P_DEFAULT, list.get(), H5P_DEFAULT), &H5Dclose);
+                          H5P_DEFAULT, list.get(), H5P_DEFAULT),
+               &H5Dclose);
     if (!set || !put_text(set.get(), "meaning", column.meaning)) return fail(out.failed());
     out.sets_.push_back(std::move(set));
     out.types_.push_back(std::move(type));

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// HDF5 without leaks. Whoever calls holds `hdf5_lock()`: the library is used by one thread at a time.
+// HDF5 without leaks. Whoever calls holds `hdf5_lock()`: the library is used by one thread at a
+// time.
 #pragma once
 
 #include <hdf5.h>
@@ -52,8 +53,8 @@ class Hdf5Id {
 [[nodiscard]] std::vector<hsize_t> sizes_of(hid_t dataset);
 [[nodiscard]] bool has_link(hid_t file, const char* name);
 
-/// Columns become data sets of an HDF5 file, one block of rows after another. The same rows give the
-/// same bytes however they are handed over: nothing in the file is a time, and blocks are of a
+/// Columns become data sets of an HDF5 file, one block of rows after another. The same rows give
+/// the same bytes however they are handed over: nothing in the file is a time, and blocks are of a
 /// fixed number of rows. Written under a temporary name beside it, brought down to the disk, then
 /// renamed. Takes the lock itself.
 class TableWriter {

@@ -18,9 +18,12 @@ using Statement = std::unique_ptr<sqlite3_stmt, CloseSqlite>;
 
 const char* sql_type(Column::Type type) {
   switch (type) {
-    case Column::Type::kText: return "TEXT";
-    case Column::Type::kNumber: return "REAL";
-    default: return "INTEGER";
+    case Column::Type::kText:
+      return "TEXT";
+    case Column::Type::kNumber:
+      return "REAL";
+    default:
+      return "INTEGER";
   }
 }
 
@@ -77,8 +80,9 @@ std::string select_of(const Query& query) {
   std::string columns;
   for (const std::string& one : query.columns) columns += (columns.empty() ? "" : ", ") + one;
   if (columns.empty()) {
-    columns = "number, id, status, code, vertices, bound, inflections, pieces, proved, error, "
-              "seconds, message";
+    columns =
+        "number, id, status, code, vertices, bound, inflections, pieces, proved, error, "
+        "seconds, message";
   }
   // in parentheses and on lines of their own, so that a comment or a second condition stays inside
   std::string sql = "SELECT " + columns + " FROM items";
@@ -110,7 +114,8 @@ Result<IndexWriter> IndexWriter::create(const std::string& path, const Columns& 
   // the file is brought down to the disk as a whole, at the end
   if (code != SQLITE_OK || !out.run("PRAGMA journal_mode = OFF; PRAGMA synchronous = OFF; BEGIN;"
                                     "CREATE TABLE batch (manifest TEXT);"
-                                    "CREATE TABLE items (" + columns + ")")) {
+                                    "CREATE TABLE items (" +
+                                    columns + ")")) {
     return fail(out.failed());
   }
   const Statement keep = prepared(base, "INSERT INTO batch VALUES (?)");

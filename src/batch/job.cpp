@@ -51,9 +51,7 @@ class Out {
   Handle* made_ = nullptr;
 };
 
-bool has_report(std::string_view job) {
-  return job != "fit" && job != "convert" && job != "space";
-}
+bool has_report(std::string_view job) { return job != "fit" && job != "convert" && job != "space"; }
 
 constexpr std::array<std::string_view, 8> kJobs{"fit",     "space",   "analyse", "region",
                                                 "compare", "suggest", "verify",  "convert"};
@@ -140,13 +138,15 @@ Trouble read_item(const Item& item, Work& work) {
   const Trouble too_large{static_cast<int>(ErrorCode::kUnsupported),
                           "larger than an item of a batch may be (64 MB)"};
   switch (item.kind) {
-    case Item::Kind::kPoints: return read_points_of(item, work);
+    case Item::Kind::kPoints:
+      return read_points_of(item, work);
     case Item::Kind::kText:
       if (item.text.size() > kMostItemBytes) return too_large;
       obvid_read_text(item.text.data(), item.text.size(), item.name.c_str(), Out(work.input),
                       Out(work.error));
       return {};
-    case Item::Kind::kFile: break;
+    case Item::Kind::kFile:
+      break;
   }
   struct stat found {};
   if (::stat(item.name.c_str(), &found) == 0) {
@@ -191,7 +191,8 @@ Result<void> write_made(const std::string& path, std::string_view text) {
 /// "name.step" with "-2" between name and ending.
 std::string with_suffix(const std::string& path, const std::string& suffix) {
   const std::filesystem::path name(path);
-  return (name.parent_path() / (name.stem().string() + suffix + name.extension().string())).string();
+  return (name.parent_path() / (name.stem().string() + suffix + name.extension().string()))
+      .string();
 }
 
 Result<void> write_each(Work& work, const std::string& id, std::size_t number) {
@@ -230,7 +231,8 @@ obvid_figures figures_of_work(const Work& work) {
   } else {
     out = unknown_figures();
   }
-  if (work.spec.job == "convert" && work.contour) out.proved = -1;  // the file's claim, not looked at
+  if (work.spec.job == "convert" && work.contour)
+    out.proved = -1;  // the file's claim, not looked at
   return out;
 }
 

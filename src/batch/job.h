@@ -14,9 +14,9 @@ namespace obvid::batch {
 
 /// What is done with every item.
 struct JobSpec {
-  std::string job = "fit";      ///< fit, space, analyse, region, compare, suggest, verify, convert
-  std::string options = "{}";   ///< JSON, names of the command line
-  std::string formats = "{}";   ///< those of the files
+  std::string job = "fit";     ///< fit, space, analyse, region, compare, suggest, verify, convert
+  std::string options = "{}";  ///< JSON, names of the command line
+  std::string formats = "{}";  ///< those of the files
   std::vector<std::string> each;  ///< names of a contour's files: "curves/{id}.step"
   std::string reports;            ///< of reports: "reports/{id}.json"; empty: none
   double most_seconds = 0.0;      ///< of an item, E103 beyond; 0: as long as it takes

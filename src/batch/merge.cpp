@@ -57,9 +57,10 @@ Result<std::pair<Columns, std::vector<std::size_t>>> shape_of(const Store& store
 
 Result<void> about(TableWriter& table, const Manifest& m) {
   // not the sources: the same points elsewhere have the same table
-  for (const auto& [name, value] :
-       {std::pair<std::string, std::string>{"format", "obvid-batch"}, {"program", m.program},
-        {"job", m.job}, {"options", m.options}}) {
+  for (const auto& [name, value] : {std::pair<std::string, std::string>{"format", "obvid-batch"},
+                                    {"program", m.program},
+                                    {"job", m.job},
+                                    {"options", m.options}}) {
     if (auto done = table.attribute(name, value); !done) return done;
   }
   return {};
@@ -83,9 +84,10 @@ Result<Summary> merge_whole(const Names& names, Store& store) {
     if (!rows) return fail(rows.error());
     summary.add(*rows);
     auto parts = split(*rows);
-    auto done = index->append(*rows)
-                    .and_then([&] { return table->append(parts.first); })
-                    .and_then([&] { return seconds->append(parts.second); });
+    auto done =
+        index->append(*rows).and_then([&] { return table->append(parts.first); }).and_then([&] {
+          return seconds->append(parts.second);
+        });
     if (!done) return fail(done.error());
   }
   auto done = index->finish()

@@ -15,8 +15,8 @@ namespace {
 using ReportJson = nlohmann::json;
 
 constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
-constexpr std::array<std::string_view, 8> kCarriers{
-    "spiral", "arcs", "conics", "beziers", "clothoids", "bspline", "cubic", "baseline"};
+constexpr std::array<std::string_view, 8> kCarriers{"spiral",    "arcs",    "conics", "beziers",
+                                                    "clothoids", "bspline", "cubic",  "baseline"};
 constexpr std::size_t kTolerances = 8;  // rows of a table of tolerances
 
 double number_at(const ReportJson& object, const char* name, double otherwise) {

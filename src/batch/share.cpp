@@ -32,7 +32,8 @@ Result<Share> share_of(const std::string& text) {
   if (!text.empty()) {
     const std::size_t slash = text.find('/');
     const auto part = whole_number(text.substr(0, slash));
-    const auto parts = slash == std::string::npos ? std::nullopt : whole_number(text.substr(slash + 1));
+    const auto parts =
+        slash == std::string::npos ? std::nullopt : whole_number(text.substr(slash + 1));
     if (!part || !parts || *part < 1 || *part > *parts) return fail(wrong_share(text, "--shard"));
     return Share{{*part - 1, *parts}, "--shard"};
   }

@@ -21,8 +21,8 @@ class Source {
   Source& operator=(const Source&) = delete;
 
   [[nodiscard]] virtual std::size_t size() const = 0;
-  /// Items first, ... in their order. By any thread at any time. Error: of the source as a whole; an
-  /// item that cannot be read is an item that fails by itself.
+  /// Items first, ... in their order. By any thread at any time. Error: of the source as a whole;
+  /// an item that cannot be read is an item that fails by itself.
   [[nodiscard]] virtual Result<std::vector<Item>> load(std::size_t first,
                                                        std::size_t count) const = 0;
   /// A text that changes when the source does: names, sizes, times of change.
@@ -44,11 +44,11 @@ struct CutSpec {
 
 struct SourceOptions {
   std::vector<std::string> paths;
-  std::string list;               ///< file with one path per line; - standard input; may be empty
-  std::string pattern;            ///< of files in folders and archives: *.dat; empty: all
-  std::string id_column = "id";   ///< of tables
-  std::vector<CutSpec> cuts;      ///< then every path is a mesh
-  std::size_t threads = 0;        ///< for what has to be done beforehand
+  std::string list;              ///< file with one path per line; - standard input; may be empty
+  std::string pattern;           ///< of files in folders and archives: *.dat; empty: all
+  std::string id_column = "id";  ///< of tables
+  std::vector<CutSpec> cuts;     ///< then every path is a mesh
+  std::size_t threads = 0;       ///< for what has to be done beforehand
 };
 
 /// All sources as one. A folder stands for its files (below it, too, names with a dot in front

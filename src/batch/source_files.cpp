@@ -139,7 +139,8 @@ Result<std::unique_ptr<Source>> source_of(const std::string& path, const SourceO
                        options.threads);
   }
   const std::string head = head_of_file(path, kHead);
-  constexpr std::string_view kHdf5 = "\x89HDF\r\n\x1a\n", kZip = "PK\x03\x04", kNoMember = "PK\x05\x06";
+  constexpr std::string_view kHdf5 = "\x89HDF\r\n\x1a\n", kZip = "PK\x03\x04",
+                             kNoMember = "PK\x05\x06";
   if (head.starts_with(kHdf5)) return hdf5_source(path);
   if (head.starts_with(kZip) || head.starts_with(kNoMember)) {
     return zip_source(path, options.pattern);

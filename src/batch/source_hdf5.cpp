@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Series of an HDF5 file: `points` with `start`, one array of equally long series, or an array each.
+// Series of an HDF5 file: `points` with `start`, one array of equally long series, or an array
+// each.
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
@@ -31,8 +32,8 @@ bool read_texts(hid_t set, hsize_t first, hsize_t count, std::vector<std::string
   if (kind != H5T_STRING) return false;
   if (H5Tis_variable_str(stored.get()) > 0) {
     std::vector<char*> texts(count, nullptr);
-    const bool good = H5Dread(set, stored.get(), in_memory.get(), in_file.get(), H5P_DEFAULT,
-                              texts.data()) >= 0;
+    const bool good =
+        H5Dread(set, stored.get(), in_memory.get(), in_file.get(), H5P_DEFAULT, texts.data()) >= 0;
     for (const char* const text : texts) out.emplace_back(text == nullptr ? "" : text);
     H5Dvlen_reclaim(stored.get(), in_memory.get(), H5P_DEFAULT, texts.data());
     return good;
@@ -63,8 +64,8 @@ bool read_rows(hid_t set, hsize_t first, hsize_t count, const std::vector<hsize_
   const Hdf5Id in_memory(H5Screate_simple(static_cast<int>(extent.size()), extent.data(), nullptr),
                          &H5Sclose);
   H5Sselect_hyperslab(in_file.get(), H5S_SELECT_SET, start.data(), nullptr, extent.data(), nullptr);
-  return H5Dread(set, H5T_NATIVE_DOUBLE, in_memory.get(), in_file.get(), H5P_DEFAULT,
-                 out.data()) >= 0;
+  return H5Dread(set, H5T_NATIVE_DOUBLE, in_memory.get(), in_file.get(), H5P_DEFAULT, out.data()) >=
+         0;
 }
 
 bool is_point_size(hsize_t size) { return size == 2 || size == 3; }

@@ -18,9 +18,12 @@ namespace {
 /// Right-handed coordinates: x = c has (y, z), y = c has (z, x), z = c has (x, y).
 Frame plane_at(char axis, double at) {
   switch (axis) {
-    case 'x': return {{at, 0, 0}, {0, 1, 0}, {0, 0, 1}};
-    case 'y': return {{0, at, 0}, {0, 0, 1}, {1, 0, 0}};
-    default: return {{0, 0, at}, {1, 0, 0}, {0, 1, 0}};
+    case 'x':
+      return {{at, 0, 0}, {0, 1, 0}, {0, 0, 1}};
+    case 'y':
+      return {{0, at, 0}, {0, 0, 1}, {1, 0, 0}};
+    default:
+      return {{0, 0, at}, {1, 0, 0}, {0, 1, 0}};
   }
 }
 
@@ -76,8 +79,8 @@ class MeshSource : public Source {
   Result<std::vector<Item>> load(std::size_t first, std::size_t count) const override {
     std::vector<Item> out;
     for (std::size_t i = first; i < first + count; ++i) {
-      const auto plane = static_cast<std::size_t>(
-          std::upper_bound(ends_.begin(), ends_.end(), i) - ends_.begin());
+      const auto plane =
+          static_cast<std::size_t>(std::upper_bound(ends_.begin(), ends_.end(), i) - ends_.begin());
       const std::size_t begin = plane == 0 ? 0 : ends_[plane - 1];
       const auto sections = sections_of(plane);
       if (!sections) return fail(sections.error());

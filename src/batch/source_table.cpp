@@ -133,7 +133,8 @@ Result<std::unique_ptr<MappedFile>> mapped(const std::string& path) {
   struct stat found {};
   void* data = MAP_FAILED;
   if (::fstat(file, &found) == 0 && found.st_size > 0) {
-    data = ::mmap(nullptr, static_cast<std::size_t>(found.st_size), PROT_READ, MAP_PRIVATE, file, 0);
+    data =
+        ::mmap(nullptr, static_cast<std::size_t>(found.st_size), PROT_READ, MAP_PRIVATE, file, 0);
   }
   ::close(file);
   if (data == MAP_FAILED) return fail(error);
@@ -159,8 +160,9 @@ class TableSource : public Source {
         const std::string_view id = id_of(without_end(line));
         if (begins_.empty() || id != last) {
           if (!seen.insert(id).second) {
-            return fail({ErrorCode::kBadCount, "rows of '" + std::string(id.substr(0, 80)) +
-                         "' stand in two places", path_, "sort the table by its ids"});
+            return fail({ErrorCode::kBadCount,
+                         "rows of '" + std::string(id.substr(0, 80)) + "' stand in two places",
+                         path_, "sort the table by its ids"});
           }
           begins_.push_back(at);
           last = id;

@@ -6,6 +6,7 @@
 #include <sys/file.h>
 #include <unistd.h>
 
+#include <cerrno>
 #include <filesystem>
 #include <nlohmann/json.hpp>
 #include <utility>
@@ -24,12 +25,40 @@ constexpr const char* kManifestName = "batch.json";
 
 std::string manifest_path(const std::string& folder) { return folder + "/" + kManifestName; }
 
-/// Removes shards that belong to no batch.
+/// The manifest first: what is left when this is interrupted is no batch.
 void remove_files(const std::string& folder) {
   std::error_code ignored;
   fs::remove(manifest_path(folder), ignored);
   fs::remove_all(folder, ignored);
 }
+
+/// Shards without a manifest are what an interrupted removal left.
+void remove_shards(const std::string& folder) {
+  std::error_code error;
+  for (const auto& entry : fs::directory_iterator(folder, error)) {
+    std::error_code ignored;
+    if (entry.path().extension() == ".h5") fs::remove(entry.path(), ignored);
+  }
+}
+
+/// Held by the process that looks whether a batch has begun: of several that start at once one
+/// begins it and the others find it. -1: the file system has no locks.
+class BeginLock {
+ public:
+  explicit BeginLock(const std::string& folder)
+      : file_(::open((folder + "/begin.lock").c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0666)) {
+    while (file_ >= 0 && ::flock(file_, LOCK_EX) != 0 && errno == EINTR) {
+    }
+  }
+  BeginLock(const BeginLock&) = delete;
+  BeginLock& operator=(const BeginLock&) = delete;
+  ~BeginLock() {
+    if (file_ >= 0) ::close(file_);
+  }
+
+ private:
+  int file_;
+};
 
 /// The first thing in which two batches differ.
 std::string difference(const Manifest& a, const Manifest& b) {
@@ -53,11 +82,19 @@ std::string difference(const Manifest& a, const Manifest& b) {
 }  // namespace
 
 std::string manifest_text(const Manifest& m) {
-  const ManifestJson out{{"format", "obvid-batch"}, {"version", 1},          {"program", m.program},
-                 {"job", m.job},            {"options", m.options},  {"formats", m.formats},
-                 {"each", m.each},          {"reports", m.reports},  {"item_timeout", m.most_seconds},
-                 {"items", m.items},        {"shard_size", m.shard_size},
-                 {"sources", m.sources},    {"remark", m.remark}};
+  const ManifestJson out{{"format", "obvid-batch"},
+                         {"version", 1},
+                         {"program", m.program},
+                         {"job", m.job},
+                         {"options", m.options},
+                         {"formats", m.formats},
+                         {"each", m.each},
+                         {"reports", m.reports},
+                         {"item_timeout", m.most_seconds},
+                         {"items", m.items},
+                         {"shard_size", m.shard_size},
+                         {"sources", m.sources},
+                         {"remark", m.remark}};
   return out.dump(1, ' ', false, ManifestJson::error_handler_t::replace) + "\n";
 }
 
@@ -100,6 +137,12 @@ Result<Store> Store::open(const Names& names, const Manifest& manifest) {
   out.manifest_ = manifest;
   const std::string path = manifest_path(names.folder);
   std::error_code error;
+  fs::create_directories(names.folder, error);
+  if (error) {
+    return fail(
+        {ErrorCode::kWriteFailed, "cannot make the folder: " + error.message(), names.folder, ""});
+  }
+  const BeginLock lock(names.folder);
   if (fs::exists(path, error)) {
     const auto text = read_file(path);
     if (!text) return fail(text.error());
@@ -111,12 +154,7 @@ Result<Store> Store::open(const Names& names, const Manifest& manifest) {
     return fail({ErrorCode::kBadOption, "another batch has begun here: " + why, names.folder,
                  "go on with it as it began, remove that folder, or choose another -o"});
   }
-  remove_files(names.folder);  // shards without a manifest are what a removal left
-  fs::create_directories(names.folder, error);
-  if (error) {
-    return fail({ErrorCode::kWriteFailed, "cannot make the folder: " + error.message(),
-                 names.folder, ""});
-  }
+  remove_shards(names.folder);
   if (auto done = write_file(path, manifest_text(manifest)); !done) return fail(done.error());
   return out;
 }

@@ -24,9 +24,7 @@ struct Manifest {
   std::size_t items = 0;
   std::size_t shard_size = 1000;
 
-  [[nodiscard]] std::size_t shards() const {
-    return items == 0 ? 0 : (items - 1) / shard_size + 1;
-  }
+  [[nodiscard]] std::size_t shards() const { return items == 0 ? 0 : (items - 1) / shard_size + 1; }
   [[nodiscard]] std::size_t begin_of(std::size_t shard) const { return shard * shard_size; }
   [[nodiscard]] std::size_t size_of_shard(std::size_t shard) const {
     return shard + 1 < shards() ? shard_size : items - begin_of(shard);
@@ -64,7 +62,8 @@ class Store {
   [[nodiscard]] Result<void> put(std::size_t shard, const Columns& rows) const;
   /// Error: E301 damaged, or of another number of rows.
   [[nodiscard]] Result<Columns> get(std::size_t shard) const;
-  /// Keeps others from the same part of the work until this object ends. Error: E203 somebody has it.
+  /// Keeps others from the same part of the work until this object ends. Error: E203 somebody has
+  /// it.
   [[nodiscard]] Result<void> lock_part(std::size_t part, std::size_t parts);
   /// The folder and what is in it; the manifest first, so that what is left is no batch.
   void remove();

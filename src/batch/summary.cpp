@@ -68,8 +68,9 @@ constexpr double kPanel = 300.0, kGap = 40.0, kTall = 200.0, kUp = 60.0, kMargin
 
 std::string text_in_svg(double x, double y, const std::string& anchor, const std::string& text,
                         const char* size = "11") {
-  return fmt::format("<text x=\"{:.1f}\" y=\"{:.1f}\" text-anchor=\"{}\" font-size=\"{}\">{}</text>\n",
-                     x, y, anchor, size, text);
+  return fmt::format(
+      "<text x=\"{:.1f}\" y=\"{:.1f}\" text-anchor=\"{}\" font-size=\"{}\">{}</text>\n", x, y,
+      anchor, size, text);
 }
 
 std::string class_name(int number, bool lengths) {
@@ -83,8 +84,7 @@ std::string panel(const Histogram& histogram, const std::string& title, bool len
   constexpr std::size_t kMostBars = 24;
   std::string out = text_in_svg(left, kUp - 14, "start", title, "13");
   std::size_t most = 1, all = histogram.unknown;
-  std::vector<std::pair<int, std::size_t>> bars(histogram.classes.begin(),
-                                                histogram.classes.end());
+  std::vector<std::pair<int, std::size_t>> bars(histogram.classes.begin(), histogram.classes.end());
   for (const auto& [number, count] : bars) all += count;
   bool gathered = false;
   while (bars.size() > kMostBars) {
@@ -97,8 +97,8 @@ std::string panel(const Histogram& histogram, const std::string& title, bool len
   for (std::size_t k = 0; k < bars.size(); ++k) {
     const double tall = kTall * static_cast<double>(bars[k].second) / static_cast<double>(most);
     const double x = left + wide * static_cast<double>(k);
-    out += fmt::format("<rect x=\"{:.1f}\" y=\"{:.1f}\" width=\"{:.1f}\" height=\"{:.1f}\"/>\n", x + 1,
-                       kUp + kTall - tall, std::max(wide - 2, 1.0), tall);
+    out += fmt::format("<rect x=\"{:.1f}\" y=\"{:.1f}\" width=\"{:.1f}\" height=\"{:.1f}\"/>\n",
+                       x + 1, kUp + kTall - tall, std::max(wide - 2, 1.0), tall);
     const bool last = k + 1 == bars.size();
     const std::size_t every = bars.size() / 8 + 1;
     if (k % every == 0 || (last && k % every > every / 2)) {
@@ -106,8 +106,9 @@ std::string panel(const Histogram& histogram, const std::string& title, bool len
                          class_name(bars[k].first, lengths) + (last && gathered ? "+" : ""));
     }
   }
-  out += fmt::format("<line stroke=\"#1f2933\" x1=\"{0:.1f}\" y1=\"{1:.1f}\" x2=\"{2:.1f}\" y2=\"{1:.1f}\"/>\n", left,
-                     kUp + kTall, left + kPanel);
+  out += fmt::format(
+      "<line stroke=\"#1f2933\" x1=\"{0:.1f}\" y1=\"{1:.1f}\" x2=\"{2:.1f}\" y2=\"{1:.1f}\"/>\n",
+      left, kUp + kTall, left + kPanel);
   out += text_in_svg(left, kUp + kTall + 36, "start",
                      fmt::format("highest {}; not known {} of {}", with_commas(most),
                                  with_commas(histogram.unknown), with_commas(all)));
@@ -174,7 +175,8 @@ std::string histogram_svg(const Summary& s) {
   out += text_in_svg(kMargin, 24, "start",
                      fmt::format("{} items: {} done, {} not kept, {} failed", with_commas(s.items),
                                  with_commas(s.statuses[0]), with_commas(s.statuses[1]),
-                                 with_commas(s.statuses[2])), "14");
+                                 with_commas(s.statuses[2])),
+                     "14");
   out += "</g>\n<g fill=\"#3b6ea5\" stroke=\"none\">\n";
   std::string bars = panel(s.vertices, "vertices", false, kMargin) +
                      panel(s.above, "vertices above the bound", false, kMargin + kPanel + kGap) +

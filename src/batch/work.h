@@ -13,7 +13,7 @@ namespace obvid::batch {
 
 /// How far the work is, for whoever shows it; may be read at any time.
 struct Pace {
-  std::atomic<std::size_t> items{0};   ///< to do, of this process
+  std::atomic<std::size_t> items{0};  ///< to do, of this process
   std::atomic<std::size_t> done{0};
   std::atomic<std::size_t> failed{0};  ///< of these
 };

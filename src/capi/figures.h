@@ -3,8 +3,8 @@
 
 #include "obvid/certify/certificate.h"
 #include "obvid/curve/contour.h"
-#include "obvid/report/stored_contour.h"
 #include "obvid/obvid.h"
+#include "obvid/report/stored_contour.h"
 
 namespace obvid::capi {
 

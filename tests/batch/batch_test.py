@@ -213,12 +213,13 @@ class Batch(unittest.TestCase):
 
     def test_sections_of_a_mesh_are_items(self):
         torus_stl(self.at / "torus.stl")
-        rows = self.rows(self.at / "torus.stl", "--cut", "z=-1.5:0.5:1.5", "--noise", "0.01")
-        self.assertEqual(rows["id"], ["z=-0.5/1", "z=-0.5/2", "z=0/1", "z=0/2", "z=0.5/1", "z=0.5/2"])
+        rows = self.rows(self.at / "torus.stl", "--cut", "z=-1.25:0.5:1.25", "--noise", "0.01")
+        self.assertEqual(rows["id"], [f"z={z}/{k}" for z in (-0.75, -0.25, 0.25, 0.75) for k in (1, 2)])
         self.assertTrue(all(rows["proved"] == 1))
-        self.assertTrue(all(rows["vertices"] == rows["bound"]))  # circles
-        said = batch(self.at / "torus.stl", "--cut", "z=-1.5:0.5:1.5", "-o", self.at / "b.h5")
-        self.assertIn("of 7 planes do not cut", said)
+        self.assertTrue(all(rows["move"] <= 0.01))
+        self.assertTrue(all(rows["corners"] == 0))  # they come back to their beginning
+        said = batch(self.at / "torus.stl", "--cut", "z=-1.25:0.5:1.25", "-o", self.at / "b.h5")
+        self.assertIn("2 of 6 planes do not cut", said)
         self.assertIn("E203", batch(self.at / "torus.stl", "--cut", "q=1", "-o", self.out, code=2))
 
     # ---- jobs ----
@@ -233,7 +234,12 @@ class Batch(unittest.TestCase):
         self.assertEqual(compared["arcs_code"][0], 0)
         self.assertGreater(compared["baseline_pieces"][0], 0)
         self.assertGreaterEqual(self.rows(folder, "--job", "suggest")["vertices_8"][0], 0)
-        self.assertEqual(self.rows(folder, "--job", "space")["pieces"][0], 9)
+        screw = np.column_stack([spiral(10), np.linspace(0.0, 40.0, 10)])
+        write_csv(self.at / "screw.csv", screw, "x,y,z")
+        in_space = self.rows(self.at / "screw.csv", "--job", "space")
+        self.assertEqual(in_space["points"][0], 20)  # of projection and heights
+        self.assertEqual(in_space["proved"][0], 1)
+        self.assertEqual(self.rows(folder, "--job", "space")["code"][0], 203)
         made = self.at / "made"
         self.rows(folder, "--each", made / "{number}.json", "--reports", made / "r{number}.json")
         json.loads((made / "r0.json").read_text())
