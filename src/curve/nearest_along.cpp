@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "obvid/curve/nearest_along.h"
+#include "obvid/curve/internal/nearest_along.h"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
 
-#include "obvid/curve/nearest.h"
+#include "obvid/curve/internal/nearest.h"
 
 namespace obvid {
 namespace {
