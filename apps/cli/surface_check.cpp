@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <fmt/format.h>
 
+#include <cmath>
 #include <numbers>
 #include <string>
 #include <vector>
@@ -18,8 +19,12 @@
 namespace obvid {
 namespace {
 
+std::string end_text(double end) {
+  return std::isfinite(end) ? significant(end, 3) : std::string("no bound");
+}
+
 std::string range_text(const Extent& extent) {
-  return fmt::format("{} to {}", significant(extent.least, 3), significant(extent.most, 3));
+  return fmt::format("{} to {}", end_text(extent.least), end_text(extent.most));
 }
 
 std::string order_text(int order) { return fmt::format("C{}", order); }
@@ -118,6 +123,17 @@ Result<std::vector<SurfaceOutput>> pictures_of(const SurfaceCheckOptions& option
   return outputs;
 }
 
+/// "12 meet, 3 of them too far apart to be joined in meshes and CAD files, 2 are free".
+std::string borders_text(const SurfaceCheck& check) {
+  const auto apart = std::count_if(check.joints.begin(), check.joints.end(),
+                                   [](const JointReport& joint) { return !joint.shared; });
+  std::string text = fmt::format("{} meet", check.joints.size());
+  if (apart > 0) {
+    text += fmt::format(", {} of them too far apart to be joined in meshes and CAD files", apart);
+  }
+  return text + fmt::format(", {} free", check.free_borders);
+}
+
 }  // namespace
 
 std::string surface_check_text(const SurfaceModel& model, const SurfaceCheck& check,
@@ -126,7 +142,7 @@ std::string surface_check_text(const SurfaceModel& model, const SurfaceCheck& ch
   if (!check.joints.empty()) text += joint_table(model, check).text() + "\n";
   Facts facts;
   facts.add("size", significant(check.size) + " " + model.units.text());
-  facts.add("borders", fmt::format("{} meet", check.joints.size()));
+  facts.add("borders", borders_text(check));
   for (const std::string& remark : written.remarks) facts.add("note", remark);
   if (!written.files.empty()) facts.add("written", listed(written.files));
   return text + facts.text();

@@ -7,8 +7,10 @@
 #include <limits>
 #include <numbers>
 #include <optional>
+#include <tuple>
 
 #include "check_lines.h"
+#include "obvid/surface/internal/topology.h"
 
 namespace obvid {
 namespace {
@@ -107,6 +109,64 @@ double climbed(const NurbsSurface& s, Extreme from) {
   return from.value;
 }
 
+/// From a place beside a border towards it, each step half as far away as the one before.
+constexpr int kApproach = 8;
+
+/// A way to the border of a patch: straight at it, or into a corner.
+struct Way {
+  double u = 0.0, v = 0.0;    ///< the place on the border
+  double du = 0.0, dv = 0.0;  ///< from there to the beginning of the way
+
+  [[nodiscard]] SurfaceJet jet(const NurbsSurface& s, int step) const {
+    const double part = std::ldexp(1.0, -step);
+    return evaluate(s, u + part * du, v + part * dv);
+  }
+};
+
+/// Ways from the outermost nodes to the border and into the corners.
+std::vector<Way> ways_out(const NurbsSurface& s, const std::vector<Node>& us,
+                          const std::vector<Node>& vs) {
+  const Range u = domain_u(s), v = domain_v(s);
+  const std::array u_ends{Way{u.from, 0.0, us.front().at - u.from, 0.0},
+                          Way{u.to, 0.0, us.back().at - u.to, 0.0}};
+  const std::array v_ends{Way{0.0, v.from, 0.0, vs.front().at - v.from},
+                          Way{0.0, v.to, 0.0, vs.back().at - v.to}};
+  std::vector<Way> ways;
+  for (const Way& end : u_ends) {
+    for (const Node& node : vs) ways.push_back({end.u, node.at, end.du, 0.0});
+    for (const Way& other : v_ends) ways.push_back({end.u, other.v, end.du, other.dv});
+  }
+  for (const Way& end : v_ends) {
+    for (const Node& node : us) ways.push_back({node.at, end.v, 0.0, end.dv});
+  }
+  return ways;
+}
+
+/// Whether the surface ends in a point there: du x dv shrinks with the distance.
+bool vanishes(const NurbsSurface& s, const Way& way) {
+  constexpr double kShrunk = 0.02;  // five times what a simple pole leaves
+  const auto area_of = [](const SurfaceJet& jet) { return norm(cross(jet.du, jet.dv)); };
+  return area_of(way.jet(s, kApproach)) < kShrunk * area_of(way.jet(s, 0));
+}
+
+/// Where a quantity leads on such a way: its last value, or infinity when its steps do not shrink.
+/// (Towards a bound as a power p of the distance they shrink by 2^-p; logarithms step evenly.)
+double led_to(const std::array<SurfaceCurvature, kApproach + 1>& along, const Extreme& one) {
+  constexpr double kShrinks = 0.9;
+  constexpr double kRounding = 1e-9;  // of the largest curvature there, squared for products
+  constexpr std::size_t kLast = kApproach, kMiddle = kLast / 2;
+  std::array<double, kApproach + 1> value{};
+  for (std::size_t k = 0; k <= kLast; ++k) value[k] = one.sign * along[k].*(one.quantity);
+  double largest = std::max(std::abs(along[kLast].k1), std::abs(along[kLast].k2));
+  if (one.quantity == &SurfaceCurvature::gaussian) largest *= largest;
+  bool grows = value[kLast] - value[kMiddle] > kRounding * largest;
+  for (std::size_t k = kMiddle; k + 1 < kLast; ++k) {
+    const double step = value[k + 1] - value[k];
+    grows = grows && step > 0.0 && value[k + 2] - value[k + 1] > kShrinks * step;
+  }
+  return grows ? std::numeric_limits<double>::infinity() : value[kLast];
+}
+
 /// Area and curvature of a patch.
 struct Measured {
   double area = 0.0;
@@ -123,7 +183,8 @@ Measured measured(const NurbsSurface& s, std::size_t n) {
   }
   Measured out;
   const std::vector<Node> along_u = nodes_of(s.knots_u, domain_u(s), n);
-  for (const Node& v : nodes_of(s.knots_v, domain_v(s), n)) {
+  const std::vector<Node> along_v = nodes_of(s.knots_v, domain_v(s), n);
+  for (const Node& v : along_v) {
     for (const Node& u : along_u) {
       const SurfaceJet jet = evaluate(s, u.at, v.at);
       out.area += norm(cross(jet.du, jet.dv)) * u.weight * v.weight;
@@ -136,9 +197,22 @@ Measured measured(const NurbsSurface& s, std::size_t n) {
     }
   }
   if (!std::isfinite(extremes.front().value)) return out;  // no tangent plane anywhere
-  const auto extent = [&](std::size_t q) {
-    return Extent{-climbed(s, extremes[2 * q]), climbed(s, extremes[2 * q + 1])};
-  };
+  std::vector<double> most;
+  for (const Extreme& one : extremes) most.push_back(climbed(s, one));
+  for (const Way& way : ways_out(s, along_u, along_v)) {
+    if (!vanishes(s, way)) continue;
+    std::array<SurfaceCurvature, kApproach + 1> along;
+    bool tangent = true;
+    for (int k = 0; k <= kApproach; ++k) {
+      SurfaceCurvature& there = along[static_cast<std::size_t>(k)];
+      there = curvature(way.jet(s, k));
+      tangent = tangent && !(there.normal == Vec3{});
+    }
+    for (std::size_t q = 0; tangent && q < most.size(); ++q) {
+      most[q] = std::max(most[q], led_to(along, extremes[q]));
+    }
+  }
+  const auto extent = [&](std::size_t q) { return Extent{-most[2 * q], most[2 * q + 1]}; };
   out.curvature.gaussian = extent(0);
   out.curvature.mean = extent(1);
   out.curvature.k1 = extent(2);
@@ -169,60 +243,45 @@ PatchReport report_of(const SurfacePatch& patch, std::size_t samples) {
   return report;
 }
 
-/// A place on a side of a patch; `t` in [0, 1] runs with the parameter along the side.
+/// A place on a side of a patch.
 struct SidePlace {
   double u = 0.0, v = 0.0;
 };
 
-SidePlace on_side(const NurbsSurface& s, int side, double t) {
+SidePlace place_on(const NurbsSurface& s, PatchSide side, double t) {
   const Range u = domain_u(s), v = domain_v(s);
-  switch (side) {
-    case 0:
-      return {u.from, v.at(t)};
-    case 1:
-      return {u.to, v.at(t)};
-    case 2:
-      return {u.at(t), v.from};
-    default:
-      return {u.at(t), v.to};
-  }
+  if (runs_along_u(side)) return {t, is_far_end(side) ? v.to : v.from};
+  return {is_far_end(side) ? u.to : u.from, t};
 }
 
-constexpr int kSideSamples = 33;
+/// Two sides of an edge, place by place.
+class EdgePair {
+ public:
+  EdgePair(const SurfaceModel& model, const EdgeUse& a, const EdgeUse& b)
+      : first_(model.patches[a.patch].surface),
+        second_(model.patches[b.patch].surface),
+        sides_{a.side, b.side},
+        borders_{border_of(first_, a.side), border_of(second_, b.side)},
+        along_(a.along == b.along),
+        own_pace_(a.own_pace || b.own_pace) {}
 
-std::vector<Vec3> side_points(const NurbsSurface& s, int side) {
-  std::vector<Vec3> points;
-  for (int k = 0; k < kSideSamples; ++k) {
-    const SidePlace at = on_side(s, side, static_cast<double>(k) / (kSideSamples - 1));
-    points.push_back(evaluate(s, at.u, at.v).point);
+  /// Of both patches, at a part of the first one's border.
+  [[nodiscard]] std::array<SurfaceJet, 2> at(double part) const {
+    const double t = domain(borders_[0]).at(part);
+    const double other = own_pace_ && part > 0.0 && part < 1.0
+                             ? nearest_parameter(borders_[1], evaluate(borders_[0], t).point)
+                             : domain(borders_[1]).at(along_ ? part : 1.0 - part);
+    const SidePlace a = place_on(first_, sides_[0], t), b = place_on(second_, sides_[1], other);
+    return {evaluate(first_, a.u, a.v), evaluate(second_, b.u, b.v)};
   }
-  return points;
-}
 
-/// Largest distance of corresponding points, and which way round it is smaller.
-struct Meeting {
-  double gap = 0.0;
-  bool reversed = false;
+ private:
+  const NurbsSurface& first_;
+  const NurbsSurface& second_;
+  std::array<PatchSide, 2> sides_;
+  std::array<SpaceCurve, 2> borders_;
+  bool along_, own_pace_;
 };
-
-double gap_between(const std::vector<Vec3>& a, const std::vector<Vec3>& b, bool reversed) {
-  double gap = 0.0;
-  for (std::size_t i = 0; i < a.size(); ++i) {
-    gap = std::max(gap, norm(a[i] - (reversed ? b[b.size() - 1 - i] : b[i])));
-  }
-  return gap;
-}
-
-Meeting meeting(const std::vector<Vec3>& a, const std::vector<Vec3>& b) {
-  const double same = gap_between(a, b, false), turned = gap_between(a, b, true);
-  return turned < same ? Meeting{turned, true} : Meeting{same, false};
-}
-
-double polyline_length(const std::vector<Vec3>& points) {
-  double length = 0.0;
-  for (std::size_t i = 1; i < points.size(); ++i) length += norm(points[i] - points[i - 1]);
-  return length;
-}
 
 /// Normal curvature in a tangential direction; its sign with the normal.
 double normal_curvature(const SurfaceCurvature& k, Vec3 direction) {
@@ -230,56 +289,53 @@ double normal_curvature(const SurfaceCurvature& k, Vec3 direction) {
   return k.k1 * c * c + k.k2 * s * s;
 }
 
-void compare_across(const NurbsSurface& a, const NurbsSurface& b, bool reversed,
-                    JointReport& joint) {
+JointReport joint_of(const SurfaceModel& model, const EdgeUse& one, const EdgeUse& two) {
+  constexpr int kPlaces = 33;
+  JointReport joint;
+  joint.patch = {one.patch, two.patch};
+  joint.side = {one.side, two.side};
+  const EdgePair pair(model, one, two);
   double step = 0.0, largest = 0.0;
-  for (int i = 0; i < kSideSamples; ++i) {
-    const double t = static_cast<double>(i) / (kSideSamples - 1);
-    const SidePlace pa = on_side(a, joint.side[0], t);
-    const SidePlace pb = on_side(b, joint.side[1], reversed ? 1.0 - t : t);
-    const SurfaceJet ja = evaluate(a, pa.u, pa.v);
-    const SurfaceCurvature ka = curvature(ja), kb = curvature(evaluate(b, pb.u, pb.v));
+  for (int i = 0; i < kPlaces; ++i) {
+    const auto [a, b] = pair.at(static_cast<double>(i) / (kPlaces - 1));
+    joint.gap = std::max(joint.gap, norm(a.point - b.point));
+    const SurfaceCurvature ka = curvature(a), kb = curvature(b);
     if (ka.normal == Vec3{} || kb.normal == Vec3{}) continue;
     const double sign = dot(ka.normal, kb.normal) < 0.0 ? -1.0 : 1.0;
     joint.angle = std::max(joint.angle, std::atan2(norm(cross(ka.normal, kb.normal)),
                                                    std::abs(dot(ka.normal, kb.normal))));
     // across the border: perpendicular to it in the tangent plane
-    const Vec3 along = joint.side[0] < 2 ? ja.dv : ja.du;
+    const Vec3 along = runs_along_u(one.side) ? a.du : a.dv;
     const Vec3 across = unit(cross(ka.normal, along));
-    const double one = normal_curvature(ka, across), two = sign * normal_curvature(kb, across);
-    step = std::max(step, std::abs(one - two));
+    const double first = normal_curvature(ka, across), second = sign * normal_curvature(kb, across);
+    step = std::max(step, std::abs(first - second));
     for (const double k : {ka.k1, ka.k2, kb.k1, kb.k2}) largest = std::max(largest, std::abs(k));
   }
   joint.curvature = largest > 0.0 ? step / largest : 0.0;
   joint.order = joint.angle > kSmoothAngle ? 0 : joint.curvature > kSmoothCurvature ? 1 : 2;
+  return joint;
 }
 
-std::vector<JointReport> joints_of(const SurfaceModel& model, double nearness) {
-  std::vector<std::array<std::vector<Vec3>, 4>> sides(model.patches.size());
-  for (std::size_t k = 0; k < sides.size(); ++k) {
-    for (int side = 0; side < 4; ++side) {
-      sides[k][static_cast<std::size_t>(side)] = side_points(model.patches[k].surface, side);
-    }
-  }
+/// All pairs of sides at the edges, in the order of the patches.
+std::vector<JointReport> joints_of(const SurfaceModel& model, const Topology& same,
+                                   double nearness) {
   std::vector<JointReport> joints;
-  for (std::size_t a = 0; a < 4 * sides.size(); ++a) {
-    const std::vector<Vec3>& one = sides[a / 4][a % 4];
-    if (polyline_length(one) <= nearness) continue;  // a pole is no border
-    for (std::size_t b = a + 1; b < 4 * sides.size(); ++b) {
-      const std::vector<Vec3>& two = sides[b / 4][b % 4];
-      const double ends = std::min(norm(one.front() - two.front()), norm(one.front() - two.back()));
-      if (ends > nearness) continue;
-      const Meeting met = meeting(one, two);
-      if (met.gap > nearness) continue;
-      JointReport joint;
-      joint.patch = {a / 4, b / 4};
-      joint.side = {static_cast<int>(a % 4), static_cast<int>(b % 4)};
-      joint.gap = met.gap;
-      compare_across(model.patches[a / 4].surface, model.patches[b / 4].surface, met.reversed,
-                     joint);
-      joints.push_back(joint);
+  const Topology near = topology_of(surfaces_of(model), nearness);
+  for (const TopologyEdge& edge : near.edges) {
+    for (std::size_t a = 0; a < edge.uses.size(); ++a) {
+      for (std::size_t b = a + 1; b < edge.uses.size(); ++b) {
+        const EdgeUse &one = edge.uses[a], &two = edge.uses[b];
+        joints.push_back(joint_of(model, one, two));
+        joints.back().shared =
+            same.edge_of[one.patch][one.side] == same.edge_of[two.patch][two.side];
+      }
     }
   }
+  const auto place = [](const JointReport& joint) {
+    return std::tuple(joint.patch[0], joint.side[0], joint.patch[1], joint.side[1]);
+  };
+  std::sort(joints.begin(), joints.end(),
+            [&](const JointReport& x, const JointReport& y) { return place(x) < place(y); });
   return joints;
 }
 
@@ -299,7 +355,11 @@ Result<SurfaceCheck> check_surface(const SurfaceModel& model, const CheckOptions
     if (auto done = tell(run, "measuring", part); !done) return fail(done.error());
     result.patches.push_back(report_of(patch, options.samples));
   }
-  result.joints = joints_of(model, options.meeting * result.size);
+  const Topology topology = topology_of(model);
+  result.joints = joints_of(model, topology, options.meeting * result.size);
+  for (const TopologyEdge& edge : topology.edges) {
+    if (!edge.point && edge.uses.size() == 1) ++result.free_borders;
+  }
   return result;
 }
 

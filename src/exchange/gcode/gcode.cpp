@@ -80,8 +80,8 @@ class Program {
       within -= deviation - kOfBlockTolerance * options_.tolerance;
     }
     return fail({ErrorCode::kToleranceNotReached,
-                 fmt::format("{} decimals do not keep a tolerance of {:g} {}", decimals_,
-                             options_.tolerance, contour_.units.text()),
+                 fmt::format("no program with {} decimals was found within a tolerance of {:g} {}",
+                             decimals_, options_.tolerance, contour_.units.text()),
                  "", "print more decimals, or allow a larger tolerance", -1, deviation});
   }
 
