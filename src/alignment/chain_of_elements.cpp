@@ -14,17 +14,20 @@
 namespace obvid::alignment {
 namespace {
 
-constexpr int kSteps = 30;           ///< of Levenberg and Marquardt's method, for each power
-constexpr double kClosed = 1e-9;     ///< of the tolerance: a gap that counts as none
-constexpr double kLoose = 0.1;      ///< of the tolerance: a gap that steps may leave, on the way
-constexpr double kCloser = 0.7;      ///< a gap has to become this share of itself
-constexpr int kClosing = 8;          ///< steps that close what is left
-constexpr double kRounding = 1e-13;  ///< of the size: what rounding makes of a gap
-constexpr double kSettled = 1e-9;    ///< growth of the fit, of itself, at which it is done
-constexpr double kShorter = 0.5;     ///< of what it is longer than the least: lost in one step
-constexpr double kTurn = 0.3;        ///< rad: an element turns by no more in one step
-/// Of the scaled normal equations: at first, before the search gives up, so that they can be solved,
-/// so that they are solved exactly enough for steps that close gaps.
+constexpr int kSteps = 30;  ///< of Levenberg and Marquardt's method, for each power
+/// Of the offsets, summed: the higher, the nearer is the least sum to the least largest offset.
+constexpr double kPowers[] = {4.0, 8.0, 16.0, 32.0, 64.0};
+constexpr double kClosed = 1e-9;      ///< of the tolerance: a gap that counts as none
+constexpr double kLeastShare = 1e-3;  ///< of the largest offset: what weighs at least
+constexpr double kLoose = 0.1;        ///< of the tolerance: a gap that steps may leave, on the way
+constexpr double kCloser = 0.7;       ///< a gap has to become this share of itself
+constexpr int kClosing = 8;           ///< steps that close what is left
+constexpr double kRounding = 1e-13;   ///< of the size: what rounding makes of a gap
+constexpr double kSettled = 1e-9;     ///< growth of the fit, of itself, at which it is done
+constexpr double kShorter = 0.5;      ///< of what it is longer than the least: lost in one step
+constexpr double kTurn = 0.3;         ///< rad: an element turns by no more in one step
+/// Of the scaled normal equations: at first, before the search gives up, so that they can be
+/// solved, so that they are solved exactly enough for steps that close gaps.
 constexpr double kDampingStart = 1e-6, kDampingMost = 1e6, kDampingLeast = 1e-12,
                  kDampingClosing = 1.0;
 
@@ -53,8 +56,7 @@ OwnDerivatives derivatives_of(double theta, double k0, double k1, double length,
       const double node = GaussRule<8>::kNode[i / 2] * (i % 2 == 0 ? 0.5 : -0.5);
       const double u = middle + node * h;
       const double weight = 0.5 * h * GaussRule<8>::kWeight[i / 2];
-      const Vec2 side =
-          left_normal(unit_at(theta + k0 * u + (k1 - k0) * u * u / (2.0 * length)));
+      const Vec2 side = left_normal(unit_at(theta + k0 * u + (k1 - k0) * u * u / (2.0 * length)));
       const double square = u * u / (2.0 * length);
       out.kappa0 = out.kappa0 + weight * (u - square) * side;
       out.kappa1 = out.kappa1 + weight * square * side;
@@ -95,7 +97,7 @@ class Fitter {
     }
     Chain best = chain_;
     std::vector<Foot> best_feet = feet_;
-    for (const double power : {4.0, 8.0, 16.0, 32.0, 64.0}) {
+    for (const double power : kPowers) {
       if (out.largest <= 1.0) break;
       improve(power);
       if (!is_closed() || largest() >= out.largest) continue;
@@ -148,9 +150,7 @@ class Fitter {
   }
 
   /// Within what steps from there on would undo.
-  [[nodiscard]] bool is_closed() const {
-    return gap_of(chain_) <= 10.0 * closed_;
-  }
+  [[nodiscard]] bool is_closed() const { return gap_of(chain_) <= 10.0 * closed_; }
 
   [[nodiscard]] double ratio(std::size_t i) const { return feet_[i].offset / tolerance_[i]; }
 
@@ -228,7 +228,8 @@ class Fitter {
       const Element at = place_on(chain_, joints_, foot.element, foot.s);
       row_of(foot.element, foot.s, at, left_normal(unit_at(at.theta)), row);
       double weight = 1.0 / (tolerance_[i] * tolerance_[i]);
-      if (power > 2.0) weight *= std::pow(std::max(std::abs(ratio(i)) / top, 1e-3), power - 2.0);
+      if (power > 2.0)
+        weight *= std::pow(std::max(std::abs(ratio(i)) / top, kLeastShare), power - 2.0);
       take(foot.offset, weight);
     }
     // Newton's step for a sum of powers: the second derivative has this factor more
@@ -246,13 +247,12 @@ class Fitter {
     conditions_.clear();
     const Element end = joints_.back();
     std::vector<double> row(unknowns_);
-    const auto along = [&](const Foot& foot, std::size_t i, bool at_end) {
+    const auto along = [&](std::size_t i, bool at_end) {
       const Element at = at_end ? end : joints_.front();
       row_of(at_end ? chain_.size() : 0, 0.0, at, unit_at(at.theta), row);
       conditions_.push_back({row, dot(unit_at(at.theta), points_[i] - at.point)});
-      (void)foot;
     };
-    if (!held_.start) along(feet_.front(), 0, false);
+    if (!held_.start) along(0, false);
     if (held_.end || held_.closed) {
       const Element goal = held_.end ? *held_.end : joints_.front();
       for (const Vec2 axis : {Vec2{1.0, 0.0}, Vec2{0.0, 1.0}}) {
@@ -275,7 +275,7 @@ class Fitter {
       }
       conditions_.push_back({row, std::remainder(goal.theta - end.theta, 2.0 * std::numbers::pi)});
     } else {
-      along(feet_.back(), points_.size() - 1, true);
+      along(points_.size() - 1, true);
     }
   }
 
@@ -347,8 +347,9 @@ class Fitter {
       const double longer = change(first_length_ + k);
       const double most = kShorter * std::max(chain_.length[k] - held_.least_length, 0.0);
       if (-longer > most) share = std::min(share, most / -longer);
-      const double turn = chain_.length[k] * std::max(std::abs(change(column_of(chain_.ends[k][0]))),
-                                                      std::abs(change(column_of(chain_.ends[k][1]))));
+      const double turn =
+          chain_.length[k] * std::max(std::abs(change(column_of(chain_.ends[k][0]))),
+                                      std::abs(change(column_of(chain_.ends[k][1]))));
       if (turn > kTurn) share = std::min(share, kTurn / turn);
     }
     const auto value = [&](std::size_t column) { return share * move[column] * scale_[column]; };
@@ -378,8 +379,7 @@ class Fitter {
     const Element goal = held_.end ? *held_.end : joints.front();
     double length = 0.0;
     for (const double l : chain.length) length += l;
-    const double turn =
-        std::remainder(goal.theta - joints.back().theta, 2.0 * std::numbers::pi);
+    const double turn = std::remainder(goal.theta - joints.back().theta, 2.0 * std::numbers::pi);
     return std::max({gap, norm(goal.point - joints.back().point), length * std::abs(turn)});
   }
 
@@ -483,7 +483,6 @@ void find_feet(const Chain& chain, const std::vector<Vec2>& points, std::vector<
   const std::vector<Element> joints = chain.joints();
   for (std::size_t i = 0; i < points.size(); ++i) {
     Foot& foot = feet[i];
-    const bool end = i == 0 || i + 1 == points.size();
     for (int step = 0; step < kNewton; ++step) {
       while (foot.s > chain.length[foot.element] && foot.element + 1 < chain.size()) {
         foot.s -= chain.length[foot.element++];
@@ -494,15 +493,15 @@ void find_feet(const Chain& chain, const std::vector<Vec2>& points, std::vector<
       foot.offset = cross(t, away);
       foot.along = dot(t, away);
       const double stretch = std::max(0.2, 1.0 - at.kappa * foot.offset);
-      if (std::abs(foot.along) <= 1e-13 * (1.0 + norm(at.point))) break;
+      const double size = norm(at.point - chain.start) + chain.length[foot.element];
+      if (std::abs(foot.along) <= kRounding * size) break;
       foot.s += foot.along / stretch;
-      (void)end;
     }
   }
 }
 
-Fitted fit_chain(Chain& chain, const std::vector<Vec2>& points, const std::vector<double>& tolerance,
-                 std::vector<Foot>& feet, const Held& held) {
+Fitted fit_chain(Chain& chain, const std::vector<Vec2>& points,
+                 const std::vector<double>& tolerance, std::vector<Foot>& feet, const Held& held) {
   return Fitter(chain, points, tolerance, feet, held).run();
 }
 

@@ -17,9 +17,9 @@ struct Chain {
   static constexpr int kStraight = -1;  ///< in place of a number: curvature 0
 
   Vec2 start;
-  double theta = 0.0;                   ///< heading at the start, rad
-  std::vector<double> length;           ///< of each element
-  std::vector<double> kappa;            ///< 1/unit
+  double theta = 0.0;                    ///< heading at the start, rad
+  std::vector<double> length;            ///< of each element
+  std::vector<double> kappa;             ///< 1/unit
   std::vector<std::array<int, 2>> ends;  ///< of each element: numbers of its curvatures
 
   [[nodiscard]] std::size_t size() const { return length.size(); }
@@ -38,7 +38,7 @@ struct Foot {
   std::size_t element = 0;
   double s = 0.0;       ///< from the start of the element; beyond the chain's ends also outside
   double offset = 0.0;  ///< of the point, to the left positive
-  double along = 0.0;   ///< of the point, beyond the foot: rounding but for the first and last point
+  double along = 0.0;  ///< of the point, beyond the foot: rounding but for the first and last point
 };
 
 /// Feet of points, in order, searched from those given (the stations before the chain changed).
@@ -53,18 +53,18 @@ struct Held {
   double least_length = 0.0;     ///< that elements keep
 };
 
-/// Moves the chain to where the largest offset over its tolerance is small: least squares first, and
-/// where that is not within 1, higher powers (Lawson's weights). Returns the largest |offset| over
-/// tolerance that is left; `squares` the sum of their squares after least squares.
+/// Moves the chain to where the largest offset over its tolerance is small: least squares first,
+/// and where that is not within 1, higher powers (Lawson's weights). Returns the largest |offset|
+/// over tolerance that is left; `squares` the sum of their squares after least squares.
 struct Fitted {
   double largest = 0.0;
   double squares = 0.0;
 };
-Fitted fit_chain(Chain& chain, const std::vector<Vec2>& points, const std::vector<double>& tolerance,
-                 std::vector<Foot>& feet, const Held& held);
+Fitted fit_chain(Chain& chain, const std::vector<Vec2>& points,
+                 const std::vector<double>& tolerance, std::vector<Foot>& feet, const Held& held);
 
-/// How much the sum of squares of a fitted chain grows, to first order, when curvature number `a` has
-/// to be that of number `b`, or straight.
+/// How much the sum of squares of a fitted chain grows, to first order, when curvature number `a`
+/// has to be that of number `b`, or straight.
 [[nodiscard]] double growth_of(const Chain& chain, const std::vector<Vec2>& points,
                                const std::vector<double>& tolerance, const std::vector<Foot>& feet,
                                const Held& held, int a, int b);

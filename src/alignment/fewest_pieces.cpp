@@ -20,7 +20,9 @@ namespace {
 constexpr std::size_t kDirections = 12;   ///< in which a polygon is measured
 constexpr std::size_t kPolygons = 3;      ///< kept at a place
 constexpr std::size_t kPredecessors = 6;  ///< tried for a place
-constexpr double kBox = 1e3;  ///< largest offset and slope, in tolerances and tolerances over length
+constexpr double kBox =
+    1e3;  ///< largest offset and slope, in tolerances and tolerances over length
+constexpr double kSameState = 1e-7;  ///< offsets and slopes, likewise, that count as one
 constexpr double kFarOff = 0.3;  ///< rad: headings farther from those of the chords make no sense
 
 /// A place of a joint; deviations are measured from its point and heading.
@@ -93,10 +95,8 @@ class Search {
       if (i > 0) theta_[i] = nearest_angle(theta_[i], theta_[i - 1]);
     }
     if (n > 2) {  // of the circle through three points
-      theta_[0] = 2.0 * heading(points_[1] - points_[0]);
-      theta_[0] = nearest_angle(2.0 * nearest_angle(heading(points_[1] - points_[0]), theta_[1]) -
-                                    theta_[1],
-                                theta_[1]);
+      theta_[0] = nearest_angle(
+          2.0 * nearest_angle(heading(points_[1] - points_[0]), theta_[1]) - theta_[1], theta_[1]);
       theta_[n - 1] = 2.0 * nearest_angle(heading(points_[n - 1] - points_[n - 2]), theta_[n - 2]) -
                       theta_[n - 2];
     }
@@ -106,8 +106,8 @@ class Search {
       for (std::size_t k = 1; k < divisions_ && piece; ++k) {
         const double part = static_cast<double>(k) / static_cast<double>(divisions_);
         const Jet jet = evaluate(*piece, part);
-        places_.push_back({static_cast<double>(i) + part, jet.point,
-                           nearest_angle(heading(jet.d1), theta_[i])});
+        places_.push_back(
+            {static_cast<double>(i) + part, jet.point, nearest_angle(heading(jet.d1), theta_[i])});
       }
     }
     places_.push_back({static_cast<double>(n - 1), points_[n - 1], theta_[n - 1]});
@@ -266,7 +266,7 @@ class Search {
       const State s{(*x)[2], (*x)[3]};
       if (!out.corners.empty()) {
         const State b = out.corners.back();
-        if (std::abs(b.offset - s.offset) + std::abs(b.slope - s.slope) < 1e-9) continue;
+        if (std::abs(b.offset - s.offset) + std::abs(b.slope - s.slope) < kSameState) continue;
       }
       out.corners.push_back(s);
     }
@@ -301,7 +301,7 @@ class Search {
         for (std::size_t k = 2; k < kUnknowns; ++k) {
           HalfSpace fixed;
           fixed.a[k] = sign;
-          fixed.b = sign * (k == 2 ? state.offset : state.slope) + 1e-7;
+          fixed.b = sign * (k == 2 ? state.offset : state.slope) + kSameState;
           program_.add(fixed);
         }
       }
@@ -336,8 +336,8 @@ class Search {
 }  // namespace
 
 Result<std::vector<Node>> fewest_pieces(const std::vector<Vec2>& points,
-                                        const std::vector<double>& tolerance,
-                                        std::size_t divisions, const RunContext& run) {
+                                        const std::vector<double>& tolerance, std::size_t divisions,
+                                        const RunContext& run) {
   return Search(points, tolerance, divisions).run(run);
 }
 

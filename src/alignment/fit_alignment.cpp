@@ -16,9 +16,9 @@ namespace {
 constexpr std::size_t kBeside = 3;   ///< elements to both sides that move with one that is changed
 constexpr std::size_t kWindow = 12;  ///< elements that are fitted at once
 constexpr double kLeastLength = 0.25;  ///< of the mean distance of points: elements get no shorter
-constexpr double kHopeless = 4.0;  ///< estimated squares over the most that there can be
-constexpr int kPasses = 4;           ///< over all conditions
-constexpr int kPolishes = 3;         ///< over the whole alignment, where an offset is too large
+constexpr double kHopeless = 4.0;      ///< estimated squares over the most that there can be
+constexpr int kPasses = 4;             ///< over all conditions
+constexpr int kPolishes = 3;           ///< over the whole alignment, where an offset is too large
 
 class Simplifier {
  public:
@@ -57,7 +57,7 @@ class Simplifier {
  private:
   /// Some elements with their points, cut out.
   struct Window {
-    std::size_t first = 0;        ///< element
+    std::size_t first = 0;  ///< element
     std::size_t first_point = 0;
     Chain chain;
     std::vector<Vec2> points;
@@ -133,7 +133,8 @@ class Simplifier {
 
   Result<void> polish(const RunContext& run) {
     for (std::size_t first = 0; first < chain_.size(); first += kWindow / 2) {
-      if (auto on = tell(run, "fitting", static_cast<double>(first) / chain_.size()); !on) return on;
+      if (auto on = tell(run, "fitting", static_cast<double>(first) / chain_.size()); !on)
+        return on;
       const std::size_t last = std::min(first + kWindow, chain_.size());
       Window window = cut(chain_, first, last);
       if (window.points.empty()) continue;
@@ -177,8 +178,9 @@ class Simplifier {
       const auto own = [&](int number) {
         return number == Chain::kStraight
                    ? number
-                   : static_cast<int>(std::find(window.number.begin(), window.number.end(), number) -
-                                      window.number.begin());
+                   : static_cast<int>(
+                         std::find(window.number.begin(), window.number.end(), number) -
+                         window.number.begin());
       };
       c.growth = growth_of(window.chain, window.points, window.tolerance, window.feet, window.held,
                            own(c.a), own(c.b));
@@ -228,12 +230,10 @@ class Simplifier {
     std::vector<Candidate> candidates;
     refused_.clear();  // what others stood in the way of may be possible now
     for (std::size_t k = 0; k < chain_.size(); ++k) add_candidates(k, candidates);
-    std::erase_if(candidates,
-                  [&](const Candidate& c) { return refused_.contains({c.a, c.b}); });
+    std::erase_if(candidates, [&](const Candidate& c) { return refused_.contains({c.a, c.b}); });
     estimate(candidates);
-    std::stable_sort(
-        candidates.begin(), candidates.end(),
-        [](const Candidate& a, const Candidate& b) { return a.growth < b.growth; });
+    std::stable_sort(candidates.begin(), candidates.end(),
+                     [](const Candidate& a, const Candidate& b) { return a.growth < b.growth; });
     bool taken = false;
     for (std::size_t i = 0; i < candidates.size(); ++i) {
       if (auto on = tell(run, "kinds", static_cast<double>(i) / candidates.size()); !on) {
@@ -273,8 +273,7 @@ void set_chain(const std::vector<Node>& nodes, std::size_t points, Chain& chain,
     for (auto i = static_cast<std::size_t>(std::ceil(a.place)); static_cast<double>(i) <= b.place;
          ++i) {
       feet[i].element = k;
-      feet[i].s =
-          chain.length[k] * (static_cast<double>(i) - a.place) / (b.place - a.place);
+      feet[i].s = chain.length[k] * (static_cast<double>(i) - a.place) / (b.place - a.place);
     }
   }
 }
@@ -315,13 +314,18 @@ Alignment alignment_of(const Chain& chain, const std::vector<Foot>& feet,
 }  // namespace
 }  // namespace alignment
 
-Result<Alignment> fit_alignment(const std::vector<Vec2>& points,
+Result<Alignment> fit_alignment(const std::vector<Vec2>& given,
                                 const std::vector<double>& tolerance,
                                 const AlignmentOptions& options, const RunContext& run) {
-  if (points.size() < 2) {
+  if (given.size() < 2) {
     return fail({ErrorCode::kTooFewPoints, "an alignment needs at least two points", "", "", -1,
-                 static_cast<double>(points.size())});
+                 static_cast<double>(given.size())});
   }
+  // coordinates of maps are far from their origin
+  const Vec2 origin = given.front();
+  std::vector<Vec2> points;
+  points.reserve(given.size());
+  for (const Vec2 p : given) points.push_back(p - origin);
   for (std::size_t i = 1; i < points.size(); ++i) {
     if (points[i] == points[i - 1]) {
       return fail({ErrorCode::kChordReversal, "two neighbouring points coincide", "", "",
@@ -338,10 +342,14 @@ Result<Alignment> fit_alignment(const std::vector<Vec2>& points,
   if (auto done = simplifier.run(run); !done) return fail(done.error());
   const double largest = simplifier.largest();
   if (!(largest <= 1.0)) {
-    return fail({ErrorCode::kToleranceNotReached, "the alignment that was found leaves the tolerance", "",
-                 "a larger tolerance", -1, largest});
+    return fail({ErrorCode::kToleranceNotReached,
+                 "the alignment that was found leaves the tolerance", "", "a larger tolerance", -1,
+                 largest});
   }
-  return alignment::alignment_of(simplifier.chain(), simplifier.feet(), tolerance);
+  Alignment out = alignment::alignment_of(simplifier.chain(), simplifier.feet(), tolerance);
+  for (AlignmentElement& e : out.elements) e.start.point = e.start.point + origin;
+  out.end.point = out.end.point + origin;
+  return out;
 }
 
 }  // namespace obvid

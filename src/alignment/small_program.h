@@ -34,8 +34,8 @@ class SmallProgram {
   /// In a fixed shuffled order, in which few rows change the maximum: once, when all are there.
   void shuffle();
 
-  /// The x that maximises `goal` . x with all rows kept and every |x_k| <= `box`; nothing when there
-  /// is none. Seidel's incremental method (1991): expected time linear in the number of rows.
+  /// The x that maximises `goal` . x with all rows kept and every |x_k| <= `box`; nothing when
+  /// there is none. Seidel's incremental method (1991): expected time linear in the number of rows.
   [[nodiscard]] std::optional<Unknowns> maximum(const Unknowns& goal, double box);
 
  private:

@@ -31,8 +31,8 @@ struct AlignmentDeviation {
 
 struct Alignment {
   std::vector<AlignmentElement> elements;
-  Element end;                                ///< of the last element
-  double length = 0.0;                        ///< units
+  Element end;                                 ///< of the last element
+  double length = 0.0;                         ///< units
   std::vector<AlignmentDeviation> deviations;  ///< of each point
   double largest_share = 0.0;  ///< largest |offset| over the point's tolerance: 1 or less
   double rms = 0.0;            ///< root of the mean square of the offsets, units
@@ -50,9 +50,9 @@ struct AlignmentOptions {
 /// preferred wherever the tolerance allows them.
 ///
 /// Guaranteed: every offset is at most its tolerance (else an error), elements join exactly but for
-/// rounding. Not guaranteed: that no fewer elements exist (the number is the fewest that a search by
-/// dynamic programming over polygons of possible offsets and headings found: docs/methods/alignment.md).
-/// Deterministic; reentrant.
+/// rounding. Not guaranteed: that no fewer elements exist (the number is the fewest that a search
+/// by dynamic programming over polygons of possible offsets and headings found:
+/// docs/methods/alignment.md). Deterministic; reentrant.
 ///
 /// Errors: E304 fewer than two points, E402 coinciding neighbours, E401 none found (`index`: the
 /// first point that was not reached), E502 not within the tolerance, E103 cancelled.
