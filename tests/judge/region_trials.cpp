@@ -229,29 +229,7 @@ class RegionTrial : public ProgramRuns {
     const ReadContour read = read_contour(contour);
     if (!read.fault.empty()) return sheet.fails("file", "a contour", read.fault, "c.json");
     const Course course(read.contour);
-    Input asked = read_input(text_, words);
-    asked.carrier = construction_ == "ellipses"    ? "conics"
-                    : construction_ == "spline"    ? "baseline"
-                    : construction_ == "parabolas" ? "beziers"
-                                                   : construction_;
-    // nothing is refined: the largest width itself, where that is more than the tolerance
-    const Figure width = figure(read.contour.report, "largest_width"),
-                 tolerance = figure(read.contour.report, "tolerance");
-    if (width.known() && width.value == tolerance.value) asked.tolerance = width.value;
-    check_form(course, sheet);
-    check_certificate(course, sheet);
-    check_given_list(course, sheet);
-    const bool steps = std::any_of(
-        read.contour.elements.begin(), read.contour.elements.end(),
-        [](const FileElement& e) { return e.step && !e.source; });
-    const bool whole = construction_ == "arcs" &&
-                       read.contour.pieces.size() < 2 * worksheet.user.rows.size();
-    if (steps || whole) {  // at an inflection, the way the run goes; an arc alone has one curvature
-      sheet.unjudged("report", steps ? "the curvature steps inside of segments" : "one arc");
-    } else {
-      check_report(course, sheet);
-    }
-    check_input(course, asked, sheet);
+    judge_constructed(course, read_input(text_, words), sheet);
     check_fit_text(course, fit, sheet);
     check_constructed(worksheet, input, construction_, course, sheet);
   }
