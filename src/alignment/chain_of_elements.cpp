@@ -7,8 +7,8 @@
 #include <numbers>
 #include <utility>
 
-#include "obvid/curve/clothoid.h"
-#include "obvid/numeric/banded.h"
+#include "obvid/curve/internal/clothoid.h"
+#include "obvid/numeric/internal/banded.h"
 #include "obvid/numeric/internal/gauss.h"
 
 namespace obvid::alignment {

@@ -8,10 +8,10 @@
 #include <optional>
 
 #include "obvid/contour/clothoids.h"
-#include "obvid/curve/clothoid.h"
-#include "obvid/curve/nearest.h"
+#include "obvid/curve/internal/clothoid.h"
+#include "obvid/curve/internal/nearest.h"
 #include "obvid/curve/pieces.h"
-#include "obvid/geom/angle.h"
+#include "obvid/geom/internal/angle.h"
 #include "small_program.h"
 
 namespace obvid::alignment {

@@ -8,7 +8,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "obvid/geom/angle.h"
+#include "obvid/geom/internal/angle.h"
 #include "obvid/io/internal/json_text.h"
 #include "obvid/pipeline/audit.h"
 
