@@ -70,7 +70,9 @@ class Search {
     reached_[0].push_back({start_polygon(), {}});
     std::size_t first = 0, end = 1;  // places reached by the last clothoid
     while (end <= last) {
-      if (auto on = tell(run, "fewest elements", static_cast<double>(end) / (last + 1)); !on) {
+      if (auto on = tell(run, "fewest elements",
+                         static_cast<double>(end) / static_cast<double>(last + 1));
+          !on) {
         return fail(on.error());
       }
       const std::size_t farthest = advance(first, end);

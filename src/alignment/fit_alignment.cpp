@@ -133,7 +133,9 @@ class Simplifier {
 
   Result<void> polish(const RunContext& run) {
     for (std::size_t first = 0; first < chain_.size(); first += kWindow / 2) {
-      if (auto on = tell(run, "fitting", static_cast<double>(first) / chain_.size()); !on)
+      if (auto on =
+              tell(run, "fitting", static_cast<double>(first) / static_cast<double>(chain_.size()));
+          !on)
         return on;
       const std::size_t last = std::min(first + kWindow, chain_.size());
       Window window = cut(chain_, first, last);
@@ -236,7 +238,9 @@ class Simplifier {
                      [](const Candidate& a, const Candidate& b) { return a.growth < b.growth; });
     bool taken = false;
     for (std::size_t i = 0; i < candidates.size(); ++i) {
-      if (auto on = tell(run, "kinds", static_cast<double>(i) / candidates.size()); !on) {
+      if (auto on =
+              tell(run, "kinds", static_cast<double>(i) / static_cast<double>(candidates.size()));
+          !on) {
         return fail(on.error());
       }
       if (candidates[i].growth <= kHopeless * candidates[i].room && take(candidates[i])) {
