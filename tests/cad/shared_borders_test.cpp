@@ -92,7 +92,8 @@ double open_length(const std::vector<Mesh>& meshes) {
 /// Length of the sides that the cutter rolls over.
 double open_to_cutter(const std::vector<Mesh>& meshes) {
   double length = 0.0;
-  for (const toolpath::FieldTriangle& t : toolpath::DropField(meshes).triangles()) {
+  const toolpath::DropField field(meshes);
+  for (const toolpath::FieldTriangle& t : field.triangles()) {
     for (std::size_t k = 0; k < 3; ++k) {
       if ((t.open >> (1 + k)) & 1U) length += norm(t.corners[(k + 1) % 3] - t.corners[k]);
     }
