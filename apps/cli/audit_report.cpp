@@ -195,11 +195,12 @@ Result<std::vector<std::string>> write_audit_pictures(const AnalyseOptions& opti
                                                       const std::string& name,
                                                       const std::vector<CurveAudit>& audits) {
   Result<std::vector<Output>> outputs = outputs_of(options.outputs, options.input);
-  if (!outputs) return fail(outputs.error());
+  OBVID_TRY(outputs);
   for (Output& output : *outputs) {
     if (output.format != FileFormat::kPicture || audits.empty()) {
-      return fail({ErrorCode::kBadOption, "analyse writes a picture of a curve, nothing else",
-                   output.path, "name an .svg"});
+      return error(ErrorCode::kBadOption, "analyse writes a picture of a curve, nothing else")
+          .where(output.path)
+          .hint("name an .svg");
     }
     const CurveAudit& a = pictured(audits, options.import);
     output.text = picture_svg({a.contour, std::nullopt, a.certificate},

@@ -185,8 +185,9 @@ Result<Maker> maker_of(const std::string& path) {
   if (path.ends_with(".svg")) return &picture;
   if (path.ends_with(".json")) return &comparison_json;
   if (path.ends_with(".csv")) return &report_csv;
-  return fail({ErrorCode::kUnknownFormat, "no such format of a comparison", path,
-               "possible are .svg (picture), .csv and .json (tables)"});
+  return error(ErrorCode::kUnknownFormat, "no such format of a comparison")
+      .where(path)
+      .hint("possible are .svg (picture), .csv and .json (tables)");
 }
 
 }  // namespace

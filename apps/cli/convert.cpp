@@ -24,9 +24,9 @@ bool is_foreign(const std::string& input) { return is_drawing(input) && !input.e
 Result<StoredContour> from_drawing(const ConvertOptions& options, ExportOptions& formats,
                                    std::vector<std::string>& remarks) {
   const Result<Drawing> drawing = read_drawing(options.input);
-  if (!drawing) return fail(drawing.error());
+  OBVID_TRY(drawing);
   auto drawn = drawn_contour(*drawing, options.import, options.input);
-  if (!drawn) return fail(drawn.error());
+  OBVID_TRY(drawn);
   remarks = std::move(drawn->remarks);
   formats.name = std::move(drawn->name);
   formats.picture = std::move(drawn->picture);

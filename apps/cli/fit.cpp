@@ -48,7 +48,7 @@ Outcome read_and_fit(const FitOptions& options, ExportOptions& formats, Progress
   if (options.construction) {
     return stop(explained(*series, *options.construction, made.error(), bar.progress()));
   }
-  if (exit_code(made.error().code) == exit_code(ErrorCode::kNoSpiral)) {
+  if (category(made.error().code) == ErrorCategory::kNoContour) {
     return {std::nullopt, tell_refusal(options, *series, made.error(), bar)};
   }
   bar.clear();

@@ -73,32 +73,33 @@ Result<std::string> curve_file(const std::string& path, const NurbsReport& repor
   if (iges) write.format = CadFormat::kIges;
   if (ending == ".brep") write.format = CadFormat::kBrep;
   if (step || iges || ending == ".brep") return cad_text({{"curve", curve}}, write);
-  return fail({ErrorCode::kUnknownFormat, "nurbs writes no such file of a curve", path,
-               "possible are .json, .csv, .step, .iges, .brep and .dxf"});
+  return error(ErrorCode::kUnknownFormat, "nurbs writes no such file of a curve")
+      .where(path)
+      .hint("possible are .json, .csv, .step, .iges, .brep and .dxf");
 }
 
 Result<std::vector<std::string>> write_nurbs(const NurbsReport& report,
                                              const NurbsOptions& options) {
   if (const auto* surface = std::get_if<NurbsSurface>(&report.shape)) {
     const auto outputs = surface_outputs_of(options.outputs, {options.input});
-    if (!outputs) return fail(outputs.error());
+    OBVID_TRY(outputs);
     SurfaceModel model;
     model.units = options.units.value_or(Units{});
     model.patches.push_back({"surface", *surface});
     std::vector<std::string> warnings;
     const auto written = write_surface(model, *outputs, {}, {}, warnings);
-    if (!written) return fail(written.error());
+    OBVID_TRY(written);
     warn(warnings);
     return written->files;
   }
   std::vector<std::string> texts;
   for (const std::string& path : options.outputs) {
     auto text = curve_file(path, report, std::get<SpaceCurve>(report.shape), options);
-    if (!text) return fail(text.error());
+    OBVID_TRY(text);
     texts.push_back(std::move(*text));
   }
   for (std::size_t i = 0; i < texts.size(); ++i) {
-    if (auto done = write_file(options.outputs[i], texts[i]); !done) return fail(done.error());
+    OBVID_TRY(write_file(options.outputs[i], texts[i]));
   }
   return options.outputs;
 }

@@ -113,20 +113,20 @@ Result<void> check_nurbs(RawNurbs& raw) {
     return fail(bad_option("between 2 and 10,000,000 rows are possible", "--samples", ""));
   }
   auto knots = knot_list(raw.knots, "--knots");
-  if (!knots) return fail(knots.error());
+  OBVID_TRY(knots);
   auto knots_v = knot_list(raw.knots_v, "--knots-v");
-  if (!knots_v) return fail(knots_v.error());
+  OBVID_TRY(knots_v);
   auto weights = at_points(raw.weights, "--weight-at");
-  if (!weights) return fail(weights.error());
+  OBVID_TRY(weights);
   auto moves = at_points(raw.moves, "--move");
-  if (!moves) return fail(moves.error());
+  OBVID_TRY(moves);
   job.knots = std::move(*knots);
   job.knots_v = std::move(*knots_v);
   job.weights = std::move(*weights);
   job.moves = std::move(*moves);
   if (raw.units) {
     auto given = given_units(*raw.units, "--units");
-    if (!given) return fail(given.error());
+    OBVID_TRY(given);
     raw.options.units = std::move(*given);
   }
   return {};
@@ -147,8 +147,8 @@ Result<Command> parse_nurbs(int argc, const char* const* argv) {
   } catch (const CLI::ParseError& error) {
     return fail(from_cli(error, "nurbs"));
   }
-  if (auto done = check_extras(app, app.remaining(), "nurbs"); !done) return fail(done.error());
-  if (auto done = check_nurbs(raw); !done) return fail(done.error());
+  OBVID_TRY(check_extras(app, app.remaining(), "nurbs"));
+  OBVID_TRY(check_nurbs(raw));
   return Command{raw.options};
 }
 

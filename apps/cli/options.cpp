@@ -455,7 +455,7 @@ Result<void> need(const std::string& input, const char* command, const char* wha
 Result<void> set_units(const std::optional<std::string>& typed, std::optional<Units>& units) {
   if (!typed) return {};
   auto given = given_units(*typed, "--units");
-  if (!given) return fail(given.error());
+  OBVID_TRY(given);
   units = std::move(*given);
   return {};
 }
@@ -481,7 +481,7 @@ Result<void> set_construction(Raw& raw) {
   if (typed.name.empty() && !typed.fixation) return {};
   typed.prefer = raw.typed.prefer;
   const auto made = construction_values(typed);
-  if (!made) return fail(made.error());
+  OBVID_TRY(made);
   if (raw.carrier != "spiral") {
     return fail(bad_option("a construction is its own carrier", "--carrier",
                            "leave --carrier out, or --construction"));
@@ -494,7 +494,7 @@ Result<void> set_construction(Raw& raw) {
 Result<Command> checked_fit(Raw& raw) {
   raw.fit.progress = !raw.no_progress;
   const auto along = direction_named(raw.along);
-  if (!along) return fail(along.error());
+  OBVID_TRY(along);
   raw.fit.along = *along;
   const Result<void> done =
       set_construction(raw)
@@ -504,7 +504,7 @@ Result<Command> checked_fit(Raw& raw) {
           .and_then([&] { return set_import(raw.formats, raw.fit.import); })
           .and_then([&] { return set_units(raw.units, raw.fit.units); })
           .and_then([&] { return need(raw.fit.input, "fit", "a file with points"); });
-  if (!done) return fail(done.error());
+  OBVID_TRY(done);
   allow_two_points(raw.fit.job, raw.fit.import);
   if (raw.fit.construction) {
     raw.fit.construction = with_job(*raw.fit.construction, raw.fit.job);
@@ -521,7 +521,7 @@ Result<Command> checked_compare(Raw& raw) {
           .and_then([&] { return set_import(raw.formats, raw.compare.import); })
           .and_then([&] { return set_units(raw.units, raw.compare.units); })
           .and_then([&] { return need(raw.compare.input, "compare", "a file with points"); });
-  if (!done) return fail(done.error());
+  OBVID_TRY(done);
   raw.compare.job = raw.fit.job;
   allow_two_points(raw.fit.job, raw.compare.import);
   raw.compare.progress = !raw.no_progress && !raw.compare.json && !raw.compare.csv;
@@ -533,7 +533,7 @@ Result<Command> checked_points(Options& options, const Raw& raw, const char* nam
   const Result<void> done = need(options.input, name, "a file with points").and_then([&] {
     return set_units(raw.units, options.units);
   });
-  if (!done) return fail(done.error());
+  OBVID_TRY(done);
   return Command{options};
 }
 
@@ -541,11 +541,9 @@ Result<Command> checked_convert(Raw& raw) {
   const Result<void> done = need(raw.convert.input, "convert", "a contour file").and_then([&] {
     return set_formats(raw.formats, raw.convert.formats, raw.convert.profile);
   });
-  if (!done) return fail(done.error());
-  if (auto units = set_units(raw.units, raw.convert.units); !units) return fail(units.error());
-  if (auto import = set_import(raw.formats, raw.convert.import); !import) {
-    return fail(import.error());
-  }
+  OBVID_TRY(done);
+  OBVID_TRY(set_units(raw.units, raw.convert.units));
+  OBVID_TRY(set_import(raw.formats, raw.convert.import));
   if (raw.convert.outputs.empty()) {
     return fail(usage("convert needs a file to write",
                       "add -o NAME; possible file extensions are " + known_endings()));
@@ -554,24 +552,24 @@ Result<Command> checked_convert(Raw& raw) {
 }
 
 Result<Command> checked_analyse(Raw& raw) {
-  if (auto done = set_import(raw.formats, raw.analyse.import); !done) return fail(done.error());
-  if (auto done = set_plots(raw.formats, raw.analyse.plots); !done) return fail(done.error());
+  OBVID_TRY(set_import(raw.formats, raw.analyse.import));
+  OBVID_TRY(set_plots(raw.formats, raw.analyse.plots));
   return checked_points(raw.analyse, raw, "analyse");
 }
 
 Result<Command> checked_region(Raw& raw) {
   const auto made = construction_values(raw.construction);
-  if (!made) return fail(made.error());
-  if (auto done = set_job(raw); !done) return fail(done.error());
-  if (auto done = set_import(raw.formats, raw.region.import); !done) return fail(done.error());
+  OBVID_TRY(made);
+  OBVID_TRY(set_job(raw));
+  OBVID_TRY(set_import(raw.formats, raw.region.import));
   raw.region.job = with_job(*made, raw.fit.job);
   allow_two_points(raw.fit.job, raw.region.import);
   return checked_points(raw.region, raw, "region");
 }
 
 Result<Command> checked(const CLI::App& app, Raw& raw) {
-  if (auto done = check_command(app); !done) return fail(done.error());
-  if (auto done = check_all_extras(app); !done) return fail(done.error());
+  OBVID_TRY(check_command(app));
+  OBVID_TRY(check_all_extras(app));
   const std::string& name = app.get_subcommands().front()->get_name();
   if (name == "fit") return checked_fit(raw);
   if (name == "analyse") return checked_analyse(raw);
@@ -579,9 +577,7 @@ Result<Command> checked(const CLI::App& app, Raw& raw) {
   if (name == "region") return checked_region(raw);
   if (name == "compare") return checked_compare(raw);
   if (name == "explain") return Command{raw.explain};
-  if (auto done = need(raw.verify.input, "verify", "a contour file"); !done) {
-    return fail(done.error());
-  }
+  OBVID_TRY(need(raw.verify.input, "verify", "a contour file"));
   return Command{raw.verify};
 }
 
@@ -634,7 +630,7 @@ Result<Command> parse_command_line(int argc, const char* const* argv) {
     }
     return checked(app, raw);
   } catch (const CLI::Error& error) {
-    return fail({ErrorCode::kInternal, error.what(), "command line", ""});
+    return error(ErrorCode::kInternal, error.what()).where("command line");
   }
 }
 

@@ -12,19 +12,20 @@ namespace obvid {
 Result<Output> output_of(const std::string& path) {
   if (const auto format = format_of(path)) return Output{path, *format, {}};
   const std::string ending = std::filesystem::path(path).extension().string();
-  return fail({ErrorCode::kUnknownFormat,
+  return error(ErrorCode::kUnknownFormat,
                ending.empty() ? "the name has no file extension that determines a format"
-                              : "no format is known for the file extension " + ending,
-               path, "possible are " + known_endings()});
+                              : "no format is known for the file extension " + ending)
+      .where(path)
+      .hint("possible are " + known_endings());
 }
 
 Result<std::vector<Output>> outputs_of(const std::vector<std::string>& paths,
                                        const std::string& input) {
-  if (auto free = check_outputs(paths, {&input, 1}); !free) return fail(free.error());
+  OBVID_TRY(check_outputs(paths, {&input, 1}));
   std::vector<Output> outputs;
   for (const std::string& path : paths) {
     Result<Output> output = output_of(path);
-    if (!output) return fail(output.error());
+    OBVID_TRY(output);
     outputs.push_back(std::move(*output));
   }
   return outputs;
@@ -61,9 +62,9 @@ Result<std::vector<std::string>> write_files(const std::vector<Output>& outputs,
   std::vector<std::string> names;
   for (const Output& output : outputs) names.push_back(output.path);
   // again: formats that make several files have made names of their own
-  if (auto free = check_outputs(names, {&input, 1}); !free) return fail(free.error());
+  OBVID_TRY(check_outputs(names, {&input, 1}));
   for (const Output& output : outputs) {
-    if (auto done = write_file(output.path, output.text); !done) return fail(done.error());
+    OBVID_TRY(write_file(output.path, output.text));
   }
   return names;
 }

@@ -84,13 +84,13 @@ Result<std::vector<std::string>> write_refusal_pictures(const FitOptions& option
                                                         const std::string& name,
                                                         const WhyNot& why) {
   const Result<std::vector<Output>> asked = outputs_of(options.outputs, options.input);
-  if (!asked) return fail(asked.error());
+  OBVID_TRY(asked);
   std::vector<Output> pictures;
   for (const Output& output : *asked) {
     if (output.format != FileFormat::kPicture) continue;
     const auto path = std::filesystem::path(output.path).replace_extension(".why-not.svg");
     Result<Output> picture = output_of(path.string());
-    if (!picture) return fail(picture.error());
+    OBVID_TRY(picture);
     picture->text = picture_svg({why.fit.contour, why.fit.report, why.fit.certificate}, {name, ""});
     pictures.push_back(std::move(*picture));
   }

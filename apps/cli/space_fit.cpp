@@ -203,7 +203,7 @@ Result<Written> written_files(const SpaceChain& chain, const std::vector<std::st
   Written written;
   if (outputs.empty()) return written;
   const auto nurbs = chain_nurbs(chain, formats.tolerance);
-  if (!nurbs) return fail(nurbs.error());
+  OBVID_TRY(nurbs);
   for (std::size_t k = 0; k < nurbs->size(); ++k) {
     const SpaceNurbs& one = (*nurbs)[k];
     if (!(one.deviation > 0.0)) continue;
@@ -227,7 +227,7 @@ Result<Written> written_files(const SpaceChain& chain, const std::vector<std::st
     for (const std::string& one : made->remarks) written.remarks.push_back(one);
   }
   auto done = write_files(texts, input);
-  if (!done) return fail(done.error());
+  OBVID_TRY(done);
   written.files = std::move(*done);
   return written;
 }
@@ -237,14 +237,14 @@ Result<SpaceJob> space_job(const FitOptions& options, const SpaceSeries& series)
   job.fit = options.job;
   job.along = options.along;
   if (options.construction || options.suggest) {
-    return fail({ErrorCode::kBadOption, "points in space are formed as spirals",
-                 options.suggest ? "--suggest" : "--construction",
-                 "--flat forms the contour in the plane of x and y"});
+    return error(ErrorCode::kBadOption, "points in space are formed as spirals")
+        .where(options.suggest ? "--suggest" : "--construction")
+        .hint("--flat forms the contour in the plane of x and y");
   }
   const auto plane = options.text ? parse_points(*options.text, options.name(), TwoPoints::kDo)
                                   : read_points(options.input, TwoPoints::kDo);
   auto fixed = fixed_in_space(series, plane, options.along, options.name());
-  if (!fixed) return fail(fixed.error());
+  OBVID_TRY(fixed);
   job.fixed = std::move(*fixed);
   return job;
 }

@@ -79,8 +79,9 @@ Result<std::string> file_text(const std::string& path, const SplineReport& repor
   if (ending == ".json") return spline_report_json(report) + "\n";
   if (ending == ".svg") return spline_svg(report);
   if (ending == ".dxf") return spline_dxf(report);
-  return fail({ErrorCode::kUnknownFormat, "spline writes no such file", path,
-               "possible are .csv, .json, .svg and .dxf"});
+  return error(ErrorCode::kUnknownFormat, "spline writes no such file")
+      .where(path)
+      .hint("possible are .csv, .json, .svg and .dxf");
 }
 
 std::string grid_text(const GridSplineReport& report) {
@@ -118,19 +119,19 @@ Result<void> write_grid(const GridSplineReport& report, const SplineOptions& opt
     (ending == ".csv" || ending == ".json" ? own : drawn).push_back(path);
   }
   const auto outputs = surface_outputs_of(drawn, {options.input});
-  if (!outputs) return fail(outputs.error());
+  OBVID_TRY(outputs);
   const auto model = graph_of(report);
-  if (!model) return fail(model.error());
+  OBVID_TRY(model);
   std::vector<std::string> warnings;
   const auto written = write_surface(*model, *outputs, {}, {}, warnings);
-  if (!written) return fail(written.error());
+  OBVID_TRY(written);
   warn(warnings);
   const auto side = static_cast<std::size_t>(std::sqrt(static_cast<double>(options.samples)));
   for (const std::string& path : own) {
     const bool csv = std::filesystem::path(path).extension() == ".csv";
     const std::string text =
         csv ? grid_spline_csv(report, std::max<std::size_t>(side, 2)) : grid_spline_json(report);
-    if (auto done = write_file(path, text); !done) return done;
+    OBVID_TRY(write_file(path, text));
   }
   return {};
 }
@@ -166,7 +167,7 @@ int run_grid(const ColumnTable& table, const SplineOptions& options) {
 
 Result<SplineInput> input_of(const std::string& path, bool curve) {
   const auto table = read_columns(path);
-  if (!table) return fail(table.error());
+  OBVID_TRY(table);
   return spline_input(*table, path == "-" ? "standard input" : path, curve);
 }
 

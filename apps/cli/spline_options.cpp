@@ -72,7 +72,7 @@ Result<void> check(RawSpline& raw) {
                                                    {"values-kept", IdSmoothing::kValuesKept},
                                                    {"values-free", IdSmoothing::kValuesFree}},
                                                   smooth, "--smooth");
-  if (!smoothing) return fail(smoothing.error());
+  OBVID_TRY(smoothing);
   options.job.options.smoothing = *smoothing;
   const auto& tolerance = options.job.tolerance;
   if (tolerance && !(*tolerance > 0.0 && std::isfinite(*tolerance))) {
@@ -103,8 +103,8 @@ Result<Command> parse_spline(int argc, const char* const* argv) {
   } catch (const CLI::ParseError& error) {
     return fail(from_cli(error, "spline"));
   }
-  if (auto done = check_extras(app, app.remaining(), "spline"); !done) return fail(done.error());
-  if (auto done = check(raw); !done) return fail(done.error());
+  OBVID_TRY(check_extras(app, app.remaining(), "spline"));
+  OBVID_TRY(check(raw));
   return Command{raw.options};
 }
 

@@ -27,11 +27,12 @@ Result<std::filesystem::path> studio_program() {
     const std::filesystem::path own = own_file();
     const PartProgram part{"the studio", "obvid-studio", "obvid-studio " OBVID_STUDIO_BUILD_MARK};
     const auto found = find_part(part_folders(own), own, part);
-    if (!found) return fail(found.error());
+    OBVID_TRY(found);
     if (*found) return **found;
   }
-  return fail({ErrorCode::kUnsupported, "the studio was not built with this program", "studio",
-               "build it with tools/build_studio, or install it", -1, 0.0});
+  return error(ErrorCode::kUnsupported, "the studio was not built with this program")
+      .where("studio")
+      .hint("build it with tools/build_studio, or install it");
 }
 
 }  // namespace

@@ -27,8 +27,9 @@ Result<std::vector<Output>> charts_of(const FitOptions& options) {
   if (!outputs) return outputs;
   for (const Output& output : *outputs) {
     if (output.format == FileFormat::kPicture) continue;
-    return fail({ErrorCode::kBadOption, "--suggest forms no contour to be stored", output.path,
-                 "name an .svg for the chart, or use --json"});
+    return error(ErrorCode::kBadOption, "--suggest forms no contour to be stored")
+        .where(output.path)
+        .hint("name an .svg for the chart, or use --json");
   }
   return outputs;
 }

@@ -112,8 +112,9 @@ Result<std::vector<SurfaceOutput>> pictures_of(const SurfaceCheckOptions& option
     const bool picture =
         output.format == SurfaceFormat::kPicture || output.format == SurfaceFormat::kPage;
     if (picture) continue;
-    return fail({ErrorCode::kUnknownFormat, "check writes pictures only", output.path,
-                 "give a name that ends in .svg or .html; other formats: obvid surface convert"});
+    return error(ErrorCode::kUnknownFormat, "check writes pictures only")
+        .where(output.path)
+        .hint("give a name that ends in .svg or .html; other formats: obvid surface convert");
   }
   return outputs;
 }

@@ -278,7 +278,7 @@ Result<Command> checked_maker(RawSurface& raw, const KindText& text) {
               make.job.units = std::move(given);
             });
           });
-  if (!done) return fail(done.error());
+  OBVID_TRY(done);
   return Command{make};
 }
 
@@ -287,7 +287,7 @@ Result<Command> checked_check(RawSurface& raw) {
     return fail(usage("surface check needs a surface", "see obvid surface check --help"));
   }
   const auto samples = checked_samples(raw.samples);
-  if (!samples) return fail(samples.error());
+  OBVID_TRY(samples);
   raw.check.samples = *samples;
   raw.check.progress = !raw.no_progress && !raw.check.json;
   return Command{raw.check};
@@ -305,9 +305,7 @@ Result<Command> checked_surface(const CLI::App& app, RawSurface& raw) {
   const CLI::App& kind = *app.get_subcommands().front();
   const std::vector<std::string> left = kind.remaining();
   extras.insert(extras.end(), left.begin(), left.end());
-  if (auto done = check_extras(kind, extras, "surface " + kind.get_name()); !done) {
-    return fail(done.error());
-  }
+  OBVID_TRY(check_extras(kind, extras, "surface " + kind.get_name()));
   for (const KindText& text : kKinds) {
     if (kind.get_name() == text.name) return checked_maker(raw, text);
   }

@@ -9,13 +9,14 @@ namespace obvid {
 
 Result<std::vector<SurfaceOutput>> surface_outputs_of(const std::vector<std::string>& paths,
                                                       const std::vector<std::string>& inputs) {
-  if (auto free = check_outputs(paths, inputs); !free) return fail(free.error());
+  OBVID_TRY(check_outputs(paths, inputs));
   std::vector<SurfaceOutput> outputs;
   for (const std::string& path : paths) {
     const auto format = surface_format_of(path);
     if (!format) {
-      return fail({ErrorCode::kUnknownFormat, "no format has this file extension", path,
-                   "possible file extensions are " + known_surface_endings(), -1, 0.0});
+      return error(ErrorCode::kUnknownFormat, "no format has this file extension")
+          .where(path)
+          .hint("possible file extensions are " + known_surface_endings());
     }
     outputs.push_back({path, *format});
   }
@@ -30,12 +31,12 @@ Result<Written> write_surface(const SurfaceModel& model, const std::vector<Surfa
   std::vector<std::string> texts;
   for (const SurfaceOutput& output : outputs) {
     auto text = exporter.text(output.format, written.remarks);
-    if (!text) return fail(text.error());
+    OBVID_TRY(text);
     texts.push_back(std::move(*text));
   }
   warnings.insert(warnings.end(), exporter.warnings().begin(), exporter.warnings().end());
   for (std::size_t i = 0; i < outputs.size(); ++i) {
-    if (auto done = write_file(outputs[i].path, texts[i]); !done) return fail(done.error());
+    OBVID_TRY(write_file(outputs[i].path, texts[i]));
     written.files.push_back(outputs[i].path);
   }
   return written;

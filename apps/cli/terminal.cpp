@@ -48,8 +48,8 @@ std::string bold(std::string_view text) { return painted(text, "1"); }
 Result<void> put(std::string_view text) {
   const bool whole = std::fwrite(text.data(), 1, text.size(), stdout) == text.size();
   if (whole && std::fflush(stdout) == 0) return {};
-  return fail({ErrorCode::kWriteFailed, fmt::format("cannot write: {}", std::strerror(errno)),
-               "standard output", ""});
+  return error(ErrorCode::kWriteFailed, fmt::format("cannot write: {}", std::strerror(errno)))
+      .where("standard output");
 }
 
 int report(const Error& error) {

@@ -28,9 +28,7 @@ struct ToolpathOutput {
 };
 
 Result<std::vector<ToolpathOutput>> outputs_of(const ToolpathCommand& command) {
-  if (auto free = check_outputs(command.outputs, {&command.input, 1}); !free) {
-    return fail(free.error());
-  }
+  OBVID_TRY(check_outputs(command.outputs, {&command.input, 1}));
   std::vector<ToolpathOutput> outputs;
   for (const std::string& path : command.outputs) {
     const auto surface = surface_format_of(path);
@@ -40,8 +38,9 @@ Result<std::vector<ToolpathOutput>> outputs_of(const ToolpathCommand& command) {
       outputs.push_back(
           {path, surface == SurfaceFormat::kPicture ? Kind::kPicture : Kind::kPage, {}});
     } else {
-      return fail({ErrorCode::kUnknownFormat, "no format of tool paths has this file extension",
-                   path, "possible are .nc, .ngc, .gcode, .tap, .svg, .html", -1, 0.0});
+      return error(ErrorCode::kUnknownFormat, "no format of tool paths has this file extension")
+          .where(path)
+          .hint("possible are .nc, .ngc, .gcode, .tap, .svg, .html");
     }
   }
   return outputs;
@@ -61,7 +60,7 @@ Result<void> fill(ToolpathOutput& output, Made& made, SurfaceExporter& exporter)
   }
   const bool page = output.kind == Kind::kPage;
   auto text = exporter.text(page ? SurfaceFormat::kPage : SurfaceFormat::kPicture, made.remarks);
-  if (!text) return fail(text.error());
+  OBVID_TRY(text);
   output.text = std::move(*text);
   return {};
 }
@@ -71,10 +70,10 @@ Result<Made> made_from(const ToolpathCommand& command, std::vector<ToolpathOutpu
   Made made;
   bar.tell("reading", 0.0);
   auto model = read_surface(command.input, made.warnings);
-  if (!model) return fail(model.error());
+  OBVID_TRY(model);
   made.model = std::move(*model);
   auto path = make_toolpath(made.model, command.job, bar.progress());
-  if (!path) return fail(path.error());
+  OBVID_TRY(path);
   made.job = std::move(*path);
   made.warnings.insert(made.warnings.end(), made.job.warnings.begin(), made.job.warnings.end());
   SurfaceExportOptions formats;
@@ -83,7 +82,7 @@ Result<Made> made_from(const ToolpathCommand& command, std::vector<ToolpathOutpu
   SurfaceExporter exporter(made.model, formats, bar.progress());
   bar.tell("writing", 1.0);
   for (ToolpathOutput& output : outputs) {
-    if (auto done = fill(output, made, exporter); !done) return fail(done.error());
+    OBVID_TRY(fill(output, made, exporter));
   }
   return made;
 }

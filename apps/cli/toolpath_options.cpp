@@ -89,8 +89,8 @@ void add_program(CLI::App& app, RawToolpath& raw) {
 
 Result<Command> checked_toolpath(const CLI::App& app, RawToolpath& raw) {
   ToolpathCommand& command = raw.command;
-  if (auto done = check_extras(app, app.remaining(), "toolpath"); !done) return fail(done.error());
-  if (auto done = set_toolpath(raw.values, command.job); !done) return fail(done.error());
+  OBVID_TRY(check_extras(app, app.remaining(), "toolpath"));
+  OBVID_TRY(set_toolpath(raw.values, command.job));
   if (command.input.empty()) {
     return fail(usage("toolpath needs a surface", "see obvid toolpath --help"));
   }

@@ -13,9 +13,9 @@ bool run_named_builder(const char* /*variable*/) { return false; }
 namespace cad {
 
 Result<std::filesystem::path> helper_file() {
-  return fail({ErrorCode::kUnsupported,
-               "STEP, IGES and BREP are read by another program, which no page can start", "",
-               "use the program obvid on your machine", -1, 0.0});
+  return error(ErrorCode::kUnsupported,
+               "STEP, IGES and BREP are read by another program, which no page can start")
+      .hint("use the program obvid on your machine");
 }
 
 Answer ask_helper(const std::string& /*program*/, std::string_view /*request*/,

@@ -19,7 +19,7 @@ constexpr Known kFiles{.formats = true};
 Result<std::unique_ptr<obvid_files>> files_of(const obvid_contour& contour, const char* ending,
                                               const char* options) {
   Result<Request> request = request_of(options, kFiles);
-  if (!request) return fail(request.error());
+  OBVID_TRY(request);
   const auto format = format_of("contour." + std::string(ending));
   if (!format) {
     return fail({ErrorCode::kUnknownFormat,
@@ -37,7 +37,7 @@ Result<std::unique_ptr<obvid_files>> files_of(const obvid_contour& contour, cons
     stored = &other;
   }
   Result<Exported> made = export_contour(*stored, *format, formats);
-  if (!made) return fail(made.error());
+  OBVID_TRY(made);
   auto out = std::make_unique<obvid_files>();
   out->files = std::move(made->files);
   if (!request->profile.empty()) out->remarks.push_back(request->profile);
@@ -92,7 +92,7 @@ int obvid_evaluate(const obvid_contour* contour, obvid_place by, const double* a
     const std::span<const double> places(at, n);
     const auto found = by == OBVID_BY_PARAMETER ? sample_at_parameters(pieces, places)
                                                 : sample_at_lengths(pieces, places);
-    if (!found) return fail(found.error());
+    OBVID_TRY(found);
     for (std::size_t i = 0; i < n; ++i) {
       const CurveSample& one = (*found)[i];
       if (xy != nullptr) {
@@ -134,7 +134,7 @@ int obvid_export(const obvid_contour* contour, const char* ending, const char* o
                  obvid_files** files, obvid_error** error) {
   return guarded(error, [&]() -> Result<void> {
     auto out = files_of(*contour, ending, options);
-    if (!out) return fail(out.error());
+    OBVID_TRY(out);
     *files = out->release();
     return {};
   });

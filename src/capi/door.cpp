@@ -55,7 +55,7 @@ int hand_out(const Error& error, obvid_error** out, std::vector<std::size_t> poi
     owned->indices.push_back(static_cast<std::size_t>(error.index));
   }
   owned->code = code;
-  owned->category = static_cast<obvid_category>(exit_code(error.code));
+  owned->category = static_cast<obvid_category>(category(error.code));
   owned->message = owned->message_text.c_str();
   owned->where = owned->where_text.c_str();
   owned->advice = owned->advice_text.c_str();

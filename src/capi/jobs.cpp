@@ -55,11 +55,11 @@ int report_on_points(const obvid_input* input, const char* options, const Known&
                      char** report, obvid_error** error, Make&& make) {
   return guarded(error, [&]() -> Result<void> {
     const Result<Request> request = request_of(options, known);
-    if (!request) return fail(request.error());
+    OBVID_TRY(request);
     Result<PointSeries> series = series_of(*input, *request, known.import);
-    if (!series) return fail(series.error());
+    OBVID_TRY(series);
     const Result<std::string> text = make(*series, *request);
-    if (!text) return fail(text.error());
+    OBVID_TRY(text);
     hand_out_text(*text, report);
     return {};
   });
@@ -67,12 +67,12 @@ int report_on_points(const obvid_input* input, const char* options, const Known&
 
 Result<std::string> drawing_report(const obvid_input& input, const Request& request) {
   Result<Drawing> drawing = drawing_of(input);
-  if (!drawing) return fail(drawing.error());
+  OBVID_TRY(drawing);
   if (request.units) {
     if (auto told = take_units(drawing->units, *request.units)) drawing->warnings.push_back(*told);
   }
   const auto all = analyse_drawing(std::move(*drawing), request.import.curve, input.name);
-  if (!all) return fail(all.error());
+  OBVID_TRY(all);
   const auto& points = all->points;
   return audit_json(all->drawing, all->audits,
                     points ? series_report_json(points->series, points->analysis) : "");
@@ -80,7 +80,7 @@ Result<std::string> drawing_report(const obvid_input& input, const Request& requ
 
 Result<std::string> points_report(PointSeries& series) {
   const Result<Analysis> analysis = analyse(series.points);
-  if (!analysis) return fail(analysis.error());
+  OBVID_TRY(analysis);
   add_rounding_warning(series, *analysis);
   return series_report_json(series, *analysis);
 }
@@ -91,15 +91,15 @@ Result<std::unique_ptr<obvid_contour>> stored_of(const obvid_input& input, const
                                          file_kind(input.text) != FileKind::kContour);
   if (foreign) {
     const Result<Drawing> drawing = drawing_of(input);
-    if (!drawing) return fail(drawing.error());
+    OBVID_TRY(drawing);
     auto drawn = drawn_contour(*drawing, request.import, input.name);
-    if (!drawn) return fail(drawn.error());
+    OBVID_TRY(drawn);
     out->stored = std::move(drawn->stored);
     out->name = std::move(drawn->name);
     out->picture = std::move(drawn->picture);
   } else {
     auto stored = contour_from_json(input.text, input.name);
-    if (!stored) return fail(stored.error());
+    OBVID_TRY(stored);
     out->stored = std::move(*stored);
     out->picture.name = std::filesystem::path(input.name).filename().string();
   }
@@ -130,11 +130,11 @@ int obvid_fit(const obvid_input* input, const char* options, const obvid_run* ru
               obvid_contour** contour, char** report, obvid_error** error) {
   return guarded(error, [&]() -> Result<void> {
     const Result<Request> request = request_of(options, kForming);
-    if (!request) return fail(request.error());
+    OBVID_TRY(request);
     const Result<PointSeries> series = series_of(*input, *request, true);
-    if (!series) return fail(series.error());
+    OBVID_TRY(series);
     Result<Fit> made = formed(*series, *request, context_of(run));
-    if (!made) return fail(made.error());
+    OBVID_TRY(made);
     // a construction promises nothing: its certificate says what it is
     const bool promises = !request->worksheet.construction;
     const std::optional<Error> broken = promises ? broken_promise(*made) : std::nullopt;
@@ -156,16 +156,16 @@ int obvid_why_not(const obvid_input* input, const char* options, const obvid_run
   int code = 0;
   const int failed = guarded(error, [&]() -> Result<void> {
     const Result<Request> request = request_of(options, kFitting);
-    if (!request) return fail(request.error());
+    OBVID_TRY(request);
     const Result<PointSeries> series = series_of(*input, *request, true);
-    if (!series) return fail(series.error());
+    OBVID_TRY(series);
     if (report != nullptr) *report = nullptr;
     const RunContext context = context_of(run);
     const Result<Fit> made = fit(*series, request->job, RunContext({}, context.cancelled));
     if (made) return {};
-    if (exit_code(made.error().code) != OBVID_NO_CONTOUR) return fail(made.error());
+    if (category(made.error().code) != ErrorCategory::kNoContour) return fail(made.error());
     const Result<Refusal> found = explain_refusal(*series, request->job, made.error(), context);
-    if (!found) return fail(found.error());
+    OBVID_TRY(found);
     hand_out_text(refusal_json(found->error, *series, found->why, found->range, {}), report);
     code = hand_out(found->error, error, points_in_the_way(*found));
     return {};
@@ -197,15 +197,15 @@ int obvid_analyse(const obvid_input* input, const char* options, const obvid_run
   (void)run;  // takes no longer than reading
   return guarded(error, [&]() -> Result<void> {
     const Result<Request> request = request_of(options, kImporting);
-    if (!request) return fail(request.error());
+    OBVID_TRY(request);
     Result<std::string> text = [&]() -> Result<std::string> {
       const bool drawing = input->by_path || (!input->points && is_drawing_text(input->text));
       if (drawing) return drawing_report(*input, *request);
       Result<PointSeries> series = series_of(*input, *request, false);
-      if (!series) return fail(series.error());
+      OBVID_TRY(series);
       return points_report(*series);
     }();
-    if (!text) return fail(text.error());
+    OBVID_TRY(text);
     hand_out_text(*text, report);
     return {};
   });
@@ -228,15 +228,15 @@ int obvid_worksheet(const obvid_input* input, const char* options, const char* e
                     const obvid_run* run, obvid_files** files, obvid_error** error) {
   return guarded(error, [&]() -> Result<void> {
     const Result<Request> request = request_of(options, kWorksheet);
-    if (!request) return fail(request.error());
+    OBVID_TRY(request);
     const Result<PointSeries> series = series_of(*input, *request, true);
-    if (!series) return fail(series.error());
+    OBVID_TRY(series);
     const auto found = region_table(*series, request->worksheet);
     if (!found) {
       return fail(explained(*series, request->worksheet, found.error(), context_of(run)));
     }
     auto made = region_file(ending == nullptr ? "" : ending, *series, *found);
-    if (!made) return fail(made.error());
+    OBVID_TRY(made);
     auto out = std::make_unique<obvid_files>();
     out->files.push_back({"", std::move(made->text)});
     if (!made->remark.empty()) out->remarks.push_back(std::move(made->remark));
@@ -259,9 +259,9 @@ int obvid_stored(const obvid_input* input, const char* options, const obvid_run*
   (void)run;
   return guarded(error, [&]() -> Result<void> {
     const Result<Request> request = request_of(options, kImporting);
-    if (!request) return fail(request.error());
+    OBVID_TRY(request);
     auto out = stored_of(*input, *request);
-    if (!out) return fail(out.error());
+    OBVID_TRY(out);
     if (request->units) (void)take_units((*out)->stored.contour.units, *request->units);
     *contour = out->release();
     return {};
@@ -272,7 +272,7 @@ int obvid_verify(const obvid_contour* contour, const obvid_run* run, char** repo
                  obvid_error** error) {
   return guarded(error, [&]() -> Result<void> {
     const Result<Verification> found = verify(contour->stored, context_of(run));
-    if (!found) return fail(found.error());
+    OBVID_TRY(found);
     hand_out_text(verification_json(contour->stored, *found), report);
     if (const auto broken = broken_promise(contour->stored, *found)) return fail(*broken);
     return {};

@@ -85,7 +85,7 @@ Result<void> take_construction(Written& w, const Known& known, Request& out) {
   if (!known.worksheet && !asked) return {};
   typed.prefer = std::exchange(w.typed.prefer, "fair");
   auto made = construction_values(typed);
-  if (!made) return fail(made.error());
+  OBVID_TRY(made);
   if (asked && w.carrier != "spiral") {
     return fail(bad_option("a construction is its own carrier", "--carrier",
                            "leave --carrier out, or --construction"));
@@ -106,7 +106,7 @@ Result<void> check(Written& w, const Known& known, Request& out) {
         out.worksheet = with_job(out.worksheet, out.job);
         if (has_both_headings(out.job)) out.import.two_points = TwoPoints::kDo;
         const auto along = direction_named(w.along);
-        if (!along) return fail(along.error());
+        OBVID_TRY(along);
         out.along = *along;
         if (!w.units) return {};
         return given_units(*w.units, "units").map([&](Units given) { out.units = given; });
@@ -118,11 +118,11 @@ Result<void> check(Written& w, const Known& known, Request& out) {
 Result<Request> request_of(const char* options, const Known& known) {
   Request out;
   const auto object = options_in(options);
-  if (!object) return fail(object.error());
+  OBVID_TRY(object);
   if (object->empty()) return out;
   Written written;
-  if (auto done = take(*object, setters(written, out, known)); !done) return fail(done.error());
-  if (auto done = check(written, known, out); !done) return fail(done.error());
+  OBVID_TRY(take(*object, setters(written, out, known)));
+  OBVID_TRY(check(written, known, out));
   return out;
 }
 

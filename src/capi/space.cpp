@@ -31,7 +31,7 @@ Result<SpaceSeries> space_series_of(const obvid_input& input, const Request& req
   if (input.space) return for_a_curve(*input.space);
   if (!input.points && !input.by_path) {
     auto found = parse_space_series(input.text, input.name, request.along.has_value());
-    if (!found) return fail(found.error());
+    OBVID_TRY(found);
     if (*found) return std::move(**found);
   }
   return fail({ErrorCode::kBadOption, "there are no points x, y, z whose z changes", input.name,
@@ -46,7 +46,7 @@ Result<SpaceJob> space_job_of(const obvid_input& input, const SpaceSeries& serie
   if (input.space) return job;
   auto fixed = fixed_in_space(series, parse_points(input.text, input.name, TwoPoints::kDo),
                               request.along, input.name);
-  if (!fixed) return fail(fixed.error());
+  OBVID_TRY(fixed);
   job.fixed = std::move(*fixed);
   return job;
 }
@@ -55,7 +55,7 @@ Result<SpaceJob> space_job_of(const obvid_input& input, const SpaceSeries& serie
 Result<StoredSpaceChain> as_stored(const obvid_space& space) {
   if (space.stored) return *space.stored;
   const auto nurbs = chain_nurbs(space.chain, std::nullopt);
-  if (!nurbs) return fail(nurbs.error());
+  OBVID_TRY(nurbs);
   return space_chain_from_json(space_chain_json(space.chain, *nurbs), "curve");
 }
 
@@ -71,19 +71,19 @@ int obvid_fit_space(const obvid_input* input, const char* options, const obvid_r
                     obvid_space** space, char** report, obvid_error** error) {
   return guarded(error, [&]() -> Result<void> {
     const Result<Request> request = request_of(options, kSpace);
-    if (!request) return fail(request.error());
+    OBVID_TRY(request);
     Result<SpaceSeries> series = space_series_of(*input, *request);
-    if (!series) return fail(series.error());
+    OBVID_TRY(series);
     if (request->units) series->units = *request->units;
     const Result<SpaceJob> job = space_job_of(*input, *series, *request);
-    if (!job) return fail(job.error());
+    OBVID_TRY(job);
     Result<SpaceChain> made = fit_space_chain(*series, *job, context_of(run));
-    if (!made) return fail(made.error());
+    OBVID_TRY(made);
     const std::optional<Error> broken = broken_promise(*made);
     std::string text;
     if (report != nullptr) {
       const auto nurbs = chain_nurbs(*made, std::nullopt);
-      if (!nurbs) return fail(nurbs.error());
+      OBVID_TRY(nurbs);
       text = space_chain_json(*made, *nurbs);
     }
     auto out = std::make_unique<obvid_space>();
@@ -98,7 +98,7 @@ int obvid_fit_space(const obvid_input* input, const char* options, const obvid_r
 int obvid_stored_space(const obvid_input* input, obvid_space** space, obvid_error** error) {
   return guarded(error, [&]() -> Result<void> {
     auto stored = space_chain_from_json(input->text, input->name);
-    if (!stored) return fail(stored.error());
+    OBVID_TRY(stored);
     auto out = std::make_unique<obvid_space>();
     out->chain = space_chain_of(*stored);
     out->stored = std::move(*stored);
@@ -110,7 +110,7 @@ int obvid_stored_space(const obvid_input* input, obvid_space** space, obvid_erro
 int obvid_verify_space(const obvid_space* space, char** report, obvid_error** error) {
   return guarded(error, [&]() -> Result<void> {
     const auto stored = as_stored(*space);
-    if (!stored) return fail(stored.error());
+    OBVID_TRY(stored);
     const SpaceChainVerification found = verify(*stored);
     if (report != nullptr) *report = text_of(space_verification_json(*stored, found));
     if (const auto broken = broken_promise(*stored, found)) return fail(*broken);
@@ -149,7 +149,7 @@ int obvid_space_evaluate(const obvid_space* space, size_t part, const double* at
                    static_cast<double>(part)});
     }
     const auto found = sample_space(space->chain.parts[part], {at, n});
-    if (!found) return fail(found.error());
+    OBVID_TRY(found);
     const auto put = [](double* to, std::size_t i, Vec3 v) {
       if (to == nullptr) return;
       to[3 * i] = v.x;
@@ -173,16 +173,16 @@ int obvid_space_export(const obvid_space* space, const char* ending, const char*
                        obvid_files** files, obvid_error** error) {
   return guarded(error, [&]() -> Result<void> {
     const Result<Request> request = request_of(options, kSpaceFiles);
-    if (!request) return fail(request.error());
+    OBVID_TRY(request);
     SpaceChain chain = space->chain;
     if (request->units) (void)take_units(chain, *request->units);
     const auto nurbs = chain_nurbs(chain, request->formats.tolerance);
-    if (!nurbs) return fail(nurbs.error());
+    OBVID_TRY(nurbs);
     std::string dotted = "." + std::string(ending);
     std::transform(dotted.begin(), dotted.end(), dotted.begin(),
                    [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
     Result<Exported> made = export_space(chain, *nurbs, dotted, request->formats);
-    if (!made) return fail(made.error());
+    OBVID_TRY(made);
     auto out = std::make_unique<obvid_files>();
     out->files = std::move(made->files);
     out->remarks = std::move(made->remarks);

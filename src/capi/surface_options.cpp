@@ -88,20 +88,20 @@ Result<void> check_written(SurfaceWritten& w, const SurfaceKnown& known, Surface
     out.make.kind = *known.kind;
     if (w.units) {
       auto given = given_units(*w.units, "units");
-      if (!given) return fail(given.error());
+      OBVID_TRY(given);
       out.make.units = std::move(*given);
     }
     if (w.row) {
       if (*w.row < 1) return fail(bad_option("rows have points", "row", "give 2 or more"));
       out.make.row = static_cast<std::size_t>(*w.row);
     }
-    if (auto done = set_surface(w.surface, out.make); !done) return done;
-    if (auto done = set_values(w.typed, out.make.sections); !done) return done;
+    OBVID_TRY(set_surface(w.surface, out.make));
+    OBVID_TRY(set_values(w.typed, out.make.sections));
   }
-  if (auto done = set_surface_formats(w.formats, out.formats); !done) return done;
+  OBVID_TRY(set_surface_formats(w.formats, out.formats));
   if (w.samples) {
     const auto samples = checked_samples(*w.samples);
-    if (!samples) return fail(samples.error());
+    OBVID_TRY(samples);
     out.samples = *samples;
   }
   return set_toolpath(w.toolpath, out.toolpath);
@@ -112,10 +112,10 @@ Result<void> check_written(SurfaceWritten& w, const SurfaceKnown& known, Surface
 Result<SurfaceRequest> surface_request_of(const char* options, const SurfaceKnown& known) {
   SurfaceRequest out;
   const auto object = options_in(options);
-  if (!object) return fail(object.error());
+  OBVID_TRY(object);
   SurfaceWritten written;
-  if (auto done = take(*object, setters_of(written, out, known)); !done) return fail(done.error());
-  if (auto done = check_written(written, known, out); !done) return fail(done.error());
+  OBVID_TRY(take(*object, setters_of(written, out, known)));
+  OBVID_TRY(check_written(written, known, out));
   return out;
 }
 

@@ -59,9 +59,9 @@ int obvid_surface_make(const char* kind, const obvid_input* const* inputs, size_
   if (report != nullptr) *report = nullptr;
   return guarded(error, [&]() -> Result<void> {
     const auto what = surface_kind_named(kind == nullptr ? "" : kind);
-    if (!what) return fail(what.error());
+    OBVID_TRY(what);
     auto request = surface_request_of(options, {.kind = *what});
-    if (!request) return fail(request.error());
+    OBVID_TRY(request);
     SurfaceJob& job = request->make;
     for (size_t i = 0; i < count; ++i) job.inputs.push_back(surface_input(*inputs[i]));
     for (size_t i = 0; i < crossing; ++i) job.across.push_back(surface_input(*across[i]));
@@ -69,7 +69,7 @@ int obvid_surface_make(const char* kind, const obvid_input* const* inputs, size_
       return fail({ErrorCode::kUsage, "a surface needs inputs", std::string("kind ") + kind, ""});
     }
     auto made = make_surface(job, context_of(run));
-    if (!made) return fail(made.error());
+    OBVID_TRY(made);
     if (report != nullptr) *report = text_of(surface_report_json(*made, {}));
     const auto failed = not_proved(*made);
     if (surface != nullptr) {
@@ -88,11 +88,11 @@ int obvid_surface_check(const obvid_surface* surface, const char* options, const
                         char** report, obvid_error** error) {
   return guarded(error, [&]() -> Result<void> {
     const auto request = surface_request_of(options, kChecking);
-    if (!request) return fail(request.error());
+    OBVID_TRY(request);
     CheckOptions how;
     how.samples = request->samples;
     const auto check = check_surface(surface->model, how, context_of(run));
-    if (!check) return fail(check.error());
+    OBVID_TRY(check);
     if (report != nullptr) *report = text_of(surface_check_json(surface->model, *check, {}));
     return {};
   });
@@ -102,7 +102,7 @@ int obvid_surface_export(const obvid_surface* surface, const char* ending, const
                          const obvid_run* run, obvid_files** files, obvid_error** error) {
   return guarded(error, [&]() -> Result<void> {
     auto request = surface_request_of(options, kSurfaceFiles);
-    if (!request) return fail(request.error());
+    OBVID_TRY(request);
     const std::string name = ending == nullptr ? "" : ending;
     const auto format = surface_format_of("surface." + name);
     if (!format) {
@@ -113,7 +113,7 @@ int obvid_surface_export(const obvid_surface* surface, const char* ending, const
     SurfaceExporter exporter(surface->model, request->formats, context_of(run));
     auto out = std::make_unique<obvid_files>();
     auto text = exporter.text(*format, out->remarks);
-    if (!text) return fail(text.error());
+    OBVID_TRY(text);
     out->files.push_back({"", std::move(*text)});
     out->remarks.insert(out->remarks.end(), exporter.warnings().begin(), exporter.warnings().end());
     *files = out.release();
@@ -125,9 +125,9 @@ int obvid_surface_toolpath(const obvid_surface* surface, const char* options, co
                            obvid_files** files, char** report, obvid_error** error) {
   return guarded(error, [&]() -> Result<void> {
     const auto request = surface_request_of(options, kMilling);
-    if (!request) return fail(request.error());
+    OBVID_TRY(request);
     auto made = make_toolpath(surface->model, request->toolpath, context_of(run));
-    if (!made) return fail(made.error());
+    OBVID_TRY(made);
     if (report != nullptr) *report = text_of(toolpath_report_json(*made, {}));
     if (files != nullptr) {
       auto out = std::make_unique<obvid_files>();

@@ -117,7 +117,7 @@ double repair_work(std::size_t points) {
 Result<SeriesChain> choose_elements(const std::vector<Vec2>& points, const Analysis& analysis,
                                     const ChainWishes& wishes, Watch& watch) {
   auto problem = chain_problem(analysis, wishes);
-  if (!problem) return tl::unexpected(problem.error());
+  OBVID_TRY(problem);
   Extended current;
   current.points = points;
   current.problem = std::move(*problem);
@@ -206,11 +206,12 @@ Result<SeriesChain> follow_directions(DirectedSeries series, Watch& watch) {
     if (tried.chain) return std::move(*tried.chain);
     why = tried.why;
   }
-  return fail(
-      {ErrorCode::kNoSpiral, "no curve with curvature changing as wanted runs through the nodes",
-       "nodes " + std::to_string(why.first_point + 1) + " to " + std::to_string(why.last_point + 1),
-       "", static_cast<std::ptrdiff_t>(why.first_point), why.slack,
-       static_cast<std::ptrdiff_t>(why.last_point)});
+  return error(ErrorCode::kNoSpiral,
+               "no curve with curvature changing as wanted runs through the nodes")
+      .where("nodes " + std::to_string(why.first_point + 1) + " to " +
+             std::to_string(why.last_point + 1))
+      .points(why.first_point, why.last_point)
+      .value(why.slack);
 }
 
 }  // namespace obvid

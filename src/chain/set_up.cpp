@@ -171,18 +171,21 @@ Result<ChainProblem> chain_problem(const Analysis& a, const ChainWishes& wishes)
     for (std::size_t i = 0; i < p.nodes.size(); ++i) {
       const AdjacentCircle& c = a.circles[i];
       if (turns * c.kappa < 0.0 && std::abs(c.kappa) > c.rounding) {
-        return fail({ErrorCode::kFixedDataContradict,
-                     "a convex contour was asked for, but the points turn the other way here",
-                     "point " + std::to_string(i + 1), "drop the wish for a convex contour",
-                     static_cast<std::ptrdiff_t>(i), c.kappa});
+        return error(ErrorCode::kFixedDataContradict,
+                     "a convex contour was asked for, but the points turn the other way here")
+            .where("point " + std::to_string(i + 1))
+            .hint("drop the wish for a convex contour")
+            .point(i)
+            .value(c.kappa);
       }
       if (p.nodes[i].kappa && turns * *p.nodes[i].kappa < 0.0) {
-        return fail(
-            {ErrorCode::kFixedDataContradict,
-             "a convex contour was asked for, but the fixed radius turns the other way here",
-             "point " + std::to_string(i + 1),
-             "drop the wish for a convex contour, or change the sign of the radius",
-             static_cast<std::ptrdiff_t>(i), *p.nodes[i].kappa});
+        return error(
+                   ErrorCode::kFixedDataContradict,
+                   "a convex contour was asked for, but the fixed radius turns the other way here")
+            .where("point " + std::to_string(i + 1))
+            .hint("drop the wish for a convex contour, or change the sign of the radius")
+            .point(i)
+            .value(*p.nodes[i].kappa);
       }
       p.nodes[i].curvature_sign = turns;
     }
@@ -192,11 +195,13 @@ Result<ChainProblem> chain_problem(const Analysis& a, const ChainWishes& wishes)
       const double theta = heading_on_stretch(a, s, i);
       if (i < wishes.fixed.size() &&
           contradicts(wishes.fixed[i], theta, s.kappa, a.circles[i].rounding)) {
-        return fail({ErrorCode::kFixedDataContradict,
+        return error(ErrorCode::kFixedDataContradict,
                      "the points lie on one circle or line here, with another heading or radius "
-                     "than the fixed one",
-                     fmt::format("point {}", i + 1), "free the heading and radius there",
-                     static_cast<std::ptrdiff_t>(i), s.kappa});
+                     "than the fixed one")
+            .where(fmt::format("point {}", i + 1))
+            .hint("free the heading and radius there")
+            .point(i)
+            .value(s.kappa);
       }
       p.nodes[i].theta = theta;
       p.nodes[i].kappa = s.kappa;

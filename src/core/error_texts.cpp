@@ -77,6 +77,22 @@ constexpr std::array kTexts{
               "The file was recognised, but its kind, its version or one of its parts cannot be "
               "read by this version of the program.",
               "Export the points as text, or update the program if a newer one wrote the file."},
+    ErrorText{ErrorCode::kNothingThere, "Nothing there",
+              "The file, contour or model was read, and holds nothing of the kind that was asked "
+              "for: no pieces, no curves, no patches, no triangles.",
+              "Check that the right file, layer or part was given."},
+    ErrorText{ErrorCode::kTooFewCurves, "Too few curves or sections",
+              "A surface needs more curves: a skin two sections, a net two curves of each family, "
+              "a patch between four borders all four.",
+              "Give the missing curves, and check that all files were read as they were meant."},
+    ErrorText{ErrorCode::kOutOfOrder, "Neighbours coincide or are out of order",
+              "Nodes, parameters or knots must ascend, and neighbouring points, rows or sections "
+              "must differ. Where they do not, nothing can be laid between them.",
+              "Sort them, and keep one of those that coincide."},
+    ErrorText{ErrorCode::kDamaged, "The file is not what it says",
+              "The file is not of the kind that its name or its head says, or it is cut off or "
+              "damaged, so that the reader of that kind gives up.",
+              "Export it again, or get it again from where it came."},
     ErrorText{ErrorCode::kNoSpiral, "No contour with monotone curvature was found here",
               "No curve was found that joins the named points and whose curvature changes in the "
               "direction that the data ask for, or the carrier has no such curve: conics and "
@@ -123,6 +139,12 @@ constexpr std::array kTexts{
         "Look at the named points. If the contour turns at once there, mark corners "
         "(--corner-at); if a straight or round part is given by its ends only, put points on "
         "it; or allow the points to move (--noise)."},
+    ErrorText{
+        ErrorCode::kSurfaceFolds, "The surface would fold back on itself",
+        "At the distance that was asked for, the offset passes a centre of curvature of the "
+        "surface and turns inside out there. The error names the places and the largest distance "
+        "on this side at which it does not.",
+        "Take a smaller distance, or smooth the surface where it bends most."},
     ErrorText{
         ErrorCode::kNotProved, "Formed, but not proved",
         "A contour was formed, but the proof of one of its properties did not succeed. It may "

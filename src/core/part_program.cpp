@@ -98,7 +98,7 @@ Result<std::optional<fs::path>> find_part(const std::vector<fs::path>& folders, 
     const fs::path file = folder / part.file;
     std::error_code ignored;
     if (!fs::exists(fs::symlink_status(file, ignored))) continue;
-    if (auto good = check_part(file, own, part); !good) return fail(good.error());
+    OBVID_TRY(check_part(file, own, part));
     return file;
   }
   return std::nullopt;

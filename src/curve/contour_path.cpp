@@ -220,9 +220,11 @@ Result<ContourPath> ContourPath::without_cusps(std::span<const Piece> pieces, do
     const auto cusp = path.lengths_[k].cusp();
     if (!cusp) continue;
     const Vec2 p = evaluate(pieces[k], *cusp).point;
-    return fail({ErrorCode::kChordReversal,
-                 fmt::format("the curve has no tangent at ({:.10g}, {:.10g})", p.x, p.y), "",
-                 "cut it there", static_cast<std::ptrdiff_t>(k), *cusp});
+    return error(ErrorCode::kChordReversal,
+                 fmt::format("the curve has no tangent at ({:.10g}, {:.10g})", p.x, p.y))
+        .hint("cut it there")
+        .point(k)
+        .value(*cusp);
   }
   return path;
 }

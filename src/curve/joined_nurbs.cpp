@@ -36,8 +36,7 @@ double end_speed(const Segment& s) {
 
 tl::unexpected<Error> refuse(ErrorCode code, const char* what, std::size_t piece,
                              const char* hint) {
-  return fail({code, what, "piece " + std::to_string(piece + 1), hint,
-               static_cast<std::ptrdiff_t>(piece), 0.0});
+  return error(code, what).where("piece " + std::to_string(piece + 1)).hint(hint).point(piece);
 }
 
 /// Whether a curve that is C1 where `b` begins would leave that point, by more than rounding.
@@ -238,7 +237,7 @@ class Joiner {
   explicit Joiner(const Contour& contour) : contour_(contour) {}
 
   Result<NurbsCurve> run() {
-    if (auto done = add_all(); !done) return fail(done.error());
+    OBVID_TRY(add_all());
     if (speed_drift() > kMostDrift) {  // kernels take small derivatives for singular points
       std::vector<Segment> uneven = std::exchange(segments_, {});
       even_ = true;
@@ -253,7 +252,7 @@ class Joiner {
   Result<void> add_all() {
     for (std::size_t i = 0; i < contour_.pieces.size(); ++i) {
       const std::size_t first = segments_.size();
-      if (auto added = add(i, contour_.pieces[i]); !added) return fail(added.error());
+      OBVID_TRY(add(i, contour_.pieces[i]));
       const bool corner = i > 0 && i < contour_.joints.size() && is_corner(contour_.joints[i]);
       segments_[first].corner_before = corner;
     }
@@ -309,7 +308,7 @@ class Joiner {
       conic.offset[1] = (0.5 * chord / std::cos(0.5 * part)) * unit_at(theta);
       conic.offset[2] = end - start;
       conic.weight = {1.0, std::cos(0.5 * part), 1.0};
-      if (auto added = add(i, conic, 0); !added) return added;
+      OBVID_TRY(add(i, conic, 0));
       segments_.back().points.back() = end;
       start = end;
     }
@@ -349,7 +348,7 @@ class Joiner {
                     "look at the weights of this piece: all must be positive");
     }
     for (const RationalBezier& half : split(bezier, 0.5)) {
-      if (auto added = add(i, half, cuts + 1); !added) return added;
+      OBVID_TRY(add(i, half, cuts + 1));
     }
     return {};
   }
@@ -388,8 +387,9 @@ class Joiner {
       speed = end_speed(s) / span;
       knot += span;
       if (!(span > kLeastSpan * knot)) {
-        return fail({ErrorCode::kNotProved, "a piece is too short beside the others for a knot", "",
-                     "merge the points that nearly coincide", -1, span / knot});
+        return error(ErrorCode::kNotProved, "a piece is too short beside the others for a knot")
+            .hint("merge the points that nearly coincide")
+            .value(span / knot);
       }
       const bool last = i + 1 == segments_.size();
       const bool corner_after = !last && segments_[i + 1].corner_before;
@@ -415,7 +415,7 @@ class Joiner {
 
 Result<NurbsCurve> joined_nurbs(const Contour& contour) {
   if (contour.pieces.empty()) {
-    return fail({ErrorCode::kTooFewPoints, "the contour has no pieces", "", "", -1, 0.0});
+    return error(ErrorCode::kNothingThere, "the contour has no pieces");
   }
   return Joiner(contour).run();
 }

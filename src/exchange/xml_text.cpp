@@ -40,15 +40,16 @@ Result<void> XmlFile::parse(string_view root) {
   const std::string place =
       bytes_are_places_ ? fmt::format("{}:{}", name_, line_at(result.offset)) : name_;
   if (!result) {
-    return fail({ErrorCode::kBadJson,
-                 fmt::format("the file is not well-formed XML: {}", result.description()), place,
-                 "the file may be cut off; get it again", -1, 0.0});
+    return error(ErrorCode::kBadJson,
+                 fmt::format("the file is not well-formed XML: {}", result.description()))
+        .where(place)
+        .hint("the file may be cut off; get it again");
   }
   if (local_name(document_.document_element()) != root) {
-    return fail({ErrorCode::kUnsupported,
+    return error(ErrorCode::kUnsupported,
                  fmt::format("the outermost element is '{}', not '{}'",
-                             shortened(document_.document_element().name()), root),
-                 name_, "", -1, 0.0});
+                             shortened(document_.document_element().name()), root))
+        .where(name_);
   }
   return {};
 }

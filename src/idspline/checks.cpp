@@ -5,6 +5,8 @@
 
 #include <cmath>
 
+#include "obvid/core/result.h"
+
 namespace obvid::idspline {
 namespace {
 
@@ -31,12 +33,9 @@ constexpr const char* kOtherUnit = "change the unit so that sizes are usual numb
 
 std::optional<Error> refuse_nodes(std::span<const double> nodes, std::string_view name) {
   if (nodes.size() < 2) {
-    return Error{ErrorCode::kTooFewPoints,
-                 fmt::format("a spline needs at least two {}s", name),
-                 "",
-                 "add data",
-                 -1,
-                 static_cast<double>(nodes.size())};
+    return error(ErrorCode::kTooFewPoints, fmt::format("a spline needs at least two {}s", name))
+        .hint("add data")
+        .value(static_cast<double>(nodes.size()));
   }
   const Error infinite{
       ErrorCode::kNotFinite, "a place is not a finite number", "", "remove or repair it", -1, 0.0};
@@ -45,20 +44,18 @@ std::optional<Error> refuse_nodes(std::span<const double> nodes, std::string_vie
     const double h = nodes[i] - nodes[i - 1];
     const auto index = static_cast<std::ptrdiff_t>(i);
     if (!(h > 0.0)) {
-      return Error{ErrorCode::kChordReversal,
-                   fmt::format("{}s must ascend", name),
-                   place(name, i),
-                   "sort them, and keep one of those that coincide",
-                   index,
-                   h};
+      return error(ErrorCode::kOutOfOrder, fmt::format("{}s must ascend", name))
+          .where(place(name, i))
+          .hint("sort them, and keep one of those that coincide")
+          .point(index)
+          .value(h);
     }
     if (!(std::isfinite(h) && std::isfinite(1.0 / h))) {
-      return Error{ErrorCode::kSizeOutOfRange,
-                   "a step leaves the range of numbers",
-                   place(name, i),
-                   kOtherUnit,
-                   index,
-                   h};
+      return error(ErrorCode::kSizeOutOfRange, "a step leaves the range of numbers")
+          .where(place(name, i))
+          .hint(kOtherUnit)
+          .point(index)
+          .value(h);
     }
   }
   return std::nullopt;
@@ -67,12 +64,10 @@ std::optional<Error> refuse_nodes(std::span<const double> nodes, std::string_vie
 std::optional<Error> refuse_data(std::span<const double> data, std::size_t expected,
                                  std::string_view name) {
   if (data.size() != expected) {
-    return Error{ErrorCode::kUsage,
-                 fmt::format("{} {}s given, {} expected", data.size(), name, expected),
-                 "",
-                 "give one per node, integrals one per cell",
-                 -1,
-                 static_cast<double>(data.size())};
+    return error(ErrorCode::kUsage,
+                 fmt::format("{} {}s given, {} expected", data.size(), name, expected))
+        .hint("give one per node, integrals one per cell")
+        .value(static_cast<double>(data.size()));
   }
   return refuse_infinite(data, name,
                          {ErrorCode::kNotFinite, fmt::format("a {} is not a finite number", name),

@@ -24,18 +24,25 @@ Result<std::vector<double>> chord_lengths(std::span<const std::array<double, N>>
     const auto index = static_cast<std::ptrdiff_t>(i);
     if (!std::all_of(points[i].begin(), points[i].end(),
                      [](double c) { return std::isfinite(c); })) {
-      return fail({ErrorCode::kNotFinite, "a coordinate is not a finite number", where,
-                   "remove or repair the point", index, 0.0});
+      return error(ErrorCode::kNotFinite, "a coordinate is not a finite number")
+          .where(where)
+          .hint("remove or repair the point")
+          .point(index);
     }
     if (i == 0) continue;
     nodes[i] = nodes[i - 1] + distance(points[i - 1], points[i]);
     if (!(nodes[i] > nodes[i - 1])) {
-      return fail({ErrorCode::kChordReversal, "two neighbouring points coincide", where,
-                   "remove one of them", index, 0.0});
+      return error(ErrorCode::kOutOfOrder, "two neighbouring points coincide")
+          .where(where)
+          .hint("remove one of them")
+          .point(index);
     }
     if (!std::isfinite(nodes[i])) {
-      return fail({ErrorCode::kSizeOutOfRange, "a chord leaves the range of numbers", where,
-                   "change the unit so that sizes are usual numbers", index, nodes[i]});
+      return error(ErrorCode::kSizeOutOfRange, "a chord leaves the range of numbers")
+          .where(where)
+          .hint("change the unit so that sizes are usual numbers")
+          .point(index)
+          .value(nodes[i]);
     }
   }
   return nodes;
@@ -47,13 +54,13 @@ template <std::size_t N>
 Result<IdCurve<N>> id_curve(std::span<const std::array<double, N>> points,
                             const IdSplineOptions& options) {
   const auto nodes = chord_lengths(points);
-  if (!nodes) return tl::unexpected(nodes.error());
+  OBVID_TRY(nodes);
   IdCurve<N> curve;
   for (std::size_t k = 0; k < N; ++k) {
     IdSplineData data{*nodes, std::vector<double>(points.size())};
     for (std::size_t i = 0; i < points.size(); ++i) data.values[i] = points[i][k];
     auto part = id_spline(std::move(data), options);
-    if (!part) return tl::unexpected(part.error());
+    OBVID_TRY(part);
     curve.part[k] = std::move(*part);
   }
   return curve;

@@ -39,12 +39,12 @@ std::optional<Error> refuse_steps(const std::vector<double>& x, const IdSplineOp
   for (std::size_t i = 2; i < x.size(); ++i) {
     const double a = x[i - 1] - x[i - 2], b = x[i] - x[i - 1];
     if (a <= kLargestStepRatio * b && b <= kLargestStepRatio * a) continue;
-    return Error{ErrorCode::kRoundingDecides,
-                 "neighbouring steps differ more than free values of degree 6 bear",
-                 "node " + std::to_string(i),
-                 "keep the values, or take degree 4",
-                 static_cast<std::ptrdiff_t>(i - 1),
-                 std::max(a / b, b / a)};
+    return error(ErrorCode::kRoundingDecides,
+                 "neighbouring steps differ more than free values of degree 6 bear")
+        .where("node " + std::to_string(i))
+        .hint("keep the values, or take degree 4")
+        .point(i - 1)
+        .value(std::max(a / b, b / a));
   }
   return std::nullopt;
 }

@@ -129,7 +129,7 @@ bool same_file(const std::string& a, const std::string& b) {
 Result<void> check_outputs(std::span<const std::string> outputs,
                            std::span<const std::string> inputs) {
   const auto refused = [](const std::string& path, const char* why) {
-    return fail({ErrorCode::kBadOption, why, path, "choose another name"});
+    return error(ErrorCode::kBadOption, why).where(path).hint("choose another name");
   };
   for (std::size_t i = 0; i < outputs.size(); ++i) {
     for (const std::string& input : inputs) {

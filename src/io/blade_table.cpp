@@ -89,14 +89,16 @@ Result<std::vector<BladeStation>> parse_blade_table(string_view text, string_vie
   }
   const auto size = static_cast<double>(stations.size());
   if (count && *count != size && !stations.empty()) {
-    return fail({ErrorCode::kBadCount,
-                 fmt::format("{:g} stations can be read, NumBlNds says {:g}", size, *count),
-                 std::string(name), "look at the line after the last one that can be read", -1,
-                 size});
+    return error(ErrorCode::kBadCount,
+                 fmt::format("{:g} stations can be read, NumBlNds says {:g}", size, *count))
+        .where(std::string(name))
+        .hint("look at the line after the last one that can be read")
+        .value(size);
   }
   if (!stations.empty()) return stations;
-  return fail({ErrorCode::kTooFewPoints, "the blade table has no stations", std::string(name),
-               "its columns are BlSpn BlCrvAC BlSwpAC BlTwist BlChord BlAFID", -1, 0.0});
+  return error(ErrorCode::kNothingThere, "the blade table has no stations")
+      .where(std::string(name))
+      .hint("its columns are BlSpn BlCrvAC BlSwpAC BlTwist BlChord BlAFID");
 }
 
 bool is_airfoil_of_blade(string_view text) { return text.find("NumCoords") != string_view::npos; }
@@ -128,10 +130,11 @@ Result<BladeAirfoil> parse_airfoil_of_blade(string_view text, string_view name) 
   }
   const auto size = static_cast<double>(points.size());
   if (!count || *count != size || points.size() < 4) {
-    return fail({ErrorCode::kBadCount,
-                 fmt::format("{} points were found, the file says {:g}", points.size(),
-                             count.value_or(0.0)),
-                 std::string(name), "NumCoords counts the reference point too", -1, size});
+    return error(ErrorCode::kBadCount, fmt::format("{} points were found, the file says {:g}",
+                                                   points.size(), count.value_or(0.0)))
+        .where(std::string(name))
+        .hint("NumCoords counts the reference point too")
+        .value(size);
   }
   BladeAirfoil airfoil;
   airfoil.reference = points.front();

@@ -563,7 +563,7 @@ Result<StoredContour> ContourReader::read(const json& document) {
 
 Result<StoredContour> contour_from_json(std::string_view text, std::string_view name) {
   const Result<json> document = parse_json(text, name);
-  if (!document) return fail(document.error());
+  OBVID_TRY(document);
   return ContourReader(name).read(*document);
 }
 

@@ -133,7 +133,7 @@ class RepeatedField {
 }  // namespace
 
 Result<nlohmann::json> parse_json(string_view text, string_view name) {
-  if (auto depth = check_depth(text, name); !depth) return fail(std::move(depth.error()));
+  OBVID_TRY(check_depth(text, name));
   try {
     const char* reached = text.data();
     RepeatedField repeated(&reached);

@@ -48,12 +48,11 @@ class NumberRowReader {
       cursor_ = text::LineCursor(cursor_.rest().substr(3));
     while (!cursor_.at_end()) {
       const string_view whole = cursor_.peek();
-      if (auto done = line(whole); !done) return fail(done.error());
+      OBVID_TRY(line(whole));
       cursor_.skip(whole);
     }
     if (out_.rows.empty()) {
-      return fail(
-          {ErrorCode::kTooFewPoints, "the file holds no numbers", std::string(name_), "", -1, 0.0});
+      return error(ErrorCode::kNothingThere, "the file holds no numbers").where(std::string(name_));
     }
     return std::move(out_);
   }
@@ -143,7 +142,7 @@ class NumberRowReader {
 }  // namespace
 
 Result<NumberRows> number_rows(string_view text, string_view name) {
-  if (auto good = text::check_text_kind(text, name); !good) return fail(good.error());
+  OBVID_TRY(text::check_text_kind(text, name));
   return NumberRowReader(text, name).read();
 }
 

@@ -14,16 +14,18 @@ Result<PrivateCopy> PrivateCopy::of(std::string_view text, const std::string& na
   const auto place = std::filesystem::temp_directory_path(trouble);
   std::string folder = (place / "obvid-XXXXXX").string();
   if (trouble || ::mkdtemp(folder.data()) == nullptr) {
-    return fail({ErrorCode::kWriteFailed, "no folder could be made for a file in between",
-                 place.string(), "set TMPDIR to a folder that may be written"});
+    return error(ErrorCode::kWriteFailed, "no folder could be made for a file in between")
+        .where(place.string())
+        .hint("set TMPDIR to a folder that may be written");
   }
   std::string called = std::filesystem::path(name).filename().string();
   if (called.empty() || called == "." || called == "..") called = "text";
   PrivateCopy out(folder, std::move(called));
   std::ofstream file(out.path(), std::ios::binary);
   if (!file.write(text.data(), static_cast<std::streamsize>(text.size())).flush()) {
-    return fail({ErrorCode::kWriteFailed, "a file in between could not be written", folder,
-                 "set TMPDIR to a folder with more room"});
+    return error(ErrorCode::kWriteFailed, "a file in between could not be written")
+        .where(folder)
+        .hint("set TMPDIR to a folder with more room");
   }
   return out;
 }

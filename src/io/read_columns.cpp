@@ -30,7 +30,7 @@ std::string_view without_empty_end(std::string_view text) {
 
 Result<ColumnTable> parse_columns(std::string_view text, std::string_view name) {
   auto rows = number_rows(without_empty_end(text), name);
-  if (!rows) return fail(rows.error());
+  OBVID_TRY(rows);
   ColumnTable out;
   for (ColumnName& one : rows->columns) out.names.push_back(std::move(one.name));
   for (NumberRow& row : rows->rows) {
@@ -42,7 +42,7 @@ Result<ColumnTable> parse_columns(std::string_view text, std::string_view name) 
 
 Result<ColumnTable> read_columns(const std::string& path) {
   const Result<std::string> text = read_file(path);
-  if (!text) return fail(text.error());
+  OBVID_TRY(text);
   return parse_columns(*text, path == "-" ? "standard input" : path);
 }
 

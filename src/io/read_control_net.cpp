@@ -47,8 +47,9 @@ Result<SurfacePatch> bezier_patch(const Net& net, const std::string& patch, stri
   const std::size_t nu = net.begin()->second.size(), nv = net.size();
   for (const auto& [row, line] : net) {
     if (line.size() != nu) {
-      return fail({ErrorCode::kBadCount, fmt::format("{} has rows of different length", patch),
-                   std::string(name), "", -1, static_cast<double>(line.size())});
+      return error(ErrorCode::kBadCount, fmt::format("{} has rows of different length", patch))
+          .where(std::string(name))
+          .value(static_cast<double>(line.size()));
     }
     for (const auto& [column, point] : line) s.points.push_back(point);
     const auto& first = net.begin()->second;
@@ -56,14 +57,16 @@ Result<SurfacePatch> bezier_patch(const Net& net, const std::string& patch, stri
                    [](const auto& a, const auto& b) { return a.first == b.first; })) {
       continue;
     }
-    return fail({ErrorCode::kBadCount,
-                 fmt::format("row {:g} of {} has not the columns of its first row", row, patch),
-                 std::string(name), "every place of the net needs a point", -1, row});
+    return error(ErrorCode::kBadCount,
+                 fmt::format("row {:g} of {} has not the columns of its first row", row, patch))
+        .where(std::string(name))
+        .hint("every place of the net needs a point")
+        .value(row);
   }
   if (nu < 2 || nv < 2) {
-    return fail({ErrorCode::kTooFewPoints,
-                 fmt::format("{} has {} rows of {} points", patch, nv, nu), std::string(name), "",
-                 -1, 0.0});
+    return error(ErrorCode::kTooFewPoints,
+                 fmt::format("{} has {} rows of {} points", patch, nv, nu))
+        .where(std::string(name));
   }
   s.degree_u = static_cast<int>(nu) - 1;
   s.degree_v = static_cast<int>(nv) - 1;
@@ -78,8 +81,9 @@ Result<SurfaceModel> bezier_patches(const NumberRows& rows, string_view name) {
   for (const char* wanted : {"patch", "row", "col", "x", "y", "z"}) {
     const int at = column_named(rows, wanted);
     if (at < 0) {
-      return fail({ErrorCode::kTooFewColumns, fmt::format("there is no column {}", wanted),
-                   std::string(name), "the columns are patch, row, col, x, y, z", -1, 0.0});
+      return error(ErrorCode::kTooFewColumns, fmt::format("there is no column {}", wanted))
+          .where(std::string(name))
+          .hint("the columns are patch, row, col, x, y, z");
     }
     column.push_back(static_cast<std::size_t>(at));
     widest = std::max(widest, column.back() + 1);
@@ -98,7 +102,7 @@ Result<SurfaceModel> bezier_patches(const NumberRows& rows, string_view name) {
   SurfaceModel model;
   for (const auto& [number, net] : nets) {
     auto patch = bezier_patch(net, fmt::format("patch {:g}", number), name);
-    if (!patch) return fail(patch.error());
+    OBVID_TRY(patch);
     model.patches.push_back(std::move(*patch));
   }
   return model;
@@ -190,8 +194,9 @@ Result<SurfacePatch> net_patch(const std::vector<NetRow>& rows, string_view name
     }
   }
   if (nu < 2 || nv < 2) {
-    return fail({ErrorCode::kTooFewPoints, fmt::format("{} lines of {} points are no net", nv, nu),
-                 std::string(name), "a surface needs at least 2 x 2 control points", -1, 0.0});
+    return error(ErrorCode::kTooFewPoints, fmt::format("{} lines of {} points are no net", nv, nu))
+        .where(std::string(name))
+        .hint("a surface needs at least 2 x 2 control points");
   }
   set_knots(is_of_arcs(s, nu, 1, nv, nu), nu, s.degree_u, s.knots_u);
   set_knots(is_of_arcs(s, nv, nu, nu, 1), nv, s.degree_v, s.knots_v);
@@ -203,7 +208,7 @@ Result<SurfacePatch> net_patch(const std::vector<NetRow>& rows, string_view name
 Result<SurfaceModel> parse_control_net(string_view text, string_view name) {
   if (text.starts_with("patch,") || text.find("\npatch,") != string_view::npos) {
     const auto rows = number_rows(text, name);
-    if (!rows) return fail(rows.error());
+    OBVID_TRY(rows);
     return bezier_patches(*rows, name);
   }
   std::vector<NetRow> rows;
@@ -214,15 +219,15 @@ Result<SurfaceModel> parse_control_net(string_view text, string_view name) {
     const string_view bare = text::trim(line);
     if (bare.empty() || bare.front() == '#') continue;
     auto row = row_of(bare, number, name);
-    if (!row) return fail(row.error());
+    OBVID_TRY(row);
     if (!row->points.empty()) rows.push_back(std::move(*row));
   }
   if (rows.empty()) {
-    return fail({ErrorCode::kTooFewPoints, "the file holds no control points", std::string(name),
-                 "", -1, 0.0});
+    return error(ErrorCode::kNothingThere, "the file holds no control points")
+        .where(std::string(name));
   }
   auto patch = net_patch(rows, name);
-  if (!patch) return fail(patch.error());
+  OBVID_TRY(patch);
   SurfaceModel model;
   model.patches.push_back(std::move(*patch));
   return model;
@@ -230,7 +235,7 @@ Result<SurfaceModel> parse_control_net(string_view text, string_view name) {
 
 Result<SurfaceModel> read_control_net(const std::string& path) {
   const auto text = read_file(path);
-  if (!text) return fail(text.error());
+  OBVID_TRY(text);
   auto model = parse_control_net(*text, path);
   if (model) model->name = std::filesystem::path(path).stem().string();
   return model;

@@ -28,19 +28,20 @@ Result<PointGrid> grid_of(const std::vector<std::vector<Vec3>>& rows, string_vie
   grid.count_u = rows.empty() ? 0 : rows.front().size();
   for (std::size_t j = 0; j < rows.size(); ++j) {
     if (rows[j].size() != grid.count_u) {
-      return fail({ErrorCode::kBadCount,
-                   fmt::format("row {} has {} points where the first has {}", j + 1, rows[j].size(),
-                               grid.count_u),
-                   std::string(name), "a grid needs rows of equal length",
-                   static_cast<std::ptrdiff_t>(j), static_cast<double>(rows[j].size())});
+      return error(ErrorCode::kBadCount, fmt::format("row {} has {} points where the first has {}",
+                                                     j + 1, rows[j].size(), grid.count_u))
+          .where(std::string(name))
+          .hint("a grid needs rows of equal length")
+          .point(j)
+          .value(static_cast<double>(rows[j].size()));
     }
     grid.points.insert(grid.points.end(), rows[j].begin(), rows[j].end());
   }
   if (grid.count_u >= 2 && grid.count_v >= 2) return grid;
-  return fail({ErrorCode::kTooFewPoints,
-               fmt::format("{} rows of {} points are no grid", grid.count_v, grid.count_u),
-               std::string(name), "give at least 2 x 2 points; rows are separated by blank lines",
-               -1, 0.0});
+  return error(ErrorCode::kTooFewPoints,
+               fmt::format("{} rows of {} points are no grid", grid.count_v, grid.count_u))
+      .where(std::string(name))
+      .hint("give at least 2 x 2 points; rows are separated by blank lines");
 }
 
 /// Half a unit of the last digits of three columns.
@@ -67,7 +68,7 @@ Result<PointGrid> with_rounding(Result<PointGrid> grid, Vec3 rounding) {
 
 Result<NumberRows> matrix(const std::string& path) {
   const auto text = read_file(path);
-  if (!text) return fail(text.error());
+  OBVID_TRY(text);
   auto rows = number_rows(*text, path);
   if (!rows) return rows;
   for (const NumberRow& row : rows->rows) {
@@ -85,13 +86,14 @@ Result<PointGrid> from_three(const MatrixName& name) {
   for (std::size_t axis = 0; axis < 3; ++axis) {
     const std::string file = name.path(axis);
     auto rows = matrix(file);
-    if (!rows) return fail(rows.error());
+    OBVID_TRY(rows);
     all[axis] = std::move(*rows);
     const bool same = all[axis].rows.size() == all[0].rows.size() &&
                       all[axis].rows.front().values.size() == all[0].rows.front().values.size();
     if (same) continue;
-    return fail({ErrorCode::kBadCount, "the matrix is not as large as that of x", file,
-                 "the three files hold one coordinate each of the same points", -1, 0.0});
+    return error(ErrorCode::kBadCount, "the matrix is not as large as that of x")
+        .where(file)
+        .hint("the three files hold one coordinate each of the same points");
   }
   std::vector<std::vector<Vec3>> points;
   for (std::size_t j = 0; j < all[0].rows.size(); ++j) {
@@ -118,7 +120,7 @@ Result<std::vector<Vec3>> points_of(const NumberRows& rows, std::size_t from, st
   std::vector<Vec3> points;
   for (std::size_t i = from; i < rows.rows.size(); ++i) {
     const auto point = point_of(rows.rows[i], name);
-    if (!point) return fail(point.error());
+    OBVID_TRY(point);
     points.push_back(*point);
   }
   return points;
@@ -191,10 +193,10 @@ Result<PointGrid> from_list(const NumberRows& rows, string_view name) {
   const bool counts = led_by_counts(rows);
   const std::size_t from = counts ? 1 : 0;
   if (counts) {
-    if (auto good = check_counts(rows, name); !good) return fail(good.error());
+    OBVID_TRY(check_counts(rows, name));
   }
   const auto points = points_of(rows, from, name);
-  if (!points) return fail(points.error());
+  OBVID_TRY(points);
   if (counts) {
     return grid_of(cut(*points, static_cast<std::size_t>(rows.rows.front().values[0])), name);
   }
@@ -208,11 +210,12 @@ Result<PointGrid> from_list(const NumberRows& rows, string_view name) {
   }
   const std::size_t length = line_length(*points);
   if (length == 0) {
-    return fail({ErrorCode::kBadCount, "rows of the grid cannot be told from each other",
-                 std::string(name),
-                 "put a blank line between rows, or begin with a line of two counts: points in a "
-                 "row, rows",
-                 -1, static_cast<double>(points->size())});
+    return error(ErrorCode::kBadCount, "rows of the grid cannot be told from each other")
+        .where(std::string(name))
+        .hint(
+            "put a blank line between rows, or begin with a line of two counts: points in a "
+            "row, rows")
+        .value(static_cast<double>(points->size()));
   }
   return grid_of(cut(*points, length), name);
 }
@@ -225,8 +228,9 @@ Result<PointGrid> from_places(const NumberRows& rows, string_view name) {
   for (std::size_t k = 0; k < 5; ++k) {
     const int at = column_named(rows, kNames[k]);
     if (at < 0) {
-      return fail({ErrorCode::kTooFewColumns, fmt::format("there is no column {}", kNames[k]),
-                   std::string(name), "the columns are row, col, x, y, z", -1, 0.0});
+      return error(ErrorCode::kTooFewColumns, fmt::format("there is no column {}", kNames[k]))
+          .where(std::string(name))
+          .hint("the columns are row, col, x, y, z");
     }
     column[k] = static_cast<std::size_t>(at);
     widest = std::max(widest, column[k] + 1);
@@ -249,10 +253,12 @@ Result<PointGrid> from_places(const NumberRows& rows, string_view name) {
     const bool alike = std::equal(line.begin(), line.end(), first.begin(), first.end(),
                                   [](const auto& a, const auto& b) { return a.first == b.first; });
     if (!alike) {
-      return fail({ErrorCode::kBadCount,
+      return error(ErrorCode::kBadCount,
                    fmt::format("row {:g} has not the same columns as row {:g}", index,
-                               places.begin()->first),
-                   std::string(name), "every place of the grid needs a point", -1, index});
+                               places.begin()->first))
+          .where(std::string(name))
+          .hint("every place of the grid needs a point")
+          .value(index);
     }
     grid.emplace_back();
     for (const auto& [place, point] : line) grid.back().push_back(point);
@@ -278,16 +284,18 @@ Result<PointGrid> from_offsets(const NumberRows& rows, string_view name) {
   for (std::size_t i = 1; i < rows.header.size(); ++i) {
     const text::ParsedNumber number = text::parse_number(rows.header[i], true);
     if (number.kind != text::NumberKind::kNumber) {
-      return fail({ErrorCode::kBadNumber,
-                   fmt::format("station '{}' is not a number", rows.header[i]), std::string(name),
-                   "write its distance in place of its name", -1, 0.0});
+      return error(ErrorCode::kBadNumber,
+                   fmt::format("station '{}' is not a number", rows.header[i]))
+          .where(std::string(name))
+          .hint("write its distance in place of its name");
     }
     if (!stations.empty() && !(number.value > stations.back())) {
-      return fail({ErrorCode::kBadNumber,
+      return error(ErrorCode::kBadNumber,
                    fmt::format("station {:g} does not lie behind station {:g}", number.value,
-                               stations.back()),
-                   std::string(name), "the first row holds the stations in ascending order", -1,
-                   number.value});
+                               stations.back()))
+          .where(std::string(name))
+          .hint("the first row holds the stations in ascending order")
+          .value(number.value);
     }
     stations.push_back(number.value);
   }
@@ -343,8 +351,9 @@ Result<PointGrid> from_three_names(const std::vector<std::string>& paths) {
   for (std::size_t axis = 0; axis < 3; ++axis) {
     const std::string wanted = first->path(axis);
     if (std::find(paths.begin(), paths.end(), wanted) != paths.end()) continue;
-    return fail({ErrorCode::kUsage, "the three files do not belong together", paths.front(),
-                 fmt::format("{} is not among them", wanted), -1, 0.0});
+    return error(ErrorCode::kUsage, "the three files do not belong together")
+        .where(paths.front())
+        .hint(fmt::format("{} is not among them", wanted));
   }
   return from_three(*first);
 }
@@ -370,31 +379,30 @@ Result<PointGrid> grid_in(const NumberRows& rows, string_view name, const GridOp
 
 Result<PointGrid> parse_grid(string_view text, string_view name, const GridOptions& options) {
   const auto rows = number_rows(text, name);
-  if (!rows) return fail(rows.error());
+  OBVID_TRY(rows);
   const auto units = units_of_columns(*rows, name);
-  if (!units) return fail(units.error());
+  OBVID_TRY(units);
   auto grid = grid_in(*rows, name, options);
   if (grid) grid->units = *units;
   return grid;
 }
 
 Result<PointGrid> read_grid(const std::vector<std::string>& paths, const GridOptions& options) {
-  if (paths.empty()) return fail({ErrorCode::kUsage, "no file with a grid", "", "", -1, 0.0});
+  if (paths.empty()) return error(ErrorCode::kUsage, "no file with a grid");
   if (paths.size() == 3) return from_three_names(paths);
   if (paths.size() > 1) return fail(not_one_grid(paths[1]));
   if (const auto name = matrix_with_siblings(paths.front())) return from_three(*name);
   const auto text = read_file(paths.front());
-  if (!text) return fail(text.error());
+  OBVID_TRY(text);
   auto grid = parse_grid(*text, paths.front(), options);
   const auto lonely = lonely_matrix(paths.front());
   if (grid && lonely && is_matrix_text(*text, paths.front())) {
-    return fail({ErrorCode::kBadCount,
+    return error(ErrorCode::kBadCount,
                  fmt::format("the name says that these are the coordinates {} of a grid",
-                             "xyz"[lonely->axis]),
-                 paths.front(),
-                 fmt::format("put {} beside it, or give a matrix of heights another name",
-                             lonely->path(lonely->axis == 0 ? 1 : 0)),
-                 -1, 0.0});
+                             "xyz"[lonely->axis]))
+        .where(paths.front())
+        .hint(fmt::format("put {} beside it, or give a matrix of heights another name",
+                          lonely->path(lonely->axis == 0 ? 1 : 0)));
   }
   if (grid) grid->name = std::filesystem::path(paths.front()).stem().string();
   return grid;

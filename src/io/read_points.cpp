@@ -163,14 +163,14 @@ Error too_few(const RawPoints& raw, string_view name) {
 Result<PointSeries> parse_points(string_view text, string_view name, TwoPoints two) {
   constexpr string_view kUtf8Mark = "\xEF\xBB\xBF";
   if (text.substr(0, kUtf8Mark.size()) == kUtf8Mark) text.remove_prefix(kUtf8Mark.size());
-  if (auto kind = text::check_text_kind(text, name); !kind) return fail(std::move(kind.error()));
+  OBVID_TRY(text::check_text_kind(text, name));
   // DOS ends a text with this mark; nothing behind it counts.
   text = text.substr(0, text.find('\x1A'));
   Result<RawPoints> raw = read_rows(text, name);
-  if (!raw) return fail(std::move(raw.error()));
-  if (auto done = resolve_layout(*raw, name); !done) return fail(std::move(done.error()));
+  OBVID_TRY(raw);
+  OBVID_TRY(resolve_layout(*raw, name));
   warn_about_blank_lines(*raw);
-  if (auto done = merge_duplicates(*raw, name); !done) return fail(std::move(done.error()));
+  OBVID_TRY(merge_duplicates(*raw, name));
   const bool two_do = raw->points.size() == 2 && two == TwoPoints::kDo;
   if (!has_enough_distinct(raw->points) && !two_do && !has_two_with_headings(*raw)) {
     return fail(too_few(*raw, name));
@@ -187,7 +187,7 @@ Result<PointSeries> parse_points(string_view text, string_view name, TwoPoints t
 
 Result<PointSeries> read_points(const std::string& path, TwoPoints two) {
   const Result<std::string> text = read_file(path);
-  if (!text) return fail(text.error());
+  OBVID_TRY(text);
   return parse_points(*text, path == "-" ? string_view("standard input") : string_view(path), two);
 }
 

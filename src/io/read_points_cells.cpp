@@ -58,13 +58,13 @@ Result<std::optional<double>> RowReader::optional_cell(string_view line,
     if (number.kind == NumberKind::kNotFinite && std::isinf(number.value)) return number.value;
   }
   const Result<double> value = number_at(line, *column);
-  if (!value) return fail(value.error());
+  OBVID_TRY(value);
   return std::optional<double>(*value);
 }
 
 Result<std::optional<double>> RowReader::read_curvature(string_view line) {
   const auto radius = optional_cell(line, layout_.radius, true);
-  if (!radius) return fail(radius.error());
+  OBVID_TRY(radius);
   auto kappa = optional_cell(line, layout_.kappa, false);
   if (kappa && *kappa) **kappa *= layout_.kappa_scale;
   if (!kappa || !*radius) return kappa;
@@ -87,9 +87,9 @@ Result<std::optional<ValueRange>> RowReader::read_range(string_view line,
                                                         std::optional<std::size_t> high,
                                                         bool infinite_allowed) {
   const auto least = optional_cell(line, low, infinite_allowed);
-  if (!least) return fail(least.error());
+  OBVID_TRY(least);
   const auto greatest = optional_cell(line, high, infinite_allowed);
-  if (!greatest) return fail(greatest.error());
+  OBVID_TRY(greatest);
   if (!*least && !*greatest) return std::optional<ValueRange>();
   ValueRange out;
   if (*least) out.low = **least;
@@ -153,27 +153,27 @@ Result<bool> RowReader::read_corner(string_view line) {
 
 Result<FixedData> RowReader::read_fixed(string_view line) {
   const auto heading = optional_cell(line, layout_.heading_deg, false);
-  if (!heading) return fail(heading.error());
+  OBVID_TRY(heading);
   const auto kappa = read_curvature(line);
-  if (!kappa) return fail(kappa.error());
+  OBVID_TRY(kappa);
   const auto tolerance = optional_cell(line, layout_.tolerance, false);
-  if (!tolerance) return fail(tolerance.error());
+  OBVID_TRY(tolerance);
   if (*tolerance && **tolerance < 0.0) {
     return fail(error(ErrorCode::kBadNumber, "a tolerance is never negative",
                       {line, fields_.cell[*layout_.tolerance].data()}));
   }
   const auto corner = read_corner(line);
-  if (!corner) return fail(corner.error());
+  OBVID_TRY(corner);
   FixedData fixed;
   if (*heading) fixed.theta = **heading * (std::numbers::pi / 180.0);
   fixed.kappa = *kappa;
   if (*tolerance) fixed.tolerance = **tolerance * layout_.tolerance_scale;
   fixed.corner = *corner;
   const auto thetas = read_heading_range(line);
-  if (!thetas) return fail(thetas.error());
+  OBVID_TRY(thetas);
   fixed.thetas = *thetas;
   const auto kappas = read_curvature_range(line);
-  if (!kappas) return fail(kappas.error());
+  OBVID_TRY(kappas);
   fixed.kappas = *kappas;
   return fixed;
 }

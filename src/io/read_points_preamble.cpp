@@ -33,7 +33,7 @@ Result<void> RowReader::read_preamble() {
       watch_comment(line);
     } else if (!text::trim(line).empty()) {
       const Result<bool> more = read_preamble_line(line);
-      if (!more) return fail(more.error());
+      OBVID_TRY(more);
       if (!*more) return {};
     }
     cursor_.skip(line);
@@ -65,7 +65,7 @@ Result<bool> RowReader::read_preamble_line(string_view line) {
   } else {
     taken = take_text(line);
   }
-  if (!taken) return fail(std::move(taken.error()));
+  OBVID_TRY(taken);
   return true;
 }
 
@@ -170,8 +170,8 @@ Result<void> RowReader::take_text(string_view line) {
 void RowReader::take_unknown_names() {
   for (const ColumnName& column : column_names(raw_.title)) {
     constexpr std::array<string_view, 5> kDegrees{"lon", "lat", "lng", "longitude", "latitude"};
-    degrees_named_ = degrees_named_ || std::find(kDegrees.begin(), kDegrees.end(), column.name) !=
-                                           kDegrees.end();
+    degrees_named_ = degrees_named_ ||
+                     std::find(kDegrees.begin(), kDegrees.end(), column.name) != kDegrees.end();
   }
   if (raw_.named || separator_ == Separator::kWhite || raw_.title.empty()) return;
   text::Fields names;

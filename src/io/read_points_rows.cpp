@@ -31,11 +31,11 @@ Result<RawPoints> RowReader::read() {
   // OpenVSP files have two lines of text before their counts.
   constexpr std::size_t kVspHeadLength = 4096;
   is_vsp_ = text_.substr(0, kVspHeadLength).find("Num Pnts Upper") != string_view::npos;
-  if (auto done = read_preamble(); !done) return fail(std::move(done.error()));
-  if (auto done = read_all_rows(); !done) return fail(std::move(done.error()));
+  OBVID_TRY(read_preamble());
+  OBVID_TRY(read_all_rows());
   raw_.white = separator_ == Separator::kWhite;
   raw_.our_samples = raw_.named && layout_.our_samples;
-  if (auto done = take_unit(); !done) return fail(std::move(done.error()));
+  OBVID_TRY(take_unit());
   warn_about_meaning();
   return std::move(raw_);
 }
@@ -47,7 +47,7 @@ Result<void> RowReader::take_unit() {
     if (!unit.empty()) all.emplace_back(unit);
   }
   auto units = common_units(all, name_);
-  if (!units) return fail(std::move(units.error()));
+  OBVID_TRY(units);
   raw_.units = std::move(*units);
   return {};
 }
@@ -153,7 +153,7 @@ Result<void> RowReader::read_unnamed_row(Place place) {
   std::array<double, 2> xy{};
   for (std::size_t i = 0; i < std::min<std::size_t>(fields_.count, 2); ++i) {
     const Result<double> number = number_at(place.line, i);
-    if (!number) return fail(number.error());
+    OBVID_TRY(number);
     xy[i] = *number;
   }
   if (fields_.count < 2) {
@@ -166,7 +166,7 @@ Result<void> RowReader::read_unnamed_row(Place place) {
     if (count == 2) watch_third(number.value);
     if (count == 2) watch_length({xy[0], xy[1], number.value});
   }
-  if (auto same = check_columns(place, count); !same) return same;
+  OBVID_TRY(check_columns(place, count));
   push({xy[0], xy[1]}, text::digits_of(fields_.cell[0]), text::digits_of(fields_.cell[1]));
   return {};
 }
@@ -286,7 +286,7 @@ Result<void> RowReader::read_named_row(Place place) {
   if (fields_.count < needed) {
     // Prose is told from a short row by its first field.
     if (fields_.count > 0 && layout_.x == 0) {
-      if (const auto x = number_at(place.line, 0); !x) return fail(x.error());
+      OBVID_TRY(number_at(place.line, 0));
     }
     return fail(error(ErrorCode::kTooFewColumns,
                       "the line has " + std::to_string(fields_.count) + " columns, x and y need " +
@@ -294,17 +294,17 @@ Result<void> RowReader::read_named_row(Place place) {
                       place));
   }
   const Result<double> x = number_at(place.line, layout_.x);
-  if (!x) return fail(x.error());
+  OBVID_TRY(x);
   const Result<double> y = number_at(place.line, layout_.y);
-  if (!y) return fail(y.error());
+  OBVID_TRY(y);
   if (layout_.z) {
     const auto z = optional_cell(place.line, layout_.z, false);
-    if (!z) return fail(z.error());
+    OBVID_TRY(z);
     if (*z) watch_third(**z);
   }
   if (layout_.has_fixed_data()) {
     const Result<FixedData> fixed = read_fixed(place.line);
-    if (!fixed) return fail(fixed.error());
+    OBVID_TRY(fixed);
     raw_.fixed.push_back(*fixed);
   }
   push({*x, *y}, text::digits_of(fields_.cell[layout_.x]),

@@ -102,9 +102,9 @@ Result<Columns> columns_of(const NumberRows& rows, string_view name) {
   if (x >= 0 && y >= 0) {
     const std::size_t understood = 2 + (z >= 0 ? 1 : 0) + (columns.section >= 0 ? 1 : 0);
     if (z < 0 && rows.columns.size() > understood) {
-      return fail({ErrorCode::kTooFewColumns, "columns x and y are there, but none is called z",
-                   std::string(name), "call the third coordinate z, or take the column out", -1,
-                   0.0});
+      return error(ErrorCode::kTooFewColumns, "columns x and y are there, but none is called z")
+          .where(std::string(name))
+          .hint("call the third coordinate z, or take the column out");
     }
     return Columns{x, y, z, columns.section};
   }
@@ -115,12 +115,12 @@ Result<Columns> columns_of(const NumberRows& rows, string_view name) {
 
 Result<ParsedSections> from_rows(const NumberRows& rows, string_view name) {
   const auto found = columns_of(rows, name);
-  if (!found) return fail(found.error());
+  OBVID_TRY(found);
   const Columns columns = *found;
   const auto widest =
       static_cast<std::size_t>(std::max({columns.x, columns.y, columns.z, columns.section}) + 1);
   const auto units = units_of_columns(rows, name);
-  if (!units) return fail(units.error());
+  OBVID_TRY(units);
   ParsedSections out;
   out.flat = columns.z < 0;
   const std::vector<double> half = rows.rounding(std::array{columns.x, columns.y, columns.z});
@@ -151,7 +151,7 @@ Result<ParsedSections> from_rows(const NumberRows& rows, string_view name) {
 /// One section in any form of `read_points`.
 Result<ParsedSections> flat_section(string_view text, string_view name) {
   const auto series = parse_points(text, name);
-  if (!series) return fail(series.error());
+  OBVID_TRY(series);
   SpaceSeries section{series->name, {}};
   section.units = series->units;
   for (const Vec2 p : series->points) section.points.push_back({p.x, p.y, 0.0});
@@ -194,10 +194,10 @@ Result<void> join(std::vector<SpaceSeries>& sections, const PointGrid& panel,
                   const std::string& name) {
   constexpr double kMeeting = 1e-6;  // of the size: what is left of printed coordinates
   if (panel.count_v != sections.size()) {
-    return fail({ErrorCode::kBadCount,
-                 fmt::format("the panel has {} rows, the ones before have {}", panel.count_v,
-                             sections.size()),
-                 name, "panels of one body need the same stations", -1, 0.0});
+    return error(ErrorCode::kBadCount, fmt::format("the panel has {} rows, the ones before have {}",
+                                                   panel.count_v, sections.size()))
+        .where(name)
+        .hint("panels of one body need the same stations");
   }
   double size = 0.0;
   for (const Vec3& p : panel.points) size = std::max(size, norm(p - panel.points.front()));
@@ -206,10 +206,12 @@ Result<void> join(std::vector<SpaceSeries>& sections, const PointGrid& panel,
     std::vector<Vec3>& line = sections[j].points;
     const double gap = norm(rows[j].points.front() - line.back());
     if (gap > kMeeting * size) {
-      return fail({ErrorCode::kBadCount,
-                   fmt::format("row {} begins {:.3g} from where the panel before ends", j + 1, gap),
-                   name, "give panels in order, each beginning where the one before ends",
-                   static_cast<std::ptrdiff_t>(j), gap});
+      return error(ErrorCode::kBadCount,
+                   fmt::format("row {} begins {:.3g} from where the panel before ends", j + 1, gap))
+          .where(name)
+          .hint("give panels in order, each beginning where the one before ends")
+          .point(j)
+          .value(gap);
     }
     sections[j].corners.push_back(line.size() - 1);
     Vec3& known = sections[j].rounding;  // of all panels
@@ -232,12 +234,11 @@ Result<std::vector<SpaceSeries>> rows_of_grids(const std::vector<std::string>& p
     if (!name || known != seen.end()) continue;
     seen.push_back(*name);
     const auto grid = read_grid({path});
-    if (!grid) return fail(grid.error());
+    OBVID_TRY(grid);
     if (seen.size() == 1) {
       sections = rows_of(*grid);
-    } else if (auto done = join(sections, *grid, path); !done) {
-      return fail(done.error());
-    }
+    } else
+      OBVID_TRY(join(sections, *grid, path));
   }
   return sections;
 }
@@ -257,13 +258,14 @@ Result<void> check_no_matrices(const std::vector<std::string>& paths) {
     const std::size_t width = rows->rows.front().values.size(), height = rows->rows.size();
     const std::size_t alike = ++shapes[{height, width}];
     if (width <= kPointAndNormal && alike < kCoordinates) continue;
-    return fail(
-        {ErrorCode::kBadCount,
-         fmt::format("{} rows of {} numbers are a matrix, not points of sections", height, width),
-         path,
-         "three matrices of coordinates need names that differ in one letter, as in "
-         "hull_x.dat, hull_y.dat, hull_z.dat",
-         -1, static_cast<double>(width)});
+    return error(ErrorCode::kBadCount,
+                 fmt::format("{} rows of {} numbers are a matrix, not points of sections", height,
+                             width))
+        .where(path)
+        .hint(
+            "three matrices of coordinates need names that differ in one letter, as in "
+            "hull_x.dat, hull_y.dat, hull_z.dat")
+        .value(static_cast<double>(width));
   }
   return {};
 }
@@ -273,31 +275,33 @@ Result<std::vector<SpaceSeries>> blade_sections(const std::string& table_path,
                                                 const std::string& table_text,
                                                 const std::vector<std::string>& airfoils) {
   const auto table = parse_blade_table(table_text, table_path);
-  if (!table) return fail(table.error());
+  OBVID_TRY(table);
   std::vector<SpaceSeries> sections;
   std::size_t used = 0;
   for (const BladeStation& station : *table)
     used = std::max(used, static_cast<std::size_t>(std::max(station.airfoil, 0)));
   if (used < airfoils.size()) {
-    return fail(
-        {ErrorCode::kBadCount,
-         fmt::format("{} airfoil files were given, the table asks for {}", airfoils.size(), used),
-         table_path, "give exactly the files of the table, in the order of their numbers", -1,
-         static_cast<double>(airfoils.size())});
+    return error(ErrorCode::kBadCount,
+                 fmt::format("{} airfoil files were given, the table asks for {}", airfoils.size(),
+                             used))
+        .where(table_path)
+        .hint("give exactly the files of the table, in the order of their numbers")
+        .value(static_cast<double>(airfoils.size()));
   }
   for (const BladeStation& station : *table) {
     if (station.airfoil < 1 || static_cast<std::size_t>(station.airfoil) > airfoils.size()) {
-      return fail({ErrorCode::kBadCount,
+      return error(ErrorCode::kBadCount,
                    fmt::format("station {} asks for airfoil {}, {} files were given",
-                               sections.size() + 1, station.airfoil, airfoils.size()),
-                   table_path, "give all airfoil files in the order of their numbers", -1,
-                   static_cast<double>(station.airfoil)});
+                               sections.size() + 1, station.airfoil, airfoils.size()))
+          .where(table_path)
+          .hint("give all airfoil files in the order of their numbers")
+          .value(static_cast<double>(station.airfoil));
     }
     const std::string& path = airfoils[static_cast<std::size_t>(station.airfoil) - 1];
     const auto text = read_file(path);
-    if (!text) return fail(text.error());
+    OBVID_TRY(text);
     const auto airfoil = parse_airfoil_of_blade(*text, path);
-    if (!airfoil) return fail(airfoil.error());
+    OBVID_TRY(airfoil);
     sections.push_back(
         placed(*airfoil, station, fmt::format("{} at {:.4g}", file_name(path), station.span)));
   }
@@ -311,7 +315,7 @@ Result<ParsedSections> parse_sections(string_view text, string_view name,
   Result<ParsedSections> out;
   if (is_airfoil_of_blade(text)) {
     const auto airfoil = parse_airfoil_of_blade(text, name);
-    if (!airfoil) return fail(airfoil.error());
+    OBVID_TRY(airfoil);
     SpaceSeries section{std::string(name), {}};
     for (const Vec2 p : airfoil->points) section.points.push_back({p.x, p.y, 0.0});
     section.rounding = {airfoil->rounding.x, airfoil->rounding.y, 0.0};
@@ -330,17 +334,17 @@ Result<ParsedSections> parse_sections(string_view text, string_view name,
 
 Result<std::vector<SpaceSeries>> read_sections(const std::vector<std::string>& paths,
                                                const SectionOptions& options) {
-  if (paths.empty()) return fail({ErrorCode::kUsage, "no files with sections", "", "", -1, 0.0});
+  if (paths.empty()) return error(ErrorCode::kUsage, "no files with sections");
   const bool matrices = std::all_of(paths.begin(), paths.end(), [](const std::string& path) {
     return matrix_with_siblings(path).has_value();
   });
   if (matrices) return rows_of_grids(paths);
-  if (auto good = check_no_matrices(paths); !good) return fail(good.error());
+  OBVID_TRY(check_no_matrices(paths));
   std::vector<SpaceSeries> sections;
   std::string flat_file, spatial_file;
   for (const std::string& path : paths) {
     const auto text = read_file(path);
-    if (!text) return fail(text.error());
+    OBVID_TRY(text);
     if (is_blade_table(*text)) {
       std::vector<std::string> airfoils;
       std::copy_if(paths.begin(), paths.end(), std::back_inserter(airfoils),
@@ -348,15 +352,16 @@ Result<std::vector<SpaceSeries>> read_sections(const std::vector<std::string>& p
       return blade_sections(path, *text, airfoils);
     }
     auto parsed = parse_sections(*text, path, options);
-    if (!parsed) return fail(parsed.error());
+    OBVID_TRY(parsed);
     (parsed->flat ? flat_file : spatial_file) = path;
     if (paths.size() > 1 && parsed->sections.size() == 1)
       parsed->sections.front().name = file_name(path);
     std::move(parsed->sections.begin(), parsed->sections.end(), std::back_inserter(sections));
   }
   if (!flat_file.empty() && !spatial_file.empty()) {
-    return fail({ErrorCode::kTooFewColumns, "this file has no z, others have", flat_file,
-                 "give all sections a z, or none of them", -1, 0.0});
+    return error(ErrorCode::kTooFewColumns, "this file has no z, others have")
+        .where(flat_file)
+        .hint("give all sections a z, or none of them");
   }
   if (spatial_file.empty()) lift(sections, options.spacing);
   return sections;

@@ -232,19 +232,19 @@ bool is_space_json(std::string_view text) {
 
 Result<StoredSpace> space_from_json(std::string_view text, std::string_view name) {
   const auto document = parse_json(text, name);
-  if (!document) return fail(document.error());
+  OBVID_TRY(document);
   return SpaceReader(name).read(*document);
 }
 
 Result<StoredSpaceChain> space_chain_from_json(std::string_view text, std::string_view name) {
   const auto document = parse_json(text, name);
-  if (!document) return fail(document.error());
+  OBVID_TRY(document);
   const auto format = document->is_object() ? document->find("format") : document->end();
   if (format != document->end() && *format == kChainFormat) {
     return SpaceChainReader(name).read(*document);
   }
   auto one = SpaceReader(name).read(*document);
-  if (!one) return fail(one.error());
+  OBVID_TRY(one);
   StoredSpaceChain out;
   out.name = one->name;
   out.units = one->units;

@@ -150,7 +150,7 @@ std::string surface_json(const SurfaceModel& model) {
 
 Result<SurfaceModel> surface_from_json(std::string_view text, std::string_view name) {
   const auto document = parse_json(text, name);
-  if (!document) return fail(document.error());
+  OBVID_TRY(document);
   return SurfaceReader(name).read(*document);
 }
 

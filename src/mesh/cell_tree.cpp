@@ -82,7 +82,7 @@ Result<void> CellTree::build() {
   const auto vs = cuts_of(edges_v_, sampler_.v().last());
   for (std::size_t j = 0; j + 1 < vs.size(); ++j) {
     for (std::size_t i = 0; i + 1 < us.size(); ++i) {
-      if (auto done = refine({us[i], us[i + 1], vs[j], vs[j + 1]}); !done) return done;
+      OBVID_TRY(refine({us[i], us[i + 1], vs[j], vs[j + 1]}));
     }
   }
   return {};
@@ -104,10 +104,10 @@ Result<void> CellTree::refine(const Cell& cell) {
     }
     cells_.push_back(next);
     if (2 * cells_.size() > most_) {
-      return fail({ErrorCode::kToleranceNotReached,
-                   fmt::format("the surface needs more than {} triangles", most_), "",
-                   "allow a larger chord tolerance or angle, or more triangles", -1,
-                   static_cast<double>(most_)});
+      return error(ErrorCode::kToleranceNotReached,
+                   fmt::format("the surface needs more than {} triangles", most_))
+          .hint("allow a larger chord tolerance or angle, or more triangles")
+          .value(static_cast<double>(most_));
     }
   }
   return {};
@@ -130,7 +130,7 @@ Result<bool> CellTree::improve(const std::vector<bool>& marked, std::vector<Cell
     }
     for (Cell part : *parts) {
       part.fan = false;
-      if (auto done = refine(part); !done) return fail(std::move(done.error()));
+      OBVID_TRY(refine(part));
     }
     kept.resize(cells_.size());
   }

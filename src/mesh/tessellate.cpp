@@ -59,8 +59,9 @@ Extent extent_of(const Patches& patches) {
 
 Result<void> check_options(const TessellationOptions& options, double rounding) {
   const auto bad = [](const char* what, double value) {
-    return fail({ErrorCode::kBadOption, fmt::format("{} {} is not greater than 0", what, value), "",
-                 "give a number greater than 0", -1, value});
+    return error(ErrorCode::kBadOption, fmt::format("{} {} is not greater than 0", what, value))
+        .hint("give a number greater than 0")
+        .value(value);
   };
   if (!(options.chord_tolerance > 0.0) || !std::isfinite(options.chord_tolerance)) {
     return bad("the chord tolerance", options.chord_tolerance);
@@ -69,11 +70,11 @@ Result<void> check_options(const TessellationOptions& options, double rounding) 
     return bad("the angle", options.angle);
   }
   if (options.chord_tolerance < rounding) {
-    return fail({ErrorCode::kBadOption,
+    return error(ErrorCode::kBadOption,
                  fmt::format("the chord tolerance {} is lost in the rounding of the coordinates",
-                             options.chord_tolerance),
-                 "", fmt::format("at least {:.3g}, or move the surface to the origin", rounding),
-                 -1, options.chord_tolerance});
+                             options.chord_tolerance))
+        .hint(fmt::format("at least {:.3g}, or move the surface to the origin", rounding))
+        .value(options.chord_tolerance);
   }
   return {};
 }
@@ -89,8 +90,8 @@ class Tessellator {
     }
     const Extent extent = count() > 0 ? extent_of(patches_) : Extent{{}, {}};
     const double rounding = kRounding * std::numeric_limits<double>::epsilon() * extent.farthest();
-    if (auto good = check_options(options_, rounding); !good) return fail(good.error());
-    if (auto done = build_trees(); !done) return fail(done.error());
+    OBVID_TRY(check_options(options_, rounding));
+    OBVID_TRY(build_trees());
     const double same = std::max(rounding, std::min(kSameOfSize * extent.size(),
                                                     kSameOfTolerance * options_.chord_tolerance));
     return rounds(same);
@@ -114,7 +115,7 @@ class Tessellator {
       trees_.emplace_back(samplers_[p], options_);
       if (auto done = trees_[p].build(); !done) return named(done.error(), p);
       const double part = 0.5 * static_cast<double>(p + 1) / static_cast<double>(count());
-      if (auto done = tell(run_, "triangles", part); !done) return fail(done.error());
+      OBVID_TRY(tell(run_, "triangles", part));
     }
     return {};
   }
@@ -134,7 +135,7 @@ class Tessellator {
         again = again || *cut;
         const double part = static_cast<double>(p + 1) / static_cast<double>(count());
         const auto done = round == 0 ? tell(run_, "triangles", 0.5 + 0.5 * part) : may_go_on(run_);
-        if (!done) return fail(done.error());
+        OBVID_TRY(done);
       }
       if (!again) return meshes;
     }
@@ -148,21 +149,21 @@ class Tessellator {
                                                   seen_[p], options_.chord_tolerance);
     mesh.deviation = measured.deviation;
     if (mesh.triangles.size() > options_.most_triangles) {
-      return fail({ErrorCode::kToleranceNotReached,
-                   fmt::format("the surface needs more than {} triangles", options_.most_triangles),
-                   "", "allow a larger chord tolerance or angle, or more triangles", -1,
-                   static_cast<double>(options_.most_triangles)});
+      return error(ErrorCode::kToleranceNotReached,
+                   fmt::format("the surface needs more than {} triangles", options_.most_triangles))
+          .hint("allow a larger chord tolerance or angle, or more triangles")
+          .value(static_cast<double>(options_.most_triangles));
     }
     if (measured.any_bad && may_cut) {
       auto cut = trees_[p].improve(measured.bad, seen_[p]);
       if (!cut || *cut) return cut;
     }
     if (measured.deviation > options_.chord_tolerance) {
-      return fail({ErrorCode::kToleranceNotReached,
+      return error(ErrorCode::kToleranceNotReached,
                    fmt::format("triangles are {:.3g} off the surface however small they are",
-                               measured.deviation),
-                   "", "the surface folds or has a cusp there; allow a larger chord tolerance", -1,
-                   measured.deviation});
+                               measured.deviation))
+          .hint("the surface folds or has a cusp there; allow a larger chord tolerance")
+          .value(measured.deviation);
     }
     return false;
   }
@@ -179,7 +180,7 @@ class Tessellator {
 
 Result<Mesh> tessellate(const NurbsSurface& surface, const TessellationOptions& options) {
   auto meshes = Tessellator({{&surface}, {""}}, options, {}).run();
-  if (!meshes) return fail(std::move(meshes.error()));
+  OBVID_TRY(meshes);
   return std::move(meshes->front());
 }
 

@@ -153,10 +153,11 @@ Result<SeriesChain> chosen_elements(const std::vector<Vec2>& points, const Analy
     if (auto central = central_chain(points, analysis, wishes, ChoiceOrder::kAlong, watch)) {
       return std::move(*central);
     }
-    return fail({ErrorCode::kFixedDataContradict,
+    return error(ErrorCode::kFixedDataContradict,
                  "what is given leaves no headings and curvatures with which a monotone contour "
-                 "exists",
-                 "", "free some of it", 0, 0.0});
+                 "exists")
+        .hint("free some of it")
+        .point(0);
   }
   auto chosen = choose_elements(points, analysis, wishes, watch);
   if (!wishes.to_the_edge || !anything_fixed(wishes)) return chosen;
@@ -240,7 +241,7 @@ Result<SeriesChain> few_points_with_fixed_data(const std::vector<Vec2>& points, 
 Result<void> has_wishes(const Analysis& analysis, const ChainWishes& wishes) {
   if (!anything_fixed(wishes)) return {};
   const auto problem = chain_problem(analysis, wishes);
-  if (!problem) return fail(problem.error());
+  OBVID_TRY(problem);
   return {};
 }
 
@@ -286,9 +287,11 @@ Result<Contour> form_spirals(const std::vector<Vec2>& points, const SeriesChain&
     parts.clear();
     const SpiralForm form = chain.form.empty() ? SpiralForm::kOneSided : chain.form[i];
     if (!append_spiral(chain.links[i], chain.direction[i], form, a.point, b.point, parts)) {
-      return fail({ErrorCode::kInternal, "a link of the chain left its cone",
-                   "piece " + std::to_string(i), "report this series",
-                   static_cast<std::ptrdiff_t>(i), chain.links[i].sigma});
+      return error(ErrorCode::kInternal, "a link of the chain left its cone")
+          .where("piece " + std::to_string(i))
+          .hint("report this series")
+          .point(i)
+          .value(chain.links[i].sigma);
     }
     for (std::size_t j = 0; j < parts.size(); ++j) {
       if (j > 0) {  // a piece that turns far came out in parts
@@ -332,9 +335,7 @@ class ArcBuilder {
         direction_.push_back(0);
         continue;
       }
-      if (const auto added = add(i, *spiral, directions[i]); !added) {
-        return tl::unexpected(added.error());
-      }
+      OBVID_TRY(add(i, *spiral, directions[i]));
     }
     contour_.joints.push_back(spirals_.joints.back());
     settle_joint_curvatures();
@@ -349,9 +350,11 @@ class ArcBuilder {
     const Piece local = moved(spiral, -anchor);
     const std::vector<double> steps = fewest_elements(local, direction, tolerance_);
     if (steps.back() < 1.0) {
-      return fail({ErrorCode::kToleranceNotReached, "the tolerance asks for too many arcs",
-                   "piece " + std::to_string(i), "choose a larger --tolerance",
-                   static_cast<std::ptrdiff_t>(i), tolerance_});
+      return error(ErrorCode::kToleranceNotReached, "the tolerance asks for too many arcs")
+          .where("piece " + std::to_string(i))
+          .hint("choose a larger --tolerance")
+          .point(i)
+          .value(tolerance_);
     }
     Element from = spirals_.joints[i].element, last = spirals_.joints[i + 1].element;
     from.point = {0.0, 0.0};
@@ -363,17 +366,20 @@ class ArcBuilder {
       const bool ends = end_given_ && i + 1 == spirals_.pieces.size() && j + 1 == steps.size();
       const auto k = choose_arcs(chord_frame(from, to), direction, begins, ends);
       if (!k) {
-        return fail({ErrorCode::kRoundingDecides,
-                     "the rounding of the coordinates decides which arcs join two elements",
-                     "piece " + std::to_string(i),
-                     "give coordinates relative to a nearer origin, or fewer points",
-                     static_cast<std::ptrdiff_t>(i), norm(to.point - from.point)});
+        return error(ErrorCode::kRoundingDecides,
+                     "the rounding of the coordinates decides which arcs join two elements")
+            .where("piece " + std::to_string(i))
+            .hint("give coordinates relative to a nearer origin, or fewer points")
+            .point(i)
+            .value(norm(to.point - from.point));
       }
       if (!add_pair(from, to, *k, anchor, direction)) {
-        return fail({ErrorCode::kRoundingDecides,
-                     "two elements of the contour are too close for arcs between them",
-                     "piece " + std::to_string(i), "choose a larger --tolerance",
-                     static_cast<std::ptrdiff_t>(i), norm(to.point - from.point)});
+        return error(ErrorCode::kRoundingDecides,
+                     "two elements of the contour are too close for arcs between them")
+            .where("piece " + std::to_string(i))
+            .hint("choose a larger --tolerance")
+            .point(i)
+            .value(norm(to.point - from.point));
       }
       if (j + 1 < steps.size()) {
         contour_.joints.push_back({{to.point + anchor, to.theta, to.kappa}, std::nullopt});

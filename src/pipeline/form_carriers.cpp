@@ -191,7 +191,7 @@ Result<void> add_spline(const Contour& stretch, double tolerance, Carried& out,
     return {};
   }
   const auto spline = monotone_spline(stretch, tolerance);
-  if (!spline) return fail(spline.error());
+  OBVID_TRY(spline);
   std::size_t next = 0;  // joint of the spirals that may be the next knot
   for (std::size_t k = 0; k < spline->spans.size(); ++k) {
     const Element& e = spline->elements[k];
@@ -239,9 +239,9 @@ GivenToConics given_to_conics(const std::vector<Joint>& joints,
 Result<Carried> form_conics(const Contour& spirals, const std::vector<GivenDatum>& given) {
   if (only<LinePiece, ArcPiece>(spirals)) return as_they_are(spirals, Carrier::kConics);
   if (smooth_loop(spirals)) {
-    return fail({ErrorCode::kNoSpiral,
-                 "no chain of conics is made for a closed contour without corners", "",
-                 kOtherCarriers, -1, 0.0});
+    return error(ErrorCode::kNoSpiral,
+                 "no chain of conics is made for a closed contour without corners")
+        .hint(kOtherCarriers);
   }
   Carried out{like(spirals, Carrier::kConics), {}};
   std::vector<Joint> joints = spirals.joints;
@@ -384,7 +384,7 @@ Result<Carried> form_baseline(const std::vector<Vec2>& points,
     options.end_slope = end_heading ? unit_at(*end_heading) : spline->slopes.back();
     spline = cubic_spline(through, options);
   }
-  if (!spline) return tl::unexpected(spline.error());
+  OBVID_TRY(spline);
   Carried out;
   out.contour.carrier = Carrier::kBaseline;
   double theta = 0.0;

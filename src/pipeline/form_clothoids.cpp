@@ -9,9 +9,12 @@ namespace {
 
 tl::unexpected<Error> not_carried(const SeriesChain& chain, std::size_t link) {
   const std::size_t point = chain.source[link].value_or(chain.source[link + 1].value_or(0));
-  return fail({ErrorCode::kCarrierCannotKeep, "three clothoids do not carry the curve between two points",
-               "point " + std::to_string(point + 1), "use --carrier spiral",
-               static_cast<std::ptrdiff_t>(point), chain.links[link].sigma});
+  return error(ErrorCode::kCarrierCannotKeep,
+               "three clothoids do not carry the curve between two points")
+      .where("point " + std::to_string(point + 1))
+      .hint("use --carrier spiral")
+      .point(point)
+      .value(chain.links[link].sigma);
 }
 
 }  // namespace

@@ -313,24 +313,26 @@ Result<void> check_turning(const Analysis& a) {
   for (std::size_t i = 1; i < a.chords.size(); ++i) {
     const double turn = std::abs(a.chords[i].omega - a.chords[i - 1].omega);
     if (turn < kLargestTurning) continue;
-    return fail({ErrorCode::kChordReversal, "the series turns back on itself",
-                 "point " + std::to_string(i + 1),
-                 "add points around the bend, or remove the point that steps back",
-                 static_cast<std::ptrdiff_t>(i), turn});
+    return error(ErrorCode::kChordReversal, "the series turns back on itself")
+        .where("point " + std::to_string(i + 1))
+        .hint("add points around the bend, or remove the point that steps back")
+        .point(i)
+        .value(turn);
   }
   return {};
 }
 
 Result<Analysis> measured_chords(const std::vector<Vec2>& points) {
   if (points.size() < 2) {
-    return fail({ErrorCode::kTooFewPoints, "a contour needs at least two distinct points", "", "",
-                 -1, static_cast<double>(points.size())});
+    return error(ErrorCode::kTooFewPoints, "a contour needs at least two distinct points")
+        .value(static_cast<double>(points.size()));
   }
   Analysis a;
   a.size = bounding_diagonal(points);
   if (!(a.size >= kSmallestSeries && a.size <= kLargestSeries)) {
-    return fail({ErrorCode::kSizeOutOfRange, "the size of the series is outside 1e-100 to 1e100",
-                 "", "choose another unit", -1, a.size});
+    return error(ErrorCode::kSizeOutOfRange, "the size of the series is outside 1e-100 to 1e100")
+        .hint("choose another unit")
+        .value(a.size);
   }
   a.chords = measure_chords(points);
   for (std::size_t i = 1; i < a.chords.size(); ++i) {
@@ -425,7 +427,7 @@ Result<Analysis> measure_series(const std::vector<Vec2>& points) {
 Result<Analysis> analyse(const std::vector<Vec2>& points) {
   auto begun = measured_chords(points);
   if (!begun) return begun;
-  if (const auto turning_ok = check_turning(*begun); !turning_ok) return fail(turning_ok.error());
+  OBVID_TRY(check_turning(*begun));
   return measured_circles(points, std::move(*begun));
 }
 

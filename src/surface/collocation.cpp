@@ -29,8 +29,7 @@ Result<Collocation> factored(int degree, std::vector<double> knots, const std::v
     }
   }
   if (system.matrix.factor()) return system;
-  return fail(
-      {ErrorCode::kSizeOutOfRange, "parameters are too uneven for a spline", "", "", -1, 0.0});
+  return error(ErrorCode::kSizeOutOfRange, "parameters are too uneven for a spline");
 }
 
 }  // namespace
@@ -55,14 +54,14 @@ Result<Collocation> greville_collocation(int degree, std::vector<double> knots) 
 Result<Collocation> cubic_collocation(const std::vector<double>& parameters) {
   const std::size_t n = parameters.size();
   if (n < 2) {
-    return fail({ErrorCode::kTooFewPoints, "at least two parameters are needed", "", "", -1,
-                 static_cast<double>(n)});
+    return error(ErrorCode::kTooFewPoints, "at least two parameters are needed")
+        .value(static_cast<double>(n));
   }
   for (std::size_t i = 1; i < n; ++i) {
     if (parameters[i] > parameters[i - 1]) continue;
-    return fail({ErrorCode::kSizeOutOfRange,
-                 fmt::format("parameter {} is not above the one before", i), "", "",
-                 static_cast<std::ptrdiff_t>(i), parameters[i]});
+    return error(ErrorCode::kOutOfOrder, fmt::format("parameter {} is not above the one before", i))
+        .point(i)
+        .value(parameters[i]);
   }
   const std::size_t degree = std::min<std::size_t>(3, n - 1);
   // the second and the last but one parameter lie inside the end spans: two diagonals on each side

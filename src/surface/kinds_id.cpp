@@ -98,16 +98,16 @@ Result<void> check_spline(const IdSpline2d& s) {
     return std::all_of(all.begin(), all.end(), [](double a) { return std::isfinite(a); });
   };
   if (!ascends(s.x) || !ascends(s.y)) {
-    return fail({ErrorCode::kBadOption, "the nodes of a spline do not ascend", "", "", -1, 0.0});
+    return error(ErrorCode::kBadOption, "the nodes of a spline do not ascend");
   }
   if (s.values.size() != nx * ny || s.along_x.size() != (nx - 1) * ny ||
       s.along_y.size() != nx * (ny - 1) || s.cells.size() != (nx - 1) * (ny - 1)) {
-    return fail({ErrorCode::kBadOption, "a spline lacks values or integrals of its grid", "",
-                 "form it by id_spline_2d", -1, 0.0});
+    return error(ErrorCode::kBadOption, "a spline lacks values or integrals of its grid")
+        .hint("form it by id_spline_2d");
   }
   for (const auto* all : {&s.x, &s.y, &s.values, &s.along_x, &s.along_y, &s.cells}) {
     if (!finite(*all)) {
-      return fail({ErrorCode::kNotFinite, "a number of a spline is not finite", "", "", -1, 0.0});
+      return error(ErrorCode::kNotFinite, "a number of a spline is not finite");
     }
   }
   return {};
@@ -117,11 +117,10 @@ Result<void> check_spline(const IdSpline2d& s) {
 
 Result<NurbsForm> nurbs_of(const IdSurface& s) {
   for (const IdSpline2d* spline : {&s.x, &s.y, &s.z}) {
-    if (auto good = check_spline(*spline); !good) return fail(good.error());
+    OBVID_TRY(check_spline(*spline));
   }
   if (!(s.x.x == s.y.x && s.x.x == s.z.x && s.x.y == s.y.y && s.x.y == s.z.y)) {
-    return fail(
-        {ErrorCode::kBadOption, "the three splines do not stand over one grid", "", "", -1, 0.0});
+    return error(ErrorCode::kBadOption, "the three splines do not stand over one grid");
   }
   NurbsSurface surface = of_cells(s);
   if (smooth_along_u(surface, s.x.x)) surface = with_simple_knots_u(surface, s.x.x);

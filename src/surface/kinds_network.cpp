@@ -37,18 +37,19 @@ constexpr double kMeeting = 1e-9;
 Result<void> check_meeting(Vec3 a, Vec3 b, double allowed, const std::string& where) {
   const double gap = norm(a - b);
   if (gap <= allowed) return {};
-  return fail({ErrorCode::kBadOption,
-               fmt::format("curves do not meet {}: the gap is {:.4g}", where, gap), "",
-               "move their ends together, or allow a larger tolerance", -1, gap});
+  return error(ErrorCode::kBadOption,
+               fmt::format("curves do not meet {}: the gap is {:.4g}", where, gap))
+      .hint("move their ends together, or allow a larger tolerance")
+      .value(gap);
 }
 
 /// All curves polynomial, with the largest deviation.
 Result<double> make_polynomial(std::vector<SpaceCurve>& curves, double tolerance) {
   double deviation = 0.0;
   for (SpaceCurve& curve : curves) {
-    if (auto good = check(curve); !good) return fail(good.error());
+    OBVID_TRY(check(curve));
     auto form = polynomial_near(curve, tolerance);
-    if (!form) return fail(form.error());
+    OBVID_TRY(form);
     curve = std::move(form->curve);
     deviation = std::max(deviation, form->deviation);
   }
@@ -89,7 +90,7 @@ Result<void> check_corners(const CoonsPatch& s, double allowed) {
 /// The curves across `at` as one surface: exact at each, C2 cubic between them.
 Result<NurbsSurface> through_curves(std::vector<SpaceCurve> curves, const std::vector<double>& at) {
   const auto system = cubic_collocation(at);
-  if (!system) return fail(system.error());
+  OBVID_TRY(system);
   curves = compatible(std::move(curves));
   const std::size_t width = curves.front().points.size();
   NurbsSurface s{
@@ -140,23 +141,23 @@ std::vector<std::vector<Vec3>> crossings(const GordonSurface& s) {
 
 Result<void> check_net(const GordonSurface& s, double allowed) {
   if (s.along_u.size() < 2 || s.along_v.size() < 2) {
-    return fail({ErrorCode::kTooFewPoints, "a net needs at least two curves of each family", "", "",
-                 -1, static_cast<double>(std::min(s.along_u.size(), s.along_v.size()))});
+    return error(ErrorCode::kTooFewCurves, "a net needs at least two curves of each family")
+        .value(static_cast<double>(std::min(s.along_u.size(), s.along_v.size())));
   }
   const bool whole = s.v_at.size() == s.along_u.size() && s.u_at.size() == s.along_v.size() &&
                      s.v_at.front() == 0.0 && s.v_at.back() == 1.0 && s.u_at.front() == 0.0 &&
                      s.u_at.back() == 1.0;
   if (!whole) {
-    return fail(
-        {ErrorCode::kBadOption, "each curve needs its parameter, from 0 to 1", "", "", -1, 0.0});
+    return error(ErrorCode::kBadOption, "each curve needs its parameter, from 0 to 1");
   }
   for (const auto* at : {&s.v_at, &s.u_at}) {
     for (std::size_t i = 1; i < at->size(); ++i) {
       if ((*at)[i] > (*at)[i - 1]) continue;
-      return fail({ErrorCode::kBadOption,
-                   fmt::format("the parameter of curve {} is not above the one before", i + 1), "",
-                   "give curves in the order of their parameters", static_cast<std::ptrdiff_t>(i),
-                   (*at)[i]});
+      return error(ErrorCode::kBadOption,
+                   fmt::format("the parameter of curve {} is not above the one before", i + 1))
+          .hint("give curves in the order of their parameters")
+          .point(i)
+          .value((*at)[i]);
     }
   }
   const auto points = crossings(s);
@@ -194,9 +195,9 @@ Result<NurbsForm> nurbs_of(const CoonsPatch& s, double tolerance, double gap) {
   const double allowed = kMeeting * extent(curves) + std::max(0.0, gap);
   // four curves deviate together three times at most: two ruled surfaces and the bilinear one
   const auto deviation = make_polynomial(curves, tolerance / 3.0);
-  if (!deviation) return fail(deviation.error());
+  OBVID_TRY(deviation);
   const CoonsPatch patch{curves[0], curves[1], curves[2], curves[3]};
-  if (auto good = check_corners(patch, allowed); !good) return fail(good.error());
+  OBVID_TRY(check_corners(patch, allowed));
   const Corners c = corners_of(patch);
   const NurbsSurface corner = ruled(line_between(c.p00, c.p10), line_between(c.p01, c.p11));
   return NurbsForm{
@@ -222,18 +223,18 @@ Result<NurbsForm> nurbs_of(const GordonSurface& given, double tolerance, double 
   all.insert(all.end(), s.along_v.begin(), s.along_v.end());
   const double allowed = kMeeting * extent(all) + std::max(0.0, gap);
   const auto along_u = make_polynomial(s.along_u, tolerance / 3.0);
-  if (!along_u) return fail(along_u.error());
+  OBVID_TRY(along_u);
   const auto along_v = make_polynomial(s.along_v, tolerance / 3.0);
-  if (!along_v) return fail(along_v.error());
-  if (auto good = check_net(s, allowed); !good) return fail(good.error());
+  OBVID_TRY(along_v);
+  OBVID_TRY(check_net(s, allowed));
   const auto first = through_curves(s.along_u, s.v_at);
-  if (!first) return fail(first.error());
+  OBVID_TRY(first);
   const auto second = through_curves(s.along_v, s.u_at);
-  if (!second) return fail(second.error());
+  OBVID_TRY(second);
   std::vector<SpaceCurve> rows;
   for (const auto& row : crossings(s)) rows.push_back(*interpolated(row, s.u_at));
   const auto common = through_curves(rows, s.v_at);
-  if (!common) return fail(common.error());
+  OBVID_TRY(common);
   return NurbsForm{boolean_sum(*first, transposed(*second), *common),
                    3.0 * std::max(*along_u, *along_v)};
 }

@@ -104,18 +104,18 @@ std::vector<double> divided(const Frameworks& frame, int parts) {
 }
 
 tl::unexpected<Error> no_normal(double u, double v) {
-  return fail({ErrorCode::kBadOption,
-               fmt::format("the surface has no normal at u = {:g}, v = {:g}", u, v), "",
-               "an offset needs a surface that does not collapse", -1, 0.0});
+  return error(ErrorCode::kBadOption,
+               fmt::format("the surface has no normal at u = {:g}, v = {:g}", u, v))
+      .hint("an offset needs a surface that does not collapse");
 }
 
 /// Bicubic through the offset's points at the Greville abscissae of both knots.
 Result<NurbsSurface> through_offset(const OffsetSurface& s, const std::vector<double>& knots_u,
                                     const std::vector<double>& knots_v) {
   const auto along_u = greville_collocation(kDegree, knots_u);
-  if (!along_u) return fail(along_u.error());
+  OBVID_TRY(along_u);
   const auto along_v = greville_collocation(kDegree, knots_v);
-  if (!along_v) return fail(along_v.error());
+  OBVID_TRY(along_v);
   const std::vector<double> us = greville(kDegree, knots_u), vs = greville(kDegree, knots_v);
   NurbsSurface out{kDegree, kDegree, knots_u, knots_v, {}, {}};
   out.points.resize(us.size() * vs.size());
@@ -231,8 +231,7 @@ SurfaceJet evaluate_kind(const OffsetSurface& s, double u, double v) {
 
 Result<NurbsForm> nurbs_of(const OffsetSurface& s, double tolerance) {
   if (!std::isfinite(s.distance)) {
-    return fail(
-        {ErrorCode::kNotFinite, "the distance of the offset is not finite", "", "", -1, 0.0});
+    return error(ErrorCode::kNotFinite, "the distance of the offset is not finite");
   }
   if (auto plane = moved_plane(s)) return NurbsForm{std::move(*plane), 0.0};
   constexpr std::size_t kMostPoints = 1'000'000;
@@ -247,7 +246,7 @@ Result<NurbsForm> nurbs_of(const OffsetSurface& s, double tolerance) {
     const std::vector<double> knots_v = divided(frame_v, parts_v);
     if (knots_u.size() * knots_v.size() > kMostPoints) break;
     auto form = through_offset(s, knots_u, knots_v);
-    if (!form) return fail(form.error());
+    OBVID_TRY(form);
     const std::vector<double> us = distinct(knots_u), vs = distinct(knots_v);
     const Errors worst = errors_of(s, *form, us, vs);
     const double total = worst.u + worst.v;
@@ -261,11 +260,11 @@ Result<NurbsForm> nurbs_of(const OffsetSurface& s, double tolerance) {
     if (worst.u >= worst.v / 4.0) parts_u *= 2;
     if (worst.v >= worst.u / 4.0) parts_v *= 2;
   }
-  return fail({ErrorCode::kToleranceNotReached,
+  return error(ErrorCode::kToleranceNotReached,
                fmt::format("the offset by {:g} is followed within {:.3g}, not {:g}", s.distance,
-                           before, tolerance),
-               "", "allow a larger tolerance; at creases of the surface its offset is torn", -1,
-               before});
+                           before, tolerance))
+      .hint("allow a larger tolerance; at creases of the surface its offset is torn")
+      .value(before);
 }
 
 }  // namespace obvid

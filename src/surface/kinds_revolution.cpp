@@ -47,15 +47,15 @@ SurfaceJet evaluate_kind(const RevolutionSurface& s, double u, double v) {
 
 Result<NurbsForm> nurbs_of(const RevolutionSurface& s) {
   if (!is_finite(s.axis_point) || !is_finite(s.axis_direction)) {
-    return fail({ErrorCode::kNotFinite, "the axis is not finite", "", "", -1, 0.0});
+    return error(ErrorCode::kNotFinite, "the axis is not finite");
   }
   if (s.axis_direction == Vec3{}) {
-    return fail({ErrorCode::kBadOption, "the axis has no direction", "", "", -1, 0.0});
+    return error(ErrorCode::kBadOption, "the axis has no direction");
   }
   constexpr double kFull = 2.0 * std::numbers::pi * (1.0 + 1e-12);  // a full turn, rounded
   if (!(std::abs(s.angle) > 0.0 && std::abs(s.angle) <= kFull)) {
-    return fail({ErrorCode::kBadOption, "the angle must be more than 0 and at most a full turn", "",
-                 "", -1, s.angle});
+    return error(ErrorCode::kBadOption, "the angle must be more than 0 and at most a full turn")
+        .value(s.angle);
   }
   const Vec3 axis = axis_of(s);
   const SpaceCurve profile = with_domain(s.profile, {0.0, 1.0});

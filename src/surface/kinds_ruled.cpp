@@ -129,15 +129,15 @@ Result<NurbsForm> nurbs_of(const RuledSurface& s) {
 
 Result<NurbsForm> nurbs_of(const DirectedSurface& s) {
   if (!(s.to > s.from) || !std::isfinite(s.from) || !std::isfinite(s.to)) {
-    return fail({ErrorCode::kBadOption, "the parameters along the directions do not ascend", "", "",
-                 -1, s.to - s.from});
+    return error(ErrorCode::kBadOption, "the parameters along the directions do not ascend")
+        .value(s.to - s.from);
   }
   const Rows rows = rows_of(s.directrix, s.direction);
   if (!rows.one_denominator) {
-    return fail({ErrorCode::kBadOption,
-                 "a rational directrix and its directions have degrees that are too high together",
-                 "", "give both with the same weights, or with a lower degree", -1,
-                 static_cast<double>(s.directrix.degree + s.direction.degree)});
+    return error(ErrorCode::kBadOption,
+                 "a rational directrix and its directions have degrees that are too high together")
+        .hint("give both with the same weights, or with a lower degree")
+        .value(static_cast<double>(s.directrix.degree + s.direction.degree));
   }
   return NurbsForm{
       between_rows(along(rows.a, rows.b, s.from), along(rows.a, rows.b, s.to), {s.from, s.to}),

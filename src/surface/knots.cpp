@@ -132,8 +132,9 @@ Line raised(const Line& line) {
 
 Result<void> check_knots(int degree, const std::vector<double>& knots, const char* what) {
   const auto refuse = [&](std::string sentence, std::size_t index) -> Result<void> {
-    return fail({ErrorCode::kBadOption, fmt::format("{} {}", what, sentence), "", "",
-                 static_cast<std::ptrdiff_t>(index), index < knots.size() ? knots[index] : 0.0});
+    return error(ErrorCode::kBadOption, fmt::format("{} {}", what, sentence))
+        .point(index)
+        .value(index < knots.size() ? knots[index] : 0.0);
   };
   if (degree < 1 || degree > kMaxSurfaceDegree) {
     return refuse(fmt::format("have degree {}, which is not in 1 to {}", degree, kMaxSurfaceDegree),
@@ -143,8 +144,9 @@ Result<void> check_knots(int degree, const std::vector<double>& knots, const cha
   if (knots.size() < 2 * (p + 1)) return refuse("are too few for their degree", knots.size());
   for (std::size_t i = 0; i < knots.size(); ++i) {
     if (!std::isfinite(knots[i])) {
-      return fail({ErrorCode::kNotFinite, fmt::format("{} hold a number that is not finite", what),
-                   "", "", static_cast<std::ptrdiff_t>(i), knots[i]});
+      return error(ErrorCode::kNotFinite, fmt::format("{} hold a number that is not finite", what))
+          .point(i)
+          .value(knots[i]);
     }
     if (i > 0 && knots[i] < knots[i - 1]) return refuse("descend", i);
   }

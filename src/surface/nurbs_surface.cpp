@@ -12,8 +12,8 @@
 namespace obvid {
 
 Result<void> check(const NurbsSurface& surface) {
-  if (auto u = check_knots(surface.degree_u, surface.knots_u, "the knots along u"); !u) return u;
-  if (auto v = check_knots(surface.degree_v, surface.knots_v, "the knots along v"); !v) return v;
+  OBVID_TRY(check_knots(surface.degree_u, surface.knots_u, "the knots along u"));
+  OBVID_TRY(check_knots(surface.degree_v, surface.knots_v, "the knots along v"));
   return check_points(surface.points, surface.weights, surface.count_u() * surface.count_v());
 }
 

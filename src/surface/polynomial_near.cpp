@@ -80,8 +80,9 @@ Result<PolynomialForm> polynomial_near(const SpaceCurve& given, double tolerance
   knots.erase(std::unique(knots.begin(), knots.end()), knots.end());
   for (std::size_t i = 0; i + 1 < knots.size(); ++i) {
     if (halving.add(knots[i], knots[i + 1], kDeepest)) continue;
-    return fail({ErrorCode::kToleranceNotReached, "a rational curve is not followed by a cubic", "",
-                 "allow a larger tolerance", -1, tolerance});
+    return error(ErrorCode::kToleranceNotReached, "a rational curve is not followed by a cubic")
+        .hint("allow a larger tolerance")
+        .value(tolerance);
   }
   PolynomialForm form{{3, {0.0, 0.0, 0.0, 0.0}, {halving.pieces.front()[0]}, {}},
                       halving.deviation};

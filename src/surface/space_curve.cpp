@@ -13,7 +13,7 @@
 namespace obvid {
 
 Result<void> check(const SpaceCurve& curve) {
-  if (auto knots = check_knots(curve.degree, curve.knots, "the knots"); !knots) return knots;
+  OBVID_TRY(check_knots(curve.degree, curve.knots, "the knots"));
   return check_points(curve.points, curve.weights,
                       curve.knots.size() - static_cast<std::size_t>(curve.degree) - 1);
 }
@@ -48,21 +48,22 @@ double curvature(const SpaceJet& jet) {
 Result<void> check_points(const std::vector<Vec3>& points, const std::vector<double>& weights,
                           std::size_t wanted) {
   if (points.size() != wanted || (!weights.empty() && weights.size() != wanted)) {
-    return fail({ErrorCode::kBadOption,
+    return error(ErrorCode::kBadOption,
                  fmt::format("{} control points and {} weights where the knots need {}",
-                             points.size(), weights.size(), wanted),
-                 "", "", -1, static_cast<double>(wanted)});
+                             points.size(), weights.size(), wanted))
+        .value(static_cast<double>(wanted));
   }
   for (std::size_t i = 0; i < points.size(); ++i) {
     const auto index = static_cast<std::ptrdiff_t>(i);
     if (!is_finite(points[i]) || (!weights.empty() && !std::isfinite(weights[i]))) {
-      return fail({ErrorCode::kNotFinite, fmt::format("control point {} is not finite", i), "", "",
-                   index, 0.0});
+      return error(ErrorCode::kNotFinite, fmt::format("control point {} is not finite", i))
+          .point(index);
     }
     if (!weights.empty() && !(weights[i] > 0.0)) {
-      return fail({ErrorCode::kBadOption,
-                   fmt::format("weight {} is {:g}, weights are greater than 0", i, weights[i]), "",
-                   "", index, weights[i]});
+      return error(ErrorCode::kBadOption,
+                   fmt::format("weight {} is {:g}, weights are greater than 0", i, weights[i]))
+          .point(index)
+          .value(weights[i]);
     }
   }
   return {};

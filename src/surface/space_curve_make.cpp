@@ -47,11 +47,11 @@ SpaceCurve placed(const NurbsCurve& curve, const Frame& frame) {
 Result<SpaceCurve> interpolated(const std::vector<Vec3>& points,
                                 const std::vector<double>& parameters) {
   if (points.size() != parameters.size()) {
-    return fail({ErrorCode::kUsage, "as many parameters as points are needed", "", "", -1,
-                 static_cast<double>(parameters.size())});
+    return error(ErrorCode::kUsage, "as many parameters as points are needed")
+        .value(static_cast<double>(parameters.size()));
   }
   const Result<Collocation> system = cubic_collocation(parameters);
-  if (!system) return fail(system.error());
+  OBVID_TRY(system);
   return SpaceCurve{system->degree, system->knots, system->matrix.solve(points), {}};
 }
 

@@ -70,19 +70,20 @@ Result<NurbsForm> network_form(const Kind& kind, double tolerance) {
     form->deviation = std::max(form_error(kind, form->surface), form->deviation / 3.0);
     if (form->deviation <= tolerance) return form;
   }
-  return fail({ErrorCode::kToleranceNotReached, "rational curves of a net are not followed", "",
-               "allow a larger tolerance", -1, tolerance});
+  return error(ErrorCode::kToleranceNotReached, "rational curves of a net are not followed")
+      .hint("allow a larger tolerance")
+      .value(tolerance);
 }
 
 template <class Kind>
 Result<NurbsForm> form_of(const Kind& kind, double tolerance) {
   if constexpr (std::is_same_v<Kind, NurbsSurface>) {
-    if (auto good = check(kind); !good) return fail(good.error());
+    OBVID_TRY(check(kind));
     return NurbsForm{kind, 0.0};
   } else if constexpr (std::is_same_v<Kind, CoonsPatch> || std::is_same_v<Kind, GordonSurface>) {
     return network_form(kind, tolerance);
   } else if constexpr (std::is_same_v<Kind, OffsetSurface>) {
-    if (auto good = check(kind.base); !good) return fail(good.error());
+    OBVID_TRY(check(kind.base));
     return nurbs_of(kind, tolerance);
   } else {
     return nurbs_of(kind);
@@ -96,7 +97,7 @@ Result<void> check_curves(const Surface& surface) {
     curves = {&s->directrix, &s->direction};
   if (const auto* s = std::get_if<RevolutionSurface>(&surface)) curves = {&s->profile};
   for (const SpaceCurve* curve : curves) {
-    if (auto good = check(*curve); !good) return good;
+    OBVID_TRY(check(*curve));
   }
   return {};
 }
@@ -133,7 +134,7 @@ SurfaceJet evaluate(const Surface& surface, double u, double v) {
 }
 
 Result<NurbsForm> to_nurbs(const Surface& surface, double tolerance) {
-  if (auto good = check_curves(surface); !good) return fail(good.error());
+  OBVID_TRY(check_curves(surface));
   return std::visit([&](const auto& s) { return form_of(s, tolerance); }, surface);
 }
 

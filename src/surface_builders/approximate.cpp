@@ -266,11 +266,11 @@ class Approximation {
 
 Result<ApproximatedSurface> approximated(const PointGrid& grid, double tolerance,
                                          const RunContext& run) {
-  if (auto good = check_tolerance(tolerance); !good) return fail(good.error());
+  OBVID_TRY(check_tolerance(tolerance));
   auto u = grid_parameters(grid, true, Spread::kChord);
-  if (!u) return fail(u.error());
+  OBVID_TRY(u);
   auto v = grid_parameters(grid, false, Spread::kChord);
-  if (!v) return fail(v.error());
+  OBVID_TRY(v);
   Approximation work(grid, std::move(*u), std::move(*v));
   NurbsSurface surface;
   const bool near = work.fitted(tolerance, run);
@@ -279,17 +279,18 @@ Result<ApproximatedSurface> approximated(const PointGrid& grid, double tolerance
     surface = work.take();
   } else {
     Result<NurbsSurface> through = interpolated(grid, Spread::kChord);
-    if (!through) return fail(through.error());
+    OBVID_TRY(through);
     surface = std::move(*through);
   }
   ApproximatedSurface result = work.measured(std::move(surface));
-  if (auto done = tell(run, "approximating surface", 1.0); !done) return fail(done.error());
+  OBVID_TRY(tell(run, "approximating surface", 1.0));
   if (result.deviation <= tolerance) return result;
-  return fail({ErrorCode::kToleranceNotReached,
+  return error(ErrorCode::kToleranceNotReached,
                fmt::format("a surface comes no nearer to all points than {:g}, the tolerance is "
                            "{:g}",
-                           result.deviation, tolerance),
-               "", "give a tolerance above the rounding of the coordinates", -1, result.deviation});
+                           result.deviation, tolerance))
+      .hint("give a tolerance above the rounding of the coordinates")
+      .value(result.deviation);
 }
 
 }  // namespace obvid

@@ -31,8 +31,8 @@ Result<Contour> begun_at_first_point(const Contour& contour) {
   const auto at = std::find_if(contour.joints.begin(), contour.joints.end(),
                                [](const Joint& joint) { return joint.source == 0; });
   if (at == contour.joints.end()) {
-    return fail({ErrorCode::kUnsupported, "the closed contour has no joint on its first point", "",
-                 "begin the section at one of its corners", -1, 0.0});
+    return error(ErrorCode::kUnsupported, "the closed contour has no joint on its first point")
+        .hint("begin the section at one of its corners");
   }
   const auto first = at - contour.joints.begin();
   if (first == 0) return contour;

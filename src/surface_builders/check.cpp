@@ -296,7 +296,7 @@ Result<SurfaceCheck> check_surface(const SurfaceModel& model, const CheckOptions
   for (const SurfacePatch& patch : model.patches) {
     const double part =
         static_cast<double>(result.patches.size()) / static_cast<double>(model.patches.size());
-    if (auto done = tell(run, "measuring", part); !done) return fail(done.error());
+    OBVID_TRY(tell(run, "measuring", part));
     result.patches.push_back(report_of(patch, options.samples));
   }
   result.joints = joints_of(model, options.meeting * result.size);

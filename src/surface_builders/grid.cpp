@@ -14,23 +14,20 @@ namespace {
 
 Result<void> check_grid(const PointGrid& grid) {
   if (grid.points.size() != grid.count_u * grid.count_v) {
-    return fail({ErrorCode::kUsage,
-                 fmt::format("{} points do not make {} rows of {}", grid.points.size(),
-                             grid.count_v, grid.count_u),
-                 "", "", -1, static_cast<double>(grid.points.size())});
+    return error(ErrorCode::kUsage, fmt::format("{} points do not make {} rows of {}",
+                                                grid.points.size(), grid.count_v, grid.count_u))
+        .value(static_cast<double>(grid.points.size()));
   }
   if (grid.count_u < 2 || grid.count_v < 2) {
-    return fail(
-        {ErrorCode::kTooFewPoints,
-         fmt::format("a grid of {} x {} points spans no surface", grid.count_u, grid.count_v), "",
-         "give at least 2 x 2 points", -1, 0.0});
+    return error(ErrorCode::kTooFewPoints, fmt::format("a grid of {} x {} points spans no surface",
+                                                       grid.count_u, grid.count_v))
+        .hint("give at least 2 x 2 points");
   }
   for (std::size_t i = 0; i < grid.points.size(); ++i) {
     if (is_finite(grid.points[i])) continue;
-    return fail({ErrorCode::kNotFinite,
-                 fmt::format("point {} of row {} is not finite", i % grid.count_u + 1,
-                             i / grid.count_u + 1),
-                 "", "", static_cast<std::ptrdiff_t>(i), 0.0});
+    return error(ErrorCode::kNotFinite, fmt::format("point {} of row {} is not finite",
+                                                    i % grid.count_u + 1, i / grid.count_u + 1))
+        .point(i);
   }
   return {};
 }
@@ -78,10 +75,10 @@ Result<std::vector<double>> averaged_chords(const PointGrid& grid, bool along_u,
                  ? 1.0
                  : sum[i] / static_cast<double>(std::max<std::size_t>(counted, 1));
     if (counted > 0 && sum[i] > sum[i - 1]) continue;
-    return fail(
-        {ErrorCode::kSizeOutOfRange,
-         fmt::format("{} {} and {} are the same points", along_u ? "columns" : "rows", i, i + 1),
-         "", "leave one of them out", static_cast<std::ptrdiff_t>(i), 0.0});
+    return error(ErrorCode::kOutOfOrder, fmt::format("{} {} and {} are the same points",
+                                                     along_u ? "columns" : "rows", i, i + 1))
+        .hint("leave one of them out")
+        .point(i);
   }
   return sum;
 }
@@ -115,20 +112,20 @@ std::vector<double> uniform_knots(std::size_t count, std::size_t degree) {
 }  // namespace
 
 Result<std::vector<double>> grid_parameters(const PointGrid& grid, bool along_u, Spread spread) {
-  if (auto good = check_grid(grid); !good) return fail(good.error());
+  OBVID_TRY(check_grid(grid));
   if (spread == Spread::kUniform) return uniform(along_u ? grid.count_u : grid.count_v);
   return averaged_chords(grid, along_u, spread);
 }
 
 Result<NurbsSurface> interpolated(const PointGrid& grid, Spread spread) {
   const auto u = grid_parameters(grid, true, spread);
-  if (!u) return fail(u.error());
+  OBVID_TRY(u);
   const auto v = grid_parameters(grid, false, spread);
-  if (!v) return fail(v.error());
+  OBVID_TRY(v);
   const Result<Collocation> along_u = cubic_collocation(*u);
-  if (!along_u) return fail(along_u.error());
+  OBVID_TRY(along_u);
   const Result<Collocation> along_v = cubic_collocation(*v);
-  if (!along_v) return fail(along_v.error());
+  OBVID_TRY(along_v);
   std::vector<Vec3> points = grid.points;
   along_v->matrix.solve_rows(points, grid.count_u);
   points = transposed_points(points, grid.count_u);
@@ -139,12 +136,11 @@ Result<NurbsSurface> interpolated(const PointGrid& grid, Spread spread) {
 }
 
 Result<NurbsSurface> from_control_points(const PointGrid& grid, int degree_u, int degree_v) {
-  if (auto good = check_grid(grid); !good) return fail(good.error());
+  OBVID_TRY(check_grid(grid));
   if (std::min(degree_u, degree_v) < 1 || std::max(degree_u, degree_v) > kMaxSurfaceDegree) {
-    return fail({ErrorCode::kBadOption,
-                 fmt::format("degrees {} and {} are not both in 1 to {}", degree_u, degree_v,
-                             kMaxSurfaceDegree),
-                 "", "", -1, static_cast<double>(std::max(degree_u, degree_v))});
+    return error(ErrorCode::kBadOption, fmt::format("degrees {} and {} are not both in 1 to {}",
+                                                    degree_u, degree_v, kMaxSurfaceDegree))
+        .value(static_cast<double>(std::max(degree_u, degree_v)));
   }
   const auto degree = [](int wanted, std::size_t count) {
     return std::min(static_cast<std::size_t>(wanted), count - 1);

@@ -114,7 +114,7 @@ CrossingPoints middles(CrossingPoints a, const CrossingPoints& b) {
 Result<void> rebuild(NetSide& side, const std::vector<double>& parameters,
                      const CrossingPoints& points, double tolerance) {
   Result<std::vector<SpaceCurve>> curves = rebuilt(side, parameters, points, tolerance);
-  if (!curves) return fail(curves.error());
+  OBVID_TRY(curves);
   side.curves = std::move(*curves);
   return {};
 }
@@ -132,29 +132,29 @@ Result<void> make_agree(NetSide& first, NetSide& second, const std::vector<doubl
   }
   if (farthest(at_second, own_second) <= agree) return rebuild(first, u, at_second, tolerance);
   const CrossingPoints points = middles(own_first, own_second);
-  if (auto done = rebuild(first, u, points, tolerance); !done) return done;
+  OBVID_TRY(rebuild(first, u, points, tolerance));
   return rebuild(second, v, transposed(points), tolerance);
 }
 
 Result<void> check_net(const std::vector<SpaceCurve>& first, const std::vector<SpaceCurve>& second,
                        double tolerance) {
-  if (auto good = check_tolerance(tolerance); !good) return good;
+  OBVID_TRY(check_tolerance(tolerance));
   if (first.size() < 2 || second.size() < 2) {
-    return fail({ErrorCode::kTooFewPoints,
+    return error(ErrorCode::kTooFewCurves,
                  fmt::format("a net has two curves of each kind at least, not {} and {}",
-                             first.size(), second.size()),
-                 "", "", -1, static_cast<double>(std::min(first.size(), second.size()))});
+                             first.size(), second.size()))
+        .value(static_cast<double>(std::min(first.size(), second.size())));
   }
-  if (auto good = check_curves(first, " of the first kind"); !good) return good;
+  OBVID_TRY(check_curves(first, " of the first kind"));
   return check_curves(second, " of the second kind");
 }
 
 Result<void> arrange(NetSide& first, NetSide& second, double tolerance) {
-  if (auto good = find_crossings(first, second, tolerance); !good) return good;
-  if (auto good = open_at_seam(first, second, tolerance); !good) return good;
-  if (auto good = open_at_seam(second, first, tolerance); !good) return good;
-  if (auto good = put_in_order(first, second); !good) return good;
-  if (auto good = put_in_order(second, first); !good) return good;
+  OBVID_TRY(find_crossings(first, second, tolerance));
+  OBVID_TRY(open_at_seam(first, second, tolerance));
+  OBVID_TRY(open_at_seam(second, first, tolerance));
+  OBVID_TRY(put_in_order(first, second));
+  OBVID_TRY(put_in_order(second, first));
   trim(first, tolerance);
   trim(second, tolerance);
   return {};
@@ -164,12 +164,12 @@ Result<void> arrange(NetSide& first, NetSide& second, double tolerance) {
 
 Result<GordonSurface> gordon_from(const std::vector<SpaceCurve>& first,
                                   const std::vector<SpaceCurve>& second, double tolerance) {
-  if (auto good = check_net(first, second, tolerance); !good) return fail(good.error());
+  OBVID_TRY(check_net(first, second, tolerance));
   NetSide along_u = side_of(first, "of the first kind", second.size(), tolerance);
   NetSide along_v = side_of(second, "of the second kind", first.size(), tolerance);
-  if (auto good = arrange(along_u, along_v, tolerance); !good) return fail(good.error());
+  OBVID_TRY(arrange(along_u, along_v, tolerance));
   std::vector<double> u = mean_parameters(along_u), v = mean_parameters(along_v);
-  if (auto good = make_agree(along_u, along_v, u, v, tolerance); !good) return fail(good.error());
+  OBVID_TRY(make_agree(along_u, along_v, u, v, tolerance));
   return GordonSurface{std::move(along_u.curves), std::move(along_v.curves), std::move(v),
                        std::move(u)};
 }

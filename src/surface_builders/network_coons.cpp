@@ -113,14 +113,14 @@ void join(Vec3& a, Vec3& b) {
 }  // namespace
 
 Result<CoonsPatch> coons_from(const std::vector<SpaceCurve>& curves, double tolerance) {
-  if (auto good = check_tolerance(tolerance); !good) return fail(good.error());
+  OBVID_TRY(check_tolerance(tolerance));
   if (curves.size() != 4) {
-    return fail({ErrorCode::kTooFewPoints,
-                 fmt::format("a Coons patch has four curves, not {}", curves.size()), "",
-                 "a triangle has a fourth curve of length 0 in one corner", -1,
-                 static_cast<double>(curves.size())});
+    return error(ErrorCode::kTooFewCurves,
+                 fmt::format("a Coons patch has four curves, not {}", curves.size()))
+        .hint("a triangle has a fourth curve of length 0 in one corner")
+        .value(static_cast<double>(curves.size()));
   }
-  if (auto good = check_curves(curves, ""); !good) return fail(good.error());
+  OBVID_TRY(check_curves(curves, ""));
   const Loops loops(curves);
   const Loop *nearest = nullptr, *best = nullptr;
   double least_gap = std::numeric_limits<double>::infinity(), least_twist = least_gap;
@@ -141,8 +141,8 @@ Result<CoonsPatch> coons_from(const std::vector<SpaceCurve>& curves, double tole
   }
   if (best == nullptr && !flat) return fail(apart(loops, *nearest, tolerance));
   if (best == nullptr) {
-    return fail({ErrorCode::kBadOption, "curves side by side are the same curve", "",
-                 "give each border of the patch once", -1, 0.0});
+    return error(ErrorCode::kBadOption, "curves side by side are the same curve")
+        .hint("give each border of the patch once");
   }
   CoonsPatch patch{loops.curve(*best, 0, false), loops.curve(*best, 2, true),
                    loops.curve(*best, 3, true), loops.curve(*best, 1, false)};

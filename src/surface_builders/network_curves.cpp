@@ -12,8 +12,8 @@ namespace obvid {
 
 Result<void> check_tolerance(double tolerance) {
   if (tolerance > 0.0 && std::isfinite(tolerance)) return {};
-  return fail({ErrorCode::kBadOption, fmt::format("tolerance {:g} is not above 0", tolerance), "",
-               "", -1, tolerance});
+  return error(ErrorCode::kBadOption, fmt::format("tolerance {:g} is not above 0", tolerance))
+      .value(tolerance);
 }
 
 Result<void> check_curves(const std::vector<SpaceCurve>& curves, const std::string& kind) {

@@ -102,7 +102,7 @@ Result<std::vector<SpaceCurve>> through(const std::vector<Wanted>& wanted,
   for (const Wanted& w : wanted) {
     std::transform(nodes.begin(), nodes.end(), points.begin(), std::cref(w));
     Result<SpaceCurve> curve = interpolated(points, nodes);
-    if (!curve) return fail(curve.error());
+    OBVID_TRY(curve);
     curves.push_back(std::move(*curve));
   }
   return curves;
@@ -163,10 +163,11 @@ Result<std::vector<SpaceCurve>> rebuilt(const NetSide& side, const std::vector<d
     if (finer.size() == nodes.size()) return curves;
     nodes = std::move(finer);
   }
-  return fail({ErrorCode::kToleranceNotReached,
+  return error(ErrorCode::kToleranceNotReached,
                fmt::format("curves {} over common parameters stay {:g} away from those given",
-                           side.kind, worst),
-               "", "give a larger tolerance, or curves whose parameters agree", -1, worst});
+                           side.kind, worst))
+      .hint("give a larger tolerance, or curves whose parameters agree")
+      .value(worst);
 }
 
 }  // namespace obvid

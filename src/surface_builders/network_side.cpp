@@ -121,11 +121,11 @@ Result<void> open_at_seam(NetSide& side, NetSide& other, double tolerance) {
     if (at_seam(side, j, tolerance)) seams.push_back(j);
   }
   if (seams.empty() || seams.size() > 2) {
-    return fail({ErrorCode::kBadOption,
+    return error(ErrorCode::kBadOption,
                  fmt::format("{} curves {} pass through the ends of the closed curves {}",
-                             seams.size(), other.kind, side.kind),
-                 "", "let the closed curves begin on one and the same curve of the other kind", -1,
-                 static_cast<double>(seams.size())});
+                             seams.size(), other.kind, side.kind))
+        .hint("let the closed curves begin on one and the same curve of the other kind")
+        .value(static_cast<double>(seams.size()));
   }
   if (seams.size() == 1) {  // the curve stands once more, at the other end
     const std::size_t j = seams[0];
@@ -147,8 +147,7 @@ Result<void> open_at_seam(NetSide& side, NetSide& other, double tolerance) {
 Result<void> put_in_order(NetSide& side, NetSide& other) {
   const std::size_t guide = guide_of(side);
   if (guide == side.curves.size()) {
-    return fail({ErrorCode::kBadOption, fmt::format("all curves {} are points", side.kind), "", "",
-                 -1, 0.0});
+    return error(ErrorCode::kBadOption, fmt::format("all curves {} are points", side.kind));
   }
   std::vector<std::size_t> order(other.curves.size());
   std::iota(order.begin(), order.end(), std::size_t{0});

@@ -66,7 +66,7 @@ Result<SectionCurve> SectionCurve::make(const MeasuredSection& section,
   curve.s_ = marks;
   curve.slope_ = monotone_slopes(at, marks);
   auto height = heights(section, marks.front(), marks.back());
-  if (!height) return fail(height.error());
+  OBVID_TRY(height);
   curve.height_ = std::move(*height);
   return curve;
 }

@@ -19,12 +19,12 @@ namespace {
 
 Result<void> check_sections(const std::vector<SkinSection>& sections, const SkinOptions& options) {
   if (!(options.tolerance > 0.0)) {
-    return fail({ErrorCode::kBadOption, "the tolerance must be greater than 0", "", "", -1,
-                 options.tolerance});
+    return error(ErrorCode::kBadOption, "the tolerance must be greater than 0")
+        .value(options.tolerance);
   }
   if (sections.size() < 2) {
-    return fail({ErrorCode::kTooFewPoints, "a skin needs at least two sections", "", "", -1,
-                 static_cast<double>(sections.size())});
+    return error(ErrorCode::kTooFewCurves, "a skin needs at least two sections")
+        .value(static_cast<double>(sections.size()));
   }
   for (std::size_t k = 0; k < sections.size(); ++k) {
     const SkinSection& s = sections[k];
@@ -34,10 +34,10 @@ Result<void> check_sections(const std::vector<SkinSection>& sections, const Skin
       return point || i < s.contour.points.size();
     });
     if (fits && inside) continue;
-    return fail(
-        {ErrorCode::kUsage,
-         fmt::format("section {} ({}): points and contour do not belong together", k + 1, s.name),
-         "", "", static_cast<std::ptrdiff_t>(k), 0.0});
+    return error(ErrorCode::kUsage,
+                 fmt::format("section {} ({}): points and contour do not belong together", k + 1,
+                             s.name))
+        .point(k);
   }
   return {};
 }
@@ -62,11 +62,11 @@ Result<Net> net_of(const std::vector<MeasuredSection>& sections, const Stretch& 
   Net net;
   for (std::size_t k = 0; k < sections.size(); ++k) {
     auto curve = SectionCurve::make(sections[k], stretch.marks[k], stretch.at);
-    if (!curve) return fail(curve.error());
+    OBVID_TRY(curve);
     net.curves.push_back(std::move(*curve));
   }
   auto breaks = breaks_for(net.curves, stretch.at, {options.tolerance});
-  if (!breaks) return fail(breaks.error());
+  OBVID_TRY(breaks);
   net.breaks = std::move(*breaks);
   for (const SectionCurve& curve : net.curves) {
     std::vector<Hermite> data;
@@ -118,12 +118,12 @@ NurbsSurface surface_of(const Net& net, const Collocation& across) {
 
 Result<Skin> skin(const std::vector<SkinSection>& given, const SkinOptions& options,
                   const RunContext& run) {
-  if (auto good = check_sections(given, options); !good) return fail(good.error());
+  OBVID_TRY(check_sections(given, options));
   std::vector<SkinSection> sections = given;
   std::vector<MeasuredSection> measured_sections;
   for (std::size_t k = 0; k < sections.size(); ++k) {
     const double part = static_cast<double>(k) / static_cast<double>(sections.size());
-    if (auto done = tell(run, "measuring sections", part); !done) return fail(done.error());
+    OBVID_TRY(tell(run, "measuring sections", part));
     auto begun = begun_at_first_point(sections[k].contour);
     if (!begun) return fail(of_section(begun.error(), sections, k));
     sections[k].contour = std::move(*begun);
@@ -132,20 +132,20 @@ Result<Skin> skin(const std::vector<SkinSection>& given, const SkinOptions& opti
     measured_sections.push_back(std::move(*section));
   }
   auto match = matched(measured_sections, options.matching);
-  if (!match) return fail(match.error());
+  OBVID_TRY(match);
   std::vector<Net> nets;
   for (const Stretch& stretch : match->stretches) {
     const double part =
         static_cast<double>(nets.size()) / static_cast<double>(match->stretches.size());
-    if (auto done = tell(run, "following contours", part); !done) return fail(done.error());
+    OBVID_TRY(tell(run, "following contours", part));
     auto net = net_of(measured_sections, stretch, options);
-    if (!net) return fail(net.error());
+    OBVID_TRY(net);
     nets.push_back(std::move(*net));
   }
   const auto v = parameters_across(nets, sections.size());
-  if (!v) return fail(v.error());
+  OBVID_TRY(v);
   Result<Collocation> across = options.straight_across ? straight(*v) : cubic_collocation(*v);
-  if (!across) return fail(across.error());
+  OBVID_TRY(across);
 
   Skin result;
   result.matching = match->matching;
@@ -156,7 +156,7 @@ Result<Skin> skin(const std::vector<SkinSection>& given, const SkinOptions& opti
   }
   for (std::size_t n = 0; n < nets.size(); ++n) {
     const double part = static_cast<double>(n) / static_cast<double>(nets.size());
-    if (auto done = tell(run, "checking", part); !done) return fail(done.error());
+    OBVID_TRY(tell(run, "checking", part));
     SkinStretch stretch{std::move(nets[n].curves), nets[n].breaks, surface_of(nets[n], *across)};
     for (std::size_t k = 0; k < sections.size(); ++k) {
       add_section_report(stretch, measured_sections[k], k, (*v)[k], result.sections[k]);

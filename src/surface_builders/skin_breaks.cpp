@@ -153,10 +153,11 @@ Result<std::vector<double>> breaks_for(const std::vector<SectionCurve>& sections
   Halving halving(sections, marks, goals);
   if (!halving.between_marks(0, marks.size() - 1)) {
     const double at = halving.breaks_.back();
-    return fail({ErrorCode::kToleranceNotReached,
+    return error(ErrorCode::kToleranceNotReached,
                  fmt::format("the sections are not followed within {:g} at {:.1f} % of a stretch",
-                             goals.tolerance, 100.0 * at),
-                 "", "allow a larger tolerance", -1, goals.tolerance});
+                             goals.tolerance, 100.0 * at))
+        .hint("allow a larger tolerance")
+        .value(goals.tolerance);
   }
   return halving.breaks_;
 }

@@ -151,13 +151,14 @@ Result<std::vector<std::vector<double>>> fences_by_length(
   for (std::size_t k = 0; k < fences.size(); ++k) {
     if (fences[k].empty()) continue;
     if (first != nullptr && fences[k].size() != first->size()) {
-      return fail({ErrorCode::kBadOption,
+      return error(ErrorCode::kBadOption,
                    fmt::format("section {} ({}) has {} corners where those before have {}", k + 1,
-                               sections[k].section->name, fences[k].size() - 2, first->size() - 2),
-                   "",
-                   "give all sections equally many points, or mark the same corners in each, or "
-                   "allow none",
-                   static_cast<std::ptrdiff_t>(k), static_cast<double>(fences[k].size() - 2)});
+                               sections[k].section->name, fences[k].size() - 2, first->size() - 2))
+          .hint(
+              "give all sections equally many points, or mark the same corners in each, or "
+              "allow none")
+          .point(k)
+          .value(static_cast<double>(fences[k].size() - 2));
     }
     first = &fences[k];
   }
@@ -166,7 +167,7 @@ Result<std::vector<std::vector<double>>> fences_by_length(
 
 Result<Matched> by_length(const std::vector<MeasuredSection>& sections) {
   const auto fences = fences_by_length(sections);
-  if (!fences) return fail(fences.error());
+  OBVID_TRY(fences);
   std::size_t stretches = 0;
   for (const auto& list : *fences) stretches = std::max(stretches, list.size());
   Matched result;
@@ -205,7 +206,7 @@ Result<MeasuredSection> measured(const SkinSection& section) {
   MeasuredSection result{&section, std::nullopt, {}};
   if (section.contour.pieces.empty()) return result;
   auto path = ContourPath::without_cusps(section.contour.pieces);
-  if (!path) return fail(path.error());
+  OBVID_TRY(path);
   result.path = std::move(*path);
   const std::vector<double> at = contour_points_at(section.contour, *result.path);
   for (const std::size_t i : section.on_contour) result.point_at.push_back(at[i]);
@@ -225,11 +226,12 @@ Result<Matched> matched(const std::vector<MeasuredSection>& sections, SkinMatchi
     equal = false;
   }
   if (matching == SkinMatching::kByPoints && !equal) {
-    return fail(
-        {ErrorCode::kUsage,
-         fmt::format("section {} ({}) has {} points where the first has {}", odd + 1,
-                     sections[odd].section->name, sections[odd].section->points.size(), count),
-         "", "match by length", static_cast<std::ptrdiff_t>(odd), 0.0});
+    return error(ErrorCode::kUsage,
+                 fmt::format("section {} ({}) has {} points where the first has {}", odd + 1,
+                             sections[odd].section->name, sections[odd].section->points.size(),
+                             count))
+        .hint("match by length")
+        .point(odd);
   }
   const bool points =
       matching == SkinMatching::kByPoints || (matching == SkinMatching::kAutomatic && equal);
@@ -237,7 +239,7 @@ Result<Matched> matched(const std::vector<MeasuredSection>& sections, SkinMatchi
   if (!result) return result;
   result->matching = points ? SkinMatching::kByPoints : SkinMatching::kByLength;
   if (result->stretches.empty()) {
-    return fail({ErrorCode::kTooFewPoints, "no section has a length", "", "", -1, 0.0});
+    return error(ErrorCode::kNothingThere, "no section has a length");
   }
   return result;
 }

@@ -100,11 +100,11 @@ Result<Family> constant_scallop(const Part& part, const ToolpathOptions& options
   Family family;
   while (front.lowest() <= frame.b1) {
     auto pass = walker.walk(front.rail());
-    if (!pass) return fail(pass.error());
+    OBVID_TRY(pass);
     if (!pass->empty()) family.push_back(std::move(*pass));
     front.advance();
     const double share = (front.lowest() - frame.b0) / (frame.b1 - frame.b0);
-    if (auto done = tell(run, "passes", share); !done) return fail(done.error());
+    OBVID_TRY(tell(run, "passes", share));
   }
   return family;
 }

@@ -26,7 +26,7 @@ Vec3 CutterShape::tip(Vec3 point, Vec3 normal) const {
 
 Result<CutterShape> shape_of(const Cutter& cutter) {
   const auto bad = [](const char* what, double value) {
-    return fail({ErrorCode::kBadOption, what, "", "", -1, value});
+    return error(ErrorCode::kBadOption, what).value(value);
   };
   const double radius = 0.5 * cutter.diameter;
   if (!std::isfinite(radius) || !(radius > 0.0)) {

@@ -43,14 +43,14 @@ Result<Family> isoparametric(const Part& part, const ToolpathOptions& options, c
       rail.along_v = options.along_v;
       rail.fixed = at;
       auto pass = walker.walk(rail);
-      if (!pass) return fail(pass.error());
+      OBVID_TRY(pass);
       const double step = step_of(part, rule, *pass, range.length());
       family.push_back(std::move(*pass));
       if (at >= range.to) break;
       at = std::min(at + step, range.to);
       const double share = (static_cast<double>(k) + (at - range.from) / range.length()) /
                            static_cast<double>(patches.size());
-      if (auto done = tell(run, "passes", share); !done) return fail(done.error());
+      OBVID_TRY(tell(run, "passes", share));
     }
     family.emplace_back();  // nothing between patches
   }

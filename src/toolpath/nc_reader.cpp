@@ -28,9 +28,10 @@ class Reader {
       const std::size_t end = text.find('\n');
       const std::string_view line = text.substr(0, end);
       if (!block(line)) {
-        return fail({ErrorCode::kInternal, "a printed block is not understood: " + fault_,
-                     fmt::format("block {}: {}", number, line), "please report this",
-                     static_cast<std::ptrdiff_t>(number), 0.0});
+        return error(ErrorCode::kInternal, "a printed block is not understood: " + fault_)
+            .where(fmt::format("block {}: {}", number, line))
+            .hint("please report this")
+            .point(number);
       }
       text = end == std::string_view::npos ? std::string_view{} : text.substr(end + 1);
     }

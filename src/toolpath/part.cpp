@@ -62,7 +62,7 @@ Result<Part> Part::make(const SurfaceModel& model, const CutterShape& cutter, do
   options.chord_tolerance = kTriangleShare * tolerance;
   options.angle = kEdgeAngle;
   auto meshes = tessellate(model, options, run);
-  if (!meshes) return fail(meshes.error());
+  OBVID_TRY(meshes);
   return Part(model, cutter, tolerance, std::move(*meshes));
 }
 

@@ -234,10 +234,10 @@ Result<Pass> Walker::walk(const Rail& rail) {
     for (const Station& p : stretch.points) append(p);
   }
   if (points_ > most_points_) {
-    return fail({ErrorCode::kToleranceNotReached,
-                 fmt::format("the passes need more than {} points", most_points_), "",
-                 "allow a larger tolerance, scallop or step", -1,
-                 static_cast<double>(most_points_)});
+    return error(ErrorCode::kToleranceNotReached,
+                 fmt::format("the passes need more than {} points", most_points_))
+        .hint("allow a larger tolerance, scallop or step")
+        .value(static_cast<double>(most_points_));
   }
   std::erase_if(pass.pieces, [](const auto& piece) { return piece.size() < 2; });
   return pass;

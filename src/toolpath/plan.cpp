@@ -26,7 +26,7 @@ constexpr double kDefaultSafe = 0.5;  // diameters above the highest point
 constexpr double kMostAngle = 1e6;    // degrees: beyond, the angle is lost in rounding
 
 Result<void> refuse(std::string what, double value, std::string hint = "") {
-  return fail({ErrorCode::kBadOption, std::move(what), "", std::move(hint), -1, value});
+  return error(ErrorCode::kBadOption, std::move(what)).hint(std::move(hint)).value(value);
 }
 
 bool positive(double value) { return std::isfinite(value) && value > 0.0; }
@@ -139,11 +139,11 @@ void judge(Toolpath& out, const ToolpathOptions& options) {
 Result<void> finish(const Part& part, const SurfaceCells& cells, std::vector<Nearest>& reach,
                     const ToolpathOptions& options, const RunContext& run, Toolpath& out) {
   auto program = toolpath_gcode(out, options.gcode);
-  if (!program) return fail(program.error());
+  OBVID_TRY(program);
   out.program = std::move(*program);
   const auto seen =
       check_program(part, cells, reach, out.program.text, machine_scale(out.units), options, run);
-  if (!seen) return fail(seen.error());
+  OBVID_TRY(seen);
   take_over(*seen, cells.spacing(), out.report);
   return {};
 }
@@ -164,20 +164,21 @@ Toolpath begun(const SurfaceModel& model, const ToolpathOptions& options) {
 Result<Toolpath> planned(const SurfaceModel& model, const ToolpathOptions& options,
                          const CutterShape& cutter, const RunContext& run) {
   const auto part = Part::make(model, cutter, options.tolerance, run);
-  if (!part) return fail(part.error());
+  OBVID_TRY(part);
   Toolpath out = begun(model, options);
   const double top = part->field().high().z;
   out.report.safe_z = options.safe_z.value_or(top + kDefaultSafe * options.cutter.diameter);
   if (out.report.safe_z < top + options.tolerance) {
-    return fail({ErrorCode::kBadOption, "the safe height is not above the part", "",
-                 fmt::format("choose more than {:g}", top), -1, out.report.safe_z});
+    return error(ErrorCode::kBadOption, "the safe height is not above the part")
+        .hint(fmt::format("choose more than {:g}", top))
+        .value(out.report.safe_z);
   }
   const StepRule rule(cutter, options);
   const bool straight = options.strategy == ToolpathStrategy::kZigzag;
   const PassFrame frame = pass_frame(*part, options.angle_deg);
   Walker walker(*part, rule.level(), straight ? std::optional(frame.along) : std::nullopt, options);
   auto family = family_of(*part, options, rule, walker, run);
-  if (!family) return fail(family.error());
+  OBVID_TRY(family);
   const SurfaceCells cells(*part,
                            std::min(kCellOfRadius * cutter.radius, kCellOfStep * rule.level()),
                            cutter.radius, options.threads);
@@ -188,15 +189,13 @@ Result<Toolpath> planned(const SurfaceModel& model, const ToolpathOptions& optio
   double share = kScallopLimit;
   for (int attempt = 1;; ++attempt, share *= kLowerShare) {
     const auto added = survey.complete(*family, share, run);
-    if (!added) return fail(added.error());
+    OBVID_TRY(added);
     all_added += *added;
     out.report = fresh;
     out.report.added_passes = all_added;
     out.report.lifted_points = lifted_points(*family);
     lay_moves(*family, options, rule.level(), walker, out);
-    if (auto done = finish(*part, cells, reach, options, run, out); !done) {
-      return fail(done.error());
-    }
+    OBVID_TRY(finish(*part, cells, reach, options, run, out));
     const bool high = options.scallop && out.report.scallop.found > *options.scallop &&
                       std::isfinite(out.report.scallop.found);  // else more passes help no more
     if (!high || attempt == kMostAttempts) break;
@@ -210,14 +209,14 @@ Result<Toolpath> planned(const SurfaceModel& model, const ToolpathOptions& optio
 Result<Toolpath> plan(const SurfaceModel& model, const ToolpathOptions& options,
                       const RunContext& run) {
   const auto cutter = shape_of(options.cutter);
-  if (!cutter) return fail(cutter.error());
-  if (const auto good = check_sizes(options); !good) return fail(good.error());
+  OBVID_TRY(cutter);
+  OBVID_TRY(check_sizes(options));
   if (model.patches.empty()) {
-    return fail({ErrorCode::kTooFewPoints, "the model has no patches", "", "", -1, 0.0});
+    return error(ErrorCode::kNothingThere, "the model has no patches");
   }
   if (machine_scale(model.units.name) == 0.0) {
-    return fail({ErrorCode::kUnsupported, "machines do not know the unit " + model.units.name, "",
-                 "known are um, mm, cm, m, km, in, ft", -1, 0.0});
+    return error(ErrorCode::kUnsupported, "machines do not know the unit " + model.units.name)
+        .hint("known are um, mm, cm, m, km, in, ft");
   }
   return planned(model, options, *cutter, run);
 }

@@ -37,8 +37,8 @@ Result<SimulationReport> check_program(const Part& part, const SurfaceCells& cel
       options.scallop ? kScallopWithin * *options.scallop : kWithin * options.tolerance;
   const double chord = std::min(kChordDepth * options.tolerance, kChordOfWithin * within);
   const auto program = read_program(text, chord * scale);
-  if (!program) return fail(program.error());
-  if (auto done = tell(run, "checking", 0.0); !done) return fail(done.error());
+  OBVID_TRY(program);
+  OBVID_TRY(tell(run, "checking", 0.0));
   Simulation simulation(part, cells, reach, options.threads, chord);
   simulation.cut(sweeps_of(*program, scale, part.field().high().z));
   return simulation.report(options.tolerance, within, run);

@@ -53,14 +53,14 @@ Result<std::size_t> ScallopSurvey::complete(Family& family, double share, const 
   begun_ = true;
   for (int round = 0; round < kMostRounds; ++round) {
     const double part = static_cast<double>(round) / kMostRounds;
-    if (auto done = tell(run, "scallops", part); !done) return fail(done.error());
+    OBVID_TRY(tell(run, "scallops", part));
     simulation_.cut(sweeps);
     sweeps.clear();
     auto extra = wanted(family, share * scallop_);
     for (std::size_t k = extra.size(); k-- > 0;) {  // from the end: numbers before stay
-      if (auto done = may_go_on(run); !done) return fail(done.error());
+      OBVID_TRY(may_go_on(run));
       auto pass = walker_.walk(extra[k].rail);
-      if (!pass) return fail(pass.error());
+      OBVID_TRY(pass);
       if (pass->empty()) continue;
       append_sweeps(*pass, print_, sweeps);
       ++count;

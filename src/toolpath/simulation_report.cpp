@@ -106,7 +106,7 @@ Result<void> Simulation::report_left(double within, SimulationReport& out, const
       out.left.most = std::max(out.left.most, e.most);
     }
     const double share = static_cast<double>(begin) / static_cast<double>(high.size());
-    if (auto done = tell(run, "checking", share); !done) return done;
+    OBVID_TRY(tell(run, "checking", share));
   }
   if (begin < high.size()) out.left.most = std::max(out.left.most, nodes_[high[begin]].left_most);
   out.left.most = std::max(out.left.most, out.left.found);
@@ -116,9 +116,9 @@ Result<void> Simulation::report_left(double within, SimulationReport& out, const
 Result<SimulationReport> Simulation::report(double allowed, double within, const RunContext& run) {
   SimulationReport out;
   report_depth(allowed, out);
-  if (auto done = may_go_on(run); !done) return fail(done.error());
+  OBVID_TRY(may_go_on(run));
   report_reach(out);
-  if (auto done = report_left(within, out, run); !done) return fail(done.error());
+  OBVID_TRY(report_left(within, out, run));
   return out;
 }
 

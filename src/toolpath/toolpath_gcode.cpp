@@ -76,12 +76,12 @@ void write_moves(const Toolpath& path, double scale, toolpath::ProgramText& prog
 Result<ToolpathGcode> toolpath_gcode(const Toolpath& path, const ToolpathGcodeOptions& options) {
   const double scale = toolpath::machine_scale(path.units);
   if (scale == 0.0) {
-    return fail({ErrorCode::kUnsupported, "machines do not know the unit " + path.units, "",
-                 "known are um, mm, cm, m, km, in, ft", -1, 0.0});
+    return error(ErrorCode::kUnsupported, "machines do not know the unit " + path.units)
+        .hint("known are um, mm, cm, m, km, in, ft");
   }
   if (options.decimals && (*options.decimals < 1 || *options.decimals > kMostDecimals)) {
-    return fail({ErrorCode::kBadOption, fmt::format("decimals must be 1 to {}", kMostDecimals), "",
-                 "", -1, static_cast<double>(*options.decimals)});
+    return error(ErrorCode::kBadOption, fmt::format("decimals must be 1 to {}", kMostDecimals))
+        .value(static_cast<double>(*options.decimals));
   }
   const double print = path.print_within * scale;
   const int least = kLeastDecimals + (path.units == "in" ? 1 : 0);
@@ -90,10 +90,11 @@ Result<ToolpathGcode> toolpath_gcode(const Toolpath& path, const ToolpathGcodeOp
       options.decimals.value_or(static_cast<int>(std::clamp<double>(digits, least, kMostDecimals)));
   const double within = print - std::pow(10.0, -decimals);
   if (!(within > 0.0)) {
-    return fail({ErrorCode::kToleranceNotReached,
+    return error(ErrorCode::kToleranceNotReached,
                  fmt::format("{} decimals do not keep a tolerance of {:g} {}", decimals,
-                             path.tolerance, path.units),
-                 "", "print more decimals, or allow a larger tolerance", -1, path.tolerance});
+                             path.tolerance, path.units))
+        .hint("print more decimals, or allow a larger tolerance")
+        .value(path.tolerance);
   }
   toolpath::ProgramText program(decimals, within, options.arcs);
   write_moves(path, scale, program);

@@ -50,7 +50,7 @@ Result<Family> zigzag(const Part& part, const ToolpathOptions& options, const St
     rail.axis = {frame.at(frame.a0, b), frame.at(frame.a1, b)};
     rail.plane = frame.plane;
     auto pass = walker.walk(rail);
-    if (!pass) return fail(pass.error());
+    OBVID_TRY(pass);
     double step = rule.level();
     for (const auto& piece : pass->pieces) {
       for (const PassPoint& p : piece) {
@@ -60,7 +60,7 @@ Result<Family> zigzag(const Part& part, const ToolpathOptions& options, const St
     if (!pass->empty()) family.push_back(std::move(*pass));
     b += step;
     const double share = (b - frame.b0) / (frame.b1 - frame.b0);
-    if (auto done = tell(run, "passes", share); !done) return fail(done.error());
+    OBVID_TRY(tell(run, "passes", share));
   }
   return family;
 }

@@ -193,7 +193,7 @@ TEST_F(FaceFiles, LineEndsInNamesBecomeBlanks) {
 TEST_F(FaceFiles, WhatIsNoSurfaceIsRefusedByName) {
   const auto empty = cad_surface_text({}, {});
   ASSERT_FALSE(empty);
-  EXPECT_EQ(empty.error().code, ErrorCode::kTooFewPoints);
+  EXPECT_EQ(empty.error().code, ErrorCode::kNothingThere);
   SurfaceModel model = plane_model().model;
   model.patches[0].surface.points[2].y = std::nan("");
   const auto no_number = cad_surface_text(model, {});

@@ -138,7 +138,7 @@ TEST_F(CadIsolation, ReadingEndsWithTheTimeItIsGiven) {
   const std::string path = endless();
   const auto read = read_cad_surfaces(path, run);
   ASSERT_FALSE(read);
-  EXPECT_EQ(read.error().code, ErrorCode::kNotText);
+  EXPECT_EQ(read.error().code, ErrorCode::kDamaged);
   EXPECT_EQ(read.error().where, path);
   EXPECT_NE(read.error().what.find("not done after 0.5 s"), std::string::npos);
 }

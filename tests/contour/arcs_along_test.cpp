@@ -220,7 +220,7 @@ TEST(ArcsAlong, RefusesMoreThanAMillionArcsAtOnce) {
   EXPECT_EQ(arcs.error().code, ErrorCode::kToleranceNotReached);
   EXPECT_EQ(arcs_along(c, -1.0).error().code, ErrorCode::kBadOption);
   EXPECT_EQ(arcs_along(c, std::nan("")).error().code, ErrorCode::kBadOption);
-  EXPECT_EQ(arcs_along(Contour{}, 1.0).error().code, ErrorCode::kTooFewPoints);
+  EXPECT_EQ(arcs_along(Contour{}, 1.0).error().code, ErrorCode::kNothingThere);
 }
 
 TEST(PolylineAlong, TakesTheFewestChordsOfACircle) {
@@ -254,7 +254,7 @@ TEST(PolylineAlong, RefusesMoreThanTenMillionPoints) {
       polyline_along(contour_of({clothoid_from({0.0, 0.0}, 0.0, 1.0, 2.0, 2.0)}), 1e-16);
   ASSERT_FALSE(line);
   EXPECT_EQ(line.error().code, ErrorCode::kToleranceNotReached);
-  EXPECT_EQ(polyline_along(Contour{}, 1.0).error().code, ErrorCode::kTooFewPoints);
+  EXPECT_EQ(polyline_along(Contour{}, 1.0).error().code, ErrorCode::kNothingThere);
 }
 
 }  // namespace

@@ -100,8 +100,11 @@ TEST(ClothoidSpline, RefusesTooFewPointsAndChordsWithoutLength) {
   EXPECT_EQ(few.error().code, ErrorCode::kTooFewPoints);
   const auto twice = clothoid_spline({{0, 0}, {1, 0}, {1, 0}, {2, 1}});
   ASSERT_FALSE(twice.has_value());
-  EXPECT_EQ(twice.error().code, ErrorCode::kChordReversal);
+  EXPECT_EQ(twice.error().code, ErrorCode::kOutOfOrder);
   EXPECT_EQ(twice.error().index, 1);
+  const auto back = clothoid_spline({{0, 0}, {1, 0}, {0, 0}, {0, 1}});
+  ASSERT_FALSE(back.has_value());
+  EXPECT_EQ(back.error().code, ErrorCode::kChordReversal);
 }
 
 TEST(G1Clothoids, TakeTheHeadingsOfTheNeighbourRule) {

@@ -113,7 +113,7 @@ TEST(CubicAlong, HasContinuousCurvatureNearThatOfTheContour) {
 TEST(CubicAlong, SaysWhyThereIsNone) {
   const Contour c = clothoid_contour({0.1, 0.4, 1.5});
   EXPECT_EQ(cubic_along(c, 0.0).error().code, ErrorCode::kBadOption);
-  EXPECT_EQ(cubic_along(Contour{}, 1.0).error().code, ErrorCode::kTooFewPoints);
+  EXPECT_EQ(cubic_along(Contour{}, 1.0).error().code, ErrorCode::kNothingThere);
   Contour corner = c;
   corner.joints[1].leaving = corner.joints[1].element;
   EXPECT_EQ(cubic_along(corner, 1e-3).error().code, ErrorCode::kUnsupported);

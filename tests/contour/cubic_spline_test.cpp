@@ -281,7 +281,7 @@ TEST(CubicSplineThroughPoints, RefusesWhatIsNoSeries) {
             ErrorCode::kTooFewPoints);
   const auto twice = cubic_spline({{0, 0}, {1, 0}, {1, 0}, {2, 1}});
   ASSERT_FALSE(twice.has_value());
-  EXPECT_EQ(twice.error().code, ErrorCode::kChordReversal);
+  EXPECT_EQ(twice.error().code, ErrorCode::kOutOfOrder);
   EXPECT_EQ(twice.error().index, 2);
   const double nan = std::numeric_limits<double>::quiet_NaN();
   EXPECT_FALSE(cubic_spline({{0, 0}, {nan, 0}}).has_value());

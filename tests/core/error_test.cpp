@@ -74,6 +74,50 @@ TEST(ErrorTexts, AreWholeSentences) {
   }
 }
 
+TEST(ErrorBuilder, TellsAnErrorFieldByFieldAndGoesWhereAnErrorOrAResultIsDue) {
+  const Error told = error(ErrorCode::kOutOfOrder, "two nodes coincide")
+                         .where("node 3")
+                         .hint("remove one of them")
+                         .points(std::size_t{2}, std::size_t{3})
+                         .value(0.5);
+  EXPECT_EQ(to_line(told), "obvid: error E313: two nodes coincide (node 3); remove one of them");
+  EXPECT_EQ(told.index, 2);
+  EXPECT_EQ(told.last, 3);
+  EXPECT_EQ(told.value, 0.5);
+  const Result<std::string> refused = error(ErrorCode::kBadOption, "no");
+  ASSERT_FALSE(refused.has_value());
+  EXPECT_EQ(refused.error().code, ErrorCode::kBadOption);
+  EXPECT_EQ(refused.error().index, -1);
+  EXPECT_EQ(refused.error().last, -1);
+}
+
+TEST(Try, LeavesWithTheErrorAndGoesOnWithoutOne) {
+  int asked = 0;
+  const auto half = [&](int of) -> Result<int> {
+    ++asked;
+    if (of % 2 != 0) return error(ErrorCode::kBadOption, "odd").value(of);
+    return of / 2;
+  };
+  const auto quarter = [&](int of) -> Result<std::string> {
+    auto first = half(of);
+    OBVID_TRY(first);
+    OBVID_TRY(half(*first));
+    return std::to_string(*first / 2);
+  };
+  EXPECT_EQ(*quarter(8), "2");
+  EXPECT_EQ(asked, 2);  // an expression is evaluated once
+  EXPECT_EQ(quarter(6).error().value, 3.0);
+  EXPECT_EQ(quarter(5).error().value, 5.0);
+}
+
+TEST(Category, IsThatOfTheExitCode) {
+  EXPECT_EQ(category(ErrorCode::kCancelled), ErrorCategory::kProgram);
+  EXPECT_EQ(category(ErrorCode::kBadOption), ErrorCategory::kUsage);
+  EXPECT_EQ(category(ErrorCode::kNothingThere), ErrorCategory::kInput);
+  EXPECT_EQ(category(ErrorCode::kSurfaceFolds), ErrorCategory::kNoContour);
+  EXPECT_EQ(category(ErrorCode::kFalseClaim), ErrorCategory::kNotKept);
+}
+
 TEST(ExitCode, IsTheHundredsDigitAndOneOfTheDocumentedFive) {
   EXPECT_EQ(exit_code(ErrorCode::kUsage), 2);
   EXPECT_EQ(exit_code(ErrorCode::kTooFewPoints), 3);

@@ -555,10 +555,10 @@ TEST(DxfFiles, LineEndsOfAllSystemsAndComments) {
 }
 
 TEST(DxfFiles, OthersAreRefusedWithAReason) {
-  EXPECT_EQ(refused("").code, ErrorCode::kNotText);
-  EXPECT_EQ(refused("0 0\n1 1\n").code, ErrorCode::kNotText);
-  EXPECT_EQ(refused(std::string("AutoCAD Binary DXF\r\n\x1a\0", 22)).code, ErrorCode::kNotText);
-  EXPECT_EQ(refused(dxf({})).code, ErrorCode::kTooFewPoints);
+  EXPECT_EQ(refused("").code, ErrorCode::kDamaged);
+  EXPECT_EQ(refused("0 0\n1 1\n").code, ErrorCode::kDamaged);
+  EXPECT_EQ(refused(std::string("AutoCAD Binary DXF\r\n\x1a\0", 22)).code, ErrorCode::kDamaged);
+  EXPECT_EQ(refused(dxf({})).code, ErrorCode::kNothingThere);
   const Error code = refused("0\nSECTION\n2\nENTITIES\n0\nLINE\nzehn\n1\n");
   EXPECT_EQ(code.code, ErrorCode::kBadNumber);
   EXPECT_EQ(code.where, "test.dxf:7");
@@ -613,7 +613,7 @@ TEST(DxfFiles, SmallOnesThatAskForBillionsEnd) {
                static_cast<std::ptrdiff_t>(block("B0", "0", "0", line("0", "0", "1", "0")).size()),
            blocks.end());
   EXPECT_EQ(refused(dxf({{0, "INSERT"}, {2, "B11"}, {10, "0"}, {20, "0"}}, empty)).code,
-            ErrorCode::kTooFewPoints);
+            ErrorCode::kNothingThere);
 }
 
 TEST(DxfFiles, AMillionVerticesAreReadInOneGo) {

@@ -332,7 +332,7 @@ TEST(DxfWrites, LayersUnderNamesThatAllVersionsTake) {
 TEST(DxfWrites, NothingWithoutATolerancePiecesOrNumbers) {
   EXPECT_EQ(dxf_text(slot(), {DxfProfile::kArcs, 0.0, "0"}).error().code, ErrorCode::kBadOption);
   EXPECT_EQ(dxf_text(slot(), {DxfProfile::kArcs, NAN, "0"}).error().code, ErrorCode::kBadOption);
-  EXPECT_EQ(dxf_text(Contour{}).error().code, ErrorCode::kTooFewPoints);
+  EXPECT_EQ(dxf_text(Contour{}).error().code, ErrorCode::kNothingThere);
   Contour broken = slot();
   broken.pieces[2] = LinePiece{{4, 0}, {0, NAN}};
   EXPECT_EQ(dxf_text(broken).error().code, ErrorCode::kNotFinite);

@@ -129,13 +129,13 @@ TEST(LandXmlRead, IrregularLinesAreLinesAndASeries) {
 
 TEST(LandXmlRead, BrokenFilesAreRefused) {
   EXPECT_EQ(parse_landxml("<LandXML>", "x").error().code, ErrorCode::kBadJson);
-  EXPECT_EQ(parse_landxml("<LandXML/>", "x").error().code, ErrorCode::kTooFewPoints);
+  EXPECT_EQ(parse_landxml("<LandXML/>", "x").error().code, ErrorCode::kNothingThere);
   EXPECT_EQ(parse_landxml("<svg/>", "x").error().code, ErrorCode::kUnsupported);
   std::string deep = "<LandXML>";
   for (int k = 0; k < 300000; ++k) deep += "<CoordGeom>";
   deep += "<Line/>";
   for (int k = 0; k < 300000; ++k) deep += "</CoordGeom>";
-  EXPECT_EQ(parse_landxml(deep + "</LandXML>", "x").error().code, ErrorCode::kTooFewPoints);
+  EXPECT_EQ(parse_landxml(deep + "</LandXML>", "x").error().code, ErrorCode::kNothingThere);
 }
 
 // ---- public files

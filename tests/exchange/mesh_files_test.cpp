@@ -411,8 +411,8 @@ TEST(MeshFiles, RefusesWhatDoesNotBelongTogether) {
     return codes.front();
   };
   EXPECT_EQ(code(good.model, {good.meshes[0]}), ErrorCode::kBadCount);
-  EXPECT_EQ(code({}, {}), ErrorCode::kTooFewPoints);
-  EXPECT_EQ(code(good.model, {Mesh{}, Mesh{}}), ErrorCode::kTooFewPoints);
+  EXPECT_EQ(code({}, {}), ErrorCode::kNothingThere);
+  EXPECT_EQ(code(good.model, {Mesh{}, Mesh{}}), ErrorCode::kNothingThere);
   auto loose = good.meshes;
   loose[1].triangles.push_back({0, 1, 1000000});
   EXPECT_EQ(code(good.model, loose), ErrorCode::kBadCount);

@@ -91,7 +91,7 @@ TEST(OpenDriveRead, ElementsThatCannotBeDrawnAreNamedAndCutTheCurve) {
 
 TEST(OpenDriveRead, BrokenFilesAreRefused) {
   EXPECT_EQ(parse_opendrive("<OpenDRIVE><road>", "x").error().code, ErrorCode::kBadJson);
-  EXPECT_EQ(parse_opendrive("<OpenDRIVE/>", "x").error().code, ErrorCode::kTooFewPoints);
+  EXPECT_EQ(parse_opendrive("<OpenDRIVE/>", "x").error().code, ErrorCode::kNothingThere);
   EXPECT_EQ(parse_opendrive("<svg/>", "x").error().code, ErrorCode::kUnsupported);
   const std::string text = road_of(geometry("s='0' x='0' y='0' hdg='0' length='1'", "<line/>"));
   for (std::size_t n = 0; n < text.size(); ++n) {
@@ -243,7 +243,7 @@ TEST(OpenDriveWrite, OtherContoursAreRefusedWithTheWayOut) {
   EXPECT_EQ(refused.error().code, ErrorCode::kUnsupported);
   EXPECT_NE(refused.error().hint.find("fit --carrier clothoids"), std::string::npos);
   EXPECT_EQ(refused.error().where, "piece 2");
-  EXPECT_EQ(opendrive_text(Contour{}).error().code, ErrorCode::kTooFewPoints);
+  EXPECT_EQ(opendrive_text(Contour{}).error().code, ErrorCode::kNothingThere);
 }
 
 }  // namespace

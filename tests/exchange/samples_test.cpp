@@ -115,7 +115,7 @@ TEST(Samples, RefuseWhatIsNoNumberOfSamples) {
   options = {};
   options.chord_tolerance = std::nan("");
   EXPECT_EQ(sample(c.pieces, options).error().code, ErrorCode::kBadOption);
-  EXPECT_EQ(sample({}, {}).error().code, ErrorCode::kTooFewPoints);
+  EXPECT_EQ(sample({}, {}).error().code, ErrorCode::kNothingThere);
 }
 
 TEST(Samples, CsvReadsBackToTheSameDoubles) {

@@ -202,8 +202,8 @@ void expect_refused(const std::vector<CadCurve>& curves, ErrorCode code,
 }
 
 TEST(StepWrite, WhatStepCannotSayIsRefused) {
-  expect_refused({}, ErrorCode::kTooFewPoints);
-  expect_refused({{"none", std::vector<Piece>{}}}, ErrorCode::kTooFewPoints);
+  expect_refused({}, ErrorCode::kNothingThere);
+  expect_refused({{"none", std::vector<Piece>{}}}, ErrorCode::kNothingThere);
   expect_refused({{"unit", step_cubic()}}, ErrorCode::kBadOption, {StepSchema::kAp214, "chord", 0});
   expect_refused({{"unit", step_cubic()}}, ErrorCode::kBadOption,
                  {StepSchema::kAp214, "furlong", 0});

@@ -279,7 +279,7 @@ TEST(SvgRead, DeepGroupsAreLeftOutAndEntitiesOfTheFileAreNotExpanded) {
   }
   const auto none = parse_svg(laughs + "]><svg><path d='&y;'/></svg>", "bomb.svg");
   ASSERT_FALSE(none.has_value());
-  EXPECT_EQ(none.error().code, ErrorCode::kTooFewPoints);
+  EXPECT_EQ(none.error().code, ErrorCode::kNothingThere);
 }
 
 TEST(SvgRead, NumbersBeyondTheRangeDrawNothing) {

@@ -88,7 +88,7 @@ TEST(IdCurve, RefusesPointsThatMakeNoCurve) {
   using P = std::vector<Point2>;
   const auto code = [](const P& points) { return id_curve<2>(points).error().code; };
   EXPECT_EQ(code(P{}), ErrorCode::kTooFewPoints);
-  EXPECT_EQ(code(P{{0.0, 0.0}, {0.0, 0.0}}), ErrorCode::kChordReversal);
+  EXPECT_EQ(code(P{{0.0, 0.0}, {0.0, 0.0}}), ErrorCode::kOutOfOrder);
   EXPECT_EQ(code(P{{0.0, 0.0}, {0.0, std::nan("")}}), ErrorCode::kNotFinite);
   EXPECT_EQ(code(P{{-1e308, 0.0}, {1e308, 0.0}}), ErrorCode::kSizeOutOfRange);
 }

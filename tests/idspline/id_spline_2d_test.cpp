@@ -223,7 +223,7 @@ TEST(IdSpline2d, RefusesWhatIsNoGrid) {
   };
   const std::vector<double> two = {0.0, 1.0};
   EXPECT_EQ(code({{}, two, {}, {}, {}, {}}), ErrorCode::kTooFewPoints);
-  EXPECT_EQ(code({two, {1.0, 0.0}, {1, 2, 3, 4}, {}, {}, {}}), ErrorCode::kChordReversal);
+  EXPECT_EQ(code({two, {1.0, 0.0}, {1, 2, 3, 4}, {}, {}, {}}), ErrorCode::kOutOfOrder);
   EXPECT_EQ(code({two, two, {1, 2, 3}, {}, {}, {}}), ErrorCode::kUsage);
   EXPECT_EQ(code({two, two, {1, 2, 3, std::nan("")}, {}, {}, {}}), ErrorCode::kNotFinite);
   EXPECT_EQ(code({two, two, {1, 2, 3, 4}, {1, 2}, {}, {}}), ErrorCode::kUsage);

@@ -309,8 +309,8 @@ TEST(IdSpline, RefusesWhatIsNoSpline) {
   EXPECT_EQ(refused({{0.0, 1.0, kInf}, {1.0, 1.0, 1.0}}), ErrorCode::kNotFinite);
   EXPECT_EQ(refused({{0.0, 1.0}, {1.0, nan}}), ErrorCode::kNotFinite);
   EXPECT_EQ(refused({{0.0, 1.0}, {1.0, 1.0}, {nan}}), ErrorCode::kNotFinite);
-  EXPECT_EQ(refused({{0.0, 1.0, 1.0}, {1.0, 1.0, 1.0}}), ErrorCode::kChordReversal);
-  EXPECT_EQ(refused({{0.0, 2.0, 1.0}, {1.0, 1.0, 1.0}}), ErrorCode::kChordReversal);
+  EXPECT_EQ(refused({{0.0, 1.0, 1.0}, {1.0, 1.0, 1.0}}), ErrorCode::kOutOfOrder);
+  EXPECT_EQ(refused({{0.0, 2.0, 1.0}, {1.0, 1.0, 1.0}}), ErrorCode::kOutOfOrder);
   EXPECT_EQ(refused({{-1e308, 1e308}, {1.0, 1.0}}), ErrorCode::kSizeOutOfRange);
   EXPECT_EQ(refused({{0.0, 1e-310}, {1.0, 1.0}}), ErrorCode::kSizeOutOfRange);
   EXPECT_EQ(refused({{0.0, 1.0, 2.0}, {1e308, -1e308, 1e308}}), ErrorCode::kSizeOutOfRange);

@@ -71,7 +71,7 @@ void expect_net_refused(std::string_view text, ErrorCode code, std::string_view 
 }
 
 TEST(ReadControlNet, FaultsAreNamedWithTheirPlace) {
-  expect_net_refused("", ErrorCode::kTooFewPoints, "f");
+  expect_net_refused("", ErrorCode::kNothingThere, "f");
   expect_net_refused("0,0,0;1,0,0\n0,1,0\n", ErrorCode::kBadCount, "f:2");
   expect_net_refused("0,0,0;1,0,0\n0,1,0;1,1\n", ErrorCode::kTooFewColumns, "f:2");
   expect_net_refused("0,0,0;1,0,0\n0,1,0;1,{{1}},1\n", ErrorCode::kBadNumber, "f:2");

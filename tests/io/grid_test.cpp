@@ -61,7 +61,7 @@ void expect_grid_refused(std::string_view text, ErrorCode code, std::string_view
 }
 
 TEST(ReadGrid, FaultsAreNamedWithTheirPlace) {
-  expect_grid_refused("", ErrorCode::kTooFewPoints, "f");
+  expect_grid_refused("", ErrorCode::kNothingThere, "f");
   expect_grid_refused("wl,0,10,25\n0,0.1,,0.3\n", ErrorCode::kBadNumber, "f:2:7");
   expect_grid_refused("wl,0,10,25\n0,0.1,0.2,0.3\n4,,,\n", ErrorCode::kBadNumber, "f:3:3");
   expect_grid_refused("wl,0,10,5\n0,0.1,0.2,0.3\n4,1,1,1\n", ErrorCode::kBadNumber, "f");

@@ -291,8 +291,8 @@ TEST(SurfacePage, RefusesWhatItCannotShow) {
   const auto model = model_of({{"plate", rectangle(1, 1)}});
   const auto meshes = meshes_of(model, 2);
   EXPECT_EQ(error_of(model, {}), ErrorCode::kBadCount);
-  EXPECT_EQ(error_of(model, {Mesh{}}), ErrorCode::kTooFewPoints);
-  EXPECT_EQ(error_of({}, {}), ErrorCode::kTooFewPoints);
+  EXPECT_EQ(error_of(model, {Mesh{}}), ErrorCode::kNothingThere);
+  EXPECT_EQ(error_of({}, {}), ErrorCode::kNothingThere);
   auto broken = meshes;
   broken[0].vertices[3].point.y = std::numeric_limits<double>::quiet_NaN();
   EXPECT_EQ(error_of(model, broken), ErrorCode::kNotFinite);

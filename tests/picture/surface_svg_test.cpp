@@ -298,7 +298,7 @@ TEST(SurfacePicture, HostileNamesAreText) {
 
 TEST(SurfacePicture, RefusesWhatItCannotDraw) {
   const auto model = model_of({{"plate", rectangle(1, 1)}});
-  EXPECT_EQ(picture_error({}), ErrorCode::kTooFewPoints);
+  EXPECT_EQ(picture_error({}), ErrorCode::kNothingThere);
   auto broken = model;
   broken.patches[0].surface.points.pop_back();
   EXPECT_EQ(picture_error(broken), ErrorCode::kBadOption);

@@ -103,7 +103,7 @@ TEST(ArcsAlong, RefusesWhatCannotBe) {
   EXPECT_EQ(arcs_along(contour_of(Carrier::kSpiral), 0.0).error().code, ErrorCode::kBadOption);
   EXPECT_EQ(arcs_along(contour_of(Carrier::kSpiral), std::nan("")).error().code,
             ErrorCode::kBadOption);
-  EXPECT_EQ(arcs_along({}, 1.0).error().code, ErrorCode::kTooFewPoints);
+  EXPECT_EQ(arcs_along({}, 1.0).error().code, ErrorCode::kNothingThere);
 }
 
 }  // namespace

@@ -518,7 +518,7 @@ TEST(Gcode, RefusesWhatCannotBePrinted) {
   Contour c = reference();
   c.units = "parsec";
   EXPECT_EQ(gcode_text(c, {}).error().code, ErrorCode::kBadOption);
-  EXPECT_EQ(gcode_text(Contour{}, {}).error().code, ErrorCode::kTooFewPoints);
+  EXPECT_EQ(gcode_text(Contour{}, {}).error().code, ErrorCode::kNothingThere);
 }
 
 }  // namespace

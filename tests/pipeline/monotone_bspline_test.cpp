@@ -210,7 +210,7 @@ TEST(MonotoneBSpline, RefusesArcsCornersAndNoTolerance) {
   ASSERT_TRUE(f);
   EXPECT_EQ(monotone_spline(f->contour, 0.0).error().code, ErrorCode::kBadOption);
   EXPECT_EQ(monotone_spline(f->contour, std::nan("")).error().code, ErrorCode::kBadOption);
-  EXPECT_EQ(monotone_spline(Contour{}, 1e-3).error().code, ErrorCode::kTooFewPoints);
+  EXPECT_EQ(monotone_spline(Contour{}, 1e-3).error().code, ErrorCode::kNothingThere);
   Contour corner = f->contour;
   corner.joints[4].leaving = corner.joints[4].element;
   const auto refused = monotone_spline(corner, 1e-3);

@@ -47,7 +47,7 @@ double sagitta(double kappa, double chord) {
 }
 
 /// What exact points would leave open: largest width between the circles through neighbouring
-/// triples (theory: every spiral through the points lies between them).
+/// triples ([000]: every spiral through the points lies between them).
 double largest_gap(const std::vector<Vec2>& p) {
   std::vector<double> kappa(p.size());
   for (std::size_t i = 1; i + 1 < p.size(); ++i) {

@@ -154,7 +154,7 @@ TEST(KindsGordon, WrongNetsAreRefused) {
   s = good;
   s.along_u[1].points[2].z = std::nan("");
   expect_error(s, ErrorCode::kNotFinite);
-  expect_error(GordonSurface{}, ErrorCode::kTooFewPoints);
+  expect_error(GordonSurface{}, ErrorCode::kTooFewCurves);
   CoonsPatch patch = waves();
   patch.v_at_u1 = SpaceCurve{};
   expect_error(patch, ErrorCode::kBadOption);

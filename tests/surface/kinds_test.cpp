@@ -295,7 +295,7 @@ TEST(Gordon, RefusesNetsThatDoNotCross) {
   s.v_at = {0.0};
   EXPECT_EQ(to_nurbs(s, 1e-6).error().code, ErrorCode::kBadOption);
   s.along_u.pop_back();
-  EXPECT_EQ(to_nurbs(s, 1e-6).error().code, ErrorCode::kTooFewPoints);
+  EXPECT_EQ(to_nurbs(s, 1e-6).error().code, ErrorCode::kTooFewCurves);
 }
 
 TEST(Offset, OfSphereTorusAndCylinderHasTheirRadiiWithinTheTolerance) {

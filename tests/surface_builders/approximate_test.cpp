@@ -314,7 +314,7 @@ TEST(Approximation, RefusesWhatItCannotUse) {
   bad.points[7].y = std::nan("");
   EXPECT_EQ(approximated(bad, 1.0).error().code, ErrorCode::kNotFinite);
   bad = sampled(4, 4, [](double, double) { return Vec3{1, 2, 3}; });
-  EXPECT_EQ(approximated(bad, 1.0).error().code, ErrorCode::kSizeOutOfRange);
+  EXPECT_EQ(approximated(bad, 1.0).error().code, ErrorCode::kOutOfOrder);
   // below rounding nothing can be promised
   EXPECT_EQ(approximated(sampled(9, 9, franke_point), 1e-30).error().code,
             ErrorCode::kToleranceNotReached);

@@ -106,7 +106,7 @@ TEST(GridInterpolation, RefusesWhatSpansNoSurface) {
   for (std::size_t i = 0; i < 4; ++i) grid.points[2 * 4 + i] = grid.points[4 + i];
   const auto doubled = interpolated(grid);
   ASSERT_FALSE(doubled);
-  EXPECT_EQ(doubled.error().code, ErrorCode::kSizeOutOfRange);
+  EXPECT_EQ(doubled.error().code, ErrorCode::kOutOfOrder);
   EXPECT_EQ(doubled.error().index, 2);
   grid.points[5].x = std::nan("");
   EXPECT_EQ(interpolated(grid).error().code, ErrorCode::kNotFinite);

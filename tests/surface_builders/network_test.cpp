@@ -179,7 +179,7 @@ TEST(CoonsFrom, TakesTrianglesWithAPointForTheFourthSide) {
                                 line_between({0, 3, 0}, {0, 0, 0})};
   const auto three = coons_from(sides, 1e-6);
   ASSERT_FALSE(three);
-  EXPECT_EQ(three.error().code, ErrorCode::kTooFewPoints);
+  EXPECT_EQ(three.error().code, ErrorCode::kTooFewCurves);
   EXPECT_EQ(three.error().value, 3.0);
   sides.push_back(line_between({0, 3, 0}, {0, 3, 0}));
   const Result<CoonsPatch> patch = coons_from(sides, 1e-6);
@@ -204,7 +204,7 @@ TEST(CoonsFrom, JoinsClosedCurvesAlongASeamWithoutTwist) {
 
 TEST(CoonsFrom, RefusesWhatMakesNoPatch) {
   std::vector<SpaceCurve> borders = four_borders();
-  EXPECT_EQ(coons_from({}, 1.0).error().code, ErrorCode::kTooFewPoints);
+  EXPECT_EQ(coons_from({}, 1.0).error().code, ErrorCode::kTooFewCurves);
   EXPECT_EQ(coons_from(borders, 0.0).error().code, ErrorCode::kBadOption);
   EXPECT_EQ(coons_from(borders, std::nan("")).error().code, ErrorCode::kBadOption);
   // a border twice instead of the opposite one
@@ -469,8 +469,8 @@ TEST(GordonFrom, RefusesNetsThatAreNone) {
   const auto code = [](const Result<GordonSurface>& made) {
     return made ? ErrorCode::kInternal : made.error().code;
   };
-  EXPECT_EQ(code(gordon_from({good.rows[0]}, good.columns, 1e-4)), ErrorCode::kTooFewPoints);
-  EXPECT_EQ(code(gordon_from(good.rows, {}, 1e-4)), ErrorCode::kTooFewPoints);
+  EXPECT_EQ(code(gordon_from({good.rows[0]}, good.columns, 1e-4)), ErrorCode::kTooFewCurves);
+  EXPECT_EQ(code(gordon_from(good.rows, {}, 1e-4)), ErrorCode::kTooFewCurves);
   EXPECT_EQ(code(gordon_from(good.rows, good.columns, -1.0)), ErrorCode::kBadOption);
   // a column that passes over a row
   HillNet bad = good;

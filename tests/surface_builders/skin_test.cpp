@@ -294,9 +294,9 @@ TEST(Skin, IsTheSameAtAnySizeAndPlace) {
 
 TEST(Skin, RefusesWhatMakesNoSkin) {
   const SkinSection low = section_of(circle(2, 12), at_height(0));
-  EXPECT_EQ(skin({low}, {1e-6}).error().code, ErrorCode::kTooFewPoints);
+  EXPECT_EQ(skin({low}, {1e-6}).error().code, ErrorCode::kTooFewCurves);
   EXPECT_EQ(skin({low, low}, {0.0}).error().code, ErrorCode::kBadOption);
-  EXPECT_EQ(skin({low, low}, {1e-6}).error().code, ErrorCode::kSizeOutOfRange);
+  EXPECT_EQ(skin({low, low}, {1e-6}).error().code, ErrorCode::kOutOfOrder);
   const auto corners = skin({low, section_of(square(1), at_height(1))}, {1e-6});
   ASSERT_FALSE(corners);
   EXPECT_EQ(corners.error().code, ErrorCode::kBadOption);

@@ -1,6 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""Licences: every source file says its own, every data file has its source and licence listed.
+"""Licences and sources: every source file says its licence, every data file has its source and licence listed,
+and what texts cite stands in docs/sources.md.
 
 usage: house_test.py PROJECT_FOLDER
 """
@@ -69,7 +70,51 @@ def data_faults(root, files):
     return faults
 
 
+# "[Higham 2002]", "[000]" and, without brackets, "Higham 2002" or "Karney (2011)".
+CITED = re.compile(r"\[(\d{3})\]|\b([A-Z][a-z]+(?:(?:,| &| and) [A-Z][a-z]+)*),? \(?((?:1[89]|20)\d\d)\)?")
+NOT_CITED = {"Apache", "Copyright", "January", "February", "March", "April", "May", "June", "July", "August", "September", "October",
+             "November", "December", "Release", "SolidWorks", "Debian", "Windows", "Visual"}
+
+
+def cited(text):
+    """Keys that a text cites: "000", "Higham 2002", with the first name of several."""
+    found = set()
+    for number, names, year in CITED.findall(text):
+        first = re.split(r"[ ,]", names)[0]
+        if number or first not in NOT_CITED:
+            found.add(number or f"{first} {year}")
+    return found
+
+
+def unknown_sources(root, files):
+    listed = cited(" ".join(re.findall(r"^\| \[[^\]]+\]", (root / "docs/sources.md").read_text(encoding="utf-8"),
+                                       re.MULTILINE)))
+    prose = ("docs/methods/", "include/", "src/", "tests/", "benches/")
+    faults = set()
+    for path in files:
+        if str(path).startswith(prose) and path.suffix in (".md", ".h", ".cpp") and not is_data(path):
+            text = (root / path).read_text(encoding="utf-8", errors="replace")
+            if path.suffix != ".md":
+                text = "\n".join(re.findall(r"//(.*)", text))
+            faults |= {f"{path}: {key}" for key in cited(text) - listed}
+    return sorted(faults)
+
+
 class House(unittest.TestCase):
+    def test_what_is_cited_stands_among_the_sources(self):
+        self.assertEqual(unknown_sources(ROOT, project_files(ROOT)), [])
+
+    def test_sources_that_are_not_listed_are_seen(self):
+        self.assertEqual(cited("after [Higham 2002], Karney (2011), Boyd & Vandenberghe 2004 and [000]"),
+                         {"Higham 2002", "Karney 2011", "Boyd 2004", "000"})
+        with tempfile.TemporaryDirectory() as name:
+            root = pathlib.Path(name)
+            for path, text in {"docs/sources.md": "| [000] | x |\n| [Karney 2011] | y |\n",
+                               "src/a.cpp": "// [000], Karney (2011), Gauss 1809\nint Table_1999;\n"}.items():
+                (root / path).parent.mkdir(parents=True, exist_ok=True)
+                (root / path).write_text(text)
+            self.assertEqual(unknown_sources(root, [pathlib.PurePosixPath("src/a.cpp")]), ["src/a.cpp: Gauss 1809"])
+
     def test_every_source_file_says_its_licence(self):
         files = project_files(ROOT)
         self.assertGreater(len(files), 500)

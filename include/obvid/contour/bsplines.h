@@ -35,7 +35,7 @@ struct CubicSplineOptions {
 /// baseline. It has no say in how its curvature changes (docs/methods/bsplines.md). A periodic
 /// spline gets the first point once more at its end; give it only once. Cost O(n).
 /// Two points give a line, three without tangents and not natural a parabola.
-/// Errors: E304 fewer than two points (three when periodic); E402 neighbours that coincide; E203
+/// Errors: E304 fewer than two points (three when periodic); E313 neighbours that coincide; E203
 /// a slope that is no number.
 [[nodiscard]] Result<CubicSpline> cubic_spline(const std::vector<Vec2>& points,
                                                const CubicSplineOptions& options = {});
@@ -43,7 +43,7 @@ struct CubicSplineOptions {
 /// C2 cubic B-spline through the points with a given heading (rad) at each. That needs twice the
 /// knots: 2n control points, 2n - 3 spans. Derivatives at the points are those of circles that turn
 /// like the neighbouring segments; the curve may be neither convex nor monotone. Cost O(n).
-/// Errors: E304 fewer than two points; E402 neighbours that coincide; E201 when headings and points
+/// Errors: E304 fewer than two points; E313 neighbours that coincide; E201 when headings and points
 /// differ in number.
 [[nodiscard]] Result<NurbsCurve> spline_through_tangents(
     const std::vector<Vec2>& points, const std::vector<double>& headings,

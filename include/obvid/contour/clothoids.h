@@ -35,7 +35,7 @@ struct EndHeadings {
                                                      const EndHeadings& ends = {});
 
 /// One clothoid per chord with the given headings (G1: curvature jumps at the joints).
-/// Errors: E201 when headings and points differ in number; E402 when a chord has no length.
+/// Errors: E201 when headings and points differ in number; E313 when a chord has no length.
 [[nodiscard]] Result<std::vector<ClothoidPiece>> g1_clothoids(const std::vector<Vec2>& points,
                                                               const std::vector<double>& headings);
 
@@ -51,7 +51,7 @@ struct ClothoidSpline {
 /// natural in the sense that sharpness is the same on the last two chords (one clothoid through
 /// the last three points). Curvature is linear on each chord, not monotone along the series: what
 /// it does between the chords is up to the points.
-/// Errors: E304 fewer than three points; E402 a chord without length, or chords that turn back;
+/// Errors: E304 fewer than three points; E313 a chord without length; E402 chords that turn back;
 /// E501 Newton's method did not converge (`value`: the curvature jump left, times the chord).
 [[nodiscard]] Result<ClothoidSpline> clothoid_spline(const std::vector<Vec2>& points,
                                                      const EndHeadings& ends = {});

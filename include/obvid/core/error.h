@@ -27,6 +27,10 @@ enum class ErrorCode : int {
   kBadJson = 308,
   kSizeOutOfRange = 309,
   kUnsupported = 310,
+  kNothingThere = 311,
+  kTooFewCurves = 312,
+  kOutOfOrder = 313,
+  kDamaged = 314,
   kNoSpiral = 401,
   kChordReversal = 402,
   kFixedDataContradict = 403,
@@ -34,6 +38,7 @@ enum class ErrorCode : int {
   kRoundingDecides = 405,
   kCarrierCannotKeep = 406,
   kWanders = 407,
+  kSurfaceFolds = 408,
   kNotProved = 501,
   kToleranceNotReached = 502,
   kFalseClaim = 503,
@@ -50,8 +55,21 @@ struct Error {
   std::ptrdiff_t last = -1;   ///< last of the points, where they are a range; else -1
 };
 
+/// Whose the fault is, and what a caller can do about it.
+enum class ErrorCategory : int {
+  kProgram = 1,    ///< ours, the machine's, or cancelled
+  kUsage = 2,      ///< an option or a call that is not possible
+  kInput = 3,      ///< the input cannot be read
+  kNoContour = 4,  ///< no such contour or surface exists
+  kNotKept = 5,    ///< formed, but it does not keep its promise
+};
+
+[[nodiscard]] constexpr ErrorCategory category(ErrorCode code) {
+  return static_cast<ErrorCategory>(static_cast<int>(code) / 100);
+}
+
 /// Exit code of the command line for this error (formats: 1, 2, 3, 4 or 5).
-[[nodiscard]] constexpr int exit_code(ErrorCode code) { return static_cast<int>(code) / 100; }
+[[nodiscard]] constexpr int exit_code(ErrorCode code) { return static_cast<int>(category(code)); }
 
 /// The line printed on stderr: `obvid: error E302: what (where); hint`.
 [[nodiscard]] std::string to_line(const Error& error);

@@ -57,7 +57,7 @@ struct SurfacePictureOptions {
 /// curvature colours with a legend, or reflection lines; outlines, borders and isolines without
 /// their hidden parts, axes and a scale bar. The patches are divided where they bend, not by a
 /// mesh. Same input, same bytes. Errors: E203 options out of range, E303 a line or a surface that
-/// is not finite, E304 no patches, those of `check` for each patch.
+/// is not finite, E311 no patches, those of `check` for each patch.
 [[nodiscard]] Result<std::string> surface_svg(const SurfaceModel& model,
                                               const SurfacePictureOptions& options = {});
 

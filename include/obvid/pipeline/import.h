@@ -28,7 +28,7 @@ namespace obvid {
 
 /// Number of the curve that is taken: the asked one, else the longest of curves, tracks and
 /// polylines, else of routes, else of points drawn one by one; curves come before series. Waypoints
-/// are taken only when they are asked for. Errors: E203 when there is no such curve, E304 when
+/// are taken only when they are asked for. Errors: E203 when there is no such curve, E311 when
 /// there is none at all.
 [[nodiscard]] Result<std::size_t> chosen_curve(const Drawing& drawing,
                                                const std::optional<std::size_t>& asked,

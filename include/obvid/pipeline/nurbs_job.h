@@ -35,7 +35,7 @@ struct NurbsJob {
   std::vector<std::pair<std::size_t, double>> moves{};    ///< point, part b of the way from B to it
 };
 
-/// What the weight of one control point does to a curve (004_..., formulas (7), (8)): at the
+/// What the weight of one control point does to a curve ([004], formulas (7), (8)): at the
 /// parameter where its basis function is greatest the curve passes B without the point, N with
 /// weight 1, and `now` with its weight w; all lie on the line from B to the point P:
 /// N = (1 - a) B + a P, now = (1 - b) B + b P, w = ((1 - a) / a) : ((1 - b) / b).

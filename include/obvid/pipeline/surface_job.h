@@ -87,7 +87,7 @@ struct MadeSurface {
 
 /// Reads the inputs that are not there yet and makes the surface. Forms of several files (matrices
 /// whose names differ, blades with their table) are known as files alone. Errors: those of the
-/// readers and builders; E201 wrong numbers of inputs; E203 rows that do not fill a grid; E403 an
+/// readers and builders; E201 wrong numbers of inputs; E203 rows that do not fill a grid; E408 an
 /// offset that folds (`value`: the largest distance that does not).
 [[nodiscard]] Result<MadeSurface> make_surface(const SurfaceJob& job, const RunContext& run = {});
 

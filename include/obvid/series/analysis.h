@@ -95,7 +95,8 @@ struct Analysis {
 /// Turning of the polyline at a point, rad; NaN at the two ends.
 [[nodiscard]] double turning_at(const Analysis& analysis, std::size_t point);
 
-/// Height of a circle of curvature `kappa` above its chord of length `h` (theory: sag).
+/// Height of a circle of curvature `kappa` above its chord of length `h` (the sagitta, `kappa h^2/4
+/// / (1 + sqrt(1 - (kappa h/2)^2))`).
 [[nodiscard]] double sagitta(double kappa, double h);
 
 }  // namespace obvid

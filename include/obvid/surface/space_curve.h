@@ -81,7 +81,7 @@ inline constexpr double kSameKnot = 1e-12;
 
 /// C2 cubic through the points at the parameters (ascending, as many as points, at least 2): third
 /// derivatives continuous at the second and last but one (not-a-knot); of 2 points a line, of 3 a
-/// parabola. Errors: E304, E309 parameters not ascending.
+/// parabola. Errors: E304, E313 parameters not ascending.
 [[nodiscard]] Result<SpaceCurve> interpolated(const std::vector<Vec3>& points,
                                               const std::vector<double>& parameters);
 /// Accumulated chord lengths to the power `exponent` (1: chord length, 1/2: centripetal), scaled

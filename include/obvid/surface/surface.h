@@ -95,7 +95,7 @@ struct NurbsForm {
 ///
 /// Errors: E203 curves that do not meet (`value`: the gap), parameters out of order, a zero axis or
 /// angle, directed surfaces of rational curves whose degrees are too high together; E303 numbers
-/// that are not finite; E304 too few curves; E502 the tolerance cannot be reached within the limit
+/// that are not finite; E312 too few curves; E502 the tolerance cannot be reached within the limit
 /// of knots; those of `check` for each curve.
 [[nodiscard]] Result<NurbsForm> to_nurbs(const Surface& surface, double tolerance);
 

@@ -126,7 +126,7 @@ struct Toolpath {
 /// read back and simulated against the surface: the report's figures for gouges, scallops and what
 /// is not reached come from that alone, and `not_kept` says what does not hold
 /// (docs/methods/toolpath.md).
-/// Errors: E203 sizes, feeds, heights or options that do not go together; E304 no patches; E310 a
+/// Errors: E203 sizes, feeds, heights or options that do not go together; E311 no patches; E310 a
 /// unit that machines do not know; E502 more triangles or points than allowed, or decimals too few
 /// for the tolerance; those of `tessellate`.
 [[nodiscard]] Result<Toolpath> plan(const SurfaceModel& model, const ToolpathOptions& options,

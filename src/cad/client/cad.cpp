@@ -23,7 +23,7 @@ using End = cad::Answer::End;
 Error failure(const cad::Answer& answer, const std::string& path, const CadRun& run) {
   const bool reading = !path.empty();
   Error error;
-  error.code = reading ? ErrorCode::kNotText : ErrorCode::kInternal;
+  error.code = reading ? ErrorCode::kDamaged : ErrorCode::kInternal;
   error.where = path;
   error.hint = reading ? "the file may be damaged; export it again"
                        : "look at the geometry with `obvid verify` or `obvid surface check`";
@@ -62,7 +62,7 @@ template <class Value>
 Result<Value> asked(const cad::Job& job, const std::string& path, const CadRun& run,
                     Result<Value> (*unpacked)(std::string_view, const Error&)) {
   const auto helper = cad::helper_file();
-  if (!helper) return fail(helper.error());
+  OBVID_TRY(helper);
   const cad::Answer answer = cad::ask_helper(helper->string(), cad::packed(job), run);
   const Error error = failure(answer, path, run);
   if (answer.end != End::kAnswered) return fail(error);
@@ -88,7 +88,7 @@ Result<std::string> cad_text(const std::vector<CadCurve>& curves, const CadWrite
 
 Result<void> check_cad() {
   const auto helper = cad::helper_file();
-  if (!helper) return fail(helper.error());
+  OBVID_TRY(helper);
   return {};
 }
 

@@ -17,14 +17,13 @@ Result<fs::path> installed_helper() {
   const fs::path own = own_file();
   const auto found =
       find_part(helper_folders(own), own, helper_with("obvid-cad " OBVID_CAD_BUILD_MARK));
-  if (!found) return fail(found.error());
+  OBVID_TRY(found);
   if (*found) return **found;
-  return fail(
-      {ErrorCode::kUnsupported,
-       "this needs the helper program " + std::string(kHelperFile) + ", which is not installed", "",
-       "install libocct-data-exchange-dev and libtbb-dev and build with -DOBVID_CAD=ON; "
-       "contours leave as .step, .dxf or .svg without it",
-       -1, 0.0});
+  return error(ErrorCode::kUnsupported, "this needs the helper program " +
+                                            std::string(kHelperFile) + ", which is not installed")
+      .hint(
+          "install libocct-data-exchange-dev and libtbb-dev and build with -DOBVID_CAD=ON; "
+          "contours leave as .step, .dxf or .svg without it");
 }
 
 }  // namespace

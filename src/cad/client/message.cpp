@@ -146,7 +146,7 @@ Result<CadSurfaces> unpacked_surfaces(std::string_view bytes, const Error& other
   if (!result) return fail(otherwise);
   if (!*result) return *std::move(result);
   for (const SurfacePatch& patch : (*result)->model.patches) {
-    if (auto good = check(patch.surface); !good) return fail(good.error());
+    OBVID_TRY(check(patch.surface));
   }
   return *std::move(result);
 }

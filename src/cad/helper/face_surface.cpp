@@ -133,7 +133,7 @@ Result<NurbsSurface> revolution_over(const Handle(Geom_SurfaceOfRevolution) & su
   const Handle(Geom_Curve) meridian =
       new Geom_TrimmedCurve(surface->BasisCurve(), box.v.from, box.v.to);
   auto profile = curve_of(GeomConvert::CurveToBSplineCurve(meridian, Convert_TgtThetaOver2));
-  if (!profile) return fail(profile.error());
+  OBVID_TRY(profile);
   const gp_Ax1 axis = surface->Axis();
   gp_Trsf start;
   start.SetRotation(axis, box.u.from);
@@ -148,7 +148,7 @@ Result<NurbsSurface> revolution_over(const Handle(Geom_SurfaceOfRevolution) & su
                                                {along.X(), along.Y(), along.Z()},
                                                std::min(box.u.length(), 2.0 * std::numbers::pi)},
                              kApproximation);  // not needed: exact
-  if (!made) return fail(made.error());
+  OBVID_TRY(made);
   return transposed(made->surface);  // the kernel turns along u
 }
 
@@ -158,8 +158,8 @@ Result<NurbsSurface> nurbs_over(const Handle(Geom_Surface) & surface, const Box&
   if (!revolution.IsNull()) return revolution_over(revolution, box);
   const auto spline = spline_over(surface, box, size, deviation);
   if (!spline.IsNull()) return surface_of(spline);
-  return fail({ErrorCode::kToleranceNotReached, "it cannot be approximated well enough", "", "", -1,
-               kApproximation * size});
+  return error(ErrorCode::kToleranceNotReached, "it cannot be approximated well enough")
+      .value(kApproximation * size);
 }
 
 }  // namespace

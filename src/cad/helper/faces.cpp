@@ -251,11 +251,12 @@ Result<Parts> parts_of(const SurfaceModel& model, double scale) {
     }
     auto parts = without_creases(surface, 1 + kMostCreasedFaces - by_creases);
     if (parts.empty()) {
-      return fail(
-          {ErrorCode::kUnsupported,
-           fmt::format("the creases cut the model into more than {} more faces", kMostCreasedFaces),
-           name, "write .stl, .obj or .glb, or make the surfaces of a higher degree", -1,
-           static_cast<double>(kMostCreasedFaces)});
+      return error(ErrorCode::kUnsupported,
+                   fmt::format("the creases cut the model into more than {} more faces",
+                               kMostCreasedFaces))
+          .where(name)
+          .hint("write .stl, .obj or .glb, or make the surfaces of a higher degree")
+          .value(static_cast<double>(kMostCreasedFaces));
     }
     const std::size_t count = parts.size();
     by_creases += count - 1;
@@ -265,8 +266,9 @@ Result<Parts> parts_of(const SurfaceModel& model, double scale) {
     }
   }
   if (!out.surfaces.empty()) return out;
-  return fail({ErrorCode::kTooFewPoints, "the model has no surfaces", model.name,
-               "make a surface first", -1, 0.0});
+  return error(ErrorCode::kNothingThere, "the model has no surfaces")
+      .where(model.name)
+      .hint("make a surface first");
 }
 
 double size_of_patches(const std::vector<NurbsSurface>& patches) {
@@ -286,13 +288,15 @@ bool is_valid(const TopoDS_Shape& shape) { return BRepCheck_Analyzer(shape).IsVa
 
 Result<NamedFaces> faces_of(const SurfaceModel& model, double scale) {
   auto parts = parts_of(model, scale);
-  if (!parts) return fail(parts.error());
+  OBVID_TRY(parts);
   const std::vector<NurbsSurface>& patches = parts->surfaces;
   const double size = size_of_patches(patches);
   if (!(size > 0.0 && size < kLargest)) {
-    return fail({ErrorCode::kSizeOutOfRange,
-                 fmt::format("the size of the model is {:.3g} mm", size), model.name,
-                 "check the points and their unit", -1, size});
+    return error(ErrorCode::kSizeOutOfRange,
+                 fmt::format("the size of the model is {:.3g} mm", size))
+        .where(model.name)
+        .hint("check the points and their unit")
+        .value(size);
   }
   const double tolerance = kJoin * size;
   Builder builder(patches, joints_of(patches, tolerance));
@@ -308,8 +312,9 @@ Result<NamedFaces> faces_of(const SurfaceModel& model, double scale) {
     if (apart.empty()) apart = Builder(patches, joints_apart(patches, tolerance)).faces();
     for (const std::size_t i : group.patches) {
       if (!is_valid(apart[i])) {
-        return fail({ErrorCode::kInternal, "the CAD kernel finds no valid face on this surface",
-                     parts->names[i], "look at it with `obvid surface check`", -1, 0.0});
+        return error(ErrorCode::kInternal, "the CAD kernel finds no valid face on this surface")
+            .where(parts->names[i])
+            .hint("look at it with `obvid surface check`");
       }
       faces[i] = apart[i];
       shapes.push_back(apart[i]);

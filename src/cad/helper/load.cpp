@@ -20,7 +20,7 @@ namespace obvid::cad {
 namespace {
 
 Error unreadable(const std::string& path, const char* format) {
-  return {ErrorCode::kNotText,
+  return {ErrorCode::kDamaged,
           std::string("the CAD kernel cannot read this ") + format + " file",
           path,
           "the file may be cut off or damaged; export it again",
@@ -102,8 +102,9 @@ Result<Loaded> read_brep(const std::string& path) {
 Result<Loaded> load(const std::string& path) {
   std::ifstream file(path, std::ios::binary);
   if (!file) {
-    return fail({ErrorCode::kCannotOpen, "cannot read the file", path, "check path and permissions",
-                 -1, 0.0});
+    return error(ErrorCode::kCannotOpen, "cannot read the file")
+        .where(path)
+        .hint("check path and permissions");
   }
   constexpr std::size_t kHead = 4096;
   std::string head(kHead, '\0');

@@ -41,7 +41,7 @@ void be_quiet() { Message::DefaultMessenger()->ChangePrinters().Clear(); }
 /// A file that cannot be read is the file's fault; geometry that cannot be written is ours.
 Error fault(const std::string& text, const std::string& where) {
   const bool reading = !where.empty();
-  return {reading ? ErrorCode::kNotText : ErrorCode::kInternal,
+  return {reading ? ErrorCode::kDamaged : ErrorCode::kInternal,
           "the CAD kernel gave up: " + text,
           where,
           reading ? "the file may be damaged; export it again"

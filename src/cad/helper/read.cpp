@@ -95,7 +95,7 @@ class Collector {
 
 Result<Drawing> read_file(const std::string& path) {
   const auto loaded = load(path);
-  if (!loaded) return fail(loaded.error());
+  OBVID_TRY(loaded);
   Drawing drawing;
   drawing.name = std::filesystem::path(path).filename().string();
   drawing.units = loaded->units;
@@ -103,7 +103,7 @@ Result<Drawing> read_file(const std::string& path) {
   if (drawing.curves.empty()) {
     std::string what = "the file holds no plane curves";
     if (!drawing.warnings.empty()) what += ": " + drawing.warnings.front();
-    return fail({ErrorCode::kTooFewPoints, what, path, "export a sketch or section", -1, 0.0});
+    return error(ErrorCode::kNothingThere, what).where(path).hint("export a sketch or section");
   }
   return drawing;
 }

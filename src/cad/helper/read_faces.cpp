@@ -68,7 +68,7 @@ void collect(const Loaded& loaded, CadSurfaces& out) {
 
 Result<CadSurfaces> read_faces(const std::string& path) {
   const auto loaded = load(path);
-  if (!loaded) return fail(loaded.error());
+  OBVID_TRY(loaded);
   CadSurfaces out;
   out.model.name = std::filesystem::path(path).stem().string();
   out.model.units = loaded->units;
@@ -76,7 +76,7 @@ Result<CadSurfaces> read_faces(const std::string& path) {
   if (out.model.patches.empty()) {
     std::string what = "the file holds no faces";
     if (!out.warnings.empty()) what += " that could be taken: " + out.warnings.front();
-    return fail({ErrorCode::kTooFewPoints, what, path, "export surfaces or a solid", -1, 0.0});
+    return error(ErrorCode::kNothingThere, what).where(path).hint("export surfaces or a solid");
   }
   return out;
 }

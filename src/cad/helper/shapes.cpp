@@ -126,7 +126,7 @@ Result<Drawn> drawn_by_points(const Piece& piece, double scale) {
   only.pieces.push_back(piece);
   only.joints.resize(2);
   const auto curve = joined_nurbs(only);
-  if (!curve) return fail(curve.error());
+  OBVID_TRY(curve);
   return spline_piece(*curve, scale);
 }
 
@@ -139,8 +139,8 @@ Result<Drawn> drawn(const Piece& piece, double scale) {
     if (const auto ellipse = ellipse_piece(*bezier, scale)) return *ellipse;
     return spline_piece(nurbs_of(*bezier), scale);
   }
-  return fail({ErrorCode::kUnsupported, "CAD files know no clothoids", "",
-               "form the contour with --carrier spiral or bspline", -1, 0.0});
+  return error(ErrorCode::kUnsupported, "CAD files know no clothoids")
+      .hint("form the contour with --carrier spiral or bspline");
 }
 
 /// A wire of pieces that share their vertices: whether neighbours meet is known here, and is not
@@ -150,7 +150,7 @@ class PieceWire {
   PieceWire(const std::vector<Piece>& pieces, double scale) : pieces_(pieces), scale_(scale) {}
 
   Result<TopoDS_Wire> run() {
-    if (const auto done = draw_all(); !done) return fail(done.error());
+    OBVID_TRY(draw_all());
     place_vertices();
     TopoDS_Wire wire;
     builder_.MakeWire(wire);
@@ -178,7 +178,7 @@ class PieceWire {
         continue;
       }
       auto one = drawn(piece, scale_);
-      if (!one) return fail(one.error());
+      OBVID_TRY(one);
       drawn_.emplace_back(std::move(*one));
     }
     return {};
@@ -262,7 +262,7 @@ Result<TopoDS_Shape> shape_of(const std::vector<CadCurve>& curves, double scale,
   };
   for (const CadCurve& curve : curves) {
     const auto wire = wire_of(curve, scale);
-    if (!wire) return fail(wire.error());
+    OBVID_TRY(wire);
     add(*wire);
     if (face_width > 0.0) {
       add(BRepPrimAPI_MakePrism(*wire, gp_Vec(0.0, 0.0, scale * face_width)).Shape());

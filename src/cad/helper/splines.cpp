@@ -115,7 +115,7 @@ Result<NurbsSurface> surface_of(Handle(Geom_BSplineSurface) spline) {
       if (rational) out.weights.push_back(spline->Weight(i, j));
     }
   }
-  if (const auto fine = check(out); !fine) return fail(fine.error());
+  OBVID_TRY(check(out));
   return out;
 }
 
@@ -133,7 +133,7 @@ Result<SpaceCurve> curve_of(Handle(Geom_BSplineCurve) spline) {
     out.points.push_back({p.X(), p.Y(), p.Z()});
     if (spline->IsRational()) out.weights.push_back(spline->Weight(i));
   }
-  if (const auto fine = check(out); !fine) return fail(fine.error());
+  OBVID_TRY(check(out));
   return out;
 }
 

@@ -155,7 +155,7 @@ Result<std::string> iges_text(const FileContent& content, const Unit& unit) {
 Result<double> scale_of(CadFormat format, const std::string& unit) {
   if (format == CadFormat::kBrep) return 1.0;  // these files have no unit
   const auto known = unit_of(unit);
-  if (!known) return fail(known.error());
+  OBVID_TRY(known);
   return known->millimetres;  // the kernel thinks in mm and writes the unit that it is told
 }
 
@@ -166,7 +166,7 @@ Result<std::string> text_of(const FileContent& content, CadFormat format, const 
     return text.str();
   }
   const auto known = unit_of(unit);
-  if (!known) return fail(known.error());
+  OBVID_TRY(known);
   if (format == CadFormat::kIges) return iges_text(content, *known);
   return step_text(content, *known, format == CadFormat::kStepAp242);
 }

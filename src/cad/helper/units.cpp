@@ -17,7 +17,7 @@ constexpr std::array<const char*, kCadUnits.size()> kKernelNames = {"UM",  "MM",
 
 Result<Unit> unit_of(const std::string& name) {
   const auto millimetres = unit_ratio(Units(name), "mm", "STEP and IGES files");
-  if (!millimetres) return fail(millimetres.error());
+  OBVID_TRY(millimetres);
   const std::string_view written = cad_unit(name);
   Unit unit{"MM", *millimetres};
   for (std::size_t i = 0; i < kCadUnits.size(); ++i) {

@@ -301,11 +301,10 @@ Result<std::vector<Piece>> all_arcs(const Track& track, double tolerance, double
 
 Result<ArcsAlong> arcs_along(const Contour& contour, double tolerance) {
   if (!(tolerance > 0.0)) {
-    return fail(
-        {ErrorCode::kBadOption, "the tolerance must be greater than 0", "", "", -1, tolerance});
+    return error(ErrorCode::kBadOption, "the tolerance must be greater than 0").value(tolerance);
   }
   if (contour.pieces.empty()) {
-    return fail({ErrorCode::kTooFewPoints, "the contour has no pieces", "", "", -1, 0.0});
+    return error(ErrorCode::kNothingThere, "the contour has no pieces");
   }
   constexpr double kRough = 2.0;  // the estimate against the limit
   const double expected = expected_arcs(contour, tolerance);
@@ -315,7 +314,7 @@ Result<ArcsAlong> arcs_along(const Contour& contour, double tolerance) {
   const Track track(contour);
   if (std::all_of(contour.pieces.begin(), contour.pieces.end(), arcs::is_circular)) {
     auto same = all_arcs(track, tolerance, expected);
-    if (!same) return fail(same.error());
+    OBVID_TRY(same);
     return ArcsAlong{std::move(*same), 0.0};
   }
   constexpr int kTrials = 4;
@@ -323,7 +322,7 @@ Result<ArcsAlong> arcs_along(const Contour& contour, double tolerance) {
   ArcsAlong out;
   for (int trial = 0; trial < kTrials; ++trial) {
     auto pieces = all_arcs(track, within, expected);
-    if (!pieces) return fail(pieces.error());
+    OBVID_TRY(pieces);
     out.pieces = std::move(*pieces);
     out.deviation = path_distance(contour.pieces, out.pieces);
     if (out.deviation <= tolerance) return out;

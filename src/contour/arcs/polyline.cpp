@@ -125,11 +125,10 @@ std::vector<Piece> as_pieces(const std::vector<Vec2>& points) {
 
 Result<PolylineAlong> polyline_along(const Contour& contour, double tolerance) {
   if (!(tolerance > 0.0)) {
-    return fail(
-        {ErrorCode::kBadOption, "the tolerance must be greater than 0", "", "", -1, tolerance});
+    return error(ErrorCode::kBadOption, "the tolerance must be greater than 0").value(tolerance);
   }
   if (contour.pieces.empty()) {
-    return fail({ErrorCode::kTooFewPoints, "the contour has no pieces", "", "", -1, 0.0});
+    return error(ErrorCode::kNothingThere, "the contour has no pieces");
   }
   const double expected = expected_chords(contour, tolerance);
   if (!(expected <= kMostPoints)) return fail(chords_not_near(expected));

@@ -31,16 +31,16 @@ class PieceCondenser {
 
   Result<ParabolaChain> run(const Element& start, const Element& end) {
     if (!(start.kappa * end.kappa > 0.0)) {
-      return fail({ErrorCode::kNoSpiral, "curvature is zero or changes sign on the piece", "",
-                   "parabolas have no inflection: choose another carrier for this contour", -1,
-                   start.kappa * end.kappa < 0.0 ? 0.0 : std::min(start.kappa, end.kappa)});
+      return error(ErrorCode::kNoSpiral, "curvature is zero or changes sign on the piece")
+          .hint("parabolas have no inflection: choose another carrier for this contour")
+          .value(start.kappa * end.kappa < 0.0 ? 0.0 : std::min(start.kappa, end.kappa));
     }
     out_.at.push_back(0.0);
     if (!append(0.0, start, 1.0, end, 0)) {
-      return fail({ErrorCode::kToleranceNotReached,
-                   "no chain of monotone parabolas was found within the tolerance", "",
-                   "curvature hardly changes there: an arc or another carrier does it", -1,
-                   failed_width_});
+      return error(ErrorCode::kToleranceNotReached,
+                   "no chain of monotone parabolas was found within the tolerance")
+          .hint("curvature hardly changes there: an arc or another carrier does it")
+          .value(failed_width_);
     }
     return std::move(out_);
   }

@@ -118,7 +118,7 @@ Result<CubicSpline> cubic_spline(const std::vector<Vec2>& points,
   const bool periodic = options.end == SplineEnd::kPeriodic;
   const bool tangents = options.end == SplineEnd::kTangents;
   if (tangents && !(finite(options.start_slope) && finite(options.end_slope))) {
-    return fail({ErrorCode::kBadOption, "a given slope is no number", "", "", -1, 0.0});
+    return error(ErrorCode::kBadOption, "a given slope is no number");
   }
   CubicSpline spline{{}, points, {}};
   if (periodic && !points.empty()) spline.points.push_back(points.front());

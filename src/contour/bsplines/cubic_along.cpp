@@ -146,7 +146,7 @@ class CubicBuilder {
     options.end_slope = unit_at(length_.element(places.back()).theta);
     if (closed_) points.pop_back();
     auto spline = cubic_spline(points, options);
-    if (!spline) return tl::unexpected(spline.error());
+    OBVID_TRY(spline);
     CubicAlong out{std::move(*spline), 0.0};
     out.deviation = deviation(out.spline, places);
     return out;
@@ -192,8 +192,9 @@ Result<CubicAlong> search(const CubicBuilder& builder, double tolerance) {
   auto found = builder.with_spans(n);
   while (found && !(found->deviation <= tolerance)) {
     if (n >= kMostSpans) {
-      return fail({ErrorCode::kToleranceNotReached, "65,536 cubic spans do not reach the tolerance",
-                   "", "allow more", -1, found->deviation});
+      return error(ErrorCode::kToleranceNotReached, "65,536 cubic spans do not reach the tolerance")
+          .hint("allow more")
+          .value(found->deviation);
     }
     if (found->deviation < kLeastGain * gained) {
       gained = found->deviation;
@@ -232,17 +233,17 @@ double distance_of(const Contour& contour, const CubicSpline& spline) {
 
 Result<CubicAlong> cubic_along(const Contour& contour, double tolerance) {
   if (!(tolerance > 0.0)) {
-    return fail(
-        {ErrorCode::kBadOption, "the tolerance must be greater than 0", "", "", -1, tolerance});
+    return error(ErrorCode::kBadOption, "the tolerance must be greater than 0").value(tolerance);
   }
   if (contour.pieces.empty()) {
-    return fail({ErrorCode::kTooFewPoints, "the contour has no pieces", "", "", -1, 0.0});
+    return error(ErrorCode::kNothingThere, "the contour has no pieces");
   }
   for (std::size_t i = 0; i < contour.joints.size(); ++i) {
     if (!contour.joints[i].leaving) continue;
-    return fail({ErrorCode::kUnsupported, "the contour has a corner",
-                 "joint " + std::to_string(i + 1), "split it there", static_cast<std::ptrdiff_t>(i),
-                 0.0});
+    return error(ErrorCode::kUnsupported, "the contour has a corner")
+        .where("joint " + std::to_string(i + 1))
+        .hint("split it there")
+        .point(i);
   }
   const CubicBuilder builder(contour);
   double aim = kOfCubicTolerance * tolerance, bound = 0.0;
@@ -253,8 +254,9 @@ Result<CubicAlong> cubic_along(const Contour& contour, double tolerance) {
     if (bound <= tolerance) return found;
     aim *= kOfCubicTolerance * tolerance / bound;
   }
-  return fail({ErrorCode::kToleranceNotReached, "no cubic was found within the tolerance", "",
-               "allow more", -1, bound});
+  return error(ErrorCode::kToleranceNotReached, "no cubic was found within the tolerance")
+      .hint("allow more")
+      .value(bound);
 }
 
 }  // namespace obvid

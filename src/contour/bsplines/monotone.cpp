@@ -44,9 +44,11 @@ class SplineBuilder {
     for (const Run& run : contour_.runs) {
       if (!append_run(run)) {
         const auto piece = static_cast<std::size_t>(failed_at_);
-        return fail({ErrorCode::kRoundingDecides, "no polynomial span is monotone there in doubles",
-                     "piece " + std::to_string(piece + 1), "take the spirals themselves",
-                     static_cast<std::ptrdiff_t>(piece), failed_at_});
+        return error(ErrorCode::kRoundingDecides, "no polynomial span is monotone there in doubles")
+            .where("piece " + std::to_string(piece + 1))
+            .hint("take the spirals themselves")
+            .point(piece)
+            .value(failed_at_);
       }
     }
     return assemble();
@@ -199,19 +201,20 @@ class SplineBuilder {
 };
 
 tl::unexpected<Error> unsupported(const char* what, std::size_t piece) {
-  return fail({ErrorCode::kUnsupported, what, "piece " + std::to_string(piece + 1),
-               "take the spirals themselves", static_cast<std::ptrdiff_t>(piece), 0.0});
+  return error(ErrorCode::kUnsupported, what)
+      .where("piece " + std::to_string(piece + 1))
+      .hint("take the spirals themselves")
+      .point(piece);
 }
 
 }  // namespace
 
 Result<MonotoneSpline> monotone_spline(const Contour& spiral, double tolerance) {
   if (!(tolerance > 0.0)) {
-    return fail(
-        {ErrorCode::kBadOption, "the tolerance must be greater than 0", "", "", -1, tolerance});
+    return error(ErrorCode::kBadOption, "the tolerance must be greater than 0").value(tolerance);
   }
   if (spiral.pieces.empty()) {
-    return fail({ErrorCode::kTooFewPoints, "the contour has no pieces", "", "", -1, 0.0});
+    return error(ErrorCode::kNothingThere, "the contour has no pieces");
   }
   for (std::size_t i = 0; i < spiral.pieces.size(); ++i) {
     if (std::holds_alternative<ArcPiece>(spiral.pieces[i])) {

@@ -130,11 +130,11 @@ Result<NurbsCurve> spline_through_tangents(const std::vector<Vec2>& points,
                                            const std::vector<double>& headings,
                                            SplineParameter parameter) {
   if (headings.size() != points.size()) {
-    return fail({ErrorCode::kUsage, "one heading for each point is expected", "", "", -1,
-                 static_cast<double>(headings.size())});
+    return error(ErrorCode::kUsage, "one heading for each point is expected")
+        .value(static_cast<double>(headings.size()));
   }
   const auto u = bsplines::spline_knots(points, parameter, 2);
-  if (!u) return tl::unexpected(u.error());
+  OBVID_TRY(u);
   const std::size_t n = points.size();
   const auto speed = speeds(points, headings, *u);
   NurbsCurve curve;

@@ -13,19 +13,28 @@ namespace clothoids {
 
 Result<Chords> chords_of(const std::vector<Vec2>& points, std::size_t fewest) {
   if (points.size() < fewest) {
-    return fail({ErrorCode::kTooFewPoints,
-                 "a clothoid spline needs at least " + std::to_string(fewest) + " points", "",
-                 "add points", -1, static_cast<double>(points.size())});
+    return error(ErrorCode::kTooFewPoints,
+                 "a clothoid spline needs at least " + std::to_string(fewest) + " points")
+        .hint("add points")
+        .value(static_cast<double>(points.size()));
   }
   Chords chords;
   for (std::size_t i = 0; i + 1 < points.size(); ++i) {
     const Vec2 d = points[i + 1] - points[i];
     const double h = norm(d);
     const double turn = i == 0 ? 0.0 : turning(points[i] - points[i - 1], d);
-    if (!(h > 0.0) || !(std::abs(turn) < std::numbers::pi)) {
-      return fail({ErrorCode::kChordReversal, "two chords turn back onto each other, or coincide",
-                   "point " + std::to_string(i + 1), "remove the point",
-                   static_cast<std::ptrdiff_t>(i), turn});
+    if (!(h > 0.0)) {
+      return error(ErrorCode::kOutOfOrder, "two neighbouring points coincide")
+          .where("point " + std::to_string(i + 1))
+          .hint("remove one of them")
+          .point(i);
+    }
+    if (!(std::abs(turn) < std::numbers::pi)) {
+      return error(ErrorCode::kChordReversal, "two chords turn back onto each other")
+          .where("point " + std::to_string(i + 1))
+          .hint("remove the point")
+          .point(i)
+          .value(turn);
     }
     chords.length.push_back(h);
     chords.omega.push_back(i == 0 ? heading(d) : chords.omega.back() + turn);
@@ -55,16 +64,17 @@ std::vector<double> neighbour_headings(const std::vector<Vec2>& points, const En
 Result<std::vector<ClothoidPiece>> g1_clothoids(const std::vector<Vec2>& points,
                                                 const std::vector<double>& headings) {
   if (headings.size() != points.size()) {
-    return fail({ErrorCode::kUsage, "one heading for each point is expected", "", "", -1,
-                 static_cast<double>(headings.size())});
+    return error(ErrorCode::kUsage, "one heading for each point is expected")
+        .value(static_cast<double>(headings.size()));
   }
   std::vector<ClothoidPiece> pieces;
   for (std::size_t i = 0; i + 1 < points.size(); ++i) {
     const auto piece = clothoid_between(points[i], headings[i], points[i + 1], headings[i + 1]);
     if (!piece) {
-      return fail({ErrorCode::kChordReversal, "two points coincide, or a heading is no number",
-                   "point " + std::to_string(i + 1), "remove the point",
-                   static_cast<std::ptrdiff_t>(i), 0.0});
+      return error(ErrorCode::kOutOfOrder, "two points coincide, or a heading is no number")
+          .where("point " + std::to_string(i + 1))
+          .hint("remove the point")
+          .point(i);
     }
     pieces.push_back(*piece);
   }

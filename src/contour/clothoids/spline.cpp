@@ -170,9 +170,9 @@ class SplineSolver {
   }
 
   [[nodiscard]] tl::unexpected<Error> refuse() const {
-    return tl::unexpected(
-        Error{ErrorCode::kNotProved, "no clothoid spline was found through the points", "",
-              "add points where the series turns far, or use another carrier", -1, largest_jump()});
+    return fail(error(ErrorCode::kNotProved, "no clothoid spline was found through the points")
+                    .hint("add points where the series turns far, or use another carrier")
+                    .value(largest_jump()));
   }
 
   [[nodiscard]] ClothoidSpline result() const {
@@ -207,7 +207,7 @@ class SplineSolver {
 Result<ClothoidSpline> clothoid_spline(const std::vector<Vec2>& points, const EndHeadings& ends) {
   constexpr std::size_t kFewest = 3;
   auto chords = clothoids::chords_of(points, kFewest);
-  if (!chords) return tl::unexpected(chords.error());
+  OBVID_TRY(chords);
   return SplineSolver(points, std::move(*chords), ends).run();
 }
 

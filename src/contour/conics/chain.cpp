@@ -152,11 +152,11 @@ ConicChain form(const std::vector<Element>& elements, const std::vector<Link>& l
 
 Result<ConicChain> conic_chain(const std::vector<Element>& elements, const ConicOptions& options) {
   if (options.first_weight && !(*options.first_weight > 0.0)) {
-    return fail({ErrorCode::kBadOption, "the first weight must be positive", "", "", -1,
-                 *options.first_weight});
+    return error(ErrorCode::kBadOption, "the first weight must be positive")
+        .value(*options.first_weight);
   }
   const auto links = conics::links_over(elements);
-  if (!links) return tl::unexpected(links.error());
+  OBVID_TRY(links);
   ConicWhyNot why_not;
   const double free_choice = choose_first(*links, elements, why_not);
   const auto met = options.curvature_of

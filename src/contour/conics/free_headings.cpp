@@ -295,7 +295,7 @@ bool same_directions(const std::vector<RationalBezier>& pieces,
 Result<std::vector<Element>> headings_for_conics(const std::vector<Element>& elements,
                                                  const KeptByConics& kept) {
   const auto links = conics::links_over(elements);
-  if (!links) return tl::unexpected(links.error());
+  OBVID_TRY(links);
   const auto works = [&](const std::vector<Element>& e) {
     const auto chain = conic_chain(e, {std::nullopt, kept.curvature});
     return chain && chain->elliptic && chain->monotone && same_directions(chain->pieces, elements);
@@ -307,10 +307,10 @@ Result<std::vector<Element>> headings_for_conics(const std::vector<Element>& ele
     if (found && works(*found)) return *found;
   }
   const auto chain = conic_chain(elements);
-  return fail({ErrorCode::kNotProved, "no headings were found for a monotone chain of ellipse arcs",
-               "", "add points, or use another carrier",
-               static_cast<std::ptrdiff_t>(chain ? chain->why_not.first : 0),
-               chain ? chain->why_not.excess : 0.0});
+  return error(ErrorCode::kNotProved, "no headings were found for a monotone chain of ellipse arcs")
+      .hint("add points, or use another carrier")
+      .point(chain ? chain->why_not.first : 0)
+      .value(chain ? chain->why_not.excess : 0.0);
 }
 
 }  // namespace obvid

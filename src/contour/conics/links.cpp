@@ -8,18 +8,20 @@ namespace obvid::conics {
 
 Result<std::vector<Link>> links_over(const std::vector<Element>& elements) {
   if (elements.size() < 2) {
-    return fail({ErrorCode::kTooFewPoints, "a chain of conics needs at least two points", "",
-                 "add points", -1, static_cast<double>(elements.size())});
+    return error(ErrorCode::kTooFewPoints, "a chain of conics needs at least two points")
+        .hint("add points")
+        .value(static_cast<double>(elements.size()));
   }
   std::vector<Link> links;
   for (std::size_t i = 0; i + 1 < elements.size(); ++i) {
     const auto t = triangle_over(elements[i], elements[i + 1]);
     if (!t || (i > 0 && t->turning != links.front().triangle.turning)) {
-      return fail({ErrorCode::kNoSpiral, "chord and tangents make no triangle for a convex conic",
-                   "points " + std::to_string(i + 1) + " and " + std::to_string(i + 2),
-                   "conics carry no inflection and less than half a turn per segment: split the "
-                   "series there or use another carrier",
-                   static_cast<std::ptrdiff_t>(i), 0.0});
+      return error(ErrorCode::kNoSpiral, "chord and tangents make no triangle for a convex conic")
+          .where("points " + std::to_string(i + 1) + " and " + std::to_string(i + 2))
+          .hint(
+              "conics carry no inflection and less than half a turn per segment: split the "
+              "series there or use another carrier")
+          .point(i);
     }
     double from_first = 0.0;
     if (i > 0) {  // S_1/(w_1^2 b_1^3) = S_2/(w_2^2 a_2^3)

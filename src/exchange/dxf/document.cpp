@@ -20,10 +20,10 @@ class DocumentReader {
   DocumentReader(std::string_view bytes, std::string_view name) : name_(name), tags_(bytes, name) {}
 
   Result<Document> run() {
-    if (auto opened = open(); !opened) return fail(opened.error());
+    OBVID_TRY(open());
     while (true) {
       auto tag = tags_.next();
-      if (!tag) return fail(tag.error());
+      OBVID_TRY(tag);
       if (!*tag) break;
       if (is_comment(**tag)) continue;
       if ((*tag)->code != 0) {
@@ -67,8 +67,9 @@ class DocumentReader {
       current_.push_back(**first);
       return {};
     }
-    return fail({ErrorCode::kNotText, "this is no DXF file: it does not open with 0, SECTION",
-                 std::string(name_), "write it as ASCII or binary DXF", -1, 0.0});
+    return error(ErrorCode::kDamaged, "this is no DXF file: it does not open with 0, SECTION")
+        .where(std::string(name_))
+        .hint("write it as ASCII or binary DXF");
   }
 
   /// What was collected since the last 0 tag.

@@ -39,7 +39,7 @@ Error nothing(const std::vector<std::string>& warnings, std::string_view name) {
   std::string why;
   for (const std::string& warning : warnings) why += (why.empty() ? "" : "; ") + warning;
   if (why.empty()) why = "save curves in model space as LINE, ARC, SPLINE, LWPOLYLINE, ...";
-  return {ErrorCode::kTooFewPoints,
+  return {ErrorCode::kNothingThere,
           "the DXF file draws no curve and no points",
           std::string(name),
           why,
@@ -51,7 +51,7 @@ Error nothing(const std::vector<std::string>& warnings, std::string_view name) {
 
 Result<Drawing> parse_dxf(std::string_view bytes, std::string_view name) {
   auto document = dxf::read_document(bytes, name);
-  if (!document) return fail(document.error());
+  OBVID_TRY(document);
   Drawing drawing;
   drawing.name = std::string(name);
   dxf::DrawingBuilder builder(*document, drawing, dxf::TagReader(bytes, name).binary());

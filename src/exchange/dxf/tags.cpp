@@ -93,9 +93,10 @@ std::string TagReader::place(std::size_t line) const {
 Result<std::optional<Tag>> TagReader::next() { return binary_ ? next_binary() : next_ascii(); }
 
 tl::unexpected<Error> TagReader::bad_code(std::string_view shown, std::size_t line) const {
-  return fail({ErrorCode::kBadNumber,
-               "a group code of the DXF file is wrong: " + std::string(shown), place(line),
-               "the file is damaged; write it again", -1, 0.0});
+  return error(ErrorCode::kBadNumber,
+               "a group code of the DXF file is wrong: " + std::string(shown))
+      .where(place(line))
+      .hint("the file is damaged; write it again");
 }
 
 std::optional<std::string_view> TagReader::line() {

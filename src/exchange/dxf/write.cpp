@@ -56,8 +56,8 @@ class DxfDrawer {
   Result<DxfText> run() {
     find_extents();
     if (!std::isfinite(norm(high_ - low_))) {
-      return fail({ErrorCode::kNotFinite, "a coordinate of the contour is not finite", "", "", -1,
-                   norm(high_ - low_)});
+      return error(ErrorCode::kNotFinite, "a coordinate of the contour is not finite")
+          .value(norm(high_ - low_));
     }
     Result<void> done;
     switch (options_.profile) {
@@ -72,7 +72,7 @@ class DxfDrawer {
         done = cubic();
         break;
     }
-    if (!done) return fail(done.error());
+    OBVID_TRY(done);
     if (options_.profile == DxfProfile::kArcsR12) {
       result_.text = exchange::r12_head(layer_, dxf_unit(contour_.units), low_, high_) +
                      out_.take() + "  0\nENDSEC\n  0\nEOF\n";
@@ -190,7 +190,7 @@ class DxfDrawer {
   Result<void> exact() {
     const std::vector<Contour> parts = exchange::smooth_parts(contour_);
     for (const Contour& part : parts) {
-      if (auto done = exact(part, contour_.closed && parts.size() == 1); !done) return done;
+      OBVID_TRY(exact(part, contour_.closed && parts.size() == 1));
     }
     return {};
   }
@@ -211,7 +211,7 @@ class DxfDrawer {
     if (std::any_of(part.pieces.begin(), part.pieces.end(), is_clothoid))
       return cubic(part, closed);
     const auto curve = joined_nurbs(part);
-    if (!curve) return fail(curve.error());
+    OBVID_TRY(curve);
     spline(*curve, closed);
     return {};
   }
@@ -224,14 +224,14 @@ class DxfDrawer {
   Result<void> cubic() {
     const std::vector<Contour> parts = exchange::smooth_parts(contour_);
     for (const Contour& part : parts) {
-      if (auto done = cubic(part, contour_.closed && parts.size() == 1); !done) return done;
+      OBVID_TRY(cubic(part, contour_.closed && parts.size() == 1));
     }
     return {};
   }
 
   Result<void> cubic(const Contour& part, bool closed) {
     const auto along = cubic_along(part, options_.tolerance);
-    if (!along) return fail(along.error());
+    OBVID_TRY(along);
     result_.deviation = std::max(result_.deviation, along->deviation);
     spline(as_nurbs(along->spline), closed);
     return {};
@@ -239,7 +239,7 @@ class DxfDrawer {
 
   Result<void> arcs() {
     auto along = arcs_along(contour_, options_.tolerance);
-    if (!along) return fail(along.error());
+    OBVID_TRY(along);
     result_.deviation = along->deviation;
     if (options_.profile == DxfProfile::kArcsR12) {
       polyline(along->pieces);
@@ -291,11 +291,11 @@ std::string dxf_unit(const Units& units) { return unit_code(units) != 0 ? units.
 
 Result<DxfText> dxf_text(const Contour& contour, const DxfOptions& options) {
   if (!(options.tolerance > 0.0)) {
-    return fail({ErrorCode::kBadOption, "the tolerance must be greater than 0", "", "", -1,
-                 options.tolerance});
+    return error(ErrorCode::kBadOption, "the tolerance must be greater than 0")
+        .value(options.tolerance);
   }
   if (contour.pieces.empty() || contour.joints.empty()) {
-    return fail({ErrorCode::kTooFewPoints, "the contour has no pieces", "", "", -1, 0.0});
+    return error(ErrorCode::kNothingThere, "the contour has no pieces");
   }
   return DxfDrawer(contour, options).run();
 }

@@ -72,17 +72,18 @@ class Program {
       GcodePath path(scale_, decimals_);
       if (!path.holds(largest_coordinate())) return fail(too_large());
       path.start_at(start_point(contour_.pieces.front()));
-      if (const auto done = follow(path, within); !done) return fail(done.error());
+      OBVID_TRY(follow(path, within));
       deviation = path_distance(contour_.pieces, path.pieces()) + path.radius_mismatch();
       if (path.pieces().empty()) return fail(nothing_left());
       if (deviation <= options_.tolerance) return finished(path, deviation);
       if (path.lost_arcs()) return fail(too_large());
       within -= deviation - kOfBlockTolerance * options_.tolerance;
     }
-    return fail({ErrorCode::kToleranceNotReached,
+    return error(ErrorCode::kToleranceNotReached,
                  fmt::format("{} decimals do not keep a tolerance of {:g} {}", decimals_,
-                             options_.tolerance, contour_.units.text()),
-                 "", "print more decimals, or allow a larger tolerance", -1, deviation});
+                             options_.tolerance, contour_.units.text()))
+        .hint("print more decimals, or allow a larger tolerance")
+        .value(deviation);
   }
 
  private:
@@ -136,7 +137,7 @@ class Program {
 
   Result<void> arcs(GcodePath& path, double within) const {
     const auto along = arcs_along(contour_, within);
-    if (!along) return fail(along.error());
+    OBVID_TRY(along);
     for (const Piece& piece : along->pieces) {
       if (const auto* arc = std::get_if<ArcPiece>(&piece)) {
         path.follow_arc(*arc);
@@ -149,7 +150,7 @@ class Program {
 
   Result<void> lines(GcodePath& path, double within) const {
     const auto along = polyline_along(contour_, within);
-    if (!along) return fail(along.error());
+    OBVID_TRY(along);
     for (const Vec2 p : along->points) path.line_to(p);
     return {};
   }
@@ -157,7 +158,7 @@ class Program {
   Result<void> splines(GcodePath& path, double within) const {
     for (const Contour& part : smooth_parts(contour_)) {
       const auto along = cubic_along(part, within);
-      if (!along) return fail(along.error());
+      OBVID_TRY(along);
       for (const RationalBezier& span : bezier_pieces(along->spline)) path.follow_cubic(span);
     }
     return {};
@@ -211,7 +212,7 @@ class Program {
 
 Result<void> check(const Contour& contour, const GcodeOptions& options) {
   const auto bad = [](std::string what, std::string hint, double value) {
-    return fail({ErrorCode::kBadOption, std::move(what), "", std::move(hint), -1, value});
+    return error(ErrorCode::kBadOption, std::move(what)).hint(std::move(hint)).value(value);
   };
   const double feed = options.feed.value_or(default_feed(contour.units.name));
   if (!(options.tolerance > 0.0) || !std::isfinite(options.tolerance) || !(feed > 0.0) ||
@@ -228,9 +229,9 @@ Result<void> check(const Contour& contour, const GcodeOptions& options) {
     return bad("only LinuxCNC knows G5", "choose arcs, or the controller linuxcnc", 0.0);
   }
   if (contour.pieces.empty()) {
-    return fail({ErrorCode::kTooFewPoints, "the contour has no pieces", "", "", -1, 0.0});
+    return error(ErrorCode::kNothingThere, "the contour has no pieces");
   }
-  if (auto known = unit_ratio(contour.units, "mm", "machines"); !known) return fail(known.error());
+  OBVID_TRY(unit_ratio(contour.units, "mm", "machines"));
   return {};
 }
 
@@ -242,7 +243,7 @@ double default_feed(std::string_view units) {
 }
 
 Result<GcodeText> gcode_text(const Contour& contour, const GcodeOptions& options) {
-  if (const auto good = check(contour, options); !good) return fail(good.error());
+  OBVID_TRY(check(contour, options));
   return Program(contour, options).run();
 }
 

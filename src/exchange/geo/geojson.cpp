@@ -97,7 +97,7 @@ class GeoJsonReader {
   explicit GeoJsonReader(string_view name) : name_(name) {}
 
   Result<Drawing> run(const json& root) {
-    if (auto done = object(root, ""); !done) return fail(std::move(done.error()));
+    OBVID_TRY(object(root, ""));
     if (!points_.places.empty()) all_.push_back(std::move(points_));
     Drawing out;
     out.name = name_;
@@ -108,12 +108,10 @@ class GeoJsonReader {
     if (!crs.empty() || out_of_range_) {
       take_as_plane(crs, out);
       if (!out.series.empty()) return out;
-      return fail({ErrorCode::kTooFewPoints, "the file holds no line with two different places",
-                   name_, "", -1, 0.0});
+      return error(ErrorCode::kTooFewPoints, "the file holds no line with two different places")
+          .where(name_);
     }
-    if (auto done = exchange::project_series(std::move(all_), name_, out); !done) {
-      return fail(std::move(done.error()));
-    }
+    OBVID_TRY(exchange::project_series(std::move(all_), name_, out));
     return out;
   }
 
@@ -164,9 +162,7 @@ class GeoJsonReader {
       return fail(malformed(fmt::format("a list '{}' is expected", key), at(path + "/" + key)));
     }
     for (std::size_t i = 0; i < list->size(); ++i) {
-      if (auto done = object((*list)[i], fmt::format("{}/{}/{}", path, key, i)); !done) {
-        return done;
-      }
+      OBVID_TRY(object((*list)[i], fmt::format("{}/{}/{}", path, key, i)));
     }
     return {};
   }
@@ -201,10 +197,10 @@ class GeoJsonReader {
                                                       {"Polygon", 2},    {"MultiPolygon", 3}};
     const auto found = kDepth.find(type);
     if (found == kDepth.end()) {
-      return fail({ErrorCode::kUnsupported,
+      return error(ErrorCode::kUnsupported,
                    type.empty() ? "an object without a type of GeoJSON"
-                                : fmt::format("objects of type '{}' are not read", shortened(type)),
-                   at(path.empty() ? "/" : path), "", -1, 0.0});
+                                : fmt::format("objects of type '{}' are not read", shortened(type)))
+          .where(at(path.empty() ? "/" : path));
     }
     const json* coordinates = member(value, "coordinates");
     if (coordinates == nullptr || !coordinates->is_array()) {
@@ -222,9 +218,7 @@ class GeoJsonReader {
     }
     if (depth == 1) return line(value, type, path);
     for (std::size_t i = 0; i < value.size(); ++i) {
-      if (auto done = lines(value[i], depth - 1, type, fmt::format("{}/{}", path, i)); !done) {
-        return done;
-      }
+      OBVID_TRY(lines(value[i], depth - 1, type, fmt::format("{}/{}", path, i)));
     }
     return {};
   }
@@ -233,7 +227,7 @@ class GeoJsonReader {
     GeoSeries series{fmt::format("{} {}", type, all_.size() + 1), {}, {}};
     if (!title_.empty()) series.name += " " + title_;
     for (std::size_t i = 0; i < value.size(); ++i) {
-      if (auto done = position(value[i], series, path, i); !done) return done;
+      OBVID_TRY(position(value[i], series, path, i));
     }
     all_.push_back(std::move(series));
     return {};
@@ -266,7 +260,7 @@ class GeoJsonReader {
 Result<Drawing> parse_geojson(string_view text, string_view name) {
   if (text.substr(0, 3) == "\xEF\xBB\xBF") text.remove_prefix(3);
   const auto root = parsed(text, name);
-  if (!root) return fail(root.error());
+  OBVID_TRY(root);
   return GeoJsonReader(name).run(*root);
 }
 

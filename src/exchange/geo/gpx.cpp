@@ -36,9 +36,7 @@ class GpxReader {
     Drawing out;
     out.name = file_.name();
     out.warnings = warnings_.take();
-    if (auto done = exchange::project_series(std::move(all_), file_.name(), out); !done) {
-      return fail(std::move(done.error()));
-    }
+    OBVID_TRY(exchange::project_series(std::move(all_), file_.name(), out));
     return out;
   }
 
@@ -94,7 +92,7 @@ class GpxReader {
 
 Result<Drawing> parse_gpx(std::string_view text, std::string_view name) {
   XmlFile file(text, name);
-  if (auto done = file.parse("gpx"); !done) return fail(std::move(done.error()));
+  OBVID_TRY(file.parse("gpx"));
   return GpxReader(file).run();
 }
 

@@ -103,8 +103,8 @@ PointSeries plane_series(std::string name, Units units, const std::vector<Vec2>&
 Result<void> project_series(std::vector<GeoSeries> all, std::string_view name, Drawing& drawing) {
   drop_single_places(all, drawing.warnings);
   if (all.empty()) {
-    return fail({ErrorCode::kTooFewPoints, "the file holds no line with two different places",
-                 std::string(name), "", -1, 0.0});
+    return error(ErrorCode::kTooFewPoints, "the file holds no line with two different places")
+        .where(std::string(name));
   }
   const LocalProjection projection(middle_of_places(all));
   double farthest = 0.0;
@@ -114,11 +114,13 @@ Result<void> project_series(std::vector<GeoSeries> all, std::string_view name, D
     }
   }
   if (!(farthest <= kMostDistance)) {
-    return fail({ErrorCode::kSizeOutOfRange,
+    return error(ErrorCode::kSizeOutOfRange,
                  fmt::format("the places lie {:.0f} km from their middle meridian, too far for one "
                              "plane",
-                             farthest / 1e3),
-                 std::string(name), "cut the file into regions", -1, farthest});
+                             farthest / 1e3))
+        .where(std::string(name))
+        .hint("cut the file into regions")
+        .value(farthest);
   }
   drawing.units = "m";
   drawing.warnings.push_back(

@@ -175,11 +175,9 @@ class GlbWriter {
 }  // namespace
 
 Result<std::string> glb_text(const SurfaceModel& model, const std::vector<Mesh>& meshes) {
-  if (auto counts = exchange::counts_of(model, meshes); !counts) {
-    return fail(std::move(counts.error()));
-  }
+  OBVID_TRY(exchange::counts_of(model, meshes));
   const auto metres = unit_ratio(model.units, "m", "glTF files");
-  if (!metres) return fail(metres.error());
+  OBVID_TRY(metres);
   return GlbWriter(model, meshes, *metres).run();
 }
 

@@ -77,9 +77,7 @@ class ObjWriter {
 }  // namespace
 
 Result<std::string> obj_mesh_text(const SurfaceModel& model, const std::vector<Mesh>& meshes) {
-  if (auto counts = exchange::counts_of(model, meshes); !counts) {
-    return fail(std::move(counts.error()));
-  }
+  OBVID_TRY(exchange::counts_of(model, meshes));
   ObjWriter writer;
   writer.head(model);
   for (std::size_t p = 0; p < meshes.size(); ++p) writer.patch(model.patches[p], meshes[p], p + 1);

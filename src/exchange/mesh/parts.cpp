@@ -35,18 +35,18 @@ Result<void> check_mesh(const Mesh& mesh, std::size_t patch) {
 
 Result<MeshCounts> counts_of(const SurfaceModel& model, const std::vector<Mesh>& meshes) {
   if (model.patches.size() != meshes.size()) {
-    return fail({ErrorCode::kBadCount,
-                 fmt::format("{} meshes for {} patches", meshes.size(), model.patches.size()), "",
-                 "", -1, static_cast<double>(meshes.size())});
+    return error(ErrorCode::kBadCount,
+                 fmt::format("{} meshes for {} patches", meshes.size(), model.patches.size()))
+        .value(static_cast<double>(meshes.size()));
   }
   MeshCounts counts;
   for (std::size_t p = 0; p < meshes.size(); ++p) {
-    if (auto good = check_mesh(meshes[p], p); !good) return fail(std::move(good.error()));
+    OBVID_TRY(check_mesh(meshes[p], p));
     counts.vertices += meshes[p].vertices.size();
     counts.triangles += meshes[p].triangles.size();
   }
   if (counts.triangles == 0) {
-    return fail({ErrorCode::kTooFewPoints, "there are no triangles to write", "", "", -1, 0.0});
+    return error(ErrorCode::kNothingThere, "there are no triangles to write");
   }
   return counts;
 }

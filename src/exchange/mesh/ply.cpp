@@ -11,7 +11,7 @@ namespace obvid {
 
 Result<std::string> ply_text(const SurfaceModel& model, const std::vector<Mesh>& meshes) {
   auto counts = exchange::counts_of(model, meshes);
-  if (!counts) return fail(std::move(counts.error()));
+  OBVID_TRY(counts);
   // readers take indices for signed numbers
   if (counts->vertices > static_cast<std::size_t>(std::numeric_limits<std::int32_t>::max())) {
     return fail(exchange::too_large("PLY"));

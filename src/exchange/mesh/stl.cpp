@@ -18,7 +18,7 @@ constexpr std::size_t kName = 40;             // characters that are kept
 
 Result<std::string> stl_text(const SurfaceModel& model, const std::vector<Mesh>& meshes) {
   auto counts = exchange::counts_of(model, meshes);
-  if (!counts) return fail(std::move(counts.error()));
+  OBVID_TRY(counts);
   if (counts->triangles > std::numeric_limits<std::uint32_t>::max()) {
     return fail(exchange::too_large("STL"));
   }

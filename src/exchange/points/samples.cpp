@@ -51,8 +51,9 @@ Result<std::vector<CurveSample>> by_chords(const ContourPath& path, double toler
     const int fewest = std::holds_alternative<LinePiece>(piece) ? 1 : 2;
     const int n = chord_steps(piece, tolerance, fewest, fewest == 1 ? 1 : kMostChords);
     if (out.size() + static_cast<std::size_t>(n) > kMostSamples) {
-      return fail({ErrorCode::kBadOption, "this tolerance asks for more than ten million samples",
-                   "", "choose a larger one", -1, tolerance});
+      return error(ErrorCode::kBadOption, "this tolerance asks for more than ten million samples")
+          .hint("choose a larger one")
+          .value(tolerance);
     }
     for (int k = 0; k <= n; ++k) {
       const double t = static_cast<double>(k) / n;
@@ -94,7 +95,7 @@ std::vector<Vec2> distinct(const std::vector<CurveSample>& samples, bool closed)
 namespace {
 
 Error no_pieces() {
-  return {ErrorCode::kTooFewPoints, "the contour has no pieces", "", "", -1, 0.0};
+  return {ErrorCode::kNothingThere, "the contour has no pieces", "", "", -1, 0.0};
 }
 
 Error beyond_the_curve(double place, double end) {
@@ -142,7 +143,7 @@ Result<std::vector<CurveSample>> sample_at_parameters(std::span<const Piece> pie
 Result<std::vector<CurveSample>> sample(std::span<const Piece> pieces,
                                         const SampleOptions& options) {
   if (pieces.empty()) {
-    return fail({ErrorCode::kTooFewPoints, "there is no curve to sample", "", "", -1, 0.0});
+    return error(ErrorCode::kNothingThere, "there is no curve to sample");
   }
   const ContourPath path(pieces);
   if (options.count) {
@@ -170,7 +171,7 @@ Result<std::vector<CurveSample>> sample(std::span<const Piece> pieces,
 
 Result<std::string> samples_csv(const Contour& contour, const SampleOptions& options) {
   const auto samples = sample(contour.pieces, options);
-  if (!samples) return tl::unexpected(samples.error());
+  OBVID_TRY(samples);
   const std::string unit = plain(contour.units);
   std::string out =
       contour.units.known()
@@ -188,7 +189,7 @@ Result<std::string> samples_csv(const Contour& contour, const SampleOptions& opt
 
 Result<std::string> obj_text(const Contour& contour, const SampleOptions& options) {
   const auto samples = sample(contour.pieces, options);
-  if (!samples) return tl::unexpected(samples.error());
+  OBVID_TRY(samples);
   const std::vector<Vec2> points = distinct(*samples, contour.closed);
   std::string out = "# Obvid contour, lengths in " + plain(contour.units) + "\n";
   for (const Vec2 p : points) format_into(out, "v {} {} 0\n", p.x, p.y);
@@ -201,7 +202,7 @@ Result<std::string> obj_text(const Contour& contour, const SampleOptions& option
 
 Result<std::string> ply_text(const Contour& contour, const SampleOptions& options) {
   const auto samples = sample(contour.pieces, options);
-  if (!samples) return tl::unexpected(samples.error());
+  OBVID_TRY(samples);
   const std::vector<Vec2> points = distinct(*samples, contour.closed);
   const std::size_t edges = points.size() - (contour.closed ? 0 : 1);
   std::string out = fmt::format(

@@ -40,7 +40,7 @@ class Macro {
         "  Set swApp = Application.SldWorks\n  Set model = swApp.ActiveDoc\n"
         "  Set sketch = model.SketchManager\n  sketch.AddToDB = True\n";
     for (const Run& run : runs_of(contour_)) {
-      if (auto done = add(run); !done) return tl::unexpected(done.error());
+      OBVID_TRY(add(run));
     }
     return out_ + "  sketch.AddToDB = False\n  model.GraphicsRedraw2\nEnd Sub\n";
   }
@@ -61,7 +61,7 @@ class Macro {
         splines.push_back(piece);
         continue;
       }
-      if (auto done = spline(splines); !done) return done;
+      OBVID_TRY(spline(splines));
       splines.clear();
       draw(piece);
     }
@@ -96,7 +96,7 @@ class Macro {
   Result<void> spline(const std::vector<Piece>& pieces) {
     if (pieces.empty()) return {};
     const auto samples = sample(pieces, options_);
-    if (!samples) return fail(samples.error());
+    OBVID_TRY(samples);
     add("  ReDim points({})\n", 3 * samples->size() - 1);
     for (std::size_t i = 0; i < samples->size(); ++i) {
       const Vec2 p = (*samples)[i].point;
@@ -117,13 +117,13 @@ class Macro {
 
 Result<std::vector<SldcrvFile>> sldcrv_files(const Contour& contour, const SampleOptions& options) {
   if (contour.pieces.empty()) {
-    return fail({ErrorCode::kTooFewPoints, "the contour has no pieces", "", "", -1, 0.0});
+    return error(ErrorCode::kNothingThere, "the contour has no pieces");
   }
   std::vector<SldcrvFile> out;
   const std::vector<Run> runs = runs_of(contour);
   for (std::size_t r = 0; r < runs.size(); ++r) {
     const auto samples = sample(pieces_of(contour, runs[r]), options);
-    if (!samples) return tl::unexpected(samples.error());
+    OBVID_TRY(samples);
     SldcrvFile file{runs.size() == 1 ? "" : "-" + std::to_string(r + 1), {}};
     const CurveSample* before = nullptr;
     for (const CurveSample& one : *samples) {
@@ -138,10 +138,10 @@ Result<std::vector<SldcrvFile>> sldcrv_files(const Contour& contour, const Sampl
 
 Result<std::string> solidworks_macro(const Contour& contour, const SampleOptions& options) {
   if (contour.pieces.empty()) {
-    return fail({ErrorCode::kTooFewPoints, "the contour has no pieces", "", "", -1, 0.0});
+    return error(ErrorCode::kNothingThere, "the contour has no pieces");
   }
   const auto metres = unit_ratio(contour.units, "m", "macros of SolidWorks");
-  if (!metres) return fail(metres.error());
+  OBVID_TRY(metres);
   return Macro(contour, options, *metres).run();
 }
 

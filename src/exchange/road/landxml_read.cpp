@@ -64,8 +64,8 @@ class LandXmlReader {
                       drawing_.units.text()));
     }
     if (drawing_.curves.empty()) {
-      return fail({ErrorCode::kTooFewPoints, "the file has no CoordGeom with a curve", file_.name(),
-                   "", -1, 0.0});
+      return error(ErrorCode::kNothingThere, "the file has no CoordGeom with a curve")
+          .where(file_.name());
     }
     return std::move(drawing_);
   }
@@ -236,7 +236,7 @@ class LandXmlReader {
 
 Result<Drawing> parse_landxml(string_view text, string_view name) {
   XmlFile file(text, name);
-  if (auto done = file.parse("LandXML"); !done) return fail(std::move(done.error()));
+  OBVID_TRY(file.parse("LandXML"));
   return LandXmlReader(file).run();
 }
 

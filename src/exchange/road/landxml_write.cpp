@@ -173,7 +173,7 @@ Result<std::string> landxml_text(const Contour& contour, const LandXmlOptions& o
   // a unit that is not known gets its error from `road_lines`
   const std::string_view unit = landxml_unit(contour.units.name);
   const auto lines = road_lines(contour, unit.empty() ? "m" : unit);
-  if (!lines) return fail(lines.error());
+  OBVID_TRY(lines);
   return LandXmlWriter(*lines, unit, options).run();
 }
 

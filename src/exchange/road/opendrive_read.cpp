@@ -112,8 +112,8 @@ class OpenDriveReader {
     drawing_.units = "m";
     drawing_.warnings = warnings_.take();
     if (drawing_.curves.empty()) {
-      return fail({ErrorCode::kTooFewPoints, "no road of the file has a reference line",
-                   file_.name(), "", -1, 0.0});
+      return error(ErrorCode::kNothingThere, "no road of the file has a reference line")
+          .where(file_.name());
     }
     return std::move(drawing_);
   }
@@ -222,7 +222,7 @@ class OpenDriveReader {
 
 Result<Drawing> parse_opendrive(std::string_view text, std::string_view name) {
   XmlFile file(text, name);
-  if (auto done = file.parse("OpenDRIVE"); !done) return fail(std::move(done.error()));
+  OBVID_TRY(file.parse("OpenDRIVE"));
   return OpenDriveReader(file).run();
 }
 

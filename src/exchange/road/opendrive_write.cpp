@@ -115,11 +115,11 @@ class OpenDriveWriter {
 
 Result<std::string> opendrive_text(const Contour& contour, const OpenDriveOptions& options) {
   if (!(options.lane_width >= 0.0) || !std::isfinite(options.lane_width)) {
-    return fail({ErrorCode::kBadOption, "the width of the lane must not be negative", "", "", -1,
-                 options.lane_width});
+    return error(ErrorCode::kBadOption, "the width of the lane must not be negative")
+        .value(options.lane_width);
   }
   const auto lines = road_lines(contour, "m");
-  if (!lines) return fail(lines.error());
+  OBVID_TRY(lines);
   return OpenDriveWriter(*lines, contour.closed, options).run();
 }
 

@@ -34,17 +34,18 @@ RoadElement scaled(RoadElement e, double ratio) {
 
 Result<std::vector<RoadLine>> road_lines(const Contour& contour, std::string_view unit) {
   const auto ratio = unit_ratio(contour.units, unit, "road formats");
-  if (!ratio) return fail(ratio.error());
+  OBVID_TRY(ratio);
   if (contour.pieces.empty()) {
-    return fail({ErrorCode::kTooFewPoints, "the contour has no pieces", "", "", -1, 0.0});
+    return error(ErrorCode::kNothingThere, "the contour has no pieces");
   }
   std::vector<RoadLine> lines;
   for (std::size_t i = 0; i < contour.pieces.size(); ++i) {
     const auto element = element_of(contour.pieces[i]);
     if (!element) {
-      return fail({ErrorCode::kUnsupported,
-                   "road formats know lines, arcs and clothoids, and this contour has other pieces",
-                   fmt::format("piece {}", i + 1), "use `fit --carrier clothoids`", -1, 0.0});
+      return error(ErrorCode::kUnsupported,
+                   "road formats know lines, arcs and clothoids, and this contour has other pieces")
+          .where(fmt::format("piece {}", i + 1))
+          .hint("use `fit --carrier clothoids`");
     }
     const bool corner = i < contour.joints.size() && is_corner(contour.joints[i]);
     if (i == 0 || corner) lines.emplace_back();

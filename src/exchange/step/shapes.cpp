@@ -11,7 +11,7 @@ namespace obvid::exchange {
 namespace {
 
 tl::unexpected<Error> refused_curve(ErrorCode code, const char* what, int index = -1) {
-  return fail({code, what, "", "look at the contour with `obvid verify`", index, 0.0});
+  return error(code, what).hint("look at the contour with `obvid verify`").point(index);
 }
 
 NurbsCurve quadratic(Vec2 a, Vec2 b, Vec2 c, double weight) {
@@ -133,16 +133,16 @@ Result<std::vector<StepShape>> shapes_of(const CadCurve& curve, double scale) {
     return out;
   }
   const auto& pieces = std::get<std::vector<Piece>>(curve.geometry);
-  if (pieces.empty()) return refused_curve(ErrorCode::kTooFewPoints, "a curve has no pieces");
+  if (pieces.empty()) return refused_curve(ErrorCode::kNothingThere, "a curve has no pieces");
   const StepShaper shaper(scale, size_of_pieces(pieces));
   for (const Piece& piece : pieces) {
     if (const auto* line = std::get_if<LinePiece>(&piece)) out.push_back(shaper.shape(*line));
     if (const auto* arc = std::get_if<ArcPiece>(&piece)) out.push_back(shaper.shape(*arc));
     if (const auto* one = std::get_if<RationalBezier>(&piece)) out.push_back(shaper.shape(*one));
     if (std::holds_alternative<ClothoidPiece>(piece)) {
-      return fail({ErrorCode::kUnsupported, "CAD files know no clothoids", "",
-                   "form the contour with --carrier spiral or bspline",
-                   static_cast<int>(&piece - pieces.data()), 0.0});
+      return error(ErrorCode::kUnsupported, "CAD files know no clothoids")
+          .hint("form the contour with --carrier spiral or bspline")
+          .point(static_cast<int>(&piece - pieces.data()));
     }
   }
   return out;
@@ -152,7 +152,7 @@ Result<std::vector<StepShape>> shapes_of(const CadCurve& curve, double scale) {
 
 Result<StepChain> step_chain(const CadCurve& curve, double scale, double same) {
   auto shapes = shapes_of(curve, scale);
-  if (!shapes) return fail(shapes.error());
+  OBVID_TRY(shapes);
   StepChain out{std::move(*shapes), false};
   const std::size_t n = out.shapes.size();
   for (std::size_t i = 0; i < n; ++i) {

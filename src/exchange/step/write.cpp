@@ -162,9 +162,9 @@ class StepDocument {
 Result<std::string> step_text(const std::vector<CadCurve>& curves, const StepOptions& options) {
   const std::string_view written = cad_unit(options.units);
   const auto known = unit_ratio(Units(options.units), "mm", "STEP files");
-  if (!known) return fail(known.error());
+  OBVID_TRY(known);
   if (curves.empty()) {
-    return fail({ErrorCode::kTooFewPoints, "there are no curves to write", "", "", -1, 0.0});
+    return error(ErrorCode::kNothingThere, "there are no curves to write");
   }
   const auto* unit = std::find_if(std::begin(kStepUnits), std::end(kStepUnits),
                                   [&](const StepUnit& one) { return one.name == written; });
@@ -174,17 +174,17 @@ Result<std::string> step_text(const std::vector<CadCurve>& curves, const StepOpt
   std::vector<SpaceCurve> spatial;
   for (const CadCurve& curve : curves) {
     if (const auto* one = std::get_if<SpaceCurve>(&curve.geometry)) {
-      if (auto good = check(*one); !good) return fail(good.error());
+      OBVID_TRY(check(*one));
       if (options.face_width > 0.0) {
-        return fail({ErrorCode::kUnsupported, "faces are made of plane curves only", "",
-                     "leave --face out", -1, 0.0});
+        return error(ErrorCode::kUnsupported, "faces are made of plane curves only")
+            .hint("leave --face out");
       }
       spatial.push_back(*one);
       for (Vec3& point : spatial.back().points) point = scale * point;
       continue;
     }
     auto chain = exchange::step_chain(curve, scale, kSamePoint / mm);
-    if (!chain) return fail(chain.error());
+    OBVID_TRY(chain);
     chains.push_back(std::move(*chain));
   }
   const std::string& name = curves.front().name;

@@ -42,9 +42,11 @@ class SvgDrawer {
     move(start_point(contour_.pieces.front()));
     for (std::size_t i = 0; i < contour_.pieces.size(); ++i) {
       if (!add(contour_.pieces[i])) {
-        return fail({ErrorCode::kToleranceNotReached, "no cubic is near enough to a piece",
-                     "piece " + std::to_string(i + 1), "allow a larger tolerance",
-                     static_cast<std::ptrdiff_t>(i), options_.tolerance});
+        return error(ErrorCode::kToleranceNotReached, "no cubic is near enough to a piece")
+            .where("piece " + std::to_string(i + 1))
+            .hint("allow a larger tolerance")
+            .point(i)
+            .value(options_.tolerance);
       }
     }
     if (contour_.closed) path_ += "Z";
@@ -214,22 +216,23 @@ class SvgDrawer {
 
 Result<SvgDrawing> svg_drawing(const Contour& contour, const SvgDrawingOptions& options) {
   if (!(options.tolerance > 0.0)) {
-    return fail({ErrorCode::kBadOption, "the tolerance must be greater than 0", "", "", -1,
-                 options.tolerance});
+    return error(ErrorCode::kBadOption, "the tolerance must be greater than 0")
+        .value(options.tolerance);
   }
   if (contour.pieces.empty()) {
-    return fail({ErrorCode::kTooFewPoints, "the contour has no pieces", "", "", -1, 0.0});
+    return error(ErrorCode::kNothingThere, "the contour has no pieces");
   }
   const auto millimetres = unit_ratio(contour.units, "mm", "drawings in true scale");
-  if (!millimetres) return fail(millimetres.error());
+  OBVID_TRY(millimetres);
   constexpr int kTrials = 3;
   double within = kOfCubicTolerance * options.tolerance;
   for (int trial = 0;; ++trial) {
     auto made = SvgDrawer(contour, options, *millimetres, within).run();
     if (!made || made->deviation <= options.tolerance) return made;
     if (trial == kTrials) {
-      return fail({ErrorCode::kToleranceNotReached, "the drawing is not near enough", "",
-                   "allow a larger tolerance", -1, made->deviation});
+      return error(ErrorCode::kToleranceNotReached, "the drawing is not near enough")
+          .hint("allow a larger tolerance")
+          .value(made->deviation);
     }
     within *= kOfCubicTolerance * options.tolerance / made->deviation;
   }

@@ -84,8 +84,7 @@ class SvgReader {
     for (std::string& warning : warnings_.take()) drawing_.warnings.push_back(std::move(warning));
     if (drawing_.curves.empty() && drawing_.series.empty()) {
       const std::string why = drawing_.warnings.empty() ? "" : ": " + drawing_.warnings.front();
-      return fail(
-          {ErrorCode::kTooFewPoints, "the file draws nothing" + why, file_.name(), "", -1, 0.0});
+      return error(ErrorCode::kNothingThere, "the file draws nothing" + why).where(file_.name());
     }
     return std::move(drawing_);
   }
@@ -310,13 +309,13 @@ class SvgReader {
 
 Result<Drawing> parse_svg(string_view text, string_view name) {
   XmlFile file(text, name);
-  if (auto done = file.parse("svg"); !done) return fail(std::move(done.error()));
+  OBVID_TRY(file.parse("svg"));
   if (string_view(file.root().attribute(kPictureAttribute).value()) == kPictureValue) {
-    return fail({ErrorCode::kUnsupported, "a picture to look at is no drawing of a curve",
-                 std::string(name),
-                 "read the .json that was written with it, or write the curve alone with "
-                 "--svg drawing",
-                 -1, 0.0});
+    return error(ErrorCode::kUnsupported, "a picture to look at is no drawing of a curve")
+        .where(std::string(name))
+        .hint(
+            "read the .json that was written with it, or write the curve alone with "
+            "--svg drawing");
   }
   return SvgReader(file, text.size()).run();
 }

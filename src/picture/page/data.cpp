@@ -156,7 +156,7 @@ Result<PageData> page_data(const SurfaceModel& model, const std::vector<Mesh>& m
     const auto area = areas(meshes[i]);
     for (std::size_t v = 0; v < k.size(); ++v) measured.push_back({k[v], area[v]});
     const double part = static_cast<double>(i + 1) / static_cast<double>(meshes.size());
-    if (auto done = tell(run, "page", part); !done) return fail(done.error());
+    OBVID_TRY(tell(run, "page", part));
   }
   for (const ScenePolyline& line : lines) {
     for (const Vec3 p : line.points) out.vector(p - data.centre);

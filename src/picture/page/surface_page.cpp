@@ -29,9 +29,9 @@ Result<void> check_page_options(const PageOptions& options) {
       within(options.zebra_stripes, kLeastStripes)) {
     return {};
   }
-  return fail({ErrorCode::kBadOption,
-               fmt::format("isolines and stripes of a page are numbers up to {}", kMostSliderCells),
-               "", "", -1, 0.0});
+  return error(
+      ErrorCode::kBadOption,
+      fmt::format("isolines and stripes of a page are numbers up to {}", kMostSliderCells));
 }
 
 std::string patch_place(const SurfaceModel& model, std::size_t i) {
@@ -42,15 +42,18 @@ Result<void> check_page_mesh(const Mesh& mesh, const std::string& where) {
   for (std::size_t i = 0; i < mesh.vertices.size(); ++i) {
     const MeshVertex& v = mesh.vertices[i];
     if (!is_finite(v.point) || !std::isfinite(v.u) || !std::isfinite(v.v)) {
-      return fail({ErrorCode::kNotFinite, "a vertex of the triangles is not finite", where, "",
-                   static_cast<std::ptrdiff_t>(i), 0.0});
+      return error(ErrorCode::kNotFinite, "a vertex of the triangles is not finite")
+          .where(where)
+          .point(i);
     }
   }
   for (const auto& triangle : mesh.triangles) {
     const std::uint32_t last = *std::max_element(triangle.begin(), triangle.end());
     if (last >= mesh.vertices.size()) {
-      return fail({ErrorCode::kBadCount, "a triangle names a vertex that is not there", where, "",
-                   static_cast<std::ptrdiff_t>(last), static_cast<double>(last)});
+      return error(ErrorCode::kBadCount, "a triangle names a vertex that is not there")
+          .where(where)
+          .point(last)
+          .value(static_cast<double>(last));
     }
   }
   return {};
@@ -60,8 +63,9 @@ Result<void> check_lines(const std::vector<ScenePolyline>& lines) {
   for (std::size_t i = 0; i < lines.size(); ++i) {
     if (!std::all_of(lines[i].points.begin(), lines[i].points.end(),
                      [](Vec3 p) { return is_finite(p); })) {
-      return fail({ErrorCode::kNotFinite, "a point of a line is not finite",
-                   fmt::format("line {}", i + 1), "", static_cast<std::ptrdiff_t>(i), 0.0});
+      return error(ErrorCode::kNotFinite, "a point of a line is not finite")
+          .where(fmt::format("line {}", i + 1))
+          .point(i);
     }
   }
   return {};
@@ -70,26 +74,25 @@ Result<void> check_lines(const std::vector<ScenePolyline>& lines) {
 Result<std::size_t> count_triangles(const SurfaceModel& model, const std::vector<Mesh>& meshes,
                                     std::size_t most) {
   if (meshes.size() != model.patches.size()) {
-    return fail({ErrorCode::kBadCount,
-                 fmt::format("{} meshes for {} patches", meshes.size(), model.patches.size()), "",
-                 "", -1, static_cast<double>(meshes.size())});
+    return error(ErrorCode::kBadCount,
+                 fmt::format("{} meshes for {} patches", meshes.size(), model.patches.size()))
+        .value(static_cast<double>(meshes.size()));
   }
   std::size_t triangles = 0;
   for (std::size_t i = 0; i < meshes.size(); ++i) {
-    if (auto good = check(model.patches[i].surface); !good) return fail(good.error());
-    if (auto good = check_page_mesh(meshes[i], patch_place(model, i)); !good)
-      return fail(good.error());
+    OBVID_TRY(check(model.patches[i].surface));
+    OBVID_TRY(check_page_mesh(meshes[i], patch_place(model, i)));
     triangles += meshes[i].triangles.size();
   }
   if (triangles == 0) {
-    return fail({ErrorCode::kTooFewPoints, "there are no triangles to show", "", "", -1, 0.0});
+    return error(ErrorCode::kNothingThere, "there are no triangles to show");
   }
   if (triangles > most) {
-    return fail({ErrorCode::kToleranceNotReached,
+    return error(ErrorCode::kToleranceNotReached,
                  fmt::format("a page of {} triangles is too much for a browser, {} are allowed",
-                             triangles, most),
-                 "", "allow a larger chord tolerance or angle", -1,
-                 static_cast<double>(triangles)});
+                             triangles, most))
+        .hint("allow a larger chord tolerance or angle")
+        .value(static_cast<double>(triangles));
   }
   return triangles;
 }
@@ -255,12 +258,12 @@ std::string assembled(const std::string& title, const std::string& facts, const 
 
 Result<std::string> surface_page(const SurfaceModel& model, const std::vector<Mesh>& meshes,
                                  const PageOptions& options, const RunContext& run) {
-  if (auto good = check_page_options(options); !good) return fail(good.error());
-  if (auto good = check_lines(options.lines); !good) return fail(good.error());
+  OBVID_TRY(check_page_options(options));
+  OBVID_TRY(check_lines(options.lines));
   const auto triangles = count_triangles(model, meshes, options.most_triangles);
-  if (!triangles) return fail(triangles.error());
+  OBVID_TRY(triangles);
   auto made = picture::page_data(model, meshes, options.lines, run);
-  if (!made) return fail(made.error());
+  OBVID_TRY(made);
   picture::PageData& data = *made;
   for (std::size_t q = 0; options.extremes && q < data.scales.size(); ++q) {
     const Range& told = options.extremes->of(picture::kPageQuantities[q]);
@@ -268,8 +271,9 @@ Result<std::string> surface_page(const SurfaceModel& model, const std::vector<Me
     data.scales[q].most = told.to;
   }
   if (!(data.radius >= kLeastRadius && data.radius <= kMostRadius)) {
-    return fail({ErrorCode::kSizeOutOfRange, "the size of the surface cannot be shown in a browser",
-                 "", "change the unit", -1, data.radius});
+    return error(ErrorCode::kSizeOutOfRange, "the size of the surface cannot be shown in a browser")
+        .hint("change the unit")
+        .value(data.radius);
   }
   std::string title = plain_text(options.title.empty() ? model.name : options.title);
   if (title.empty()) title = "surface";

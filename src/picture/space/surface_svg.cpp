@@ -52,20 +52,21 @@ Result<void> check_picture_options(const SurfacePictureOptions& o) {
 
 Result<void> check_scene(const SurfaceModel& model, const SurfacePictureOptions& options) {
   if (model.patches.empty()) {
-    return fail({ErrorCode::kTooFewPoints, "there are no patches to draw", "", "", -1, 0.0});
+    return error(ErrorCode::kNothingThere, "there are no patches to draw");
   }
   if (model.patches.size() > options.most_facets) {
     return fail(bad_option("more patches than facets in a picture",
                            static_cast<double>(model.patches.size())));
   }
   for (const SurfacePatch& patch : model.patches) {
-    if (auto good = check(patch.surface); !good) return fail(good.error());
+    OBVID_TRY(check(patch.surface));
   }
   for (std::size_t i = 0; i < options.lines.size(); ++i) {
     for (const Vec3 p : options.lines[i].points) {
       if (!is_finite(p)) {
-        return fail({ErrorCode::kNotFinite, "a point of a line is not finite",
-                     fmt::format("line {}", i + 1), "", static_cast<std::ptrdiff_t>(i), 0.0});
+        return error(ErrorCode::kNotFinite, "a point of a line is not finite")
+            .where(fmt::format("line {}", i + 1))
+            .point(i);
       }
     }
   }
@@ -134,14 +135,15 @@ Result<std::string> drawn(const SurfaceModel& model, const SurfacePictureOptions
   for (const DrawnPatch& patch : patches) {
     if (!std::all_of(patch.points.begin(), patch.points.end(),
                      [](Vec3 p) { return is_finite(p); })) {
-      return fail({ErrorCode::kNotFinite, "a point of the surface is not finite", "",
-                   "change the unit", -1, 0.0});
+      return error(ErrorCode::kNotFinite, "a point of the surface is not finite")
+          .hint("change the unit");
     }
   }
   const double size = norm(box_of_patches(patches).size());
   if (!(size >= kLeastSize && size <= kMostSize)) {
-    return fail({ErrorCode::kSizeOutOfRange, "the size of the surface cannot be drawn", "",
-                 "change the unit", -1, size});
+    return error(ErrorCode::kSizeOutOfRange, "the size of the surface cannot be drawn")
+        .hint("change the unit")
+        .value(size);
   }
   const Colours colours = colours_of(patches, options);
   const PictureCamera camera = fitted(patches, options);
@@ -159,8 +161,8 @@ Result<std::string> drawn(const SurfaceModel& model, const SurfacePictureOptions
 }  // namespace
 
 Result<std::string> surface_svg(const SurfaceModel& model, const SurfacePictureOptions& options) {
-  if (auto good = check_picture_options(options); !good) return fail(good.error());
-  if (auto good = check_scene(model, options); !good) return fail(good.error());
+  OBVID_TRY(check_picture_options(options));
+  OBVID_TRY(check_scene(model, options));
   std::size_t facets = options.most_facets;
   for (;;) {
     auto svg = drawn(model, options, facets);

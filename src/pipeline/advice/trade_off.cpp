@@ -82,7 +82,7 @@ Result<Fit> fit_in(double work, const PointSeries& series, const FitJob& job, do
   const Allowance allowance(watch, work);
   auto made = fit_within(series, job, tolerance, watch);
   if (watch.may_go_on() || watch.was_cancelled()) return made;
-  return fail({ErrorCode::kNoSpiral, kNotTried, "", "", -1, 0.0});
+  return error(ErrorCode::kNoSpiral, kNotTried);
 }
 
 /// Whether all pieces are those of a drawing that stay as they are.
@@ -138,9 +138,10 @@ Result<TradeOff> trade_off(const PointSeries& series, const FitJob& job, const R
   out.name = series.name;
   out.units = series.units;
   if (stays_as_drawn(series, job)) {
-    return fail({ErrorCode::kBadOption,
-                 "all pieces of the drawing stay as they are drawn: no tolerance changes them",
-                 "--suggest", "--drawing points takes points of them instead", -1, 0.0});
+    return error(ErrorCode::kBadOption,
+                 "all pieces of the drawing stay as they are drawn: no tolerance changes them")
+        .where("--suggest")
+        .hint("--drawing points takes points of them instead");
   }
   const FitJob kept = with_closing(series, job);
   out.closed = kept.closing == Closing::kClosed;
@@ -154,7 +155,7 @@ Result<TradeOff> trade_off(const PointSeries& series, const FitJob& job, const R
     const double share = kMostShares * (most - watch.spent()) / (kRows - row);
     Result<Fit> made = fit_in(share, series, kept, tolerance, watch);
     if (watch.was_cancelled()) break;  // whatever it made do with
-    if (!made && exit_code(made.error().code) != exit_code(ErrorCode::kNoSpiral)) {
+    if (!made && category(made.error().code) != ErrorCategory::kNoContour) {
       return fail(made.error());
     }
     out.rows.push_back(made ? row_of(tolerance, *made) : row_of(tolerance, made.error()));

@@ -31,7 +31,7 @@ constexpr double kUsualTrials = 14.0;  // for the progress bar
 constexpr double kSearchSteps = 2500.0, kSpareSearch = 1.5e6;
 constexpr double kNoMove = 1e-6;  // of the tolerance: the rounding of a distance
 
-bool says_no_contour(ErrorCode code) { return exit_code(code) == exit_code(ErrorCode::kNoSpiral); }
+bool says_no_contour(ErrorCode code) { return category(code) == ErrorCategory::kNoContour; }
 
 FitJob unmeasured(FitJob job) {
   job.measure_against_spirals = false;

@@ -15,9 +15,9 @@ namespace obvid::pipeline_detail {
 template <class Value>
 [[nodiscard]] Result<Value> cad_of_text(const std::string& text, const std::string& name,
                                         Result<Value> (*read)(const std::string& path)) {
-  if (auto there = check_cad(); !there) return fail(there.error());
+  OBVID_TRY(check_cad());
   const auto file = PrivateCopy::of(text, name);
-  if (!file) return fail(file.error());
+  OBVID_TRY(file);
   auto made = read(file->path());
   if (made) return made;
   Error error = made.error();

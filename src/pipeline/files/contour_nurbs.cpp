@@ -15,11 +15,11 @@ Result<ContourNurbs> contour_nurbs(const Contour& contour, double tolerance) {
                   [](const Piece& piece) { return std::holds_alternative<ClothoidPiece>(piece); });
   if (!clothoids) {
     auto joined = joined_nurbs(contour);
-    if (!joined) return fail(joined.error());
+    OBVID_TRY(joined);
     return ContourNurbs{std::move(*joined), 0.0};
   }
   const auto cubic = cubic_along(contour, tolerance);
-  if (!cubic) return fail(cubic.error());
+  OBVID_TRY(cubic);
   return ContourNurbs{as_nurbs(cubic->spline), cubic->deviation};
 }
 

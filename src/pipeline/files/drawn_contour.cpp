@@ -10,12 +10,12 @@ namespace obvid {
 Result<DrawnContour> drawn_contour(const Drawing& drawing, const ImportOptions& options,
                                    const std::string& where) {
   const auto chosen = chosen_curve(drawing, options.curve, where);
-  if (!chosen) return fail(chosen.error());
+  OBVID_TRY(chosen);
   const std::size_t curves = drawing.curves.size();
   if (*chosen >= curves && options.use != DrawnUse::kExact) {
-    return fail({ErrorCode::kUnsupported, "this is a series of points, not a curve", where,
-                 "use `obvid fit`, --drawing exact for its edges, or --curve N for another one", -1,
-                 0.0});
+    return error(ErrorCode::kUnsupported, "this is a series of points, not a curve")
+        .where(where)
+        .hint("use `obvid fit`, --drawing exact for its edges, or --curve N for another one");
   }
   DrawnContour out;
   out.remarks = drawing.warnings;

@@ -81,7 +81,7 @@ class Exporter {
 
   Result<Exported> run(FileFormat format) {
     auto notes = notes_of(format);
-    if (!notes) return fail(notes.error());
+    OBVID_TRY(notes);
     auto out = made(format);
     if (!out) return out;
     for (std::string& one : notes->remarks) out->remarks.push_back(std::move(one));
@@ -153,7 +153,7 @@ class Exporter {
       case FileFormat::kPly:
         return text(ply_text(contour_, samples()));
     }
-    return fail({ErrorCode::kInternal, "unknown format", "", "", -1, 0.0});
+    return error(ErrorCode::kInternal, "unknown format");
   }
 
   [[nodiscard]] bool only_lines_and_arcs() const {
@@ -164,7 +164,7 @@ class Exporter {
 
   Result<NurbsCurve> one_curve(Exported& out) {
     auto made = pipeline_detail::contour_nurbs(contour_, tolerance_);
-    if (!made) return fail(made.error());
+    OBVID_TRY(made);
     if (made->deviation > 0.0) {
       out.remarks.push_back(
           fmt::format("clothoids are no NURBS curves: a C2 cubic follows them within {:.3g} {}",
@@ -176,7 +176,7 @@ class Exporter {
   Result<Exported> cad(CadFormat format) {
     const auto held = pipeline_detail::kernel_holds(size_, contour_.units,
                                                     format == CadFormat::kBrep, "write .dxf");
-    if (!held) return fail(held.error());
+    OBVID_TRY(held);
     Exported out;
     CadCurve curve{options_.name, NurbsCurve{}};
     if (only_lines_and_arcs()) {
@@ -192,7 +192,7 @@ class Exporter {
             fmt::format("no one NURBS curve, as {}: written piece by piece", joined.error().what));
         curve.geometry = contour_.pieces;
       } else {
-        return tl::unexpected(joined.error());
+        return fail(joined.error());
       }
     }
     if (std::holds_alternative<std::vector<Piece>>(curve.geometry)) {
@@ -206,7 +206,7 @@ class Exporter {
     write.units = contour_.units.name;
     write.face_width = options_.face_width;
     auto text = cad_text({curve}, write);
-    if (!text) return tl::unexpected(text.error());
+    OBVID_TRY(text);
     out.files.push_back({"", std::move(*text)});
     return out;
   }
@@ -217,7 +217,7 @@ class Exporter {
     const bool arcs = write.profile == DxfProfile::kArcs || write.profile == DxfProfile::kArcsR12;
     write.tolerance = arcs ? arc_tolerance_ : tolerance_;
     auto made = dxf_text(contour_, write);
-    if (!made) return tl::unexpected(made.error());
+    OBVID_TRY(made);
     Exported out = one_file(std::move(made->text));
     const std::string entities =
         fmt::format("{} {}", made->entities, made->entities == 1 ? "entity" : "entities");
@@ -243,7 +243,7 @@ class Exporter {
     write.name = options_.name;
     write.tolerance = options_.tolerance ? *options_.tolerance : gcode_tolerance();
     auto made = gcode_text(contour_, write);
-    if (!made) return tl::unexpected(made.error());
+    OBVID_TRY(made);
     Exported out = one_file(std::move(made->text));
     out.remarks.push_back(
         fmt::format("{} blocks, {} of them arcs, at most {:.3g} {} from the contour", made->blocks,
@@ -255,7 +255,7 @@ class Exporter {
     SvgDrawingOptions write;
     write.tolerance = arc_tolerance_;
     auto made = svg_drawing(contour_, write);
-    if (!made) return tl::unexpected(made.error());
+    OBVID_TRY(made);
     Exported out = one_file(std::move(made->text));
     out.remarks.push_back(fmt::format("true scale, at most {:.3g} {} from the contour",
                                       at_most(made->deviation), contour_.units.text()));
@@ -263,7 +263,7 @@ class Exporter {
   }
 
   static Result<Exported> text(Result<std::string> made) {
-    if (!made) return tl::unexpected(made.error());
+    OBVID_TRY(made);
     return one_file(std::move(*made));
   }
 
@@ -286,7 +286,7 @@ class Exporter {
 
   Result<Exported> sldcrv() {
     auto made = sldcrv_files(contour_, samples());
-    if (!made) return tl::unexpected(made.error());
+    OBVID_TRY(made);
     Exported out;
     for (SldcrvFile& file : *made) {
       out.files.push_back({std::move(file.suffix), std::move(file.text)});

@@ -33,7 +33,7 @@ Result<UnitNotes> unit_notes(const Units& units, UnitRule rule, std::string_view
     if (written.empty()) notes.remarks.push_back(fmt::format("no unit is stated in {}", kind));
     return notes;
   }
-  if (auto length = unit_ratio(units, "m", kind); !length) return fail(length.error());
+  OBVID_TRY(unit_ratio(units, "m", kind));
   if (!units.known() && rule == UnitRule::kRoad) return fail(assumed(units, kind));
   if (!units.known()) {
     notes.warnings.push_back(
@@ -69,10 +69,11 @@ Result<void> kernel_holds(double size, const Units& units, bool plain, std::stri
   constexpr double kLeast = 1e3 * kKernelPrecision, kMost = 1e8;
   const double held = plain ? size : size * unit_ratio(units.name, "mm").value_or(1.0);
   if (held >= kLeast && held <= kMost) return {};
-  return fail({ErrorCode::kSizeOutOfRange,
+  return error(ErrorCode::kSizeOutOfRange,
                fmt::format("{:.3g} {} across: CAD kernels hold {:g} to {:g}", held,
-                           plain ? "units" : "mm", kLeast, kMost),
-               "", fmt::format("choose another unit, or {}", instead), -1, held});
+                           plain ? "units" : "mm", kLeast, kMost))
+      .hint(fmt::format("choose another unit, or {}", instead))
+      .value(held);
 }
 
 }  // namespace obvid::pipeline_detail

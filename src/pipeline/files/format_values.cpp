@@ -24,13 +24,13 @@ Result<void> set_import(const FormatValues& typed, ImportOptions& options) {
     return fail(
         bad_option("curves are counted from 1", "--curve", "`obvid analyse FILE` lists them"));
   }
-  if (auto done = check_length(typed.chord_tolerance, "--chord-tolerance"); !done) return done;
+  OBVID_TRY(check_length(typed.chord_tolerance, "--chord-tolerance"));
   if (typed.curve) options.curve = static_cast<std::size_t>(*typed.curve - 1);
   options.tolerance = typed.chord_tolerance;
   const auto use = value_named<DrawnUse>(
       {{"auto", DrawnUse::kAutomatic}, {"exact", DrawnUse::kExact}, {"points", DrawnUse::kPoints}},
       typed.drawing, "--drawing");
-  if (!use) return fail(use.error());
+  OBVID_TRY(use);
   options.use = *use;
   return {};
 }
@@ -78,14 +78,14 @@ Result<void> set_formats(const FormatValues& typed, ExportOptions& options,
                          std::string& profile_text) {
   if (typed.profile) {
     const auto profile = profile_of(*typed.profile);
-    if (!profile) return fail(profile.error());
+    OBVID_TRY(profile);
     options = profile->options;
     profile_text = "for " + profile->name + ": " + profile->choices;
   }
   for (const auto& [value, option] :
        {std::pair{typed.tolerance, "--output-tolerance"}, std::pair{typed.face_width, "--face"},
         std::pair{typed.feed, "--feed"}, std::pair{typed.sample_step, "--sample-step"}}) {
-    if (auto done = check_length(value, option); !done) return done;
+    OBVID_TRY(check_length(value, option));
   }
   if (typed.samples && *typed.samples < 2) {
     return fail(bad_option("two samples at least are needed", "--samples", "for example 200"));

@@ -35,7 +35,7 @@ std::string name_of(const std::string& path) {
 
 Result<Drawing> drawing_of_contour(const std::string& text, const std::string& path) {
   auto stored = contour_from_json(text, path);
-  if (!stored) return tl::unexpected(stored.error());
+  OBVID_TRY(stored);
   Contour& contour = stored->contour;
   Drawing out;
   out.name = name_of(path);
@@ -61,10 +61,11 @@ Result<Drawing> from_text(FileKind kind, const std::string& text, const std::str
     case FileKind::kGeoJson:
       return parse_geojson(text, path);
     default:
-      return fail({ErrorCode::kUnsupported, "this kind of file is not read", path,
-                   "give a list of points, a contour, STEP, IGES, BREP, DXF, SVG, GPX, GeoJSON, "
-                   "LandXML or OpenDRIVE",
-                   -1, 0.0});
+      return error(ErrorCode::kUnsupported, "this kind of file is not read")
+          .where(path)
+          .hint(
+              "give a list of points, a contour, STEP, IGES, BREP, DXF, SVG, GPX, GeoJSON, "
+              "LandXML or OpenDRIVE");
   }
 }
 
@@ -123,7 +124,7 @@ void tell(const Drawing& drawing, std::size_t chosen, bool asked, PointSeries& o
 Result<PointSeries> points_of_drawing(const Drawing& drawing, const ImportOptions& options,
                                       const std::string& path) {
   const auto found = chosen_curve(drawing, options.curve, path);
-  if (!found) return tl::unexpected(found.error());
+  OBVID_TRY(found);
   const std::size_t chosen = *found;
   PointSeries out;
   if (chosen < drawing.curves.size()) {
@@ -150,22 +151,23 @@ Result<std::size_t> chosen_curve(const Drawing& drawing, const std::optional<std
                                  const std::string& path) {
   const std::size_t count = drawing.curves.size() + drawing.series.size();
   if (count == 0) {
-    return fail(
-        {ErrorCode::kTooFewPoints, "the file holds no curve and no points", path, "", -1, 0.0});
+    return error(ErrorCode::kNothingThere, "the file holds no curve and no points").where(path);
   }
   const std::size_t chosen = asked.value_or(foremost(drawing));
   if (chosen >= count) {
-    return fail({ErrorCode::kBadOption,
-                 fmt::format("there are {} curves, no curve {}", count, chosen + 1), path,
-                 "`obvid analyse FILE` lists them", -1, 0.0});
+    return error(ErrorCode::kBadOption,
+                 fmt::format("there are {} curves, no curve {}", count, chosen + 1))
+        .where(path)
+        .hint("`obvid analyse FILE` lists them");
   }
   const bool waypoints =
       chosen >= drawing.curves.size() &&
       drawing.series[chosen - drawing.curves.size()].kind == SeriesKind::kWaypoints;
   if (asked || !waypoints) return chosen;
-  return fail({ErrorCode::kTooFewPoints,
-               "the file holds waypoints only, no track and no route: places are no curve", path,
-               fmt::format("--curve {} takes them in the order of the file", chosen + 1), -1, 0.0});
+  return error(ErrorCode::kNothingThere,
+               "the file holds waypoints only, no track and no route: places are no curve")
+      .where(path)
+      .hint(fmt::format("--curve {} takes them in the order of the file", chosen + 1));
 }
 
 std::string chosen_text(const Drawing& drawing, std::size_t chosen, bool asked) {
@@ -197,7 +199,7 @@ Result<Drawing> read_drawing(const std::string& path) {
   const FileKind kind = file_kind(head_of(path));
   if (is_cad(kind)) return read_cad(path);
   const auto text = read_file(path);
-  if (!text) return tl::unexpected(text.error());
+  OBVID_TRY(text);
   return from_text(kind, *text, path);
 }
 
@@ -220,14 +222,14 @@ Result<PointSeries> parse_series(const std::string& text, const std::string& nam
     return parse_points(text, name, options.two_points);
   }
   auto drawing = parse_drawing(text, name);
-  if (!drawing) return tl::unexpected(drawing.error());
+  OBVID_TRY(drawing);
   return points_of_drawing(*drawing, options, name);
 }
 
 Result<PointSeries> read_series(const std::string& path, const ImportOptions& options) {
   if (path == "-") {  // read once
     const auto text = read_file(path);
-    if (!text) return tl::unexpected(text.error());
+    OBVID_TRY(text);
     return parse_series(*text, "standard input", options);
   }
   const FileKind kind = file_kind(head_of(path));
@@ -235,7 +237,7 @@ Result<PointSeries> read_series(const std::string& path, const ImportOptions& op
     return read_points(path, options.two_points);
   }
   auto drawing = read_drawing(path);
-  if (!drawing) return tl::unexpected(drawing.error());
+  OBVID_TRY(drawing);
   return points_of_drawing(*drawing, options, path);
 }
 

@@ -49,7 +49,7 @@ constexpr int kArcTrials = 2;
 constexpr double kNarrowedArcs = 0.99;  ///< of what would just do
 
 Result<Carried> as_carried(Result<Contour> contour) {
-  if (!contour) return tl::unexpected(contour.error());
+  OBVID_TRY(contour);
   return Carried{std::move(*contour), {}};
 }
 
@@ -209,7 +209,7 @@ class SectionForming {
 
   Result<Formed> run() {
     for (std::size_t k = 0; k < series_.split.sections.size() && !watch_.cancelled(); ++k) {
-      if (auto done = form_one(k); !done) return tl::unexpected(done.error());
+      OBVID_TRY(form_one(k));
     }
     if (watch_.was_cancelled()) return fail(cancelled_error());  // sections are missing
     out_.contour = finished(assembly_, job_.carrier);
@@ -237,9 +237,9 @@ class SectionForming {
     if (form_drawn(section)) return {};
     if (job_.carrier == Carrier::kBaseline) return form_baseline_alone(section);
     auto chain = chains_.chain(series_, section, watch_);
-    if (!chain) return tl::unexpected(chain.error());
+    OBVID_TRY(chain);
     auto spirals = spirals_of(*chain);
-    if (!spirals && job_.carrier != Carrier::kClothoids) return tl::unexpected(spirals.error());
+    if (!spirals && job_.carrier != Carrier::kClothoids) return fail(spirals.error());
     if (job_.carrier == Carrier::kSpiral) {
       assembly_.append(std::move(*spirals));
       add_section(*chain, out_);
@@ -247,7 +247,7 @@ class SectionForming {
     }
     auto carried = form(series_.points, chain->chain, spirals ? *spirals : Contour{}, series_,
                         job_.carrier, tolerance_, watch_);
-    if (!carried) return tl::unexpected(carried.error());
+    OBVID_TRY(carried);
     out_.add(std::move(*carried), assembly_);
     add_section(*chain, out_);
     keep(std::move(spirals));
@@ -347,11 +347,11 @@ class SectionForming {
   /// Needs no spirals, and is compared with them where there are any.
   Result<void> form_baseline_alone(const Section& section) {
     auto carried = form_baseline_section(series_, section);
-    if (!carried) return tl::unexpected(carried.error());
+    OBVID_TRY(carried);
     out_.add(std::move(*carried), assembly_);
     if (!job_.measure_against_spirals) return {};
     auto chain = chains_.chain(series_, section, watch_);
-    keep(chain ? spirals_of(*chain) : Result<Contour>(tl::unexpected(chain.error())));
+    keep(chain ? spirals_of(*chain) : Result<Contour>(fail(chain.error())));
     return {};
   }
 
@@ -504,12 +504,13 @@ Result<void> keeps_convex(const Contour& contour, const Certificate& certificate
 Result<double> tolerance_of(const FitJob& job, const std::vector<Vec2>& points, double least) {
   if (!job.tolerance) return std::max(least, default_tolerance(points));
   if (std::isfinite(*job.tolerance) && *job.tolerance >= least) return *job.tolerance;
-  return fail(
-      {ErrorCode::kBadOption,
-       fmt::format("the tolerance must be finite and at least {:.2g} (1e-12 of the size, or "
-                   "the rounding of coordinates)",
-                   least),
-       "", "give a larger one, or none for the default", -1, *job.tolerance});
+  return error(
+             ErrorCode::kBadOption,
+             fmt::format("the tolerance must be finite and at least {:.2g} (1e-12 of the size, or "
+                         "the rounding of coordinates)",
+                         least))
+      .hint("give a larger one, or none for the default")
+      .value(*job.tolerance);
 }
 
 /// The contour, formed again with narrower reaches as long as it passes points too far.
@@ -677,11 +678,11 @@ Result<Measured> form_and_measure(Prepared& prepared, const FitJob& job, const U
   }
   if (!formed && !passed.empty()) {
     const std::size_t at = passed.front().point;
-    return fail({ErrorCode::kCarrierCannotKeep,
-                 fmt::format("{} cannot keep the range given there", to_string(job.carrier)),
-                 fmt::format("point {}", at + 1),
-                 "widen the range there, or use carrier spiral or clothoids",
-                 static_cast<std::ptrdiff_t>(at), 0.0});
+    return error(ErrorCode::kCarrierCannotKeep,
+                 fmt::format("{} cannot keep the range given there", to_string(job.carrier)))
+        .where(fmt::format("point {}", at + 1))
+        .hint("widen the range there, or use carrier spiral or clothoids")
+        .point(at);
   }
   if (!formed) {
     Error error = formed.error();
@@ -691,10 +692,10 @@ Result<Measured> form_and_measure(Prepared& prepared, const FitJob& job, const U
     return fail(std::move(error));
   }
   take_piece_ends(formed->contour);
-  if (auto met = keeps_given(formed->contour); !met) return fail(met.error());
+  OBVID_TRY(keeps_given(formed->contour));
   formed->contour.units = units;
   auto report = measure(formed->contour, within.asked, watch);
-  if (!report) return tl::unexpected(report.error());
+  OBVID_TRY(report);
   return Measured{std::move(*formed), std::move(*report)};
 }
 
@@ -717,10 +718,11 @@ Result<void> has_curvatures(const Contour& contour) {
   for (const Joint& joint : contour.joints) {
     if (!lost(joint.element) && !(joint.leaving && lost(*joint.leaving))) continue;
     const auto point = static_cast<std::ptrdiff_t>(joint.source.value_or(0));
-    return fail({ErrorCode::kRoundingDecides,
-                 fmt::format("{} has no curvature in doubles there", to_string(contour.carrier)),
-                 fmt::format("point {}", point + 1),
-                 "merge points that nearly coincide, or choose another --carrier", point, 0.0});
+    return error(ErrorCode::kRoundingDecides,
+                 fmt::format("{} has no curvature in doubles there", to_string(contour.carrier)))
+        .where(fmt::format("point {}", point + 1))
+        .hint("merge points that nearly coincide, or choose another --carrier")
+        .point(point);
   }
   return {};
 }
@@ -732,14 +734,14 @@ Result<Fit> formed_and_proved(const PointSeries& series, const FitJob& job, Foun
                               Passing passing = Passing::kWithinTolerances) {
   watch.tell("analysing", 0.0);
   auto prepared = prepare(series, job);
-  if (!prepared) return tl::unexpected(prepared.error());
+  OBVID_TRY(prepared);
   if (passing == Passing::kExactly) {
     prepared->reach.assign(prepared->points.size(), 0.0);
     prepared->tolerance.clear();
   }
   const double least = least_tolerance(prepared->points);
   const auto asked = tolerance_of(job, prepared->points, least);
-  if (!asked) return tl::unexpected(asked.error());
+  OBVID_TRY(asked);
   const double tolerance =
       passes_between_joints(job.carrier) ? share_tolerance(*prepared, *asked, least) : *asked;
   auto measured =
@@ -751,15 +753,15 @@ Result<Fit> formed_and_proved(const PointSeries& series, const FitJob& job, Foun
     const double aim = kNarrowedArcs * tolerance * *asked / measured->report.largest_width;
     measured = form_and_measure(*prepared, job, series.units, {aim, *asked}, kept, chains, watch);
   }
-  if (!measured) return fail(measured.error());
+  OBVID_TRY(measured);
   Formed* formed = &measured->formed;
-  if (auto told = has_curvatures(formed->contour); !told) return fail(told.error());
+  OBVID_TRY(has_curvatures(formed->contour));
   Fit out;
   out.contour = std::move(formed->contour);
   watch.tell("proving", kFormedAt);
   out.certificate = certify(out.contour, watch);
   if (job.convex) {
-    if (auto met = keeps_convex(out.contour, out.certificate); !met) return fail(met.error());
+    OBVID_TRY(keeps_convex(out.contour, out.certificate));
   }
   out.report = std::move(measured->report);
   settle_with(out.certificate, out.contour, out.report, watch);
@@ -901,14 +903,16 @@ Result<Fit> fit_as_asked(const PointSeries& series, const FitJob& job, FoundChai
                          Watch& watch) {
   if (watch.cancelled()) return fail(cancelled_error());
   if (job.continuity == Continuity::kG3 && job.carrier != Carrier::kSpiral) {
-    return fail(
-        {ErrorCode::kBadOption,
-         fmt::format("carrier {} has no continuous slope of curvature", to_string(job.carrier)),
-         "--continuity", "G3 is for --carrier spiral", -1, 0.0});
+    return error(ErrorCode::kBadOption,
+                 fmt::format("carrier {} has no continuous slope of curvature",
+                             to_string(job.carrier)))
+        .where("--continuity")
+        .hint("G3 is for --carrier spiral");
   }
   if (job.continuity == Continuity::kG3 && job.prefer != Prefer::kFair) {
-    return fail({ErrorCode::kBadOption, "continuous slopes move the headings that are preferred",
-                 "--continuity", "leave out --continuity G3, or --prefer", -1, 0.0});
+    return error(ErrorCode::kBadOption, "continuous slopes move the headings that are preferred")
+        .where("--continuity")
+        .hint("leave out --continuity G3, or --prefer");
   }
   const auto begin = std::chrono::steady_clock::now();
   auto made = formed_and_proved(series, job, chains, watch);

@@ -310,21 +310,23 @@ Result<void> keeps_given(const Contour& contour) {
   for (const GivenDatum& given : contour.given) {
     const Miss miss = miss_of(given);
     if (given.corner && !miss_of.stands_on_corner(given.point)) {
-      return fail({ErrorCode::kCarrierCannotKeep, "no corner can be made there",
-                   fmt::format("point {}", given.point + 1), "mark another point, or none",
-                   static_cast<std::ptrdiff_t>(given.point), 0.0});
+      return error(ErrorCode::kCarrierCannotKeep, "no corner can be made there")
+          .where(fmt::format("point {}", given.point + 1))
+          .hint("mark another point, or none")
+          .point(given.point);
     }
     const bool turned = !(miss.heading <= kKeptHeading);
     if (!turned && miss.curvature <= kSameCurvature) continue;
     const double off = turned ? miss.heading * 180.0 / std::numbers::pi : 100.0 * miss.curvature;
-    return fail(
-        {ErrorCode::kCarrierCannotKeep,
-         fmt::format("{} cannot keep the {} given there: the nearest found is off by {:.3g}{}",
+    return error(ErrorCode::kCarrierCannotKeep,
+                 fmt::format(
+                     "{} cannot keep the {} given there: the nearest found is off by {:.3g}{}",
                      to_string(contour.carrier), turned ? "heading" : "curvature", off,
-                     turned ? " degrees" : " %"),
-         fmt::format("point {}", given.point + 1),
-         "give less there, or use carrier spiral or clothoids",
-         static_cast<std::ptrdiff_t>(given.point), off});
+                     turned ? " degrees" : " %"))
+        .where(fmt::format("point {}", given.point + 1))
+        .hint("give less there, or use carrier spiral or clothoids")
+        .point(given.point)
+        .value(off);
   }
   return {};
 }

@@ -217,7 +217,7 @@ Result<void> set_at(const std::vector<std::string>& typed, const char* option, W
                              "write I=VALUE, points count from 1, as in 5=90"));
     }
     const Result<ValueOrRange> one = read(string_view(text).substr(equals + 1));
-    if (!one) return fail(one.error());
+    OBVID_TRY(one);
     PointWish& wish = wish_at(job.wishes, *index);
     if (wish.*(field.value) || wish.*(field.range)) {
       return fail(bad_option("point " + std::to_string(*index + 1) + " is given twice", option,

@@ -82,7 +82,7 @@ LiveFit::LiveFit(PointSeries series, const FitJob& job, Fit fit)
 
 Result<LiveFit> LiveFit::form(PointSeries series, const FitJob& job, Watch& watch) {
   auto made = fit(series, job, watch);
-  if (!made) return tl::unexpected(made.error());
+  OBVID_TRY(made);
   return LiveFit(std::move(series), job, std::move(*made));
 }
 
@@ -108,7 +108,7 @@ void LiveFit::know_chains(Watch& watch) {
 
 Result<LiveFit::Change> LiveFit::move_whole(Watch& watch) {
   auto made = fit(series_, job_, watch);
-  if (!made) return tl::unexpected(made.error());
+  OBVID_TRY(made);
   contour_ = std::move(made->contour);
   certificate_ = std::move(made->certificate);
   memory_.clear();
@@ -167,9 +167,10 @@ std::optional<LiveFit::Change> LiveFit::move_part(std::size_t point, Watch& watc
 
 Result<LiveFit::Change> LiveFit::move_point(std::size_t point, Vec2 to, Watch& watch) {
   if (point >= series_.points.size()) {
-    return fail({ErrorCode::kBadOption, "there is no such point",
-                 "point " + std::to_string(point + 1), "points are counted from 0 here",
-                 static_cast<std::ptrdiff_t>(point), 0.0});
+    return error(ErrorCode::kBadOption, "there is no such point")
+        .where("point " + std::to_string(point + 1))
+        .hint("points are counted from 0 here")
+        .point(point);
   }
   if (watch.cancelled()) return fail(cancelled_error());
   know_chains(watch);

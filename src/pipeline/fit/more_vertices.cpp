@@ -25,9 +25,8 @@ class Assembler {
       while (j < links && (problem_.direction[j] == 0) == stretch) ++j;
       if (stretch) {
         for (; i < j; ++i) append(on_stretch(i), i, node(i), 0);
-      } else if (auto done = append_part(i, j); !done) {
-        return fail(done.error());
-      }
+      } else
+        OBVID_TRY(append_part(i, j));
       i = j;
     }
     append(last_, links, node(links), std::nullopt);
@@ -71,9 +70,9 @@ class Assembler {
     steps_ += runs.newton_steps;
     if (!runs.feasible) {
       const std::size_t point = first + runs.trouble;
-      return fail({ErrorCode::kNoSpiral, "no curve was found, with vertices between points either",
-                   "point " + std::to_string(point + 1), "", static_cast<std::ptrdiff_t>(point),
-                   0.0});
+      return error(ErrorCode::kNoSpiral, "no curve was found, with vertices between points either")
+          .where("point " + std::to_string(point + 1))
+          .point(point);
     }
     for (std::size_t k = 0; k < runs.direction.size(); ++k) {
       const auto source = runs.source[k];
@@ -118,7 +117,7 @@ int vertices_of(const SeriesChain& chain) {
 Result<SeriesChain> attempt(const std::vector<Vec2>& points, const Analysis& analysis,
                             const ChainWishes& wishes, Watch& watch) {
   const auto problem = chain_problem(analysis, wishes);
-  if (!problem) return fail(problem.error());
+  OBVID_TRY(problem);
   auto chain = Assembler(points, *problem, wishes.convex, false, watch).run();
   if (chain) return chain;
   return Assembler(points, *problem, wishes.convex, true, watch).run();

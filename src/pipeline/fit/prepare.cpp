@@ -33,18 +33,19 @@ class Preparation {
     out_.above_least = job_.above_least.value_or(kAboveLeastCurvature);
     out_.primitives = job_.primitives;
     out_.period = job_.period;
-    if (auto done = gather(); !done) return fail(done.error());
-    if (auto done = give_ends(); !done) return fail(done.error());
-    if (auto enough = has_enough_data(); !enough) return fail(enough.error());
+    OBVID_TRY(gather());
+    OBVID_TRY(give_ends());
+    OBVID_TRY(has_enough_data());
     set_tolerances();
-    if (auto done = close(); !done) return fail(done.error());
+    OBVID_TRY(close());
     for (const FixedOnce& one : fixed_) out_.fixed.push_back(one.data);
     cut();
     if (out_.points.size() < 2) {
-      return fail({ErrorCode::kTooFewPoints, "a contour needs at least two distinct points", "",
-                   "add points", -1, static_cast<double>(out_.points.size())});
+      return error(ErrorCode::kTooFewPoints, "a contour needs at least two distinct points")
+          .hint("add points")
+          .value(static_cast<double>(out_.points.size()));
     }
-    if (auto possible = can_prefer(); !possible) return fail(possible.error());
+    OBVID_TRY(can_prefer());
     return std::move(out_);
   }
 
@@ -54,16 +55,18 @@ class Preparation {
     if (out_.points.size() != 2 || !out_.kept.empty()) return {};
     const auto headed = [](const FixedOnce& one) { return one.data.theta || one.data.thetas; };
     if (headed(fixed_[0]) && headed(fixed_[1])) return {};
-    return fail({ErrorCode::kTooFewPoints, "a contour needs 3 distinct points, the series has 2",
-                 "", "two do when both have a heading", -1, 2.0});
+    return error(ErrorCode::kTooFewPoints, "a contour needs 3 distinct points, the series has 2")
+        .hint("two do when both have a heading")
+        .value(2.0);
   }
 
   /// Choices other than the fairest chain are made among curves through the points.
   [[nodiscard]] Result<void> can_prefer() const {
     if (job_.prefer == Prefer::kFair) return {};
     const auto refused = [](const char* why) {
-      return fail(
-          {ErrorCode::kBadOption, why, "--prefer", "leave it out: the fairest is taken", -1, 0.0});
+      return error(ErrorCode::kBadOption, why)
+          .where("--prefer")
+          .hint("leave it out: the fairest is taken");
     };
     if (job_.carrier == Carrier::kBaseline) {
       return refused("the spline of CAD systems leaves nothing to prefer");
@@ -77,10 +80,10 @@ class Preparation {
     const std::size_t n = series_.points.size();
     for (const PointWish& wish : job_.wishes) {
       if (wish.index < n) continue;
-      return fail({ErrorCode::kBadOption, "there is no such point",
-                   fmt::format("point {}", wish.index + 1),
-                   fmt::format("the series has {} points", n),
-                   static_cast<std::ptrdiff_t>(wish.index), 0.0});
+      return error(ErrorCode::kBadOption, "there is no such point")
+          .where(fmt::format("point {}", wish.index + 1))
+          .hint(fmt::format("the series has {} points", n))
+          .point(wish.index);
     }
     return {};
   }
@@ -105,19 +108,20 @@ class Preparation {
   }
 
   Result<void> gather() {
-    if (auto done = has_wished_points(); !done) return done;
+    OBVID_TRY(has_wished_points());
     std::size_t merges = 0;
     std::vector<std::size_t> place;  // of each point among those that are left
     for (std::size_t i = 0; i < series_.points.size(); ++i) {
       const Vec2 p = series_.points[i];
       if (!std::isfinite(p.x) || !std::isfinite(p.y)) {
-        return fail({ErrorCode::kNotFinite, "a coordinate is not a finite number",
-                     "point " + std::to_string(i + 1), "remove the point",
-                     static_cast<std::ptrdiff_t>(i), 0.0});
+        return error(ErrorCode::kNotFinite, "a coordinate is not a finite number")
+            .where("point " + std::to_string(i + 1))
+            .hint("remove the point")
+            .point(i);
       }
       if (!out_.points.empty() && out_.points.back() == p) {
         ++merges;
-        if (auto done = add_fixed(fixed_.back(), of_series(i), i); !done) return done;
+        OBVID_TRY(add_fixed(fixed_.back(), of_series(i), i));
         place.push_back(out_.points.size() - 1);
         continue;
       }
@@ -130,13 +134,14 @@ class Preparation {
                               " points equal to the one before were merged");
     }
     if (out_.points.size() < 2) {
-      return fail({ErrorCode::kTooFewPoints, "a contour needs at least two distinct points", "",
-                   "add points", -1, static_cast<double>(out_.points.size())});
+      return error(ErrorCode::kTooFewPoints, "a contour needs at least two distinct points")
+          .hint("add points")
+          .value(static_cast<double>(out_.points.size()));
     }
     if (!series_.kept.empty()) {
       out_.kept.resize(out_.points.size());
       for (const KeptPiece& one : series_.kept) out_.kept[place[one.from]] = one.piece;
-      if (auto done = keeps_wishes(place); !done) return done;
+      OBVID_TRY(keeps_wishes(place));
     }
     return give_wishes(place);
   }
@@ -151,12 +156,13 @@ class Preparation {
   /// What a user fixes beside a line or arc of a drawing would change it.
   [[nodiscard]] Result<void> keeps_wishes(const std::vector<std::size_t>& place) const {
     const auto refused = [](std::size_t point) {
-      return fail({ErrorCode::kFixedDataContradict,
-                   "a line or arc of the drawing begins or ends here and stays as it is",
-                   fmt::format("point {}", point + 1),
-                   "drop the fixed heading or radius, or take points of the drawing with "
-                   "--drawing points",
-                   static_cast<std::ptrdiff_t>(point), 0.0});
+      return error(ErrorCode::kFixedDataContradict,
+                   "a line or arc of the drawing begins or ends here and stays as it is")
+          .where(fmt::format("point {}", point + 1))
+          .hint(
+              "drop the fixed heading or radius, or take points of the drawing with "
+              "--drawing points")
+          .point(point);
     };
     for (const PointWish& wish : job_.wishes) {
       const bool says_how = wish.theta || wish.kappa || wish.thetas || wish.kappas;
@@ -171,7 +177,7 @@ class Preparation {
   }
 
   Result<void> give_ends() {
-    if (auto done = add_fixed(fixed_.front(), fixed_start(), 0); !done) return done;
+    OBVID_TRY(add_fixed(fixed_.front(), fixed_start(), 0));
     return add_fixed(fixed_.back(), fixed_end(), fixed_.size() - 1);
   }
 

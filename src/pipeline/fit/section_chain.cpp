@@ -124,7 +124,7 @@ class SectionChooser {
   /// chain in the middle of the ranges.
   Result<SectionChain> formed() {
     bounds_.clear();
-    if (auto done = prefer(); !done) return fail(done.error());
+    OBVID_TRY(prefer());
     auto chain = formed_once();
     std::size_t ranges = 0;
     for (const std::size_t i : index_) {
@@ -150,10 +150,11 @@ class SectionChooser {
       central_ = false;
       if (middle) return middle;
     }
-    return fail({ErrorCode::kFixedDataContradict,
-                 "no monotone contour was found inside the ranges that are given",
-                 fmt::format("first left at point {}", first + 1),
-                 "widen the range there, or free others", static_cast<std::ptrdiff_t>(first), 0.0});
+    return error(ErrorCode::kFixedDataContradict,
+                 "no monotone contour was found inside the ranges that are given")
+        .where(fmt::format("first left at point {}", first + 1))
+        .hint("widen the range there, or free others")
+        .point(first);
   }
 
   /// What the user prefers beyond the fairest chain.
@@ -161,14 +162,15 @@ class SectionChooser {
     central_ = series_.prefer == Prefer::kCentre;
     if (series_.prefer != Prefer::kLeastCurvature || cap_) return {};
     const auto analysis = analyse(points_);
-    if (!analysis) return fail(analysis.error());
+    OBVID_TRY(analysis);
     const auto least = loop_ ? least_largest_curvature_of_loop(points_, wishes())
                              : least_largest_curvature(*analysis, wishes());
     if (!least) {
-      return fail({ErrorCode::kFixedDataContradict,
+      return error(ErrorCode::kFixedDataContradict,
                    "what is given leaves no headings and curvatures with which a monotone contour "
-                   "exists",
-                   "", "free some of it", static_cast<std::ptrdiff_t>(index_.front()), 0.0});
+                   "exists")
+          .hint("free some of it")
+          .point(index_.front());
     }
     cap_ = series_.above_least * *least;
     return {};
@@ -241,7 +243,7 @@ class SectionChooser {
     }
     points_ = points;
     index_ = index;
-    if (!chain) return fail(chain.error());
+    OBVID_TRY(chain);
     if (!chain->converged) {
       out_.warnings.emplace_back(
           "the headings and curvatures are valid but not quite the fairest: the solver stopped at "
@@ -395,7 +397,7 @@ class SectionChooser {
   Result<SeriesChain> through_points(const std::vector<Vec2>& points, const ChainWishes& wishes,
                                      const std::vector<std::size_t>& whole) {
     const auto analysis = analyse(points);
-    if (!analysis) return tl::unexpected(analysis.error());
+    OBVID_TRY(analysis);
     auto chain = form_elements(points, *analysis, wishes, watch_);
     if (chain || moves_) {
       if (chain) out_.warnings = warn(*analysis, *chain, whole);
@@ -496,10 +498,11 @@ class SectionChooser {
 
   Result<SeriesChain> central_turn(const ChainWishes& all) const {
     if (auto central = central_chain_of_loop(points_, all, watch_)) return std::move(*central);
-    return fail({ErrorCode::kFixedDataContradict,
+    return error(ErrorCode::kFixedDataContradict,
                  "no closed monotone contour has headings and curvatures in the middle of what is "
-                 "left",
-                 "", "free some of what is given, or leave the choice to the program", 0, 0.0});
+                 "left")
+        .hint("free some of what is given, or leave the choice to the program")
+        .point(0);
   }
 
   /// Fixes the same element at both ends of one turn and solves it.

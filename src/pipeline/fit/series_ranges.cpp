@@ -83,9 +83,9 @@ Result<LoopProblem> loop_problem(const std::vector<Vec2>& points, const ChainWis
     if (!wishes.fixed.empty()) all.fixed.push_back(wishes.fixed[i]);
   }
   const auto analysis = analyse(unrolled);
-  if (!analysis) return fail(analysis.error());
+  OBVID_TRY(analysis);
   const auto problem = chain_problem(*analysis, all);
-  if (!problem) return fail(problem.error());
+  OBVID_TRY(problem);
   const RangeProblem ranges = range_problem(*analysis, *problem, all.fixed);
   LoopProblem out;
   for (std::size_t k = overlap; k < overlap + n; ++k) {
@@ -101,7 +101,7 @@ Result<LoopProblem> loop_problem(const std::vector<Vec2>& points, const ChainWis
 Result<std::vector<FeasibleData>> series_ranges(const Analysis& analysis,
                                                 const ChainWishes& wishes) {
   const auto problem = chain_problem(analysis, wishes);
-  if (!problem) return tl::unexpected(problem.error());
+  OBVID_TRY(problem);
   const RangeProblem ranges = range_problem(analysis, *problem, wishes.fixed);
   return feasible_data(ranges.links, ranges.nodes);
 }

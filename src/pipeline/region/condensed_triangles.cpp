@@ -37,14 +37,14 @@ Element end_of_parabola(const RationalBezier& parabola, double t) {
 /// Elements of the spiral between both ends, each part between two of which can be condensed.
 Result<std::vector<Element>> elements_along(const Bend& bend, int direction) {
   const auto spirals = spirals_between(bend.start, bend.end, direction);
-  if (!spirals) return fail(spirals.error());
+  OBVID_TRY(spirals);
   std::vector<Element> out{bend.start};
   for (std::size_t k = 0; k < spirals->size(); ++k) {
     const Piece& piece = (*spirals)[k];
     const Element end = k + 1 == spirals->size() ? bend.end : element_at(piece, 1.0);
     const auto chain =
         condense_piece(piece, out.back(), end, direction, std::numeric_limits<double>::max());
-    if (!chain) return fail(chain.error());
+    OBVID_TRY(chain);
     for (std::size_t i = 1; i + 1 < chain->at.size(); ++i) {
       out.push_back(element_at(piece, chain->at[i]));
     }
@@ -57,14 +57,14 @@ Result<std::vector<Element>> elements_along(const Bend& bend, int direction) {
 Result<Links> condensed(const Bend& bend, int direction) {
   if (const auto one = condense(bend.start, bend.end, direction)) return Links{*one};
   const auto along = elements_along(bend, direction);
-  if (!along) return fail(along.error());
+  OBVID_TRY(along);
   Links out;
   for (std::size_t i = 0; i + 1 < along->size(); ++i) {
     const auto link = condense((*along)[i], (*along)[i + 1], direction);
     if (!link) {
-      return fail({ErrorCode::kToleranceNotReached,
-                   "rounding decides whether a chain of parabolas is monotone", "",
-                   "curvature hardly changes there: an arc or another carrier does it", -1, 0.0});
+      return error(ErrorCode::kToleranceNotReached,
+                   "rounding decides whether a chain of parabolas is monotone")
+          .hint("curvature hardly changes there: an arc or another carrier does it");
     }
     out.push_back(*link);
   }
@@ -82,7 +82,7 @@ class CondensedTriangles {
     std::vector<std::optional<double>> wanted;
     if (by_triangles_) {
       auto means = triangle_curvatures(section);
-      if (!means) return fail(means.error());
+      OBVID_TRY(means);
       wanted = std::move(*means);
     }
     const ConstructionTable before = out_;
@@ -163,9 +163,10 @@ class CondensedTriangles {
     for (std::size_t i = 0; i < section.points(); ++i) {
       const RegionPoint& p = section.point(section.first_point() + i);
       if (p.kappa_given) {
-        return fail({ErrorCode::kBadOption, "a given radius is not free for order of fixation 1",
-                     fmt::format("point {}", p.number + 1), "use --fixation 2",
-                     static_cast<std::ptrdiff_t>(p.number), 0.0});
+        return error(ErrorCode::kBadOption, "a given radius is not free for order of fixation 1")
+            .where(fmt::format("point {}", p.number + 1))
+            .hint("use --fixation 2")
+            .point(p.number);
       }
       points.push_back(p.point);
       headings.push_back(p.theta);
@@ -180,13 +181,12 @@ class CondensedTriangles {
     if (is_straight(start.kappa, chord)) start.kappa = 0.0;
     if (is_straight(end.kappa, chord)) end.kappa = 0.0;
     if (start.kappa == 0.0 && end.kappa == 0.0) {
-      return fail({ErrorCode::kNoSpiral, "a segment is straight within rounding: no parabola is",
-                   "", "leave points of the line out, or use `fit` without --construction", -1,
-                   0.0});
+      return error(ErrorCode::kNoSpiral, "a segment is straight within rounding: no parabola is")
+          .hint("leave points of the line out, or use `fit` without --construction");
     }
     if (start.kappa * end.kappa > 0.0) return std::vector<Bend>{{start, end}};
     const auto middle = inflection_between(start, end, direction);
-    if (!middle) return fail(middle.error());
+    OBVID_TRY(middle);
     std::vector<Bend> out;
     if (start.kappa != 0.0) {
       out.push_back({start, *middle});
@@ -328,7 +328,7 @@ Result<ConstructionTable> condensed_triangles(const std::vector<ConstructionSect
   const auto made = [&](bool by_triangles) -> Result<CondensedTriangles> {
     CondensedTriangles maker(by_triangles);
     for (const ConstructionSection& section : sections) {
-      if (auto done = maker.add(section); !done) return fail(done.error());
+      OBVID_TRY(maker.add(section));
     }
     return maker;
   };
@@ -338,7 +338,7 @@ Result<ConstructionTable> condensed_triangles(const std::vector<ConstructionSect
     if (fixation) return fail(by_triangles.error());
   }
   auto by_ranges = made(false);
-  if (!by_ranges) return fail(by_ranges.error());
+  OBVID_TRY(by_ranges);
   return by_ranges->told();
 }
 

@@ -37,13 +37,14 @@ Result<void> only_ellipses(const ConstructionTable& made, const RegionPart& part
     if (w2 < 1.0) continue;
     const RegionRow& row = part.rows[made.piece_row[k]];
     const std::size_t from = part.points[row.from].number, to = part.points[row.to].number;
-    return fail(
-        {ErrorCode::kNoSpiral,
-         "no ellipse arc there lies in the region of monotone curves: it would be a parabola or "
-         "hyperbola",
-         fmt::format("points {} to {}", from + 1, to + 1),
-         "change the tangents there; `obvid region --construction ellipses` shows the weights",
-         static_cast<std::ptrdiff_t>(from), std::sqrt(w2)});
+    return error(ErrorCode::kNoSpiral,
+                 "no ellipse arc there lies in the region of monotone curves: it would be a "
+                 "parabola or "
+                 "hyperbola")
+        .where(fmt::format("points {} to {}", from + 1, to + 1))
+        .hint("change the tangents there; `obvid region --construction ellipses` shows the weights")
+        .point(from)
+        .value(std::sqrt(w2));
   }
   return {};
 }
@@ -176,20 +177,18 @@ Result<Fit> fit_construction(const PointSeries& series, const RegionJob& job,
   const auto begin = std::chrono::steady_clock::now();
   Watch watch(run);
   const auto prepared = prepare(series, job.job);
-  if (!prepared) return fail(prepared.error());
+  OBVID_TRY(prepared);
   const auto table = region_table(series, job);
-  if (!table) return fail(table.error());
-  if (auto done = only_ellipses(*table->construction, table->last()); !done) {
-    return fail(done.error());
-  }
+  OBVID_TRY(table);
+  OBVID_TRY(only_ellipses(*table->construction, table->last()));
   Fit out;
   out.contour = ConstructionContour(*table, *prepared).run();
   out.contour.units = series.units;
   take_piece_ends(out.contour);
-  if (auto kept = keeps_given(out.contour); !kept) return fail(kept.error());
+  OBVID_TRY(keeps_given(out.contour));
   const double tolerance = job.job.tolerance.value_or(default_tolerance(prepared->points));
   auto report = measure(out.contour, tolerance, watch);
-  if (!report) return fail(report.error());
+  OBVID_TRY(report);
   out.certificate = certify(out.contour, watch);
   out.report = std::move(*report);
   // nobody asked for the width that two arcs leave, or one piece over a long chord

@@ -102,11 +102,11 @@ Result<std::vector<double>> common_curvatures(const ConstructionSection& section
   if (!central) {
     const RegionPoint& from = section.point(section.first_point());
     const RegionPoint& to = section.point(section.row(section.last - 1).to);
-    return fail({ErrorCode::kNoSpiral,
-                 "with these headings no radii at the points leave monotone curves on all segments",
-                 fmt::format("points {} to {}", from.number + 1, to.number + 1),
-                 "choose headings inside the ranges of `obvid region`",
-                 static_cast<std::ptrdiff_t>(from.number), 0.0});
+    return error(ErrorCode::kNoSpiral,
+                 "with these headings no radii at the points leave monotone curves on all segments")
+        .where(fmt::format("points {} to {}", from.number + 1, to.number + 1))
+        .hint("choose headings inside the ranges of `obvid region`")
+        .point(from.number);
   }
   std::vector<double> out;
   for (const RangeNode& node : *central) out.push_back(*node.kappa);
@@ -125,9 +125,9 @@ Result<std::vector<Piece>> spirals_between(const Element& start, const Element& 
   Watch nobody;
   const std::vector<Vec2> points = link.points;
   const auto chain = follow_directions(std::move(link), nobody);
-  if (!chain) return fail(chain.error());
+  OBVID_TRY(chain);
   auto spirals = form_spirals(points, *chain);
-  if (!spirals) return fail(spirals.error());
+  OBVID_TRY(spirals);
   return std::move(spirals->pieces);
 }
 
@@ -135,7 +135,7 @@ Result<Element> inflection_between(const Element& start, const Element& end, int
   if (start.kappa == 0.0) return start;
   if (end.kappa == 0.0) return end;
   const auto spirals = spirals_between(start, end, direction);
-  if (!spirals) return fail(spirals.error());
+  OBVID_TRY(spirals);
   const auto kappa = [](const Piece& piece, double t) { return curvature(evaluate(piece, t)); };
   for (const Piece& piece : *spirals) {
     double low = 0.0, high = 1.0;

@@ -49,16 +49,16 @@ Result<void> check_fixation(const TypedConstruction& typed) {
 }  // namespace
 
 Result<RegionJob> construction_values(const TypedConstruction& typed) {
-  if (auto done = check_fixation(typed); !done) return fail(done.error());
+  OBVID_TRY(check_fixation(typed));
   RegionJob job;
   if (!typed.name.empty()) {
     const auto made = construction_named(typed.name);
-    if (!made) return fail(made.error());
+    OBVID_TRY(made);
     job.construction = *made;
     if (typed.fixation) job.fixation = static_cast<int>(*typed.fixation);
   }
   const auto choice = tangents_named(typed.prefer);
-  if (!choice) return fail(choice.error());
+  OBVID_TRY(choice);
   job.rule = choice->rule;
   job.job.prefer = choice->prefer;
   for (const long segment : typed.insert) {

@@ -46,14 +46,14 @@ class EllipseArcs {
   Result<void> add(const ConstructionSection& section) {
     section_ = &section;
     arcs_.clear();
-    if (auto done = collect(); !done) return done;
+    OBVID_TRY(collect());
     const std::size_t first = section.loop ? best_start() : 0;
     std::rotate(arcs_.begin(), arcs_.begin() + static_cast<std::ptrdiff_t>(first), arcs_.end());
     if (section.loop && turns_left(arcs_.back()) != turns_left(arcs_.front())) inflection_ = true;
     for (std::size_t from = 0; from < arcs_.size();) {
       std::size_t to = from + 1;
       while (to < arcs_.size() && !arcs_[to].begins) ++to;
-      if (auto done = form_convex(from, to); !done) return done;
+      OBVID_TRY(form_convex(from, to));
       from = to;
     }
     if (section.loop) note_step(arcs_.back(), arcs_.front());
@@ -100,10 +100,10 @@ class EllipseArcs {
       }
       if (!kappa) {
         auto found = common_curvatures(*section_);
-        if (!found) return fail(found.error());
+        OBVID_TRY(found);
         kappa = std::move(*found);
       }
-      if (auto done = append_halves(k, start, end, *kappa); !done) return done;
+      OBVID_TRY(append_halves(k, start, end, *kappa));
     }
     return {};
   }
@@ -125,7 +125,7 @@ class EllipseArcs {
         a.kappa * b.kappa < 0.0 && !is_straight(a.kappa, chord) && !is_straight(b.kappa, chord);
     const auto middle = turns ? inflection_between(a, b, *section_->row(k).direction)
                               : fail(section_->no_region(k));
-    if (!middle) return fail(middle.error());
+    OBVID_TRY(middle);
     append({k, start, *middle, false, {}, 0.0});
     append({k, *middle, end, true, {}, 0.0});
     return {};
@@ -156,7 +156,7 @@ class EllipseArcs {
   Result<void> form_convex(std::size_t from, std::size_t to) {
     while (from < to) {
       auto chain = chain_from(from, to, median_weight(arcs_[from].start, arcs_[from].end));
-      if (!chain) return fail(chain.error());
+      OBVID_TRY(chain);
       const std::size_t vertex = next_vertex(from, to);
       if (elliptic_until(*chain) < vertex - from) {
         const std::size_t kept = elliptic_until(*chain);
@@ -164,7 +164,7 @@ class EllipseArcs {
         if (!weight && kept == 0) weight = other_weight(from, from + 1, *chain);
         if (weight) {
           chain = chain_from(from, to, weight);
-          if (!chain) return fail(chain.error());
+          OBVID_TRY(chain);
           moved_k_ = true;
         }
       }
@@ -305,7 +305,7 @@ class EllipseArcs {
 Result<ConstructionTable> ellipse_arcs(const std::vector<ConstructionSection>& sections) {
   EllipseArcs maker;
   for (const ConstructionSection& section : sections) {
-    if (auto done = maker.add(section); !done) return fail(done.error());
+    OBVID_TRY(maker.add(section));
   }
   return maker.told();
 }

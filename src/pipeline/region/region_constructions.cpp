@@ -35,7 +35,7 @@ class TwoArcs {
 
   Result<void> add(const ConstructionSection& section) {
     const auto kappa = common_curvatures(section);
-    if (!kappa) return fail(kappa.error());
+    OBVID_TRY(kappa);
     double before = kNoFigure;
     for (std::size_t k = section.first; k < section.last; ++k) {
       const RegionRow& row = section.row(k);
@@ -224,7 +224,7 @@ class TangentSpline {
       headings.push_back(p.theta);
     }
     const auto curve = spline_through_tangents(points, headings);
-    if (!curve) return fail(curve.error());
+    OBVID_TRY(curve);
     const std::vector<BezierSpan> spans = bezier_spans(*curve);
     for (std::size_t j = 0; j < rows; ++j) {
       const auto here = between(spans, at[overlap + j], at[overlap + j + 1]);
@@ -289,7 +289,7 @@ template <class Maker>
 Result<ConstructionTable> along_sections(Maker maker,
                                          const std::vector<ConstructionSection>& sections) {
   for (const ConstructionSection& section : sections) {
-    if (auto done = maker.add(section); !done) return fail(done.error());
+    OBVID_TRY(maker.add(section));
   }
   return maker.told();
 }

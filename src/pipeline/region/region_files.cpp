@@ -391,8 +391,9 @@ Result<RegionFile> region_file(const std::string& ending, const PointSeries& ser
         kind == "svg" ? sketch_svg(drawing.sketch) : sketch_dxf(drawing.sketch),
         fmt::format("the region is drawn {:g} times wider across its chords", drawing.magnified)};
   }
-  return fail({ErrorCode::kUnknownFormat, "region writes no such file", ending,
-               "possible are .csv, .tex, .json (tables), .svg and .dxf (drawings)"});
+  return error(ErrorCode::kUnknownFormat, "region writes no such file")
+      .where(ending)
+      .hint("possible are .csv, .tex, .json (tables), .svg and .dxf (drawings)");
 }
 
 }  // namespace obvid

@@ -352,20 +352,19 @@ class Inserter {
       s_.given[i].theta = s_.theta[i];
     }
     for (const std::size_t segment : segments) {
-      if (auto done = insert_into(widest(PartMaker(s_, nullptr).run(), segment)); !done) {
-        return fail(done.error());
-      }
+      OBVID_TRY(insert_into(widest(PartMaker(s_, nullptr).run(), segment)));
     }
     while (tolerance) {
       const RegionPart part = PartMaker(s_, nullptr).run();
       const auto row = widest(part, std::nullopt);
       if (!row || *part.rows[*row].width <= *tolerance) break;
       if (s_.points.size() > kMostInserted) {
-        return fail({ErrorCode::kToleranceNotReached,
-                     "the width asked for needs more than a thousand points", "",
-                     "choose a larger --tolerance", -1, *tolerance});
+        return error(ErrorCode::kToleranceNotReached,
+                     "the width asked for needs more than a thousand points")
+            .hint("choose a larger --tolerance")
+            .value(*tolerance);
       }
-      if (auto done = insert_into(row); !done) return fail(done.error());
+      OBVID_TRY(insert_into(row));
     }
     return std::move(s_);
   }
@@ -386,10 +385,11 @@ class Inserter {
 
   Result<void> insert_into(std::optional<std::size_t> at) {
     const auto nowhere = [](std::size_t point) {
-      return fail({ErrorCode::kRoundingDecides,
-                   "no point can be inserted there: the region has no width that coordinates tell",
-                   fmt::format("segment {}", point + 1), "choose a larger --tolerance",
-                   static_cast<std::ptrdiff_t>(point), 0.0});
+      return error(ErrorCode::kRoundingDecides,
+                   "no point can be inserted there: the region has no width that coordinates tell")
+          .where(fmt::format("segment {}", point + 1))
+          .hint("choose a larger --tolerance")
+          .point(point);
     };
     if (!at) return nowhere(0);
     const std::size_t i = *at;
@@ -458,11 +458,9 @@ class SheetMaker {
     for (const FixedData& f : sheet_.given) {
       wishes.fixed.push_back(all_given ? FixedData{} : f);
     }
-    if (auto done = loop_ ? start_loop(std::move(wishes)) : start_open(wishes); !done) {
-      return fail(done.error());
-    }
+    OBVID_TRY(loop_ ? start_loop(std::move(wishes)) : start_open(wishes));
     if (central && !all_given) {
-      if (auto done = take_centres(); !done) return fail(done.error());
+      OBVID_TRY(take_centres());
     }
     unwrap();
     if (all_given && sheet_.points.size() < kFewestThatTell) follow_headings();
@@ -475,9 +473,9 @@ class SheetMaker {
  private:
   Result<void> start_open(const ChainWishes& wishes) {
     const auto analysis = analyse(sheet_.points);
-    if (!analysis) return fail(analysis.error());
+    OBVID_TRY(analysis);
     const auto problem = chain_problem(*analysis, wishes);
-    if (!problem) return fail(problem.error());
+    OBVID_TRY(problem);
     for (const std::int8_t d : analysis->direction) sheet_.direction.emplace_back(d);
     for (std::size_t i = 0; i < sheet_.points.size(); ++i) {
       start_at(i, problem->nodes[i], analysis->circles[i].kappa);
@@ -490,7 +488,7 @@ class SheetMaker {
     wishes.fixed.resize(n);
     const std::vector<Vec2> once(sheet_.points.begin(), sheet_.points.end() - 1);
     const auto problem = loop_problem(once, wishes);
-    if (!problem) return fail(problem.error());
+    OBVID_TRY(problem);
     for (const std::int8_t d : problem->direction) sheet_.direction.emplace_back(d);
     for (std::size_t i = 0; i <= n; ++i) {
       start_at(i, problem->nodes[i % n], problem->adjacent_kappa[i % n]);
@@ -512,9 +510,9 @@ class SheetMaker {
     const auto central = loop_ ? central_loop(ranges.links(0, n), ranges.nodes(0, n - 1, false))
                                : central_data(ranges.links(0, n), ranges.nodes(0, n, false));
     if (!central) {
-      return fail({ErrorCode::kFixedDataContradict,
-                   "what is given leaves no headings with which a monotone curve exists", "",
-                   "free some of the given data; see the ranges of `obvid region` without them"});
+      return error(ErrorCode::kFixedDataContradict,
+                   "what is given leaves no headings with which a monotone curve exists")
+          .hint("free some of the given data; see the ranges of `obvid region` without them");
     }
     for (std::size_t i = 0; i < n; ++i) {
       sheet_.theta[i] = *(*central)[i].theta;
@@ -594,7 +592,7 @@ class SheetMaker {
   Result<Worksheet> follow_chain(std::vector<std::string>& warnings) {
     Watch nobody;
     const auto found = chain_section(series_, section_, nobody);
-    if (!found) return fail(found.error());
+    OBVID_TRY(found);
     warnings.insert(warnings.end(), found->warnings.begin(), found->warnings.end());
     const SeriesChain& chain = found->chain;
     Worksheet out;
@@ -640,21 +638,21 @@ void append(RegionPart part, RegionPart& to) {
 
 Result<RegionTable> table_as_asked(const PointSeries& series, const RegionJob& job) {
   const auto prepared = prepare(series, job.job);
-  if (!prepared) return tl::unexpected(prepared.error());
+  OBVID_TRY(prepared);
   RegionTable table;
   table.warnings = prepared->warnings;
   table.closed = prepared->closed;
   for (const std::size_t segment : job.insert) {
     if (segment + (prepared->closed ? 0 : 1) < prepared->points.size()) continue;
-    return fail({ErrorCode::kBadOption, "there is no such segment",
-                 fmt::format("segment {}", segment + 1), "", static_cast<std::ptrdiff_t>(segment),
-                 0.0});
+    return error(ErrorCode::kBadOption, "there is no such segment")
+        .where(fmt::format("segment {}", segment + 1))
+        .point(segment);
   }
   const bool inserts = job.job.tolerance.has_value() || !job.insert.empty();
   if (inserts) table.refined.emplace();
   for (const Section& section : prepared->split.sections) {
     auto sheet = SheetMaker(*prepared, section, job.rule).run(table.warnings);
-    if (!sheet) return tl::unexpected(sheet.error());
+    OBVID_TRY(sheet);
     const auto analysis = analyse(sheet->points);
     append(PartMaker(*sheet, analysis ? &*analysis : nullptr).run(), table.user);
     if (!inserts) continue;
@@ -665,13 +663,13 @@ Result<RegionTable> table_as_asked(const PointSeries& series, const RegionJob& j
       }
     }
     auto finer = Inserter(*sheet).run(job.job.tolerance, here);
-    if (!finer) return tl::unexpected(finer.error());
+    OBVID_TRY(finer);
     const auto finer_analysis = measure_series(finer->points);
     append(PartMaker(*finer, finer_analysis ? &*finer_analysis : nullptr).run(), *table.refined);
   }
   if (job.construction) {
     auto made = construct(table.last(), *job.construction, job.fixation);
-    if (!made) return fail(made.error());
+    OBVID_TRY(made);
     table.construction = std::move(*made);
   }
   table.rows = table.user.rows;

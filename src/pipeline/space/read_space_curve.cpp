@@ -24,7 +24,7 @@ Result<ReadCurve> curve_of_contour(const Contour& contour, const Frame& frame, s
   for (const Piece& piece : contour.pieces)
     size = std::max(size, norm(end_point(piece) - start_point(contour.pieces.front())));
   auto made = pipeline_detail::contour_nurbs(contour, kFollowing * size);
-  if (!made) return fail(made.error());
+  OBVID_TRY(made);
   ReadCurve curve{std::move(name), contour.units, placed(made->curve, frame), {}};
   if (made->deviation > 0.0) {
     curve.warnings.push_back(
@@ -38,12 +38,13 @@ Result<ReadCurve> from_drawing(const SurfaceInput& input, const SurfaceJob& job)
   const std::string& path = input.name;
   const Result<Drawing> drawing =
       input.text ? parse_drawing(*input.text, path) : read_drawing(path);
-  if (!drawing) return fail(drawing.error());
+  OBVID_TRY(drawing);
   const auto chosen = chosen_curve(*drawing, job.import.curve, path);
-  if (!chosen) return fail(chosen.error());
+  OBVID_TRY(chosen);
   if (*chosen >= drawing->curves.size()) {
-    return fail({ErrorCode::kUnsupported, "the drawing holds points, not a curve", path,
-                 "write the points to a text file and give that", -1, 0.0});
+    return error(ErrorCode::kUnsupported, "the drawing holds points, not a curve")
+        .where(path)
+        .hint("write the points to a text file and give that");
   }
   const DrawnCurve& drawn = drawing->curves[*chosen];
   auto curve = curve_of_contour(audit(drawn, drawing->units).contour, Frame{}, drawn.label);
@@ -65,14 +66,14 @@ Result<ReadCurve> spline_through(const SpaceSeries& series) {
     if (points.empty() || !(points.back() == p)) points.push_back(p);
   }
   auto curve = interpolated(points, chord_parameters(points));
-  if (!curve) return fail(curve.error());
+  OBVID_TRY(curve);
   return ReadCurve{series.name, series.units, std::move(*curve), {}};
 }
 
 Result<ReadCurve> from_points(const SurfaceInput& input, const SurfaceJob& job) {
   const std::string& path = input.name;
   const auto section = pipeline_detail::section_of(input);
-  if (!section) return fail(section.error());
+  OBVID_TRY(section);
   const SpaceSeries& series = *section;
   const Frame frame = plane_of(series.points);
   double size = 0.0;
@@ -99,7 +100,7 @@ Result<ReadCurve> from_points(const SurfaceInput& input, const SurfaceJob& job) 
         series.name, series.units, line_between(series.points.front(), series.points.back()), {}};
   }
   const Result<Fit> made = fit(flat, job.sections);
-  if (!made && job.plain_when_refused && exit_code(made.error().code) == 4) {
+  if (!made && job.plain_when_refused && category(made.error().code) == ErrorCategory::kNoContour) {
     auto curve = spline_through(series);
     if (!curve) return curve;
     curve->warnings.push_back(
@@ -109,7 +110,7 @@ Result<ReadCurve> from_points(const SurfaceInput& input, const SurfaceJob& job) 
   }
   if (!made) {
     Error error = made.error();
-    if (exit_code(error.code) == 4) {
+    if (category(error.code) == ErrorCategory::kNoContour) {
       error.hint = pipeline_detail::without_fair_contour(job.sections);
     }
     error.where = error.where.empty() ? path : path + ", " + error.where;

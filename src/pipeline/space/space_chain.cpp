@@ -120,10 +120,10 @@ class ChainForming {
     if (plane_of_space(series_, job_, {}).holds) return whole();
     find();
     if (chain_.corners.empty()) return whole();
-    if (auto fine = check_data(); !fine) return fail(fine.error());
+    OBVID_TRY(check_data());
     for (std::size_t k = 0; k < chain_.corners.size() + (chain_.closed ? 0 : 1); ++k) {
       auto made = part(k);
-      if (!made) return fail(made.error());
+      OBVID_TRY(made);
       for (const std::string& one : made->warnings) {
         chain_.warnings.push_back(part_words(chain_, k) + ": " + one);
       }
@@ -143,7 +143,7 @@ class ChainForming {
  private:
   Result<SpaceChain> whole() {
     auto made = fit_space(series_, job_, run_);
-    if (!made) return fail(made.error());
+    OBVID_TRY(made);
     chain_.closed = false;
     chain_.corners.clear();
     chain_.points = made->points;
@@ -334,7 +334,7 @@ Result<std::vector<SpaceNurbs>> chain_nurbs(const SpaceChain& chain,
   std::vector<SpaceNurbs> out;
   for (const SpaceFit& part : chain.parts) {
     auto made = space_nurbs(part, tolerance.value_or(kChainTolerance * size_of(chain)));
-    if (!made) return fail(made.error());
+    OBVID_TRY(made);
     out.push_back(std::move(*made));
   }
   return out;

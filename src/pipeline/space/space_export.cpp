@@ -57,12 +57,12 @@ Result<Exported> export_space(const SpaceChain& chain, const std::vector<SpaceNu
       curves.push_back({one ? "contour" : fmt::format("contour, part {}", k + 1), nurbs[k].curve});
     }
     auto text = cad_text(curves, write);
-    if (!text) return fail(text.error());
+    OBVID_TRY(text);
     return one_space_file(std::move(*text));
   }
-  return fail({ErrorCode::kUnknownFormat, "no file with this extension holds a curve in space", "",
-               std::string("possible are ") + kSpaceEndings +
-                   "; --flat forms the contour in the plane of x and y"});
+  return error(ErrorCode::kUnknownFormat, "no file with this extension holds a curve in space")
+      .hint(std::string("possible are ") + kSpaceEndings +
+            "; --flat forms the contour in the plane of x and y");
 }
 
 }  // namespace obvid

@@ -294,9 +294,9 @@ class SpatialForming {
                            "choose another direction with --along, or mark it with --corner-at"));
     }
     auto second = heights(out, rounding.across);
-    if (!second) return fail(second.error());
+    OBVID_TRY(second);
     out.unrolled = std::move(*second);
-    if (auto done = measure_space(out); !done) return fail(done.error());
+    OBVID_TRY(measure_space(out));
     const SpaceShape shape(out.frame, out.plan.contour, out.unrolled->contour);
     if (out.seam && !pipeline_detail::meets(*out.seam, shape.seam_bounds())) {
       return fail(of_space(ErrorCode::kNotProved,
@@ -420,7 +420,7 @@ Result<SpaceFit> planar_fit(const SpaceSeries& series, const SpaceJob& job, cons
     plane_job.start_heading = plane_job.end_heading = heading(flat.points[1] - flat.points[0]);
   }
   auto made = fit(flat, plane_job, run);
-  if (!made) return fail(made.error());
+  OBVID_TRY(made);
   out.plan = std::move(*made);
   out.largest_move = flatness + largest_of(out.plan.report.moves) + closing_gap(out);
   out.warnings = out.plan.warnings;
@@ -473,7 +473,7 @@ Result<std::optional<SpaceSeries>> space_series(const std::string& path, bool an
   const std::string head = head_of_file(path, kHeadBytes);
   if (head.empty() || file_kind(head) != FileKind::kPoints) return std::nullopt;
   const auto text = read_file(path);
-  if (!text) return fail(text.error());
+  OBVID_TRY(text);
   return parse_space_series(*text, path, any_third);
 }
 

@@ -37,15 +37,16 @@ class CubicOfSpace {
       std::vector<Vec3> points;
       for (const double sigma : nodes) points.push_back(shape_.at(sigma).point);
       auto curve = closed_ ? round_the_seam(std::move(points), nodes) : interpolated(points, nodes);
-      if (!curve) return fail(curve.error());
+      OBVID_TRY(curve);
       const double deviation =
           pipeline_detail::distance_bound(shape_, *curve, kBetweenPart * tolerance_);
       if (deviation <= tolerance_) return SpaceNurbs{std::move(*curve), deviation};
     }
-    return fail({ErrorCode::kToleranceNotReached,
+    return error(ErrorCode::kToleranceNotReached,
                  fmt::format("no cubic of {} spans follows the curve within {:.3g}", kMostSpans,
-                             tolerance_),
-                 "", "give a larger --output-tolerance", -1, tolerance_});
+                             tolerance_))
+        .hint("give a larger --output-tolerance")
+        .value(tolerance_);
   }
 
  private:
@@ -186,15 +187,14 @@ double distance_bound(const SpaceShape& shape, const SpaceCurve& cubic, double b
 
 Result<SpaceNurbs> space_nurbs(const SpaceFit& fit, double tolerance) {
   if (!(tolerance > 0.0 && std::isfinite(tolerance))) {
-    return fail(
-        {ErrorCode::kBadOption, "the tolerance must be a positive length", "", "", -1, tolerance});
+    return error(ErrorCode::kBadOption, "the tolerance must be a positive length").value(tolerance);
   }
   if (fit.unrolled) {
     const SpaceShape shape(fit.frame, fit.plan.contour, fit.unrolled->contour);
     return CubicOfSpace(shape, fit.plan.contour.closed, tolerance).run();
   }
   const auto made = pipeline_detail::contour_nurbs(fit.plan.contour, tolerance);
-  if (!made) return fail(made.error());
+  OBVID_TRY(made);
   return SpaceNurbs{placed(made->curve, fit.frame), made->deviation};
 }
 
@@ -252,8 +252,9 @@ Result<std::vector<SpaceSample>> sample_space(const SpaceFit& fit, std::span<con
   const double length = length_of(fit);
   for (std::size_t k = 0; k < at.size(); ++k) {
     if (at[k] >= 0.0 && at[k] <= length) continue;
-    return fail({ErrorCode::kBadOption, "a place is beyond the curve",
-                 fmt::format("place {}", k + 1), "", -1, at[k]});
+    return error(ErrorCode::kBadOption, "a place is beyond the curve")
+        .where(fmt::format("place {}", k + 1))
+        .value(at[k]);
   }
   std::vector<SpaceSample> out;
   for (const auto& [s, place] : places_at(fit, [&](double) { return at; })) {

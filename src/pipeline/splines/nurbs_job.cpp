@@ -121,12 +121,12 @@ Result<void> take_weights(const NurbsJob& job, SpaceCurve& curve) {
         option, "points count from 1"));
   };
   for (const auto& [point, weight] : job.weights) {
-    if (auto done = known(point, "--weight-at"); !done) return done;
+    OBVID_TRY(known(point, "--weight-at"));
     curve.weights[point] = weight;
   }
-  if (auto good = check(curve); !good) return good;
+  OBVID_TRY(check(curve));
   for (const auto& [point, part] : job.moves) {
-    if (auto done = known(point, "--move"); !done) return done;
+    OBVID_TRY(known(point, "--move"));
     const WeightOfPoint weight(curve, point);
     if (weight.passes()) {
       return fail(nurbs_error(
@@ -154,14 +154,14 @@ Result<NurbsReport> surface_report(NurbsReport out, const NurbsJob& job) {
   surface.degree_u = degree_for(along, job.degree);
   surface.degree_v = degree_for(across, job.degree_v);
   auto u = knots_for(along, surface.degree_u, job.knots, "--knots");
-  if (!u) return fail(u.error());
+  OBVID_TRY(u);
   auto v = knots_for(across, surface.degree_v, job.knots_v, "--knots-v");
-  if (!v) return fail(v.error());
+  OBVID_TRY(v);
   surface.knots_u = std::move(*u);
   surface.knots_v = std::move(*v);
   surface.points = out.table.points;
   surface.weights = out.table.weights;
-  if (auto good = check(surface); !good) return fail(good.error());
+  OBVID_TRY(check(surface));
   out.shape = std::move(surface);
   return out;
 }
@@ -241,9 +241,10 @@ Result<ControlTable> control_table(const ColumnTable& table, const std::string& 
     const std::vector<double>& cells = table.rows[i];
     for (const auto& column : {x, y, z, w, row, col}) {
       if (!column || *column < cells.size()) continue;
-      return fail({ErrorCode::kTooFewColumns, "a row is too short",
-                   fmt::format("{}:{}", name, table.lines[i]), "every row needs all columns",
-                   static_cast<std::ptrdiff_t>(i), 0.0});
+      return error(ErrorCode::kTooFewColumns, "a row is too short")
+          .where(fmt::format("{}:{}", name, table.lines[i]))
+          .hint("every row needs all columns")
+          .point(i);
     }
     out.points.push_back({cells[*x], cells[*y], z ? cells[*z] : 0.0});
     out.weights.push_back(w ? cells[*w] : 1.0);
@@ -251,7 +252,7 @@ Result<ControlTable> control_table(const ColumnTable& table, const std::string& 
     if (col) cols.push_back(cells[*col]);
   }
   if (row) {
-    if (auto done = arrange(rows, cols, out); !done) return fail(done.error());
+    OBVID_TRY(arrange(rows, cols, out));
   }
   return out;
 }
@@ -267,9 +268,9 @@ Result<NurbsReport> nurbs_report(ControlTable table, const NurbsJob& job) {
   const std::size_t n = out.table.points.size();
   const int degree = degree_for(n, job.degree);
   auto knots = knots_for(n, degree, job.knots, "--knots");
-  if (!knots) return fail(knots.error());
+  OBVID_TRY(knots);
   SpaceCurve curve{degree, std::move(*knots), out.table.points, out.table.weights};
-  if (auto done = take_weights(job, curve); !done) return fail(done.error());
+  OBVID_TRY(take_weights(job, curve));
   for (std::size_t i = 0; i < n; ++i) out.rows.push_back(WeightOfPoint(curve, i).row());
   out.table.weights = curve.weights;
   out.shape = std::move(curve);

@@ -32,10 +32,10 @@ Result<std::vector<double>> column_of(const ColumnTable& table, std::size_t colu
   std::vector<double> out;
   for (std::size_t i = 0; i < table.rows.size(); ++i) {
     if (column >= table.rows[i].size()) {
-      return fail({ErrorCode::kTooFewColumns, "a row is too short",
-                   fmt::format("{}:{}", name, table.lines[i]),
-                   "every row needs all columns; where no cell begins any number may stand",
-                   static_cast<std::ptrdiff_t>(i), 0.0});
+      return error(ErrorCode::kTooFewColumns, "a row is too short")
+          .where(fmt::format("{}:{}", name, table.lines[i]))
+          .hint("every row needs all columns; where no cell begins any number may stand")
+          .point(i);
     }
     out.push_back(table.rows[i][column]);
   }
@@ -98,7 +98,7 @@ Result<IdSpline2dData> completed(const GridSplineInput& input) {
   IdSpline2dData data = input.data;
   if (input.lines_given == input.cells_given) return data;
   auto plain = id_spline_2d({data.x, data.y, data.values, {}, {}, {}});
-  if (!plain) return fail(plain.error());
+  OBVID_TRY(plain);
   if (!input.lines_given) {
     data.along_x = std::move(plain->along_x);
     data.along_y = std::move(plain->along_y);
@@ -125,7 +125,7 @@ Result<GridPlaces> grid_places(const ColumnTable& table, const std::string& name
   }};
   for (const auto& [column, to] : wanted) {
     auto values = column_of(table, column, name);
-    if (!values) return fail(values.error());
+    OBVID_TRY(values);
     *to = std::move(*values);
   }
   return out;
@@ -133,7 +133,7 @@ Result<GridPlaces> grid_places(const ColumnTable& table, const std::string& name
 
 Result<GridSplineInput> grid_spline_input(const ColumnTable& table, const std::string& name) {
   const auto places = grid_places(table, name);
-  if (!places) return fail(places.error());
+  OBVID_TRY(places);
   GridSplineInput out;
   out.name = name;
   IdSpline2dData& data = out.data;
@@ -171,13 +171,13 @@ Result<GridSplineInput> grid_spline_input(const ColumnTable& table, const std::s
                         std::vector<double>& to) -> Result<void> {
     if (!column) return {};
     const auto values = column_of(table, *column, name);
-    if (!values) return fail(values.error());
+    OBVID_TRY(values);
     to = without_last(sorted(*values), nx, ny, last_x, last_y);
     return {};
   };
-  if (auto done = take(along_x, true, false, data.along_x); !done) return fail(done.error());
-  if (auto done = take(along_y, false, true, data.along_y); !done) return fail(done.error());
-  if (auto done = take(cells, true, true, data.cells); !done) return fail(done.error());
+  OBVID_TRY(take(along_x, true, false, data.along_x));
+  OBVID_TRY(take(along_y, false, true, data.along_y));
+  OBVID_TRY(take(cells, true, true, data.cells));
   out.lines_given = along_x.has_value();
   out.cells_given = cells.has_value();
   return out;
@@ -186,11 +186,11 @@ Result<GridSplineInput> grid_spline_input(const ColumnTable& table, const std::s
 Result<GridSplineReport> grid_spline_report(GridSplineInput input, bool smooth,
                                             const std::optional<GridPlaces>& finer) {
   const auto data = completed(input);
-  if (!data) return fail(data.error());
+  OBVID_TRY(data);
   GridSplineReport out;
   for (const bool kind : {smooth, !smooth}) {
     auto spline = id_spline_2d(*data, kind);
-    if (!spline) return fail(spline.error());
+    OBVID_TRY(spline);
     out.rows.push_back(
         row_of_grid(*spline, input, kind ? "C1, values free" : "values kept", finer));
     if (kind == smooth) out.spline = std::move(*spline);
@@ -209,10 +209,10 @@ Result<SurfaceModel> graph_of(const GridSplineReport& report) {
     }
   }
   auto made_x = id_spline_2d(std::move(x)), made_y = id_spline_2d(std::move(y));
-  if (!made_x) return fail(made_x.error());
-  if (!made_y) return fail(made_y.error());
+  OBVID_TRY(made_x);
+  OBVID_TRY(made_y);
   const auto form = to_nurbs(IdSurface{std::move(*made_x), std::move(*made_y), f}, 1.0);
-  if (!form) return fail(form.error());
+  OBVID_TRY(form);
   SurfaceModel model;
   model.patches.push_back({"graph", form->surface});
   return model;

@@ -225,7 +225,7 @@ Result<std::vector<IdSpline>> id_parts(const SplineInput& input, const IdSplineO
     if (options.degree >= 4) data.slopes = input.slopes;
     if (options.degree >= 6) data.seconds = input.seconds;
     auto part = id_spline(std::move(data), options);
-    if (!part) return fail(part.error());
+    OBVID_TRY(part);
     out.push_back(std::move(*part));
   }
   return out;
@@ -259,7 +259,7 @@ Result<Candidate> cubic_candidate(std::string name, const SplineInput& input, co
   std::vector<ScalarCubic> parts;
   for (const std::vector<double>& values : input.values) {
     auto part = make(input.nodes, values);
-    if (!part) return fail(part.error());
+    OBVID_TRY(part);
     parts.push_back(std::move(*part));
   }
   return candidate_of(std::move(name), std::move(parts), input.nodes);
@@ -275,30 +275,24 @@ Result<std::vector<Candidate>> others(const SplineInput& input, const IdSplineOp
       const bool same = degree == chosen.degree && smoothing == chosen.smoothing;
       if (same || (degree == 2 && smoothing == IdSmoothing::kValuesKept)) continue;
       auto parts = id_parts(input, options);
-      if (!parts) return fail(parts.error());
+      OBVID_TRY(parts);
       out.push_back(candidate_of(id_name(options), std::move(*parts), input.nodes));
     }
   }
   const auto add = [&](Result<Candidate> one) -> Result<void> {
-    if (!one) return fail(one.error());
+    OBVID_TRY(one);
     out.push_back(std::move(*one));
     return {};
   };
-  if (auto done = add(cubic_candidate("cubic, local", input, local_cubic)); !done) {
-    return fail(done.error());
-  }
+  OBVID_TRY(add(cubic_candidate("cubic, local", input, local_cubic)));
   const auto by_slopes = [](const std::vector<double>& x, const std::vector<double>& f) {
     return global_cubic_by_slopes(x, f);
   };
   const auto natural = [](const std::vector<double>& x, const std::vector<double>& f) {
     return global_cubic_by_seconds(x, f, {0.0, 0.0});
   };
-  if (auto done = add(cubic_candidate("cubic, by slopes", input, by_slopes)); !done) {
-    return fail(done.error());
-  }
-  if (auto done = add(cubic_candidate("cubic, natural", input, natural)); !done) {
-    return fail(done.error());
-  }
+  OBVID_TRY(add(cubic_candidate("cubic, by slopes", input, by_slopes)));
+  OBVID_TRY(add(cubic_candidate("cubic, natural", input, natural)));
   return out;
 }
 
@@ -362,7 +356,7 @@ Result<SplineInput> curve_input(const ColumnTable& table, const std::string& nam
   out.dimensions = columns.size();
   for (const std::size_t column : columns) {
     auto values = whole_column(table, column, false, name);
-    if (!values) return fail(values.error());
+    OBVID_TRY(values);
     out.values.push_back(std::move(*values));
   }
   out.nodes.assign(table.rows.size(), 0.0);
@@ -376,8 +370,10 @@ Result<SplineInput> curve_input(const ColumnTable& table, const std::string& nam
 
 Result<SplineInput> spline_input(const ColumnTable& table, const std::string& name, bool curve) {
   if (table.rows.size() < 2) {
-    return fail({ErrorCode::kTooFewPoints, "a spline needs at least two nodes", name, "add rows",
-                 -1, static_cast<double>(table.rows.size())});
+    return error(ErrorCode::kTooFewPoints, "a spline needs at least two nodes")
+        .where(name)
+        .hint("add rows")
+        .value(static_cast<double>(table.rows.size()));
   }
   if (curve) return curve_input(table, name);
   SplineInput out;
@@ -388,27 +384,28 @@ Result<SplineInput> spline_input(const ColumnTable& table, const std::string& na
   if (!x) return fail(missing_column("x", name));
   if (!f) return fail(missing_column("f", name));
   if (!named && table.rows.front().size() > 2) {
-    return fail({ErrorCode::kUsage, "columns beyond the second need names", name,
-                 "write a header: x, f, integral, slope, second"});
+    return error(ErrorCode::kUsage, "columns beyond the second need names")
+        .where(name)
+        .hint("write a header: x, f, integral, slope, second");
   }
   auto nodes = whole_column(table, *x, false, name);
-  if (!nodes) return fail(nodes.error());
+  OBVID_TRY(nodes);
   out.nodes = std::move(*nodes);
   auto values = whole_column(table, *f, false, name);
-  if (!values) return fail(values.error());
+  OBVID_TRY(values);
   out.values.push_back(std::move(*values));
   const auto take = [&](std::initializer_list<std::string_view> names, bool cells,
                         std::vector<double>& to) -> Result<void> {
     const auto at = table.column(names);
     if (!at) return {};
     auto column = whole_column(table, *at, cells, name);
-    if (!column) return fail(column.error());
+    OBVID_TRY(column);
     to = std::move(*column);
     return {};
   };
-  if (auto done = take({"integral"}, true, out.integrals); !done) return fail(done.error());
-  if (auto done = take({"slope"}, false, out.slopes); !done) return fail(done.error());
-  if (auto done = take({"second"}, false, out.seconds); !done) return fail(done.error());
+  OBVID_TRY(take({"integral"}, true, out.integrals));
+  OBVID_TRY(take({"slope"}, false, out.slopes));
+  OBVID_TRY(take({"second"}, false, out.seconds));
   return out;
 }
 
@@ -416,7 +413,7 @@ Result<SplineReport> spline_report(SplineInput input, const SplineJob& job,
                                    const std::optional<SplineInput>& finer) {
   SplineReport out;
   auto parts = id_parts(input, job.options);
-  if (!parts) return fail(parts.error());
+  OBVID_TRY(parts);
   out.parts = std::move(*parts);
   out.tolerance = job.tolerance.value_or(kMachiningPart * span_of_input(input));
   out.largest_jump = largest_jump(out.parts);
@@ -424,7 +421,7 @@ Result<SplineReport> spline_report(SplineInput input, const SplineJob& job,
   out.rows.push_back(row(candidate_of(id_name(job.options), out.parts, input.nodes)));
   if (job.compare) {
     const auto all = others(input, job.options);
-    if (!all) return fail(all.error());
+    OBVID_TRY(all);
     for (const Candidate& one : *all) out.rows.push_back(row(one));
   }
   out.input = std::move(input);

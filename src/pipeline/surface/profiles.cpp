@@ -47,8 +47,9 @@ Result<Profile> profile_of(std::string_view name) {
   if (found != profiles().end()) return *found;
   std::string names;
   for (const Profile& one : profiles()) names += (names.empty() ? "" : ", ") + one.name;
-  return fail({ErrorCode::kBadOption, "no profile is called '" + std::string(name) + "'", "--for",
-               "one of " + names, -1, 0.0});
+  return error(ErrorCode::kBadOption, "no profile is called '" + std::string(name) + "'")
+      .where("--for")
+      .hint("one of " + names);
 }
 
 }  // namespace obvid

@@ -24,10 +24,12 @@ Result<CadSurfaces> read_faces(const std::string& path) { return read_cad_surfac
 Result<SurfaceModel> read_surface(const SurfaceInput& input, std::vector<std::string>& warnings) {
   const std::string& path = input.name;
   if (input.points) {
-    return fail({ErrorCode::kUnsupported, "points are no surface", path, "give a stored surface"});
+    return error(ErrorCode::kUnsupported, "points are no surface")
+        .where(path)
+        .hint("give a stored surface");
   }
   const Result<std::string> text = input.text ? *input.text : read_file(path);
-  if (!text) return fail(text.error());
+  OBVID_TRY(text);
   if (starts_with_brace(*text)) return surface_from_json(*text, path);
   if (!is_cad_text(*text)) {
     auto net = parse_control_net(*text, path);
@@ -36,7 +38,7 @@ Result<SurfaceModel> read_surface(const SurfaceInput& input, std::vector<std::st
   }
   auto surfaces =
       input.text ? pipeline_detail::cad_of_text(*text, path, read_faces) : read_cad_surfaces(path);
-  if (!surfaces) return fail(surfaces.error());
+  OBVID_TRY(surfaces);
   warnings.insert(warnings.end(), surfaces->warnings.begin(), surfaces->warnings.end());
   return std::move(surfaces->model);
 }

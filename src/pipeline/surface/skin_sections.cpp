@@ -107,7 +107,7 @@ Result<Fit> fit_section(const Flat& flat, const SkinJob& job, std::size_t number
     moved = std::max(moved, share * flat.extent);
   }
   const std::string name = fmt::format("section {} ({})", number, flat.section.name);
-  if (!made && job.plain_when_refused && exit_code(made.error().code) == 4) {
+  if (!made && job.plain_when_refused && category(made.error().code) == ErrorCategory::kNoContour) {
     FitJob plain = job.sections;
     plain.carrier = Carrier::kBaseline;
     plain.continuity.reset();
@@ -122,7 +122,7 @@ Result<Fit> fit_section(const Flat& flat, const SkinJob& job, std::size_t number
   if (!made) {
     Error error = made.error();
     error.what = fmt::format("{}: {}", name, error.what);
-    if (exit_code(error.code) == 4) {
+    if (category(error.code) == ErrorCategory::kNoContour) {
       error.hint = pipeline_detail::without_fair_contour(job.sections);
     }
     return fail(error);
@@ -139,8 +139,8 @@ Result<FittedSkin> fit_skin(const std::vector<SpaceSeries>& given, const SkinJob
                             const RunContext& run) {
   FittedSkin result;
   if (given.size() < 2) {
-    return fail({ErrorCode::kTooFewPoints, "a skin needs at least two sections", "", "", -1,
-                 static_cast<double>(given.size())});
+    return error(ErrorCode::kTooFewCurves, "a skin needs at least two sections")
+        .value(static_cast<double>(given.size()));
   }
   std::vector<SpaceSeries> sections = given;
   result.tolerance =
@@ -159,7 +159,7 @@ Result<FittedSkin> fit_skin(const std::vector<SpaceSeries>& given, const SkinJob
     Flat section = flat(sections[k], job.units);
     if (section.series.points.size() > 1) {
       auto contour = fit_section(section, job, k + 1, moved, result.warnings, run);
-      if (!contour) return fail(contour.error());
+      OBVID_TRY(contour);
       result.proved += contour->certificate.proved ? 1 : 0;
       result.smooth += has_continuous_slopes(*contour) ? 1 : 0;
       result.plain += contour->contour.carrier == Carrier::kBaseline ? 1 : 0;
@@ -180,7 +180,7 @@ Result<FittedSkin> fit_skin(const std::vector<SpaceSeries>& given, const SkinJob
   options.matching = job.matching;
   options.straight_across = job.straight_across;
   auto surface = skin(made, options, run);
-  if (!surface) return fail(surface.error());
+  OBVID_TRY(surface);
   result.skin = std::move(*surface);
   result.warnings.insert(result.warnings.end(), result.skin.warnings.begin(),
                          result.skin.warnings.end());

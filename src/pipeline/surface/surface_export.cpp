@@ -78,7 +78,7 @@ Result<void> SurfaceExporter::tessellated(std::vector<std::string>& remarks) {
       options_.chord_tolerance.value_or(kDefaultChordTolerance * size_of(model_));
   options.angle = options_.angle > 0.0 ? options_.angle : kDefaultAngle;
   auto made = tessellate(model_, options, run_);
-  if (!made) return fail(made.error());
+  OBVID_TRY(made);
   meshes_ = std::move(*made);
   std::size_t triangles = 0;
   double deviation = 0.0;
@@ -100,7 +100,7 @@ Result<std::string> SurfaceExporter::text(SurfaceFormat format, std::vector<std:
       : glb ? "glTF files"
             : "IGES files",
       glb ? "m" : cad_unit(model_.units.name));
-  if (!notes) return fail(notes.error());
+  OBVID_TRY(notes);
   auto text = made(format, remarks);
   if (!text) return text;
   for (std::string& one : notes->remarks) remarks.push_back(std::move(one));
@@ -115,13 +115,13 @@ Result<std::string> SurfaceExporter::made(SurfaceFormat format, std::vector<std:
   if (kernel) {
     const auto held = pipeline_detail::kernel_holds(size_of(model_), model_.units, brep,
                                                     "write .json, .obj, .glb or .ply");
-    if (!held) return fail(held.error());
+    OBVID_TRY(held);
   }
   const bool triangles = format == SurfaceFormat::kStl || format == SurfaceFormat::kObj ||
                          format == SurfaceFormat::kGlb || format == SurfaceFormat::kPly ||
                          format == SurfaceFormat::kPage;
   if (triangles) {
-    if (auto done = tessellated(remarks); !done) return fail(done.error());
+    OBVID_TRY(tessellated(remarks));
   }
   CadWriteOptions cad;
   cad.units = model_.units.name;
@@ -164,7 +164,7 @@ Result<std::string> SurfaceExporter::made(SurfaceFormat format, std::vector<std:
       return surface_svg(model_, picture);
     }
   }
-  return fail({ErrorCode::kInternal, "unknown format", "", "", -1, 0.0});
+  return error(ErrorCode::kInternal, "unknown format");
 }
 
 }  // namespace obvid

@@ -43,7 +43,7 @@ Result<ParsedSections> parsed(const SurfaceInput& input, const SectionOptions& o
   if (input.points) return ParsedSections{{*input.points}, false};
   if (input.text) return parse_sections(*input.text, input.name, options);
   auto read = read_sections({input.name}, options);
-  if (!read) return fail(read.error());
+  OBVID_TRY(read);
   return ParsedSections{std::move(*read), false};
 }
 
@@ -55,7 +55,7 @@ Result<std::vector<SpaceSeries>> sections_of(const SurfaceJob& job) {
   std::vector<SpaceSeries> out;
   for (const SurfaceInput& input : job.inputs) {
     auto some = parsed(input, options);
-    if (!some) return fail(some.error());
+    OBVID_TRY(some);
     const bool named_by_file = !input.points && job.inputs.size() > 1 && some->sections.size() == 1;
     if (named_by_file) {
       some->sections.front().name = std::filesystem::path(input.name).filename().string();
@@ -72,19 +72,21 @@ Result<std::vector<SpaceSeries>> sections_of(const SurfaceJob& job) {
 
 Result<SpaceSeries> section_of(const SurfaceInput& input) {
   auto all = parsed(input, {});
-  if (!all) return fail(all.error());
+  OBVID_TRY(all);
   if (all->sections.size() == 1) return std::move(all->sections.front());
-  return fail(
-      {ErrorCode::kBadCount,
-       fmt::format("the file holds {} series of points, one curve is needed", all->sections.size()),
-       input.name, "split the file", -1, static_cast<double>(all->sections.size())});
+  return error(ErrorCode::kBadCount,
+               fmt::format("the file holds {} series of points, one curve is needed",
+                           all->sections.size()))
+      .where(input.name)
+      .hint("split the file")
+      .value(static_cast<double>(all->sections.size()));
 }
 
 Result<PointGrid> grid_of(const SurfaceJob& job) {
   const GridOptions options{job.spacing.value_or(1.0)};
   if (are_files(job.inputs)) return read_grid(paths_of(job.inputs), options);
   if (job.inputs.size() != 1) {
-    return fail({ErrorCode::kUsage, "a grid is one text or one list of points", "", ""});
+    return error(ErrorCode::kUsage, "a grid is one text or one list of points");
   }
   const SurfaceInput& input = job.inputs.front();
   if (input.text) {
@@ -94,10 +96,10 @@ Result<PointGrid> grid_of(const SurfaceJob& job) {
   }
   const std::size_t count = input.points->points.size(), row = job.row.value_or(0);
   if (row < 2 || count % row != 0 || count / row < 2) {
-    return fail({ErrorCode::kBadOption, fmt::format("{} points do not fill rows of {}", count, row),
-                 input.name,
-                 "say how many points are in a row, two at least, and give two rows at least", -1,
-                 static_cast<double>(count)});
+    return error(ErrorCode::kBadOption, fmt::format("{} points do not fill rows of {}", count, row))
+        .where(input.name)
+        .hint("say how many points are in a row, two at least, and give two rows at least")
+        .value(static_cast<double>(count));
   }
   PointGrid grid;
   grid.name = input.points->name;

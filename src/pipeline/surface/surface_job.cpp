@@ -31,7 +31,7 @@ Result<MadeSurface> made_by(const SurfaceJob& job, const RunContext& run) {
     case SurfaceKind::kConvert:
       return make_converted(job);
   }
-  return fail({ErrorCode::kInternal, "unknown kind of surface", "", "", -1, 0.0});
+  return error(ErrorCode::kInternal, "unknown kind of surface");
 }
 
 }  // namespace
@@ -48,10 +48,9 @@ std::optional<Error> not_proved(const MadeSurface& made) {
   if (!made.skin) return std::nullopt;
   const std::size_t fair = made.skin->skin.sections.size() - made.skin->points - made.skin->plain;
   if (made.skin->proved == fair) return std::nullopt;
-  return Error{ErrorCode::kNotProved,
+  return error(ErrorCode::kNotProved,
                fmt::format("{} of {} section contours were formed but not proved",
-                           fair - made.skin->proved, fair),
-               "", ""};
+                           fair - made.skin->proved, fair));
 }
 
 }  // namespace obvid

@@ -22,7 +22,7 @@ Result<std::vector<ReadCurve>> read_curves(const std::vector<SurfaceInput>& inpu
   std::vector<ReadCurve> curves;
   for (const SurfaceInput& input : inputs) {
     auto curve = read_space_curve(input, job);
-    if (!curve) return fail(curve.error());
+    OBVID_TRY(curve);
     curves.push_back(std::move(*curve));
   }
   return curves;
@@ -30,9 +30,9 @@ Result<std::vector<ReadCurve>> read_curves(const std::vector<SurfaceInput>& inpu
 
 Result<void> need(const SurfaceJob& job, std::size_t least, std::size_t most, const char* what) {
   if (job.inputs.size() >= least && job.inputs.size() <= most) return {};
-  return fail({ErrorCode::kUsage,
-               fmt::format("{} were given where {} are needed", job.inputs.size(), what), "", "",
-               -1, static_cast<double>(job.inputs.size())});
+  return error(ErrorCode::kUsage,
+               fmt::format("{} were given where {} are needed", job.inputs.size(), what))
+      .value(static_cast<double>(job.inputs.size()));
 }
 
 double size_of_all(const std::vector<ReadCurve>& curves) {
@@ -47,7 +47,7 @@ Result<void> take_over(std::vector<ReadCurve>& curves, MadeSurface& made) {
   std::vector<Units> all{made.model.units};
   for (const ReadCurve& curve : curves) all.push_back(curve.units);
   auto units = common_units(all, curves.empty() ? "" : curves.front().name);
-  if (!units) return fail(units.error());
+  OBVID_TRY(units);
   made.model.units = std::move(*units);
   for (ReadCurve& curve : curves) {
     made.lines.push_back(drawn(curve.curve));
@@ -107,13 +107,15 @@ bool crosses_axis(const SpaceCurve& profile, Vec3 point, Vec3 direction) {
 
 Error folds(const SurfacePatch& patch, const OffsetCheck& found, double distance) {
   const double largest = distance < 0.0 ? found.largest_inwards : found.largest_outwards;
-  return {ErrorCode::kFixedDataContradict,
-          fmt::format("the offset by {:g} folds back on itself in {} places, first at {}", distance,
-                      found.folds.size(), folded_at(patch, found.folds.front())),
-          "",
-          fmt::format("up to {:.6g} on this side it does not", largest),
-          -1,
-          largest};
+  const std::size_t places = found.folds.size();
+  return {
+      ErrorCode::kSurfaceFolds,
+      fmt::format("the offset by {:g} folds back on itself in {} {}, first at {}", distance, places,
+                  places == 1 ? "place" : "places", folded_at(patch, found.folds.front())),
+      "",
+      fmt::format("up to {:.6g} on this side it does not", largest),
+      -1,
+      largest};
 }
 
 }  // namespace
@@ -142,7 +144,7 @@ ScenePolyline drawn(const SpaceCurve& curve, const char* role) {
 Result<MadeSurface> made_of(const Surface& surface, const std::string& name, double size,
                             const SurfaceJob& job) {
   auto form = to_nurbs(surface, job.tolerance.value_or(kSurfaceTolerance * size));
-  if (!form) return fail(form.error());
+  OBVID_TRY(form);
   MadeSurface made;
   made.kind = kind_of(surface);
   made.deviation = form->deviation;
@@ -153,11 +155,8 @@ Result<MadeSurface> made_of(const Surface& surface, const std::string& name, dou
 
 Result<MadeSurface> make_ruled(const SurfaceJob& job, const RunContext& run) {
   const bool from_one = job.direction || job.apex;
-  if (auto good = from_one ? need(job, 1, 1, "one curve with --direction or --apex")
-                           : need(job, 2, 2, "two curves");
-      !good) {
-    return fail(good.error());
-  }
+  OBVID_TRY(from_one ? need(job, 1, 1, "one curve with --direction or --apex")
+                     : need(job, 2, 2, "two curves"));
   if (!from_one && are_points(job)) {
     SurfaceJob strips = job;
     strips.straight_across = true;
@@ -166,7 +165,7 @@ Result<MadeSurface> make_ruled(const SurfaceJob& job, const RunContext& run) {
     return made;
   }
   auto curves = read_curves(job.inputs, job);
-  if (!curves) return fail(curves.error());
+  OBVID_TRY(curves);
   const SpaceCurve& first = curves->front().curve;
   RuledSurface ruled{first, job.direction ? moved_curve(first, *job.direction)
                             : job.apex    ? shrunk_to(first, *job.apex)
@@ -175,14 +174,14 @@ Result<MadeSurface> make_ruled(const SurfaceJob& job, const RunContext& run) {
   if (!made) return made;
   if (job.direction) made->kind = "cylinder over a curve";
   if (job.apex) made->kind = "cone over a curve";
-  if (auto done = take_over(*curves, *made); !done) return fail(done.error());
+  OBVID_TRY(take_over(*curves, *made));
   return made;
 }
 
 Result<MadeSurface> make_revolution(const SurfaceJob& job) {
-  if (auto good = need(job, 1, 1, "one profile"); !good) return fail(good.error());
+  OBVID_TRY(need(job, 1, 1, "one profile"));
   auto curves = read_curves(job.inputs, job);
-  if (!curves) return fail(curves.error());
+  OBVID_TRY(curves);
   const double angle = job.angle != 0.0 ? job.angle : 2.0 * std::numbers::pi;
   const RevolutionSurface surface{curves->front().curve, job.axis_point, job.axis_direction, angle};
   const std::string stem = std::filesystem::path(job.inputs.front().name).stem().string();
@@ -195,48 +194,48 @@ Result<MadeSurface> make_revolution(const SurfaceJob& job) {
                     "through itself; is it half an outline, and --axis right?",
                     job.inputs.front().name));
   }
-  if (auto done = take_over(*curves, *made); !done) return fail(done.error());
+  OBVID_TRY(take_over(*curves, *made));
   return made;
 }
 
 Result<MadeSurface> make_coons(const SurfaceJob& job) {
-  if (auto good = need(job, 4, 4, "four border curves"); !good) return fail(good.error());
+  OBVID_TRY(need(job, 4, 4, "four border curves"));
   auto curves = read_curves(job.inputs, job);
-  if (!curves) return fail(curves.error());
+  OBVID_TRY(curves);
   const double size = size_of_all(*curves);
   const auto patch =
       coons_from(geometry(*curves), job.tolerance.value_or(kSurfaceTolerance * size));
-  if (!patch) return fail(patch.error());
+  OBVID_TRY(patch);
   auto made = made_of(*patch, "Coons patch", size, job);
   if (!made) return made;
-  if (auto done = take_over(*curves, *made); !done) return fail(done.error());
+  OBVID_TRY(take_over(*curves, *made));
   return made;
 }
 
 Result<MadeSurface> make_gordon(const SurfaceJob& job) {
   auto first = read_curves(job.inputs, job);
-  if (!first) return fail(first.error());
+  OBVID_TRY(first);
   auto second = read_curves(job.across, job);
-  if (!second) return fail(second.error());
+  OBVID_TRY(second);
   const double size = std::max(size_of_all(*first), size_of_all(*second));
   const auto net = gordon_from(geometry(*first), geometry(*second),
                                job.tolerance.value_or(kSurfaceTolerance * size));
-  if (!net) return fail(net.error());
+  OBVID_TRY(net);
   auto made = made_of(*net, "Gordon surface", size, job);
   if (!made) return made;
   made->facts.emplace_back("curves",
                            fmt::format("{} and {} across", first->size(), second->size()));
   for (std::vector<ReadCurve>* curves : {&*second, &*first}) {
-    if (auto done = take_over(*curves, *made); !done) return fail(done.error());
+    OBVID_TRY(take_over(*curves, *made));
   }
   return made;
 }
 
 Result<MadeSurface> make_offset(const SurfaceJob& job) {
-  if (auto good = need(job, 1, 1, "one surface"); !good) return fail(good.error());
+  OBVID_TRY(need(job, 1, 1, "one surface"));
   MadeSurface made;
   auto model = read_surface(job.inputs.front(), made.warnings);
-  if (!model) return fail(model.error());
+  OBVID_TRY(model);
   made.model = std::move(*model);
   for (SurfacePatch& patch : made.model.patches) {
     const OffsetCheck found = check_offset(patch.surface, job.distance);
@@ -257,10 +256,10 @@ Result<MadeSurface> make_offset(const SurfaceJob& job) {
 }
 
 Result<MadeSurface> make_converted(const SurfaceJob& job) {
-  if (auto good = need(job, 1, 1, "one surface"); !good) return fail(good.error());
+  OBVID_TRY(need(job, 1, 1, "one surface"));
   MadeSurface made;
   auto model = read_surface(job.inputs.front(), made.warnings);
-  if (!model) return fail(model.error());
+  OBVID_TRY(model);
   made.model = std::move(*model);
   made.kind = "as stored";
   return made;

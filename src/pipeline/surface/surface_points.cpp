@@ -25,7 +25,7 @@ MadeSurface of_one_patch(const PointGrid& grid, NurbsSurface surface) {
 Result<MadeSurface> near(const PointGrid& grid, const SurfaceJob& job, const RunContext& run) {
   const double tolerance = job.tolerance.value_or(kSurfaceTolerance * size_of(grid.points));
   auto surface = approximated(grid, tolerance, run);
-  if (!surface) return fail(surface.error());
+  OBVID_TRY(surface);
   MadeSurface made = of_one_patch(grid, std::move(surface->surface));
   made.kind = "least squares near a grid of points";
   made.facts.emplace_back("from the points",
@@ -54,11 +54,11 @@ std::vector<ScenePolyline> drawn_sections(const std::vector<SpaceSeries>& sectio
 
 Result<MadeSurface> make_grid(const SurfaceJob& job, const RunContext& run) {
   const auto grid = grid_of(job);
-  if (!grid) return fail(grid.error());
+  OBVID_TRY(grid);
   if (job.use == GridUse::kNear) return near(*grid, job, run);
   const bool control = job.use == GridUse::kControl;
   auto surface = control ? from_control_points(*grid) : interpolated(*grid, job.spread);
-  if (!surface) return fail(surface.error());
+  OBVID_TRY(surface);
   MadeSurface made = of_one_patch(*grid, std::move(*surface));
   made.kind = control ? "controlled by a grid of points" : "through a grid of points";
   return made;
@@ -66,16 +66,16 @@ Result<MadeSurface> make_grid(const SurfaceJob& job, const RunContext& run) {
 
 Result<MadeSurface> make_id(const SurfaceJob& job) {
   const auto grid = grid_of(job);
-  if (!grid) return fail(grid.error());
+  OBVID_TRY(grid);
   const auto u = grid_parameters(*grid, true, job.spread);
-  if (!u) return fail(u.error());
+  OBVID_TRY(u);
   const auto v = grid_parameters(*grid, false, job.spread);
-  if (!v) return fail(v.error());
+  OBVID_TRY(v);
   IdSurface surface;
   for (const auto& [spline, coordinate] :
        {std::pair{&surface.x, &Vec3::x}, {&surface.y, &Vec3::y}, {&surface.z, &Vec3::z}}) {
     auto made = id_spline_2d(id_data(*grid, *u, *v, coordinate), job.smooth);
-    if (!made) return fail(made.error());
+    OBVID_TRY(made);
     *spline = std::move(*made);
   }
   auto made =
@@ -90,11 +90,11 @@ Result<MadeSurface> make_id(const SurfaceJob& job) {
 
 Result<MadeSurface> make_skin(const SurfaceJob& job, const RunContext& run) {
   const auto sections = sections_of(job);
-  if (!sections) return fail(sections.error());
+  OBVID_TRY(sections);
   std::vector<Units> units;
   for (const SpaceSeries& section : *sections) units.push_back(section.units);
   auto unit = common_units(units, job.inputs.front().name);
-  if (!unit) return fail(unit.error());
+  OBVID_TRY(unit);
   SkinJob how;
   how.units = *unit;
   how.sections = job.sections;
@@ -103,7 +103,7 @@ Result<MadeSurface> make_skin(const SurfaceJob& job, const RunContext& run) {
   how.straight_across = job.straight_across;
   how.plain_when_refused = job.plain_when_refused;
   auto fitted = fit_skin(*sections, how, run);
-  if (!fitted) return fail(fitted.error());
+  OBVID_TRY(fitted);
   MadeSurface made;
   made.kind = fmt::format("skin through {} sections", sections->size());
   const std::string stem = std::filesystem::path(job.inputs.front().name).stem().string();

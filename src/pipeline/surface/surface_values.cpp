@@ -45,14 +45,14 @@ Result<void> set_axis(const SurfaceValues& raw, SurfaceJob& job) {
   const auto at = axes.find(raw.axis);
   const Result<Vec3> direction =
       at != axes.end() ? Result<Vec3>(at->second) : vector_of(raw.axis, "--axis");
-  if (!direction) return fail(direction.error());
+  OBVID_TRY(direction);
   if (!(norm(*direction) > 0.0)) {
     return fail(bad_option("the axis has no direction", "--axis", "give x, y, z or X,Y,Z"));
   }
   job.axis_direction = *direction;
   if (!raw.axis_point.empty()) {
     const auto point = vector_of(raw.axis_point, "--axis-point");
-    if (!point) return fail(point.error());
+    OBVID_TRY(point);
     job.axis_point = *point;
   }
   if (raw.angle_deg) {
@@ -70,12 +70,12 @@ Result<void> set_ruling(const SurfaceValues& raw, SurfaceJob& job) {
   }
   if (!raw.direction.empty()) {
     const auto direction = vector_of(raw.direction, "--direction");
-    if (!direction) return fail(direction.error());
+    OBVID_TRY(direction);
     job.direction = *direction;
   }
   if (!raw.apex.empty()) {
     const auto apex = vector_of(raw.apex, "--apex");
-    if (!apex) return fail(apex.error());
+    OBVID_TRY(apex);
     job.apex = *apex;
   }
   return {};
@@ -91,13 +91,13 @@ Result<void> set_surface_names(const SurfaceValues& raw, SurfaceJob& job) {
                                                    {"points", SkinMatching::kByPoints},
                                                    {"length", SkinMatching::kByLength}},
                                                   raw.matching, "--match");
-  if (!matching) return fail(matching.error());
+  OBVID_TRY(matching);
   job.matching = *matching;
   const auto spread = value_named<Spread>({{"chord", Spread::kChord},
                                            {"centripetal", Spread::kCentripetal},
                                            {"uniform", Spread::kUniform}},
                                           raw.spread, "--spread");
-  if (!spread) return fail(spread.error());
+  OBVID_TRY(spread);
   job.spread = *spread;
   return {};
 }
@@ -139,8 +139,8 @@ std::vector<std::string> surface_kind_names() {
 Result<SurfaceKind> surface_kind_named(const std::string& name) {
   const auto at = surface_kinds().find(name);
   if (at != surface_kinds().end()) return at->second;
-  return fail({ErrorCode::kUsage, "unknown kind of surface '" + name + "'", "",
-               did_you_mean(name, surface_kind_names(), "available are skin, ruled, ...")});
+  return error(ErrorCode::kUsage, "unknown kind of surface '" + name + "'")
+      .hint(did_you_mean(name, surface_kind_names(), "available are skin, ruled, ..."));
 }
 
 Result<void> set_surface(const SurfaceValues& typed, SurfaceJob& job) {
@@ -154,11 +154,11 @@ Result<void> set_surface(const SurfaceValues& typed, SurfaceJob& job) {
 Result<void> set_surface_formats(const SurfaceFormatValues& typed, SurfaceExportOptions& formats) {
   formats.chord_tolerance = typed.chord_tolerance;
   if (typed.mesh_angle_deg) formats.angle = *typed.mesh_angle_deg * kOneDegree;
-  if (auto good = positive(typed.chord_tolerance, "--chord-tolerance"); !good) return good;
-  if (auto good = positive(typed.mesh_angle_deg, "--mesh-angle"); !good) return good;
+  OBVID_TRY(positive(typed.chord_tolerance, "--chord-tolerance"));
+  OBVID_TRY(positive(typed.mesh_angle_deg, "--mesh-angle"));
   const auto step = value_named<CadFormat>(
       {{"ap214", CadFormat::kStepAp214}, {"ap242", CadFormat::kStepAp242}}, typed.step, "--step");
-  if (!step) return fail(step.error());
+  OBVID_TRY(step);
   formats.step = *step;
   const auto colouring = colouring_named(typed.colour);
   if (!colouring) {

@@ -41,11 +41,11 @@ Result<void> check_effort(const SurfaceModel& model, const ToolpathOptions& plan
   constexpr double kMostPasses = 20'000.0;
   const double passes = size_of(model) / level_step(plan);
   if (!(passes > kMostPasses)) return {};  // sizes that are no sizes are refused by the plan
-  return fail({ErrorCode::kBadOption,
+  return error(ErrorCode::kBadOption,
                fmt::format("that would be some {:.2g} passes over {} {}", passes,
-                           significant(size_of(model), 4), model.units.text()),
-               "", "check the units of the surface, --diameter, --scallop and --step-over", -1,
-               passes});
+                           significant(size_of(model), 4), model.units.text()))
+      .hint("check the units of the surface, --diameter, --scallop and --step-over")
+      .value(passes);
 }
 
 }  // namespace
@@ -53,9 +53,9 @@ Result<void> check_effort(const SurfaceModel& model, const ToolpathOptions& plan
 Result<MadeToolpath> make_toolpath(const SurfaceModel& model, const ToolpathJob& job,
                                    const RunContext& run) {
   const ToolpathOptions options = options_for(job, model.units.name);
-  if (auto good = check_effort(model, options); !good) return fail(good.error());
+  OBVID_TRY(check_effort(model, options));
   auto path = plan(model, options, run);
-  if (!path) return fail(path.error());
+  OBVID_TRY(path);
   MadeToolpath made{std::move(*path), {}};
   if (!model.units.known()) {
     made.warnings.push_back("nothing says what a unit is: " + model.units.name +

@@ -150,7 +150,7 @@ Result<Comparison> compare_carriers(const PointSeries& series, const FitJob& job
       if (finished != nullptr) *finished = std::move(out);
       return fail(cancelled_error());
     }
-    if (!made && carrier == Carrier::kSpiral) return tl::unexpected(made.error());
+    if (!made && carrier == Carrier::kSpiral) return fail(made.error());
     if (made) {
       row.fit = std::move(*made);
       row.control_points = control_points(row.fit.contour);

@@ -10,10 +10,9 @@ namespace {
 
 std::optional<Error> too_wide(const FitReport& report) {
   if (!(report.largest_width > report.tolerance)) return std::nullopt;
-  return Error{ErrorCode::kToleranceNotReached,
+  return error(ErrorCode::kToleranceNotReached,
                fmt::format("the region is {} wide, the tolerance is {}",
-                           significant(report.largest_width, 4), significant(report.tolerance, 4)),
-               "", ""};
+                           significant(report.largest_width, 4), significant(report.tolerance, 4)));
 }
 
 }  // namespace
@@ -25,8 +24,8 @@ bool keeps_promise(Carrier carrier, const Certificate& certificate) {
 
 std::optional<Error> broken_promise(const Fit& made) {
   if (!keeps_promise(made.contour.carrier, made.certificate)) {
-    return Error{ErrorCode::kNotProved,
-                 "the contour was formed but not proved: " + made.certificate.reason, "", ""};
+    return error(ErrorCode::kNotProved,
+                 "the contour was formed but not proved: " + made.certificate.reason);
   }
   return too_wide(made.report);
 }
@@ -34,8 +33,7 @@ std::optional<Error> broken_promise(const Fit& made) {
 std::optional<Error> broken_promise(const StoredContour& stored, const Verification& found) {
   if (found.false_claim) return found.false_claim;
   if (!keeps_promise(stored.contour.carrier, found.certificate)) {
-    return Error{ErrorCode::kNotProved, "the contour is not proved: " + found.certificate.reason,
-                 "", ""};
+    return error(ErrorCode::kNotProved, "the contour is not proved: " + found.certificate.reason);
   }
   return stored.report ? too_wide(*stored.report) : std::nullopt;
 }

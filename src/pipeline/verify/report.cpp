@@ -338,7 +338,7 @@ Result<void> say_points(const Contour& contour, std::vector<std::size_t> section
   std::vector<Vec2> points;
   for (const std::size_t i : section) points.push_back(contour.points[i]);
   const auto analysis = analyse(points);
-  if (!analysis) return tl::unexpected(analysis.error());
+  OBVID_TRY(analysis);
   const auto rows_from = [&](std::size_t row, std::size_t count) {
     std::vector<int> out;
     for (std::size_t i = 0; i < count; ++i) out.push_back(direction[(row + i) % direction.size()]);
@@ -351,7 +351,7 @@ Result<void> say_points(const Contour& contour, std::vector<std::size_t> section
     around.insert(around.begin(), points.end() - kAroundSeam, points.end());
     around.insert(around.end(), points.begin(), points.begin() + kAroundSeam + 1);
     const auto more = analyse(around);
-    if (!more) return tl::unexpected(more.error());
+    OBVID_TRY(more);
     const std::size_t before = points.size() - kAroundSeam;  // the row with which `around` begins
     const std::vector<double> all = errors_of(*more, rows_from(before, around.size()));
     errors.assign(all.begin() + kAroundSeam, all.end() - kAroundSeam);
@@ -423,7 +423,7 @@ Result<FitReport> measure(const Contour& contour, double tolerance, Watch& watch
     }
     if (contour.point_tolerance.empty()) {
       const auto said = say_points(contour, section, loop, direction, report, row);
-      if (!said) return tl::unexpected(said.error());
+      OBVID_TRY(said);
     }
     report.vertices_lower_bound += forced(contour, section, loop, watch);
     row += section.size() - 1;

@@ -50,13 +50,12 @@ class ClaimCheck {
   [[nodiscard]] const std::optional<Error>& refused() const { return refused_; }
   void refuse(const std::string& name, double claimed, double found) {
     if (refused_) return;
-    refused_ = Error{ErrorCode::kFalseClaim,
-                     fmt::format("the file claims {} = {}, found {}", name, shown_figure(claimed),
-                                 shown_figure(found)),
-                     "report",
-                     "form the contour again",
-                     -1,
-                     found};
+    refused_ =
+        error(ErrorCode::kFalseClaim, fmt::format("the file claims {} = {}, found {}", name,
+                                                  shown_figure(claimed), shown_figure(found)))
+            .where("report")
+            .hint("form the contour again")
+            .value(found);
   }
 
  private:
@@ -281,12 +280,9 @@ std::vector<std::string> not_checked(const StoredContour& stored) {
 std::optional<Error> wrong_carrier(const Contour& contour) {
   const auto foreign = foreign_piece(contour);
   if (!foreign) return std::nullopt;
-  return Error{ErrorCode::kFalseClaim,
-               foreign->what,
-               "/pieces/" + std::to_string(foreign->index),
-               "form the contour again",
-               -1,
-               0.0};
+  return error(ErrorCode::kFalseClaim, foreign->what)
+      .where("/pieces/" + std::to_string(foreign->index))
+      .hint("form the contour again");
 }
 
 /// Before any figure, since all of them are about other points then.
@@ -294,12 +290,9 @@ std::optional<Error> other_points(const StoredContour& stored, const Certificate
   if (!stored.certificate || !stored.certificate->through_points || found.through_points) {
     return std::nullopt;
   }
-  return Error{ErrorCode::kFalseClaim,
-               "the file claims through_points, but " + found.reason,
-               "/points",
-               "form the contour again",
-               -1,
-               0.0};
+  return error(ErrorCode::kFalseClaim, "the file claims through_points, but " + found.reason)
+      .where("/points")
+      .hint("form the contour again");
 }
 
 Verification verified(const StoredContour& stored, Watch& watch) {

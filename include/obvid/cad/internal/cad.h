@@ -26,13 +26,13 @@ namespace obvid {
 // first decides. Where none fits, the command $OBVID_CAD_BUILDER, if set, is run to build it, as
 // the launcher of a source folder has it. E310 says what is wrong, or that there is none.
 //
-// Reading is limited: 4 GiB of memory, 20 s of processor time (E306 says which), and the time on
+// Reading is limited: 4 GiB of memory, 20 s of processor time (E314 says which), and the time on
 // the clock below. The helper gets no environment but the settings of the dynamic linker, writes no
 // files, and ends when the process that started it does.
 
 /// How long a call may take, and how it is stopped.
 struct CadRun {
-  std::optional<double> seconds;    ///< on the clock, then E306 (writing: E101); nothing: 120 s for
+  std::optional<double> seconds;    ///< on the clock, then E314 (writing: E101); nothing: 120 s for
                                     ///< reading, six times its processor time, none for writing
   std::function<bool()> cancelled;  ///< asked some 20 times a second, by the thread that called;
                                     ///< true ends the helper at once and gives E103
@@ -63,7 +63,7 @@ struct CadWriteOptions {
 /// Curves of a STEP, IGES or BREP file, of edges and wires of all kinds; format by content. Lengths
 /// in mm (of BREP files as they are, the unit assumed). Curves in a plane z = const are taken as
 /// they lie; other plane curves each in its own plane, which a warning names; others are left out
-/// with a warning. Errors: E301, E310 as above, E306 when the kernel cannot read the file, E304
+/// with a warning. Errors: E301, E310 as above, E314 when the kernel cannot read the file, E311
 /// when there are no curves, E103.
 [[nodiscard]] Result<Drawing> read_cad(const std::string& path, const CadRun& run = {});
 
@@ -77,7 +77,7 @@ struct CadWriteOptions {
 /// inner knot of full multiplicity, because kernels cut there. Lengths in `model.units`, which the
 /// file has too (`options.units` and `face_width` are for curves). The same model gives the same
 /// bytes. Patches of one shell stand together in the file. Errors: E203 a unit that these formats
-/// do not know, E304 no patches, E309 all points are one or beyond 1e100 mm, E310 no helper, or
+/// do not know, E311 no patches, E309 all points are one or beyond 1e100 mm, E310 no helper, or
 /// more than 20,000 faces by creases; what `check` finds of a patch (`where`: its name); E101 when
 /// the kernel refuses; E103.
 [[nodiscard]] Result<std::string> cad_surface_text(const SurfaceModel& model,
@@ -95,7 +95,7 @@ struct CadSurfaces {
 /// 1e-6 of the model's size, which a warning says. A trimmed face gives the whole box of its
 /// parameters, with a warning that names it; faces of degree above 9 or without limits are left out
 /// with a warning. Lengths in mm (of BREP files as they are).
-/// Errors: E301, E310 no helper, E306 when the kernel cannot read the file, E304 when it has no
+/// Errors: E301, E310 no helper, E314 when the kernel cannot read the file, E311 when it has no
 /// faces that could be taken, E103.
 [[nodiscard]] Result<CadSurfaces> read_cad_surfaces(const std::string& path,
                                                     const CadRun& run = {});

@@ -22,7 +22,7 @@ struct ArcsAlong {
 /// halves the error, so each arc crosses the contour in its middle (docs/methods/gcode.md). Where
 /// the contour's curvature is monotone the arcs' is, unless only others are near enough. Every arc
 /// turns by less than half a turn, except arcs of the contour.
-/// Errors: E203 a tolerance that is not greater than 0; E304 no pieces; E502 more than a million
+/// Errors: E203 a tolerance that is not greater than 0; E311 no pieces; E502 more than a million
 /// arcs would be needed (`value`: how many, about), or the tolerance is below the rounding of the
 /// coordinates. Cost: about 1 ms for an arc, a tenth of it where there are more than 1,000.
 [[nodiscard]] Result<ArcsAlong> arcs_along(const Contour& contour, double tolerance);

@@ -16,7 +16,7 @@ struct PolylineAlong {
 
 /// A polyline on a contour within `tolerance` (units): from each point the longest chord that stays
 /// as near, corners kept. Exact lines stay whole. Errors: E203 a tolerance that is not greater
-/// than 0; E304 no pieces; E502 more than ten million points would be needed (`value`: how many),
+/// than 0; E311 no pieces; E502 more than ten million points would be needed (`value`: how many),
 /// or coordinates are too coarse for the tolerance.
 [[nodiscard]] Result<PolylineAlong> polyline_along(const Contour& contour, double tolerance);
 

@@ -19,7 +19,7 @@ struct CubicAlong {
 /// large, with its tangents at both ends. As few points as were found; input points are passed
 /// within the tolerance. Curvature is continuous but no longer monotone by construction: near a
 /// spiral it mostly is, which `certify` can tell span by span.
-/// Errors: E203 a tolerance that is not greater than 0; E304 no pieces; E310 a corner (`index`: the
+/// Errors: E203 a tolerance that is not greater than 0; E311 no pieces; E310 a corner (`index`: the
 /// joint); E502 not reached with 65,536 spans (`value`: the deviation).
 /// Cost: some ten splines of the final size.
 [[nodiscard]] Result<CubicAlong> cubic_along(const Contour& contour, double tolerance);

@@ -18,7 +18,7 @@ namespace obvid {
 /// largest degree. Weights lie within [0.1, 10]: pieces are cut where they do not. A closed
 /// contour gives a clamped curve that ends in its first point.
 ///
-/// Errors: E304 no pieces; E310 clothoids, which are no NURBS curves, and rational pieces of degree
+/// Errors: E311 no pieces; E310 clothoids, which are no NURBS curves, and rational pieces of degree
 /// 6 and more (`index`: the piece); E501 where cutting does not bring the weights into their range
 /// (weights of both signs), and where a piece is too short beside the others for a knot of its own.
 /// Cost O(pieces).

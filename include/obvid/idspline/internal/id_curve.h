@@ -26,7 +26,7 @@ struct VectorJet {
 /// `largest_move` says how far it stays away. Degree 2 without smoothing has kinks. Where chords
 /// are uneven their lengths are no arc lengths, and the order of approximation is at most 4 with
 /// any degree. Errors: E203, E304, E309 and E405 as `id_spline`; E303 a coordinate that is not
-/// finite, E402 neighbours that coincide (`index`: the point).
+/// finite, E313 neighbours that coincide (`index`: the point).
 template <std::size_t N>
 [[nodiscard]] Result<IdCurve<N>> id_curve(std::span<const std::array<double, N>> points,
                                           const IdSplineOptions& options = {

@@ -52,7 +52,7 @@ struct IdSplineOptions {
 /// Errors: E201 numbers of data that do not belong together, or data that the degree has no use
 /// for; E203 a degree that is not 2, 4 or 6, or `kValuesKept` at degree 2; E303 not finite
 /// (`index`: the node or cell); E304 fewer than two nodes; E309 steps or data so large or small
-/// that the spline has no finite data; E402 nodes that do not ascend (`index`: the first that is
+/// that the spline has no finite data; E313 nodes that do not ascend (`index`: the first that is
 /// not greater than the one before); E405 at degree 6 with `kValuesFree` when neighbouring steps
 /// differ by a factor of more than 100,000 (`value`: the factor): the equations would lose more
 /// than half of the digits there.

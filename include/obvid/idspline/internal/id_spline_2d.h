@@ -27,7 +27,7 @@ using IdSpline2dData = IdSpline2d;
 /// Forms the spline. Not smooth: all data kept, continuous. Smooth: C1; the integrals over cells
 /// and the values at the four corners of the grid are kept, the other values and line integrals
 /// give way. The integral over every cell is met to rounding either way. O(nx ny).
-/// Errors: E201 numbers of data that do not belong together; E303, E304, E309, E402 as `id_spline`.
+/// Errors: E201 numbers of data that do not belong together; E303, E304, E309, E313 as `id_spline`.
 [[nodiscard]] Result<IdSpline2d> id_spline_2d(IdSpline2dData data, bool smooth = false);
 
 /// Value and partial derivatives.

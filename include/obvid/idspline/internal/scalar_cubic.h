@@ -26,7 +26,7 @@ struct CubicEnds {
 };
 
 /// Slopes from the parabola through three neighbouring nodes (13): C1, each cell known by four
-/// nodes. Errors of these three: E201, E303, E304, E309, E402 as `id_spline`.
+/// nodes. Errors of these three: E201, E303, E304, E309, E313 as `id_spline`.
 [[nodiscard]] Result<ScalarCubic> local_cubic(std::vector<double> nodes,
                                               std::vector<double> values);
 

@@ -24,7 +24,7 @@ struct ColumnTable {
 };
 
 /// Reads a file, or standard input for "-", in the forms of rows that docs/formats.md names.
-/// Errors: E301, E302, E303, E304 nothing there, E306.
+/// Errors: E301, E302, E303, E311 nothing there, E306.
 [[nodiscard]] Result<ColumnTable> read_columns(const std::string& path);
 [[nodiscard]] Result<ColumnTable> parse_columns(std::string_view text, std::string_view name);
 

@@ -33,7 +33,7 @@ struct PageOptions {
 /// turned, moved and zoomed by mouse, touch and keys; shaded, isolines, curvature colours, zebra.
 /// `meshes[i]` belongs to patch i; its accuracy is the caller's choice. Curvatures are computed
 /// here, coordinates are stored as offsets from the centre in single precision. Errors: E203
-/// options out of range, E303 what is not finite, E304 no triangles, E307 meshes that do not belong
+/// options out of range, E303 what is not finite, E311 no triangles, E307 meshes that do not belong
 /// to the patches, E502 too many triangles, those of `check` for each patch.
 [[nodiscard]] Result<std::string> surface_page(const SurfaceModel& model,
                                                const std::vector<Mesh>& meshes,

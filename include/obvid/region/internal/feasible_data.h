@@ -47,7 +47,7 @@ struct FeasibleData {
 /// ([Kurnosenko 2013]; headings count as less than half a turn from their chords, and curves turn
 /// by less than half a turn over a chord whose heading before is free).
 ///
-/// Exact in the sense of the theory: the least curvature at each point as a function of its heading
+/// Exact but for interpolation: the least curvature at each point as a function of its heading
 /// is carried from chord to chord in closed form (docs/methods/region.md), forward and backward;
 /// the range is where it stays below the greatest. The function is kept at some hundred headings
 /// and interpolated with its slope: ends are good to about 1e-7 rad, and to 1e-6 of a curvature.

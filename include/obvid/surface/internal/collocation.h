@@ -17,7 +17,7 @@ struct Collocation {
 };
 
 /// C2 cubic whose third derivative is continuous at the second and the last but one parameter (not
-/// a knot); of 3 parameters a parabola, of 2 a line. Errors: E304 fewer than 2, E309 not ascending
+/// a knot); of 3 parameters a parabola, of 2 a line. Errors: E304 fewer than 2, E313 not ascending
 /// (`index`: the later one).
 [[nodiscard]] Result<Collocation> cubic_collocation(const std::vector<double>& parameters);
 

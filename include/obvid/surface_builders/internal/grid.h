@@ -17,7 +17,7 @@ enum class Spread {
 /// Point surface: the bicubic NURBS surface, C2 both ways, through all points of the grid (third
 /// derivative continuous at the second and last but one knot; of 3 points a parabola, of 2 a line).
 /// Cost O(points). Rows that shrink to a point (poles) are allowed as long as the averages ascend.
-/// Errors: E201 numbers that do not belong together, E303, E304 fewer than 2 x 2 points, E309 a row
+/// Errors: E201 numbers that do not belong together, E303, E304 fewer than 2 x 2 points, E313 a row
 /// or column of points that all stand still (`index`: which).
 [[nodiscard]] Result<NurbsSurface> interpolated(const PointGrid& grid,
                                                 Spread spread = Spread::kChord);

@@ -10,7 +10,7 @@ namespace obvid {
 /// end control points to the middle (shapes move by half a gap at most, and not at all where the
 /// ends already meet). The first curve becomes `u_at_v0` as it stands. Of several orders, as with
 /// closed curves, the one with the least twist. A triangle has a fourth curve of length 0.
-/// Errors: E304 not four curves, E203 ends that do not meet (`index`: curve, `value`: gap), the
+/// Errors: E312 not four curves, E203 ends that do not meet (`index`: curve, `value`: gap), the
 /// same curve twice side by side, tolerance not > 0; those of `check`.
 [[nodiscard]] Result<CoonsPatch> coons_from(const std::vector<SpaceCurve>& curves,
                                             double tolerance);
@@ -27,7 +27,7 @@ namespace obvid {
 /// C2 cubics that meet the crossings to rounding and leave the given shape by at most the tolerance
 /// plus their share of the gaps.
 ///
-/// Errors: E304 fewer than two curves of a kind; E203 curves that do not cross (`index`: of
+/// Errors: E312 fewer than two curves of a kind; E203 curves that do not cross (`index`: of
 /// `first`, `value`: distance), cross in different orders or at the same place (the same curve
 /// twice), closed curves that begin nowhere, tolerance not > 0; E502 a curve that cannot be rebuilt
 /// within the tolerance; those of `check`.

@@ -79,7 +79,7 @@ struct Skin {
 /// Not guaranteed: what happens between sections beyond being C2; `across` counts the waves there.
 ///
 /// Errors: E201 numbers that do not belong together; E203 tolerance <= 0, sections whose corners
-/// cannot be matched (`index`: the section); E304 fewer than two sections; E309 neighbouring
+/// cannot be matched (`index`: the section); E312 fewer than two sections; E313 neighbouring
 /// sections at the same place (`index`); E402 a contour with a cusp (`index`: the section); E502
 /// the tolerance is not reached within 2^10 parts of a stretch.
 [[nodiscard]] Result<Skin> skin(const std::vector<SkinSection>& sections,

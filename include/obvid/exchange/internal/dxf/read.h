@@ -19,8 +19,8 @@ namespace obvid {
 /// Heights z are dropped, with a warning where they are not constant. `name` stands in errors.
 ///
 /// Time and memory grow with the size of the file, and with that of what blocks expand to, which
-/// is bounded. Errors: E306 bytes that are no DXF file, or a truncated one, before any entity; E308
-/// pairs that cannot be read (where: the line; of binary files the byte); E304 when nothing is left
+/// is bounded. Errors: E314 bytes that are no DXF file, or a truncated one, before any entity; E308
+/// pairs that cannot be read (where: the line; of binary files the byte); E311 when nothing is left
 /// to draw. Never throws on any input.
 [[nodiscard]] Result<Drawing> parse_dxf(std::string_view bytes, std::string_view name);
 

@@ -11,7 +11,7 @@
 namespace obvid {
 
 // Triangles as files. `meshes[i]` belongs to patch i of the model. Common errors: E307 meshes that
-// do not belong to the patches or triangles without their vertices, E303 what is not finite, E304
+// do not belong to the patches or triangles without their vertices, E303 what is not finite, E311
 // no triangles, E309 coordinates or a file larger than the format can hold.
 
 /// Binary STL: coordinates in the model's units as single precision (the format has nothing else,

@@ -30,12 +30,12 @@ struct SampleOptions {
 
 /// Samples along connected pieces. By chord tolerance the ends of all pieces are among them, and a
 /// corner stands twice: with the heading and curvature before it and after it.
-/// Errors: E203 options that are not positive, or more than ten million samples; E304 no pieces.
+/// Errors: E203 options that are not positive, or more than ten million samples; E311 no pieces.
 [[nodiscard]] Result<std::vector<CurveSample>> sample(std::span<const Piece> pieces,
                                                       const SampleOptions& options);
 
 /// Places along connected pieces, each heading near the one before. Errors: E203 beyond the curve;
-/// E304 no pieces. Cost O(pieces) and some microseconds for each place.
+/// E311 no pieces. Cost O(pieces) and some microseconds for each place.
 [[nodiscard]] Result<std::vector<CurveSample>> sample_at_lengths(std::span<const Piece> pieces,
                                                                  std::span<const double> lengths);
 /// The same for parameters: 2.5 is the middle of the third piece, by its own parameter.

@@ -22,7 +22,7 @@ namespace obvid {
 /// begins behind them. Profiles, surfaces and pipes are not used.
 ///
 /// Linear time. Errors: E308 XML that is not well-formed (truncated files), E310 another kind of
-/// XML, E304 no CoordGeom with a curve. Never throws on any input. `name` stands in errors. Source:
+/// XML, E311 no CoordGeom with a curve. Never throws on any input. `name` stands in errors. Source:
 /// LandXML 1.2 schema; docs/methods/road_formats.md, section 3.
 [[nodiscard]] Result<Drawing> parse_landxml(std::string_view text, std::string_view name);
 

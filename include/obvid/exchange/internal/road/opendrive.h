@@ -17,7 +17,7 @@ namespace obvid {
 /// new curve begins behind it. Lanes, heights and the header's offset are not used.
 ///
 /// Linear time. Errors: E308 XML that is not well-formed (truncated files), E310 another kind of
-/// XML, E304 no geometry. Never throws on any input. `name` stands in errors. Source: ASAM
+/// XML, E311 no geometry. Never throws on any input. `name` stands in errors. Source: ASAM
 /// OpenDRIVE 1.6, 7.3 to 7.8.
 [[nodiscard]] Result<Drawing> parse_opendrive(std::string_view text, std::string_view name);
 

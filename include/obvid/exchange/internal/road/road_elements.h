@@ -30,7 +30,7 @@ struct RoadLine {
 
 /// A contour of lines, arcs and clothoids as elements in `unit`, exactly but for the rounding of
 /// the change of units; a new line begins at each corner. Linear time. Errors: E310 a piece of
-/// another kind, E203 a unit that is no known length, E304 a contour without pieces.
+/// another kind, E203 a unit that is no known length, E311 a contour without pieces.
 [[nodiscard]] Result<std::vector<RoadLine>> road_lines(const Contour& contour,
                                                        std::string_view unit);
 

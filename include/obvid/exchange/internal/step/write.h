@@ -26,7 +26,7 @@ struct StepOptions {
 /// pieces, and arcs whose centre lies too far away for its digits, as splines
 /// (docs/methods/step.md). Numbers have the fewest digits that give them back. The name of the
 /// product is that of the first curve. The same curves give the same bytes.
-/// Linear time. Errors: E203 a unit that STEP does not know; E303 a number that is not finite; E304
+/// Linear time. Errors: E203 a unit that STEP does not know; E303 a number that is not finite; E311
 /// no curves or no pieces; E310 a clothoid, and faces of a curve in space; what `check` finds of
 /// one; E101 pieces that do not meet, and knots, points and weights that make no NURBS curve.
 [[nodiscard]] Result<std::string> step_text(const std::vector<CadCurve>& curves,

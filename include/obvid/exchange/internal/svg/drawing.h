@@ -26,7 +26,7 @@ struct SvgDrawing {
 /// has its size in mm, user units are those of the contour, y points up (one transformation around
 /// the path). Lines, arcs and polynomials of degree 2 and 3 are exact; everything else becomes
 /// cubic Bezier curves with the contour's tangents within the tolerance. Errors: E203 a
-/// tolerance that is not greater than 0, a unit without a length in metres; E304 no pieces; E502
+/// tolerance that is not greater than 0, a unit without a length in metres; E311 no pieces; E502
 /// not reached.
 [[nodiscard]] Result<SvgDrawing> svg_drawing(const Contour& contour,
                                              const SvgDrawingOptions& options = {});

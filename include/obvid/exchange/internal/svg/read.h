@@ -20,7 +20,7 @@ namespace obvid {
 /// left out.
 ///
 /// Linear time and memory: nesting is bounded by 200, what `use` draws by 16 times the file (and
-/// 4 MB). Errors: E308 XML that is not well-formed (truncated files), E310 another kind of XML, E304
+/// 4 MB). Errors: E308 XML that is not well-formed (truncated files), E310 another kind of XML, E311
 /// a file that draws nothing. Never throws on any input. `name` stands in errors. Source: SVG 2 (W3C
 /// 2018), 8, 9, 10 and F.6 of SVG 1.1 for the arcs.
 [[nodiscard]] Result<Drawing> parse_svg(std::string_view text, std::string_view name);
