@@ -293,7 +293,7 @@ class Slopes {
 SeriesChain part_of(const SeriesChain& chain, std::size_t first, std::size_t last) {
   SeriesChain out = slice_of(chain, first, last);
   out.smooth = false;
-  out.form.assign(out.links.size(), SpiralForm::kOneSided);
+  if (out.form.empty()) out.form.assign(out.links.size(), SpiralForm::kOneSided);
   out.slope_step.assign(out.elements.size(), true);
   return out;
 }

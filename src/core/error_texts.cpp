@@ -96,7 +96,8 @@ constexpr std::array kTexts{
     ErrorText{ErrorCode::kNoSpiral, "No contour with monotone curvature was found here",
               "No curve was found that joins the named points and whose curvature changes in the "
               "direction that the data ask for, or the carrier has no such curve: conics and "
-              "parabolas have no inflection. That none was found is no proof that none exists.",
+              "parabolas have no inflection, and no monotone parabolas are nearly an arc. That none was "
+              "found is no proof that none exists.",
               "Check the named points for a typing or measuring error; the error line says within "
               "which tolerance there is a contour, where one was found. Otherwise add points where "
               "the shape turns quickly, let points move (`--noise`), or take `--carrier spiral`."},

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -280,6 +282,26 @@ Result<Carried> form_conics(const Contour& spirals, const std::vector<GivenDatum
   return out;
 }
 
+namespace {
+
+/// Every parabola that keeps its curvature monotone changes it by a part that grows with the square
+/// of its turning: a piece that turns and hardly changes its curvature would need more of them than
+/// anyone wants.
+Error hardly_bends(Error error, const Contour& spirals, std::size_t i) {
+  if (error.code != ErrorCode::kToleranceNotReached) return error;
+  const Element& a = spirals.joints[i].element;
+  const Element& b = spirals.joints[i + 1 < spirals.joints.size() ? i + 1 : 0].element;
+  const double larger = std::max(std::abs(a.kappa), std::abs(b.kappa));
+  error.what = fmt::format(
+      "the contour is nearly an arc there (it turns by {:.2g} degrees while its radius changes by "
+      "{:.2g} %), which no chain of monotone parabolas follows",
+      std::abs(std::remainder(b.theta - a.theta, kFullTurn)) / kOneDegree,
+      100.0 * std::abs(b.kappa - a.kappa) / larger);
+  return error;
+}
+
+}  // namespace
+
 Result<Carried> form_beziers(const Contour& spirals, double tolerance, Watch& watch) {
   if (const auto joint = inflection(spirals)) {
     return at_point(
@@ -305,7 +327,8 @@ Result<Carried> form_beziers(const Contour& spirals, double tolerance, Watch& wa
     }
     const auto chain = condense_piece(spirals.pieces[i], direction[i], tolerance);
     if (!chain) {
-      return at_point(chain.error(), spirals, static_cast<std::ptrdiff_t>(i), kOtherCarriers);
+      return at_point(hardly_bends(chain.error(), spirals, i), spirals,
+                      static_cast<std::ptrdiff_t>(i), kOtherCarriers);
     }
     add_free_pieces(chain->parabolas, out.contour);
     directions.insert(directions.end(), chain->parabolas.size(), direction[i]);

@@ -454,4 +454,29 @@ void check_input(const Course& course, const Input& input, Sheet& sheet) {
                *tolerance.value, found, "3e-6 of the size");
 }
 
+void judge_constructed(const Course& course, Input input, Sheet& sheet) {
+  const ContourFile& file = course.file;
+  // nothing is refined: the largest width itself, where that is more than the tolerance
+  const Figure width = figure(file.report, "largest_width"),
+               tolerance = figure(file.report, "tolerance");
+  if (width.known() && width.value == tolerance.value) input.tolerance = width.value;
+  check_form(course, sheet);
+  check_certificate(course, sheet);
+  check_given_list(course, sheet);
+  const auto on_point = [](const FileElement& e) { return e.source.has_value(); };
+  const bool steps = std::any_of(file.elements.begin(), file.elements.end(),
+                                 [](const FileElement& e) { return e.step && !e.source; });
+  const auto segments = std::count_if(
+      file.elements.begin(),
+      file.elements.begin() + static_cast<std::ptrdiff_t>(file.pieces.size()), on_point);
+  const bool whole = input.construction == "arcs" &&
+                     file.pieces.size() < 2 * static_cast<std::size_t>(segments);
+  if (steps || whole) {  // at an inflection, the way the run goes; an arc alone has one curvature
+    sheet.unjudged("report", steps ? "the curvature steps inside of segments" : "one arc");
+  } else {
+    check_report(course, sheet);
+  }
+  check_input(course, input, sheet);
+}
+
 }  // namespace judge

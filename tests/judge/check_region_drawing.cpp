@@ -414,40 +414,165 @@ Real wanted_factor(const SheetPart& part) {
   return best;
 }
 
-/// Points of the picture are those of the table in one scale.
-void check_picture(const SheetPart& part, const std::string& svg, Sheet& sheet) {
-  std::vector<Vec> drawn;
-  for (const char* color : {"#000000", "#c0392b"}) {
-    for (std::size_t at = svg.find("<circle cx=\""); at != std::string::npos;
-         at = svg.find("<circle cx=\"", at + 1)) {
-      double x = 0.0, y = 0.0;
-      if (std::sscanf(svg.c_str() + at, "<circle cx=\"%lf\" cy=\"%lf\"", &x, &y) != 2) continue;
-      const std::string tag = svg.substr(at, svg.find('>', at) - at);
-      if (tag.find(color) != std::string::npos) drawn.push_back({x, -y});
+/// The picture: points of the table and curves of the drawing in one scale.
+class PictureCheck {
+ public:
+  PictureCheck(const SheetPart& part, const Drawing& drawing, const std::string& svg, Sheet& sheet)
+      : part_(part), drawing_(drawing), svg_(svg), sheet_(sheet) {}
+
+  void run() {
+    if (!points()) return;
+    for (const char* layer : {"REGION", "ADJACENT_CIRCLES", "TRIANGLES", "LIMIT_FROM_START",
+                              "LIMIT_TO_END", "TANGENTS"}) {
+      curves(layer);
     }
   }
-  std::vector<Vec> wanted;
-  for (const bool inserted : {false, true}) {
-    for (const SheetPoint& p : part.points) {
-      if ((p.inserted > 0) == inserted) wanted.push_back(p.point);
+
+ private:
+  static constexpr Real kPixels = 0.03L;      // of two coordinates with two decimals
+  static constexpr Real kStraight = 0.15L;    // pixels, of a chord from its curve
+  static constexpr Real kOfPlace = 1e-9L;     // of a coordinate: nobody sees more
+  static constexpr int kPlaces = 8;
+
+  bool points() {
+    std::vector<Vec> drawn;
+    for (const char* color : {"#000000", "#c0392b"}) {
+      for (std::size_t at = svg_.find("<circle cx=\""); at != std::string::npos;
+           at = svg_.find("<circle cx=\"", at + 1)) {
+        double x = 0.0, y = 0.0;
+        if (std::sscanf(svg_.c_str() + at, "<circle cx=\"%lf\" cy=\"%lf\"", &x, &y) != 2) continue;
+        const std::string tag = svg_.substr(at, svg_.find('>', at) - at);
+        if (tag.find(color) != std::string::npos) drawn.push_back({x, -y});
+      }
+    }
+    std::vector<Vec> wanted;
+    for (const bool inserted : {false, true}) {
+      for (const SheetPoint& p : part_.points) {
+        if ((p.inserted > 0) == inserted) wanted.push_back(p.point);
+      }
+    }
+    if (!sheet_.expect(drawn.size() == wanted.size(), "picture: points",
+                       static_cast<Real>(drawn.size()), static_cast<Real>(wanted.size()), "")) {
+      return false;
+    }
+    std::size_t far = 0;
+    for (std::size_t i = 1; i < wanted.size(); ++i) {
+      if (norm(wanted[i] - wanted[0]) > norm(wanted[far] - wanted[0])) far = i;
+    }
+    const Vec d = drawn[far] - drawn[0], w = wanted[far] - wanted[0];
+    scale_ = norm(d) / norm(w);
+    drawn_ = drawn[0];
+    stands_ = wanted[0];
+    // of the two points the scale has what their two decimals leave
+    scale_error_ = kPixels / norm(w);
+    for (std::size_t i = 0; i < wanted.size(); ++i) {
+      const Vec off = drawn[i] - in_pixels(wanted[i]);
+      sheet_.expect(norm(off) <= kPixels, "picture: points", norm(off), 0.0L, std::to_string(i));
+    }
+    return true;
+  }
+
+  [[nodiscard]] Vec in_pixels(Vec p) const { return drawn_ + scale_ * (p - stands_); }
+  [[nodiscard]] Vec in_drawing(Vec pixel) const {
+    return stands_ + (1.0L / scale_) * (pixel - drawn_);
+  }
+  /// How far a place may be off, pixels.
+  [[nodiscard]] Real slack(Vec p) const {
+    return kPixels + norm(p - stands_) * (scale_error_ + kOfPlace * scale_);
+  }
+
+  /// The corners of the paths in a group, closed ones with their first again.
+  [[nodiscard]] std::vector<std::vector<Vec>> paths(const std::string& layer) const {
+    std::vector<std::vector<Vec>> out;
+    const std::size_t begin = svg_.find("<g id=\"" + layer + "\">");
+    if (begin == std::string::npos) return out;
+    const std::size_t end = svg_.find("</g>", begin);
+    for (std::size_t at = svg_.find(" d=\"M", begin); at < end; at = svg_.find(" d=\"M", at + 1)) {
+      const std::size_t stop = svg_.find('"', at + 5);
+      std::vector<Vec> corners;
+      for (const char* c = svg_.c_str() + at + 4; c < svg_.c_str() + stop;) {
+        if (*c == 'Z' && !corners.empty()) corners.push_back(corners.front());
+        if (*c != 'M' && *c != 'L') {
+          ++c;
+          continue;
+        }
+        char* next = nullptr;
+        const double x = std::strtod(c + 1, &next);
+        char* after = nullptr;
+        const double y = std::strtod(next, &after);
+        if (after == next) break;
+        corners.push_back({x, -y});
+        c = after;
+      }
+      out.push_back(std::move(corners));
+    }
+    return out;
+  }
+
+  [[nodiscard]] std::vector<std::vector<Span>> entities(const std::string& layer) const {
+    std::vector<std::vector<Span>> out;
+    std::size_t last = 0;
+    for (std::size_t i = 0; i < drawing_.spans.size(); ++i) {
+      if (drawing_.owners[i].layer != layer) continue;
+      if (out.empty() || drawing_.owners[i].entity != last) out.emplace_back();
+      out.back().push_back(drawing_.spans[i]);
+      last = drawing_.owners[i].entity;
+    }
+    return out;
+  }
+
+  static Real from_polyline(Vec p, const std::vector<Vec>& corners) {
+    Real best = norm(p - corners.front());
+    for (std::size_t k = 0; k + 1 < corners.size(); ++k) {
+      const Vec leg = corners[k + 1] - corners[k];
+      const Real length2 = dot(leg, leg);
+      const Real t =
+          length2 > 0.0L ? std::clamp(dot(p - corners[k], leg) / length2, 0.0L, 1.0L) : 0.0L;
+      best = std::min(best, norm(p - corners[k] - t * leg));
+    }
+    return best;
+  }
+
+  /// Each path is one curve of the drawing: its corners lie on it and it leaves none of it out.
+  void curves(const std::string& layer) {
+    const auto drawn = paths(layer);
+    const auto wanted = entities(layer);
+    const std::string claim = "picture: " + layer;
+    if (!sheet_.expect(drawn.size() == wanted.size(), claim, static_cast<Real>(drawn.size()),
+                       static_cast<Real>(wanted.size()), "curves")) {
+      return;
+    }
+    for (std::size_t k = 0; k < drawn.size(); ++k) {
+      if (drawn[k].empty()) {
+        sheet_.fails(claim, "nothing", "a curve", std::to_string(k));
+        continue;
+      }
+      const Path path(wanted[k]);
+      Real worst = 0.0L;
+      for (const Vec corner : drawn[k]) {
+        const Vec p = in_drawing(corner);
+        worst = std::max(worst, scale_ * path.nearest(p).distance - slack(p));
+      }
+      for (const Span& span : wanted[k]) {
+        for (int j = 0; j <= kPlaces; ++j) {
+          const Vec p = span.point(static_cast<Real>(j) / kPlaces);
+          const bool end = j == 0 || j == kPlaces;
+          worst = std::max(worst, from_polyline(in_pixels(p), drawn[k]) - slack(p) -
+                                      (end ? 0.0L : kStraight));
+        }
+      }
+      sheet_.expect(worst <= 0.0L, claim, fmt::format("{:.3Lg} pixels too far", worst),
+                    std::string("on the drawing's curve"), std::to_string(k));
     }
   }
-  if (!sheet.expect(drawn.size() == wanted.size(), "picture: points",
-                    static_cast<Real>(drawn.size()), static_cast<Real>(wanted.size()), "")) {
-    return;
-  }
-  std::size_t far = 0;
-  for (std::size_t i = 1; i < wanted.size(); ++i) {
-    if (norm(wanted[i] - wanted[0]) > norm(wanted[far] - wanted[0])) far = i;
-  }
-  const Vec d = drawn[far] - drawn[0], w = wanted[far] - wanted[0];
-  const Real scale = norm(d) / norm(w);
-  constexpr Real kPixels = 0.03L;  // of two coordinates with two decimals
-  for (std::size_t i = 0; i < wanted.size(); ++i) {
-    const Vec off = drawn[i] - drawn[0] - scale * (wanted[i] - wanted[0]);
-    sheet.expect(norm(off) <= kPixels, "picture: points", norm(off), 0.0L, std::to_string(i));
-  }
-}
+
+  const SheetPart& part_;
+  const Drawing& drawing_;
+  const std::string& svg_;
+  Sheet& sheet_;
+  Real scale_ = 1.0L, scale_error_ = 0.0L;
+  Vec drawn_, stands_;
+};
 
 }  // namespace
 
@@ -484,7 +609,7 @@ void check_region_drawings(const Worksheet& worksheet, const Input& input, const
   sheet.expect(std::abs(factor - wanted) <= 1e-6L * wanted, "picture: times wider", factor, wanted,
                "");
   DrawingCheck(part, input, drawing, wanted, sheet).run();
-  check_picture(part, svg, sheet);
+  PictureCheck(part, drawing, svg, sheet).run();
 }
 
 }  // namespace judge

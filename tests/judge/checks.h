@@ -32,6 +32,8 @@ void check_given_list(const Course& course, Sheet& sheet);
 void judge_course(const Course& course, Sheet& sheet);
 /// Against what the user gave.
 void check_input(const Course& course, const Input& input, Sheet& sheet);
+/// Both, of a contour of `fit --construction`.
+void judge_constructed(const Course& course, Input input, Sheet& sheet);
 /// Against the curve that the points were taken from.
 void check_truth(const Course& course, const Input& input, Sheet& sheet);
 

@@ -181,6 +181,13 @@ class Options {
   void set(const std::string& name, const std::string& value) {
     const double number = std::strtod(value.c_str(), nullptr);
     if (name == "--carrier") input_.carrier = value;
+    if (name == "--construction") {
+      input_.construction = value;
+      input_.carrier = value == "ellipses"    ? "conics"
+                       : value == "spline"    ? "baseline"
+                       : value == "parabolas" ? "beziers"
+                                              : value;
+    }
     if (name == "--units") {
       input_.units = value;
       input_.units_given = true;

@@ -38,6 +38,7 @@ struct Truth {
 struct Input {
   std::vector<GivenPoint> points;  ///< repeats merged
   std::string units = "mm", carrier = "spiral";
+  std::string construction;  ///< of the papers; empty: none. `carrier` is that of its pieces
   bool units_given = false;
   /// What stands behind lengths in texts.
   [[nodiscard]] std::string printed_unit() const { return units_given ? units : "units"; }

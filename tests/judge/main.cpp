@@ -157,10 +157,17 @@ int judge_file(const Settings& settings) {
     sheet.fails("file", settings.contour, read.fault, "");
   } else {
     const Course course(read.contour);
-    judge_course(course, sheet);
-    if (!settings.points.empty()) {
-      check_input(course, read_input(text_of_file(settings.points), words_of(settings.options)),
-                  sheet);
+    if (settings.points.empty()) {
+      judge_course(course, sheet);
+    } else {
+      const Input input =
+          read_input(text_of_file(settings.points), words_of(settings.options));
+      if (input.construction.empty()) {
+        judge_course(course, sheet);
+        check_input(course, input, sheet);
+      } else {
+        judge_constructed(course, input, sheet);
+      }
     }
     Run run;
     run.input_name = std::filesystem::path(settings.points).filename().string();

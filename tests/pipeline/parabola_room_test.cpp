@@ -11,6 +11,7 @@
 
 #include "obvid/pipeline/construction_fit.h"
 #include "obvid/pipeline/fit.h"
+#include "obvid/pipeline/why_not.h"
 
 namespace obvid {
 namespace {
@@ -67,7 +68,9 @@ TEST(ParabolaRoom, ParabolasOfTheLeastLargestCurvatureSayHowFarTheyAreFromIt) {
     const auto construction = fit_construction(series, triangles);
     for (const auto* made : {&carrier, &construction}) {
       if (!*made) {
-        EXPECT_EQ(made->error().code, ErrorCode::kToleranceNotReached) << seed;
+        EXPECT_EQ(made->error().code, made == &carrier ? ErrorCode::kNoSpiral
+                                                       : ErrorCode::kToleranceNotReached)
+            << seed;
         continue;
       }
       ++formed;
@@ -82,6 +85,35 @@ TEST(ParabolaRoom, ParabolasOfTheLeastLargestCurvatureSayHowFarTheyAreFromIt) {
   EXPECT_GE(formed, 2 * kOvals * 9 / 10);
   EXPECT_GE(told, 1);  // else there was nothing to try
   std::printf("%d of %d formed, %d with room\n", formed, 2 * kOvals, told);
+}
+
+/// Between two points the radius of this oval hardly changes while the contour turns on: parabolas
+/// cannot follow. The refusal says so and, asked why, how far the points would have to move.
+TEST(ParabolaRoom, WhatIsNearlyAnArcIsRefusedWithTheMoveThatHelps) {
+  // 23 points of an ellipse with half axes 29.52 and 19.84, each off by up to 0.1
+  PointSeries series;
+  series.points = {
+      {29.5134, 0.0162}, {28.4451, 5.4345}, {25.2151, 10.3186},
+      {20.0864, 14.5431}, {13.5887, 17.6255}, {5.9852, 19.4971},
+      {-2.0680, 19.7239}, {-9.8000, 18.6723}, {-17.1198, 16.2640},
+      {-22.9660, 12.6122}, {-27.1662, 7.9602}, {-29.1789, 2.6554},
+      {-29.2247, -2.6175}, {-27.0973, -7.8466}, {-22.9125, -12.4751},
+      {-17.0074, -16.1158}, {-9.9583, -18.7212}, {-2.1072, -19.7946},
+      {5.9573, -19.3905}, {13.6363, -17.5445}, {20.1322, -14.4330},
+      {25.2361, -10.3017}, {28.4055, -5.4063}
+  };
+  FitJob job;
+  job.closing = Closing::kClosed;
+  job.carrier = Carrier::kBeziers;
+  const auto refused = fit(series, job);
+  ASSERT_FALSE(refused);
+  EXPECT_EQ(refused.error().code, ErrorCode::kNoSpiral);
+  EXPECT_NE(refused.error().what.find("nearly an arc"), std::string::npos) << refused.error().what;
+  const auto why = why_not(series, job);
+  ASSERT_TRUE(why);
+  ASSERT_TRUE(why->found);
+  EXPECT_LT(why->tolerance, 0.1);  // of the noise
+  EXPECT_TRUE(why->fit.certificate.proved) << why->fit.certificate.reason;
 }
 
 }  // namespace

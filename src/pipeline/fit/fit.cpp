@@ -943,12 +943,21 @@ Result<Fit> pipeline_detail::fit_with(const PointSeries& series, const FitJob& j
                                       FoundChains& chains, Watch& watch) {
   const auto begin = std::chrono::steady_clock::now();
   auto made = fit_as_asked(series, job, chains, watch);
-  if (made || job.carrier != Carrier::kBeziers || !wants_room(job, made.error())) return made;
-  made = with_room(job, "this one is", std::move(made), [&](const FitJob& wider) {
-    FoundChains others;
-    return fit_as_asked(series, wider, others, watch);
-  });
-  if (made) made->report.seconds = seconds_since(begin);
+  if (made || job.carrier != Carrier::kBeziers) return made;
+  if (wants_room(job, made.error())) {
+    made = with_room(job, "this one is", std::move(made), [&](const FitJob& wider) {
+      FoundChains others;
+      return fit_as_asked(series, wider, others, watch);
+    });
+    if (made) made->report.seconds = seconds_since(begin);
+  }
+  if (!made && made.error().code == ErrorCode::kToleranceNotReached) {
+    // no tolerance of the region helps where the carrier has no such curve: moved points do
+    Error error = made.error();
+    error.code = ErrorCode::kNoSpiral;
+    error.value = 0.0;
+    return fail(std::move(error));
+  }
   return made;
 }
 

@@ -10,6 +10,7 @@
 #include <set>
 #include <utility>
 
+#include "fit/edge_chain.h"
 #include "fit/given.h"
 #include "fit/more_vertices.h"
 #include "fit/series_ranges.h"
@@ -108,7 +109,14 @@ class SectionChooser {
         if (!hold_a_heading(*best, found)) break;
       }
     }
-    if (!found.senseless.empty()) return fail(swings_out(best->chain, worst_of(found)));
+    if (!found.senseless.empty()) {
+      const Error swings = swings_out(best->chain, worst_of(found));
+      if (!best->at_the_edge) return fail(swings);
+      best->warnings.push_back(fmt::format(
+          "{} ({}): what is given lies near the end of what the points leave, and no contour that "
+          "does not was found",
+          swings.what, swings.where));
+    }
     tell_held(*best);
     tell_guessed(*best, found);
     return best;
@@ -399,6 +407,12 @@ class SectionChooser {
     const auto analysis = analyse(points);
     OBVID_TRY(analysis);
     auto chain = form_elements(points, *analysis, wishes, watch_);
+    if (!moves_ && wishes.to_the_edge && !wishes.central) {
+      if (auto found = at_the_edge(points, *analysis, wishes, chain)) {
+        chain = std::move(*found);
+        out_.at_the_edge = true;
+      }
+    }
     if (chain || moves_) {
       if (chain) out_.warnings = warn(*analysis, *chain, whole);
       return chain;
@@ -410,6 +424,25 @@ class SectionChooser {
     if (!mended || bends_back(*mended)) return chain;
     out_.warnings = warn(*analysis, *mended, whole);
     return mended;
+  }
+
+  /// Near an end of what the points leave to given data: the chain that is proved there, where the
+  /// one that was found is not, has more vertices or inflections than the points ask for, or where
+  /// none was found. Nothing when there is none.
+  std::optional<SeriesChain> at_the_edge(const std::vector<Vec2>& points, const Analysis& analysis,
+                                         const ChainWishes& wishes,
+                                         const Result<SeriesChain>& found) {
+    const bool proved = found && stored_pieces_proved(points, *found);
+    if (proved && found->turned_directions == 0 && !found->unforced_inflection) return std::nullopt;
+    ChainWishes none = wishes;
+    none.fixed.clear();
+    none.to_the_edge = false;
+    auto free = form_elements(points, analysis, none, watch_);
+    if (!free) free = with_more_vertices(points, analysis, none, watch_);
+    if (proved && (!free || !turns_of_chain(*found).more_than(turns_of_chain(*free)))) {
+      return std::nullopt;
+    }
+    return edge_chain(points, analysis, wishes, free ? &*free : nullptr);
   }
 
   /// Whether a link turns by half a turn, nearly: no shape that points ask for.

@@ -16,6 +16,7 @@ struct SectionChain {
   SeriesChain chain;
   NodeData seam{};  ///< what was given where a smooth loop begins; the chain holds that element
   std::vector<std::string> warnings;
+  bool at_the_edge = false;  ///< of `edge_chain`: what is given leaves no fairer one that was found
 };
 
 /// Headings and curvatures for a section: through its points, or within their tolerances with few

@@ -171,6 +171,46 @@ TEST(JudgeRegion, FindsEachFalseFigureOfAConstruction) {
                   .has("region clothoids.largest step"));
 }
 
+Sheet of_drawings(const std::string& dxf, const std::string& svg) {
+  Sheet sheet;
+  check_region_drawings(readable(data("judge/region.json")), read_input(data("judge/region.csv"), {}),
+                        dxf, svg, "mm", sheet);
+  return sheet;
+}
+
+/// The picture with one corner of the first path of a layer moved by a pixel.
+std::string with_moved_corner(const std::string& svg, const std::string& layer) {
+  const std::size_t group = svg.find("<g id=\"" + layer + "\">");
+  EXPECT_NE(group, std::string::npos) << layer;
+  const std::size_t from = svg.find('L', svg.find(" d=\"M", group)) + 1;
+  char* end = nullptr;
+  const double x = std::strtod(svg.c_str() + from, &end);
+  std::string out = svg;
+  return out.replace(from, static_cast<std::size_t>(end - svg.c_str()) - from,
+                     fmt::format("{:.2f}", x + 1.0));
+}
+
+/// The picture without the last path of a layer.
+std::string without_path(const std::string& svg, const std::string& layer) {
+  const std::size_t group = svg.find("<g id=\"" + layer + "\">"), last = svg.find("</g>", group);
+  const std::size_t from = svg.rfind("<path", last);
+  EXPECT_GT(from, group) << layer;
+  std::string out = svg;
+  return out.erase(from, svg.find("/>", from) + 2 - from);
+}
+
+TEST(JudgeRegion, FindsEachFalseCurveOfThePicture) {
+  const std::string dxf = data("judge/region.dxf"), svg = data("judge/region.svg");
+  const Sheet sound = of_drawings(dxf, svg);
+  EXPECT_EQ(sound.wrong(), 0) << all_false(sound);
+  for (const char* layer : {"REGION", "ADJACENT_CIRCLES", "TRIANGLES", "LIMIT_FROM_START",
+                            "LIMIT_TO_END", "TANGENTS"}) {
+    const std::string claim = std::string("picture: ") + layer;
+    EXPECT_TRUE(of_drawings(dxf, with_moved_corner(svg, layer)).has(claim)) << layer;
+    EXPECT_TRUE(of_drawings(dxf, without_path(svg, layer)).has(claim)) << layer;
+  }
+}
+
 /// Two points on a chord of length 1: the heading before is given, the curvature grows.
 TEST(JudgeRegion, LooksForHeadingsAsFarAsSpiralsExist) {
   const Worksheet worksheet = readable(data("judge/region.json"));

@@ -1,0 +1,274 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "fit/edge_chain.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <utility>
+
+#include "form.h"
+#include "fit/keep_joints.h"
+#include "obvid/certify/certify.h"
+#include "obvid/contour/spirals.h"
+#include "obvid/geom/internal/angle.h"
+#include "obvid/geom/internal/value_range.h"
+#include "obvid/region/internal/feasible_data.h"
+
+namespace obvid::pipeline_detail {
+namespace {
+
+bool goes_way(const Piece& piece, int direction) {
+  const Verdict verdict = prove_piece(piece).verdict;
+  return verdict == (direction > 0   ? Verdict::kIncreasing
+                     : direction < 0 ? Verdict::kDecreasing
+                                     : Verdict::kConstant);
+}
+
+/// Points with the directions of their links; a node without a source carries a vertex between two
+/// points.
+struct Directed {
+  std::vector<Vec2> points;
+  std::vector<std::optional<std::size_t>> source;
+  std::vector<int> direction;
+  std::vector<NodeData> own;  ///< of arcs and lines, and signs of curvatures
+
+  [[nodiscard]] std::size_t count() const { return points.size(); }
+};
+
+/// Of the range of an end that is open on one side, where the middle of the whole leaps.
+constexpr std::array<double, 5> kPartsOfOpenEnds{1.0, 1e-2, 1e-4, 1e-7, 1e-10};
+/// Forms in the order in which they are tried on a link.
+constexpr std::array<SpiralForm, 2> kForms{SpiralForm::kEven, SpiralForm::kOneSided};
+
+class EdgeChain {
+ public:
+  EdgeChain(const ChainWishes& wishes, Directed series)
+      : wishes_(wishes), series_(std::move(series)), chords_(measure_chords(series_.points)) {}
+
+  /// The first choice of data whose spirals are proved.
+  std::optional<SeriesChain> run() const {
+    const std::vector<RangeLink> along = links();
+    const std::vector<RangeNode> given = nodes();
+    for (const double part : kPartsOfOpenEnds) {
+      const auto calmer = part < 1.0 ? with_calm_ends(along, given, part) : given;
+      if (part < 1.0 && calmer.empty()) return std::nullopt;
+      for (const ChoiceOrder order : {ChoiceOrder::kHalves, ChoiceOrder::kAlong}) {
+        const auto data = central_data(along, calmer, {}, order);
+        if (!data) return std::nullopt;
+        auto chain = carried_by(*data);
+        if (chain && stored_pieces_proved(series_.points, *chain)) return chain;
+      }
+    }
+    return std::nullopt;
+  }
+
+ private:
+  /// The first and the last heading may turn away by a right angle, the middle of what is left to
+  /// them by half of that: where the points bend by next to nothing that is a leap. Headings in a
+  /// part of that range beside its other end; empty where neither is free.
+  [[nodiscard]] static std::vector<RangeNode> with_calm_ends(const std::vector<RangeLink>& links,
+                                                             std::vector<RangeNode> nodes,
+                                                             double part) {
+    const std::vector<FeasibleData> ranges = feasible_data(links, nodes);
+    bool any = false;
+    for (const std::size_t i : {std::size_t{0}, nodes.size() - 1}) {
+      const auto& range = ranges[i].heading;
+      const bool free = range && !nodes[i].theta && !nodes[i].thetas;
+      if (!free || range->low_is_open == range->high_is_open) continue;
+      const double reach = part * (range->high - range->low);
+      nodes[i].thetas = range->low_is_open ? ValueRange{range->high - reach, range->high}
+                                           : ValueRange{range->low, range->low + reach};
+      any = true;
+    }
+    return any ? nodes : std::vector<RangeNode>{};
+  }
+
+  [[nodiscard]] std::vector<RangeLink> links() const {
+    std::vector<RangeLink> out;
+    for (std::size_t i = 0; i < chords_.size(); ++i) {
+      out.push_back({chords_[i].length, chords_[i].omega, series_.direction[i]});
+    }
+    return out;
+  }
+
+  /// Between the headings of both chords.
+  [[nodiscard]] double along(std::size_t i) const {
+    const double before = chords_[i > 0 ? i - 1 : 0].omega;
+    return 0.5 * (before + chords_[std::min(i, chords_.size() - 1)].omega);
+  }
+
+  [[nodiscard]] std::vector<RangeNode> nodes() const {
+    std::vector<RangeNode> out;
+    for (std::size_t i = 0; i < series_.count(); ++i) {
+      RangeNode node{series_.own[i].theta, series_.own[i].kappa, series_.own[i].curvature_sign};
+      if (const auto source = series_.source[i]; source && *source < wishes_.fixed.size()) {
+        const FixedData& given = wishes_.fixed[*source];
+        if (!node.theta) node.theta = given.theta;
+        if (!node.kappa) node.kappa = given.kappa;
+        node.thetas = given.thetas;
+        node.kappas = given.kappas;
+      }
+      if (node.theta) node.theta = nearest_angle(*node.theta, along(i));
+      if (node.thetas) node.thetas = turned_near(*node.thetas, along(i));
+      out.push_back(node);
+    }
+    return out;
+  }
+
+  [[nodiscard]] std::optional<SeriesChain> carried_by(const std::vector<RangeNode>& data) const {
+    ChainProblem problem;
+    problem.chords = chords_;
+    problem.circles = measure_circles(series_.points, chords_);
+    std::vector<Element> elements;
+    for (std::size_t i = 0; i < series_.count(); ++i) {
+      if (!data[i].theta || !data[i].kappa) return std::nullopt;
+      elements.push_back({series_.points[i], *data[i].theta, *data[i].kappa});
+      problem.nodes.push_back(series_.own[i]);
+      problem.nodes.back().theta = nodes_theta(i, data);
+      problem.nodes.back().kappa = nodes_kappa(i, data);
+      if (i + 1 == series_.count()) break;
+      problem.direction.push_back(static_cast<std::int8_t>(series_.direction[i]));
+      problem.cone.push_back(series_.direction[i] == 0 ? Cone::kNone : Cone::kSpiral);
+    }
+    ChainSolution solution = judge_chain(series_.points, problem, elements);
+    if (!solution.feasible) return std::nullopt;
+    SeriesChain out;
+    out.elements = std::move(solution.elements);
+    out.links = std::move(solution.links);
+    out.source = series_.source;
+    out.direction = problem.direction;
+    out.cone = problem.cone;
+    out.nodes = problem.nodes;
+    out.smallest_margin = solution.smallest_margin;
+    out.converged = true;
+    for (const auto& source : out.source) out.free_elements += source ? 0U : 1U;
+    for (std::size_t i = 0; i < out.links.size(); ++i) {
+      const auto form = proved_form(out, i);
+      if (!form) return std::nullopt;
+      out.form.push_back(*form);
+    }
+    return out;
+  }
+
+  /// What was given, for those who choose again.
+  [[nodiscard]] std::optional<double> nodes_theta(std::size_t i,
+                                                  const std::vector<RangeNode>& data) const {
+    const auto source = series_.source[i];
+    const bool given = source && *source < wishes_.fixed.size() && wishes_.fixed[*source].theta;
+    return given || series_.own[i].theta ? data[i].theta : std::nullopt;
+  }
+  [[nodiscard]] std::optional<double> nodes_kappa(std::size_t i,
+                                                  const std::vector<RangeNode>& data) const {
+    const auto source = series_.source[i];
+    const bool given = source && *source < wishes_.fixed.size() && wishes_.fixed[*source].kappa;
+    return given || series_.own[i].kappa ? data[i].kappa : std::nullopt;
+  }
+
+  static std::optional<SpiralForm> proved_form(const SeriesChain& chain, std::size_t i) {
+    if (chain.cone[i] == Cone::kNone) return SpiralForm::kOneSided;
+    for (const SpiralForm form : kForms) {
+      std::vector<RationalBezier> parts;
+      const bool made = append_spiral(chain.links[i], chain.direction[i], form,
+                                      chain.elements[i].point, chain.elements[i + 1].point, parts);
+      const bool proved =
+          made && std::all_of(parts.begin(), parts.end(), [&](const RationalBezier& part) {
+            return goes_way(Piece{part}, chain.direction[i]);
+          });
+      if (proved) return form;
+    }
+    return std::nullopt;
+  }
+
+  const ChainWishes& wishes_;
+  Directed series_;
+  std::vector<Chord> chords_;
+};
+
+/// The points with the directions of their adjacent circles.
+std::optional<Directed> as_circles(const std::vector<Vec2>& points, const Analysis& analysis,
+                                   const ChainWishes& wishes) {
+  const auto problem = chain_problem(analysis, wishes);
+  if (!problem) return std::nullopt;
+  Directed out;
+  out.points = points;
+  for (std::size_t i = 0; i < points.size(); ++i) out.source.emplace_back(i);
+  out.direction.assign(analysis.direction.begin(), analysis.direction.end());
+  out.own = problem->nodes;
+  return out;
+}
+
+/// Points and vertices of a chain. The curvature keeps its sign between vertices at whose ends the
+/// chain has one sign.
+Directed as_chain(const SeriesChain& chain) {
+  Directed out;
+  std::vector<double> kappa;
+  for (std::size_t e = 0; e < chain.elements.size(); ++e) {
+    const bool ends = e == 0 || e + 1 == chain.elements.size();
+    const bool turns = !ends && chain.direction[e - 1] != chain.direction[e];
+    if (!chain.source[e] && !turns) continue;
+    out.points.push_back(chain.elements[e].point);
+    out.source.push_back(chain.source[e]);
+    out.own.emplace_back();
+    kappa.push_back(chain.elements[e].kappa);
+    const bool arc = (e > 0 && chain.cone[e - 1] == Cone::kNone) ||
+                     (e < chain.cone.size() && chain.cone[e] == Cone::kNone);
+    if (arc) {
+      out.own.back().theta = chain.elements[e].theta;
+      out.own.back().kappa = chain.elements[e].kappa;
+    }
+    if (e < chain.direction.size()) {
+      out.direction.push_back(chain.cone[e] == Cone::kNone ? 0 : chain.direction[e]);
+    }
+  }
+  for (std::size_t i = 0; i < out.direction.size();) {
+    std::size_t last = i + 1;
+    while (last < out.direction.size() && out.direction[last] == out.direction[i]) ++last;
+    for (std::size_t k = i; k <= last && kappa[i] * kappa[last] > 0.0; ++k) {
+      out.own[k].curvature_sign = kappa[i] > 0.0 ? 1 : -1;
+    }
+    i = last;
+  }
+  return out;
+}
+
+}  // namespace
+
+ChainTurns turns_of_chain(const SeriesChain& chain) {
+  ChainTurns out;
+  int way = 0, bend = 0;
+  for (std::size_t i = 0; i < chain.elements.size(); ++i) {
+    const int sign = chain.elements[i].kappa > 0.0 ? 1 : chain.elements[i].kappa < 0.0 ? -1 : 0;
+    if (sign != 0) out.inflections += std::exchange(bend, sign) == -sign ? 1 : 0;
+    if (i >= chain.direction.size() || chain.cone[i] == Cone::kNone) continue;
+    const int now = chain.direction[i];
+    out.vertices += std::exchange(way, now) == -now ? 1 : 0;
+  }
+  return out;
+}
+
+bool stored_pieces_proved(const std::vector<Vec2>& points, const SeriesChain& chain) {
+  auto contour = form_spirals(points, chain);
+  if (!contour) return false;
+  keep_joint_curvatures(*contour);
+  for (const Run& run : contour->runs) {
+    for (std::size_t piece = run.first_piece; piece <= run.last_piece; ++piece) {
+      if (!goes_way(contour->pieces[piece], run.direction)) return false;
+    }
+  }
+  return true;
+}
+
+std::optional<SeriesChain> edge_chain(const std::vector<Vec2>& points, const Analysis& analysis,
+                                      const ChainWishes& wishes, const SeriesChain* free) {
+  if (const auto series = as_circles(points, analysis, wishes)) {
+    if (auto chain = EdgeChain(wishes, *series).run()) return chain;
+  }
+  if (free == nullptr) return std::nullopt;
+  auto chain = EdgeChain(wishes, as_chain(*free)).run();
+  if (!chain) return std::nullopt;
+  chain->turned_directions = free->turned_directions;
+  chain->unforced_inflection = free->unforced_inflection;
+  return chain;
+}
+
+}  // namespace obvid::pipeline_detail
