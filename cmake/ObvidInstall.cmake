@@ -12,7 +12,7 @@ install(EXPORT obvidTargets NAMESPACE obvid:: DESTINATION ${obvid_config_dir})
 # Headers below internal/ are for this project alone. Those of the proofs: a copy compiled with other options
 # must not exist.
 install(DIRECTORY include/obvid DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}
-        FILES_MATCHING PATTERN "*.h" PATTERN "internal" EXCLUDE)
+        FILES_MATCHING PATTERN "*.h" PATTERN "*.inc" PATTERN "internal" EXCLUDE)
 install(DIRECTORY "${PROJECT_BINARY_DIR}/generated/obvid" DESTINATION ${CMAKE_INSTALL_INCLUDEDIR})
 
 install(FILES LICENSE NOTICE SECURITY.md DESTINATION ${CMAKE_INSTALL_DOCDIR})

@@ -8,6 +8,7 @@
 
 #include "form.h"
 #include "obvid/chain/series_chain.h"
+#include "obvid/contour/spirals/over_chain.h"
 #include "obvid/geom/angle.h"
 #include "obvid/pipeline/region_files.h"
 #include "obvid/region/feasible_data.h"
@@ -126,7 +127,7 @@ Result<std::vector<Piece>> spirals_between(const Element& start, const Element& 
   const std::vector<Vec2> points = link.points;
   const auto chain = follow_directions(std::move(link), nobody);
   if (!chain) return fail(chain.error());
-  auto spirals = form_spirals(points, *chain);
+  auto spirals = spirals_over(points, *chain);
   if (!spirals) return fail(spirals.error());
   return std::move(spirals->pieces);
 }

@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "form.h"
+#include "obvid/curve/runs.h"
 #include "obvid/region/boundary_distance.h"
 #include "obvid/region/segment_region.h"
 #include "parts.h"

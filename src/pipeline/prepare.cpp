@@ -65,7 +65,7 @@ class Preparation {
       return fail(
           {ErrorCode::kBadOption, why, "--prefer", "leave it out: the fairest is taken", -1, 0.0});
     };
-    if (job_.carrier == Carrier::kBaseline) {
+    if (info_of(job_.carrier).needs == CarrierNeeds::kPoints) {
       return refused("the spline of CAD systems leaves nothing to prefer");
     }
     if (!out_.exact())
