@@ -3,7 +3,7 @@
 #include <variant>
 
 #include "obvid/curve/contour.h"
-#include "obvid/curve/end_curvatures.h"
+#include "obvid/curve/internal/end_curvatures.h"
 
 namespace obvid {
 namespace {

@@ -9,9 +9,9 @@
 
 #include "obvid/contour/arcs.h"
 #include "obvid/contour/common/internal/carried_parts.h"
-#include "obvid/curve/runs.h"
-#include "obvid/geom/angle.h"
-#include "obvid/region/refine.h"
+#include "obvid/curve/internal/runs.h"
+#include "obvid/geom/internal/angle.h"
+#include "obvid/region/internal/refine.h"
 
 namespace obvid::contour_detail {
 namespace {

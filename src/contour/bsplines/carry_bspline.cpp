@@ -3,8 +3,8 @@
 
 #include "obvid/contour/bsplines/monotone.h"
 #include "obvid/contour/common/internal/carried_parts.h"
-#include "obvid/curve/end_curvatures.h"
-#include "obvid/curve/runs.h"
+#include "obvid/curve/internal/end_curvatures.h"
+#include "obvid/curve/internal/runs.h"
 
 namespace obvid::contour_detail {
 namespace {

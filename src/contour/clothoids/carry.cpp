@@ -4,7 +4,7 @@
 
 #include "obvid/contour/clothoids.h"
 #include "obvid/contour/common/internal/carried_parts.h"
-#include "obvid/curve/runs.h"
+#include "obvid/curve/internal/runs.h"
 
 namespace obvid::contour_detail {
 namespace {

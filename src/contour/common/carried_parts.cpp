@@ -5,7 +5,7 @@
 #include <numbers>
 #include <utility>
 
-#include "obvid/geom/angle.h"
+#include "obvid/geom/internal/angle.h"
 
 namespace obvid::contour_detail {
 

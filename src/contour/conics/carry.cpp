@@ -7,8 +7,8 @@
 
 #include "obvid/contour/common/internal/carried_parts.h"
 #include "obvid/contour/conics.h"
-#include "obvid/curve/end_curvatures.h"
-#include "obvid/curve/runs.h"
+#include "obvid/curve/internal/end_curvatures.h"
+#include "obvid/curve/internal/runs.h"
 
 namespace obvid::contour_detail {
 namespace {

@@ -5,14 +5,14 @@
 #include <utility>
 #include <vector>
 
-#include "obvid/chain/spiral_shape.h"
+#include "obvid/chain/internal/spiral_shape.h"
 #include "obvid/contour/common/internal/carried_parts.h"
 #include "obvid/contour/spirals.h"
 #include "obvid/contour/spirals/over_chain.h"
-#include "obvid/curve/end_curvatures.h"
-#include "obvid/curve/end_slopes.h"
-#include "obvid/curve/runs.h"
-#include "obvid/geom/angle.h"
+#include "obvid/curve/internal/end_curvatures.h"
+#include "obvid/curve/internal/end_slopes.h"
+#include "obvid/curve/internal/runs.h"
+#include "obvid/geom/internal/angle.h"
 
 namespace obvid {
 

@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "obvid/chain/series_chain.h"
+#include "obvid/chain/internal/series_chain.h"
 #include "obvid/core/result.h"
 #include "obvid/curve/contour.h"
 

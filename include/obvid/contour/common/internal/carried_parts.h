@@ -6,7 +6,7 @@
 #include <variant>
 #include <vector>
 
-#include "obvid/chain/chain.h"
+#include "obvid/chain/internal/chain.h"
 #include "obvid/contour/common/internal/carry.h"
 
 // What builders of several families share.

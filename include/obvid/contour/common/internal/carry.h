@@ -7,9 +7,9 @@
 #include <string>
 #include <vector>
 
-#include "obvid/chain/series_chain.h"
+#include "obvid/chain/internal/series_chain.h"
 #include "obvid/core/result.h"
-#include "obvid/core/watch.h"
+#include "obvid/core/internal/watch.h"
 #include "obvid/curve/contour.h"
 
 namespace obvid::contour_detail {
