@@ -19,11 +19,9 @@
 namespace obvid {
 namespace {
 
-enum class Kind { kProgram, kPicture, kPage };
-
 struct ToolpathOutput {
   std::string path;
-  Kind kind = Kind::kProgram;
+  FileFormat format = FileFormat::kGcode;
   std::string text;
 };
 
@@ -31,17 +29,12 @@ Result<std::vector<ToolpathOutput>> outputs_of(const ToolpathCommand& command) {
   OBVID_TRY(check_outputs(command.outputs, {&command.input, 1}));
   std::vector<ToolpathOutput> outputs;
   for (const std::string& path : command.outputs) {
-    const auto surface = surface_format_of(path);
-    if (format_of(path) == FileFormat::kGcode) {
-      outputs.push_back({path, Kind::kProgram, {}});
-    } else if (surface == SurfaceFormat::kPicture || surface == SurfaceFormat::kPage) {
-      outputs.push_back(
-          {path, surface == SurfaceFormat::kPicture ? Kind::kPicture : Kind::kPage, {}});
-    } else {
-      return error(ErrorCode::kUnknownFormat, "no format of tool paths has this file extension")
-          .where(path)
-          .hint("possible are .nc, .ngc, .gcode, .tap, .svg, .html");
+    const auto format = toolpath_format_of(path);
+    if (!format) {
+      return fail({ErrorCode::kUnknownFormat, "no format of tool paths has this file extension",
+                   path, "possible are " + known_toolpath_endings(), -1, 0.0});
     }
+    outputs.push_back({path, *format, {}});
   }
   return outputs;
 }
@@ -54,13 +47,12 @@ struct Made {
 };
 
 Result<void> fill(ToolpathOutput& output, Made& made, SurfaceExporter& exporter) {
-  if (output.kind == Kind::kProgram) {
+  if (output.format == FileFormat::kGcode) {
     output.text = made.job.path.program.text;
     return {};
   }
-  const bool page = output.kind == Kind::kPage;
-  auto text = exporter.text(page ? SurfaceFormat::kPage : SurfaceFormat::kPicture, made.remarks);
-  OBVID_TRY(text);
+  auto text = exporter.text(output.format, made.remarks);
+  if (!text) return fail(text.error());
   output.text = std::move(*text);
   return {};
 }
