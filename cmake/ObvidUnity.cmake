@@ -32,3 +32,18 @@ function(obvid_unity out prefix batch)
   endforeach()
   set(${out} ${made} PARENT_SCOPE)
 endfunction()
+
+# obvid_units(OUT PREFIX BATCH LATER sources...): the same, but sources whose path matches LATER (when it
+# is not empty) are in units of their own, PREFIX_later_1 and so on: cmake/ObvidFirst.cmake.
+function(obvid_units out prefix batch later)
+  set(first ${ARGN})
+  set(rest)
+  if(NOT later STREQUAL "")
+    set(rest ${ARGN})
+    list(FILTER first EXCLUDE REGEX "${later}")
+    list(FILTER rest INCLUDE REGEX "${later}")
+  endif()
+  obvid_unity(first ${prefix} ${batch} ${first})
+  obvid_unity(rest ${prefix}_later ${batch} ${rest})
+  set(${out} ${first} ${rest} PARENT_SCOPE)
+endfunction()
