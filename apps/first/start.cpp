@@ -11,7 +11,7 @@
 #include <string_view>
 #include <vector>
 
-#include "obvid/io/read_file.h"
+#include "obvid/io/internal/read_file.h"
 #include "terminal.h"
 
 namespace obvid {

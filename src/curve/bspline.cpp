@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "obvid/curve/bspline.h"
+#include "obvid/curve/internal/bspline.h"
 
 #include <algorithm>
 #include <array>

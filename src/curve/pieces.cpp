@@ -9,7 +9,7 @@
 #include <utility>
 
 #include "homogeneous.h"
-#include "obvid/curve/clothoid.h"
+#include "obvid/curve/internal/clothoid.h"
 #include "obvid/numeric/internal/gauss.h"
 #include "obvid/numeric/internal/strict_arithmetic.h"
 

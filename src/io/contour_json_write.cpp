@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "contour_json_names.h"
-#include "obvid/core/format_into.h"
+#include "obvid/core/internal/format_into.h"
 #include "obvid/curve/nurbs.h"
 #include "obvid/io/contour_json.h"
 #include "text_lines.h"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "obvid/surface/basis.h"
+#include "obvid/surface/internal/basis.h"
 
 #include <algorithm>
 

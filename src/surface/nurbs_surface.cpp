@@ -6,8 +6,8 @@
 #include "control_points.h"
 #include "homogeneous.h"
 #include "knots.h"
-#include "obvid/geom/box.h"
-#include "obvid/surface/basis.h"
+#include "obvid/geom/internal/box.h"
+#include "obvid/surface/internal/basis.h"
 
 namespace obvid {
 

@@ -4,7 +4,7 @@
 
 #include "homogeneous.h"
 #include "knots.h"
-#include "obvid/surface/basis.h"
+#include "obvid/surface/internal/basis.h"
 #include "obvid/surface/nurbs_surface.h"
 
 namespace obvid {

@@ -7,8 +7,8 @@
 
 #include "homogeneous.h"
 #include "knots.h"
-#include "obvid/surface/basis.h"
-#include "obvid/surface/collocation.h"
+#include "obvid/surface/internal/basis.h"
+#include "obvid/surface/internal/collocation.h"
 #include "snap.h"
 
 namespace obvid {

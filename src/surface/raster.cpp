@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "homogeneous.h"
-#include "obvid/surface/basis.h"
+#include "obvid/surface/internal/basis.h"
 
 #include "obvid/surface/nurbs_surface.h"
 

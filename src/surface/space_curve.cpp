@@ -8,7 +8,7 @@
 #include "control_points.h"
 #include "homogeneous.h"
 #include "knots.h"
-#include "obvid/surface/basis.h"
+#include "obvid/surface/internal/basis.h"
 
 namespace obvid {
 

@@ -3,7 +3,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "obvid/surface/collocation.h"
+#include "obvid/surface/internal/collocation.h"
 #include "obvid/surface/space_curve.h"
 
 namespace obvid {

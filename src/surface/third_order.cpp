@@ -2,7 +2,7 @@
 #include "third_order.h"
 
 #include "homogeneous.h"
-#include "obvid/surface/basis.h"
+#include "obvid/surface/internal/basis.h"
 
 namespace obvid {
 namespace {

@@ -11,10 +11,10 @@
 #include <iterator>
 
 #include "built_cad.h"
-#include "obvid/cad/cad.h"
+#include "obvid/cad/internal/cad.h"
 #include "obvid/certify/certify.h"
-#include "obvid/curve/bspline.h"
-#include "obvid/curve/joined_nurbs.h"
+#include "obvid/curve/internal/bspline.h"
+#include "obvid/curve/internal/joined_nurbs.h"
 #include "obvid/io/contour_json.h"
 #include "obvid/io/read_points.h"
 #include "obvid/pipeline/audit.h"

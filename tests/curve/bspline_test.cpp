@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // B-spline curves as Bezier spans, and cubic splines by points and slopes, against closed forms.
-#include "obvid/curve/bspline.h"
+#include "obvid/curve/internal/bspline.h"
 
 #include <gtest/gtest.h>
 
@@ -8,7 +8,7 @@
 #include <numbers>
 #include <random>
 
-#include "obvid/curve/bspline_cubic.h"
+#include "obvid/curve/internal/bspline_cubic.h"
 
 namespace obvid {
 namespace {

@@ -6,7 +6,7 @@
 
 #include <cmath>
 
-#include "obvid/surface/basis.h"
+#include "obvid/surface/internal/basis.h"
 
 namespace obvid {
 namespace {

@@ -5,7 +5,7 @@
 #include <variant>
 #include <vector>
 
-#include "obvid/idspline/id_spline_2d.h"
+#include "obvid/idspline/internal/id_spline_2d.h"
 #include "obvid/surface/nurbs_surface.h"
 
 namespace obvid {

@@ -22,7 +22,7 @@
 #include <utility>
 
 #include "obvid/contour/conics.h"
-#include "obvid/curve/joined_nurbs.h"
+#include "obvid/curve/internal/joined_nurbs.h"
 #include "splines.h"
 
 namespace obvid::cad {
