@@ -12,6 +12,8 @@
 #include "obvid/exchange/internal/svg/drawing.h"
 #include "obvid/exchange/internal/svg/read.h"
 #include "obvid/io/contour_json.h"
+#include "obvid/io/internal/private_copy.h"
+#include "obvid/io/read_sections.h"
 #include "obvid/pipeline/construction_fit.h"
 #include "obvid/pipeline/space_fit.h"
 #include "space_fit.h"
@@ -52,6 +54,10 @@ std::optional<int> run_in_space(const FitOptions& options) {
 
 // ---- files of others ------------------------------------------------------------------------------
 OBVID_LATER(Result<StoredContour> contour_from_json(std::string_view, std::string_view))
+OBVID_LATER(Result<ParsedSections> parse_sections(std::string_view, std::string_view,
+                                                  const SectionOptions&))
+OBVID_LATER(Result<PrivateCopy> PrivateCopy::of(std::string_view, const std::string&))
+PrivateCopy::~PrivateCopy() = default;  // of none
 OBVID_LATER(Result<Drawing> parse_dxf(std::string_view, std::string_view))
 OBVID_LATER(Result<Drawing> parse_svg(std::string_view, std::string_view))
 OBVID_LATER(Result<Drawing> parse_gpx(std::string_view, std::string_view))
