@@ -24,14 +24,15 @@ function(obvid_digest variable)
 endfunction()
 
 # obvid_module(NAME x [FOLDER src-folder] [DEPENDS module...] [LIBRARIES target...]
-#              [PRIVATE_HEADERS_OF target...] [BATCH number] [WORDS])
+#              [PRIVATE_HEADERS_OF target...] [BATCH number] [LATER regex] [WORDS])
 # Target obvid_x with alias obvid::x from all src/<folder>/**.cpp. A module without sources is a
 # header-only one. LIBRARIES appear in its public headers, PRIVATE_HEADERS_OF only in its sources.
-# BATCH: sources that are compiled together. WORDS: they make texts, not figures, and are compiled
+# BATCH: sources that are compiled together. LATER: sources that the launcher's first program goes
+# without (cmake/ObvidFirst.cmake). WORDS: they make texts, not figures, and are compiled
 # for a short build (obvid_for_words).
 set(OBVID_BATCH 16)
 function(obvid_module)
-  cmake_parse_arguments(M "WORDS" "NAME;FOLDER;BATCH" "DEPENDS;LIBRARIES;PRIVATE_HEADERS_OF" ${ARGN})
+  cmake_parse_arguments(M "WORDS" "NAME;FOLDER;BATCH;LATER" "DEPENDS;LIBRARIES;PRIVATE_HEADERS_OF" ${ARGN})
   if(NOT M_FOLDER)
     set(M_FOLDER ${M_NAME})
   endif()
@@ -44,7 +45,7 @@ function(obvid_module)
   endif()
   set(target obvid_${M_NAME})
   if(sources)
-    obvid_unity(units ${target} ${M_BATCH} ${sources})
+    obvid_units(units ${target} ${M_BATCH} "${M_LATER}" ${sources})
     add_library(${target} STATIC ${units})
     set(scope PUBLIC)
     target_link_libraries(${target} PRIVATE fmt::fmt $<BUILD_INTERFACE:obvid_flags>)
@@ -87,15 +88,15 @@ function(obvid_umbrella)
   set_target_properties(obvid_all PROPERTIES EXPORT_NAME obvid)
 endfunction()
 
-# obvid_program(NAME x FOLDER dir DEPENDS module...): the program x in the build folder itself.
+# obvid_program(NAME x FOLDER dir [LATER regex] DEPENDS module...): the program x in the build folder itself.
 function(obvid_program)
-  cmake_parse_arguments(P "" "NAME;FOLDER" "DEPENDS" ${ARGN})
+  cmake_parse_arguments(P "" "NAME;FOLDER;LATER" "DEPENDS" ${ARGN})
   file(GLOB_RECURSE sources CONFIGURE_DEPENDS "${PROJECT_SOURCE_DIR}/${P_FOLDER}/*.cpp")
   if(NOT sources)
     message(STATUS "no sources in ${P_FOLDER}: program ${P_NAME} left out")
     return()
   endif()
-  obvid_unity(units ${P_NAME}_cli ${OBVID_BATCH} ${sources})
+  obvid_units(units ${P_NAME}_cli ${OBVID_BATCH} "${P_LATER}" ${sources})
   add_executable(${P_NAME}_cli ${units})
   set_target_properties(${P_NAME}_cli PROPERTIES
     OUTPUT_NAME ${P_NAME} RUNTIME_OUTPUT_DIRECTORY "${PROJECT_BINARY_DIR}")

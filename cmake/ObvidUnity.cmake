@@ -32,3 +32,25 @@ function(obvid_unity out prefix batch)
   endforeach()
   set(${out} ${made} PARENT_SCOPE)
 endfunction()
+
+# obvid_units(OUT TARGET BATCH LATER sources...): the same for a target, but sources whose path matches
+# LATER (when it is not empty) are in units of their own, TARGET_later_1 and so on. The objects of the
+# others are noted in the global property OBVID_FIRST_OF_TARGET, for cmake/ObvidFirst.cmake.
+function(obvid_units out target batch later)
+  set(first ${ARGN})
+  set(rest)
+  if(NOT later STREQUAL "")
+    set(rest ${ARGN})
+    list(FILTER first EXCLUDE REGEX "${later}")
+    list(FILTER rest INCLUDE REGEX "${later}")
+  endif()
+  obvid_unity(first ${target} ${batch} ${first})
+  obvid_unity(rest ${target}_later ${batch} ${rest})
+  foreach(unit IN LISTS first)
+    string(REPLACE "${PROJECT_BINARY_DIR}/" "" unit "${unit}")
+    string(REPLACE "${PROJECT_SOURCE_DIR}/" "" unit "${unit}")
+    set_property(GLOBAL APPEND PROPERTY OBVID_FIRST_OF_${target}
+      "${PROJECT_BINARY_DIR}/CMakeFiles/${target}.dir/${unit}${CMAKE_CXX_OUTPUT_EXTENSION}")
+  endforeach()
+  set(${out} ${first} ${rest} PARENT_SCOPE)
+endfunction()

@@ -5,6 +5,9 @@
 
 namespace obvid {
 
+/// The whole program: what the arguments ask for; the exit code.
+int run_guarded(int argc, const char* const* argv);
+
 /// Each runs one subcommand and returns the exit code.
 int run(const FitOptions& options);
 int run(const AnalyseOptions& options);

@@ -1,35 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <exception>
-#include <new>
-
 #include "commands.h"
-#include "terminal.h"
 
-namespace obvid {
-namespace {
-
-int run(const ShowText& shown) {
-  if (auto done = put(shown.text); !done) return report(done.error());
-  return 0;
-}
-
-int run_program(int argc, const char* const* argv) {
-  const Result<Command> command = parse_command_line(argc, argv);
-  if (!command) return report(command.error());
-  return std::visit([](const auto& options) { return run(options); }, *command);
-}
-
-}  // namespace
-}  // namespace obvid
-
-int main(int argc, char** argv) {
-  // The library does not throw; what still arrives here is a lack of memory or a fault of ours.
-  try {
-    return obvid::run_program(argc, argv);
-  } catch (const std::bad_alloc&) {
-    return obvid::report({obvid::ErrorCode::kInternal, "out of memory", "",
-                          "try with fewer points or on a larger machine"});
-  } catch (const std::exception& error) {
-    return obvid::report({obvid::ErrorCode::kInternal, error.what(), "", "please report this"});
-  }
-}
+int main(int argc, char** argv) { return obvid::run_guarded(argc, argv); }

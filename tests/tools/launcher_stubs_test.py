@@ -16,34 +16,39 @@ CMAKE = """#!/bin/sh
 echo "cmake" >>"$STUB_LOG"
 while [ $# -gt 0 ]; do case $1 in -S) root=$2 ;; -B) build=$2 ;; esac; shift; done
 echo "CMAKE_HOME_DIRECTORY:INTERNAL=$root" >"$build/CMakeCache.txt"
+printf 'build a: b\\n\\nbuild build.ninja: RERUN_CMAKE c\\n  pool = console\\n\\nbuild d: e\\n' >"$build/build.ninja"
 """
 
 # The program is built when a source is newer, as ninja does it.
 NINJA = """#!/bin/sh
 cd "$2"; shift 2
 case "$*" in
-  *-n*) [ -n "$STUB_IDLE" ] || echo "[1/4] a step"; exit 0 ;;
-  "-t clean") echo "clean" >>"$STUB_LOG"; rm -f obvid; exit 0 ;;
+  *-n*) case "$*" in "-f .plan.ninja -n "*) ;; *) exit 2 ;; esac
+    grep -q RERUN_CMAKE .plan.ninja && { echo "[1/2] Re-running CMake"; exit 0; }
+    [ -n "$STUB_IDLE" ] || echo "[1/4] a step"; exit 0 ;;
+  "-t clean") echo "clean" >>"$STUB_LOG"; rm -f obvid obvid-first; exit 0 ;;
 esac
 for target; do :; done
 [ -n "$STUB_FAIL" ] && { echo "FAILED: a.o"; echo "a.cpp:1: error: no"; exit 1; }
 [ -n "$STUB_SLOW" ] && { echo "[1/4] one"; sleep "$STUB_SLOW"; echo "[2/4] two"; }
-if [ "$target" = obvid ]; then
-  if [ ! -e obvid ] || [ -n "$(find ../../src ../../VERSION -newer obvid)" ]; then
-    echo "ninja obvid" >>"$STUB_LOG"
+case $target in
+obvid | obvid_first)
+  file=$(echo $target | tr _ -)
+  if [ ! -e $file ] || [ -n "$(find ../../src ../../VERSION -newer $file)" ]; then
+    echo "ninja $target" >>"$STUB_LOG"
     sleep "${STUB_SECONDS:-0}"
-    cat >obvid <<'PROGRAM'
+    cat >$file <<'PROGRAM'
 #!/bin/sh
-echo "program $*"
+case "$0 $1" in *obvid-first" surface") OBVID_WHOLE=1 exec "$OBVID_LAUNCHER" "$@" ;; esac
+case $0 in *obvid-first) echo "program $*" ;; *) echo "whole program $*" ;; esac
 [ "$1" = helper ] && { [ -e "$(dirname "$0")/obvid-cad" ] || "$OBVID_CAD_BUILDER" >&2; }
 [ "$1" = read ] && cat
 exit ${STUB_CODE:-0}
 PROGRAM
-    chmod +x obvid
-  fi
-else
-  echo "ninja $target" >>"$STUB_LOG"; : >obvid-cad
-fi
+    chmod +x $file
+  fi ;;
+*) echo "ninja $target" >>"$STUB_LOG"; : >obvid-cad ;;
+esac
 """
 
 APT = """#!/bin/sh
@@ -101,8 +106,9 @@ class Launcher(unittest.TestCase):
     def test_the_first_start_builds_and_says_how_long_the_second_is_silent(self):
         first = self.start("one", "two words")
         self.assertEqual(first.stdout, "program one two words\n")
-        self.assertRegex(first.stderr, r"building the program \(once, about [0-9.]+ (s|minutes) with")
-        self.assertEqual(self.steps(), ["cmake", "ninja obvid"])
+        # four steps of 6 s, on so many processors
+        self.assertRegex(first.stderr, r"building the program \(once, about [123]0 s with \d+ processors")
+        self.assertEqual(self.steps(), ["cmake", "ninja obvid_first"])
         self.assertEqual(self.start("x").stderr, "")
         self.assertEqual(self.steps(), [])
 
@@ -112,7 +118,7 @@ class Launcher(unittest.TestCase):
         self.write("src/a.cpp", "int a = 2;\n")  # as long as before
         os.utime(self.root / "src/a.cpp", (10**9, 10**9))
         self.start()
-        self.assertEqual(self.steps(), ["cmake", "ninja obvid"])
+        self.assertEqual(self.steps(), ["cmake", "ninja obvid_first"])
         self.start()
         self.assertEqual(self.start().stderr, "")
         self.assertEqual(self.steps(), [])
@@ -125,7 +131,7 @@ class Launcher(unittest.TestCase):
         self.write("src/a.cpp", "int a = 2;\n")
         os.utime(self.root / "src/a.cpp", (10**9, 10**9))
         self.start()
-        self.assertEqual(self.steps(), ["cmake", "ninja obvid"])
+        self.assertEqual(self.steps(), ["cmake", "ninja obvid_first"])
         self.assertEqual(self.start().stderr, "")
 
     def test_a_copy_that_its_user_may_not_write_to_runs_as_long_as_its_content_is_that(self):
@@ -177,7 +183,7 @@ class Launcher(unittest.TestCase):
         for one in both:
             out, err = one.communicate(timeout=60)
             self.assertEqual((one.returncode, out), (0, b"program x\n"), err)
-        self.assertEqual(self.steps(), ["cmake", "ninja obvid"])
+        self.assertEqual(self.steps(), ["cmake", "ninja obvid_first"])
 
     def test_a_failed_build_is_told_and_tried_again(self):
         done = self.start(code=1, STUB_FAIL="1")
@@ -185,7 +191,7 @@ class Launcher(unittest.TestCase):
         self.assertIn("build.log", done.stderr)
         self.assertEqual(done.stdout, "")
         self.start()
-        self.assertIn("ninja obvid", self.steps())
+        self.assertIn("ninja obvid_first", self.steps())
 
     def test_a_failed_rebuild_does_not_run_the_old_program(self):
         self.start()
@@ -229,6 +235,19 @@ class Launcher(unittest.TestCase):
         self.assertFalse((self.build / "obvid-cad").exists(), "a helper of other sources is left")
         self.start("helper")
         self.assertIn("ninja obvid_cad_helper", self.steps())
+
+    def test_the_whole_program_is_built_when_first_needed_and_is_the_only_one_from_then_on(self):
+        self.start("x")
+        self.assertEqual(self.steps(), ["cmake", "ninja obvid_first"])
+        done = self.start("surface", "skin", stdin="0 0\n")
+        self.assertRegex(done.stderr, r"building the whole program \(once, about \d+ s")
+        self.assertEqual(done.stdout, "whole program surface skin\n")
+        self.assertEqual(self.steps(), ["cmake", "ninja obvid"])
+        again = self.start("x")
+        self.assertEqual((again.stdout, again.stderr), ("whole program x\n", ""))
+        self.write("src/a.cpp", "int a = 24;\n")
+        self.assertEqual(self.start("x").stdout, "whole program x\n")
+        self.assertEqual(self.steps(), ["cmake", "ninja obvid"])
 
     def test_no_plugin_is_built_where_it_is_not_wanted(self):
         self.start("x", OBVID_CAD="0")

@@ -5,13 +5,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <filesystem>
 #include <numbers>
 #include <utility>
 
-#include "obvid/io/internal/file_kind.h"
-#include "obvid/io/internal/read_columns.h"
-#include "obvid/io/internal/read_file.h"
 #include "obvid/io/read_sections.h"
 #include "obvid/pipeline/skin_sections.h"
 #include "space/space_shape.h"
@@ -30,7 +26,6 @@ constexpr double kPlanarPart = 1e-9;
 constexpr int kPlacesOfSpan = 32;
 /// Places among which the one nearest to a moved point is sought before it is refined.
 constexpr int kGuesses = 32;
-constexpr std::size_t kHeadBytes = 4096;  // that tell the kind of a file
 
 double largest_extent(const std::vector<Vec3>& points) {
   double out = 0.0;
@@ -467,37 +462,6 @@ PlaneOfSpace plane_of_space(const SpaceSeries& series, const SpaceJob& job, cons
 }
 
 }  // namespace pipeline_detail
-
-Result<std::optional<SpaceSeries>> space_series(const std::string& path, bool any_third) {
-  // what can be read only once is for whoever reads it: `parse_space_series`
-  const std::string head = head_of_file(path, kHeadBytes);
-  if (head.empty() || file_kind(head) != FileKind::kPoints) return std::nullopt;
-  const auto text = read_file(path);
-  OBVID_TRY(text);
-  return parse_space_series(*text, path, any_third);
-}
-
-Result<std::optional<SpaceSeries>> parse_space_series(const std::string& text,
-                                                      const std::string& name, bool any_third) {
-  if (file_kind(text) != FileKind::kPoints) return std::nullopt;
-  const auto table = parse_columns(text, name);
-  const bool named = table && !table->names.empty();
-  if (named ? !table->column({"z"}) : !any_third) return std::nullopt;
-  auto parsed = parse_sections(text, name);
-  if (!parsed || parsed->flat || parsed->sections.size() != 1) return std::nullopt;
-  SpaceSeries& series = parsed->sections.front();
-  series.name = std::filesystem::path(name).filename().string();
-  std::vector<Vec3> points;
-  for (const Vec3& p : series.points) {
-    if (points.empty() || !(points.back() == p)) points.push_back(p);
-  }
-  series.points = std::move(points);
-  const double z = series.points.empty() ? 0.0 : series.points.front().z;
-  const bool level = std::all_of(series.points.begin(), series.points.end(),
-                                 [&](const Vec3& p) { return p.z == z; });
-  if (level) return std::nullopt;
-  return std::optional(std::move(series));
-}
 
 double size_of(const SpaceFit& fit) { return largest_extent(fit.points); }
 

@@ -137,7 +137,7 @@ TEST(JudgeContour, AcceptsArcsThatJumpOneWayOnly) {
 
 TEST(JudgeContour, FindsTheFaultOfEachFileThatMustBeRefused) {
   const auto folder = std::filesystem::path(OBVID_SHARED_DATA) / "found" / "refuse";
-  if (!std::filesystem::is_directory(folder)) GTEST_SKIP() << "no " << folder;
+  if (!std::filesystem::is_directory(folder)) GTEST_SKIP() << "the public data sets are missing: " << folder;
   int seen = 0;
   for (const auto& entry : std::filesystem::directory_iterator(folder)) {
     const Sheet sheet = judged(text_of_file(entry.path().string()));

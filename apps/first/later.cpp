@@ -1,0 +1,85 @@
+// SPDX-License-Identifier: Apache-2.0
+// What the launcher's first program does not hold: it goes on in the whole one, which is built when
+// it is first needed. cmake/ObvidFirst.cmake says which sources it is made of.
+#include "commands.h"
+#include "obvid/cad/internal/cad.h"
+#include "obvid/exchange/internal/dxf/read.h"
+#include "obvid/exchange/internal/geo/geojson.h"
+#include "obvid/exchange/internal/geo/gpx.h"
+#include "obvid/exchange/internal/road/landxml.h"
+#include "obvid/exchange/internal/road/opendrive.h"
+#include "obvid/exchange/internal/points/solidworks.h"
+#include "obvid/exchange/internal/svg/drawing.h"
+#include "obvid/exchange/internal/svg/read.h"
+#include "obvid/io/contour_json.h"
+#include "obvid/io/internal/private_copy.h"
+#include "obvid/io/read_sections.h"
+#include "obvid/pipeline/construction_fit.h"
+#include "obvid/pipeline/space_fit.h"
+#include "space_fit.h"
+#include "start.h"
+
+// NOLINTBEGIN(misc-unused-parameters)
+#define OBVID_LATER(...) \
+  __VA_ARGS__ { go_on_in_the_whole_program(); }
+
+namespace obvid {
+
+// ---- commands ---------------------------------------------------------------------------------
+OBVID_LATER(Result<Command> parse_surface(int, const char* const*))
+OBVID_LATER(Result<Command> parse_spline(int, const char* const*))
+OBVID_LATER(Result<Command> parse_nurbs(int, const char* const*))
+OBVID_LATER(Result<Command> parse_toolpath(int, const char* const*))
+OBVID_LATER(int run(const RegionOptions&))
+OBVID_LATER(int run(const CompareOptions&))
+OBVID_LATER(int run(const ConvertOptions&))
+OBVID_LATER(int run(const VerifyOptions&))
+OBVID_LATER(int run(const SurfaceOptions&))
+OBVID_LATER(int run(const SurfaceCheckOptions&))
+OBVID_LATER(int run(const SplineOptions&))
+OBVID_LATER(int run(const NurbsOptions&))
+OBVID_LATER(int run(const ToolpathCommand&))
+
+// ---- constructions, points in space --------------------------------------------------------------
+OBVID_LATER(Result<Fit> fit_construction(const PointSeries&, const RegionJob&, const RunContext&))
+
+std::optional<int> run_in_space(const FitOptions& options) {
+  if (options.flat) return std::nullopt;
+  const auto series = options.text ? parse_space_series(*options.text, options.name(),
+                                                        options.along.has_value())
+                                   : space_series(options.input, options.along.has_value());
+  if (options.along || (series && *series)) go_on_in_the_whole_program();
+  return std::nullopt;
+}
+
+// ---- files of others ------------------------------------------------------------------------------
+OBVID_LATER(Result<StoredContour> contour_from_json(std::string_view, std::string_view))
+OBVID_LATER(Result<ParsedSections> parse_sections(std::string_view, std::string_view,
+                                                  const SectionOptions&))
+OBVID_LATER(Result<PrivateCopy> PrivateCopy::of(std::string_view, const std::string&))
+PrivateCopy::~PrivateCopy() = default;  // of none
+OBVID_LATER(Result<Drawing> parse_dxf(std::string_view, std::string_view))
+OBVID_LATER(Result<Drawing> parse_svg(std::string_view, std::string_view))
+OBVID_LATER(Result<Drawing> parse_gpx(std::string_view, std::string_view))
+OBVID_LATER(Result<Drawing> parse_geojson(std::string_view, std::string_view))
+OBVID_LATER(Result<Drawing> parse_landxml(std::string_view, std::string_view))
+OBVID_LATER(Result<Drawing> parse_opendrive(std::string_view, std::string_view))
+OBVID_LATER(Result<Drawing> read_cad(const std::string&, const CadRun&))
+OBVID_LATER(Result<void> check_cad())
+OBVID_LATER(Result<std::string> cad_text(const std::vector<CadCurve>&, const CadWriteOptions&,
+                                         const CadRun&))
+OBVID_LATER(std::string dxf_unit(const Units&))
+OBVID_LATER(Result<DxfText> dxf_text(const Contour&, const DxfOptions&))
+OBVID_LATER(Result<GcodeText> gcode_text(const Contour&, const GcodeOptions&))
+OBVID_LATER(std::string_view landxml_unit(std::string_view))
+OBVID_LATER(Result<std::string> landxml_text(const Contour&, const LandXmlOptions&))
+OBVID_LATER(Result<std::string> opendrive_text(const Contour&, const OpenDriveOptions&))
+OBVID_LATER(Result<SvgDrawing> svg_drawing(const Contour&, const SvgDrawingOptions&))
+OBVID_LATER(Result<std::string> samples_csv(const Contour&, const SampleOptions&))
+OBVID_LATER(Result<std::string> obj_text(const Contour&, const SampleOptions&))
+OBVID_LATER(Result<std::string> ply_text(const Contour&, const SampleOptions&))
+OBVID_LATER(Result<std::vector<SldcrvFile>> sldcrv_files(const Contour&, const SampleOptions&))
+OBVID_LATER(Result<std::string> solidworks_macro(const Contour&, const SampleOptions&))
+
+}  // namespace obvid
+// NOLINTEND(misc-unused-parameters)

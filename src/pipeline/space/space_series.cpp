@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+#include <filesystem>
+#include <utility>
+
+#include "obvid/io/internal/file_kind.h"
+#include "obvid/io/internal/read_columns.h"
+#include "obvid/io/internal/read_file.h"
+#include "obvid/io/read_sections.h"
+#include "obvid/pipeline/space_fit.h"
+
+namespace obvid {
+namespace {
+
+constexpr std::size_t kHeadBytes = 4096;  // that tell the kind of a file
+
+}  // namespace
+
+Result<std::optional<SpaceSeries>> space_series(const std::string& path, bool any_third) {
+  // what can be read only once is for whoever reads it: `parse_space_series`
+  const std::string head = head_of_file(path, kHeadBytes);
+  if (head.empty() || file_kind(head) != FileKind::kPoints) return std::nullopt;
+  const auto text = read_file(path);
+  if (!text) return fail(text.error());
+  return parse_space_series(*text, path, any_third);
+}
+
+Result<std::optional<SpaceSeries>> parse_space_series(const std::string& text,
+                                                      const std::string& name, bool any_third) {
+  if (file_kind(text) != FileKind::kPoints) return std::nullopt;
+  const auto table = parse_columns(text, name);
+  const bool named = table && !table->names.empty();
+  if (named ? !table->column({"z"}) : !any_third) return std::nullopt;
+  auto parsed = parse_sections(text, name);
+  if (!parsed || parsed->flat || parsed->sections.size() != 1) return std::nullopt;
+  SpaceSeries& series = parsed->sections.front();
+  series.name = std::filesystem::path(name).filename().string();
+  std::vector<Vec3> points;
+  for (const Vec3& p : series.points) {
+    if (points.empty() || !(points.back() == p)) points.push_back(p);
+  }
+  series.points = std::move(points);
+  const double z = series.points.empty() ? 0.0 : series.points.front().z;
+  const bool level = std::all_of(series.points.begin(), series.points.end(),
+                                 [&](const Vec3& p) { return p.z == z; });
+  if (level) return std::nullopt;
+  return std::optional(std::move(series));
+}
+
+}  // namespace obvid
