@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <fmt/format.h>
 
+#include <cmath>
 #include <numbers>
 #include <string>
 #include <vector>
@@ -18,8 +19,12 @@
 namespace obvid {
 namespace {
 
+std::string end_text(double end) {
+  return std::isfinite(end) ? significant(end, 3) : std::string("no bound");
+}
+
 std::string range_text(const Extent& extent) {
-  return fmt::format("{} to {}", significant(extent.least, 3), significant(extent.most, 3));
+  return fmt::format("{} to {}", end_text(extent.least), end_text(extent.most));
 }
 
 std::string order_text(int order) { return fmt::format("C{}", order); }

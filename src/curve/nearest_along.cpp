@@ -2,6 +2,8 @@
 #include "obvid/curve/internal/nearest_along.h"
 
 #include <algorithm>
+#include <cmath>
+#include <limits>
 
 #include "obvid/curve/internal/nearest.h"
 
@@ -10,6 +12,8 @@ namespace {
 
 constexpr std::size_t kPlaces = 8;  // of a piece, that are looked at for its nearest one
 constexpr double kRecord = 1.01;    // of the farthest before
+/// Roundings of a coordinate by which another place is not nearer: a closed path is at its seam twice.
+constexpr double kSamePlace = 64.0 * std::numeric_limits<double>::epsilon();
 
 double place_parameter(std::size_t k) { return (static_cast<double>(k) + 0.5) / kPlaces; }
 
@@ -51,14 +55,16 @@ double NearestAlong::distance(Vec2 p, double known) {
   return here;
 }
 
-/// From every place that may lead nearer: a sharp turn may lie inside of a piece.
+/// From every place that may lead nearer, by more than rounding: a sharp turn may lie inside of a
+/// piece.
 void NearestAlong::look_everywhere(Vec2 p, double& here) {
+  const double same = kSamePlace * std::max(std::abs(p.x), std::abs(p.y));
   for (std::size_t i = 0; i < places_.size(); ++i) {
     const std::size_t piece = i / kPlaces;
-    if (norm(places_[i] - p) - apart_[piece] >= here) continue;
+    if (norm(places_[i] - p) - apart_[piece] >= here - same) continue;
     double t = place_parameter(i % kPlaces);
     const double there = settle(piece, t, p);
-    if (there >= here) continue;
+    if (there >= here - same) continue;
     here = there;
     at_ = piece;
     t_ = t;

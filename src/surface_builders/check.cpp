@@ -107,6 +107,64 @@ double climbed(const NurbsSurface& s, Extreme from) {
   return from.value;
 }
 
+/// From a place beside a border towards it, each step half as far away as the one before.
+constexpr int kApproach = 8;
+
+/// A way to the border of a patch: straight at it, or into a corner.
+struct Way {
+  double u = 0.0, v = 0.0;    ///< the place on the border
+  double du = 0.0, dv = 0.0;  ///< from there to the beginning of the way
+
+  [[nodiscard]] SurfaceJet jet(const NurbsSurface& s, int step) const {
+    const double part = std::ldexp(1.0, -step);
+    return evaluate(s, u + part * du, v + part * dv);
+  }
+};
+
+/// Ways from the outermost nodes to the border and into the corners.
+std::vector<Way> ways_out(const NurbsSurface& s, const std::vector<Node>& us,
+                          const std::vector<Node>& vs) {
+  const Range u = domain_u(s), v = domain_v(s);
+  const std::array u_ends{Way{u.from, 0.0, us.front().at - u.from, 0.0},
+                          Way{u.to, 0.0, us.back().at - u.to, 0.0}};
+  const std::array v_ends{Way{0.0, v.from, 0.0, vs.front().at - v.from},
+                          Way{0.0, v.to, 0.0, vs.back().at - v.to}};
+  std::vector<Way> ways;
+  for (const Way& end : u_ends) {
+    for (const Node& node : vs) ways.push_back({end.u, node.at, end.du, 0.0});
+    for (const Way& other : v_ends) ways.push_back({end.u, other.v, end.du, other.dv});
+  }
+  for (const Way& end : v_ends) {
+    for (const Node& node : us) ways.push_back({node.at, end.v, 0.0, end.dv});
+  }
+  return ways;
+}
+
+/// Whether the surface ends in a point there: du x dv shrinks with the distance.
+bool vanishes(const NurbsSurface& s, const Way& way) {
+  constexpr double kShrunk = 0.02;  // five times what a simple pole leaves
+  const auto area_of = [](const SurfaceJet& jet) { return norm(cross(jet.du, jet.dv)); };
+  return area_of(way.jet(s, kApproach)) < kShrunk * area_of(way.jet(s, 0));
+}
+
+/// Where a quantity leads on such a way: its last value, or infinity when its steps do not shrink.
+/// (Towards a bound as a power p of the distance they shrink by 2^-p; logarithms step evenly.)
+double led_to(const std::array<SurfaceCurvature, kApproach + 1>& along, const Extreme& one) {
+  constexpr double kShrinks = 0.9;
+  constexpr double kRounding = 1e-9;  // of the largest curvature there, squared for products
+  constexpr std::size_t kLast = kApproach, kMiddle = kLast / 2;
+  std::array<double, kApproach + 1> value{};
+  for (std::size_t k = 0; k <= kLast; ++k) value[k] = one.sign * along[k].*(one.quantity);
+  double largest = std::max(std::abs(along[kLast].k1), std::abs(along[kLast].k2));
+  if (one.quantity == &SurfaceCurvature::gaussian) largest *= largest;
+  bool grows = value[kLast] - value[kMiddle] > kRounding * largest;
+  for (std::size_t k = kMiddle; k + 1 < kLast; ++k) {
+    const double step = value[k + 1] - value[k];
+    grows = grows && step > 0.0 && value[k + 2] - value[k + 1] > kShrinks * step;
+  }
+  return grows ? std::numeric_limits<double>::infinity() : value[kLast];
+}
+
 /// Area and curvature of a patch.
 struct Measured {
   double area = 0.0;
@@ -123,7 +181,8 @@ Measured measured(const NurbsSurface& s, std::size_t n) {
   }
   Measured out;
   const std::vector<Node> along_u = nodes_of(s.knots_u, domain_u(s), n);
-  for (const Node& v : nodes_of(s.knots_v, domain_v(s), n)) {
+  const std::vector<Node> along_v = nodes_of(s.knots_v, domain_v(s), n);
+  for (const Node& v : along_v) {
     for (const Node& u : along_u) {
       const SurfaceJet jet = evaluate(s, u.at, v.at);
       out.area += norm(cross(jet.du, jet.dv)) * u.weight * v.weight;
@@ -136,9 +195,22 @@ Measured measured(const NurbsSurface& s, std::size_t n) {
     }
   }
   if (!std::isfinite(extremes.front().value)) return out;  // no tangent plane anywhere
-  const auto extent = [&](std::size_t q) {
-    return Extent{-climbed(s, extremes[2 * q]), climbed(s, extremes[2 * q + 1])};
-  };
+  std::vector<double> most;
+  for (const Extreme& one : extremes) most.push_back(climbed(s, one));
+  for (const Way& way : ways_out(s, along_u, along_v)) {
+    if (!vanishes(s, way)) continue;
+    std::array<SurfaceCurvature, kApproach + 1> along;
+    bool tangent = true;
+    for (int k = 0; k <= kApproach; ++k) {
+      SurfaceCurvature& there = along[static_cast<std::size_t>(k)];
+      there = curvature(way.jet(s, k));
+      tangent = tangent && !(there.normal == Vec3{});
+    }
+    for (std::size_t q = 0; tangent && q < most.size(); ++q) {
+      most[q] = std::max(most[q], led_to(along, extremes[q]));
+    }
+  }
+  const auto extent = [&](std::size_t q) { return Extent{-most[2 * q], most[2 * q + 1]}; };
   out.curvature.gaussian = extent(0);
   out.curvature.mean = extent(1);
   out.curvature.k1 = extent(2);

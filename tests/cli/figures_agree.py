@@ -58,10 +58,12 @@ SURFACES = [("skin", ["hulls_grids/Series60Offset_%s.dat"], []),
             ("skin", ["hulls_grids/wpb_offset_mid_%s.dat"], [])]
 OWN_SURFACES = [("skin", ["surfaces/wigley_stations.csv"], []),
                 ("grid", ["surfaces/wavy_grid.csv"], []),
-                ("revolve", ["surfaces/vase_profile.csv"], [])]
+                ("revolve", ["surfaces/vase_profile.csv"], []),
+                ("ruled", ["surfaces/vase_profile.csv"], ["--apex", "0,50,90"])]
 CARRIERS = ["spiral", "arcs", "conics", "beziers", "clothoids", "bspline", "cubic", "baseline"]
 SECONDS_OF_A_RUN = 120
 UNKNOWN = "-"
+NO_BOUND = "no bound"
 NUMBER = r"[-+−]?(?:\d+\.?\d*|\.\d+)(?:e[-+]?\d+)?"
 # A text rounds once; a value halfway between two numbers may fall to either side.
 HALF = 0.5 * (1 + 1e-6)
@@ -503,26 +505,31 @@ class Subject:
         patches = {p["name"]: p for p in answer["patches"]}
         for name, patch in patches.items():
             row = re.search(rf"^{re.escape(name)}  +\d+ x \d+.*$", table.out, re.M)
-            said = self.found(f"{name}: row of surface check", rf" ({NUMBER})  +({NUMBER}) to "
-                              rf"({NUMBER})  +({NUMBER}) to ({NUMBER})$", row and row[0])
+            end = rf"({NUMBER}|{NO_BOUND})"
+            said = self.found(f"{name}: row of surface check", rf" ({NUMBER})  +{end} to "
+                              rf"{end}  +{end} to {end}$", row and row[0])
             values = [patch["area"], *patch["gaussian"], *patch["mean"]]
             for text, value in zip(said or [], values):
-                self.shows(f"{name}: surface check", text, value)
+                self.shows(f"{name}: surface check", text.replace(NO_BOUND, UNKNOWN), value)
             row = re.search(rf"^{re.escape(name)} +(\d+) of (\d+) +(\d+) +(\d+) +(\d+) +(\d+) of "
                             r"(\d+) +(\d+) +(\d+) +(\d+)$", table.out, re.M)
             self.same(f"{name}: lines", row and [int(n) for n in row.groups()],
                       [patch[way][key] for way in ("along_u", "along_v") for key in (
                           "monotone", "lines", "vertices", "most_vertices", "inflections")])
-        most = [(min, max)[k](p["gaussian"][k] for p in patches.values()) for k in range(2)]
+        endless = (-math.inf, math.inf)
+        most = [(min, max)[k](endless[k] if p["gaussian"][k] is None else p["gaussian"][k]
+                              for p in patches.values()) for k in range(2)]
+        most = [value if math.isfinite(value) else None for value in most]
         for picture in ("s.svg", "made.svg"):
-            extremes = re.search(rf"from ({NUMBER}) to ({NUMBER}) in all",
+            extremes = re.search(rf"from {end} to {end} in all",
                                  " ".join(labels_of(self.read(picture))))
             for k in range(2) if extremes else []:
-                self.shows(f"Gaussian curvature in {picture}", extremes[k + 1], most[k])
-        page = re.search(r'"least":(-?[\d.e+-]+)[^{}]*?"most":(-?[\d.e+-]+)',
+                self.shows(f"Gaussian curvature in {picture}",
+                           extremes[k + 1].replace(NO_BOUND, UNKNOWN), most[k])
+        page = re.search(r'"least":(-?[\d.e+-]+|null)[^{}]*?"most":(-?[\d.e+-]+|null)',
                          self.read("made.html"))
-        for k in range(2) if most[0] < most[1] else []:
-            self.same("Gaussian curvature of the page", page and float(page[k + 1]), most[k])
+        for k in range(2) if most[0] != most[1] else []:
+            self.same("Gaussian curvature of the page", page and json.loads(page[k + 1]), most[k])
         return len(patches)
 
     # compare ------------------------------------------------------------------------------------

@@ -125,6 +125,27 @@ TEST(PathDistance, FollowsACurveAroundAHairpinAndPastItsStart) {
   EXPECT_LT(path_distance(whole, parts), 1e-12);
 }
 
+TEST(PathDistance, OfClosedPathsFarAwayGoesOnFromTheirStartsWhereTheEndIsAsNear) {
+  // a long way round in three lines, and the same way in short ones that end an ulp nearer to the
+  // seam than they begin
+  const Vec2 from{-6e7, 4e5}, right{-5.9e7, 4e5}, top{-5.9e7, 9e5};
+  const std::vector<Vec2> corners{from, right, top, from};
+  std::vector<Piece> few, many;
+  for (std::size_t i = 0; i + 1 < corners.size(); ++i) {
+    few.emplace_back(LinePiece{corners[i], corners[i + 1]});
+    constexpr int kParts = 80;
+    for (int k = 0; k < kParts; ++k) {
+      const auto at = [&](int part) {
+        return corners[i] + (static_cast<double>(part) / kParts) * (corners[i + 1] - corners[i]);
+      };
+      many.emplace_back(LinePiece{at(k), k + 1 == kParts ? corners[i + 1] : at(k + 1)});
+    }
+  }
+  std::get<LinePiece>(many.front()).start.x = std::nextafter(from.x, 0.0);
+  EXPECT_LT(path_distance(few, many), 1e-7);
+  EXPECT_LT(path_distance(many, few), 1e-7);
+}
+
 TEST(PathDistance, SurvivesPiecesOfNoLengthAndEmptyPaths) {
   const Pieces point = {LinePiece{{0.0, 0.0}, {0.0, 0.0}}};
   EXPECT_NEAR(path_distance(point, Pieces{LinePiece{{0.0, 0.0}, {3.0, 4.0}}}), 5.0, 1e-12);

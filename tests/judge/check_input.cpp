@@ -425,8 +425,10 @@ void check_input(const Course& course, const Input& input, Sheet& sheet) {
   const ContourFile& file = course.file;
   const Expected expected = expected_of(input, file.closed);
   sheet.expect(file.units == input.units, "units", file.units, input.units, "");
-  // points without named columns: the user says the unit, or nobody does (docs/formats.md)
-  const std::string source = input.units_given ? "given" : "assumed";
+  // the user says the unit, or names of columns do, or nobody does (docs/formats.md)
+  const std::string source = input.units_given     ? "given"
+                             : input.units_in_file ? "file"
+                                                   : "assumed";
   sheet.expect(file.units_source == source, "units_source", file.units_source, source, "");
   sheet.expect(file.carrier == input.carrier, "carrier", file.carrier, input.carrier, "");
   sheet.expect(file.closed == expected.closed, "closed", file.closed ? "true" : "false",

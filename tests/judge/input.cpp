@@ -104,7 +104,7 @@ class Reader {
     const std::vector<std::string> cells = cells_of(text);
     if (cells.empty()) return;
     if (!is_number(cells[0])) {
-      for (std::size_t i = 0; i < cells.size(); ++i) column_[cells[i]] = i;
+      for (std::size_t i = 0; i < cells.size(); ++i) name(cells[i], i);
       return;
     }
     GivenPoint p;
@@ -126,8 +126,18 @@ class Reader {
     merge(p);
   }
   std::vector<GivenPoint> points;
+  std::string unit;  ///< behind the names of x and y; empty: none
 
  private:
+  /// "x", "x_mm" or "x [mm]" (blanks are gone by now).
+  void name(const std::string& text, std::size_t column) {
+    column_[text] = column;
+    if (text.size() < 3 || (text[0] != 'x' && text[0] != 'y')) return;
+    const bool brackets = text[1] == '[' && text.back() == ']';
+    if (text[1] != '_' && !brackets) return;
+    unit = text.substr(2, brackets ? text.size() - 3 : std::string::npos);
+    column_[text.substr(0, 1)] = column;
+  }
   const std::string* cell(const std::vector<std::string>& cells, const std::string& name,
                           int otherwise = -1) const {
     const auto found = column_.find(name);
@@ -240,6 +250,10 @@ Input read_input(const std::string& text, const std::vector<std::string>& option
   std::istringstream lines(text);
   for (std::string line; std::getline(lines, line);) reader.line(line);
   out.points = std::move(reader.points);
+  if (!reader.unit.empty()) {
+    out.units = reader.unit;
+    out.units_in_file = true;
+  }
   Options(out).read(options);
   return out;
 }

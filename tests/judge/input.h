@@ -39,16 +39,18 @@ struct Input {
   std::vector<GivenPoint> points;  ///< repeats merged
   std::string units = "mm", carrier = "spiral";
   std::string construction;  ///< of the papers; empty: none. `carrier` is that of its pieces
-  bool units_given = false;
+  bool units_given = false, units_in_file = false;
   /// What stands behind lengths in texts.
-  [[nodiscard]] std::string printed_unit() const { return units_given ? units : "units"; }
+  [[nodiscard]] std::string printed_unit() const {
+    return units_given || units_in_file ? units : "units";
+  }
   std::optional<double> tolerance, noise;
   bool rounding = false, closed = false, open = false, convex = false, primitives = false;
   std::optional<Truth> truth;
   std::string fault;  ///< of the reading
 };
 
-/// Simple text: x and y, or named columns x, y, heading_deg, radius, kappa, tol, corner, and
+/// Simple text: x and y, or named columns x, y (x_mm or "x [mm]" with a unit), heading_deg, radius, kappa, tol, corner, and
 /// heading_min, heading_max, radius_min, radius_max, kappa_min, kappa_max.
 Input read_input(const std::string& text, const std::vector<std::string>& options);
 

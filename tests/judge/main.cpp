@@ -147,6 +147,12 @@ void print_finding(const Finding& f) {
   }
 }
 
+/// No exit code is known of a stored report, but its verdict.
+int code_said_by(const std::string& report) {
+  const std::vector<std::string> lines = lines_of(report);
+  return !lines.empty() && lines.back().starts_with("NOT proved") ? 5 : 0;
+}
+
 int judge_file(const Settings& settings) {
   Sheet sheet;
   const std::string stored = text_of_file(settings.contour);
@@ -176,12 +182,15 @@ int judge_file(const Settings& settings) {
       check_fit_text(course, run, sheet);
     }
     if (!settings.verify.empty()) {
+      const int fit_code = settings.text.empty() ? -1 : code_said_by(run.out);
       run.out = text_of_file(settings.verify);
-      check_verify_text(course, run, sheet);
+      run.code = code_said_by(run.out);
+      check_verify_text(course, run, sheet, fit_code);
     }
+    const std::string report = settings.text.empty() ? "" : text_of_file(settings.text);
     for (const std::string& file : settings.exports) {
-      check_export(course, std::filesystem::path(file).filename().string(), text_of_file(file), {},
-                   sheet);
+      check_export(course, std::filesystem::path(file).filename().string(), text_of_file(file),
+                   notes_of(report, file), sheet);
     }
   }
   print_table(sheet);

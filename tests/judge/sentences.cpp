@@ -106,6 +106,16 @@ std::vector<std::string> lines_of(const std::string& text) {
   return out;
 }
 
+std::vector<std::string> notes_of(const std::string& report, const std::string& file) {
+  std::vector<std::string> notes;
+  for (const std::string& line : lines_of(report)) {
+    std::string value = line;
+    if (const auto fact = fact_of(line); fact && fact->label == "note") value = fact->value;
+    if (value.starts_with(file + ": ")) notes.push_back(value.substr(file.size() + 2));
+  }
+  return notes;
+}
+
 std::vector<std::string> split(const std::string& text, const std::string& by) {
   std::vector<std::string> out;
   std::size_t from = 0;

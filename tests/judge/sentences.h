@@ -23,6 +23,8 @@ struct Fact {
 std::optional<Fact> fact_of(const std::string& line);
 
 std::vector<std::string> lines_of(const std::string& text);
+/// What a report says of a file that was written.
+std::vector<std::string> notes_of(const std::string& report, const std::string& file);
 std::vector<std::string> split(const std::string& text, const std::string& by);
 std::vector<std::string> words_of(const std::string& text);
 

@@ -68,13 +68,17 @@ Motion make_motion(Dice& dice, Real shape_size) {
   return out;
 }
 
+constexpr const char* kUnits[] = {"mm", "m", "in", "cm", "ft", "um", "km", "yd", "mi", "usft"};
+
 class SeriesMaker {
  public:
   SeriesMaker(std::uint64_t seed, std::uint64_t index)
-      : dice_(seed * 0x100000001B3ULL ^ index), thinning_(~seed * 0x100000001B3ULL ^ index) {
+      : dice_(seed * 0x100000001B3ULL ^ index), thinning_(~seed * 0x100000001B3ULL ^ index),
+        naming_((seed + 1) * 0x100000001B3ULL ^ ~index) {
     for (int i = 0; i < 4; ++i) {
       dice_.next();
       thinning_.next();
+      naming_.next();
     }
   }
 
@@ -108,7 +112,6 @@ class SeriesMaker {
   void choose_options(const Shape& shape) {
     static const char* kCarriers[] = {"arcs",    "conics", "beziers", "clothoids",
                                       "bspline", "cubic",  "baseline"};
-    static const char* kUnits[] = {"mm", "m", "in", "cm", "ft", "um", "km", "yd", "mi", "usft"};
     if (dice_.chance(0.65)) add("--carrier", kCarriers[dice_.whole(0, 6)]);
     if (dice_.chance(0.35)) add("--units", kUnits[dice_.whole(0, 9)]);
     if (dice_.chance(0.2)) {
@@ -189,7 +192,8 @@ class SeriesMaker {
       out_.truth.reset();
     }
     const bool tolerances = dice_.chance(0.05);
-    out_.text = tolerances ? "x,y,tol\n" : "x,y\n";
+    const std::string unit = unit_of_names();
+    out_.text = fmt::format("x{0},y{0}{1}\n", unit, tolerances ? ",tol" : "");
     for (const Vec p : points) {
       const auto x = static_cast<double>(p.x), y = static_cast<double>(p.y);
       out_.text += rounded && decimals >= 0 && decimals < 15
@@ -198,6 +202,13 @@ class SeriesMaker {
       if (tolerances) out_.text += "," + few(dice_.logarithmic(1e-8, 1e-3) * size_);
       out_.text += "\n";
     }
+  }
+
+  /// Behind the names of the columns: "_mm", " [mm]", mostly nothing. An option goes before.
+  std::string unit_of_names() {
+    if (!naming_.chance(has("--units") ? 0.05 : 0.25)) return "";
+    const char* unit = kUnits[naming_.whole(0, 9)];
+    return naming_.chance(0.5) ? fmt::format("_{}", unit) : fmt::format(" [{}]", unit);
   }
 
   /// Headings and radii: of the known curve, or random and mostly contradictory.
@@ -279,7 +290,7 @@ class SeriesMaker {
   }
 
   Dice dice_;
-  Dice thinning_;  // of its own: the series that stay are the same
+  Dice thinning_, naming_;  // of their own: the series that stay are the same
   std::array<bool, 7> wished_{};
   Series out_;
   double size_ = 1.0;

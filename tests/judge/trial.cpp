@@ -84,16 +84,6 @@ class Work : public ProgramRuns {
     others(course);
   }
 
-  static std::vector<std::string> notes_of(const std::string& out, const std::string& file) {
-    std::vector<std::string> notes;
-    for (const std::string& line : lines_of(out)) {
-      std::string value = line;
-      if (const auto fact = fact_of(line); fact && fact->label == "note") value = fact->value;
-      if (value.starts_with(file + ": ")) notes.push_back(value.substr(file.size() + 2));
-    }
-    return notes;
-  }
-
   void exports(const Course& course, const Run& fit) {
     for (const std::string& file : exports_) {
       const std::string text = text_of_file(path(file));

@@ -422,5 +422,52 @@ TEST(Drawings, CoarsePolygonsOfPointsGetAWordOrCorners) {
   EXPECT_TRUE(smooth->warnings.empty());
 }
 
+std::vector<Vec2> regular(int corners) {
+  std::vector<Vec2> out;
+  for (int i = 0; i < corners; ++i) out.push_back(10.0 * unit_at(2.0 * kPi * i / corners));
+  return out;
+}
+
+/// Twelve teeth with steep flanks.
+std::vector<Vec2> gear() {
+  std::vector<Vec2> out;
+  for (int tooth = 0; tooth < 12; ++tooth) {
+    const double at = tooth * kPi / 6.0;
+    for (const double side : {-0.10, -0.07, 0.07, 0.10}) {
+      out.push_back((std::abs(side) < 0.09 ? 10.0 : 8.0) * unit_at(at + side));
+    }
+  }
+  return out;
+}
+
+TEST(Drawings, NoCarrierRoundsACoarsePolygonWithoutAWordAndAllKeepItsCorners) {
+  const std::vector<std::vector<Vec2>> shapes = {
+      {{0, 0}, {40, 0}, {40, 20}, {0, 20}},
+      {{0, 0}, {30, 0}, {10, 25}},
+      {{0, 0}, {40, 0}, {40, 10}, {10, 10}, {10, 30}, {0, 30}},
+      regular(6),
+      gear()};
+  const auto advises = [](const std::string& text) {
+    return text.find("--corner-angle 20 makes corners of all of them") != std::string::npos;
+  };
+  for (const std::vector<Vec2>& shape : shapes) {
+    std::vector<Vec2> closed = shape;
+    closed.push_back(shape.front());
+    for (const Carrier carrier : kAllCarriers) {
+      SCOPED_TRACE(std::to_string(shape.size()) + " corners, " + to_string(carrier));
+      FitJob job;
+      job.carrier = carrier;
+      const auto bare = fit(points(closed), job);
+      EXPECT_TRUE(bare ? std::any_of(bare->warnings.begin(), bare->warnings.end(), advises)
+                       : advises(to_line(bare.error())));
+      job.corner_angle = 20.0 * kPi / 180.0;
+      const auto sharp = fit(points(closed), job);
+      ASSERT_TRUE(sharp) << to_line(sharp.error());
+      EXPECT_EQ(static_cast<std::size_t>(sharp->certificate.corners), shape.size());
+      EXPECT_EQ(sharp->contour.pieces.size(), shape.size());
+    }
+  }
+}
+
 }  // namespace
 }  // namespace obvid

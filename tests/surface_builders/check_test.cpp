@@ -130,6 +130,43 @@ TEST(CheckSurface, FindsExtremesBetweenItsPlacesAndOnBorders) {
   }
 }
 
+/// Turned about z from its first point, which lies on the axis.
+NurbsSurface with_pole(const SpaceCurve& profile) {
+  return nurbs(RevolutionSurface{profile, {0, 0, 0}, {0, 0, 1}, 2 * kPi});
+}
+
+TEST(CheckSurface, TheTipOfAConeHasNoBoundHoweverManyPlacesAreLookedAt) {
+  const NurbsSurface cone = with_pole(line_between({0, 0, 0}, {3, 0, 4}));
+  for (const std::size_t samples : {3u, 5u, 65u, 200u}) {
+    const CurvatureExtents found = curvature_extents(cone, samples);
+    // across the generators 4/5 over the distance from the axis, 3 at the most; along them nothing
+    const double rim = 0.8 / 3.0, side = found.mean.most > 0.0 ? 1.0 : -1.0;
+    const double endless = side > 0.0 ? found.mean.most : -found.mean.least;
+    const double least = side > 0.0 ? found.mean.least : -found.mean.most;
+    EXPECT_TRUE(std::isinf(endless)) << samples;
+    EXPECT_NEAR(least, 0.5 * rim, 1e-6) << samples;
+    EXPECT_NEAR(found.gaussian.least, 0.0, 1e-6) << samples;
+    EXPECT_NEAR(found.gaussian.most, 0.0, 1e-6) << samples;
+  }
+}
+
+TEST(CheckSurface, APoleOfABoundedCurvatureHasIt) {
+  const NurbsSurface half_ball = with_pole(arc_about({0, 0, -2}, {0, 0, 0}, {0, -1, 0}, kPi / 2));
+  SpaceCurve parabola;  // z = x^2 / 2: both curvatures are 1 at the pole and fall from there
+  parabola.degree = 2;
+  parabola.knots = {0, 0, 0, 1, 1, 1};
+  parabola.points = {{0, 0, 0}, {0.5, 0, 0}, {1, 0, 0.5}};
+  for (const std::size_t samples : {3u, 5u, 65u}) {
+    const CurvatureExtents ball = curvature_extents(half_ball, samples);
+    EXPECT_NEAR(ball.gaussian.least, 0.25, 1e-6) << samples;
+    EXPECT_NEAR(ball.gaussian.most, 0.25, 1e-6) << samples;
+    const CurvatureExtents bowl = curvature_extents(with_pole(parabola), samples);
+    EXPECT_NEAR(std::max(bowl.mean.most, -bowl.mean.least), 1.0, 1e-4) << samples;
+    EXPECT_NEAR(bowl.gaussian.most, 1.0, 1e-4) << samples;
+    EXPECT_NEAR(bowl.gaussian.least, 0.25, 1e-6) << samples;  // 1 / (1 + r^2)^2 at r = 1
+  }
+}
+
 TEST(CheckSurface, CountsVerticesAndInflectionsOfLines) {
   // y = sin x over one and a half waves: extrema of curvature at the crests, inflections between
   std::vector<Vec3> points;

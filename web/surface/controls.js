@@ -32,8 +32,10 @@ function showLegend() {
     label.style.left = 100 * part + "%";
     ticks.append(label);
   }
-  const cut = scale.least < scale.low || scale.most > scale.high;
-  extremes.textContent = constant ? "the same everywhere" : `least ${readable(scale.least)}, greatest ${readable(scale.most)}` +
+  const endless = scale.least === null || scale.most === null;  // no bound there
+  const end = value => value === null ? "no bound" : readable(value);
+  const cut = endless || scale.least < scale.low || scale.most > scale.high;
+  extremes.textContent = constant && !endless ? "the same everywhere" : `least ${end(scale.least)}, greatest ${end(scale.most)}` +
       (!cut ? "" : scale.diverging ? `; colours to ±${readable(scale.high)}` : `; colours ${readable(scale.low)} to ${readable(scale.high)}`);
 }
 

@@ -79,11 +79,10 @@ class Program {
       if (path.lost_arcs()) return fail(too_large());
       within -= deviation - kOfBlockTolerance * options_.tolerance;
     }
-    return error(ErrorCode::kToleranceNotReached,
-                 fmt::format("{} decimals do not keep a tolerance of {:g} {}", decimals_,
-                             options_.tolerance, contour_.units.text()))
-        .hint("print more decimals, or allow a larger tolerance")
-        .value(deviation);
+    return fail({ErrorCode::kToleranceNotReached,
+                 fmt::format("no program with {} decimals was found within a tolerance of {:g} {}",
+                             decimals_, options_.tolerance, contour_.units.text()),
+                 "", "print more decimals, or allow a larger tolerance", -1, deviation});
   }
 
  private:

@@ -98,6 +98,11 @@ std::string scale_bar(const SheetTexts& texts, const PictureCamera& camera, doub
                  readable(length, kSheetDigits) + " " + texts.units);
 }
 
+/// Infinite where the quantity has no bound on that side.
+std::string end_of_scale(double end) {
+  return std::isfinite(end) ? readable(end, kSheetDigits) : std::string("no bound");
+}
+
 /// Bands of the colours with round numbers below.
 std::string legend_bar(const ValueScale& scale, double left, double width, double y) {
   std::string out;
@@ -134,9 +139,9 @@ std::string legend(const Colours& colours, const std::string& units, double widt
   std::string out = text_at(0.5 * width, y - 6.0, "name", "middle", head);
   out += legend_bar(scale, left, wide, y);
   if (scale.least < scale.low || scale.most > scale.high) {
-    out += text_at(0.5 * width, y + 40.0, "note", "middle",
-                   "from " + readable(scale.least, kSheetDigits) + " to " +
-                       readable(scale.most, kSheetDigits) + " in all");
+    out += text_at(
+        0.5 * width, y + 40.0, "note", "middle",
+        "from " + end_of_scale(scale.least) + " to " + end_of_scale(scale.most) + " in all");
   }
   return out;
 }

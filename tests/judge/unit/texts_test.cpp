@@ -246,7 +246,7 @@ TEST(JudgeTexts, WithoutAFileTheExitCodeAndTheMessageSayWhy) {
     return sheet.has("exit code");
   };
   EXPECT_FALSE(of_exit(4, "obvid: error E401: no"));
-  EXPECT_FALSE(of_exit(5, "obvid: error E502: 4 decimals do not keep a tolerance"));
+  EXPECT_FALSE(of_exit(5, "obvid: error E502: no program with 4 decimals"));
   EXPECT_TRUE(of_exit(5, "obvid: error E501: not proved"));
   EXPECT_TRUE(of_exit(0, ""));
   EXPECT_TRUE(of_exit(4, ""));
@@ -264,6 +264,10 @@ TEST(JudgeTexts, FindsGivenDataThatAreNotKept) {
   EXPECT_EQ(all_false(of_input(points, {"--units", "mm"})), "");
   EXPECT_TRUE(of_input(points, {"--units", "in"}).has("units"));
   EXPECT_TRUE(of_input(points, {}).has("units_source"));  // nobody said mm
+  const std::string named = changed(points, "x,y", "x_mm,y [mm]");
+  EXPECT_FALSE(of_input(named, {}).has("units"));
+  EXPECT_TRUE(of_input(named, {}).has("units_source"));  // the file says that the user gave mm
+  EXPECT_TRUE(of_input(changed(points, "x,y", "x_in,y_in"), {}).has("units"));
   EXPECT_TRUE(of_input(points, {"--closed"}).has("closed"));
   EXPECT_TRUE(of_input(points, {"--carrier", "arcs"}).has("carrier"));
   EXPECT_TRUE(of_input(points, {"--tolerance", "0.01"}).has("report.tolerance"));

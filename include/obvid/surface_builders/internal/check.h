@@ -12,7 +12,8 @@
 
 namespace obvid {
 
-/// Smallest and largest value of a quantity over a patch.
+/// Smallest and largest value of a quantity over a patch; infinite where it was found to have no
+/// bound on that side.
 struct Extent {
   double least = 0.0;
   double most = 0.0;
@@ -27,8 +28,10 @@ struct CurvatureExtents {
 
 /// Between which figures the curvatures of a patch lie: looked for at about `samples` places per
 /// direction, two or more in each span, and climbed to from there (the nearest extreme, to some
-/// 1e-9 of it). Not proved: an extreme between the places can be missed. Towards poles, where
-/// curvature may have no bound, what the places show decides. All 0 without a tangent plane.
+/// 1e-9 of it). Not proved: an extreme between the places can be missed. Towards borders and corners
+/// where du x dv vanishes (poles) each quantity is followed over eight halvings of the distance: one
+/// whose steps do not shrink by then (a tenth each) has no bound on that side. Poles inside a patch
+/// are not looked for. All 0 without a tangent plane.
 [[nodiscard]] CurvatureExtents curvature_extents(const NurbsSurface& surface,
                                                  std::size_t samples = 65);
 
