@@ -646,7 +646,7 @@ Result<Command> parse_command_line(int argc, const char* const* argv) {
     }
     return checked(app, raw);
   } catch (const CLI::Error& error) {
-    return error(ErrorCode::kInternal, error.what()).where("command line");
+    return obvid::error(ErrorCode::kInternal, error.what()).where("command line");
   }
 }
 

@@ -723,7 +723,7 @@ class Surfaces(unittest.TestCase):
         line = space_points([(0, 0, 0), (1, 2, 1), (2, 2, 1)])
         for kind, inputs, options, code in (("bowl", [line], None, 201), ("skin", [], None, 201), ("offset", [line], {"distance": 1}, 310),
                                             ("offset", [line], None, 203), ("ruled", [line], {"apex": "1,2"}, 203),
-                                            ("gordon", [line], None, 201), ("skin", [line], None, 304),
+                                            ("gordon", [line], None, 201), ("skin", [line], None, 312),
                                             ("skin", [line], {"carrier": "arcs"}, 201), ("revolve", [line], {"axis": "0,0,0"}, 203)):
             with self.subTest(kind=kind, options=options):
                 with self.assertRaises(Failed) as refused:
