@@ -124,6 +124,17 @@ Result<std::vector<SurfaceOutput>> pictures_of(const SurfaceCheckOptions& option
   return outputs;
 }
 
+/// "12 meet, 3 of them too far apart to be joined in meshes and CAD files, 2 are free".
+std::string borders_text(const SurfaceCheck& check) {
+  const auto apart = std::count_if(check.joints.begin(), check.joints.end(),
+                                   [](const JointReport& joint) { return !joint.shared; });
+  std::string text = fmt::format("{} meet", check.joints.size());
+  if (apart > 0) {
+    text += fmt::format(", {} of them too far apart to be joined in meshes and CAD files", apart);
+  }
+  return text + fmt::format(", {} free", check.free_borders);
+}
+
 }  // namespace
 
 std::string surface_check_text(const SurfaceModel& model, const SurfaceCheck& check,
@@ -132,7 +143,7 @@ std::string surface_check_text(const SurfaceModel& model, const SurfaceCheck& ch
   if (!check.joints.empty()) text += joint_table(model, check).text() + "\n";
   Facts facts;
   facts.add("size", significant(check.size) + " " + model.units.text());
-  facts.add("borders", fmt::format("{} meet", check.joints.size()));
+  facts.add("borders", borders_text(check));
   for (const std::string& remark : written.remarks) facts.add("note", remark);
   if (!written.files.empty()) facts.add("written", listed(written.files));
   return text + facts.text();

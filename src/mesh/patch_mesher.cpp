@@ -44,7 +44,7 @@ PatchMesher::PatchMesher(const PatchSampler& sampler, const CellTree& tree, cons
       block_u_(blocks_of(tree.edges_u())),
       block_v_(blocks_of(tree.edges_v())) {
   collect_nodes();
-  for (std::size_t side = 0; side < kSides; ++side) collect_border(side, patch, borders);
+  for (const PatchSide side : kPatchSides) collect_border(side, patch, borders);
   vertex_.assign(nodes_.size(), kNone);
   mesh_.vertices.reserve(nodes_.size());
   mesh_.triangles.reserve(2 * tree.cells().size());
@@ -103,7 +103,7 @@ PatchMesher::Id PatchMesher::node_at(Line u, Line v) const {
 }
 
 /// Points of the border: those of cells get the border's point, others are new nodes.
-void PatchMesher::collect_border(std::size_t side, std::size_t patch, const Borders& borders) {
+void PatchMesher::collect_border(PatchSide side, std::size_t patch, const Borders& borders) {
   const bool along_u = runs_along_u(side);
   const PatchAxis& across = along_u ? sampler_.v() : sampler_.u();
   const Line end = is_far_end(side) ? across.last() : 0;
@@ -127,7 +127,7 @@ void PatchMesher::collect_border(std::size_t side, std::size_t patch, const Bord
 }
 
 /// Nodes of a side of a cell, both corners included, ascending.
-void PatchMesher::side_of(const Cell& c, std::size_t side, std::vector<Id>& out) const {
+void PatchMesher::side_of(const Cell& c, PatchSide side, std::vector<Id>& out) const {
   out.clear();
   const bool along_u = runs_along_u(side), far = is_far_end(side);
   const PatchAxis& axis = along_u ? sampler_.u() : sampler_.v();
@@ -150,15 +150,15 @@ void PatchMesher::side_of(const Cell& c, std::size_t side, std::vector<Id>& out)
 }
 
 void PatchMesher::add_cell(const Cell& cell) {
-  for (std::size_t side = 0; side < kSides; ++side) side_of(cell, side, side_[side]);
-  const bool more_along_u = side_[0].size() > 2 || side_[1].size() > 2;
-  const bool more_along_v = side_[2].size() > 2 || side_[3].size() > 2;
+  for (const PatchSide side : kPatchSides) side_of(cell, side, side_[side]);
+  const bool more_along_u = side_[kVStart].size() > 2 || side_[kVEnd].size() > 2;
+  const bool more_along_v = side_[kUStart].size() > 2 || side_[kUEnd].size() > 2;
   if (cell.fan || (more_along_u && more_along_v)) {
     fan(cell);
   } else if (more_along_u) {
-    strip(cell, side_[0], side_[1], true);
+    strip(cell, side_[kVStart], side_[kVEnd], true);
   } else if (more_along_v) {
-    strip(cell, side_[2], side_[3], false);
+    strip(cell, side_[kUStart], side_[kUEnd], false);
   } else {
     quad(cell);
   }
@@ -182,7 +182,7 @@ std::uint64_t PatchMesher::outline_of(const Cell& cell) const {
 }
 
 void PatchMesher::quad(const Cell& cell) {
-  const Id a = side_[0][0], b = side_[0][1], c = side_[1][0], d = side_[1][1];
+  const Id a = side_[kVStart][0], b = side_[kVStart][1], c = side_[kVEnd][0], d = side_[kVEnd][1];
   for (const Id id : {a, b, c, d}) static_cast<void>(vertex_of(cell, id));  // points become known
   const auto at = [&](Id id) { return nodes_[id].point; };
   const auto slim = [&](bool rising) {
@@ -236,7 +236,8 @@ void PatchMesher::fan(const Cell& cell) {
   const Id centre = static_cast<Id>(nodes_.size());
   nodes_.push_back({u.at(0.5), v.at(0.5), {}, false, false});
   vertex_.push_back(kNone);
-  const auto &low = side_[0], &high = side_[1], &left = side_[2], &right = side_[3];
+  const auto &low = side_[kVStart], &high = side_[kVEnd], &left = side_[kUStart],
+             &right = side_[kUEnd];
   for (std::size_t k = 1; k < low.size(); ++k) triangle(cell, centre, low[k - 1], low[k]);
   for (std::size_t k = 1; k < right.size(); ++k) triangle(cell, centre, right[k - 1], right[k]);
   for (std::size_t k = 1; k < high.size(); ++k) triangle(cell, centre, high[k], high[k - 1]);

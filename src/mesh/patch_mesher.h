@@ -31,10 +31,10 @@ class PatchMesher {
 
   void give_missing_normals();
   void collect_nodes();
-  void collect_border(std::size_t side, std::size_t patch, const Borders& borders);
+  void collect_border(PatchSide side, std::size_t patch, const Borders& borders);
   void add_cell(const Cell& cell);
   [[nodiscard]] std::uint64_t outline_of(const Cell& cell) const;
-  void side_of(const Cell& cell, std::size_t side, std::vector<Id>& out) const;
+  void side_of(const Cell& cell, PatchSide side, std::vector<Id>& out) const;
   [[nodiscard]] Id node_at(Line u, Line v) const;
   [[nodiscard]] bool on_edge(Line u, Line v) const;
 
@@ -51,10 +51,11 @@ class PatchMesher {
   const CellTree& tree_;
   std::vector<std::pair<Line, Line>> by_v_;  ///< (v, u) of the cells' corners, ascending
   std::vector<std::pair<std::pair<Line, Line>, Id>> by_u_;  ///< (u, v) and number in by_v_
-  std::vector<std::pair<double, Id>> border_[kSides];       ///< parameter and node, ascending
+  std::array<std::vector<std::pair<double, Id>>, 4>
+      border_;  ///< of each `PatchSide`: parameter and node, ascending
   std::vector<Node> nodes_;
-  std::vector<Id> side_[kSides];       ///< of the cell at hand
-  std::vector<std::uint32_t> vertex_;  ///< of nodes that are not on edges
+  std::array<std::vector<Id>, 4> side_;  ///< of the cell at hand
+  std::vector<std::uint32_t> vertex_;    ///< of nodes that are not on edges
   std::unordered_map<std::uint64_t, std::uint32_t> edge_vertex_;
   std::vector<std::size_t> block_u_, block_v_;  ///< numbers of the smooth parts, per span
   Mesh mesh_;

@@ -22,9 +22,7 @@ using mesh::CellTree;
 using mesh::PatchMesher;
 using mesh::PatchSampler;
 
-/// Borders and corners that are nearer than this part of the model's size are the same...
-constexpr double kSameOfSize = 1e-7;
-/// ...but never farther apart than this part of the chord tolerance.
+/// Borders that are farther apart than this part of the chord tolerance are not the same.
 constexpr double kSameOfTolerance = 0.1;
 /// Digits that rounding leaves of a coordinate, in units of its last place: no chord tolerance
 /// below, and what is nearer is always the same.
@@ -37,24 +35,14 @@ struct Patches {
   std::vector<std::string> names;
 };
 
-struct Extent {
-  Vec3 low{HUGE_VAL, HUGE_VAL, HUGE_VAL}, high{-HUGE_VAL, -HUGE_VAL, -HUGE_VAL};
-  [[nodiscard]] double size() const { return norm(high - low); }
-  [[nodiscard]] double farthest() const {
-    return std::max({std::fabs(low.x), std::fabs(low.y), std::fabs(low.z), std::fabs(high.x),
-                     std::fabs(high.y), std::fabs(high.z)});
-  }
-};
-
-Extent extent_of(const Patches& patches) {
-  Extent e;
+double largest_coordinate(const Patches& patches) {
+  double largest = 0.0;
   for (const NurbsSurface* s : patches.surfaces) {
     for (const Vec3& p : s->points) {
-      e.low = {std::min(e.low.x, p.x), std::min(e.low.y, p.y), std::min(e.low.z, p.z)};
-      e.high = {std::max(e.high.x, p.x), std::max(e.high.y, p.y), std::max(e.high.z, p.z)};
+      largest = std::max({largest, std::fabs(p.x), std::fabs(p.y), std::fabs(p.z)});
     }
   }
-  return e;
+  return largest;
 }
 
 Result<void> check_options(const TessellationOptions& options, double rounding) {
@@ -88,11 +76,11 @@ class Tessellator {
     for (std::size_t p = 0; p < count(); ++p) {
       if (auto good = check(*patches_.surfaces[p]); !good) return named(good.error(), p);
     }
-    const Extent extent = count() > 0 ? extent_of(patches_) : Extent{{}, {}};
-    const double rounding = kRounding * std::numeric_limits<double>::epsilon() * extent.farthest();
+    const double rounding =
+        kRounding * std::numeric_limits<double>::epsilon() * largest_coordinate(patches_);
     OBVID_TRY(check_options(options_, rounding));
     OBVID_TRY(build_trees());
-    const double same = std::max(rounding, std::min(kSameOfSize * extent.size(),
+    const double same = std::max(rounding, std::min(kSameBorder * size_of(patches_.surfaces),
                                                     kSameOfTolerance * options_.chord_tolerance));
     return rounds(same);
   }
@@ -121,7 +109,8 @@ class Tessellator {
   }
 
   Result<std::vector<Mesh>> rounds(double same) {
-    Borders borders(samplers_, same);
+    const Topology topology = topology_of(patches_.surfaces, same);
+    Borders borders(samplers_, topology);
     std::vector<Mesh> meshes(count());
     std::vector<bool> changed(count(), true);
     for (int round = 0;; ++round) {
@@ -186,11 +175,8 @@ Result<Mesh> tessellate(const NurbsSurface& surface, const TessellationOptions& 
 
 Result<std::vector<Mesh>> tessellate(const SurfaceModel& model, const TessellationOptions& options,
                                      const RunContext& run) {
-  Patches patches;
-  for (const SurfacePatch& patch : model.patches) {
-    patches.surfaces.push_back(&patch.surface);
-    patches.names.push_back(patch.name);
-  }
+  Patches patches{surfaces_of(model), {}};
+  for (const SurfacePatch& patch : model.patches) patches.names.push_back(patch.name);
   return Tessellator(patches, options, run).run();
 }
 

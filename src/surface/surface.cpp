@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "kinds.h"
+#include "obvid/geom/box.h"
 
 namespace obvid {
 namespace {
@@ -138,12 +139,20 @@ Result<NurbsForm> to_nurbs(const Surface& surface, double tolerance) {
   return std::visit([&](const auto& s) { return form_of(s, tolerance); }, surface);
 }
 
-double size_of(const SurfaceModel& model) {
-  NurbsSurface box;  // of which only the points are looked at
-  for (const SurfacePatch& patch : model.patches) {
-    box.points.insert(box.points.end(), patch.surface.points.begin(), patch.surface.points.end());
+std::vector<const NurbsSurface*> surfaces_of(const SurfaceModel& model) {
+  std::vector<const NurbsSurface*> surfaces;
+  for (const SurfacePatch& patch : model.patches) surfaces.push_back(&patch.surface);
+  return surfaces;
+}
+
+double size_of(const SurfaceModel& model) { return size_of(surfaces_of(model)); }
+
+double size_of(const std::vector<const NurbsSurface*>& surfaces) {
+  Box3 box;
+  for (const NurbsSurface* surface : surfaces) {
+    for (const Vec3& p : surface->points) box.add(p);
   }
-  return size_of(box);
+  return box.low.x <= box.high.x ? norm(box.size()) : 0.0;
 }
 
 }  // namespace obvid

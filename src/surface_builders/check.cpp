@@ -7,8 +7,10 @@
 #include <limits>
 #include <numbers>
 #include <optional>
+#include <tuple>
 
 #include "check_lines.h"
+#include "obvid/surface/internal/topology.h"
 
 namespace obvid {
 namespace {
@@ -241,60 +243,45 @@ PatchReport report_of(const SurfacePatch& patch, std::size_t samples) {
   return report;
 }
 
-/// A place on a side of a patch; `t` in [0, 1] runs with the parameter along the side.
+/// A place on a side of a patch.
 struct SidePlace {
   double u = 0.0, v = 0.0;
 };
 
-SidePlace on_side(const NurbsSurface& s, int side, double t) {
+SidePlace place_on(const NurbsSurface& s, PatchSide side, double t) {
   const Range u = domain_u(s), v = domain_v(s);
-  switch (side) {
-    case 0:
-      return {u.from, v.at(t)};
-    case 1:
-      return {u.to, v.at(t)};
-    case 2:
-      return {u.at(t), v.from};
-    default:
-      return {u.at(t), v.to};
-  }
+  if (runs_along_u(side)) return {t, is_far_end(side) ? v.to : v.from};
+  return {is_far_end(side) ? u.to : u.from, t};
 }
 
-constexpr int kSideSamples = 33;
+/// Two sides of an edge, place by place.
+class EdgePair {
+ public:
+  EdgePair(const SurfaceModel& model, const EdgeUse& a, const EdgeUse& b)
+      : first_(model.patches[a.patch].surface),
+        second_(model.patches[b.patch].surface),
+        sides_{a.side, b.side},
+        borders_{border_of(first_, a.side), border_of(second_, b.side)},
+        along_(a.along == b.along),
+        own_pace_(a.own_pace || b.own_pace) {}
 
-std::vector<Vec3> side_points(const NurbsSurface& s, int side) {
-  std::vector<Vec3> points;
-  for (int k = 0; k < kSideSamples; ++k) {
-    const SidePlace at = on_side(s, side, static_cast<double>(k) / (kSideSamples - 1));
-    points.push_back(evaluate(s, at.u, at.v).point);
+  /// Of both patches, at a part of the first one's border.
+  [[nodiscard]] std::array<SurfaceJet, 2> at(double part) const {
+    const double t = domain(borders_[0]).at(part);
+    const double other = own_pace_ && part > 0.0 && part < 1.0
+                             ? nearest_parameter(borders_[1], evaluate(borders_[0], t).point)
+                             : domain(borders_[1]).at(along_ ? part : 1.0 - part);
+    const SidePlace a = place_on(first_, sides_[0], t), b = place_on(second_, sides_[1], other);
+    return {evaluate(first_, a.u, a.v), evaluate(second_, b.u, b.v)};
   }
-  return points;
-}
 
-/// Largest distance of corresponding points, and which way round it is smaller.
-struct Meeting {
-  double gap = 0.0;
-  bool reversed = false;
+ private:
+  const NurbsSurface& first_;
+  const NurbsSurface& second_;
+  std::array<PatchSide, 2> sides_;
+  std::array<SpaceCurve, 2> borders_;
+  bool along_, own_pace_;
 };
-
-double gap_between(const std::vector<Vec3>& a, const std::vector<Vec3>& b, bool reversed) {
-  double gap = 0.0;
-  for (std::size_t i = 0; i < a.size(); ++i) {
-    gap = std::max(gap, norm(a[i] - (reversed ? b[b.size() - 1 - i] : b[i])));
-  }
-  return gap;
-}
-
-Meeting meeting(const std::vector<Vec3>& a, const std::vector<Vec3>& b) {
-  const double same = gap_between(a, b, false), turned = gap_between(a, b, true);
-  return turned < same ? Meeting{turned, true} : Meeting{same, false};
-}
-
-double polyline_length(const std::vector<Vec3>& points) {
-  double length = 0.0;
-  for (std::size_t i = 1; i < points.size(); ++i) length += norm(points[i] - points[i - 1]);
-  return length;
-}
 
 /// Normal curvature in a tangential direction; its sign with the normal.
 double normal_curvature(const SurfaceCurvature& k, Vec3 direction) {
@@ -302,56 +289,53 @@ double normal_curvature(const SurfaceCurvature& k, Vec3 direction) {
   return k.k1 * c * c + k.k2 * s * s;
 }
 
-void compare_across(const NurbsSurface& a, const NurbsSurface& b, bool reversed,
-                    JointReport& joint) {
+JointReport joint_of(const SurfaceModel& model, const EdgeUse& one, const EdgeUse& two) {
+  constexpr int kPlaces = 33;
+  JointReport joint;
+  joint.patch = {one.patch, two.patch};
+  joint.side = {one.side, two.side};
+  const EdgePair pair(model, one, two);
   double step = 0.0, largest = 0.0;
-  for (int i = 0; i < kSideSamples; ++i) {
-    const double t = static_cast<double>(i) / (kSideSamples - 1);
-    const SidePlace pa = on_side(a, joint.side[0], t);
-    const SidePlace pb = on_side(b, joint.side[1], reversed ? 1.0 - t : t);
-    const SurfaceJet ja = evaluate(a, pa.u, pa.v);
-    const SurfaceCurvature ka = curvature(ja), kb = curvature(evaluate(b, pb.u, pb.v));
+  for (int i = 0; i < kPlaces; ++i) {
+    const auto [a, b] = pair.at(static_cast<double>(i) / (kPlaces - 1));
+    joint.gap = std::max(joint.gap, norm(a.point - b.point));
+    const SurfaceCurvature ka = curvature(a), kb = curvature(b);
     if (ka.normal == Vec3{} || kb.normal == Vec3{}) continue;
     const double sign = dot(ka.normal, kb.normal) < 0.0 ? -1.0 : 1.0;
     joint.angle = std::max(joint.angle, std::atan2(norm(cross(ka.normal, kb.normal)),
                                                    std::abs(dot(ka.normal, kb.normal))));
     // across the border: perpendicular to it in the tangent plane
-    const Vec3 along = joint.side[0] < 2 ? ja.dv : ja.du;
+    const Vec3 along = runs_along_u(one.side) ? a.du : a.dv;
     const Vec3 across = unit(cross(ka.normal, along));
-    const double one = normal_curvature(ka, across), two = sign * normal_curvature(kb, across);
-    step = std::max(step, std::abs(one - two));
+    const double first = normal_curvature(ka, across), second = sign * normal_curvature(kb, across);
+    step = std::max(step, std::abs(first - second));
     for (const double k : {ka.k1, ka.k2, kb.k1, kb.k2}) largest = std::max(largest, std::abs(k));
   }
   joint.curvature = largest > 0.0 ? step / largest : 0.0;
   joint.order = joint.angle > kSmoothAngle ? 0 : joint.curvature > kSmoothCurvature ? 1 : 2;
+  return joint;
 }
 
-std::vector<JointReport> joints_of(const SurfaceModel& model, double nearness) {
-  std::vector<std::array<std::vector<Vec3>, 4>> sides(model.patches.size());
-  for (std::size_t k = 0; k < sides.size(); ++k) {
-    for (int side = 0; side < 4; ++side) {
-      sides[k][static_cast<std::size_t>(side)] = side_points(model.patches[k].surface, side);
-    }
-  }
+/// All pairs of sides at the edges, in the order of the patches.
+std::vector<JointReport> joints_of(const SurfaceModel& model, const Topology& same,
+                                   double nearness) {
   std::vector<JointReport> joints;
-  for (std::size_t a = 0; a < 4 * sides.size(); ++a) {
-    const std::vector<Vec3>& one = sides[a / 4][a % 4];
-    if (polyline_length(one) <= nearness) continue;  // a pole is no border
-    for (std::size_t b = a + 1; b < 4 * sides.size(); ++b) {
-      const std::vector<Vec3>& two = sides[b / 4][b % 4];
-      const double ends = std::min(norm(one.front() - two.front()), norm(one.front() - two.back()));
-      if (ends > nearness) continue;
-      const Meeting met = meeting(one, two);
-      if (met.gap > nearness) continue;
-      JointReport joint;
-      joint.patch = {a / 4, b / 4};
-      joint.side = {static_cast<int>(a % 4), static_cast<int>(b % 4)};
-      joint.gap = met.gap;
-      compare_across(model.patches[a / 4].surface, model.patches[b / 4].surface, met.reversed,
-                     joint);
-      joints.push_back(joint);
+  const Topology near = topology_of(surfaces_of(model), nearness);
+  for (const TopologyEdge& edge : near.edges) {
+    for (std::size_t a = 0; a < edge.uses.size(); ++a) {
+      for (std::size_t b = a + 1; b < edge.uses.size(); ++b) {
+        const EdgeUse &one = edge.uses[a], &two = edge.uses[b];
+        joints.push_back(joint_of(model, one, two));
+        joints.back().shared =
+            same.edge_of[one.patch][one.side] == same.edge_of[two.patch][two.side];
+      }
     }
   }
+  const auto place = [](const JointReport& joint) {
+    return std::tuple(joint.patch[0], joint.side[0], joint.patch[1], joint.side[1]);
+  };
+  std::sort(joints.begin(), joints.end(),
+            [&](const JointReport& x, const JointReport& y) { return place(x) < place(y); });
   return joints;
 }
 
@@ -371,7 +355,11 @@ Result<SurfaceCheck> check_surface(const SurfaceModel& model, const CheckOptions
     OBVID_TRY(tell(run, "measuring", part));
     result.patches.push_back(report_of(patch, options.samples));
   }
-  result.joints = joints_of(model, options.meeting * result.size);
+  const Topology topology = topology_of(model);
+  result.joints = joints_of(model, topology, options.meeting * result.size);
+  for (const TopologyEdge& edge : topology.edges) {
+    if (!edge.point && edge.uses.size() == 1) ++result.free_borders;
+  }
   return result;
 }
 

@@ -206,16 +206,4 @@ inline std::vector<KnownModel> known_models() {
   return out;
 }
 
-/// Diagonal of the box around all control points.
-inline double size_of(const SurfaceModel& model) {
-  Vec3 low = model.patches.front().surface.points.front(), high = low;
-  for (const SurfacePatch& patch : model.patches) {
-    for (const Vec3 p : patch.surface.points) {
-      low = {std::min(low.x, p.x), std::min(low.y, p.y), std::min(low.z, p.z)};
-      high = {std::max(high.x, p.x), std::max(high.y, p.y), std::max(high.z, p.z)};
-    }
-  }
-  return norm(high - low);
-}
-
 }  // namespace obvid

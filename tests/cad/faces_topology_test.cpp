@@ -51,7 +51,7 @@ TEST_F(FaceFiles, BordersOfOtherDegreesAndKnotsAreOneWhereTheyAreTheSame) {
   const NurbsSurface high = with_knots_u(
       with_degrees(bilinear({4, 0, 0}, {0, 0, 0}, {4, 0, 2}, {0, 0, 2}), 4, 2), {0.3, 0.3, 0.7});
   EXPECT_EQ(counts_in_step({"two", "mm", {{"low", low}, {"high", high}}}).edges, 7U);
-  NurbsSurface off = high;  // by more than 1e-8 of the size
+  NurbsSurface off = high;  // by more than 1e-7 of the size
   for (Vec3& p : off.points) p.y += 1e-6;
   EXPECT_EQ(counts_in_step({"two", "mm", {{"low", low}, {"off", off}}}).edges, 8U);
 }

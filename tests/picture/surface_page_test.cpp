@@ -208,20 +208,23 @@ TEST(SurfacePage, OneHotSpotDoesNotFlattenTheColours) {
 
 TEST(SurfacePage, SeamsAndPolesAreNoBordersButEdgesAre) {
   using Borders = std::array<bool, 4>;
-  EXPECT_EQ(picture::real_borders(sphere(3)), (Borders{false, false, false, false}));
-  EXPECT_EQ(picture::real_borders(torus(5, 1)), (Borders{false, false, false, false}));
-  EXPECT_EQ(picture::real_borders(rectangle(5, 1)), (Borders{true, true, true, true}));
+  const auto real_borders = [](const NurbsSurface& surface) {
+    return picture::real_borders(model_of({{"one", surface}})).front();
+  };
+  EXPECT_EQ(real_borders(sphere(3)), (Borders{false, false, false, false}));
+  EXPECT_EQ(real_borders(torus(5, 1)), (Borders{false, false, false, false}));
+  EXPECT_EQ(real_borders(rectangle(5, 1)), (Borders{true, true, true, true}));
   const NurbsSurface tube = turned(line_between({2, 0, 5}, {2, 0, 0}));
-  EXPECT_EQ(picture::real_borders(tube), (Borders{true, true, false, false}));
+  EXPECT_EQ(real_borders(tube), (Borders{true, true, false, false}));
   const NurbsSurface cone = turned(line_between({0, 0, 5}, {2, 0, 0}));
-  EXPECT_EQ(picture::real_borders(cone), (Borders{false, true, false, false}));
+  EXPECT_EQ(real_borders(cone), (Borders{false, true, false, false}));
   // a drop: closed, with an edge along its seam
   NurbsSurface drop = rectangle(1, 1);
   drop.degree_u = 3;
   drop.knots_u = {0, 0, 0, 0, 1, 1, 1, 1};
   drop.points = {{0, 0, 0}, {4, 0, 3}, {4, 0, -3}, {0, 0, 0},
                  {0, 4, 0}, {4, 4, 3}, {4, 4, -3}, {0, 4, 0}};
-  EXPECT_EQ(picture::real_borders(drop), (Borders{true, true, true, true}));
+  EXPECT_EQ(real_borders(drop), (Borders{true, true, true, true}));
 }
 
 TEST(SurfacePage, LinesFollowThePatches) {

@@ -40,7 +40,7 @@ TEST(CheckSurface, MeasuresASphereAndItsSeam) {
   EXPECT_EQ(p.along_v.inflections, 0u);
   // the seam is a border that meets itself smoothly
   ASSERT_EQ(found.joints.size(), 1u);
-  EXPECT_EQ(found.joints[0].side, (std::array{2, 3}));
+  EXPECT_EQ(found.joints[0].side, (std::array{kVStart, kVEnd}));
   EXPECT_EQ(found.joints[0].order, 2);
   EXPECT_LT(found.joints[0].angle, 1e-12);
 }
@@ -56,7 +56,7 @@ TEST(CheckSurface, TellsCornersFromSmoothBorders) {
     if (j.patch == std::array<std::size_t, 2>{0, 1}) {
       ++smooth;
       EXPECT_EQ(j.order, 2);
-      EXPECT_EQ(j.side, (std::array{1, 1}));  // the second runs backwards
+      EXPECT_EQ(j.side, (std::array{kUEnd, kUEnd}));  // the second runs backwards
     }
     if (j.patch == std::array<std::size_t, 2>{2, 3}) {
       ++square;

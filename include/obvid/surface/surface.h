@@ -112,7 +112,11 @@ struct SurfaceModel {
   std::vector<SurfacePatch> patches;
 };
 
-/// Diagonal of the box of all control points, units.
+/// The surfaces of all patches, in order; valid as long as the model is.
+[[nodiscard]] std::vector<const NurbsSurface*> surfaces_of(const SurfaceModel& model);
+
+/// Diagonal of the box of all control points, units; 0 without any.
 [[nodiscard]] double size_of(const SurfaceModel& model);
+[[nodiscard]] double size_of(const std::vector<const NurbsSurface*>& surfaces);
 
 }  // namespace obvid

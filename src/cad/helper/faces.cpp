@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <BRepCheck_Analyzer.hxx>
+#include <BRepLib.hxx>
 #include <BRep_Builder.hxx>
 #include <Geom2d_BSplineCurve.hxx>
 #include <Geom2d_Line.hxx>
@@ -36,14 +37,14 @@ constexpr double kLargest = 1e100;
 constexpr double kRoom = 1.01;
 double tolerance_for(double gap) { return std::max(Precision::Confusion(), kRoom * gap); }
 
-gp_Pnt2d corner(const NurbsSurface& surface, Side side, bool end) {
+gp_Pnt2d corner(const NurbsSurface& surface, PatchSide side, bool end) {
   const Range u = domain_u(surface), v = domain_v(surface);
   switch (side) {
-    case kBottom:
+    case kVStart:
       return {end ? u.to : u.from, v.from};
-    case kTop:
+    case kVEnd:
       return {end ? u.to : u.from, v.to};
-    case kLeft:
+    case kUStart:
       return {u.from, end ? v.to : v.from};
     default:
       return {u.to, end ? v.to : v.from};
@@ -122,11 +123,11 @@ class Builder {
   TopoDS_Face face_of(std::size_t patch) {
     TopoDS_Face face;
     builder_.MakeFace(face, spline_of(patches_[patch]), Precision::Confusion());
-    for (const Side side : kSides) place(face, patch, side);
+    for (const PatchSide side : kBoundary) place(face, patch, side);
     TopoDS_Wire wire;
     builder_.MakeWire(wire);
-    for (const Side side : kSides) {
-      const EdgeUse& use = joints_.sides[patch][side];
+    for (const PatchSide side : kBoundary) {
+      const JointUse& use = joints_.sides[patch][side];
       const bool forward = runs_with_boundary(side) == use.along;
       builder_.Add(wire, edges_[use.edge].Oriented(forward ? TopAbs_FORWARD : TopAbs_REVERSED));
     }
@@ -137,29 +138,32 @@ class Builder {
     return face;
   }
 
-  [[nodiscard]] Handle(Geom2d_Curve) line(std::size_t patch, Side side) const {
-    const EdgeUse& use = joints_.sides[patch][side];
+  [[nodiscard]] Handle(Geom2d_Curve) line(std::size_t patch, PatchSide side) const {
+    const JointUse& use = joints_.sides[patch][side];
     return line_between(corner(patches_[patch], side, !use.along),
                         corner(patches_[patch], side, use.along),
                         domain(joints_.edges[use.edge].curve));
   }
 
   /// The edge learns where it lies in the face: once, or on both sides of a seam.
-  void place(const TopoDS_Face& face, std::size_t patch, Side side) {
-    const EdgeUse& use = joints_.sides[patch][side];
+  void place(const TopoDS_Face& face, std::size_t patch, PatchSide side) {
+    const JointUse& use = joints_.sides[patch][side];
     const JointEdge& joint = joints_.edges[use.edge];
     const TopoDS_Edge& edge = edges_[use.edge];
     const double tolerance = tolerance_for(joint.gap);
-    const Side opposite = kSides[(side + 2) % 4];
-    if (joints_.sides[patch][opposite].edge == use.edge) {
+    const PatchSide across = opposite(side);
+    if (joints_.sides[patch][across].edge == use.edge) {
       if (!runs_with_boundary(side)) return;  // both at once
-      builder_.UpdateEdge(edge, line(patch, side), line(patch, opposite), face, tolerance);
+      builder_.UpdateEdge(edge, line(patch, side), line(patch, across), face, tolerance);
       builder_.Continuity(edge, face, face, GeomAbs_C0);
     } else {
       builder_.UpdateEdge(edge, line(patch, side), face, tolerance);
     }
     const Range range = domain(joint.curve);
     builder_.Range(edge, face, range.from, range.to);
+    if (!use.own_pace) return;
+    builder_.SameParameter(edge, false);  // the line in the face gets the pace of the edge
+    BRepLib::SameParameter(edge, tolerance);
   }
 
   const std::vector<NurbsSurface>& patches_;
@@ -271,17 +275,6 @@ Result<Parts> parts_of(const SurfaceModel& model, double scale) {
       .hint("make a surface first");
 }
 
-double size_of_patches(const std::vector<NurbsSurface>& patches) {
-  Vec3 low = patches.front().points.front(), high = low;
-  for (const NurbsSurface& patch : patches) {
-    for (const Vec3 p : patch.points) {
-      low = {std::min(low.x, p.x), std::min(low.y, p.y), std::min(low.z, p.z)};
-      high = {std::max(high.x, p.x), std::max(high.y, p.y), std::max(high.z, p.z)};
-    }
-  }
-  return norm(high - low);
-}
-
 bool is_valid(const TopoDS_Shape& shape) { return BRepCheck_Analyzer(shape).IsValid(); }
 
 }  // namespace
@@ -290,7 +283,9 @@ Result<NamedFaces> faces_of(const SurfaceModel& model, double scale) {
   auto parts = parts_of(model, scale);
   OBVID_TRY(parts);
   const std::vector<NurbsSurface>& patches = parts->surfaces;
-  const double size = size_of_patches(patches);
+  std::vector<const NurbsSurface*> pointers;
+  for (const NurbsSurface& patch : patches) pointers.push_back(&patch);
+  const double size = size_of(pointers);
   if (!(size > 0.0 && size < kLargest)) {
     return error(ErrorCode::kSizeOutOfRange,
                  fmt::format("the size of the model is {:.3g} mm", size))
@@ -298,8 +293,8 @@ Result<NamedFaces> faces_of(const SurfaceModel& model, double scale) {
         .hint("check the points and their unit")
         .value(size);
   }
-  const double tolerance = kJoin * size;
-  Builder builder(patches, joints_of(patches, tolerance));
+  const Topology topology = topology_of(pointers, kSameBorder * size);
+  Builder builder(patches, joints_of(patches, topology, JoinedWith::kAll));
   std::vector<TopoDS_Face> faces = builder.faces();
   std::vector<TopoDS_Face> apart;  // made when a shell is not valid
   std::vector<TopoDS_Shape> shapes;
@@ -309,7 +304,9 @@ Result<NamedFaces> faces_of(const SurfaceModel& model, double scale) {
       shapes.push_back(shape);
       continue;
     }
-    if (apart.empty()) apart = Builder(patches, joints_apart(patches, tolerance)).faces();
+    if (apart.empty()) {
+      apart = Builder(patches, joints_of(patches, topology, JoinedWith::kItself)).faces();
+    }
     for (const std::size_t i : group.patches) {
       if (!is_valid(apart[i])) {
         return error(ErrorCode::kInternal, "the CAD kernel finds no valid face on this surface")

@@ -18,15 +18,11 @@ struct NamedFaces {
   std::vector<std::string> names;
 };
 
-/// Corners and borders nearer to each other than this part of the model's size are one. The shape
-/// stays as it is: edges know how far their two faces are apart.
-inline constexpr double kJoin = 1e-8;
-
-/// Faces on the patches' own splines, lengths times `scale`; patches that meet hang together in a
-/// shell, in a solid when no border is free (normals outwards then). What the kernel's check finds
-/// wrong is taken apart into faces. Errors: E304 no patches, E309 no size, E310 more creases than
-/// faces are sensible, E101 when the kernel refuses a face, and what `check` finds; `where` names
-/// the patch.
+/// Faces on the patches' own splines, lengths times `scale`; patches that meet (`topology_of`,
+/// edges know how far their two faces are apart) hang together in a shell, in a solid when no
+/// border is free (normals outwards then). What the kernel's check finds wrong is taken apart into
+/// faces. Errors: E304 no patches, E309 no size, E310 more creases than faces are sensible, E101
+/// when the kernel refuses a face, and what `check` finds; `where` names the patch.
 [[nodiscard]] Result<NamedFaces> faces_of(const SurfaceModel& model, double scale);
 
 }  // namespace obvid::cad

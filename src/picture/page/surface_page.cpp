@@ -126,13 +126,14 @@ json scales_json(const picture::PageData& data, const std::string& units) {
 
 json patches_json(const SurfaceModel& model, const std::vector<Mesh>& meshes) {
   json patches = json::array();
+  const auto real = picture::real_borders(model);
   for (std::size_t i = 0; i < meshes.size(); ++i) {
     const SurfacePatch& patch = model.patches[i];
     const Range u = domain_u(patch.surface), v = domain_v(patch.surface);
     std::string name = plain_text(patch.name);
     if (name.empty()) name = fmt::format("patch {}", i + 1);
     json borders = json::array();
-    for (const bool real : picture::real_borders(patch.surface)) borders.push_back(real ? 1 : 0);
+    for (const bool drawn : real[i]) borders.push_back(drawn ? 1 : 0);
     patches.push_back({{"name", std::move(name)},
                        {"borders", std::move(borders)},
                        {"vertices", meshes[i].vertices.size()},

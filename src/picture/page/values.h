@@ -32,9 +32,9 @@ struct PrincipalCurvatures {
 /// "1/mm²" or "1/mm".
 [[nodiscard]] std::string unit_of(SurfaceColouring colouring, const std::string& units);
 
-/// Which of the borders u = from, u = to, v = from, v = to are edges: not those that shrink to a
-/// point, nor those where a closed surface goes on smoothly on the other side.
-[[nodiscard]] std::array<bool, 4> real_borders(const NurbsSurface& surface);
+/// Which sides (`PatchSide`) of each patch are edges: not those that shrink to a point, nor those
+/// where a closed patch goes on smoothly on the other side.
+[[nodiscard]] std::vector<std::array<bool, 4>> real_borders(const SurfaceModel& model);
 
 /// A value and the area that it stands for.
 struct WeighedValue {

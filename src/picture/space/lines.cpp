@@ -111,11 +111,11 @@ void add_isolines(TwoPaths& paths, const Scene& scene, std::size_t patch, bool o
   }
 }
 
-void add_borders(TwoPaths& paths, const Scene& scene, std::size_t patch) {
+void add_borders(TwoPaths& paths, const Scene& scene, std::size_t patch,
+                 const std::array<bool, 4>& real) {
   const NurbsSurface& surface = scene.model.patches[patch].surface;
   const DrawnPatch& drawn = scene.patches[patch];
   const Range u = domain_u(surface), v = domain_v(surface);
-  const std::array<bool, 4> real = real_borders(surface);
   const std::array<double, 4> at = {u.from, u.to, v.from, v.to};
   for (std::size_t k = 0; k < real.size(); ++k) {
     if (!real[k]) continue;
@@ -180,12 +180,13 @@ std::string surface_lines(const Scene& scene, const SurfacePictureOptions& optio
   TwoPaths u, v, borders, outlines;
   const bool isolines = options.colouring == SurfaceColouring::kIsolines;
   const bool thin = is_curvature(options.colouring);
+  const auto real = real_borders(scene.model);
   for (std::size_t k = 0; k < scene.patches.size(); ++k) {
     if (isolines || thin) {
       add_isolines(u, scene, k, true, options.isolines_u);
       add_isolines(v, scene, k, false, options.isolines_v);
     }
-    add_borders(borders, scene, k);
+    add_borders(borders, scene, k, real[k]);
     add_outlines(outlines, scene, scene.patches[k]);
   }
   return group(element(isolines ? "iso u" : "iso", u.seen.take()) +

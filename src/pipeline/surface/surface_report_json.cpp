@@ -71,9 +71,9 @@ void add_measured(JsonText& json, const char* name, const ToolpathReport::Measur
 
 }  // namespace
 
-const char* border_name(int side) {
-  constexpr std::array kSides = {"u start", "u end", "v start", "v end"};
-  return kSides[static_cast<std::size_t>(side)];
+const char* border_name(PatchSide side) {
+  constexpr std::array kNames = {"u start", "u end", "v start", "v end"};
+  return kNames[side];
 }
 
 std::string surface_report_json(const MadeSurface& made, const Written& written) {
@@ -115,11 +115,11 @@ std::string surface_check_json(const SurfaceModel& model, const SurfaceCheck& ch
     json.begin_object();
     json.key("patches").begin_array().value(j.patch[0]).value(j.patch[1]).end_array();
     json.key("sides").begin_array();
-    for (const int side : j.side) json.value(border_name(side));
+    for (const PatchSide side : j.side) json.value(border_name(side));
     json.end_array().pair("gap", j.gap).pair("angle", j.angle).pair("curvature", j.curvature);
-    json.pair("order", j.order).end_object();
+    json.pair("order", j.order).pair("shared", j.shared).end_object();
   }
-  json.end_array().key("written").begin_array();
+  json.end_array().pair("free_borders", check.free_borders).key("written").begin_array();
   for (const std::string& file : written.files) json.value(file);
   return json.end_array().end_object().take() + "\n";
 }

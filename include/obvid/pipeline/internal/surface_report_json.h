@@ -25,7 +25,7 @@ namespace obvid {
 [[nodiscard]] std::string toolpath_report_json(const MadeToolpath& made, const Written& written);
 
 /// Name of a side of a patch: "u start", "u end", "v start", "v end" for 0 to 3.
-[[nodiscard]] const char* border_name(int side);
+[[nodiscard]] const char* border_name(PatchSide side);
 
 /// Curvatures of all patches together, as the report has them for each: what pictures tell beside
 /// their colours.

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "obvid/core/run_context.h"
+#include "obvid/surface/internal/topology.h"
 #include "obvid/surface/nurbs_surface.h"
 #include "obvid/surface/surface.h"
 
@@ -58,12 +59,14 @@ struct PatchReport {
   LineReport along_v;              ///< lines u = const
 };
 
-/// Two borders that meet. Sides: 0 u = start, 1 u = end, 2 v = start, 3 v = end.
+/// Two borders that meet.
 struct JointReport {
   std::array<std::size_t, 2> patch{};
-  std::array<int, 2> side{};
-  double gap = 0.0;        ///< largest distance of corresponding points, units
-  double angle = 0.0;      ///< largest angle between the tangent planes, rad
+  std::array<PatchSide, 2> side{};
+  bool shared = true;  ///< one edge of `topology_of`: meshes and CAD files join it; else the gap
+                       ///< is larger than `kSameBorder` of the size
+  double gap = 0.0;    ///< largest distance of corresponding points, units
+  double angle = 0.0;  ///< largest angle between the tangent planes, rad
   double curvature = 0.0;  ///< largest step of the normal curvature across the border, as a share
                            ///< of the largest curvature beside it
   int order = 0;           ///< 0 G0, 1 G1, 2 G2, by the limits named below
@@ -77,6 +80,7 @@ struct SurfaceCheck {
   double size = 0.0;  ///< diagonal of the control points' box, units
   std::vector<PatchReport> patches;
   std::vector<JointReport> joints;
+  std::size_t free_borders = 0;  ///< sides that share their edge with none, points not counted
 };
 
 struct CheckOptions {
@@ -87,10 +91,11 @@ struct CheckOptions {
 /// What can be measured about a model: curvature, continuity inside patches and across borders,
 /// vertices of the lines of constant parameters. Figures are sampled, not proved: a feature smaller
 /// than a step of the raster can be missed. Borders meet as wholes only: a border that meets parts
-/// of two others is not found. Curvature of lines is that of curves in space, with the sign that
-/// their mean plane gives; steps below 1e-6 of a line's largest curvature are rounding.
+/// of two others is not found; those that are the same curve with other parameters are. Curvature
+/// of lines is that of curves in space, with the sign that their mean plane gives; steps below 1e-6
+/// of a line's largest curvature are rounding.
 [[nodiscard]] Result<SurfaceCheck> check_surface(const SurfaceModel& model,
-                                         const CheckOptions& options = {},
-                                         const RunContext& run = {});
+                                                 const CheckOptions& options = {},
+                                                 const RunContext& run = {});
 
 }  // namespace obvid
