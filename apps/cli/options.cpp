@@ -24,6 +24,7 @@ constexpr const char* kShortHelp =
   obvid compare POINTS                               all curve families side by side
   obvid batch FOLDER -o out.h5                       one job for a million inputs
   obvid surface skin SECTIONS... -o hull.step        surfaces: skin, revolve, ruled, grid, ...
+  obvid alignment POINTS --noise 0.05 -o road.xml    few lines, arcs and clothoids
   obvid spline TABLE -o spline.csv                   splines that keep given integrals
   obvid nurbs TABLE --weight-at 4=3 -o curve.step    control points, weights and knots
   obvid toolpath hull.json -o hull.nc                milling with three axes, without gouges
@@ -607,6 +608,7 @@ Result<Command> parse_command_line(int argc, const char* const* argv) {
     if (std::string_view(argv[1]) == "surface") return parse_surface(argc - 1, argv + 1);
     if (std::string_view(argv[1]) == "spline") return parse_spline(argc - 1, argv + 1);
     if (std::string_view(argv[1]) == "nurbs") return parse_nurbs(argc - 1, argv + 1);
+    if (std::string_view(argv[1]) == "alignment") return parse_alignment(argc - 1, argv + 1);
     if (std::string_view(argv[1]) == "studio") {
       return Command{StudioOptions{{argv + 2, argv + argc}}};
     }
@@ -631,6 +633,7 @@ Result<Command> parse_command_line(int argc, const char* const* argv) {
                        "Surfaces: skin, ruled, revolve, coons, gordon, grid, offset, check, ...");
     app.add_subcommand("spline", "Integro-differential splines of one variable, and along points");
     app.add_subcommand("nurbs", "Curves and surfaces of control points, weights and knots");
+    app.add_subcommand("alignment", "Roads and rails: the fewest lines, arcs and clothoids");
     app.add_subcommand("toolpath", "Three-axis milling of a surface as G-code");
     app.add_subcommand("batch", "One job for many inputs on all processors, results as a table");
     app.add_subcommand("studio", "A page in the browser: drag points, see what is possible, prove");

@@ -14,6 +14,7 @@
 #include "obvid/pipeline/import.h"
 #include "obvid/pipeline/region_table.h"
 #include "spline_options.h"
+#include "alignment_options.h"
 #include "surface_options.h"
 #include "toolpath_options.h"
 
@@ -108,7 +109,7 @@ struct BatchOptions {
 using Command =
     std::variant<ShowText, StudioOptions, BatchOptions, FitOptions, AnalyseOptions, RegionOptions, CompareOptions,
                  ConvertOptions, VerifyOptions, ExplainOptions, SurfaceOptions, SurfaceCheckOptions,
-                 SplineOptions, NurbsOptions, ToolpathCommand>;
+                 SplineOptions, NurbsOptions, ToolpathCommand, AlignmentCommand>;
 
 /// Understands the command line. Errors: E201 wrong usage, E203 option not possible.
 [[nodiscard]] Result<Command> parse_command_line(int argc, const char* const* argv);
@@ -116,6 +117,7 @@ using Command =
 /// The same for what follows `obvid`: surface KIND ..., toolpath ...
 [[nodiscard]] Result<Command> parse_surface(int argc, const char* const* argv);
 [[nodiscard]] Result<Command> parse_spline(int argc, const char* const* argv);
+[[nodiscard]] Result<Command> parse_alignment(int argc, const char* const* argv);
 [[nodiscard]] Result<Command> parse_nurbs(int argc, const char* const* argv);
 [[nodiscard]] Result<Command> parse_toolpath(int argc, const char* const* argv);
 

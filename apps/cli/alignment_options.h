@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "obvid/core/units.h"
+#include "obvid/pipeline/alignment_job.h"
+
+namespace obvid {
+
+/// `obvid alignment`: the fewest lines, arcs and clothoids within a tolerance.
+struct AlignmentCommand {
+  std::string input;
+  std::vector<std::string> outputs;
+  std::string table;  ///< .csv of the elements; empty: none
+  AlignmentJob job;
+  std::optional<Units> units;
+  bool json = false;
+  bool quiet = false;
+};
+
+}  // namespace obvid

@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+#include "obvid/core/result.h"
+#include "obvid/core/run_context.h"
+#include "obvid/geom/element.h"
+
+namespace obvid {
+
+/// What surveyors call the elements of a horizontal alignment.
+enum class AlignmentKind { kLine, kArc, kClothoid };
+
+/// One element: curvature changes linearly along it.
+struct AlignmentElement {
+  AlignmentKind kind = AlignmentKind::kLine;
+  double station = 0.0;  ///< arc length of its start along the alignment, units
+  Element start;         ///< point, heading (rad, unwrapped), curvature at the start (1/unit)
+  double length = 0.0;   ///< units
+  double kappa1 = 0.0;   ///< curvature at the end, 1/unit
+  bool step = false;     ///< the curvature at its start differs from that before
+};
+
+/// How far a point lies from the alignment.
+struct AlignmentDeviation {
+  double station = 0.0;  ///< of its foot, units
+  double offset = 0.0;   ///< to the left positive, units
+};
+
+struct Alignment {
+  std::vector<AlignmentElement> elements;
+  Element end;                                 ///< of the last element
+  double length = 0.0;                         ///< units
+  std::vector<AlignmentDeviation> deviations;  ///< of each point
+  double largest_share = 0.0;  ///< largest |offset| over the point's tolerance: 1 or less
+  double rms = 0.0;            ///< root of the mean square of the offsets, units
+};
+
+struct AlignmentOptions {
+  /// Divisions of the intervals between points at which the search tries joints; joints move freely
+  /// afterwards. More find steps of curvature between coarse points.
+  std::size_t divisions = 2;
+};
+
+/// Few lines, arcs and clothoids, each beginning with the tangent of the one before (G1), within
+/// `tolerance[i]` of point i, which are passed in order; first and last point are met by their feet
+/// at the ends. Among elements of the same number curvatures without steps, arcs and lines are
+/// preferred wherever the tolerance allows them.
+///
+/// Guaranteed: every offset is at most its tolerance (else an error), elements join exactly but for
+/// rounding. Not guaranteed: that no fewer elements exist (the number is the fewest that a search
+/// by dynamic programming over polygons of possible offsets and headings found:
+/// docs/methods/alignment.md). Deterministic; reentrant.
+///
+/// Errors: E304 fewer than two points, E402 coinciding neighbours, E401 none found (`index`: the
+/// first point that was not reached), E502 not within the tolerance, E103 cancelled.
+[[nodiscard]] Result<Alignment> fit_alignment(const std::vector<Vec2>& points,
+                                              const std::vector<double>& tolerance,
+                                              const AlignmentOptions& options = {},
+                                              const RunContext& run = {});
+
+}  // namespace obvid

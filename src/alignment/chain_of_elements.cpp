@@ -1,0 +1,516 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "chain_of_elements.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <utility>
+
+#include "obvid/curve/clothoid.h"
+#include "obvid/numeric/banded.h"
+#include "obvid/numeric/internal/gauss.h"
+
+namespace obvid::alignment {
+namespace {
+
+constexpr int kSteps = 30;  ///< of Levenberg and Marquardt's method, for each power
+/// Of the offsets, summed: the higher, the nearer is the least sum to the least largest offset.
+constexpr double kPowers[] = {4.0, 8.0, 16.0, 32.0, 64.0};
+constexpr double kClosed = 1e-9;      ///< of the tolerance: a gap that counts as none
+constexpr double kLeastShare = 1e-3;  ///< of the largest offset: what weighs at least
+constexpr double kLoose = 0.1;        ///< of the tolerance: a gap that steps may leave, on the way
+constexpr double kCloser = 0.7;       ///< a gap has to become this share of itself
+constexpr int kClosing = 8;           ///< steps that close what is left
+constexpr double kRounding = 1e-13;   ///< of the size: what rounding makes of a gap
+constexpr double kSettled = 1e-9;     ///< growth of the fit, of itself, at which it is done
+constexpr double kShorter = 0.5;      ///< of what it is longer than the least: lost in one step
+constexpr double kTurn = 0.3;         ///< rad: an element turns by no more in one step
+/// Of the scaled normal equations: at first, before the search gives up, so that they can be
+/// solved, so that they are solved exactly enough for steps that close gaps.
+constexpr double kDampingStart = 1e-6, kDampingMost = 1e6, kDampingLeast = 1e-12,
+                 kDampingClosing = 1.0;
+
+/// Element at s behind the start of element k.
+Element place_on(const Chain& chain, const std::vector<Element>& joints, std::size_t k, double s) {
+  const double k0 = chain.curvature(k, 0), k1 = chain.curvature(k, 1);
+  const Element start{joints[k].point, joints[k].theta, k0};
+  return clothoid_at(start, (k1 - k0) / chain.length[k], s);
+}
+
+/// Derivatives of the point and heading at s on element k by its own numbers.
+struct OwnDerivatives {
+  Vec2 kappa0, kappa1, length;
+  double theta_kappa0 = 0.0, theta_kappa1 = 0.0, theta_length = 0.0;
+};
+
+OwnDerivatives derivatives_of(double theta, double k0, double k1, double length, double s,
+                              bool to_end) {
+  OwnDerivatives out;
+  const double turn = std::abs(k0 * s) + std::abs(k1 * s);
+  const int parts = 1 + static_cast<int>(turn);
+  const double h = s / parts;
+  for (int part = 0; part < parts; ++part) {
+    const double middle = (part + 0.5) * h;
+    for (std::size_t i = 0; i < 8; ++i) {
+      const double node = GaussRule<8>::kNode[i / 2] * (i % 2 == 0 ? 0.5 : -0.5);
+      const double u = middle + node * h;
+      const double weight = 0.5 * h * GaussRule<8>::kWeight[i / 2];
+      const Vec2 side = left_normal(unit_at(theta + k0 * u + (k1 - k0) * u * u / (2.0 * length)));
+      const double square = u * u / (2.0 * length);
+      out.kappa0 = out.kappa0 + weight * (u - square) * side;
+      out.kappa1 = out.kappa1 + weight * square * side;
+      out.length = out.length - weight * (k1 - k0) * square / length * side;
+    }
+  }
+  const double square = s * s / (2.0 * length);
+  out.theta_kappa0 = s - square;
+  out.theta_kappa1 = square;
+  out.theta_length = -(k1 - k0) * square / length;
+  if (to_end) {  // the end moves on as the element grows
+    out.length = out.length + unit_at(theta + 0.5 * (k0 + k1) * length);
+    out.theta_length += k1;
+  }
+  return out;
+}
+
+class Fitter {
+ public:
+  Fitter(Chain& chain, const std::vector<Vec2>& points, const std::vector<double>& tolerance,
+         std::vector<Foot>& feet, const Held& held)
+      : chain_(chain), points_(points), tolerance_(tolerance), feet_(feet), held_(held) {
+    set_unknowns();
+    double size = 0.0;
+    for (const double l : chain.length) size += l;
+    for (const Vec2 p : points) size = std::max({size, std::abs(p.x), std::abs(p.y)});
+    closed_ = kClosed * *std::min_element(tolerance.begin(), tolerance.end()) + kRounding * size;
+  }
+
+  Fitted run() {
+    Fitted out;
+    improve(2.0);
+    out.squares = objective(2.0);
+    out.largest = largest();
+    if (!is_closed()) {
+      out.largest = std::numeric_limits<double>::infinity();
+      return out;
+    }
+    Chain best = chain_;
+    std::vector<Foot> best_feet = feet_;
+    for (const double power : kPowers) {
+      if (out.largest <= 1.0) break;
+      improve(power);
+      if (!is_closed() || largest() >= out.largest) continue;
+      out.largest = largest();
+      best = chain_;
+      best_feet = feet_;
+    }
+    chain_ = std::move(best);
+    feet_ = std::move(best_feet);
+    return out;
+  }
+
+  double growth(int a, int b) {
+    assemble(2.0);
+    BandedMatrix matrix = damped(kDampingLeast);
+    if (!matrix.factor()) return std::numeric_limits<double>::infinity();
+    std::vector<double> row(unknowns_, 0.0);
+    double step = 0.0;
+    for (const auto& [number, sign] : {std::pair{a, 1.0}, std::pair{b, -1.0}}) {
+      if (number == Chain::kStraight) continue;
+      step += sign * chain_.kappa[static_cast<std::size_t>(number)];
+      const std::size_t column = column_of(number);
+      if (column != kNone) row[column] = sign * scale_[column];
+    }
+    const std::vector<double> solved = matrix.solve(row);
+    double variance = 0.0;
+    for (std::size_t k = 0; k < unknowns_; ++k) variance += row[k] * solved[k];
+    return variance > 0.0 ? step * step / variance : std::numeric_limits<double>::infinity();
+  }
+
+ private:
+  static constexpr std::size_t kNone = static_cast<std::size_t>(-1);
+
+  void set_unknowns() {
+    std::size_t next = held_.start ? 0 : 3;
+    first_length_ = next;
+    next += chain_.size();
+    column_.assign(chain_.kappa.size(), kNone);
+    for (std::size_t k = 0; k < chain_.kappa.size(); ++k) {
+      if (std::find(held_.kappa.begin(), held_.kappa.end(), static_cast<int>(k)) ==
+          held_.kappa.end()) {
+        column_[k] = next++;
+      }
+    }
+    unknowns_ = next;
+  }
+
+  [[nodiscard]] std::size_t column_of(int kappa) const {
+    return kappa == Chain::kStraight ? kNone : column_[static_cast<std::size_t>(kappa)];
+  }
+
+  /// Within what steps from there on would undo.
+  [[nodiscard]] bool is_closed() const { return gap_of(chain_) <= 10.0 * closed_; }
+
+  [[nodiscard]] double ratio(std::size_t i) const { return feet_[i].offset / tolerance_[i]; }
+
+  [[nodiscard]] double largest() const {
+    double out = 0.0;
+    for (std::size_t i = 0; i < feet_.size(); ++i) out = std::max(out, std::abs(ratio(i)));
+    return out;
+  }
+
+  /// Sum of powers of the offsets over the tolerances, and of the squares along at the ends.
+  [[nodiscard]] double objective(double power) const {
+    double sum = 0.0;
+    for (std::size_t i = 0; i < feet_.size(); ++i) {
+      sum += power == 2.0 ? ratio(i) * ratio(i) : std::pow(std::abs(ratio(i)), power);
+    }
+    return sum;
+  }
+
+  /// Row of derivatives of n . C at the foot, for the end e of the chain or a foot.
+  void row_of(std::size_t element, double s, const Element& at, Vec2 direction,
+              std::vector<double>& row) const {
+    std::fill(row.begin(), row.end(), 0.0);
+    if (!held_.start) {
+      row[0] = direction.x;
+      row[1] = direction.y;
+      row[2] = dot(direction, left_normal(at.point - joints_[0].point));
+    }
+    const auto add = [&](std::size_t k, const OwnDerivatives& d, Vec2 arm) {
+      const auto put = [&](std::size_t column, Vec2 move, double turn) {
+        if (column != kNone) row[column] += dot(direction, move + turn * left_normal(arm));
+      };
+      put(column_of(chain_.ends[k][0]), d.kappa0, d.theta_kappa0);
+      put(column_of(chain_.ends[k][1]), d.kappa1, d.theta_kappa1);
+      put(first_length_ + k, d.length, d.theta_length);
+    };
+    for (std::size_t k = 0; k < element; ++k) {
+      add(k, whole_[k], at.point - joints_[k + 1].point);
+    }
+    if (element < chain_.size()) {
+      add(element,
+          derivatives_of(joints_[element].theta, chain_.curvature(element, 0),
+                         chain_.curvature(element, 1), chain_.length[element], s, false),
+          Vec2{});
+    }
+  }
+
+  void set_whole() {
+    joints_ = chain_.joints();
+    whole_.clear();
+    for (std::size_t k = 0; k < chain_.size(); ++k) {
+      whole_.push_back(derivatives_of(joints_[k].theta, chain_.curvature(k, 0),
+                                      chain_.curvature(k, 1), chain_.length[k], chain_.length[k],
+                                      true));
+    }
+  }
+
+  /// Normal equations of the weighted offsets.
+  void assemble(double power) {
+    set_whole();
+    matrix_.assign(unknowns_ * unknowns_, 0.0);
+    right_.assign(unknowns_, 0.0);
+    const double top = largest();
+    std::vector<double> row(unknowns_);
+    const auto take = [&](double residual, double weight) {
+      for (std::size_t a = 0; a < unknowns_; ++a) {
+        if (row[a] == 0.0) continue;
+        right_[a] += weight * row[a] * residual;
+        double* line = matrix_.data() + a * unknowns_;
+        const double factor = weight * row[a];
+        for (std::size_t b = 0; b <= a; ++b) line[b] += factor * row[b];
+      }
+    };
+    for (std::size_t i = 0; i < feet_.size(); ++i) {
+      const Foot& foot = feet_[i];
+      const Element at = place_on(chain_, joints_, foot.element, foot.s);
+      row_of(foot.element, foot.s, at, left_normal(unit_at(at.theta)), row);
+      double weight = 1.0 / (tolerance_[i] * tolerance_[i]);
+      if (power > 2.0)
+        weight *= std::pow(std::max(std::abs(ratio(i)) / top, kLeastShare), power - 2.0);
+      take(foot.offset, weight);
+    }
+    // Newton's step for a sum of powers: the second derivative has this factor more
+    for (double& r : right_) r *= power > 0.0 ? 1.0 / (power - 1.0) : 0.0;
+    scale_.assign(unknowns_, 1.0);
+    for (std::size_t a = 0; a < unknowns_; ++a) {
+      const double d = matrix_[a * unknowns_ + a];
+      scale_[a] = d > 0.0 ? 1.0 / std::sqrt(d) : 1.0;
+    }
+    set_conditions();
+  }
+
+  /// What must hold exactly: ends of windows and closing; the ends at the end points.
+  void set_conditions() {
+    conditions_.clear();
+    const Element end = joints_.back();
+    std::vector<double> row(unknowns_);
+    const auto along = [&](std::size_t i, bool at_end) {
+      const Element at = at_end ? end : joints_.front();
+      row_of(at_end ? chain_.size() : 0, 0.0, at, unit_at(at.theta), row);
+      conditions_.push_back({row, dot(unit_at(at.theta), points_[i] - at.point)});
+    };
+    if (!held_.start) along(0, false);
+    if (held_.end || held_.closed) {
+      const Element goal = held_.end ? *held_.end : joints_.front();
+      for (const Vec2 axis : {Vec2{1.0, 0.0}, Vec2{0.0, 1.0}}) {
+        row_of(chain_.size(), 0.0, end, axis, row);
+        if (held_.closed && !held_.start) {
+          row[0] -= axis.x;
+          row[1] -= axis.y;
+        }
+        conditions_.push_back({row, dot(axis, goal.point - end.point)});
+      }
+      std::fill(row.begin(), row.end(), 0.0);
+      if (!held_.start && !held_.closed) row[2] = 1.0;
+      for (std::size_t k = 0; k < chain_.size(); ++k) {
+        const auto put = [&](std::size_t column, double turn) {
+          if (column != kNone) row[column] += turn;
+        };
+        put(column_of(chain_.ends[k][0]), whole_[k].theta_kappa0);
+        put(column_of(chain_.ends[k][1]), whole_[k].theta_kappa1);
+        put(first_length_ + k, whole_[k].theta_length);
+      }
+      conditions_.push_back({row, std::remainder(goal.theta - end.theta, 2.0 * std::numbers::pi)});
+    } else {
+      along(points_.size() - 1, true);
+    }
+  }
+
+  [[nodiscard]] BandedMatrix damped(double damping) const {
+    BandedMatrix out(unknowns_, unknowns_ - 1, unknowns_ - 1);
+    for (std::size_t a = 0; a < unknowns_; ++a) {
+      for (std::size_t b = 0; b <= a; ++b) {
+        const double entry = matrix_[a * unknowns_ + b] * scale_[a] * scale_[b];
+        out.at(a, b) = entry;
+        out.at(b, a) = entry;
+      }
+      out.at(a, a) += damping;
+    }
+    return out;
+  }
+
+  /// The step, in scaled unknowns; nothing when the matrix is not positive.
+  std::optional<std::vector<double>> step(double damping) const {
+    BandedMatrix matrix = damped(damping);
+    if (!matrix.factor()) return std::nullopt;
+    std::vector<double> right(unknowns_);
+    for (std::size_t a = 0; a < unknowns_; ++a) right[a] = right_[a] * scale_[a];
+    std::vector<double> move = matrix.solve(right);
+    const std::size_t n = conditions_.size();
+    if (n == 0) return move;
+    std::vector<std::vector<double>> solved;
+    std::vector<std::vector<double>> rows;
+    for (const auto& c : conditions_) {
+      std::vector<double> row = c.row;
+      for (std::size_t a = 0; a < unknowns_; ++a) row[a] *= scale_[a];
+      rows.push_back(row);
+      solved.push_back(matrix.solve(row));
+    }
+    const auto product = [&](const std::vector<double>& a, const std::vector<double>& b) {
+      double sum = 0.0;
+      for (std::size_t k = 0; k < unknowns_; ++k) sum += a[k] * b[k];
+      return sum;
+    };
+    BandedMatrix small(n, n - 1, n - 1);
+    std::vector<double> gap(n);
+    std::vector<double> size(n, 1.0);
+    for (std::size_t i = 0; i < n; ++i) {
+      const double d = product(rows[i], solved[i]);
+      if (!(d > 0.0)) return std::nullopt;
+      size[i] = 1.0 / std::sqrt(d);
+    }
+    for (std::size_t i = 0; i < n; ++i) {
+      for (std::size_t k = 0; k < n; ++k) {
+        small.at(i, k) = product(rows[i], solved[k]) * size[i] * size[k];
+      }
+      small.at(i, i) += kDampingLeast;
+      gap[i] = (conditions_[i].gap - product(rows[i], move)) * size[i];
+    }
+    if (!small.factor()) return std::nullopt;
+    const std::vector<double> pull = small.solve(gap);
+    for (std::size_t i = 0; i < n; ++i) {
+      for (std::size_t a = 0; a < unknowns_; ++a) move[a] += pull[i] * size[i] * solved[i][a];
+    }
+    return move;
+  }
+
+  [[nodiscard]] Chain moved(const std::vector<double>& move) const {
+    Chain out = chain_;
+    double share = 1.0;
+    for (std::size_t k = 0; k < chain_.size(); ++k) {
+      const auto change = [&](std::size_t column) {
+        return column == kNone ? 0.0 : move[column] * scale_[column];
+      };
+      const double longer = change(first_length_ + k);
+      const double most = kShorter * std::max(chain_.length[k] - held_.least_length, 0.0);
+      if (-longer > most) share = std::min(share, most / -longer);
+      const double turn =
+          chain_.length[k] * std::max(std::abs(change(column_of(chain_.ends[k][0]))),
+                                      std::abs(change(column_of(chain_.ends[k][1]))));
+      if (turn > kTurn) share = std::min(share, kTurn / turn);
+    }
+    const auto value = [&](std::size_t column) { return share * move[column] * scale_[column]; };
+    if (!held_.start) {
+      out.start = out.start + Vec2{value(0), value(1)};
+      out.theta += value(2);
+    }
+    for (std::size_t k = 0; k < chain_.size(); ++k) out.length[k] += value(first_length_ + k);
+    for (std::size_t k = 0; k < column_.size(); ++k) {
+      if (column_[k] != kNone) out.kappa[k] += value(column_[k]);
+    }
+    return out;
+  }
+
+  /// How far the ends are from where they have to be, units.
+  [[nodiscard]] double gap_of(const Chain& chain) const {
+    const std::vector<Element> joints = chain.joints();
+    double gap = 0.0;
+    const auto along = [&](const Element& at, Vec2 point) {
+      gap = std::max(gap, std::abs(dot(unit_at(at.theta), point - at.point)));
+    };
+    if (!held_.start) along(joints.front(), points_.front());
+    if (!held_.end && !held_.closed) {
+      along(joints.back(), points_.back());
+      return gap;
+    }
+    const Element goal = held_.end ? *held_.end : joints.front();
+    double length = 0.0;
+    for (const double l : chain.length) length += l;
+    const double turn = std::remainder(goal.theta - joints.back().theta, 2.0 * std::numbers::pi);
+    return std::max({gap, norm(goal.point - joints.back().point), length * std::abs(turn)});
+  }
+
+  void improve(double power) {
+    const double loose = kLoose * *std::min_element(tolerance_.begin(), tolerance_.end());
+    double damping = kDampingStart;
+    for (int i = 0; i < kSteps; ++i) {
+      const double before = objective(power), gap = gap_of(chain_);
+      // what is far from closing closes first, whatever that costs
+      const bool better = take_step(power, damping, [&](double gap_after, double after) {
+        return gap > loose ? gap_after < kCloser * gap : after < before && gap_after <= loose;
+      });
+      if (!better || (before - objective(power) < kSettled * before && gap <= loose)) break;
+    }
+    damping = kDampingClosing;
+    for (int i = 0; i < kClosing && gap_of(chain_) > closed_; ++i) {
+      const double gap = gap_of(chain_);
+      if (!take_step(0.0, damping, [&](double after, double) { return after < kCloser * gap; })) {
+        break;
+      }
+    }
+  }
+
+  /// One step that `better` takes, with more damping where it does not. Power 0: the shortest step
+  /// that closes the gaps.
+  template <class Better>
+  bool take_step(double power, double& damping, const Better& better) {
+    assemble(power);
+    for (; damping < kDampingMost; damping *= 10.0) {
+      const auto move = step(damping);
+      if (!move) continue;
+      Chain next = moved(*move);
+      std::vector<Foot> feet = feet_;
+      find_feet(next, points_, feet);
+      const double gap = gap_of(next);
+      std::swap(chain_, next);
+      std::swap(feet_, feet);
+      const double after = objective(power);
+      if (std::isfinite(after) && better(gap, after)) {
+        damping = std::max(kDampingLeast, 0.01 * damping);
+        return true;
+      }
+      std::swap(chain_, next);
+      std::swap(feet_, feet);
+    }
+    return false;
+  }
+
+  struct Fixed {
+    std::vector<double> row;
+    double gap = 0.0;
+  };
+
+  Chain& chain_;
+  const std::vector<Vec2>& points_;
+  const std::vector<double>& tolerance_;
+  std::vector<Foot>& feet_;
+  const Held& held_;
+  std::size_t first_length_ = 0, unknowns_ = 0;
+  double closed_ = 0.0;  ///< units: a gap that counts as none
+  std::vector<std::size_t> column_;
+  std::vector<Element> joints_;
+  std::vector<OwnDerivatives> whole_;
+  std::vector<double> matrix_, right_, scale_;
+  std::vector<Fixed> conditions_;
+};
+
+}  // namespace
+
+std::vector<Element> Chain::joints() const {
+  std::vector<Element> out = {{start, theta, size() > 0 ? curvature(0, 0) : 0.0}};
+  for (std::size_t k = 0; k < size(); ++k) {
+    const double k0 = curvature(k, 0), k1 = curvature(k, 1);
+    const Element& from = out.back();
+    out.push_back({from.point + clothoid_step(from.theta, k0, k1, length[k]),
+                   from.theta + 0.5 * (k0 + k1) * length[k],
+                   k + 1 < size() ? curvature(k + 1, 0) : k1});
+  }
+  return out;
+}
+
+void Chain::renumber() {
+  std::vector<int> to(kappa.size(), kStraight);
+  std::vector<double> kept;
+  for (auto& pair : ends) {
+    for (int& number : pair) {
+      if (number == kStraight) continue;
+      int& now = to[static_cast<std::size_t>(number)];
+      if (now == kStraight) {
+        now = static_cast<int>(kept.size());
+        kept.push_back(kappa[static_cast<std::size_t>(number)]);
+      }
+      number = now;
+    }
+  }
+  kappa = std::move(kept);
+}
+
+void find_feet(const Chain& chain, const std::vector<Vec2>& points, std::vector<Foot>& feet) {
+  constexpr int kNewton = 12;
+  const std::vector<Element> joints = chain.joints();
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    Foot& foot = feet[i];
+    for (int step = 0; step < kNewton; ++step) {
+      while (foot.s > chain.length[foot.element] && foot.element + 1 < chain.size()) {
+        foot.s -= chain.length[foot.element++];
+      }
+      while (foot.s < 0.0 && foot.element > 0) foot.s += chain.length[--foot.element];
+      const Element at = place_on(chain, joints, foot.element, foot.s);
+      const Vec2 t = unit_at(at.theta), away = points[i] - at.point;
+      foot.offset = cross(t, away);
+      foot.along = dot(t, away);
+      const double stretch = std::max(0.2, 1.0 - at.kappa * foot.offset);
+      const double size = norm(at.point - chain.start) + chain.length[foot.element];
+      if (std::abs(foot.along) <= kRounding * size) break;
+      foot.s += foot.along / stretch;
+    }
+  }
+}
+
+Fitted fit_chain(Chain& chain, const std::vector<Vec2>& points,
+                 const std::vector<double>& tolerance, std::vector<Foot>& feet, const Held& held) {
+  return Fitter(chain, points, tolerance, feet, held).run();
+}
+
+double growth_of(const Chain& chain, const std::vector<Vec2>& points,
+                 const std::vector<double>& tolerance, const std::vector<Foot>& feet,
+                 const Held& held, int a, int b) {
+  Chain own = chain;
+  std::vector<Foot> own_feet = feet;
+  return Fitter(own, points, tolerance, own_feet, held).growth(a, b);
+}
+
+}  // namespace obvid::alignment

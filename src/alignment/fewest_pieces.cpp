@@ -1,0 +1,344 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "fewest_pieces.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+#include <optional>
+
+#include "obvid/contour/clothoids.h"
+#include "obvid/curve/clothoid.h"
+#include "obvid/curve/nearest.h"
+#include "obvid/curve/pieces.h"
+#include "obvid/geom/angle.h"
+#include "small_program.h"
+
+namespace obvid::alignment {
+namespace {
+
+constexpr std::size_t kDirections = 12;   ///< in which a polygon is measured
+constexpr std::size_t kPolygons = 3;      ///< kept at a place
+constexpr std::size_t kPredecessors = 6;  ///< tried for a place
+constexpr double kBox =
+    1e3;  ///< largest offset and slope, in tolerances and tolerances over length
+constexpr double kSameState = 1e-7;  ///< offsets and slopes, likewise, that count as one
+constexpr double kFarOff = 0.3;  ///< rad: headings farther from those of the chords make no sense
+
+/// A place of a joint; deviations are measured from its point and heading.
+struct Place {
+  double at = 0.0;
+  Vec2 point;
+  double theta = 0.0;
+};
+
+/// Offset and slope at a place, in units of the tolerance and of tolerance over `unit`.
+struct State {
+  double offset = 0.0, slope = 0.0;
+};
+
+struct Source {
+  std::size_t place = 0, polygon = 0;
+};
+
+/// Convex: corners in order, and how one came there.
+struct Polygon {
+  std::vector<State> corners;
+  Source from;
+};
+
+double area_of(const std::vector<State>& corners) {
+  double sum = 0.0;
+  for (std::size_t i = 0; i < corners.size(); ++i) {
+    const State a = corners[i], b = corners[(i + 1) % corners.size()];
+    sum += a.offset * b.slope - b.offset * a.slope;
+  }
+  return 0.5 * sum;
+}
+
+class Search {
+ public:
+  Search(const std::vector<Vec2>& points, const std::vector<double>& tolerance,
+         std::size_t divisions)
+      : points_(points), tolerance_(tolerance), divisions_(divisions) {
+    set_places();
+  }
+
+  Result<std::vector<Node>> run(const RunContext& run) {
+    const std::size_t last = places_.size() - 1;
+    reached_.resize(places_.size());
+    reached_[0].push_back({start_polygon(), {}});
+    std::size_t first = 0, end = 1;  // places reached by the last clothoid
+    while (end <= last) {
+      if (auto on = tell(run, "fewest elements", static_cast<double>(end) / (last + 1)); !on) {
+        return fail(on.error());
+      }
+      const std::size_t farthest = advance(first, end);
+      if (farthest < end) break;
+      first = end;
+      end = farthest + 1;
+    }
+    if (end <= last) {
+      return fail({ErrorCode::kNoSpiral, "no clothoids within the tolerance were found", "", "",
+                   static_cast<long>(places_[end - 1].at), 0.0});
+    }
+    return nodes();
+  }
+
+ private:
+  void set_places() {
+    const std::size_t n = points_.size();
+    theta_.resize(n);
+    for (std::size_t i = 0; i < n; ++i) {
+      const std::size_t a = i == 0 ? 0 : i - 1, b = std::min(i + 1, n - 1);
+      theta_[i] = heading(points_[b] - points_[a]);
+      if (i > 0) theta_[i] = nearest_angle(theta_[i], theta_[i - 1]);
+    }
+    if (n > 2) {  // of the circle through three points
+      theta_[0] = nearest_angle(
+          2.0 * nearest_angle(heading(points_[1] - points_[0]), theta_[1]) - theta_[1], theta_[1]);
+      theta_[n - 1] = 2.0 * nearest_angle(heading(points_[n - 1] - points_[n - 2]), theta_[n - 2]) -
+                      theta_[n - 2];
+    }
+    for (std::size_t i = 0; i + 1 < n; ++i) {
+      places_.push_back({static_cast<double>(i), points_[i], theta_[i]});
+      const auto piece = clothoid_between(points_[i], theta_[i], points_[i + 1], theta_[i + 1]);
+      for (std::size_t k = 1; k < divisions_ && piece; ++k) {
+        const double part = static_cast<double>(k) / static_cast<double>(divisions_);
+        const Jet jet = evaluate(*piece, part);
+        places_.push_back(
+            {static_cast<double>(i) + part, jet.point, nearest_angle(heading(jet.d1), theta_[i])});
+      }
+    }
+    places_.push_back({static_cast<double>(n - 1), points_[n - 1], theta_[n - 1]});
+    unit_ = 0.0;
+    for (std::size_t i = 1; i < n; ++i) unit_ += norm(points_[i] - points_[i - 1]);
+    unit_ /= static_cast<double>(n - 1);
+    eps_ = *std::max_element(tolerance_.begin(), tolerance_.end());
+  }
+
+  std::vector<State> start_polygon() const {
+    const double e = tolerance_.front() / eps_, s = kFarOff * unit_ / eps_;
+    return {{-e, -s}, {e, -s}, {e, s}, {-e, s}};
+  }
+
+  /// What keeps a clothoid from place i to place j within the tolerances of the points between:
+  /// rows in the offset and slope at i and at j. Nothing when the nominal one makes no sense.
+  const std::vector<HalfSpace>* rows_between(std::size_t i, std::size_t j) {
+    if (cached_i_ == i && cached_j_ == j) return valid_ ? &rows_ : nullptr;
+    cached_i_ = i;
+    cached_j_ = j;
+    valid_ = false;
+    rows_.clear();
+    const Place &a = places_[i], &b = places_[j];
+    const auto piece = clothoid_between(a.point, a.theta, b.point, b.theta);
+    if (!piece) return nullptr;
+    const double length = piece->length;
+    const auto first = static_cast<std::size_t>(std::ceil(a.at));
+    const auto last = static_cast<std::size_t>(std::floor(b.at));
+    double at = 0.0;
+    for (std::size_t p = first; p <= last; ++p) {
+      double offset = 0.0;
+      double u = 0.0;
+      if (static_cast<double>(p) == a.at) {
+        u = 0.0;
+      } else if (static_cast<double>(p) == b.at) {
+        u = 1.0;
+      } else {
+        at += p == first ? 0.0 : norm(points_[p] - points_[p - 1]) / length;
+        if (p == first) at = norm(points_[p] - a.point) / length;
+        u = std::clamp(at, 0.0, 1.0);
+        for (int step = 0; step < 3; ++step) {
+          const Jet jet = evaluate(*piece, u);
+          const Vec2 t = jet.d1 / norm(jet.d1);
+          const double along = dot(t, points_[p] - jet.point);
+          offset = cross(t, points_[p] - jet.point);
+          u = std::clamp(u + along / length, 0.0, 1.0);
+        }
+        at = u;
+        if (!(std::abs(offset) < kBox * eps_)) return nullptr;
+      }
+      const double v = 1.0 - u;
+      const double slope = length / unit_;
+      // |offset of the curve - offset of the point| <= tolerance, cubic Hermite
+      const Unknowns h = {v * v * (1.0 + 2.0 * u), u * v * v * slope, u * u * (3.0 - 2.0 * u),
+                          -u * u * v * slope};
+      Unknowns minus = h;
+      for (double& x : minus) x = -x;
+      rows_.push_back({h, (tolerance_[p] + offset) / eps_});
+      rows_.push_back({minus, (tolerance_[p] - offset) / eps_});
+    }
+    valid_ = true;
+    return &rows_;
+  }
+
+  void add_polygon(const std::vector<State>& corners) {
+    for (std::size_t k = 0; k < corners.size(); ++k) {
+      const State a = corners[k], b = corners[(k + 1) % corners.size()];
+      const double nx = b.slope - a.slope, ny = a.offset - b.offset;
+      const double size = std::max(std::abs(nx), std::abs(ny));
+      if (size == 0.0) continue;
+      program_.add({{nx / size, ny / size, 0.0, 0.0}, (nx * a.offset + ny * a.slope) / size});
+    }
+  }
+
+  /// Makes the program of the clothoids from there to place j; false: there are none.
+  bool set_program(const Source& from, std::size_t j) {
+    const auto* between = rows_between(from.place, j);
+    if (!between) return false;
+    program_.clear();
+    program_.add(*between);
+    add_polygon(reached_[from.place][from.polygon].corners);
+    program_.shuffle();
+    return true;
+  }
+
+  bool reaches(const Source& from, std::size_t j) {
+    return set_program(from, j) && program_.maximum({0.0, 0.0, 1.0, 0.0}, kBox).has_value();
+  }
+
+  /// Farthest place that a clothoid from there reaches: what it reaches it passes on the way.
+  std::size_t reach_of(const Source& from, std::size_t guess) {
+    std::size_t good = from.place, bad = places_.size();
+    std::size_t step = std::max<std::size_t>(1, guess > good ? guess - good : 1);
+    while (good + 1 < bad) {
+      const std::size_t next = std::min(good + step, bad - 1);
+      if (reaches(from, next)) {
+        good = next;
+        if (bad == places_.size()) {
+          step = std::max<std::size_t>(1, step / 2 + 1);
+          continue;
+        }
+      } else {
+        bad = next;
+      }
+      step = std::max<std::size_t>(1, (bad - good) / 2);
+    }
+    return good;
+  }
+
+  /// Places behind `end` that one clothoid reaches from one in [first, end); the farthest.
+  std::size_t advance(std::size_t first, std::size_t end) {
+    struct Reach {
+      Source from;
+      std::size_t to = 0;
+    };
+    std::vector<Reach> reaches;
+    std::size_t farthest = 0, guess = 0;
+    for (std::size_t i = first; i < end; ++i) {
+      for (std::size_t p = 0; p < reached_[i].size(); ++p) {
+        const std::size_t to = reach_of({i, p}, guess);
+        guess = to;
+        if (to >= end) reaches.push_back({{i, p}, to});
+        farthest = std::max(farthest, to);
+      }
+    }
+    for (std::size_t j = end; j <= farthest; ++j) {
+      std::vector<Source> from;
+      for (const Reach& r : reaches) {
+        if (r.to >= j) from.push_back(r.from);
+      }
+      const std::size_t stride = std::max<std::size_t>(1, from.size() / kPredecessors);
+      std::vector<Polygon> found;
+      for (std::size_t k = 0; k < from.size(); k += stride) {
+        auto polygon = polygon_at(from[k], j);
+        if (polygon) found.push_back(std::move(*polygon));
+      }
+      std::stable_sort(found.begin(), found.end(), [](const Polygon& a, const Polygon& b) {
+        return area_of(a.corners) > area_of(b.corners);
+      });
+      if (found.size() > kPolygons) found.resize(kPolygons);
+      reached_[j] = std::move(found);
+    }
+    return farthest;
+  }
+
+  std::optional<Polygon> polygon_at(const Source& from, std::size_t j) {
+    if (!set_program(from, j)) return std::nullopt;
+    Polygon out{{}, from};
+    for (std::size_t k = 0; k < kDirections; ++k) {
+      const double angle = 2.0 * std::numbers::pi * static_cast<double>(k) / kDirections;
+      const auto x = program_.maximum({0.0, 0.0, std::cos(angle), std::sin(angle)}, kBox);
+      if (!x) {
+        if (k == 0) return std::nullopt;
+        continue;
+      }
+      const State s{(*x)[2], (*x)[3]};
+      if (!out.corners.empty()) {
+        const State b = out.corners.back();
+        if (std::abs(b.offset - s.offset) + std::abs(b.slope - s.slope) < kSameState) continue;
+      }
+      out.corners.push_back(s);
+    }
+    if (out.corners.size() < 3 || !(area_of(out.corners) > 0.0)) return std::nullopt;
+    return out;
+  }
+
+  static State middle_of(const std::vector<State>& corners) {
+    State sum;
+    for (const State& s : corners) {
+      sum.offset += s.offset / static_cast<double>(corners.size());
+      sum.slope += s.slope / static_cast<double>(corners.size());
+    }
+    return sum;
+  }
+
+  [[nodiscard]] Node node_at(std::size_t place, State s) const {
+    const Place& p = places_[place];
+    return {p.at, p.point + eps_ * s.offset * left_normal(unit_at(p.theta)),
+            p.theta + eps_ / unit_ * s.slope};
+  }
+
+  Result<std::vector<Node>> nodes() {
+    std::size_t place = places_.size() - 1;
+    std::size_t polygon = 0;
+    State state = middle_of(reached_[place][polygon].corners);
+    std::vector<Node> out = {node_at(place, state)};
+    while (place > 0) {
+      const Source from = reached_[place][polygon].from;
+      set_program(from, place);
+      for (const int sign : {1, -1}) {  // from there to this very state
+        for (std::size_t k = 2; k < kUnknowns; ++k) {
+          HalfSpace fixed;
+          fixed.a[k] = sign;
+          fixed.b = sign * (k == 2 ? state.offset : state.slope) + kSameState;
+          program_.add(fixed);
+        }
+      }
+      std::vector<State> ends;
+      for (std::size_t k = 0; k < kDirections; ++k) {
+        const double angle = 2.0 * std::numbers::pi * static_cast<double>(k) / kDirections;
+        const auto x = program_.maximum({std::cos(angle), std::sin(angle), 0.0, 0.0}, kBox);
+        if (x) ends.push_back({(*x)[0], (*x)[1]});
+      }
+      place = from.place;
+      polygon = from.polygon;
+      state = middle_of(ends.empty() ? reached_[place][polygon].corners : ends);
+      out.push_back(node_at(place, state));
+    }
+    std::reverse(out.begin(), out.end());
+    return out;
+  }
+
+  const std::vector<Vec2>& points_;
+  const std::vector<double>& tolerance_;
+  std::size_t divisions_;
+  std::vector<double> theta_;
+  std::vector<Place> places_;
+  double unit_ = 1.0, eps_ = 1.0;
+  std::vector<std::vector<Polygon>> reached_;
+  std::vector<HalfSpace> rows_;
+  SmallProgram program_;
+  std::size_t cached_i_ = static_cast<std::size_t>(-1), cached_j_ = 0;
+  bool valid_ = false;
+};
+
+}  // namespace
+
+Result<std::vector<Node>> fewest_pieces(const std::vector<Vec2>& points,
+                                        const std::vector<double>& tolerance, std::size_t divisions,
+                                        const RunContext& run) {
+  return Search(points, tolerance, divisions).run(run);
+}
+
+}  // namespace obvid::alignment

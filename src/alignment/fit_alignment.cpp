@@ -1,0 +1,355 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+#include <cmath>
+#include <set>
+#include <utility>
+
+#include "chain_of_elements.h"
+#include "fewest_pieces.h"
+#include "obvid/alignment/alignment.h"
+#include "obvid/contour/clothoids.h"
+
+namespace obvid {
+namespace alignment {
+namespace {
+
+constexpr std::size_t kBeside = 3;   ///< elements to both sides that move with one that is changed
+constexpr std::size_t kWindow = 12;  ///< elements that are fitted at once
+constexpr double kLeastLength = 0.25;  ///< of the mean distance of points: elements get no shorter
+constexpr double kHopeless = 4.0;      ///< estimated squares over the most that there can be
+constexpr int kPasses = 4;             ///< over all conditions
+constexpr int kPolishes = 3;           ///< over the whole alignment, where an offset is too large
+
+class Simplifier {
+ public:
+  Simplifier(const std::vector<Vec2>& points, const std::vector<double>& tolerance, Chain chain,
+             std::vector<Foot> feet)
+      : points_(points), tolerance_(tolerance), chain_(std::move(chain)), feet_(std::move(feet)) {
+    double length = 0.0;
+    for (std::size_t i = 1; i < points.size(); ++i) length += norm(points[i] - points[i - 1]);
+    least_length_ = kLeastLength * length / static_cast<double>(points.size() - 1);
+  }
+
+  Result<void> run(const RunContext& run) {
+    if (auto on = polish(run); !on) return on;
+    for (int pass = 0; pass < kPasses; ++pass) {
+      const auto taken = take_conditions(run);
+      if (!taken) return fail(taken.error());
+      if (!*taken) break;
+    }
+    for (int i = 0; i < kPolishes && largest() > 1.0; ++i) {
+      if (auto on = polish(run); !on) return on;
+    }
+    return {};
+  }
+
+  [[nodiscard]] const Chain& chain() const { return chain_; }
+  [[nodiscard]] const std::vector<Foot>& feet() const { return feet_; }
+  [[nodiscard]] double largest() {
+    find_feet(chain_, points_, feet_);
+    double out = 0.0;
+    for (std::size_t i = 0; i < feet_.size(); ++i) {
+      out = std::max(out, std::abs(feet_[i].offset) / tolerance_[i]);
+    }
+    return out;
+  }
+
+ private:
+  /// Some elements with their points, cut out.
+  struct Window {
+    std::size_t first = 0;  ///< element
+    std::size_t first_point = 0;
+    Chain chain;
+    std::vector<Vec2> points;
+    std::vector<double> tolerance;
+    std::vector<Foot> feet;
+    std::vector<int> number;  ///< in the whole chain, of each curvature
+    Held held;
+  };
+
+  [[nodiscard]] Window cut(const Chain& chain, std::size_t first, std::size_t last) const {
+    Window out;
+    out.first = first;
+    const std::vector<Element> joints = chain_.joints();  // where what lies beside stays
+    out.chain.start = joints[first].point;
+    out.chain.theta = joints[first].theta;
+    out.held.start = first > 0;
+    out.held.least_length = least_length_;
+    if (last < chain.size()) out.held.end = joints[last];
+    for (std::size_t k = first; k < last; ++k) {
+      out.chain.length.push_back(chain.length[k]);
+      std::array<int, 2> ends{};
+      for (std::size_t e = 0; e < 2; ++e) ends[e] = own_number(chain, chain.ends[k][e], out);
+      out.chain.ends.push_back(ends);
+    }
+    for (std::size_t k = 0; k < out.number.size(); ++k) {
+      // a curvature that an element outside has too stays as it is
+      if (is_used_outside(out.number[k], first, last)) {
+        out.held.kappa.push_back(static_cast<int>(k));
+      }
+    }
+    bool begun = false;
+    for (std::size_t i = 0; i < feet_.size(); ++i) {
+      if (feet_[i].element < first || feet_[i].element >= last) continue;
+      if (!begun) out.first_point = i;
+      begun = true;
+      out.points.push_back(points_[i]);
+      out.tolerance.push_back(tolerance_[i]);
+      Foot foot = feet_[i];
+      foot.element -= first;
+      out.feet.push_back(foot);
+    }
+    return out;
+  }
+
+  static int own_number(const Chain& chain, int number, Window& window) {
+    if (number == Chain::kStraight) return number;
+    const auto found = std::find(window.number.begin(), window.number.end(), number);
+    const auto own = found - window.number.begin();
+    if (found == window.number.end()) {
+      window.number.push_back(number);
+      window.chain.kappa.push_back(chain.kappa[static_cast<std::size_t>(number)]);
+    }
+    return static_cast<int>(own);
+  }
+
+  void put_back(const Window& window, Chain& chain) {
+    if (window.first == 0) {
+      chain.start = window.chain.start;
+      chain.theta = window.chain.theta;
+    }
+    for (std::size_t k = 0; k < window.chain.size(); ++k) {
+      chain.length[window.first + k] = window.chain.length[k];
+    }
+    for (std::size_t k = 0; k < window.number.size(); ++k) {
+      chain.kappa[static_cast<std::size_t>(window.number[k])] = window.chain.kappa[k];
+    }
+    for (std::size_t i = 0; i < window.feet.size(); ++i) {
+      Foot foot = window.feet[i];
+      foot.element += window.first;
+      feet_[window.first_point + i] = foot;
+    }
+  }
+
+  Result<void> polish(const RunContext& run) {
+    for (std::size_t first = 0; first < chain_.size(); first += kWindow / 2) {
+      if (auto on = tell(run, "fitting", static_cast<double>(first) / chain_.size()); !on)
+        return on;
+      const std::size_t last = std::min(first + kWindow, chain_.size());
+      Window window = cut(chain_, first, last);
+      if (window.points.empty()) continue;
+      const Fitted fitted =
+          fit_chain(window.chain, window.points, window.tolerance, window.feet, window.held);
+      if (std::isfinite(fitted.largest)) put_back(window, chain_);
+      if (last == chain_.size()) break;
+    }
+    find_feet(chain_, points_, feet_);
+    return {};
+  }
+
+  /// A condition at an element or at the joint before the next one.
+  struct Candidate {
+    std::size_t element = 0;
+    int a = 0, b = Chain::kStraight;
+    double growth = 0.0;
+    double room = 0.0;  ///< the most that squares within the tolerances can be
+  };
+
+  [[nodiscard]] std::pair<std::size_t, std::size_t> around(std::size_t element) const {
+    return {element - std::min(element, kBeside), std::min(element + kBeside + 2, chain_.size())};
+  }
+
+  void add_candidates(std::size_t k, std::vector<Candidate>& out) const {
+    const auto add = [&](int a, int b) {
+      if (a == b) return;
+      if (a == Chain::kStraight) std::swap(a, b);
+      out.push_back({k, a, b, 0.0});
+    };
+    const auto [k0, k1] = chain_.ends[k];
+    add(k0, k1);
+    if (k0 == k1 && k0 != Chain::kStraight) add(k0, Chain::kStraight);
+    if (k + 1 < chain_.size()) add(k1, chain_.ends[k + 1][0]);
+  }
+
+  void estimate(std::vector<Candidate>& candidates) const {
+    for (Candidate& c : candidates) {
+      const auto [first, last] = around(c.element);
+      Window window = cut(chain_, first, last);
+      const auto own = [&](int number) {
+        return number == Chain::kStraight
+                   ? number
+                   : static_cast<int>(
+                         std::find(window.number.begin(), window.number.end(), number) -
+                         window.number.begin());
+      };
+      c.growth = growth_of(window.chain, window.points, window.tolerance, window.feet, window.held,
+                           own(c.a), own(c.b));
+      c.room = static_cast<double>(window.points.size());
+    }
+  }
+
+  bool take(const Candidate& c) {
+    if (!is_used(c.a) || (c.b != Chain::kStraight && !is_used(c.b))) return false;
+    const auto [first, last] = around(c.element);
+    if (is_used_outside(c.a, first, last)) return false;
+    Chain next = chain_;
+    if (c.b != Chain::kStraight && !is_used_outside(c.b, first, last)) {
+      const auto a = static_cast<std::size_t>(c.a), b = static_cast<std::size_t>(c.b);
+      next.kappa[b] = 0.5 * (next.kappa[a] + next.kappa[b]);
+    }
+    for (auto& ends : next.ends) {
+      for (int& number : ends) {
+        if (number == c.a) number = c.b;
+      }
+    }
+    Window window = cut(next, first, last);
+    const Fitted fitted =
+        fit_chain(window.chain, window.points, window.tolerance, window.feet, window.held);
+    if (!(fitted.largest <= 1.0)) return false;
+    chain_ = std::move(next);
+    put_back(window, chain_);
+    return true;
+  }
+
+  /// Elements that share a curvature follow one another: those beside the window tell.
+  [[nodiscard]] bool is_used_outside(int number, std::size_t first, std::size_t last) const {
+    const auto uses = [&](std::size_t element) {
+      return chain_.ends[element][0] == number || chain_.ends[element][1] == number;
+    };
+    return (first > 0 && uses(first - 1)) || (last < chain_.size() && uses(last));
+  }
+
+  [[nodiscard]] bool is_used(int number) const {
+    return std::any_of(chain_.ends.begin(), chain_.ends.end(), [&](const std::array<int, 2>& ends) {
+      return ends[0] == number || ends[1] == number;
+    });
+  }
+
+  /// Whether one was taken.
+  Result<bool> take_conditions(const RunContext& run) {
+    std::vector<Candidate> candidates;
+    refused_.clear();  // what others stood in the way of may be possible now
+    for (std::size_t k = 0; k < chain_.size(); ++k) add_candidates(k, candidates);
+    std::erase_if(candidates, [&](const Candidate& c) { return refused_.contains({c.a, c.b}); });
+    estimate(candidates);
+    std::stable_sort(candidates.begin(), candidates.end(),
+                     [](const Candidate& a, const Candidate& b) { return a.growth < b.growth; });
+    bool taken = false;
+    for (std::size_t i = 0; i < candidates.size(); ++i) {
+      if (auto on = tell(run, "kinds", static_cast<double>(i) / candidates.size()); !on) {
+        return fail(on.error());
+      }
+      if (candidates[i].growth <= kHopeless * candidates[i].room && take(candidates[i])) {
+        taken = true;
+      } else {
+        refused_.insert({candidates[i].a, candidates[i].b});
+      }
+    }
+    return taken;
+  }
+
+  const std::vector<Vec2>& points_;
+  const std::vector<double>& tolerance_;
+  Chain chain_;
+  std::vector<Foot> feet_;
+  double least_length_ = 0.0;
+  std::set<std::pair<int, int>> refused_;
+};
+
+/// The chain through nodes, with the points' feet about where they are.
+void set_chain(const std::vector<Node>& nodes, std::size_t points, Chain& chain,
+               std::vector<Foot>& feet) {
+  chain.start = nodes.front().point;
+  chain.theta = nodes.front().theta;
+  feet.assign(points, {});
+  for (std::size_t k = 0; k + 1 < nodes.size(); ++k) {
+    const Node &a = nodes[k], &b = nodes[k + 1];
+    const auto piece = clothoid_between(a.point, a.theta, b.point, b.theta);
+    const int next = static_cast<int>(chain.kappa.size());
+    chain.ends.push_back({next, next + 1});
+    chain.kappa.push_back(piece ? piece->kappa0 : 0.0);
+    chain.kappa.push_back(piece ? piece->kappa1 : 0.0);
+    chain.length.push_back(piece ? piece->length : norm(b.point - a.point));
+    for (auto i = static_cast<std::size_t>(std::ceil(a.place)); static_cast<double>(i) <= b.place;
+         ++i) {
+      feet[i].element = k;
+      feet[i].s = chain.length[k] * (static_cast<double>(i) - a.place) / (b.place - a.place);
+    }
+  }
+}
+
+AlignmentKind kind_of(const std::array<int, 2>& ends) {
+  if (ends[0] != ends[1]) return AlignmentKind::kClothoid;
+  return ends[0] == Chain::kStraight ? AlignmentKind::kLine : AlignmentKind::kArc;
+}
+
+Alignment alignment_of(const Chain& chain, const std::vector<Foot>& feet,
+                       const std::vector<double>& tolerance) {
+  Alignment out;
+  const std::vector<Element> joints = chain.joints();
+  std::vector<double> station = {0.0};
+  for (std::size_t k = 0; k < chain.size(); ++k) {
+    AlignmentElement e;
+    e.kind = kind_of(chain.ends[k]);
+    e.station = station.back();
+    e.start = joints[k];
+    e.length = chain.length[k];
+    e.kappa1 = chain.curvature(k, 1);
+    e.step = k > 0 && chain.ends[k - 1][1] != chain.ends[k][0];
+    station.push_back(station.back() + e.length);
+    out.elements.push_back(e);
+  }
+  out.end = joints.back();
+  out.length = station.back();
+  double squares = 0.0;
+  for (std::size_t i = 0; i < feet.size(); ++i) {
+    out.deviations.push_back({station[feet[i].element] + feet[i].s, feet[i].offset});
+    out.largest_share = std::max(out.largest_share, std::abs(feet[i].offset) / tolerance[i]);
+    squares += feet[i].offset * feet[i].offset;
+  }
+  out.rms = std::sqrt(squares / static_cast<double>(feet.size()));
+  return out;
+}
+
+}  // namespace
+}  // namespace alignment
+
+Result<Alignment> fit_alignment(const std::vector<Vec2>& given,
+                                const std::vector<double>& tolerance,
+                                const AlignmentOptions& options, const RunContext& run) {
+  if (given.size() < 2) {
+    return fail({ErrorCode::kTooFewPoints, "an alignment needs at least two points", "", "", -1,
+                 static_cast<double>(given.size())});
+  }
+  // coordinates of maps are far from their origin
+  const Vec2 origin = given.front();
+  std::vector<Vec2> points;
+  points.reserve(given.size());
+  for (const Vec2 p : given) points.push_back(p - origin);
+  for (std::size_t i = 1; i < points.size(); ++i) {
+    if (points[i] == points[i - 1]) {
+      return fail({ErrorCode::kChordReversal, "two neighbouring points coincide", "", "",
+                   static_cast<std::ptrdiff_t>(i), 0.0});
+    }
+  }
+  const auto nodes = alignment::fewest_pieces(points, tolerance, options.divisions, run);
+  if (!nodes) return fail(nodes.error());
+  alignment::Chain chain;
+  std::vector<alignment::Foot> feet;
+  alignment::set_chain(*nodes, points.size(), chain, feet);
+  alignment::find_feet(chain, points, feet);
+  alignment::Simplifier simplifier(points, tolerance, std::move(chain), std::move(feet));
+  if (auto done = simplifier.run(run); !done) return fail(done.error());
+  const double largest = simplifier.largest();
+  if (!(largest <= 1.0)) {
+    return fail({ErrorCode::kToleranceNotReached,
+                 "the alignment that was found leaves the tolerance", "", "a larger tolerance", -1,
+                 largest});
+  }
+  Alignment out = alignment::alignment_of(simplifier.chain(), simplifier.feet(), tolerance);
+  for (AlignmentElement& e : out.elements) e.start.point = e.start.point + origin;
+  out.end.point = out.end.point + origin;
+  return out;
+}
+
+}  // namespace obvid

@@ -1,0 +1,203 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "obvid/alignment/alignment.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstdint>
+#include <vector>
+
+namespace obvid {
+namespace {
+
+struct RoadPart {
+  double length, kappa0, kappa1;
+};
+
+/// Places every `step` along parts of linear curvature, by Simpson's rule on steps of a centimetre.
+std::vector<Vec2> road_points(const std::vector<RoadPart>& parts, double step) {
+  constexpr double kSlice = 0.01;
+  std::vector<Vec2> out;
+  Vec2 at{};
+  double theta = 0.0, s = 0.0, next = 0.0;
+  for (const RoadPart& part : parts) {
+    const int slices = static_cast<int>(std::lround(part.length / kSlice));
+    for (int i = 0; i < slices; ++i) {
+      if (s >= next - 0.5 * kSlice) {
+        out.push_back(at);
+        next += step;
+      }
+      const auto kappa = [&](double t) {
+        return part.kappa0 + (part.kappa1 - part.kappa0) * (i + t) / slices;
+      };
+      const double middle = theta + 0.5 * kSlice * 0.5 * (kappa(0.0) + kappa(0.5));
+      const double end = theta + 0.5 * kSlice * (kappa(0.0) + kappa(1.0));
+      const auto weighed = [&](auto f) {
+        return kSlice / 6.0 * (f(theta) + 4.0 * f(middle) + f(end));
+      };
+      at = at + Vec2{weighed([](double a) { return std::cos(a); }),
+                     weighed([](double a) { return std::sin(a); })};
+      theta = end;
+      s += kSlice;
+    }
+  }
+  out.push_back(at);
+  return out;
+}
+
+/// Sums of twelve evenly distributed numbers are nearly normal; the same on every machine.
+class Noise {
+ public:
+  double operator()() {
+    double sum = -6.0;
+    for (int i = 0; i < 12; ++i) {
+      state_ = state_ * 6364136223846793005ULL + 1442695040888963407ULL;
+      sum += static_cast<double>(state_ >> 11) * 0x1p-53;
+    }
+    return sum;
+  }
+
+ private:
+  std::uint64_t state_ = 7;
+};
+
+std::vector<Vec2> disturbed(std::vector<Vec2> points, double sigma) {
+  Noise noise;
+  for (Vec2& p : points) p = p + sigma * Vec2{noise(), noise()};
+  return points;
+}
+
+const std::vector<RoadPart> kRoad = {{120, 0, 0},
+                                     {60, 0, 1 / 300.0},
+                                     {150, 1 / 300.0, 1 / 300.0},
+                                     {60, 1 / 300.0, 0},
+                                     {90, 0, 0},
+                                     {80, 0, -1 / 200.0},
+                                     {100, -1 / 200.0, -1 / 200.0},
+                                     {70, -1 / 200.0, 0},
+                                     {50, 0, 0},
+                                     {80, 1 / 150.0, 1 / 150.0},
+                                     {60, 0, 0}};
+
+AlignmentKind kind_of_part(const RoadPart& part) {
+  if (part.kappa0 != part.kappa1) return AlignmentKind::kClothoid;
+  return part.kappa0 == 0.0 ? AlignmentKind::kLine : AlignmentKind::kArc;
+}
+
+/// Distance of a point from the elements, each cut into chords of a few millimetres.
+double distance_from(const Alignment& alignment, Vec2 p) {
+  double best = norm(p - alignment.end.point);
+  for (const AlignmentElement& e : alignment.elements) {
+    if (norm(p - e.start.point) > e.length + 1.0) continue;
+    const int slices = 200 + static_cast<int>(e.length / 0.01);
+    const double h = e.length / slices;
+    Vec2 at = e.start.point;
+    for (int i = 0; i <= slices; ++i) {
+      best = std::min(best, norm(p - at));
+      const double u = (i + 0.5) * h;
+      const double theta =
+          e.start.theta + e.start.kappa * u + (e.kappa1 - e.start.kappa) * u * u / (2.0 * e.length);
+      at = at + h * Vec2{std::cos(theta), std::sin(theta)};
+    }
+  }
+  return best;
+}
+
+TEST(Alignment, FindsTheElementsOfARoadThroughPointsWithTwoMillimetresOfNoise) {
+  const auto points = disturbed(road_points(kRoad, 5.0), 0.002);
+  const std::vector<double> tolerance(points.size(), 0.008);
+  const auto found = fit_alignment(points, tolerance);
+  ASSERT_TRUE(found) << found.error().what;
+  ASSERT_EQ(found->elements.size(), kRoad.size());
+  for (std::size_t k = 0; k < kRoad.size(); ++k) {
+    const AlignmentElement& e = found->elements[k];
+    EXPECT_EQ(e.kind, kind_of_part(kRoad[k])) << k;
+    if (e.kind == AlignmentKind::kArc) {
+      EXPECT_NEAR(1.0 / e.start.kappa, 1.0 / kRoad[k].kappa0, 0.01 / std::abs(kRoad[k].kappa0));
+    }
+    EXPECT_NEAR(e.length, kRoad[k].length, 2.0) << k;
+  }
+  EXPECT_LE(found->largest_share, 1.0);
+}
+
+TEST(Alignment, StatedOffsetsAreTheDistancesOfThePoints) {
+  const auto points = disturbed(road_points(kRoad, 5.0), 0.002);
+  const auto found = fit_alignment(points, std::vector<double>(points.size(), 0.008));
+  ASSERT_TRUE(found);
+  ASSERT_EQ(found->deviations.size(), points.size());
+  for (std::size_t i = 0; i < points.size(); i += 7) {
+    // chords of a centimetre: distances are right to 1e-4 where they are millimetres
+    EXPECT_NEAR(std::abs(found->deviations[i].offset), distance_from(*found, points[i]), 5e-4) << i;
+  }
+}
+
+TEST(Alignment, ElementsJoinWithCommonTangents) {
+  const auto points = disturbed(road_points(kRoad, 5.0), 0.002);
+  const auto found = fit_alignment(points, std::vector<double>(points.size(), 0.008));
+  ASSERT_TRUE(found);
+  double station = 0.0;
+  for (std::size_t k = 0; k + 1 < found->elements.size(); ++k) {
+    const AlignmentElement &e = found->elements[k], &next = found->elements[k + 1];
+    EXPECT_NEAR(next.start.theta, e.start.theta + 0.5 * (e.start.kappa + e.kappa1) * e.length,
+                1e-12);
+    EXPECT_EQ(next.step, e.kappa1 != next.start.kappa) << k;
+    station += e.length;
+    EXPECT_NEAR(next.station, station, 1e-9);
+  }
+}
+
+TEST(Alignment, ATransitionIsOneClothoid) {
+  const auto points = road_points({{100, 1 / 300.0, 0}}, 1.0);
+  const auto found = fit_alignment(points, std::vector<double>(points.size(), 0.05));
+  ASSERT_TRUE(found);
+  ASSERT_EQ(found->elements.size(), 1U);
+  EXPECT_EQ(found->elements[0].kind, AlignmentKind::kClothoid);
+  EXPECT_NEAR(found->elements[0].length, 100.0, 1e-6);
+  EXPECT_NEAR(found->elements[0].start.kappa, 1 / 300.0, 1e-9);
+}
+
+TEST(Alignment, TheSameElementsWhereverTheyLieAndInWhateverUnit) {
+  const auto points = disturbed(road_points(kRoad, 5.0), 0.002);
+  const auto found = fit_alignment(points, std::vector<double>(points.size(), 0.008));
+  ASSERT_TRUE(found);
+  const auto compare = [&](double scale, Vec2 offset) {
+    std::vector<Vec2> moved;
+    for (const Vec2 p : points) moved.push_back(scale * p + offset);
+    const auto again = fit_alignment(moved, std::vector<double>(points.size(), scale * 0.008));
+    ASSERT_TRUE(again);
+    ASSERT_EQ(again->elements.size(), found->elements.size());
+    for (std::size_t k = 0; k < found->elements.size(); ++k) {
+      EXPECT_EQ(again->elements[k].kind, found->elements[k].kind);
+      EXPECT_NEAR(again->elements[k].length, scale * found->elements[k].length, 0.05 * scale);
+    }
+  };
+  compare(1e-9, {});
+  compare(1e9, {});
+  compare(1.0, {3.5e6, 5.4e6});
+}
+
+TEST(Alignment, TwoPointsAreALine) {
+  const auto found = fit_alignment({{0, 0}, {3, 4}}, {0.1, 0.1});
+  ASSERT_TRUE(found);
+  ASSERT_EQ(found->elements.size(), 1U);
+  EXPECT_EQ(found->elements[0].kind, AlignmentKind::kLine);
+  EXPECT_NEAR(found->length, 5.0, 0.01);
+}
+
+TEST(Alignment, RefusesWhatIsNoPointSequence) {
+  EXPECT_EQ(fit_alignment({{0, 0}}, {0.1}).error().code, ErrorCode::kTooFewPoints);
+  EXPECT_EQ(fit_alignment({{0, 0}, {0, 0}, {1, 0}}, {0.1, 0.1, 0.1}).error().code,
+            ErrorCode::kChordReversal);
+}
+
+TEST(Alignment, EndsWhenItIsAskedTo) {
+  const auto points = road_points(kRoad, 5.0);
+  RunContext run;
+  run.cancelled = [] { return true; };
+  const auto found = fit_alignment(points, std::vector<double>(points.size(), 0.01), {}, run);
+  ASSERT_FALSE(found);
+  EXPECT_EQ(found.error().code, ErrorCode::kCancelled);
+}
+
+}  // namespace
+}  // namespace obvid
