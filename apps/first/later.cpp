@@ -26,10 +26,12 @@
 namespace obvid {
 
 // ---- commands ---------------------------------------------------------------------------------
+OBVID_LATER(Result<Command> parse_alignment(int, const char* const*))
 OBVID_LATER(Result<Command> parse_surface(int, const char* const*))
 OBVID_LATER(Result<Command> parse_spline(int, const char* const*))
 OBVID_LATER(Result<Command> parse_nurbs(int, const char* const*))
 OBVID_LATER(Result<Command> parse_toolpath(int, const char* const*))
+OBVID_LATER(int run(const AlignmentCommand&))
 OBVID_LATER(int run(const RegionOptions&))
 OBVID_LATER(int run(const CompareOptions&))
 OBVID_LATER(int run(const ConvertOptions&))
