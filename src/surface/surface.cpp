@@ -4,7 +4,7 @@
 #include <algorithm>
 
 #include "kinds.h"
-#include "obvid/geom/box.h"
+#include "obvid/geom/internal/box.h"
 
 namespace obvid {
 namespace {
