@@ -9,7 +9,7 @@
 #include <span>
 
 #include "kinds.h"
-#include "knots.h"
+#include "obvid/curve/internal/knots.h"
 #include "obvid/surface/collocation.h"
 #include "third_order.h"
 
@@ -230,6 +230,7 @@ SurfaceJet evaluate_kind(const OffsetSurface& s, double u, double v) {
 }
 
 Result<NurbsForm> nurbs_of(const OffsetSurface& s, double tolerance) {
+  if (auto good = check(s.base); !good) return fail(good.error());
   if (!std::isfinite(s.distance)) {
     return fail(
         {ErrorCode::kNotFinite, "the distance of the offset is not finite", "", "", -1, 0.0});
