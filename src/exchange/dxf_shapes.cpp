@@ -10,7 +10,7 @@
 #include <optional>
 
 #include "dxf_arcs.h"
-#include "obvid/curve/bspline.h"
+#include "obvid/curve/nurbs.h"
 #include "obvid/geom/angle.h"
 
 namespace obvid::dxf {

@@ -8,8 +8,8 @@
 #include <cctype>
 #include <utility>
 
-#include "contour_nurbs.h"
 #include "file_units.h"
+#include "obvid/contour/bsplines/nurbs_of.h"
 #include "obvid/exchange/landxml.h"
 #include "obvid/exchange/opendrive.h"
 #include "obvid/exchange/solidworks.h"
@@ -163,7 +163,7 @@ class Exporter {
   }
 
   Result<NurbsCurve> one_curve(Exported& out) {
-    auto made = pipeline_detail::contour_nurbs(contour_, tolerance_);
+    auto made = nurbs_of(contour_, {true, tolerance_});
     if (!made) return fail(made.error());
     if (made->deviation > 0.0) {
       out.remarks.push_back(

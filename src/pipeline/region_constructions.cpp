@@ -15,7 +15,7 @@
 #include "obvid/contour/arcs.h"
 #include "obvid/contour/bsplines.h"
 #include "obvid/contour/clothoids.h"
-#include "obvid/curve/bspline.h"
+#include "obvid/curve/nurbs.h"
 #include "obvid/region/boundary_distance.h"
 #include "obvid/series/analysis.h"
 

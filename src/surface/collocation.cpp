@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <utility>
 
-#include "obvid/surface/basis.h"
+#include "obvid/curve/basis.h"
 
 namespace obvid {
 namespace {

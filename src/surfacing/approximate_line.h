@@ -5,8 +5,8 @@
 #include <cstddef>
 #include <vector>
 
+#include "obvid/curve/basis.h"
 #include "obvid/geom/vec3.h"
-#include "obvid/surface/basis.h"
 
 namespace obvid {
 

@@ -140,10 +140,10 @@ Result<NurbsSurface> interpolated(const PointGrid& grid, Spread spread) {
 
 Result<NurbsSurface> from_control_points(const PointGrid& grid, int degree_u, int degree_v) {
   if (auto good = check_grid(grid); !good) return fail(good.error());
-  if (std::min(degree_u, degree_v) < 1 || std::max(degree_u, degree_v) > kMaxSurfaceDegree) {
+  if (std::min(degree_u, degree_v) < 1 || std::max(degree_u, degree_v) > kMaxNurbsDegree) {
     return fail({ErrorCode::kBadOption,
                  fmt::format("degrees {} and {} are not both in 1 to {}", degree_u, degree_v,
-                             kMaxSurfaceDegree),
+                             kMaxNurbsDegree),
                  "", "", -1, static_cast<double>(std::max(degree_u, degree_v))});
   }
   const auto degree = [](int wanted, std::size_t count) {

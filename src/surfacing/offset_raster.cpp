@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "obvid/surface/basis.h"
+#include "obvid/curve/basis.h"
 
 namespace obvid {
 namespace {

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "knots.h"
+#include "obvid/curve/internal/knots.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
 
-#include "obvid/surface/basis.h"
+#include "obvid/curve/basis.h"
 
 namespace obvid {
 namespace {
@@ -135,8 +135,8 @@ Result<void> check_knots(int degree, const std::vector<double>& knots, const cha
     return fail({ErrorCode::kBadOption, fmt::format("{} {}", what, sentence), "", "",
                  static_cast<std::ptrdiff_t>(index), index < knots.size() ? knots[index] : 0.0});
   };
-  if (degree < 1 || degree > kMaxSurfaceDegree) {
-    return refuse(fmt::format("have degree {}, which is not in 1 to {}", degree, kMaxSurfaceDegree),
+  if (degree < 1 || degree > kMaxNurbsDegree) {
+    return refuse(fmt::format("have degree {}, which is not in 1 to {}", degree, kMaxNurbsDegree),
                   0);
   }
   const auto p = static_cast<std::size_t>(degree);
