@@ -5,9 +5,9 @@ option(OBVID_CAD "build the helper for STEP, IGES and BREP (needs Open CASCADE)"
 # What both programs agree on: the program starts only a helper that was built from the same.
 file(GLOB obvid_cad_agreed CONFIGURE_DEPENDS "${PROJECT_SOURCE_DIR}/src/cad/client/*"
      "${PROJECT_SOURCE_DIR}/src/cad/helper/*")
-obvid_digest(obvid_cad_digest ${obvid_cad_agreed} "${PROJECT_SOURCE_DIR}/include/obvid/cad/cad.h"
+obvid_digest(obvid_cad_digest ${obvid_cad_agreed} "${PROJECT_SOURCE_DIR}/include/obvid/cad/internal/cad.h"
              "${PROJECT_SOURCE_DIR}/include/obvid/core/error.h"
-             "${PROJECT_SOURCE_DIR}/include/obvid/exchange/cad_curve.h"
+             "${PROJECT_SOURCE_DIR}/include/obvid/exchange/internal/cad_curve.h"
              "${PROJECT_SOURCE_DIR}/include/obvid/core/units.h")
 configure_file(cmake/cad_build_mark.h.in "${PROJECT_BINARY_DIR}/generated-private/cad_build_mark.h" @ONLY)
 

@@ -9,10 +9,29 @@ install(TARGETS ${obvid_targets} obvid_all EXPORT obvidTargets
 
 set(obvid_config_dir "${CMAKE_INSTALL_LIBDIR}/cmake/obvid")
 install(EXPORT obvidTargets NAMESPACE obvid:: DESTINATION ${obvid_config_dir})
-# Headers below internal/ are for this project alone. Those of the proofs: a copy compiled with other options
-# must not exist.
-install(DIRECTORY include/obvid DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}
-        FILES_MATCHING PATTERN "*.h" PATTERN "internal" EXCLUDE)
+# Public are the headers that do not lie below internal/ (and the families of contours, which carry
+# what pipeline forms). What they include is installed with them and promises nothing; no other
+# header of internal/ is, the proofs' least of all: a copy compiled with other options must not exist.
+file(GLOB_RECURSE headers_left CONFIGURE_DEPENDS RELATIVE "${PROJECT_SOURCE_DIR}/include"
+     "${PROJECT_SOURCE_DIR}/include/obvid/*.h")
+list(FILTER headers_left EXCLUDE REGEX "/internal/|^obvid/contour/")
+set(headers_installed)
+while(headers_left)
+  list(POP_FRONT headers_left header)
+  list(APPEND headers_installed ${header})
+  file(STRINGS "include/${header}" includes REGEX "^#include \"obvid/")
+  foreach(include IN LISTS includes)
+    string(REGEX REPLACE "^#include \"([^\"]+)\".*" "\\1" include "${include}")
+    if(EXISTS "${PROJECT_SOURCE_DIR}/include/${include}" AND NOT include IN_LIST headers_left
+       AND NOT include IN_LIST headers_installed)
+      list(APPEND headers_left ${include})
+    endif()
+  endforeach()
+endwhile()
+foreach(header IN LISTS headers_installed)
+  cmake_path(GET header PARENT_PATH folder)
+  install(FILES "include/${header}" DESTINATION "${CMAKE_INSTALL_INCLUDEDIR}/${folder}")
+endforeach()
 install(DIRECTORY "${PROJECT_BINARY_DIR}/generated/obvid" DESTINATION ${CMAKE_INSTALL_INCLUDEDIR})
 
 install(FILES LICENSE NOTICE SECURITY.md DESTINATION ${CMAKE_INSTALL_DOCDIR})

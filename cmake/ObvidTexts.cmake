@@ -1,9 +1,9 @@
 # SPDX-License-Identifier: Apache-2.0
 # obvid_texts(OUT HEADER name=file[+file...] ...): a source that defines, for each name, the function
-# of HEADER in namespace obvid::exchange that returns those files one after the other, without their
+# of HEADER in namespace obvid::picture that returns those files one after the other, without their
 # licence lines. Made anew when a file changes.
 function(obvid_texts out header)
-  set(code "// SPDX-License-Identifier: Apache-2.0\n// Made by cmake/ObvidTexts.cmake\n#include \"${header}\"\n\nnamespace obvid::exchange {\n")
+  set(code "// SPDX-License-Identifier: Apache-2.0\n// Made by cmake/ObvidTexts.cmake\n#include \"${header}\"\n\nnamespace obvid::picture {\n")
   foreach(item IN LISTS ARGN)
     string(REGEX MATCH "^([a-z_]+)=(.*)$" _ "${item}")
     set(name "${CMAKE_MATCH_1}")
@@ -17,7 +17,7 @@ function(obvid_texts out header)
     endforeach()
     string(APPEND code ")obvid_text\";\n}\n")
   endforeach()
-  string(APPEND code "\n}  // namespace obvid::exchange\n")
+  string(APPEND code "\n}  // namespace obvid::picture\n")
   set(path "${PROJECT_BINARY_DIR}/generated/texts/${header}")
   string(REGEX REPLACE "\\.h$" ".cpp" path "${path}")
   set(before)

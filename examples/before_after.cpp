@@ -6,8 +6,8 @@
 #include <fstream>
 #include <string>
 
-#include "obvid/io/picture_svg.h"
 #include "obvid/io/read_points.h"
+#include "obvid/picture/picture_svg.h"
 #include "obvid/pipeline/fit.h"
 
 int main(int argc, char** argv) {

@@ -4,8 +4,8 @@
 #include <cstdio>
 
 #include "obvid/io/atomic_file.h"
-#include "obvid/io/picture_svg.h"
 #include "obvid/io/read_points.h"
+#include "obvid/picture/picture_svg.h"
 #include "obvid/pipeline/fit.h"
 
 namespace {

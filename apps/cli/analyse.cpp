@@ -5,7 +5,7 @@
 #include "commands.h"
 #include "obvid/io/read_points.h"
 #include "obvid/pipeline/analyse.h"
-#include "obvid/pipeline/report_json.h"
+#include "obvid/pipeline/internal/report_json.h"
 #include "obvid/series/analysis.h"
 #include "series_report.h"
 #include "terminal.h"

@@ -9,10 +9,10 @@
 #include <numeric>
 #include <vector>
 
-#include "obvid/geom/angle.h"
-#include "obvid/io/picture_svg.h"
+#include "obvid/geom/internal/angle.h"
+#include "obvid/picture/picture_svg.h"
 #include "obvid/pipeline/analyse.h"
-#include "obvid/pipeline/report_json.h"
+#include "obvid/pipeline/internal/report_json.h"
 #include "obvid/series/analysis.h"
 #include "outputs.h"
 #include "series_report.h"
@@ -202,9 +202,8 @@ Result<std::vector<std::string>> write_audit_pictures(const AnalyseOptions& opti
                    output.path, "name an .svg"});
     }
     const CurveAudit& a = pictured(audits, options.import);
-    output.text =
-        picture_svg({a.contour, std::nullopt, a.certificate}, {name + ": " + a.label, as_drawn(a)},
-                    options.plots);
+    output.text = picture_svg({a.contour, std::nullopt, a.certificate},
+                              {name + ": " + a.label, as_drawn(a)}, options.plots);
   }
   return write_files(*outputs, options.input);
 }

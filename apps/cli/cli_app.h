@@ -18,9 +18,9 @@ inline bool CLI::detail::lexical_cast<double>(const std::string& typed, double& 
 #include <CLI/CLI.hpp>
 #include <vector>
 
-#include "obvid/core/near_name.h"
+#include "obvid/core/internal/near_name.h"
 #include "obvid/core/result.h"
-#include "obvid/pipeline/job_values.h"
+#include "obvid/pipeline/internal/job_values.h"
 
 namespace obvid {
 

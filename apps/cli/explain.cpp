@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "commands.h"
-#include "obvid/core/near_name.h"
-#include "obvid/io/json_text.h"
+#include "obvid/core/internal/near_name.h"
+#include "obvid/io/internal/json_text.h"
 #include "terminal.h"
 
 namespace obvid {

@@ -6,8 +6,8 @@
 #include <cmath>
 #include <limits>
 
-#include "obvid/io/verdict.h"
-#include "obvid/pipeline/end_curvatures.h"
+#include "obvid/picture/internal/joints_claim.h"
+#include "obvid/pipeline/internal/end_curvatures.h"
 #include "outputs.h"
 #include "table.h"
 #include "terminal.h"

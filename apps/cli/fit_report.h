@@ -5,8 +5,8 @@
 #include <vector>
 
 #include "obvid/pipeline/fit.h"
-#include "obvid/pipeline/promise.h"
-#include "obvid/pipeline/report_json.h"
+#include "obvid/pipeline/internal/promise.h"
+#include "obvid/pipeline/internal/report_json.h"
 
 namespace obvid {
 

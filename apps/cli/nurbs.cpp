@@ -8,10 +8,10 @@
 #include <filesystem>
 
 #include "commands.h"
-#include "obvid/cad/cad.h"
-#include "obvid/exchange/space_dxf.h"
+#include "obvid/cad/internal/cad.h"
+#include "obvid/exchange/internal/dxf/space.h"
 #include "obvid/io/atomic_file.h"
-#include "obvid/io/read_columns.h"
+#include "obvid/io/internal/read_columns.h"
 #include "surface_outputs.h"
 #include "table.h"
 #include "terminal.h"

@@ -6,10 +6,10 @@
 
 #include "cli_app.h"
 #include "obvid/core/version.h"
-#include "obvid/pipeline/construction_values.h"
-#include "obvid/pipeline/format_values.h"
-#include "obvid/pipeline/job_values.h"
-#include "obvid/pipeline/space_values.h"
+#include "obvid/pipeline/internal/construction_values.h"
+#include "obvid/pipeline/internal/format_values.h"
+#include "obvid/pipeline/internal/job_values.h"
+#include "obvid/pipeline/internal/space_values.h"
 
 namespace obvid {
 namespace {

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "obvid/core/figures.h"
+#include "obvid/core/internal/figures.h"
 #include "obvid/core/result.h"
 #include "obvid/pipeline/export.h"
 #include "obvid/series/point_series.h"

@@ -10,9 +10,9 @@
 #include <string>
 #include <vector>
 
-#include "obvid/io/picture_svg.h"
-#include "obvid/pipeline/refusal.h"
-#include "obvid/pipeline/report_json.h"
+#include "obvid/picture/picture_svg.h"
+#include "obvid/pipeline/internal/refusal.h"
+#include "obvid/pipeline/internal/report_json.h"
 #include "outputs.h"
 #include "table.h"
 #include "text.h"

@@ -10,11 +10,11 @@
 #include <optional>
 
 #include "commands.h"
-#include "obvid/geom/angle.h"
+#include "obvid/geom/internal/angle.h"
 #include "obvid/io/atomic_file.h"
-#include "obvid/pipeline/construction_values.h"
-#include "obvid/pipeline/region_files.h"
-#include "obvid/pipeline/report_json.h"
+#include "obvid/pipeline/internal/construction_values.h"
+#include "obvid/pipeline/internal/region_files.h"
+#include "obvid/pipeline/internal/report_json.h"
 #include "table.h"
 #include "terminal.h"
 #include "text.h"
@@ -173,7 +173,8 @@ std::string region_part_text(const PointSeries& series, const RegionPart& part) 
   });
   if (open) {
     out +=
-        "*              nothing ends the range there: told up to a right angle from the chord at an "
+        "*              nothing ends the range there: told up to a right angle from the chord at "
+        "an "
         "end of the series, up to half a turn between points elsewhere\n";
   }
   return out;
@@ -263,8 +264,8 @@ int run(const RegionOptions& options) {
   std::string text = options.json ? region_json(*series, *region) : region_text(*series, *region);
   if (!options.json) {
     for (const auto& [path, file] : files) {
-      text += fmt::format("written        {}{}\n", path,
-                          file.remark.empty() ? "" : ": " + file.remark);
+      text +=
+          fmt::format("written        {}{}\n", path, file.remark.empty() ? "" : ": " + file.remark);
     }
   }
   if (auto done = put(text); !done) return report(done.error());

@@ -13,9 +13,9 @@
 #include "obvid/io/atomic_file.h"
 
 #include "obvid/io/read_points.h"
-#include "obvid/io/verdict.h"
+#include "obvid/picture/internal/joints_claim.h"
+#include "obvid/pipeline/internal/space_values.h"
 #include "obvid/pipeline/space_fit.h"
-#include "obvid/pipeline/space_values.h"
 #include "outputs.h"
 #include "refusal.h"
 #include "table.h"

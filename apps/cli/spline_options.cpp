@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "cli_app.h"
-#include "obvid/pipeline/job_values.h"
+#include "obvid/pipeline/internal/job_values.h"
 #include "options.h"
 
 namespace obvid {

@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "commands.h"
+#include "obvid/core/internal/named_builder.h"
 #include "obvid/core/internal/part_program.h"
-#include "obvid/core/named_builder.h"
 #include "studio_build_mark.h"
 #include "terminal.h"
 

@@ -9,7 +9,7 @@
 
 #include "interrupt.h"
 #include "obvid/pipeline/import.h"
-#include "obvid/pipeline/report_json.h"
+#include "obvid/pipeline/internal/report_json.h"
 #include "obvid/pipeline/trade_off.h"
 #include "outputs.h"
 #include "table.h"

@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "commands.h"
+#include "obvid/pipeline/internal/surface_report_json.h"
 #include "obvid/pipeline/surface_job.h"
-#include "obvid/pipeline/surface_report_json.h"
 #include "outputs.h"
 #include "surface_outputs.h"
 #include "surface_report.h"

@@ -8,10 +8,10 @@
 #include <variant>
 
 #include "cli_app.h"
-#include "obvid/geom/angle.h"
-#include "obvid/pipeline/format_values.h"
-#include "obvid/pipeline/job_values.h"
-#include "obvid/pipeline/surface_values.h"
+#include "obvid/geom/internal/angle.h"
+#include "obvid/pipeline/internal/format_values.h"
+#include "obvid/pipeline/internal/job_values.h"
+#include "obvid/pipeline/internal/surface_values.h"
 #include "options.h"
 
 namespace obvid {

@@ -4,9 +4,9 @@
 #include <string>
 #include <vector>
 
-#include "obvid/core/progress.h"
+#include "obvid/core/internal/progress.h"
 #include "obvid/core/result.h"
-#include "obvid/pipeline/report_json.h"
+#include "obvid/pipeline/internal/report_json.h"
 #include "obvid/pipeline/surface_export.h"
 
 namespace obvid {

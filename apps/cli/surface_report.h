@@ -4,12 +4,12 @@
 #include <string>
 
 #include "obvid/pipeline/surface_job.h"
-#include "obvid/surfacing/check.h"
+#include "obvid/surface_builders/internal/check.h"
 #include "surface_outputs.h"
 
 namespace obvid {
 
-/// What was made, for the eye; for programs: obvid/pipeline/surface_report_json.h.
+/// What was made, for the eye; for programs: obvid/pipeline/internal/surface_report_json.h.
 [[nodiscard]] std::string surface_report_text(const MadeSurface& made, const Written& written);
 
 /// What was measured.

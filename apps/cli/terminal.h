@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "obvid/core/error.h"
-#include "obvid/core/progress.h"
+#include "obvid/core/internal/progress.h"
 #include "obvid/core/result.h"
 
 namespace obvid {

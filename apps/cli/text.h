@@ -6,7 +6,7 @@
 #include <string_view>
 #include <vector>
 
-#include "obvid/core/figures.h"
+#include "obvid/core/internal/figures.h"
 #include "obvid/core/result.h"
 
 namespace obvid {

@@ -5,9 +5,9 @@
 #include <map>
 
 #include "cli_app.h"
-#include "obvid/exchange/surface_svg.h"
-#include "obvid/pipeline/job_values.h"
-#include "obvid/pipeline/surface_values.h"
+#include "obvid/picture/surface_svg.h"
+#include "obvid/pipeline/internal/job_values.h"
+#include "obvid/pipeline/internal/surface_values.h"
 #include "options.h"
 
 namespace obvid {

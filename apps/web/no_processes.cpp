@@ -4,7 +4,7 @@
 
 #include "helper_file.h"
 #include "helper_process.h"
-#include "obvid/core/named_builder.h"
+#include "obvid/core/internal/named_builder.h"
 
 namespace obvid {
 

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "obvid/contour/arcs.h"
-#include "obvid/region/segment_region.h"
+#include "obvid/region/internal/segment_region.h"
 
 namespace obvid {
 namespace {

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "obvid/contour/clothoids.h"
-#include "obvid/curve/clothoid.h"
+#include "obvid/curve/internal/clothoid.h"
 #include "obvid/pipeline/fit.h"
 
 namespace {

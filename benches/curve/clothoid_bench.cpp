@@ -6,7 +6,7 @@
 #include <cmath>
 #include <vector>
 
-#include "obvid/curve/clothoid.h"
+#include "obvid/curve/internal/clothoid.h"
 #include "obvid/curve/pieces.h"
 
 namespace obvid {

@@ -11,9 +11,9 @@
 #include <vector>
 
 #include "build_tube.h"
-#include "obvid/fairing/fairing.h"
+#include "obvid/fairing/internal/fairing.h"
 #include "obvid/pipeline/fit.h"
-#include "obvid/series/forced_vertices.h"
+#include "obvid/series/internal/forced_vertices.h"
 
 namespace {
 

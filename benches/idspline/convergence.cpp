@@ -8,8 +8,8 @@
 #include <random>
 
 #include "methods.h"
-#include "obvid/idspline/id_curve.h"
-#include "obvid/idspline/id_spline_2d.h"
+#include "obvid/idspline/internal/id_curve.h"
+#include "obvid/idspline/internal/id_spline_2d.h"
 
 namespace obvid::bench {
 namespace {

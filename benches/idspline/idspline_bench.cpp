@@ -8,9 +8,9 @@
 #include <vector>
 
 #include "methods.h"
-#include "obvid/idspline/id_spline.h"
-#include "obvid/idspline/id_spline_2d.h"
-#include "obvid/idspline/scalar_cubic.h"
+#include "obvid/idspline/internal/id_spline.h"
+#include "obvid/idspline/internal/id_spline_2d.h"
+#include "obvid/idspline/internal/scalar_cubic.h"
 
 namespace {
 

@@ -7,8 +7,8 @@
 #include <memory>
 #include <utility>
 
-#include "obvid/idspline/id_spline.h"
-#include "obvid/idspline/scalar_cubic.h"
+#include "obvid/idspline/internal/id_spline.h"
+#include "obvid/idspline/internal/scalar_cubic.h"
 
 namespace obvid::bench {
 namespace {

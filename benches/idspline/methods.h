@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "obvid/idspline/cell.h"
+#include "obvid/idspline/internal/cell.h"
 
 namespace obvid::bench {
 

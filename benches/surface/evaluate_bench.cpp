@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "obvid/surfacing/grid.h"
+#include "obvid/surface_builders/internal/grid.h"
 
 namespace obvid {
 namespace {

@@ -13,8 +13,8 @@
 #include <utility>
 #include <vector>
 
-#include "obvid/cad/cad.h"
-#include "obvid/surfacing/grid.h"
+#include "obvid/cad/internal/cad.h"
+#include "obvid/surface_builders/internal/grid.h"
 
 namespace obvid {
 namespace {

@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-#include "obvid/surfacing/grid.h"
+#include "obvid/surface_builders/internal/grid.h"
 #include "obvid/toolpath/toolpath.h"
 
 namespace obvid {

@@ -8,7 +8,7 @@
 #include "door.h"
 #include "handles.h"
 #include "obvid/core/version.h"
-#include "obvid/exchange/samples.h"
+#include "obvid/exchange/internal/points/samples.h"
 #include "options.h"
 
 namespace obvid::capi {

@@ -6,12 +6,12 @@
 #include <string>
 #include <vector>
 
-#include "obvid/exchange/surface_svg.h"
-#include "obvid/io/picture_svg.h"
-#include "obvid/io/stored_contour.h"
 #include "obvid/obvid.h"
+#include "obvid/picture/picture_svg.h"
+#include "obvid/picture/surface_svg.h"
 #include "obvid/pipeline/export.h"
 #include "obvid/pipeline/space_fit.h"
+#include "obvid/report/stored_contour.h"
 #include "obvid/series/point_series.h"
 #include "obvid/surface/surface.h"
 

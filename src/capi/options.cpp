@@ -5,10 +5,10 @@
 #include <utility>
 #include <vector>
 
-#include "obvid/pipeline/construction_values.h"
-#include "obvid/pipeline/format_values.h"
-#include "obvid/pipeline/job_values.h"
-#include "obvid/pipeline/space_values.h"
+#include "obvid/pipeline/internal/construction_values.h"
+#include "obvid/pipeline/internal/format_values.h"
+#include "obvid/pipeline/internal/job_values.h"
+#include "obvid/pipeline/internal/space_values.h"
 #include "setters.h"
 
 namespace obvid::capi {

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "setters.h"
 
-#include "obvid/core/near_name.h"
-#include "obvid/pipeline/job_values.h"
+#include "obvid/core/internal/near_name.h"
+#include "obvid/pipeline/internal/job_values.h"
 
 namespace obvid::capi {
 

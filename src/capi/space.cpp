@@ -9,7 +9,7 @@
 #include "door.h"
 #include "handles.h"
 #include "obvid/io/read_points.h"
-#include "obvid/pipeline/space_values.h"
+#include "obvid/pipeline/internal/space_values.h"
 #include "options.h"
 
 namespace obvid::capi {

@@ -4,8 +4,8 @@
 #include <map>
 #include <utility>
 
-#include "obvid/pipeline/job_values.h"
-#include "obvid/pipeline/surface_values.h"
+#include "obvid/pipeline/internal/job_values.h"
+#include "obvid/pipeline/internal/surface_values.h"
 #include "setters.h"
 
 namespace obvid::capi {

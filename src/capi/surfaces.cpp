@@ -7,12 +7,12 @@
 
 #include "door.h"
 #include "handles.h"
+#include "obvid/pipeline/internal/surface_report_json.h"
+#include "obvid/pipeline/internal/surface_values.h"
 #include "obvid/pipeline/surface_export.h"
 #include "obvid/pipeline/surface_job.h"
-#include "obvid/pipeline/surface_report_json.h"
-#include "obvid/pipeline/surface_values.h"
 #include "obvid/pipeline/toolpath_job.h"
-#include "obvid/surfacing/check.h"
+#include "obvid/surface_builders/internal/check.h"
 #include "surface_options.h"
 
 namespace obvid::capi {

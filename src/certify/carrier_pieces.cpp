@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "obvid/certify/carrier_pieces.h"
+#include "obvid/certify/internal/carrier_pieces.h"
 
 #include <fmt/format.h>
 
@@ -51,7 +51,7 @@ Kinds kinds_of(Carrier carrier) {
   switch (carrier) {
     case Carrier::kSpiral:
       // in closed form but for what keeps the digits of curvature at joints
-      // (curve/end_curvatures.h)
+      // (curve/internal/end_curvatures.h)
       return {"rational quartics, arcs and lines", true, true, false,
               [](const RationalBezier& b) { return b.degree == 4; }};
     case Carrier::kArcs:

@@ -9,7 +9,7 @@
 #include "crossings.h"
 #include "joints.h"
 #include "known_pieces.h"
-#include "obvid/certify/limits.h"
+#include "obvid/certify/internal/limits.h"
 #include "obvid/numeric/internal/strict_arithmetic.h"
 #include "piece_facts.h"
 #include "point_places.h"

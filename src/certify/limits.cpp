@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "obvid/certify/limits.h"
+#include "obvid/certify/internal/limits.h"
 
 #include <fmt/format.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "obvid/chain/chain_part.h"
+#include "obvid/chain/internal/chain_part.h"
 
 #include <algorithm>
 #include <cmath>

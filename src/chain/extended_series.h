@@ -4,7 +4,7 @@
 #include <optional>
 #include <vector>
 
-#include "obvid/chain/series_chain.h"
+#include "obvid/chain/internal/series_chain.h"
 
 namespace obvid::chain_detail {
 

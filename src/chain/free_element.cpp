@@ -2,8 +2,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "obvid/chain/series_chain.h"
-#include "obvid/geom/angle.h"
+#include "obvid/chain/internal/series_chain.h"
+#include "obvid/geom/internal/angle.h"
 
 namespace obvid {
 namespace {

@@ -4,8 +4,8 @@
 #include <vector>
 
 #include "newton_system.h"
-#include "obvid/chain/chain.h"
-#include "obvid/chain/cone.h"
+#include "obvid/chain/internal/chain.h"
+#include "obvid/chain/internal/cone.h"
 
 namespace obvid::chain_detail {
 

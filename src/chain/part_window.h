@@ -5,7 +5,7 @@
 #include <optional>
 #include <vector>
 
-#include "obvid/chain/chain.h"
+#include "obvid/chain/internal/chain.h"
 
 namespace obvid::chain_detail {
 

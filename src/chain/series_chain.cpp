@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "obvid/chain/series_chain.h"
+#include "obvid/chain/internal/series_chain.h"
 
 #include <algorithm>
 #include <cmath>

@@ -8,7 +8,7 @@
 #include <numbers>
 #include <string>
 
-#include "obvid/geom/angle.h"
+#include "obvid/geom/internal/angle.h"
 
 namespace obvid::chain_detail {
 namespace {

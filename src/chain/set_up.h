@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "obvid/chain/series_chain.h"
+#include "obvid/chain/internal/series_chain.h"
 
 namespace obvid::chain_detail {
 

@@ -4,9 +4,9 @@
 #include <vector>
 
 #include "link_model.h"
-#include "obvid/chain/chain.h"
-#include "obvid/chain/spiral_shape.h"
-#include "obvid/core/watch.h"
+#include "obvid/chain/internal/chain.h"
+#include "obvid/chain/internal/spiral_shape.h"
+#include "obvid/core/internal/watch.h"
 #include "slope_system.h"
 
 namespace obvid::chain_detail {

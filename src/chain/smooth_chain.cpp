@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "obvid/chain/smooth_chain.h"
+#include "obvid/chain/internal/smooth_chain.h"
 
 #include <algorithm>
 #include <cmath>
@@ -7,7 +7,7 @@
 #include <optional>
 #include <utility>
 
-#include "obvid/chain/chain_part.h"
+#include "obvid/chain/internal/chain_part.h"
 #include "part_window.h"
 #include "slope_solver.h"
 

@@ -5,7 +5,7 @@
 #include <numbers>
 
 #include "link_model.h"
-#include "obvid/chain/chain.h"
+#include "obvid/chain/internal/chain.h"
 
 namespace obvid {
 namespace {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "obvid/chain/spiral_shape.h"
+#include "obvid/chain/internal/spiral_shape.h"
 
 #include <algorithm>
 #include <cmath>
@@ -71,7 +71,7 @@ constexpr double kRestingPart = 1e-7;
 /// Rounding of stored control points moves a slope by some units of 2^-53 over sigma, relatively.
 constexpr double kRestingRoundings = 1e4;
 constexpr double kMostRestingPart = 1e-3;
-/// Where a piece turns by more than this, weights make up for it (curve/end_slopes.h): what is left
+/// Where a piece turns by more than this, weights make up for it (curve/internal/end_slopes.h): what is left
 /// are their own roundings, less by as much as it turns.
 constexpr double kLeastTurn = 1e-6;
 constexpr double kRestingWeights = 64.0;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "obvid/core/figures.h"
+#include "obvid/core/internal/figures.h"
 
 #include <fmt/format.h>
 

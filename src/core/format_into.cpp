@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "obvid/core/format_into.h"
+#include "obvid/core/internal/format_into.h"
 
 #include <fmt/format.h>
 

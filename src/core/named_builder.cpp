@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "obvid/core/named_builder.h"
+#include "obvid/core/internal/named_builder.h"
 
 #include <spawn.h>
 #include <stdlib.h>

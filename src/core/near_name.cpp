@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "obvid/core/near_name.h"
+#include "obvid/core/internal/near_name.h"
 
 #include <algorithm>
 #include <numeric>

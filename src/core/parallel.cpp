@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "obvid/core/parallel.h"
+#include "obvid/core/internal/parallel.h"
 
 #include <algorithm>
 #include <atomic>

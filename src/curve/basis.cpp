@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "obvid/curve/basis.h"
+#include "obvid/curve/internal/basis.h"
 
 #include <algorithm>
 

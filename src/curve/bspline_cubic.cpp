@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "obvid/curve/bspline_cubic.h"
+#include "obvid/curve/internal/bspline_cubic.h"
 
 #include <algorithm>
 #include <limits>

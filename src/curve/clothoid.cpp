@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "obvid/curve/clothoid.h"
+#include "obvid/curve/internal/clothoid.h"
 
 #include <array>
 #include <cmath>

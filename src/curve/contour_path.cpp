@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Tables of arc length: docs/methods/curve.md, "Arc length".
-#include "obvid/curve/contour_path.h"
+#include "obvid/curve/internal/contour_path.h"
 
 #include <fmt/format.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "obvid/curve/curvature_extent.h"
+#include "obvid/curve/internal/curvature_extent.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Control points with more digits across the curve than rounding leaves: docs/methods/curve.md.
-#include "obvid/curve/end_curvatures.h"
+#include "obvid/curve/internal/end_curvatures.h"
 
 #include <algorithm>
 #include <array>
@@ -106,8 +106,8 @@ class Lattice {
     return {at_.x + sum.m * step_.x, at_.y + sum.n * step_.y};
   }
 
-  /// A short lattice vector along the direction: its multiples up to the size of the point `at` stay
-  /// within about half a step of the line.
+  /// A short lattice vector along the direction: its multiples up to the size of the point `at`
+  /// stay within about half a step of the line.
   [[nodiscard]] Vec2 along() const {
     constexpr double kStretch = 0x1p104;  // some 2^26 steps long, 2^-26 of a step across
     Vector a = vector(1.0, 0.0), b = vector(0.0, 1.0);
@@ -137,8 +137,7 @@ class Lattice {
     constexpr int kMostRounds = 200;  // each at least halves a vector
     for (int k = 0; k < kMostRounds; ++k) {
       if (product_of(a, a, stretch) > product_of(b, b, stretch)) std::swap(a, b);
-      const double times =
-          std::round(product_of(a, b, stretch) / product_of(a, a, stretch));
+      const double times = std::round(product_of(a, b, stretch) / product_of(a, a, stretch));
       if (times == 0.0 || !std::isfinite(times)) return;
       b = vector(b.m - times * a.m, b.n - times * a.n);
     }
@@ -221,8 +220,8 @@ class Keeper {
     double across = 0.0, tolerance = 0.0;
     for (const bool at_start : {true, false}) {
       const End e = end_of(piece_, at_start);
-      const double off = wanted_cross(e, wanted(at_start)) -
-                         cross(leg(e.p0, e.p1), leg(e.p0, e.p2)).hi;
+      const double off =
+          wanted_cross(e, wanted(at_start)) - cross(leg(e.p0, e.p1), leg(e.p0, e.p2)).hi;
       // the cross product of an end is the chord times the height of the apex
       across += (at_start ? -0.5 : 0.5) * off / h;
       tolerance = std::max(tolerance, std::abs(wanted_cross(e, kSought * unit(at_start))) / h);
@@ -257,8 +256,8 @@ class Keeper {
     const double square = dot(step, step);
     const auto multiple = [&](Vec2 v) { return std::round(dot(step, v) / square) * step; };
     const Vec2 p1 = e.p0 + multiple(first), p2 = e.p0 + multiple(second);
-    const bool near = norm(p1 - e.p1) <= kFarthest * norm(first) &&
-                      norm(p2 - e.p2) <= kFarthest * norm(second);
+    const bool near =
+        norm(p1 - e.p1) <= kFarthest * norm(first) && norm(p2 - e.p2) <= kFarthest * norm(second);
     if (!near || cross(leg(e.p0, p1), leg(e.p0, p2)).hi != 0.0) return move_second(at_start);
     piece_.offset[index(piece_, at_start, 1)] = p1;
     piece_.offset[index(piece_, at_start, 2)] = p2;
@@ -286,8 +285,8 @@ class Keeper {
           farthest(e.p1 - e.p0, rounded(second)));
   }
 
-  /// How far the control point at the end of a leg may be moved along a direction: the leg, a tangent,
-  /// hardly turns.
+  /// How far the control point at the end of a leg may be moved along a direction: the leg, a
+  /// tangent, hardly turns.
   static double farthest(Vec2 leg, Vec2 along) {
     const double slope = std::abs(cross(leg, along)) / (norm(leg) * norm(along));
     return norm(leg) * std::min(kFarthest, kLegTurn / slope);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Weights with more digits of the slope of curvature than points have: docs/methods/curve.md.
-#include "obvid/curve/end_slopes.h"
+#include "obvid/curve/internal/end_slopes.h"
 
 #include <algorithm>
 #include <array>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "obvid/curve/flatten.h"
+#include "obvid/curve/internal/flatten.h"
 
 #include <algorithm>
 #include <cmath>

@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "obvid/curve/basis.h"
+#include "obvid/curve/internal/basis.h"
 
 namespace obvid {
 namespace {
@@ -153,7 +153,8 @@ Result<void> check_knots(int degree, const std::vector<double>& knots, const cha
     return refuse("are not clamped at the end", knots.size() - 1);
   }
   for (std::size_t i = p + 1; i + p + 1 < knots.size(); ++i) {
-    if (multiplicity(knots, knots[i]) > p) return refuse("have a multiplicity that exceeds the degree", i);
+    if (multiplicity(knots, knots[i]) > p)
+      return refuse("have a multiplicity that exceeds the degree", i);
   }
   return {};
 }

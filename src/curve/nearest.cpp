@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "obvid/curve/nearest.h"
+#include "obvid/curve/internal/nearest.h"
 
 #include <algorithm>
 #include <cmath>
 
-#include "obvid/geom/angle.h"
+#include "obvid/geom/internal/angle.h"
 
 namespace obvid {
 namespace {

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "obvid/curve/nearest_along.h"
+#include "obvid/curve/internal/nearest_along.h"
 
 #include <algorithm>
 
-#include "obvid/curve/nearest.h"
+#include "obvid/curve/internal/nearest.h"
 
 namespace obvid {
 namespace {

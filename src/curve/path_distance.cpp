@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "obvid/curve/path_distance.h"
+#include "obvid/curve/internal/path_distance.h"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <vector>
 
-#include "obvid/curve/nearest.h"
-#include "obvid/curve/nearest_along.h"
+#include "obvid/curve/internal/nearest.h"
+#include "obvid/curve/internal/nearest_along.h"
 
 namespace obvid {
 namespace {

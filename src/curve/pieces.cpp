@@ -8,7 +8,7 @@
 #include <type_traits>
 #include <utility>
 
-#include "obvid/curve/clothoid.h"
+#include "obvid/curve/internal/clothoid.h"
 #include "obvid/numeric/internal/gauss.h"
 #include "obvid/numeric/internal/strict_arithmetic.h"
 

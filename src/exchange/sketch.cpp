@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "obvid/exchange/sketch.h"
-#include "obvid/core/picture_mark.h"
+#include "obvid/exchange/internal/sketch.h"
+#include "obvid/core/internal/picture_mark.h"
 
 #include <fmt/format.h>
 
@@ -9,11 +9,11 @@
 #include <numbers>
 #include <utility>
 
-#include "dxf_file.h"
-#include "dxf_units.h"
+#include "dxf/file.h"
+#include "dxf/units.h"
 #include "exact_conics.h"
-#include "obvid/geom/angle.h"
-#include "obvid/geom/box.h"
+#include "obvid/geom/internal/angle.h"
+#include "obvid/geom/internal/box.h"
 #include "xml_text.h"
 
 namespace obvid {
@@ -98,7 +98,8 @@ class SketchDxf {
     }
   }
 
-  /// DXF arcs run counter-clockwise. They lose digits where the centre lies far away; bulges do not.
+  /// DXF arcs run counter-clockwise. They lose digits where the centre lies far away; bulges do
+  /// not.
   void draw(const ArcPiece& arc, const std::string& layer) {
     if (!exchange::centre_is_near(arc, norm(box_.high - box_.low))) {
       begin("LWPOLYLINE", "AcDbPolyline", layer);
@@ -178,7 +179,7 @@ class SketchSvg {
 
   void word(Vec2 at, const std::string& text, const char* css) {
     text_ += fmt::format("<text x=\"{:.2f}\" y=\"{:.2f}\" {}>{}</text>\n", at.x, at.y, css,
-                         exchange::escaped(text));
+                         escaped_xml(text));
   }
 
   [[nodiscard]] std::string style(const SketchLayer& layer) const {
@@ -198,7 +199,7 @@ class SketchSvg {
   }
 
   void draw(const SketchLayer& layer) {
-    text_ += fmt::format("<g id=\"{}\">\n", exchange::escaped(layer.name));
+    text_ += fmt::format("<g id=\"{}\">\n", escaped_xml(layer.name));
     for (const auto& line : layer.polylines) path(line, layer);
     for (const Piece& piece : layer.pieces) {
       const int lines = std::holds_alternative<ArcPiece>(piece) ? kLinesOfArc : 1;

@@ -14,7 +14,6 @@ using std::string_view;
 
 // More different warnings help nobody, and a hostile file could make millions.
 constexpr std::size_t kMostWarnings = 60;
-constexpr std::size_t kMostShown = 60;  // bytes of a foreign text in a message
 
 constexpr bool is_xml_blank(char c) { return c == ' ' || c == '\t' || c == '\n' || c == '\r'; }
 
@@ -127,44 +126,6 @@ std::optional<std::vector<double>> numbers_of(string_view text, std::size_t most
     if (!value || out.size() == most) return std::nullopt;
     out.push_back(*value);
     text.remove_prefix(length);
-  }
-  return out;
-}
-
-std::string shortened(string_view text) {
-  std::size_t length = std::min(text.size(), kMostShown);
-  // Not inside a character of UTF-8.
-  while (length > 0 && length < text.size() &&
-         (static_cast<unsigned char>(text[length]) & 0xC0U) == 0x80U) {
-    --length;
-  }
-  std::string out(text.substr(0, length));
-  for (char& c : out) {
-    if (static_cast<unsigned char>(c) < 0x20U) c = ' ';
-  }
-  if (length < text.size()) out += "...";
-  return out;
-}
-
-std::string escaped(string_view text) {
-  std::string out;
-  for (const char c : text) {
-    switch (c) {
-      case '&':
-        out += "&amp;";
-        break;
-      case '<':
-        out += "&lt;";
-        break;
-      case '>':
-        out += "&gt;";
-        break;
-      case '"':
-        out += "&quot;";
-        break;
-      default:
-        if (static_cast<unsigned char>(c) >= 0x20U) out += c;
-    }
   }
   return out;
 }

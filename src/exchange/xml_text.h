@@ -9,6 +9,7 @@
 #include <string_view>
 #include <vector>
 
+#include "obvid/core/internal/shown_text.h"
 #include "obvid/core/result.h"
 
 namespace obvid::exchange {
@@ -76,9 +77,5 @@ class XmlWarnings {
 /// Numbers separated by blanks; nothing where one of them is none, or more than `most` stand there.
 [[nodiscard]] std::optional<std::vector<double>> numbers_of(std::string_view text,
                                                             std::size_t most);
-/// At most so many bytes of a text, control characters as blanks, for one line of a message.
-[[nodiscard]] std::string shortened(std::string_view text);
-/// The text with &, <, > and quotes as entities; control characters go.
-[[nodiscard]] std::string escaped(std::string_view text);
 
 }  // namespace obvid::exchange

@@ -8,7 +8,7 @@
 
 #include "find_primitives.h"
 #include "heading_ranges.h"
-#include "obvid/geom/angle.h"
+#include "obvid/geom/internal/angle.h"
 #include "obvid/series/analysis.h"
 #include "tube_ends.h"
 #include "tube_solver.h"

@@ -3,8 +3,8 @@
 
 #include <vector>
 
-#include "obvid/core/watch.h"
-#include "obvid/fairing/fairing.h"
+#include "obvid/core/internal/watch.h"
+#include "obvid/fairing/internal/fairing.h"
 #include "tube.h"
 
 namespace obvid::fairing_detail {

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "layout.h"
-#include "obvid/fairing/exact_runs.h"
+#include "obvid/fairing/internal/exact_runs.h"
 
 namespace obvid::fairing_detail {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "obvid/fairing/exact_runs.h"
+#include "obvid/fairing/internal/exact_runs.h"
 
 #include <algorithm>
 #include <cmath>
@@ -9,7 +9,7 @@
 
 #include "build_tube.h"
 #include "draft.h"
-#include "obvid/chain/series_chain.h"
+#include "obvid/chain/internal/series_chain.h"
 #include "run_search.h"
 #include "tube_solver.h"
 
@@ -24,8 +24,8 @@ constexpr std::size_t kStride = 8;                ///< links from one window to 
 constexpr std::size_t kReach = 3;    ///< links on each side of the trouble that are changed
 constexpr int kMendsPerWindow = 12;  ///< changes of one window
 constexpr std::size_t kLeastMends = 10, kLinksPerMend = 4;  ///< at the end, of the whole
-constexpr double kTubeBarrier = 0.02;      ///< of free nodes in their room, in the final problem
-constexpr double kRunFairEnough = 1e-6;       ///< Newton's decrement
+constexpr double kTubeBarrier = 0.02;    ///< of free nodes in their room, in the final problem
+constexpr double kRunFairEnough = 1e-6;  ///< Newton's decrement
 constexpr int kRunFairSteps = 60;
 constexpr int kRoughSteps = 12;  ///< towards the fairest state of a window, to compare windows
 /// Headings farther from their chord than 120 degrees belong to loops.

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "obvid/fairing/fairing.h"
+#include "obvid/fairing/internal/fairing.h"
 
 #include <algorithm>
 #include <cmath>
 #include <utility>
 
 #include "build_tube.h"
-#include "obvid/series/forced_vertices.h"
+#include "obvid/series/internal/forced_vertices.h"
 #include "run_search.h"
 #include "tube_solver.h"
 

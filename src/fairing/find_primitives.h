@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "obvid/core/watch.h"
+#include "obvid/core/internal/watch.h"
 #include "obvid/geom/vec2.h"
 
 namespace obvid::fairing_detail {

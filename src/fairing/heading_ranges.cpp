@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "node_ends.h"
-#include "obvid/geom/angle.h"
+#include "obvid/geom/internal/angle.h"
 
 namespace obvid::fairing_detail {
 namespace {

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "layout.h"
-#include "obvid/core/watch.h"
+#include "obvid/core/internal/watch.h"
 #include "tube_model.h"
 
 namespace obvid::fairing_detail {

@@ -6,7 +6,7 @@
 
 #include "bordered_system.h"
 #include "node_ends.h"
-#include "obvid/chain/cone.h"
+#include "obvid/chain/internal/cone.h"
 #include "tube.h"
 
 namespace obvid::fairing_detail {

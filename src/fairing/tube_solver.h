@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "obvid/core/watch.h"
+#include "obvid/core/internal/watch.h"
 #include "tube_model.h"
 
 namespace obvid::fairing_detail {

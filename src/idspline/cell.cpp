@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Polynomials by data at two ends and a mean value: docs/methods/idspline.md, section 1.
-#include "obvid/idspline/cell.h"
+#include "obvid/idspline/internal/cell.h"
 
 #include <cassert>
 #include <cstddef>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "obvid/idspline/id_curve.h"
+#include "obvid/idspline/internal/id_curve.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Integro-differential splines of even degree: docs/methods/idspline.md.
-#include "obvid/idspline/id_spline.h"
+#include "obvid/idspline/internal/id_spline.h"
 
 #include <algorithm>
 #include <cassert>

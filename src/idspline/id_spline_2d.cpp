@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Tensor product of parabolic splines: docs/methods/idspline.md, section 4.
-#include "obvid/idspline/id_spline_2d.h"
+#include "obvid/idspline/internal/id_spline_2d.h"
 
 #include <optional>
 #include <utility>

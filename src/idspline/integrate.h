@@ -5,7 +5,7 @@
 #include <cstddef>
 #include <vector>
 
-#include "obvid/idspline/id_spline.h"
+#include "obvid/idspline/internal/id_spline.h"
 
 namespace obvid::idspline {
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Cubic splines for comparison: docs/methods/idspline.md, section 5.
-#include "obvid/idspline/scalar_cubic.h"
+#include "obvid/idspline/internal/scalar_cubic.h"
 
 #include <algorithm>
 #include <utility>
@@ -8,7 +8,7 @@
 #include "checks.h"
 #include "integrate.h"
 #include "local_polynomial.h"
-#include "obvid/numeric/tridiagonal.h"
+#include "obvid/numeric/internal/tridiagonal.h"
 
 namespace obvid {
 namespace {

@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "obvid/numeric/internal/tridiagonal.h"
 #include "obvid/numeric/internal/wide.h"
-#include "obvid/numeric/tridiagonal.h"
 #include "small_matrix.h"
 
 namespace obvid::idspline {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "obvid/idspline/id_spline.h"
+#include "obvid/idspline/internal/id_spline.h"
 
 namespace obvid::idspline {
 

@@ -8,10 +8,10 @@
 
 #include "contour_json_names.h"
 #include "contour_json_values.h"
-#include "obvid/certify/limits.h"
+#include "obvid/certify/internal/limits.h"
 #include "obvid/contour/bsplines/nurbs_of.h"
 #include "obvid/io/contour_json.h"
-#include "obvid/region/refine.h"
+#include "obvid/region/internal/refine.h"
 #include "text_lines.h"
 
 namespace obvid {

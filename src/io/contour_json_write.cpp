@@ -11,7 +11,7 @@
 
 #include "contour_json_names.h"
 #include "obvid/contour/bsplines/nurbs_of.h"
-#include "obvid/core/format_into.h"
+#include "obvid/core/internal/format_into.h"
 #include "obvid/io/contour_json.h"
 #include "text_lines.h"
 

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "obvid/io/json_text.h"
+#include "obvid/io/internal/json_text.h"
 
 #include <fmt/format.h>
 
 #include <cmath>
 #include <utility>
 
-#include "obvid/core/format_into.h"
+#include "obvid/core/internal/format_into.h"
 
 namespace obvid {
 namespace {

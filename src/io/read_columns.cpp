@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "obvid/io/read_columns.h"
+#include "obvid/io/internal/read_columns.h"
 
 #include <utility>
 
 #include "number_rows.h"
-#include "obvid/io/read_file.h"
+#include "obvid/io/internal/read_file.h"
 
 namespace obvid {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "obvid/io/read_control_net.h"
+#include "obvid/io/internal/read_control_net.h"
 
 #include <fmt/format.h>
 
@@ -10,7 +10,7 @@
 #include <utility>
 
 #include "number_rows.h"
-#include "obvid/io/read_file.h"
+#include "obvid/io/internal/read_file.h"
 #include "text_lines.h"
 #include "text_number.h"
 

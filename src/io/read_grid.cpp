@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "obvid/io/read_grid.h"
+#include "obvid/io/internal/read_grid.h"
 
 #include <fmt/format.h>
 
@@ -13,7 +13,7 @@
 
 #include "matrix_names.h"
 #include "number_rows.h"
-#include "obvid/io/read_file.h"
+#include "obvid/io/internal/read_file.h"
 #include "text_number.h"
 
 namespace obvid {
@@ -39,8 +39,8 @@ Result<PointGrid> grid_of(const std::vector<std::vector<Vec3>>& rows, string_vie
   if (grid.count_u >= 2 && grid.count_v >= 2) return grid;
   return fail({ErrorCode::kTooFewPoints,
                fmt::format("{} rows of {} points are no grid", grid.count_v, grid.count_u),
-               std::string(name), "give at least 2 x 2 points; rows are separated by blank lines", -1,
-               0.0});
+               std::string(name), "give at least 2 x 2 points; rows are separated by blank lines",
+               -1, 0.0});
 }
 
 /// Half a unit of the last digits of three columns.

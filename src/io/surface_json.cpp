@@ -9,7 +9,7 @@
 #include <utility>
 
 #include "contour_json_values.h"
-#include "obvid/core/format_into.h"
+#include "obvid/core/internal/format_into.h"
 
 namespace obvid {
 namespace {

@@ -7,7 +7,7 @@
 #include <string>
 #include <utility>
 
-#include "obvid/io/file_kind.h"
+#include "obvid/io/internal/file_kind.h"
 #include "text_lines.h"
 
 namespace obvid::text {

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "cell_tree.h"
-#include "obvid/surface/topology.h"
+#include "obvid/surface/internal/topology.h"
 
 namespace obvid::mesh {
 

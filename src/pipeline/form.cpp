@@ -6,12 +6,12 @@
 #include <numbers>
 #include <string>
 
+#include "fit/parts.h"
+#include "fit/series_ranges.h"
 #include "obvid/contour/arcs.h"
 #include "obvid/contour/spirals.h"
-#include "obvid/geom/angle.h"
-#include "obvid/region/refine.h"
-#include "parts.h"
-#include "series_ranges.h"
+#include "obvid/geom/internal/angle.h"
+#include "obvid/region/internal/refine.h"
 
 namespace obvid::pipeline_detail {
 namespace {

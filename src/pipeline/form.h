@@ -5,11 +5,11 @@
 #include <string>
 #include <vector>
 
-#include "obvid/chain/series_chain.h"
+#include "obvid/chain/internal/series_chain.h"
+#include "obvid/core/internal/watch.h"
 #include "obvid/core/result.h"
-#include "obvid/core/watch.h"
 #include "obvid/curve/contour.h"
-#include "obvid/curve/runs.h"
+#include "obvid/curve/internal/runs.h"
 #include "obvid/series/analysis.h"
 
 namespace obvid::pipeline_detail {
@@ -60,8 +60,7 @@ struct Carried {
 
 /// Parabolas: every piece condensed until the region between their elements is as narrow as the
 /// tolerance. Errors: E401 at inflections, arcs; E502.
-[[nodiscard]] Result<Carried> form_beziers(const Contour& spirals, double tolerance,
-                                            Watch& watch);
+[[nodiscard]] Result<Carried> form_beziers(const Contour& spirals, double tolerance, Watch& watch);
 
 /// Monotone polynomial B-spline within the tolerance of the spirals; points that are no knots are
 /// passed within it; those with given data are knots. Circular stretches stay arcs: no polynomial

@@ -4,6 +4,7 @@
 #include <numbers>
 #include <utility>
 
+#include "fit/parts.h"
 #include "form.h"
 #include "obvid/certify/certify.h"
 #include "obvid/contour/beziers.h"
@@ -11,10 +12,9 @@
 #include "obvid/contour/bsplines/cubic_along.h"
 #include "obvid/contour/bsplines/monotone.h"
 #include "obvid/contour/conics.h"
-#include "obvid/geom/angle.h"
-#include "obvid/region/refine.h"
-#include "parts.h"
-#include "report.h"
+#include "obvid/geom/internal/angle.h"
+#include "obvid/region/internal/refine.h"
+#include "verify/report.h"
 
 namespace obvid::pipeline_detail {
 namespace {

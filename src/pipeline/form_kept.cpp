@@ -3,8 +3,8 @@
 
 #include "form.h"
 #include "obvid/contour/conics.h"
-#include "obvid/geom/angle.h"
-#include "obvid/region/refine.h"
+#include "obvid/geom/internal/angle.h"
+#include "obvid/region/internal/refine.h"
 
 namespace obvid::pipeline_detail {
 namespace {

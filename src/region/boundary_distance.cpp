@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "obvid/region/boundary_distance.h"
+#include "obvid/region/internal/boundary_distance.h"
 
 #include <algorithm>
 #include <cmath>
 #include <numbers>
 
-#include "obvid/geom/angle.h"
+#include "obvid/geom/internal/angle.h"
 #include "two_arcs.h"
 
 namespace obvid {

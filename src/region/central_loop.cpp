@@ -9,7 +9,7 @@
 #include <utility>
 #include <vector>
 
-#include "obvid/region/feasible_data.h"
+#include "obvid/region/internal/feasible_data.h"
 #include "range_middle.h"
 
 namespace obvid {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "obvid/region/convex_triangle.h"
+#include "obvid/region/internal/convex_triangle.h"
 
 #include <cmath>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "obvid/region/curvature_chains.h"
+#include "obvid/region/internal/curvature_chains.h"
 
 #include <cmath>
 #include <limits>

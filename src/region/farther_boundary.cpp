@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "obvid/region/farther_boundary.h"
+#include "obvid/region/internal/farther_boundary.h"
 
 #include <algorithm>
 #include <array>
@@ -134,18 +134,16 @@ double crossing(LocalPath& path, const TwoArcs& arcs) {
   if (!(at_a < 0.0)) return a;
   if (!(at_b > 0.0)) return b;
   std::uintmax_t looks = kMostLooks;
-  const auto [low, high] =
-      boost::math::tools::toms748_solve(beyond, a, b, at_a, at_b,
-                                        boost::math::tools::eps_tolerance<double>(kDigitsOfCorner),
-                                        looks);
+  const auto [low, high] = boost::math::tools::toms748_solve(
+      beyond, a, b, at_a, at_b, boost::math::tools::eps_tolerance<double>(kDigitsOfCorner), looks);
   return 0.5 * (low + high);
 }
 
-/// Largest distance of the path from one boundary. One of the arcs, `osculating`, has the path's own
-/// curvature at its end, the other one only its tangent. A circle meets a curve of monotone
-/// curvature three times at the most, counted with multiplicity: so the distance from the osculating
-/// circle grows all the way to the common normal, and that from the other circle has one top at the
-/// most from there to the end of the path.
+/// Largest distance of the path from one boundary. One of the arcs, `osculating`, has the path's
+/// own curvature at its end, the other one only its tangent. A circle meets a curve of monotone
+/// curvature three times at the most, counted with multiplicity: so the distance from the
+/// osculating circle grows all the way to the common normal, and that from the other circle has one
+/// top at the most from there to the end of the path.
 Farthest from_boundary(LocalPath& path, const TwoArcs& arcs, bool first_osculates, bool wide) {
   const double a = path.first(), b = path.last();
   if (wide) {  // over a right angle the normal does not tell which arc is near
@@ -156,11 +154,13 @@ Farthest from_boundary(LocalPath& path, const TwoArcs& arcs, bool first_osculate
   const Vec2 there = path.at(joint);
   const Vec2 ahead = first_osculates ? path.direction(joint) : -path.direction(joint);
   const Farthest corner{joint, other.circle_distance(there)};
-  const bool grows = other.growth(there, ahead) > 0.0 ||  // rounding decides where it is 0
-                     other.circle_distance(path.at(joint + kAside * (end - joint))) > corner.distance;
+  const bool grows =
+      other.growth(there, ahead) > 0.0 ||  // rounding decides where it is 0
+      other.circle_distance(path.at(joint + kAside * (end - joint))) > corner.distance;
   if (!grows) return corner;
-  const Farthest top = top_between([&](double way) { return other.circle_distance(path.at(joint + way)); },
-                                   std::min(end - joint, 0.0), std::max(end - joint, 0.0), kDigits);
+  const Farthest top =
+      top_between([&](double way) { return other.circle_distance(path.at(joint + way)); },
+                  std::min(end - joint, 0.0), std::max(end - joint, 0.0), kDigits);
   return top.distance > corner.distance ? Farthest{joint + top.u, top.distance} : corner;
 }
 
@@ -181,8 +181,7 @@ FartherBoundary farther_boundary(const PieceSpan& path, const PlacedRegion& plac
   const bool wide = spans_right_angle({frame.start_tangent, frame.end_tangent,
                                        placed.region.from_start.joint_tangent,
                                        placed.region.to_end.joint_tangent});
-  const Farthest one =
-      from_boundary(local, TwoArcs(frame, placed.region.from_start), true, wide);
+  const Farthest one = from_boundary(local, TwoArcs(frame, placed.region.from_start), true, wide);
   const Farthest two = from_boundary(local, TwoArcs(frame, placed.region.to_end), false, wide);
   const Farthest& best = one.distance > two.distance ? one : two;
   const Vec2 at = local.in_plane(best.u);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "obvid/region/feasible_data.h"
+#include "obvid/region/internal/feasible_data.h"
 
 #include <algorithm>
 #include <cmath>

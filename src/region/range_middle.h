@@ -5,7 +5,7 @@
 #include <cmath>
 #include <optional>
 
-#include "obvid/region/curvature_chains.h"
+#include "obvid/region/internal/curvature_chains.h"
 
 namespace obvid::region_detail {
 

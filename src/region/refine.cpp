@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "obvid/region/refine.h"
+#include "obvid/region/internal/refine.h"
 
 #include <algorithm>
 #include <cmath>

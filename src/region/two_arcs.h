@@ -6,7 +6,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "obvid/region/segment_region.h"
+#include "obvid/region/internal/segment_region.h"
 
 namespace obvid::region_detail {
 

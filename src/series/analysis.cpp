@@ -6,8 +6,8 @@
 #include <numbers>
 #include <utility>
 
-#include "obvid/geom/box.h"
-#include "obvid/series/forced_vertices.h"
+#include "obvid/geom/internal/box.h"
+#include "obvid/series/internal/forced_vertices.h"
 
 namespace obvid {
 namespace {
@@ -15,10 +15,10 @@ namespace {
 constexpr double kUnitRoundoff = 0x1p-53;
 /// Neighbouring chords that turn by more than this say nothing about the curve between them.
 constexpr double kLargestTurning = 170.0 * std::numbers::pi / 180.0;
-/// Points that a program computed lie on their circle within some four roundings: those of a cosine,
-/// of its product with the radius, and of the sum with the centre. Their adjacent curvatures miss it
-/// by as many, and a circle through three of them misses the others by four times that (the
-/// interpolation factors of a quadratic through uneven points), and by their own.
+/// Points that a program computed lie on their circle within some four roundings: those of a
+/// cosine, of its product with the radius, and of the sum with the centre. Their adjacent
+/// curvatures miss it by as many, and a circle through three of them misses the others by four
+/// times that (the interpolation factors of a quadratic through uneven points), and by their own.
 constexpr double kFewRoundings = 4.0;
 constexpr double kStretchRoundings = 20.0;
 /// Where so many roundings are more than this, of the chord, coordinates are too coarse to be
@@ -91,8 +91,7 @@ std::vector<CircularStretch> find_stretches(const std::vector<Vec2>& points,
   if (n == 3) return {{0, 2, circles[1].kappa}};
   for (std::size_t i = 1; i + 2 < n;) {
     double rounding = std::max(point_rounding(points[i - 1]), point_rounding(points[i]));
-    const double chord =
-        std::min(norm(points[i] - points[i - 1]), norm(points[i + 1] - points[i]));
+    const double chord = std::min(norm(points[i] - points[i - 1]), norm(points[i + 1] - points[i]));
     const Generosity of = generosity(rounding, chord);
     double low = circles[i].kappa - of.kappa * circles[i].rounding;
     double high = circles[i].kappa + of.kappa * circles[i].rounding;
@@ -110,8 +109,8 @@ std::vector<CircularStretch> find_stretches(const std::vector<Vec2>& points,
       rounding = std::max(rounding, point_rounding(points[k]));
     // a point has one heading and one curvature: stretches do not share it
     const bool apart = stretches.empty() || i - 1 > stretches.back().last;
-    const bool fits = apart && j > i &&
-                      distance_from_circle(points, i - 1, j + 1) <= of.distance * rounding;
+    const bool fits =
+        apart && j > i && distance_from_circle(points, i - 1, j + 1) <= of.distance * rounding;
     if (fits) {
       const double kappa = low <= 0.0 && high >= 0.0 ? 0.0 : 0.5 * (low + high);
       stretches.push_back({i - 1, j + 1, kappa});
@@ -143,8 +142,8 @@ void direct_beside(const Analysis& a, std::size_t stretch, std::vector<std::int8
   }
 }
 
-/// Circles that are equal to the last bit, and no stretch: the way of the next chords that have one,
-/// or of the curvature beside them.
+/// Circles that are equal to the last bit, and no stretch: the way of the next chords that have
+/// one, or of the curvature beside them.
 void direct_equal_circles(const Analysis& a, std::vector<std::int8_t>& direction) {
   std::vector<bool> inside(direction.size(), false);
   for (const CircularStretch& s : a.stretches) {
@@ -431,7 +430,8 @@ Result<Analysis> analyse(const std::vector<Vec2>& points) {
 }
 
 double turning_at(const Analysis& analysis, std::size_t point) {
-  if (point == 0 || point >= analysis.chords.size()) return std::numeric_limits<double>::quiet_NaN();
+  if (point == 0 || point >= analysis.chords.size())
+    return std::numeric_limits<double>::quiet_NaN();
   return analysis.chords[point].omega - analysis.chords[point - 1].omega;
 }
 

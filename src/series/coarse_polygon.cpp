@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "obvid/series/coarse_polygon.h"
+#include "obvid/series/internal/coarse_polygon.h"
 
 #include <algorithm>
 #include <cmath>
@@ -14,8 +14,8 @@ constexpr double kCoarseTurn = 40.0 * std::numbers::pi / 180.0;
 constexpr double kInLine = 1e-6;
 /// Errors of the points turn longer chords by less than a quarter of a right angle.
 constexpr double kChordPerTolerance = 8.0;
-/// So many circles through three neighbours whose curvature only grows, or only falls, are a spiral:
-/// corners of polygons come in no such order.
+/// So many circles through three neighbours whose curvature only grows, or only falls, are a
+/// spiral: corners of polygons come in no such order.
 constexpr std::size_t kCirclesOfASpiral = 5;
 
 double curvature_through(Vec2 a, Vec2 b, Vec2 c) {
@@ -47,8 +47,7 @@ CoarsePolygon coarse_polygon(const std::vector<Vec2>& points, const std::vector<
     const std::size_t before = (i + n - 1) % n, after = (i + 1) % n;
     const Vec2 in = points[i] - points[before], leave = points[after] - points[i];
     const double noise =
-        tolerance.empty() ? 0.0
-                          : std::max({tolerance[before], tolerance[i], tolerance[after]});
+        tolerance.empty() ? 0.0 : std::max({tolerance[before], tolerance[i], tolerance[after]});
     const double turn = std::abs(turning(in, leave));
     if (turn <= kInLine || std::min(norm(in), norm(leave)) < kChordPerTolerance * noise) continue;
     turns.push_back(turn);

@@ -7,7 +7,7 @@
 #include <optional>
 
 #include "obvid/series/analysis.h"
-#include "obvid/series/sections.h"
+#include "obvid/series/internal/sections.h"
 
 namespace obvid {
 namespace {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "obvid/series/forced_vertices.h"
+#include "obvid/series/internal/forced_vertices.h"
 
 #include <algorithm>
 #include <array>

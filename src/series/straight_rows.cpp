@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "obvid/series/straight_rows.h"
+#include "obvid/series/internal/straight_rows.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "obvid/surface/collocation.h"
+#include "obvid/surface/internal/collocation.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <utility>
 
-#include "obvid/curve/basis.h"
+#include "obvid/curve/internal/basis.h"
 
 namespace obvid {
 namespace {

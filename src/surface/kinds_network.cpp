@@ -7,7 +7,7 @@
 #include <utility>
 
 #include "kinds.h"
-#include "obvid/surface/collocation.h"
+#include "obvid/surface/internal/collocation.h"
 
 namespace obvid {
 namespace {

@@ -10,7 +10,7 @@
 
 #include "kinds.h"
 #include "obvid/curve/internal/knots.h"
-#include "obvid/surface/collocation.h"
+#include "obvid/surface/internal/collocation.h"
 #include "third_order.h"
 
 namespace obvid {

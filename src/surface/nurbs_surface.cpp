@@ -3,10 +3,10 @@
 
 #include <algorithm>
 
-#include "obvid/curve/basis.h"
+#include "obvid/curve/internal/basis.h"
 #include "obvid/curve/internal/homogeneous.h"
 #include "obvid/curve/internal/knots.h"
-#include "obvid/geom/box.h"
+#include "obvid/geom/internal/box.h"
 
 namespace obvid {
 

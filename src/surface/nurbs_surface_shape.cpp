@@ -2,7 +2,7 @@
 #include <algorithm>
 #include <utility>
 
-#include "obvid/curve/basis.h"
+#include "obvid/curve/internal/basis.h"
 #include "obvid/curve/internal/homogeneous.h"
 #include "obvid/curve/internal/knots.h"
 #include "obvid/surface/nurbs_surface.h"

@@ -5,10 +5,10 @@
 #include <cmath>
 #include <utility>
 
-#include "obvid/curve/basis.h"
+#include "obvid/curve/internal/basis.h"
 #include "obvid/curve/internal/homogeneous.h"
 #include "obvid/curve/internal/knots.h"
-#include "obvid/surface/collocation.h"
+#include "obvid/surface/internal/collocation.h"
 #include "snap.h"
 
 namespace obvid {

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "obvid/curve/basis.h"
+#include "obvid/curve/internal/basis.h"
 #include "obvid/curve/internal/homogeneous.h"
 
 #include "obvid/surface/nurbs_surface.h"

@@ -6,7 +6,7 @@
 #include <numbers>
 
 #include "obvid/curve/internal/knots.h"
-#include "obvid/surface/collocation.h"
+#include "obvid/surface/internal/collocation.h"
 #include "snap.h"
 
 namespace obvid {

@@ -2,7 +2,7 @@
 #include "obvid/surface/surface.h"
 
 #include "kinds.h"
-#include "obvid/geom/box.h"
+#include "obvid/geom/internal/box.h"
 
 namespace obvid {
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "third_order.h"
 
-#include "obvid/curve/basis.h"
+#include "obvid/curve/internal/basis.h"
 #include "obvid/curve/internal/homogeneous.h"
 
 namespace obvid {

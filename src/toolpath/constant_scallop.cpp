@@ -4,7 +4,7 @@
 #include <optional>
 
 #include "families.h"
-#include "obvid/core/parallel.h"
+#include "obvid/core/internal/parallel.h"
 
 namespace obvid::toolpath {
 namespace {

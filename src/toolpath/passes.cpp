@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "obvid/core/parallel.h"
+#include "obvid/core/internal/parallel.h"
 
 namespace obvid::toolpath {
 namespace {

@@ -3,7 +3,7 @@
 #include <cmath>
 #include <limits>
 
-#include "obvid/core/parallel.h"
+#include "obvid/core/internal/parallel.h"
 #include "simulation.h"
 
 namespace obvid::toolpath {

@@ -6,7 +6,7 @@
 #include <limits>
 #include <numeric>
 
-#include "obvid/core/parallel.h"
+#include "obvid/core/internal/parallel.h"
 
 namespace obvid::toolpath {
 namespace {

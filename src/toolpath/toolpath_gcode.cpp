@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "obvid/toolpath/toolpath_gcode.h"
+#include "obvid/toolpath/internal/toolpath_gcode.h"
 
 #include <fmt/format.h>
 

@@ -11,7 +11,7 @@
 #include <iterator>
 
 #include "built_cad.h"
-#include "obvid/cad/cad.h"
+#include "obvid/cad/internal/cad.h"
 #include "obvid/certify/certify.h"
 #include "obvid/curve/internal/joined_nurbs.h"
 #include "obvid/curve/nurbs.h"

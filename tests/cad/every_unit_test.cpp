@@ -12,8 +12,8 @@
 
 #include "../common/drawn_files.h"
 #include "built_cad.h"
-#include "obvid/curve/path_distance.h"
-#include "obvid/exchange/svg_drawing.h"
+#include "obvid/curve/internal/path_distance.h"
+#include "obvid/exchange/internal/svg/drawing.h"
 #include "obvid/io/contour_json.h"
 #include "obvid/pipeline/export.h"
 #include "obvid/pipeline/fit.h"

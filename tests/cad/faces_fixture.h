@@ -10,7 +10,7 @@
 
 #include "built_cad.h"
 #include "faces_models.h"
-#include "obvid/cad/cad.h"
+#include "obvid/cad/internal/cad.h"
 
 namespace obvid {
 

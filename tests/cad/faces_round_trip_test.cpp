@@ -12,7 +12,7 @@
 #include <tuple>
 
 #include "faces_fixture.h"
-#include "obvid/cad/cad.h"
+#include "obvid/cad/internal/cad.h"
 
 namespace obvid {
 namespace {
@@ -71,8 +71,7 @@ TEST(FaceReader, FindsTheSurfacesOfAnotherProcess) {
   ASSERT_TRUE(read) << to_line(read.error());
   EXPECT_TRUE(read->warnings.empty()) << read->warnings.front();
   const bool states_unit = fs::path(file).extension() != ".brep";
-  EXPECT_EQ(read->model.units,
-            Units("mm", states_unit ? UnitSource::kFile : UnitSource::kAssumed));
+  EXPECT_EQ(read->model.units, Units("mm", states_unit ? UnitSource::kFile : UnitSource::kAssumed));
   ASSERT_EQ(read->model.patches.size(), expected.patches.size());
   const double scale = fs::path(file).extension() == ".brep" ? 1.0 : millimetres(units);
   const double limit = 1e-9 * scale * size_of(expected);

@@ -12,7 +12,7 @@
 #include <string>
 
 #include "built_cad.h"
-#include "obvid/cad/cad.h"
+#include "obvid/cad/internal/cad.h"
 
 namespace obvid {
 namespace {

@@ -15,7 +15,7 @@
 #include "built_cad.h"
 #include "command_output.h"
 #include "faces_models.h"
-#include "obvid/cad/cad.h"
+#include "obvid/cad/internal/cad.h"
 
 namespace obvid {
 namespace {

@@ -13,7 +13,7 @@
 
 #include "../common/drawn_files.h"
 #include "command_output.h"
-#include "obvid/exchange/step_write.h"
+#include "obvid/exchange/internal/step/write.h"
 
 namespace obvid {
 namespace {

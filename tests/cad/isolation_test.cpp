@@ -17,7 +17,7 @@
 #include <vector>
 
 #include "built_cad.h"
-#include "obvid/cad/cad.h"
+#include "obvid/cad/internal/cad.h"
 #include "test_folder.h"
 
 namespace obvid {

@@ -12,10 +12,10 @@
 
 #include "../common/ten_points.h"
 #include "built_cad.h"
-#include "obvid/cad/cad.h"
+#include "obvid/cad/internal/cad.h"
 #include "obvid/curve/internal/joined_nurbs.h"
+#include "obvid/curve/internal/path_distance.h"
 #include "obvid/curve/nurbs.h"
-#include "obvid/curve/path_distance.h"
 #include "obvid/io/read_points.h"
 #include "obvid/pipeline/audit.h"
 #include "obvid/pipeline/fit.h"

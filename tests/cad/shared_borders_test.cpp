@@ -10,10 +10,10 @@
 
 #include "../../src/toolpath/drop_field.h"
 #include "faces_fixture.h"
-#include "obvid/exchange/surface_page.h"
 #include "obvid/mesh/mesh.h"
-#include "obvid/surface/topology.h"
-#include "obvid/surfacing/check.h"
+#include "obvid/picture/internal/surface_page.h"
+#include "obvid/surface/internal/topology.h"
+#include "obvid/surface_builders/internal/check.h"
 
 namespace obvid {
 namespace {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "obvid/certify/carrier_pieces.h"
+#include "obvid/certify/internal/carrier_pieces.h"
 
 #include <gtest/gtest.h>
 

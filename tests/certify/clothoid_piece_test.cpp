@@ -10,7 +10,7 @@
 #include "crossings.h"
 #include "end_data.h"
 #include "obvid/certify/certify.h"
-#include "obvid/curve/clothoid.h"
+#include "obvid/curve/internal/clothoid.h"
 #include "piece_facts.h"
 
 namespace obvid {

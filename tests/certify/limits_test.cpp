@@ -8,7 +8,7 @@
 #include <limits>
 
 #include "contours.h"
-#include "obvid/certify/limits.h"
+#include "obvid/certify/internal/limits.h"
 #include "spiral_table.h"
 
 namespace obvid {

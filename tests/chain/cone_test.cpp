@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The shared cone: its width and the derivatives of its barrier against formulas written once more
 // in extended precision, and differences of them.
-#include "obvid/chain/cone.h"
+#include "obvid/chain/internal/cone.h"
 
 #include <gtest/gtest.h>
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Headings and curvatures of a series: inside every cone, the same at every scale, true to what is
 // fixed, and refused with the reason where nothing fits.
-#include "obvid/chain/series_chain.h"
+#include "obvid/chain/internal/series_chain.h"
 #include "../common/angles.h"
 
 #include <gtest/gtest.h>

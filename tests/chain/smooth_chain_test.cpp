@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Slopes of curvature along chains: closed forms against the curve itself, derivatives against
 // differences, equal slopes on random spirals, the same both ways, and never a lost direction.
-#include "obvid/chain/smooth_chain.h"
+#include "obvid/chain/internal/smooth_chain.h"
 
 #include <gtest/gtest.h>
 
@@ -12,7 +12,7 @@
 #include <random>
 #include <vector>
 
-#include "obvid/chain/spiral_shape.h"
+#include "obvid/chain/internal/spiral_shape.h"
 #include "obvid/series/analysis.h"
 
 namespace obvid {

@@ -8,7 +8,7 @@
 #include <functional>
 #include <optional>
 
-#include "obvid/chain/cone.h"
+#include "obvid/chain/internal/cone.h"
 
 namespace obvid::test {
 

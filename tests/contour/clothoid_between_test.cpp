@@ -9,7 +9,7 @@
 #include "../common/angles.h"
 #include "clothoid_data.h"
 #include "obvid/contour/clothoids.h"
-#include "obvid/curve/clothoid.h"
+#include "obvid/curve/internal/clothoid.h"
 
 namespace obvid {
 namespace {

@@ -10,7 +10,7 @@
 #include "../common/ten_points.h"
 #include "clothoid_data.h"
 #include "obvid/contour/clothoids.h"
-#include "obvid/curve/clothoid.h"
+#include "obvid/curve/internal/clothoid.h"
 
 namespace obvid {
 namespace {

@@ -15,8 +15,8 @@
 #include <vector>
 
 #include "obvid/certify/certify.h"
-#include "obvid/chain/series_chain.h"
-#include "obvid/region/segment_region.h"
+#include "obvid/chain/internal/series_chain.h"
+#include "obvid/region/internal/segment_region.h"
 
 namespace obvid {
 namespace {

@@ -7,7 +7,7 @@
 
 #include "../region/paper_series.h"
 #include "obvid/contour/bsplines.h"
-#include "obvid/region/boundary_distance.h"
+#include "obvid/region/internal/boundary_distance.h"
 
 namespace obvid::paper {
 namespace {

@@ -8,7 +8,7 @@
 #include <numbers>
 #include <random>
 
-#include "obvid/curve/bspline_cubic.h"
+#include "obvid/curve/internal/bspline_cubic.h"
 
 namespace obvid {
 namespace {

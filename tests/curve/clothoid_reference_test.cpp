@@ -8,7 +8,7 @@
 #include <cstdio>
 #include <random>
 
-#include "obvid/curve/clothoid.h"
+#include "obvid/curve/internal/clothoid.h"
 #include "uniform.h"
 
 #ifdef OBVID_HAS_MPFR

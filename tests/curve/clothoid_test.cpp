@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Clothoids against closed forms and against themselves; tests against arbitrary precision are in
 // clothoid_reference_test.cpp.
-#include "obvid/curve/clothoid.h"
+#include "obvid/curve/internal/clothoid.h"
 #include "../common/angles.h"
 
 #include <gtest/gtest.h>

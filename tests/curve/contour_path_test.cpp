@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "obvid/curve/contour_path.h"
+#include "obvid/curve/internal/contour_path.h"
 #include "../common/angles.h"
-#include "obvid/geom/angle.h"
+#include "obvid/geom/internal/angle.h"
 
 #include <gtest/gtest.h>
 

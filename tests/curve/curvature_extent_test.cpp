@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Extremes of the curvature that lie between the parameters, against closed forms.
-#include "obvid/curve/curvature_extent.h"
+#include "obvid/curve/internal/curvature_extent.h"
 
 #include <gtest/gtest.h>
 

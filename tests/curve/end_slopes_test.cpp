@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Slopes of curvature at the ends of stored pieces, and weights that make up for the rounding of
 // control points.
-#include "obvid/curve/end_slopes.h"
+#include "obvid/curve/internal/end_slopes.h"
 
 #include <gtest/gtest.h>
 

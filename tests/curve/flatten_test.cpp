@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "obvid/curve/flatten.h"
-#include "obvid/curve/runs.h"
+#include "obvid/curve/internal/flatten.h"
+#include "obvid/curve/internal/runs.h"
 
 #include <gtest/gtest.h>
 

@@ -8,7 +8,7 @@
 
 #include "../common/angles.h"
 #include "../common/arcs.h"
-#include "obvid/curve/nearest_along.h"
+#include "obvid/curve/internal/nearest_along.h"
 
 namespace obvid {
 namespace {

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <random>
 
-#include "obvid/curve/basis.h"
+#include "obvid/curve/internal/basis.h"
 #include "obvid/curve/nurbs.h"
 
 namespace obvid {

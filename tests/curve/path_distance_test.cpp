@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "obvid/curve/path_distance.h"
+#include "obvid/curve/internal/path_distance.h"
 #include "../common/angles.h"
 
 #include <gtest/gtest.h>

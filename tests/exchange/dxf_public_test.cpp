@@ -14,7 +14,7 @@
 #include <sstream>
 #include <string>
 
-#include "obvid/exchange/dxf_read.h"
+#include "obvid/exchange/internal/dxf/read.h"
 
 namespace obvid {
 namespace {

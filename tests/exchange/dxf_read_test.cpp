@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // DXF files written by hand: every kind of entity against its closed form.
-#include "obvid/exchange/dxf_read.h"
 #include "../common/angles.h"
 #include "drawing_checks.h"
+#include "obvid/exchange/internal/dxf/read.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

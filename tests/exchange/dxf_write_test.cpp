@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // DXF files of contours: no entry in ezdxf's audit, and the same curve through ezdxf and back.
-#include "obvid/exchange/dxf_write.h"
 #include "../common/angles.h"
 #include "../common/arcs.h"
+#include "obvid/exchange/internal/dxf/write.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -17,7 +17,7 @@
 #include <string>
 #include <vector>
 
-#include "obvid/exchange/dxf_read.h"
+#include "obvid/exchange/internal/dxf/read.h"
 #include "road_contours.h"
 
 namespace obvid {

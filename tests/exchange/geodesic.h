@@ -4,7 +4,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "obvid/exchange/projection.h"
+#include "obvid/exchange/internal/geo/projection.h"
 
 namespace obvid {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "obvid/exchange/geojson.h"
+#include "obvid/exchange/internal/geo/geojson.h"
 #include "drawing_checks.h"
 
 #include <gtest/gtest.h>

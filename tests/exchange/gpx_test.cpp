@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "obvid/exchange/gpx.h"
+#include "obvid/exchange/internal/geo/gpx.h"
 #include "drawing_checks.h"
 
 #include <gtest/gtest.h>

@@ -18,7 +18,7 @@
 #include "../common/angles.h"
 #include "../mesh/mesh_checks.h"
 #include "../mesh/shapes.h"
-#include "obvid/exchange/mesh_files.h"
+#include "obvid/exchange/internal/mesh/files.h"
 
 namespace obvid {
 namespace {

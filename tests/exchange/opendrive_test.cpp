@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "obvid/exchange/opendrive.h"
+#include "obvid/exchange/internal/road/opendrive.h"
 #include "drawing_checks.h"
 
 #include <gtest/gtest.h>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "obvid/exchange/projection.h"
+#include "obvid/exchange/internal/geo/projection.h"
 
 #include <gtest/gtest.h>
 

@@ -15,7 +15,7 @@
 #include <vector>
 
 #include "drawing_checks.h"
-#include "obvid/curve/clothoid.h"
+#include "obvid/curve/internal/clothoid.h"
 #include "obvid/exchange/drawing.h"
 #include "obvid/io/contour_json.h"
 

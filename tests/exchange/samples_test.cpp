@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Samples of curves of known length, and the texts made of them.
-#include "obvid/exchange/samples.h"
+#include "obvid/exchange/internal/points/samples.h"
 #include "../common/angles.h"
 
 #include <gtest/gtest.h>
@@ -9,7 +9,7 @@
 #include <sstream>
 #include <string>
 
-#include "obvid/exchange/solidworks.h"
+#include "obvid/exchange/internal/points/solidworks.h"
 
 namespace obvid {
 namespace {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "obvid/exchange/sketch.h"
+#include "obvid/exchange/internal/sketch.h"
 
 #include <gtest/gtest.h>
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // STEP files of curves: their grammar, entities, numbers, names and units. That kernels read the
 // same curves is tested in tests/cad.
-#include "obvid/exchange/step_write.h"
+#include "obvid/exchange/internal/step/write.h"
 
 #include <gtest/gtest.h>
 

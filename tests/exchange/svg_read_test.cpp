@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "obvid/exchange/svg_read.h"
 #include "drawing_checks.h"
+#include "obvid/exchange/internal/svg/read.h"
 
 #include <gtest/gtest.h>
 

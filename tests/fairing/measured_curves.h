@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "../common/plane_curves.h"
-#include "obvid/fairing/fairing.h"
+#include "obvid/fairing/internal/fairing.h"
 
 namespace obvid::test {
 

@@ -3,8 +3,8 @@
 #include <cstdint>
 #include <cstdlib>
 
-#include "obvid/io/read_control_net.h"
-#include "obvid/io/read_grid.h"
+#include "obvid/io/internal/read_control_net.h"
+#include "obvid/io/internal/read_grid.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   const std::string_view text(reinterpret_cast<const char*>(data), size);

@@ -4,7 +4,7 @@
 #include <cstddef>
 #include <cstdint>
 
-#include "obvid/exchange/dxf_read.h"
+#include "obvid/exchange/internal/dxf/read.h"
 #include "promise.h"
 
 namespace {

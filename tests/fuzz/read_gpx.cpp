@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Any bytes give a drawing of finite pieces and points, or an error that says where.
 #include "drawing_promises.h"
-#include "obvid/exchange/gpx.h"
+#include "obvid/exchange/internal/geo/gpx.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   obvid::require_promises(obvid::parse_gpx({reinterpret_cast<const char*>(data), size}, "fuzz"));

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Polynomials of one cell against closed forms.
-#include "obvid/idspline/cell.h"
+#include "obvid/idspline/internal/cell.h"
 
 #include <gtest/gtest.h>
 

@@ -6,7 +6,7 @@
 #include <filesystem>
 #include <random>
 
-#include "obvid/idspline/id_spline.h"
+#include "obvid/idspline/internal/id_spline.h"
 #include "obvid/io/read_points.h"
 
 namespace obvid {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Curves over chord length against the circle and the helix.
-#include "obvid/idspline/id_curve.h"
+#include "obvid/idspline/internal/id_curve.h"
 
 #include <gtest/gtest.h>
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Two variables: conditions met, biquadratics reproduced, C1, sections, the domain of [004]
-#include "obvid/idspline/id_spline_2d.h"
+#include "obvid/idspline/internal/id_spline_2d.h"
 
 #include <gtest/gtest.h>
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // One-dimensional splines: conditions met, polynomials reproduced, continuity, published equations.
-#include "obvid/idspline/id_spline.h"
+#include "obvid/idspline/internal/id_spline.h"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "obvid/idspline/scalar_cubic.h"
+#include "obvid/idspline/internal/scalar_cubic.h"
 
 #include <gtest/gtest.h>
 

@@ -7,7 +7,7 @@
 #include <string>
 
 #include "../common/shared_data.h"
-#include "obvid/io/read_control_net.h"
+#include "obvid/io/internal/read_control_net.h"
 
 namespace obvid {
 namespace {

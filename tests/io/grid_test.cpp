@@ -9,7 +9,7 @@
 #include <string>
 
 #include "../common/shared_data.h"
-#include "obvid/io/read_grid.h"
+#include "obvid/io/internal/read_grid.h"
 #include "output_folder.h"
 
 namespace obvid {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "obvid/numeric/tridiagonal.h"
+#include "obvid/numeric/internal/tridiagonal.h"
 
 #include <gtest/gtest.h>
 

@@ -15,7 +15,7 @@
 
 #include "../common/ten_points.h"
 #include "obvid/contour/clothoids.h"
-#include "obvid/geom/angle.h"
+#include "obvid/geom/internal/angle.h"
 #include "obvid/io/contour_json.h"
 #include "obvid/io/read_points.h"
 

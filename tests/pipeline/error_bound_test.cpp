@@ -12,7 +12,7 @@
 #include <string>
 #include <vector>
 
-#include "../../src/pipeline/report.h"
+#include "verify/report.h"
 #include "../common/ten_points.h"
 #include "obvid/io/contour_json.h"
 #include "obvid/pipeline/compare.h"

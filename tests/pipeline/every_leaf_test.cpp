@@ -12,7 +12,7 @@
 #include <vector>
 
 #include "../common/long_runs.h"
-#include "obvid/curve/clothoid.h"
+#include "obvid/curve/internal/clothoid.h"
 #include "obvid/io/contour_json.h"
 #include "obvid/pipeline/fit.h"
 

@@ -14,7 +14,7 @@
 #include "../common/angles.h"
 #include "../common/long_runs.h"
 #include "../common/ten_points.h"
-#include "obvid/exchange/gcode.h"
+#include "obvid/exchange/internal/gcode/gcode.h"
 #include "obvid/io/read_points.h"
 #include "obvid/pipeline/fit.h"
 

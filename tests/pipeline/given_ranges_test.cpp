@@ -10,11 +10,11 @@
 #include <string>
 #include <vector>
 
-#include "../../src/pipeline/given.h"
-#include "../../src/pipeline/series_ranges.h"
+#include "fit/given.h"
+#include "fit/series_ranges.h"
 #include "../common/ten_points.h"
-#include "obvid/curve/nearest.h"
-#include "obvid/geom/angle.h"
+#include "obvid/curve/internal/nearest.h"
+#include "obvid/geom/internal/angle.h"
 #include "obvid/io/contour_json.h"
 #include "obvid/pipeline/fit.h"
 #include "obvid/pipeline/region_table.h"

@@ -12,7 +12,7 @@
 #include <vector>
 
 #include "obvid/io/read_points.h"
-#include "obvid/pipeline/region_files.h"
+#include "obvid/pipeline/internal/region_files.h"
 #include "obvid/pipeline/region_table.h"
 
 namespace obvid {

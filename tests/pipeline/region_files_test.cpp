@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // The worksheet's drawing and its LaTeX.
-#include "obvid/pipeline/region_files.h"
+#include "obvid/pipeline/internal/region_files.h"
 
 #include <gtest/gtest.h>
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Ranges of headings and radii are exact: a hundredth inside a contour of the same runs exists and
 // is proved, a hundredth outside there is none.
-#include "../../src/pipeline/series_ranges.h"
+#include "fit/series_ranges.h"
 
 #include <gtest/gtest.h>
 

@@ -12,8 +12,8 @@
 #include <utility>
 #include <vector>
 
-#include "../../src/pipeline/waviness.h"
-#include "obvid/curve/clothoid.h"
+#include "fit/waviness.h"
+#include "obvid/curve/internal/clothoid.h"
 #include "obvid/pipeline/fit.h"
 
 namespace obvid {

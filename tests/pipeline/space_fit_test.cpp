@@ -10,8 +10,8 @@
 #include <functional>
 #include <numbers>
 
-#include "obvid/exchange/space_dxf.h"
-#include "obvid/exchange/step_write.h"
+#include "obvid/exchange/internal/dxf/space.h"
+#include "obvid/exchange/internal/step/write.h"
 
 namespace obvid {
 namespace {

@@ -11,8 +11,8 @@
 #include <string>
 
 #include "../common/ten_points.h"
-#include "obvid/exchange/svg_drawing.h"
-#include "obvid/exchange/svg_read.h"
+#include "obvid/exchange/internal/svg/drawing.h"
+#include "obvid/exchange/internal/svg/read.h"
 #include "obvid/pipeline/fit.h"
 
 namespace obvid {

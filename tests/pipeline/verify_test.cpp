@@ -18,7 +18,7 @@
 #include "obvid/certify/certify.h"
 #include "obvid/io/contour_json.h"
 #include "obvid/pipeline/fit.h"
-#include "obvid/pipeline/promise.h"
+#include "obvid/pipeline/internal/promise.h"
 #include "obvid/series/analysis.h"
 
 namespace obvid {

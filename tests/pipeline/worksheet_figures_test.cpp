@@ -9,7 +9,7 @@
 
 #include "../common/angles.h"
 #include "../common/ten_points.h"
-#include "obvid/geom/angle.h"
+#include "obvid/geom/internal/angle.h"
 #include "obvid/pipeline/construction_fit.h"
 #include "obvid/pipeline/fit.h"
 #include "obvid/pipeline/region_table.h"

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Distances from the boundaries of a region, and the errors of convex contours of [003].
-#include "obvid/region/boundary_distance.h"
+#include "obvid/region/internal/boundary_distance.h"
 #include "../common/angles.h"
 
 #include <gtest/gtest.h>
@@ -73,8 +73,8 @@ TEST(BoundaryArcs, KeepTheirLengthWhenTheyTurnByMoreThanHalfATurn) {
     EXPECT_NEAR(norm(first.end - second.start), 0.0, 1e-15);
     EXPECT_NEAR(norm(second.end - Vec2{b.frame.h, 0.0}), 0.0, 1e-15);
     // where the arc leads, by its own heading and curvature
-    const Vec2 led = first.start + 2.0 * std::sin(0.5 * turn[0]) *
-                                       unit_at(first.theta0 + 0.5 * turn[0]);
+    const Vec2 led =
+        first.start + 2.0 * std::sin(0.5 * turn[0]) * unit_at(first.theta0 + 0.5 * turn[0]);
     EXPECT_NEAR(norm(led - first.end), 0.0, 1e-12);
   }
 }

@@ -12,7 +12,7 @@
 #include <vector>
 
 #include "obvid/geom/vec2.h"
-#include "obvid/region/feasible_data.h"
+#include "obvid/region/internal/feasible_data.h"
 
 namespace obvid {
 namespace {

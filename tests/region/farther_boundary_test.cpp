@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "obvid/region/farther_boundary.h"
+#include "obvid/region/internal/farther_boundary.h"
 
 #include <gtest/gtest.h>
 
@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "known_spirals.h"
-#include "obvid/curve/clothoid.h"
+#include "obvid/curve/internal/clothoid.h"
 
 namespace obvid {
 namespace {
@@ -80,7 +80,8 @@ TEST(FartherBoundary, BoundsEveryPlaceOfSeveralArcsAndIsAttained) {
 }
 
 /// Pieces of one clothoid between these lengths.
-std::vector<Piece> clothoid_cut_at(double kappa0, double slope, const std::vector<double>& lengths) {
+std::vector<Piece> clothoid_cut_at(double kappa0, double slope,
+                                   const std::vector<double>& lengths) {
   std::vector<Piece> pieces;
   Vec2 at = {};
   for (std::size_t k = 0; k + 1 < lengths.size(); ++k) {
@@ -106,9 +107,10 @@ TEST(FartherBoundary, DoesNotDependOnHowThePathIsCut) {
   ASSERT_TRUE(region);
   const Vec2 along = last / norm(last);
   const double alone = farther_boundary({whole, 0.0, 1.0}, {f, *region, {}, along}).distance;
-  for (const std::vector<double>& cuts :
-       {std::vector<double>{0.0, 1e-6, 2e-6, 0.7, kLength}, {0.0, 0.3, 0.3 + 1e-7, kLength},
-        {0.0, 0.69, 0.7, 0.7001, 0.71, kLength}, {0.0, 1.0, 1.1, 1.2, 1.3, kLength}}) {
+  for (const std::vector<double>& cuts : {std::vector<double>{0.0, 1e-6, 2e-6, 0.7, kLength},
+                                          {0.0, 0.3, 0.3 + 1e-7, kLength},
+                                          {0.0, 0.69, 0.7, 0.7001, 0.71, kLength},
+                                          {0.0, 1.0, 1.1, 1.2, 1.3, kLength}}) {
     const auto pieces = clothoid_cut_at(kKappa, kSlope, cuts);
     const double cut = farther_boundary({pieces, 0.0, 1.0}, {f, *region, {}, along}).distance;
     EXPECT_NEAR(cut / alone, 1.0, 1e-5);

@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "../common/angles.h"
-#include "obvid/region/feasible_data.h"
+#include "obvid/region/internal/feasible_data.h"
 
 namespace obvid {
 namespace {

@@ -11,9 +11,9 @@
 #include <vector>
 
 #include "obvid/geom/element.h"
-#include "obvid/region/convex_triangle.h"
-#include "obvid/region/curvature_chains.h"
-#include "obvid/region/segment_region.h"
+#include "obvid/region/internal/convex_triangle.h"
+#include "obvid/region/internal/curvature_chains.h"
+#include "obvid/region/internal/segment_region.h"
 #include "obvid/series/analysis.h"
 
 namespace obvid::paper {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "obvid/region/segment_region.h"
+#include "obvid/region/internal/segment_region.h"
 
 #include <gtest/gtest.h>
 

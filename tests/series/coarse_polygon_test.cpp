@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "obvid/series/coarse_polygon.h"
+#include "obvid/series/internal/coarse_polygon.h"
 #include "../common/ten_points.h"
 
 #include <gtest/gtest.h>

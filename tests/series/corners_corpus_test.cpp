@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "obvid/io/read_points.h"
-#include "obvid/series/sections.h"
+#include "obvid/series/internal/sections.h"
 
 namespace obvid {
 namespace {

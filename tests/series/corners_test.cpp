@@ -6,7 +6,7 @@
 #include <random>
 
 #include "../common/angles.h"
-#include "obvid/series/sections.h"
+#include "obvid/series/internal/sections.h"
 
 namespace obvid {
 namespace {

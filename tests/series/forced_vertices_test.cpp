@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The lower bound on vertices: never above what a curve within the tolerances has, and equal to it
 // where the data are plain.
-#include "obvid/series/forced_vertices.h"
+#include "obvid/series/internal/forced_vertices.h"
 
 #include <gtest/gtest.h>
 

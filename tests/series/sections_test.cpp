@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "obvid/series/sections.h"
+#include "obvid/series/internal/sections.h"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "obvid/series/straight_rows.h"
+#include "obvid/series/internal/straight_rows.h"
 
 #include <gtest/gtest.h>
 
@@ -61,9 +61,9 @@ TEST(StraightRows, ThreeTurnsMakeACurveAndTwoABend) {
   EXPECT_TRUE(bent({10, 10, 10}));
   EXPECT_FALSE(bent({10, 10}));
   EXPECT_TRUE(bent({1, 2, 3, 4}));
-  EXPECT_FALSE(bent({1, 20, 1}));           // a bend between nearly straight walls
-  EXPECT_TRUE(bent({90, 5, 5, 5, 90}));     // a flank between corners
-  EXPECT_FALSE(bent({90, 0, 0, 0, 90}));    // an edge with points on it
+  EXPECT_FALSE(bent({1, 20, 1}));         // a bend between nearly straight walls
+  EXPECT_TRUE(bent({90, 5, 5, 5, 90}));   // a flank between corners
+  EXPECT_FALSE(bent({90, 0, 0, 0, 90}));  // an edge with points on it
   EXPECT_TRUE(bent({10, 10, 10, -10, -10, -10}));
   EXPECT_FALSE(bent({30, 30, 30, 30}));
 }

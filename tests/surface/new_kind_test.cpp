@@ -8,7 +8,7 @@
 #include <variant>
 
 #include "kinds.h"
-#include "obvid/surface/topology.h"
+#include "obvid/surface/internal/topology.h"
 
 namespace obvid {
 namespace {

@@ -6,7 +6,7 @@
 
 #include <cmath>
 
-#include "obvid/curve/basis.h"
+#include "obvid/curve/internal/basis.h"
 
 namespace obvid {
 namespace {

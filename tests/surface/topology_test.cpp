@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "obvid/surface/topology.h"
+#include "obvid/surface/internal/topology.h"
 
 #include <gtest/gtest.h>
 

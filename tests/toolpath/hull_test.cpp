@@ -11,8 +11,8 @@
 #include <vector>
 
 #include "cutting.h"
-#include "obvid/io/read_file.h"
-#include "obvid/io/read_grid.h"
+#include "obvid/io/internal/read_file.h"
+#include "obvid/io/internal/read_grid.h"
 #include "obvid/io/surface_json.h"
 #include "obvid/toolpath/toolpath.h"
 #include "shapes.h"

@@ -5,7 +5,7 @@
 
 #include <cmath>
 
-#include "obvid/toolpath/toolpath_gcode.h"
+#include "obvid/toolpath/internal/toolpath_gcode.h"
 #include "shapes.h"
 
 namespace obvid {

@@ -4,7 +4,7 @@
 #include <functional>
 
 #include "obvid/surface/surface.h"
-#include "obvid/surfacing/grid.h"
+#include "obvid/surface_builders/internal/grid.h"
 
 namespace obvid::test {
 

@@ -69,6 +69,13 @@ class CheckLayers(unittest.TestCase):
         self.assertEqual(code, 1, out)
         self.assertIn("private headers stay private", out)
 
+    def test_examples_do_without_internal_headers(self):
+        lower = {"src/geom/line.cpp": include("core/result.h")}
+        self.assertEqual(run_on({**lower, "examples/fit.cpp": include("curve/pieces.h")})[0], 0)
+        code, out = run_on({**lower, "examples/fit.cpp": include("curve/internal/runs.h")})
+        self.assertEqual(code, 1, out)
+        self.assertIn("examples/fit.cpp:3: obvid/curve/internal/runs.h is not for users", out)
+
     def test_unknown_modules_and_empty_trees_fail(self):
         self.refuses("src/geom/line.cpp", "gui/window.h", "no known module")
         self.assertEqual(run_on({"src/gui/window.cpp": "#include <vector>\n"})[0], 1)

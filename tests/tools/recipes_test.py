@@ -13,12 +13,12 @@ import unittest
 PROJECT = sys.argv.pop() if len(sys.argv) > 1 else "."
 # Not in tables: who makes surfaces of a kind names it.
 MAKERS = (
-    "src/surfacing/",
-    "include/obvid/surfacing/",
+    "src/surface_builders/",
+    "include/obvid/surface_builders/",
     "src/cad/helper/face_surface.cpp",
-    "src/pipeline/surface_kinds.cpp",
-    "src/pipeline/surface_points.cpp",
-    "src/pipeline/spline_grid.cpp",
+    "src/pipeline/surface/surface_kinds.cpp",
+    "src/pipeline/surface/surface_points.cpp",
+    "src/pipeline/splines/spline_grid.cpp",
 )
 SURFACE = "include/obvid/surface/surface.h"
 JOB = "include/obvid/pipeline/surface_job.h"
@@ -83,7 +83,7 @@ class KindsOfSurfaces(unittest.TestCase):
         self.assertGreaterEqual(len(kinds), 9)
         for kind in kinds:
             self.assertEqual(naming(kind) - files, set(), kind)
-            self.assertIn("src/pipeline/surface_values.cpp", naming(kind))
+            self.assertIn("src/pipeline/surface/surface_values.cpp", naming(kind))
 
 
 if __name__ == "__main__":

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "obvid/certify/certificate.h"
-#include "obvid/core/watch.h"
+#include "obvid/core/internal/watch.h"
 #include "obvid/curve/contour.h"
 
 namespace obvid {

@@ -6,7 +6,7 @@
 
 #include "obvid/curve/pieces.h"
 #include "obvid/geom/element.h"
-#include "obvid/region/segment_region.h"
+#include "obvid/region/internal/segment_region.h"
 
 namespace obvid {
 

@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "obvid/core/result.h"
-#include "obvid/curve/bspline_cubic.h"
+#include "obvid/curve/internal/bspline_cubic.h"
 #include "obvid/curve/nurbs.h"
 
 namespace obvid {

@@ -4,7 +4,7 @@
 #include <optional>
 #include <vector>
 
-#include "obvid/chain/chain.h"
+#include "obvid/chain/internal/chain.h"
 #include "obvid/core/result.h"
 #include "obvid/curve/pieces.h"
 #include "obvid/geom/element.h"

@@ -3,8 +3,8 @@
 
 #include <vector>
 
-#include "obvid/chain/chain.h"
-#include "obvid/chain/spiral_shape.h"
+#include "obvid/chain/internal/chain.h"
+#include "obvid/chain/internal/spiral_shape.h"
 #include "obvid/curve/pieces.h"
 
 namespace obvid {

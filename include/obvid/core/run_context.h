@@ -7,7 +7,7 @@
 #include <utility>
 
 #include "obvid/core/error.h"
-#include "obvid/core/progress.h"
+#include "obvid/core/internal/progress.h"
 #include "obvid/core/result.h"
 
 namespace obvid {
@@ -25,8 +25,8 @@ struct RunContext {
       : progress(std::move(told)), cancelled(std::move(asked)) {}
   /// Progress alone.
   template <class Told>
-    requires std::is_invocable_v<Told&, std::string_view, double>
-  RunContext(Told told) : progress(std::move(told)) {}  // NOLINT: implicit on purpose
+  requires std::is_invocable_v<Told&, std::string_view, double> RunContext(Told told)
+      : progress(std::move(told)) {}  // NOLINT: implicit on purpose
 };
 
 /// What cancelled work returns.

@@ -10,7 +10,7 @@
 #include "obvid/core/units.h"
 #include "obvid/curve/pieces.h"
 #include "obvid/geom/element.h"
-#include "obvid/geom/value_range.h"
+#include "obvid/geom/internal/value_range.h"
 
 namespace obvid {
 

@@ -3,7 +3,7 @@
 
 #include <cmath>
 
-#include "obvid/core/always_inline.h"
+#include "obvid/core/internal/always_inline.h"
 
 namespace obvid {
 

@@ -5,7 +5,7 @@
 #include <string_view>
 
 #include "obvid/core/result.h"
-#include "obvid/io/stored_contour.h"
+#include "obvid/report/stored_contour.h"
 
 namespace obvid {
 

@@ -6,13 +6,13 @@
 #include <string_view>
 #include <vector>
 
-#include "obvid/cad/cad.h"
+#include "obvid/cad/internal/cad.h"
 #include "obvid/core/result.h"
-#include "obvid/exchange/dxf_write.h"
-#include "obvid/exchange/gcode.h"
-#include "obvid/exchange/samples.h"
-#include "obvid/io/picture_svg.h"
-#include "obvid/io/stored_contour.h"
+#include "obvid/exchange/internal/dxf/write.h"
+#include "obvid/exchange/internal/gcode/gcode.h"
+#include "obvid/exchange/internal/points/samples.h"
+#include "obvid/picture/picture_svg.h"
+#include "obvid/report/stored_contour.h"
 
 namespace obvid {
 

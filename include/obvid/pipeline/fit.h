@@ -7,11 +7,11 @@
 #include <vector>
 
 #include "obvid/certify/certificate.h"
+#include "obvid/core/internal/watch.h"
 #include "obvid/core/result.h"
 #include "obvid/core/run_context.h"
-#include "obvid/core/watch.h"
 #include "obvid/curve/contour.h"
-#include "obvid/io/stored_contour.h"
+#include "obvid/report/stored_contour.h"
 #include "obvid/series/point_series.h"
 
 namespace obvid {
@@ -58,9 +58,9 @@ struct FitJob {
   std::optional<double> end_kappa;        ///< 1/unit
   std::optional<ValueRange> start_thetas, end_thetas;  ///< ranges of the same
   std::optional<ValueRange> start_kappas, end_kappas;
-  Prefer prefer = Prefer::kFair;     ///< others: open series of points that are met, one section
-  /// Of kLeastCurvature: the largest curvature is at most so many times the least possible one, > 1.
-  /// Unset: 1.005; of parabolas that follow no such contour more, up to 2, with a warning.
+  Prefer prefer = Prefer::kFair;  ///< others: open series of points that are met, one section
+  /// Of kLeastCurvature: the largest curvature is at most so many times the least possible one,
+  /// > 1. Unset: 1.005; of parabolas that follow no such contour more, up to 2, with a warning.
   std::optional<double> above_least{};
   std::optional<double> noise;       ///< how far every point may move, units; default: not at all
   bool noise_from_rounding = false;  ///< as far as half a unit of the last printed digit

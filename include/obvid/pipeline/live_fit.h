@@ -5,9 +5,9 @@
 #include <optional>
 
 #include "obvid/certify/certify.h"
-#include "obvid/chain/series_chain.h"
+#include "obvid/chain/internal/series_chain.h"
+#include "obvid/core/internal/watch.h"
 #include "obvid/core/result.h"
-#include "obvid/core/watch.h"
 #include "obvid/pipeline/fit.h"
 #include "obvid/series/point_series.h"
 

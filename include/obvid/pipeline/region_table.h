@@ -10,9 +10,9 @@
 #include "obvid/curve/pieces.h"
 #include "obvid/geom/element.h"
 #include "obvid/pipeline/fit.h"
-#include "obvid/region/curvature_chains.h"
-#include "obvid/region/feasible_data.h"
-#include "obvid/region/segment_region.h"
+#include "obvid/region/internal/curvature_chains.h"
+#include "obvid/region/internal/feasible_data.h"
+#include "obvid/region/internal/segment_region.h"
 #include "obvid/series/point_series.h"
 
 namespace obvid {

@@ -9,7 +9,7 @@
 #include "obvid/core/run_context.h"
 #include "obvid/pipeline/fit.h"
 #include "obvid/surface/point_grid.h"
-#include "obvid/surfacing/skin.h"
+#include "obvid/surface_builders/internal/skin.h"
 
 namespace obvid {
 

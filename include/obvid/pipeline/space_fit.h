@@ -9,7 +9,7 @@
 
 #include "obvid/core/result.h"
 #include "obvid/core/run_context.h"
-#include "obvid/exchange/samples.h"
+#include "obvid/exchange/internal/points/samples.h"
 #include "obvid/io/space_json.h"
 #include "obvid/pipeline/export.h"
 #include "obvid/pipeline/fit.h"

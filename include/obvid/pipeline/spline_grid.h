@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "obvid/core/result.h"
-#include "obvid/idspline/id_spline_2d.h"
-#include "obvid/io/read_columns.h"
+#include "obvid/idspline/internal/id_spline_2d.h"
+#include "obvid/io/internal/read_columns.h"
 #include "obvid/surface/surface.h"
 
 namespace obvid {

@@ -8,8 +8,8 @@
 #include <vector>
 
 #include "obvid/core/result.h"
-#include "obvid/idspline/id_spline.h"
-#include "obvid/io/read_columns.h"
+#include "obvid/idspline/internal/id_spline.h"
+#include "obvid/io/internal/read_columns.h"
 
 namespace obvid {
 

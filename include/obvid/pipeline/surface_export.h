@@ -6,12 +6,12 @@
 #include <string_view>
 #include <vector>
 
-#include "obvid/cad/cad.h"
-#include "obvid/core/run_context.h"
+#include "obvid/cad/internal/cad.h"
 #include "obvid/core/result.h"
-#include "obvid/exchange/surface_page.h"
-#include "obvid/exchange/surface_svg.h"
+#include "obvid/core/run_context.h"
 #include "obvid/mesh/mesh.h"
+#include "obvid/picture/internal/surface_page.h"
+#include "obvid/picture/surface_svg.h"
 
 namespace obvid {
 

@@ -8,14 +8,14 @@
 #include <variant>
 #include <vector>
 
-#include "obvid/core/run_context.h"
 #include "obvid/core/result.h"
-#include "obvid/exchange/surface_svg.h"
+#include "obvid/core/run_context.h"
+#include "obvid/picture/surface_svg.h"
 #include "obvid/pipeline/import.h"
 #include "obvid/pipeline/skin_sections.h"
 #include "obvid/surface/point_grid.h"
 #include "obvid/surface/surface.h"
-#include "obvid/surfacing/grid.h"
+#include "obvid/surface_builders/internal/grid.h"
 
 namespace obvid {
 

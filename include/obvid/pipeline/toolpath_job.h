@@ -5,9 +5,9 @@
 #include <string>
 #include <vector>
 
-#include "obvid/core/run_context.h"
 #include "obvid/core/result.h"
-#include "obvid/exchange/surface_svg.h"
+#include "obvid/core/run_context.h"
+#include "obvid/picture/surface_svg.h"
 #include "obvid/toolpath/toolpath.h"
 
 namespace obvid {

@@ -3,7 +3,7 @@
 
 #include "obvid/core/result.h"
 #include "obvid/core/run_context.h"
-#include "obvid/io/trade_off_svg.h"
+#include "obvid/picture/internal/trade_off_svg.h"
 #include "obvid/pipeline/fit.h"
 
 namespace obvid {
@@ -17,8 +17,8 @@ namespace obvid {
 /// slowly than on the average.
 /// When the work is cancelled (E103), `finished` takes the rows that were done by then, with
 /// nothing recommended. A row that takes more than twice its share of the work that is left is not
-/// formed. Errors: those of `fit` that do not depend on the tolerance (exit codes 2 and 3); E203 for
-/// a drawing whose pieces all stay as they are.
+/// formed. Errors: those of `fit` that do not depend on the tolerance (exit codes 2 and 3); E203
+/// for a drawing whose pieces all stay as they are.
 [[nodiscard]] Result<TradeOff> trade_off(const PointSeries& series, const FitJob& job,
                                          const RunContext& run = {}, TradeOff* finished = nullptr);
 

@@ -9,7 +9,7 @@
 
 #include "obvid/core/units.h"
 #include "obvid/curve/pieces.h"
-#include "obvid/geom/value_range.h"
+#include "obvid/geom/internal/value_range.h"
 #include "obvid/geom/vec2.h"
 
 namespace obvid {

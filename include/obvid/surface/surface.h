@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "obvid/core/units.h"
-#include "obvid/idspline/id_spline_2d.h"
+#include "obvid/idspline/internal/id_spline_2d.h"
 #include "obvid/surface/nurbs_surface.h"
 
 namespace obvid {

@@ -6,10 +6,10 @@
 #include <string>
 #include <vector>
 
-#include "obvid/core/run_context.h"
 #include "obvid/core/result.h"
+#include "obvid/core/run_context.h"
 #include "obvid/surface/surface.h"
-#include "obvid/toolpath/toolpath_gcode.h"
+#include "obvid/toolpath/internal/toolpath_gcode.h"
 
 namespace obvid {
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Asks the helper: a program linked to the kernel itself would take 50 ms to start, and what the
 // kernel does to its process would be done to ours.
-#include "obvid/cad/cad.h"
+#include "obvid/cad/internal/cad.h"
 
 #include <fmt/format.h>
 
@@ -12,7 +12,7 @@
 #include "helper_file.h"
 #include "helper_process.h"
 #include "message.h"
-#include "obvid/exchange/step_write.h"
+#include "obvid/exchange/internal/step/write.h"
 
 namespace obvid {
 namespace {

@@ -6,7 +6,7 @@
 #include <string>
 
 #include "cad_build_mark.h"
-#include "obvid/core/named_builder.h"
+#include "obvid/core/internal/named_builder.h"
 
 namespace obvid::cad {
 namespace {

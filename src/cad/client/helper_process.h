@@ -4,7 +4,7 @@
 #include <string>
 #include <string_view>
 
-#include "obvid/cad/cad.h"
+#include "obvid/cad/internal/cad.h"
 
 namespace obvid::cad {
 

@@ -7,7 +7,7 @@
 #include <variant>
 #include <vector>
 
-#include "obvid/cad/cad.h"
+#include "obvid/cad/internal/cad.h"
 
 namespace obvid::cad {
 

@@ -5,7 +5,7 @@
 #include <cstddef>
 #include <vector>
 
-#include "obvid/surface/topology.h"
+#include "obvid/surface/internal/topology.h"
 
 namespace obvid::cad {
 

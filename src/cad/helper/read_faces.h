@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "obvid/cad/cad.h"
+#include "obvid/cad/internal/cad.h"
 
 namespace obvid::cad {
 

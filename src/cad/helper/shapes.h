@@ -4,7 +4,7 @@
 #include <TopoDS_Shape.hxx>
 #include <vector>
 
-#include "obvid/cad/cad.h"
+#include "obvid/cad/internal/cad.h"
 
 namespace obvid::cad {
 

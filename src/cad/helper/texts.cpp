@@ -30,7 +30,7 @@
 #include <sstream>
 
 #include "obvid/core/version.h"
-#include "obvid/exchange/step_letters.h"
+#include "obvid/exchange/internal/step/letters.h"
 #include "units.h"
 
 namespace obvid::cad {

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "obvid/cad/cad.h"
+#include "obvid/cad/internal/cad.h"
 
 namespace obvid::cad {
 

@@ -3,15 +3,15 @@
 
 #include <array>
 
-#include "obvid/cad/cad.h"
+#include "obvid/cad/internal/cad.h"
 #include "obvid/core/units.h"
 
 namespace obvid::cad {
 namespace {
 
 /// The kernel's names of `kCadUnits`, in the same order.
-constexpr std::array<const char*, kCadUnits.size()> kKernelNames = {
-    "UM", "MM", "CM", "M", "KM", "MIL", "INCH", "FT", "MI"};
+constexpr std::array<const char*, kCadUnits.size()> kKernelNames = {"UM",  "MM",   "CM", "M", "KM",
+                                                                    "MIL", "INCH", "FT", "MI"};
 
 }  // namespace
 

@@ -4,7 +4,7 @@
 #include <utility>
 
 #include "faces.h"
-#include "obvid/exchange/step_letters.h"
+#include "obvid/exchange/internal/step/letters.h"
 #include "shapes.h"
 #include "texts.h"
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "obvid/cad/cad.h"
+#include "obvid/cad/internal/cad.h"
 
 namespace obvid::cad {
 

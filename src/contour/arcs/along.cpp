@@ -8,7 +8,7 @@
 
 #include "biarc_along.h"
 #include "obvid/contour/arcs/arcs_along.h"
-#include "obvid/curve/path_distance.h"
+#include "obvid/curve/internal/path_distance.h"
 
 namespace obvid {
 namespace {

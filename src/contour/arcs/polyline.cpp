@@ -4,7 +4,7 @@
 #include <string>
 
 #include "obvid/contour/arcs/polyline_along.h"
-#include "obvid/curve/path_distance.h"
+#include "obvid/curve/internal/path_distance.h"
 #include "peak.h"
 #include "track.h"
 

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "obvid/curve/contour.h"
-#include "obvid/curve/contour_path.h"
+#include "obvid/curve/internal/contour_path.h"
 
 namespace obvid::arcs {
 

@@ -7,9 +7,9 @@
 #include <string>
 
 #include "obvid/contour/beziers.h"
-#include "obvid/region/convex_triangle.h"
-#include "obvid/region/refine.h"
-#include "obvid/region/segment_region.h"
+#include "obvid/region/internal/convex_triangle.h"
+#include "obvid/region/internal/refine.h"
+#include "obvid/region/internal/segment_region.h"
 
 namespace obvid {
 namespace {

@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "obvid/contour/beziers.h"
-#include "obvid/region/convex_triangle.h"
+#include "obvid/region/internal/convex_triangle.h"
 
 namespace obvid {
 namespace {

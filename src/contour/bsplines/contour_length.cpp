@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "obvid/geom/angle.h"
+#include "obvid/geom/internal/angle.h"
 
 namespace obvid::bsplines {
 

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "obvid/curve/contour.h"
-#include "obvid/curve/contour_path.h"
+#include "obvid/curve/internal/contour_path.h"
 
 namespace obvid::bsplines {
 

@@ -4,7 +4,7 @@
 #include <optional>
 
 #include "obvid/contour/bsplines.h"
-#include "obvid/numeric/tridiagonal.h"
+#include "obvid/numeric/internal/tridiagonal.h"
 #include "spline_knots.h"
 
 namespace obvid {

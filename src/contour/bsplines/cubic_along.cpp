@@ -10,7 +10,7 @@
 
 #include "contour_length.h"
 #include "obvid/contour/bsplines.h"
-#include "obvid/curve/path_distance.h"
+#include "obvid/curve/internal/path_distance.h"
 
 namespace obvid {
 namespace {

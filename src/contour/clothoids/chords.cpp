@@ -6,7 +6,7 @@
 #include <string>
 
 #include "obvid/contour/clothoids.h"
-#include "obvid/geom/angle.h"
+#include "obvid/geom/internal/angle.h"
 
 namespace obvid {
 namespace clothoids {

@@ -8,7 +8,7 @@
 #include "chord_clothoid.h"
 #include "chords.h"
 #include "obvid/contour/clothoids.h"
-#include "obvid/geom/angle.h"
+#include "obvid/geom/internal/angle.h"
 
 namespace obvid {
 namespace {

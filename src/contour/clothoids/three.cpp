@@ -7,7 +7,7 @@
 #include <optional>
 
 #include "obvid/contour/clothoids.h"
-#include "obvid/curve/clothoid.h"
+#include "obvid/curve/internal/clothoid.h"
 
 namespace obvid {
 namespace {

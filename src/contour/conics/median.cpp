@@ -6,8 +6,8 @@
 
 #include "links.h"
 #include "obvid/contour/conics.h"
-#include "obvid/region/boundary_distance.h"
-#include "obvid/region/segment_region.h"
+#include "obvid/region/internal/boundary_distance.h"
+#include "obvid/region/internal/segment_region.h"
 #include "triangle.h"
 
 namespace obvid {

@@ -2,8 +2,8 @@
 #pragma once
 
 #include "obvid/core/result.h"
-#include "obvid/curve/bspline_cubic.h"
 #include "obvid/curve/contour.h"
+#include "obvid/curve/internal/bspline_cubic.h"
 
 namespace obvid {
 

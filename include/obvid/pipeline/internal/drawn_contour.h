@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "obvid/picture/picture_svg.h"
+#include "obvid/pipeline/import.h"
+
+namespace obvid {
+
+/// A curve of a drawing as it is drawn, with what can be proved about it.
+struct DrawnContour {
+  StoredContour stored;
+  std::string name;                  ///< of the curve
+  PictureTitles picture;             ///< of a picture of it
+  std::vector<std::string> remarks;  ///< what was left out, and which curve was taken
+};
+
+/// Takes the curve that `options` choose. Errors: those of `chosen_curve`; E310 where that is a
+/// series of points and its edges were not asked for. `where` stands in errors and remarks.
+[[nodiscard]] Result<DrawnContour> drawn_contour(const Drawing& drawing,
+                                                 const ImportOptions& options,
+                                                 const std::string& where);
+
+}  // namespace obvid

@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string>
+
+#include "obvid/core/result.h"
+#include "obvid/exchange/internal/sketch.h"
+#include "obvid/pipeline/region_table.h"
+#include "obvid/series/point_series.h"
+
+namespace obvid {
+
+/// Number of a point as tables print it: 9, and 9.1, 9.2 for those inserted behind it.
+[[nodiscard]] std::string region_point_name(const RegionPoint& point);
+/// "9-10", "9.1-10".
+[[nodiscard]] std::string region_segment_name(const RegionPart& part, const RegionRow& row);
+
+/// One row per point with the segment that begins there, lengths in units, angles in degrees, all
+/// digits; an empty cell where nothing is known. Inserted points follow in a second series, whose
+/// rows say `inserted`.
+[[nodiscard]] std::string region_csv(const RegionTable& table);
+
+/// The construction's own table, one row per segment; empty without one.
+[[nodiscard]] std::string construction_csv(const RegionTable& table);
+
+/// The same as LaTeX tables (points, segments, the construction) for each series: plain `tabular`,
+/// four decimals of a length of millimetre size, as the papers print them.
+[[nodiscard]] std::string region_latex(const PointSeries& series, const RegionTable& table);
+
+/// Drawing of the worksheet: points with numbers, tangents, triangles, arcs of the adjacent
+/// circles, the limiting arc chains, and the region magnified across its chords.
+struct RegionDrawing {
+  Sketch sketch;
+  double magnified =
+      1.0;  ///< how many times wider the region is drawn; a power of 10, 2 or 5 times
+};
+[[nodiscard]] RegionDrawing region_drawing(const PointSeries& series, const RegionTable& table);
+
+/// The worksheet in a format, and what is to be said about it ("... 200 times wider ...", or
+/// nothing).
+struct RegionFile {
+  std::string text;
+  std::string remark;
+};
+
+/// `ending`: of the file, without its dot: "csv" (with a construction its own table), "tex", "json"
+/// (tables), "svg", "dxf" (drawings); capitals do not matter. Error: E202, another one.
+[[nodiscard]] Result<RegionFile> region_file(const std::string& ending, const PointSeries& series,
+                                             const RegionTable& table);
+
+}  // namespace obvid

@@ -1,0 +1,98 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <string>
+#include <vector>
+
+#include "obvid/core/run_context.h"
+#include "obvid/surface/internal/topology.h"
+#include "obvid/surface/nurbs_surface.h"
+#include "obvid/surface/surface.h"
+
+namespace obvid {
+
+/// Smallest and largest value of a quantity over a patch.
+struct Extent {
+  double least = 0.0;
+  double most = 0.0;
+};
+
+/// Least and greatest curvatures of a patch.
+struct CurvatureExtents {
+  Extent gaussian;                 ///< 1/units^2
+  Extent mean, k1, k2;             ///< 1/units
+  std::size_t without_normal = 0;  ///< samples where the surface has no tangent plane (poles)
+};
+
+/// Between which figures the curvatures of a patch lie: looked for at about `samples` places per
+/// direction, two or more in each span, and climbed to from there (the nearest extreme, to some
+/// 1e-9 of it). Not proved: an extreme between the places can be missed. Towards poles, where
+/// curvature may have no bound, what the places show decides. All 0 without a tangent plane.
+[[nodiscard]] CurvatureExtents curvature_extents(const NurbsSurface& surface,
+                                                 std::size_t samples = 65);
+
+/// Curvature along the lines of one family of parameters.
+struct LineReport {
+  std::size_t lines = 0;
+  std::size_t monotone = 0;       ///< lines whose curvature has no extremum inside
+  std::size_t vertices = 0;       ///< curvature extrema on all lines together
+  std::size_t most_vertices = 0;  ///< on one line
+  std::size_t inflections = 0;    ///< changes of the sign of the curvature, on all lines together
+};
+
+struct PatchReport {
+  std::string name;
+  int degree_u = 0, degree_v = 0;
+  std::size_t count_u = 0, count_v = 0;  ///< control points
+  int order_u = 0, order_v = 0;  ///< of continuity at inner knots, by their multiplicities; the
+                                 ///< degree where there are none
+  bool rational = false;
+  double area = 0.0;               ///< units^2, by quadrature: good to some 1e-4
+  Extent gaussian, mean, k1, k2;   ///< as of `curvature_extents`; 1/units^2 and 1/units
+  std::size_t without_normal = 0;  ///< samples where the surface has no tangent plane (poles)
+  LineReport along_u;              ///< lines v = const
+  LineReport along_v;              ///< lines u = const
+};
+
+/// Two borders that meet.
+struct JointReport {
+  std::array<std::size_t, 2> patch{};
+  std::array<PatchSide, 2> side{};
+  bool shared = true;  ///< one edge of `topology_of`: meshes and CAD files join it; else the gap
+                       ///< is larger than `kSameBorder` of the size
+  double gap = 0.0;    ///< largest distance of corresponding points, units
+  double angle = 0.0;  ///< largest angle between the tangent planes, rad
+  double curvature = 0.0;  ///< largest step of the normal curvature across the border, as a share
+                           ///< of the largest curvature beside it
+  int order = 0;           ///< 0 G0, 1 G1, 2 G2, by the limits named below
+};
+
+/// Up to these a border counts as smooth.
+inline constexpr double kSmoothAngle = 1e-3;      ///< rad
+inline constexpr double kSmoothCurvature = 1e-2;  ///< share
+
+struct SurfaceCheck {
+  double size = 0.0;  ///< diagonal of the control points' box, units
+  std::vector<PatchReport> patches;
+  std::vector<JointReport> joints;
+  std::size_t free_borders = 0;  ///< sides that share their edge with none, points not counted
+};
+
+struct CheckOptions {
+  std::size_t samples = 65;  ///< per direction and patch for curvature, and lines of each family
+  double meeting = 1e-5;     ///< of the size: borders nearer than this meet
+};
+
+/// What can be measured about a model: curvature, continuity inside patches and across borders,
+/// vertices of the lines of constant parameters. Figures are sampled, not proved: a feature smaller
+/// than a step of the raster can be missed. Borders meet as wholes only: a border that meets parts
+/// of two others is not found; those that are the same curve with other parameters are. Curvature
+/// of lines is that of curves in space, with the sign that their mean plane gives; steps below 1e-6
+/// of a line's largest curvature are rounding.
+[[nodiscard]] Result<SurfaceCheck> check_surface(const SurfaceModel& model,
+                                                 const CheckOptions& options = {},
+                                                 const RunContext& run = {});
+
+}  // namespace obvid

@@ -1,0 +1,228 @@
+// SPDX-License-Identifier: Apache-2.0
+// Entities that meet end to end: docs/methods/dxf.md, section 4.
+#include "dxf/chains.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <limits>
+#include <numbers>
+#include <tuple>
+#include <unordered_map>
+#include <utility>
+
+namespace obvid::dxf {
+namespace {
+
+/// Ends meet within this part of the size of the drawing: six digits are what the coarser programs
+/// print.
+constexpr double kMeet = 1e-6;
+constexpr std::size_t kNoPlace = std::numeric_limits<std::size_t>::max();
+
+struct GridCell {
+  std::int64_t x = 0, y = 0;
+  std::size_t layer = 0;
+  friend bool operator==(const GridCell&, const GridCell&) = default;
+};
+
+struct CellHash {
+  std::size_t operator()(const GridCell& c) const {
+    std::uint64_t h = static_cast<std::uint64_t>(c.x) * 0x9E3779B97F4A7C15ULL;
+    h = (h ^ (h >> 32U) ^ static_cast<std::uint64_t>(c.y)) * 0xC2B2AE3D27D4EB4FULL;
+    h = (h ^ (h >> 29U) ^ c.layer) * 0x165667B19E3779F9ULL;
+    return static_cast<std::size_t>(h ^ (h >> 32U));
+  }
+};
+
+/// Numbers places: points no farther apart than the tolerance share one. The first point of a cell
+/// stands for all of them, so the time does not depend on how they crowd.
+class Places {
+ public:
+  Places(Vec2 low, double tolerance) : low_(low), tolerance_(tolerance) {}
+
+  std::size_t of(Vec2 p, std::size_t layer) {
+    const GridCell here = {index(p.x - low_.x), index(p.y - low_.y), layer};
+    for (std::int64_t dx = -1; dx <= 1; ++dx) {
+      for (std::int64_t dy = -1; dy <= 1; ++dy) {
+        const auto found = cells_.find({here.x + dx, here.y + dy, layer});
+        if (found == cells_.end()) continue;
+        const auto& [place, point] = found->second;
+        if ((dx == 0 && dy == 0) || norm(p - point) <= tolerance_) return place;
+      }
+    }
+    cells_.emplace(here, std::pair(count_, p));
+    return count_++;
+  }
+  [[nodiscard]] std::size_t count() const { return count_; }
+
+ private:
+  [[nodiscard]] std::int64_t index(double distance) const {
+    return tolerance_ > 0.0 ? static_cast<std::int64_t>(std::floor(distance / tolerance_)) : 0;
+  }
+
+  Vec2 low_;
+  double tolerance_;
+  std::unordered_map<GridCell, std::pair<std::size_t, Vec2>, CellHash> cells_;
+  std::size_t count_ = 0;
+};
+
+/// A point that is the same from both directions.
+Vec2 place_half_way(const std::vector<Piece>& pieces) {
+  const std::size_t half = pieces.size() / 2;
+  return pieces.size() % 2 == 0 ? start_point(pieces[half]) : evaluate(pieces[half], 0.5).point;
+}
+
+class Joiner {
+ public:
+  explicit Joiner(const std::vector<Link>& links) : links_(links) {}
+
+  Chains run() {
+    measure();
+    find_places();
+    drop_duplicates();
+    pair_ends();
+    for (std::size_t i = 0; i < links_.size(); ++i) {
+      if (!used_[i]) out_.chains.push_back(chain_from(i));
+    }
+    return std::move(out_);
+  }
+
+ private:
+  void measure() {
+    constexpr double kFar = std::numeric_limits<double>::max();
+    Vec2 low{kFar, kFar}, high{-kFar, -kFar};
+    for (const Link& link : links_) {
+      for (const Piece& piece : link.pieces) {
+        for (const double t : {0.0, 0.5, 1.0}) {
+          const Vec2 p = evaluate(piece, t).point;
+          low = {std::min(low.x, p.x), std::min(low.y, p.y)};
+          high = {std::max(high.x, p.x), std::max(high.y, p.y)};
+        }
+      }
+    }
+    if (!links_.empty()) out_.tolerance = kMeet * norm(high - low);
+    low_ = low;
+  }
+
+  void find_places() {
+    Places places(low_, out_.tolerance);
+    place_.assign(2 * links_.size(), kNoPlace);
+    for (std::size_t i = 0; i < links_.size(); ++i) {
+      if (links_[i].closed) continue;
+      const std::size_t a = places.of(start_point(links_[i].pieces.front()), links_[i].layer);
+      const std::size_t b = places.of(end_point(links_[i].pieces.back()), links_[i].layer);
+      if (a == b) continue;  // closed within the tolerance, or as small as it
+      place_[2 * i] = a;
+      place_[2 * i + 1] = b;
+    }
+    place_count_ = places.count();
+  }
+
+  void drop_duplicates() {
+    used_.assign(links_.size(), false);
+    using Row = std::tuple<std::size_t, std::size_t, double, double, std::size_t>;
+    std::vector<Row> rows;
+    for (std::size_t i = 0; i < links_.size(); ++i) {
+      const std::size_t a = place_[2 * i], b = place_[2 * i + 1];
+      if (a == kNoPlace) continue;
+      const Vec2 middle = place_half_way(links_[i].pieces);
+      rows.emplace_back(std::min(a, b), std::max(a, b), middle.x, middle.y, i);
+    }
+    std::sort(rows.begin(), rows.end());
+    for (std::size_t k = 1; k < rows.size(); ++k) {
+      const auto& [a, b, x, y, i] = rows[k];
+      const auto& [a0, b0, x0, y0, i0] = rows[k - 1];
+      if (a != a0 || b != b0 || norm(Vec2{x - x0, y - y0}) > out_.tolerance) continue;
+      used_[i] = true;
+      place_[2 * i] = place_[2 * i + 1] = kNoPlace;
+      ++out_.duplicates;
+    }
+  }
+
+  /// The only other end at the place of each end.
+  void pair_ends() {
+    std::vector<std::array<std::size_t, 2>> ends(place_count_, {kNoPlace, kNoPlace});
+    std::vector<std::size_t> count(place_count_, 0);
+    for (std::size_t e = 0; e < place_.size(); ++e) {
+      if (place_[e] == kNoPlace) continue;
+      const std::size_t k = count[place_[e]]++;
+      if (k < 2) ends[place_[e]][k] = e;
+    }
+    other_.assign(place_.size(), kNoPlace);
+    for (std::size_t p = 0; p < place_count_; ++p) {
+      if (count[p] != 2) continue;
+      other_[ends[p][0]] = ends[p][1];
+      other_[ends[p][1]] = ends[p][0];
+    }
+  }
+
+  /// From the start of this link back as far as it goes, then forward. The link is the first one of
+  /// the file, so it gives the direction.
+  Chain chain_from(std::size_t link) {
+    Chain chain;
+    if (place_[2 * link] == kNoPlace) {  // stands for itself
+      const Vec2 gap =
+          end_point(links_[link].pieces.back()) - start_point(links_[link].pieces.front());
+      chain.closed = links_[link].closed || meets(link, gap);
+      used_[link] = true;
+      chain.members.push_back({link, false});
+      return chain;
+    }
+    std::size_t first = 2 * link;  // the end that is entered
+    while (other_[first] != kNoPlace) {
+      first = other_[first] ^ 1U;
+      chain.closed = first == 2 * link;
+      if (chain.closed) break;
+    }
+    for (std::size_t e = first; e != kNoPlace;) {
+      used_[e / 2] = true;
+      chain.members.push_back({e / 2, e % 2 == 1});
+      e = other_[e ^ 1U];
+      if (e == first) break;
+    }
+    return chain;
+  }
+
+  /// Whether a link that begins and ends at one place is closed: against its own size, too.
+  [[nodiscard]] bool meets(std::size_t link, Vec2 gap) const {
+    Vec2 start = start_point(links_[link].pieces.front());
+    double size = 0.0;
+    for (const Piece& piece : links_[link].pieces) {
+      size = std::max(
+          {size, norm(evaluate(piece, 0.5).point - start), norm(end_point(piece) - start)});
+    }
+    return norm(gap) <= kMeet * size;
+  }
+
+  const std::vector<Link>& links_;
+  Chains out_;
+  Vec2 low_;
+  std::vector<std::size_t> place_;  ///< of the two ends of each link; kNoPlace: joined to nothing
+  std::size_t place_count_ = 0;
+  std::vector<std::size_t> other_;
+  std::vector<bool> used_;
+};
+
+}  // namespace
+
+Chains join(const std::vector<Link>& links) { return Joiner(links).run(); }
+
+Piece reversed(const Piece& piece) {
+  if (const auto* line = std::get_if<LinePiece>(&piece)) return LinePiece{line->end, line->start};
+  if (const auto* arc = std::get_if<ArcPiece>(&piece)) {
+    const double theta = arc->theta0 + arc->kappa * arc->length + std::numbers::pi;
+    return ArcPiece{arc->end, arc->start, theta, -arc->kappa, arc->length};
+  }
+  if (const auto* bezier = std::get_if<RationalBezier>(&piece)) {
+    RationalBezier out = *bezier;
+    std::reverse(out.offset.begin(), out.offset.begin() + out.degree + 1);
+    std::reverse(out.weight.begin(), out.weight.begin() + out.degree + 1);
+    return out;
+  }
+  const auto& c = std::get<ClothoidPiece>(piece);
+  const double theta = c.theta0 + 0.5 * (c.kappa0 + c.kappa1) * c.length + std::numbers::pi;
+  return ClothoidPiece{c.end, c.start, theta, -c.kappa1, -c.kappa0, c.length};
+}
+
+}  // namespace obvid::dxf

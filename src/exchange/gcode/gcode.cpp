@@ -1,0 +1,249 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "obvid/exchange/internal/gcode/gcode.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <utility>
+#include <vector>
+
+#include "gcode/path.h"
+#include "obvid/contour/arcs/arcs_along.h"
+#include "obvid/contour/arcs/polyline_along.h"
+#include "obvid/contour/bsplines/cubic_along.h"
+#include "obvid/core/version.h"
+#include "obvid/curve/internal/path_distance.h"
+
+namespace obvid {
+namespace {
+
+using exchange::fixed;
+using exchange::GcodePath;
+
+constexpr int kLeastDecimals = 3, kMostDecimals = 6;
+constexpr double kDigitsOfTolerance = 0.1;   // of the tolerance, what the last digit may be worth
+constexpr double kOfBlockTolerance = 0.995;  // aimed at, so that what is measured stays below
+constexpr int kToleranceTrials = 5;
+
+/// Comments end at ")": nothing of the kind in a name, and nothing but ASCII.
+std::string comment_of(const std::string& name) {
+  constexpr std::size_t kLongestComment = 40;  // a line has to fit into the buffers of controllers
+  std::string out;
+  for (const char c : name.substr(0, kLongestComment)) {
+    const auto code = static_cast<unsigned char>(c);
+    if (code >= 0x20 && code < 0x7F && c != '(' && c != ')' && c != '%' && c != ';') out += c;
+  }
+  return out;
+}
+
+/// Parts of a contour between its corners, each as an open contour.
+std::vector<Contour> smooth_parts(const Contour& contour) {
+  std::vector<Contour> parts;
+  for (std::size_t i = 0; i < contour.pieces.size(); ++i) {
+    Joint joint = contour.joints[i];
+    const bool corner = joint.leaving.has_value();
+    if (i > 0) parts.back().joints.push_back({joint.element, joint.source});
+    if (i == 0 || corner) {
+      parts.emplace_back();
+      parts.back().joints.push_back({joint.leaving.value_or(joint.element), joint.source});
+    }
+    parts.back().pieces.push_back(contour.pieces[i]);
+  }
+  parts.back().joints.push_back(
+      {contour.joints[contour.closed ? 0 : contour.pieces.size()].element, std::nullopt});
+  return parts;
+}
+
+class Program {
+ public:
+  Program(const Contour& contour, const GcodeOptions& options)
+      : contour_(contour), options_(options), inches_(contour.units.name == "in") {
+    scale_ = *unit_ratio(contour.units.name, inches_ ? "in" : "mm");
+    decimals_ = options.decimals ? *options.decimals : fewest_decimals();
+    unit_ = std::pow(10.0, -decimals_) / scale_;
+  }
+
+  Result<GcodeText> run() const {
+    double within = options_.tolerance - unit_;  // ends move by 0.71 of the last digit at most
+    double deviation = unit_;
+    for (int trial = 0; trial < kToleranceTrials && within > 0.0; ++trial) {
+      GcodePath path(scale_, decimals_);
+      if (!path.holds(largest_coordinate())) return fail(too_large());
+      path.start_at(start_point(contour_.pieces.front()));
+      if (const auto done = follow(path, within); !done) return fail(done.error());
+      deviation = path_distance(contour_.pieces, path.pieces()) + path.radius_mismatch();
+      if (path.pieces().empty()) return fail(nothing_left());
+      if (deviation <= options_.tolerance) return finished(path, deviation);
+      if (path.lost_arcs()) return fail(too_large());
+      within -= deviation - kOfBlockTolerance * options_.tolerance;
+    }
+    return fail({ErrorCode::kToleranceNotReached,
+                 fmt::format("{} decimals do not keep a tolerance of {:g} {}", decimals_,
+                             options_.tolerance, contour_.units.text()),
+                 "", "print more decimals, or allow a larger tolerance", -1, deviation});
+  }
+
+ private:
+  /// Of the ends of the pieces: twice as much is room enough for what lies between.
+  [[nodiscard]] double largest_coordinate() const {
+    double most = 0.0;
+    for (const Piece& piece : contour_.pieces) {
+      for (const Vec2 p : {start_point(piece), end_point(piece)}) {
+        most = std::max({most, std::abs(p.x), std::abs(p.y)});
+      }
+    }
+    return most;
+  }
+  [[nodiscard]] Error too_large() const {
+    return {ErrorCode::kToleranceNotReached,
+            fmt::format("the coordinates are too large for {} decimals", decimals_),
+            "",
+            "move the contour near the origin; --units says what a unit is",
+            -1,
+            largest_coordinate()};
+  }
+  /// All ends are printed as one place.
+  [[nodiscard]] Error nothing_left() const {
+    return {ErrorCode::kToleranceNotReached,
+            fmt::format("the contour is smaller than {} decimals can print", decimals_),
+            "",
+            "--units says what a unit is",
+            -1,
+            unit_};
+  }
+  [[nodiscard]] int fewest_decimals() const {
+    const int least = kLeastDecimals + (inches_ ? 1 : 0);
+    const double digits = -std::log10(kDigitsOfTolerance * options_.tolerance * scale_);
+    constexpr double kDigitRounding =
+        1e-9;  // a tolerance of 0.001 asks for 4, not for 4.0000000001
+    return static_cast<int>(
+        std::clamp<double>(std::ceil(digits - kDigitRounding), least, kMostDecimals));
+  }
+
+  Result<void> follow(GcodePath& path, double within) const {
+    switch (options_.motion) {
+      case GcodeMotion::kArcs:
+        return arcs(path, within);
+      case GcodeMotion::kLines:
+        return lines(path, within);
+      case GcodeMotion::kSplines:
+        break;
+    }
+    return splines(path, within);
+  }
+
+  Result<void> arcs(GcodePath& path, double within) const {
+    const auto along = arcs_along(contour_, within);
+    if (!along) return fail(along.error());
+    for (const Piece& piece : along->pieces) {
+      if (const auto* arc = std::get_if<ArcPiece>(&piece)) {
+        path.follow_arc(*arc);
+      } else {
+        path.line_to(end_point(piece));
+      }
+    }
+    return {};
+  }
+
+  Result<void> lines(GcodePath& path, double within) const {
+    const auto along = polyline_along(contour_, within);
+    if (!along) return fail(along.error());
+    for (const Vec2 p : along->points) path.line_to(p);
+    return {};
+  }
+
+  Result<void> splines(GcodePath& path, double within) const {
+    for (const Contour& part : smooth_parts(contour_)) {
+      const auto along = cubic_along(part, within);
+      if (!along) return fail(along.error());
+      for (const RationalBezier& span : bezier_pieces(along->spline)) path.follow_cubic(span);
+    }
+    return {};
+  }
+
+  [[nodiscard]] GcodeText finished(const GcodePath& path, double deviation) const {
+    GcodeText out;
+    out.blocks = path.pieces().size();
+    out.arc_blocks = path.arcs();
+    out.deviation = deviation;
+    out.text = head(out.blocks, deviation) + approach(path) + path.text() + end();
+    return out;
+  }
+
+  [[nodiscard]] std::string head(std::size_t blocks, double deviation) const {
+    const bool fanuc = options_.controller == GcodeController::kFanuc;
+    const char* units = inches_ ? "in" : "mm";
+    std::string out = fanuc ? "%\nO0001\n" : "";
+    out += fmt::format("(Obvid {}: {})\n", kVersion, comment_of(options_.name));
+    out += fmt::format("({} blocks within {:.3g} {} of the contour)\n", blocks, deviation * scale_,
+                       units);
+    if (!contour_.units.known()) out += "(the unit is assumed)\n";
+    if (!inches_ && scale_ != 1.0) out += fmt::format("(converted from {})\n", contour_.units.name);
+    out += inches_ ? "G20 " : "G21 ";
+    out += fanuc ? "G90 G17 G94\n" : "G90 G91.1 G17 G94\n";
+    return out;
+  }
+
+  [[nodiscard]] std::string approach(const GcodePath& path) const {
+    std::string out;
+    if (options_.safe_z) out += "G0 Z" + fixed(*options_.safe_z, kLeastDecimals) + "\n";
+    out += "G0 " + path.start() + "\nF" +
+           fixed(options_.feed.value_or(default_feed(contour_.units.name)), kLeastDecimals) + "\n";
+    if (options_.safe_z) out += "G1 Z0.000\n";
+    return out;
+  }
+
+  [[nodiscard]] std::string end() const {
+    const std::string up =
+        options_.safe_z ? "G0 Z" + fixed(*options_.safe_z, kLeastDecimals) + "\n" : "";
+    return up + (options_.controller == GcodeController::kFanuc ? "M30\n%\n" : "M2\n");
+  }
+
+  const Contour& contour_;
+  const GcodeOptions& options_;
+  bool inches_;
+  double scale_ = 1.0;  ///< machine units in a unit of the contour
+  double unit_ = 0.0;   ///< the last printed digit, units of the contour
+  int decimals_ = kLeastDecimals;
+};
+
+Result<void> check(const Contour& contour, const GcodeOptions& options) {
+  const auto bad = [](std::string what, std::string hint, double value) {
+    return fail({ErrorCode::kBadOption, std::move(what), "", std::move(hint), -1, value});
+  };
+  const double feed = options.feed.value_or(default_feed(contour.units.name));
+  if (!(options.tolerance > 0.0) || !std::isfinite(options.tolerance) || !(feed > 0.0) ||
+      !std::isfinite(feed)) {
+    return bad("tolerance and feed must be greater than 0", "", options.tolerance);
+  }
+  if (options.decimals && (*options.decimals < 1 || *options.decimals > kMostDecimals)) {
+    return bad(fmt::format("decimals must be 1 to {}", kMostDecimals), "", *options.decimals);
+  }
+  if (options.safe_z && !std::isfinite(*options.safe_z)) {
+    return bad("the height is no number", "", *options.safe_z);
+  }
+  if (options.motion == GcodeMotion::kSplines && options.controller != GcodeController::kLinuxCnc) {
+    return bad("only LinuxCNC knows G5", "choose arcs, or the controller linuxcnc", 0.0);
+  }
+  if (contour.pieces.empty()) {
+    return fail({ErrorCode::kTooFewPoints, "the contour has no pieces", "", "", -1, 0.0});
+  }
+  if (auto known = unit_ratio(contour.units, "mm", "machines"); !known) return fail(known.error());
+  return {};
+}
+
+}  // namespace
+
+double default_feed(std::string_view units) {
+  constexpr double kMillimetres = 1000.0, kInches = 40.0;  // a minute
+  return units == "in" ? kInches : kMillimetres;
+}
+
+Result<GcodeText> gcode_text(const Contour& contour, const GcodeOptions& options) {
+  if (const auto good = check(contour, options); !good) return fail(good.error());
+  return Program(contour, options).run();
+}
+
+}  // namespace obvid

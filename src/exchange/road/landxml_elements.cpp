@@ -1,0 +1,121 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "road/landxml_elements.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "obvid/curve/internal/clothoid.h"
+#include "obvid/geom/internal/angle.h"
+
+namespace obvid::exchange {
+namespace {
+
+// Radius and centre that differ by more, as part of the radius, are contradictory, not rounded.
+constexpr double kSameRadius = 1e-3;
+
+// Arcs that turn by less (rad) are placed by their ends, which say where the neighbours are; from
+// here on the arc sine loses digits, and the centre decides.
+constexpr double kPlacedByEnds = 1.0;
+
+// A chord shorter than this part of the length says nothing about the heading.
+constexpr double kShortChord = 1e-3;
+
+// Lines of this heading against the PI (rad) are doubtful: five minutes of arc.
+constexpr double kAlongTangent = 1.5e-3;
+
+/// Turning of an arc in its sense of rotation, (0, 2 pi].
+double turn_of(const StatedCurve& curve, double radius) {
+  const double chord = norm(curve.end - curve.start);
+  const double reach = std::min(1.0, 0.5 * chord / radius);
+  const double small = 2.0 * std::asin(reach);
+  if (!curve.centre) return small;
+  const Vec2 from = curve.start - *curve.centre, to = curve.end - *curve.centre;
+  double turn = turning(from, to) * (curve.left ? 1.0 : -1.0);
+  if (turn <= 0.0) turn += kFullTurn;
+  return turn < kPlacedByEnds ? small : turn;
+}
+
+}  // namespace
+
+std::optional<PlacedPiece> placed(const StatedCurve& curve, std::string& why) {
+  const double measured =
+      curve.centre ? 0.5 * (norm(curve.start - *curve.centre) + norm(curve.end - *curve.centre))
+                   : 0.0;
+  if (curve.radius && !(*curve.radius > 0.0)) {
+    why = "a Curve whose radius is not greater than 0";
+    return std::nullopt;
+  }
+  if (!curve.radius && !(measured > 0.0)) {
+    why = "a Curve without radius and centre";
+    return std::nullopt;
+  }
+  if (!curve.centre && 0.5 * norm(curve.end - curve.start) > *curve.radius) {
+    why = "a Curve whose radius does not reach from start to end";
+    return std::nullopt;
+  }
+  PlacedPiece out;
+  double radius = curve.radius.value_or(measured);
+  if (curve.centre && std::abs(radius - measured) > kSameRadius * radius) {
+    out.doubt = "the radius of a Curve contradicts its centre, which is used";
+    radius = measured;
+  }
+  const double side = curve.left ? 1.0 : -1.0, turn = turn_of(curve, radius);
+  ArcPiece arc;
+  arc.start = curve.start;
+  arc.end = curve.end;
+  arc.kappa = side / radius;
+  arc.length = radius * turn;
+  arc.theta0 = turn < kPlacedByEnds || !curve.centre
+                   ? heading(curve.end - curve.start) - 0.5 * side * turn
+                   : heading(side * left_normal(curve.start - *curve.centre));
+  const Vec2 end = arc.start + clothoid_step(arc.theta0, arc.kappa, arc.kappa, arc.length);
+  if (!(arc.length > 0.0) || !is_finite(end)) {
+    why = "a Curve that comes to no point";
+    return std::nullopt;
+  }
+  out.off_end = norm(end - arc.end);
+  out.piece = arc;
+  return out;
+}
+
+std::optional<PlacedPiece> placed(const StatedSpiral& spiral, std::string& why) {
+  const double side = spiral.left ? 1.0 : -1.0;
+  ClothoidPiece c;
+  c.start = spiral.start;
+  c.end = spiral.end;
+  c.kappa0 = side * spiral.kappa0;
+  c.kappa1 = side * spiral.kappa1;
+  c.length = spiral.length;
+  if (!(c.length > 0.0)) {
+    why = "a Spiral whose length is not greater than 0";
+    return std::nullopt;
+  }
+  const Vec2 chord = c.end - c.start, own = clothoid_step(0.0, c.kappa0, c.kappa1, c.length);
+  const bool by_chord = std::min(norm(chord), norm(own)) > kShortChord * c.length;
+  if (!by_chord && !spiral.meeting) {
+    why = "a Spiral whose start and end do not say its heading";
+    return std::nullopt;
+  }
+  PlacedPiece out;
+  const double along = by_chord ? heading(complex_product(chord, {own.x, -own.y})) : 0.0;
+  const double to_meeting = spiral.meeting ? heading(*spiral.meeting - c.start) : along;
+  c.theta0 = by_chord ? along : to_meeting;
+  if (std::abs(std::remainder(c.theta0 - to_meeting, kFullTurn)) > kAlongTangent) {
+    out.doubt = "the PI of a Spiral contradicts its start, end, length and radii; it is not used";
+  }
+  const Vec2 end = c.start + clothoid_step(c.theta0, c.kappa0, c.kappa1, c.length);
+  if (!is_finite(end)) {
+    why = "a Spiral that comes to no point";
+    return std::nullopt;
+  }
+  out.off_end = norm(end - c.end);
+  out.piece = c;
+  if (c.kappa0 == c.kappa1) {
+    out.piece = c.kappa0 == 0.0 ? Piece(LinePiece{c.start, c.end})
+                                : Piece(ArcPiece{c.start, c.end, c.theta0, c.kappa0, c.length});
+  }
+  return out;
+}
+
+}  // namespace obvid::exchange

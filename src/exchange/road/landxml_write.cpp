@@ -1,0 +1,180 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <iterator>
+#include <numbers>
+
+#include "obvid/core/internal/format_into.h"
+#include "obvid/curve/internal/clothoid.h"
+#include "obvid/exchange/internal/road/landxml.h"
+#include "obvid/exchange/internal/road/road_elements.h"
+#include "road/landxml_units.h"
+#include "xml_text.h"
+
+namespace obvid {
+namespace {
+
+// What turns by more than this is cut: tangents of a part then meet at a good angle.
+constexpr double kMostTangentTurn = 0.5 * std::numbers::pi;
+constexpr double kMostElementParts = 10000.0;  // of one element: what turns more often is no road
+
+// Tangents that turn by less (rad) meet in the middle of the chord, to the square of this.
+constexpr double kParallel = 1e-6;
+
+/// Part [from, to] of an element, both in [0, 1].
+RoadElement part_of_element(const RoadElement& e, double from, double to) {
+  const double rate = e.kappa1 - e.kappa0;
+  RoadElement part;
+  part.s = e.s + from * e.length;
+  part.kappa0 = e.kappa0 + from * rate;
+  part.kappa1 = to == 1.0 ? e.kappa1 : e.kappa0 + to * rate;
+  part.length = (to - from) * e.length;
+  part.theta = e.theta + 0.5 * (e.kappa0 + part.kappa0) * from * e.length;
+  const auto at = [&](double t) {
+    return e.start + clothoid_step(e.theta, e.kappa0, e.kappa0 + t * rate, t * e.length);
+  };
+  part.start = from == 0.0 ? e.start : at(from);
+  part.end = to == 1.0 ? e.end : at(to);
+  return part;
+}
+
+/// Parts of equal length between two parameters that turn little enough.
+void cut_turns(const RoadElement& e, double from, double to, std::vector<RoadElement>& out) {
+  const double k0 = e.kappa0 + from * (e.kappa1 - e.kappa0);
+  const double k1 = e.kappa0 + to * (e.kappa1 - e.kappa0);
+  const double steepest = std::max(std::abs(k0), std::abs(k1)) * (to - from) * e.length;
+  const int count =
+      static_cast<int>(std::clamp(std::ceil(steepest / kMostTangentTurn), 1.0, kMostElementParts));
+  for (int k = 0; k < count; ++k) {
+    const double a = from + (to - from) * k / count;
+    const double b = k + 1 == count ? to : from + (to - from) * (k + 1) / count;
+    out.push_back(part_of_element(e, a, b));
+  }
+}
+
+std::vector<RoadElement> parts_of(const RoadElement& e) {
+  std::vector<RoadElement> out;
+  if (e.kappa0 * e.kappa1 < 0.0) {
+    const double inflection = e.kappa0 / (e.kappa0 - e.kappa1);
+    cut_turns(e, 0.0, inflection, out);
+    out.back().kappa1 = 0.0;
+    const std::size_t second = out.size();
+    cut_turns(e, inflection, 1.0, out);
+    out[second].kappa0 = 0.0;
+  } else {
+    cut_turns(e, 0.0, 1.0, out);
+  }
+  return out;
+}
+
+/// Where the tangents at both ends meet.
+Vec2 tangents_meet(const RoadElement& e) {
+  const Vec2 a = unit_at(e.theta), b = unit_at(e.theta + 0.5 * (e.kappa0 + e.kappa1) * e.length);
+  if (std::abs(cross(a, b)) < kParallel) return 0.5 * (e.start + e.end);
+  return e.start + cross(e.end - e.start, b) / cross(a, b) * a;
+}
+
+class LandXmlWriter {
+ public:
+  LandXmlWriter(const std::vector<RoadLine>& lines, std::string_view unit,
+                const LandXmlOptions& options)
+      : lines_(lines), unit_(unit), options_(options) {}
+
+  std::string run() {
+    double length = 0.0;
+    for (const RoadLine& line : lines_) length += line.length;
+    const std::string name = escaped_xml(options_.name);
+    put("<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n"
+        "<LandXML xmlns=\"http://www.landxml.org/schema/LandXML-1.2\" version=\"1.2\" date=\"{}\" "
+        "time=\"{}\">\n"
+        "  <Units>\n    {}/>\n  </Units>\n",
+        escaped_xml(options_.date), escaped_xml(options_.time), units());
+    put("  <Alignments name=\"{}\">\n    <Alignment name=\"{}\" length=\"{}\" staStart=\"0\">\n"
+        "      <CoordGeom>\n",
+        name, name, length);
+    for (const RoadLine& line : lines_) {
+      for (const RoadElement& element : line.elements) {
+        for (const RoadElement& part : parts_of(element)) write(part);
+      }
+    }
+    put("      </CoordGeom>\n    </Alignment>\n  </Alignments>\n</LandXML>\n");
+    return std::move(out_);
+  }
+
+ private:
+  template <class... Args>
+  void put(fmt::format_string<Args...> text, Args&&... args) {
+    format_into(out_, text, std::forward<Args>(args)...);
+  }
+
+  /// Northing first.
+  void point(const char* kind, Vec2 p) { put("          <{0}>{1} {2}</{0}>\n", kind, p.y, p.x); }
+
+  static std::string radius(double kappa) {
+    return kappa == 0.0 ? "INF" : fmt::format("{}", 1.0 / std::abs(kappa));
+  }
+
+  void write(const RoadElement& e) {
+    if (e.is_line()) {
+      put("        <Line length=\"{}\">\n", e.length);
+      point("Start", e.start);
+      point("End", e.end);
+      put("        </Line>\n");
+    } else if (e.is_arc()) {
+      put("        <Curve rot=\"{}\" crvType=\"arc\" radius=\"{}\" length=\"{}\">\n",
+          e.kappa0 > 0.0 ? "ccw" : "cw", radius(e.kappa0), e.length);
+      point("Start", e.start);
+      point("Center", e.start + left_normal(unit_at(e.theta)) / e.kappa0);
+      point("End", e.end);
+      put("        </Curve>\n");
+    } else {
+      put("        <Spiral length=\"{}\" radiusStart=\"{}\" radiusEnd=\"{}\" rot=\"{}\" "
+          "spiType=\"clothoid\">\n",
+          e.length, radius(e.kappa0), radius(e.kappa1), e.kappa0 + e.kappa1 > 0.0 ? "ccw" : "cw");
+      point("Start", e.start);
+      point("PI", tangents_meet(e));
+      point("End", e.end);
+      put("        </Spiral>\n");
+    }
+  }
+
+  [[nodiscard]] std::string units() const {
+    const auto* one = std::find_if(exchange::kLandXmlUnits.begin(), exchange::kLandXmlUnits.end(),
+                                   [&](const auto& unit) { return unit.name == unit_; });
+    return fmt::format(
+        fmt::runtime(one->metric ? "<Metric areaUnit=\"squareMeter\" linearUnit=\"{}\" "
+                                   "volumeUnit=\"cubicMeter\" temperatureUnit=\"celsius\" "
+                                   "pressureUnit=\"HPA\""
+                                 : "<Imperial areaUnit=\"squareFoot\" linearUnit=\"{}\" "
+                                   "volumeUnit=\"cubicFeet\" temperatureUnit=\"fahrenheit\" "
+                                   "pressureUnit=\"inHG\""),
+        one->theirs);
+  }
+
+  const std::vector<RoadLine>& lines_;
+  std::string_view unit_;  ///< one of the format's
+  const LandXmlOptions& options_;
+  std::string out_;
+};
+
+}  // namespace
+
+std::string_view landxml_unit(std::string_view unit) {
+  std::array<std::string_view, exchange::kLandXmlUnits.size()> names;
+  std::transform(exchange::kLandXmlUnits.begin(), exchange::kLandXmlUnits.end(), names.begin(),
+                 [](const auto& one) { return one.name; });
+  return unit_for_file(unit, names);
+}
+
+Result<std::string> landxml_text(const Contour& contour, const LandXmlOptions& options) {
+  // a unit that is not known gets its error from `road_lines`
+  const std::string_view unit = landxml_unit(contour.units.name);
+  const auto lines = road_lines(contour, unit.empty() ? "m" : unit);
+  if (!lines) return fail(lines.error());
+  return LandXmlWriter(*lines, unit, options).run();
+}
+
+}  // namespace obvid

@@ -1,0 +1,238 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "obvid/exchange/internal/svg/drawing.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <iterator>
+#include <numbers>
+#include <optional>
+#include <utility>
+#include <vector>
+
+#include "obvid/core/internal/format_into.h"
+#include "obvid/curve/internal/path_distance.h"
+#include "obvid/geom/internal/box.h"
+
+namespace obvid {
+namespace {
+
+constexpr int kMostHalvings = 24;  // of one piece
+constexpr int kCubicSamples = 16;  // of a cubic
+constexpr double kOfCubicTolerance = 0.95;
+/// A flag of SVG's arcs cannot tell half a turn from its complement: arcs are cut below it.
+constexpr double kMostArcTurn = 3.0;
+
+bool is_polynomial(const RationalBezier& b) {
+  for (int j = 1; j <= b.degree; ++j) {
+    if (b.weight[static_cast<std::size_t>(j)] != b.weight[0]) return false;
+  }
+  return true;
+}
+
+class SvgDrawer {
+ public:
+  SvgDrawer(const Contour& contour, const SvgDrawingOptions& options, double millimetres,
+            double within)
+      : contour_(contour), options_(options), within_(within), mm_(millimetres) {}
+
+  Result<SvgDrawing> run() {
+    move(start_point(contour_.pieces.front()));
+    for (std::size_t i = 0; i < contour_.pieces.size(); ++i) {
+      if (!add(contour_.pieces[i])) {
+        return fail({ErrorCode::kToleranceNotReached, "no cubic is near enough to a piece",
+                     "piece " + std::to_string(i + 1), "allow a larger tolerance",
+                     static_cast<std::ptrdiff_t>(i), options_.tolerance});
+      }
+    }
+    if (contour_.closed) path_ += "Z";
+    if (inexact_) result_.deviation = path_distance(contour_.pieces, drawn_);
+    result_.text = sheet();
+    return std::move(result_);
+  }
+
+ private:
+  template <class... Args>
+  void put(fmt::format_string<Args...> format, Args&&... args) {
+    format_into(path_, format, std::forward<Args>(args)...);
+  }
+  void see(Vec2 p) { box_.add(p); }
+  void move(Vec2 p) {
+    put("M{} {}", p.x, p.y);
+    see(p);
+  }
+
+  bool add(const Piece& piece) {
+    if (const auto* line = std::get_if<LinePiece>(&piece)) {
+      put("L{} {}", line->end.x, line->end.y);
+      drawn_.push_back(piece);
+      see(line->end);
+      ++result_.curves;
+      return true;
+    }
+    if (const auto* arc = std::get_if<ArcPiece>(&piece)) {
+      add_arc(piece, *arc);
+      drawn_.push_back(piece);
+      return true;
+    }
+    const auto* bezier = std::get_if<RationalBezier>(&piece);
+    if (bezier != nullptr && is_polynomial(*bezier) && bezier->degree <= 3) {
+      exact(*bezier);
+      drawn_.push_back(piece);
+      return true;
+    }
+    return cubics(piece, 0.0, 1.0, kMostHalvings);
+  }
+
+  void add_arc(const Piece& piece, const ArcPiece& arc) {
+    const double turn = std::abs(arc.kappa * arc.length);
+    const int parts = std::max(1, static_cast<int>(std::ceil(turn / kMostArcTurn)));
+    const double radius = 1.0 / std::abs(arc.kappa);
+    for (int k = 1; k <= parts; ++k) {
+      const Vec2 end = k == parts ? arc.end : evaluate(piece, static_cast<double>(k) / parts).point;
+      put("A{0} {0} 0 0 {1} {2} {3}", radius, arc.kappa > 0.0 ? 1 : 0, end.x, end.y);
+      ++result_.curves;
+    }
+    for (int k = 0; k <= kCubicSamples; ++k)
+      see(evaluate(piece, static_cast<double>(k) / kCubicSamples).point);
+  }
+
+  void exact(const RationalBezier& b) {
+    static constexpr std::array kCommands = {'M', 'L', 'Q', 'C'};
+    path_ += kCommands[static_cast<std::size_t>(b.degree)];
+    for (int j = 1; j <= b.degree; ++j) {
+      const Vec2 p = b.origin + b.offset[static_cast<std::size_t>(j)];
+      put("{}{} {}", j > 1 ? " " : "", p.x, p.y);
+      see(p);
+    }
+    ++result_.curves;
+  }
+
+  /// Cubics with the tangents of the part and legs that fit its middle.
+  bool cubics(const Piece& piece, double from, double to, int halvings) {
+    const Jet a = evaluate(piece, from), b = evaluate(piece, to);
+    const auto legs = best_legs(piece, from, to, a, b);
+    const double deviation = legs ? distance(piece, from, to, *legs) : HUGE_VAL;
+    if (deviation <= within_) {
+      const auto& c = *legs;
+      put("C{} {} {} {} {} {}", c[1].x, c[1].y, c[2].x, c[2].y, c[3].x, c[3].y);
+      for (int k = 1; k <= kCubicSamples; ++k) {
+        see(evaluate(piece, from + (to - from) * k / kCubicSamples).point);
+      }
+      drawn_.emplace_back(RationalBezier{{}, 3, {c[0], c[1], c[2], c[3]}, {1.0, 1.0, 1.0, 1.0}});
+      inexact_ = true;
+      ++result_.curves;
+      return true;
+    }
+    if (halvings == 0) return false;
+    const double middle = 0.5 * (from + to);
+    return cubics(piece, from, middle, halvings - 1) && cubics(piece, middle, to, halvings - 1);
+  }
+
+  using Cubic = std::array<Vec2, 4>;
+
+  /// Legs such that the cubic's middle is that of the curve along both tangents; where the tangents
+  /// are nearly parallel, a third of the chord.
+  static std::optional<Cubic> best_legs(const Piece& piece, double from, double to, const Jet& a,
+                                        const Jet& b) {
+    const double la = norm(a.d1), lb = norm(b.d1);
+    if (!(la > 0.0 && lb > 0.0)) return std::nullopt;
+    const Vec2 ta = a.d1 / la, tb = b.d1 / lb, chord = b.point - a.point;
+    const Vec2 middle = evaluate(piece, 0.5 * (from + to)).point;
+    // 8 M = P0 + 3 P1 + 3 P2 + P3: 3 (p ta - q tb) = 8 M - 4 (P0 + P3)
+    const Vec2 rest = (8.0 / 3.0) * (middle - 0.5 * (a.point + b.point));
+    const double det = -cross(ta, tb);
+    double p = norm(chord) / 3.0, q = p;
+    constexpr double kParallelTangents = 1e-3;
+    if (std::abs(det) > kParallelTangents) {
+      const double p0 = -cross(rest, tb) / det, q0 = cross(ta, rest) / det * -1.0;
+      if (p0 > 0.0 && q0 > 0.0) {
+        p = p0;
+        q = q0;
+      }
+    }
+    return Cubic{a.point, a.point + p * ta, b.point - q * tb, b.point};
+  }
+
+  static Vec2 at(const Cubic& c, double t) {
+    const double s = 1.0 - t;
+    return (s * s * s) * c[0] + (3.0 * s * s * t) * c[1] + (3.0 * s * t * t) * c[2] +
+           (t * t * t) * c[3];
+  }
+  static Vec2 slope(const Cubic& c, double t) {
+    const double s = 1.0 - t;
+    return (3.0 * s * s) * (c[1] - c[0]) + (6.0 * s * t) * (c[2] - c[1]) +
+           (3.0 * t * t) * (c[3] - c[2]);
+  }
+
+  /// Largest distance of places of the part from the cubic.
+  static double distance(const Piece& piece, double from, double to, const Cubic& cubic) {
+    double most = 0.0;
+    for (int k = 1; k < kCubicSamples; ++k) {
+      const double part = static_cast<double>(k) / kCubicSamples;
+      const Vec2 p = evaluate(piece, from + part * (to - from)).point;
+      double t = part;
+      constexpr int kSteps = 6;
+      constexpr double kNoSpeed = 1e-300;  // units^2: the curve stands still there
+      for (int step = 0; step < kSteps; ++step) {
+        const Vec2 d = slope(cubic, t);
+        t = std::clamp(t + dot(p - at(cubic, t), d) / std::max(dot(d, d), kNoSpeed), 0.0, 1.0);
+      }
+      most = std::max(most, norm(at(cubic, t) - p));
+    }
+    return most;
+  }
+
+  [[nodiscard]] std::string sheet() const {
+    const double margin = options_.margin / mm_;
+    const Vec2 low = box_.low - Vec2{margin, margin}, size = box_.high + Vec2{margin, margin} - low;
+    // y is turned around the box: the path keeps the contour's own coordinates
+    return fmt::format(
+        "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n"
+        "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{}mm\" height=\"{}mm\" "
+        "viewBox=\"{} {} {} {}\">\n"
+        "<g transform=\"matrix(1 0 0 -1 0 {})\" fill=\"none\" stroke=\"#000\" stroke-width=\"{}\" "
+        "stroke-linejoin=\"round\">\n<path d=\"{}\"/>\n</g>\n</svg>\n",
+        size.x * mm_, size.y * mm_, low.x, low.y, size.x, size.y, low.y + low.y + size.y,
+        options_.stroke_width / mm_, path_);
+  }
+
+  const Contour& contour_;
+  const SvgDrawingOptions& options_;
+  double within_;  ///< of places of a piece from their cubic
+  double mm_;
+  std::string path_;
+  std::vector<Piece> drawn_;
+  bool inexact_ = false;
+  Box2 box_;
+  SvgDrawing result_;
+};
+
+}  // namespace
+
+Result<SvgDrawing> svg_drawing(const Contour& contour, const SvgDrawingOptions& options) {
+  if (!(options.tolerance > 0.0)) {
+    return fail({ErrorCode::kBadOption, "the tolerance must be greater than 0", "", "", -1,
+                 options.tolerance});
+  }
+  if (contour.pieces.empty()) {
+    return fail({ErrorCode::kTooFewPoints, "the contour has no pieces", "", "", -1, 0.0});
+  }
+  const auto millimetres = unit_ratio(contour.units, "mm", "drawings in true scale");
+  if (!millimetres) return fail(millimetres.error());
+  constexpr int kTrials = 3;
+  double within = kOfCubicTolerance * options.tolerance;
+  for (int trial = 0;; ++trial) {
+    auto made = SvgDrawer(contour, options, *millimetres, within).run();
+    if (!made || made->deviation <= options.tolerance) return made;
+    if (trial == kTrials) {
+      return fail({ErrorCode::kToleranceNotReached, "the drawing is not near enough", "",
+                   "allow a larger tolerance", -1, made->deviation});
+    }
+    within *= kOfCubicTolerance * options.tolerance / made->deviation;
+  }
+}
+
+}  // namespace obvid

@@ -1,0 +1,324 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "obvid/exchange/internal/svg/read.h"
+#include "obvid/core/internal/picture_mark.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <map>
+#include <span>
+#include <unordered_map>
+#include <utility>
+#include <vector>
+
+#include "geo/projection_series.h"
+#include "obvid/series/internal/straight_rows.h"
+#include "svg/read_shapes.h"
+
+namespace obvid {
+namespace {
+
+using exchange::Affine;
+using exchange::attribute_of;
+using exchange::local_name;
+using exchange::SvgAxis;
+using exchange::SvgShape;
+using exchange::SvgViewport;
+using exchange::XmlFile;
+using exchange::XmlWarnings;
+using std::string_view;
+
+constexpr double kMillimetresPerPixel = 25.4 / 96.0;
+constexpr int kMaxGroupDepth = 200;  // of groups in groups; what people draw has less than 50
+
+// What may be drawn through `use`, bytes of data and so many for each element, about what it takes
+// in memory: uses of uses grow as a power of their depth. Room for honest drawings, and so many
+// times the file.
+constexpr std::size_t kUseRoom = 4U << 20U;
+constexpr std::size_t kUseGrowth = 16;
+constexpr std::size_t kElementCost = 256;
+
+/// Elements that draw nothing by themselves, by definition.
+bool is_silent(string_view name) {
+  static constexpr std::array<string_view, 16> kSilent = {
+      "defs",           "symbol",         "clipPath", "mask",  "marker", "pattern",
+      "linearGradient", "radialGradient", "filter",   "style", "script", "title",
+      "desc",           "metadata",       "view",     "cursor"};
+  return std::find(kSilent.begin(), kSilent.end(), name) != kSilent.end();
+}
+
+bool is_hidden(pugi::xml_node node) {
+  if (exchange::trimmed(node.attribute("display").value()) == "none") return true;
+  std::string style = node.attribute("style").value();
+  std::erase_if(style, [](char c) { return c == ' ' || c == '\t' || c == '\n'; });
+  const std::size_t at = style.find("display:none");
+  return at == 0 || (at != std::string::npos && style[at - 1] == ';');
+}
+
+/// Where an element is drawn.
+struct State {
+  Affine to_sheet;
+  SvgViewport viewport;
+  int depth = 0;
+};
+
+class SvgReader {
+ public:
+  SvgReader(const XmlFile& file, std::size_t bytes)
+      : file_(file), warnings_(file), budget_(kUseRoom + kUseGrowth * bytes) {
+    const string_view root = file.root().name();
+    prefix_ = root.substr(0, root.size() - local_name(root).size());
+  }
+
+  Result<Drawing> run() {
+    collect_ids();
+    children(file_.root(), sheet());
+    drawing_.name = file_.name();
+    drawing_.units = "mm";
+    if (empty_segments_ > 0) {
+      drawing_.warnings.push_back(
+          fmt::format("{} segments of no length left out", empty_segments_));
+    }
+    for (std::string& warning : warnings_.take()) drawing_.warnings.push_back(std::move(warning));
+    if (drawing_.curves.empty() && drawing_.series.empty()) {
+      const std::string why = drawing_.warnings.empty() ? "" : ": " + drawing_.warnings.front();
+      return fail(
+          {ErrorCode::kTooFewPoints, "the file draws nothing" + why, file_.name(), "", -1, 0.0});
+    }
+    return std::move(drawing_);
+  }
+
+ private:
+  void collect_ids() {
+    std::vector<pugi::xml_node> open = {file_.root()};
+    while (!open.empty()) {
+      const pugi::xml_node node = open.back();
+      open.pop_back();
+      for (const pugi::xml_node child : node.children()) open.push_back(child);
+      if (const auto id = node.attribute("id")) ids_.try_emplace(id.value(), node);
+    }
+  }
+
+  /// Pixels of the sheet to millimetres with y up.
+  State sheet() {
+    const pugi::xml_node root = file_.root();
+    const auto box = exchange::svg_view_box(root.attribute("viewBox").value());
+    if (!box && root.attribute("viewBox")) {
+      warnings_.add("the viewBox is none and not used", root);
+    }
+    const SvgViewport whole = box ? SvgViewport{box->width, box->height} : SvgViewport{};
+    const SvgViewport size = sheet_size(whole);
+    const Affine to_pixels =
+        box ? exchange::svg_fit(*box, {}, size, root.attribute("preserveAspectRatio").value())
+            : Affine{};
+    const double k = kMillimetresPerPixel;
+    const Affine up = {k, 0.0, 0.0, -k, 0.0, k * size.height};
+    return {up * to_pixels * own_transform(root), box ? whole : size, 0};
+  }
+
+  /// Pixels. What is not given follows from the view box and its shape.
+  SvgViewport sheet_size(const SvgViewport& box) {
+    const pugi::xml_node root = file_.root();
+    const auto given = [&](const char* name, SvgAxis axis) {  // 0: not given
+      return std::max(0.0,
+                      exchange::svg_length(root.attribute(name).value(), axis, box).value_or(0.0));
+    };
+    double width = given("width", SvgAxis::kX), height = given("height", SvgAxis::kY);
+    const bool relative = string_view(root.attribute("width").value()).ends_with('%');
+    if ((width == 0.0 && height == 0.0) || relative) {
+      warnings_.add("the sheet has no size of its own; its unit is taken as 1 px = 1/96 in", root);
+    }
+    if (box.width > 0.0) {
+      if (width == 0.0) width = height > 0.0 ? height * (box.width / box.height) : box.width;
+      if (height == 0.0) height = width * (box.height / box.width);
+    } else if (height == 0.0) {
+      warnings_.add("the sheet has no height; y is measured from its upper edge", root);
+    }
+    return {width, height};
+  }
+
+  /// Transform of an element; the identity where it has an error.
+  Affine own_transform(pugi::xml_node node) {
+    const string_view text = node.attribute("transform").value();
+    const auto transform = exchange::svg_transform(text);
+    if (!transform) {
+      warnings_.add(fmt::format("transform \"{}\" has an error and is not used", shortened(text)),
+                    node);
+    }
+    if (string_view(node.attribute("style").value()).find("transform") != string_view::npos) {
+      warnings_.add("a transform in a style is not followed", node);
+    }
+    return transform.value_or(Affine{});
+  }
+
+  void children(pugi::xml_node node, const State& state) {
+    if (state.depth >= kMaxGroupDepth) {
+      warnings_.add(fmt::format("groups nested more than {} deep left out", kMaxGroupDepth), node);
+      return;
+    }
+    for (const pugi::xml_node child : node.children()) {
+      if (child.type() != pugi::node_element) continue;
+      element(child, state);
+      if (local_name(node) == "switch") break;  // one alternative is drawn
+    }
+  }
+
+  /// Whether the element may still be drawn: everything may outside of `use`.
+  bool afford(pugi::xml_node node) {
+    if (active_.empty()) return true;
+    const std::size_t cost = kElementCost + string_view(node.attribute("d").value()).size() +
+                             string_view(node.attribute("points").value()).size();
+    if (cost > budget_) {
+      warnings_.add("more is drawn through use than 16 times the file; the rest left out", node);
+      budget_ = 0;
+      return false;
+    }
+    budget_ -= cost;
+    return true;
+  }
+
+  void element(pugi::xml_node node, const State& outer) {
+    const string_view whole = node.name(), name = local_name(whole);
+    if (whole.substr(0, whole.size() - name.size()) != prefix_ || is_silent(name)) return;
+    if (is_hidden(node)) return warnings_.add("hidden elements (display: none) left out", node);
+    if (!afford(node)) return;
+    const State state = {outer.to_sheet * own_transform(node), outer.viewport, outer.depth + 1};
+    if (!state.to_sheet.is_finite() || state.to_sheet.determinant() == 0.0) {
+      return warnings_.add("elements with a transform that flattens them left out", node);
+    }
+    if (SvgShape::knows(name)) return shape(node, name, state);
+    if (name == "g" || name == "a" || name == "switch") return children(node, state);
+    if (name == "svg") return nested(node, state, {}, node);
+    if (name == "use") return use(node, state);
+    warnings_.add(fmt::format("elements '{}' are not drawn", shortened(name)), node);
+  }
+
+  void shape(pugi::xml_node node, string_view name, const State& state) {
+    const string_view id = node.attribute("id").value();
+    const std::string label = id.empty() ? fmt::format("{} {}", name, ++numbers_[std::string(name)])
+                                         : fmt::format("{} {}", name, shortened(id));
+    exchange::SvgPathBuilder builder(state.to_sheet, label);
+    SvgShape drawn(node, state.viewport, builder, warnings_);
+    drawn.draw(name);
+    empty_segments_ += builder.empty_segments();
+    if (!builder.all_finite()) {
+      return warnings_.add("shapes beyond the range of numbers left out", node);
+    }
+    auto curves = builder.take();
+    if (curves.empty()) {
+      return warnings_.add(fmt::format("{} draws nothing", label), node);
+    }
+    // vertices of a polyline are points of a curve, or its edges are what is drawn
+    if (is_sampled(drawn.points())) return series(drawn.points(), state.to_sheet, label);
+    std::move(curves.begin(), curves.end(), std::back_inserter(drawing_.curves));
+  }
+
+  static bool is_sampled(const std::vector<Vec2>& points) {
+    const bool closed = points.size() > 1 && points.front() == points.back();
+    return !points.empty() &&
+           chords_of_curve(std::span(points).first(points.size() - (closed ? 1 : 0)), closed);
+  }
+
+  void series(const std::vector<Vec2>& points, const Affine& to_sheet, const std::string& label) {
+    std::vector<Vec2> placed;
+    exchange::LastDigit digit;
+    for (const Vec2 p : points) {
+      placed.push_back(to_sheet.point(p));
+      digit.add(p.x);
+      digit.add(p.y);
+    }
+    PointSeries one = exchange::plane_series(label, "mm", placed);
+    const double half = std::sqrt(std::abs(to_sheet.determinant())) * digit.half_unit();
+    one.rounding = {half, half};
+    drawing_.series.push_back(std::move(one));
+  }
+
+  /// An svg or symbol with a viewport of its own. `sizes` has width and height: the element itself,
+  /// or the use that refers to it.
+  void nested(pugi::xml_node node, const State& state, Vec2 corner, pugi::xml_node sizes) {
+    const auto size_of = [&](const char* name, SvgAxis axis, double all) {
+      const pugi::xml_node giver = sizes.attribute(name) ? sizes : node;
+      return exchange::svg_length(giver.attribute(name).value(), axis, state.viewport)
+          .value_or(all);
+    };
+    const SvgViewport size = {size_of("width", SvgAxis::kX, state.viewport.width),
+                              size_of("height", SvgAxis::kY, state.viewport.height)};
+    const Vec2 own = {exchange::svg_length(node.attribute("x").value(), SvgAxis::kX, state.viewport)
+                          .value_or(0.0),
+                      exchange::svg_length(node.attribute("y").value(), SvgAxis::kY, state.viewport)
+                          .value_or(0.0)};
+    const auto box = exchange::svg_view_box(node.attribute("viewBox").value());
+    State inner = state;
+    if (box) {
+      inner.to_sheet =
+          state.to_sheet * exchange::svg_fit(*box, corner + own, size,
+                                             node.attribute("preserveAspectRatio").value());
+      inner.viewport = {box->width, box->height};
+    } else {
+      inner.to_sheet =
+          state.to_sheet * Affine{1.0, 0.0, 0.0, 1.0, corner.x + own.x, corner.y + own.y};
+      inner.viewport = size;
+    }
+    if (inner.to_sheet.determinant() == 0.0 || !inner.to_sheet.is_finite()) {
+      return warnings_.add("viewports of no size left out", node);
+    }
+    children(node, inner);
+  }
+
+  void use(pugi::xml_node node, const State& state) {
+    const string_view href = exchange::trimmed(attribute_of(node, "href").value());
+    const auto found = href.starts_with('#') ? ids_.find(std::string(href.substr(1))) : ids_.end();
+    if (found == ids_.end()) {
+      return warnings_.add(
+          fmt::format("use of '{}', which is not in the file, left out", shortened(href)), node);
+    }
+    const pugi::xml_node target = found->second;
+    if (std::find(active_.begin(), active_.end(), target) != active_.end() ||
+        static_cast<int>(active_.size()) >= kMaxGroupDepth || state.depth >= kMaxGroupDepth) {
+      return warnings_.add("a use that contains itself left out", node);
+    }
+    const auto length = [&](const char* name, SvgAxis axis) {
+      return exchange::svg_length(node.attribute(name).value(), axis, state.viewport).value_or(0.0);
+    };
+    const Vec2 corner = {length("x", SvgAxis::kX), length("y", SvgAxis::kY)};
+    active_.push_back(target);
+    const string_view kind = local_name(target);
+    if (kind == "symbol") {
+      nested(target, state, corner, node);
+    } else {
+      State moved = state;
+      moved.to_sheet = state.to_sheet * Affine{1.0, 0.0, 0.0, 1.0, corner.x, corner.y};
+      element(target, moved);
+    }
+    active_.pop_back();
+  }
+
+  const XmlFile& file_;
+  XmlWarnings warnings_;
+  std::string prefix_;  ///< of the names of this file's SVG elements, with the colon
+  std::unordered_map<std::string, pugi::xml_node> ids_;
+  std::vector<pugi::xml_node> active_;  ///< targets of use that are being drawn
+  std::size_t budget_;                  ///< of what is drawn through use
+  std::size_t empty_segments_ = 0;
+  std::map<std::string, int> numbers_;
+  Drawing drawing_;
+};
+
+}  // namespace
+
+Result<Drawing> parse_svg(string_view text, string_view name) {
+  XmlFile file(text, name);
+  if (auto done = file.parse("svg"); !done) return fail(std::move(done.error()));
+  if (string_view(file.root().attribute(kPictureAttribute).value()) == kPictureValue) {
+    return fail({ErrorCode::kUnsupported, "a picture to look at is no drawing of a curve",
+                 std::string(name),
+                 "read the .json that was written with it, or write the curve alone with "
+                 "--svg drawing",
+                 -1, 0.0});
+  }
+  return SvgReader(file, text.size()).run();
+}
+
+}  // namespace obvid

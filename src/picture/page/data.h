@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <string>
+#include <vector>
+
+#include "obvid/core/run_context.h"
+#include "obvid/mesh/mesh.h"
+#include "obvid/picture/surface_svg.h"
+#include "obvid/surface/surface.h"
+#include "page/values.h"
+
+namespace obvid::picture {
+
+inline constexpr std::array kPageQuantities = {SurfaceColouring::kGaussian, SurfaceColouring::kMean,
+                                               SurfaceColouring::kK1, SurfaceColouring::kK2};
+
+/// All numbers of a page: for each patch positions relative to the centre, normals folded onto an
+/// octahedron, parameters scaled to [0, 1], both principal curvatures and the triangles; then the
+/// points of the lines. Little-endian, each array padded to 4 bytes.
+struct PageData {
+  std::string bytes;
+  Vec3 centre;
+  Vec3 size;            ///< of the box around all triangles
+  double radius = 1.0;  ///< of the sphere around the centre that holds everything
+  std::array<ValueScale, kPageQuantities.size()> scales;
+};
+
+/// Patches, meshes and lines as `surface_page` has checked them.
+[[nodiscard]] Result<PageData> page_data(const SurfaceModel& model, const std::vector<Mesh>& meshes,
+                                         const std::vector<ScenePolyline>& lines,
+                                         const RunContext& run);
+
+[[nodiscard]] std::string base64(const std::string& bytes);
+
+}  // namespace obvid::picture

@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string>
+
+#include "plane/axis.h"
+#include "plane/canvas.h"
+#include "plane/moves.h"
+#include "plane/track.h"
+
+namespace obvid {
+
+struct PictureRange {
+  double low = 0.0;
+  double high = 0.0;
+};
+
+/// Curvatures of a contour, and 0.
+[[nodiscard]] PictureRange curvature_range(const PictureTrack& track);
+/// Axis for these curvatures of a contour of this size.
+[[nodiscard]] PictureAxis curvature_axis(PictureRange range, double diagonal);
+[[nodiscard]] std::string curvature_title(const PictureAxis& axis, const std::string& units);
+[[nodiscard]] double curvature_of(const PictureSample& sample);
+
+/// What stands between the plots of curvature and of radius.
+struct PlotsBetween {
+  const PictureMoves& moves;  ///< shown where points have tolerances
+  bool slope = false;         ///< of the curvature
+};
+
+/// Lower panels over arc length: curvature, its slope, moves, and radius. Returns the y of their
+/// lower end.
+double plot_panels(PictureCanvas& canvas, const PictureTrack& track, const PlotsBetween& between,
+                   const std::string& units, bool coloured, double top);
+
+}  // namespace obvid

@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <vector>
+
+#include "obvid/picture/surface_svg.h"
+#include "page/values.h"
+
+namespace obvid::picture {
+
+/// A patch divided into quadrilaterals, finer where it bends: vertex i of row j stands at
+/// j * us.size() + i.
+struct DrawnPatch {
+  std::vector<double> us, vs;
+  std::vector<Vec3> points;
+  std::vector<Vec3> normals;
+  std::vector<double> values;  ///< of a curvature colouring, else empty
+
+  [[nodiscard]] std::size_t vertex(std::size_t i, std::size_t j) const { return j * us.size() + i; }
+};
+
+/// About `most_facets` cells in all, at least one of each patch.
+[[nodiscard]] std::vector<DrawnPatch> drawn_patches(const SurfaceModel& model,
+                                                    SurfaceColouring colouring,
+                                                    std::size_t most_facets);
+
+/// Range of the values of all patches, weighed by area.
+[[nodiscard]] ValueScale scale_of(const std::vector<DrawnPatch>& patches,
+                                  SurfaceColouring colouring);
+
+}  // namespace obvid::picture

@@ -1,0 +1,175 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "obvid/picture/surface_svg.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "obvid/geom/internal/box.h"
+#include "space/facets.h"
+#include "space/lines.h"
+#include "space/sheet.h"
+
+namespace obvid {
+namespace {
+
+using namespace picture;
+
+constexpr double kLeastSheet = 200.0, kMostSheet = 2000.0;  // px
+constexpr int kMostIsolines = 200, kMostStripes = 100;
+constexpr std::size_t kLeastFacets = 16, kMostFacets = 40'000;
+/// Files beyond this (bytes) are drawn again with fewer facets, but not with fewer than so many.
+constexpr std::size_t kMostFileText = 1'450'000, kFewestFacets = 1500;
+/// Sizes beyond these leave the range of doubles when they are multiplied.
+constexpr double kLeastSize = 1e-60, kMostSize = 1e60;
+
+Error bad_option(const char* what, double value) {
+  return {ErrorCode::kBadOption, what, "", "", -1, value};
+}
+
+Result<void> check_picture_options(const SurfacePictureOptions& o) {
+  const auto sheet = [](double a) { return a >= kLeastSheet && a <= kMostSheet; };
+  if (!sheet(o.width)) return fail(bad_option("a picture is 200 to 2000 px wide", o.width));
+  if (!sheet(o.height)) return fail(bad_option("a picture is 200 to 2000 px high", o.height));
+  for (const int n : {o.isolines_u, o.isolines_v}) {
+    if (n < 1 || n > kMostIsolines) return fail(bad_option("isolines are 1 to 200", n));
+  }
+  if (o.zebra_stripes < 1 || o.zebra_stripes > kMostStripes) {
+    return fail(bad_option("stripes are 1 to 100", o.zebra_stripes));
+  }
+  if (o.most_facets < kLeastFacets || o.most_facets > kMostFacets) {
+    return fail(bad_option("a picture has 16 to 40000 facets", static_cast<double>(o.most_facets)));
+  }
+  if (o.range && !(std::isfinite(o.range->length()) && o.range->length() > 0.0)) {
+    return fail(bad_option("a range of colours ascends", o.range->length()));
+  }
+  for (const auto& angle : {o.azimuth_deg, o.elevation_deg}) {
+    if (angle && !std::isfinite(*angle)) return fail(bad_option("an angle is finite", *angle));
+  }
+  return {};
+}
+
+Result<void> check_scene(const SurfaceModel& model, const SurfacePictureOptions& options) {
+  if (model.patches.empty()) {
+    return fail({ErrorCode::kTooFewPoints, "there are no patches to draw", "", "", -1, 0.0});
+  }
+  if (model.patches.size() > options.most_facets) {
+    return fail(bad_option("more patches than facets in a picture",
+                           static_cast<double>(model.patches.size())));
+  }
+  for (const SurfacePatch& patch : model.patches) {
+    if (auto good = check(patch.surface); !good) return fail(good.error());
+  }
+  for (std::size_t i = 0; i < options.lines.size(); ++i) {
+    for (const Vec3 p : options.lines[i].points) {
+      if (!is_finite(p)) {
+        return fail({ErrorCode::kNotFinite, "a point of a line is not finite",
+                     fmt::format("line {}", i + 1), "", static_cast<std::ptrdiff_t>(i), 0.0});
+      }
+    }
+  }
+  return {};
+}
+
+Box3 box_of_patches(const std::vector<DrawnPatch>& patches) {
+  Box3 box;
+  for (const DrawnPatch& patch : patches) {
+    for (const Vec3 p : patch.points) box.add(p);
+  }
+  return box;
+}
+
+/// The camera of the options so that everything fills the middle of the sheet.
+PictureCamera fitted(const std::vector<DrawnPatch>& patches, const SurfacePictureOptions& options) {
+  PictureCamera camera = camera_of(options);
+  camera.centre = box_of_patches(patches).middle();
+  Box3 seen;
+  const auto see = [&](Vec3 p) { seen.add(camera.seen(p - camera.centre)); };
+  for (const DrawnPatch& patch : patches) {
+    for (const Vec3 p : patch.points) see(p);
+  }
+  for (const ScenePolyline& line : options.lines) {
+    for (const Vec3 p : line.points) see(p);
+  }
+  const double width = options.width - 2.0 * kSheetMargin;
+  const double height = options.height - kSheetTop - kSheetBottom - kSheetMargin;
+  const Vec3 size = seen.size(), middle = seen.middle();
+  const double least = kLeastSize;  // a line seen from its end
+  camera.scale = std::min(width / std::max(size.x, least), height / std::max(size.y, least));
+  camera.middle = {0.5 * options.width - camera.scale * middle.x,
+                   kSheetTop + 0.5 * height + camera.scale * middle.y};
+  return camera;
+}
+
+SheetTexts texts_of(const SurfaceModel& model, const std::vector<DrawnPatch>& patches,
+                    const SurfacePictureOptions& options) {
+  SheetTexts texts;
+  texts.title = plain_text(options.title.empty() ? model.name : options.title);
+  texts.units = plain_text(model.units.text());
+  texts.facts = size_text(box_of_patches(patches).size(), texts.units);
+  if (patches.size() > 1) texts.facts += " · " + std::to_string(patches.size()) + " patches";
+  return texts;
+}
+
+Colours colours_of(const std::vector<DrawnPatch>& patches, const SurfacePictureOptions& options) {
+  Colours colours{options.colouring, {}, options.zebra_stripes};
+  if (!is_curvature(options.colouring)) return colours;
+  colours.scale = scale_of(patches, options.colouring);
+  if (options.extremes) {
+    colours.scale.least = options.extremes->of(options.colouring).from;
+    colours.scale.most = options.extremes->of(options.colouring).to;
+  }
+  if (options.range) {
+    colours.scale.low = options.range->from;
+    colours.scale.high = options.range->to;
+    colours.scale.diverging = options.range->from == -options.range->to;
+  }
+  return colours;
+}
+
+Result<std::string> drawn(const SurfaceModel& model, const SurfacePictureOptions& options,
+                          std::size_t facets) {
+  const auto patches = drawn_patches(model, options.colouring, facets);
+  for (const DrawnPatch& patch : patches) {
+    if (!std::all_of(patch.points.begin(), patch.points.end(),
+                     [](Vec3 p) { return is_finite(p); })) {
+      return fail({ErrorCode::kNotFinite, "a point of the surface is not finite", "",
+                   "change the unit", -1, 0.0});
+    }
+  }
+  const double size = norm(box_of_patches(patches).size());
+  if (!(size >= kLeastSize && size <= kMostSize)) {
+    return fail({ErrorCode::kSizeOutOfRange, "the size of the surface cannot be drawn", "",
+                 "change the unit", -1, size});
+  }
+  const Colours colours = colours_of(patches, options);
+  const PictureCamera camera = fitted(patches, options);
+  DepthBuffer depth(options.width, options.height);
+  const auto quads = projected(patches, camera);
+  for (const auto& quad : quads) depth.add(quad);
+  const Scene scene{model, patches, camera, depth};
+  const SheetTexts texts = texts_of(model, patches, options);
+  return sheet(texts, options,
+               facet_paths(patches, quads, depth, camera, colours) + surface_lines(scene, options) +
+                   extra_lines(scene, options.lines) +
+                   sheet_furniture(texts, camera, colours, options));
+}
+
+}  // namespace
+
+Result<std::string> surface_svg(const SurfaceModel& model, const SurfacePictureOptions& options) {
+  if (auto good = check_picture_options(options); !good) return fail(good.error());
+  if (auto good = check_scene(model, options); !good) return fail(good.error());
+  std::size_t facets = options.most_facets;
+  for (;;) {
+    auto svg = drawn(model, options, facets);
+    const std::size_t fewer = facets * 2 / 3;
+    if (!svg || svg->size() <= kMostFileText || fewer < kFewestFacets + model.patches.size()) {
+      return svg;
+    }
+    facets = fewer;
+  }
+}
+
+}  // namespace obvid

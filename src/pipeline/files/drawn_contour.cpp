@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "obvid/pipeline/internal/drawn_contour.h"
+
+#include <utility>
+
+#include "obvid/pipeline/audit.h"
+
+namespace obvid {
+
+Result<DrawnContour> drawn_contour(const Drawing& drawing, const ImportOptions& options,
+                                   const std::string& where) {
+  const auto chosen = chosen_curve(drawing, options.curve, where);
+  if (!chosen) return fail(chosen.error());
+  const std::size_t curves = drawing.curves.size();
+  if (*chosen >= curves && options.use != DrawnUse::kExact) {
+    return fail({ErrorCode::kUnsupported, "this is a series of points, not a curve", where,
+                 "use `obvid fit`, --drawing exact for its edges, or --curve N for another one", -1,
+                 0.0});
+  }
+  DrawnContour out;
+  out.remarks = drawing.warnings;
+  out.remarks.push_back(where + ": " + chosen_text(drawing, *chosen, options.curve.has_value()));
+  CurveAudit audited =
+      audit(*chosen < curves ? drawing.curves[*chosen] : edges_of(drawing.series[*chosen - curves]),
+            drawing.units);
+  out.name = audited.label;
+  out.picture = {drawing.name + ": " + audited.label, as_drawn(audited)};
+  out.stored = {std::move(audited.contour), std::nullopt, std::move(audited.certificate)};
+  return out;
+}
+
+}  // namespace obvid

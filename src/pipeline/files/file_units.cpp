@@ -1,0 +1,78 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "files/file_units.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cstddef>
+#include <variant>
+
+#include "obvid/core/internal/figures.h"
+
+namespace obvid::pipeline_detail {
+namespace {
+
+constexpr double kKernelPrecision = 1e-7;  // mm: CAD kernels take points that are nearer for one
+
+Error assumed(const Units& units, std::string_view kind) {
+  return {ErrorCode::kBadOption,
+          fmt::format("{} have true lengths, and nothing says what a unit is", kind),
+          "--units",
+          fmt::format("say it with --units m, or another of {}", known_units()),
+          -1,
+          metres_in(units.name).value_or(0.0)};
+}
+
+}  // namespace
+
+Result<UnitNotes> unit_notes(const Units& units, UnitRule rule, std::string_view kind,
+                             std::string_view written) {
+  UnitNotes notes;
+  if (rule == UnitRule::kNone) return notes;
+  if (rule == UnitRule::kStated) {
+    if (written.empty()) notes.remarks.push_back(fmt::format("no unit is stated in {}", kind));
+    return notes;
+  }
+  if (auto length = unit_ratio(units, "m", kind); !length) return fail(length.error());
+  if (!units.known() && rule == UnitRule::kRoad) return fail(assumed(units, kind));
+  if (!units.known()) {
+    notes.warnings.push_back(
+        fmt::format("nothing says what a unit is: {} assumed, as {} need one; --units says it",
+                    units.name, kind));
+  }
+  if (written != units.name) {
+    notes.remarks.push_back(
+        fmt::format("lengths were converted from {} to {}", units.name, written));
+  }
+  return notes;
+}
+
+std::optional<std::string> below_kernels(const std::vector<Piece>& pieces, const Units& units,
+                                         bool plain) {
+  const double scale = plain ? 1.0 : unit_ratio(units.name, "mm").value_or(1.0);
+  const auto length = [](const Piece& piece) {
+    const auto* arc = std::get_if<ArcPiece>(&piece);
+    return arc != nullptr ? arc->length : norm(end_point(piece) - start_point(piece));
+  };
+  const auto count = std::count_if(pieces.begin(), pieces.end(), [&](const Piece& piece) {
+    return scale * length(piece) < kKernelPrecision;
+  });
+  if (count == 0) return std::nullopt;
+  return fmt::format("{} shorter than {:g} {}: CAD kernels may leave {} out",
+                     counted(static_cast<std::size_t>(count), "piece", "pieces"), kKernelPrecision,
+                     plain ? "units" : "mm", count == 1 ? "it" : "them");
+}
+
+Result<void> kernel_holds(double size, const Units& units, bool plain, std::string_view instead) {
+  // a thousand times their precision is the least that keeps its shape, and doubles of 1e8 the
+  // largest with steps below it
+  constexpr double kLeast = 1e3 * kKernelPrecision, kMost = 1e8;
+  const double held = plain ? size : size * unit_ratio(units.name, "mm").value_or(1.0);
+  if (held >= kLeast && held <= kMost) return {};
+  return fail({ErrorCode::kSizeOutOfRange,
+               fmt::format("{:.3g} {} across: CAD kernels hold {:g} to {:g}", held,
+                           plain ? "units" : "mm", kLeast, kMost),
+               "", fmt::format("choose another unit, or {}", instead), -1, held});
+}
+
+}  // namespace obvid::pipeline_detail

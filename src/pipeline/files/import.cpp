@@ -1,0 +1,242 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "obvid/pipeline/import.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+
+#include "files/cad_of_text.h"
+#include "files/drawn_series.h"
+#include "obvid/cad/internal/cad.h"
+#include "obvid/exchange/internal/dxf/read.h"
+#include "obvid/exchange/internal/geo/geojson.h"
+#include "obvid/exchange/internal/geo/gpx.h"
+#include "obvid/exchange/internal/road/landxml.h"
+#include "obvid/exchange/internal/road/opendrive.h"
+#include "obvid/exchange/internal/svg/read.h"
+#include "obvid/io/contour_json.h"
+#include "obvid/io/internal/file_kind.h"
+#include "obvid/io/internal/private_copy.h"
+#include "obvid/io/internal/read_file.h"
+#include "obvid/io/read_points.h"
+
+namespace obvid {
+namespace {
+
+constexpr std::size_t kHead = 4096;  // bytes that tell the kind of a file
+
+std::string head_of(const std::string& path) { return head_of_file(path, kHead); }
+
+std::string name_of(const std::string& path) {
+  return std::filesystem::path(path).filename().string();
+}
+
+Result<Drawing> drawing_of_contour(const std::string& text, const std::string& path) {
+  auto stored = contour_from_json(text, path);
+  if (!stored) return tl::unexpected(stored.error());
+  Contour& contour = stored->contour;
+  Drawing out;
+  out.name = name_of(path);
+  out.units = contour.units;
+  out.curves.push_back({"contour", std::move(contour.pieces), contour.closed});
+  return out;
+}
+
+Result<Drawing> from_text(FileKind kind, const std::string& text, const std::string& path) {
+  switch (kind) {
+    case FileKind::kContour:
+      return drawing_of_contour(text, path);
+    case FileKind::kSvg:
+      return parse_svg(text, path);
+    case FileKind::kGpx:
+      return parse_gpx(text, path);
+    case FileKind::kDxf:
+      return parse_dxf(text, path);
+    case FileKind::kLandXml:
+      return parse_landxml(text, path);
+    case FileKind::kOpenDrive:
+      return parse_opendrive(text, path);
+    case FileKind::kGeoJson:
+      return parse_geojson(text, path);
+    default:
+      return fail({ErrorCode::kUnsupported, "this kind of file is not read", path,
+                   "give a list of points, a contour, STEP, IGES, BREP, DXF, SVG, GPX, GeoJSON, "
+                   "LandXML or OpenDRIVE",
+                   -1, 0.0});
+  }
+}
+
+bool is_cad(FileKind kind) {
+  return kind == FileKind::kStep || kind == FileKind::kIges || kind == FileKind::kBrep;
+}
+
+Result<Drawing> read_curves_of_cad(const std::string& path) { return read_cad(path); }
+
+// ---- points of a drawing ----------------------------------------------------------------------
+
+std::vector<Vec2> ends_of(const DrawnCurve& curve) {
+  std::vector<Vec2> out;
+  for (const Piece& piece : curve.pieces) {
+    for (const double t : {0.0, 0.25, 0.5, 0.75, 1.0}) out.push_back(evaluate(piece, t).point);
+  }
+  return out;
+}
+
+double length_of(const std::vector<Vec2>& points) {
+  double length = 0.0;
+  for (std::size_t i = 1; i < points.size(); ++i) length += norm(points[i] - points[i - 1]);
+  return length;
+}
+
+/// What comes first is what a drawing is about; among equals the longest, curves before series.
+std::size_t foremost(const Drawing& drawing) {
+  std::size_t best = 0;
+  SeriesKind first = SeriesKind::kWaypoints;
+  double most = -1.0;
+  const auto offer = [&](std::size_t i, SeriesKind kind, const std::vector<Vec2>& points) {
+    const double length = length_of(points);
+    if (kind > first || (kind == first && length <= most)) return;
+    first = kind;
+    most = length;
+    best = i;
+  };
+  for (std::size_t i = 0; i < drawing.curves.size(); ++i) {
+    offer(i, SeriesKind::kLine, ends_of(drawing.curves[i]));
+  }
+  for (std::size_t i = 0; i < drawing.series.size(); ++i) {
+    const PointSeries& series = drawing.series[i];
+    offer(drawing.curves.size() + i, series.kind, series.points);
+  }
+  return best;
+}
+
+/// All warnings of the drawing, and which curve was taken of several.
+void tell(const Drawing& drawing, std::size_t chosen, bool asked, PointSeries& out) {
+  out.warnings.insert(out.warnings.begin(), drawing.warnings.begin(), drawing.warnings.end());
+  if (drawing.curves.size() + drawing.series.size() > 1) {
+    out.warnings.push_back(chosen_text(drawing, chosen, asked));
+  }
+}
+
+Result<PointSeries> points_of_drawing(const Drawing& drawing, const ImportOptions& options,
+                                      const std::string& path) {
+  const auto found = chosen_curve(drawing, options.curve, path);
+  if (!found) return tl::unexpected(found.error());
+  const std::size_t chosen = *found;
+  PointSeries out;
+  if (chosen < drawing.curves.size()) {
+    out = pipeline_detail::series_of(drawing.curves[chosen], options.use, options.tolerance);
+    out.label = drawing.curves[chosen].label;
+  } else {
+    out = drawing.series[chosen - drawing.curves.size()];
+    out.label = out.name;
+    const bool edges = options.use == DrawnUse::kExact && out.kind == SeriesKind::kLine;
+    if (edges) {
+      out = pipeline_detail::series_of(edges_of(out), options.use, options.tolerance);
+      out.label = drawing.series[chosen - drawing.curves.size()].name;
+    }
+  }
+  out.name = drawing.name + (out.label.empty() ? "" : ": " + out.label);
+  out.units = drawing.units;
+  tell(drawing, chosen, options.curve.has_value(), out);
+  return out;
+}
+
+}  // namespace
+
+Result<std::size_t> chosen_curve(const Drawing& drawing, const std::optional<std::size_t>& asked,
+                                 const std::string& path) {
+  const std::size_t count = drawing.curves.size() + drawing.series.size();
+  if (count == 0) {
+    return fail(
+        {ErrorCode::kTooFewPoints, "the file holds no curve and no points", path, "", -1, 0.0});
+  }
+  const std::size_t chosen = asked.value_or(foremost(drawing));
+  if (chosen >= count) {
+    return fail({ErrorCode::kBadOption,
+                 fmt::format("there are {} curves, no curve {}", count, chosen + 1), path,
+                 "`obvid analyse FILE` lists them", -1, 0.0});
+  }
+  const bool waypoints =
+      chosen >= drawing.curves.size() &&
+      drawing.series[chosen - drawing.curves.size()].kind == SeriesKind::kWaypoints;
+  if (asked || !waypoints) return chosen;
+  return fail({ErrorCode::kTooFewPoints,
+               "the file holds waypoints only, no track and no route: places are no curve", path,
+               fmt::format("--curve {} takes them in the order of the file", chosen + 1), -1, 0.0});
+}
+
+std::string chosen_text(const Drawing& drawing, std::size_t chosen, bool asked) {
+  const std::size_t curves = drawing.curves.size(), count = curves + drawing.series.size();
+  const std::string& name =
+      chosen < curves ? drawing.curves[chosen].label : drawing.series[chosen - curves].name;
+  std::string text = fmt::format("curve {} of {} was taken, {}", chosen + 1, count, name);
+  if (asked || count == 1) return text;
+  return text +
+         fmt::format(", the longest of its kind; --curve N takes one of the other {}", count - 1);
+}
+
+DrawnCurve edges_of(const PointSeries& series) {
+  DrawnCurve out{series.name, {}, false};
+  const std::vector<Vec2>& points = series.points;
+  for (std::size_t i = 0; i + 1 < points.size(); ++i) {
+    if (points[i] != points[i + 1]) out.pieces.emplace_back(LinePiece{points[i], points[i + 1]});
+  }
+  out.closed = out.pieces.size() > 2 && points.front() == points.back();
+  return out;
+}
+
+bool is_drawing(const std::string& path) {
+  return path != "-" && file_kind(head_of(path)) != FileKind::kPoints &&
+         file_kind(head_of(path)) != FileKind::kOther;
+}
+
+Result<Drawing> read_drawing(const std::string& path) {
+  const FileKind kind = file_kind(head_of(path));
+  if (is_cad(kind)) return read_cad(path);
+  const auto text = read_file(path);
+  if (!text) return tl::unexpected(text.error());
+  return from_text(kind, *text, path);
+}
+
+bool is_drawing_text(std::string_view text) {
+  const FileKind kind = file_kind(text.substr(0, kHead));
+  return kind != FileKind::kPoints && kind != FileKind::kOther;
+}
+
+bool needs_cad(std::string_view text) { return is_cad(file_kind(text.substr(0, kHead))); }
+
+Result<Drawing> parse_drawing(const std::string& text, const std::string& name) {
+  if (needs_cad(text)) return pipeline_detail::cad_of_text(text, name, read_curves_of_cad);
+  return from_text(file_kind(std::string_view(text).substr(0, kHead)), text, name);
+}
+
+Result<PointSeries> parse_series(const std::string& text, const std::string& name,
+                                 const ImportOptions& options) {
+  const FileKind kind = file_kind(std::string_view(text).substr(0, kHead));
+  if (!is_drawing_text(text) || kind == FileKind::kContour) {
+    return parse_points(text, name, options.two_points);
+  }
+  auto drawing = parse_drawing(text, name);
+  if (!drawing) return tl::unexpected(drawing.error());
+  return points_of_drawing(*drawing, options, name);
+}
+
+Result<PointSeries> read_series(const std::string& path, const ImportOptions& options) {
+  if (path == "-") {  // read once
+    const auto text = read_file(path);
+    if (!text) return tl::unexpected(text.error());
+    return parse_series(*text, "standard input", options);
+  }
+  const FileKind kind = file_kind(head_of(path));
+  if (kind == FileKind::kPoints || kind == FileKind::kOther || kind == FileKind::kContour) {
+    return read_points(path, options.two_points);
+  }
+  auto drawing = read_drawing(path);
+  if (!drawing) return tl::unexpected(drawing.error());
+  return points_of_drawing(*drawing, options, path);
+}
+
+}  // namespace obvid

@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "obvid/pipeline/internal/end_curvatures.h"
+
+#include "fit/parts.h"
+
+namespace obvid {
+
+std::vector<EndCurvatures> end_curvatures(const Contour& contour) {
+  std::vector<EndCurvatures> out;
+  for (const pipeline_detail::Part& part : pipeline_detail::parts_of(contour)) {
+    const Joint& before = contour.joints[part.first_piece];
+    const Joint& behind = contour.joints[(part.last_piece + 1) % contour.joints.size()];
+    EndCurvatures& row = out.emplace_back();
+    row.start = part.t0 == 0.0 && before.source
+                    ? before.leaving.value_or(before.element).kappa
+                    : curvature(evaluate(contour.pieces[part.first_piece], part.t0));
+    row.end = part.t1 == 1.0 && behind.source
+                  ? behind.element.kappa
+                  : curvature(evaluate(contour.pieces[part.last_piece], part.t1));
+  }
+  return out;
+}
+
+}  // namespace obvid

@@ -1,0 +1,961 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "obvid/pipeline/fit.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <string>
+
+#include "fit/assemble.h"
+#include "fit/excursion.h"
+#include "fit/given.h"
+#include "fit/keep_joints.h"
+#include "fit/parabola_room.h"
+#include "fit/parts.h"
+#include "fit/pass_points.h"
+#include "fit/prepare.h"
+#include "fit/section_chain.h"
+#include "fit/slope_step.h"
+#include "fit/waviness.h"
+#include "form.h"
+#include "obvid/certify/certify.h"
+#include "obvid/chain/internal/smooth_chain.h"
+#include "obvid/region/internal/refine.h"
+#include "verify/against_spirals.h"
+#include "verify/report.h"
+
+namespace obvid {
+namespace {
+
+using namespace pipeline_detail;
+
+/// Rounds in which the tolerance of points that the finished contour misses is narrowed: between
+/// nodes the search knows the contour only to first order.
+constexpr int kNarrowings = 6;
+constexpr double kNarrowed = 0.95;  ///< of what would just do
+/// Of the reach, where within the whole of it points change places or the contour swings out: one
+/// that passes them nearer passes them near enough.
+constexpr int kReachHalvings = 4;
+/// No further round begins when so many steps on every point (and some more where there are few)
+/// were spent: a hundred times what a contour takes as a rule.
+constexpr double kMostFitSteps = 1e4, kSpareWork = 1e6;
+/// The same, of halving the reach a second time and more often.
+constexpr double kMostHalvingSteps = 500.0;
+constexpr double kFormedAt = 0.7;  ///< part of the bar when all sections are formed
+/// Arcs whose regions came out wider than asked, by the rounding of their ends, are formed again.
+constexpr int kArcTrials = 2;
+constexpr double kNarrowedArcs = 0.99;  ///< of what would just do
+
+Result<Carried> as_carried(Result<Contour> contour) {
+  if (!contour) return tl::unexpected(contour.error());
+  return Carried{std::move(*contour), {}};
+}
+
+/// A section in its carrier; `spirals` are those that carry the same elements.
+Result<Carried> form_carrier(const std::vector<Vec2>& points, const SeriesChain& chain,
+                             const Contour& spirals, const Prepared& series, Carrier carrier,
+                             double tolerance, Watch& watch) {
+  switch (carrier) {
+    case Carrier::kClothoids:
+      return as_carried(form_clothoids(points, chain, watch));
+    case Carrier::kArcs:
+      return as_carried(
+          form_arcs(spirals, tolerance, series.given, series.split.smooth_loop, watch));
+    case Carrier::kConics:
+      return form_conics(spirals, series.given);
+    case Carrier::kBeziers:
+      return form_beziers(spirals, tolerance, watch);
+    case Carrier::kBspline:
+      return form_bspline(spirals, tolerance, series.given);
+    case Carrier::kCubic:
+      return form_cubic(spirals, tolerance, series.split.smooth_loop);
+    default:
+      return Carried{spirals, {}};
+  }
+}
+
+/// How often runs are given back their G2 spirals where the smooth ones are not proved.
+constexpr int kKeptRounds = 4;
+/// How often a smooth contour is led nearer to points that it passes too far.
+constexpr int kMostPassings = 16;
+
+/// A carrier that promises continuous curvature keeps its digits at the joints.
+bool keeps_curvature(Carrier carrier) {
+  return carrier == Carrier::kConics || carrier == Carrier::kBeziers ||
+         carrier == Carrier::kBspline;
+}
+
+Result<Carried> form(const std::vector<Vec2>& points, const SeriesChain& chain,
+                     const Contour& spirals, const Prepared& series, Carrier carrier,
+                     double tolerance, Watch& watch) {
+  auto out = form_carrier(points, chain, spirals, series, carrier, tolerance, watch);
+  if (out && keeps_curvature(carrier)) keep_joint_curvatures(out->contour);
+  if (out && carrier == Carrier::kConics) chain_conic_weights(out->contour);
+  return out;
+}
+
+/// Spirals whose stored numbers have the curvatures of their joints.
+Result<Contour> exact_spirals(const std::vector<Vec2>& points, const SeriesChain& chain) {
+  auto out = form_spirals(points, chain);
+  if (!out) return out;
+  keep_joint_curvatures(*out);
+  keep_joint_slopes(chain, *out);
+  return out;
+}
+
+/// The spline of CAD systems asks for no headings and curvatures; those given at its ends it keeps.
+Result<Carried> form_baseline_section(const Prepared& series, const Section& section) {
+  const bool loop = series.split.smooth_loop;
+  const std::size_t last = loop ? series.points.size() : section.last;
+  std::vector<Vec2> points;
+  std::vector<std::size_t> source;
+  for (std::size_t k = section.first; k <= last; ++k) {
+    source.push_back(series.split.point_at(k) % series.points.size());
+    points.push_back(series.points[source.back()]);
+  }
+  const auto heading_at = [&](std::size_t point) {
+    return series.fixed.empty() ? std::nullopt : series.fixed[point].theta;
+  };
+  return form_baseline(points, source, loop, heading_at(source.front()), heading_at(source.back()));
+}
+
+/// One attempt at the whole contour, with how it was found.
+struct Formed {
+  Contour contour;
+  std::optional<Contour> spirals;  ///< that another carrier stands for
+  ChainReport chain;
+  std::vector<std::string> warnings;
+
+  void add(Carried section, Assembly& assembly) {
+    warnings.insert(warnings.end(), section.warnings.begin(), section.warnings.end());
+    assembly.append(std::move(section.contour));
+  }
+};
+
+/// How far the contour may pass each point: a carrier that follows the spirals needs its tolerance.
+std::vector<double> point_tolerance(const Prepared& series, Carrier carrier, double tolerance) {
+  std::vector<double> out = series.tolerance;
+  if (!passes_between_joints(carrier)) return out;
+  out.resize(series.points.size(), 0.0);
+  for (double& one : out) one = std::max(one, tolerance);
+  return out;
+}
+
+void add_section(const SectionChain& section, Formed& formed) {
+  ChainReport& sum = formed.chain;
+  const SeriesChain& one = section.chain;
+  sum.smallest_margin = sum.newton_steps == 0 ? one.smallest_margin
+                                              : std::min(sum.smallest_margin, one.smallest_margin);
+  sum.newton_steps += one.newton_steps;
+  sum.free_elements += one.free_elements;
+  formed.warnings.insert(formed.warnings.end(), section.warnings.begin(), section.warnings.end());
+}
+
+double largest_slope_step(const Contour& spirals, bool loop) {
+  double largest = 0.0;
+  for (std::size_t i = loop ? 0 : 1; i < spirals.pieces.size(); ++i) {
+    largest = std::max(largest, slope_step_before(spirals.pieces, i));
+  }
+  return largest;
+}
+
+/// Where G3 could not be had, for the user.
+std::string slope_steps_text(const SeriesChain& chain, const SmoothedSlopes& slopes) {
+  std::size_t point = 0;  // at the first of them, or before it
+  for (std::size_t i = 0; i <= slopes.stepped.front(); ++i) point = chain.source[i].value_or(point);
+  return fmt::format(
+      "no common slope of curvature was found at {} of {} joints, first beside point {}: G2 there",
+      slopes.stepped.size(), slopes.joints, point + 1);
+}
+
+/// Parts of a series whose runs stay G2 where slopes are made continuous.
+struct KeptParts {
+  std::vector<bool> around;   ///< points that the runs pass between their elements
+  std::vector<bool> leaving;  ///< points at which a part between two elements begins
+
+  [[nodiscard]] bool empty() const { return around.empty(); }
+  void make(std::size_t points) {
+    around.resize(points, false);
+    leaving.resize(points, false);
+  }
+};
+
+bool is_made_g3(const FitJob& job) { return wanted_continuity(job) == Continuity::kG3; }
+
+/// Whether the slopes of the spirals' curvature are made continuous.
+bool makes_slopes_continuous(const FitJob& job) {
+  return is_made_g3(job) || (job.carrier != Carrier::kSpiral && job.followed == Continuity::kG3);
+}
+
+/// Forms the sections one after the other, and beside them the spirals of the same elements.
+class SectionForming {
+ public:
+  SectionForming(const Prepared& series, const FitJob& job, double tolerance, FoundChains& chains,
+                 Watch& watch)
+      : series_(series),
+        job_(job),
+        tolerance_(tolerance),
+        chains_(chains),
+        watch_(watch),
+        have_spirals_(job.measure_against_spirals) {}
+
+  /// Runs of these parts keep their G2 spirals.
+  SectionForming& keeping(const KeptParts& parts) {
+    kept_ = parts;
+    return *this;
+  }
+
+  Result<Formed> run() {
+    for (std::size_t k = 0; k < series_.split.sections.size() && !watch_.cancelled(); ++k) {
+      if (auto done = form_one(k); !done) return tl::unexpected(done.error());
+    }
+    if (watch_.was_cancelled()) return fail(cancelled_error());  // sections are missing
+    out_.contour = finished(assembly_, job_.carrier);
+    if (steps_everywhere(out_.contour)) {
+      claim_slopes(out_.contour, false);
+      out_.chain.slope_step_g2.reset();
+    }
+    // pieces of a drawing have no part in it
+    if (out_.chain.slope_step_g2 && series_.kept.empty()) {
+      out_.chain.waviness_g2 = waviness_g2_.value();
+    }
+    if (have_spirals_ && job_.carrier != Carrier::kSpiral) {
+      out_.spirals = finished(spirals_, Carrier::kSpiral);
+    }
+    return std::move(out_);
+  }
+
+ private:
+  Result<void> form_one(std::size_t k) {
+    const auto count = static_cast<double>(series_.split.sections.size());
+    const Stretch stretch(watch_, static_cast<double>(k) / count,
+                          static_cast<double>(k + 1) / count);
+    watch_.tell("choosing headings and curvatures", 0.0);
+    const Section& section = series_.split.sections[k];
+    if (form_drawn(section)) return {};
+    if (job_.carrier == Carrier::kBaseline) return form_baseline_alone(section);
+    auto chain = chains_.chain(series_, section, watch_);
+    if (!chain) return tl::unexpected(chain.error());
+    auto spirals = spirals_of(*chain);
+    if (!spirals && job_.carrier != Carrier::kClothoids) return tl::unexpected(spirals.error());
+    if (job_.carrier == Carrier::kSpiral) {
+      assembly_.append(std::move(*spirals));
+      add_section(*chain, out_);
+      return {};
+    }
+    auto carried = form(series_.points, chain->chain, spirals ? *spirals : Contour{}, series_,
+                        job_.carrier, tolerance_, watch_);
+    if (!carried) return tl::unexpected(carried.error());
+    out_.add(std::move(*carried), assembly_);
+    add_section(*chain, out_);
+    keep(std::move(spirals));
+    return {};
+  }
+
+  /// The spirals of a section's elements, which become others where slopes are made continuous.
+  Result<Contour> spirals_of(SectionChain& section) {
+    auto spirals = exact_spirals(series_.points, section.chain);
+    return spirals && makes_slopes_continuous(job_) ? smoothed(section, *spirals) : spirals;
+  }
+
+  /// The spirals with continuous slopes, as far as there are any. Where they pass points too far
+  /// that the G2 spirals pass within their tolerances, they are led through the places of these.
+  Result<Contour> smoothed(SectionChain& section, const Contour& spirals) {
+    note_slope_step(spirals);
+    const std::vector<bool> keep = kept_links(section.chain);
+    PassingChain passing(section.chain, spirals, series_.points);
+    SeriesChain chain = section.chain;
+    SmoothedSlopes slopes =
+        smooth_slopes(chain, series_.split.smooth_loop, watch_, keep, section.seam);
+    auto smooth = exact_spirals(series_.points, chain);
+    for (int k = 0; smooth && !series_.exact() && k < kMostPassings; ++k) {
+      if (!passing.pass(excess(*smooth)) || watch_.was_cancelled()) break;
+      chain = passing.chain();
+      slopes = smooth_slopes(chain, series_.split.smooth_loop, watch_, passing.in_links(keep),
+                             section.seam);
+      smooth = exact_spirals(series_.points, chain);
+    }
+    if (!smooth) return smooth;
+    section.chain = std::move(chain);
+    if (!slopes.stepped.empty() && job_.continuity == Continuity::kG3) {
+      section.warnings.push_back(slope_steps_text(section.chain, slopes));
+    }
+    return smooth;
+  }
+
+  /// How much too far the points of a section are passed; 0 for all others.
+  [[nodiscard]] std::vector<double> excess(const Contour& section) const {
+    Contour seen = section;
+    seen.points = series_.points;
+    seen.point_tolerance = series_.tolerance;
+    const std::vector<double> distance = point_distances(seen, watch_);
+    std::vector<double> out(distance.size(), 0.0);
+    const auto mark = [&](std::size_t i) {
+      out[i] = std::max(0.0, distance[i] - series_.tolerance[i]);
+    };
+    const std::size_t n = out.size();
+    const Joint *first = &section.joints.front(), *last = &section.joints.back();
+    if (!first->source || !last->source) return out;
+    const std::size_t over = (*last->source + n - *first->source) % n;
+    for (std::size_t i = 0; i <= (over > 0 ? over : n - 1); ++i) mark((*first->source + i) % n);
+    return out;
+  }
+
+  /// Links whose runs stay as they are; empty when there are none.
+  [[nodiscard]] std::vector<bool> kept_links(const SeriesChain& chain) const {
+    std::vector<bool> out;
+    const std::size_t n = series_.points.size();
+    std::size_t begun = 0;  // the first link behind a point
+    for (std::size_t k = 1; k < chain.elements.size() && !kept_.empty(); ++k) {
+      if (!chain.source[k]) continue;
+      const std::size_t from = *chain.source[begun], over = (*chain.source[k] + n - from) % n;
+      bool keep = kept_.leaving[from];
+      for (std::size_t i = 1; i < (over > 0 ? over : n) && !keep; ++i) {
+        keep = kept_.around[(from + i) % n];
+      }
+      if (keep) {
+        out.resize(chain.links.size(), false);
+        std::fill(out.begin() + static_cast<std::ptrdiff_t>(begun),
+                  out.begin() + static_cast<std::ptrdiff_t>(k), true);
+      }
+      begun = k;
+    }
+    return out;
+  }
+
+  /// Remembers how far the slopes of the G2 contour step, and how they wave.
+  void note_slope_step(const Contour& spirals) {
+    if (!is_made_g3(job_)) return;
+    double& largest = out_.chain.slope_step_g2.emplace(out_.chain.slope_step_g2.value_or(0.0));
+    largest = std::max(largest, largest_slope_step(spirals, series_.split.smooth_loop));
+    waviness_g2_.add(spirals, series_.split.smooth_loop);
+  }
+
+  /// A piece of a drawing stays as it is. False where there is none.
+  bool form_drawn(const Section& section) {
+    const std::size_t first = series_.split.point_at(section.first);
+    if (series_.kept.empty() || !series_.kept[first]) return false;
+    const std::size_t last = series_.split.point_at(section.last) % series_.points.size();
+    Contour drawn = form_kept(*series_.kept[first], series_.points, first, last);
+    out_.add({drawn, {}}, assembly_);
+    keep(std::move(drawn));
+    return true;
+  }
+
+  /// Needs no spirals, and is compared with them where there are any.
+  Result<void> form_baseline_alone(const Section& section) {
+    auto carried = form_baseline_section(series_, section);
+    if (!carried) return tl::unexpected(carried.error());
+    out_.add(std::move(*carried), assembly_);
+    if (!job_.measure_against_spirals) return {};
+    auto chain = chains_.chain(series_, section, watch_);
+    keep(chain ? spirals_of(*chain) : Result<Contour>(tl::unexpected(chain.error())));
+    return {};
+  }
+
+  void keep(Result<Contour> spirals) {
+    have_spirals_ = have_spirals_ && spirals.has_value();
+    if (have_spirals_) spirals_.append(std::move(*spirals));
+  }
+
+  /// No joint between corners has one slope.
+  static bool steps_everywhere(const Contour& contour) {
+    bool any = false;
+    for (std::size_t j = contour.closed ? 0 : 1; j < contour.pieces.size(); ++j) {
+      const Joint& joint = contour.joints[j];
+      if (!joint.leaving && !joint.slope_step) return false;
+      any = any || joint.slope_step;
+    }
+    return any;
+  }
+
+  /// Pieces of drawings go on as they are drawn.
+  static void claim_slopes(Contour& contour, bool continuous) {
+    contour.continuity = continuous ? Continuity::kG3 : Continuity::kG2;
+    if (!continuous) {  // what follows spirals has their joints
+      for (Joint& joint : contour.joints) joint.slope_step = false;
+      return;
+    }
+    const std::size_t n = contour.pieces.size();
+    for (const std::size_t i : contour.kept) {
+      for (const std::size_t j : {i, contour.closed ? (i + 1) % n : i + 1}) {
+        const bool end = !contour.closed && (j == 0 || j == n);
+        contour.joints[j].slope_step =
+            !end && !contour.joints[j].leaving &&
+            slope_step_before(contour.pieces, j % n) > kClearlyContinuous;
+      }
+    }
+  }
+
+  [[nodiscard]] Contour finished(Assembly& assembly, Carrier carrier) const {
+    if (series_.closed) assembly.close(series_.split.smooth_loop);
+    Contour contour = assembly.take();
+    contour.points = series_.points;
+    contour.point_tolerance = point_tolerance(series_, carrier, tolerance_);
+    contour.given = series_.asked;
+    contour.carrier = carrier;
+    claim_slopes(contour, carrier == Carrier::kSpiral && makes_slopes_continuous(job_));
+    return contour;
+  }
+
+  const Prepared& series_;
+  const FitJob& job_;
+  double tolerance_;
+  FoundChains& chains_;
+  Watch& watch_;
+  Formed out_;
+  Assembly assembly_, spirals_;
+  Waviness waviness_g2_;
+  KeptParts kept_;
+  bool have_spirals_;  // as long as they are asked for, and all sections have them
+};
+
+Result<Formed> form_sections(const Prepared& series, const FitJob& job, double tolerance,
+                             FoundChains& chains, Watch& watch) {
+  return SectionForming(series, job, tolerance, chains, watch).run();
+}
+
+/// Part of a point's tolerance that a carrier which follows the spirals takes for itself: what it
+/// takes, the spirals lack, and less room means more vertices.
+constexpr double kOwnPart = 0.1;
+
+/// A carrier that follows the spirals needs a part of each point's tolerance for itself, a tenth of
+/// the least at the most. Returns what it may use.
+double share_tolerance(Prepared& series, double tolerance, double least) {
+  double own = tolerance;
+  for (const double reach : series.reach) {
+    if (reach > 0.0) own = std::min(own, kOwnPart * reach);
+  }
+  own = std::max(own, least);
+  for (double& reach : series.reach) reach = std::max(0.0, reach - own);
+  return own;
+}
+
+bool misses_a_point(const Contour& contour, Watch& watch) {
+  if (contour.point_tolerance.empty()) return false;
+  const std::vector<double> distance = point_distances(contour, watch);
+  for (std::size_t i = 0; i < distance.size(); ++i) {
+    if (distance[i] > contour.point_tolerance[i]) return true;
+  }
+  return false;
+}
+
+/// Points that moved so far that they change places, or turn the contour round between them.
+bool lost_by_moves(const Result<Formed>& formed, Watch& watch) {
+  if (formed) return !points_out_of_order(formed->contour, watch).empty();
+  return formed.error().code == ErrorCode::kChordReversal ||
+         formed.error().code == ErrorCode::kWanders;
+}
+
+/// Halves the reach of points that the contour does not pass after those before them, and of these:
+/// nearer to its points it has their order. False when there are none.
+bool narrow_disorder(const Contour& contour, Watch& watch, Prepared& series) {
+  bool any = false;
+  const std::size_t n = series.reach.size();
+  for (const std::size_t i : points_out_of_order(contour, watch)) {
+    for (const std::size_t k : {i, i > 0 ? i - 1 : n - 1}) {
+      any = any || series.reach[k] > 0.0;
+      series.reach[k] *= 0.5;
+    }
+  }
+  return any;
+}
+
+/// Narrows the reach of points that the contour passes too far or out of order. False when there
+/// are none.
+bool narrow(const Contour& contour, Watch& watch, Prepared& series) {
+  if (series.exact()) return false;
+  const std::vector<double> distance = point_distances(contour, watch);
+  bool any = false;
+  for (std::size_t i = 0; i < distance.size(); ++i) {
+    const double allowed = contour.point_tolerance[i];
+    if (!(distance[i] > allowed) || series.reach[i] == 0.0) continue;
+    series.reach[i] *= kNarrowed * allowed / distance[i];
+    any = true;
+  }
+  return any || narrow_disorder(contour, watch, series);
+}
+
+/// A convex contour turns one way all along; the search within tolerances may have missed that.
+Result<void> keeps_convex(const Contour& contour, const Certificate& certificate) {
+  if (certificate.inflections == 0) return {};
+  Error error{ErrorCode::kFixedDataContradict,
+              "a convex contour was asked for, but none was found within the tolerances",
+              "",
+              "drop the wish for a convex contour, or allow larger tolerances",
+              -1,
+              0.0};
+  int turns = 0;
+  for (const Joint& joint : contour.joints) {
+    turns += joint.element.kappa > 0.0 ? 1 : joint.element.kappa < 0.0 ? -1 : 0;
+  }
+  for (const Joint& joint : contour.joints) {
+    if (!joint.source || turns * joint.element.kappa >= 0.0) continue;
+    error.index = static_cast<std::ptrdiff_t>(*joint.source);
+    error.where = "point " + std::to_string(*joint.source + 1);
+    break;
+  }
+  return fail(std::move(error));
+}
+
+/// The tolerance of the job, or the default; refused where coordinates could not tell it.
+Result<double> tolerance_of(const FitJob& job, const std::vector<Vec2>& points, double least) {
+  if (!job.tolerance) return std::max(least, default_tolerance(points));
+  if (std::isfinite(*job.tolerance) && *job.tolerance >= least) return *job.tolerance;
+  return fail(
+      {ErrorCode::kBadOption,
+       fmt::format("the tolerance must be finite and at least {:.2g} (1e-12 of the size, or "
+                   "the rounding of coordinates)",
+                   least),
+       "", "give a larger one, or none for the default", -1, *job.tolerance});
+}
+
+/// The contour, formed again with narrower reaches as long as it passes points too far.
+Result<Formed> form_within(Prepared& series, const FitJob& job, double tolerance,
+                           FoundChains& chains, Watch& watch) {
+  const auto points = static_cast<double>(series.points.size());
+  const double spare = watch.spent() + kSpareWork, most = spare + kMostFitSteps * points;
+  int round = 0;
+  const auto again = [&] {
+    const Stretch stretch = Stretch::next_of_many(watch, round++);
+    return form_sections(series, job, tolerance, chains, watch);
+  };
+  auto formed = again();
+  while (formed && round <= kNarrowings && watch.spent() < most &&
+         narrow(formed->contour, watch, series)) {
+    formed = again();
+  }
+  if (formed && series.thin && misses_a_point(formed->contour, watch)) {
+    series.thin = false;  // every point a joint: each is met by construction
+    formed = again();
+  }
+  int halvings = 0;
+  while (halvings < kReachHalvings && !series.exact() && !watch.was_cancelled() &&
+         watch.spent() < (halvings == 0 ? most : spare + kMostHalvingSteps * points) &&
+         lost_by_moves(formed, watch)) {
+    ++halvings;
+    for (double& reach : series.reach) reach *= 0.5;
+    formed = again();
+  }
+  if (formed && halvings > 0) {
+    formed->warnings.push_back(
+        fmt::format("within the whole of their tolerances points would change places, or the "
+                    "contour swing out between them: 1/{} of each tolerance was used",
+                    1 << halvings));
+  }
+  return formed;
+}
+
+/// Changes of direction and of sign along a contour whose pieces are monotone.
+struct Turns {
+  int vertices = 0, inflections = 0;
+
+  [[nodiscard]] bool more_than(const Turns& other) const {
+    return vertices > other.vertices || inflections > other.inflections;
+  }
+};
+
+/// Between corners: at one, nothing goes on.
+Turns turns_of(const Contour& contour) {
+  Turns out;
+  int direction = 0, sign = 0;
+  const auto follow_run = [&](const Run& run) {
+    if (contour.joints[run.first_piece].leaving) direction = 0;
+    if (run.direction == 0) return;
+    if (direction != 0 && run.direction != direction) ++out.vertices;
+    direction = run.direction;
+  };
+  const auto follow_joint = [&](const Joint& joint) {
+    const auto sign_of = [](double kappa) { return kappa > 0.0 ? 1 : kappa < 0.0 ? -1 : 0; };
+    const int now = sign_of(joint.element.kappa);
+    if (now != 0) {
+      if (sign != 0 && now != sign) ++out.inflections;
+      sign = now;
+    }
+    if (joint.leaving) sign = sign_of(joint.leaving->kappa);
+  };
+  for (const Run& run : contour.runs) follow_run(run);
+  for (const Joint& joint : contour.joints) follow_joint(joint);
+  if (!contour.closed || contour.runs.empty()) return out;
+  follow_run(contour.runs.front());
+  follow_joint(contour.joints.front());
+  return out;
+}
+
+/// Points that a contour does not pass within their tolerances.
+std::vector<bool> missed_points(const Contour& contour, Watch& watch) {
+  const std::vector<double> distance = point_distances(contour, watch);
+  std::vector<bool> out(distance.size());
+  for (std::size_t i = 0; i < distance.size(); ++i) {
+    out[i] = distance[i] > contour.point_tolerance[i];
+  }
+  for (const std::size_t i : points_out_of_order(contour, watch)) out[i] = true;
+  return out;
+}
+
+/// What is said of the tolerances that both were formed within.
+void take_warnings(const Formed& flat, Formed& smooth) {
+  for (const std::string& one : flat.warnings) {
+    const auto& said = smooth.warnings;
+    if (std::find(said.begin(), said.end(), one) == said.end()) smooth.warnings.push_back(one);
+  }
+}
+
+/// Continuous slopes within tolerances: those of the G2 contour's elements, so that no vertex and
+/// no inflection is added. Runs that miss points whatever was tried keep their G2 spirals.
+Result<Formed> smooth_within(Prepared& series, const FitJob& job, double tolerance, KeptParts kept,
+                             FoundChains& chains, Watch& watch) {
+  const auto form = [&] {
+    return SectionForming(series, job, tolerance, chains, watch).keeping(kept).run();
+  };
+  if (series.exact()) return form();
+  FitJob plain = job;
+  plain.continuity = Continuity::kG2;
+  auto flat = form_within(series, plain, tolerance, chains, watch);
+  if (!flat) return flat;
+  const Turns most = turns_of(flat->contour);
+  auto smooth = form();
+  for (int round = 0; smooth && round < kNarrowings && !watch.was_cancelled(); ++round) {
+    const std::vector<bool> missed = missed_points(smooth->contour, watch);
+    if (std::find(missed.begin(), missed.end(), true) == missed.end()) {
+      if (turns_of(smooth->contour).more_than(most)) break;
+      take_warnings(*flat, *smooth);
+      return smooth;
+    }
+    kept.make(missed.size());
+    for (std::size_t i = 0; i < missed.size(); ++i) kept.around[i] = kept.around[i] || missed[i];
+    smooth = form();
+  }
+  flat->chain.g2_because =
+      "within the tolerances no contour with continuous slopes of the curvature was found that has "
+      "no more vertices and inflections";
+  if (job.continuity) flat->warnings.push_back(flat->chain.g2_because + ": it is G2");
+  return flat;
+}
+
+/// A contour with the figures that follow from it alone.
+struct Measured {
+  Formed formed;
+  FitReport report;
+};
+
+/// What carriers are formed within, and what widths are to keep.
+struct Tolerances {
+  double formed, asked;
+};
+
+/// From now on these are given.
+void hold_at_ends(const std::vector<GivenDatum>& ends, Prepared& series) {
+  for (const GivenDatum& end : ends) {
+    FixedData& fixed = series.fixed[end.point];
+    const auto given = std::find_if(series.given.begin(), series.given.end(),
+                                    [&](const GivenDatum& one) { return one.point == end.point; });
+    if (end.theta) fixed.theta = given->theta = end.theta;
+    if (end.kappa) fixed.kappa = given->kappa = end.kappa;
+  }
+}
+
+Result<Measured> form_and_measure(Prepared& prepared, const FitJob& job, const Units& units,
+                                  const Tolerances& within, const KeptParts& kept,
+                                  FoundChains& chains, Watch& watch) {
+  Result<Formed> formed = [&] {
+    const Stretch stretch(watch, 0.0, kFormedAt);
+    return is_made_g3(job) ? smooth_within(prepared, job, within.formed, kept, chains, watch)
+                           : form_within(prepared, job, within.formed, chains, watch);
+  }();
+  // a carrier that chooses headings of its own is held at the end of a range that it passes
+  std::vector<GivenDatum> passed;
+  for (std::size_t round = 0; formed && round <= 2 * prepared.asked.size(); ++round) {
+    take_piece_ends(formed->contour);
+    const auto now = passed_ends(formed->contour);
+    if (now.empty()) break;
+    passed = now;
+    hold_at_ends(passed, prepared);
+    formed = form_within(prepared, job, within.formed, chains, watch);
+  }
+  if (!formed && !passed.empty()) {
+    const std::size_t at = passed.front().point;
+    return fail({ErrorCode::kCarrierCannotKeep,
+                 fmt::format("{} cannot keep the range given there", to_string(job.carrier)),
+                 fmt::format("point {}", at + 1),
+                 "widen the range there, or use carrier spiral or clothoids",
+                 static_cast<std::ptrdiff_t>(at), 0.0});
+  }
+  if (!formed) {
+    Error error = formed.error();
+    if (!prepared.polygon.empty()) {
+      error.hint += (error.hint.empty() ? "" : "; ") + prepared.polygon;
+    }
+    return fail(std::move(error));
+  }
+  take_piece_ends(formed->contour);
+  if (auto met = keeps_given(formed->contour); !met) return fail(met.error());
+  formed->contour.units = units;
+  auto report = measure(formed->contour, within.asked, watch);
+  if (!report) return tl::unexpected(report.error());
+  return Measured{std::move(*formed), std::move(*report)};
+}
+
+/// Whether the heading or curvature of a point is given.
+std::vector<bool> has_given_data(const Prepared& prepared) {
+  std::vector<bool> out;
+  for (const FixedData& fixed : prepared.fixed) out.push_back(fixed.theta || fixed.kappa);
+  return out;
+}
+
+double seconds_since(std::chrono::steady_clock::time_point begin) {
+  return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+}
+
+/// Curves that promise nothing may end so that doubles hold no curvature there.
+Result<void> has_curvatures(const Contour& contour) {
+  const auto lost = [](const Element& e) {
+    return !std::isfinite(e.theta) || !std::isfinite(e.kappa);
+  };
+  for (const Joint& joint : contour.joints) {
+    if (!lost(joint.element) && !(joint.leaving && lost(*joint.leaving))) continue;
+    const auto point = static_cast<std::ptrdiff_t>(joint.source.value_or(0));
+    return fail({ErrorCode::kRoundingDecides,
+                 fmt::format("{} has no curvature in doubles there", to_string(contour.carrier)),
+                 fmt::format("point {}", point + 1),
+                 "merge points that nearly coincide, or choose another --carrier", point, 0.0});
+  }
+  return {};
+}
+
+enum class Passing { kWithinTolerances, kExactly };
+
+Result<Fit> formed_and_proved(const PointSeries& series, const FitJob& job, FoundChains& chains,
+                              Watch& watch, const KeptParts& kept = {},
+                              Passing passing = Passing::kWithinTolerances) {
+  watch.tell("analysing", 0.0);
+  auto prepared = prepare(series, job);
+  if (!prepared) return tl::unexpected(prepared.error());
+  if (passing == Passing::kExactly) {
+    prepared->reach.assign(prepared->points.size(), 0.0);
+    prepared->tolerance.clear();
+  }
+  const double least = least_tolerance(prepared->points);
+  const auto asked = tolerance_of(job, prepared->points, least);
+  if (!asked) return tl::unexpected(asked.error());
+  const double tolerance =
+      passes_between_joints(job.carrier) ? share_tolerance(*prepared, *asked, least) : *asked;
+  auto measured =
+      form_and_measure(*prepared, job, series.units, {tolerance, *asked}, kept, chains, watch);
+  // what rounding makes of arcs shows in their regions only
+  for (int k = 0; k < kArcTrials && measured && job.carrier == Carrier::kArcs &&
+                  measured->report.largest_width > *asked;
+       ++k) {
+    const double aim = kNarrowedArcs * tolerance * *asked / measured->report.largest_width;
+    measured = form_and_measure(*prepared, job, series.units, {aim, *asked}, kept, chains, watch);
+  }
+  if (!measured) return fail(measured.error());
+  Formed* formed = &measured->formed;
+  if (auto told = has_curvatures(formed->contour); !told) return fail(told.error());
+  Fit out;
+  out.contour = std::move(formed->contour);
+  watch.tell("proving", kFormedAt);
+  out.certificate = certify(out.contour, watch);
+  if (job.convex) {
+    if (auto met = keeps_convex(out.contour, out.certificate); !met) return fail(met.error());
+  }
+  out.report = std::move(measured->report);
+  settle_with(out.certificate, out.contour, out.report, watch);
+  if (formed->spirals) {
+    const auto formed_at = std::chrono::steady_clock::now();
+    measure_against(*formed->spirals, out.contour, watch, out.report);
+    out.report.comparing_seconds = seconds_since(formed_at);
+  }
+  out.report.chain = formed->chain;
+  out.warnings = series.warnings;
+  for (const auto* more : {&prepared->warnings, &formed->warnings}) {
+    out.warnings.insert(out.warnings.end(), more->begin(), more->end());
+  }
+  if (auto warning = warn_of_excursion(out.contour, has_given_data(*prepared))) {
+    out.warnings.push_back(std::move(*warning));
+  }
+  watch.tell("done", 1.0);
+  return out;
+}
+
+/// Parts between two points with a piece that is not proved to be monotone, or not to turn far.
+/// False where no more are found.
+bool keep_unproved(const Fit& fit, KeptParts& kept) {
+  kept.make(fit.contour.points.size());
+  bool any = false;
+  std::optional<std::size_t> begun;
+  for (std::size_t i = 0; i < fit.certificate.pieces.size(); ++i) {
+    begun = fit.contour.joints[i].source ? fit.contour.joints[i].source : begun;
+    const Verdict verdict = fit.certificate.pieces[i].verdict;
+    const bool monotone = verdict != Verdict::kHasVertex && verdict != Verdict::kUndecided;
+    const bool sound = monotone && fit.certificate.pieces[i].turns_below_half;
+    if (sound || !begun || kept.leaving[*begun]) continue;
+    kept.leaving[*begun] = any = true;
+  }
+  return any;
+}
+
+/// The contour with its loose slopes, which rounding may leave, said to step; if it is proved so.
+std::optional<Fit> with_told_steps(const Fit& smooth, bool warns, Watch& watch) {
+  if (smooth.certificate.loose_slopes.empty()) return std::nullopt;
+  Fit out = smooth;
+  for (const std::size_t i : smooth.certificate.loose_slopes)
+    out.contour.joints[i].slope_step = true;
+  out.certificate = certify(out.contour, watch);
+  if (!out.certificate.proved) return std::nullopt;
+  auto report = measure(out.contour, smooth.report.tolerance, watch);
+  if (!report) return std::nullopt;
+  settle_with(out.certificate, out.contour, *report, watch);
+  report->chain = smooth.report.chain;
+  report->seconds = smooth.report.seconds;
+  out.report = std::move(*report);
+  if (warns) {
+    out.warnings.push_back(fmt::format(
+        "rounding leaves a step of the slope of curvature at {} of the joints: G2 there",
+        out.certificate.slope_steps));
+  }
+  return out;
+}
+
+/// Runs whose smooth spirals are not proved keep their G2 ones; if that does not help, the whole
+/// contour does, if that is proved.
+Result<Fit> proved_without_slopes(const PointSeries& series, FitJob job, Fit smooth,
+                                  FoundChains& chains, Watch& watch) {
+  const bool asked = job.continuity.has_value();
+  KeptParts kept;
+  std::optional<Fit> now = smooth;
+  for (int round = 0; now; ++round) {
+    if (auto told = with_told_steps(*now, asked, watch)) return std::move(*told);
+    if (round == kKeptRounds || !keep_unproved(*now, kept)) break;
+    auto made = formed_and_proved(series, job, chains, watch, kept);
+    if (made && made->certificate.proved) return made;
+    now.reset();
+    if (made) now = std::move(*made);
+  }
+  job.continuity = Continuity::kG2;
+  auto made = formed_and_proved(series, job, chains, watch);
+  if (!made) return smooth;
+  if (!made->certificate.proved) return made;  // the simpler of two that are not
+  made->report.chain.g2_because = "the G3 contour was not proved: " + smooth.certificate.reason;
+  if (asked) {
+    made->warnings.push_back("the G3 contour was not proved, so this one is G2: " +
+                             smooth.certificate.reason);
+  }
+  return made;
+}
+
+bool has_tolerances(const PointSeries& series, const FitJob& job) {
+  const auto prepared = prepare(series, job);
+  return prepared && !prepared->exact();
+}
+
+/// The contour through the points as they are, where none within their tolerances is proved: it is
+/// within them too. Only where it has no more vertices and inflections than spirals within them.
+std::optional<Fit> through_points_as_they_are(const PointSeries& series, const FitJob& job,
+                                              FoundChains& chains, Watch& watch) {
+  if (!has_tolerances(series, job)) return std::nullopt;
+  FitJob plain = job;
+  plain.continuity = Continuity::kG2;
+  FitJob followed = plain;
+  followed.carrier = Carrier::kSpiral;
+  const auto spirals = formed_and_proved(series, followed, chains, watch);
+  const auto through = [&](const FitJob& asked) -> std::optional<Fit> {
+    auto made = formed_and_proved(series, asked, chains, watch, {}, Passing::kExactly);
+    if (!made || !made->certificate.proved) return std::nullopt;
+    if (spirals && turns_of(made->contour).more_than(turns_of(spirals->contour))) {
+      return std::nullopt;
+    }
+    return std::move(*made);
+  };
+  auto exact = through(job);
+  if (!exact && is_made_g3(job)) {
+    exact = through(plain);
+    if (exact) {
+      exact->report.chain.g2_because =
+          "through the points as they are none with continuous slopes of the curvature was proved";
+      if (job.continuity) {
+        exact->warnings.push_back(exact->report.chain.g2_because + ": it is G2");
+      }
+    }
+  }
+  if (!exact) return std::nullopt;
+  exact->warnings.emplace_back(
+      "the points are met as they are: no contour of this carrier that moves them within their "
+      "tolerances was found and proved");
+  return exact;
+}
+
+}  // namespace
+
+Continuity wanted_continuity(const FitJob& job) {
+  // what is preferred holds of the headings of the G2 contour
+  const bool smooth = job.carrier == Carrier::kSpiral && job.prefer == Prefer::kFair;
+  return smooth ? job.continuity.value_or(Continuity::kG3) : Continuity::kG2;
+}
+
+namespace {
+
+Result<Fit> fit_as_asked(const PointSeries& series, const FitJob& job, FoundChains& chains,
+                         Watch& watch) {
+  if (watch.cancelled()) return fail(cancelled_error());
+  if (job.continuity == Continuity::kG3 && job.carrier != Carrier::kSpiral) {
+    return fail(
+        {ErrorCode::kBadOption,
+         fmt::format("carrier {} has no continuous slope of curvature", to_string(job.carrier)),
+         "--continuity", "G3 is for --carrier spiral", -1, 0.0});
+  }
+  if (job.continuity == Continuity::kG3 && job.prefer != Prefer::kFair) {
+    return fail({ErrorCode::kBadOption, "continuous slopes move the headings that are preferred",
+                 "--continuity", "leave out --continuity G3, or --prefer", -1, 0.0});
+  }
+  const auto begin = std::chrono::steady_clock::now();
+  auto made = formed_and_proved(series, job, chains, watch);
+  if (!made && made.error().code == ErrorCode::kCarrierCannotKeep && is_made_g3(job) &&
+      !job.continuity) {  // equal slopes cost the last digits of what is given
+    FitJob plain = job;
+    plain.continuity = Continuity::kG2;
+    const std::string because = made.error().what;
+    made = formed_and_proved(series, plain, chains, watch);
+    if (made) made->report.chain.g2_because = "with continuous slopes " + because;
+  } else if (made && is_made_g3(job) && !made->certificate.proved) {
+    made = proved_without_slopes(series, job, std::move(*made), chains, watch);
+  }
+  if ((!made || !made->certificate.proved) && promises_monotone(job.carrier) &&
+      !watch.was_cancelled()) {
+    if (auto exact = through_points_as_they_are(series, job, chains, watch)) {
+      made = std::move(*exact);
+    }
+  }
+  if (watch.was_cancelled()) return fail(cancelled_error());  // whatever it made do with
+  if (made) made->report.seconds = seconds_since(begin);
+  return made;
+}
+
+}  // namespace
+
+Result<Fit> pipeline_detail::fit_with(const PointSeries& series, const FitJob& job,
+                                      FoundChains& chains, Watch& watch) {
+  const auto begin = std::chrono::steady_clock::now();
+  auto made = fit_as_asked(series, job, chains, watch);
+  if (made || job.carrier != Carrier::kBeziers || !wants_room(job, made.error())) return made;
+  made = with_room(job, "this one is", std::move(made), [&](const FitJob& wider) {
+    FoundChains others;
+    return fit_as_asked(series, wider, others, watch);
+  });
+  if (made) made->report.seconds = seconds_since(begin);
+  return made;
+}
+
+Result<Fit> fit(const PointSeries& series, const FitJob& job, Watch& watch) {
+  FoundChains chains;
+  return pipeline_detail::fit_with(series, job, chains, watch);
+}
+
+Result<Fit> fit(const PointSeries& series, const FitJob& job, const RunContext& run) {
+  Watch watch(run);
+  return fit(series, job, watch);
+}
+
+}  // namespace obvid

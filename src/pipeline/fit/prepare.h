@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "obvid/core/result.h"
+#include "obvid/pipeline/fit.h"
+#include "obvid/series/internal/sections.h"
+
+namespace obvid::pipeline_detail {
+
+/// A series ready to be formed: cleaned, its tolerances known, cut at its corners.
+struct Prepared {
+  std::vector<Vec2> points;
+  std::vector<double> reach;  ///< how far each point may be moved; 0: not at all
+  std::vector<double>
+      tolerance;  ///< how far the contour may pass it; empty when all are met exactly
+  std::vector<FixedData> fixed;   ///< empty, or one entry per point
+  std::vector<GivenDatum> asked;  ///< the same headings and curvatures, and the marked corners
+  std::vector<GivenDatum> given;  ///< those that carriers are to meet: `asked`, and ends of ranges
+  /// Empty, or per point the piece that leaves it and stays as it is.
+  std::vector<std::optional<Piece>> kept;
+  bool convex = false;
+  Prefer prefer = Prefer::kFair;
+  double above_least = 0.0;  ///< as in the job, with its default
+  bool central = false;      ///< each in the middle of what is left to it, when ranges ask for it
+  bool primitives = false;
+  bool thin = true;  ///< fewer joints than points where points with tolerances are dense
+  bool closed = false;
+  std::optional<Vec2> period{};  ///< as in the job
+  SplitSeries split;
+  std::vector<std::string> warnings;
+  std::string polygon;  ///< what is said when the points may be corners of a polygon; mostly empty
+
+  [[nodiscard]] bool exact() const { return tolerance.empty(); }
+};
+
+/// Merges equal neighbours, gathers fixed data and tolerances from series and job, decides whether
+/// the series is closed, and finds its corners.
+/// Errors: E203 for wishes at points that do not exist, or where something else is fixed already;
+/// E303, E304; E403 where the series fixes two headings or curvatures at one point.
+[[nodiscard]] Result<Prepared> prepare(const PointSeries& series, const FitJob& job);
+
+}  // namespace obvid::pipeline_detail

@@ -1,0 +1,126 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "fit/waviness.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+namespace obvid::pipeline_detail {
+namespace {
+
+/// Equal steps of the parameter of each piece at whose ends the slope is taken (docs/claims.md).
+constexpr int kSlopeSteps = 8;
+/// The figure is told to this part of itself.
+constexpr double kToldTo = 1e-3;
+/// Second and third derivatives of coordinates of size 1 have an error of so many roundings at the
+/// most: the binomial sums of degree 5 and their products. First derivatives have a tenth of them.
+constexpr double kSlopeRoundings = 100.0 * 0x1p-53;
+constexpr double kTangentRoundings = 10.0 * 0x1p-53;
+
+/// A piece seen from one of its ends, where coordinates beside it are small; from its end it runs
+/// back, which leaves d kappa/ds as it is.
+Piece seen_from_end(const Piece& piece, bool start) {
+  const auto* bezier = std::get_if<RationalBezier>(&piece);
+  if (bezier == nullptr) return piece;
+  RationalBezier local = *bezier;
+  const auto last = static_cast<std::size_t>(local.degree);
+  const Vec2 origin = local.offset[start ? 0 : last];
+  local.origin = {};
+  for (std::size_t j = 0; j <= last; ++j) {
+    const std::size_t from = start ? j : last - j;
+    local.offset[j] = bezier->offset[from] - origin;
+    local.weight[j] = bezier->weight[from];
+  }
+  return local;
+}
+
+/// Sizes of the coordinates from whose differences the first three derivatives at a place are made.
+std::array<double, 3> coordinates_at(const Piece& piece, double t) {
+  std::array<double, 3> out{};
+  const auto* bezier = std::get_if<RationalBezier>(&piece);
+  if (bezier == nullptr) return out;
+  std::array<double, kMaxBezierDegree + 1> size{};
+  auto left = static_cast<std::size_t>(bezier->degree);
+  for (std::size_t j = 0; j <= left; ++j) size[j] = bezier->weight[j] * norm(bezier->offset[j]);
+  for (; left > 0; --left) {
+    const auto kept = size.begin() + static_cast<std::ptrdiff_t>(left) + 1;
+    if (left <= out.size()) out[left - 1] = *std::max_element(size.begin(), kept);
+    for (std::size_t j = 0; j < left; ++j) size[j] = (1.0 - t) * size[j] + t * size[j + 1];
+  }
+  return out;
+}
+
+/// Bound of the rounding of the slope of curvature, (d1 x d3 / v^3 - 3 kappa d1 d2 / v^2) / v with
+/// v = |d1|: each derivative is wrong by its roundings.
+double slope_rounding(const Piece& local, double t, const Jet& jet) {
+  const double speed = norm(jet.d1), bend = norm(jet.d2) / speed, third = norm(jet.d3) / speed;
+  const auto size = coordinates_at(local, t);
+  const double first = kTangentRoundings * size[0], second = kSlopeRoundings * size[1];
+  return (kSlopeRoundings * size[2] + 6.0 * bend * second + (third + 3.0 * bend * bend) * first) /
+         (speed * speed * speed);
+}
+
+}  // namespace
+
+void Waviness::add(const Contour& contour, bool loop) {
+  if (contour.runs.empty()) return;
+  const std::size_t n = contour.pieces.size();
+  const Run &first = contour.runs.front(), &last = contour.runs.back();
+  const auto strange = [n](const Run& run) {
+    return run.last_piece >= n || run.first_piece > run.last_piece;
+  };
+  if (std::any_of(contour.runs.begin(), contour.runs.end(), strange)) {  // of a file
+    known_ = false;
+    return;
+  }
+  const bool wraps = loop && contour.runs.size() > 1 && first.direction == last.direction;
+  for (const Run& run : contour.runs) {
+    if (run.direction == 0 || (wraps && run.first_piece == 0)) continue;
+    const bool over_seam = wraps && run.last_piece + 1 == n;
+    add_run(contour, run.first_piece, over_seam ? n + first.last_piece : run.last_piece);
+  }
+}
+
+/// Pieces are counted on around the contour.
+void Waviness::add_run(const Contour& contour, std::size_t first, std::size_t last) {
+  double variation = 0.0, largest = 0.0, rounding = 0.0, before = 0.0;
+  const auto meet = [&](double slope) {
+    variation += std::abs(slope - before);
+    largest = std::max(largest, std::abs(slope));
+    before = slope;
+  };
+  for (std::size_t i = first; i <= last; ++i) {
+    const Piece& piece = contour.pieces[i % contour.pieces.size()];
+    if (const auto* clothoid = std::get_if<ClothoidPiece>(&piece)) {  // exact where they are alike
+      meet((clothoid->kappa1 - clothoid->kappa0) / clothoid->length);
+      continue;
+    }
+    const std::array<Piece, 2> local = {seen_from_end(piece, true), seen_from_end(piece, false)};
+    for (int k = 0; k <= kSlopeSteps; ++k) {
+      const bool back = 2 * k > kSlopeSteps;
+      const Piece& near = local[back ? 1 : 0];
+      const double t = static_cast<double>(back ? kSlopeSteps - k : k) / kSlopeSteps;
+      const Jet jet = evaluate(near, t);
+      meet(curvature_rate(jet));
+      rounding += 2.0 * slope_rounding(near, t, jet);
+    }
+  }
+  meet(0.0);
+  known_ = known_ && largest > 0.0 && std::isfinite(variation) && rounding <= kToldTo * variation;
+  hills_ += variation / (2.0 * largest);
+  ++runs_;
+}
+
+std::optional<double> Waviness::value() const {
+  if (!known_ || runs_ == 0) return std::nullopt;
+  return hills_ / static_cast<double>(runs_);
+}
+
+std::optional<double> waviness(const Contour& contour) {
+  if (!promises_monotone(contour.carrier) || contour.carrier == Carrier::kArcs) return std::nullopt;
+  Waviness whole;
+  whole.add(contour, contour.closed && !contour.joints.empty() && !contour.joints.front().leaving);
+  return whole.value();
+}
+
+}  // namespace obvid::pipeline_detail

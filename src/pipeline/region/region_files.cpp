@@ -1,0 +1,398 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "obvid/pipeline/internal/region_files.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cctype>
+#include <cmath>
+#include <limits>
+#include <optional>
+#include <utility>
+#include <vector>
+
+#include "obvid/core/internal/figures.h"
+#include "obvid/geom/internal/angle.h"
+#include "obvid/pipeline/internal/report_json.h"
+#include "obvid/region/internal/boundary_distance.h"
+#include "obvid/region/internal/convex_triangle.h"
+
+namespace obvid {
+namespace {
+
+std::string csv_cell(std::optional<double> value) {
+  return value && !std::isnan(*value) ? fmt::format("{}", *value) : "";
+}
+
+/// Headings of a point by the turn in which its own lies between -180 and 180 degrees.
+struct Degrees {
+  explicit Degrees(double heading) : shift(std::remainder(heading, kFullTurn) - heading) {}
+  double operator()(double angle) const { return (angle + shift) / kOneDegree; }
+  double shift;
+};
+
+std::optional<double> radius_of(std::optional<double> kappa) {
+  if (!kappa) return std::nullopt;
+  return std::isinf(*kappa) ? 0.0 : 1.0 / *kappa;  // infinite for a line
+}
+
+/// Least and greatest radius of a range of curvatures, each with its sign; a line has any.
+std::pair<std::optional<double>, std::optional<double>> radii(
+    const std::optional<CurvatureRange>& range) {
+  if (!range) return {};
+  auto least = radius_of(range->low), greatest = radius_of(range->high);
+  if (std::abs(*least) > std::abs(*greatest)) std::swap(least, greatest);
+  if (range->low <= 0.0 && range->high >= 0.0) greatest = std::numeric_limits<double>::infinity();
+  return {least, greatest};
+}
+
+void add_csv(const RegionPart& part, const char* series, std::string& out) {
+  for (std::size_t i = 0; i < part.points.size(); ++i) {
+    const RegionPoint& p = part.points[i];
+    const auto [least, greatest] = radii(p.curvatures);
+    const Degrees degrees(p.theta);
+    out += fmt::format(
+        "{},{},{},{},{},{},{},{},{},{},{},{}", series, p.inserted > 0 ? "inserted" : "point",
+        region_point_name(p), p.point.x, p.point.y, csv_cell(radius_of(p.adjacent_kappa)),
+        degrees(p.theta), p.theta_given ? "given" : "chosen",
+        csv_cell(p.headings ? std::optional(degrees(p.headings->low)) : std::nullopt),
+        csv_cell(p.headings ? std::optional(degrees(p.headings->high)) : std::nullopt),
+        csv_cell(least), csv_cell(greatest));
+    const auto row = std::find_if(part.rows.begin(), part.rows.end(),
+                                  [i](const RegionRow& r) { return r.from == i; });
+    if (row == part.rows.end()) {
+      out += ",,,,,,,,,,,,,\n";
+      continue;
+    }
+    out += fmt::format(
+        ",{},{},{},{},{},{},{},{},{},{},{},{},{}\n", region_segment_name(part, *row),
+        csv_cell(row->chord), csv_cell(row->points_only_error), csv_cell(row->to_apex),
+        csv_cell(row->from_apex), csv_cell(row->lower_height), csv_cell(row->width),
+        csv_cell(row->apex_height), csv_cell(row->tangent_height), csv_cell(row->apex_gap),
+        csv_cell(row->tangent_gap), csv_cell(row->tangent_bound), csv_cell(row->spline_distance));
+  }
+}
+
+std::string tex_number(std::optional<double> value, int decimals) {
+  if (!value || std::isnan(*value)) return "--";
+  if (std::isinf(*value)) return "$\\infty$";
+  return fmt::format("{:.{}f}", *value, decimals);
+}
+
+std::string tex_text(const std::string& text) {
+  std::string out;
+  for (const char c : text) {
+    if (c == '_' || c == '&' || c == '%' || c == '#' || c == '$') out += '\\';
+    out += c;
+  }
+  return out;
+}
+
+/// Decimals that tell a millionth of the size: four for some hundred millimetres.
+int decimals_of(const RegionTable& table) {
+  double largest = 0.0;
+  for (const RegionRow& row : table.rows) largest = std::max(largest, row.chord);
+  return largest > 0.0 ? std::max(6 - static_cast<int>(std::floor(std::log10(largest))), 0) : 0;
+}
+
+void add_latex(const RegionPart& part, int decimals, std::string& out) {
+  const int coarse = std::max(decimals - 2, 0);
+  out +=
+      "\\begin{tabular}{lrrrrrrrr}\n\\hline\n"
+      "$i$ & $x_i$ & $y_i$ & $R_i^{AC}$ & heading & from & to & $R_{\\min}$ & $R_{\\max}$ \\\\\n"
+      "\\hline\n";
+  for (const RegionPoint& p : part.points) {
+    const auto [least, greatest] = radii(p.curvatures);
+    const Degrees degrees(p.theta);
+    out +=
+        fmt::format("{}{} & {} & {} & {} & {} & {} & {} & {} & {} \\\\\n", region_point_name(p),
+                    p.inserted > 0 ? "$^+$" : "", tex_number(p.point.x, coarse),
+                    tex_number(p.point.y, coarse), tex_number(radius_of(p.adjacent_kappa), coarse),
+                    fmt::format("{:.3f}$^\\circ$", degrees(p.theta)),
+                    p.headings ? fmt::format("{:.3f}$^\\circ$", degrees(p.headings->low)) : "--",
+                    p.headings ? fmt::format("{:.3f}$^\\circ$", degrees(p.headings->high)) : "--",
+                    tex_number(least, coarse), tex_number(greatest, coarse));
+  }
+  out +=
+      "\\hline\n\\end{tabular}\n\n\\begin{tabular}{lrrrrrrrrrrr}\n\\hline\n"
+      "$i$ & $|i,i{+}1|$ & $\\Delta^{AC}$ & $|i,T|$ & $|T,i{+}1|$ & $h$ & $\\delta$ & $H$ & $H^t$ "
+      "& $\\Delta$ & $\\Delta^t$ & $f$ \\\\\n\\hline\n";
+  for (const RegionRow& row : part.rows) {
+    out += fmt::format("{} & {} & {} & {} & {} & {} & {} & {} & {} & {} & {} & {} \\\\\n",
+                       region_segment_name(part, row), tex_number(row.chord, coarse),
+                       tex_number(row.points_only_error, decimals), tex_number(row.to_apex, coarse),
+                       tex_number(row.from_apex, coarse), tex_number(row.lower_height, decimals),
+                       tex_number(row.width, decimals), tex_number(row.apex_height, decimals),
+                       tex_number(row.tangent_height, decimals), tex_number(row.apex_gap, decimals),
+                       tex_number(row.tangent_gap, decimals),
+                       tex_number(row.spline_distance, decimals));
+  }
+  out += "\\hline\n\\end{tabular}\n";
+}
+
+void add_latex(const RegionTable& table, int decimals, std::string& out) {
+  const ConstructionTable& made = *table.construction;
+  out += "\n\\begin{tabular}{l" + std::string(made.columns.size(), 'r') + "l}\n\\hline\n$i$";
+  for (const std::string& column : made.columns) out += " & " + tex_text(column);
+  out += " & \\\\\n\\hline\n";
+  for (const ConstructionRow& row : made.rows) {
+    out += region_segment_name(table.last(), table.last().rows[row.segment]);
+    for (const double value : row.values) out += " & " + tex_number(value, decimals);
+    out += " & " + tex_text(row.remark) + " \\\\\n";
+  }
+  out += "\\hline\n\\end{tabular}\n";
+}
+
+/// 1, 2 or 5 times a power of ten, not above a value.
+double round_factor(double value) {
+  if (!(value > 1.0) || !std::isfinite(value)) return 1.0;
+  const double power = std::pow(10.0, std::floor(std::log10(value)));
+  const double rest = value / power;
+  return power * (rest >= 5.0 ? 5.0 : rest >= 2.0 ? 2.0 : 1.0);
+}
+
+class WorksheetDrawing {
+ public:
+  WorksheetDrawing(const PointSeries& series, const RegionTable& table)
+      : part_(table.last()), construction_(table.construction) {
+    out_.sketch.title = series.name.empty() ? "region" : series.name;
+    out_.sketch.units = series.units;
+  }
+
+  RegionDrawing run() {
+    choose_factor();
+    region_ = add("REGION", "region", "#e8a33d", 40, 0.6);
+    region_->filled = true;
+    out_.sketch.layers.front().title = fmt::format("region, {:g} times wider", out_.magnified);
+    for (std::size_t i = 1; i + 1 < part_.points.size(); ++i) circle(i);
+    for (const RegionRow& row : part_.rows) segment(row);
+    if (construction_) add_construction();
+    points();
+    out_.sketch.remarks.push_back(fmt::format(
+        "lengths in {}; the region is drawn {:g} times wider across its chords, all else in true "
+        "scale",
+        out_.sketch.units.text(), out_.magnified));
+    return std::move(out_);
+  }
+
+ private:
+  SketchLayer* add(const char* name, const char* title, const char* color, int dxf, double width) {
+    constexpr std::size_t kLayers = 10;
+    out_.sketch.layers.reserve(kLayers);  // so that pointers stay
+    SketchLayer layer;
+    layer.name = name;
+    layer.title = title;
+    layer.color = color;
+    layer.dxf_color = dxf;
+    layer.width = width;
+    out_.sketch.layers.push_back(std::move(layer));
+    return &out_.sketch.layers.back();
+  }
+
+  SketchLayer& layer(SketchLayer*& slot, const char* name, const char* title, const char* color,
+                     int dxf, double width) {
+    if (slot == nullptr) slot = add(name, title, color, dxf, width);
+    return *slot;
+  }
+
+  /// So that the widest region takes a quarter of its chord. Rounding has no width.
+  void choose_factor() {
+    constexpr double kOfChord = 0.25;
+    constexpr double kRoundings = 64.0 * 0x1p-53;  // of coordinates, and of what follows from them
+    double widest = 0.0, coordinate = 0.0;
+    for (const RegionPoint& p : part_.points) {
+      coordinate = std::max({coordinate, std::abs(p.point.x), std::abs(p.point.y)});
+    }
+    for (const RegionRow& row : part_.rows) {
+      if (!row.width || *row.width <= kRoundings * (coordinate + row.chord)) continue;
+      widest = std::max(widest, *row.width / row.chord);
+    }
+    out_.magnified = widest > 0.0 ? round_factor(kOfChord / widest) : 1.0;
+  }
+
+  /// Arc of the adjacent circle from the point before to the point after.
+  void circle(std::size_t i) {
+    const RegionPoint& p = part_.points[i];
+    if (!p.adjacent_kappa) return;
+    const Vec2 a = part_.points[i - 1].point, b = part_.points[i + 1].point, m = p.point;
+    auto& to = layer(circles_, "ADJACENT_CIRCLES", "adjacent circles", "#7a9cc6", 5, 0.7);
+    const double kappa = *p.adjacent_kappa;
+    if (kappa == 0.0) {
+      to.pieces.emplace_back(LinePiece{a, b});
+      return;
+    }
+    // the whole arc turns by twice as much as the chords do at the point
+    const double turn = 2.0 * turning(m - a, b - m);
+    to.pieces.emplace_back(ArcPiece{a, b, heading(b - a) - 0.5 * turn, kappa, turn / kappa});
+  }
+
+  void segment(const RegionRow& row) {
+    const RegionPoint &a = part_.points[row.from], &b = part_.points[row.to];
+    if (const auto t =
+            tangent_triangle(a.point, unit_at(row.theta_start), b.point, unit_at(row.theta_end))) {
+      auto& sides =
+          layer(triangles_, "TRIANGLES", "triangles of tangents and chords", "#999999", 8, 0.7);
+      sides.dashed = true;
+      sides.polylines.push_back({a.point, t->apex, b.point, a.point});
+    }
+    if (!row.region) return;
+    const PlacedBoundaries& r = *row.region;
+    auto& first = layer(from_start_, "LIMIT_FROM_START", "limiting arcs: circle at the first point",
+                        "#c0392b", 1, 1.2);
+    add_arcs(first, r, r.region.from_start);
+    auto& second = layer(to_end_, "LIMIT_TO_END", "limiting arcs: circle at the second point",
+                         "#1e8449", 3, 1.2);
+    add_arcs(second, r, r.region.to_end);
+    add_magnified(r);
+  }
+
+  static Vec2 in_plane(const PlacedBoundaries& r, Vec2 local) {
+    return r.start + local.x * r.along + local.y * left_normal(r.along);
+  }
+
+  static void add_arcs(SketchLayer& to, const PlacedBoundaries& r, const Boundary& b) {
+    for (const Piece& piece : boundary_arcs(r.frame, b)) {
+      if (const auto* line = std::get_if<LinePiece>(&piece)) {
+        to.pieces.emplace_back(LinePiece{in_plane(r, line->start), in_plane(r, line->end)});
+        continue;
+      }
+      const auto& arc = std::get<ArcPiece>(piece);
+      to.pieces.emplace_back(ArcPiece{in_plane(r, arc.start), in_plane(r, arc.end),
+                                      heading(r.along) + arc.theta0, arc.kappa, arc.length});
+    }
+  }
+
+  void add_magnified(const PlacedBoundaries& r) {
+    constexpr int kStripSteps = 40;
+    std::vector<Vec2> one, other;
+    for (int k = 0; k <= kStripSteps; ++k) {
+      const double x = r.frame.h * k / kStripSteps;
+      const auto y0 = ordinate_over_chord(r.frame, r.region.from_start, x);
+      const auto y1 = ordinate_over_chord(r.frame, r.region.to_end, x);
+      if (!y0 || !y1) return;
+      const double middle = 0.5 * (*y0 + *y1), half = 0.5 * out_.magnified * (*y1 - *y0);
+      one.push_back(in_plane(r, {x, middle - half}));
+      other.push_back(in_plane(r, {x, middle + half}));
+    }
+    one.insert(one.end(), other.rbegin(), other.rend());
+    region_->polylines.push_back(std::move(one));
+  }
+
+  /// Lines and arcs as they are; other pieces as polylines.
+  void add_construction() {
+    auto* layer = add("CONSTRUCTION", "construction", "#6c3483", 4, 1.6);
+    constexpr int kLinesOfPiece = 64;
+    for (const Piece& piece : construction_->pieces) {
+      if (std::holds_alternative<ArcPiece>(piece) || std::holds_alternative<LinePiece>(piece)) {
+        layer->pieces.push_back(piece);
+        continue;
+      }
+      std::vector<Vec2> line;
+      for (int k = 0; k <= kLinesOfPiece; ++k) {
+        line.push_back(evaluate(piece, static_cast<double>(k) / kLinesOfPiece).point);
+      }
+      layer->polylines.push_back(std::move(line));
+    }
+  }
+
+  void points() {
+    auto* tangents = add("TANGENTS", "tangents", "#555555", 6, 0.9);
+    auto* user = add("POINTS", "points", "#000000", 7, 1.0);
+    SketchLayer* inserted = nullptr;
+    for (std::size_t i = 0; i < part_.points.size(); ++i) {
+      const RegionPoint& p = part_.points[i];
+      double reach = 0.0;
+      for (const std::size_t k : {i > 0 ? i - 1 : i, i + 1 < part_.points.size() ? i + 1 : i}) {
+        reach = std::max(reach, norm(part_.points[k].point - p.point));
+      }
+      constexpr double kOfReach = 0.25;
+      const Vec2 half = kOfReach * reach * unit_at(p.theta);
+      tangents->pieces.emplace_back(LinePiece{p.point - half, p.point + half});
+      if (p.inserted > 0) {
+        layer(inserted, "INSERTED", "inserted points", "#c0392b", 1, 1.0).points.push_back(p.point);
+      } else {
+        user->points.push_back(p.point);
+      }
+      out_.sketch.words.push_back({p.point, region_point_name(p)});
+    }
+  }
+
+  const RegionPart& part_;
+  const std::optional<ConstructionTable>& construction_;
+  RegionDrawing out_;
+  SketchLayer *region_ = nullptr, *circles_ = nullptr, *triangles_ = nullptr,
+              *from_start_ = nullptr, *to_end_ = nullptr;
+};
+
+}  // namespace
+
+std::string region_point_name(const RegionPoint& point) {
+  return point.inserted > 0 ? fmt::format("{}.{}", point.number + 1, point.inserted)
+                            : fmt::format("{}", point.number + 1);
+}
+
+std::string region_segment_name(const RegionPart& part, const RegionRow& row) {
+  return region_point_name(part.points[row.from]) + "-" + region_point_name(part.points[row.to]);
+}
+
+std::string region_csv(const RegionTable& table) {
+  std::string out =
+      "series,row,point,x,y,adjacent_radius,heading_deg,heading,heading_min_deg,heading_max_deg,"
+      "least_radius,greatest_radius,segment,chord,points_only_error,to_apex,from_apex,h,delta,H,Ht,"
+      "Delta,Delta_t,Delta_t_bound,f\n";
+  add_csv(table.user, "points", out);
+  if (table.refined) add_csv(*table.refined, "refined", out);
+  return out;
+}
+
+std::string construction_csv(const RegionTable& table) {
+  if (!table.construction) return "";
+  std::string out = "segment";
+  for (const std::string& column : table.construction->columns) out += "," + column;
+  out += ",remark\n";
+  for (const ConstructionRow& row : table.construction->rows) {
+    out += region_segment_name(table.last(), table.last().rows[row.segment]);
+    for (const double value : row.values) out += "," + csv_cell(value);
+    out += ",\"" + row.remark + "\"\n";
+  }
+  return out;
+}
+
+std::string region_latex(const PointSeries& series, const RegionTable& table) {
+  std::string out =
+      fmt::format("% {}, lengths in {}\n", tex_text(series.name), series.units.text());
+  const int decimals = decimals_of(table);
+  add_latex(table.user, decimals, out);
+  if (table.refined) {
+    out += "\n% with the inserted points\n";
+    add_latex(*table.refined, decimals, out);
+  }
+  if (table.construction) add_latex(table, decimals, out);
+  return out;
+}
+
+RegionDrawing region_drawing(const PointSeries& series, const RegionTable& table) {
+  return WorksheetDrawing(series, table).run();
+}
+
+Result<RegionFile> region_file(const std::string& ending, const PointSeries& series,
+                               const RegionTable& table) {
+  std::string kind = ending;
+  std::transform(kind.begin(), kind.end(), kind.begin(),
+                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  if (kind == "csv") {
+    return RegionFile{table.construction ? construction_csv(table) : region_csv(table), ""};
+  }
+  if (kind == "tex") return RegionFile{region_latex(series, table), ""};
+  if (kind == "json") return RegionFile{region_json(series, table) + "\n", ""};
+  if (kind == "svg" || kind == "dxf") {
+    const RegionDrawing drawing = region_drawing(series, table);
+    return RegionFile{
+        kind == "svg" ? sketch_svg(drawing.sketch) : sketch_dxf(drawing.sketch),
+        fmt::format("the region is drawn {:g} times wider across its chords", drawing.magnified)};
+  }
+  return fail({ErrorCode::kUnknownFormat, "region writes no such file", ending,
+               "possible are .csv, .tex, .json (tables), .svg and .dxf (drawings)"});
+}
+
+}  // namespace obvid

@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <filesystem>
+#include <utility>
+
+#include "files/cad_of_text.h"
+#include "obvid/cad/internal/cad.h"
+#include "obvid/io/internal/read_control_net.h"
+#include "obvid/io/internal/read_file.h"
+#include "obvid/io/surface_json.h"
+#include "obvid/pipeline/surface_job.h"
+
+namespace obvid {
+namespace {
+
+bool starts_with_brace(const std::string& text) {
+  const std::size_t first = text.find_first_not_of(" \t\r\n");
+  return first != std::string::npos && text[first] == '{';
+}
+
+Result<CadSurfaces> read_faces(const std::string& path) { return read_cad_surfaces(path); }
+
+}  // namespace
+
+Result<SurfaceModel> read_surface(const SurfaceInput& input, std::vector<std::string>& warnings) {
+  const std::string& path = input.name;
+  if (input.points) {
+    return fail({ErrorCode::kUnsupported, "points are no surface", path, "give a stored surface"});
+  }
+  const Result<std::string> text = input.text ? *input.text : read_file(path);
+  if (!text) return fail(text.error());
+  if (starts_with_brace(*text)) return surface_from_json(*text, path);
+  if (!is_cad_text(*text)) {
+    auto net = parse_control_net(*text, path);
+    if (net) net->name = std::filesystem::path(path).stem().string();
+    return net;
+  }
+  auto surfaces =
+      input.text ? pipeline_detail::cad_of_text(*text, path, read_faces) : read_cad_surfaces(path);
+  if (!surfaces) return fail(surfaces.error());
+  warnings.insert(warnings.end(), surfaces->warnings.begin(), surfaces->warnings.end());
+  return std::move(surfaces->model);
+}
+
+}  // namespace obvid

@@ -1,0 +1,190 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "obvid/pipeline/skin_sections.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "surface/align_sections.h"
+#include "surface/surface_kinds.h"
+
+namespace obvid {
+namespace {
+
+double size_of_sections(const std::vector<SpaceSeries>& sections) {
+  std::vector<Vec3> all;
+  for (const SpaceSeries& section : sections) {
+    all.insert(all.end(), section.points.begin(), section.points.end());
+  }
+  return pipeline_detail::size_of(all);
+}
+
+/// A section in its plane: points that differ, and which of them each point is.
+struct Flat {
+  SkinSection section;
+  PointSeries series;
+  double extent = 0.0;  ///< largest coordinate in space, units
+};
+
+/// Of the largest coordinate: some thousand steps of a double, and up to a million of them where
+/// points are dense; far below what is ever measured.
+constexpr double kDenseRounding = 1e-12;
+constexpr double kMostRounding = 2e-9;
+
+Flat flat(const SpaceSeries& given, const Units& units) {
+  Flat out;
+  out.section.name = given.name;
+  out.section.points = given.points;
+  out.section.frame = plane_of(given.points);
+  out.series.name = given.name;
+  out.series.units = units;
+  out.series.rounding = rounding_in(out.section.frame, given.rounding).within;
+  for (const Vec3& p : given.points) {
+    out.extent = std::max({out.extent, std::abs(p.x), std::abs(p.y), std::abs(p.z)});
+    const Vec2 in_plane = out.section.frame.in_plane(p);
+    if (out.series.points.empty() || !(out.series.points.back() == in_plane)) {
+      out.series.points.push_back(in_plane);
+    }
+    out.section.on_contour.push_back(out.series.points.size() - 1);
+  }
+  if (!given.corners.empty()) out.series.fixed.resize(out.series.points.size());
+  for (const std::size_t corner : given.corners) {
+    if (corner < given.points.size())
+      out.series.fixed[out.section.on_contour[corner]].corner = true;
+  }
+  return out;
+}
+
+/// Ends that nearly meet are one point: a slit below the tolerance is no part of the body.
+void close_slits(std::vector<SpaceSeries>& sections, double tolerance,
+                 std::vector<std::string>& warnings) {
+  constexpr std::size_t kLeast = 4;  // points of something that closes
+  for (SpaceSeries& section : sections) {
+    if (section.points.size() < kLeast) continue;
+    const double gap = norm(section.points.back() - section.points.front());
+    if (!(gap > 0.0) || gap > tolerance) continue;
+    section.points.back() = section.points.front();
+    warnings.push_back(fmt::format("{}: its ends are {:.2g} apart, less than the tolerance: closed",
+                                   section.name, gap));
+  }
+}
+
+/// A closed contour drops the repeated first point; a section keeps it, as its end.
+void close(SkinSection& section) {
+  if (!section.contour.closed) return;
+  const std::size_t count = section.contour.points.size();
+  bool ends_at_start = false;
+  for (std::size_t& i : section.on_contour) {
+    ends_at_start = i == count;
+    i %= count;
+  }
+  if (ends_at_start) return;
+  section.points.push_back(section.points.front());
+  section.on_contour.push_back(0);
+}
+
+bool has_continuous_slopes(const Fit& fit) {
+  return fit.contour.continuity == Continuity::kG3 && fit.certificate.proved &&
+         fit.certificate.slope_steps == 0;
+}
+
+/// The contour of one section (`moved` grows to what its points were allowed to move), plain where
+/// that is allowed and nothing better exists.
+Result<Fit> fit_section(const Flat& flat, const SkinJob& job, std::size_t number, double& moved,
+                        std::vector<std::string>& warnings, const RunContext& run) {
+  const RunContext silent({}, run.cancelled);
+  Result<Fit> made = fit(flat.series, job.sections, silent);
+  // circles in full precision, and sections turned into their plane: below the last digits of the
+  // coordinates nothing is known, so points may move there
+  for (double share = kDenseRounding; !made && share < kMostRounding && !job.sections.noise &&
+                                      made.error().code == ErrorCode::kRoundingDecides;
+       share *= 10.0) {
+    FitJob within_rounding = job.sections;
+    within_rounding.noise = share * flat.extent;
+    made = fit(flat.series, within_rounding, silent);
+    moved = std::max(moved, share * flat.extent);
+  }
+  const std::string name = fmt::format("section {} ({})", number, flat.section.name);
+  if (!made && job.plain_when_refused && exit_code(made.error().code) == 4) {
+    FitJob plain = job.sections;
+    plain.carrier = Carrier::kBaseline;
+    plain.continuity.reset();
+    plain.noise.reset();
+    plain.noise_from_rounding = false;
+    warnings.push_back(
+        fmt::format("{}: no fair contour ({}), the C2 cubic through its points stands for it", name,
+                    made.error().what));
+    made = fit(flat.series, plain, silent);
+  }
+  if (!made && made.error().code == ErrorCode::kCancelled) return made;
+  if (!made) {
+    Error error = made.error();
+    error.what = fmt::format("{}: {}", name, error.what);
+    if (exit_code(error.code) == 4) {
+      error.hint = pipeline_detail::without_fair_contour(job.sections);
+    }
+    return fail(error);
+  }
+  if (!made->certificate.proved && promises_monotone(made->contour.carrier)) {
+    warnings.push_back(fmt::format("{}: {}", name, "its contour is formed, but not proved"));
+  }
+  return made;
+}
+
+}  // namespace
+
+Result<FittedSkin> fit_skin(const std::vector<SpaceSeries>& given, const SkinJob& job,
+                            const RunContext& run) {
+  FittedSkin result;
+  if (given.size() < 2) {
+    return fail({ErrorCode::kTooFewPoints, "a skin needs at least two sections", "", "", -1,
+                 static_cast<double>(given.size())});
+  }
+  std::vector<SpaceSeries> sections = given;
+  result.tolerance =
+      job.tolerance.value_or(pipeline_detail::kSurfaceTolerance * size_of_sections(sections));
+  if (job.sections.closing == Closing::kAutomatic) {
+    close_slits(sections, result.tolerance, result.warnings);
+  }
+  align_sections(sections, result.warnings);
+  std::vector<SkinSection> made;
+  double moved = 0.0;
+  for (std::size_t k = 0; k < sections.size(); ++k) {
+    if (run.progress) {
+      run.progress("forming sections",
+                   static_cast<double>(k) / static_cast<double>(sections.size()));
+    }
+    Flat section = flat(sections[k], job.units);
+    if (section.series.points.size() > 1) {
+      auto contour = fit_section(section, job, k + 1, moved, result.warnings, run);
+      if (!contour) return fail(contour.error());
+      result.proved += contour->certificate.proved ? 1 : 0;
+      result.smooth += has_continuous_slopes(*contour) ? 1 : 0;
+      result.plain += contour->contour.carrier == Carrier::kBaseline ? 1 : 0;
+      section.section.contour = std::move(contour->contour);
+      close(section.section);
+    } else {
+      ++result.points;
+    }
+    made.push_back(std::move(section.section));
+  }
+  if (moved > 0.0) {
+    result.warnings.push_back(fmt::format(
+        "the rounding of coordinates decides about some sections: their points may move by {:.2g}",
+        moved));
+  }
+  SkinOptions options;
+  options.tolerance = result.tolerance;
+  options.matching = job.matching;
+  options.straight_across = job.straight_across;
+  auto surface = skin(made, options, run);
+  if (!surface) return fail(surface.error());
+  result.skin = std::move(*surface);
+  result.warnings.insert(result.warnings.end(), result.skin.warnings.begin(),
+                         result.skin.warnings.end());
+  return result;
+}
+
+}  // namespace obvid

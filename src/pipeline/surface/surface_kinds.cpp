@@ -1,0 +1,281 @@
+// SPDX-License-Identifier: Apache-2.0
+// Surfaces of curves and of surfaces; those of points are in surface_points.cpp.
+#include "surface/surface_kinds.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <numbers>
+#include <utility>
+
+#include "obvid/geom/internal/box.h"
+#include "obvid/surface_builders/internal/network.h"
+#include "obvid/surface_builders/internal/offset.h"
+
+namespace obvid::pipeline_detail {
+namespace {
+
+Result<std::vector<ReadCurve>> read_curves(const std::vector<SurfaceInput>& inputs,
+                                           const CurveReading& how) {
+  std::vector<ReadCurve> curves;
+  for (const SurfaceInput& input : inputs) {
+    auto curve = read_space_curve(input, how);
+    if (!curve) return fail(curve.error());
+    curves.push_back(std::move(*curve));
+  }
+  return curves;
+}
+
+Result<void> need(const SurfaceJob& job, std::size_t least, std::size_t most, const char* what) {
+  if (job.inputs.size() >= least && job.inputs.size() <= most) return {};
+  return fail({ErrorCode::kUsage,
+               fmt::format("{} were given where {} are needed", job.inputs.size(), what), "", "",
+               -1, static_cast<double>(job.inputs.size())});
+}
+
+double size_of_all(const std::vector<ReadCurve>& curves) {
+  std::vector<Vec3> points;
+  for (const ReadCurve& c : curves)
+    points.insert(points.end(), c.curve.points.begin(), c.curve.points.end());
+  return size_of(points);
+}
+
+/// What the curves bring to the surface that is made of them. Error E310 where their units differ.
+Result<void> take_over(std::vector<ReadCurve>& curves, MadeSurface& made) {
+  std::vector<Units> all{made.model.units};
+  for (const ReadCurve& curve : curves) all.push_back(curve.units);
+  auto units = common_units(all, curves.empty() ? "" : curves.front().name);
+  if (!units) return fail(units.error());
+  made.model.units = std::move(*units);
+  for (ReadCurve& curve : curves) {
+    made.lines.push_back(drawn(curve.curve));
+    made.warnings.insert(made.warnings.end(), curve.warnings.begin(), curve.warnings.end());
+  }
+  return {};
+}
+
+std::vector<SpaceCurve> geometry(const std::vector<ReadCurve>& curves) {
+  std::vector<SpaceCurve> out;
+  for (const ReadCurve& c : curves) out.push_back(c.curve);
+  return out;
+}
+
+SpaceCurve moved_curve(SpaceCurve curve, Vec3 by) {
+  for (Vec3& p : curve.points) p = p + by;
+  return curve;
+}
+
+SpaceCurve shrunk_to(SpaceCurve curve, Vec3 point) {
+  std::fill(curve.points.begin(), curve.points.end(), point);
+  return curve;
+}
+
+/// Both inputs lists of points: rulings join places that belong together, as in a skin.
+bool are_points(const SurfaceJob& job) {
+  return std::none_of(job.inputs.begin(), job.inputs.end(), [](const SurfaceInput& input) {
+    return input.text ? is_drawing_text(*input.text) : input.is_file() && is_drawing(input.name);
+  });
+}
+
+std::string degrees(double rad) {
+  return fmt::format("{:.6g} degrees", rad * 180.0 / std::numbers::pi);
+}
+
+std::string folded_at(const SurfacePatch& patch, const FoldedRegion& fold) {
+  return fmt::format("{}, u {:.4g} to {:.4g}, v {:.4g} to {:.4g}", patch.name, fold.u.from,
+                     fold.u.to, fold.v.from, fold.v.to);
+}
+
+/// Whether a profile lies on both sides of the axis: the surface then runs through itself.
+bool crosses_axis(const SpaceCurve& profile, Vec3 point, Vec3 direction) {
+  const Vec3 axis = unit(direction);
+  const ScenePolyline line = drawn(profile);
+  Vec3 farthest;
+  std::vector<Vec3> arms;
+  for (const Vec3& p : line.points) {
+    const Vec3 arm = (p - point) - dot(p - point, axis) * axis;
+    arms.push_back(arm);
+    if (norm(arm) > norm(farthest)) farthest = arm;
+  }
+  constexpr double kRounding = 1e-9;  // of the largest radius
+  return std::any_of(arms.begin(), arms.end(), [&](const Vec3& arm) {
+    return dot(arm, farthest) < -kRounding * dot(farthest, farthest);
+  });
+}
+
+Error folds(const SurfacePatch& patch, const OffsetCheck& found, double distance) {
+  const double largest = distance < 0.0 ? found.largest_inwards : found.largest_outwards;
+  return {ErrorCode::kFixedDataContradict,
+          fmt::format("the offset by {:g} folds back on itself in {} places, first at {}", distance,
+                      found.folds.size(), folded_at(patch, found.folds.front())),
+          "",
+          fmt::format("up to {:.6g} on this side it does not", largest),
+          -1,
+          largest};
+}
+
+}  // namespace
+
+double size_of(const std::vector<Vec3>& points) {
+  Box3 box;
+  for (const Vec3& p : points) box.add(p);
+  return points.empty() ? 0.0 : norm(box.size());
+}
+
+ScenePolyline drawn(const SpaceCurve& curve, const char* role) {
+  constexpr int kChordsPerSpan = 8;
+  std::vector<double> knots = curve.knots;
+  knots.erase(std::unique(knots.begin(), knots.end()), knots.end());
+  ScenePolyline line{{}, role};
+  for (std::size_t i = 0; i + 1 < knots.size(); ++i) {
+    for (int k = 0; k < kChordsPerSpan; ++k) {
+      const double u = knots[i] + (knots[i + 1] - knots[i]) * k / kChordsPerSpan;
+      line.points.push_back(evaluate(curve, u).point);
+    }
+  }
+  line.points.push_back(evaluate(curve, knots.back()).point);
+  return line;
+}
+
+Result<MadeSurface> made_of(const Surface& surface, const std::string& name, double size,
+                            const SurfaceJob& job) {
+  auto form = to_nurbs(surface, job.tolerance.value_or(kSurfaceTolerance * size));
+  if (!form) return fail(form.error());
+  MadeSurface made;
+  made.kind = kind_of(surface);
+  made.deviation = form->deviation;
+  made.model.name = name;
+  made.model.patches.push_back({name, std::move(form->surface)});
+  return made;
+}
+
+Result<MadeSurface> make_kind(const RuledKind& kind, const SurfaceJob& job, const RunContext& run) {
+  const bool from_one = kind.direction || kind.apex;
+  if (auto good = from_one ? need(job, 1, 1, "one curve with --direction or --apex")
+                           : need(job, 2, 2, "two curves");
+      !good) {
+    return fail(good.error());
+  }
+  if (!from_one && are_points(job)) {
+    auto made = make_kind(kind.strips, job, run);
+    if (made) made->kind = "ruled surface between two fair contours";
+    return made;
+  }
+  auto curves = read_curves(job.inputs, job.curves);
+  if (!curves) return fail(curves.error());
+  const SpaceCurve& first = curves->front().curve;
+  RuledSurface ruled{first, kind.direction ? moved_curve(first, *kind.direction)
+                            : kind.apex    ? shrunk_to(first, *kind.apex)
+                                          : curves->back().curve};
+  auto made = made_of(ruled, "ruled surface", size_of_all(*curves), job);
+  if (!made) return made;
+  if (kind.direction) made->kind = "cylinder over a curve";
+  if (kind.apex) made->kind = "cone over a curve";
+  if (auto done = take_over(*curves, *made); !done) return fail(done.error());
+  return made;
+}
+
+Result<MadeSurface> make_kind(const RevolveKind& kind, const SurfaceJob& job, const RunContext&) {
+  if (auto good = need(job, 1, 1, "one profile"); !good) return fail(good.error());
+  auto curves = read_curves(job.inputs, job.curves);
+  if (!curves) return fail(curves.error());
+  const RevolutionSurface surface{curves->front().curve, kind.axis_point, kind.axis_direction,
+                                  kind.angle};
+  const std::string stem = std::filesystem::path(job.inputs.front().name).stem().string();
+  auto made = made_of(surface, stem, size_of_all(*curves), job);
+  if (!made) return made;
+  made->facts.emplace_back("angle", degrees(kind.angle));
+  if (crosses_axis(curves->front().curve, kind.axis_point, kind.axis_direction)) {
+    made->warnings.push_back(
+        fmt::format("{}: the profile lies on both sides of the axis, the surface runs "
+                    "through itself; is it half an outline, and --axis right?",
+                    job.inputs.front().name));
+  }
+  if (auto done = take_over(*curves, *made); !done) return fail(done.error());
+  return made;
+}
+
+Result<MadeSurface> make_kind(const CoonsKind&, const SurfaceJob& job, const RunContext&) {
+  if (auto good = need(job, 4, 4, "four border curves"); !good) return fail(good.error());
+  auto curves = read_curves(job.inputs, job.curves);
+  if (!curves) return fail(curves.error());
+  const double size = size_of_all(*curves);
+  const auto patch =
+      coons_from(geometry(*curves), job.tolerance.value_or(kSurfaceTolerance * size));
+  if (!patch) return fail(patch.error());
+  auto made = made_of(*patch, "Coons patch", size, job);
+  if (!made) return made;
+  if (auto done = take_over(*curves, *made); !done) return fail(done.error());
+  return made;
+}
+
+Result<MadeSurface> make_kind(const GordonKind& kind, const SurfaceJob& job, const RunContext&) {
+  auto first = read_curves(job.inputs, job.curves);
+  if (!first) return fail(first.error());
+  auto second = read_curves(kind.across, job.curves);
+  if (!second) return fail(second.error());
+  const double size = std::max(size_of_all(*first), size_of_all(*second));
+  const auto net = gordon_from(geometry(*first), geometry(*second),
+                               job.tolerance.value_or(kSurfaceTolerance * size));
+  if (!net) return fail(net.error());
+  auto made = made_of(*net, "Gordon surface", size, job);
+  if (!made) return made;
+  made->facts.emplace_back("curves",
+                           fmt::format("{} and {} across", first->size(), second->size()));
+  for (std::vector<ReadCurve>* curves : {&*second, &*first}) {
+    if (auto done = take_over(*curves, *made); !done) return fail(done.error());
+  }
+  return made;
+}
+
+Result<MadeSurface> make_kind(const OffsetKind& kind, const SurfaceJob& job, const RunContext&) {
+  if (auto good = need(job, 1, 1, "one surface"); !good) return fail(good.error());
+  MadeSurface made;
+  auto model = read_surface(job.inputs.front(), made.warnings);
+  if (!model) return fail(model.error());
+  made.model = std::move(*model);
+  for (SurfacePatch& patch : made.model.patches) {
+    const OffsetCheck found = check_offset(patch.surface, kind.distance);
+    if (!found.folds.empty()) return fail(folds(patch, found, kind.distance));
+    const double size = obvid::size_of(patch.surface);
+    const OffsetSurface offset{patch.surface, kind.distance};
+    auto form = to_nurbs(offset, job.tolerance.value_or(kSurfaceTolerance * size));
+    if (!form) {
+      Error error = form.error();
+      error.where = patch.name;
+      return fail(error);
+    }
+    patch.surface = std::move(form->surface);
+    made.deviation = std::max(made.deviation, form->deviation);
+  }
+  made.kind = fmt::format("offset by {:g}", kind.distance);
+  return made;
+}
+
+Result<MadeSurface> make_kind(const ConvertKind&, const SurfaceJob& job, const RunContext&) {
+  if (auto good = need(job, 1, 1, "one surface"); !good) return fail(good.error());
+  MadeSurface made;
+  auto model = read_surface(job.inputs.front(), made.warnings);
+  if (!model) return fail(model.error());
+  made.model = std::move(*model);
+  made.kind = "as stored";
+  return made;
+}
+
+}  // namespace obvid::pipeline_detail
+
+namespace obvid {
+
+std::vector<SurfaceInput>* second_inputs(SurfaceJob& job) {
+  auto* net = std::get_if<GordonKind>(&job.kind);
+  return net != nullptr ? &net->across : nullptr;
+}
+
+const std::vector<SurfaceInput>* second_inputs(const SurfaceJob& job) {
+  const auto* net = std::get_if<GordonKind>(&job.kind);
+  return net != nullptr ? &net->across : nullptr;
+}
+
+}  // namespace obvid

@@ -1,0 +1,119 @@
+// SPDX-License-Identifier: Apache-2.0
+// Surfaces of points: grids, sections, integro-differential splines.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <utility>
+
+#include "obvid/surface_builders/internal/approximate.h"
+#include "surface/surface_inputs.h"
+#include "surface/surface_kinds.h"
+
+namespace obvid::pipeline_detail {
+namespace {
+
+MadeSurface of_one_patch(const PointGrid& grid, NurbsSurface surface) {
+  MadeSurface made;
+  made.model.name = grid.name.empty() ? "surface" : grid.name;
+  made.model.units = grid.units;
+  made.model.patches.push_back({made.model.name, std::move(surface)});
+  made.facts.emplace_back("grid", fmt::format("{} rows of {} points", grid.count_v, grid.count_u));
+  return made;
+}
+
+Result<MadeSurface> near(const PointGrid& grid, const SurfaceJob& job, const RunContext& run) {
+  const double tolerance = job.tolerance.value_or(kSurfaceTolerance * size_of(grid.points));
+  auto surface = approximated(grid, tolerance, run);
+  if (!surface) return fail(surface.error());
+  MadeSurface made = of_one_patch(grid, std::move(surface->surface));
+  made.kind = "least squares near a grid of points";
+  made.facts.emplace_back("from the points",
+                          fmt::format("{:.4g} at most, {:.3g} in the mean square",
+                                      surface->deviation, surface->root_mean_square));
+  return made;
+}
+
+/// Nodes, and one coordinate at them.
+IdSpline2dData id_data(const PointGrid& grid, const std::vector<double>& u,
+                       const std::vector<double>& v, double Vec3::*coordinate) {
+  IdSpline2dData data;
+  data.x = u;
+  data.y = v;
+  for (const Vec3& p : grid.points) data.values.push_back(p.*coordinate);
+  return data;
+}
+
+std::vector<ScenePolyline> drawn_sections(const std::vector<SpaceSeries>& sections) {
+  std::vector<ScenePolyline> lines;
+  for (const SpaceSeries& section : sections) lines.push_back({section.points, "section"});
+  return lines;
+}
+
+}  // namespace
+
+Result<MadeSurface> make_kind(const GridKind& kind, const SurfaceJob& job, const RunContext& run) {
+  const auto grid = grid_of(job.inputs, kind.reading);
+  if (!grid) return fail(grid.error());
+  if (kind.use == GridUse::kNear) return near(*grid, job, run);
+  const bool control = kind.use == GridUse::kControl;
+  auto surface = control ? from_control_points(*grid) : interpolated(*grid, kind.reading.spread);
+  if (!surface) return fail(surface.error());
+  MadeSurface made = of_one_patch(*grid, std::move(*surface));
+  made.kind = control ? "controlled by a grid of points" : "through a grid of points";
+  return made;
+}
+
+Result<MadeSurface> make_kind(const IdKind& kind, const SurfaceJob& job, const RunContext&) {
+  const auto grid = grid_of(job.inputs, kind.reading);
+  if (!grid) return fail(grid.error());
+  const auto u = grid_parameters(*grid, true, kind.reading.spread);
+  if (!u) return fail(u.error());
+  const auto v = grid_parameters(*grid, false, kind.reading.spread);
+  if (!v) return fail(v.error());
+  IdSurface surface;
+  for (const auto& [spline, coordinate] :
+       {std::pair{&surface.x, &Vec3::x}, {&surface.y, &Vec3::y}, {&surface.z, &Vec3::z}}) {
+    auto made = id_spline_2d(id_data(*grid, *u, *v, coordinate), kind.smooth);
+    if (!made) return fail(made.error());
+    *spline = std::move(*made);
+  }
+  auto made =
+      made_of(surface, grid->name.empty() ? "surface" : grid->name, size_of(grid->points), job);
+  if (made) {
+    made->model.units = grid->units;
+    made->facts.emplace_back("grid",
+                             fmt::format("{} rows of {} points", grid->count_v, grid->count_u));
+  }
+  return made;
+}
+
+Result<MadeSurface> make_kind(const SkinKind& kind, const SurfaceJob& job, const RunContext& run) {
+  const auto sections = sections_of(job.inputs, kind.spacing);
+  if (!sections) return fail(sections.error());
+  std::vector<Units> units;
+  for (const SpaceSeries& section : *sections) units.push_back(section.units);
+  auto unit = common_units(units, job.inputs.front().name);
+  if (!unit) return fail(unit.error());
+  SkinJob how;
+  how.units = *unit;
+  how.sections = job.curves.sections;
+  how.tolerance = job.tolerance;
+  how.matching = kind.matching;
+  how.straight_across = kind.straight_across;
+  how.plain_when_refused = job.curves.plain_when_refused;
+  auto fitted = fit_skin(*sections, how, run);
+  if (!fitted) return fail(fitted.error());
+  MadeSurface made;
+  made.kind = fmt::format("skin through {} sections", sections->size());
+  const std::string stem = std::filesystem::path(job.inputs.front().name).stem().string();
+  made.model.name = job.inputs.size() == 1 ? stem : "skin";
+  made.model.units = std::move(*unit);
+  made.model.patches = fitted->skin.patches;
+  made.lines = drawn_sections(*sections);
+  made.warnings = fitted->warnings;
+  made.skin = std::move(*fitted);
+  return made;
+}
+
+}  // namespace obvid::pipeline_detail

@@ -1,0 +1,176 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "obvid/pipeline/internal/surface_report_json.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "obvid/io/internal/json_text.h"
+
+namespace obvid {
+namespace {
+
+JsonText& add_list(JsonText& json, const char* name, const std::vector<std::string>& list) {
+  json.key(name).begin_array();
+  for (const std::string& one : list) json.value(one);
+  return json.end_array();
+}
+
+void add_patches(const SurfaceModel& model, JsonText& json) {
+  json.key("patches").begin_array();
+  for (const SurfacePatch& patch : model.patches) {
+    json.begin_object().pair("name", patch.name);
+    json.pair("degree_u", patch.surface.degree_u).pair("degree_v", patch.surface.degree_v);
+    json.pair("count_u", patch.surface.count_u()).pair("count_v", patch.surface.count_v());
+    json.pair("rational", !patch.surface.weights.empty()).end_object();
+  }
+  json.end_array();
+}
+
+void add_skin_report(const FittedSkin& fitted, JsonText& json) {
+  json.key("skin").begin_object();
+  json.pair("proved", fitted.proved)
+      .pair("g3", fitted.smooth)
+      .pair("plain", fitted.plain)
+      .pair("points", fitted.points);
+  json.pair("tolerance", fitted.tolerance);
+  json.pair("matched_by", fitted.skin.matching == SkinMatching::kByPoints ? "points" : "length");
+  json.key("sections").begin_array();
+  for (const SkinSectionReport& s : fitted.skin.sections) {
+    json.begin_object().pair("name", s.name).pair("v", s.parameter).pair("deviation", s.deviation);
+    json.pair("from_points", s.from_points).pair("runs", s.runs).pair("ripple", s.ripple);
+    json.end_object();
+  }
+  json.end_array();
+  const AcrossReport& across = fitted.skin.across;
+  json.key("across").begin_object().pair("isolines", across.isolines).pair("found", across.found);
+  json.pair("forced", across.forced)
+      .pair("beyond", across.beyond)
+      .pair("worst", across.worst)
+      .end_object();
+  json.end_object();
+}
+
+void add_extent(JsonText& json, const char* name, const Extent& extent) {
+  json.key(name).begin_array().value(extent.least).value(extent.most).end_array();
+}
+
+void add_lines(JsonText& json, const char* name, const LineReport& lines) {
+  json.key(name).begin_object().pair("lines", lines.lines).pair("monotone", lines.monotone);
+  json.pair("vertices", lines.vertices).pair("most_vertices", lines.most_vertices);
+  json.pair("inflections", lines.inflections).end_object();
+}
+
+/// Found at a place, and what is nowhere exceeded.
+void add_measured(JsonText& json, const char* name, const ToolpathReport::Measured& measured) {
+  json.key(name).begin_object().pair("found", measured.found).pair("most", measured.most);
+  json.key("place").begin_array();
+  for (const double x : {measured.place.x, measured.place.y, measured.place.z}) json.value(x);
+  json.end_array().end_object();
+}
+
+}  // namespace
+
+const char* border_name(PatchSide side) {
+  constexpr std::array kNames = {"u start", "u end", "v start", "v end"};
+  return kNames[side];
+}
+
+std::string surface_report_json(const MadeSurface& made, const Written& written) {
+  JsonText json;
+  json.begin_object().pair("kind", made.kind).pair("name", made.model.name);
+  add_units(json, made.model.units);
+  json.pair("size", size_of(made.model));
+  json.pair("deviation", made.deviation);
+  for (const auto& [name, value] : made.facts) json.pair(name, value);
+  add_patches(made.model, json);
+  if (made.skin) add_skin_report(*made.skin, json);
+  add_list(json, "warnings", made.warnings);
+  add_list(json, "remarks", written.remarks);
+  add_list(json, "written", written.files);
+  return json.end_object().take() + "\n";
+}
+
+std::string surface_check_json(const SurfaceModel& model, const SurfaceCheck& check,
+                               const Written& written) {
+  JsonText json;
+  json.begin_object().pair("name", model.name);
+  add_units(json, model.units);
+  json.pair("size", check.size).key("patches").begin_array();
+  for (const PatchReport& p : check.patches) {
+    json.begin_object().pair("name", p.name).pair("degree_u", p.degree_u);
+    json.pair("degree_v", p.degree_v).pair("count_u", p.count_u).pair("count_v", p.count_v);
+    json.pair("order_u", p.order_u).pair("order_v", p.order_v).pair("rational", p.rational);
+    json.pair("area", p.area).pair("without_normal", p.without_normal);
+    add_extent(json, "gaussian", p.gaussian);
+    add_extent(json, "mean", p.mean);
+    add_extent(json, "k1", p.k1);
+    add_extent(json, "k2", p.k2);
+    add_lines(json, "along_u", p.along_u);
+    add_lines(json, "along_v", p.along_v);
+    json.end_object();
+  }
+  json.end_array().key("joints").begin_array();
+  for (const JointReport& j : check.joints) {
+    json.begin_object();
+    json.key("patches").begin_array().value(j.patch[0]).value(j.patch[1]).end_array();
+    json.key("sides").begin_array();
+    for (const PatchSide side : j.side) json.value(border_name(side));
+    json.end_array().pair("gap", j.gap).pair("angle", j.angle).pair("curvature", j.curvature);
+    json.pair("order", j.order).pair("shared", j.shared).end_object();
+  }
+  json.end_array().pair("free_borders", check.free_borders).key("written").begin_array();
+  for (const std::string& file : written.files) json.value(file);
+  return json.end_array().end_object().take() + "\n";
+}
+
+CurvatureExtremes extremes_of(const SurfaceCheck& check) {
+  const auto over_all = [&check](Extent PatchReport::*quantity) {
+    Range all{HUGE_VAL, -HUGE_VAL};
+    for (const PatchReport& p : check.patches) {
+      all = {std::min(all.from, (p.*quantity).least), std::max(all.to, (p.*quantity).most)};
+    }
+    return all;
+  };
+  return {over_all(&PatchReport::gaussian), over_all(&PatchReport::mean),
+          over_all(&PatchReport::k1), over_all(&PatchReport::k2)};
+}
+
+CurvatureExtremes extremes_of(const SurfaceModel& model) {
+  SurfaceCheck check;
+  for (const SurfacePatch& patch : model.patches) {
+    const CurvatureExtents found = curvature_extents(patch.surface);
+    PatchReport& report = check.patches.emplace_back();
+    report.gaussian = found.gaussian;
+    report.mean = found.mean;
+    report.k1 = found.k1;
+    report.k2 = found.k2;
+  }
+  return extremes_of(check);
+}
+
+std::string toolpath_report_json(const MadeToolpath& made, const Written& written) {
+  const ToolpathReport& r = made.path.report;
+  JsonText json;
+  json.begin_object().pair("units", made.path.units).pair("passes", r.passes);
+  json.pair("added_passes", r.added_passes).pair("cutting_length", r.cutting_length);
+  json.pair("plunge_length", r.plunge_length).pair("rapid_length", r.rapid_length);
+  json.pair("minutes", r.minutes).pair("tolerance", made.path.tolerance);
+  add_measured(json, "scallop", r.scallop);
+  add_measured(json, "gouge", r.gouge);
+  json.pair("spacing", r.spacing);
+  json.pair("lifted_points", r.lifted_points).pair("surface_area", r.surface_area);
+  json.pair("hidden_area", r.hidden_area).pair("unreached_area", r.unreached_area);
+  json.pair("unreached_depth", r.unreached_depth).pair("safe_z", r.safe_z);
+  json.pair("blocks", made.path.program.blocks).pair("arc_blocks", made.path.program.arc_blocks);
+  json.key("not_kept").begin_array();
+  for (const Error& error : made.path.not_kept) json.value(error.what);
+  json.end_array();
+  json.key("warnings").begin_array();
+  for (const std::string& warning : made.warnings) json.value(warning);
+  json.end_array().key("written").begin_array();
+  for (const std::string& file : written.files) json.value(file);
+  return json.end_array().end_object().take() + "\n";
+}
+
+}  // namespace obvid

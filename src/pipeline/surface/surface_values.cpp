@@ -1,0 +1,221 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "obvid/pipeline/internal/surface_values.h"
+
+#include <array>
+#include <charconv>
+#include <cmath>
+#include <map>
+
+#include "obvid/core/internal/near_name.h"
+#include "obvid/geom/internal/angle.h"
+#include "obvid/pipeline/internal/job_values.h"
+
+namespace obvid {
+namespace {
+
+const std::map<std::string, SurfaceKind>& surface_kinds() {
+  static const std::map<std::string, SurfaceKind> all = {
+      {"skin", SkinKind{}},     {"ruled", RuledKind{}},   {"revolve", RevolveKind{}},
+      {"coons", CoonsKind{}},   {"gordon", GordonKind{}}, {"grid", GridKind{}},
+      {"offset", OffsetKind{}}, {"id", IdKind{}},         {"convert", ConvertKind{}}};
+  return all;
+}
+
+/// "1,2,3" as a vector.
+Result<Vec3> vector_of(const std::string& typed, const char* option) {
+  std::array<double, 3> value{};
+  const char* at = typed.data();
+  const char* const end = at + typed.size();
+  for (std::size_t i = 0; i < 3; ++i) {
+    const auto [stop, code] = std::from_chars(at, end, value[i]);
+    const bool separated = i == 2 ? stop == end : stop != end && *stop == ',';
+    if (code != std::errc() || !separated || !std::isfinite(value[i])) {
+      return fail(
+          bad_option("'" + typed + "' is no vector", option, "give X,Y,Z, for example 0,0,1"));
+    }
+    at = stop + 1;
+  }
+  return Vec3{value[0], value[1], value[2]};
+}
+
+Result<void> positive(const std::optional<double>& value, const char* option) {
+  if (!value || (*value > 0.0 && std::isfinite(*value))) return {};
+  return fail(bad_option("the value must be greater than 0", option, ""));
+}
+
+// One function for each kind: its values out of what was typed.
+
+Result<void> set_kind(const SurfaceValues& raw, SkinKind& kind) {
+  const auto matching = value_named<SkinMatching>({{"auto", SkinMatching::kAutomatic},
+                                                   {"points", SkinMatching::kByPoints},
+                                                   {"length", SkinMatching::kByLength}},
+                                                  raw.matching, "--match");
+  if (!matching) return fail(matching.error());
+  kind.matching = *matching;
+  kind.straight_across = kind.straight_across || raw.straight;
+  kind.spacing = raw.spacing;
+  return {};
+}
+
+Result<void> set_kind(const SurfaceValues& raw, RuledKind& kind) {
+  if (!raw.direction.empty() && !raw.apex.empty()) {
+    return fail(bad_option("--direction and --apex contradict each other", "", "give one of them"));
+  }
+  if (!raw.direction.empty()) {
+    const auto direction = vector_of(raw.direction, "--direction");
+    if (!direction) return fail(direction.error());
+    kind.direction = *direction;
+  }
+  if (!raw.apex.empty()) {
+    const auto apex = vector_of(raw.apex, "--apex");
+    if (!apex) return fail(apex.error());
+    kind.apex = *apex;
+  }
+  return set_kind(raw, kind.strips);
+}
+
+Result<void> set_kind(const SurfaceValues& raw, RevolveKind& kind) {
+  const std::map<std::string, Vec3> axes = {{"x", {1, 0, 0}}, {"y", {0, 1, 0}}, {"z", {0, 0, 1}}};
+  const auto at = axes.find(raw.axis);
+  const Result<Vec3> direction =
+      at != axes.end() ? Result<Vec3>(at->second) : vector_of(raw.axis, "--axis");
+  if (!direction) return fail(direction.error());
+  if (!(norm(*direction) > 0.0)) {
+    return fail(bad_option("the axis has no direction", "--axis", "give x, y, z or X,Y,Z"));
+  }
+  kind.axis_direction = *direction;
+  if (!raw.axis_point.empty()) {
+    const auto point = vector_of(raw.axis_point, "--axis-point");
+    if (!point) return fail(point.error());
+    kind.axis_point = *point;
+  }
+  if (raw.angle_deg) {
+    if (!(std::abs(*raw.angle_deg) > 0.0 && std::abs(*raw.angle_deg) <= 360.0)) {
+      return fail(bad_option("the angle must lie in -360 to 360 and not be 0", "--angle", ""));
+    }
+    kind.angle = *raw.angle_deg * kOneDegree;
+  }
+  return {};
+}
+
+Result<void> set_kind(const SurfaceValues&, CoonsKind&) { return {}; }
+Result<void> set_kind(const SurfaceValues&, GordonKind&) { return {}; }
+Result<void> set_kind(const SurfaceValues&, ConvertKind&) { return {}; }
+
+Result<void> set_kind(const SurfaceValues& raw, GridReading& reading) {
+  const auto spread = value_named<Spread>({{"chord", Spread::kChord},
+                                           {"centripetal", Spread::kCentripetal},
+                                           {"uniform", Spread::kUniform}},
+                                          raw.spread, "--spread");
+  if (!spread) return fail(spread.error());
+  reading.spread = *spread;
+  reading.spacing = raw.spacing;
+  if (raw.row) {
+    if (*raw.row < 1) return fail(bad_option("rows have points", "row", "give 2 or more"));
+    reading.row = static_cast<std::size_t>(*raw.row);
+  }
+  return {};
+}
+
+Result<void> set_kind(const SurfaceValues& raw, GridKind& kind) {
+  if (raw.near && raw.control) {
+    return fail(bad_option("--near and --control contradict each other", "", "give one of them"));
+  }
+  kind.use = raw.near ? GridUse::kNear : raw.control ? GridUse::kControl : GridUse::kThrough;
+  return set_kind(raw, kind.reading);
+}
+
+Result<void> set_kind(const SurfaceValues& raw, IdKind& kind) {
+  kind.smooth = raw.smooth;
+  return set_kind(raw, kind.reading);
+}
+
+Result<void> set_kind(const SurfaceValues& raw, OffsetKind& kind) {
+  kind.distance = raw.distance.value_or(std::nan(""));
+  if (std::isfinite(kind.distance)) return {};
+  return fail(bad_option("an offset needs its distance", "--distance", "give a number"));
+}
+
+template <class Value>
+Result<void> pick(const std::map<std::string, Value>& values, const std::string& typed,
+                  const char* option, Value& into) {
+  return value_named(values, typed, option).map([&](Value value) { into = value; });
+}
+
+}  // namespace
+
+std::vector<std::string> surface_kind_names() {
+  std::vector<std::string> names;
+  for (const auto& [name, kind] : surface_kinds()) names.push_back(name);
+  return names;
+}
+
+Result<SurfaceKind> surface_kind_named(const std::string& name) {
+  const auto at = surface_kinds().find(name);
+  if (at != surface_kinds().end()) return at->second;
+  return fail({ErrorCode::kUsage, "unknown kind of surface '" + name + "'", "",
+               did_you_mean(name, surface_kind_names(), "available are skin, ruled, ...")});
+}
+
+Result<void> set_surface(const SurfaceValues& typed, SurfaceJob& job) {
+  job.tolerance = typed.tolerance;
+  return std::visit([&](auto& kind) { return set_kind(typed, kind); }, job.kind)
+      .and_then([&] { return positive(typed.tolerance, "--tolerance"); })
+      .and_then([&] { return positive(typed.spacing, "--spacing"); });
+}
+
+Result<void> set_surface_formats(const SurfaceFormatValues& typed, SurfaceExportOptions& formats) {
+  formats.chord_tolerance = typed.chord_tolerance;
+  if (typed.mesh_angle_deg) formats.angle = *typed.mesh_angle_deg * kOneDegree;
+  if (auto good = positive(typed.chord_tolerance, "--chord-tolerance"); !good) return good;
+  if (auto good = positive(typed.mesh_angle_deg, "--mesh-angle"); !good) return good;
+  const auto step = value_named<CadFormat>(
+      {{"ap214", CadFormat::kStepAp214}, {"ap242", CadFormat::kStepAp242}}, typed.step, "--step");
+  if (!step) return fail(step.error());
+  formats.step = *step;
+  const auto colouring = colouring_named(typed.colour);
+  if (!colouring) {
+    return fail(bad_option("unknown colouring '" + typed.colour + "'", "--colour",
+                           "available are shaded, isolines, gaussian, mean, k1, k2, zebra"));
+  }
+  formats.colouring = *colouring;
+  const auto view = surface_view_named(typed.view);
+  if (!view) {
+    return fail(bad_option("unknown view '" + typed.view + "'", "--view",
+                           "available are iso, front, top, side, back, bottom"));
+  }
+  formats.view = *view;
+  return {};
+}
+
+Result<void> set_toolpath(const ToolpathValues& typed, ToolpathJob& job) {
+  ToolpathOptions& plan = job.plan;
+  return pick<CutterKind>({{"ball", CutterKind::kBall},
+                           {"flat", CutterKind::kFlat},
+                           {"bull", CutterKind::kBullNose}},
+                          typed.cutter, "--cutter", plan.cutter.kind)
+      .and_then([&] {
+        return pick<ToolpathStrategy>({{"zigzag", ToolpathStrategy::kZigzag},
+                                       {"isoparametric", ToolpathStrategy::kIsoparametric},
+                                       {"scallop", ToolpathStrategy::kConstantScallop}},
+                                      typed.strategy, "--strategy", plan.strategy);
+      })
+      .and_then([&] {
+        return pick<GcodeController>({{"grbl", GcodeController::kGrbl},
+                                      {"linuxcnc", GcodeController::kLinuxCnc},
+                                      {"fanuc", GcodeController::kFanuc}},
+                                     typed.controller, "--controller", plan.gcode.controller);
+      })
+      .and_then([&] {
+        return pick<bool>({{"arcs", true}, {"lines", false}}, typed.motion, "--motion",
+                          plan.gcode.arcs);
+      });
+}
+
+Result<std::size_t> checked_samples(long samples) {
+  constexpr long kLeast = 3, kMost = 2000;
+  if (samples >= kLeast && samples <= kMost) return static_cast<std::size_t>(samples);
+  return fail(bad_option("the number of samples must lie in 3 to 2000", "--samples", ""));
+}
+
+}  // namespace obvid

@@ -1,0 +1,78 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "obvid/pipeline/toolpath_job.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <utility>
+
+#include "obvid/core/internal/figures.h"
+
+namespace obvid {
+namespace {
+
+/// Distance of passes on a level place.
+double level_step(const ToolpathOptions& plan) {
+  if (plan.step_over) return *plan.step_over;
+  if (plan.cutter.kind == CutterKind::kFlat) return plan.cutter.diameter / 2.0;
+  const bool ball = plan.cutter.kind == CutterKind::kBall;
+  const double r = ball ? plan.cutter.diameter / 2.0 : plan.cutter.corner_radius;
+  return 2.0 * std::sqrt(2.0 * r * plan.scallop.value_or(r));
+}
+
+/// What is not typed, in the units of the surface.
+ToolpathOptions options_for(const ToolpathJob& job, const std::string& units) {
+  constexpr double kDiameter = 6.0, kTolerance = 0.01;  // mm
+  constexpr double kScallop = 0.01, kCorner = 0.25;     // diameters
+  ToolpathOptions plan = job.plan;
+  const double mm = millimetres_of(units);
+  const double unit = mm > 0.0 ? mm : 1.0;  // units that machines do not know are refused
+  plan.cutter.diameter = job.diameter.value_or(kDiameter / unit);
+  plan.tolerance = job.tolerance.value_or(kTolerance / unit);
+  if (!plan.scallop && !plan.step_over) plan.scallop = kScallop * plan.cutter.diameter;
+  if (plan.cutter.kind == CutterKind::kBullNose) {
+    plan.cutter.corner_radius = job.corner_radius.value_or(kCorner * plan.cutter.diameter);
+  }
+  return plan;
+}
+
+/// Refuses work without end: a typing error in a length, most likely.
+Result<void> check_effort(const SurfaceModel& model, const ToolpathOptions& plan) {
+  constexpr double kMostPasses = 20'000.0;
+  const double passes = size_of(model) / level_step(plan);
+  if (!(passes > kMostPasses)) return {};  // sizes that are no sizes are refused by the plan
+  return fail({ErrorCode::kBadOption,
+               fmt::format("that would be some {:.2g} passes over {} {}", passes,
+                           significant(size_of(model), 4), model.units.text()),
+               "", "check the units of the surface, --diameter, --scallop and --step-over", -1,
+               passes});
+}
+
+}  // namespace
+
+Result<MadeToolpath> make_toolpath(const SurfaceModel& model, const ToolpathJob& job,
+                                   const RunContext& run) {
+  const ToolpathOptions options = options_for(job, model.units.name);
+  if (auto good = check_effort(model, options); !good) return fail(good.error());
+  auto path = plan(model, options, run);
+  if (!path) return fail(path.error());
+  MadeToolpath made{std::move(*path), {}};
+  if (!model.units.known()) {
+    made.warnings.push_back("nothing says what a unit is: " + model.units.name +
+                            " assumed; `obvid surface convert --units` states it");
+  }
+  made.warnings.insert(made.warnings.end(), made.path.warnings.begin(), made.path.warnings.end());
+  return made;
+}
+
+std::vector<ScenePolyline> drawn(const Toolpath& path) {
+  constexpr double kThinned = 4.0;  // tolerances: not seen in a picture
+  std::vector<ScenePolyline> lines;
+  for (auto& points : cutting_lines(path, kThinned * path.tolerance)) {
+    lines.push_back({std::move(points), "toolpath"});
+  }
+  for (auto& points : rapid_lines(path)) lines.push_back({std::move(points), "rapid"});
+  return lines;
+}
+
+}  // namespace obvid

@@ -1,0 +1,447 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "obvid/pipeline/audit.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <optional>
+
+#include "fit/slope_step.h"
+#include "obvid/certify/certify.h"
+#include "obvid/curve/internal/contour_path.h"
+#include "obvid/curve/internal/curvature_extent.h"
+#include "obvid/curve/internal/runs.h"
+#include "obvid/geom/internal/angle.h"
+#include "obvid/series/analysis.h"
+#include "verify/report.h"
+
+namespace obvid {
+namespace {
+
+constexpr double kLargestGap = 1e-9;   // of the size
+constexpr double kLargestTurn = 1e-6;  // rad
+constexpr double kLargestJump = 1e-6;  // of the larger curvature
+constexpr int kPieceSamples = 200;     // of each piece
+constexpr double kVisible = 0.01;      // of the range of the curvature
+/// Swings below this part of the largest curvature are what rounding leaves on lines and circles.
+constexpr double kRippleRounding = 1e-9;
+
+/// Roundings of a double in the coordinates of a piece that computing and printing may have cost.
+constexpr double kFlatRoundings = 8.0;
+
+/// Curvature below which a piece of this length cannot be told from a straight one: its height over
+/// the chord is what rounding makes of its coordinates, 1/unit.
+double flat_curvature(const Piece& piece) {
+  double extent = 0.0;
+  for (const Vec2 p : {start_point(piece), end_point(piece)}) {
+    extent = std::max({extent, std::abs(p.x), std::abs(p.y)});
+  }
+  const Vec2 chord = end_point(piece) - start_point(piece);
+  const double square = dot(chord, chord);
+  // height of an arc: kappa length^2 / 8
+  return square > 0.0 ? 8.0 * kFlatRoundings * 0x1p-53 * extent / square : 0.0;
+}
+
+struct Sample {
+  std::size_t piece = 0;
+  double t = 0.0;
+  double s = 0.0;
+  double kappa = 0.0;
+};
+
+double size_of_pieces(const std::vector<Piece>& pieces) {
+  std::vector<Vec2> points;
+  for (const Piece& piece : pieces) {
+    for (const double t : {0.0, 0.25, 0.5, 0.75, 1.0}) points.push_back(evaluate(piece, t).point);
+  }
+  return bounding_diagonal(points);
+}
+
+class Auditor {
+ public:
+  Auditor(const DrawnCurve& curve, const Units& units) {
+    out_.label = curve.label;
+    out_.contour.units = units;
+    out_.contour.carrier = Carrier::kBaseline;
+    out_.contour.closed = curve.closed;
+    out_.contour.pieces = curve.pieces;
+    straighten_all();
+    size_ = size_of_pieces(out_.contour.pieces);
+  }
+
+  CurveAudit run() {
+    if (out_.contour.pieces.empty()) return std::move(out_);
+    take_samples();
+    lay_joints();
+    lay_runs();
+    out_.certificate = certify(out_.contour);
+    out_.vertices = out_.certificate.vertices;
+    out_.inflections = out_.certificate.inflections;
+    out_.counted =
+        !unbounded_ &&
+        std::none_of(out_.certificate.pieces.begin(), out_.certificate.pieces.end(),
+                     [](const PieceProof& piece) { return piece.verdict == Verdict::kUndecided; });
+    place_vertices();
+    place_inflections();
+    out_.visible_vertices = swings(kVisible * (out_.largest_kappa - out_.least_kappa));
+    if (unbounded_) out_.least_kappa = out_.largest_kappa = std::nan("");
+    std::stable_sort(out_.places.begin(), out_.places.end(),
+                     [](const AuditPlace& a, const AuditPlace& b) { return a.s < b.s; });
+    return std::move(out_);
+  }
+
+ private:
+  /// Curvature at an end of a piece, and whether it is more than rounding.
+  struct FlatEnd {
+    double kappa = 0.0;
+    bool meant = false;
+  };
+
+  /// Curvature that rounding alone explains is none: left in, its signs would be counted. What goes
+  /// on continuously from a curvature that is more, without falling to a rounding of that, is
+  /// meant, however short the piece.
+  void straighten_all() {
+    std::vector<Piece>& pieces = out_.contour.pieces;
+    std::vector<FlatEnd> ends;  // two of each piece
+    for (const Piece& piece : pieces) {
+      const double flat = flat_curvature(piece);
+      for (const double t : {0.0, 1.0}) {
+        const double kappa = element_at(piece, t).kappa;
+        ends.push_back({kappa, std::abs(kappa) > flat});
+      }
+    }
+    const std::size_t n = ends.size();
+    const auto pass_on = [&](std::size_t from, std::size_t to) {
+      const FlatEnd &known = ends[from], &next = ends[to];
+      if (!known.meant || next.meant) return;
+      const bool same_piece = from / 2 == to / 2;
+      const double most = std::max(std::abs(known.kappa), std::abs(next.kappa));
+      ends[to].meant = same_piece ? std::abs(next.kappa) > kLargestJump * most
+                                  : std::abs(next.kappa - known.kappa) <= kLargestJump * most;
+    };
+    for (std::size_t k = 0; k < 2 * n; ++k) {  // twice around: a closed curve has no start
+      if (k % n + 1 < n || out_.contour.closed) pass_on(k % n, (k + 1) % n);
+    }
+    for (std::size_t k = 2 * n; k-- > 0;) {
+      if (k % n + 1 < n || out_.contour.closed) pass_on((k + 1) % n, k % n);
+    }
+    for (std::size_t i = 0; i < pieces.size(); ++i) {
+      straighten(pieces[i], ends[2 * i].meant, ends[2 * i + 1].meant);
+    }
+  }
+
+  void straighten(Piece& piece, bool start_meant, bool end_meant) {
+    const double flat = flat_curvature(piece);
+    if (auto* c = std::get_if<ClothoidPiece>(&piece)) {
+      for (const auto& [kappa, meant] :
+           {std::pair{&c->kappa0, start_meant}, std::pair{&c->kappa1, end_meant}}) {
+        if (*kappa == 0.0 || meant) continue;
+        *kappa = 0.0;
+        note_flat(flat);
+      }
+      if (c->kappa0 == 0.0 && c->kappa1 == 0.0) piece = LinePiece{c->start, c->end};
+      return;
+    }
+    if (start_meant || end_meant || std::holds_alternative<LinePiece>(piece)) return;
+    if (!is_flat(piece, flat)) return;
+    piece = LinePiece{start_point(piece), end_point(piece)};
+    note_flat(flat);
+  }
+
+  void note_flat(double flat) {
+    ++out_.straightened;
+    out_.flat_curvature = std::max(out_.flat_curvature, flat);
+  }
+
+  /// A curve with a control point on its end is straight when its polygon is, never more beside its
+  /// chord than an arc of the curvature that cannot be told from none.
+  static bool has_flat_polygon(const RationalBezier& piece, double flat) {
+    const auto n = static_cast<std::size_t>(piece.degree);
+    const Vec2 chord = piece.offset[n] - piece.offset[0];
+    const double length = norm(chord);
+    const double height = flat * length * length / 8.0;
+    for (std::size_t j = 0; j < n; ++j) {
+      if (!(dot(piece.offset[j + 1] - piece.offset[j], chord) >= 0.0)) return false;
+      const double beside = cross(piece.offset[j] - piece.offset[0], chord) / length;
+      if (!(std::abs(beside) <= height)) return false;
+    }
+    return true;
+  }
+
+  /// An arc, or a curve of the chord's length, that nowhere is more curved than that.
+  static bool is_flat(const Piece& piece, double flat) {
+    if (is_singular_end(piece, 0.0) || is_singular_end(piece, 1.0)) {
+      return has_flat_polygon(std::get<RationalBezier>(piece), flat);
+    }
+    if (const auto* arc = std::get_if<ArcPiece>(&piece)) {
+      const double most = std::abs(arc->kappa * arc->length);
+      return std::abs(arc->kappa) <= flat && most < 1.0;
+    }
+    const Vec2 chord = end_point(piece) - start_point(piece);
+    for (int k = 0; k <= kPieceSamples; ++k) {
+      const Jet jet = evaluate(piece, static_cast<double>(k) / kPieceSamples);
+      if (!(dot(jet.d1, chord) > 0.0) || !(std::abs(curvature(jet)) <= flat)) return false;
+    }
+    return true;
+  }
+
+  void take_samples() {
+    const std::vector<Piece>& pieces = out_.contour.pieces;
+    out_.least_kappa = HUGE_VAL;
+    out_.largest_kappa = -HUGE_VAL;
+    path_.emplace(pieces);
+    out_.length = path_->length();
+    std::vector<double> at;
+    for (int k = 0; k <= kPieceSamples; ++k) at.push_back(static_cast<double>(k) / kPieceSamples);
+    for (std::size_t i = 0; i < pieces.size(); ++i) {
+      for (const double t : at) {
+        const double kappa = element_at(pieces[i], t).kappa;
+        samples_.push_back({i, t, path_->length_at(i, t), kappa});
+        out_.least_kappa = std::min(out_.least_kappa, kappa);
+        out_.largest_kappa = std::max(out_.largest_kappa, kappa);
+      }
+      const double known = std::max(-out_.least_kappa, out_.largest_kappa);
+      const CurvatureExtent range = curvature_extent(pieces[i], at, known);
+      out_.least_kappa = std::min(out_.least_kappa, range.least);
+      out_.largest_kappa = std::max(out_.largest_kappa, range.largest);
+    }
+    rounding_ =
+        kRippleRounding * std::max(std::abs(out_.least_kappa), std::abs(out_.largest_kappa));
+  }
+
+  [[nodiscard]] Element end_of(std::size_t piece, double t) const {
+    return element_at(out_.contour.pieces[piece], t);
+  }
+
+  void lay_joints() {
+    const std::size_t n = out_.contour.pieces.size();
+    const bool closed = out_.contour.closed;
+    double theta = 0.0;
+    for (std::size_t j = 0; j < (closed ? n : n + 1); ++j) {
+      const bool first = j == 0 && !closed, last = j == n;
+      const Element before = first ? end_of(0, 0.0) : end_of((j + n - 1) % n, 1.0);
+      const Element after = last ? before : end_of(j, 0.0);
+      Joint joint{before, std::nullopt, {}};
+      joint.element.theta = nearest_angle(before.theta, theta);
+      theta = joint.element.theta;
+      const bool bounded = std::isfinite(before.kappa) && std::isfinite(after.kappa);
+      unbounded_ = unbounded_ || !bounded;
+      if (!bounded) out_.continuity = std::min(out_.continuity, 1);
+      if (!first && !last && compare(j, before, after)) joint.leaving = after;
+      joint.source = j;  // a drawn curve passes the ends of its pieces
+      out_.contour.points.push_back(before.point);
+      out_.contour.joints.push_back(joint);
+    }
+  }
+
+  /// Notes what is not continuous at a joint; true at a corner and where the curvature jumps, or is
+  /// not defined on a side.
+  bool compare(std::size_t j, const Element& before, const Element& after) {
+    const double gap = norm(after.point - before.point);
+    const double turn =
+        std::abs(std::remainder(after.theta - before.theta, 2.0 * std::numbers::pi));
+    const double jump = std::abs(after.kappa - before.kappa);
+    const double larger = std::max(std::abs(after.kappa), std::abs(before.kappa));
+    AuditPlace place{AuditPlace::Kind::kGap, path_->joint(j), before.point,
+                     before.kappa,           after.kappa,     gap};
+    if (gap > kLargestGap * size_) add(place, -1);
+    place.kind = AuditPlace::Kind::kCorner;
+    place.size = turn;
+    const bool corner = turn > kLargestTurn;
+    if (corner) add(place, 0);
+    place.kind = AuditPlace::Kind::kCurvatureJump;
+    place.size = 0.0;
+    const bool jumps = !corner && jump > std::max(kLargestJump * larger, rounding_);
+    if (jumps) add(place, 1);
+    const double step = pipeline_detail::slope_step_before(out_.contour.pieces, j);
+    if (!(step <= pipeline_detail::kClearlyContinuous)) {
+      out_.continuity = std::min(out_.continuity, 2);
+    }
+    return corner || jumps || !std::isfinite(jump);
+  }
+
+  void add(const AuditPlace& place, int continuity) {
+    out_.places.push_back(place);
+    out_.continuity = std::min(out_.continuity, continuity);
+  }
+
+  void lay_runs() {
+    std::vector<int> direction;
+    for (const Piece& piece : out_.contour.pieces) {
+      direction.push_back(pipeline_detail::direction_of(prove_piece(piece).verdict));
+    }
+    out_.contour.runs = collect_runs(
+        direction, [this](std::size_t i) { return out_.contour.joints[i].leaving.has_value(); });
+  }
+
+  void place(AuditPlace::Kind kind, const Sample& at) {
+    out_.places.push_back(
+        {kind, at.s, evaluate(out_.contour.pieces[at.piece], at.t).point, at.kappa, at.kappa, 0.0});
+  }
+
+  /// Calls `find` with larger and larger limits until no more is found than the proof counts: what
+  /// there is more are ripples of rounding.
+  template <class Find>
+  void find_proved(int proved, Find find) {
+    constexpr double kCoarser = 10.0;
+    const std::size_t before = out_.places.size();
+    for (double least = rounding_;; least *= kCoarser) {
+      out_.places.erase(out_.places.begin() + static_cast<std::ptrdiff_t>(before),
+                        out_.places.end());
+      find(least);
+      const std::size_t found = out_.places.size() - before;
+      if (!out_.counted || found <= static_cast<std::size_t>(proved) || !(least > 0.0)) return;
+    }
+  }
+
+  /// Extrema of the sampled curvature that stand out of the rounding.
+  void place_vertices() {
+    find_proved(out_.vertices, [this](double least) {
+      extrema(least, [this](const Sample& at) {
+        if (beside_singular_end(at)) return;  // no extremum: it grows without bound
+        const Sample there = refined(at);
+        out_.least_kappa = std::min(out_.least_kappa, there.kappa);
+        out_.largest_kappa = std::max(out_.largest_kappa, there.kappa);
+        place(AuditPlace::Kind::kVertex, there);
+      });
+    });
+  }
+
+  [[nodiscard]] int swings(double least) {
+    int count = 0;
+    extrema(std::max(least, rounding_), [&](const Sample&) { ++count; });
+    return count;
+  }
+
+  /// Neighbouring samples of one curvature but for rounding, the first and the last; counted on
+  /// past the seam.
+  struct Level {
+    std::size_t first, last;
+  };
+
+  [[nodiscard]] const Sample& sample(std::size_t i) const { return samples_[i % samples_.size()]; }
+
+  /// Calls `found` for each extremum that the curvature leaves by more than `least` on both sides:
+  /// with the middle sample where the curvature stays as it is. A closed curve is followed from its
+  /// least curvature around to it.
+  template <class Found>
+  void extrema(double least, Found found) {
+    const bool closed = out_.contour.closed;
+    const auto below = [](const Sample& a, const Sample& b) { return a.kappa < b.kappa; };
+    const std::size_t from =
+        closed ? static_cast<std::size_t>(
+                     std::min_element(samples_.begin(), samples_.end(), below) - samples_.begin())
+               : 0;
+    const auto tell = [&](const Level& at) { found(sample((at.first + at.last) / 2)); };
+    Level low{from, from}, high = low;
+    std::optional<Level> start;  // what a closed curve comes back to
+    int direction = 0;
+    for (std::size_t i = from; i < from + samples_.size() + (closed ? 1 : 0); ++i) {
+      const double now = sample(i).kappa;
+      const auto follow = [&](Level& level, double beyond) {
+        if (beyond > rounding_) level = {i, i};
+        if (std::abs(beyond) <= rounding_ && level.last + 1 == i) level.last = i;
+      };
+      follow(low, sample(low.first).kappa - now);
+      follow(high, now - sample(high.first).kappa);
+      const bool falls = direction >= 0 && now < sample(high.first).kappa - least;
+      if (!falls && !(direction <= 0 && now > sample(low.first).kappa + least)) continue;
+      const Level& left = falls ? high : low;
+      if (direction != 0) tell(left);
+      if (direction == 0) start = left;
+      direction = falls ? -1 : 1;
+      (falls ? low : high) = {i, i};
+    }
+    if (closed && start) tell(*start);
+  }
+
+  [[nodiscard]] bool beside_singular_end(const Sample& at) const {
+    const Piece& piece = out_.contour.pieces[at.piece];
+    constexpr double kStep = 1.0 / kPieceSamples;
+    return (at.t <= kStep && is_singular_end(piece, 0.0)) ||
+           (at.t >= 1.0 - kStep && is_singular_end(piece, 1.0));
+  }
+
+  /// The extremum nearest to a sample inside its piece, where the rate of curvature is 0.
+  [[nodiscard]] Sample refined(Sample at) const {
+    const Piece& piece = out_.contour.pieces[at.piece];
+    const auto rate = [&](double t) { return curvature_rate(evaluate(piece, t)); };
+    double low = std::max(0.0, at.t - 1.0 / kPieceSamples),
+           high = std::min(1.0, at.t + 1.0 / kPieceSamples);
+    const bool rises = rate(low) > 0.0;
+    if (rises == (rate(high) > 0.0)) return at;
+    constexpr int kHalvings = 50;
+    for (int k = 0; k < kHalvings; ++k) {
+      const double middle = 0.5 * (low + high);
+      ((rate(middle) > 0.0) == rises ? low : high) = middle;
+    }
+    at.kappa = curvature(evaluate(piece, low));
+    at.s = path_->length_at(at.piece, low);
+    at.t = low;
+    return at;
+  }
+
+  void place_inflections() {
+    find_proved(out_.inflections, [this](double least) { sign_changes(least); });
+  }
+
+  void sign_changes(double least) {
+    const Sample *last = nullptr, *first = nullptr;
+    for (const Sample& now : samples_) {
+      if (std::abs(now.kappa) <= least) continue;
+      if (first == nullptr) first = &now;
+      if (last != nullptr && last->kappa * now.kappa < 0.0) {
+        const double part = last->kappa / (last->kappa - now.kappa);
+        Sample at = now;
+        if (last->piece == now.piece) at.t = last->t + part * (now.t - last->t);
+        at.s = last->s + part * (now.s - last->s);
+        at.kappa = 0.0;
+        place(AuditPlace::Kind::kInflection, at);
+      }
+      last = &now;
+    }
+    if (!out_.contour.closed || last == nullptr || !(last->kappa * first->kappa < 0.0)) return;
+    Sample seam = samples_.front();
+    seam.kappa = 0.0;
+    place(AuditPlace::Kind::kInflection, seam);
+  }
+
+  CurveAudit out_;
+  double size_ = 0.0, rounding_ = 0.0;
+  bool unbounded_ = false;  // some end of a piece has no curvature
+  std::optional<ContourPath> path_;
+  std::vector<Sample> samples_;
+};
+
+}  // namespace
+
+const char* to_string(AuditPlace::Kind kind) {
+  constexpr const char* names[] = {"vertex", "inflection", "curvature jump", "corner", "gap"};
+  return names[static_cast<int>(kind)];
+}
+
+std::string as_drawn(const CurveAudit& a) {
+  const auto counted = [](int count, const char* one, const char* many) {
+    return std::to_string(count) + " " + (count == 1 ? one : many);
+  };
+  int corners = 0, jumps = 0, gaps = 0;
+  for (const AuditPlace& place : a.places) {
+    corners += place.kind == AuditPlace::Kind::kCorner ? 1 : 0;
+    jumps += place.kind == AuditPlace::Kind::kCurvatureJump ? 1 : 0;
+    gaps += place.kind == AuditPlace::Kind::kGap ? 1 : 0;
+  }
+  std::string text = "as drawn: ";
+  text += a.counted ? counted(a.vertices, "vertex", "vertices") + ", " +
+                          counted(a.inflections, "inflection", "inflections")
+                    : "vertices not counted, the curvature has no bound";
+  if (corners > 0) text += ", " + counted(corners, "corner", "corners");
+  if (jumps > 0) text += ", " + counted(jumps, "jump", "jumps") + " of the curvature";
+  if (gaps > 0) text += ", " + counted(gaps, "gap", "gaps");
+  return text;
+}
+
+CurveAudit audit(const DrawnCurve& curve, const Units& units) {
+  return Auditor(curve, units).run();
+}
+
+}  // namespace obvid

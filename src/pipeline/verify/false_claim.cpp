@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "verify/false_claim.h"
+
+#include <fmt/format.h>
+
+namespace obvid::pipeline_detail {
+
+Error false_claim_in_space(const std::string& name, double claimed, double found) {
+  return {ErrorCode::kFalseClaim,
+          fmt::format("the file claims {} = {:.9g}, found {:.9g}", name, claimed, found),
+          "/" + name,
+          "form the curve again",
+          -1,
+          found};
+}
+
+void add_false_claim(JsonText& json, const Error* claim) {
+  json.key("false_claim");
+  if (claim == nullptr) {
+    json.null();
+    return;
+  }
+  json.begin_object().pair("code", fmt::format("E{}", static_cast<int>(claim->code)));
+  json.pair("what", claim->what).pair("where", claim->where).end_object();
+}
+
+}  // namespace obvid::pipeline_detail

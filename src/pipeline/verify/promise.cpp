@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "obvid/pipeline/internal/promise.h"
+
+#include <fmt/format.h>
+
+#include "obvid/core/internal/figures.h"
+
+namespace obvid {
+namespace {
+
+std::optional<Error> too_wide(const FitReport& report) {
+  if (!(report.largest_width > report.tolerance)) return std::nullopt;
+  return Error{ErrorCode::kToleranceNotReached,
+               fmt::format("the region is {} wide, the tolerance is {}",
+                           significant(report.largest_width, 4), significant(report.tolerance, 4)),
+               "", ""};
+}
+
+}  // namespace
+
+bool keeps_promise(Carrier carrier, const Certificate& certificate) {
+  if (promises_monotone(carrier)) return certificate.proved;
+  return certificate.gaps_within_bounds && certificate.through_points;
+}
+
+std::optional<Error> broken_promise(const Fit& made) {
+  if (!keeps_promise(made.contour.carrier, made.certificate)) {
+    return Error{ErrorCode::kNotProved,
+                 "the contour was formed but not proved: " + made.certificate.reason, "", ""};
+  }
+  return too_wide(made.report);
+}
+
+std::optional<Error> broken_promise(const StoredContour& stored, const Verification& found) {
+  if (found.false_claim) return found.false_claim;
+  if (!keeps_promise(stored.contour.carrier, found.certificate)) {
+    return Error{ErrorCode::kNotProved, "the contour is not proved: " + found.certificate.reason,
+                 "", ""};
+  }
+  return stored.report ? too_wide(*stored.report) : std::nullopt;
+}
+
+}  // namespace obvid

@@ -1,0 +1,295 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "obvid/surface_builders/internal/approximate.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "approximate_line.h"
+#include "network_curves.h"
+#include "obvid/surface_builders/internal/grid.h"
+
+namespace obvid {
+namespace {
+
+/// Largest error of each row and of each column.
+struct Errors {
+  std::vector<double> of_row, of_column;
+  double worst = 0.0;
+  std::size_t worst_at = 0;
+};
+
+Errors errors_between(const Rows& a, const Rows& b) {
+  Errors errors{std::vector<double>(a.count(), 0.0), std::vector<double>(a.width, 0.0), 0.0, 0};
+  for (std::size_t j = 0; j < a.count(); ++j) {
+    for (std::size_t i = 0; i < a.width; ++i) {
+      const double error = norm(a.row(j)[i] - b.row(j)[i]);
+      errors.of_row[j] = std::max(errors.of_row[j], error);
+      errors.of_column[i] = std::max(errors.of_column[i], error);
+      if (error > errors.worst) {
+        errors.worst = error;
+        errors.worst_at = j * a.width + i;
+      }
+    }
+  }
+  return errors;
+}
+
+/// What has to stay exactly at the first and the last row: a pole, a seam.
+struct KeptEnds {
+  bool first = false, last = false;
+};
+
+KeptEnds kept_ends(const Rows& rows) {
+  const Vec3 *first = rows.row(0), *last = rows.row(rows.count() - 1);
+  const auto one_point = [&](const Vec3* row) {
+    return std::all_of(row, row + rows.width, [&](Vec3 p) { return p == row[0]; });
+  };
+  const bool closed = std::equal(first, first + rows.width, last);
+  return {closed || one_point(first), closed || one_point(last)};
+}
+
+SplineLine line_of(const Rows& rows, std::vector<double> parameters) {
+  const KeptEnds kept = kept_ends(rows);
+  return {std::move(parameters), kept.first, kept.last};
+}
+
+/// Distances of a point from the surface: at its parameters, and nearby.
+struct Distance {
+  double parametric = 0.0, nearest = 0.0;
+};
+
+/// Steps of Gauss and Newton from (u, v), taken only when they come nearer: an upper bound of the
+/// distance, and the distance in all but contrived cases.
+Distance distance_near(const NurbsSurface& surface, double u, double v, Vec3 point) {
+  constexpr int kMostSteps = 8;
+  constexpr double kSettled = 1e-3;  // part of the distance that a step has to gain
+  SurfaceJet jet = evaluate(surface, u, v);
+  Distance distance;
+  distance.parametric = distance.nearest = norm(jet.point - point);
+  for (int step = 0; step < kMostSteps && distance.nearest > 0.0; ++step) {
+    const Vec3 gap = point - jet.point;
+    const double a = dot(jet.du, jet.du), b = dot(jet.du, jet.dv), c = dot(jet.dv, jet.dv);
+    const double det = a * c - b * b, gu = dot(gap, jet.du), gv = dot(gap, jet.dv);
+    if (!(det > 0.0)) break;
+    u = std::clamp(u + (c * gu - b * gv) / det, 0.0, 1.0);
+    v = std::clamp(v + (a * gv - b * gu) / det, 0.0, 1.0);
+    jet = evaluate(surface, u, v);
+    const double next = norm(jet.point - point);
+    const bool settled = !(next < distance.nearest * (1.0 - kSettled));
+    distance.nearest = std::min(distance.nearest, next);
+    if (settled) break;
+  }
+  return distance;
+}
+
+class Approximation {
+ public:
+  Approximation(const PointGrid& grid, std::vector<double> u, std::vector<double> v)
+      : data_{grid.count_u, grid.points},
+        turned_(transposed(data_)),
+        along_u_(line_of(turned_, std::move(u))),
+        along_v_(line_of(data_, std::move(v))) {}
+
+  /// Splits and fits until within the tolerance; false when the data cannot carry it.
+  bool fitted(double tolerance, const RunContext& run) {
+    if (!fit_u() || !fit_v() || !fit_both()) return false;
+    while (!within(tolerance)) {
+      cancelled_ = !tell(run, "approximating surface", part_used());
+      if (cancelled_) return false;
+      const bool refined = refine(tolerance);
+      if (!refined) saturate();
+      if (!fit_again() || (!refined && !within(tolerance))) return false;
+    }
+    return thin_out(tolerance);
+  }
+
+  [[nodiscard]] ApproximatedSurface measured(NurbsSurface surface) const {
+    ApproximatedSurface result{std::move(surface), 0.0, 0.0, 0.0};
+    double squares = 0.0;
+    for (std::size_t k = 0; k < data_.points.size(); ++k) {
+      const Distance distance = distance_near(result.surface, u_of(k), v_of(k), data_.points[k]);
+      result.parametric_deviation = std::max(result.parametric_deviation, distance.parametric);
+      result.deviation = std::max(result.deviation, distance.nearest);
+      squares += distance.nearest * distance.nearest;
+    }
+    result.root_mean_square = std::sqrt(squares / static_cast<double>(data_.points.size()));
+    return result;
+  }
+
+  [[nodiscard]] bool was_cancelled() const { return cancelled_; }
+  [[nodiscard]] NurbsSurface take() { return std::move(surface_); }
+
+ private:
+  [[nodiscard]] double u_of(std::size_t k) const { return along_u_.parameters()[k % data_.width]; }
+  [[nodiscard]] double v_of(std::size_t k) const { return along_v_.parameters()[k / data_.width]; }
+  [[nodiscard]] double part_used() const {
+    return static_cast<double>(along_u_.coefficients() + along_v_.coefficients()) /
+           static_cast<double>(data_.width + data_.count());
+  }
+
+  bool fit_u() {
+    if (!along_u_.fit(turned_, rows_fitted_)) return false;
+    from_u_ = errors_between(turned_, along_u_.values(rows_fitted_));
+    return true;
+  }
+  bool fit_v() {
+    if (!along_v_.fit(data_, columns_fitted_)) return false;
+    from_v_ = errors_between(data_, along_v_.values(columns_fitted_));
+    return true;
+  }
+
+  bool fit_both() {
+    Rows net;
+    if (!along_v_.fit(transposed(rows_fitted_), net)) return false;
+    shape_ = transposed(along_u_.values(transposed(along_v_.values(net))));
+    all_ = errors_between(data_, shape_);
+    surface_ = {along_u_.degree(), along_v_.degree(),     along_u_.knots(),
+                along_v_.knots(),  std::move(net.points), {}};
+    return true;
+  }
+
+  [[nodiscard]] bool within(double tolerance) const {
+    if (all_.worst <= tolerance) return true;
+    const auto near_enough = [&](std::size_t k) {
+      if (norm(shape_.points[k] - data_.points[k]) <= tolerance) return true;
+      return distance_near(surface_, u_of(k), v_of(k), data_.points[k]).nearest <= tolerance;
+    };
+    if (!near_enough(all_.worst_at)) return false;  // decides nearly always, for one point's cost
+    for (std::size_t k = 0; k < data_.points.size(); ++k) {
+      if (!near_enough(k)) return false;
+    }
+    return true;
+  }
+
+  /// The error is that of the rows' fits plus the fitted error of the columns' fits: knots go where
+  /// the direction with the larger share has its largest errors.
+  bool refine(double tolerance) {
+    const double limit_u = threshold(from_u_.worst, tolerance);
+    const double limit_v = threshold(from_v_.worst, tolerance);
+    const bool u_first = from_u_.worst >= from_v_.worst;
+    // where the worst spans have no more points, smaller errors beside them can still give way
+    return u_first ? split_u(limit_u) || split_v(limit_v) || split_u(0.0) || split_v(0.0)
+                   : split_v(limit_v) || split_u(limit_u) || split_v(0.0) || split_u(0.0);
+  }
+  bool split_u(double limit) { return along_u_.split(from_u_.of_row, limit) > 0; }
+  bool split_v(double limit) { return along_v_.split(from_v_.of_row, limit) > 0; }
+  void saturate() {
+    along_u_.saturate();
+    along_v_.saturate();
+  }
+
+  /// Takes away knots that the tolerance does not need: those that matter least, as many at once as
+  /// go well, half as many where they do not.
+  bool thin_out(double tolerance) {
+    std::size_t batch = (inner(along_u_) + inner(along_v_)) / 2;
+    const double most_u = std::max(kMostSwing, along_u_.swing());
+    const double most_v = std::max(kMostSwing, along_v_.swing());
+    while (batch > 0) {
+      const SplineLine old_u = along_u_, old_v = along_v_;
+      if (!remove_least(batch)) return true;
+      const bool tame = along_u_.swing() <= most_u && along_v_.swing() <= most_v;
+      if (tame && fit_again() && within(tolerance)) continue;
+      along_u_ = old_u;
+      along_v_ = old_v;
+      if (!fit_again()) return false;
+      batch /= 2;
+    }
+    return true;
+  }
+
+  bool fit_again() { return fit_u() && fit_v() && fit_both(); }
+
+  static std::size_t inner(const SplineLine& line) {
+    return line.coefficients() - static_cast<std::size_t>(line.degree()) - 1;
+  }
+
+  /// False when there is nothing to remove.
+  bool remove_least(std::size_t batch) {
+    struct Candidate {
+      double need;
+      bool along_u;
+      std::size_t knot;
+    };
+    std::vector<Candidate> all;
+    for (const bool u : {true, false}) {
+      const std::vector<double> need =
+          u ? along_u_.needs(rows_fitted_) : along_v_.needs(columns_fitted_);
+      for (std::size_t k = 0; k < need.size(); ++k) all.push_back({need[k], u, k});
+    }
+    std::stable_sort(all.begin(), all.end(),
+                     [](const Candidate& a, const Candidate& b) { return a.need < b.need; });
+    // neighbours stay: without one of them the other matters more
+    std::vector<char> taken_u(inner(along_u_) + 2, 0), taken_v(inner(along_v_) + 2, 0);
+    std::size_t taken = 0;
+    for (const Candidate& c : all) {
+      std::vector<char>& marks = c.along_u ? taken_u : taken_v;
+      if (taken == batch || marks[c.knot] || marks[c.knot + 2]) continue;
+      marks[c.knot + 1] = 1;
+      ++taken;
+    }
+    along_u_.remove(marked(taken_u));
+    along_v_.remove(marked(taken_v));
+    return taken > 0;
+  }
+
+  static std::vector<std::size_t> marked(const std::vector<char>& marks) {
+    std::vector<std::size_t> numbers;
+    for (std::size_t k = 1; k + 1 < marks.size(); ++k) {
+      if (marks[k]) numbers.push_back(k - 1);
+    }
+    return numbers;
+  }
+
+  static double threshold(double worst, double tolerance) {
+    // halving a span takes a cubic's error to 1/16: spans beyond 1/4 of the worst are halved too,
+    // as otherwise they were the worst in the next step
+    constexpr double kAlso = 0.25;
+    constexpr double kNearlyWorst = 0.9;  // within the tolerance only the worst ones are halved
+    return std::min(kNearlyWorst * worst, std::max(tolerance, kAlso * worst));
+  }
+
+  Rows data_;    // rows along u, one for each v
+  Rows turned_;  // the same, rows along v
+  SplineLine along_u_, along_v_;
+  Rows rows_fitted_;     // coefficients along u of each row, turned
+  Rows columns_fitted_;  // coefficients along v of each column
+  Errors from_u_, from_v_, all_;
+  Rows shape_;  // points of the surface at the parameters
+  NurbsSurface surface_;
+  bool cancelled_ = false;
+};
+
+}  // namespace
+
+Result<ApproximatedSurface> approximated(const PointGrid& grid, double tolerance,
+                                         const RunContext& run) {
+  if (auto good = check_tolerance(tolerance); !good) return fail(good.error());
+  auto u = grid_parameters(grid, true, Spread::kChord);
+  if (!u) return fail(u.error());
+  auto v = grid_parameters(grid, false, Spread::kChord);
+  if (!v) return fail(v.error());
+  Approximation work(grid, std::move(*u), std::move(*v));
+  NurbsSurface surface;
+  const bool near = work.fitted(tolerance, run);
+  if (work.was_cancelled()) return fail(cancelled_error());
+  if (near) {
+    surface = work.take();
+  } else {
+    Result<NurbsSurface> through = interpolated(grid, Spread::kChord);
+    if (!through) return fail(through.error());
+    surface = std::move(*through);
+  }
+  ApproximatedSurface result = work.measured(std::move(surface));
+  if (auto done = tell(run, "approximating surface", 1.0); !done) return fail(done.error());
+  if (result.deviation <= tolerance) return result;
+  return fail({ErrorCode::kToleranceNotReached,
+               fmt::format("a surface comes no nearer to all points than {:g}, the tolerance is "
+                           "{:g}",
+                           result.deviation, tolerance),
+               "", "give a tolerance above the rounding of the coordinates", -1, result.deviation});
+}
+
+}  // namespace obvid

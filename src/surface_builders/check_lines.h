@@ -1,0 +1,13 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstddef>
+
+#include "obvid/surface_builders/internal/check.h"
+
+namespace obvid {
+
+/// Curvature along the lines v = const of a surface.
+[[nodiscard]] LineReport check_lines(const NurbsSurface& surface, std::size_t lines);
+
+}  // namespace obvid

@@ -1,0 +1,172 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "obvid/surface_builders/internal/skin.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "begun_at_first_point.h"
+#include "obvid/surface/internal/collocation.h"
+#include "obvid/surface_builders/internal/grid.h"
+#include "skin_breaks.h"
+#include "skin_marks.h"
+#include "skin_report.h"
+
+namespace obvid {
+namespace {
+
+Result<void> check_sections(const std::vector<SkinSection>& sections, const SkinOptions& options) {
+  if (!(options.tolerance > 0.0)) {
+    return fail({ErrorCode::kBadOption, "the tolerance must be greater than 0", "", "", -1,
+                 options.tolerance});
+  }
+  if (sections.size() < 2) {
+    return fail({ErrorCode::kTooFewPoints, "a skin needs at least two sections", "", "", -1,
+                 static_cast<double>(sections.size())});
+  }
+  for (std::size_t k = 0; k < sections.size(); ++k) {
+    const SkinSection& s = sections[k];
+    const bool point = s.contour.pieces.empty();
+    const bool fits = point ? !s.points.empty() : s.on_contour.size() == s.points.size();
+    const bool inside = std::all_of(s.on_contour.begin(), s.on_contour.end(), [&](std::size_t i) {
+      return point || i < s.contour.points.size();
+    });
+    if (fits && inside) continue;
+    return fail(
+        {ErrorCode::kUsage,
+         fmt::format("section {} ({}): points and contour do not belong together", k + 1, s.name),
+         "", "", static_cast<std::ptrdiff_t>(k), 0.0});
+  }
+  return {};
+}
+
+Error of_section(Error error, const std::vector<SkinSection>& sections, std::size_t k) {
+  error.what = fmt::format("section {} ({}): {}", k + 1, sections[k].name, error.what);
+  error.index = static_cast<std::ptrdiff_t>(k);
+  return error;
+}
+
+/// Control points of all sections of a stretch, section after section.
+struct Net {
+  std::vector<double> breaks;
+  std::vector<SectionCurve> curves;
+  PointGrid at_breaks;  ///< points of the sections at the breaks
+  std::vector<Vec3> points;
+  std::size_t width = 0;
+};
+
+Result<Net> net_of(const std::vector<MeasuredSection>& sections, const Stretch& stretch,
+                   const SkinOptions& options) {
+  Net net;
+  for (std::size_t k = 0; k < sections.size(); ++k) {
+    auto curve = SectionCurve::make(sections[k], stretch.marks[k], stretch.at);
+    if (!curve) return fail(curve.error());
+    net.curves.push_back(std::move(*curve));
+  }
+  auto breaks = breaks_for(net.curves, stretch.at, {options.tolerance});
+  if (!breaks) return fail(breaks.error());
+  net.breaks = std::move(*breaks);
+  for (const SectionCurve& curve : net.curves) {
+    std::vector<Hermite> data;
+    for (const double u : net.breaks) data.push_back(curve.at(u));
+    for (const Hermite& h : data) net.at_breaks.points.push_back(h.point);
+    const std::vector<Vec3> row = quintic_points(net.breaks, data);
+    net.width = row.size();
+    net.points.insert(net.points.end(), row.begin(), row.end());
+  }
+  return net;
+}
+
+/// Parameters of the sections: chords at all breaks of all stretches, averaged.
+Result<std::vector<double>> parameters_across(const std::vector<Net>& nets, std::size_t sections) {
+  PointGrid all;
+  all.count_v = sections;
+  for (std::size_t k = 0; k < sections; ++k) {
+    for (const Net& net : nets) {
+      const std::size_t width = net.breaks.size();
+      const auto row = net.at_breaks.points.begin() + static_cast<std::ptrdiff_t>(k * width);
+      all.points.insert(all.points.end(), row, row + static_cast<std::ptrdiff_t>(width));
+    }
+  }
+  all.count_u = all.points.size() / sections;
+  auto v = grid_parameters(all, false, Spread::kChord);
+  if (v) return v;
+  Error error = v.error();
+  error.what =
+      fmt::format("sections {} and {} lie at the same place", error.index, error.index + 1);
+  return fail(error);
+}
+
+Collocation straight(const std::vector<double>& v) {
+  Collocation system{1, v, BandedMatrix(v.size(), 0, 0)};
+  system.knots.insert(system.knots.begin(), v.front());
+  system.knots.push_back(v.back());
+  for (std::size_t i = 0; i < v.size(); ++i) system.matrix.at(i, i) = 1.0;
+  return system;
+}
+
+NurbsSurface surface_of(const Net& net, const Collocation& across) {
+  std::vector<Vec3> points = net.points;
+  across.matrix.solve_rows(points, net.width);
+  return {kSkinDegree,  across.degree,     quintic_knots(net.breaks),
+          across.knots, std::move(points), {}};
+}
+
+}  // namespace
+
+Result<Skin> skin(const std::vector<SkinSection>& given, const SkinOptions& options,
+                  const RunContext& run) {
+  if (auto good = check_sections(given, options); !good) return fail(good.error());
+  std::vector<SkinSection> sections = given;
+  std::vector<MeasuredSection> measured_sections;
+  for (std::size_t k = 0; k < sections.size(); ++k) {
+    const double part = static_cast<double>(k) / static_cast<double>(sections.size());
+    if (auto done = tell(run, "measuring sections", part); !done) return fail(done.error());
+    auto begun = begun_at_first_point(sections[k].contour);
+    if (!begun) return fail(of_section(begun.error(), sections, k));
+    sections[k].contour = std::move(*begun);
+    auto section = measured(sections[k]);
+    if (!section) return fail(of_section(section.error(), sections, k));
+    measured_sections.push_back(std::move(*section));
+  }
+  auto match = matched(measured_sections, options.matching);
+  if (!match) return fail(match.error());
+  std::vector<Net> nets;
+  for (const Stretch& stretch : match->stretches) {
+    const double part =
+        static_cast<double>(nets.size()) / static_cast<double>(match->stretches.size());
+    if (auto done = tell(run, "following contours", part); !done) return fail(done.error());
+    auto net = net_of(measured_sections, stretch, options);
+    if (!net) return fail(net.error());
+    nets.push_back(std::move(*net));
+  }
+  const auto v = parameters_across(nets, sections.size());
+  if (!v) return fail(v.error());
+  Result<Collocation> across = options.straight_across ? straight(*v) : cubic_collocation(*v);
+  if (!across) return fail(across.error());
+
+  Skin result;
+  result.matching = match->matching;
+  result.warnings = std::move(match->warnings);
+  for (std::size_t k = 0; k < sections.size(); ++k) {
+    result.sections.push_back(
+        {sections[k].name, (*v)[k], 0.0, 0.0, sections[k].contour.runs.size(), 0.0});
+  }
+  for (std::size_t n = 0; n < nets.size(); ++n) {
+    const double part = static_cast<double>(n) / static_cast<double>(nets.size());
+    if (auto done = tell(run, "checking", part); !done) return fail(done.error());
+    SkinStretch stretch{std::move(nets[n].curves), nets[n].breaks, surface_of(nets[n], *across)};
+    for (std::size_t k = 0; k < sections.size(); ++k) {
+      add_section_report(stretch, measured_sections[k], k, (*v)[k], result.sections[k]);
+    }
+    if (!options.straight_across) {
+      add_across_report(stretch, *v, options.tolerance, result.across);
+    }
+    result.patches.push_back({fmt::format("part {}", n + 1), std::move(stretch.surface)});
+  }
+  return result;
+}
+
+}  // namespace obvid

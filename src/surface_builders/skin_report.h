@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <vector>
+
+#include "obvid/surface_builders/internal/skin.h"
+#include "section_curve.h"
+
+namespace obvid {
+
+/// One stretch of the skin with everything that was used to make it.
+struct SkinStretch {
+  std::vector<SectionCurve> sections;
+  std::vector<double> breaks;
+  NurbsSurface surface;
+};
+
+/// Adds what this stretch shows about section k.
+void add_section_report(const SkinStretch& stretch, const MeasuredSection& measured, std::size_t k,
+                        double v, SkinSectionReport& report);
+
+/// Adds the waves across this stretch; `v` are the sections' parameters.
+void add_across_report(const SkinStretch& stretch, const std::vector<double>& v, double tolerance,
+                       AcrossReport& report);
+
+}  // namespace obvid

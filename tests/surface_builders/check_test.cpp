@@ -1,0 +1,164 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "obvid/surface_builders/internal/check.h"
+#include "../common/angles.h"
+
+#include <gtest/gtest.h>
+
+#include <array>
+#include <cmath>
+
+namespace obvid {
+namespace {
+
+NurbsSurface nurbs(const Surface& surface) { return to_nurbs(surface, 1e-9)->surface; }
+
+NurbsSurface sphere_zone() {
+  // latitudes -60 to 60 degrees, a full turn
+  const Vec3 start{2 * std::cos(-kPi / 3), 0, 2 * std::sin(-kPi / 3)};
+  return nurbs(RevolutionSurface{
+      arc_about(start, {0, 0, 0}, {0, -1, 0}, 2 * kPi / 3), {0, 0, 0}, {0, 0, 1}, 2 * kPi});
+}
+
+SurfaceCheck checked(const SurfaceModel& model, const CheckOptions& options = {}) {
+  const auto found = check_surface(model, options);
+  EXPECT_TRUE(found);
+  return found.value_or(SurfaceCheck{});
+}
+
+TEST(CheckSurface, MeasuresASphereAndItsSeam) {
+  const SurfaceCheck found = checked({"s", "mm", {{"zone", sphere_zone()}}});
+  ASSERT_EQ(found.patches.size(), 1u);
+  const PatchReport& p = found.patches[0];
+  EXPECT_NEAR(p.gaussian.least, 0.25, 1e-11);
+  EXPECT_NEAR(p.gaussian.most, 0.25, 1e-11);
+  // 2 pi r h with h = 2 r sin 60
+  EXPECT_NEAR(p.area, 2 * kPi * 2 * (2 * 2 * std::sin(kPi / 3)), 2e-3);
+  EXPECT_TRUE(p.rational);
+  EXPECT_EQ(p.order_v, 0);                         // double knots of quarter arcs say no more
+  EXPECT_EQ(p.along_u.monotone, p.along_u.lines);  // circles
+  EXPECT_EQ(p.along_u.vertices, 0u);
+  EXPECT_EQ(p.along_v.inflections, 0u);
+  // the seam is a border that meets itself smoothly
+  ASSERT_EQ(found.joints.size(), 1u);
+  EXPECT_EQ(found.joints[0].side, (std::array{kVStart, kVEnd}));
+  EXPECT_EQ(found.joints[0].order, 2);
+  EXPECT_LT(found.joints[0].angle, 1e-12);
+}
+
+TEST(CheckSurface, TellsCornersFromSmoothBorders) {
+  const NurbsSurface flat = nurbs(cylinder_over(line_between({0, 0, 0}, {2, 0, 0}), {0, 1, 0}));
+  const NurbsSurface wall = nurbs(cylinder_over(line_between({0, 1, 0}, {2, 1, 0}), {0, 0, 1}));
+  const auto [left, right] = split_u(flat, 0.25);
+  const SurfaceCheck found = checked(
+      {"s", "mm", {{"left", left}, {"right", reversed_u(right)}, {"whole", flat}, {"wall", wall}}});
+  int smooth = 0, square = 0;
+  for (const JointReport& j : found.joints) {
+    if (j.patch == std::array<std::size_t, 2>{0, 1}) {
+      ++smooth;
+      EXPECT_EQ(j.order, 2);
+      EXPECT_EQ(j.side, (std::array{kUEnd, kUEnd}));  // the second runs backwards
+    }
+    if (j.patch == std::array<std::size_t, 2>{2, 3}) {
+      ++square;
+      EXPECT_NEAR(j.angle, kPi / 2, 1e-12);
+      EXPECT_EQ(j.order, 0);
+    }
+  }
+  EXPECT_EQ(smooth, 1);
+  EXPECT_EQ(square, 1);
+}
+
+TEST(CheckSurface, SeesTheStepOfCurvatureFromPlaneToCylinder) {
+  const SpaceCurve arc = arc_about({0, 0, 0}, {0, 0, 1}, {0, -1, 0}, 1.0);  // leaves along +x, up
+  const NurbsSurface round = nurbs(cylinder_over(arc, {0, 3, 0}));
+  const NurbsSurface flat = nurbs(cylinder_over(line_between({-2, 0, 0}, {0, 0, 0}), {0, 3, 0}));
+  const SurfaceCheck found = checked({"s", "mm", {{"flat", flat}, {"round", round}}});
+  ASSERT_EQ(found.joints.size(), 1u);
+  EXPECT_LT(found.joints[0].angle, 1e-12);
+  EXPECT_NEAR(found.joints[0].curvature, 1.0, 1e-9);
+  EXPECT_EQ(found.joints[0].order, 1);
+}
+
+TEST(CheckSurface, MeasuresShortSpansToo) {
+  // a cylinder over a line of 1000 with a quarter of a circle of radius 1 at its end, whose span of
+  // the parameter is far shorter than a cell of the raster
+  const double length = 1000.0;
+  SpaceCurve bend;
+  bend.degree = 2;
+  bend.knots = {0, 0, 0, length, length, length + 1, length + 1, length + 1};
+  const double w = std::sqrt(0.5);
+  bend.points = {
+      {0, 0, 0}, {length / 2, 0, 0}, {length, 0, 0}, {length + 1, 0, 0}, {length + 1, 1, 0}};
+  bend.weights = {1, 1, 1, w, 1};
+  const NurbsSurface s = nurbs(cylinder_over(bend, {0, 0, 1}));
+  const SurfaceCheck found = checked({"s", "mm", {{"bend", s}}}, {5, 1e-5});
+  EXPECT_NEAR(std::max(std::abs(found.patches[0].mean.least), std::abs(found.patches[0].mean.most)),
+              0.5, 1e-9);
+  EXPECT_NEAR(found.patches[0].area, length + kPi / 2, 0.1 * kPi);
+}
+
+/// z = (x^2 + y^2) / 2 over [from, to]^2: Gaussian curvature 1 / (1 + x^2 + y^2)^2.
+NurbsSurface paraboloid(double from, double to) {
+  NurbsSurface s;
+  s.degree_u = s.degree_v = 2;
+  s.knots_u = s.knots_v = {0, 0, 0, 1, 1, 1};
+  const std::array<double, 3> at{from, (from + to) / 2, to},
+      square{from * from, from * to, to * to};
+  for (std::size_t j = 0; j < 3; ++j) {
+    for (std::size_t i = 0; i < 3; ++i) {
+      s.points.push_back({at[i], at[j], (square[i] + square[j]) / 2});
+    }
+  }
+  return s;
+}
+
+TEST(CheckSurface, FindsExtremesBetweenItsPlacesAndOnBorders) {
+  const auto gaussian = [](double r2) { return 1.0 / ((1.0 + r2) * (1.0 + r2)); };
+  // half of the sum of 1 and 1 / (1 + r^2), over sqrt(1 + r^2)
+  const auto mean = [](double r2) { return (2.0 + r2) / (2.0 * std::pow(1.0 + r2, 1.5)); };
+  for (const std::size_t samples : {3u, 5u, 65u}) {
+    const CurvatureExtents inside = curvature_extents(paraboloid(-1.0, 0.7), samples);
+    EXPECT_NEAR(inside.gaussian.most, 1.0, 1e-9);
+    EXPECT_NEAR(inside.mean.most, 1.0, 1e-9);
+    EXPECT_NEAR(inside.gaussian.least, gaussian(2.0), 1e-6);
+    const CurvatureExtents border = curvature_extents(paraboloid(0.5, 1.5), samples);
+    EXPECT_NEAR(border.gaussian.most, gaussian(0.5), 1e-6);
+    EXPECT_NEAR(border.gaussian.least, gaussian(4.5), 1e-6);
+    EXPECT_NEAR(border.mean.least, mean(4.5), 1e-6);
+    EXPECT_NEAR(border.k1.most, std::pow(1.5, -0.5), 1e-6);
+    EXPECT_NEAR(border.k2.most, std::pow(1.5, -1.5), 1e-6);
+  }
+}
+
+TEST(CheckSurface, CountsVerticesAndInflectionsOfLines) {
+  // y = sin x over one and a half waves: extrema of curvature at the crests, inflections between
+  std::vector<Vec3> points;
+  std::vector<double> at;
+  for (int k = 0; k <= 400; ++k) {
+    const double x = 0.3 + 3 * kPi * k / 400.0;
+    points.push_back({x, std::sin(x), 0});
+    at.push_back(k / 400.0);
+  }
+  const NurbsSurface wave = nurbs(cylinder_over(*interpolated(points, at), {0, 0, 1}));
+  const SurfaceCheck found = checked({"s", "mm", {{"wave", wave}}}, {5, 1e-5});
+  const LineReport& lines = found.patches[0].along_u;
+  EXPECT_EQ(lines.lines, 5u);
+  EXPECT_EQ(lines.most_vertices, 3u);     // pi/2, 3 pi/2, 5 pi/2
+  EXPECT_EQ(lines.inflections, 5u * 3u);  // pi, 2 pi, 3 pi
+  EXPECT_EQ(lines.monotone, 0u);
+  // rulings are straight
+  EXPECT_EQ(found.patches[0].along_v.monotone, 5u);
+  EXPECT_EQ(found.patches[0].along_v.inflections, 0u);
+  EXPECT_NEAR(found.patches[0].gaussian.most, 0.0, 1e-9);
+}
+
+TEST(CheckSurface, SaysWhereThereIsNoTangentPlane) {
+  const SpaceCurve circle = arc_about({1, 0, 0}, {0, 0, 0}, {0, 0, 1}, 2 * kPi);
+  SurfaceModel model{"s", "mm", {{"point", nurbs(RuledSurface{circle, circle})}}};
+  const SurfaceCheck found = checked(model, {9, 1e-5});
+  EXPECT_GE(found.patches[0].without_normal, 81u);  // a surface of no width
+  EXPECT_EQ(found.patches[0].area, 0.0);
+}
+
+}  // namespace
+}  // namespace obvid

@@ -1,0 +1,310 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "obvid/surface_builders/internal/skin.h"
+#include "../common/angles.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "obvid/curve/internal/clothoid.h"
+
+namespace obvid {
+namespace {
+
+/// Points of the contour are its joints; in space they lie in the plane of the frame.
+SkinSection section_of(Contour contour, const Frame& frame, const std::string& name = "s") {
+  SkinSection section{name, {}, frame, std::move(contour), {}};
+  for (std::size_t i = 0; i < section.contour.points.size(); ++i) {
+    section.points.push_back(frame.at(section.contour.points[i]));
+    section.on_contour.push_back(i);
+  }
+  if (section.contour.closed) {
+    section.points.push_back(section.points.front());
+    section.on_contour.push_back(0);
+  }
+  return section;
+}
+
+/// A circle about the origin of its plane, of equal arcs.
+Contour circle(double radius, std::size_t arcs) {
+  Contour contour;
+  contour.closed = true;
+  const double step = 2 * kPi / static_cast<double>(arcs);
+  const auto at = [&](std::size_t i) {
+    return radius * unit_at(static_cast<double>(i % arcs) * step);
+  };
+  for (std::size_t i = 0; i < arcs; ++i) {
+    const double theta = static_cast<double>(i) * step + kPi / 2;
+    contour.points.push_back(at(i));
+    contour.joints.push_back({{at(i), theta, 1.0 / radius}, i, {}});
+    contour.pieces.push_back(ArcPiece{at(i), at(i + 1), theta, 1.0 / radius, radius * step});
+  }
+  contour.runs = {{0, arcs - 1, 0}};
+  return contour;
+}
+
+/// A square with corners, sides of length 2 a, beginning in the middle of a side or in a corner.
+Contour square(double a) {
+  Contour contour;
+  contour.closed = true;
+  contour.points = {{-a, -a}, {a, -a}, {a, a}, {-a, a}};
+  for (std::size_t i = 0; i < 4; ++i) {
+    const Vec2 from = contour.points[i], to = contour.points[(i + 1) % 4];
+    const double theta = kPi / 2 * static_cast<double>(i);
+    contour.joints.push_back({{from, theta - kPi / 2, 0.0}, i, Element{from, theta, 0.0}});
+    contour.pieces.push_back(LinePiece{from, to});
+    contour.runs.push_back({i, i, 0});
+  }
+  return contour;
+}
+
+Contour clothoid(double kappa0, double kappa1, double length) {
+  Contour contour;
+  ClothoidPiece piece{{0, 0}, {0, 0}, 0.3, kappa0, kappa1, length};
+  piece.end = clothoid_step(0.3, kappa0, kappa1, length);
+  const double theta1 = 0.3 + (kappa0 + kappa1) / 2 * length;
+  contour.points = {piece.start, piece.end};
+  contour.joints = {{{piece.start, 0.3, kappa0}, 0, {}}, {{piece.end, theta1, kappa1}, 1, {}}};
+  contour.pieces = {piece};
+  contour.runs = {{0, 0, kappa1 > kappa0 ? 1 : -1}};
+  return contour;
+}
+
+Frame at_height(double z) { return {{0, 0, z}, {1, 0, 0}, {0, 1, 0}}; }
+
+template <class Check>
+void for_each_point(const NurbsSurface& s, const Check& check) {
+  for (int i = 0; i <= 60; ++i) {
+    for (int j = 0; j <= 12; ++j) {
+      check(evaluate(s, domain_u(s).at(i / 60.0), domain_v(s).at(j / 12.0)));
+    }
+  }
+}
+
+TEST(Skin, OfTwoCirclesIsTheirCone) {
+  const auto made = skin(
+      {section_of(circle(2, 12), at_height(0)), section_of(circle(1, 12), at_height(3))}, {1e-8});
+  ASSERT_TRUE(made) << made.error().what;
+  ASSERT_EQ(made->patches.size(), 1u);
+  const NurbsSurface& s = made->patches[0].surface;
+  ASSERT_TRUE(check(s)) << check(s).error().what;
+  for_each_point(s, [](const SurfaceJet& jet) {
+    EXPECT_NEAR(std::hypot(jet.point.x, jet.point.y), 2.0 - jet.point.z / 3.0, 2e-8);
+  });
+  for (const SkinSectionReport& r : made->sections) {
+    EXPECT_LE(r.deviation, 1e-8);
+    EXPECT_LT(r.from_points, 1e-13);
+    EXPECT_LT(r.ripple, 3e-6);  // the curvature of a circle is kept to 1e-6 of itself
+  }
+  EXPECT_EQ(made->across.found, 0u);
+}
+
+TEST(Skin, IsC2AlongTheSectionsAndAcrossThem) {
+  std::vector<SkinSection> sections;
+  for (int k = 0; k < 6; ++k) {
+    sections.push_back(
+        section_of(circle(2 + 0.3 * std::sin(1.3 * k), 9), at_height(k + 0.2 * k * k)));
+  }
+  const auto made = skin(sections, {1e-6});
+  ASSERT_TRUE(made);
+  const NurbsSurface& s = made->patches[0].surface;
+  for (std::size_t i = 6; i + 6 < s.knots_u.size(); i += 3) {
+    const double u = s.knots_u[i];
+    const SurfaceJet before = evaluate(s, u - 1e-9, 0.37), after = evaluate(s, u + 1e-9, 0.37);
+    EXPECT_LT(norm(before.duu - after.duu), 1e-4 * norm(after.duu)) << u;
+  }
+  for (std::size_t j = 4; j + 4 < s.knots_v.size(); ++j) {
+    const double v = s.knots_v[j];
+    const SurfaceJet before = evaluate(s, 0.37, v - 1e-9), after = evaluate(s, 0.37, v + 1e-9);
+    EXPECT_LT(norm(before.dvv - after.dvv), 1e-5 * (1 + norm(after.dvv))) << v;
+  }
+  // each section lies on the surface at its parameter
+  for (std::size_t k = 0; k < sections.size(); ++k) {
+    const double radius = 2 + 0.3 * std::sin(1.3 * static_cast<double>(k));
+    const SpaceCurve curve = isocurve_at_v(s, made->sections[k].parameter);
+    for (int i = 0; i <= 50; ++i) {
+      const Vec3 p = evaluate(curve, i / 50.0).point;
+      EXPECT_NEAR(std::hypot(p.x, p.y), radius, 1e-6);
+      EXPECT_NEAR(p.z, sections[k].points[0].z, 1e-12);
+    }
+  }
+}
+
+TEST(Skin, KeepsMonotoneCurvatureMonotone) {
+  const std::vector<SkinSection> sections = {section_of(clothoid(0.0, 1.5, 2.0), at_height(0)),
+                                             section_of(clothoid(-0.5, 2.5, 1.7), at_height(1)),
+                                             section_of(clothoid(0.2, 0.9, 2.2), at_height(2.5))};
+  const auto made = skin(sections, {1e-5});
+  ASSERT_TRUE(made) << made.error().what;
+  const NurbsSurface& s = made->patches[0].surface;
+  const std::vector<std::array<double, 2>> ends = {{0.0, 1.5}, {-0.5, 2.5}, {0.2, 0.9}};
+  for (std::size_t k = 0; k < 3; ++k) {
+    EXPECT_EQ(made->sections[k].ripple, 0.0);
+    EXPECT_LE(made->sections[k].deviation, 1e-5);
+    const SpaceCurve curve = isocurve_at_v(s, made->sections[k].parameter);
+    double last = -1e9;
+    for (int i = 0; i <= 2000; ++i) {
+      const SpaceJet jet = evaluate(curve, i / 2000.0);
+      const double speed = norm(jet.d1);
+      const double kappa = (jet.d1.x * jet.d2.y - jet.d1.y * jet.d2.x) / (speed * speed * speed);
+      EXPECT_GT(kappa, last) << k << " at " << i;
+      last = kappa;
+      if (i == 0) {
+        EXPECT_NEAR(kappa, ends[k][0], 1e-10);
+      }
+    }
+    EXPECT_NEAR(last, ends[k][1], 1e-10);
+  }
+}
+
+TEST(Skin, IsCutAtCornersAndNeighboursShareTheirBorder) {
+  const auto made =
+      skin({section_of(square(2), at_height(0)), section_of(square(1), at_height(2))}, {1e-9});
+  ASSERT_TRUE(made) << made.error().what;
+  ASSERT_EQ(made->patches.size(), 4u);
+  for (std::size_t k = 0; k < 4; ++k) {
+    const NurbsSurface& here = made->patches[k].surface;
+    const NurbsSurface& next = made->patches[(k + 1) % 4].surface;
+    for (int j = 0; j <= 10; ++j) {
+      EXPECT_LT(norm(evaluate(here, 1.0, j / 10.0).point - evaluate(next, 0.0, j / 10.0).point),
+                1e-15);
+    }
+    // a side of a pyramid is plane
+    for_each_point(here, [&](const SurfaceJet& jet) {
+      const double out = std::max(std::abs(jet.point.x), std::abs(jet.point.y));
+      EXPECT_NEAR(out, 2.0 - jet.point.z / 2.0, 1e-14);
+    });
+  }
+}
+
+TEST(Skin, OfALoopThatBeginsElsewhereThanItsCorners) {
+  Contour turned = square(1);
+  // joints begin at the third point, as when fitting begins a loop at a corner
+  std::rotate(turned.joints.begin(), turned.joints.begin() + 2, turned.joints.end());
+  std::rotate(turned.pieces.begin(), turned.pieces.begin() + 2, turned.pieces.end());
+  const auto made =
+      skin({section_of(square(2), at_height(0)), section_of(turned, at_height(2))}, {1e-9});
+  ASSERT_TRUE(made) << made.error().what;
+  ASSERT_EQ(made->patches.size(), 4u);
+  for_each_point(made->patches[0].surface, [](const SurfaceJet& jet) {
+    EXPECT_NEAR(jet.point.y, -2.0 + jet.point.z / 2.0, 1e-14);
+  });
+}
+
+TEST(Skin, EndsInAPoint) {
+  SkinSection tip{"tip", {{0, 0, 3}}, at_height(3), {}, {}};
+  tip.points.assign(13, Vec3{0, 0, 3});
+  const auto made = skin({section_of(circle(2, 12), at_height(0)), tip}, {1e-7});
+  ASSERT_TRUE(made) << made.error().what;
+  for_each_point(made->patches[0].surface, [](const SurfaceJet& jet) {
+    EXPECT_NEAR(std::hypot(jet.point.x, jet.point.y), 2.0 * (1.0 - jet.point.z / 3.0), 1e-6);
+  });
+}
+
+TEST(Skin, MatchesByLengthWhereNumbersOfPointsDiffer) {
+  const std::vector<SkinSection> sections = {section_of(circle(2, 12), at_height(0)),
+                                             section_of(circle(2, 7), at_height(2))};
+  const auto made = skin(sections, {1e-7});
+  ASSERT_TRUE(made) << made.error().what;
+  EXPECT_EQ(made->matching, SkinMatching::kByLength);
+  for_each_point(made->patches[0].surface, [](const SurfaceJet& jet) {
+    // equal shares of length: the lines across are parallel to the axis
+    EXPECT_NEAR(std::hypot(jet.dv.x, jet.dv.y), 0.0, 1e-6);
+  });
+  EXPECT_EQ(skin(sections, {1e-7, SkinMatching::kByPoints}).error().code, ErrorCode::kUsage);
+}
+
+TEST(Skin, CarriesHeightsOverThePlaneOfASection) {
+  // a circle on a saddle: heights 0.1 cos 2t, dense enough for their spline
+  const std::size_t n = 180;
+  std::vector<SkinSection> sections;
+  for (const double z : {0.0, 1.0}) {
+    SkinSection section = section_of(circle(1, n), at_height(z));
+    for (std::size_t i = 0; i < section.points.size(); ++i) {
+      section.points[i].z +=
+          0.1 * std::cos(4 * kPi * static_cast<double>(i) / static_cast<double>(n));
+    }
+    sections.push_back(section);
+  }
+  const auto made = skin(sections, {1e-6});
+  ASSERT_TRUE(made) << made.error().what;
+  const SpaceCurve low = isocurve_at_v(made->patches[0].surface, 0.0);
+  for (int i = 0; i <= 100; ++i) {
+    const Vec3 p = evaluate(low, i / 100.0).point;
+    EXPECT_NEAR(p.z, 0.1 * std::cos(2 * std::atan2(p.y, p.x)), 3e-6);
+  }
+  EXPECT_LT(made->sections[0].from_points, 2e-6);
+}
+
+TEST(Skin, CountsTheWavesAcrossThatTheSectionsForce) {
+  std::vector<SkinSection> bulging, wavy;
+  for (int k = 0; k < 9; ++k) {
+    bulging.push_back(section_of(circle(2 + 0.05 * k * (8 - k), 8), at_height(k)));
+    wavy.push_back(section_of(circle(2 + 0.2 * (k % 2), 8), at_height(k)));
+  }
+  const auto smooth = skin(bulging, {1e-5}), waves = skin(wavy, {1e-5});
+  ASSERT_TRUE(smooth && waves);
+  EXPECT_EQ(smooth->across.found, 0u);
+  EXPECT_EQ(smooth->across.forced, 0u);
+  // radii up and down: 7 inner sections bend alternately, 6 changes on each isoline
+  EXPECT_EQ(waves->across.forced, 6 * waves->across.isolines);
+  EXPECT_GE(waves->across.found, waves->across.forced);
+  // zigzags of 1e-5 to both sides: the points leave their neighbours' chords by 2e-5, the waves of
+  // the skin bulge by 1.2e-5 from end to end; what is told to be in the points is in the skin, too
+  std::vector<SkinSection> shallow;
+  for (int k = 0; k < 9; ++k) {
+    shallow.push_back(section_of(circle(2 + 2e-5 * (k % 2), 8), at_height(k)));
+  }
+  const auto ripples = skin(shallow, {1.6e-5});
+  ASSERT_TRUE(ripples);
+  EXPECT_EQ(ripples->across.found, ripples->across.forced + ripples->across.beyond);
+  SkinOptions straight{1e-5};
+  straight.straight_across = true;
+  const auto ruled = skin(wavy, straight);
+  ASSERT_TRUE(ruled);
+  EXPECT_EQ(ruled->patches[0].surface.degree_v, 1);
+  EXPECT_LT(
+      std::abs(evaluate(ruled->patches[0].surface, 0.1, ruled->sections[3].parameter).point.z - 3),
+      1e-13);
+}
+
+TEST(Skin, IsTheSameAtAnySizeAndPlace) {
+  const auto made = [](double scale, Vec3 shift) {
+    std::vector<SkinSection> sections;
+    for (int k = 0; k < 4; ++k) {
+      Frame frame{{0, 0, scale * (k + 0.1 * k * k)}, {1, 0, 0}, {0, 1, 0}};
+      frame.origin = frame.origin + scale * shift;
+      sections.push_back(section_of(circle(scale * (1 + 0.2 * k), 10), frame));
+    }
+    return skin(sections, {1e-6 * scale});
+  };
+  const auto plain = made(1, {0, 0, 0});
+  ASSERT_TRUE(plain);
+  for (const double scale : {1e-9, 1e9}) {
+    const auto other = made(scale, {100, -50, 20});
+    ASSERT_TRUE(other) << other.error().what;
+    const NurbsSurface &a = plain->patches[0].surface, &b = other->patches[0].surface;
+    ASSERT_EQ(a.points.size(), b.points.size());
+    for (std::size_t i = 0; i < a.points.size(); ++i) {
+      EXPECT_LT(norm(b.points[i] / scale - Vec3{100, -50, 20} - a.points[i]), 1e-10);
+    }
+  }
+}
+
+TEST(Skin, RefusesWhatMakesNoSkin) {
+  const SkinSection low = section_of(circle(2, 12), at_height(0));
+  EXPECT_EQ(skin({low}, {1e-6}).error().code, ErrorCode::kTooFewPoints);
+  EXPECT_EQ(skin({low, low}, {0.0}).error().code, ErrorCode::kBadOption);
+  EXPECT_EQ(skin({low, low}, {1e-6}).error().code, ErrorCode::kSizeOutOfRange);
+  const auto corners = skin({low, section_of(square(1), at_height(1))}, {1e-6});
+  ASSERT_FALSE(corners);
+  EXPECT_EQ(corners.error().code, ErrorCode::kBadOption);
+  EXPECT_EQ(corners.error().index, 1);
+  SkinSection broken = low;
+  broken.on_contour.pop_back();
+  EXPECT_EQ(skin({low, broken}, {1e-6}).error().code, ErrorCode::kUsage);
+}
+
+}  // namespace
+}  // namespace obvid
