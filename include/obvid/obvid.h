@@ -162,6 +162,24 @@ OBVID_API int obvid_evaluate(const obvid_contour* contour, obvid_place by, const
 OBVID_API int obvid_derivatives(const obvid_contour* contour, const double* at, size_t n, int order,
                                 double* xy, obvid_error** error);
 
+/* One NURBS curve in the plane: count + degree + 1 knots, the first and the last degree + 1 of them
+ * equal; the numbers are the structure's. */
+typedef struct obvid_nurbs {
+  int degree;
+  size_t count;          /* of control points */
+  const double* knots;   /* one for each piece and its cuts, from 0 */
+  const double* xy;      /* 2 count numbers */
+  const double* weights; /* count numbers, greater than 0 */
+} obvid_nurbs;
+
+/* The contour as the one curve that its STEP file holds: the pieces themselves apart from rounding,
+ * C1 at every joint (knots of multiplicity degree - 1) but corners (multiplicity degree), curvature
+ * as continuous as the contour's. OBVID_INPUT (E310) for clothoids, which are no NURBS curves;
+ * OBVID_NOT_PROVED (E501) where pieces differ too much in length or weight for one curve. */
+OBVID_API int obvid_contour_nurbs(const obvid_contour* contour, obvid_nurbs** nurbs,
+                                  obvid_error** error);
+OBVID_API void obvid_nurbs_free(obvid_nurbs* nurbs);
+
 /* ---- curves in space --------------------------------------------------------------------------
  */
 

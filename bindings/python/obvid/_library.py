@@ -30,6 +30,16 @@ class ErrorStruct(C.Structure):
     ]
 
 
+class NurbsStruct(C.Structure):
+    _fields_ = [
+        ("degree", C.c_int),
+        ("count", C.c_size_t),
+        ("knots", C.POINTER(C.c_double)),
+        ("xy", C.POINTER(C.c_double)),
+        ("weights", C.POINTER(C.c_double)),
+    ]
+
+
 _Progress = C.CFUNCTYPE(None, C.c_void_p, C.c_char_p, C.c_double)
 _Cancelled = C.CFUNCTYPE(C.c_int, C.c_void_p)
 
@@ -82,6 +92,8 @@ def _load() -> C.CDLL:
         "obvid_contour_free": (None, [handle]),
         "obvid_evaluate": (C.c_int, [handle, C.c_int, handle, size, handle, handle, handle, error]),
         "obvid_derivatives": (C.c_int, [handle, handle, size, C.c_int, handle, error]),
+        "obvid_contour_nurbs": (C.c_int, [handle, C.POINTER(C.POINTER(NurbsStruct)), error]),
+        "obvid_nurbs_free": (None, [C.POINTER(NurbsStruct)]),
         "obvid_export": (C.c_int, [handle, text, text, out, error]),
         "obvid_surface_make": (
             C.c_int,

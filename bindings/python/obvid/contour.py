@@ -11,7 +11,7 @@ from typing import Any, Dict, List, NamedTuple, Optional, Tuple, Union
 import numpy as np
 import numpy.typing as npt
 
-from ._library import Run, ErrorStruct, lib, options_text, raise_error, taken_text
+from ._library import ErrorStruct, NurbsStruct, Run, lib, options_text, raise_error, taken_text
 from .errors import NotProvedError, UsageError
 from .reports import Array, Certificate, FitReport, Json, Verification
 
@@ -325,17 +325,23 @@ class Contour:
         points = self.sample(max(200, 32 * self.piece_count + 1)).points
         return points if dtype is None else points.astype(dtype)
 
-    def to_bspline(self) -> BSpline:
+    def to_bspline(self, *, smooth: bool = False) -> BSpline:
         """The contour as one rational B-spline, `(t, c, k, weights)`.
 
-        UsageError where the carrier has none (clothoids; contours that are joined in no one curve).
+        Without `smooth` it has the control points of the pieces: piece i over [i, i + 1], inner knots of
+        multiplicity k. UsageError where the pieces are not of one degree. With `smooth` it is the curve
+        of the contour's STEP file: of a higher degree, C1 at every joint but corners (multiplicity
+        k - 1), so that CAD kernels find nothing to split. InputError for clothoids, which are no
+        B-splines.
         """
+        if smooth:
+            return self._smooth_bspline()
         spline = self.to_dict().get("bspline")
         if spline is None:
             raise UsageError(
                 203,
-                f"a contour of carrier {self.carrier} is no single B-spline",
-                advice="form it with carrier='spiral', 'conics' or 'bspline'",
+                "the pieces of this contour are no single B-spline without raising degrees",
+                advice="to_bspline(smooth=True)" if self.carrier != "clothoids" else "c.pieces",
             )
         return BSpline(
             np.array(spline["knots"], dtype=float),
@@ -343,6 +349,26 @@ class Contour:
             int(spline["degree"]),
             np.array(spline["weights"], dtype=float),
         )
+
+    def _smooth_bspline(self) -> BSpline:
+        out, error = C.POINTER(NurbsStruct)(), C.POINTER(ErrorStruct)()
+        if lib.obvid_contour_nurbs(self._handle, C.byref(out), C.byref(error)):
+            raise raise_error(error)
+        try:
+            nurbs = out.contents
+            n, k = int(nurbs.count), int(nurbs.degree)
+
+            def taken(numbers: Any, size: int) -> Array:
+                return np.array(np.ctypeslib.as_array(numbers, (size,)), dtype=float)
+
+            return BSpline(
+                taken(nurbs.knots, n + k + 1),
+                taken(nurbs.xy, 2 * n).reshape(n, 2),
+                k,
+                taken(nurbs.weights, n),
+            )
+        finally:
+            lib.obvid_nurbs_free(out)
 
     # ---- files and proofs ---------------------------------------------------------------------
 

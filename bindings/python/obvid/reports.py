@@ -99,13 +99,18 @@ class FitReport:
     @classmethod
     def of(cls, values: Json) -> "FitReport":
         given = values.get("given", {})
+        unknown = dict.fromkeys(("points_only_error", "width", "width_unrefined", "deviation"))
         segments = tuple(
-            _taken(Segment, s, points=tuple(s.get("points", (None, None))))
+            _taken(Segment, {**unknown, **s}, points=tuple(s.get("points", (None, None))))
             for s in values["segments"]
         )
         return _taken(
             cls,
-            {"carrier_deviation": None, "waviness": None, "seconds": 0.0, **values},
+            {
+                **dict.fromkeys(("carrier_deviation", "waviness", "largest_width", "largest_deviation")),
+                "seconds": 0.0,
+                **values,
+            },
             segments=segments,
             headings_given=given.get("headings", 0),
             curvatures_given=given.get("curvatures", 0),
