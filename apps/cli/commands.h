@@ -19,5 +19,6 @@ int run(const SplineOptions& options);
 int run(const NurbsOptions& options);
 int run(const ToolpathCommand& command);
 int run(const StudioOptions& options);
+int run(const BatchOptions& options);
 
 }  // namespace obvid

@@ -22,6 +22,7 @@ constexpr const char* kShortHelp =
   obvid analyse POINTS                               what the points alone say
   obvid region POINTS                                where every such contour must lie
   obvid compare POINTS                               all curve families side by side
+  obvid batch FOLDER -o out.h5                       one job for a million inputs
   obvid surface skin SECTIONS... -o hull.step        surfaces: skin, revolve, ruled, grid, ...
   obvid spline TABLE -o spline.csv                   splines that keep given integrals
   obvid nurbs TABLE --weight-at 4=3 -o curve.step    control points, weights and knots
@@ -602,6 +603,9 @@ Result<Command> parse_command_line(int argc, const char* const* argv) {
     if (std::string_view(argv[1]) == "studio") {
       return Command{StudioOptions{{argv + 2, argv + argc}}};
     }
+    if (std::string_view(argv[1]) == "batch") {
+      return Command{BatchOptions{{argv + 2, argv + argc}}};
+    }
     if (std::string_view(argv[1]) == "toolpath") return parse_toolpath(argc - 1, argv + 1);
     CLI::App app("Points in, a curvature-continuous, monotone and proved contour out", "obvid");
     app.set_version_flag("--version", std::string("obvid ") + kVersion);
@@ -621,6 +625,7 @@ Result<Command> parse_command_line(int argc, const char* const* argv) {
     app.add_subcommand("spline", "Integro-differential splines of one variable, and along points");
     app.add_subcommand("nurbs", "Curves and surfaces of control points, weights and knots");
     app.add_subcommand("toolpath", "Three-axis milling of a surface as G-code");
+    app.add_subcommand("batch", "One job for many inputs on all processors, results as a table");
     app.add_subcommand("studio", "A page in the browser: drag points, see what is possible, prove");
     allow_extras(app);
     try {

@@ -100,8 +100,13 @@ struct StudioOptions {
   std::vector<std::string> arguments;
 };
 
+/// What follows `obvid batch`, likewise.
+struct BatchOptions {
+  std::vector<std::string> arguments;
+};
+
 using Command =
-    std::variant<ShowText, StudioOptions, FitOptions, AnalyseOptions, RegionOptions, CompareOptions,
+    std::variant<ShowText, StudioOptions, BatchOptions, FitOptions, AnalyseOptions, RegionOptions, CompareOptions,
                  ConvertOptions, VerifyOptions, ExplainOptions, SurfaceOptions, SurfaceCheckOptions,
                  SplineOptions, NurbsOptions, ToolpathCommand>;
 

@@ -145,6 +145,20 @@ OBVID_API double obvid_contour_length(const obvid_contour* contour);
 OBVID_API const char* obvid_contour_warning(const obvid_contour* contour, size_t warning);
 OBVID_API void obvid_contour_free(obvid_contour* contour);
 
+/* What is proved and measured of a contour, as the report has it; without a report as long as the
+ * contour. Counts are -1 and lengths NaN where nothing is known. */
+typedef struct obvid_figures {
+  int proved;         /* 1, 0; -1: never looked at */
+  int points, pieces; /* of the contour */
+  int vertices, inflections;
+  int bound;    /* no curve that follows the points has fewer vertices (docs/claims.md) */
+  int corners;  /* joints that are continuous in position only */
+  double error; /* largest distance to a curve with the same elements, units */
+  double move;  /* largest distance of a point from the contour, an upper bound, units */
+  double width; /* largest width of the region, units */
+} obvid_figures;
+OBVID_API void obvid_contour_figures(const obvid_contour* contour, obvid_figures* figures);
+
 typedef enum obvid_place {
   OBVID_BY_LENGTH = 0,   /* arc length from the start */
   OBVID_BY_PARAMETER = 1 /* piece + t, t in [0, 1]: 2.5 is the middle of the third piece */
@@ -200,6 +214,8 @@ OBVID_API int obvid_space_closed(const obvid_space* space);
 /* Arc length of a part; 0 beyond the last. */
 OBVID_API double obvid_space_length(const obvid_space* space, size_t part);
 OBVID_API const char* obvid_space_warning(const obvid_space* space, size_t warning);
+/* Sums over projections and heights of all parts, the largest of lengths; proved: of all. */
+OBVID_API void obvid_space_figures(const obvid_space* space, obvid_figures* figures);
 /* Points (3 n numbers), unit tangents (3 n), curvatures (>= 0) and torsions (n each; nan where the
  * curvature is 0) at `n` arc lengths of a part; each array may be NULL. E203 beyond the part. */
 OBVID_API int obvid_space_evaluate(const obvid_space* space, size_t part, const double* at,

@@ -33,6 +33,7 @@ from .reports import (
     Suggestion,
     Table,
     carrier_rows,
+    numbers_of,
     suggestions,
 )
 from .space import SpaceCurve
@@ -110,7 +111,7 @@ def read_space(path: Union[str, "os.PathLike[str]"]) -> SpaceCurve:
 
 
 def _array_of(points: npt.ArrayLike) -> npt.NDArray[np.float64]:
-    array = np.ascontiguousarray(points, dtype=np.float64)
+    array = numbers_of(points)
     if array.ndim != 2 or array.shape[1] not in (2, 3):
         raise ValueError(f"points are an array of n x 2 numbers, not of shape {array.shape}")
     if array.shape[1] == 3:
@@ -336,7 +337,7 @@ def fit_space(
     if isinstance(points, (Source, str, os.PathLike)):
         source = _source(points)
     else:
-        array = np.ascontiguousarray(points, dtype=np.float64)
+        array = numbers_of(points)
         if array.ndim != 2 or array.shape[1] != 3:
             raise ValueError(f"points in space are n x 3 numbers, not of shape {array.shape}")
         given, failed = C.c_void_p(), C.POINTER(ErrorStruct)()
@@ -382,7 +383,8 @@ def analyse(
     units: Optional[str] = None,
     curve: Optional[int] = None,
     drawing: Optional[str] = None,
-    **watched: Any,
+    progress: Optional[ProgressFunction] = None,
+    cancelled: Optional[CancelledFunction] = None,
 ) -> Union[Analysis, DrawingAnalysis]:
     """What points say before a curve is formed; of a drawing, what a comb of its curves would show.
 
@@ -392,6 +394,7 @@ def analyse(
     (0, 1)
     """
     options = options_text({"units": units, "curve": curve, "drawing": drawing})
+    watched = {"progress": progress, "cancelled": cancelled}
     values = _report("analyse", _source(points), options, watched)
     return Analysis.of(values) if "segments" in values else DrawingAnalysis.of(values)
 

@@ -13,6 +13,20 @@ Json = Dict[str, Any]
 _Report = TypeVar("_Report")
 
 
+def numbers_of(points: npt.ArrayLike) -> Array:
+    """An array of doubles in one piece; ValueError for what would lose something on the way."""
+    if type(points) is np.ndarray and points.dtype == np.float64:
+        return np.ascontiguousarray(points)
+    if np.iscomplexobj(points):
+        raise ValueError("points are real numbers, not complex ones")
+    if np.any(getattr(points, "mask", False)):
+        raise ValueError("some points are masked: leave them out first (numpy.ma.compress_rows)")
+    try:
+        return np.ascontiguousarray(points, dtype=np.float64)
+    except OverflowError as error:
+        raise ValueError(str(error)) from None
+
+
 def _taken(kind: Type[_Report], values: Mapping[str, Any], **more: Any) -> _Report:
     """A report of the fields that it has among the values."""
     fields: Mapping[str, Any] = getattr(kind, "__dataclass_fields__")

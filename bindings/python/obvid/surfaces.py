@@ -15,7 +15,7 @@ from ._library import ErrorStruct, Run, lib, options_text, raise_error, taken_te
 from .contour import Exported, taken_files, write_all
 from .errors import NotProvedError, ObvidError
 from .jobs import Source, read
-from .reports import Array, Json
+from .reports import Array, Json, numbers_of
 
 #: n x 2 or n x 3 numbers, a `Source`, or the path of a file.
 SurfacePoints = Union[Source, str, "os.PathLike[str]", npt.ArrayLike]
@@ -148,7 +148,7 @@ def _input(points: SurfacePoints) -> Source:
         return points
     if isinstance(points, (str, os.PathLike)):
         return read(points)
-    array = np.ascontiguousarray(points, dtype=np.float64)
+    array = numbers_of(points)
     if array.ndim == 2 and array.shape[1] == 2:
         array = np.column_stack([array, np.zeros(len(array))])
     if array.ndim != 2 or array.shape[1] != 3:

@@ -71,7 +71,7 @@ std::optional<SurfaceView> surface_view_named(std::string_view name) {
   return named<SurfaceView>(kViews, name);
 }
 
-namespace exchange {
+namespace picture {
 
 std::string plain_text(std::string_view text) {
   static constexpr std::string_view kReplacement = "\xEF\xBF\xBD";
@@ -123,5 +123,5 @@ std::string size_text(Vec3 size, const std::string& units) {
   return edge(size.x) + " × " + edge(size.y) + " × " + edge(size.z) + " " + units;
 }
 
-}  // namespace exchange
+}  // namespace picture
 }  // namespace obvid

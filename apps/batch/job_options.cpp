@@ -1,0 +1,98 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "job_options.h"
+
+#include <cmath>
+#include <cstdlib>
+#include <nlohmann/json.hpp>
+#include <string_view>
+
+namespace obvid::batch {
+namespace {
+
+using Json = nlohmann::json;
+
+/// Shapes of values that are neither a number nor a text.
+bool is_at_points(std::string_view name) {
+  return name == "heading-at" || name == "radius-at" || name == "kappa-at";
+}
+bool is_list(std::string_view name) { return name == "corner-at" || name == "insert"; }
+
+/// A number where all of the text is one, else the text.
+Json value_of(const std::string& text) {
+  char* end = nullptr;
+  const long long whole = std::strtoll(text.c_str(), &end, 10);
+  if (!text.empty() && *end == '\0') return whole;
+  const double number = std::strtod(text.c_str(), &end);
+  if (!text.empty() && *end == '\0' && std::isfinite(number)) return number;
+  return text;
+}
+
+Json json_of(const TypedOption& option) {
+  if (option.is_flag) return true;
+  if (is_at_points(option.name)) {
+    Json out = Json::object();
+    for (const std::string& one : option.values) {
+      const std::size_t equals = one.find('=');
+      out[one.substr(0, equals)] =
+          value_of(equals == std::string::npos ? "" : one.substr(equals + 1));
+    }
+    return out;
+  }
+  if (is_list(option.name)) {
+    Json out = Json::array();
+    for (const std::string& one : option.values) out.push_back(value_of(one));
+    return out;
+  }
+  return value_of(option.values.back());
+}
+
+void add_all(CLI::App& app, std::vector<TypedOption>& options, const std::string& group) {
+  for (TypedOption& option : options) {
+    if (option.is_flag) {
+      app.add_flag("--" + option.name, option.flag)->group(group);
+    } else {
+      app.add_option("--" + option.name, option.values)
+          ->allow_extra_args(false)
+          ->option_text("V")
+          ->group(group);
+    }
+  }
+}
+
+}  // namespace
+
+JobOptions known_options() {
+  JobOptions out;
+  for (const char* name :
+       {"carrier",         "continuity",    "prefer",      "tolerance",    "noise",
+        "corner-angle",    "start-heading", "end-heading", "start-radius", "end-radius",
+        "heading-at",      "radius-at",     "kappa-at",    "corner-at",    "construction",
+        "fixation",        "insert",        "along",       "units",        "curve",
+        "chord-tolerance", "drawing"}) {
+    out.job.push_back({name});
+  }
+  for (const char* name : {"convex", "primitives", "closed", "open", "no-corners"}) {
+    out.job.push_back({name, true});
+  }
+  for (const char* name : {"output-tolerance", "for", "controller", "motion", "feed", "samples",
+                           "sample-step", "svg", "plot", "step", "dxf", "face"}) {
+    out.files.push_back({name});
+  }
+  return out;
+}
+
+void add_job_options(CLI::App& app, JobOptions& options) {
+  add_all(app, options.job,
+          "Options of the job (`obvid fit --help` and the others say what each is)");
+  add_all(app, options.files, "Options of the files of --each (`obvid convert --help`)");
+}
+
+std::string options_json(const std::vector<TypedOption>& options) {
+  Json out = Json::object();
+  for (const TypedOption& option : options) {
+    if (option.is_flag ? option.flag : !option.values.empty()) out[option.name] = json_of(option);
+  }
+  return out.dump(-1, ' ', false, Json::error_handler_t::replace);
+}
+
+}  // namespace obvid::batch

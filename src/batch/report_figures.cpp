@@ -1,0 +1,151 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "report_figures.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <nlohmann/json.hpp>
+#include <string_view>
+#include <utility>
+
+namespace obvid::batch {
+namespace {
+
+using ReportJson = nlohmann::json;
+
+constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
+constexpr std::array<std::string_view, 8> kCarriers{"spiral",    "arcs",    "conics", "beziers",
+                                                    "clothoids", "bspline", "cubic",  "baseline"};
+constexpr std::size_t kTolerances = 8;  // rows of a table of tolerances
+
+double number_at(const ReportJson& object, const char* name, double otherwise) {
+  if (!object.is_object()) return otherwise;
+  const auto at = object.find(name);
+  return at != object.end() && at->is_number() ? at->get<double>() : otherwise;
+}
+
+int count_at(const ReportJson& object, const char* name) {
+  return static_cast<int>(number_at(object, name, kUnknownCount));
+}
+
+int size_at(const ReportJson& object, const char* name) {
+  const auto at = object.find(name);
+  return at != object.end() && at->is_array() ? static_cast<int>(at->size()) : -1;
+}
+
+double largest_at(const ReportJson& object, const char* rows, const char* name) {
+  double out = kUnknown;
+  const auto at = object.find(rows);
+  if (at == object.end() || !at->is_array()) return out;
+  for (const ReportJson& row : *at) out = std::fmax(out, number_at(row, name, kUnknown));
+  return out;
+}
+
+std::vector<double> of_compare(const ReportJson& report, obvid_figures& figures) {
+  std::vector<double> out(5 * kCarriers.size(), kUnknown);
+  const auto rows = report.find("carriers");
+  if (rows == report.end()) return out;
+  for (const ReportJson& row : *rows) {
+    const auto name = std::find(kCarriers.begin(), kCarriers.end(), row.value("carrier", ""));
+    if (name == kCarriers.end()) continue;
+    const std::size_t first = 5 * static_cast<std::size_t>(name - kCarriers.begin());
+    const std::string code = row.contains("refusal") && row["refusal"].is_object()
+                                 ? row["refusal"].value("code", "E0")
+                                 : "E0";
+    out[first] = std::stod(code.substr(1));
+    out[first + 1] = count_at(row, "vertices");
+    out[first + 2] = count_at(row, "pieces");
+    out[first + 3] = number_at(row, "error_bound", kUnknown);
+    out[first + 4] = number_at(row, "deviation", kUnknown);
+    if (name != kCarriers.begin()) continue;
+    figures.vertices = count_at(row, "vertices");
+    figures.inflections = count_at(row, "inflections");
+    figures.pieces = count_at(row, "pieces");
+    figures.error = number_at(row, "error_bound", kUnknown);
+    figures.proved = row.contains("monotone") ? (row.value("monotone", false) ? 1 : 0) : -1;
+  }
+  return out;
+}
+
+std::vector<double> of_suggest(const ReportJson& report, std::vector<double> out,
+                               obvid_figures& figures) {
+  const auto rows = report.find("rows");
+  if (rows == report.end()) return out;
+  for (std::size_t i = 0; i < std::min(kTolerances, rows->size()); ++i) {
+    const ReportJson& row = (*rows)[i];
+    out[2 * i] = number_at(row, "tolerance", kUnknown);
+    out[2 * i + 1] = row.value("formed", false) ? count_at(row, "vertices") : kUnknownCount;
+  }
+  const int taken = count_at(report, "recommended");
+  if (taken >= 0 && static_cast<std::size_t>(taken) < rows->size()) {
+    const ReportJson& row = (*rows)[static_cast<std::size_t>(taken)];
+    figures.vertices = count_at(row, "vertices");
+    figures.bound = count_at(row, "vertices_lower_bound");
+    figures.inflections = count_at(row, "inflections");
+    figures.pieces = count_at(row, "pieces");
+    figures.move = number_at(row, "largest_move", kUnknown);
+    figures.proved = row.value("proved", false) ? 1 : 0;
+  }
+  return out;
+}
+
+void of_analyse(const ReportJson& report, obvid_figures& figures) {
+  // of a drawing the points are one part of the report
+  const auto within = report.find("points");
+  const ReportJson& points = within != report.end() && within->is_object() ? *within : report;
+  figures.points = size_at(points, "points");
+  figures.vertices = count_at(points, "vertices");
+  figures.bound = count_at(points, "vertices_lower_bound");
+  figures.inflections = count_at(points, "inflections");
+  figures.error = largest_at(points, "segments", "points_only_error");
+}
+
+void of_region(const ReportJson& report, obvid_figures& figures) {
+  figures.points = size_at(report, "points");
+  figures.width = largest_at(report, "segments", "width");
+}
+
+}  // namespace
+
+obvid_figures unknown_figures() {
+  return {-1, -1, -1, -1, -1, -1, -1, kUnknown, kUnknown, kUnknown};
+}
+
+std::vector<Column> report_columns(const std::string& job) {
+  using enum Column::Type;
+  std::vector<Column> out;
+  if (job == "compare") {
+    for (const std::string_view carrier : kCarriers) {
+      const std::string name(carrier);
+      out.push_back({name + "_code", kNumber, "number of the error of this carrier, 0 none"});
+      out.push_back({name + "_vertices", kNumber, ""});
+      out.push_back({name + "_pieces", kNumber, ""});
+      out.push_back({name + "_error", kNumber, "as error, of this carrier, units"});
+      out.push_back({name + "_deviation", kNumber, "largest distance from the spirals, units"});
+    }
+  } else if (job == "suggest") {
+    for (std::size_t i = 1; i <= kTolerances; ++i) {
+      out.push_back({"tolerance_" + std::to_string(i), kNumber, "units"});
+      out.push_back({"vertices_" + std::to_string(i), kCount, "with this tolerance; -1 none"});
+    }
+  }
+  return out;
+}
+
+std::vector<double> take_report(const std::string& job, const char* text, obvid_figures& figures) {
+  std::vector<double> nothing;
+  for (const Column& column : report_columns(job)) {
+    nothing.push_back(column.type == Column::Type::kNumber ? kUnknown : kUnknownCount);
+  }
+  if (text == nullptr || job == "fit" || job == "space" || job == "verify") return nothing;
+  const ReportJson report = ReportJson::parse(text, nullptr, false);
+  if (!report.is_object()) return nothing;
+  if (job == "compare") return of_compare(report, figures);
+  if (job == "suggest") return of_suggest(report, std::move(nothing), figures);
+  if (job == "analyse") of_analyse(report, figures);
+  if (job == "region") of_region(report, figures);
+  return nothing;
+}
+
+}  // namespace obvid::batch
