@@ -110,8 +110,7 @@ def surface_findings(values):
     out = []
     for patch in values["patches"]:
         inner = min(patch["order_u"], patch["order_v"])
-        bend = max(abs(k) for name in ("k1", "k2") for k in patch[name])
-        radius = fair_curve.figure(1.0 / bend) if bend > 0.0 else "none, it is plane"
+        radius = smallest_radius([k for name in ("k1", "k2") for k in patch[name]])
         monotone = " and ".join(
             f"{patch[name]['monotone']} of {patch[name]['lines']}" for name in ("along_u", "along_v")
         )
@@ -120,6 +119,14 @@ def surface_findings(values):
     for joint in values["joints"]:
         out.append(joint_finding(joint))
     return out
+
+
+def smallest_radius(curvatures):
+    """Curvatures that grow without bound, as at poles, are None."""
+    if None in curvatures:
+        return "0, at a point without bound"
+    bend = max(abs(k) for k in curvatures)
+    return fair_curve.figure(1.0 / bend) if bend > 0.0 else "none, it is plane"
 
 
 def joint_finding(joint):

@@ -231,6 +231,26 @@ Directed as_chain(const SeriesChain& chain) {
   return out;
 }
 
+/// Arcs have their own headings and curvatures: where they go through a point at which others are
+/// given, there is no such chain.
+bool keeps_what_is_given(const SeriesChain& chain, const ChainWishes& wishes) {
+  constexpr double kSame = 1e-9;  ///< rad, and of a curvature
+  if (wishes.fixed.empty()) return true;
+  for (std::size_t e = 0; e < chain.elements.size(); ++e) {
+    if (!chain.source[e]) continue;
+    const FixedData& given = wishes.fixed[*chain.source[e]];
+    const Element& at = chain.elements[e];
+    if (given.theta && std::abs(std::remainder(at.theta - *given.theta, kFullTurn)) > kSame) {
+      return false;
+    }
+    if (given.kappa && std::abs(at.kappa - *given.kappa) >
+                           kSame * std::max(std::abs(at.kappa), std::abs(*given.kappa))) {
+      return false;
+    }
+  }
+  return true;
+}
+
 }  // namespace
 
 ChainTurns turns_of_chain(const SeriesChain& chain) {
@@ -261,11 +281,12 @@ bool stored_pieces_proved(const std::vector<Vec2>& points, const SeriesChain& ch
 std::optional<SeriesChain> edge_chain(const std::vector<Vec2>& points, const Analysis& analysis,
                                       const ChainWishes& wishes, const SeriesChain* free) {
   if (const auto series = as_circles(points, analysis, wishes)) {
-    if (auto chain = EdgeChain(wishes, *series).run()) return chain;
+    auto chain = EdgeChain(wishes, *series).run();
+    if (chain && keeps_what_is_given(*chain, wishes)) return chain;
   }
   if (free == nullptr) return std::nullopt;
   auto chain = EdgeChain(wishes, as_chain(*free)).run();
-  if (!chain) return std::nullopt;
+  if (!chain || !keeps_what_is_given(*chain, wishes)) return std::nullopt;
   chain->turned_directions = free->turned_directions;
   chain->unforced_inflection = free->unforced_inflection;
   return chain;

@@ -439,6 +439,11 @@ class SectionChooser {
     none.to_the_edge = false;
     auto free = form_elements(points, analysis, none, watch_);
     if (!free) free = with_more_vertices(points, analysis, none, watch_);
+    // points of one circle or line leave nothing to given data, near no end either
+    if (free && std::all_of(free->cone.begin(), free->cone.end(),
+                            [](Cone cone) { return cone == Cone::kNone; })) {
+      return std::nullopt;
+    }
     if (proved && (!free || !turns_of_chain(*found).more_than(turns_of_chain(*free)))) {
       return std::nullopt;
     }
