@@ -149,17 +149,31 @@ bool vanishes(const NurbsSurface& s, const Way& way) {
   return area_of(way.jet(s, kApproach)) < kShrunk * area_of(way.jet(s, 0));
 }
 
+/// What moving control points by their last digits makes of curvatures at the end of a way, 1/unit:
+/// as much as a bump of that height on the disc that is left there.
+double rounding_on(const NurbsSurface& s, const Way& way) {
+  constexpr double kDigits = 2e-12;  // of the coordinates: files have twelve digits or more
+  const Vec3 end = evaluate(s, way.u, way.v).point;
+  const double distance = norm(way.jet(s, kApproach).point - end);
+  const double coordinate = std::max({std::abs(end.x), std::abs(end.y), std::abs(end.z)});
+  const double height = kDigits * std::max(coordinate, size_of(s));
+  return height / (distance * distance);
+}
+
 /// Where a quantity leads on such a way: its last value, or infinity when its steps do not shrink.
 /// (Towards a bound as a power p of the distance they shrink by 2^-p; logarithms step evenly.)
-double led_to(const std::array<SurfaceCurvature, kApproach + 1>& along, const Extreme& one) {
+/// `rounding`: what the digits of the control points may make of a curvature there, 1/unit.
+double led_to(const std::array<SurfaceCurvature, kApproach + 1>& along, const Extreme& one,
+              double rounding) {
   constexpr double kShrinks = 0.9;
-  constexpr double kRounding = 1e-9;  // of the largest curvature there, squared for products
+  constexpr double kRounding = 1e-9;  // of the largest curvature there: of its evaluation
   constexpr std::size_t kLast = kApproach, kMiddle = kLast / 2;
   std::array<double, kApproach + 1> value{};
   for (std::size_t k = 0; k <= kLast; ++k) value[k] = one.sign * along[k].*(one.quantity);
   double largest = std::max(std::abs(along[kLast].k1), std::abs(along[kLast].k2));
-  if (one.quantity == &SurfaceCurvature::gaussian) largest *= largest;
-  bool grows = value[kLast] - value[kMiddle] > kRounding * largest;
+  double least = std::max(kRounding * largest, rounding);
+  if (one.quantity == &SurfaceCurvature::gaussian) least *= largest;
+  bool grows = value[kLast] - value[kMiddle] > least;
   for (std::size_t k = kMiddle; k + 1 < kLast; ++k) {
     const double step = value[k + 1] - value[k];
     grows = grows && step > 0.0 && value[k + 2] - value[k + 1] > kShrinks * step;
@@ -208,8 +222,9 @@ Measured measured(const NurbsSurface& s, std::size_t n) {
       there = curvature(way.jet(s, k));
       tangent = tangent && !(there.normal == Vec3{});
     }
+    const double rounding = rounding_on(s, way);
     for (std::size_t q = 0; tangent && q < most.size(); ++q) {
-      most[q] = std::max(most[q], led_to(along, extremes[q]));
+      most[q] = std::max(most[q], led_to(along, extremes[q], rounding));
     }
   }
   const auto extent = [&](std::size_t q) { return Extent{-most[2 * q], most[2 * q + 1]}; };

@@ -167,6 +167,22 @@ TEST(CheckSurface, APoleOfABoundedCurvatureHasIt) {
   }
 }
 
+TEST(CheckSurface, LastDigitsOfAPoleAreNoCurvatureWithoutBound) {
+  // as files have it: the control points of the pole and beside it are a few roundings apart
+  NurbsSurface ball = with_pole(arc_about({0, 0, -2}, {0, 0, 0}, {0, -1, 0}, kPi / 2));
+  int k = 0;
+  for (Vec3& p : ball.points) {
+    p.z += 1e-15 * (k % 5 - 2);
+    p.x += 1e-15 * (k++ % 7 - 3);
+  }
+  for (const std::size_t samples : {5u, 65u}) {
+    const CurvatureExtents found = curvature_extents(ball, samples);
+    EXPECT_NEAR(found.gaussian.most, 0.25, 1e-4) << samples;
+    EXPECT_NEAR(found.gaussian.least, 0.25, 1e-4) << samples;
+    EXPECT_NEAR(std::max(found.mean.most, -found.mean.least), 0.5, 1e-4) << samples;
+  }
+}
+
 TEST(CheckSurface, CountsVerticesAndInflectionsOfLines) {
   // y = sin x over one and a half waves: extrema of curvature at the crests, inflections between
   std::vector<Vec3> points;
