@@ -98,10 +98,12 @@ class SketchDxf {
     }
   }
 
-  /// DXF arcs run counter-clockwise. They lose digits where the centre lies far away; bulges do
-  /// not.
+  /// DXF arcs run counter-clockwise. They lose digits where the centre lies far away, and readers
+  /// take those whose two angles print alike for whole circles; bulges do neither.
   void draw(const ArcPiece& arc, const std::string& layer) {
-    if (!exchange::centre_is_near(arc, norm(box_.high - box_.low))) {
+    constexpr double kToldAngle = 1e-9;  ///< rad
+    if (!exchange::centre_is_near(arc, norm(box_.high - box_.low)) ||
+        std::abs(arc.kappa * arc.length) < kToldAngle) {
       begin("LWPOLYLINE", "AcDbPolyline", layer);
       out_.pair(90, 2);
       out_.pair(70, 0);

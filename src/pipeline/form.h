@@ -25,6 +25,9 @@ namespace obvid::pipeline_detail {
 [[nodiscard]] bool is_one_circle(const std::vector<Vec2>& points, const Analysis& analysis,
                                  const ChainWishes& wishes);
 
+/// Two or three points, which lie on one circle or line whatever curve was meant.
+[[nodiscard]] bool is_few_on_one_circle(const std::vector<Vec2>& points, const Analysis& analysis);
+
 /// Pieces over the elements: closed-form spirals, and arcs or lines over circular stretches.
 /// Error E501 when a piece came out with a weight that is not positive.
 [[nodiscard]] Result<Contour> form_spirals(const std::vector<Vec2>& points,
