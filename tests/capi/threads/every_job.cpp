@@ -3,6 +3,7 @@
 // and compares what they say; then asks for the end of each in its middle, from two threads as well.
 // usage: every_job SOURCE_FOLDER
 #include <atomic>
+#include <cmath>
 #include <cstddef>
 #include <cstdio>
 #include <functional>
@@ -218,7 +219,10 @@ bool prepare(const std::string& folder, Handles& h) {
   const auto read = [&](const char* name, obvid_input** input) {
     return obvid_read_file((folder + name).c_str(), input, nullptr) == 0;
   };
-  const double xyz[] = {0, 0, 0, 10, 0, 0, 20, 0, 0, 30, 0, 0, 30, 5, 1, 30, 9, 3, 30, 12, 6, 30, 14, 10};
+  std::vector<double> helix;
+  for (int k = 0; k < 8; ++k) {
+    helix.insert(helix.end(), {10.0 * std::cos(0.4 * k), 10.0 * std::sin(0.4 * k), 1.5 * k});
+  }
   const obvid_input* grid[1] = {nullptr};
   if (!read("/examples/series10.csv", &h.points) ||
       !read("/tests/data/judge/series10.dxf", &h.drawing) ||
@@ -226,7 +230,7 @@ bool prepare(const std::string& folder, Handles& h) {
     return false;
   }
   grid[0] = h.grid;
-  return obvid_space_points(xyz, 8, &h.rail, nullptr) == 0 &&
+  return obvid_space_points(helix.data(), 8, &h.rail, nullptr) == 0 &&
          obvid_fit(h.points, nullptr, nullptr, &h.contour, nullptr, nullptr) == 0 &&
          obvid_fit_space(h.rail, nullptr, nullptr, &h.space, nullptr, nullptr) == 0 &&
          obvid_surface_make("grid", grid, 1, nullptr, 0, nullptr, nullptr, &h.surface, nullptr,
@@ -237,9 +241,13 @@ bool prepare(const std::string& folder, Handles& h) {
 
 int main(int count, char** arguments) {
   Handles h;
-  if (count != 2 || !prepare(arguments[1], h)) {
+  if (count != 2) {
     std::fprintf(stderr, "usage: every_job SOURCE_FOLDER\n");
     return 2;
+  }
+  if (!prepare(arguments[1], h)) {
+    std::fprintf(stderr, "every_job: what the jobs work on could not be made\n");
+    return 1;
   }
   const std::vector<Job> all = jobs();
   std::vector<std::string> wanted;
