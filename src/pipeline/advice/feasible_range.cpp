@@ -8,9 +8,9 @@
 #include <vector>
 
 #include "advice/uniform_tolerance.h"
+#include "fit/form.h"
 #include "fit/prepare.h"
 #include "fit/series_ranges.h"
-#include "form.h"
 #include "obvid/geom/internal/angle.h"
 #include "obvid/pipeline/internal/promise.h"
 #include "obvid/series/analysis.h"

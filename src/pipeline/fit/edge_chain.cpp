@@ -6,10 +6,12 @@
 #include <cmath>
 #include <utility>
 
-#include "form.h"
+#include "fit/form.h"
 #include "fit/keep_joints.h"
 #include "obvid/certify/certify.h"
 #include "obvid/contour/spirals.h"
+#include "obvid/contour/spirals/over_chain.h"
+#include "obvid/curve/internal/end_curvatures.h"
 #include "obvid/geom/internal/angle.h"
 #include "obvid/geom/internal/value_range.h"
 #include "obvid/region/internal/feasible_data.h"
@@ -333,7 +335,8 @@ ChainTurns turns_of_chain(const SeriesChain& chain) {
 }
 
 bool proved_as_stored(const std::vector<Vec2>& points, const SeriesChain& chain) {
-  auto contour = form_spirals(points, chain);
+  auto contour = spirals_over(points, chain);
+  if (!contour) return false;
   if (!contour) return false;
   keep_joint_curvatures(*contour);
   take_piece_ends(*contour);
