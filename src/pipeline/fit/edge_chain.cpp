@@ -71,10 +71,10 @@ class EdgeChain {
   /// far as they tell that end from its neighbourhood.
   enum class Leaps { kInOne, kInTwo };
   static bool leaps_over(const SeriesChain& chain, std::size_t i) {
-    constexpr double kEven = 1e-4;  ///< sigma of B - A; of a clothoid a half
+    constexpr double kWithoutLeap = 1e-4;  ///< sigma of B - A; of a clothoid a half
     const LinkState& link = chain.links[i];
     return chain.cone[i] != Cone::kNone &&
-           std::abs(link.sigma) < kEven * std::abs(link.B - link.A);
+           std::abs(link.sigma) < kWithoutLeap * std::abs(link.B - link.A);
   }
 
   /// The first and the last heading may turn away by a right angle, the middle of what is left to
@@ -336,7 +336,6 @@ ChainTurns turns_of_chain(const SeriesChain& chain) {
 
 bool proved_as_stored(const std::vector<Vec2>& points, const SeriesChain& chain) {
   auto contour = spirals_over(points, chain);
-  if (!contour) return false;
   if (!contour) return false;
   keep_joint_curvatures(*contour);
   take_piece_ends(*contour);
