@@ -15,7 +15,7 @@
 #include <string>
 #include <vector>
 
-#include "obvid/io/atomic_file.h"
+#include "obvid/core/files.h"
 #include "output_folder.h"
 
 namespace {

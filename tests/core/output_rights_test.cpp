@@ -14,7 +14,7 @@
 #include <string>
 #include <vector>
 
-#include "obvid/io/atomic_file.h"
+#include "obvid/core/files.h"
 #include "output_folder.h"
 #include "temporary_file.h"
 
