@@ -4,6 +4,7 @@
 #include <optional>
 #include <string>
 
+#include "obvid/pipeline/stored.h"
 #include "options.h"
 
 namespace obvid {

@@ -12,7 +12,7 @@
 #include <string>
 #include <thread>
 
-#include "output_folder.h"
+#include "../common/output_folder.h"
 #include "temporary_file.h"
 
 namespace obvid {

@@ -8,8 +8,8 @@
 #include <string>
 #include <vector>
 
+#include "../common/output_folder.h"
 #include "obvid/core/files.h"
-#include "output_folder.h"
 
 namespace obvid {
 namespace {

@@ -14,8 +14,8 @@
 #include <string>
 #include <vector>
 
+#include "../common/output_folder.h"
 #include "obvid/core/files.h"
-#include "output_folder.h"
 #include "temporary_file.h"
 
 namespace obvid {

@@ -8,7 +8,7 @@
 #include <string>
 #include <thread>
 
-#include "output_folder.h"
+#include "../common/output_folder.h"
 
 namespace obvid {
 namespace {

@@ -79,11 +79,11 @@ TEST(CutterShape, DistancesAreThoseFromItsOutline) {
 
 TEST(CutterShape, DistancesChangeAsTheirDerivativesSay) {
   CutterDraw draw{std::mt19937_64(2)};
-  constexpr double kStep = 1e-6;
+  constexpr double kOffset = 1e-6;
   for (int i = 0; i < kRandomCases; ++i) {
     const CutterShape c = draw.cutter();
     const double x = draw.between(0.0, 2.0) * c.radius, z = draw.between(-2.0, 2.0) * c.radius;
-    const double h = kStep * c.radius;
+    const double h = kOffset * c.radius;
     const BodyDistance at = c.distance(x, z);
     const double by_x = (c.distance(x + h, z).value - c.distance(x - h, z).value) / (2.0 * h);
     const double by_z = (c.distance(x, z + h).value - c.distance(x, z - h).value) / (2.0 * h);
