@@ -6,7 +6,7 @@ if(NOT OBVID_UNITY OR OBVID_SANITIZE OR OBVID_COVERAGE OR NOT CMAKE_GENERATOR ST
   return()
 endif()
 set(first_objects)
-foreach(target IN ITEMS core curve series region chain fairing certify contour_spirals contour_arcs
+foreach(target IN ITEMS core curve series region chain fairing certify contour_common contour_spirals contour_arcs
                         contour_clothoids contour_bsplines contour_conics contour_beziers picture io pipeline cli)
   get_property(objects GLOBAL PROPERTY OBVID_FIRST_OF_obvid_${target})
   list(APPEND first_objects ${objects})

@@ -91,7 +91,7 @@ std::string other_spirals_text(const Comparison& compared) {
   std::string out, last;
   std::size_t others = 0, followers = 0;
   for (const ComparedCarrier& row : compared.carriers) {
-    if (row.refusal || row.carrier == Carrier::kSpiral) continue;
+    if (row.refusal || !follows_spirals(row.carrier)) continue;
     ++followers;
     if (row.followed == shown) continue;
     ++others;

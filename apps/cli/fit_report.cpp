@@ -265,7 +265,7 @@ void add_gaps(Facts& facts, const Certificate& certificate, Carrier carrier) {
   const JointGaps& gaps = certificate.gaps;
   std::string text = fmt::format("position {} of the size, heading {} rad",
                                  significant(gaps.position, 2), significant(gaps.heading, 2));
-  if (carrier == Carrier::kArcs) {
+  if (steps_at_joints(carrier)) {
     // where the curvature is drawn to step, the verdict tells it
     if (gaps.curvature > 0.0)
       text += fmt::format("; curvature steps up to {} (arcs)", significant(gaps.curvature, 2));
@@ -289,7 +289,7 @@ std::string verdict_line(Carrier carrier, const Certificate& certificate) {
     return fmt::format("NOT proved: {}", reason.empty() ? "no reason recorded" : reason);
   }
   return fmt::format("proved: monotone {} on every run, {}, inside the region",
-                     carrier == Carrier::kArcs ? "radii" : "curvature", joints);
+                     steps_at_joints(carrier) ? "radii" : "curvature", joints);
 }
 
 std::string as_drawn_text(const Contour& contour) {

@@ -59,6 +59,18 @@ struct Raw {
   std::optional<std::string> units;
 };
 
+/// "arcs (G1), conics, ...": those that promise monotone curvature, or those that do not.
+std::string carriers_listed(bool monotone, const char* between) {
+  std::string out;
+  for (const Carrier carrier : kAllCarriers) {
+    const CarrierInfo& info = info_of(carrier);
+    if (info.monotone != monotone) continue;
+    out += (out.empty() ? "" : between) + std::string(info.name);
+    if (*info.about != '\0') out += " (" + std::string(info.about) + ")";
+  }
+  return out;
+}
+
 constexpr const char* kInputHelp = "File with the points, or - for standard input";
 constexpr const char* kUnitsHelp =
     "Unit of the lengths: mm, m, in, ft, ...; what files are written in, nothing is converted "
@@ -249,9 +261,8 @@ void add_fit(CLI::App& app, Raw& raw) {
       ->allow_extra_args(false);
   fit.add_option(
          "--carrier", raw.carrier,
-         "Curve family: spiral, arcs (G1), conics, beziers (parabolas), clothoids, bspline "
-         "(degree 5), all monotone; cubic (near the spirals) and baseline (what CAD systems "
-         "draw), not promised to be monotone [spiral]")
+         "Curve family: " + carriers_listed(true, ", ") + ", all monotone; " +
+             carriers_listed(false, " and ") + ", not promised to be monotone [spiral]")
       ->type_name("NAME");
   fit.add_option("--continuity", raw.typed.continuity,
                  "Of spirals: the curvature is continuous (G2), or its slope too: no kinks in its "

@@ -114,7 +114,7 @@ Result<std::vector<SurfaceOutput>> pictures_of(const SurfaceCheckOptions& option
   if (!outputs) return outputs;
   for (const SurfaceOutput& output : *outputs) {
     const bool picture =
-        output.format == SurfaceFormat::kPicture || output.format == SurfaceFormat::kPage;
+        output.format == FileFormat::kPicture || output.format == FileFormat::kPage;
     if (picture) continue;
     return error(ErrorCode::kUnknownFormat, "check writes pictures only")
         .where(output.path)

@@ -13,7 +13,7 @@ namespace obvid {
 
 struct SurfaceOutput {
   std::string path;
-  SurfaceFormat format = SurfaceFormat::kSurface;
+  FileFormat format = FileFormat::kContour;
 };
 
 /// Formats by endings. Errors: E202 for endings without format, E203 where an input would be

@@ -19,11 +19,9 @@
 namespace obvid {
 namespace {
 
-enum class Kind { kProgram, kPicture, kPage };
-
 struct ToolpathOutput {
   std::string path;
-  Kind kind = Kind::kProgram;
+  FileFormat format = FileFormat::kGcode;
   std::string text;
 };
 
@@ -31,17 +29,13 @@ Result<std::vector<ToolpathOutput>> outputs_of(const ToolpathCommand& command) {
   OBVID_TRY(check_outputs(command.outputs, {&command.input, 1}));
   std::vector<ToolpathOutput> outputs;
   for (const std::string& path : command.outputs) {
-    const auto surface = surface_format_of(path);
-    if (format_of(path) == FileFormat::kGcode) {
-      outputs.push_back({path, Kind::kProgram, {}});
-    } else if (surface == SurfaceFormat::kPicture || surface == SurfaceFormat::kPage) {
-      outputs.push_back(
-          {path, surface == SurfaceFormat::kPicture ? Kind::kPicture : Kind::kPage, {}});
-    } else {
+    const auto format = toolpath_format_of(path);
+    if (!format) {
       return error(ErrorCode::kUnknownFormat, "no format of tool paths has this file extension")
           .where(path)
-          .hint("possible are .nc, .ngc, .gcode, .tap, .svg, .html");
+          .hint("possible are " + known_toolpath_endings());
     }
+    outputs.push_back({path, *format, {}});
   }
   return outputs;
 }
@@ -54,12 +48,11 @@ struct Made {
 };
 
 Result<void> fill(ToolpathOutput& output, Made& made, SurfaceExporter& exporter) {
-  if (output.kind == Kind::kProgram) {
+  if (output.format == FileFormat::kGcode) {
     output.text = made.job.path.program.text;
     return {};
   }
-  const bool page = output.kind == Kind::kPage;
-  auto text = exporter.text(page ? SurfaceFormat::kPage : SurfaceFormat::kPicture, made.remarks);
+  auto text = exporter.text(output.format, made.remarks);
   OBVID_TRY(text);
   output.text = std::move(*text);
   return {};

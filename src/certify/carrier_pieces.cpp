@@ -40,62 +40,37 @@ std::string name_of(const Piece& piece) {
   return std::visit(Names{}, piece);
 }
 
-/// What the pieces of a carrier are.
-struct Kinds {
-  const char* text;
-  bool lines, arcs, clothoids;
-  bool (*bezier)(const RationalBezier&);
-};
+/// In closed form but for what keeps the digits of curvature at joints (curve/end_curvatures.h).
+bool belongs(const CarrierPieces& pieces, const RationalBezier& bezier) {
+  if (pieces.degree == kAnyDegree) return true;
+  if (bezier.degree != pieces.degree) return false;
+  if (pieces.weights == CarrierWeights::kAny) return true;
+  return is_polynomial(bezier) == (pieces.weights == CarrierWeights::kEqual);
+}
 
-Kinds kinds_of(Carrier carrier) {
-  switch (carrier) {
-    case Carrier::kSpiral:
-      // in closed form but for what keeps the digits of curvature at joints
-      // (curve/internal/end_curvatures.h)
-      return {"rational quartics, arcs and lines", true, true, false,
-              [](const RationalBezier& b) { return b.degree == 4; }};
-    case Carrier::kArcs:
-      return {"arcs and lines", true, true, false, nullptr};
-    case Carrier::kConics:
-      return {"arcs of ellipses and hyperbolas, arcs and lines", true, true, false,
-              [](const RationalBezier& b) { return b.degree == 2 && !is_polynomial(b); }};
-    case Carrier::kBeziers:
-      return {"parabolas and lines", true, false, false,
-              [](const RationalBezier& b) { return b.degree == 2 && is_polynomial(b); }};
-    case Carrier::kClothoids:
-      return {"clothoids, arcs and lines", true, true, true, nullptr};
-    case Carrier::kBspline:
-      return {"polynomials of degree 5, arcs and lines", true, true, false,
-              [](const RationalBezier& b) { return b.degree == 5 && is_polynomial(b); }};
-    case Carrier::kCubic:
-      return {"polynomials of degree 3 and lines", true, false, false,
-              [](const RationalBezier& b) { return b.degree == 3 && is_polynomial(b); }};
-    case Carrier::kBaseline:
-      break;
-  }
-  return {"any curve", true, true, true, [](const RationalBezier&) { return true; }};
+bool belongs(const CarrierPieces& pieces, const Piece& piece) {
+  if (std::holds_alternative<LinePiece>(piece)) return pieces.lines;
+  if (std::holds_alternative<ArcPiece>(piece)) return pieces.arcs;
+  if (std::holds_alternative<ClothoidPiece>(piece)) return pieces.clothoids;
+  return belongs(pieces, std::get<RationalBezier>(piece));
 }
 
 /// What drawings draw and contours take over, whatever their carrier is.
-constexpr Kinds kDrawn = {"lines, arcs, ellipse arcs and clothoids", true, true, true,
-                          [](const RationalBezier& b) { return b.degree == 2 && is_ellipse(b); }};
-
-bool belongs(const Kinds& kinds, const Piece& piece) {
-  if (std::holds_alternative<LinePiece>(piece)) return kinds.lines;
-  if (std::holds_alternative<ArcPiece>(piece)) return kinds.arcs;
-  if (std::holds_alternative<ClothoidPiece>(piece)) return kinds.clothoids;
-  return kinds.bezier != nullptr && kinds.bezier(std::get<RationalBezier>(piece));
+bool is_drawn(const Piece& piece) {
+  const auto* bezier = std::get_if<RationalBezier>(&piece);
+  return bezier == nullptr || (bezier->degree == 2 && is_ellipse(*bezier));
 }
+constexpr const char* kDrawn = "lines, arcs, ellipse arcs and clothoids";
 
 }  // namespace
 
 std::optional<ForeignPiece> foreign_piece(const Contour& contour) {
-  const Kinds kinds = kinds_of(contour.carrier);
+  const CarrierPieces& kinds = info_of(contour.carrier).pieces;
   for (std::size_t i = 0; i < contour.pieces.size(); ++i) {
     const bool kept = std::binary_search(contour.kept.begin(), contour.kept.end(), i);
-    if (belongs(kept ? kDrawn : kinds, contour.pieces[i])) continue;
+    if (kept ? is_drawn(contour.pieces[i]) : belongs(kinds, contour.pieces[i])) continue;
     const std::string what = name_of(contour.pieces[i]);
-    if (kept) return ForeignPiece{i, fmt::format("drawings have {}, not {}", kDrawn.text, what)};
+    if (kept) return ForeignPiece{i, fmt::format("drawings have {}, not {}", kDrawn, what)};
     return ForeignPiece{
         i, fmt::format("carrier {} has {}, not {}", to_string(contour.carrier), kinds.text, what)};
   }
@@ -103,7 +78,7 @@ std::optional<ForeignPiece> foreign_piece(const Contour& contour) {
 }
 
 bool keeps_foreign_pieces(const Contour& contour) {
-  const Kinds kinds = kinds_of(contour.carrier);
+  const CarrierPieces& kinds = info_of(contour.carrier).pieces;
   return std::any_of(contour.kept.begin(), contour.kept.end(), [&](std::size_t i) {
     return i < contour.pieces.size() && !belongs(kinds, contour.pieces[i]);
   });

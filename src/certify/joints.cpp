@@ -182,7 +182,7 @@ class JointWalk {
   /// Arcs promise a common tangent only; their jumps are judged as changes of curvature.
   [[nodiscard]] bool may_jump(std::size_t joint) const {
     const std::size_t n = contour_.pieces.size();
-    return contour_.carrier == Carrier::kArcs &&
+    return steps_at_joints(contour_.carrier) &&
            is_arc_or_line(contour_.pieces[(joint + n - 1) % n]) &&
            is_arc_or_line(contour_.pieces[joint]);
   }

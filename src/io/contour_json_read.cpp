@@ -355,7 +355,7 @@ bool ContourReader::rows_fit(std::size_t rows) const {
     if (contour.joints[i].source) ++parts;
   }
   // points between joints have a row each where the contour passes them in order
-  const bool between = contour.carrier == Carrier::kBspline || contour.carrier == Carrier::kCubic;
+  const bool between = info_of(contour.carrier).between_joints;
   return between ? rows >= parts && rows <= chords : rows == parts;
 }
 

@@ -100,7 +100,8 @@ class Simulation {
   void look_into_reach(double limit);  ///< nodes with more than that
   [[nodiscard]] bool find_above(std::size_t node, double limit, double within, HighSpot& spot);
   [[nodiscard]] bool find_inside(std::size_t node, double limit, double within, HighSpot& spot);
-  void report_depth(double allowed, SimulationReport& out) const;
+  [[nodiscard]] Result<void> report_depth(double allowed, SimulationReport& out,
+                                          const RunContext& run) const;
   void report_reach(SimulationReport& out);
   Result<void> report_left(double within, SimulationReport& out, const RunContext& run);
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <limits>
 
 #include "obvid/core/internal/parallel.h"
@@ -10,6 +11,19 @@ namespace obvid::toolpath {
 namespace {
 
 constexpr std::size_t kCellsTogether = 2048;  // cells looked into before bounds are compared again
+constexpr std::size_t kCellsUnasked = 64;  // and before whoever waits is asked whether to go on: one
+                                           // takes a fraction of a millisecond
+
+/// `work` for all numbers below `count`, in parallel; asks in between.
+Result<void> asking(std::size_t count, std::size_t threads, const RunContext& run,
+                    const std::function<void(std::size_t)>& work) {
+  for (std::size_t begin = 0; begin < count; begin += kCellsUnasked) {
+    in_parallel(std::min(kCellsUnasked, count - begin), threads,
+                [&](std::size_t k) { work(begin + k); });
+    OBVID_TRY(may_go_on(run));
+  }
+  return {};
+}
 
 void raise_extreme(Extreme& extreme, double found, Vec3 place) {
   if (!(found > extreme.found)) return;
@@ -19,7 +33,8 @@ void raise_extreme(Extreme& extreme, double found, Vec3 place) {
 
 }  // namespace
 
-void Simulation::report_depth(double allowed, SimulationReport& out) const {
+Result<void> Simulation::report_depth(double allowed, SimulationReport& out,
+                                      const RunContext& run) const {
   std::vector<std::size_t> deep;
   for (std::size_t i = 0; i < nodes_.size(); ++i) {
     raise_extreme(out.depth, nodes_[i].depth, cells_.cells()[i].point);
@@ -33,7 +48,7 @@ void Simulation::report_depth(double allowed, SimulationReport& out) const {
     }
   }
   std::vector<Extreme> found(deep.size());
-  in_parallel(deep.size(), threads_, [&](std::size_t k) {
+  const auto looked = asking(deep.size(), threads_, run, [&](std::size_t k) {
     quarter(Looking::kForDepth, deep[k], [&](const Piece& part, int levels) {
       raise_extreme(found[k], part.bounds.depth, part.cell.point);
       const bool deeper = part.bounds.depth_most > std::max(limit, found[k].found);
@@ -41,11 +56,13 @@ void Simulation::report_depth(double allowed, SimulationReport& out) const {
       return deeper;
     });
   });
+  OBVID_TRY(looked);
   for (const Extreme& e : found) {
     raise_extreme(out.depth, e.found, e.place);
     out.depth.most = std::max({out.depth.most, e.most, e.found});
   }
   out.depth.most = std::max(out.depth.most, out.depth.found);
+  return {};
 }
 
 void Simulation::report_reach(SimulationReport& out) {
@@ -88,7 +105,7 @@ Result<void> Simulation::report_left(double within, SimulationReport& out, const
     if (nodes_[high[begin]].left_most <= limit + within) break;
     const std::size_t count = std::min(kCellsTogether, high.size() - begin);
     std::vector<Extreme> found(count, {limit, 0.0, {}});
-    in_parallel(count, threads_, [&](std::size_t k) {
+    const auto looked = asking(count, threads_, run, [&](std::size_t k) {
       const std::size_t node = high[begin + k];
       quarter(Looking::kForBoth, node, [&](const Piece& part, int levels) {
         const bool deeper = part.bounds.left_most > found[k].found + within;
@@ -101,6 +118,7 @@ Result<void> Simulation::report_left(double within, SimulationReport& out, const
         return deeper;
       });
     });
+    OBVID_TRY(looked);
     for (const Extreme& e : found) {
       raise_extreme(out.left, e.found, e.place);
       out.left.most = std::max(out.left.most, e.most);
@@ -115,9 +133,9 @@ Result<void> Simulation::report_left(double within, SimulationReport& out, const
 
 Result<SimulationReport> Simulation::report(double allowed, double within, const RunContext& run) {
   SimulationReport out;
-  report_depth(allowed, out);
-  OBVID_TRY(may_go_on(run));
+  OBVID_TRY(report_depth(allowed, out, run));
   report_reach(out);
+  OBVID_TRY(may_go_on(run));
   OBVID_TRY(report_left(within, out, run));
   return out;
 }

@@ -151,6 +151,7 @@ class Reports(unittest.TestCase):
         self.assertGreater(seen, 3)
         drawn = c.stored(c.read(c.DRAWING))
         text = json.loads(c.export(drawn, "json"))
+        self.assertEqual(text["carrier"], "imported")
         self.holds("contour", text)
         self.holds("verify", report_of(lambda: self.verified(drawn)))
 
@@ -291,6 +292,11 @@ class Options(unittest.TestCase):
                 c.fit(c.read(c.SERIES), options)
             except c.Failed as failed:
                 self.assertEqual(failed.category, 4, failed)  # understood, and impossible there
+
+    def test_carriers_are_those_of_the_table(self):
+        with open(os.path.join(c.SOURCES, "include/obvid/curve/carriers.inc"), encoding="utf-8") as table:
+            names = re.findall(r"^OBVID_CARRIER\w*\(k\w+, (\w+),", table.read(), re.MULTILINE)
+        self.assertEqual(ALL["parts.schema.json"]["$defs"]["carrier"]["enum"], names)
 
 
 if __name__ == "__main__":

@@ -253,7 +253,7 @@ class Subject:
     def bounds_of_fit(self, facts, stored):
         report = stored["report"]
         if "largest error" not in facts:
-            self.same("no promise, no bound", stored["carrier"] in ("cubic", "baseline"), True)
+            self.same("no promise, no bound", stored["carrier"] in ("cubic", "baseline", "imported"), True)
             self.same("no promise, no bound", report["largest_deviation"], None)
             return
         said = self.found("largest error", rf"^({NUMBER}|unknown)(?: \S+)? from the points alone"

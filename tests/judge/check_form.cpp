@@ -18,6 +18,7 @@ bool is_polynomial(const Bezier& b) {
 /// Which pieces a carrier is made of (docs/carriers.md).
 bool fits(const std::string& carrier, const Piece& piece) {
   if (std::holds_alternative<Line>(piece) || std::holds_alternative<Arc>(piece)) return true;
+  if (carrier == "imported") return true;  // as it is drawn
   if (std::holds_alternative<Clothoid>(piece)) return carrier == "clothoids";
   const auto& b = std::get<Bezier>(piece);
   if (carrier == "spiral") return b.degree() == 4;
@@ -30,7 +31,7 @@ bool fits(const std::string& carrier, const Piece& piece) {
 
 void check_carrier(const ContourFile& file, Sheet& sheet) {
   static const std::set<std::string> kNames = {"spiral",    "arcs",    "conics", "beziers",
-                                               "clothoids", "bspline", "cubic",  "baseline"};
+                                               "clothoids", "bspline", "cubic",  "baseline", "imported"};
   const bool known = kNames.contains(file.carrier);
   if (!sheet.expect(known, "carrier", file.carrier, std::string("a known name"), "")) return;
   for (std::size_t i = 0; i < file.pieces.size(); ++i) {

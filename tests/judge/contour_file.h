@@ -59,7 +59,7 @@ struct ContourFile {
   /// A corner, or a step of the curvature.
   [[nodiscard]] bool parted_at(std::size_t joint_index) const;
   [[nodiscard]] bool promises_monotone() const {
-    return carrier != "cubic" && carrier != "baseline";
+    return carrier != "cubic" && carrier != "baseline" && carrier != "imported";
   }
 };
 

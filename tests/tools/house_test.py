@@ -19,7 +19,7 @@ ROOT = pathlib.Path(sys.argv[1]).resolve()
 DATA_FOLDERS = ("tests/data", "tests/fuzz/corpus", "examples")
 # Neither sources nor data: prose, its pictures, and files whose form has no room for a comment.
 PROSE = {".md", ".svg", ".png", ".jpg", ".gif"}
-WITHOUT_COMMENTS = {"LICENSE", "NOTICE", "VERSION", "CMakePresets.json", "package.json", "package-lock.json", "tsconfig.json"}
+WITHOUT_COMMENTS = {"LICENSE", "NOTICE", "lines.json", "VERSION", "CMakePresets.json", "package.json", "package-lock.json", "tsconfig.json"}
 SPDX = "SPDX-License-Identifier: Apache-2.0"
 HEAD_LINES = 3  # a line that starts the program may come before
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#pragma once
+#pragma once  // reentrant, an object is used by one thread at a time: docs/threads.md
 
 #include <cstddef>
 #include <memory>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#pragma once
+#pragma once  // reentrant: docs/threads.md
 
 #include <cstddef>
 #include <span>

@@ -1,45 +1,18 @@
 // SPDX-License-Identifier: Apache-2.0
-#pragma once
+#pragma once  // reentrant: docs/threads.md
 
-#include <array>
 #include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
 
 #include "obvid/core/units.h"
+#include "obvid/curve/carrier.h"
 #include "obvid/curve/pieces.h"
 #include "obvid/geom/element.h"
 #include "obvid/geom/internal/value_range.h"
 
 namespace obvid {
-
-/// Family of curves that carries the contour.
-enum class Carrier {
-  kSpiral,     ///< rational quartics in closed form
-  kArcs,       ///< circle arcs, G1
-  kConics,     ///< conic arcs, nearly all of ellipses, one to a link
-  kBeziers,    ///< parabolas, by condensation
-  kClothoids,  ///< curvature piecewise linear in arc length
-  kBspline,    ///< one polynomial B-spline of degree 5, monotone, within a tolerance of the points
-  kCubic,  ///< one C2 cubic within a tolerance of the spirals: nothing is promised of its vertices
-  kBaseline,  ///< the C2 cubic through the points that CAD systems draw: likewise
-};
-
-inline constexpr std::array kAllCarriers = {
-    Carrier::kSpiral,    Carrier::kArcs,    Carrier::kConics, Carrier::kBeziers,
-    Carrier::kClothoids, Carrier::kBspline, Carrier::kCubic,  Carrier::kBaseline};
-
-/// Name on the command line and in contour files: spiral, arcs, conics, ...
-[[nodiscard]] const char* to_string(Carrier carrier);
-/// Carrier of this name.
-[[nodiscard]] std::optional<Carrier> carrier_of(std::string_view name);
-
-/// Whether a contour of this carrier claims that its curvature is monotone on every run; the others
-/// are compared with it.
-[[nodiscard]] constexpr bool promises_monotone(Carrier carrier) {
-  return carrier != Carrier::kCubic && carrier != Carrier::kBaseline;
-}
 
 /// What a contour claims to be continuous at its joints that are no corners.
 enum class Continuity {

@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-#pragma once
+#pragma once  // reentrant: docs/threads.md
 
 #include <optional>
 #include <string>
-#include <string_view>
 #include <vector>
 
 #include "obvid/cad/internal/cad.h"
@@ -12,33 +11,10 @@
 #include "obvid/exchange/internal/gcode/gcode.h"
 #include "obvid/exchange/internal/points/samples.h"
 #include "obvid/picture/picture_svg.h"
+#include "obvid/pipeline/file_formats.h"
 #include "obvid/report/stored_contour.h"
 
 namespace obvid {
-
-/// Files that a contour can be written to, told by their endings.
-enum class FileFormat {
-  kContour,    ///< .json
-  kPicture,    ///< .svg, a picture for a report or a drawing in true scale
-  kStep,       ///< .step, .stp
-  kIges,       ///< .iges, .igs
-  kBrep,       ///< .brep
-  kDxf,        ///< .dxf
-  kGcode,      ///< .nc, .ngc, .gcode, .tap
-  kOpenDrive,  ///< .xodr
-  kLandXml,    ///< .xml
-  kSamples,    ///< .csv
-  kSldcrv,     ///< .sldcrv, one file per run
-  kMacro,      ///< .swb, .bas, of SolidWorks
-  kObj,        ///< .obj
-  kPly,        ///< .ply
-};
-
-/// Format of a file's name. Nothing for endings that stand for none.
-[[nodiscard]] std::optional<FileFormat> format_of(std::string_view path);
-
-/// ".json (contour), .svg (picture), ...": for help and errors.
-[[nodiscard]] std::string known_endings();
 
 /// Choices of the formats. Lengths in units of the contour.
 struct ExportOptions {

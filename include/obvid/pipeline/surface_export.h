@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-#pragma once
+#pragma once  // reentrant, an object is used by one thread at a time: docs/threads.md
 
+#include <memory>
 #include <optional>
 #include <string>
-#include <string_view>
 #include <vector>
 
 #include "obvid/cad/internal/cad.h"
@@ -12,26 +12,13 @@
 #include "obvid/mesh/mesh.h"
 #include "obvid/picture/internal/surface_page.h"
 #include "obvid/picture/surface_svg.h"
+#include "obvid/pipeline/file_formats.h"
 
 namespace obvid {
 
-/// Files that a surface can be written to, told by their endings.
-enum class SurfaceFormat {
-  kSurface,  ///< .json
-  kStep,     ///< .step, .stp
-  kIges,     ///< .iges, .igs
-  kBrep,     ///< .brep
-  kStl,      ///< .stl
-  kObj,      ///< .obj
-  kGlb,      ///< .glb
-  kPly,      ///< .ply
-  kPage,     ///< .html
-  kPicture,  ///< .svg
-};
-
-[[nodiscard]] std::optional<SurfaceFormat> surface_format_of(std::string_view path);
-/// ".json (surface), .step (STEP), ...": for help and errors.
-[[nodiscard]] std::string known_surface_endings();
+namespace pipeline_detail {
+struct SurfaceExport;
+}
 
 struct SurfaceExportOptions {
   CadFormat step = CadFormat::kStepAp214;
@@ -47,25 +34,20 @@ struct SurfaceExportOptions {
 /// A surface in all formats that were asked for; triangles are made once for all of them.
 class SurfaceExporter {
  public:
+  /// `model` has to live as long as this.
   SurfaceExporter(const SurfaceModel& model, const SurfaceExportOptions& options,
                   RunContext run = {});
+  ~SurfaceExporter();
+  SurfaceExporter(const SurfaceExporter&) = delete;
+  SurfaceExporter& operator=(const SurfaceExporter&) = delete;
 
   /// Text of one file; `remarks` get what the user should know. Errors: those of the formats.
-  [[nodiscard]] Result<std::string> text(SurfaceFormat format, std::vector<std::string>& remarks);
+  [[nodiscard]] Result<std::string> text(FileFormat format, std::vector<std::string>& remarks);
   /// What may be wrong about the texts so far: a unit that is merely assumed.
-  [[nodiscard]] const std::vector<std::string>& warnings() const { return warnings_; }
+  [[nodiscard]] const std::vector<std::string>& warnings() const;
 
  private:
-  [[nodiscard]] Result<std::string> made(SurfaceFormat format, std::vector<std::string>& remarks);
-  /// Once, for all pages and pictures.
-  [[nodiscard]] const std::optional<CurvatureExtremes>& extremes();
-  [[nodiscard]] Result<void> tessellated(std::vector<std::string>& remarks);
-
-  const SurfaceModel& model_;
-  SurfaceExportOptions options_;
-  RunContext run_;
-  std::vector<Mesh> meshes_;
-  std::vector<std::string> warnings_;
+  std::unique_ptr<pipeline_detail::SurfaceExport> parts_;
 };
 
 }  // namespace obvid

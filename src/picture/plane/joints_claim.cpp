@@ -28,7 +28,7 @@ std::string lesser_joints(const Certificate& certificate) {
 
 std::string joints_claim(Carrier carrier, const Certificate& certificate) {
   const JointGaps& gaps = certificate.gaps;
-  const bool arcs = carrier == Carrier::kArcs;
+  const bool arcs = steps_at_joints(carrier);
   std::string text = arcs ? "G1 joints" : gaps.slope ? "G3 joints" : "G2 joints";
   if (certificate.corners > 0) {
     text +=

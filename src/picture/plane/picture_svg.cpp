@@ -51,7 +51,7 @@ VerdictLine verdict_of(const StoredContour& stored) {
   if (stored.certificate->proved) {
     const Carrier carrier = stored.contour.carrier;
     std::string text =
-        carrier == Carrier::kArcs ? "✓ proved: monotone radii, " : "✓ proved: monotone curvature, ";
+        steps_at_joints(carrier) ? "✓ proved: monotone radii, " : "✓ proved: monotone curvature, ";
     text += joints_claim(carrier, *stored.certificate);
     // beside the steps of slopes there is no room for it; the line below tells how far points are
     const bool room = !stored.certificate->gaps.slope;

@@ -191,7 +191,7 @@ class Search {
 
   /// The trials did without what only the answer is asked for.
   void measure() {
-    if (!out_.found || !measured_ || job_.carrier == Carrier::kSpiral) return;
+    if (!out_.found || !measured_ || !follows_spirals(job_.carrier)) return;
     FitJob job = job_;
     job.measure_against_spirals = true;
     if (out_.rounding_does) {

@@ -6,10 +6,11 @@
 #include <cmath>
 #include <utility>
 
-#include "form.h"
 #include "fit/keep_joints.h"
 #include "obvid/certify/certify.h"
 #include "obvid/contour/spirals.h"
+#include "obvid/contour/spirals/over_chain.h"
+#include "obvid/curve/internal/end_curvatures.h"
 #include "obvid/geom/internal/angle.h"
 #include "obvid/geom/internal/value_range.h"
 #include "obvid/region/internal/feasible_data.h"
@@ -267,7 +268,7 @@ ChainTurns turns_of_chain(const SeriesChain& chain) {
 }
 
 bool stored_pieces_proved(const std::vector<Vec2>& points, const SeriesChain& chain) {
-  auto contour = form_spirals(points, chain);
+  auto contour = spirals_over(points, chain);
   if (!contour) return false;
   keep_joint_curvatures(*contour);
   for (const Run& run : contour->runs) {

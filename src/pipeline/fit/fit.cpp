@@ -10,6 +10,7 @@
 
 #include "fit/assemble.h"
 #include "fit/excursion.h"
+#include "fit/form.h"
 #include "fit/given.h"
 #include "fit/keep_joints.h"
 #include "fit/parabola_room.h"
@@ -19,9 +20,10 @@
 #include "fit/section_chain.h"
 #include "fit/slope_step.h"
 #include "fit/waviness.h"
-#include "form.h"
 #include "obvid/certify/certify.h"
 #include "obvid/chain/internal/smooth_chain.h"
+#include "obvid/contour/common/internal/carry.h"
+#include "obvid/curve/internal/runs.h"
 #include "obvid/region/internal/refine.h"
 #include "verify/against_spirals.h"
 #include "verify/report.h"
@@ -29,6 +31,7 @@
 namespace obvid {
 namespace {
 
+using namespace contour_detail;
 using namespace pipeline_detail;
 
 /// Rounds in which the tolerance of points that the finished contour misses is narrowed: between
@@ -48,77 +51,57 @@ constexpr double kFormedAt = 0.7;  ///< part of the bar when all sections are fo
 constexpr int kArcTrials = 2;
 constexpr double kNarrowedArcs = 0.99;  ///< of what would just do
 
-Result<Carried> as_carried(Result<Contour> contour) {
-  OBVID_TRY(contour);
-  return Carried{std::move(*contour), {}};
-}
-
-/// A section in its carrier; `spirals` are those that carry the same elements.
-Result<Carried> form_carrier(const std::vector<Vec2>& points, const SeriesChain& chain,
-                             const Contour& spirals, const Prepared& series, Carrier carrier,
-                             double tolerance, Watch& watch) {
-  switch (carrier) {
-    case Carrier::kClothoids:
-      return as_carried(form_clothoids(points, chain, watch));
-    case Carrier::kArcs:
-      return as_carried(
-          form_arcs(spirals, tolerance, series.given, series.split.smooth_loop, watch));
-    case Carrier::kConics:
-      return form_conics(spirals, series.given);
-    case Carrier::kBeziers:
-      return form_beziers(spirals, tolerance, watch);
-    case Carrier::kBspline:
-      return form_bspline(spirals, tolerance, series.given);
-    case Carrier::kCubic:
-      return form_cubic(spirals, tolerance, series.split.smooth_loop);
-    default:
-      return Carried{spirals, {}};
-  }
-}
-
 /// How often runs are given back their G2 spirals where the smooth ones are not proved.
 constexpr int kKeptRounds = 4;
 /// How often a smooth contour is led nearer to points that it passes too far.
 constexpr int kMostPassings = 16;
 
-/// A carrier that promises continuous curvature keeps its digits at the joints.
-bool keeps_curvature(Carrier carrier) {
-  return carrier == Carrier::kConics || carrier == Carrier::kBeziers ||
-         carrier == Carrier::kBspline;
-}
-
-Result<Carried> form(const std::vector<Vec2>& points, const SeriesChain& chain,
-                     const Contour& spirals, const Prepared& series, Carrier carrier,
-                     double tolerance, Watch& watch) {
-  auto out = form_carrier(points, chain, spirals, series, carrier, tolerance, watch);
-  if (out && keeps_curvature(carrier)) keep_joint_curvatures(out->contour);
-  if (out && carrier == Carrier::kConics) chain_conic_weights(out->contour);
-  return out;
-}
-
 /// Spirals whose stored numbers have the curvatures of their joints.
-Result<Contour> exact_spirals(const std::vector<Vec2>& points, const SeriesChain& chain) {
-  auto out = form_spirals(points, chain);
-  if (!out) return out;
-  keep_joint_curvatures(*out);
-  keep_joint_slopes(chain, *out);
+Result<Contour> exact_spirals(const Prepared& series, const SeriesChain& chain, Watch& watch) {
+  auto out = carry_spiral(
+      {}, {.points = series.points, .chain = chain, .given = series.given, .watch = watch});
+  OBVID_TRY(out);
+  return std::move(out->contour);
+}
+
+/// What is proved of the pieces one by one: carriers that promise nothing do not know their runs.
+std::vector<Run> proved_runs(const std::vector<Piece>& pieces) {
+  std::vector<int> direction;
+  direction.reserve(pieces.size());
+  for (const Piece& piece : pieces) direction.push_back(direction_of(prove_piece(piece).verdict));
+  return collect_runs(direction);
+}
+
+/// A section in its carrier; `spirals` as `Carry` has them.
+Result<Carried> form(const Contour& spirals, const CarryOptions& options, Carrier carrier) {
+  auto out = builder_of(carrier)(spirals, options);
+  if (out && !promises_monotone(carrier)) out->contour.runs = proved_runs(out->contour.pieces);
   return out;
 }
 
-/// The spline of CAD systems asks for no headings and curvatures; those given at its ends it keeps.
-Result<Carried> form_baseline_section(const Prepared& series, const Section& section) {
+/// A curve of points alone asks for no headings and curvatures; those given at its ends it keeps.
+Result<Carried> form_of_points(const Prepared& series, const Section& section, Carrier carrier,
+                               Watch& watch) {
   const bool loop = series.split.smooth_loop;
   const std::size_t last = loop ? series.points.size() : section.last;
-  std::vector<Vec2> points;
-  std::vector<std::size_t> source;
+  Contour joints;
   for (std::size_t k = section.first; k <= last; ++k) {
-    source.push_back(series.split.point_at(k) % series.points.size());
-    points.push_back(series.points[source.back()]);
+    const std::size_t point = series.split.point_at(k) % series.points.size();
+    joints.joints.push_back({{series.points[point], 0.0, 0.0}, point});
   }
-  const auto heading_at = [&](std::size_t point) {
-    return series.fixed.empty() ? std::nullopt : series.fixed[point].theta;
+  const auto heading_at = [&](const Joint& end) {
+    return series.fixed.empty() ? std::nullopt : series.fixed[*end.source].theta;
   };
-  return form_baseline(points, source, loop, heading_at(source.front()), heading_at(source.back()));
+  const SeriesChain none;
+  return form(joints,
+              {.points = series.points,
+               .chain = none,
+               .given = series.given,
+               .loop = loop,
+               .start_heading = heading_at(joints.joints.front()),
+               .end_heading = heading_at(joints.joints.back()),
+               .watch = watch},
+              carrier);
 }
 
 /// One attempt at the whole contour, with how it was found.
@@ -137,7 +120,7 @@ struct Formed {
 /// How far the contour may pass each point: a carrier that follows the spirals needs its tolerance.
 std::vector<double> point_tolerance(const Prepared& series, Carrier carrier, double tolerance) {
   std::vector<double> out = series.tolerance;
-  if (!passes_between_joints(carrier)) return out;
+  if (!info_of(carrier).between_joints) return out;
   out.resize(series.points.size(), 0.0);
   for (double& one : out) one = std::max(one, tolerance);
   return out;
@@ -186,7 +169,7 @@ bool is_made_g3(const FitJob& job) { return wanted_continuity(job) == Continuity
 
 /// Whether the slopes of the spirals' curvature are made continuous.
 bool makes_slopes_continuous(const FitJob& job) {
-  return is_made_g3(job) || (job.carrier != Carrier::kSpiral && job.followed == Continuity::kG3);
+  return is_made_g3(job) || (follows_spirals(job.carrier) && job.followed == Continuity::kG3);
 }
 
 /// Forms the sections one after the other, and beside them the spirals of the same elements.
@@ -221,7 +204,7 @@ class SectionForming {
     if (out_.chain.slope_step_g2 && series_.kept.empty()) {
       out_.chain.waviness_g2 = waviness_g2_.value();
     }
-    if (have_spirals_ && job_.carrier != Carrier::kSpiral) {
+    if (have_spirals_ && follows_spirals(job_.carrier)) {
       out_.spirals = finished(spirals_, Carrier::kSpiral);
     }
     return std::move(out_);
@@ -235,18 +218,27 @@ class SectionForming {
     watch_.tell("choosing headings and curvatures", 0.0);
     const Section& section = series_.split.sections[k];
     if (form_drawn(section)) return {};
-    if (job_.carrier == Carrier::kBaseline) return form_baseline_alone(section);
+    const CarrierInfo& carrier = info_of(job_.carrier);
+    if (carrier.needs == CarrierNeeds::kPoints) return form_points_alone(section);
     auto chain = chains_.chain(series_, section, watch_);
     OBVID_TRY(chain);
     auto spirals = spirals_of(*chain);
-    if (!spirals && job_.carrier != Carrier::kClothoids) return fail(spirals.error());
-    if (job_.carrier == Carrier::kSpiral) {
+    if (!spirals && (carrier.needs == CarrierNeeds::kSpirals || !follows_spirals(job_.carrier))) {
+      return fail(spirals.error());
+    }
+    if (!follows_spirals(job_.carrier)) {
       assembly_.append(std::move(*spirals));
       add_section(*chain, out_);
       return {};
     }
-    auto carried = form(series_.points, chain->chain, spirals ? *spirals : Contour{}, series_,
-                        job_.carrier, tolerance_, watch_);
+    auto carried = form(spirals ? *spirals : Contour{},
+                        {.points = series_.points,
+                         .chain = chain->chain,
+                         .given = series_.given,
+                         .tolerance = tolerance_,
+                         .loop = series_.split.smooth_loop,
+                         .watch = watch_},
+                        job_.carrier);
     OBVID_TRY(carried);
     out_.add(std::move(*carried), assembly_);
     add_section(*chain, out_);
@@ -256,7 +248,7 @@ class SectionForming {
 
   /// The spirals of a section's elements, which become others where slopes are made continuous.
   Result<Contour> spirals_of(SectionChain& section) {
-    auto spirals = exact_spirals(series_.points, section.chain);
+    auto spirals = exact_spirals(series_, section.chain, watch_);
     return spirals && makes_slopes_continuous(job_) ? smoothed(section, *spirals) : spirals;
   }
 
@@ -269,13 +261,13 @@ class SectionForming {
     SeriesChain chain = section.chain;
     SmoothedSlopes slopes =
         smooth_slopes(chain, series_.split.smooth_loop, watch_, keep, section.seam);
-    auto smooth = exact_spirals(series_.points, chain);
+    auto smooth = exact_spirals(series_, chain, watch_);
     for (int k = 0; smooth && !series_.exact() && k < kMostPassings; ++k) {
       if (!passing.pass(excess(*smooth)) || watch_.was_cancelled()) break;
       chain = passing.chain();
       slopes = smooth_slopes(chain, series_.split.smooth_loop, watch_, passing.in_links(keep),
                              section.seam);
-      smooth = exact_spirals(series_.points, chain);
+      smooth = exact_spirals(series_, chain, watch_);
     }
     if (!smooth) return smooth;
     section.chain = std::move(chain);
@@ -345,8 +337,8 @@ class SectionForming {
   }
 
   /// Needs no spirals, and is compared with them where there are any.
-  Result<void> form_baseline_alone(const Section& section) {
-    auto carried = form_baseline_section(series_, section);
+  Result<void> form_points_alone(const Section& section) {
+    auto carried = form_of_points(series_, section, job_.carrier, watch_);
     OBVID_TRY(carried);
     out_.add(std::move(*carried), assembly_);
     if (!job_.measure_against_spirals) return {};
@@ -396,7 +388,7 @@ class SectionForming {
     contour.point_tolerance = point_tolerance(series_, carrier, tolerance_);
     contour.given = series_.asked;
     contour.carrier = carrier;
-    claim_slopes(contour, carrier == Carrier::kSpiral && makes_slopes_continuous(job_));
+    claim_slopes(contour, !follows_spirals(carrier) && makes_slopes_continuous(job_));
     return contour;
   }
 
@@ -743,11 +735,11 @@ Result<Fit> formed_and_proved(const PointSeries& series, const FitJob& job, Foun
   const auto asked = tolerance_of(job, prepared->points, least);
   OBVID_TRY(asked);
   const double tolerance =
-      passes_between_joints(job.carrier) ? share_tolerance(*prepared, *asked, least) : *asked;
+      info_of(job.carrier).between_joints ? share_tolerance(*prepared, *asked, least) : *asked;
   auto measured =
       form_and_measure(*prepared, job, series.units, {tolerance, *asked}, kept, chains, watch);
   // what rounding makes of arcs shows in their regions only
-  for (int k = 0; k < kArcTrials && measured && job.carrier == Carrier::kArcs &&
+  for (int k = 0; k < kArcTrials && measured && steps_at_joints(job.carrier) &&
                   measured->report.largest_width > *asked;
        ++k) {
     const double aim = kNarrowedArcs * tolerance * *asked / measured->report.largest_width;
@@ -893,7 +885,7 @@ std::optional<Fit> through_points_as_they_are(const PointSeries& series, const F
 
 Continuity wanted_continuity(const FitJob& job) {
   // what is preferred holds of the headings of the G2 contour
-  const bool smooth = job.carrier == Carrier::kSpiral && job.prefer == Prefer::kFair;
+  const bool smooth = can_be_g3(job.carrier) && job.prefer == Prefer::kFair;
   return smooth ? job.continuity.value_or(Continuity::kG3) : Continuity::kG2;
 }
 
@@ -902,7 +894,13 @@ namespace {
 Result<Fit> fit_as_asked(const PointSeries& series, const FitJob& job, FoundChains& chains,
                          Watch& watch) {
   if (watch.cancelled()) return fail(cancelled_error());
-  if (job.continuity == Continuity::kG3 && job.carrier != Carrier::kSpiral) {
+  if (info_of(job.carrier).needs == CarrierNeeds::kDrawing) {
+    return error(ErrorCode::kBadOption,
+                 fmt::format("carrier {} is what drawings have", to_string(job.carrier)))
+        .where("--carrier")
+        .hint("name a carrier that is formed");
+  }
+  if (job.continuity == Continuity::kG3 && !can_be_g3(job.carrier)) {
     return error(ErrorCode::kBadOption,
                  fmt::format("carrier {} has no continuous slope of curvature",
                              to_string(job.carrier)))
@@ -943,7 +941,7 @@ Result<Fit> pipeline_detail::fit_with(const PointSeries& series, const FitJob& j
                                       FoundChains& chains, Watch& watch) {
   const auto begin = std::chrono::steady_clock::now();
   auto made = fit_as_asked(series, job, chains, watch);
-  if (made || job.carrier != Carrier::kBeziers) return made;
+  if (made || !info_of(job.carrier).wants_room) return made;
   if (wants_room(job, made.error())) {
     made = with_room(job, "this one is", std::move(made), [&](const FitJob& wider) {
       FoundChains others;

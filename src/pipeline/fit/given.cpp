@@ -11,6 +11,7 @@
 #include "obvid/curve/internal/end_curvatures.h"
 #include "obvid/curve/internal/nearest.h"
 #include "obvid/geom/internal/value_range.h"
+#include "obvid/series/point_series.h"
 
 namespace obvid::pipeline_detail {
 namespace {
@@ -165,7 +166,7 @@ class GivenCheck {
     const double within = kSameCurvature * end_scale(sides, end);
     const auto at_end = [&](double here) { return std::abs(here - end) <= within; };
     // the point of arcs has all curvatures between both
-    if (contour_.carrier == Carrier::kArcs) return at_end(nearest_curvature(sides, kappas));
+    if (steps_at_joints(contour_.carrier)) return at_end(nearest_curvature(sides, kappas));
     return std::any_of(sides.begin(), sides.end(),
                        [&](const Side& side) { return at_end(curvature_at(side)); });
   }
@@ -203,7 +204,7 @@ class GivenCheck {
       at.low = std::min(at.low, here);
       at.high = std::max(at.high, here);
     }
-    if (contour_.carrier == Carrier::kArcs) {
+    if (steps_at_joints(contour_.carrier)) {
       const double from = std::max(at.low, kappas.low), to = std::min(at.high, kappas.high);
       if (from > to) return at.high < kappas.low ? at.high : at.low;
       return 0.5 * (from + to);
@@ -235,7 +236,7 @@ class GivenCheck {
         scale = std::max(scale, std::abs(curvature(evaluate(*side.piece, end))));
       }
     }
-    const bool between = contour_.carrier == Carrier::kArcs;
+    const bool between = steps_at_joints(contour_.carrier);
     const double miss = between ? std::max({0.0, low - kappa, kappa - high})
                                 : std::max(std::abs(low - kappa), std::abs(high - kappa));
     return miss > 0.0 ? miss / scale : 0.0;

@@ -279,7 +279,8 @@ Error unknown_name(const std::string& typed, const std::vector<std::string>& nam
 }
 
 Result<Carrier> carrier_named(const std::string& typed) {
-  if (const auto carrier = carrier_of(typed)) return *carrier;
+  const auto carrier = carrier_of(typed);
+  if (carrier && info_of(*carrier).needs != CarrierNeeds::kDrawing) return *carrier;
   std::vector<std::string> names;
   std::string all;
   for (const Carrier one : kAllCarriers) {

@@ -10,10 +10,12 @@
 #include "fit/prepare.h"
 #include "fit/section_chain.h"
 #include "fit/wandering.h"
-#include "form.h"
+#include "fit/form.h"
 #include "obvid/certify/certify.h"
 #include "obvid/chain/internal/chain_part.h"
 #include "obvid/chain/internal/smooth_chain.h"
+#include "obvid/contour/spirals/over_chain.h"
+#include "obvid/curve/internal/end_curvatures.h"
 #include "obvid/curve/internal/runs.h"
 
 namespace obvid {
@@ -28,7 +30,7 @@ constexpr std::size_t kWanderingContext = 4;
 /// element to a point.
 bool follows_points(const PointSeries& series, const FitJob& job, const Prepared& prepared) {
   const SplitSeries& split = prepared.split;
-  if (job.carrier != Carrier::kSpiral || job.convex || job.primitives || !prepared.exact() ||
+  if (follows_spirals(job.carrier) || job.convex || job.primitives || !prepared.exact() ||
       !prepared.kept.empty() || !prepared.fixed.empty() || split.sections.size() != 1 ||
       prepared.points.size() != series.points.size() || prepared.closed != split.smooth_loop) {
     return false;
@@ -139,7 +141,7 @@ std::optional<LiveFit::Change> LiveFit::move_part(std::size_t point, Watch& watc
   const std::size_t from = at_start ? 0 : changed->first - 1, to = at_end ? end : changed->last + 1;
   const std::size_t first = from - std::min<std::size_t>(from, 1), last = std::min(end, to + 1);
   const SeriesChain slice = slice_of(chain, first, last);
-  auto part = form_spirals(series_.points, slice);
+  auto part = spirals_over(series_.points, slice);
   if (!part) return std::nullopt;
   keep_joint_curvatures(*part);
   keep_joint_slopes(slice, *part);

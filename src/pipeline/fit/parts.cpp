@@ -40,7 +40,7 @@ class Stations {
  private:
   /// Adds a station, and before it those of the points between the last one and it.
   void reach(const Station& next) {
-    if (passes_between_joints(contour_.carrier) && !stations_.empty()) add_feet(next);
+    if (info_of(contour_.carrier).between_joints && !stations_.empty()) add_feet(next);
     stations_.push_back(next);
   }
 
@@ -109,16 +109,6 @@ std::vector<Part> parts_of(const Contour& contour) {
     parts.push_back(part);
   }
   return parts;
-}
-
-std::vector<int> piece_directions(const Contour& contour) {
-  std::vector<int> direction(contour.pieces.size(), 0);
-  for (const Run& run : contour.runs) {
-    for (std::size_t i = run.first_piece; i <= run.last_piece && i < direction.size(); ++i) {
-      direction[i] = run.direction;
-    }
-  }
-  return direction;
 }
 
 }  // namespace obvid::pipeline_detail

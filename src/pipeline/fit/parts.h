@@ -20,17 +20,8 @@ struct Part {
 };
 
 /// Parts in order along the whole contour. Stations are the joints that stand on points; carriers
-/// whose joints do not (`passes_between_joints`) have one at the place nearest to each point too,
+/// whose joints do not (`CarrierInfo::between_joints`) have one at the place nearest to each point too,
 /// as far as these places follow each other in the order of the points.
 [[nodiscard]] std::vector<Part> parts_of(const Contour& contour);
-
-/// Whether points that are no joints are passed within a tolerance, the contour following the
-/// spirals: `bspline`, `cubic`.
-[[nodiscard]] constexpr bool passes_between_joints(Carrier carrier) {
-  return carrier == Carrier::kBspline || carrier == Carrier::kCubic;
-}
-
-/// Direction of every piece: its run's.
-[[nodiscard]] std::vector<int> piece_directions(const Contour& contour);
 
 }  // namespace obvid::pipeline_detail

@@ -6,7 +6,8 @@
 #include <numbers>
 
 #include "fit/parts.h"
-#include "form.h"
+#include "fit/form.h"
+#include "obvid/curve/internal/runs.h"
 #include "obvid/region/internal/boundary_distance.h"
 #include "obvid/region/internal/segment_region.h"
 

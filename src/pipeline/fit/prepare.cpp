@@ -68,7 +68,7 @@ class Preparation {
           .where("--prefer")
           .hint("leave it out: the fairest is taken");
     };
-    if (job_.carrier == Carrier::kBaseline) {
+    if (info_of(job_.carrier).needs == CarrierNeeds::kPoints) {
       return refused("the spline of CAD systems leaves nothing to prefer");
     }
     if (!out_.exact())

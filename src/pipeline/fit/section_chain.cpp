@@ -15,7 +15,7 @@
 #include "fit/more_vertices.h"
 #include "fit/series_ranges.h"
 #include "fit/wandering.h"
-#include "form.h"
+#include "fit/form.h"
 #include "obvid/core/internal/figures.h"
 #include "obvid/fairing/internal/fairing.h"
 #include "obvid/geom/internal/angle.h"

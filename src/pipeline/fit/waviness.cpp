@@ -117,7 +117,7 @@ std::optional<double> Waviness::value() const {
 }
 
 std::optional<double> waviness(const Contour& contour) {
-  if (!promises_monotone(contour.carrier) || contour.carrier == Carrier::kArcs) return std::nullopt;
+  if (!promises_monotone(contour.carrier) || steps_at_joints(contour.carrier)) return std::nullopt;
   Waviness whole;
   whole.add(contour, contour.closed && !contour.joints.empty() && !contour.joints.front().leaving);
   return whole.value();

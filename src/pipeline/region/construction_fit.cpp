@@ -109,7 +109,7 @@ class ConstructionContour {
   /// curvature.
   void part_at(Joint& joint, std::size_t k) const {
     const Element after = joint.element, before = element(k - 1, 1.0, after.theta);
-    if (out_.carrier == Carrier::kArcs) {
+    if (steps_at_joints(out_.carrier)) {
       joint.element.kappa = reached(k - 1, before.kappa, after.kappa);
     }
     const bool turns = std::abs(after.theta - before.theta) > kSameAtJoint;
@@ -127,7 +127,7 @@ class ConstructionContour {
 
   /// Measured by what both pieces have: at an inflection curvatures are rounding.
   [[nodiscard]] bool steps(std::size_t piece, double before, std::size_t next, double after) const {
-    if (out_.carrier == Carrier::kArcs) return false;
+    if (steps_at_joints(out_.carrier)) return false;
     const double larger =
         std::max({std::abs(before), std::abs(after), std::abs(element(piece, 0.0, 0.0).kappa),
                   std::abs(element(next, 1.0, 0.0).kappa)});
@@ -143,7 +143,7 @@ class ConstructionContour {
     const std::size_t piece = made_.pieces.size() - 1;
     if (std::abs(turn) <= kSameAtJoint &&
         !steps(piece, last.element.kappa, 0, first.element.kappa)) {
-      if (out_.carrier == Carrier::kArcs) {
+      if (steps_at_joints(out_.carrier)) {
         first.element.kappa = reached(piece, last.element.kappa, first.element.kappa);
       }
       return;
@@ -157,7 +157,7 @@ class ConstructionContour {
   [[nodiscard]] std::vector<int> directions() const {
     std::vector<int> out;
     for (std::size_t k = 0; k < made_.pieces.size(); ++k) {
-      const bool arcs = out_.carrier == Carrier::kArcs;
+      const bool arcs = steps_at_joints(out_.carrier);
       out.push_back(arcs ? row_of(k).direction.value_or(0)
                          : direction_of(prove_piece(made_.pieces[k]).verdict));
     }

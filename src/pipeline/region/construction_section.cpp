@@ -6,8 +6,9 @@
 #include <cmath>
 #include <cstdint>
 
-#include "form.h"
+#include "fit/form.h"
 #include "obvid/chain/internal/series_chain.h"
+#include "obvid/contour/spirals/over_chain.h"
 #include "obvid/geom/internal/angle.h"
 #include "obvid/pipeline/internal/region_files.h"
 #include "obvid/region/internal/feasible_data.h"
@@ -126,7 +127,7 @@ Result<std::vector<Piece>> spirals_between(const Element& start, const Element& 
   const std::vector<Vec2> points = link.points;
   const auto chain = follow_directions(std::move(link), nobody);
   OBVID_TRY(chain);
-  auto spirals = form_spirals(points, *chain);
+  auto spirals = spirals_over(points, *chain);
   OBVID_TRY(spirals);
   return std::move(spirals->pieces);
 }

@@ -13,8 +13,9 @@
 #include "fit/prepare.h"
 #include "fit/section_chain.h"
 #include "fit/series_ranges.h"
-#include "form.h"
+#include "fit/form.h"
 #include "obvid/contour/clothoids.h"
+#include "obvid/contour/common/internal/carry.h"
 #include "obvid/geom/internal/angle.h"
 #include "obvid/geom/internal/value_range.h"
 #include "obvid/region/internal/boundary_distance.h"
@@ -322,9 +323,15 @@ class PartMaker {
   /// The spline of CAD systems has one piece to a segment.
   void add_spline() {
     if (s_.loop || s_.points.size() < 4) return;
-    std::vector<std::size_t> source;
-    for (std::size_t i = 0; i < s_.points.size(); ++i) source.push_back(i);
-    const auto spline = form_baseline(s_.points, source, false, std::nullopt, std::nullopt);
+    Contour joints;
+    for (std::size_t i = 0; i < s_.points.size(); ++i) {
+      joints.joints.push_back({{s_.points[i], 0.0, 0.0}, i});
+    }
+    Watch nobody;
+    const SeriesChain none;
+    const std::vector<GivenDatum> no_data;
+    const auto spline = contour_detail::carry_baseline(
+        joints, {.points = s_.points, .chain = none, .given = no_data, .watch = nobody});
     if (!spline || spline->contour.pieces.size() + 1 != s_.points.size()) return;
     for (RegionRow& row : out_.rows) {
       if (!row.region || row.direction == 0) continue;

@@ -1,15 +1,18 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <fmt/format.h>
 
+#include <array>
+#include <utility>
+
+#include "files/format_writers.h"
 #include "obvid/exchange/internal/dxf/space.h"
 #include "obvid/pipeline/space_fit.h"
 
 namespace obvid {
+namespace pipeline_detail {
 namespace {
 
 constexpr std::size_t kSpaceSamples = 200;  // docs/cli.md: --samples
-constexpr const char* kSpaceEndings =
-    ".json (everything), .step, .iges, .brep, .dxf, .csv (samples), .sldcrv (points)";
 
 Exported one_space_file(std::string text) {
   Exported out;
@@ -29,39 +32,68 @@ Exported points_files(const SpaceChain& chain, std::size_t samples) {
   return out;
 }
 
+std::size_t samples_in_space(const SpaceExport& e) {
+  return e.options.samples.count.value_or(kSpaceSamples);
+}
+
+Result<Exported> space_of_kernel(const SpaceExport& e, CadFormat format) {
+  CadWriteOptions write;
+  write.units = e.chain.units.name;
+  write.face_width = e.options.face_width;
+  write.format = format;
+  std::vector<CadCurve> curves;
+  for (std::size_t k = 0; k < e.nurbs.size(); ++k) {
+    const bool one = e.nurbs.size() == 1;
+    curves.push_back({one ? "contour" : fmt::format("contour, part {}", k + 1), e.nurbs[k].curve});
+  }
+  auto text = cad_text(curves, write);
+  OBVID_TRY(text);
+  return one_space_file(std::move(*text));
+}
+
 }  // namespace
+
+Result<Exported> space_as_json(const SpaceExport& e) {
+  return one_space_file(space_chain_json(e.chain, e.nurbs));
+}
+Result<Exported> space_as_samples(const SpaceExport& e) {
+  return one_space_file(space_samples_csv(e.chain, samples_in_space(e)));
+}
+Result<Exported> space_as_sldcrv(const SpaceExport& e) {
+  return points_files(e.chain, samples_in_space(e));
+}
+Result<Exported> space_as_dxf(const SpaceExport& e) {
+  std::vector<SpaceCurve> curves;
+  for (const SpaceNurbs& one : e.nurbs) curves.push_back(one.curve);
+  return one_space_file(space_dxf(curves, e.chain.points, e.chain.units));
+}
+Result<Exported> space_as_step(const SpaceExport& e) { return space_of_kernel(e, e.options.step); }
+Result<Exported> space_as_iges(const SpaceExport& e) {
+  return space_of_kernel(e, CadFormat::kIges);
+}
+Result<Exported> space_as_brep(const SpaceExport& e) {
+  return space_of_kernel(e, CadFormat::kBrep);
+}
+
+Result<Exported> space_as_none(const SpaceExport&) { return fail(not_held_by_format()); }
+
+SpaceWriter space_writer_of(FileFormat format) {
+  constexpr std::array kWriters = {
+#define OBVID_FORMAT(enumerator, endings, contours, surfaces, curves, ...) &space_as_##curves,
+#include "obvid/pipeline/formats.inc"
+#undef OBVID_FORMAT
+  };
+  return kWriters[static_cast<std::size_t>(format)];
+}
+
+}  // namespace pipeline_detail
 
 Result<Exported> export_space(const SpaceChain& chain, const std::vector<SpaceNurbs>& nurbs,
                               const std::string& ending, const ExportOptions& options) {
-  const std::size_t samples = options.samples.count.value_or(kSpaceSamples);
-  if (ending == ".json") return one_space_file(space_chain_json(chain, nurbs));
-  if (ending == ".csv") return one_space_file(space_samples_csv(chain, samples));
-  if (ending == ".sldcrv") return points_files(chain, samples);
-  if (ending == ".dxf") {
-    std::vector<SpaceCurve> curves;
-    for (const SpaceNurbs& one : nurbs) curves.push_back(one.curve);
-    return one_space_file(space_dxf(curves, chain.points, chain.units));
-  }
-  CadWriteOptions write;
-  write.units = chain.units.name;
-  write.face_width = options.face_width;
-  write.format = options.step;
-  const bool step = ending == ".step" || ending == ".stp";
-  const bool iges = ending == ".iges" || ending == ".igs";
-  if (iges) write.format = CadFormat::kIges;
-  if (ending == ".brep") write.format = CadFormat::kBrep;
-  if (step || iges || ending == ".brep") {
-    std::vector<CadCurve> curves;
-    for (std::size_t k = 0; k < nurbs.size(); ++k) {
-      const bool one = nurbs.size() == 1;
-      curves.push_back({one ? "contour" : fmt::format("contour, part {}", k + 1), nurbs[k].curve});
-    }
-    auto text = cad_text(curves, write);
-    OBVID_TRY(text);
-    return one_space_file(std::move(*text));
-  }
+  const auto format = space_format_of(ending);
+  if (format) return pipeline_detail::space_writer_of(*format)({chain, nurbs, options});
   return error(ErrorCode::kUnknownFormat, "no file with this extension holds a curve in space")
-      .hint(std::string("possible are ") + kSpaceEndings +
+      .hint("possible are " + known_space_endings() +
             "; --flat forms the contour in the plane of x and y");
 }
 

@@ -471,7 +471,7 @@ Result<SpaceFit> form_in_space(const SpaceSeries& series, const SpaceJob& job,
                                const SpaceEnds& ends, const RunContext& run) {
   const PlaneOfSpace plane = plane_of_space(series, job, ends);
   if (plane.holds) return planar_fit(series, job, ends, plane.frame, plane.flatness, run);
-  if (job.fit.carrier != Carrier::kSpiral) {
+  if (follows_spirals(job.fit.carrier)) {
     return fail(of_space(ErrorCode::kBadOption, "a curve that lies in no plane is made of spirals",
                          "leave --carrier out"));
   }

@@ -162,7 +162,7 @@ Result<FittedSkin> fit_skin(const std::vector<SpaceSeries>& given, const SkinJob
       OBVID_TRY(contour);
       result.proved += contour->certificate.proved ? 1 : 0;
       result.smooth += has_continuous_slopes(*contour) ? 1 : 0;
-      result.plain += contour->contour.carrier == Carrier::kBaseline ? 1 : 0;
+      result.plain += promises_monotone(contour->contour.carrier) ? 0 : 1;
       section.section.contour = std::move(contour->contour);
       close(section.section);
     } else {

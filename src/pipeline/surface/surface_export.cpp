@@ -5,166 +5,184 @@
 
 #include <algorithm>
 #include <array>
-#include <cctype>
 #include <numbers>
 #include <utility>
 
 #include "files/file_units.h"
+#include "files/format_writers.h"
 #include "obvid/exchange/internal/mesh/files.h"
 #include "obvid/io/surface_json.h"
 #include "obvid/pipeline/internal/surface_report_json.h"
 
 namespace obvid {
+namespace pipeline_detail {
 namespace {
-
-struct SurfaceEnding {
-  const char* ending;
-  SurfaceFormat format;
-  const char* what;  ///< empty for a second ending of the format before
-};
-
-constexpr std::array kSurfaceEndings = {
-    SurfaceEnding{".json", SurfaceFormat::kSurface, "surface"},
-    SurfaceEnding{".step", SurfaceFormat::kStep, "STEP"},
-    SurfaceEnding{".stp", SurfaceFormat::kStep, ""},
-    SurfaceEnding{".iges", SurfaceFormat::kIges, "IGES"},
-    SurfaceEnding{".igs", SurfaceFormat::kIges, ""},
-    SurfaceEnding{".brep", SurfaceFormat::kBrep, "BREP"},
-    SurfaceEnding{".stl", SurfaceFormat::kStl, "STL triangles"},
-    SurfaceEnding{".obj", SurfaceFormat::kObj, "OBJ triangles"},
-    SurfaceEnding{".glb", SurfaceFormat::kGlb, "glTF"},
-    SurfaceEnding{".ply", SurfaceFormat::kPly, "PLY triangles"},
-    SurfaceEnding{".html", SurfaceFormat::kPage, "page for browsers"},
-    SurfaceEnding{".svg", SurfaceFormat::kPicture, "picture"},
-};
 
 constexpr double kDefaultChordTolerance = 1e-3;  ///< of the size: not seen on a screen
 constexpr double kDefaultAngle = 15.0 * std::numbers::pi / 180.0;
 
+/// What is written, with what is to be said of its units: where they are refused, nothing is.
+template <class Make>
+Result<std::string> surface_in_units(SurfaceExport& e, std::vector<std::string>& remarks,
+                                     UnitRule rule, const char* kind, std::string_view written,
+                                     const Make& make) {
+  auto notes = unit_notes(e.model.units, rule, kind, written);
+  OBVID_TRY(notes);
+  Result<std::string> text = make();
+  if (!text) return text;
+  for (std::string& one : notes->remarks) remarks.push_back(std::move(one));
+  for (std::string& one : notes->warnings) e.warnings.push_back(std::move(one));
+  return text;
+}
+
+/// Files without a place for a unit, or that state the one that we have.
+template <class Make>
+Result<std::string> surface_as_it_is(SurfaceExport& e, std::vector<std::string>& remarks,
+                                     const Make& make) {
+  return surface_in_units(e, remarks, UnitRule::kNone, "", e.model.units.name, make);
+}
+
+Result<std::string> surface_of_kernel(const SurfaceExport& e, CadFormat format) {
+  const auto held = kernel_holds(size_of(e.model), e.model.units, format == CadFormat::kBrep,
+                                 "write .json, .obj, .glb or .ply");
+  OBVID_TRY(held);
+  CadWriteOptions cad;
+  cad.units = e.model.units.name;
+  cad.format = format;
+  return cad_surface_text(e.model, cad);
+}
+
+/// A file made of triangles: `make` is called when they are there.
+template <class Make>
+Result<std::string> of_triangles(SurfaceExport& e, std::vector<std::string>& remarks,
+                                 const Make& make) {
+  OBVID_TRY(e.tessellate_once(remarks));
+  return make();
+}
+
 }  // namespace
 
-std::optional<SurfaceFormat> surface_format_of(std::string_view path) {
-  std::string lower(path);
-  std::transform(lower.begin(), lower.end(), lower.begin(),
-                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  for (const SurfaceEnding& ending : kSurfaceEndings) {
-    if (lower.ends_with(ending.ending)) return ending.format;
-  }
-  return std::nullopt;
+const std::optional<CurvatureExtremes>& SurfaceExport::extremes() {
+  if (!options.extremes && !model.patches.empty()) options.extremes = extremes_of(model);
+  return options.extremes;
 }
 
-std::string known_surface_endings() {
-  std::string all;
-  for (const SurfaceEnding& ending : kSurfaceEndings) {
-    if (*ending.what == '\0') continue;
-    all += fmt::format("{}{} ({})", all.empty() ? "" : ", ", ending.ending, ending.what);
-  }
-  return all;
-}
-
-SurfaceExporter::SurfaceExporter(const SurfaceModel& model, const SurfaceExportOptions& options,
-                                 RunContext run)
-    : model_(model), options_(options), run_(std::move(run)) {}
-
-const std::optional<CurvatureExtremes>& SurfaceExporter::extremes() {
-  if (!options_.extremes && !model_.patches.empty()) options_.extremes = extremes_of(model_);
-  return options_.extremes;
-}
-
-Result<void> SurfaceExporter::tessellated(std::vector<std::string>& remarks) {
-  if (!meshes_.empty()) return {};
-  TessellationOptions options;
-  options.chord_tolerance =
-      options_.chord_tolerance.value_or(kDefaultChordTolerance * size_of(model_));
-  options.angle = options_.angle > 0.0 ? options_.angle : kDefaultAngle;
-  auto made = tessellate(model_, options, run_);
+Result<void> SurfaceExport::tessellate_once(std::vector<std::string>& remarks) {
+  if (!meshes.empty()) return {};
+  TessellationOptions how;
+  how.chord_tolerance = options.chord_tolerance.value_or(kDefaultChordTolerance * size_of(model));
+  how.angle = options.angle > 0.0 ? options.angle : kDefaultAngle;
+  auto made = tessellate(model, how, run);
   OBVID_TRY(made);
-  meshes_ = std::move(*made);
+  meshes = std::move(*made);
   std::size_t triangles = 0;
   double deviation = 0.0;
-  for (const Mesh& mesh : meshes_) {
+  for (const Mesh& mesh : meshes) {
     triangles += mesh.triangles.size();
     deviation = std::max(deviation, mesh.deviation);
   }
   remarks.push_back(fmt::format("{} triangles within {:.3g} {} of the surface", triangles,
-                                deviation, model_.units.text()));
+                                deviation, model.units.text()));
   return {};
 }
 
-Result<std::string> SurfaceExporter::text(SurfaceFormat format, std::vector<std::string>& remarks) {
-  const bool step = format == SurfaceFormat::kStep, glb = format == SurfaceFormat::kGlb;
-  const bool length = step || glb || format == SurfaceFormat::kIges;
-  auto notes = pipeline_detail::unit_notes(
-      model_.units, length ? pipeline_detail::UnitRule::kLength : pipeline_detail::UnitRule::kNone,
-      step  ? "STEP files"
-      : glb ? "glTF files"
-            : "IGES files",
-      glb ? "m" : cad_unit(model_.units.name));
-  OBVID_TRY(notes);
-  auto text = made(format, remarks);
-  if (!text) return text;
-  for (std::string& one : notes->remarks) remarks.push_back(std::move(one));
-  for (std::string& one : notes->warnings) warnings_.push_back(std::move(one));
-  return text;
+Result<std::string> surface_as_json(SurfaceExport& e, std::vector<std::string>& remarks) {
+  return surface_as_it_is(e, remarks, [&] { return Result<std::string>(surface_json(e.model)); });
 }
 
-Result<std::string> SurfaceExporter::made(SurfaceFormat format, std::vector<std::string>& remarks) {
-  const bool kernel = format == SurfaceFormat::kStep || format == SurfaceFormat::kIges ||
-                      format == SurfaceFormat::kBrep;
-  const bool brep = format == SurfaceFormat::kBrep;
-  if (kernel) {
-    const auto held = pipeline_detail::kernel_holds(size_of(model_), model_.units, brep,
-                                                    "write .json, .obj, .glb or .ply");
-    OBVID_TRY(held);
-  }
-  const bool triangles = format == SurfaceFormat::kStl || format == SurfaceFormat::kObj ||
-                         format == SurfaceFormat::kGlb || format == SurfaceFormat::kPly ||
-                         format == SurfaceFormat::kPage;
-  if (triangles) {
-    OBVID_TRY(tessellated(remarks));
-  }
-  CadWriteOptions cad;
-  cad.units = model_.units.name;
-  switch (format) {
-    case SurfaceFormat::kSurface:
-      return surface_json(model_);
-    case SurfaceFormat::kStep:
-      cad.format = options_.step;
-      return cad_surface_text(model_, cad);
-    case SurfaceFormat::kIges:
-      cad.format = CadFormat::kIges;
-      return cad_surface_text(model_, cad);
-    case SurfaceFormat::kBrep:
-      cad.format = CadFormat::kBrep;
-      return cad_surface_text(model_, cad);
-    case SurfaceFormat::kStl:
+Result<std::string> surface_as_step(SurfaceExport& e, std::vector<std::string>& remarks) {
+  return surface_in_units(e, remarks, UnitRule::kLength, "STEP files", cad_unit(e.model.units.name),
+                          [&] { return surface_of_kernel(e, e.options.step); });
+}
+
+Result<std::string> surface_as_iges(SurfaceExport& e, std::vector<std::string>& remarks) {
+  return surface_in_units(e, remarks, UnitRule::kLength, "IGES files", cad_unit(e.model.units.name),
+                          [&] { return surface_of_kernel(e, CadFormat::kIges); });
+}
+
+Result<std::string> surface_as_brep(SurfaceExport& e, std::vector<std::string>& remarks) {
+  return surface_as_it_is(e, remarks, [&] { return surface_of_kernel(e, CadFormat::kBrep); });
+}
+
+Result<std::string> surface_as_stl(SurfaceExport& e, std::vector<std::string>& remarks) {
+  return surface_as_it_is(e, remarks, [&] {
+    return of_triangles(e, remarks, [&]() -> Result<std::string> {
       remarks.push_back(fmt::format("STL holds single precision: another {:.2g} {}",
-                                    single_precision_loss(meshes_), model_.units.text()));
-      return stl_text(model_, meshes_);
-    case SurfaceFormat::kObj:
-      return obj_mesh_text(model_, meshes_);
-    case SurfaceFormat::kGlb:
-      return glb_text(model_, meshes_);
-    case SurfaceFormat::kPly:
-      return ply_text(model_, meshes_);
-    case SurfaceFormat::kPage: {
+                                    single_precision_loss(e.meshes), e.model.units.text()));
+      return stl_text(e.model, e.meshes);
+    });
+  });
+}
+
+Result<std::string> surface_as_obj(SurfaceExport& e, std::vector<std::string>& remarks) {
+  return surface_as_it_is(e, remarks, [&] {
+    return of_triangles(
+        e, remarks, [&] { return Result<std::string>(obj_mesh_text(e.model, e.meshes)); });
+  });
+}
+
+Result<std::string> surface_as_glb(SurfaceExport& e, std::vector<std::string>& remarks) {
+  return surface_in_units(e, remarks, UnitRule::kLength, "glTF files", "m", [&] {
+    return of_triangles(e, remarks,
+                        [&] { return Result<std::string>(glb_text(e.model, e.meshes)); });
+  });
+}
+
+Result<std::string> surface_as_ply(SurfaceExport& e, std::vector<std::string>& remarks) {
+  return surface_as_it_is(e, remarks, [&] {
+    return of_triangles(e, remarks,
+                        [&] { return Result<std::string>(ply_text(e.model, e.meshes)); });
+  });
+}
+
+Result<std::string> surface_as_page(SurfaceExport& e, std::vector<std::string>& remarks) {
+  return surface_as_it_is(e, remarks, [&] {
+    return of_triangles(e, remarks, [&]() -> Result<std::string> {
       PageOptions page;
-      page.colouring = options_.colouring;
-      page.view = options_.view;
-      page.lines = options_.lines;
-      page.extremes = extremes();
-      return surface_page(model_, meshes_, page, run_);
-    }
-    case SurfaceFormat::kPicture: {
-      SurfacePictureOptions picture;
-      picture.colouring = options_.colouring;
-      picture.view = options_.view;
-      picture.lines = options_.lines;
-      picture.extremes = extremes();
-      return surface_svg(model_, picture);
-    }
-  }
-  return error(ErrorCode::kInternal, "unknown format");
+      page.colouring = e.options.colouring;
+      page.view = e.options.view;
+      page.lines = e.options.lines;
+      page.extremes = e.extremes();
+      return surface_page(e.model, e.meshes, page, e.run);
+    });
+  });
+}
+
+Result<std::string> surface_as_svg(SurfaceExport& e, std::vector<std::string>& remarks) {
+  return surface_as_it_is(e, remarks, [&]() -> Result<std::string> {
+    SurfacePictureOptions picture;
+    picture.colouring = e.options.colouring;
+    picture.view = e.options.view;
+    picture.lines = e.options.lines;
+    picture.extremes = e.extremes();
+    return surface_svg(e.model, picture);
+  });
+}
+
+Result<std::string> surface_as_none(SurfaceExport&, std::vector<std::string>&) {
+  return fail(not_held_by_format());
+}
+
+SurfaceWriter surface_writer_of(FileFormat format) {
+  constexpr std::array kWriters = {
+#define OBVID_FORMAT(enumerator, endings, contours, surfaces, ...) &surface_as_##surfaces,
+#include "obvid/pipeline/formats.inc"
+#undef OBVID_FORMAT
+  };
+  return kWriters[static_cast<std::size_t>(format)];
+}
+
+}  // namespace pipeline_detail
+
+SurfaceExporter::SurfaceExporter(const SurfaceModel& model, const SurfaceExportOptions& options,
+                                 RunContext run)
+    : parts_(new pipeline_detail::SurfaceExport{model, options, std::move(run)}) {}
+SurfaceExporter::~SurfaceExporter() = default;
+
+const std::vector<std::string>& SurfaceExporter::warnings() const { return parts_->warnings; }
+
+Result<std::string> SurfaceExporter::text(FileFormat format, std::vector<std::string>& remarks) {
+  return pipeline_detail::surface_writer_of(format)(*parts_, remarks);
 }
 
 }  // namespace obvid

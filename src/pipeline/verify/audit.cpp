@@ -62,7 +62,7 @@ class Auditor {
   Auditor(const DrawnCurve& curve, const Units& units) {
     out_.label = curve.label;
     out_.contour.units = units;
-    out_.contour.carrier = Carrier::kBaseline;
+    out_.contour.carrier = Carrier::kImported;
     out_.contour.closed = curve.closed;
     out_.contour.pieces = curve.pieces;
     straighten_all();

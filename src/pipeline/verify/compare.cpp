@@ -25,7 +25,7 @@ Result<Fit> timed_fit(const PointSeries& series, const FitJob& job,
   if (!made) return made;
   median = made->report.seconds - made->report.comparing_seconds + chains.spared_seconds();
   // a baseline needs spirals for nothing but the comparison
-  if (median >= kLongEnough && job.carrier != Carrier::kBaseline) return made;
+  if (median >= kLongEnough && info_of(job.carrier).needs != CarrierNeeds::kPoints) return made;
   FitJob alone = job;
   alone.measure_against_spirals = false;
   std::vector<double> times;
@@ -47,7 +47,7 @@ int continuity_of(const Contour& contour, const Certificate& certificate) {
   // gaps below these are what rounding leaves (docs/methods/certify.md)
   constexpr double kSameHeading = 1e-7, kSameCurvature = 1e-4;
   if (certificate.gaps.heading > kSameHeading) return 0;
-  const bool steps = certificate.curvature_steps > 0 || contour.carrier == Carrier::kArcs;
+  const bool steps = certificate.curvature_steps > 0 || steps_at_joints(contour.carrier);
   if (certificate.gaps.curvature > kSameCurvature || steps) return 1;
   return contour.continuity == Continuity::kG3 && certificate.slope_steps == 0 ? 3 : 2;
 }
@@ -85,14 +85,7 @@ bool wants_other_spirals(const Result<Fit>& made, Carrier carrier, const Fit& sp
 /// takes one more.
 std::size_t saved_by_joint(Carrier carrier) {
   constexpr std::size_t kC2 = 3;
-  switch (carrier) {
-    case Carrier::kBspline:
-    case Carrier::kCubic:
-    case Carrier::kBaseline:
-      return kC2;
-    default:
-      return 1;
-  }
+  return info_of(carrier).one_spline ? kC2 : 1;
 }
 
 }  // namespace
@@ -125,7 +118,7 @@ Result<Comparison> compare_carriers(const PointSeries& series, const FitJob& job
     one.carrier = carrier;
     ComparedCarrier row;
     row.carrier = carrier;
-    if (carrier != Carrier::kSpiral) {
+    if (follows_spirals(carrier)) {
       if (job.continuity ==
           Continuity::kG3) {  // those that were made: they may have given way to G2
         one.followed = out.carriers.front().fit.contour.continuity;
@@ -145,12 +138,12 @@ Result<Comparison> compare_carriers(const PointSeries& series, const FitJob& job
         one.followed = Continuity::kG3;
       }
     }
-    row.followed = carrier == Carrier::kSpiral && made ? made->contour.continuity : one.followed;
+    row.followed = !follows_spirals(carrier) && made ? made->contour.continuity : one.followed;
     if (watch.was_cancelled()) {
       if (finished != nullptr) *finished = std::move(out);
       return fail(cancelled_error());
     }
-    if (!made && carrier == Carrier::kSpiral) return fail(made.error());
+    if (!made && !follows_spirals(carrier)) return fail(made.error());
     if (made) {
       row.fit = std::move(*made);
       row.control_points = control_points(row.fit.contour);

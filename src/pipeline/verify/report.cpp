@@ -10,8 +10,9 @@
 #include "fit/given.h"
 #include "fit/parts.h"
 #include "fit/waviness.h"
-#include "form.h"
+#include "fit/form.h"
 #include "obvid/certify/certify.h"
+#include "obvid/curve/internal/runs.h"
 #include "obvid/region/internal/farther_boundary.h"
 #include "obvid/region/internal/refine.h"
 #include "obvid/series/analysis.h"
@@ -95,7 +96,7 @@ class PartMeasure {
       return row;
     }
     bound_between_stations(part, row);
-    const bool pairs = !kept && contour_.carrier == Carrier::kArcs;
+    const bool pairs = !kept && steps_at_joints(contour_.carrier);
     pairs ? bound_arcs(part, row) : bound_pieces(part, row);
     return row;
   }
@@ -246,7 +247,7 @@ class PartMeasure {
 
   /// Both ends as the pieces have them; arcs leave a joint's curvature to its element.
   [[nodiscard]] ChordFrame frame_of(const Stretch& s, const Ends& e) const {
-    const bool arcs = contour_.carrier == Carrier::kArcs;
+    const bool arcs = steps_at_joints(contour_.carrier);
     const double start = arcs ? start_element(contour_, s.first).kappa : curvature(e.start);
     const double end = arcs ? end_element(contour_, s.last).kappa : curvature(e.end);
     return chord_frame(e.start.point, e.start.d1, start, e.end.point, e.end.d1, end);
@@ -444,7 +445,7 @@ void forget_unproved(const Certificate& certificate, const Contour& contour, Fit
   if (!certificate.gaps_within_bounds) {  // a kink is no part of a curve of monotone curvature
     for (SegmentReport& row : report.segments) row.points_only_error = kUnknown;
   }
-  if (contour.carrier == Carrier::kArcs) return;  // every piece is an arc: nothing to prove
+  if (steps_at_joints(contour.carrier)) return;  // every piece is an arc: nothing to prove
   const std::vector<int> direction = piece_directions(contour);
   const std::vector<Part> parts = parts_of(contour);
   const std::size_t rows = std::min(parts.size(), report.segments.size());

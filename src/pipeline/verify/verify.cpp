@@ -187,7 +187,7 @@ void compare_bound(const FitReport& claimed, const Certificate& found, ClaimChec
 
 /// Spirals follow nothing: no figure says how far from their spirals they are.
 void compare_with_spirals(const Contour& contour, const FitReport& claimed, ClaimCheck& c) {
-  if (contour.carrier != Carrier::kSpiral) return;
+  if (follows_spirals(contour.carrier)) return;
   constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
   if (claimed.carrier_deviation) c.refuse("carrier_deviation", *claimed.carrier_deviation, kNone);
   if (claimed.outside_spirals_region) {
@@ -223,7 +223,7 @@ void compare_cover(const Contour& contour, ClaimCheck& c) {
 /// lines and circles inside a run; arcs change at their joints only, by any amount.) Carriers that
 /// promise no monotone curvature have runs of pieces that are proved, all others in runs of 0.
 void compare_runs(const Contour& contour, const Certificate& found, ClaimCheck& c) {
-  if (contour.carrier == Carrier::kArcs) return;
+  if (steps_at_joints(contour.carrier)) return;
   if (!promises_monotone(contour.carrier)) compare_cover(contour, c);
   for (std::size_t r = 0; r < contour.runs.size(); ++r) {
     const Run& run = contour.runs[r];
@@ -252,11 +252,11 @@ std::vector<std::string> not_checked(const StoredContour& stored) {
     }
     out.emplace_back("/kept (only that such pieces are lines, arcs, ellipse arcs or clothoids)");
   }
-  if (stored.contour.carrier == Carrier::kArcs) {
+  if (steps_at_joints(stored.contour.carrier)) {
     out.emplace_back("/elements/*/kappa (only that it lies between both arcs)");
   }
   if (stored.report) {
-    if (stored.contour.carrier != Carrier::kSpiral) {  // the spirals are not in the file
+    if (follows_spirals(stored.contour.carrier)) {  // the spirals are not in the file
       out.emplace_back("/report/carrier_deviation");
       out.emplace_back("/report/outside_spirals_region");
     }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "obvid/curve/contour.h"
 #include "obvid/curve/pieces.h"
 
 namespace obvid {
@@ -28,5 +29,10 @@ enum class InnerWeights { kFixed, kFree };
 /// one's) stays as it is; one that is stored in plain coordinates may come out with an origin.
 /// End points stay; tangents at the ends turn by less than 2e-11 rad.
 void keep_end_curvatures(RationalBezier& piece, WantedCurvatures wanted, InnerWeights weights);
+
+/// Makes the stored curvatures of neighbouring Bezier pieces agree at their joint: both become that
+/// of the joint's element (`keep_end_curvatures`). Where a joint stands on no point its curvature
+/// is the one that the piece before it stores. For contours of one section, before their proof.
+void keep_joint_curvatures(Contour& contour);
 
 }  // namespace obvid

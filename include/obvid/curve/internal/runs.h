@@ -28,4 +28,15 @@ template <class Begins>
   return collect_runs(direction, [](std::size_t) { return false; });
 }
 
+/// Direction of every piece: its run's.
+[[nodiscard]] inline std::vector<int> piece_directions(const Contour& contour) {
+  std::vector<int> direction(contour.pieces.size(), 0);
+  for (const Run& run : contour.runs) {
+    for (std::size_t i = run.first_piece; i <= run.last_piece && i < direction.size(); ++i) {
+      direction[i] = run.direction;
+    }
+  }
+  return direction;
+}
+
 }  // namespace obvid

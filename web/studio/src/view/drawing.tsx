@@ -22,7 +22,7 @@ export const magnification = computed(() => {
 
 /** Curves whose curvature goes every way have no region. */
 function promisesNothing(carrier: string | undefined): boolean {
-  return carrier === "cubic" || carrier === "baseline";
+  return carrier === "cubic" || carrier === "baseline" || carrier === "imported";
 }
 
 /** The bar of curvatures that is dragged along stays as it was. */

@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <string>
+#include <utility>
 
-#include "form.h"
 #include "obvid/contour/clothoids.h"
+#include "obvid/contour/common/internal/carried_parts.h"
+#include "obvid/curve/internal/runs.h"
 
-namespace obvid::pipeline_detail {
+namespace obvid::contour_detail {
 namespace {
 
 tl::unexpected<Error> not_carried(const SeriesChain& chain, std::size_t link) {
@@ -19,15 +21,15 @@ tl::unexpected<Error> not_carried(const SeriesChain& chain, std::size_t link) {
 
 }  // namespace
 
-Result<Contour> form_clothoids(const std::vector<Vec2>& points, const SeriesChain& chain,
-                               Watch& watch) {
+Result<Carried> carry_clothoids(const Contour&, const CarryOptions& options) {
+  const SeriesChain& chain = options.chain;
   Contour contour;
   contour.carrier = Carrier::kClothoids;
-  contour.points = points;
+  contour.points = options.points;
   std::vector<int> direction;
   std::vector<ClothoidPiece> parts;
   for (std::size_t i = 0; i < chain.links.size(); ++i) {
-    if (watch.cancelled()) return fail(cancelled_error());
+    if (options.watch.cancelled()) return fail(cancelled_error());
     const Element &a = chain.elements[i], &b = chain.elements[i + 1];
     contour.joints.push_back({a, chain.source[i], {}});
     direction.push_back(chain.direction[i]);
@@ -49,7 +51,7 @@ Result<Contour> form_clothoids(const std::vector<Vec2>& points, const SeriesChai
   }
   contour.joints.push_back({chain.elements.back(), chain.source.back(), {}});
   contour.runs = collect_runs(direction);
-  return contour;
+  return Carried{std::move(contour)};
 }
 
-}  // namespace obvid::pipeline_detail
+}  // namespace obvid::contour_detail

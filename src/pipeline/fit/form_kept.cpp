@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <cmath>
 
-#include "form.h"
+#include "fit/form.h"
 #include "obvid/contour/conics.h"
 #include "obvid/geom/internal/angle.h"
 #include "obvid/region/internal/refine.h"

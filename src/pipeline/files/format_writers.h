@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "obvid/core/run_context.h"
+#include "obvid/mesh/mesh.h"
+#include "obvid/pipeline/export.h"
+#include "obvid/pipeline/space_fit.h"
+#include "obvid/pipeline/surface_export.h"
+
+namespace obvid::pipeline_detail {
+
+/// A contour that is written. Lengths in units of the contour.
+struct ContourExport {
+  const StoredContour& stored;
+  const Contour& contour;
+  const ExportOptions& options;
+  double size = 0.0;           ///< diagonal of its box
+  double tolerance = 0.0;      ///< of curves that the format cannot hold
+  double arc_tolerance = 0.0;  ///< of arcs, chords and samples
+};
+
+/// A surface that is written; what several files need is made once.
+struct SurfaceExport {
+  const SurfaceModel& model;
+  SurfaceExportOptions options;
+  RunContext run;
+  std::vector<Mesh> meshes{};
+  std::vector<std::string> warnings{};
+
+  [[nodiscard]] const std::optional<CurvatureExtremes>& extremes();
+  /// Fills `meshes`; tells how many triangles there are where it does.
+  [[nodiscard]] Result<void> tessellate_once(std::vector<std::string>& remarks);
+};
+
+/// A curve in space that is written.
+struct SpaceExport {
+  const SpaceChain& chain;
+  const std::vector<SpaceNurbs>& nurbs;
+  const ExportOptions& options;
+};
+
+[[nodiscard]] Error not_held_by_format();
+
+using ContourWriter = Result<Exported> (*)(const ContourExport& e);
+using SurfaceWriter = Result<std::string> (*)(SurfaceExport& e, std::vector<std::string>& remarks);
+using SpaceWriter = Result<Exported> (*)(const SpaceExport& e);
+
+#define OBVID_FORMAT(enumerator, endings, contours, surfaces, curves, ...)                        \
+  Result<Exported> contour_as_##contours(const ContourExport& e);                                 \
+  Result<std::string> surface_as_##surfaces(SurfaceExport& e, std::vector<std::string>& remarks); \
+  Result<Exported> space_as_##curves(const SpaceExport& e);
+#include "obvid/pipeline/formats.inc"
+#undef OBVID_FORMAT
+
+/// Who writes a format. Each of these tables lies beside its writers: what writes contours alone
+/// takes no others along (cmake/ObvidFirst.cmake).
+[[nodiscard]] ContourWriter contour_writer_of(FileFormat format);
+[[nodiscard]] SurfaceWriter surface_writer_of(FileFormat format);
+[[nodiscard]] SpaceWriter space_writer_of(FileFormat format);
+
+}  // namespace obvid::pipeline_detail

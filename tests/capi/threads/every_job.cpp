@@ -1,0 +1,271 @@
+// SPDX-License-Identifier: Apache-2.0
+// Runs every job of the C interface by itself, then from two threads at once over the same handles,
+// and compares what they say; then asks for the end of each in its middle, from two threads as well.
+// usage: every_job SOURCE_FOLDER
+#include <atomic>
+#include <cmath>
+#include <cstddef>
+#include <cstdio>
+#include <functional>
+#include <regex>
+#include <string>
+#include <thread>
+#include <utility>
+#include <vector>
+
+#include "obvid/obvid.h"
+
+namespace {
+
+std::atomic<int> faults{0};
+
+void fault(const std::string& job, const char* what) {
+  std::fprintf(stderr, "%s: %s\n", job.c_str(), what);
+  ++faults;
+}
+
+/// A text of the library, without the times in it.
+std::string taken(char* text) {
+  static const std::regex kSeconds("\"seconds\": [0-9.e+-]+");
+  std::string out = text == nullptr ? "" : std::regex_replace(text, kSeconds, "");
+  obvid_free(text);
+  return out;
+}
+
+std::string told(obvid_files* files) {
+  static const std::regex kSeconds("\"seconds\": [0-9.e+-]+");
+  std::string out;
+  for (std::size_t i = 0; files != nullptr && i < obvid_files_count(files); ++i) {
+    std::size_t size = 0;
+    const char* data = obvid_files_data(files, i, &size);
+    out += std::regex_replace(std::string(data, size), kSeconds, "");
+  }
+  obvid_files_free(files);
+  return out;
+}
+
+std::string code_text(int code) { return code == 0 ? "" : " E" + std::to_string(code); }
+
+struct Handles {
+  obvid_input *points = nullptr, *drawing = nullptr, *grid = nullptr, *rail = nullptr;
+  obvid_contour* contour = nullptr;
+  obvid_space* space = nullptr;
+  obvid_surface* surface = nullptr;
+};
+
+/// A job: what it says, and how it ended.
+struct Job {
+  std::string name;
+  std::function<std::string(const Handles&, const obvid_run*)> work;
+  bool asks = true;  ///< takes a run
+};
+
+using Report = int (*)(const obvid_input*, const char*, const obvid_run*, char**, obvid_error**);
+
+Job on_points(const char* name, Report job, const char* options, bool drawing = false) {
+  return {name, [=](const Handles& h, const obvid_run* run) {
+            char* text = nullptr;
+            const int code = job(drawing ? h.drawing : h.points, options, run, &text, nullptr);
+            return taken(text) + code_text(code);
+          }};
+}
+
+Job fit(const char* options) {
+  return {std::string("fit ") + options, [=](const Handles& h, const obvid_run* run) {
+            obvid_contour* contour = nullptr;
+            char* text = nullptr;
+            const int code = obvid_fit(h.points, options, run, &contour, &text, nullptr);
+            std::string out = taken(text) + code_text(code);
+            obvid_files* files = nullptr;
+            if (contour != nullptr && obvid_export(contour, "json", nullptr, &files, nullptr) == 0) {
+              out += told(files);
+            }
+            obvid_contour_free(contour);
+            return out;
+          }};
+}
+
+Job exported(const char* ending) {
+  return {std::string("export ") + ending,
+          [=](const Handles& h, const obvid_run*) {
+            obvid_files* files = nullptr;
+            const int code = obvid_export(h.contour, ending, nullptr, &files, nullptr);
+            return told(files) + code_text(code);
+          },
+          false};
+}
+
+Job surface_file(const char* ending) {
+  return {std::string("surface_export ") + ending, [=](const Handles& h, const obvid_run* run) {
+            obvid_files* files = nullptr;
+            const int code = obvid_surface_export(h.surface, ending, "{\"chord-tolerance\": 0.1}", run,
+                                                  &files, nullptr);
+            return told(files) + code_text(code);
+          }};
+}
+
+std::vector<Job> jobs() {
+  std::vector<Job> all = {
+      on_points("suggest", obvid_suggest, "{}"),
+      on_points("analyse", obvid_analyse, nullptr),
+      on_points("analyse a drawing", obvid_analyse, nullptr, true),
+      on_points("series", obvid_series, nullptr),
+      on_points("region", obvid_region, "{\"tolerance\": 0.1}"),
+      on_points("compare", obvid_compare, "{}"),
+      on_points("why_not", obvid_why_not, "{\"start-heading\": 170, \"end-heading\": 10}"),
+      {"worksheet", [](const Handles& h, const obvid_run* run) {
+         obvid_files* files = nullptr;
+         const int code = obvid_worksheet(h.points, nullptr, "csv", run, &files, nullptr);
+         return told(files) + code_text(code);
+       }},
+      {"stored", [](const Handles& h, const obvid_run* run) {
+         obvid_contour* contour = nullptr;
+         const int code = obvid_stored(h.drawing, nullptr, run, &contour, nullptr);
+         const std::size_t pieces = contour == nullptr ? 0 : obvid_contour_pieces(contour);
+         obvid_contour_free(contour);
+         return std::to_string(pieces) + code_text(code);
+       }},
+      {"verify", [](const Handles& h, const obvid_run* run) {
+         char* text = nullptr;
+         const int code = obvid_verify(h.contour, run, &text, nullptr);
+         return taken(text) + code_text(code);
+       }},
+      {"fit_space", [](const Handles& h, const obvid_run* run) {
+         char* text = nullptr;
+         const int code = obvid_fit_space(h.rail, nullptr, run, nullptr, &text, nullptr);
+         return taken(text) + code_text(code);
+       }},
+      {"verify_space",
+       [](const Handles& h, const obvid_run*) {
+         char* text = nullptr;
+         const int code = obvid_verify_space(h.space, &text, nullptr);
+         return taken(text) + code_text(code);
+       },
+       false},
+      {"surface_make", [](const Handles& h, const obvid_run* run) {
+         const obvid_input* inputs[] = {h.grid};
+         obvid_surface* surface = nullptr;
+         char* text = nullptr;
+         const int code = obvid_surface_make("grid", inputs, 1, nullptr, 0,
+                                             "{\"near\": true, \"tolerance\": 0.05}", run, &surface,
+                                             &text, nullptr);
+         obvid_surface_free(surface);
+         return taken(text) + code_text(code);
+       }},
+      {"surface_check", [](const Handles& h, const obvid_run* run) {
+         char* text = nullptr;
+         const int code = obvid_surface_check(h.surface, "{\"samples\": 12}", run, &text, nullptr);
+         return taken(text) + code_text(code);
+       }},
+      {"surface_toolpath", [](const Handles& h, const obvid_run* run) {
+         obvid_files* files = nullptr;
+         char* text = nullptr;
+         const int code = obvid_surface_toolpath(
+             h.surface, "{\"diameter\": 6, \"scallop\": 0.3, \"tolerance\": 0.1}", run, &files,
+             &text, nullptr);
+         return told(files) + taken(text) + code_text(code);
+       }}};
+  for (const char* options : {"{}", "{\"carrier\": \"arcs\", \"tolerance\": 0.01}",
+                              "{\"carrier\": \"conics\"}", "{\"carrier\": \"beziers\"}",
+                              "{\"carrier\": \"clothoids\"}", "{\"carrier\": \"bspline\"}",
+                              "{\"carrier\": \"cubic\"}", "{\"carrier\": \"baseline\"}",
+                              "{\"construction\": \"arcs\"}", "{\"noise\": 0.05}"}) {
+    all.push_back(fit(options));
+  }
+  for (const char* ending : {"svg", "step", "dxf", "nc", "csv", "obj"}) {
+    all.push_back(exported(ending));
+  }
+  for (const char* ending : {"json", "stl", "glb", "html", "svg"}) {
+    all.push_back(surface_file(ending));
+  }
+  return all;
+}
+
+/// Says yes to the question of this number and does not expect another.
+struct Ending {
+  int left = 0;
+  bool ended = false;
+};
+
+int ends(void* user) {
+  auto* const ending = static_cast<Ending*>(user);
+  ending->ended = ending->ended || ending->left-- <= 0;
+  return ending->ended ? 1 : 0;
+}
+
+/// Cancelled at its questions 0, 1 and 3: there is nothing, or all of it where it asks less often.
+void end_in_the_middle(const Job& job, const Handles& h, const std::string& wanted) {
+  if (!job.asks) return;
+  for (const int after : {0, 1, 3}) {
+    Ending ending{after};
+    const obvid_run run{&ending, nullptr, ends};
+    const std::string got = job.work(h, &run);
+    const std::string cancelled = code_text(OBVID_CANCELLED);
+    const bool nothing = got == cancelled || got == "0" + cancelled;
+    if (ending.ended ? !nothing : got != wanted) fault(job.name, "its end left something behind");
+  }
+}
+
+/// Both threads do `work` for every job, one forwards and one backwards.
+void from_two_threads(std::size_t count, const std::function<void(std::size_t)>& work) {
+  std::thread other([&] {
+    for (std::size_t i = count; i-- > 0;) work(i);
+  });
+  for (std::size_t i = 0; i < count; ++i) work(i);
+  other.join();
+}
+
+bool prepare(const std::string& folder, Handles& h) {
+  const auto read = [&](const char* name, obvid_input** input) {
+    return obvid_read_file((folder + name).c_str(), input, nullptr) == 0;
+  };
+  std::vector<double> helix;
+  for (int k = 0; k < 8; ++k) {
+    helix.insert(helix.end(), {10.0 * std::cos(0.4 * k), 10.0 * std::sin(0.4 * k), 1.5 * k});
+  }
+  const obvid_input* grid[1] = {nullptr};
+  if (!read("/examples/series10.csv", &h.points) ||
+      !read("/tests/data/judge/series10.dxf", &h.drawing) ||
+      !read("/examples/surfaces/wavy_grid.csv", &h.grid)) {
+    return false;
+  }
+  grid[0] = h.grid;
+  return obvid_space_points(helix.data(), 8, &h.rail, nullptr) == 0 &&
+         obvid_fit(h.points, nullptr, nullptr, &h.contour, nullptr, nullptr) == 0 &&
+         obvid_fit_space(h.rail, nullptr, nullptr, &h.space, nullptr, nullptr) == 0 &&
+         obvid_surface_make("grid", grid, 1, nullptr, 0, nullptr, nullptr, &h.surface, nullptr,
+                            nullptr) == 0;
+}
+
+}  // namespace
+
+int main(int count, char** arguments) {
+  Handles h;
+  if (count != 2) {
+    std::fprintf(stderr, "usage: every_job SOURCE_FOLDER\n");
+    return 2;
+  }
+  if (!prepare(arguments[1], h)) {
+    std::fprintf(stderr, "every_job: what the jobs work on could not be made\n");
+    return 1;
+  }
+  const std::vector<Job> all = jobs();
+  std::vector<std::string> wanted;
+  for (const Job& job : all) {
+    wanted.push_back(job.work(h, nullptr));
+    if (wanted.back().empty()) fault(job.name, "says nothing");
+  }
+  from_two_threads(all.size(), [&](std::size_t i) {
+    if (all[i].work(h, nullptr) != wanted[i]) fault(all[i].name, "says something else beside another job");
+  });
+  from_two_threads(all.size(), [&](std::size_t i) { end_in_the_middle(all[i], h, wanted[i]); });
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    if (all[i].work(h, nullptr) != wanted[i]) fault(all[i].name, "says something else after all ends");
+  }
+  obvid_surface_free(h.surface);
+  obvid_space_free(h.space);
+  obvid_contour_free(h.contour);
+  for (obvid_input* input : {h.points, h.drawing, h.grid, h.rail}) obvid_input_free(input);
+  std::printf("%zu jobs, %d faults\n", all.size(), faults.load());
+  return faults == 0 ? 0 : 1;
+}

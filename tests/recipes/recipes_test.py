@@ -1,0 +1,92 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
+"""Each example below tests/recipes goes into a copy of the project. It touches the places that its recipe in
+docs/conventions.md names and no others, and layers and names stay in order.
+
+usage: recipes_test.py PROJECT_FOLDER [COPY]     COPY: a folder to keep the project with all examples in
+"""
+import json
+import pathlib
+import re
+import shutil
+import subprocess
+import sys
+import tempfile
+import unittest
+
+ROOT = pathlib.Path(sys.argv[1]).resolve()
+EXAMPLES = sorted(path.parent for path in (ROOT / "tests/recipes").glob("*/lines.json"))
+
+
+def copy_project(to):
+    names = subprocess.run(["git", "-C", str(ROOT), "ls-files", "-co", "--exclude-standard", "-z"],
+                           capture_output=True, text=True, check=False).stdout.split("\0")
+    if not any(names):
+        names = [str(p.relative_to(ROOT)) for p in ROOT.rglob("*") if p.is_file() and "build" not in p.parts]
+    for name in filter(None, names):
+        if (ROOT / name).is_file():
+            (to / name).parent.mkdir(parents=True, exist_ok=True)
+            shutil.copy2(ROOT / name, to / name)
+
+
+def put_in(example, project):
+    """Puts an example into a project; the places it touches, and how many lines it adds to files that are there."""
+    touched, lines = set(), 0
+    for path in example.rglob("*"):
+        name = path.relative_to(example).as_posix()
+        if path.is_file() and name != "lines.json":
+            assert not (project / name).exists(), name
+            (project / name).parent.mkdir(parents=True, exist_ok=True)
+            shutil.copy2(path, project / name)
+            touched.add(name)
+    for name, added in json.loads((example / "lines.json").read_text(encoding="utf-8")).items():
+        text = (project / name).read_text(encoding="utf-8")
+        (project / name).write_text(text + "\n".join(added) + "\n", encoding="utf-8")
+        touched.add(name)
+        lines += len(added)
+    return touched, lines
+
+
+def places_of(kind):
+    """Patterns of the places that the recipe names."""
+    text = (ROOT / "docs/conventions.md").read_text(encoding="utf-8")
+    section = re.search(rf"^### A new {kind}\n(.*?)(?=^##)", text, re.DOTALL | re.MULTILINE)[1]
+    names = re.findall(r"^\| `([^`]+)` \|", section, re.MULTILINE)
+    return [re.sub(r"<\w+>", "[^/]+", name) + (r"[^/]+" if name.endswith("/") else "") for name in names]
+
+
+class Recipes(unittest.TestCase):
+    def test_every_recipe_has_an_example(self):
+        text = (ROOT / "docs/conventions.md").read_text(encoding="utf-8")
+        kinds = set(re.findall(r"^### A new ([a-z ]+)$", text, re.MULTILINE))
+        self.assertGreaterEqual(kinds, {"carrier", "format"})
+        self.assertGreaterEqual(kinds, {path.name for path in EXAMPLES})
+        self.assertGreaterEqual(len(EXAMPLES), 2)
+
+    def test_examples_touch_what_their_recipes_name_and_nothing_else(self):
+        for example in EXAMPLES:
+            with self.subTest(recipe=example.name), tempfile.TemporaryDirectory() as folder:
+                project = pathlib.Path(folder)
+                copy_project(project)
+                touched, lines = put_in(example, project)
+                places = places_of(example.name)
+                for name in touched:
+                    self.assertTrue(any(re.fullmatch(place, name) for place in places), f"{name} is in no recipe")
+                for place in places:
+                    self.assertTrue(any(re.fullmatch(place, name) for name in touched), f"{place} is not touched")
+                self.assertEqual(lines, 1)
+                for tool in ("check_layers", "check_names"):
+                    done = subprocess.run([sys.executable, "-B", str(project / "tools" / tool), str(project)],
+                                          capture_output=True, text=True)
+                    self.assertEqual(done.returncode, 0, done.stdout)
+
+
+if __name__ == "__main__":
+    if len(sys.argv) > 2:
+        kept = pathlib.Path(sys.argv[2]).resolve()
+        shutil.rmtree(kept, ignore_errors=True)
+        copy_project(kept)
+        for one in EXAMPLES:
+            put_in(one, kept)
+    else:
+        unittest.main(argv=sys.argv[:1])
