@@ -34,7 +34,7 @@ add_executable(obvid_batch ${batch_app_units})
 set_target_properties(obvid_batch PROPERTIES
   OUTPUT_NAME obvid-batch RUNTIME_OUTPUT_DIRECTORY "${PROJECT_BINARY_DIR}"
   BUILD_RPATH "$ORIGIN" INSTALL_RPATH "$ORIGIN/../../${CMAKE_INSTALL_LIBDIR}")
-target_include_directories(obvid_batch PRIVATE "${PROJECT_SOURCE_DIR}/apps/batch"
+target_include_directories(obvid_batch PRIVATE "${PROJECT_SOURCE_DIR}/apps/batch" "${PROJECT_SOURCE_DIR}/apps"
                            "${PROJECT_BINARY_DIR}/generated-private")
 target_link_libraries(obvid_batch PRIVATE obvid_flags obvid_batch_parts fmt::fmt CLI11::CLI11
                       nlohmann_json::nlohmann_json)

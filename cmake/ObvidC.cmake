@@ -12,7 +12,8 @@ add_library(obvid_c SHARED ${obvid_c_units} "${PROJECT_SOURCE_DIR}/src/capi/fmt_
 target_compile_definitions(obvid_c PRIVATE OBVID_BUILDING)
 target_compile_options(obvid_c PRIVATE -fvisibility=hidden)
 target_include_directories(obvid_c PRIVATE "${PROJECT_SOURCE_DIR}/src/capi"
-                           INTERFACE "${PROJECT_SOURCE_DIR}/include")
+                           INTERFACE $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}/include>
+                                     $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}>)
 target_link_libraries(obvid_c PRIVATE obvid_flags nlohmann_json::nlohmann_json)
 if(TARGET pugixml::static)  # before the shared one, which then is not needed
   target_link_libraries(obvid_c PRIVATE pugixml::static)
@@ -23,6 +24,10 @@ target_link_options(obvid_c PRIVATE -static-libstdc++ -static-libgcc -Wl,--as-ne
   "-Wl,--version-script=${PROJECT_SOURCE_DIR}/src/capi/exports.map" -Wl,--no-undefined)
 set_target_properties(obvid_c PROPERTIES
   LINK_DEPENDS "${PROJECT_SOURCE_DIR}/src/capi/exports.map"
+  EXPORT_NAME c  # obvid::c
   LIBRARY_OUTPUT_DIRECTORY "${PROJECT_BINARY_DIR}" VERSION ${PROJECT_VERSION} SOVERSION 1)
 # Where it was built: who builds the program alone installs that.
-install(TARGETS obvid_c LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR} OPTIONAL)
+install(TARGETS obvid_c EXPORT obvidCTargets LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR} OPTIONAL)
+install(EXPORT obvidCTargets NAMESPACE obvid:: DESTINATION "${CMAKE_INSTALL_LIBDIR}/cmake/obvid")
+configure_file(cmake/obvid_c.pc.in "${PROJECT_BINARY_DIR}/obvid_c.pc" @ONLY)
+install(FILES "${PROJECT_BINARY_DIR}/obvid_c.pc" DESTINATION "${CMAKE_INSTALL_LIBDIR}/pkgconfig")

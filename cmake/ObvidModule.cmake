@@ -100,7 +100,8 @@ function(obvid_program)
   add_executable(${P_NAME}_cli ${units})
   set_target_properties(${P_NAME}_cli PROPERTIES
     OUTPUT_NAME ${P_NAME} RUNTIME_OUTPUT_DIRECTORY "${PROJECT_BINARY_DIR}")
-  target_include_directories(${P_NAME}_cli PRIVATE "${PROJECT_SOURCE_DIR}/${P_FOLDER}")
+  target_include_directories(${P_NAME}_cli PRIVATE "${PROJECT_SOURCE_DIR}/${P_FOLDER}"
+                             "${PROJECT_SOURCE_DIR}/apps")
   target_link_libraries(${P_NAME}_cli PRIVATE obvid_flags fmt::fmt CLI11::CLI11
                         nlohmann_json::nlohmann_json)
   foreach(dependency IN LISTS P_DEPENDS)

@@ -23,7 +23,7 @@ add_executable(obvid_studio ${studio_sources})
 set_target_properties(obvid_studio PROPERTIES
   OUTPUT_NAME obvid-studio RUNTIME_OUTPUT_DIRECTORY "${PROJECT_BINARY_DIR}"
   BUILD_RPATH "$ORIGIN" INSTALL_RPATH "$ORIGIN/../../${CMAKE_INSTALL_LIBDIR}")
-target_include_directories(obvid_studio PRIVATE "${PROJECT_SOURCE_DIR}/apps/studio"
+target_include_directories(obvid_studio PRIVATE "${PROJECT_SOURCE_DIR}/apps/studio" "${PROJECT_SOURCE_DIR}/apps"
                            "${PROJECT_BINARY_DIR}/generated-private")
 target_link_libraries(obvid_studio PRIVATE obvid_flags obvid_c fmt::fmt CLI11::CLI11
                       nlohmann_json::nlohmann_json PkgConfig::httplib Threads::Threads)

@@ -13,6 +13,7 @@
 #include <utility>
 #include <vector>
 
+#include "help/help_lines.h"
 #include "batch_build_mark.h"
 #include "index.h"
 #include "job_options.h"
@@ -30,6 +31,8 @@ const char obvid_batch_mark[] = "obvid-batch " OBVID_BATCH_BUILD_MARK;
 
 namespace obvid::batch {
 namespace {
+
+constexpr std::size_t kHelpColumn = 30;
 
 volatile std::sig_atomic_t interrupted = 0;
 
@@ -248,6 +251,7 @@ int run(int argc, char** argv) {
   const bool queries = argc > 1 && std::string(argv[1]) == "query";
   CLI::App app(queries ? "What the index of a batch says" : "One job for many inputs",
                queries ? "obvid batch query" : "obvid batch");
+  shape_help(app, kHelpColumn);
   app.set_version_flag("--version", obvid_batch_mark);
   if (queries) {
     app.add_option("TABLE", query.table, "out.h5 of the batch, or its .sqlite")->required();
@@ -258,6 +262,8 @@ int run(int argc, char** argv) {
     app.add_flag("--csv", query.csv, "Cells with commas between them");
   } else {
     add_batch(app, asked);
+    // understood apart: a source may be called query
+    if (help_as_lines()) app.add_subcommand("query", "What the index of a batch says");
     app.footer(
         "\nExamples:\n"
         "  obvid batch sections/ -o out.h5 --noise rounding\n"

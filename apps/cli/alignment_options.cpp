@@ -71,7 +71,7 @@ Result<void> check_alignment(RawAlignment& raw) {
 Result<Command> parse_alignment(int argc, const char* const* argv) {
   CLI::App app("The fewest lines, arcs and clothoids that pass within a tolerance of the points",
                "obvid alignment");
-  app.get_formatter()->column_width(28);
+  shape_help(app, kHelpColumn);
   app.allow_extras();
   RawAlignment raw;
   add_alignment_options(app, raw);

@@ -18,6 +18,7 @@ inline bool CLI::detail::lexical_cast<double>(const std::string& typed, double& 
 #include <CLI/CLI.hpp>
 #include <vector>
 
+#include "help/help_lines.h"
 #include "obvid/core/internal/near_name.h"
 #include "obvid/core/result.h"
 #include "obvid/pipeline/internal/job_values.h"
@@ -35,6 +36,9 @@ namespace obvid {
 
 /// An error of CLI11 in the words of this program.
 [[nodiscard]] Error from_cli(const CLI::ParseError& error, const std::string& name);
+
+/// Width of the column of names in `--help`.
+inline constexpr std::size_t kHelpColumn = 28;
 
 /// Of `--corner-angle`, wherever points become contours.
 inline constexpr const char* kCornerAngleHelp =

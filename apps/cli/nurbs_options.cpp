@@ -136,7 +136,7 @@ Result<void> check_nurbs(RawNurbs& raw) {
 
 Result<Command> parse_nurbs(int argc, const char* const* argv) {
   CLI::App app("NURBS curves and surfaces of control points, weights and knots", "obvid nurbs");
-  app.get_formatter()->column_width(28);
+  shape_help(app, kHelpColumn);
   app.allow_extras();
   RawNurbs raw;
   add_nurbs_options(app, raw);

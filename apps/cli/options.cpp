@@ -619,7 +619,7 @@ Result<Command> parse_command_line(int argc, const char* const* argv) {
     CLI::App app("Points in, a curvature-continuous, monotone and proved contour out", "obvid");
     app.set_version_flag("--version", std::string("obvid ") + kVersion);
     app.require_subcommand(0, 1);
-    app.get_formatter()->column_width(28);
+    shape_help(app, kHelpColumn);
     app.footer(kExitCodes);
     Raw raw;
     add_fit(app, raw);

@@ -92,7 +92,7 @@ Result<Command> parse_spline(int argc, const char* const* argv) {
   CLI::App app(
       "Splines of even degree that keep values, derivatives and the integral over every cell",
       "obvid spline");
-  app.get_formatter()->column_width(28);
+  shape_help(app, kHelpColumn);
   app.allow_extras();
   RawSpline raw;
   add_options(app, raw);

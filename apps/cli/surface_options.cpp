@@ -324,10 +324,10 @@ Result<Command> checked_surface(const CLI::App& app, RawSurface& raw) {
 
 Result<Command> parse_surface(int argc, const char* const* argv) {
   const bool bare = argc < 2 || std::string_view(argv[1]) == "--help";
-  if (bare) return Command{ShowText{kSurfaceHelp}};
+  if (bare && !help_as_lines()) return Command{ShowText{kSurfaceHelp}};
   CLI::App app("Surfaces over fair contours", "obvid surface");
   app.require_subcommand(0, 1);
-  app.get_formatter()->column_width(28);
+  shape_help(app, kHelpColumn);
   app.allow_extras();
   RawSurface raw;
   for (const KindText& text : kKinds) add_maker(app, raw, text).allow_extras();

@@ -110,7 +110,7 @@ Result<Command> checked_toolpath(const CLI::App& app, RawToolpath& raw) {
 Result<Command> parse_toolpath(int argc, const char* const* argv) {
   CLI::App app("Three-axis milling of a surface: G-code without gouges, within a stated scallop",
                "obvid toolpath");
-  app.get_formatter()->column_width(28);
+  shape_help(app, kHelpColumn);
   app.allow_extras();
   RawToolpath raw;
   app.add_option("INPUT", raw.command.input, "Surface (.json, STEP, IGES, BREP, control points)");

@@ -17,6 +17,7 @@
 #include <string>
 #include <thread>
 
+#include "help/help_lines.h"
 #include "server.h"
 #include "studio_build_mark.h"
 
@@ -136,6 +137,8 @@ int run(int argc, char** argv) {
       "Drag points, see what is possible, get the proof: a page in the browser, for this\n"
       "machine alone",
       "obvid studio");
+  constexpr std::size_t kHelpColumn = 30;
+  shape_help(app, kHelpColumn);
   Asked asked;
   app.add_option("FILE", asked.file, "Points, a contour or a drawing to begin with");
   app.add_option("--port", asked.port, "Port on 127.0.0.1 [any that is free]")

@@ -31,6 +31,10 @@ class SkippedTests(unittest.TestCase):
         self.assertIn("skipped: left out: the public data sets are missing", said)
         self.assertIn("1 skipped, 0 of them", said)
 
+    def test_engines_that_share_batches_out_may_be_missing(self):
+        for text in ("SKIPPED: sbatch is not installed", "SKIPPED: python3-distributed is not installed"):
+            self.assertEqual(judged(SKIPPED.format(text))[0], 0)
+
     def test_a_missing_package_or_an_unknown_reason_is_a_failure(self):
         for text in ("a.cpp:3: Skipped\nFreeCAD is not installed\n", "SKIPPED: chromium is not installed",
                      "hello", ""):

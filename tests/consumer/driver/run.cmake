@@ -10,11 +10,18 @@ endfunction()
 file(REMOVE_RECURSE "${WORK}")
 step(${CMAKE_COMMAND} --install "${BUILD}" --prefix "${WORK}/prefix")
 step(${CMAKE_COMMAND} -S "${SOURCE}" -B "${WORK}/build" -G Ninja "-DCMAKE_CXX_COMPILER=${COMPILER}"
-     "-DCMAKE_PREFIX_PATH=${WORK}/prefix")
+     "-DCMAKE_PREFIX_PATH=${WORK}/prefix" "-DC_INTERFACE=${C_INTERFACE}")
 step(${CMAKE_COMMAND} --build "${WORK}/build")
 step("${WORK}/build/consumer")
 if(NOT text MATCHES "obvid ${VERSION}")
   message(FATAL_ERROR "the consumer printed\n${text}\ninstead of the version ${VERSION}")
+endif()
+
+if(C_INTERFACE)
+  step("${WORK}/build/consumer_c")
+  if(NOT text MATCHES "^obvid ${VERSION}, [1-9][0-9]* pieces")
+    message(FATAL_ERROR "the consumer in C printed\n${text}")
+  endif()
 endif()
 
 # Three programs, one answer.
