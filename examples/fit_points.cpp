@@ -3,7 +3,7 @@
 // usage: fit_points [POINTS [PICTURE.svg]]
 #include <cstdio>
 
-#include "obvid/io/atomic_file.h"
+#include "obvid/core/files.h"
 #include "obvid/io/read_points.h"
 #include "obvid/picture/picture_svg.h"
 #include "obvid/pipeline/fit.h"

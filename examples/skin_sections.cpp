@@ -2,7 +2,7 @@
 // A surface through section contours, and what it promises of them.
 #include <fmt/format.h>
 
-#include "obvid/io/atomic_file.h"
+#include "obvid/core/files.h"
 #include "obvid/io/read_sections.h"
 #include "obvid/io/surface_json.h"
 #include "obvid/pipeline/skin_sections.h"

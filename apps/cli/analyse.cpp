@@ -3,10 +3,9 @@
 
 #include "audit_report.h"
 #include "commands.h"
-#include "obvid/io/read_points.h"
 #include "obvid/pipeline/analyse.h"
+#include "obvid/pipeline/import.h"
 #include "obvid/pipeline/internal/report_json.h"
-#include "obvid/series/analysis.h"
 #include "series_report.h"
 #include "terminal.h"
 
@@ -18,7 +17,7 @@ int run(const AnalyseOptions& options) {
     return report({ErrorCode::kBadOption, "points alone make no picture of a curve",
                    options.outputs.front(), "use `obvid fit POINTS -o NAME.svg`"});
   }
-  Result<PointSeries> series = read_points(options.input);
+  Result<PointSeries> series = read_series(options.input, options.import);
   if (!series) return report(series.error());
   if (options.units) take_units(*series, *options.units);
   const Result<Analysis> analysis = analyse(series->points);

@@ -9,11 +9,9 @@
 #include <numeric>
 #include <vector>
 
-#include "obvid/geom/internal/angle.h"
-#include "obvid/picture/picture_svg.h"
+#include "obvid/core/units.h"
 #include "obvid/pipeline/analyse.h"
 #include "obvid/pipeline/internal/report_json.h"
-#include "obvid/series/analysis.h"
 #include "outputs.h"
 #include "series_report.h"
 #include "table.h"
@@ -203,8 +201,13 @@ Result<std::vector<std::string>> write_audit_pictures(const AnalyseOptions& opti
           .hint("name an .svg");
     }
     const CurveAudit& a = pictured(audits, options.import);
-    output.text = picture_svg({a.contour, std::nullopt, a.certificate},
-                              {name + ": " + a.label, as_drawn(a)}, options.plots);
+    ExportOptions titled;
+    titled.picture = {name + ": " + a.label, as_drawn(a)};
+    titled.plots = options.plots;
+    const auto drawn =
+        export_contour({a.contour, std::nullopt, a.certificate}, FileFormat::kPicture, titled);
+    OBVID_TRY(drawn);
+    output.text = drawn->files.front().text;
   }
   return write_files(*outputs, options.input);
 }

@@ -12,8 +12,7 @@
 
 #include "commands.h"
 #include "fit_report.h"
-#include "obvid/io/atomic_file.h"
-#include "obvid/picture/internal/carriers_svg.h"
+#include "obvid/core/files.h"
 #include "obvid/pipeline/import.h"
 #include "obvid/pipeline/internal/report_json.h"
 #include "outputs.h"
@@ -25,10 +24,6 @@ namespace obvid {
 namespace {
 
 constexpr int kComparedDigits = 4;
-
-std::string row_continuity(const ComparedCarrier& row) {
-  return "G" + std::to_string(row.continuity);
-}
 
 std::string verdict_text(const ComparedCarrier& row) {
   if (row.fit.certificate.proved) return "proved";
@@ -67,7 +62,7 @@ Table carrier_table(const Comparison& compared) {
     const Certificate& certificate = row.fit.certificate;
     table.row({to_string(row.carrier), std::to_string(row.fit.contour.pieces.size()),
                row.control_points == 0 ? "-" : std::to_string(row.control_points),
-               row_continuity(row), std::to_string(certificate.vertices),
+               continuity_name(row), std::to_string(certificate.vertices),
                std::to_string(certificate.inflections),
                length_text(row.fit.report.largest_deviation),
                length_text(row.fit.report.carrier_deviation),
@@ -149,7 +144,7 @@ std::string report_csv(const PointSeries&, const Comparison& compared) {
     const Certificate& certificate = row.fit.certificate;
     out += fmt::format(
         "{},{},{},{},{},{},{},{},{},{},{}\n", to_string(row.carrier), row.fit.contour.pieces.size(),
-        row.control_points == 0 ? "" : std::to_string(row.control_points), row_continuity(row),
+        row.control_points == 0 ? "" : std::to_string(row.control_points), continuity_name(row),
         certificate.vertices, certificate.inflections, cell(row.fit.report.largest_deviation),
         cell(or_unknown(row.fit.report.carrier_deviation)),
         cell(or_unknown(row.fit.report.outside_spirals_region)), cell(row.seconds),
@@ -158,31 +153,11 @@ std::string report_csv(const PointSeries&, const Comparison& compared) {
   return out;
 }
 
-std::string picture(const PointSeries& series, const Comparison& compared) {
-  std::vector<NamedContour> contours;
-  for (const ComparedCarrier& row : compared.carriers) {
-    NamedContour one{to_string(row.carrier), {}, row.fit.contour, row.fit.certificate};
-    if (row.refusal) {
-      one.remark = row.refusal->what;
-    } else {
-      one.remark = fmt::format("{}, {}", row_continuity(row),
-                               counted(row.fit.contour.pieces.size(), "piece", "pieces"));
-      if (const auto away = row.fit.report.carrier_deviation) {
-        one.remark +=
-            fmt::format(", {} {} from the spirals", significant(*away, 2), series.units.text());
-      }
-    }
-    contours.push_back(std::move(one));
-  }
-  const std::string name = series.name.empty() ? "" : series.name + " · ";
-  return carriers_svg(contours, name + "carriers side by side");
-}
-
 /// What to write under a name: .svg picture, .csv or .json table.
 using Maker = std::string (*)(const PointSeries&, const Comparison&);
 
 Result<Maker> maker_of(const std::string& path) {
-  if (path.ends_with(".svg")) return &picture;
+  if (path.ends_with(".svg")) return &comparison_svg;
   if (path.ends_with(".json")) return &comparison_json;
   if (path.ends_with(".csv")) return &report_csv;
   return error(ErrorCode::kUnknownFormat, "no such format of a comparison")

@@ -4,12 +4,10 @@
 #include <vector>
 
 #include "commands.h"
-#include "obvid/io/atomic_file.h"
-#include "obvid/io/contour_json.h"
-#include "obvid/io/internal/read_file.h"
-#include "obvid/io/space_json.h"
+#include "obvid/core/files.h"
 #include "obvid/pipeline/import.h"
 #include "obvid/pipeline/internal/drawn_contour.h"
+#include "obvid/pipeline/stored.h"
 #include "outputs.h"
 #include "space_fit.h"
 #include "terminal.h"
@@ -72,8 +70,12 @@ int run(const ConvertOptions& options) {
     const Result<std::string> text = read_file(options.input);
     if (!text) return report(text.error());
     const std::string name = options.input == "-" ? "standard input" : options.input;
-    if (is_space_json(*text)) return convert_in_space(*text, name, options);
-    return convert(options, contour_from_json(*text, name), {}, std::move(formats));
+    Result<Stored> stored = parse_stored(*text, name);
+    if (!stored) return report(stored.error());
+    if (const auto* chain = std::get_if<StoredSpaceChain>(&*stored)) {
+      return convert_in_space(*chain, options);
+    }
+    return convert(options, std::get<StoredContour>(std::move(*stored)), {}, std::move(formats));
   }
   std::vector<std::string> remarks;
   auto stored = from_drawing(options, formats, remarks);

@@ -8,7 +8,7 @@
 
 #include "commands.h"
 #include "obvid/core/internal/near_name.h"
-#include "obvid/io/internal/json_text.h"
+#include "obvid/pipeline/internal/report_json.h"
 #include "terminal.h"
 
 namespace obvid {
@@ -35,23 +35,13 @@ std::string wrapped(std::string_view text, std::string_view indent) {
   return out + line + "\n";
 }
 
-void add_json(JsonText& json, const ErrorText& text) {
-  json.begin_object();
-  json.pair("code", name_of(text.code)).pair("exit_code", exit_code(text.code));
-  json.pair("title", text.title).pair("meaning", text.meaning).pair("remedy", text.remedy);
-  json.end_object();
-}
-
 std::string list_of_codes(bool as_json) {
-  JsonText json;
-  json.begin_array();
+  if (as_json) return error_texts_json();
   std::string lines;
   for (const ErrorText& text : error_texts()) {
-    add_json(json, text);
     lines += fmt::format("{}  {}\n", name_of(text.code), text.title);
   }
-  json.end_array();
-  return as_json ? json.take() : lines;
+  return lines;
 }
 
 Error unknown_code(const std::string& typed) {
@@ -77,9 +67,7 @@ int run(const ExplainOptions& options) {
     const auto found = std::find_if(all.begin(), all.end(), same);
     if (found == all.end()) return report(unknown_code(typed));
     if (options.json) {
-      JsonText json;
-      add_json(json, *found);
-      text = json.take();
+      text = error_text_json(*found);
     } else {
       text = fmt::format(
           "{}\n\n{}\n{}\nExit code {}.\n", bold(fmt::format("{}: {}", typed, found->title)),

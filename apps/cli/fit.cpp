@@ -7,7 +7,7 @@
 
 #include "commands.h"
 #include "fit_report.h"
-#include "obvid/io/internal/read_file.h"
+#include "obvid/core/files.h"
 #include "obvid/pipeline/construction_fit.h"
 #include "obvid/pipeline/import.h"
 #include "obvid/pipeline/internal/construction_values.h"

@@ -6,7 +6,6 @@
 #include <cmath>
 #include <limits>
 
-#include "obvid/picture/internal/joints_claim.h"
 #include "obvid/pipeline/internal/end_curvatures.h"
 #include "outputs.h"
 #include "table.h"

@@ -3,15 +3,8 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <cctype>
-#include <filesystem>
-
 #include "commands.h"
-#include "obvid/cad/internal/cad.h"
-#include "obvid/exchange/internal/dxf/space.h"
-#include "obvid/io/atomic_file.h"
-#include "obvid/io/internal/read_columns.h"
+#include "obvid/core/files.h"
 #include "surface_outputs.h"
 #include "table.h"
 #include "terminal.h"
@@ -57,27 +50,6 @@ std::string surface_text(const NurbsReport& report, const NurbsSurface& surface)
                      surface.degree_u, surface.degree_v, surface.count_u(), surface.count_v());
 }
 
-Result<std::string> curve_file(const std::string& path, const NurbsReport& report,
-                               const SpaceCurve& curve, const NurbsOptions& options) {
-  std::string ending = std::filesystem::path(path).extension().string();
-  std::transform(ending.begin(), ending.end(), ending.begin(),
-                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  const Units units = options.units.value_or(Units{});
-  if (ending == ".json") return nurbs_json(report);
-  if (ending == ".csv") return nurbs_samples_csv(curve, options.samples);
-  if (ending == ".dxf") return space_dxf({curve}, curve.points, units);
-  CadWriteOptions write;
-  write.units = units.name;
-  const bool step = ending == ".step" || ending == ".stp";
-  const bool iges = ending == ".iges" || ending == ".igs";
-  if (iges) write.format = CadFormat::kIges;
-  if (ending == ".brep") write.format = CadFormat::kBrep;
-  if (step || iges || ending == ".brep") return cad_text({{"curve", curve}}, write);
-  return error(ErrorCode::kUnknownFormat, "nurbs writes no such file of a curve")
-      .where(path)
-      .hint("possible are .json, .csv, .step, .iges, .brep and .dxf");
-}
-
 Result<std::vector<std::string>> write_nurbs(const NurbsReport& report,
                                              const NurbsOptions& options) {
   if (const auto* surface = std::get_if<NurbsSurface>(&report.shape)) {
@@ -94,7 +66,7 @@ Result<std::vector<std::string>> write_nurbs(const NurbsReport& report,
   }
   std::vector<std::string> texts;
   for (const std::string& path : options.outputs) {
-    auto text = curve_file(path, report, std::get<SpaceCurve>(report.shape), options);
+    auto text = nurbs_file(report, path, options.units.value_or(Units{}), options.samples);
     OBVID_TRY(text);
     texts.push_back(std::move(*text));
   }
@@ -110,9 +82,7 @@ int run(const NurbsOptions& options) {
   if (auto free = check_outputs(options.outputs, {&options.input, 1}); !free) {
     return report(free.error());
   }
-  const auto table = read_columns(options.input);
-  if (!table) return report(table.error());
-  auto points = control_table(*table, options.input == "-" ? "standard input" : options.input);
+  auto points = read_control_table(options.input);
   if (!points) return report(points.error());
   const auto made = nurbs_report(std::move(*points), options.job);
   if (!made) return report(made.error());

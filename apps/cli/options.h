@@ -6,15 +6,14 @@
 #include <variant>
 #include <vector>
 
+#include "alignment_options.h"
 #include "nurbs_options.h"
 #include "obvid/core/result.h"
-#include "obvid/geom/vec3.h"
 #include "obvid/pipeline/export.h"
 #include "obvid/pipeline/fit.h"
 #include "obvid/pipeline/import.h"
 #include "obvid/pipeline/region_table.h"
 #include "spline_options.h"
-#include "alignment_options.h"
 #include "surface_options.h"
 #include "toolpath_options.h"
 
@@ -106,10 +105,10 @@ struct BatchOptions {
   std::vector<std::string> arguments;
 };
 
-using Command =
-    std::variant<ShowText, StudioOptions, BatchOptions, FitOptions, AnalyseOptions, RegionOptions, CompareOptions,
-                 ConvertOptions, VerifyOptions, ExplainOptions, SurfaceOptions, SurfaceCheckOptions,
-                 SplineOptions, NurbsOptions, ToolpathCommand, AlignmentCommand>;
+using Command = std::variant<ShowText, StudioOptions, BatchOptions, FitOptions, AnalyseOptions,
+                             RegionOptions, CompareOptions, ConvertOptions, VerifyOptions,
+                             ExplainOptions, SurfaceOptions, SurfaceCheckOptions, SplineOptions,
+                             NurbsOptions, ToolpathCommand, AlignmentCommand>;
 
 /// Understands the command line. Errors: E201 wrong usage, E203 option not possible.
 [[nodiscard]] Result<Command> parse_command_line(int argc, const char* const* argv);

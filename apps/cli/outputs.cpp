@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <filesystem>
 
-#include "obvid/io/atomic_file.h"
+#include "obvid/core/files.h"
 #include "text.h"
 
 namespace obvid {

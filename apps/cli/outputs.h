@@ -7,7 +7,6 @@
 #include "obvid/core/internal/figures.h"
 #include "obvid/core/result.h"
 #include "obvid/pipeline/export.h"
-#include "obvid/series/point_series.h"
 
 namespace obvid {
 

@@ -10,7 +10,6 @@
 #include <string>
 #include <vector>
 
-#include "obvid/picture/picture_svg.h"
 #include "obvid/pipeline/internal/refusal.h"
 #include "obvid/pipeline/internal/report_json.h"
 #include "outputs.h"
@@ -91,7 +90,12 @@ Result<std::vector<std::string>> write_refusal_pictures(const FitOptions& option
     const auto path = std::filesystem::path(output.path).replace_extension(".why-not.svg");
     Result<Output> picture = output_of(path.string());
     OBVID_TRY(picture);
-    picture->text = picture_svg({why.fit.contour, why.fit.report, why.fit.certificate}, {name, ""});
+    ExportOptions titled;
+    titled.picture = {name, ""};
+    const auto drawn = export_contour({why.fit.contour, why.fit.report, why.fit.certificate},
+                                      FileFormat::kPicture, titled);
+    OBVID_TRY(drawn);
+    picture->text = drawn->files.front().text;
     pictures.push_back(std::move(*picture));
   }
   return write_files(pictures, options.input);

@@ -2,7 +2,6 @@
 #pragma once
 
 #include "obvid/core/error.h"
-#include "obvid/series/point_series.h"
 #include "options.h"
 #include "terminal.h"
 

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "obvid/core/units.h"
 #include "obvid/pipeline/region_table.h"
 
 #include <fmt/format.h>
@@ -10,8 +11,7 @@
 #include <optional>
 
 #include "commands.h"
-#include "obvid/geom/internal/angle.h"
-#include "obvid/io/atomic_file.h"
+#include "obvid/core/files.h"
 #include "obvid/pipeline/internal/construction_values.h"
 #include "obvid/pipeline/internal/region_files.h"
 #include "obvid/pipeline/internal/report_json.h"

@@ -3,8 +3,7 @@
 
 #include <string>
 
-#include "obvid/series/analysis.h"
-#include "obvid/series/point_series.h"
+#include "obvid/pipeline/analyse.h"
 
 namespace obvid {
 

@@ -10,10 +10,7 @@
 #include <utility>
 
 #include "fit_report.h"
-#include "obvid/io/atomic_file.h"
-
-#include "obvid/io/read_points.h"
-#include "obvid/picture/internal/joints_claim.h"
+#include "obvid/core/files.h"
 #include "obvid/pipeline/internal/space_values.h"
 #include "obvid/pipeline/space_fit.h"
 #include "outputs.h"
@@ -241,9 +238,9 @@ Result<SpaceJob> space_job(const FitOptions& options, const SpaceSeries& series)
         .where(options.suggest ? "--suggest" : "--construction")
         .hint("--flat forms the contour in the plane of x and y");
   }
-  const auto plane = options.text ? parse_points(*options.text, options.name(), TwoPoints::kDo)
-                                  : read_points(options.input, TwoPoints::kDo);
-  auto fixed = fixed_in_space(series, plane, options.along, options.name());
+  const auto text = options.text ? Result<std::string>(*options.text) : read_file(options.input);
+  OBVID_TRY(text);
+  auto fixed = fixed_in_space(series, *text, options.along, options.name());
   OBVID_TRY(fixed);
   job.fixed = std::move(*fixed);
   return job;
@@ -301,30 +298,25 @@ std::string verification_in_space(const StoredSpaceChain& stored,
 
 }  // namespace
 
-int verify_in_space(const std::string& text, const std::string& name,
+int verify_in_space(const StoredSpaceChain& stored, const std::string& name,
                     const VerifyOptions& options) {
-  const Result<StoredSpaceChain> stored = space_chain_from_json(text, name);
-  if (!stored) return report(stored.error());
-  const SpaceChainVerification found = verify(*stored);
+  const SpaceChainVerification found = verify(stored);
   std::string shown;
   if (options.json) {
-    shown = space_verification_json(*stored, found) + "\n";
+    shown = space_verification_json(stored, found) + "\n";
   } else if (!options.quiet) {
-    shown = verification_in_space(*stored, found);
+    shown = verification_in_space(stored, found);
   }
   if (auto done = put(shown); !done) return report(done.error());
-  if (auto error = broken_promise(*stored, found)) {
+  if (auto error = broken_promise(stored, found)) {
     error->where = name + (error->where.empty() ? "" : ": " + error->where);
     return report(*error);
   }
   return 0;
 }
 
-int convert_in_space(const std::string& text, const std::string& name,
-                     const ConvertOptions& options) {
-  const Result<StoredSpaceChain> stored = space_chain_from_json(text, name);
-  if (!stored) return report(stored.error());
-  SpaceChain chain = space_chain_of(*stored);
+int convert_in_space(const StoredSpaceChain& stored, const ConvertOptions& options) {
+  SpaceChain chain = space_chain_of(stored);
   if (options.units) {
     if (auto told = take_units(chain, *options.units)) warn({*told});
   }

@@ -4,6 +4,7 @@
 #include <optional>
 #include <string>
 
+#include "obvid/pipeline/stored.h"
 #include "options.h"
 
 namespace obvid {
@@ -13,9 +14,8 @@ namespace obvid {
 [[nodiscard]] std::optional<int> run_in_space(const FitOptions& options);
 
 /// `obvid verify` and `obvid convert` of a file of such a curve: the exit code.
-[[nodiscard]] int verify_in_space(const std::string& text, const std::string& name,
+[[nodiscard]] int verify_in_space(const StoredSpaceChain& stored, const std::string& name,
                                   const VerifyOptions& options);
-[[nodiscard]] int convert_in_space(const std::string& text, const std::string& name,
-                                   const ConvertOptions& options);
+[[nodiscard]] int convert_in_space(const StoredSpaceChain& stored, const ConvertOptions& options);
 
 }  // namespace obvid

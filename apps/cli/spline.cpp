@@ -9,7 +9,7 @@
 #include <optional>
 
 #include "commands.h"
-#include "obvid/io/atomic_file.h"
+#include "obvid/core/files.h"
 #include "obvid/pipeline/spline_grid.h"
 #include "surface_outputs.h"
 #include "table.h"

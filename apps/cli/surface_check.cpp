@@ -8,7 +8,6 @@
 
 #include "commands.h"
 #include "obvid/pipeline/internal/surface_report_json.h"
-#include "obvid/surface_builders/internal/check.h"
 #include "outputs.h"
 #include "surface_outputs.h"
 #include "surface_report.h"

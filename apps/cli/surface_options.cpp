@@ -8,7 +8,6 @@
 #include <variant>
 
 #include "cli_app.h"
-#include "obvid/geom/internal/angle.h"
 #include "obvid/pipeline/internal/format_values.h"
 #include "obvid/pipeline/internal/job_values.h"
 #include "obvid/pipeline/internal/surface_values.h"

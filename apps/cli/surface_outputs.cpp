@@ -3,7 +3,7 @@
 
 #include <utility>
 
-#include "obvid/io/atomic_file.h"
+#include "obvid/core/files.h"
 
 namespace obvid {
 

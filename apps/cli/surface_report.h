@@ -4,7 +4,6 @@
 #include <string>
 
 #include "obvid/pipeline/surface_job.h"
-#include "obvid/surface_builders/internal/check.h"
 #include "surface_outputs.h"
 
 namespace obvid {

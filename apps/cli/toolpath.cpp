@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "commands.h"
-#include "obvid/io/atomic_file.h"
+#include "obvid/core/files.h"
 #include "obvid/pipeline/export.h"
 #include "obvid/pipeline/internal/surface_report_json.h"
 #include "obvid/pipeline/surface_export.h"
@@ -70,7 +70,9 @@ Result<Made> made_from(const ToolpathCommand& command, std::vector<ToolpathOutpu
   made.job = std::move(*path);
   made.warnings.insert(made.warnings.end(), made.job.warnings.begin(), made.job.warnings.end());
   SurfaceExportOptions formats;
-  formats.view = *surface_view_named(command.view);
+  const auto view = view_named(command.view);
+  OBVID_TRY(view);
+  formats.view = *view;
   formats.lines = drawn(made.job.path);
   SurfaceExporter exporter(made.model, formats, bar.progress());
   bar.tell("writing", 1.0);

@@ -5,7 +5,6 @@
 #include <map>
 
 #include "cli_app.h"
-#include "obvid/picture/surface_svg.h"
 #include "obvid/pipeline/internal/job_values.h"
 #include "obvid/pipeline/internal/surface_values.h"
 #include "options.h"
@@ -97,10 +96,7 @@ Result<Command> checked_toolpath(const CLI::App& app, RawToolpath& raw) {
   if (command.outputs.empty()) {
     return fail(usage("toolpath needs a file to write", "add -o part.nc"));
   }
-  if (!surface_view_named(command.view)) {
-    return fail(bad_option("unknown view '" + command.view + "'", "--view",
-                           "available are iso, front, top, side, back, bottom"));
-  }
+  OBVID_TRY(view_named(command.view));
   command.progress = !raw.no_progress && !command.quiet && !command.json;
   return Command{command};
 }

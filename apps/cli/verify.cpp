@@ -5,11 +5,10 @@
 
 #include "commands.h"
 #include "fit_report.h"
-#include "obvid/io/contour_json.h"
-#include "obvid/io/internal/read_file.h"
-#include "obvid/io/space_json.h"
+#include "obvid/core/files.h"
 #include "obvid/pipeline/internal/promise.h"
 #include "obvid/pipeline/internal/report_json.h"
+#include "obvid/pipeline/stored.h"
 #include "space_fit.h"
 #include "table.h"
 #include "terminal.h"
@@ -131,9 +130,12 @@ int run(const VerifyOptions& options) {
   const Result<std::string> text = read_file(options.input);
   if (!text) return report(text.error());
   const std::string name = options.input == "-" ? "standard input" : options.input;
-  if (is_space_json(*text)) return verify_in_space(*text, name, options);
-  const Result<StoredContour> stored = contour_from_json(*text, name);
-  if (!stored) return report(stored.error());
+  const Result<Stored> read = parse_stored(*text, name);
+  if (!read) return report(read.error());
+  if (const auto* chain = std::get_if<StoredSpaceChain>(&*read)) {
+    return verify_in_space(*chain, name, options);
+  }
+  const auto* stored = &std::get<StoredContour>(*read);
   const Verification found = verify(*stored);
   std::string shown;
   if (options.json) {

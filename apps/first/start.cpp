@@ -11,7 +11,7 @@
 #include <string_view>
 #include <vector>
 
-#include "obvid/io/internal/read_file.h"
+#include "obvid/core/files.h"
 #include "terminal.h"
 
 namespace obvid {
@@ -38,7 +38,8 @@ void keep_pipe() {
   if (kept < 0) return;
   std::vector<char> block(kKeptBlock);
   std::size_t total = 0;
-  for (ssize_t got = 1; got > 0 && total <= kMostInputBytes; total += static_cast<std::size_t>(got)) {
+  for (ssize_t got = 1; got > 0 && total <= kMostInputBytes;
+       total += static_cast<std::size_t>(got)) {
     got = ::read(STDIN_FILENO, block.data(), block.size());
     if (got < 0 || !write_all(kept, block.data(), static_cast<std::size_t>(got))) break;
   }

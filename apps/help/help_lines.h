@@ -62,8 +62,8 @@ class HelpLines : public CLI::FormatterBase {
       return line({"option", option.get_name(false, true), value_of(option),
                    often ? "often" : "once", option.get_group(), option.get_description()});
     }
-    return line({"argument", option.get_name(true), often ? "many" : "one",
-                 option.get_description()});
+    return line(
+        {"argument", option.get_name(true), often ? "many" : "one", option.get_description()});
   }
 };
 
@@ -72,8 +72,8 @@ class HelpLines : public CLI::FormatterBase {
   return wanted != nullptr && std::string_view(wanted) == "lines";
 }
 
-/// How `--help` of `app` and of its commands looks: names in a column of that width; HelpLines where
-/// OBVID_HELP is `lines`. Called before commands are added.
+/// How `--help` of `app` and of its commands looks: names in a column of that width; HelpLines
+/// where OBVID_HELP is `lines`. Called before commands are added.
 inline void shape_help(CLI::App& app, std::size_t column_width) {
   if (help_as_lines()) {
     app.formatter(std::make_shared<HelpLines>());

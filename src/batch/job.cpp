@@ -13,7 +13,7 @@
 #include <string_view>
 #include <utility>
 
-#include "obvid/io/atomic_file.h"
+#include "obvid/core/files.h"
 #include "obvid/obvid.h"
 #include "report_figures.h"
 #include "source.h"

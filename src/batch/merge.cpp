@@ -7,7 +7,7 @@
 
 #include "hdf5_file.h"
 #include "index.h"
-#include "obvid/io/atomic_file.h"
+#include "obvid/core/files.h"
 
 namespace obvid::batch {
 namespace {

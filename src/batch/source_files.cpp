@@ -11,7 +11,7 @@
 #include <utility>
 
 #include "digest.h"
-#include "obvid/io/internal/read_file.h"
+#include "obvid/core/files.h"
 #include "source.h"
 
 namespace obvid::batch {

@@ -12,8 +12,7 @@
 #include <utility>
 
 #include "hdf5_file.h"
-#include "obvid/io/atomic_file.h"
-#include "obvid/io/internal/read_file.h"
+#include "obvid/core/files.h"
 
 namespace obvid::batch {
 namespace {

@@ -6,7 +6,7 @@
 
 #include "door.h"
 #include "handles.h"
-#include "obvid/io/internal/read_file.h"
+#include "obvid/core/files.h"
 #include "obvid/pipeline/import.h"
 
 namespace obvid::capi {

@@ -44,8 +44,7 @@ Result<SpaceJob> space_job_of(const obvid_input& input, const SpaceSeries& serie
   job.fit = request.job;
   job.along = request.along;
   if (input.space) return job;
-  auto fixed = fixed_in_space(series, parse_points(input.text, input.name, TwoPoints::kDo),
-                              request.along, input.name);
+  auto fixed = fixed_in_space(series, input.text, request.along, input.name);
   OBVID_TRY(fixed);
   job.fixed = std::move(*fixed);
   return job;

@@ -4,7 +4,7 @@
 #include <utility>
 
 #include "number_rows.h"
-#include "obvid/io/internal/read_file.h"
+#include "obvid/core/files.h"
 
 namespace obvid {
 

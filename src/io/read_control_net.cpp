@@ -10,7 +10,7 @@
 #include <utility>
 
 #include "number_rows.h"
-#include "obvid/io/internal/read_file.h"
+#include "obvid/core/files.h"
 #include "text_lines.h"
 #include "text_number.h"
 

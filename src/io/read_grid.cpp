@@ -13,7 +13,7 @@
 
 #include "matrix_names.h"
 #include "number_rows.h"
-#include "obvid/io/internal/read_file.h"
+#include "obvid/core/files.h"
 #include "text_number.h"
 
 namespace obvid {

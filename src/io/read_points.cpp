@@ -6,7 +6,7 @@
 #include <numbers>
 #include <utility>
 
-#include "obvid/io/internal/read_file.h"
+#include "obvid/core/files.h"
 #include "read_points_raw.h"
 #include "text_kind.h"
 #include "text_lines.h"

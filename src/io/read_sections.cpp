@@ -12,7 +12,7 @@
 #include "blade_table.h"
 #include "matrix_names.h"
 #include "number_rows.h"
-#include "obvid/io/internal/read_file.h"
+#include "obvid/core/files.h"
 #include "obvid/io/internal/read_grid.h"
 #include "obvid/io/read_points.h"
 

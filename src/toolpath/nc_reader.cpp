@@ -123,9 +123,11 @@ class Reader {
     for (std::size_t k = 0; k < 3; ++k) known_[k] = known_[k] || ends_[k].has_value();
     Places end = at_;
     for (std::size_t k = 0; k < 3; ++k) end[k] = ends_[k].value_or(at_[k]);
-    if (!(known_[0] && known_[1] && known_[2])) {  // nobody knows where it comes from
+    // nobody knows where it comes from
+    if (!placed_ && motion_ != 0) return bad("it cuts before the tip is placed");
+    if (!(known_[0] && known_[1] && known_[2])) {
       at_ = end;
-      return motion_ == 0 || bad("it cuts before the tip is placed");
+      return true;
     }
     NcMotion out;
     out.rapid = motion_ == 0;

@@ -9,8 +9,8 @@
 namespace obvid {
 namespace {
 
-// By definition: the international inch is 25.4 mm, foot and mile are 12 and 63360 of it (1959), the
-// US survey foot is 1200/3937 m (1893).
+// By definition: the international inch is 25.4 mm, foot and mile are 12 and 63360 of it (1959),
+// the US survey foot is 1200/3937 m (1893).
 TEST(Units, HaveTheLengthsOfTheirDefinitions) {
   EXPECT_EQ(metres_in("mm"), 1e-3);
   EXPECT_EQ(metres_in("um"), 1e-6);

@@ -8,9 +8,9 @@
 #include <fstream>
 #include <string>
 
+#include "../common/output_folder.h"
 #include "../common/shared_data.h"
 #include "obvid/io/internal/read_grid.h"
-#include "output_folder.h"
 
 namespace obvid {
 namespace {

@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "cutting.h"
-#include "obvid/io/internal/read_file.h"
+#include "obvid/core/files.h"
 #include "obvid/io/internal/read_grid.h"
 #include "obvid/io/surface_json.h"
 #include "obvid/toolpath/toolpath.h"

@@ -50,6 +50,13 @@ class CheckLayers(unittest.TestCase):
         self.refuses("include/obvid/core/error.h", "io/json.h", "core (level 0) includes io")
         self.refuses("src/io/json.cpp", "pipeline/fit.h", "io (level 5) includes pipeline")
 
+    def test_programs_reach_for_nothing_below_the_pipeline(self):
+        self.refuses("apps/cli/main.cpp", "io/read_points.h", "not io")
+        self.refuses("apps/cli/main.cpp", "geom/vec2.h", "not geom")
+        self.accepts("apps/cli/main.cpp", "core/units.h")
+        self.accepts("apps/studio/main.cpp", "obvid.h")
+        self.accepts("apps/first/later.cpp", "io/contour_json.h")
+
     def test_the_order_inside_level_three_is_kept(self):
         self.refuses("src/series/runs.cpp", "region/width.h", "series (level 3.1)")
         self.refuses("src/region/width.cpp", "chain/solve.h", "region (level 3.2)")

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once  // reentrant: docs/threads.md
 
+#include <numbers>
 #include <optional>
 #include <span>
 #include <string>
@@ -10,6 +11,9 @@
 #include "obvid/core/result.h"
 
 namespace obvid {
+
+inline constexpr double kFullTurn = 2.0 * std::numbers::pi;   ///< rad
+inline constexpr double kOneDegree = std::numbers::pi / 180;  ///< rad
 
 /// How the unit of lengths became known.
 enum class UnitSource {

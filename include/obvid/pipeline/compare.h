@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "obvid/core/run_context.h"
@@ -39,6 +40,12 @@ struct Comparison {
 [[nodiscard]] Result<Comparison> compare_carriers(const PointSeries& series, const FitJob& job,
                                                   const RunContext& run = {},
                                                   Comparison* finished = nullptr);
+
+/// "G2": continuity of all joints.
+[[nodiscard]] std::string continuity_name(const ComparedCarrier& row);
+
+/// A picture of all carriers side by side, each with its curvature.
+[[nodiscard]] std::string comparison_svg(const PointSeries& series, const Comparison& compared);
 
 /// Control points of the contour as NURBS curves: neighbouring pieces of one kind share knots as
 /// far as the carrier is continuous in its parameter (B-splines), else their end points. 0 when a

@@ -27,6 +27,8 @@ struct ControlTable {
 /// a net of a surface. Without a header the columns are x, y, z, w, as many as there are. Errors:
 /// E201 columns that are missing, E305, E307 a net with gaps.
 [[nodiscard]] Result<ControlTable> control_table(const ColumnTable& table, const std::string& name);
+/// The same of a file; "-" is standard input.
+[[nodiscard]] Result<ControlTable> read_control_table(const std::string& path);
 
 struct NurbsJob {
   int degree = 3, degree_v = 3;        ///< along a row; from row to row. Less with few points
@@ -61,6 +63,10 @@ struct NurbsReport {
 /// Everything as JSON: degrees, knots, points, weights and the rows.
 [[nodiscard]] std::string nurbs_json(const NurbsReport& report);
 /// u, x, y, z, curvature at `count` equal steps of the parameter of a curve.
+/// The curve in the format that the ending of `path` tells: .json, .csv (`samples` points), .dxf,
+/// .step, .iges, .brep. Errors: E202 no such format of a curve; those of the formats.
+[[nodiscard]] Result<std::string> nurbs_file(const NurbsReport& report, const std::string& path,
+                                             const Units& units, std::size_t samples);
 [[nodiscard]] std::string nurbs_samples_csv(const SpaceCurve& curve, std::size_t count);
 
 }  // namespace obvid

@@ -6,7 +6,7 @@
 
 #include "mesh/mesh_builder.h"
 #include "mesh/mesh_bytes.h"
-#include "obvid/io/internal/read_file.h"
+#include "obvid/core/files.h"
 
 namespace obvid {
 namespace exchange {

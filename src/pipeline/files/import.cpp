@@ -10,6 +10,7 @@
 #include "files/cad_of_text.h"
 #include "files/drawn_series.h"
 #include "obvid/cad/internal/cad.h"
+#include "obvid/core/files.h"
 #include "obvid/exchange/internal/dxf/read.h"
 #include "obvid/exchange/internal/geo/geojson.h"
 #include "obvid/exchange/internal/geo/gpx.h"
@@ -19,7 +20,6 @@
 #include "obvid/io/contour_json.h"
 #include "obvid/io/internal/file_kind.h"
 #include "obvid/io/internal/private_copy.h"
-#include "obvid/io/internal/read_file.h"
 #include "obvid/io/read_points.h"
 
 namespace obvid {

@@ -281,4 +281,30 @@ std::string trade_off_json(const TradeOff& t, const std::vector<std::string>& wa
   return json.take();
 }
 
+namespace {
+
+void add_error_text(JsonText& json, const ErrorText& text) {
+  json.begin_object();
+  json.pair("code", fmt::format("E{}", static_cast<int>(text.code)));
+  json.pair("exit_code", exit_code(text.code));
+  json.pair("title", text.title).pair("meaning", text.meaning).pair("remedy", text.remedy);
+  json.end_object();
+}
+
+}  // namespace
+
+std::string error_text_json(const ErrorText& text) {
+  JsonText json;
+  add_error_text(json, text);
+  return json.take();
+}
+
+std::string error_texts_json() {
+  JsonText json;
+  json.begin_array();
+  for (const ErrorText& text : error_texts()) add_error_text(json, text);
+  json.end_array();
+  return json.take();
+}
+
 }  // namespace obvid

@@ -3,9 +3,9 @@
 #include <filesystem>
 #include <utility>
 
+#include "obvid/core/files.h"
 #include "obvid/io/internal/file_kind.h"
 #include "obvid/io/internal/read_columns.h"
-#include "obvid/io/internal/read_file.h"
 #include "obvid/io/read_sections.h"
 #include "obvid/pipeline/space_fit.h"
 

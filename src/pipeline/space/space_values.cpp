@@ -7,6 +7,7 @@
 #include <charconv>
 #include <utility>
 
+#include "obvid/io/read_points.h"
 #include "obvid/pipeline/internal/job_values.h"
 
 namespace obvid {
@@ -39,10 +40,10 @@ Result<std::optional<Vec3>> direction_named(const std::string& typed) {
   return std::optional(made);
 }
 
-Result<std::vector<FixedData>> fixed_in_space(const SpaceSeries& series,
-                                              const Result<PointSeries>& plane,
+Result<std::vector<FixedData>> fixed_in_space(const SpaceSeries& series, const std::string& text,
                                               const std::optional<Vec3>& along,
                                               const std::string& name) {
+  const auto plane = parse_points(text, name, TwoPoints::kDo);
   if (!plane || plane->fixed.empty()) return std::vector<FixedData>{};
   if (plane->points.size() != series.points.size()) {
     return fail(bad_option("columns of points that lie above each other have no projection", name,

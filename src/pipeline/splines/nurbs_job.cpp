@@ -4,8 +4,12 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cctype>
 #include <cmath>
+#include <filesystem>
 
+#include "obvid/cad/internal/cad.h"
+#include "obvid/exchange/internal/dxf/space.h"
 #include "obvid/io/internal/json_text.h"
 
 namespace obvid {
@@ -322,6 +326,33 @@ std::string nurbs_samples_csv(const SpaceCurve& curve, std::size_t count) {
         fmt::format("{},{},{},{},{}\n", u, jet.point.x, jet.point.y, jet.point.z, curvature(jet));
   }
   return out;
+}
+
+Result<ControlTable> read_control_table(const std::string& path) {
+  const auto table = read_columns(path);
+  OBVID_TRY(table);
+  return control_table(*table, path == "-" ? "standard input" : path);
+}
+
+Result<std::string> nurbs_file(const NurbsReport& report, const std::string& path,
+                               const Units& units, std::size_t samples) {
+  const auto& curve = std::get<SpaceCurve>(report.shape);
+  std::string ending = std::filesystem::path(path).extension().string();
+  std::transform(ending.begin(), ending.end(), ending.begin(),
+                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  if (ending == ".json") return nurbs_json(report);
+  if (ending == ".csv") return nurbs_samples_csv(curve, samples);
+  if (ending == ".dxf") return space_dxf({curve}, curve.points, units);
+  CadWriteOptions write;
+  write.units = units.name;
+  const bool step = ending == ".step" || ending == ".stp";
+  const bool iges = ending == ".iges" || ending == ".igs";
+  if (iges) write.format = CadFormat::kIges;
+  if (ending == ".brep") write.format = CadFormat::kBrep;
+  if (step || iges || ending == ".brep") return cad_text({{"curve", curve}}, write);
+  return error(ErrorCode::kUnknownFormat, "nurbs writes no such file of a curve")
+      .where(path)
+      .hint("possible are .json, .csv, .step, .iges, .brep and .dxf");
 }
 
 }  // namespace obvid

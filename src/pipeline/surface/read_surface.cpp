@@ -4,8 +4,8 @@
 
 #include "files/cad_of_text.h"
 #include "obvid/cad/internal/cad.h"
+#include "obvid/core/files.h"
 #include "obvid/io/internal/read_control_net.h"
-#include "obvid/io/internal/read_file.h"
 #include "obvid/io/surface_json.h"
 #include "obvid/pipeline/surface_job.h"
 

@@ -164,6 +164,12 @@ Result<void> set_surface(const SurfaceValues& typed, SurfaceJob& job) {
       .and_then([&] { return positive(typed.spacing, "--spacing"); });
 }
 
+Result<SurfaceView> view_named(const std::string& name) {
+  if (const auto view = surface_view_named(name)) return *view;
+  return fail(bad_option("unknown view '" + name + "'", "--view",
+                         "available are iso, front, top, side, back, bottom"));
+}
+
 Result<void> set_surface_formats(const SurfaceFormatValues& typed, SurfaceExportOptions& formats) {
   formats.chord_tolerance = typed.chord_tolerance;
   if (typed.mesh_angle_deg) formats.angle = *typed.mesh_angle_deg * kOneDegree;
@@ -179,11 +185,8 @@ Result<void> set_surface_formats(const SurfaceFormatValues& typed, SurfaceExport
                            "available are shaded, isolines, gaussian, mean, k1, k2, zebra"));
   }
   formats.colouring = *colouring;
-  const auto view = surface_view_named(typed.view);
-  if (!view) {
-    return fail(bad_option("unknown view '" + typed.view + "'", "--view",
-                           "available are iso, front, top, side, back, bottom"));
-  }
+  const auto view = view_named(typed.view);
+  OBVID_TRY(view);
   formats.view = *view;
   return {};
 }

@@ -4,12 +4,10 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numbers>
+
+#include "obvid/core/units.h"
 
 namespace obvid {
-
-inline constexpr double kFullTurn = 2.0 * std::numbers::pi;   ///< rad
-inline constexpr double kOneDegree = std::numbers::pi / 180;  ///< rad
 
 /// The angle that means the same direction as `theta` and lies nearest to another one, rad: at most
 /// half a turn from it.

@@ -3,6 +3,7 @@
 
 #include <optional>
 
+#include "obvid/picture/internal/joints_claim.h"  // a part of what is promised, told alike in pictures
 #include "obvid/pipeline/fit.h"
 
 namespace obvid {

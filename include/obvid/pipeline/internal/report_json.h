@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "obvid/core/error.h"
 #include "obvid/exchange/drawing.h"
 #include "obvid/pipeline/audit.h"
 #include "obvid/pipeline/compare.h"
@@ -54,6 +55,10 @@ struct Written {
 
 /// The series itself: its points and what is given at them.
 [[nodiscard]] std::string series_json(const PointSeries& series);
+
+/// What an error code means and what helps, and all of them as an array.
+[[nodiscard]] std::string error_text_json(const ErrorText& text);
+[[nodiscard]] std::string error_texts_json();
 
 /// What a curvature comb would show of each curve of a drawing. `points`: what `series_report_json`
 /// says of the series that was asked for, if one was.

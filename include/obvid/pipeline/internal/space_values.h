@@ -17,11 +17,11 @@ namespace obvid {
 /// X, Y, Z, or three numbers with commas; empty: nothing. Error: E203.
 [[nodiscard]] Result<std::optional<Vec3>> direction_named(const std::string& typed);
 
-/// What a file fixes at its points in space, one entry for each, or nothing. `plane`: the same file
-/// as points of the plane of x and y; headings, radii and tolerances there need the direction z.
-/// Error: E203.
+/// What a file fixes at its points in space, one entry for each, or nothing. `text`: its content,
+/// read as points of the plane of x and y; headings, radii and tolerances there need the direction
+/// z. Error: E203.
 [[nodiscard]] Result<std::vector<FixedData>> fixed_in_space(const SpaceSeries& series,
-                                                            const Result<PointSeries>& plane,
+                                                            const std::string& text,
                                                             const std::optional<Vec3>& along,
                                                             const std::string& name);
 

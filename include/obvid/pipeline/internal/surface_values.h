@@ -31,6 +31,9 @@ struct SurfaceValues {
 /// Into the job, whose kind is known: its own values, and those of all kinds.
 [[nodiscard]] Result<void> set_surface(const SurfaceValues& typed, SurfaceJob& job);
 
+/// Views of pictures by name: "iso", "front", "top", "side", "back", "bottom". Error: E203.
+[[nodiscard]] Result<SurfaceView> view_named(const std::string& name);
+
 struct SurfaceFormatValues {
   std::optional<double> chord_tolerance, mesh_angle_deg;
   std::string colour = "shaded", view = "iso", step = "ap214";

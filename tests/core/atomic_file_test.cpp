@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "obvid/io/atomic_file.h"
+#include "obvid/core/files.h"
 
 #include <gtest/gtest.h>
 #include <sys/stat.h>
@@ -12,7 +12,7 @@
 #include <string>
 #include <thread>
 
-#include "output_folder.h"
+#include "../common/output_folder.h"
 #include "temporary_file.h"
 
 namespace obvid {

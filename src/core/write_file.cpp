@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "obvid/io/atomic_file.h"
+#include "obvid/core/files.h"
 
 #include <fcntl.h>
 #include <fmt/format.h>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "obvid/io/internal/read_file.h"
+#include "obvid/core/files.h"
 
 #include <fmt/format.h>
 

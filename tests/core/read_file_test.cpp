@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "obvid/io/internal/read_file.h"
+#include "obvid/core/files.h"
 
 #include <fcntl.h>
 #include <sys/stat.h>
@@ -8,7 +8,7 @@
 #include <string>
 #include <thread>
 
-#include "output_folder.h"
+#include "../common/output_folder.h"
 
 namespace obvid {
 namespace {

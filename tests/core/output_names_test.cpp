@@ -8,8 +8,8 @@
 #include <string>
 #include <vector>
 
-#include "obvid/io/atomic_file.h"
-#include "output_folder.h"
+#include "../common/output_folder.h"
+#include "obvid/core/files.h"
 
 namespace obvid {
 namespace {

@@ -14,8 +14,8 @@
 #include <string>
 #include <vector>
 
-#include "obvid/io/atomic_file.h"
-#include "output_folder.h"
+#include "../common/output_folder.h"
+#include "obvid/core/files.h"
 #include "temporary_file.h"
 
 namespace obvid {

@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "obvid/pipeline/stored.h"
+
+#include <utility>
+
+#include "obvid/io/contour_json.h"
+#include "obvid/io/space_json.h"
+
+namespace obvid {
+
+Result<Stored> parse_stored(const std::string& text, const std::string& name) {
+  if (is_space_json(text)) {
+    auto chain = space_chain_from_json(text, name);
+    OBVID_TRY(chain);
+    return Stored(std::move(*chain));
+  }
+  auto contour = contour_from_json(text, name);
+  OBVID_TRY(contour);
+  return Stored(std::move(*contour));
+}
+
+}  // namespace obvid
