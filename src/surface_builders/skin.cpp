@@ -57,7 +57,7 @@ struct Net {
   std::size_t width = 0;
 };
 
-Result<Net> net_of(const std::vector<MeasuredSection>& sections, const Stretch& stretch,
+Result<Net> net_of(const std::vector<MeasuredSection>& sections, const MatchedStretch& stretch,
                    const SkinOptions& options) {
   Net net;
   for (std::size_t k = 0; k < sections.size(); ++k) {
@@ -134,7 +134,7 @@ Result<Skin> skin(const std::vector<SkinSection>& given, const SkinOptions& opti
   auto match = matched(measured_sections, options.matching);
   OBVID_TRY(match);
   std::vector<Net> nets;
-  for (const Stretch& stretch : match->stretches) {
+  for (const MatchedStretch& stretch : match->stretches) {
     const double part =
         static_cast<double>(nets.size()) / static_cast<double>(match->stretches.size());
     OBVID_TRY(tell(run, "following contours", part));

@@ -73,8 +73,8 @@ std::vector<double> averaged_marks(const std::vector<std::vector<double>>& marks
 
 /// A stretch is nothing where no section has a length; marks that stand together in all sections
 /// are one.
-std::optional<Stretch> stretch_of(std::vector<std::vector<double>> marks) {
-  Stretch stretch{std::move(marks), {}};
+std::optional<MatchedStretch> stretch_of(std::vector<std::vector<double>> marks) {
+  MatchedStretch stretch{std::move(marks), {}};
   stretch.at = averaged_marks(stretch.marks);
   if (stretch.at.empty()) return std::nullopt;
   std::vector<std::size_t> kept = {0};

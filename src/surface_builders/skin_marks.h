@@ -12,7 +12,7 @@
 namespace obvid {
 
 /// A stretch of all sections between two matched corners: arc lengths of matched places.
-struct Stretch {
+struct MatchedStretch {
   /// [section][mark], ascending (not always strictly); empty for sections that are a point.
   std::vector<std::vector<double>> marks;
   /// Common parameters of the marks, 0 to 1: the mean of the sections' shares of arc length.
@@ -20,7 +20,7 @@ struct Stretch {
 };
 
 struct Matched {
-  std::vector<Stretch> stretches;
+  std::vector<MatchedStretch> stretches;
   SkinMatching matching = SkinMatching::kByPoints;
   std::vector<std::string> warnings;
 };

@@ -15,7 +15,7 @@ namespace {
 
 using arcs::Node;
 using arcs::PairCurvatures;
-using arcs::Stretch;
+using arcs::SmoothPart;
 using arcs::Track;
 
 /// An arc of length l that meets a curve at its ends and its middle leaves it by r l^3 / kBest
@@ -39,7 +39,7 @@ using Chain = std::vector<Node>;
 /// Pairs of arcs along a part of a contour without corners, lines and arcs.
 class StretchArcs {
  public:
-  StretchArcs(const Track& track, const Stretch& stretch, double tolerance, std::size_t parts)
+  StretchArcs(const Track& track, const SmoothPart& stretch, double tolerance, std::size_t parts)
       : track_(track),
         closed_(stretch.closed),
         from_(track.start_of(stretch.first)),
@@ -280,7 +280,7 @@ double expected_arcs(const Contour& contour, double tolerance) {
 Result<std::vector<Piece>> all_arcs(const Track& track, double tolerance, double expected) {
   const std::size_t parts = expected > kManyArcs ? 1 : kParts.size();
   std::vector<Piece> out;
-  for (const Stretch& stretch : track.stretches()) {
+  for (const SmoothPart& stretch : track.stretches()) {
     if (stretch.exact) {
       out.push_back(arcs::as_circular(track.piece(stretch.first)));
       continue;

@@ -138,7 +138,7 @@ Result<PolylineAlong> polyline_along(const Contour& contour, double tolerance) {
   PolylineAlong out;
   for (int trial = 0; trial < kTrials; ++trial) {
     out.points.assign(1, start_point(contour.pieces.front()));
-    for (const arcs::Stretch& stretch : track.stretches()) {
+    for (const arcs::SmoothPart& stretch : track.stretches()) {
       const double from = track.start_of(stretch.first), to = track.start_of(stretch.end);
       if (!Chords(track, within).follow(from, to, out.points))
         return fail(chords_not_near(tolerance));

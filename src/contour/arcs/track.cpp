@@ -20,11 +20,11 @@ bool Track::corner_before(std::size_t piece) const {
   return piece < contour_.joints.size() && contour_.joints[piece].leaving.has_value();
 }
 
-std::vector<Stretch> Track::stretches() const {
+std::vector<SmoothPart> Track::stretches() const {
   const std::size_t n = contour_.pieces.size();
-  std::vector<Stretch> out;
+  std::vector<SmoothPart> out;
   for (std::size_t i = 0; i < n;) {
-    Stretch stretch = {i, i + 1, is_circular(piece(i)), false};
+    SmoothPart stretch = {i, i + 1, is_circular(piece(i)), false};
     if (!stretch.exact) {
       while (stretch.end < n && !is_circular(piece(stretch.end)) && !corner_before(stretch.end)) {
         ++stretch.end;
@@ -38,7 +38,7 @@ std::vector<Stretch> Track::stretches() const {
   return out;
 }
 
-std::vector<double> Track::vertices(const Stretch& stretch) const {
+std::vector<double> Track::vertices(const SmoothPart& stretch) const {
   std::vector<double> out;
   int before = 0;
   for (const Run& run : contour_.runs) {

@@ -10,7 +10,7 @@
 namespace obvid::arcs {
 
 /// Part of a contour without corners: pieces [first, end).
-struct Stretch {
+struct SmoothPart {
   std::size_t first = 0;
   std::size_t end = 0;
   bool exact = false;   ///< one line or arc
@@ -36,10 +36,10 @@ class Track {
   [[nodiscard]] Jet jet(double s, bool from_left) const { return path_.jet(s, from_left); }
 
   /// Maximal parts without corners; each exact line or arc is a part of its own.
-  [[nodiscard]] std::vector<Stretch> stretches() const;
+  [[nodiscard]] std::vector<SmoothPart> stretches() const;
 
   /// Places strictly inside a stretch where the curvature begins to change the other way.
-  [[nodiscard]] std::vector<double> vertices(const Stretch& stretch) const;
+  [[nodiscard]] std::vector<double> vertices(const SmoothPart& stretch) const;
 
  private:
   [[nodiscard]] bool corner_before(std::size_t piece) const;
