@@ -3,8 +3,6 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <cctype>
 #include <filesystem>
 #include <numbers>
 #include <utility>
@@ -187,13 +185,6 @@ std::string space_text(const SpaceChain& chain, const Written& written) {
   return out + (written_lines.empty() ? "" : "\n" + written_lines);
 }
 
-std::string ending_of(const std::string& path) {
-  std::string ending = std::filesystem::path(path).extension().string();
-  std::transform(ending.begin(), ending.end(), ending.begin(),
-                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  return ending;
-}
-
 /// Texts first, then files: a failure to form leaves every file as it was.
 Result<Written> written_files(const SpaceChain& chain, const std::vector<std::string>& outputs,
                               const ExportOptions& formats, const std::string& input) {
@@ -211,7 +202,7 @@ Result<Written> written_files(const SpaceChain& chain, const std::vector<std::st
   }
   std::vector<Output> texts;
   for (const std::string& path : outputs) {
-    auto made = export_space(chain, *nurbs, ending_of(path), formats);
+    auto made = export_space(chain, *nurbs, path, formats);
     if (!made) {
       if (made.error().where.empty()) made.error().where = path;
       return fail(made.error());

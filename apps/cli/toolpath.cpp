@@ -70,9 +70,7 @@ Result<Made> made_from(const ToolpathCommand& command, std::vector<ToolpathOutpu
   made.job = std::move(*path);
   made.warnings.insert(made.warnings.end(), made.job.warnings.begin(), made.job.warnings.end());
   SurfaceExportOptions formats;
-  const auto view = view_named(command.view);
-  OBVID_TRY(view);
-  formats.view = *view;
+  formats.view = command.view;
   formats.lines = drawn(made.job.path);
   SurfaceExporter exporter(made.model, formats, bar.progress());
   bar.tell("writing", 1.0);

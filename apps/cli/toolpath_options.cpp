@@ -15,6 +15,7 @@ namespace {
 struct RawToolpath {
   ToolpathCommand command;
   ToolpathValues values;
+  std::string view = "iso";
   bool no_progress = false;
 };
 
@@ -96,7 +97,9 @@ Result<Command> checked_toolpath(const CLI::App& app, RawToolpath& raw) {
   if (command.outputs.empty()) {
     return fail(usage("toolpath needs a file to write", "add -o part.nc"));
   }
-  OBVID_TRY(view_named(command.view));
+  const auto view = view_named(raw.view);
+  OBVID_TRY(view);
+  command.view = *view;
   command.progress = !raw.no_progress && !command.quiet && !command.json;
   return Command{command};
 }
@@ -116,8 +119,7 @@ Result<Command> parse_toolpath(int argc, const char* const* argv) {
   add_cutter(app, raw);
   add_passes(app, raw);
   add_program(app, raw);
-  app.add_option("--view", raw.command.view,
-                 "Of the picture: iso, front, top, side, back or bottom [iso]")
+  app.add_option("--view", raw.view, "Of the picture: iso, front, top, side, back or bottom [iso]")
       ->type_name("NAME");
   app.add_flag("--json", raw.command.json, "Report as JSON on standard output");
   app.add_flag("--quiet", raw.command.quiet, "No report and no progress bar");

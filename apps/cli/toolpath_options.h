@@ -13,7 +13,7 @@ struct ToolpathCommand {
   std::string input;
   std::vector<std::string> outputs;  ///< G-code, pictures, pages
   ToolpathJob job;
-  std::string view = "iso";
+  SurfaceView view = SurfaceView::kIso;
   bool json = false;
   bool quiet = false;
   bool progress = true;

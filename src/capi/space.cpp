@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <algorithm>
-#include <cctype>
 #include <limits>
 #include <memory>
 #include <string>
@@ -177,10 +175,8 @@ int obvid_space_export(const obvid_space* space, const char* ending, const char*
     if (request->units) (void)take_units(chain, *request->units);
     const auto nurbs = chain_nurbs(chain, request->formats.tolerance);
     OBVID_TRY(nurbs);
-    std::string dotted = "." + std::string(ending);
-    std::transform(dotted.begin(), dotted.end(), dotted.begin(),
-                   [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-    Result<Exported> made = export_space(chain, *nurbs, dotted, request->formats);
+    Result<Exported> made =
+        export_space(chain, *nurbs, "." + std::string(ending), request->formats);
     OBVID_TRY(made);
     auto out = std::make_unique<obvid_files>();
     out->files = std::move(made->files);

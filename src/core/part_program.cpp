@@ -6,10 +6,10 @@
 #include <unistd.h>
 
 #include <cstdint>
-#include <fstream>
-#include <sstream>
 #include <string>
 #include <utility>
+
+#include "obvid/core/files.h"
 
 namespace obvid {
 namespace {
@@ -82,11 +82,9 @@ Result<void> check_part(const fs::path& file, const fs::path& own, const PartPro
   if ((found.st_mode & S_IWOTH) != 0) {
     return fail(unusable(part, "everybody may write to " + name, "chmod o-w " + name));
   }
-  std::ifstream stream(file, std::ios::binary);
-  std::ostringstream bytes;
-  bytes << stream.rdbuf();
-  if (!stream) return fail(unusable(part, name + " cannot be read", rebuild));
-  if (bytes.str().find(part.mark) == std::string::npos) {
+  const auto bytes = read_file(name);
+  if (!bytes) return fail(unusable(part, name + " cannot be read", rebuild));
+  if (bytes->find(part.mark) == std::string::npos) {
     return fail(unusable(part, name + " belongs to another build of the program", rebuild));
   }
   return {};

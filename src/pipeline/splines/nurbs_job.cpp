@@ -4,13 +4,12 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cctype>
 #include <cmath>
-#include <filesystem>
 
 #include "obvid/cad/internal/cad.h"
 #include "obvid/exchange/internal/dxf/space.h"
 #include "obvid/io/internal/json_text.h"
+#include "obvid/pipeline/file_formats.h"
 
 namespace obvid {
 namespace {
@@ -337,19 +336,17 @@ Result<ControlTable> read_control_table(const std::string& path) {
 Result<std::string> nurbs_file(const NurbsReport& report, const std::string& path,
                                const Units& units, std::size_t samples) {
   const auto& curve = std::get<SpaceCurve>(report.shape);
-  std::string ending = std::filesystem::path(path).extension().string();
-  std::transform(ending.begin(), ending.end(), ending.begin(),
-                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  if (ending == ".json") return nurbs_json(report);
-  if (ending == ".csv") return nurbs_samples_csv(curve, samples);
-  if (ending == ".dxf") return space_dxf({curve}, curve.points, units);
+  const auto format = space_format_of(path);
+  if (format == FileFormat::kContour) return nurbs_json(report);
+  if (format == FileFormat::kSamples) return nurbs_samples_csv(curve, samples);
+  if (format == FileFormat::kDxf) return space_dxf({curve}, curve.points, units);
   CadWriteOptions write;
   write.units = units.name;
-  const bool step = ending == ".step" || ending == ".stp";
-  const bool iges = ending == ".iges" || ending == ".igs";
-  if (iges) write.format = CadFormat::kIges;
-  if (ending == ".brep") write.format = CadFormat::kBrep;
-  if (step || iges || ending == ".brep") return cad_text({{"curve", curve}}, write);
+  if (format == FileFormat::kIges) write.format = CadFormat::kIges;
+  if (format == FileFormat::kBrep) write.format = CadFormat::kBrep;
+  const bool cad =
+      format == FileFormat::kStep || format == FileFormat::kIges || format == FileFormat::kBrep;
+  if (cad) return cad_text({{"curve", curve}}, write);
   return error(ErrorCode::kUnknownFormat, "nurbs writes no such file of a curve")
       .where(path)
       .hint("possible are .json, .csv, .step, .iges, .brep and .dxf");

@@ -35,6 +35,17 @@ Result<std::string> surface_in_units(SurfaceExport& e, std::vector<std::string>&
   return text;
 }
 
+/// How the model is shown, in pictures as on pages.
+template <class Looks>
+Looks looks_of(SurfaceExport& e) {
+  Looks out;
+  out.colouring = e.options.colouring;
+  out.view = e.options.view;
+  out.lines = e.options.lines;
+  out.extremes = e.extremes();
+  return out;
+}
+
 /// Files without a place for a unit, or that state the one that we have.
 template <class Make>
 Result<std::string> surface_as_it_is(SurfaceExport& e, std::vector<std::string>& remarks,
@@ -116,8 +127,8 @@ Result<std::string> surface_as_stl(SurfaceExport& e, std::vector<std::string>& r
 
 Result<std::string> surface_as_obj(SurfaceExport& e, std::vector<std::string>& remarks) {
   return surface_as_it_is(e, remarks, [&] {
-    return of_triangles(
-        e, remarks, [&] { return Result<std::string>(obj_mesh_text(e.model, e.meshes)); });
+    return of_triangles(e, remarks,
+                        [&] { return Result<std::string>(obj_mesh_text(e.model, e.meshes)); });
   });
 }
 
@@ -138,24 +149,14 @@ Result<std::string> surface_as_ply(SurfaceExport& e, std::vector<std::string>& r
 Result<std::string> surface_as_page(SurfaceExport& e, std::vector<std::string>& remarks) {
   return surface_as_it_is(e, remarks, [&] {
     return of_triangles(e, remarks, [&]() -> Result<std::string> {
-      PageOptions page;
-      page.colouring = e.options.colouring;
-      page.view = e.options.view;
-      page.lines = e.options.lines;
-      page.extremes = e.extremes();
-      return surface_page(e.model, e.meshes, page, e.run);
+      return surface_page(e.model, e.meshes, looks_of<PageOptions>(e), e.run);
     });
   });
 }
 
 Result<std::string> surface_as_svg(SurfaceExport& e, std::vector<std::string>& remarks) {
   return surface_as_it_is(e, remarks, [&]() -> Result<std::string> {
-    SurfacePictureOptions picture;
-    picture.colouring = e.options.colouring;
-    picture.view = e.options.view;
-    picture.lines = e.options.lines;
-    picture.extremes = e.extremes();
-    return surface_svg(e.model, picture);
+    return surface_svg(e.model, looks_of<SurfacePictureOptions>(e));
   });
 }
 
