@@ -506,15 +506,18 @@ Side advance(const Side& from, const RangeNode& node, const RangeLink& over, int
   return to;
 }
 
-/// From the first point on; `order` +1, or -1 from the last one back.
+bool is_to_end(Watch* watch) { return watch != nullptr && watch->cancelled(); }
+
+/// From the first point on; `order` +1, or -1 from the last one back. Empty when it is to end.
 std::vector<Side> reach_all(const std::vector<RangeLink>& links,
-                            const std::vector<RangeNode>& nodes, int order) {
+                            const std::vector<RangeNode>& nodes, int order, Watch* watch) {
   const std::size_t n = nodes.size();
   std::vector<Side> out(n);
   const auto place = [&](std::size_t k) { return order > 0 ? k : n - 1 - k; };
   const auto link = [&](std::size_t k) { return links[order > 0 ? k : n - 2 - k]; };
   out[place(0)] = at_first(link(0), order);
   for (std::size_t k = 0; k + 1 < n; ++k) {
+    if (is_to_end(watch)) return {};
     out[place(k + 1)] = advance(out[place(k)], nodes[place(k)], link(k), order);
   }
   return out;
@@ -681,10 +684,12 @@ void end_open(HeadingRange& range, double omega) {
 /// Gives a heading, or else a curvature, at the first point of a way and at every so many after it.
 template <class Choose>
 bool give_in_turn(const std::vector<RangeLink>& links, std::vector<RangeNode>& nodes,
-                  std::size_t first, std::size_t every, const Choose& choose) {
-  const std::vector<Side> right = reach_all(links, nodes, -1);
+                  std::size_t first, std::size_t every, const Choose& choose, Watch* watch) {
+  const std::vector<Side> right = reach_all(links, nodes, -1, watch);
+  if (right.empty()) return false;
   Side left = at_first(links.front(), 1);
   for (std::size_t i = 0; i < nodes.size(); ++i) {
+    if (is_to_end(watch)) return false;
     if (i > 0) left = advance(left, nodes[i - 1], links[i - 1], 1);
     const bool now = i >= first && (i - first) % every == 0;
     if (now && !beside_an_arc(links, i) && !choose(i, left, right[i])) return false;
@@ -694,17 +699,17 @@ bool give_in_turn(const std::vector<RangeLink>& links, std::vector<RangeNode>& n
 
 template <class Choose>
 bool give(const std::vector<RangeLink>& links, std::vector<RangeNode>& nodes, ChoiceOrder order,
-          const Choose& choose) {
+          const Choose& choose, Watch* watch) {
   if (order == ChoiceOrder::kHalves) {
     std::size_t step = 1;
     while (2 * step < nodes.size()) step *= 2;
     for (; step > 0; step /= 2) {
-      if (!give_in_turn(links, nodes, step, 2 * step, choose)) return false;
+      if (!give_in_turn(links, nodes, step, 2 * step, choose, watch)) return false;
     }
   }
   // where halves begin, the first point is left
   const std::size_t every = order == ChoiceOrder::kHalves ? nodes.size() : 1;
-  return give_in_turn(links, nodes, 0, every, choose);
+  return give_in_turn(links, nodes, 0, every, choose, watch);
 }
 
 }  // namespace
@@ -712,7 +717,7 @@ bool give(const std::vector<RangeLink>& links, std::vector<RangeNode>& nodes, Ch
 std::optional<std::vector<RangeNode>> central_data(const std::vector<RangeLink>& links,
                                                    std::vector<RangeNode> nodes,
                                                    const std::vector<std::optional<double>>& wanted,
-                                                   ChoiceOrder order) {
+                                                   ChoiceOrder order, Watch* watch) {
   if (nodes.size() < 2) return std::nullopt;
   const auto heading = [&](std::size_t i, const Side& left, const Side& right) {
     auto range = Both(left, right, nodes[i], {true, true}).headings();
@@ -731,18 +736,20 @@ std::optional<std::vector<RangeNode>> central_data(const std::vector<RangeLink>&
         region_detail::chosen_curvature(*range, wanted.empty() ? std::nullopt : wanted[i]);
     return true;
   };
-  if (!give(links, nodes, order, heading) || !give(links, nodes, order, curvature)) {
+  if (!give(links, nodes, order, heading, watch) || !give(links, nodes, order, curvature, watch)) {
     return std::nullopt;
   }
   return nodes;
 }
 
 std::vector<FeasibleData> feasible_data(const std::vector<RangeLink>& links,
-                                        const std::vector<RangeNode>& nodes) {
+                                        const std::vector<RangeNode>& nodes, Watch* watch) {
   std::vector<FeasibleData> out(nodes.size());
   if (nodes.size() < 2) return out;
-  const std::vector<Side> left = reach_all(links, nodes, 1), right = reach_all(links, nodes, -1);
+  const std::vector<Side> left = reach_all(links, nodes, 1, watch);
+  const std::vector<Side> right = reach_all(links, nodes, -1, watch);
   for (std::size_t i = 0; i < nodes.size(); ++i) {
+    if (is_to_end(watch)) return std::vector<FeasibleData>(nodes.size());
     const RangeNode& node = nodes[i];
     if (beside_an_arc(links, i)) {
       if (node.theta) out[i].heading = HeadingRange{*node.theta, *node.theta};

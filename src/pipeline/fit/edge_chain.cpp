@@ -43,8 +43,11 @@ constexpr std::array<SpiralForm, 2> kForms{SpiralForm::kEven, SpiralForm::kOneSi
 
 class EdgeChain {
  public:
-  EdgeChain(const ChainWishes& wishes, Directed series)
-      : wishes_(wishes), series_(std::move(series)), chords_(measure_chords(series_.points)) {}
+  EdgeChain(const ChainWishes& wishes, Directed series, Watch& watch)
+      : wishes_(wishes),
+        series_(std::move(series)),
+        chords_(measure_chords(series_.points)),
+        watch_(watch) {}
 
   /// The first choice of data whose spirals are proved.
   std::optional<SeriesChain> run() const {
@@ -54,7 +57,7 @@ class EdgeChain {
       const auto calmer = part < 1.0 ? with_calm_ends(along, given, part) : given;
       if (part < 1.0 && calmer.empty()) return std::nullopt;
       for (const ChoiceOrder order : {ChoiceOrder::kHalves, ChoiceOrder::kAlong}) {
-        const auto data = central_data(along, calmer, {}, order);
+        const auto data = central_data(along, calmer, {}, order, &watch_);
         if (!data) return std::nullopt;
         auto chain = carried_by(*data);
         if (chain && stored_pieces_proved(series_.points, *chain)) return chain;
@@ -67,10 +70,10 @@ class EdgeChain {
   /// The first and the last heading may turn away by a right angle, the middle of what is left to
   /// them by half of that: where the points bend by next to nothing that is a leap. Headings in a
   /// part of that range beside its other end; empty where neither is free.
-  [[nodiscard]] static std::vector<RangeNode> with_calm_ends(const std::vector<RangeLink>& links,
-                                                             std::vector<RangeNode> nodes,
-                                                             double part) {
-    const std::vector<FeasibleData> ranges = feasible_data(links, nodes);
+  [[nodiscard]] std::vector<RangeNode> with_calm_ends(const std::vector<RangeLink>& links,
+                                                      std::vector<RangeNode> nodes,
+                                                      double part) const {
+    const std::vector<FeasibleData> ranges = feasible_data(links, nodes, &watch_);
     bool any = false;
     for (const std::size_t i : {std::size_t{0}, nodes.size() - 1}) {
       const auto& range = ranges[i].heading;
@@ -183,6 +186,7 @@ class EdgeChain {
   const ChainWishes& wishes_;
   Directed series_;
   std::vector<Chord> chords_;
+  Watch& watch_;
 };
 
 /// The points with the directions of their adjacent circles.
@@ -280,13 +284,14 @@ bool stored_pieces_proved(const std::vector<Vec2>& points, const SeriesChain& ch
 }
 
 std::optional<SeriesChain> edge_chain(const std::vector<Vec2>& points, const Analysis& analysis,
-                                      const ChainWishes& wishes, const SeriesChain* free) {
+                                      const ChainWishes& wishes, const SeriesChain* free,
+                                      Watch& watch) {
   if (const auto series = as_circles(points, analysis, wishes)) {
-    auto chain = EdgeChain(wishes, *series).run();
+    auto chain = EdgeChain(wishes, *series, watch).run();
     if (chain && keeps_what_is_given(*chain, wishes)) return chain;
   }
   if (free == nullptr) return std::nullopt;
-  auto chain = EdgeChain(wishes, as_chain(*free)).run();
+  auto chain = EdgeChain(wishes, as_chain(*free), watch).run();
   if (!chain || !keeps_what_is_given(*chain, wishes)) return std::nullopt;
   chain->turned_directions = free->turned_directions;
   chain->unforced_inflection = free->unforced_inflection;

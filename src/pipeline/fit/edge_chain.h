@@ -29,10 +29,10 @@ struct ChainTurns {
 /// (`central_data`), one spiral of the form that exists wherever a spiral exists to each link, and
 /// every stored piece proved. The directions are those of the analysis, else those of the chain
 /// `free` that the points have when nothing is given, with its vertices between points where they
-/// are. `free` may be nothing. Nothing when there is none.
+/// are. `free` may be nothing. Nothing when there is none, or the work is to end.
 [[nodiscard]] std::optional<SeriesChain> edge_chain(const std::vector<Vec2>& points,
                                                     const Analysis& analysis,
                                                     const ChainWishes& wishes,
-                                                    const SeriesChain* free);
+                                                    const SeriesChain* free, Watch& watch);
 
 }  // namespace obvid::pipeline_detail

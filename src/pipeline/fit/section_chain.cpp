@@ -11,11 +11,11 @@
 #include <utility>
 
 #include "fit/edge_chain.h"
+#include "fit/form.h"
 #include "fit/given.h"
 #include "fit/more_vertices.h"
 #include "fit/series_ranges.h"
 #include "fit/wandering.h"
-#include "fit/form.h"
 #include "obvid/core/internal/figures.h"
 #include "obvid/fairing/internal/fairing.h"
 #include "obvid/geom/internal/angle.h"
@@ -447,7 +447,7 @@ class SectionChooser {
     if (proved && (!free || !turns_of_chain(*found).more_than(turns_of_chain(*free)))) {
       return std::nullopt;
     }
-    return edge_chain(points, analysis, wishes, free ? &*free : nullptr);
+    return edge_chain(points, analysis, wishes, free ? &*free : nullptr, watch_);
   }
 
   /// Whether a link turns by half a turn, nearly: no shape that points ask for.

@@ -4,6 +4,7 @@
 #include <optional>
 #include <vector>
 
+#include "obvid/core/internal/watch.h"
 #include "obvid/geom/internal/value_range.h"
 #include "obvid/region/internal/curvature_chains.h"
 
@@ -51,9 +52,11 @@ struct FeasibleData {
 /// is carried from chord to chord in closed form (docs/methods/region.md), forward and backward;
 /// the range is where it stays below the greatest. The function is kept at some hundred headings
 /// and interpolated with its slope: ends are good to about 1e-7 rad, and to 1e-6 of a curvature.
-/// `links` has one entry less than `nodes`. O(n).
+/// `links` has one entry less than `nodes`. O(n). `watch` is asked at every chord: nothing is known
+/// of any point when the work is to end.
 [[nodiscard]] std::vector<FeasibleData> feasible_data(const std::vector<RangeLink>& links,
-                                                      const std::vector<RangeNode>& nodes);
+                                                      const std::vector<RangeNode>& nodes,
+                                                      Watch* watch = nullptr);
 
 /// The order in which data are chosen; each choice leaves the others about half of their room.
 enum class ChoiceOrder {
@@ -68,10 +71,11 @@ enum class ChoiceOrder {
 /// is given stays. Every chord then has a curve of monotone curvature with these ends. Nothing when
 /// there is no such curve through all points. `wanted`, empty or one per node: curvatures that are
 /// taken where the range that is left holds them and they do not lie beside an end of it; else
-/// halfway from that end to its middle.
+/// halfway from that end to its middle. Nothing, too, when `watch`, asked at every chord, ends it.
 [[nodiscard]] std::optional<std::vector<RangeNode>> central_data(
     const std::vector<RangeLink>& links, std::vector<RangeNode> nodes,
-    const std::vector<std::optional<double>>& wanted = {}, ChoiceOrder order = ChoiceOrder::kAlong);
+    const std::vector<std::optional<double>>& wanted = {}, ChoiceOrder order = ChoiceOrder::kAlong,
+    Watch* watch = nullptr);
 
 /// The same around a closed series: `links` and `nodes` are equally many, the last link leads back
 /// to the first node. The result has one node more, the first one again, a turn later. The heading
