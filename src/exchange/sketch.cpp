@@ -98,9 +98,16 @@ class SketchDxf {
     }
   }
 
-  /// DXF arcs run counter-clockwise. They lose digits where the centre lies far away; bulges do
-  /// not.
+  /// DXF arcs run counter-clockwise. They lose digits where the centre lies far away, and readers
+  /// take those whose two angles print alike for whole circles; bulges and lines do neither.
   void draw(const ArcPiece& arc, const std::string& layer) {
+    constexpr double kToldAngle = 1e-14;  ///< rad
+    if (std::abs(arc.kappa * arc.length) < kToldAngle) {
+      begin("LINE", "AcDbLine", layer);
+      out_.point3(10, arc.start);
+      out_.point3(11, arc.end);
+      return;
+    }
     if (!exchange::centre_is_near(arc, norm(box_.high - box_.low))) {
       begin("LWPOLYLINE", "AcDbPolyline", layer);
       out_.pair(90, 2);

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <vector>
 
 #include "obvid/geom/internal/angle.h"
 #include "two_arcs.h"
@@ -54,31 +55,37 @@ class Placement {
   TwoArcs from_start_, to_end_;
 };
 
-/// Largest value of f on [0, 1]: the best of some places, closer together towards both ends, where
-/// curves leave a region and return at once, then thirds around it.
+/// Largest value of f on [0, 1]: some places, closer together towards both ends, where curves leave
+/// a region and return at once, then thirds around each that is higher than its neighbours and
+/// nearly as high as the highest.
 template <class F>
 double largest_at(const F& f, int samples) {
+  constexpr double kNearlyAsHigh = 0.9;
   const auto place = [samples](int i) {
     const double half = std::sin(0.5 * std::numbers::pi * i / samples);
     return half * half;
   };
-  int best = 0;
-  double most = -1.0;
+  std::vector<double> value;
+  for (int i = 0; i <= samples; ++i) value.push_back(f(place(i)));
+  const auto highest = std::max_element(value.begin(), value.end());
+  const double high_enough = kNearlyAsHigh * *highest;
+  double most = *highest, best = place(static_cast<int>(highest - value.begin()));
   for (int i = 0; i <= samples; ++i) {
-    const double value = f(place(i));
-    if (value > most) {
-      most = value;
-      best = i;
+    const auto at = [&](int k) { return value[static_cast<std::size_t>(k)]; };
+    const int before = std::max(0, i - 1), after = std::min(samples, i + 1);
+    if (!(at(i) >= high_enough && at(i) >= at(before) && at(i) >= at(after))) continue;
+    double low = place(before), high = place(after);
+    constexpr int kThirds = 60;  // (2/3)^60 = 3e-11 of a step; the value is flat there
+    for (int n = 0; n < kThirds; ++n) {
+      const double a = low + (high - low) / 3.0, b = high - (high - low) / 3.0;
+      (f(a) < f(b) ? low : high) = f(a) < f(b) ? a : b;
     }
+    const double t = 0.5 * (low + high);
+    if (f(t) < most) continue;
+    most = f(t);
+    best = t;
   }
-  double low = place(std::max(0, best - 1)), high = place(std::min(samples, best + 1));
-  constexpr int kThirds = 60;  // (2/3)^60 = 3e-11 of a step; the value is flat there
-  for (int i = 0; i < kThirds; ++i) {
-    const double a = low + (high - low) / 3.0, b = high - (high - low) / 3.0;
-    (f(a) < f(b) ? low : high) = f(a) < f(b) ? a : b;
-  }
-  const double t = 0.5 * (low + high);
-  return f(t) < most ? place(best) : t;  // a peak at an end may be narrow
+  return best;
 }
 
 }  // namespace

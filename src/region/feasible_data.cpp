@@ -712,12 +712,42 @@ bool give(const std::vector<RangeLink>& links, std::vector<RangeNode>& nodes, Ch
   return give_in_turn(links, nodes, 0, every, choose, watch);
 }
 
+/// At a vertex or an end of the series a sharper curvature leaves the chords beside it more. The
+/// curvature as far beyond the bluntest one that neither A nor B of a chord there is less than
+/// twice what it is with that, and sigma; no farther than to the middle of the range. Headings are
+/// given. Nothing elsewhere.
+std::optional<double> calm_curvature(const std::vector<RangeLink>& links,
+                                     const std::vector<RangeNode>& nodes, std::size_t i,
+                                     const CurvatureRange& range) {
+  const int before = i > 0 ? links[i - 1].direction.value_or(0) : 0;
+  const int behind = i < links.size() ? links[i].direction.value_or(0) : 0;
+  if (before == behind || before * behind > 0) return std::nullopt;
+  const bool sharp_is_high = before > 0 || behind < 0;
+  const double end = sharp_is_high ? range.low : range.high;
+  const double other = sharp_is_high ? range.high : range.low;
+  if (std::isinf(end)) return std::nullopt;
+  double beyond = 0.0;
+  for (std::size_t k = i > 0 ? i - 1 : 0; k < std::min(i + 1, links.size()); ++k) {
+    const int d = links[k].direction.value_or(0);
+    if (d == 0 || !nodes[k].theta || !nodes[k + 1].theta) continue;
+    const double alpha = d * (*nodes[k].theta - links[k].omega);
+    const double beta = d * (*nodes[k + 1].theta - links[k].omega);
+    const double bent = 0.5 * d * end * links[k].h;
+    const double there = k == i ? -(bent + std::sin(alpha)) : bent - std::sin(beta);
+    beyond = std::max(beyond, 2.0 / links[k].h * (std::max(there, 0.0) + std::abs(alpha + beta)));
+  }
+  if (!(beyond > 0.0)) return std::nullopt;
+  beyond = std::min(beyond, 0.5 * std::abs(other - end));
+  return sharp_is_high ? end + beyond : end - beyond;
+}
+
 }  // namespace
 
 std::optional<std::vector<RangeNode>> central_data(const std::vector<RangeLink>& links,
                                                    std::vector<RangeNode> nodes,
                                                    const std::vector<std::optional<double>>& wanted,
-                                                   ChoiceOrder order, Watch* watch) {
+                                                   ChoiceOrder order, SharpCurvature sharp,
+                                                   Watch* watch) {
   if (nodes.size() < 2) return std::nullopt;
   const auto heading = [&](std::size_t i, const Side& left, const Side& right) {
     auto range = Both(left, right, nodes[i], {true, true}).headings();
@@ -732,8 +762,11 @@ std::optional<std::vector<RangeNode>> central_data(const std::vector<RangeLink>&
     if (nodes[i].kappa) return true;
     const auto range = Both(left, right, nodes[i], {true, true}).curvatures(nodes[i]);
     if (!range || !(range->low < range->high)) return false;
-    nodes[i].kappa =
-        region_detail::chosen_curvature(*range, wanted.empty() ? std::nullopt : wanted[i]);
+    if (sharp == SharpCurvature::kCalm) nodes[i].kappa = calm_curvature(links, nodes, i, *range);
+    if (!nodes[i].kappa) {
+      nodes[i].kappa =
+          region_detail::chosen_curvature(*range, wanted.empty() ? std::nullopt : wanted[i]);
+    }
     return true;
   };
   if (!give(links, nodes, order, heading, watch) || !give(links, nodes, order, curvature, watch)) {

@@ -306,5 +306,38 @@ TEST(SeriesChain, FreeElementsLieInsideBothHalves) {
   EXPECT_EQ(split, 2000);
 }
 
+TEST(SeriesChain, ElementsBeyondALeapLeaveSpiralsOnBothSidesAndTheLeapOnOne) {
+  // the curvature leaps at one end by up to 1e6 times what the rest of the link asks for
+  std::mt19937_64 rng(14);
+  for (int i = 0; i < 2000; ++i) {
+    const int direction = i % 2 == 0 ? 1 : -1;
+    const bool at_start = i % 4 < 2;
+    const double d = direction;
+    LinkState link;
+    link.h = std::pow(10.0, uniform(rng, -3.0, 3.0));
+    link.omega = uniform(rng, -3.0, 3.0);
+    const double alpha = uniform(rng, -0.5, 0.5), sigma = std::pow(10.0, uniform(rng, -3.0, -1.0));
+    const double half = std::sin(0.5 * sigma), product = half * half * uniform(rng, 1.5, 10.0);
+    const double leap = std::pow(10.0, uniform(rng, 2.0, 6.0));
+    const double A = -std::sqrt(product) * (at_start ? leap : 1.0 / leap), B = product / -A;
+    link.alpha = d * alpha;
+    link.beta = d * (sigma - alpha);
+    link.sigma = d * sigma;
+    link.A = d * A;
+    link.B = d * B;
+    const Vec2 start{};
+    const Element a = {start, link.omega + link.alpha,
+                       2.0 / link.h * (link.A - std::sin(link.alpha))};
+    const Element b = {link.h * unit_at(link.omega), link.omega + link.beta,
+                       2.0 / link.h * (link.B + std::sin(link.beta))};
+    const Element middle = element_beyond_leap(link, direction, start);
+    EXPECT_TRUE(spiral_exists(a, middle, direction, link.alpha)) << i;
+    EXPECT_TRUE(spiral_exists(middle, b, direction, 0.0)) << i;
+    // behind the leap the curvature hardly changes any more
+    const double rest = std::abs((at_start ? b : a).kappa - middle.kappa);
+    EXPECT_LT(rest, 0.1 * std::abs(a.kappa - b.kappa)) << i;
+  }
+}
+
 }  // namespace
 }  // namespace obvid

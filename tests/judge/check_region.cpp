@@ -20,6 +20,8 @@ constexpr Real kSameRange = 1e-9L;
 constexpr Real kAngleRounding = 1e-15L;
 /// Places found are not the farthest ones but for this.
 constexpr Real kFarthestPlace = 1e-3L;
+/// Given headings are met to this, rad.
+constexpr Real kGivenIsMet = 1e-6L;
 constexpr Real kCircleTurn = 2.0L * std::numbers::pi_v<Real>;
 
 /// Two lines through the ends of a chord: where they meet.
@@ -206,7 +208,9 @@ class RegionCheck {
       };
       const Real rounding =
           8.0L * std::max(apart(more[i]->low, less[i]->low), apart(more[i]->high, less[i]->high));
-      if (i < p_.kappas.size()) element_inside(i, 1e-6L * scale + rounding, at);
+      if (i < p_.kappas.size()) {
+        element_inside(i, 1e-6L * scale + rounding + beside_given_on_arc(i), at);
+      }
     }
     for (const SheetRow& row : p_.rows) {
       const auto same = [&](const std::optional<Limits>& range, std::size_t i) {
@@ -261,6 +265,18 @@ class RegionCheck {
     return std::any_of(p_.rows.begin(), p_.rows.end(), [&](const SheetRow& row) {
       return p_.touches(row, i) && p_.direction(row) == 0;
     });
+  }
+
+  /// What a heading that is given beside an arc, which has its own, may change of a curvature.
+  [[nodiscard]] Real beside_given_on_arc(std::size_t i) const {
+    Real out = 0.0L;
+    for (const SheetRow& row : p_.rows) {
+      if (!p_.touches(row, i)) continue;
+      const std::size_t other = row.from == i ? row.to : row.from;
+      if (!p_.points[other].heading_given || !beside_an_arc(other)) continue;
+      out += 4.0L * kGivenIsMet / norm(p_.points[row.to].point - p_.points[row.from].point);
+    }
+    return out;
   }
 
   [[nodiscard]] Real range_scale(std::size_t i) const {
@@ -560,7 +576,10 @@ class RegionCheck {
     const Real omega = std::atan2(chord.y, chord.x);
     const Real sigma = std::remainder(a.heading - omega, kCircleTurn) +
                        std::remainder(b.heading - omega, kCircleTurn);
-    const Real blur = kSameAsStated + 64.0L * 0x1p-53L * p_.coordinate / shortest_on_circle(row);
+    // a given heading counts as the circle's own as far as it would count as met
+    const Real given = a.heading_given || b.heading_given ? kGivenIsMet : 0.0L;
+    const Real blur =
+        kSameAsStated + given + 64.0L * 0x1p-53L * p_.coordinate / shortest_on_circle(row);
     sheet_.expect(std::abs(sigma) <= blur, "region.arc", 0.0L, sigma, where(row));
     const Real beta = std::remainder(b.heading - omega, kCircleTurn), turn = 2.0L * beta;
     const Real kappa = 2.0L * std::sin(beta) / h;

@@ -281,8 +281,9 @@ class DrawingCheck {
                          same(drawn[at][0].point(0.0L), a.point) &&
                          same(drawn[at][2].point(0.0L), b.point);
       constexpr Real kClear = 1e-9L;
-      if (std::min({std::abs(to), std::abs(from)}) <= kClear * norm(chord) ||
-          std::abs(turn) <= kClear) {
+      // an apex beside an end: rounding of the headings, 1e-15 rad, decides on which side
+      const Real blur = (kClear + 8e-15L / std::abs(turn)) * norm(chord);
+      if (std::min({std::abs(to), std::abs(from)}) <= blur || std::abs(turn) <= kClear) {
         at += there ? 1U : 0U;
         continue;
       }

@@ -258,6 +258,17 @@ Input read_input(const std::string& text, const std::vector<std::string>& option
   return out;
 }
 
+void share_closing_point(Input& input) {
+  if (!input.closed || input.points.size() < 3) return;
+  GivenPoint &first = input.points.front(), &last = input.points.back();
+  if (!(first.point == last.point)) return;
+  if (!first.heading) first.heading = last.heading;
+  if (!first.kappa) first.kappa = last.kappa;
+  narrow(first.headings, last.headings);
+  narrow(first.kappas, last.kappas);
+  last = first;
+}
+
 std::string with_tolerances_from(const std::string& text, const std::string& tolerance) {
   std::string out;
   std::istringstream lines(text);

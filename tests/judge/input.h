@@ -54,6 +54,9 @@ struct Input {
 /// heading_min, heading_max, radius_min, radius_max, kappa_min, kappa_max.
 Input read_input(const std::string& text, const std::vector<std::string>& options);
 
+/// A closed series that names its first point at its end again: both have what is given at either.
+void share_closing_point(Input& input);
+
 /// The same points, none with a smaller tolerance of its own (column tol) than this one.
 std::string with_tolerances_from(const std::string& text, const std::string& tolerance);
 

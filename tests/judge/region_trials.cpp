@@ -40,7 +40,8 @@ class RegionTrial : public ProgramRuns {
 
   Trial run() {
     make();
-    const Input input = read_input(text_, given_);
+    Input input = read_input(text_, given_);
+    share_closing_point(input);
     const Run table = region({}, "t");
     if (stopped_) return std::move(out_);
     const double start = own_seconds();

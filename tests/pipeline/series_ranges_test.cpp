@@ -232,6 +232,113 @@ const std::vector<Vec2> kRounded = {
     {149.84942195010316, -61.240881970395975}, {151.54399993934763, -56.918458975041005},
     {153.11392667006191, -52.549218175131102}, {154.55791100008909, -48.136753516585344}};
 
+/// A line, three parts of a circle and a line, six digits.
+const std::vector<Vec2> kLineArcLine = {
+    {-9.302673, 14.25715},
+    {-13.49029, 11.52477},
+    {-17.67791, 8.792382},
+    {-21.86552, 6.059998},
+    {-26.05314, 3.327613},
+    {-32.65663, -4.863235},
+    {-33.18451, -15.3712},
+    {-27.43514, -24.18261},
+    {-17.60459, -27.93179},
+    {-7.447793, -25.18669},
+    {-3.260176, -22.45431},
+    {0.9274401, -19.72192},
+    {5.115056, -16.98954}};
+
+/// On a circle, rounded to the fifth digit.
+const std::vector<Vec2> kFiveOfACircle = {
+    {-11.7721, 16.04826},
+    {-12.95922, 15.10588},
+    {-14.07119, 14.07589},
+    {-15.10155, 12.96426},
+    {-16.04433, 11.77745}};
+
+/// On a circle but for some 1e-10 of it.
+const std::vector<Vec2> kTwelveOfACircle = {
+    {-14.674217479155717, 0.026484111130724453},
+    {-13.494052716012074, -5.7657524524399326},
+    {-10.124167351047353, -10.622362988844662},
+    {-5.1114028402079299, -13.755250671715192},
+    {0.73080441400856933, -14.656032374201503},
+    {6.4544218336589969, -13.178535534647629},
+    {11.130660770968229, -9.562518018258773},
+    {14.000693841474725, -4.3947618849156234},
+    {14.598792127293823, 1.4861455041699529},
+    {12.827900420260963, 7.1258915834857346},
+    {8.975386652352741, 11.609297760281976},
+    {3.6664098435978074, 14.208828202613722}};
+
+/// A zigzag of five points that turns by 72 degrees.
+const std::vector<Vec2> kSteepZigzag = {
+    {0, 1.2259},
+    {3.37922, -1.2259},
+    {6.75844, 1.2259},
+    {10.1377, -1.2259},
+    {13.5169, 1.2259}};
+
+/// A zigzag of 18 points.
+const std::vector<Vec2> kLongZigzag = {
+    {0.0034003292870060432, -0.012531271757517129},
+    {-0.51927087889642021, -0.12744891318169674},
+    {-1.0283407699318223, -0.29249164163594482},
+    {-1.5510119781152487, -0.40740928306012442},
+    {-2.0600818691506508, -0.57245201151437253},
+    {-2.5827530773340768, -0.68736965293855212},
+    {-3.0918229683694789, -0.85241238139280029},
+    {-3.6144941765529053, -0.96733002281697988},
+    {-4.1235640675883074, -1.1323727512712281},
+    {-4.6462352757717333, -1.2472903926954075},
+    {-5.1553051668071355, -1.4123331211496557},
+    {-5.6779763749905623, -1.5272507625738352},
+    {-6.1870462660259644, -1.6922934910280834},
+    {-6.7097174742093904, -1.8072111324522631},
+    {-7.2187873652447925, -1.9722538609065112},
+    {-7.7414585734282184, -2.0871715023306909},
+    {-8.2505284644636205, -2.2522142307849387},
+    {-8.7731996726470474, -2.3671318722091184}};
+
+/// A zigzag of 36 points, the heading near an end of the range of its middle.
+const std::vector<Vec2> kZigzagHalfWay = {
+    {0, 2.34097e-13},
+    {4.90131e-08, -2.34097e-13},
+    {9.80262e-08, 2.34097e-13},
+    {1.47039e-07, -2.34097e-13},
+    {1.96052e-07, 2.34097e-13},
+    {2.45065e-07, -2.34097e-13},
+    {2.94079e-07, 2.34097e-13},
+    {3.43092e-07, -2.34097e-13},
+    {3.92105e-07, 2.34097e-13},
+    {4.41118e-07, -2.34097e-13},
+    {4.90131e-07, 2.34097e-13},
+    {5.39144e-07, -2.34097e-13},
+    {5.88157e-07, 2.34097e-13},
+    {6.3717e-07, -2.34097e-13},
+    {6.86183e-07, 2.34097e-13},
+    {7.35196e-07, -2.34097e-13},
+    {7.84209e-07, 2.34097e-13},
+    {8.33222e-07, -2.34097e-13},
+    {8.82236e-07, 2.34097e-13},
+    {9.31249e-07, -2.34097e-13},
+    {9.80262e-07, 2.34097e-13},
+    {1.02927e-06, -2.34097e-13},
+    {1.07829e-06, 2.34097e-13},
+    {1.1273e-06, -2.34097e-13},
+    {1.17631e-06, 2.34097e-13},
+    {1.22533e-06, -2.34097e-13},
+    {1.27434e-06, 2.34097e-13},
+    {1.32335e-06, -2.34097e-13},
+    {1.37237e-06, 2.34097e-13},
+    {1.42138e-06, -2.34097e-13},
+    {1.47039e-06, 2.34097e-13},
+    {1.51941e-06, -2.34097e-13},
+    {1.56842e-06, 2.34097e-13},
+    {1.61743e-06, -2.34097e-13},
+    {1.66644e-06, 2.34097e-13},
+    {1.71546e-06, -2.34097e-13}};
+
 TEST(SeriesRanges, OfUnevenPointsAreUsedByFit) {
   const UnevenSeries all[] = {{"parabola", kParabola, 10, 166.60243238194005},
                               {"logarithmic", kLogarithmic, 9, -12.166311890260006},
@@ -239,7 +346,13 @@ TEST(SeriesRanges, OfUnevenPointsAreUsedByFit) {
                               {"spread", kSpread, 17, 72.777804010356689},
                               {"nearly straight", kNearlyStraight, 0, -0.90000000053007012},
                               {"sine with twins", kSineWithTwins, 11, -7.3922517619656984},
-                              {"rounded", kRounded, 0, 14.293687267224959}};
+                              {"rounded", kRounded, 0, 14.293687267224959},
+                              {"line, arc, line", kLineArcLine, 9, 33.087029816425343},
+                              {"five of a circle", kFiveOfACircle, 0, -143.65546240017056},
+                              {"twelve of a circle", kTwelveOfACircle, 0, -90.887210115696647},
+                              {"steep zigzag", kSteepZigzag, 0, -72.466049655806827},
+                              {"long zigzag", kLongZigzag, 9, -208.48669526194482},
+                              {"zigzag, half way", kZigzagHalfWay, 7, -0.006206530355445038}};
   for (const UnevenSeries& one : all) {
     PointSeries series;
     series.points = one.points;
@@ -256,6 +369,32 @@ TEST(SeriesRanges, OfUnevenPointsAreUsedByFit) {
     EXPECT_LE(made->certificate.vertices, free->certificate.vertices) << one.name;
     EXPECT_LE(made->certificate.inflections, free->certificate.inflections) << one.name;
   }
+}
+
+/// What three points leave where the last heading asks for an inflection that their circle does not
+/// show: near the end of the range of the middle one.
+TEST(SeriesRanges, OfThreePointsAreUsedByFit) {
+  PointSeries series;
+  series.points = {{41933.140165385528, 16062.808270540871},
+                   {41979.377158322124, 16046.98499037343},
+                   {42011.495633582752, 16078.090204717177}};
+  const auto with = [&](double heading_deg) {
+    FitJob job;
+    PointWish last, middle;
+    last.index = 2;
+    last.theta = 32.339278022 / kDegreesOfRadian;
+    middle.index = 1;
+    middle.theta = heading_deg / kDegreesOfRadian;
+    job.wishes = {last, middle};
+    return fit(series, job);
+  };
+  // the range is 14.1537 to 55.8244 degrees
+  const auto inside = with(14.570440494398722);
+  ASSERT_TRUE(inside) << inside.error().what;
+  EXPECT_TRUE(inside->certificate.proved);
+  EXPECT_EQ(inside->certificate.vertices, 0);
+  EXPECT_EQ(inside->certificate.inflections, 1);
+  EXPECT_FALSE(with(13.74));
 }
 
 }  // namespace

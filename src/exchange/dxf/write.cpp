@@ -114,8 +114,10 @@ class DxfDrawer {
     out_.point3(11, one.end);
   }
 
-  /// DXF arcs run counter-clockwise.
+  /// DXF arcs run counter-clockwise. Where both angles print alike readers see a whole circle.
   void arc(const ArcPiece& one) {
+    constexpr double kToldAngle = 1e-12;  ///< rad
+    if (std::abs(one.kappa * one.length) < kToldAngle) return line({one.start, one.end});
     constexpr double kWhole = 1.0 - 1e-12;  // of a turn: an arc of equal angles would be nothing
     const Vec2 centre = one.start + left_normal(unit_at(one.theta0)) / one.kappa;
     const double turn = one.kappa * one.length;

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "advice/uniform_tolerance.h"
+#include "fit/form.h"
 #include "fit/prepare.h"
 #include "fit/series_ranges.h"
 #include "obvid/geom/internal/angle.h"
@@ -228,9 +229,29 @@ class RangeSearch {
     }
     const auto analysis = analyse(series.points);
     if (!analysis) return std::nullopt;
-    auto ranges = series_ranges(*analysis, {series.fixed, series.convex});
+    const ChainWishes wishes{series.fixed, series.convex};
+    if (is_few_on_one_circle(series.points, *analysis)) return ranges_of_few(*analysis, wishes);
+    auto ranges = series_ranges(*analysis, wishes);
     if (!ranges) return std::nullopt;
     return std::move(*ranges);
+  }
+
+  /// Two or three points do not say whether the curvature grows or falls: the way in which something
+  /// that is given has a range.
+  [[nodiscard]] std::optional<std::vector<FeasibleData>> ranges_of_few(
+      Analysis analysis, const ChainWishes& wishes) const {
+    analysis.stretches.clear();
+    for (const std::int8_t direction : {std::int8_t{1}, std::int8_t{-1}}) {
+      analysis.direction.assign(analysis.direction.size(), direction);
+      auto ranges = series_ranges(analysis, wishes);
+      if (!ranges) continue;
+      const bool any = std::any_of(given_.begin(), given_.end(), [&](const Given& given) {
+        const FeasibleData& here = (*ranges)[given.point];
+        return given.datum == Datum::kHeading ? here.heading.has_value() : here.kappa.has_value();
+      });
+      if (any) return std::move(*ranges);
+    }
+    return std::nullopt;
   }
 
   /// The nearest datum that has a range which leaves all others alone; `fit` tries both its ends.

@@ -80,8 +80,15 @@ Error with_tolerance(Error error, const std::optional<WhyNot>& why, const PointS
   return error;
 }
 
-/// " (radius 20 to 30 mm)"; nothing where the range holds a line.
+/// " (radius 20 to 30 mm)", " (radius at least 20 mm)" up to a line; nothing where the range holds
+/// one inside.
 std::string radii_text(const FeasibleRange& range, const std::string& units) {
+  if (range.least == 0.0 && range.greatest > 0.0) {
+    return fmt::format(" (radius at least {} {})", significant(1.0 / range.greatest, 5), units);
+  }
+  if (range.greatest == 0.0 && range.least < 0.0) {
+    return fmt::format(" (radius at most {} {})", significant(1.0 / range.least, 5), units);
+  }
   if (!(range.least * range.greatest > 0.0)) return "";
   const double one = 1.0 / range.least, other = 1.0 / range.greatest;
   const bool first = std::abs(one) < std::abs(other);

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <utility>
 
+#include "fit/form.h"
 #include "fit/keep_joints.h"
 #include "obvid/certify/certify.h"
 #include "obvid/contour/spirals.h"
@@ -57,16 +58,28 @@ class EdgeChain {
       const auto calmer = part < 1.0 ? with_calm_ends(along, given, part) : given;
       if (part < 1.0 && calmer.empty()) return std::nullopt;
       for (const ChoiceOrder order : {ChoiceOrder::kHalves, ChoiceOrder::kAlong}) {
-        const auto data = central_data(along, calmer, {}, order, &watch_);
+        const auto data = central_data(along, calmer, {}, order, SharpCurvature::kCalm, &watch_);
         if (!data) return std::nullopt;
-        auto chain = carried_by(*data);
-        if (chain && stored_pieces_proved(series_.points, *chain)) return chain;
+        for (const Leaps leaps : {Leaps::kInOne, Leaps::kInTwo}) {
+          auto chain = carried_by(*data, leaps);
+          if (chain && proved_as_stored(series_.points, *chain)) return chain;
+        }
       }
     }
     return std::nullopt;
   }
 
  private:
+  /// Spirals over a link whose curvature leaps at one end and rests else: doubles hold one only as
+  /// far as they tell that end from its neighbourhood.
+  enum class Leaps { kInOne, kInTwo };
+  static bool leaps_over(const SeriesChain& chain, std::size_t i) {
+    constexpr double kWithoutLeap = 1e-4;  ///< sigma of B - A; of a clothoid a half
+    const LinkState& link = chain.links[i];
+    return chain.cone[i] != Cone::kNone &&
+           std::abs(link.sigma) < kWithoutLeap * std::abs(link.B - link.A);
+  }
+
   /// The first and the last heading may turn away by a right angle, the middle of what is left to
   /// them by half of that: where the points bend by next to nothing that is a leap. Headings in a
   /// part of that range beside its other end; empty where neither is free.
@@ -119,38 +132,74 @@ class EdgeChain {
     return out;
   }
 
-  [[nodiscard]] std::optional<SeriesChain> carried_by(const std::vector<RangeNode>& data) const {
-    ChainProblem problem;
-    problem.chords = chords_;
-    problem.circles = measure_circles(series_.points, chords_);
+  [[nodiscard]] std::optional<SeriesChain> carried_by(const std::vector<RangeNode>& data,
+                                                      Leaps leaps) const {
     std::vector<Element> elements;
     for (std::size_t i = 0; i < series_.count(); ++i) {
       if (!data[i].theta || !data[i].kappa) return std::nullopt;
       elements.push_back({series_.points[i], *data[i].theta, *data[i].kappa});
-      problem.nodes.push_back(series_.own[i]);
-      problem.nodes.back().theta = nodes_theta(i, data);
-      problem.nodes.back().kappa = nodes_kappa(i, data);
-      if (i + 1 == series_.count()) break;
-      problem.direction.push_back(static_cast<std::int8_t>(series_.direction[i]));
-      problem.cone.push_back(series_.direction[i] == 0 ? Cone::kNone : Cone::kSpiral);
     }
-    ChainSolution solution = judge_chain(series_.points, problem, elements);
+    std::vector<NodeData> nodes = series_.own;
+    for (std::size_t i = 0; i < series_.count(); ++i) {
+      nodes[i].theta = nodes_theta(i, data);
+      nodes[i].kappa = nodes_kappa(i, data);
+    }
+    auto whole = judged({elements, series_.source, series_.direction, nodes});
+    if (!whole) return std::nullopt;
+    Links all{std::move(elements), series_.source, series_.direction, std::move(nodes)};
+    std::size_t added = 0;
+    for (std::size_t i = 0; i < whole->links.size(); ++i) {
+      if (proved_form(*whole, i) && !(leaps == Leaps::kInTwo && leaps_over(*whole, i))) continue;
+      const auto at = static_cast<std::ptrdiff_t>(i + 1 + added++);
+      all.elements.insert(
+          all.elements.begin() + at,
+          element_beyond_leap(whole->links[i], whole->direction[i], whole->elements[i].point));
+      all.source.insert(all.source.begin() + at, std::nullopt);
+      all.direction.insert(all.direction.begin() + at, whole->direction[i]);
+      all.nodes.insert(all.nodes.begin() + at, NodeData{});
+    }
+    if (added > 0) whole = judged(all);
+    if (!whole) return std::nullopt;
+    for (std::size_t i = 0; i < whole->links.size(); ++i) {
+      const auto form = proved_form(*whole, i);
+      if (!form) return std::nullopt;
+      whole->form.push_back(*form);
+    }
+    return whole;
+  }
+
+  /// Elements with what lies between them and what was given at them.
+  struct Links {
+    std::vector<Element> elements;
+    std::vector<std::optional<std::size_t>> source;
+    std::vector<int> direction;
+    std::vector<NodeData> nodes;
+  };
+
+  /// The chain of these elements, its forms left open. Nothing where a link has no spiral.
+  static std::optional<SeriesChain> judged(const Links& all) {
+    std::vector<Vec2> points;
+    for (const Element& element : all.elements) points.push_back(element.point);
+    ChainProblem problem;
+    problem.chords = measure_chords(points);
+    problem.circles = measure_circles(points, problem.chords);
+    problem.nodes = all.nodes;
+    for (const int direction : all.direction) {
+      problem.direction.push_back(static_cast<std::int8_t>(direction));
+      problem.cone.push_back(direction == 0 ? Cone::kNone : Cone::kSpiral);
+    }
+    ChainSolution solution = judge_chain(points, problem, all.elements);
     if (!solution.feasible) return std::nullopt;
     SeriesChain out;
     out.elements = std::move(solution.elements);
     out.links = std::move(solution.links);
-    out.source = series_.source;
+    out.source = all.source;
     out.direction = problem.direction;
     out.cone = problem.cone;
     out.nodes = problem.nodes;
     out.smallest_margin = solution.smallest_margin;
     out.converged = true;
     for (const auto& source : out.source) out.free_elements += source ? 0U : 1U;
-    for (std::size_t i = 0; i < out.links.size(); ++i) {
-      const auto form = proved_form(out, i);
-      if (!form) return std::nullopt;
-      out.form.push_back(*form);
-    }
     return out;
   }
 
@@ -199,6 +248,24 @@ std::optional<Directed> as_circles(const std::vector<Vec2>& points, const Analys
   for (std::size_t i = 0; i < points.size(); ++i) out.source.emplace_back(i);
   out.direction.assign(analysis.direction.begin(), analysis.direction.end());
   out.own = problem->nodes;
+  return out;
+}
+
+/// Two or three points say neither how the curvature changes nor how the curve bends: both ways,
+/// without an inflection first.
+std::vector<Directed> both_ways(const std::vector<Vec2>& points, Analysis analysis,
+                                const ChainWishes& wishes) {
+  analysis.stretches.clear();
+  std::vector<Directed> out, bent;
+  for (const std::int8_t direction : {std::int8_t{1}, std::int8_t{-1}}) {
+    analysis.direction.assign(points.size() - 1, direction);
+    auto series = as_circles(points, analysis, wishes);
+    if (!series) continue;
+    out.push_back(*series);
+    for (NodeData& node : series->own) node.curvature_sign = 0;
+    if (!wishes.convex) bent.push_back(std::move(*series));
+  }
+  out.insert(out.end(), bent.begin(), bent.end());
   return out;
 }
 
@@ -271,23 +338,25 @@ ChainTurns turns_of_chain(const SeriesChain& chain) {
   return out;
 }
 
-bool stored_pieces_proved(const std::vector<Vec2>& points, const SeriesChain& chain) {
+bool proved_as_stored(const std::vector<Vec2>& points, const SeriesChain& chain) {
   auto contour = spirals_over(points, chain);
   if (!contour) return false;
   keep_joint_curvatures(*contour);
-  for (const Run& run : contour->runs) {
-    for (std::size_t piece = run.first_piece; piece <= run.last_piece; ++piece) {
-      if (!goes_way(contour->pieces[piece], run.direction)) return false;
-    }
-  }
-  return true;
+  take_piece_ends(*contour);
+  return certify(*contour).proved;
 }
 
 std::optional<SeriesChain> edge_chain(const std::vector<Vec2>& points, const Analysis& analysis,
                                       const ChainWishes& wishes, const SeriesChain* free,
                                       Watch& watch) {
-  if (const auto series = as_circles(points, analysis, wishes)) {
-    auto chain = EdgeChain(wishes, *series, watch).run();
+  std::vector<Directed> ways;
+  if (is_few_on_one_circle(points, analysis)) {
+    ways = both_ways(points, analysis, wishes);
+  } else if (auto series = as_circles(points, analysis, wishes)) {
+    ways.push_back(std::move(*series));
+  }
+  for (const Directed& series : ways) {
+    auto chain = EdgeChain(wishes, series, watch).run();
     if (chain && keeps_what_is_given(*chain, wishes)) return chain;
   }
   if (free == nullptr) return std::nullopt;

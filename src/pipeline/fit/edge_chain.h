@@ -10,9 +10,10 @@
 
 namespace obvid::pipeline_detail {
 
-/// Whether every piece that a chain is stored as is proved to change its curvature the way of its
-/// link. O(n).
-[[nodiscard]] bool stored_pieces_proved(const std::vector<Vec2>& points, const SeriesChain& chain);
+/// Whether the contour that a chain through all points is stored as is proved: its pieces, and its
+/// joints too, whose curvature leaps beyond what doubles hold where a link is close to having no
+/// spiral. O(n log n).
+[[nodiscard]] bool proved_as_stored(const std::vector<Vec2>& points, const SeriesChain& chain);
 
 /// Vertices and inflections that a chain has.
 struct ChainTurns {
@@ -27,7 +28,7 @@ struct ChainTurns {
 /// A chain for given data that lie near an end of what the points leave, where no fair one was
 /// found or proved: headings and curvatures from what can be reached from both sides
 /// (`central_data`), one spiral of the form that exists wherever a spiral exists to each link, and
-/// every stored piece proved. The directions are those of the analysis, else those of the chain
+/// the contour proved as it is stored. The directions are those of the analysis, else those of the chain
 /// `free` that the points have when nothing is given, with its vertices between points where they
 /// are. `free` may be nothing. Nothing when there is none, or the work is to end.
 [[nodiscard]] std::optional<SeriesChain> edge_chain(const std::vector<Vec2>& points,

@@ -203,6 +203,10 @@ Result<SeriesChain> form_elements(const std::vector<Vec2>& points, const Analysi
   return few_points_with_fixed_data(points, analysis, wishes, watch);
 }
 
+bool is_few_on_one_circle(const std::vector<Vec2>& points, const Analysis& analysis) {
+  return points.size() <= kFewPoints && wholly_circular(points, analysis);
+}
+
 bool is_one_circle(const std::vector<Vec2>& points, const Analysis& analysis,
                    const ChainWishes& wishes) {
   return points.size() > kFewPoints && wholly_circular(points, analysis) &&

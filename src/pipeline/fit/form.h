@@ -18,6 +18,9 @@ namespace obvid::pipeline_detail {
                                                 const Analysis& analysis, const ChainWishes& wishes,
                                                 Watch& watch);
 
+/// Two or three points, which lie on one circle or line whatever curve was meant.
+[[nodiscard]] bool is_few_on_one_circle(const std::vector<Vec2>& points, const Analysis& analysis);
+
 /// Whether more than 3 points lie on one circle or line that has all that is given: to 1e-6 rad and
 /// 1e-6 of the curvature, or to what the rounding of the coordinates leaves of it.
 [[nodiscard]] bool is_one_circle(const std::vector<Vec2>& points, const Analysis& analysis,

@@ -88,7 +88,7 @@ Error renumbered(Error error, Number&& number) {
 class SectionChooser {
  public:
   SectionChooser(const Prepared& series, const Section& section, Watch& watch)
-      : series_(series), loop_(series.split.smooth_loop), watch_(watch) {
+      : series_(series), section_(section), loop_(series.split.smooth_loop), watch_(watch) {
     // a loop's first place is its last one too
     const std::size_t last = loop_ ? series.points.size() - 1 : section.last;
     for (std::size_t k = section.first; k <= last; ++k) {
@@ -111,11 +111,11 @@ class SectionChooser {
     }
     if (!found.senseless.empty()) {
       const Error swings = swings_out(best->chain, worst_of(found));
-      if (!best->at_the_edge) return fail(swings);
-      best->warnings.push_back(fmt::format(
-          "{} ({}): what is given lies near the end of what the points leave, and no contour that "
-          "does not was found",
-          swings.what, swings.where));
+      if (!best->at_the_edge && !turns_of_points_alone()) return fail(swings);
+      best->warnings.push_back(
+          fmt::format("{} ({}): it is what is given that asks for it, and no contour that does not "
+                      "swing out was found",
+                      swings.what, swings.where));
     }
     tell_held(*best);
     tell_guessed(*best, found);
@@ -272,6 +272,18 @@ class SectionChooser {
     return find_wandering(chain, reach, given, loop_);
   }
 
+  /// Where something is given: turns of the contour that the points have without it. Nothing where
+  /// every such contour swings out, or nothing is given.
+  const std::optional<ChainTurns>& turns_of_points_alone() {
+    if (turns_alone_known_ || series_.fixed.empty()) return turns_alone_;
+    turns_alone_known_ = true;
+    Prepared free = series_;
+    free.fixed.clear();
+    const auto alone = SectionChooser(free, section_, watch_).run();
+    if (alone) turns_alone_ = turns_of_chain(alone->chain);
+    return turns_alone_;
+  }
+
   static const WanderingPart& worst_of(const Wandering& found) {
     return *std::max_element(found.senseless.begin(), found.senseless.end(),
                              [](const auto& a, const auto& b) { return a.beyond < b.beyond; });
@@ -305,6 +317,13 @@ class SectionChooser {
       if (free_to_hold(i)) try_headings(i, best, calmest);
     }
     if (!calmest || calmest->found.senseless.size() >= found.senseless.size()) return false;
+    const ChainTurns turns = turns_of_chain(calmest->formed.chain);
+    if (turns.more_than(turns_of_chain(best.chain))) {
+      // what is given is met without more vertices than the points ask for: none come of what is
+      // held
+      const auto& alone = turns_of_points_alone();
+      if (alone && turns.more_than(*alone)) return false;
+    }
     held_[calmest->point] = calmest->heading;
     best = std::move(calmest->formed);
     found = std::move(calmest->found);
@@ -432,22 +451,27 @@ class SectionChooser {
   std::optional<SeriesChain> at_the_edge(const std::vector<Vec2>& points, const Analysis& analysis,
                                          const ChainWishes& wishes,
                                          const Result<SeriesChain>& found) {
-    const bool proved = found && stored_pieces_proved(points, *found);
+    const bool proved = found && proved_as_stored(points, *found);
     if (proved && found->turned_directions == 0 && !found->unforced_inflection) return std::nullopt;
     ChainWishes none = wishes;
     none.fixed.clear();
     none.to_the_edge = false;
     auto free = form_elements(points, analysis, none, watch_);
     if (!free) free = with_more_vertices(points, analysis, none, watch_);
-    // points of one circle or line leave nothing to given data, near no end either
-    if (free && std::all_of(free->cone.begin(), free->cone.end(),
-                            [](Cone cone) { return cone == Cone::kNone; })) {
+    // many points of one circle or line leave nothing to given data, near no end either
+    if (free && !is_few_on_one_circle(points, analysis) &&
+        std::all_of(free->cone.begin(), free->cone.end(),
+                    [](Cone cone) { return cone == Cone::kNone; })) {
       return std::nullopt;
     }
     if (proved && (!free || !turns_of_chain(*found).more_than(turns_of_chain(*free)))) {
       return std::nullopt;
     }
-    return edge_chain(points, analysis, wishes, free ? &*free : nullptr, watch_);
+    auto edge = edge_chain(points, analysis, wishes, free ? &*free : nullptr, watch_);
+    if (proved && edge && !turns_of_chain(*found).more_than(turns_of_chain(*edge))) {
+      return std::nullopt;
+    }
+    return edge;
   }
 
   /// Whether a link turns by half a turn, nearly: no shape that points ask for.
@@ -765,6 +789,7 @@ class SectionChooser {
   }
 
   const Prepared& series_;
+  const Section& section_;
   bool loop_;
   bool goes_on_ = false;  ///< beyond both ends, moved by the period
   bool moves_ = false;    ///< some point may be moved
@@ -775,6 +800,8 @@ class SectionChooser {
   std::map<std::size_t, FixedData> bounds_;  // ends of ranges that hold, likewise
   std::optional<double> cap_;                // largest curvature at any point
   bool central_ = false;
+  bool turns_alone_known_ = false;
+  std::optional<ChainTurns> turns_alone_;
   SectionChain out_;
 };
 

@@ -158,7 +158,8 @@ std::optional<SeriesChain> central_chain(const std::vector<Vec2>& points, const 
   const auto problem = chain_problem(analysis, wishes);
   if (!problem) return std::nullopt;
   const RangeProblem ranges = range_problem(analysis, *problem, wishes.fixed);
-  const auto central = central_data(ranges.links, ranges.nodes, {}, order, &watch);
+  const auto central =
+      central_data(ranges.links, ranges.nodes, {}, order, SharpCurvature::kMiddle, &watch);
   if (!central) return std::nullopt;
   DirectedSeries series;
   series.points = points;

@@ -257,6 +257,8 @@ class WorksheetDrawing {
         continue;
       }
       const auto& arc = std::get<ArcPiece>(piece);
+      // shorter than coordinates tell
+      if (in_plane(r, arc.start) == in_plane(r, arc.end)) continue;
       to.pieces.emplace_back(ArcPiece{in_plane(r, arc.start), in_plane(r, arc.end),
                                       heading(r.along) + arc.theta0, arc.kappa, arc.length});
     }

@@ -78,4 +78,9 @@ struct DirectedSeries {
 /// to the joint of the middle biarc, such that both halves lie inside the closed form's cone.
 [[nodiscard]] Element free_element(const LinkState& link, int direction, Vec2 start);
 
+/// A free element for a link over which the curvature leaps at one end and rests else, so sharply
+/// that doubles do not hold it in one piece: behind the leap, three times as far from that end as the
+/// first arc of the middle biarc is long. Behind it the link hardly changes its curvature.
+[[nodiscard]] Element element_beyond_leap(const LinkState& link, int direction, Vec2 start);
+
 }  // namespace obvid

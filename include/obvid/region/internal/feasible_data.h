@@ -65,6 +65,13 @@ enum class ChoiceOrder {
             ///< 1/n, where one order along them may leave 2^-n. Costs log2(n) times as much
 };
 
+/// Curvatures at vertices and at the ends of the series, which may be as sharp as one likes.
+enum class SharpCurvature {
+  kMiddle,  ///< in the middle like all others
+  kCalm,    ///< beyond the bluntest one by what the angles of the chords beside it ask for, so that
+            ///< the curvature does not leap over them where they hardly turn
+};
+
 /// Headings and curvatures for a whole series, each in the middle of what is left to it: first the
 /// headings in the order given, then the curvatures at these headings, by the middle of the radii
 /// where both ends of their range are finite and of one sign (the rule of [003] for both). What
@@ -75,7 +82,7 @@ enum class ChoiceOrder {
 [[nodiscard]] std::optional<std::vector<RangeNode>> central_data(
     const std::vector<RangeLink>& links, std::vector<RangeNode> nodes,
     const std::vector<std::optional<double>>& wanted = {}, ChoiceOrder order = ChoiceOrder::kAlong,
-    Watch* watch = nullptr);
+    SharpCurvature sharp = SharpCurvature::kMiddle, Watch* watch = nullptr);
 
 /// The same around a closed series: `links` and `nodes` are equally many, the last link leads back
 /// to the first node. The result has one node more, the first one again, a turn later. The heading
