@@ -104,7 +104,7 @@ Result<void> check_nurbs(RawNurbs& raw) {
     return fail(usage("nurbs needs a table of control points", "see obvid nurbs --help"));
   }
   for (const int degree : {job.degree, job.degree_v}) {
-    if (degree < 1 || degree > kMaxSurfaceDegree) {
+    if (degree < 1 || degree > kMaxNurbsDegree) {
       return fail(bad_option("degrees run from 1 to 9", "--degree", ""));
     }
   }

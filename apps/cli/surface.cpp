@@ -30,7 +30,9 @@ int judge_surface(const MadeSurface& made, bool files) {
 int run(const SurfaceOptions& options) {
   std::vector<std::string> inputs;
   for (const SurfaceInput& input : options.job.inputs) inputs.push_back(input.name);
-  for (const SurfaceInput& input : options.job.across) inputs.push_back(input.name);
+  if (const auto* second = second_inputs(options.job)) {
+    for (const SurfaceInput& input : *second) inputs.push_back(input.name);
+  }
   Result<std::vector<SurfaceOutput>> outputs = surface_outputs_of(options.outputs, inputs);
   if (!outputs) return report(outputs.error());
   ProgressBar bar(options.progress);

@@ -5,6 +5,7 @@
 #include <charconv>
 #include <cmath>
 #include <numbers>
+#include <variant>
 
 #include "cli_app.h"
 #include "obvid/pipeline/internal/format_values.h"
@@ -64,6 +65,10 @@ constexpr std::array kKinds = {
 };
 
 SurfaceKind kind_of(const KindText& text) { return *surface_kind_named(text.name); }
+template <class Kind>
+bool is_kind(const KindText& text) {
+  return std::holds_alternative<Kind>(kind_of(text));
+}
 
 constexpr const char* kSurfaceHelp =
     R"(obvid surface: surfaces over fair contours
@@ -131,7 +136,7 @@ void add_contours(CLI::App& app, RawSurface& raw) {
          "wherever it costs no vertex]")
       ->type_name("NAME")
       ->group(group);
-  app.add_flag("--plain", raw.make.job.plain_when_refused,
+  app.add_flag("--plain", raw.make.job.curves.plain_when_refused,
                "Sections without a fair contour take the C2 cubic through their points, which is "
                "said [refused]")
       ->group(group);
@@ -155,72 +160,75 @@ void add_skin_options(CLI::App& app, RawSurface& raw) {
   add_contours(app, raw);
 }
 
-void add_kind(CLI::App& app, RawSurface& raw, SurfaceKind kind) {
-  SurfaceJob& job = raw.make.job;
-  switch (kind) {
-    case SurfaceKind::kSkin:
-      add_skin_options(app, raw);
-      app.add_flag("--straight", job.straight_across, "Ruled strips between sections [C2 across]");
-      break;
-    case SurfaceKind::kRuled:
-      add_skin_options(app, raw);
-      app.add_option("--direction", raw.values.direction,
-                     "From one curve by this vector, input units")
-          ->type_name("X,Y,Z");
-      app.add_option("--apex", raw.values.apex, "From one curve to this point, input units")
-          ->type_name("X,Y,Z");
-      break;
-    case SurfaceKind::kRevolve:
-      app.add_option("--axis", raw.values.axis, "Axis: x, y, z or a direction X,Y,Z [x]")
-          ->type_name("AXIS");
-      app.add_option("--axis-point", raw.values.axis_point,
-                     "A point of the axis, input units [0,0,0]")
-          ->type_name("X,Y,Z");
-      app.add_option("--angle", raw.values.angle_deg, "Degrees, right-hand rule [360]")
-          ->type_name("DEG");
-      add_contours(app, raw);
-      break;
-    case SurfaceKind::kGordon:
-      app.add_option("--across", raw.across, "Curves that cross the others")->type_name("CURVES");
-      [[fallthrough]];
-    case SurfaceKind::kCoons:
-      add_surface_tolerance(app, raw,
-                            "How near curves have to meet, and of what NURBS do not hold exactly");
-      add_contours(app, raw);
-      break;
-    case SurfaceKind::kGrid:
-      app.add_flag("--near", raw.values.near,
-                   "As few knots as the tolerance allows [through all points]");
-      app.add_flag("--control", raw.values.control, "The points are control points");
-      add_surface_tolerance(app, raw, "With --near: largest distance of the points");
-      [[fallthrough]];
-    case SurfaceKind::kId:
-      app.add_option("--spread", raw.values.spread,
-                     "Parameters by chord, centripetal or uniform [chord]")
-          ->type_name("NAME");
-      app.add_option("--spacing", raw.values.spacing, "Distance of rows and columns of heights [1]")
-          ->type_name("D");
-      if (kind == SurfaceKind::kId) {
-        app.add_flag("--smooth", job.smooth,
-                     "C1: integrals are kept, values give way [values kept]");
-      }
-      break;
-    case SurfaceKind::kOffset:
-      app.add_option("--distance", raw.values.distance,
-                     "Along the normals, input units; negative: against")
-          ->type_name("D");
-      add_surface_tolerance(app, raw, "Largest distance from the exact offset");
-      break;
-    case SurfaceKind::kConvert:
-      break;
+/// Options that only one kind of surface has.
+struct KindOptions {
+  CLI::App& app;
+  RawSurface& raw;
+
+  void operator()(const SkinKind&) const {
+    add_skin_options(app, raw);
+    app.add_flag("--straight", raw.values.straight, "Ruled strips between sections [C2 across]");
   }
-}
+  void operator()(const RuledKind&) const {
+    add_skin_options(app, raw);
+    vector("--direction", raw.values.direction, "From one curve by this vector, input units");
+    vector("--apex", raw.values.apex, "From one curve to this point, input units");
+  }
+  void operator()(const RevolveKind&) const {
+    app.add_option("--axis", raw.values.axis, "Axis: x, y, z or a direction X,Y,Z [x]")
+        ->type_name("AXIS");
+    vector("--axis-point", raw.values.axis_point, "A point of the axis, input units [0,0,0]");
+    app.add_option("--angle", raw.values.angle_deg, "Degrees, right-hand rule [360]")
+        ->type_name("DEG");
+    add_contours(app, raw);
+  }
+  void operator()(const CoonsKind&) const {
+    add_surface_tolerance(app, raw,
+                          "How near curves have to meet, and of what NURBS do not hold exactly");
+    add_contours(app, raw);
+  }
+  void operator()(const GordonKind&) const {
+    app.add_option("--across", raw.across, "Curves that cross the others")->type_name("CURVES");
+    (*this)(CoonsKind{});
+  }
+  void operator()(const GridKind&) const {
+    app.add_flag("--near", raw.values.near,
+                 "As few knots as the tolerance allows [through all points]");
+    app.add_flag("--control", raw.values.control, "The points are control points");
+    add_surface_tolerance(app, raw, "With --near: largest distance of the points");
+    grid();
+  }
+  void operator()(const IdKind&) const {
+    grid();
+    app.add_flag("--smooth", raw.values.smooth,
+                 "C1: integrals are kept, values give way [values kept]");
+  }
+  void operator()(const OffsetKind&) const {
+    app.add_option("--distance", raw.values.distance,
+                   "Along the normals, input units; negative: against")
+        ->type_name("D");
+    add_surface_tolerance(app, raw, "Largest distance from the exact offset");
+  }
+  void operator()(const ConvertKind&) const {}
+
+ private:
+  void vector(const char* name, std::string& into, const char* help) const {
+    app.add_option(name, into, help)->type_name("X,Y,Z");
+  }
+  void grid() const {
+    app.add_option("--spread", raw.values.spread,
+                   "Parameters by chord, centripetal or uniform [chord]")
+        ->type_name("NAME");
+    app.add_option("--spacing", raw.values.spacing, "Distance of rows and columns of heights [1]")
+        ->type_name("D");
+  }
+};
 
 CLI::App& add_maker(CLI::App& app, RawSurface& raw, const KindText& text) {
   CLI::App& kind = *app.add_subcommand(text.name, text.help);
   kind.add_option("INPUT", raw.inputs, text.inputs);
   add_outputs(kind, raw.make.outputs, known_surface_endings());
-  add_kind(kind, raw, kind_of(text));
+  std::visit(KindOptions{kind, raw}, kind_of(text));
   kind.add_option("--units", raw.units,
                   "Unit of the lengths: mm, m, in, ft, ...; nothing is converted [as the files "
                   "say; else mm is assumed, with a warning where it matters]")
@@ -250,10 +258,10 @@ Result<void> check_needs(const RawSurface& raw, const KindText& text) {
   const std::string name = std::string("surface ") + text.name;
   const std::string see = "see obvid " + name + " --help";
   if (raw.inputs.empty()) return fail(usage(name + " needs input files", see));
-  if (kind_of(text) == SurfaceKind::kGordon && raw.across.empty()) {
+  if (is_kind<GordonKind>(text) && raw.across.empty()) {
     return fail(usage("surface gordon needs the crossing curves after --across", see));
   }
-  if (kind_of(text) == SurfaceKind::kOffset && !raw.values.distance) {
+  if (is_kind<OffsetKind>(text) && !raw.values.distance) {
     return fail(usage("surface offset needs --distance", see));
   }
   return {};
@@ -264,13 +272,13 @@ Result<Command> checked_maker(RawSurface& raw, const KindText& text) {
   make.command = text.name;
   make.job.kind = kind_of(text);
   make.job.inputs.assign(raw.inputs.begin(), raw.inputs.end());
-  make.job.across.assign(raw.across.begin(), raw.across.end());
+  if (auto* second = second_inputs(make.job)) second->assign(raw.across.begin(), raw.across.end());
   make.progress = !raw.no_progress && !make.quiet && !make.json;
   const Result<void> done =
       check_needs(raw, text)
           .and_then([&] { return set_surface(raw.values, make.job); })
           .and_then([&] { return set_surface_formats(raw.formats, make.formats); })
-          .and_then([&] { return set_values(raw.typed, make.job.sections); })
+          .and_then([&] { return set_values(raw.typed, make.job.curves.sections); })
           .and_then([&]() -> Result<void> {
             if (!raw.units) return {};
             return given_units(*raw.units, "--units").map([&](Units given) {

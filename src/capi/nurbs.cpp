@@ -5,7 +5,7 @@
 
 #include "door.h"
 #include "handles.h"
-#include "obvid/curve/internal/joined_nurbs.h"
+#include "obvid/contour/bsplines/nurbs_of.h"
 
 namespace obvid::capi {
 namespace {
@@ -39,9 +39,9 @@ extern "C" {
 
 int obvid_contour_nurbs(const obvid_contour* contour, obvid_nurbs** nurbs, obvid_error** error) {
   return guarded(error, [&]() -> Result<void> {
-    auto made = joined_nurbs(contour->stored.contour);
-    if (!made) return fail(made.error());
-    *nurbs = std::make_unique<OwnedNurbs>(std::move(*made)).release();
+    auto made = nurbs_of(contour->stored.contour);
+    OBVID_TRY(made);
+    *nurbs = std::make_unique<OwnedNurbs>(std::move(made->curve)).release();
     return {};
   });
 }

@@ -17,7 +17,7 @@ struct SurfaceWritten {
   SurfaceValues surface;
   SurfaceFormatValues formats;
   ToolpathValues toolpath;
-  std::optional<long> samples, row;
+  std::optional<long> samples;
   std::optional<std::string> units;
 };
 
@@ -39,8 +39,8 @@ std::map<std::string, Setter> setters_of(SurfaceWritten& w, SurfaceRequest& out,
     all.insert({{"tolerance", number(s.tolerance)},
                 {"spacing", number(s.spacing)},
                 {"match", text(s.matching)},
-                {"straight", flag(out.make.straight_across)},
-                {"plain", flag(out.make.plain_when_refused)},
+                {"straight", flag(s.straight)},
+                {"plain", flag(out.make.curves.plain_when_refused)},
                 {"direction", text(s.direction)},
                 {"apex", text(s.apex)},
                 {"axis", text(s.axis)},
@@ -49,9 +49,9 @@ std::map<std::string, Setter> setters_of(SurfaceWritten& w, SurfaceRequest& out,
                 {"near", flag(s.near)},
                 {"control", flag(s.control)},
                 {"spread", text(s.spread)},
-                {"smooth", flag(out.make.smooth)},
+                {"smooth", flag(s.smooth)},
                 {"distance", number(s.distance)},
-                {"row", count(w.row)}});
+                {"row", count(s.row)}});
   }
   if (known.formats) {
     SurfaceFormatValues& f = w.formats;
@@ -91,12 +91,8 @@ Result<void> check_written(SurfaceWritten& w, const SurfaceKnown& known, Surface
       OBVID_TRY(given);
       out.make.units = std::move(*given);
     }
-    if (w.row) {
-      if (*w.row < 1) return fail(bad_option("rows have points", "row", "give 2 or more"));
-      out.make.row = static_cast<std::size_t>(*w.row);
-    }
     OBVID_TRY(set_surface(w.surface, out.make));
-    OBVID_TRY(set_values(w.typed, out.make.sections));
+    OBVID_TRY(set_values(w.typed, out.make.curves.sections));
   }
   OBVID_TRY(set_surface_formats(w.formats, out.formats));
   if (w.samples) {

@@ -13,7 +13,7 @@ namespace obvid::capi {
 
 /// What the options of a call on surfaces ask for.
 struct SurfaceRequest {
-  SurfaceJob make;  ///< how contours are formed is in `make.sections`
+  SurfaceJob make;  ///< how contours are formed is in `make.curves.sections`
   SurfaceExportOptions formats;
   ToolpathJob toolpath;
   std::size_t samples = 65;  ///< lines of each family of a check

@@ -64,8 +64,11 @@ int obvid_surface_make(const char* kind, const obvid_input* const* inputs, size_
     OBVID_TRY(request);
     SurfaceJob& job = request->make;
     for (size_t i = 0; i < count; ++i) job.inputs.push_back(surface_input(*inputs[i]));
-    for (size_t i = 0; i < crossing; ++i) job.across.push_back(surface_input(*across[i]));
-    if (job.inputs.empty() || (*what == SurfaceKind::kGordon && job.across.empty())) {
+    auto* second = second_inputs(job);
+    for (size_t i = 0; i < crossing && second != nullptr; ++i) {
+      second->push_back(surface_input(*across[i]));
+    }
+    if (job.inputs.empty() || (second != nullptr && second->empty())) {
       return fail({ErrorCode::kUsage, "a surface needs inputs", std::string("kind ") + kind, ""});
     }
     auto made = make_surface(job, context_of(run));

@@ -8,7 +8,6 @@
 #include <type_traits>
 #include <utility>
 
-#include "homogeneous.h"
 #include "obvid/curve/internal/clothoid.h"
 #include "obvid/numeric/internal/gauss.h"
 #include "obvid/numeric/internal/strict_arithmetic.h"
@@ -16,7 +15,18 @@
 namespace obvid {
 namespace {
 
-using curve_detail::Homogeneous;
+/// Point of the projective plane: weighted coordinates and weight.
+struct Homogeneous {
+  double x = 0.0, y = 0.0, w = 0.0;
+
+  friend Homogeneous operator+(Homogeneous a, Homogeneous b) {
+    return {a.x + b.x, a.y + b.y, a.w + b.w};
+  }
+  friend Homogeneous operator-(Homogeneous a, Homogeneous b) {
+    return {a.x - b.x, a.y - b.y, a.w - b.w};
+  }
+  friend Homogeneous operator*(double s, Homogeneous a) { return {s * a.x, s * a.y, s * a.w}; }
+};
 
 /// Value and the first three derivatives of one coordinate.
 using CoordinateJet = std::array<double, 4>;

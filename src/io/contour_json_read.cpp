@@ -9,7 +9,7 @@
 #include "contour_json_names.h"
 #include "contour_json_values.h"
 #include "obvid/certify/internal/limits.h"
-#include "obvid/curve/nurbs.h"
+#include "obvid/contour/bsplines/nurbs_of.h"
 #include "obvid/io/contour_json.h"
 #include "obvid/region/internal/refine.h"
 #include "text_lines.h"
@@ -296,7 +296,9 @@ void ContourReader::one_nurbs(const Node& node) {
   } else {
     curve.weights.assign(curve.points.size(), 1.0);
   }
-  if (!failed() && as_one_nurbs(stored_.contour) != curve) {
+  if (failed()) return;
+  const auto own = nurbs_of(stored_.contour, {false});
+  if (!own || own->curve != curve) {
     refuse(node, "the bspline is not the curve of the pieces, piece by piece");
   }
 }

@@ -10,8 +10,8 @@
 #include <vector>
 
 #include "contour_json_names.h"
+#include "obvid/contour/bsplines/nurbs_of.h"
 #include "obvid/core/internal/format_into.h"
-#include "obvid/curve/nurbs.h"
 #include "obvid/io/contour_json.h"
 #include "text_lines.h"
 
@@ -443,7 +443,7 @@ std::string Writer::write(const StoredContour& stored) {
   raw(",\n");
   line_list("pieces", contour.pieces, "  ",
             [&](const Piece& one) { std::visit([&](const auto& kind) { piece(kind); }, one); });
-  if (const auto curve = as_one_nurbs(contour)) one_nurbs(*curve);
+  if (const auto made = nurbs_of(contour, {false})) one_nurbs(made->curve);
   raw(",\n");
   line_list("runs", contour.runs, "  ", [&](const Run& run) {
     format_into(buffer_, "{{\"first_piece\": {}, \"last_piece\": {}, \"direction\": {}}}",

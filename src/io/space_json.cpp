@@ -97,7 +97,7 @@ class SpaceReader : private JsonValues {
   void curve(const Node& root) {
     const Node node = field(root, "curve");
     const Node degree = field(node, "degree");
-    if (!failed()) out_.curve.degree = static_cast<int>(integer(degree, 1, kMaxSurfaceDegree));
+    if (!failed()) out_.curve.degree = static_cast<int>(integer(degree, 1, kMaxNurbsDegree));
     out_.deviation = number(field(node, "deviation"));
     each(field(node, "knots"), [&](const Node& one) { out_.curve.knots.push_back(number(one)); });
     each(field(node, "points"), [&](const Node& one) { out_.curve.points.push_back(vector(one)); });

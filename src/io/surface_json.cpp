@@ -107,9 +107,9 @@ class SurfaceReader : private JsonValues {
     SurfacePatch out;
     NurbsSurface& s = out.surface;
     if (const auto name = optional_field(node, "name")) out.name = word(*name);
-    s.degree_u = static_cast<int>(integer(field(node, "degree_u"), 1, kMaxSurfaceDegree));
+    s.degree_u = static_cast<int>(integer(field(node, "degree_u"), 1, kMaxNurbsDegree));
     if (!failed())
-      s.degree_v = static_cast<int>(integer(field(node, "degree_v"), 1, kMaxSurfaceDegree));
+      s.degree_v = static_cast<int>(integer(field(node, "degree_v"), 1, kMaxNurbsDegree));
     if (!failed()) s.knots_u = numbers(field(node, "knots_u"));
     if (!failed()) s.knots_v = numbers(field(node, "knots_v"));
     if (!failed())

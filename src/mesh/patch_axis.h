@@ -28,8 +28,8 @@ struct Place {
 /// B-splines that are not zero on a span, with their first derivatives: degree + 1 of each.
 struct SpanBasis {
   std::size_t first;
-  std::array<double, kMaxSurfaceDegree + 1> value;
-  std::array<double, kMaxSurfaceDegree + 1> slope;
+  std::array<double, kMaxNurbsDegree + 1> value;
+  std::array<double, kMaxNurbsDegree + 1> slope;
 };
 
 /// One direction of the parameters of a patch: its spans.

@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <utility>
 
-#include "obvid/surface/internal/basis.h"
+#include "obvid/curve/internal/basis.h"
 
 namespace obvid {
 namespace {

@@ -78,6 +78,13 @@ NurbsSurface with_simple_knots_u(const NurbsSurface& s, const std::vector<double
 
 }  // namespace
 
+std::array<Range, 2> ranges_of(const IdSurface& s) {
+  const auto ends = [](const std::vector<double>& nodes) {
+    return nodes.empty() ? Range{} : Range{nodes.front(), nodes.back()};
+  };
+  return {ends(s.x.x), ends(s.x.y)};
+}
+
 SurfaceJet evaluate_kind(const IdSurface& s, double u, double v) {
   const GridJet x = evaluate(s.x, u, v), y = evaluate(s.y, u, v), z = evaluate(s.z, u, v);
   return {{x.value, y.value, z.value}, {x.dx, y.dx, z.dx},    {x.dy, y.dy, z.dy},
@@ -115,7 +122,7 @@ Result<void> check_spline(const IdSpline2d& s) {
 
 }  // namespace
 
-Result<NurbsForm> nurbs_of(const IdSurface& s) {
+Result<NurbsForm> nurbs_of(const IdSurface& s, double) {
   for (const IdSpline2d* spline : {&s.x, &s.y, &s.z}) {
     OBVID_TRY(check_spline(*spline));
   }

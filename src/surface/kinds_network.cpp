@@ -57,7 +57,7 @@ Result<double> make_polynomial(std::vector<SpaceCurve>& curves, double tolerance
 }
 
 NurbsSurface ruled(const SpaceCurve& low, const SpaceCurve& high) {
-  return nurbs_of(RuledSurface{low, high})->surface;
+  return nurbs_of(RuledSurface{low, high}, 0.0)->surface;
 }
 
 /// The corners of a Coons patch, from the curves along u.
@@ -190,7 +190,11 @@ SurfaceJet evaluate_kind(const CoonsPatch& s, double u, double v) {
           b.duu};
 }
 
-Result<NurbsForm> nurbs_of(const CoonsPatch& s, double tolerance, double gap) {
+namespace {
+
+/// Rational curves followed within a third of `tolerance` each, which bounds the deviation of a
+/// Coons patch only; gaps between curves up to `gap` are let pass.
+Result<NurbsForm> form_within(const CoonsPatch& s, double tolerance, double gap) {
   std::vector<SpaceCurve> curves = {s.u_at_v0, s.u_at_v1, s.v_at_u0, s.v_at_u1};
   const double allowed = kMeeting * extent(curves) + std::max(0.0, gap);
   // four curves deviate together three times at most: two ruled surfaces and the bilinear one
@@ -205,6 +209,8 @@ Result<NurbsForm> nurbs_of(const CoonsPatch& s, double tolerance, double gap) {
       3.0 * *deviation};
 }
 
+}  // namespace
+
 SurfaceJet evaluate_kind(const GordonSurface& s, double u, double v) {
   const Cross a = across(jets_at(s.along_u, u), s.v_at, v);
   const Cross b = across(jets_at(s.along_v, v), s.u_at, u);
@@ -217,7 +223,9 @@ SurfaceJet evaluate_kind(const GordonSurface& s, double u, double v) {
       a.first.d1 + b.first.d1 - c.first.d1,          a.value.d2 + b.second.point - c.value.d2};
 }
 
-Result<NurbsForm> nurbs_of(const GordonSurface& given, double tolerance, double gap) {
+namespace {
+
+Result<NurbsForm> form_within(const GordonSurface& given, double tolerance, double gap) {
   GordonSurface s = given;
   std::vector<SpaceCurve> all = s.along_u;
   all.insert(all.end(), s.along_v.begin(), s.along_v.end());
@@ -237,6 +245,64 @@ Result<NurbsForm> nurbs_of(const GordonSurface& given, double tolerance, double 
   OBVID_TRY(common);
   return NurbsForm{boolean_sum(*first, transposed(*second), *common),
                    3.0 * std::max(*along_u, *along_v)};
+}
+
+/// Places in the spans of knots, thinned where there are very many.
+std::vector<double> span_samples(const std::vector<double>& knots) {
+  constexpr std::size_t kMost = 120;
+  std::vector<double> at;
+  for (std::size_t k = 1; k < knots.size(); ++k) {
+    const Range span{knots[k - 1], knots[k]};
+    if (!(span.length() > 0.0)) continue;
+    // half way is where cubics with the right ends and slopes err most
+    for (const double part : {0.0, 0.2, 0.5, 0.8}) at.push_back(span.at(part));
+  }
+  at.push_back(knots.back());
+  // odd, so that all places within spans have their turn
+  const std::size_t step = (1 + at.size() / kMost) | 1U;
+  std::vector<double> thinned;
+  for (std::size_t i = 0; i < at.size(); i += step) thinned.push_back(at[i]);
+  return thinned;
+}
+
+/// Largest distance of the NURBS form from the definition on a raster.
+template <class Kind>
+double form_error(const Kind& kind, const NurbsSurface& form) {
+  const std::vector<double> us = span_samples(form.knots_u), vs = span_samples(form.knots_v);
+  double worst = 0.0;
+  for (const double v : vs) {
+    for (const double u : us) {
+      worst = std::max(worst, norm(evaluate_kind(kind, u, v).point - evaluate(form, u, v).point));
+    }
+  }
+  constexpr double kBetween = 1.1;  // what errors rise between samples
+  return kBetween * worst;
+}
+
+/// Coons and Gordon of rational curves: errors of the curves add, and interpolation across a net
+/// makes them larger by some factor that is found by trying.
+template <class Kind>
+Result<NurbsForm> network_form(const Kind& kind, double tolerance) {
+  constexpr int kTries = 5;
+  double share = tolerance;
+  for (int i = 0; i < kTries; ++i, share /= 4.0) {
+    auto form = form_within(kind, share, tolerance);
+    if (!form || form->deviation == 0.0) return form;
+    form->deviation = std::max(form_error(kind, form->surface), form->deviation / 3.0);
+    if (form->deviation <= tolerance) return form;
+  }
+  return error(ErrorCode::kToleranceNotReached, "rational curves of a net are not followed")
+        .hint("allow a larger tolerance")
+        .value(tolerance);
+}
+
+}  // namespace
+
+Result<NurbsForm> nurbs_of(const CoonsPatch& s, double tolerance) {
+  return network_form(s, tolerance);
+}
+Result<NurbsForm> nurbs_of(const GordonSurface& s, double tolerance) {
+  return network_form(s, tolerance);
 }
 
 }  // namespace obvid

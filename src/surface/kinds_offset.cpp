@@ -9,7 +9,7 @@
 #include <span>
 
 #include "kinds.h"
-#include "knots.h"
+#include "obvid/curve/internal/knots.h"
 #include "obvid/surface/internal/collocation.h"
 #include "third_order.h"
 
@@ -230,6 +230,7 @@ SurfaceJet evaluate_kind(const OffsetSurface& s, double u, double v) {
 }
 
 Result<NurbsForm> nurbs_of(const OffsetSurface& s, double tolerance) {
+  OBVID_TRY(check(s.base));
   if (!std::isfinite(s.distance)) {
     return error(ErrorCode::kNotFinite, "the distance of the offset is not finite");
   }

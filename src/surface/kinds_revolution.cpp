@@ -45,7 +45,8 @@ SurfaceJet evaluate_kind(const RevolutionSurface& s, double u, double v) {
           moved(arm, axis, t.d2.x, t.d2.y)};
 }
 
-Result<NurbsForm> nurbs_of(const RevolutionSurface& s) {
+Result<NurbsForm> nurbs_of(const RevolutionSurface& s, double) {
+  OBVID_TRY(check(s.profile));
   if (!is_finite(s.axis_point) || !is_finite(s.axis_direction)) {
     return error(ErrorCode::kNotFinite, "the axis is not finite");
   }

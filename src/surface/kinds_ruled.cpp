@@ -98,6 +98,10 @@ SurfaceJet evaluate_kind(const DirectedSurface& s, double u, double v) {
 
 namespace {
 
+Result<void> check_both(const SpaceCurve& one, const SpaceCurve& other) {
+  return check(one).and_then([&] { return check(other); });
+}
+
 /// How far points of rulings are from where the definition has them when the curves have different
 /// weights: the rulings are the same. Weights vary slowly, so a raster finds the largest.
 double sideways(const RuledSurface& s, const NurbsSurface& form) {
@@ -120,14 +124,16 @@ double sideways(const RuledSurface& s, const NurbsSurface& form) {
 
 }  // namespace
 
-Result<NurbsForm> nurbs_of(const RuledSurface& s) {
+Result<NurbsForm> nurbs_of(const RuledSurface& s, double) {
+  OBVID_TRY(check_both(s.first, s.second));
   const Rows rows = rows_of(s.first, s.second);
   NurbsForm form{between_rows(rows.a, rows.b, {0.0, 1.0}), 0.0};
   if (!rows.one_denominator) form.deviation = sideways(s, form.surface);
   return form;
 }
 
-Result<NurbsForm> nurbs_of(const DirectedSurface& s) {
+Result<NurbsForm> nurbs_of(const DirectedSurface& s, double) {
+  OBVID_TRY(check_both(s.directrix, s.direction));
   if (!(s.to > s.from) || !std::isfinite(s.from) || !std::isfinite(s.to)) {
     return error(ErrorCode::kBadOption, "the parameters along the directions do not ascend")
         .value(s.to - s.from);

@@ -4,7 +4,7 @@
 #include <iterator>
 
 #include "kinds.h"
-#include "knots.h"
+#include "obvid/curve/internal/knots.h"
 #include "snap.h"
 
 namespace obvid {

@@ -3,11 +3,10 @@
 
 #include <algorithm>
 
-#include "control_points.h"
-#include "homogeneous.h"
-#include "knots.h"
+#include "obvid/curve/internal/basis.h"
+#include "obvid/curve/internal/homogeneous.h"
+#include "obvid/curve/internal/knots.h"
 #include "obvid/geom/internal/box.h"
-#include "obvid/surface/internal/basis.h"
 
 namespace obvid {
 

@@ -2,9 +2,9 @@
 #include <algorithm>
 #include <utility>
 
-#include "homogeneous.h"
-#include "knots.h"
-#include "obvid/surface/internal/basis.h"
+#include "obvid/curve/internal/basis.h"
+#include "obvid/curve/internal/homogeneous.h"
+#include "obvid/curve/internal/knots.h"
 #include "obvid/surface/nurbs_surface.h"
 
 namespace obvid {

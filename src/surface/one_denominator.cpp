@@ -5,9 +5,9 @@
 #include <cmath>
 #include <utility>
 
-#include "homogeneous.h"
-#include "knots.h"
-#include "obvid/surface/internal/basis.h"
+#include "obvid/curve/internal/basis.h"
+#include "obvid/curve/internal/homogeneous.h"
+#include "obvid/curve/internal/knots.h"
 #include "obvid/surface/internal/collocation.h"
 #include "snap.h"
 
@@ -43,7 +43,7 @@ std::vector<double> product_knots(const SpaceCurve& a, const SpaceCurve& b) {
 
 std::optional<std::array<SpaceCurve, 2>> with_one_denominator(SpaceCurve first, SpaceCurve second) {
   const int degree = first.degree + second.degree;
-  if (degree > kMaxSurfaceDegree) return std::nullopt;
+  if (degree > kMaxNurbsDegree) return std::nullopt;
   snap(second.knots, first.knots);
   const auto system = greville_collocation(degree, product_knots(first, second));
   if (!system) return std::nullopt;

@@ -9,7 +9,7 @@
 namespace obvid {
 
 /// Two curves over [0, 1] as they are, but with the same knots and the same weights: the products
-/// of both. Degrees add. Nothing where the sum is above `kMaxSurfaceDegree`.
+/// of both. Degrees add. Nothing where the sum is above `kMaxNurbsDegree`.
 [[nodiscard]] std::optional<std::array<SpaceCurve, 2>> with_one_denominator(SpaceCurve first,
                                                                             SpaceCurve second);
 

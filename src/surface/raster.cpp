@@ -4,8 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "homogeneous.h"
-#include "obvid/surface/internal/basis.h"
+#include "obvid/curve/internal/basis.h"
+#include "obvid/curve/internal/homogeneous.h"
 
 #include "obvid/surface/nurbs_surface.h"
 
@@ -116,7 +116,7 @@ void evaluate_raster(const NurbsSurface& surface, std::span<const double> us,
   if (surface.degree_u == 3) {
     raster<4>(surface, us, vs, out);
   } else {
-    raster<kMaxSurfaceDegree + 1>(surface, us, vs, out);
+    raster<kMaxNurbsDegree + 1>(surface, us, vs, out);
   }
 }
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "third_order.h"
 
-#include "homogeneous.h"
-#include "obvid/surface/internal/basis.h"
+#include "obvid/curve/internal/basis.h"
+#include "obvid/curve/internal/homogeneous.h"
 
 namespace obvid {
 namespace {

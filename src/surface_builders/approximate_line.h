@@ -5,8 +5,8 @@
 #include <cstddef>
 #include <vector>
 
+#include "obvid/curve/internal/basis.h"
 #include "obvid/geom/vec3.h"
-#include "obvid/surface/internal/basis.h"
 
 namespace obvid {
 

@@ -137,9 +137,8 @@ Result<NurbsSurface> interpolated(const PointGrid& grid, Spread spread) {
 
 Result<NurbsSurface> from_control_points(const PointGrid& grid, int degree_u, int degree_v) {
   OBVID_TRY(check_grid(grid));
-  if (std::min(degree_u, degree_v) < 1 || std::max(degree_u, degree_v) > kMaxSurfaceDegree) {
-    return error(ErrorCode::kBadOption, fmt::format("degrees {} and {} are not both in 1 to {}",
-                                                    degree_u, degree_v, kMaxSurfaceDegree))
+  if (std::min(degree_u, degree_v) < 1 || std::max(degree_u, degree_v) > kMaxNurbsDegree) {
+    return error(ErrorCode::kBadOption, fmt::format("degrees {} and {} are not both in 1 to {}", degree_u, degree_v, kMaxNurbsDegree))
         .value(static_cast<double>(std::max(degree_u, degree_v)));
   }
   const auto degree = [](int wanted, std::size_t count) {

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "obvid/surface/internal/basis.h"
+#include "obvid/curve/internal/basis.h"
 
 namespace obvid {
 namespace {

@@ -210,10 +210,9 @@ TEST_F(SkinsInFreecad, BottlesTurnIntoValidSurfacesOfRevolution) {
     for (const Vec2 p : series.points) text << p.x << "," << p.y << "\n";
     text.close();
     SurfaceJob surface;
-    surface.kind = SurfaceKind::kRevolve;
+    surface.kind = RevolveKind{{}, {0, 1, 0}};
     surface.inputs = {file};
-    surface.sections = job;
-    surface.axis_direction = {0, 1, 0};
+    surface.curves.sections = job;
     const auto made = make_surface(surface);
     if (!made) {
       std::printf("%s: %s\n", entry.path().stem().c_str(), to_line(made.error()).c_str());

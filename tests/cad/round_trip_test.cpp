@@ -13,9 +13,9 @@
 #include "../common/ten_points.h"
 #include "built_cad.h"
 #include "obvid/cad/internal/cad.h"
-#include "obvid/curve/internal/bspline.h"
 #include "obvid/curve/internal/joined_nurbs.h"
 #include "obvid/curve/internal/path_distance.h"
+#include "obvid/curve/nurbs.h"
 #include "obvid/io/read_points.h"
 #include "obvid/pipeline/audit.h"
 #include "obvid/pipeline/fit.h"
@@ -37,7 +37,7 @@ class CadFiles : public testing::Test {
 
   Result<Drawing> there_and_back(const std::vector<CadCurve>& curves, CadWriteOptions options) {
     const auto text = cad_text(curves, options);
-    if (!text) return tl::unexpected(text.error());
+    OBVID_TRY(text);
     const fs::path file = folder_ / "file.cad";
     std::ofstream(file, std::ios::binary) << *text;
     EXPECT_TRUE(is_cad_text(*text));

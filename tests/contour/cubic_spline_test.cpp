@@ -11,7 +11,7 @@
 
 #include "../common/ten_points.h"
 #include "obvid/contour/bsplines.h"
-#include "obvid/curve/internal/bspline.h"
+#include "obvid/curve/nurbs.h"
 
 namespace obvid {
 namespace {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // B-spline curves as Bezier spans, and cubic splines by points and slopes, against closed forms.
-#include "obvid/curve/internal/bspline.h"
+#include "obvid/curve/nurbs.h"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "obvid/curve/nurbs.h"
+#include "obvid/curve/internal/joined_nurbs.h"
 
 #include <gtest/gtest.h>
 

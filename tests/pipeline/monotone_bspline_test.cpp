@@ -15,7 +15,7 @@
 #include "../common/ten_points.h"
 #include "obvid/certify/certify.h"
 #include "obvid/contour/bsplines/monotone.h"
-#include "obvid/curve/internal/bspline.h"
+#include "obvid/curve/nurbs.h"
 #include "obvid/pipeline/fit.h"
 #include "oracle_curves.h"
 

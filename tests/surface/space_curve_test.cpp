@@ -6,7 +6,7 @@
 
 #include <cmath>
 
-#include "obvid/surface/internal/basis.h"
+#include "obvid/curve/internal/basis.h"
 
 namespace obvid {
 namespace {
@@ -96,7 +96,7 @@ TEST(SpaceCurve, KnotsAreInsertedWithoutChangingTheCurve) {
 }
 
 TEST(SpaceCurve, DegreeIsRaisedWithoutChangingTheCurve) {
-  for (int degree = 4; degree <= kMaxSurfaceDegree; ++degree) {
+  for (int degree = 4; degree <= kMaxNurbsDegree; ++degree) {
     const SpaceCurve raised = with_degree(uneven_curve(), degree);
     EXPECT_EQ(raised.degree, degree);
     expect_same_curve(uneven_curve(), raised);

@@ -48,7 +48,7 @@ struct Exported {
 };
 
 /// The contour in a format of another system. CAD formats get one NURBS curve, joined as
-/// `joined_nurbs` says; contours of lines and arcs alone stay lines and arcs; clothoids are
+/// `nurbs_of` says; contours of lines and arcs alone stay lines and arcs; clothoids are
 /// followed by a C2 cubic within the tolerance, which the remarks tell. Errors: those of the
 /// formats.
 [[nodiscard]] Result<Exported> export_contour(const StoredContour& stored, FileFormat format,

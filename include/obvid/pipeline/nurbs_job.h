@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "obvid/core/result.h"
+#include "obvid/core/units.h"
 #include "obvid/io/internal/read_columns.h"
 #include "obvid/surface/nurbs_surface.h"
 

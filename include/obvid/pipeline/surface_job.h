@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once  // reentrant: docs/threads.md
 
+#include <numbers>
 #include <optional>
 #include <string>
 #include <utility>
+#include <variant>
 #include <vector>
 
 #include "obvid/core/result.h"
@@ -16,19 +18,6 @@
 #include "obvid/surface_builders/internal/grid.h"
 
 namespace obvid {
-
-/// What is made of the inputs.
-enum class SurfaceKind {
-  kRuled,    ///< between two curves, or from one along a direction or to a point
-  kRevolve,  ///< a profile about an axis
-  kCoons,    ///< of four border curves
-  kGordon,   ///< of a net of curves
-  kGrid,     ///< through, near or controlled by a grid of points
-  kSkin,     ///< through section contours
-  kOffset,   ///< of a surface
-  kId,       ///< integro-differential spline through a grid
-  kConvert,  ///< a surface as it is
-};
 
 /// What surfaces are made of: a file, the text of one that is there already, or points.
 struct SurfaceInput {
@@ -47,32 +36,79 @@ struct SurfaceInput {
 /// How a grid becomes a surface.
 enum class GridUse { kThrough, kNear, kControl };
 
-struct SurfaceJob {
-  SurfaceKind kind = SurfaceKind::kSkin;
-  std::vector<SurfaceInput> inputs;
-  std::vector<SurfaceInput> across;  ///< Gordon: curves that cross those of `inputs`
-  std::optional<Units> units;        ///< stated by the user; default as the files say
-  std::optional<double> tolerance;   ///< units: of what NURBS do not hold exactly, of skins from
-                                     ///< their contours, of grids that are approximated, of
-                                     ///< curves that have to meet [1e-5 of the size]
-  ImportOptions import;              ///< of curves of drawings
-  FitJob sections = section_job();   ///< how contours of point files are formed
-  bool plain_when_refused = false;   ///< as in `SkinJob`
+// One struct for each kind, with what only this kind has to be told.
+
+/// Skin through section contours.
+struct SkinKind {
   SkinMatching matching = SkinMatching::kAutomatic;
   bool straight_across = false;
-  std::optional<Vec3> direction;       ///< ruled: from the curve by this vector
-  std::optional<Vec3> apex;            ///< ruled: to this point
-  Vec3 axis_point;                     ///< revolve
-  Vec3 axis_direction{1.0, 0.0, 0.0};  ///< revolve
-  double angle = 0.0;                  ///< revolve, rad; 0: a full turn
-  double distance = 0.0;               ///< offset, along the normal du x dv
-  GridUse use = GridUse::kThrough;
-  Spread spread = Spread::kChord;
-  std::optional<double> spacing;   ///< of rows and columns of height matrices, and between
-                                   ///< sections whose files have no z
-  bool smooth = false;             ///< ID spline: C1 in place of the values
-  std::optional<std::size_t> row;  ///< of a grid that is given as points: how many are in a row
+  std::optional<double> spacing{};  ///< between sections whose files have no z [1]
 };
+/// Between two curves, or from one along a direction or to a point. Two lists of points are matched
+/// as the sections of a skin.
+struct RuledKind {
+  std::optional<Vec3> direction{};  ///< from the curve by this vector
+  std::optional<Vec3> apex{};       ///< to this point
+  SkinKind strips{.straight_across = true};
+};
+/// A profile about an axis.
+struct RevolveKind {
+  Vec3 axis_point;
+  Vec3 axis_direction{1.0, 0.0, 0.0};
+  double angle = 2.0 * std::numbers::pi;  ///< rad
+};
+/// Of four border curves.
+struct CoonsKind {};
+/// Of a net of curves.
+struct GordonKind {
+  std::vector<SurfaceInput> across{};  ///< curves that cross those of the inputs
+};
+/// How rows and columns of points become a grid with parameters.
+struct GridReading {
+  Spread spread = Spread::kChord;
+  std::optional<double> spacing{};   ///< of rows and columns of height matrices [1]
+  std::optional<std::size_t> row{};  ///< of points in memory: how many are in a row
+};
+/// Through, near or controlled by a grid of points.
+struct GridKind {
+  GridUse use = GridUse::kThrough;
+  GridReading reading{};
+};
+/// Of a surface, along the normal du x dv.
+struct OffsetKind {
+  double distance = 0.0;  ///< units
+};
+/// Integro-differential spline through a grid.
+struct IdKind {
+  bool smooth = false;  ///< C1 in place of the values
+  GridReading reading{};
+};
+/// A surface as it is.
+struct ConvertKind {};
+
+using SurfaceKind = std::variant<SkinKind, RuledKind, RevolveKind, CoonsKind, GordonKind, GridKind,
+                                 OffsetKind, IdKind, ConvertKind>;
+
+/// Where curves come from.
+struct CurveReading {
+  ImportOptions import{};            ///< of curves of drawings
+  FitJob sections = section_job();   ///< how contours of points are formed
+  bool plain_when_refused = false;   ///< as in `SkinJob`
+};
+
+struct SurfaceJob {
+  SurfaceKind kind = SkinKind{};
+  std::vector<SurfaceInput> inputs{};
+  std::optional<Units> units{};       ///< stated by the user; default as the files say
+  std::optional<double> tolerance{};  ///< units: of what NURBS do not hold exactly, of skins from
+                                      ///< their contours, of grids that are approximated, of
+                                      ///< curves that have to meet [1e-5 of the size]
+  CurveReading curves{};
+};
+
+/// The second list of inputs, of kinds that have one (Gordon: `across`); else null.
+[[nodiscard]] std::vector<SurfaceInput>* second_inputs(SurfaceJob& job);
+[[nodiscard]] const std::vector<SurfaceInput>* second_inputs(const SurfaceJob& job);
 
 /// A surface with what is known about how it was made.
 struct MadeSurface {
@@ -107,6 +143,7 @@ struct ReadCurve {
   SpaceCurve curve;
   std::vector<std::string> warnings;
 };
-[[nodiscard]] Result<ReadCurve> read_space_curve(const SurfaceInput& input, const SurfaceJob& job);
+[[nodiscard]] Result<ReadCurve> read_space_curve(const SurfaceInput& input,
+                                                 const CurveReading& how);
 
 }  // namespace obvid

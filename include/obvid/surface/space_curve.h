@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once  // reentrant: docs/threads.md
 
-#include <array>
 #include <vector>
 
 #include "obvid/core/result.h"
@@ -9,48 +8,6 @@
 #include "obvid/geom/vec3.h"
 
 namespace obvid {
-
-/// NURBS curve in space: `points.size() + degree + 1` knots, ascending, clamped (the first and the
-/// last `degree + 1` equal); `weights` one per point, all positive, or empty when all are 1.
-struct SpaceCurve {
-  int degree = 0;
-  std::vector<double> knots;
-  std::vector<Vec3> points;
-  std::vector<double> weights;
-
-  friend bool operator==(const SpaceCurve&, const SpaceCurve&) = default;
-};
-
-/// A closed range of a parameter.
-struct Range {
-  double from = 0.0;
-  double to = 1.0;
-
-  [[nodiscard]] double length() const { return to - from; }
-  [[nodiscard]] double at(double part) const {  ///< part 0: from, 1: to, exactly
-    return part >= 1.0 ? to : from + part * (to - from);
-  }
-};
-
-/// Point and derivatives by the native parameter.
-struct SpaceJet {
-  Vec3 point;
-  Vec3 d1;
-  Vec3 d2;
-  Vec3 d3;
-};
-
-/// Why the curve breaks the rules above, as an error: E203 numbers that do not belong together,
-/// knots that descend, are not clamped or have a multiplicity above the degree (+ 1 at the ends), weights
-/// <= 0, degree outside 1..kMaxSurfaceDegree; E303 what is not finite.
-[[nodiscard]] Result<void> check(const SpaceCurve& curve);
-
-/// Largest degree of curves and surfaces in space.
-inline constexpr int kMaxSurfaceDegree = 9;
-
-[[nodiscard]] Range domain(const SpaceCurve& curve);
-/// Point and derivatives; outside the domain the end span goes on. O(degree^2 + log n).
-[[nodiscard]] SpaceJet evaluate(const SpaceCurve& curve, double u);
 
 /// Curvature of a space curve, >= 0, 1/unit; 0 where the curve stands still.
 [[nodiscard]] double curvature(const SpaceJet& jet);
@@ -64,16 +21,6 @@ inline constexpr int kMaxSurfaceDegree = 9;
 /// A plane curve in its plane.
 [[nodiscard]] SpaceCurve placed(const NurbsCurve& curve, const Frame& frame);
 
-// Operations that leave the shape as it is.
-[[nodiscard]] SpaceCurve reversed(const SpaceCurve& curve);
-/// Knots scaled and moved onto the range.
-[[nodiscard]] SpaceCurve with_domain(const SpaceCurve& curve, Range range);
-/// `new_knots` ascending, inside the domain; each may repeat. Boehm, Oslo form. O(n + new).
-[[nodiscard]] SpaceCurve with_knots(const SpaceCurve& curve, const std::vector<double>& new_knots);
-/// Degree raised to `degree` (not lowered); every inner knot gains the same multiplicity.
-[[nodiscard]] SpaceCurve with_degree(const SpaceCurve& curve, int degree);
-/// The parts before and after u, strictly inside the domain; u stays the knot between them.
-[[nodiscard]] std::array<SpaceCurve, 2> split(const SpaceCurve& curve, double u);
 /// All on [0, 1], of one degree, with the same knots, ready to be the rows of a surface. Knots that
 /// differ by less than `kSameKnot` of the domain are made one.
 [[nodiscard]] std::vector<SpaceCurve> compatible(std::vector<SpaceCurve> curves);

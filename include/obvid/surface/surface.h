@@ -5,6 +5,7 @@
 #include <variant>
 #include <vector>
 
+#include "obvid/core/units.h"
 #include "obvid/idspline/internal/id_spline_2d.h"
 #include "obvid/surface/nurbs_surface.h"
 
@@ -88,7 +89,7 @@ struct NurbsForm {
 
 /// Ruled and directed surfaces, revolutions, Coons and Gordon of polynomial curves and ID surfaces
 /// become NURBS exactly, offsets of planes too. Between rational curves of different weights the
-/// degrees add; where the sum is above `kMaxSurfaceDegree` the rulings of a ruled surface are the
+/// degrees add; where the sum is above `kMaxNurbsDegree` the rulings of a ruled surface are the
 /// same, but v runs along each of them projectively, and `deviation` tells how far that is. Other
 /// offsets and Coons or Gordon of rational curves come within the tolerance (units), measured
 /// between the samples too.

@@ -95,7 +95,7 @@ double size_of_face(const TopoDS_Face& face) {
 
 Handle(Geom_BSplineSurface)
     approximated(const Handle(Geom_Surface) & part, double size, double& deviation) {
-  constexpr int kMostDegree = kMaxSurfaceDegree, kMostSegments = 1000;
+  constexpr int kMostDegree = kMaxNurbsDegree, kMostSegments = 1000;
   const GeomConvert_ApproxSurface made(part, kApproximation * size, GeomAbs_C2, GeomAbs_C2,
                                        kMostDegree, kMostDegree, kMostSegments, 1);
   if (!made.IsDone() || !(made.MaxError() <= kApproximation * size)) return {};

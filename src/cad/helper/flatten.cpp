@@ -18,7 +18,7 @@
 #include <numbers>
 #include <optional>
 
-#include "obvid/curve/internal/bspline.h"
+#include "obvid/curve/nurbs.h"
 
 namespace obvid::cad {
 namespace {

@@ -21,8 +21,8 @@
 #include <optional>
 #include <utility>
 
+#include "obvid/contour/bsplines/nurbs_of.h"
 #include "obvid/contour/conics.h"
-#include "obvid/curve/internal/joined_nurbs.h"
 #include "splines.h"
 
 namespace obvid::cad {
@@ -39,35 +39,10 @@ Error refused(const char* what) {
           0.0};
 }
 
-Handle(Geom_BSplineCurve) spline_of(const NurbsCurve& curve, double scale) {
-  const int n = static_cast<int>(curve.points.size());
-  TColgp_Array1OfPnt poles(1, n);
-  TColStd_Array1OfReal weights(1, n);
-  for (int i = 0; i < n; ++i) {
-    const auto k = static_cast<std::size_t>(i);
-    poles(i + 1) = at(curve.points[k], scale);
-    weights(i + 1) = curve.weights[k];
-  }
-  const KnotTable knots = knot_table(curve.knots);
-  const bool rational = std::any_of(curve.weights.begin(), curve.weights.end(),
-                                    [&](double w) { return w != curve.weights.front(); });
-  if (!rational) {
-    return new Geom_BSplineCurve(poles, knots.values, knots.multiplicities, curve.degree);
-  }
-  return new Geom_BSplineCurve(poles, weights, knots.values, knots.multiplicities, curve.degree);
-}
-
-NurbsCurve nurbs_of(const RationalBezier& piece) {
-  NurbsCurve out;
-  out.degree = piece.degree;
-  const auto n = static_cast<std::size_t>(piece.degree) + 1;
-  for (std::size_t j = 0; j < n; ++j) {
-    out.points.push_back(piece.origin + piece.offset[j]);
-    out.weights.push_back(piece.weight[j]);
-  }
-  out.knots.assign(n, 0.0);
-  out.knots.insert(out.knots.end(), n, 1.0);
-  return out;
+Handle(Geom_BSplineCurve) flat_spline(const NurbsCurve& curve, double scale) {
+  SpaceCurve flat{curve.degree, curve.knots, {}, curve.weights};
+  for (const Vec2 p : curve.points) flat.points.push_back({scale * p.x, scale * p.y, 0.0});
+  return spline_of(flat);
 }
 
 /// A curve and the parameters at which an edge begins and ends.
@@ -84,7 +59,7 @@ constexpr double kLeastAngle = 1e-7;
 constexpr double kCircleMiss = 1e-11;
 
 Drawn spline_piece(const NurbsCurve& curve, double scale) {
-  return {spline_of(curve, scale), curve.knots.front(), curve.knots.back()};
+  return {flat_spline(curve, scale), curve.knots.front(), curve.knots.back()};
 }
 
 /// The arc as a circle; nothing where the centre lies so far away that the ends lose digits.
@@ -125,9 +100,9 @@ Result<Drawn> drawn_by_points(const Piece& piece, double scale) {
   Contour only;
   only.pieces.push_back(piece);
   only.joints.resize(2);
-  const auto curve = joined_nurbs(only);
-  OBVID_TRY(curve);
-  return spline_piece(*curve, scale);
+  const auto made = nurbs_of(only);
+  OBVID_TRY(made);
+  return spline_piece(made->curve, scale);
 }
 
 Result<Drawn> drawn(const Piece& piece, double scale) {
@@ -231,7 +206,7 @@ Result<TopoDS_Wire> wire_of(const CadCurve& curve, double scale) {
   }
   const auto spline = [&]() -> Handle(Geom_BSplineCurve) {
     if (const auto* plane = std::get_if<NurbsCurve>(&curve.geometry)) {
-      return spline_of(*plane, scale);
+      return flat_spline(*plane, scale);
     }
     SpaceCurve spatial = std::get<SpaceCurve>(curve.geometry);
     for (Vec3& point : spatial.points) point = scale * point;

@@ -10,7 +10,7 @@
 #include <optional>
 
 #include "dxf/arcs.h"
-#include "obvid/curve/internal/bspline.h"
+#include "obvid/curve/nurbs.h"
 #include "obvid/geom/internal/angle.h"
 
 namespace obvid::dxf {

@@ -15,7 +15,7 @@
 #include "exact_conics.h"
 #include "obvid/contour/arcs/arcs_along.h"
 #include "obvid/contour/bsplines/cubic_along.h"
-#include "obvid/curve/internal/joined_nurbs.h"
+#include "obvid/contour/bsplines/nurbs_of.h"
 #include "obvid/geom/internal/angle.h"
 
 namespace obvid {
@@ -40,7 +40,6 @@ bool is_circular(const Piece& piece) {
   return std::holds_alternative<LinePiece>(piece) || std::holds_alternative<ArcPiece>(piece);
 }
 
-bool is_clothoid(const Piece& piece) { return std::holds_alternative<ClothoidPiece>(piece); }
 
 /// Angle from 0 to below `turn`.
 double within(double angle, double turn) {
@@ -210,11 +209,10 @@ class DxfDrawer {
       for (const Ellipse& one : *conics) ellipse(one);
       return {};
     }
-    if (std::any_of(part.pieces.begin(), part.pieces.end(), is_clothoid))
-      return cubic(part, closed);
-    const auto curve = joined_nurbs(part);
-    OBVID_TRY(curve);
-    spline(*curve, closed);
+    const auto made = nurbs_of(part, {true, options_.tolerance});
+    OBVID_TRY(made);
+    result_.deviation = std::max(result_.deviation, made->deviation);
+    spline(made->curve, closed);
     return {};
   }
 

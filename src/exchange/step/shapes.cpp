@@ -50,7 +50,7 @@ class StepShaper {
 
   StepShape shape(const RationalBezier& piece) const {
     const auto e = ellipse_within(piece, size_);
-    if (!e) return shape(nurbs_of_piece(piece));
+    if (!e) return shape(nurbs_of(piece));
     const double sign = e->from < e->to ? 1.0 : -1.0;
     return {StepConic{scale_ * e->centre, unit_at(e->rotation), scale_ * e->semi_major,
                       scale_ * e->semi_minor, sign * e->from, sign * e->to, sign > 0.0},
@@ -58,19 +58,6 @@ class StepShaper {
   }
 
  private:
-  static NurbsCurve nurbs_of_piece(const RationalBezier& piece) {
-    NurbsCurve out;
-    out.degree = piece.degree;
-    const auto n = static_cast<std::size_t>(piece.degree) + 1;
-    for (std::size_t j = 0; j < n; ++j) {
-      out.points.push_back(piece.origin + piece.offset[j]);
-      out.weights.push_back(piece.weight[j]);
-    }
-    out.knots.assign(n, 0.0);
-    out.knots.insert(out.knots.end(), n, 1.0);
-    return out;
-  }
-
   double scale_, size_;
 };
 
@@ -112,7 +99,7 @@ bool makes_a_curve(const NurbsCurve& curve) {
   const std::size_t n = curve.points.size();
   if (curve.degree < 1 || n <= static_cast<std::size_t>(curve.degree)) return false;
   const auto p = static_cast<std::size_t>(curve.degree);
-  if (curve.weights.size() != n || curve.knots.size() != n + p + 1) return false;
+  if ((!curve.weights.empty() && curve.weights.size() != n) || curve.knots.size() != n + p + 1) return false;
   for (std::size_t i = 0; i + 1 < curve.knots.size(); ++i) {
     if (curve.knots[i] > curve.knots[i + 1]) return false;
   }

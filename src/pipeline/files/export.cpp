@@ -8,9 +8,9 @@
 #include <utility>
 
 #include "advice/uniform_tolerance.h"
-#include "files/contour_nurbs.h"
 #include "files/file_units.h"
 #include "files/format_writers.h"
+#include "obvid/contour/bsplines/nurbs_of.h"
 #include "obvid/exchange/internal/points/solidworks.h"
 #include "obvid/exchange/internal/road/landxml.h"
 #include "obvid/exchange/internal/road/opendrive.h"
@@ -76,7 +76,7 @@ bool only_lines_and_arcs(const ContourExport& e) {
 }
 
 Result<NurbsCurve> one_curve(const ContourExport& e, Exported& out) {
-  auto made = contour_nurbs(e.contour, e.tolerance);
+  auto made = nurbs_of(e.contour, {true, e.tolerance});
   OBVID_TRY(made);
   if (made->deviation > 0.0) {
     out.remarks.push_back(

@@ -14,7 +14,7 @@
 #include "obvid/contour/arcs.h"
 #include "obvid/contour/bsplines.h"
 #include "obvid/contour/clothoids.h"
-#include "obvid/curve/internal/bspline.h"
+#include "obvid/curve/nurbs.h"
 #include "obvid/region/internal/boundary_distance.h"
 #include "obvid/series/analysis.h"
 #include "region/construction_section.h"

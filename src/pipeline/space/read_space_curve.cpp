@@ -5,7 +5,7 @@
 #include <cmath>
 #include <utility>
 
-#include "files/contour_nurbs.h"
+#include "obvid/contour/bsplines/nurbs_of.h"
 #include "obvid/pipeline/audit.h"
 #include "obvid/pipeline/skin_sections.h"
 #include "obvid/pipeline/surface_job.h"
@@ -23,7 +23,7 @@ Result<ReadCurve> curve_of_contour(const Contour& contour, const Frame& frame, s
   double size = 0.0;
   for (const Piece& piece : contour.pieces)
     size = std::max(size, norm(end_point(piece) - start_point(contour.pieces.front())));
-  auto made = pipeline_detail::contour_nurbs(contour, kFollowing * size);
+  auto made = nurbs_of(contour, {true, kFollowing * size});
   OBVID_TRY(made);
   ReadCurve curve{std::move(name), contour.units, placed(made->curve, frame), {}};
   if (made->deviation > 0.0) {
@@ -34,12 +34,12 @@ Result<ReadCurve> curve_of_contour(const Contour& contour, const Frame& frame, s
   return curve;
 }
 
-Result<ReadCurve> from_drawing(const SurfaceInput& input, const SurfaceJob& job) {
+Result<ReadCurve> from_drawing(const SurfaceInput& input, const CurveReading& how) {
   const std::string& path = input.name;
   const Result<Drawing> drawing =
       input.text ? parse_drawing(*input.text, path) : read_drawing(path);
   OBVID_TRY(drawing);
-  const auto chosen = chosen_curve(*drawing, job.import.curve, path);
+  const auto chosen = chosen_curve(*drawing, how.import.curve, path);
   OBVID_TRY(chosen);
   if (*chosen >= drawing->curves.size()) {
     return error(ErrorCode::kUnsupported, "the drawing holds points, not a curve")
@@ -70,7 +70,7 @@ Result<ReadCurve> spline_through(const SpaceSeries& series) {
   return ReadCurve{series.name, series.units, std::move(*curve), {}};
 }
 
-Result<ReadCurve> from_points(const SurfaceInput& input, const SurfaceJob& job) {
+Result<ReadCurve> from_points(const SurfaceInput& input, const CurveReading& how) {
   const std::string& path = input.name;
   const auto section = pipeline_detail::section_of(input);
   OBVID_TRY(section);
@@ -81,7 +81,7 @@ Result<ReadCurve> from_points(const SurfaceInput& input, const SurfaceJob& job) 
   constexpr double kRounding = 1e-9;  // of the size: printed points of a plane that lies askew
   const PlaneRounding printed = rounding_in(frame, series.rounding);
   const double noise =
-      job.sections.noise_from_rounding ? printed.across : job.sections.noise.value_or(0.0);
+      how.sections.noise_from_rounding ? printed.across : how.sections.noise.value_or(0.0);
   const double allowed = std::max(noise, kRounding * size);
   if (flatness(series.points, frame) > allowed) {
     auto curve = spline_through(series);
@@ -99,8 +99,8 @@ Result<ReadCurve> from_points(const SurfaceInput& input, const SurfaceJob& job) 
     return ReadCurve{
         series.name, series.units, line_between(series.points.front(), series.points.back()), {}};
   }
-  const Result<Fit> made = fit(flat, job.sections);
-  if (!made && job.plain_when_refused && category(made.error().code) == ErrorCategory::kNoContour) {
+  const Result<Fit> made = fit(flat, how.sections);
+  if (!made && how.plain_when_refused && category(made.error().code) == ErrorCategory::kNoContour) {
     auto curve = spline_through(series);
     if (!curve) return curve;
     curve->warnings.push_back(
@@ -111,7 +111,7 @@ Result<ReadCurve> from_points(const SurfaceInput& input, const SurfaceJob& job) 
   if (!made) {
     Error error = made.error();
     if (category(error.code) == ErrorCategory::kNoContour) {
-      error.hint = pipeline_detail::without_fair_contour(job.sections);
+      error.hint = pipeline_detail::without_fair_contour(how.sections);
     }
     error.where = error.where.empty() ? path : path + ", " + error.where;
     return fail(error);
@@ -124,10 +124,10 @@ Result<ReadCurve> from_points(const SurfaceInput& input, const SurfaceJob& job) 
 
 }  // namespace
 
-Result<ReadCurve> read_space_curve(const SurfaceInput& input, const SurfaceJob& job) {
+Result<ReadCurve> read_space_curve(const SurfaceInput& input, const CurveReading& how) {
   const bool drawing =
       input.text ? is_drawing_text(*input.text) : input.is_file() && is_drawing(input.name);
-  return drawing ? from_drawing(input, job) : from_points(input, job);
+  return drawing ? from_drawing(input, how) : from_points(input, how);
 }
 
 }  // namespace obvid

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "files/contour_nurbs.h"
+#include "obvid/contour/bsplines/nurbs_of.h"
 #include "obvid/io/contour_json.h"
 #include "obvid/io/internal/json_text.h"
 #include "obvid/pipeline/space_fit.h"
@@ -193,7 +193,7 @@ Result<SpaceNurbs> space_nurbs(const SpaceFit& fit, double tolerance) {
     const SpaceShape shape(fit.frame, fit.plan.contour, fit.unrolled->contour);
     return CubicOfSpace(shape, fit.plan.contour.closed, tolerance).run();
   }
-  const auto made = pipeline_detail::contour_nurbs(fit.plan.contour, tolerance);
+  const auto made = nurbs_of(fit.plan.contour, {true, tolerance});
   OBVID_TRY(made);
   return SpaceNurbs{placed(made->curve, fit.frame), made->deviation};
 }

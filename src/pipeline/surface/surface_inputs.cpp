@@ -49,14 +49,15 @@ Result<ParsedSections> parsed(const SurfaceInput& input, const SectionOptions& o
 
 }  // namespace
 
-Result<std::vector<SpaceSeries>> sections_of(const SurfaceJob& job) {
-  const SectionOptions options{job.spacing.value_or(1.0)};
-  if (are_files(job.inputs)) return read_sections(paths_of(job.inputs), options);
+Result<std::vector<SpaceSeries>> sections_of(const std::vector<SurfaceInput>& inputs,
+                                             std::optional<double> spacing) {
+  const SectionOptions options{spacing.value_or(1.0)};
+  if (are_files(inputs)) return read_sections(paths_of(inputs), options);
   std::vector<SpaceSeries> out;
-  for (const SurfaceInput& input : job.inputs) {
+  for (const SurfaceInput& input : inputs) {
     auto some = parsed(input, options);
     OBVID_TRY(some);
-    const bool named_by_file = !input.points && job.inputs.size() > 1 && some->sections.size() == 1;
+    const bool named_by_file = !input.points && inputs.size() > 1 && some->sections.size() == 1;
     if (named_by_file) {
       some->sections.front().name = std::filesystem::path(input.name).filename().string();
     }
@@ -82,19 +83,19 @@ Result<SpaceSeries> section_of(const SurfaceInput& input) {
       .value(static_cast<double>(all->sections.size()));
 }
 
-Result<PointGrid> grid_of(const SurfaceJob& job) {
-  const GridOptions options{job.spacing.value_or(1.0)};
-  if (are_files(job.inputs)) return read_grid(paths_of(job.inputs), options);
-  if (job.inputs.size() != 1) {
+Result<PointGrid> grid_of(const std::vector<SurfaceInput>& inputs, const GridReading& reading) {
+  const GridOptions options{reading.spacing.value_or(1.0)};
+  if (are_files(inputs)) return read_grid(paths_of(inputs), options);
+  if (inputs.size() != 1) {
     return error(ErrorCode::kUsage, "a grid is one text or one list of points");
   }
-  const SurfaceInput& input = job.inputs.front();
+  const SurfaceInput& input = inputs.front();
   if (input.text) {
     auto grid = parse_grid(*input.text, input.name, options);
     if (grid) grid->name = std::filesystem::path(input.name).stem().string();
     return grid;
   }
-  const std::size_t count = input.points->points.size(), row = job.row.value_or(0);
+  const std::size_t count = input.points->points.size(), row = reading.row.value_or(0);
   if (row < 2 || count % row != 0 || count / row < 2) {
     return error(ErrorCode::kBadOption, fmt::format("{} points do not fill rows of {}", count, row))
         .where(input.name)

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "obvid/core/result.h"
@@ -9,10 +10,12 @@
 namespace obvid::pipeline_detail {
 
 /// Sections in the order of the inputs. Errors: of `read_sections`.
-[[nodiscard]] Result<std::vector<SpaceSeries>> sections_of(const SurfaceJob& job);
+[[nodiscard]] Result<std::vector<SpaceSeries>> sections_of(const std::vector<SurfaceInput>& inputs,
+                                                           std::optional<double> spacing);
 /// The one section of an input. Error: E307 there are more.
 [[nodiscard]] Result<SpaceSeries> section_of(const SurfaceInput& input);
-/// Errors: of `read_grid`; E203 points that do not fill rows of `job.row`.
-[[nodiscard]] Result<PointGrid> grid_of(const SurfaceJob& job);
+/// Errors: of `read_grid`; E203 points that do not fill rows.
+[[nodiscard]] Result<PointGrid> grid_of(const std::vector<SurfaceInput>& inputs,
+                                        const GridReading& reading);
 
 }  // namespace obvid::pipeline_detail

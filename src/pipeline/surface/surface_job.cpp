@@ -6,38 +6,10 @@
 #include "surface/surface_kinds.h"
 
 namespace obvid {
-namespace {
-
-using namespace pipeline_detail;
-
-Result<MadeSurface> made_by(const SurfaceJob& job, const RunContext& run) {
-  switch (job.kind) {
-    case SurfaceKind::kRuled:
-      return make_ruled(job, run);
-    case SurfaceKind::kRevolve:
-      return make_revolution(job);
-    case SurfaceKind::kCoons:
-      return make_coons(job);
-    case SurfaceKind::kGordon:
-      return make_gordon(job);
-    case SurfaceKind::kGrid:
-      return make_grid(job, run);
-    case SurfaceKind::kSkin:
-      return make_skin(job, run);
-    case SurfaceKind::kOffset:
-      return make_offset(job);
-    case SurfaceKind::kId:
-      return make_id(job);
-    case SurfaceKind::kConvert:
-      return make_converted(job);
-  }
-  return error(ErrorCode::kInternal, "unknown kind of surface");
-}
-
-}  // namespace
 
 Result<MadeSurface> make_surface(const SurfaceJob& job, const RunContext& run) {
-  auto made = made_by(job, run);
+  auto made = std::visit(
+      [&](const auto& kind) { return pipeline_detail::make_kind(kind, job, run); }, job.kind);
   if (made && job.units) {
     if (auto told = take_units(made->model.units, *job.units)) made->warnings.push_back(*told);
   }

@@ -18,10 +18,10 @@ namespace obvid::pipeline_detail {
 namespace {
 
 Result<std::vector<ReadCurve>> read_curves(const std::vector<SurfaceInput>& inputs,
-                                           const SurfaceJob& job) {
+                                           const CurveReading& how) {
   std::vector<ReadCurve> curves;
   for (const SurfaceInput& input : inputs) {
-    auto curve = read_space_curve(input, job);
+    auto curve = read_space_curve(input, how);
     OBVID_TRY(curve);
     curves.push_back(std::move(*curve));
   }
@@ -153,42 +153,40 @@ Result<MadeSurface> made_of(const Surface& surface, const std::string& name, dou
   return made;
 }
 
-Result<MadeSurface> make_ruled(const SurfaceJob& job, const RunContext& run) {
-  const bool from_one = job.direction || job.apex;
+Result<MadeSurface> make_kind(const RuledKind& kind, const SurfaceJob& job, const RunContext& run) {
+  const bool from_one = kind.direction || kind.apex;
   OBVID_TRY(from_one ? need(job, 1, 1, "one curve with --direction or --apex")
-                     : need(job, 2, 2, "two curves"));
+                           : need(job, 2, 2, "two curves"));
   if (!from_one && are_points(job)) {
-    SurfaceJob strips = job;
-    strips.straight_across = true;
-    auto made = make_skin(strips, run);
+    auto made = make_kind(kind.strips, job, run);
     if (made) made->kind = "ruled surface between two fair contours";
     return made;
   }
-  auto curves = read_curves(job.inputs, job);
+  auto curves = read_curves(job.inputs, job.curves);
   OBVID_TRY(curves);
   const SpaceCurve& first = curves->front().curve;
-  RuledSurface ruled{first, job.direction ? moved_curve(first, *job.direction)
-                            : job.apex    ? shrunk_to(first, *job.apex)
+  RuledSurface ruled{first, kind.direction ? moved_curve(first, *kind.direction)
+                            : kind.apex    ? shrunk_to(first, *kind.apex)
                                           : curves->back().curve};
   auto made = made_of(ruled, "ruled surface", size_of_all(*curves), job);
   if (!made) return made;
-  if (job.direction) made->kind = "cylinder over a curve";
-  if (job.apex) made->kind = "cone over a curve";
+  if (kind.direction) made->kind = "cylinder over a curve";
+  if (kind.apex) made->kind = "cone over a curve";
   OBVID_TRY(take_over(*curves, *made));
   return made;
 }
 
-Result<MadeSurface> make_revolution(const SurfaceJob& job) {
+Result<MadeSurface> make_kind(const RevolveKind& kind, const SurfaceJob& job, const RunContext&) {
   OBVID_TRY(need(job, 1, 1, "one profile"));
-  auto curves = read_curves(job.inputs, job);
+  auto curves = read_curves(job.inputs, job.curves);
   OBVID_TRY(curves);
-  const double angle = job.angle != 0.0 ? job.angle : 2.0 * std::numbers::pi;
-  const RevolutionSurface surface{curves->front().curve, job.axis_point, job.axis_direction, angle};
+  const RevolutionSurface surface{curves->front().curve, kind.axis_point, kind.axis_direction,
+                                  kind.angle};
   const std::string stem = std::filesystem::path(job.inputs.front().name).stem().string();
   auto made = made_of(surface, stem, size_of_all(*curves), job);
   if (!made) return made;
-  made->facts.emplace_back("angle", degrees(angle));
-  if (crosses_axis(curves->front().curve, job.axis_point, job.axis_direction)) {
+  made->facts.emplace_back("angle", degrees(kind.angle));
+  if (crosses_axis(curves->front().curve, kind.axis_point, kind.axis_direction)) {
     made->warnings.push_back(
         fmt::format("{}: the profile lies on both sides of the axis, the surface runs "
                     "through itself; is it half an outline, and --axis right?",
@@ -198,9 +196,9 @@ Result<MadeSurface> make_revolution(const SurfaceJob& job) {
   return made;
 }
 
-Result<MadeSurface> make_coons(const SurfaceJob& job) {
+Result<MadeSurface> make_kind(const CoonsKind&, const SurfaceJob& job, const RunContext&) {
   OBVID_TRY(need(job, 4, 4, "four border curves"));
-  auto curves = read_curves(job.inputs, job);
+  auto curves = read_curves(job.inputs, job.curves);
   OBVID_TRY(curves);
   const double size = size_of_all(*curves);
   const auto patch =
@@ -212,10 +210,10 @@ Result<MadeSurface> make_coons(const SurfaceJob& job) {
   return made;
 }
 
-Result<MadeSurface> make_gordon(const SurfaceJob& job) {
-  auto first = read_curves(job.inputs, job);
+Result<MadeSurface> make_kind(const GordonKind& kind, const SurfaceJob& job, const RunContext&) {
+  auto first = read_curves(job.inputs, job.curves);
   OBVID_TRY(first);
-  auto second = read_curves(job.across, job);
+  auto second = read_curves(kind.across, job.curves);
   OBVID_TRY(second);
   const double size = std::max(size_of_all(*first), size_of_all(*second));
   const auto net = gordon_from(geometry(*first), geometry(*second),
@@ -231,17 +229,17 @@ Result<MadeSurface> make_gordon(const SurfaceJob& job) {
   return made;
 }
 
-Result<MadeSurface> make_offset(const SurfaceJob& job) {
+Result<MadeSurface> make_kind(const OffsetKind& kind, const SurfaceJob& job, const RunContext&) {
   OBVID_TRY(need(job, 1, 1, "one surface"));
   MadeSurface made;
   auto model = read_surface(job.inputs.front(), made.warnings);
   OBVID_TRY(model);
   made.model = std::move(*model);
   for (SurfacePatch& patch : made.model.patches) {
-    const OffsetCheck found = check_offset(patch.surface, job.distance);
-    if (!found.folds.empty()) return fail(folds(patch, found, job.distance));
+    const OffsetCheck found = check_offset(patch.surface, kind.distance);
+    if (!found.folds.empty()) return fail(folds(patch, found, kind.distance));
     const double size = obvid::size_of(patch.surface);
-    const OffsetSurface offset{patch.surface, job.distance};
+    const OffsetSurface offset{patch.surface, kind.distance};
     auto form = to_nurbs(offset, job.tolerance.value_or(kSurfaceTolerance * size));
     if (!form) {
       Error error = form.error();
@@ -251,11 +249,11 @@ Result<MadeSurface> make_offset(const SurfaceJob& job) {
     patch.surface = std::move(form->surface);
     made.deviation = std::max(made.deviation, form->deviation);
   }
-  made.kind = fmt::format("offset by {:g}", job.distance);
+  made.kind = fmt::format("offset by {:g}", kind.distance);
   return made;
 }
 
-Result<MadeSurface> make_converted(const SurfaceJob& job) {
+Result<MadeSurface> make_kind(const ConvertKind&, const SurfaceJob& job, const RunContext&) {
   OBVID_TRY(need(job, 1, 1, "one surface"));
   MadeSurface made;
   auto model = read_surface(job.inputs.front(), made.warnings);
@@ -266,3 +264,17 @@ Result<MadeSurface> make_converted(const SurfaceJob& job) {
 }
 
 }  // namespace obvid::pipeline_detail
+
+namespace obvid {
+
+std::vector<SurfaceInput>* second_inputs(SurfaceJob& job) {
+  auto* net = std::get_if<GordonKind>(&job.kind);
+  return net != nullptr ? &net->across : nullptr;
+}
+
+const std::vector<SurfaceInput>* second_inputs(const SurfaceJob& job) {
+  const auto* net = std::get_if<GordonKind>(&job.kind);
+  return net != nullptr ? &net->across : nullptr;
+}
+
+}  // namespace obvid

@@ -22,15 +22,24 @@ inline constexpr double kSurfaceTolerance = 1e-5;
 }
 
 /// One function for each kind of surface; errors as `make_surface`.
-[[nodiscard]] Result<MadeSurface> make_ruled(const SurfaceJob& job, const RunContext& run);
-[[nodiscard]] Result<MadeSurface> make_revolution(const SurfaceJob& job);
-[[nodiscard]] Result<MadeSurface> make_coons(const SurfaceJob& job);
-[[nodiscard]] Result<MadeSurface> make_gordon(const SurfaceJob& job);
-[[nodiscard]] Result<MadeSurface> make_grid(const SurfaceJob& job, const RunContext& run);
-[[nodiscard]] Result<MadeSurface> make_skin(const SurfaceJob& job, const RunContext& run);
-[[nodiscard]] Result<MadeSurface> make_offset(const SurfaceJob& job);
-[[nodiscard]] Result<MadeSurface> make_id(const SurfaceJob& job);
-[[nodiscard]] Result<MadeSurface> make_converted(const SurfaceJob& job);
+[[nodiscard]] Result<MadeSurface> make_kind(const SkinKind& kind, const SurfaceJob& job,
+                                            const RunContext& run);
+[[nodiscard]] Result<MadeSurface> make_kind(const RuledKind& kind, const SurfaceJob& job,
+                                            const RunContext& run);
+[[nodiscard]] Result<MadeSurface> make_kind(const RevolveKind& kind, const SurfaceJob& job,
+                                            const RunContext& run);
+[[nodiscard]] Result<MadeSurface> make_kind(const CoonsKind& kind, const SurfaceJob& job,
+                                            const RunContext& run);
+[[nodiscard]] Result<MadeSurface> make_kind(const GordonKind& kind, const SurfaceJob& job,
+                                            const RunContext& run);
+[[nodiscard]] Result<MadeSurface> make_kind(const GridKind& kind, const SurfaceJob& job,
+                                            const RunContext& run);
+[[nodiscard]] Result<MadeSurface> make_kind(const OffsetKind& kind, const SurfaceJob& job,
+                                            const RunContext& run);
+[[nodiscard]] Result<MadeSurface> make_kind(const IdKind& kind, const SurfaceJob& job,
+                                            const RunContext& run);
+[[nodiscard]] Result<MadeSurface> make_kind(const ConvertKind& kind, const SurfaceJob& job,
+                                            const RunContext& run);
 
 /// Points along a curve, to be drawn with the surface.
 [[nodiscard]] ScenePolyline drawn(const SpaceCurve& curve, const char* role = "section");

@@ -52,29 +52,29 @@ std::vector<ScenePolyline> drawn_sections(const std::vector<SpaceSeries>& sectio
 
 }  // namespace
 
-Result<MadeSurface> make_grid(const SurfaceJob& job, const RunContext& run) {
-  const auto grid = grid_of(job);
+Result<MadeSurface> make_kind(const GridKind& kind, const SurfaceJob& job, const RunContext& run) {
+  const auto grid = grid_of(job.inputs, kind.reading);
   OBVID_TRY(grid);
-  if (job.use == GridUse::kNear) return near(*grid, job, run);
-  const bool control = job.use == GridUse::kControl;
-  auto surface = control ? from_control_points(*grid) : interpolated(*grid, job.spread);
+  if (kind.use == GridUse::kNear) return near(*grid, job, run);
+  const bool control = kind.use == GridUse::kControl;
+  auto surface = control ? from_control_points(*grid) : interpolated(*grid, kind.reading.spread);
   OBVID_TRY(surface);
   MadeSurface made = of_one_patch(*grid, std::move(*surface));
   made.kind = control ? "controlled by a grid of points" : "through a grid of points";
   return made;
 }
 
-Result<MadeSurface> make_id(const SurfaceJob& job) {
-  const auto grid = grid_of(job);
+Result<MadeSurface> make_kind(const IdKind& kind, const SurfaceJob& job, const RunContext&) {
+  const auto grid = grid_of(job.inputs, kind.reading);
   OBVID_TRY(grid);
-  const auto u = grid_parameters(*grid, true, job.spread);
+  const auto u = grid_parameters(*grid, true, kind.reading.spread);
   OBVID_TRY(u);
-  const auto v = grid_parameters(*grid, false, job.spread);
+  const auto v = grid_parameters(*grid, false, kind.reading.spread);
   OBVID_TRY(v);
   IdSurface surface;
   for (const auto& [spline, coordinate] :
        {std::pair{&surface.x, &Vec3::x}, {&surface.y, &Vec3::y}, {&surface.z, &Vec3::z}}) {
-    auto made = id_spline_2d(id_data(*grid, *u, *v, coordinate), job.smooth);
+    auto made = id_spline_2d(id_data(*grid, *u, *v, coordinate), kind.smooth);
     OBVID_TRY(made);
     *spline = std::move(*made);
   }
@@ -88,8 +88,8 @@ Result<MadeSurface> make_id(const SurfaceJob& job) {
   return made;
 }
 
-Result<MadeSurface> make_skin(const SurfaceJob& job, const RunContext& run) {
-  const auto sections = sections_of(job);
+Result<MadeSurface> make_kind(const SkinKind& kind, const SurfaceJob& job, const RunContext& run) {
+  const auto sections = sections_of(job.inputs, kind.spacing);
   OBVID_TRY(sections);
   std::vector<Units> units;
   for (const SpaceSeries& section : *sections) units.push_back(section.units);
@@ -97,11 +97,11 @@ Result<MadeSurface> make_skin(const SurfaceJob& job, const RunContext& run) {
   OBVID_TRY(unit);
   SkinJob how;
   how.units = *unit;
-  how.sections = job.sections;
+  how.sections = job.curves.sections;
   how.tolerance = job.tolerance;
-  how.matching = job.matching;
-  how.straight_across = job.straight_across;
-  how.plain_when_refused = job.plain_when_refused;
+  how.matching = kind.matching;
+  how.straight_across = kind.straight_across;
+  how.plain_when_refused = job.curves.plain_when_refused;
   auto fitted = fit_skin(*sections, how, run);
   OBVID_TRY(fitted);
   MadeSurface made;

@@ -15,11 +15,9 @@ namespace {
 
 const std::map<std::string, SurfaceKind>& surface_kinds() {
   static const std::map<std::string, SurfaceKind> all = {
-      {"skin", SurfaceKind::kSkin},       {"ruled", SurfaceKind::kRuled},
-      {"revolve", SurfaceKind::kRevolve}, {"coons", SurfaceKind::kCoons},
-      {"gordon", SurfaceKind::kGordon},   {"grid", SurfaceKind::kGrid},
-      {"id", SurfaceKind::kId},           {"offset", SurfaceKind::kOffset},
-      {"convert", SurfaceKind::kConvert}};
+      {"skin", SkinKind{}},     {"ruled", RuledKind{}},   {"revolve", RevolveKind{}},
+      {"coons", CoonsKind{}},   {"gordon", GordonKind{}}, {"grid", GridKind{}},
+      {"offset", OffsetKind{}}, {"id", IdKind{}},         {"convert", ConvertKind{}}};
   return all;
 }
 
@@ -40,7 +38,43 @@ Result<Vec3> vector_of(const std::string& typed, const char* option) {
   return Vec3{value[0], value[1], value[2]};
 }
 
-Result<void> set_axis(const SurfaceValues& raw, SurfaceJob& job) {
+Result<void> positive(const std::optional<double>& value, const char* option) {
+  if (!value || (*value > 0.0 && std::isfinite(*value))) return {};
+  return fail(bad_option("the value must be greater than 0", option, ""));
+}
+
+// One function for each kind: its values out of what was typed.
+
+Result<void> set_kind(const SurfaceValues& raw, SkinKind& kind) {
+  const auto matching = value_named<SkinMatching>({{"auto", SkinMatching::kAutomatic},
+                                                   {"points", SkinMatching::kByPoints},
+                                                   {"length", SkinMatching::kByLength}},
+                                                  raw.matching, "--match");
+  OBVID_TRY(matching);
+  kind.matching = *matching;
+  kind.straight_across = kind.straight_across || raw.straight;
+  kind.spacing = raw.spacing;
+  return {};
+}
+
+Result<void> set_kind(const SurfaceValues& raw, RuledKind& kind) {
+  if (!raw.direction.empty() && !raw.apex.empty()) {
+    return fail(bad_option("--direction and --apex contradict each other", "", "give one of them"));
+  }
+  if (!raw.direction.empty()) {
+    const auto direction = vector_of(raw.direction, "--direction");
+    OBVID_TRY(direction);
+    kind.direction = *direction;
+  }
+  if (!raw.apex.empty()) {
+    const auto apex = vector_of(raw.apex, "--apex");
+    OBVID_TRY(apex);
+    kind.apex = *apex;
+  }
+  return set_kind(raw, kind.strips);
+}
+
+Result<void> set_kind(const SurfaceValues& raw, RevolveKind& kind) {
   const std::map<std::string, Vec3> axes = {{"x", {1, 0, 0}}, {"y", {0, 1, 0}}, {"z", {0, 0, 1}}};
   const auto at = axes.find(raw.axis);
   const Result<Vec3> direction =
@@ -49,77 +83,57 @@ Result<void> set_axis(const SurfaceValues& raw, SurfaceJob& job) {
   if (!(norm(*direction) > 0.0)) {
     return fail(bad_option("the axis has no direction", "--axis", "give x, y, z or X,Y,Z"));
   }
-  job.axis_direction = *direction;
+  kind.axis_direction = *direction;
   if (!raw.axis_point.empty()) {
     const auto point = vector_of(raw.axis_point, "--axis-point");
     OBVID_TRY(point);
-    job.axis_point = *point;
+    kind.axis_point = *point;
   }
   if (raw.angle_deg) {
     if (!(std::abs(*raw.angle_deg) > 0.0 && std::abs(*raw.angle_deg) <= 360.0)) {
       return fail(bad_option("the angle must lie in -360 to 360 and not be 0", "--angle", ""));
     }
-    job.angle = *raw.angle_deg * kOneDegree;
+    kind.angle = *raw.angle_deg * kOneDegree;
   }
   return {};
 }
 
-Result<void> set_ruling(const SurfaceValues& raw, SurfaceJob& job) {
-  if (!raw.direction.empty() && !raw.apex.empty()) {
-    return fail(bad_option("--direction and --apex contradict each other", "", "give one of them"));
-  }
-  if (!raw.direction.empty()) {
-    const auto direction = vector_of(raw.direction, "--direction");
-    OBVID_TRY(direction);
-    job.direction = *direction;
-  }
-  if (!raw.apex.empty()) {
-    const auto apex = vector_of(raw.apex, "--apex");
-    OBVID_TRY(apex);
-    job.apex = *apex;
-  }
-  return {};
-}
+Result<void> set_kind(const SurfaceValues&, CoonsKind&) { return {}; }
+Result<void> set_kind(const SurfaceValues&, GordonKind&) { return {}; }
+Result<void> set_kind(const SurfaceValues&, ConvertKind&) { return {}; }
 
-Result<void> positive(const std::optional<double>& value, const char* option) {
-  if (!value || (*value > 0.0 && std::isfinite(*value))) return {};
-  return fail(bad_option("the value must be greater than 0", option, ""));
-}
-
-Result<void> set_surface_names(const SurfaceValues& raw, SurfaceJob& job) {
-  const auto matching = value_named<SkinMatching>({{"auto", SkinMatching::kAutomatic},
-                                                   {"points", SkinMatching::kByPoints},
-                                                   {"length", SkinMatching::kByLength}},
-                                                  raw.matching, "--match");
-  OBVID_TRY(matching);
-  job.matching = *matching;
+Result<void> set_kind(const SurfaceValues& raw, GridReading& reading) {
   const auto spread = value_named<Spread>({{"chord", Spread::kChord},
                                            {"centripetal", Spread::kCentripetal},
                                            {"uniform", Spread::kUniform}},
                                           raw.spread, "--spread");
   OBVID_TRY(spread);
-  job.spread = *spread;
+  reading.spread = *spread;
+  reading.spacing = raw.spacing;
+  if (raw.row) {
+    if (*raw.row < 1) return fail(bad_option("rows have points", "row", "give 2 or more"));
+    reading.row = static_cast<std::size_t>(*raw.row);
+  }
   return {};
 }
 
-Result<void> set_numbers(const SurfaceValues& raw, SurfaceJob& job) {
-  job.tolerance = raw.tolerance;
-  job.spacing = raw.spacing;
-  job.distance = raw.distance.value_or(0.0);
-  if (!std::isfinite(job.distance) || (job.kind == SurfaceKind::kOffset && !raw.distance)) {
-    return fail(bad_option("an offset needs its distance", "--distance", "give a number"));
-  }
-  return positive(raw.tolerance, "--tolerance").and_then([&] {
-    return positive(raw.spacing, "--spacing");
-  });
-}
-
-Result<void> set_grid(const SurfaceValues& raw, SurfaceJob& job) {
+Result<void> set_kind(const SurfaceValues& raw, GridKind& kind) {
   if (raw.near && raw.control) {
     return fail(bad_option("--near and --control contradict each other", "", "give one of them"));
   }
-  job.use = raw.near ? GridUse::kNear : raw.control ? GridUse::kControl : GridUse::kThrough;
-  return {};
+  kind.use = raw.near ? GridUse::kNear : raw.control ? GridUse::kControl : GridUse::kThrough;
+  return set_kind(raw, kind.reading);
+}
+
+Result<void> set_kind(const SurfaceValues& raw, IdKind& kind) {
+  kind.smooth = raw.smooth;
+  return set_kind(raw, kind.reading);
+}
+
+Result<void> set_kind(const SurfaceValues& raw, OffsetKind& kind) {
+  kind.distance = raw.distance.value_or(std::nan(""));
+  if (std::isfinite(kind.distance)) return {};
+  return fail(bad_option("an offset needs its distance", "--distance", "give a number"));
 }
 
 template <class Value>
@@ -144,11 +158,10 @@ Result<SurfaceKind> surface_kind_named(const std::string& name) {
 }
 
 Result<void> set_surface(const SurfaceValues& typed, SurfaceJob& job) {
-  return set_numbers(typed, job)
-      .and_then([&] { return set_surface_names(typed, job); })
-      .and_then([&] { return set_axis(typed, job); })
-      .and_then([&] { return set_ruling(typed, job); })
-      .and_then([&] { return set_grid(typed, job); });
+  job.tolerance = typed.tolerance;
+  return std::visit([&](auto& kind) { return set_kind(typed, kind); }, job.kind)
+      .and_then([&] { return positive(typed.tolerance, "--tolerance"); })
+      .and_then([&] { return positive(typed.spacing, "--spacing"); });
 }
 
 Result<SurfaceView> view_named(const std::string& name) {

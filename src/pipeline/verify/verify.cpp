@@ -230,7 +230,7 @@ void compare_runs(const Contour& contour, const Certificate& found, ClaimCheck& 
     if (!promises_monotone(contour.carrier)) {
       for (std::size_t i = run.first_piece; i <= run.last_piece && i < found.pieces.size(); ++i) {
         c.count("direction of run " + std::to_string(r), run.direction,
-                direction_of(found.pieces[i].verdict));
+                pipeline_detail::direction_of(found.pieces[i].verdict));
       }
       continue;
     }

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "files/contour_nurbs.h"
+#include "obvid/contour/bsplines/nurbs_of.h"
 #include "obvid/io/internal/json_text.h"
 #include "obvid/pipeline/internal/promise.h"
 #include "obvid/pipeline/internal/report_json.h"
@@ -173,7 +173,7 @@ class SpaceClaims {
     }
     same("largest_move", stored_.largest_move, stored_.flatness + farthest, near_);
     if (stored_.deviation != 0.0) return;
-    const auto made = pipeline_detail::contour_nurbs(stored_.plan.contour, near_);
+    const auto made = nurbs_of(stored_.plan.contour, {true, near_});
     if (!made) return refuse("curve", 0.0, 1.0);
     const SpaceCurve curve = placed(made->curve, stored_.frame);
     if (curve.points.size() != stored_.curve.points.size() ||

@@ -1,10 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <optional>
+
 #include "obvid/core/result.h"
+#include "obvid/curve/contour.h"
 #include "obvid/curve/nurbs.h"
 
 namespace obvid {
+
+// Both ways to make one curve of a contour without clothoids, for `nurbs_of`.
 
 /// The whole contour as one NURBS curve whose homogeneous form is C1 at every joint but corners:
 /// inner knots of multiplicity degree - 1 (degree at corners, and where neighbours turn by more than
@@ -23,5 +28,15 @@ namespace obvid {
 /// (weights of both signs), and where a piece is too short beside the others for a knot of its own.
 /// Cost O(pieces).
 [[nodiscard]] Result<NurbsCurve> joined_nurbs(const Contour& contour);
+
+/// The whole contour as one NURBS curve with exactly the points of its pieces: piece i over the
+/// knot span [i, i + 1], inner knots of multiplicity `degree`. Geometrically as continuous as the
+/// contour, corners included; its parameter runs at another speed in every piece. A closed contour
+/// gives a curve whose last point is its first, with clamped knots and not periodic ones.
+///
+/// Nothing unless every piece is a rational Bezier of one degree with end weights 1, control points
+/// given as plain coordinates, and each piece starts exactly where the one before ends (on a closed
+/// contour, the first where the last ends).
+[[nodiscard]] std::optional<NurbsCurve> as_one_nurbs(const Contour& contour);
 
 }  // namespace obvid

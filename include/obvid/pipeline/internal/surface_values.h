@@ -15,19 +15,20 @@ namespace obvid {
 // Options of surfaces and tool paths as they are typed, read alike for all front ends. Errors: E203
 // with the name of the option as the command line has it.
 
-/// Kinds of surfaces by name: "skin", "ruled", "revolve", "coons", "gordon", "grid", "id",
-/// "offset", "convert". Error: E201 with the nearest name.
+/// Kinds of surfaces by name, nothing said of them yet: "skin", "ruled", "revolve", "coons",
+/// "gordon", "grid", "id", "offset", "convert". Error: E201 with the nearest name.
 [[nodiscard]] Result<SurfaceKind> surface_kind_named(const std::string& name);
 [[nodiscard]] std::vector<std::string> surface_kind_names();
 
 struct SurfaceValues {
   std::optional<double> tolerance, spacing, distance, angle_deg;
+  std::optional<long> row;
   std::string matching = "auto", spread = "chord";
   std::string direction, apex, axis = "x", axis_point;  ///< "X,Y,Z"
-  bool near = false, control = false;
+  bool near = false, control = false, straight = false, smooth = false;
 };
 
-/// Into the job, whose kind is known.
+/// Into the job, whose kind is known: its own values, and those of all kinds.
 [[nodiscard]] Result<void> set_surface(const SurfaceValues& typed, SurfaceJob& job);
 
 /// Views of pictures by name: "iso", "front", "top", "side", "back", "bottom". Error: E203.

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "obvid/surface/internal/basis.h"
+#include "obvid/curve/internal/basis.h"
 
 #include <algorithm>
 
 namespace obvid {
 namespace {
 
-constexpr std::size_t kOrders = kMaxSurfaceDegree + 1;
+constexpr std::size_t kOrders = kMaxNurbsDegree + 1;
 
 using Row = std::array<double, kOrders>;
 

@@ -3,8 +3,8 @@
 
 #include <vector>
 
-#include "homogeneous.h"
 #include "obvid/core/result.h"
+#include "obvid/curve/internal/homogeneous.h"
 
 namespace obvid {
 
@@ -28,6 +28,11 @@ struct Line {
 /// Rules of clamped knots for `count` control points; `what` stands in the sentence.
 [[nodiscard]] Result<void> check_knots(int degree, const std::vector<double>& knots,
                                        const char* what);
+
+/// Numbers of control points (in the plane or in space) and weights, finite, weights > 0.
+template <class V>
+[[nodiscard]] Result<void> check_points(const std::vector<V>& points,
+                                        const std::vector<double>& weights, std::size_t wanted);
 
 /// Knots moved and scaled onto another range; ends exactly.
 [[nodiscard]] std::vector<double> mapped(const std::vector<double>& knots, double from, double to);

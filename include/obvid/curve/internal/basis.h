@@ -5,7 +5,7 @@
 #include <cstddef>
 #include <vector>
 
-#include "obvid/surface/space_curve.h"
+#include "obvid/curve/nurbs.h"
 
 namespace obvid {
 
@@ -13,7 +13,7 @@ namespace obvid {
 /// derivative of number `first + j`, j = 0 .. degree.
 struct BasisValues {
   std::size_t first = 0;
-  std::array<std::array<double, kMaxSurfaceDegree + 1>, 4> value{};
+  std::array<std::array<double, kMaxNurbsDegree + 1>, 4> value{};
 };
 
 /// Number k of the span with knots[k] <= u < knots[k + 1] that has a length; outside the domain the

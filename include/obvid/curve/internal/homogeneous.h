@@ -3,11 +3,13 @@
 
 #include <vector>
 
+#include "obvid/geom/vec2.h"
 #include "obvid/geom/vec3.h"
 
 namespace obvid {
 
-/// Point of projective space: coordinates times weight, and the weight.
+/// Point of projective space: coordinates times weight, and the weight. Points of the plane have
+/// z = 0.
 struct Vec4 {
   double x = 0.0, y = 0.0, z = 0.0, w = 0.0;
 
@@ -23,18 +25,34 @@ inline Vec4 between(const Vec4& a, const Vec4& b, double part) {
 }
 
 inline Vec4 lifted(Vec3 p, double w) { return {w * p.x, w * p.y, w * p.z, w}; }
-inline Vec3 numerator(const Vec4& a) { return {a.x, a.y, a.z}; }
-inline Vec3 dropped(const Vec4& a) { return numerator(a) / a.w; }
+inline Vec4 lifted(Vec2 p, double w) { return {w * p.x, w * p.y, 0.0, w}; }
 
-inline Vec4 lifted(const std::vector<Vec3>& points, const std::vector<double>& weights,
-                   std::size_t i) {
+/// The coordinates still times the weight.
+template <class V = Vec3>
+V numerator(const Vec4& a);
+template <>
+inline Vec3 numerator<Vec3>(const Vec4& a) {
+  return {a.x, a.y, a.z};
+}
+template <>
+inline Vec2 numerator<Vec2>(const Vec4& a) {
+  return {a.x, a.y};
+}
+template <class V = Vec3>
+V dropped(const Vec4& a) {
+  return numerator<V>(a) / a.w;
+}
+
+template <class V>
+Vec4 lifted(const std::vector<V>& points, const std::vector<double>& weights, std::size_t i) {
   return lifted(points[i], weights.empty() ? 1.0 : weights[i]);
 }
 
 /// Control points of one line of a curve or surface.
 using Polygon = std::vector<Vec4>;
 
-inline Polygon lifted(const std::vector<Vec3>& points, const std::vector<double>& weights) {
+template <class V>
+Polygon lifted(const std::vector<V>& points, const std::vector<double>& weights) {
   Polygon polygon(points.size());
   for (std::size_t i = 0; i < points.size(); ++i) polygon[i] = lifted(points, weights, i);
   return polygon;

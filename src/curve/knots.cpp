@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "knots.h"
+#include "obvid/curve/internal/knots.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
 
-#include "obvid/surface/internal/basis.h"
+#include "obvid/curve/internal/basis.h"
 
 namespace obvid {
 namespace {
@@ -136,8 +136,8 @@ Result<void> check_knots(int degree, const std::vector<double>& knots, const cha
         .point(index)
         .value(index < knots.size() ? knots[index] : 0.0);
   };
-  if (degree < 1 || degree > kMaxSurfaceDegree) {
-    return refuse(fmt::format("have degree {}, which is not in 1 to {}", degree, kMaxSurfaceDegree),
+  if (degree < 1 || degree > kMaxNurbsDegree) {
+    return refuse(fmt::format("have degree {}, which is not in 1 to {}", degree, kMaxNurbsDegree),
                   0);
   }
   const auto p = static_cast<std::size_t>(degree);
