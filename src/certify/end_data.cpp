@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "double_double.h"
+#include "piece_facts.h"
 #include "scaled_piece.h"
 
 namespace obvid {
@@ -220,12 +221,18 @@ EndData bezier_end(const RationalBezier& piece, bool at_start, bool slopes) {
   end.heading_rounding = kStored + 2.0 * moved;
   if (n < 2) return end;
   const Leg two = leg_of(piece, at(0), at(2), *scale);
-  const DoubleDouble left = one.x * two.y, right = one.y * two.x, area = left - right;
+  const DoubleDouble left = one.x * two.y, right = one.y * two.x;
+  DoubleDouble area = left - right;
   const double w1 = piece.weight[at(1)];
   const double factor =
       (piece.degree - 1.0) / piece.degree * (piece.weight[at(0)] / w1) * (piece.weight[at(2)] / w1);
   constexpr double kOfArea = 3.0 * kDoubleDoubleRoundoff;  // two products and a difference
-  const double area_error = kOfArea * (std::abs(left.hi) + std::abs(right.hi));
+  double area_error = kOfArea * (std::abs(left.hi) + std::abs(right.hi));
+  // three points of a line have no curvature, and nothing that a gap could be measured by
+  if (std::abs(area.hi) <= area_error && collinear_exactly(piece, at(0), at(1), at(2))) {
+    area = {};
+    area_error = 0.0;
+  }
   const double per_area = *scale * (factor / cube);
   end.kappa = side * per_area * area.hi;
   end.kappa_error =

@@ -40,6 +40,10 @@ struct SignFrom {
 [[nodiscard]] std::vector<SignFrom> curvature_changes_exactly(const RationalBezier& piece);
 [[nodiscard]] std::vector<SignFrom> curvature_signs_exactly(const RationalBezier& piece);
 
+/// Whether three control points lie exactly on one line.
+[[nodiscard]] bool collinear_exactly(const RationalBezier& piece, std::size_t a, std::size_t b,
+                                     std::size_t c);
+
 /// In double-double numbers only; undecided where those do not suffice.
 [[nodiscard]] PieceFacts examine_in_double_double(const RationalBezier& piece);
 

@@ -40,6 +40,7 @@ struct Arithmetic<Integer> {
 };
 
 constexpr int kMantissaBits = 53;
+constexpr int kNoBit = 4096;  // above every exponent of a double
 
 /// Exponent of the last bit that any of the numbers may use.
 int last_bit(int so_far, double value) {
@@ -58,9 +59,8 @@ Integer whole(double value, int exponent) {
 
 template <int N>
 ControlDifferences<N, Integer> whole_differences(const RationalBezier& piece) {
-  constexpr int kNone = 4096;  // above every exponent of a double
-  int place = kNone;
-  int weight_place = kNone;
+  int place = kNoBit;
+  int weight_place = kNoBit;
   for (std::size_t j = 0; j <= N; ++j) {
     place = last_bit(last_bit(place, piece.offset[j].x), piece.offset[j].y);
     weight_place = last_bit(weight_place, piece.weight[j]);
@@ -103,6 +103,16 @@ std::vector<SignFrom> curvature_signs_exactly(const RationalBezier& piece) {
     return {};
   }));
   return signs;
+}
+
+bool collinear_exactly(const RationalBezier& piece, std::size_t a, std::size_t b, std::size_t c) {
+  int place = kNoBit;
+  for (const std::size_t j : {a, b, c}) {
+    place = last_bit(last_bit(place, piece.offset[j].x), piece.offset[j].y);
+  }
+  const auto x = [&](std::size_t j) { return whole(piece.offset[j].x, place); };
+  const auto y = [&](std::size_t j) { return whole(piece.offset[j].y, place); };
+  return (x(b) - x(a)) * (y(c) - y(a)) == (y(b) - y(a)) * (x(c) - x(a));
 }
 
 }  // namespace obvid

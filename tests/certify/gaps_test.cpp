@@ -320,5 +320,32 @@ TEST(Gaps, TheNameArcsExcusesOnlyArcsAndLines) {
   EXPECT_FALSE(certify(contour).proved);
 }
 
+TEST(Gaps, StraightCubicsThatMeetHaveNone) {
+  // control points of a line are a third of a foot apart: their products are rounded
+  const auto straight = [](double from, const std::vector<double>& at) {
+    RationalBezier piece{{from, 2.0 * from}, 3, {}, {1, 1, 1, 1}};
+    for (std::size_t j = 0; j < 4; ++j) piece.offset[j] = {at[j], 2.0 * at[j]};
+    return piece;
+  };
+  const double third = 1.0 / 3.0;
+  const Contour contour = contour_of(
+      {straight(0.0, {0.0, 0.1, 0.7 * third, 0.5}), straight(0.5, {0.0, third, 0.4, 1.0})},
+      {{0, 1, 0}});
+  const Certificate certificate = certify(contour);
+  EXPECT_TRUE(certificate.proved) << certificate.reason;
+  EXPECT_EQ(certificate.gaps.curvature, 0.0);
+}
+
+TEST(Gaps, CubicsThatAreStraightButForTheLastBitAreNot) {
+  RationalBezier bent{{}, 3, {}, {1, 1, 1, 1}};
+  for (std::size_t j = 0; j < 4; ++j) {
+    const double x = static_cast<double>(j) / 3.0;
+    bent.offset[j] = {x, 2.0 * x};
+  }
+  bent.offset[2].y = std::nextafter(bent.offset[2].y, 9.0);
+  const Contour contour = contour_of({bent}, {{0, 0, 0}});
+  EXPECT_NE(certify(contour).pieces.front().verdict, Verdict::kConstant);
+}
+
 }  // namespace
 }  // namespace obvid

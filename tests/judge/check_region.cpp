@@ -26,15 +26,15 @@ constexpr Real kCircleTurn = 2.0L * std::numbers::pi_v<Real>;
 
 /// Two lines through the ends of a chord: where they meet.
 struct Meeting {
-  Real to = 0.0L, from = 0.0L;  ///< along both tangents; negative behind the start, ahead of the end
-  Real height = 0.0L;           ///< over the chord
-  Real sine = 0.0L;  ///< of the smallest angle between the lines and the chord
+  Real to = 0.0L,
+       from = 0.0L;    ///< along both tangents; negative behind the start, ahead of the end
+  Real height = 0.0L;  ///< over the chord
+  Real sine = 0.0L;    ///< of the smallest angle between the lines and the chord
   Vec apex;
   int side = 1;  ///< 1: left of the chord
 
-  static Meeting of(Vec a, Vec u, Vec b, Vec v) {
+  static Meeting of(Vec a, Vec u, Vec chord, Vec v) {
     Meeting out;
-    const Vec chord = b - a;
     u = (1.0L / norm(u)) * u;
     v = (1.0L / norm(v)) * v;
     const Real turn = cross(u, v);
@@ -102,8 +102,8 @@ class RegionCheck {
   }
 
   void given(const SheetPoint& p, const std::string& at) {
-    if (!sheet_.expect(p.index < input_.points.size(), "region.index",
-                       static_cast<Real>(p.index), static_cast<Real>(input_.points.size()), at)) {
+    if (!sheet_.expect(p.index < input_.points.size(), "region.index", static_cast<Real>(p.index),
+                       static_cast<Real>(input_.points.size()), at)) {
       return;
     }
     const GivenPoint& g = input_.points[p.index];
@@ -142,12 +142,12 @@ class RegionCheck {
       return;
     }
     const Figure stated{true, p_.points[i].adjacent_kappa};
-    const Vec a = p_.points[i].point - p_.points[before].point,
-              b = p_.points[after].point - p_.points[i].point;
+    const Vec a = p_.chord(before, i), b = p_.chord(i, after);
     const Real shortest = std::min({norm(a), norm(b), norm(a + b)});
     const Real kappa = 2.0L * cross(a, b) / (norm(a) * norm(b) * norm(a + b));
     near("region.adjacent_kappa", stated, kappa,
-         kSameAsStated * std::abs(kappa) + 16.0L * 0x1p-53L * (norm(a) + norm(b)) / (shortest * shortest),
+         kSameAsStated * std::abs(kappa) +
+             16.0L * 0x1p-53L * (norm(a) + norm(b)) / (shortest * shortest),
          at);
   }
   [[nodiscard]] bool starts_section(std::size_t i) const {
@@ -274,7 +274,7 @@ class RegionCheck {
       if (!p_.touches(row, i)) continue;
       const std::size_t other = row.from == i ? row.to : row.from;
       if (!p_.points[other].heading_given || !beside_an_arc(other)) continue;
-      out += 4.0L * kGivenIsMet / norm(p_.points[row.to].point - p_.points[row.from].point);
+      out += 4.0L * kGivenIsMet / norm(p_.chord(row));
     }
     return out;
   }
@@ -286,7 +286,7 @@ class RegionCheck {
     }
     for (const SheetRow& row : p_.rows) {
       if (row.from != i && row.to != i) continue;
-      const Vec chord = p_.points[row.to].point - p_.points[row.from].point;
+      const Vec chord = p_.chord(row);
       const Real turn = p_.points[row.to].heading - p_.points[row.from].heading;
       scale = std::max(scale, std::abs(std::remainder(turn, kCircleTurn)) / norm(chord));
     }
@@ -309,14 +309,13 @@ class RegionCheck {
     const SheetRow& row = p_.rows[k];
     const Json& f = *row.figures;
     const SheetPoint &a = p_.points[row.from], &b = p_.points[row.to];
-    const Vec chord = b.point - a.point;
+    const Vec chord = p_.chord(row);
     const Real h = norm(chord);
     near("region.chord", figure(f, "chord"), h, kSameAsStated * h, where(row));
     headings(row);
-    const Meeting t = Meeting::of(a.point, unit_at(a.heading), b.point, unit_at(b.heading));
+    const Meeting t = Meeting::of(a.point, unit_at(a.heading), chord, unit_at(b.heading));
     // the sine of the angle at the apex is that of a difference of headings
-    const Real sine =
-        std::abs(cross(unit_at(a.heading), unit_at(b.heading)));
+    const Real sine = std::abs(cross(unit_at(a.heading), unit_at(b.heading)));
     const Real slack = kSameAsStated + 8.0L * kAngleRounding / sine;
     if (slack < 1e-3L) {
       const Real own = 8.0L * kAngleRounding * h / sine;
@@ -353,27 +352,28 @@ class RegionCheck {
   }
 
   /// Rounding decides whether lines that nearly keep the chord's direction make a triangle.
-  void height(const char* claim, const Figure& stated, const Meeting& t, Real h,
-              Real blur, const std::string& where) {
+  void height(const char* claim, const Figure& stated, const Meeting& t, Real h, Real blur,
+              const std::string& where) {
     const Real least = std::min(std::abs(t.to), std::abs(t.from)) / h;
     const Real most = std::max(std::abs(t.to), std::abs(t.from)) / h;
     if (!(least > 1e-9L && most < 1e9L) || std::abs(t.sine) <= blur) {
       return sheet_.unjudged(claim, "no angle there", where);
     }
     const Real found = t.is_triangle() ? t.height : NAN;
-    near(claim, stated, found, kSameAsStated * t.height + 64.0L * kAngleRounding * h * most * most, where);
+    near(claim, stated, found, kSameAsStated * t.height + 64.0L * kAngleRounding * h * most * most,
+         where);
   }
 
   [[nodiscard]] std::optional<Meeting> chords(std::size_t k) const {
     const SheetRow& row = p_.rows[k];
     const auto [first, behind] = p_.section(k);
-    const Vec a = p_.points[row.from].point, b = p_.points[row.to].point, chord = b - a;
+    const Vec chord = p_.chord(row);
     std::optional<Vec> before, after;
     const std::size_t n = p_.points.size();
-    if (k > first) before = a - p_.points[row.from - 1].point;
-    if (k + 1 < behind) after = p_.points[row.to + 1].point - b;
-    if (p_.loop && k == first) before = a - p_.points[n - 2].point;
-    if (p_.loop && k + 1 == behind) after = p_.points[1].point - b;
+    if (k > first) before = p_.chord(row.from - 1, row.from);
+    if (k + 1 < behind) after = p_.chord(row.to, row.to + 1);
+    if (p_.loop && k == first) before = p_.chord(n - 2, row.from);
+    if (p_.loop && k + 1 == behind) after = p_.chord(row.to, 1);
     if (!before && !after) return std::nullopt;
     // the same angle on the other side: the mirror image in the chord, its sine changed
     const auto alike = [&](Vec v) {
@@ -382,7 +382,7 @@ class RegionCheck {
     };
     if (!before) before = alike(*after);
     if (!after) after = alike(*before);
-    return Meeting::of(a, *before, b, *after);
+    return Meeting::of(p_.points[row.from].point, *before, chord, *after);
   }
 
   /// What rounding makes of the directions of the chords around, rad.
@@ -391,7 +391,7 @@ class RegionCheck {
     const auto [first, behind] = p_.section(k);
     for (std::size_t j = k > first ? k - 1 : k; j <= std::min(k + 1, behind - 1); ++j) {
       const SheetRow& row = p_.rows[j];
-      shortest = std::min(shortest, norm(p_.points[row.to].point - p_.points[row.from].point));
+      shortest = std::min(shortest, norm(p_.chord(row)));
     }
     return 64.0L * kAngleRounding + 256.0L * 0x1p-53L * p_.coordinate / shortest;
   }
@@ -404,8 +404,8 @@ class RegionCheck {
     const auto [first, behind] = p_.section(k);
     if (k == first || k + 1 == behind) {
       if (stated.value == 0.0) return sheet_.unjudged(claim, "0 on a circle", where(row));
-      sheet_.expect(stated.null(), "region.points_only_error null", stated.value.value_or(0.0),
-                    NAN, where(row));
+      sheet_.expect(stated.null(), "region.points_only_error null", stated.value.value_or(0.0), NAN,
+                    where(row));
       return;
     }
     const auto at = [&](std::size_t i) { return p_.points[i].point; };
@@ -442,7 +442,7 @@ class RegionCheck {
   /// Where the circles of all points around go one way, and far enough, the figure is known.
   void nothing_known(std::size_t k, const Lens& lens) {
     const auto [first, behind] = p_.section(k);
-    const std::size_t from = std::max(first + 1, k - 1) , to = std::min(behind - 2, k + 1);
+    const std::size_t from = std::max(first + 1, k - 1), to = std::min(behind - 2, k + 1);
     if (!(lens.turning < kStraightAngle - 1e-6L)) return;
     int all = 0;
     bool one_way = true;
@@ -450,7 +450,9 @@ class RegionCheck {
       const std::size_t i = p_.rows[j].from;
       const auto [a, blur_a] = circle(i);
       const auto [b, blur_b] = circle(i + 1);
-      const int way = b - a > 4.0L * (blur_a + blur_b) ? 1 : a - b > 4.0L * (blur_a + blur_b) ? -1 : 0;
+      const int way = b - a > 4.0L * (blur_a + blur_b)   ? 1
+                      : a - b > 4.0L * (blur_a + blur_b) ? -1
+                                                         : 0;
       one_way = one_way && way != 0 && (all == 0 || way == all);
       all = way;
     }
@@ -459,11 +461,11 @@ class RegionCheck {
                  where(p_.rows[k]) + ": the circles around go one way");
   }
   [[nodiscard]] std::pair<Real, Real> circle(std::size_t i) const {
-    const Vec a = p_.points[i].point - p_.points[i - 1].point,
-              b = p_.points[i + 1].point - p_.points[i].point;
+    const Vec a = p_.chord(i - 1, i), b = p_.chord(i, i + 1);
     const Real shortest = std::min({norm(a), norm(b), norm(a + b)});
     const Real kappa = 2.0L * cross(a, b) / (norm(a) * norm(b) * norm(a + b));
-    return {kappa, 64.0L * 0x1p-53L * p_.coordinate / (shortest * shortest) + kSameAsStated * std::abs(kappa)};
+    return {kappa, 64.0L * 0x1p-53L * p_.coordinate / (shortest * shortest) +
+                       kSameAsStated * std::abs(kappa)};
   }
 
   // the region of a segment
@@ -479,8 +481,7 @@ class RegionCheck {
       out.lower = std::min(std::abs((*y)[0]), std::abs((*y)[1]));
       out.width = std::abs((*y)[0] - (*y)[1]);
     } else {
-      out.width =
-          std::max(std::abs(first.high - second.high), std::abs(first.low - second.low));
+      out.width = std::max(std::abs(first.high - second.high), std::abs(first.low - second.low));
       const bool above = first.high + second.high >= -first.low - second.low;
       out.lower = above ? std::min(first.high, second.high) : std::min(-first.low, -second.low);
     }
@@ -552,8 +553,8 @@ class RegionCheck {
     told("tangent_convex_bound", &RegionFigures::tangent_bound);
   }
 
-  /// Shortest of the chords whose ends the headings of a segment on a circle come from: those of the
-  /// inscribed angles of its points, beside the end of the circle of the next ones inside.
+  /// Shortest of the chords whose ends the headings of a segment on a circle come from: those of
+  /// the inscribed angles of its points, beside the end of the circle of the next ones inside.
   [[nodiscard]] Real shortest_on_circle(const SheetRow& row) const {
     constexpr std::size_t kAround = 2;
     const auto k = static_cast<std::size_t>(&row - p_.rows.data());
@@ -563,7 +564,7 @@ class RegionCheck {
          j <= std::min(k + kAround, behind - 1); ++j) {
       const SheetRow& one = p_.rows[j];
       if (p_.direction(one) != 0) continue;
-      shortest = std::min(shortest, norm(p_.points[one.to].point - p_.points[one.from].point));
+      shortest = std::min(shortest, norm(p_.chord(one)));
     }
     return shortest;
   }
@@ -571,8 +572,8 @@ class RegionCheck {
   /// On an arc there is one curve: the height over its chord, and no width.
   void arc(const SheetRow& row) {
     const SheetPoint &a = p_.points[row.from], &b = p_.points[row.to];
-    const Real h = norm(b.point - a.point);
-    const Vec chord = b.point - a.point;
+    const Vec chord = p_.chord(row);
+    const Real h = norm(chord);
     const Real omega = std::atan2(chord.y, chord.x);
     const Real sigma = std::remainder(a.heading - omega, kCircleTurn) +
                        std::remainder(b.heading - omega, kCircleTurn);
@@ -655,8 +656,8 @@ void one_inserted(const Worksheet& w, const Input& input, Sheet& sheet) {
     const auto y = region ? region->over_middle() : std::nullopt;
     if (!y) return sheet.unjudged("region.inserted", "nothing over the middle", p.name());
     const Vec a = user.points[row->from].point, b = user.points[row->to].point, chord = b - a;
-    const Vec middle = a + 0.5L * chord +
-                       (0.5L * ((*y)[0] + (*y)[1]) / norm(chord)) * left_of(chord);
+    const Vec middle =
+        a + 0.5L * chord + (0.5L * ((*y)[0] + (*y)[1]) / norm(chord)) * left_of(chord);
     const Vec found = p.point;  // the first points of both tables are the same
     const Real slack = 1e-6L * std::abs((*y)[0] - (*y)[1]) + 1e-12L * norm(chord) +
                        8.0L * 0x1p-53L * user.coordinate;
@@ -664,9 +665,9 @@ void one_inserted(const Worksheet& w, const Input& input, Sheet& sheet) {
                  p.name());
     if (!p.headings || p.headings->empty()) continue;
     const Real centre = 0.5L * (p.headings->low + p.headings->high);
-    sheet.expect(std::abs(p.heading - centre) <=
-                     2e-6L + 1e-3L * (p.headings->high - p.headings->low),
-                 "region.inserted heading", p.heading, centre, p.name());
+    sheet.expect(
+        std::abs(p.heading - centre) <= 2e-6L + 1e-3L * (p.headings->high - p.headings->low),
+        "region.inserted heading", p.heading, centre, p.name());
   }
 }
 

@@ -166,7 +166,7 @@ class Way {
     const SheetRow& r = part_.rows[row];
     const int direction = part_.direction(r).value_or(0);
     if (direction == 0) return Limits{};
-    const Vec chord = part_.points[r.to].point - part_.points[r.from].point;
+    const Vec chord = part_.chord(r);
     const Real omega = std::atan2(chord.y, chord.x), h = norm(chord), d = direction;
     const auto angle = [&](Real theta) {
       return d * std::remainder(theta - omega, 2.0L * kStraightAngle);

@@ -148,8 +148,9 @@ bool prints(const std::string& printed, std::optional<double> value) {
   const double step = std::pow(10.0, exponent - decimals);
   const double off = std::abs(number) - std::abs(*value);
   const bool same_side = number == 0.0 || (number > 0.0) == (*value > 0.0);
-  constexpr double kOwnRounding = 1e-6;
-  return same_side && off >= -(0.5 + kOwnRounding) * step && off <= (1.0 + kOwnRounding) * step;
+  // a tie of decimals may fall on either side; both numbers are rounded to doubles here
+  const double own_rounding = 1e-6 * step + 0x1p-52 * std::abs(*value);
+  return same_side && off >= -0.5 * step - own_rounding && off <= step + own_rounding;
 }
 
 }  // namespace judge

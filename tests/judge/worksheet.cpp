@@ -39,8 +39,7 @@ SheetPart read_part(const Json& json) {
     if (out.points.empty()) out.origin = {at.at(0), at.at(1)};
     p.stored = {at.at(0), at.at(1)};
     p.point = seen(p.stored, out.origin);
-    out.coordinate =
-        std::max({out.coordinate, std::abs(Real{at.at(0)}), std::abs(Real{at.at(1)})});
+    out.coordinate = std::max({out.coordinate, std::abs(Real{at.at(0)}), std::abs(Real{at.at(1)})});
     p.index = one.at("index").index();
     p.inserted = one.at("inserted").index();
     p.heading = one.at("heading").real();
@@ -135,9 +134,9 @@ class RangeMaker {
     for (std::size_t k = 0; k < part_.rows.size(); ++k) {
       const SheetRow& row = part_.rows[k];
       if (!part_.touches(row, i) || direction_[k] != 0) continue;
-      const Vec chord = part_.points[row.to].point - part_.points[row.from].point;
-      const Real turn =
-          std::remainder(part_.points[row.to].heading - part_.points[row.from].heading, kTurnAround);
+      const Vec chord = part_.chord(row);
+      const Real turn = std::remainder(
+          part_.points[row.to].heading - part_.points[row.from].heading, kTurnAround);
       const Real kappa = 2.0L * std::sin(0.5L * turn) / norm(chord);
       if (p.kappas && p.kappas->low == p.kappas->high) out = *p.kappas;  // judged with the segment
       if (!p.kappas) out = {kappa, kappa};
@@ -147,7 +146,7 @@ class RangeMaker {
 
   [[nodiscard]] Link link(std::size_t k) const {
     const SheetPoint &a = part_.points[part_.rows[k].from], &b = part_.points[part_.rows[k].to];
-    const Vec chord = b.point - a.point;
+    const Vec chord = part_.chord(part_.rows[k]);
     const Real omega = angle_of(chord), d = *direction_[k];
     return {norm(chord), d * std::remainder(a.heading - omega, kTurnAround) + turned_,
             d * std::remainder(b.heading - omega, kTurnAround) + turned_};
@@ -269,8 +268,7 @@ std::optional<int> SheetPart::direction(const SheetRow& row) const {
 
 /// Both angles between the chord and the headings.
 Real SheetPart::bending(const SheetRow& row) const {
-  const Vec chord = points[row.to].point - points[row.from].point;
-  const Real omega = angle_of(chord);
+  const Real omega = angle_of(chord(row));
   return std::remainder(points[row.from].heading - omega, kTurnAround) +
          std::remainder(points[row.to].heading - omega, kTurnAround);
 }
@@ -321,8 +319,8 @@ void read_worksheet(const std::string& text, Worksheet& sheet) {
 }
 
 std::vector<std::optional<Limits>> curvature_ranges(const SheetPart& part, const Input& input,
-                                                   Real turned,
-                                                   const std::map<std::size_t, int>& ways) {
+                                                    Real turned,
+                                                    const std::map<std::size_t, int>& ways) {
   return RangeMaker(part, input, turned).run(ways);
 }
 
@@ -337,10 +335,10 @@ std::vector<Span> cubic_through(const std::vector<Vec>& points) {
   std::vector<Span> out;
   for (std::size_t i = 0; i + 1 < points.size(); ++i) {
     const Real third = h[i] / 3.0L;
-    out.emplace_back(std::vector<Vec>{points[i], points[i] + third * Vec{dx[i], dy[i]},
-                                      points[i + 1] - third * Vec{dx[i + 1], dy[i + 1]},
-                                      points[i + 1]},
-                     std::vector<Real>{1.0L, 1.0L, 1.0L, 1.0L});
+    out.emplace_back(
+        std::vector<Vec>{points[i], points[i] + third * Vec{dx[i], dy[i]},
+                         points[i + 1] - third * Vec{dx[i + 1], dy[i + 1]}, points[i + 1]},
+        std::vector<Real>{1.0L, 1.0L, 1.0L, 1.0L});
   }
   return out;
 }

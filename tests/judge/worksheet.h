@@ -52,6 +52,11 @@ struct SheetPart {
   Real coordinate = 0.0L;  ///< the largest one
   bool loop = false;       ///< the last point is the first one again, without a corner
 
+  /// From one point to the other, as exact as they are written, however far from the first one.
+  [[nodiscard]] Vec chord(std::size_t from, std::size_t to) const {
+    return seen(points[to].stored, points[from].stored);
+  }
+  [[nodiscard]] Vec chord(const SheetRow& row) const { return chord(row.from, row.to); }
   [[nodiscard]] std::string name(const SheetRow& row) const {
     return points[row.from].name() + "-" + points[row.to].name();
   }
@@ -87,8 +92,8 @@ void read_worksheet(const std::string& text, Worksheet& sheet);
 /// biarc from link to link, out and back (docs/methods/judge.md). None where something contradicts.
 /// `ways`: directions of rows that have none in the file.
 std::vector<std::optional<Limits>> curvature_ranges(const SheetPart& part, const Input& input,
-                                                   Real turned,
-                                                   const std::map<std::size_t, int>& ways = {});
+                                                    Real turned,
+                                                    const std::map<std::size_t, int>& ways = {});
 
 /// The C2 cubic through points, parameter the summed chords, not-a-knot at both ends: its pieces.
 std::vector<Span> cubic_through(const std::vector<Vec>& points);

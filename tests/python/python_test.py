@@ -853,6 +853,7 @@ class Documents(unittest.TestCase):
             self.skipTest("mypy is not installed")
         with tempfile.TemporaryDirectory() as cache:
             out, err, code = api.run(["--strict", "--cache-dir", cache,
+                                      "--config-file", os.path.join(PACKAGE, "pyproject.toml"),
                                       os.path.join(PACKAGE, "obvid")])
         self.assertEqual(code, 0, out + err)
 

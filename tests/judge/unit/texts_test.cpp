@@ -32,6 +32,8 @@ TEST(JudgeTexts, ComparesFiguresToTheDigitsPrinted) {
   EXPECT_FALSE(prints("0.6046", 0.60474));
   EXPECT_FALSE(prints("0.6049", 0.60474));
   EXPECT_TRUE(prints("-5.1e-05", -5.12e-5));
+  EXPECT_TRUE(prints("279001977.0926", 279001977.09265));  // a tie, the double below it
+  EXPECT_FALSE(prints("279001977.0925", 279001977.09265));
   EXPECT_FALSE(prints("5.1e-05", -5.12e-5));
   EXPECT_TRUE(prints("-", std::nullopt));
   EXPECT_FALSE(prints("0", std::nullopt));
