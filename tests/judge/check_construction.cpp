@@ -95,7 +95,13 @@ class Rows {
       const auto away = [&](Real t) { return region->farther(span.point(t)); };
       const auto off = [&](Real t) { return region->outside(span.point(t)); };
       most = std::max(most, away(largest_place(away, 0.0L, 1.0L, 72)));
-      if (outside != nullptr) out = std::max(out, off(largest_place(off, 0.0L, 1.0L, 72)));
+      // a curve that bends a little too much at its end is outside on a short part there
+      if (outside == nullptr) continue;
+      constexpr std::array<Real, 10> kParts{0.0L, 1e-4L, 1e-3L, 1e-2L, 0.1L,
+                                            0.9L, 0.99L, 0.999L, 0.9999L, 1.0L};
+      for (std::size_t i = 0; i + 1 < kParts.size(); ++i) {
+        out = std::max(out, off(largest_place(off, kParts[i], kParts[i + 1], 72)));
+      }
     }
     const Real blur = kSameCurve * norm(chord(k)) + 64.0L * kUlp * p_.coordinate;
     near(farther, value(k, farther), most, kNearlyFarthest * most + blur, k);

@@ -288,6 +288,8 @@ class DrawingCheck {
         continue;
       }
       const bool wanted = to > 0.0L && from > 0.0L;
+      // a drawing of a large series does not tell a short chord from the next one
+      if (!wanted && norm(chord) <= 4.0L * near_) continue;
       if (!wanted || !there) {
         sheet_.expect(wanted == there, "drawing: triangles", std::string(there ? "there" : "none"),
                       std::string(wanted ? "there" : "none"), p_.name(row));
