@@ -397,5 +397,39 @@ TEST(SeriesRanges, OfThreePointsAreUsedByFit) {
   EXPECT_FALSE(with(13.74));
 }
 
+/// The last heading of four points asks for an inflection that their circles do not show; so do the
+/// headings of the second one near the lower end of its range, which is -42.8714 to -33.6466 degrees.
+TEST(SeriesRanges, BesideAnInflectionThatDataAskForAreUsedByFit) {
+  PointSeries series;
+  series.points = {{94.978810576306969, 614.50641273223164},
+                   {96.788010112419016, 614.29535767136986},
+                   {97.458930577304998, 613.54598271559018},
+                   {97.964908569634659, 612.71860295464774}};
+  const auto with = [&](std::optional<double> heading_deg) {
+    FitJob job;
+    PointWish last, second;
+    last.index = 3;
+    last.theta = 316.372814038 / kDegreesOfRadian;
+    job.wishes = {last};
+    if (heading_deg) {
+      second.index = 1;
+      second.theta = *heading_deg / kDegreesOfRadian;
+      job.wishes.push_back(second);
+    }
+    return fit(series, job);
+  };
+  const auto free = with({});
+  ASSERT_TRUE(free) << free.error().what;
+  EXPECT_EQ(free->certificate.inflections, 1);
+  for (const double heading_deg : {-42.779197463089425, -42.5, -41.5, -33.8}) {
+    const auto made = with(heading_deg);
+    ASSERT_TRUE(made) << heading_deg << ": " << made.error().what;
+    EXPECT_TRUE(made->certificate.proved) << heading_deg;
+    EXPECT_EQ(made->certificate.vertices, 0) << heading_deg;
+    EXPECT_EQ(made->certificate.inflections, 1) << heading_deg;
+  }
+  EXPECT_FALSE(with(-43.2));
+}
+
 }  // namespace
 }  // namespace obvid

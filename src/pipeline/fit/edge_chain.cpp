@@ -323,6 +323,23 @@ bool keeps_what_is_given(const SeriesChain& chain, const ChainWishes& wishes) {
   return true;
 }
 
+/// With data that ask for an inflection where the adjacent circles show none.
+std::optional<SeriesChain> bent_as_needed(const Directed& series, const ChainWishes& wishes,
+                                          Watch& watch) {
+  Directed bent = series;
+  for (NodeData& node : bent.own) node.curvature_sign = 0;
+  auto chain = EdgeChain(wishes, std::move(bent), watch).run();
+  if (!chain || !keeps_what_is_given(*chain, wishes)) return std::nullopt;
+  for (std::size_t e = 0; e < chain->elements.size(); ++e) {
+    const auto source = chain->source[e];
+    if (!source) continue;
+    const double shown = series.own[*source].curvature_sign;
+    chain->unforced_inflection =
+        chain->unforced_inflection || shown * chain->elements[e].kappa < 0.0;
+  }
+  return chain;
+}
+
 }  // namespace
 
 ChainTurns turns_of_chain(const SeriesChain& chain) {
@@ -359,12 +376,16 @@ std::optional<SeriesChain> edge_chain(const std::vector<Vec2>& points, const Ana
     auto chain = EdgeChain(wishes, series, watch).run();
     if (chain && keeps_what_is_given(*chain, wishes)) return chain;
   }
-  if (free == nullptr) return std::nullopt;
-  auto chain = EdgeChain(wishes, as_chain(*free), watch).run();
-  if (!chain || !keeps_what_is_given(*chain, wishes)) return std::nullopt;
-  chain->turned_directions = free->turned_directions;
-  chain->unforced_inflection = free->unforced_inflection;
-  return chain;
+  if (free != nullptr) {
+    auto chain = EdgeChain(wishes, as_chain(*free), watch).run();
+    if (chain && keeps_what_is_given(*chain, wishes)) {
+      chain->turned_directions = free->turned_directions;
+      chain->unforced_inflection = free->unforced_inflection;
+      return chain;
+    }
+  }
+  return wishes.convex || ways.size() != 1 ? std::nullopt
+                                           : bent_as_needed(ways.front(), wishes, watch);
 }
 
 }  // namespace obvid::pipeline_detail
