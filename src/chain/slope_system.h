@@ -39,6 +39,7 @@ class SlopeSystem {
 
   std::size_t n_ = 0;
   std::vector<double> entry_, right_;
+  std::vector<std::size_t> last_column_;  ///< of each row, that may differ from 0
 };
 
 }  // namespace obvid::chain_detail
