@@ -23,6 +23,8 @@ constexpr int kMostHalvings = 30;
 /// get shorter; the merit is rounded more coarsely than that.
 constexpr double kNear = 1e-3, kShorter = 0.7;
 constexpr double kAsNearAsRounding = 1e-5;
+/// Steps that shrink to less than this part of the one before need no help.
+constexpr double kQuickly = 0.1;
 /// Steps of which the next one is foretold. One counts if so much of its square is new.
 constexpr std::size_t kRemembered = 2;
 constexpr double kOfItsOwn = 1e-8;
@@ -237,7 +239,7 @@ SlopeSolver::Outcome SlopeSolver::run(const std::vector<Element>& start, int mos
   double price = 1.0, before = std::numeric_limits<double>::infinity();
   double gaps_before = here_.gaps;
   int short_steps = 0;
-  bool extrapolates = true;
+  bool extrapolates = true, plain = false;
   past_.clear();
   while (out.steps < most_steps && watch.spend(static_cast<double>(start.size()))) {
     assemble();
@@ -260,6 +262,10 @@ SlopeSolver::Outcome SlopeSolver::run(const std::vector<Element>& start, int mos
       }
       extrapolates = false;
     }
+    // what is left behind the step, if it shrinks like the one before
+    const bool creeps = !(largest < kQuickly * before);
+    const bool settles =
+        largest < kSettled || (plain && !creeps && largest * (largest / before) < kSettled);
     before = largest;
     const auto falls = [&] {
       evaluate(trial_);
@@ -271,11 +277,12 @@ SlopeSolver::Outcome SlopeSolver::run(const std::vector<Element>& start, int mos
     double part = 1.0;
     bool taken = false;
     // the last step is one of Newton's own, which closes the gaps
-    if (extrapolates && !past_.empty() && !(largest < kSettled)) {
+    if (extrapolates && creeps && !past_.empty() && !settles) {
       move_trial(part);
       extrapolate_trial();
       taken = falls();
     }
+    plain = !taken;
     for (int k = 0; k < kMostHalvings && !taken; ++k, part *= taken ? 1.0 : 0.5) {
       move_trial(part);
       taken = falls();
@@ -283,7 +290,7 @@ SlopeSolver::Outcome SlopeSolver::run(const std::vector<Element>& start, int mos
     if (!taken) break;
     if (extrapolates) remember_step();
     std::swap(here_, trial_);
-    out.converged = largest < kSettled;
+    out.converged = settles;
     if (out.converged) break;
     if (part > kShortPart) {
       short_steps = 0;

@@ -35,15 +35,14 @@ bool SlopeSystem::solve() {
     }
     const std::size_t last_column = last_column_[k];
     const double inverse = 1.0 / at(k, k);
-    std::array<double, 2 * kBand> pivot_row{};
-    const std::size_t beside = last_column - k;
-    std::copy_n(&at(k, k) + 1, beside, pivot_row.begin());
+    std::array<double, kReach> pivot_row;  // zero behind its last column
+    std::copy_n(&at(k, k) + 1, kReach, pivot_row.begin());
     for (std::size_t i = k + 1; i <= last_row; ++i) {
       const double share = at(i, k) * inverse;
       if (share == 0.0) continue;
       last_column_[i] = std::max(last_column_[i], last_column);
       double* const row = &at(i, k) + 1;
-      for (std::size_t j = 0; j < beside; ++j) row[j] -= share * pivot_row[j];
+      for (std::size_t j = 0; j < kReach; ++j) row[j] -= share * pivot_row[j];
       right_[i] -= share * right_[k];
     }
   }
