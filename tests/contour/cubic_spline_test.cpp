@@ -155,6 +155,37 @@ TEST(CubicSplineThroughPoints, NotAKnotReproducesParabolasAndLines) {
   }
 }
 
+/// Of a catenary; the middle two are a ten-millionth of the others' distance apart.
+TEST(CubicSplineThroughPoints, FourPointsHaveTheirCubicHoweverNearTwoOfThemAre) {
+  using Real = long double;
+  const std::vector<Vec2> points = {{2.97610067, -6.01729429},
+                                    {-0.291102556, -3.48280403},
+                                    {-0.291102679, -3.48280401},
+                                    {-4.03169597, -4.85217105}};
+  const auto s = cubic_spline(points);
+  ASSERT_TRUE(s);
+  const auto lagrange = [&](Real u, double Vec2::*coordinate) {
+    Real sum = 0.0L;
+    for (std::size_t i = 0; i < 4; ++i) {
+      Real term = points[i].*coordinate;
+      for (std::size_t j = 0; j < 4; ++j) {
+        if (j != i) term *= (u - s->knots[j]) / (Real{s->knots[i]} - s->knots[j]);
+      }
+      sum += term;
+    }
+    return sum;
+  };
+  // over a span by its ends and slopes (Hermite)
+  for (const std::size_t k : {std::size_t{0}, std::size_t{2}}) {
+    const Real h = Real{s->knots[k + 1]} - s->knots[k], u = s->knots[k] + 0.5L * h;
+    const Vec2 a = points[k], b = points[k + 1], m = s->slopes[k], n = s->slopes[k + 1];
+    EXPECT_LT(std::abs(0.5L * (a.x + b.x) + 0.125L * h * (m.x - n.x) - lagrange(u, &Vec2::x)),
+              1e-7L);
+    EXPECT_LT(std::abs(0.5L * (a.y + b.y) + 0.125L * h * (m.y - n.y) - lagrange(u, &Vec2::y)),
+              1e-7L);
+  }
+}
+
 TEST(CubicSplineThroughPoints, ConvergesToACircleWithTheFourthPower) {
   const auto error = [](std::size_t n) {
     std::vector<Vec2> points;

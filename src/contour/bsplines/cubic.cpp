@@ -73,6 +73,18 @@ std::vector<Vec2> parabola_slopes(const std::vector<Vec2>& points, const std::ve
   return {a.mean - a.h * bend, a.mean + a.h * bend, b.mean + b.h * bend};
 }
 
+/// Four points without data at the ends: the cubic through them, by divided differences. The system
+/// of slopes has nothing but the middle span to tell two of its rows apart, however short that is.
+std::vector<Vec2> one_cubic_slopes(const std::vector<Vec2>& points, const std::vector<double>& u) {
+  const Step a = step(points, u, 0), b = step(points, u, 1), c = step(points, u, 2);
+  const Vec2 first = (1.0 / (a.h + b.h)) * (b.mean - a.mean);
+  const Vec2 last = (1.0 / (b.h + c.h)) * (c.mean - b.mean);
+  const Vec2 third = (1.0 / (a.h + b.h + c.h)) * (last - first);
+  return {a.mean - a.h * first + (a.h * (a.h + b.h)) * third,
+          a.mean + a.h * first - (a.h * b.h) * third, c.mean - c.h * last - (c.h * b.h) * third,
+          c.mean + c.h * last + (c.h * (b.h + c.h)) * third};
+}
+
 /// Cyclic system: the corner entries make a matrix of rank one, which Sherman and Morrison's
 /// formula adds to the tridiagonal rest. `points` ends with its first point.
 std::vector<Vec2> periodic_slopes(const std::vector<Vec2>& points, const std::vector<double>& u) {
@@ -140,6 +152,8 @@ Result<CubicSpline> cubic_spline(const std::vector<Vec2>& points,
     spline.slopes = periodic_slopes(spline.points, spline.knots);
   } else if (points.size() <= few) {
     spline.slopes = parabola_slopes(points, spline.knots);
+  } else if (options.end == SplineEnd::kNotAKnot && points.size() == 4) {
+    spline.slopes = one_cubic_slopes(points, spline.knots);
   } else {
     spline.slopes = open_slopes(points, spline.knots, options);
   }
