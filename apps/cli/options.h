@@ -21,6 +21,7 @@ namespace obvid {
 
 struct FitOptions {
   std::string input;
+  std::vector<std::string> inputs;    ///< several, in place of one
   std::optional<std::string> text{};  ///< of standard input, which is read once
   std::vector<std::string> outputs;
   FitJob job;
@@ -32,6 +33,7 @@ struct FitOptions {
   std::optional<Vec3> along;              ///< of points in space: direction of the projection
   bool flat = false;                      ///< of points in space: heights are not used
   bool suggest = false;                   ///< how many vertices which tolerance would need
+  bool csv = false;
   bool json = false;
   bool quiet = false;
   bool progress = true;
@@ -42,21 +44,27 @@ struct FitOptions {
 
 struct ConvertOptions {
   std::string input;
+  std::vector<std::string> inputs;  ///< several, in place of one
   ImportOptions import;
   std::vector<std::string> outputs;
   ExportOptions formats;
   std::string profile;  ///< what --for chose, in words; empty without it
   std::optional<Units> units;
+  bool csv = false;
+  bool json = false;
   bool quiet = false;
 };
 
 struct AnalyseOptions {
   std::string input;
+  std::vector<std::string> inputs;  ///< several, in place of one
   std::vector<std::string> outputs;
   ImportOptions import;
   PicturePlots plots;
   std::optional<Units> units;
+  bool csv = false;
   bool json = false;
+  bool quiet = false;
 };
 
 struct RegionOptions {
@@ -65,7 +73,9 @@ struct RegionOptions {
   ImportOptions import;
   RegionJob job;
   std::optional<Units> units;
+  bool csv = false;
   bool json = false;
+  bool quiet = false;
 };
 
 struct CompareOptions {
@@ -76,11 +86,14 @@ struct CompareOptions {
   std::optional<Units> units;
   bool csv = false;
   bool json = false;
+  bool quiet = false;
   bool progress = true;
 };
 
 struct VerifyOptions {
   std::string input;
+  std::vector<std::string> inputs;   ///< several, in place of one
+  std::vector<std::string> outputs;  ///< .json
   bool json = false;
   bool quiet = false;
 };
@@ -88,6 +101,7 @@ struct VerifyOptions {
 struct ExplainOptions {
   std::string code;  ///< empty: list all
   bool json = false;
+  bool quiet = false;
 };
 
 /// Text that was asked for instead of work: help or version.

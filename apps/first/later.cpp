@@ -48,8 +48,8 @@ OBVID_LATER(Result<Fit> fit_construction(const PointSeries&, const RegionJob&, c
 std::optional<int> run_in_space(const FitOptions& options) {
   if (options.flat) return std::nullopt;
   const auto series = options.text ? parse_space_series(*options.text, options.name(),
-                                                        options.along.has_value())
-                                   : space_series(options.input, options.along.has_value());
+                                                        options.along.has_value(), options.import)
+                                   : space_series(options.input, options.along.has_value(), options.import);
   if (options.along || (series && *series)) go_on_in_the_whole_program();
   return std::nullopt;
 }

@@ -32,7 +32,11 @@ Result<PointSeries> series_of(const obvid_input& input, const Request& request, 
     return fail({ErrorCode::kBadOption, "points in space are formed by obvid_fit_space", "", ""});
   }
   Result<PointSeries> series = [&]() -> Result<PointSeries> {
-    if (input.points) return *input.points;
+    if (input.points) {
+      PointSeries given = *input.points;
+      place(request.import.placement, given);
+      return given;
+    }
     if (!drawings) return parse_points(input.text, input.name);
     return input.by_path ? read_series(input.name, request.import)
                          : parse_series(input.text, input.name, request.import);
@@ -71,7 +75,7 @@ Result<std::string> drawing_report(const obvid_input& input, const Request& requ
   if (request.units) {
     if (auto told = take_units(drawing->units, *request.units)) drawing->warnings.push_back(*told);
   }
-  const auto all = analyse_drawing(std::move(*drawing), request.import.curve, input.name);
+  const auto all = analyse_drawing(std::move(*drawing), request.import, input.name);
   OBVID_TRY(all);
   const auto& points = all->points;
   return audit_json(all->drawing, all->audits,

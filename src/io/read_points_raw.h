@@ -10,6 +10,7 @@
 
 #include "obvid/core/result.h"
 #include "obvid/core/units.h"
+#include "obvid/io/read_points.h"
 #include "obvid/series/point_series.h"
 #include "text_digits.h"
 
@@ -45,7 +46,8 @@ struct RawPoints {
 };
 
 /// Reads title, header and rows. Errors: E302, E303, E305 with line and column.
-[[nodiscard]] Result<RawPoints> read_rows(std::string_view text, std::string_view name);
+[[nodiscard]] Result<RawPoints> read_rows(std::string_view text, std::string_view name,
+                                          const PointListOptions& options);
 
 /// Recognises Lednicer, OpenVSP .af, OpenFAST coordinates and a plain count line, checks the
 /// counts (E307), and puts two-sided airfoils into one series: upper trailing edge, leading edge,

@@ -12,9 +12,14 @@ namespace obvid {
 
 /// Options of the formats as they were typed.
 struct FormatValues {
-  std::optional<long> curve;
+  std::optional<std::string> curve;  ///< number from 1, or a name
   std::optional<double> chord_tolerance;
   std::string drawing = "auto";
+  std::string columns;  ///< "2,3", from 1
+  std::optional<long> skip;
+  std::optional<double> scale, rotate_deg;
+  std::string move;    ///< "DX,DY" or "DX,DY,DZ"
+  std::string mirror;  ///< x or y
   std::optional<double> tolerance;
   std::optional<double> face_width;
   std::optional<std::string> profile;
