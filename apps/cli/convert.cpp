@@ -130,6 +130,7 @@ int convert_several(const ConvertOptions& options) {
 }  // namespace
 
 int run(const ConvertOptions& options) {
+  warn(options.idle);
   if (are_several(options.inputs, options.import.curve)) return convert_several(options);
   if (auto free = check_outputs(options.outputs, {&options.input, 1}); !free) {
     return report(free.error());

@@ -136,6 +136,7 @@ int fit_several(const FitOptions& options) {
 }  // namespace
 
 int run(const FitOptions& given) {
+  warn(given.idle);
   if (are_several(given.inputs, given.import.curve)) return fit_several(given);
   FitOptions options = given;
   if (options.input == "-") {

@@ -236,7 +236,7 @@ void add_formats(CLI::App& command, FormatValues& values) {
 
 void add_fit(CLI::App& app, Raw& raw) {
   CLI::App& fit = *app.add_subcommand("fit", "Form a contour through points and prove it");
-  fit.add_option("INPUT", raw.inputs, kInputsHelp);
+  fit.add_option("INPUT", raw.inputs, kInputsHelp)->type_name("");
   add_output(fit, raw.fit.outputs, raw.format,
              "File to write, format by file extension: " + known_endings() +
                  "; of several inputs 'NAME{id}.svg', {id} being the name of each");
@@ -294,7 +294,8 @@ void add_readers(CLI::App& app, Raw& raw) {
       "What the points force: circles, runs, vertices; or the curvature of a drawn curve");
   analyse.add_option("INPUT", raw.inputs,
                      "File with the points, - for standard input, or a drawing: STEP, IGES, BREP, "
-                     "DXF, contour .json, ...; of several files a line each");
+                     "DXF, contour .json, ...; of several files a line each")
+      ->type_name("");
   add_output(analyse, raw.analyse.outputs, raw.format,
              "File to write: .svg picture of the curvature of a drawn curve, .csv the list of "
              "curves or the table of points, .json the report");
@@ -388,7 +389,8 @@ void add_convert(CLI::App& app, Raw& raw) {
   convert.add_option(
       "CONTOUR", raw.inputs,
       "Contour file (.json), - for standard input, or a drawing (STEP, DXF, SVG, ...); several "
-      "with -o 'NAME{id}.dxf'");
+      "with -o 'NAME{id}.dxf'")
+      ->type_name("");
   add_output(convert, raw.convert.outputs, raw.format,
              "File to write, format by file extension: " + known_endings());
   convert
@@ -413,7 +415,8 @@ void add_checkers(CLI::App& app, Raw& raw) {
   CLI::App& verify =
       *app.add_subcommand("verify", "Prove a stored contour again, from its file alone");
   verify.add_option("CONTOUR", raw.inputs,
-                    "Contour file (.json), or - for standard input; of several files a line each");
+                    "Contour file (.json), or - for standard input; of several files a line each")
+      ->type_name("");
   add_output(verify, raw.verify.outputs, raw.format, "File to write: .json the answer");
   verify.add_flag("--json", raw.verify.json, "JSON on standard output instead of the table");
   verify.add_flag("-q,--quiet", raw.verify.quiet, "Exit code only");
@@ -516,6 +519,7 @@ Result<Command> checked_fit(Raw& raw) {
           .and_then([&] { return set_inputs(raw, raw.fit, "fit", "a file with points"); });
   OBVID_TRY(done);
   allow_two_points(raw.fit.job, raw.fit.import);
+  raw.fit.idle = idle_options(raw.formats, raw.fit.outputs);
   if (raw.fit.construction) {
     raw.fit.construction = with_job(*raw.fit.construction, raw.fit.job);
     if (raw.fit.suggest) {
@@ -552,6 +556,7 @@ Result<Command> checked_convert(Raw& raw) {
   options.quiet = options.quiet || *streamed || options.csv || options.json;
   OBVID_TRY(set_inputs(raw, options, "convert", "a contour file"));
   OBVID_TRY(set_formats(raw.formats, options.formats, options.profile));
+  options.idle = idle_options(raw.formats, options.outputs);
   OBVID_TRY(set_units(raw.units, raw.convert.units));
   OBVID_TRY(set_import(raw.formats, raw.convert.import));
   if (raw.convert.outputs.empty()) {

@@ -28,6 +28,7 @@ struct FitOptions {
   ImportOptions import;
   ExportOptions formats;
   std::string profile;  ///< what --for chose, in words; empty without it
+  std::vector<std::string> idle;  ///< what is to be said of options that nothing uses
   std::optional<Units> units;
   std::optional<RegionJob> construction;  ///< of the papers, in place of the job
   std::optional<Vec3> along;              ///< of points in space: direction of the projection
@@ -49,6 +50,7 @@ struct ConvertOptions {
   std::vector<std::string> outputs;
   ExportOptions formats;
   std::string profile;  ///< what --for chose, in words; empty without it
+  std::vector<std::string> idle;  ///< what is to be said of options that nothing uses
   std::optional<Units> units;
   bool csv = false;
   bool json = false;

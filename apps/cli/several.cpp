@@ -101,8 +101,7 @@ int Several::refused(const Error& error) { return report(error); }
 
 int Several::tell(const OneOf& one, Summary summary) {
   const std::string name = one.shown();
-  for (std::string& warning : summary.warnings) warning = name + ": " + warning;
-  warn(summary.warnings);
+  for (const std::string& warning : summary.warnings) warn({name + ": " + warning});
   if (summary.error && !first_) {
     first_ = *summary.error;
     if (first_->where.empty()) first_->where = name;

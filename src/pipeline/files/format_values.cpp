@@ -5,9 +5,11 @@
 #include <array>
 #include <charconv>
 #include <cmath>
+#include <initializer_list>
 #include <utility>
 #include <vector>
 
+#include "obvid/pipeline/file_formats.h"
 #include "obvid/pipeline/internal/job_values.h"
 #include "obvid/pipeline/internal/profiles.h"
 
@@ -184,6 +186,35 @@ Result<void> set_formats(const FormatValues& typed, ExportOptions& options,
       .and_then([&] { return choose(typed.svg, kSvg, "--svg", options.drawing); })
       .and_then([&] { return set_plots(typed, options.plots); })
       .and_then([&] { return choose(typed.motion, kMotions, "--motion", options.motion); });
+}
+
+std::vector<std::string> idle_options(const FormatValues& typed,
+                                      const std::vector<std::string>& files) {
+  const auto written = [&](std::initializer_list<FileFormat> formats) {
+    return std::any_of(files.begin(), files.end(), [&](const std::string& file) {
+      const auto format = format_of(file);
+      return format && std::find(formats.begin(), formats.end(), *format) != formats.end();
+    });
+  };
+  using enum FileFormat;
+  const bool gcode = written({kGcode}), samples = written({kSamples, kSldcrv, kObj, kPly});
+  const bool svg = written({kPicture});
+  std::vector<std::string> out;
+  const auto look = [&](bool given, bool used, const char* option, const char* of) {
+    if (given && !used) out.push_back(fmt::format("{} is not used: no {} is written", option, of));
+  };
+  look(typed.feed.has_value(), gcode, "--feed", "G-code");
+  look(typed.controller.has_value(), gcode, "--controller", "G-code");
+  look(typed.motion.has_value(), gcode, "--motion", "G-code");
+  look(typed.step.has_value(), written({kStep}), "--step", "STEP file");
+  look(typed.dxf.has_value(), written({kDxf}), "--dxf", "DXF file");
+  look(typed.svg.has_value(), svg, "--svg", ".svg");
+  look(typed.plot.has_value(), svg, "--plot", ".svg");
+  look(typed.samples.has_value(), samples, "--samples", "file of samples");
+  look(typed.sample_step.has_value(), samples, "--sample-step", "file of samples");
+  look(typed.face_width.has_value(), written({kStep, kIges, kBrep}), "--face",
+       "STEP, IGES or BREP file");
+  return out;
 }
 
 }  // namespace obvid

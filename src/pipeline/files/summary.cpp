@@ -71,6 +71,7 @@ std::string summary_json(const std::string& input, const std::optional<std::size
   json.key("warnings").begin_array();
   for (const std::string& warning : summary.warnings) json.value(warning);
   std::string out = json.end_array().end_object().take();
+  while (out.ends_with('\n')) out.pop_back();
   // lines inside an object are for the eye; none of its texts holds one
   std::replace(out.begin(), out.end(), '\n', ' ');
   return out + "\n";

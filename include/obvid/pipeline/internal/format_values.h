@@ -3,6 +3,7 @@
 
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "obvid/core/result.h"
 #include "obvid/pipeline/export.h"
@@ -41,5 +42,9 @@ struct FormatValues {
 /// A profile first, then what was typed beside it. `profile_text` gets what the profile chose.
 [[nodiscard]] Result<void> set_formats(const FormatValues& typed, ExportOptions& options,
                                        std::string& profile_text);
+
+/// Sentences about options that none of these files asks for: a feed without G-code.
+[[nodiscard]] std::vector<std::string> idle_options(const FormatValues& typed,
+                                                    const std::vector<std::string>& files);
 
 }  // namespace obvid
