@@ -49,7 +49,7 @@ Result<std::vector<std::string>> write_tables(const AnalyseOptions& options,
   return write_files(files, options.input);
 }
 
-Summary summary_of(const AnalyseOptions& all, const OneOf& one) {
+Summary summary_of_points(const AnalyseOptions& all, const OneOf& one) {
   Summary out;
   out.verdict = "read";
   AnalyseOptions options = all;
@@ -83,7 +83,7 @@ int analyse_several(const AnalyseOptions& options) {
   if (!all) return report(all.error());
   Several several(*all, summary_form(options.csv, options.json, options.quiet));
   return several.run({}, [&](const OneOf& one, const std::vector<std::string>&) {
-    return summary_of(options, one);
+    return summary_of_points(options, one);
   });
 }
 

@@ -87,7 +87,7 @@ ExportOptions formats_of(const ConvertOptions& options) {
   return formats;
 }
 
-Summary summary_of(const ConvertOptions& all, const OneOf& one,
+Summary summary_of_files(const ConvertOptions& all, const OneOf& one,
                    const std::vector<std::string>& outputs) {
   Summary out;
   ConvertOptions options = all;
@@ -123,7 +123,7 @@ int convert_several(const ConvertOptions& options) {
   Several several(*all, summary_form(false, false, options.quiet));
   return several.run(options.outputs,
                      [&](const OneOf& one, const std::vector<std::string>& outputs) {
-                       return summary_of(options, one, outputs);
+                       return summary_of_files(options, one, outputs);
                      });
 }
 

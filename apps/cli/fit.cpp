@@ -85,7 +85,7 @@ Result<std::vector<std::string>> write_contour(Fit& made, const std::vector<Outp
 }
 
 /// One of several: what a line says of it.
-Summary summary_of(const FitOptions& all, const OneOf& one,
+Summary summary_of_fit(const FitOptions& all, const OneOf& one,
                    const std::vector<std::string>& outputs) {
   Summary out;
   const auto failed = [&](const Error& error) {
@@ -129,7 +129,7 @@ int fit_several(const FitOptions& options) {
   Several several(*all, summary_form(options.csv, options.json, options.quiet));
   return several.run(options.outputs,
                      [&](const OneOf& one, const std::vector<std::string>& outputs) {
-                       return summary_of(options, one, outputs);
+                       return summary_of_fit(options, one, outputs);
                      });
 }
 

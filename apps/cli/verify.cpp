@@ -126,7 +126,7 @@ int judge_contour_file(const StoredContour& stored, const Verification& found,
   return 0;
 }
 
-Summary summary_of(const OneOf& one) {
+Summary summary_of_stored(const OneOf& one) {
   Summary out;
   const Result<std::string> text = read_file(one.input);
   const Result<Stored> read = text.and_then(
@@ -156,7 +156,7 @@ int verify_several(const VerifyOptions& options) {
   if (!all) return report(all.error());
   Several several(*all, summary_form(false, options.json, options.quiet));
   return several.run({}, [](const OneOf& one, const std::vector<std::string>&) {
-    return summary_of(one);
+    return summary_of_stored(one);
   });
 }
 

@@ -492,7 +492,7 @@ TEST(ReadPoints, ChosenColumnsAreXAndYWhateverTheyAreCalled) {
   EXPECT_TRUE(bare->warnings.empty());
   const auto named = parse_points("x_m,y_m,z_cm\n9,1,2\n9,3,5\n9,4,4\n", "f", options);
   ASSERT_FALSE(named);  // metres and centimetres
-  EXPECT_EQ(named.error().code, ErrorCode::kBadOption) << to_line(named.error());
+  EXPECT_EQ(named.error().code, ErrorCode::kUnsupported) << to_line(named.error());
   const auto others = parse_points("length,up,along\n9,1,2\n9,3,5\n9,4,4\n", "f", options);
   ASSERT_TRUE(others) << to_line(others.error());
   EXPECT_EQ(others->points, bare->points);

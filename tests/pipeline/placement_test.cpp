@@ -14,7 +14,7 @@
 namespace obvid {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
+constexpr double kHalfTurn = std::numbers::pi;
 constexpr double kNear = 1e-14;
 
 void expect_at(Vec2 p, double x, double y) {
@@ -32,7 +32,7 @@ PointSeries two_points() {
 
 TEST(Placement, MirrorsThenScalesThenTurnsThenMoves) {
   PointSeries series = two_points();
-  place({Mirror::kX, 2.0, 0.5 * kPi, {10.0, 20.0, 0.0}}, series);
+  place({Mirror::kX, 2.0, 0.5 * kHalfTurn, {10.0, 20.0, 0.0}}, series);
   // (3, 4) -> (3, -4) -> (6, -8) -> (8, 6) -> (18, 26), without a last digit of the sine
   EXPECT_EQ(series.points[1], (Vec2{18.0, 26.0}));
   EXPECT_EQ(series.points[0], (Vec2{10.0, 22.0}));
@@ -72,9 +72,9 @@ TEST(Placement, AMirrorAcrossTheYAxisTurnsHeadingsAbout) {
 
 TEST(Placement, ThePrintedRoundingStaysInsideItself) {
   PointSeries quarter = two_points(), skew = two_points(), half = two_points();
-  place({Mirror::kNone, 2.0, 0.5 * kPi, {}}, quarter);
+  place({Mirror::kNone, 2.0, 0.5 * kHalfTurn, {}}, quarter);
   EXPECT_EQ(quarter.rounding, (Vec2{0.25, 1.0}));
-  place({Mirror::kNone, 1.0, kPi, {}}, half);
+  place({Mirror::kNone, 1.0, kHalfTurn, {}}, half);
   EXPECT_EQ(half.rounding, (Vec2{0.5, 0.125}));
   place({Mirror::kNone, 1.0, 0.7, {}}, skew);
   EXPECT_EQ(skew.rounding, (Vec2{0.125, 0.125}));
@@ -83,7 +83,7 @@ TEST(Placement, ThePrintedRoundingStaysInsideItself) {
 TEST(Placement, HeightsAreScaledAndMoved) {
   SpaceSeries series;
   series.points = {{1.0, 2.0, 3.0}};
-  place({Mirror::kNone, 2.0, kPi, {0.0, 0.0, 5.0}}, series);
+  place({Mirror::kNone, 2.0, kHalfTurn, {0.0, 0.0, 5.0}}, series);
   EXPECT_EQ(series.points[0], (Vec3{-2.0, -4.0, 11.0}));
 }
 
@@ -142,8 +142,8 @@ TEST(DrawnFigures, KindsAreThoseOfThePieces) {
   const LinePiece side{{0.0, 0.0}, {1.0, 0.0}}, next{{1.0, 0.0}, {1.0, 2.0}};
   EXPECT_EQ(figures_of(audit({"l", {side}, false}, Units{"mm"})).kind, "line");
   EXPECT_EQ(figures_of(audit({"l", {side, next}, false}, Units{"mm"})).kind, "2 lines");
-  const ArcPiece half{{1.0, 0.0}, {-1.0, 0.0}, 0.5 * kPi, 1.0, kPi};
-  const ArcPiece rest{{-1.0, 0.0}, {1.0, 0.0}, 1.5 * kPi, 1.0, kPi};
+  const ArcPiece half{{1.0, 0.0}, {-1.0, 0.0}, 0.5 * kHalfTurn, 1.0, kHalfTurn};
+  const ArcPiece rest{{-1.0, 0.0}, {1.0, 0.0}, 1.5 * kHalfTurn, 1.0, kHalfTurn};
   const DrawnFigures circle = figures_of(audit({"c", {half, rest}, true}, Units{"mm"}));
   EXPECT_EQ(circle.kind, "circle");
   expect_at(circle.low, -1.0, -1.0);

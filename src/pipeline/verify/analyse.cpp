@@ -40,17 +40,17 @@ class Box {
 
   /// Ends of a piece, and the places in between where it turns back along an axis.
   void see(const Piece& piece) {
-    constexpr int kSteps = 64;  // such places lie farther apart, but for arcs of many turns
+    constexpr int kBoxSteps = 64;  // such places lie farther apart, but for arcs of many turns
     see(start_point(piece));
     see(end_point(piece));
     if (std::holds_alternative<LinePiece>(piece)) return;
     for (const double Vec2::*axis : {&Vec2::x, &Vec2::y}) {
       const auto speed = [&](double t) { return evaluate(piece, t).d1.*axis; };
       double before = speed(0.0);
-      for (int i = 1; i <= kSteps; ++i) {
-        const double t = static_cast<double>(i) / kSteps, here = speed(t);
+      for (int i = 1; i <= kBoxSteps; ++i) {
+        const double t = static_cast<double>(i) / kBoxSteps, here = speed(t);
         if ((before < 0.0) != (here < 0.0)) {
-          see(evaluate(piece, turn_back(speed, t - 1.0 / kSteps, t)).point);
+          see(evaluate(piece, turn_back(speed, t - 1.0 / kBoxSteps, t)).point);
         }
         before = here;
       }
