@@ -139,7 +139,9 @@ int obvid_fit(const obvid_input* input, const char* options, const obvid_run* ru
     OBVID_TRY(request);
     const Result<PointSeries> series = series_of(*input, *request, true);
     OBVID_TRY(series);
-    Result<Fit> made = formed(*series, *request, context_of(run));
+    Request asked = *request;
+    asked.job.measure_waviness = report != nullptr;
+    Result<Fit> made = formed(*series, asked, context_of(run));
     OBVID_TRY(made);
     // a construction promises nothing: its certificate says what it is
     const bool promises = !request->worksheet.construction;

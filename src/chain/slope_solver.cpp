@@ -5,6 +5,8 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <numeric>
+#include <utility>
 
 namespace obvid::chain_detail {
 namespace {
@@ -21,6 +23,11 @@ constexpr int kMostHalvings = 30;
 /// get shorter; the merit is rounded more coarsely than that.
 constexpr double kNear = 1e-3, kShorter = 0.7;
 constexpr double kAsNearAsRounding = 1e-5;
+/// Steps that shrink to less than this part of the one before need no help.
+constexpr double kQuickly = 0.1;
+/// Steps of which the next one is foretold. One counts if so much of its square is new.
+constexpr std::size_t kRemembered = 2;
+constexpr double kOfItsOwn = 1e-8;
 /// So many steps of at most this part each, in which the gaps hardly close, lead nowhere.
 constexpr int kMostShortSteps = 10;
 constexpr double kShortPart = 0.02, kHardlyClosed = 0.98;
@@ -44,6 +51,16 @@ std::array<std::size_t, 4> places(std::size_t link) {
   return {a, a + 1, b, b + 1};
 }
 
+/// Place in the system of a heading or curvature.
+std::size_t unknown(std::size_t i) { return kNodeUnknowns * (i / 2) + i % 2; }
+
+double dot(const std::vector<double>& a, const std::vector<double>& b) {
+  return std::inner_product(a.begin(), a.end(), b.begin(), 0.0);
+}
+void add(double share, const std::vector<double>& a, std::vector<double>& to) {
+  for (std::size_t i = 0; i < to.size(); ++i) to[i] += share * a[i];
+}
+
 /// Logarithm of the units of slope, (h/2)^2, of a link over that of the link before: of a ratio, so
 /// that it is the same at any size.
 double slope_units(const LinkState& link, const LinkState& before) {
@@ -55,37 +72,38 @@ double slope_units(const LinkState& link, const LinkState& before) {
 SlopeSolver::SlopeSolver(const SlopeProblem& problem, const SlopeWeights& weights)
     : problem_(problem), model_(problem.chain), weights_(weights) {}
 
-SlopeSolver::Value SlopeSolver::evaluate(const std::vector<double>& x,
-                                         std::vector<double>* gap) const {
-  constexpr Value kOutside = {std::numeric_limits<double>::infinity(),
-                              std::numeric_limits<double>::infinity()};
+void SlopeSolver::evaluate(Place& place) const {
+  const auto outside = [&] { place.energy = place.gaps = std::numeric_limits<double>::infinity(); };
   const std::size_t n = problem_.equal_slope.size();
-  Value out;
-  if (gap != nullptr) gap->assign(n, 0.0);
+  place.energy = place.gaps = 0.0;
+  place.gap.assign(n, 0.0);
+  place.jet.resize(n);
+  place.slopes.resize(n);
   double end_before = 0.0;
   LinkState before;
   for (std::size_t i = 0; i + 1 < n; ++i) {
     if (problem_.chain.cone[i] == Cone::kNone) continue;
-    const LinkState link = model_.jet(i, x).state;
-    const SpiralSlopes s = spiral_slopes(link, problem_.chain.direction[i], problem_.form[i]);
-    out.energy += 0.5 * (weights_.change * s.change.value * s.change.value +
-                         weights_.bend * s.bend.value * s.bend.value);
-    if (!std::isfinite(out.energy) || std::isnan(s.start.value + s.end.value)) return kOutside;
+    place.jet[i] = model_.jet(i, place.x);
+    const LinkState& link = place.jet[i].state;
+    const SpiralSlopes& s = place.slopes[i] =
+        spiral_slopes(link, problem_.chain.direction[i], problem_.form[i]);
+    place.energy += 0.5 * (weights_.change * s.change.value * s.change.value +
+                           weights_.bend * s.bend.value * s.bend.value);
+    if (!std::isfinite(place.energy) || std::isnan(s.start.value + s.end.value)) return outside();
     if (problem_.equal_slope[i]) {
       const double c = end_before - s.start.value + slope_units(link, before);
-      out.gaps += std::abs(c);
-      if (gap != nullptr) (*gap)[i] = c;
+      place.gaps += std::abs(c);
+      place.gap[i] = c;
     }
     end_before = s.end.value;
     before = link;
   }
   for (std::size_t i = 0; i < n; ++i) {
     if (model_.wanted_sign(i) == 0.0) continue;
-    const double room = model_.curvature_room(i, x);
-    if (!(room > 0.0)) return kOutside;
-    out.energy -= weights_.sign * std::log(room);
+    const double room = model_.curvature_room(i, place.x);
+    if (!(room > 0.0)) return outside();
+    place.energy -= weights_.sign * std::log(room);
   }
-  return out;
 }
 
 void SlopeSolver::assemble() {
@@ -95,8 +113,8 @@ void SlopeSolver::assemble() {
   LinkState link_before;
   for (std::size_t i = 0; i + 1 < n; ++i) {
     if (problem_.chain.cone[i] == Cone::kNone) continue;
-    const LinkModel::LinkJet l = model_.jet(i, x_);
-    const SpiralSlopes s = spiral_slopes(l.state, problem_.chain.direction[i], problem_.form[i]);
+    const LinkModel::LinkJet& l = here_.jet[i];
+    const SpiralSlopes& s = here_.slopes[i];
     const auto graded = [&](const LinkGradient& g) {
       return by_unknowns(g, l, problem_.chain.direction[i], unit_[i], unit_[i + 1]);
     };
@@ -130,7 +148,7 @@ void SlopeSolver::add_sign_and_fixed(std::size_t node) {
   const std::size_t heading = kNodeUnknowns * node, curvature = heading + 1,
                     multiplier = heading + 2;
   if (const double sign = model_.wanted_sign(node); sign != 0.0) {
-    const double slope = sign * unit_[node] / model_.curvature_room(node, x_);
+    const double slope = sign * unit_[node] / model_.curvature_room(node, here_.x);
     system_.right(curvature) += weights_.sign * slope;
     system_.at(curvature, curvature) += weights_.sign * slope * slope;
   }
@@ -148,7 +166,7 @@ void SlopeSolver::set_units() {
   unit_.assign(n, std::numeric_limits<double>::infinity());
   for (std::size_t i = 0; i + 1 < n; ++i) {
     if (problem_.chain.cone[i] == Cone::kNone) continue;
-    const double sigma = std::abs(model_.jet(i, x_).state.sigma);
+    const double sigma = std::abs(model_.jet(i, here_.x).state.sigma);
     unit_[i] = std::min(unit_[i], sigma);
     unit_[i + 1] = std::min(unit_[i + 1], sigma);
   }
@@ -159,28 +177,76 @@ void SlopeSolver::set_units() {
 
 void SlopeSolver::move_trial(double part) {
   const std::vector<double>& y = system_.solution();
-  trial_.resize(x_.size());
+  const std::vector<double>& x = here_.x;
+  trial_.x.resize(x.size());
   for (std::size_t i = 0; i < unit_.size(); ++i) {
-    trial_[2 * i] = x_[2 * i] + part * unit_[i] * y[kNodeUnknowns * i];
-    trial_[2 * i + 1] = x_[2 * i + 1] + part * unit_[i] * y[kNodeUnknowns * i + 1];
+    trial_.x[2 * i] = x[2 * i] + part * unit_[i] * y[kNodeUnknowns * i];
+    trial_.x[2 * i + 1] = x[2 * i + 1] + part * unit_[i] * y[kNodeUnknowns * i + 1];
   }
+}
+
+/// Gauss-Newton's steps shrink, or swing to and fro, by much the same parts each: the last few tell
+/// them, and where they end (Anderson 1965, "Iterative procedures for nonlinear integral
+/// equations").
+void SlopeSolver::extrapolate_trial() {
+  std::vector<double> left = step_;  // what the steps before do not explain
+  std::vector<double> back(step_.size(), 0.0);
+  std::vector<std::vector<double>> change, move;
+  for (const Step& past : past_) {
+    change.emplace_back(step_);
+    move.emplace_back(past.move);
+    for (std::size_t i = 0; i < step_.size(); ++i) {
+      change.back()[i] -= past.step[i];
+      move.back()[i] += change.back()[i];
+    }
+    const double whole = dot(change.back(), change.back());
+    for (std::size_t k = 0; k + 1 < change.size(); ++k) {  // Gram and Schmidt
+      const double share = dot(change[k], change.back()) / dot(change[k], change[k]);
+      add(-share, change[k], change.back());
+      add(-share, move[k], move.back());
+    }
+    const double square = dot(change.back(), change.back());
+    if (!(square > kOfItsOwn * whole)) {
+      change.pop_back();
+      move.pop_back();
+      continue;
+    }
+    const double share = dot(change.back(), left) / square;
+    add(-share, change.back(), left);
+    add(share, move.back(), back);
+  }
+  for (std::size_t i = 0; i < back.size(); ++i) trial_.x[i] -= unit_[i / 2] * back[i];
+}
+
+void SlopeSolver::remember_step() {
+  Step now{step_, std::vector<double>(step_.size())};
+  for (std::size_t i = 0; i < step_.size(); ++i) {
+    now.move[i] = (trial_.x[i] - here_.x[i]) / unit_[i / 2];
+  }
+  for (Step& past : past_) add(1.0, now.move, past.move);  // up to the place where the next begins
+  past_.insert(past_.begin(), std::move(now));
+  if (past_.size() > kRemembered) past_.pop_back();
 }
 
 SlopeSolver::Outcome SlopeSolver::run(const std::vector<Element>& start, int most_steps,
                                       Watch& watch) {
   Outcome out;
-  x_ = model_.from_elements(start);
+  here_.x = model_.from_elements(start);
   set_units();
-  Value value = evaluate(x_, &gap_);
-  if (!std::isfinite(value.energy)) return out;
+  evaluate(here_);
+  if (!std::isfinite(here_.energy)) return out;
   out.valid = true;
   double price = 1.0, before = std::numeric_limits<double>::infinity();
-  double gaps_before = value.gaps;
+  double gaps_before = here_.gaps;
   int short_steps = 0;
+  bool extrapolates = true, plain = false;
+  past_.clear();
   while (out.steps < most_steps && watch.spend(static_cast<double>(start.size()))) {
     assemble();
     ++out.steps;
     if (!system_.solve()) break;
+    step_.resize(here_.x.size());
+    for (std::size_t i = 0; i < step_.size(); ++i) step_[i] = system_.solution()[unknown(i)];
     double largest = 0.0;
     for (std::size_t i = 0; i < unit_.size(); ++i) {
       const double* y = system_.solution().data() + kNodeUnknowns * i;
@@ -190,35 +256,52 @@ SlopeSolver::Outcome SlopeSolver::run(const std::vector<Element>& start, int mos
     if (!std::isfinite(largest)) break;
     const bool near = std::max(largest, before) < kNear;
     if (near && !(largest < kShorter * before)) {
-      out.converged = largest < kAsNearAsRounding;
-      break;
+      if (!extrapolates || past_.empty()) {
+        out.converged = largest < kAsNearAsRounding;
+        break;
+      }
+      extrapolates = false;
     }
+    // what is left behind the step, if it shrinks like the one before
+    const bool creeps = !(largest < kQuickly * before);
+    const bool settles =
+        largest < kSettled || (plain && !creeps && largest * (largest / before) < kSettled);
     before = largest;
+    const auto falls = [&] {
+      evaluate(trial_);
+      return near ? std::isfinite(trial_.energy)
+                  : trial_.energy + price * trial_.gaps <=
+                        here_.energy + price * here_.gaps +
+                            kMeritRounding * (1.0 + std::abs(here_.energy));
+    };
     double part = 1.0;
     bool taken = false;
+    // the last step is one of Newton's own, which closes the gaps
+    if (extrapolates && creeps && !past_.empty() && !settles) {
+      move_trial(part);
+      extrapolate_trial();
+      taken = falls();
+    }
+    plain = !taken;
     for (int k = 0; k < kMostHalvings && !taken; ++k, part *= taken ? 1.0 : 0.5) {
       move_trial(part);
-      const Value there = evaluate(trial_, nullptr);
-      taken = near ? std::isfinite(there.energy)
-                   : there.energy + price * there.gaps <=
-                         value.energy + price * value.gaps +
-                             kMeritRounding * (1.0 + std::abs(value.energy));
+      taken = falls();
     }
     if (!taken) break;
-    x_.swap(trial_);
-    value = evaluate(x_, &gap_);
-    out.converged = largest < kSettled;
+    if (extrapolates) remember_step();
+    std::swap(here_, trial_);
+    out.converged = settles;
     if (out.converged) break;
     if (part > kShortPart) {
       short_steps = 0;
-      gaps_before = value.gaps;
+      gaps_before = here_.gaps;
     } else if (++short_steps == kMostShortSteps) {
-      if (value.gaps > kHardlyClosed * gaps_before) break;
+      if (here_.gaps > kHardlyClosed * gaps_before) break;
       short_steps = 0;
-      gaps_before = value.gaps;
+      gaps_before = here_.gaps;
     }
   }
-  for (const double gap : gap_) out.largest_gap = std::max(out.largest_gap, std::abs(gap));
+  for (const double gap : here_.gap) out.largest_gap = std::max(out.largest_gap, std::abs(gap));
   return out;
 }
 

@@ -39,28 +39,44 @@ class SlopeSolver {
   [[nodiscard]] Outcome run(const std::vector<Element>& start, int most_steps, Watch& watch);
 
   [[nodiscard]] std::vector<Element> elements(const std::vector<Vec2>& points) const {
-    return model_.elements(points, x_);
+    return model_.elements(points, here_.x);
   }
-  [[nodiscard]] std::vector<LinkState> links() const { return model_.links(x_); }
+  [[nodiscard]] std::vector<LinkState> links() const { return model_.links(here_.x); }
   /// Logarithm of the slope before over the slope after each node, where they shall be equal.
-  [[nodiscard]] const std::vector<double>& gaps() const { return gap_; }
+  [[nodiscard]] const std::vector<double>& gaps() const { return here_.gap; }
 
  private:
-  struct Value {
+  /// What the unknowns give: the equations at them are made of it.
+  struct Place {
+    std::vector<double> x, gap;
+    std::vector<LinkModel::LinkJet> jet;
+    std::vector<SpiralSlopes> slopes;
     double energy = 0.0, gaps = 0.0;
   };
-  [[nodiscard]] Value evaluate(const std::vector<double>& x, std::vector<double>* gap) const;
+  void evaluate(Place& place) const;
   void set_units();
   void assemble();
   void add_sign_and_fixed(std::size_t node);
   /// The unknowns moved by a part of the solution of the equations.
   void move_trial(double part);
+  /// Goes on from the trial to where the last steps lead.
+  void extrapolate_trial();
+  /// Before the trial becomes the place where the unknowns are.
+  void remember_step();
 
   const SlopeProblem& problem_;
   LinkModel model_;
   SlopeWeights weights_;
   SlopeSystem system_;
-  std::vector<double> x_, trial_, unit_, gap_;
+  Place here_, trial_;
+  std::vector<double> unit_;
+  /// A step that was taken, in units: what the equations asked for, and from where it began to
+  /// where the unknowns are.
+  struct Step {
+    std::vector<double> step, move;
+  };
+  std::vector<double> step_;
+  std::vector<Step> past_;  ///< the last one first
 };
 
 }  // namespace obvid::chain_detail

@@ -2,6 +2,7 @@
 #include "slope_system.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 namespace obvid::chain_detail {
@@ -14,30 +15,40 @@ void SlopeSystem::fix(std::size_t i) {
 }
 
 bool SlopeSystem::solve() {
+  // rows end with the next node's block; what is exchanged or taken off may make them longer
+  last_column_.resize(n_);
+  for (std::size_t i = 0; i < n_; ++i) {
+    last_column_[i] = std::min(n_, kBlock * (i / kBlock + 2)) - 1;
+  }
   for (std::size_t k = 0; k < n_; ++k) {
-    const std::size_t last_row = std::min(n_ - 1, k + kBand);
-    const std::size_t last_column = std::min(n_ - 1, k + 2 * kBand);
+    const std::size_t last_row = std::min(n_, kBlock * (k / kBlock + 2)) - 1;
     std::size_t pivot = k;
     for (std::size_t i = k + 1; i <= last_row; ++i) {
       if (std::abs(at(i, k)) > std::abs(at(pivot, k))) pivot = i;
     }
     if (!(std::abs(at(pivot, k)) > 0.0)) return false;
     if (pivot != k) {
-      for (std::size_t j = k; j <= last_column; ++j) std::swap(at(k, j), at(pivot, j));
+      const std::size_t longer = std::max(last_column_[k], last_column_[pivot]);
+      for (std::size_t j = k; j <= longer; ++j) std::swap(at(k, j), at(pivot, j));
       std::swap(right_[k], right_[pivot]);
+      std::swap(last_column_[k], last_column_[pivot]);
     }
+    const std::size_t last_column = last_column_[k];
     const double inverse = 1.0 / at(k, k);
+    std::array<double, kReach> pivot_row;  // zero behind its last column
+    std::copy_n(&at(k, k) + 1, kReach, pivot_row.begin());
     for (std::size_t i = k + 1; i <= last_row; ++i) {
       const double share = at(i, k) * inverse;
       if (share == 0.0) continue;
-      for (std::size_t j = k + 1; j <= last_column; ++j) at(i, j) -= share * at(k, j);
+      last_column_[i] = std::max(last_column_[i], last_column);
+      double* const row = &at(i, k) + 1;
+      for (std::size_t j = 0; j < kReach; ++j) row[j] -= share * pivot_row[j];
       right_[i] -= share * right_[k];
     }
   }
   for (std::size_t k = n_; k-- > 0;) {
     double sum = right_[k];
-    const std::size_t last_column = std::min(n_ - 1, k + 2 * kBand);
-    for (std::size_t j = k + 1; j <= last_column; ++j) sum -= at(k, j) * right_[j];
+    for (std::size_t j = k + 1; j <= last_column_[k]; ++j) sum -= at(k, j) * right_[j];
     right_[k] = sum / at(k, k);
   }
   return true;

@@ -35,10 +35,12 @@ class SlopeSystem {
 
  private:
   static constexpr std::size_t kBand = 2 * kBlock - 1;  // diagonals on either side
-  static constexpr std::size_t kWidth = 3 * kBand + 1;  // and what row exchanges fill in
+  static constexpr std::size_t kReach = 2 * kBand;      // the same with what row exchanges fill in
+  static constexpr std::size_t kWidth = kBand + 1 + kReach;
 
   std::size_t n_ = 0;
   std::vector<double> entry_, right_;
+  std::vector<std::size_t> last_column_;  ///< of each row, that may differ from 0
 };
 
 }  // namespace obvid::chain_detail

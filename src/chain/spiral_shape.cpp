@@ -71,8 +71,8 @@ constexpr double kRestingPart = 1e-7;
 /// Rounding of stored control points moves a slope by some units of 2^-53 over sigma, relatively.
 constexpr double kRestingRoundings = 1e4;
 constexpr double kMostRestingPart = 1e-3;
-/// Where a piece turns by more than this, weights make up for it (curve/internal/end_slopes.h): what is left
-/// are their own roundings, less by as much as it turns.
+/// Where a piece turns by more than this, weights make up for it (curve/internal/end_slopes.h):
+/// what is left are their own roundings, less by as much as it turns.
 constexpr double kLeastTurn = 1e-6;
 constexpr double kRestingWeights = 64.0;
 
@@ -154,8 +154,9 @@ SpiralSlopes even_slopes(const Increasing& l) {
              2.0 * log_y.by_sigma + cot};
   out.change = {2.0 * ratio, -2.0 / l.A, 2.0 / l.B, 0.0};
   // middle against the geometric mean of the ends
-  const double lift = std::tanh(0.25 * ratio);
-  out.bend = {4.0 * std::log(std::cosh(0.25 * ratio)) - 2.5 * log_y.value,
+  const double x = 0.25 * std::abs(ratio), m = std::expm1(-2.0 * x);
+  const double lift = std::copysign(-m / (2.0 + m), ratio);         // tanh(ratio/4)
+  out.bend = {4.0 * (x + std::log1p(0.5 * m)) - 2.5 * log_y.value,  // log cosh(ratio/4)
               -lift / l.A - 2.5 * log_y.by_A, lift / l.B - 2.5 * log_y.by_B, -2.5 * log_y.by_sigma};
   return out;
 }

@@ -47,10 +47,22 @@ class LocalPiece {
 
   [[nodiscard]] Vec2 at(double t) const {
     if (degree_ == 0) return in_frame(evaluate(*piece_, t).point - start_);
-    std::array<Vec2, kMaxBezierDegree + 1> p = weighted_;
-    std::array<double, kMaxBezierDegree + 1> w = weight_;
+    constexpr std::size_t kOfSpirals = 4;  // known when compiled
+    return degree_ == kOfSpirals ? cut<kOfSpirals>(t) : cut<0>(t);
+  }
+
+ private:
+  /// De Casteljau's algorithm; degree 0: the piece's own.
+  template <std::size_t kDegree>
+  [[nodiscard]] Vec2 cut(double t) const {
+    const std::size_t degree = kDegree > 0 ? kDegree : static_cast<std::size_t>(degree_);
+    constexpr std::size_t kCount = (kDegree > 0 ? kDegree : kMaxBezierDegree) + 1;
+    std::array<Vec2, kCount> p;
+    std::array<double, kCount> w;
+    std::copy_n(weighted_.begin(), degree + 1, p.begin());
+    std::copy_n(weight_.begin(), degree + 1, w.begin());
     const double s = 1.0 - t;
-    for (auto left = static_cast<std::size_t>(degree_); left > 0; --left) {
+    for (std::size_t left = degree; left > 0; --left) {
       for (std::size_t j = 0; j < left; ++j) {
         p[j] = s * p[j] + t * p[j + 1];
         w[j] = s * w[j] + t * w[j + 1];
@@ -58,8 +70,6 @@ class LocalPiece {
     }
     return p[0] / w[0];
   }
-
- private:
   [[nodiscard]] Vec2 in_frame(Vec2 v) const { return {dot(along_, v), cross(along_, v)}; }
 
   const Piece* piece_;

@@ -70,19 +70,40 @@ def ragged(path, all_points, ids=None):
 def torus_stl(path, great=5.0, small=1.0, n=60):
     """Binary STL of a torus, its corners computed here."""
     def at(i, k):
-        u, v = 2 * math.pi * i / (2 * n), 2 * math.pi * k / n
+        u, v = 2 * math.pi * (i % (2 * n)) / (2 * n), 2 * math.pi * (k % n) / n
         r = great + small * math.cos(v)
         return (r * math.cos(u), r * math.sin(u), small * math.sin(v))
+    grid_stl(path, at, 2 * n, n)
+
+
+def grid_stl(path, at, rows, columns):
+    """Binary STL of two triangles a cell, corners at(i, k) with 0 <= i <= rows, 0 <= k <= columns."""
     triangles = []
-    for i in range(2 * n):
-        for k in range(n):
-            a, b = at(i, k), at((i + 1) % (2 * n), k)
-            c, d = at((i + 1) % (2 * n), (k + 1) % n), at(i, (k + 1) % n)
+    for i in range(rows):
+        for k in range(columns):
+            a, b, c, d = at(i, k), at(i + 1, k), at(i + 1, k + 1), at(i, k + 1)
             triangles += [(a, b, c), (a, c, d)]
-    data = b"torus".ljust(80) + struct.pack("<I", len(triangles))
-    for t in triangles:
-        data += struct.pack("<12fH", 0, 0, 0, *(x for p in t for x in p), 0)
-    pathlib.Path(path).write_bytes(data)
+    data = [b"grid".ljust(80), struct.pack("<I", len(triangles))]
+    data += [struct.pack("<12fH", 0, 0, 0, *(x for p in t for x in p), 0) for t in triangles]
+    pathlib.Path(path).write_bytes(b"".join(data))
+
+
+def stl_corners(path):
+    data = pathlib.Path(path).read_bytes()
+    count = struct.unpack_from("<I", data, 80)[0]
+    record = np.dtype([("normal", "<f4", 3), ("corner", "<f4", (3, 3)), ("mark", "<u2")])
+    return np.frombuffer(data, record, count, 84)["corner"].reshape(-1, 3).astype(float)
+
+
+def wigley(x, z):
+    """Half breadth of Wigley's hull: 10 m long, 1 m wide, 0.625 m deep."""
+    return 0.5 * (1 - (x / 5) ** 2) * (1 - (z / 0.625) ** 2)
+
+
+def from_wigley(x, y, z):
+    """Distance within a station, to first order."""
+    slope = (1 - (x / 5) ** 2) * z / 0.625**2
+    return np.abs(y - wigley(x, z)) / np.hypot(1, slope)
 
 
 class Batch(unittest.TestCase):
@@ -221,6 +242,41 @@ class Batch(unittest.TestCase):
         said = batch(self.at / "torus.stl", "--cut", "z=-1.25:0.5:1.25", "-o", self.at / "b.h5")
         self.assertIn("2 of 6 planes do not cut", said)
         self.assertIn("E203", batch(self.at / "torus.stl", "--cut", "q=1", "-o", self.out, code=2))
+
+    def test_a_mesh_becomes_200_fair_sections_and_one_skin(self):
+        """The commands of docs/batch.md, on a hull that is known in closed form."""
+        def at(i, k):
+            x, z = -5 + i / 20, -0.625 * (1 - k / 60)
+            return (x, wigley(x, z), z)
+        grid_stl(self.at / "hull.stl", at, 200, 60)
+        rows = self.rows(self.at / "hull.stl", "--cut", "x=-4.975:0.05:4.975", "--noise", "0.001",
+                         "--units", "m", "--each", self.at / "sec/{number}.csv", "--samples", "40")
+        self.assertEqual(len(rows["id"]), 200)
+        self.assertTrue(all(rows["proved"] == 1))
+        self.assertTrue(all(rows["move"] <= 0.001))
+        self.assertGreaterEqual(np.mean(rows["vertices"] == rows["bound"]), 0.9)
+        stations = self.at / "st"
+        stations.mkdir()
+        allowed = 0.001 + 5e-5  # moved points, and the triangles' own chords
+        for k in range(200):
+            x = -4.975 + 0.05 * k
+            points = np.loadtxt(self.at / f"sec/{k}.csv", delimiter=",", skiprows=1, usecols=(1, 2))
+            self.assertEqual(len(points), 40)
+            self.assertLess(from_wigley(x, *points.T).max(), allowed, k)
+            write_csv(stations / f"{k:03}.csv", points)
+        made = subprocess.run([OBVID, "surface", "skin", *sorted(stations.iterdir()), "--spacing", "0.05",
+                               "--noise", "0.0005", "--units", "m", "--chord-tolerance",
+                               "0.0002", "-o", self.at / "fair.stl",
+                               "-o", self.at / "fair.json"], capture_output=True, text=True)
+        self.assertEqual(made.returncode, 0, made.stderr)
+        hull = stl_corners(self.at / "fair.stl")  # (y, z, station)
+        self.assertGreater(len(hull), 1000)
+        self.assertAlmostEqual(hull[:, 2].max() - hull[:, 2].min(), 199 * 0.05, 5)
+        off = from_wigley(hull[:, 2] - hull[:, 2].min() - 4.975, hull[:, 0], hull[:, 1])
+        self.assertLess(off.max(), allowed + 0.0005 + 0.0002)  # moved again, and chords
+        heights = hull[:, 1]
+        self.assertAlmostEqual(heights.min(), -0.625, 2)
+        self.assertAlmostEqual(heights.max(), 0.0, 2)
 
     # ---- jobs ----
 

@@ -421,7 +421,8 @@ TEST(Preferences, OfAClosedSeriesCloseAndKeepTheirWord) {
                 0.0, 1e-9);
   }
   const double most = largest_curvature(least->contour);
-  EXPECT_LT(most, 0.95 * largest_curvature(fair->contour));
+  EXPECT_LT(most, largest_curvature(fair->contour));
+  EXPECT_LT(most, largest_curvature(centre->contour));
   FitJob below;
   below.closing = Closing::kClosed;
   for (std::size_t i = 0; i < series.points.size(); ++i) {

@@ -148,6 +148,24 @@ TEST(SmoothFit, GoesRoundAClosedContourAcrossItsSeam) {
   }
 }
 
+/// An ellipse's slope of curvature has one hill between vertices. Steps that creep end before they
+/// are there, and leave more.
+TEST(SmoothFit, TheSlopesOfAnEllipseHaveOneHillEach) {
+  PointSeries series;
+  for (int i = 0; i < 12; ++i) {
+    const double t = std::numbers::pi * i / 6.0 + 0.2;
+    series.points.push_back({3.0 * std::cos(t), 2.0 * std::sin(t)});
+  }
+  FitJob job;
+  job.closing = Closing::kClosed;
+  const auto made = fit(series, job);
+  ASSERT_TRUE(made) << made.error().what;
+  EXPECT_TRUE(made->certificate.proved) << made->certificate.reason;
+  ASSERT_TRUE(made->report.waviness);
+  EXPECT_NEAR(*made->report.waviness, 1.0, 1e-3);  // that of the ellipse
+  EXPECT_EQ(made->certificate.vertices, 4);
+}
+
 TEST(SmoothFit, KeepsCornersAndIsSmoothOnBothSides) {
   // two clothoids that meet at a right angle, the second a mirror image of the first
   std::mt19937_64 random(18);

@@ -50,14 +50,67 @@ std::array<double, 3> coordinates_at(const Piece& piece, double t) {
   return out;
 }
 
+/// None of those is larger anywhere on the piece.
+std::array<double, 3> largest_coordinates(const Piece& piece) {
+  double largest = 0.0;
+  if (const auto* bezier = std::get_if<RationalBezier>(&piece)) {
+    for (std::size_t j = 0; j <= static_cast<std::size_t>(bezier->degree); ++j) {
+      largest = std::max(largest, bezier->weight[j] * norm(bezier->offset[j]));
+    }
+  }
+  return {largest, largest, largest};
+}
+
 /// Bound of the rounding of the slope of curvature, (d1 x d3 / v^3 - 3 kappa d1 d2 / v^2) / v with
 /// v = |d1|: each derivative is wrong by its roundings.
-double slope_rounding(const Piece& local, double t, const Jet& jet) {
+double slope_rounding(const std::array<double, 3>& size, const Jet& jet) {
   const double speed = norm(jet.d1), bend = norm(jet.d2) / speed, third = norm(jet.d3) / speed;
-  const auto size = coordinates_at(local, t);
   const double first = kTangentRoundings * size[0], second = kSlopeRoundings * size[1];
   return (kSlopeRoundings * size[2] + 6.0 * bend * second + (third + 3.0 * bend * bend) * first) /
          (speed * speed * speed);
+}
+
+/// What the sizes of coordinates are taken from: once for a piece, or dearer and closer at each
+/// place.
+enum class Bound { kOfPieces, kOfPlaces };
+
+struct RunSlopes {
+  double variation = 0.0, largest = 0.0, rounding = 0.0;
+
+  [[nodiscard]] bool are_known() const {
+    return largest > 0.0 && std::isfinite(variation) && rounding <= kToldTo * variation;
+  }
+};
+
+RunSlopes slopes_of(const Contour& contour, std::size_t first, std::size_t last, Bound bound) {
+  RunSlopes out;
+  double before = 0.0;
+  const auto meet = [&](double slope) {
+    out.variation += std::abs(slope - before);
+    out.largest = std::max(out.largest, std::abs(slope));
+    before = slope;
+  };
+  for (std::size_t i = first; i <= last; ++i) {
+    const Piece& piece = contour.pieces[i % contour.pieces.size()];
+    if (const auto* clothoid = std::get_if<ClothoidPiece>(&piece)) {  // exact where they are alike
+      meet((clothoid->kappa1 - clothoid->kappa0) / clothoid->length);
+      continue;
+    }
+    for (const bool back : {false, true}) {
+      const Piece near = seen_from_end(piece, !back);
+      const std::array<double, 3> sizes = largest_coordinates(near);
+      for (int k = back ? kSlopeSteps / 2 + 1 : 0; k <= (back ? kSlopeSteps : kSlopeSteps / 2);
+           ++k) {
+        const double t = static_cast<double>(back ? kSlopeSteps - k : k) / kSlopeSteps;
+        const Jet jet = evaluate(near, t);
+        meet(curvature_rate(jet));
+        out.rounding +=
+            2.0 * slope_rounding(bound == Bound::kOfPieces ? sizes : coordinates_at(near, t), jet);
+      }
+    }
+  }
+  meet(0.0);
+  return out;
 }
 
 }  // namespace
@@ -83,31 +136,10 @@ void Waviness::add(const Contour& contour, bool loop) {
 
 /// Pieces are counted on around the contour.
 void Waviness::add_run(const Contour& contour, std::size_t first, std::size_t last) {
-  double variation = 0.0, largest = 0.0, rounding = 0.0, before = 0.0;
-  const auto meet = [&](double slope) {
-    variation += std::abs(slope - before);
-    largest = std::max(largest, std::abs(slope));
-    before = slope;
-  };
-  for (std::size_t i = first; i <= last; ++i) {
-    const Piece& piece = contour.pieces[i % contour.pieces.size()];
-    if (const auto* clothoid = std::get_if<ClothoidPiece>(&piece)) {  // exact where they are alike
-      meet((clothoid->kappa1 - clothoid->kappa0) / clothoid->length);
-      continue;
-    }
-    const std::array<Piece, 2> local = {seen_from_end(piece, true), seen_from_end(piece, false)};
-    for (int k = 0; k <= kSlopeSteps; ++k) {
-      const bool back = 2 * k > kSlopeSteps;
-      const Piece& near = local[back ? 1 : 0];
-      const double t = static_cast<double>(back ? kSlopeSteps - k : k) / kSlopeSteps;
-      const Jet jet = evaluate(near, t);
-      meet(curvature_rate(jet));
-      rounding += 2.0 * slope_rounding(near, t, jet);
-    }
-  }
-  meet(0.0);
-  known_ = known_ && largest > 0.0 && std::isfinite(variation) && rounding <= kToldTo * variation;
-  hills_ += variation / (2.0 * largest);
+  RunSlopes slopes = slopes_of(contour, first, last, Bound::kOfPieces);
+  if (!slopes.are_known()) slopes = slopes_of(contour, first, last, Bound::kOfPlaces);
+  known_ = known_ && slopes.are_known();
+  hills_ += slopes.variation / (2.0 * slopes.largest);
   ++runs_;
 }
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "obvid/pipeline/construction_fit.h"
+#include "fit/waviness.h"
 
 #include <fmt/format.h>
 
@@ -191,6 +192,7 @@ Result<Fit> fit_construction(const PointSeries& series, const RegionJob& job,
   OBVID_TRY(report);
   out.certificate = certify(out.contour, watch);
   out.report = std::move(*report);
+  out.report.waviness = waviness(out.contour);
   // nobody asked for the width that two arcs leave, or one piece over a long chord
   if (out.report.largest_width > tolerance) out.report.tolerance = out.report.largest_width;
   settle_with(out.certificate, out.contour, out.report, watch);

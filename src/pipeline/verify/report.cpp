@@ -9,7 +9,6 @@
 
 #include "fit/given.h"
 #include "fit/parts.h"
-#include "fit/waviness.h"
 #include "fit/form.h"
 #include "obvid/certify/certify.h"
 #include "obvid/curve/internal/runs.h"
@@ -430,7 +429,6 @@ Result<FitReport> measure(const Contour& contour, double tolerance, Watch& watch
     row += section.size() - 1;
   }
   forget_around(direction, turn, contour.closed, report);
-  report.waviness = waviness(contour);
   // around a closed contour the curvature returns to where it began, leaps at corners included
   if (contour.closed) report.vertices_lower_bound += report.vertices_lower_bound % 2;
   return report;

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "fit/waviness.h"
 #include "obvid/certify/certify.h"
 #include "obvid/certify/internal/carrier_pieces.h"
 #include "obvid/certify/internal/limits.h"
@@ -314,6 +315,7 @@ Verification verified(const StoredContour& stored, Watch& watch) {
       return out;
     }
     FitReport found = std::move(*measured);
+    found.waviness = pipeline_detail::waviness(stored.contour);
     pipeline_detail::settle_with(out.certificate, stored.contour, found, watch);
     compare_bound(*stored.report, out.certificate, comparison);
     compare_report(*stored.report, found, comparison);

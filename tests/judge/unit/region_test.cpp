@@ -216,6 +216,7 @@ TEST(JudgeRegion, LooksForHeadingsAsFarAsSpiralsExist) {
   const Worksheet worksheet = readable(data("judge/region.json"));
   constexpr Real kBefore = -0.3L;
   SheetPoint a, b;
+  b.stored = {1.0, 0.0};
   b.point = {1.0L, 0.0L};
   b.index = 1;
   a.heading_given = true;
