@@ -1,16 +1,19 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "cli_app.h"
 
+#include <poll.h>
+#include <sys/ioctl.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
 #include <algorithm>
 #include <cctype>
-#include <cstdio>
+#include <cerrno>
 #include <optional>
 #include <string>
 #include <utility>
 
+#include "commands.h"
 #include "obvid/core/units.h"
 
 namespace obvid {
@@ -114,13 +117,29 @@ Result<bool> take_standard_output(std::vector<std::string>& outputs, const std::
   return any;
 }
 
+namespace {
+
+/// Waits for the first byte or the end of a pipe.
+bool pipe_has_bytes(int file) {
+  pollfd pipe{file, POLLIN, 0};
+  int bytes = 0;
+  while (::poll(&pipe, 1, -1) < 0) {
+    if (errno != EINTR) return false;
+  }
+  return ::ioctl(file, FIONREAD, &bytes) == 0 && bytes > 0;
+}
+
+}  // namespace
+
 std::string input_or_pipe(const std::string& input) {
   struct stat in {};
   if (!input.empty() || ::fstat(STDIN_FILENO, &in) != 0) return input;
-  if (!S_ISFIFO(in.st_mode) && !S_ISREG(in.st_mode)) return input;
-  const int first = std::getc(stdin);
-  if (first == EOF) return input;
-  std::ungetc(first, stdin);
+  if (S_ISREG(in.st_mode)) {
+    if (::lseek(STDIN_FILENO, 0, SEEK_CUR) >= in.st_size) return input;
+  } else if (!S_ISFIFO(in.st_mode) || !pipe_has_bytes(STDIN_FILENO)) {
+    return input;
+  }
+  keep_standard_input();
   return "-";
 }
 

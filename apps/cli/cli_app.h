@@ -71,7 +71,7 @@ template <class Options>
 }
 
 /// What a command takes in place of a missing input: "-" where something comes through a pipe or
-/// from a file, else nothing. Reads the first byte, which stays there.
+/// from a file, else nothing. Waits for it; reads nothing.
 [[nodiscard]] std::string input_or_pipe(const std::string& input);
 
 /// Width of the column of names in `--help`.

@@ -3,7 +3,6 @@
 
 #include <fmt/format.h>
 
-#include <filesystem>
 #include <numbers>
 #include <utility>
 
@@ -208,9 +207,9 @@ Result<Written> written_files(const SpaceChain& chain, const std::vector<std::st
       return fail(made.error());
     }
     for (const ExportedFile& file : made->files) {
-      std::filesystem::path name(path);
-      name.replace_filename(name.stem().string() + file.suffix + name.extension().string());
-      texts.push_back({name.string(), FileFormat::kContour, file.text});
+      const auto name = path_of_part(path, file.suffix);
+      OBVID_TRY(name);
+      texts.push_back({*name, FileFormat::kContour, file.text});
     }
     for (const std::string& one : made->remarks) written.remarks.push_back(one);
   }
