@@ -13,8 +13,8 @@
 #include <utility>
 #include <vector>
 
-#include "help/help_lines.h"
 #include "batch_build_mark.h"
+#include "help/help_lines.h"
 #include "index.h"
 #include "job_options.h"
 #include "merge.h"

@@ -67,8 +67,7 @@ void add_reading(CLI::App& command, FormatValues& values) {
       "Across the axis x (y changes its sign) or y; given headings and curvatures of the file go "
       "along, in options they are those of the result; then:");
   add("--scale", values.scale, "F", "All lengths times F; the unit keeps its name; then:");
-  add("--rotate", values.rotate_deg, "DEG",
-      "About the origin, degrees counter-clockwise; then:");
+  add("--rotate", values.rotate_deg, "DEG", "About the origin, degrees counter-clockwise; then:");
   add("--move", values.move, "DX,DY", "By these lengths along x and y (and z: DX,DY,DZ)");
 }
 

@@ -60,8 +60,8 @@ template <class Options>
 [[nodiscard]] Result<void> settle_streams(Options& options, const std::string& format,
                                           bool csv = false, const char* fallback = "json") {
   if (options.json && csv) {
-    return fail(bad_option("standard output cannot hold two things", "--csv",
-                           "leave it or --json out"));
+    return fail(
+        bad_option("standard output cannot hold two things", "--csv", "leave it or --json out"));
   }
   const char* taken = options.json ? "--json" : csv ? "--csv" : nullptr;
   const auto streamed = take_standard_output(options.outputs, format, taken, fallback);

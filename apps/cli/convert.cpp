@@ -88,7 +88,7 @@ ExportOptions formats_of(const ConvertOptions& options) {
 }
 
 Summary summary_of_files(const ConvertOptions& all, const OneOf& one,
-                   const std::vector<std::string>& outputs) {
+                         const std::vector<std::string>& outputs) {
   Summary out;
   ConvertOptions options = all;
   options.input = one.input;

@@ -86,7 +86,7 @@ Result<std::vector<std::string>> write_contour(Fit& made, const std::vector<Outp
 
 /// One of several: what a line says of it.
 Summary summary_of_fit(const FitOptions& all, const OneOf& one,
-                   const std::vector<std::string>& outputs) {
+                       const std::vector<std::string>& outputs) {
   Summary out;
   const auto failed = [&](const Error& error) {
     out.error = error;

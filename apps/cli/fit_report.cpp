@@ -7,8 +7,8 @@
 #include <limits>
 
 #include "obvid/pipeline/internal/end_curvatures.h"
-#include "outputs.h"
 #include "obvid/pipeline/internal/summary.h"
+#include "outputs.h"
 #include "table.h"
 #include "terminal.h"
 #include "text.h"
@@ -313,13 +313,13 @@ std::string fit_report_csv(const Fit& fit) {
   const std::vector<EndCurvatures> curvatures = end_curvatures(fit.contour);
   for (std::size_t i = 0; i < fit.report.segments.size(); ++i) {
     const SegmentReport& s = fit.report.segments[i];
-    const std::string pieces = pieces_text(fit.contour, joint[s.from.value_or(0)],
-                                           joint[s.to.value_or(0)]);
-    out += fmt::format("{},{},{},{},{},{},{},{},{},{}\n", s.from.value_or(0) + 1,
-                       s.to.value_or(0) + 1, csv_cell(s.chord), csv_cell(s.points_only_error),
-                       csv_cell(s.width), csv_cell(s.deviation), s.inserted,
-                       pieces == "-" ? "" : pieces, csv_cell(curvatures[i].start),
-                       csv_cell(curvatures[i].end));
+    const std::string pieces =
+        pieces_text(fit.contour, joint[s.from.value_or(0)], joint[s.to.value_or(0)]);
+    out +=
+        fmt::format("{},{},{},{},{},{},{},{},{},{}\n", s.from.value_or(0) + 1, s.to.value_or(0) + 1,
+                    csv_cell(s.chord), csv_cell(s.points_only_error), csv_cell(s.width),
+                    csv_cell(s.deviation), s.inserted, pieces == "-" ? "" : pieces,
+                    csv_cell(curvatures[i].start), csv_cell(curvatures[i].end));
   }
   return out;
 }

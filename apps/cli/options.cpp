@@ -240,10 +240,9 @@ void add_fit(CLI::App& app, Raw& raw) {
   add_output(fit, raw.fit.outputs, raw.format,
              "File to write, format by file extension: " + known_endings() +
                  "; of several inputs 'NAME{id}.svg', {id} being the name of each");
-  fit.add_option(
-         "--carrier", raw.carrier,
-         "Curve family: " + carriers_listed(true, ", ") + ", all monotone; " +
-             carriers_listed(false, " and ") + ", not promised to be monotone [spiral]")
+  fit.add_option("--carrier", raw.carrier,
+                 "Curve family: " + carriers_listed(true, ", ") + ", all monotone; " +
+                     carriers_listed(false, " and ") + ", not promised to be monotone [spiral]")
       ->type_name("NAME");
   fit.add_option("--continuity", raw.typed.continuity,
                  "Of spirals: the curvature is continuous (G2), or its slope too: no kinks in its "
@@ -278,23 +277,25 @@ void add_fit(CLI::App& app, Raw& raw) {
   fit.add_flag("--json", raw.fit.json, "Report and certificate as JSON on standard output");
   fit.add_flag("-q,--quiet", raw.fit.quiet, "No table and no progress bar");
   fit.add_flag("--no-progress", raw.no_progress, "No progress bar");
-  fit.footer(std::string("Examples:\n"
-                         "  obvid fit points.csv -o contour.svg -o contour.json\n"
-                         "  obvid fit points.csv --tolerance 0.01 --carrier arcs -o arcs.json\n"
-                         "  obvid fit airfoil.dat --noise rounding -o airfoil.json\n"
-                         "  obvid fit outline.csv --closed --noise 0.5 --heading-at 1=90\n"
-                         "  obvid fit *.dat --noise rounding -o 'fair/{id}.step'\n"
-                         "  cat points.txt | obvid fit --start-heading 90 -o - > contour.json\n\n") +
-             kExitCodes);
+  fit.footer(
+      std::string("Examples:\n"
+                  "  obvid fit points.csv -o contour.svg -o contour.json\n"
+                  "  obvid fit points.csv --tolerance 0.01 --carrier arcs -o arcs.json\n"
+                  "  obvid fit airfoil.dat --noise rounding -o airfoil.json\n"
+                  "  obvid fit outline.csv --closed --noise 0.5 --heading-at 1=90\n"
+                  "  obvid fit *.dat --noise rounding -o 'fair/{id}.step'\n"
+                  "  cat points.txt | obvid fit --start-heading 90 -o - > contour.json\n\n") +
+      kExitCodes);
 }
 
 void add_readers(CLI::App& app, Raw& raw) {
   CLI::App& analyse = *app.add_subcommand(
       "analyse",
       "What the points force: circles, runs, vertices; or the curvature of a drawn curve");
-  analyse.add_option("INPUT", raw.inputs,
-                     "File with the points, - for standard input, or a drawing: STEP, IGES, BREP, "
-                     "DXF, contour .json, ...; of several files a line each")
+  analyse
+      .add_option("INPUT", raw.inputs,
+                  "File with the points, - for standard input, or a drawing: STEP, IGES, BREP, "
+                  "DXF, contour .json, ...; of several files a line each")
       ->type_name("");
   add_output(analyse, raw.analyse.outputs, raw.format,
              "File to write: .svg picture of the curvature of a drawn curve, .csv the list of "
@@ -386,10 +387,11 @@ void add_compare(CLI::App& app, Raw& raw) {
 void add_convert(CLI::App& app, Raw& raw) {
   CLI::App& convert =
       *app.add_subcommand("convert", "Write a stored contour in the format of another system");
-  convert.add_option(
-      "CONTOUR", raw.inputs,
-      "Contour file (.json), - for standard input, or a drawing (STEP, DXF, SVG, ...); several "
-      "with -o 'NAME{id}.dxf'")
+  convert
+      .add_option(
+          "CONTOUR", raw.inputs,
+          "Contour file (.json), - for standard input, or a drawing (STEP, DXF, SVG, ...); several "
+          "with -o 'NAME{id}.dxf'")
       ->type_name("");
   add_output(convert, raw.convert.outputs, raw.format,
              "File to write, format by file extension: " + known_endings());
@@ -406,7 +408,8 @@ void add_convert(CLI::App& app, Raw& raw) {
   add_formats(convert, raw.formats);
   convert.add_option("--units", raw.units, kUnitsHelp)->type_name("NAME");
   convert.add_flag("--csv", raw.convert.csv, "Samples as CSV on standard output, as -o NAME.csv");
-  convert.add_flag("--json", raw.convert.json, "Contour as JSON on standard output, as -o NAME.json");
+  convert.add_flag("--json", raw.convert.json,
+                   "Contour as JSON on standard output, as -o NAME.json");
   convert.add_flag("-q,--quiet", raw.convert.quiet, "Print nothing");
   convert.footer("Example: obvid convert contour.json -o contour.step");
 }
@@ -414,8 +417,9 @@ void add_convert(CLI::App& app, Raw& raw) {
 void add_checkers(CLI::App& app, Raw& raw) {
   CLI::App& verify =
       *app.add_subcommand("verify", "Prove a stored contour again, from its file alone");
-  verify.add_option("CONTOUR", raw.inputs,
-                    "Contour file (.json), or - for standard input; of several files a line each")
+  verify
+      .add_option("CONTOUR", raw.inputs,
+                  "Contour file (.json), or - for standard input; of several files a line each")
       ->type_name("");
   add_output(verify, raw.verify.outputs, raw.format, "File to write: .json the answer");
   verify.add_flag("--json", raw.verify.json, "JSON on standard output instead of the table");
@@ -425,7 +429,8 @@ void add_checkers(CLI::App& app, Raw& raw) {
       *app.add_subcommand("explain", "What an error code means and what to do; all without a code");
   explain.add_option("CODE", raw.explain.code, "For example E401 or 401");
   explain.add_flag("--json", raw.explain.json, "JSON on standard output");
-  explain.add_flag("-q,--quiet", raw.explain.quiet, "Exit code only: whether there is such an error");
+  explain.add_flag("-q,--quiet", raw.explain.quiet,
+                   "Exit code only: whether there is such an error");
 }
 
 Result<void> check_command(const CLI::App& app) {
@@ -543,7 +548,8 @@ Result<Command> checked_compare(Raw& raw) {
   OBVID_TRY(done);
   raw.compare.job = raw.fit.job;
   allow_two_points(raw.fit.job, raw.compare.import);
-  raw.compare.progress = !raw.no_progress && !raw.compare.json && !raw.compare.csv && !raw.compare.quiet;
+  raw.compare.progress =
+      !raw.no_progress && !raw.compare.json && !raw.compare.csv && !raw.compare.quiet;
   return Command{raw.compare};
 }
 

@@ -27,7 +27,7 @@ struct FitOptions {
   FitJob job;
   ImportOptions import;
   ExportOptions formats;
-  std::string profile;  ///< what --for chose, in words; empty without it
+  std::string profile;            ///< what --for chose, in words; empty without it
   std::vector<std::string> idle;  ///< what is to be said of options that nothing uses
   std::optional<Units> units;
   std::optional<RegionJob> construction;  ///< of the papers, in place of the job
@@ -49,7 +49,7 @@ struct ConvertOptions {
   ImportOptions import;
   std::vector<std::string> outputs;
   ExportOptions formats;
-  std::string profile;  ///< what --for chose, in words; empty without it
+  std::string profile;            ///< what --for chose, in words; empty without it
   std::vector<std::string> idle;  ///< what is to be said of options that nothing uses
   std::optional<Units> units;
   bool csv = false;

@@ -59,8 +59,7 @@ Result<std::vector<OneOf>> all_of_them(const std::vector<std::string>& inputs,
     const std::size_t curves = drawing->curves.size();
     for (std::size_t i = 0; i < curves + drawing->series.size(); ++i) {
       const bool taken =
-          i < curves ||
-          (points && drawing->series[i - curves].kind != SeriesKind::kWaypoints);
+          i < curves || (points && drawing->series[i - curves].kind != SeriesKind::kWaypoints);
       if (taken) out.push_back({name, i, fmt::format("{}-{}", id_of(name), i + 1)});
     }
   }

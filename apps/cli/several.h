@@ -19,7 +19,7 @@ namespace obvid {
 struct OneOf {
   std::string input;
   std::optional<std::size_t> curve;  ///< of a drawing, from 0
-  std::string id;                    ///< in names of outputs: name of the file, and the curve's number
+  std::string id;  ///< in names of outputs: name of the file, and the curve's number
 
   [[nodiscard]] std::string shown() const;
 };
@@ -68,7 +68,7 @@ class Several {
 
   std::vector<OneOf> all_;
   SummaryForm form_;
-  std::vector<SummaryCell> columns_;  ///< of the first that has figures
+  std::vector<SummaryCell> columns_;                      ///< of the first that has figures
   std::vector<std::pair<std::string, Summary>> waiting_;  ///< without figures, before these
   std::size_t fine_ = 0;
   std::optional<Error> first_;

@@ -329,7 +329,8 @@ int convert_in_space(const StoredSpaceChain& stored, const ConvertOptions& optio
 std::optional<int> run_in_space(const FitOptions& options) {
   if (options.flat) return std::nullopt;
   auto series = options.text
-                    ? parse_space_series(*options.text, options.name(), options.along.has_value(), options.import)
+                    ? parse_space_series(*options.text, options.name(), options.along.has_value(),
+                                         options.import)
                     : space_series(options.input, options.along.has_value(), options.import);
   if (options.along && series && !*series) {
     return report({ErrorCode::kBadOption, "there are no points x, y, z whose z changes", "--along",

@@ -10,9 +10,9 @@
 #include "obvid/pipeline/internal/report_json.h"
 #include "obvid/pipeline/space_fit.h"
 #include "obvid/pipeline/stored.h"
+#include "several.h"
 #include "space_fit.h"
 #include "table.h"
-#include "several.h"
 #include "terminal.h"
 #include "text.h"
 
@@ -129,8 +129,8 @@ int judge_contour_file(const StoredContour& stored, const Verification& found,
 Summary summary_of_stored(const OneOf& one) {
   Summary out;
   const Result<std::string> text = read_file(one.input);
-  const Result<Stored> read = text.and_then(
-      [&](const std::string& content) { return parse_stored(content, one.input); });
+  const Result<Stored> read =
+      text.and_then([&](const std::string& content) { return parse_stored(content, one.input); });
   if (!read) {
     out.error = read.error();
     return out;
@@ -155,9 +155,8 @@ int verify_several(const VerifyOptions& options) {
   const auto all = all_of_them(options.inputs, options.input, {}, false);
   if (!all) return report(all.error());
   Several several(*all, summary_form(false, options.json, options.quiet));
-  return several.run({}, [](const OneOf& one, const std::vector<std::string>&) {
-    return summary_of_stored(one);
-  });
+  return several.run(
+      {}, [](const OneOf& one, const std::vector<std::string>&) { return summary_of_stored(one); });
 }
 
 }  // namespace
@@ -166,8 +165,7 @@ int run(const VerifyOptions& options) {
   if (!options.inputs.empty()) return verify_several(options);
   for (const std::string& path : options.outputs) {
     if (path.ends_with(".json")) continue;
-    return report({ErrorCode::kUnknownFormat, "answers are written as JSON", path,
-                   "name a .json"});
+    return report({ErrorCode::kUnknownFormat, "answers are written as JSON", path, "name a .json"});
   }
   if (auto free = check_outputs(options.outputs, {&options.input, 1}); !free) {
     return report(free.error());

@@ -111,8 +111,9 @@ class HelpPage : public CLI::Formatter {
 
   [[nodiscard]] std::string row(const CLI::Option& option) const {
     const bool positional = !option.nonpositional();
-    return field(option.get_name(positional, true) +
-                 (option.get_type_name().empty() || positional ? "" : " " + option.get_type_name())) +
+    return field(option.get_name(positional, true) + (option.get_type_name().empty() || positional
+                                                          ? ""
+                                                          : " " + option.get_type_name())) +
            beginning(option.get_description()) + "\n";
   }
 
@@ -190,8 +191,7 @@ class HelpPage : public CLI::Formatter {
 
 /// How `--help` and `-h` of `app` and of its commands look: names in a column of that width;
 /// HelpLines where OBVID_HELP is `lines`. Called before commands are added.
-inline void shape_help(CLI::App& app, std::size_t column_width, int argc,
-                       const char* const* argv) {
+inline void shape_help(CLI::App& app, std::size_t column_width, int argc, const char* const* argv) {
   if (help_as_lines()) {
     app.formatter(std::make_shared<HelpLines>());
   } else {

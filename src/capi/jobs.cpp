@@ -93,8 +93,9 @@ Result<std::unique_ptr<obvid_contour>> stored_of(const obvid_input& input, const
   auto out = std::make_unique<obvid_contour>();
   // a contour that is placed anew is a drawing: its claims spoke of another place
   const bool placed = !input.points && !request.import.placement.changes_nothing();
-  const bool foreign = placed || input.by_path || (!input.points && is_drawing_text(input.text) &&
-                                         file_kind(input.text) != FileKind::kContour);
+  const bool foreign =
+      placed || input.by_path ||
+      (!input.points && is_drawing_text(input.text) && file_kind(input.text) != FileKind::kContour);
   if (foreign) {
     const Result<Drawing> drawing = drawing_of(input);
     OBVID_TRY(drawing);

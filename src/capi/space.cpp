@@ -32,7 +32,8 @@ Result<SpaceSeries> space_series_of(const obvid_input& input, const Request& req
     return for_a_curve(std::move(given));
   }
   if (!input.points && !input.by_path) {
-    auto found = parse_space_series(input.text, input.name, request.along.has_value(), request.import);
+    auto found =
+        parse_space_series(input.text, input.name, request.along.has_value(), request.import);
     OBVID_TRY(found);
     if (*found) return std::move(**found);
   }

@@ -11,8 +11,8 @@ namespace obvid {
 
 /// A column by its name, and the unit that stands beside it ("x_mm", "X [mm]", "x / mm").
 struct ColumnName {
-  std::string name;  ///< lower case
-  std::string unit;  ///< canonical; empty: none is stated
+  std::string name;       ///< lower case
+  std::string unit;       ///< canonical; empty: none is stated
   std::string no_unit{};  ///< what stands in brackets in place of a unit and is none
 };
 

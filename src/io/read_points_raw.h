@@ -26,11 +26,11 @@ struct VspHead {
 /// The rows of a point file as they stand, before an airfoil format is recognised in them.
 struct RawPoints {
   std::string title;
-  bool named = false;       ///< a header names the columns
-  bool our_samples = false; ///< columns as `samples_csv` writes them
-  Units units;              ///< of the column names; assumed when they have none
-  bool white = false;       ///< blanks or tabs separate the fields
-  std::size_t columns = 2;  ///< numbers per row
+  bool named = false;        ///< a header names the columns
+  bool our_samples = false;  ///< columns as `samples_csv` writes them
+  Units units;               ///< of the column names; assumed when they have none
+  bool white = false;        ///< blanks or tabs separate the fields
+  std::size_t columns = 2;   ///< numbers per row
   std::vector<Vec2> points;
   std::vector<std::uint32_t> lines;                 ///< line of each point, from 1
   std::vector<FixedData> fixed;                     ///< empty, or one per point

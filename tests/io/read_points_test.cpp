@@ -502,8 +502,8 @@ TEST(ReadPoints, ChosenColumnsAreXAndYWhateverTheyAreCalled) {
 TEST(ReadPoints, OtherColumnsKeepTheirMeaningBesideChosenOnes) {
   PointListOptions options;
   options.columns = {2, 3};
-  const auto read = parse_points(
-      "x,y,u,v,tol,radius\n0,0,1,2,0.5,\n0,0,3,5,0.5,7\n0,0,4,4,0.5,\n", "f", options);
+  const auto read =
+      parse_points("x,y,u,v,tol,radius\n0,0,1,2,0.5,\n0,0,3,5,0.5,7\n0,0,4,4,0.5,\n", "f", options);
   ASSERT_TRUE(read) << to_line(read.error());
   EXPECT_EQ(read->points, (std::vector<Vec2>{{1, 2}, {3, 5}, {4, 4}}));
   ASSERT_EQ(read->fixed.size(), 3u);

@@ -484,13 +484,13 @@ TEST(Drawings, ACurveIsChosenByItsNameOrAWordOfIt) {
     return chosen ? static_cast<int>(*chosen) : -static_cast<int>(chosen.error().code);
   };
   EXPECT_EQ(number("2b"), 1);
-  EXPECT_EQ(number("HOLE"), 2);                     // all of a name, though a word of another
-  EXPECT_EQ(number("hole"), -203);                  // a word of two
+  EXPECT_EQ(number("HOLE"), 2);     // all of a name, though a word of another
+  EXPECT_EQ(number("hole"), -203);  // a word of two
   EXPECT_EQ(number("edge"), -203);
   EXPECT_EQ(number("track hole"), 3);
   EXPECT_EQ(number("part"), 3);
   EXPECT_EQ(number("2"), 3);
-  EXPECT_EQ(number("ED"), -203);                    // no whole word
+  EXPECT_EQ(number("ED"), -203);  // no whole word
   EXPECT_EQ(number("LID"), -203);
   const auto all = chosen_curve(drawing, {std::nullopt, "", true}, "f");
   ASSERT_FALSE(all);

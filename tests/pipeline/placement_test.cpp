@@ -148,8 +148,9 @@ TEST(DrawnFigures, KindsAreThoseOfThePieces) {
   EXPECT_EQ(circle.kind, "circle");
   expect_at(circle.low, -1.0, -1.0);
   expect_at(circle.high, 1.0, 1.0);
-  EXPECT_EQ(figures_of(audit({"b", {half, LinePiece{{-1.0, 0.0}, {1.0, 0.0}}}, true}, Units{"mm"})).kind,
-            "1 line and 1 arc");
+  EXPECT_EQ(
+      figures_of(audit({"b", {half, LinePiece{{-1.0, 0.0}, {1.0, 0.0}}}, true}, Units{"mm"})).kind,
+      "1 line and 1 arc");
 }
 
 }  // namespace

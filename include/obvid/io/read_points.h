@@ -19,7 +19,8 @@ enum class TwoPoints { kTooFew, kDo };
 struct PointListOptions {
   TwoPoints two = TwoPoints::kTooFew;
   std::size_t skip = 0;  ///< lines at the beginning that are not looked at; errors count them
-  std::optional<std::array<std::size_t, 2>> columns{};  ///< of x and y, from 0, whatever their names
+  std::optional<std::array<std::size_t, 2>>
+      columns{};  ///< of x and y, from 0, whatever their names
 };
 
 /// What is left of a text behind its first lines.

@@ -38,12 +38,12 @@ void add_rounding_warning(PointSeries& series, const Analysis& analysis);
 
 /// Figures of a curve or a series of points that nobody fitted yet, as lists of them show.
 struct DrawnFigures {
-  std::string kind;         ///< "circle", "4 lines and 4 arcs", "spline", ...; of series points,
-                            ///< route, single points, waypoints
-  std::size_t points = 0;   ///< of a series; of a curve the ends of its pieces
-  double length = 0.0;      ///< of a series that of its edges, units
-  bool closed = false;      ///< it ends where it begins
-  Vec2 low, high;           ///< corners of its box: of a curve, not of its control points
+  std::string kind;        ///< "circle", "4 lines and 4 arcs", "spline", ...; of series points,
+                           ///< route, single points, waypoints
+  std::size_t points = 0;  ///< of a series; of a curve the ends of its pieces
+  double length = 0.0;     ///< of a series that of its edges, units
+  bool closed = false;     ///< it ends where it begins
+  Vec2 low, high;          ///< corners of its box: of a curve, not of its control points
 };
 
 [[nodiscard]] DrawnFigures figures_of(const PointSeries& series);

@@ -63,7 +63,7 @@ struct ImportOptions {
   CurveChoice curve;  ///< default the longest
   DrawnUse use = DrawnUse::kAutomatic;
   std::optional<double>
-      tolerance;  ///< largest distance of a chord from its curve [1e-4 of the size]
+      tolerance;            ///< largest distance of a chord from its curve [1e-4 of the size]
   PointListOptions list{};  ///< of lists of points
   Placement placement{};    ///< of whatever is read
 };

@@ -20,9 +20,9 @@ enum class Mirror {
 /// curvatures, their ranges, tolerances, and pieces that are drawn. Names of units stay.
 struct Placement {
   Mirror mirror = Mirror::kNone;
-  double scale = 1.0;   ///< positive
-  double turn = 0.0;    ///< rad, counter-clockwise; quarter turns are exact
-  Vec3 move{};          ///< units of what was scaled
+  double scale = 1.0;  ///< positive
+  double turn = 0.0;   ///< rad, counter-clockwise; quarter turns are exact
+  Vec3 move{};         ///< units of what was scaled
 
   [[nodiscard]] bool changes_nothing() const {
     return mirror == Mirror::kNone && scale == 1.0 && turn == 0.0 && move == Vec3{};

@@ -20,15 +20,15 @@
 namespace obvid {
 
 /// A list of points x, y, z whose z changes; nothing for all other files (drawings, points of the
-/// plane, several series, pipes), and where `import` chooses columns. `any_third`: a third column without a name is z. Errors: E301.
+/// plane, several series, pipes), and where `import` chooses columns. `any_third`: a third column
+/// without a name is z. Errors: E301.
 [[nodiscard]] Result<std::optional<SpaceSeries>> space_series(const std::string& path,
                                                               bool any_third = false,
                                                               const ImportOptions& import = {});
 /// The same of a text that was read already.
-[[nodiscard]] Result<std::optional<SpaceSeries>> parse_space_series(const std::string& text,
-                                                                    const std::string& name,
-                                                                    bool any_third = false,
-                                                                    const ImportOptions& import = {});
+[[nodiscard]] Result<std::optional<SpaceSeries>> parse_space_series(
+    const std::string& text, const std::string& name, bool any_third = false,
+    const ImportOptions& import = {});
 
 /// How a spatial series becomes a curve.
 struct SpaceJob {

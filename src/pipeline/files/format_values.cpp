@@ -84,8 +84,8 @@ Result<void> set_placement(const FormatValues& typed, Placement& placement) {
   placement.scale = typed.scale.value_or(1.0);
   placement.turn = std::remainder(typed.rotate_deg.value_or(0.0), 360.0) * kOneDegree;
   if (!typed.mirror.empty()) {
-    const auto mirror = value_named<Mirror>({{"x", Mirror::kX}, {"y", Mirror::kY}}, typed.mirror,
-                                            "--mirror");
+    const auto mirror =
+        value_named<Mirror>({{"x", Mirror::kX}, {"y", Mirror::kY}}, typed.mirror, "--mirror");
     OBVID_TRY(mirror);
     placement.mirror = *mirror;
   }

@@ -39,9 +39,7 @@ std::string csv_cell(const std::string& text) {
   return out + "\"";
 }
 
-std::string csv_cell(double value) {
-  return std::isfinite(value) ? fmt::format("{}", value) : "";
-}
+std::string csv_cell(double value) { return std::isfinite(value) ? fmt::format("{}", value) : ""; }
 
 std::string summary_csv_head(const std::vector<SummaryCell>& cells) {
   std::string out = "input";
@@ -115,20 +113,19 @@ std::vector<SummaryCell> summary_cells(const AnalysedDrawing& drawing) {
   double length = 0.0;
   for (const CurveAudit& one : drawing.audits) length += one.length;
   for (const PointSeries& one : drawing.drawing.series) length += figures_of(one).length;
-  return {count_cell("curves", drawing.audits.size(), "curve", "curves"),
-          count_cell("series", drawing.drawing.series.size(), "series of points",
-                     "series of points"),
-          {"length", fmt::format("length {} {}", significant(length),
-                                 drawing.drawing.units.text()),
-           csv_cell(length)}};
+  return {
+      count_cell("curves", drawing.audits.size(), "curve", "curves"),
+      count_cell("series", drawing.drawing.series.size(), "series of points", "series of points"),
+      {"length", fmt::format("length {} {}", significant(length), drawing.drawing.units.text()),
+       csv_cell(length)}};
 }
 
 std::vector<SummaryCell> summary_cells(const Contour& contour, const Certificate& certificate) {
-  return {count_cell("pieces", contour.pieces.size(), "piece", "pieces"),
-          count_cell("vertices", static_cast<std::size_t>(certificate.vertices), "vertex",
-                     "vertices"),
-          count_cell("inflections", static_cast<std::size_t>(certificate.inflections),
-                     "inflection", "inflections")};
+  return {
+      count_cell("pieces", contour.pieces.size(), "piece", "pieces"),
+      count_cell("vertices", static_cast<std::size_t>(certificate.vertices), "vertex", "vertices"),
+      count_cell("inflections", static_cast<std::size_t>(certificate.inflections), "inflection",
+                 "inflections")};
 }
 
 }  // namespace obvid
