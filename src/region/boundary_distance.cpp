@@ -55,6 +55,36 @@ class Placement {
   TwoArcs from_start_, to_end_;
 };
 
+/// The place between two others where f is largest, which rises to it and falls from it.
+template <class F>
+double top_in_thirds(const F& f, double low, double high) {
+  constexpr int kThirds = 60;  // (2/3)^60 = 3e-11 of a step; the value is flat there
+  for (int n = 0; n < kThirds; ++n) {
+    const double a = low + (high - low) / 3.0, b = high - (high - low) / 3.0;
+    (f(a) < f(b) ? low : high) = f(a) < f(b) ? a : b;
+  }
+  return 0.5 * (low + high);
+}
+
+/// Where f, 0 at all places that were looked at, is largest nearer than `step` to the ends of
+/// [0, 1].
+template <class F>
+double largest_beside_ends(const F& f, double step) {
+  constexpr int kHalvings = 40;
+  double best = 0.0, most = 0.0;
+  for (int n = 1; n <= kHalvings; ++n) {
+    const double t = std::ldexp(step, -n);
+    for (const bool back : {false, true}) {
+      const double at = back ? 1.0 - t : t;
+      if (!(f(at) > most)) continue;
+      best = back ? top_in_thirds(f, 1.0 - 2.0 * t, 1.0 - 0.5 * t)
+                  : top_in_thirds(f, 0.5 * t, 2.0 * t);
+      most = f(best);
+    }
+  }
+  return best;
+}
+
 /// Largest value of f on [0, 1]: some places, closer together towards both ends, where curves leave
 /// a region and return at once, then thirds around each that is higher than its neighbours and
 /// nearly as high as the highest.
@@ -68,19 +98,14 @@ double largest_at(const F& f, int samples) {
   std::vector<double> value;
   for (int i = 0; i <= samples; ++i) value.push_back(f(place(i)));
   const auto highest = std::max_element(value.begin(), value.end());
+  if (*highest == 0.0) return largest_beside_ends(f, place(1));
   const double high_enough = kNearlyAsHigh * *highest;
   double most = *highest, best = place(static_cast<int>(highest - value.begin()));
   for (int i = 0; i <= samples; ++i) {
     const auto at = [&](int k) { return value[static_cast<std::size_t>(k)]; };
     const int before = std::max(0, i - 1), after = std::min(samples, i + 1);
     if (!(at(i) >= high_enough && at(i) >= at(before) && at(i) >= at(after))) continue;
-    double low = place(before), high = place(after);
-    constexpr int kThirds = 60;  // (2/3)^60 = 3e-11 of a step; the value is flat there
-    for (int n = 0; n < kThirds; ++n) {
-      const double a = low + (high - low) / 3.0, b = high - (high - low) / 3.0;
-      (f(a) < f(b) ? low : high) = f(a) < f(b) ? a : b;
-    }
-    const double t = 0.5 * (low + high);
+    const double t = top_in_thirds(f, place(before), place(after));
     if (f(t) < most) continue;
     most = f(t);
     best = t;

@@ -50,6 +50,12 @@ class EdgeChain {
         chords_(measure_chords(series_.points)),
         watch_(watch) {}
 
+  /// Whether headings and curvatures are left with which every link has a spiral.
+  [[nodiscard]] bool has_data() const {
+    return central_data(links(), nodes(), {}, ChoiceOrder::kAlong, SharpCurvature::kCalm, &watch_)
+        .has_value();
+  }
+
   /// The first choice of data whose spirals are proved.
   std::optional<SeriesChain> run() const {
     const std::vector<RangeLink> along = links();
@@ -326,6 +332,7 @@ bool keeps_what_is_given(const SeriesChain& chain, const ChainWishes& wishes) {
 /// With data that ask for an inflection where the adjacent circles show none.
 std::optional<SeriesChain> bent_as_needed(const Directed& series, const ChainWishes& wishes,
                                           Watch& watch) {
+  if (EdgeChain(wishes, series, watch).has_data()) return std::nullopt;
   Directed bent = series;
   for (NodeData& node : bent.own) node.curvature_sign = 0;
   auto chain = EdgeChain(wishes, std::move(bent), watch).run();
