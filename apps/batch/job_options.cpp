@@ -68,7 +68,8 @@ JobOptions known_options() {
         "corner-angle",    "start-heading", "end-heading", "start-radius", "end-radius",
         "heading-at",      "radius-at",     "kappa-at",    "corner-at",    "construction",
         "fixation",        "insert",        "along",       "units",        "curve",
-        "chord-tolerance", "drawing"}) {
+        "chord-tolerance", "drawing",       "columns",     "skip",         "scale",
+        "rotate",          "move",          "mirror"}) {
     out.job.push_back({name});
   }
   for (const char* name : {"convex", "primitives", "closed", "open", "no-corners"}) {

@@ -13,8 +13,8 @@
 #include <utility>
 #include <vector>
 
-#include "help/help_lines.h"
 #include "batch_build_mark.h"
+#include "help/help_lines.h"
 #include "index.h"
 #include "job_options.h"
 #include "merge.h"
@@ -251,7 +251,7 @@ int run(int argc, char** argv) {
   const bool queries = argc > 1 && std::string(argv[1]) == "query";
   CLI::App app(queries ? "What the index of a batch says" : "One job for many inputs",
                queries ? "obvid batch query" : "obvid batch");
-  shape_help(app, kHelpColumn);
+  shape_help(app, kHelpColumn, argc, argv);
   app.set_version_flag("--version", obvid_batch_mark);
   if (queries) {
     app.add_option("TABLE", query.table, "out.h5 of the batch, or its .sqlite")->required();

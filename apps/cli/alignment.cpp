@@ -76,7 +76,7 @@ bool is_element_table(const std::string& path) { return format_of(path) == FileF
 int run(const AlignmentCommand& command) {
   Result<std::vector<Output>> outputs = outputs_of(command.outputs, command.input);
   if (!outputs) return report(outputs.error());
-  Result<PointSeries> series = read_series(command.input, {});
+  Result<PointSeries> series = read_series(command.input, command.import);
   if (!series) return report(series.error());
   if (command.units) take_units(*series, *command.units);
   ProgressBar bar(!command.quiet);

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "cli_app.h"
+#include "obvid/pipeline/internal/format_values.h"
 #include "options.h"
 
 namespace obvid {
@@ -16,6 +17,9 @@ namespace {
 struct RawAlignment {
   AlignmentCommand command;
   std::optional<std::string> noise, units;
+  std::string format;  ///< of what -o sends to standard output
+  bool csv = false;
+  FormatValues reading;
 };
 
 void add_alignment_options(CLI::App& app, RawAlignment& raw) {
@@ -23,18 +27,17 @@ void add_alignment_options(CLI::App& app, RawAlignment& raw) {
   app.add_option("POINTS", command.input,
                  "File with x and y per line, or a drawing or map with a list of points; a column "
                  "tol gives tolerances of single points; - is standard input");
-  app.add_option("-o,--output", command.outputs,
-                 "File to write: .xml LandXML, .xodr OpenDRIVE, .dxf, .json contour, .step, .svg "
-                 "and every other ending of obvid convert; .csv is the table of elements; may be "
-                 "repeated")
-      ->type_name("OUT")
-      ->allow_extra_args(false);
+  add_output(app, command.outputs, raw.format,
+             "File to write: .xml LandXML, .xodr OpenDRIVE, .dxf, .json contour, .step, .svg "
+             "and every other ending of obvid convert; .csv is the table of elements");
   app.add_option("--noise", raw.noise,
                  "How far the alignment may pass the points, input units, or rounding: half a unit "
                  "of the last printed digit [rounding]")
       ->type_name("EPS");
   app.add_option("--units", raw.units, "Unit of the input: m, ft, usft, km, ... [as the file says]")
       ->type_name("NAME");
+  add_import(app, raw.reading);
+  app.add_flag("--csv", raw.csv, "Table of elements as CSV on standard output, as -o NAME.csv");
   app.add_flag("--json", command.json, "JSON on standard output instead of the table");
   app.add_flag("-q,--quiet", command.quiet, "Print nothing but errors and warnings");
   app.footer(
@@ -46,6 +49,11 @@ void add_alignment_options(CLI::App& app, RawAlignment& raw) {
 
 Result<void> check_alignment(RawAlignment& raw) {
   AlignmentCommand& command = raw.command;
+  OBVID_TRY(set_import(raw.reading, command.import));
+  OBVID_TRY(settle_streams(command, raw.format, raw.csv));
+  if (raw.csv) command.outputs.emplace_back("-.csv");
+  if (raw.csv) command.quiet = true;
+  command.input = input_or_pipe(command.input);
   if (command.input.empty()) {
     return fail(usage("alignment needs a file of points", "see obvid alignment --help"));
   }
@@ -71,7 +79,7 @@ Result<void> check_alignment(RawAlignment& raw) {
 Result<Command> parse_alignment(int argc, const char* const* argv) {
   CLI::App app("The fewest lines, arcs and clothoids that pass within a tolerance of the points",
                "obvid alignment");
-  shape_help(app, kHelpColumn);
+  shape_help(app, kHelpColumn, argc, argv);
   app.allow_extras();
   RawAlignment raw;
   add_alignment_options(app, raw);

@@ -7,6 +7,7 @@
 
 #include "obvid/core/units.h"
 #include "obvid/pipeline/alignment_job.h"
+#include "obvid/pipeline/import.h"
 
 namespace obvid {
 
@@ -16,6 +17,7 @@ struct AlignmentCommand {
   std::vector<std::string> outputs;
   std::string table;  ///< .csv of the elements; empty: none
   AlignmentJob job;
+  ImportOptions import;
   std::optional<Units> units;
   bool json = false;
   bool quiet = false;

@@ -1,34 +1,114 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "obvid/pipeline/analyse.h"
+
 #include <string>
+#include <vector>
 
 #include "audit_report.h"
 #include "commands.h"
-#include "obvid/pipeline/analyse.h"
+#include "obvid/core/files.h"
 #include "obvid/pipeline/import.h"
 #include "obvid/pipeline/internal/report_json.h"
+#include "outputs.h"
 #include "series_report.h"
+#include "several.h"
 #include "terminal.h"
+#include "text.h"
 
 namespace obvid {
+namespace {
 
-int run(const AnalyseOptions& options) {
-  if (is_drawing(options.input)) return audit_drawing(options);
-  if (!options.outputs.empty()) {
-    return report({ErrorCode::kBadOption, "points alone make no picture of a curve",
-                   options.outputs.front(), "use `obvid fit POINTS -o NAME.svg`"});
-  }
+Result<AnalysedSeries> analysed_points(const AnalyseOptions& options) {
   Result<PointSeries> series = read_series(options.input, options.import);
-  if (!series) return report(series.error());
+  OBVID_TRY(series);
   if (options.units) take_units(*series, *options.units);
-  const Result<Analysis> analysis = analyse(series->points);
+  Result<Analysis> analysis = analyse(series->points);
   if (!analysis) {
     warn(series->warnings);
-    return report(analysis.error());
+    return fail(analysis.error());
   }
   add_rounding_warning(*series, *analysis);
-  warn(series->warnings);
-  const std::string text = options.json ? series_report_json(*series, *analysis)
-                                        : series_report_text(*series, *analysis);
+  return AnalysedSeries{std::move(*series), std::move(*analysis)};
+}
+
+/// Tables of points; a picture needs a curve.
+Result<std::vector<std::string>> write_tables(const AnalyseOptions& options,
+                                              const AnalysedSeries& points) {
+  std::vector<Output> files;
+  for (const std::string& path : options.outputs) {
+    if (path.ends_with(".csv")) {
+      files.push_back({path, {}, series_report_csv(points.series, points.analysis)});
+    } else if (path.ends_with(".json")) {
+      files.push_back({path, {}, series_report_json(points.series, points.analysis)});
+    } else {
+      return error(ErrorCode::kBadOption, "points alone make no picture of a curve")
+          .where(path)
+          .hint("use `obvid fit POINTS -o NAME.svg`; analyse writes .csv and .json");
+    }
+  }
+  return write_files(files, options.input);
+}
+
+Summary summary_of_points(const AnalyseOptions& all, const OneOf& one) {
+  Summary out;
+  out.verdict = "read";
+  AnalyseOptions options = all;
+  options.input = one.input;
+  if (is_drawing(one.input)) {
+    auto drawing = analysed_drawing(options);
+    if (!drawing) {
+      out.error = drawing.error();
+      return out;
+    }
+    out.cells = summary_cells(*drawing);
+    out.warnings = drawing->drawing.warnings;
+    return out;
+  }
+  const auto points = analysed_points(options);
+  if (!points) {
+    out.error = points.error();
+    return out;
+  }
+  out.cells = summary_cells(points->series, points->analysis);
+  out.warnings = points->series.warnings;
+  return out;
+}
+
+int analyse_several(const AnalyseOptions& options) {
+  if (!options.outputs.empty()) {
+    return report({ErrorCode::kBadOption, "a picture or table is of one input",
+                   options.outputs.front(), "analyse one file, or leave -o out"});
+  }
+  const auto all = all_of_them(options.inputs, options.input, {}, true);
+  if (!all) return report(all.error());
+  Several several(*all, summary_form(options.csv, options.json, options.quiet));
+  return several.run({}, [&](const OneOf& one, const std::vector<std::string>&) {
+    return summary_of_points(options, one);
+  });
+}
+
+}  // namespace
+
+int run(const AnalyseOptions& options) {
+  if (!options.inputs.empty()) return analyse_several(options);
+  if (auto free = check_outputs(options.outputs, {&options.input, 1}); !free) {
+    return report(free.error());
+  }
+  if (is_drawing(options.input)) return audit_drawing(options);
+  const auto points = analysed_points(options);
+  if (!points) return report(points.error());
+  const auto written = write_tables(options, *points);
+  warn(points->series.warnings);
+  if (!written) return report(written.error());
+  std::string text;
+  if (options.json) {
+    text = series_report_json(points->series, points->analysis);
+  } else if (options.csv) {
+    text = series_report_csv(points->series, points->analysis);
+  } else if (!options.quiet) {
+    text = series_report_text(points->series, points->analysis);
+    if (!written->empty()) text += "\nwritten  " + listed(*written) + "\n";
+  }
   if (auto done = put(text); !done) return report(done.error());
   return 0;
 }

@@ -38,12 +38,10 @@ std::string count_text(const CurveAudit& a, int count) {
   return a.counted ? std::to_string(count) : "-";
 }
 
-std::string curve_table(const std::vector<CurveAudit>& audits) {
+std::string joints_table(const std::vector<CurveAudit>& audits) {
   Table table;
   table.column("curve");
-  table.column("what", Table::Align::kLeft);
   table.column("pieces");
-  table.column("length");
   table.column("joints");
   table.column("vertices");
   table.column("above\n1 %");
@@ -57,8 +55,8 @@ std::string curve_table(const std::vector<CurveAudit>& audits) {
     if (i > before) table.gap();
     before = i + 1;
     const CurveAudit& a = audits[i];
-    table.row({std::to_string(i + 1), a.label, std::to_string(a.contour.pieces.size()),
-               significant(a.length), audit_continuity(a.continuity), count_text(a, a.vertices),
+    table.row({std::to_string(i + 1), std::to_string(a.contour.pieces.size()),
+               audit_continuity(a.continuity), count_text(a, a.vertices),
                count_text(a, a.visible_vertices), count_text(a, a.inflections), least_radius(a)});
   }
   return table.text() + shown_note(shown.size(), audits.size(), "least fair", "curves");
@@ -97,39 +95,34 @@ std::string place_table(const CurveAudit& a) {
   return table.text() + shown_note(shown.size(), a.places.size(), "largest", "places");
 }
 
-/// Series of points go on counting where the curves end.
-std::string series_table(const Drawing& drawing) {
+/// Every curve, then every series of points: whoever asks for one has to see its number.
+std::string list_table(const Drawing& drawing, const std::vector<CurveAudit>& audits) {
   Table table;
   table.column("curve");
-  table.column("what", Table::Align::kLeft);
+  table.column("name", Table::Align::kLeft);
+  table.column("kind", Table::Align::kLeft);
   table.column("points");
   table.column("length");
   table.column("closed", Table::Align::kLeft);
   table.column("width");
   table.column("height");
-  std::vector<double> length;
-  for (const PointSeries& series : drawing.series) length.push_back(figures_of(series).length);
-  const std::vector<std::size_t> shown = rows_worth_showing(length);
-  std::size_t before = 0;
-  for (const std::size_t i : shown) {
-    if (i > before) table.gap();
-    before = i + 1;
-    const PointSeries& series = drawing.series[i];
-    const SeriesFigures figures = figures_of(series);
-    table.row({std::to_string(drawing.curves.size() + i + 1),
-               fmt::format("{} ({})", series.name, figures.kind),
-               std::to_string(series.points.size()), significant(length[i]),
-               figures.closed ? "yes" : "no", significant(figures.box.x),
-               significant(figures.box.y)});
-  }
-  return table.text() + shown_note(shown.size(), drawing.series.size(), "longest", "series");
+  std::size_t number = 0;
+  const auto add = [&](const std::string& name, const DrawnFigures& figures) {
+    table.row({std::to_string(++number), name, figures.kind, std::to_string(figures.points),
+               significant(figures.length), figures.closed ? "yes" : "no",
+               significant(figures.high.x - figures.low.x),
+               significant(figures.high.y - figures.low.y)});
+  };
+  for (const CurveAudit& a : audits) add(a.label, figures_of(a));
+  for (const PointSeries& series : drawing.series) add(series.name, figures_of(series));
+  return table.text();
 }
 
-/// Curves whose places are listed: the one that was asked for, or the first few.
+/// Curves whose places are listed: the one that was asked for, all, or the first few.
 std::vector<std::size_t> detailed(const std::vector<CurveAudit>& audits,
-                                  const std::optional<std::size_t>& asked) {
+                                  const std::optional<std::size_t>& asked, bool all) {
   if (asked) return *asked < audits.size() ? std::vector{*asked} : std::vector<std::size_t>{};
-  std::vector<std::size_t> out(std::min(audits.size(), kMostDetailed));
+  std::vector<std::size_t> out(all ? audits.size() : std::min(audits.size(), kMostDetailed));
   std::iota(out.begin(), out.end(), std::size_t{0});
   return out;
 }
@@ -157,21 +150,17 @@ std::string unplaced_text(const CurveAudit& a) {
       counted(static_cast<std::size_t>(a.inflections), "inflection", "inflections"));
 }
 
-std::string audit_text(const Drawing& drawing, const std::vector<CurveAudit>& audits,
-                       const std::optional<std::size_t>& asked) {
+std::string audit_text(const AnalysedDrawing& analysed, bool all) {
+  const auto& [drawing, audits, points, asked] = analysed;
   std::string out = bold(drawing.name) + "\n";
-  out += fmt::format("lengths in {}", drawing.units.text());
+  out += fmt::format("lengths in {}\n\n", drawing.units.text());
+  out += list_table(drawing, audits);
   if (!audits.empty()) {
-    out += "; joints: G3 continuous slope of curvature, G2 curvature, G1 tangent, G0 corners\n\n";
-    out += curve_table(audits);
-  } else {
-    out += "\n";
+    out += "\njoints: G3 continuous slope of curvature, G2 curvature, G1 tangent, G0 corners\n\n";
+    out += joints_table(audits);
   }
-  if (!drawing.series.empty()) {
-    out += "\n" + series_table(drawing);
-    out += "\npoints are for `obvid fit FILE --curve N`\n";
-  }
-  for (const std::size_t i : detailed(audits, asked)) {
+  if (!drawing.series.empty()) out += "\npoints are for `obvid fit FILE --curve N`\n";
+  for (const std::size_t i : detailed(audits, asked, all)) {
     if (audits[i].places.empty() && audits[i].straightened == 0) continue;
     out += fmt::format("\ncurve {}, {}\n", i + 1, audits[i].label);
     add_straightened(audits[i], out);
@@ -182,27 +171,39 @@ std::string audit_text(const Drawing& drawing, const std::vector<CurveAudit>& au
 }
 
 /// The picture is of one curve: the one that was asked for, else the longest.
-const CurveAudit& pictured(const std::vector<CurveAudit>& audits, const ImportOptions& options) {
-  if (options.curve && *options.curve < audits.size()) return audits[*options.curve];
+const CurveAudit& pictured(const std::vector<CurveAudit>& audits,
+                           const std::optional<std::size_t>& asked) {
+  if (asked && *asked < audits.size()) return audits[*asked];
   return *std::max_element(
       audits.begin(), audits.end(),
       [](const CurveAudit& a, const CurveAudit& b) { return a.length < b.length; });
 }
 
+std::string audit_report_json(const AnalysedDrawing& analysed) {
+  const auto& points = analysed.points;
+  return audit_json(analysed.drawing, analysed.audits,
+                    points ? series_report_json(points->series, points->analysis) : "");
+}
+
 Result<std::vector<std::string>> write_audit_pictures(const AnalyseOptions& options,
-                                                      const std::string& name,
-                                                      const std::vector<CurveAudit>& audits) {
+                                                      const AnalysedDrawing& analysed) {
+  const std::vector<CurveAudit>& audits = analysed.audits;
   Result<std::vector<Output>> outputs = outputs_of(options.outputs, options.input);
   OBVID_TRY(outputs);
   for (Output& output : *outputs) {
-    if (output.format != FileFormat::kPicture || audits.empty()) {
-      return error(ErrorCode::kBadOption, "analyse writes a picture of a curve, nothing else")
-          .where(output.path)
-          .hint("name an .svg");
+    if (output.format == FileFormat::kSamples || output.format == FileFormat::kContour) {
+      output.text = output.format == FileFormat::kSamples ? drawing_csv(analysed.drawing, audits)
+                                                          : audit_report_json(analysed);
+      continue;
     }
-    const CurveAudit& a = pictured(audits, options.import);
+    if (output.format != FileFormat::kPicture || audits.empty()) {
+      return error(ErrorCode::kBadOption, "analyse writes a picture of a curve (.svg), and tables")
+          .where(output.path)
+          .hint("name an .svg, .csv or .json");
+    }
+    const CurveAudit& a = pictured(audits, analysed.asked);
     ExportOptions titled;
-    titled.picture = {name + ": " + a.label, as_drawn(a)};
+    titled.picture = {analysed.drawing.name + ": " + a.label, as_drawn(a)};
     titled.plots = options.plots;
     const auto drawn =
         export_contour({a.contour, std::nullopt, a.certificate}, FileFormat::kPicture, titled);
@@ -214,24 +215,29 @@ Result<std::vector<std::string>> write_audit_pictures(const AnalyseOptions& opti
 
 }  // namespace
 
-int audit_drawing(const AnalyseOptions& options) {
+Result<AnalysedDrawing> analysed_drawing(const AnalyseOptions& options) {
   Result<Drawing> drawing = read_drawing(options.input);
-  if (!drawing) return report(drawing.error());
+  OBVID_TRY(drawing);
   if (options.units) {
     if (auto told = take_units(drawing->units, *options.units)) drawing->warnings.push_back(*told);
   }
-  const auto analysed = analyse_drawing(std::move(*drawing), options.import.curve, options.input);
+  return analyse_drawing(std::move(*drawing), options.import, options.input);
+}
+
+int audit_drawing(const AnalyseOptions& options) {
+  const auto analysed = analysed_drawing(options);
   if (!analysed) return report(analysed.error());
-  const auto& [all, audits, points] = *analysed;
-  const auto written = write_audit_pictures(options, all.name, audits);
-  warn(all.warnings);
+  const auto written = write_audit_pictures(options, *analysed);
+  warn(analysed->drawing.warnings);
   if (!written) return report(written.error());
+  const auto& [all, audits, points, asked] = *analysed;
   std::string text;
   if (options.json) {
-    text =
-        audit_json(all, audits, points ? series_report_json(points->series, points->analysis) : "");
-  } else {
-    text = audit_text(all, audits, options.import.curve);
+    text = audit_report_json(*analysed);
+  } else if (options.csv) {
+    text = drawing_csv(all, audits);
+  } else if (!options.quiet) {
+    text = audit_text(*analysed, options.import.curve.all);
     if (points) text += "\n" + series_report_text(points->series, points->analysis);
     if (!written->empty()) text += "\nwritten  " + listed(*written) + "\n";
   }

@@ -1,10 +1,20 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "cli_app.h"
 
+#include <poll.h>
+#include <sys/ioctl.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
 #include <algorithm>
+#include <cctype>
+#include <cerrno>
 #include <optional>
 #include <string>
 #include <utility>
+
+#include "commands.h"
+#include "obvid/core/units.h"
 
 namespace obvid {
 
@@ -33,6 +43,105 @@ Result<void> check_extras(const CLI::App& command, const std::vector<std::string
   return fail(usage("one argument too many: '" + extras.front() + "'", see));
 }
 
+void add_output(CLI::App& command, std::vector<std::string>& outputs, std::string& format,
+                const std::string& help, const char* fallback) {
+  command.add_option("-o,--output", outputs, help + "; - is standard output; may be repeated")
+      ->type_name("OUT")
+      ->allow_extra_args(false);
+  command
+      .add_option("--format", format,
+                  std::string("Of -o -, a file extension: json, svg, ... [") + fallback + "]")
+      ->type_name("NAME");
+}
+
+void add_reading(CLI::App& command, FormatValues& values) {
+  const char* group = "Reading the input";
+  const auto add = [&](const char* name, auto& value, const char* type, const char* help) {
+    command.add_option(name, value, help)->type_name(type)->group(group);
+  };
+  add("--columns", values.columns, "X,Y",
+      "Columns of x and y in a list of points, counted from 1, whatever their names [as the names "
+      "say; else 1,2]");
+  add("--skip", values.skip, "N", "Lines at the beginning that are not looked at [0]");
+  add("--mirror", values.mirror, "AXIS",
+      "Across the axis x (y changes its sign) or y; given headings and curvatures of the file go "
+      "along, in options they are those of the result; then:");
+  add("--scale", values.scale, "F", "All lengths times F; the unit keeps its name; then:");
+  add("--rotate", values.rotate_deg, "DEG", "About the origin, degrees counter-clockwise; then:");
+  add("--move", values.move, "DX,DY", "By these lengths along x and y (and z: DX,DY,DZ)");
+}
+
+void add_import(CLI::App& command, FormatValues& values) {
+  add_reading(command, values);
+  const char* group = "Drawings as input";
+  command
+      .add_option("--curve", values.curve,
+                  "Which curve of a drawing (STEP, IGES, BREP, DXF, ...): its number from 1, its "
+                  "name, or a word of the name that no other has (a handle, a layer); all: each "
+                  "of them (analyse, fit, convert) [the longest]")
+      ->type_name("N|NAME|all")
+      ->group(group);
+  command
+      .add_option("--chord-tolerance", values.chord_tolerance,
+                  "Largest distance of a chord from the curve that is sampled, input units [1e-4 "
+                  "of its size]")
+      ->type_name("T")
+      ->group(group);
+  command
+      .add_option("--drawing", values.drawing,
+                  "Which pieces stay as they are drawn: auto (lines, arcs, ellipses, clothoids; "
+                  "chords of curves and splines become points), exact (every line), points (none) "
+                  "[auto]")
+      ->type_name("NAME")
+      ->group(group);
+}
+
+Result<bool> take_standard_output(std::vector<std::string>& outputs, const std::string& format,
+                                  const char* taken, const char* fallback) {
+  bool any = false;
+  for (std::string& output : outputs) {
+    if (output != "-") continue;
+    any = true;
+    const std::string ending = format.empty() ? fallback : format;
+    output = (ending.starts_with(".") ? "-" : "-.") + ending;
+  }
+  if (!any && !format.empty()) {
+    return fail(bad_option("the format of a file is its extension", "--format",
+                           "it is for standard output: -o -"));
+  }
+  if (any && taken != nullptr) {
+    return fail(bad_option("standard output cannot hold two things", taken,
+                           "leave it out, or name a file for -o"));
+  }
+  return any;
+}
+
+namespace {
+
+/// Waits for the first byte or the end of a pipe.
+bool pipe_has_bytes(int file) {
+  pollfd pipe{file, POLLIN, 0};
+  int bytes = 0;
+  while (::poll(&pipe, 1, -1) < 0) {
+    if (errno != EINTR) return false;
+  }
+  return ::ioctl(file, FIONREAD, &bytes) == 0 && bytes > 0;
+}
+
+}  // namespace
+
+std::string input_or_pipe(const std::string& input) {
+  struct stat in {};
+  if (!input.empty() || ::fstat(STDIN_FILENO, &in) != 0) return input;
+  if (S_ISREG(in.st_mode)) {
+    if (::lseek(STDIN_FILENO, 0, SEEK_CUR) >= in.st_size) return input;
+  } else if (!S_ISFIFO(in.st_mode) || !pipe_has_bytes(STDIN_FILENO)) {
+    return input;
+  }
+  keep_standard_input();
+  return "-";
+}
+
 namespace {
 
 /// `--option = value`, as the parser ends its sentence about a value that it cannot read.
@@ -49,6 +158,12 @@ std::optional<Error> unreadable_value(const std::string& what, const std::string
     std::string point = value;
     std::replace(point.begin(), point.end(), ',', '.');
     hint = "write it with a decimal point: " + point + "; " + help;
+  }
+  const std::size_t digits = value.find_first_not_of("0123456789.+-");
+  if (digits != std::string::npos && digits > 0 && std::isalpha(value[digits]) != 0 &&
+      canonical_unit(value.substr(digits))) {
+    hint = "write the number alone, " + value.substr(0, digits) + ": lengths are in the unit of " +
+           "the input; " + help;
   }
   return bad_option("'" + value + "' is no value of " + option, "", hint);
 }

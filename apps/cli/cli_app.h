@@ -21,6 +21,7 @@ inline bool CLI::detail::lexical_cast<double>(const std::string& typed, double& 
 #include "help/help_lines.h"
 #include "obvid/core/internal/near_name.h"
 #include "obvid/core/result.h"
+#include "obvid/pipeline/internal/format_values.h"
 #include "obvid/pipeline/internal/job_values.h"
 
 namespace obvid {
@@ -36,6 +37,42 @@ namespace obvid {
 
 /// An error of CLI11 in the words of this program.
 [[nodiscard]] Error from_cli(const CLI::ParseError& error, const std::string& name);
+
+/// `-o OUT`, and `--format` of what goes to standard output.
+void add_output(CLI::App& command, std::vector<std::string>& outputs, std::string& format,
+                const std::string& help, const char* fallback = "json");
+
+/// What is looked at before anything else: columns, lines, places.
+void add_reading(CLI::App& command, FormatValues& values);
+/// That, and how curves of drawings are taken.
+void add_import(CLI::App& command, FormatValues& values);
+
+/// Gives `-o -` its ending, `fallback` where --format says none. True: something goes to standard
+/// output, and nothing else may. Error: E203 where `taken`, an option, sends something else there,
+/// or --format has no `-o -` beside it.
+[[nodiscard]] Result<bool> take_standard_output(std::vector<std::string>& outputs,
+                                                const std::string& format, const char* taken,
+                                                const char* fallback = "json");
+
+/// Where the results of a command go: one thing at most to standard output, which is then all that
+/// stands there. Error: E203.
+template <class Options>
+[[nodiscard]] Result<void> settle_streams(Options& options, const std::string& format,
+                                          bool csv = false, const char* fallback = "json") {
+  if (options.json && csv) {
+    return fail(
+        bad_option("standard output cannot hold two things", "--csv", "leave it or --json out"));
+  }
+  const char* taken = options.json ? "--json" : csv ? "--csv" : nullptr;
+  const auto streamed = take_standard_output(options.outputs, format, taken, fallback);
+  OBVID_TRY(streamed);
+  if (*streamed) options.quiet = true;
+  return {};
+}
+
+/// What a command takes in place of a missing input: "-" where something comes through a pipe or
+/// from a file, else nothing. Waits for it; reads nothing.
+[[nodiscard]] std::string input_or_pipe(const std::string& input);
 
 /// Width of the column of names in `--help`.
 inline constexpr std::size_t kHelpColumn = 28;

@@ -8,6 +8,10 @@ namespace obvid {
 /// The whole program: what the arguments ask for; the exit code.
 int run_guarded(int argc, const char* const* argv);
 
+/// Called before standard input is read where no argument says so: the launcher's first program
+/// keeps it for the whole one.
+void keep_standard_input();
+
 /// Each runs one subcommand and returns the exit code.
 int run(const FitOptions& options);
 int run(const AnalyseOptions& options);

@@ -15,6 +15,7 @@
 #include "obvid/core/files.h"
 #include "obvid/pipeline/import.h"
 #include "obvid/pipeline/internal/report_json.h"
+#include "obvid/pipeline/internal/summary.h"
 #include "outputs.h"
 #include "table.h"
 #include "terminal.h"
@@ -128,9 +129,6 @@ std::string comparison_text(const PointSeries& series, const Comparison& compare
   return out + (out.back() == '\n' ? "" : "\n");
 }
 
-/// Figures that are not defined are empty cells.
-std::string cell(double value) { return std::isfinite(value) ? fmt::format("{}", value) : ""; }
-
 std::string report_csv(const PointSeries&, const Comparison& compared) {
   std::string out =
       "carrier,pieces,control_points,continuity,vertices,inflections,error_bound,deviation,"
@@ -145,9 +143,9 @@ std::string report_csv(const PointSeries&, const Comparison& compared) {
     out += fmt::format(
         "{},{},{},{},{},{},{},{},{},{},{}\n", to_string(row.carrier), row.fit.contour.pieces.size(),
         row.control_points == 0 ? "" : std::to_string(row.control_points), continuity_name(row),
-        certificate.vertices, certificate.inflections, cell(row.fit.report.largest_deviation),
-        cell(or_unknown(row.fit.report.carrier_deviation)),
-        cell(or_unknown(row.fit.report.outside_spirals_region)), cell(row.seconds),
+        certificate.vertices, certificate.inflections, csv_cell(row.fit.report.largest_deviation),
+        csv_cell(or_unknown(row.fit.report.carrier_deviation)),
+        csv_cell(or_unknown(row.fit.report.outside_spirals_region)), csv_cell(row.seconds),
         verdict_text(row));
   }
   return out;
@@ -208,6 +206,7 @@ int run(const CompareOptions& options) {
   std::string shown = options.json  ? comparison_json(*series, *compared)
                       : options.csv ? report_csv(*series, *compared)
                                     : comparison_text(*series, *compared);
+  if (options.quiet && !options.json && !options.csv) return 0;
   if (!written->empty() && !options.json && !options.csv) {
     shown += "\nwritten  " + listed(*written) + "\n";
   }

@@ -9,6 +9,7 @@
 #include "obvid/pipeline/internal/drawn_contour.h"
 #include "obvid/pipeline/stored.h"
 #include "outputs.h"
+#include "several.h"
 #include "space_fit.h"
 #include "terminal.h"
 #include "text.h"
@@ -16,7 +17,12 @@
 namespace obvid {
 namespace {
 
-bool is_foreign(const std::string& input) { return is_drawing(input) && !input.ends_with(".json"); }
+/// Taken as it is drawn: files of others, and contours that are placed anew, whose claims spoke of
+/// another place.
+bool is_foreign(const ConvertOptions& options) {
+  if (!is_drawing(options.input)) return false;
+  return !options.input.ends_with(".json") || !options.import.placement.changes_nothing();
+}
 
 /// A curve of a drawing as it is, with what can be proved about it.
 Result<StoredContour> from_drawing(const ConvertOptions& options, ExportOptions& formats,
@@ -31,42 +37,110 @@ Result<StoredContour> from_drawing(const ConvertOptions& options, ExportOptions&
   return std::move(drawn->stored);
 }
 
-int convert(const ConvertOptions& options, Result<StoredContour> stored,
-            std::vector<std::string> remarks, ExportOptions formats) {
+struct Converted {
+  std::vector<std::string> files;
+  std::vector<std::string> remarks;
+  std::vector<std::string> warnings;
+};
+
+Result<Converted> converted(const ConvertOptions& options, Result<StoredContour> stored,
+                            std::vector<std::string> remarks, ExportOptions formats) {
   Result<std::vector<Output>> outputs = outputs_of(options.outputs, options.input);
-  if (!outputs) return report(outputs.error());
-  if (!stored) return report(stored.error());
+  OBVID_TRY(outputs);
+  OBVID_TRY(stored);
+  Converted out;
   if (options.units) {
-    if (auto told = take_units(stored->contour.units, *options.units)) warn({*told});
+    if (auto told = take_units(stored->contour.units, *options.units)) {
+      out.warnings.push_back(*told);
+    }
   }
   FileNotes notes;
   const Result<std::vector<Output>> texts = exported(*outputs, *stored, formats, notes);
-  if (!texts) return report(texts.error());
-  warn(notes.warnings);
+  OBVID_TRY(texts);
+  out.warnings.insert(out.warnings.end(), notes.warnings.begin(), notes.warnings.end());
   remarks.insert(remarks.end(), notes.remarks.begin(), notes.remarks.end());
-  const Result<std::vector<std::string>> written = write_files(*texts, options.input);
-  if (!written) return report(written.error());
+  Result<std::vector<std::string>> written = write_files(*texts, options.input);
+  OBVID_TRY(written);
+  out.files = std::move(*written);
+  out.remarks = std::move(remarks);
+  return out;
+}
+
+int tell(const ConvertOptions& options, const Result<Converted>& done) {
+  if (!done) return report(done.error());
+  warn(done->warnings);
   std::string shown;
   if (!options.quiet) {
     if (!options.profile.empty()) shown += options.profile + "\n";
-    for (const std::string& remark : remarks) shown += remark + "\n";
-    shown += "written  " + listed(*written) + "\n";
+    for (const std::string& remark : done->remarks) shown += remark + "\n";
+    shown += "written  " + listed(done->files) + "\n";
   }
-  if (auto done = put(shown); !done) return report(done.error());
+  if (auto put_out = put(shown); !put_out) return report(put_out.error());
   return 0;
+}
+
+ExportOptions formats_of(const ConvertOptions& options) {
+  ExportOptions formats = options.formats;
+  if (options.input != "-") {
+    formats.picture.name = std::filesystem::path(options.input).filename().string();
+  }
+  return formats;
+}
+
+Summary summary_of_files(const ConvertOptions& all, const OneOf& one,
+                         const std::vector<std::string>& outputs) {
+  Summary out;
+  ConvertOptions options = all;
+  options.input = one.input;
+  options.outputs = outputs;
+  if (one.curve) options.import.curve = {one.curve, {}, false};
+  ExportOptions formats = formats_of(options);
+  std::vector<std::string> remarks;
+  Result<StoredContour> stored = [&]() -> Result<StoredContour> {
+    if (is_foreign(options)) return from_drawing(options, formats, remarks);
+    const auto text = read_file(options.input);
+    OBVID_TRY(text);
+    auto read = parse_stored(*text, options.input);
+    OBVID_TRY(read);
+    if (auto* contour = std::get_if<StoredContour>(&*read)) return std::move(*contour);
+    return error(ErrorCode::kUnsupported, "curves in space are converted one file at a time")
+        .where(options.input);
+  }();
+  const auto done = converted(options, std::move(stored), std::move(remarks), std::move(formats));
+  if (!done) {
+    out.error = done.error();
+    return out;
+  }
+  out.warnings = done->warnings;
+  out.verdict = "written " + listed(done->files);
+  return out;
+}
+
+int convert_several(const ConvertOptions& options) {
+  const bool edges = options.import.use == DrawnUse::kExact;
+  const auto all = all_of_them(options.inputs, options.input, options.import.curve, edges);
+  if (!all) return report(all.error());
+  Several several(*all, summary_form(false, false, options.quiet));
+  return several.run(options.outputs,
+                     [&](const OneOf& one, const std::vector<std::string>& outputs) {
+                       return summary_of_files(options, one, outputs);
+                     });
 }
 
 }  // namespace
 
 int run(const ConvertOptions& options) {
+  warn(options.idle);
+  if (are_several(options.inputs, options.import.curve)) return convert_several(options);
   if (auto free = check_outputs(options.outputs, {&options.input, 1}); !free) {
     return report(free.error());
   }
-  ExportOptions formats = options.formats;
-  if (options.input != "-") {
-    formats.picture.name = std::filesystem::path(options.input).filename().string();
-  }
-  if (!is_foreign(options.input)) {
+  ExportOptions formats = formats_of(options);
+  if (!is_foreign(options)) {
+    if (!options.import.placement.changes_nothing()) {
+      return report({ErrorCode::kBadOption, "a contour is placed anew when it comes as a file",
+                     options.input, "name the file"});
+    }
     const Result<std::string> text = read_file(options.input);
     if (!text) return report(text.error());
     const std::string name = options.input == "-" ? "standard input" : options.input;
@@ -75,11 +149,13 @@ int run(const ConvertOptions& options) {
     if (const auto* chain = std::get_if<StoredSpaceChain>(&*stored)) {
       return convert_in_space(*chain, options);
     }
-    return convert(options, std::get<StoredContour>(std::move(*stored)), {}, std::move(formats));
+    return tell(options, converted(options, std::get<StoredContour>(std::move(*stored)), {},
+                                   std::move(formats)));
   }
   std::vector<std::string> remarks;
   auto stored = from_drawing(options, formats, remarks);
-  return convert(options, std::move(stored), std::move(remarks), std::move(formats));
+  return tell(options,
+              converted(options, std::move(stored), std::move(remarks), std::move(formats)));
 }
 
 }  // namespace obvid

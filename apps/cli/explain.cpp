@@ -74,6 +74,7 @@ int run(const ExplainOptions& options) {
           wrapped(found->meaning, ""), wrapped(found->remedy, ""), exit_code(found->code));
     }
   }
+  if (options.quiet) return 0;
   if (auto done = put(text); !done) return report(done.error());
   return 0;
 }

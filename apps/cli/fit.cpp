@@ -12,8 +12,10 @@
 #include "obvid/pipeline/import.h"
 #include "obvid/pipeline/internal/construction_values.h"
 #include "obvid/pipeline/internal/refusal.h"
+#include "obvid/pipeline/space_fit.h"
 #include "outputs.h"
 #include "refusal.h"
+#include "several.h"
 #include "space_fit.h"
 #include "suggest.h"
 #include "terminal.h"
@@ -64,9 +66,78 @@ int judge_fit(const Fit& made, bool files) {
   return report(*broken);
 }
 
+/// The files of a formed contour; notes join its remarks and warnings.
+Result<std::vector<std::string>> write_contour(Fit& made, const std::vector<Output>& outputs,
+                                               const ExportOptions& formats,
+                                               const std::string& input,
+                                               std::vector<std::string>& remarks) {
+  StoredContour stored{std::move(made.contour), made.report, made.certificate};
+  // all texts first, then all files: a failure to form leaves every file as it was
+  FileNotes notes;
+  Result<std::vector<Output>> texts = exported(outputs, stored, formats, notes);
+  made.contour = std::move(stored.contour);
+  OBVID_TRY(texts);
+  auto done = write_files(*texts, input);
+  OBVID_TRY(done);
+  for (std::string& remark : notes.remarks) remarks.push_back(std::move(remark));
+  for (std::string& warning : notes.warnings) made.warnings.push_back(std::move(warning));
+  return done;
+}
+
+/// One of several: what a line says of it.
+Summary summary_of_fit(const FitOptions& all, const OneOf& one,
+                       const std::vector<std::string>& outputs) {
+  Summary out;
+  const auto failed = [&](const Error& error) {
+    out.error = error;
+    return out;
+  };
+  FitOptions options = all;
+  options.input = one.input;
+  if (one.curve) options.import.curve = {one.curve, {}, false};
+  const auto spatial = space_series(options.input, options.along.has_value(), options.import);
+  if (!options.flat && spatial && *spatial) {
+    return failed({ErrorCode::kBadOption, "points in space are formed one file at a time",
+                   options.input, "--flat forms the contours in the plane of x and y"});
+  }
+  Result<PointSeries> series = read_series(options.input, options.import);
+  if (!series) return failed(series.error());
+  if (options.units) take_units(*series, *options.units);
+  Result<Fit> made = options.construction ? fit_construction(*series, *options.construction)
+                                          : fit(*series, options.job);
+  if (!made) {
+    out.warnings = series->warnings;
+    return failed(made.error());
+  }
+  ExportOptions formats = options.formats;
+  formats.picture.name = series->name;
+  if (!series->label.empty()) formats.name = series->label;
+  const auto wanted = outputs_of(outputs, options.input);
+  if (!wanted) return failed(wanted.error());
+  const auto written = write_contour(*made, *wanted, formats, options.input, out.warnings);
+  if (!written) return failed(written.error());
+  out.warnings = made->warnings;
+  out.cells = summary_cells(*made);
+  out.verdict = made->certificate.proved ? "proved" : "formed";
+  if (!options.construction) out.error = broken_promise(*made);
+  return out;
+}
+
+int fit_several(const FitOptions& options) {
+  const auto all = all_of_them(options.inputs, options.input, options.import.curve, true);
+  if (!all) return report(all.error());
+  Several several(*all, summary_form(options.csv, options.json, options.quiet));
+  return several.run(options.outputs,
+                     [&](const OneOf& one, const std::vector<std::string>& outputs) {
+                       return summary_of_fit(options, one, outputs);
+                     });
+}
+
 }  // namespace
 
 int run(const FitOptions& given) {
+  warn(given.idle);
+  if (are_several(given.inputs, given.import.curve)) return fit_several(given);
   FitOptions options = given;
   if (options.input == "-") {
     Result<std::string> text = read_file(options.input);
@@ -86,27 +157,20 @@ int run(const FitOptions& given) {
   if (!options.profile.empty()) written.remarks.push_back(options.profile);
   if (!outputs->empty()) {
     bar.tell("writing", 1.0);
-    StoredContour stored{std::move(made->contour), made->report, made->certificate};
-    // all texts first, then all files: a failure to form leaves every file as it was
-    FileNotes notes;
-    Result<std::vector<Output>> texts = exported(*outputs, stored, formats, notes);
-    Result<std::vector<std::string>> done =
-        texts ? write_files(*texts, options.input)
-              : Result<std::vector<std::string>>(fail(texts.error()));
+    auto done = write_contour(*made, *outputs, formats, options.input, written.remarks);
     if (!done) {
       bar.clear();
       return report(done.error());
     }
     written.files = std::move(*done);
-    for (std::string& remark : notes.remarks) written.remarks.push_back(std::move(remark));
-    for (std::string& warning : notes.warnings) made->warnings.push_back(std::move(warning));
-    made->contour = std::move(stored.contour);
   }
   bar.clear();
   warn(made->warnings);
   std::string text;
   if (options.json) {
     text = fit_report_json(*made, written);
+  } else if (options.csv) {
+    text = fit_report_csv(*made);
   } else if (!options.quiet) {
     text = fit_report_text(formats.picture.name, *made, written);
   }

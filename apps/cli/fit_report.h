@@ -14,6 +14,10 @@ namespace obvid {
 [[nodiscard]] std::string fit_report_text(const std::string& name, const Fit& fit,
                                           const Written& written);
 
+/// The table per segment with all digits: lengths in the unit of the input, curvatures in its
+/// inverse; empty where they are unknown.
+[[nodiscard]] std::string fit_report_csv(const Fit& fit);
+
 /// The last line: what is proved, or why not.
 [[nodiscard]] std::string verdict_line(Carrier carrier, const Certificate& certificate);
 

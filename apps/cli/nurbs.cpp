@@ -99,6 +99,7 @@ int run(const NurbsOptions& options) {
   for (const std::string& path : *files) {
     if (!options.json) text += fmt::format("written        {}\n", path);
   }
+  if (options.quiet && !options.json) return 0;
   if (auto done = put(text); !done) return report(done.error());
   return 0;
 }

@@ -16,6 +16,8 @@ struct RawNurbs {
   std::string knots, knots_v;
   std::vector<std::string> weights, moves;
   std::optional<std::string> units;
+  std::string format;  ///< of what -o sends to standard output
+  bool csv = false;
 };
 
 void add_nurbs_options(CLI::App& app, RawNurbs& raw) {
@@ -23,11 +25,9 @@ void add_nurbs_options(CLI::App& app, RawNurbs& raw) {
   app.add_option("TABLE", options.input,
                  "File with columns x and y (z, w: weights [1]), one control point a row; with "
                  "columns row and col the net of a surface; - is standard input");
-  app.add_option("-o,--output", options.outputs,
-                 "File to write. Curve: .json, .csv (samples), .step, .iges, .brep, .dxf; surface: "
-                 "all that `obvid surface` writes; may be repeated")
-      ->type_name("OUT")
-      ->allow_extra_args(false);
+  add_output(app, options.outputs, raw.format,
+             "File to write. Curve: .json, .csv (samples), .step, .iges, .brep, .dxf; surface: "
+             "all that `obvid surface` writes");
   app.add_option("--degree", options.job.degree, "Degree along the points, 1 to 9 [3]")
       ->type_name("N");
   app.add_option("--degree-v", options.job.degree_v, "Of a surface, from row to row, 1 to 9 [3]")
@@ -50,7 +50,9 @@ void add_nurbs_options(CLI::App& app, RawNurbs& raw) {
       ->type_name("N");
   app.add_option("--units", raw.units, "Unit of the lengths: mm, m, in, ft, ... [mm is assumed]")
       ->type_name("NAME");
+  app.add_flag("--csv", raw.csv, "Samples of a curve as CSV on standard output, as -o NAME.csv");
   app.add_flag("--json", options.json, "JSON on standard output instead of the table");
+  app.add_flag("-q,--quiet", options.quiet, "No table");
   app.footer(
       "Examples:\n"
       "  obvid nurbs points.csv --weight-at 4=3 -o curve.step\n"
@@ -100,6 +102,10 @@ Result<std::vector<std::pair<std::size_t, double>>> at_points(const std::vector<
 
 Result<void> check_nurbs(RawNurbs& raw) {
   NurbsJob& job = raw.options.job;
+  OBVID_TRY(settle_streams(raw.options, raw.format, raw.csv));
+  if (raw.csv) raw.options.outputs.emplace_back("-.csv");
+  if (raw.csv) raw.options.quiet = true;
+  raw.options.input = input_or_pipe(raw.options.input);
   if (raw.options.input.empty()) {
     return fail(usage("nurbs needs a table of control points", "see obvid nurbs --help"));
   }
@@ -136,7 +142,7 @@ Result<void> check_nurbs(RawNurbs& raw) {
 
 Result<Command> parse_nurbs(int argc, const char* const* argv) {
   CLI::App app("NURBS curves and surfaces of control points, weights and knots", "obvid nurbs");
-  shape_help(app, kHelpColumn);
+  shape_help(app, kHelpColumn, argc, argv);
   app.allow_extras();
   RawNurbs raw;
   add_nurbs_options(app, raw);

@@ -19,6 +19,7 @@ struct NurbsOptions {
   std::optional<Units> units;
   std::size_t samples = 200;  ///< rows of a .csv
   bool json = false;
+  bool quiet = false;
 };
 
 }  // namespace obvid

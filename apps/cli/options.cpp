@@ -32,8 +32,8 @@ constexpr const char* kShortHelp =
   obvid verify contour.json                          prove a stored contour again
   obvid explain E401                                 what an error means, what to do
 
-`obvid COMMAND --help` shows options, units and defaults. POINTS is a text file with x and y per
-line, an airfoil file, ... or - for standard input.
+`obvid COMMAND -h` is a page of help, `obvid help COMMAND` all of it with units and defaults. POINTS
+is a text file with x and y per line, an airfoil file, a drawing, ... or comes through a pipe.
 )";
 
 constexpr const char* kExitCodes =
@@ -57,6 +57,8 @@ struct Raw {
   std::string along;
   std::optional<double> tolerance;
   std::optional<std::string> units;
+  std::string format;  ///< of what -o sends to standard output
+  std::vector<std::string> inputs;
 };
 
 /// "arcs (G1), conics, ...": those that promise monotone curvature, or those that do not.
@@ -71,7 +73,11 @@ std::string carriers_listed(bool monotone, const char* between) {
   return out;
 }
 
-constexpr const char* kInputHelp = "File with the points, or - for standard input";
+constexpr const char* kInputHelp =
+    "File with the points, or - for standard input, which is read also where there is no name";
+constexpr const char* kInputsHelp =
+    "File with the points, or - for standard input, which is read also where there is no name; of "
+    "several files a line each";
 constexpr const char* kUnitsHelp =
     "Unit of the lengths: mm, m, in, ft, ...; what files are written in, nothing is converted "
     "[as the file says; else mm is assumed, with a warning where it matters]";
@@ -156,29 +162,6 @@ void add_tolerance(CLI::App& fit, Raw& raw) {
       ->type_name("T");
 }
 
-void add_import(CLI::App& command, FormatValues& values) {
-  const char* group = "Drawings as input";
-  command
-      .add_option("--curve", values.curve,
-                  "Which curve of a drawing (STEP, IGES, BREP, DXF, ...), counted from 1 [the "
-                  "longest]")
-      ->type_name("N")
-      ->group(group);
-  command
-      .add_option("--chord-tolerance", values.chord_tolerance,
-                  "Largest distance of a chord from the curve that is sampled, input units [1e-4 "
-                  "of its size]")
-      ->type_name("T")
-      ->group(group);
-  command
-      .add_option("--drawing", values.drawing,
-                  "Which pieces stay as they are drawn: auto (lines, arcs, ellipses, clothoids; "
-                  "chords of curves and splines become points), exact (every line), points (none) "
-                  "[auto]")
-      ->type_name("NAME")
-      ->group(group);
-}
-
 void add_plot(CLI::App& command, FormatValues& values, const std::string& group) {
   command
       .add_option("--plot", values.plot,
@@ -253,16 +236,13 @@ void add_formats(CLI::App& command, FormatValues& values) {
 
 void add_fit(CLI::App& app, Raw& raw) {
   CLI::App& fit = *app.add_subcommand("fit", "Form a contour through points and prove it");
-  fit.add_option("INPUT", raw.fit.input, kInputHelp);
-  fit.add_option(
-         "-o,--output", raw.fit.outputs,
-         "File to write, format by file extension: " + known_endings() + "; may be repeated")
-      ->type_name("OUT")
-      ->allow_extra_args(false);
-  fit.add_option(
-         "--carrier", raw.carrier,
-         "Curve family: " + carriers_listed(true, ", ") + ", all monotone; " +
-             carriers_listed(false, " and ") + ", not promised to be monotone [spiral]")
+  fit.add_option("INPUT", raw.inputs, kInputsHelp)->type_name("");
+  add_output(fit, raw.fit.outputs, raw.format,
+             "File to write, format by file extension: " + known_endings() +
+                 "; of several inputs 'NAME{id}.svg', {id} being the name of each");
+  fit.add_option("--carrier", raw.carrier,
+                 "Curve family: " + carriers_listed(true, ", ") + ", all monotone; " +
+                     carriers_listed(false, " and ") + ", not promised to be monotone [spiral]")
       ->type_name("NAME");
   fit.add_option("--continuity", raw.typed.continuity,
                  "Of spirals: the curvature is continuous (G2), or its slope too: no kinks in its "
@@ -293,34 +273,40 @@ void add_fit(CLI::App& app, Raw& raw) {
   add_import(fit, raw.formats);
   add_formats(fit, raw.formats);
   fit.add_option("--units", raw.units, kUnitsHelp)->type_name("NAME");
+  fit.add_flag("--csv", raw.fit.csv, "Table of the segments as CSV on standard output");
   fit.add_flag("--json", raw.fit.json, "Report and certificate as JSON on standard output");
-  fit.add_flag("--quiet", raw.fit.quiet, "No table and no progress bar");
+  fit.add_flag("-q,--quiet", raw.fit.quiet, "No table and no progress bar");
   fit.add_flag("--no-progress", raw.no_progress, "No progress bar");
-  fit.footer(std::string("Examples:\n"
-                         "  obvid fit points.csv -o contour.svg -o contour.json\n"
-                         "  obvid fit points.csv --tolerance 0.01 --carrier arcs -o arcs.json\n"
-                         "  obvid fit airfoil.dat --noise rounding -o airfoil.json\n"
-                         "  obvid fit outline.csv --closed --noise 0.5 --heading-at 1=90\n"
-                         "  cat points.txt | obvid fit - --start-heading 90 --json\n\n") +
-             kExitCodes);
+  fit.footer(
+      std::string("Examples:\n"
+                  "  obvid fit points.csv -o contour.svg -o contour.json\n"
+                  "  obvid fit points.csv --tolerance 0.01 --carrier arcs -o arcs.json\n"
+                  "  obvid fit airfoil.dat --noise rounding -o airfoil.json\n"
+                  "  obvid fit outline.csv --closed --noise 0.5 --heading-at 1=90\n"
+                  "  obvid fit *.dat --noise rounding -o 'fair/{id}.step'\n"
+                  "  cat points.txt | obvid fit --start-heading 90 -o - > contour.json\n\n") +
+      kExitCodes);
 }
 
 void add_readers(CLI::App& app, Raw& raw) {
   CLI::App& analyse = *app.add_subcommand(
       "analyse",
       "What the points force: circles, runs, vertices; or the curvature of a drawn curve");
-  analyse.add_option("INPUT", raw.analyse.input,
-                     "File with the points, - for standard input, or a drawing: STEP, IGES, BREP, "
-                     "DXF, contour .json, ...");
   analyse
-      .add_option("-o,--output", raw.analyse.outputs,
-                  "Picture (.svg) of the curvature of a drawn curve")
-      ->type_name("OUT")
-      ->allow_extra_args(false);
+      .add_option("INPUT", raw.inputs,
+                  "File with the points, - for standard input, or a drawing: STEP, IGES, BREP, "
+                  "DXF, contour .json, ...; of several files a line each")
+      ->type_name("");
+  add_output(analyse, raw.analyse.outputs, raw.format,
+             "File to write: .svg picture of the curvature of a drawn curve, .csv the list of "
+             "curves or the table of points, .json the report");
   add_import(analyse, raw.formats);
   analyse.add_option("--units", raw.units, kUnitsHelp)->type_name("NAME");
   add_plot(analyse, raw.formats, "Pictures");
+  analyse.add_flag("--csv", raw.analyse.csv,
+                   "CSV on standard output instead of the table: curves of a drawing, or points");
   analyse.add_flag("--json", raw.analyse.json, "JSON on standard output instead of the table");
+  analyse.add_flag("-q,--quiet", raw.analyse.quiet, "No table");
 }
 
 void add_region(CLI::App& app, Raw& raw) {
@@ -328,12 +314,9 @@ void add_region(CLI::App& app, Raw& raw) {
       "region",
       "Worksheet of points and tangents: ranges of headings and radii, heights and widths");
   region.add_option("INPUT", raw.region.input, kInputHelp);
-  region
-      .add_option("-o,--output", raw.region.outputs,
-                  "File to write: .csv, .tex or .json the tables; .svg or .dxf the limiting arcs, "
-                  "adjacent circles, tangents and triangles; may be repeated")
-      ->type_name("OUT")
-      ->allow_extra_args(false);
+  add_output(region, raw.region.outputs, raw.format,
+             "File to write: .csv, .tex or .json the tables; .svg or .dxf the limiting arcs, "
+             "adjacent circles, tangents and triangles");
   region
       .add_option("--prefer", raw.construction.prefer,
                   "Tangents that are not given: fair (as fit chooses them) or centre (each in the "
@@ -364,7 +347,9 @@ void add_region(CLI::App& app, Raw& raw) {
   add_fixed_data(region, raw.typed);
   add_import(region, raw.formats);
   region.add_option("--units", raw.units, kUnitsHelp)->type_name("NAME");
+  region.add_flag("--csv", raw.region.csv, "CSV on standard output instead of the tables");
   region.add_flag("--json", raw.region.json, "JSON on standard output instead of the tables");
+  region.add_flag("-q,--quiet", raw.region.quiet, "No tables");
   region.footer(
       "Examples:\n"
       "  obvid region points.csv -o region.svg -o region.csv\n"
@@ -376,12 +361,8 @@ void add_compare(CLI::App& app, Raw& raw) {
   CLI::App& compare = *app.add_subcommand(
       "compare", "All curve families side by side: pieces, errors, vertices, continuity, time");
   compare.add_option("INPUT", raw.compare.input, kInputHelp);
-  compare
-      .add_option("-o,--output", raw.compare.outputs,
-                  "File to write: .svg stacked curvature plots, .csv or .json the table; may be "
-                  "repeated")
-      ->type_name("OUT")
-      ->allow_extra_args(false);
+  add_output(compare, raw.compare.outputs, raw.format,
+             "File to write: .svg stacked curvature plots, .csv or .json the table");
   compare
       .add_option(
           "--continuity", raw.typed.continuity,
@@ -396,6 +377,7 @@ void add_compare(CLI::App& app, Raw& raw) {
   compare.add_option("--units", raw.units, kUnitsHelp)->type_name("NAME");
   compare.add_flag("--csv", raw.compare.csv, "Table as CSV on standard output");
   compare.add_flag("--json", raw.compare.json, "Table as JSON on standard output");
+  compare.add_flag("-q,--quiet", raw.compare.quiet, "No table and no progress bar");
   compare.add_flag("--no-progress", raw.no_progress, "No progress bar");
   compare.footer(
       "Example: obvid compare points.csv -o carriers.svg\n\nThe first row, spiral, is what the "
@@ -405,40 +387,50 @@ void add_compare(CLI::App& app, Raw& raw) {
 void add_convert(CLI::App& app, Raw& raw) {
   CLI::App& convert =
       *app.add_subcommand("convert", "Write a stored contour in the format of another system");
-  convert.add_option(
-      "CONTOUR", raw.convert.input,
-      "Contour file (.json), - for standard input, or a drawing (STEP, DXF, SVG, ...)");
   convert
       .add_option(
-          "-o,--output", raw.convert.outputs,
-          "File to write, format by file extension: " + known_endings() + "; may be repeated")
-      ->type_name("OUT")
-      ->allow_extra_args(false);
+          "CONTOUR", raw.inputs,
+          "Contour file (.json), - for standard input, or a drawing (STEP, DXF, SVG, ...); several "
+          "with -o 'NAME{id}.dxf'")
+      ->type_name("");
+  add_output(convert, raw.convert.outputs, raw.format,
+             "File to write, format by file extension: " + known_endings());
   convert
       .add_option("--curve", raw.formats.curve,
-                  "Which curve of a drawing, counted from 1 [the longest]")
-      ->type_name("N");
+                  "Which curve of a drawing: its number from 1, its name, or a word of it; all: "
+                  "each in a file of its own, -o 'NAME{id}.dxf' [the longest]")
+      ->type_name("N|NAME|all");
   convert
       .add_option("--drawing", raw.formats.drawing,
                   "exact: polylines whose vertices look like points of a curve, too [auto]")
       ->type_name("NAME");
+  add_reading(convert, raw.formats);
   add_formats(convert, raw.formats);
   convert.add_option("--units", raw.units, kUnitsHelp)->type_name("NAME");
-  convert.add_flag("--quiet", raw.convert.quiet, "Print nothing");
+  convert.add_flag("--csv", raw.convert.csv, "Samples as CSV on standard output, as -o NAME.csv");
+  convert.add_flag("--json", raw.convert.json,
+                   "Contour as JSON on standard output, as -o NAME.json");
+  convert.add_flag("-q,--quiet", raw.convert.quiet, "Print nothing");
   convert.footer("Example: obvid convert contour.json -o contour.step");
 }
 
 void add_checkers(CLI::App& app, Raw& raw) {
   CLI::App& verify =
       *app.add_subcommand("verify", "Prove a stored contour again, from its file alone");
-  verify.add_option("CONTOUR", raw.verify.input, "Contour file (.json), or - for standard input");
+  verify
+      .add_option("CONTOUR", raw.inputs,
+                  "Contour file (.json), or - for standard input; of several files a line each")
+      ->type_name("");
+  add_output(verify, raw.verify.outputs, raw.format, "File to write: .json the answer");
   verify.add_flag("--json", raw.verify.json, "JSON on standard output instead of the table");
-  verify.add_flag("--quiet", raw.verify.quiet, "Exit code only");
+  verify.add_flag("-q,--quiet", raw.verify.quiet, "Exit code only");
   verify.footer(kExitCodes);
   CLI::App& explain =
       *app.add_subcommand("explain", "What an error code means and what to do; all without a code");
   explain.add_option("CODE", raw.explain.code, "For example E401 or 401");
   explain.add_flag("--json", raw.explain.json, "JSON on standard output");
+  explain.add_flag("-q,--quiet", raw.explain.quiet,
+                   "Exit code only: whether there is such an error");
 }
 
 Result<void> check_command(const CLI::App& app) {
@@ -459,10 +451,22 @@ Result<void> check_all_extras(const CLI::App& app) {
   return check_extras(command, extras, command.get_name());
 }
 
-Result<void> need(const std::string& input, const char* command, const char* what) {
+Result<void> need(std::string& input, const char* command, const char* what) {
+  input = input_or_pipe(input);
   if (!input.empty()) return {};
-  return fail(usage(std::string(command) + " needs " + what,
+  return fail(usage(std::string(command) + " needs " + what + ", or - for standard input",
                     std::string("see obvid ") + command + " --help"));
+}
+
+/// One input, or several.
+template <class Options>
+Result<void> set_inputs(const Raw& raw, Options& options, const char* command, const char* what) {
+  if (raw.inputs.size() > 1) {
+    options.inputs = raw.inputs;
+    return {};
+  }
+  if (!raw.inputs.empty()) options.input = raw.inputs.front();
+  return need(options.input, command, what);
 }
 
 Result<void> set_units(const std::optional<std::string>& typed, std::optional<Units>& units) {
@@ -485,7 +489,7 @@ Result<void> set_job(Raw& raw) {
 
 /// Two points are a curve when the options give headings at both.
 void allow_two_points(const FitJob& job, ImportOptions& import) {
-  if (has_both_headings(job)) import.two_points = TwoPoints::kDo;
+  if (has_both_headings(job)) import.list.two = TwoPoints::kDo;
 }
 
 /// The job of a construction; nothing without one. `--prefer` then knows the worksheet's names.
@@ -516,14 +520,20 @@ Result<Command> checked_fit(Raw& raw) {
           .and_then([&] { return set_formats(raw.formats, raw.fit.formats, raw.fit.profile); })
           .and_then([&] { return set_import(raw.formats, raw.fit.import); })
           .and_then([&] { return set_units(raw.units, raw.fit.units); })
-          .and_then([&] { return need(raw.fit.input, "fit", "a file with points"); });
+          .and_then([&] { return settle_streams(raw.fit, raw.format, raw.fit.csv); })
+          .and_then([&] { return set_inputs(raw, raw.fit, "fit", "a file with points"); });
   OBVID_TRY(done);
   allow_two_points(raw.fit.job, raw.fit.import);
+  raw.fit.idle = idle_options(raw.formats, raw.fit.outputs);
   if (raw.fit.construction) {
     raw.fit.construction = with_job(*raw.fit.construction, raw.fit.job);
     if (raw.fit.suggest) {
       return fail(bad_option("a construction has no tolerances to suggest", "--suggest", ""));
     }
+  }
+  if (raw.fit.suggest && (raw.fit.csv || !raw.fit.inputs.empty())) {
+    return fail(bad_option("the table of tolerances is of one input, and no CSV", "--suggest",
+                           "give one file, and --json for programs"));
   }
   return Command{raw.fit};
 }
@@ -533,28 +543,26 @@ Result<Command> checked_compare(Raw& raw) {
       set_job(raw)
           .and_then([&] { return set_import(raw.formats, raw.compare.import); })
           .and_then([&] { return set_units(raw.units, raw.compare.units); })
+          .and_then([&] { return settle_streams(raw.compare, raw.format, raw.compare.csv); })
           .and_then([&] { return need(raw.compare.input, "compare", "a file with points"); });
   OBVID_TRY(done);
   raw.compare.job = raw.fit.job;
   allow_two_points(raw.fit.job, raw.compare.import);
-  raw.compare.progress = !raw.no_progress && !raw.compare.json && !raw.compare.csv;
+  raw.compare.progress =
+      !raw.no_progress && !raw.compare.json && !raw.compare.csv && !raw.compare.quiet;
   return Command{raw.compare};
 }
 
-template <class Options>
-Result<Command> checked_points(Options& options, const Raw& raw, const char* name) {
-  const Result<void> done = need(options.input, name, "a file with points").and_then([&] {
-    return set_units(raw.units, options.units);
-  });
-  OBVID_TRY(done);
-  return Command{options};
-}
-
 Result<Command> checked_convert(Raw& raw) {
-  const Result<void> done = need(raw.convert.input, "convert", "a contour file").and_then([&] {
-    return set_formats(raw.formats, raw.convert.formats, raw.convert.profile);
-  });
-  OBVID_TRY(done);
+  ConvertOptions& options = raw.convert;
+  if (options.csv) options.outputs.emplace_back("-.csv");
+  if (options.json) options.outputs.emplace_back("-.json");
+  const auto streamed = take_standard_output(options.outputs, raw.format, nullptr);
+  OBVID_TRY(streamed);
+  options.quiet = options.quiet || *streamed || options.csv || options.json;
+  OBVID_TRY(set_inputs(raw, options, "convert", "a contour file"));
+  OBVID_TRY(set_formats(raw.formats, options.formats, options.profile));
+  options.idle = idle_options(raw.formats, options.outputs);
   OBVID_TRY(set_units(raw.units, raw.convert.units));
   OBVID_TRY(set_import(raw.formats, raw.convert.import));
   if (raw.convert.outputs.empty()) {
@@ -567,7 +575,10 @@ Result<Command> checked_convert(Raw& raw) {
 Result<Command> checked_analyse(Raw& raw) {
   OBVID_TRY(set_import(raw.formats, raw.analyse.import));
   OBVID_TRY(set_plots(raw.formats, raw.analyse.plots));
-  return checked_points(raw.analyse, raw, "analyse");
+  OBVID_TRY(set_units(raw.units, raw.analyse.units));
+  OBVID_TRY(settle_streams(raw.analyse, raw.format, raw.analyse.csv));
+  OBVID_TRY(set_inputs(raw, raw.analyse, "analyse", "a file with points"));
+  return Command{raw.analyse};
 }
 
 Result<Command> checked_region(Raw& raw) {
@@ -577,7 +588,10 @@ Result<Command> checked_region(Raw& raw) {
   OBVID_TRY(set_import(raw.formats, raw.region.import));
   raw.region.job = with_job(*made, raw.fit.job);
   allow_two_points(raw.fit.job, raw.region.import);
-  return checked_points(raw.region, raw, "region");
+  OBVID_TRY(set_units(raw.units, raw.region.units));
+  OBVID_TRY(settle_streams(raw.region, raw.format, raw.region.csv));
+  OBVID_TRY(need(raw.region.input, "region", "a file with points"));
+  return Command{raw.region};
 }
 
 Result<Command> checked(const CLI::App& app, Raw& raw) {
@@ -590,7 +604,8 @@ Result<Command> checked(const CLI::App& app, Raw& raw) {
   if (name == "region") return checked_region(raw);
   if (name == "compare") return checked_compare(raw);
   if (name == "explain") return Command{raw.explain};
-  OBVID_TRY(need(raw.verify.input, "verify", "a contour file"));
+  OBVID_TRY(settle_streams(raw.verify, raw.format));
+  OBVID_TRY(set_inputs(raw, raw.verify, "verify", "a contour file"));
   return Command{raw.verify};
 }
 
@@ -600,10 +615,20 @@ void allow_extras(CLI::App& app) {
   for (CLI::App* command : app.get_subcommands(nullptr)) command->allow_extras();
 }
 
+/// `obvid help fit`, `obvid help surface skin`: what `--help` behind these words says.
+Result<Command> help_of(int argc, const char* const* argv) {
+  if (argc == 2) return Command{ShowText{kShortHelp}};
+  std::vector<const char*> words{argv[0]};
+  words.insert(words.end(), argv + 2, argv + argc);
+  words.push_back("--help");
+  return parse_command_line(static_cast<int>(words.size()), words.data());
+}
+
 }  // namespace
 
 Result<Command> parse_command_line(int argc, const char* const* argv) {
   if (argc < 2) return Command{ShowText{kShortHelp}};
+  if (std::string_view(argv[1]) == "help") return help_of(argc, argv);
   try {
     if (std::string_view(argv[1]) == "surface") return parse_surface(argc - 1, argv + 1);
     if (std::string_view(argv[1]) == "spline") return parse_spline(argc - 1, argv + 1);
@@ -617,9 +642,9 @@ Result<Command> parse_command_line(int argc, const char* const* argv) {
     }
     if (std::string_view(argv[1]) == "toolpath") return parse_toolpath(argc - 1, argv + 1);
     CLI::App app("Points in, a curvature-continuous, monotone and proved contour out", "obvid");
-    app.set_version_flag("--version", std::string("obvid ") + kVersion);
+    app.set_version_flag("-V,--version", std::string("obvid ") + kVersion);
     app.require_subcommand(0, 1);
-    shape_help(app, kHelpColumn);
+    shape_help(app, kHelpColumn, argc, argv);
     app.footer(kExitCodes);
     Raw raw;
     add_fit(app, raw);

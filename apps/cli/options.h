@@ -21,17 +21,20 @@ namespace obvid {
 
 struct FitOptions {
   std::string input;
+  std::vector<std::string> inputs;    ///< several, in place of one
   std::optional<std::string> text{};  ///< of standard input, which is read once
   std::vector<std::string> outputs;
   FitJob job;
   ImportOptions import;
   ExportOptions formats;
-  std::string profile;  ///< what --for chose, in words; empty without it
+  std::string profile;            ///< what --for chose, in words; empty without it
+  std::vector<std::string> idle;  ///< what is to be said of options that nothing uses
   std::optional<Units> units;
   std::optional<RegionJob> construction;  ///< of the papers, in place of the job
   std::optional<Vec3> along;              ///< of points in space: direction of the projection
   bool flat = false;                      ///< of points in space: heights are not used
   bool suggest = false;                   ///< how many vertices which tolerance would need
+  bool csv = false;
   bool json = false;
   bool quiet = false;
   bool progress = true;
@@ -42,21 +45,28 @@ struct FitOptions {
 
 struct ConvertOptions {
   std::string input;
+  std::vector<std::string> inputs;  ///< several, in place of one
   ImportOptions import;
   std::vector<std::string> outputs;
   ExportOptions formats;
-  std::string profile;  ///< what --for chose, in words; empty without it
+  std::string profile;            ///< what --for chose, in words; empty without it
+  std::vector<std::string> idle;  ///< what is to be said of options that nothing uses
   std::optional<Units> units;
+  bool csv = false;
+  bool json = false;
   bool quiet = false;
 };
 
 struct AnalyseOptions {
   std::string input;
+  std::vector<std::string> inputs;  ///< several, in place of one
   std::vector<std::string> outputs;
   ImportOptions import;
   PicturePlots plots;
   std::optional<Units> units;
+  bool csv = false;
   bool json = false;
+  bool quiet = false;
 };
 
 struct RegionOptions {
@@ -65,7 +75,9 @@ struct RegionOptions {
   ImportOptions import;
   RegionJob job;
   std::optional<Units> units;
+  bool csv = false;
   bool json = false;
+  bool quiet = false;
 };
 
 struct CompareOptions {
@@ -76,11 +88,14 @@ struct CompareOptions {
   std::optional<Units> units;
   bool csv = false;
   bool json = false;
+  bool quiet = false;
   bool progress = true;
 };
 
 struct VerifyOptions {
   std::string input;
+  std::vector<std::string> inputs;   ///< several, in place of one
+  std::vector<std::string> outputs;  ///< .json
   bool json = false;
   bool quiet = false;
 };
@@ -88,6 +103,7 @@ struct VerifyOptions {
 struct ExplainOptions {
   std::string code;  ///< empty: list all
   bool json = false;
+  bool quiet = false;
 };
 
 /// Text that was asked for instead of work: help or version.

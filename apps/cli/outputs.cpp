@@ -31,6 +31,18 @@ Result<std::vector<Output>> outputs_of(const std::vector<std::string>& paths,
   return outputs;
 }
 
+Result<std::string> path_of_part(const std::string& output, const std::string& suffix) {
+  if (suffix.empty()) return output;
+  if (is_standard_output(output)) {
+    return error(ErrorCode::kBadOption, "this contour is several files in that format")
+        .where("-o -")
+        .hint("name a file");
+  }
+  std::filesystem::path path = output;
+  path.replace_filename(path.stem().string() + suffix + path.extension().string());
+  return path.string();
+}
+
 Result<std::vector<Output>> exported(const std::vector<Output>& outputs,
                                      const StoredContour& stored, const ExportOptions& options,
                                      FileNotes& notes) {
@@ -43,11 +55,9 @@ Result<std::vector<Output>> exported(const std::vector<Output>& outputs,
       return fail(std::move(error));
     }
     for (ExportedFile& file : made->files) {
-      std::filesystem::path path = output.path;
-      if (!file.suffix.empty()) {
-        path.replace_filename(path.stem().string() + file.suffix + path.extension().string());
-      }
-      out.push_back({path.string(), output.format, std::move(file.text)});
+      const auto path = path_of_part(output.path, file.suffix);
+      OBVID_TRY(path);
+      out.push_back({*path, output.format, std::move(file.text)});
     }
     for (const std::string& one : made->remarks) notes.remarks.push_back(output.path + ": " + one);
     for (const std::string& one : made->warnings) {

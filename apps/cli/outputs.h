@@ -29,6 +29,10 @@ struct FileNotes {
 [[nodiscard]] Result<std::vector<Output>> outputs_of(const std::vector<std::string>& paths,
                                                      const std::string& input);
 
+/// Where one of several files of an output goes. Error: E203 where that is standard output.
+[[nodiscard]] Result<std::string> path_of_part(const std::string& output,
+                                               const std::string& suffix);
+
 /// Texts of all outputs, in the order of the outputs; a format that makes several files gives
 /// several outputs, their names by suffixes. `notes` get a sentence each for what the formats
 /// cannot hold, and for what may be wrong.

@@ -10,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include "obvid/core/files.h"
 #include "obvid/pipeline/internal/refusal.h"
 #include "obvid/pipeline/internal/report_json.h"
 #include "outputs.h"
@@ -86,7 +87,7 @@ Result<std::vector<std::string>> write_refusal_pictures(const FitOptions& option
   OBVID_TRY(asked);
   std::vector<Output> pictures;
   for (const Output& output : *asked) {
-    if (output.format != FileFormat::kPicture) continue;
+    if (output.format != FileFormat::kPicture || is_standard_output(output.path)) continue;
     const auto path = std::filesystem::path(output.path).replace_extension(".why-not.svg");
     Result<Output> picture = output_of(path.string());
     OBVID_TRY(picture);

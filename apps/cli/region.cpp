@@ -261,8 +261,15 @@ int run(const RegionOptions& options) {
   for (const NamedFile& one : files) {
     if (auto done = write_file(one.path, one.file.text); !done) return report(done.error());
   }
-  std::string text = options.json ? region_json(*series, *region) : region_text(*series, *region);
-  if (!options.json) {
+  std::string text;
+  if (options.json) {
+    text = region_json(*series, *region);
+  } else if (options.csv) {
+    auto table = region_file("csv", *series, *region);
+    if (!table) return report(table.error());
+    text = std::move(table->text);
+  } else if (!options.quiet) {
+    text = region_text(*series, *region);
     for (const auto& [path, file] : files) {
       text +=
           fmt::format("written        {}{}\n", path, file.remark.empty() ? "" : ": " + file.remark);

@@ -3,7 +3,6 @@
 
 #include <fmt/format.h>
 
-#include <filesystem>
 #include <numbers>
 #include <utility>
 
@@ -208,9 +207,9 @@ Result<Written> written_files(const SpaceChain& chain, const std::vector<std::st
       return fail(made.error());
     }
     for (const ExportedFile& file : made->files) {
-      std::filesystem::path name(path);
-      name.replace_filename(name.stem().string() + file.suffix + name.extension().string());
-      texts.push_back({name.string(), FileFormat::kContour, file.text});
+      const auto name = path_of_part(path, file.suffix);
+      OBVID_TRY(name);
+      texts.push_back({*name, FileFormat::kContour, file.text});
     }
     for (const std::string& one : made->remarks) written.remarks.push_back(one);
   }
@@ -231,7 +230,7 @@ Result<SpaceJob> space_job(const FitOptions& options, const SpaceSeries& series)
   }
   const auto text = options.text ? Result<std::string>(*options.text) : read_file(options.input);
   OBVID_TRY(text);
-  auto fixed = fixed_in_space(series, *text, options.along, options.name());
+  auto fixed = fixed_in_space(series, *text, options.along, options.name(), options.import);
   OBVID_TRY(fixed);
   job.fixed = std::move(*fixed);
   return job;
@@ -293,6 +292,10 @@ int verify_in_space(const StoredSpaceChain& stored, const std::string& name,
                     const VerifyOptions& options) {
   const SpaceChainVerification found = verify(stored);
   std::string shown;
+  for (const std::string& path : options.outputs) {
+    const auto done = write_file(path, space_verification_json(stored, found) + "\n");
+    if (!done) return report(done.error());
+  }
   if (options.json) {
     shown = space_verification_json(stored, found) + "\n";
   } else if (!options.quiet) {
@@ -326,8 +329,9 @@ int convert_in_space(const StoredSpaceChain& stored, const ConvertOptions& optio
 std::optional<int> run_in_space(const FitOptions& options) {
   if (options.flat) return std::nullopt;
   auto series = options.text
-                    ? parse_space_series(*options.text, options.name(), options.along.has_value())
-                    : space_series(options.input, options.along.has_value());
+                    ? parse_space_series(*options.text, options.name(), options.along.has_value(),
+                                         options.import)
+                    : space_series(options.input, options.along.has_value(), options.import);
   if (options.along && series && !*series) {
     return report({ErrorCode::kBadOption, "there are no points x, y, z whose z changes", "--along",
                    "it is for a list of points whose rows have all their cells", -1, 0.0});

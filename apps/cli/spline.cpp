@@ -161,6 +161,7 @@ int run_grid(const ColumnTable& table, const SplineOptions& options) {
   for (const std::string& path : options.outputs) {
     if (!options.json) text += fmt::format("written        {}\n", path);
   }
+  if (options.quiet && !options.json) return 0;
   if (auto done = put(text); !done) return report(done.error());
   return 0;
 }
@@ -204,6 +205,7 @@ int run(const SplineOptions& options) {
   for (const std::string& path : options.outputs) {
     if (!options.json) text += fmt::format("written        {}\n", path);
   }
+  if (options.quiet && !options.json) return 0;
   if (auto done = put(text); !done) return report(done.error());
   return 0;
 }

@@ -14,6 +14,8 @@ struct RawSpline {
   SplineOptions options;
   std::string smooth;
   std::optional<int> degree;
+  std::string format;  ///< of what -o sends to standard output
+  bool csv = false;
 };
 
 void add_options(CLI::App& app, RawSpline& raw) {
@@ -23,13 +25,9 @@ void add_options(CLI::App& app, RawSpline& raw) {
                  "second: the second derivative); x, y and f are a function of two variables "
                  "(integral over the cell, integral_x and integral_y along the lines that a place "
                  "begins); with --curve points x, y (and z); - is standard input");
-  app.add_option(
-         "-o,--output", options.outputs,
-         "File to write: .csv values, derivatives and integrals; .json everything; .svg and "
-         ".dxf the drawing; of two variables .csv, .json and the graph as .step, .stl, ...; may be "
-         "repeated")
-      ->type_name("OUT")
-      ->allow_extra_args(false);
+  add_output(app, options.outputs, raw.format,
+             "File to write: .csv values, derivatives and integrals; .json everything; .svg and "
+             ".dxf the drawing; of two variables .csv, .json and the graph as .step, .stl, ...");
   app.add_flag("--curve", options.job.curve,
                "The table holds points of a curve in the plane or in space: one spline per "
                "coordinate over the summed chords");
@@ -50,7 +48,9 @@ void add_options(CLI::App& app, RawSpline& raw) {
       ->type_name("T");
   app.add_option("--samples", options.samples, "Rows of the .csv, equal steps [200]")
       ->type_name("N");
+  app.add_flag("--csv", raw.csv, "CSV on standard output instead of the table, as -o NAME.csv");
   app.add_flag("--json", options.json, "JSON on standard output instead of the table");
+  app.add_flag("-q,--quiet", options.quiet, "No table");
   app.footer(
       "Examples:\n"
       "  obvid spline profile.csv -o profile.svg\n"
@@ -60,6 +60,10 @@ void add_options(CLI::App& app, RawSpline& raw) {
 
 Result<void> check(RawSpline& raw) {
   SplineOptions& options = raw.options;
+  OBVID_TRY(settle_streams(options, raw.format, raw.csv));
+  if (raw.csv) options.outputs.emplace_back("-.csv");
+  if (raw.csv) options.quiet = true;
+  options.input = input_or_pipe(options.input);
   if (options.input.empty()) {
     return fail(usage("spline needs a table", "see obvid spline --help"));
   }
@@ -92,7 +96,7 @@ Result<Command> parse_spline(int argc, const char* const* argv) {
   CLI::App app(
       "Splines of even degree that keep values, derivatives and the integral over every cell",
       "obvid spline");
-  shape_help(app, kHelpColumn);
+  shape_help(app, kHelpColumn, argc, argv);
   app.allow_extras();
   RawSpline raw;
   add_options(app, raw);

@@ -17,6 +17,7 @@ struct SplineOptions {
   SplineJob job;
   std::size_t samples = 200;  ///< rows of a .csv
   bool json = false;
+  bool quiet = false;
 };
 
 }  // namespace obvid

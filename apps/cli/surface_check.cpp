@@ -174,6 +174,7 @@ int run(const SurfaceCheckOptions& options) {
   bar.clear();
   if (!written) return report(written.error());
   warn(warnings);
+  if (options.quiet && !options.json) return 0;
   const std::string text = options.json ? surface_check_json(*model, check, *written)
                                         : surface_check_text(*model, check, *written);
   if (auto done = put(text); !done) return report(done.error());

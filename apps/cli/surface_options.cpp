@@ -25,6 +25,7 @@ struct RawSurface {
   SurfaceValues values;
   SurfaceFormatValues formats;
   bool no_progress = false;
+  std::string format;  ///< of what -o sends to standard output
   long samples = 65;
   std::optional<std::string> units;
 };
@@ -88,13 +89,6 @@ constexpr const char* kSurfaceHelp =
 )";
 
 const char* const kLengthHelp = "input units";
-
-void add_outputs(CLI::App& app, std::vector<std::string>& outputs, const std::string& endings) {
-  app.add_option("-o,--output", outputs,
-                 "File to write, format by file extension: " + endings + "; may be repeated")
-      ->type_name("OUT")
-      ->allow_extra_args(false);
-}
 
 void add_pictures(CLI::App& app, RawSurface& raw) {
   const char* group = "Triangles, pages and pictures";
@@ -227,7 +221,8 @@ struct KindOptions {
 CLI::App& add_maker(CLI::App& app, RawSurface& raw, const KindText& text) {
   CLI::App& kind = *app.add_subcommand(text.name, text.help);
   kind.add_option("INPUT", raw.inputs, text.inputs);
-  add_outputs(kind, raw.make.outputs, known_surface_endings());
+  add_output(kind, raw.make.outputs, raw.format,
+             "File to write, format by file extension: " + known_surface_endings());
   std::visit(KindOptions{kind, raw}, kind_of(text));
   kind.add_option("--units", raw.units,
                   "Unit of the lengths: mm, m, in, ft, ...; nothing is converted [as the files "
@@ -237,7 +232,7 @@ CLI::App& add_maker(CLI::App& app, RawSurface& raw, const KindText& text) {
       ->type_name("NAME");
   add_pictures(kind, raw);
   kind.add_flag("--json", raw.make.json, "Report as JSON on standard output");
-  kind.add_flag("--quiet", raw.make.quiet, "No report and no progress bar");
+  kind.add_flag("-q,--quiet", raw.make.quiet, "No report and no progress bar");
   kind.add_flag("--no-progress", raw.no_progress, "No progress bar");
   kind.footer(std::string("Example: ") + text.example);
   return kind;
@@ -246,10 +241,12 @@ CLI::App& add_maker(CLI::App& app, RawSurface& raw, const KindText& text) {
 void add_check(CLI::App& app, RawSurface& raw) {
   CLI::App& check = *app.add_subcommand("check", "Curvature, joints of patches, monotone sections");
   check.add_option("INPUT", raw.check.input, "Surface (.json, STEP, IGES, BREP, control points)");
-  add_outputs(check, raw.check.outputs, ".html (page), .svg (picture), coloured by curvature");
+  add_output(check, raw.check.outputs, raw.format,
+             "File to write: .html (page), .svg (picture), coloured by curvature", "svg");
   check.add_option("--samples", raw.samples, "Lines of each family, and points on them [65]")
       ->type_name("N");
   check.add_flag("--json", raw.check.json, "JSON on standard output instead of the tables");
+  check.add_flag("-q,--quiet", raw.check.quiet, "No tables and no progress bar");
   check.add_flag("--no-progress", raw.no_progress, "No progress bar");
   check.footer("Example: obvid surface check hull.step -o hull.svg");
 }
@@ -273,6 +270,7 @@ Result<Command> checked_maker(RawSurface& raw, const KindText& text) {
   make.job.kind = kind_of(text);
   make.job.inputs.assign(raw.inputs.begin(), raw.inputs.end());
   if (auto* second = second_inputs(make.job)) second->assign(raw.across.begin(), raw.across.end());
+  OBVID_TRY(settle_streams(make, raw.format));
   make.progress = !raw.no_progress && !make.quiet && !make.json;
   const Result<void> done =
       check_needs(raw, text)
@@ -290,13 +288,15 @@ Result<Command> checked_maker(RawSurface& raw, const KindText& text) {
 }
 
 Result<Command> checked_check(RawSurface& raw) {
+  raw.check.input = input_or_pipe(raw.check.input);
   if (raw.check.input.empty()) {
     return fail(usage("surface check needs a surface", "see obvid surface check --help"));
   }
   const auto samples = checked_samples(raw.samples);
   OBVID_TRY(samples);
   raw.check.samples = *samples;
-  raw.check.progress = !raw.no_progress && !raw.check.json;
+  OBVID_TRY(settle_streams(raw.check, raw.format, false, "svg"));
+  raw.check.progress = !raw.no_progress && !raw.check.json && !raw.check.quiet;
   return Command{raw.check};
 }
 
@@ -326,7 +326,7 @@ Result<Command> parse_surface(int argc, const char* const* argv) {
   if (bare && !help_as_lines()) return Command{ShowText{kSurfaceHelp}};
   CLI::App app("Surfaces over fair contours", "obvid surface");
   app.require_subcommand(0, 1);
-  shape_help(app, kHelpColumn);
+  shape_help(app, kHelpColumn, argc, argv);
   app.allow_extras();
   RawSurface raw;
   for (const KindText& text : kKinds) add_maker(app, raw, text).allow_extras();

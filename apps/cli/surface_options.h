@@ -27,6 +27,7 @@ struct SurfaceCheckOptions {
   std::vector<std::string> outputs;  ///< pictures and pages of the curvature
   std::size_t samples = 65;
   bool json = false;
+  bool quiet = false;
   bool progress = true;
 };
 

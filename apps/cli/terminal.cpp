@@ -34,8 +34,8 @@ bool colours(int descriptor) {
   return !refused && term != nullptr && std::strcmp(term, "dumb") != 0 && isatty(descriptor) == 1;
 }
 
-std::string painted(std::string_view text, const char* code) {
-  if (!colours(STDOUT_FILENO)) return std::string(text);
+std::string painted(std::string_view text, const char* code, int descriptor = STDOUT_FILENO) {
+  if (!colours(descriptor)) return std::string(text);
   return fmt::format("\033[{}m{}\033[0m", code, text);
 }
 
@@ -54,15 +54,19 @@ Result<void> put(std::string_view text) {
 
 int report(const Error& error) {
   const std::string line = to_line(error) + "\n";
-  std::fputs(line.c_str(), stderr);
+  // "obvid: error E401:" is what the eye looks for
+  const std::size_t head = std::min(line.find(": ", line.find(" error ")), line.size() - 1) + 1;
+  const std::string shown = painted(line.substr(0, head), "1;31", STDERR_FILENO);
+  std::fputs((shown + line.substr(head)).c_str(), stderr);
   return exit_code(error.code);
 }
 
 void warn(const std::vector<std::string>& warnings) {
   for (const std::string& warning : warnings) {
-    std::string line = "obvid: warning: " + warning;
+    std::string line = " " + warning;
     std::replace(line.begin(), line.end(), '\n', ' ');
-    std::fputs((line + "\n").c_str(), stderr);
+    const std::string head = painted("obvid: warning:", "1;33", STDERR_FILENO);
+    std::fputs((head + line + "\n").c_str(), stderr);
   }
 }
 

@@ -17,6 +17,7 @@ struct RawToolpath {
   ToolpathValues values;
   std::string view = "iso";
   bool no_progress = false;
+  std::string format;  ///< of what -o sends to standard output
 };
 
 constexpr const char* kOutputHelp =
@@ -100,6 +101,7 @@ Result<Command> checked_toolpath(const CLI::App& app, RawToolpath& raw) {
   const auto view = view_named(raw.view);
   OBVID_TRY(view);
   command.view = *view;
+  OBVID_TRY(settle_streams(command, raw.format, false, "nc"));
   command.progress = !raw.no_progress && !command.quiet && !command.json;
   return Command{command};
 }
@@ -109,20 +111,18 @@ Result<Command> checked_toolpath(const CLI::App& app, RawToolpath& raw) {
 Result<Command> parse_toolpath(int argc, const char* const* argv) {
   CLI::App app("Three-axis milling of a surface: G-code without gouges, within a stated scallop",
                "obvid toolpath");
-  shape_help(app, kHelpColumn);
+  shape_help(app, kHelpColumn, argc, argv);
   app.allow_extras();
   RawToolpath raw;
   app.add_option("INPUT", raw.command.input, "Surface (.json, STEP, IGES, BREP, control points)");
-  app.add_option("-o,--output", raw.command.outputs, kOutputHelp)
-      ->type_name("OUT")
-      ->allow_extra_args(false);
+  add_output(app, raw.command.outputs, raw.format, kOutputHelp, "nc");
   add_cutter(app, raw);
   add_passes(app, raw);
   add_program(app, raw);
   app.add_option("--view", raw.view, "Of the picture: iso, front, top, side, back or bottom [iso]")
       ->type_name("NAME");
   app.add_flag("--json", raw.command.json, "Report as JSON on standard output");
-  app.add_flag("--quiet", raw.command.quiet, "No report and no progress bar");
+  app.add_flag("-q,--quiet", raw.command.quiet, "No report and no progress bar");
   app.add_flag("--no-progress", raw.no_progress, "No progress bar");
   app.footer(
       "Example: obvid toolpath hull.json --cutter ball --diameter 6 --scallop 0.02 -o hull.nc\n\n"

@@ -8,7 +8,9 @@
 #include "obvid/core/files.h"
 #include "obvid/pipeline/internal/promise.h"
 #include "obvid/pipeline/internal/report_json.h"
+#include "obvid/pipeline/space_fit.h"
 #include "obvid/pipeline/stored.h"
+#include "several.h"
 #include "space_fit.h"
 #include "table.h"
 #include "terminal.h"
@@ -124,9 +126,50 @@ int judge_contour_file(const StoredContour& stored, const Verification& found,
   return 0;
 }
 
+Summary summary_of_stored(const OneOf& one) {
+  Summary out;
+  const Result<std::string> text = read_file(one.input);
+  const Result<Stored> read =
+      text.and_then([&](const std::string& content) { return parse_stored(content, one.input); });
+  if (!read) {
+    out.error = read.error();
+    return out;
+  }
+  if (const auto* chain = std::get_if<StoredSpaceChain>(&*read)) {
+    out.error = broken_promise(*chain, verify(*chain));
+  } else {
+    const auto& stored = std::get<StoredContour>(*read);
+    const Verification found = verify(stored);
+    out.cells = summary_cells(stored.contour, found.certificate);
+    out.error = broken_promise(stored, found);
+  }
+  out.verdict = "as claimed";
+  return out;
+}
+
+int verify_several(const VerifyOptions& options) {
+  if (!options.outputs.empty()) {
+    return report({ErrorCode::kBadOption, "an answer is of one file", options.outputs.front(),
+                   "verify one file, or leave -o out: --json has a line for each"});
+  }
+  const auto all = all_of_them(options.inputs, options.input, {}, false);
+  if (!all) return report(all.error());
+  Several several(*all, summary_form(false, options.json, options.quiet));
+  return several.run(
+      {}, [](const OneOf& one, const std::vector<std::string>&) { return summary_of_stored(one); });
+}
+
 }  // namespace
 
 int run(const VerifyOptions& options) {
+  if (!options.inputs.empty()) return verify_several(options);
+  for (const std::string& path : options.outputs) {
+    if (path.ends_with(".json")) continue;
+    return report({ErrorCode::kUnknownFormat, "answers are written as JSON", path, "name a .json"});
+  }
+  if (auto free = check_outputs(options.outputs, {&options.input, 1}); !free) {
+    return report(free.error());
+  }
   const Result<std::string> text = read_file(options.input);
   if (!text) return report(text.error());
   const std::string name = options.input == "-" ? "standard input" : options.input;
@@ -138,6 +181,10 @@ int run(const VerifyOptions& options) {
   const auto* stored = &std::get<StoredContour>(*read);
   const Verification found = verify(*stored);
   std::string shown;
+  for (const std::string& path : options.outputs) {
+    const auto done = write_file(path, verification_json(*stored, found));
+    if (!done) return report(done.error());
+  }
   if (options.json) {
     shown = verification_json(*stored, found);
   } else if (!options.quiet) {

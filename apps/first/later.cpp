@@ -6,9 +6,9 @@
 #include "obvid/exchange/internal/dxf/read.h"
 #include "obvid/exchange/internal/geo/geojson.h"
 #include "obvid/exchange/internal/geo/gpx.h"
+#include "obvid/exchange/internal/points/solidworks.h"
 #include "obvid/exchange/internal/road/landxml.h"
 #include "obvid/exchange/internal/road/opendrive.h"
-#include "obvid/exchange/internal/points/solidworks.h"
 #include "obvid/exchange/internal/svg/drawing.h"
 #include "obvid/exchange/internal/svg/read.h"
 #include "obvid/io/contour_json.h"
@@ -42,19 +42,22 @@ OBVID_LATER(int run(const SplineOptions&))
 OBVID_LATER(int run(const NurbsOptions&))
 OBVID_LATER(int run(const ToolpathCommand&))
 
-// ---- constructions, points in space --------------------------------------------------------------
+// ---- constructions, points in space
+// --------------------------------------------------------------
 OBVID_LATER(Result<Fit> fit_construction(const PointSeries&, const RegionJob&, const RunContext&))
 
 std::optional<int> run_in_space(const FitOptions& options) {
   if (options.flat) return std::nullopt;
-  const auto series = options.text ? parse_space_series(*options.text, options.name(),
-                                                        options.along.has_value())
-                                   : space_series(options.input, options.along.has_value());
+  const auto series = options.text
+                          ? parse_space_series(*options.text, options.name(),
+                                               options.along.has_value(), options.import)
+                          : space_series(options.input, options.along.has_value(), options.import);
   if (options.along || (series && *series)) go_on_in_the_whole_program();
   return std::nullopt;
 }
 
-// ---- files of others ------------------------------------------------------------------------------
+// ---- files of others
+// ------------------------------------------------------------------------------
 OBVID_LATER(Result<StoredContour> contour_from_json(std::string_view, std::string_view))
 OBVID_LATER(Result<ParsedSections> parse_sections(std::string_view, std::string_view,
                                                   const SectionOptions&))

@@ -11,6 +11,7 @@
 #include <string_view>
 #include <vector>
 
+#include "commands.h"
 #include "obvid/core/files.h"
 #include "terminal.h"
 
@@ -53,12 +54,17 @@ void keep_pipe() {
 
 void keep_start(char** argv) {
   started_with = argv;
-  for (char** argument = argv; *argument != nullptr; ++argument) {
-    if (std::string_view(*argument) != "-") continue;
-    began_at = ::lseek(STDIN_FILENO, 0, SEEK_CUR);
-    if (began_at < 0) keep_pipe();
-    return;
+  std::string_view before;
+  for (char** argument = argv; *argument != nullptr; before = *argument++) {
+    const bool output = before == "-o" || before == "--output";
+    if (std::string_view(*argument) == "-" && !output) return keep_standard_input();
   }
+}
+
+void keep_standard_input() {
+  if (began_at >= 0) return;
+  began_at = ::lseek(STDIN_FILENO, 0, SEEK_CUR);
+  if (began_at < 0) keep_pipe();
 }
 
 void go_on_in_the_whole_program() {

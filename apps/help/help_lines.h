@@ -3,6 +3,9 @@
 // (tools/make_manuals), so that no list of options is kept anywhere but where they are understood.
 #pragma once
 
+#include <sys/ioctl.h>
+#include <unistd.h>
+
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cstdlib>
@@ -10,6 +13,7 @@
 #include <memory>
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace obvid {
 
@@ -67,18 +71,134 @@ class HelpLines : public CLI::FormatterBase {
   }
 };
 
+/// Help for the eye: lines as wide as the terminal. `-h` is one page of it: options without a group
+/// with the beginning of what is said of them, and the names of the others.
+class HelpPage : public CLI::Formatter {
+ public:
+  HelpPage(bool brief, std::size_t width) : brief_(brief), width_(width) {}
+
+  std::string make_help(const CLI::App* app, std::string name,
+                        CLI::AppFormatMode mode) const override {
+    return wrapped(brief_ ? page(app, name) : CLI::Formatter::make_help(app, name, mode));
+  }
+
+ private:
+  [[nodiscard]] std::string page(const CLI::App* app, const std::string& name) const {
+    std::string out = make_description(app) + make_usage(app, name) + "\n";
+    std::vector<std::string> groups;
+    for (const CLI::Option* option : app->get_options()) {
+      const std::string& group = option->get_group();
+      if (group.empty()) continue;
+      if (group == "Options") {
+        out += row(*option);
+      } else if (std::find(groups.begin(), groups.end(), group) == groups.end()) {
+        groups.push_back(group);
+      }
+    }
+    for (const std::string& group : groups) {
+      std::string names;
+      for (const CLI::Option* option : app->get_options()) {
+        if (option->get_group() != group) continue;
+        names += (names.empty() ? "" : ", ") + option->get_name(false, false);
+      }
+      out += "\n" + group + ":\n  " + names + "\n";
+    }
+    for (const CLI::App* command : app->get_subcommands({})) {
+      out += field(command->get_name()) + command->get_description() + "\n";
+    }
+    return out + "\n--help says all of it: every option with units and default, examples\n";
+  }
+
+  [[nodiscard]] std::string row(const CLI::Option& option) const {
+    const bool positional = !option.nonpositional();
+    return field(option.get_name(positional, true) + (option.get_type_name().empty() || positional
+                                                          ? ""
+                                                          : " " + option.get_type_name())) +
+           beginning(option.get_description()) + "\n";
+  }
+
+  [[nodiscard]] std::string field(const std::string& name) const {
+    const std::size_t column = get_column_width();
+    std::string out = "  " + name;
+    if (out.size() + 1 > column) return out + "\n" + std::string(column, ' ');
+    return out + std::string(column - out.size(), ' ');
+  }
+
+  /// Up to the first colon, semicolon or bracket.
+  static std::string beginning(const std::string& text) {
+    std::size_t end = text.size();
+    for (const char* stop : {": ", "; ", " ["}) end = std::min(end, text.find(stop));
+    return text.substr(0, end);
+  }
+
+  /// Lines that are too long go on below themselves: what is said of an option in its column.
+  [[nodiscard]] std::string wrapped(const std::string& text) const {
+    std::string out;
+    for (std::size_t from = 0; from < text.size();) {
+      const std::size_t to = std::min(text.find('\n', from), text.size());
+      out += wrapped_line(text.substr(from, to - from)) + "\n";
+      from = to + 1;
+    }
+    return out;
+  }
+
+  [[nodiscard]] std::string wrapped_line(std::string line) const {
+    constexpr std::size_t kFewest = 16;  // characters of a line behind its indent
+    const std::size_t column = get_column_width();
+    const std::size_t lead = std::min(line.find_first_not_of(' '), line.size());
+    const bool row = lead >= column || (line.size() > column && line[column] != ' ' &&
+                                        line[column - 1] == ' ' && lead == 2);
+    const std::size_t indent = row ? std::max(lead, column) : lead;
+    std::string out;
+    while (line.size() > width_ && width_ > indent + kFewest) {
+      const std::size_t at = line.rfind(' ', width_);
+      if (at == std::string::npos || at <= indent) break;
+      out += line.substr(0, at) + "\n";
+      line = std::string(indent, ' ') + line.substr(at + 1);
+    }
+    return out + line;
+  }
+
+  bool brief_;
+  std::size_t width_;
+};
+
+/// Characters in a line: of the terminal, else as COLUMNS says, else 100.
+[[nodiscard]] inline std::size_t help_width() {
+  constexpr long kFewest = 40, kMost = 120, kElse = 100;
+  winsize size{};
+  long width = kElse;
+  if (const char* columns = std::getenv("COLUMNS"); columns != nullptr && std::atol(columns) > 0) {
+    width = std::atol(columns);
+  }
+  if (isatty(STDOUT_FILENO) == 1 && ioctl(STDOUT_FILENO, TIOCGWINSZ, &size) == 0 &&
+      size.ws_col > 0) {
+    width = size.ws_col;
+  }
+  return static_cast<std::size_t>(std::clamp(width, kFewest, kMost));
+}
+
+/// Whether one page of help is asked for.
+[[nodiscard]] inline bool asks_briefly(int argc, const char* const* argv) {
+  return std::any_of(argv, argv + argc,
+                     [](const char* one) { return std::string_view(one) == "-h"; });
+}
+
 [[nodiscard]] inline bool help_as_lines() {
   const char* wanted = std::getenv("OBVID_HELP");
   return wanted != nullptr && std::string_view(wanted) == "lines";
 }
 
-/// How `--help` of `app` and of its commands looks: names in a column of that width; HelpLines
-/// where OBVID_HELP is `lines`. Called before commands are added.
-inline void shape_help(CLI::App& app, std::size_t column_width) {
+/// How `--help` and `-h` of `app` and of its commands look: names in a column of that width;
+/// HelpLines where OBVID_HELP is `lines`. Called before commands are added.
+inline void shape_help(CLI::App& app, std::size_t column_width, int argc, const char* const* argv) {
   if (help_as_lines()) {
     app.formatter(std::make_shared<HelpLines>());
   } else {
-    app.get_formatter()->column_width(column_width);
+    const auto page = std::make_shared<HelpPage>(asks_briefly(argc, argv), help_width());
+    page->column_width(column_width);
+    app.formatter(page);
+    app.set_help_flag("-h,--help", "One page of help (-h), or all of it (--help)");
   }
 }
 

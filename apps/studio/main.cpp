@@ -138,7 +138,7 @@ int run(int argc, char** argv) {
       "machine alone",
       "obvid studio");
   constexpr std::size_t kHelpColumn = 30;
-  shape_help(app, kHelpColumn);
+  shape_help(app, kHelpColumn, argc, argv);
   Asked asked;
   app.add_option("FILE", asked.file, "Points, a contour or a drawing to begin with");
   app.add_option("--port", asked.port, "Port on 127.0.0.1 [any that is free]")

@@ -32,7 +32,11 @@ Result<PointSeries> series_of(const obvid_input& input, const Request& request, 
     return fail({ErrorCode::kBadOption, "points in space are formed by obvid_fit_space", "", ""});
   }
   Result<PointSeries> series = [&]() -> Result<PointSeries> {
-    if (input.points) return *input.points;
+    if (input.points) {
+      PointSeries given = *input.points;
+      place(request.import.placement, given);
+      return given;
+    }
     if (!drawings) return parse_points(input.text, input.name);
     return input.by_path ? read_series(input.name, request.import)
                          : parse_series(input.text, input.name, request.import);
@@ -71,7 +75,7 @@ Result<std::string> drawing_report(const obvid_input& input, const Request& requ
   if (request.units) {
     if (auto told = take_units(drawing->units, *request.units)) drawing->warnings.push_back(*told);
   }
-  const auto all = analyse_drawing(std::move(*drawing), request.import.curve, input.name);
+  const auto all = analyse_drawing(std::move(*drawing), request.import, input.name);
   OBVID_TRY(all);
   const auto& points = all->points;
   return audit_json(all->drawing, all->audits,
@@ -87,8 +91,11 @@ Result<std::string> points_report(PointSeries& series) {
 
 Result<std::unique_ptr<obvid_contour>> stored_of(const obvid_input& input, const Request& request) {
   auto out = std::make_unique<obvid_contour>();
-  const bool foreign = input.by_path || (!input.points && is_drawing_text(input.text) &&
-                                         file_kind(input.text) != FileKind::kContour);
+  // a contour that is placed anew is a drawing: its claims spoke of another place
+  const bool placed = !input.points && !request.import.placement.changes_nothing();
+  const bool foreign =
+      placed || input.by_path ||
+      (!input.points && is_drawing_text(input.text) && file_kind(input.text) != FileKind::kContour);
   if (foreign) {
     const Result<Drawing> drawing = drawing_of(input);
     OBVID_TRY(drawing);

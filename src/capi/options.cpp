@@ -57,9 +57,17 @@ std::map<std::string, Setter> setters(Written& w, Request& out, const Known& kno
   if (known.space) all.insert({{"along", text(w.along)}});
   if (known.worksheet) all.insert({{"insert", counts(w.construction.insert)}});
   if (known.import) {
-    all.insert({{"curve", count(f.curve)},
+    all.insert({{"curve", text(f.curve)},
                 {"chord-tolerance", number(f.chord_tolerance)},
                 {"drawing", text(f.drawing)}});
+  }
+  if (known.import || known.points) {
+    all.insert({{"columns", text(f.columns)},
+                {"skip", count(f.skip)},
+                {"scale", number(f.scale)},
+                {"rotate", number(f.rotate_deg)},
+                {"move", text(f.move)},
+                {"mirror", text(f.mirror)}});
   }
   if (known.formats) {
     all.insert({{"output-tolerance", number(f.tolerance)},
@@ -104,7 +112,7 @@ Result<void> check(Written& w, const Known& known, Request& out) {
       .and_then([&] { return set_import(w.formats, out.import); })
       .and_then([&]() -> Result<void> {
         out.worksheet = with_job(out.worksheet, out.job);
-        if (has_both_headings(out.job)) out.import.two_points = TwoPoints::kDo;
+        if (has_both_headings(out.job)) out.import.list.two = TwoPoints::kDo;
         const auto along = direction_named(w.along);
         OBVID_TRY(along);
         out.along = *along;

@@ -31,8 +31,9 @@ struct Known {
   bool construction = false;  ///< of the papers, over the points
   bool worksheet = false;     ///< `prefer` is that of region, which inserts points too
   bool space = false;         ///< direction of the projection
-  bool import = false;        ///< curve, drawing, chord-tolerance
+  bool import = false;        ///< curve, drawing, chord-tolerance, and those of `points`
   bool formats = false;       ///< of files
+  bool points = false;        ///< columns, skip, scale, rotate, move, mirror
 };
 
 /// Reads a JSON object with the names of the command line; NULL and "" are no options. Errors: E308

@@ -13,7 +13,7 @@
 namespace obvid::capi {
 namespace {
 
-constexpr Known kSpace{.fit = true, .space = true};
+constexpr Known kSpace{.fit = true, .space = true, .points = true};
 constexpr Known kSpaceFiles{.formats = true};
 
 /// Points of an array, of equal neighbours one.
@@ -26,9 +26,14 @@ Result<SpaceSeries> for_a_curve(SpaceSeries series) {
 }
 
 Result<SpaceSeries> space_series_of(const obvid_input& input, const Request& request) {
-  if (input.space) return for_a_curve(*input.space);
+  if (input.space) {
+    SpaceSeries given = *input.space;
+    place(request.import.placement, given);
+    return for_a_curve(std::move(given));
+  }
   if (!input.points && !input.by_path) {
-    auto found = parse_space_series(input.text, input.name, request.along.has_value());
+    auto found =
+        parse_space_series(input.text, input.name, request.along.has_value(), request.import);
     OBVID_TRY(found);
     if (*found) return std::move(**found);
   }
@@ -42,7 +47,7 @@ Result<SpaceJob> space_job_of(const obvid_input& input, const SpaceSeries& serie
   job.fit = request.job;
   job.along = request.along;
   if (input.space) return job;
-  auto fixed = fixed_in_space(series, input.text, request.along, input.name);
+  auto fixed = fixed_in_space(series, input.text, request.along, input.name, request.import);
   OBVID_TRY(fixed);
   job.fixed = std::move(*fixed);
   return job;

@@ -97,8 +97,12 @@ Result<void> write_in_place(const std::string& path, std::string_view text) {
 
 }  // namespace
 
+bool is_standard_output(const std::string& path) {
+  return path == "-" || (path.starts_with("-.") && path.find('/') == std::string::npos);
+}
+
 Result<void> write_file(const std::string& path, std::string_view text) {
-  if (path == "-") {
+  if (is_standard_output(path)) {
     // What others printed through stdio comes first.
     const int reason = std::fflush(stdout) != 0 ? errno : write_all(STDOUT_FILENO, text);
     return outcome("standard output", reason, text.size());
@@ -132,6 +136,13 @@ Result<void> check_outputs(std::span<const std::string> outputs,
     return error(ErrorCode::kBadOption, why).where(path).hint("choose another name");
   };
   for (std::size_t i = 0; i < outputs.size(); ++i) {
+    if (is_standard_output(outputs[i])) {
+      const auto others = outputs.subspan(0, i);
+      if (std::any_of(others.begin(), others.end(), is_standard_output)) {
+        return refused("-", "two outputs would go to standard output");
+      }
+      continue;
+    }
     for (const std::string& input : inputs) {
       // what is redirected to standard input is a file with a name, too
       if (same_file(outputs[i], input == "-" ? "/dev/stdin" : input)) {

@@ -160,18 +160,25 @@ Error too_few(const RawPoints& raw, string_view name) {
 
 }  // namespace
 
-Result<PointSeries> parse_points(string_view text, string_view name, TwoPoints two) {
+string_view behind_lines(string_view text, std::size_t lines) {
+  text::LineCursor cursor(text);
+  for (std::size_t i = 0; i < lines && !cursor.at_end(); ++i) cursor.skip(cursor.peek());
+  return cursor.rest();
+}
+
+Result<PointSeries> parse_points(string_view text, string_view name,
+                                 const PointListOptions& options) {
   constexpr string_view kUtf8Mark = "\xEF\xBB\xBF";
   if (text.substr(0, kUtf8Mark.size()) == kUtf8Mark) text.remove_prefix(kUtf8Mark.size());
   OBVID_TRY(text::check_text_kind(text, name));
   // DOS ends a text with this mark; nothing behind it counts.
   text = text.substr(0, text.find('\x1A'));
-  Result<RawPoints> raw = read_rows(text, name);
+  Result<RawPoints> raw = read_rows(text, name, options);
   OBVID_TRY(raw);
   OBVID_TRY(resolve_layout(*raw, name));
   warn_about_blank_lines(*raw);
   OBVID_TRY(merge_duplicates(*raw, name));
-  const bool two_do = raw->points.size() == 2 && two == TwoPoints::kDo;
+  const bool two_do = raw->points.size() == 2 && options.two == TwoPoints::kDo;
   if (!has_enough_distinct(raw->points) && !two_do && !has_two_with_headings(*raw)) {
     return fail(too_few(*raw, name));
   }
@@ -185,10 +192,11 @@ Result<PointSeries> parse_points(string_view text, string_view name, TwoPoints t
   return series;
 }
 
-Result<PointSeries> read_points(const std::string& path, TwoPoints two) {
+Result<PointSeries> read_points(const std::string& path, const PointListOptions& options) {
   const Result<std::string> text = read_file(path);
   OBVID_TRY(text);
-  return parse_points(*text, path == "-" ? string_view("standard input") : string_view(path), two);
+  return parse_points(*text, path == "-" ? string_view("standard input") : string_view(path),
+                      options);
 }
 
 }  // namespace obvid

@@ -166,6 +166,20 @@ string_view known_columns() {
          "uncertainty, unc, +-, +/- or \xC2\xB1";
 }
 
+void Columns::choose(std::size_t chosen_x, std::size_t chosen_y) {
+  for (auto* meaning : {&z, &heading_deg, &radius, &kappa, &tolerance, &corner, &heading_min,
+                        &heading_max, &radius_min, &radius_max, &kappa_min, &kappa_max}) {
+    if (*meaning == chosen_x || *meaning == chosen_y) meaning->reset();
+  }
+  x = chosen_x;
+  y = chosen_y;
+  unit_x = x < units.size() ? units[x] : "";
+  unit_y = y < units.size() ? units[y] : "";
+  no_unit.clear();
+  unused.clear();  // the user looked at the columns
+  our_samples = false;
+}
+
 std::optional<Columns> read_header(string_view line) {
   const std::vector<ColumnName> names = column_names(line);
   const auto find = [&](string_view name) -> std::optional<std::size_t> {
@@ -184,6 +198,7 @@ std::optional<Columns> read_header(string_view line) {
   columns.unit_x = names[*x].unit;
   columns.unit_y = names[*y].unit;
   columns.no_unit = names[*x].no_unit.empty() ? names[*y].no_unit : names[*x].no_unit;
+  for (const ColumnName& name : names) columns.units.push_back(name.unit);
   columns.z = find("z");
   columns.corner = find("corner");
   columns.tab_separated = header_separator(text::trim(line)) == text::Separator::kTab;

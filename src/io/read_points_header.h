@@ -11,8 +11,8 @@ namespace obvid {
 
 /// A column by its name, and the unit that stands beside it ("x_mm", "X [mm]", "x / mm").
 struct ColumnName {
-  std::string name;  ///< lower case
-  std::string unit;  ///< canonical; empty: none is stated
+  std::string name;       ///< lower case
+  std::string unit;       ///< canonical; empty: none is stated
   std::string no_unit{};  ///< what stands in brackets in place of a unit and is none
 };
 
@@ -33,6 +33,7 @@ struct Columns {
   double radius_min_scale = 1.0, radius_max_scale = 1.0;
   double kappa_min_scale = 1.0, kappa_max_scale = 1.0;
   std::vector<std::string> unused;  ///< names that mean nothing here
+  std::vector<std::string> units;   ///< of all columns, canonical; empty: none is stated
   std::string no_unit;              ///< in brackets behind x or y, and none that is known
   bool tab_separated = false;       ///< header with tabs: a tab ends a cell, cells may be empty
   bool our_samples = false;         ///< columns of `samples_csv`: headings show corners
@@ -41,6 +42,9 @@ struct Columns {
     return heading_deg || radius || kappa || tolerance || corner || heading_min || heading_max ||
            radius_min || radius_max || kappa_min || kappa_max;
   }
+
+  /// Takes x and y from these columns, whatever they are called.
+  void choose(std::size_t chosen_x, std::size_t chosen_y);
 };
 
 /// The names that mean something, for messages.

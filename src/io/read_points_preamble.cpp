@@ -26,6 +26,24 @@ bool is_count(const ParsedNumber& number) {
 
 }  // namespace
 
+void RowReader::skip_lines() {
+  for (std::size_t i = 0; i < options_.skip && !cursor_.at_end(); ++i) cursor_.skip(cursor_.peek());
+}
+
+// What the user says goes before the names; those of other columns keep their meaning.
+void RowReader::take_chosen_columns() {
+  if (!options_.columns) return;
+  const auto [x, y] = *options_.columns;
+  if (!raw_.named) {
+    const std::vector<ColumnName> names = column_names(raw_.title);
+    for (const ColumnName& name : names) layout_.units.push_back(name.unit);
+    if (names.size() > 1 && names.size() == raw_.columns) raw_.title.clear();
+    layout_.units.resize(names.size() == raw_.columns ? names.size() : 0);
+  }
+  layout_.choose(x, y);
+  raw_.named = true;
+}
+
 Result<void> RowReader::read_preamble() {
   while (!cursor_.at_end()) {
     const string_view line = cursor_.peek();

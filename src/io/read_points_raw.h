@@ -10,6 +10,7 @@
 
 #include "obvid/core/result.h"
 #include "obvid/core/units.h"
+#include "obvid/io/read_points.h"
 #include "obvid/series/point_series.h"
 #include "text_digits.h"
 
@@ -25,11 +26,11 @@ struct VspHead {
 /// The rows of a point file as they stand, before an airfoil format is recognised in them.
 struct RawPoints {
   std::string title;
-  bool named = false;       ///< a header names the columns
-  bool our_samples = false; ///< columns as `samples_csv` writes them
-  Units units;              ///< of the column names; assumed when they have none
-  bool white = false;       ///< blanks or tabs separate the fields
-  std::size_t columns = 2;  ///< numbers per row
+  bool named = false;        ///< a header names the columns
+  bool our_samples = false;  ///< columns as `samples_csv` writes them
+  Units units;               ///< of the column names; assumed when they have none
+  bool white = false;        ///< blanks or tabs separate the fields
+  std::size_t columns = 2;   ///< numbers per row
   std::vector<Vec2> points;
   std::vector<std::uint32_t> lines;                 ///< line of each point, from 1
   std::vector<FixedData> fixed;                     ///< empty, or one per point
@@ -45,7 +46,8 @@ struct RawPoints {
 };
 
 /// Reads title, header and rows. Errors: E302, E303, E305 with line and column.
-[[nodiscard]] Result<RawPoints> read_rows(std::string_view text, std::string_view name);
+[[nodiscard]] Result<RawPoints> read_rows(std::string_view text, std::string_view name,
+                                          const PointListOptions& options);
 
 /// Recognises Lednicer, OpenVSP .af, OpenFAST coordinates and a plain count line, checks the
 /// counts (E307), and puts two-sided airfoils into one series: upper trailing edge, leading edge,

@@ -18,8 +18,8 @@ namespace obvid {
 /// read_points_{preamble,rows,cells,trailer}.cpp.
 class RowReader {
  public:
-  RowReader(std::string_view text, std::string_view name)
-      : text_(text), name_(name), cursor_(text) {}
+  RowReader(std::string_view text, std::string_view name, const PointListOptions& options)
+      : text_(text), name_(name), options_(options), cursor_(text) {}
 
   Result<RawPoints> read();
 
@@ -35,6 +35,8 @@ class RowReader {
   Result<void> take_count(std::string_view line, double count);
   Result<void> take_text(std::string_view line);
   bool is_first_row(std::string_view body);
+  void skip_lines();
+  void take_chosen_columns();
   Result<void> take_vsp(std::string_view line, const text::ParsedNumber& number);
 
   Result<void> take_unit();
@@ -78,6 +80,7 @@ class RowReader {
 
   std::string_view text_;
   std::string_view name_;
+  const PointListOptions& options_;
   text::LineCursor cursor_;
   RawPoints raw_;
   Columns layout_;

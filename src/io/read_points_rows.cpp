@@ -31,7 +31,9 @@ Result<RawPoints> RowReader::read() {
   // OpenVSP files have two lines of text before their counts.
   constexpr std::size_t kVspHeadLength = 4096;
   is_vsp_ = text_.substr(0, kVspHeadLength).find("Num Pnts Upper") != string_view::npos;
+  skip_lines();
   OBVID_TRY(read_preamble());
+  take_chosen_columns();
   OBVID_TRY(read_all_rows());
   raw_.white = separator_ == Separator::kWhite;
   raw_.our_samples = raw_.named && layout_.our_samples;
@@ -216,8 +218,8 @@ void RowReader::warn_about_meaning() {
   if (first_is_length_ && length_rows_ >= kFewestRows) {
     raw_.warnings.emplace_back(
         "The first column grows by the distance of the points in the second and third: it looks "
-        "like an arc length, but is taken as x. Name the columns to change that: a first line "
-        "`s x y`.");
+        "like an arc length, but is taken as x. --columns 2,3 takes the other two, and so does a "
+        "first line `s x y`.");
   }
   warn_about_names();
   warn_about_level();
@@ -312,8 +314,9 @@ Result<void> RowReader::read_named_row(Place place) {
   return {};
 }
 
-Result<RawPoints> read_rows(std::string_view text, std::string_view name) {
-  return RowReader(text, name).read();
+Result<RawPoints> read_rows(std::string_view text, std::string_view name,
+                            const PointListOptions& options) {
+  return RowReader(text, name, options).read();
 }
 
 }  // namespace obvid

@@ -22,7 +22,7 @@ import c_interface_test as c  # noqa: E402  (takes the same arguments)
 
 FOLDER = os.path.join(c.SOURCES, "docs/schema")
 # Options of the command line that say what is done with a result, not what it is.
-FOR_PEOPLE = {"help", "output", "json", "quiet", "no-progress", "csv", "suggest", "flat"}
+FOR_PEOPLE = {"help", "output", "json", "quiet", "no-progress", "csv", "suggest", "flat", "format"}
 
 
 def schemas():

@@ -405,6 +405,19 @@ class Subject:
         for name in ("again.svg", "again.dxf", "again.json"):
             (self.folder / name).unlink()
 
+    def list_of_drawing(self, text, items):
+        """Every curve and series has a row, in their order."""
+        rows = re.findall(r"^ *(\d+)  (.*?)  +(\S.*?)  +(\d+)  +(\S+)  +(yes|no)  +(\S+)  +(\S+)$", text, re.M)
+        self.same("rows of the list", [int(row[0]) for row in rows], list(range(1, len(items) + 1)))
+        for (number, _, kind, points, length, closed, width, height), item in zip(rows, items):
+            what = f"analyse, row {number}: "
+            self.same(what + "kind and points", (kind, int(points)), (item["kind"], item["points"]))
+            self.same(what + "closed", closed, "yes" if item["closed"] else "no")
+            self.shows(what + "length", length, item["length"])
+            low_x, low_y, high_x, high_y = item["box"]
+            self.shows(what + "width", width, high_x - low_x)
+            self.shows(what + "height", height, high_y - low_y)
+
     def analyse_drawing(self, name, picture):
         """Curves of a drawing, after table, JSON and picture were compared."""
         as_json = self.run("analyse", name, "--json")
@@ -416,16 +429,16 @@ class Subject:
         output = ["-o", picture] if curves else []
         table = self.run("analyse", name, *output)
         self.same("exit codes of analyse", table.code, as_json.code)
-        listed = re.findall(r"^ *(\d+)  .*?  +(\d+)  +(\S+)  +(G\d|gaps)  +(\d+|-)  +(\d+|-)  "
-                            r"+(\d+|-)  +(\S+)$", table.out, re.M)
+        self.list_of_drawing(table.out, curves + answer.get("series", []))
+        listed = re.findall(r"^ *(\d+)  +(\d+)  +(G\d|gaps)  +(\d+|-)  +(\d+|-)  +(\d+|-)  +(\S+)$",
+                            table.out, re.M)
         self.same("curves in the table", bool(listed), bool(curves))
-        for number, pieces, length, joints, vertices, visible, inflections, radius in listed:
+        for number, pieces, joints, vertices, visible, inflections, radius in listed:
             curve = curves[int(number) - 1]
             what = f"analyse, curve {number}: "
             self.same(what + "counts", [pieces, vertices, visible, inflections],
                       [UNKNOWN if curve[k] is None else str(curve[k])
                        for k in ("pieces", "vertices", "visible_vertices", "inflections")])
-            self.shows(what + "length", length, curve["length"])
             self.same(what + "joints", joints,
                       "gaps" if curve["continuity"] < 0 else f"G{curve['continuity']}")
             kappa = None

@@ -151,7 +151,8 @@ class Case:
         if "stdout_last" in data:
             last = out.rstrip("\n").split("\n")[-1]
             self.check(last == data["stdout_last"], f"last line is {last!r}")
-        lines = [line for line in (err or out).splitlines() if line.startswith("obvid: error")]
+        plain = re.sub("\x1b\\[[0-9;]*m", "", err or out)
+        lines = [line for line in plain.splitlines() if line.startswith("obvid: error")]
         if data.get("exit", 0) == 0:
             self.check(not lines, f"exit code 0 with an error line: {lines}")
         else:

@@ -477,10 +477,61 @@ TEST(ReadPoints, RangesThatHoldNothingAreRefused) {
 }
 
 TEST(ReadPoints, TwoPointsDoWhenHeadingsComeFromElsewhere) {
-  EXPECT_TRUE(parse_points("0 0\n1 1\n", "f", TwoPoints::kDo));
+  EXPECT_TRUE(parse_points("0 0\n1 1\n", "f", {.two = TwoPoints::kDo}));
   EXPECT_FALSE(parse_points("0 0\n1 1\n", "f"));
-  EXPECT_FALSE(parse_points("0 0\n0 0\n", "f", TwoPoints::kDo));
+  EXPECT_FALSE(parse_points("0 0\n0 0\n", "f", {.two = TwoPoints::kDo}));
   EXPECT_TRUE(parse_points("x,y,heading_min,heading_max\n0,0,0,5\n1,1,60,70\n", "f"));
+}
+
+TEST(ReadPoints, ChosenColumnsAreXAndYWhateverTheyAreCalled) {
+  PointListOptions options;
+  options.columns = {2, 1};
+  const auto bare = parse_points("9 1 2\n9 3 5\n9 4 4\n", "f", options);
+  ASSERT_TRUE(bare) << to_line(bare.error());
+  EXPECT_EQ(bare->points, (std::vector<Vec2>{{2, 1}, {5, 3}, {4, 4}}));
+  EXPECT_TRUE(bare->warnings.empty());
+  const auto named = parse_points("x_m,y_m,z_cm\n9,1,2\n9,3,5\n9,4,4\n", "f", options);
+  ASSERT_FALSE(named);  // metres and centimetres
+  EXPECT_EQ(named.error().code, ErrorCode::kUnsupported) << to_line(named.error());
+  const auto others = parse_points("length,up,along\n9,1,2\n9,3,5\n9,4,4\n", "f", options);
+  ASSERT_TRUE(others) << to_line(others.error());
+  EXPECT_EQ(others->points, bare->points);
+  EXPECT_TRUE(others->warnings.empty());
+}
+
+TEST(ReadPoints, OtherColumnsKeepTheirMeaningBesideChosenOnes) {
+  PointListOptions options;
+  options.columns = {2, 3};
+  const auto read =
+      parse_points("x,y,u,v,tol,radius\n0,0,1,2,0.5,\n0,0,3,5,0.5,7\n0,0,4,4,0.5,\n", "f", options);
+  ASSERT_TRUE(read) << to_line(read.error());
+  EXPECT_EQ(read->points, (std::vector<Vec2>{{1, 2}, {3, 5}, {4, 4}}));
+  ASSERT_EQ(read->fixed.size(), 3u);
+  EXPECT_EQ(read->fixed[1].tolerance, 0.5);
+  EXPECT_EQ(read->fixed[1].kappa, 1.0 / 7.0);
+}
+
+TEST(ReadPoints, AChosenColumnThatARowLacksIsToldWithItsPlace) {
+  PointListOptions options;
+  options.columns = {1, 4};
+  const auto read = parse_points("1 2 3\n4 5 6\n7 8 9\n", "f", options);
+  ASSERT_FALSE(read);
+  EXPECT_EQ(read.error().code, ErrorCode::kTooFewColumns);
+  EXPECT_EQ(read.error().where.substr(0, 4), "f:1:");
+}
+
+TEST(ReadPoints, SkippedLinesAreNotLookedAtButCounted) {
+  PointListOptions options;
+  options.skip = 2;
+  const auto read = parse_points("12 13\rprose 1 2\r0 0\r1 1\r2 0\r", "f", options);
+  ASSERT_TRUE(read) << to_line(read.error());
+  EXPECT_EQ(read->points, (std::vector<Vec2>{{0, 0}, {1, 1}, {2, 0}}));
+  const auto bad = parse_points("12 13\nprose 1 2\n0 0\n1 nan\n2 0\n", "f", options);
+  ASSERT_FALSE(bad);
+  EXPECT_EQ(bad.error().where, "f:4:3");
+  options.skip = 9;
+  EXPECT_FALSE(parse_points("0 0\n1 1\n2 0\n", "f", options));
+  EXPECT_EQ(behind_lines("a\nb\n", 1), "b\n");
 }
 
 }  // namespace

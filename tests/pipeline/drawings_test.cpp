@@ -386,7 +386,7 @@ TEST(Drawings, WaypointsAreNoCurveUnlessAskedFor) {
   ASSERT_FALSE(refused);
   EXPECT_NE(refused.error().hint.find("--curve 1"), std::string::npos);
   ImportOptions first;
-  first.curve = 0;
+  first.curve.number = 0;
   EXPECT_TRUE(read_series(path, first));
 }
 
@@ -467,6 +467,34 @@ TEST(Drawings, NoCarrierRoundsACoarsePolygonWithoutAWordAndAllKeepItsCorners) {
       EXPECT_EQ(sharp->contour.pieces.size(), shape.size());
     }
   }
+}
+
+TEST(Drawings, ACurveIsChosenByItsNameOrAWordOfIt) {
+  Drawing drawing;
+  const std::vector<Piece> line{LinePiece{{0.0, 0.0}, {1.0, 0.0}}};
+  drawing.curves = {{"LINE 1A on layer EDGE", line, false},
+                    {"LINE 2B on layer Edge", line, false},
+                    {"HOLE", line, false}};
+  PointSeries track;
+  track.name = "track HOLE, part 2";
+  track.points = {{0.0, 0.0}, {1.0, 1.0}, {2.0, 0.0}};
+  drawing.series = {track};
+  const auto number = [&](const char* name) {
+    const auto chosen = chosen_curve(drawing, {std::nullopt, name, false}, "f");
+    return chosen ? static_cast<int>(*chosen) : -static_cast<int>(chosen.error().code);
+  };
+  EXPECT_EQ(number("2b"), 1);
+  EXPECT_EQ(number("HOLE"), 2);     // all of a name, though a word of another
+  EXPECT_EQ(number("hole"), -203);  // a word of two
+  EXPECT_EQ(number("edge"), -203);
+  EXPECT_EQ(number("track hole"), 3);
+  EXPECT_EQ(number("part"), 3);
+  EXPECT_EQ(number("2"), 3);
+  EXPECT_EQ(number("ED"), -203);  // no whole word
+  EXPECT_EQ(number("LID"), -203);
+  const auto all = chosen_curve(drawing, {std::nullopt, "", true}, "f");
+  ASSERT_FALSE(all);
+  EXPECT_EQ(all.error().where, "--curve");
 }
 
 }  // namespace

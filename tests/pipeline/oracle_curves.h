@@ -96,7 +96,7 @@ struct OracleCurve {
 };
 
 /// Rigid motion, mirror and scale.
-struct Placement {
+struct OraclePlacement {
   long double scale = 1.0L, rotation = 0.0L, mirror = 1.0L, dx = 0.0L, dy = 0.0L;
 
   [[nodiscard]] LongVec2 apply(LongVec2 v) const {
@@ -109,7 +109,7 @@ struct Placement {
 /// A sampled curve: the truth, and the doubles that a user would have.
 struct Sampled {
   OracleCurve curve;
-  Placement placement;
+  OraclePlacement placement;
   std::vector<long double> parameters;
   std::vector<Vec2> points;
   double size = 0.0;

@@ -176,6 +176,19 @@ class AgainstTheProgram(unittest.TestCase):
             compared += 1
         self.assertGreater(compared, 2)
 
+    def test_an_input_is_placed_before_anything_else(self):
+        angles = np.radians(np.arange(0, 150, 30))
+        circle = 10 * np.column_stack([np.cos(angles), np.sin(angles)])
+        np.testing.assert_allclose(obvid.analyse(circle).curvature, 0.1, rtol=1e-12)
+        np.testing.assert_allclose(obvid.analyse(circle, scale=4, mirror="x").curvature, -0.025, rtol=1e-12)
+        moved = obvid.fit(circle, rotate=90, move=(100, -20))
+        np.testing.assert_allclose(moved.points[0], (100, -10), atol=1e-12)
+        text = "\n".join(f"9 {x!r} {y!r}" for x, y in circle.tolist())
+        read = obvid.analyse(obvid.read_text("a title\nand a second one\n" + text), columns=(1, 2), skip=2)
+        np.testing.assert_allclose(read.curvature, 0.1, rtol=1e-12)
+        with self.assertRaises(TypeError):
+            obvid.analyse(circle, turn=3)
+
     def test_reports_hold_what_the_program_prints(self):
         analysis = obvid.analyse(SERIES)
         theirs = json.loads(program("analyse", SERIES, "--json")[0])

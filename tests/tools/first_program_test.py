@@ -81,17 +81,29 @@ class FirstProgram(unittest.TestCase):
                 self.assertEqual(self.started(), ["1 " + " ".join(arguments)])
 
     def test_standard_input_is_read_again_from_a_pipe_and_from_where_a_file_stood(self):
-        for text in (DXF, HELIX, pathlib.Path(POINTS).read_text(encoding="utf-8")):
-            arguments = ["fit", "-", "-o", "a.step"]
-            with self.subTest(text[:20]):
-                whole = self.run_in_new_folder(WHOLE, arguments, text.encode())
-                self.assertEqual(self.run_in_new_folder(FIRST, arguments, text.encode()), whole)
-                path = self.top / "input"
-                path.write_text("to be left out\n" + text, encoding="utf-8")
-                with path.open("rb", buffering=0) as file:
-                    file.seek(len("to be left out\n"))
-                    self.assertEqual(self.run_in_new_folder(FIRST, arguments, file), whole)
-                self.assertEqual(len(self.started()), 2)
+        texts = (DXF, HELIX, pathlib.Path(POINTS).read_text(encoding="utf-8"))
+        for arguments in (["fit", "-", "-o", "a.step"], ["fit", "-o", "a.step"],
+                          ["fit", "-o", "-", "--format", "step"]):
+            for text in texts:
+                with self.subTest(arguments, text=text[:20]):
+                    whole = self.run_in_new_folder(WHOLE, arguments, text.encode())
+                    self.assertEqual(self.run_in_new_folder(FIRST, arguments, text.encode()), whole)
+                    path = self.top / "input"
+                    path.write_text("to be left out\n" + text, encoding="utf-8")
+                    with path.open("rb", buffering=0) as file:
+                        file.seek(len("to be left out\n"))
+                        self.assertEqual(self.run_in_new_folder(FIRST, arguments, file), whole)
+                    self.assertEqual(len(self.started()), 2)
+
+    def test_standard_input_that_is_not_read_may_stay_open(self):
+        silent, end = os.pipe()
+        try:
+            with os.fdopen(silent, "rb", buffering=0) as pipe:
+                code, out, _, _ = self.run_in_new_folder(FIRST, ["fit", POINTS, "-o", "-"], pipe)
+        finally:
+            os.close(end)
+        self.assertEqual(code, 0)
+        self.assertIn(b"obvid-contour", out)
 
     def test_without_the_launcher_it_says_what_it_is(self):
         code, out, err, _ = self.run_in_new_folder(FIRST, ["region", POINTS], launcher=False)

@@ -182,6 +182,19 @@ def _at(values: Optional[AtPoints], source: Source) -> Optional[Dict[str, Any]]:
     return out
 
 
+_PLACING = ("columns", "skip", "mirror", "scale", "rotate", "move")
+
+
+def _placing(o: Mapping[str, Any]) -> Dict[str, Any]:
+    """What is done with an input before anything else."""
+    out: Dict[str, Any] = {name: o.get(name) for name in ("skip", "mirror", "scale", "rotate")}
+    if o.get("columns") is not None:
+        out["columns"] = ",".join(str(int(i) + 1) for i in o["columns"])
+    if o.get("move") is not None:
+        out["move"] = ",".join(repr(float(v)) for v in o["move"])
+    return out
+
+
 def _fit_options(
     source: Source, o: Mapping[str, Any], more: Iterable[str] = ()
 ) -> Optional[bytes]:
@@ -189,7 +202,7 @@ def _fit_options(
         "carrier", "noise", "tolerance", "convex", "primitives", "closed", "corners",
         "corner_angle", "start_heading", "end_heading", "start_radius", "end_radius", "heading",
         "radius", "curvature", "units", "curve", "drawing", "chord_tolerance", "prefer",
-        "continuity", *more,
+        "continuity", *_PLACING, *more,
     }  # fmt: skip
     unknown = sorted(set(o) - known)
     if unknown:
@@ -202,6 +215,7 @@ def _fit_options(
         for name in ("along", "carrier", "noise", "tolerance", "corner_angle", "units", "curve", "drawing",
                      "chord_tolerance", "prefer", "continuity", "construction", "fixation")
     }  # fmt: skip
+    options.update(_placing(o))
     options["convex"] = True if o.get("convex") else None
     options["primitives"] = True if o.get("primitives") else None
     options["closed"] = True if closed is True else None
@@ -285,6 +299,9 @@ def fit(
             too. fixation: order of parabolas, 1 or 2.
         units: "mm", "in", ... of the points.
         curve, drawing, chord_tolerance: of a drawing, as the program takes them.
+        columns, skip: of a list of points, the columns of x and y from 0, and lines to leave out.
+        mirror, scale, rotate, move: of the input, in this order: "x" or "y" (across that axis), a
+            factor, degrees about the origin, (dx, dy).
         progress: called with a stage and a fraction; cancelled: asked often, True ends the work.
 
     Raises:
@@ -381,19 +398,24 @@ def analyse(
     points: Points,
     *,
     units: Optional[str] = None,
-    curve: Optional[int] = None,
+    curve: Union[int, str, None] = None,
     drawing: Optional[str] = None,
     progress: Optional[ProgressFunction] = None,
     cancelled: Optional[CancelledFunction] = None,
+    **placing: Any,
 ) -> Union[Analysis, DrawingAnalysis]:
     """What points say before a curve is formed; of a drawing, what a comb of its curves would show.
+    Others as of `fit`: columns, skip, mirror, scale, rotate, move.
 
     >>> import obvid
     >>> a = obvid.analyse([(0, 0), (10, 1), (19, 4), (26, 9), (30, 16)])
     >>> a.vertices, a.runs[0].direction
     (0, 1)
     """
-    options = options_text({"units": units, "curve": curve, "drawing": drawing})
+    unknown = sorted(set(placing) - set(_PLACING))
+    if unknown:
+        raise TypeError(f"unknown option {unknown[0]!r}; there are {', '.join(_PLACING)}")
+    options = options_text({"units": units, "curve": curve, "drawing": drawing, **_placing(placing)})
     watched = {"progress": progress, "cancelled": cancelled}
     values = _report("analyse", _source(points), options, watched)
     return Analysis.of(values) if "segments" in values else DrawingAnalysis.of(values)

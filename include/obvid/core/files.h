@@ -35,12 +35,16 @@ inline constexpr std::size_t kMostInputBytes = std::size_t{1} << 30;
 /// - A link stays a link: the file it leads to is written, also when that is not there yet.
 /// - Of a file with several names (hard links) only the name given leads to the new content; the
 ///   others keep the old one. Writing into the old file would not be whole or nothing.
-/// - Devices and pipes are written to. "-" writes to standard output.
+/// - Devices and pipes are written to. "-" writes to standard output, and so does "-.svg", a name
+///   whose ending says what is written (is_standard_output).
 /// - A writer that is killed leaves a file `.obvid-*.tmp` in the folder, which the next one of the
 ///   same target removes. Several writers of one target at once do not mix: the last one wins.
 ///
 /// Error: E102; where there is no room it says how many bytes are needed (`value`) and free.
 [[nodiscard]] Result<void> write_file(const std::string& path, std::string_view text);
+
+/// "-" or "-" with an ending. A file that is called so has a folder before its name: "./-.svg".
+[[nodiscard]] bool is_standard_output(const std::string& path);
 
 /// Whether two names mean the same file, by whatever spelling or links, existing or about to be
 /// written. Devices and pipes are nobody's.

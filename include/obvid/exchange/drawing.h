@@ -14,6 +14,7 @@ struct DrawnCurve {
   std::string label;          ///< what a user would look for: "SPLINE 2F on layer OUTLINE"
   std::vector<Piece> pieces;  ///< in order; where two do not meet, the gap is the drawing's own
   bool closed = false;        ///< the last piece ends where the first one starts
+  std::string layer{};        ///< of the drawing, where it has layers
 };
 
 /// What a file of an exchange format holds: curves, and series of points. Lengths in `units`.

@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once  // reentrant: docs/threads.md
 
+#include <array>
+#include <cstddef>
+#include <optional>
 #include <string>
 #include <string_view>
 
@@ -12,9 +15,20 @@ namespace obvid {
 /// Whether two distinct points are enough: they are when somebody else gives headings at both.
 enum class TwoPoints { kTooFew, kDo };
 
+/// What somebody says of a list of points beside what stands in it.
+struct PointListOptions {
+  TwoPoints two = TwoPoints::kTooFew;
+  std::size_t skip = 0;  ///< lines at the beginning that are not looked at; errors count them
+  std::optional<std::array<std::size_t, 2>>
+      columns{};  ///< of x and y, from 0, whatever their names
+};
+
+/// What is left of a text behind its first lines.
+[[nodiscard]] std::string_view behind_lines(std::string_view text, std::size_t lines);
+
 /// Reads a file, or standard input for "-". Errors: E301 and those of `parse_points`.
 [[nodiscard]] Result<PointSeries> read_points(const std::string& path,
-                                              TwoPoints two = TwoPoints::kTooFew);
+                                              const PointListOptions& options = {});
 
 /// Reads points from text in any of the forms of docs/formats.md. `name` stands in errors as
 /// `name:line:column`. Consecutive duplicates are merged with a warning.
@@ -22,6 +36,6 @@ enum class TwoPoints { kTooFew, kDo };
 /// headings at both suffice), E305 fewer than 2 columns, E306 not text, E307 a stated count does
 /// not match. Cost O(size).
 [[nodiscard]] Result<PointSeries> parse_points(std::string_view text, std::string_view name,
-                                               TwoPoints two = TwoPoints::kTooFew);
+                                               const PointListOptions& options = {});
 
 }  // namespace obvid

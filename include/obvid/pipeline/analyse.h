@@ -8,6 +8,7 @@
 #include "obvid/core/result.h"
 #include "obvid/exchange/drawing.h"
 #include "obvid/pipeline/audit.h"
+#include "obvid/pipeline/import.h"
 #include "obvid/series/analysis.h"
 
 namespace obvid {
@@ -24,25 +25,28 @@ struct AnalysedDrawing {
   Drawing drawing;
   std::vector<CurveAudit> audits;
   std::optional<AnalysedSeries> points;
+  std::optional<std::size_t> asked;  ///< number of the curve or series that was asked for
 };
 
-/// `curve` counts from 0, curves before series; without it the longest. `where` stands in errors.
-/// Errors: E203 when there is no such curve.
-[[nodiscard]] Result<AnalysedDrawing> analyse_drawing(Drawing drawing,
-                                                      const std::optional<std::size_t>& curve,
+/// The curve that `options` ask for, else the longest; the drawing is placed as they say. `where`
+/// stands in errors. Errors: E203 when there is no such curve.
+[[nodiscard]] Result<AnalysedDrawing> analyse_drawing(Drawing drawing, const ImportOptions& options,
                                                       const std::string& where);
 
 /// Says where the rounding of the coordinates decides which way the curvature changes.
 void add_rounding_warning(PointSeries& series, const Analysis& analysis);
 
-/// Figures of a series that nobody fitted yet.
-struct SeriesFigures {
-  const char* kind = "";  ///< points, route, single points, waypoints
-  double length = 0.0;    ///< of its edges, units
-  bool closed = false;    ///< the last point is the first one again
-  Vec2 box;               ///< width and height, units
+/// Figures of a curve or a series of points that nobody fitted yet, as lists of them show.
+struct DrawnFigures {
+  std::string kind;        ///< "circle", "4 lines and 4 arcs", "spline", ...; of series points,
+                           ///< route, single points, waypoints
+  std::size_t points = 0;  ///< of a series; of a curve the ends of its pieces
+  double length = 0.0;     ///< of a series that of its edges, units
+  bool closed = false;     ///< it ends where it begins
+  Vec2 low, high;          ///< corners of its box: of a curve, not of its control points
 };
 
-[[nodiscard]] SeriesFigures figures_of(const PointSeries& series);
+[[nodiscard]] DrawnFigures figures_of(const PointSeries& series);
+[[nodiscard]] DrawnFigures figures_of(const CurveAudit& audit);
 
 }  // namespace obvid

@@ -32,6 +32,7 @@ struct AuditPlace {
 /// The curvature of a curve that another system made.
 struct CurveAudit {
   std::string label;
+  std::string layer;        ///< of the drawing, where it has layers
   Contour contour;          ///< the pieces with joints; promises nothing (carrier `baseline`)
   Certificate certificate;  ///< proved verdict of each piece, gaps, counts
   double length = 0.0;      ///< units

@@ -8,6 +8,7 @@
 #include "obvid/core/result.h"
 #include "obvid/exchange/drawing.h"
 #include "obvid/io/read_points.h"
+#include "obvid/pipeline/placement.h"
 #include "obvid/series/point_series.h"
 
 namespace obvid {
@@ -26,12 +27,21 @@ namespace obvid {
 [[nodiscard]] Result<Drawing> parse_drawing(const std::string& text, const std::string& name);
 [[nodiscard]] bool needs_cad(std::string_view text);
 
+/// Which curve or series of points of a drawing is meant.
+struct CurveChoice {
+  std::optional<std::size_t> number;  ///< from 0, curves before series
+  std::string name;  ///< in place of the number: the label, or a word of one label alone
+  bool all = false;  ///< each of them by itself
+
+  /// Whether one of them is asked for.
+  [[nodiscard]] bool asked() const { return number.has_value() || !name.empty(); }
+};
+
 /// Number of the curve that is taken: the asked one, else the longest of curves, tracks and
 /// polylines, else of routes, else of points drawn one by one; curves come before series. Waypoints
-/// are taken only when they are asked for. Errors: E203 when there is no such curve, E311 when
-/// there is none at all.
-[[nodiscard]] Result<std::size_t> chosen_curve(const Drawing& drawing,
-                                               const std::optional<std::size_t>& asked,
+/// are taken only when they are asked for. Errors: E203 when there is no such curve, or several of
+/// the name; E311 when there is none at all.
+[[nodiscard]] Result<std::size_t> chosen_curve(const Drawing& drawing, const CurveChoice& asked,
                                                const std::string& path);
 
 /// "curve 2 of 5 was taken, track Foo, the longest of its kind; ...": for the user.
@@ -50,11 +60,12 @@ enum class DrawnUse {
 
 /// How a curve of a drawing becomes a series of points.
 struct ImportOptions {
-  std::optional<std::size_t> curve;  ///< which, from 0, curves before series; default the longest
+  CurveChoice curve;  ///< default the longest
   DrawnUse use = DrawnUse::kAutomatic;
   std::optional<double>
-      tolerance;  ///< largest distance of a chord from its curve [1e-4 of the size]
-  TwoPoints two_points = TwoPoints::kTooFew;  ///< of lists of points
+      tolerance;            ///< largest distance of a chord from its curve [1e-4 of the size]
+  PointListOptions list{};  ///< of lists of points
+  Placement placement{};    ///< of whatever is read
 };
 
 /// Points to fit: of a text file as they are, of a drawing its longest series or curve, sampled.

@@ -13,19 +13,22 @@
 #include "obvid/io/space_json.h"
 #include "obvid/pipeline/export.h"
 #include "obvid/pipeline/fit.h"
+#include "obvid/pipeline/import.h"
 #include "obvid/surface/point_grid.h"
 #include "obvid/surface/space_curve.h"
 
 namespace obvid {
 
 /// A list of points x, y, z whose z changes; nothing for all other files (drawings, points of the
-/// plane, several series, pipes). `any_third`: a third column without a name is z. Errors: E301.
+/// plane, several series, pipes), and where `import` chooses columns. `any_third`: a third column
+/// without a name is z. Errors: E301.
 [[nodiscard]] Result<std::optional<SpaceSeries>> space_series(const std::string& path,
-                                                              bool any_third = false);
+                                                              bool any_third = false,
+                                                              const ImportOptions& import = {});
 /// The same of a text that was read already.
-[[nodiscard]] Result<std::optional<SpaceSeries>> parse_space_series(const std::string& text,
-                                                                    const std::string& name,
-                                                                    bool any_third = false);
+[[nodiscard]] Result<std::optional<SpaceSeries>> parse_space_series(
+    const std::string& text, const std::string& name, bool any_third = false,
+    const ImportOptions& import = {});
 
 /// How a spatial series becomes a curve.
 struct SpaceJob {

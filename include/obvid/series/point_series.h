@@ -48,6 +48,7 @@ enum class SeriesKind {
 struct PointSeries {
   std::string name;   ///< title of the file, or its name
   std::string label;  ///< of the curve in its drawing; empty for lists of points
+  std::string layer;  ///< of the drawing, where it has layers
   SeriesKind kind = SeriesKind::kLine;
   Units units;
   std::vector<Vec2> points;

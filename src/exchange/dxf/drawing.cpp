@@ -155,6 +155,7 @@ void DrawingBuilder::add(Shape shape, const Source& source) {
 void DrawingBuilder::add_fit_points(const Shape& shape, const Source& source) {
   PointSeries series;
   series.name = "fit points of " + label(source);
+  series.layer = to_label(source.layer);
   series.units = drawing_.units;
   series.points = shape.points;
   if (shape.closed && series.points.back() != series.points.front()) {
@@ -178,7 +179,7 @@ void DrawingBuilder::take_chains() {
       take_series(links_[first], sources_[first], chain.closed);
       continue;
     }
-    DrawnCurve curve{label(chain), {}, chain.closed};
+    DrawnCurve curve{label(chain), {}, chain.closed, to_label(sources_[first].layer)};
     for (const Chain::Member& member : chain.members) {
       std::vector<Piece>& pieces = links_[member.link].pieces;
       if (member.reversed) {
@@ -195,6 +196,7 @@ void DrawingBuilder::take_chains() {
 void DrawingBuilder::take_series(const Link& link, const Source& source, bool closed) {
   PointSeries series;
   series.name = label(source);
+  series.layer = to_label(source.layer);
   series.units = drawing_.units;
   series.points.push_back(start_point(link.pieces.front()));
   for (const Piece& piece : link.pieces) series.points.push_back(end_point(piece));

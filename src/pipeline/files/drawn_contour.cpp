@@ -7,8 +7,9 @@
 
 namespace obvid {
 
-Result<DrawnContour> drawn_contour(const Drawing& drawing, const ImportOptions& options,
+Result<DrawnContour> drawn_contour(Drawing drawing, const ImportOptions& options,
                                    const std::string& where) {
+  place(options.placement, drawing);
   const auto chosen = chosen_curve(drawing, options.curve, where);
   OBVID_TRY(chosen);
   const std::size_t curves = drawing.curves.size();
@@ -19,7 +20,7 @@ Result<DrawnContour> drawn_contour(const Drawing& drawing, const ImportOptions& 
   }
   DrawnContour out;
   out.remarks = drawing.warnings;
-  out.remarks.push_back(where + ": " + chosen_text(drawing, *chosen, options.curve.has_value()));
+  out.remarks.push_back(where + ": " + chosen_text(drawing, *chosen, options.curve.asked()));
   CurveAudit audited =
       audit(*chosen < curves ? drawing.curves[*chosen] : edges_of(drawing.series[*chosen - curves]),
             drawing.units);

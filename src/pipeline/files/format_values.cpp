@@ -3,9 +3,13 @@
 
 #include <algorithm>
 #include <array>
+#include <charconv>
 #include <cmath>
+#include <initializer_list>
 #include <utility>
+#include <vector>
 
+#include "obvid/pipeline/file_formats.h"
 #include "obvid/pipeline/internal/job_values.h"
 #include "obvid/pipeline/internal/profiles.h"
 
@@ -17,15 +21,94 @@ Result<void> check_length(const std::optional<double>& value, const char* option
   return fail(bad_option("a positive length is expected", option, "for example 0.01"));
 }
 
-}  // namespace
+/// All of the text as a list of numbers between commas; nothing where it is none.
+template <class Number>
+std::optional<std::vector<Number>> numbers_in(const std::string& text) {
+  std::vector<Number> out;
+  const char *at = text.data(), *const end = at + text.size();
+  while (true) {
+    Number value{};
+    const auto read = std::from_chars(at, end, value);
+    if (read.ec != std::errc{}) return std::nullopt;
+    out.push_back(value);
+    if (read.ptr == end) return out;
+    if (*read.ptr != ',') return std::nullopt;
+    at = read.ptr + 1;
+  }
+}
 
-Result<void> set_import(const FormatValues& typed, ImportOptions& options) {
-  if (typed.curve && *typed.curve < 1) {
+Result<void> set_curve(const FormatValues& typed, CurveChoice& curve) {
+  if (!typed.curve) return {};
+  const auto number = numbers_in<long>(*typed.curve);
+  if (typed.curve->empty() || (number && (number->size() != 1 || number->front() < 1))) {
     return fail(
         bad_option("curves are counted from 1", "--curve", "`obvid analyse FILE` lists them"));
   }
+  if (*typed.curve == "all") {
+    curve.all = true;
+  } else if (number) {
+    curve.number = static_cast<std::size_t>(number->front() - 1);
+  } else {
+    curve.name = *typed.curve;
+  }
+  return {};
+}
+
+Result<void> set_list(const FormatValues& typed, PointListOptions& list) {
+  if (typed.skip && *typed.skip < 0) {
+    return fail(bad_option("a number of lines is expected", "--skip", "for example 3"));
+  }
+  list.skip = static_cast<std::size_t>(typed.skip.value_or(0));
+  if (typed.columns.empty()) return {};
+  constexpr long kMost = 64;  // columns that are looked at
+  const auto both = numbers_in<long>(typed.columns);
+  const bool fine = both && both->size() == 2 && both->front() != both->back() &&
+                    std::all_of(both->begin(), both->end(),
+                                [](long column) { return column >= 1 && column <= kMost; });
+  if (!fine) {
+    return fail(bad_option("'" + typed.columns + "' are no two columns", "--columns",
+                           "those of x and y, counted from 1: 2,3"));
+  }
+  list.columns = {static_cast<std::size_t>(both->front() - 1),
+                  static_cast<std::size_t>(both->back() - 1)};
+  return {};
+}
+
+Result<void> set_placement(const FormatValues& typed, Placement& placement) {
+  if (typed.scale && !(*typed.scale > 0.0 && std::isfinite(*typed.scale))) {
+    return fail(bad_option("a positive factor is expected", "--scale", "for example 25.4"));
+  }
+  if (typed.rotate_deg && !std::isfinite(*typed.rotate_deg)) {
+    return fail(bad_option("an angle in degrees is expected", "--rotate", "for example 90"));
+  }
+  placement.scale = typed.scale.value_or(1.0);
+  placement.turn = std::remainder(typed.rotate_deg.value_or(0.0), 360.0) * kOneDegree;
+  if (!typed.mirror.empty()) {
+    const auto mirror =
+        value_named<Mirror>({{"x", Mirror::kX}, {"y", Mirror::kY}}, typed.mirror, "--mirror");
+    OBVID_TRY(mirror);
+    placement.mirror = *mirror;
+  }
+  if (typed.move.empty()) return {};
+  const auto by = numbers_in<double>(typed.move);
+  const bool fine =
+      by && (by->size() == 2 || by->size() == 3) &&
+      std::all_of(by->begin(), by->end(), [](double one) { return std::isfinite(one); });
+  if (!fine) {
+    return fail(bad_option("'" + typed.move + "' is no move", "--move",
+                           "two lengths, along x and y: 100,-20 (a third one along z)"));
+  }
+  placement.move = {(*by)[0], (*by)[1], by->size() == 3 ? (*by)[2] : 0.0};
+  return {};
+}
+
+}  // namespace
+
+Result<void> set_import(const FormatValues& typed, ImportOptions& options) {
+  OBVID_TRY(set_curve(typed, options.curve));
+  OBVID_TRY(set_list(typed, options.list));
+  OBVID_TRY(set_placement(typed, options.placement));
   OBVID_TRY(check_length(typed.chord_tolerance, "--chord-tolerance"));
-  if (typed.curve) options.curve = static_cast<std::size_t>(*typed.curve - 1);
   options.tolerance = typed.chord_tolerance;
   const auto use = value_named<DrawnUse>(
       {{"auto", DrawnUse::kAutomatic}, {"exact", DrawnUse::kExact}, {"points", DrawnUse::kPoints}},
@@ -103,6 +186,35 @@ Result<void> set_formats(const FormatValues& typed, ExportOptions& options,
       .and_then([&] { return choose(typed.svg, kSvg, "--svg", options.drawing); })
       .and_then([&] { return set_plots(typed, options.plots); })
       .and_then([&] { return choose(typed.motion, kMotions, "--motion", options.motion); });
+}
+
+std::vector<std::string> idle_options(const FormatValues& typed,
+                                      const std::vector<std::string>& files) {
+  const auto written = [&](std::initializer_list<FileFormat> formats) {
+    return std::any_of(files.begin(), files.end(), [&](const std::string& file) {
+      const auto format = format_of(file);
+      return format && std::find(formats.begin(), formats.end(), *format) != formats.end();
+    });
+  };
+  using enum FileFormat;
+  const bool gcode = written({kGcode}), samples = written({kSamples, kSldcrv, kObj, kPly});
+  const bool svg = written({kPicture});
+  std::vector<std::string> out;
+  const auto look = [&](bool given, bool used, const char* option, const char* of) {
+    if (given && !used) out.push_back(fmt::format("{} is not used: no {} is written", option, of));
+  };
+  look(typed.feed.has_value(), gcode, "--feed", "G-code");
+  look(typed.controller.has_value(), gcode, "--controller", "G-code");
+  look(typed.motion.has_value(), gcode, "--motion", "G-code");
+  look(typed.step.has_value(), written({kStep}), "--step", "STEP file");
+  look(typed.dxf.has_value(), written({kDxf}), "--dxf", "DXF file");
+  look(typed.svg.has_value(), svg, "--svg", ".svg");
+  look(typed.plot.has_value(), svg, "--plot", ".svg");
+  look(typed.samples.has_value(), samples, "--samples", "file of samples");
+  look(typed.sample_step.has_value(), samples, "--sample-step", "file of samples");
+  look(typed.face_width.has_value(), written({kStep, kIges, kBrep}), "--face",
+       "STEP, IGES or BREP file");
+  return out;
 }
 
 }  // namespace obvid

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cctype>
 #include <cmath>
 #include <filesystem>
 
@@ -11,6 +12,7 @@
 #include "files/drawn_series.h"
 #include "obvid/cad/internal/cad.h"
 #include "obvid/core/files.h"
+#include "obvid/core/internal/near_name.h"
 #include "obvid/exchange/internal/dxf/read.h"
 #include "obvid/exchange/internal/geo/geojson.h"
 #include "obvid/exchange/internal/geo/gpx.h"
@@ -113,6 +115,63 @@ std::size_t foremost(const Drawing& drawing) {
   return best;
 }
 
+std::string lower(std::string text) {
+  for (char& c : text) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  return text;
+}
+
+const std::string& label_of(const Drawing& drawing, std::size_t i) {
+  const std::size_t curves = drawing.curves.size();
+  return i < curves ? drawing.curves[i].label : drawing.series[i - curves].name;
+}
+
+/// Whether `word` stands in `text` between blanks, commas or the ends; upper and lower case are
+/// the same.
+bool has_word(const std::string& text, const std::string& word) {
+  const auto ends = [&](std::size_t at) {
+    return at >= text.size() || text[at] == ' ' || text[at] == ',';
+  };
+  for (std::size_t at = text.find(word); at != std::string::npos; at = text.find(word, at + 1)) {
+    if ((at == 0 || ends(at - 1)) && ends(at + word.size())) return true;
+  }
+  return false;
+}
+
+/// The curve whose label it is; else the only one in whose label it is a word (a handle, a layer).
+Result<std::size_t> curve_named(const Drawing& drawing, const std::string& name,
+                                const std::string& path) {
+  constexpr std::size_t kMostTold = 8;
+  const std::size_t count = drawing.curves.size() + drawing.series.size();
+  std::vector<std::size_t> same, holding;
+  std::vector<std::string> labels;
+  for (std::size_t i = 0; i < count; ++i) {
+    labels.push_back(label_of(drawing, i));
+    if (labels.back() == name) same.push_back(i);
+    if (has_word(lower(labels.back()), lower(name))) holding.push_back(i);
+  }
+  const std::vector<std::size_t>& found = same.empty() ? holding : same;
+  if (found.size() == 1) return found.front();
+  if (found.empty()) {
+    return error(ErrorCode::kBadOption, fmt::format("no curve is called '{}'", name))
+        .where(path)
+        .hint(did_you_mean(name, labels, "`obvid analyse FILE` lists them"));
+  }
+  std::string numbers;
+  for (std::size_t i = 0; i < std::min(found.size(), kMostTold); ++i) {
+    numbers += fmt::format("{}{}", i == 0 ? "" : ", ", found[i] + 1);
+  }
+  return error(ErrorCode::kBadOption,
+               fmt::format("{} curves are called '{}': {}{}", found.size(), name, numbers,
+                           found.size() > kMostTold ? ", ..." : ""))
+      .where(path)
+      .hint("give the number of one of them");
+}
+
+Result<PointSeries> placed(Result<PointSeries> series, const ImportOptions& options) {
+  if (series) place(options.placement, *series);
+  return series;
+}
+
 /// All warnings of the drawing, and which curve was taken of several.
 void tell(const Drawing& drawing, std::size_t chosen, bool asked, PointSeries& out) {
   out.warnings.insert(out.warnings.begin(), drawing.warnings.begin(), drawing.warnings.end());
@@ -141,19 +200,32 @@ Result<PointSeries> points_of_drawing(const Drawing& drawing, const ImportOption
   }
   out.name = drawing.name + (out.label.empty() ? "" : ": " + out.label);
   out.units = drawing.units;
-  tell(drawing, chosen, options.curve.has_value(), out);
+  tell(drawing, chosen, options.curve.asked(), out);
+  place(options.placement, out);
   return out;
 }
 
 }  // namespace
 
-Result<std::size_t> chosen_curve(const Drawing& drawing, const std::optional<std::size_t>& asked,
+Result<std::size_t> chosen_curve(const Drawing& drawing, const CurveChoice& asked,
                                  const std::string& path) {
   const std::size_t count = drawing.curves.size() + drawing.series.size();
   if (count == 0) {
     return error(ErrorCode::kNothingThere, "the file holds no curve and no points").where(path);
   }
-  const std::size_t chosen = asked.value_or(foremost(drawing));
+  if (asked.all) {
+    return error(ErrorCode::kBadOption, "all curves at once are for analyse, fit and convert")
+        .where("--curve")
+        .hint("give the number of one");
+  }
+  Result<std::size_t> found = asked.number.value_or(0);
+  if (!asked.name.empty()) {
+    found = curve_named(drawing, asked.name, path);
+    OBVID_TRY(found);
+  } else if (!asked.number) {
+    found = foremost(drawing);
+  }
+  const std::size_t chosen = *found;
   if (chosen >= count) {
     return error(ErrorCode::kBadOption,
                  fmt::format("there are {} curves, no curve {}", count, chosen + 1))
@@ -163,7 +235,7 @@ Result<std::size_t> chosen_curve(const Drawing& drawing, const std::optional<std
   const bool waypoints =
       chosen >= drawing.curves.size() &&
       drawing.series[chosen - drawing.curves.size()].kind == SeriesKind::kWaypoints;
-  if (asked || !waypoints) return chosen;
+  if (asked.asked() || !waypoints) return chosen;
   return error(ErrorCode::kNothingThere,
                "the file holds waypoints only, no track and no route: places are no curve")
       .where(path)
@@ -219,7 +291,7 @@ Result<PointSeries> parse_series(const std::string& text, const std::string& nam
                                  const ImportOptions& options) {
   const FileKind kind = file_kind(std::string_view(text).substr(0, kHead));
   if (!is_drawing_text(text) || kind == FileKind::kContour) {
-    return parse_points(text, name, options.two_points);
+    return placed(parse_points(text, name, options.list), options);
   }
   auto drawing = parse_drawing(text, name);
   OBVID_TRY(drawing);
@@ -234,7 +306,7 @@ Result<PointSeries> read_series(const std::string& path, const ImportOptions& op
   }
   const FileKind kind = file_kind(head_of(path));
   if (kind == FileKind::kPoints || kind == FileKind::kOther || kind == FileKind::kContour) {
-    return read_points(path, options.two_points);
+    return placed(read_points(path, options.list), options);
   }
   auto drawing = read_drawing(path);
   OBVID_TRY(drawing);

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <fmt/format.h>
+
 #include <limits>
 #include <string>
 #include <vector>
@@ -6,6 +8,7 @@
 #include "obvid/io/internal/json_text.h"
 #include "obvid/pipeline/analyse.h"
 #include "obvid/pipeline/internal/report_json.h"
+#include "obvid/pipeline/internal/summary.h"
 
 namespace obvid {
 namespace {
@@ -30,14 +33,23 @@ void add_points(JsonText& json, const Analysis& analysis) {
   json.end_array();
 }
 
+void add_box(JsonText& json, const DrawnFigures& figures) {
+  json.key("box").begin_array().value(figures.low.x).value(figures.low.y);
+  json.value(figures.high.x).value(figures.high.y).end_array();
+}
+
 void add_series(JsonText& json, const Drawing& drawing) {
   json.key("series").begin_array();
   for (const PointSeries& series : drawing.series) {
-    const SeriesFigures figures = figures_of(series);
-    json.begin_object().pair("label", series.name).pair("kind", figures.kind);
-    json.pair("points", series.points.size()).pair("length", figures.length);
+    const DrawnFigures figures = figures_of(series);
+    json.begin_object().pair("label", series.name).pair("layer", series.layer);
+    json.pair("kind", figures.kind);
+    json.pair("points", figures.points).pair("length", figures.length);
     json.pair("closed", figures.closed);
-    json.pair("width", figures.box.x).pair("height", figures.box.y).end_object();
+    json.pair("width", figures.high.x - figures.low.x);
+    json.pair("height", figures.high.y - figures.low.y);
+    add_box(json, figures);
+    json.end_object();
   }
   json.end_array();
 }
@@ -76,7 +88,54 @@ void add_given(JsonText& json, const PointSeries& series) {
   json.end_array();
 }
 
+std::string drawn_row(std::size_t number, const std::string& label, const std::string& layer,
+                      const DrawnFigures& f) {
+  return fmt::format("{},{},{},{},{},{},{},{},{},{},{}", number, csv_cell(label), csv_cell(layer),
+                     csv_cell(f.kind), f.points, csv_cell(f.length), f.closed ? "yes" : "no",
+                     csv_cell(f.low.x), csv_cell(f.low.y), csv_cell(f.high.x), csv_cell(f.high.y));
+}
+
 }  // namespace
+
+std::string drawing_csv(const Drawing& drawing, const std::vector<CurveAudit>& audits) {
+  std::string out =
+      "curve,name,layer,kind,points,length,closed,x_min,y_min,x_max,y_max,continuity,vertices,"
+      "visible_vertices,inflections,least_kappa,largest_kappa\n";
+  for (std::size_t i = 0; i < audits.size(); ++i) {
+    const CurveAudit& a = audits[i];
+    out += drawn_row(i + 1, a.label, a.layer, figures_of(a));
+    out += a.counted ? fmt::format(",{},{},{},{}", a.continuity, a.vertices, a.visible_vertices,
+                                   a.inflections)
+                     : fmt::format(",{},,,", a.continuity);
+    out += "," + csv_cell(a.least_kappa) + "," + csv_cell(a.largest_kappa) + "\n";
+  }
+  for (std::size_t i = 0; i < drawing.series.size(); ++i) {
+    const PointSeries& series = drawing.series[i];
+    out += drawn_row(audits.size() + i + 1, series.name, series.layer, figures_of(series));
+    out += ",,,,,,\n";
+  }
+  return out;
+}
+
+std::string series_report_csv(const PointSeries& series, const Analysis& analysis) {
+  std::string out =
+      "point,x,y,adjacent_kappa,turning_deg,chord,heading_deg,direction,points_only_error\n";
+  for (std::size_t i = 0; i < analysis.circles.size(); ++i) {
+    const bool end = i == 0 || i + 1 == analysis.circles.size();
+    out += fmt::format("{},{},{},{},{}", i + 1, series.points[i].x, series.points[i].y,
+                       end ? "" : csv_cell(analysis.circles[i].kappa),
+                       csv_cell(turning_at(analysis, i) / kOneDegree));
+    if (i >= analysis.chords.size()) {
+      out += ",,,,\n";
+      continue;
+    }
+    out += fmt::format(",{},{},{},{}\n", csv_cell(analysis.chords[i].length),
+                       csv_cell(analysis.chords[i].omega / kOneDegree),
+                       analysis.change[i] ? std::to_string(*analysis.change[i]) : "",
+                       csv_cell(analysis.points_only_error[i]));
+  }
+  return out;
+}
 
 std::string series_json(const PointSeries& series) {
   JsonText json;
@@ -130,7 +189,10 @@ std::string audit_json(const Drawing& drawing, const std::vector<CurveAudit>& au
   add_units(json, drawing.units);
   json.key("curves").begin_array();
   for (const CurveAudit& a : audits) {
-    json.begin_object().pair("label", a.label).pair("pieces", a.contour.pieces.size());
+    const DrawnFigures figures = figures_of(a);
+    json.begin_object().pair("label", a.label).pair("layer", a.layer).pair("kind", figures.kind);
+    json.pair("pieces", a.contour.pieces.size()).pair("points", figures.points);
+    add_box(json, figures);
     json.pair("length", a.length).pair("continuity", a.continuity);
     json.pair("closed", a.contour.closed);
     for (const auto& [name, count] :

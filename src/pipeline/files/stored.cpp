@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "obvid/io/contour_json.h"
+#include "obvid/io/read_points.h"
 #include "obvid/io/space_json.h"
 
 namespace obvid {
@@ -15,6 +16,11 @@ Result<Stored> parse_stored(const std::string& text, const std::string& name) {
     return Stored(std::move(*chain));
   }
   auto contour = contour_from_json(text, name);
+  if (!contour && parse_points(text, name, {.two = TwoPoints::kDo})) {
+    return error(contour.error().code, "this is a list of points, not a contour")
+        .where(name)
+        .hint("`obvid fit` forms a contour through them, and writes all formats");
+  }
   OBVID_TRY(contour);
   return Stored(std::move(*contour));
 }

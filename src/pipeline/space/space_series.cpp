@@ -6,6 +6,7 @@
 #include "obvid/core/files.h"
 #include "obvid/io/internal/file_kind.h"
 #include "obvid/io/internal/read_columns.h"
+#include "obvid/io/read_points.h"
 #include "obvid/io/read_sections.h"
 #include "obvid/pipeline/space_fit.h"
 
@@ -16,18 +17,21 @@ constexpr std::size_t kHeadBytes = 4096;  // that tell the kind of a file
 
 }  // namespace
 
-Result<std::optional<SpaceSeries>> space_series(const std::string& path, bool any_third) {
+Result<std::optional<SpaceSeries>> space_series(const std::string& path, bool any_third,
+                                                const ImportOptions& import) {
   // what can be read only once is for whoever reads it: `parse_space_series`
   const std::string head = head_of_file(path, kHeadBytes);
   if (head.empty() || file_kind(head) != FileKind::kPoints) return std::nullopt;
   const auto text = read_file(path);
   if (!text) return fail(text.error());
-  return parse_space_series(*text, path, any_third);
+  return parse_space_series(*text, path, any_third, import);
 }
 
-Result<std::optional<SpaceSeries>> parse_space_series(const std::string& text,
-                                                      const std::string& name, bool any_third) {
-  if (file_kind(text) != FileKind::kPoints) return std::nullopt;
+Result<std::optional<SpaceSeries>> parse_space_series(const std::string& whole,
+                                                      const std::string& name, bool any_third,
+                                                      const ImportOptions& import) {
+  if (file_kind(whole) != FileKind::kPoints || import.list.columns) return std::nullopt;
+  const std::string_view text = behind_lines(whole, import.list.skip);
   const auto table = parse_columns(text, name);
   const bool named = table && !table->names.empty();
   if (named ? !table->column({"z"}) : !any_third) return std::nullopt;
@@ -44,6 +48,7 @@ Result<std::optional<SpaceSeries>> parse_space_series(const std::string& text,
   const bool level = std::all_of(series.points.begin(), series.points.end(),
                                  [&](const Vec3& p) { return p.z == z; });
   if (level) return std::nullopt;
+  place(import.placement, series);
   return std::optional(std::move(series));
 }
 

@@ -42,13 +42,17 @@ Result<std::optional<Vec3>> direction_named(const std::string& typed) {
 
 Result<std::vector<FixedData>> fixed_in_space(const SpaceSeries& series, const std::string& text,
                                               const std::optional<Vec3>& along,
-                                              const std::string& name) {
-  const auto plane = parse_points(text, name, TwoPoints::kDo);
+                                              const std::string& name,
+                                              const ImportOptions& import) {
+  PointListOptions list = import.list;
+  list.two = TwoPoints::kDo;
+  auto plane = parse_points(text, name, list);
   if (!plane || plane->fixed.empty()) return std::vector<FixedData>{};
   if (plane->points.size() != series.points.size()) {
     return fail(bad_option("columns of points that lie above each other have no projection", name,
                            "--flat forms the contour in the plane of x and y"));
   }
+  place(import.placement, *plane);
   const bool more = std::any_of(plane->fixed.begin(), plane->fixed.end(),
                                 [](const FixedData& f) { return f.says_how() || f.tolerance; });
   const bool plan_view = along && along->x == 0.0 && along->y == 0.0;

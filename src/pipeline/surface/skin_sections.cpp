@@ -140,6 +140,9 @@ Result<FittedSkin> fit_skin(const std::vector<SpaceSeries>& given, const SkinJob
   FittedSkin result;
   if (given.size() < 2) {
     return error(ErrorCode::kTooFewCurves, "a skin needs at least two sections")
+        .hint(
+            "blank lines or a column `section` part those of one file; others are a file each; "
+            "NAME_x, NAME_y and NAME_z are one grid: `obvid surface grid`")
         .value(static_cast<double>(given.size()));
   }
   std::vector<SpaceSeries> sections = given;

@@ -4,7 +4,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
+#include <variant>
 
 #include "obvid/core/internal/figures.h"
 #include "obvid/pipeline/import.h"
@@ -26,24 +28,103 @@ std::optional<AnalysedSeries> analysed(Drawing& drawing, std::size_t number) {
   return AnalysedSeries{std::move(series), std::move(*analysis)};
 }
 
-Vec2 extent_of(const std::vector<Vec2>& points) {
-  Vec2 low = points.front(), high = low;
-  for (const Vec2 p : points) {
-    low = {std::min(low.x, p.x), std::min(low.y, p.y)};
-    high = {std::max(high.x, p.x), std::max(high.y, p.y)};
+/// The least box that holds what it was shown.
+class Box {
+ public:
+  explicit Box(Vec2 first) : low_(first), high_(first) {}
+
+  void see(Vec2 p) {
+    low_ = {std::min(low_.x, p.x), std::min(low_.y, p.y)};
+    high_ = {std::max(high_.x, p.x), std::max(high_.y, p.y)};
   }
-  return high - low;
+
+  /// Ends of a piece, and the places in between where it turns back along an axis.
+  void see(const Piece& piece) {
+    constexpr int kBoxSteps = 64;  // such places lie farther apart, but for arcs of many turns
+    see(start_point(piece));
+    see(end_point(piece));
+    if (std::holds_alternative<LinePiece>(piece)) return;
+    for (const double Vec2::*axis : {&Vec2::x, &Vec2::y}) {
+      const auto speed = [&](double t) { return evaluate(piece, t).d1.*axis; };
+      double before = speed(0.0);
+      for (int i = 1; i <= kBoxSteps; ++i) {
+        const double t = static_cast<double>(i) / kBoxSteps, here = speed(t);
+        if ((before < 0.0) != (here < 0.0)) {
+          see(evaluate(piece, turn_back(speed, t - 1.0 / kBoxSteps, t)).point);
+        }
+        before = here;
+      }
+    }
+  }
+
+  [[nodiscard]] Vec2 low() const { return low_; }
+  [[nodiscard]] Vec2 high() const { return high_; }
+
+ private:
+  template <class Speed>
+  static double turn_back(const Speed& speed, double from, double to) {
+    constexpr int kHalvings = 60;
+    const bool falls = speed(from) < 0.0;
+    for (int i = 0; i < kHalvings; ++i) {
+      const double middle = 0.5 * (from + to);
+      ((speed(middle) < 0.0) == falls ? from : to) = middle;
+    }
+    return from;
+  }
+
+  Vec2 low_, high_;
+};
+
+bool is_circle(const std::vector<Piece>& pieces) {
+  constexpr double kSame = 1e-9;  // of the curvature
+  const auto* first = std::get_if<ArcPiece>(&pieces.front());
+  return first != nullptr && std::all_of(pieces.begin(), pieces.end(), [&](const Piece& piece) {
+           const auto* arc = std::get_if<ArcPiece>(&piece);
+           return arc != nullptr &&
+                  std::abs(arc->kappa - first->kappa) <= kSame * std::abs(first->kappa);
+         });
+}
+
+/// "4 lines and 4 arcs"; what is alone has no number.
+std::string kind_of(const std::vector<Piece>& pieces, bool closed) {
+  if (pieces.empty()) return "nothing";
+  if (closed && is_circle(pieces)) return "circle";
+  std::size_t lines = 0, arcs = 0, clothoids = 0;
+  for (const Piece& piece : pieces) {
+    lines += std::holds_alternative<LinePiece>(piece) ? 1 : 0;
+    arcs += std::holds_alternative<ArcPiece>(piece) ? 1 : 0;
+    clothoids += std::holds_alternative<ClothoidPiece>(piece) ? 1 : 0;
+  }
+  const std::size_t splines = pieces.size() - lines - arcs - clothoids;
+  if (splines == pieces.size()) return "spline";
+  std::vector<std::string> parts;
+  const auto add = [&](std::size_t count, const char* one, const char* many) {
+    if (count == 0) return;
+    parts.push_back(pieces.size() == 1 ? one : counted(count, one, many));
+  };
+  add(lines, "line", "lines");
+  add(arcs, "arc", "arcs");
+  add(clothoids, "clothoid", "clothoids");
+  add(splines, "span of a spline", "spans of splines");
+  std::string out;
+  for (std::size_t i = 0; i < parts.size(); ++i) {
+    out += (i == 0 ? "" : i + 1 == parts.size() ? " and " : ", ") + parts[i];
+  }
+  return out;
 }
 
 }  // namespace
 
-Result<AnalysedDrawing> analyse_drawing(Drawing drawing, const std::optional<std::size_t>& curve,
+Result<AnalysedDrawing> analyse_drawing(Drawing drawing, const ImportOptions& options,
                                         const std::string& where) {
-  const auto chosen = chosen_curve(drawing, curve, where);
-  if (!chosen && curve) return fail(chosen.error());
-  AnalysedDrawing out{std::move(drawing), {}, {}};
+  place(options.placement, drawing);
+  const auto chosen = chosen_curve(drawing, options.curve, where);
+  if (!chosen && options.curve.asked()) return fail(chosen.error());
+  AnalysedDrawing out{std::move(drawing), {}, {}, {}};
+  if (options.curve.asked()) out.asked = *chosen;
   for (const DrawnCurve& one : out.drawing.curves) {
     out.audits.push_back(audit(one, out.drawing.units));
+    out.audits.back().layer = one.layer;
   }
   const std::size_t curves = out.audits.size();
   if (chosen && *chosen >= curves) out.points = analysed(out.drawing, *chosen - curves);
@@ -59,14 +140,34 @@ void add_rounding_warning(PointSeries& series, const Analysis& analysis) {
       counted(analysis.rounding_decided.size(), "chord", "chords"), first + 1, first + 2));
 }
 
-SeriesFigures figures_of(const PointSeries& series) {
+DrawnFigures figures_of(const PointSeries& series) {
   constexpr const char* kSeriesKinds[] = {"points", "route", "single points", "waypoints"};
   const std::vector<Vec2>& points = series.points;
-  SeriesFigures out;
+  DrawnFigures out;
   out.kind = kSeriesKinds[static_cast<int>(series.kind)];
+  out.points = points.size();
+  if (points.empty()) return out;
   for (std::size_t i = 1; i < points.size(); ++i) out.length += norm(points[i] - points[i - 1]);
   out.closed = points.size() > 2 && points.front() == points.back();
-  out.box = extent_of(points);
+  Box box(points.front());
+  for (const Vec2 p : points) box.see(p);
+  out.low = box.low();
+  out.high = box.high();
+  return out;
+}
+
+DrawnFigures figures_of(const CurveAudit& audit) {
+  const Contour& contour = audit.contour;
+  DrawnFigures out;
+  out.kind = kind_of(contour.pieces, contour.closed);
+  out.points = contour.pieces.size() + (contour.closed ? 0 : 1);
+  out.length = audit.length;
+  out.closed = contour.closed;
+  if (contour.pieces.empty()) return out;
+  Box box(start_point(contour.pieces.front()));
+  for (const Piece& piece : contour.pieces) box.see(piece);
+  out.low = box.low();
+  out.high = box.high();
   return out;
 }
 

@@ -19,8 +19,7 @@ struct DrawnContour {
 
 /// Takes the curve that `options` choose. Errors: those of `chosen_curve`; E310 where that is a
 /// series of points and its edges were not asked for. `where` stands in errors and remarks.
-[[nodiscard]] Result<DrawnContour> drawn_contour(const Drawing& drawing,
-                                                 const ImportOptions& options,
+[[nodiscard]] Result<DrawnContour> drawn_contour(Drawing drawing, const ImportOptions& options,
                                                  const std::string& where);
 
 }  // namespace obvid

@@ -3,6 +3,7 @@
 
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "obvid/core/result.h"
 #include "obvid/pipeline/export.h"
@@ -12,9 +13,14 @@ namespace obvid {
 
 /// Options of the formats as they were typed.
 struct FormatValues {
-  std::optional<long> curve;
+  std::optional<std::string> curve;  ///< number from 1, or a name
   std::optional<double> chord_tolerance;
   std::string drawing = "auto";
+  std::string columns;  ///< "2,3", from 1
+  std::optional<long> skip;
+  std::optional<double> scale, rotate_deg;
+  std::string move;    ///< "DX,DY" or "DX,DY,DZ"
+  std::string mirror;  ///< x or y
   std::optional<double> tolerance;
   std::optional<double> face_width;
   std::optional<std::string> profile;
@@ -36,5 +42,9 @@ struct FormatValues {
 /// A profile first, then what was typed beside it. `profile_text` gets what the profile chose.
 [[nodiscard]] Result<void> set_formats(const FormatValues& typed, ExportOptions& options,
                                        std::string& profile_text);
+
+/// Sentences about options that none of these files asks for: a feed without G-code.
+[[nodiscard]] std::vector<std::string> idle_options(const FormatValues& typed,
+                                                    const std::vector<std::string>& files);
 
 }  // namespace obvid

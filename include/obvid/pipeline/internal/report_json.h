@@ -62,6 +62,12 @@ struct Written {
 
 /// What a curvature comb would show of each curve of a drawing. `points`: what `series_report_json`
 /// says of the series that was asked for, if one was.
+/// Every curve and series of a drawing in a row with its figures, full digits, lengths in its
+/// units; curvatures and counts of curves alone.
+[[nodiscard]] std::string drawing_csv(const Drawing& drawing,
+                                      const std::vector<CurveAudit>& audits);
+/// Every point of a series in a row with its adjacent circle and the chord behind it.
+[[nodiscard]] std::string series_report_csv(const PointSeries& series, const Analysis& analysis);
 [[nodiscard]] std::string audit_json(const Drawing& drawing, const std::vector<CurveAudit>& audits,
                                      const std::string& points);
 

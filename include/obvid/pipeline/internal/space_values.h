@@ -7,6 +7,7 @@
 
 #include "obvid/core/result.h"
 #include "obvid/geom/vec3.h"
+#include "obvid/pipeline/import.h"
 #include "obvid/series/point_series.h"
 #include "obvid/surface/point_grid.h"
 
@@ -23,6 +24,7 @@ namespace obvid {
 [[nodiscard]] Result<std::vector<FixedData>> fixed_in_space(const SpaceSeries& series,
                                                             const std::string& text,
                                                             const std::optional<Vec3>& along,
-                                                            const std::string& name);
+                                                            const std::string& name,
+                                                            const ImportOptions& import = {});
 
 }  // namespace obvid

@@ -1,0 +1,159 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "several.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <filesystem>
+
+#include "obvid/core/files.h"
+#include "terminal.h"
+#include "text.h"
+
+namespace obvid {
+namespace {
+
+constexpr const char* kPlaceOfId = "{id}";
+
+std::string id_of(const std::string& input) {
+  return input == "-" ? "standard-input" : std::filesystem::path(input).stem().string();
+}
+
+std::string as_text(const std::string& name, std::size_t width, const Summary& summary) {
+  std::string out = name + std::string(width - std::min(width, name.size()), ' ') + "  ";
+  for (const SummaryCell& cell : summary.cells) {
+    if (!cell.text.empty()) out += cell.text + ", ";
+  }
+  if (!summary.error) return out + good(summary.verdict) + "\n";
+  return out + bad(fmt::format("{}: {}", code_text(*summary.error), summary.error->what)) + "\n";
+}
+
+}  // namespace
+
+std::string OneOf::shown() const {
+  return curve ? fmt::format("{} curve {}", input, *curve + 1) : input;
+}
+
+SummaryForm summary_form(bool csv, bool json, bool quiet) {
+  if (json) return SummaryForm::kJson;
+  if (csv) return SummaryForm::kCsv;
+  return quiet ? SummaryForm::kNothing : SummaryForm::kText;
+}
+
+bool are_several(const std::vector<std::string>& inputs, const CurveChoice& curve) {
+  return !inputs.empty() || curve.all;
+}
+
+Result<std::vector<OneOf>> all_of_them(const std::vector<std::string>& inputs,
+                                       const std::string& input, const CurveChoice& curve,
+                                       bool points) {
+  const std::vector<std::string> names = inputs.empty() ? std::vector{input} : inputs;
+  std::vector<OneOf> out;
+  for (const std::string& name : names) {
+    if (!curve.all || !is_drawing(name)) {
+      out.push_back({name, std::nullopt, id_of(name)});
+      continue;
+    }
+    const auto drawing = read_drawing(name);
+    OBVID_TRY(drawing);
+    const std::size_t curves = drawing->curves.size();
+    for (std::size_t i = 0; i < curves + drawing->series.size(); ++i) {
+      const bool taken =
+          i < curves || (points && drawing->series[i - curves].kind != SeriesKind::kWaypoints);
+      if (taken) out.push_back({name, i, fmt::format("{}-{}", id_of(name), i + 1)});
+    }
+  }
+  return out;
+}
+
+Result<std::vector<std::string>> outputs_for(const std::vector<std::string>& outputs,
+                                             const OneOf& one) {
+  std::vector<std::string> out;
+  for (std::string name : outputs) {
+    const std::size_t at = name.find(kPlaceOfId);
+    if (at == std::string::npos) {
+      return error(ErrorCode::kBadOption, "several contours cannot go to one file")
+          .where(name)
+          .hint("put {id} into its name, which becomes the name of each input: -o 'fair/{id}.svg'");
+    }
+    name.replace(at, std::string_view(kPlaceOfId).size(), one.id);
+    out.push_back(std::move(name));
+  }
+  return out;
+}
+
+std::optional<Error> Several::check(const std::vector<std::string>& outputs) const {
+  std::vector<std::string> inputs, names;
+  for (const OneOf& one : all_) {
+    inputs.push_back(one.input);
+    const auto own = outputs_for(outputs, one);
+    if (!own) return own.error();
+    names.insert(names.end(), own->begin(), own->end());
+  }
+  std::sort(inputs.begin(), inputs.end());
+  inputs.erase(std::unique(inputs.begin(), inputs.end()), inputs.end());
+  if (auto done = check_outputs(names, inputs); !done) return done.error();
+  return std::nullopt;
+}
+
+int Several::refused(const Error& error) { return report(error); }
+
+int Several::tell(const OneOf& one, Summary summary) {
+  const std::string name = one.shown();
+  for (const std::string& warning : summary.warnings) warn({name + ": " + warning});
+  if (summary.error && !first_) {
+    first_ = *summary.error;
+    if (first_->where.empty()) first_->where = name;
+  }
+  fine_ += summary.error ? 0 : 1;
+  std::size_t width = 0;
+  for (const OneOf& other : all_) width = std::max(width, other.shown().size());
+  std::string text;
+  if (form_ == SummaryForm::kText) text = as_text(name, width, summary);
+  if (form_ == SummaryForm::kCsv) text = csv_lines(name, std::move(summary));
+  if (form_ == SummaryForm::kJson) text = summary_json(one.input, one.curve, summary);
+  if (auto done = put(text); !done) return report(done.error());
+  return 0;
+}
+
+/// What could not be read has no figures, and stands in the columns of the others: it waits until
+/// they are known.
+std::string Several::csv_lines(const std::string& name, Summary summary) {
+  const auto blank = [&](Summary& one) {
+    for (SummaryCell& cell : one.cells = columns_) cell.value.clear();
+  };
+  if (summary.cells.empty() && columns_.empty()) {
+    waiting_.emplace_back(name, std::move(summary));
+    return {};
+  }
+  std::string out;
+  if (columns_.empty()) {
+    columns_ = summary.cells;
+    out = summary_csv_head(columns_);
+    for (auto& [before, one] : waiting_) {
+      blank(one);
+      out += summary_csv(before, one);
+    }
+    waiting_.clear();
+  }
+  if (summary.cells.empty()) blank(summary);
+  return out + summary_csv(name, summary);
+}
+
+int Several::end() {
+  std::string left = waiting_.empty() ? "" : summary_csv_head({});
+  for (const auto& [name, one] : waiting_) left += summary_csv(name, one);
+  if (auto done = put(left); !done) return report(done.error());
+  if (form_ == SummaryForm::kText) {
+    const std::string all = counted(all_.size(), "input", "inputs");
+    if (auto done = put(fmt::format("{}, {} as asked\n", all, fine_)); !done) {
+      return report(done.error());
+    }
+  }
+  if (!first_) return 0;
+  first_->what = fmt::format("{} of {} failed, the first: {}", all_.size() - fine_,
+                             counted(all_.size(), "input", "inputs"), first_->what);
+  return report(*first_);
+}
+
+}  // namespace obvid

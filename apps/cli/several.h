@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "obvid/core/result.h"
+#include "obvid/pipeline/import.h"
+#include "obvid/pipeline/internal/summary.h"
+
+namespace obvid {
+
+// Several inputs of one command, or every curve of a drawing: a line each, and a last one.
+
+/// One of several.
+struct OneOf {
+  std::string input;
+  std::optional<std::size_t> curve;  ///< of a drawing, from 0
+  std::string id;  ///< in names of outputs: name of the file, and the curve's number
+
+  [[nodiscard]] std::string shown() const;
+};
+
+/// How lines look.
+enum class SummaryForm { kText, kCsv, kJson, kNothing };
+
+[[nodiscard]] SummaryForm summary_form(bool csv, bool json, bool quiet);
+
+/// Whether a command has more than one thing to do.
+[[nodiscard]] bool are_several(const std::vector<std::string>& inputs, const CurveChoice& curve);
+
+/// All of them; `points`: series of points of drawings count beside curves (waypoints never).
+/// Errors: those of reading a drawing whose curves are asked for.
+[[nodiscard]] Result<std::vector<OneOf>> all_of_them(const std::vector<std::string>& inputs,
+                                                     const std::string& input,
+                                                     const CurveChoice& curve, bool points);
+
+/// The names of outputs for one of them. Error: E203 without `{id}`.
+[[nodiscard]] Result<std::vector<std::string>> outputs_for(const std::vector<std::string>& outputs,
+                                                           const OneOf& one);
+
+/// Does `work` for each, prints its line, then how many were fine; the exit code is that of the
+/// first that was not.
+class Several {
+ public:
+  Several(std::vector<OneOf> all, SummaryForm form) : all_(std::move(all)), form_(form) {}
+
+  template <class Work>
+  int run(const std::vector<std::string>& outputs, const Work& work) {
+    if (auto error = check(outputs)) return refused(*error);
+    for (const OneOf& one : all_) {
+      const auto names = outputs_for(outputs, one);
+      if (!names) return refused(names.error());
+      if (const int code = tell(one, work(one, *names)); code != 0) return code;
+    }
+    return end();
+  }
+
+ private:
+  [[nodiscard]] std::optional<Error> check(const std::vector<std::string>& outputs) const;
+  static int refused(const Error& error);
+  int tell(const OneOf& one, Summary summary);
+  std::string csv_lines(const std::string& name, Summary summary);
+  int end();
+
+  std::vector<OneOf> all_;
+  SummaryForm form_;
+  std::vector<SummaryCell> columns_;                      ///< of the first that has figures
+  std::vector<std::pair<std::string, Summary>> waiting_;  ///< without figures, before these
+  std::size_t fine_ = 0;
+  std::optional<Error> first_;
+};
+
+}  // namespace obvid

@@ -1,0 +1,131 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "obvid/pipeline/internal/summary.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "obvid/core/internal/figures.h"
+#include "obvid/io/internal/json_text.h"
+
+namespace obvid {
+namespace {
+
+constexpr int kErrorDigits = 3;
+
+SummaryCell count_cell(const char* name, std::size_t count, const char* one, const char* many) {
+  return {name, counted(count, one, many), std::to_string(count)};
+}
+
+/// "3 vertices (2)": the number, and what the points force.
+SummaryCell with_bound(const char* name, int count, int bound, const char* one, const char* many) {
+  return {name, fmt::format("{} ({})", counted(static_cast<std::size_t>(count), one, many), bound),
+          std::to_string(count)};
+}
+
+SummaryCell bound_cell(const char* name, int bound) { return {name, "", std::to_string(bound)}; }
+
+}  // namespace
+
+std::string code_text(const Error& error) {
+  return fmt::format("E{}", static_cast<int>(error.code));
+}
+
+std::string csv_cell(const std::string& text) {
+  if (text.find_first_of(",\"\n\r") == std::string::npos) return text;
+  std::string out = "\"";
+  for (const char c : text) out += c == '"' ? std::string("\"\"") : std::string(1, c);
+  return out + "\"";
+}
+
+std::string csv_cell(double value) { return std::isfinite(value) ? fmt::format("{}", value) : ""; }
+
+std::string summary_csv_head(const std::vector<SummaryCell>& cells) {
+  std::string out = "input";
+  for (const SummaryCell& cell : cells) out += fmt::format(",{}", cell.name);
+  return out + ",verdict\n";
+}
+
+std::string summary_csv(const std::string& name, const Summary& summary) {
+  std::string out = csv_cell(name);
+  for (const SummaryCell& cell : summary.cells) out += "," + csv_cell(cell.value);
+  return out + "," + csv_cell(summary.error ? code_text(*summary.error) : summary.verdict) + "\n";
+}
+
+std::string summary_json(const std::string& input, const std::optional<std::size_t>& curve,
+                         const Summary& summary) {
+  JsonText json;
+  json.begin_object().pair("input", input);
+  if (curve) json.pair("curve", *curve);
+  for (const SummaryCell& cell : summary.cells) {
+    json.key(cell.name).raw(cell.value.empty() ? "null" : cell.value);
+  }
+  json.pair("verdict", summary.verdict);
+  if (const auto& error = summary.error) {
+    json.key("error").begin_object().pair("code", code_text(*error));
+    json.pair("what", error->what).pair("where", error->where).end_object();
+  }
+  json.key("warnings").begin_array();
+  for (const std::string& warning : summary.warnings) json.value(warning);
+  std::string out = json.end_array().end_object().take();
+  while (out.ends_with('\n')) out.pop_back();
+  // lines inside an object are for the eye; none of its texts holds one
+  std::replace(out.begin(), out.end(), '\n', ' ');
+  return out + "\n";
+}
+
+std::vector<SummaryCell> summary_cells(const Fit& fit) {
+  const FitReport& r = fit.report;
+  double error = 0.0;
+  for (const SegmentReport& segment : r.segments) {
+    error = std::isnan(segment.deviation) ? error : std::max(error, segment.deviation);
+  }
+  const std::string unit = fit.contour.units.text();
+  return {count_cell("points", fit.contour.points.size(), "point", "points"),
+          count_cell("pieces", fit.contour.pieces.size(), "piece", "pieces"),
+          with_bound("vertices", r.vertices, r.vertices_lower_bound, "vertex", "vertices"),
+          bound_cell("vertices_lower_bound", r.vertices_lower_bound),
+          count_cell("inflections", static_cast<std::size_t>(r.inflections), "inflection",
+                     "inflections"),
+          {"largest_move",
+           r.largest_move > 0.0
+               ? fmt::format("moves up to {} {}", significant(r.largest_move, kErrorDigits), unit)
+               : "",
+           csv_cell(r.largest_move)},
+          {"largest_error", fmt::format("error {} {}", significant(error, kErrorDigits), unit),
+           csv_cell(error)}};
+}
+
+std::vector<SummaryCell> summary_cells(const PointSeries& series, const Analysis& a) {
+  return {count_cell("points", series.points.size(), "point", "points"),
+          {"size", fmt::format("size {} {}", significant(a.size), series.units.text()),
+           csv_cell(a.size)},
+          count_cell("runs", a.runs.size(), "run", "runs"),
+          with_bound("vertices", a.vertices, a.vertices_lower_bound, "vertex", "vertices"),
+          bound_cell("vertices_lower_bound", a.vertices_lower_bound),
+          with_bound("inflections", a.inflections, a.inflections_lower_bound, "inflection",
+                     "inflections"),
+          bound_cell("inflections_lower_bound", a.inflections_lower_bound)};
+}
+
+std::vector<SummaryCell> summary_cells(const AnalysedDrawing& drawing) {
+  double length = 0.0;
+  for (const CurveAudit& one : drawing.audits) length += one.length;
+  for (const PointSeries& one : drawing.drawing.series) length += figures_of(one).length;
+  return {
+      count_cell("curves", drawing.audits.size(), "curve", "curves"),
+      count_cell("series", drawing.drawing.series.size(), "series of points", "series of points"),
+      {"length", fmt::format("length {} {}", significant(length), drawing.drawing.units.text()),
+       csv_cell(length)}};
+}
+
+std::vector<SummaryCell> summary_cells(const Contour& contour, const Certificate& certificate) {
+  return {
+      count_cell("pieces", contour.pieces.size(), "piece", "pieces"),
+      count_cell("vertices", static_cast<std::size_t>(certificate.vertices), "vertex", "vertices"),
+      count_cell("inflections", static_cast<std::size_t>(certificate.inflections), "inflection",
+                 "inflections")};
+}
+
+}  // namespace obvid
