@@ -98,8 +98,7 @@ OBVID_API void obvid_input_free(obvid_input* input);
 
 /* Forms a contour and proves it. Both results may be there although the call fails with
  * OBVID_NOT_PROVED: the contour was formed and does not keep its promise. A construction of the
- * papers (option "construction") promises nothing. `contour`, `report` may be NULL: not wanted.
- * Without a report the waviness is not measured, and files of the contour do not claim one. */
+ * papers (option "construction") promises nothing. `contour`, `report` may be NULL: not wanted. */
 OBVID_API int obvid_fit(const obvid_input* input, const char* options, const obvid_run* run,
                         obvid_contour** contour, char** report, obvid_error** error);
 /* Why obvid_fit finds no contour (OBVID_NO_CONTOUR), and what would do: takes some 15 times as

@@ -162,8 +162,7 @@ Trouble read_item(const Item& item, Work& work) {
 void do_job(Work& work) {
   const std::string& job = work.spec.job;
   const char* const options = work.spec.options.c_str();
-  const bool written = job == "fit" && !work.spec.each.empty();  // files claim what a report has
-  const bool reported = !work.spec.reports.empty() || written || has_report(job);
+  const bool reported = !work.spec.reports.empty() || has_report(job);
   Out<char> report(work.report);
   char** const to_report = reported ? static_cast<char**>(report) : nullptr;
   if (job == "fit") {

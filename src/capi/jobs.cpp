@@ -37,7 +37,11 @@ Result<PointSeries> series_of(const obvid_input& input, const Request& request, 
       place(request.import.placement, given);
       return given;
     }
-    if (!drawings) return parse_points(input.text, input.name);
+    if (!drawings) {
+      Result<PointSeries> list = parse_points(input.text, input.name, request.import.list);
+      if (list) place(request.import.placement, *list);
+      return list;
+    }
     return input.by_path ? read_series(input.name, request.import)
                          : parse_series(input.text, input.name, request.import);
   }();
@@ -140,9 +144,7 @@ int obvid_fit(const obvid_input* input, const char* options, const obvid_run* ru
     OBVID_TRY(request);
     const Result<PointSeries> series = series_of(*input, *request, true);
     OBVID_TRY(series);
-    Request asked = *request;
-    asked.job.measure_waviness = report != nullptr;
-    Result<Fit> made = formed(*series, asked, context_of(run));
+    Result<Fit> made = formed(*series, *request, context_of(run));
     OBVID_TRY(made);
     // a construction promises nothing: its certificate says what it is
     const bool promises = !request->worksheet.construction;

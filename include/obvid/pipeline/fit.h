@@ -74,7 +74,6 @@ struct FitJob {
   bool primitives = false;              ///< exact lines and arcs where the points allow them
   std::vector<PointWish> wishes;        ///< ascending, at most one per point; range not checked
   bool measure_against_spirals = true;  ///< other carriers: how far they are from the spirals
-  bool measure_waviness = true;         ///< false: not known, an eighth of the time less
 };
 
 /// What `fit` tries to make of the contour's own joints.

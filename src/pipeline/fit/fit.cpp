@@ -202,7 +202,7 @@ class SectionForming {
     }
     // pieces of a drawing have no part in it
     if (out_.chain.slope_step_g2 && series_.kept.empty()) {
-      if (job_.measure_waviness) out_.chain.waviness_g2 = waviness_g2_.value();
+      out_.chain.waviness_g2 = waviness_g2_.value();
     }
     if (have_spirals_ && follows_spirals(job_.carrier)) {
       out_.spirals = finished(spirals_, Carrier::kSpiral);
@@ -322,7 +322,7 @@ class SectionForming {
     if (!is_made_g3(job_)) return;
     double& largest = out_.chain.slope_step_g2.emplace(out_.chain.slope_step_g2.value_or(0.0));
     largest = std::max(largest, largest_slope_step(spirals, series_.split.smooth_loop));
-    if (job_.measure_waviness) waviness_g2_.add(spirals, series_.split.smooth_loop);
+    waviness_g2_.add(spirals, series_.split.smooth_loop);
   }
 
   /// A piece of a drawing stays as it is. False where there is none.
@@ -966,7 +966,7 @@ Result<Fit> fit_with_room(const PointSeries& series, const FitJob& job, FoundCha
 Result<Fit> pipeline_detail::fit_with(const PointSeries& series, const FitJob& job,
                                       FoundChains& chains, Watch& watch) {
   auto made = fit_with_room(series, job, chains, watch);
-  if (made && job.measure_waviness) made->report.waviness = waviness(made->contour);
+  if (made) made->report.waviness = waviness(made->contour);
   return made;
 }
 

@@ -82,7 +82,7 @@ struct RunSlopes {
   }
 };
 
-RunSlopes slopes_of(const Contour& contour, std::size_t first, std::size_t last, Bound bound) {
+RunSlopes slopes_of_run(const Contour& contour, std::size_t first, std::size_t last, Bound bound) {
   RunSlopes out;
   double before = 0.0;
   const auto meet = [&](double slope) {
@@ -136,8 +136,8 @@ void Waviness::add(const Contour& contour, bool loop) {
 
 /// Pieces are counted on around the contour.
 void Waviness::add_run(const Contour& contour, std::size_t first, std::size_t last) {
-  RunSlopes slopes = slopes_of(contour, first, last, Bound::kOfPieces);
-  if (!slopes.are_known()) slopes = slopes_of(contour, first, last, Bound::kOfPlaces);
+  RunSlopes slopes = slopes_of_run(contour, first, last, Bound::kOfPieces);
+  if (!slopes.are_known()) slopes = slopes_of_run(contour, first, last, Bound::kOfPlaces);
   known_ = known_ && slopes.are_known();
   hills_ += slopes.variation / (2.0 * slopes.largest);
   ++runs_;
