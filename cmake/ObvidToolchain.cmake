@@ -31,6 +31,8 @@ if(MSVC)
 else()
   target_compile_options(obvid_flags INTERFACE
     -Wall -Wextra -Wpedantic -Wconversion -Wshadow -ffp-contract=off
+    # No other library takes the place of our functions: they may be written into each other.
+    -fno-semantic-interposition
     # What is built tells nothing of the machine that built it.
     "-ffile-prefix-map=${PROJECT_SOURCE_DIR}/=" "-ffile-prefix-map=${PROJECT_BINARY_DIR}=build")
   # g++ 12 takes "text" + std::string for overlapping copies once it is inlined (GCC bug 105651).

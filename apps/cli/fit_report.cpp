@@ -72,7 +72,7 @@ Table fit_segments(const Fit& fit) {
 std::string fairness_text(const FitReport& report) {
   return fmt::format(
       "{} ({}), {}", counted(static_cast<std::size_t>(report.vertices), "vertex", "vertices"),
-      bound_text(report.vertices_lower_bound),
+      vertex_bound_text(report.vertices_lower_bound),
       counted(static_cast<std::size_t>(report.inflections), "inflection", "inflections"));
 }
 
@@ -261,6 +261,8 @@ Facts summary(const Fit& fit, const Written& written) {
 std::string bound_text(int bound) {
   return fmt::format("at least {} unless a curve winds between the points", bound);
 }
+
+std::string vertex_bound_text(int bound) { return "curvature extrema, " + bound_text(bound); }
 
 void add_gaps(Facts& facts, const Certificate& certificate, Carrier carrier) {
   const JointGaps& gaps = certificate.gaps;

@@ -26,6 +26,8 @@ namespace obvid {
 
 /// What the points force, and on which curves (docs/claims.md, `vertices_lower_bound`).
 [[nodiscard]] std::string bound_text(int bound);
+/// The same for vertices, with what they are: drawings call their corners so.
+[[nodiscard]] std::string vertex_bound_text(int bound);
 
 /// Lines about joint gaps, vertices and the like that `fit` and `verify` share.
 class Facts;

@@ -32,7 +32,7 @@ std::string bends_words(const Fit& part) {
   return fmt::format(
       "{}, {} ({}), {}", counted(part.contour.pieces.size(), "piece", "pieces"),
       counted(static_cast<std::size_t>(report.vertices), "vertex", "vertices"),
-      bound_text(report.vertices_lower_bound),
+      vertex_bound_text(report.vertices_lower_bound),
       counted(static_cast<std::size_t>(report.inflections), "inflection", "inflections"));
 }
 

@@ -234,8 +234,8 @@ void LinkModel::scatter(const ConeTerms& v, const Link& l, const State& s, Newto
   b.c1 += kb * zB;
 }
 
-/// Barrier of the curvature's sign at the nodes; returns its sum of logarithms. Fixed variables are
-/// taken out of the system.
+/// Barrier of the curvature's sign at the nodes; returns its sum of logarithms, minus infinity where
+/// a sign is wrong. Fixed variables are taken out of the system.
 double LinkModel::add_nodes(const std::vector<double>& x, double slack, double barrier,
                             NewtonSystem& system) const {
   LogSum signs;
@@ -244,6 +244,7 @@ double LinkModel::add_nodes(const std::vector<double>& x, double slack, double b
     const Node& node = nodes_[i];
     if (node.sign != 0.0) {
       const double v = signed_curvature(node, x[2 * i + 1], slack);
+      if (!(v > 0.0)) return -kInfinity;
       const double rv = w / v, rvv = rv / v;
       signs.add(v / node.sign_size);
       system[i].g1 -= rv * node.sign;
@@ -278,6 +279,7 @@ double LinkModel::assemble(const std::vector<double>& x, double slack, double en
     if (l.cone == Cone::kNone) continue;
     const ConeVariables v = variables(s);
     const ConeRoom c = room(l, v, slack);
+    if (!c.inside()) return kInfinity;
     value += energy * l.energy * kFairEnergy.of(v);
     cones.add(c.f * l.inverse_size * l.inverse_size);
     sigmas.add(c.u * l.inverse_size);

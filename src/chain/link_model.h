@@ -21,7 +21,8 @@ class LinkModel {
   [[nodiscard]] std::vector<double> starting_guess() const;
   [[nodiscard]] std::vector<double> from_elements(const std::vector<Element>& elements) const;
 
-  /// energy * E + barrier * B at x, with gradient and Gauss-Newton Hessian in `system`.
+  /// energy * E + barrier * B at x, with gradient and Gauss-Newton Hessian in `system`. Infinity
+  /// outside the cones, where the system is of no use.
   double assemble(const std::vector<double>& x, double slack, double energy, double barrier,
                   NewtonSystem& system) const;
 

@@ -12,9 +12,11 @@ namespace obvid::chain_detail {
 namespace {
 
 constexpr std::size_t kNodeUnknowns = SlopeSystem::kBlock;
-/// The steps end when the unknowns change by no more, in units of the local turning, and the merit
-/// falls no more than its rounding.
-constexpr double kSettled = 1e-9;
+/// The steps end with one of Newton's own that changes the unknowns by no more, in units of the local
+/// turning: behind it slopes differ by its square, and the chain is the fairest to a part of it.
+constexpr double kSettled = 1e-6;
+/// The same where the step is larger and this is left behind it, if it shrinks like the one before.
+constexpr double kForetold = 1e-9;
 constexpr double kMeritRounding = 1e-14;
 /// The price of a gap in the merit function, against the largest multiplier (must exceed 1).
 constexpr double kGapPrice = 1.5;
@@ -262,10 +264,9 @@ SlopeSolver::Outcome SlopeSolver::run(const std::vector<Element>& start, int mos
       }
       extrapolates = false;
     }
-    // what is left behind the step, if it shrinks like the one before
     const bool creeps = !(largest < kQuickly * before);
     const bool settles =
-        largest < kSettled || (plain && !creeps && largest * (largest / before) < kSettled);
+        largest < kSettled || (plain && !creeps && largest * (largest / before) < kForetold);
     before = largest;
     const auto falls = [&] {
       evaluate(trial_);

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <optional>
 
 #include "link_model.h"
 #include "obvid/chain/internal/chain.h"
@@ -14,7 +15,8 @@ using namespace chain_detail;
 
 constexpr double kEpsilon = std::numeric_limits<double>::epsilon();
 /// Newton stops after a step whose predicted decrease is below this part of the barrier's own
-/// scale: convergence is quadratic, so what is left is of the order of its square.
+/// scale, or that of the next one is if it only shrinks like this one: convergence is quadratic, so
+/// what is left is less.
 constexpr double kConverged = 1e-13;
 /// Sufficient-decrease constant of the line search (Nocedal & Wright 2006, eq. 3.4).
 constexpr double kArmijo = 1e-4;
@@ -70,7 +72,9 @@ class Solver {
   double step(double energy, double barrier, double slack_cost) {
     const bool with_slack = slack_cost > 0.0;
     const double value =
-        model_.assemble(x_, slack_, energy, barrier, system_) + slack_cost * slack_;
+        assembled_ ? *assembled_ : model_.assemble(x_, slack_, energy, barrier, system_) +
+                                       slack_cost * slack_;
+    assembled_.reset();
     system_.slack_gradient = with_slack ? system_.slack_gradient + slack_cost : 0.0;
     ++steps_;
     if (options_.watch != nullptr) options_.watch->spend(static_cast<double>(points_.size()));
@@ -83,11 +87,16 @@ class Solver {
     while (t > kSmallestStep) {
       for (std::size_t i = 0; i < x_.size(); ++i) trial_[i] = x_[i] + t * direction_[i];
       const double s = slack_ + t * slack_direction_;
-      const double v = model_.merit(trial_, s, energy, barrier) + slack_cost * s;
+      // a whole step is taken mostly, and begins the next one
+      const bool begins_next = t == 1.0 && !with_slack;
+      const double v = (begins_next ? model_.assemble(trial_, s, energy, barrier, system_)
+                                    : model_.merit(trial_, s, energy, barrier)) +
+                       slack_cost * s;
       // the comparison is written so that NaN counts as too large
       if (v <= value - kArmijo * t * decrement + rounding_of(value)) {
         x_.swap(trial_);
         slack_ = s;
+        if (begins_next) assembled_ = v;
         return decrement;
       }
       t *= t == 1.0 ? 0.5 : 0.4;
@@ -133,9 +142,13 @@ class Solver {
 
   void phase_two() {
     const double done = kConverged * model_.total_weight();
+    double before = 0.0;  // none: its ratio tells nothing
     converged_ = true;
     while (steps_ < options_.largest_steps) {
-      if (step(1.0, kFinalBarrier, 0.0) < done) return;  // negative: no step helps any more
+      const double decrease = step(1.0, kFinalBarrier, 0.0);
+      // negative: no step helps any more
+      if (decrease < done || decrease * (decrease / before) < done) return;
+      before = decrease;
     }
     converged_ = false;
   }
@@ -173,6 +186,7 @@ class Solver {
   const ChainOptions& options_;
   LinkModel model_;
   NewtonSystem system_;
+  std::optional<double> assembled_;  ///< value at x_ of which the system is already made
   std::vector<double> x_, trial_, direction_;
   double slack_ = 0.0, slack_direction_ = 0.0;
   int steps_ = 0;

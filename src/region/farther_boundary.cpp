@@ -4,11 +4,13 @@
 #include <algorithm>
 #include <array>
 #include <boost/math/tools/minima.hpp>
-#include <boost/math/tools/toms748_solve.hpp>
+#include <boost/math/tools/roots.hpp>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <utility>
 
+#include "obvid/core/internal/always_inline.h"
 #include "two_arcs.h"
 
 namespace obvid {
@@ -21,13 +23,18 @@ using region_detail::TwoArcs;
 constexpr int kDigits = 18;
 /// Where the distance has a corner at its top it is not flat.
 constexpr int kDigitsOfCorner = 26;
+constexpr int kDigitsBeforeLast = kDigitsOfCorner / 2 + 1;  ///< Newton's last step doubles them
 constexpr std::uintmax_t kMostLooks = 60;
 /// Part of the way to the end after which the distance is looked at again.
 constexpr double kAside = 0.25;
 /// Added for what lies between the place found and the farthest one, of the distance.
 constexpr double kUpward = 1e-5;
 /// Roundings of a point seen from the start of its chord, each 2^-53 of the coordinates' size.
-constexpr double kPointRoundings = 8.0 * 0x1p-53;
+constexpr double kPointRoundings = 16.0 * 0x1p-53;
+
+struct Place {
+  Vec2 point, by_parameter;
+};
 
 /// A piece in the frame of the chord, quick to evaluate.
 class LocalPiece {
@@ -38,45 +45,63 @@ class LocalPiece {
     if (bezier == nullptr) return;
     degree_ = bezier->degree;
     const Vec2 origin = bezier->origin - start;
-    for (std::size_t j = 0; j <= static_cast<std::size_t>(degree_); ++j) {
-      const Vec2 p = in_frame(origin + bezier->offset[j]);
-      weight_[j] = bezier->weight[j];
-      weighted_[j] = weight_[j] * p;
+    double binomial = 1.0;
+    for (int j = 0; j <= degree_; ++j) {
+      const auto k = static_cast<std::size_t>(j);
+      weight_[k] = binomial * bezier->weight[k];
+      weighted_[k] = weight_[k] * in_frame(origin + bezier->offset[k]);
+      binomial = binomial * (degree_ - j) / (j + 1);
     }
   }
 
   [[nodiscard]] Vec2 at(double t) const {
     if (degree_ == 0) return in_frame(evaluate(*piece_, t).point - start_);
     constexpr std::size_t kOfSpirals = 4;  // known when compiled
-    return degree_ == kOfSpirals ? cut<kOfSpirals>(t) : cut<0>(t);
+    return degree_ == kOfSpirals ? sum(t, kOfSpirals)
+                                 : sum(t, static_cast<std::size_t>(degree_));
+  }
+
+  [[nodiscard]] Place place(double t) const {
+    if (degree_ == 0) {
+      const Jet jet = evaluate(*piece_, t);
+      return {in_frame(jet.point - start_), in_frame(jet.d1)};
+    }
+    const auto degree = static_cast<std::size_t>(degree_);
+    const double s = 1.0 - t;
+    double power = 1.0, w = weight_[0], w_by_t = 0.0;
+    Vec2 p = weighted_[0], p_by_t{};
+    for (std::size_t j = 1; j <= degree; ++j) {
+      const double power_by_t = static_cast<double>(j) * power;
+      power *= t;
+      p_by_t = s * p_by_t - p + power_by_t * weighted_[j];
+      w_by_t = s * w_by_t - w + power_by_t * weight_[j];
+      p = s * p + power * weighted_[j];
+      w = s * w + power * weight_[j];
+    }
+    const Vec2 point = p / w;
+    return {point, (p_by_t - w_by_t * point) / w};
   }
 
  private:
-  /// De Casteljau's algorithm; degree 0: the piece's own.
-  template <std::size_t kDegree>
-  [[nodiscard]] Vec2 cut(double t) const {
-    const std::size_t degree = kDegree > 0 ? kDegree : static_cast<std::size_t>(degree_);
-    constexpr std::size_t kCount = (kDegree > 0 ? kDegree : kMaxBezierDegree) + 1;
-    std::array<Vec2, kCount> p;
-    std::array<double, kCount> w;
-    std::copy_n(weighted_.begin(), degree + 1, p.begin());
-    std::copy_n(weight_.begin(), degree + 1, w.begin());
+  /// Bernstein's sum: no term is larger than the coordinates, as in de Casteljau's algorithm.
+  [[nodiscard]] OBVID_ALWAYS_INLINE Vec2 sum(double t, std::size_t degree) const {
     const double s = 1.0 - t;
-    for (std::size_t left = degree; left > 0; --left) {
-      for (std::size_t j = 0; j < left; ++j) {
-        p[j] = s * p[j] + t * p[j + 1];
-        w[j] = s * w[j] + t * w[j + 1];
-      }
+    double power = 1.0, w = weight_[0];
+    Vec2 p = weighted_[0];
+    for (std::size_t j = 1; j <= degree; ++j) {
+      power *= t;
+      p = s * p + power * weighted_[j];
+      w = s * w + power * weight_[j];
     }
-    return p[0] / w[0];
+    return p / w;
   }
   [[nodiscard]] Vec2 in_frame(Vec2 v) const { return {dot(along_, v), cross(along_, v)}; }
 
   const Piece* piece_;
   Vec2 start_, along_;
   int degree_ = 0;  // 0: no Bezier piece
-  std::array<Vec2, kMaxBezierDegree + 1> weighted_;
-  std::array<double, kMaxBezierDegree + 1> weight_;
+  std::array<Vec2, kMaxBezierDegree + 1> weighted_;  // times the weight and the binomial
+  std::array<double, kMaxBezierDegree + 1> weight_;  // times the binomial
 };
 
 /// A path seen from the chord; its parameter counts pieces.
@@ -90,18 +115,12 @@ class LocalPath {
     return static_cast<double>(path_.pieces.size() - 1) + path_.t1;
   }
   [[nodiscard]] Vec2 at(double u) {
-    const std::size_t k = piece_at(u);
-    if (k != at_) {
-      local_ = LocalPiece(path_.pieces[k], placed_.start, placed_.along);
-      at_ = k;
-    }
+    const std::size_t k = go_to_piece_at(u);
     return local_.at(u - static_cast<double>(k));
   }
-  /// Of the tangent, any length.
-  [[nodiscard]] Vec2 direction(double u) const {
-    const std::size_t k = piece_at(u);
-    const Vec2 d = evaluate(path_.pieces[k], u - static_cast<double>(k)).d1;
-    return {dot(placed_.along, d), cross(placed_.along, d)};
+  [[nodiscard]] Place place(double u) {
+    const std::size_t k = go_to_piece_at(u);
+    return local_.place(u - static_cast<double>(k));
   }
   [[nodiscard]] Vec2 in_plane(double u) const {
     const std::size_t k = piece_at(u);
@@ -111,6 +130,14 @@ class LocalPath {
  private:
   [[nodiscard]] std::size_t piece_at(double u) const {
     return std::min(static_cast<std::size_t>(u), path_.pieces.size() - 1);
+  }
+  std::size_t go_to_piece_at(double u) {
+    const std::size_t k = piece_at(u);
+    if (k != at_) {
+      local_ = LocalPiece(path_.pieces[k], placed_.start, placed_.along);
+      at_ = k;
+    }
+    return k;
   }
 
   const PieceSpan& path_;
@@ -136,17 +163,19 @@ Farthest top_between(const Distance& distance, double a, double b, int digits) {
 /// Where the path crosses the common normal of both arcs. Its tangents keep within a right angle of
 /// theirs: it crosses once.
 double crossing(LocalPath& path, const TwoArcs& arcs) {
-  const auto beyond = [&](double u) {
-    return dot(path.at(u) - arcs.second.start, arcs.second.start_tangent);
-  };
+  const Vec2 joint = arcs.second.start, along = arcs.second.start_tangent;
+  const auto beyond = [&](double u) { return dot(path.at(u) - joint, along); };
   const double a = path.first(), b = path.last();
   const double at_a = beyond(a), at_b = beyond(b);
   if (!(at_a < 0.0)) return a;
   if (!(at_b > 0.0)) return b;
   std::uintmax_t looks = kMostLooks;
-  const auto [low, high] = boost::math::tools::toms748_solve(
-      beyond, a, b, at_a, at_b, boost::math::tools::eps_tolerance<double>(kDigitsOfCorner), looks);
-  return 0.5 * (low + high);
+  return boost::math::tools::newton_raphson_iterate(
+      [&](double u) {
+        const Place here = path.place(u);
+        return std::pair{dot(here.point - joint, along), dot(here.by_parameter, along)};
+      },
+      a + (b - a) * (at_a / (at_a - at_b)), a, b, kDigitsBeforeLast, looks);
 }
 
 /// Largest distance of the path from one boundary. One of the arcs, `osculating`, has the path's
@@ -161,8 +190,8 @@ Farthest from_boundary(LocalPath& path, const TwoArcs& arcs, bool first_osculate
   }
   const Arc& other = first_osculates ? arcs.second : arcs.first;
   const double joint = crossing(path, arcs), end = first_osculates ? b : a;
-  const Vec2 there = path.at(joint);
-  const Vec2 ahead = first_osculates ? path.direction(joint) : -path.direction(joint);
+  const auto [there, on] = path.place(joint);
+  const Vec2 ahead = first_osculates ? on : -on;
   const Farthest corner{joint, other.circle_distance(there)};
   const bool grows =
       other.growth(there, ahead) > 0.0 ||  // rounding decides where it is 0

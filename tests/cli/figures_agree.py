@@ -221,7 +221,7 @@ class Subject:
             self.same("contour", [int(n or 0) for n in said],
                       [len(stored["pieces"]), len(stored["points"]),
                        report["chain"]["free_elements"], len(stored["runs"])])
-        self.same("fairness", facts.get("fairness"), "{} (at least {} unless a curve winds between the points), {}".format(
+        self.same("fairness", facts.get("fairness"), "{} (curvature extrema, at least {} unless a curve winds between the points), {}".format(
             plural(certificate["vertices"], "vertex", "vertices"), report["vertices_lower_bound"],
             plural(certificate["inflections"], "inflection", "inflections")))
         self.bounds_of_fit(facts, stored)
@@ -486,8 +486,9 @@ class Subject:
             return  # a drawing with several series
         self.shows("analyse: size", facts.get("size", "").split(" ")[0], answer["size"])
         for key in ("vertices", "inflections"):
-            self.same("analyse: " + key, facts.get(key), "{} (at least {} unless a curve winds between the points)".format(
-                answer[key], answer[key + "_lower_bound"]))
+            kind = "curvature extrema, " if key == "vertices" else ""
+            self.same("analyse: " + key, facts.get(key), "{} ({}at least {} unless a curve winds between the points)".format(
+                answer[key], kind, answer[key + "_lower_bound"]))
         for i, alone in re.findall(r"^ *(\d+) .*  +(\S+)$", table.out, re.M):
             if int(i) <= len(answer["segments"]) and alone not in ("increasing", "decreasing"):
                 self.shows(f"analyse, row {i}: points-only error", alone,

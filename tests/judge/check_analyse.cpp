@@ -222,7 +222,7 @@ class AnalyseCheck {
     const std::string key = fact->label + ": " + s.shape;
     if (key == "size: # U") {
       printed("size", s.figures[0], figure(json, "size").value);
-    } else if (key == "vertices: # (at least # unless a curve winds between the point)") {
+    } else if (key == "vertices: # (curvature extrema, at least # unless a curve winds between the point)") {
       printed("vertices", s.figures[0], figure(json, "vertices").value);
       printed("vertices bound", s.figures[1], figure(json, "vertices_lower_bound").value);
     } else if (key == "inflections: # (at least # unless a curve winds between the point)") {

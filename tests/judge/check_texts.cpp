@@ -401,7 +401,7 @@ class TextCheck {
                  figure(member(report_, "chain"), "free_elements").value.value_or(0.0));
       }
     } else if (key ==
-               "fairness: # vertex (at least # unless a curve winds between the point), # "
+               "fairness: # vertex (curvature extrema, at least # unless a curve winds between the point), # "
                "inflection") {
       figure_is("fairness vertices", s.figures[0], figure(report_, "vertices").value);
       figure_is("fairness bound", s.figures[1], figure(report_, "vertices_lower_bound").value);

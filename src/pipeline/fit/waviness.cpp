@@ -61,13 +61,24 @@ std::array<double, 3> largest_coordinates(const Piece& piece) {
   return {largest, largest, largest};
 }
 
-/// Bound of the rounding of the slope of curvature, (d1 x d3 / v^3 - 3 kappa d1 d2 / v^2) / v with
-/// v = |d1|: each derivative is wrong by its roundings.
-double slope_rounding(const std::array<double, 3>& size, const Jet& jet) {
-  const double speed = norm(jet.d1), bend = norm(jet.d2) / speed, third = norm(jet.d3) / speed;
+struct Slope {
+  double value = 0.0;
+  double rounding = 0.0;  ///< bound of the value's error
+};
+
+/// The slope of curvature, (d1 x d3 / v^3 - 3 kappa d1 d2 / v^2) / v with v = |d1|: each derivative
+/// is wrong by its roundings.
+Slope slope_of(const std::array<double, 3>& size, const Jet& jet) {
+  const double inverse = 1.0 / norm(jet.d1), cube = inverse * inverse * inverse;
+  const Vec2 tangent = inverse * jet.d1, bend = inverse * jet.d2, third = inverse * jet.d3;
+  const auto largest = [](Vec2 v) { return std::abs(v.x) + std::abs(v.y); };
+  const double bends = largest(bend), thirds = largest(third);
   const double first = kTangentRoundings * size[0], second = kSlopeRoundings * size[1];
-  return (kSlopeRoundings * size[2] + 6.0 * bend * second + (third + 3.0 * bend * bend) * first) /
-         (speed * speed * speed);
+  return {(cross(tangent, third) - 3.0 * cross(tangent, bend) * dot(tangent, bend)) * inverse *
+              inverse,
+          (kSlopeRoundings * size[2] + 6.0 * bends * second +
+           (thirds + 3.0 * bends * bends) * first) *
+              cube};
 }
 
 /// What the sizes of coordinates are taken from: once for a piece, or dearer and closer at each
@@ -103,9 +114,10 @@ RunSlopes slopes_of_run(const Contour& contour, std::size_t first, std::size_t l
            ++k) {
         const double t = static_cast<double>(back ? kSlopeSteps - k : k) / kSlopeSteps;
         const Jet jet = evaluate(near, t);
-        meet(curvature_rate(jet));
-        out.rounding +=
-            2.0 * slope_rounding(bound == Bound::kOfPieces ? sizes : coordinates_at(near, t), jet);
+        const Slope slope =
+            slope_of(bound == Bound::kOfPieces ? sizes : coordinates_at(near, t), jet);
+        meet(slope.value);
+        out.rounding += 2.0 * slope.rounding;
       }
     }
   }
