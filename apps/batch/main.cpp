@@ -241,7 +241,7 @@ void add_batch(CLI::App& app, Asked& asked) {
       ->option_text("N")
       ->check(CLI::Range(std::size_t{1}, std::size_t{1'000'000}));
   app.add_flag("--merge", asked.merge, "Only put the shards together");
-  app.add_flag("--quiet", asked.quiet, "No progress and no summary");
+  app.add_flag("-q,--quiet", asked.quiet, "No progress and no summary");
   add_job_options(app, asked.options);
 }
 

@@ -77,8 +77,10 @@ std::string series_report_text(const PointSeries& series, const Analysis& analys
   Facts facts;
   facts.add("size", significant(analysis.size) + " " + series.units.text());
   facts.add("curvature", runs_text(analysis));
-  facts.add("vertices", with_bound(analysis.vertices, vertex_bound_text(analysis.vertices_lower_bound)));
-  facts.add("inflections", with_bound(analysis.inflections, bound_text(analysis.inflections_lower_bound)));
+  facts.add("vertices",
+            with_bound(analysis.vertices, vertex_bound_text(analysis.vertices_lower_bound)));
+  facts.add("inflections",
+            with_bound(analysis.inflections, bound_text(analysis.inflections_lower_bound)));
   facts.add("largest turning", significant(degrees(analysis.largest_turning), 4) + " degrees");
   for (const CircularStretch& stretch : analysis.stretches) {
     facts.add(stretch.kappa == 0.0 ? "straight" : "circular",

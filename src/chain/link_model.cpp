@@ -234,8 +234,8 @@ void LinkModel::scatter(const ConeTerms& v, const Link& l, const State& s, Newto
   b.c1 += kb * zB;
 }
 
-/// Barrier of the curvature's sign at the nodes; returns its sum of logarithms, minus infinity where
-/// a sign is wrong. Fixed variables are taken out of the system.
+/// Barrier of the curvature's sign at the nodes; returns its sum of logarithms, minus infinity
+/// where a sign is wrong. Fixed variables are taken out of the system.
 double LinkModel::add_nodes(const std::vector<double>& x, double slack, double barrier,
                             NewtonSystem& system) const {
   LogSum signs;

@@ -11,8 +11,8 @@ namespace {
 /// A pivot that rounding pushed to zero or below is lifted to this part of its diagonal entry.
 constexpr double kPivotFloor = 16.0 * std::numeric_limits<double>::epsilon();
 
-double inverse_root(double value, double diagonal) {
-  return 1.0 / std::sqrt(std::max(value, kPivotFloor * diagonal));
+double inverse(double pivot, double diagonal) {
+  return 1.0 / std::max(pivot, kPivotFloor * diagonal);
 }
 
 }  // namespace
@@ -38,16 +38,18 @@ void NewtonSystem::factorise() {
   for (std::size_t i = 0; i < blocks_.size(); ++i) {
     const Block& b = blocks_[i];
     Factor& f = factors_[i];
-    f.i00 = inverse_root(b.a00 - d00, b.a00);
-    f.l10 = (b.a10 - d10) * f.i00;
-    f.i11 = inverse_root(b.a11 - d11 - f.l10 * f.l10, b.a11);
+    const double a10 = b.a10 - d10;
+    f.i00 = inverse(b.a00 - d00, b.a00);
+    f.l10 = a10 * f.i00;
+    f.i11 = inverse(b.a11 - d11 - f.l10 * a10, b.a11);
+    const double o10 = b.o10 - f.l10 * b.o00, o11 = b.o11 - f.l10 * b.o01;
     f.m00 = b.o00 * f.i00;
     f.m01 = b.o01 * f.i00;
-    f.m10 = (b.o10 - f.l10 * f.m00) * f.i11;
-    f.m11 = (b.o11 - f.l10 * f.m01) * f.i11;
-    d00 = f.m00 * f.m00 + f.m10 * f.m10;
-    d10 = f.m00 * f.m01 + f.m10 * f.m11;
-    d11 = f.m01 * f.m01 + f.m11 * f.m11;
+    f.m10 = o10 * f.i11;
+    f.m11 = o11 * f.i11;
+    d00 = b.o00 * f.m00 + o10 * f.m10;
+    d10 = b.o00 * f.m01 + o10 * f.m11;
+    d11 = b.o01 * f.m01 + o11 * f.m11;
   }
 }
 
@@ -55,10 +57,10 @@ void NewtonSystem::substitute(std::vector<double>& r) const {
   const std::size_t n = factors_.size();
   for (std::size_t i = 0; i < n; ++i) {
     const Factor& f = factors_[i];
-    const double y0 = r[2 * i] * f.i00;
-    const double y1 = (r[2 * i + 1] - f.l10 * y0) * f.i11;
-    r[2 * i] = y0;
-    r[2 * i + 1] = y1;
+    const double y0 = r[2 * i];
+    const double y1 = r[2 * i + 1] - f.l10 * y0;
+    r[2 * i] = y0 * f.i00;
+    r[2 * i + 1] = y1 * f.i11;
     if (i + 1 == n) break;
     r[2 * i + 2] -= f.m00 * y0 + f.m10 * y1;
     r[2 * i + 3] -= f.m01 * y0 + f.m11 * y1;
@@ -66,10 +68,9 @@ void NewtonSystem::substitute(std::vector<double>& r) const {
   double x0 = 0.0, x1 = 0.0;  // solution at the node after
   for (std::size_t i = n; i-- > 0;) {
     const Factor& f = factors_[i];
-    const double z0 = r[2 * i] - f.m00 * x0 - f.m01 * x1;
-    const double z1 = r[2 * i + 1] - f.m10 * x0 - f.m11 * x1;
-    x1 = z1 * f.i11;
-    x0 = (z0 - f.l10 * x1) * f.i00;
+    const double z0 = r[2 * i] - (f.m00 * x0 + f.m01 * x1);
+    x1 = r[2 * i + 1] - (f.m10 * x0 + f.m11 * x1);
+    x0 = z0 - f.l10 * x1;
     r[2 * i] = x0;
     r[2 * i + 1] = x1;
   }

@@ -9,7 +9,7 @@ namespace obvid::chain_detail {
 
 /// Newton's equations of the chain: symmetric positive definite, block tridiagonal with 2x2
 /// blocks (heading, curvature of one node), and one dense border for the slack of phase 1.
-/// Factorised as L L^T block by block: O(n) time and memory.
+/// Factorised as L D L^T block by block: O(n) time and memory.
 class NewtonSystem {
  public:
   struct Block {
@@ -42,8 +42,8 @@ class NewtonSystem {
 
  private:
   struct Factor {
-    double i00, l10, i11;       // Cholesky factor of the diagonal block, pivots inverted
-    double m00, m01, m10, m11;  // L^-1 times the coupling
+    double i00, l10, i11;       // of the diagonal block: unit triangle, pivots inverted
+    double m00, m01, m10, m11;  // (L D)^-1 times the coupling
   };
   void factorise();
   void substitute(std::vector<double>& r) const;

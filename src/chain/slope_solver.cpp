@@ -12,8 +12,9 @@ namespace obvid::chain_detail {
 namespace {
 
 constexpr std::size_t kNodeUnknowns = SlopeSystem::kBlock;
-/// The steps end with one of Newton's own that changes the unknowns by no more, in units of the local
-/// turning: behind it slopes differ by its square, and the chain is the fairest to a part of it.
+/// The steps end with one of Newton's own that changes the unknowns by no more, in units of the
+/// local turning: behind it slopes differ by its square, and the chain is the fairest to a part of
+/// it.
 constexpr double kSettled = 1e-6;
 /// The same where the step is larger and this is left behind it, if it shrinks like the one before.
 constexpr double kForetold = 1e-9;

@@ -72,8 +72,8 @@ class Solver {
   double step(double energy, double barrier, double slack_cost) {
     const bool with_slack = slack_cost > 0.0;
     const double value =
-        assembled_ ? *assembled_ : model_.assemble(x_, slack_, energy, barrier, system_) +
-                                       slack_cost * slack_;
+        assembled_ ? *assembled_
+                   : model_.assemble(x_, slack_, energy, barrier, system_) + slack_cost * slack_;
     assembled_.reset();
     system_.slack_gradient = with_slack ? system_.slack_gradient + slack_cost : 0.0;
     ++steps_;

@@ -57,8 +57,7 @@ class LocalPiece {
   [[nodiscard]] Vec2 at(double t) const {
     if (degree_ == 0) return in_frame(evaluate(*piece_, t).point - start_);
     constexpr std::size_t kOfSpirals = 4;  // known when compiled
-    return degree_ == kOfSpirals ? sum(t, kOfSpirals)
-                                 : sum(t, static_cast<std::size_t>(degree_));
+    return degree_ == kOfSpirals ? sum(t, kOfSpirals) : sum(t, static_cast<std::size_t>(degree_));
   }
 
   [[nodiscard]] Place place(double t) const {
@@ -99,7 +98,7 @@ class LocalPiece {
 
   const Piece* piece_;
   Vec2 start_, along_;
-  int degree_ = 0;  // 0: no Bezier piece
+  int degree_ = 0;                                   // 0: no Bezier piece
   std::array<Vec2, kMaxBezierDegree + 1> weighted_;  // times the weight and the binomial
   std::array<double, kMaxBezierDegree + 1> weight_;  // times the binomial
 };

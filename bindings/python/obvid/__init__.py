@@ -33,6 +33,7 @@ from .jobs import (
     read_text,
     region,
     suggest,
+    verify,
     why_not,
     worksheet,
 )
@@ -48,7 +49,7 @@ from .reports import (
     Verification,
 )
 from .space import Corner, SpaceCurve, SpaceSamples, SpaceVerification
-from .surfaces import Surface, SurfaceSamples, Toolpath, read_surface, skin, surface
+from .surfaces import Surface, SurfaceSamples, Toolpath, read_surface, skin, surface, toolpath
 
 __all__ = [
     "Analysis", "BSpline", "CancelledError", "CarrierRow", "Certificate", "Contour",
@@ -57,5 +58,6 @@ __all__ = [
     "SpaceSamples", "SpaceVerification", "Suggestion", "Surface", "SurfaceSamples", "Table", "Toolpath",
     "UsageError", "Verification",
     "__version__", "analyse", "compare", "fit", "fit_many", "fit_space", "read", "read_contour",
-    "read_space", "read_surface", "read_text", "region", "skin", "suggest", "surface", "why_not", "worksheet",
+    "read_space", "read_surface", "read_text", "region", "skin", "suggest", "surface", "toolpath",
+    "verify", "why_not", "worksheet",
 ]  # fmt: skip

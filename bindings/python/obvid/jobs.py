@@ -32,6 +32,7 @@ from .reports import (
     Json,
     Suggestion,
     Table,
+    Verification,
     carrier_rows,
     numbers_of,
     suggestions,
@@ -108,6 +109,17 @@ def read_contour(path: Union[str, "os.PathLike[str]"]) -> Contour:
 def read_space(path: Union[str, "os.PathLike[str]"]) -> SpaceCurve:
     """The curve of a file that `fit_space` (or the program) wrote as .json."""
     return read(path).space_curve()
+
+
+def verify(contour: Union[Contour, str, "os.PathLike[str]"]) -> Verification:
+    """Proves a contour, or that of a contour file, again from its numbers alone. One that does not keep
+    its promise gives a verification that does not hold, no exception.
+
+    >>> import obvid
+    >>> obvid.verify(obvid.fit([(0, 0), (10, 1), (19, 4), (26, 9)])).holds
+    True
+    """
+    return (contour if isinstance(contour, Contour) else read_contour(contour)).verify()
 
 
 def _array_of(points: npt.ArrayLike) -> npt.NDArray[np.float64]:

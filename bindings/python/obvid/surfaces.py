@@ -217,3 +217,8 @@ def skin(sections: Sequence[SurfacePoints], **options: Any) -> Surface:
 def read_surface(path: Union[str, "os.PathLike[str]"]) -> Surface:
     """A stored surface (.json, control points; STEP, IGES and BREP where obvid-cad is installed)."""
     return surface("convert", [path])
+
+
+def toolpath(surface: Union[Surface, str, "os.PathLike[str]"], **options: Any) -> Toolpath:
+    """A program for a three-axis mill over a surface, or that of a file; options of `Surface.toolpath`."""
+    return (surface if isinstance(surface, Surface) else read_surface(surface)).toolpath(**options)

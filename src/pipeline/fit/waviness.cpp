@@ -74,11 +74,10 @@ Slope slope_of(const std::array<double, 3>& size, const Jet& jet) {
   const auto largest = [](Vec2 v) { return std::abs(v.x) + std::abs(v.y); };
   const double bends = largest(bend), thirds = largest(third);
   const double first = kTangentRoundings * size[0], second = kSlopeRoundings * size[1];
-  return {(cross(tangent, third) - 3.0 * cross(tangent, bend) * dot(tangent, bend)) * inverse *
-              inverse,
-          (kSlopeRoundings * size[2] + 6.0 * bends * second +
-           (thirds + 3.0 * bends * bends) * first) *
-              cube};
+  return {
+      (cross(tangent, third) - 3.0 * cross(tangent, bend) * dot(tangent, bend)) * inverse * inverse,
+      (kSlopeRoundings * size[2] + 6.0 * bends * second + (thirds + 3.0 * bends * bends) * first) *
+          cube};
 }
 
 /// What the sizes of coordinates are taken from: once for a piece, or dearer and closer at each

@@ -93,8 +93,8 @@ void compare_given(const GivenReport& claimed, const GivenReport& found, ClaimCh
   miss("largest miss of a given curvature", claimed.curvature_miss, found.curvature_miss);
 }
 
-/// Where a distance is largest it is flat: another search ends at another place of the contour beside
-/// this one, where the distance is the same but for a millionth.
+/// Where a distance is largest it is flat: another search ends at another place of the contour
+/// beside this one, where the distance is the same but for a millionth.
 bool is_same_place(const Contour& contour, Vec2 claimed, Vec2 found, double chord) {
   constexpr double kBeside = 1e-3;  // of the chord
   if (!(norm(claimed - found) <= kBeside * chord)) return false;
