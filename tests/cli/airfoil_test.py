@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""Airfoil files against the closed form of the NACA sections of four digits (docs/sources.md).
+"""Airfoil files against the closed form of the NACA sections of four digits [Abbott 1959].
 
 usage: airfoil_test.py PROGRAM
 """

@@ -15,7 +15,7 @@
 namespace obvid {
 namespace {
 
-constexpr std::size_t kFewest = 5, kMost = 100'000;  // points that are written
+constexpr std::size_t kFewestPoints = 5, kMostPoints = 100'000;  // points that are written
 constexpr std::size_t kLooks = 32;  // of a piece, where a largest or a first one is sought
 constexpr int kHalvings = 200;      // more than doubles have
 constexpr double kCorner = 1e-6;    // rad: no corner below, as in samples
@@ -287,7 +287,7 @@ std::vector<double> places(const Airfoil& foil, bool upper, std::size_t m, Airfo
 }  // namespace
 
 Result<AirfoilText> airfoil_text(const Contour& contour, const AirfoilOptions& options) {
-  if (options.count < kFewest || options.count > kMost) {
+  if (options.count < kFewestPoints || options.count > kMostPoints) {
     return error(ErrorCode::kBadOption, "an airfoil has 5 to 100,000 points")
         .hint("for example 161")
         .value(static_cast<double>(options.count));

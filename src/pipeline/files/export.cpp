@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <numbers>
 #include <utility>
 
@@ -199,9 +200,15 @@ Result<Exported> sldcrv_file(const ContourExport& e) {
 std::string unit_chord_remark(const AirfoilFigures& f) {
   const double turn = f.turn * 180.0 / std::numbers::pi;
   return fmt::format(
-      "scaled to unit chord, turned by {:.6g} degrees; undone by --scale {} --rotate {} --move "
+      "scaled to unit chord, turned by {:.6f} degrees; undone by --scale {} --rotate {} --move "
       "{},{}",
-      -turn, f.chord, turn, f.leading_edge.x, f.leading_edge.y);
+      0.0 - turn, f.chord, turn, f.leading_edge.x, f.leading_edge.y);
+}
+
+std::string camber_text(const AirfoilFigures& f) {
+  constexpr double kPrinted = 0.0005;  // %: less prints as nothing, and has no place
+  if (std::abs(100.0 * f.camber) < kPrinted) return "camber 0.000 %";
+  return fmt::format("camber {:.3f} % at {:.2f} %", 100.0 * f.camber, 100.0 * f.camber_at);
 }
 
 Result<Exported> airfoil_file(const ContourExport& e) {
@@ -221,10 +228,9 @@ Result<Exported> airfoil_file(const ContourExport& e) {
                     "difference times (x/chord)^2",
                     *write.trailing_thickness));
   }
-  out.remarks.push_back(fmt::format(
-      "contour, normal to its chord: thickness {:.3f} % at {:.2f} %, camber {:.3f} % "
-      "at {:.2f} %",
-      100.0 * f.thickness, 100.0 * f.thickness_at, 100.0 * f.camber, 100.0 * f.camber_at));
+  out.remarks.push_back(
+      fmt::format("contour, normal to its chord: thickness {:.3f} % at {:.2f} %, {}",
+                  100.0 * f.thickness, 100.0 * f.thickness_at, camber_text(f)));
   out.remarks.push_back(
       fmt::format("contour: leading edge radius {:.3f} %, trailing edge {:.3f} % thick, {:.2f} "
                   "degrees; % of the chord {:.6g} {}",
