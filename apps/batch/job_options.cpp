@@ -75,10 +75,12 @@ JobOptions known_options() {
   for (const char* name : {"convex", "primitives", "closed", "open", "no-corners"}) {
     out.job.push_back({name, true});
   }
-  for (const char* name : {"output-tolerance", "for", "controller", "motion", "feed", "samples",
-                           "sample-step", "svg", "plot", "step", "dxf", "face"}) {
+  for (const char* name :
+       {"output-tolerance", "for", "controller", "motion", "feed", "samples", "sample-step",
+        "airfoil", "spacing", "trailing-edge", "svg", "plot", "step", "dxf", "face"}) {
     out.files.push_back({name});
   }
+  out.files.push_back({"unit-chord", true});
   return out;
 }
 

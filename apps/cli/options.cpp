@@ -200,14 +200,35 @@ void add_formats(CLI::App& command, FormatValues& values) {
       ->type_name("F")
       ->group(group);
   command
-      .add_option("--samples", values.samples,
-                  "Number of points in .csv, .sldcrv, .obj, .ply [by --output-tolerance]")
+      .add_option(
+          "--samples", values.samples,
+          "Number of points in .csv, .sldcrv, .obj, .ply [by --output-tolerance], around an "
+          "airfoil .dat [161]")
       ->type_name("N")
       ->group(group);
   command
       .add_option("--sample-step", values.sample_step,
                   "Arc length from one of these points to the next, units of the contour")
       ->type_name("S")
+      ->group(group);
+  command.add_option("--airfoil", values.airfoil, "Layout of .dat: selig or lednicer [selig]")
+      ->type_name("NAME")
+      ->group(group);
+  command
+      .add_option("--spacing", values.spacing,
+                  "Points of .dat on each side: cosine (in x along the chord), curvature (half "
+                  "evenly, half as its square root) or uniform (in arc length) [cosine]")
+      ->type_name("NAME")
+      ->group(group);
+  command
+      .add_option("--trailing-edge", values.trailing_edge,
+                  "Its thickness in .dat, chords; 0 closes it [as the contour has it]")
+      ->type_name("T")
+      ->group(group);
+  command
+      .add_flag("--unit-chord", values.unit_chord,
+                ".dat with the leading edge at 0, 0 and the trailing edge at 1, 0; how to undo it "
+                "is printed")
       ->group(group);
   command
       .add_option("--svg", values.svg,

@@ -6,6 +6,7 @@
 #include "obvid/exchange/internal/dxf/read.h"
 #include "obvid/exchange/internal/geo/geojson.h"
 #include "obvid/exchange/internal/geo/gpx.h"
+#include "obvid/exchange/internal/points/airfoil.h"
 #include "obvid/exchange/internal/points/solidworks.h"
 #include "obvid/exchange/internal/road/landxml.h"
 #include "obvid/exchange/internal/road/opendrive.h"
@@ -81,6 +82,7 @@ OBVID_LATER(Result<std::string> landxml_text(const Contour&, const LandXmlOption
 OBVID_LATER(Result<std::string> opendrive_text(const Contour&, const OpenDriveOptions&))
 OBVID_LATER(Result<SvgDrawing> svg_drawing(const Contour&, const SvgDrawingOptions&))
 OBVID_LATER(Result<std::string> samples_csv(const Contour&, const SampleOptions&))
+OBVID_LATER(Result<AirfoilText> airfoil_text(const Contour&, const AirfoilOptions&))
 OBVID_LATER(Result<std::string> obj_text(const Contour&, const SampleOptions&))
 OBVID_LATER(Result<std::string> ply_text(const Contour&, const SampleOptions&))
 OBVID_LATER(Result<std::vector<SldcrvFile>> sldcrv_files(const Contour&, const SampleOptions&))

@@ -9,6 +9,7 @@
 #include "obvid/core/result.h"
 #include "obvid/exchange/internal/dxf/write.h"
 #include "obvid/exchange/internal/gcode/gcode.h"
+#include "obvid/exchange/internal/points/airfoil.h"
 #include "obvid/exchange/internal/points/samples.h"
 #include "obvid/picture/picture_svg.h"
 #include "obvid/pipeline/file_formats.h"
@@ -31,6 +32,7 @@ struct ExportOptions {
   GcodeController controller = GcodeController::kGrbl;
   SampleOptions
       samples;  ///< of points; unset: by the chord tolerance `tolerance` [2e-5 of the size]
+  AirfoilOptions airfoil{};      ///< of .dat; its name and number of points are those above
   std::optional<double> feed{};  ///< of G-code, mm/min (in/min for inches) [default_feed]
   double face_width = 0.0;       ///< STEP, IGES, BREP: > 0 also a face of this width along z
 };

@@ -5,6 +5,8 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
+#include <numbers>
 #include <utility>
 
 #include "advice/uniform_tolerance.h"
@@ -87,8 +89,7 @@ Result<NurbsCurve> one_curve(const ContourExport& e, Exported& out) {
 }
 
 Result<Exported> cad_file(const ContourExport& e, CadFormat format) {
-  const auto held =
-      kernel_holds(e.size, e.contour.units, format == CadFormat::kBrep, "write .dxf");
+  const auto held = kernel_holds(e.size, e.contour.units, format == CadFormat::kBrep, "write .dxf");
   OBVID_TRY(held);
   Exported out;
   CadCurve curve{e.options.name, NurbsCurve{}};
@@ -109,7 +110,8 @@ Result<Exported> cad_file(const ContourExport& e, CadFormat format) {
     }
   }
   if (std::holds_alternative<std::vector<Piece>>(curve.geometry)) {
-    if (auto remark = below_kernels(e.contour.pieces, e.contour.units, format == CadFormat::kBrep)) {
+    if (auto remark =
+            below_kernels(e.contour.pieces, e.contour.units, format == CadFormat::kBrep)) {
       out.remarks.push_back(std::move(*remark));
     }
   }
@@ -188,9 +190,52 @@ Result<Exported> sldcrv_file(const ContourExport& e) {
     out.files.push_back({std::move(file.suffix), std::move(file.text)});
   }
   if (out.files.size() > 1) {
-    out.remarks.push_back(fmt::format("{} files, one per run: insert each as a curve of its own",
-                                      out.files.size()));
+    out.remarks.push_back(
+        fmt::format("{} files, one per run: insert each as a curve of its own", out.files.size()));
   }
+  return out;
+}
+
+/// What was done to the points, and how it is undone.
+std::string unit_chord_remark(const AirfoilFigures& f) {
+  const double turn = f.turn * 180.0 / std::numbers::pi;
+  return fmt::format(
+      "scaled to unit chord, turned by {:.6f} degrees; undone by --scale {} --rotate {} --move "
+      "{},{}",
+      0.0 - turn, f.chord, turn, f.leading_edge.x, f.leading_edge.y);
+}
+
+std::string camber_text(const AirfoilFigures& f) {
+  constexpr double kPrinted = 0.0005;  // %: less prints as nothing, and has no place
+  if (std::abs(100.0 * f.camber) < kPrinted) return "camber 0.000 %";
+  return fmt::format("camber {:.3f} % at {:.2f} %", 100.0 * f.camber, 100.0 * f.camber_at);
+}
+
+Result<Exported> airfoil_file(const ContourExport& e) {
+  AirfoilOptions write = e.options.airfoil;
+  write.name = e.options.picture.name.empty() ? e.options.name : e.options.picture.name;
+  if (e.options.samples.count) write.count = *e.options.samples.count;
+  auto made = airfoil_text(e.contour, write);
+  OBVID_TRY(made);
+  Exported out = one_file(std::move(made->text));
+  const AirfoilFigures& f = made->figures;
+  out.remarks.push_back(fmt::format("{} points, {} on the upper and {} on the lower side",
+                                    write.count, made->upper, made->lower));
+  if (write.unit_chord) out.remarks.push_back(unit_chord_remark(f));
+  if (write.trailing_thickness) {
+    out.remarks.push_back(
+        fmt::format("trailing edge of the file {:.4f} chords thick: sides moved apart by the "
+                    "difference times (x/chord)^2",
+                    *write.trailing_thickness));
+  }
+  out.remarks.push_back(
+      fmt::format("contour, normal to its chord: thickness {:.3f} % at {:.2f} %, {}",
+                  100.0 * f.thickness, 100.0 * f.thickness_at, camber_text(f)));
+  out.remarks.push_back(
+      fmt::format("contour: leading edge radius {:.3f} %, trailing edge {:.3f} % thick, {:.2f} "
+                  "degrees; % of the chord {:.6g} {}",
+                  100.0 * f.nose_radius, 100.0 * f.trailing_thickness,
+                  f.trailing_angle * 180.0 / std::numbers::pi, f.chord, e.contour.units.text()));
   return out;
 }
 
@@ -205,9 +250,8 @@ Result<Exported> contour_as_svg(const ContourExport& e) {
   if (!e.options.drawing) {
     return as_it_is(e, picture_svg(e.stored, e.options.picture, e.options.plots));
   }
-  return with_units(
-      notes_of(e, UnitRule::kLength, "drawings in true scale", e.contour.units.name),
-      [&] { return drawing(e); });
+  return with_units(notes_of(e, UnitRule::kLength, "drawings in true scale", e.contour.units.name),
+                    [&] { return drawing(e); });
 }
 
 Result<Exported> contour_as_step(const ContourExport& e) {
@@ -253,6 +297,11 @@ Result<Exported> contour_as_landxml(const ContourExport& e) {
 
 Result<Exported> contour_as_samples(const ContourExport& e) {
   return as_it_is(e, samples_csv(e.contour, samples_of(e)));
+}
+
+Result<Exported> contour_as_airfoil(const ContourExport& e) {
+  return with_units(notes_of(e, UnitRule::kNone, "", e.contour.units.name),
+                    [&] { return airfoil_file(e); });
 }
 
 Result<Exported> contour_as_sldcrv(const ContourExport& e) {

@@ -132,6 +132,12 @@ constexpr std::array kMotions = {std::pair{"arcs", GcodeMotion::kArcs},
                                  std::pair{"lines", GcodeMotion::kLines},
                                  std::pair{"splines", GcodeMotion::kSplines}};
 
+constexpr std::array kAirfoils = {std::pair{"selig", AirfoilLayout::kSelig},
+                                  std::pair{"lednicer", AirfoilLayout::kLednicer}};
+constexpr std::array kSpacings = {std::pair{"cosine", AirfoilSpacing::kCosine},
+                                  std::pair{"curvature", AirfoilSpacing::kCurvature},
+                                  std::pair{"uniform", AirfoilSpacing::kUniform}};
+
 constexpr std::array kPlots = {std::pair{"curvature", false}, std::pair{"slope", true}};
 constexpr std::array kSvg = {std::pair{"picture", false}, std::pair{"drawing", true}};
 
@@ -176,6 +182,14 @@ Result<void> set_formats(const FormatValues& typed, ExportOptions& options,
   options.tolerance = typed.tolerance;
   if (typed.samples) options.samples.count = static_cast<std::size_t>(*typed.samples);
   options.samples.step = typed.sample_step;
+  constexpr double kMostTrailing = 0.5;  // chords: beyond it is no airfoil
+  if (typed.trailing_edge &&
+      !(*typed.trailing_edge >= 0.0 && *typed.trailing_edge < kMostTrailing)) {
+    return fail(bad_option("a thickness in chords is expected, 0 closes the edge",
+                           "--trailing-edge", "for example 0.002"));
+  }
+  options.airfoil.trailing_thickness = typed.trailing_edge;
+  options.airfoil.unit_chord = typed.unit_chord;
   if (typed.face_width) options.face_width = *typed.face_width;
   if (typed.feed) options.feed = *typed.feed;
   return choose(typed.step, kSteps, "--step", options.step)
@@ -183,6 +197,10 @@ Result<void> set_formats(const FormatValues& typed, ExportOptions& options,
       .and_then([&] {
         return choose(typed.controller, kControllers, "--controller", options.controller);
       })
+      .and_then(
+          [&] { return choose(typed.airfoil, kAirfoils, "--airfoil", options.airfoil.layout); })
+      .and_then(
+          [&] { return choose(typed.spacing, kSpacings, "--spacing", options.airfoil.spacing); })
       .and_then([&] { return choose(typed.svg, kSvg, "--svg", options.drawing); })
       .and_then([&] { return set_plots(typed, options.plots); })
       .and_then([&] { return choose(typed.motion, kMotions, "--motion", options.motion); });
@@ -198,6 +216,7 @@ std::vector<std::string> idle_options(const FormatValues& typed,
   };
   using enum FileFormat;
   const bool gcode = written({kGcode}), samples = written({kSamples, kSldcrv, kObj, kPly});
+  const bool foil = written({kAirfoil});
   const bool svg = written({kPicture});
   std::vector<std::string> out;
   const auto look = [&](bool given, bool used, const char* option, const char* of) {
@@ -210,8 +229,12 @@ std::vector<std::string> idle_options(const FormatValues& typed,
   look(typed.dxf.has_value(), written({kDxf}), "--dxf", "DXF file");
   look(typed.svg.has_value(), svg, "--svg", ".svg");
   look(typed.plot.has_value(), svg, "--plot", ".svg");
-  look(typed.samples.has_value(), samples, "--samples", "file of samples");
+  look(typed.samples.has_value(), samples || foil, "--samples", "file of samples");
   look(typed.sample_step.has_value(), samples, "--sample-step", "file of samples");
+  look(typed.airfoil.has_value(), foil, "--airfoil", ".dat");
+  look(typed.spacing.has_value(), foil, "--spacing", ".dat");
+  look(typed.trailing_edge.has_value(), foil, "--trailing-edge", ".dat");
+  look(typed.unit_chord, foil, "--unit-chord", ".dat");
   look(typed.face_width.has_value(), written({kStep, kIges, kBrep}), "--face",
        "STEP, IGES or BREP file");
   return out;

@@ -31,6 +31,9 @@ struct FormatValues {
   std::optional<double> feed;
   std::optional<long> samples;
   std::optional<double> sample_step;
+  std::optional<std::string> airfoil, spacing;
+  std::optional<double> trailing_edge;  ///< thickness, chords
+  bool unit_chord = false;
   std::optional<std::string> svg;
   std::optional<std::string> plot;
 };

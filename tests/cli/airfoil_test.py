@@ -1,0 +1,131 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
+"""Airfoil files against the closed form of the NACA sections of four digits [Abbott 1959].
+
+usage: airfoil_test.py PROGRAM
+"""
+import math
+import pathlib
+import re
+import subprocess
+import sys
+import tempfile
+import unittest
+
+PROGRAM = str(pathlib.Path(sys.argv[1]).resolve())
+THICK = 0.12
+FORM = (0.2969, -0.1260, -0.3516, 0.2843, -0.1036)  # closed trailing edge
+
+
+def half(x):
+    return THICK / 0.2 * (FORM[0] * math.sqrt(x) + sum(a * x**k for k, a in enumerate(FORM[1:], 1)))
+
+
+def slope(x):
+    return THICK / 0.2 * (0.5 * FORM[0] / math.sqrt(x)
+                          + sum(k * a * x**(k - 1) for k, a in enumerate(FORM[1:], 1)))
+
+
+def camber(x, most=0.02, at=0.4):
+    return most / at**2 * (2 * at * x - x * x) if x < at else (
+        most / (1 - at)**2 * (1 - 2 * at + 2 * at * x - x * x))
+
+
+def root(f, a, b):
+    for _ in range(100):
+        c = 0.5 * (a + b)
+        a, b = (c, b) if (f(a) > 0) == (f(c) > 0) else (a, c)
+    return a
+
+
+def points(bent):
+    x = [0.5 * (1 - math.cos(math.pi * k / 120)) for k in range(121)]
+    up = [(v, half(v) + bent * camber(v)) for v in x]
+    low = [(v, -half(v) + bent * camber(v)) for v in x]
+    return up[::-1] + low[1:]
+
+
+def numbers(path):
+    return [tuple(map(float, line.split())) for line in path.read_text().splitlines()[1:] if line]
+
+
+class Airfoils(unittest.TestCase):
+    def setUp(self):
+        self.folder = pathlib.Path(self.enterContext(tempfile.TemporaryDirectory()))
+
+    def write(self, name, bent=0):
+        (self.folder / name).write_text(
+            "foil\n" + "".join(f"{x:.10f} {y:.10f}\n" for x, y in points(bent)))
+
+    def run_it(self, *args):
+        done = subprocess.run([PROGRAM, *args], cwd=self.folder, capture_output=True, text=True)
+        return done.returncode, done.stdout + done.stderr
+
+    def figures(self, text):
+        found = re.search(r"thickness ([\d.]+) % at ([\d.]+) %, camber (-?[\d.]+) %(?: at ([\d.]+))?",
+                          text)
+        radius = re.search(r"radius ([\d.]+) %, trailing edge ([\d.]+) % thick, ([\d.]+) deg", text)
+        return [float(g or 0) for g in found.groups()], [float(g) for g in radius.groups()]
+
+    def test_figures_are_those_of_the_closed_form(self):
+        self.write("a.dat")
+        code, text = self.run_it("fit", "a.dat", "--noise", "rounding", "-o", "b.dat")
+        self.assertEqual(code, 0, text)
+        (thick, at, bent, _), (radius, edge, angle) = self.figures(text)
+        top = root(slope, 0.1, 0.6)
+        self.assertAlmostEqual(thick, 200 * half(top), delta=2e-3)
+        self.assertAlmostEqual(at, 100 * top, delta=0.05)
+        self.assertEqual(bent, 0)
+        self.assertAlmostEqual(radius, 100 * 1.1019 * THICK**2, delta=0.02)
+        self.assertAlmostEqual(angle, 2 * math.degrees(math.atan(-slope(1.0))), delta=0.05)
+        self.assertEqual(edge, 0)
+
+    def test_camber_is_that_of_thickness_along_y(self):
+        self.write("a.dat", bent=1)
+        _, text = self.run_it("fit", "a.dat", "--noise", "rounding", "-o", "b.dat")
+        (_, _, bent, at), _ = self.figures(text)
+        # the leading edge lies a little beside x = 0 where the camber line rises from it
+        self.assertAlmostEqual(bent, 2.0, delta=0.03)
+        self.assertAlmostEqual(at, 40.0, delta=1.0)
+
+    def test_points_lie_on_the_closed_form_with_every_spacing(self):
+        self.write("a.dat")
+        self.run_it("fit", "a.dat", "--noise", "rounding", "-o", "a.json", "-q")
+        for spacing in ("cosine", "curvature", "uniform"):
+            code, text = self.run_it("convert", "a.json", "-o", "b.dat", "--spacing", spacing,
+                                     "--samples", "81")
+            self.assertEqual(code, 0, text)
+            read = numbers(self.folder / "b.dat")
+            self.assertEqual(len(read), 81)
+            for x, y in read:
+                self.assertLess(abs(abs(y) - half(x)), 1e-5)
+            if spacing == "cosine":
+                for k in range(41):
+                    self.assertAlmostEqual(read[40 - k][0], 0.5 * (1 - math.cos(math.pi * k / 40)),
+                                           delta=2e-8)
+
+    def test_a_given_trailing_edge_is_what_the_file_has(self):
+        self.write("a.dat")
+        self.run_it("fit", "a.dat", "--noise", "rounding", "-o", "a.json", "-q")
+        self.run_it("convert", "a.json", "-o", "b.dat", "--trailing-edge", "0.004", "--airfoil",
+                    "lednicer", "--samples", "81")
+        rows = numbers(self.folder / "b.dat")
+        self.assertEqual(rows[0], (41.0, 41.0))
+        for x, y in rows[1:]:
+            self.assertLess(abs(abs(y) - half(x) - 0.002 * x * x), 1e-5)
+
+    def test_unit_chord_is_undone_by_what_is_printed(self):
+        self.write("a.dat")
+        place = ["--scale", "250", "--rotate", "20", "--move", "3,4"]
+        _, text = self.run_it("fit", "a.dat", *place, "--noise", "rounding", "-o", "b.dat",
+                              "--unit-chord")
+        scale, turn, x, y = map(float, re.search(
+            r"--scale (\S+) --rotate (\S+) --move ([^,]+),(\S+)", text).groups())
+        for got, wanted in ((scale, 250), (turn, 20), (x, 3), (y, 4)):
+            self.assertAlmostEqual(got, wanted, delta=1e-7)
+        for a, b in numbers(self.folder / "b.dat"):
+            self.assertLess(abs(abs(b) - half(a)), 1e-5)
+
+
+if __name__ == "__main__":
+    unittest.main(argv=sys.argv[:1])
