@@ -12,7 +12,7 @@
 namespace obvid {
 namespace {
 
-bool is_polynomial(const RationalBezier& piece) {
+bool has_equal_weights(const RationalBezier& piece) {
   const auto count = static_cast<std::ptrdiff_t>(piece.degree) + 1;
   return std::all_of(piece.weight.begin(), piece.weight.begin() + count,
                      [&](double w) { return w == piece.weight[0]; });
@@ -33,8 +33,8 @@ std::string name_of(const Piece& piece) {
     std::string operator()(const ArcPiece&) const { return "an arc"; }
     std::string operator()(const ClothoidPiece&) const { return "a clothoid"; }
     std::string operator()(const RationalBezier& b) const {
-      return fmt::format("a {} of degree {}", is_polynomial(b) ? "polynomial" : "rational curve",
-                         b.degree);
+      return fmt::format("a {} of degree {}",
+                         has_equal_weights(b) ? "polynomial" : "rational curve", b.degree);
     }
   };
   return std::visit(Names{}, piece);
@@ -45,7 +45,7 @@ bool belongs(const CarrierPieces& pieces, const RationalBezier& bezier) {
   if (pieces.degree == kAnyDegree) return true;
   if (bezier.degree != pieces.degree) return false;
   if (pieces.weights == CarrierWeights::kAny) return true;
-  return is_polynomial(bezier) == (pieces.weights == CarrierWeights::kEqual);
+  return has_equal_weights(bezier) == (pieces.weights == CarrierWeights::kEqual);
 }
 
 bool belongs(const CarrierPieces& pieces, const Piece& piece) {

@@ -115,13 +115,6 @@ std::vector<double> balances(const RationalBezier& b) {
 /// coefficients `factor`. Homogeneous points w P, in Bernstein form.
 Segment product(const RationalBezier& b, double lambda, const std::vector<double>& factor);
 
-bool is_polynomial(const RationalBezier& b) {
-  for (int j = 1; j <= b.degree; ++j) {
-    if (b.weight[static_cast<std::size_t>(j)] != b.weight[0]) return false;
-  }
-  return true;
-}
-
 /// Control points as coordinates relative to the start of the piece.
 std::vector<Vec2> points_of(const RationalBezier& b) {
   std::vector<Vec2> out;

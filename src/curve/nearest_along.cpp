@@ -12,7 +12,8 @@ namespace {
 
 constexpr std::size_t kPlaces = 8;  // of a piece, that are looked at for its nearest one
 constexpr double kRecord = 1.01;    // of the farthest before
-/// Roundings of a coordinate by which another place is not nearer: a closed path is at its seam twice.
+/// Roundings of a coordinate by which another place is not nearer: a closed path is at its seam
+/// twice.
 constexpr double kSamePlace = 64.0 * std::numeric_limits<double>::epsilon();
 
 double place_parameter(std::size_t k) { return (static_cast<double>(k) + 0.5) / kPlaces; }

@@ -60,19 +60,22 @@ template <class V>
 Result<void> check_points(const std::vector<V>& points, const std::vector<double>& weights,
                           std::size_t wanted) {
   if (points.size() != wanted || (!weights.empty() && weights.size() != wanted)) {
-    return error(ErrorCode::kBadOption, fmt::format("{} control points and {} weights where the knots need {}", points.size(), weights.size(), wanted))
+    return error(ErrorCode::kBadOption,
+                 fmt::format("{} control points and {} weights where the knots need {}",
+                             points.size(), weights.size(), wanted))
         .value(static_cast<double>(wanted));
   }
   for (std::size_t i = 0; i < points.size(); ++i) {
     const auto index = static_cast<std::ptrdiff_t>(i);
     if (!is_finite(points[i]) || (!weights.empty() && !std::isfinite(weights[i]))) {
       return error(ErrorCode::kNotFinite, fmt::format("control point {} is not finite", i))
-        .point(index);
+          .point(index);
     }
     if (!weights.empty() && !(weights[i] > 0.0)) {
-      return error(ErrorCode::kBadOption, fmt::format("weight {} is {:g}, weights are greater than 0", i, weights[i]))
-        .point(index)
-        .value(weights[i]);
+      return error(ErrorCode::kBadOption,
+                   fmt::format("weight {} is {:g}, weights are greater than 0", i, weights[i]))
+          .point(index)
+          .value(weights[i]);
     }
   }
   return {};
@@ -150,9 +153,9 @@ std::array<Nurbs<V>, 2> split(const Nurbs<V>& curve, double u) {
   const auto joint = first - 1;  // control point that lies on the curve at u
   const auto degree = static_cast<std::ptrdiff_t>(p);
   Nurbs<V> before{curve.degree,
-                    {cut.knots.begin(), cut.knots.begin() + first + degree},
-                    {cut.points.begin(), cut.points.begin() + joint + 1},
-                    {}};
+                  {cut.knots.begin(), cut.knots.begin() + first + degree},
+                  {cut.points.begin(), cut.points.begin() + joint + 1},
+                  {}};
   before.knots.push_back(u);
   Nurbs<V> after{curve.degree, {u}, {cut.points.begin() + joint, cut.points.end()}, {}};
   after.knots.insert(after.knots.end(), cut.knots.begin() + first, cut.knots.end());
@@ -209,7 +212,8 @@ NurbsCurve nurbs_of(const RationalBezier& piece) {
   return out;
 }
 
-template Result<void> check_points(const std::vector<Vec2>&, const std::vector<double>&, std::size_t);
+template Result<void> check_points(const std::vector<Vec2>&, const std::vector<double>&,
+                                   std::size_t);
 template Result<void> check(const Nurbs<Vec2>&);
 template NurbsJet<Vec2> evaluate(const Nurbs<Vec2>&, double);
 template Nurbs<Vec2> reversed(const Nurbs<Vec2>&);
@@ -218,7 +222,8 @@ template Nurbs<Vec2> with_knots(const Nurbs<Vec2>&, const std::vector<double>&);
 template Nurbs<Vec2> with_degree(const Nurbs<Vec2>&, int);
 template std::array<Nurbs<Vec2>, 2> split(const Nurbs<Vec2>&, double);
 template std::vector<Nurbs<Vec2>> spans(const Nurbs<Vec2>&);
-template Result<void> check_points(const std::vector<Vec3>&, const std::vector<double>&, std::size_t);
+template Result<void> check_points(const std::vector<Vec3>&, const std::vector<double>&,
+                                   std::size_t);
 template Result<void> check(const Nurbs<Vec3>&);
 template NurbsJet<Vec3> evaluate(const Nurbs<Vec3>&, double);
 template Nurbs<Vec3> reversed(const Nurbs<Vec3>&);

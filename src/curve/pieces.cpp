@@ -241,6 +241,13 @@ double curvature_rate(const Jet& jet) {
   return (cross(tangent, third) - 3.0 * bend * dot(tangent, second)) / speed / speed;
 }
 
+bool is_polynomial(const RationalBezier& b) {
+  for (int j = 1; j <= b.degree; ++j) {
+    if (b.weight[static_cast<std::size_t>(j)] != b.weight[0]) return false;
+  }
+  return true;
+}
+
 bool is_singular_end(const Piece& piece, double t) {
   const auto* bezier = std::get_if<RationalBezier>(&piece);
   if (bezier == nullptr || (t != 0.0 && t != 1.0)) return false;

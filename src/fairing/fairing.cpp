@@ -145,7 +145,7 @@ std::optional<FairedSeries> keep_primitives(const MeasuredSeries& series, int lo
                             kTrimWork + kTrimSteps * static_cast<double>(series.points.size()));
   std::vector<std::size_t> loose = series.loose;
   for (int k = 0; k < kMostTrims && watch.may_go_on(); ++k) {
-    const Stretch stretch = Stretch::next_of_many(watch, k);
+    const ProgressShare share = ProgressShare::next_of_many(watch, k);
     FairedSeries out = attempt(series, lower_bound, loose, watch);
     out.loose = loose;
     const bool broken_off = !out.feasible && !watch.may_go_on();

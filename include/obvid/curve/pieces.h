@@ -77,6 +77,9 @@ struct Jet {
 /// side of it.
 [[nodiscard]] double turning_both_ways(const Piece& piece, double t0, double t1);
 
+/// All weights are the same double: the piece is a polynomial.
+[[nodiscard]] bool is_polynomial(const RationalBezier& bezier);
+
 /// Whether the control point beside this end (t = 0 or 1) of a Bezier piece stands on it: the
 /// derivative is zero there, and the curvature has no bound in general. False elsewhere.
 [[nodiscard]] bool is_singular_end(const Piece& piece, double t);

@@ -25,13 +25,6 @@ constexpr double kOfCubicTolerance = 0.95;
 /// A flag of SVG's arcs cannot tell half a turn from its complement: arcs are cut below it.
 constexpr double kMostArcTurn = 3.0;
 
-bool is_polynomial(const RationalBezier& b) {
-  for (int j = 1; j <= b.degree; ++j) {
-    if (b.weight[static_cast<std::size_t>(j)] != b.weight[0]) return false;
-  }
-  return true;
-}
-
 class SvgDrawer {
  public:
   SvgDrawer(const Contour& contour, const SvgDrawingOptions& options, double millimetres,

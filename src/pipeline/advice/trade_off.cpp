@@ -151,7 +151,7 @@ Result<TradeOff> trade_off(const PointSeries& series, const FitJob& job, const R
   std::string option;       // that it is formed with
   for (const double tolerance : tolerances_for(series)) {
     const auto row = static_cast<double>(out.rows.size());
-    const Stretch stretch(watch, row / kRows, (row + 1.0) / kRows);
+    const ProgressShare told(watch, row / kRows, (row + 1.0) / kRows);
     const double share = kMostShares * (most - watch.spent()) / (kRows - row);
     Result<Fit> made = fit_in(share, series, kept, tolerance, watch);
     if (watch.was_cancelled()) break;  // whatever it made do with

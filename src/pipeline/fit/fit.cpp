@@ -213,8 +213,8 @@ class SectionForming {
  private:
   Result<void> form_one(std::size_t k) {
     const auto count = static_cast<double>(series_.split.sections.size());
-    const Stretch stretch(watch_, static_cast<double>(k) / count,
-                          static_cast<double>(k + 1) / count);
+    const ProgressShare share(watch_, static_cast<double>(k) / count,
+                              static_cast<double>(k + 1) / count);
     watch_.tell("choosing headings and curvatures", 0.0);
     const Section& section = series_.split.sections[k];
     if (form_drawn(section)) return {};
@@ -512,7 +512,7 @@ Result<Formed> form_within(Prepared& series, const FitJob& job, double tolerance
   const double spare = watch.spent() + kSpareWork, most = spare + kMostFitSteps * points;
   int round = 0;
   const auto again = [&] {
-    const Stretch stretch = Stretch::next_of_many(watch, round++);
+    const ProgressShare share = ProgressShare::next_of_many(watch, round++);
     return form_sections(series, job, tolerance, chains, watch);
   };
   auto formed = again();
@@ -654,7 +654,7 @@ Result<Measured> form_and_measure(Prepared& prepared, const FitJob& job, const U
                                   const Tolerances& within, const KeptParts& kept,
                                   FoundChains& chains, Watch& watch) {
   Result<Formed> formed = [&] {
-    const Stretch stretch(watch, 0.0, kFormedAt);
+    const ProgressShare share(watch, 0.0, kFormedAt);
     return is_made_g3(job) ? smooth_within(prepared, job, within.formed, kept, chains, watch)
                            : form_within(prepared, job, within.formed, chains, watch);
   }();

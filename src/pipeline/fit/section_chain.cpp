@@ -656,7 +656,8 @@ class SectionChooser {
     const double most =
         watch_.spent() + kPrimitiveWork + kPrimitiveSteps * static_cast<double>(points_.size());
     for (int k = 0; k < kMostTrims && (k == 0 || watch_.spent() < most); ++k) {
-      const Stretch stretch = Stretch::next_of_many(watch_, measured.primitives ? k + 1 : 0);
+      const ProgressShare share =
+          ProgressShare::next_of_many(watch_, measured.primitives ? k + 1 : 0);
       faired = fair(measured, watch_);
       if (!faired.feasible) return std::nullopt;
       auto chain = follow(faired, measured);

@@ -44,7 +44,7 @@ class Watch {
 
  private:
   friend class Allowance;
-  friend class Stretch;
+  friend class ProgressShare;
 
   RunContext run_;
   bool cancelled_ = false;
@@ -68,24 +68,24 @@ class Allowance {
   double outer_;
 };
 
-/// While it lives, what is told is from `from` to `to` of the stretch around it.
-class Stretch {
+/// While it lives, what is told is from `from` to `to` of the share around it.
+class ProgressShare {
  public:
-  Stretch(Watch& watch, double from, double to)
+  ProgressShare(Watch& watch, double from, double to)
       : watch_(watch), outer_from_(watch.from_), outer_to_(watch.to_) {
     const double length = outer_to_ - outer_from_;
     watch_.from_ = outer_from_ + length * from;
     watch_.to_ = outer_from_ + length * to;
   }
-  ~Stretch() {
+  ~ProgressShare() {
     watch_.from_ = outer_from_;
     watch_.to_ = outer_to_;
   }
-  Stretch(const Stretch&) = delete;
-  Stretch& operator=(const Stretch&) = delete;
+  ProgressShare(const ProgressShare&) = delete;
+  ProgressShare& operator=(const ProgressShare&) = delete;
 
   /// The k-th of nobody knows how many: half of what the ones before have left.
-  static Stretch next_of_many(Watch& watch, int k) {
+  static ProgressShare next_of_many(Watch& watch, int k) {
     const double left = std::pow(0.5, k);
     return {watch, 1.0 - left, 1.0 - 0.5 * left};
   }
