@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <functional>
 #include <iterator>
 #include <set>
 #include <utility>
@@ -98,29 +97,46 @@ class Followed {
   const char** reached_;
 };
 
-/// Notes the first field that its object names twice: the parser would keep the last one.
-class RepeatedField {
+/// Notes the first field that its object names twice: the document has the last one alone. (A
+/// callback while the document is made would be told too, but then the parser looks through a whole
+/// array again behind each object in it.)
+class RepeatedField final : public nlohmann::json_sax<json> {
  public:
   explicit RepeatedField(const char* const* reached) : reached_(reached) {}
-
-  bool operator()(int, json::parse_event_t event, json& parsed) {
-    if (event == json::parse_event_t::object_start) {
-      if (++depth_ > open_.size()) open_.emplace_back();
-    } else if (event == json::parse_event_t::object_end) {
-      open_[--depth_].clear();
-    } else if (event == json::parse_event_t::key && at_ == nullptr) {
-      const auto& name = parsed.get_ref<const std::string&>();
-      if (open_[depth_ - 1].insert(name).second) return true;
-      name_ = name;
-      at_ = *reached_;
-    }
-    return true;
-  }
 
   [[nodiscard]] bool found() const { return at_ != nullptr; }
   [[nodiscard]] const std::string& name() const { return name_; }
   /// Behind its closing quote.
   [[nodiscard]] const char* at() const { return at_; }
+
+  bool start_object(std::size_t) override {
+    if (++depth_ > open_.size()) open_.emplace_back();
+    return true;
+  }
+  bool end_object() override {
+    open_[--depth_].clear();
+    return true;
+  }
+  /// Goes on until there is one.
+  bool key(string_t& name) override {
+    if (open_[depth_ - 1].insert(name).second) return true;
+    name_ = name;
+    at_ = *reached_;
+    return false;
+  }
+
+  bool null() override { return true; }
+  bool boolean(bool) override { return true; }
+  bool number_integer(number_integer_t) override { return true; }
+  bool number_unsigned(number_unsigned_t) override { return true; }
+  bool number_float(number_float_t, const string_t&) override { return true; }
+  bool string(string_t&) override { return true; }
+  bool binary(binary_t&) override { return true; }
+  bool start_array(std::size_t) override { return true; }
+  bool end_array() override { return true; }
+  bool parse_error(std::size_t, const std::string&, const json::exception&) override {
+    return false;
+  }
 
  private:
   const char* const* reached_;
@@ -135,10 +151,11 @@ class RepeatedField {
 Result<nlohmann::json> parse_json(string_view text, string_view name) {
   OBVID_TRY(check_depth(text, name));
   try {
+    json document = json::parse(text.begin(), text.end());
     const char* reached = text.data();
     RepeatedField repeated(&reached);
-    json document = json::parse(Followed(text.data(), &reached),
-                                Followed(text.data() + text.size(), &reached), std::ref(repeated));
+    json::sax_parse(Followed(text.data(), &reached), Followed(text.data() + text.size(), &reached),
+                    &repeated);
     if (!repeated.found()) return document;
     const auto end = static_cast<std::size_t>(repeated.at() - text.data());
     const std::size_t quoted = repeated.name().size() + 2;
