@@ -4,11 +4,10 @@
 #include <algorithm>
 #include <array>
 #include <boost/math/tools/minima.hpp>
-#include <boost/math/tools/roots.hpp>
+#include <boost/math/tools/toms748_solve.hpp>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
-#include <utility>
 
 #include "obvid/core/internal/always_inline.h"
 #include "two_arcs.h"
@@ -23,7 +22,6 @@ using region_detail::TwoArcs;
 constexpr int kDigits = 18;
 /// Where the distance has a corner at its top it is not flat.
 constexpr int kDigitsOfCorner = 26;
-constexpr int kDigitsBeforeLast = kDigitsOfCorner / 2 + 1;  ///< Newton's last step doubles them
 constexpr std::uintmax_t kMostLooks = 60;
 /// Part of the way to the end after which the distance is looked at again.
 constexpr double kAside = 0.25;
@@ -169,12 +167,9 @@ double crossing(LocalPath& path, const TwoArcs& arcs) {
   if (!(at_a < 0.0)) return a;
   if (!(at_b > 0.0)) return b;
   std::uintmax_t looks = kMostLooks;
-  return boost::math::tools::newton_raphson_iterate(
-      [&](double u) {
-        const Place here = path.place(u);
-        return std::pair{dot(here.point - joint, along), dot(here.by_parameter, along)};
-      },
-      a + (b - a) * (at_a / (at_a - at_b)), a, b, kDigitsBeforeLast, looks);
+  const auto [low, high] = boost::math::tools::toms748_solve(
+      beyond, a, b, at_a, at_b, boost::math::tools::eps_tolerance<double>(kDigitsOfCorner), looks);
+  return 0.5 * (low + high);
 }
 
 /// Largest distance of the path from one boundary. One of the arcs, `osculating`, has the path's
