@@ -258,12 +258,6 @@ Facts summary(const Fit& fit, const Written& written) {
 
 }  // namespace
 
-std::string bound_text(int bound) {
-  return fmt::format("at least {} unless a curve winds between the points", bound);
-}
-
-std::string vertex_bound_text(int bound) { return "curvature extrema, " + bound_text(bound); }
-
 void add_gaps(Facts& facts, const Certificate& certificate, Carrier carrier) {
   const JointGaps& gaps = certificate.gaps;
   std::string text = fmt::format("position {} of the size, heading {} rad",
@@ -279,20 +273,6 @@ void add_gaps(Facts& facts, const Certificate& certificate, Carrier carrier) {
   }
   if (gaps.slope) text += fmt::format(", slope of curvature {}", significant(*gaps.slope, 2));
   facts.add("joint gaps", text);
-}
-
-std::string verdict_line(Carrier carrier, const Certificate& certificate) {
-  const std::string joints = joints_claim(carrier, certificate);
-  if (!certificate.proved) {
-    const std::string& reason = certificate.reason;
-    if (keeps_promise(carrier, certificate)) {
-      return fmt::format("NOT monotone, as carrier {} does not promise ({}): {}",
-                         to_string(carrier), joints, reason);
-    }
-    return fmt::format("NOT proved: {}", reason.empty() ? "no reason recorded" : reason);
-  }
-  return fmt::format("proved: monotone {} on every run, {}, inside the region",
-                     steps_at_joints(carrier) ? "radii" : "curvature", joints);
 }
 
 std::string as_drawn_text(const Contour& contour) {

@@ -18,16 +18,8 @@ namespace obvid {
 /// inverse; empty where they are unknown.
 [[nodiscard]] std::string fit_report_csv(const Fit& fit);
 
-/// The last line: what is proved, or why not.
-[[nodiscard]] std::string verdict_line(Carrier carrier, const Certificate& certificate);
-
 /// What stays of a drawing whatever the carrier ("4 lines, 1 arc as drawn"); empty for points.
 [[nodiscard]] std::string as_drawn_text(const Contour& contour);
-
-/// What the points force, and on which curves (docs/claims.md, `vertices_lower_bound`).
-[[nodiscard]] std::string bound_text(int bound);
-/// The same for vertices, with what they are: drawings call their corners so.
-[[nodiscard]] std::string vertex_bound_text(int bound);
 
 /// Lines about joint gaps, vertices and the like that `fit` and `verify` share.
 class Facts;

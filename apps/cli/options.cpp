@@ -2,7 +2,9 @@
 #include "options.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <string>
 
 #include "cli_app.h"
 #include "obvid/core/version.h"
@@ -59,6 +61,7 @@ struct Raw {
   std::optional<std::string> units;
   std::string format;  ///< of what -o sends to standard output
   std::vector<std::string> inputs;
+  std::string asked;  ///< the command with its options, as far as they shape the result
 };
 
 /// "arcs (G1), conics, ...": those that promise monotone curvature, or those that do not.
@@ -529,6 +532,32 @@ Result<void> set_construction(Raw& raw) {
   return {};
 }
 
+/// A word as a shell takes it.
+std::string shell_word(const std::string& word) {
+  const bool plain =
+      !word.empty() && word.find_first_of(" \t\n'\"\\$`*?[]{}()<>|&;#~!") == std::string::npos;
+  if (plain) return word;
+  std::string out = "'";
+  for (const char c : word) out += c == '\'' ? std::string("'\\''") : std::string(1, c);
+  return out + "'";
+}
+
+/// "obvid fit --noise 0.01": what was typed but for files and what merely concerns the terminal.
+std::string asked_for(const CLI::App& command) {
+  constexpr std::array kLeftOut = {"--output", "--format", "--json",
+                                   "--csv",    "--quiet",  "--no-progress"};
+  std::string out = "obvid " + command.get_name();
+  for (const CLI::Option* option : command.get_options()) {
+    const bool left_out =
+        std::find(kLeftOut.begin(), kLeftOut.end(), option->get_name()) != kLeftOut.end();
+    if (option->count() == 0 || !option->nonpositional() || left_out) continue;
+    out += " " + option->get_name();
+    if (option->get_items_expected_max() == 0) continue;
+    for (const std::string& value : option->results()) out += " " + shell_word(value);
+  }
+  return out;
+}
+
 Result<Command> checked_fit(Raw& raw) {
   raw.fit.progress = !raw.no_progress;
   const auto along = direction_named(raw.along);
@@ -545,6 +574,7 @@ Result<Command> checked_fit(Raw& raw) {
           .and_then([&] { return set_inputs(raw, raw.fit, "fit", "a file with points"); });
   OBVID_TRY(done);
   allow_two_points(raw.fit.job, raw.fit.import);
+  raw.fit.formats.asked = raw.asked;
   raw.fit.idle = idle_options(raw.formats, raw.fit.outputs);
   if (raw.fit.construction) {
     raw.fit.construction = with_job(*raw.fit.construction, raw.fit.job);
@@ -583,6 +613,7 @@ Result<Command> checked_convert(Raw& raw) {
   options.quiet = options.quiet || *streamed || options.csv || options.json;
   OBVID_TRY(set_inputs(raw, options, "convert", "a contour file"));
   OBVID_TRY(set_formats(raw.formats, options.formats, options.profile));
+  options.formats.asked = raw.asked;
   options.idle = idle_options(raw.formats, options.outputs);
   OBVID_TRY(set_units(raw.units, raw.convert.units));
   OBVID_TRY(set_import(raw.formats, raw.convert.import));
@@ -619,6 +650,7 @@ Result<Command> checked(const CLI::App& app, Raw& raw) {
   OBVID_TRY(check_command(app));
   OBVID_TRY(check_all_extras(app));
   const std::string& name = app.get_subcommands().front()->get_name();
+  raw.asked = asked_for(*app.get_subcommands().front());
   if (name == "fit") return checked_fit(raw);
   if (name == "analyse") return checked_analyse(raw);
   if (name == "convert") return checked_convert(raw);

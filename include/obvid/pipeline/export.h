@@ -22,6 +22,7 @@ struct ExportOptions {
   std::string name = "contour";     ///< of the curve, where a format has a place for it
   PictureTitles picture{};          ///< of .svg pictures
   PicturePlots plots{};             ///< that .svg pictures have on request
+  std::string asked{};              ///< what .html pages say was asked for; empty: nothing
   std::optional<double> tolerance;  ///< of curves that a format cannot hold exactly [1e-6 of the
                                     ///< size; of arcs and G-code 2e-5 of it, of G-code at least
                                     ///< 0.002 mm]

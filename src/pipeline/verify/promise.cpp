@@ -38,4 +38,24 @@ std::optional<Error> broken_promise(const StoredContour& stored, const Verificat
   return stored.report ? too_wide(*stored.report) : std::nullopt;
 }
 
+std::string bound_text(int bound) {
+  return fmt::format("at least {} unless a curve winds between the points", bound);
+}
+
+std::string vertex_bound_text(int bound) { return "curvature extrema, " + bound_text(bound); }
+
+std::string verdict_line(Carrier carrier, const Certificate& certificate) {
+  const std::string joints = joints_claim(carrier, certificate);
+  if (!certificate.proved) {
+    const std::string& reason = certificate.reason;
+    if (keeps_promise(carrier, certificate)) {
+      return fmt::format("NOT monotone, as carrier {} does not promise ({}): {}",
+                         to_string(carrier), joints, reason);
+    }
+    return fmt::format("NOT proved: {}", reason.empty() ? "no reason recorded" : reason);
+  }
+  return fmt::format("proved: monotone {} on every run, {}, inside the region",
+                     steps_at_joints(carrier) ? "radii" : "curvature", joints);
+}
+
 }  // namespace obvid

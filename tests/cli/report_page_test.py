@@ -1,0 +1,182 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
+"""Pages of contours against the contour files written beside them.
+
+usage: report_page_test.py PROGRAM EXAMPLES
+"""
+import html.parser
+import json
+import math
+import pathlib
+import re
+import subprocess
+import sys
+import tempfile
+import unittest
+
+PROGRAM = str(pathlib.Path(sys.argv[1]).resolve())
+EXAMPLES = pathlib.Path(sys.argv[2]).resolve()
+VOID = {"meta", "br", "hr", "img", "input", "link"}
+NUMBER = r"[-+]?\d+(?:\.\d*)?(?:e[-+]?\d+)?"
+
+
+class Page(html.parser.HTMLParser):
+    """Tables by their id, texts of headings, faults of structure, addresses that leave the page."""
+
+    def __init__(self, text):
+        super().__init__()
+        self.open, self.faults, self.texts, self.tables, self.outside = [], [], {}, {}, []
+        self.kinds, self.cell, self.rows = [], None, None
+        self.feed(text)
+        self.faults += [f"<{name}> stays open" for name in self.open]
+
+    def handle_starttag(self, tag, attributes):
+        self.kinds.append(tag)
+        names = dict(attributes)
+        self.outside += [v for k, v in names.items() if k in ("href", "src") and not v.startswith("#")]
+        if tag not in VOID:
+            self.open.append(tag)
+        if tag == "table":
+            self.rows = self.tables.setdefault(names.get("id"), [])
+        elif tag == "tr":
+            self.rows.append([])
+        elif tag in ("td", "th"):
+            self.cell = ""
+        elif tag in ("h1", "title") or names.get("id") == "verdict":
+            self.cell = ""
+
+    def handle_startendtag(self, tag, attributes):
+        self.kinds.append(tag)
+
+    def handle_endtag(self, tag):
+        if not self.open or self.open.pop() != tag:
+            self.faults.append(f"</{tag}>")
+        if tag in ("td", "th"):
+            self.rows[-1].append(self.cell)
+        elif tag in ("h1", "p"):
+            self.texts[tag] = self.cell
+
+    def handle_data(self, data):
+        if self.cell is not None:
+            self.cell += data
+
+
+def same(text, value):
+    """Whether a printed number is this one, rounded to the digits that are printed."""
+    if value is None:
+        return text == "-"
+    digits = len(re.sub(r"e.*|[-+.]", "", text).lstrip("0"))
+    printed = float(text)
+    unit = 10.0 ** (math.floor(math.log10(abs(value))) - digits + 1) if value else 0.0
+    return abs(printed - value) <= 0.5001 * unit or printed == value
+
+
+class Reports(unittest.TestCase):
+    def setUp(self):
+        self.folder = tempfile.TemporaryDirectory()
+        self.addCleanup(self.folder.cleanup)
+        self.root = pathlib.Path(self.folder.name)
+
+    def run_program(self, *arguments, code=0):
+        done = subprocess.run([PROGRAM, *map(str, arguments)], capture_output=True, text=True, cwd=self.root)
+        self.assertEqual(done.returncode, code, done.stderr)
+        return done.stdout
+
+    def page(self, name="r.html"):
+        text = (self.root / name).read_text(encoding="utf-8")
+        page = Page(text)
+        self.assertEqual(page.faults, [])
+        self.assertEqual(page.outside, [])
+        self.assertNotIn("script", page.kinds)
+        self.assertEqual(page.kinds.count("svg"), 1)
+        return page
+
+    def judge(self, page, stored):
+        report, rows = stored["report"], dict(page.tables["figures"])
+        self.assertEqual(rows["carrier"], stored["carrier"])
+        self.assertEqual(rows["contour"].split(",")[0], "closed" if stored["closed"] else "open")
+        counts = [int(n) for n in re.findall(r"\d+", rows["contour"])]
+        self.assertEqual(counts, [len(stored["pieces"]), len(stored["points"]), len(stored["runs"])])
+        vertices, bound = map(int, re.findall(r"\d+", rows["vertices"]))
+        self.assertEqual([vertices, bound], [report["vertices"], report["vertices_lower_bound"]])
+        self.assertEqual(int(rows["inflections"]), report["inflections"])
+        if "largest width of the region" in rows:
+            width, tolerance = re.findall(NUMBER, rows["largest width of the region"])
+            self.assertTrue(same(width, report["largest_width"]) and same(tolerance, report["tolerance"]))
+            error = re.match(NUMBER, rows["largest error with these tangents and curvatures"])
+            self.assertTrue(same(error[0], report["largest_deviation"]))
+        self.assertEqual("largest move of a point" in rows, report["largest_move"] > 0)
+        if report["largest_move"] > 0:
+            self.assertTrue(same(re.match(NUMBER, rows["largest move of a point"])[0], report["largest_move"]))
+        gaps = stored["certificate"]["joint_gaps"]
+        printed = re.findall(r"(position|heading|slope of curvature|curvature) (" + NUMBER + ")", rows["joint gaps"])
+        self.assertGreaterEqual(len(printed), 2)
+        for name, figure in printed:
+            self.assertTrue(same(figure, gaps[name.split(" ")[0]]), (name, figure, gaps))
+        segments = page.tables["segments"][1:]
+        self.assertEqual(len(segments), len(report["segments"]))
+        for row, one in zip(segments, report["segments"]):
+            self.assertEqual(row[0], "-".join(str(i + 1) for i in one["points"]))
+            for text, key in zip(row[1:5], ("chord", "points_only_error", "width", "deviation")):
+                self.assertTrue(same(text, one[key]), (key, text, one[key]))
+            self.assertEqual(int(row[5]), one["inserted"])
+
+    def test_every_carrier_says_what_its_file_says(self):
+        for carrier in ("spiral", "arcs", "conics", "beziers", "clothoids", "bspline", "cubic", "baseline"):
+            with self.subTest(carrier):
+                table = self.run_program("fit", EXAMPLES / "series10.csv", "--carrier", carrier,
+                                         "-o", "r.html", "-o", "r.json")
+                page = self.page()
+                self.judge(page, json.loads((self.root / "r.json").read_text()))
+                self.assertEqual(page.texts["p"], table.splitlines()[-1])
+                self.assertEqual(page.texts["h1"], "series10.csv")
+                self.assertIn(f"--carrier {carrier}", dict(page.tables["figures"])["asked for"])
+
+    def test_measured_and_closed_points_in_other_units(self):
+        points = "\n".join(f"{40 * math.cos(t) + 0.001 * (i % 3)} {20 * math.sin(t)}"
+                           for i, t in enumerate(2 * math.pi * k / 24 for k in range(24)))
+        (self.root / "p.txt").write_text(points)
+        self.run_program("fit", "p.txt", "--closed", "--noise", "0.01", "--units", "in", "-o", "r.html", "-o", "r.json")
+        page = self.page()
+        self.judge(page, json.loads((self.root / "r.json").read_text()))
+        self.assertEqual(dict(page.tables["figures"])["lengths in"], "in")
+        asked = dict(page.tables["figures"])["asked for"]
+        self.assertEqual(sorted(asked.split(" --")), ["closed", "noise 0.01", "obvid fit", "units in"])
+
+    def test_the_page_of_a_file_is_the_page_of_its_fit(self):
+        self.run_program("fit", EXAMPLES / "series10.csv", "-o", "r.html", "-o", "r.json")
+        first = self.page()
+        self.run_program("convert", "r.json", "-o", "again.html")
+        again = self.page("again.html")
+        self.assertEqual(again.tables["segments"], first.tables["segments"])
+        self.assertEqual(again.texts["p"], first.texts["p"])
+        figures = [dict(p.tables["figures"]) for p in (first, again)]
+        for rows in figures:
+            del rows["asked for"]
+        self.assertEqual(*figures)
+
+    def test_names_are_no_markup(self):
+        name = "<script>alert(1)</script>&.csv".replace("/", "_")
+        (self.root / name).write_text((EXAMPLES / "series10.csv").read_text())
+        self.run_program("fit", name, "-o", "r.html")
+        self.assertEqual(self.page().texts["h1"], name)
+
+    def test_a_drawing_gets_no_verdict_of_ours(self):
+        (self.root / "d.svg").write_text('<svg xmlns="http://www.w3.org/2000/svg" width="100mm" height="100mm" '
+                                         'viewBox="0 0 100 100"><path d="M0 0 C 30 60 60 -10 90 40"/></svg>')
+        self.run_program("convert", "d.svg", "-o", "r.html")
+        self.assertNotIn("proved:", self.page().texts["p"])
+
+    def test_long_tables_show_the_widest(self):
+        rows = "\n".join(f"{1000 * math.cos(k / 1000)} {1000 * math.sin(k / 1000) * (1 + k * 1e-4)}" for k in range(1300))
+        (self.root / "p.txt").write_text(rows)
+        self.run_program("fit", "p.txt", "-o", "r.html", "-o", "r.json")
+        segments = json.loads((self.root / "r.json").read_text())["report"]["segments"]
+        self.assertEqual(len(segments), 1299)
+        widest = sorted(range(1299), key=lambda i: -segments[i]["width"])[:1000]
+        self.assertEqual([row[0] for row in self.page().tables["segments"][1:]],
+                         ["-".join(str(i + 1) for i in segments[k]["points"]) for k in sorted(widest)])
+
+
+if __name__ == "__main__":
+    unittest.main(argv=sys.argv[:1])
