@@ -189,7 +189,8 @@ int run(const CompareOptions& options) {
     return compare_carriers(*series, options.job, context, &finished);
   }();
   bar.clear();
-  warn(series->warnings);
+  // a formed contour carries those of its series, too
+  warn(compared ? compared->carriers.front().fit.warnings : series->warnings);
   if (!compared) {
     if (!finished.carriers.empty()) {
       const auto shown = put(comparison_text(*series, finished));

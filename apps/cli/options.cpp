@@ -120,7 +120,7 @@ void add_real_points(CLI::App& fit, Raw& raw) {
   const char* group = "Measured points";
   fit.add_option("--noise", raw.typed.noise,
                  "How far each point may move, input units, or rounding: half a unit of the last "
-                 "printed digit [0: points are met]")
+                 "printed digit, or auto: estimated from their scatter [0: points are met]")
       ->type_name("EPS")
       ->group(group);
   fit.add_flag("--primitives", raw.fit.job.primitives,

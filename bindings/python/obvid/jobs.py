@@ -290,8 +290,8 @@ def fit(
             "baseline".
         continuity: of spirals. "G2": of the curvature; "G3": of its slope too. Default: G3 as far as
             it costs no vertex, G2 where `prefer` chooses headings.
-        noise: how far points may move, units; "rounding": half a unit of the last digit; an array:
-            one for each point. Default: points are met exactly.
+        noise: how far points may move, units; "rounding": half a unit of the last digit;
+            "auto": estimated from their scatter; an array: one for each point. Default: points are met exactly.
         tolerance: width of the region within which the error bound is found, units; default 3e-6 of
             the size.
         closed: True or False; default: as the points say.

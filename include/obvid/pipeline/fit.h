@@ -64,6 +64,8 @@ struct FitJob {
   std::optional<double> above_least{};
   std::optional<double> noise;       ///< how far every point may move, units; default: not at all
   bool noise_from_rounding = false;  ///< as far as half a unit of the last printed digit
+  bool noise_from_scatter = false;   ///< as far as the points scatter about a smooth curve, which a
+                                     ///< warning tells: docs/methods/series.md; plane series only
   Closing closing = Closing::kAutomatic;
   /// Of open series of one section: it goes on beyond both ends moved by this, as heights over a
   /// closed curve do; its last point is its first one so moved, and the contour is looked for with

@@ -14,6 +14,7 @@ namespace obvid::pipeline_detail {
 Result<Fit> fit_within(const PointSeries& series, FitJob job, double tolerance, Watch& watch) {
   job.noise = tolerance;
   job.noise_from_rounding = false;
+  job.noise_from_scatter = false;
   PointSeries allowed = series;
   for (FixedData& data : allowed.fixed) {
     if (data.tolerance) data.tolerance = std::max(*data.tolerance, tolerance);

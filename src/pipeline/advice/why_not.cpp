@@ -78,7 +78,8 @@ class Search {
 
   /// Whether the job leaves every point where it is, and so allows no vertices but those of points.
   [[nodiscard]] bool exact() const {
-    const bool asked = job_.noise_from_rounding || (job_.noise && *job_.noise > 0.0);
+    const bool asked =
+        job_.noise_from_rounding || job_.noise_from_scatter || (job_.noise && *job_.noise > 0.0);
     return !asked && std::none_of(series_.fixed.begin(), series_.fixed.end(),
                                   [](const auto& fixed) { return fixed.tolerance.has_value(); });
   }
@@ -173,6 +174,7 @@ class Search {
       FitJob job = job_;
       job.noise.reset();
       job.noise_from_rounding = true;
+      job.noise_from_scatter = false;
       auto made = fit(series_, job, watch_);
       out_.rounding_does = made && !broken_promise(*made);
       if (out_.rounding_does) out_.fit = std::move(*made);
@@ -197,6 +199,7 @@ class Search {
     if (out_.rounding_does) {
       job.noise.reset();
       job.noise_from_rounding = true;
+      job.noise_from_scatter = false;
     }
     auto made = out_.rounding_does ? fit(series_, job, watch_)
                                    : fit_within(series_, job, out_.advised, watch_);

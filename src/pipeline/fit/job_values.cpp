@@ -146,12 +146,16 @@ Result<void> set_noise(const std::string& typed, FitJob& job) {
     job.noise_from_rounding = true;
     return {};
   }
+  if (typed == "auto") {
+    job.noise_from_scatter = true;
+    return {};
+  }
   const auto noise = number(typed);
   if (!noise || !std::isfinite(*noise) || *noise < 0.0) {
     return fail(bad_option(
-        "the noise must be a length or the word rounding, not " + in_quotes(typed), "--noise",
+        "the noise must be a length, rounding or auto, not " + in_quotes(typed), "--noise",
         "give how far a point may move in input units; rounding is half a unit "
-        "of the last printed digit"));
+        "of the last printed digit, auto is estimated from the points"));
   }
   if (*noise > 0.0) job.noise = noise;
   return {};

@@ -9,7 +9,9 @@
 #include <numbers>
 
 #include "fit/fixed_once.h"
+#include "obvid/core/internal/figures.h"
 #include "obvid/series/internal/coarse_polygon.h"
+#include "obvid/series/internal/scatter.h"
 
 namespace obvid::pipeline_detail {
 namespace {
@@ -36,7 +38,7 @@ class Preparation {
     OBVID_TRY(gather());
     OBVID_TRY(give_ends());
     OBVID_TRY(has_enough_data());
-    set_tolerances();
+    OBVID_TRY(set_tolerances());
     OBVID_TRY(close());
     for (const FixedOnce& one : fixed_) out_.fixed.push_back(one.data);
     cut();
@@ -194,9 +196,30 @@ class Preparation {
     return out;
   }
 
-  void set_tolerances() {
-    const double noise = job_.noise.value_or(0.0);
-    Vec2 common = job_.noise_from_rounding ? series_.rounding : Vec2{noise, noise};
+  /// The noise of all points alike: what was said, what the digits say, or what the points show.
+  Result<Vec2> common_noise() {
+    if (job_.noise_from_rounding) return series_.rounding;
+    if (!job_.noise_from_scatter) {
+      const double noise = job_.noise.value_or(0.0);
+      return Vec2{noise, noise};
+    }
+    auto seen = scatter_of(out_.points);
+    if (!seen) {
+      seen.error().where = "--noise auto";
+      return fail(seen.error());
+    }
+    out_.warnings.push_back(fmt::format(
+        "--noise auto: points may move {} {}, {} times their scatter of {} about cubics through "
+        "four neighbours each (median of {} points)",
+        significant(seen->bound, 4), series_.units.text(), significant(seen->bound_factor, 3),
+        significant(seen->deviation, 4), seen->places));
+    return Vec2{seen->bound, seen->bound};
+  }
+
+  Result<void> set_tolerances() {
+    const Result<Vec2> noise = common_noise();
+    OBVID_TRY(noise);
+    Vec2 common = *noise;
     warn_of_own_tolerances();
     double least = 0.0;
     for (const Vec2 p : out_.points) least = std::max(least, least_move(p));
@@ -209,11 +232,13 @@ class Preparation {
       const double reach = beside_kept(i) ? 0.0 : f.tolerance ? *f.tolerance : across(i, common);
       out_.tolerance.push_back(reach < least ? 0.0 : reach);
     }
+    return {};
   }
 
   /// Tolerances of single points go before one for all.
   void warn_of_own_tolerances() {
-    const bool asked = job_.noise.has_value() || job_.noise_from_rounding;
+    const bool asked =
+        job_.noise.has_value() || job_.noise_from_rounding || job_.noise_from_scatter;
     const auto own = std::count_if(fixed_.begin(), fixed_.end(), [](const FixedOnce& one) {
       return one.data.tolerance.has_value();
     });
@@ -399,6 +424,13 @@ class Preparation {
 
 Result<Prepared> prepare(const PointSeries& series, const FitJob& job) {
   return Preparation(series, job).run();
+}
+
+Result<void> check_noise_in_space(const FitJob& job) {
+  if (!job.noise_from_scatter) return {};
+  return error(ErrorCode::kBadOption, "the noise is estimated of points in a plane only")
+      .where("--noise auto")
+      .hint("say how far the points may move, or rounding");
 }
 
 }  // namespace obvid::pipeline_detail

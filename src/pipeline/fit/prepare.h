@@ -42,4 +42,7 @@ struct Prepared {
 /// E303, E304; E403 where the series fixes two headings or curvatures at one point.
 [[nodiscard]] Result<Prepared> prepare(const PointSeries& series, const FitJob& job);
 
+/// E203 where the noise of points in space is to be estimated.
+[[nodiscard]] Result<void> check_noise_in_space(const FitJob& job);
+
 }  // namespace obvid::pipeline_detail

@@ -6,6 +6,7 @@
 #include <numbers>
 #include <utility>
 
+#include "fit/prepare.h"
 #include "obvid/io/internal/json_text.h"
 #include "obvid/pipeline/internal/promise.h"
 #include "obvid/pipeline/internal/report_json.h"
@@ -324,6 +325,7 @@ class ChainClaims {
 
 Result<SpaceChain> fit_space_chain(const SpaceSeries& series, const SpaceJob& job,
                                    const RunContext& run) {
+  OBVID_TRY(pipeline_detail::check_noise_in_space(job.fit));
   return ChainForming(series, job, run).run();
 }
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "obvid/pipeline/space_fit.h"
+#include "fit/prepare.h"
 
 #include <fmt/format.h>
 
@@ -344,6 +345,7 @@ class SpatialForming {
     FitJob job = job_.fit;
     job.noise.reset();
     job.noise_from_rounding = false;
+    job.noise_from_scatter = false;
     job.start_heading.reset();
     job.end_heading.reset();
     job.start_kappa.reset();
@@ -501,6 +503,7 @@ Result<SpaceFit> form_in_space(const SpaceSeries& series, const SpaceJob& job,
 }  // namespace pipeline_detail
 
 Result<SpaceFit> fit_space(const SpaceSeries& series, const SpaceJob& job, const RunContext& run) {
+  OBVID_TRY(pipeline_detail::check_noise_in_space(job.fit));
   if (job.along && !(is_finite(*job.along) && norm(*job.along) > 0.0)) {
     return fail(of_space(ErrorCode::kBadOption, "the direction has no length",
                          "X, Y, Z, or three numbers: 1,0,0.5"));

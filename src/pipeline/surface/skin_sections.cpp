@@ -113,6 +113,7 @@ Result<Fit> fit_section(const Flat& flat, const SkinJob& job, std::size_t number
     plain.continuity.reset();
     plain.noise.reset();
     plain.noise_from_rounding = false;
+    plain.noise_from_scatter = false;
     warnings.push_back(
         fmt::format("{}: no fair contour ({}), the C2 cubic through its points stands for it", name,
                     made.error().what));

@@ -3,11 +3,13 @@
 
 #include <fmt/format.h>
 
+#include "fit/prepare.h"
 #include "surface/surface_kinds.h"
 
 namespace obvid {
 
 Result<MadeSurface> make_surface(const SurfaceJob& job, const RunContext& run) {
+  OBVID_TRY(pipeline_detail::check_noise_in_space(job.curves.sections));
   auto made = std::visit(
       [&](const auto& kind) { return pipeline_detail::make_kind(kind, job, run); }, job.kind);
   if (made && job.units) {
