@@ -72,7 +72,7 @@ JobOptions known_options() {
         "rotate",          "move",          "mirror"}) {
     out.job.push_back({name});
   }
-  for (const char* name : {"convex", "primitives", "closed", "open", "no-corners"}) {
+  for (const char* name : {"convex", "primitives", "closed", "open", "no-corners", "unordered"}) {
     out.job.push_back({name, true});
   }
   for (const char* name :

@@ -73,6 +73,11 @@ void add_reading(CLI::App& command, FormatValues& values) {
 
 void add_import(CLI::App& command, FormatValues& values) {
   add_reading(command, values);
+  command
+      .add_flag("--unordered", values.unordered,
+                "The points are a cloud: put them in the order of their curve, the shortest row "
+                "through them; numbers of points in options are those of the row")
+      ->group("Reading the input");
   const char* group = "Drawings as input";
   command
       .add_option("--curve", values.curve,

@@ -337,6 +337,7 @@ std::optional<int> run_in_space(const FitOptions& options) {
                    "it is for a list of points whose rows have all their cells", -1, 0.0});
   }
   if (!series || !*series) return std::nullopt;  // whoever reads points says what is wrong
+  if (const auto may = check_space_import(options.import); !may) return report(may.error());
   if (options.units) (*series)->units = *options.units;
   if (auto free = check_outputs(options.outputs, {&options.input, 1}); !free) {
     return report(free.error());

@@ -59,7 +59,8 @@ std::map<std::string, Setter> setters(Written& w, Request& out, const Known& kno
   if (known.import) {
     all.insert({{"curve", text(f.curve)},
                 {"chord-tolerance", number(f.chord_tolerance)},
-                {"drawing", text(f.drawing)}});
+                {"drawing", text(f.drawing)},
+                {"unordered", flag(f.unordered)}});
   }
   if (known.import || known.points) {
     all.insert({{"columns", text(f.columns)},

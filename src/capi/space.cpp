@@ -26,6 +26,7 @@ Result<SpaceSeries> for_a_curve(SpaceSeries series) {
 }
 
 Result<SpaceSeries> space_series_of(const obvid_input& input, const Request& request) {
+  OBVID_TRY(check_space_import(request.import));
   if (input.space) {
     SpaceSeries given = *input.space;
     place(request.import.placement, given);

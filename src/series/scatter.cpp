@@ -10,6 +10,7 @@
 namespace obvid {
 namespace {
 
+constexpr std::array<std::size_t, 4> kOthers = {0, 1, 3, 4};  // of five, those beside the middle
 constexpr std::size_t kLeastPlaces = 20;
 constexpr double kNormalPerMedian = 1.4826022185056018;  // 1 / inverse normal of 3/4
 constexpr double kExceeded = 0.05;                       // probability that any point is beyond
@@ -31,9 +32,9 @@ std::optional<double> residual(const std::array<Vec2, 5>& p) {
     if (k > 0 && !(u[k] > u[k - 1])) return std::nullopt;
   }
   double miss = 0.0, variance = 1.0;
-  for (const std::size_t k : {0, 1, 3, 4}) {
+  for (const std::size_t k : kOthers) {
     double weight = 1.0;
-    for (const std::size_t j : {0, 1, 3, 4}) {
+    for (const std::size_t j : kOthers) {
       if (j != k) weight *= -u[j] / (u[k] - u[j]);
     }
     miss -= weight * dot(p[k] - p[2], across);

@@ -15,7 +15,7 @@
 namespace obvid::test {
 
 /// A point of a curve with its first three derivatives by any parameter.
-struct Jet {
+struct KnownJet {
   Vec2 p, d1, d2, d3;
 
   [[nodiscard]] double curvature() const { return cross(d1, d2) / std::pow(norm(d1), 3.0); }
@@ -27,7 +27,7 @@ struct Jet {
 
 struct KnownCurve {
   std::string name;
-  std::function<Jet(double)> at;
+  std::function<KnownJet(double)> at;
   double from = 0.0, to = 1.0;
   bool closed = false;
 
@@ -47,7 +47,7 @@ struct KnownCurve {
 };
 
 /// r(t) e^{it} from r and its derivatives.
-inline Jet polar(double t, double r, double r1, double r2, double r3) {
+inline KnownJet polar(double t, double r, double r1, double r2, double r3) {
   const Vec2 e = unit_at(t);
   const auto turned = [&](double along, double across) {
     return complex_product({along, across}, e);
@@ -56,7 +56,7 @@ inline Jet polar(double t, double r, double r1, double r2, double r3) {
           turned(r3 - 3.0 * r1, 3.0 * r2 - r)};
 }
 
-inline Jet graph(double x, double y, double y1, double y2, double y3) {
+inline KnownJet graph(double x, double y, double y1, double y2, double y3) {
   return {{x, y}, {1.0, y1}, {0.0, y2}, {0.0, y3}};
 }
 
@@ -64,7 +64,7 @@ inline KnownCurve random_ellipse(std::mt19937_64& rng) {
   const double b = uniform(rng, 0.1, 0.95), start = uniform(rng, 0.0, kTurn);
   const auto at = [b](double t) {
     const double c = std::cos(t), s = std::sin(t);
-    return Jet{{c, b * s}, {-s, b * c}, {-c, -b * s}, {s, -b * c}};
+    return KnownJet{{c, b * s}, {-s, b * c}, {-c, -b * s}, {s, -b * c}};
   };
   return {"ellipse", at, start, start + kTurn, true};
 }

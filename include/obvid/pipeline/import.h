@@ -66,6 +66,7 @@ struct ImportOptions {
       tolerance;            ///< largest distance of a chord from its curve [1e-4 of the size]
   PointListOptions list{};  ///< of lists of points
   Placement placement{};    ///< of whatever is read
+  bool unordered = false;   ///< points are put in the order of their curve, which a warning tells
 };
 
 /// Points to fit: of a text file as they are, of a drawing its longest series or curve, sampled.

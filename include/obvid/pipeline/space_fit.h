@@ -30,6 +30,9 @@ namespace obvid {
     const std::string& text, const std::string& name, bool any_third = false,
     const ImportOptions& import = {});
 
+/// E203 where something is asked for that points in space cannot have: to be put in order.
+[[nodiscard]] Result<void> check_space_import(const ImportOptions& import);
+
 /// How a spatial series becomes a curve.
 struct SpaceJob {
   FitJob fit;                      ///< of the projection; headings and radii are those in its frame

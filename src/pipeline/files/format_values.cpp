@@ -115,6 +115,7 @@ Result<void> set_import(const FormatValues& typed, ImportOptions& options) {
       typed.drawing, "--drawing");
   OBVID_TRY(use);
   options.use = *use;
+  options.unordered = typed.unordered;
   return {};
 }
 

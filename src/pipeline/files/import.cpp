@@ -2,6 +2,11 @@
 #include "obvid/pipeline/import.h"
 
 #include <fmt/format.h>
+#include <numeric>
+#include <string>
+#include <tuple>
+#include <utility>
+#include <vector>
 
 #include <algorithm>
 #include <cctype>
@@ -12,6 +17,7 @@
 #include "files/drawn_series.h"
 #include "obvid/cad/internal/cad.h"
 #include "obvid/core/files.h"
+#include "obvid/core/internal/figures.h"
 #include "obvid/core/internal/near_name.h"
 #include "obvid/exchange/internal/dxf/read.h"
 #include "obvid/exchange/internal/geo/geojson.h"
@@ -23,6 +29,7 @@
 #include "obvid/io/internal/file_kind.h"
 #include "obvid/io/internal/private_copy.h"
 #include "obvid/io/read_points.h"
+#include "obvid/series/internal/order.h"
 
 namespace obvid {
 namespace {
@@ -167,9 +174,68 @@ Result<std::size_t> curve_named(const Drawing& drawing, const std::string& name,
       .hint("give the number of one of them");
 }
 
+/// Every point once, where a list in no order has it twice; the first of them stays.
+void drop_repeated_points(PointSeries& series) {
+  std::vector<std::size_t> sorted(series.points.size());
+  std::iota(sorted.begin(), sorted.end(), std::size_t{0});
+  const auto place_of = [&](std::size_t i) {
+    return std::pair{series.points[i].x, series.points[i].y};
+  };
+  std::sort(sorted.begin(), sorted.end(), [&](std::size_t a, std::size_t b) {
+    return std::tuple(place_of(a), a) < std::tuple(place_of(b), b);
+  });
+  std::vector<bool> repeated(sorted.size(), false);
+  for (std::size_t k = 1; k < sorted.size(); ++k) {
+    repeated[sorted[k]] = series.points[sorted[k]] == series.points[sorted[k - 1]];
+  }
+  std::size_t stay = 0;
+  for (std::size_t i = 0; i < repeated.size(); ++i) {
+    if (repeated[i]) continue;
+    series.points[stay] = series.points[i];
+    if (!series.fixed.empty()) series.fixed[stay] = series.fixed[i];
+    ++stay;
+  }
+  series.points.resize(stay);
+  if (!series.fixed.empty()) series.fixed.resize(stay);
+}
+
+std::string order_text(const PointSeries& series, const CurveOrder& found) {
+  constexpr double kMayClose = 2.0;  // steps
+  const std::string unit = series.units.text();
+  std::string text = fmt::format(
+      "--unordered: {} points were put in the order of their shortest row; neighbours are at most "
+      "{} {} apart, the ends {}",
+      found.order.size(), significant(found.largest_step, 4), unit, significant(found.gap, 4));
+  if (found.gap <= kMayClose * found.largest_step) text += ": --closed closes the contour";
+  return text;
+}
+
+Result<PointSeries> in_order(Result<PointSeries> series, const ImportOptions& options) {
+  if (!series || !options.unordered) return series;
+  if (!series->kept.empty()) {
+    return error(ErrorCode::kBadOption, "pieces of a drawing have their order")
+        .where("--unordered")
+        .hint("leave it out, or take points alone with --drawing points");
+  }
+  drop_repeated_points(*series);
+  const auto found = order_along_curve(series->points);
+  OBVID_TRY(found);
+  PointSeries& out = *series;
+  const std::vector<Vec2> points = std::move(out.points);
+  const std::vector<FixedData> fixed = std::move(out.fixed);
+  out.points.clear();
+  out.fixed.clear();
+  for (const std::size_t i : found->order) {
+    out.points.push_back(points[i]);
+    if (!fixed.empty()) out.fixed.push_back(fixed[i]);
+  }
+  out.warnings.push_back(order_text(out, *found));
+  return series;
+}
+
 Result<PointSeries> placed(Result<PointSeries> series, const ImportOptions& options) {
   if (series) place(options.placement, *series);
-  return series;
+  return in_order(std::move(series), options);
 }
 
 /// All warnings of the drawing, and which curve was taken of several.
@@ -201,8 +267,7 @@ Result<PointSeries> points_of_drawing(const Drawing& drawing, const ImportOption
   out.name = drawing.name + (out.label.empty() ? "" : ": " + out.label);
   out.units = drawing.units;
   tell(drawing, chosen, options.curve.asked(), out);
-  place(options.placement, out);
-  return out;
+  return placed(std::move(out), options);
 }
 
 }  // namespace

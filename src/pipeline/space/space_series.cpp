@@ -27,6 +27,13 @@ Result<std::optional<SpaceSeries>> space_series(const std::string& path, bool an
   return parse_space_series(*text, path, any_third, import);
 }
 
+Result<void> check_space_import(const ImportOptions& import) {
+  if (!import.unordered) return {};
+  return error(ErrorCode::kBadOption, "points in space are not put in order")
+      .where("--unordered")
+      .hint("give them in the order of their curve");
+}
+
 Result<std::optional<SpaceSeries>> parse_space_series(const std::string& whole,
                                                       const std::string& name, bool any_third,
                                                       const ImportOptions& import) {

@@ -21,6 +21,7 @@ struct FormatValues {
   std::optional<double> scale, rotate_deg;
   std::string move;    ///< "DX,DY" or "DX,DY,DZ"
   std::string mirror;  ///< x or y
+  bool unordered = false;
   std::optional<double> tolerance;
   std::optional<double> face_width;
   std::optional<std::string> profile;

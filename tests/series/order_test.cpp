@@ -1,0 +1,111 @@
+// SPDX-License-Identifier: Apache-2.0
+// Points of known curves, shuffled: the order must be that of the curve.
+#include "obvid/series/internal/order.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <numeric>
+#include <random>
+#include <vector>
+
+namespace obvid {
+namespace {
+
+using Row = std::vector<Vec2>;
+
+Row spiral_row(int count) {
+  Row out;
+  for (int k = 0; k < count; ++k) out.push_back((1.0 + 0.01 * k) * unit_at(8.0 * k / count));
+  return out;
+}
+
+Row ellipse_row(int count) {
+  Row out;
+  for (int k = 0; k < count; ++k) {
+    const Vec2 e = unit_at(2.0 * std::numbers::pi * k / count);
+    out.push_back({30.0 * e.x, 10.0 * e.y});
+  }
+  return out;
+}
+
+std::vector<std::size_t> shuffled_indices(std::size_t n, unsigned seed) {
+  std::vector<std::size_t> out(n);
+  std::iota(out.begin(), out.end(), std::size_t{0});
+  std::mt19937 random(seed);
+  for (std::size_t k = n - 1; k > 0; --k) std::swap(out[k], out[random() % (k + 1)]);
+  return out;
+}
+
+/// Indices on the curve of what was put in order.
+std::vector<std::size_t> found_order(const Row& row, unsigned seed, double scale = 1.0) {
+  const auto mixed = shuffled_indices(row.size(), seed);
+  Row list;
+  for (const std::size_t i : mixed) list.push_back(scale * row[i]);
+  const auto found = order_along_curve(list);
+  if (!found) return {};
+  std::vector<std::size_t> out;
+  for (const std::size_t i : found->order) out.push_back(mixed[i]);
+  return out;
+}
+
+TEST(CurveOrder, OfAnOpenCurveIsThatOfTheCurve) {
+  const Row row = spiral_row(300);
+  std::vector<std::size_t> expected(row.size());
+  std::iota(expected.begin(), expected.end(), std::size_t{0});
+  for (unsigned seed = 1; seed <= 10; ++seed) {
+    for (const double scale : {1e-9, 1.0, 1e9}) {
+      auto found = found_order(row, seed, scale);
+      ASSERT_FALSE(found.empty());
+      if (found.front() != 0) std::reverse(found.begin(), found.end());
+      EXPECT_EQ(found, expected);
+    }
+  }
+}
+
+TEST(CurveOrder, OfAClosedCurveGoesAroundOnce) {
+  const std::size_t n = 120;
+  const Row row = ellipse_row(static_cast<int>(n));
+  for (unsigned seed = 1; seed <= 10; ++seed) {
+    const auto found = found_order(row, seed);
+    ASSERT_EQ(found.size(), n);
+    const std::size_t way = (found[1] + n - found[0]) % n;
+    EXPECT_TRUE(way == 1 || way == n - 1);
+    for (std::size_t k = 1; k < n; ++k) EXPECT_EQ((found[k] + n - found[k - 1]) % n, way);
+  }
+}
+
+TEST(CurveOrder, TellsStepsAndTheGapBetweenTheEnds) {
+  const auto found = order_along_curve({{0, 0}, {3, 0}, {1, 0}, {7, 0}});
+  ASSERT_TRUE(found);
+  EXPECT_EQ(found->order, (std::vector<std::size_t>{0, 2, 1, 3}));
+  EXPECT_EQ(found->largest_step, 4.0);
+  EXPECT_EQ(found->gap, 7.0);
+}
+
+TEST(CurveOrder, BeginsAtTheEndThatComesFirst) {
+  const auto found = order_along_curve({{1, 0}, {3, 0}, {2, 0}, {0, 0}});
+  ASSERT_TRUE(found);
+  EXPECT_EQ(found->order, (std::vector<std::size_t>{1, 2, 0, 3}));
+}
+
+TEST(CurveOrder, OfCurvesThatMeetIsRefusedWithThePlace) {
+  Row tee;
+  for (int k = -5; k <= 5; ++k) tee.push_back({double(k), 0.0});
+  for (int k = 1; k <= 5; ++k) tee.push_back({0.0, double(k)});
+  const auto none = order_along_curve(tee);
+  ASSERT_FALSE(none);
+  EXPECT_EQ(none.error().code, ErrorCode::kOutOfOrder);
+  EXPECT_EQ(none.error().index, 5);
+}
+
+TEST(CurveOrder, OfFewManyAndEqualPointsIsRefused) {
+  EXPECT_EQ(order_along_curve({{0, 0}, {1, 0}}).error().code, ErrorCode::kTooFewPoints);
+  EXPECT_EQ(order_along_curve(Row(20'001, Vec2{})).error().code, ErrorCode::kBadCount);
+  EXPECT_EQ(order_along_curve({{0, 0}, {1, 0}, {0, 0}}).error().code, ErrorCode::kOutOfOrder);
+}
+
+}  // namespace
+}  // namespace obvid
