@@ -259,20 +259,7 @@ Facts summary(const Fit& fit, const Written& written) {
 }  // namespace
 
 void add_gaps(Facts& facts, const Certificate& certificate, Carrier carrier) {
-  const JointGaps& gaps = certificate.gaps;
-  std::string text = fmt::format("position {} of the size, heading {} rad",
-                                 significant(gaps.position, 2), significant(gaps.heading, 2));
-  if (steps_at_joints(carrier)) {
-    // where the curvature is drawn to step, the verdict tells it
-    if (gaps.curvature > 0.0)
-      text += fmt::format("; curvature steps up to {} (arcs)", significant(gaps.curvature, 2));
-  } else if (!std::isfinite(gaps.curvature)) {
-    text += ", curvature unknown";
-  } else {
-    text += fmt::format(", curvature {} of the larger", significant(gaps.curvature, 2));
-  }
-  if (gaps.slope) text += fmt::format(", slope of curvature {}", significant(*gaps.slope, 2));
-  facts.add("joint gaps", text);
+  facts.add("joint gaps", gaps_text(carrier, certificate.gaps));
 }
 
 std::string as_drawn_text(const Contour& contour) {

@@ -58,14 +58,7 @@ std::string contour_rows(const Contour& contour) {
 }
 
 std::string gap_rows(const Contour& contour, const Certificate& certificate) {
-  const JointGaps& gaps = certificate.gaps;
-  std::string text = fmt::format("position {} of the size, heading {} rad",
-                                 significant(gaps.position, 2), significant(gaps.heading, 2));
-  if (!steps_at_joints(contour.carrier) && std::isfinite(gaps.curvature)) {
-    text += fmt::format(", curvature {} of the larger", significant(gaps.curvature, 2));
-  }
-  if (gaps.slope) text += fmt::format(", slope of curvature {}", significant(*gaps.slope, 2));
-  std::string out = figure_row("joint gaps", text);
+  std::string out = figure_row("joint gaps", gaps_text(contour.carrier, certificate.gaps));
   if (certificate.corners > 0) out += figure_row("corners", std::to_string(certificate.corners));
   return out;
 }

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "obvid/pipeline/space_fit.h"
-#include "fit/prepare.h"
 
 #include <fmt/format.h>
 
@@ -9,6 +8,7 @@
 #include <numbers>
 #include <utility>
 
+#include "fit/prepare.h"
 #include "obvid/io/read_sections.h"
 #include "obvid/pipeline/skin_sections.h"
 #include "space/space_shape.h"

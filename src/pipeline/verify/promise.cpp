@@ -3,6 +3,8 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
+
 #include "obvid/core/internal/figures.h"
 
 namespace obvid {
@@ -56,6 +58,22 @@ std::string verdict_line(Carrier carrier, const Certificate& certificate) {
   }
   return fmt::format("proved: monotone {} on every run, {}, inside the region",
                      steps_at_joints(carrier) ? "radii" : "curvature", joints);
+}
+
+std::string gaps_text(Carrier carrier, const JointGaps& gaps) {
+  std::string text = fmt::format("position {} of the size, heading {} rad",
+                                 significant(gaps.position, 2), significant(gaps.heading, 2));
+  if (steps_at_joints(carrier)) {
+    // where the curvature is drawn to step, the verdict tells it
+    if (gaps.curvature > 0.0)
+      text += fmt::format("; curvature steps up to {} (arcs)", significant(gaps.curvature, 2));
+  } else if (!std::isfinite(gaps.curvature)) {
+    text += ", curvature unknown";
+  } else {
+    text += fmt::format(", curvature {} of the larger", significant(gaps.curvature, 2));
+  }
+  if (gaps.slope) text += fmt::format(", slope of curvature {}", significant(*gaps.slope, 2));
+  return text;
 }
 
 }  // namespace obvid

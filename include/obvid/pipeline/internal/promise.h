@@ -29,4 +29,7 @@ namespace obvid {
 /// The same for vertices, with what they are: drawings call their corners so.
 [[nodiscard]] std::string vertex_bound_text(int bound);
 
+/// How far neighbouring pieces are from meeting, with the scale of each figure.
+[[nodiscard]] std::string gaps_text(Carrier carrier, const JointGaps& gaps);
+
 }  // namespace obvid
