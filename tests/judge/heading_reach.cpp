@@ -150,7 +150,7 @@ class Way {
     if (!from.reached) return;
     const Limits mine = own(point(k));
     const Limits all{std::max(from.kappas.low, mine.low), std::min(from.kappas.high, mine.high)};
-    const bool fixed = mine.low == mine.high;
+    const bool fixed = mine.low == mine.high || from.kappas.low == from.kappas.high;
     if (fixed ? all.empty() : !(all.low < all.high)) return;
     const std::optional<Limits> next = over(rows_[k], from.theta, to.theta, all);
     if (!next) return;
@@ -160,12 +160,18 @@ class Way {
     to.before = which;
   }
 
+  /// The curvature of the arc over a chord, where the table says one.
+  [[nodiscard]] Limits of_arc(const SheetRow& row) const {
+    if (row.start && row.start->low == row.start->high) return *row.start;
+    return {};
+  }
+
   /// Curvatures behind a chord; nothing where no spiral has these headings.
   [[nodiscard]] std::optional<Limits> over(std::size_t row, Real before, Real behind,
                                            const Limits& from) const {
     const SheetRow& r = part_.rows[row];
     const int direction = part_.direction(r).value_or(0);
-    if (direction == 0) return Limits{};
+    if (direction == 0) return of_arc(r);
     const Vec chord = part_.chord(r);
     const Real omega = std::atan2(chord.y, chord.x), h = norm(chord), d = direction;
     const auto angle = [&](Real theta) {

@@ -88,14 +88,15 @@ std::string tex_text(const std::string& text) {
   return out;
 }
 
-/// Decimals that tell a millionth of the size: four for some hundred millimetres.
-int decimals_of(const RegionTable& table) {
+/// Decimals that tell a millionth of the longest chord: four for some hundred millimetres.
+int decimals_of(const RegionPart& part) {
   double largest = 0.0;
-  for (const RegionRow& row : table.rows) largest = std::max(largest, row.chord);
+  for (const RegionRow& row : part.rows) largest = std::max(largest, row.chord);
   return largest > 0.0 ? std::max(6 - static_cast<int>(std::floor(std::log10(largest))), 0) : 0;
 }
 
-void add_latex(const RegionPart& part, int decimals, std::string& out) {
+void add_latex(const RegionPart& part, std::string& out) {
+  const int decimals = decimals_of(part);
   const int coarse = std::max(decimals - 2, 0);
   out +=
       "\\begin{tabular}{lrrrrrrrr}\n\\hline\n"
@@ -130,8 +131,9 @@ void add_latex(const RegionPart& part, int decimals, std::string& out) {
   out += "\\hline\n\\end{tabular}\n";
 }
 
-void add_latex(const RegionTable& table, int decimals, std::string& out) {
+void add_latex(const RegionTable& table, std::string& out) {
   const ConstructionTable& made = *table.construction;
+  const int decimals = decimals_of(table.last());
   out += "\n\\begin{tabular}{l" + std::string(made.columns.size(), 'r') + "l}\n\\hline\n$i$";
   for (const std::string& column : made.columns) out += " & " + tex_text(column);
   out += " & \\\\\n\\hline\n";
@@ -363,13 +365,12 @@ std::string construction_csv(const RegionTable& table) {
 std::string region_latex(const PointSeries& series, const RegionTable& table) {
   std::string out =
       fmt::format("% {}, lengths in {}\n", tex_text(series.name), series.units.text());
-  const int decimals = decimals_of(table);
-  add_latex(table.user, decimals, out);
+  add_latex(table.user, out);
   if (table.refined) {
     out += "\n% with the inserted points\n";
-    add_latex(*table.refined, decimals, out);
+    add_latex(*table.refined, out);
   }
-  if (table.construction) add_latex(table, decimals, out);
+  if (table.construction) add_latex(table, out);
   return out;
 }
 

@@ -248,5 +248,46 @@ TEST(JudgeRegion, LooksForHeadingsAsFarAsSpiralsExist) {
   EXPECT_FALSE(found_with_heading(part, input, 1, kLast + 1e-3L));
 }
 
+/// An arc of curvature 0.5 goes before the chord of length 1: the spiral behind it begins with that.
+TEST(JudgeRegion, LooksForSpiralsThatBeginWithTheCurvatureOfAnArc) {
+  constexpr Real kCurvature = 0.5L, kBefore = -0.3L;
+  const Json arc_figures = read_json(R"({"width": 0})").value;
+  const Json figures = read_json(R"({"width": 0.01})").value;
+  SheetPart part;
+  part.points.resize(3);
+  // a chord of the arc, which ends at the origin with the heading before
+  const Real half = 0.2L, chord = 2.0L * std::sin(half) / kCurvature;
+  part.points[0].stored = {static_cast<double>(-chord * std::cos(kBefore - half)),
+                           static_cast<double>(-chord * std::sin(kBefore - half))};
+  part.points[0].heading = kBefore - 2.0L * half;
+  part.points[1].stored = {0.0, 0.0};
+  part.points[1].heading = kBefore;
+  part.points[2].stored = {1.0, 0.0};
+  part.points[2].heading = 0.5L;
+  for (std::size_t i = 0; i < 3; ++i) part.points[i].index = i;
+  part.points[2].headings = Limits{0.3L, 1.5L};
+  SheetRow arc, spiral;
+  arc.to = 1;
+  arc.start = arc.end = Limits{kCurvature, kCurvature};
+  arc.figures = &arc_figures;
+  spiral.from = 1;
+  spiral.to = 2;
+  spiral.start = Limits{kCurvature, kCurvature};
+  spiral.end = Limits{0.6L, HUGE_VALL};
+  spiral.figures = &figures;
+  part.rows = {arc, spiral};
+  Input input;
+  input.points.resize(3);
+  // A B = -sin^2(sigma/2) with the curvature of the arc before
+  const auto least = [](Real theta) {
+    const Real sine = std::sin(0.5L * (kBefore + theta));
+    return 2.0L * (std::sin(theta) + sine * sine / -(0.5L * kCurvature + std::sin(kBefore)));
+  };
+  constexpr Real kLast = 0.7L;
+  input.points[2].kappa = static_cast<double>(least(kLast));
+  EXPECT_TRUE(found_with_heading(part, input, 2, kLast - 1e-3L));
+  EXPECT_FALSE(found_with_heading(part, input, 2, kLast + 1e-3L));
+}
+
 }  // namespace
 }  // namespace judge
