@@ -22,9 +22,6 @@ struct Homogeneous {
   friend Homogeneous operator+(Homogeneous a, Homogeneous b) {
     return {a.x + b.x, a.y + b.y, a.w + b.w};
   }
-  friend Homogeneous operator-(Homogeneous a, Homogeneous b) {
-    return {a.x - b.x, a.y - b.y, a.w - b.w};
-  }
   friend Homogeneous operator*(double s, Homogeneous a) { return {s * a.x, s * a.y, s * a.w}; }
 };
 
@@ -53,6 +50,46 @@ CoordinateJet coordinate_jet(std::array<double, Degree + 1> c, double t) {
     }
     if (left == 0) return jet;
     for (std::size_t j = 0; j < left; ++j) c[j] = (1.0 - t) * c[j] + t * c[j + 1];
+  }
+}
+
+/// Places at which a coordinate is evaluated side by side.
+constexpr std::size_t kLanes = 4;
+template <typename Number>
+using Lanes = std::array<Number, kLanes>;
+
+/// The same at several places at once: operation by operation what is done at one place.
+template <std::size_t Degree>
+std::array<Lanes<double>, 4> coordinate_jets(const std::array<double, Degree + 1>& c,
+                                             const Lanes<double>& t) {
+  constexpr int n = static_cast<int>(Degree);
+  std::array<Lanes<double>, 4> jets{};
+  std::array<Lanes<double>, Degree + 1> q{};
+  Lanes<double> s{};
+  for (std::size_t l = 0; l < kLanes; ++l) s[l] = 1.0 - t[l];
+  for (std::size_t j = 0; j <= Degree; ++j) q[j].fill(c[j]);
+  for (std::size_t left = Degree;; --left) {
+    for (std::size_t l = 0; l < kLanes; ++l) {
+      if (left == 0) jets[0][l] = q[0][l];
+      if constexpr (Degree >= 1) {
+        if (left == 1) jets[1][l] = n * (q[1][l] - q[0][l]);
+      }
+      if constexpr (Degree >= 2) {
+        if (left == 2) {
+          jets[2][l] = (n * (n - 1)) * (q[2][l] - q[1][l] - (q[1][l] - q[0][l]));
+        }
+      }
+      if constexpr (Degree >= 3) {
+        if (left == 3) {
+          jets[3][l] = (n * (n - 1) * (n - 2)) *
+                       ((q[3][l] - q[2][l]) - 2.0 * (q[2][l] - q[1][l]) + (q[1][l] - q[0][l]));
+        }
+      }
+    }
+    if (left == 0) return jets;
+    for (std::size_t j = 0; j < left; ++j) {
+      for (std::size_t l = 0; l < kLanes; ++l) q[j][l] = s[l] * q[j][l] + t[l] * q[j + 1][l];
+    }
   }
 }
 
@@ -86,11 +123,55 @@ std::array<Homogeneous, 4> homogeneous_jet(const RationalBezier& piece, Vec2 ref
   return jet;
 }
 
+/// The same at several places.
+template <std::size_t Degree>
+Lanes<std::array<Homogeneous, 4>> homogeneous_jets(const RationalBezier& piece, Vec2 reference,
+                                                   const Lanes<double>& t) {
+  std::array<double, Degree + 1> x{}, y{}, w{};
+  for (std::size_t j = 0; j <= Degree; ++j) {
+    const Vec2 q = piece.offset[j] - reference;
+    w[j] = piece.weight[j];
+    x[j] = w[j] * q.x;
+    y[j] = w[j] * q.y;
+  }
+  const auto jx = coordinate_jets<Degree>(x, t), jy = coordinate_jets<Degree>(y, t),
+             jw = coordinate_jets<Degree>(w, t);
+  Lanes<std::array<Homogeneous, 4>> jets{};
+  for (std::size_t l = 0; l < kLanes; ++l) {
+    for (std::size_t r = 0; r < 4; ++r) jets[l][r] = {jx[r][l], jy[r][l], jw[r][l]};
+  }
+  return jets;
+}
+
+template <std::size_t... Degrees>
+Lanes<std::array<Homogeneous, 4>> jets_by_degree(const RationalBezier& piece, Vec2 reference,
+                                                 const Lanes<double>& t,
+                                                 std::index_sequence<Degrees...>) {
+  constexpr std::array kOfDegree = {&homogeneous_jets<Degrees>...};
+  return kOfDegree[static_cast<std::size_t>(piece.degree)](piece, reference, t);
+}
+
 template <std::size_t... Degrees>
 std::array<Homogeneous, 4> jet_by_degree(const RationalBezier& piece, Vec2 reference, double t,
                                          std::index_sequence<Degrees...>) {
   constexpr std::array kOfDegree = {&homogeneous_jet<Degrees>...};
   return kOfDegree[static_cast<std::size_t>(piece.degree)](piece, reference, t);
+}
+
+/// Of the curve in the plane, from that of the homogeneous one seen from `reference`.
+Jet in_plane(const std::array<Homogeneous, 4>& h, Vec2 origin, Vec2 reference) {
+  const double inverse = 1.0 / h[0].w;
+  const Vec2 q = inverse * Vec2{h[0].x, h[0].y};
+  const Vec2 d1 = inverse * (Vec2{h[1].x, h[1].y} - h[1].w * q);
+  const Vec2 d2 = inverse * (Vec2{h[2].x, h[2].y} - 2.0 * h[1].w * d1 - h[2].w * q);
+  const Vec2 d3 =
+      inverse * (Vec2{h[3].x, h[3].y} - 3.0 * h[1].w * d2 - 3.0 * h[2].w * d1 - h[3].w * q);
+  return {origin + (reference + q), d1, d2, d3};
+}
+
+/// The nearer end: it is met exactly when coordinates are seen from it.
+Vec2 nearer_end(const RationalBezier& piece, double t) {
+  return piece.offset[t <= 0.5 ? 0 : static_cast<std::size_t>(piece.degree)];
 }
 
 /// sin(x)/x without a hole at 0.
@@ -153,17 +234,33 @@ Jet evaluate(const ArcPiece& piece, double t) {
 
 Jet evaluate(const RationalBezier& piece, double t) {
   assert(piece.degree >= 1 && piece.degree <= kMaxBezierDegree);
-  // The nearer end is the reference: the end itself is then met exactly.
-  const Vec2 reference = piece.offset[t <= 0.5 ? 0 : static_cast<std::size_t>(piece.degree)];
-  const auto h =
-      jet_by_degree(piece, reference, t, std::make_index_sequence<kMaxBezierDegree + 1>{});
-  const double inverse = 1.0 / h[0].w;
-  const Vec2 q = inverse * Vec2{h[0].x, h[0].y};
-  const Vec2 d1 = inverse * (Vec2{h[1].x, h[1].y} - h[1].w * q);
-  const Vec2 d2 = inverse * (Vec2{h[2].x, h[2].y} - 2.0 * h[1].w * d1 - h[2].w * q);
-  const Vec2 d3 =
-      inverse * (Vec2{h[3].x, h[3].y} - 3.0 * h[1].w * d2 - 3.0 * h[2].w * d1 - h[3].w * q);
-  return {piece.origin + (reference + q), d1, d2, d3};
+  const Vec2 reference = nearer_end(piece, t);
+  return in_plane(
+      jet_by_degree(piece, reference, t, std::make_index_sequence<kMaxBezierDegree + 1>{}),
+      piece.origin, reference);
+}
+
+void evaluate(const RationalBezier& piece, std::span<const double> t, std::span<Jet> jets) {
+  assert(t.size() == jets.size());
+  std::size_t i = 0;
+  while (i < t.size()) {
+    const std::size_t end = i + kLanes;
+    const bool one_half =
+        end <= t.size() && std::all_of(t.begin() + static_cast<std::ptrdiff_t>(i),
+                                       t.begin() + static_cast<std::ptrdiff_t>(end),
+                                       [&](double u) { return (u <= 0.5) == (t[i] <= 0.5); });
+    if (!one_half) {
+      jets[i] = evaluate(piece, t[i]);
+      ++i;
+      continue;
+    }
+    const Vec2 reference = nearer_end(piece, t[i]);
+    Lanes<double> places{};
+    std::copy_n(t.begin() + static_cast<std::ptrdiff_t>(i), kLanes, places.begin());
+    const auto all = jets_by_degree(piece, reference, places,
+                                    std::make_index_sequence<kMaxBezierDegree + 1>{});
+    for (const auto& one : all) jets[i++] = in_plane(one, piece.origin, reference);
+  }
 }
 
 Jet evaluate(const ClothoidPiece& piece, double t) {

@@ -4,10 +4,11 @@
 #include <algorithm>
 #include <array>
 #include <boost/math/tools/minima.hpp>
-#include <boost/math/tools/toms748_solve.hpp>
+#include <boost/math/tools/roots.hpp>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <utility>
 
 #include "obvid/core/internal/always_inline.h"
 #include "two_arcs.h"
@@ -166,10 +167,15 @@ double crossing(LocalPath& path, const TwoArcs& arcs) {
   const double at_a = beyond(a), at_b = beyond(b);
   if (!(at_a < 0.0)) return a;
   if (!(at_b > 0.0)) return b;
+  const auto with_slope = [&](double u) {
+    const Place place = path.place(u);
+    return std::pair(dot(place.point - joint, along), dot(place.by_parameter, along));
+  };
   std::uintmax_t looks = kMostLooks;
-  const auto [low, high] = boost::math::tools::toms748_solve(
-      beyond, a, b, at_a, at_b, boost::math::tools::eps_tolerance<double>(kDigitsOfCorner), looks);
-  return 0.5 * (low + high);
+  const double chord = a + (b - a) * (at_a / (at_a - at_b));
+  // the last step doubles the digits
+  return boost::math::tools::newton_raphson_iterate(with_slope, chord, a, b, kDigitsOfCorner / 2,
+                                                    looks);
 }
 
 /// Largest distance of the path from one boundary. One of the arcs, `osculating`, has the path's

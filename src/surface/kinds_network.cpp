@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "kinds.h"
+#include "obvid/geom/internal/box.h"
 #include "obvid/surface/internal/collocation.h"
 
 namespace obvid {
@@ -24,10 +25,9 @@ NurbsSurface boolean_sum(const NurbsSurface& a, const NurbsSurface& b, const Nur
 }
 
 double extent(const std::vector<SpaceCurve>& curves) {
-  NurbsSurface box;
-  for (const SpaceCurve& c : curves)
-    box.points.insert(box.points.end(), c.points.begin(), c.points.end());
-  return size_of(box);
+  Box3 box;
+  for (const SpaceCurve& c : curves) box.add_all(c.points);
+  return box.diagonal();
 }
 
 /// Curves that should meet in a point do so within this share of the size, apart from what the

@@ -50,10 +50,9 @@ SurfaceJet evaluate(const NurbsSurface& s, double u, double v) {
 }
 
 double size_of(const NurbsSurface& surface) {
-  if (surface.points.empty()) return 0.0;
   Box3 box;
-  for (const Vec3& p : surface.points) box.add(p);
-  return norm(box.size());
+  box.add_all(surface.points);
+  return box.diagonal();
 }
 
 }  // namespace obvid

@@ -34,10 +34,8 @@ double size_of(const SurfaceModel& model) { return size_of(surfaces_of(model)); 
 
 double size_of(const std::vector<const NurbsSurface*>& surfaces) {
   Box3 box;
-  for (const NurbsSurface* surface : surfaces) {
-    for (const Vec3& p : surface->points) box.add(p);
-  }
-  return box.low.x <= box.high.x ? norm(box.size()) : 0.0;
+  for (const NurbsSurface* surface : surfaces) box.add_all(surface->points);
+  return box.diagonal();
 }
 
 }  // namespace obvid

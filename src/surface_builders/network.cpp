@@ -10,6 +10,7 @@
 #include "network_crossing.h"
 #include "network_curves.h"
 #include "network_side.h"
+#include "obvid/geom/internal/box.h"
 
 namespace obvid {
 namespace {
@@ -61,11 +62,9 @@ Result<void> find_crossings(NetSide& first, NetSide& second, double tolerance) {
 }
 
 double size_of(const NetSide& side) {
-  std::vector<Vec3> all;
-  for (const SpaceCurve& c : side.curves) {
-    all.insert(all.end(), c.points.begin(), c.points.end());
-  }
-  return size_of(box_of(all.data(), all.size()));
+  Box3 box;
+  for (const SpaceCurve& c : side.curves) box.add_all(c.points);
+  return box.diagonal();
 }
 
 CrossingPoints points_at(const NetSide& side, const std::vector<double>& parameters) {

@@ -9,12 +9,6 @@
 namespace obvid {
 namespace {
 
-SpaceBox united(const SpaceBox& a, const SpaceBox& b) {
-  return {
-      {std::min(a.low.x, b.low.x), std::min(a.low.y, b.low.y), std::min(a.low.z, b.low.z)},
-      {std::max(a.high.x, b.high.x), std::max(a.high.y, b.high.y), std::max(a.high.z, b.high.z)}};
-}
-
 /// Ends of pieces: spans divided so that the curve has a few dozen at least.
 std::vector<double> piece_ends(const std::vector<double>& knots) {
   constexpr std::size_t kPieces = 48;  // of the whole curve
@@ -122,7 +116,7 @@ class Search {
       const bool single_p = p.end - p.begin == 1, single_q = q.end - q.begin == 1;
       if (single_p && single_q) {
         try_from(a_.middle(p.begin), b_.middle(q.begin));
-      } else if (!single_p && (single_q || size_of(p.box) >= size_of(q.box))) {
+      } else if (!single_p && (single_q || p.box.diagonal() >= q.box.diagonal())) {
         push_nearer_last(open, {p.left, j}, {p.right, j});
       } else {
         push_nearer_last(open, {i, q.left}, {i, q.right});
@@ -157,15 +151,7 @@ class Search {
 
 }  // namespace
 
-SpaceBox box_of(const Vec3* points, std::size_t count) {
-  SpaceBox box{points[0], points[0]};
-  for (std::size_t i = 1; i < count; ++i) box = united(box, {points[i], points[i]});
-  return box;
-}
-
-double size_of(const SpaceBox& box) { return norm(box.high - box.low); }
-
-double distance_between(const SpaceBox& a, const SpaceBox& b) {
+double distance_between(const Box3& a, const Box3& b) {
   const auto gap = [](double low_a, double high_a, double low_b, double high_b) {
     return std::max({0.0, low_a - high_b, low_b - high_a});
   };
@@ -182,22 +168,24 @@ BoxedCurve::BoxedCurve(const SpaceCurve& curve) : curve_(curve), ends_(piece_end
     added.insert(added.end(), p - std::min(p, static_cast<std::size_t>(to - from)), ends_[k]);
   }
   const SpaceCurve cut = with_knots(curve, added);
-  std::vector<SpaceBox> boxes;
+  std::vector<Box3> boxes;
   for (std::size_t k = 0; k + 1 < ends_.size(); ++k) {
-    boxes.push_back(box_of(cut.points.data() + k * p, p + 1));
+    Box3& box = boxes.emplace_back();
+    for (std::size_t i = 0; i <= p; ++i) box.add(cut.points[k * p + i]);
   }
   nodes_.reserve(2 * boxes.size());
   build(boxes, 0, boxes.size());
 }
 
-std::size_t BoxedCurve::build(const std::vector<SpaceBox>& boxes, std::size_t begin,
+std::size_t BoxedCurve::build(const std::vector<Box3>& boxes, std::size_t begin,
                               std::size_t end) {
   Node node{boxes[begin], begin, end, 0, 0};
   if (end - begin > 1) {  // halves: as deep as the logarithm of the pieces
     const std::size_t middle = begin + (end - begin) / 2;
     node.left = build(boxes, begin, middle);
     node.right = build(boxes, middle, end);
-    node.box = united(nodes_[node.left].box, nodes_[node.right].box);
+    node.box = nodes_[node.left].box;
+    node.box.add_box(nodes_[node.right].box);
   }
   nodes_.push_back(node);
   return nodes_.size() - 1;

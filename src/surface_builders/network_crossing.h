@@ -5,17 +5,12 @@
 #include <cstddef>
 #include <vector>
 
+#include "obvid/geom/internal/box.h"
 #include "obvid/surface/space_curve.h"
 
 namespace obvid {
 
-struct SpaceBox {
-  Vec3 low, high;
-};
-
-[[nodiscard]] SpaceBox box_of(const Vec3* points, std::size_t count);
-[[nodiscard]] double size_of(const SpaceBox& box);
-[[nodiscard]] double distance_between(const SpaceBox& a, const SpaceBox& b);
+[[nodiscard]] double distance_between(const Box3& a, const Box3& b);
 
 /// A curve with boxes around its pieces, and around ever larger runs of pieces.
 class BoxedCurve {
@@ -23,7 +18,7 @@ class BoxedCurve {
   explicit BoxedCurve(const SpaceCurve& curve);
 
   struct Node {
-    SpaceBox box;
+    Box3 box;
     std::size_t begin = 0, end = 0;   ///< pieces
     std::size_t left = 0, right = 0;  ///< children; both 0: one piece
   };
@@ -36,7 +31,7 @@ class BoxedCurve {
   }
 
  private:
-  std::size_t build(const std::vector<SpaceBox>& boxes, std::size_t begin, std::size_t end);
+  std::size_t build(const std::vector<Box3>& boxes, std::size_t begin, std::size_t end);
 
   SpaceCurve curve_;
   std::vector<double> ends_;

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <utility>
 
-#include "network_crossing.h"
+#include "obvid/geom/internal/box.h"
 
 namespace obvid {
 
@@ -29,7 +29,9 @@ Result<void> check_curves(const std::vector<SpaceCurve>& curves, const std::stri
 }
 
 bool is_point(const SpaceCurve& curve, double tolerance) {
-  return size_of(box_of(curve.points.data(), curve.points.size())) <= tolerance;
+  Box3 box;
+  box.add_all(curve.points);
+  return box.diagonal() <= tolerance;
 }
 
 }  // namespace obvid

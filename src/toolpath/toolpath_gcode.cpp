@@ -18,17 +18,6 @@ constexpr int kLeastDecimals = 3, kMostDecimals = 6;
 constexpr double kDigitsOfPrint = 1.0 / 3.0;  // of what printing may, the last digit's worth
 constexpr double kDigitRounding = 1e-9;       // 0.003 asks for 3 decimals, not for 3.0000000001
 
-/// Comments end at ")": nothing of the kind in a name, and nothing but ASCII.
-std::string comment_of(const std::string& name) {
-  constexpr std::size_t kLongest = 40;  // a line has to fit into the buffers of controllers
-  std::string out;
-  for (const char c : name.substr(0, kLongest)) {
-    const auto code = static_cast<unsigned char>(c);
-    if (code >= 0x20 && code < 0x7F && c != '(' && c != ')' && c != '%' && c != ';') out += c;
-  }
-  return out;
-}
-
 std::string cutter_text(const Toolpath& path, double scale) {
   const double d = path.cutter.diameter * scale;
   switch (path.cutter.kind) {
@@ -46,11 +35,11 @@ std::string head(const Toolpath& path, const ToolpathGcodeOptions& options, doub
   const bool fanuc = options.controller == GcodeController::kFanuc, inches = path.units == "in";
   const char* unit = inches ? "in" : "mm";
   std::string out = fanuc ? "%\nO0001\n" : "";
-  out += fmt::format("(Obvid {}: {})\n", kVersion, comment_of(options.name));
+  out += fmt::format("(Obvid {}: {})\n", kVersion, gcode_comment(options.name));
   out += fmt::format("({}, places are those of the tip)\n", cutter_text(path, scale));
   out += fmt::format("({} passes, {:.1f} min, within {:.3g} {})\n", path.report.passes,
                      path.report.minutes, path.tolerance * scale, unit);
-  if (!inches && scale != 1.0) out += fmt::format("(converted from {})\n", comment_of(path.units));
+  if (!inches && scale != 1.0) out += fmt::format("(converted from {})\n", gcode_comment(path.units));
   out += inches ? "G20 " : "G21 ";
   return out + (fanuc ? "G90 G17 G94\n" : "G90 G91.1 G17 G94\n");
 }

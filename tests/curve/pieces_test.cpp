@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <vector>
 
 #include "obvid/curve/contour.h"
 
@@ -141,6 +142,27 @@ TEST(Pieces, SplitHalvesTraceTheSameCurve) {
     const Vec2 right = evaluate(halves[1], t).point - evaluate(piece, at + (1 - at) * t).point;
     EXPECT_LT(norm(left), 1e-14);
     EXPECT_LT(norm(right), 1e-14);
+  }
+}
+
+TEST(Pieces, ManyPlacesAtOnceGiveTheBitsOfEachAlone) {
+  RationalBezier piece{{1e3, -7.0},
+                       kMaxBezierDegree,
+                       {Vec2{0, 0}, {1, 0.1}, {2, 0.6}, {2.6, 1.5}, {2.7, 2.6}, {2.5, 3}, {2, 4},
+                        {1, 4.4}},
+                       {1.0, 0.9, 1.3, 1.1, 0.7, 1.2, 0.8, 1.7}};
+  const std::vector<double> t = {0.0, 0.1, 0.3, 0.5, 0.4, 0.6, 0.7, 0.8, 1.0, 0.2, 0.9};
+  for (int degree = 1; degree <= kMaxBezierDegree; ++degree) {
+    piece.degree = degree;
+    std::vector<Jet> jets(t.size());
+    evaluate(piece, t, jets);
+    for (std::size_t i = 0; i < t.size(); ++i) {
+      const Jet alone = evaluate(piece, t[i]);
+      EXPECT_EQ(jets[i].point, alone.point) << degree << ", t = " << t[i];
+      EXPECT_EQ(jets[i].d1, alone.d1) << degree << ", t = " << t[i];
+      EXPECT_EQ(jets[i].d2, alone.d2) << degree << ", t = " << t[i];
+      EXPECT_EQ(jets[i].d3, alone.d3) << degree << ", t = " << t[i];
+    }
   }
 }
 

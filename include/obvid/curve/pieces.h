@@ -2,6 +2,7 @@
 #pragma once  // reentrant: docs/threads.md
 
 #include <array>
+#include <span>
 #include <variant>
 
 #include "obvid/geom/element.h"
@@ -65,6 +66,9 @@ struct Jet {
 [[nodiscard]] Jet evaluate(const RationalBezier& piece, double t);
 [[nodiscard]] Jet evaluate(const ClothoidPiece& piece, double t);
 [[nodiscard]] Jet evaluate(const Piece& piece, double t);
+/// At several parameters, as many as `jets` has places: bit for bit what each gives alone, in less
+/// time where neighbours lie in the same half of the piece.
+void evaluate(const RationalBezier& piece, std::span<const double> t, std::span<Jet> jets);
 
 /// Signed curvature of a jet, 1/unit.
 [[nodiscard]] double curvature(const Jet& jet);

@@ -27,17 +27,6 @@ constexpr double kDigitsOfTolerance = 0.1;   // of the tolerance, what the last 
 constexpr double kOfBlockTolerance = 0.995;  // aimed at, so that what is measured stays below
 constexpr int kToleranceTrials = 5;
 
-/// Comments end at ")": nothing of the kind in a name, and nothing but ASCII.
-std::string comment_of(const std::string& name) {
-  constexpr std::size_t kLongestComment = 40;  // a line has to fit into the buffers of controllers
-  std::string out;
-  for (const char c : name.substr(0, kLongestComment)) {
-    const auto code = static_cast<unsigned char>(c);
-    if (code >= 0x20 && code < 0x7F && c != '(' && c != ')' && c != '%' && c != ';') out += c;
-  }
-  return out;
-}
-
 /// Parts of a contour between its corners, each as an open contour.
 std::vector<Contour> smooth_parts(const Contour& contour) {
   std::vector<Contour> parts;
@@ -177,7 +166,7 @@ class Program {
     const bool fanuc = options_.controller == GcodeController::kFanuc;
     const char* units = inches_ ? "in" : "mm";
     std::string out = fanuc ? "%\nO0001\n" : "";
-    out += fmt::format("(Obvid {}: {})\n", kVersion, comment_of(options_.name));
+    out += fmt::format("(Obvid {}: {})\n", kVersion, gcode_comment(options_.name));
     out += fmt::format("({} blocks within {:.3g} {} of the contour)\n", blocks, deviation * scale_,
                        units);
     if (!contour_.units.known()) out += "(the unit is assumed)\n";
@@ -236,6 +225,16 @@ Result<void> check(const Contour& contour, const GcodeOptions& options) {
 }
 
 }  // namespace
+
+std::string gcode_comment(std::string_view name) {
+  constexpr std::size_t kLongestComment = 40;  // a line has to fit into the buffers of controllers
+  std::string out;
+  for (const char c : name.substr(0, kLongestComment)) {
+    const auto code = static_cast<unsigned char>(c);
+    if (code >= 0x20 && code < 0x7F && c != '(' && c != ')' && c != '%' && c != ';') out += c;
+  }
+  return out;
+}
 
 double default_feed(std::string_view units) {
   constexpr double kMillimetres = 1000.0, kInches = 40.0;  // a minute

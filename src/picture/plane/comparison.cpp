@@ -51,7 +51,7 @@ struct Shapes {
 };
 
 Shapes place_shapes(const Sides& sides, const PictureComb& comb, double top) {
-  std::array<PictureBox, 2> boxes;
+  std::array<Box2, 2> boxes;
   Vec2 extent;
   for (std::size_t k = 0; k < 2; ++k) {
     boxes[k] = box_with_comb(sides[k].track, comb);

@@ -72,8 +72,8 @@ PictureComb make_comb(const PictureTrack& track) {
   return {kCombPart * diagonal / track.largest_kappa, HUGE_VAL};
 }
 
-PictureBox box_with_comb(const PictureTrack& track, const PictureComb& comb) {
-  PictureBox box = track.box;
+Box2 box_with_comb(const PictureTrack& track, const PictureComb& comb) {
+  Box2 box = track.box;
   for (const PictureSample& sample : track.samples) box.add(comb.tip(sample));
   return box;
 }

@@ -27,7 +27,7 @@ struct PictureComb {
 [[nodiscard]] PictureComb make_comb(const PictureTrack& track);
 
 /// Box of the contour with its comb.
-[[nodiscard]] PictureBox box_with_comb(const PictureTrack& track, const PictureComb& comb);
+[[nodiscard]] Box2 box_with_comb(const PictureTrack& track, const PictureComb& comb);
 
 /// CSS name of a run's colour: up, down, even or plain.
 [[nodiscard]] const char* run_css(int direction);

@@ -21,7 +21,7 @@ constexpr double kLeastRegion = 1.0;
 
 PictureView make_view(const PictureTrack& track, const PictureComb& comb, double top,
                       double& bottom) {
-  const PictureBox box = box_with_comb(track, comb);
+  const Box2 box = box_with_comb(track, comb);
   const Vec2 extent = box.high - box.low;
   const double room = kPictureWidth - 2.0 * (kPictureMargin + kShapePadding);
   PictureView view;

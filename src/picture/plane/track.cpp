@@ -225,11 +225,6 @@ std::vector<double> curvature_change(const PictureTrack& track) {
 
 }  // namespace
 
-void PictureBox::add(Vec2 p) {
-  low = {std::min(low.x, p.x), std::min(low.y, p.y)};
-  high = {std::max(high.x, p.x), std::max(high.y, p.y)};
-}
-
 PictureTrack make_track(const Contour& contour) {
   PictureTrack track;
   if (!contour.pieces.empty()) {

@@ -6,6 +6,7 @@
 
 #include "obvid/certify/certificate.h"
 #include "obvid/curve/contour.h"
+#include "obvid/geom/internal/box.h"
 
 namespace obvid {
 
@@ -28,14 +29,6 @@ struct PictureFeature {
 /// Tooth of the curvature comb.
 using PictureTooth = PictureSample;
 
-/// Box of the drawing, relative coordinates.
-struct PictureBox {
-  Vec2 low;
-  Vec2 high;
-  void add(Vec2 p);
-  [[nodiscard]] double diagonal() const { return norm(high - low); }
-};
-
 /// Features by kind.
 struct PictureCounts {
   std::size_t vertices = 0;
@@ -56,7 +49,7 @@ struct PictureTrack {
   bool runs_tell = true;  ///< vertices lie between runs; else wherever the samples turn back
   std::vector<PictureFeature> features;  ///< where marks go: as far as samples tell
   PictureCounts counts;                  ///< what texts say: see take_counts
-  PictureBox box;                        ///< curve and points, without the comb
+  Box2 box{{}, {}};  ///< curve and points, without the comb; relative to `reference`
   double length = 0.0;
   double largest_kappa = 0.0;  ///< absolute
 };

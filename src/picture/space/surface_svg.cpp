@@ -139,7 +139,7 @@ Result<std::string> drawn(const SurfaceModel& model, const SurfacePictureOptions
           .hint("change the unit");
     }
   }
-  const double size = norm(box_of_patches(patches).size());
+  const double size = box_of_patches(patches).diagonal();
   if (!(size >= kLeastSize && size <= kMostSize)) {
     return error(ErrorCode::kSizeOutOfRange, "the size of the surface cannot be drawn")
         .hint("change the unit")

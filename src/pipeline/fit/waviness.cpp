@@ -17,32 +17,33 @@ constexpr double kToldTo = 1e-3;
 constexpr double kSlopeRoundings = 100.0 * 0x1p-53;
 constexpr double kTangentRoundings = 10.0 * 0x1p-53;
 
-/// A piece seen from one of its ends, where coordinates beside it are small; from its end it runs
-/// back, which leaves d kappa/ds as it is.
-Piece seen_from_end(const Piece& piece, bool start) {
-  const auto* bezier = std::get_if<RationalBezier>(&piece);
-  if (bezier == nullptr) return piece;
-  RationalBezier local = *bezier;
-  const auto last = static_cast<std::size_t>(local.degree);
-  const Vec2 origin = local.offset[start ? 0 : last];
-  local.origin = {};
-  for (std::size_t j = 0; j <= last; ++j) {
-    const std::size_t from = start ? j : last - j;
-    local.offset[j] = bezier->offset[from] - origin;
-    local.weight[j] = bezier->weight[from];
-  }
-  return local;
+/// The parameters at which the slope is taken: the first half's are seen from the start of the
+/// piece, where coordinates beside it are small, the others from its end.
+constexpr std::size_t kSlopePlaces = kSlopeSteps + 1;
+constexpr std::array<double, kSlopePlaces> slope_places() {
+  std::array<double, kSlopePlaces> out{};
+  for (std::size_t k = 0; k < kSlopePlaces; ++k) out[k] = static_cast<double>(k) / kSlopeSteps;
+  return out;
 }
 
-/// Sizes of the coordinates from whose differences the first three derivatives at a place are made.
-std::array<double, 3> coordinates_at(const Piece& piece, double t) {
+/// Sizes of a piece's control points, seen from one of its ends and in order from it.
+using Sizes = std::array<double, kMaxBezierDegree + 1>;
+Sizes sizes_from(const RationalBezier& piece, bool from_start) {
+  Sizes out{};
+  const auto last = static_cast<std::size_t>(piece.degree);
+  const Vec2 end = piece.offset[from_start ? 0 : last];
+  for (std::size_t j = 0; j <= last; ++j) {
+    const std::size_t i = from_start ? j : last - j;
+    out[j] = piece.weight[i] * norm(piece.offset[i] - end);
+  }
+  return out;
+}
+
+/// Sizes of the coordinates from whose differences the first three derivatives at a place are
+/// made, `t` from the end they are seen from.
+std::array<double, 3> coordinates_at(Sizes size, int degree, double t) {
   std::array<double, 3> out{};
-  const auto* bezier = std::get_if<RationalBezier>(&piece);
-  if (bezier == nullptr) return out;
-  std::array<double, kMaxBezierDegree + 1> size{};
-  auto left = static_cast<std::size_t>(bezier->degree);
-  for (std::size_t j = 0; j <= left; ++j) size[j] = bezier->weight[j] * norm(bezier->offset[j]);
-  for (; left > 0; --left) {
+  for (auto left = static_cast<std::size_t>(degree); left > 0; --left) {
     const auto kept = size.begin() + static_cast<std::ptrdiff_t>(left) + 1;
     if (left <= out.size()) out[left - 1] = *std::max_element(size.begin(), kept);
     for (std::size_t j = 0; j < left; ++j) size[j] = (1.0 - t) * size[j] + t * size[j + 1];
@@ -51,13 +52,8 @@ std::array<double, 3> coordinates_at(const Piece& piece, double t) {
 }
 
 /// None of those is larger anywhere on the piece.
-std::array<double, 3> largest_coordinates(const Piece& piece) {
-  double largest = 0.0;
-  if (const auto* bezier = std::get_if<RationalBezier>(&piece)) {
-    for (std::size_t j = 0; j <= static_cast<std::size_t>(bezier->degree); ++j) {
-      largest = std::max(largest, bezier->weight[j] * norm(bezier->offset[j]));
-    }
-  }
+std::array<double, 3> largest_size(const Sizes& size) {
+  const double largest = *std::max_element(size.begin(), size.end());
   return {largest, largest, largest};
 }
 
@@ -93,7 +89,9 @@ struct RunSlopes {
 };
 
 RunSlopes slopes_of_run(const Contour& contour, std::size_t first, std::size_t last, Bound bound) {
+  static constexpr std::array<double, kSlopePlaces> kAt = slope_places();
   RunSlopes out;
+  std::array<Jet, kSlopePlaces> jets;
   double before = 0.0;
   const auto meet = [&](double slope) {
     out.variation += std::abs(slope - before);
@@ -106,18 +104,25 @@ RunSlopes slopes_of_run(const Contour& contour, std::size_t first, std::size_t l
       meet((clothoid->kappa1 - clothoid->kappa0) / clothoid->length);
       continue;
     }
-    for (const bool back : {false, true}) {
-      const Piece near = seen_from_end(piece, !back);
-      const std::array<double, 3> sizes = largest_coordinates(near);
-      for (int k = back ? kSlopeSteps / 2 + 1 : 0; k <= (back ? kSlopeSteps : kSlopeSteps / 2);
-           ++k) {
-        const double t = static_cast<double>(back ? kSlopeSteps - k : k) / kSlopeSteps;
-        const Jet jet = evaluate(near, t);
-        const Slope slope =
-            slope_of(bound == Bound::kOfPieces ? sizes : coordinates_at(near, t), jet);
-        meet(slope.value);
-        out.rounding += 2.0 * slope.rounding;
-      }
+    const auto* bezier = std::get_if<RationalBezier>(&piece);
+    if (bezier == nullptr) {  // a line or an arc
+      meet(0.0);
+      continue;
+    }
+    evaluate(*bezier, kAt, jets);
+    const std::array<Sizes, 2> sizes = {sizes_from(*bezier, true), sizes_from(*bezier, false)};
+    const std::array<std::array<double, 3>, 2> largest = {largest_size(sizes[0]),
+                                                          largest_size(sizes[1])};
+    for (std::size_t k = 0; k < kSlopePlaces; ++k) {
+      const std::size_t end = kAt[k] <= 0.5 ? 0 : 1;
+      const Slope slope =
+          slope_of(bound == Bound::kOfPieces
+                       ? largest[end]
+                       : coordinates_at(sizes[end], bezier->degree,
+                                        end == 0 ? kAt[k] : 1.0 - kAt[k]),
+                   jets[k]);
+      meet(slope.value);
+      out.rounding += 2.0 * slope.rounding;
     }
   }
   meet(0.0);

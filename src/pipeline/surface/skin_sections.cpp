@@ -7,6 +7,7 @@
 #include <cmath>
 #include <utility>
 
+#include "obvid/geom/internal/box.h"
 #include "surface/align_sections.h"
 #include "surface/surface_kinds.h"
 
@@ -14,11 +15,9 @@ namespace obvid {
 namespace {
 
 double size_of_sections(const std::vector<SpaceSeries>& sections) {
-  std::vector<Vec3> all;
-  for (const SpaceSeries& section : sections) {
-    all.insert(all.end(), section.points.begin(), section.points.end());
-  }
-  return pipeline_detail::size_of(all);
+  Box3 box;
+  for (const SpaceSeries& section : sections) box.add_all(section.points);
+  return box.diagonal();
 }
 
 /// A section in its plane: points that differ, and which of them each point is.

@@ -36,10 +36,9 @@ Result<void> need(const SurfaceJob& job, std::size_t least, std::size_t most, co
 }
 
 double size_of_all(const std::vector<ReadCurve>& curves) {
-  std::vector<Vec3> points;
-  for (const ReadCurve& c : curves)
-    points.insert(points.end(), c.curve.points.begin(), c.curve.points.end());
-  return size_of(points);
+  Box3 box;
+  for (const ReadCurve& c : curves) box.add_all(c.curve.points);
+  return box.diagonal();
 }
 
 /// What the curves bring to the surface that is made of them. Error E310 where their units differ.
@@ -122,8 +121,8 @@ Error folds(const SurfacePatch& patch, const OffsetCheck& found, double distance
 
 double size_of(const std::vector<Vec3>& points) {
   Box3 box;
-  for (const Vec3& p : points) box.add(p);
-  return points.empty() ? 0.0 : norm(box.size());
+  box.add_all(points);
+  return box.diagonal();
 }
 
 ScenePolyline drawn(const SpaceCurve& curve, const char* role) {

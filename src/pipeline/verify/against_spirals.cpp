@@ -14,11 +14,12 @@ namespace {
 constexpr int kLeastPerPiece = 16;
 constexpr std::size_t kLeastSamples = 256;
 
-std::vector<CurvePoint> sample_points(const Contour& contour) {
+std::vector<CurvePoint> sample_points(const Contour& contour, Watch& watch) {
   const std::size_t pieces = std::max<std::size_t>(contour.pieces.size(), 1);
   const int each = std::max(kLeastPerPiece, static_cast<int>(kLeastSamples / pieces));
   std::vector<CurvePoint> out;
-  for (std::size_t k = 0; k < contour.pieces.size(); ++k) {
+  out.reserve(contour.pieces.size() * static_cast<std::size_t>(each) + 1);
+  for (std::size_t k = 0; k < contour.pieces.size() && !watch.cancelled(); ++k) {
     const Piece& piece = contour.pieces[k];
     out.push_back({start_point(piece), contour.joints[k].source});
     for (int i = 1; i < each; ++i) {
@@ -43,7 +44,7 @@ double farthest_from(const Contour& spirals, const std::vector<CurvePoint>& poin
 
 void measure_against(const Contour& spirals, const Contour& contour, Watch& watch,
                      FitReport& report) {
-  const std::vector<CurvePoint> points = sample_points(contour);
+  const std::vector<CurvePoint> points = sample_points(contour, watch);
   report.outside_spirals_region = distance_outside_regions(spirals, points, watch);
   report.carrier_deviation = farthest_from(spirals, points, watch);
 }

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <vector>
 
 #include "obvid/geom/vec2.h"
 #include "obvid/geom/vec3.h"
@@ -20,6 +21,10 @@ struct Box2 {
     low = {std::min(low.x, p.x), std::min(low.y, p.y)};
     high = {std::max(high.x, p.x), std::max(high.y, p.y)};
   }
+  [[nodiscard]] constexpr bool empty() const { return !(low.x <= high.x); }
+  [[nodiscard]] constexpr Vec2 size() const { return high - low; }
+  /// 0 when nothing was added.
+  [[nodiscard]] double diagonal() const { return empty() ? 0.0 : norm(size()); }
 };
 
 /// The same in space.
@@ -33,7 +38,17 @@ struct Box3 {
     low = {std::min(low.x, p.x), std::min(low.y, p.y), std::min(low.z, p.z)};
     high = {std::max(high.x, p.x), std::max(high.y, p.y), std::max(high.z, p.z)};
   }
+  constexpr void add_box(const Box3& other) {
+    add(other.low);
+    add(other.high);
+  }
+  void add_all(const std::vector<Vec3>& points) {
+    for (const Vec3& p : points) add(p);
+  }
+  [[nodiscard]] constexpr bool empty() const { return !(low.x <= high.x); }
   [[nodiscard]] constexpr Vec3 size() const { return high - low; }
+  /// 0 when nothing was added.
+  [[nodiscard]] double diagonal() const { return empty() ? 0.0 : norm(size()); }
   [[nodiscard]] constexpr Vec3 middle() const { return low + 0.5 * size(); }
 };
 

@@ -35,6 +35,10 @@ struct GcodeOptions {
   std::string name = "contour";    ///< stands in a comment
 };
 
+/// A name as it may stand in a comment of a program: of ASCII, at most 40 characters, without what
+/// ends comments, lines or programs.
+[[nodiscard]] std::string gcode_comment(std::string_view name);
+
 /// A program in the plane G17, absolute ends (G90), centres from the start of the arc (G91.1): it
 /// begins with a rapid move to the start and holds no tool and no spindle.
 struct GcodeText {
