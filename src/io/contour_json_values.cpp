@@ -3,9 +3,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <iterator>
+#include <optional>
 #include <set>
+#include <tuple>
 #include <utility>
+#include <vector>
 
 #include "text_lines.h"
 
@@ -69,81 +71,76 @@ std::string detail_of(string_view message) {
   return text::to_utf8(message.substr(0, kMaxDetail));
 }
 
-/// The text, told how far it was read.
-class Followed {
- public:
-  using iterator_category = std::input_iterator_tag;
-  using value_type = char;
-  using difference_type = std::ptrdiff_t;
-  using pointer = const char*;
-  using reference = const char&;
+/// Name of a field, as its text between the quotes means it.
+std::string unescaped(string_view quoted) {
+  if (quoted.find('\\') == string_view::npos) return std::string(quoted);
+  return json::parse("\"" + std::string(quoted) + "\"").get<std::string>();
+}
 
-  Followed(const char* at, const char** reached) : at_(at), reached_(reached) {}
-  reference operator*() const { return *at_; }
-  Followed& operator++() {
-    *reached_ = ++at_;
-    return *this;
-  }
-  Followed operator++(int) {
-    Followed before = *this;
-    ++*this;
-    return before;
-  }
-  friend bool operator==(const Followed& a, const Followed& b) { return a.at_ == b.at_; }
-  friend bool operator!=(const Followed& a, const Followed& b) { return a.at_ != b.at_; }
+struct Field {
+  std::string name;
+  std::size_t at = 0;  ///< byte of its opening quote
 
- private:
-  const char* at_;
-  const char** reached_;
+  friend bool operator<(const Field& a, const Field& b) {
+    return std::tie(a.name, a.at) < std::tie(b.name, b.at);
+  }
 };
 
-/// Notes the first field that its object names twice: the document has the last one alone. (A
-/// callback while the document is made would be told too, but then the parser looks through a whole
-/// array again behind each object in it.)
-class RepeatedField final : public nlohmann::json_sax<json> {
+/// A field that its object names twice, at its second place: the parsed document has the last one
+/// alone. Of several such objects the first that ends. The text is valid JSON. (A callback of the
+/// parser would be told of every name too, but then it looks through a whole array again behind
+/// each object in it.)
+class RepeatedField {
  public:
-  explicit RepeatedField(const char* const* reached) : reached_(reached) {}
+  explicit RepeatedField(string_view text) : text_(text) {}
 
-  [[nodiscard]] bool found() const { return at_ != nullptr; }
-  [[nodiscard]] const std::string& name() const { return name_; }
-  /// Behind its closing quote.
-  [[nodiscard]] const char* at() const { return at_; }
-
-  bool start_object(std::size_t) override {
-    if (++depth_ > open_.size()) open_.emplace_back();
-    return true;
-  }
-  bool end_object() override {
-    open_[--depth_].clear();
-    return true;
-  }
-  /// Goes on until there is one.
-  bool key(string_t& name) override {
-    if (open_[depth_ - 1].insert(name).second) return true;
-    name_ = name;
-    at_ = *reached_;
-    return false;
-  }
-
-  bool null() override { return true; }
-  bool boolean(bool) override { return true; }
-  bool number_integer(number_integer_t) override { return true; }
-  bool number_unsigned(number_unsigned_t) override { return true; }
-  bool number_float(number_float_t, const string_t&) override { return true; }
-  bool string(string_t&) override { return true; }
-  bool binary(binary_t&) override { return true; }
-  bool start_array(std::size_t) override { return true; }
-  bool end_array() override { return true; }
-  bool parse_error(std::size_t, const std::string&, const json::exception&) override {
-    return false;
+  std::optional<Field> find() {
+    std::vector<std::size_t> first;  // names of the objects that are open begin there
+    std::size_t string_at = 0, string_end = 0;
+    for (std::size_t i = 0; i < text_.size(); ++i) {
+      switch (text_[i]) {
+        case '"':
+          string_at = i++;
+          while (text_[i] != '"') i += text_[i] == '\\' ? 2 : 1;
+          string_end = i;
+          break;
+        case ':':
+          add({string_at, string_end});
+          break;
+        case '{':
+          first.push_back(count_);
+          break;
+        case '}':
+          if (auto twice = among(first.back())) return twice;
+          count_ = first.back();
+          first.pop_back();
+          break;
+        default:
+          break;
+      }
+    }
+    return std::nullopt;
   }
 
  private:
-  const char* const* reached_;
-  std::vector<std::set<std::string>> open_;  ///< names in the objects that are not complete
-  std::size_t depth_ = 0;
-  std::string name_;
-  const char* at_ = nullptr;
+  void add(std::pair<std::size_t, std::size_t> quotes) {
+    if (count_ == fields_.size()) fields_.emplace_back();
+    const auto [from, to] = quotes;
+    fields_[count_++] = {unescaped(text_.substr(from + 1, to - from - 1)), from};
+  }
+  std::optional<Field> among(std::size_t first) {
+    const auto begin = fields_.begin() + static_cast<std::ptrdiff_t>(first),
+               end = fields_.begin() + static_cast<std::ptrdiff_t>(count_);
+    std::sort(begin, end);
+    const auto twice = std::adjacent_find(
+        begin, end, [](const Field& a, const Field& b) { return a.name == b.name; });
+    if (twice == end) return std::nullopt;
+    return *(twice + 1);
+  }
+
+  string_view text_;
+  std::vector<Field> fields_;  ///< of the objects that are open, the first `count_`
+  std::size_t count_ = 0;
 };
 
 }  // namespace
@@ -152,16 +149,10 @@ Result<nlohmann::json> parse_json(string_view text, string_view name) {
   OBVID_TRY(check_depth(text, name));
   try {
     json document = json::parse(text.begin(), text.end());
-    const char* reached = text.data();
-    RepeatedField repeated(&reached);
-    json::sax_parse(Followed(text.data(), &reached), Followed(text.data() + text.size(), &reached),
-                    &repeated);
-    if (!repeated.found()) return document;
-    const auto end = static_cast<std::size_t>(repeated.at() - text.data());
-    const std::size_t quoted = repeated.name().size() + 2;
-    return fail(
-        bad_json("the field " + text::shown(repeated.name()) + " stands twice in its object",
-                 place_of_byte(text, name, end > quoted ? end - quoted : 0)));
+    const auto twice = RepeatedField(text).find();
+    if (!twice) return document;
+    return fail(bad_json("the field " + text::shown(twice->name) + " stands twice in its object",
+                         place_of_byte(text, name, twice->at)));
   } catch (const json::parse_error& error) {
     // The parser counts from 1 and names the last byte that it read.
     const std::size_t byte = error.byte > 0 ? error.byte - 1 : 0;

@@ -102,7 +102,7 @@ Result<void> merge_duplicates(RawPoints& raw, string_view name) {
       if (merged++ == 0) first_line = raw.lines[i];
       continue;
     }
-    ++kept;
+    if (++kept == i) continue;
     raw.points[kept] = raw.points[i];
     if (!raw.fixed.empty()) raw.fixed[kept] = raw.fixed[i];
   }

@@ -16,19 +16,6 @@ namespace {
 
 using namespace test;
 
-/// Whether a spiral exists between two elements (Kurnosenko's A, B and Q, and Vogt's sigma > 0
-/// which they do not imply), from their numbers alone.
-bool spiral_exists(const Element& a, const Element& b, int direction) {
-  const Vec2 chord = b.point - a.point;
-  const double h = norm(chord), omega = std::atan2(chord.y, chord.x);
-  const double alpha = std::remainder(a.theta - omega, kTurn);
-  const double beta = std::remainder(b.theta - omega, kTurn);
-  const double A = direction * (0.5 * a.kappa * h + std::sin(alpha));
-  const double B = direction * (0.5 * b.kappa * h - std::sin(beta));
-  const double half = std::sin(0.5 * (alpha + beta));
-  return A < 0.0 && B > 0.0 && direction * (alpha + beta) > 0.0 && A * B + half * half < 0.0;
-}
-
 int changes(const FairedSeries& f, bool closed) {
   int n = 0;
   for (std::size_t i = closed ? 0 : 1; i < f.direction.size(); ++i) {
