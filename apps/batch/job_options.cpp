@@ -72,7 +72,8 @@ JobOptions known_options() {
         "rotate",          "move",          "mirror"}) {
     out.job.push_back({name});
   }
-  for (const char* name : {"convex", "primitives", "closed", "open", "no-corners", "unordered"}) {
+  for (const char* name : {"convex", "primitives", "closed", "open", "no-corners", "unordered",
+                           "drop-outliers"}) {
     out.job.push_back({name, true});
   }
   for (const char* name :

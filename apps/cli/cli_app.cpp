@@ -78,6 +78,12 @@ void add_import(CLI::App& command, FormatValues& values) {
                 "The points are a cloud: put them in the order of their curve, the shortest row "
                 "through them; numbers of points in options are those of the row")
       ->group("Reading the input");
+  command
+      .add_flag("--drop-outliers", values.drop_outliers,
+                "Leave out measured points that lie off the curve of their neighbours, far beyond "
+                "the scatter of the others; they are named. Numbers of points in options are those "
+                "of what is left")
+      ->group("Reading the input");
   const char* group = "Drawings as input";
   command
       .add_option("--curve", values.curve,

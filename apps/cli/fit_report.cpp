@@ -5,8 +5,11 @@
 
 #include <cmath>
 #include <limits>
+#include <optional>
 
+#include "obvid/core/units.h"
 #include "obvid/pipeline/internal/end_curvatures.h"
+#include "obvid/pipeline/internal/lines_and_arcs.h"
 #include "obvid/pipeline/internal/summary.h"
 #include "outputs.h"
 #include "table.h"
@@ -67,6 +70,35 @@ Table fit_segments(const Fit& fit) {
                radius_text(curvatures[i].start), radius_text(curvatures[i].end)});
   }
   return table;
+}
+
+/// Lines and arcs that several points lie on; empty without any.
+std::string lines_and_arcs_text(const Contour& contour) {
+  const std::vector<LineOrArc> all = lines_and_arcs(contour);
+  if (all.empty()) return {};
+  Table table;
+  table.column("line or arc\npoints", Table::Align::kLeft);
+  table.column("\nradius");
+  table.column("centre\nx");
+  table.column("\ny");
+  table.column("heading\nat start");
+  table.column("\nlength");
+  table.column("farthest\npoint");
+  std::vector<double> off;
+  for (const LineOrArc& one : all) off.push_back(one.off);
+  std::optional<std::size_t> before;
+  const std::vector<std::size_t> shown = rows_worth_showing(off);
+  for (const std::size_t i : shown) {
+    if (before && i > *before + 1) table.gap();
+    before = i;
+    const LineOrArc& one = all[i];
+    const bool line = one.kappa == 0.0;
+    table.row({fmt::format("{}-{}", one.from + 1, one.to + 1), radius_text(one.kappa),
+               line ? "-" : significant(one.centre.x), line ? "-" : significant(one.centre.y),
+               significant(std::remainder(one.theta, kFullTurn) / kOneDegree),
+               significant(one.length), significant(one.off, 4)});
+  }
+  return table.text() + shown_note(shown.size(), all.size(), "farthest", "lines and arcs") + "\n";
 }
 
 std::string fairness_text(const FitReport& report) {
@@ -303,7 +335,7 @@ std::string fit_report_text(const std::string& name, const Fit& fit, const Writt
                      fit.contour.units.text());
   out += fit_segments(fit).text();
   out += shown_note(rows_worth_showing(width).size(), width.size(), "widest", "segments");
-  out += fmt::format("\n{}", summary(fit, written).text());
+  out += "\n" + lines_and_arcs_text(fit.contour) + summary(fit, written).text();
   const std::string verdict = verdict_line(fit.contour.carrier, fit.certificate);
   return out + (fit.certificate.proved ? good(verdict) : bad(verdict)) + "\n";
 }

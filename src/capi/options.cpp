@@ -60,7 +60,8 @@ std::map<std::string, Setter> setters(Written& w, Request& out, const Known& kno
     all.insert({{"curve", text(f.curve)},
                 {"chord-tolerance", number(f.chord_tolerance)},
                 {"drawing", text(f.drawing)},
-                {"unordered", flag(f.unordered)}});
+                {"unordered", flag(f.unordered)},
+                {"drop-outliers", flag(f.drop_outliers)}});
   }
   if (known.import || known.points) {
     all.insert({{"columns", text(f.columns)},

@@ -205,11 +205,18 @@ double PieceLength::parameter(double s) const {
 }
 
 ContourPath::ContourPath(std::span<const Piece> pieces, double accuracy) : pieces_(pieces) {
+  Watch nobody;
+  *this = ContourPath(pieces, accuracy, nobody);
+}
+
+ContourPath::ContourPath(std::span<const Piece> pieces, double accuracy, Watch& watch)
+    : pieces_(pieces) {
   lengths_.reserve(pieces.size());
   start_.reserve(pieces.size() + 1);
   start_.push_back(0.0);
+  const Piece none = LinePiece{};
   for (const Piece& piece : pieces) {
-    lengths_.emplace_back(piece, accuracy);
+    lengths_.emplace_back(watch.cancelled() ? none : piece, accuracy);
     start_.push_back(start_.back() + lengths_.back().length());
   }
 }

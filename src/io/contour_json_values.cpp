@@ -87,7 +87,7 @@ struct Field {
 };
 
 /// A field that its object names twice, at its second place: the parsed document has the last one
-/// alone. Of several such objects the first that ends. The text is valid JSON. (A callback of the
+/// alone. Of several the first, in the object that ends first. The text is valid JSON. (A callback of the
 /// parser would be told of every name too, but then it looks through a whole array again behind
 /// each object in it.)
 class RepeatedField {
@@ -132,10 +132,12 @@ class RepeatedField {
     const auto begin = fields_.begin() + static_cast<std::ptrdiff_t>(first),
                end = fields_.begin() + static_cast<std::ptrdiff_t>(count_);
     std::sort(begin, end);
-    const auto twice = std::adjacent_find(
-        begin, end, [](const Field& a, const Field& b) { return a.name == b.name; });
-    if (twice == end) return std::nullopt;
-    return *(twice + 1);
+    std::optional<Field> out;
+    for (auto field = begin; field != end; ++field) {
+      const bool again = field != begin && (field - 1)->name == field->name;
+      if (again && (!out || field->at < out->at)) out = *field;
+    }
+    return out;
   }
 
   string_view text_;

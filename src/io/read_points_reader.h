@@ -45,6 +45,7 @@ class RowReader {
   Result<void> read_row(std::string_view line);
   Result<void> read_unnamed_row(Place place);
   Result<void> read_named_row(Place place);
+  [[nodiscard]] std::size_t most_rows_left(std::size_t cells) const;
 
   Result<double> number_at(std::string_view line, std::size_t column);
   Result<std::optional<double>> optional_cell(std::string_view line,

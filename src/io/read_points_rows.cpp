@@ -283,6 +283,13 @@ void RowReader::watch_third(double value) {
                           "with named columns x, y, z, or with --along Z, as a curve in space.");
 }
 
+/// Rows of at least so many cells that may follow, this one included.
+std::size_t RowReader::most_rows_left(std::size_t cells) const {
+  const string_view rest = cursor_.rest();
+  const auto lines = static_cast<std::size_t>(std::count(rest.begin(), rest.end(), '\n')) + 1;
+  return std::min(lines, rest.size() / (2 * cells) + 1);  // a digit and what ends it
+}
+
 Result<void> RowReader::read_named_row(Place place) {
   const std::size_t needed = std::max(layout_.x, layout_.y) + 1;
   if (fields_.count < needed) {
@@ -307,6 +314,7 @@ Result<void> RowReader::read_named_row(Place place) {
   if (layout_.has_fixed_data()) {
     const Result<FixedData> fixed = read_fixed(place.line);
     OBVID_TRY(fixed);
+    if (raw_.fixed.empty()) raw_.fixed.reserve(most_rows_left(needed));
     raw_.fixed.push_back(*fixed);
   }
   push({*x, *y}, text::digits_of(fields_.cell[layout_.x]),

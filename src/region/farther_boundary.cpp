@@ -173,8 +173,7 @@ double crossing(LocalPath& path, const TwoArcs& arcs) {
   };
   std::uintmax_t looks = kMostLooks;
   const double chord = a + (b - a) * (at_a / (at_a - at_b));
-  // the last step doubles the digits
-  return boost::math::tools::newton_raphson_iterate(with_slope, chord, a, b, kDigitsOfCorner / 2,
+  return boost::math::tools::newton_raphson_iterate(with_slope, chord, a, b, kDigitsOfCorner,
                                                     looks);
 }
 

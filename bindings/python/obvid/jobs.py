@@ -194,12 +194,13 @@ def _at(values: Optional[AtPoints], source: Source) -> Optional[Dict[str, Any]]:
     return out
 
 
-_PLACING = ("columns", "skip", "mirror", "scale", "rotate", "move", "unordered")
+_PLACING = ("columns", "skip", "mirror", "scale", "rotate", "move", "unordered", "drop_outliers")
 
 
 def _placing(o: Mapping[str, Any]) -> Dict[str, Any]:
     """What is done with an input before anything else."""
     out: Dict[str, Any] = {name: o.get(name) for name in ("skip", "mirror", "scale", "rotate", "unordered")}
+    out["drop-outliers"] = o.get("drop_outliers")
     if o.get("columns") is not None:
         out["columns"] = ",".join(str(int(i) + 1) for i in o["columns"])
     if o.get("move") is not None:

@@ -67,6 +67,8 @@ struct ImportOptions {
   PointListOptions list{};  ///< of lists of points
   Placement placement{};    ///< of whatever is read
   bool unordered = false;   ///< points are put in the order of their curve, which a warning tells
+  bool drop_outliers = false;  ///< then points off the curve of their neighbours are left out, which
+                               ///< a warning names
 };
 
 /// Points to fit: of a text file as they are, of a drawing its longest series or curve, sampled.

@@ -21,7 +21,7 @@ Contour stretch_of(const Contour& spirals, const std::vector<int>& directions, s
 }
 
 /// The monotone B-spline along a stretch, all but its last joint.
-Result<void> add_spline(const Contour& stretch, double tolerance, Carried& out,
+Result<void> add_spline(const Contour& stretch, const CarryOptions& options, Carried& out,
                         std::vector<int>& direction) {
   if (only<LinePiece>(stretch)) {
     for (std::size_t i = 0; i < stretch.pieces.size(); ++i) {
@@ -31,7 +31,7 @@ Result<void> add_spline(const Contour& stretch, double tolerance, Carried& out,
     }
     return {};
   }
-  const auto spline = monotone_spline(stretch, tolerance);
+  const auto spline = monotone_spline(stretch, options.tolerance, options.watch);
   OBVID_TRY(spline);
   std::size_t next = 0;  // joint of the spirals that may be the next knot
   for (std::size_t k = 0; k < spline->spans.size(); ++k) {
@@ -75,7 +75,8 @@ Result<Carried> carry_bspline(const Contour& spirals, const CarryOptions& option
            given_at(spirals.joints[end], options.given) == nullptr) {
       ++end;
     }
-    if (auto done = add_spline(stretch_of(spirals, directions, i, end), options.tolerance, out, direction);
+    if (auto done = add_spline(stretch_of(spirals, directions, i, end), options, out,
+                               direction);
         !done) {
       return at_point(done.error(), spirals, static_cast<std::ptrdiff_t>(i) + done.error().index,
                       kOtherCarriers);

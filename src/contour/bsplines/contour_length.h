@@ -10,6 +10,9 @@ namespace obvid::bsplines {
 class ContourLength {
  public:
   explicit ContourLength(const Contour& contour) : contour_(contour), path_(contour.pieces) {}
+  /// Worth nothing when it was cancelled.
+  ContourLength(const Contour& contour, Watch& watch)
+      : contour_(contour), path_(contour.pieces, kFinestLength, watch) {}
 
   /// Arc length from the start of the contour.
   [[nodiscard]] double at(double place) const {

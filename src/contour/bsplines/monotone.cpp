@@ -37,11 +37,12 @@ struct Span {
 
 class SplineBuilder {
  public:
-  SplineBuilder(const Contour& contour, double tolerance)
-      : contour_(contour), tolerance_(tolerance), length_(contour) {}
+  SplineBuilder(const Contour& contour, double tolerance, Watch& watch)
+      : contour_(contour), tolerance_(tolerance), watch_(watch), length_(contour, watch) {}
 
   Result<MonotoneSpline> build() {
     for (const Run& run : contour_.runs) {
+      if (watch_.cancelled()) return fail(cancelled_error());
       if (!append_run(run)) {
         const auto piece = static_cast<std::size_t>(failed_at_);
         return error(ErrorCode::kRoundingDecides, "no polynomial span is monotone there in doubles")
@@ -194,6 +195,7 @@ class SplineBuilder {
 
   const Contour& contour_;
   double tolerance_;
+  Watch& watch_;
   ContourLength length_;
   std::vector<Span> spans_;
   std::vector<std::int8_t> direction_;
@@ -210,6 +212,11 @@ tl::unexpected<Error> unsupported(const char* what, std::size_t piece) {
 }  // namespace
 
 Result<MonotoneSpline> monotone_spline(const Contour& spiral, double tolerance) {
+  Watch nobody;
+  return monotone_spline(spiral, tolerance, nobody);
+}
+
+Result<MonotoneSpline> monotone_spline(const Contour& spiral, double tolerance, Watch& watch) {
   if (!(tolerance > 0.0)) {
     return error(ErrorCode::kBadOption, "the tolerance must be greater than 0").value(tolerance);
   }
@@ -224,7 +231,7 @@ Result<MonotoneSpline> monotone_spline(const Contour& spiral, double tolerance) 
   for (std::size_t i = 0; i < spiral.joints.size(); ++i) {
     if (spiral.joints[i].leaving) return unsupported("the contour has a corner", i);
   }
-  return SplineBuilder(spiral, tolerance).build();
+  return SplineBuilder(spiral, tolerance, watch).build();
 }
 
 }  // namespace obvid

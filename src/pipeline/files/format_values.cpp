@@ -118,6 +118,7 @@ Result<void> set_import(const FormatValues& typed, ImportOptions& options) {
   OBVID_TRY(use);
   options.use = *use;
   options.unordered = typed.unordered;
+  options.drop_outliers = typed.drop_outliers;
   return {};
 }
 

@@ -30,6 +30,7 @@
 #include "obvid/io/internal/private_copy.h"
 #include "obvid/io/read_points.h"
 #include "obvid/series/internal/order.h"
+#include "obvid/series/internal/outliers.h"
 
 namespace obvid {
 namespace {
@@ -233,9 +234,62 @@ Result<PointSeries> in_order(Result<PointSeries> series, const ImportOptions& op
   return series;
 }
 
+std::string outliers_text(const PointSeries& series, const Outliers& found) {
+  constexpr std::size_t kMostNamed = 8;
+  const std::string unit = series.units.text();
+  const std::size_t count = found.points.size();
+  if (count == 0) {
+    return fmt::format(
+        "--drop-outliers: no point lies {} deviations of the others or more ({} {}) off the curve "
+        "of its neighbours",
+        significant(found.limit, 3), significant(found.limit * found.deviation, 3), unit);
+  }
+  std::string text =
+      fmt::format("--drop-outliers: left out {}",
+                  count == 1 ? "point" : fmt::format("{} points that lie off the curve of their "
+                                                     "neighbours:",
+                                                     count));
+  for (std::size_t k = 0; k < std::min(count, kMostNamed); ++k) {
+    text += fmt::format("{} {} ({} {}{})", k > 0 ? "," : "", found.points[k].index + 1,
+                        significant(found.points[k].off, 4), unit,
+                        count == 1 ? " off the curve of its neighbours" : "");
+  }
+  if (count > kMostNamed) text += fmt::format(" and {} more", count - kMostNamed);
+  return text + fmt::format("; the others deviate by {} {}", significant(found.deviation, 3), unit);
+}
+
+Result<PointSeries> without_outliers(Result<PointSeries> series, const ImportOptions& options) {
+  if (!series || !options.drop_outliers) return series;
+  if (!series->kept.empty()) {
+    return error(ErrorCode::kBadOption, "a drawing's pieces are not measured points")
+        .where("--drop-outliers")
+        .hint("leave it out, or take points alone with --drawing points");
+  }
+  PointSeries& out = *series;
+  std::vector<bool> given;
+  for (const FixedData& data : out.fixed) {
+    given.push_back(data.theta || data.kappa || data.thetas || data.kappas || data.corner);
+  }
+  const auto found = outliers_of(out.points, given);
+  OBVID_TRY(found);
+  out.warnings.push_back(outliers_text(out, *found));
+  std::vector<bool> off(out.points.size(), false);
+  for (const Outlier& one : found->points) off[one.index] = true;
+  std::size_t stay = 0;
+  for (std::size_t i = 0; i < off.size(); ++i) {
+    if (off[i]) continue;
+    out.points[stay] = out.points[i];
+    if (!out.fixed.empty()) out.fixed[stay] = out.fixed[i];
+    ++stay;
+  }
+  out.points.resize(stay);
+  if (!out.fixed.empty()) out.fixed.resize(stay);
+  return series;
+}
+
 Result<PointSeries> placed(Result<PointSeries> series, const ImportOptions& options) {
   if (series) place(options.placement, *series);
-  return in_order(std::move(series), options);
+  return without_outliers(in_order(std::move(series), options), options);
 }
 
 /// All warnings of the drawing, and which curve was taken of several.

@@ -13,7 +13,9 @@
 #include "files/format_writers.h"
 #include "obvid/core/internal/figures.h"
 #include "obvid/core/internal/shown_text.h"
+#include "obvid/core/units.h"
 #include "obvid/core/version.h"
+#include "obvid/pipeline/internal/lines_and_arcs.h"
 #include "obvid/pipeline/internal/promise.h"
 
 namespace obvid::pipeline_detail {
@@ -30,7 +32,7 @@ table { border-collapse: collapse; font-variant-numeric: tabular-nums; }
 caption { text-align: left; font-weight: 600; font-size: 1.15em; padding: 1em 0 .3em; }
 th, td { text-align: left; padding: .2em 1.5em .2em 0; border-bottom: 1px solid var(--line); vertical-align: top; font-weight: normal; }
 th { color: var(--faint); }
-#segments th, #segments td { text-align: right; }
+.numbers th, .numbers td { text-align: right; }
 #verdict { font-weight: 600; }
 #verdict.kept { color: var(--good); }
 #verdict.broken { color: var(--bad); }
@@ -128,7 +130,7 @@ std::vector<std::size_t> segments_of_page(const std::vector<SegmentReport>& segm
 std::string segments_table(const FitReport& report) {
   const std::vector<std::size_t> shown = segments_of_page(report.segments);
   if (shown.empty()) return {};
-  std::string out = "<table id=\"segments\"><caption>Segments";
+  std::string out = "<table id=\"segments\" class=\"numbers\"><caption>Segments";
   if (shown.size() < report.segments.size()) {
     out += fmt::format(", the {} widest of {}", shown.size(), report.segments.size());
   }
@@ -143,6 +145,27 @@ std::string segments_table(const FitReport& report) {
         s.from.value_or(0) + 1, s.to.value_or(0) + 1, significant(s.chord),
         significant(s.points_only_error, 4), significant(s.width, 4), significant(s.deviation, 4),
         s.inserted);
+  }
+  return out + "</tbody></table>\n";
+}
+
+std::string lines_and_arcs_table(const Contour& contour) {
+  const std::vector<LineOrArc> all = lines_and_arcs(contour);
+  if (all.empty()) return {};
+  std::string out =
+      "<table id=\"lines\" class=\"numbers\"><caption>Lines and arcs</caption>\n<thead><tr>"
+      "<th>points</th><th>radius</th><th>centre x</th><th>centre y</th><th>heading at start</th>"
+      "<th>length</th><th>farthest point</th></tr></thead>\n<tbody>\n";
+  for (std::size_t i = 0; i < std::min(all.size(), kMostSegments); ++i) {
+    const LineOrArc& one = all[i];
+    const bool line = one.kappa == 0.0;
+    out += fmt::format(
+        "<tr><td>{}-{}</td><td>{}</td><td>{}</td><td>{}</td><td>{}°</td><td>{}</td><td>{}</td>"
+        "</tr>\n",
+        one.from + 1, one.to + 1, line ? "straight" : significant(1.0 / one.kappa),
+        line ? "-" : significant(one.centre.x), line ? "-" : significant(one.centre.y),
+        significant(std::remainder(one.theta, kFullTurn) / kOneDegree), significant(one.length),
+        significant(one.off, 4));
   }
   return out + "</tbody></table>\n";
 }
@@ -178,6 +201,7 @@ std::string report_page(const ContourExport& e, const std::string& picture) {
   out += verdict_paragraph(e.stored, titles.verdict);
   out += picture;
   out += figures_table(e.stored, e.options.asked);
+  out += lines_and_arcs_table(e.stored.contour);
   if (e.stored.report) out += segments_table(*e.stored.report);
   return out + fmt::format("<footer>Obvid {}</footer>\n</body>\n</html>\n", kVersion);
 }

@@ -48,6 +48,11 @@ class Preparation {
           .value(static_cast<double>(out_.points.size()));
     }
     OBVID_TRY(can_prefer());
+    if (job_.primitives && out_.exact()) {
+      out_.warnings.emplace_back(
+          "--primitives looks for lines and arcs within the points' tolerances, and exact points "
+          "have none: --noise gives them");
+    }
     return std::move(out_);
   }
 

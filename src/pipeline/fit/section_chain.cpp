@@ -597,6 +597,11 @@ class SectionChooser {
     give_nodes(measured, whole, series_.convex);
     FairedSeries faired;
     if (auto chain = follow_runs(measured, faired)) {
+      if (measured.primitives && faired.primitives == 0) {
+        out_.warnings.emplace_back(
+            "no line and no arc was found: no stretch of 4 points or more fits one with room to "
+            "spare and is far longer than a spiral that fits as well");
+      }
       if (bends_without_need(*chain)) {
         give_nodes(measured, whole, true);
         FairedSeries one_way;

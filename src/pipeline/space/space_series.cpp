@@ -28,10 +28,17 @@ Result<std::optional<SpaceSeries>> space_series(const std::string& path, bool an
 }
 
 Result<void> check_space_import(const ImportOptions& import) {
-  if (!import.unordered) return {};
-  return error(ErrorCode::kBadOption, "points in space are not put in order")
-      .where("--unordered")
-      .hint("give them in the order of their curve");
+  if (import.unordered) {
+    return error(ErrorCode::kBadOption, "points in space are not put in order")
+        .where("--unordered")
+        .hint("give them in the order of their curve");
+  }
+  if (import.drop_outliers) {
+    return error(ErrorCode::kBadOption, "outliers are not looked for in space")
+        .where("--drop-outliers")
+        .hint("leave out what is wrong by hand");
+  }
+  return {};
 }
 
 Result<std::optional<SpaceSeries>> parse_space_series(const std::string& whole,

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "obvid/core/internal/watch.h"
 #include "obvid/core/result.h"
 #include "obvid/curve/contour.h"
 #include "obvid/curve/nurbs.h"
@@ -36,5 +37,8 @@ struct MonotoneSpline {
 /// (`index`: the piece).
 /// Cost O(n) plus about 30 trials per span.
 [[nodiscard]] Result<MonotoneSpline> monotone_spline(const Contour& spiral, double tolerance);
+/// The same under watch; error E103 when it was cancelled.
+[[nodiscard]] Result<MonotoneSpline> monotone_spline(const Contour& spiral, double tolerance,
+                                                     Watch& watch);
 
 }  // namespace obvid

@@ -7,6 +7,7 @@
 #include <span>
 #include <vector>
 
+#include "obvid/core/internal/watch.h"
 #include "obvid/core/result.h"
 #include "obvid/curve/pieces.h"
 
@@ -56,6 +57,8 @@ class PieceLength {
 class ContourPath {
  public:
   explicit ContourPath(std::span<const Piece> pieces, double accuracy = kFinestLength);
+  /// The same under watch: cancelled, all pieces behind have length 0.
+  ContourPath(std::span<const Piece> pieces, double accuracy, Watch& watch);
   /// E402 where a piece has a cusp (`index`: the piece, `value`: its parameter there).
   [[nodiscard]] static Result<ContourPath> without_cusps(std::span<const Piece> pieces,
                                                          double accuracy = kFinestLength);

@@ -22,6 +22,7 @@ struct FormatValues {
   std::string move;    ///< "DX,DY" or "DX,DY,DZ"
   std::string mirror;  ///< x or y
   bool unordered = false;
+  bool drop_outliers = false;
   std::optional<double> tolerance;
   std::optional<double> face_width;
   std::optional<std::string> profile;

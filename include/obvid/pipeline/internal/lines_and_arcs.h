@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once  // reentrant: docs/threads.md
+
+#include <cstddef>
+#include <vector>
+
+#include "obvid/curve/contour.h"
+
+namespace obvid {
+
+/// A line or circle arc of a contour of spirals that several points lie on.
+struct LineOrArc {
+  std::size_t from = 0, to = 0;  ///< its first and last point; around the start of a closed contour
+                                 ///< `to` is the smaller one
+  double kappa = 0.0;            ///< signed curvature, 1/unit; 0: a line
+  Vec2 centre;                   ///< of an arc; not of a line
+  double theta = 0.0;            ///< heading of a line at its start, rad
+  double length = 0.0;           ///< units
+  double turn = 0.0;             ///< by which an arc turns, rad
+  double off = 0.0;              ///< largest distance of those points from its line or circle, units
+};
+
+/// Those of at least four points, in order; pieces taken over from a drawing are not among them.
+/// Nothing where the carrier is not that of spirals: arcs of other carriers mean nothing alone.
+[[nodiscard]] std::vector<LineOrArc> lines_and_arcs(const Contour& contour);
+
+}  // namespace obvid

@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: Apache-2.0
+// How far points lie off the curve of their neighbours (docs/methods/series.md).
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <optional>
+#include <vector>
+
+#include "obvid/geom/vec2.h"
+
+namespace obvid {
+
+struct MiddleResidual {
+  double off = 0.0;       ///< across their chord, units; of a point that is not between its
+                          ///< neighbours along it from the line between them
+  double variance = 1.0;  ///< that it has where each point's is 1
+  bool between = true;    ///< along the chord
+
+  [[nodiscard]] double in_deviations() const { return off / std::sqrt(variance); }
+};
+
+/// Of the middle of five points from the cubic through the others; nothing where these do not
+/// advance along their chord.
+inline std::optional<MiddleResidual> middle_residual(const std::array<Vec2, 5>& p) {
+  constexpr std::array<std::size_t, 4> kOthers = {0, 1, 3, 4};
+  const Vec2 chord = p[4] - p[0];
+  const double length = norm(chord);
+  if (!(length > 0.0)) return std::nullopt;
+  const Vec2 along = (1.0 / length) * chord, across = left_normal(along);
+  std::array<double, 5> u{};
+  for (std::size_t k = 0; k < 5; ++k) u[k] = dot(p[k] - p[2], along);
+  if (!(u[0] < u[1] && u[1] < u[3] && u[3] < u[4])) return std::nullopt;
+  MiddleResidual out;
+  out.between = u[1] < 0.0 && 0.0 < u[3];
+  if (!out.between) {
+    const Vec2 side = p[3] - p[1], from = p[2] - p[1];
+    const double part = std::clamp(dot(from, side) / dot(side, side), 0.0, 1.0);
+    out.off = norm(from - part * side);
+    return out;
+  }
+  double miss = 0.0;
+  for (const std::size_t k : kOthers) {
+    double weight = 1.0;
+    for (const std::size_t j : kOthers) {
+      if (j != k) weight *= -u[j] / (u[k] - u[j]);
+    }
+    miss -= weight * dot(p[k] - p[2], across);
+    out.variance += weight * weight;
+  }
+  out.off = std::abs(miss);
+  return out;
+}
+
+/// Standard deviation of normal errors from their sizes, by the median; `sizes` is not empty.
+inline double deviation_of(std::vector<double> sizes) {
+  constexpr double kNormalPerMedian = 1.4826022185056018;  // 1 / inverse normal of 3/4
+  const auto middle = sizes.begin() + static_cast<std::ptrdiff_t>(sizes.size() / 2);
+  std::nth_element(sizes.begin(), middle, sizes.end());
+  return kNormalPerMedian * *middle;
+}
+
+/// Deviations that none of so many normal errors exceeds, 95 times of 100:
+/// P(|z| > k) <= exp(-k^2/2), once for each.
+inline double bound_factor(std::size_t count) {
+  constexpr double kExceeded = 0.05;
+  return std::sqrt(2.0 * std::log(static_cast<double>(count) / kExceeded));
+}
+
+}  // namespace obvid
