@@ -119,8 +119,10 @@ class OfAScan(Folder):
         self.assertEqual([row[2:] for row in told], [[*row[3:5], row[5] + "°", *row[6:]] for row in rows])
 
     def test_a_closed_outline(self):
-        rows, contour, _ = self.fit(moved(rounded_square(), 0.004), "--noise", 0.02, "--primitives", "--closed")
+        points = moved(rounded_square(), 0.004)
+        rows, contour, _ = self.fit(points[5:] + points[:5], "--noise", 0.02, "--primitives", "--closed")
         self.check(rows, contour)
+        self.assertTrue(any(int(row[0]) > int(row[1]) for row in rows), "none goes over the first point")
         self.assertEqual(sum(row[2] == "straight" for row in rows), 4)
         self.assertEqual(len(rows), 8)
 
