@@ -168,8 +168,9 @@ void add_tolerance(CLI::App& fit, Raw& raw) {
 void add_plot(CLI::App& command, FormatValues& values, const std::string& group) {
   command
       .add_option("--plot", values.plot,
-                  "What a picture shows over arc length beside the radius: curvature, or slope: "
-                  "d kappa/ds too [curvature]")
+                  "What a picture shows over arc length beside the radius: curvature; slope: "
+                  "d kappa/ds too; deviations: how far measured points are off, in three colours, in "
+                  "place of the comb, with the largest and the root mean square [curvature]")
       ->type_name("NAME")
       ->group(group);
 }

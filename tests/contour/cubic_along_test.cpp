@@ -12,6 +12,9 @@
 #include <vector>
 
 #include "clothoid_data.h"
+#include "obvid/contour/bsplines/nurbs_of.h"
+#include "obvid/curve/internal/path_distance.h"
+#include "obvid/curve/internal/smooth_parts.h"
 
 namespace obvid {
 namespace {
@@ -135,6 +138,68 @@ TEST(CubicAlong, EndsItsSearchWhereMoreSpansCannotBeTold) {
   EXPECT_EQ(cubic.error().code, ErrorCode::kToleranceNotReached);
   EXPECT_NE(cubic.error().what.find("rounding"), std::string::npos) << cubic.error().what;
   EXPECT_TRUE(cubic_along(far, 1e-5));
+}
+
+TEST(CubicAlong, ClothoidsWithCornersAreOneNurbsCurve) {
+  constexpr double kTurn = 1.0, kTolerance = 1e-5;
+  Contour c = clothoid_contour({0.0, 0.5, 1.0});
+  Element leaving = c.joints.back().element;
+  leaving.theta += kTurn;
+  leaving.kappa = -0.7;
+  c.joints.back().leaving = leaving;
+  for (const double kappa : {-0.2, 0.3}) {
+    ClothoidPiece p = {leaving.point, {}, leaving.theta, leaving.kappa, kappa, 1.0};
+    p.end = p.start + test::end_by_quadrature(p.theta0, p.kappa0, p.kappa1, 1.0);
+    leaving = {p.end, test::end_heading(p), kappa};
+    c.pieces.emplace_back(p);
+    c.joints.push_back({leaving, std::nullopt, {}});
+  }
+  const auto nurbs = nurbs_of(c, {.clothoid_tolerance = kTolerance});
+  ASSERT_TRUE(nurbs) << nurbs.error().what;
+  EXPECT_LE(nurbs->deviation, kTolerance);
+  EXPECT_EQ(nurbs->curve.knots.size(), nurbs->curve.points.size() + 4);
+  EXPECT_TRUE(std::is_sorted(nurbs->curve.knots.begin(), nurbs->curve.knots.end()));
+  std::vector<Piece> spans;
+  std::size_t corners = 0;
+  for (const BezierSpan& span : bezier_spans(nurbs->curve)) {
+    if (!spans.empty()) {
+      const Jet before = evaluate(spans.back(), 1.0), behind = evaluate(Piece(span.piece), 0.0);
+      EXPECT_LT(norm(before.point - behind.point), 1e-13);
+      const double turn = std::atan2(cross(before.d1, behind.d1), dot(before.d1, behind.d1));
+      if (std::abs(turn) > 0.1) {
+        ++corners;
+        EXPECT_NEAR(turn, kTurn, 1e-6);
+        EXPECT_LT(norm(before.point - c.joints[2].element.point), 1e-13);
+      }
+    }
+    spans.emplace_back(span.piece);
+  }
+  EXPECT_EQ(corners, 1U);
+  EXPECT_LE(path_distance(c.pieces, spans), kTolerance);
+}
+
+TEST(CubicAlong, PartsOfAClosedContourBeginAtItsCorners) {
+  Contour c;  // a square whose seam is in the middle of a side
+  const std::vector<Vec2> at = {{1, 0}, {2, 0}, {2, 2}, {0, 2}, {0, 0}};
+  c.closed = true;
+  for (std::size_t i = 0; i < at.size(); ++i) {
+    const Vec2 from = at[i], to = at[(i + 1) % at.size()];
+    const double length = norm(to - from), theta = std::atan2(to.y - from.y, to.x - from.x);
+    c.pieces.emplace_back(ClothoidPiece{from, to, theta, 0.0, 0.0, length});
+    const double before = i == 0 ? 0.0 : theta - 0.5 * std::numbers::pi;
+    Joint joint{{from, before, 0.0}, std::nullopt, {}};
+    if (i > 0) joint.leaving = Element{from, theta, 0.0};
+    c.joints.push_back(joint);
+  }
+  EXPECT_EQ(smooth_parts(c).size(), 4U);
+  EXPECT_EQ(smooth_parts(c, false).size(), 5U);
+  const auto nurbs = nurbs_of(c, {.clothoid_tolerance = 1e-6});
+  ASSERT_TRUE(nurbs) << nurbs.error().what;
+  EXPECT_EQ(nurbs->curve.points.front(), at[1]);
+  EXPECT_EQ(nurbs->curve.points.back(), at[1]);
+  std::vector<Piece> spans;
+  for (const BezierSpan& span : bezier_spans(nurbs->curve)) spans.emplace_back(span.piece);
+  EXPECT_LE(path_distance(c.pieces, spans), 1e-6);
 }
 
 }  // namespace

@@ -242,6 +242,29 @@ TEST(PictureMoves, StandBetweenTheLinesOfTheToleranceInAStripOfTheirOwn) {
   EXPECT_NE(svg.find("in units of their tolerance"), std::string::npos);
 }
 
+/// Of these deviations with a tolerance of 0.1 three are within half of it.
+TEST(PictureMoves, AreAMapInThreeColoursOnRequest) {
+  const StoredContour stored = measured(kAngles, {0.03, -0.095, 0.0, 0.045, -0.07}, 0.1);
+  const std::string svg = picture_svg(stored, {}, {.deviations = true});
+  EXPECT_TRUE(paths_of(svg, "teeth").empty());
+  EXPECT_NE(svg.find("3 points within half their tolerance"), std::string::npos);
+  EXPECT_NE(svg.find("2 points up to their tolerance"), std::string::npos);
+  EXPECT_EQ(svg.find("beyond it"), std::string::npos);
+  // the root of (0.03^2 + 0.095^2 + 0.045^2 + 0.07^2) / 5
+  EXPECT_NE(svg.find("at most 0.095"), std::string::npos);
+  EXPECT_NE(svg.find("RMS 0.058"), std::string::npos);
+  const auto longest = [&](const std::string& css) {
+    const std::vector<double> n = numbers_of(paths_of(svg, css).at(0));
+    double most = 0.0;
+    for (std::size_t k = 0; k + 3 < n.size(); k += 4) {
+      most = std::max(most, std::hypot(n[k + 2] - n[k], n[k + 3] - n[k + 1]));
+    }
+    return most;
+  };
+  EXPECT_NEAR(longest("deviation half"), 0.45 * 12.0, 0.1);
+  EXPECT_NEAR(longest("deviation within"), 0.95 * 12.0, 0.1);
+}
+
 TEST(PictureMoves, AreMissingWhereNoPointHasATolerance) {
   EXPECT_TRUE(paths_of(picture_svg(semicircle(5.0, {})), "limit").empty());
   const StoredContour zero = measured(kAngles, kOutward, 0.0);

@@ -15,7 +15,9 @@ struct PictureTitles {
 
 /// Plots that are drawn on request.
 struct PicturePlots {
-  bool slope = false;  ///< d kappa/ds over arc length, below the curvature
+  bool slope = false;       ///< d kappa/ds over arc length, below the curvature
+  bool deviations = false;  ///< of the points from the contour, in three colours in place of the
+                            ///< curvature comb; without effect where no point has a tolerance
 };
 
 /// Picture of a contour for a report: contour, points, curvature comb, vertices, inflections and

@@ -3,13 +3,9 @@
 
 #include <vector>
 
-#include "obvid/curve/contour.h"
+#include "obvid/curve/pieces.h"
 
 namespace obvid::exchange {
-
-/// Parts of a contour between its corners, each as a contour of its own; a closed one without
-/// corners stays closed. The seam of a closed contour parts nothing unless it is a corner.
-[[nodiscard]] std::vector<Contour> smooth_parts(const Contour& contour);
 
 /// A vertex of a DXF polyline, and the tangent of a quarter of the angle of the arc that follows
 /// it.

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "obvid/curve/internal/smooth_parts.h"
 #include "obvid/exchange/internal/dxf/write.h"
 
 #include <algorithm>
@@ -189,7 +190,7 @@ class DxfDrawer {
   }
 
   Result<void> exact() {
-    const std::vector<Contour> parts = exchange::smooth_parts(contour_);
+    const std::vector<Contour> parts = smooth_parts(contour_);
     for (const Contour& part : parts) {
       OBVID_TRY(exact(part, contour_.closed && parts.size() == 1));
     }
@@ -222,7 +223,7 @@ class DxfDrawer {
   }
 
   Result<void> cubic() {
-    const std::vector<Contour> parts = exchange::smooth_parts(contour_);
+    const std::vector<Contour> parts = smooth_parts(contour_);
     for (const Contour& part : parts) {
       OBVID_TRY(cubic(part, contour_.closed && parts.size() == 1));
     }

@@ -15,6 +15,7 @@
 #include "obvid/contour/bsplines/cubic_along.h"
 #include "obvid/core/version.h"
 #include "obvid/curve/internal/path_distance.h"
+#include "obvid/curve/internal/smooth_parts.h"
 
 namespace obvid {
 namespace {
@@ -26,24 +27,6 @@ constexpr int kLeastDecimals = 3, kMostDecimals = 6;
 constexpr double kDigitsOfTolerance = 0.1;   // of the tolerance, what the last digit may be worth
 constexpr double kOfBlockTolerance = 0.995;  // aimed at, so that what is measured stays below
 constexpr int kToleranceTrials = 5;
-
-/// Parts of a contour between its corners, each as an open contour.
-std::vector<Contour> smooth_parts(const Contour& contour) {
-  std::vector<Contour> parts;
-  for (std::size_t i = 0; i < contour.pieces.size(); ++i) {
-    Joint joint = contour.joints[i];
-    const bool corner = joint.leaving.has_value();
-    if (i > 0) parts.back().joints.push_back({joint.element, joint.source});
-    if (i == 0 || corner) {
-      parts.emplace_back();
-      parts.back().joints.push_back({joint.leaving.value_or(joint.element), joint.source});
-    }
-    parts.back().pieces.push_back(contour.pieces[i]);
-  }
-  parts.back().joints.push_back(
-      {contour.joints[contour.closed ? 0 : contour.pieces.size()].element, std::nullopt});
-  return parts;
-}
 
 class Program {
  public:
@@ -145,7 +128,7 @@ class Program {
   }
 
   Result<void> splines(GcodePath& path, double within) const {
-    for (const Contour& part : smooth_parts(contour_)) {
+    for (const Contour& part : smooth_parts(contour_, false)) {
       const auto along = cubic_along(part, within);
       OBVID_TRY(along);
       for (const RationalBezier& span : bezier_pieces(along->spline)) path.follow_cubic(span);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "plane/legend.h"
 
+#include <algorithm>
 #include <array>
 
 #include "plane/axis.h"
@@ -111,6 +112,22 @@ void legend_comb(PictureCanvas& canvas, LegendRow& legend, const PictureLegend& 
              px(at.x - 9.0), px(at.y + 5.0));
 }
 
+void legend_deviations(PictureCanvas& canvas, LegendRow& legend, const PictureMoves& moves) {
+  static constexpr std::array<const char*, 3> kTexts = {
+      "within half their tolerance", "up to their tolerance", "beyond it"};
+  for (std::size_t k = 0; k < kMoveClasses.size(); ++k) {
+    const auto count =
+        std::count_if(moves.points.begin(), moves.points.end(),
+                      [&](const PictureMove& m) { return class_of(m) == kMoveClasses[k]; });
+    if (count == 0) continue;
+    const std::string text =
+        fmt::format("{} {} {}", count, count == 1 ? "point" : "points", kTexts[k]);
+    const Vec2 at = legend.entry(text, text.size(), 14.0);
+    canvas.add("<path class=\"deviation {}\" d=\"M{} {}v-10m5 10v-8m5 8v-11\"/>\n",
+               move_css(kMoveClasses[k]), px(at.x - 5.0), px(at.y + 5.0));
+  }
+}
+
 }  // namespace
 
 void draw_scale_bar(PictureCanvas& canvas, const PictureView& view, const std::string& units,
@@ -130,6 +147,7 @@ double draw_legend(PictureCanvas& canvas, const PictureLegend& legend, double le
   if (!track.points.empty()) legend_points(canvas, row, legend.dots ? 0 : track.points.size());
   legend_features(canvas, row, track);
   if (legend.longest_tooth != 0.0) legend_comb(canvas, row, legend);
+  if (legend.deviations != nullptr) legend_deviations(canvas, row, *legend.deviations);
   if (legend.region_width > 0.0) legend_region(canvas, row, legend.region_width, legend.units);
   return row.y();
 }

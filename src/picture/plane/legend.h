@@ -5,6 +5,7 @@
 
 #include "plane/canvas.h"
 #include "plane/drawing.h"
+#include "plane/moves.h"
 #include "plane/track.h"
 #include "plane/view.h"
 
@@ -25,6 +26,7 @@ struct PictureLegend {
   bool dots = true;            ///< whether points were marked
   double longest_tooth = 0.0;  ///< curvature of the comb's longest tooth, 1/unit; 0: no comb
   bool comb_cut = false;       ///< whether larger curvatures have that tooth too
+  const PictureMoves* deviations = nullptr;  ///< drawn in the colours of their classes
 };
 
 /// Entries from `left` on, broken into rows. Returns the y of the last row.

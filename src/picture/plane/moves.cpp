@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <optional>
 
 #include "plane/axis.h"
@@ -87,9 +88,12 @@ bool any_tolerance(const Contour& contour) {
          std::any_of(list.begin(), list.end(), [](double t) { return t > 0.0; });
 }
 
-PictureMove move_at(const PictureSample& sample, Vec2 point, double distance, double tolerance) {
+PictureMove move_at(const PictureTrack& track, std::size_t at, Vec2 point, double distance,
+                    double tolerance) {
+  const PictureSample& sample = track.samples[at];
   PictureMove move;
   move.s = sample.s;
+  move.sample = at;
   const Vec2 aside = point - sample.point;
   if (!(tolerance > 0.0) || !std::isfinite(distance)) return move;
   move.part = distance / tolerance;
@@ -129,15 +133,33 @@ std::string teeth_of(const PictureFrame& frame, const std::vector<PictureMove>& 
   return path.text();
 }
 
-std::string dots_of(const PictureFrame& frame, const std::vector<PictureMove>& moves) {
+std::string dots_of(const PictureFrame& frame, const std::vector<PictureMove>& moves,
+                    std::size_t all) {
   const double room = frame.right - frame.left;
-  if (static_cast<double>(moves.size()) * kDotsApart > room) return {};
+  if (static_cast<double>(all) * kDotsApart > room) return {};
   std::string dots;
   for (const PictureMove& move : moves) {
     const double y = frame.px_y(std::clamp(move.part, frame.y.low, frame.y.high));
     dots += fmt::format("M{} {}h.01", px(frame.px_x(move.s)), px(y));
   }
   return dots;
+}
+
+std::vector<PictureMove> of_class(const std::vector<PictureMove>& moves, MoveClass kind) {
+  std::vector<PictureMove> out;
+  std::copy_if(moves.begin(), moves.end(), std::back_inserter(out),
+               [kind](const PictureMove& move) { return class_of(move) == kind; });
+  return out;
+}
+
+/// `all`: points of the strip, of which `moves` may be some.
+void add_teeth(PictureCanvas& canvas, const PictureFrame& frame,
+               const std::vector<PictureMove>& moves, std::size_t all, const std::string& css) {
+  if (moves.empty()) return;
+  canvas.add("<path class=\"move{}\" d=\"{}\"/>\n", css, teeth_of(frame, moves));
+  const std::string dots = dots_of(frame, moves, all);
+  if (dots.empty()) return;
+  canvas.add("<path class=\"dot{}\" stroke-width=\"{}\" d=\"{}\"/>\n", css, px(2.0 * kDot), dots);
 }
 
 }  // namespace
@@ -150,6 +172,7 @@ PictureMoves make_moves(const PictureTrack& track, const StoredContour& stored) 
   const std::size_t count = track.points.size();
   const bool known = stored.report && stored.report->moves.size() == count;
   moves.points.resize(count);
+  double squares = 0.0;
   Walk walk(track);
   walk.jump(0, track.samples.front().point);
   const std::size_t start = first_to_visit(track, joints);
@@ -157,22 +180,27 @@ PictureMoves make_moves(const PictureTrack& track, const StoredContour& stored) 
     const std::size_t i = (start + k) % count;
     const Vec2 point = track.points[i];
     if (joints[i]) walk.jump(*joints[i], point);
-    const PictureSample& sample = track.samples[joints[i] ? *joints[i] : walk.next(point)];
-    const double distance = known ? stored.report->moves[i] : distance_from(sample, point);
-    moves.points[i] = move_at(sample, point, distance, contour.point_tolerance[i]);
+    const std::size_t at = joints[i] ? *joints[i] : walk.next(point);
+    const double distance =
+        known ? stored.report->moves[i] : distance_from(track.samples[at], point);
+    moves.points[i] = move_at(track, at, point, distance, contour.point_tolerance[i]);
     moves.largest = std::max(moves.largest, distance);
+    squares += distance * distance;
   }
+  moves.root_mean_square = std::sqrt(squares / static_cast<double>(count));
   return moves;
 }
 
 void draw_moves(PictureCanvas& canvas, PictureFrame frame, const PictureTrack& track,
-                const PictureMoves& moves, const std::string& units) {
+                const PictureMoves& moves, const std::string& units, bool coloured) {
   frame.y.low = -kBeyond;
   frame.y.high = kBeyond;
   frame.y.ticks = {{0.0, "0"}};
   canvas.label({kPictureMargin, frame.top - 11.0}, "start", "axis-title",
                "Points beside the contour, in units of their tolerance (left +), at most " +
-                   readable_number(moves.largest, 2) + " " + units);
+                   readable_number(moves.largest, 2) + " " + units +
+                   (coloured ? ", RMS " + readable_number(moves.root_mean_square, 2) + " " + units
+                             : ""));
   draw_grid(canvas, frame, false);
   draw_joints(canvas, frame, track);
   for (const double limit : {-1.0, 1.0}) {
@@ -180,10 +208,58 @@ void draw_moves(PictureCanvas& canvas, PictureFrame frame, const PictureTrack& t
     canvas.line({frame.left, y}, {frame.right, y}, "limit");
     canvas.label({frame.left - 8.0, y + 4.0}, "end", "small", limit < 0.0 ? "−1" : "+1");
   }
-  canvas.add("<path class=\"move\" d=\"{}\"/>\n", teeth_of(frame, moves.points));
-  const std::string dots = dots_of(frame, moves.points);
-  if (!dots.empty()) {
-    canvas.add("<path class=\"dot\" stroke-width=\"{}\" d=\"{}\"/>\n", px(2.0 * kDot), dots);
+  if (!coloured) {
+    add_teeth(canvas, frame, moves.points, moves.points.size(), "");
+    return;
+  }
+  for (const MoveClass kind : kMoveClasses) {
+    add_teeth(canvas, frame, of_class(moves.points, kind), moves.points.size(),
+              std::string(" ") + move_css(kind));
+  }
+}
+
+MoveClass class_of(const PictureMove& move) {
+  constexpr double kRounding = 1e-9;  // points stand on the edge of their tolerance
+  const double part = std::fabs(move.part);
+  if (part > 1.0 + kRounding) return MoveClass::kBeyond;
+  return part > 0.5 ? MoveClass::kWithin : MoveClass::kHalf;
+}
+
+const char* move_css(MoveClass kind) {
+  switch (kind) {
+    case MoveClass::kHalf:
+      return "half";
+    case MoveClass::kWithin:
+      return "within";
+    case MoveClass::kBeyond:
+      break;
+  }
+  return "beyond";
+}
+
+void draw_deviations(PictureCanvas& canvas, const PictureTrack& track, const PictureMoves& moves,
+                     const PictureView& view) {
+  constexpr double kLongest = 2.0;   // tolerances
+  constexpr double kLeastStep = 0.5;  // px; a tooth beside another one that is as long adds nothing
+  for (const MoveClass kind : kMoveClasses) {
+    PicturePath path;
+    Vec2 last{HUGE_VAL, HUGE_VAL};
+    double last_part = 0.0;
+    for (const PictureMove& move : of_class(moves.points, kind)) {
+      const PictureSample& sample = track.samples[move.sample];
+      const Vec2 at = view(sample.point);
+      const double part = std::clamp(move.part, -kLongest, kLongest);
+      const bool beside = norm(at - last) < kLeastStep && part * last_part >= 0.0 &&
+                          std::fabs(part) <= std::fabs(last_part);
+      if (beside) continue;
+      const Vec2 left = left_normal(sample.tangent);
+      path.move(at);
+      path.line(at + (kMoveTooth * part) * Vec2{left.x, -left.y});
+      last = at;
+      last_part = part;
+    }
+    if (path.empty()) continue;
+    canvas.add("<path class=\"deviation {}\" d=\"{}\"/>\n", move_css(kind), path.text());
   }
 }
 

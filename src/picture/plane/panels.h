@@ -5,6 +5,7 @@
 
 #include "obvid/report/stored_contour.h"
 #include "plane/canvas.h"
+#include "plane/moves.h"
 #include "plane/track.h"
 
 namespace obvid {
@@ -20,8 +21,9 @@ inline constexpr std::size_t kMostColouredRuns = 2000;
 /// legend says how many there are.
 inline constexpr std::size_t kMostSymbols = 400;
 
-/// Upper panel: shape, comb, points, symbols, scale bar, legend. Returns the y of its lower end.
+/// Upper panel: shape, comb or deviations of the points, points, symbols, scale bar, legend. Returns
+/// the y of its lower end. `deviations`: null for the comb.
 double shape_panel(PictureCanvas& canvas, const PictureTrack& track, const StoredContour& stored,
-                   bool coloured, double top);
+                   const PictureMoves* deviations, bool coloured, double top);
 
 }  // namespace obvid

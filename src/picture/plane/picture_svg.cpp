@@ -140,10 +140,12 @@ std::string picture_svg(const StoredContour& stored, const PictureTitles& titles
   if (!titles.name.empty()) more = kind + (more.empty() ? "" : " · " + more);
   if (!more.empty()) body.label({kPictureMargin, 85.0}, "start", "fact", more);
   const double top = more.empty() ? 78.0 : 99.0;
-  const double below = shape_panel(body, track, stored, coloured, top);
   const PictureMoves moves = make_moves(track, stored);
-  const double height =
-      plot_panels(body, track, {moves, plots.slope}, contour.units.text(), coloured, below);
+  const bool deviations = plots.deviations && !moves.points.empty();
+  const double below =
+      shape_panel(body, track, stored, deviations ? &moves : nullptr, coloured, top);
+  const double height = plot_panels(body, track, {moves, plots.slope, deviations},
+                                    contour.units.text(), coloured, below);
   return picture_sheet(title, verdict.text, body.take(), height);
 }
 

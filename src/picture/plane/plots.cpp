@@ -160,7 +160,7 @@ double plot_panels(PictureCanvas& canvas, const PictureTrack& track, const Plots
   if (!between.moves.points.empty()) {
     frame.top = frame.bottom + kPlotsTitleRoom + kPlotsApart;
     frame.bottom = frame.top + kMovesHeight;
-    draw_moves(canvas, frame, track, between.moves, units);
+    draw_moves(canvas, frame, track, between.moves, units, between.deviations);
   }
   frame.top = frame.bottom + kPlotsTitleRoom + kPlotsApart;
   frame.bottom = frame.top + kOnePlotHeight;

@@ -26,6 +26,7 @@ struct PictureRange {
 struct PlotsBetween {
   const PictureMoves& moves;  ///< shown where points have tolerances
   bool slope = false;         ///< of the curvature
+  bool deviations = false;    ///< moves in the colours of their classes
 };
 
 /// Lower panels over arc length: curvature, its slope, moves, and radius. Returns the y of their

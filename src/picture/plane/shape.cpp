@@ -61,8 +61,8 @@ double draw_region(PictureCanvas& canvas, const PictureTrack& track, const Store
 }  // namespace
 
 double shape_panel(PictureCanvas& canvas, const PictureTrack& track, const StoredContour& stored,
-                   bool coloured, double top) {
-  const PictureComb comb = make_comb(track);
+                   const PictureMoves* deviations, bool coloured, double top) {
+  const PictureComb comb = deviations == nullptr ? make_comb(track) : PictureComb{};
   double bottom = top;
   const PictureView view = make_view(track, comb, top, bottom);
   const double widest = draw_region(canvas, track, stored, view, top, bottom);
@@ -70,6 +70,7 @@ double shape_panel(PictureCanvas& canvas, const PictureTrack& track, const Store
   if (widest > 0.0) canvas.add("<g class=\"fine\">\n");  // a thick curve would hide the region
   draw_curve(canvas, track, view, coloured);
   if (widest > 0.0) canvas.add("</g>\n");
+  if (deviations != nullptr) draw_deviations(canvas, track, *deviations, view);
   draw_points(canvas, track, view);
   draw_features(canvas, track, view);
   draw_start(canvas, track, view);
@@ -78,6 +79,7 @@ double shape_panel(PictureCanvas& canvas, const PictureTrack& track, const Store
   PictureLegend legend{track, stored.contour.units.text(), coloured, widest};
   legend.dots = dot_radius(track, view) > 0.0;
   if (comb.per_kappa != 0.0) legend.longest_tooth = track.largest_kappa;
+  legend.deviations = deviations;
   return draw_legend(canvas, legend, kPictureMargin + kScaleBarRoom, strip) + 16.0;
 }
 

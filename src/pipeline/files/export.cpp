@@ -241,6 +241,16 @@ Result<Exported> airfoil_file(const ContourExport& e) {
 
 }  // namespace
 
+Result<void> can_plot(const ContourExport& e) {
+  const std::vector<double>& tolerance = e.contour.point_tolerance;
+  const bool any =
+      std::any_of(tolerance.begin(), tolerance.end(), [](double t) { return t > 0.0; });
+  if (!e.options.plots.deviations || any) return {};
+  return error(ErrorCode::kBadOption, "no point has a tolerance that it could deviate by")
+      .where("--plot")
+      .hint("measured points have one with --noise; for others take --plot curvature");
+}
+
 Result<Exported> contour_as_json(const ContourExport& e) {
   return as_it_is(e, contour_to_json(e.stored));
 }
@@ -248,6 +258,7 @@ Result<Exported> contour_as_json(const ContourExport& e) {
 /// A picture for a report, or a drawing in true scale.
 Result<Exported> contour_as_svg(const ContourExport& e) {
   if (!e.options.drawing) {
+    OBVID_TRY(can_plot(e));
     return as_it_is(e, picture_svg(e.stored, e.options.picture, e.options.plots));
   }
   return with_units(notes_of(e, UnitRule::kLength, "drawings in true scale", e.contour.units.name),

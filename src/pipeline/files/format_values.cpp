@@ -142,7 +142,9 @@ constexpr std::array kSpacings = {std::pair{"cosine", AirfoilSpacing::kCosine},
                                   std::pair{"curvature", AirfoilSpacing::kCurvature},
                                   std::pair{"uniform", AirfoilSpacing::kUniform}};
 
-constexpr std::array kPlots = {std::pair{"curvature", false}, std::pair{"slope", true}};
+constexpr std::array kPlots = {std::pair{"curvature", PicturePlots{}},
+                               std::pair{"slope", PicturePlots{.slope = true}},
+                               std::pair{"deviations", PicturePlots{.deviations = true}}};
 constexpr std::array kSvg = {std::pair{"picture", false}, std::pair{"drawing", true}};
 
 /// The value of a typed name; nothing typed leaves it as it is.
@@ -164,7 +166,7 @@ Result<void> choose(const std::optional<std::string>& typed, const Names& names,
 }  // namespace
 
 Result<void> set_plots(const FormatValues& typed, PicturePlots& plots) {
-  return choose(typed.plot, kPlots, "--plot", plots.slope);
+  return choose(typed.plot, kPlots, "--plot", plots);
 }
 
 Result<void> set_formats(const FormatValues& typed, ExportOptions& options,

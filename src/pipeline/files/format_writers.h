@@ -45,6 +45,9 @@ struct SpaceExport {
 
 [[nodiscard]] Error not_held_by_format();
 
+/// Error E203 where a plot that was asked for has nothing to show.
+[[nodiscard]] Result<void> can_plot(const ContourExport& e);
+
 using ContourWriter = Result<Exported> (*)(const ContourExport& e);
 using SurfaceWriter = Result<std::string> (*)(SurfaceExport& e, std::vector<std::string>& remarks);
 using SpaceWriter = Result<Exported> (*)(const SpaceExport& e);

@@ -211,6 +211,7 @@ std::string report_page(const ContourExport& e, const std::string& picture) {
 Result<Exported> contour_as_report(const ContourExport& e) {
   const auto notes = unit_notes(e.contour.units, UnitRule::kNone, "", e.contour.units.name);
   OBVID_TRY(notes);
+  OBVID_TRY(can_plot(e));
   const auto picture = picture_svg(e.stored, e.options.picture, e.options.plots);
   Exported out;
   out.files.push_back({"", report_page(e, picture)});

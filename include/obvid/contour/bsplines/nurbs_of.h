@@ -14,8 +14,8 @@ struct NurbsOptions {
   /// and DXF files hold. Else the pieces as they are, to the last bit: piece i over [i, i + 1], inner
   /// knots of multiplicity degree, the parameter at another speed in every piece.
   bool joined = true;
-  /// Units, > 0: a contour with clothoids, which are no NURBS curves, is followed within it by a C2
-  /// cubic. Nothing: such a contour is refused.
+  /// Units, > 0: a contour with clothoids, which are no NURBS curves, is followed within it by a
+  /// cubic, C2 but at corners. Nothing: such a contour is refused.
   std::optional<double> clothoid_tolerance{};
 };
 
