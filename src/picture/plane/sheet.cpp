@@ -26,7 +26,6 @@ text{font-family:"Helvetica Neue",Arial,"Liberation Sans","DejaVu Sans",sans-ser
 .grid{stroke:#e1e6eb;stroke-width:1}.faint{stroke:#eff2f5;stroke-width:1}.axis{stroke:#7b8794;stroke-width:1}
 .joint{stroke:#1c2733;stroke-width:1}.break{stroke:#0b7a75;stroke-width:1.2;stroke-dasharray:5 4}
 .corner{fill:#0b7a75;fill-opacity:.3;stroke:#0b7a75;stroke-width:1.6}.move{stroke:#5b6773;stroke-width:1}.limit{stroke:#c62828;stroke-width:1;stroke-dasharray:2 3}
-.deviation{stroke-width:1.2}.half{stroke:#2e8b3d}.within{stroke:#d98200}.beyond{stroke:#c62828}
 .region{fill:#ffb300;fill-opacity:.42;stroke:#b07900;stroke-opacity:.85;stroke-width:.6}.fine .curve{stroke-width:1.7}
 @media (prefers-color-scheme:dark){
 text{fill:#e6eaee}.note,.fact,.open{fill:#9aa6b2}.paper{fill:#14191f}
@@ -36,7 +35,6 @@ text{fill:#e6eaee}.note,.fact,.open{fill:#9aa6b2}.paper{fill:#14191f}
 .inflection{fill:#ffd84a;stroke:#14191f}.arrow{fill:#9aa6b2}.bar{stroke:#e6eaee}
 .grid{stroke:#29323b}.faint{stroke:#1e252c}.axis{stroke:#6b7783}.joint{stroke:#e6eaee}
 .break{stroke:#45c8c0}.corner{fill:#45c8c0;stroke:#45c8c0}.move{stroke:#9aa6b2}.limit{stroke:#ff7b72}
-.half{stroke:#57d27a}.within{stroke:#ffb74d}.beyond{stroke:#ff7b72}
 .region{fill:#ffca4a;fill-opacity:.34;stroke:#ffd97a}}
 </style>
 )";
