@@ -149,6 +149,11 @@ class RepeatedField {
 
 Result<nlohmann::json> parse_json(string_view text, string_view name) {
   OBVID_TRY(check_depth(text, name));
+  if (const std::size_t zero = text.find('\0'); zero != string_view::npos) {
+    // the parser would end there
+    return fail(bad_json("the file is not valid JSON: a zero byte stands in it",
+                         place_of_byte(text, name, zero)));
+  }
   try {
     json document = json::parse(text.begin(), text.end());
     const auto twice = RepeatedField(text).find();

@@ -185,6 +185,7 @@ class PartMaker {
     }
     for (std::size_t i = 0; i + 1 < s_.points.size(); ++i) out_.rows.push_back(row(i));
     forget_beside_nothing();
+    forget_beside_unknown(headings);
     if (analysis_ != nullptr) add_spline();
     out_.loop = s_.loop;
     return std::move(out_);
@@ -202,6 +203,17 @@ class PartMaker {
     }
     for (std::size_t i = 0; i < out_.points.size(); ++i) {
       if (none[i] && !some[i]) out_.points[i].curvatures = std::nullopt;
+    }
+  }
+
+  /// Where rounding leaves a point no range, nothing is known of what lies beyond it: what its
+  /// neighbours along monotone segments may do is not known either.
+  void forget_beside_unknown(const std::vector<FeasibleData>& headings) {
+    for (const RegionRow& row : out_.rows) {
+      if (row.direction.value_or(0) == 0) continue;
+      if (headings[row.from].heading.has_value() == headings[row.to].heading.has_value()) continue;
+      out_.points[row.from].headings.reset();
+      out_.points[row.to].headings.reset();
     }
   }
 
