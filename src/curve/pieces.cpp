@@ -106,16 +106,25 @@ ControlNet control_net(const RationalBezier& piece, Vec2 reference) {
   return net;
 }
 
-/// Value and derivatives of the homogeneous curve.
+/// Those of a piece whose degree is known, coordinate by coordinate.
 template <std::size_t Degree>
-std::array<Homogeneous, 4> homogeneous_jet(const RationalBezier& piece, Vec2 reference, double t) {
-  std::array<double, Degree + 1> x{}, y{}, w{};
+std::array<std::array<double, Degree + 1>, 3> weighted(const RationalBezier& piece,
+                                                       Vec2 reference) {
+  std::array<std::array<double, Degree + 1>, 3> out{};
+  auto& [x, y, w] = out;
   for (std::size_t j = 0; j <= Degree; ++j) {
     const Vec2 q = piece.offset[j] - reference;
     w[j] = piece.weight[j];
     x[j] = w[j] * q.x;
     y[j] = w[j] * q.y;
   }
+  return out;
+}
+
+/// Value and derivatives of the homogeneous curve.
+template <std::size_t Degree>
+std::array<Homogeneous, 4> homogeneous_jet(const RationalBezier& piece, Vec2 reference, double t) {
+  const auto [x, y, w] = weighted<Degree>(piece, reference);
   const CoordinateJet jx = coordinate_jet<Degree>(x, t), jy = coordinate_jet<Degree>(y, t),
                       jw = coordinate_jet<Degree>(w, t);
   std::array<Homogeneous, 4> jet{};
@@ -127,13 +136,7 @@ std::array<Homogeneous, 4> homogeneous_jet(const RationalBezier& piece, Vec2 ref
 template <std::size_t Degree>
 Lanes<std::array<Homogeneous, 4>> homogeneous_jets(const RationalBezier& piece, Vec2 reference,
                                                    const Lanes<double>& t) {
-  std::array<double, Degree + 1> x{}, y{}, w{};
-  for (std::size_t j = 0; j <= Degree; ++j) {
-    const Vec2 q = piece.offset[j] - reference;
-    w[j] = piece.weight[j];
-    x[j] = w[j] * q.x;
-    y[j] = w[j] * q.y;
-  }
+  const auto [x, y, w] = weighted<Degree>(piece, reference);
   const auto jx = coordinate_jets<Degree>(x, t), jy = coordinate_jets<Degree>(y, t),
              jw = coordinate_jets<Degree>(w, t);
   Lanes<std::array<Homogeneous, 4>> jets{};

@@ -6,7 +6,6 @@
 #include <array>
 #include <cmath>
 #include <limits>
-#include <numeric>
 #include <optional>
 #include <queue>
 #include <utility>
@@ -32,7 +31,7 @@ constexpr double kMostOfAll = 0.1;
 class Search {
  public:
   Search(const std::vector<Vec2>& points, const std::vector<bool>& kept)
-      : points_(points), kept_(kept), before_(points.size()), behind_(points.size()) {
+      : points_(points), kept_(kept), before_(points.size()), behind_(points.size()), gone_(points.size(), false) {
     for (std::size_t i = 0; i < points.size(); ++i) {
       before_[i] = i - 1;  // beyond all of the first
       behind_[i] = i + 1;
@@ -48,7 +47,7 @@ class Search {
     while (!worst.empty()) {
       const std::size_t i = worst.top().second;
       worst.pop();
-      if (dropped(i) || !is_off(i)) continue;
+      if (gone_[i] || !is_off(i)) continue;
       drop_row_around(i);
       if (static_cast<double>(out_.points.size()) >
           kMostOfAll * static_cast<double>(points_.size())) {
@@ -114,10 +113,6 @@ class Search {
   [[nodiscard]] bool is_off(std::size_t i) const {
     const auto r = residual(i);
     return r && is_beyond(*r, limit_, i);
-  }
-  [[nodiscard]] bool dropped(std::size_t i) const {
-    return std::any_of(out_.points.begin(), out_.points.end(),
-                       [i](const Outlier& o) { return o.index == i; });
   }
   [[nodiscard]] bool may_go(std::size_t i) const { return i >= kept_.size() || !kept_[i]; }
 
@@ -190,6 +185,7 @@ class Search {
   void take(std::size_t first, std::size_t length) {
     const std::size_t left = before_[first], right = behind_[last_of(first, length)];
     for (std::size_t k = 0; k < length; ++k, first = behind_[first]) {
+      gone_[first] = true;
       out_.points.push_back({first, distance_between(left, first, right)});
     }
   }
@@ -210,6 +206,7 @@ class Search {
   const std::vector<Vec2>& points_;
   const std::vector<bool>& kept_;
   std::vector<std::size_t> before_, behind_;  ///< of those that are left
+  std::vector<bool> gone_;
   std::vector<double> size_, scale_;
   double limit_ = 0.0;
   Outliers out_;

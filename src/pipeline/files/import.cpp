@@ -175,6 +175,19 @@ Result<std::size_t> curve_named(const Drawing& drawing, const std::string& name,
       .hint("give the number of one of them");
 }
 
+/// One flag per point.
+void leave_out(const std::vector<bool>& flagged, PointSeries& series) {
+  std::size_t stay = 0;
+  for (std::size_t i = 0; i < flagged.size(); ++i) {
+    if (flagged[i]) continue;
+    series.points[stay] = series.points[i];
+    if (!series.fixed.empty()) series.fixed[stay] = series.fixed[i];
+    ++stay;
+  }
+  series.points.resize(stay);
+  if (!series.fixed.empty()) series.fixed.resize(stay);
+}
+
 /// Every point once, where a list in no order has it twice; the first of them stays.
 void drop_repeated_points(PointSeries& series) {
   std::vector<std::size_t> sorted(series.points.size());
@@ -189,15 +202,7 @@ void drop_repeated_points(PointSeries& series) {
   for (std::size_t k = 1; k < sorted.size(); ++k) {
     repeated[sorted[k]] = series.points[sorted[k]] == series.points[sorted[k - 1]];
   }
-  std::size_t stay = 0;
-  for (std::size_t i = 0; i < repeated.size(); ++i) {
-    if (repeated[i]) continue;
-    series.points[stay] = series.points[i];
-    if (!series.fixed.empty()) series.fixed[stay] = series.fixed[i];
-    ++stay;
-  }
-  series.points.resize(stay);
-  if (!series.fixed.empty()) series.fixed.resize(stay);
+  leave_out(repeated, series);
 }
 
 std::string order_text(const PointSeries& series, const CurveOrder& found) {
@@ -275,15 +280,7 @@ Result<PointSeries> without_outliers(Result<PointSeries> series, const ImportOpt
   out.warnings.push_back(outliers_text(out, *found));
   std::vector<bool> off(out.points.size(), false);
   for (const Outlier& one : found->points) off[one.index] = true;
-  std::size_t stay = 0;
-  for (std::size_t i = 0; i < off.size(); ++i) {
-    if (off[i]) continue;
-    out.points[stay] = out.points[i];
-    if (!out.fixed.empty()) out.fixed[stay] = out.fixed[i];
-    ++stay;
-  }
-  out.points.resize(stay);
-  if (!out.fixed.empty()) out.fixed.resize(stay);
+  leave_out(off, out);
   return series;
 }
 

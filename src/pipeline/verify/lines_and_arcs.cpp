@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <optional>
 #include <variant>
 
@@ -32,7 +31,6 @@ std::optional<LineOrArc> shape_of(const Piece& piece) {
   out.theta = arc->theta0;
   out.kappa = arc->kappa;
   out.length = arc->length;
-  out.turn = arc->kappa * arc->length;
   out.centre = arc->start + (1.0 / arc->kappa) * left_normal(unit_at(arc->theta0));
   return out;
 }

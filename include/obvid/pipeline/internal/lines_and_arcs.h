@@ -16,7 +16,6 @@ struct LineOrArc {
   Vec2 centre;                   ///< of an arc; not of a line
   double theta = 0.0;            ///< heading of a line at its start, rad
   double length = 0.0;           ///< units
-  double turn = 0.0;             ///< by which an arc turns, rad
   double off = 0.0;              ///< largest distance of those points from its line or circle, units
 };
 
