@@ -144,8 +144,10 @@ int obvid_fit(const obvid_input* input, const char* options, const obvid_run* ru
     OBVID_TRY(request);
     const Result<PointSeries> series = series_of(*input, *request, true);
     OBVID_TRY(series);
-    Result<Fit> made = formed(*series, *request, context_of(run));
+    const RunContext context = context_of(run);
+    Result<Fit> made = formed(*series, *request, context);
     OBVID_TRY(made);
+    if (const auto going = may_go_on(context); !going) return fail(going.error());
     // a construction promises nothing: its certificate says what it is
     const bool promises = !request->worksheet.construction;
     const std::optional<Error> broken = promises ? broken_promise(*made) : std::nullopt;
@@ -227,10 +229,12 @@ int obvid_region(const obvid_input* input, const char* options, const obvid_run*
   return report_on_points(
       input, options, kWorksheet, report, error,
       [&](PointSeries& series, const Request& request) -> Result<std::string> {
-        const auto found = region_table(series, request.worksheet);
+        const RunContext context = context_of(run);
+        const auto found = region_table(series, request.worksheet, context);
         if (!found) {
-          return fail(explained(series, request.worksheet, found.error(), context_of(run)));
+          return fail(explained(series, request.worksheet, found.error(), context));
         }
+        if (const auto going = may_go_on(context); !going) return fail(going.error());
         return region_json(series, *found);
       });
 }
@@ -242,7 +246,7 @@ int obvid_worksheet(const obvid_input* input, const char* options, const char* e
     OBVID_TRY(request);
     const Result<PointSeries> series = series_of(*input, *request, true);
     OBVID_TRY(series);
-    const auto found = region_table(*series, request->worksheet);
+    const auto found = region_table(*series, request->worksheet, context_of(run));
     if (!found) {
       return fail(explained(*series, request->worksheet, found.error(), context_of(run)));
     }

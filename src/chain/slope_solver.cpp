@@ -247,7 +247,7 @@ SlopeSolver::Outcome SlopeSolver::run(const std::vector<Element>& start, int mos
   while (out.steps < most_steps && watch.spend(static_cast<double>(start.size()))) {
     assemble();
     ++out.steps;
-    if (!system_.solve()) break;
+    if (watch.cancelled() || !system_.solve() || watch.cancelled()) break;
     step_.resize(here_.x.size());
     for (std::size_t i = 0; i < step_.size(); ++i) step_[i] = system_.solution()[unknown(i)];
     double largest = 0.0;
@@ -285,7 +285,7 @@ SlopeSolver::Outcome SlopeSolver::run(const std::vector<Element>& start, int mos
       taken = falls();
     }
     plain = !taken;
-    for (int k = 0; k < kMostHalvings && !taken; ++k, part *= taken ? 1.0 : 0.5) {
+    for (int k = 0; k < kMostHalvings && !taken && !watch.cancelled(); ++k, part *= taken ? 1.0 : 0.5) {
       move_trial(part);
       taken = falls();
     }

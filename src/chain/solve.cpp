@@ -85,6 +85,7 @@ class Solver {
     double t = 1.0;
     trial_.resize(x_.size());
     while (t > kSmallestStep) {
+      if (is_to_end(options_.watch)) return -1.0;
       for (std::size_t i = 0; i < x_.size(); ++i) trial_[i] = x_[i] + t * direction_[i];
       const double s = slack_ + t * slack_direction_;
       // a whole step is taken mostly, and begins the next one

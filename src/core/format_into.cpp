@@ -3,12 +3,12 @@
 
 #include <fmt/format.h>
 
-#include <iterator>
-
 namespace obvid {
 
 void vformat_into(std::string& out, fmt::string_view format, fmt::format_args args) {
-  fmt::vformat_to(std::back_inserter(out), format, args);
+  fmt::memory_buffer text;
+  fmt::vformat_to(fmt::appender(text), format, args);
+  out.append(text.data(), text.size());
 }
 
 }  // namespace obvid

@@ -39,12 +39,14 @@ struct Match {
 /// whose bound is above what was found are halved.
 class DistanceBound {
  public:
-  DistanceBound(std::span<const Piece> from, std::span<const Piece> to) : from_(from), to_(to) {}
+  DistanceBound(std::span<const Piece> from, std::span<const Piece> to, Watch* watch)
+      : from_(from), to_(to), watch_(watch) {}
 
   double run() {
     constexpr double kCouldBeMore = 0.9;  // nearer than this to the largest, neighbours are tried
     NearestAlong follower(to_);
     for (const Piece& piece : from_) {
+      if (is_to_end(watch_)) return found_;
       Match before;
       for (int k = 0; k <= kSamples; ++k) {
         const double t = static_cast<double>(k) / kSamples;
@@ -57,7 +59,10 @@ class DistanceBound {
     }
     bound_ = found_;
     most_looks_ = kSpareLooks + kLooksPerSpan * (spans_.size() + to_.size());
-    for (const Between& span : spans_) cut_at_joints(*span.piece, span.first, span.last);
+    for (const Between& span : spans_) {
+      if (is_to_end(watch_)) return found_;
+      cut_at_joints(*span.piece, span.first, span.last);
+    }
     return bound_;
   }
 
@@ -188,6 +193,7 @@ class DistanceBound {
   }
 
   std::span<const Piece> from_, to_;
+  Watch* watch_;
   std::vector<Between> spans_;
   double found_ = 0.0, bound_ = 0.0;
   std::size_t looked_at_ = 0, most_looks_ = 0;
@@ -195,9 +201,9 @@ class DistanceBound {
 
 }  // namespace
 
-double path_distance(std::span<const Piece> a, std::span<const Piece> b) {
+double path_distance(std::span<const Piece> a, std::span<const Piece> b, Watch* watch) {
   if (a.empty() || b.empty()) return 0.0;
-  return std::max(DistanceBound(a, b).run(), DistanceBound(b, a).run());
+  return std::max(DistanceBound(a, b, watch).run(), DistanceBound(b, a, watch).run());
 }
 
 }  // namespace obvid

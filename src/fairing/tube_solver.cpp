@@ -31,6 +31,7 @@ constexpr double kNegligibleBarrier = 0.05;  ///< mu over the slack: the energy 
 double TubeSolver::step(State& x, const Weights& w, double slack_cost) {
   const bool with_slack = slack_cost > 0.0;
   const double value = model_.merit(x, slack_, w) + slack_cost * slack_;
+  if (watch_.cancelled()) return -1.0;
   model_.assemble(x, slack_, w, with_slack, system_);
   if (with_slack) system_.add_slack(slack_cost, 0.0);
   ++steps_;
@@ -39,7 +40,7 @@ double TubeSolver::step(State& x, const Weights& w, double slack_cost) {
   const double decrement = system_.decrement(direction_, ds);
   if (!(decrement > 0.0)) return -1.0;
   trial_.resize(x.size());
-  for (double t = 1.0; t > kSmallestStep; t *= 0.5) {
+  for (double t = 1.0; t > kSmallestStep && !watch_.cancelled(); t *= 0.5) {
     for (std::size_t i = 0; i < x.size(); ++i) trial_[i] = x[i] + t * direction_[i];
     const double s = slack_ + t * ds;
     const double v = model_.merit(trial_, s, w) + slack_cost * s;

@@ -9,6 +9,7 @@
 #include <utility>
 #include <vector>
 
+#include "obvid/core/internal/watch.h"
 #include "obvid/region/internal/feasible_data.h"
 #include "range_middle.h"
 
@@ -28,8 +29,8 @@ using Nodes = std::optional<std::vector<RangeNode>>;
 class LoopTurn {
  public:
   LoopTurn(const std::vector<RangeLink>& links, const std::vector<RangeNode>& nodes,
-           const Wanted& wanted)
-      : n_(links.size()), all_links_(links), all_nodes_(nodes), all_wanted_(wanted) {
+           const Wanted& wanted, Watch* watch)
+      : n_(links.size()), all_links_(links), all_nodes_(nodes), all_wanted_(wanted), watch_(watch) {
     double turn = 0.0;
     for (std::size_t i = 0; i < n_; ++i) {
       turn += std::remainder(links[(i + 1) % n_].omega - links[i].omega, kOneTurn);
@@ -42,7 +43,7 @@ class LoopTurn {
     unroll();
     if (beside_arc(seam_) || open_behind()) return in_order(closed_by_itself());
     if (!choose_heading() || !choose_curvature()) return std::nullopt;
-    return in_order(central_data(links_, nodes_, wanted_));
+    return in_order(central());
   }
 
  private:
@@ -87,12 +88,17 @@ class LoopTurn {
 
   /// The seam has its data, or the link before it takes any.
   Nodes closed_by_itself() {
-    auto made = central_data(links_, nodes_, wanted_);
+    auto made = central();
     if (made && open_behind()) {
       made->back() = made->front();
       if (made->back().theta) *made->back().theta += turn_;
     }
     return made;
+  }
+
+  [[nodiscard]] Nodes central() const {
+    return central_data(links_, nodes_, wanted_, ChoiceOrder::kAlong, SharpCurvature::kMiddle,
+                        watch_);
   }
 
   void fix(double theta, std::optional<double> kappa) {
@@ -102,7 +108,7 @@ class LoopTurn {
   }
   bool closes(double theta, std::optional<double> kappa) {
     fix(theta, kappa);
-    return central_data(links_, nodes_, wanted_).has_value();
+    return central().has_value();
   }
 
   /// +1 where the curvature is greatest at the seam, -1 where it is least.
@@ -122,7 +128,7 @@ class LoopTurn {
   bool choose_heading() {
     const std::optional<double> kappa = sharpest();
     if (const auto given = all_nodes_[seam_].theta) return closes(*given, kappa);
-    const auto ranges = feasible_data(links_, nodes_);
+    const auto ranges = feasible_data(links_, nodes_, watch_);
     if (!ranges.front().heading || !ranges.back().heading) return false;
     const double low = std::max(ranges.front().heading->low, ranges.back().heading->low - turn_);
     const double high = std::min(ranges.front().heading->high, ranges.back().heading->high - turn_);
@@ -153,7 +159,7 @@ class LoopTurn {
     const double theta = *nodes_.front().theta;
     if (all_nodes_[seam_].kappa) return closes(theta, all_nodes_[seam_].kappa);
     fix(theta, std::nullopt);
-    const auto ranges = feasible_data(links_, nodes_);
+    const auto ranges = feasible_data(links_, nodes_, watch_);
     if (!ranges.front().kappa || !ranges.back().kappa) return false;
     const CurvatureRange both{std::max(ranges.front().kappa->low, ranges.back().kappa->low),
                               std::min(ranges.front().kappa->high, ranges.back().kappa->high)};
@@ -197,6 +203,7 @@ class LoopTurn {
   const std::vector<RangeLink>& all_links_;
   const std::vector<RangeNode>& all_nodes_;
   const Wanted& all_wanted_;
+  Watch* watch_;
   double turn_ = 0.0;
   std::size_t seam_ = 0;
   std::vector<RangeLink> links_;
@@ -208,8 +215,8 @@ class LoopTurn {
 
 std::optional<std::vector<RangeNode>> central_loop(const std::vector<RangeLink>& links,
                                                    const std::vector<RangeNode>& nodes,
-                                                   const Wanted& wanted) {
-  return LoopTurn(links, nodes, wanted).run();
+                                                   const Wanted& wanted, Watch* watch) {
+  return LoopTurn(links, nodes, wanted, watch).run();
 }
 
 }  // namespace obvid

@@ -135,8 +135,8 @@ struct RegionTable {
 /// given nothing is chosen. A point is inserted on the perpendicular bisector of its chord in the
 /// middle of the region, with its heading in the middle of the range that is left to it.
 /// Errors: those of `fit` for the data; E403, naming the points, when the given data leave nothing;
-/// E502 when the width asked for needs more than a thousand points.
-[[nodiscard]] Result<RegionTable> region_table(const PointSeries& series,
-                                               const RegionJob& job = {});
+/// E502 when the width asked for needs more than a thousand points; E103 cancelled.
+[[nodiscard]] Result<RegionTable> region_table(const PointSeries& series, const RegionJob& job = {},
+                                               const RunContext& run = {});
 
 }  // namespace obvid

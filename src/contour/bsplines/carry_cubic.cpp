@@ -10,7 +10,7 @@ Result<Carried> carry_cubic(const Contour& spirals, const CarryOptions& options)
   if (only<LinePiece>(spirals)) return as_they_are(spirals, Carrier::kCubic);
   Contour whole = spirals;
   whole.closed = options.loop;
-  const auto along = cubic_along(whole, options.tolerance);
+  const auto along = cubic_along(whole, options.tolerance, &options.watch);
   if (!along) return at_point(along.error(), spirals, along.error().index, kOtherCarriers);
   Carried out{like(spirals, Carrier::kCubic), {}};
   const std::vector<RationalBezier> pieces = bezier_pieces(along->spline);

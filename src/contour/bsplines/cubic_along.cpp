@@ -33,6 +33,8 @@ constexpr double kLeastGain = 0.5;
 /// Knots that are known to a rounding r only leave the curvature of spans of length h uncertain by
 /// as many r / h^2: the second difference of three of them.
 constexpr double kOfSecondDifference = 4.0;
+/// Spans and pieces that are measured between two questions whether to go on: about a millisecond.
+constexpr std::size_t kSpansBetweenQuestions = 64;
 /// Integral of the density that the contour has by its length alone: straight parts get knots too.
 constexpr double kLeastDensity = 0.2;
 
@@ -70,10 +72,12 @@ struct Density {
 
 /// A cubic errs with |r''''| h^4, so knots stand as dense as the fourth root of
 /// r'''' = (kappa'' - kappa^3) n - 3 kappa kappa' t.
-Density knot_density(const Contour& contour, const ContourLength& length) {
+/// Without meaning when the watch ended it.
+Density knot_density(const Contour& contour, const ContourLength& length, Watch& watch) {
   Density d{{0.0}, {0.0}};
   const double whole = length.at(static_cast<double>(contour.pieces.size()));
   for (std::size_t i = 0; i < contour.pieces.size(); ++i) {
+    if (i % kSpansBetweenQuestions == 0 && watch.cancelled()) break;
     const Piece& piece = contour.pieces[i];
     for (std::size_t c = 0; c < kDensityCells; ++c) {
       const double from = static_cast<double>(c) / kDensityCells;
@@ -106,8 +110,11 @@ double distance_from(const CubicSpline& spline, Vec2 p, double u) {
 
 class CubicBuilder {
  public:
-  explicit CubicBuilder(const Contour& contour)
-      : closed_(contour.closed), length_(contour), density_(knot_density(contour, length_)) {
+  CubicBuilder(const Contour& contour, Watch& watch)
+      : closed_(contour.closed),
+        length_(contour, watch),
+        density_(knot_density(contour, length_, watch)),
+        watch_(watch) {
     for (const Joint& joint : contour.joints) {
       const Vec2 p = joint.element.point;
       largest_ = std::max({largest_, std::abs(p.x), std::abs(p.y)});
@@ -145,10 +152,12 @@ class CubicBuilder {
     options.start_slope = unit_at(length_.element(0.0).theta);
     options.end_slope = unit_at(length_.element(places.back()).theta);
     if (closed_) points.pop_back();
+    if (watch_.cancelled()) return fail(cancelled_error());
     auto spline = cubic_spline(points, options);
     OBVID_TRY(spline);
     CubicAlong out{std::move(*spline), 0.0};
     out.deviation = deviation(out.spline, places);
+    if (watch_.was_cancelled()) return fail(cancelled_error());
     return out;
   }
 
@@ -156,6 +165,7 @@ class CubicBuilder {
   double deviation(const CubicSpline& spline, const std::vector<double>& places) const {
     double most = 0.0;
     for (std::size_t i = 0; i + 1 < places.size(); ++i) {
+      if (i % kSpansBetweenQuestions == 0 && watch_.cancelled()) break;
       const double from = length_.at(places[i]), to = length_.at(places[i + 1]);
       for (int k = 0; k < kSpanSamples; ++k) {
         const double part = (k + 0.5) / kSpanSamples;
@@ -171,6 +181,7 @@ class CubicBuilder {
   bool closed_;
   ContourLength length_;
   Density density_;
+  Watch& watch_;
   double largest_ = 0.0;  // coordinate
 };
 
@@ -224,14 +235,14 @@ Result<CubicAlong> search(const CubicBuilder& builder, double tolerance) {
   return found;
 }
 
-double distance_of(const Contour& contour, const CubicSpline& spline) {
+double distance_of(const Contour& contour, const CubicSpline& spline, Watch& watch) {
   const std::vector<RationalBezier> spans = bezier_pieces(spline);
-  return path_distance(contour.pieces, std::vector<Piece>(spans.begin(), spans.end()));
+  return path_distance(contour.pieces, std::vector<Piece>(spans.begin(), spans.end()), &watch);
 }
 
 }  // namespace
 
-Result<CubicAlong> cubic_along(const Contour& contour, double tolerance) {
+Result<CubicAlong> cubic_along(const Contour& contour, double tolerance, Watch* watch) {
   if (!(tolerance > 0.0)) {
     return error(ErrorCode::kBadOption, "the tolerance must be greater than 0").value(tolerance);
   }
@@ -245,12 +256,16 @@ Result<CubicAlong> cubic_along(const Contour& contour, double tolerance) {
         .hint("split it there")
         .point(i);
   }
-  const CubicBuilder builder(contour);
+  Watch nobody;
+  Watch& asked = watch == nullptr ? nobody : *watch;
+  const CubicBuilder builder(contour, asked);
+  if (asked.was_cancelled()) return fail(cancelled_error());
   double aim = kOfCubicTolerance * tolerance, bound = 0.0;
   for (int trial = 0; trial < kCubicTrials; ++trial) {
     auto found = search(builder, aim);
     if (!found) return found;
-    found->deviation = bound = distance_of(contour, found->spline);
+    found->deviation = bound = distance_of(contour, found->spline, asked);
+    if (asked.was_cancelled()) return fail(cancelled_error());
     if (bound <= tolerance) return found;
     aim *= kOfCubicTolerance * tolerance / bound;
   }

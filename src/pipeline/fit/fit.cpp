@@ -399,7 +399,7 @@ class SectionForming {
   Watch& watch_;
   Formed out_;
   Assembly assembly_, spirals_;
-  Waviness waviness_g2_;
+  Waviness waviness_g2_{watch_};
   KeptParts kept_;
   bool have_spirals_;  // as long as they are asked for, and all sections have them
 };
@@ -683,8 +683,10 @@ Result<Measured> form_and_measure(Prepared& prepared, const FitJob& job, const U
     }
     return fail(std::move(error));
   }
+  if (watch.cancelled()) return fail(cancelled_error());
   take_piece_ends(formed->contour);
   OBVID_TRY(keeps_given(formed->contour));
+  if (watch.cancelled()) return fail(cancelled_error());
   formed->contour.units = units;
   auto report = measure(formed->contour, within.asked, watch);
   OBVID_TRY(report);
@@ -727,6 +729,7 @@ Result<Fit> formed_and_proved(const PointSeries& series, const FitJob& job, Foun
   watch.tell("analysing", 0.0);
   auto prepared = prepare(series, job);
   OBVID_TRY(prepared);
+  if (watch.cancelled()) return fail(cancelled_error());
   if (passing == Passing::kExactly) {
     prepared->reach.assign(prepared->points.size(), 0.0);
     prepared->tolerance.clear();
@@ -757,11 +760,13 @@ Result<Fit> formed_and_proved(const PointSeries& series, const FitJob& job, Foun
   }
   out.report = std::move(measured->report);
   settle_with(out.certificate, out.contour, out.report, watch);
+  if (watch.cancelled()) return fail(cancelled_error());
   if (formed->spirals) {
     const auto formed_at = std::chrono::steady_clock::now();
     measure_against(*formed->spirals, out.contour, watch, out.report);
     out.report.comparing_seconds = seconds_since(formed_at);
   }
+  if (watch.cancelled()) return fail(cancelled_error());
   out.report.chain = formed->chain;
   out.warnings = series.warnings;
   for (const auto* more : {&prepared->warnings, &formed->warnings}) {
@@ -966,7 +971,9 @@ Result<Fit> fit_with_room(const PointSeries& series, const FitJob& job, FoundCha
 Result<Fit> pipeline_detail::fit_with(const PointSeries& series, const FitJob& job,
                                       FoundChains& chains, Watch& watch) {
   auto made = fit_with_room(series, job, chains, watch);
-  if (made) made->report.waviness = waviness(made->contour);
+  if (!made) return made;
+  made->report.waviness = waviness(made->contour, watch);
+  if (watch.was_cancelled()) return fail(cancelled_error());
   return made;
 }
 

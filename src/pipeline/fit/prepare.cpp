@@ -409,6 +409,7 @@ class Preparation {
     std::vector<Vec2> points;
     std::vector<double> tolerance;
     std::vector<FixedData> fixed;
+    fixed.reserve(index.size());
     for (const std::size_t i : index) {
       points.push_back(out_.points[i]);
       tolerance.push_back(blur[i]);

@@ -179,7 +179,7 @@ std::optional<SeriesChain> central_chain_of_loop(const std::vector<Vec2>& points
                                                  const ChainWishes& wishes, Watch& watch) {
   const auto problem = loop_problem(points, wishes);
   if (!problem) return std::nullopt;
-  const auto central = central_loop(problem->links, problem->range_nodes);
+  const auto central = central_loop(problem->links, problem->range_nodes, {}, &watch);
   if (!central) return std::nullopt;
   DirectedSeries series;
   series.direction = problem->direction;

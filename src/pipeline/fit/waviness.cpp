@@ -16,6 +16,8 @@ constexpr double kToldTo = 1e-3;
 /// most: the binomial sums of degree 5 and their products. First derivatives have a tenth of them.
 constexpr double kSlopeRoundings = 100.0 * 0x1p-53;
 constexpr double kTangentRoundings = 10.0 * 0x1p-53;
+/// Pieces between two questions whether to go on: some 2 ms.
+constexpr std::size_t kPiecesBetweenQuestions = 1024;
 
 /// The parameters at which the slope is taken: the first half's are seen from the start of the
 /// piece, where coordinates beside it are small, the others from its end.
@@ -88,7 +90,8 @@ struct RunSlopes {
   }
 };
 
-RunSlopes slopes_of_run(const Contour& contour, std::size_t first, std::size_t last, Bound bound) {
+RunSlopes slopes_of_run(const Contour& contour, std::size_t first, std::size_t last, Bound bound,
+                        Watch& watch) {
   static constexpr std::array<double, kSlopePlaces> kAt = slope_places();
   RunSlopes out;
   std::array<Jet, kSlopePlaces> jets;
@@ -99,6 +102,7 @@ RunSlopes slopes_of_run(const Contour& contour, std::size_t first, std::size_t l
     before = slope;
   };
   for (std::size_t i = first; i <= last; ++i) {
+    if (i % kPiecesBetweenQuestions == 0 && watch.cancelled()) return {};
     const Piece& piece = contour.pieces[i % contour.pieces.size()];
     if (const auto* clothoid = std::get_if<ClothoidPiece>(&piece)) {  // exact where they are alike
       meet((clothoid->kappa1 - clothoid->kappa0) / clothoid->length);
@@ -152,8 +156,8 @@ void Waviness::add(const Contour& contour, bool loop) {
 
 /// Pieces are counted on around the contour.
 void Waviness::add_run(const Contour& contour, std::size_t first, std::size_t last) {
-  RunSlopes slopes = slopes_of_run(contour, first, last, Bound::kOfPieces);
-  if (!slopes.are_known()) slopes = slopes_of_run(contour, first, last, Bound::kOfPlaces);
+  RunSlopes slopes = slopes_of_run(contour, first, last, Bound::kOfPieces, watch_);
+  if (!slopes.are_known()) slopes = slopes_of_run(contour, first, last, Bound::kOfPlaces, watch_);
   known_ = known_ && slopes.are_known();
   hills_ += slopes.variation / (2.0 * slopes.largest);
   ++runs_;
@@ -164,9 +168,9 @@ std::optional<double> Waviness::value() const {
   return hills_ / static_cast<double>(runs_);
 }
 
-std::optional<double> waviness(const Contour& contour) {
+std::optional<double> waviness(const Contour& contour, Watch& watch) {
   if (!promises_monotone(contour.carrier) || steps_at_joints(contour.carrier)) return std::nullopt;
-  Waviness whole;
+  Waviness whole(watch);
   whole.add(contour, contour.closed && !contour.joints.empty() && !contour.joints.front().leaving);
   return whole.value();
 }

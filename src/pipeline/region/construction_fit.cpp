@@ -179,7 +179,7 @@ Result<Fit> fit_construction(const PointSeries& series, const RegionJob& job,
   Watch watch(run);
   const auto prepared = prepare(series, job.job);
   OBVID_TRY(prepared);
-  const auto table = region_table(series, job);
+  const auto table = region_table(series, job, run);
   OBVID_TRY(table);
   OBVID_TRY(only_ellipses(*table->construction, table->last()));
   Fit out;
@@ -192,7 +192,7 @@ Result<Fit> fit_construction(const PointSeries& series, const RegionJob& job,
   OBVID_TRY(report);
   out.certificate = certify(out.contour, watch);
   out.report = std::move(*report);
-  out.report.waviness = waviness(out.contour);
+  out.report.waviness = waviness(out.contour, watch);
   // nobody asked for the width that two arcs leave, or one piece over a long chord
   if (out.report.largest_width > tolerance) out.report.tolerance = out.report.largest_width;
   settle_with(out.certificate, out.contour, out.report, watch);

@@ -95,15 +95,16 @@ RegionRow bare_row(const Element& a, const Element& b) {
 /// Links and nodes of a worksheet for `feasible_data`; headings all given when `fixed`.
 class Ranges {
  public:
-  explicit Ranges(const Worksheet& sheet) : sheet_(sheet), chords_(measure_chords(sheet.points)) {}
+  Ranges(const Worksheet& sheet, Watch& watch)
+      : sheet_(sheet), chords_(measure_chords(sheet.points)), watch_(watch) {}
 
   [[nodiscard]] std::vector<FeasibleData> operator()(bool all_headings) const {
     const std::size_t n = sheet_.points.size();
-    if (!sheet_.loop) return feasible_data(links(0, n), nodes(0, n, all_headings));
+    if (!sheet_.loop) return feasible_data(links(0, n), nodes(0, n, all_headings), &watch_);
     // once around and some more, so that the seam has neighbours on both sides
     const std::size_t turn = n - 1, overlap = std::min(turn, kSeamOverlap);
     const auto all = feasible_data(links(turn - overlap, n + 2 * overlap),
-                                   nodes(turn - overlap, n + 2 * overlap, all_headings));
+                                   nodes(turn - overlap, n + 2 * overlap, all_headings), &watch_);
     return {all.begin() + static_cast<std::ptrdiff_t>(overlap),
             all.begin() + static_cast<std::ptrdiff_t>(overlap + n)};
   }
@@ -147,6 +148,7 @@ class Ranges {
  private:
   const Worksheet& sheet_;
   std::vector<Chord> chords_;
+  Watch& watch_;
 };
 
 /// Curvature for a point whose range alone is known.
@@ -158,13 +160,14 @@ double some_curvature(const std::optional<CurvatureRange>& range) {
   return 0.5 * (range->low + range->high);
 }
 
-/// Points and rows of one worksheet.
+/// Points and rows of one worksheet; without meaning when the watch ended it.
 class PartMaker {
  public:
-  PartMaker(const Worksheet& sheet, const Analysis* analysis) : s_(sheet), analysis_(analysis) {}
+  PartMaker(const Worksheet& sheet, const Analysis* analysis, Watch& watch)
+      : s_(sheet), analysis_(analysis), watch_(watch) {}
 
   RegionPart run() {
-    const Ranges ranges(s_);
+    const Ranges ranges(s_, watch_);
     const auto headings = ranges(false), curvatures = ranges(true);
     for (std::size_t i = 0; i < s_.points.size(); ++i) {
       RegionPoint p;
@@ -183,7 +186,10 @@ class PartMaker {
       if (analysis_ != nullptr && !inner && s_.loop) p.adjacent_kappa = seam_circle();
       out_.points.push_back(p);
     }
-    for (std::size_t i = 0; i + 1 < s_.points.size(); ++i) out_.rows.push_back(row(i));
+    for (std::size_t i = 0; i + 1 < s_.points.size() && !watch_.cancelled(); ++i) {
+      out_.rows.push_back(row(i));
+    }
+    if (watch_.was_cancelled()) return std::move(out_);
     forget_beside_nothing();
     forget_beside_unknown(headings);
     if (analysis_ != nullptr) add_spline();
@@ -339,13 +345,13 @@ class PartMaker {
     for (std::size_t i = 0; i < s_.points.size(); ++i) {
       joints.joints.push_back({{s_.points[i], 0.0, 0.0}, i});
     }
-    Watch nobody;
     const SeriesChain none;
     const std::vector<GivenDatum> no_data;
     const auto spline = contour_detail::carry_baseline(
-        joints, {.points = s_.points, .chain = none, .given = no_data, .watch = nobody});
+        joints, {.points = s_.points, .chain = none, .given = no_data, .watch = watch_});
     if (!spline || spline->contour.pieces.size() + 1 != s_.points.size()) return;
     for (RegionRow& row : out_.rows) {
+      if (watch_.cancelled()) return;
       if (!row.region || row.direction == 0) continue;
       Element a = s_.element(row.from), b = s_.element(row.to);
       std::tie(a.kappa, b.kappa) = bounding(row, row.from);
@@ -356,13 +362,14 @@ class PartMaker {
 
   const Worksheet& s_;
   const Analysis* analysis_;
+  Watch& watch_;
   RegionPart out_;
 };
 
 /// Inserts points until every segment is narrow enough.
 class Inserter {
  public:
-  explicit Inserter(Worksheet sheet) : s_(std::move(sheet)) {}
+  Inserter(Worksheet sheet, Watch& watch) : s_(std::move(sheet)), watch_(watch) {}
 
   Result<Worksheet> run(std::optional<double> tolerance, const std::vector<std::size_t>& segments) {
     // those between the inserted points keep what was chosen
@@ -371,10 +378,10 @@ class Inserter {
       s_.given[i].theta = s_.theta[i];
     }
     for (const std::size_t segment : segments) {
-      OBVID_TRY(insert_into(widest(PartMaker(s_, nullptr).run(), segment)));
+      OBVID_TRY(insert_into(widest(PartMaker(s_, nullptr, watch_).run(), segment)));
     }
-    while (tolerance) {
-      const RegionPart part = PartMaker(s_, nullptr).run();
+    while (tolerance && !watch_.cancelled()) {
+      const RegionPart part = PartMaker(s_, nullptr, watch_).run();
       const auto row = widest(part, std::nullopt);
       if (!row || *part.rows[*row].width <= *tolerance) break;
       if (s_.points.size() > kMostInserted) {
@@ -410,9 +417,11 @@ class Inserter {
           .hint("choose a larger --tolerance")
           .point(point);
     };
+    if (watch_.was_cancelled()) return fail(cancelled_error());
     if (!at) return nowhere(0);
     const std::size_t i = *at;
-    const RegionPart part = PartMaker(s_, nullptr).run();
+    const RegionPart part = PartMaker(s_, nullptr, watch_).run();
+    if (watch_.was_cancelled()) return fail(cancelled_error());
     const PlacedBoundaries& placed = *part.rows[i].region;
     const auto low = middle_ordinate(placed.frame, placed.region.from_start);
     const auto high = middle_ordinate(placed.frame, placed.region.to_end);
@@ -420,7 +429,7 @@ class Inserter {
     const Vec2 middle = placed.start + 0.5 * placed.frame.h * placed.along +
                         0.5 * (*low + *high) * left_normal(placed.along);
     put(i, middle);
-    const auto range = Ranges(s_)(false)[i + 1].heading;
+    const auto range = Ranges(s_, watch_)(false)[i + 1].heading;
     if (!range) return nowhere(s_.number[i]);
     s_.theta[i + 1] = 0.5 * (range->low + range->high);
     s_.given[i + 1].theta = s_.theta[i + 1];
@@ -447,13 +456,18 @@ class Inserter {
   }
 
   Worksheet s_;
+  Watch& watch_;
 };
 
 /// One section of the series as a worksheet.
 class SheetMaker {
  public:
-  SheetMaker(const Prepared& series, const Section& section, TangentRule rule)
-      : series_(series), section_(section), rule_(rule), loop_(series.split.smooth_loop) {}
+  SheetMaker(const Prepared& series, const Section& section, TangentRule rule, Watch& watch)
+      : series_(series),
+        section_(section),
+        rule_(rule),
+        watch_(watch),
+        loop_(series.split.smooth_loop) {}
 
   Result<Worksheet> run(std::vector<std::string>& warnings) {
     const std::size_t last = loop_ ? series_.points.size() : section_.last;
@@ -524,10 +538,14 @@ class SheetMaker {
   }
 
   Result<void> take_centres() {
-    const Ranges ranges(sheet_);
+    const Ranges ranges(sheet_, watch_);
     const std::size_t n = sheet_.points.size();
-    const auto central = loop_ ? central_loop(ranges.links(0, n), ranges.nodes(0, n - 1, false))
-                               : central_data(ranges.links(0, n), ranges.nodes(0, n, false));
+    const auto links = ranges.links(0, n);
+    const auto nodes = ranges.nodes(0, loop_ ? n - 1 : n, false);
+    const auto central = loop_ ? central_loop(links, nodes, {}, &watch_)
+                               : central_data(links, nodes, {}, ChoiceOrder::kAlong,
+                                              SharpCurvature::kMiddle, &watch_);
+    if (watch_.was_cancelled()) return fail(cancelled_error());
     if (!central) {
       return error(ErrorCode::kFixedDataContradict,
                    "what is given leaves no headings with which a monotone curve exists")
@@ -599,7 +617,7 @@ class SheetMaker {
 
   /// In the middle of their ranges, where nothing else is known.
   void take_curvatures() {
-    const auto ranges = Ranges(sheet_)(true);
+    const auto ranges = Ranges(sheet_, watch_)(true);
     for (std::size_t i = 0; i < sheet_.kappa.size(); ++i) {
       if (!sheet_.given[i].kappa && ranges[i].kappa)
         sheet_.kappa[i] = some_curvature(ranges[i].kappa);
@@ -609,8 +627,8 @@ class SheetMaker {
   /// Elements that a chain has between points carry its freedom; the region of points and tangents
   /// does not know them.
   Result<Worksheet> follow_chain(std::vector<std::string>& warnings) {
-    Watch nobody;
-    const auto found = chain_section(series_, section_, nobody);
+    const auto found = chain_section(series_, section_, watch_);
+    if (watch_.was_cancelled()) return fail(cancelled_error());
     OBVID_TRY(found);
     warnings.insert(warnings.end(), found->warnings.begin(), found->warnings.end());
     const SeriesChain& chain = found->chain;
@@ -639,6 +657,7 @@ class SheetMaker {
   const Prepared& series_;
   const Section& section_;
   TangentRule rule_;
+  Watch& watch_;
   bool loop_;
   Worksheet sheet_;
   std::vector<double> neighbour_;  // headings by the neighbours' rule; empty: not asked for
@@ -655,7 +674,8 @@ void append(RegionPart part, RegionPart& to) {
   to.loop = part.loop;  // a loop is the only part
 }
 
-Result<RegionTable> table_as_asked(const PointSeries& series, const RegionJob& job) {
+Result<RegionTable> table_as_asked(const PointSeries& series, const RegionJob& job,
+                                   Watch& watch) {
   const auto prepared = prepare(series, job.job);
   OBVID_TRY(prepared);
   RegionTable table;
@@ -670,10 +690,11 @@ Result<RegionTable> table_as_asked(const PointSeries& series, const RegionJob& j
   const bool inserts = job.job.tolerance.has_value() || !job.insert.empty();
   if (inserts) table.refined.emplace();
   for (const Section& section : prepared->split.sections) {
-    auto sheet = SheetMaker(*prepared, section, job.rule).run(table.warnings);
+    auto sheet = SheetMaker(*prepared, section, job.rule, watch).run(table.warnings);
     OBVID_TRY(sheet);
     const auto analysis = analyse(sheet->points);
-    append(PartMaker(*sheet, analysis ? &*analysis : nullptr).run(), table.user);
+    append(PartMaker(*sheet, analysis ? &*analysis : nullptr, watch).run(), table.user);
+    if (watch.was_cancelled()) return fail(cancelled_error());
     if (!inserts) continue;
     std::vector<std::size_t> here;
     for (const std::size_t segment : job.insert) {
@@ -681,10 +702,12 @@ Result<RegionTable> table_as_asked(const PointSeries& series, const RegionJob& j
         here.push_back(segment);
       }
     }
-    auto finer = Inserter(*sheet).run(job.job.tolerance, here);
+    auto finer = Inserter(*sheet, watch).run(job.job.tolerance, here);
     OBVID_TRY(finer);
     const auto finer_analysis = measure_series(finer->points);
-    append(PartMaker(*finer, finer_analysis ? &*finer_analysis : nullptr).run(), *table.refined);
+    append(PartMaker(*finer, finer_analysis ? &*finer_analysis : nullptr, watch).run(),
+           *table.refined);
+    if (watch.was_cancelled()) return fail(cancelled_error());
   }
   if (job.construction) {
     auto made = construct(table.last(), *job.construction, job.fixation);
@@ -700,15 +723,18 @@ Result<RegionTable> table_as_asked(const PointSeries& series, const RegionJob& j
 
 }  // namespace
 
-Result<RegionTable> region_table(const PointSeries& series, const RegionJob& job) {
-  auto made = table_as_asked(series, job);
+Result<RegionTable> region_table(const PointSeries& series, const RegionJob& job,
+                                 const RunContext& run) {
+  Watch watch(run);
+  auto made = table_as_asked(series, job, watch);
   const bool parabolas = job.construction == Construction::kParabolas;
+  if (watch.was_cancelled()) return fail(cancelled_error());
   if (made || !parabolas || !pipeline_detail::wants_room(job.job, made.error())) return made;
   return pipeline_detail::with_room(job.job, "the tangents are those of one", std::move(made),
                                     [&](const FitJob& wider) {
                                       RegionJob other = job;
                                       other.job = wider;
-                                      return table_as_asked(series, other);
+                                      return table_as_asked(series, other, watch);
                                     });
 }
 

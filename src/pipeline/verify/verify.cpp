@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "fit/parts.h"
 #include "fit/waviness.h"
 #include "obvid/certify/certify.h"
 #include "obvid/certify/internal/carrier_pieces.h"
@@ -95,13 +96,19 @@ void compare_given(const GivenReport& claimed, const GivenReport& found, ClaimCh
 
 /// Where a distance is largest it is flat: another search ends at another place of the contour
 /// beside this one, where the distance is the same but for a millionth.
-bool is_same_place(const Contour& contour, Vec2 claimed, Vec2 found, double chord) {
+bool is_same_place(const Contour& contour, const pipeline_detail::Part& part, Vec2 claimed,
+                   Vec2 found, double chord) {
   constexpr double kBeside = 1e-3;  // of the chord
-  if (!(norm(claimed - found) <= kBeside * chord)) return false;
+  const double apart = norm(claimed - found);
+  if (!(apart <= kBeside * chord)) return false;
   const double rounding = kSameFigure * chord + kNegligible * norm(found);
-  return std::any_of(contour.pieces.begin(), contour.pieces.end(), [&](const Piece& piece) {
-    return norm(evaluate(piece, nearest_parameter(piece, claimed)).point - claimed) <= rounding;
-  });
+  if (apart <= rounding) return true;
+  for (std::size_t k = part.first_piece; k <= part.last_piece; ++k) {
+    const Piece& piece = contour.pieces[k];
+    const Vec2 nearest = evaluate(piece, nearest_parameter(piece, claimed)).point;
+    if (norm(nearest - claimed) <= rounding) return true;
+  }
+  return false;
 }
 
 void compare_report(const Contour& contour, const FitReport& claimed, const FitReport& found,
@@ -109,6 +116,7 @@ void compare_report(const Contour& contour, const FitReport& claimed, const FitR
   c.count("the number of segments", static_cast<double>(claimed.segments.size()),
           static_cast<double>(found.segments.size()));
   if (claimed.segments.size() != found.segments.size()) return;
+  const std::vector<pipeline_detail::Part> parts = pipeline_detail::parts_of(contour);
   for (std::size_t i = 0; i < found.segments.size(); ++i) {
     const std::string at = " of segment " + std::to_string(i);
     const SegmentReport &a = claimed.segments[i], &b = found.segments[i];
@@ -126,7 +134,7 @@ void compare_report(const Contour& contour, const FitReport& claimed, const FitR
     }
     c.length("deviation" + at, a.deviation, b.deviation);
     if (!std::isnan(a.deviation_at.x) || !std::isnan(a.deviation_at.y)) {
-      if (!is_same_place(contour, a.deviation_at, b.deviation_at, b.chord)) {
+      if (!is_same_place(contour, parts[i], a.deviation_at, b.deviation_at, b.chord)) {
         c.length("deviation_at[0]" + at, a.deviation_at.x, b.deviation_at.x);
         c.length("deviation_at[1]" + at, a.deviation_at.y, b.deviation_at.y);
       }
@@ -330,7 +338,7 @@ Verification verified(const StoredContour& stored, Watch& watch) {
       return out;
     }
     FitReport found = std::move(*measured);
-    found.waviness = pipeline_detail::waviness(stored.contour);
+    found.waviness = pipeline_detail::waviness(stored.contour, watch);
     pipeline_detail::settle_with(out.certificate, stored.contour, found, watch);
     compare_bound(*stored.report, out.certificate, comparison);
     compare_report(stored.contour, *stored.report, found, comparison);

@@ -52,6 +52,9 @@ class Watch {
   double from_ = 0.0, to_ = 1.0, told_ = 0.0;
 };
 
+/// The same of work that may have none: asks.
+[[nodiscard]] inline bool is_to_end(Watch* watch) { return watch != nullptr && watch->cancelled(); }
+
 /// While it lives, `Watch::spend` says stop after so many more units; an outer allowance that is
 /// nearer its end holds as well.
 class Allowance {

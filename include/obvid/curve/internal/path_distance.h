@@ -3,6 +3,7 @@
 
 #include <span>
 
+#include "obvid/core/internal/watch.h"
 #include "obvid/curve/pieces.h"
 
 namespace obvid {
@@ -14,7 +15,8 @@ namespace obvid {
 /// asks for them; it takes for granted that no second derivative between two points is more than
 /// twice what it is at these and in the middle. Nearest points are followed along the paths, so
 /// where a path passes twice near a place it is the pass alongside that counts. 0 when a path has
-/// no pieces. Linear time.
-[[nodiscard]] double path_distance(std::span<const Piece> a, std::span<const Piece> b);
+/// no pieces. Linear time. Where `watch` ends it what it has by then is no bound.
+[[nodiscard]] double path_distance(std::span<const Piece> a, std::span<const Piece> b,
+                                   Watch* watch = nullptr);
 
 }  // namespace obvid

@@ -89,9 +89,10 @@ enum class SharpCurvature {
 /// at a vertex (or beside an arc, or behind a link with a vertex inside) is chosen first, in the
 /// middle of those with which one turn closes; there the curvature may always be sharper, so one
 /// turn from it, with equal curvatures at its ends, is all that closing asks for. Nothing when no
-/// such curve closes, or when the curvature grows, or falls, all around.
+/// such curve closes, or when the curvature grows, or falls, all around; nor
+/// when `watch` ends it.
 [[nodiscard]] std::optional<std::vector<RangeNode>> central_loop(
     const std::vector<RangeLink>& links, const std::vector<RangeNode>& nodes,
-    const std::vector<std::optional<double>>& wanted = {});
+    const std::vector<std::optional<double>>& wanted = {}, Watch* watch = nullptr);
 
 }  // namespace obvid
