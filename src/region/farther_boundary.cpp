@@ -19,10 +19,13 @@ namespace {
 using region_detail::Arc;
 using region_detail::TwoArcs;
 
-/// Binary digits to which the place of the farthest point is sought: the distance is flat there.
-constexpr int kDigits = 18;
+/// Binary digits of the way to which the place of the farthest point is sought: the distance is
+/// flat there.
+constexpr int kDigits = 15;
 /// Where the distance has a corner at its top it is not flat.
 constexpr int kDigitsOfCorner = 26;
+/// A step of Newton's on one smooth piece that is so small leaves its square.
+constexpr int kDigitsOfStep = 14;
 constexpr std::uintmax_t kMostLooks = 60;
 /// Part of the way to the end after which the distance is looked at again.
 constexpr double kAside = 0.25;
@@ -120,6 +123,7 @@ class LocalPath {
     const std::size_t k = go_to_piece_at(u);
     return local_.place(u - static_cast<double>(k));
   }
+  [[nodiscard]] bool is_one_piece() const { return path_.pieces.size() == 1; }
   [[nodiscard]] Vec2 in_plane(double u) const {
     const std::size_t k = piece_at(u);
     return evaluate(path_.pieces[k], u - static_cast<double>(k)).point;
@@ -144,6 +148,11 @@ class LocalPath {
   std::size_t at_ = 0;
 };
 
+/// Where a path begins and ends, seen from the chord.
+struct Ends {
+  Vec2 first, last;
+};
+
 struct Farthest {
   double u = 0.0;
   double distance = 0.0;
@@ -160,11 +169,10 @@ Farthest top_between(const Distance& distance, double a, double b, int digits) {
 
 /// Where the path crosses the common normal of both arcs. Its tangents keep within a right angle of
 /// theirs: it crosses once.
-double crossing(LocalPath& path, const TwoArcs& arcs) {
+double crossing(LocalPath& path, const Ends& ends, const TwoArcs& arcs) {
   const Vec2 joint = arcs.second.start, along = arcs.second.start_tangent;
-  const auto beyond = [&](double u) { return dot(path.at(u) - joint, along); };
   const double a = path.first(), b = path.last();
-  const double at_a = beyond(a), at_b = beyond(b);
+  const double at_a = dot(ends.first - joint, along), at_b = dot(ends.last - joint, along);
   if (!(at_a < 0.0)) return a;
   if (!(at_b > 0.0)) return b;
   const auto with_slope = [&](double u) {
@@ -173,8 +181,8 @@ double crossing(LocalPath& path, const TwoArcs& arcs) {
   };
   std::uintmax_t looks = kMostLooks;
   const double chord = a + (b - a) * (at_a / (at_a - at_b));
-  return boost::math::tools::newton_raphson_iterate(with_slope, chord, a, b, kDigitsOfCorner,
-                                                    looks);
+  return boost::math::tools::newton_raphson_iterate(
+      with_slope, chord, a, b, path.is_one_piece() ? kDigitsOfStep : kDigitsOfCorner, looks);
 }
 
 /// Largest distance of the path from one boundary. One of the arcs, `osculating`, has the path's
@@ -182,13 +190,14 @@ double crossing(LocalPath& path, const TwoArcs& arcs) {
 /// curvature three times at the most, counted with multiplicity: so the distance from the
 /// osculating circle grows all the way to the common normal, and that from the other circle has one
 /// top at the most from there to the end of the path.
-Farthest from_boundary(LocalPath& path, const TwoArcs& arcs, bool first_osculates, bool wide) {
+Farthest from_boundary(LocalPath& path, const Ends& ends, const TwoArcs& arcs, bool first_osculates,
+                       bool wide) {
   const double a = path.first(), b = path.last();
   if (wide) {  // over a right angle the normal does not tell which arc is near
     return top_between([&](double u) { return arcs.distance(path.at(u)); }, a, b, kDigitsOfCorner);
   }
   const Arc& other = first_osculates ? arcs.second : arcs.first;
-  const double joint = crossing(path, arcs), end = first_osculates ? b : a;
+  const double joint = crossing(path, ends, arcs), end = first_osculates ? b : a;
   const auto [there, on] = path.place(joint);
   const Vec2 ahead = first_osculates ? on : -on;
   const Farthest corner{joint, other.circle_distance(there)};
@@ -196,10 +205,11 @@ Farthest from_boundary(LocalPath& path, const TwoArcs& arcs, bool first_osculate
       other.growth(there, ahead) > 0.0 ||  // rounding decides where it is 0
       other.circle_distance(path.at(joint + kAside * (end - joint))) > corner.distance;
   if (!grows) return corner;
+  const double way = end - joint;
   const Farthest top =
-      top_between([&](double way) { return other.circle_distance(path.at(joint + way)); },
-                  std::min(end - joint, 0.0), std::max(end - joint, 0.0), kDigits);
-  return top.distance > corner.distance ? Farthest{joint + top.u, top.distance} : corner;
+      top_between([&](double part) { return other.circle_distance(path.at(joint + part * way)); },
+                  0.0, 1.0, kDigits);
+  return top.distance > corner.distance ? Farthest{joint + top.u * way, top.distance} : corner;
 }
 
 bool spans_right_angle(const std::array<Vec2, 4>& directions) {
@@ -219,8 +229,10 @@ FartherBoundary farther_boundary(const PieceSpan& path, const PlacedRegion& plac
   const bool wide = spans_right_angle({frame.start_tangent, frame.end_tangent,
                                        placed.region.from_start.joint_tangent,
                                        placed.region.to_end.joint_tangent});
-  const Farthest one = from_boundary(local, TwoArcs(frame, placed.region.from_start), true, wide);
-  const Farthest two = from_boundary(local, TwoArcs(frame, placed.region.to_end), false, wide);
+  const Ends ends{local.at(local.first()), local.at(local.last())};
+  const TwoArcs from_start(frame, placed.region.from_start), to_end(frame, placed.region.to_end);
+  const Farthest one = from_boundary(local, ends, from_start, true, wide);
+  const Farthest two = from_boundary(local, ends, to_end, false, wide);
   const Farthest& best = one.distance > two.distance ? one : two;
   const Vec2 at = local.in_plane(best.u);
   const double rounding = kPointRoundings * (std::abs(at.x) + std::abs(at.y) + frame.h);
