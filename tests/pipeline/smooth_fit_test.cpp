@@ -384,7 +384,8 @@ TEST(Waviness, IsTrueOrNotToldWhereAPieceRunsOutSharply) {
     contour.joints = {Joint{{start_point(piece), 0.0, 0.0}, 0},
                       Joint{{end_point(piece), 0.0, 0.0}, 1}};
     contour.runs.push_back({0, 0, 1});
-    const auto hills = pipeline_detail::waviness(contour);
+    Watch nobody;
+    const auto hills = pipeline_detail::waviness(contour, nobody);
     EXPECT_NEAR(hills.value_or(1.0), 1.0, 1e-3) << back;
   }
 }
