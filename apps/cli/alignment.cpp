@@ -8,9 +8,11 @@
 #include <cmath>
 
 #include "commands.h"
+#include "element_table.h"
+#include "obvid/pipeline/element_table.h"
+#include "obvid/core/files.h"
 #include "obvid/pipeline/import.h"
 #include "outputs.h"
-#include "table.h"
 #include "terminal.h"
 #include "text.h"
 
@@ -18,46 +20,33 @@ namespace obvid {
 namespace {
 
 constexpr int kOffsetDigits = 3;
-constexpr int kAzimuthDecimals = 4;
 
-std::string elements_text(const AlignmentReport& report) {
-  const Alignment& alignment = report.alignment;
-  const double size = std::max(alignment.length, report.tolerance);
-  Table table;
-  table.column("element");
-  table.column("kind", Table::Align::kLeft);
-  for (const char* head : {"station", "length", "radius\nat start", "radius\nat end", "A",
-                           "azimuth\ndegrees", "\nx", "\ny"}) {
-    table.column(head);
-  }
-  table.column("", Table::Align::kLeft);
-  for (std::size_t k = 0; k < alignment.elements.size(); ++k) {
-    const AlignmentElement& e = alignment.elements[k];
-    const double parameter = clothoid_parameter(e);
-    table.row({std::to_string(k + 1), to_string(e.kind), coordinate(e.station, size),
-               coordinate(e.length, size), radius_text(e.start.kappa), radius_text(e.kappa1),
-               parameter > 0.0 ? significant(parameter, 5) : "-",
-               fmt::format("{:.{}f}", azimuth_deg(e.start.theta), kAzimuthDecimals),
-               coordinate(e.start.point.x, size), coordinate(e.start.point.y, size),
-               e.step ? "curvature steps here" : ""});
-  }
-  return table.text();
+/// "4 lines, 3 arcs, 4 clothoids".
+std::string kinds_text(const Alignment& alignment) {
+  std::array<std::size_t, 3> count{};
+  for (const auto& e : alignment.elements) ++count[static_cast<std::size_t>(e.kind)];
+  return fmt::format("{}, {}, {}", counted(count[0], "line", "lines"),
+                     counted(count[1], "arc", "arcs"),
+                     counted(count[2], "clothoid", "clothoids"));
+}
+
+/// Below the title of its picture.
+std::string verdict_text(const AlignmentReport& report) {
+  return fmt::format("{}; all points within {} {}", kinds_text(report.alignment),
+                     significant(report.tolerance, kOffsetDigits), report.units.text());
 }
 
 std::string alignment_text(const AlignmentReport& report, const std::vector<std::string>& remarks,
                            const std::vector<std::string>& files) {
   const Alignment& alignment = report.alignment;
-  std::array<std::size_t, 3> count{};
   double largest = 0.0;
-  for (const auto& e : alignment.elements) ++count[static_cast<std::size_t>(e.kind)];
   for (const auto& d : alignment.deviations) largest = std::max(largest, std::abs(d.offset));
   Facts facts;
   facts.add("alignment",
-            fmt::format("{}: {}, {}, {}", counted(alignment.elements.size(), "element", "elements"),
-                        counted(count[0], "line", "lines"), counted(count[1], "arc", "arcs"),
-                        counted(count[2], "clothoid", "clothoids")));
+            fmt::format("{}: {}", counted(alignment.elements.size(), "element", "elements"),
+                        kinds_text(alignment)));
   facts.add("length", known_length(alignment.length, report.units.text()));
-  facts.add("curvature", fmt::format("steps at {} of {}", curvature_steps(alignment),
+  facts.add("curvature", fmt::format("steps at {} of {}", curvature_steps(alignment.elements),
                                      counted(alignment.elements.size() - 1, "joint", "joints")));
   facts.add("points", fmt::format("{}, at most {} {} off (tolerance {}), root mean square {}",
                                   counted(alignment.deviations.size(), "point", "points"),
@@ -66,7 +55,8 @@ std::string alignment_text(const AlignmentReport& report, const std::vector<std:
                                   significant(alignment.rms, kOffsetDigits)));
   for (const std::string& remark : remarks) facts.add("note", remark);
   if (!files.empty()) facts.add("written", listed(files));
-  return bold(report.name) + "\n" + elements_text(report) + "\n" + facts.text();
+  return bold(report.name) + "\n" + elements_text(alignment.elements, std::max(alignment.length, report.tolerance),
+                       report.limit) + "\n" + facts.text();
 }
 
 bool is_element_table(const std::string& path) { return format_of(path) == FileFormat::kSamples; }
@@ -74,6 +64,9 @@ bool is_element_table(const std::string& path) { return format_of(path) == FileF
 }  // namespace
 
 int run(const AlignmentCommand& command) {
+  std::vector<std::string> names = command.outputs;
+  if (!command.deviations.empty()) names.push_back(command.deviations);
+  if (auto free = check_outputs(names, {&command.input, 1}); !free) return report(free.error());
   Result<std::vector<Output>> outputs = outputs_of(command.outputs, command.input);
   if (!outputs) return report(outputs.error());
   Result<PointSeries> series = read_series(command.input, command.import);
@@ -90,14 +83,18 @@ int run(const AlignmentCommand& command) {
   }
   ExportOptions formats;
   formats.name = series->label.empty() ? series->name : series->label;
-  formats.picture.name = series->name;
+  formats.picture = {series->name, verdict_text(*made)};
+  formats.first_station = command.job.first_station;
   FileNotes notes;
   auto texts = exported(drawn, made->stored, formats, notes);
   if (!texts) return report(texts.error());
   for (Output& output : *outputs) {
     if (!is_element_table(output.path)) continue;
-    output.text = alignment_csv(*made);
+    output.text = elements_csv(made->alignment.elements, made->limit);
     texts->push_back(std::move(output));
+  }
+  if (!command.deviations.empty()) {
+    texts->push_back({command.deviations, FileFormat::kSamples, deviations_csv(*made, series->points)});
   }
   warn(notes.warnings);
   const auto written = write_files(*texts, command.input);

@@ -17,6 +17,7 @@ namespace {
 struct RawAlignment {
   AlignmentCommand command;
   std::optional<std::string> noise, units;
+  std::optional<std::string> least_length, least_radius, first_station, acceleration;
   std::string format;  ///< of what -o sends to standard output
   bool csv = false;
   FormatValues reading;
@@ -34,6 +35,21 @@ void add_alignment_options(CLI::App& app, RawAlignment& raw) {
                  "How far the alignment may pass the points, input units, or rounding: half a unit "
                  "of the last printed digit [rounding]")
       ->type_name("EPS");
+  app.add_option("--min-length", raw.least_length,
+                 "Least length of an element, input units [any]")
+      ->type_name("L");
+  app.add_option("--min-radius", raw.least_radius, "Least radius anywhere, input units [any]")
+      ->type_name("R");
+  app.add_option("--station", raw.first_station,
+                 "Station of the first point, input units: where stations are counted from [0]")
+      ->type_name("S");
+  app.add_option("--lateral-acceleration", raw.acceleration,
+                 "Acceleration to the side, m/s^2: the table tells the speed at which the sharpest end "
+                 "of each element has it [none]")
+      ->type_name("A");
+  app.add_option("--deviations", command.deviations,
+                 "File to write: .csv of station, offset (left positive) and coordinates of each point")
+      ->type_name("OUT");
   app.add_option("--units", raw.units, "Unit of the input: m, ft, usft, km, ... [as the file says]")
       ->type_name("NAME");
   add_import(app, raw.reading);
@@ -45,6 +61,23 @@ void add_alignment_options(CLI::App& app, RawAlignment& raw) {
       "Examples:\n"
       "  obvid alignment survey.csv --noise 0.02 --units m -o road.xml\n"
       "  obvid alignment track.geojson --noise 0.5 -o road.xodr -o elements.csv");
+}
+
+enum class Least { kAny, kMoreThanNothing };
+
+/// The number of an option that was given, which otherwise stays as it is.
+Result<void> take_number(const std::optional<std::string>& text, const char* option, Least least,
+                         double& out) {
+  if (!text) return {};
+  char* end = nullptr;
+  const double number = std::strtod(text->c_str(), &end);
+  const bool whole = !text->empty() && end == text->c_str() + text->size();
+  if (!whole || !std::isfinite(number) || (least == Least::kMoreThanNothing && !(number > 0.0))) {
+    return fail(bad_option(least == Least::kAny ? "a station is a number" : "it must be a positive number",
+                           option, "a length is in the units of the points, without their name"));
+  }
+  out = number;
+  return {};
 }
 
 Result<void> check_alignment(RawAlignment& raw) {
@@ -62,14 +95,22 @@ Result<void> check_alignment(RawAlignment& raw) {
     if (!units) return fail(units.error());
     command.units = std::move(*units);
   }
-  if (!raw.noise || *raw.noise == "rounding") return {};
-  char* end = nullptr;
-  const double noise = std::strtod(raw.noise->c_str(), &end);
-  if (raw.noise->empty() || end != raw.noise->c_str() + raw.noise->size() || !(noise > 0.0) ||
-      !std::isfinite(noise)) {
-    return fail(bad_option("the tolerance must be a positive length or rounding", "--noise",
-                           "give it in the units of the points"));
+  OBVID_TRY(take_number(raw.least_length, "--min-length", Least::kMoreThanNothing,
+                        command.job.least_length));
+  OBVID_TRY(take_number(raw.least_radius, "--min-radius", Least::kMoreThanNothing,
+                        command.job.least_radius));
+  OBVID_TRY(take_number(raw.first_station, "--station", Least::kAny, command.job.first_station));
+  if (raw.acceleration) {
+    command.job.acceleration = 0.0;
+    OBVID_TRY(take_number(raw.acceleration, "--lateral-acceleration", Least::kMoreThanNothing,
+                          *command.job.acceleration));
   }
+  if (!command.deviations.empty() && !command.deviations.ends_with(".csv")) {
+    return fail(bad_option("deviations are a table", "--deviations", "name a .csv"));
+  }
+  if (!raw.noise || *raw.noise == "rounding") return {};
+  double noise = 0.0;
+  OBVID_TRY(take_number(raw.noise, "--noise", Least::kMoreThanNothing, noise));
   command.job.noise = noise;
   return {};
 }

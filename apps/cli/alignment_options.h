@@ -15,7 +15,7 @@ namespace obvid {
 struct AlignmentCommand {
   std::string input;
   std::vector<std::string> outputs;
-  std::string table;  ///< .csv of the elements; empty: none
+  std::string deviations;  ///< .csv of all points; empty: none
   AlignmentJob job;
   ImportOptions import;
   std::optional<Units> units;

@@ -34,6 +34,7 @@ Result<StoredContour> from_drawing(const ConvertOptions& options, ExportOptions&
   remarks = std::move(drawn->remarks);
   formats.name = std::move(drawn->name);
   formats.picture = std::move(drawn->picture);
+  formats.first_station = drawn->first_station;
   return std::move(drawn->stored);
 }
 

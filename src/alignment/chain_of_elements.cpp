@@ -337,6 +337,29 @@ class Fitter {
     return move;
   }
 
+  /// The same with curvatures that would get sharper than they may held at that.
+  std::optional<std::vector<double>> blunt_step(double damping) {
+    const std::size_t conditions = conditions_.size();
+    auto move = step(damping);
+    for (bool added = true; move && added;) {
+      added = false;
+      for (std::size_t k = 0; k < column_.size(); ++k) {
+        if (column_[k] == kNone) continue;
+        const double next = chain_.kappa[k] + (*move)[column_[k]] * scale_[column_[k]];
+        const double most = std::copysign(held_.largest_curvature, next);
+        if (!(std::abs(next) > held_.largest_curvature * (1.0 + kRounding))) continue;
+        std::vector<double> row(unknowns_, 0.0);
+        row[column_[k]] = 1.0;
+        conditions_.push_back({std::move(row), most - chain_.kappa[k]});
+        added = true;
+      }
+      if (added) move = step(damping);
+      if (conditions_.size() > conditions + column_.size()) break;  // rounding goes in circles
+    }
+    conditions_.resize(conditions);
+    return move;
+  }
+
   [[nodiscard]] Chain moved(const std::vector<double>& move) const {
     Chain out = chain_;
     double share = 1.0;
@@ -409,7 +432,7 @@ class Fitter {
   bool take_step(double power, double& damping, const Better& better) {
     assemble(power);
     for (; damping < kDampingMost; damping *= 10.0) {
-      const auto move = step(damping);
+      const auto move = blunt_step(damping);
       if (!move) continue;
       Chain next = moved(*move);
       std::vector<Foot> feet = feet_;

@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cstddef>
+#include <limits>
 #include <optional>
 #include <vector>
 
@@ -51,6 +52,7 @@ struct Held {
   bool closed = false;           ///< the end is the start
   std::vector<int> kappa{};      ///< numbers of curvatures
   double least_length = 0.0;     ///< that elements keep
+  double largest_curvature = std::numeric_limits<double>::infinity();  ///< that ends keep
 };
 
 /// Moves the chain to where the largest offset over its tolerance is small: least squares first,

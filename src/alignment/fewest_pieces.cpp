@@ -23,6 +23,8 @@ constexpr std::size_t kPredecessors = 6;  ///< tried for a place
 constexpr double kBox =
     1e3;  ///< largest offset and slope, in tolerances and tolerances over length
 constexpr double kSameState = 1e-7;  ///< offsets and slopes, likewise, that count as one
+/// A clothoid of the search has to be longer than asked for by this part: joints move afterwards.
+constexpr double kSpareLength = 1e-3;
 constexpr double kFarOff = 0.3;  ///< rad: headings farther from those of the chords make no sense
 
 /// A place of a joint; deviations are measured from its point and heading.
@@ -59,8 +61,8 @@ double area_of(const std::vector<State>& corners) {
 class Search {
  public:
   Search(const std::vector<Vec2>& points, const std::vector<double>& tolerance,
-         std::size_t divisions)
-      : points_(points), tolerance_(tolerance), divisions_(divisions) {
+         const AlignmentOptions& options)
+      : points_(points), tolerance_(tolerance), options_(options) {
     set_places();
   }
 
@@ -80,9 +82,9 @@ class Search {
       first = end;
       end = farthest + 1;
     }
-    if (end <= last) {
+    if (end <= last || reached_[last].empty()) {
       return fail({ErrorCode::kNoSpiral, "no clothoids within the tolerance were found", "", "",
-                   static_cast<long>(places_[end - 1].at), 0.0});
+                   static_cast<long>(places_[std::min(end, last) - 1].at), 0.0});
     }
     return nodes();
   }
@@ -105,14 +107,18 @@ class Search {
     for (std::size_t i = 0; i + 1 < n; ++i) {
       places_.push_back({static_cast<double>(i), points_[i], theta_[i]});
       const auto piece = clothoid_between(points_[i], theta_[i], points_[i + 1], theta_[i + 1]);
-      for (std::size_t k = 1; k < divisions_ && piece; ++k) {
-        const double part = static_cast<double>(k) / static_cast<double>(divisions_);
+      for (std::size_t k = 1; k < options_.divisions && piece; ++k) {
+        const double part = static_cast<double>(k) / static_cast<double>(options_.divisions);
         const Jet jet = evaluate(*piece, part);
         places_.push_back(
             {static_cast<double>(i) + part, jet.point, nearest_angle(heading(jet.d1), theta_[i])});
       }
     }
     places_.push_back({static_cast<double>(n - 1), points_[n - 1], theta_[n - 1]});
+    along_ = {0.0};
+    for (std::size_t k = 1; k < places_.size(); ++k) {
+      along_.push_back(along_.back() + norm(places_[k].point - places_[k - 1].point));
+    }
     unit_ = 0.0;
     for (std::size_t i = 1; i < n; ++i) unit_ += norm(points_[i] - points_[i - 1]);
     unit_ /= static_cast<double>(n - 1);
@@ -170,8 +176,32 @@ class Search {
       rows_.push_back({h, (tolerance_[p] + offset) / eps_});
       rows_.push_back({minus, (tolerance_[p] - offset) / eps_});
     }
+    if (options_.least_radius > 0.0) add_curvature_rows(*piece);
     valid_ = true;
     return &rows_;
+  }
+
+  /// Neither end of the clothoid is sharper than asked for: what its offsets and slopes change of
+  /// its curvature is the second derivative of Hermite's cubic.
+  void add_curvature_rows(const ClothoidPiece& piece) {
+    const double most = 1.0 / options_.least_radius, length = piece.length;
+    const double slope = length / unit_, scale = length * length / eps_;
+    const std::array<Unknowns, 2> change = {Unknowns{-6.0, -4.0 * slope, 6.0, -2.0 * slope},
+                                            Unknowns{6.0, 2.0 * slope, -6.0, 4.0 * slope}};
+    const std::array<double, 2> kappa = {piece.kappa0, piece.kappa1};
+    for (std::size_t end = 0; end < 2; ++end) {
+      Unknowns minus = change[end];
+      for (double& x : minus) x = -x;
+      rows_.push_back({change[end], (most - kappa[end]) * scale});
+      rows_.push_back({minus, (most + kappa[end]) * scale});
+    }
+  }
+
+  /// Whether a clothoid between two places is as long as asked for; one over all points may be
+  /// shorter.
+  [[nodiscard]] bool is_long_enough(std::size_t i, std::size_t j) const {
+    if (options_.least_length == 0.0 || (i == 0 && j + 1 == places_.size())) return true;
+    return along_[j] - along_[i] >= (1.0 + kSpareLength) * options_.least_length;
   }
 
   void add_polygon(const std::vector<State>& corners) {
@@ -238,7 +268,7 @@ class Search {
     for (std::size_t j = end; j <= farthest; ++j) {
       std::vector<Source> from;
       for (const Reach& r : reaches) {
-        if (r.to >= j) from.push_back(r.from);
+        if (r.to >= j && is_long_enough(r.from.place, j)) from.push_back(r.from);
       }
       const std::size_t stride = std::max<std::size_t>(1, from.size() / kPredecessors);
       std::vector<Polygon> found;
@@ -256,7 +286,7 @@ class Search {
   }
 
   std::optional<Polygon> polygon_at(const Source& from, std::size_t j) {
-    if (!set_program(from, j)) return std::nullopt;
+    if (!is_long_enough(from.place, j) || !set_program(from, j)) return std::nullopt;
     Polygon out{{}, from};
     for (std::size_t k = 0; k < kDirections; ++k) {
       const double angle = 2.0 * std::numbers::pi * static_cast<double>(k) / kDirections;
@@ -324,9 +354,10 @@ class Search {
 
   const std::vector<Vec2>& points_;
   const std::vector<double>& tolerance_;
-  std::size_t divisions_;
+  const AlignmentOptions& options_;
   std::vector<double> theta_;
   std::vector<Place> places_;
+  std::vector<double> along_;  ///< length of the chords before a place
   double unit_ = 1.0, eps_ = 1.0;
   std::vector<std::vector<Polygon>> reached_;
   std::vector<HalfSpace> rows_;
@@ -338,9 +369,9 @@ class Search {
 }  // namespace
 
 Result<std::vector<Node>> fewest_pieces(const std::vector<Vec2>& points,
-                                        const std::vector<double>& tolerance, std::size_t divisions,
-                                        const RunContext& run) {
-  return Search(points, tolerance, divisions).run(run);
+                                        const std::vector<double>& tolerance,
+                                        const AlignmentOptions& options, const RunContext& run) {
+  return Search(points, tolerance, options).run(run);
 }
 
 }  // namespace obvid::alignment

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <set>
 #include <utility>
 
@@ -22,12 +23,17 @@ constexpr int kPolishes = 3;           ///< over the whole alignment, where an o
 
 class Simplifier {
  public:
-  Simplifier(const std::vector<Vec2>& points, const std::vector<double>& tolerance, Chain chain,
-             std::vector<Foot> feet)
+  Simplifier(const std::vector<Vec2>& points, const std::vector<double>& tolerance,
+             const AlignmentOptions& options, Chain chain, std::vector<Foot> feet)
       : points_(points), tolerance_(tolerance), chain_(std::move(chain)), feet_(std::move(feet)) {
     double length = 0.0;
     for (std::size_t i = 1; i < points.size(); ++i) length += norm(points[i] - points[i - 1]);
-    least_length_ = kLeastLength * length / static_cast<double>(points.size() - 1);
+    least_length_ = std::max(kLeastLength * length / static_cast<double>(points.size() - 1),
+                             options.least_length);
+    if (options.least_radius > 0.0) largest_curvature_ = 1.0 / options.least_radius;
+    for (double& kappa : chain_.kappa) {
+      kappa = std::clamp(kappa, -largest_curvature_, largest_curvature_);
+    }
   }
 
   Result<void> run(const RunContext& run) {
@@ -75,6 +81,7 @@ class Simplifier {
     out.chain.theta = joints[first].theta;
     out.held.start = first > 0;
     out.held.least_length = least_length_;
+    out.held.largest_curvature = largest_curvature_;
     if (last < chain.size()) out.held.end = joints[last];
     for (std::size_t k = first; k < last; ++k) {
       out.chain.length.push_back(chain.length[k]);
@@ -257,6 +264,7 @@ class Simplifier {
   Chain chain_;
   std::vector<Foot> feet_;
   double least_length_ = 0.0;
+  double largest_curvature_ = std::numeric_limits<double>::infinity();
   std::set<std::pair<int, int>> refused_;
 };
 
@@ -315,6 +323,25 @@ Alignment alignment_of(const Chain& chain, const std::vector<Foot>& feet,
   return out;
 }
 
+/// The search keeps the limits to first order, the fit where it begins within them.
+Result<void> keeps_limits(const Alignment& found, const AlignmentOptions& options) {
+  constexpr double kLimitRounding = 1e-9;
+  const double most =
+      options.least_radius > 0.0 ? (1.0 + kLimitRounding) / options.least_radius : HUGE_VAL;
+  for (const AlignmentElement& e : found.elements) {
+    const bool long_enough = e.length >= (1.0 - kLimitRounding) * options.least_length;
+    const bool blunt = std::max(std::abs(e.start.kappa), std::abs(e.kappa1)) <= most;
+    if ((long_enough || found.elements.size() == 1) && blunt) continue;
+    return fail({ErrorCode::kToleranceNotReached,
+                 long_enough ? "an element was found with a smaller radius only"
+                             : "an element was found with a smaller length only",
+                 "", "allow a larger tolerance, or shorter elements and smaller radii",
+                 -1, long_enough ? 1.0 / std::max(std::abs(e.start.kappa), std::abs(e.kappa1))
+                                 : e.length});
+  }
+  return {};
+}
+
 }  // namespace
 }  // namespace alignment
 
@@ -324,6 +351,10 @@ Result<Alignment> fit_alignment(const std::vector<Vec2>& given,
   if (given.size() < 2) {
     return fail({ErrorCode::kTooFewPoints, "an alignment needs at least two points", "", "", -1,
                  static_cast<double>(given.size())});
+  }
+  for (const double least : {options.least_length, options.least_radius}) {
+    if (least >= 0.0 && std::isfinite(least)) continue;
+    return fail({ErrorCode::kBadOption, "a least length or radius must be 0 or more", "", "", -1, least});
   }
   // coordinates of maps are far from their origin
   const Vec2 origin = given.front();
@@ -336,13 +367,14 @@ Result<Alignment> fit_alignment(const std::vector<Vec2>& given,
                    static_cast<std::ptrdiff_t>(i), 0.0});
     }
   }
-  const auto nodes = alignment::fewest_pieces(points, tolerance, options.divisions, run);
+  const auto nodes = alignment::fewest_pieces(points, tolerance, options, run);
   if (!nodes) return fail(nodes.error());
   alignment::Chain chain;
   std::vector<alignment::Foot> feet;
   alignment::set_chain(*nodes, points.size(), chain, feet);
   alignment::find_feet(chain, points, feet);
-  alignment::Simplifier simplifier(points, tolerance, std::move(chain), std::move(feet));
+  alignment::Simplifier simplifier(points, tolerance, options, std::move(chain),
+                                   std::move(feet));
   if (auto done = simplifier.run(run); !done) return fail(done.error());
   const double largest = simplifier.largest();
   if (!(largest <= 1.0)) {
@@ -351,6 +383,7 @@ Result<Alignment> fit_alignment(const std::vector<Vec2>& given,
                  largest});
   }
   Alignment out = alignment::alignment_of(simplifier.chain(), simplifier.feet(), tolerance);
+  OBVID_TRY(alignment::keeps_limits(out, options));
   for (AlignmentElement& e : out.elements) e.start.point = e.start.point + origin;
   out.end.point = out.end.point + origin;
   return out;

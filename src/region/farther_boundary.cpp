@@ -58,7 +58,6 @@ class LocalPiece {
 
   [[nodiscard]] Vec2 at(double t) const {
     if (degree_ == 0) return in_frame(evaluate(*piece_, t).point - start_);
-    constexpr std::size_t kOfSpirals = 4;  // known when compiled
     return degree_ == kOfSpirals ? sum(t, kOfSpirals) : sum(t, static_cast<std::size_t>(degree_));
   }
 
@@ -67,7 +66,14 @@ class LocalPiece {
       const Jet jet = evaluate(*piece_, t);
       return {in_frame(jet.point - start_), in_frame(jet.d1)};
     }
-    const auto degree = static_cast<std::size_t>(degree_);
+    return degree_ == kOfSpirals ? sums(t, kOfSpirals)
+                                 : sums(t, static_cast<std::size_t>(degree_));
+  }
+
+ private:
+  static constexpr int kOfSpirals = 4;  // known when compiled
+
+  [[nodiscard]] OBVID_ALWAYS_INLINE Place sums(double t, std::size_t degree) const {
     const double s = 1.0 - t;
     double power = 1.0, w = weight_[0], w_by_t = 0.0;
     Vec2 p = weighted_[0], p_by_t{};
@@ -82,8 +88,6 @@ class LocalPiece {
     const Vec2 point = p / w;
     return {point, (p_by_t - w_by_t * point) / w};
   }
-
- private:
   /// Bernstein's sum: no term is larger than the coordinates, as in de Casteljau's algorithm.
   [[nodiscard]] OBVID_ALWAYS_INLINE Vec2 sum(double t, std::size_t degree) const {
     const double s = 1.0 - t;

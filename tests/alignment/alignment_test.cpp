@@ -156,6 +156,41 @@ TEST(Alignment, ATransitionIsOneClothoid) {
   EXPECT_NEAR(found->elements[0].start.kappa, 1 / 300.0, 1e-9);
 }
 
+TEST(Alignment, KeepsLeastLengthsAndRadii) {
+  const auto points = disturbed(road_points(kRoad, 5.0), 0.002);
+  for (const double tolerance : {0.5, 2.0, 8.0}) {
+    const std::vector<double> all(points.size(), tolerance);
+    const auto free = fit_alignment(points, all);
+    ASSERT_TRUE(free);
+    int found = 0;
+    for (const AlignmentOptions& limits :
+         {AlignmentOptions{2, 90.0, 0.0}, AlignmentOptions{2, 0.0, 170.0},
+          AlignmentOptions{2, 60.0, 160.0}}) {
+      const auto made = fit_alignment(points, all, limits);
+      if (!made) continue;  // said, not broken
+      ++found;
+      EXPECT_GE(made->elements.size(), free->elements.size());
+      EXPECT_LE(made->largest_share, 1.0);
+      for (const AlignmentElement& e : made->elements) {
+        EXPECT_GE(e.length, limits.least_length * (1 - 1e-9));
+        if (limits.least_radius == 0.0) continue;
+        EXPECT_LE(std::abs(e.start.kappa) * limits.least_radius, 1 + 1e-9);
+        EXPECT_LE(std::abs(e.kappa1) * limits.least_radius, 1 + 1e-9);
+      }
+    }
+    EXPECT_GE(found, tolerance < 1.0 ? 1 : 3) << tolerance;
+  }
+}
+
+TEST(Alignment, RefusesLimitsThatAreNone) {
+  for (const AlignmentOptions& limits :
+       {AlignmentOptions{2, -1.0, 0.0}, AlignmentOptions{2, 0.0, std::nan("")}}) {
+    const auto made = fit_alignment({{0, 0}, {3, 4}}, {0.1, 0.1}, limits);
+    ASSERT_FALSE(made);
+    EXPECT_EQ(made.error().code, ErrorCode::kBadOption);
+  }
+}
+
 TEST(Alignment, TheSameElementsWhereverTheyLieAndInWhateverUnit) {
   const auto points = disturbed(road_points(kRoad, 5.0), 0.002);
   const auto found = fit_alignment(points, std::vector<double>(points.size(), 0.008));

@@ -42,6 +42,8 @@ struct AlignmentOptions {
   /// Divisions of the intervals between points at which the search tries joints; joints move freely
   /// afterwards. More find steps of curvature between coarse points.
   std::size_t divisions = 2;
+  double least_length = 0.0;  ///< of each element, units; 0: any. The whole may be shorter
+  double least_radius = 0.0;  ///< of each place, units; 0: any
 };
 
 /// Few lines, arcs and clothoids, each beginning with the tangent of the one before (G1), within
@@ -50,12 +52,13 @@ struct AlignmentOptions {
 /// preferred wherever the tolerance allows them.
 ///
 /// Guaranteed: every offset is at most its tolerance (else an error), elements join exactly but for
-/// rounding. Not guaranteed: that no fewer elements exist (the number is the fewest that a search
+/// rounding, and are as long and as blunt as the options ask for. Not guaranteed: that no fewer elements exist (the number is the fewest that a search
 /// by dynamic programming over polygons of possible offsets and headings found:
 /// docs/methods/alignment.md). Deterministic; reentrant.
 ///
-/// Errors: E304 fewer than two points, E402 coinciding neighbours, E401 none found (`index`: the
-/// first point that was not reached), E502 not within the tolerance, E103 cancelled.
+/// Errors: E203 a least length or radius that is negative or no number, E304 fewer than two points,
+/// E402 coinciding neighbours, E401 none found (`index`: the first point that was not reached), E502
+/// not within the tolerance with such lengths and radii, E103 cancelled.
 [[nodiscard]] Result<Alignment> fit_alignment(const std::vector<Vec2>& points,
                                               const std::vector<double>& tolerance,
                                               const AlignmentOptions& options = {},

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once  // reentrant: docs/threads.md
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -15,6 +16,8 @@ struct DrawnCurve {
   std::vector<Piece> pieces;  ///< in order; where two do not meet, the gap is the drawing's own
   bool closed = false;        ///< the last piece ends where the first one starts
   std::string layer{};        ///< of the drawing, where it has layers
+  std::string name{};         ///< what the file itself calls it, where it does
+  std::optional<double> station{};  ///< of its start, units; of alignments
 };
 
 /// What a file of an exchange format holds: curves, and series of points. Lengths in `units`.

@@ -2,6 +2,7 @@
 #pragma once  // reentrant: docs/threads.md
 
 #include <cstddef>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -33,6 +34,8 @@ struct AuditPlace {
 struct CurveAudit {
   std::string label;
   std::string layer;        ///< of the drawing, where it has layers
+  std::string name;         ///< what the file itself calls it; empty: nothing
+  std::optional<double> station;  ///< of its start, units; of alignments
   Contour contour;          ///< the pieces with joints; promises nothing (carrier `baseline`)
   Certificate certificate;  ///< proved verdict of each piece, gaps, counts
   double length = 0.0;      ///< units

@@ -20,6 +20,7 @@ namespace obvid {
 /// Choices of the formats. Lengths in units of the contour.
 struct ExportOptions {
   std::string name = "contour";     ///< of the curve, where a format has a place for it
+  double first_station = 0.0;       ///< of the start, units of the contour; of LandXML
   PictureTitles picture{};          ///< of .svg pictures
   PicturePlots plots{};             ///< that .svg pictures have on request
   std::string asked{};              ///< what .html pages say was asked for; empty: nothing

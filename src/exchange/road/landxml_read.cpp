@@ -88,9 +88,13 @@ class LandXmlReader {
     const pugi::xml_node owner = node.parent();
     const std::string name = shortened(owner.attribute("name").value());
     label_ = fmt::format("{} {}", shortened(local_name(owner)), name);
+    name_ = name;
     part_ = 0;
+    station_ = number_of(owner.attribute("staStart").value()).value_or(0.0);
     for (const pugi::xml_node child : node.children()) {
-      if (child.type() == pugi::node_element) element(child);
+      if (child.type() != pugi::node_element) continue;
+      if (curve_.pieces.empty()) curve_.station = station_;
+      element(child);
     }
     finish();
   }
@@ -99,6 +103,7 @@ class LandXmlReader {
     if (curve_.pieces.empty()) return;
     ++part_;
     curve_.label = part_ == 1 ? label_ : fmt::format("{}, part {}", label_, part_);
+    curve_.name = part_ == 1 ? name_ : fmt::format("{}, part {}", name_, part_);
     curve_.closed = start_point(curve_.pieces.front()) == end_point(curve_.pieces.back());
     drawing_.curves.push_back(std::exchange(curve_, {}));
   }
@@ -106,6 +111,18 @@ class LandXmlReader {
   void leave_out(const std::string& what, pugi::xml_node node) {
     warnings_.add(what + " left out", node);
     finish();
+    const auto length = number_of(node.attribute("length").value());
+    if (station_ && length) {
+      *station_ += *length;
+    } else {
+      station_.reset();
+    }
+  }
+
+  /// A piece of the curve that is read.
+  void add(const Piece& piece) {
+    curve_.pieces.push_back(piece);
+    if (station_) *station_ += arc_length(piece, 1.0);
   }
 
   void element(pugi::xml_node node) {
@@ -132,7 +149,7 @@ class LandXmlReader {
     const auto start = point(node, "Start"), end = point(node, "End");
     if (!start || !end) return leave_out("a Line without readable start and end", node);
     if (*start == *end) return leave_out("a Line of no length", node);
-    curve_.pieces.emplace_back(LinePiece{*start, *end});
+    add(LinePiece{*start, *end});
   }
 
   /// The sense of rotation; without one it cannot be drawn.
@@ -148,7 +165,7 @@ class LandXmlReader {
     if (!placed) return leave_out(why, node);
     if (!placed->doubt.empty()) warnings_.add(placed->doubt, node);
     if (placed->off_end > kMisplacedEnd * length) off_end_ = std::max(off_end_, placed->off_end);
-    curve_.pieces.push_back(placed->piece);
+    add(placed->piece);
   }
 
   void curve(pugi::xml_node node) {
@@ -216,7 +233,7 @@ class LandXmlReader {
         exchange::plane_series(fmt::format("IrregularLine of {}", label_), drawing_.units, points);
     if (series.points.size() < 2) return leave_out("an IrregularLine of no length", node);
     for (std::size_t i = 1; i < series.points.size(); ++i) {
-      curve_.pieces.emplace_back(LinePiece{series.points[i - 1], series.points[i]});
+      add(LinePiece{series.points[i - 1], series.points[i]});
     }
     series.warnings.clear();  // start and end stand in the list too, usually
     drawing_.series.push_back(std::move(series));
@@ -228,6 +245,8 @@ class LandXmlReader {
   Drawing drawing_;
   DrawnCurve curve_;   ///< in the making
   std::string label_;  ///< of the CoordGeom
+  std::string name_;   ///< of the alignment or whatever has it
+  std::optional<double> station_;  ///< of the next element; unknown behind one without a length
   std::size_t part_ = 0;
   double off_end_ = 0.0;
 };

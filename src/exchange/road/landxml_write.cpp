@@ -80,8 +80,8 @@ Vec2 tangents_meet(const RoadElement& e) {
 class LandXmlWriter {
  public:
   LandXmlWriter(const std::vector<RoadLine>& lines, std::string_view unit,
-                const LandXmlOptions& options)
-      : lines_(lines), unit_(unit), options_(options) {}
+                double first_station, const LandXmlOptions& options)
+      : lines_(lines), unit_(unit), first_station_(first_station), options_(options) {}
 
   std::string run() {
     double length = 0.0;
@@ -92,9 +92,9 @@ class LandXmlWriter {
         "time=\"{}\">\n"
         "  <Units>\n    {}/>\n  </Units>\n",
         escaped_xml(options_.date), escaped_xml(options_.time), units());
-    put("  <Alignments name=\"{}\">\n    <Alignment name=\"{}\" length=\"{}\" staStart=\"0\">\n"
+    put("  <Alignments name=\"{}\">\n    <Alignment name=\"{}\" length=\"{}\" staStart=\"{}\">\n"
         "      <CoordGeom>\n",
-        name, name, length);
+        name, name, length, first_station_);
     for (const RoadLine& line : lines_) {
       for (const RoadElement& element : line.elements) {
         for (const RoadElement& part : parts_of(element)) write(part);
@@ -156,6 +156,7 @@ class LandXmlWriter {
 
   const std::vector<RoadLine>& lines_;
   std::string_view unit_;  ///< one of the format's
+  double first_station_;   ///< in that
   const LandXmlOptions& options_;
   std::string out_;
 };
@@ -174,7 +175,9 @@ Result<std::string> landxml_text(const Contour& contour, const LandXmlOptions& o
   const std::string_view unit = landxml_unit(contour.units.name);
   const auto lines = road_lines(contour, unit.empty() ? "m" : unit);
   OBVID_TRY(lines);
-  return LandXmlWriter(*lines, unit, options).run();
+  const auto ratio = unit_ratio(contour.units, unit.empty() ? "m" : unit, "road formats");
+  OBVID_TRY(ratio);
+  return LandXmlWriter(*lines, unit, *ratio * options.first_station, options).run();
 }
 
 }  // namespace obvid

@@ -129,6 +129,7 @@ class OpenDriveReader {
       if (curve.pieces.empty()) return;
       const std::size_t part = drawing_.curves.size() - before + 1;
       curve.label = part == 1 ? label : fmt::format("{}, part {}", label, part);
+      curve.name = name.empty() ? id : name;
       curve.closed = start_point(curve.pieces.front()) == end_point(curve.pieces.back());
       drawing_.curves.push_back(std::exchange(curve, {}));
     };
@@ -141,6 +142,7 @@ class OpenDriveReader {
         if (base.s <= station)
           warnings_.add("elements out of order of s are taken as they stand", child);
         station = base.s;
+        if (curve.pieces.empty()) curve.station = base.s;
         curve.pieces.push_back(*piece);
       } else {
         finish();

@@ -2,6 +2,7 @@
 #include "obvid/picture/picture_svg.h"
 
 #include <algorithm>
+#include <iterator>
 #include <string>
 #include <vector>
 
@@ -21,12 +22,19 @@ constexpr std::size_t kLongestReason = 105;
 /// Titles longer than this would meet the facts beside them.
 constexpr std::size_t kLongestName = 50;
 
+/// In the order of the carriers.
+constexpr const char* kKinds[] = {"Spiral contour",       "Arc contour",      "Contour of conics",
+                                  "Contour of parabolas", "Clothoid contour", "B-spline contour",
+                                  "Cubic B-spline",       "CAD spline",       "Curve as drawn"};
+static_assert(std::size(kKinds) == kCarriers.size());
+
+bool is_as_drawn(const Contour& contour) {
+  return info_of(contour.carrier).needs == CarrierNeeds::kDrawing;
+}
+
 /// What the curve is; `foreign`: another system drew it.
 std::string kind_of(const Contour& contour, bool foreign) {
-  const char* const kinds[] = {"Spiral contour",       "Arc contour",      "Contour of conics",
-                               "Contour of parabolas", "Clothoid contour", "B-spline contour",
-                               "Cubic B-spline",       "CAD spline"};
-  std::string kind = foreign ? "Curve as drawn" : kinds[static_cast<int>(contour.carrier)];
+  std::string kind = foreign ? "Curve as drawn" : kKinds[static_cast<std::size_t>(contour.carrier)];
   if (contour.closed)
     kind = "Closed " + std::string(1, static_cast<char>(kind[0] - 'A' + 'a')) + kind.substr(1);
   if (!foreign) kind += " · " + counted(contour.points.size(), "point", "points");
@@ -48,6 +56,7 @@ struct VerdictLine {
 
 VerdictLine verdict_of(const StoredContour& stored) {
   if (!stored.certificate) return {"open", "no certificate: nothing is claimed about this contour"};
+  if (is_as_drawn(stored.contour)) return {"open", "as it is drawn: nothing is promised"};
   if (stored.certificate->proved) {
     const Carrier carrier = stored.contour.carrier;
     std::string text =
@@ -130,7 +139,7 @@ std::string picture_svg(const StoredContour& stored, const PictureTitles& titles
   const bool coloured = track.runs_tell && contour.runs.size() <= kMostColouredRuns;
   const VerdictLine verdict =
       titles.verdict.empty() ? verdict_of(stored) : VerdictLine{"open", titles.verdict};
-  const std::string kind = kind_of(contour, !titles.verdict.empty());
+  const std::string kind = kind_of(contour, !titles.verdict.empty() || is_as_drawn(contour));
   const std::string title = titles.name.empty() ? kind : short_name(titles.name);
   PictureCanvas body;
   body.label({kPictureMargin, 40.0}, "start", "title", title);

@@ -4,13 +4,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <numbers>
 
-#include "obvid/geom/internal/angle.h"
 #include "obvid/io/internal/json_text.h"
 #include "obvid/pipeline/audit.h"
+#include "obvid/pipeline/element_table.h"
 
 namespace obvid {
 namespace {
@@ -58,8 +56,16 @@ DrawnCurve curve_of(const Alignment& alignment, const std::string& name) {
   return out;
 }
 
-std::string radius_cell(double kappa) {
-  return kappa == 0.0 ? "" : fmt::format("{:.17g}", 1.0 / kappa);
+Result<std::optional<SpeedLimit>> speed_limit(const Units& units,
+                                              const std::optional<double>& acceleration) {
+  if (!acceleration) return std::optional<SpeedLimit>();
+  if (!(*acceleration > 0.0 && std::isfinite(*acceleration))) {
+    return fail({ErrorCode::kBadOption, "the acceleration must be positive", "acceleration",
+                 "give it in m/s^2"});
+  }
+  const auto metres = unit_ratio(units, "m", "speeds");
+  OBVID_TRY(metres);
+  return std::optional(SpeedLimit{*acceleration, *metres});
 }
 
 }  // namespace
@@ -68,8 +74,15 @@ Result<AlignmentReport> alignment_report(const PointSeries& series, const Alignm
                                          const RunContext& run) {
   const auto tolerance = tolerances_of(series, job);
   if (!tolerance) return fail(tolerance.error());
-  auto alignment = fit_alignment(series.points, *tolerance, {}, run);
+  const auto limit = speed_limit(series.units, job.acceleration);
+  OBVID_TRY(limit);
+  AlignmentOptions limits;
+  limits.least_length = job.least_length;
+  limits.least_radius = job.least_radius;
+  auto alignment = fit_alignment(series.points, *tolerance, limits, run);
   if (!alignment) return fail(alignment.error());
+  for (AlignmentElement& e : alignment->elements) e.station += job.first_station;
+  for (AlignmentDeviation& d : alignment->deviations) d.station += job.first_station;
   AlignmentReport out;
   out.name = series.name;
   out.units = series.units;
@@ -77,27 +90,18 @@ Result<AlignmentReport> alignment_report(const PointSeries& series, const Alignm
   CurveAudit audited = audit(curve_of(*alignment, series.name), series.units);
   out.stored = {std::move(audited.contour), std::nullopt, std::move(audited.certificate)};
   out.alignment = std::move(*alignment);
+  out.limit = *limit;
   return out;
 }
 
-const char* to_string(AlignmentKind kind) {
-  static constexpr std::array kNames = {"line", "arc", "clothoid"};
-  return kNames[static_cast<std::size_t>(kind)];
-}
-
-double clothoid_parameter(const AlignmentElement& element) {
-  const double change = std::abs(element.kappa1 - element.start.kappa);
-  return change > 0.0 ? std::sqrt(element.length / change) : 0.0;
-}
-
-double azimuth_deg(double theta) {
-  const double angle = std::remainder(0.5 * std::numbers::pi - theta, kFullTurn) / kOneDegree;
-  return angle < 0.0 ? angle + 360.0 : angle;
-}
-
-std::size_t curvature_steps(const Alignment& alignment) {
-  return static_cast<std::size_t>(std::count_if(
-      alignment.elements.begin(), alignment.elements.end(), [](const auto& e) { return e.step; }));
+std::string deviations_csv(const AlignmentReport& report, const std::vector<Vec2>& points) {
+  std::string out = "station,offset,x,y\n";
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    const AlignmentDeviation& d = report.alignment.deviations[i];
+    out += fmt::format("{:.17g},{:.17g},{:.17g},{:.17g}\n", d.station, d.offset, points[i].x,
+                       points[i].y);
+  }
+  return out;
 }
 
 std::string alignment_json(const AlignmentReport& report) {
@@ -107,32 +111,15 @@ std::string alignment_json(const AlignmentReport& report) {
   json.pair("name", report.name).pair("units", report.units.text());
   json.pair("tolerance", report.tolerance).pair("length", alignment.length);
   json.pair("largest_share", alignment.largest_share).pair("rms", alignment.rms);
-  json.pair("curvature_steps", curvature_steps(alignment));
-  json.key("elements").begin_array();
-  for (const AlignmentElement& e : alignment.elements) {
-    json.begin_object().pair("kind", to_string(e.kind)).pair("station", e.station);
-    json.pair("length", e.length).pair("x", e.start.point.x).pair("y", e.start.point.y);
-    json.pair("heading", e.start.theta).pair("curvature_start", e.start.kappa);
-    json.pair("curvature_end", e.kappa1).pair("step", e.step).end_object();
-  }
-  json.end_array().key("deviations").begin_array();
+  json.pair("curvature_steps", curvature_steps(alignment.elements));
+  json.key("elements");
+  add_elements(json, alignment.elements, report.limit);
+  json.key("deviations").begin_array();
   for (const AlignmentDeviation& d : alignment.deviations) {
     json.begin_object().pair("station", d.station).pair("offset", d.offset).end_object();
   }
   json.end_array().end_object();
   return json.take();
-}
-
-std::string alignment_csv(const AlignmentReport& report) {
-  std::string out = "kind,station,length,radius_start,radius_end,A,azimuth_deg,x,y\n";
-  for (const AlignmentElement& e : report.alignment.elements) {
-    const double parameter = clothoid_parameter(e);
-    out += fmt::format("{},{:.17g},{:.17g},{},{},{},{:.17g},{:.17g},{:.17g}\n", to_string(e.kind),
-                       e.station, e.length, radius_cell(e.start.kappa), radius_cell(e.kappa1),
-                       parameter > 0.0 ? fmt::format("{:.17g}", parameter) : "",
-                       azimuth_deg(e.start.theta), e.start.point.x, e.start.point.y);
-  }
-  return out;
 }
 
 }  // namespace obvid

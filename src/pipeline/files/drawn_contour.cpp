@@ -24,7 +24,8 @@ Result<DrawnContour> drawn_contour(Drawing drawing, const ImportOptions& options
   CurveAudit audited =
       audit(*chosen < curves ? drawing.curves[*chosen] : edges_of(drawing.series[*chosen - curves]),
             drawing.units);
-  out.name = audited.label;
+  out.name = audited.name.empty() ? audited.label : audited.name;
+  out.first_station = audited.station.value_or(0.0);
   out.picture = {drawing.name + ": " + audited.label, as_drawn(audited)};
   out.stored = {std::move(audited.contour), std::nullopt, std::move(audited.certificate)};
   return out;

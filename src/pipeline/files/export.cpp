@@ -301,6 +301,7 @@ Result<Exported> contour_as_opendrive(const ContourExport& e) {
 Result<Exported> contour_as_landxml(const ContourExport& e) {
   LandXmlOptions road;
   road.name = e.options.name;
+  road.first_station = e.options.first_station;
   return with_units(
       notes_of(e, UnitRule::kRoad, "LandXML files", landxml_unit(e.contour.units.name)),
       [&] { return one_text(landxml_text(e.contour, road)); });

@@ -136,14 +136,6 @@ void add_section(const SectionChain& section, Formed& formed) {
   formed.warnings.insert(formed.warnings.end(), section.warnings.begin(), section.warnings.end());
 }
 
-double largest_slope_step(const Contour& spirals, bool loop) {
-  double largest = 0.0;
-  for (std::size_t i = loop ? 0 : 1; i < spirals.pieces.size(); ++i) {
-    largest = std::max(largest, slope_step_before(spirals.pieces, i));
-  }
-  return largest;
-}
-
 /// Where G3 could not be had, for the user.
 std::string slope_steps_text(const SeriesChain& chain, const SmoothedSlopes& slopes) {
   std::size_t point = 0;  // at the first of them, or before it
@@ -321,7 +313,7 @@ class SectionForming {
   void note_slope_step(const Contour& spirals) {
     if (!is_made_g3(job_)) return;
     double& largest = out_.chain.slope_step_g2.emplace(out_.chain.slope_step_g2.value_or(0.0));
-    largest = std::max(largest, largest_slope_step(spirals, series_.split.smooth_loop));
+    largest = std::max(largest, largest_slope_step(spirals.pieces, series_.split.smooth_loop));
     waviness_g2_.add(spirals, series_.split.smooth_loop);
   }
 
@@ -660,7 +652,8 @@ Result<Measured> form_and_measure(Prepared& prepared, const FitJob& job, const U
   }();
   // a carrier that chooses headings of its own is held at the end of a range that it passes
   std::vector<GivenDatum> passed;
-  for (std::size_t round = 0; formed && round <= 2 * prepared.asked.size(); ++round) {
+  const std::size_t most_rounds = prepared.asked.empty() ? 0 : 2 * prepared.asked.size() + 1;
+  for (std::size_t round = 0; formed && round < most_rounds; ++round) {
     take_piece_ends(formed->contour);
     const auto now = passed_ends(formed->contour);
     if (now.empty()) break;

@@ -27,16 +27,30 @@ PieceSlopes slopes_of(const Piece& piece) {
   return out;
 }
 
-}  // namespace
-
-double slope_step_before(const std::vector<Piece>& pieces, std::size_t piece) {
-  const std::size_t n = pieces.size();
-  const PieceSlopes before = slopes_of(pieces[(piece + n - 1) % n]),
-                    after = slopes_of(pieces[piece]);
+double step_between(const PieceSlopes& before, const PieceSlopes& after) {
   const double scale =
       std::max({std::abs(before.start), std::abs(before.end), std::abs(after.start),
                 std::abs(after.end), before.mean, after.mean});
   return scale > 0.0 ? std::abs(after.start - before.end) / scale : 0.0;
+}
+
+}  // namespace
+
+double slope_step_before(const std::vector<Piece>& pieces, std::size_t piece) {
+  const std::size_t n = pieces.size();
+  return step_between(slopes_of(pieces[(piece + n - 1) % n]), slopes_of(pieces[piece]));
+}
+
+double largest_slope_step(const std::vector<Piece>& pieces, bool loop) {
+  if (pieces.empty()) return 0.0;
+  double largest = 0.0;
+  PieceSlopes before = slopes_of(loop ? pieces.back() : pieces.front());
+  for (std::size_t i = loop ? 0 : 1; i < pieces.size(); ++i) {
+    const PieceSlopes after = slopes_of(pieces[i]);
+    largest = std::max(largest, step_between(before, after));
+    before = after;
+  }
+  return largest;
 }
 
 }  // namespace obvid::pipeline_detail

@@ -16,5 +16,7 @@ inline constexpr double kClearlyContinuous = 5e-7;
 /// first is the last. 0 where all are lines and arcs, NaN where a slope has no bound. Rounded, not
 /// proved.
 [[nodiscard]] double slope_step_before(const std::vector<Piece>& pieces, std::size_t piece);
+/// The largest of all joints between pieces, of a `loop` that before the first piece too.
+[[nodiscard]] double largest_slope_step(const std::vector<Piece>& pieces, bool loop);
 
 }  // namespace obvid::pipeline_detail

@@ -61,6 +61,8 @@ class Auditor {
  public:
   Auditor(const DrawnCurve& curve, const Units& units) {
     out_.label = curve.label;
+    out_.name = curve.name;
+    out_.station = curve.station;
     out_.contour.units = units;
     out_.contour.carrier = Carrier::kImported;
     out_.contour.closed = curve.closed;

@@ -13,6 +13,7 @@ namespace obvid {
 struct DrawnContour {
   StoredContour stored;
   std::string name;                  ///< of the curve
+  double first_station = 0.0;        ///< of its start, units
   PictureTitles picture;             ///< of a picture of it
   std::vector<std::string> remarks;  ///< what was left out, and which curve was taken
 };

@@ -11,7 +11,7 @@
 namespace obvid {
 
 /// The CoordGeom of alignments, parcels and plan features of a LandXML file (1.0 to 2.0), one curve
-/// each: Line, Curve and clothoid Spiral exactly, x east and y north (the file has northing first);
+/// each, with its name and first station: Line, Curve and clothoid Spiral exactly, x east and y north (the file has northing first);
 /// IrregularLine as lines and as a series of points. Units are those of the file; metres
 /// are assumed, with a warning, where it names none.
 ///
@@ -30,6 +30,7 @@ struct LandXmlOptions {
   std::string name = "contour";
   std::string date = "1970-01-01";  ///< the format wants one; the same input gives the same bytes
   std::string time = "00:00:00";
+  double first_station = 0.0;  ///< of the start, units of the contour
 };
 
 /// The unit of a LandXML file for lengths in `unit`: itself where the format knows it (mm, cm, m,

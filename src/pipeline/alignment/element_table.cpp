@@ -1,0 +1,131 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "obvid/pipeline/element_table.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+
+#include "obvid/geom/internal/angle.h"
+
+namespace obvid {
+namespace {
+
+/// Of the larger curvature: what rounding makes of one that goes on.
+constexpr double kSameCurvature = 1e-9;
+
+std::string radius_cell(double kappa) {
+  return kappa == 0.0 ? "" : fmt::format("{:.17g}", 1.0 / kappa);
+}
+
+std::optional<AlignmentElement> element_of(const Piece& piece) {
+  AlignmentElement out;
+  if (const auto* line = std::get_if<LinePiece>(&piece)) {
+    const Vec2 chord = line->end - line->start;
+    out.start = {line->start, heading(chord), 0.0};
+    out.length = norm(chord);
+    return out;
+  }
+  if (const auto* arc = std::get_if<ArcPiece>(&piece)) {
+    out.kind = AlignmentKind::kArc;
+    out.start = {arc->start, arc->theta0, arc->kappa};
+    out.length = arc->length;
+    out.kappa1 = arc->kappa;
+    return out;
+  }
+  const auto* clothoid = std::get_if<ClothoidPiece>(&piece);
+  if (clothoid == nullptr) return std::nullopt;
+  out.kind = AlignmentKind::kClothoid;
+  out.start = {clothoid->start, clothoid->theta0, clothoid->kappa0};
+  out.length = clothoid->length;
+  out.kappa1 = clothoid->kappa1;
+  return out;
+}
+
+bool steps(double before, double after) {
+  return std::abs(after - before) >
+         kSameCurvature * std::max(std::abs(before), std::abs(after));
+}
+
+}  // namespace
+
+std::optional<std::vector<AlignmentElement>> elements_of(const Contour& contour,
+                                                         double first_station) {
+  std::vector<AlignmentElement> out;
+  double station = first_station;
+  for (const Piece& piece : contour.pieces) {
+    auto element = element_of(piece);
+    if (!element) return std::nullopt;
+    element->station = station;
+    element->step = !out.empty() && steps(out.back().kappa1, element->start.kappa);
+    station += element->length;
+    out.push_back(*element);
+  }
+  return out;
+}
+
+std::optional<double> speed_kmh(const AlignmentElement& element, const SpeedLimit& limit) {
+  constexpr double kKmhPerMs = 3.6;
+  const double kappa = std::max(std::abs(element.start.kappa), std::abs(element.kappa1));
+  if (kappa == 0.0) return std::nullopt;
+  return kKmhPerMs * std::sqrt(limit.acceleration * limit.metres / kappa);
+}
+
+std::string elements_csv(const std::vector<AlignmentElement>& elements,
+                         const std::optional<SpeedLimit>& limit) {
+  std::string out = "kind,station,length,radius_start,radius_end,A,azimuth_deg,x,y";
+  out += limit ? ",speed_kmh\n" : "\n";
+  for (const AlignmentElement& e : elements) {
+    const double parameter = clothoid_parameter(e);
+    out += fmt::format("{},{:.17g},{:.17g},{},{},{},{:.17g},{:.17g},{:.17g}", to_string(e.kind),
+                       e.station, e.length, radius_cell(e.start.kappa), radius_cell(e.kappa1),
+                       parameter > 0.0 ? fmt::format("{:.17g}", parameter) : "",
+                       azimuth_deg(e.start.theta), e.start.point.x, e.start.point.y);
+    if (limit) {
+      const auto speed = speed_kmh(e, *limit);
+      out += speed ? fmt::format(",{:.17g}", *speed) : ",";
+    }
+    out += '\n';
+  }
+  return out;
+}
+
+void add_elements(JsonText& json, const std::vector<AlignmentElement>& elements,
+                  const std::optional<SpeedLimit>& limit) {
+  json.begin_array();
+  for (const AlignmentElement& e : elements) {
+    json.begin_object().pair("kind", to_string(e.kind)).pair("station", e.station);
+    json.pair("length", e.length).pair("x", e.start.point.x).pair("y", e.start.point.y);
+    json.pair("heading", e.start.theta).pair("curvature_start", e.start.kappa);
+    json.pair("curvature_end", e.kappa1).pair("step", e.step);
+    if (const auto speed = limit ? speed_kmh(e, *limit) : std::nullopt) {
+      json.pair("speed_kmh", *speed);
+    }
+    json.end_object();
+  }
+  json.end_array();
+}
+
+const char* to_string(AlignmentKind kind) {
+  static constexpr std::array kNames = {"line", "arc", "clothoid"};
+  return kNames[static_cast<std::size_t>(kind)];
+}
+
+double clothoid_parameter(const AlignmentElement& element) {
+  const double change = std::abs(element.kappa1 - element.start.kappa);
+  return change > 0.0 ? std::sqrt(element.length / change) : 0.0;
+}
+
+double azimuth_deg(double theta) {
+  const double angle = std::remainder(0.5 * std::numbers::pi - theta, kFullTurn) / kOneDegree;
+  return angle < 0.0 ? angle + 360.0 : angle;
+}
+
+std::size_t curvature_steps(const std::vector<AlignmentElement>& elements) {
+  return static_cast<std::size_t>(
+      std::count_if(elements.begin(), elements.end(), [](const auto& e) { return e.step; }));
+}
+
+}  // namespace obvid
