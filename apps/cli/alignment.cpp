@@ -31,7 +31,7 @@ std::string kinds_text(const Alignment& alignment) {
 }
 
 /// Below the title of its picture.
-std::string verdict_text(const AlignmentReport& report) {
+std::string picture_verdict(const AlignmentReport& report) {
   return fmt::format("{}; all points within {} {}", kinds_text(report.alignment),
                      significant(report.tolerance, kOffsetDigits), report.units.text());
 }
@@ -83,7 +83,7 @@ int run(const AlignmentCommand& command) {
   }
   ExportOptions formats;
   formats.name = series->label.empty() ? series->name : series->label;
-  formats.picture = {series->name, verdict_text(*made)};
+  formats.picture = {series->name, picture_verdict(*made)};
   formats.first_station = command.job.first_station;
   FileNotes notes;
   auto texts = exported(drawn, made->stored, formats, notes);

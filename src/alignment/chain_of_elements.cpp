@@ -19,9 +19,11 @@ constexpr int kSteps = 30;  ///< of Levenberg and Marquardt's method, for each p
 constexpr double kPowers[] = {4.0, 8.0, 16.0, 32.0, 64.0};
 constexpr double kClosed = 1e-9;      ///< of the tolerance: a gap that counts as none
 constexpr double kLeastShare = 1e-3;  ///< of the largest offset: what weighs at least
-constexpr double kLoose = 0.1;        ///< of the tolerance: a gap that steps may leave, on the way
+/// Of the tolerance, or of the largest offset where that is more: a gap that steps may leave, on the
+/// way.
+constexpr double kLoose = 0.1;
 constexpr double kCloser = 0.7;       ///< a gap has to become this share of itself
-constexpr int kClosing = 8;           ///< steps that close what is left
+constexpr int kClosing = 40;          ///< steps that close what is left, at the most
 constexpr double kRounding = 1e-13;   ///< of the size: what rounding makes of a gap
 constexpr double kSettled = 1e-9;     ///< growth of the fit, of itself, at which it is done
 constexpr double kShorter = 0.5;      ///< of what it is longer than the least: lost in one step
@@ -95,6 +97,7 @@ class Fitter {
       out.largest = std::numeric_limits<double>::infinity();
       return out;
     }
+    if (out.largest > held_.hopeless) return out;
     Chain best = chain_;
     std::vector<Foot> best_feet = feet_;
     for (const double power : kPowers) {
@@ -143,6 +146,20 @@ class Fitter {
       }
     }
     unknowns_ = next;
+    set_largest_steps();
+  }
+
+  /// What each unknown may change that no point tells anything about: by its whole size.
+  void set_largest_steps() {
+    double size = 0.0;
+    for (const double length : chain_.length) size += length;
+    largest_steps_.assign(unknowns_, 1.0 / size);  // curvatures
+    if (!held_.start) {
+      largest_steps_[0] = largest_steps_[1] = size;
+      largest_steps_[2] = 1.0;
+    }
+    std::fill_n(largest_steps_.begin() + static_cast<std::ptrdiff_t>(first_length_), chain_.size(),
+                size);
   }
 
   [[nodiscard]] std::size_t column_of(int kappa) const {
@@ -234,10 +251,10 @@ class Fitter {
     }
     // Newton's step for a sum of powers: the second derivative has this factor more
     for (double& r : right_) r *= power > 0.0 ? 1.0 / (power - 1.0) : 0.0;
-    scale_.assign(unknowns_, 1.0);
+    scale_ = largest_steps_;  // elements without points depend on what must hold alone
     for (std::size_t a = 0; a < unknowns_; ++a) {
       const double d = matrix_[a * unknowns_ + a];
-      scale_[a] = d > 0.0 ? 1.0 / std::sqrt(d) : 1.0;
+      if (d > 0.0) scale_[a] = 1.0 / std::sqrt(d);
     }
     set_conditions();
   }
@@ -407,9 +424,10 @@ class Fitter {
   }
 
   void improve(double power) {
-    const double loose = kLoose * *std::min_element(tolerance_.begin(), tolerance_.end());
+    const double least = *std::min_element(tolerance_.begin(), tolerance_.end());
     double damping = kDampingStart;
     for (int i = 0; i < kSteps; ++i) {
+      const double loose = kLoose * least * std::max(1.0, largest());
       const double before = objective(power), gap = gap_of(chain_);
       // what is far from closing closes first, whatever that costs
       const bool better = take_step(power, damping, [&](double gap_after, double after) {
@@ -466,7 +484,7 @@ class Fitter {
   std::vector<std::size_t> column_;
   std::vector<Element> joints_;
   std::vector<OwnDerivatives> whole_;
-  std::vector<double> matrix_, right_, scale_;
+  std::vector<double> matrix_, right_, scale_, largest_steps_;
   std::vector<Fixed> conditions_;
 };
 

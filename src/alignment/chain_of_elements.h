@@ -52,6 +52,8 @@ struct Held {
   bool closed = false;           ///< the end is the start
   std::vector<int> kappa{};      ///< numbers of curvatures
   double least_length = 0.0;     ///< that elements keep
+  /// Largest offset over its tolerance after least squares at which the fit gives up.
+  double hopeless = std::numeric_limits<double>::infinity();
   double largest_curvature = std::numeric_limits<double>::infinity();  ///< that ends keep
 };
 

@@ -17,7 +17,7 @@
 namespace obvid::alignment {
 namespace {
 
-constexpr std::size_t kDirections = 12;   ///< in which a polygon is measured
+constexpr std::size_t kDirections = 12;   ///< in which a polygon is measured, at most
 constexpr std::size_t kPolygons = 3;      ///< kept at a place
 constexpr std::size_t kPredecessors = 6;  ///< tried for a place
 constexpr double kBox =
@@ -287,23 +287,54 @@ class Search {
 
   std::optional<Polygon> polygon_at(const Source& from, std::size_t j) {
     if (!is_long_enough(from.place, j) || !set_program(from, j)) return std::nullopt;
-    Polygon out{{}, from};
-    for (std::size_t k = 0; k < kDirections; ++k) {
-      const double angle = 2.0 * std::numbers::pi * static_cast<double>(k) / kDirections;
-      const auto x = program_.maximum({0.0, 0.0, std::cos(angle), std::sin(angle)}, kBox);
-      if (!x) {
-        if (k == 0) return std::nullopt;
-        continue;
-      }
-      const State s{(*x)[2], (*x)[3]};
-      if (!out.corners.empty()) {
-        const State b = out.corners.back();
-        if (std::abs(b.offset - s.offset) + std::abs(b.slope - s.slope) < kSameState) continue;
-      }
-      out.corners.push_back(s);
-    }
-    if (out.corners.size() < 3 || !(area_of(out.corners) > 0.0)) return std::nullopt;
+    Polygon out{corners_of_set(2), from};
+    // nothing goes on from the last place: there a segment will do
+    const bool is_last = j + 1 == places_.size();
+    if (out.corners.empty() || (!is_last && !(area_of(out.corners) > 0.0))) return std::nullopt;
     return out;
+  }
+
+  /// Corners of what the program leaves of the unknowns `first` and the one behind it, in order
+  /// counterclockwise: the farthest along both axes, then those beyond the edges between them. However thin
+  /// it is, its width is found that way.
+  std::vector<State> corners_of_set(std::size_t first) {
+    std::vector<State> out;
+    std::size_t looks = 0;
+    const auto farthest = [&](double by_offset, double by_slope) -> std::optional<State> {
+      Unknowns goal{};
+      goal[first] = by_offset;
+      goal[first + 1] = by_slope;
+      ++looks;
+      const auto x = program_.maximum(goal, kBox);
+      if (!x) return std::nullopt;
+      return State{(*x)[first], (*x)[first + 1]};
+    };
+    for (const State axis : {State{1.0, 0.0}, State{0.0, 1.0}, State{-1.0, 0.0}, State{0.0, -1.0}}) {
+      const auto corner = farthest(axis.offset, axis.slope);
+      if (!corner) return {};
+      if (out.empty() || !(is_same(out.back(), *corner) || is_same(out.front(), *corner))) {
+        out.push_back(*corner);
+      }
+    }
+    for (bool found = out.size() > 1; found && looks < kDirections;) {
+      found = false;
+      for (std::size_t k = 0; k < out.size() && looks < kDirections; ++k) {
+        const State a = out[k], b = out[(k + 1) % out.size()];
+        const double by_offset = b.slope - a.slope, by_slope = a.offset - b.offset;
+        const auto beyond = farthest(by_offset, by_slope);
+        if (!beyond || is_same(*beyond, a) || is_same(*beyond, b)) continue;
+        const double gain = by_offset * (beyond->offset - a.offset) +
+                            by_slope * (beyond->slope - a.slope);
+        if (!(gain > kSameState * kSameState)) continue;
+        out.insert(out.begin() + static_cast<std::ptrdiff_t>(++k), *beyond);
+        found = true;
+      }
+    }
+    return out;
+  }
+
+  static bool is_same(State a, State b) {
+    return std::abs(a.offset - b.offset) + std::abs(a.slope - b.slope) < kSameState;
   }
 
   static State middle_of(const std::vector<State>& corners) {
@@ -337,12 +368,7 @@ class Search {
           program_.add(fixed);
         }
       }
-      std::vector<State> ends;
-      for (std::size_t k = 0; k < kDirections; ++k) {
-        const double angle = 2.0 * std::numbers::pi * static_cast<double>(k) / kDirections;
-        const auto x = program_.maximum({std::cos(angle), std::sin(angle), 0.0, 0.0}, kBox);
-        if (x) ends.push_back({(*x)[0], (*x)[1]});
-      }
+      const std::vector<State> ends = corners_of_set(0);
       place = from.place;
       polygon = from.polygon;
       state = middle_of(ends.empty() ? reached_[place][polygon].corners : ends);

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <limits>
 #include <set>
+#include <tuple>
 #include <utility>
 
 #include "chain_of_elements.h"
@@ -18,6 +19,8 @@ constexpr std::size_t kBeside = 3;   ///< elements to both sides that move with 
 constexpr std::size_t kWindow = 12;  ///< elements that are fitted at once
 constexpr double kLeastLength = 0.25;  ///< of the mean distance of points: elements get no shorter
 constexpr double kHopeless = 4.0;      ///< estimated squares over the most that there can be
+/// Largest offset over its tolerance after least squares from which no higher power comes back.
+constexpr double kHopelessOffset = 3.0;
 constexpr int kPasses = 4;             ///< over all conditions
 constexpr int kPolishes = 3;           ///< over the whole alignment, where an offset is too large
 
@@ -38,11 +41,13 @@ class Simplifier {
 
   Result<void> run(const RunContext& run) {
     if (auto on = polish(run); !on) return on;
+    if (auto on = merge_all(run); !on) return on;
     for (int pass = 0; pass < kPasses; ++pass) {
       const auto taken = take_conditions(run);
       if (!taken) return fail(taken.error());
       if (!*taken) break;
     }
+    if (auto on = merge_all(run); !on) return on;
     for (int i = 0; i < kPolishes && largest() > 1.0; ++i) {
       if (auto on = polish(run); !on) return on;
     }
@@ -74,15 +79,21 @@ class Simplifier {
   };
 
   [[nodiscard]] Window cut(const Chain& chain, std::size_t first, std::size_t last) const {
+    return cut(chain, feet_, first, last, chain_.joints(), last);
+  }
+
+  /// What lies beside stays: joints `first` and `end` of those that are.
+  [[nodiscard]] Window cut(const Chain& chain, const std::vector<Foot>& feet, std::size_t first,
+                           std::size_t last, const std::vector<Element>& joints,
+                           std::size_t end) const {
     Window out;
     out.first = first;
-    const std::vector<Element> joints = chain_.joints();  // where what lies beside stays
     out.chain.start = joints[first].point;
     out.chain.theta = joints[first].theta;
     out.held.start = first > 0;
     out.held.least_length = least_length_;
     out.held.largest_curvature = largest_curvature_;
-    if (last < chain.size()) out.held.end = joints[last];
+    if (last < chain.size()) out.held.end = joints[end];
     for (std::size_t k = first; k < last; ++k) {
       out.chain.length.push_back(chain.length[k]);
       std::array<int, 2> ends{};
@@ -91,18 +102,18 @@ class Simplifier {
     }
     for (std::size_t k = 0; k < out.number.size(); ++k) {
       // a curvature that an element outside has too stays as it is
-      if (is_used_outside(out.number[k], first, last)) {
+      if (is_used_outside(chain, out.number[k], first, last)) {
         out.held.kappa.push_back(static_cast<int>(k));
       }
     }
     bool begun = false;
-    for (std::size_t i = 0; i < feet_.size(); ++i) {
-      if (feet_[i].element < first || feet_[i].element >= last) continue;
+    for (std::size_t i = 0; i < feet.size(); ++i) {
+      if (feet[i].element < first || feet[i].element >= last) continue;
       if (!begun) out.first_point = i;
       begun = true;
       out.points.push_back(points_[i]);
       out.tolerance.push_back(tolerance_[i]);
-      Foot foot = feet_[i];
+      Foot foot = feet[i];
       foot.element -= first;
       out.feet.push_back(foot);
     }
@@ -156,12 +167,57 @@ class Simplifier {
     return {};
   }
 
+  /// Neighbours become one wherever that passes the points: the search keeps some of the ways to a
+  /// place only, and its joints are at places.
+  Result<void> merge_all(const RunContext& run) {
+    for (std::size_t k = 0; k + 1 < chain_.size();) {
+      const double done = static_cast<double>(k) / static_cast<double>(chain_.size());
+      if (auto on = tell(run, "fewer elements", done); !on) return on;
+      if (!merge(k)) ++k;
+    }
+    return {};
+  }
+
+  /// Element k and the next one as one: begun as the longer one, or from end to end.
+  bool merge(std::size_t k) {
+    const std::array<int, 2> a = chain_.ends[k], b = chain_.ends[k + 1];
+    return merge(k, chain_.length[k] < chain_.length[k + 1] ? b : a) || merge(k, {a[0], b[1]});
+  }
+
+  bool merge(std::size_t k, const std::array<int, 2>& ends) {
+    const std::vector<Element> joints = chain_.joints();
+    Chain next = chain_;
+    std::vector<Foot> feet = feet_;
+    const auto behind = static_cast<std::ptrdiff_t>(k) + 1;
+    for (Foot& foot : feet) {
+      if (foot.element <= k) continue;
+      if (foot.element == k + 1) foot.s += chain_.length[k];
+      --foot.element;
+    }
+    next.length[k] += next.length[k + 1];
+    next.ends[k] = ends;
+    next.length.erase(next.length.begin() + behind);
+    next.ends.erase(next.ends.begin() + behind);
+    const std::size_t first = k - std::min(k, kBeside);
+    const std::size_t last = std::min(k + kBeside + 1, next.size());
+    Window window = cut(next, feet, first, last, joints, last + 1);
+    window.held.hopeless = kHopelessOffset;
+    const Fitted fitted =
+        fit_chain(window.chain, window.points, window.tolerance, window.feet, window.held);
+    if (!(fitted.largest <= 1.0)) return false;
+    chain_ = std::move(next);
+    feet_ = std::move(feet);
+    put_back(window, chain_);
+    return true;
+  }
+
   /// A condition at an element or at the joint before the next one.
   struct Candidate {
     std::size_t element = 0;
     int a = 0, b = Chain::kStraight;
     double growth = 0.0;
     double room = 0.0;  ///< the most that squares within the tolerances can be
+    bool of_joint = false;
   };
 
   [[nodiscard]] std::pair<std::size_t, std::size_t> around(std::size_t element) const {
@@ -169,15 +225,15 @@ class Simplifier {
   }
 
   void add_candidates(std::size_t k, std::vector<Candidate>& out) const {
-    const auto add = [&](int a, int b) {
+    const auto add = [&](int a, int b, bool of_joint = false) {
       if (a == b) return;
       if (a == Chain::kStraight) std::swap(a, b);
-      out.push_back({k, a, b, 0.0});
+      out.push_back({k, a, b, 0.0, 0.0, of_joint});
     };
     const auto [k0, k1] = chain_.ends[k];
     add(k0, k1);
     if (k0 == k1 && k0 != Chain::kStraight) add(k0, Chain::kStraight);
-    if (k + 1 < chain_.size()) add(k1, chain_.ends[k + 1][0]);
+    if (k + 1 < chain_.size()) add(k1, chain_.ends[k + 1][0], true);
   }
 
   void estimate(std::vector<Candidate>& candidates) const {
@@ -200,9 +256,9 @@ class Simplifier {
   bool take(const Candidate& c) {
     if (!is_used(c.a) || (c.b != Chain::kStraight && !is_used(c.b))) return false;
     const auto [first, last] = around(c.element);
-    if (is_used_outside(c.a, first, last)) return false;
+    if (is_used_outside(chain_, c.a, first, last)) return false;
     Chain next = chain_;
-    if (c.b != Chain::kStraight && !is_used_outside(c.b, first, last)) {
+    if (c.b != Chain::kStraight && !is_used_outside(chain_, c.b, first, last)) {
       const auto a = static_cast<std::size_t>(c.a), b = static_cast<std::size_t>(c.b);
       next.kappa[b] = 0.5 * (next.kappa[a] + next.kappa[b]);
     }
@@ -221,11 +277,12 @@ class Simplifier {
   }
 
   /// Elements that share a curvature follow one another: those beside the window tell.
-  [[nodiscard]] bool is_used_outside(int number, std::size_t first, std::size_t last) const {
+  static bool is_used_outside(const Chain& chain, int number, std::size_t first,
+                              std::size_t last) {
     const auto uses = [&](std::size_t element) {
-      return chain_.ends[element][0] == number || chain_.ends[element][1] == number;
+      return chain.ends[element][0] == number || chain.ends[element][1] == number;
     };
-    return (first > 0 && uses(first - 1)) || (last < chain_.size() && uses(last));
+    return (first > 0 && uses(first - 1)) || (last < chain.size() && uses(last));
   }
 
   [[nodiscard]] bool is_used(int number) const {
@@ -241,8 +298,12 @@ class Simplifier {
     for (std::size_t k = 0; k < chain_.size(); ++k) add_candidates(k, candidates);
     std::erase_if(candidates, [&](const Candidate& c) { return refused_.contains({c.a, c.b}); });
     estimate(candidates);
+    // an element that is an arc or a line goes before a joint without a step: where both are
+    // possible, but not together, the step is what was built
     std::stable_sort(candidates.begin(), candidates.end(),
-                     [](const Candidate& a, const Candidate& b) { return a.growth < b.growth; });
+                     [](const Candidate& a, const Candidate& b) {
+                       return std::tie(a.of_joint, a.growth) < std::tie(b.of_joint, b.growth);
+                     });
     bool taken = false;
     for (std::size_t i = 0; i < candidates.size(); ++i) {
       if (auto on =

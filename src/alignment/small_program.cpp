@@ -10,6 +10,8 @@ namespace obvid::alignment {
 namespace {
 
 constexpr double kSlack = 1e-9;  ///< of the largest coefficient: what counts as kept
+/// Of the largest coefficient: what rounding leaves of one that others cancel.
+constexpr double kCancelled = 1e-11;
 
 template <std::size_t N>
 double product(const std::array<double, N>& a, const std::array<double, N>& x) {
@@ -34,11 +36,11 @@ std::array<double, N - 1> without(const std::array<double, N>& a, std::size_t ou
 bool on_line(double goal, const std::vector<HalfSpaceOf<1>>& rows, double box, double& x) {
   double low = -box, high = box;
   for (const auto& row : rows) {
-    if (row.a[0] > 0.0) {
+    if (row.a[0] > kCancelled) {
       high = std::min(high, row.b / row.a[0]);
-    } else if (row.a[0] < 0.0) {
+    } else if (row.a[0] < -kCancelled) {
       low = std::max(low, row.b / row.a[0]);
-    } else if (row.b < 0.0) {
+    } else if (row.b < -kSlack - kCancelled * box) {
       return false;
     }
   }
@@ -72,7 +74,10 @@ bool SmallProgram::maximum_of(const std::array<double, N>& goal, double box,
       }
       const double largest = std::abs(row.a[out]);
       if (excess <= kSlack * largest) continue;
-      if (largest == 0.0) return false;
+      if (largest <= kCancelled) {  // parallel to one that the maximum lies on
+        if (excess <= kSlack + kCancelled * box) continue;
+        return false;
+      }
       // the maximum lies on this row's border: one unknown is told by the others
       const double inverse = 1.0 / row.a[out];
       reduced.clear();
@@ -99,6 +104,16 @@ bool SmallProgram::maximum_of(const std::array<double, N>& goal, double box,
     }
     return true;
   }
+}
+
+void SmallProgram::add(const HalfSpace& row) {
+  double largest = 0.0;
+  for (const double a : row.a) largest = std::max(largest, std::abs(a));
+  if (!(largest > 0.0)) largest = 1.0;
+  HalfSpace out = row;
+  for (double& a : out.a) a /= largest;
+  out.b /= largest;
+  std::get<kUnknowns>(rows_).push_back(out);
 }
 
 void SmallProgram::shuffle() {

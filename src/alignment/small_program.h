@@ -27,9 +27,9 @@ class SmallProgram {
  public:
   void clear() { std::get<kUnknowns>(rows_).clear(); }
   /// Scaled so that its unknowns are of the order of 1: kept to 1e-9 of its largest coefficient.
-  void add(const HalfSpace& row) { std::get<kUnknowns>(rows_).push_back(row); }
+  void add(const HalfSpace& row);
   void add(const std::vector<HalfSpace>& rows) {
-    std::get<kUnknowns>(rows_).insert(std::get<kUnknowns>(rows_).end(), rows.begin(), rows.end());
+    for (const HalfSpace& row : rows) add(row);
   }
   /// In a fixed shuffled order, in which few rows change the maximum: once, when all are there.
   void shuffle();

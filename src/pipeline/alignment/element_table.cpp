@@ -14,7 +14,7 @@ namespace obvid {
 namespace {
 
 /// Of the larger curvature: what rounding makes of one that goes on.
-constexpr double kSameCurvature = 1e-9;
+constexpr double kCurvatureRounding = 1e-9;
 
 std::string radius_cell(double kappa) {
   return kappa == 0.0 ? "" : fmt::format("{:.17g}", 1.0 / kappa);
@@ -46,7 +46,7 @@ std::optional<AlignmentElement> element_of(const Piece& piece) {
 
 bool steps(double before, double after) {
   return std::abs(after - before) >
-         kSameCurvature * std::max(std::abs(before), std::abs(after));
+         kCurvatureRounding * std::max(std::abs(before), std::abs(after));
 }
 
 }  // namespace
