@@ -83,6 +83,10 @@ inline constexpr std::array kAllCarriers = {
 [[nodiscard]] constexpr const CarrierInfo& info_of(Carrier carrier) {
   return kCarriers[static_cast<std::size_t>(carrier)];
 }
+/// Whether another system drew the curve: no fit forms it, nothing is promised of it.
+[[nodiscard]] constexpr bool is_as_drawn(Carrier carrier) {
+  return info_of(carrier).needs == CarrierNeeds::kDrawing;
+}
 /// Name on the command line and in contour files: spiral, arcs, conics, ...
 [[nodiscard]] constexpr const char* to_string(Carrier carrier) { return info_of(carrier).name; }
 /// Carrier of this name.

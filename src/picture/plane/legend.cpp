@@ -59,9 +59,10 @@ void legend_lines(PictureCanvas& canvas, LegendRow& legend, const PictureTrack& 
   }
 }
 
-void legend_points(PictureCanvas& canvas, LegendRow& legend, std::size_t unmarked) {
+void legend_points(PictureCanvas& canvas, LegendRow& legend, const std::string& what,
+                   std::size_t unmarked) {
   const std::string text =
-      unmarked == 0 ? "given point" : std::to_string(unmarked) + " given points, too dense to mark";
+      unmarked == 0 ? what : std::to_string(unmarked) + " " + what + "s, too dense to mark";
   const Vec2 at = legend.entry(text, text.size(), 8.0);
   canvas.add("<path class=\"dot\" stroke-width=\"6.8\" d=\"M{0} {1}h.01\"/>\n", px(at.x), px(at.y));
   canvas.add("<path class=\"hole\" stroke-width=\"4.2\" d=\"M{0} {1}h.01\"/>\n", px(at.x),
@@ -144,7 +145,10 @@ double draw_legend(PictureCanvas& canvas, const PictureLegend& legend, double le
   const PictureTrack& track = legend.track;
   LegendRow row(canvas, left, y);
   legend_lines(canvas, row, track, legend.coloured);
-  if (!track.points.empty()) legend_points(canvas, row, legend.dots ? 0 : track.points.size());
+  if (!track.points.empty()) {
+    legend_points(canvas, row, legend.dots_are_joints ? "joint" : "given point",
+                  legend.dots ? 0 : track.points.size());
+  }
   legend_features(canvas, row, track);
   if (legend.longest_tooth != 0.0) legend_comb(canvas, row, legend);
   if (legend.deviations != nullptr) legend_deviations(canvas, row, *legend.deviations);

@@ -28,10 +28,6 @@ constexpr const char* kKinds[] = {"Spiral contour",       "Arc contour",      "C
                                   "Cubic B-spline",       "CAD spline",       "Curve as drawn"};
 static_assert(std::size(kKinds) == kCarriers.size());
 
-bool is_as_drawn(const Contour& contour) {
-  return info_of(contour.carrier).needs == CarrierNeeds::kDrawing;
-}
-
 /// What the curve is; `foreign`: another system drew it.
 std::string kind_of(const Contour& contour, bool foreign) {
   std::string kind = foreign ? "Curve as drawn" : kKinds[static_cast<std::size_t>(contour.carrier)];
@@ -56,7 +52,7 @@ struct VerdictLine {
 
 VerdictLine verdict_of(const StoredContour& stored) {
   if (!stored.certificate) return {"open", "no certificate: nothing is claimed about this contour"};
-  if (is_as_drawn(stored.contour)) return {"open", "as it is drawn: nothing is promised"};
+  if (is_as_drawn(stored.contour.carrier)) return {"open", "as it is drawn: nothing is promised"};
   if (stored.certificate->proved) {
     const Carrier carrier = stored.contour.carrier;
     std::string text =
@@ -139,7 +135,7 @@ std::string picture_svg(const StoredContour& stored, const PictureTitles& titles
   const bool coloured = track.runs_tell && contour.runs.size() <= kMostColouredRuns;
   const VerdictLine verdict =
       titles.verdict.empty() ? verdict_of(stored) : VerdictLine{"open", titles.verdict};
-  const std::string kind = kind_of(contour, !titles.verdict.empty() || is_as_drawn(contour));
+  const std::string kind = kind_of(contour, !titles.verdict.empty() || is_as_drawn(contour.carrier));
   const std::string title = titles.name.empty() ? kind : short_name(titles.name);
   PictureCanvas body;
   body.label({kPictureMargin, 40.0}, "start", "title", title);

@@ -41,6 +41,7 @@ PictureView make_view(const PictureTrack& track, const PictureComb& comb, double
 /// largest width in units, 0 when nothing was drawn.
 double draw_region(PictureCanvas& canvas, const PictureTrack& track, const StoredContour& stored,
                    const PictureView& view, double top, double bottom) {
+  if (is_as_drawn(stored.contour.carrier)) return 0.0;  // nobody was asked for points
   PicturePath path;
   double widest = 0.0;
   for (const PictureLens& lens :
@@ -78,6 +79,7 @@ double shape_panel(PictureCanvas& canvas, const PictureTrack& track, const Store
   draw_scale_bar(canvas, view, stored.contour.units.text(), strip);
   PictureLegend legend{track, stored.contour.units.text(), coloured, widest};
   legend.dots = dot_radius(track, view) > 0.0;
+  legend.dots_are_joints = is_as_drawn(stored.contour.carrier);
   if (comb.per_kappa != 0.0) legend.longest_tooth = track.largest_kappa;
   legend.deviations = deviations;
   return draw_legend(canvas, legend, kPictureMargin + kScaleBarRoom, strip) + 16.0;

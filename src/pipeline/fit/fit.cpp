@@ -892,7 +892,7 @@ namespace {
 Result<Fit> fit_as_asked(const PointSeries& series, const FitJob& job, FoundChains& chains,
                          Watch& watch) {
   if (watch.cancelled()) return fail(cancelled_error());
-  if (info_of(job.carrier).needs == CarrierNeeds::kDrawing) {
+  if (is_as_drawn(job.carrier)) {
     return error(ErrorCode::kBadOption,
                  fmt::format("carrier {} is what drawings have", to_string(job.carrier)))
         .where("--carrier")
