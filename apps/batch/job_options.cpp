@@ -78,7 +78,7 @@ JobOptions known_options() {
   }
   for (const char* name :
        {"output-tolerance", "for", "controller", "motion", "feed", "samples", "sample-step",
-        "airfoil", "spacing", "trailing-edge", "svg", "plot", "step", "dxf", "face"}) {
+        "airfoil", "spacing", "trailing-edge", "svg", "plot", "curvature-range", "step", "dxf", "face"}) {
     out.files.push_back({name});
   }
   out.files.push_back({"unit-chord", true});

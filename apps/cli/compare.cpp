@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <functional>
 #include <limits>
 #include <optional>
 #include <string>
@@ -152,12 +153,16 @@ std::string report_csv(const PointSeries&, const Comparison& compared) {
 }
 
 /// What to write under a name: .svg picture, .csv or .json table.
-using Maker = std::string (*)(const PointSeries&, const Comparison&);
+using Maker = std::function<std::string(const PointSeries&, const Comparison&)>;
 
-Result<Maker> maker_of(const std::string& path) {
-  if (path.ends_with(".svg")) return &comparison_svg;
-  if (path.ends_with(".json")) return &comparison_json;
-  if (path.ends_with(".csv")) return &report_csv;
+Result<Maker> maker_of(const std::string& path, const ShownCurvatures& shown) {
+  if (path.ends_with(".svg")) {
+    return Maker([shown](const PointSeries& series, const Comparison& compared) {
+      return comparison_svg(series, compared, shown);
+    });
+  }
+  if (path.ends_with(".json")) return Maker(&comparison_json);
+  if (path.ends_with(".csv")) return Maker(&report_csv);
   return error(ErrorCode::kUnknownFormat, "no such format of a comparison")
       .where(path)
       .hint("possible are .svg (picture), .csv and .json (tables)");
@@ -171,7 +176,7 @@ int run(const CompareOptions& options) {
   }
   std::vector<Maker> makers;
   for (const std::string& path : options.outputs) {
-    const Result<Maker> maker = maker_of(path);
+    const Result<Maker> maker = maker_of(path, options.shown);
     if (!maker) return report(maker.error());
     makers.push_back(*maker);
   }

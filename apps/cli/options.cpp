@@ -165,6 +165,15 @@ void add_tolerance(CLI::App& fit, Raw& raw) {
       ->type_name("T");
 }
 
+CLI::Option* add_shown(CLI::App& command, FormatValues& values) {
+  return command
+      .add_option("--curvature-range", values.curvature_range,
+                  "Curvatures that pictures show, 1/unit: LOW..HIGH; all; auto: without those of a "
+                  "small part of the length (a nose) that are far larger, which the picture says "
+                  "[auto]")
+      ->type_name("LOW..HIGH");
+}
+
 void add_plot(CLI::App& command, FormatValues& values, const std::string& group) {
   command
       .add_option("--plot", values.plot,
@@ -173,6 +182,7 @@ void add_plot(CLI::App& command, FormatValues& values, const std::string& group)
                   "place of the comb, with the largest and the root mean square [curvature]")
       ->type_name("NAME")
       ->group(group);
+  add_shown(command, values)->group(group);
 }
 
 void add_formats(CLI::App& command, FormatValues& values) {
@@ -399,6 +409,7 @@ void add_compare(CLI::App& app, Raw& raw) {
   add_real_points(compare, raw);
   add_fixed_data(compare, raw.typed);
   add_import(compare, raw.formats);
+  add_shown(compare, raw.formats);
   compare.add_option("--units", raw.units, kUnitsHelp)->type_name("NAME");
   compare.add_flag("--csv", raw.compare.csv, "Table as CSV on standard output");
   compare.add_flag("--json", raw.compare.json, "Table as JSON on standard output");
@@ -594,6 +605,7 @@ Result<Command> checked_compare(Raw& raw) {
   const Result<void> done =
       set_job(raw)
           .and_then([&] { return set_import(raw.formats, raw.compare.import); })
+          .and_then([&] { return set_shown(raw.formats, raw.compare.shown); })
           .and_then([&] { return set_units(raw.units, raw.compare.units); })
           .and_then([&] { return settle_streams(raw.compare, raw.format, raw.compare.csv); })
           .and_then([&] { return need(raw.compare.input, "compare", "a file with points"); });

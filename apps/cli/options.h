@@ -82,6 +82,7 @@ struct RegionOptions {
 
 struct CompareOptions {
   std::string input;
+  ShownCurvatures shown;
   ImportOptions import;
   std::vector<std::string> outputs;
   FitJob job;

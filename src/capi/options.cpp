@@ -85,6 +85,7 @@ std::map<std::string, Setter> setters(Written& w, Request& out, const Known& kno
                 {"unit-chord", flag(f.unit_chord)},
                 {"svg", text(f.svg)},
                 {"plot", text(f.plot)},
+                {"curvature-range", text(f.curvature_range)},
                 {"step", text(f.step)},
                 {"dxf", text(f.dxf)},
                 {"face", number(f.face_width)}});

@@ -263,7 +263,7 @@ class Options(unittest.TestCase):
                     ("surface", "skin"): names_of("surface_make") | names_of("surface_export"),
                     ("surface", "check"): names_of("surface_check"),
                     ("toolpath",): names_of("surface_toolpath") | names_of("surface_export"),
-                    ("region",): names_of("region"), ("compare",): names_of("compare"),
+                    ("region",): names_of("region"), ("compare",): names_of("compare") | names_of("export"),
                     ("analyse",): names_of("analyse") | names_of("export"), ("verify",): set()}
         every = set()
         for command, known in commands.items():

@@ -376,7 +376,7 @@ class Contour:
         """The contour in a text format, by its file extension: "json", "svg", "dxf", "step", "nc", ...
 
         Options are those of the program: output_tolerance, samples, sample_step, feed, controller,
-        motion, svg, plot, step, dxf, face, units, profile (`--for`).
+        motion, svg, plot, curvature_range, step, dxf, face, units, profile (`--for`).
         """
         return only_text(exported(lib.obvid_export, self._handle, ending.lstrip("."), options))
 

@@ -3,6 +3,7 @@
 
 #include <string>
 
+#include "obvid/geom/internal/value_range.h"
 #include "obvid/report/stored_contour.h"
 
 namespace obvid {
@@ -13,11 +14,23 @@ struct PictureTitles {
   std::string verdict;  ///< of curves that nobody here promised anything about
 };
 
+/// Which curvatures pictures show.
+struct ShownCurvatures {
+  enum class Which {
+    kUsual,  ///< without those of a small part of the length (a nose) that are far larger than the
+             ///< rest; the picture says that they are cut off
+    kAll,
+    kRange  ///< those of `range`
+  } which = Which::kUsual;
+  ValueRange range{};  ///< 1/unit
+};
+
 /// Plots that are drawn on request.
 struct PicturePlots {
   bool slope = false;       ///< d kappa/ds over arc length, below the curvature
   bool deviations = false;  ///< of the points from the contour, in three colours in place of the
                             ///< curvature comb; without effect where no point has a tolerance
+  ShownCurvatures curvatures{};
 };
 
 /// Picture of a contour for a report: contour, points, curvature comb, vertices, inflections and
@@ -38,6 +51,7 @@ struct ComparisonTitles {
 /// the same scales, vertices marked and counted. Where a small part of both (a leading edge) has
 /// far larger curvatures than the rest, the axis is that of the rest and the title says so.
 [[nodiscard]] std::string comparison_svg(const Contour& before, const Contour& after,
-                                         const ComparisonTitles& titles);
+                                         const ComparisonTitles& titles,
+                                         const ShownCurvatures& shown = {});
 
 }  // namespace obvid

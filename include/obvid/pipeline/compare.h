@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "obvid/core/run_context.h"
+#include "obvid/picture/picture_svg.h"
 #include "obvid/pipeline/fit.h"
 
 namespace obvid {
@@ -45,7 +46,8 @@ struct Comparison {
 [[nodiscard]] std::string continuity_name(const ComparedCarrier& row);
 
 /// A picture of all carriers side by side, each with its curvature.
-[[nodiscard]] std::string comparison_svg(const PointSeries& series, const Comparison& compared);
+[[nodiscard]] std::string comparison_svg(const PointSeries& series, const Comparison& compared,
+                                         const ShownCurvatures& shown = {});
 
 /// Control points of the contour as NURBS curves: neighbouring pieces of one kind share knots as
 /// far as the carrier is continuous in its parameter (B-splines), else their end points. 0 when a

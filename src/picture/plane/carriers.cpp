@@ -31,16 +31,6 @@ PictureFrame common_frame(const std::vector<PictureSide>& sides, const PictureSc
   return frame;
 }
 
-/// What stands above all plots: the axis of the curvature, and what it leaves out.
-std::string axis_title(const std::vector<PictureSide>& sides, const PictureScale& scale,
-                       const PictureAxis& axis, const std::string& units) {
-  std::string title = curvature_title(axis, units);
-  if (!scale.cut) return title;
-  double largest = 0.0;
-  for (const PictureSide& side : sides) largest = std::max(largest, side.track.largest_kappa);
-  return title + ", cut off: the largest is " + readable_number(largest, 2) + " 1/" + units;
-}
-
 void draw_plot(PictureCanvas& canvas, const PictureFrame& frame, const PictureSide& side,
                const PictureSide& first, int id, bool last) {
   draw_grid(canvas, frame, last);
@@ -83,7 +73,8 @@ double legend_of_all(PictureCanvas& canvas, const std::vector<PictureSide>& side
 
 }  // namespace
 
-std::string carriers_svg(const std::vector<NamedContour>& contours, const std::string& heading) {
+std::string carriers_svg(const std::vector<NamedContour>& contours, const std::string& heading,
+                         const ShownCurvatures& shown) {
   std::vector<PictureSide> sides;
   std::string units, description;
   for (const NamedContour& one : contours) {
@@ -92,13 +83,13 @@ std::string carriers_svg(const std::vector<NamedContour>& contours, const std::s
     if (units.empty() && !one.contour.pieces.empty()) units = one.contour.units.text();
     description += (description.empty() ? "" : "; ") + one.name + ": " + one.remark;
   }
-  const PictureScale scale = common_scale(sides);
+  const PictureScale scale = common_scale(sides, shown);
   PictureFrame frame = common_frame(sides, scale);
   PictureCanvas body;
   body.label({kPictureMargin, 40.0}, "start", "title", heading);
   double y = legend_of_all(body, sides, units, 66.0);
   body.label({kPictureMargin, y + 22.0}, "start", "axis-title",
-             axis_title(sides, scale, frame.y, units));
+             curvature_title(frame.y, scale, units));
   y += 22.0;
   std::size_t last_drawn = 0;
   for (std::size_t k = 0; k < contours.size(); ++k) {

@@ -35,12 +35,7 @@ PictureComb common_comb(const Sides& sides, const PictureScale& scale) {
   if (comb.per_kappa == 0.0 || (other.per_kappa != 0.0 && other.per_kappa < comb.per_kappa)) {
     comb = other;
   }
-  if (!scale.cut) return comb;
-  const double largest = std::max(std::fabs(scale.range.low), std::fabs(scale.range.high));
-  const double all = std::max(sides[0].track.largest_kappa, sides[1].track.largest_kappa);
-  comb.per_kappa *= all / largest;
-  comb.largest = largest;
-  return comb;
+  return cut_comb(comb, scale);
 }
 
 /// Place and scale of both shapes: the same px per unit, above each other or side by side.
@@ -105,10 +100,7 @@ double draw_plots(PictureCanvas& canvas, const Sides& sides, const PictureScale&
   frame.x = tight_axis(0.0, std::max(sides[0].track.length, sides[1].track.length), 8);
   const double diagonal = std::max(sides[0].track.box.diagonal(), sides[1].track.box.diagonal());
   frame.y = curvature_axis(scale.range, diagonal);
-  const std::string largest =
-      readable_number(std::max(sides[0].track.largest_kappa, sides[1].track.largest_kappa), 2);
-  std::string title = curvature_title(frame.y, units);
-  if (scale.cut) title += ", cut off: the largest is " + largest + " 1/" + units;
+  const std::string title = curvature_title(frame.y, scale, units);
   frame.bottom = top;
   for (std::size_t k = 0; k < 2; ++k) {
     const PictureSide& side = sides[k];
@@ -155,10 +147,10 @@ double draw_common_legend(PictureCanvas& canvas, const Sides& sides, const Pictu
 }  // namespace
 
 std::string comparison_svg(const Contour& before, const Contour& after,
-                           const ComparisonTitles& titles) {
+                           const ComparisonTitles& titles, const ShownCurvatures& shown) {
   const Sides sides = {make_picture_side(before, titles.before),
                        make_picture_side(after, titles.after)};
-  const PictureScale scale = common_scale(sides);
+  const PictureScale scale = common_scale(sides, shown);
   const PictureComb comb = common_comb(sides, scale);
   PictureCanvas body;
   body.label({kPictureMargin, 40.0}, "start", "title", titles.heading);

@@ -72,6 +72,14 @@ PictureComb make_comb(const PictureTrack& track) {
   return {kCombPart * diagonal / track.largest_kappa, HUGE_VAL};
 }
 
+PictureComb cut_comb(PictureComb comb, const PictureScale& scale) {
+  const double largest = std::max(std::fabs(scale.range.low), std::fabs(scale.range.high));
+  if (!scale.cut || !(largest > 0.0)) return comb;
+  comb.per_kappa *= scale.largest / largest;
+  comb.largest = largest;
+  return comb;
+}
+
 Box2 box_with_comb(const PictureTrack& track, const PictureComb& comb) {
   Box2 box = track.box;
   for (const PictureSample& sample : track.samples) box.add(comb.tip(sample));

@@ -7,6 +7,7 @@
 
 #include "obvid/curve/contour.h"
 #include "plane/canvas.h"
+#include "plane/plots.h"
 #include "plane/track.h"
 #include "plane/view.h"
 
@@ -25,6 +26,9 @@ struct PictureComb {
 
 /// Comb whose longest tooth is 12 % of the diagonal; none for straight contours.
 [[nodiscard]] PictureComb make_comb(const PictureTrack& track);
+
+/// Its teeth as long for the largest curvature that the scale shows.
+[[nodiscard]] PictureComb cut_comb(PictureComb comb, const PictureScale& scale);
 
 /// Box of the contour with its comb.
 [[nodiscard]] Box2 box_with_comb(const PictureTrack& track, const PictureComb& comb);

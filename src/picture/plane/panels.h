@@ -6,6 +6,7 @@
 #include "obvid/report/stored_contour.h"
 #include "plane/canvas.h"
 #include "plane/moves.h"
+#include "plane/plots.h"
 #include "plane/track.h"
 
 namespace obvid {
@@ -24,6 +25,7 @@ inline constexpr std::size_t kMostSymbols = 400;
 /// Upper panel: shape, comb or deviations of the points, points, symbols, scale bar, legend. Returns
 /// the y of its lower end. `deviations`: null for the comb.
 double shape_panel(PictureCanvas& canvas, const PictureTrack& track, const StoredContour& stored,
-                   const PictureMoves* deviations, bool coloured, double top);
+                   const PictureScale& scale, const PictureMoves* deviations, bool coloured,
+                   double top);
 
 }  // namespace obvid

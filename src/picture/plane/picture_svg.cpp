@@ -2,6 +2,7 @@
 #include "obvid/picture/picture_svg.h"
 
 #include <algorithm>
+#include <array>
 #include <iterator>
 #include <string>
 #include <vector>
@@ -147,9 +148,11 @@ std::string picture_svg(const StoredContour& stored, const PictureTitles& titles
   const double top = more.empty() ? 78.0 : 99.0;
   const PictureMoves moves = make_moves(track, stored);
   const bool deviations = plots.deviations && !moves.points.empty();
+  const std::array<const PictureTrack*, 1> alone{&track};
+  const PictureScale scale = curvature_scale(alone, plots.curvatures);
   const double below =
-      shape_panel(body, track, stored, deviations ? &moves : nullptr, coloured, top);
-  const double height = plot_panels(body, track, {moves, plots.slope, deviations},
+      shape_panel(body, track, stored, scale, deviations ? &moves : nullptr, coloured, top);
+  const double height = plot_panels(body, track, scale, {moves, plots.slope, deviations},
                                     contour.units.text(), coloured, below);
   return picture_sheet(title, verdict.text, body.take(), height);
 }

@@ -3,6 +3,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
+#include <vector>
 
 #include "plane/axis.h"
 #include "plane/frame.h"
@@ -32,11 +34,42 @@ constexpr int kSlopeClip = 3;
 /// Slopes below this part of 1/size^2 are flat: what rounding makes of a circle.
 constexpr double kFlatSlope = 1e-9;
 
-void draw_curvature(PictureCanvas& canvas, const PictureTrack& track, PictureFrame frame,
-                    const std::string& units, bool coloured) {
-  frame.y = curvature_axis(curvature_range(track), track.box.diagonal());
+/// The axis leaves out curvatures of this part of the length when that makes it ...
+constexpr double kLeftOut = 0.12;
+/// ... shorter by this factor at least.
+constexpr double kMuchLonger = 10.0;
+/// Room beyond the curvatures that the axis shows, as part of them.
+constexpr double kBeyondCurvatures = 0.3;
+
+/// Range of the curvatures of all contours without those of the largest size on a part of the length.
+PictureRange usual_range(std::span<const PictureTrack* const> tracks) {
+  std::vector<std::pair<double, double>> steps;  // curvature, length
+  double length = 0.0;
+  for (const PictureTrack* track : tracks) {
+    for (std::size_t j = 1; j < track->samples.size(); ++j) {
+      const PictureSample &a = track->samples[j - 1], &b = track->samples[j];
+      steps.emplace_back(b.kappa, b.s - a.s);
+      length += b.s - a.s;
+    }
+  }
+  std::sort(steps.begin(), steps.end(),
+            [](const auto& a, const auto& b) { return std::fabs(a.first) < std::fabs(b.first); });
+  PictureRange range;
+  double travelled = 0.0;
+  for (const auto& [kappa, part] : steps) {
+    travelled += part;
+    if (travelled > (1.0 - kLeftOut) * length) break;
+    range.low = std::min(range.low, kappa);
+    range.high = std::max(range.high, kappa);
+  }
+  return range;
+}
+
+void draw_curvature(PictureCanvas& canvas, const PictureTrack& track, const PictureScale& scale,
+                    PictureFrame frame, const std::string& units, bool coloured) {
+  frame.y = curvature_axis(scale.range, track.box.diagonal());
   canvas.label({kPictureMargin, frame.top - 11.0}, "start", "axis-title",
-               curvature_title(frame.y, units));
+               curvature_title(frame.y, scale, units));
   draw_grid(canvas, frame, false);
   draw_joints(canvas, frame, track);
   draw_graph(canvas, frame, track, curvature_of, coloured, kCurvatureClip);
@@ -129,6 +162,32 @@ PictureRange curvature_range(const PictureTrack& track) {
   return range;
 }
 
+PictureScale curvature_scale(std::span<const PictureTrack* const> tracks,
+                             const ShownCurvatures& shown) {
+  PictureScale scale;
+  for (const PictureTrack* track : tracks) {
+    const PictureRange one = curvature_range(*track);
+    scale.range.low = std::min(scale.range.low, one.low);
+    scale.range.high = std::max(scale.range.high, one.high);
+    scale.largest = std::max(scale.largest, track->largest_kappa);
+  }
+  if (shown.which == ShownCurvatures::Which::kAll) return scale;
+  if (shown.which == ShownCurvatures::Which::kRange) {
+    const PictureRange asked{shown.range.low, shown.range.high};
+    scale.cut = scale.range.low < asked.low || scale.range.high > asked.high;
+    scale.range = asked;
+    return scale;
+  }
+  const PictureRange usual = usual_range(tracks);
+  const double room = kBeyondCurvatures * (usual.high - usual.low);
+  const PictureRange near{std::max(scale.range.low, usual.low - room),
+                          std::min(scale.range.high, usual.high + room)};
+  scale.cut =
+      kMuchLonger * (near.high - near.low) < scale.range.high - scale.range.low && room > 0.0;
+  if (scale.cut) scale.range = near;
+  return scale;
+}
+
 PictureAxis curvature_axis(PictureRange range, double diagonal) {
   // A line (or its rounding) gets an axis that shows that it is flat.
   constexpr double kFlat = 1e-9;
@@ -139,19 +198,25 @@ PictureAxis curvature_axis(PictureRange range, double diagonal) {
   return round_axis(range.low, range.high, 5);
 }
 
-std::string curvature_title(const PictureAxis& axis, const std::string& units) {
-  return "Curvature, " + power_prefix(axis.exponent) + "1/" + units + " (left turn +)";
+std::string curvature_title(const PictureAxis& axis, const PictureScale& scale,
+                            const std::string& units) {
+  std::string title = "Curvature, " + power_prefix(axis.exponent) + "1/" + units + " (left turn +)";
+  if (scale.cut) {
+    title += ", cut off: the largest is " + readable_number(scale.largest, 2) + " 1/" + units;
+  }
+  return title;
 }
 
 double curvature_of(const PictureSample& sample) { return sample.kappa; }
 
-double plot_panels(PictureCanvas& canvas, const PictureTrack& track, const PlotsBetween& between,
-                   const std::string& units, bool coloured, double top) {
+double plot_panels(PictureCanvas& canvas, const PictureTrack& track, const PictureScale& scale,
+                   const PlotsBetween& between, const std::string& units, bool coloured,
+                   double top) {
   PictureFrame frame;
   frame.x = tight_axis(0.0, track.length, 8);
   frame.top = top + kPlotsTitleRoom;
   frame.bottom = frame.top + kOnePlotHeight;
-  draw_curvature(canvas, track, frame, units, coloured);
+  draw_curvature(canvas, track, scale, frame, units, coloured);
   if (between.slope) {
     frame.top = frame.bottom + kPlotsTitleRoom + kPlotsApart;
     frame.bottom = frame.top + kOnePlotHeight;

@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <span>
 #include <string>
 
+#include "obvid/picture/picture_svg.h"
 #include "plane/axis.h"
 #include "plane/canvas.h"
 #include "plane/moves.h"
@@ -17,9 +19,19 @@ struct PictureRange {
 
 /// Curvatures of a contour, and 0.
 [[nodiscard]] PictureRange curvature_range(const PictureTrack& track);
+/// Curvature axis of one contour, or of several beside each other.
+struct PictureScale {
+  PictureRange range;
+  bool cut = false;      ///< larger curvatures are left out
+  double largest = 0.0;  ///< of all, by size, 1/unit
+};
+
+[[nodiscard]] PictureScale curvature_scale(std::span<const PictureTrack* const> tracks,
+                                           const ShownCurvatures& shown);
 /// Axis for these curvatures of a contour of this size.
 [[nodiscard]] PictureAxis curvature_axis(PictureRange range, double diagonal);
-[[nodiscard]] std::string curvature_title(const PictureAxis& axis, const std::string& units);
+[[nodiscard]] std::string curvature_title(const PictureAxis& axis, const PictureScale& scale,
+                                          const std::string& units);
 [[nodiscard]] double curvature_of(const PictureSample& sample);
 
 /// What stands between the plots of curvature and of radius.
@@ -31,7 +43,8 @@ struct PlotsBetween {
 
 /// Lower panels over arc length: curvature, its slope, moves, and radius. Returns the y of their
 /// lower end.
-double plot_panels(PictureCanvas& canvas, const PictureTrack& track, const PlotsBetween& between,
-                   const std::string& units, bool coloured, double top);
+double plot_panels(PictureCanvas& canvas, const PictureTrack& track, const PictureScale& scale,
+                   const PlotsBetween& between, const std::string& units, bool coloured,
+                   double top);
 
 }  // namespace obvid

@@ -62,8 +62,10 @@ double draw_region(PictureCanvas& canvas, const PictureTrack& track, const Store
 }  // namespace
 
 double shape_panel(PictureCanvas& canvas, const PictureTrack& track, const StoredContour& stored,
-                   const PictureMoves* deviations, bool coloured, double top) {
-  const PictureComb comb = deviations == nullptr ? make_comb(track) : PictureComb{};
+                   const PictureScale& scale, const PictureMoves* deviations, bool coloured,
+                   double top) {
+  const PictureComb comb =
+      deviations == nullptr ? cut_comb(make_comb(track), scale) : PictureComb{};
   double bottom = top;
   const PictureView view = make_view(track, comb, top, bottom);
   const double widest = draw_region(canvas, track, stored, view, top, bottom);
@@ -80,7 +82,10 @@ double shape_panel(PictureCanvas& canvas, const PictureTrack& track, const Store
   PictureLegend legend{track, stored.contour.units.text(), coloured, widest};
   legend.dots = dot_radius(track, view) > 0.0;
   legend.dots_are_joints = is_as_drawn(stored.contour.carrier);
-  if (comb.per_kappa != 0.0) legend.longest_tooth = track.largest_kappa;
+  if (comb.per_kappa != 0.0) {
+    legend.comb_cut = comb.largest < track.largest_kappa;
+    legend.longest_tooth = std::min(comb.largest, track.largest_kappa);
+  }
   legend.deviations = deviations;
   return draw_legend(canvas, legend, kPictureMargin + kScaleBarRoom, strip) + 16.0;
 }

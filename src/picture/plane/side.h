@@ -22,11 +22,7 @@ struct PictureSide {
                                             const Certificate* certificate = nullptr);
 
 /// Curvature axis that all sides share.
-struct PictureScale {
-  PictureRange range;
-  bool cut = false;  ///< a small part of the length has far larger curvatures, which are left out
-};
-
-[[nodiscard]] PictureScale common_scale(std::span<const PictureSide> sides);
+[[nodiscard]] PictureScale common_scale(std::span<const PictureSide> sides,
+                                        const ShownCurvatures& shown);
 
 }  // namespace obvid

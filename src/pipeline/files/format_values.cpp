@@ -165,8 +165,26 @@ Result<void> choose(const std::optional<std::string>& typed, const Names& names,
 
 }  // namespace
 
+Result<void> set_shown(const FormatValues& typed, ShownCurvatures& shown) {
+  using enum ShownCurvatures::Which;
+  if (!typed.curvature_range || *typed.curvature_range == "auto") return {};
+  if (*typed.curvature_range == "all") {
+    shown.which = kAll;
+    return {};
+  }
+  const auto range = typed_range(*typed.curvature_range);
+  if (!range || !std::isfinite(range->low) || !std::isfinite(range->high)) {
+    return fail(bad_option("a range of curvatures is expected", "--curvature-range",
+                           "LOW..HIGH in 1/unit, for example -0.5..2; all or auto"));
+  }
+  shown = {kRange, *range};
+  return {};
+}
+
 Result<void> set_plots(const FormatValues& typed, PicturePlots& plots) {
-  return choose(typed.plot, kPlots, "--plot", plots);
+  return choose(typed.plot, kPlots, "--plot", plots).and_then([&] {
+    return set_shown(typed, plots.curvatures);
+  });
 }
 
 Result<void> set_formats(const FormatValues& typed, ExportOptions& options,
@@ -235,6 +253,7 @@ std::vector<std::string> idle_options(const FormatValues& typed,
   look(typed.dxf.has_value(), written({kDxf}), "--dxf", "DXF file");
   look(typed.svg.has_value(), svg, "--svg", ".svg");
   look(typed.plot.has_value(), svg, "--plot", ".svg");
+  look(typed.curvature_range.has_value(), svg, "--curvature-range", ".svg");
   look(typed.samples.has_value(), samples || foil, "--samples", "file of samples");
   look(typed.sample_step.has_value(), samples, "--sample-step", "file of samples");
   look(typed.airfoil.has_value(), foil, "--airfoil", ".dat");

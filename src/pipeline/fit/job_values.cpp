@@ -68,8 +68,10 @@ constexpr string_view kTo = "..";
 
 bool is_range(string_view text) { return text.find(kTo) != string_view::npos; }
 
-/// "20..30", "20.." or "..30"; nothing for anything else, and where no value is between.
-std::optional<ValueRange> range_of(string_view text) {
+}  // namespace
+
+std::optional<ValueRange> typed_range(string_view text) {
+  if (!is_range(text)) return std::nullopt;
   const std::size_t at = text.find(kTo);
   const string_view from = text.substr(0, at), to = text.substr(at + kTo.size());
   ValueRange out;
@@ -88,6 +90,8 @@ std::optional<ValueRange> range_of(string_view text) {
   return out;
 }
 
+namespace {
+
 Error no_range(string_view text, const char* option, const char* hint) {
   return bad_option(in_quotes(text) + " is no range", option, hint);
 }
@@ -96,7 +100,7 @@ Result<ValueOrRange> headings_of(string_view text, const char* option) {
   if (!is_range(text)) {
     return heading_of(text, option).map([](double value) { return ValueOrRange{value, {}}; });
   }
-  const auto degrees = range_of(text);
+  const auto degrees = typed_range(text);
   if (!degrees || !(degrees->high - degrees->low <= 180.0)) {
     return fail(no_range(text, option, "write LOW..HIGH in degrees, at most 180 apart"));
   }
@@ -113,7 +117,7 @@ Result<ValueOrRange> radii_of(string_view text, const char* option) {
   if (!is_range(text)) {
     return radius_value(text, option).map([](double value) { return ValueOrRange{value, {}}; });
   }
-  const auto radii = range_of(text);
+  const auto radii = typed_range(text);
   const auto kappas = radii ? curvatures_of_radii(*radii) : std::nullopt;
   if (!kappas) {
     return fail(no_range(text, option, "write LOW..HIGH, LOW.. or ..HIGH, ends of one sign"));
@@ -235,7 +239,7 @@ Result<void> set_at(const std::vector<std::string>& typed, const char* option, W
 
 Result<ValueOrRange> kappas_of(string_view text) {
   if (is_range(text)) {
-    const auto kappas = range_of(text);
+    const auto kappas = typed_range(text);
     if (kappas) return ValueOrRange{{}, kappas};
     return fail(no_range(text, "--kappa-at", "write LOW..HIGH, LOW.. or ..HIGH"));
   }

@@ -15,7 +15,8 @@ std::string continuity_name(const ComparedCarrier& row) {
   return "G" + std::to_string(row.continuity);
 }
 
-std::string comparison_svg(const PointSeries& series, const Comparison& compared) {
+std::string comparison_svg(const PointSeries& series, const Comparison& compared,
+                           const ShownCurvatures& shown) {
   std::vector<NamedContour> contours;
   for (const ComparedCarrier& row : compared.carriers) {
     NamedContour one{to_string(row.carrier), {}, row.fit.contour, row.fit.certificate};
@@ -32,7 +33,7 @@ std::string comparison_svg(const PointSeries& series, const Comparison& compared
     contours.push_back(std::move(one));
   }
   const std::string name = series.name.empty() ? "" : series.name + " · ";
-  return carriers_svg(contours, name + "carriers side by side");
+  return carriers_svg(contours, name + "carriers side by side", shown);
 }
 
 }  // namespace obvid

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "obvid/picture/picture_svg.h"
 #include "obvid/certify/certificate.h"
 #include "obvid/curve/contour.h"
 
@@ -24,6 +25,7 @@ struct NamedContour {
 /// Where a small part has far larger curvatures than the rest, the axis is that of the rest and the
 /// title says so.
 [[nodiscard]] std::string carriers_svg(const std::vector<NamedContour>& contours,
-                                       const std::string& heading);
+                                       const std::string& heading,
+                                       const ShownCurvatures& shown = {});
 
 }  // namespace obvid

@@ -38,10 +38,13 @@ struct FormatValues {
   bool unit_chord = false;
   std::optional<std::string> svg;
   std::optional<std::string> plot;
+  std::optional<std::string> curvature_range;  ///< of pictures: auto, all or LOW..HIGH
 };
 
 /// Error: E203.
 [[nodiscard]] Result<void> set_import(const FormatValues& typed, ImportOptions& options);
+/// Error: E203.
+[[nodiscard]] Result<void> set_shown(const FormatValues& typed, ShownCurvatures& shown);
 /// Error: E203.
 [[nodiscard]] Result<void> set_plots(const FormatValues& typed, PicturePlots& plots);
 /// A profile first, then what was typed beside it. `profile_text` gets what the profile chose.

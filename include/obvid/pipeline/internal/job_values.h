@@ -4,9 +4,11 @@
 #include <map>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "obvid/core/result.h"
+#include "obvid/geom/internal/value_range.h"
 #include "obvid/pipeline/fit.h"
 
 namespace obvid {
@@ -46,6 +48,9 @@ template <class Value>
   for (const auto& [name, value] : values) names.push_back(name);
   return fail(unknown_name(typed, names, option));
 }
+
+/// "20..30", "20.." or "..30"; nothing for anything else, and where no value is between.
+[[nodiscard]] std::optional<ValueRange> typed_range(std::string_view text);
 
 /// The carrier of a name. Error: E203.
 [[nodiscard]] Result<Carrier> carrier_named(const std::string& typed);
