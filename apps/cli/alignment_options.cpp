@@ -36,7 +36,7 @@ void add_alignment_options(CLI::App& app, RawAlignment& raw) {
                  "of the last printed digit [rounding]")
       ->type_name("EPS");
   app.add_option("--min-length", raw.least_length,
-                 "Least length of an element, input units [any]")
+                 "Least length of an element, input units [a quarter of the mean distance of points]")
       ->type_name("L");
   app.add_option("--min-radius", raw.least_radius, "Least radius anywhere, input units [any]")
       ->type_name("R");
@@ -74,7 +74,7 @@ Result<void> take_number(const std::optional<std::string>& text, const char* opt
   const bool whole = !text->empty() && end == text->c_str() + text->size();
   if (!whole || !std::isfinite(number) || (least == Least::kMoreThanNothing && !(number > 0.0))) {
     return fail(bad_option(least == Least::kAny ? "a station is a number" : "it must be a positive number",
-                           option, "a length is in the units of the points, without their name"));
+                           option, "a length in the units of the points, an acceleration in m/s^2; without the unit"));
   }
   out = number;
   return {};

@@ -74,7 +74,7 @@ std::string size_text(const AuditPlace& place, const std::string& units) {
 
 std::string place_table(const CurveAudit& a) {
   Table table;
-  table.column("arc\nlength");
+  table.column(a.station ? "\nstation" : "arc\nlength");
   table.column("what", Table::Align::kLeft);
   table.column("x");
   table.column("y");
@@ -89,7 +89,7 @@ std::string place_table(const CurveAudit& a) {
     if (i > before) table.gap();
     before = i + 1;
     const AuditPlace& place = a.places[i];
-    table.row({coordinate(place.s, a.length), to_string(place.kind),
+    table.row({coordinate(a.station.value_or(0.0) + place.s, a.length), to_string(place.kind),
                coordinate(place.point.x, a.length), coordinate(place.point.y, a.length),
                radius_text(place.kappa_before), radius_text(place.kappa_after),
                size_text(place, a.contour.units.text())});

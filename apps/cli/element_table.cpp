@@ -9,10 +9,18 @@
 #include "text.h"
 
 namespace obvid {
+namespace {
+
+/// Degrees, never 360.
+std::string azimuth_text(double theta) {
+  std::string text = fmt::format("{:.4f}", azimuth_deg(theta));
+  return text == "360.0000" ? "0.0000" : text;
+}
+
+}  // namespace
 
 std::string elements_text(const std::vector<AlignmentElement>& elements, double size,
                           const std::optional<SpeedLimit>& limit) {
-  constexpr int kAzimuthDecimals = 4;
   Table table;
   table.column("element");
   table.column("kind", Table::Align::kLeft);
@@ -28,7 +36,7 @@ std::string elements_text(const std::vector<AlignmentElement>& elements, double 
     std::vector<std::string> cells{std::to_string(k + 1), to_string(e.kind), coordinate(e.station, size),
                coordinate(e.length, size), radius_text(e.start.kappa), radius_text(e.kappa1),
                                    parameter > 0.0 ? significant(parameter, 5) : "-",
-               fmt::format("{:.{}f}", azimuth_deg(e.start.theta), kAzimuthDecimals),
+azimuth_text(e.start.theta),
                coordinate(e.start.point.x, size), coordinate(e.start.point.y, size)};
     if (limit) {
       const auto speed = speed_kmh(e, *limit);

@@ -26,6 +26,7 @@ constexpr double kCloser = 0.7;       ///< a gap has to become this share of its
 constexpr int kClosing = 40;          ///< steps that close what is left, at the most
 constexpr double kRounding = 1e-13;   ///< of the size: what rounding makes of a gap
 constexpr double kSettled = 1e-9;     ///< growth of the fit, of itself, at which it is done
+constexpr double kAtTheLeast = 1e-3;  ///< of the least length: what is no longer is held there
 constexpr double kShorter = 0.5;      ///< of what it is longer than the least: lost in one step
 constexpr double kTurn = 0.3;         ///< rad: an element turns by no more in one step
 /// Of the scaled normal equations: at first, before the search gives up, so that they can be
@@ -354,24 +355,33 @@ class Fitter {
     return move;
   }
 
-  /// The same with curvatures that would get sharper than they may held at that.
-  std::optional<std::vector<double>> blunt_step(double damping) {
+  /// The same with curvatures that would get sharper than they may held at that, and elements that
+  /// are as short as they may be held so.
+  std::optional<std::vector<double>> step_within_limits(double damping) {
     const std::size_t conditions = conditions_.size();
+    std::vector<bool> held(unknowns_, false);
     auto move = step(damping);
     for (bool added = true; move && added;) {
       added = false;
-      for (std::size_t k = 0; k < column_.size(); ++k) {
-        if (column_[k] == kNone) continue;
-        const double next = chain_.kappa[k] + (*move)[column_[k]] * scale_[column_[k]];
-        const double most = std::copysign(held_.largest_curvature, next);
-        if (!(std::abs(next) > held_.largest_curvature * (1.0 + kRounding))) continue;
+      const auto hold = [&](std::size_t column, double change) {
         std::vector<double> row(unknowns_, 0.0);
-        row[column_[k]] = 1.0;
-        conditions_.push_back({std::move(row), most - chain_.kappa[k]});
-        added = true;
+        row[column] = 1.0;
+        conditions_.push_back({std::move(row), change});
+        held[column] = added = true;
+      };
+      for (std::size_t k = 0; k < column_.size(); ++k) {
+        if (column_[k] == kNone || held[column_[k]]) continue;
+        const double next = chain_.kappa[k] + (*move)[column_[k]] * scale_[column_[k]];
+        if (!(std::abs(next) > held_.largest_curvature)) continue;
+        hold(column_[k], std::copysign(held_.largest_curvature, next) - chain_.kappa[k]);
+      }
+      for (std::size_t k = 0; k < chain_.size(); ++k) {
+        const std::size_t column = first_length_ + k;
+        const bool shortest = chain_.length[k] <= held_.least_length * (1.0 + kAtTheLeast);
+        if (!shortest || held[column] || !((*move)[column] < 0.0)) continue;
+        hold(column, 0.0);
       }
       if (added) move = step(damping);
-      if (conditions_.size() > conditions + column_.size()) break;  // rounding goes in circles
     }
     conditions_.resize(conditions);
     return move;
@@ -450,7 +460,7 @@ class Fitter {
   bool take_step(double power, double& damping, const Better& better) {
     assemble(power);
     for (; damping < kDampingMost; damping *= 10.0) {
-      const auto move = blunt_step(damping);
+      const auto move = step_within_limits(damping);
       if (!move) continue;
       Chain next = moved(*move);
       std::vector<Foot> feet = feet_;
@@ -500,23 +510,6 @@ std::vector<Element> Chain::joints() const {
                    k + 1 < size() ? curvature(k + 1, 0) : k1});
   }
   return out;
-}
-
-void Chain::renumber() {
-  std::vector<int> to(kappa.size(), kStraight);
-  std::vector<double> kept;
-  for (auto& pair : ends) {
-    for (int& number : pair) {
-      if (number == kStraight) continue;
-      int& now = to[static_cast<std::size_t>(number)];
-      if (now == kStraight) {
-        now = static_cast<int>(kept.size());
-        kept.push_back(kappa[static_cast<std::size_t>(number)]);
-      }
-      number = now;
-    }
-  }
-  kappa = std::move(kept);
 }
 
 void find_feet(const Chain& chain, const std::vector<Vec2>& points, std::vector<Foot>& feet) {

@@ -30,8 +30,6 @@ struct Chain {
   }
   /// Points and headings at the joints: one more than elements.
   [[nodiscard]] std::vector<Element> joints() const;
-  /// Drops curvatures that no element has any more.
-  void renumber();
 };
 
 /// A point's foot on the chain.

@@ -77,13 +77,17 @@ class Search {
           !on) {
         return fail(on.error());
       }
-      const std::size_t farthest = advance(first, end);
-      if (farthest < end) break;
+      const auto farthest = advance(first, end, run);
+      if (!farthest) return fail(farthest.error());
+      if (*farthest < end) break;
       first = end;
-      end = farthest + 1;
+      end = *farthest + 1;
     }
     if (end <= last || reached_[last].empty()) {
-      return fail({ErrorCode::kNoSpiral, "no clothoids within the tolerance were found", "", "",
+      return fail({ErrorCode::kNoSpiral, "no clothoids within the tolerance were found", "",
+                   options_.least_length > 0.0 || options_.least_radius > 0.0
+                       ? "allow a larger tolerance, or shorter elements and smaller radii"
+                       : "allow a larger tolerance",
                    static_cast<long>(places_[std::min(end, last) - 1].at), 0.0});
     }
     return nodes();
@@ -250,7 +254,7 @@ class Search {
   }
 
   /// Places behind `end` that one clothoid reaches from one in [first, end); the farthest.
-  std::size_t advance(std::size_t first, std::size_t end) {
+  Result<std::size_t> advance(std::size_t first, std::size_t end, const RunContext& run) {
     struct Reach {
       Source from;
       std::size_t to = 0;
@@ -258,6 +262,7 @@ class Search {
     std::vector<Reach> reaches;
     std::size_t farthest = 0, guess = 0;
     for (std::size_t i = first; i < end; ++i) {
+      if (auto on = may_go_on(run); !on) return fail(on.error());
       for (std::size_t p = 0; p < reached_[i].size(); ++p) {
         const std::size_t to = reach_of({i, p}, guess);
         guess = to;
@@ -266,6 +271,7 @@ class Search {
       }
     }
     for (std::size_t j = end; j <= farthest; ++j) {
+      if (auto on = may_go_on(run); !on) return fail(on.error());
       std::vector<Source> from;
       for (const Reach& r : reaches) {
         if (r.to >= j && is_long_enough(r.from.place, j)) from.push_back(r.from);

@@ -2,7 +2,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <set>
 #include <tuple>
 #include <utility>
 
@@ -34,13 +33,14 @@ class Simplifier {
     least_length_ = std::max(kLeastLength * length / static_cast<double>(points.size() - 1),
                              options.least_length);
     if (options.least_radius > 0.0) largest_curvature_ = 1.0 / options.least_radius;
-    for (double& kappa : chain_.kappa) {
-      kappa = std::clamp(kappa, -largest_curvature_, largest_curvature_);
-    }
   }
 
   Result<void> run(const RunContext& run) {
-    if (auto on = polish(run); !on) return on;
+    const std::vector<Element> joints = chain_.joints();  // of the search: the points are there
+    for (double& kappa : chain_.kappa) {
+      kappa = std::clamp(kappa, -largest_curvature_, largest_curvature_);
+    }
+    if (auto on = polish(run, &joints); !on) return on;
     if (auto on = merge_all(run); !on) return on;
     for (int pass = 0; pass < kPasses; ++pass) {
       const auto taken = take_conditions(run);
@@ -149,7 +149,8 @@ class Simplifier {
     }
   }
 
-  Result<void> polish(const RunContext& run) {
+  /// Windows end at joints of the chain as it is, or where it is meant to pass.
+  Result<void> polish(const RunContext& run, const std::vector<Element>* meant = nullptr) {
     for (std::size_t first = 0; first < chain_.size(); first += kWindow / 2) {
       if (auto on =
               tell(run, "fitting", static_cast<double>(first) / static_cast<double>(chain_.size()));
@@ -157,6 +158,7 @@ class Simplifier {
         return on;
       const std::size_t last = std::min(first + kWindow, chain_.size());
       Window window = cut(chain_, first, last);
+      if (meant != nullptr && last < chain_.size()) window.held.end = (*meant)[last];
       if (window.points.empty()) continue;
       const Fitted fitted =
           fit_chain(window.chain, window.points, window.tolerance, window.feet, window.held);
@@ -201,6 +203,7 @@ class Simplifier {
     const std::size_t first = k - std::min(k, kBeside);
     const std::size_t last = std::min(k + kBeside + 1, next.size());
     Window window = cut(next, feet, first, last, joints, last + 1);
+    if (window.points.empty()) return false;
     window.held.hopeless = kHopelessOffset;
     const Fitted fitted =
         fit_chain(window.chain, window.points, window.tolerance, window.feet, window.held);
@@ -236,10 +239,14 @@ class Simplifier {
     if (k + 1 < chain_.size()) add(k1, chain_.ends[k + 1][0], true);
   }
 
-  void estimate(std::vector<Candidate>& candidates) const {
+  Result<void> estimate(std::vector<Candidate>& candidates, const RunContext& run) const {
     for (Candidate& c : candidates) {
+      if (auto on = may_go_on(run); !on) return on;
       const auto [first, last] = around(c.element);
       Window window = cut(chain_, first, last);
+      c.room = static_cast<double>(window.points.size());
+      c.growth = std::numeric_limits<double>::infinity();
+      if (window.points.empty()) continue;
       const auto own = [&](int number) {
         return number == Chain::kStraight
                    ? number
@@ -249,8 +256,8 @@ class Simplifier {
       };
       c.growth = growth_of(window.chain, window.points, window.tolerance, window.feet, window.held,
                            own(c.a), own(c.b));
-      c.room = static_cast<double>(window.points.size());
     }
+    return {};
   }
 
   bool take(const Candidate& c) {
@@ -268,6 +275,7 @@ class Simplifier {
       }
     }
     Window window = cut(next, first, last);
+    if (window.points.empty()) return false;
     const Fitted fitted =
         fit_chain(window.chain, window.points, window.tolerance, window.feet, window.held);
     if (!(fitted.largest <= 1.0)) return false;
@@ -294,10 +302,8 @@ class Simplifier {
   /// Whether one was taken.
   Result<bool> take_conditions(const RunContext& run) {
     std::vector<Candidate> candidates;
-    refused_.clear();  // what others stood in the way of may be possible now
     for (std::size_t k = 0; k < chain_.size(); ++k) add_candidates(k, candidates);
-    std::erase_if(candidates, [&](const Candidate& c) { return refused_.contains({c.a, c.b}); });
-    estimate(candidates);
+    OBVID_TRY(estimate(candidates, run));
     // an element that is an arc or a line goes before a joint without a step: where both are
     // possible, but not together, the step is what was built
     std::stable_sort(candidates.begin(), candidates.end(),
@@ -313,8 +319,6 @@ class Simplifier {
       }
       if (candidates[i].growth <= kHopeless * candidates[i].room && take(candidates[i])) {
         taken = true;
-      } else {
-        refused_.insert({candidates[i].a, candidates[i].b});
       }
     }
     return taken;
@@ -326,7 +330,6 @@ class Simplifier {
   std::vector<Foot> feet_;
   double least_length_ = 0.0;
   double largest_curvature_ = std::numeric_limits<double>::infinity();
-  std::set<std::pair<int, int>> refused_;
 };
 
 /// The chain through nodes, with the points' feet about where they are.

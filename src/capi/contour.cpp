@@ -29,6 +29,7 @@ Result<std::unique_ptr<obvid_files>> files_of(const obvid_contour& contour, cons
   ExportOptions& formats = request->formats;
   formats.name = contour.name;
   formats.picture = contour.picture;
+  formats.first_station = contour.first_station;
   const StoredContour* stored = &contour.stored;
   StoredContour other;
   if (request->units) {

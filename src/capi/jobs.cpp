@@ -107,6 +107,7 @@ Result<std::unique_ptr<obvid_contour>> stored_of(const obvid_input& input, const
     OBVID_TRY(drawn);
     out->stored = std::move(drawn->stored);
     out->name = std::move(drawn->name);
+    out->first_station = drawn->first_station;
     out->picture = std::move(drawn->picture);
   } else {
     auto stored = contour_from_json(input.text, input.name);

@@ -74,6 +74,8 @@ SQUARE = "x,y\n" + "".join(f"{x},{y}\n" for x, y in [
 PAPER = example("paper_series10.csv")
 DRAWN = ('<svg xmlns="http://www.w3.org/2000/svg"><path d="M0 0H40V30H0Z"/>'
          '<path d="M0 50C10 90 30 20 60 60"/></svg>')
+ROAD = """<LandXML><Units><Metric linearUnit="meter"/></Units><Alignments><Alignment name="A" staStart="1500">
+<CoordGeom><Line><Start>0 0</Start><End>0 100</End></Line></CoordGeom></Alignment></Alignments></LandXML>"""
 TRACK = ('<gpx version="1.1" xmlns="http://www.topografix.com/GPX/1/1"><trk><trkseg>' + "".join(
     f'<trkpt lat="50.0{i}" lon="30.0{i * i}"/>' for i in range(1, 6)) + "</trkseg></trk></gpx>")
 
@@ -167,6 +169,10 @@ class Reports(unittest.TestCase):
             self.holds("analyse", found)
             self.assertTrue(found["curves"])
         self.assertTrue(any(one["places"] for one in found["curves"]))
+        road = json.loads(c.job("analyse", c.text_input(ROAD, "road.xml")))
+        self.holds("analyse", road)
+        self.assertEqual([one["kind"] for one in road["curves"][0]["elements"]], ["line"])
+        self.assertEqual(road["curves"][0]["elements"][0]["station"], 1500)
         track = json.loads(c.job("analyse", c.text_input(TRACK, "track.gpx")))
         self.holds("analyse", track)
         self.assertTrue(track["series"])

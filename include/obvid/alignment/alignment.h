@@ -42,7 +42,8 @@ struct AlignmentOptions {
   /// Divisions of the intervals between points at which the search tries joints; joints move freely
   /// afterwards. More find steps of curvature between coarse points.
   std::size_t divisions = 2;
-  double least_length = 0.0;  ///< of each element, units; 0: any. The whole may be shorter
+  double least_length = 0.0;  ///< of each element, units; 0: a quarter of the mean distance of
+                              ///< points. An alignment of one element may be shorter
   double least_radius = 0.0;  ///< of each place, units; 0: any
 };
 

@@ -18,7 +18,7 @@ struct AlignmentJob {
   std::optional<double> noise{};  ///< how far the alignment may pass a point, units; nothing: half
                                   ///< a unit of the last printed digit. Points with a tolerance of
                                   ///< their own keep that
-  double least_length = 0.0;      ///< of each element, units; 0: any
+  double least_length = 0.0;      ///< of each element, units; 0: a quarter of the points' distance
   double least_radius = 0.0;      ///< of each place, units; 0: any
   double first_station = 0.0;     ///< of the first point, units
   std::optional<double> acceleration{};  ///< to the side, m/s^2: what limits the speed

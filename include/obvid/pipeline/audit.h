@@ -12,6 +12,9 @@
 
 namespace obvid {
 
+/// Of the larger curvature: what more than that counts as a jump where two pieces meet.
+inline constexpr double kMostCurvatureStep = 1e-6;
+
 /// Something that a curvature comb shows at one place of a curve.
 struct AuditPlace {
   enum class Kind {

@@ -90,7 +90,10 @@ class LandXmlReader {
     label_ = fmt::format("{} {}", shortened(local_name(owner)), name);
     name_ = name;
     part_ = 0;
-    station_ = number_of(owner.attribute("staStart").value()).value_or(0.0);
+    station_.reset();  // parcels and plan features have none
+    if (local_name(owner) == "Alignment") {
+      station_ = number_of(owner.attribute("staStart").value()).value_or(0.0);
+    }
     for (const pugi::xml_node child : node.children()) {
       if (child.type() != pugi::node_element) continue;
       if (curve_.pieces.empty()) curve_.station = station_;
@@ -108,10 +111,11 @@ class LandXmlReader {
     drawing_.curves.push_back(std::exchange(curve_, {}));
   }
 
-  void leave_out(const std::string& what, pugi::xml_node node) {
+  void leave_out(const std::string& what, pugi::xml_node node,
+                 std::optional<double> length = std::nullopt) {
     warnings_.add(what + " left out", node);
     finish();
-    const auto length = number_of(node.attribute("length").value());
+    if (!length) length = number_of(node.attribute("length").value());
     if (station_ && length) {
       *station_ += *length;
     } else {
@@ -148,7 +152,7 @@ class LandXmlReader {
   void line(pugi::xml_node node) {
     const auto start = point(node, "Start"), end = point(node, "End");
     if (!start || !end) return leave_out("a Line without readable start and end", node);
-    if (*start == *end) return leave_out("a Line of no length", node);
+    if (*start == *end) return leave_out("a Line of no length", node, 0.0);
     add(LinePiece{*start, *end});
   }
 
@@ -231,7 +235,7 @@ class LandXmlReader {
     if (const auto end = point(node, "End")) points.push_back(*end);
     PointSeries series =
         exchange::plane_series(fmt::format("IrregularLine of {}", label_), drawing_.units, points);
-    if (series.points.size() < 2) return leave_out("an IrregularLine of no length", node);
+    if (series.points.size() < 2) return leave_out("an IrregularLine of no length", node, 0.0);
     for (std::size_t i = 1; i < series.points.size(); ++i) {
       add(LinePiece{series.points[i - 1], series.points[i]});
     }

@@ -129,7 +129,8 @@ class OpenDriveReader {
       if (curve.pieces.empty()) return;
       const std::size_t part = drawing_.curves.size() - before + 1;
       curve.label = part == 1 ? label : fmt::format("{}, part {}", label, part);
-      curve.name = name.empty() ? id : name;
+      const std::string& own = name.empty() ? id : name;
+      curve.name = part == 1 ? own : fmt::format("{}, part {}", own, part);
       curve.closed = start_point(curve.pieces.front()) == end_point(curve.pieces.back());
       drawing_.curves.push_back(std::exchange(curve, {}));
     };

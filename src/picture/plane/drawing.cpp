@@ -74,7 +74,7 @@ PictureComb make_comb(const PictureTrack& track) {
 
 PictureComb cut_comb(PictureComb comb, const PictureScale& scale) {
   const double largest = std::max(std::fabs(scale.range.low), std::fabs(scale.range.high));
-  if (!scale.cut || !(largest > 0.0)) return comb;
+  if (!scale.cut || !(largest > 0.0 && largest < scale.largest)) return comb;
   comb.per_kappa *= scale.largest / largest;
   comb.largest = largest;
   return comb;

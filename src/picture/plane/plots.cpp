@@ -40,6 +40,8 @@ constexpr double kLeftOut = 0.12;
 constexpr double kMuchLonger = 10.0;
 /// Room beyond the curvatures that the axis shows, as part of them.
 constexpr double kBeyondCurvatures = 0.3;
+/// Of the largest curvature: what rounding makes of one at the end of the range.
+constexpr double kShownRounding = 1e-9;
 
 /// Range of the curvatures of all contours without those of the largest size on a part of the length.
 PictureRange usual_range(std::span<const PictureTrack* const> tracks) {
@@ -174,7 +176,13 @@ PictureScale curvature_scale(std::span<const PictureTrack* const> tracks,
   if (shown.which == ShownCurvatures::Which::kAll) return scale;
   if (shown.which == ShownCurvatures::Which::kRange) {
     const PictureRange asked{shown.range.low, shown.range.high};
-    scale.cut = scale.range.low < asked.low || scale.range.high > asked.high;
+    const double rounding = kShownRounding * scale.largest;
+    for (const PictureTrack* track : tracks) {
+      for (const PictureSample& sample : track->samples) {
+        scale.cut = scale.cut || sample.kappa < asked.low - rounding ||
+                    sample.kappa > asked.high + rounding;
+      }
+    }
     scale.range = asked;
     return scale;
   }

@@ -9,12 +9,10 @@
 #include <numbers>
 
 #include "obvid/geom/internal/angle.h"
+#include "obvid/pipeline/audit.h"
 
 namespace obvid {
 namespace {
-
-/// Of the larger curvature: what rounding makes of one that goes on.
-constexpr double kCurvatureRounding = 1e-9;
 
 std::string radius_cell(double kappa) {
   return kappa == 0.0 ? "" : fmt::format("{:.17g}", 1.0 / kappa);
@@ -44,22 +42,19 @@ std::optional<AlignmentElement> element_of(const Piece& piece) {
   return out;
 }
 
-bool steps(double before, double after) {
-  return std::abs(after - before) >
-         kCurvatureRounding * std::max(std::abs(before), std::abs(after));
-}
-
 }  // namespace
 
 std::optional<std::vector<AlignmentElement>> elements_of(const Contour& contour,
                                                          double first_station) {
   std::vector<AlignmentElement> out;
   double station = first_station;
-  for (const Piece& piece : contour.pieces) {
-    auto element = element_of(piece);
+  for (std::size_t k = 0; k < contour.pieces.size(); ++k) {
+    auto element = element_of(contour.pieces[k]);
     if (!element) return std::nullopt;
     element->station = station;
-    element->step = !out.empty() && steps(out.back().kappa1, element->start.kappa);
+    const double before = out.empty() ? element->start.kappa : out.back().kappa1;
+    const double jump = std::abs(element->start.kappa - before);
+    element->step = jump > kMostCurvatureStep * std::max(std::abs(before), std::abs(element->start.kappa));
     station += element->length;
     out.push_back(*element);
   }
@@ -120,7 +115,8 @@ double clothoid_parameter(const AlignmentElement& element) {
 
 double azimuth_deg(double theta) {
   const double angle = std::remainder(0.5 * std::numbers::pi - theta, kFullTurn) / kOneDegree;
-  return angle < 0.0 ? angle + 360.0 : angle;
+  const double turned = angle < 0.0 ? angle + 360.0 : angle;
+  return turned < 360.0 ? turned : 0.0;  // a rounding below north
 }
 
 std::size_t curvature_steps(const std::vector<AlignmentElement>& elements) {

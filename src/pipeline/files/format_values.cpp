@@ -173,7 +173,8 @@ Result<void> set_shown(const FormatValues& typed, ShownCurvatures& shown) {
     return {};
   }
   const auto range = typed_range(*typed.curvature_range);
-  if (!range || !std::isfinite(range->low) || !std::isfinite(range->high)) {
+  if (!range || !std::isfinite(range->low) || !std::isfinite(range->high) ||
+      !(range->low < range->high)) {
     return fail(bad_option("a range of curvatures is expected", "--curvature-range",
                            "LOW..HIGH in 1/unit, for example -0.5..2; all or auto"));
   }

@@ -730,12 +730,14 @@ Result<RegionTable> region_table(const PointSeries& series, const RegionJob& job
   const bool parabolas = job.construction == Construction::kParabolas;
   if (watch.was_cancelled()) return fail(cancelled_error());
   if (made || !parabolas || !pipeline_detail::wants_room(job.job, made.error())) return made;
-  return pipeline_detail::with_room(job.job, "the tangents are those of one", std::move(made),
+  made = pipeline_detail::with_room(job.job, "the tangents are those of one", std::move(made),
                                     [&](const FitJob& wider) {
                                       RegionJob other = job;
                                       other.job = wider;
                                       return table_as_asked(series, other, watch);
                                     });
+  if (watch.was_cancelled()) return fail(cancelled_error());
+  return made;
 }
 
 }  // namespace obvid

@@ -20,7 +20,6 @@ namespace {
 
 constexpr double kLargestGap = 1e-9;   // of the size
 constexpr double kLargestTurn = 1e-6;  // rad
-constexpr double kLargestJump = 1e-6;  // of the larger curvature
 constexpr int kPieceSamples = 200;     // of each piece
 constexpr double kVisible = 0.01;      // of the range of the curvature
 /// Swings below this part of the largest curvature are what rounding leaves on lines and circles.
@@ -118,8 +117,8 @@ class Auditor {
       if (!known.meant || next.meant) return;
       const bool same_piece = from / 2 == to / 2;
       const double most = std::max(std::abs(known.kappa), std::abs(next.kappa));
-      ends[to].meant = same_piece ? std::abs(next.kappa) > kLargestJump * most
-                                  : std::abs(next.kappa - known.kappa) <= kLargestJump * most;
+      ends[to].meant = same_piece ? std::abs(next.kappa) > kMostCurvatureStep * most
+                                  : std::abs(next.kappa - known.kappa) <= kMostCurvatureStep * most;
     };
     for (std::size_t k = 0; k < 2 * n; ++k) {  // twice around: a closed curve has no start
       if (k % n + 1 < n || out_.contour.closed) pass_on(k % n, (k + 1) % n);
@@ -253,7 +252,7 @@ class Auditor {
     if (corner) add(place, 0);
     place.kind = AuditPlace::Kind::kCurvatureJump;
     place.size = 0.0;
-    const bool jumps = !corner && jump > std::max(kLargestJump * larger, rounding_);
+    const bool jumps = !corner && jump > std::max(kMostCurvatureStep * larger, rounding_);
     if (jumps) add(place, 1);
     const double step = pipeline_detail::slope_step_before(out_.contour.pieces, j);
     if (!(step <= pipeline_detail::kClearlyContinuous)) {
