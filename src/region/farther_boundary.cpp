@@ -20,12 +20,12 @@ using region_detail::Arc;
 using region_detail::TwoArcs;
 
 /// Binary digits of the way to which the place of the farthest point is sought: the distance is
-/// flat there.
-constexpr int kDigits = 15;
+/// flat there, and told to the nine digits to which files are compared.
+constexpr int kDigits = 18;
 /// Where the distance has a corner at its top it is not flat.
 constexpr int kDigitsOfCorner = 26;
-/// A step of Newton's on one smooth piece that is so small leaves its square.
-constexpr int kDigitsOfStep = 14;
+/// A step of Newton's on one smooth piece that is so small leaves its square: nine digits too.
+constexpr int kDigitsOfStep = 18;
 constexpr std::uintmax_t kMostLooks = 60;
 /// Part of the way to the end after which the distance is looked at again.
 constexpr double kAside = 0.25;
