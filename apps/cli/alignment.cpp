@@ -9,8 +9,8 @@
 
 #include "commands.h"
 #include "element_table.h"
-#include "obvid/pipeline/element_table.h"
 #include "obvid/core/files.h"
+#include "obvid/pipeline/element_table.h"
 #include "obvid/pipeline/import.h"
 #include "outputs.h"
 #include "terminal.h"
@@ -26,8 +26,7 @@ std::string kinds_text(const Alignment& alignment) {
   std::array<std::size_t, 3> count{};
   for (const auto& e : alignment.elements) ++count[static_cast<std::size_t>(e.kind)];
   return fmt::format("{}, {}, {}", counted(count[0], "line", "lines"),
-                     counted(count[1], "arc", "arcs"),
-                     counted(count[2], "clothoid", "clothoids"));
+                     counted(count[1], "arc", "arcs"), counted(count[2], "clothoid", "clothoids"));
 }
 
 /// Below the title of its picture.
@@ -55,8 +54,10 @@ std::string alignment_text(const AlignmentReport& report, const std::vector<std:
                                   significant(alignment.rms, kOffsetDigits)));
   for (const std::string& remark : remarks) facts.add("note", remark);
   if (!files.empty()) facts.add("written", listed(files));
-  return bold(report.name) + "\n" + elements_text(alignment.elements, std::max(alignment.length, report.tolerance),
-                       report.limit) + "\n" + facts.text();
+  return bold(report.name) + "\n" +
+         elements_text(alignment.elements, std::max(alignment.length, report.tolerance),
+                       report.limit) +
+         "\n" + facts.text();
 }
 
 bool is_element_table(const std::string& path) { return format_of(path) == FileFormat::kSamples; }
@@ -94,7 +95,8 @@ int run(const AlignmentCommand& command) {
     texts->push_back(std::move(output));
   }
   if (!command.deviations.empty()) {
-    texts->push_back({command.deviations, FileFormat::kSamples, deviations_csv(*made, series->points)});
+    texts->push_back(
+        {command.deviations, FileFormat::kSamples, deviations_csv(*made, series->points)});
   }
   warn(notes.warnings);
   const auto written = write_files(*texts, command.input);

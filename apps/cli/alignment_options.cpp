@@ -1,14 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "alignment_options.h"
 
+#include <array>
 #include <cmath>
-#include <cstdlib>
 #include <optional>
 #include <string>
 #include <utility>
 
 #include "cli_app.h"
 #include "obvid/pipeline/internal/format_values.h"
+#include "obvid/pipeline/internal/job_values.h"
 #include "options.h"
 
 namespace obvid {
@@ -23,6 +24,32 @@ struct RawAlignment {
   FormatValues reading;
 };
 
+struct NumberOption {
+  const char* name;
+  const char* value;  ///< in the help
+  std::optional<std::string> RawAlignment::*text;
+  bool positive;
+  const char* what;  ///< is wrong with others
+  const char* hint;
+  const char* help;
+};
+
+constexpr const char* kPositive = "it must be a positive number";
+constexpr const char* kInUnits = "in the units of the points, without their name";
+constexpr std::array kNumberOptions = {
+    NumberOption{"--min-length", "L", &RawAlignment::least_length, true, kPositive, kInUnits,
+                 "Least length of an element, input units [a quarter of the mean distance of "
+                 "points]"},
+    NumberOption{"--min-radius", "R", &RawAlignment::least_radius, true, kPositive, kInUnits,
+                 "Least radius anywhere, input units [any]"},
+    NumberOption{"--station", "S", &RawAlignment::first_station, false, "a station is a number",
+                 kInUnits,
+                 "Station of the first point, input units: where stations are counted from [0]"},
+    NumberOption{"--lateral-acceleration", "A", &RawAlignment::acceleration, true, kPositive,
+                 "in m/s^2, without the unit",
+                 "Acceleration to the side, m/s^2: the table tells the speed at which the sharpest "
+                 "end of each element has it [none]"}};
+
 void add_alignment_options(CLI::App& app, RawAlignment& raw) {
   AlignmentCommand& command = raw.command;
   app.add_option("POINTS", command.input,
@@ -35,20 +62,12 @@ void add_alignment_options(CLI::App& app, RawAlignment& raw) {
                  "How far the alignment may pass the points, input units, or rounding: half a unit "
                  "of the last printed digit [rounding]")
       ->type_name("EPS");
-  app.add_option("--min-length", raw.least_length,
-                 "Least length of an element, input units [a quarter of the mean distance of points]")
-      ->type_name("L");
-  app.add_option("--min-radius", raw.least_radius, "Least radius anywhere, input units [any]")
-      ->type_name("R");
-  app.add_option("--station", raw.first_station,
-                 "Station of the first point, input units: where stations are counted from [0]")
-      ->type_name("S");
-  app.add_option("--lateral-acceleration", raw.acceleration,
-                 "Acceleration to the side, m/s^2: the table tells the speed at which the sharpest end "
-                 "of each element has it [none]")
-      ->type_name("A");
-  app.add_option("--deviations", command.deviations,
-                 "File to write: .csv of station, offset (left positive) and coordinates of each point")
+  for (const NumberOption& option : kNumberOptions) {
+    app.add_option(option.name, raw.*option.text, option.help)->type_name(option.value);
+  }
+  app.add_option(
+         "--deviations", command.deviations,
+         "File to write: .csv of station, offset (left positive) and coordinates of each point")
       ->type_name("OUT");
   app.add_option("--units", raw.units, "Unit of the input: m, ft, usft, km, ... [as the file says]")
       ->type_name("NAME");
@@ -63,21 +82,16 @@ void add_alignment_options(CLI::App& app, RawAlignment& raw) {
       "  obvid alignment track.geojson --noise 0.5 -o road.xodr -o elements.csv");
 }
 
-enum class Least { kAny, kMoreThanNothing };
-
-/// The number of an option that was given, which otherwise stays as it is.
-Result<void> take_number(const std::optional<std::string>& text, const char* option, Least least,
-                         double& out) {
-  if (!text) return {};
-  char* end = nullptr;
-  const double number = std::strtod(text->c_str(), &end);
-  const bool whole = !text->empty() && end == text->c_str() + text->size();
-  if (!whole || !std::isfinite(number) || (least == Least::kMoreThanNothing && !(number > 0.0))) {
-    return fail(bad_option(least == Least::kAny ? "a station is a number" : "it must be a positive number",
-                           option, "a length in the units of the points, an acceleration in m/s^2; without the unit"));
+/// The number that was typed; nothing was: nothing.
+Result<std::optional<double>> given_number(const std::optional<std::string>& text,
+                                           const char* option, bool positive, const char* what,
+                                           const char* hint) {
+  if (!text) return std::optional<double>();
+  const auto number = typed_number(*text);
+  if (!number || !std::isfinite(*number) || (positive && !(*number > 0.0))) {
+    return fail(bad_option(what, option, hint));
   }
-  out = number;
-  return {};
+  return number;
 }
 
 Result<void> check_alignment(RawAlignment& raw) {
@@ -95,23 +109,27 @@ Result<void> check_alignment(RawAlignment& raw) {
     if (!units) return fail(units.error());
     command.units = std::move(*units);
   }
-  OBVID_TRY(take_number(raw.least_length, "--min-length", Least::kMoreThanNothing,
-                        command.job.least_length));
-  OBVID_TRY(take_number(raw.least_radius, "--min-radius", Least::kMoreThanNothing,
-                        command.job.least_radius));
-  OBVID_TRY(take_number(raw.first_station, "--station", Least::kAny, command.job.first_station));
-  if (raw.acceleration) {
-    command.job.acceleration = 0.0;
-    OBVID_TRY(take_number(raw.acceleration, "--lateral-acceleration", Least::kMoreThanNothing,
-                          *command.job.acceleration));
+  std::array<std::optional<double>, kNumberOptions.size()> numbers;
+  for (std::size_t k = 0; k < numbers.size(); ++k) {
+    const NumberOption& option = kNumberOptions[k];
+    const auto number =
+        given_number(raw.*option.text, option.name, option.positive, option.what, option.hint);
+    OBVID_TRY(number);
+    numbers[k] = *number;
   }
+  command.job.least_length = numbers[0].value_or(0.0);
+  command.job.least_radius = numbers[1].value_or(0.0);
+  command.job.first_station = numbers[2].value_or(0.0);
+  command.job.acceleration = numbers[3];
   if (!command.deviations.empty() && !command.deviations.ends_with(".csv")) {
     return fail(bad_option("deviations are a table", "--deviations", "name a .csv"));
   }
   if (!raw.noise || *raw.noise == "rounding") return {};
-  double noise = 0.0;
-  OBVID_TRY(take_number(raw.noise, "--noise", Least::kMoreThanNothing, noise));
-  command.job.noise = noise;
+  const auto noise = given_number(raw.noise, "--noise", true,
+                                  "the tolerance must be a positive length or rounding",
+                                  "give it in the units of the points");
+  OBVID_TRY(noise);
+  command.job.noise = *noise;
   return {};
 }
 

@@ -152,10 +152,6 @@ std::string unplaced_text(const CurveAudit& a) {
       counted(static_cast<std::size_t>(a.inflections), "inflection", "inflections"));
 }
 
-std::optional<std::vector<AlignmentElement>> elements_of_alignment(const CurveAudit& a) {
-  return a.station ? elements_of(a.contour, *a.station) : std::nullopt;
-}
-
 std::string audit_text(const AnalysedDrawing& analysed, bool all) {
   const auto& [drawing, audits, points, asked] = analysed;
   std::string out = bold(drawing.name) + "\n";
@@ -167,7 +163,7 @@ std::string audit_text(const AnalysedDrawing& analysed, bool all) {
   }
   if (!drawing.series.empty()) out += "\npoints are for `obvid fit FILE --curve N`\n";
   for (const std::size_t i : detailed(audits, asked, all)) {
-    const auto elements = elements_of_alignment(audits[i]);
+    const auto elements = elements_of(audits[i]);
     if (!elements && audits[i].places.empty() && audits[i].straightened == 0) continue;
     out += fmt::format("\ncurve {}, {}\n", i + 1, audits[i].label);
     if (elements) out += elements_text(*elements, audits[i].length) + "\n";

@@ -33,11 +33,16 @@ std::string elements_text(const std::vector<AlignmentElement>& elements, double 
   for (std::size_t k = 0; k < elements.size(); ++k) {
     const AlignmentElement& e = elements[k];
     const double parameter = clothoid_parameter(e);
-    std::vector<std::string> cells{std::to_string(k + 1), to_string(e.kind), coordinate(e.station, size),
-               coordinate(e.length, size), radius_text(e.start.kappa), radius_text(e.kappa1),
+    std::vector<std::string> cells{std::to_string(k + 1),
+                                   to_string(e.kind),
+                                   coordinate(e.station, size),
+                                   coordinate(e.length, size),
+                                   radius_text(e.start.kappa),
+                                   radius_text(e.kappa1),
                                    parameter > 0.0 ? significant(parameter, 5) : "-",
-azimuth_text(e.start.theta),
-               coordinate(e.start.point.x, size), coordinate(e.start.point.y, size)};
+                                   azimuth_text(e.start.theta),
+                                   coordinate(e.start.point.x, size),
+                                   coordinate(e.start.point.y, size)};
     if (limit) {
       const auto speed = speed_kmh(e, *limit);
       cells.push_back(speed ? significant(*speed, 4) : "-");

@@ -19,8 +19,8 @@ constexpr int kSteps = 30;  ///< of Levenberg and Marquardt's method, for each p
 constexpr double kPowers[] = {4.0, 8.0, 16.0, 32.0, 64.0};
 constexpr double kClosed = 1e-9;      ///< of the tolerance: a gap that counts as none
 constexpr double kLeastShare = 1e-3;  ///< of the largest offset: what weighs at least
-/// Of the tolerance, or of the largest offset where that is more: a gap that steps may leave, on the
-/// way.
+/// Of the tolerance, or of the largest offset where that is more: a gap that steps may leave, on
+/// the way.
 constexpr double kLoose = 0.1;
 constexpr double kCloser = 0.7;       ///< a gap has to become this share of itself
 constexpr int kClosing = 40;          ///< steps that close what is left, at the most

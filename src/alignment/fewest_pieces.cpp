@@ -301,8 +301,8 @@ class Search {
   }
 
   /// Corners of what the program leaves of the unknowns `first` and the one behind it, in order
-  /// counterclockwise: the farthest along both axes, then those beyond the edges between them. However thin
-  /// it is, its width is found that way.
+  /// counterclockwise: the farthest along both axes, then those beyond the edges between them.
+  /// However thin it is, its width is found that way.
   std::vector<State> corners_of_set(std::size_t first) {
     std::vector<State> out;
     std::size_t looks = 0;
@@ -315,7 +315,8 @@ class Search {
       if (!x) return std::nullopt;
       return State{(*x)[first], (*x)[first + 1]};
     };
-    for (const State axis : {State{1.0, 0.0}, State{0.0, 1.0}, State{-1.0, 0.0}, State{0.0, -1.0}}) {
+    for (const State axis :
+         {State{1.0, 0.0}, State{0.0, 1.0}, State{-1.0, 0.0}, State{0.0, -1.0}}) {
       const auto corner = farthest(axis.offset, axis.slope);
       if (!corner) return {};
       if (out.empty() || !(is_same(out.back(), *corner) || is_same(out.front(), *corner))) {
@@ -329,8 +330,8 @@ class Search {
         const double by_offset = b.slope - a.slope, by_slope = a.offset - b.offset;
         const auto beyond = farthest(by_offset, by_slope);
         if (!beyond || is_same(*beyond, a) || is_same(*beyond, b)) continue;
-        const double gain = by_offset * (beyond->offset - a.offset) +
-                            by_slope * (beyond->slope - a.slope);
+        const double gain =
+            by_offset * (beyond->offset - a.offset) + by_slope * (beyond->slope - a.slope);
         if (!(gain > kSameState * kSameState)) continue;
         out.insert(out.begin() + static_cast<std::ptrdiff_t>(++k), *beyond);
         found = true;

@@ -20,9 +20,10 @@ struct Node {
 
 /// Fewest clothoids with common tangents (G1) that pass within `tolerance` of all points: nodes
 /// from the first to the last point, one more than clothoids. The number is the fewest that this
-/// search finds, among nodes at the points and at `options.divisions - 1` places between two of them;
-/// deviations are linear in those of the nodes, so that a clothoid may be off by some hundredths of
-/// the tolerance. Clothoids are as long and as blunt as `options` ask for, to first order too.
+/// search finds, among nodes at the points and at `options.divisions - 1` places between two of
+/// them; deviations are linear in those of the nodes, so that a clothoid may be off by some
+/// hundredths of the tolerance. Clothoids are as long and as blunt as `options` ask for, to first
+/// order too.
 ///
 /// Dynamic programming: which offsets and headings are possible at a place after k clothoids is
 /// kept as a few convex polygons. Time grows with the points of a clothoid squared, linearly with

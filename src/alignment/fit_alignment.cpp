@@ -20,8 +20,8 @@ constexpr double kLeastLength = 0.25;  ///< of the mean distance of points: elem
 constexpr double kHopeless = 4.0;      ///< estimated squares over the most that there can be
 /// Largest offset over its tolerance after least squares from which no higher power comes back.
 constexpr double kHopelessOffset = 3.0;
-constexpr int kPasses = 4;             ///< over all conditions
-constexpr int kPolishes = 3;           ///< over the whole alignment, where an offset is too large
+constexpr int kPasses = 4;    ///< over all conditions
+constexpr int kPolishes = 3;  ///< over the whole alignment, where an offset is too large
 
 class Simplifier {
  public:
@@ -131,6 +131,13 @@ class Simplifier {
     return static_cast<int>(own);
   }
 
+  /// Whether its elements, fitted, pass its points.
+  static bool fits(Window& window) {
+    if (window.points.empty()) return false;
+    return fit_chain(window.chain, window.points, window.tolerance, window.feet, window.held)
+               .largest <= 1.0;
+  }
+
   void put_back(const Window& window, Chain& chain) {
     if (window.first == 0) {
       chain.start = window.chain.start;
@@ -203,11 +210,8 @@ class Simplifier {
     const std::size_t first = k - std::min(k, kBeside);
     const std::size_t last = std::min(k + kBeside + 1, next.size());
     Window window = cut(next, feet, first, last, joints, last + 1);
-    if (window.points.empty()) return false;
     window.held.hopeless = kHopelessOffset;
-    const Fitted fitted =
-        fit_chain(window.chain, window.points, window.tolerance, window.feet, window.held);
-    if (!(fitted.largest <= 1.0)) return false;
+    if (!fits(window)) return false;
     chain_ = std::move(next);
     feet_ = std::move(feet);
     put_back(window, chain_);
@@ -275,18 +279,14 @@ class Simplifier {
       }
     }
     Window window = cut(next, first, last);
-    if (window.points.empty()) return false;
-    const Fitted fitted =
-        fit_chain(window.chain, window.points, window.tolerance, window.feet, window.held);
-    if (!(fitted.largest <= 1.0)) return false;
+    if (!fits(window)) return false;
     chain_ = std::move(next);
     put_back(window, chain_);
     return true;
   }
 
   /// Elements that share a curvature follow one another: those beside the window tell.
-  static bool is_used_outside(const Chain& chain, int number, std::size_t first,
-                              std::size_t last) {
+  static bool is_used_outside(const Chain& chain, int number, std::size_t first, std::size_t last) {
     const auto uses = [&](std::size_t element) {
       return chain.ends[element][0] == number || chain.ends[element][1] == number;
     };
@@ -389,19 +389,19 @@ Alignment alignment_of(const Chain& chain, const std::vector<Foot>& feet,
 
 /// The search keeps the limits to first order, the fit where it begins within them.
 Result<void> keeps_limits(const Alignment& found, const AlignmentOptions& options) {
-  constexpr double kLimitRounding = 1e-9;
+  constexpr double kLimitRounding = 1e-9;  // of the limit
   const double most =
       options.least_radius > 0.0 ? (1.0 + kLimitRounding) / options.least_radius : HUGE_VAL;
   for (const AlignmentElement& e : found.elements) {
     const bool long_enough = e.length >= (1.0 - kLimitRounding) * options.least_length;
     const bool blunt = std::max(std::abs(e.start.kappa), std::abs(e.kappa1)) <= most;
     if ((long_enough || found.elements.size() == 1) && blunt) continue;
-    return fail({ErrorCode::kToleranceNotReached,
-                 long_enough ? "an element was found with a smaller radius only"
-                             : "an element was found with a smaller length only",
-                 "", "allow a larger tolerance, or shorter elements and smaller radii",
-                 -1, long_enough ? 1.0 / std::max(std::abs(e.start.kappa), std::abs(e.kappa1))
-                                 : e.length});
+    return fail(
+        {ErrorCode::kToleranceNotReached,
+         long_enough ? "an element was found with a smaller radius only"
+                     : "an element was found with a smaller length only",
+         "", "allow a larger tolerance, or shorter elements and smaller radii", -1,
+         long_enough ? 1.0 / std::max(std::abs(e.start.kappa), std::abs(e.kappa1)) : e.length});
   }
   return {};
 }
@@ -418,7 +418,8 @@ Result<Alignment> fit_alignment(const std::vector<Vec2>& given,
   }
   for (const double least : {options.least_length, options.least_radius}) {
     if (least >= 0.0 && std::isfinite(least)) continue;
-    return fail({ErrorCode::kBadOption, "a least length or radius must be 0 or more", "", "", -1, least});
+    return fail(
+        {ErrorCode::kBadOption, "a least length or radius must be 0 or more", "", "", -1, least});
   }
   // coordinates of maps are far from their origin
   const Vec2 origin = given.front();
@@ -437,8 +438,7 @@ Result<Alignment> fit_alignment(const std::vector<Vec2>& given,
   std::vector<alignment::Foot> feet;
   alignment::set_chain(*nodes, points.size(), chain, feet);
   alignment::find_feet(chain, points, feet);
-  alignment::Simplifier simplifier(points, tolerance, options, std::move(chain),
-                                   std::move(feet));
+  alignment::Simplifier simplifier(points, tolerance, options, std::move(chain), std::move(feet));
   if (auto done = simplifier.run(run); !done) return fail(done.error());
   const double largest = simplifier.largest();
   if (!(largest <= 1.0)) {

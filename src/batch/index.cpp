@@ -104,9 +104,9 @@ Result<IndexWriter> IndexWriter::create(const std::string& path, const Columns& 
   out.temporary_ = temporary_name(path);
   ::unlink(out.temporary_.c_str());
   sqlite3* base = nullptr;
-  const int code = sqlite3_open_v2(out.temporary_.c_str(), &base,
-                                   SQLITE_OPEN_READWRITE | SQLITE_OPEN_CREATE | SQLITE_OPEN_NOMUTEX,
-                                   nullptr);
+  const int code =
+      sqlite3_open_v2(out.temporary_.c_str(), &base,
+                      SQLITE_OPEN_READWRITE | SQLITE_OPEN_CREATE | SQLITE_OPEN_NOMUTEX, nullptr);
   out.base_.reset(base);
   std::string columns = "number INTEGER PRIMARY KEY", places = "?";
   for (const Column& column : like.all) {

@@ -285,7 +285,8 @@ SlopeSolver::Outcome SlopeSolver::run(const std::vector<Element>& start, int mos
       taken = falls();
     }
     plain = !taken;
-    for (int k = 0; k < kMostHalvings && !taken && !watch.cancelled(); ++k, part *= taken ? 1.0 : 0.5) {
+    for (int k = 0; k < kMostHalvings && !taken && !watch.cancelled();
+         ++k, part *= taken ? 1.0 : 0.5) {
       move_trial(part);
       taken = falls();
     }

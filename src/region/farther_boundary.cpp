@@ -66,8 +66,7 @@ class LocalPiece {
       const Jet jet = evaluate(*piece_, t);
       return {in_frame(jet.point - start_), in_frame(jet.d1)};
     }
-    return degree_ == kOfSpirals ? sums(t, kOfSpirals)
-                                 : sums(t, static_cast<std::size_t>(degree_));
+    return degree_ == kOfSpirals ? sums(t, kOfSpirals) : sums(t, static_cast<std::size_t>(degree_));
   }
 
  private:

@@ -506,7 +506,6 @@ Side advance(const Side& from, const RangeNode& node, const RangeLink& over, int
   return to;
 }
 
-
 /// From the first point on; `order` +1, or -1 from the last one back. Empty when it is to end.
 std::vector<Side> reach_all(const std::vector<RangeLink>& links,
                             const std::vector<RangeNode>& nodes, int order, Watch* watch) {

@@ -53,13 +53,13 @@ struct AlignmentOptions {
 /// preferred wherever the tolerance allows them.
 ///
 /// Guaranteed: every offset is at most its tolerance (else an error), elements join exactly but for
-/// rounding, and are as long and as blunt as the options ask for. Not guaranteed: that no fewer elements exist (the number is the fewest that a search
-/// by dynamic programming over polygons of possible offsets and headings found:
-/// docs/methods/alignment.md). Deterministic; reentrant.
+/// rounding, and are as long and as blunt as the options ask for. Not guaranteed: that no fewer
+/// elements exist (the number is the fewest that a search by dynamic programming over polygons of
+/// possible offsets and headings found: docs/methods/alignment.md). Deterministic; reentrant.
 ///
 /// Errors: E203 a least length or radius that is negative or no number, E304 fewer than two points,
-/// E402 coinciding neighbours, E401 none found (`index`: the first point that was not reached), E502
-/// not within the tolerance with such lengths and radii, E103 cancelled.
+/// E402 coinciding neighbours, E401 none found (`index`: the first point that was not reached),
+/// E502 not within the tolerance with such lengths and radii, E103 cancelled.
 [[nodiscard]] Result<Alignment> fit_alignment(const std::vector<Vec2>& points,
                                               const std::vector<double>& tolerance,
                                               const AlignmentOptions& options = {},

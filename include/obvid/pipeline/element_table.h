@@ -8,6 +8,7 @@
 #include "obvid/alignment/alignment.h"
 #include "obvid/curve/contour.h"
 #include "obvid/io/internal/json_text.h"
+#include "obvid/pipeline/audit.h"
 
 namespace obvid {
 
@@ -15,6 +16,9 @@ namespace obvid {
 /// (units). Nothing where a piece is no line, arc or clothoid.
 [[nodiscard]] std::optional<std::vector<AlignmentElement>> elements_of(const Contour& contour,
                                                                        double first_station);
+
+/// The same of a curve whose file counts stations; nothing where it does not.
+[[nodiscard]] std::optional<std::vector<AlignmentElement>> elements_of(const CurveAudit& audit);
 
 /// What limits the speed along an alignment: the acceleration to the side, v^2 / radius.
 struct SpeedLimit {

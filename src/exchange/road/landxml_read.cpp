@@ -247,9 +247,9 @@ class LandXmlReader {
   XmlWarnings warnings_;
   std::unordered_map<std::string, pugi::xml_node> named_;  ///< CgPoints
   Drawing drawing_;
-  DrawnCurve curve_;   ///< in the making
-  std::string label_;  ///< of the CoordGeom
-  std::string name_;   ///< of the alignment or whatever has it
+  DrawnCurve curve_;               ///< in the making
+  std::string label_;              ///< of the CoordGeom
+  std::string name_;               ///< of the alignment or whatever has it
   std::optional<double> station_;  ///< of the next element; unknown behind one without a length
   std::size_t part_ = 0;
   double off_end_ = 0.0;

@@ -79,8 +79,8 @@ Vec2 tangents_meet(const RoadElement& e) {
 
 class LandXmlWriter {
  public:
-  LandXmlWriter(const std::vector<RoadLine>& lines, std::string_view unit,
-                double first_station, const LandXmlOptions& options)
+  LandXmlWriter(const std::vector<RoadLine>& lines, std::string_view unit, double first_station,
+                const LandXmlOptions& options)
       : lines_(lines), unit_(unit), first_station_(first_station), options_(options) {}
 
   std::string run() {
@@ -173,9 +173,10 @@ std::string_view landxml_unit(std::string_view unit) {
 Result<std::string> landxml_text(const Contour& contour, const LandXmlOptions& options) {
   // a unit that is not known gets its error from `road_lines`
   const std::string_view unit = landxml_unit(contour.units.name);
-  const auto lines = road_lines(contour, unit.empty() ? "m" : unit);
+  const std::string_view known = unit.empty() ? "m" : unit;
+  const auto lines = road_lines(contour, known);
   OBVID_TRY(lines);
-  const auto ratio = unit_ratio(contour.units, unit.empty() ? "m" : unit, "road formats");
+  const auto ratio = unit_ratio(contour.units, known, "road formats");
   OBVID_TRY(ratio);
   return LandXmlWriter(*lines, unit, *ratio * options.first_station, options).run();
 }

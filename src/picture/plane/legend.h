@@ -22,11 +22,11 @@ struct PictureLegend {
   const PictureTrack& track;
   std::string units;
   bool coloured = true;
-  double region_width = 0.0;   ///< of the drawn region, units; 0: none was drawn
-  bool dots = true;            ///< whether points were marked
+  double region_width = 0.0;     ///< of the drawn region, units; 0: none was drawn
+  bool dots = true;              ///< whether points were marked
   bool dots_are_joints = false;  ///< of pieces, where another system drew the curve
-  double longest_tooth = 0.0;  ///< curvature of the comb's longest tooth, 1/unit; 0: no comb
-  bool comb_cut = false;       ///< whether larger curvatures have that tooth too
+  double longest_tooth = 0.0;    ///< curvature of the comb's longest tooth, 1/unit; 0: no comb
+  bool comb_cut = false;         ///< whether larger curvatures have that tooth too
   const PictureMoves* deviations = nullptr;  ///< drawn in the colours of their classes
 };
 

@@ -136,7 +136,8 @@ std::string picture_svg(const StoredContour& stored, const PictureTitles& titles
   const bool coloured = track.runs_tell && contour.runs.size() <= kMostColouredRuns;
   const VerdictLine verdict =
       titles.verdict.empty() ? verdict_of(stored) : VerdictLine{"open", titles.verdict};
-  const std::string kind = kind_of(contour, !titles.verdict.empty() || is_as_drawn(contour.carrier));
+  const std::string kind =
+      kind_of(contour, !titles.verdict.empty() || is_as_drawn(contour.carrier));
   const std::string title = titles.name.empty() ? kind : short_name(titles.name);
   PictureCanvas body;
   body.label({kPictureMargin, 40.0}, "start", "title", title);

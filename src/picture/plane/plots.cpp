@@ -43,7 +43,8 @@ constexpr double kBeyondCurvatures = 0.3;
 /// Of the largest curvature: what rounding makes of one at the end of the range.
 constexpr double kShownRounding = 1e-9;
 
-/// Range of the curvatures of all contours without those of the largest size on a part of the length.
+/// Range of the curvatures of all contours without those of the largest size on a part of the
+/// length.
 PictureRange usual_range(std::span<const PictureTrack* const> tracks) {
   std::vector<std::pair<double, double>> steps;  // curvature, length
   double length = 0.0;

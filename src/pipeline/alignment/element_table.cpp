@@ -8,8 +8,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "obvid/curve/pieces.h"
 #include "obvid/geom/internal/angle.h"
-#include "obvid/pipeline/audit.h"
 
 namespace obvid {
 namespace {
@@ -18,28 +18,11 @@ std::string radius_cell(double kappa) {
   return kappa == 0.0 ? "" : fmt::format("{:.17g}", 1.0 / kappa);
 }
 
-std::optional<AlignmentElement> element_of(const Piece& piece) {
-  AlignmentElement out;
-  if (const auto* line = std::get_if<LinePiece>(&piece)) {
-    const Vec2 chord = line->end - line->start;
-    out.start = {line->start, heading(chord), 0.0};
-    out.length = norm(chord);
-    return out;
-  }
-  if (const auto* arc = std::get_if<ArcPiece>(&piece)) {
-    out.kind = AlignmentKind::kArc;
-    out.start = {arc->start, arc->theta0, arc->kappa};
-    out.length = arc->length;
-    out.kappa1 = arc->kappa;
-    return out;
-  }
-  const auto* clothoid = std::get_if<ClothoidPiece>(&piece);
-  if (clothoid == nullptr) return std::nullopt;
-  out.kind = AlignmentKind::kClothoid;
-  out.start = {clothoid->start, clothoid->theta0, clothoid->kappa0};
-  out.length = clothoid->length;
-  out.kappa1 = clothoid->kappa1;
-  return out;
+std::optional<AlignmentKind> kind_of_element(const Piece& piece) {
+  if (std::holds_alternative<LinePiece>(piece)) return AlignmentKind::kLine;
+  if (std::holds_alternative<ArcPiece>(piece)) return AlignmentKind::kArc;
+  if (std::holds_alternative<ClothoidPiece>(piece)) return AlignmentKind::kClothoid;
+  return std::nullopt;
 }
 
 }  // namespace
@@ -49,16 +32,25 @@ std::optional<std::vector<AlignmentElement>> elements_of(const Contour& contour,
   std::vector<AlignmentElement> out;
   double station = first_station;
   for (std::size_t k = 0; k < contour.pieces.size(); ++k) {
-    auto element = element_of(contour.pieces[k]);
-    if (!element) return std::nullopt;
-    element->station = station;
-    const double before = out.empty() ? element->start.kappa : out.back().kappa1;
-    const double jump = std::abs(element->start.kappa - before);
-    element->step = jump > kMostCurvatureStep * std::max(std::abs(before), std::abs(element->start.kappa));
-    station += element->length;
-    out.push_back(*element);
+    const Piece& piece = contour.pieces[k];
+    const auto kind = kind_of_element(piece);
+    if (!kind) return std::nullopt;
+    AlignmentElement& e = out.emplace_back();
+    e.kind = *kind;
+    e.station = station;
+    e.start = element_at(piece, 0.0);
+    e.kappa1 = element_at(piece, 1.0).kappa;
+    e.length = arc_length(piece, 0.0);  // exact: none of them is a Bezier piece
+    const double before = k == 0 ? e.start.kappa : out[k - 1].kappa1;
+    const double larger = std::max(std::abs(before), std::abs(e.start.kappa));
+    e.step = std::abs(e.start.kappa - before) > kMostCurvatureStep * larger;
+    station += e.length;
   }
   return out;
+}
+
+std::optional<std::vector<AlignmentElement>> elements_of(const CurveAudit& audit) {
+  return audit.station ? elements_of(audit.contour, *audit.station) : std::nullopt;
 }
 
 std::optional<double> speed_kmh(const AlignmentElement& element, const SpeedLimit& limit) {

@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "obvid/io/internal/json_text.h"
-#include "obvid/pipeline/element_table.h"
 #include "obvid/pipeline/analyse.h"
+#include "obvid/pipeline/element_table.h"
 #include "obvid/pipeline/internal/report_json.h"
 #include "obvid/pipeline/internal/summary.h"
 
@@ -205,7 +205,7 @@ std::string audit_json(const Drawing& drawing, const std::vector<CurveAudit>& au
     json.pair("least_kappa", a.least_kappa).pair("largest_kappa", a.largest_kappa);
     json.pair("straightened", a.straightened).pair("flat_curvature", a.flat_curvature);
     add_places(json, a);
-    if (const auto elements = a.station ? elements_of(a.contour, *a.station) : std::nullopt) {
+    if (const auto elements = elements_of(a)) {
       json.key("elements");
       add_elements(json, *elements);
     }

@@ -25,8 +25,9 @@ std::string in_quotes(string_view text) {
   return result;
 }
 
-/// The whole text as a number; nothing for anything else.
-std::optional<double> number(string_view text) {
+}  // namespace
+
+std::optional<double> typed_number(string_view text) {
   if (text.starts_with("+")) text.remove_prefix(1);
   double value = 0.0;
   const char* const end = text.data() + text.size();
@@ -34,6 +35,8 @@ std::optional<double> number(string_view text) {
   if (text.empty() || code != std::errc() || stop != end) return std::nullopt;
   return value;
 }
+
+namespace {
 
 /// Number of a point from 1, as tables print it, to its index.
 std::optional<std::size_t> point_index(string_view text) {
@@ -45,7 +48,7 @@ std::optional<std::size_t> point_index(string_view text) {
 }
 
 Result<double> heading_of(string_view text, const char* option) {
-  const auto deg = number(text);
+  const auto deg = typed_number(text);
   if (!deg || !std::isfinite(*deg)) {
     return fail(bad_option(in_quotes(text) + " is no heading", option, kHeadingHint));
   }
@@ -76,12 +79,12 @@ std::optional<ValueRange> typed_range(string_view text) {
   const string_view from = text.substr(0, at), to = text.substr(at + kTo.size());
   ValueRange out;
   if (!from.empty()) {
-    const auto low = number(from);
+    const auto low = typed_number(from);
     if (!low) return std::nullopt;
     out.low = *low;
   }
   if (!to.empty()) {
-    const auto high = number(to);
+    const auto high = typed_number(to);
     if (!high) return std::nullopt;
     out.high = *high;
   }
@@ -108,7 +111,7 @@ Result<ValueOrRange> headings_of(string_view text, const char* option) {
 }
 
 Result<double> radius_value(string_view text, const char* option) {
-  const auto radius = number(text);
+  const auto radius = typed_number(text);
   if (!radius) return fail(bad_option(in_quotes(text) + " is no radius", option, kRadiusHint));
   return curvature_of_radius(*radius, option);
 }
@@ -154,12 +157,12 @@ Result<void> set_noise(const std::string& typed, FitJob& job) {
     job.noise_from_scatter = true;
     return {};
   }
-  const auto noise = number(typed);
+  const auto noise = typed_number(typed);
   if (!noise || !std::isfinite(*noise) || *noise < 0.0) {
-    return fail(bad_option(
-        "the noise must be a length, rounding or auto, not " + in_quotes(typed), "--noise",
-        "give how far a point may move in input units; rounding is half a unit "
-        "of the last printed digit, auto is estimated from the points"));
+    return fail(bad_option("the noise must be a length, rounding or auto, not " + in_quotes(typed),
+                           "--noise",
+                           "give how far a point may move in input units; rounding is half a unit "
+                           "of the last printed digit, auto is estimated from the points"));
   }
   if (*noise > 0.0) job.noise = noise;
   return {};
@@ -243,7 +246,7 @@ Result<ValueOrRange> kappas_of(string_view text) {
     if (kappas) return ValueOrRange{{}, kappas};
     return fail(no_range(text, "--kappa-at", "write LOW..HIGH, LOW.. or ..HIGH"));
   }
-  const auto kappa = number(text);
+  const auto kappa = typed_number(text);
   if (kappa && std::isfinite(*kappa)) return ValueOrRange{kappa, {}};
   return fail(bad_option(in_quotes(text) + " is no curvature", "--kappa-at",
                          "one over the radius, positive turns left, 0 is straight"));

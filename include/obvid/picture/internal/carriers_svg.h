@@ -5,9 +5,9 @@
 #include <string>
 #include <vector>
 
-#include "obvid/picture/picture_svg.h"
 #include "obvid/certify/certificate.h"
 #include "obvid/curve/contour.h"
+#include "obvid/picture/picture_svg.h"
 
 namespace obvid {
 

@@ -49,6 +49,9 @@ template <class Value>
   return fail(unknown_name(typed, names, option));
 }
 
+/// The whole text as a number; nothing for anything else.
+[[nodiscard]] std::optional<double> typed_number(std::string_view text);
+
 /// "20..30", "20.." or "..30"; nothing for anything else, and where no value is between.
 [[nodiscard]] std::optional<ValueRange> typed_range(std::string_view text);
 
