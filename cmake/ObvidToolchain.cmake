@@ -44,7 +44,8 @@ if(OBVID_WERROR)
   target_compile_options(obvid_flags INTERFACE -Werror)
 endif()
 if(OBVID_SANITIZE)
-  set(obvid_sanitize -fsanitize=${OBVID_SANITIZE} -fno-sanitize-recover=all -fno-omit-frame-pointer)
+  # Traces need lines, not variables: a tenth less to compile.
+  set(obvid_sanitize -fsanitize=${OBVID_SANITIZE} -fno-sanitize-recover=all -fno-omit-frame-pointer -g1)
   target_compile_options(obvid_flags INTERFACE ${obvid_sanitize})
   target_link_options(obvid_flags INTERFACE ${obvid_sanitize})
   # g++ 12 takes sanitized code of its own standard library for uninitialized.
