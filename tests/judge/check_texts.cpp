@@ -34,19 +34,30 @@ class TextCheck {
         certificate_(course.file.certificate) {}
 
   void fit() {
-    bool in_table = false;
+    enum class At { kSegments, kLinesAndArcs, kSentences } at = At::kSegments;
+    LinesAndArcsTable shapes(course_, sheet_);
     for (const std::string& line : lines_of(run_.out)) {
-      if (line.empty() || line == run_.input_name) continue;
+      if (line == run_.input_name) continue;
+      if (line.empty()) {
+        if (!header_.empty()) at = At::kSentences;
+        continue;
+      }
       const std::vector<std::string> words = words_of(line);
-      const bool row = line[0] == ' ' && !words.empty() && is_row_name(words[0]);
-      if (line[0] == ' ' || words[0] == "points" || words[0] == "...") {
-        if (row) segment_row(words);
-        if (row && !in_table) in_table = true;
-        if (!row) header(words);
+      const bool row = is_row_name(words[0]) || words[0] == "...";
+      if (line.starts_with("line or arc ")) at = At::kLinesAndArcs;
+      if (at == At::kLinesAndArcs && line.starts_with("shown: ")) {
+        shapes.count(sentence_of(line, file_.printed_unit()));
+      } else if (at == At::kLinesAndArcs) {
+        row ? shapes.row(words) : shapes.header(line);
+      } else if (at == At::kSegments && row) {
+        if (words[0] != "...") segment_row(words);
+      } else if (at == At::kSegments && (line[0] == ' ' || words[0] == "points")) {
+        header(words);
       } else {
         sentence(line, "fit");
       }
     }
+    shapes.end();
     verdict_must_name_gaps();
   }
 
@@ -401,7 +412,8 @@ class TextCheck {
                  figure(member(report_, "chain"), "free_elements").value.value_or(0.0));
       }
     } else if (key ==
-               "fairness: # vertex (curvature extrema, at least # unless a curve winds between the point), # "
+               "fairness: # vertex (curvature extrema, at least # unless a curve winds between the "
+               "point), # "
                "inflection") {
       figure_is("fairness vertices", s.figures[0], figure(report_, "vertices").value);
       figure_is("fairness bound", s.figures[1], figure(report_, "vertices_lower_bound").value);

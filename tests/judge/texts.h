@@ -9,6 +9,7 @@
 #include "course.h"
 #include "drawing.h"
 #include "input.h"
+#include "sentences.h"
 #include "sheet.h"
 
 namespace judge {
@@ -20,6 +21,26 @@ struct Run {
   std::string out, err;
   std::map<std::string, std::string> files;  ///< written, by name
   std::string input_name;
+};
+
+/// The table of lines and arcs that several points lie on, row by row.
+class LinesAndArcsTable {
+ public:
+  LinesAndArcsTable(const Course& course, Sheet& sheet) : course_(course), sheet_(sheet) {}
+  void header(const std::string& line);
+  void row(const std::vector<std::string>& words);
+  /// "shown: ... of # lines and arcs".
+  void count(const Sentence& shown);
+  void end();
+
+ private:
+  [[nodiscard]] std::size_t in_all() const;
+
+  const Course& course_;
+  Sheet& sheet_;
+  std::string head_;
+  std::size_t rows_ = 0;
+  bool whole_ = true;
 };
 
 void check_fit_text(const Course& course, const Run& run, Sheet& sheet);

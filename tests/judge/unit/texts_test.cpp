@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Printed sentences, files of other formats, given data, known truth: each doctored once.
+#include <algorithm>
 #include <cmath>
 
 #include "doctored.h"
@@ -45,6 +46,61 @@ TEST(JudgeTexts, TakesTheFiguresOutOfASentence) {
   const Sentence s = sentence_of("1.885 mm from the points alone (points 4-5)", "mm");
   EXPECT_EQ(s.shape, "# U from the point alone (point #-#)");
   EXPECT_EQ(s.figures, (std::vector<std::string>{"1.885", "4", "5"}));
+}
+
+/// A line of 3, then half a circle of radius 2 to the left; one point of each stands off by 0.002
+/// and 0.003. The figures are those of this drawing.
+TEST(JudgeTexts, FindsEveryDoctoredFigureOfLinesAndArcs) {
+  ContourFile file;
+  file.units = "mm";
+  file.units_source = "given";
+  file.carrier = "spiral";
+  file.pieces = {Line{{0, 0}, {3, 0}}, Arc{{3, 0}, {3, 4}, 0.0, 0.5, 2.0 * std::acos(-1.0)}};
+  const double side = std::sqrt(2.0);
+  file.points = {{0, 0},     {1, 0.001},           {2, -0.002}, {3, 0}, {3 + side, 2 - side},
+                 {5.003, 2}, {3 + side, 2 + side}, {3, 4}};
+  file.elements.resize(3);
+  for (const auto& [at, source] : {std::pair{0U, 0U}, std::pair{1U, 3U}, std::pair{2U, 7U}}) {
+    file.elements[at].point = file.points[source];
+    file.elements[at].source = source;
+  }
+  const Course course(file);
+  const auto found = [&](const std::string& table) {
+    Sheet sheet;
+    LinesAndArcsTable rows(course, sheet);
+    for (const std::string& line : lines_of(table)) {
+      const std::vector<std::string> words = words_of(line);
+      words[0].find('-') == std::string::npos ? rows.header(line) : rows.row(words);
+    }
+    rows.end();
+    EXPECT_EQ(std::count_if(sheet.findings().begin(), sheet.findings().end(),
+                            [](const Finding& f) { return f.kind == Finding::Kind::kUnjudged; }),
+              0);
+    return sheet;
+  };
+  const std::string sound =
+      "line or arc              centre           heading            farthest\n"
+      "points         radius       x        y   at start    length     point\n"
+      "1-4          straight       -        -          0    3.0000  0.002000\n"
+      "4-8            2.0000  3.0000   2.0000          0    6.2832  0.003000\n";
+  EXPECT_EQ(all_false(found(sound)), "");
+  const struct {
+    const char *what, *by;
+  } kDoctored[] = {{"straight       -", "straight       1"},
+                   {"straight", "1000"},
+                   {"3.0000  0.002000", "3.0002  0.002000"},
+                   {"0.002000", "0.001000"},
+                   {" 2.0000  3.0000", "-2.0000  3.0000"},
+                   {"2.0000  3.0000", "2.0000  3.0002"},
+                   {"  2.0000          0", "  2.0002          0"},
+                   {"0    6.2832", "180.00    6.2832"},
+                   {"6.2832", "6.2834"},
+                   {"0.003000", "0.003003"},
+                   {"4-8 ", "4-7 "},
+                   {"1-4          straight       -        -          0    3.0000  0.002000\n", ""}};
+  for (const auto& one : kDoctored) {
+    EXPECT_GT(found(changed(sound, one.what, one.by)).wrong(), 0) << one.what;
+  }
 }
 
 TEST(JudgeTexts, FindsEveryDoctoredFigureOfTheReport) {

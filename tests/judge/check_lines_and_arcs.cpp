@@ -1,0 +1,156 @@
+// SPDX-License-Identifier: Apache-2.0
+// The table of lines and arcs that several points lie on, against the pieces of the file.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+#include <string>
+#include <variant>
+
+#include "real_curve.h"
+#include "sentences.h"
+#include "texts.h"
+
+namespace judge {
+namespace {
+
+constexpr Real kDegree = 3.14159265358979323846264338327950288L / 180.0L;
+constexpr std::size_t kFewestPoints = 4;
+/// Roundings of a length that a few operations in doubles leave, each of the largest number met.
+constexpr Real kTableRoundings = 8.0L * 0x1p-52L;
+
+/// A piece and the points at its ends.
+struct Stretch {
+  std::size_t piece = 0, from = 0, points = 0;
+};
+
+bool is_line_or_arc(const Piece& piece) {
+  return std::holds_alternative<Line>(piece) || std::holds_alternative<Arc>(piece);
+}
+
+std::vector<Stretch> stretches(const ContourFile& file) {
+  std::vector<Stretch> out;
+  const std::size_t n = file.points.size();
+  for (std::size_t k = 0; k < file.pieces.size(); ++k) {
+    const FileElement* a = file.joint(k);
+    const FileElement* b =
+        file.closed && k + 1 == file.pieces.size() ? file.joint(0) : file.joint(k + 1);
+    if (!is_line_or_arc(file.pieces[k]) || a == nullptr || b == nullptr) continue;
+    if (!a->source || !b->source) continue;
+    const std::size_t over =
+        *b->source > *a->source ? *b->source - *a->source : *b->source + n - *a->source;
+    out.push_back({k, *a->source, over + 1});
+  }
+  return out;
+}
+
+/// The printed figure is within the blur of the value, or is it to its digits.
+bool prints_about(const std::string& printed, Real value, Real blur) {
+  const Real number = std::strtod(printed.c_str(), nullptr);
+  const Real near = std::clamp(number, value - blur, value + blur);
+  return prints(printed, static_cast<double>(near));
+}
+
+class Row {
+ public:
+  Row(const Course& course, const std::vector<std::string>& words, Sheet& sheet)
+      : file_(course.file), coordinate_(course.ends.coordinate), words_(words), sheet_(sheet) {}
+
+  void check(const Stretch& stretch) {
+    const Piece& piece = file_.pieces[stretch.piece];
+    const Point start = stored_start(piece);
+    if (const auto* line = std::get_if<Line>(&piece)) {
+      const Vec along = seen(line->end, start);
+      sheet_.expect(words_[1] == "straight", kClaim + "radius", words_[1], "straight", words_[0]);
+      sheet_.expect(words_[2] == "-" && words_[3] == "-", kClaim + "centre", words_[2], "-",
+                    words_[0]);
+      figure("heading", 4, std::atan2(along.y, along.x) / kDegree, kTableRoundings * 180.0L);
+      figure("length", 5, norm(along), 0.0L);
+      const Vec left = (1.0L / norm(along)) * left_of(along);
+      farthest(stretch, [&](Vec p) { return std::abs(dot(p, left)); });
+      return;
+    }
+    const Arc& arc = std::get<Arc>(piece);
+    const Real radius = 1.0L / arc.kappa;
+    const Vec centre = radius * left_of(unit_at(arc.theta0));
+    const Real blur = kTableRoundings * std::max(coordinate_, std::abs(radius));
+    figure("radius", 1, radius, 0.0L);
+    figure("centre", 2, start.x + centre.x, blur);
+    figure("centre", 3, start.y + centre.y, blur);
+    figure("heading", 4, std::remainder(Real{arc.theta0}, 360.0L * kDegree) / kDegree,
+           kTableRoundings * std::max(180.0L, std::abs(Real{arc.theta0}) / kDegree));
+    figure("length", 5, arc.length, 0.0L);
+    farthest(stretch, [&](Vec p) { return std::abs(norm(p - centre) - std::abs(radius)); });
+  }
+
+ private:
+  inline static const std::string kClaim = "text: line or arc ";
+
+  void figure(const std::string& name, std::size_t column, Real value, Real blur) {
+    sheet_.expect(prints_about(words_[column], value, blur), kClaim + name, words_[column],
+                  shown(value), words_[0]);
+  }
+
+  /// Points are written in decimals, whose reading and shifting round.
+  template <class Distance>
+  void farthest(const Stretch& stretch, const Distance& distance) {
+    const Point start = stored_start(file_.pieces[stretch.piece]);
+    Real most = 0.0L;
+    for (std::size_t i = 0; i < stretch.points; ++i) {
+      const Point& p = file_.points[(stretch.from + i) % file_.points.size()];
+      most = std::max(most, distance(seen(p, start)));
+    }
+    figure("farthest", 6, most, kTableRoundings * coordinate_);
+  }
+
+  const ContourFile& file_;
+  Real coordinate_;
+  const std::vector<std::string>& words_;
+  Sheet& sheet_;
+};
+
+}  // namespace
+
+void LinesAndArcsTable::header(const std::string& line) { head_ += line + " "; }
+
+void LinesAndArcsTable::row(const std::vector<std::string>& words) {
+  const std::string claim = "text: line or arc";
+  ++rows_;
+  if (words[0] == "...") {
+    whole_ = false;
+    return;
+  }
+  static const std::vector<std::string> kHead =
+      words_of("line or arc centre heading farthest points radius x y at start length point");
+  if (words.size() != 7 || words_of(head_) != kHead) {
+    return sheet_.unjudged(claim, "columns: " + head_);
+  }
+  const std::size_t n = course_.file.points.size();
+  for (const Stretch& one : stretches(course_.file)) {
+    const std::size_t to = (one.from + one.points - 1) % n;
+    if (words[0] == fmt::format("{}-{}", one.from + 1, to + 1)) {
+      return Row(course_, words, sheet_).check(one);
+    }
+  }
+  sheet_.fails(claim, words[0], "no piece is a line or arc between these points", "");
+}
+
+void LinesAndArcsTable::count(const Sentence& shown) {
+  sheet_.expect(!shown.figures.empty() && shown.figures.back() == std::to_string(in_all()),
+                "text: lines and arcs", shown.shape, std::to_string(in_all()), "");
+}
+
+void LinesAndArcsTable::end() {
+  if (!whole_ || rows_ == 0) return;
+  sheet_.expect(rows_ == in_all(), "text: lines and arcs", std::to_string(rows_),
+                std::to_string(in_all()), "");
+}
+
+std::size_t LinesAndArcsTable::in_all() const {
+  const auto all = stretches(course_.file);
+  return static_cast<std::size_t>(std::count_if(
+      all.begin(), all.end(), [](const Stretch& s) { return s.points >= kFewestPoints; }));
+}
+
+}  // namespace judge
