@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// STEP, DXF and G-code against the contour they were written from.
+// STEP, DXF, G-code, pages and pictures against the contour they were written from.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -44,7 +44,9 @@ class ExportCheck {
     for (const std::string& note : notes) read_note(note);
     const Point origin = course_.origin;
     const std::string& unit = course_.file.units;
-    if (kind_ == "step" || kind_ == "stp") {
+    if (kind_ == "html" || kind_ == "svg") {
+      check_page(course_, text, sheet_);
+    } else if (kind_ == "step" || kind_ == "stp") {
       compare(read_step(text, origin, unit));
     } else if (kind_ == "dxf") {
       compare(read_dxf(text, origin, unit));

@@ -15,7 +15,6 @@
 namespace judge {
 namespace {
 
-constexpr Real kDegree = 3.14159265358979323846264338327950288L / 180.0L;
 constexpr std::size_t kFewestPoints = 4;
 /// Roundings of a length that a few operations in doubles leave, each of the largest number met.
 constexpr Real kTableRoundings = 8.0L * 0x1p-52L;

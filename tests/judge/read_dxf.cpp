@@ -126,9 +126,8 @@ class DxfReader {
   static constexpr Real kFull = 2.0L * std::numbers::pi_v<Real>;
 
   void arc(const Tags& tags, bool whole) {
-    const Real degree = std::numbers::pi_v<Real> / 180.0L;
-    const Real from = whole ? 0.0L : value(tags, 50, 0.0L) * degree;
-    Real turn = whole ? kFull : value(tags, 51, 360.0L) * degree - from;
+    const Real from = whole ? 0.0L : value(tags, 50, 0.0L) * kDegree;
+    Real turn = whole ? kFull : value(tags, 51, 360.0L) * kDegree - from;
     while (turn <= 0.0L) turn += kFull;
     out_.spans.push_back(arc_span(point(tags, 10, 20), value(tags, 40, 0.0L) * scale_, from, turn));
   }

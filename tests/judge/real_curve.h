@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <numbers>
 #include <variant>
 #include <vector>
 
@@ -12,6 +13,9 @@
 #include "pieces.h"
 
 namespace judge {
+
+/// One degree in radians.
+constexpr Real kDegree = std::numbers::pi_v<Real> / 180.0L;
 
 struct Vec {
   Real x = 0.0L, y = 0.0L;

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <map>
 #include <utility>
 
@@ -19,7 +18,6 @@
 namespace judge {
 namespace {
 
-constexpr Real kDegree = std::numbers::pi_v<Real> / 180.0L;
 
 std::string all_digits(Real value) { return fmt::format("{:.17g}", static_cast<double>(value)); }
 

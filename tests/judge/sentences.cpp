@@ -145,6 +145,8 @@ bool prints(const std::string& printed, std::optional<double> value) {
       dot == std::string::npos ? 0.0 : static_cast<double>(mantissa.size() - dot - 1);
   const double exponent = e == std::string::npos ? 0.0 : std::atof(printed.c_str() + e + 1);
   if (number == 0.0 && decimals == 0.0) return *value == 0.0;  // a bare 0 is exactly that
+  const bool whole = dot == std::string::npos && e == std::string::npos;
+  if (whole && *value == std::round(*value)) return number == *value;  // counts are not rounded
   const double step = std::pow(10.0, exponent - decimals);
   const double off = std::abs(number) - std::abs(*value);
   const bool same_side = number == 0.0 || (number > 0.0) == (*value > 0.0);

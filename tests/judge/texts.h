@@ -59,6 +59,9 @@ void check_advised(const Run& refused, const ContourFile& advised, Sheet& sheet)
 void check_export(const Course& course, const std::string& file, const std::string& text,
                   const std::vector<std::string>& notes, Sheet& sheet);
 
+/// The page of a report (`-o .html`): its tables, its verdict, the texts of its picture.
+void check_page(const Course& course, const std::string& page, Sheet& sheet);
+
 void check_analyse(const Input& input, const Run& json, const Run& text, Sheet& sheet);
 /// `compare --json` and its table; `fits` are contours that `fit --carrier` made.
 void check_compare(const Run& json, const Run& text, const Course& fit, Sheet& sheet);

@@ -28,7 +28,8 @@ class Work : public ProgramRuns {
   Work(const TrialOptions& options, std::uint64_t index)
       : ProgramRuns(options, index),
         series_(make_series(options.seed, index)),
-        dice_(options.seed * 31 + index * 7 + 1) {
+        dice_(options.seed * 31 + index * 7 + 1),
+        page_dice_(options.seed * 31 + index * 7 + 2) {
     out_.family = series_.family;
     out_.points = series_.points;
   }
@@ -63,6 +64,11 @@ class Work : public ProgramRuns {
       if (!dice_.chance(0.1)) continue;
       words.insert(words.end(), {"-o", other});
       exports_.emplace_back(other);
+    }
+    for (const char* page : {"c.html", "c.svg"}) {
+      if (!page_dice_.chance(0.1)) continue;
+      words.insert(words.end(), {"-o", page});
+      exports_.emplace_back(page);
     }
     return words;
   }
@@ -346,6 +352,7 @@ class Work : public ProgramRuns {
 
   Series series_;
   Dice dice_;
+  Dice page_dice_;  ///< of its own: what is drawn for a seed stays the same
   std::vector<std::string> exports_;
   int fit_code_ = 0;
 };

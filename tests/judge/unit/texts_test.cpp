@@ -40,6 +40,8 @@ TEST(JudgeTexts, ComparesFiguresToTheDigitsPrinted) {
   EXPECT_FALSE(prints("0", std::nullopt));
   EXPECT_FALSE(prints("-", 0.0));
   EXPECT_FALSE(prints("0", 1e-12));
+  EXPECT_TRUE(prints("3", 3.0));
+  EXPECT_FALSE(prints("3", 2.0));  // one vertex more is no rounding
 }
 
 TEST(JudgeTexts, TakesTheFiguresOutOfASentence) {
@@ -100,6 +102,68 @@ TEST(JudgeTexts, FindsEveryDoctoredFigureOfLinesAndArcs) {
                    {"1-4          straight       -        -          0    3.0000  0.002000\n", ""}};
   for (const auto& one : kDoctored) {
     EXPECT_GT(found(changed(sound, one.what, one.by)).wrong(), 0) << one.what;
+  }
+}
+
+/// Pages of series10's own contour file; the figures are those of the file.
+TEST(JudgeTexts, FindsEveryDoctoredFigureOfAPage) {
+  const Case one;
+  const auto found = [&](const std::string& page) {
+    Sheet sheet;
+    check_page(one.course, page, sheet);
+    return sheet;
+  };
+  const auto figure_row = [](const char* label, const char* value) {
+    return std::string("<tr><th scope=\"row\">") + label + "</th><td>" + value + "</td></tr>\n";
+  };
+  std::string page =
+      "<!DOCTYPE html>\n<p id=\"verdict\" class=\"kept\">proved: monotone curvature on every run, "
+      "G2 "
+      "joints, inside the region</p>\n<svg>"
+      "<text x=\"9\" class=\"fact\" text-anchor=\"end\">0 vertices (at least 0) · 0 inflections · "
+      "region "
+      "width 8.3·10⁻⁴ mm</text><text class=\"verdict good\">✓ proved</text></svg>"
+      "<table id=\"figures\"><caption>Figures</caption>\n<tbody>\n";
+  page += figure_row("contour", "open, 9 pieces through 10 points in 1 run");
+  page += figure_row("carrier", "spiral") + figure_row("lengths in", "mm");
+  page += figure_row("vertices", "0 (curvature extrema, at least 0 unless a curve winds)");
+  page += figure_row("inflections", "0");
+  page += figure_row("largest width of the region", "0.0008333 mm (tolerance 0.0008398)");
+  page += figure_row("bound needed", "52 inserted elements");
+  page +=
+      "</tbody></table>\n<table id=\"segments\" class=\"numbers\"><caption>Segments</caption>\n"
+      "<thead><tr><th>points</th><th>chord</th><th>points-only error</th><th>region width</th>"
+      "<th>largest error</th><th>inserted elements</th></tr></thead>\n<tbody>\n";
+  const Json& rows = member(one.read.contour.report, "segments");
+  for (std::size_t k = 0; k < rows.size(); ++k) {
+    page += "<tr><td>" + std::to_string(k + 1) + "-" + std::to_string(k + 2) + "</td>";
+    for (const char* name : {"chord", "points_only_error", "width", "deviation", "inserted"}) {
+      const Figure value = figure(rows[k], name);
+      page += "<td>" + (value.value ? shown(*value.value) : std::string("-")) + "</td>";
+    }
+    page += "</tr>\n";
+  }
+  page += "</tbody></table>\n";
+  EXPECT_EQ(all_false(found(page)), "");
+  const struct {
+    const char *what, *by;
+  } kDoctored[] = {{"proved: monotone", "NOT proved: monotone"},
+                   {"0 vertices (at", "1 vertex (at"},
+                   {"0) · 0 inflections", "0) · 1 inflection"},
+                   {"8.3·10⁻⁴", "8.1·10⁻⁴"},
+                   {"8.3·10⁻⁴", "8.3·10⁻³"},
+                   {"✓", "✗"},
+                   {"open, 9", "closed, 9"},
+                   {"10 points", "11 points"},
+                   {"<td>mm<", "<td>in<"},
+                   {"<td>spiral<", "<td>arcs<"},
+                   {"<td>0 (curv", "<td>2 (curv"},
+                   {"0.0008333 mm", "0.0008303 mm"},
+                   {"0.0008398", "0.0008390"},
+                   {"52 inserted", "51 inserted"},
+                   {"<td>3-4</td><td>", "<td>3-4</td><td>1"}};
+  for (const auto& each : kDoctored) {
+    EXPECT_GT(found(changed(page, each.what, each.by)).wrong(), 0) << each.what;
   }
 }
 
