@@ -267,6 +267,7 @@ class SpaceCheck {
       const auto next = look(whole ? joints.front() : joints[k + 1], false);
       if (last && next) out.step = std::max(out.step, std::abs(*next - *last));
     }
+    if (out.least > out.largest) out.least = out.largest = 0.0L;  // straight: it has none
     return out;
   }
 
