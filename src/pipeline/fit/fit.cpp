@@ -889,6 +889,18 @@ Continuity wanted_continuity(const FitJob& job) {
 
 namespace {
 
+/// Why there may be a G2 contour where none of G3 was found, which nobody asked for: equal slopes
+/// cost the last digits of what is given, and may bend a convex contour back. Else empty.
+std::string lost_with_slopes(const FitJob& job, const Result<Fit>& made) {
+  if (made || !is_made_g3(job) || job.continuity) return {};
+  const Error& error = made.error();
+  if (error.code == ErrorCode::kCarrierCannotKeep) return "with continuous slopes " + error.what;
+  if (job.convex && error.code == ErrorCode::kFixedDataContradict) {
+    return "no convex contour with continuous slopes of the curvature was found";
+  }
+  return {};
+}
+
 Result<Fit> fit_as_asked(const PointSeries& series, const FitJob& job, FoundChains& chains,
                          Watch& watch) {
   if (watch.cancelled()) return fail(cancelled_error());
@@ -912,13 +924,11 @@ Result<Fit> fit_as_asked(const PointSeries& series, const FitJob& job, FoundChai
   }
   const auto begin = std::chrono::steady_clock::now();
   auto made = formed_and_proved(series, job, chains, watch);
-  if (!made && made.error().code == ErrorCode::kCarrierCannotKeep && is_made_g3(job) &&
-      !job.continuity) {  // equal slopes cost the last digits of what is given
+  if (const std::string because = lost_with_slopes(job, made); !because.empty()) {
     FitJob plain = job;
     plain.continuity = Continuity::kG2;
-    const std::string because = made.error().what;
     made = formed_and_proved(series, plain, chains, watch);
-    if (made) made->report.chain.g2_because = "with continuous slopes " + because;
+    if (made) made->report.chain.g2_because = because;
   } else if (made && is_made_g3(job) && !made->certificate.proved) {
     made = proved_without_slopes(series, job, std::move(*made), chains, watch);
   }
