@@ -263,7 +263,9 @@ int run(const RegionOptions& options) {
   }
   std::string text;
   if (options.json) {
-    text = region_json(*series, *region);
+    auto json = region_json(*series, *region, {});
+    if (!json) return report(json.error());
+    text = std::move(*json);
   } else if (options.csv) {
     auto table = region_file("csv", *series, *region);
     if (!table) return report(table.error());

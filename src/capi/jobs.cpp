@@ -236,7 +236,7 @@ int obvid_region(const obvid_input* input, const char* options, const obvid_run*
           return fail(explained(series, request.worksheet, found.error(), context));
         }
         if (const auto going = may_go_on(context); !going) return fail(going.error());
-        return region_json(series, *found);
+        return region_json(series, *found, context);
       });
 }
 
@@ -251,7 +251,7 @@ int obvid_worksheet(const obvid_input* input, const char* options, const char* e
     if (!found) {
       return fail(explained(*series, request->worksheet, found.error(), context_of(run)));
     }
-    auto made = region_file(ending == nullptr ? "" : ending, *series, *found);
+    auto made = region_file(ending == nullptr ? "" : ending, *series, *found, context_of(run));
     OBVID_TRY(made);
     auto out = std::make_unique<obvid_files>();
     out->files.push_back({"", std::move(made->text)});

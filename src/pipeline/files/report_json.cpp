@@ -151,9 +151,20 @@ namespace {
 
 double known_or_null(const std::optional<double>& value) { return value.value_or(kUnknownFigure); }
 
-void add_region_rows(JsonText& json, const std::vector<RegionRow>& rows) {
+/// Rows of a report between two questions whether it is still wanted.
+constexpr std::size_t kRowsBetweenQuestions = 1000;
+
+Result<void> may_write_row(std::size_t row, const RunContext& run) {
+  if (row % kRowsBetweenQuestions != 0) return {};
+  return may_go_on(run);
+}
+
+Result<void> add_region_rows(JsonText& json, const std::vector<RegionRow>& rows,
+                             const RunContext& run) {
   json.key("segments").begin_array();
-  for (const RegionRow& row : rows) {
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    OBVID_TRY(may_write_row(i, run));
+    const RegionRow& row = rows[i];
     json.begin_object().pair("from", row.from).pair("to", row.to).pair("chord", row.chord);
     json.pair("heading_start", row.theta_start).pair("heading_end", row.theta_end);
     json.pair("to_apex", row.to_apex).pair("from_apex", row.from_apex);
@@ -173,11 +184,15 @@ void add_region_rows(JsonText& json, const std::vector<RegionRow>& rows) {
     json.pair("spline_distance", known_or_null(row.spline_distance)).end_object();
   }
   json.end_array();
+  return {};
 }
 
-void add_region_points(JsonText& json, const std::vector<RegionPoint>& points) {
+Result<void> add_region_points(JsonText& json, const std::vector<RegionPoint>& points,
+                               const RunContext& run) {
   json.key("points").begin_array();
-  for (const RegionPoint& p : points) {
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    OBVID_TRY(may_write_row(i, run));
+    const RegionPoint& p = points[i];
     json.begin_object().key("point").begin_array().value(p.point.x).value(p.point.y).end_array();
     json.pair("index", p.number).pair("inserted", p.inserted);
     json.pair("heading", p.theta).pair("heading_given", p.theta_given);
@@ -191,6 +206,7 @@ void add_region_points(JsonText& json, const std::vector<RegionPoint>& points) {
     json.pair("kappa_low", range.low).pair("kappa_high", range.high).end_object();
   }
   json.end_array();
+  return {};
 }
 
 void add_construction_row(JsonText& json, const ConstructionRow& row) {
@@ -201,22 +217,25 @@ void add_construction_row(JsonText& json, const ConstructionRow& row) {
 
 }  // namespace
 
-std::string region_json(const PointSeries& series, const RegionTable& region) {
+Result<std::string> region_json(const PointSeries& series, const RegionTable& region,
+                                const RunContext& run) {
   JsonText json;
   json.begin_object().pair("name", series.name);
   add_units(json, series.units);
-  add_region_rows(json, region.rows);
+  OBVID_TRY(add_region_rows(json, region.rows, run));
   json.key("elements").begin_array();
-  for (const Element& element : region.elements) {
+  for (std::size_t i = 0; i < region.elements.size(); ++i) {
+    OBVID_TRY(may_write_row(i, run));
+    const Element& element = region.elements[i];
     json.begin_object().key("point").begin_array().value(element.point.x).value(element.point.y);
     json.end_array().pair("heading", element.theta).pair("kappa", element.kappa).end_object();
   }
   json.end_array();
-  add_region_points(json, region.user.points);
+  OBVID_TRY(add_region_points(json, region.user.points, run));
   if (region.refined) {
     json.key("refined").begin_object();
-    add_region_rows(json, region.refined->rows);
-    add_region_points(json, region.refined->points);
+    OBVID_TRY(add_region_rows(json, region.refined->rows, run));
+    OBVID_TRY(add_region_points(json, region.refined->points, run));
     json.end_object();
   }
   if (region.construction) {

@@ -379,7 +379,7 @@ RegionDrawing region_drawing(const PointSeries& series, const RegionTable& table
 }
 
 Result<RegionFile> region_file(const std::string& ending, const PointSeries& series,
-                               const RegionTable& table) {
+                               const RegionTable& table, const RunContext& run) {
   std::string kind = ending;
   std::transform(kind.begin(), kind.end(), kind.begin(),
                  [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
@@ -387,7 +387,11 @@ Result<RegionFile> region_file(const std::string& ending, const PointSeries& ser
     return RegionFile{table.construction ? construction_csv(table) : region_csv(table), ""};
   }
   if (kind == "tex") return RegionFile{region_latex(series, table), ""};
-  if (kind == "json") return RegionFile{region_json(series, table) + "\n", ""};
+  if (kind == "json") {
+    auto text = region_json(series, table, run);
+    OBVID_TRY(text);
+    return RegionFile{*text + "\n", ""};
+  }
   if (kind == "svg" || kind == "dxf") {
     const RegionDrawing drawing = region_drawing(series, table);
     return RegionFile{

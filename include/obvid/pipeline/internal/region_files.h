@@ -4,6 +4,7 @@
 #include <string>
 
 #include "obvid/core/result.h"
+#include "obvid/core/run_context.h"
 #include "obvid/exchange/internal/sketch.h"
 #include "obvid/pipeline/region_table.h"
 #include "obvid/series/point_series.h"
@@ -44,8 +45,8 @@ struct RegionFile {
 };
 
 /// `ending`: of the file, without its dot: "csv" (with a construction its own table), "tex", "json"
-/// (tables), "svg", "dxf" (drawings); capitals do not matter. Error: E202, another one.
+/// (tables), "svg", "dxf" (drawings); capitals do not matter. Errors: E202, another one; E103.
 [[nodiscard]] Result<RegionFile> region_file(const std::string& ending, const PointSeries& series,
-                                             const RegionTable& table);
+                                             const RegionTable& table, const RunContext& run = {});
 
 }  // namespace obvid

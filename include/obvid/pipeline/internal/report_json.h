@@ -6,6 +6,8 @@
 #include <vector>
 
 #include "obvid/core/error.h"
+#include "obvid/core/result.h"
+#include "obvid/core/run_context.h"
 #include "obvid/exchange/drawing.h"
 #include "obvid/pipeline/audit.h"
 #include "obvid/pipeline/compare.h"
@@ -39,8 +41,9 @@ struct Written {
 /// All carriers side by side.
 [[nodiscard]] std::string comparison_json(const PointSeries& series, const Comparison& compared);
 
-/// Tangents, ranges of curvature, heights and widths of the region.
-[[nodiscard]] std::string region_json(const PointSeries& series, const RegionTable& region);
+/// Tangents, ranges of curvature, heights and widths of the region. Error: E103.
+[[nodiscard]] Result<std::string> region_json(const PointSeries& series, const RegionTable& region,
+                                              const RunContext& run);
 
 /// The new proof of a stored contour, and what of its claims does not hold.
 [[nodiscard]] std::string verification_json(const StoredContour& stored, const Verification& found);
