@@ -25,6 +25,7 @@ int run(const SurfaceCheckOptions& options);
 int run(const SplineOptions& options);
 int run(const NurbsOptions& options);
 int run(const ToolpathCommand& command);
+int run(const CutCommand& command);
 int run(const AlignmentCommand& command);
 int run(const StudioOptions& options);
 int run(const BatchOptions& options);

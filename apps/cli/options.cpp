@@ -30,6 +30,7 @@ constexpr const char* kShortHelp =
   obvid spline TABLE -o spline.csv                   splines that keep given integrals
   obvid nurbs TABLE --weight-at 4=3 -o curve.step    control points, weights and knots
   obvid toolpath hull.json -o hull.nc                milling with three axes, without gouges
+  obvid cut plate.dxf --depth 5 -o plate.nc          every outline of a drawing in one program
   obvid convert contour.json -o OUT                  another format: STEP, IGES, DXF, G-code, ...
   obvid verify contour.json                          prove a stored contour again
   obvid explain E401                                 what an error means, what to do
@@ -176,10 +177,11 @@ CLI::Option* add_shown(CLI::App& command, FormatValues& values) {
 
 void add_plot(CLI::App& command, FormatValues& values, const std::string& group) {
   command
-      .add_option("--plot", values.plot,
-                  "What a picture shows over arc length beside the radius: curvature; slope: "
-                  "d kappa/ds too; deviations: how far measured points are off, in three colours, in "
-                  "place of the comb, with the largest and the root mean square [curvature]")
+      .add_option(
+          "--plot", values.plot,
+          "What a picture shows over arc length beside the radius: curvature; slope: "
+          "d kappa/ds too; deviations: how far measured points are off, in three colours, in "
+          "place of the comb, with the largest and the root mean square [curvature]")
       ->type_name("NAME")
       ->group(group);
   add_shown(command, values)->group(group);
@@ -194,13 +196,15 @@ void add_formats(CLI::App& command, FormatValues& values) {
       ->type_name("T")
       ->group(group);
   command
-      .add_option("--for", values.profile,
-                  "Choices that are known to work in solidworks, freecad, fusion, rhino, autocad, "
-                  "grbl, linuxcnc, fanuc or opendrive; printed; options beside it go before")
+      .add_option(
+          "--for", values.profile,
+          "Choices that are known to work in solidworks, freecad, fusion, rhino, autocad, "
+          "grbl, linuxcnc, fanuc, marlin or opendrive; printed; options beside it go before")
       ->type_name("NAME")
       ->group(group);
   command
-      .add_option("--controller", values.controller, "G-code for grbl, linuxcnc or fanuc [grbl]")
+      .add_option("--controller", values.controller,
+                  "G-code for grbl, linuxcnc, fanuc or marlin [grbl]")
       ->type_name("NAME")
       ->group(group);
   command
@@ -707,6 +711,7 @@ Result<Command> parse_command_line(int argc, const char* const* argv) {
       return Command{BatchOptions{{argv + 2, argv + argc}}};
     }
     if (std::string_view(argv[1]) == "toolpath") return parse_toolpath(argc - 1, argv + 1);
+    if (std::string_view(argv[1]) == "cut") return parse_cut(argc - 1, argv + 1);
     CLI::App app("Points in, a curvature-continuous, monotone and proved contour out", "obvid");
     app.set_version_flag("-V,--version", std::string("obvid ") + kVersion);
     app.require_subcommand(0, 1);
@@ -726,6 +731,7 @@ Result<Command> parse_command_line(int argc, const char* const* argv) {
     app.add_subcommand("nurbs", "Curves and surfaces of control points, weights and knots");
     app.add_subcommand("alignment", "Roads and rails: the fewest lines, arcs and clothoids");
     app.add_subcommand("toolpath", "Three-axis milling of a surface as G-code");
+    app.add_subcommand("cut", "All outlines of a drawing for a mill, a laser or a plasma torch");
     app.add_subcommand("batch", "One job for many inputs on all processors, results as a table");
     app.add_subcommand("studio", "A page in the browser: drag points, see what is possible, prove");
     allow_extras(app);

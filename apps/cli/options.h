@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "alignment_options.h"
+#include "cut_options.h"
 #include "nurbs_options.h"
 #include "obvid/core/result.h"
 #include "obvid/pipeline/export.h"
@@ -125,7 +126,7 @@ struct BatchOptions {
 using Command = std::variant<ShowText, StudioOptions, BatchOptions, FitOptions, AnalyseOptions,
                              RegionOptions, CompareOptions, ConvertOptions, VerifyOptions,
                              ExplainOptions, SurfaceOptions, SurfaceCheckOptions, SplineOptions,
-                             NurbsOptions, ToolpathCommand, AlignmentCommand>;
+                             NurbsOptions, ToolpathCommand, AlignmentCommand, CutCommand>;
 
 /// Understands the command line. Errors: E201 wrong usage, E203 option not possible.
 [[nodiscard]] Result<Command> parse_command_line(int argc, const char* const* argv);
@@ -136,5 +137,6 @@ using Command = std::variant<ShowText, StudioOptions, BatchOptions, FitOptions, 
 [[nodiscard]] Result<Command> parse_alignment(int argc, const char* const* argv);
 [[nodiscard]] Result<Command> parse_nurbs(int argc, const char* const* argv);
 [[nodiscard]] Result<Command> parse_toolpath(int argc, const char* const* argv);
+[[nodiscard]] Result<Command> parse_cut(int argc, const char* const* argv);
 
 }  // namespace obvid

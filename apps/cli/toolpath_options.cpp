@@ -79,7 +79,7 @@ void add_program(CLI::App& app, RawToolpath& raw) {
                  "Feed straight down [300 mm/min; inches: 12 in/min]")
       ->type_name("F")
       ->group(group);
-  app.add_option("--controller", raw.values.controller, "grbl, linuxcnc or fanuc [grbl]")
+  app.add_option("--controller", raw.values.controller, "grbl, linuxcnc, fanuc or marlin [grbl]")
       ->type_name("NAME")
       ->group(group);
   app.add_option("--motion", raw.values.motion,

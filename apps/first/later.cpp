@@ -32,6 +32,7 @@ OBVID_LATER(Result<Command> parse_surface(int, const char* const*))
 OBVID_LATER(Result<Command> parse_spline(int, const char* const*))
 OBVID_LATER(Result<Command> parse_nurbs(int, const char* const*))
 OBVID_LATER(Result<Command> parse_toolpath(int, const char* const*))
+OBVID_LATER(Result<Command> parse_cut(int, const char* const*))
 OBVID_LATER(int run(const AlignmentCommand&))
 OBVID_LATER(int run(const RegionOptions&))
 OBVID_LATER(int run(const CompareOptions&))
@@ -42,6 +43,7 @@ OBVID_LATER(int run(const SurfaceCheckOptions&))
 OBVID_LATER(int run(const SplineOptions&))
 OBVID_LATER(int run(const NurbsOptions&))
 OBVID_LATER(int run(const ToolpathCommand&))
+OBVID_LATER(int run(const CutCommand&))
 
 // ---- constructions, points in space
 // --------------------------------------------------------------

@@ -93,14 +93,15 @@ constexpr std::array kTexts{
               "The file is not of the kind that its name or its head says, or it is cut off or "
               "damaged, so that the reader of that kind gives up.",
               "Export it again, or get it again from where it came."},
-    ErrorText{ErrorCode::kNoSpiral, "No contour with monotone curvature was found here",
-              "No curve was found that joins the named points and whose curvature changes in the "
-              "direction that the data ask for, or the carrier has no such curve: conics and "
-              "parabolas have no inflection, and no monotone parabolas are nearly an arc. That none was "
-              "found is no proof that none exists.",
-              "Check the named points for a typing or measuring error; the error line says within "
-              "which tolerance there is a contour, where one was found. Otherwise add points where "
-              "the shape turns quickly, let points move (`--noise`), or take `--carrier spiral`."},
+    ErrorText{
+        ErrorCode::kNoSpiral, "No contour with monotone curvature was found here",
+        "No curve was found that joins the named points and whose curvature changes in the "
+        "direction that the data ask for, or the carrier has no such curve: conics and "
+        "parabolas have no inflection, and no monotone parabolas are nearly an arc. That none was "
+        "found is no proof that none exists.",
+        "Check the named points for a typing or measuring error; the error line says within "
+        "which tolerance there is a contour, where one was found. Otherwise add points where "
+        "the shape turns quickly, let points move (`--noise`), or take `--carrier spiral`."},
     ErrorText{ErrorCode::kChordReversal, "The series turns back on itself",
               "Two neighbouring chords point in nearly opposite directions. The points are too few "
               "there to say which way the contour turns.",
@@ -146,6 +147,14 @@ constexpr std::array kTexts{
         "surface and turns inside out there. The error names the places and the largest distance "
         "on this side at which it does not.",
         "Take a smaller distance, or smooth the surface where it bends most."},
+    ErrorText{
+        ErrorCode::kToolTooLarge, "The tool does not fit",
+        "At half its diameter from the outline the tool would have to turn in a hollow that is "
+        "narrower than itself, or would cut into the other side of a slot or into another "
+        "outline. The error names the place; a program that leaves it out would not cut what is "
+        "drawn.",
+        "Take a smaller cutter (`--diameter`), cut on the other side (`--side`), or leave the "
+        "outline out (`--curve`)."},
     ErrorText{
         ErrorCode::kNotProved, "Formed, but not proved",
         "A contour was formed, but the proof of one of its properties did not succeed. It may "

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <utility>
 
-#include "nc_reader.h"
+#include "obvid/exchange/internal/gcode/nc_program.h"
 #include "steps.h"
 
 namespace obvid::toolpath {
@@ -15,9 +15,9 @@ namespace {
 constexpr double kChordDepth = 0.005, kChordOfWithin = 0.05;
 constexpr double kWithin = 0.1;  // of the tolerance, where no scallop is asked for
 
-std::vector<Sweep> sweeps_of(const NcProgram& program, double scale, double top) {
+std::vector<Sweep> sweeps_of(const exchange::NcProgram& program, double scale, double top) {
   std::vector<Sweep> out;
-  for (const NcMotion& motion : program.motions) {
+  for (const exchange::NcMotion& motion : program.motions) {
     for (std::size_t i = 1; i < motion.points.size(); ++i) {
       const Sweep sweep{motion.points[i - 1] / scale, motion.points[i] / scale};
       const bool over_all = motion.rapid && std::min(sweep.from.z, sweep.to.z) > top;
@@ -36,7 +36,7 @@ Result<SimulationReport> check_program(const Part& part, const SurfaceCells& cel
   const double within =
       options.scallop ? kScallopWithin * *options.scallop : kWithin * options.tolerance;
   const double chord = std::min(kChordDepth * options.tolerance, kChordOfWithin * within);
-  const auto program = read_program(text, chord * scale);
+  const auto program = exchange::read_program(text, chord * scale);
   OBVID_TRY(program);
   OBVID_TRY(tell(run, "checking", 0.0));
   Simulation simulation(part, cells, reach, options.threads, chord);

@@ -8,6 +8,7 @@
 
 #include "machine_units.h"
 #include "obvid/core/version.h"
+#include "obvid/exchange/internal/gcode/dialect.h"
 #include "obvid/toolpath/toolpath.h"
 #include "program_text.h"
 
@@ -32,16 +33,14 @@ std::string cutter_text(const Toolpath& path, double scale) {
 }
 
 std::string head(const Toolpath& path, const ToolpathGcodeOptions& options, double scale) {
-  const bool fanuc = options.controller == GcodeController::kFanuc, inches = path.units == "in";
-  const char* unit = inches ? "in" : "mm";
-  std::string out = fanuc ? "%\nO0001\n" : "";
-  out += fmt::format("(Obvid {}: {})\n", kVersion, gcode_comment(options.name));
-  out += fmt::format("({}, places are those of the tip)\n", cutter_text(path, scale));
-  out += fmt::format("({} passes, {:.1f} min, within {:.3g} {})\n", path.report.passes,
-                     path.report.minutes, path.tolerance * scale, unit);
-  if (!inches && scale != 1.0) out += fmt::format("(converted from {})\n", gcode_comment(path.units));
-  out += inches ? "G20 " : "G21 ";
-  return out + (fanuc ? "G90 G17 G94\n" : "G90 G91.1 G17 G94\n");
+  const bool inches = path.units == "in";
+  std::vector<std::string> remarks{
+      fmt::format("Obvid {}: {}", kVersion, gcode_comment(options.name)),
+      cutter_text(path, scale) + ", places are those of the tip",
+      fmt::format("{} passes, {:.1f} min, within {:.3g} {}", path.report.passes,
+                  path.report.minutes, path.tolerance * scale, inches ? "in" : "mm")};
+  if (!inches && scale != 1.0) remarks.push_back("converted from " + gcode_comment(path.units));
+  return exchange::gcode_head(options.controller, inches, remarks);
 }
 
 void write_moves(const Toolpath& path, double scale, toolpath::ProgramText& program) {
@@ -90,8 +89,7 @@ Result<ToolpathGcode> toolpath_gcode(const Toolpath& path, const ToolpathGcodeOp
   ToolpathGcode out;
   out.blocks = program.blocks();
   out.arc_blocks = program.arcs();
-  out.text = head(path, options, scale) + program.text() +
-             (options.controller == GcodeController::kFanuc ? "M30\n%\n" : "M2\n");
+  out.text = head(path, options, scale) + program.text() + exchange::gcode_end(options.controller);
   return out;
 }
 

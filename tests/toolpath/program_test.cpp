@@ -10,8 +10,8 @@
 
 #include "biarc.h"
 #include "moves.h"
-#include "nc_reader.h"
 #include "obvid/core/error.h"
+#include "obvid/exchange/internal/gcode/nc_program.h"
 #include "program_text.h"
 #include "steps.h"
 
@@ -20,15 +20,15 @@ namespace {
 
 constexpr double kWithin = 1e-3;
 
-NcProgram read_or_fail(const std::string& text) {
-  auto program = read_program(text, kWithin);
+exchange::NcProgram read_or_fail(const std::string& text) {
+  auto program = exchange::read_program(text, kWithin);
   EXPECT_TRUE(program) << text << (program ? "" : to_line(program.error()));
-  return program ? std::move(*program) : NcProgram{};
+  return program ? std::move(*program) : exchange::NcProgram{};
 }
 
 /// Refused as what no controller understands; the block's number is told.
 void expect_refused(const std::string& text, std::size_t block) {
-  const auto program = read_program(text, kWithin);
+  const auto program = exchange::read_program(text, kWithin);
   ASSERT_FALSE(program) << text;
   EXPECT_EQ(program.error().code, ErrorCode::kInternal) << text;
   EXPECT_NE(to_line(program.error()).find("block " + std::to_string(block)), std::string::npos)
@@ -36,7 +36,7 @@ void expect_refused(const std::string& text, std::size_t block) {
 }
 
 TEST(NcReader, KnowsModalWordsCommentsAndInches) {
-  const NcProgram program = read_or_fail(
+  const exchange::NcProgram program = read_or_fail(
       "(a part)\nG20 G90 G94\nG0 Z1.5\nG0 X1 Y2\nG1 Z-.25 F10\nX3\n\nG0 Z1.5 (up)\nM2\n");
   EXPECT_TRUE(program.inches);
   ASSERT_EQ(program.motions.size(), 4U);
@@ -78,9 +78,9 @@ TEST(NcReader, TurnsArcsInAllThreePlanesTheRightWay) {
     for (const bool left : {true, false}) {
       const std::string text = std::string("G0 Z5\nG0 X0 Y0\n") + plane.code +
                                (left ? "G3 " : "G2 ") + plane.words + "\n";
-      const NcProgram program = read_or_fail(text);
+      const exchange::NcProgram program = read_or_fail(text);
       ASSERT_FALSE(program.motions.empty());
-      const NcMotion& arc = program.motions.back();
+      const exchange::NcMotion& arc = program.motions.back();
       EXPECT_TRUE(arc.arc);
       double turned = 0.0;
       for (std::size_t i = 0; i < arc.points.size(); ++i) {
@@ -100,8 +100,9 @@ TEST(NcReader, TurnsArcsInAllThreePlanesTheRightWay) {
 }
 
 TEST(NcReader, ReadsHelicesWithEvenHeights) {
-  const NcProgram program = read_or_fail("G0 Z5\nG0 X1 Y0\nG1 Z0\nG17\nG3 X-1 Y0 Z-2 I-1 J0\n");
-  const NcMotion& arc = program.motions.back();
+  const exchange::NcProgram program =
+      read_or_fail("G0 Z5\nG0 X1 Y0\nG1 Z0\nG17\nG3 X-1 Y0 Z-2 I-1 J0\n");
+  const exchange::NcMotion& arc = program.motions.back();
   for (const Vec3 p : arc.points) {
     EXPECT_NEAR(p.z, -2.0 * std::atan2(p.y, p.x) / std::numbers::pi, 1e-12);
   }
@@ -116,7 +117,7 @@ TEST(ProgramText, RoundsPlacesOnceSoThatNothingDrifts) {
     steps.push_back({x, x * x, 0.0});  // bent, so that points stay
   }
   text.straight(steps, 100.0);
-  const NcProgram program = read_or_fail(text.text());
+  const exchange::NcProgram program = read_or_fail(text.text());
   EXPECT_EQ(program.motions.back().points.back(), (Vec3{3.33, 11.11, 0.0}));
   EXPECT_EQ(text.text().find("F100.000"), text.text().rfind("F100.000")) << "one feed is enough";
 }
@@ -149,9 +150,9 @@ TEST(ProgramText, PrintsArcsThatLeadAlongThePoints) {
       EXPECT_GE(text.arcs(), 1U);
       EXPECT_LE(text.arcs(), 4U);
       EXPECT_NE(text.text().find(plane == PassPlane::kXz ? "G18" : "G19"), std::string::npos);
-      const NcProgram program = read_or_fail(text.text());
+      const exchange::NcProgram program = read_or_fail(text.text());
       double turned = 0.0;
-      for (const NcMotion& motion : program.motions) {
+      for (const exchange::NcMotion& motion : program.motions) {
         if (!motion.arc) continue;
         for (std::size_t i = 0; i < motion.points.size(); ++i) {
           const Vec3 p = motion.points[i];

@@ -39,6 +39,7 @@ enum class ErrorCode : int {
   kCarrierCannotKeep = 406,
   kWanders = 407,
   kSurfaceFolds = 408,
+  kToolTooLarge = 409,
   kNotProved = 501,
   kToleranceNotReached = 502,
   kFalseClaim = 503,

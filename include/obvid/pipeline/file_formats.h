@@ -21,11 +21,13 @@ enum class FileFormat {
 [[nodiscard]] std::optional<FileFormat> surface_format_of(std::string_view path);
 [[nodiscard]] std::optional<FileFormat> space_format_of(std::string_view path);
 [[nodiscard]] std::optional<FileFormat> toolpath_format_of(std::string_view path);
+[[nodiscard]] std::optional<FileFormat> cut_format_of(std::string_view path);
 
 /// ".json (contour), .svg (picture), ...": for help and errors.
 [[nodiscard]] std::string known_endings();
 [[nodiscard]] std::string known_surface_endings();
 [[nodiscard]] std::string known_space_endings();
 [[nodiscard]] std::string known_toolpath_endings();
+[[nodiscard]] std::string known_cut_endings();
 
 }  // namespace obvid

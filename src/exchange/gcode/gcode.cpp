@@ -9,13 +9,14 @@
 #include <utility>
 #include <vector>
 
-#include "gcode/path.h"
 #include "obvid/contour/arcs/arcs_along.h"
 #include "obvid/contour/arcs/polyline_along.h"
 #include "obvid/contour/bsplines/cubic_along.h"
 #include "obvid/core/version.h"
 #include "obvid/curve/internal/path_distance.h"
 #include "obvid/curve/internal/smooth_parts.h"
+#include "obvid/exchange/internal/gcode/dialect.h"
+#include "obvid/exchange/internal/gcode/path.h"
 
 namespace obvid {
 namespace {
@@ -23,8 +24,7 @@ namespace {
 using exchange::fixed;
 using exchange::GcodePath;
 
-constexpr int kLeastDecimals = 3, kMostDecimals = 6;
-constexpr double kDigitsOfTolerance = 0.1;   // of the tolerance, what the last digit may be worth
+constexpr int kLeastDecimals = 3;            // of heights and feeds
 constexpr double kOfBlockTolerance = 0.995;  // aimed at, so that what is measured stays below
 constexpr int kToleranceTrials = 5;
 
@@ -33,7 +33,8 @@ class Program {
   Program(const Contour& contour, const GcodeOptions& options)
       : contour_(contour), options_(options), inches_(contour.units.name == "in") {
     scale_ = *unit_ratio(contour.units.name, inches_ ? "in" : "mm");
-    decimals_ = options.decimals ? *options.decimals : fewest_decimals();
+    decimals_ =
+        options.decimals.value_or(exchange::gcode_decimals(options.tolerance * scale_, inches_));
     unit_ = std::pow(10.0, -decimals_) / scale_;
   }
 
@@ -86,15 +87,6 @@ class Program {
             -1,
             unit_};
   }
-  [[nodiscard]] int fewest_decimals() const {
-    const int least = kLeastDecimals + (inches_ ? 1 : 0);
-    const double digits = -std::log10(kDigitsOfTolerance * options_.tolerance * scale_);
-    constexpr double kDigitRounding =
-        1e-9;  // a tolerance of 0.001 asks for 4, not for 4.0000000001
-    return static_cast<int>(
-        std::clamp<double>(std::ceil(digits - kDigitRounding), least, kMostDecimals));
-  }
-
   Result<void> follow(GcodePath& path, double within) const {
     switch (options_.motion) {
       case GcodeMotion::kArcs:
@@ -146,17 +138,13 @@ class Program {
   }
 
   [[nodiscard]] std::string head(std::size_t blocks, double deviation) const {
-    const bool fanuc = options_.controller == GcodeController::kFanuc;
-    const char* units = inches_ ? "in" : "mm";
-    std::string out = fanuc ? "%\nO0001\n" : "";
-    out += fmt::format("(Obvid {}: {})\n", kVersion, gcode_comment(options_.name));
-    out += fmt::format("({} blocks within {:.3g} {} of the contour)\n", blocks, deviation * scale_,
-                       units);
-    if (!contour_.units.known()) out += "(the unit is assumed)\n";
-    if (!inches_ && scale_ != 1.0) out += fmt::format("(converted from {})\n", contour_.units.name);
-    out += inches_ ? "G20 " : "G21 ";
-    out += fanuc ? "G90 G17 G94\n" : "G90 G91.1 G17 G94\n";
-    return out;
+    std::vector<std::string> remarks{
+        fmt::format("Obvid {}: {}", kVersion, gcode_comment(options_.name)),
+        fmt::format("{} blocks within {:.3g} {} of the contour", blocks, deviation * scale_,
+                    inches_ ? "in" : "mm")};
+    if (!contour_.units.known()) remarks.emplace_back("the unit is assumed");
+    if (!inches_ && scale_ != 1.0) remarks.push_back("converted from " + contour_.units.name);
+    return exchange::gcode_head(options_.controller, inches_, remarks);
   }
 
   [[nodiscard]] std::string approach(const GcodePath& path) const {
@@ -171,7 +159,7 @@ class Program {
   [[nodiscard]] std::string end() const {
     const std::string up =
         options_.safe_z ? "G0 Z" + fixed(*options_.safe_z, kLeastDecimals) + "\n" : "";
-    return up + (options_.controller == GcodeController::kFanuc ? "M30\n%\n" : "M2\n");
+    return up + exchange::gcode_end(options_.controller);
   }
 
   const Contour& contour_;
@@ -191,8 +179,10 @@ Result<void> check(const Contour& contour, const GcodeOptions& options) {
       !std::isfinite(feed)) {
     return bad("tolerance and feed must be greater than 0", "", options.tolerance);
   }
-  if (options.decimals && (*options.decimals < 1 || *options.decimals > kMostDecimals)) {
-    return bad(fmt::format("decimals must be 1 to {}", kMostDecimals), "", *options.decimals);
+  if (options.decimals &&
+      (*options.decimals < 1 || *options.decimals > exchange::kMostGcodeDecimals)) {
+    return bad(fmt::format("decimals must be 1 to {}", exchange::kMostGcodeDecimals), "",
+               *options.decimals);
   }
   if (options.safe_z && !std::isfinite(*options.safe_z)) {
     return bad("the height is no number", "", *options.safe_z);

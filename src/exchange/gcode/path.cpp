@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "gcode/path.h"
+#include "obvid/exchange/internal/gcode/path.h"
 
 #include <fmt/format.h>
 
@@ -123,7 +123,7 @@ void GcodePath::line_to(Vec2 point) { line(printed(scale_ * point)); }
 
 void GcodePath::line(GridPlace end) {
   if (end == at_) return;  // the next block starts where the tool stands: nothing drifts
-  format_into(text_, "G1 {}\n", place(end));
+  format_into(text_, "G1 {}{}\n", place(end), behind());
   pieces_.emplace_back(LinePiece{in_contour(at_), in_contour(end)});
   at_ = end;
 }
@@ -162,7 +162,8 @@ void GcodePath::arc(Vec2 middle, GridPlace end, bool left) {
   }
   radius_mismatch_ = std::max(radius_mismatch_, centre.mismatch / scale_);
   const Vec2 ij = centre.ij;
-  format_into(text_, "{} {} I{} J{}\n", left ? "G3" : "G2", place(end), centre.i, centre.j);
+  format_into(text_, "{} {} I{} J{}{}\n", left ? "G3" : "G2", place(end), centre.i, centre.j,
+              behind());
   // the controller's arc: it leaves square to its radius, and its chord says the rest
   const Vec2 tangent = (left ? 1.0 : -1.0) * left_normal(-ij);
   const double angle = turning(tangent, chord);
@@ -179,8 +180,8 @@ void GcodePath::follow_cubic(const RationalBezier& cubic) {
   if (end == at_) return;
   const GridPlace first = printed(point(1) - between({}, at_));
   const GridPlace second = printed(point(2) - between({}, end));
-  format_into(text_, "G5 I{} J{} P{} Q{} {}\n", number(first.x), number(first.y), number(second.x),
-              number(second.y), place(end));
+  format_into(text_, "G5 I{} J{} P{} Q{} {}{}\n", number(first.x), number(first.y),
+              number(second.x), number(second.y), place(end), behind());
   RationalBezier path;
   path.degree = 3;
   path.offset = {in_contour(at_), in_contour(at_) + in_contour(first),

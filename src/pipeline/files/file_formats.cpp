@@ -20,7 +20,8 @@ struct FormatRow {
   const char* contour = "";   ///< what it is of a contour, "STEP"; empty: it holds none
   const char* surface = "";   ///< the same of a surface,
   const char* space = "";     ///< a curve in space,
-  const char* toolpath = "";  ///< and a tool path
+  const char* toolpath = "";  ///< a tool path,
+  const char* cut = "";       ///< and outlines that are cut
 };
 
 constexpr std::array kFormats = {
@@ -90,6 +91,10 @@ std::optional<FileFormat> toolpath_format_of(std::string_view path) {
   return pipeline_detail::format_in_table(path, &FormatRow::toolpath);
 }
 
+std::optional<FileFormat> cut_format_of(std::string_view path) {
+  return pipeline_detail::format_in_table(path, &FormatRow::cut);
+}
+
 std::string known_endings() {
   return pipeline_detail::listed_formats(&FormatRow::contour);
 }
@@ -99,6 +104,8 @@ std::string known_surface_endings() {
 std::string known_space_endings() {
   return pipeline_detail::listed_formats(&FormatRow::space);
 }
+std::string known_cut_endings() { return pipeline_detail::listed_formats(&FormatRow::cut); }
+
 std::string known_toolpath_endings() {
   return pipeline_detail::listed_formats(&FormatRow::toolpath);
 }

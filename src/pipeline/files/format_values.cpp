@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "obvid/pipeline/internal/format_values.h"
+#include "obvid/exchange/internal/gcode/dialect.h"
 
 #include <fmt/format.h>
 
@@ -129,9 +130,6 @@ constexpr std::array kSteps = {std::pair{"ap214", CadFormat::kStepAp214},
 constexpr std::array kDxf = {
     std::pair{"exact", DxfProfile::kExact}, std::pair{"arcs", DxfProfile::kArcs},
     std::pair{"cubic", DxfProfile::kCubic}, std::pair{"r12", DxfProfile::kArcsR12}};
-constexpr std::array kControllers = {std::pair{"grbl", GcodeController::kGrbl},
-                                     std::pair{"linuxcnc", GcodeController::kLinuxCnc},
-                                     std::pair{"fanuc", GcodeController::kFanuc}};
 constexpr std::array kMotions = {std::pair{"arcs", GcodeMotion::kArcs},
                                  std::pair{"lines", GcodeMotion::kLines},
                                  std::pair{"splines", GcodeMotion::kSplines}};
@@ -220,7 +218,8 @@ Result<void> set_formats(const FormatValues& typed, ExportOptions& options,
   return choose(typed.step, kSteps, "--step", options.step)
       .and_then([&] { return choose(typed.dxf, kDxf, "--dxf", options.dxf); })
       .and_then([&] {
-        return choose(typed.controller, kControllers, "--controller", options.controller);
+        return choose(typed.controller, exchange::kGcodeControllers, "--controller",
+                      options.controller);
       })
       .and_then(
           [&] { return choose(typed.airfoil, kAirfoils, "--airfoil", options.airfoil.layout); })

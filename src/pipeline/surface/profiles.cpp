@@ -35,6 +35,8 @@ const std::vector<Profile>& profiles() {
        controller(GcodeController::kLinuxCnc)},
       {"fanuc", "take .nc: G2/G3 below half a turn, program O0001 between %, M30",
        controller(GcodeController::kFanuc)},
+      {"marlin", "take .gcode: G2/G3 below half a turn, remarks behind semicolons, no end word",
+       controller(GcodeController::kMarlin)},
       {"opendrive", "take .xodr: lines, arcs and spirals in metres, from --carrier clothoids",
        ExportOptions{}},
   };

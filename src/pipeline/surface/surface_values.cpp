@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "obvid/pipeline/internal/surface_values.h"
+#include "obvid/exchange/internal/gcode/dialect.h"
 
 #include <array>
 #include <charconv>
@@ -204,10 +205,9 @@ Result<void> set_toolpath(const ToolpathValues& typed, ToolpathJob& job) {
                                       typed.strategy, "--strategy", plan.strategy);
       })
       .and_then([&] {
-        return pick<GcodeController>({{"grbl", GcodeController::kGrbl},
-                                      {"linuxcnc", GcodeController::kLinuxCnc},
-                                      {"fanuc", GcodeController::kFanuc}},
-                                     typed.controller, "--controller", plan.gcode.controller);
+        const auto& all = exchange::kGcodeControllers;
+        return pick<GcodeController>({all.begin(), all.end()}, typed.controller, "--controller",
+                                     plan.gcode.controller);
       })
       .and_then([&] {
         return pick<bool>({{"arcs", true}, {"lines", false}}, typed.motion, "--motion",

@@ -17,7 +17,7 @@ struct Profile {
   ExportOptions options;
 };
 
-/// solidworks, freecad, fusion, rhino, autocad, grbl, linuxcnc, fanuc, opendrive.
+/// solidworks, freecad, fusion, rhino, autocad, grbl, linuxcnc, fanuc, marlin, opendrive.
 [[nodiscard]] const std::vector<Profile>& profiles();
 
 /// Error: E203 with the names that there are.

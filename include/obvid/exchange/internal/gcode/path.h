@@ -4,6 +4,8 @@
 #include <cstddef>
 #include <cstdint>
 #include <string>
+#include <string_view>
+#include <utility>
 #include <vector>
 
 #include "obvid/core/result.h"
@@ -31,6 +33,11 @@ class GcodePath {
   void line_to(Vec2 point);
   void follow_arc(const ArcPiece& arc);
   void follow_cubic(const RationalBezier& cubic);
+  /// Words behind the next block that is printed (" Z-1.000 F300.000"); blocks that round away
+  /// leave them to it.
+  void say_behind(std::string words) { behind_ = std::move(words); }
+  /// Lines of their own: words that do not move the tool in the plane.
+  void say(std::string_view lines) { text_ += lines; }
 
   [[nodiscard]] const std::string& text() const { return text_; }
   [[nodiscard]] std::string start() const;  ///< words of the start
@@ -46,6 +53,7 @@ class GcodePath {
   [[nodiscard]] bool holds(double coordinate) const;
 
  private:
+  [[nodiscard]] std::string behind() { return std::exchange(behind_, {}); }
   [[nodiscard]] GridPlace printed(Vec2 machine) const;
   [[nodiscard]] std::string place(GridPlace at) const;
   [[nodiscard]] std::string number(std::int64_t last_digits) const;
@@ -61,7 +69,7 @@ class GcodePath {
   GridPlace start_, at_;
   double radius_mismatch_ = 0.0;
   bool lost_arcs_ = false;
-  std::string text_;
+  std::string text_, behind_;
   std::size_t arcs_ = 0;
   std::vector<Piece> pieces_;
 };

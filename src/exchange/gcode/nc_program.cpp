@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "nc_reader.h"
+#include "obvid/exchange/internal/gcode/nc_program.h"
 
 #include <fmt/format.h>
 
@@ -11,17 +11,20 @@
 #include <optional>
 #include <string>
 
-namespace obvid::toolpath {
+namespace obvid::exchange {
 namespace {
 
 /// What controllers take for one radius: LinuxCNC's limits, others are no stricter.
-constexpr double kSameRadius = 0.002;  // mm
-constexpr double kSameRadiusOfRadius = 1e-3;
+constexpr double kSameNcRadius = 0.002;  // mm
+constexpr double kSameNcRadiusPart = 1e-3;
 constexpr double kMmPerInch = 25.4;
 
 class Reader {
  public:
-  explicit Reader(double within) : within_(within) {}
+  Reader(double within, std::optional<double> level) : within_(within) {
+    known_[2] = level.has_value();
+    at_[2] = level.value_or(0.0);
+  }
 
   Result<NcProgram> run(std::string_view text) {
     for (std::size_t number = 1; !text.empty(); ++number) {
@@ -53,6 +56,7 @@ class Reader {
       const char word = line.front();
       line.remove_prefix(1);
       if (word == ' ' || word == '%' || word == '\r') continue;
+      if (word == ';') break;  // a remark up to the end of the line
       if (word == '(') {
         const std::size_t end = line.find(')');
         if (end == std::string_view::npos) return bad("a comment without an end");
@@ -86,6 +90,8 @@ class Reader {
       case 'F':
       case 'M':
       case 'O':
+      case 'P':
+      case 'S':
         return true;
       default:
         return bad(std::string("the word ") + word);
@@ -100,6 +106,8 @@ class Reader {
       case 20:
       case 30:
         motion_ = tenths / 10;
+        return true;
+      case 40:  // a dwell
         return true;
       case 170:
       case 180:
@@ -148,9 +156,9 @@ class Reader {
     const double ca = at_[a] + to_centre_[a], cb = at_[b] + to_centre_[b];
     const double r0 = std::hypot(at_[a] - ca, at_[b] - cb);
     const double r1 = std::hypot(end[a] - ca, end[b] - cb);
-    const double same = program_.inches ? kSameRadius / kMmPerInch : kSameRadius;
+    const double same = program_.inches ? kSameNcRadius / kMmPerInch : kSameNcRadius;
     if (!(r0 > 0.0)) return bad("an arc without a radius");
-    if (std::abs(r0 - r1) > std::max(same, kSameRadiusOfRadius * r0)) {
+    if (std::abs(r0 - r1) > std::max(same, kSameNcRadiusPart * r0)) {
       return bad("its ends are not equally far from the centre");
     }
     const double whole = 2.0 * std::numbers::pi;
@@ -185,8 +193,8 @@ class Reader {
 
 }  // namespace
 
-Result<NcProgram> read_program(std::string_view text, double within) {
-  return Reader(within).run(text);
+Result<NcProgram> read_program(std::string_view text, double within, std::optional<double> level) {
+  return Reader(within, level).run(text);
 }
 
-}  // namespace obvid::toolpath
+}  // namespace obvid::exchange

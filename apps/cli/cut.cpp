@@ -1,0 +1,137 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <fmt/format.h>
+
+#include <string>
+#include <vector>
+
+#include "commands.h"
+#include "obvid/core/files.h"
+#include "obvid/pipeline/cut_job.h"
+#include "obvid/pipeline/file_formats.h"
+#include "outputs.h"
+#include "table.h"
+#include "terminal.h"
+#include "text.h"
+
+namespace obvid {
+namespace {
+
+Result<std::vector<Output>> cut_outputs(const CutCommand& command) {
+  OBVID_TRY(check_outputs(command.outputs, command.inputs));
+  std::vector<Output> out;
+  for (const std::string& path : command.outputs) {
+    const auto format = cut_format_of(path);
+    if (!format) {
+      return error(ErrorCode::kUnknownFormat,
+                   "no format of cutting programs has this file extension")
+          .where(path)
+          .hint("possible are " + known_cut_endings());
+    }
+    out.push_back({path, *format, {}});
+  }
+  return out;
+}
+
+Result<MadeCut> made_from(const CutCommand& command, ProgressBar& bar) {
+  std::vector<Drawing> drawings;
+  std::vector<std::string> warnings;
+  for (const std::string& input : command.inputs) {
+    bar.tell("reading", 0.0);
+    auto drawing = read_drawing(input);
+    OBVID_TRY(drawing);
+    if (command.units) {
+      if (auto told = take_units(drawing->units, *command.units)) warnings.push_back(*told);
+    }
+    drawings.push_back(std::move(*drawing));
+  }
+  auto made = make_cut(std::move(drawings), command.import, command.job, bar.progress());
+  OBVID_TRY(made);
+  made->warnings.insert(made->warnings.begin(), warnings.begin(), warnings.end());
+  return made;
+}
+
+const char* side_text(CutSide side) {
+  switch (side) {
+    case CutSide::kOutside:
+      return "outside";
+    case CutSide::kInside:
+      return "inside";
+    case CutSide::kAuto:
+    case CutSide::kOn:
+      break;
+  }
+  return "on it";
+}
+
+std::string steps_table(const MadeCut& made) {
+  Table table;
+  table.column("order");
+  table.column("outline", Table::Align::kLeft);
+  table.column("tool", Table::Align::kLeft);
+  table.column("start\nx");
+  table.column("\ny");
+  table.column("\nlength");
+  table.column("left in\ncorners");
+  std::size_t number = 0;
+  for (const CutStep& step : made.program.steps) {
+    table.row({std::to_string(++number), made.outlines[step.outline].name, side_text(step.side),
+               significant(step.start.x), significant(step.start.y), significant(step.length),
+               step.left_in_corners > 0.0 ? significant(step.left_in_corners, 4) : "-"});
+  }
+  return table.text();
+}
+
+std::string cut_text(const MadeCut& made, const std::vector<std::string>& files) {
+  const CutReport& r = made.program.report;
+  const std::string unit = made.units.text();
+  Facts facts;
+  facts.add("program",
+            fmt::format("{} blocks at feed, {} of them arcs, in {}", r.blocks, r.arc_blocks,
+                        counted(static_cast<std::size_t>(r.levels), "pass", "passes")));
+  facts.add("length", fmt::format("{} {} at feed, {} {} rapid", significant(r.cut_length, 5), unit,
+                                  significant(r.rapid_length, 5), unit));
+  facts.add("time", fmt::format("about {} minutes, with acceleration", significant(r.minutes, 3)));
+  facts.add("read back",
+            fmt::format("at most {} {} beyond an outline and {} {} short of one, found "
+                        "at places a tenth of the tool apart",
+                        significant(r.beyond, 2), unit, significant(r.short_of, 2), unit));
+  if (r.left_in_corners > 0.0) {
+    facts.add("inner corners", fmt::format("the round tool leaves up to {} {} in them",
+                                           significant(r.left_in_corners, 3), unit));
+  }
+  facts.add("written", listed(files));
+  return facts.text();
+}
+
+}  // namespace
+
+int run(const CutCommand& command) {
+  auto outputs = cut_outputs(command);
+  if (!outputs) return report(outputs.error());
+  ProgressBar bar(command.progress);
+  const auto made = made_from(command, bar);
+  bar.clear();
+  if (!made) return report(made.error());
+  for (Output& output : *outputs) {
+    if (output.format == FileFormat::kGcode) {
+      output.text = made->program.text;
+    } else {
+      const Sketch sketch = cut_sketch(*made, command.job);
+      output.text = output.format == FileFormat::kPicture ? sketch_svg(sketch) : sketch_dxf(sketch);
+    }
+  }
+  const auto written = write_files(*outputs, command.inputs.front());
+  if (!written) return report(written.error());
+  warn(made->warnings);
+  std::string text;
+  if (command.json) {
+    text = cut_json(*made) + "\n";
+  } else if (!command.quiet) {
+    text = "lengths in " + made->units.text() + "\n\n" + steps_table(*made) + "\n" +
+           cut_text(*made, *written);
+  }
+  if (auto done = put(text); !done) return report(done.error());
+  return 0;
+}
+
+}  // namespace obvid

@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once  // reentrant: docs/threads.md
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "obvid/core/result.h"
+#include "obvid/core/run_context.h"
+#include "obvid/cutting/cutting.h"
+#include "obvid/exchange/drawing.h"
+#include "obvid/exchange/internal/sketch.h"
+#include "obvid/pipeline/import.h"
+
+namespace obvid {
+
+/// Cutting as it is asked for. What is not given in `plan` is so many millimetres of the drawing.
+struct CutJob {
+  CutOptions plan;                  ///< but for what follows
+  std::optional<double> tolerance;  ///< [0.01 mm]
+};
+
+struct MadeCut {
+  CutProgram program;
+  std::vector<CutOutline> outlines;
+  Units units;
+  std::vector<std::string> remarks;  ///< what was taken from the drawings
+  std::vector<std::string> warnings;
+};
+
+/// Curves of drawings as outlines: all of them, or those that `options` choose; edges of polylines
+/// too where `options.use` is exact. Errors: those of `drawn_contour`; E310 drawings of different
+/// units; E311 no curve at all.
+[[nodiscard]] Result<MadeCut> make_cut(std::vector<Drawing> drawings, const ImportOptions& options,
+                                       const CutJob& job, const RunContext& run = {});
+
+/// Outlines, the way of the tool with its width, rapid moves, and the order: for .svg and .dxf.
+[[nodiscard]] Sketch cut_sketch(const MadeCut& made, const CutJob& job);
+
+/// {"outlines": [...], "report": {...}, "warnings"}: docs/schema/cut.schema.json.
+[[nodiscard]] std::string cut_json(const MadeCut& made);
+
+/// Names as they are typed. Errors: E203.
+struct CutValues {
+  std::optional<std::string> side, direction, controller, start;
+  std::optional<double> laser, plasma;  ///< power; seconds to pierce
+};
+[[nodiscard]] Result<void> set_cut(const CutValues& typed, CutJob& job);
+
+}  // namespace obvid

@@ -1,0 +1,279 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "cut_blocks.h"
+
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+#include <utility>
+
+namespace obvid::cutting {
+namespace {
+
+/// Of one block: helical arcs are not divided by the printer.
+constexpr double kMostTurn = 2.8;
+/// Shares of a length that are rounding.
+constexpr double kNothing = 1e-12;
+
+/// A path by its length, around and around when it is closed.
+class Along {
+ public:
+  explicit Along(const ArcPath& path) : path_(path), ends_{0.0} {
+    for (const Piece& piece : path.pieces) ends_.push_back(ends_.back() + length_of(piece));
+  }
+  [[nodiscard]] double length() const { return ends_.back(); }
+
+  /// The pieces between two lengths, 0 <= from < to; beyond its end a closed path begins again.
+  [[nodiscard]] std::vector<Piece> between(double from, double to) const {
+    std::vector<Piece> out;
+    const double whole = length();
+    const double turns = path_.closed ? std::floor(from / whole) : 0.0;
+    double at = from - turns * whole, left = to - from;
+    auto k = static_cast<std::size_t>(
+        std::distance(ends_.begin(), std::upper_bound(ends_.begin(), ends_.end(), at)));
+    k = std::min(k == 0 ? 0 : k - 1, path_.pieces.size() - 1);
+    while (left > kNothing * whole) {
+      const double own = ends_[k + 1] - ends_[k], begin = std::max(0.0, at - ends_[k]);
+      const double end = std::min(own, begin + left);
+      if (end - begin > kNothing * whole) {
+        out.push_back(part_of(path_.pieces[k], begin <= kNothing * whole ? 0.0 : begin / own,
+                              own - end <= kNothing * whole ? 1.0 : end / own));
+      }
+      left -= end - begin;
+      if (++k == path_.pieces.size()) {
+        if (!path_.closed) break;
+        k = 0;
+      }
+      at = ends_[k];
+    }
+    return out;
+  }
+
+ private:
+  const ArcPath& path_;
+  std::vector<double> ends_;
+};
+
+class Blocks {
+ public:
+  Blocks(const std::vector<Track>& tracks, const BlockRules& rules)
+      : tracks_(tracks), rules_(rules) {}
+
+  CutBlocks run(const std::vector<Visit>& visits) {
+    const bool mill = rules_.process == CutProcess::kMill;
+    out_.levels =
+        mill ? static_cast<int>(std::ceil(rules_.depth / rules_.pass_depth - 1e-9)) : rules_.passes;
+    if (mill) level(rules_.safe_z);
+    for (const Visit& visit : visits) {
+      track_ = visit.track;
+      mill ? milled(visit) : burnt(visit);
+    }
+    return std::move(out_);
+  }
+
+ private:
+  CutBlock& add(CutBlock::Kind kind) {
+    CutBlock block;
+    block.kind = kind;
+    block.track = track_;
+    block.z = z_;
+    out_.blocks.push_back(block);
+    return out_.blocks.back();
+  }
+  void across(Vec2 to) { add(CutBlock::Kind::kRapidAcross).to = to; }
+  void level(double z) {
+    z_ = z;
+    add(CutBlock::Kind::kRapidLevel).z = z;
+  }
+  void down(double z) {
+    if (z == z_) return;
+    z_ = z;
+    CutBlock& block = add(CutBlock::Kind::kDown);
+    block.z = z;
+    block.feed = rules_.plunge_feed;
+  }
+
+  [[nodiscard]] double feed_on(const Piece& piece) const {
+    const double kappa = std::abs(curvature_of(piece));
+    if (!(rules_.across > 0.0) || kappa == 0.0) return rules_.feed;
+    constexpr double kSeconds = 60.0;  // feeds are a minute
+    return std::min(rules_.feed, kSeconds * std::sqrt(rules_.across / kappa));
+  }
+
+  void cut(const Piece& whole, double z) {
+    const double turn = std::abs(curvature_of(whole)) * length_of(whole), from = z_;
+    const int parts = std::max(1, static_cast<int>(std::ceil(turn / kMostTurn)));
+    for (int k = 0; k < parts; ++k) {
+      CutBlock& block = add(CutBlock::Kind::kCut);
+      block.piece = parts == 1 ? whole
+                               : part_of(whole, static_cast<double>(k) / parts,
+                                         static_cast<double>(k + 1) / parts);
+      block.z = k + 1 == parts ? z : from + (z - from) * (k + 1) / parts;
+      block.feed = feed_on(block.piece);
+      block.first_pass = first_pass_;
+    }
+    z_ = z;
+  }
+  void cut(const std::optional<ArcPiece>& lead) {
+    if (lead) cut(Piece{*lead}, z_);
+  }
+
+  void burnt(const Visit& visit) {
+    across(begin_of(visit));
+    add(CutBlock::Kind::kOn);
+    if (rules_.pierce_seconds > 0.0) add(CutBlock::Kind::kDwell);
+    cut(visit.lead_in);
+    for (int pass = 0; pass < out_.levels; ++pass) {
+      first_pass_ = pass == 0;
+      const bool back = !visit.path.closed && pass % 2 == 1;
+      for (const Piece& piece : back ? reversed(visit.path).pieces : visit.path.pieces)
+        cut(piece, z_);
+    }
+    cut(visit.lead_out);
+    add(CutBlock::Kind::kOff);
+  }
+
+  void milled(const Visit& visit) {
+    const Along along(visit.path);
+    plan_tabs(visit, along.length());
+    across(begin_of(visit));
+    level(rules_.clear_z);
+    visit.path.closed ? milled_around(visit, along) : milled_along(visit, along);
+    level(rules_.safe_z);
+  }
+
+  [[nodiscard]] double bottom(int pass) const {
+    return pass + 1 == out_.levels ? -rules_.depth : -rules_.pass_depth * (pass + 1);
+  }
+
+  void milled_around(const Visit& visit, const Along& along) {
+    double at = 0.0;
+    for (int pass = 0; pass < out_.levels; ++pass) {
+      first_pass_ = pass == 0;
+      const double z = bottom(pass);
+      if (rules_.fall > 0.0) {
+        if (pass == 0) {
+          down(0.0);
+          cut(visit.lead_in);
+        }
+        const double ramp = (z_ramp_ - z) / rules_.fall;
+        walk(along, at, at + ramp, z_ramp_, z);
+        at += ramp;
+      } else {
+        if (pass > 0 && visit.lead_in) {  // where the tool goes down, it leaves no mark
+          level(rules_.safe_z);
+          across(begin_of(visit));
+          level(rules_.clear_z);
+        }
+        down(z);
+        cut(visit.lead_in);
+      }
+      walk(along, at, at + along.length(), z, z);
+      z_ramp_ = z;
+      if (rules_.fall == 0.0) cut(visit.lead_out);
+    }
+    z_ramp_ = 0.0;
+  }
+
+  /// To and fro.
+  void milled_along(const Visit& visit, const Along& forward) {
+    const ArcPath other = reversed(visit.path);
+    const Along backward(other);
+    const double length = forward.length();
+    bool back = false;
+    const auto leg = [&](double from_z, double to_z) {
+      const Along& way = back ? backward : forward;
+      const double ramp = rules_.fall > 0.0 ? std::min(length, (from_z - to_z) / rules_.fall) : 0.0;
+      if (ramp > 0.0) walk(way, 0.0, ramp, from_z, to_z);
+      if (length - ramp > kNothing * length) walk(way, ramp, length, to_z, to_z);
+      back = !back;
+    };
+    double above = 0.0;
+    for (int pass = 0; pass < out_.levels; ++pass) {
+      first_pass_ = pass == 0;
+      const double z = bottom(pass);
+      if (rules_.fall > 0.0) {
+        down(above);
+        while (above > z) {
+          const double next = std::max(z, above - length * rules_.fall);
+          leg(above, next);
+          above = next;
+        }
+      } else {
+        down(z);
+        above = z;
+      }
+      leg(z, z);
+    }
+  }
+
+  struct Tab {
+    double from, to;
+  };
+
+  void plan_tabs(const Visit& visit, double length) {
+    tabs_.clear();
+    const CutTabs& tabs = rules_.tabs;
+    if (tabs.count == 0 || !visit.path.closed || tracks_[visit.track].side == CutSide::kOn) return;
+    const double width = tabs.width + rules_.tool_diameter, apart = length / tabs.count;
+    constexpr double kMostOfPath = 0.5;
+    if (width > kMostOfPath * apart) {
+      out_.without_tabs.push_back(visit.track);
+      return;
+    }
+    for (int k = 0; k < tabs.count; ++k) {
+      const double middle = (k + 0.5) * apart;
+      tabs_.push_back({middle - 0.5 * width, middle + 0.5 * width});
+    }
+  }
+
+  /// Along the path between two lengths of it; the height changes evenly, but stays above tabs.
+  void walk(const Along& along, double from, double to, double z_from, double z_to) {
+    const double whole = along.length(), tab_z = -rules_.depth + rules_.tabs.height;
+    std::vector<double> cuts{from, to};
+    for (const Tab& tab : tabs_) {
+      for (double turn = std::floor(from / whole) * whole; turn < to; turn += whole) {
+        for (const double edge : {turn + tab.from, turn + tab.to}) {
+          if (edge > from && edge < to) cuts.push_back(edge);
+        }
+      }
+    }
+    std::sort(cuts.begin(), cuts.end());
+    const auto height = [&](double s) {
+      return z_from + (z_to - z_from) * (s - from) / (to - from);
+    };
+    for (std::size_t k = 0; k + 1 < cuts.size(); ++k) {
+      const double a = cuts[k], b = cuts[k + 1];
+      if (!(b - a > kNothing * whole)) continue;
+      const bool over = over_tab(std::fmod(0.5 * (a + b), whole));
+      const auto kept = [&](double z) { return over ? std::max(z, tab_z) : z; };
+      down(kept(height(a)));
+      double done = a;
+      for (const Piece& piece : along.between(a, b)) {
+        done += length_of(piece);
+        cut(piece, kept(z_from == z_to ? z_to : height(std::min(done, b))));
+      }
+    }
+  }
+
+  [[nodiscard]] bool over_tab(double at) const {
+    return std::any_of(tabs_.begin(), tabs_.end(),
+                       [&](const Tab& tab) { return at > tab.from && at < tab.to; });
+  }
+
+  const std::vector<Track>& tracks_;
+  const BlockRules& rules_;
+  CutBlocks out_;
+  std::size_t track_ = 0;
+  double z_ = 0.0, z_ramp_ = 0.0;
+  bool first_pass_ = false;
+  std::vector<Tab> tabs_;
+};
+
+}  // namespace
+
+CutBlocks blocks_of(const std::vector<Track>& tracks, const std::vector<Visit>& visits,
+                    const BlockRules& rules) {
+  return Blocks(tracks, rules).run(visits);
+}
+
+}  // namespace obvid::cutting

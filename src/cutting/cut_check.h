@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string_view>
+
+#include "cut_blocks.h"
+
+namespace obvid::cutting {
+
+struct Checked {
+  double beyond = 0.0;    ///< of an edge, by the edge of the tool
+  double short_of = 0.0;  ///< of an edge, inner corners apart
+};
+
+/// What a program as printed does to the edges of tracks that are compensated, and how far it
+/// strays from those that are followed. `motions`: the track of each of its motions, in order.
+/// Lengths in units of the machine. Errors: E101 a program that a controller would not take.
+[[nodiscard]] Result<Checked> checked(std::string_view text, const std::vector<Track>& tracks,
+                                      const std::vector<std::size_t>& motions,
+                                      const BlockRules& rules, double tolerance, Watch& watch);
+
+}  // namespace obvid::cutting

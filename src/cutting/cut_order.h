@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <vector>
+
+#include "outlines.h"
+
+namespace obvid::cutting {
+
+/// A track with the place where it begins.
+struct Visit {
+  std::size_t track = 0;
+  ArcPath path;  ///< begins there
+  std::optional<ArcPiece> lead_in, lead_out;
+  bool lead_left_out = false;  ///< there is no room for one anywhere
+};
+
+[[nodiscard]] Vec2 begin_of(const Visit& visit);
+[[nodiscard]] Vec2 end_of(const Visit& visit);
+
+/// How outlines are visited. Lengths in units of the machine.
+struct VisitRules {
+  std::optional<Vec2> near;  ///< closed tracks begin as near to this place as they can
+  double lead_radius = 0.0;  ///< 0: no leads
+  double tool_radius = 0.0;
+  bool waste_left = true;  ///< of tracks that are compensated: climb
+};
+
+/// Closed tracks begin in the middle of a piece, open ones at either end. The nearest of those that
+/// may be next is taken, then visits are moved to other turns as long as that shortens the way
+/// between them.
+[[nodiscard]] std::vector<Visit> ordered(const std::vector<Track>& tracks, const VisitRules& rules,
+                                         Watch& watch);
+
+}  // namespace obvid::cutting

@@ -1,0 +1,359 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "offset_path.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <string>
+#include <utility>
+#include <variant>
+
+#include "obvid/core/internal/figures.h"
+#include "obvid/cutting/cutting.h"
+
+namespace obvid::cutting {
+namespace {
+
+/// Neighbours that turn by less have a common tangent, rad: what `arcs_along` leaves is rounding.
+constexpr double kSmooth = 1e-7;
+/// A parallel arc shorter than this part of its own is none.
+constexpr double kVanishes = 1e-12;
+
+Vec2 start_of(const Piece& piece) { return start_point(piece); }
+Vec2 end_of(const Piece& piece) { return end_point(piece); }
+
+std::string place_text(Vec2 at) {
+  return fmt::format("at {}, {}", significant(at.x, 6), significant(at.y, 6));
+}
+
+Piece line(Vec2 from, Vec2 to) { return LinePiece{from, to}; }
+
+/// The arc of a curvature over the chord between two places, with the heading that it starts with.
+Piece arc(Vec2 from, Vec2 to, double theta, double kappa, double length) {
+  return ArcPiece{from, to, theta, kappa, length};
+}
+
+const ArcPiece& arc_of(const Piece& piece) { return std::get<ArcPiece>(piece); }
+bool is_line(const Piece& piece) { return std::holds_alternative<LinePiece>(piece); }
+
+Vec2 centre_of(const ArcPiece& a) {
+  return a.start + (1.0 / a.kappa) * left_normal(unit_at(a.theta0));
+}
+
+/// Places on an arc of a point of its circle: the turn from its start, over its own.
+std::optional<double> place_on(const Piece& piece, Vec2 point) {
+  constexpr double kBeyond = 1e-9;  // of a piece: rounding of places at its ends
+  double place = 0.0;
+  if (is_line(piece)) {
+    const Vec2 along = end_of(piece) - start_of(piece);
+    place = dot(point - start_of(piece), along) / dot(along, along);
+  } else {
+    const ArcPiece& a = arc_of(piece);
+    const Vec2 centre = centre_of(a);
+    double turn = turning(a.start - centre, point - centre);
+    const double whole = a.kappa * a.length, full = 2.0 * std::numbers::pi;
+    if (whole > 0.0 && turn < -kBeyond * whole) turn += full;
+    if (whole < 0.0 && turn > -kBeyond * whole) turn -= full;
+    place = turn / whole;
+  }
+  if (place < -kBeyond || place > 1.0 + kBeyond) return std::nullopt;
+  return std::clamp(place, 0.0, 1.0);
+}
+
+/// Of a line (through `at` along `along`) with a circle.
+std::vector<Vec2> line_circle(Vec2 at, Vec2 along, Vec2 centre, double radius) {
+  const Vec2 u = along / norm(along);
+  const double foot = dot(centre - at, u), away = cross(u, centre - at);
+  const double square = radius * radius - away * away;
+  if (square < 0.0) return {};
+  const double half = std::sqrt(square);
+  return {at + (foot - half) * u, at + (foot + half) * u};
+}
+
+std::vector<Vec2> circle_circle(Vec2 a, double ra, Vec2 b, double rb) {
+  const Vec2 between = b - a;
+  const double d = norm(between);
+  if (!(d > 0.0)) return {};
+  const double along = 0.5 * (d + (ra - rb) * (ra + rb) / d);
+  const double square = ra * ra - along * along;
+  if (square < 0.0) return {};
+  const Vec2 u = between / d, foot = a + along * u;
+  const double half = std::sqrt(square);
+  return {foot + half * left_normal(u), foot - half * left_normal(u)};
+}
+
+std::vector<Vec2> crossings(const Piece& a, const Piece& b) {
+  if (is_line(a) && is_line(b)) {
+    const Vec2 u = end_of(a) - start_of(a), v = end_of(b) - start_of(b);
+    const double area = cross(u, v);
+    if (area == 0.0) return {};
+    return {start_of(a) + (cross(start_of(b) - start_of(a), v) / area) * u};
+  }
+  if (is_line(a)) {
+    return line_circle(start_of(a), end_of(a) - start_of(a), centre_of(arc_of(b)),
+                       std::abs(1.0 / arc_of(b).kappa));
+  }
+  if (is_line(b)) return crossings(b, a);
+  return circle_circle(centre_of(arc_of(a)), std::abs(1.0 / arc_of(a).kappa), centre_of(arc_of(b)),
+                       std::abs(1.0 / arc_of(b).kappa));
+}
+
+/// Parallels of the pieces, with the places where neighbours do not meet.
+class ParallelOf {
+ public:
+  ParallelOf(const ArcPath& path, double by) : path_(path), by_(by) {}
+
+  Result<Parallel> run() {
+    for (std::size_t i = 0; i < path_.pieces.size(); ++i) {
+      OBVID_TRY(add(path_.pieces[i]));
+      const bool last = i + 1 == path_.pieces.size();
+      if (last && !path_.closed) break;
+      turn_at(path_.pieces[i], path_.pieces[last ? 0 : i + 1]);
+    }
+    OBVID_TRY(close_gaps());
+    Parallel out;
+    out.path.closed = path_.closed;
+    for (Link& link : links_) out.path.pieces.push_back(std::move(link.piece));
+    join(out.path);
+    out.corners = std::move(corners_);
+    return out;
+  }
+
+ private:
+  struct Link {
+    Piece piece;
+    bool gap_behind = false;  ///< an inner corner: it crosses what comes behind
+    Vec2 corner;              ///< of the outline there
+  };
+
+  Result<void> add(const Piece& piece) {
+    auto beside = parallel_piece(piece, by_);
+    if (!beside) {
+      const double radius = 1.0 / std::abs(curvature_of(piece));
+      return error(ErrorCode::kToolTooLarge,
+                   fmt::format("the tool is larger than a hollow of radius {} there",
+                               significant(radius, 4)))
+          .where(place_text(start_of(piece)))
+          .hint(fmt::format("a cutter of less than {} fits there", significant(2.0 * radius, 4)))
+          .value(radius);
+    }
+    links_.push_back({std::move(*beside), false, end_of(piece)});
+    return {};
+  }
+
+  void turn_at(const Piece& before, const Piece& behind) {
+    const double theta = heading_at_end(before);
+    const double turn = std::remainder(heading_at_start(behind) - theta, 2.0 * std::numbers::pi);
+    if (std::abs(turn) <= kSmooth) return;
+    if (turn * by_ > 0.0) {  // towards the tool
+      links_.back().gap_behind = true;
+      const double half = 0.5 * (std::numbers::pi - std::abs(turn)), radius = std::abs(by_);
+      corners_.push_back(
+          {end_of(before), radius / std::tan(half), radius * (1.0 / std::sin(half) - 1.0)});
+      return;
+    }
+    const Vec2 corner = end_of(before);
+    links_.push_back({arc(corner + by_ * left_normal(unit_at(theta)),
+                          corner + by_ * left_normal(unit_at(theta + turn)), theta, -1.0 / by_,
+                          std::abs(turn * by_)),
+                      false, corner});
+  }
+
+  /// Cuts both sides of every gap off where they meet.
+  Result<void> close_gaps() {
+    for (bool any = true; any;) {
+      any = false;
+      for (std::size_t i = 0; i < links_.size(); ++i) {
+        if (!links_[i].gap_behind) continue;
+        OBVID_TRY(close_gap(i));
+        any = true;
+        break;
+      }
+    }
+    return {};
+  }
+
+  /// Pieces nearest to the corner are tried first.
+  Result<void> close_gap(std::size_t at) {
+    const std::size_t n = links_.size();
+    const std::size_t most = path_.closed ? n - 1 : n;
+    for (std::size_t apart = 0; apart + 1 < most; ++apart) {
+      for (std::size_t back = 0; back <= apart; ++back) {
+        const std::size_t ahead = apart - back;
+        if (!path_.closed && (back > at || at + 1 + ahead >= n)) continue;
+        const std::size_t a = (at + n - back % n) % n, b = (at + 1 + ahead) % n;
+        if (a == b) continue;
+        if (const auto meeting = meeting_of(links_[a].piece, links_[b].piece)) {
+          cut_off(a, b, back, ahead, at, *meeting);
+          return {};
+        }
+      }
+    }
+    return error(ErrorCode::kToolTooLarge, "the tool does not fit beside the corner there")
+        .where(place_text(links_[at].corner))
+        .hint("choose a smaller cutter");
+  }
+
+  void cut_off(std::size_t a, std::size_t b, std::size_t back, std::size_t ahead, std::size_t at,
+               const Meeting& meeting) {
+    links_[a].piece = part_of(links_[a].piece, 0.0, meeting.on_first);
+    links_[b].piece = part_of(links_[b].piece, meeting.on_second, 1.0);
+    links_[a].gap_behind = false;
+    const std::size_t n = links_.size();
+    std::vector<bool> gone(n);
+    for (std::size_t k = 0; k < back; ++k) gone[(at + n - k) % n] = true;
+    for (std::size_t k = 0; k < ahead; ++k) gone[(at + 1 + k) % n] = true;
+    std::vector<Link> kept;
+    for (std::size_t k = 0; k < n; ++k) {
+      if (!gone[k]) kept.push_back(std::move(links_[k]));
+    }
+    links_ = std::move(kept);
+  }
+
+  /// Ends that differ by rounding become one.
+  static void join(ArcPath& path) {
+    const std::size_t n = path.pieces.size();
+    for (std::size_t i = 0; i < n; ++i) {
+      if (i + 1 == n && !path.closed) break;
+      const Vec2 next = start_of(path.pieces[(i + 1) % n]);
+      std::visit(
+          [next](auto& piece) {
+            if constexpr (requires { piece.end = next; }) piece.end = next;
+          },
+          path.pieces[i]);
+    }
+  }
+
+  const ArcPath& path_;
+  double by_;
+  std::vector<Link> links_;
+  std::vector<Parallel::InnerCorner> corners_;
+};
+
+}  // namespace
+
+double heading_at_start(const Piece& piece) {
+  return is_line(piece) ? heading(end_of(piece) - start_of(piece)) : arc_of(piece).theta0;
+}
+
+double heading_at_end(const Piece& piece) {
+  if (is_line(piece)) return heading_at_start(piece);
+  return arc_of(piece).theta0 + arc_of(piece).kappa * arc_of(piece).length;
+}
+
+double curvature_of(const Piece& piece) { return is_line(piece) ? 0.0 : arc_of(piece).kappa; }
+
+double length_of(const Piece& piece) {
+  return is_line(piece) ? norm(end_of(piece) - start_of(piece)) : arc_of(piece).length;
+}
+
+double length_of(const ArcPath& path) {
+  double sum = 0.0;
+  for (const Piece& piece : path.pieces) sum += length_of(piece);
+  return sum;
+}
+
+Piece part_of(const Piece& piece, double from, double to) {
+  const auto at = [&](double t) {
+    return t == 0.0 ? start_of(piece) : t == 1.0 ? end_of(piece) : evaluate(piece, t).point;
+  };
+  if (is_line(piece)) return line(at(from), at(to));
+  const ArcPiece& a = arc_of(piece);
+  return arc(at(from), at(to), a.theta0 + a.kappa * a.length * from, a.kappa,
+             a.length * (to - from));
+}
+
+Piece reversed(const Piece& piece) {
+  if (is_line(piece)) return line(end_of(piece), start_of(piece));
+  const ArcPiece& a = arc_of(piece);
+  return arc(a.end, a.start, heading_at_end(piece) + std::numbers::pi, -a.kappa, a.length);
+}
+
+ArcPath reversed(const ArcPath& path) {
+  ArcPath out{{}, path.closed};
+  for (auto piece = path.pieces.rbegin(); piece != path.pieces.rend(); ++piece) {
+    out.pieces.push_back(reversed(*piece));
+  }
+  return out;
+}
+
+Piece scaled(const Piece& piece, double factor) {
+  if (is_line(piece)) return line(factor * start_of(piece), factor * end_of(piece));
+  const ArcPiece& a = arc_of(piece);
+  return arc(factor * a.start, factor * a.end, a.theta0, a.kappa / factor, a.length * factor);
+}
+
+ArcPath begun_at(const ArcPath& path, std::size_t piece, double place) {
+  ArcPath out{{}, true};
+  const std::size_t n = path.pieces.size();
+  if (place < 1.0) out.pieces.push_back(part_of(path.pieces[piece], place, 1.0));
+  for (std::size_t k = 1; k < n; ++k) out.pieces.push_back(path.pieces[(piece + k) % n]);
+  if (place > 0.0) out.pieces.push_back(part_of(path.pieces[piece], 0.0, place));
+  return out;
+}
+
+double area_of(const ArcPath& path) {
+  if (path.pieces.empty()) return 0.0;
+  const Vec2 from = start_of(path.pieces.front());
+  double area = 0.0;
+  for (const Piece& piece : path.pieces) {
+    area += 0.5 * cross(start_of(piece) - from, end_of(piece) - from);
+    if (is_line(piece)) continue;
+    const ArcPiece& a = arc_of(piece);
+    const double turn = a.kappa * a.length, radius = 1.0 / a.kappa;
+    area += 0.5 * radius * radius * (turn - std::sin(turn));
+  }
+  return area;
+}
+
+double distance_from(const Piece& piece, Vec2 point) {
+  const double ends = std::min(norm(point - start_of(piece)), norm(point - end_of(piece)));
+  if (is_line(piece)) {
+    const Vec2 along = end_of(piece) - start_of(piece);
+    const double square = dot(along, along), place = dot(point - start_of(piece), along);
+    if (!(square > 0.0) || place <= 0.0 || place >= square) return ends;
+    return std::abs(cross(along, point - start_of(piece))) / std::sqrt(square);
+  }
+  const ArcPiece& a = arc_of(piece);
+  if (!place_on(piece, point)) return ends;
+  // without the cancellation of a large circle
+  const Vec2 from = point - a.start, left = left_normal(unit_at(a.theta0));
+  return std::abs(dot(from, from) * a.kappa - 2.0 * dot(from, left)) /
+         (norm(a.kappa * from - left) + 1.0);
+}
+
+std::optional<Meeting> meeting_of(const Piece& first, const Piece& second) {
+  std::optional<Meeting> best;
+  for (const Vec2 p : crossings(first, second)) {
+    const auto a = place_on(first, p), b = place_on(second, p);
+    if (!a || !b) continue;
+    if (!best || *a > best->on_first) best = Meeting{*a, *b};
+  }
+  return best;
+}
+
+Result<Parallel> parallel_of(const ArcPath& path, double by) {
+  if (by == 0.0) return Parallel{path, {}};
+  return ParallelOf(path, by).run();
+}
+
+}  // namespace obvid::cutting
+
+namespace obvid {
+
+std::optional<Piece> parallel_piece(const Piece& piece, double by) {
+  using namespace cutting;
+  const bool is_arc = std::holds_alternative<ArcPiece>(piece);
+  if (!is_arc && !std::holds_alternative<LinePiece>(piece)) return std::nullopt;
+  const double kappa = curvature_of(piece), shrink = 1.0 - kappa * by,
+               theta = heading_at_start(piece);
+  if (!(shrink > kVanishes)) return std::nullopt;
+  const Vec2 from = start_point(piece) + by * left_normal(unit_at(theta)),
+             to = end_point(piece) + by * left_normal(unit_at(heading_at_end(piece)));
+  if (!is_arc) return LinePiece{from, to};
+  return ArcPiece{from, to, theta, kappa / shrink, length_of(piece) * shrink};
+}
+
+}  // namespace obvid

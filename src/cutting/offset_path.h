@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "obvid/core/result.h"
+#include "obvid/curve/pieces.h"
+
+namespace obvid::cutting {
+
+/// Lines and arcs, each beginning where the one before ends.
+struct ArcPath {
+  std::vector<Piece> pieces;
+  bool closed = false;
+};
+
+[[nodiscard]] double heading_at_start(const Piece& piece);
+[[nodiscard]] double heading_at_end(const Piece& piece);
+[[nodiscard]] double curvature_of(const Piece& piece);
+[[nodiscard]] double length_of(const Piece& piece);
+[[nodiscard]] double length_of(const ArcPath& path);
+/// The part of a line or arc between two places of it, 0 <= from < to <= 1.
+[[nodiscard]] Piece part_of(const Piece& piece, double from, double to);
+[[nodiscard]] Piece reversed(const Piece& piece);
+[[nodiscard]] ArcPath reversed(const ArcPath& path);
+[[nodiscard]] Piece scaled(const Piece& piece, double factor);
+/// A closed path that begins at a place of one of its pieces.
+[[nodiscard]] ArcPath begun_at(const ArcPath& path, std::size_t piece, double place);
+
+/// Area to the left of a closed path: positive where it runs counterclockwise.
+[[nodiscard]] double area_of(const ArcPath& path);
+
+/// Nearest distance of a point from a line or arc.
+[[nodiscard]] double distance_from(const Piece& piece, Vec2 point);
+
+/// Where two pieces meet, as places of both; nothing: they do not. Of two meetings the one that is
+/// later on the first and earlier on the second.
+struct Meeting {
+  double on_first = 0.0, on_second = 0.0;
+};
+[[nodiscard]] std::optional<Meeting> meeting_of(const Piece& first, const Piece& second);
+
+/// The parallel of a path, at `by` to its left (a negative one lies to the right): exact arcs of
+/// other radii, arcs around corners that turn away, cut off where corners turn towards it.
+struct Parallel {
+  ArcPath path;
+  /// Corners that were cut off: a round tool of radius |by| touches the outline no nearer to them
+  /// than `reach`, and stays `left` away from them.
+  struct InnerCorner {
+    Vec2 at;
+    double reach = 0.0, left = 0.0;
+  };
+  std::vector<InnerCorner> corners;
+};
+/// Errors: E409 a hollow narrower than the tool (`value`: its radius), or neighbours of a corner
+/// that do not meet. What meets itself elsewhere is not looked for.
+[[nodiscard]] Result<Parallel> parallel_of(const ArcPath& path, double by);
+
+}  // namespace obvid::cutting

@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "obvid/exchange/internal/gcode/dialect.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace obvid::exchange {
+
+int gcode_decimals(double tolerance, bool inches) {
+  constexpr int kLeast = 3;
+  constexpr double kOfTolerance = 0.1;
+  constexpr double kDigitRounding = 1e-9;  // 0.001 asks for 4, not for 4.0000000001
+  const double digits = -std::log10(kOfTolerance * tolerance);
+  return static_cast<int>(std::clamp<double>(std::ceil(digits - kDigitRounding),
+                                             kLeast + (inches ? 1 : 0), kMostGcodeDecimals));
+}
+
+std::string gcode_remark(GcodeController controller, std::string_view text) {
+  if (text.empty()) return {};
+  const bool semicolon = controller == GcodeController::kMarlin;
+  return (semicolon ? "; " : "(") + std::string(text) + (semicolon ? "\n" : ")\n");
+}
+
+std::string gcode_head(GcodeController controller, bool inches,
+                       const std::vector<std::string>& remarks) {
+  std::string out = controller == GcodeController::kFanuc ? "%\nO0001\n" : "";
+  for (const std::string& remark : remarks) out += gcode_remark(controller, remark);
+  out += inches ? "G20 " : "G21 ";
+  switch (controller) {
+    case GcodeController::kMarlin:
+      return out + "G90 G17\n";
+    case GcodeController::kFanuc:
+      return out + "G90 G17 G94\n";
+    case GcodeController::kGrbl:
+    case GcodeController::kLinuxCnc:
+      break;
+  }
+  return out + "G90 G91.1 G17 G94\n";
+}
+
+std::string gcode_end(GcodeController controller) {
+  switch (controller) {
+    case GcodeController::kMarlin:
+      return "";
+    case GcodeController::kFanuc:
+      return "M30\n%\n";
+    case GcodeController::kGrbl:
+    case GcodeController::kLinuxCnc:
+      break;
+  }
+  return "M2\n";
+}
+
+}  // namespace obvid::exchange

@@ -1,0 +1,245 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "obvid/pipeline/cut_job.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "obvid/core/internal/figures.h"
+#include "obvid/exchange/internal/gcode/dialect.h"
+#include "obvid/io/internal/json_text.h"
+#include "obvid/pipeline/internal/drawn_contour.h"
+#include "obvid/pipeline/internal/job_values.h"
+
+namespace obvid {
+namespace {
+
+constexpr double kDefaultTolerance = 0.01;  // mm
+
+const char* side_name(CutSide side) {
+  switch (side) {
+    case CutSide::kOutside:
+      return "outside";
+    case CutSide::kInside:
+      return "inside";
+    case CutSide::kAuto:
+    case CutSide::kOn:
+      break;
+  }
+  return "on";
+}
+
+/// The curves of one drawing that are asked for.
+class Taken {
+ public:
+  Taken(const ImportOptions& options, MadeCut& made) : options_(options), made_(made) {}
+
+  Result<void> add(const Drawing& drawing) {
+    const std::size_t curves = drawing.curves.size();
+    const bool edges = options_.use == DrawnUse::kExact;
+    const std::size_t all = curves + (edges ? drawing.series.size() : 0);
+    std::vector<std::size_t> numbers;
+    if (options_.curve.asked()) {
+      const auto chosen = chosen_curve(drawing, options_.curve, drawing.name);
+      OBVID_TRY(chosen);
+      numbers.push_back(*chosen);
+    } else {
+      for (std::size_t k = 0; k < all; ++k) numbers.push_back(k);
+    }
+    for (const std::string& warning : drawing.warnings) made_.warnings.push_back(warning);
+    if (!options_.curve.asked() && !edges && !drawing.series.empty()) {
+      made_.warnings.push_back(
+          fmt::format("{}: {} of points {} not cut; --drawing exact cuts along edges, `obvid fit` "
+                      "forms a curve",
+                      drawing.name, counted(drawing.series.size(), "series", "series"),
+                      drawing.series.size() == 1 ? "is" : "are"));
+    }
+    for (const std::size_t number : numbers) {
+      ImportOptions one = options_;
+      one.curve = {number, {}, false};
+      auto drawn = drawn_contour(drawing, one, drawing.name);
+      OBVID_TRY(drawn);
+      const std::string name =
+          drawn->name.empty() ? fmt::format("curve {}", number + 1) : drawn->name;
+      made_.outlines.push_back({name, std::move(drawn->stored.contour)});
+    }
+    return {};
+  }
+
+ private:
+  const ImportOptions& options_;
+  MadeCut& made_;
+};
+
+void add_polyline(SketchLayer& layer, const Piece& piece) {
+  if (std::holds_alternative<LinePiece>(piece) || std::holds_alternative<ArcPiece>(piece)) {
+    layer.pieces.push_back(piece);
+    return;
+  }
+  constexpr int kChords = 48;
+  std::vector<Vec2> points;
+  for (int k = 0; k <= kChords; ++k) {
+    points.push_back(evaluate(piece, static_cast<double>(k) / kChords).point);
+  }
+  layer.polylines.push_back(std::move(points));
+}
+
+SketchLayer layer(const char* name, const char* title, const char* color, int dxf_color,
+                  double width) {
+  SketchLayer out;
+  out.name = name;
+  out.title = title;
+  out.color = color;
+  out.dxf_color = dxf_color;
+  out.width = width;
+  return out;
+}
+
+}  // namespace
+
+Result<MadeCut> make_cut(std::vector<Drawing> drawings, const ImportOptions& options,
+                         const CutJob& job, const RunContext& run) {
+  MadeCut made;
+  std::vector<Units> units;
+  for (const Drawing& drawing : drawings) {
+    units.push_back(drawing.units);
+    OBVID_TRY(Taken(options, made).add(drawing));
+  }
+  const auto common = common_units(units, "");
+  OBVID_TRY(common);
+  made.units = *common;
+  if (made.outlines.empty()) {
+    return error(ErrorCode::kNothingThere, "there is no curve to cut")
+        .hint(
+            "--drawing exact cuts along the edges of polylines; `obvid fit` forms a curve of "
+            "points");
+  }
+  for (CutOutline& one : made.outlines) one.contour.units = made.units;
+  CutOptions plan = job.plan;
+  const auto millimetre = unit_ratio(made.units.name, "mm");
+  plan.tolerance = job.tolerance.value_or(kDefaultTolerance / millimetre.value_or(1.0));
+  auto program = cut(made.outlines, plan, run);
+  OBVID_TRY(program);
+  made.program = std::move(*program);
+  if (!made.units.known()) {
+    made.warnings.push_back("the drawing does not say its unit: " + made.units.name +
+                            " is assumed; --units says what a unit is");
+  }
+  auto& warnings = made.program.warnings;
+  made.warnings.insert(made.warnings.end(), warnings.begin(), warnings.end());
+  return made;
+}
+
+Sketch cut_sketch(const MadeCut& made, const CutJob& job) {
+  Sketch out;
+  out.title = job.plan.name;
+  out.units = made.units;
+  const CutReport& report = made.program.report;
+  out.remarks.push_back(fmt::format("{}, {} {} at feed, {} {} rapid, about {} min",
+                                    counted(made.program.steps.size(), "outline", "outlines"),
+                                    significant(report.cut_length, 4), made.units.text(),
+                                    significant(report.rapid_length, 4), made.units.text(),
+                                    significant(report.minutes, 3)));
+  SketchLayer outlines = layer("OUTLINES", "outline", "#1c2733", 7, 1.6);
+  SketchLayer axis = layer("TOOL", "way of the tool's axis", "#cf5a12", 30, 1.0);
+  SketchLayer edge = layer("CUT", "edge of the cut", "#e9b48f", 40, 0.7);
+  SketchLayer rapid = layer("RAPID", "rapid move", "#1b6ec2", 5, 0.8);
+  rapid.dashed = true;
+  SketchLayer starts = layer("STARTS", "begins here, in this order", "#a3209b", 6, 1.0);
+  for (const CutOutline& one : made.outlines) {
+    for (const Piece& piece : one.contour.pieces) add_polyline(outlines, piece);
+  }
+  const double radius = 0.5 * job.plan.diameter;
+  for (const CutMove& move : made.program.moves) {
+    (move.kind == CutMoveKind::kRapid ? rapid : axis).pieces.push_back(move.piece);
+    if (move.kind != CutMoveKind::kCut || radius == 0.0) continue;
+    for (const double side : {radius, -radius}) {
+      if (const auto parallel = parallel_piece(move.piece, side)) edge.pieces.push_back(*parallel);
+    }
+  }
+  for (std::size_t k = 0; k < made.program.steps.size(); ++k) {
+    starts.points.push_back(made.program.steps[k].start);
+    out.words.push_back({made.program.steps[k].start, std::to_string(k + 1)});
+  }
+  out.layers = {std::move(edge), std::move(outlines), std::move(axis), std::move(rapid),
+                std::move(starts)};
+  return out;
+}
+
+std::string cut_json(const MadeCut& made) {
+  JsonText json;
+  const CutReport& r = made.program.report;
+  json.begin_object();
+  add_units(json, made.units);
+  json.key("outlines").begin_array();
+  for (const CutStep& step : made.program.steps) {
+    json.begin_object().pair("name", made.outlines[step.outline].name);
+    json.pair("curve", step.outline).pair("closed", step.closed).pair("around", step.around);
+    json.pair("side", side_name(step.side))
+        .key("start")
+        .begin_array()
+        .value(step.start.x)
+        .value(step.start.y);
+    json.end_array().pair("length", step.length).pair("left_in_corners", step.left_in_corners);
+    json.end_object();
+  }
+  json.end_array().key("report").begin_object();
+  json.pair("levels", r.levels).pair("blocks", r.blocks).pair("arc_blocks", r.arc_blocks);
+  json.pair("cut_length", r.cut_length)
+      .pair("rapid_length", r.rapid_length)
+      .pair("minutes", r.minutes);
+  json.pair("beyond", r.beyond)
+      .pair("short_of", r.short_of)
+      .pair("left_in_corners", r.left_in_corners);
+  json.end_object().key("warnings").begin_array();
+  for (const std::string& warning : made.warnings) json.value(warning);
+  json.end_array().end_object();
+  return json.take();
+}
+
+Result<void> set_cut(const CutValues& typed, CutJob& job) {
+  CutOptions& plan = job.plan;
+  const auto pick = [](const auto& names, const std::optional<std::string>& name,
+                       const char* option, auto& into) -> Result<void> {
+    if (!name) return {};
+    const auto value = value_named(names, *name, option);
+    OBVID_TRY(value);
+    into = *value;
+    return {};
+  };
+  OBVID_TRY(pick(std::map<std::string, CutSide>{{"auto", CutSide::kAuto},
+                                                {"outside", CutSide::kOutside},
+                                                {"inside", CutSide::kInside},
+                                                {"on", CutSide::kOn}},
+                 typed.side, "--side", plan.side));
+  OBVID_TRY(pick(std::map<std::string, CutDirection>{{"climb", CutDirection::kClimb},
+                                                     {"conventional", CutDirection::kConventional}},
+                 typed.direction, "--direction", plan.direction));
+  const auto& controllers = exchange::kGcodeControllers;
+  OBVID_TRY(pick(std::map<std::string, GcodeController>{controllers.begin(), controllers.end()},
+                 typed.controller, "--controller", plan.controller));
+  if (typed.laser && typed.plasma) {
+    return fail(bad_option("a laser is no plasma torch", "--laser", "leave one of them out"));
+  }
+  if (typed.laser) {
+    plan.process = CutProcess::kLaser;
+    plan.spindle = *typed.laser;
+  }
+  if (typed.plasma) {
+    plan.process = CutProcess::kPlasma;
+    plan.pierce_seconds = *typed.plasma;
+  }
+  if (typed.start) {
+    const auto comma = typed.start->find(',');
+    const auto x = typed_number(typed.start->substr(0, comma)),
+               y = comma == std::string::npos ? std::nullopt
+                                              : typed_number(typed.start->substr(comma + 1));
+    if (!x || !y) return fail(bad_option("a place is X,Y", "--start", "for example --start 0,0"));
+    plan.start = Vec2{*x, *y};
+  }
+  return {};
+}
+
+}  // namespace obvid
