@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <fmt/format.h>
 
+#include <filesystem>
 #include <string>
 #include <vector>
 
@@ -37,6 +38,12 @@ Result<MadeCut> made_from(const CutCommand& command, ProgressBar& bar) {
   std::vector<std::string> warnings;
   for (const std::string& input : command.inputs) {
     bar.tell("reading", 0.0);
+    if (input != "-" && std::filesystem::exists(input) && !is_drawing(input)) {
+      return error(ErrorCode::kNothingThere, "a list of points is no outline")
+          .where(input)
+          .hint("form one first: obvid fit " + input +
+                " -o outline.json, then obvid cut outline.json");
+    }
     auto drawing = read_drawing(input);
     OBVID_TRY(drawing);
     if (command.units) {

@@ -329,14 +329,13 @@ class Cutting {
     }
   }
 
-  [[nodiscard]] std::string tool_text() const {
+  [[nodiscard]] std::string tool_text(int levels) const {
     const std::string unit = inches_ ? "in" : "mm";
     const double d = rules_.tool_diameter;
     switch (options_.process) {
       case CutProcess::kMill:
-        return fmt::format("mill D{:.4g} {}, {:.4g} {} deep in {} passes", d, unit, rules_.depth,
-                           unit,
-                           static_cast<int>(std::ceil(rules_.depth / rules_.pass_depth - 1e-9)));
+        return fmt::format("mill D{:.4g} {}, {:.4g} {} deep in {}", d, unit, rules_.depth, unit,
+                           counted(static_cast<std::size_t>(levels), "pass", "passes"));
       case CutProcess::kLaser:
         return fmt::format("laser, kerf {:.4g} {}", d, unit);
       case CutProcess::kPlasma:
@@ -347,8 +346,10 @@ class Cutting {
 
   [[nodiscard]] std::string head(const CutProgram& out) const {
     std::vector<std::string> remarks{
-        fmt::format("Obvid {}: {}", kVersion, gcode_comment(options_.name)), tool_text(),
-        fmt::format("{} outlines, about {:.1f} min", out.steps.size(), out.report.minutes)};
+        fmt::format("Obvid {}: {}", kVersion, gcode_comment(options_.name)),
+        tool_text(out.report.levels),
+        fmt::format("{}, about {:.1f} min", counted(out.steps.size(), "outline", "outlines"),
+                    out.report.minutes)};
     if (!units_.known()) remarks.emplace_back("the unit is assumed");
     if (!inches_ && scale_ != 1.0)
       remarks.push_back("converted from " + gcode_comment(units_.name));

@@ -16,7 +16,7 @@ namespace {
 
 using numeric::Wide;
 
-constexpr int kCentreDecimals = 5;
+constexpr int kLeastCentreDecimals = 5;
 constexpr double kMostBlockTurn = 2.8;   // of one block, rad: well below half a turn
 constexpr double kLowestArc = 0.5;       // last digits: height of arcs that are told as such
 constexpr double kShortestChord = 20.0;  // last digits: below, rounding turns an arc too much
@@ -56,10 +56,10 @@ std::int64_t rounded(Wide value) {
 /// Digits of a double do not do: a centre far away has to lie on the chord's bisector in all
 /// decimals that are printed, and last digits of large coordinates are more than 53 bits.
 /// `above`: height of the centre over the middle of the chord (`x`, `y`).
-Centre centre_over(Wide x, Wide y, double above) {
+Centre centre_over(Wide x, Wide y, double above, int decimals) {
   const double length = std::hypot(static_cast<double>(x), static_cast<double>(y));
   const double part = above / length;  // wherever it is rounded to, the bisector goes through
-  const Wide places = std::pow(10.0, kCentreDecimals);
+  const Wide places = std::pow(10.0, decimals);
   const Wide wanted_i = (0.5 * x - part * y) * places;
   const Wide wanted_j = (0.5 * y + part * x) * places;
   constexpr double kMostLastDigits = 0x1p62;
@@ -69,7 +69,7 @@ Centre centre_over(Wide x, Wide y, double above) {
   }
   const std::int64_t last_i = rounded(wanted_i), last_j = rounded(wanted_j);
   const Wide i = Wide::whole(last_i) / places, j = Wide::whole(last_j) / places;
-  Centre out{decimal(last_i, kCentreDecimals), decimal(last_j, kCentreDecimals), {}, 0.0};
+  Centre out{decimal(last_i, decimals), decimal(last_j, decimals), {}, 0.0};
   out.ij = {static_cast<double>(i), static_cast<double>(j)};
   // |ij|^2 - |ij - chord|^2 over the sum of the roots
   const double squares = std::abs(static_cast<double>((2.0 * i - x) * x + (2.0 * j - y) * y));
@@ -155,7 +155,7 @@ void GcodePath::arc(Vec2 middle, GridPlace end, bool left) {
   const Wide places = std::pow(10.0, decimals_);
   const Centre centre =
       centre_over(Wide::whole(end.x - at_.x) / places, Wide::whole(end.y - at_.y) / places,
-                  height + (left ? radius : -radius));
+                  height + (left ? radius : -radius), std::max(kLeastCentreDecimals, decimals_));
   if (!(centre.mismatch <= kMostMismatch)) {
     lost_arcs_ = true;
     return line(end);

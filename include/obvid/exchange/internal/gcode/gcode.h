@@ -50,7 +50,7 @@ struct GcodeText {
 };
 
 /// G21 and millimetres, or G20 for contours in inches; other units are converted to millimetres,
-/// which a comment says; one that is merely assumed is named so. Centres have 5 decimals and lie on
+/// which a comment says; one that is merely assumed is named so. Centres have 5 decimals (6, where the ends have) and lie on
 /// the bisector of the ends as printed: radii at both ends of an arc differ by less than 2e-5. Arcs
 /// turn by less than half a turn; those lower than half of the last digit, or with chords below 20
 /// of it, are lines; ends that round to the place where the tool stands are left out. Errors: E203
