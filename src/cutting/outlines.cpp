@@ -19,16 +19,31 @@ namespace {
 constexpr double kOfTolerance = 0.5;
 /// Places on a path that are looked at: of the tool's radius, how far apart.
 constexpr double kClearApart = 0.2;
-/// Rounding of places, of the size of coordinates.
-constexpr double kRounding = 1e-12;
+/// Of the tolerance, what drawings whose pieces meet with small turns may cost.
+constexpr double kSmallTurns = 0.1;
 
-double largest_coordinate(const ArcPath& path) {
-  double most = 0.0;
+Box2 box_around(const ArcPath& path) {
+  constexpr int kParts = 8;
+  Box2 out;
+  double beyond = 0.0;  // of an arc, its chords
   for (const Piece& piece : path.pieces) {
-    const Vec2 p = start_point(piece);
-    most = std::max({most, std::abs(p.x), std::abs(p.y)});
+    for (int k = 0; k <= kParts; ++k)
+      out.add(evaluate(piece, static_cast<double>(k) / kParts).point);
+    const double kappa = std::abs(curvature_of(piece)), part = length_of(piece) / kParts;
+    beyond = std::max(beyond, kappa * part * part / 8.0);
   }
-  return most;
+  out.low = out.low - Vec2{beyond, beyond};
+  out.high = out.high + Vec2{beyond, beyond};
+  return out;
+}
+
+double distance_from_box(const Box2& box, Vec2 p) {
+  return norm(Vec2{std::max({box.low.x - p.x, 0.0, p.x - box.high.x}),
+                   std::max({box.low.y - p.y, 0.0, p.y - box.high.y})});
+}
+
+bool boxes_meet(const Box2& a, const Box2& b) {
+  return a.low.x <= b.high.x && b.low.x <= a.high.x && a.low.y <= b.high.y && b.low.y <= a.high.y;
 }
 
 /// Angle that a piece turns around a point, rad: chords so short that the point is on the same side
@@ -82,6 +97,7 @@ class Tracks {
     for (const Piece& piece : along->pieces) track.edge.pieces.push_back(scaled(piece, scale_));
     track.edge.closed = contour.closed;
     if (track.edge.closed && area_of(track.edge) == 0.0) track.edge.closed = false;
+    track.room = box_around(track.edge);
     tracks_.push_back(std::move(track));
     return {};
   }
@@ -137,7 +153,7 @@ class Tracks {
   Result<void> keeps_clear(const Track& track) const {
     if (track.side == CutSide::kOn) return {};
     const double radius = 0.5 * options_.diameter * scale_;
-    const double slack = kRounding * largest_coordinate(track.edge) + 1e-9 * radius;
+    const double slack = kSmallTurns * options_.tolerance * scale_;
     for (const Piece& piece : track.axis.pieces) {
       const double length = length_of(piece);
       const int parts = std::max(2, static_cast<int>(std::ceil(length / (kClearApart * radius))));
@@ -145,6 +161,7 @@ class Tracks {
         const Vec2 p = evaluate(piece, static_cast<double>(k) / parts).point;
         const double room = distance_from_edges(tracks_, p);
         if (room >= radius - slack) continue;
+        OBVID_TRY(crosses_none(track));
         return error(ErrorCode::kToolTooLarge,
                      fmt::format("the tool does not fit: it would cut {} deep into what stays",
                                  significant(radius - room, 3)))
@@ -152,6 +169,24 @@ class Tracks {
                 fmt::format("{}, at {}, {}", track.name, significant(p.x, 6), significant(p.y, 6)))
             .hint("choose a smaller cutter, or another --side")
             .value(room);
+      }
+    }
+    return {};
+  }
+
+  /// What the outlines themselves do not leave room for.
+  Result<void> crosses_none(const Track& track) const {
+    for (const Track& other : tracks_) {
+      if (&other == &track || other.side == CutSide::kOn || !boxes_meet(track.room, other.room))
+        continue;
+      for (const Piece& a : track.edge.pieces) {
+        for (const Piece& b : other.edge.pieces) {
+          if (!meeting_of(a, b)) continue;
+          return error(
+                     ErrorCode::kToolTooLarge,
+                     fmt::format("two outlines cross or touch: {} and {}", track.name, other.name))
+              .hint("leave one of them out (--curve), or cut along them (--side on)");
+        }
       }
     }
     return {};
@@ -175,7 +210,7 @@ bool is_inside(const ArcPath& path, Vec2 point) {
 double distance_from_edges(const std::vector<Track>& tracks, Vec2 point) {
   double nearest = std::numeric_limits<double>::infinity();
   for (const Track& track : tracks) {
-    if (track.side == CutSide::kOn) continue;
+    if (track.side == CutSide::kOn || distance_from_box(track.room, point) >= nearest) continue;
     for (const Piece& piece : track.edge.pieces) {
       // an arc is no farther from its start than its length
       const double at_least = norm(point - start_point(piece)) - length_of(piece);

@@ -6,6 +6,7 @@
 
 #include "obvid/core/internal/watch.h"
 #include "obvid/cutting/cutting.h"
+#include "obvid/geom/internal/box.h"
 #include "offset_path.h"
 
 namespace obvid::cutting {
@@ -15,6 +16,7 @@ struct Track {
   std::size_t outline = 0;
   std::string name;
   ArcPath edge;                    ///< what stays lies to its right
+  Box2 room;                       ///< around the edge
   ArcPath axis;                    ///< the parallel; runs as the tool runs
   std::size_t around = 0;          ///< closed outlines around it
   std::vector<std::size_t> first;  ///< tracks that have to be cut before it: those inside
