@@ -247,10 +247,12 @@ class Blocks {
       const bool over = over_tab(std::fmod(0.5 * (a + b), whole));
       const auto kept = [&](double z) { return over ? std::max(z, tab_z) : z; };
       down(kept(height(a)));
+      const std::vector<Piece> pieces = along.between(a, b);
       double done = a;
-      for (const Piece& piece : along.between(a, b)) {
-        done += length_of(piece);
-        cut(piece, kept(z_from == z_to ? z_to : height(std::min(done, b))));
+      for (std::size_t i = 0; i < pieces.size(); ++i) {
+        done += length_of(pieces[i]);
+        const bool last = i + 1 == pieces.size();
+        cut(pieces[i], kept(last && b == to ? z_to : height(last ? b : std::min(done, b))));
       }
     }
   }

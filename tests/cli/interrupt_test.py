@@ -37,6 +37,7 @@ JOBS = {
                        "1e-9", "-o", "o.json"],
     "surface check": ["surface", "check", "hills.json", "--samples", "2000", "-o", "o.svg"],
     "spline": ["spline", "table.csv", "--samples", "3000000", "-o", "o.csv"],
+    "cut": ["cut", "endless.json", "--depth", "1", "--tolerance", "1e-7", "-o", "o.nc"],
     "toolpath": ["toolpath", "hills.json", "--scallop", "0.0005", "-o", "o.nc"],
 }
 

@@ -26,7 +26,8 @@ LATER = [["region", POINTS], ["compare", POINTS, "--json"], ["fit", POINTS, "-o"
          ["fit", POINTS, "-o", "a.dxf", "-o", "a.nc"], ["fit", POINTS, "-o", "a.csv"],
          ["fit", "helix.csv", "--along", "z"], ["fit", "drawing.dxf"], ["analyse", "drawing.dxf"],
          ["verify", "contour.json"], ["convert", "contour.json", "-o", "c.svg"],
-         ["surface", "--help"], ["spline", "--help"], ["nurbs", "--help"], ["toolpath", "--help"]]
+         ["surface", "--help"], ["spline", "--help"], ["nurbs", "--help"], ["toolpath", "--help"],
+         ["cut", "--help"]]
 
 TIMES = re.compile(rb'"seconds": [-+.0-9e]+|\s*\b[.0-9]+ [mu]?s\b')  # of the run
 
