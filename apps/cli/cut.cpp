@@ -33,7 +33,7 @@ Result<std::vector<Output>> cut_outputs(const CutCommand& command) {
   return out;
 }
 
-Result<MadeCut> made_from(const CutCommand& command, ProgressBar& bar) {
+Result<MadeCut> cut_from(const CutCommand& command, ProgressBar& bar) {
   std::vector<Drawing> drawings;
   std::vector<std::string> warnings;
   for (const std::string& input : command.inputs) {
@@ -116,7 +116,7 @@ int run(const CutCommand& command) {
   auto outputs = cut_outputs(command);
   if (!outputs) return report(outputs.error());
   ProgressBar bar(command.progress);
-  const auto made = made_from(command, bar);
+  const auto made = cut_from(command, bar);
   bar.clear();
   if (!made) return report(made.error());
   for (Output& output : *outputs) {
@@ -132,7 +132,7 @@ int run(const CutCommand& command) {
   warn(made->warnings);
   std::string text;
   if (command.json) {
-    text = cut_json(*made) + "\n";
+    text = cut_json(*made);
   } else if (!command.quiet) {
     text = "lengths in " + made->units.text() + "\n\n" + steps_table(*made) + "\n" +
            cut_text(*made, *written);

@@ -57,11 +57,11 @@ void add_depth(CLI::App& app, RawCut& raw) {
   Numbers(app, "Depth")
       .add("--depth", plan.depth, "Z", "How deep a mill cuts below Z0, units")
       .add("--pass-depth", plan.pass_depth, "Z", "Most a pass goes down, units [the whole depth]")
-      .add("--passes", plan.passes, "N", "Of a laser or torch, one over the other [1]")
+      .add("--passes", raw.values.passes, "N", "Of a laser or torch, one over the other [1]")
       .add("--ramp", plan.ramp_deg, "DEG",
            "Go down along the outline at this angle [straight down]")
       .add("--safe-z", plan.safe_z, "Z", "Height of rapid moves, units [5 mm; inches: 0.2]")
-      .add("--tabs", plan.tabs.count, "N", "Bridges that hold the part, on each closed outline [0]")
+      .add("--tabs", raw.values.tabs, "N", "Bridges that hold the part, on each closed outline [0]")
       .add("--tab-width", plan.tabs.width, "W", "Width of a bridge, units")
       .add("--tab-height", plan.tabs.height, "H", "Its height above the bottom, units");
 }
@@ -89,7 +89,7 @@ void add_cut_program(CLI::App& app, RawCut& raw) {
       .add("--acceleration", plan.acceleration, "A",
            "Along the way, mm/s^2, for the estimate of time [500]")
       .add("--controller", raw.values.controller, "NAME", "grbl, linuxcnc, fanuc or marlin [grbl]")
-      .add("--decimals", plan.decimals, "N",
+      .add("--decimals", raw.values.decimals, "N",
            "Of places, 1 to 6 [the fewest, at least 3, that cost no more than a tenth of the "
            "tolerance]");
 }

@@ -253,6 +253,11 @@ OBVID_API int obvid_surface_export(const obvid_surface* surface, const char* end
 OBVID_API int obvid_surface_toolpath(const obvid_surface* surface, const char* options,
                                      const obvid_run* run, obvid_files** files, char** report,
                                      obvid_error** error);
+/* Every curve of drawings and contour files as one program for a mill, a laser or a torch: files are
+ * the G-code, a picture (suffix ".svg") and a drawing of the paths (".dxf"). Points are refused. */
+OBVID_API int obvid_cut(const obvid_input* const* inputs, size_t count, const char* options,
+                        const obvid_run* run, obvid_files** files, char** report,
+                        obvid_error** error);
 OBVID_API size_t obvid_surface_patches(const obvid_surface* surface);
 /* NULL beyond the last. */
 OBVID_API const char* obvid_surface_warning(const obvid_surface* surface, size_t warning);

@@ -11,6 +11,7 @@
 #include "obvid/io/read_points.h"
 #include "obvid/pipeline/analyse.h"
 #include "obvid/pipeline/construction_fit.h"
+#include "obvid/pipeline/cut_job.h"
 #include "obvid/pipeline/internal/construction_values.h"
 #include "obvid/pipeline/internal/drawn_contour.h"
 #include "obvid/pipeline/internal/promise.h"
@@ -26,6 +27,7 @@ constexpr Known kForming{.fit = true, .construction = true, .import = true};
 constexpr Known kWorksheet{.fit = true, .construction = true, .worksheet = true, .import = true};
 constexpr Known kFitting{.fit = true, .import = true};
 constexpr Known kImporting{.import = true};
+constexpr Known kCutting{.import = true, .cut = true};
 
 Result<PointSeries> series_of(const obvid_input& input, const Request& request, bool drawings) {
   if (input.space) {
@@ -238,6 +240,41 @@ int obvid_region(const obvid_input* input, const char* options, const obvid_run*
         if (const auto going = may_go_on(context); !going) return fail(going.error());
         return region_json(series, *found, context);
       });
+}
+
+int obvid_cut(const obvid_input* const* inputs, size_t count, const char* options,
+              const obvid_run* run, obvid_files** files, char** report, obvid_error** error) {
+  return guarded(error, [&]() -> Result<void> {
+    const Result<Request> request = request_of(options, kCutting);
+    OBVID_TRY(request);
+    std::vector<Drawing> drawings;
+    std::vector<std::string> warnings;
+    for (size_t i = 0; i < count; ++i) {
+      Result<Drawing> drawing = drawing_of(*inputs[i]);
+      OBVID_TRY(drawing);
+      if (request->units) {
+        if (auto told = take_units(drawing->units, *request->units)) warnings.push_back(*told);
+      }
+      drawings.push_back(std::move(*drawing));
+    }
+    CutJob job = request->cut;
+    if (count > 0) {
+      job.plan.name = std::filesystem::path(inputs[0]->name).filename().string();
+    }
+    auto made = make_cut(std::move(drawings), request->import, job, context_of(run));
+    OBVID_TRY(made);
+    made->warnings.insert(made->warnings.begin(), warnings.begin(), warnings.end());
+    hand_out_text(cut_json(*made), report);
+    if (files == nullptr) return {};
+    const Sketch sketch = cut_sketch(*made, job);
+    auto out = std::make_unique<obvid_files>();
+    out->files.push_back({"", std::move(made->program.text)});
+    out->files.push_back({".svg", sketch_svg(sketch)});
+    out->files.push_back({".dxf", sketch_dxf(sketch)});
+    out->remarks = made->warnings;
+    *files = out.release();
+    return {};
+  });
 }
 
 int obvid_worksheet(const obvid_input* input, const char* options, const char* ending,

@@ -22,6 +22,7 @@ struct Written {
   std::string carrier = "spiral";
   std::string along;
   std::optional<double> tolerance;
+  CutValues cut;
   std::optional<std::string> units;
 };
 
@@ -71,6 +72,33 @@ std::map<std::string, Setter> setters(Written& w, Request& out, const Known& kno
                 {"move", text(f.move)},
                 {"mirror", text(f.mirror)}});
   }
+  if (known.cut) {
+    CutOptions& plan = out.cut.plan;
+    all.insert({{"diameter", number(plan.diameter)},
+                {"side", text(w.cut.side)},
+                {"direction", text(w.cut.direction)},
+                {"spindle", number(plan.spindle)},
+                {"laser", number(w.cut.laser)},
+                {"plasma", number(w.cut.plasma)},
+                {"depth", number(plan.depth)},
+                {"pass-depth", number(plan.pass_depth)},
+                {"passes", count(w.cut.passes)},
+                {"ramp", number(plan.ramp_deg)},
+                {"safe-z", number(plan.safe_z)},
+                {"tabs", count(w.cut.tabs)},
+                {"tab-width", number(plan.tabs.width)},
+                {"tab-height", number(plan.tabs.height)},
+                {"lead-in", number(plan.lead_in)},
+                {"start", text(w.cut.start)},
+                {"tolerance", number(out.cut.tolerance)},
+                {"feed", number(plan.feed)},
+                {"plunge-feed", number(plan.plunge_feed)},
+                {"rapid-feed", number(plan.rapid_feed)},
+                {"centripetal", number(plan.centripetal)},
+                {"acceleration", number(plan.acceleration)},
+                {"controller", text(w.cut.controller)},
+                {"decimals", count(w.cut.decimals)}});
+  }
   if (known.formats) {
     all.insert({{"output-tolerance", number(f.tolerance)},
                 {"for", text(f.profile)},
@@ -117,6 +145,7 @@ Result<void> check(Written& w, const Known& known, Request& out) {
           [&] { return carrier_named(w.carrier).map([&](Carrier one) { out.job.carrier = one; }); })
       .and_then([&] { return set_formats(w.formats, out.formats, out.profile); })
       .and_then([&] { return set_import(w.formats, out.import); })
+      .and_then([&] { return set_cut(w.cut, out.cut); })
       .and_then([&]() -> Result<void> {
         out.worksheet = with_job(out.worksheet, out.job);
         if (has_both_headings(out.job)) out.import.list.two = TwoPoints::kDo;

@@ -7,6 +7,7 @@
 #include "obvid/core/result.h"
 #include "obvid/core/units.h"
 #include "obvid/geom/vec3.h"
+#include "obvid/pipeline/cut_job.h"
 #include "obvid/pipeline/export.h"
 #include "obvid/pipeline/fit.h"
 #include "obvid/pipeline/import.h"
@@ -22,6 +23,7 @@ struct Request {
   ImportOptions import;
   ExportOptions formats;
   std::string profile;  ///< what "for" chose, in words
+  CutJob cut;
   std::optional<Units> units;
 };
 
@@ -34,6 +36,7 @@ struct Known {
   bool import = false;        ///< curve, drawing, chord-tolerance, and those of `points`
   bool formats = false;       ///< of files
   bool points = false;        ///< columns, skip, scale, rotate, move, mirror
+  bool cut = false;           ///< of `obvid cut`
 };
 
 /// Reads a JSON object with the names of the command line; NULL and "" are no options. Errors: E308

@@ -88,7 +88,7 @@ class Tracks {
  private:
   Result<void> add(std::size_t i) {
     const Contour& contour = outlines_[i].contour;
-    auto along = arcs_along(contour, kOfTolerance * options_.tolerance);
+    auto along = arcs_along(contour, kOfTolerance * options_.tolerance, &watch_);
     if (!along) return fail(named(along.error(), outlines_[i].name));
     Track track;
     track.outline = i;

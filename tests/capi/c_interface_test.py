@@ -240,6 +240,24 @@ class SaysWhatTheCommandLineSays(unittest.TestCase):
                                          ending)
                 lib.obvid_contour_free(contour)
 
+    def test_cut_and_its_files(self):
+        plate, options = os.path.join(SOURCES, "examples/plate.dxf"), {"diameter": 3, "depth": 6, "pass-depth": 2.5,
+                                                                       "lead-in": 1.2, "controller": "linuxcnc"}
+        with tempfile.TemporaryDirectory() as folder:
+            typed = [word for name, value in options.items() for word in ("--" + name, str(value))]
+            names = [os.path.join(folder, "plate" + ending) for ending in (".nc", ".svg", ".dxf")]
+            printed, _ = program("cut", plate, *typed, "--json", *[word for name in names for word in ("-o", name)])
+            files, report, size = C.c_void_p(), C.c_void_p(), C.c_size_t()
+            inputs = (C.c_void_p * 1)(read(plate).value)
+            ours = call(lib.obvid_cut, inputs, C.c_size_t(1), json.dumps(options).encode(), None, C.byref(files),
+                        C.byref(report), report=report)
+            self.assertEqual(ours, printed)
+            for k, name in enumerate(names):
+                with open(name, "rb") as file:
+                    data = lib.obvid_files_data(files, C.c_size_t(k), C.byref(size))
+                    self.assertEqual(C.string_at(data, size.value), file.read(), name)
+            lib.obvid_files_free(files)
+
     def test_files_with_options(self):
         with tempfile.TemporaryDirectory() as folder:
             name = os.path.join(folder, "contour.nc")
@@ -553,6 +571,12 @@ class Cancelled(unittest.TestCase):
     def test_a_long_fairing(self):
         handle = points(wave(4000))
         self.in_time(lambda run: job("suggest", handle, {}, run), 0.1)
+
+    def test_cutting(self):
+        contour, _ = fit(points(wave(300)))
+        inputs = (C.c_void_p * 1)(text_input(export(contour, "json"), "c.json").value)
+        options = b'{"depth": 1, "tolerance": 1e-6}'
+        self.in_time(lambda run: call(lib.obvid_cut, inputs, C.c_size_t(1), options, C.byref(run), None, None), 0.02)
 
     def test_a_fit_with_clothoids(self):
         handle = points(wave(20000))

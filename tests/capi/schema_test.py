@@ -211,6 +211,12 @@ class Reports(unittest.TestCase):
         self.holds("surface_toolpath", report_of(lambda: c.call(
             c.lib.obvid_surface_toolpath, handle, plan, None, C.byref(files), C.byref(out), report=out)))
 
+    def test_of_cutting(self):
+        inputs = (C.c_void_p * 1)(c.read(example("plate.dxf")).value)
+        files, out = C.c_void_p(), C.c_void_p()
+        self.holds("cut", json.loads(c.call(c.lib.obvid_cut, inputs, C.c_size_t(1), b'{"diameter": 3, "depth": 5}', None,
+                                            C.byref(files), C.byref(out), report=out)))
+
     def test_every_job_with_a_report_has_a_schema(self):
         with open(os.path.join(c.SOURCES, "include/obvid/obvid.h"), encoding="utf-8") as header:
             declared = re.findall(r"OBVID_API int obvid_(\w+)\(([^;]*)\);", header.read())
@@ -248,6 +254,7 @@ class Options(unittest.TestCase):
                                                o, None, ref(out), ref(text))
         yield "surface_export", lambda o: c.call(lib.obvid_surface_export, surface, b"stl", o, None, ref(out))
         yield "surface_check", lambda o: c.call(lib.obvid_surface_check, surface, o, None, ref(text))
+        yield "cut", lambda o: c.call(lib.obvid_cut, inputs, C.c_size_t(1), o, None, ref(out), ref(text))
         yield "surface_toolpath", lambda o: c.call(lib.obvid_surface_toolpath, surface, o, None, ref(out), ref(text))
 
     def test_of_every_job_are_those_of_its_schema(self):
@@ -268,6 +275,7 @@ class Options(unittest.TestCase):
                     ("surface", "grid"): names_of("surface_make") | names_of("surface_export"),
                     ("surface", "skin"): names_of("surface_make") | names_of("surface_export"),
                     ("surface", "check"): names_of("surface_check"),
+                    ("cut",): names_of("cut"),
                     ("toolpath",): names_of("surface_toolpath") | names_of("surface_export"),
                     ("region",): names_of("region"), ("compare",): names_of("compare") | names_of("export"),
                     ("analyse",): names_of("analyse") | names_of("export"), ("verify",): set()}
@@ -275,7 +283,7 @@ class Options(unittest.TestCase):
         for command, known in commands.items():
             with self.subTest(command=command):
                 self.assertEqual(typed(*command) - known, set())
-        for command in [("fit",), ("region",), ("convert",), ("toolpath",), ("surface", "check")] + [
+        for command in [("fit",), ("region",), ("convert",), ("toolpath",), ("cut",), ("surface", "check")] + [
                 ("surface", kind) for kind in ("skin", "ruled", "revolve", "coons", "gordon", "grid", "id", "offset")]:
             every |= typed(*command)
         self.assertEqual(typed("fit"), commands[("fit",)])

@@ -11,6 +11,7 @@ from 0. docs/python.md explains it with pictures.
 """
 from ._library import version as __version__
 from .contour import BSpline, Contour, Piece, Samples
+from .cutting import CutProgram, cut
 from .errors import (
     CancelledError,
     InputError,
@@ -53,11 +54,11 @@ from .surfaces import Surface, SurfaceSamples, Toolpath, read_surface, skin, sur
 
 __all__ = [
     "Analysis", "BSpline", "CancelledError", "CarrierRow", "Certificate", "Contour",
-    "Corner", "DrawingAnalysis", "FitReport", "InputError", "InternalError", "NoContourError",
+    "Corner", "CutProgram", "DrawingAnalysis", "FitReport", "InputError", "InternalError", "NoContourError",
     "NotProvedError", "ObvidError", "Piece", "Samples", "Segment", "Source", "SpaceCurve",
     "SpaceSamples", "SpaceVerification", "Suggestion", "Surface", "SurfaceSamples", "Table", "Toolpath",
     "UsageError", "Verification",
-    "__version__", "analyse", "compare", "fit", "fit_many", "fit_space", "read", "read_contour",
+    "__version__", "analyse", "compare", "cut", "fit", "fit_many", "fit_space", "read", "read_contour",
     "read_space", "read_surface", "read_text", "region", "skin", "suggest", "surface", "toolpath",
     "verify", "why_not", "worksheet",
 ]  # fmt: skip

@@ -54,10 +54,11 @@ struct CutOptions {
   std::optional<Vec2> start{};     ///< outlines begin near this place [by the shortest way]
   std::optional<double> safe_z{};  ///< of rapid moves [5 mm]; of torches the height of cutting too
   std::optional<double> feed{}, plunge_feed{}, rapid_feed{};  ///< [1000, 300, 3000; 40, 12, 120]
-  std::optional<double> spindle{};       ///< revolutions a minute, or power of a laser: the word S
-  double pierce_seconds = 0.0;           ///< dwell of a torch or laser before it moves
-  std::optional<double> centripetal{};   ///< most acceleration across the path, mm/s^2: slows arcs
-  std::optional<double> acceleration{};  ///< along it, mm/s^2, for the estimate of time [500]
+  std::optional<double> spindle{};      ///< revolutions a minute, or power of a laser: the word S
+  double pierce_seconds = 0.0;          ///< dwell of a torch or laser before it moves
+  std::optional<double> centripetal{};  ///< most acceleration across the path, mm/s^2: slows arcs
+  std::optional<double>
+      acceleration{};  ///< along it, mm/s^2, for the estimate of time [500 mm/s^2]
   GcodeController controller = GcodeController::kGrbl;
   std::optional<int> decimals{};  ///< 1 to 6 [the fewest, at least 3, that cost no more than a
                                   ///< tenth of the tolerance]

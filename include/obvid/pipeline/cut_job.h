@@ -44,6 +44,7 @@ struct MadeCut {
 struct CutValues {
   std::optional<std::string> side, direction, controller, start;
   std::optional<double> laser, plasma;  ///< power; seconds to pierce
+  std::optional<long> passes, tabs, decimals;
 };
 [[nodiscard]] Result<void> set_cut(const CutValues& typed, CutJob& job);
 

@@ -39,7 +39,8 @@ using Chain = std::vector<Node>;
 /// Pairs of arcs along a part of a contour without corners, lines and arcs.
 class StretchArcs {
  public:
-  StretchArcs(const Track& track, const SmoothPart& stretch, double tolerance, std::size_t parts)
+  StretchArcs(const Track& track, const SmoothPart& stretch, double tolerance, std::size_t parts,
+              Watch* watch)
       : track_(track),
         closed_(stretch.closed),
         from_(track.start_of(stretch.first)),
@@ -47,11 +48,13 @@ class StretchArcs {
         vertices_(track.vertices(stretch)),
         tolerance_(tolerance),
         parts_(parts),
+        watch_(watch),
         period_(to_ - from_) {
     if (closed_) seam_lean_ = kParts.front() * lean(from_, tolerance_);
   }
 
-  /// Nothing when no pair is near enough, however short, or more than `most` arcs are needed.
+  /// Nothing when no pair is near enough, however short, more than `most` arcs are needed, or the
+  /// watch ends it.
   std::optional<Chain> run(std::size_t most) {
     auto chain = fewest(node(from_, tolerance_, 0.0), tolerance_, most / 2);
     if (!chain) return std::nullopt;
@@ -207,7 +210,7 @@ class StretchArcs {
   std::optional<Chain> fewest(const Node& start, double tolerance, std::size_t most) const {
     std::vector<Level> levels(1);
     levels[0][0] = State{{start, {}}, start};
-    for (std::size_t n = 1; n <= most; ++n) {
+    for (std::size_t n = 1; n <= most && !is_to_end(watch_); ++n) {
       levels.push_back(advance(levels.back(), tolerance));
       std::optional<std::size_t> done;
       bool any = false;
@@ -254,7 +257,8 @@ class StretchArcs {
   double from_, to_;
   std::vector<double> vertices_;
   double tolerance_;
-  std::size_t parts_;      ///< how many of kParts are tried
+  std::size_t parts_;  ///< how many of kParts are tried
+  Watch* watch_;
   mutable double period_;  ///< the last one found: where to look for the next
   double seam_lean_ = 0.0;
 };
@@ -277,7 +281,8 @@ double expected_arcs(const Contour& contour, double tolerance) {
   return sum;
 }
 
-Result<std::vector<Piece>> all_arcs(const Track& track, double tolerance, double expected) {
+Result<std::vector<Piece>> all_arcs(const Track& track, double tolerance, double expected,
+                                    Watch* watch) {
   const std::size_t parts = expected > kManyArcs ? 1 : kParts.size();
   std::vector<Piece> out;
   for (const SmoothPart& stretch : track.stretches()) {
@@ -285,7 +290,8 @@ Result<std::vector<Piece>> all_arcs(const Track& track, double tolerance, double
       out.push_back(arcs::as_circular(track.piece(stretch.first)));
       continue;
     }
-    const auto chain = StretchArcs(track, stretch, tolerance, parts).run(kMostArcs);
+    const auto chain = StretchArcs(track, stretch, tolerance, parts, watch).run(kMostArcs);
+    if (is_to_end(watch)) return fail(cancelled_error());
     if (!chain || out.size() + 2 * chain->size() > kMostArcs) {
       return fail(not_reached("no million arcs are near enough to the contour", tolerance));
     }
@@ -299,7 +305,7 @@ Result<std::vector<Piece>> all_arcs(const Track& track, double tolerance, double
 
 }  // namespace
 
-Result<ArcsAlong> arcs_along(const Contour& contour, double tolerance) {
+Result<ArcsAlong> arcs_along(const Contour& contour, double tolerance, Watch* watch) {
   if (!(tolerance > 0.0)) {
     return error(ErrorCode::kBadOption, "the tolerance must be greater than 0").value(tolerance);
   }
@@ -313,7 +319,7 @@ Result<ArcsAlong> arcs_along(const Contour& contour, double tolerance) {
   }
   const Track track(contour);
   if (std::all_of(contour.pieces.begin(), contour.pieces.end(), arcs::is_circular)) {
-    auto same = all_arcs(track, tolerance, expected);
+    auto same = all_arcs(track, tolerance, expected, watch);
     OBVID_TRY(same);
     return ArcsAlong{std::move(*same), 0.0};
   }
@@ -321,10 +327,11 @@ Result<ArcsAlong> arcs_along(const Contour& contour, double tolerance) {
   double within = kOfArcTolerance * tolerance;
   ArcsAlong out;
   for (int trial = 0; trial < kTrials; ++trial) {
-    auto pieces = all_arcs(track, within, expected);
+    auto pieces = all_arcs(track, within, expected, watch);
     OBVID_TRY(pieces);
     out.pieces = std::move(*pieces);
-    out.deviation = path_distance(contour.pieces, out.pieces);
+    out.deviation = path_distance(contour.pieces, out.pieces, watch);
+    if (is_to_end(watch)) return fail(cancelled_error());
     if (out.deviation <= tolerance) return out;
     within *= kOfArcTolerance * tolerance / out.deviation;
   }

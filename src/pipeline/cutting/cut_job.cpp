@@ -17,6 +17,7 @@ namespace obvid {
 namespace {
 
 constexpr double kDefaultTolerance = 0.01;  // mm
+constexpr long kMostCount = 1000;           // of passes, tabs
 
 const char* side_name(CutSide side) {
   switch (side) {
@@ -231,6 +232,13 @@ Result<void> set_cut(const CutValues& typed, CutJob& job) {
     plan.process = CutProcess::kPlasma;
     plan.pierce_seconds = *typed.plasma;
   }
+  // what is no such count is refused by `cut`, which names the option
+  const auto count = [](std::optional<long> typed_count, auto& into) {
+    if (typed_count) into = static_cast<int>(std::clamp(*typed_count, -1L, kMostCount));
+  };
+  count(typed.passes, plan.passes);
+  count(typed.tabs, plan.tabs.count);
+  count(typed.decimals, plan.decimals);
   if (typed.start) {
     const auto comma = typed.start->find(',');
     const auto x = typed_number(typed.start->substr(0, comma)),

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Runs every job of the C interface by itself, then from two threads at once over the same handles,
-// and compares what they say; then asks for the end of each in its middle, from two threads as well.
-// usage: every_job SOURCE_FOLDER
+// and compares what they say; then asks for the end of each in its middle, from two threads as
+// well. usage: every_job SOURCE_FOLDER
 #include <atomic>
 #include <cmath>
 #include <cstddef>
@@ -71,18 +71,19 @@ Job on_points(const char* name, Report job, const char* options, bool drawing = 
 }
 
 Job fit(const char* options) {
-  return {std::string("fit ") + options, [=](const Handles& h, const obvid_run* run) {
-            obvid_contour* contour = nullptr;
-            char* text = nullptr;
-            const int code = obvid_fit(h.points, options, run, &contour, &text, nullptr);
-            std::string out = taken(text) + code_text(code);
-            obvid_files* files = nullptr;
-            if (contour != nullptr && obvid_export(contour, "json", nullptr, &files, nullptr) == 0) {
-              out += told(files);
-            }
-            obvid_contour_free(contour);
-            return out;
-          }};
+  return {
+      std::string("fit ") + options, [=](const Handles& h, const obvid_run* run) {
+        obvid_contour* contour = nullptr;
+        char* text = nullptr;
+        const int code = obvid_fit(h.points, options, run, &contour, &text, nullptr);
+        std::string out = taken(text) + code_text(code);
+        obvid_files* files = nullptr;
+        if (contour != nullptr && obvid_export(contour, "json", nullptr, &files, nullptr) == 0) {
+          out += told(files);
+        }
+        obvid_contour_free(contour);
+        return out;
+      }};
 }
 
 Job exported(const char* ending) {
@@ -98,8 +99,8 @@ Job exported(const char* ending) {
 Job surface_file(const char* ending) {
   return {std::string("surface_export ") + ending, [=](const Handles& h, const obvid_run* run) {
             obvid_files* files = nullptr;
-            const int code = obvid_surface_export(h.surface, ending, "{\"chord-tolerance\": 0.1}", run,
-                                                  &files, nullptr);
+            const int code = obvid_surface_export(h.surface, ending, "{\"chord-tolerance\": 0.1}",
+                                                  run, &files, nullptr);
             return told(files) + code_text(code);
           }};
 }
@@ -113,24 +114,28 @@ std::vector<Job> jobs() {
       on_points("region", obvid_region, "{\"tolerance\": 0.1}"),
       on_points("compare", obvid_compare, "{}"),
       on_points("why_not", obvid_why_not, "{\"start-heading\": 170, \"end-heading\": 10}"),
-      {"worksheet", [](const Handles& h, const obvid_run* run) {
+      {"worksheet",
+       [](const Handles& h, const obvid_run* run) {
          obvid_files* files = nullptr;
          const int code = obvid_worksheet(h.points, nullptr, "csv", run, &files, nullptr);
          return told(files) + code_text(code);
        }},
-      {"stored", [](const Handles& h, const obvid_run* run) {
+      {"stored",
+       [](const Handles& h, const obvid_run* run) {
          obvid_contour* contour = nullptr;
          const int code = obvid_stored(h.drawing, nullptr, run, &contour, nullptr);
          const std::size_t pieces = contour == nullptr ? 0 : obvid_contour_pieces(contour);
          obvid_contour_free(contour);
          return std::to_string(pieces) + code_text(code);
        }},
-      {"verify", [](const Handles& h, const obvid_run* run) {
+      {"verify",
+       [](const Handles& h, const obvid_run* run) {
          char* text = nullptr;
          const int code = obvid_verify(h.contour, run, &text, nullptr);
          return taken(text) + code_text(code);
        }},
-      {"fit_space", [](const Handles& h, const obvid_run* run) {
+      {"fit_space",
+       [](const Handles& h, const obvid_run* run) {
          char* text = nullptr;
          const int code = obvid_fit_space(h.rail, nullptr, run, nullptr, &text, nullptr);
          return taken(text) + code_text(code);
@@ -142,7 +147,8 @@ std::vector<Job> jobs() {
          return taken(text) + code_text(code);
        },
        false},
-      {"surface_make", [](const Handles& h, const obvid_run* run) {
+      {"surface_make",
+       [](const Handles& h, const obvid_run* run) {
          const obvid_input* inputs[] = {h.grid};
          obvid_surface* surface = nullptr;
          char* text = nullptr;
@@ -152,10 +158,19 @@ std::vector<Job> jobs() {
          obvid_surface_free(surface);
          return taken(text) + code_text(code);
        }},
-      {"surface_check", [](const Handles& h, const obvid_run* run) {
+      {"surface_check",
+       [](const Handles& h, const obvid_run* run) {
          char* text = nullptr;
          const int code = obvid_surface_check(h.surface, "{\"samples\": 12}", run, &text, nullptr);
          return taken(text) + code_text(code);
+       }},
+      {"cut",
+       [](const Handles& h, const obvid_run* run) {
+         obvid_files* files = nullptr;
+         char* text = nullptr;
+         const int code = obvid_cut(&h.drawing, 1, "{\"diameter\": 0.01, \"depth\": 1}", run,
+                                    &files, &text, nullptr);
+         return told(files) + taken(text) + code_text(code);
        }},
       {"surface_toolpath", [](const Handles& h, const obvid_run* run) {
          obvid_files* files = nullptr;
@@ -165,11 +180,11 @@ std::vector<Job> jobs() {
              &text, nullptr);
          return told(files) + taken(text) + code_text(code);
        }}};
-  for (const char* options : {"{}", "{\"carrier\": \"arcs\", \"tolerance\": 0.01}",
-                              "{\"carrier\": \"conics\"}", "{\"carrier\": \"beziers\"}",
-                              "{\"carrier\": \"clothoids\"}", "{\"carrier\": \"bspline\"}",
-                              "{\"carrier\": \"cubic\"}", "{\"carrier\": \"baseline\"}",
-                              "{\"construction\": \"arcs\"}", "{\"noise\": 0.05}"}) {
+  for (const char* options :
+       {"{}", "{\"carrier\": \"arcs\", \"tolerance\": 0.01}", "{\"carrier\": \"conics\"}",
+        "{\"carrier\": \"beziers\"}", "{\"carrier\": \"clothoids\"}", "{\"carrier\": \"bspline\"}",
+        "{\"carrier\": \"cubic\"}", "{\"carrier\": \"baseline\"}", "{\"construction\": \"arcs\"}",
+        "{\"noise\": 0.05}"}) {
     all.push_back(fit(options));
   }
   for (const char* ending : {"svg", "step", "dxf", "nc", "csv", "obj"}) {
@@ -256,11 +271,13 @@ int main(int count, char** arguments) {
     if (wanted.back().empty()) fault(job.name, "says nothing");
   }
   from_two_threads(all.size(), [&](std::size_t i) {
-    if (all[i].work(h, nullptr) != wanted[i]) fault(all[i].name, "says something else beside another job");
+    if (all[i].work(h, nullptr) != wanted[i])
+      fault(all[i].name, "says something else beside another job");
   });
   from_two_threads(all.size(), [&](std::size_t i) { end_in_the_middle(all[i], h, wanted[i]); });
   for (std::size_t i = 0; i < all.size(); ++i) {
-    if (all[i].work(h, nullptr) != wanted[i]) fault(all[i].name, "says something else after all ends");
+    if (all[i].work(h, nullptr) != wanted[i])
+      fault(all[i].name, "says something else after all ends");
   }
   obvid_surface_free(h.surface);
   obvid_space_free(h.space);
