@@ -33,18 +33,24 @@ Result<std::vector<Output>> cut_outputs(const CutCommand& command) {
   return out;
 }
 
+Result<Drawing> drawing_of(const std::string& input) {
+  const bool piped = input == "-";
+  if (!piped && (is_drawing(input) || !std::filesystem::exists(input))) return read_drawing(input);
+  const auto text = read_file(input);
+  OBVID_TRY(text);
+  const std::string name = piped ? "standard input" : input;
+  if (is_drawing_text(*text)) return parse_drawing(*text, name);
+  return error(ErrorCode::kNothingThere, "a list of points is no outline")
+      .where(name)
+      .hint("form one first: obvid fit " + input + " -o outline.json, then obvid cut outline.json");
+}
+
 Result<MadeCut> cut_from(const CutCommand& command, ProgressBar& bar) {
   std::vector<Drawing> drawings;
   std::vector<std::string> warnings;
   for (const std::string& input : command.inputs) {
     bar.tell("reading", 0.0);
-    if (input != "-" && std::filesystem::exists(input) && !is_drawing(input)) {
-      return error(ErrorCode::kNothingThere, "a list of points is no outline")
-          .where(input)
-          .hint("form one first: obvid fit " + input +
-                " -o outline.json, then obvid cut outline.json");
-    }
-    auto drawing = read_drawing(input);
+    auto drawing = drawing_of(input);
     OBVID_TRY(drawing);
     if (command.units) {
       if (auto told = take_units(drawing->units, *command.units)) warnings.push_back(*told);
@@ -55,19 +61,6 @@ Result<MadeCut> cut_from(const CutCommand& command, ProgressBar& bar) {
   OBVID_TRY(made);
   made->warnings.insert(made->warnings.begin(), warnings.begin(), warnings.end());
   return made;
-}
-
-const char* side_text(CutSide side) {
-  switch (side) {
-    case CutSide::kOutside:
-      return "outside";
-    case CutSide::kInside:
-      return "inside";
-    case CutSide::kAuto:
-    case CutSide::kOn:
-      break;
-  }
-  return "on it";
 }
 
 std::string steps_table(const MadeCut& made) {
@@ -81,7 +74,8 @@ std::string steps_table(const MadeCut& made) {
   table.column("left in\ncorners");
   std::size_t number = 0;
   for (const CutStep& step : made.program.steps) {
-    table.row({std::to_string(++number), made.outlines[step.outline].name, side_text(step.side),
+    table.row({std::to_string(++number), made.outlines[step.outline].name,
+               step.side == CutSide::kOn ? "on it" : to_string(step.side),
                significant(step.start.x), significant(step.start.y), significant(step.length),
                step.left_in_corners > 0.0 ? significant(step.left_in_corners, 4) : "-"});
   }
@@ -98,10 +92,12 @@ std::string cut_text(const MadeCut& made, const std::vector<std::string>& files)
   facts.add("length", fmt::format("{} {} at feed, {} {} rapid", significant(r.cut_length, 5), unit,
                                   significant(r.rapid_length, 5), unit));
   facts.add("time", fmt::format("about {} minutes, with acceleration", significant(r.minutes, 3)));
-  facts.add("read back",
-            fmt::format("at most {} {} beyond an outline and {} {} short of one, found "
-                        "at places a tenth of the tool apart",
-                        significant(r.beyond, 2), unit, significant(r.short_of, 2), unit));
+  facts.add(
+      "read back",
+      fmt::format(
+          "at most {} {} beyond an outline and {} {} short of one, found at places {} {} apart",
+          significant(r.beyond, 2), unit, significant(r.short_of, 2), unit,
+          significant(r.spacing, 2), unit));
   if (r.left_in_corners > 0.0) {
     facts.add("inner corners", fmt::format("the round tool leaves up to {} {} in them",
                                            significant(r.left_in_corners, 3), unit));

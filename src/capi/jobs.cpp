@@ -250,6 +250,9 @@ int obvid_cut(const obvid_input* const* inputs, size_t count, const char* option
     std::vector<Drawing> drawings;
     std::vector<std::string> warnings;
     for (size_t i = 0; i < count; ++i) {
+      if (inputs[i] == nullptr) {
+        return fail({ErrorCode::kUsage, "an input is NULL", std::to_string(i), ""});
+      }
       Result<Drawing> drawing = drawing_of(*inputs[i]);
       OBVID_TRY(drawing);
       if (request->units) {

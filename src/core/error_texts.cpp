@@ -153,8 +153,8 @@ constexpr std::array kTexts{
         "narrower than itself, or would cut into the other side of a slot or into another "
         "outline. The error names the place; a program that leaves it out would not cut what is "
         "drawn.",
-        "Take a smaller cutter (`--diameter`), cut on the other side (`--side`), or leave the "
-        "outline out (`--curve`)."},
+        "Take a smaller cutter (`--diameter`), cut on the other side or along the outline "
+        "(`--side`), or leave it out of the drawing."},
     ErrorText{
         ErrorCode::kNotProved, "Formed, but not proved",
         "A contour was formed, but the proof of one of its properties did not succeed. It may "

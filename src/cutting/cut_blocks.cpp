@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
+#include <optional>
 #include <utility>
 
 namespace obvid::cutting {
@@ -13,6 +14,8 @@ namespace {
 constexpr double kMostTurn = 2.8;
 /// Shares of a length that are rounding.
 constexpr double kNothing = 1e-12;
+/// What tabs may take of a path.
+constexpr double kMostOfPath = 0.5;
 
 /// A path by its length, around and around when it is closed.
 class Along {
@@ -21,6 +24,12 @@ class Along {
     for (const Piece& piece : path.pieces) ends_.push_back(ends_.back() + length_of(piece));
   }
   [[nodiscard]] double length() const { return ends_.back(); }
+
+  /// The place at a length, 0 or more.
+  [[nodiscard]] Vec2 at(double length) const {
+    const std::vector<Piece> before = between(0.0, std::fmod(length, ends_.back()));
+    return before.empty() ? start_point(path_.pieces.front()) : end_point(before.back());
+  }
 
   /// The pieces between two lengths, 0 <= from < to; beyond its end a closed path begins again.
   [[nodiscard]] std::vector<Piece> between(double from, double to) const {
@@ -60,8 +69,7 @@ class Blocks {
 
   CutBlocks run(const std::vector<Visit>& visits) {
     const bool mill = rules_.process == CutProcess::kMill;
-    out_.levels =
-        mill ? static_cast<int>(std::ceil(rules_.depth / rules_.pass_depth - 1e-9)) : rules_.passes;
+    out_.levels = mill ? static_cast<int>(levels_of(rules_)) : rules_.passes;
     if (mill) level(rules_.safe_z);
     for (const Visit& visit : visits) {
       track_ = visit.track;
@@ -134,7 +142,7 @@ class Blocks {
 
   void milled(const Visit& visit) {
     const Along along(visit.path);
-    plan_tabs(visit, along.length());
+    plan_tabs(visit, along);
     across(begin_of(visit));
     level(rules_.clear_z);
     visit.path.closed ? milled_around(visit, along) : milled_along(visit, along);
@@ -210,20 +218,34 @@ class Blocks {
     double from, to;
   };
 
-  void plan_tabs(const Visit& visit, double length) {
+  void plan_tabs(const Visit& visit, const Along& along) {
     tabs_.clear();
     const CutTabs& tabs = rules_.tabs;
     if (tabs.count == 0 || !visit.path.closed || tracks_[visit.track].side == CutSide::kOn) return;
-    const double width = tabs.width + rules_.tool_diameter, apart = length / tabs.count;
-    constexpr double kMostOfPath = 0.5;
-    if (width > kMostOfPath * apart) {
-      out_.without_tabs.push_back(visit.track);
-      return;
-    }
+    const double apart = along.length() / tabs.count;
     for (int k = 0; k < tabs.count; ++k) {
       const double middle = (k + 0.5) * apart;
-      tabs_.push_back({middle - 0.5 * width, middle + 0.5 * width});
+      const auto half = half_of_tab(along, middle, 0.5 * kMostOfPath * apart);
+      if (!half) {
+        tabs_.clear();
+        out_.without_tabs.push_back(visit.track);
+        return;
+      }
+      tabs_.push_back({middle - *half, middle + *half});
     }
+  }
+
+  /// Half of the gap in the path that leaves a bridge of the width of a tab: both ends of the cut
+  /// are so far from each other, and a diameter more. Around corners that takes a longer gap.
+  [[nodiscard]] std::optional<double> half_of_tab(const Along& along, double middle,
+                                                  double most) const {
+    const double width = rules_.tabs.width + rules_.tool_diameter;
+    constexpr double kLonger = 1.01;
+    for (double half = 0.5 * width; half <= most; half *= kLonger) {
+      if (norm(along.at(middle + half) - along.at(middle - half)) >= width * (1.0 - kNothing))
+        return half;
+    }
+    return std::nullopt;
   }
 
   /// Along the path between two lengths of it; the height changes evenly, but stays above tabs.
@@ -272,6 +294,11 @@ class Blocks {
 };
 
 }  // namespace
+
+double levels_of(const BlockRules& rules) {
+  constexpr double kWhole = 1e-9;  // of a pass: 6 by 2 are 3 passes, not 3.0000000001
+  return std::max(1.0, std::ceil(rules.depth / rules.pass_depth - kWhole));
+}
 
 CutBlocks blocks_of(const std::vector<Track>& tracks, const std::vector<Visit>& visits,
                     const BlockRules& rules) {

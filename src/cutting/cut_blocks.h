@@ -48,6 +48,9 @@ struct CutBlocks {
   std::vector<std::size_t> without_tabs;  ///< tracks that are too short for them
 };
 
+/// Passes over each other of a mill; may be more than can be cut.
+[[nodiscard]] double levels_of(const BlockRules& rules);
+
 [[nodiscard]] CutBlocks blocks_of(const std::vector<Track>& tracks,
                                   const std::vector<Visit>& visits, const BlockRules& rules);
 

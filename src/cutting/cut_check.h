@@ -2,6 +2,7 @@
 #pragma once
 
 #include <string_view>
+#include <vector>
 
 #include "cut_blocks.h"
 
@@ -13,10 +14,12 @@ struct Checked {
 };
 
 /// What a program as printed does to the edges of tracks that are compensated, and how far it
-/// strays from those that are followed. `motions`: the track of each of its motions, in order.
-/// Lengths in units of the machine. Errors: E101 a program that a controller would not take.
-[[nodiscard]] Result<Checked> checked(std::string_view text, const std::vector<Track>& tracks,
+/// strays from those that are followed, at places `spacing` apart. `motions`: the track of each of
+/// its motions, in order. Lengths in units of the machine. Errors: E101 a program that a controller
+/// would not take, that moves rapidly at or below Z0, or does not go down to the depth; E103.
+[[nodiscard]] Result<Checked> checked(std::string_view text, const Tracks& tracks,
                                       const std::vector<std::size_t>& motions,
-                                      const BlockRules& rules, double tolerance, Watch& watch);
+                                      const BlockRules& rules, double tolerance, double spacing,
+                                      Watch& watch);
 
 }  // namespace obvid::cutting

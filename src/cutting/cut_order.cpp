@@ -14,7 +14,8 @@ namespace {
 constexpr std::size_t kMostMoved = 120;
 /// Quarters of circles lead in and out.
 constexpr double kLeadTurn = 0.5 * std::numbers::pi;
-constexpr int kPlacesOfLead = 16;
+/// Places on a lead that are looked at: of the tool's radius, how far apart.
+constexpr double kApartOnLead = 0.2, kFewestOnLead = 16.0, kMostOnLead = 512.0;
 /// Of the tool's radius and of the way: rounding.
 constexpr double kLittle = 1e-9;
 
@@ -27,12 +28,16 @@ struct Start {
 
 class Ordering {
  public:
-  Ordering(const std::vector<Track>& tracks, const VisitRules& rules, Watch& watch)
-      : tracks_(tracks), rules_(rules), watch_(watch) {
-    for (const Track& track : tracks) starts_.push_back(starts_of(track));
+  Ordering(const Tracks& tracks, const VisitRules& rules, Watch& watch)
+      : tracks_(tracks.all), edges_(tracks.edges), rules_(rules), watch_(watch) {
+    for (const Track& track : tracks_) {
+      if (watch_.cancelled()) return;
+      starts_.push_back(starts_of(track));
+    }
   }
 
   std::vector<Visit> run() {
+    if (watch_.was_cancelled()) return {};
     nearest_first();
     if (turns_.size() <= kMostMoved) shorten();
     std::vector<Visit> out;
@@ -82,10 +87,14 @@ class Ordering {
               : ArcPiece{jet.point, far, theta, kappa, length};
   }
 
+  /// It crosses no edge, and the tool fits beside all of them.
   [[nodiscard]] bool has_room(const ArcPiece& lead) const {
-    for (int k = 0; k <= kPlacesOfLead; ++k) {
-      const Vec2 p = evaluate(lead, static_cast<double>(k) / kPlacesOfLead).point;
-      if (distance_from_edges(tracks_, p) < rules_.tool_radius * (1.0 - kLittle)) return false;
+    if (edges_.met_by(lead)) return false;
+    const double wanted = std::ceil(lead.length / (kApartOnLead * rules_.tool_radius));
+    const int places = static_cast<int>(std::clamp(wanted, kFewestOnLead, kMostOnLead));
+    for (int k = 0; k <= places; ++k) {
+      const Vec2 p = evaluate(lead, static_cast<double>(k) / places).point;
+      if (edges_.nearest(p).room < rules_.tool_radius * (1.0 - kLittle)) return false;
     }
     return true;
   }
@@ -180,6 +189,7 @@ class Ordering {
   }
 
   const std::vector<Track>& tracks_;
+  const Edges& edges_;
   const VisitRules& rules_;
   Watch& watch_;
   std::vector<std::vector<Start>> starts_;
@@ -196,8 +206,7 @@ Vec2 end_of(const Visit& visit) {
   return visit.lead_out ? visit.lead_out->end : end_point(visit.path.pieces.back());
 }
 
-std::vector<Visit> ordered(const std::vector<Track>& tracks, const VisitRules& rules,
-                           Watch& watch) {
+std::vector<Visit> ordered(const Tracks& tracks, const VisitRules& rules, Watch& watch) {
   return Ordering(tracks, rules, watch).run();
 }
 

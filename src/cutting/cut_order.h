@@ -31,7 +31,7 @@ struct VisitRules {
 /// Closed tracks begin in the middle of a piece, open ones at either end. The nearest of those that
 /// may be next is taken, then visits are moved to other turns as long as that shortens the way
 /// between them.
-[[nodiscard]] std::vector<Visit> ordered(const std::vector<Track>& tracks, const VisitRules& rules,
+[[nodiscard]] std::vector<Visit> ordered(const Tracks& tracks, const VisitRules& rules,
                                          Watch& watch);
 
 }  // namespace obvid::cutting

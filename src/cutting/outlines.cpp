@@ -17,43 +17,48 @@ namespace {
 
 /// Of the tolerance, for arcs in place of contours; printing takes the rest.
 constexpr double kOfTolerance = 0.5;
-/// Places on a path that are looked at: of the tool's radius, how far apart.
-constexpr double kClearApart = 0.2;
 /// Of the tolerance, what drawings whose pieces meet with small turns may cost.
 constexpr double kSmallTurns = 0.1;
+/// Places on a path that are looked at: of the tool's radius, how far apart; of all, at most.
+constexpr double kOfRadius = 0.2, kMostPlaces = 1e6;
+/// Places of an outline that are compared with another one.
+constexpr int kPlacesCompared = 8;
+/// A tool that is so many times larger than the drawing is a mistake.
+constexpr double kLargestTool = 1e3;
+constexpr std::size_t kPlacesBetweenQuestions = 256;
 
 Box2 box_around(const ArcPath& path) {
-  constexpr int kParts = 8;
   Box2 out;
   double beyond = 0.0;  // of an arc, its chords
   for (const Piece& piece : path.pieces) {
-    for (int k = 0; k <= kParts; ++k)
-      out.add(evaluate(piece, static_cast<double>(k) / kParts).point);
-    const double kappa = std::abs(curvature_of(piece)), part = length_of(piece) / kParts;
-    beyond = std::max(beyond, kappa * part * part / 8.0);
+    for (int k = 0; k <= kPlacesCompared; ++k) {
+      out.add(evaluate(piece, static_cast<double>(k) / kPlacesCompared).point);
+    }
+    const double part = length_of(piece) / kPlacesCompared;
+    beyond = std::max(beyond, std::abs(curvature_of(piece)) * part * part / 8.0);
   }
   out.low = out.low - Vec2{beyond, beyond};
   out.high = out.high + Vec2{beyond, beyond};
   return out;
 }
 
-double distance_from_box(const Box2& box, Vec2 p) {
-  return norm(Vec2{std::max({box.low.x - p.x, 0.0, p.x - box.high.x}),
-                   std::max({box.low.y - p.y, 0.0, p.y - box.high.y})});
+bool holds(const Box2& outer, const Box2& inner) {
+  return outer.low.x <= inner.low.x && outer.low.y <= inner.low.y && inner.high.x <= outer.high.x &&
+         inner.high.y <= outer.high.y;
 }
 
-bool boxes_meet(const Box2& a, const Box2& b) {
-  return a.low.x <= b.high.x && b.low.x <= a.high.x && a.low.y <= b.high.y && b.low.y <= a.high.y;
-}
+bool is_near(Vec2 a, Vec2 b, double within) { return norm(a - b) <= within; }
 
 /// Angle that a piece turns around a point, rad: chords so short that the point is on the same side
 /// of chord and arc.
 double turn_around(const Piece& piece, Vec2 point) {
-  const double away = distance_from(piece, point), kappa = std::abs(curvature_of(piece));
-  const double turn = kappa * length_of(piece);
-  const double depth = std::min(1.0, 0.5 * away * kappa);
-  const double widest = std::max(1e-3, 2.0 * std::acos(1.0 - depth));
-  const int parts = std::max(turn > 0.0 ? 8 : 1, static_cast<int>(std::ceil(turn / widest)));
+  constexpr double kShortestChord = 1e-3;  // rad
+  constexpr double kOfDistance = 0.5;
+  const double kappa = std::abs(curvature_of(piece)), turn = kappa * length_of(piece);
+  const double depth = std::min(1.0, kOfDistance * distance_from(piece, point) * kappa);
+  const double widest = std::max(kShortestChord, 2.0 * std::acos(1.0 - depth));
+  const int parts =
+      std::max(turn > 0.0 ? kPlacesCompared : 1, static_cast<int>(std::ceil(turn / widest)));
   double sum = 0.0;
   Vec2 last = start_point(piece);
   for (int k = 1; k <= parts; ++k) {
@@ -65,24 +70,33 @@ double turn_around(const Piece& piece, Vec2 point) {
   return sum;
 }
 
-class Tracks {
+class TrackMaker {
  public:
-  Tracks(const std::vector<CutOutline>& outlines, const CutOptions& options, double scale,
-         Watch& watch)
-      : outlines_(outlines), options_(options), scale_(scale), watch_(watch) {}
+  TrackMaker(const std::vector<CutOutline>& outlines, const CutOptions& options, double scale,
+             Watch& watch)
+      : outlines_(outlines),
+        options_(options),
+        scale_(scale),
+        radius_(0.5 * options.diameter * scale),
+        watch_(watch) {}
 
-  Result<std::vector<Track>> run() {
+  Result<Tracks> run() {
     for (std::size_t i = 0; i < outlines_.size(); ++i) {
       if (watch_.cancelled()) return fail(cancelled_error());
       OBVID_TRY(add(i));
     }
+    OBVID_TRY(check_tool());
+    leave_doubles_out();
     nest();
-    for (Track& track : tracks_) OBVID_TRY(compensate(track));
-    for (const Track& track : tracks_) {
-      if (watch_.cancelled()) return fail(cancelled_error());
-      OBVID_TRY(keeps_clear(track));
+    keep_what_is_cut();
+    for (Track& track : out_.all) OBVID_TRY(compensate(track));
+    for (std::size_t i = 0; i < out_.all.size(); ++i) {
+      if (out_.all[i].side != CutSide::kOn) out_.edges.add(out_.all[i].edge, i);
     }
-    return std::move(tracks_);
+    out_.edges.finish();
+    spacing_ = spacing_of(out_.all, radius_);
+    for (std::size_t i = 0; i < out_.all.size(); ++i) OBVID_TRY(keeps_clear(i));
+    return std::move(out_);
   }
 
  private:
@@ -96,9 +110,8 @@ class Tracks {
     track.deviation = along->deviation * scale_;
     for (const Piece& piece : along->pieces) track.edge.pieces.push_back(scaled(piece, scale_));
     track.edge.closed = contour.closed;
-    if (track.edge.closed && area_of(track.edge) == 0.0) track.edge.closed = false;
     track.room = box_around(track.edge);
-    tracks_.push_back(std::move(track));
+    out_.all.push_back(std::move(track));
     return {};
   }
 
@@ -107,33 +120,114 @@ class Tracks {
     return error;
   }
 
+  Result<void> check_tool() const {
+    Box2 all;
+    for (const Track& track : out_.all) {
+      all.add(track.room.low);
+      all.add(track.room.high);
+    }
+    if (2.0 * radius_ <= kLargestTool * all.diagonal()) return {};
+    return error(ErrorCode::kBadOption, "the tool is a thousand times larger than the drawing")
+        .where("--diameter")
+        .hint("check the units of the drawing: --units")
+        .value(options_.diameter);
+  }
+
+  /// Whether two outlines are one, drawn twice.
+  [[nodiscard]] bool are_one(const Track& a, const Track& b) const {
+    const double within = options_.tolerance * scale_;
+    if (a.edge.closed != b.edge.closed || !is_near(a.room.low, b.room.low, within) ||
+        !is_near(a.room.high, b.room.high, within)) {
+      return false;
+    }
+    const auto lies_on = [&](const Track& one, const Track& other) {
+      return std::all_of(one.edge.pieces.begin(), one.edge.pieces.end(), [&](const Piece& piece) {
+        for (int k = 0; k < kPlacesCompared; ++k) {
+          const Vec2 p = evaluate(piece, static_cast<double>(k) / kPlacesCompared).point;
+          const bool near =
+              std::any_of(other.edge.pieces.begin(), other.edge.pieces.end(),
+                          [&](const Piece& its) { return distance_from(its, p) <= within; });
+          if (!near) return false;
+        }
+        return true;
+      });
+    };
+    return lies_on(a, b) && lies_on(b, a);
+  }
+
+  void leave_doubles_out() {
+    std::vector<Track> kept;
+    for (Track& track : out_.all) {
+      const auto same = std::find_if(kept.begin(), kept.end(),
+                                     [&](const Track& other) { return are_one(other, track); });
+      if (same == kept.end()) {
+        kept.push_back(std::move(track));
+      } else {
+        out_.warnings.push_back(
+            fmt::format("{} lies on {} and is cut once", track.name, same->name));
+      }
+    }
+    out_.all = std::move(kept);
+  }
+
   void nest() {
-    for (std::size_t i = 0; i < tracks_.size(); ++i) {
-      Track& one = tracks_[i];
+    for (std::size_t i = 0; i < out_.all.size(); ++i) {
+      Track& one = out_.all[i];
       const Vec2 p = evaluate(one.edge.pieces.front(), 0.5).point;
-      for (std::size_t j = 0; j < tracks_.size(); ++j) {
-        if (i == j || !tracks_[j].edge.closed || !is_inside(tracks_[j].edge, p)) continue;
+      for (std::size_t j = 0; j < out_.all.size(); ++j) {
+        const Track& other = out_.all[j];
+        if (i == j || !other.edge.closed || !holds(other.room, one.room) ||
+            !is_inside(other.edge, p)) {
+          continue;
+        }
         ++one.around;
-        tracks_[j].first.push_back(i);
+        out_.all[j].first.push_back(i);
       }
     }
   }
 
+  /// The others were there to say what lies in what.
+  void keep_what_is_cut() {
+    std::vector<std::size_t> now(out_.all.size(), out_.all.size());
+    std::size_t count = 0;
+    for (std::size_t i = 0; i < out_.all.size(); ++i) {
+      if (outlines_[out_.all[i].outline].is_cut) now[i] = count++;
+    }
+    std::vector<Track> kept;
+    for (std::size_t i = 0; i < out_.all.size(); ++i) {
+      if (now[i] == out_.all.size()) continue;
+      Track& track = out_.all[i];
+      std::vector<std::size_t> first;
+      for (const std::size_t k : track.first) {
+        if (now[k] != out_.all.size()) first.push_back(now[k]);
+      }
+      track.first = std::move(first);
+      kept.push_back(std::move(track));
+    }
+    out_.all = std::move(kept);
+  }
+
   Result<void> compensate(Track& track) {
-    const bool wanted = options_.diameter > 0.0 && options_.side != CutSide::kOn;
+    const bool wanted = radius_ > 0.0 && options_.side != CutSide::kOn;
     if (wanted && track.edge.closed) {
+      const double area = area_of(track.edge);
+      if (area == 0.0) {
+        return error(ErrorCode::kToolTooLarge, "the outline crosses itself: it has no inside")
+            .where(track.name)
+            .hint("draw it as several outlines, or cut along it (--side on)");
+      }
       const bool outside = options_.side == CutSide::kOutside ||
                            (options_.side == CutSide::kAuto && track.around % 2 == 0);
       track.side = outside ? CutSide::kOutside : CutSide::kInside;
       // what stays lies to the right
-      if ((area_of(track.edge) < 0.0) != outside) track.edge = reversed(track.edge);
+      if ((area < 0.0) != outside) track.edge = reversed(track.edge);
     } else if (wanted && options_.side != CutSide::kAuto) {
       return error(ErrorCode::kBadOption, "an open curve has no inside")
           .where(track.name)
           .hint("leave --side out, or close the curve in the drawing");
     }
     const bool compensated = track.side != CutSide::kOn;
-    auto parallel = parallel_of(track.edge, compensated ? 0.5 * options_.diameter * scale_ : 0.0);
+    auto parallel = parallel_of(track.edge, compensated ? radius_ : 0.0);
     if (!parallel) return fail(in_drawing(parallel.error(), track.name));
     track.axis = std::move(parallel->path);
     track.corners = std::move(parallel->corners);
@@ -149,54 +243,58 @@ class Tracks {
     return named(std::move(error), name);
   }
 
-  /// No place of the axis is nearer to an edge than the tool is wide.
-  Result<void> keeps_clear(const Track& track) const {
-    if (track.side == CutSide::kOn) return {};
-    const double radius = 0.5 * options_.diameter * scale_;
+  /// The tool cuts into no edge; where it follows a curve, into none but that is said.
+  Result<void> keeps_clear(std::size_t i) {
+    const Track& track = out_.all[i];
+    if (radius_ == 0.0) return {};
     const double slack = kSmallTurns * options_.tolerance * scale_;
+    std::size_t looked = 0;
     for (const Piece& piece : track.axis.pieces) {
-      const double length = length_of(piece);
-      const int parts = std::max(2, static_cast<int>(std::ceil(length / (kClearApart * radius))));
-      for (int k = 0; k <= parts; ++k) {
-        const Vec2 p = evaluate(piece, static_cast<double>(k) / parts).point;
-        const double room = distance_from_edges(tracks_, p);
-        if (room >= radius - slack) continue;
-        OBVID_TRY(crosses_none(track));
+      const auto parts =
+          static_cast<std::size_t>(std::max(2.0, std::ceil(length_of(piece) / spacing_)));
+      for (std::size_t k = 0; k <= parts; ++k) {
+        if (++looked % kPlacesBetweenQuestions == 0 && watch_.cancelled())
+          return fail(cancelled_error());
+        const Vec2 p = evaluate(piece, static_cast<double>(k) / static_cast<double>(parts)).point;
+        const Edges::Nearest found = out_.edges.nearest(p);
+        if (track.side == CutSide::kOn) {
+          if (found.distance >= radius_ - slack) continue;
+          out_.warnings.push_back(
+              fmt::format("{} is followed, and the tool cuts into {} there (at {}, {})", track.name,
+                          out_.all[found.name].name, significant(p.x, 6), significant(p.y, 6)));
+          return {};
+        }
+        if (found.room >= radius_ - slack) continue;
+        OBVID_TRY(crosses_none(i));
         return error(ErrorCode::kToolTooLarge,
                      fmt::format("the tool does not fit: it would cut {} deep into what stays",
-                                 significant(radius - room, 3)))
+                                 significant(radius_ - found.room, 3)))
             .where(
                 fmt::format("{}, at {}, {}", track.name, significant(p.x, 6), significant(p.y, 6)))
             .hint("choose a smaller cutter, or another --side")
-            .value(room);
+            .value(found.room);
       }
     }
     return {};
   }
 
   /// What the outlines themselves do not leave room for.
-  Result<void> crosses_none(const Track& track) const {
-    for (const Track& other : tracks_) {
-      if (&other == &track || other.side == CutSide::kOn || !boxes_meet(track.room, other.room))
-        continue;
-      for (const Piece& a : track.edge.pieces) {
-        for (const Piece& b : other.edge.pieces) {
-          if (!meeting_of(a, b)) continue;
-          return error(
-                     ErrorCode::kToolTooLarge,
-                     fmt::format("two outlines cross or touch: {} and {}", track.name, other.name))
-              .hint("leave one of them out (--curve), or cut along them (--side on)");
-        }
-      }
+  Result<void> crosses_none(std::size_t i) const {
+    for (const Piece& piece : out_.all[i].edge.pieces) {
+      const auto other = out_.edges.met_by(piece, i);
+      if (!other) continue;
+      return error(ErrorCode::kToolTooLarge, fmt::format("two outlines cross or touch: {} and {}",
+                                                         out_.all[i].name, out_.all[*other].name))
+          .hint("leave one of them out of the drawing, or cut along them (--side on)");
     }
     return {};
   }
 
   const std::vector<CutOutline>& outlines_;
   const CutOptions& options_;
-  double scale_;
+  double scale_, radius_, spacing_ = 0.0;
   Watch& watch_;
-  std::vector<Track> tracks_;
+  Tracks out_;
 };
 
 }  // namespace
@@ -207,22 +305,15 @@ bool is_inside(const ArcPath& path, Vec2 point) {
   return std::abs(turn) > std::numbers::pi;
 }
 
-double distance_from_edges(const std::vector<Track>& tracks, Vec2 point) {
-  double nearest = std::numeric_limits<double>::infinity();
-  for (const Track& track : tracks) {
-    if (track.side == CutSide::kOn || distance_from_box(track.room, point) >= nearest) continue;
-    for (const Piece& piece : track.edge.pieces) {
-      // an arc is no farther from its start than its length
-      const double at_least = norm(point - start_point(piece)) - length_of(piece);
-      if (at_least < nearest) nearest = std::min(nearest, distance_from(piece, point));
-    }
-  }
-  return nearest;
+double spacing_of(const std::vector<Track>& tracks, double tool_radius, double levels) {
+  double length = 0.0;
+  for (const Track& track : tracks) length += length_of(track.axis);
+  return std::max(kOfRadius * tool_radius, levels * length / kMostPlaces);
 }
 
-Result<std::vector<Track>> tracks_of(const std::vector<CutOutline>& outlines,
-                                     const CutOptions& options, double scale, Watch& watch) {
-  return Tracks(outlines, options, scale, watch).run();
+Result<Tracks> tracks_of(const std::vector<CutOutline>& outlines, const CutOptions& options,
+                         double scale, Watch& watch) {
+  return TrackMaker(outlines, options, scale, watch).run();
 }
 
 }  // namespace obvid::cutting

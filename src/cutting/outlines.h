@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "edges.h"
 #include "obvid/core/internal/watch.h"
 #include "obvid/cutting/cutting.h"
 #include "obvid/geom/internal/box.h"
@@ -25,16 +26,22 @@ struct Track {
   std::vector<Parallel::InnerCorner> corners;
 };
 
+struct Tracks {
+  std::vector<Track> all;
+  Edges edges;  ///< of tracks whose side is compensated, by their numbers
+  std::vector<std::string> warnings;
+};
+
 /// Errors: those of `cut`.
-[[nodiscard]] Result<std::vector<Track>> tracks_of(const std::vector<CutOutline>& outlines,
-                                                   const CutOptions& options, double scale,
-                                                   Watch& watch);
+[[nodiscard]] Result<Tracks> tracks_of(const std::vector<CutOutline>& outlines,
+                                       const CutOptions& options, double scale, Watch& watch);
 
 /// Whether a point lies inside of a closed path. It must not lie on it.
 [[nodiscard]] bool is_inside(const ArcPath& path, Vec2 point);
 
-/// Nearest distance of a point from the edges of tracks whose side is compensated; infinite
-/// without.
-[[nodiscard]] double distance_from_edges(const std::vector<Track>& tracks, Vec2 point);
+/// Distance between places on a path that are looked at: a part of the tool's radius, but no more
+/// places than can be looked at in seconds.
+[[nodiscard]] double spacing_of(const std::vector<Track>& tracks, double tool_radius,
+                                double levels = 1.0);
 
 }  // namespace obvid::cutting

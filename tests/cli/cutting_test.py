@@ -334,9 +334,13 @@ class Cutting(unittest.TestCase):
         program = Controller(self.run_cut(drawing(shapes), "--diameter", 3, "--depth", 5, "--pass-depth", 2, "--tabs",
                                           3, "--tab-width", 4, "--tab-height", 1.5))
         deep = [m for m in self.cuts(program) if m.a[2] < -3.5 - 1e-9 or m.b[2] < -3.5 - 1e-9]
-        whole = 2 * (68 + 38) + 2 * math.pi * 7.5
-        low = sum(m.length() for m in deep if m.a[2] == m.b[2] == -5.0)
-        self.assertAlmostEqual(low, whole - 3 * (4 + 3), places=2)
+        self.assertTrue(deep)
+        lifts = [m for m in program.moves if m.code == 1 and m.a[2] == -5.0 and m.b[2] == -3.5]
+        falls = [m for m in program.moves if m.code == 1 and m.a[2] == -3.5 and m.b[2] == -5.0]
+        self.assertEqual((len(lifts), len(falls)), (3, 3))
+        for up, down in zip(lifts, falls):  # a bridge of 4 mm between two ends of a cut of 3 mm
+            self.assertGreaterEqual(math.dist(up.a[:2], down.a[:2]), 7 - 1e-3)
+            self.assertLess(math.dist(up.a[:2], down.a[:2]), 7.2)
         for m in program.moves:
             if m.a[2] != m.b[2] and m.code == 1:
                 self.assertEqual(m.length(), 0.0)
@@ -407,7 +411,7 @@ class Cutting(unittest.TestCase):
     def test_options_that_do_not_go_together(self):
         one = drawing([Circle(0, 0, 10)])
         for options, word in (([], "--depth"), (["--depth", -1], "--depth"), (["--depth", 1, "--diameter", -2], "--diameter"),
-                              (["--depth", 1, "--ramp", 90], "--ramp"), (["--depth", 1, "--tabs", 2], "--tabs"),
+                              (["--depth", 1, "--ramp", 90], "--ramp"), (["--depth", 1, "--tabs", 2], "--tab-width"),
                               (["--laser", 1, "--plasma", 1], "--laser"), (["--depth", 1, "--side", "left"], "--side"),
                               (["--depth", 1, "--start", "1"], "--start"), (["--depth", 1, "--decimals", 9], "--decimals"),
                               (["--depth", 1, "--tolerance", 0], "--tolerance")):

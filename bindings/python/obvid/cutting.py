@@ -9,11 +9,12 @@ import pathlib
 from typing import Any, List, NamedTuple, Sequence, Tuple, Union
 
 from ._library import ErrorStruct, Run, lib, options_text, raise_error, taken_text
-from .contour import taken_files, write_all
-from .jobs import Source, read
+from .contour import Contour, taken_files, write_all
+from .errors import UsageError
+from .jobs import Source, read, read_text
 from .reports import Json
 
-Drawing = Union[Source, str, "os.PathLike[str]"]
+Drawing = Union[Source, Contour, str, "os.PathLike[str]"]
 
 
 class CutProgram(NamedTuple):
@@ -26,10 +27,19 @@ class CutProgram(NamedTuple):
     remarks: Tuple[str, ...]
 
     def write(self, path: Union[str, "os.PathLike[str]"]) -> List[str]:
-        """Writes .svg the picture, .dxf the drawing, every other ending the program."""
+        """Writes .svg the picture, .dxf the drawing, .nc, .ngc, .gcode or .tap the program."""
         target = pathlib.Path(path)
-        text = {".svg": self.picture, ".dxf": self.drawing}.get(target.suffix, self.program)
+        programs = dict.fromkeys((".nc", ".ngc", ".gcode", ".tap"), self.program)
+        text = {".svg": self.picture, ".dxf": self.drawing, **programs}.get(target.suffix.lower())
+        if text is None:
+            raise UsageError(202, "no format of cutting programs has this file extension", str(path))
         return write_all(target, ([("", text.encode())], self.remarks))
+
+
+def _source(drawing: Drawing) -> Source:
+    if isinstance(drawing, Source):
+        return drawing
+    return read_text(drawing.text("json"), "contour") if isinstance(drawing, Contour) else read(drawing)
 
 
 def cut(drawings: Union[Drawing, Sequence[Drawing]], **options: Any) -> CutProgram:
@@ -47,9 +57,9 @@ def cut(drawings: Union[Drawing, Sequence[Drawing]], **options: Any) -> CutProgr
     True
     """
     watched = {name: options.pop(name, None) for name in ("progress", "cancelled")}
-    alone = isinstance(drawings, (Source, str, os.PathLike))
+    alone = isinstance(drawings, (Source, Contour, str, os.PathLike))
     given: Sequence[Drawing] = [drawings] if alone else drawings  # type: ignore[list-item,assignment]
-    sources = [one if isinstance(one, Source) else read(one) for one in given]
+    sources = [_source(one) for one in given]
     handles = (C.c_void_p * len(sources))(*(one._handle for one in sources))
     start = options.get("start")
     if start is not None and not isinstance(start, str):

@@ -52,7 +52,7 @@ struct CutOptions {
   CutTabs tabs{};
   double lead_in = 0.0;            ///< radius of the arcs that lead to an outline and away; 0: none
   std::optional<Vec2> start{};     ///< outlines begin near this place [by the shortest way]
-  std::optional<double> safe_z{};  ///< of rapid moves [5 mm]; of torches the height of cutting too
+  std::optional<double> safe_z{};  ///< of rapid moves of mills [5 mm; 0.2 in]
   std::optional<double> feed{}, plunge_feed{}, rapid_feed{};  ///< [1000, 300, 3000; 40, 12, 120]
   std::optional<double> spindle{};      ///< revolutions a minute, or power of a laser: the word S
   double pierce_seconds = 0.0;          ///< dwell of a torch or laser before it moves
@@ -65,10 +65,14 @@ struct CutOptions {
   std::string name = "drawing";   ///< stands in a remark
 };
 
+/// outside, inside or on.
+[[nodiscard]] const char* to_string(CutSide side);
+
 /// A curve to cut.
 struct CutOutline {
   std::string name;
-  Contour contour;  ///< all of one unit
+  Contour contour;     ///< all of one unit
+  bool is_cut = true;  ///< else it only says what lies in what
 };
 
 /// What became of an outline, in the order of cutting. Lengths in units of the drawing.
@@ -98,9 +102,9 @@ struct CutReport {
   double minutes = 0.0;        ///< with acceleration
   int levels = 0;              ///< passes over each other
   /// Of the program as printed, read back: how far the edge of the tool comes beyond an outline,
-  /// and how far from an outline it stays, inner corners apart. Found at places a tenth of the
-  /// tool's diameter (or a hundredth of the size) apart and nearer; not bounded between them.
-  double beyond = 0.0, short_of = 0.0;
+  /// and how far from an outline it stays, inner corners apart. Found at places `spacing` apart;
+  /// not bounded between them.
+  double beyond = 0.0, short_of = 0.0, spacing = 0.0;
   double left_in_corners = 0.0;
 };
 

@@ -5,6 +5,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
+#include <optional>
 #include <utility>
 
 #include "obvid/core/internal/figures.h"
@@ -19,58 +21,51 @@ namespace {
 constexpr double kDefaultTolerance = 0.01;  // mm
 constexpr long kMostCount = 1000;           // of passes, tabs
 
-const char* side_name(CutSide side) {
-  switch (side) {
-    case CutSide::kOutside:
-      return "outside";
-    case CutSide::kInside:
-      return "inside";
-    case CutSide::kAuto:
-    case CutSide::kOn:
-      break;
-  }
-  return "on";
-}
-
-/// The curves of one drawing that are asked for.
+/// All curves of a drawing; those that are not asked for only say what lies in what.
 class Taken {
  public:
-  Taken(const ImportOptions& options, MadeCut& made) : options_(options), made_(made) {}
+  Taken(const ImportOptions& options, bool several, MadeCut& made)
+      : options_(options), several_(several), made_(made) {}
 
   Result<void> add(const Drawing& drawing) {
     const std::size_t curves = drawing.curves.size();
     const bool edges = options_.use == DrawnUse::kExact;
-    const std::size_t all = curves + (edges ? drawing.series.size() : 0);
-    std::vector<std::size_t> numbers;
+    std::optional<std::size_t> chosen;
     if (options_.curve.asked()) {
-      const auto chosen = chosen_curve(drawing, options_.curve, drawing.name);
-      OBVID_TRY(chosen);
-      numbers.push_back(*chosen);
-    } else {
-      for (std::size_t k = 0; k < all; ++k) numbers.push_back(k);
+      const auto number = chosen_curve(drawing, options_.curve, drawing.name);
+      OBVID_TRY(number);
+      chosen = *number;
     }
-    for (const std::string& warning : drawing.warnings) made_.warnings.push_back(warning);
-    if (!options_.curve.asked() && !edges && !drawing.series.empty()) {
+    made_.warnings.insert(made_.warnings.end(), drawing.warnings.begin(), drawing.warnings.end());
+    if (!chosen && !edges && !drawing.series.empty()) {
       made_.warnings.push_back(
           fmt::format("{}: {} of points {} not cut; --drawing exact cuts along edges, `obvid fit` "
                       "forms a curve",
                       drawing.name, counted(drawing.series.size(), "series", "series"),
                       drawing.series.size() == 1 ? "is" : "are"));
     }
-    for (const std::size_t number : numbers) {
-      ImportOptions one = options_;
-      one.curve = {number, {}, false};
-      auto drawn = drawn_contour(drawing, one, drawing.name);
-      OBVID_TRY(drawn);
-      const std::string name =
-          drawn->name.empty() ? fmt::format("curve {}", number + 1) : drawn->name;
-      made_.outlines.push_back({name, std::move(drawn->stored.contour)});
+    const std::size_t all = curves + (edges ? drawing.series.size() : 0);
+    for (std::size_t number = 0; number < all; ++number) {
+      OBVID_TRY(add(drawing, number, !chosen || number == *chosen));
     }
+    if (chosen && *chosen >= all) OBVID_TRY(add(drawing, *chosen, true));
     return {};
   }
 
  private:
+  Result<void> add(const Drawing& drawing, std::size_t number, bool is_cut) {
+    ImportOptions one = options_;
+    one.curve = {number, {}, false};
+    auto drawn = drawn_contour(drawing, one, drawing.name);
+    OBVID_TRY(drawn);
+    std::string name = drawn->name.empty() ? fmt::format("curve {}", number + 1) : drawn->name;
+    if (several_) name = drawing.name + ": " + name;
+    made_.outlines.push_back({std::move(name), std::move(drawn->stored.contour), is_cut});
+    return {};
+  }
+
   const ImportOptions& options_;
+  bool several_;
   MadeCut& made_;
 };
 
@@ -106,7 +101,7 @@ Result<MadeCut> make_cut(std::vector<Drawing> drawings, const ImportOptions& opt
   std::vector<Units> units;
   for (const Drawing& drawing : drawings) {
     units.push_back(drawing.units);
-    OBVID_TRY(Taken(options, made).add(drawing));
+    OBVID_TRY(Taken(options, drawings.size() > 1, made).add(drawing));
   }
   const auto common = common_units(units, "");
   OBVID_TRY(common);
@@ -178,7 +173,7 @@ std::string cut_json(const MadeCut& made) {
   for (const CutStep& step : made.program.steps) {
     json.begin_object().pair("name", made.outlines[step.outline].name);
     json.pair("curve", step.outline).pair("closed", step.closed).pair("around", step.around);
-    json.pair("side", side_name(step.side))
+    json.pair("side", to_string(step.side))
         .key("start")
         .begin_array()
         .value(step.start.x)
@@ -193,6 +188,7 @@ std::string cut_json(const MadeCut& made) {
       .pair("minutes", r.minutes);
   json.pair("beyond", r.beyond)
       .pair("short_of", r.short_of)
+      .pair("spacing", r.spacing)
       .pair("left_in_corners", r.left_in_corners);
   json.end_object().key("warnings").begin_array();
   for (const std::string& warning : made.warnings) json.value(warning);
@@ -232,13 +228,18 @@ Result<void> set_cut(const CutValues& typed, CutJob& job) {
     plan.process = CutProcess::kPlasma;
     plan.pierce_seconds = *typed.plasma;
   }
-  // what is no such count is refused by `cut`, which names the option
-  const auto count = [](std::optional<long> typed_count, auto& into) {
-    if (typed_count) into = static_cast<int>(std::clamp(*typed_count, -1L, kMostCount));
+  const auto count = [](std::optional<long> number, const char* option,
+                        auto& into) -> Result<void> {
+    if (!number) return {};
+    if (*number > kMostCount) {
+      return fail(bad_option("that is too many", option, fmt::format("at most {}", kMostCount)));
+    }
+    into = static_cast<int>(std::max(*number, -1L));  // which `cut` refuses
+    return {};
   };
-  count(typed.passes, plan.passes);
-  count(typed.tabs, plan.tabs.count);
-  count(typed.decimals, plan.decimals);
+  OBVID_TRY(count(typed.passes, "--passes", plan.passes));
+  OBVID_TRY(count(typed.tabs, "--tabs", plan.tabs.count));
+  OBVID_TRY(count(typed.decimals, "--decimals", plan.decimals));
   if (typed.start) {
     const auto comma = typed.start->find(',');
     const auto x = typed_number(typed.start->substr(0, comma)),

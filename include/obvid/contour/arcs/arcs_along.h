@@ -3,12 +3,11 @@
 
 #include <vector>
 
+#include "obvid/core/internal/watch.h"
 #include "obvid/core/result.h"
 #include "obvid/curve/contour.h"
 
 namespace obvid {
-
-class Watch;
 
 /// Arcs and lines in place of a contour.
 struct ArcsAlong {

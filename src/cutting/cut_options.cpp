@@ -1,0 +1,119 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "cut_options.h"
+
+#include <cmath>
+#include <optional>
+
+#include "obvid/exchange/internal/gcode/dialect.h"
+
+namespace obvid::cutting {
+namespace {
+
+tl::unexpected<Error> bad(const char* what, const char* option, double value, const char* hint) {
+  return fail(Error{ErrorCode::kBadOption, what, option, hint, -1, value});
+}
+
+/// An option that is one number.
+struct Size {
+  std::optional<double> value;
+  const char* option;
+  bool may_be_none = false;  ///< 0 is none
+};
+
+Result<void> check_numbers(const CutOptions& o) {
+  const char* power = o.process == CutProcess::kLaser ? "--laser" : "--spindle";
+  for (const Size& size :
+       {Size{o.tolerance, "--tolerance"}, Size{o.diameter, "--diameter", true},
+        Size{o.depth, "--depth", true}, Size{o.pass_depth, "--pass-depth"},
+        Size{o.lead_in, "--lead-in", true}, Size{o.safe_z, "--safe-z"}, Size{o.feed, "--feed"},
+        Size{o.plunge_feed, "--plunge-feed"}, Size{o.rapid_feed, "--rapid-feed"},
+        Size{o.centripetal, "--centripetal"}, Size{o.acceleration, "--acceleration"},
+        Size{o.spindle, power, true}, Size{o.pierce_seconds, "--plasma", true},
+        Size{o.ramp_deg, "--ramp"}, Size{o.tabs.width, "--tab-width", true},
+        Size{o.tabs.height, "--tab-height", true}}) {
+    if (!size.value) continue;
+    const double v = *size.value;
+    if (!std::isfinite(v)) return bad("this must be a number", size.option, v, "");
+    if (size.may_be_none ? v < 0.0 : !(v > 0.0)) {
+      return bad(size.may_be_none ? "this must not be negative" : "this must be greater than 0",
+                 size.option, v, "");
+    }
+  }
+  return {};
+}
+
+Result<void> check_tabs(const CutOptions& o) {
+  constexpr const char* kUnits = "give a length in units of the drawing";
+  if (o.tabs.count < 0) return bad("this must not be negative", "--tabs", o.tabs.count, "");
+  if (o.tabs.count == 0 || o.process != CutProcess::kMill) return {};
+  if (!(o.tabs.width > 0.0)) return bad("tabs have a width", "--tab-width", 0.0, kUnits);
+  if (!(o.tabs.height > 0.0)) return bad("tabs have a height", "--tab-height", 0.0, kUnits);
+  if (o.tabs.height < o.depth) return {};
+  return bad("tabs are lower than the cut is deep", "--tab-height", o.tabs.height, kUnits);
+}
+
+/// What is given, under one reason.
+class Idle {
+ public:
+  Idle& add(bool given, const char* name) {
+    if (given) names_ += (names_.empty() ? "" : ", ") + std::string(name);
+    return *this;
+  }
+  void tell(const char* reason, std::vector<std::string>& out) const {
+    if (!names_.empty()) out.push_back(names_ + ": " + reason + "; left out");
+  }
+
+ private:
+  std::string names_;
+};
+
+}  // namespace
+
+Result<void> check_cut_options(const CutOptions& o) {
+  OBVID_TRY(check_numbers(o));
+  OBVID_TRY(check_tabs(o));
+  constexpr double kStraightDown = 90.0;
+  if (o.process == CutProcess::kMill && o.depth == 0.0) {
+    return bad("a mill has to know how deep it cuts", "--depth", 0.0,
+               "give --depth, or --laser or --plasma");
+  }
+  if (o.ramp_deg && !(*o.ramp_deg < kStraightDown)) {
+    return bad("a ramp is below 90 degrees", "--ramp", *o.ramp_deg,
+               "leave it out to go straight down");
+  }
+  if (o.start && !is_finite(*o.start)) {
+    return bad("a place is two numbers", "--start", 0.0, "for example --start 0,0");
+  }
+  if (o.passes < 1) return bad("there must be a pass", "--passes", o.passes, "");
+  if (o.decimals && (*o.decimals < 1 || *o.decimals > exchange::kMostGcodeDecimals)) {
+    return bad("decimals must be 1 to 6", "--decimals", *o.decimals, "");
+  }
+  return {};
+}
+
+std::vector<std::string> idle_cut_options(const CutOptions& o) {
+  std::vector<std::string> out;
+  const bool mill = o.process == CutProcess::kMill;
+  if (!mill) {
+    Idle()
+        .add(o.depth != 0.0, "--depth")
+        .add(o.pass_depth.has_value(), "--pass-depth")
+        .add(o.ramp_deg.has_value(), "--ramp")
+        .add(o.tabs.count != 0, "--tabs")
+        .add(o.safe_z.has_value(), "--safe-z")
+        .add(o.plunge_feed.has_value(), "--plunge-feed")
+        .tell("of mills alone", out);
+  }
+  Idle().add(mill && o.passes != 1, "--passes").tell("of lasers and torches alone", out);
+  if (o.diameter == 0.0 || o.side == CutSide::kOn) {
+    Idle()
+        .add(mill && o.tabs.count != 0, "--tabs")
+        .add(o.lead_in != 0.0, "--lead-in")
+        .add(o.side == CutSide::kInside || o.side == CutSide::kOutside, "--side")
+        .add(o.direction != CutDirection::kClimb, "--direction")
+        .tell("for tools with a diameter beside the outlines", out);
+  }
+  return out;
+}
+
+}  // namespace obvid::cutting
