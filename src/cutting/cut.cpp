@@ -26,8 +26,8 @@ namespace {
 using namespace cutting;
 
 constexpr double kMmPerInch = 25.4;
-constexpr double kHalfTurn = 180.0;  // degrees
-constexpr double kMinute = 60.0;     // s
+constexpr double kHalfTurn = 180.0;        // degrees
+constexpr double kSecondsOfMinute = 60.0;  // s
 
 /// In mm and minutes; in inches.
 struct Defaults {
@@ -37,7 +37,7 @@ constexpr Defaults kMillimetres{300.0, 3000.0, 5.0, 1.0}, kInches{12.0, 120.0, 0
 constexpr double kAcceleration = 500.0;  // mm/s^2
 constexpr double kLeastFeed = 1e-3;      // a minute: what is printed is not 0
 constexpr double kMostBlocks = 3e5;
-constexpr double kNothing = 1e-9;                    // of the tolerance: rounding
+constexpr double kTooLittleToTell = 1e-9;            // of the tolerance: rounding
 constexpr double kOrderAt = 0.4, kReadBackAt = 0.7;  // of the work
 
 class Cutting {
@@ -158,7 +158,7 @@ class Cutting {
         options_.acceleration.value_or(kAcceleration) / (inches_ ? kMmPerInch : 1.0);
     const TimeRules times{options_.rapid_feed.value_or(defaults_.rapid), acceleration,
                           options_.tolerance * scale_, options_.pierce_seconds};
-    out.report.minutes = seconds_of(blocks.blocks, times) / kMinute;
+    out.report.minutes = seconds_of(blocks.blocks, times) / kSecondsOfMinute;
     out.report.levels = blocks.levels;
     out.text = head(out) + text.start() + text.path().text() + text.end();
     watch_.tell("reading it back", kReadBackAt);
@@ -186,7 +186,7 @@ class Cutting {
     for (const Track& track : tracks_.all) off = std::max(off, track.deviation);
     const auto told = [&](double value) {
       const double sum = std::max(0.0, value) + off;
-      return sum > kNothing * options_.tolerance * scale_ ? sum / scale_ : 0.0;
+      return sum > kTooLittleToTell * options_.tolerance * scale_ ? sum / scale_ : 0.0;
     };
     out.report.beyond = told(found->beyond);
     out.report.short_of = told(found->short_of);
