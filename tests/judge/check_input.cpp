@@ -43,7 +43,7 @@ double rounding_of(const std::vector<GivenPoint>& points) {
 }
 
 /// Where the ends are as far apart as their tolerances reach, to the last digits, rounding decides.
-Expected expected_of(const Input& input, bool closed_in_file) {
+Expected expected_of(const Input& input, const ContourFile& file) {
   Expected out{input.points, input.closed, false};
   if (out.points.size() < 3 || input.open) return out;
   const GivenPoint first = out.points.front(), last = out.points.back();
@@ -53,7 +53,8 @@ Expected expected_of(const Input& input, bool closed_in_file) {
   const double rounding = input.rounding ? rounding_of(input.points) : 0.0;
   const double reach = std::max(2.0 * rounding, reach_of(first, input) + reach_of(last, input));
   constexpr double kLastDigits = 1.0 + 1e-9;
-  const bool near = apart * kLastDigits < reach || (apart <= reach * kLastDigits && closed_in_file);
+  const bool one_less = file.closed && file.points.size() + 1 == out.points.size();
+  const bool near = apart * kLastDigits < reach || (apart <= reach * kLastDigits && one_less);
   if (!exact && !near) return out;
   out.closed = true;
   out.joined = !exact;
@@ -423,12 +424,10 @@ void check_given_list(const Course& course, Sheet& sheet) {
 
 void check_input(const Course& course, const Input& input, Sheet& sheet) {
   const ContourFile& file = course.file;
-  const Expected expected = expected_of(input, file.closed);
+  const Expected expected = expected_of(input, file);
   sheet.expect(file.units == input.units, "units", file.units, input.units, "");
   // the user says the unit, or names of columns do, or nobody does (docs/formats.md)
-  const std::string source = input.units_given     ? "given"
-                             : input.units_in_file ? "file"
-                                                   : "assumed";
+  const std::string source = input.units_given ? "given" : input.units_in_file ? "file" : "assumed";
   sheet.expect(file.units_source == source, "units_source", file.units_source, source, "");
   sheet.expect(file.carrier == input.carrier, "carrier", file.carrier, input.carrier, "");
   sheet.expect(file.closed == expected.closed, "closed", file.closed ? "true" : "false",
@@ -471,8 +470,8 @@ void judge_constructed(const Course& course, Input input, Sheet& sheet) {
   const auto segments = std::count_if(
       file.elements.begin(),
       file.elements.begin() + static_cast<std::ptrdiff_t>(file.pieces.size()), on_point);
-  const bool whole = input.construction == "arcs" &&
-                     file.pieces.size() < 2 * static_cast<std::size_t>(segments);
+  const bool whole =
+      input.construction == "arcs" && file.pieces.size() < 2 * static_cast<std::size_t>(segments);
   if (steps || whole) {  // at an inflection, the way the run goes; an arc alone has one curvature
     sheet.unjudged("report", steps ? "the curvature steps inside of segments" : "one arc");
   } else {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "obvid/curve/internal/smooth_parts.h"
 #include "obvid/exchange/internal/dxf/write.h"
+#include "obvid/curve/internal/smooth_parts.h"
 
 #include <algorithm>
 #include <array>
@@ -40,7 +40,6 @@ std::string safe_name(std::string layer) {
 bool is_circular(const Piece& piece) {
   return std::holds_alternative<LinePiece>(piece) || std::holds_alternative<ArcPiece>(piece);
 }
-
 
 /// Angle from 0 to below `turn`.
 double within(double angle, double turn) {
@@ -210,7 +209,14 @@ class DxfDrawer {
       for (const Ellipse& one : *conics) ellipse(one);
       return {};
     }
-    const auto made = nurbs_of(part, {true, options_.tolerance});
+    auto made = nurbs_of(part, {true, options_.tolerance});
+    if (!made && made.error().code == ErrorCode::kNotProved) {
+      // the contour may be proved: it is this format that does not hold such a spline
+      Error error = made.error();
+      error.code = ErrorCode::kToleranceNotReached;
+      error.hint = "choose --dxf arcs or cubic, or STEP";
+      return fail(std::move(error));
+    }
     OBVID_TRY(made);
     result_.deviation = std::max(result_.deviation, made->deviation);
     spline(made->curve, closed);
