@@ -54,15 +54,10 @@ void add_output(CLI::App& command, std::vector<std::string>& outputs, std::strin
       ->type_name("NAME");
 }
 
-void add_reading(CLI::App& command, FormatValues& values) {
-  const char* group = "Reading the input";
+void add_placement(CLI::App& command, FormatValues& values) {
   const auto add = [&](const char* name, auto& value, const char* type, const char* help) {
-    command.add_option(name, value, help)->type_name(type)->group(group);
+    command.add_option(name, value, help)->type_name(type)->group(kReadingGroup);
   };
-  add("--columns", values.columns, "X,Y",
-      "Columns of x and y in a list of points, counted from 1, whatever their names [as the names "
-      "say; else 1,2]");
-  add("--skip", values.skip, "N", "Lines at the beginning that are not looked at [0]");
   add("--mirror", values.mirror, "AXIS",
       "Across the axis x (y changes its sign) or y; given headings and curvatures of the file go "
       "along, in options they are those of the result; then:");
@@ -71,19 +66,30 @@ void add_reading(CLI::App& command, FormatValues& values) {
   add("--move", values.move, "DX,DY", "By these lengths along x and y (and z: DX,DY,DZ)");
 }
 
+void add_reading(CLI::App& command, FormatValues& values) {
+  const auto add = [&](const char* name, auto& value, const char* type, const char* help) {
+    command.add_option(name, value, help)->type_name(type)->group(kReadingGroup);
+  };
+  add("--columns", values.columns, "X,Y",
+      "Columns of x and y in a list of points, counted from 1, whatever their names [as the names "
+      "say; else 1,2]");
+  add("--skip", values.skip, "N", "Lines at the beginning that are not looked at [0]");
+  add_placement(command, values);
+}
+
 void add_import(CLI::App& command, FormatValues& values) {
   add_reading(command, values);
   command
       .add_flag("--unordered", values.unordered,
                 "The points are a cloud: put them in the order of their curve, the shortest row "
                 "through them; numbers of points in options are those of the row")
-      ->group("Reading the input");
+      ->group(kReadingGroup);
   command
       .add_flag("--drop-outliers", values.drop_outliers,
                 "Leave out measured points that lie off the curve of their neighbours, far beyond "
                 "the scatter of the others; they are named. Numbers of points in options are those "
                 "of what is left")
-      ->group("Reading the input");
+      ->group(kReadingGroup);
   const char* group = "Drawings as input";
   command
       .add_option("--curve", values.curve,

@@ -42,6 +42,10 @@ namespace obvid {
 void add_output(CLI::App& command, std::vector<std::string>& outputs, std::string& format,
                 const std::string& help, const char* fallback = "json");
 
+/// Group of the options of what is read.
+inline constexpr const char* kReadingGroup = "Reading the input";
+/// --mirror, --scale, --rotate, --move.
+void add_placement(CLI::App& command, FormatValues& values);
 /// What is looked at before anything else: columns, lines, places.
 void add_reading(CLI::App& command, FormatValues& values);
 /// That, and how curves of drawings are taken.

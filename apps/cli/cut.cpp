@@ -47,20 +47,13 @@ Result<Drawing> drawing_of(const std::string& input) {
 
 Result<MadeCut> cut_from(const CutCommand& command, ProgressBar& bar) {
   std::vector<Drawing> drawings;
-  std::vector<std::string> warnings;
   for (const std::string& input : command.inputs) {
     bar.tell("reading", 0.0);
     auto drawing = drawing_of(input);
     OBVID_TRY(drawing);
-    if (command.units) {
-      if (auto told = take_units(drawing->units, *command.units)) warnings.push_back(*told);
-    }
     drawings.push_back(std::move(*drawing));
   }
-  auto made = make_cut(std::move(drawings), command.import, command.job, bar.progress());
-  OBVID_TRY(made);
-  made->warnings.insert(made->warnings.begin(), warnings.begin(), warnings.end());
-  return made;
+  return make_cut(std::move(drawings), command.import, command.job, bar.progress());
 }
 
 std::string steps_table(const MadeCut& made) {

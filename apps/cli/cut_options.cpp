@@ -107,7 +107,7 @@ Result<Command> checked_cut(const CLI::App& app, RawCut& raw) {
   if (!raw.units.empty()) {
     auto units = given_units(raw.units, "--units");
     OBVID_TRY(units);
-    command.units = std::move(*units);
+    command.job.units = std::move(*units);
   }
   command.job.plan.name = std::filesystem::path(command.inputs.front()).filename().string();
   OBVID_TRY(settle_streams(command, raw.format, false, "nc"));
@@ -130,17 +130,14 @@ Result<Command> parse_cut(int argc, const char* const* argv) {
   add_depth(app, raw);
   add_ways(app, raw);
   add_cut_program(app, raw);
-  Numbers(app, "Reading the drawings")
+  Numbers(app, kReadingGroup)
       .add("--curve", raw.reading.curve, "N|NAME|all",
            "Which curve is cut: its number from 1, its name, or a word of the name that no other "
            "has; "
            "the others still say what lies in what [all]")
       .add("--drawing", raw.reading.drawing, "NAME",
-           "auto, or exact: edges of polylines are curves too [auto]")
-      .add("--mirror", raw.reading.mirror, "AXIS", "Across the axis x or y; then:")
-      .add("--scale", raw.reading.scale, "F", "All lengths times F; then:")
-      .add("--rotate", raw.reading.rotate_deg, "DEG", "About the origin, degrees; then:")
-      .add("--move", raw.reading.move, "DX,DY", "By these lengths along x and y");
+           "auto, or exact: edges of polylines are curves too [auto]");
+  add_placement(app, raw.reading);
   app.add_option("--units", raw.units, "Unit of the drawing [as the file says; else mm]")
       ->type_name("NAME");
   app.add_flag("--json", raw.command.json, "Report as JSON on standard output");

@@ -15,7 +15,6 @@ struct CutCommand {
   std::vector<std::string> outputs;  ///< G-code, pictures
   ImportOptions import;
   CutJob job;
-  std::optional<Units> units;
   bool json = false;
   bool quiet = false;
   bool progress = true;

@@ -248,25 +248,21 @@ int obvid_cut(const obvid_input* const* inputs, size_t count, const char* option
     const Result<Request> request = request_of(options, kCutting);
     OBVID_TRY(request);
     std::vector<Drawing> drawings;
-    std::vector<std::string> warnings;
     for (size_t i = 0; i < count; ++i) {
       if (inputs[i] == nullptr) {
         return fail({ErrorCode::kUsage, "an input is NULL", std::to_string(i), ""});
       }
       Result<Drawing> drawing = drawing_of(*inputs[i]);
       OBVID_TRY(drawing);
-      if (request->units) {
-        if (auto told = take_units(drawing->units, *request->units)) warnings.push_back(*told);
-      }
       drawings.push_back(std::move(*drawing));
     }
     CutJob job = request->cut;
+    job.units = request->units;
     if (count > 0) {
       job.plan.name = std::filesystem::path(inputs[0]->name).filename().string();
     }
     auto made = make_cut(std::move(drawings), request->import, job, context_of(run));
     OBVID_TRY(made);
-    made->warnings.insert(made->warnings.begin(), warnings.begin(), warnings.end());
     hand_out_text(cut_json(*made), report);
     if (files == nullptr) return {};
     const Sketch sketch = cut_sketch(*made, job);

@@ -5,6 +5,7 @@
 #include <cassert>
 #include <cmath>
 #include <limits>
+#include <numbers>
 #include <type_traits>
 #include <utility>
 
@@ -260,8 +261,8 @@ void evaluate(const RationalBezier& piece, std::span<const double> t, std::span<
     const Vec2 reference = nearer_end(piece, t[i]);
     Lanes<double> places{};
     std::copy_n(t.begin() + static_cast<std::ptrdiff_t>(i), kLanes, places.begin());
-    const auto all = jets_by_degree(piece, reference, places,
-                                    std::make_index_sequence<kMaxBezierDegree + 1>{});
+    const auto all =
+        jets_by_degree(piece, reference, places, std::make_index_sequence<kMaxBezierDegree + 1>{});
     for (const auto& one : all) jets[i++] = in_plane(one, piece.origin, reference);
   }
 }
@@ -361,6 +362,23 @@ Element element_at(const Piece& piece, double t) {
   if (!is_singular_end(piece, t)) return {jet.point, heading(jet.d1), curvature(jet)};
   return {jet.point, heading(limit_direction(std::get<RationalBezier>(piece), t == 1.0)),
           std::numeric_limits<double>::quiet_NaN()};
+}
+
+Piece reversed(const Piece& piece) {
+  if (const auto* line = std::get_if<LinePiece>(&piece)) return LinePiece{line->end, line->start};
+  if (const auto* arc = std::get_if<ArcPiece>(&piece)) {
+    const double theta = arc->theta0 + arc->kappa * arc->length + std::numbers::pi;
+    return ArcPiece{arc->end, arc->start, theta, -arc->kappa, arc->length};
+  }
+  if (const auto* bezier = std::get_if<RationalBezier>(&piece)) {
+    RationalBezier out = *bezier;
+    std::reverse(out.offset.begin(), out.offset.begin() + out.degree + 1);
+    std::reverse(out.weight.begin(), out.weight.begin() + out.degree + 1);
+    return out;
+  }
+  const auto& c = std::get<ClothoidPiece>(piece);
+  const double theta = c.theta0 + 0.5 * (c.kappa0 + c.kappa1) * c.length + std::numbers::pi;
+  return ClothoidPiece{c.end, c.start, theta, -c.kappa1, -c.kappa0, c.length};
 }
 
 Piece moved(const Piece& piece, Vec2 by) {

@@ -7,11 +7,11 @@
 #include <optional>
 #include <utility>
 
+#include "obvid/exchange/internal/gcode/path.h"
+
 namespace obvid::cutting {
 namespace {
 
-/// Of one block: helical arcs are not divided by the printer.
-constexpr double kMostTurn = 2.8;
 /// Shares of a length that are rounding.
 constexpr double kNothing = 1e-12;
 /// What tabs may take of a path.
@@ -27,8 +27,8 @@ class Along {
 
   /// The place at a length, 0 or more.
   [[nodiscard]] Vec2 at(double length) const {
-    const std::vector<Piece> before = between(0.0, std::fmod(length, ends_.back()));
-    return before.empty() ? start_point(path_.pieces.front()) : end_point(before.back());
+    const auto [k, begin] = piece_at(std::fmod(length, ends_.back()));
+    return evaluate(path_.pieces[k], begin / (ends_[k + 1] - ends_[k])).point;
   }
 
   /// The pieces between two lengths, 0 <= from < to; beyond its end a closed path begins again.
@@ -37,9 +37,7 @@ class Along {
     const double whole = length();
     const double turns = path_.closed ? std::floor(from / whole) : 0.0;
     double at = from - turns * whole, left = to - from;
-    auto k = static_cast<std::size_t>(
-        std::distance(ends_.begin(), std::upper_bound(ends_.begin(), ends_.end(), at)));
-    k = std::min(k == 0 ? 0 : k - 1, path_.pieces.size() - 1);
+    auto k = piece_at(at).first;
     while (left > kNothing * whole) {
       const double own = ends_[k + 1] - ends_[k], begin = std::max(0.0, at - ends_[k]);
       const double end = std::min(own, begin + left);
@@ -58,6 +56,14 @@ class Along {
   }
 
  private:
+  /// A piece, and the length from its start.
+  [[nodiscard]] std::pair<std::size_t, double> piece_at(double length) const {
+    const auto behind = std::upper_bound(ends_.begin(), ends_.end(), length);
+    const auto k = static_cast<std::size_t>(std::distance(ends_.begin(), behind));
+    const std::size_t piece = std::min(k == 0 ? 0 : k - 1, path_.pieces.size() - 1);
+    return {piece, length - ends_[piece]};
+  }
+
   const ArcPath& path_;
   std::vector<double> ends_;
 };
@@ -109,7 +115,7 @@ class Blocks {
 
   void cut(const Piece& whole, double z) {
     const double turn = std::abs(curvature_of(whole)) * length_of(whole), from = z_;
-    const int parts = std::max(1, static_cast<int>(std::ceil(turn / kMostTurn)));
+    const int parts = std::max(1, static_cast<int>(std::ceil(turn / exchange::kMostBlockTurn)));
     for (int k = 0; k < parts; ++k) {
       CutBlock& block = add(CutBlock::Kind::kCut);
       block.piece = parts == 1 ? whole

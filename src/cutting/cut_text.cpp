@@ -11,7 +11,6 @@ namespace {
 
 using exchange::fixed;
 
-constexpr int kLeastHeightDecimals = 3;
 constexpr double kMilliseconds = 1000.0;  // in a second
 
 /// A figure with few decimals, but not 0.
@@ -30,7 +29,7 @@ std::string power_text(double value) {
 
 CutText::CutText(const CutOptions& options, bool inches, int decimals)
     : options_(options),
-      height_decimals_(std::max(decimals, kLeastHeightDecimals + (inches ? 1 : 0))),
+      height_decimals_(std::max(decimals, exchange::kLeastGcodeDecimals + (inches ? 1 : 0))),
       path_(1.0, decimals) {}
 
 void CutText::add(const CutBlock& block) {
@@ -111,7 +110,7 @@ std::string CutText::dwell_words() const {
                             options_.controller == GcodeController::kMarlin;
   return "G4 P" +
          (milliseconds ? fixed(options_.pierce_seconds * kMilliseconds, 0)
-                       : fixed(options_.pierce_seconds, kLeastHeightDecimals)) +
+                       : fixed(options_.pierce_seconds, exchange::kLeastGcodeDecimals)) +
          "\n";
 }
 

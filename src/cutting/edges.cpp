@@ -8,8 +8,6 @@
 #include <iterator>
 #include <limits>
 
-#include "obvid/geom/internal/box.h"
-
 namespace obvid::cutting {
 namespace {
 
@@ -19,14 +17,9 @@ using TreePoint = bg::model::point<double, 2, bg::cs::cartesian>;
 using TreeBox = bg::model::box<TreePoint>;
 using TreeValue = std::pair<TreeBox, std::size_t>;
 
-TreeBox box_of_piece(const Piece& piece) {
-  constexpr int kParts = 8;
-  Box2 box;
-  for (int k = 0; k <= kParts; ++k) box.add(evaluate(piece, static_cast<double>(k) / kParts).point);
-  // an arc is no farther beyond its chords than this
-  const double part = length_of(piece) / kParts,
-               beyond = std::abs(curvature_of(piece)) * part * part / 8.0;
-  return {{box.low.x - beyond, box.low.y - beyond}, {box.high.x + beyond, box.high.y + beyond}};
+TreeBox tree_box(const Piece& piece) {
+  const Box2 box = box_of(piece);
+  return {{box.low.x, box.low.y}, {box.high.x, box.high.y}};
 }
 
 Vec2 left_at(double theta) { return left_normal(unit_at(theta)); }
@@ -59,8 +52,7 @@ void Edges::add(const ArcPath& path, std::size_t name) {
 
 void Edges::finish() {
   std::vector<TreeValue> values;
-  for (std::size_t i = 0; i < edges_.size(); ++i)
-    values.emplace_back(box_of_piece(edges_[i].piece), i);
+  for (std::size_t i = 0; i < edges_.size(); ++i) values.emplace_back(tree_box(edges_[i].piece), i);
   tree_ = std::make_unique<Tree>();
   tree_->boxes = decltype(tree_->boxes)(values.begin(), values.end());
 }
@@ -110,7 +102,7 @@ double Edges::room_beside(const Edge& edge, Vec2 point, double distance) const {
 }
 
 std::optional<std::size_t> Edges::met_by(const Piece& piece, std::optional<std::size_t> but) const {
-  const TreeBox box = box_of_piece(piece);
+  const TreeBox box = tree_box(piece);
   for (auto it = tree_->boxes.qbegin(bgi::intersects(box)); it != tree_->boxes.qend(); ++it) {
     const Edge& edge = edges_[it->second];
     if (edge.name != but && meeting_of(piece, edge.piece)) return edge.name;

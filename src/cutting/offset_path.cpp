@@ -12,6 +12,7 @@
 
 #include "obvid/core/internal/figures.h"
 #include "obvid/cutting/cutting.h"
+#include "obvid/geom/internal/circle.h"
 
 namespace obvid::cutting {
 namespace {
@@ -20,9 +21,6 @@ namespace {
 constexpr double kSmooth = 1e-7;
 /// A parallel arc shorter than this part of its own is none.
 constexpr double kVanishes = 1e-12;
-
-Vec2 start_of(const Piece& piece) { return start_point(piece); }
-Vec2 end_of(const Piece& piece) { return end_point(piece); }
 
 std::string place_text(Vec2 at) {
   return fmt::format("at {}, {}", significant(at.x, 6), significant(at.y, 6));
@@ -47,8 +45,8 @@ std::optional<double> place_on(const Piece& piece, Vec2 point) {
   constexpr double kBeyond = 1e-9;  // of a piece: rounding of places at its ends
   double place = 0.0;
   if (is_line(piece)) {
-    const Vec2 along = end_of(piece) - start_of(piece);
-    place = dot(point - start_of(piece), along) / dot(along, along);
+    const Vec2 along = end_point(piece) - start_point(piece);
+    place = dot(point - start_point(piece), along) / dot(along, along);
   } else {
     const ArcPiece& a = arc_of(piece);
     const Vec2 centre = centre_of(a);
@@ -86,13 +84,13 @@ std::vector<Vec2> circle_circle(Vec2 a, double ra, Vec2 b, double rb) {
 
 std::vector<Vec2> crossings(const Piece& a, const Piece& b) {
   if (is_line(a) && is_line(b)) {
-    const Vec2 u = end_of(a) - start_of(a), v = end_of(b) - start_of(b);
+    const Vec2 u = end_point(a) - start_point(a), v = end_point(b) - start_point(b);
     const double area = cross(u, v);
     if (area == 0.0) return {};
-    return {start_of(a) + (cross(start_of(b) - start_of(a), v) / area) * u};
+    return {start_point(a) + (cross(start_point(b) - start_point(a), v) / area) * u};
   }
   if (is_line(a)) {
-    return line_circle(start_of(a), end_of(a) - start_of(a), centre_of(arc_of(b)),
+    return line_circle(start_point(a), end_point(a) - start_point(a), centre_of(arc_of(b)),
                        std::abs(1.0 / arc_of(b).kappa));
   }
   if (is_line(b)) return crossings(b, a);
@@ -135,11 +133,11 @@ class ParallelOf {
       return error(ErrorCode::kToolTooLarge,
                    fmt::format("the tool is larger than a hollow of radius {} there",
                                significant(radius, 4)))
-          .where(place_text(start_of(piece)))
+          .where(place_text(start_point(piece)))
           .hint(fmt::format("a cutter of less than {} fits there", significant(2.0 * radius, 4)))
           .value(radius);
     }
-    links_.push_back({std::move(*beside), false, end_of(piece)});
+    links_.push_back({std::move(*beside), false, end_point(piece)});
     return {};
   }
 
@@ -151,10 +149,10 @@ class ParallelOf {
       links_.back().gap_behind = true;
       const double half = 0.5 * (std::numbers::pi - std::abs(turn)), radius = std::abs(by_);
       corners_.push_back(
-          {end_of(before), radius / std::tan(half), radius * (1.0 / std::sin(half) - 1.0)});
+          {end_point(before), radius / std::tan(half), radius * (1.0 / std::sin(half) - 1.0)});
       return;
     }
-    const Vec2 corner = end_of(before);
+    const Vec2 corner = end_point(before);
     links_.push_back({arc(corner + by_ * left_normal(unit_at(theta)),
                           corner + by_ * left_normal(unit_at(theta + turn)), theta, -1.0 / by_,
                           std::abs(turn * by_)),
@@ -217,7 +215,7 @@ class ParallelOf {
     const std::size_t n = path.pieces.size();
     for (std::size_t i = 0; i < n; ++i) {
       if (i + 1 == n && !path.closed) break;
-      const Vec2 next = start_of(path.pieces[(i + 1) % n]);
+      const Vec2 next = start_point(path.pieces[(i + 1) % n]);
       std::visit(
           [next](auto& piece) {
             if constexpr (requires { piece.end = next; }) piece.end = next;
@@ -235,7 +233,7 @@ class ParallelOf {
 }  // namespace
 
 double heading_at_start(const Piece& piece) {
-  return is_line(piece) ? heading(end_of(piece) - start_of(piece)) : arc_of(piece).theta0;
+  return is_line(piece) ? heading(end_point(piece) - start_point(piece)) : arc_of(piece).theta0;
 }
 
 double heading_at_end(const Piece& piece) {
@@ -246,7 +244,7 @@ double heading_at_end(const Piece& piece) {
 double curvature_of(const Piece& piece) { return is_line(piece) ? 0.0 : arc_of(piece).kappa; }
 
 double length_of(const Piece& piece) {
-  return is_line(piece) ? norm(end_of(piece) - start_of(piece)) : arc_of(piece).length;
+  return is_line(piece) ? norm(end_point(piece) - start_point(piece)) : arc_of(piece).length;
 }
 
 double length_of(const ArcPath& path) {
@@ -257,7 +255,7 @@ double length_of(const ArcPath& path) {
 
 Piece part_of(const Piece& piece, double from, double to) {
   const auto at = [&](double t) {
-    return t == 0.0 ? start_of(piece) : t == 1.0 ? end_of(piece) : evaluate(piece, t).point;
+    return t == 0.0 ? start_point(piece) : t == 1.0 ? end_point(piece) : evaluate(piece, t).point;
   };
   if (is_line(piece)) return line(at(from), at(to));
   const ArcPiece& a = arc_of(piece);
@@ -265,22 +263,16 @@ Piece part_of(const Piece& piece, double from, double to) {
              a.length * (to - from));
 }
 
-Piece reversed(const Piece& piece) {
-  if (is_line(piece)) return line(end_of(piece), start_of(piece));
-  const ArcPiece& a = arc_of(piece);
-  return arc(a.end, a.start, heading_at_end(piece) + std::numbers::pi, -a.kappa, a.length);
-}
-
 ArcPath reversed(const ArcPath& path) {
   ArcPath out{{}, path.closed};
   for (auto piece = path.pieces.rbegin(); piece != path.pieces.rend(); ++piece) {
-    out.pieces.push_back(reversed(*piece));
+    out.pieces.push_back(obvid::reversed(*piece));
   }
   return out;
 }
 
 Piece scaled(const Piece& piece, double factor) {
-  if (is_line(piece)) return line(factor * start_of(piece), factor * end_of(piece));
+  if (is_line(piece)) return line(factor * start_point(piece), factor * end_point(piece));
   const ArcPiece& a = arc_of(piece);
   return arc(factor * a.start, factor * a.end, a.theta0, a.kappa / factor, a.length * factor);
 }
@@ -294,12 +286,24 @@ ArcPath begun_at(const ArcPath& path, std::size_t piece, double place) {
   return out;
 }
 
+Box2 box_of(const Piece& piece) {
+  constexpr int kParts = 8;
+  Box2 out;
+  for (int k = 0; k <= kParts; ++k) out.add(evaluate(piece, static_cast<double>(k) / kParts).point);
+  // an arc is no farther beyond its chords than this
+  const double part = length_of(piece) / kParts,
+               beyond = std::abs(curvature_of(piece)) * part * part / 8.0;
+  out.low = out.low - Vec2{beyond, beyond};
+  out.high = out.high + Vec2{beyond, beyond};
+  return out;
+}
+
 double area_of(const ArcPath& path) {
   if (path.pieces.empty()) return 0.0;
-  const Vec2 from = start_of(path.pieces.front());
+  const Vec2 from = start_point(path.pieces.front());
   double area = 0.0;
   for (const Piece& piece : path.pieces) {
-    area += 0.5 * cross(start_of(piece) - from, end_of(piece) - from);
+    area += 0.5 * cross(start_point(piece) - from, end_point(piece) - from);
     if (is_line(piece)) continue;
     const ArcPiece& a = arc_of(piece);
     const double turn = a.kappa * a.length, radius = 1.0 / a.kappa;
@@ -309,19 +313,16 @@ double area_of(const ArcPath& path) {
 }
 
 double distance_from(const Piece& piece, Vec2 point) {
-  const double ends = std::min(norm(point - start_of(piece)), norm(point - end_of(piece)));
+  const double ends = std::min(norm(point - start_point(piece)), norm(point - end_point(piece)));
   if (is_line(piece)) {
-    const Vec2 along = end_of(piece) - start_of(piece);
-    const double square = dot(along, along), place = dot(point - start_of(piece), along);
+    const Vec2 along = end_point(piece) - start_point(piece);
+    const double square = dot(along, along), place = dot(point - start_point(piece), along);
     if (!(square > 0.0) || place <= 0.0 || place >= square) return ends;
-    return std::abs(cross(along, point - start_of(piece))) / std::sqrt(square);
+    return std::abs(cross(along, point - start_point(piece))) / std::sqrt(square);
   }
   const ArcPiece& a = arc_of(piece);
   if (!place_on(piece, point)) return ends;
-  // without the cancellation of a large circle
-  const Vec2 from = point - a.start, left = left_normal(unit_at(a.theta0));
-  return std::abs(dot(from, from) * a.kappa - 2.0 * dot(from, left)) /
-         (norm(a.kappa * from - left) + 1.0);
+  return distance_from_circle(a.start, a.theta0, a.kappa, point);
 }
 
 std::optional<Meeting> meeting_of(const Piece& first, const Piece& second) {

@@ -6,6 +6,7 @@
 
 #include "obvid/core/result.h"
 #include "obvid/curve/pieces.h"
+#include "obvid/geom/internal/box.h"
 
 namespace obvid::cutting {
 
@@ -22,11 +23,13 @@ struct ArcPath {
 [[nodiscard]] double length_of(const ArcPath& path);
 /// The part of a line or arc between two places of it, 0 <= from < to <= 1.
 [[nodiscard]] Piece part_of(const Piece& piece, double from, double to);
-[[nodiscard]] Piece reversed(const Piece& piece);
 [[nodiscard]] ArcPath reversed(const ArcPath& path);
 [[nodiscard]] Piece scaled(const Piece& piece, double factor);
 /// A closed path that begins at a place of one of its pieces.
 [[nodiscard]] ArcPath begun_at(const ArcPath& path, std::size_t piece, double place);
+
+/// A box that a line or arc does not leave.
+[[nodiscard]] Box2 box_of(const Piece& piece);
 
 /// Area to the left of a closed path: positive where it runs counterclockwise.
 [[nodiscard]] double area_of(const ArcPath& path);

@@ -29,16 +29,11 @@ constexpr std::size_t kPlacesBetweenQuestions = 256;
 
 Box2 box_around(const ArcPath& path) {
   Box2 out;
-  double beyond = 0.0;  // of an arc, its chords
   for (const Piece& piece : path.pieces) {
-    for (int k = 0; k <= kPlacesCompared; ++k) {
-      out.add(evaluate(piece, static_cast<double>(k) / kPlacesCompared).point);
-    }
-    const double part = length_of(piece) / kPlacesCompared;
-    beyond = std::max(beyond, std::abs(curvature_of(piece)) * part * part / 8.0);
+    const Box2 box = box_of(piece);
+    out.add(box.low);
+    out.add(box.high);
   }
-  out.low = out.low - Vec2{beyond, beyond};
-  out.high = out.high + Vec2{beyond, beyond};
   return out;
 }
 

@@ -244,6 +244,17 @@ class SketchSvg {
 
 std::string sketch_dxf(const Sketch& sketch) { return SketchDxf(sketch).run(); }
 
+SketchLayer sketch_layer(const char* name, const char* title, const char* color, int dxf_color,
+                         double width) {
+  SketchLayer out;
+  out.name = name;
+  out.title = title;
+  out.color = color;
+  out.dxf_color = dxf_color;
+  out.width = width;
+  return out;
+}
+
 std::string sketch_svg(const Sketch& sketch) { return SketchSvg(sketch).run(); }
 
 }  // namespace obvid

@@ -15,7 +15,6 @@
 namespace obvid {
 namespace {
 
-constexpr int kLeastDecimals = 3, kMostDecimals = 6;
 constexpr double kDigitsOfPrint = 1.0 / 3.0;  // of what printing may, the last digit's worth
 constexpr double kDigitRounding = 1e-9;       // 0.003 asks for 3 decimals, not for 3.0000000001
 
@@ -67,15 +66,17 @@ Result<ToolpathGcode> toolpath_gcode(const Toolpath& path, const ToolpathGcodeOp
     return error(ErrorCode::kUnsupported, "machines do not know the unit " + path.units)
         .hint("known are um, mm, cm, m, km, in, ft");
   }
-  if (options.decimals && (*options.decimals < 1 || *options.decimals > kMostDecimals)) {
-    return error(ErrorCode::kBadOption, fmt::format("decimals must be 1 to {}", kMostDecimals))
+  if (options.decimals &&
+      (*options.decimals < 1 || *options.decimals > exchange::kMostGcodeDecimals)) {
+    return error(ErrorCode::kBadOption,
+                 fmt::format("decimals must be 1 to {}", exchange::kMostGcodeDecimals))
         .value(static_cast<double>(*options.decimals));
   }
   const double print = path.print_within * scale;
-  const int least = kLeastDecimals + (path.units == "in" ? 1 : 0);
+  const int least = exchange::kLeastGcodeDecimals + (path.units == "in" ? 1 : 0);
   const double digits = std::ceil(-std::log10(kDigitsOfPrint * print) - kDigitRounding);
-  const int decimals =
-      options.decimals.value_or(static_cast<int>(std::clamp<double>(digits, least, kMostDecimals)));
+  const int decimals = options.decimals.value_or(
+      static_cast<int>(std::clamp<double>(digits, least, exchange::kMostGcodeDecimals)));
   const double within = print - std::pow(10.0, -decimals);
   if (!(within > 0.0)) {
     return error(ErrorCode::kToleranceNotReached,

@@ -101,6 +101,9 @@ void evaluate(const RationalBezier& piece, std::span<const double> t, std::span<
 /// The piece shifted by a vector. A Bezier piece with an origin of its own keeps its offsets.
 [[nodiscard]] Piece moved(const Piece& piece, Vec2 by);
 
+/// The same piece from its end to its start.
+[[nodiscard]] Piece reversed(const Piece& piece);
+
 /// The two halves [0, t] and [t, 1] of a rational Bezier (de Casteljau), 0 < t < 1.
 [[nodiscard]] std::array<RationalBezier, 2> split(const RationalBezier& piece, double t);
 

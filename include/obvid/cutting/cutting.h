@@ -86,7 +86,7 @@ struct CutStep {
   double left_in_corners = 0.0;  ///< what the round tool leaves in inner corners, from the corner
 };
 
-enum class CutMoveKind { kRapid, kDown, kCut };
+enum class CutMoveKind { kRapid, kCut };
 
 /// A stretch of the tool's axis seen from above, as printed.
 struct CutMove {

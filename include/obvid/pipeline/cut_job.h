@@ -18,6 +18,7 @@ namespace obvid {
 struct CutJob {
   CutOptions plan;                  ///< but for what follows
   std::optional<double> tolerance;  ///< [0.01 mm]
+  std::optional<Units> units;       ///< [as the drawings say]
 };
 
 struct MadeCut {

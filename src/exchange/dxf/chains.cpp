@@ -7,7 +7,6 @@
 #include <cmath>
 #include <cstdint>
 #include <limits>
-#include <numbers>
 #include <tuple>
 #include <unordered_map>
 #include <utility>
@@ -207,22 +206,5 @@ class Joiner {
 }  // namespace
 
 Chains join(const std::vector<Link>& links) { return Joiner(links).run(); }
-
-Piece reversed(const Piece& piece) {
-  if (const auto* line = std::get_if<LinePiece>(&piece)) return LinePiece{line->end, line->start};
-  if (const auto* arc = std::get_if<ArcPiece>(&piece)) {
-    const double theta = arc->theta0 + arc->kappa * arc->length + std::numbers::pi;
-    return ArcPiece{arc->end, arc->start, theta, -arc->kappa, arc->length};
-  }
-  if (const auto* bezier = std::get_if<RationalBezier>(&piece)) {
-    RationalBezier out = *bezier;
-    std::reverse(out.offset.begin(), out.offset.begin() + out.degree + 1);
-    std::reverse(out.weight.begin(), out.weight.begin() + out.degree + 1);
-    return out;
-  }
-  const auto& c = std::get<ClothoidPiece>(piece);
-  const double theta = c.theta0 + 0.5 * (c.kappa0 + c.kappa1) * c.length + std::numbers::pi;
-  return ClothoidPiece{c.end, c.start, theta, -c.kappa1, -c.kappa0, c.length};
-}
 
 }  // namespace obvid::dxf

@@ -36,7 +36,4 @@ struct Chains {
 /// Time O(n log n), whatever the links are.
 [[nodiscard]] Chains join(const std::vector<Link>& links);
 
-/// The same piece from its end to its start.
-[[nodiscard]] Piece reversed(const Piece& piece);
-
 }  // namespace obvid::dxf

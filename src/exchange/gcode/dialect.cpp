@@ -7,12 +7,12 @@
 namespace obvid::exchange {
 
 int gcode_decimals(double tolerance, bool inches) {
-  constexpr int kLeast = 3;
   constexpr double kOfTolerance = 0.1;
   constexpr double kDigitRounding = 1e-9;  // 0.001 asks for 4, not for 4.0000000001
   const double digits = -std::log10(kOfTolerance * tolerance);
   return static_cast<int>(std::clamp<double>(std::ceil(digits - kDigitRounding),
-                                             kLeast + (inches ? 1 : 0), kMostGcodeDecimals));
+                                             kLeastGcodeDecimals + (inches ? 1 : 0),
+                                             kMostGcodeDecimals));
 }
 
 std::string gcode_remark(GcodeController controller, std::string_view text) {

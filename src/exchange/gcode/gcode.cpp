@@ -24,7 +24,6 @@ namespace {
 using exchange::fixed;
 using exchange::GcodePath;
 
-constexpr int kLeastDecimals = 3;            // of heights and feeds
 constexpr double kOfBlockTolerance = 0.995;  // aimed at, so that what is measured stays below
 constexpr int kToleranceTrials = 5;
 
@@ -149,16 +148,20 @@ class Program {
 
   [[nodiscard]] std::string approach(const GcodePath& path) const {
     std::string out;
-    if (options_.safe_z) out += "G0 Z" + fixed(*options_.safe_z, kLeastDecimals) + "\n";
+    if (options_.safe_z)
+      out += "G0 Z" + fixed(*options_.safe_z, exchange::kLeastGcodeDecimals) + "\n";
     out += "G0 " + path.start() + "\nF" +
-           fixed(options_.feed.value_or(default_feed(contour_.units.name)), kLeastDecimals) + "\n";
+           fixed(options_.feed.value_or(default_feed(contour_.units.name)),
+                 exchange::kLeastGcodeDecimals) +
+           "\n";
     if (options_.safe_z) out += "G1 Z0.000\n";
     return out;
   }
 
   [[nodiscard]] std::string end() const {
     const std::string up =
-        options_.safe_z ? "G0 Z" + fixed(*options_.safe_z, kLeastDecimals) + "\n" : "";
+        options_.safe_z ? "G0 Z" + fixed(*options_.safe_z, exchange::kLeastGcodeDecimals) + "\n"
+                        : "";
     return up + exchange::gcode_end(options_.controller);
   }
 
@@ -167,7 +170,7 @@ class Program {
   bool inches_;
   double scale_ = 1.0;  ///< machine units in a unit of the contour
   double unit_ = 0.0;   ///< the last printed digit, units of the contour
-  int decimals_ = kLeastDecimals;
+  int decimals_ = exchange::kLeastGcodeDecimals;
 };
 
 Result<void> check(const Contour& contour, const GcodeOptions& options) {

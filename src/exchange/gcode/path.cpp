@@ -17,7 +17,6 @@ namespace {
 using numeric::Wide;
 
 constexpr int kLeastCentreDecimals = 5;
-constexpr double kMostBlockTurn = 2.8;   // of one block, rad: well below half a turn
 constexpr double kLowestArc = 0.5;       // last digits: height of arcs that are told as such
 constexpr double kShortestChord = 20.0;  // last digits: below, rounding turns an arc too much
 /// A radius that LinuxCNC takes for none (0.00127 mm), and some.

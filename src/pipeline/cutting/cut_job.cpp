@@ -82,24 +82,16 @@ void add_polyline(SketchLayer& layer, const Piece& piece) {
   layer.polylines.push_back(std::move(points));
 }
 
-SketchLayer layer(const char* name, const char* title, const char* color, int dxf_color,
-                  double width) {
-  SketchLayer out;
-  out.name = name;
-  out.title = title;
-  out.color = color;
-  out.dxf_color = dxf_color;
-  out.width = width;
-  return out;
-}
-
 }  // namespace
 
 Result<MadeCut> make_cut(std::vector<Drawing> drawings, const ImportOptions& options,
                          const CutJob& job, const RunContext& run) {
   MadeCut made;
   std::vector<Units> units;
-  for (const Drawing& drawing : drawings) {
+  for (Drawing& drawing : drawings) {
+    if (job.units) {
+      if (auto told = take_units(drawing.units, *job.units)) made.warnings.push_back(*told);
+    }
     units.push_back(drawing.units);
     OBVID_TRY(Taken(options, drawings.size() > 1, made).add(drawing));
   }
@@ -138,12 +130,12 @@ Sketch cut_sketch(const MadeCut& made, const CutJob& job) {
                                     significant(report.cut_length, 4), made.units.text(),
                                     significant(report.rapid_length, 4), made.units.text(),
                                     significant(report.minutes, 3)));
-  SketchLayer outlines = layer("OUTLINES", "outline", "#1c2733", 7, 1.6);
-  SketchLayer axis = layer("TOOL", "way of the tool's axis", "#cf5a12", 30, 1.0);
-  SketchLayer edge = layer("CUT", "edge of the cut", "#e9b48f", 40, 0.7);
-  SketchLayer rapid = layer("RAPID", "rapid move", "#1b6ec2", 5, 0.8);
+  SketchLayer outlines = sketch_layer("OUTLINES", "outline", "#1c2733", 7, 1.6);
+  SketchLayer axis = sketch_layer("TOOL", "way of the tool's axis", "#cf5a12", 30, 1.0);
+  SketchLayer edge = sketch_layer("CUT", "edge of the cut", "#e9b48f", 40, 0.7);
+  SketchLayer rapid = sketch_layer("RAPID", "rapid move", "#1b6ec2", 5, 0.8);
   rapid.dashed = true;
-  SketchLayer starts = layer("STARTS", "begins here, in this order", "#a3209b", 6, 1.0);
+  SketchLayer starts = sketch_layer("STARTS", "begins here, in this order", "#a3209b", 6, 1.0);
   for (const CutOutline& one : made.outlines) {
     for (const Piece& piece : one.contour.pieces) add_polyline(outlines, piece);
   }

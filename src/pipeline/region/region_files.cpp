@@ -181,13 +181,7 @@ class WorksheetDrawing {
   SketchLayer* add(const char* name, const char* title, const char* color, int dxf, double width) {
     constexpr std::size_t kLayers = 10;
     out_.sketch.layers.reserve(kLayers);  // so that pointers stay
-    SketchLayer layer;
-    layer.name = name;
-    layer.title = title;
-    layer.color = color;
-    layer.dxf_color = dxf;
-    layer.width = width;
-    out_.sketch.layers.push_back(std::move(layer));
+    out_.sketch.layers.push_back(sketch_layer(name, title, color, dxf, width));
     return &out_.sketch.layers.back();
   }
 

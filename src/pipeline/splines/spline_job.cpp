@@ -490,16 +490,9 @@ Sketch spline_sketch(const SplineReport& report) {
   out.title = report.input.name;
   out.remarks.push_back(report.rows.front().name);
   if (report.input.dimensions > 2) out.remarks.emplace_back("as seen along z");
-  SketchLayer curve, nodes;
-  curve.name = "SPLINE";
-  curve.title = "spline";
-  curve.color = "#1f4e79";
-  curve.dxf_color = 5;
+  SketchLayer curve = sketch_layer("SPLINE", "spline", "#1f4e79", 5),
+              nodes = sketch_layer("POINTS", "given points", "#c00000", 1);
   curve.polylines.emplace_back();
-  nodes.name = "POINTS";
-  nodes.title = "given points";
-  nodes.color = "#c00000";
-  nodes.dxf_color = 1;
   const std::vector<double>& u = report.input.nodes;
   for (std::size_t i = 0; i < u.size(); ++i) {
     const Place p = place_of(report.input, i);

@@ -6,17 +6,12 @@
 #include <optional>
 #include <variant>
 
+#include "obvid/geom/internal/circle.h"
+
 namespace obvid {
 namespace {
 
 constexpr std::size_t kFewestPoints = 4;
-
-/// From a line or circle through `start`, without the cancellation of a large circle.
-double distance_from_shape(const LineOrArc& one, Vec2 start, Vec2 p) {
-  const Vec2 from = p - start, left = left_normal(unit_at(one.theta));
-  const Vec2 radius = one.kappa * from - left;
-  return std::abs(dot(from, from) * one.kappa - 2.0 * dot(from, left)) / (norm(radius) + 1.0);
-}
 
 std::optional<LineOrArc> shape_of(const Piece& piece) {
   LineOrArc out;
@@ -54,7 +49,8 @@ std::vector<LineOrArc> lines_and_arcs(const Contour& contour) {
     one->to = *to;
     const Vec2 start = start_point(contour.pieces[k]);
     for (std::size_t i = 0; i <= over; ++i) {
-      one->off = std::max(one->off, distance_from_shape(*one, start, contour.points[(*from + i) % n]));
+      one->off = std::max(one->off, distance_from_circle(start, one->theta, one->kappa,
+                                                         contour.points[(*from + i) % n]));
     }
     out.push_back(*one);
   }

@@ -24,6 +24,10 @@ struct SketchLayer {
   std::vector<Vec2> points;
 };
 
+/// An empty layer.
+[[nodiscard]] SketchLayer sketch_layer(const char* name, const char* title, const char* color,
+                                       int dxf_color, double width = 1.0);
+
 struct SketchWord {
   Vec2 at;
   std::string text;

@@ -18,7 +18,7 @@ inline constexpr std::array kGcodeControllers = {
     std::pair{"grbl", GcodeController::kGrbl}, std::pair{"linuxcnc", GcodeController::kLinuxCnc},
     std::pair{"fanuc", GcodeController::kFanuc}, std::pair{"marlin", GcodeController::kMarlin}};
 
-inline constexpr int kMostGcodeDecimals = 6;
+inline constexpr int kLeastGcodeDecimals = 3, kMostGcodeDecimals = 6;
 /// The fewest decimals, at least 3 (of inches 4), whose last digit is worth no more than a tenth of
 /// the tolerance, in units of the machine.
 [[nodiscard]] int gcode_decimals(double tolerance, bool inches);

@@ -13,6 +13,9 @@
 
 namespace obvid::exchange {
 
+/// Of one block, rad: well below half a turn. Arcs that turn by more are told in parts.
+inline constexpr double kMostBlockTurn = 2.8;
+
 /// Fixed decimals, never "-0.000".
 [[nodiscard]] std::string fixed(double value, int decimals);
 
