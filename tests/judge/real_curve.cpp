@@ -257,6 +257,21 @@ Path::Path(std::vector<Span> spans, int places_per_span)
     }
   }
   if (!spans_.empty()) places_.push_back(spans_.back().point(1.0L));
+  // an arc of less than half a turn stays within its chord's length of the chord's ends, and a
+  // hairpin within the length of its legs
+  for (std::size_t k = 0; k < legs_.size(); ++k) {
+    reach_.push_back(std::max(norm(places_[k + 1] - places_[k]), legs_[k]));
+  }
+  for (std::size_t from = 0; from < legs_.size(); from += kBlock) {
+    const std::size_t to = std::min(from + kBlock, legs_.size());
+    Block block{places_[(from + to) / 2], 0.0L};
+    for (std::size_t k = from; k < to; ++k) {
+      const Real away =
+          std::max(norm(places_[k] - block.middle), norm(places_[k + 1] - block.middle));
+      block.radius = std::max(block.radius, away + reach_[k]);
+    }
+    blocks_.push_back(block);
+  }
 }
 
 Vec Path::at(Real order) const {
@@ -309,29 +324,27 @@ Place Path::refined(Vec p, Real from, Real to) const {
 Place Path::nearest(Vec p, Real from, Real to) const {
   if (spans_.empty()) return {0, 0.0L, std::numeric_limits<Real>::max()};
   const Real per = per_span_;
-  const auto count = static_cast<Real>(places_.size() - 1);
-  auto first = static_cast<std::size_t>(std::clamp(std::floor(from * per), 0.0L, count));
-  auto last = static_cast<std::size_t>(std::clamp(std::ceil(to * per), 0.0L, count));
-  // intervals whose chord, bulge allowed, comes near enough
+  const auto count = static_cast<Real>(legs_.size());
+  const auto first = static_cast<std::size_t>(std::clamp(std::floor(from * per), 0.0L, count));
+  const auto last = static_cast<std::size_t>(std::clamp(std::ceil(to * per), 0.0L, count));
+  const std::size_t blocks = (last + kBlock - 1) / kBlock;
   Real bound = std::numeric_limits<Real>::max();
-  std::vector<Real> away(last - first + 1);
-  for (std::size_t k = first; k <= last; ++k) {
-    away[k - first] = norm(places_[k] - p);
+  for (std::size_t b = first / kBlock; b < blocks; ++b) {
+    const std::size_t k = std::clamp(b * kBlock, first, last);
     const Real order = static_cast<Real>(k) / per;
-    if (order >= from && order <= to) bound = std::min(bound, away[k - first]);
+    if (order >= from && order <= to) bound = std::min(bound, norm(places_[k] - p));
   }
   Place best{0, 0.0L, std::numeric_limits<Real>::max()};
-  for (std::size_t k = first; k < last; ++k) {
-    const Real chord = norm(places_[k + 1] - places_[k]);
-    // an arc of less than half a turn stays within its chord's length of the chord's ends, and a
-    // hairpin within the length of its legs
-    const Real reach = std::max(chord, legs_[k]);
-    if (std::min(away[k - first], away[k - first + 1]) > std::min(bound, best.distance) + reach) {
-      continue;
+  for (std::size_t b = first / kBlock; b < blocks; ++b) {
+    if (norm(blocks_[b].middle - p) - blocks_[b].radius > std::min(bound, best.distance)) continue;
+    const std::size_t end = std::min((b + 1) * kBlock, last);
+    for (std::size_t k = std::max(b * kBlock, first); k < end; ++k) {
+      const Real away = norm(places_[k] - p), beyond = norm(places_[k + 1] - p);
+      if (std::min(away, beyond) > std::min(bound, best.distance) + reach_[k]) continue;
+      const Place here = refined(p, std::max(from, static_cast<Real>(k) / per),
+                                 std::min(to, static_cast<Real>(k + 1) / per));
+      if (here.distance < best.distance) best = here;
     }
-    const Place here = refined(p, std::max(from, static_cast<Real>(k) / per),
-                               std::min(to, static_cast<Real>(k + 1) / per));
-    if (here.distance < best.distance) best = here;
   }
   return best;
 }

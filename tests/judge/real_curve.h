@@ -107,13 +107,22 @@ class Path {
   [[nodiscard]] Real end() const { return static_cast<Real>(spans_.size()); }
 
  private:
+  /// Stretches that lie in one disc.
+  struct Block {
+    Vec middle;
+    Real radius;
+  };
+  static constexpr std::size_t kBlock = 32;
+
   [[nodiscard]] Place refined(Vec p, Real from, Real to) const;
 
   std::vector<Span> spans_;
   int per_span_;
   std::vector<Vec> places_;
-  std::vector<Real>
-      legs_;  ///< behind each place: length of the way to the next at the faster end's rate
+  // behind each place: length of the way to the next at the faster end's rate, and how far from
+  // the nearer of both the curve comes between them
+  std::vector<Real> legs_, reach_;
+  std::vector<Block> blocks_;
 };
 
 /// Where f is largest on [low, high], on which it has one top: golden sections.

@@ -35,6 +35,8 @@ constexpr double kLeastGain = 0.5;
 constexpr double kOfSecondDifference = 4.0;
 /// Spans and pieces that are measured between two questions whether to go on: about a millisecond.
 constexpr std::size_t kSpansBetweenQuestions = 64;
+/// What making and measuring a span takes, in steps of a solver on one point.
+constexpr double kStepsOfSpan = 2.0;
 /// Integral of the density that the contour has by its length alone: straight parts get knots too.
 constexpr double kLeastDensity = 0.2;
 
@@ -155,6 +157,7 @@ class CubicBuilder {
     if (watch_.cancelled()) return fail(cancelled_error());
     auto spline = cubic_spline(points, options);
     OBVID_TRY(spline);
+    watch_.spend(kStepsOfSpan * static_cast<double>(places.size()));
     CubicAlong out{std::move(*spline), 0.0};
     out.deviation = deviation(out.spline, places);
     if (watch_.was_cancelled()) return fail(cancelled_error());

@@ -28,7 +28,7 @@ constexpr double kUsualGuess = 1e-5;   // of the size, where nothing says more
 constexpr double kUsualTrials = 14.0;  // for the progress bar
 /// The search ends when so many steps on every point, and some more where there are few, were
 /// spent.
-constexpr double kSearchSteps = 2500.0, kSpareSearch = 1.5e6;
+constexpr double kSearchSteps = 2500.0, kSpareSearch = 1e6;
 constexpr double kNoMove = 1e-6;  // of the tolerance: the rounding of a distance
 
 bool says_no_contour(ErrorCode code) { return category(code) == ErrorCategory::kNoContour; }

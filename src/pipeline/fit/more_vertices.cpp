@@ -30,12 +30,16 @@ class Assembler {
       i = j;
     }
     append(last_, links, node(links), std::nullopt);
+    assembled_ = true;
     auto chain = follow_directions(std::move(out_), watch_);
     if (!chain) return chain;
     chain->newton_steps += steps_;
     chain->turned_directions = changes(*chain);
     return chain;
   }
+
+  /// Whether `run` had links for every part: what fails then are their limits.
+  [[nodiscard]] bool assembled() const { return assembled_; }
 
  private:
   [[nodiscard]] NodeData node(std::size_t i) const {
@@ -102,6 +106,7 @@ class Assembler {
   DirectedSeries out_;
   Element last_;
   int steps_ = 0;
+  bool assembled_ = false;
 };
 
 int vertices_of(const SeriesChain& chain) {
@@ -118,8 +123,9 @@ Result<SeriesChain> attempt(const std::vector<Vec2>& points, const Analysis& ana
                             const ChainWishes& wishes, Watch& watch) {
   const auto problem = chain_problem(analysis, wishes);
   OBVID_TRY(problem);
-  auto chain = Assembler(points, *problem, wishes.convex, false, watch).run();
-  if (chain) return chain;
+  Assembler usual(points, *problem, wishes.convex, false, watch);
+  auto chain = usual.run();
+  if (chain || !usual.assembled()) return chain;
   return Assembler(points, *problem, wishes.convex, true, watch).run();
 }
 

@@ -835,9 +835,9 @@ Result<SectionChain> FoundChains::chain(const Prepared& series, const Section& s
   }
   const auto begin = Clock::now();
   auto chain = chain_section(series, section, watch);
-  if (chain && !watch.was_cancelled()) {
+  if (watch.may_go_on()) {  // what ended at a limit may do with more
     const double seconds = std::chrono::duration<double>(Clock::now() - begin).count();
-    found_.push_back({std::move(asked), *chain, seconds, false});
+    found_.push_back({std::move(asked), chain, seconds, false});
   }
   return chain;
 }

@@ -24,8 +24,8 @@ struct SectionChain {
 [[nodiscard]] Result<SectionChain> chain_section(const Prepared& series, const Section& section,
                                                  Watch& watch);
 
-/// Chains of sections that were found already: one search serves all that is made of its result,
-/// the G2 and the G3 contour, and carriers of one comparison. Not for two threads.
+/// Chains of sections that were found already, and refusals: one search serves all that is made of
+/// its result, the G2 and the G3 contour, and carriers of one comparison. Not for two threads.
 class FoundChains {
  public:
   /// `chain_section`, unless the same was asked before.
@@ -50,7 +50,7 @@ class FoundChains {
   };
   struct Found {
     Asked asked;
-    SectionChain chain;
+    Result<SectionChain> chain;
     double seconds;
     bool counts;  ///< its time, when it is used
   };
