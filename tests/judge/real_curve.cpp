@@ -310,15 +310,15 @@ Place Path::refined(Vec p, Real from, Real to) const {
   constexpr int kMost = 60;
   for (int i = 0; i < kMost && high - low > 0.0L; ++i) {
     const Jet jet = curve.at(t);
+    if (const Real d = norm(jet.p - p); d < best.distance) best = {span, t, d};
     const Real f = slope(jet), df = dot(jet.d, jet.d) + dot(jet.p - p, jet.dd);
     (f < 0.0L ? low : high) = t;
     Real next = df > 0.0L ? t - f / df : 0.5L * (low + high);
+    if (std::abs(next - t) <= 1e-18L) break;  // before the rounding of f sends it away again
     if (!(next > low && next < high)) next = 0.5L * (low + high);
-    if (std::abs(next - t) <= 1e-18L) break;
     t = next;
   }
-  const Real d = norm(curve.point(t) - p);
-  return d < best.distance ? Place{span, t, d} : best;
+  return best;
 }
 
 Place Path::nearest(Vec p, Real from, Real to) const {
