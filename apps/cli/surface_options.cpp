@@ -162,6 +162,11 @@ struct KindOptions {
   void operator()(const SkinKind&) const {
     add_skin_options(app, raw);
     app.add_flag("--straight", raw.values.straight, "Ruled strips between sections [C2 across]");
+    app.add_option("--light", raw.values.light,
+                   "Few control points: no point of the skin farther than this from where the exact "
+                   "skin has it, input units; runs of curvature may be lost, which the table says "
+                   "[exact]")
+        ->type_name("EPS");
   }
   void operator()(const RuledKind&) const {
     add_skin_options(app, raw);

@@ -62,6 +62,29 @@ std::string across_text(const AcrossReport& across) {
       across.found, across.isolines, across.forced, across.beyond, across.worst);
 }
 
+std::string light_text(const LightSkinReport& light, const std::string& units) {
+  return fmt::format(
+      "{} control points instead of {}; nowhere farther than {} {} from the exact "
+      "skin, {} allowed",
+      light.points, light.points_before, significant_above(light.moved, 3), units,
+      significant(light.tolerance, 3));
+}
+
+/// What the sections of a light skin lost.
+std::string lost_text(const std::vector<SkinSectionReport>& sections) {
+  constexpr double kLost = 1e-3;  // of the largest curvature: it is in no picture
+  std::size_t lost = 0;
+  double worst = 0.0;
+  for (const SkinSectionReport& s : sections) {
+    lost += s.ripple > kLost ? 1 : 0;
+    worst = std::max(worst, s.ripple);
+  }
+  return fmt::format(
+      "in {} of {} sections curvature goes against its run by more than 0.1 % of "
+      "the largest there; at most {} %",
+      lost, sections.size(), significant(100.0 * worst, 2));
+}
+
 void add_skin_report(const FittedSkin& fitted, const std::string& units, Facts& facts) {
   const Skin& skin = fitted.skin;
   const std::size_t contours = skin.sections.size() - fitted.points;
@@ -72,6 +95,10 @@ void add_skin_report(const FittedSkin& fitted, const std::string& units, Facts& 
   facts.add("sections", text);
   facts.add("matched by", skin.matching == SkinMatching::kByPoints ? "points" : "arc length");
   facts.add("tolerance", significant(fitted.tolerance, 3) + " " + units);
+  if (skin.light) {
+    facts.add("light", light_text(*skin.light, units));
+    facts.add("runs lost", lost_text(skin.sections));
+  }
   if (skin.across.isolines > 0) facts.add("across", across_text(skin.across));
 }
 

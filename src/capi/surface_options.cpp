@@ -38,6 +38,7 @@ std::map<std::string, Setter> setters_of(SurfaceWritten& w, SurfaceRequest& out,
   if (known.kind) {
     all.insert({{"tolerance", number(s.tolerance)},
                 {"spacing", number(s.spacing)},
+                {"light", number(s.light)},
                 {"match", text(s.matching)},
                 {"straight", flag(s.straight)},
                 {"plain", flag(out.make.curves.plain_when_refused)},

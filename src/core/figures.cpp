@@ -20,6 +20,13 @@ std::string significant(double value, int digits) {
   return fmt::format("{:.{}f}", value, std::clamp(digits - before, 0, digits + 3));
 }
 
+std::string significant_above(double bound, int digits) {
+  std::string text = significant(bound, digits);
+  if (!(bound > 0.0) || !std::isfinite(bound) || std::stod(text) >= bound) return text;
+  const double unit = std::pow(10.0, std::floor(std::log10(bound)) - digits + 1);
+  return significant(bound + unit / 2.0, digits);
+}
+
 std::string counted(std::size_t count, const char* one, const char* many) {
   return fmt::format("{} {}", count, count == 1 ? one : many);
 }

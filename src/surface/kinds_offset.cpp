@@ -9,6 +9,7 @@
 #include <span>
 
 #include "kinds.h"
+#include "obvid/curve/internal/basis.h"
 #include "obvid/curve/internal/knots.h"
 #include "obvid/surface/internal/collocation.h"
 #include "third_order.h"
@@ -138,11 +139,6 @@ Result<NurbsSurface> through_offset(const OffsetSurface& s, const std::vector<do
     for (std::size_t j = 0; j < vs.size(); ++j) out.points[j * us.size() + i] = column[j];
   }
   return out;
-}
-
-std::vector<double> distinct(std::vector<double> knots) {
-  knots.erase(std::unique(knots.begin(), knots.end()), knots.end());
-  return knots;
 }
 
 /// Largest errors along the lines of knots half way between them, and in the middle of cells.

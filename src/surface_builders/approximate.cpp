@@ -51,9 +51,15 @@ KeptEnds kept_ends(const Rows& rows) {
   return {closed || one_point(first), closed || one_point(last)};
 }
 
-SplineLine line_of(const Rows& rows, std::vector<double> parameters) {
-  const KeptEnds kept = kept_ends(rows);
-  return {std::move(parameters), kept.first, kept.last};
+/// Rows of the data that stay, as far as they are to.
+LineEnds ends_of(const Rows& rows, KeptEnds kept) {
+  const auto row = [&](std::size_t k) {
+    return Rows{rows.width, std::vector<Vec3>(rows.row(k), rows.row(k) + rows.width)};
+  };
+  LineEnds ends;
+  if (kept.first) ends.first = row(0);
+  if (kept.last) ends.last = row(rows.count() - 1);
+  return ends;
 }
 
 /// Distances of a point from the surface: at its parameters, and nearby.
@@ -90,8 +96,10 @@ class Approximation {
   Approximation(const PointGrid& grid, std::vector<double> u, std::vector<double> v)
       : data_{grid.count_u, grid.points},
         turned_(transposed(data_)),
-        along_u_(line_of(turned_, std::move(u))),
-        along_v_(line_of(data_, std::move(v))) {}
+        along_u_(std::move(u)),
+        along_v_(std::move(v)),
+        ends_u_(kept_ends(turned_)),
+        ends_v_(kept_ends(data_)) {}
 
   /// Splits and fits until within the tolerance; false when the data cannot carry it.
   bool fitted(double tolerance, const RunContext& run) {
@@ -131,19 +139,20 @@ class Approximation {
   }
 
   bool fit_u() {
-    if (!along_u_.fit(turned_, rows_fitted_)) return false;
+    if (!along_u_.fit(turned_, ends_of(turned_, ends_u_), rows_fitted_)) return false;
     from_u_ = errors_between(turned_, along_u_.values(rows_fitted_));
     return true;
   }
   bool fit_v() {
-    if (!along_v_.fit(data_, columns_fitted_)) return false;
+    if (!along_v_.fit(data_, ends_of(data_, ends_v_), columns_fitted_)) return false;
     from_v_ = errors_between(data_, along_v_.values(columns_fitted_));
     return true;
   }
 
   bool fit_both() {
     Rows net;
-    if (!along_v_.fit(transposed(rows_fitted_), net)) return false;
+    const Rows rows = transposed(rows_fitted_);
+    if (!along_v_.fit(rows, ends_of(rows, ends_v_), net)) return false;
     shape_ = transposed(along_u_.values(transposed(along_v_.values(net))));
     all_ = errors_between(data_, shape_);
     surface_ = {along_u_.degree(), along_v_.degree(),     along_u_.knots(),
@@ -254,6 +263,7 @@ class Approximation {
   Rows data_;    // rows along u, one for each v
   Rows turned_;  // the same, rows along v
   SplineLine along_u_, along_v_;
+  KeptEnds ends_u_, ends_v_;
   Rows rows_fitted_;     // coefficients along u of each row, turned
   Rows columns_fitted_;  // coefficients along v of each column
   Errors from_u_, from_v_, all_;

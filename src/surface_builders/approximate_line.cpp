@@ -9,7 +9,7 @@
 namespace obvid {
 namespace {
 
-constexpr std::size_t kBand = 4;  // B-splines of a cubic that are not zero at a parameter
+constexpr std::size_t kBand = kMostLineDegree + 1;  // B-splines that are not zero at a parameter
 
 using BandRow = std::array<double, kBand>;
 
@@ -33,7 +33,7 @@ class Triangle {
 
   /// Coefficient k is given.
   void set(std::size_t k, const Vec3* value) {
-    band_[k] = {1.0, 0.0, 0.0, 0.0};
+    band_[k] = {1.0};
     std::copy(value, value + right_.width, right_.row(k));
   }
 
@@ -113,10 +113,9 @@ Rows transposed(const Rows& rows) {
   return out;
 }
 
-SplineLine::SplineLine(std::vector<double> parameters, bool keep_first, bool keep_last)
-    : degree_(static_cast<int>(std::min(kBand, parameters.size()) - 1)),
-      keep_first_(keep_first),
-      keep_last_(keep_last),
+SplineLine::SplineLine(std::vector<double> parameters, int degree, double most_swing)
+    : degree_(std::min(degree, static_cast<int>(parameters.size()) - 1)),
+      most_swing_(most_swing),
       at_(std::move(parameters)) {
   const auto order = static_cast<std::size_t>(degree_) + 1;
   std::vector<double> knots(order, at_.front());
@@ -131,25 +130,67 @@ void SplineLine::set_knots(std::vector<double> knots) {
   for (const double t : at_) basis_.push_back(basis_at(degree_, knots_, t, 0));
 }
 
-bool SplineLine::fit(const Rows& data, Rows& coefficients) const {
+/// Coefficients that the point and the derivatives at an end leave no choice. At the last end
+/// lengths are counted backwards: odd derivatives change their sign.
+bool SplineLine::end_coefficients(const LineEnds& kept, Rows& first, Rows& last) const {
+  const std::size_t most = coefficients();
+  const auto rows = [](const Rows& r) { return r.width == 0 ? 0 : r.count(); };
+  const std::size_t at_first = rows(kept.first), at_last = rows(kept.last);
+  if (at_first + at_last > most || std::max(at_first, at_last) > 3) return false;
+  const auto p = static_cast<std::size_t>(degree_);
+  const double d = degree_;
+  const auto made = [&](const Rows& given, std::size_t count, bool backwards) {
+    Rows out = given;
+    // distance of the inner knot number k from that end
+    const auto length = [&](std::size_t k) {
+      return backwards ? knots_.back() - knots_[knots_.size() - 1 - p - k]
+                       : knots_[p + k] - knots_.front();
+    };
+    const double sign = backwards ? -1.0 : 1.0;
+    for (std::size_t j = 0; j < given.width && count > 1; ++j) {
+      const Vec3 slope = sign * given.row(1)[j];
+      out.row(1)[j] = given.row(0)[j] + length(1) / d * slope;
+      if (count < 3) continue;
+      const Vec3 bend = given.row(2)[j];
+      const Vec3 next = slope / d + length(1) / (d * (d - 1.0)) * bend;
+      out.row(2)[j] = out.row(1)[j] + length(2) * next;
+    }
+    return out;
+  };
+  first = made(kept.first, at_first, false);
+  const Rows mirrored = made(kept.last, at_last, true);
+  last = mirrored;
+  for (std::size_t k = 0; k < at_last; ++k) {
+    std::copy_n(mirrored.row(k), mirrored.width, last.row(at_last - 1 - k));
+  }
+  return true;
+}
+
+bool SplineLine::fit(const Rows& data, const LineEnds& kept, Rows& coefficients) const {
   const std::size_t n = this->coefficients(), m = at_.size(), width = data.width;
-  const std::size_t begin = keep_first_ ? 1 : 0, end = keep_last_ ? m - 1 : m;
+  Rows first, last;
+  if (!end_coefficients(kept, first, last)) return false;
+  const std::size_t from = first.width == 0 ? 0 : first.count();
+  const std::size_t to = n - (last.width == 0 ? 0 : last.count());
+  const auto known = [&](std::size_t k) {
+    return k < from ? first.row(k) : k >= to ? last.row(k - to) : nullptr;
+  };
   Triangle triangle(n, width);
-  if (keep_first_) triangle.set(0, data.row(0));
-  if (keep_last_) triangle.set(n - 1, data.row(m - 1));
+  for (std::size_t k = 0; k < n; ++k) {
+    if (const Vec3* row = known(k)) triangle.set(k, row);
+  }
   std::vector<Vec3> right(width);
-  for (std::size_t i = begin; i < end; ++i) {
+  for (std::size_t i = from > 0 ? 1 : 0; i < (to < n ? m - 1 : m); ++i) {
     const BasisValues& basis = basis_[i];
     BandRow row{};
     std::copy_n(basis.value[0].begin(), static_cast<std::size_t>(degree_) + 1, row.begin());
     std::copy(data.row(i), data.row(i) + width, right.begin());
-    const auto move_to_right = [&](std::size_t k, const Vec3* known) {
+    for (std::size_t k = 0; k <= static_cast<std::size_t>(degree_); ++k) {
+      const Vec3* given = known(basis.first + k);
+      if (given == nullptr) continue;
       const double factor = std::exchange(row[k], 0.0);
-      for (std::size_t j = 0; j < width; ++j) right[j] = right[j] - factor * known[j];
-    };
-    const std::size_t last = n - 1 - basis.first;
-    if (keep_first_ && basis.first == 0) move_to_right(0, data.row(0));
-    if (keep_last_ && last < kBand) move_to_right(last, data.row(m - 1));
+      for (std::size_t j = 0; j < width; ++j) right[j] = right[j] - factor * given[j];
+    }
     triangle.add(basis.first, row, right);
   }
   return triangle.solve(coefficients);
@@ -212,12 +253,12 @@ std::size_t SplineLine::insert(const std::vector<double>& added) {
     const std::vector<double> swing = swings();
     const std::size_t before = left.size();
     for (std::size_t k = 0; k < swing.size(); ++k) {
-      if (std::abs(swing[k]) <= kMostSwing) continue;
+      if (std::abs(swing[k]) <= most_swing_) continue;
       const double from = knots_[k], to = knots_[k + static_cast<std::size_t>(degree_) + 1];
       std::erase_if(left, [&](double t) { return from <= t && t <= to; });
     }
     if (left.size() == before) {
-      if (this->swing() <= kMostSwing) return left.size();
+      if (this->swing() <= most_swing_) return left.size();
       left.clear();
     }
   }
@@ -226,7 +267,7 @@ std::size_t SplineLine::insert(const std::vector<double>& added) {
 }
 
 std::size_t SplineLine::split(const std::vector<double>& errors, double threshold) {
-  if (degree_ < 3) return 0;  // as many coefficients as parameters already
+  if (at_.size() <= coefficients()) return 0;
   const auto p = static_cast<std::size_t>(degree_);
   const std::size_t spans = knots_.size() - 2 * p - 1;
   std::vector<double> knots = knots_, added;
@@ -288,7 +329,7 @@ std::vector<double> SplineLine::needs(const Rows& coefficients) const {
     for (std::size_t i = 0; i < width; ++i) {
       jump = std::max(jump, norm(differences.row(k + 1)[i] - differences.row(k)[i]));
     }
-    need[k] = jump * h * h * h;
+    need[k] = jump * std::pow(h, degree_);
   }
   return need;
 }

@@ -22,19 +22,27 @@ struct Rows {
 
 [[nodiscard]] Rows transposed(const Rows& rows);
 
-/// Bound of coefficients for data within [-1, 1], one direction. Dense data give 22 to 41 (the
-/// bound; coefficients themselves reach 5 to 7), two points in each span 60 where they are even.
-/// Beyond 100 the surface begins to leave the data between the points.
+/// Bound of coefficients of cubics for data within [-1, 1], one direction. Dense data give 22 to 41
+/// (the bound; coefficients themselves reach 5 to 7), two points in each span 60 where they are
+/// even. Beyond 100 the surface begins to leave the data between the points.
 inline constexpr double kMostSwing = 100.0;
+inline constexpr int kMostLineDegree = 5;
+
+/// What is known of a spline at its ends: the point, and as many derivatives as there are more rows
+/// (none, one or two). No row: nothing is kept.
+struct LineEnds {
+  Rows first, last;
+};
 
 /// Splines over ascending parameters in [0, 1]. Knots stay such that each coefficient has a
 /// parameter of its own under its B-spline (Schoenberg and Whitney), the solution is unique, and
 /// such that coefficients cannot swing far beyond the data (`kMostSwing`).
 class SplineLine {
  public:
-  /// Without inner knots; degree 3 or less when there are fewer than 4 parameters. A kept end goes
-  /// exactly through its row.
-  SplineLine(std::vector<double> parameters, bool keep_first, bool keep_last);
+  /// Without inner knots; a lower degree when there are not more parameters than `degree` (at most
+  /// `kMostLineDegree`). Coefficients may swing as far as `most_swing`.
+  explicit SplineLine(std::vector<double> parameters, int degree = 3,
+                      double most_swing = kMostSwing);
 
   [[nodiscard]] int degree() const { return degree_; }
   [[nodiscard]] const std::vector<double>& knots() const { return knots_; }
@@ -44,8 +52,9 @@ class SplineLine {
   }
 
   /// Coefficients of least squares for the rows: orthogonal rotations, so that the condition is not
-  /// squared. O(points). False when the knots are too close for double precision.
-  [[nodiscard]] bool fit(const Rows& data, Rows& coefficients) const;
+  /// squared. O(points). What is kept at the ends is met exactly. False when the knots are too
+  /// close for double precision, or too few for what is kept.
+  [[nodiscard]] bool fit(const Rows& data, const LineEnds& kept, Rows& coefficients) const;
   /// Values at the parameters.
   [[nodiscard]] Rows values(const Rows& coefficients) const;
 
@@ -55,11 +64,12 @@ class SplineLine {
 
   /// The knots of interpolation (not-a-knot).
   void saturate();
-  /// Bound of coefficients for data between -1 and 1; exceeds `kMostSwing` only after `saturate`.
+  /// Bound of coefficients for data between -1 and 1; exceeds what was allowed only after
+  /// `saturate`.
   [[nodiscard]] double swing() const;
 
   /// For each inner knot about how far a spline with these coefficients moves without it: the jump
-  /// of the third derivative times the third power of the mean of its spans, largest of all rows.
+  /// of the highest derivative times that power of the mean of its spans, largest of all rows.
   [[nodiscard]] std::vector<double> needs(const Rows& coefficients) const;
   /// Removes inner knots, by their ascending numbers as in `needs`.
   void remove(const std::vector<std::size_t>& inner);
@@ -70,8 +80,10 @@ class SplineLine {
   std::size_t insert(const std::vector<double>& added);
   void set_knots(std::vector<double> knots);
 
+  [[nodiscard]] bool end_coefficients(const LineEnds& kept, Rows& first, Rows& last) const;
+
   int degree_;
-  bool keep_first_, keep_last_;
+  double most_swing_;
   std::vector<double> at_;
   std::vector<double> knots_;
   std::vector<BasisValues> basis_;  ///< at each parameter

@@ -10,11 +10,6 @@ namespace {
 constexpr int kLineSamplesPerSpan = 8;
 constexpr double kCurvatureRounding = 1e-6;  ///< of a line's largest curvature
 
-std::vector<double> distinct(std::vector<double> knots) {
-  knots.erase(std::unique(knots.begin(), knots.end()), knots.end());
-  return knots;
-}
-
 /// Signed curvature at samples along a curve; empty for a curve that stands still.
 std::vector<double> curvatures(const SpaceCurve& curve) {
   std::vector<Vec3> binormal;

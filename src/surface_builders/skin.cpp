@@ -10,6 +10,7 @@
 #include "begun_at_first_point.h"
 #include "obvid/surface/internal/collocation.h"
 #include "obvid/surface_builders/internal/grid.h"
+#include "obvid/surface_builders/internal/lighten.h"
 #include "skin_breaks.h"
 #include "skin_marks.h"
 #include "skin_report.h"
@@ -114,6 +115,25 @@ NurbsSurface surface_of(const Net& net, const Collocation& across) {
           across.knots, std::move(points), {}};
 }
 
+/// Puts surfaces with few control points in the place of the exact ones.
+Result<LightSkinReport> lighten(std::vector<SkinStretch>& stretches, double tolerance,
+                                const RunContext& run) {
+  LightSkinReport report{tolerance, 0.0, 0, 0};
+  std::vector<NurbsSurface> exact;
+  for (const SkinStretch& stretch : stretches) {
+    report.points_before += stretch.surface.points.size();
+    exact.push_back(stretch.surface);
+  }
+  auto light = lightened(exact, tolerance, run);
+  OBVID_TRY(light);
+  report.moved = light->moved;
+  for (std::size_t n = 0; n < stretches.size(); ++n) {
+    stretches[n].surface = std::move(light->surfaces[n]);
+    report.points += stretches[n].surface.points.size();
+  }
+  return report;
+}
+
 }  // namespace
 
 Result<Skin> skin(const std::vector<SkinSection>& given, const SkinOptions& options,
@@ -154,10 +174,20 @@ Result<Skin> skin(const std::vector<SkinSection>& given, const SkinOptions& opti
     result.sections.push_back(
         {sections[k].name, (*v)[k], 0.0, 0.0, sections[k].contour.runs.size(), 0.0});
   }
-  for (std::size_t n = 0; n < nets.size(); ++n) {
-    const double part = static_cast<double>(n) / static_cast<double>(nets.size());
+  std::vector<SkinStretch> stretches;
+  for (Net& net : nets) {
+    NurbsSurface surface = surface_of(net, *across);
+    stretches.push_back({std::move(net.curves), std::move(net.breaks), std::move(surface)});
+  }
+  if (options.light) {
+    auto light = lighten(stretches, *options.light, run);
+    OBVID_TRY(light);
+    result.light = *light;
+  }
+  for (std::size_t n = 0; n < stretches.size(); ++n) {
+    const double part = static_cast<double>(n) / static_cast<double>(stretches.size());
     OBVID_TRY(tell(run, "checking", part));
-    SkinStretch stretch{std::move(nets[n].curves), nets[n].breaks, surface_of(nets[n], *across)};
+    SkinStretch& stretch = stretches[n];
     for (std::size_t k = 0; k < sections.size(); ++k) {
       add_section_report(stretch, measured_sections[k], k, (*v)[k], result.sections[k]);
     }

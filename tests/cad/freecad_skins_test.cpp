@@ -21,6 +21,7 @@
 #include "obvid/io/read_sections.h"
 #include "obvid/pipeline/skin_sections.h"
 #include "obvid/pipeline/surface_job.h"
+#include "obvid/surface_builders/internal/lighten.h"
 
 namespace obvid {
 namespace {
@@ -130,6 +131,43 @@ FittedSkin checked_skin(const std::vector<std::string>& files, std::optional<dou
   return *made;
 }
 
+/// The same body with few control points, within a share of its size.
+SurfaceModel light_of(const SurfaceModel& model, const std::string& name) {
+  constexpr double kShare = 1e-4;
+  const double tolerance = kShare * size_of(model);
+  std::vector<NurbsSurface> exact;
+  std::size_t before = 0, after = 0;
+  for (const SurfacePatch& patch : model.patches) {
+    exact.push_back(patch.surface);
+    before += patch.surface.points.size();
+  }
+  const auto light = lightened(exact, tolerance);
+  EXPECT_TRUE(light) << name << (light ? "" : to_line(light.error()));
+  SurfaceModel out = model;
+  if (!light) return out;
+  EXPECT_LE(light->moved, tolerance) << name;
+  double found = 0.0;
+  std::string nets;
+  for (std::size_t k = 0; k < exact.size(); ++k) {
+    const NurbsSurface& s = out.patches[k].surface = light->surfaces[k];
+    after += s.points.size();
+    nets += (k > 0 ? ", " : "") + std::to_string(s.count_u()) + " x " + std::to_string(s.count_v());
+    constexpr int kEach = 97;
+    for (int i = 0; i <= kEach * kEach; ++i) {
+      const double u = domain_u(s).at((i % kEach) / (kEach - 1.0));
+      const double v = domain_v(s).at((i / kEach) / (kEach - 1.0));
+      found = std::max(found, norm(evaluate(s, u, v).point - evaluate(exact[k], u, v).point));
+    }
+  }
+  EXPECT_LE(found, light->moved) << name;
+  EXPECT_LT(5 * after, before) << name;
+  std::printf(
+      "%-12s within 1e-4 of the size: %zu control points instead of %zu (%s), moved %.2g of "
+      "the tolerance, %.2g seen\n",
+      name.c_str(), after, before, nets.c_str(), light->moved / tolerance, found / tolerance);
+  return out;
+}
+
 TEST_F(SkinsInFreecad, PublicHullsAndBladesAreValidAndMeetTheirSections) {
   const auto hull = [](const char* name) {
     return public_file(std::string("hulls_grids/") + name + "_x.dat");
@@ -165,6 +203,7 @@ TEST_F(SkinsInFreecad, PublicHullsAndBladesAreValidAndMeetTheirSections) {
     SurfaceModel model;
     model.patches = made.skin.patches;
     add(model, body.name);
+    add(light_of(model, body.name), std::string(body.name) + "_light");
   }
   judge();
 }

@@ -157,7 +157,10 @@ Miss curvature_miss(const Course& course, const Sides& sides, double given, bool
     high = std::max(high, kappa);
   }
   // arcs: any curvature between both arcs belongs to their common point
-  if (course.file.carrier == "arcs" && given >= low && given <= high) return {0.0, given};
+  if (course.file.carrier == "arcs") {
+    const double nearest = std::clamp(given, low, high);
+    return {std::abs(nearest - given) / scale, nearest};
+  }
   return corner ? best : worst;
 }
 

@@ -329,9 +329,9 @@ TEST(SplineLine, FitsTheLineOfLeastSquares) {
     t.push_back(i / 6.0);
     data.points.push_back({t.back(), i % 3 * 1.0, i % 2 * 1.0});
   }
-  const SplineLine line(t, false, false);
+  const SplineLine line(t);
   Rows fitted;
-  ASSERT_TRUE(line.fit(data, fitted));
+  ASSERT_TRUE(line.fit(data, {}, fitted));
   const Rows values = line.values(fitted);
   for (std::size_t k = 0; k < 4; ++k) {
     Vec3 sum;

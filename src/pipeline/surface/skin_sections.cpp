@@ -182,6 +182,7 @@ Result<FittedSkin> fit_skin(const std::vector<SpaceSeries>& given, const SkinJob
   options.tolerance = result.tolerance;
   options.matching = job.matching;
   options.straight_across = job.straight_across;
+  options.light = job.light;
   auto surface = skin(made, options, run);
   OBVID_TRY(surface);
   result.skin = std::move(*surface);

@@ -35,6 +35,11 @@ void add_skin_report(const FittedSkin& fitted, JsonText& json) {
       .pair("points", fitted.points);
   json.pair("tolerance", fitted.tolerance);
   json.pair("matched_by", fitted.skin.matching == SkinMatching::kByPoints ? "points" : "length");
+  if (const auto& light = fitted.skin.light) {
+    json.key("light").begin_object().pair("tolerance", light->tolerance);
+    json.pair("moved", light->moved).pair("control_points", light->points);
+    json.pair("control_points_before", light->points_before).end_object();
+  }
   json.key("sections").begin_array();
   for (const SkinSectionReport& s : fitted.skin.sections) {
     json.begin_object().pair("name", s.name).pair("v", s.parameter).pair("deviation", s.deviation);

@@ -55,6 +55,8 @@ Result<void> set_kind(const SurfaceValues& raw, SkinKind& kind) {
   kind.matching = *matching;
   kind.straight_across = kind.straight_across || raw.straight;
   kind.spacing = raw.spacing;
+  OBVID_TRY(positive(raw.light, "--light"));
+  kind.light = raw.light;
   return {};
 }
 

@@ -11,6 +11,9 @@ namespace obvid {
 /// exponent; "-" for NaN, "inf" for infinity.
 [[nodiscard]] std::string significant(double value, int digits = 5);
 
+/// The same of a bound above 0: never below it.
+[[nodiscard]] std::string significant_above(double bound, int digits);
+
 /// "1 vertex", "2 vertices".
 [[nodiscard]] std::string counted(std::size_t count, const char* one, const char* many);
 

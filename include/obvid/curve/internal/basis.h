@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <vector>
@@ -23,5 +24,11 @@ struct BasisValues {
 /// B-splines and `derivatives` <= 3 derivatives by the recurrence of Cox and de Boor, O(degree^2).
 [[nodiscard]] BasisValues basis_at(int degree, const std::vector<double>& knots, double u,
                                    int derivatives);
+
+/// Knots without their repetitions.
+[[nodiscard]] inline std::vector<double> distinct(std::vector<double> knots) {
+  knots.erase(std::unique(knots.begin(), knots.end()), knots.end());
+  return knots;
+}
 
 }  // namespace obvid

@@ -2,11 +2,12 @@
 #pragma once
 
 #include <cstddef>
+#include <optional>
 #include <string>
 #include <vector>
 
-#include "obvid/core/run_context.h"
 #include "obvid/core/result.h"
+#include "obvid/core/run_context.h"
 #include "obvid/curve/contour.h"
 #include "obvid/surface/surface.h"
 
@@ -37,6 +38,17 @@ struct SkinOptions {
                            ///< contours
   SkinMatching matching = SkinMatching::kAutomatic;
   bool straight_across = false;  ///< ruled strips between neighbouring sections, else C2 cubics
+  /// Units, > 0: few control points instead, so that no point of the skin lies farther from where
+  /// it lay.
+  std::optional<double> light{};
+};
+
+/// What a light skin gave up, and for what.
+struct LightSkinReport {
+  double tolerance = 0.0;         ///< as it was asked for, units
+  double moved = 0.0;             ///< bound of the distance from the exact skin, units
+  std::size_t points_before = 0;  ///< control points of all patches
+  std::size_t points = 0;
 };
 
 /// How one section came out.
@@ -66,6 +78,8 @@ struct Skin {
                                       ///< sections, v across them, neighbours share their border
   std::vector<SkinSectionReport> sections;
   AcrossReport across;
+  std::optional<LightSkinReport>
+      light;  ///< then `sections` and `across` are those of the light one
   SkinMatching matching = SkinMatching::kByPoints;  ///< what was used
   std::vector<std::string> warnings;
 };
@@ -75,6 +89,10 @@ struct Skin {
 /// the tolerance between them; across, a C2 cubic through the sections (of 3 a parabola, of 2
 /// straight lines), which are met exactly. Parameters: arc length between matched places, averaged
 /// over the sections; across, chords averaged over the places. Derivation: docs/methods/skin.md.
+///
+/// With `light` the skin that is so made stays within that distance, with few control points
+/// (`lightened`): its sections are no longer those of the contours, and `ripple` says how much of
+/// their runs of curvature is lost.
 ///
 /// Not guaranteed: what happens between sections beyond being C2; `across` counts the waves there.
 ///

@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "obvid/core/internal/figures.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <string>
+
+namespace obvid {
+namespace {
+
+TEST(Figures, HaveSoManyDigits) {
+  EXPECT_EQ(significant(3.14159265), "3.1416");
+  EXPECT_EQ(significant(1234567.0, 3), "1234567");
+  EXPECT_EQ(significant(0.00002345, 3), "2.35e-05");  // the double is above the tie
+  EXPECT_EQ(significant(-0.5, 3), "-0.500");
+  EXPECT_EQ(significant(std::nan("")), "-");
+  EXPECT_EQ(significant(HUGE_VAL), "inf");
+}
+
+TEST(Figures, BoundsAreNeverPrintedBelowThemselvesAndHardlyAbove) {
+  for (double bound = 1.2345678e-12; bound < 1e9; bound *= 1.37) {
+    for (const int digits : {2, 3, 5}) {
+      const double printed = std::stod(significant_above(bound, digits));
+      EXPECT_GE(printed, bound);
+      EXPECT_LE(printed, bound * (1.0 + 2.0 * std::pow(10.0, 1 - digits)));
+    }
+  }
+  EXPECT_EQ(significant_above(0.25, 3), "0.250");
+  EXPECT_EQ(significant_above(0.99991, 3), "1.000");
+  EXPECT_EQ(significant_above(0.0, 3), "0");
+}
+
+}  // namespace
+}  // namespace obvid
