@@ -25,7 +25,7 @@ constexpr double kShareAlong = 0.75;
 constexpr int kTrials = 6;
 constexpr double kLower = 0.95;
 /// Of the largest coordinate: rounding of the difference and of its control points.
-constexpr double kRounding = 512.0 * std::numeric_limits<double>::epsilon();
+constexpr double kHullRounding = 512.0 * std::numeric_limits<double>::epsilon();
 constexpr std::size_t kMostOrder = kMostLineDegree + 1;
 
 /// A spline with rows of coefficients: one for each B-spline.
@@ -151,7 +151,7 @@ double bound_between(const Spline& a, const Spline& b) {
       }
     }
   }
-  return most + kRounding * largest;
+  return most + kHullRounding * largest;
 }
 
 struct Lighter {
