@@ -290,7 +290,7 @@ def summary(outcomes):
 def details(outcomes):
     refused = [o for o in outcomes if o["exit"] != 0]
     return tables.markdown(["refused", "group", "exit", "code", "why"],
-                           [[o["name"], o["group"], o["exit"], o["error"], o["text"].split(" (")[0][:90]]
+                           [[o["name"], o["group"], o["exit"], o["error"], o["text"].split("; ")[0].split(" (")[0][:90]]
                             for o in refused])
 
 

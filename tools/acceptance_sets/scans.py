@@ -9,7 +9,8 @@ put in.
 outliers: the same curves with single points moved along the normal: `--drop-outliers` must leave out
 these and no other.
 primitives: chains of lines and arcs with Gaussian errors, tolerance four standard deviations:
-`--primitives` must give each line and arc as one, radius and centre as well as the points know them."""
+`--primitives` must give each line and arc as one, radius and centre as well as the points know them;
+`obvid alignment`, which needs no transitions, gets the same points."""
 import cmath
 import json
 import math
@@ -167,13 +168,30 @@ def run_case(case, program, work):
         outcome["ratio"] = float(said.group(1)) / case.tolerance if said else None
     elif case.group == PRIMITIVES:
         contour = json.loads(output.read_text()) if output.exists() else None
-        outcome["primitives"] = [held_against(row, case, contour) for row in case.truth["pieces"]]
+        rows = case.truth["pieces"]
+        outcome["primitives"] = [held_against(row, case, contour) for row in rows]
+        outcome["elements"] = [held_against(row, case, alignment(case, program)) for row in rows]
     else:  # what is left out is told before a contour is tried
         line = next((s for s in done.stderr.splitlines() if "--drop-outliers: " in s), "")
         left = [int(number) for number in LEFT_OUT.findall(line)]
         outcome["found"] = len(set(left) & set(case.truth))
         outcome["planted"], outcome["others"] = len(case.truth), len(set(left) - set(case.truth))
     return outcome
+
+
+def alignment(case, program):
+    """Lines and arcs that `obvid alignment` makes of the same points, as a contour file has them."""
+    done = subprocess.run([program, "alignment", str(case.path), "--units", "mm", "--noise", repr(4 * case.tolerance),
+                           "--json"], capture_output=True, text=True, timeout=SECONDS_AT_MOST, check=False)
+    if done.returncode != 0:
+        return None
+    pieces = []
+    for e in json.loads(done.stdout)["elements"]:
+        start = complex(e["x"], e["y"])
+        end = start + cmath.rect(e["length"], e["heading"])  # of lines
+        pieces.append({"type": e["kind"], "start": [start.real, start.imag], "end": [end.real, end.imag],
+                       "theta0": e["heading"], "kappa": e["curvature_start"], "length": e["length"]})
+    return {"pieces": pieces}
 
 
 def clear(points, closed):
@@ -285,7 +303,8 @@ def figure(group, some):
         return (f"found {sum(r['found'] for r in rows)} of {len(rows)}, {sum(r['flat'] for r in rows)} lines as flat "
                 f"arcs, radii off "
                 f"{tables.number(100 * tables.median(r['radius_off'] for r in arcs), 2)} % (median), "
-                f"{tables.number(100 * max((r['radius_off'] for r in arcs), default=math.nan), 2)} % (most)")
+                f"{tables.number(100 * max((r['radius_off'] for r in arcs), default=math.nan), 2)} % (most); alignment "
+                f"{sum(r['found'] for o in some for r in o['elements'])}")
     count = lambda key: sum(o.get(key, 0) for o in some)  # noqa: E731
     return f"{count('found')} of {count('planted')} found, {count('others')} others"
 
@@ -306,6 +325,7 @@ def criteria(outcomes):
     rows = [r for o in of(PRIMITIVES) for r in o["primitives"] if not r["loud"]]
     arcs = [r for r in rows if r.get("known", 1) * 3 < RADIUS_OFF]
     seen = tables.percent(r["found"] or r["flat"] for r in rows)
+    aligned = tables.percent(r["found"] for o in of(PRIMITIVES) for r in o["elements"])
     radii = tables.percent(r["radius_off"] <= RADIUS_OFF and r["centre_off"] <= RADIUS_OFF for r in arcs)
     given = [o for o in order if o["exit"] == 0]
     right, certain = tables.percent(o["right"] for o in given), tables.percent(o["right"] for o in bright)
@@ -321,5 +341,6 @@ def criteria(outcomes):
             (f"others left out, at most {OTHERS:g} % of the points", f"{others:.3f} %", others <= OTHERS),
             (f"lines (or arcs that points cannot tell from them) and arcs found where errors are below {LOUD:g}, "
              f"at least {SEEN} %", f"{seen:.1f} % of {len(rows)}", seen >= SEEN),
+            (f"lines and arcs found by `obvid alignment`, at least {SEEN} %", f"{aligned:.1f} %", aligned >= SEEN),
             (f"radius and centre within {100 * RADIUS_OFF:g} % of the radius where points know it to a third of that, at least "
              f"{RADII} %", f"{radii:.1f} % of {len(arcs)}", radii >= RADII)]
