@@ -170,7 +170,8 @@ def run_case(case, program, work):
         contour = json.loads(output.read_text()) if output.exists() else None
         rows = case.truth["pieces"]
         outcome["primitives"] = [held_against(row, case, contour) for row in rows]
-        outcome["elements"] = [held_against(row, case, alignment(case, program)) for row in rows]
+        elements = alignment(case, program)
+        outcome["elements"] = [held_against(row, case, elements) for row in rows]
     else:  # what is left out is told before a contour is tried
         line = next((s for s in done.stderr.splitlines() if "--drop-outliers: " in s), "")
         left = [int(number) for number in LEFT_OUT.findall(line)]
