@@ -75,11 +75,11 @@ void add_alignment_options(CLI::App& app, RawAlignment& raw) {
   app.add_flag("--csv", raw.csv, "Table of elements as CSV on standard output, as -o NAME.csv");
   app.add_flag("--json", command.json, "JSON on standard output instead of the table");
   app.add_flag("-q,--quiet", command.quiet, "Print nothing but errors and warnings");
-  app.footer(
+  app.footer(with_exit_codes(
       "Elements join with common tangents; curvature steps only where the points ask for it.\n"
       "Examples:\n"
       "  obvid alignment survey.csv --noise 0.02 --units m -o road.xml\n"
-      "  obvid alignment track.geojson --noise 0.5 -o road.xodr -o elements.csv");
+      "  obvid alignment track.geojson --noise 0.5 -o road.xodr -o elements.csv"));
 }
 
 /// The number that was typed; nothing was: nothing.

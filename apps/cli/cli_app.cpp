@@ -43,6 +43,13 @@ Result<void> check_extras(const CLI::App& command, const std::vector<std::string
   return fail(usage("one argument too many: '" + extras.front() + "'", see));
 }
 
+std::string with_exit_codes(const std::string& text) {
+  return text + (text.empty() ? "" : "\n\n") +
+         "Exit codes: 0 done and proved, 2 wrong usage, 3 input unreadable or malformed, 4 no "
+         "such\n"
+         "contour exists, 5 formed but not proved or tolerance not reached, 1 anything else.";
+}
+
 void add_output(CLI::App& command, std::vector<std::string>& outputs, std::string& format,
                 const std::string& help, const char* fallback) {
   command.add_option("-o,--output", outputs, help + "; - is standard output; may be repeated")

@@ -42,6 +42,9 @@ namespace obvid {
 void add_output(CLI::App& command, std::vector<std::string>& outputs, std::string& format,
                 const std::string& help, const char* fallback = "json");
 
+/// What stands below the options of a command: `text`, which may be empty, and the exit codes.
+[[nodiscard]] std::string with_exit_codes(const std::string& text);
+
 /// Group of the options of what is read.
 inline constexpr const char* kReadingGroup = "Reading the input";
 /// --mirror, --scale, --rotate, --move.

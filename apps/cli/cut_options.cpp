@@ -143,7 +143,7 @@ Result<Command> parse_cut(int argc, const char* const* argv) {
   app.add_flag("--json", raw.command.json, "Report as JSON on standard output");
   app.add_flag("-q,--quiet", raw.command.quiet, "No report and no progress bar");
   app.add_flag("--no-progress", raw.no_progress, "No progress bar");
-  app.footer(
+  app.footer(with_exit_codes(
       "Outlines inside others are cut before them. The path of the tool is the exact parallel of "
       "the\n"
       "outlines; where the tool does not fit the program is refused. Read it before you run it: "
@@ -152,7 +152,7 @@ Result<Command> parse_cut(int argc, const char* const* argv) {
       "Examples:\n"
       "  obvid cut plate.dxf --diameter 3 --depth 6 --pass-depth 2 --tabs 3 --tab-width 4\n"
       "            --tab-height 1 -o plate.nc -o plate.svg\n"
-      "  obvid cut sign.svg --laser 800 --feed 2400 --diameter 0.1 -o sign.nc");
+      "  obvid cut sign.svg --laser 800 --feed 2400 --diameter 0.1 -o sign.nc"));
   try {
     app.parse(argc, argv);
   } catch (const CLI::CallForHelp&) {

@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
 #include <utility>
 
 #include "table.h"
@@ -15,6 +16,12 @@ namespace {
 std::string azimuth_text(double theta) {
   std::string text = fmt::format("{:.4f}", azimuth_deg(theta));
   return text == "360.0000" ? "0.0000" : text;
+}
+
+/// Of elements that a line replaces within a billionth of the size: "straight".
+std::string element_radius(double kappa, double length, double size) {
+  constexpr double kStraight = 1e-9;  // sagitta, of the size
+  return radius_text(std::abs(kappa) * length * length / 8.0 <= kStraight * size ? 0.0 : kappa);
 }
 
 }  // namespace
@@ -37,8 +44,8 @@ std::string elements_text(const std::vector<AlignmentElement>& elements, double 
                                    to_string(e.kind),
                                    coordinate(e.station, size),
                                    coordinate(e.length, size),
-                                   radius_text(e.start.kappa),
-                                   radius_text(e.kappa1),
+                                   element_radius(e.start.kappa, e.length, size),
+                                   element_radius(e.kappa1, e.length, size),
                                    parameter > 0.0 ? significant(parameter, 5) : "-",
                                    azimuth_text(e.start.theta),
                                    coordinate(e.start.point.x, size),

@@ -54,10 +54,10 @@ void add_nurbs_options(CLI::App& app, RawNurbs& raw) {
   app.add_flag("--json", options.json, "JSON on standard output instead of the table");
   app.add_flag("-q,--quiet", options.quiet, "No table");
   app.footer(
-      "Examples:\n"
-      "  obvid nurbs points.csv --weight-at 4=3 -o curve.step\n"
-      "  obvid nurbs points.csv --move 4=0.8\n"
-      "  obvid nurbs net.csv --degree 3 --degree-v 2 -o surface.step");
+      with_exit_codes("Examples:\n"
+                      "  obvid nurbs points.csv --weight-at 4=3 -o curve.step\n"
+                      "  obvid nurbs points.csv --move 4=0.8\n"
+                      "  obvid nurbs net.csv --degree 3 --degree-v 2 -o surface.step"));
 }
 
 std::optional<double> number_of(std::string_view text) {

@@ -39,10 +39,6 @@ constexpr const char* kShortHelp =
 is a text file with x and y per line, an airfoil file, a drawing, ... or comes through a pipe.
 )";
 
-constexpr const char* kExitCodes =
-    "Exit codes: 0 done and proved, 2 wrong usage, 3 input unreadable or malformed, 4 no such\n"
-    "contour exists, 5 formed but not proved or tolerance not reached, 1 anything else.";
-
 /// What the command line said, before it is checked.
 struct Raw {
   FitOptions fit;
@@ -317,14 +313,13 @@ void add_fit(CLI::App& app, Raw& raw) {
   fit.add_flag("-q,--quiet", raw.fit.quiet, "No table and no progress bar");
   fit.add_flag("--no-progress", raw.no_progress, "No progress bar");
   fit.footer(
-      std::string("Examples:\n"
-                  "  obvid fit points.csv -o contour.svg -o contour.json\n"
-                  "  obvid fit points.csv --tolerance 0.01 --carrier arcs -o arcs.json\n"
-                  "  obvid fit airfoil.dat --noise rounding -o airfoil.json\n"
-                  "  obvid fit outline.csv --closed --noise 0.5 --heading-at 1=90\n"
-                  "  obvid fit *.dat --noise rounding -o 'fair/{id}.step'\n"
-                  "  cat points.txt | obvid fit --start-heading 90 -o - > contour.json\n\n") +
-      kExitCodes);
+      with_exit_codes("Examples:\n"
+                      "  obvid fit points.csv -o contour.svg -o contour.json\n"
+                      "  obvid fit points.csv --tolerance 0.01 --carrier arcs -o arcs.json\n"
+                      "  obvid fit airfoil.dat --noise rounding -o airfoil.json\n"
+                      "  obvid fit outline.csv --closed --noise 0.5 --heading-at 1=90\n"
+                      "  obvid fit *.dat --noise rounding -o 'fair/{id}.step'\n"
+                      "  cat points.txt | obvid fit --start-heading 90 -o - > contour.json"));
 }
 
 void add_readers(CLI::App& app, Raw& raw) {
@@ -390,10 +385,10 @@ void add_region(CLI::App& app, Raw& raw) {
   region.add_flag("--json", raw.region.json, "JSON on standard output instead of the tables");
   region.add_flag("-q,--quiet", raw.region.quiet, "No tables");
   region.footer(
-      "Examples:\n"
-      "  obvid region points.csv -o region.svg -o region.csv\n"
-      "  obvid region points.csv --heading-at 5=80 --end-radius=-500\n"
-      "  obvid region points.csv --prefer centre --insert 9");
+      with_exit_codes("Examples:\n"
+                      "  obvid region points.csv -o region.svg -o region.csv\n"
+                      "  obvid region points.csv --heading-at 5=80 --end-radius=-500\n"
+                      "  obvid region points.csv --prefer centre --insert 9"));
 }
 
 void add_compare(CLI::App& app, Raw& raw) {
@@ -419,9 +414,9 @@ void add_compare(CLI::App& app, Raw& raw) {
   compare.add_flag("--json", raw.compare.json, "Table as JSON on standard output");
   compare.add_flag("-q,--quiet", raw.compare.quiet, "No table and no progress bar");
   compare.add_flag("--no-progress", raw.no_progress, "No progress bar");
-  compare.footer(
+  compare.footer(with_exit_codes(
       "Example: obvid compare points.csv -o carriers.svg\n\nThe first row, spiral, is what the "
-      "others are measured against.\n");
+      "others are measured against."));
 }
 
 void add_convert(CLI::App& app, Raw& raw) {
@@ -451,7 +446,7 @@ void add_convert(CLI::App& app, Raw& raw) {
   convert.add_flag("--json", raw.convert.json,
                    "Contour as JSON on standard output, as -o NAME.json");
   convert.add_flag("-q,--quiet", raw.convert.quiet, "Print nothing");
-  convert.footer("Example: obvid convert contour.json -o contour.step");
+  convert.footer(with_exit_codes("Example: obvid convert contour.json -o contour.step"));
 }
 
 void add_checkers(CLI::App& app, Raw& raw) {
@@ -464,7 +459,7 @@ void add_checkers(CLI::App& app, Raw& raw) {
   add_output(verify, raw.verify.outputs, raw.format, "File to write: .json the answer");
   verify.add_flag("--json", raw.verify.json, "JSON on standard output instead of the table");
   verify.add_flag("-q,--quiet", raw.verify.quiet, "Exit code only");
-  verify.footer(kExitCodes);
+  verify.footer(with_exit_codes(""));
   CLI::App& explain =
       *app.add_subcommand("explain", "What an error code means and what to do; all without a code");
   explain.add_option("CODE", raw.explain.code, "For example E401 or 401");
@@ -716,7 +711,7 @@ Result<Command> parse_command_line(int argc, const char* const* argv) {
     app.set_version_flag("-V,--version", std::string("obvid ") + kVersion);
     app.require_subcommand(0, 1);
     shape_help(app, kHelpColumn, argc, argv);
-    app.footer(kExitCodes);
+    app.footer(with_exit_codes(""));
     Raw raw;
     add_fit(app, raw);
     add_readers(app, raw);

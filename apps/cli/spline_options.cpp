@@ -51,11 +51,11 @@ void add_options(CLI::App& app, RawSpline& raw) {
   app.add_flag("--csv", raw.csv, "CSV on standard output instead of the table, as -o NAME.csv");
   app.add_flag("--json", options.json, "JSON on standard output instead of the table");
   app.add_flag("-q,--quiet", options.quiet, "No table");
-  app.footer(
+  app.footer(with_exit_codes(
       "Examples:\n"
       "  obvid spline profile.csv -o profile.svg\n"
       "  obvid spline means.csv --degree 4 --smooth values-free --against fine.csv --compare\n"
-      "  obvid spline rail.csv --curve --degree 6 -o rail.json");
+      "  obvid spline rail.csv --curve --degree 6 -o rail.json"));
 }
 
 Result<void> check(RawSpline& raw) {

@@ -239,7 +239,7 @@ CLI::App& add_maker(CLI::App& app, RawSurface& raw, const KindText& text) {
   kind.add_flag("--json", raw.make.json, "Report as JSON on standard output");
   kind.add_flag("-q,--quiet", raw.make.quiet, "No report and no progress bar");
   kind.add_flag("--no-progress", raw.no_progress, "No progress bar");
-  kind.footer(std::string("Example: ") + text.example);
+  kind.footer(with_exit_codes(std::string("Example: ") + text.example));
   return kind;
 }
 
@@ -253,7 +253,7 @@ void add_check(CLI::App& app, RawSurface& raw) {
   check.add_flag("--json", raw.check.json, "JSON on standard output instead of the tables");
   check.add_flag("-q,--quiet", raw.check.quiet, "No tables and no progress bar");
   check.add_flag("--no-progress", raw.no_progress, "No progress bar");
-  check.footer("Example: obvid surface check hull.step -o hull.svg");
+  check.footer(with_exit_codes("Example: obvid surface check hull.step -o hull.svg"));
 }
 
 Result<void> check_needs(const RawSurface& raw, const KindText& text) {

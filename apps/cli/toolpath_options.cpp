@@ -124,11 +124,11 @@ Result<Command> parse_toolpath(int argc, const char* const* argv) {
   app.add_flag("--json", raw.command.json, "Report as JSON on standard output");
   app.add_flag("-q,--quiet", raw.command.quiet, "No report and no progress bar");
   app.add_flag("--no-progress", raw.no_progress, "No progress bar");
-  app.footer(
+  app.footer(with_exit_codes(
       "Example: obvid toolpath hull.json --cutter ball --diameter 6 --scallop 0.02 -o hull.nc\n\n"
       "The part lies as the surface says, Z upwards; the tip of the cutter is programmed. Read "
       "the\n"
-      "program before you run it: it knows neither clamps nor stock.\n");
+      "program before you run it: it knows neither clamps nor stock."));
   try {
     app.parse(argc, argv);
   } catch (const CLI::CallForHelp&) {

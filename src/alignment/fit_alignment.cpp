@@ -443,8 +443,9 @@ Result<Alignment> fit_alignment(const std::vector<Vec2>& given,
   const double largest = simplifier.largest();
   if (!(largest <= 1.0)) {
     return fail({ErrorCode::kToleranceNotReached,
-                 "the alignment that was found leaves the tolerance", "", "a larger tolerance", -1,
-                 largest});
+                 "the alignment that was found leaves the tolerance", "",
+                 "give a larger --noise, or --min-length or --min-radius: other elements may do",
+                 -1, largest});
   }
   Alignment out = alignment::alignment_of(simplifier.chain(), simplifier.feet(), tolerance);
   OBVID_TRY(alignment::keeps_limits(out, options));

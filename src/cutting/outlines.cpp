@@ -280,7 +280,7 @@ class TrackMaker {
       if (!other) continue;
       return error(ErrorCode::kToolTooLarge, fmt::format("two outlines cross or touch: {} and {}",
                                                          out_.all[i].name, out_.all[*other].name))
-          .hint("leave one of them out of the drawing, or cut along them (--side on)");
+          .hint("choose curves with --curve, or cut along them (--side on)");
     }
     return {};
   }

@@ -176,7 +176,7 @@ Result<void> RowReader::take_text(string_view line) {
                          {line, text::trim(line).data()});
     second.hint =
         "one title and one line of column names may stand before the points; begin "
-        "other lines of text with #";
+        "other lines of text with #, or leave lines out with --skip";
     return fail(std::move(second));
   }
   title_seen_ = true;

@@ -15,8 +15,9 @@ TOOLS = pathlib.Path(__file__).resolve().parent.parent.parent / "tools"
 sys.dont_write_bytecode = True
 sys.path.insert(0, str(TOOLS))
 
-from acceptance_sets import (cases, geometry, judging, matching, profiles, roads,  # noqa: E402
-                             rounding, running, sections, tracks, transitions)
+from acceptance_sets import (cases, cutting, geometry, judging, matching, plates, profiles,  # noqa: E402
+                             roads, rounding, running, scans, sections, tracks, transitions)
+from acceptance_sets.controller import Controller  # noqa: E402
 
 # Fresnel integrals at 1: C and S of a clothoid with curvature pi s.
 FRESNEL = complex(0.7798934003768228, 0.4382591473903548)
@@ -320,6 +321,86 @@ class WholeTool(unittest.TestCase):
                                   capture_output=True, text=True, check=False)
             self.assertEqual(done.returncode, 1)
             self.assertIn("airfoils: no file", done.stderr)
+
+
+def around(radius, deep=-1.0, before="G0 Z5"):
+    """A program that runs clockwise around the origin, a quarter at a time."""
+    at = [(radius, 0), (0, -radius), (-radius, 0), (0, radius), (radius, 0)]
+    lines = ["G21 G90 G17", before, f"G0 X{radius} Y0", f"G1 Z{deep} F100"]
+    lines += [f"G2 X{x} Y{y} I{-a} J{-b}" for (a, b), (x, y) in zip(at, at[1:])]
+    return Controller("\n".join([*lines, "G0 Z5", "M2"]))
+
+
+class Cutting(unittest.TestCase):
+    def left(self, program):
+        return plates.simulated([plates.Circle(0, 0, 10)], [True], program, 2.0, exact=[0])
+
+    def test_a_sound_program_leaves_the_circle_and_nothing_else(self):
+        found = self.left(around(11))
+        self.assertEqual([found[k] for k in ("rapids", "missed", "wrong_way", "early")], [0, 0, 0, 0])
+        self.assertLess(max(found["gouge"], found["compensation"]), 1e-12)
+        self.assertLess(found["left"], 0.01)
+        self.assertEqual(found["depths"], [-1.0])
+
+    def test_faults_are_seen(self):
+        self.assertAlmostEqual(self.left(around(10.75))["gouge"], 0.25, 9)
+        self.assertAlmostEqual(self.left(around(11.25))["left"], 0.25, 2)
+        self.assertAlmostEqual(self.left(around(11.00002))["compensation"], 2e-5, 9)
+        self.assertEqual(self.left(around(11, before="G0 Z-0.5"))["rapids"], 1)
+        self.assertEqual(self.left(around(11, deep=1.0))["missed"], 1)
+        other = plates.simulated([plates.Circle(0, 0, 12)], [False], around(11), 2.0)
+        self.assertEqual(other["wrong_way"], 1)
+        inner = [plates.Circle(0, 0, 10), plates.Circle(0, 0, 5)]
+        first = around(11)
+        both = Controller("G21\nG90\nG17\nG0 Z5")
+        both.moves = first.moves + around(4).moves
+        self.assertEqual(plates.simulated(inner, [True, False], both, 2.0)["early"], 1)
+
+    def test_what_no_controller_takes_is_refused(self):
+        for line in ("G2 X1 Y0", "X1 @", "G7 X1", "G1 X1"):
+            with self.assertRaises(AssertionError):
+                Controller("G0 Z5\nG0 X0 Y0\n" + line)
+
+    def test_ways_and_outlines_cover_each_other(self):
+        square = [(0, 0), (10, 0), (10, 10), (0, 10), (0, 0)]
+        program = Controller("G21 G90\nG0 X0 Y0\nM3 S1\nG1 X10 Y0 F100\nX10 Y10\nX0 Y10\nX0 Y0", burns=True)
+        found = cutting.covered([square], program, 0.01)
+        self.assertLess(max(found["off"], found["left"]), 1e-9)
+        program.moves.pop()
+        self.assertGreater(cutting.covered([square], program, 0.01)["left"], 0.03)
+        self.assertEqual(cutting.Lines([square], 1.0).nearest((5, 0.25), 1.0), (0.25, 0))
+
+
+class Scans(unittest.TestCase):
+    def row(self, points):
+        chords = [complex(*b) - complex(*a) for a, b in zip(points, points[1:])]
+        return {"segments": [{"chord": abs(z), "heading": math.atan2(z.imag, z.real)} for z in chords]}
+
+    def test_a_row_is_right_up_to_direction_and_start(self):
+        ring = [(math.cos(k), math.sin(k)) for k in range(6)]
+        for row, closed, right in ((ring, True, True), (ring[2:] + ring[:2], True, True), (ring[::-1], False, True),
+                                   (ring[2:] + ring[:2], False, False), ([ring[1], ring[0], *ring[2:]], True, False),
+                                   (ring[:5], True, False)):
+            self.assertEqual(scans.ordered({"points": ring, "closed": closed}, self.row(row)), right)
+        self.assertTrue(scans.clear(ring, True))
+        self.assertFalse(scans.clear([(0, 0), (2, 0), (4, 0), (4, 1), (2, 1), (0, 1)], True))
+
+    def test_lines_and_arcs_are_held_against_the_truth(self):
+        arc = {"type": "arc", "start": [0, -10], "end": [10, 0], "theta0": 0.0, "kappa": 0.1, "length": 5 * math.pi}
+        points = [(10 * math.sin(k / 10), -10 * math.cos(k / 10)) for k in range(1, 15)]
+        row = {"kind": "arc", "first": 0, "last": 13, "length": 14.0, "kappa": 0.1, "centre": 0j}
+        case = cases.Case("a", None, [], 0.002, "", {"points": points})
+        found = scans.held_against(row, case, {"pieces": [arc]})
+        self.assertTrue(found["found"])
+        self.assertLess(max(found["radius_off"], found["centre_off"]), 1e-12)
+        self.assertFalse(scans.held_against(row, case, {"pieces": [{**arc, "kappa": 0.2}]})["found"])
+        self.assertFalse(scans.held_against(row, case, None)["found"])
+
+    def test_the_numbers_of_what_is_left_out_are_read(self):
+        text = "left out 2 points that lie off the curve of their neighbours: 128 (2.457 units), 162 (2.066 mm); the others"
+        self.assertEqual(scans.LEFT_OUT.findall(text), ["128", "162"])
+        text = "left out point 65 (0.2037 mm off the curve of its neighbours); the others deviate by 0.00422 mm"
+        self.assertEqual(scans.LEFT_OUT.findall(text), ["65"])
 
 
 class Points(unittest.TestCase):

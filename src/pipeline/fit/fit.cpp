@@ -133,7 +133,10 @@ void add_section(const SectionChain& section, Formed& formed) {
                                               : std::min(sum.smallest_margin, one.smallest_margin);
   sum.newton_steps += one.newton_steps;
   sum.free_elements += one.free_elements;
-  formed.warnings.insert(formed.warnings.end(), section.warnings.begin(), section.warnings.end());
+  for (const std::string& text : section.warnings) {  // sections between corners say the same things
+    const auto said = std::find(formed.warnings.begin(), formed.warnings.end(), text);
+    if (said == formed.warnings.end()) formed.warnings.push_back(text);
+  }
 }
 
 /// Where G3 could not be had, for the user.

@@ -147,6 +147,15 @@ Result<void> set_end_radius(const std::string& typed, const char* option,
   });
 }
 
+/// Advice for a number with a decimal comma; nothing for other words.
+std::string with_point(std::string typed) {
+  const auto comma = typed.find(',');
+  if (comma == std::string::npos) return "";
+  typed[comma] = '.';
+  if (!typed_number(typed)) return "";
+  return "write it with a decimal point: " + typed + "; ";
+}
+
 Result<void> set_noise(const std::string& typed, FitJob& job) {
   if (typed.empty()) return {};
   if (typed == "rounding") {
@@ -159,10 +168,10 @@ Result<void> set_noise(const std::string& typed, FitJob& job) {
   }
   const auto noise = typed_number(typed);
   if (!noise || !std::isfinite(*noise) || *noise < 0.0) {
-    return fail(bad_option("the noise must be a length, rounding or auto, not " + in_quotes(typed),
-                           "--noise",
-                           "give how far a point may move in input units; rounding is half a unit "
-                           "of the last printed digit, auto is estimated from the points"));
+    return fail(bad_option(
+        "the noise must be a length, rounding or auto, not " + in_quotes(typed), "--noise",
+        with_point(typed) + "give how far a point may move in input units; rounding is half a "
+                            "unit of the last printed digit, auto is estimated from the points"));
   }
   if (*noise > 0.0) job.noise = noise;
   return {};

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <iterator>
 #include <numbers>
+#include <numeric>
 
 #include "fit/fixed_once.h"
 #include "obvid/core/internal/figures.h"
@@ -50,8 +51,11 @@ class Preparation {
     OBVID_TRY(can_prefer());
     if (job_.primitives && out_.exact()) {
       out_.warnings.emplace_back(
-          "--primitives looks for lines and arcs within the points' tolerances, and exact points "
-          "have none: --noise gives them");
+          out_.kept.empty()
+              ? "--primitives looks for lines and arcs within the points' tolerances, and exact "
+                "points have none: --noise gives them"
+              : "--primitives finds nothing to do: lines and arcs of the drawing stay as they are "
+                "drawn, exactly, whatever --noise; --drawing points takes points of them instead");
     }
     return std::move(out_);
   }
@@ -266,6 +270,29 @@ class Preparation {
     return norm(normal) / std::hypot(normal.x / axes.x, normal.y / axes.y);
   }
 
+  /// Ends as near as neighbours, with the curve going on over the gap: an outline that was left
+  /// open. At a trailing edge it turns back instead.
+  void hint_at_closing() {
+    constexpr double kMayClose = 2.0;                 // middle chords
+    constexpr double kLeastLength = 10.0;             // of the whole, gaps
+    constexpr double kGoesOn = std::numbers::pi / 3;  // at either end, rad
+    if (job_.closing != Closing::kAutomatic || !out_.kept.empty() || out_.points.size() < 4) return;
+    const Vec2 gap = out_.points.front() - out_.points.back();
+    const Vec2 first = out_.points[1] - out_.points.front();
+    const Vec2 last = out_.points.back() - out_.points[out_.points.size() - 2];
+    const std::vector<double> lengths = chords();
+    const double apart = norm(gap);
+    if (apart > kMayClose * middle_of(lengths) ||
+        std::accumulate(lengths.begin(), lengths.end(), 0.0) < kLeastLength * apart ||
+        std::abs(turning(last, gap)) > kGoesOn || std::abs(turning(gap, first)) > kGoesOn) {
+      return;
+    }
+    out_.warnings.push_back(fmt::format(
+        "the ends are {:.4g} {} apart, hardly farther than neighbours, and the curve would go on "
+        "there: --closed closes it, --open says that it ends",
+        apart, series_.units.text()));
+  }
+
   Result<void> close() {
     const std::size_t n = out_.points.size();
     const bool again =
@@ -274,6 +301,7 @@ class Preparation {
                                                              out_.tolerance.back()));
     out_.closed =
         job_.closing == Closing::kClosed || (job_.closing == Closing::kAutomatic && returns);
+    if (!out_.closed) hint_at_closing();
     if (!out_.closed || !returns) return {};
     if (again && out_.points.front() != out_.points.back()) {
       out_.warnings.emplace_back(
@@ -305,17 +333,25 @@ class Preparation {
     return {};
   }
 
+  [[nodiscard]] std::vector<double> chords() const {
+    std::vector<double> out;
+    for (std::size_t i = 1; i < out_.points.size(); ++i) {
+      out.push_back(norm(out_.points[i] - out_.points[i - 1]));
+    }
+    return out;
+  }
+
+  static double middle_of(std::vector<double> lengths) {
+    const auto middle = lengths.begin() + static_cast<std::ptrdiff_t>(lengths.size() / 2);
+    std::nth_element(lengths.begin(), middle, lengths.end());
+    return *middle;
+  }
+
   /// The printed rounding where it is one: few digits beside the chords belong to nominal sizes.
   [[nodiscard]] double printed_blur() const {
     constexpr double kLargestPart = 0.05;  // of the middle one of all chords
-    std::vector<double> chords;
-    for (std::size_t i = 1; i < out_.points.size(); ++i) {
-      chords.push_back(norm(out_.points[i] - out_.points[i - 1]));
-    }
-    const auto middle = chords.begin() + static_cast<std::ptrdiff_t>(chords.size() / 2);
-    std::nth_element(chords.begin(), middle, chords.end());
     const double rounding = std::max(series_.rounding.x, series_.rounding.y);
-    return rounding <= kLargestPart * *middle ? rounding : 0.0;
+    return rounding <= kLargestPart * middle_of(chords()) ? rounding : 0.0;
   }
 
   void cut() {

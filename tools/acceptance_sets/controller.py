@@ -1,0 +1,99 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Programs of G-code, read as controllers read them: what each motion does, and what none of them
+takes. Shares nothing with the engine."""
+import math
+import re
+
+WORD = re.compile(r"([A-Z])([-+]?\d*\.?\d+)")
+
+
+class Move:
+    """A motion of the tip: `at(t)` for t in [0, 1]."""
+
+    def __init__(self, code, a, b, centre=None, feed=None, spins=False):
+        self.code, self.a, self.b, self.centre, self.feed, self.spins = code, a, b, centre, feed, spins
+        if centre:
+            cx, cy = centre
+            self.radius = math.hypot(a[0] - cx, a[1] - cy)
+            self.end_radius = math.hypot(b[0] - cx, b[1] - cy)
+            self.begin = math.atan2(a[1] - cy, a[0] - cx)
+            turn = math.atan2(b[1] - cy, b[0] - cx) - self.begin
+            if code == 3 and turn <= 0:
+                turn += 2 * math.pi
+            if code == 2 and turn >= 0:
+                turn -= 2 * math.pi
+            self.turn = turn
+
+    def length(self):
+        if self.centre:
+            return abs(self.turn) * self.radius
+        return math.dist(self.a[:2], self.b[:2])
+
+    def at(self, t):
+        z = self.a[2] + t * (self.b[2] - self.a[2])
+        if not self.centre:
+            return (self.a[0] + t * (self.b[0] - self.a[0]), self.a[1] + t * (self.b[1] - self.a[1]), z)
+        angle = self.begin + t * self.turn
+        r = self.radius + t * (self.end_radius - self.radius)
+        return (self.centre[0] + r * math.cos(angle), self.centre[1] + r * math.sin(angle), z)
+
+    def places(self, apart):
+        count = max(2, math.ceil(self.length() / apart))
+        return [self.at(k / count) for k in range(count + 1)]
+
+
+class Controller:
+    """Reads a program by the rules that grbl, LinuxCNC, Fanuc and Marlin share, and refuses the rest."""
+
+    def __init__(self, text, burns=False):
+        self.moves, self.codes, self.dwells = [], [], []
+        at, feed, motion, spins = [0.0, 0.0, 0.0 if burns else None], None, None, False
+        for line in text.splitlines():
+            assert len(line) <= 80, line
+            line = re.sub(r"\([^()]*\)", "", line.split(";")[0]).strip()
+            if line in ("", "%"):
+                continue
+            assert WORD.sub("", line).strip() == "", f"words that no controller knows: {line}"
+            words = [(k, float(v)) for k, v in WORD.findall(line)]
+            ends, ij = {}, {}
+            for letter, value in words:
+                if letter == "G":
+                    self.codes.append(("G", value))
+                    if value in (0, 1, 2, 3):
+                        motion = int(value)
+                    else:
+                        assert value in (4, 17, 20, 21, 90, 91.1, 94), line
+                elif letter == "M":
+                    assert value in (2, 3, 4, 5, 30), line
+                    spins = {3: True, 4: True, 5: False}.get(value, spins)
+                    self.codes.append(("M", value))
+                elif letter == "F":
+                    assert value > 0, line
+                    feed = value
+                elif letter in "XYZ":
+                    ends["XYZ".index(letter)] = value
+                elif letter in "IJ":
+                    ij["IJ".index(letter)] = value
+                else:
+                    assert letter in "SPO", line
+            if any(k == "G" and v == 4 for k, v in words):
+                self.dwells.append(dict(words)["P"])
+                continue
+            if not ends:
+                assert not ij, line
+                continue
+            end = [ends.get(k, at[k]) for k in range(3)]
+            if motion in (1, 2, 3):
+                assert feed is not None, f"no feed: {line}"
+                assert None not in at, f"cuts before it is placed: {line}"
+            centre = None
+            if motion in (2, 3):
+                assert set(ij) == {0, 1}, line
+                centre = (at[0] + ij[0], at[1] + ij[1])
+            if None not in at:
+                move = Move(motion, tuple(at), tuple(end), centre, feed, spins)
+                if centre:  # grbl: 0.005 mm and 0.1 %; LinuxCNC and others are looser
+                    assert abs(move.radius - move.end_radius) <= 0.002, line
+                    assert abs(move.turn) < math.pi, line
+                self.moves.append(move)
+            at = end
