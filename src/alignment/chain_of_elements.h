@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "obvid/geom/element.h"
+#include "plane.h"
 
 namespace obvid::alignment {
 
@@ -17,6 +18,7 @@ namespace obvid::alignment {
 struct Chain {
   static constexpr int kStraight = -1;  ///< in place of a number: curvature 0
 
+  Plane plane = Plane::kMap;
   Vec2 start;
   double theta = 0.0;                    ///< heading at the start, rad
   std::vector<double> length;            ///< of each element
