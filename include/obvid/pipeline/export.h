@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "obvid/alignment/profile.h"
 #include "obvid/cad/internal/cad.h"
 #include "obvid/core/result.h"
 #include "obvid/exchange/internal/dxf/write.h"
@@ -21,6 +22,7 @@ namespace obvid {
 struct ExportOptions {
   std::string name = "contour";     ///< of the curve, where a format has a place for it
   double first_station = 0.0;       ///< of the start, units of the contour; of LandXML
+  std::optional<Profile> profile{};  ///< of heights, stations as from there; of LandXML, OpenDRIVE
   PictureTitles picture{};          ///< of .svg pictures
   PicturePlots plots{};             ///< that .svg pictures have on request
   std::string asked{};              ///< what .html pages say was asked for; empty: nothing

@@ -79,9 +79,10 @@ Vec2 tangents_meet(const RoadElement& e) {
 
 class LandXmlWriter {
  public:
-  LandXmlWriter(const std::vector<RoadLine>& lines, std::string_view unit, double first_station,
+  /// `ratio`: units of the format in one of the contour.
+  LandXmlWriter(const std::vector<RoadLine>& lines, std::string_view unit, double ratio,
                 const LandXmlOptions& options)
-      : lines_(lines), unit_(unit), first_station_(first_station), options_(options) {}
+      : lines_(lines), unit_(unit), ratio_(ratio), options_(options) {}
 
   std::string run() {
     double length = 0.0;
@@ -94,13 +95,15 @@ class LandXmlWriter {
         escaped_xml(options_.date), escaped_xml(options_.time), units());
     put("  <Alignments name=\"{}\">\n    <Alignment name=\"{}\" length=\"{}\" staStart=\"{}\">\n"
         "      <CoordGeom>\n",
-        name, name, length, first_station_);
+        name, name, length, ratio_ * options_.first_station);
     for (const RoadLine& line : lines_) {
       for (const RoadElement& element : line.elements) {
         for (const RoadElement& part : parts_of(element)) write(part);
       }
     }
-    put("      </CoordGeom>\n    </Alignment>\n  </Alignments>\n</LandXML>\n");
+    put("      </CoordGeom>\n");
+    if (options_.profile) profile(*options_.profile, name);
+    put("    </Alignment>\n  </Alignments>\n</LandXML>\n");
     return std::move(out_);
   }
 
@@ -141,6 +144,25 @@ class LandXmlWriter {
     }
   }
 
+  /// A PVI at both ends, and where grades meet one with its curve; a corner none.
+  void profile(const Profile& profile, const std::string& name) {
+    put("      <Profile name=\"{0}\">\n        <ProfAlign name=\"{0}\">\n", name);
+    const auto place = [&](const char* opening, const char* kind, Vec2 at) {
+      put("          <{}>{} {}</{}>\n", opening, ratio_ * at.x, ratio_ * at.y, kind);
+    };
+    place("PVI", "PVI", {profile.elements.front().station, profile.elements.front().height});
+    for (const ProfileElement& e : profile.elements) {
+      if (e.kind == ProfileKind::kGrade) continue;
+      const bool arc = profile.curves == ProfileCurves::kArcs;
+      const std::string opening = arc ? fmt::format("CircCurve length=\"{}\" radius=\"{}\"",
+                                                    ratio_ * e.length, ratio_ * std::abs(e.radius))
+                                      : fmt::format("ParaCurve length=\"{}\"", ratio_ * e.length);
+      place(opening.c_str(), arc ? "CircCurve" : "ParaCurve", grades_meet(e, profile.curves));
+    }
+    place("PVI", "PVI", {profile.end_station, profile.end_height});
+    put("        </ProfAlign>\n      </Profile>\n");
+  }
+
   [[nodiscard]] std::string units() const {
     const auto* one = std::find_if(exchange::kLandXmlUnits.begin(), exchange::kLandXmlUnits.end(),
                                    [&](const auto& unit) { return unit.name == unit_; });
@@ -156,7 +178,7 @@ class LandXmlWriter {
 
   const std::vector<RoadLine>& lines_;
   std::string_view unit_;  ///< one of the format's
-  double first_station_;   ///< in that
+  double ratio_;           ///< of these in one of the contour
   const LandXmlOptions& options_;
   std::string out_;
 };
@@ -178,7 +200,7 @@ Result<std::string> landxml_text(const Contour& contour, const LandXmlOptions& o
   OBVID_TRY(lines);
   const auto ratio = unit_ratio(contour.units, known, "road formats");
   OBVID_TRY(ratio);
-  return LandXmlWriter(*lines, unit, *ratio * options.first_station, options).run();
+  return LandXmlWriter(*lines, unit, *ratio, options).run();
 }
 
 }  // namespace obvid

@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <optional>
 #include <string>
 #include <string_view>
 
+#include "obvid/alignment/profile.h"
 #include "obvid/core/result.h"
 #include "obvid/curve/contour.h"
 #include "obvid/exchange/drawing.h"
@@ -31,6 +33,8 @@ struct LandXmlOptions {
   std::string date = "1970-01-01";  ///< the format wants one; the same input gives the same bytes
   std::string time = "00:00:00";
   double first_station = 0.0;  ///< of the start, units of the contour
+  std::optional<Profile> profile{};  ///< of heights, stations as from `first_station`, units of the
+                                     ///< contour: a ProfAlign of PVI, ParaCurve and CircCurve
 };
 
 /// The unit of a LandXML file for lengths in `unit`: itself where the format knows it (mm, cm, m,
