@@ -117,6 +117,7 @@ int run(const AlignmentCommand& command) {
   formats.name = series->label.empty() ? series->name : series->label;
   formats.picture = {series->name, alignment_verdict(*made)};
   formats.first_station = command.job.first_station;
+  formats.transitions = made->transitions;
   if (made->profile) formats.profile = made->profile->profile;
   std::vector<Output> drawn, own;
   for (Output& output : *outputs) {

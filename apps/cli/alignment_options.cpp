@@ -73,6 +73,10 @@ void add_alignment_options(CLI::App& app, RawAlignment& raw) {
   for (const NumberOption& option : kNumberOptions) {
     app.add_option(option.name, raw.*option.text, option.help)->type_name(option.value);
   }
+  app.add_option("--transitions", raw.typed.transitions,
+                 "Kind of the transitions between lines and arcs: clothoid, bloss, sine, cosine or "
+                 "helmert [clothoid]")
+      ->type_name("KIND");
   app.add_option(
          "--deviations", command.deviations,
          "File to write: .csv of station, offset (left positive) and coordinates of each point, "

@@ -36,6 +36,9 @@ constexpr double kDampingStart = 1e-6, kDampingMost = 1e6, kDampingLeast = 1e-12
 Element place_on(const Chain& chain, const std::vector<Element>& joints, std::size_t k, double s) {
   const double k0 = chain.curvature(k, 0), k1 = chain.curvature(k, 1);
   const Element start{joints[k].point, joints[k].theta, k0};
+  if (chain.law[k] != Transition::kClothoid) {
+    return transition_at(chain.law[k], start, k1, chain.length[k], s);
+  }
   return element_behind(chain.plane, start, (k1 - k0) / chain.length[k], s);
 }
 
@@ -45,11 +48,20 @@ struct OwnDerivatives {
   double theta_kappa0 = 0.0, theta_kappa1 = 0.0, theta_length = 0.0;
 };
 
-OwnDerivatives derivatives_of(Plane plane, double theta, double k0, double k1, double length,
-                              double s, bool to_end) {
+OwnDerivatives derivatives_of(Plane plane, Transition law, double theta, double k0, double k1,
+                              double length, double s, bool to_end) {
   OwnDerivatives out;
   const double turn = std::abs(k0 * s) + std::abs(k1 * s);
-  const int parts = 1 + static_cast<int>(turn);
+  // laws that are no polynomials of low degree, or have a corner in their middle, want more
+  const int least = law == Transition::kClothoid ? 1 : 8;
+  const int parts = least * (1 + static_cast<int>(turn));
+  const bool linear = law == Transition::kClothoid;
+  const auto turned_by = [&](double u) {
+    return linear ? u * u / (2.0 * length) : length * transition_turn(law, u / length);
+  };
+  const auto stretched_by = [&](double u, double square) {
+    return linear ? square / length : (u * transition_share(law, u / length) - square) / length;
+  };
   const double h = s / parts;
   for (int part = 0; part < parts; ++part) {
     const double middle = (part + 0.5) * h;
@@ -57,17 +69,17 @@ OwnDerivatives derivatives_of(Plane plane, double theta, double k0, double k1, d
       const double node = GaussRule<8>::kNode[i / 2] * (i % 2 == 0 ? 0.5 : -0.5);
       const double u = middle + node * h;
       const double weight = 0.5 * h * GaussRule<8>::kWeight[i / 2];
-      const Vec2 side = sideways(plane, theta + k0 * u + (k1 - k0) * u * u / (2.0 * length));
-      const double square = u * u / (2.0 * length);
+      const double square = turned_by(u);
+      const Vec2 side = sideways(plane, theta + k0 * u + (k1 - k0) * square);
       out.kappa0 = out.kappa0 + weight * (u - square) * side;
       out.kappa1 = out.kappa1 + weight * square * side;
-      out.length = out.length - weight * (k1 - k0) * square / length * side;
+      out.length = out.length - weight * (k1 - k0) * stretched_by(u, square) * side;
     }
   }
-  const double square = s * s / (2.0 * length);
+  const double square = turned_by(s);
   out.theta_kappa0 = s - square;
   out.theta_kappa1 = square;
-  out.theta_length = -(k1 - k0) * square / length;
+  out.theta_length = -(k1 - k0) * stretched_by(s, square);
   if (to_end) {  // the end moves on as the element grows
     out.length = out.length + forward(plane, theta + 0.5 * (k0 + k1) * length);
     out.theta_length += k1;
@@ -208,8 +220,9 @@ class Fitter {
     }
     if (element < chain_.size()) {
       add(element,
-          derivatives_of(chain_.plane, joints_[element].theta, chain_.curvature(element, 0),
-                         chain_.curvature(element, 1), chain_.length[element], s, false),
+          derivatives_of(chain_.plane, chain_.law[element], joints_[element].theta,
+                         chain_.curvature(element, 0), chain_.curvature(element, 1),
+                         chain_.length[element], s, false),
           Vec2{});
     }
   }
@@ -218,9 +231,9 @@ class Fitter {
     joints_ = chain_.joints();
     whole_.clear();
     for (std::size_t k = 0; k < chain_.size(); ++k) {
-      whole_.push_back(derivatives_of(chain_.plane, joints_[k].theta, chain_.curvature(k, 0),
-                                      chain_.curvature(k, 1), chain_.length[k], chain_.length[k],
-                                      true));
+      whole_.push_back(derivatives_of(chain_.plane, chain_.law[k], joints_[k].theta,
+                                      chain_.curvature(k, 0), chain_.curvature(k, 1),
+                                      chain_.length[k], chain_.length[k], true));
     }
   }
 
@@ -506,9 +519,11 @@ std::vector<Element> Chain::joints() const {
   for (std::size_t k = 0; k < size(); ++k) {
     const double k0 = curvature(k, 0), k1 = curvature(k, 1);
     const Element& from = out.back();
-    out.push_back({from.point + step_along(plane, from.theta, k0, k1, length[k]),
-                   from.theta + 0.5 * (k0 + k1) * length[k],
-                   k + 1 < size() ? curvature(k + 1, 0) : k1});
+    const Vec2 end = law[k] == Transition::kClothoid
+                         ? from.point + step_along(plane, from.theta, k0, k1, length[k])
+                         : transition_at(law[k], from, k1, length[k], length[k]).point;
+    out.push_back(
+        {end, from.theta + 0.5 * (k0 + k1) * length[k], k + 1 < size() ? curvature(k + 1, 0) : k1});
   }
   return out;
 }

@@ -7,6 +7,7 @@
 #include <optional>
 #include <vector>
 
+#include "obvid/alignment/transition.h"
 #include "obvid/geom/element.h"
 #include "plane.h"
 
@@ -24,6 +25,7 @@ struct Chain {
   std::vector<double> length;            ///< of each element
   std::vector<double> kappa;             ///< 1/unit
   std::vector<std::array<int, 2>> ends;  ///< of each element: numbers of its curvatures
+  std::vector<Transition> law;           ///< of each element; of none in a graph but clothoids
 
   [[nodiscard]] std::size_t size() const { return length.size(); }
   [[nodiscard]] double curvature(std::size_t element, std::size_t end) const {

@@ -9,8 +9,11 @@ namespace obvid {
 namespace alignment {
 namespace {
 
-AlignmentKind kind_of(const std::array<int, 2>& ends) {
-  if (ends[0] != ends[1]) return AlignmentKind::kClothoid;
+AlignmentKind kind_of(const std::array<int, 2>& ends, Transition law) {
+  if (ends[0] != ends[1]) {
+    return static_cast<AlignmentKind>(static_cast<int>(AlignmentKind::kClothoid) +
+                                      static_cast<int>(law));
+  }
   return ends[0] == Chain::kStraight ? AlignmentKind::kLine : AlignmentKind::kArc;
 }
 
@@ -21,7 +24,7 @@ Alignment alignment_of(const Chain& chain, const std::vector<Foot>& feet,
   std::vector<double> station = {0.0};
   for (std::size_t k = 0; k < chain.size(); ++k) {
     AlignmentElement e;
-    e.kind = kind_of(chain.ends[k]);
+    e.kind = kind_of(chain.ends[k], chain.law[k]);
     e.station = station.back();
     e.start = joints[k];
     e.length = chain.length[k];
@@ -63,6 +66,12 @@ Result<void> keeps_limits(const Alignment& found, const AlignmentOptions& option
 
 }  // namespace
 }  // namespace alignment
+
+Transition transition_of(AlignmentKind kind) {
+  if (kind <= AlignmentKind::kClothoid) return Transition::kClothoid;
+  return static_cast<Transition>(static_cast<int>(kind) -
+                                 static_cast<int>(AlignmentKind::kClothoid));
+}
 
 Result<Alignment> fit_alignment(const std::vector<Vec2>& given,
                                 const std::vector<double>& tolerance,

@@ -18,8 +18,10 @@ constexpr double kLeastLength = 0.25;  ///< of the mean distance of points: elem
 constexpr double kHopeless = 4.0;      ///< estimated squares over the most that there can be
 /// Largest offset over its tolerance after least squares from which no higher power comes back.
 constexpr double kHopelessOffset = 3.0;
-constexpr int kPasses = 4;    ///< over all conditions
-constexpr int kPolishes = 3;  ///< over the whole alignment, where an offset is too large
+constexpr int kPasses = 4;      ///< over all conditions
+constexpr double kSlow = 0.25;  ///< of a run's change of curvature: what may be an arc beside it
+constexpr std::size_t kLongestRun = 9;  ///< elements that one transition takes the place of
+constexpr int kPolishes = 3;            ///< over the whole alignment, where an offset is too large
 
 class Simplifier {
  public:
@@ -27,6 +29,7 @@ class Simplifier {
              const AlignmentOptions& options, bool constant, Chain chain, std::vector<Foot> feet)
       : points_(points),
         tolerance_(tolerance),
+        transitions_(options.transitions),
         constant_(constant),
         chain_(std::move(chain)),
         feet_(std::move(feet)) {
@@ -53,6 +56,17 @@ class Simplifier {
       if (!*taken) break;
     }
     if (auto on = merge_all(run); !on) return on;
+    if (transitions_ != Transition::kClothoid && !constant_) {
+      // where clothoids lie beside transitions of another kind, lines are arcs and ends are off
+      for (int pass = 0; pass < kPasses; ++pass) {
+        const std::size_t before = chain_.size();
+        if (auto on = take_transitions(run); !on) return on;
+        const auto taken = take_conditions(run);
+        if (!taken) return fail(taken.error());
+        if (auto on = merge_all(run); !on) return on;
+        if (!*taken && chain_.size() == before) break;
+      }
+    }
     for (int i = 0; i < kPolishes && largest() > 1.0; ++i) {
       if (auto on = polish(run); !on) return on;
     }
@@ -102,6 +116,7 @@ class Simplifier {
     if (last < chain.size()) out.held.end = joints[end];
     for (std::size_t k = first; k < last; ++k) {
       out.chain.length.push_back(chain.length[k]);
+      out.chain.law.push_back(chain.law[k]);
       std::array<int, 2> ends{};
       for (std::size_t e = 0; e < 2; ++e) ends[e] = own_number(chain, chain.ends[k][e], out);
       out.chain.ends.push_back(ends);
@@ -201,6 +216,94 @@ class Simplifier {
     return constant_ ? merge(k, longer ? a : b) : merge(k, {a[0], b[1]});
   }
 
+  [[nodiscard]] bool bends(std::size_t k) const { return chain_.ends[k][0] != chain_.ends[k][1]; }
+
+  /// Runs of elements between constant curvatures become one transition of the wanted kind: as many
+  /// at once as the points allow, because where a search with clothoids needs several, and short
+  /// arcs between them, one of another kind may do.
+  Result<void> take_transitions(const RunContext& run) {
+    for (std::size_t k = 0; k < chain_.size(); ++k) {
+      if (auto on =
+              tell(run, "transitions", static_cast<double>(k) / static_cast<double>(chain_.size()));
+          !on) {
+        return on;
+      }
+      if (k > 0 && bends(k - 1)) continue;  // what begins beside a clothoid is none of these
+      if (!take_longest(k, false)) (void)take_longest(k, true);
+    }
+    return {};
+  }
+
+  /// The longest run from element k on. `slow`: up to a clothoid that bends so little that it may
+  /// be an arc.
+  bool take_longest(std::size_t k, bool slow) {
+    for (std::size_t count = std::min(kLongestRun, chain_.size() - k); count > 0; --count) {
+      const std::size_t behind = k + count;
+      const bool open = behind < chain_.size() && bends(behind);
+      if (open != slow || (count == 1 && !bends(k))) continue;
+      if (open && !bends_less(behind, k, count)) continue;
+      if (take_transition(k, count)) return true;
+    }
+    return false;
+  }
+
+  [[nodiscard]] bool bends_less(std::size_t element, std::size_t k, std::size_t count) const {
+    const double own = chain_.curvature(element, 1) - chain_.curvature(element, 0);
+    const double run = chain_.curvature(k + count - 1, 1) - chain_.curvature(k, 0);
+    return std::abs(own) <= kSlow * std::abs(run);
+  }
+
+  /// Elements [k, k + count) as one, without steps where it joins the others, or with the
+  /// curvatures that the first and the last have there.
+  bool take_transition(std::size_t k, std::size_t count) {
+    const std::size_t last = k + count - 1;
+    std::array<int, 2> ends = {chain_.ends[k][0], chain_.ends[last][1]};
+    std::array<int, 2> joined = ends;
+    if (k > 0) joined[0] = chain_.ends[k - 1][1];
+    if (last + 1 < chain_.size()) joined[1] = chain_.ends[last + 1][0];
+    for (const auto& one : {joined, ends}) {
+      if (one[0] != one[1] && replace(k, count, one, transitions_)) return true;
+      if (joined == ends) break;
+    }
+    return false;
+  }
+
+  bool replace(std::size_t k, std::size_t count, const std::array<int, 2>& ends, Transition law) {
+    const std::vector<Element> joints = chain_.joints();
+    Chain next = chain_;
+    std::vector<Foot> feet = feet_;
+    for (Foot& foot : feet) {
+      if (foot.element <= k) continue;
+      if (foot.element >= k + count) {
+        foot.element -= count - 1;
+        continue;
+      }
+      for (std::size_t e = k; e < foot.element; ++e) foot.s += chain_.length[e];
+      foot.element = k;
+    }
+    for (std::size_t e = k + 1; e < k + count; ++e) next.length[k] += next.length[e];
+    next.ends[k] = ends;
+    next.law[k] = law;
+    if (k + count < chain_.size()) {  // what it leads to is an arc
+      auto& behind = next.ends[k + count];
+      behind[1] = behind[0];
+    }
+    const auto from = static_cast<std::ptrdiff_t>(k) + 1;
+    const auto to = static_cast<std::ptrdiff_t>(k + count);
+    next.length.erase(next.length.begin() + from, next.length.begin() + to);
+    next.ends.erase(next.ends.begin() + from, next.ends.begin() + to);
+    next.law.erase(next.law.begin() + from, next.law.begin() + to);
+    const std::size_t first = k - std::min(k, kBeside);
+    const std::size_t last = std::min(k + kBeside + 1, next.size());
+    Window window = cut(next, feet, first, last, joints, last + count - 1);
+    window.held.hopeless = kHopelessOffset;
+    if (!fits(window)) return false;
+    chain_ = std::move(next);
+    feet_ = std::move(feet);
+    put_back(window, chain_);
+    return true;
+  }
+
   bool merge(std::size_t k, const std::array<int, 2>& ends) {
     const std::vector<Element> joints = chain_.joints();
     Chain next = chain_;
@@ -213,8 +316,12 @@ class Simplifier {
     }
     next.length[k] += next.length[k + 1];
     next.ends[k] = ends;
+    next.law[k] = ends == chain_.ends[k]       ? chain_.law[k]
+                  : ends == chain_.ends[k + 1] ? chain_.law[k + 1]
+                                               : std::max(chain_.law[k], chain_.law[k + 1]);
     next.length.erase(next.length.begin() + behind);
     next.ends.erase(next.ends.begin() + behind);
+    next.law.erase(next.law.begin() + behind);
     const std::size_t first = k - std::min(k, kBeside);
     const std::size_t last = std::min(k + kBeside + 1, next.size());
     Window window = cut(next, feet, first, last, joints, last + 1);
@@ -335,6 +442,7 @@ class Simplifier {
 
   const std::vector<Vec2>& points_;
   const std::vector<double>& tolerance_;
+  Transition transitions_ = Transition::kClothoid;
   bool constant_ = false;  ///< curvature of each element
   Chain chain_;
   std::vector<Foot> feet_;
@@ -355,6 +463,7 @@ void set_chain(const std::vector<Node>& nodes, std::size_t points, const Sought&
     const int next = static_cast<int>(chain.kappa.size());
     const double k0 = piece ? piece->kappa0 : 0.0, k1 = piece ? piece->kappa1 : 0.0;
     chain.ends.push_back({next, sought.constant ? next : next + 1});
+    chain.law.push_back(Transition::kClothoid);
     chain.kappa.push_back(sought.constant ? 0.5 * (k0 + k1) : k0);
     if (!sought.constant) chain.kappa.push_back(k1);
     chain.length.push_back(piece ? piece->length : norm(b.point - a.point));

@@ -31,6 +31,7 @@ Result<std::unique_ptr<obvid_files>> files_of(const obvid_contour& contour, cons
   formats.picture = contour.picture;
   formats.first_station = contour.first_station;
   formats.profile = contour.profile;
+  formats.transitions = contour.transitions;
   const StoredContour* stored = &contour.stored;
   StoredContour other;
   if (request->units) {

@@ -310,6 +310,7 @@ int obvid_alignment(const obvid_input* input, const obvid_input* heights, const 
     out->name = series->label.empty() ? series->name : series->label;
     out->first_station = job.first_station;
     if (made->profile) out->profile = made->profile->profile;
+    out->transitions = made->transitions;
     out->picture = {series->name, alignment_verdict(*made)};
     out->warnings = std::move(warnings);
     auto tables = std::make_unique<obvid_files>();

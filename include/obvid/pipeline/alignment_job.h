@@ -39,8 +39,9 @@ struct AlignmentJob {
   double least_length = 0.0;   ///< of each element, units; 0: a quarter of the points' distance
   double least_radius = 0.0;   ///< of each place, units; 0: any
   double first_station = 0.0;  ///< of the first point, units
-  std::optional<double> acceleration{};     ///< to the side, m/s^2: what limits the speed
-  std::optional<StationHeights> heights{};  ///< in place of those of the points
+  Transition transitions = Transition::kClothoid;  ///< wanted between lines and arcs
+  std::optional<double> acceleration{};            ///< to the side, m/s^2: what limits the speed
+  std::optional<StationHeights> heights{};         ///< in place of those of the points
   std::optional<double>
       profile_noise{};  ///< how far the profile may pass a height, units; nothing:
                         ///< half a unit of the last printed digit of heights
@@ -65,7 +66,9 @@ struct AlignmentReport {
   std::optional<SpeedLimit> limit;         ///< where an acceleration was given
   std::optional<ProfileReport> profile{};  ///< where there are heights
   std::vector<std::string> remarks{};      ///< how tolerances were estimated
-  StoredContour stored;  ///< the same as a contour, each element a piece, with its certificate
+  StoredContour stored;  ///< the same as a contour with its certificate: each element a piece, or
+                         ///< as many clothoids as keep to a transition of another kind
+  std::vector<PlacedTransition> transitions{};  ///< these
 };
 
 /// The fewest lines, arcs and clothoids found (`fit_alignment`) within the tolerances of a series.

@@ -96,9 +96,19 @@ class LandXmlWriter {
     put("  <Alignments name=\"{}\">\n    <Alignment name=\"{}\" length=\"{}\" staStart=\"{}\">\n"
         "      <CoordGeom>\n",
         name, name, length, ratio_ * options_.first_station);
+    std::size_t piece = 0;
+    auto next = options_.transitions.begin();
     for (const RoadLine& line : lines_) {
-      for (const RoadElement& element : line.elements) {
-        for (const RoadElement& part : parts_of(element)) write(part);
+      for (std::size_t k = 0; k < line.elements.size(); ++k, ++piece) {
+        while (next != options_.transitions.end() && next->first_piece < piece) ++next;
+        if (next != options_.transitions.end() && next->first_piece == piece &&
+            k + next->pieces <= line.elements.size() && next->kappa0 * next->kappa1 >= 0.0) {
+          transition(*next, line.elements[k], line.elements[k + next->pieces - 1]);
+          k += next->pieces - 1;
+          piece += next->pieces - 1;
+          continue;
+        }
+        for (const RoadElement& part : parts_of(line.elements[k])) write(part);
       }
     }
     put("      </CoordGeom>\n");
@@ -134,14 +144,31 @@ class LandXmlWriter {
       point("End", e.end);
       put("        </Curve>\n");
     } else {
-      put("        <Spiral length=\"{}\" radiusStart=\"{}\" radiusEnd=\"{}\" rot=\"{}\" "
-          "spiType=\"clothoid\">\n",
-          e.length, radius(e.kappa0), radius(e.kappa1), e.kappa0 + e.kappa1 > 0.0 ? "ccw" : "cw");
-      point("Start", e.start);
-      point("PI", tangents_meet(e));
-      point("End", e.end);
-      put("        </Spiral>\n");
+      spiral(e, "clothoid");
     }
+  }
+
+  void spiral(const RoadElement& e, const char* kind) {
+    put("        <Spiral length=\"{}\" radiusStart=\"{}\" radiusEnd=\"{}\" rot=\"{}\" "
+        "spiType=\"{}\">\n",
+        e.length, radius(e.kappa0), radius(e.kappa1), e.kappa0 + e.kappa1 > 0.0 ? "ccw" : "cw",
+        kind);
+    point("Start", e.start);
+    point("PI", tangents_meet(e));
+    point("End", e.end);
+    put("        </Spiral>\n");
+  }
+
+  /// One Spiral from the start of the first element to the end of the last.
+  void transition(const PlacedTransition& t, const RoadElement& first, const RoadElement& last) {
+    // in the order of Transition; the format calls Helmert's (Schramm's) law biquadratic
+    static constexpr std::array kKinds = {"clothoid", "bloss", "sinusoid", "cosine", "biquadratic"};
+    RoadElement whole = first;
+    whole.end = last.end;
+    whole.kappa0 = t.kappa0 / ratio_;
+    whole.kappa1 = t.kappa1 / ratio_;
+    whole.length = t.length * ratio_;  // turns as a clothoid does: by half of both curvatures
+    spiral(whole, kKinds[static_cast<std::size_t>(t.kind)]);
   }
 
   /// A PVI at both ends, and where grades meet one with its curve; a corner none.

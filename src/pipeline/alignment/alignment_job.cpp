@@ -51,21 +51,64 @@ Piece piece_of(const AlignmentElement& e, Vec2 end) {
       return LinePiece{a.point, end};
     case AlignmentKind::kArc:
       return ArcPiece{a.point, end, a.theta, a.kappa, e.length};
-    case AlignmentKind::kClothoid:
+    default:
       break;
   }
   return ClothoidPiece{a.point, end, a.theta, a.kappa, e.kappa1, e.length};
 }
 
-DrawnCurve curve_of(const Alignment& alignment, const std::string& name) {
+constexpr int kDrawnSteps = 32;  ///< of a curvature that is not linear
+
+/// Of a tolerance: how near clothoids stay to a transition of another kind.
+constexpr double kNearTransition = 1e-3;
+
+/// An element that is no piece, as clothoids.
+void add_transition(const AlignmentElement& e, Vec2 end, double tolerance, DrawnCurve& curve,
+                    std::vector<PlacedTransition>& placed) {
+  const Transition kind = transition_of(e.kind);
+  auto pieces = clothoids_along(kind, e.start, e.kappa1, e.length, tolerance);
+  pieces.back().end = end;
+  placed.push_back({curve.pieces.size(), pieces.size(), kind, e.start.kappa, e.kappa1, e.length});
+  curve.pieces.insert(curve.pieces.end(), pieces.begin(), pieces.end());
+}
+
+DrawnCurve curve_of(const Alignment& alignment, const std::string& name, double tolerance,
+                    std::vector<PlacedTransition>& placed) {
   DrawnCurve out;
   out.label = name;
   for (std::size_t k = 0; k < alignment.elements.size(); ++k) {
     const bool last = k + 1 == alignment.elements.size();
-    out.pieces.push_back(piece_of(alignment.elements[k],
-                                  (last ? alignment.end : alignment.elements[k + 1].start).point));
+    const AlignmentElement& e = alignment.elements[k];
+    const Vec2 end = (last ? alignment.end : alignment.elements[k + 1].start).point;
+    if (transition_of(e.kind) == Transition::kClothoid) {
+      out.pieces.push_back(piece_of(e, end));
+    } else {
+      add_transition(e, end, tolerance, out, placed);
+    }
   }
   return out;
+}
+
+/// What was asked for and is not there, and what files without such curves have.
+void tell_transitions(const Alignment& alignment, Transition wanted, double near,
+                      const Units& units, std::vector<std::string>& remarks) {
+  if (wanted == Transition::kClothoid) return;
+  std::size_t kept = 0, placed = 0;
+  for (const AlignmentElement& e : alignment.elements) {
+    if (e.kind == AlignmentKind::kClothoid) ++kept;
+    if (transition_of(e.kind) == wanted) ++placed;
+  }
+  if (kept > 0) {
+    remarks.push_back(fmt::format(
+        "{} still: no transition of kind {} takes the place within the tolerance",
+        kept == 1 ? "one is a clothoid" : fmt::format("{} are clothoids", kept), name_of(wanted)));
+  }
+  if (placed > 0) {
+    remarks.push_back(fmt::format(
+        "transitions of kind {} are clothoids within {} {} of them in pictures and files but "
+        "LandXML, and there where they pass an inflection",
+        name_of(wanted), significant(near, 3), units.text()));
+  }
 }
 
 Result<std::optional<SpeedLimit>> speed_limit(const Units& units,
@@ -92,6 +135,7 @@ Result<AlignmentReport> alignment_report(const PointSeries& series, const Alignm
   AlignmentOptions limits;
   limits.least_length = job.least_length;
   limits.least_radius = job.least_radius;
+  limits.transitions = job.transitions;
   auto alignment = fit_alignment(series.points, *tolerance, limits, run);
   if (!alignment) return fail(alignment.error());
   for (AlignmentElement& e : alignment->elements) e.station += job.first_station;
@@ -102,7 +146,10 @@ Result<AlignmentReport> alignment_report(const PointSeries& series, const Alignm
   out.name = series.name;
   out.units = series.units;
   out.tolerance = *std::max_element(tolerance->begin(), tolerance->end());
-  CurveAudit audited = audit(curve_of(*alignment, series.name), series.units);
+  const double near = kNearTransition * *std::min_element(tolerance->begin(), tolerance->end());
+  CurveAudit audited =
+      audit(curve_of(*alignment, series.name, near, out.transitions), series.units);
+  tell_transitions(*alignment, job.transitions, near, series.units, out.remarks);
   out.stored = {std::move(audited.contour), std::nullopt, std::move(audited.certificate)};
   out.alignment = std::move(*alignment);
   out.limit = *limit;
@@ -110,10 +157,16 @@ Result<AlignmentReport> alignment_report(const PointSeries& series, const Alignm
 }
 
 std::string kinds_text(const Alignment& alignment) {
-  std::array<std::size_t, 3> count{};
+  std::array<std::size_t, 7> count{};
   for (const auto& e : alignment.elements) ++count[static_cast<std::size_t>(e.kind)];
-  return fmt::format("{}, {}, {}", counted(count[0], "line", "lines"),
-                     counted(count[1], "arc", "arcs"), counted(count[2], "clothoid", "clothoids"));
+  std::string out =
+      fmt::format("{}, {}, {}", counted(count[0], "line", "lines"),
+                  counted(count[1], "arc", "arcs"), counted(count[2], "clothoid", "clothoids"));
+  for (std::size_t k = 3; k < count.size(); ++k) {
+    if (count[k] == 0) continue;
+    out += fmt::format(", {} {}", count[k], to_string(static_cast<AlignmentKind>(k)));
+  }
+  return out;
 }
 
 std::string alignment_verdict(const AlignmentReport& report) {
@@ -124,12 +177,20 @@ std::string alignment_verdict(const AlignmentReport& report) {
 std::string alignment_picture(const AlignmentReport& report) {
   AlignmentDiagram diagram;
   for (const AlignmentElement& e : report.alignment.elements) {
-    AlignmentDiagram::Part part{e.station, e.length, "", {e.start.kappa, e.kappa1}};
+    AlignmentDiagram::Part part{e.station, e.length, "", {}};
+    const Transition law = transition_of(e.kind);
+    const int steps = law == Transition::kClothoid ? 1 : kDrawnSteps;
+    for (int k = 0; k <= steps; ++k) {
+      const double share = transition_share(law, static_cast<double>(k) / steps);
+      part.curvatures.push_back(e.start.kappa + (e.kappa1 - e.start.kappa) * share);
+    }
     const double parameter = clothoid_parameter(e);
     if (e.kind == AlignmentKind::kArc) {
       part.label = "R " + significant(1.0 / e.start.kappa, 4);
     } else if (parameter > 0.0) {
       part.label = "A " + significant(parameter, 4);
+    } else if (law != Transition::kClothoid) {
+      part.label = name_of(law);
     }
     diagram.parts.push_back(std::move(part));
   }

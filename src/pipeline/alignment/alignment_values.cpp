@@ -33,6 +33,14 @@ Result<void> set_alignment(const AlignmentValues& typed, AlignmentJob& job) {
   OBVID_TRY(take_tolerance(typed.profile_noise, "--profile-noise",
                            "give it in the units of the points", job.profile_noise,
                            job.profile_noise_from_scatter));
+  if (!typed.transitions.empty()) {
+    const auto kind = transition_named(typed.transitions);
+    if (!kind) {
+      return fail(bad_option("transitions are of another kind than " + typed.transitions,
+                             "--transitions", "name clothoid, bloss, sine, cosine or helmert"));
+    }
+    job.transitions = *kind;
+  }
   if (typed.profile_curves.empty() || typed.profile_curves == "parabolas") return {};
   if (typed.profile_curves != "arcs") {
     return fail(bad_option("vertical curves are parabolas or arcs", "--profile-curves",

@@ -305,6 +305,7 @@ Result<Exported> contour_as_landxml(const ContourExport& e) {
   LandXmlOptions road;
   road.name = e.options.name;
   road.profile = e.options.profile;
+  road.transitions = e.options.transitions;
   road.first_station = e.options.first_station;
   return with_units(
       notes_of(e, UnitRule::kRoad, "LandXML files", landxml_unit(e.contour.units.name)),
