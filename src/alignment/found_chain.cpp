@@ -18,8 +18,9 @@ constexpr double kLeastLength = 0.25;  ///< of the mean distance of points: elem
 constexpr double kHopeless = 4.0;      ///< estimated squares over the most that there can be
 /// Largest offset over its tolerance after least squares from which no higher power comes back.
 constexpr double kHopelessOffset = 3.0;
-constexpr int kPasses = 4;      ///< over all conditions
-constexpr double kSlow = 0.25;  ///< of a run's change of curvature: what may be an arc beside it
+constexpr int kPasses = 4;         ///< over all conditions
+constexpr double kSlow = 0.25;     ///< of a run's change of curvature: what may be an arc beside it
+constexpr double kSlowRate = 0.1;  ///< of the fastest change of curvature: what may be an arc
 constexpr std::size_t kLongestRun = 9;  ///< elements that one transition takes the place of
 constexpr int kPolishes = 3;            ///< over the whole alignment, where an offset is too large
 
@@ -222,6 +223,10 @@ class Simplifier {
   /// at once as the points allow, because where a search with clothoids needs several, and short
   /// arcs between them, one of another kind may do.
   Result<void> take_transitions(const RunContext& run) {
+    for (std::size_t first = 0; first < chain_.size(); first += kWindow / 2) {
+      if (auto on = may_go_on(run); !on) return on;
+      (void)restructure(first, std::min(first + kWindow, chain_.size()));
+    }
     for (std::size_t k = 0; k < chain_.size(); ++k) {
       if (auto on =
               tell(run, "transitions", static_cast<double>(k) / static_cast<double>(chain_.size()));
@@ -232,6 +237,90 @@ class Simplifier {
       if (!take_longest(k, false)) (void)take_longest(k, true);
     }
     return {};
+  }
+
+  /// Neighbours that belong together: of one curvature, or one transition.
+  struct Group {
+    std::size_t begin = 0, end = 0;
+    bool constant = false;
+  };
+
+  /// Elements of a range that bend slowly, beside others, count as arcs.
+  [[nodiscard]] std::vector<Group> groups_of(std::size_t first, std::size_t last) const {
+    const auto rate = [&](std::size_t k) {
+      return std::abs(chain_.curvature(k, 1) - chain_.curvature(k, 0)) / chain_.length[k];
+    };
+    double fastest = 0.0;
+    for (std::size_t k = first; k < last; ++k) fastest = std::max(fastest, rate(k));
+    std::vector<Group> out;
+    for (std::size_t k = first; k < last; ++k) {
+      const bool constant = rate(k) <= kSlowRate * fastest;
+      if (out.empty() || out.back().constant != constant) out.push_back({k, k, constant});
+      out.back().end = k + 1;
+    }
+    return out;
+  }
+
+  /// All of a range at once, as lines and arcs with transitions between them: one by one they may
+  /// not fit, where clothoids beside them make good what those of the search cannot follow.
+  bool restructure(std::size_t first, std::size_t last) {
+    const std::vector<Group> groups = groups_of(first, last);
+    const bool any = std::any_of(groups.begin(), groups.end(), [&](const Group& g) {
+      return !g.constant && (g.end > g.begin + 1 || chain_.law[g.begin] != transitions_);
+    });
+    if (!any) return false;
+    std::vector<int> number;  // of constant groups
+    Chain next = chain_;
+    for (const Group& g : groups) {
+      std::size_t longest = g.begin;
+      for (std::size_t k = g.begin; k < g.end; ++k) {
+        if (chain_.length[k] > chain_.length[longest]) longest = k;
+      }
+      number.push_back(chain_.ends[longest][0]);
+      if (!g.constant || number.back() == Chain::kStraight) continue;
+      next.kappa[static_cast<std::size_t>(number.back())] =
+          0.5 * (chain_.curvature(longest, 0) + chain_.curvature(longest, 1));
+    }
+    const auto from = static_cast<std::ptrdiff_t>(first), to = static_cast<std::ptrdiff_t>(last);
+    next.length.erase(next.length.begin() + from, next.length.begin() + to);
+    next.ends.erase(next.ends.begin() + from, next.ends.begin() + to);
+    next.law.erase(next.law.begin() + from, next.law.begin() + to);
+    std::vector<Foot> feet = feet_;
+    for (std::size_t g = 0; g < groups.size(); ++g) {
+      const Group& group = groups[g];
+      std::array<int, 2> ends = {number[g], number[g]};
+      if (!group.constant) {
+        ends = {g > 0 ? number[g - 1] : chain_.ends[group.begin][0],
+                g + 1 < groups.size() ? number[g + 1] : chain_.ends[group.end - 1][1]};
+        if (ends[0] == ends[1]) return false;
+      }
+      double length = 0.0;
+      for (std::size_t i = 0; i < feet.size(); ++i) {
+        const std::size_t element = feet_[i].element;
+        if (element < group.begin || element >= group.end) continue;
+        feet[i].element = first + g;
+        for (std::size_t e = group.begin; e < element; ++e) feet[i].s += chain_.length[e];
+      }
+      for (std::size_t e = group.begin; e < group.end; ++e) length += chain_.length[e];
+      const auto at = from + static_cast<std::ptrdiff_t>(g);
+      next.length.insert(next.length.begin() + at, length);
+      next.ends.insert(next.ends.begin() + at, ends);
+      next.law.insert(next.law.begin() + at, group.constant ? Transition::kClothoid : transitions_);
+    }
+    for (std::size_t i = 0; i < feet.size(); ++i) {
+      if (feet_[i].element >= last)
+        feet[i].element = feet_[i].element - last + first + groups.size();
+    }
+    const std::size_t begin = first - std::min(first, kBeside);
+    const std::size_t behind = std::min(first + groups.size() + kBeside, next.size());
+    const std::vector<Element> joints = chain_.joints();
+    Window window = cut(next, feet, begin, behind, joints, behind + (chain_.size() - next.size()));
+    window.held.hopeless = kHopelessOffset;
+    if (!fits(window)) return false;
+    chain_ = std::move(next);
+    feet_ = std::move(feet);
+    put_back(window, chain_);
+    return true;
   }
 
   /// The longest run from element k on. `slow`: up to a clothoid that bends so little that it may

@@ -3,9 +3,14 @@
 
 #include <gtest/gtest.h>
 
+#include <cctype>
 #include <cmath>
+#include <filesystem>
+#include <fstream>
 #include <functional>
 #include <numbers>
+#include <sstream>
+#include <string>
 #include <vector>
 
 #include "obvid/alignment/alignment.h"
@@ -129,7 +134,7 @@ TEST(Alignment, FindsTransitionsOfOtherKindsBetweenLinesAndArcs) {
         70, [&](double s) { return arc * law.share(1 - s / 70); }, 5, points);
     walk.along(120, straight, 5, points);
     points.push_back(walk.at());
-    for (const double tolerance : {4e-3, 8e-3}) {
+    for (const double tolerance : {1e-3, 4e-3, 8e-3}) {
       AlignmentOptions options;
       options.transitions = law.kind;
       const auto found =
@@ -165,6 +170,57 @@ TEST(Alignment, ATransitionAloneIsOneElementOfItsKind) {
     EXPECT_EQ(found->elements[0].kind, law.element);
     EXPECT_NEAR(found->elements[0].kappa1, 1 / 300.0, 1e-6);
   }
+}
+
+/// Length, x and y of a file of the public data set; one of its sources has parentheses.
+std::vector<Vec2> curve_of_file(const std::filesystem::path& path) {
+  std::vector<Vec2> out;
+  std::ifstream file(path);
+  for (std::string line; std::getline(file, line);) {
+    if (line.empty() || std::isdigit(static_cast<unsigned char>(line[0])) == 0) continue;
+    for (char& c : line) {
+      if (c == '(' || c == ')') c = ' ';
+    }
+    std::istringstream row(line);
+    double s = 0.0;
+    Vec2 p;
+    if (row >> s >> p.x >> p.y) out.push_back(p);
+  }
+  return out;
+}
+
+/// Curvature that a name like expert_BlossCurve_100.0_-1000_inf_1_Meter states there.
+double stated_curvature(const std::string& name, int field) {
+  std::istringstream words(name);
+  std::string word;
+  for (int i = 0; i <= field; ++i) std::getline(words, word, '_');
+  return 1.0 / std::stod(word);
+}
+
+TEST(TransitionPublicFiles, EachIsOneElementWithItsRadii) {
+  const std::filesystem::path folder =
+      std::filesystem::path(OBVID_SHARED_DATA) / "rail_transition_curves";
+  if (!std::filesystem::exists(folder)) GTEST_SKIP() << "the public data set is not here";
+  int count = 0;
+  for (const auto& entry : std::filesystem::directory_iterator(folder)) {
+    const std::string name = entry.path().filename().string();
+    AlignmentOptions options;
+    if (name.find("_BlossCurve_") != std::string::npos) options.transitions = Transition::kBloss;
+    if (name.find("_SineCurve_") != std::string::npos) options.transitions = Transition::kSine;
+    if (options.transitions == Transition::kClothoid) continue;
+    const std::vector<Vec2> points = curve_of_file(entry.path());
+    ASSERT_GT(points.size(), 50U) << name;
+    const auto found = fit_alignment(points, std::vector<double>(points.size(), 1e-4), options);
+    ASSERT_TRUE(found) << name << found.error().what;
+    ASSERT_EQ(found->elements.size(), 1U) << name;
+    const AlignmentElement& e = found->elements[0];
+    EXPECT_EQ(transition_of(e.kind), options.transitions) << name;
+    EXPECT_NEAR(e.length, 100.0, 1e-3) << name;
+    EXPECT_NEAR(e.start.kappa, stated_curvature(name, 3), 1e-6) << name;
+    EXPECT_NEAR(e.kappa1, stated_curvature(name, 4), 1e-6) << name;
+    ++count;
+  }
+  EXPECT_GT(count, 0);
 }
 
 }  // namespace
