@@ -22,7 +22,7 @@ namespace {
 constexpr int kOffsetDigits = 3;
 
 void add_profile_facts(const ProfileReport& report, const Units& units, Facts& facts) {
-  const Profile& profile = report.profile;
+  const VerticalProfile& profile = report.profile;
   std::array<std::size_t, 3> count{};
   for (const auto& e : profile.elements) ++count[static_cast<std::size_t>(e.kind)];
   facts.add("profile",

@@ -54,7 +54,7 @@ std::string elements_text(const std::vector<AlignmentElement>& elements, double 
   return table.text();
 }
 
-std::string profile_text(const Profile& profile, double size) {
+std::string profile_text(const VerticalProfile& profile, double size) {
   constexpr double kPercent = 100.0;
   Table table;
   table.column("element");

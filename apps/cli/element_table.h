@@ -16,6 +16,6 @@ namespace obvid {
                                         const std::optional<SpeedLimit>& limit = {});
 
 /// Grades and vertical curves with stations, lengths, heights, grades, radii and K values.
-[[nodiscard]] std::string profile_text(const Profile& profile, double size);
+[[nodiscard]] std::string profile_text(const VerticalProfile& profile, double size);
 
 }  // namespace obvid

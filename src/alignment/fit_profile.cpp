@@ -14,9 +14,9 @@ ProfileKind kind_of(double kappa) {
   return kappa < 0.0 ? ProfileKind::kCrest : ProfileKind::kSag;
 }
 
-Profile profile_of(const FoundChain& found, ProfileCurves curves,
-                   const std::vector<double>& tolerance) {
-  Profile out;
+VerticalProfile profile_of(const FoundChain& found, ProfileCurves curves,
+                           const std::vector<double>& tolerance) {
+  VerticalProfile out;
   out.curves = curves;
   const bool arcs = curves == ProfileCurves::kArcs;
   const std::vector<Element> joints = found.chain.joints();
@@ -49,7 +49,7 @@ Profile profile_of(const FoundChain& found, ProfileCurves curves,
 }
 
 /// The search keeps the least length to first order, the fit where it begins within it.
-Result<void> keeps_length(const Profile& found, const Chain& chain, double least) {
+Result<void> keeps_length(const VerticalProfile& found, const Chain& chain, double least) {
   constexpr double kLimitRounding = 1e-9;  // of the limit
   for (const ProfileElement& e : found.elements) {
     if (e.length > 0.0 && std::isfinite(e.grade1)) continue;
@@ -85,8 +85,9 @@ ProfilePlace on_element(const ProfileElement& e, ProfileCurves curves, double al
 }  // namespace
 }  // namespace alignment
 
-Result<Profile> fit_profile(const std::vector<Vec2>& points, const std::vector<double>& tolerance,
-                            const ProfileOptions& options, const RunContext& run) {
+Result<VerticalProfile> fit_profile(const std::vector<Vec2>& points,
+                                    const std::vector<double>& tolerance,
+                                    const ProfileOptions& options, const RunContext& run) {
   for (std::size_t i = 1; i < points.size(); ++i) {
     if (points[i].x > points[i - 1].x) continue;
     return error(ErrorCode::kChordReversal, "stations of heights must ascend")
@@ -99,12 +100,12 @@ Result<Profile> fit_profile(const std::vector<Vec2>& points, const std::vector<d
   const alignment::Sought sought{arcs ? alignment::Plane::kMap : alignment::Plane::kGraph, true};
   const auto found = alignment::find_chain(points, tolerance, limits, sought, run);
   OBVID_TRY(found);
-  Profile out = alignment::profile_of(*found, options.curves, tolerance);
+  VerticalProfile out = alignment::profile_of(*found, options.curves, tolerance);
   OBVID_TRY(alignment::keeps_length(out, found->chain, options.least_length));
   return out;
 }
 
-ProfilePlace profile_at(const Profile& profile, double station) {
+ProfilePlace profile_at(const VerticalProfile& profile, double station) {
   const auto& all = profile.elements;
   const auto& first = all.front();
   if (station < first.station) {

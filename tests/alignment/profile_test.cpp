@@ -46,7 +46,7 @@ std::vector<Vec2> levelled(double step, double sigma) {
   return out;
 }
 
-void expect_road(const Profile& found, double least_length_off, double grade_off) {
+void expect_road(const VerticalProfile& found, double least_length_off, double grade_off) {
   ASSERT_EQ(found.elements.size(), 9U);
   for (std::size_t k = 0; k < 9; ++k) {
     const ProfileElement& e = found.elements[k];

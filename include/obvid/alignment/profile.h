@@ -32,7 +32,7 @@ struct ProfileElement {
 };
 
 /// A vertical alignment.
-struct Profile {
+struct VerticalProfile {
   ProfileCurves curves = ProfileCurves::kParabolas;
   std::vector<ProfileElement> elements;  ///< ascending, each beginning with the grade of the last
   double end_station = 0.0;              ///< units
@@ -61,17 +61,17 @@ struct ProfileOptions {
 /// Errors: E203 a least length that is negative or no number, E304 fewer than two heights, E402
 /// stations that do not ascend (`index`), E401 none found, E502 not within the tolerance with such
 /// lengths, E103 cancelled.
-[[nodiscard]] Result<Profile> fit_profile(const std::vector<Vec2>& points,
-                                          const std::vector<double>& tolerance,
-                                          const ProfileOptions& options = {},
-                                          const RunContext& run = {});
+[[nodiscard]] Result<VerticalProfile> fit_profile(const std::vector<Vec2>& points,
+                                                  const std::vector<double>& tolerance,
+                                                  const ProfileOptions& options = {},
+                                                  const RunContext& run = {});
 
 /// Height and grade of a profile; beyond its ends those of the grades there.
 struct ProfilePlace {
   double height = 0.0;  ///< units
   double grade = 0.0;   ///< heights over stations
 };
-[[nodiscard]] ProfilePlace profile_at(const Profile& profile, double station);
+[[nodiscard]] ProfilePlace profile_at(const VerticalProfile& profile, double station);
 
 /// Where the grades at both ends of an element meet (the PVI): station and height. The middle of a
 /// grade.

@@ -51,7 +51,7 @@ struct AlignmentJob {
 
 /// The profile of an alignment, stations counted from `AlignmentJob::first_station`.
 struct ProfileReport {
-  Profile profile;
+  VerticalProfile profile;
   std::vector<Vec2> heights;  ///< station, height: what it passes
   double tolerance = 0.0;     ///< units
   bool of_points = false;     ///< heights are those of the points, one each, in their order
@@ -90,7 +90,7 @@ struct AlignmentReport {
                                          const std::vector<Vec2>& points);
 /// Grades and vertical curves: station, length, height, grades in percent, radius, and where the
 /// grades meet.
-[[nodiscard]] std::string profile_csv(const Profile& profile);
+[[nodiscard]] std::string profile_csv(const VerticalProfile& profile);
 
 /// Curve, curvature, speed and heights over the station as one SVG file.
 [[nodiscard]] std::string alignment_picture(const AlignmentReport& report);

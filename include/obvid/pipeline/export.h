@@ -21,9 +21,10 @@ namespace obvid {
 
 /// Choices of the formats. Lengths in units of the contour.
 struct ExportOptions {
-  std::string name = "contour";      ///< of the curve, where a format has a place for it
-  double first_station = 0.0;        ///< of the start, units of the contour; of LandXML
-  std::optional<Profile> profile{};  ///< of heights, stations as from there; of LandXML, OpenDRIVE
+  std::string name = "contour";  ///< of the curve, where a format has a place for it
+  double first_station = 0.0;    ///< of the start, units of the contour; of LandXML
+  std::optional<VerticalProfile>
+      profile{};  ///< of heights, stations as from there; of LandXML, OpenDRIVE
   std::vector<PlacedTransition> transitions{};  ///< what clothoids stand for; of LandXML
   PictureTitles picture{};                      ///< of .svg pictures
   PicturePlots plots{};                         ///< that .svg pictures have on request

@@ -172,7 +172,7 @@ class LandXmlWriter {
   }
 
   /// A PVI at both ends, and where grades meet one with its curve; a corner none.
-  void profile(const Profile& profile, const std::string& name) {
+  void profile(const VerticalProfile& profile, const std::string& name) {
     put("      <Profile name=\"{0}\">\n        <ProfAlign name=\"{0}\">\n", name);
     const auto place = [&](const char* opening, const char* kind, Vec2 at) {
       put("          <{}>{} {}</{}>\n", opening, ratio_ * at.x, ratio_ * at.y, kind);

@@ -45,7 +45,7 @@ Elevation cubic_between(double s, const ProfilePlace& from, const ProfilePlace& 
 }
 
 /// Cubics for an arc: as many of equal length as keep the middle of each within the tolerance.
-void add_arc(const Profile& profile, const ProfileElement& e, double first_station,
+void add_arc(const VerticalProfile& profile, const ProfileElement& e, double first_station,
              double tolerance, std::vector<Elevation>& out) {
   constexpr int kMostCubics = 1024;  // an error shrinks to the fourth power with their length
   for (int count = 1;; count *= 2) {
@@ -72,7 +72,7 @@ void add_arc(const Profile& profile, const ProfileElement& e, double first_stati
 std::vector<Elevation> elevations_of(const OpenDriveOptions& options) {
   std::vector<Elevation> out;
   if (!options.profile) return out;
-  const Profile& profile = *options.profile;
+  const VerticalProfile& profile = *options.profile;
   const double before = profile.elements.front().station - options.first_station;
   if (before > 0.0) {
     const ProfilePlace start = profile_at(profile, options.first_station);

@@ -158,7 +158,7 @@ std::string grade_label(const ProfileElement& e) {
 
 void profile_panel(PictureCanvas& canvas, PictureFrame frame, const AlignmentDiagram& diagram,
                    const std::string& units) {
-  const Profile& profile = *diagram.profile;
+  const VerticalProfile& profile = *diagram.profile;
   std::vector<Vec2> places;
   for (const ProfileElement& e : profile.elements) {
     const int steps = e.kind == ProfileKind::kGrade ? 1 : kCurvePlaces;

@@ -12,7 +12,7 @@ const char* to_string(ProfileKind kind) {
   return kNames[static_cast<std::size_t>(kind)];
 }
 
-std::string profile_csv(const Profile& profile) {
+std::string profile_csv(const VerticalProfile& profile) {
   std::string out =
       "kind,station,length,height,grade_start_percent,grade_end_percent,radius,pvi_station,"
       "pvi_height\n";
@@ -32,7 +32,7 @@ std::string profile_csv(const Profile& profile) {
 namespace pipeline_detail {
 
 void add_profile(JsonText& json, const ProfileReport& report) {
-  const Profile& profile = report.profile;
+  const VerticalProfile& profile = report.profile;
   json.begin_object();
   json.pair("curves", profile.curves == ProfileCurves::kArcs ? "arcs" : "parabolas");
   json.pair("tolerance", report.tolerance).pair("largest_share", profile.largest_share);

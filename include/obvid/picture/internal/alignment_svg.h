@@ -20,7 +20,7 @@ struct AlignmentDiagram {
   };
   std::vector<Part> parts;            ///< ascending
   std::optional<double> speed_scale;  ///< km/h at a curvature of 1: speed = scale / sqrt(curvature)
-  std::optional<Profile> profile{};
+  std::optional<VerticalProfile> profile{};
   std::vector<Vec2> heights{};  ///< station, height: what the profile is of
 };
 

@@ -34,9 +34,10 @@ struct LandXmlOptions {
   std::string name = "contour";
   std::string date = "1970-01-01";  ///< the format wants one; the same input gives the same bytes
   std::string time = "00:00:00";
-  double first_station = 0.0;        ///< of the start, units of the contour
-  std::optional<Profile> profile{};  ///< of heights, stations as from `first_station`, units of the
-                                     ///< contour: a ProfAlign of PVI, ParaCurve and CircCurve
+  double first_station = 0.0;  ///< of the start, units of the contour
+  std::optional<VerticalProfile>
+      profile{};  ///< of heights, stations as from `first_station`, units of the
+                  ///< contour: a ProfAlign of PVI, ParaCurve and CircCurve
   std::vector<PlacedTransition> transitions{};  ///< written as a Spiral of their kind each, but for
                                                 ///< those through an inflection
 };

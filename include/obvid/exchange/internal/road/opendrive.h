@@ -26,10 +26,11 @@ namespace obvid {
 struct OpenDriveOptions {
   std::string name = "contour";
   double lane_width = 3.5;  ///< m; of the one lane to the right; 0: none, which readers may refuse
-  double first_station = 0.0;        ///< of the start, units of the contour
-  std::optional<Profile> profile{};  ///< of heights, stations as from `first_station`, units of the
-                                     ///< contour; its first and last grade go on to both ends
-  double tolerance = 1e-6;           ///< of cubics in place of its arcs, units of the contour
+  double first_station = 0.0;  ///< of the start, units of the contour
+  std::optional<VerticalProfile>
+      profile{};            ///< of heights, stations as from `first_station`, units of the
+                            ///< contour; its first and last grade go on to both ends
+  double tolerance = 1e-6;  ///< of cubics in place of its arcs, units of the contour
 };
 
 /// An OpenDRIVE 1.6 file whose reference line is the contour in metres (converted from its units):
