@@ -9,7 +9,7 @@ namespace obvid {
 namespace alignment {
 namespace {
 
-ProfileKind kind_of(double kappa) {
+ProfileKind profile_kind(double kappa) {
   if (kappa == 0.0) return ProfileKind::kGrade;
   return kappa < 0.0 ? ProfileKind::kCrest : ProfileKind::kSag;
 }
@@ -25,7 +25,7 @@ VerticalProfile profile_of(const FoundChain& found, ProfileCurves curves,
     const double kappa = found.chain.curvature(k, 0);
     const Vec2 start = joints[k].point + found.origin;
     ProfileElement e;
-    e.kind = kind_of(kappa);
+    e.kind = profile_kind(kappa);
     e.station = start.x;
     e.length = joints[k + 1].point.x - joints[k].point.x;
     e.height = start.y;

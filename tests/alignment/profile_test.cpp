@@ -14,8 +14,8 @@ namespace {
 struct Corner {
   double station, height, length;
 };
-const std::vector<Corner> kRoad = {{0, 100, 0},      {300, 106, 120},   {560, 95.6, 160},
-                                   {820, 100.8, 80}, {1100, 90.4, 200}, {1400, 97, 0}};
+const std::vector<Corner> kCorners = {{0, 100, 0},      {300, 106, 120},   {560, 95.6, 160},
+                                      {820, 100.8, 80}, {1100, 90.4, 200}, {1400, 97, 0}};
 
 /// Height by the textbook: y = y0 + g0 x + (g1 - g0) x^2 / 2L from the start of the curve on.
 double height_by_corners(const std::vector<Corner>& road, double s) {
@@ -41,7 +41,7 @@ std::vector<Vec2> levelled(double step, double sigma) {
       state = state * 6364136223846793005ULL + 1442695040888963407ULL;
       noise += static_cast<double>(state >> 11) * 0x1p-53;
     }
-    out.push_back({i * step, height_by_corners(kRoad, i * step) + sigma * noise});
+    out.push_back({i * step, height_by_corners(kCorners, i * step) + sigma * noise});
   }
   return out;
 }
@@ -50,7 +50,7 @@ void expect_road(const VerticalProfile& found, double least_length_off, double g
   ASSERT_EQ(found.elements.size(), 9U);
   for (std::size_t k = 0; k < 9; ++k) {
     const ProfileElement& e = found.elements[k];
-    const Corner &a = kRoad[k / 2], &b = kRoad[k / 2 + 1];
+    const Corner &a = kCorners[k / 2], &b = kCorners[k / 2 + 1];
     const double grade = (b.height - a.height) / (b.station - a.station);
     if (k % 2 == 0) {
       EXPECT_EQ(e.kind, ProfileKind::kGrade) << k;
@@ -58,7 +58,7 @@ void expect_road(const VerticalProfile& found, double least_length_off, double g
       EXPECT_NEAR(e.grade0, grade, grade_off) << k;
       continue;
     }
-    const Corner& c = kRoad[k / 2 + 2];
+    const Corner& c = kCorners[k / 2 + 2];
     const double next = (c.height - b.height) / (c.station - b.station);
     EXPECT_EQ(e.kind, next > grade ? ProfileKind::kSag : ProfileKind::kCrest) << k;
     EXPECT_NEAR(e.length, b.length, least_length_off) << k;

@@ -162,13 +162,14 @@ class LandXmlWriter {
   /// One Spiral from the start of the first element to the end of the last.
   void transition(const PlacedTransition& t, const RoadElement& first, const RoadElement& last) {
     // in the order of Transition; the format calls Helmert's (Schramm's) law biquadratic
-    static constexpr std::array kKinds = {"clothoid", "bloss", "sinusoid", "cosine", "biquadratic"};
+    static constexpr std::array kSpiralKinds = {"clothoid", "bloss", "sinusoid", "cosine",
+                                                "biquadratic"};
     RoadElement whole = first;
     whole.end = last.end;
     whole.kappa0 = t.kappa0 / ratio_;
     whole.kappa1 = t.kappa1 / ratio_;
     whole.length = t.length * ratio_;  // turns as a clothoid does: by half of both curvatures
-    spiral(whole, kKinds[static_cast<std::size_t>(t.kind)]);
+    spiral(whole, kSpiralKinds[static_cast<std::size_t>(t.kind)]);
   }
 
   /// A PVI at both ends, and where grades meet one with its curve; a corner none.

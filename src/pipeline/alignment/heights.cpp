@@ -67,8 +67,9 @@ Result<ProfileReport> heights_of_points(const PointSeries& series, const Alignme
   return out;
 }
 
-Result<double> tolerance_of(const std::vector<Vec2>& heights, double rounding, const Units& units,
-                            const AlignmentJob& job, std::vector<std::string>& remarks) {
+Result<double> height_tolerance(const std::vector<Vec2>& heights, double rounding,
+                                const Units& units, const AlignmentJob& job,
+                                std::vector<std::string>& remarks) {
   if (job.profile_noise_from_scatter) {
     return estimated_noise(heights, units, "--profile-noise auto", remarks);
   }
@@ -123,7 +124,7 @@ Result<std::optional<ProfileReport>> profile_report(const PointSeries& series,
   });
   std::vector<Vec2> ascending;
   for (const std::size_t i : order) ascending.push_back(out.heights[i]);
-  const auto tolerance = tolerance_of(ascending, rounding, series.units, job, remarks);
+  const auto tolerance = height_tolerance(ascending, rounding, series.units, job, remarks);
   OBVID_TRY(tolerance);
   out.tolerance = *tolerance;
   auto profile =
