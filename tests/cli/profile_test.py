@@ -92,7 +92,7 @@ class Profile(unittest.TestCase):
         self.assertEqual(len(offsets), 101)
         for row in offsets:
             # offsets are upwards positive: of the given height above the profile
-            profile = self.elevation("r.xodr", min(float(row["station"]), 499.999))
+            profile = self.elevation("r.xodr", max(0.0, min(float(row["station"]), 499.999)))
             self.assertAlmostEqual(float(row["height"]) - profile, float(row["height_offset"]), delta=1e-4)
 
     def test_heights_of_a_file_with_stations_and_feet(self):

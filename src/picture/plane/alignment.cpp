@@ -22,6 +22,8 @@ constexpr double kDiagramTitleRoom = 30.0;
 constexpr double kDiagramsApart = 10.0;
 /// Room for stations that stand upright above a plot, px.
 constexpr double kStationRoom = 58.0;
+/// Titles stand that much above them, px.
+constexpr double kTitleLift = 10.0;
 /// Upright texts stand at least this far apart, px.
 constexpr double kStationApart = 13.0;
 /// Width of a character of small texts, px.
@@ -92,7 +94,7 @@ void curvature_panel(PictureCanvas& canvas, PictureFrame frame, const AlignmentD
     }
   }
   frame.y = curvature_axis(range, size);
-  canvas.label({kPictureMargin, frame.top - kStationRoom}, "start", "axis-title",
+  canvas.label({kPictureMargin, frame.top - kStationRoom - kTitleLift}, "start", "axis-title",
                curvature_title(frame.y, PictureScale{range, false, 0.0}, units) +
                    ", stations of the elements");
   draw_grid(canvas, frame, false);
@@ -182,7 +184,7 @@ void profile_panel(PictureCanvas& canvas, PictureFrame frame, const AlignmentDia
     high += 0.5 * least;
   }
   frame.y = round_axis(low, high, 4);
-  canvas.label({kPictureMargin, frame.top - kStationRoom}, "start", "axis-title",
+  canvas.label({kPictureMargin, frame.top - kStationRoom - kTitleLift}, "start", "axis-title",
                "Height, " + power_prefix(frame.y.exponent) + units +
                    ", stations of grades and vertical curves");
   draw_grid(canvas, frame, false);
