@@ -142,7 +142,7 @@ int run(const AlignmentCommand& command) {
   if (!written) return report(written.error());
   std::string text;
   if (command.json) {
-    text = alignment_json(*made) + "\n";
+    text = alignment_json(*made);
   } else if (!command.quiet) {
     text = alignment_text(*made, notes.remarks, *written);
   }
